@@ -1,0 +1,141 @@
+#include "base/base.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void *resize(const sl_hooks *hooks, void *block, size_t bytes) {
+    if (hooks->resize) return hooks->resize(hooks->user, block, bytes);
+    if (bytes) return realloc(block, bytes);
+    free(block);
+    return NULL;
+}
+
+sl_context *sl_context_create(const sl_hooks *hooks) {
+    const sl_hooks none = {0};
+    if (!hooks) hooks = &none;
+    sl_context *context = resize(hooks, NULL, sizeof *context);
+    if (!context) return NULL;
+    *context = (sl_context){.hooks = *hooks};
+    return context;
+}
+
+void sl_context_destroy(sl_context *context) {
+    if (!context) return;
+    const sl_hooks hooks = context->hooks;
+    resize(&hooks, context, 0);
+}
+
+const char *sl_context_message(const sl_context *context) {
+    return context->message;
+}
+
+const char *sl_status_name(sl_status status) {
+    switch (status) {
+    case SL_OK:
+        return "ok";
+    case SL_BAD_ARGUMENT:
+        return "bad argument";
+    case SL_BAD_INPUT:
+        return "bad input";
+    case SL_UNSUPPORTED:
+        return "unsupported";
+    case SL_NO_MEMORY:
+        return "out of memory";
+    case SL_CANCELLED:
+        return "interrupted";
+    case SL_IO:
+        return "input/output error";
+    }
+    return "unknown status";
+}
+
+sl_status sl_fail(sl_context *context, sl_status status, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(context->message, sizeof context->message, format, arguments);
+    va_end(arguments);
+    return status;
+}
+
+sl_status sl_fail_at(sl_context *context, const char *file, unsigned line, const char *format,
+                     ...) {
+    char what[sizeof context->message];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(what, sizeof what, format, arguments);
+    va_end(arguments);
+    if (line) return sl_fail(context, SL_BAD_INPUT, "%s:%u: %s", file, line, what);
+    return sl_fail(context, SL_BAD_INPUT, "%s: %s", file, what);
+}
+
+sl_status sl_fail_memory(sl_context *context) {
+    return sl_fail(context, SL_NO_MEMORY, "out of memory");
+}
+
+sl_status sl_check_cancelled(sl_context *context) {
+    if (context->hooks.cancelled && context->hooks.cancelled(context->hooks.user))
+        return sl_fail(context, SL_CANCELLED, "interrupted");
+    return SL_OK;
+}
+
+void sl_note(sl_context *context, const char *format, ...) {
+    if (!context->hooks.note) return;
+    char what[sizeof context->message];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(what, sizeof what, format, arguments);
+    va_end(arguments);
+    context->hooks.note(context->hooks.user, what);
+}
+
+void sl_report(sl_context *context, const char *stage, const char *unit, uint64_t done,
+               uint64_t total) {
+    if (!context->hooks.progress) return;
+    const sl_progress progress = {.stage = stage, .unit = unit, .done = done, .total = total};
+    context->hooks.progress(context->hooks.user, &progress);
+}
+
+void *sl_alloc(sl_context *context, size_t bytes) {
+    void *block = resize(&context->hooks, NULL, bytes);
+    if (!block) sl_fail_memory(context);
+    return block;
+}
+
+void *sl_alloc_array(sl_context *context, size_t count, size_t size) {
+    if (count > SIZE_MAX / 2 / size) {
+        sl_fail_memory(context);
+        return NULL;
+    }
+    const size_t bytes = count ? count * size : 1;
+    void *block = sl_alloc(context, bytes);
+    if (block) memset(block, 0, bytes);
+    return block;
+}
+
+void sl_free(sl_context *context, void *block) {
+    if (block) resize(&context->hooks, block, 0);
+}
+
+char *sl_copy_text(sl_context *context, const char *text, size_t length) {
+    char *copy = sl_alloc(context, length + 1);
+    if (!copy) return NULL;
+    if (length) memcpy(copy, text, length);
+    copy[length] = '\0';
+    return copy;
+}
+
+sl_status sl_reserve(sl_context *context, void *items, size_t *capacity, size_t needed,
+                     size_t item_size) {
+    if (needed <= *capacity) return SL_OK;
+    size_t grown = *capacity < 8 ? 8 : *capacity * 2;
+    if (grown < needed) grown = needed;
+    if (grown > SIZE_MAX / 2 / item_size) return sl_fail_memory(context);
+    // `items` points to a T *: read and written as bytes, since a T * is no void * to the compiler.
+    void *block;
+    memcpy(&block, items, sizeof block);
+    block = resize(&context->hooks, block, grown * item_size);
+    if (!block) return sl_fail_memory(context);
+    memcpy(items, &block, sizeof block);
+    *capacity = grown;
+    return SL_OK;
+}

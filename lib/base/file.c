@@ -1,0 +1,151 @@
+#include "base/file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static sl_status read_stream(sl_context *context, FILE *stream, const char *path, sl_bytes *out) {
+    SL_ARRAY(char) data = {0};
+    for (;;) {
+        const size_t more = data.count < 65536 ? 65536 : data.count;
+        if (SL_ARRAY_ROOM(context, &data, more + 1) != SL_OK) break;
+        const size_t got = fread(data.items + data.count, 1, more, stream);
+        data.count += got;
+        if (ferror(stream)) {
+            sl_free(context, data.items);
+            const sl_status status = errno == EISDIR ? SL_BAD_ARGUMENT : SL_IO;
+            return sl_fail(context, status, "%s: cannot read: %s", path, strerror(errno));
+        }
+        if (got < more) {
+            data.items[data.count] = '\0';
+            *out = (sl_bytes){.data = data.items, .size = data.count};
+            return SL_OK;
+        }
+    }
+    sl_free(context, data.items);
+    return SL_NO_MEMORY;
+}
+
+sl_status sl_file_read(sl_context *context, const char *path, sl_bytes *out) {
+    errno = 0;
+    FILE *stream = fopen(path, "rb");
+    if (!stream) {
+        // A file that is not there is a mistake in the arguments; one that cannot be read is not.
+        const sl_status status = errno == ENOENT || errno == ENOTDIR ? SL_BAD_ARGUMENT : SL_IO;
+        return sl_fail(context, status, "%s: cannot open: %s", path, strerror(errno));
+    }
+    const sl_status status = read_stream(context, stream, path, out);
+    fclose(stream);
+    return status;
+}
+
+/// mkstemp makes files private; a result is as readable as any file the user writes.
+static void set_usual_mode(int descriptor) {
+    const mode_t mask = umask(0);
+    umask(mask);
+    (void)!fchmod(descriptor, 0666 & ~mask);
+}
+
+static sl_status fail_write(sl_context *context, const char *path, int reason) {
+    return sl_fail(context, SL_IO, "%s: cannot write: %s", path,
+                   reason ? strerror(reason) : "the system refused");
+}
+
+/// The file that a path leads to where it is a link, else the path itself. To be freed.
+static char *final_target(sl_context *context, const char *path) {
+    struct stat here;
+    const bool link = lstat(path, &here) == 0 && S_ISLNK(here.st_mode);
+    char *real = link ? realpath(path, NULL) : NULL;
+    const char *target = real ? real : path;
+    char *copy = sl_copy_text(context, target, strlen(target));
+    free(real);
+    return copy;
+}
+
+static sl_status open_beside(sl_context *context, const char *path, sl_output *out) {
+    const size_t length = strlen(out->path);
+    out->temporary = sl_alloc(context, length + 8);
+    if (!out->temporary) return SL_NO_MEMORY;
+    snprintf(out->temporary, length + 8, "%s.XXXXXX", out->path);
+    const int descriptor = mkstemp(out->temporary);
+    if (descriptor < 0) {
+        out->temporary[0] = '\0';
+        return fail_write(context, path, errno);
+    }
+    set_usual_mode(descriptor);
+    out->stream = fdopen(descriptor, "wb");
+    if (out->stream) return SL_OK;
+    const int reason = errno;
+    close(descriptor);
+    return fail_write(context, path, reason);
+}
+
+sl_status sl_output_open(sl_context *context, const char *path, sl_output *out) {
+    *out = (sl_output){0};
+    if (strcmp(path, "-") == 0) {
+        out->stream = stdout;
+        return SL_OK;
+    }
+    struct stat target;
+    const bool exists = stat(path, &target) == 0;
+    if (exists && S_ISDIR(target.st_mode))
+        return sl_fail(context, SL_BAD_ARGUMENT, "%s: cannot write: is a directory", path);
+    out->path = final_target(context, path);
+    sl_status status = out->path ? SL_OK : SL_NO_MEMORY;
+    if (status == SL_OK && exists && !S_ISREG(target.st_mode)) {
+        // A device or a pipe is written to, never replaced.
+        out->stream = fopen(out->path, "wb");
+        if (!out->stream) status = fail_write(context, path, errno);
+    } else if (status == SL_OK)
+        status = open_beside(context, path, out);
+    if (status != SL_OK) sl_output_abandon(context, out);
+    return status;
+}
+
+/// Whether a stream's descriptor can be brought to the disk: pipes and devices cannot.
+static bool bring_to_disk(FILE *stream) {
+    return fsync(fileno(stream)) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS;
+}
+
+/// Closes the stream; 0, or why some write to it was refused (-1: the reason is lost).
+static int finish_stream(FILE *stream) {
+    const bool refused = ferror(stream) != 0;
+    errno = 0;
+    bool good = fflush(stream) == 0 && !refused;
+    if (good && stream != stdout) good = bring_to_disk(stream);
+    int reason = good ? 0 : errno ? errno : -1;
+    if (stream != stdout && fclose(stream) != 0 && !reason) reason = errno;
+    return reason;
+}
+
+sl_status sl_output_commit(sl_context *context, sl_output *output) {
+    const char *name = output->path ? output->path : "standard output";
+    int reason = finish_stream(output->stream);
+    output->stream = NULL;
+    if (!reason && output->temporary) {
+        if (rename(output->temporary, output->path) != 0)
+            reason = errno;
+        else
+            output->temporary[0] = '\0';
+    }
+    const sl_status status = reason ? fail_write(context, name, reason < 0 ? 0 : reason) : SL_OK;
+    sl_output_abandon(context, output);
+    return status;
+}
+
+void sl_output_abandon(sl_context *context, sl_output *output) {
+    if (output->stream && output->stream != stdout) fclose(output->stream);
+    if (output->temporary && output->temporary[0]) unlink(output->temporary);
+    sl_free(context, output->temporary);
+    sl_free(context, output->path);
+    *output = (sl_output){0};
+}
+
+sl_status sl_output_close(sl_context *context, sl_output *output, sl_status status) {
+    if (status == SL_OK) return sl_output_commit(context, output);
+    sl_output_abandon(context, output);
+    return status;
+}

@@ -1,0 +1,61 @@
+#include "base/number.h"
+
+#include <locale.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// printf and strtod take the decimal point of the locale that the program has set.
+static void replace(char *text, char from, char to) {
+    char *at = strchr(text, from);
+    if (at) *at = to;
+}
+
+static char decimal_point(void) {
+    const struct lconv *convention = localeconv();
+    return convention->decimal_point[0] ? convention->decimal_point[0] : '.';
+}
+
+void sl_number_write(double value, char text[SL_NUMBER_TEXT]) {
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(text, SL_NUMBER_TEXT, "%.*g", digits, value);
+        if (strtod(text, NULL) == value) break;
+    }
+    replace(text, decimal_point(), '.');
+}
+
+static size_t skip_digits(const char *text, size_t length, size_t at) {
+    while (at < length && text[at] >= '0' && text[at] <= '9') at++;
+    return at;
+}
+
+/// The length of the decimal number at the start of the text, 0 for none.
+static size_t scan_decimal(const char *text, size_t length) {
+    size_t at = length && (text[0] == '-' || text[0] == '+');
+    const size_t whole = at;
+    at = skip_digits(text, length, at);
+    size_t digits = at - whole;
+    if (at < length && text[at] == '.') {
+        const size_t fraction = ++at;
+        at = skip_digits(text, length, at);
+        digits += at - fraction;
+    }
+    if (!digits) return 0;
+    if (at < length && (text[at] == 'e' || text[at] == 'E')) {
+        size_t exponent = at + 1;
+        if (exponent < length && (text[exponent] == '-' || text[exponent] == '+')) exponent++;
+        const size_t end = skip_digits(text, length, exponent);
+        if (end > exponent) at = end;
+    }
+    return at;
+}
+
+bool sl_number_read(const char *text, size_t length, double *value) {
+    char copy[512];
+    if (length == 0 || length >= sizeof copy || scan_decimal(text, length) != length) return false;
+    memcpy(copy, text, length);
+    copy[length] = '\0';
+    replace(copy, '.', decimal_point());
+    *value = strtod(copy, NULL);
+    return true;
+}

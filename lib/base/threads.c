@@ -1,0 +1,93 @@
+#include "base/threads.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <string.h>
+#include <unistd.h>
+
+typedef struct crew {
+    const sl_work *work;
+    size_t count;
+    atomic_size_t next, done;
+    atomic_bool failed;
+} crew;
+
+typedef struct worker {
+    crew *crew;
+    sl_context context; // its own message; the hooks are the caller's
+    pthread_t thread;
+    sl_status status;
+    size_t failed_unit;
+    bool reports;
+} worker;
+
+static sl_status run_units(worker *w, void *state) {
+    crew *c = w->crew;
+    while (!atomic_load(&c->failed)) {
+        const size_t unit = atomic_fetch_add(&c->next, 1);
+        if (unit >= c->count) break;
+        w->failed_unit = unit;
+        SL_TRY(sl_check_cancelled(&w->context));
+        SL_TRY(c->work->unit(&w->context, c->work->job, state, unit));
+        const size_t done = atomic_fetch_add(&c->done, 1) + 1;
+        if (w->reports) sl_report(&w->context, c->work->stage, c->work->units, done, c->count);
+    }
+    return SL_OK;
+}
+
+static void run_worker(worker *w) {
+    const sl_work *work = w->crew->work;
+    void *state = NULL;
+    w->status = work->begin ? work->begin(&w->context, work->job, &state) : SL_OK;
+    if (w->status == SL_OK) {
+        w->status = run_units(w, state);
+        if (work->end) work->end(&w->context, work->job, state);
+    }
+    if (w->status != SL_OK) atomic_store(&w->crew->failed, true);
+}
+
+static void *run_thread(void *argument) {
+    worker *w = argument;
+    run_worker(w);
+    if (w->crew->work->leave_thread) w->crew->work->leave_thread();
+    return NULL;
+}
+
+static sl_status first_failure(sl_context *context, const worker *workers, size_t count) {
+    const worker *first = NULL;
+    for (size_t i = 0; i < count; i++) {
+        const worker *w = &workers[i];
+        if (w->status != SL_OK && (!first || w->failed_unit < first->failed_unit)) first = w;
+    }
+    if (!first) return SL_OK;
+    memcpy(context->message, first->context.message, sizeof context->message);
+    return first->status;
+}
+
+sl_status sl_work_run(sl_context *context, const sl_work *work, size_t count, unsigned threads) {
+    size_t wanted = threads ? threads : sl_core_count();
+    if (wanted > count) wanted = count ? count : 1;
+    crew c = {.work = work, .count = count};
+    worker *workers = sl_alloc_array(context, wanted, sizeof *workers);
+    if (!workers) return SL_NO_MEMORY;
+    for (size_t i = 0; i < wanted; i++)
+        workers[i] = (worker){.crew = &c, .context = *context, .reports = i == 0};
+
+    sl_report(context, work->stage, work->units, 0, count);
+    // A thread that the system refuses is work for the others, not a failure.
+    size_t started = 1;
+    while (started < wanted &&
+           pthread_create(&workers[started].thread, NULL, run_thread, &workers[started]) == 0)
+        started++;
+    run_worker(&workers[0]);
+    for (size_t i = 1; i < started; i++) pthread_join(workers[i].thread, NULL);
+    const sl_status status = first_failure(context, workers, started);
+    if (status == SL_OK) sl_report(context, work->stage, work->units, count, count);
+    sl_free(context, workers);
+    return status;
+}
+
+unsigned sl_core_count(void) {
+    const long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    return cores < 1 ? 1 : cores > 1024 ? 1024 : (unsigned)cores;
+}

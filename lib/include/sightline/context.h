@@ -1,0 +1,70 @@
+/// What every call that can fail needs: memory, messages, progress, cancellation.
+///
+/// Whatever can fail returns an sl_status and gives its result by an out-pointer, which is left
+/// untouched on failure. The message of the last failure stays in the context. A context serves one
+/// thread at a time; stages that use threads split it by themselves.
+#ifndef SIGHTLINE_CONTEXT_H
+#define SIGHTLINE_CONTEXT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(SIGHTLINE_SHARED) && defined(__GNUC__)
+#define SL_API __attribute__((visibility("default")))
+#else
+#define SL_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum sl_status {
+    SL_OK = 0,
+    SL_BAD_ARGUMENT, ///< an argument makes no sense; the message names it
+    SL_BAD_INPUT, ///< an input file is wrong; the message starts with FILE:LINE where there is one
+    SL_UNSUPPORTED, ///< the map calls for something that the chosen method does not know
+    SL_NO_MEMORY,   ///< the allocator gave nothing
+    SL_CANCELLED,   ///< the cancelled hook said so
+    SL_IO,          ///< the system refused to read or write
+} sl_status;
+
+/// How far a stage has come. `total` is 0 while it is not known.
+typedef struct sl_progress {
+    const char *stage; ///< "read", "subdivide", "cell_to_cell", "write"
+    const char *unit;  ///< what is counted, plural: "cells"
+    uint64_t done;
+    uint64_t total;
+} sl_progress;
+
+/// Every hook may be NULL. `resize` and `cancelled` are called from several threads at once where a
+/// stage is given more than one; `progress` and `note` only from the thread that made the call.
+typedef struct sl_hooks {
+    void *user;
+    /// As realloc; `bytes` 0 frees and returns NULL. NULL for the C library's allocator.
+    void *(*resize)(void *user, void *block, size_t bytes);
+    void (*progress)(void *user, const sl_progress *progress);
+    /// An account of something done that the user may want to know: one line, no line end.
+    void (*note)(void *user, const char *message);
+    /// Asked often; true makes the running call return SL_CANCELLED.
+    bool (*cancelled)(void *user);
+} sl_hooks;
+
+typedef struct sl_context sl_context;
+
+/// A context with the given hooks (NULL for none). NULL where the allocator gives nothing.
+SL_API sl_context *sl_context_create(const sl_hooks *hooks);
+SL_API void sl_context_destroy(sl_context *context);
+
+/// What the last failed call said: one line, no line end, "" when none failed.
+SL_API const char *sl_context_message(const sl_context *context);
+
+/// The status in words: "bad input".
+SL_API const char *sl_status_name(sl_status status);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,66 @@
+/// What the test programs share: a context whose allocator counts and can fail, and short cuts from
+/// a map's text to a space.
+#ifndef SL_TESTING_H
+#define SL_TESTING_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "sightline/sightline.h"
+
+/// An allocator that counts live blocks and can be told to fail from its Nth call on (0: never).
+typedef struct testing_memory {
+    long live, calls, fail_at;
+} testing_memory;
+
+static inline void *testing_resize(void *user, void *block, size_t bytes) {
+    testing_memory *memory = user;
+    if (!bytes) {
+        memory->live -= block != NULL;
+        free(block);
+        return NULL;
+    }
+    if (++memory->calls >= memory->fail_at && memory->fail_at) return NULL;
+    void *resized = realloc(block, bytes);
+    memory->live += !block && resized;
+    return resized;
+}
+
+static inline sl_context *testing_context(testing_memory *memory) {
+    const sl_hooks hooks = {.user = memory, .resize = testing_resize};
+    sl_context *context = sl_context_create(memory ? &hooks : NULL);
+    assert_non_null(context);
+    return context;
+}
+
+/// Fails the test with the context's message where a call failed.
+#define assert_ok(context, call)                                                                   \
+    do {                                                                                           \
+        const sl_status testing_status = (call);                                                   \
+        if (testing_status != SL_OK)                                                               \
+            fail_msg("%s: %s (%s)", #call, sl_context_message(context),                            \
+                     sl_status_name(testing_status));                                              \
+    } while (0)
+
+/// A cleaned map and its space, from map text without its first line.
+static inline void testing_space(sl_context *context, const char *statements, sl_map *map,
+                                 sl_space *space) {
+    const size_t length = strlen(statements) + 32;
+    char *text = malloc(length);
+    assert_non_null(text);
+    snprintf(text, length, "sightline 1\n%s", statements);
+    assert_ok(context, sl_map_read_text(context, "test", text, strlen(text), map));
+    free(text);
+    assert_ok(context, sl_map_clean(context, map, NULL));
+    const sl_subdivide_options options = sl_subdivide_options_default();
+    assert_ok(context, sl_subdivide_kd(context, map, &options, space));
+}
+
+#endif

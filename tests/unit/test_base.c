@@ -1,0 +1,145 @@
+/// Numbers as text, files, threads.
+#include "testing.h"
+
+#include "base/bits.h"
+#include "base/file.h"
+#include "base/number.h"
+#include "base/random.h"
+#include "base/threads.h"
+
+#include <math.h>
+#include <stdatomic.h>
+#include <unistd.h>
+
+static void numbers_read_back_to_the_same_double(void **state) {
+    (void)state;
+    sl_random random = {1};
+    for (int i = 0; i < 200000; i++) {
+        const uint64_t bits = sl_random_next(&random);
+        double value, back;
+        memcpy(&value, &bits, sizeof value);
+        if (!isfinite(value)) continue;
+        char text[SL_NUMBER_TEXT];
+        sl_number_write(value, text);
+        assert_true(sl_number_read(text, strlen(text), &back));
+        assert_memory_equal(&value, &back, sizeof value);
+    }
+}
+
+static void numbers_are_short(void **state) {
+    (void)state;
+    const struct {
+        double value;
+        const char *text;
+    } cases[] = {{0, "0"},       {0.1, "0.1"},      {1040, "1040"},
+                 {-2.5, "-2.5"}, {1e150, "1e+150"}, {1.0 / 3, "0.3333333333333333"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[SL_NUMBER_TEXT];
+        sl_number_write(cases[i].value, text);
+        assert_string_equal(text, cases[i].text);
+    }
+}
+
+static void only_decimals_are_numbers(void **state) {
+    (void)state;
+    const char *good[] = {"0", "-0", "+1", "1.", ".5", "1e3", "1E-3", "00012", "1e999"};
+    const char *bad[] = {"",    "nan", "inf", "-inf", "infinity", "0x10", "1e", "1e+", ".",
+                         "1,5", "1 ",  " 1",  "--1",  "1.2.3",    "e5",   "1f", "1_0"};
+    double value;
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++)
+        assert_true(sl_number_read(good[i], strlen(good[i]), &value));
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        if (sl_number_read(bad[i], strlen(bad[i]), &value)) fail_msg("'%s' was read", bad[i]);
+}
+
+static void a_failed_write_leaves_the_old_file(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    char folder[] = "/tmp/sightline-test-XXXXXX";
+    assert_non_null(mkdtemp(folder));
+    char path[64];
+    snprintf(path, sizeof path, "%s/file", folder);
+    for (int round = 0; round < 2; round++) {
+        sl_output output;
+        assert_ok(context, sl_output_open(context, path, &output));
+        fputs(round ? "second, given up" : "first", output.stream);
+        const sl_status status = sl_output_close(context, &output, round ? SL_CANCELLED : SL_OK);
+        assert_int_equal(status, round ? SL_CANCELLED : SL_OK);
+    }
+    sl_bytes bytes;
+    assert_ok(context, sl_file_read(context, path, &bytes));
+    assert_string_equal(bytes.data, "first");
+    sl_free(context, bytes.data);
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(rmdir(folder), 0); // nothing else was left there
+    sl_context_destroy(context);
+}
+
+enum { UNITS = 1000 };
+
+typedef struct counting_job {
+    atomic_int done[UNITS];
+    atomic_int begun, ended;
+    size_t fails; ///< from this unit on; UNITS for none
+} counting_job;
+
+static sl_status begin_counting(sl_context *context, void *job, void **state) {
+    (void)context;
+    *state = job;
+    atomic_fetch_add(&((counting_job *)job)->begun, 1);
+    return SL_OK;
+}
+
+static void end_counting(sl_context *context, void *job, void *state) {
+    (void)context;
+    (void)state;
+    atomic_fetch_add(&((counting_job *)job)->ended, 1);
+}
+
+static sl_status count_unit(sl_context *context, void *job, void *state, size_t unit) {
+    counting_job *counting = job;
+    assert_ptr_equal(job, state);
+    if (unit >= counting->fails) return sl_fail(context, SL_BAD_INPUT, "unit %zu", unit);
+    atomic_fetch_add(&counting->done[unit], 1);
+    return SL_OK;
+}
+
+static void every_unit_of_work_is_done_once(void **state) {
+    (void)state;
+    for (unsigned threads = 1; threads <= 8; threads *= 2) {
+        sl_context *context = testing_context(NULL);
+        counting_job job = {.fails = UNITS};
+        const sl_work work = {
+            .job = &job, .begin = begin_counting, .unit = count_unit, .end = end_counting};
+        assert_ok(context, sl_work_run(context, &work, UNITS, threads));
+        for (size_t i = 0; i < UNITS; i++) assert_int_equal(job.done[i], 1);
+        assert_int_equal(job.begun, job.ended);
+        sl_context_destroy(context);
+    }
+}
+
+static void the_first_failure_of_work_is_told(void **state) {
+    (void)state;
+    for (int round = 0; round < 100; round++) {
+        sl_context *context = testing_context(NULL);
+        counting_job job = {.fails = 500};
+        const sl_work work = {
+            .job = &job, .begin = begin_counting, .unit = count_unit, .end = end_counting};
+        assert_int_equal(sl_work_run(context, &work, UNITS, 4), SL_BAD_INPUT);
+        assert_string_equal(sl_context_message(context), "unit 500");
+        assert_int_equal(job.begun, job.ended);
+        sl_context_destroy(context);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(numbers_read_back_to_the_same_double),
+        cmocka_unit_test(numbers_are_short),
+        cmocka_unit_test(only_decimals_are_numbers),
+        cmocka_unit_test(a_failed_write_leaves_the_old_file),
+        cmocka_unit_test(every_unit_of_work_is_done_once),
+        cmocka_unit_test(the_first_failure_of_work_is_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
