@@ -1,0 +1,84 @@
+/// The exact rest of the predicate: six products of two coordinates, each an integer of at most 106
+/// bits times a power of two, summed in a fixed-point number wide enough for all of them. Integers
+/// only: no rounding, no overflow, nothing that a compiler's treatment of doubles could change.
+#include "geometry/orient.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
+
+__extension__ typedef unsigned __int128 wide;
+
+typedef struct product {
+    wide magnitude;
+    int exponent;
+    bool negative;
+} product;
+
+/// A finite double as an integer below 2^53 times 2^exponent, exponent >= -1074.
+static uint64_t integer_part(double value, int *exponent) {
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    const int biased = (int)(bits >> 52 & 0x7ff);
+    const uint64_t fraction = bits & ((UINT64_C(1) << 52) - 1);
+    *exponent = (biased ? biased : 1) - 1075;
+    return biased ? fraction | UINT64_C(1) << 52 : fraction;
+}
+
+static product multiply(double a, double b, bool negative) {
+    int exponent_a, exponent_b;
+    const wide magnitude = (wide)integer_part(a, &exponent_a) * integer_part(b, &exponent_b);
+    return (product){.magnitude = magnitude,
+                     .exponent = exponent_a + exponent_b,
+                     .negative = negative != (signbit(a) != signbit(b))};
+}
+
+/// Limbs for exponents from -2148 to 1942, 106 bits of a product above, and the carries of six.
+enum { LIMBS = (2148 + 1942 + 106 + 8) / 64 + 2 };
+
+/// Adds a product, shifted to start at bit `shift`, to a number in two's complement.
+static void add(uint64_t *limbs, int count, const product *p, int shift) {
+    const wide low = p->magnitude << (shift % 64);
+    const uint64_t top = shift % 64 ? (uint64_t)(p->magnitude >> (128 - shift % 64)) : 0;
+    const uint64_t parts[3] = {(uint64_t)low, (uint64_t)(low >> 64), top};
+    unsigned carry = p->negative;
+    for (int i = shift / 64, part = 0; i < count; i++, part++) {
+        const uint64_t value = part < 3 ? parts[part] : 0;
+        const wide sum = (wide)limbs[i] + (p->negative ? ~value : value) + carry;
+        limbs[i] = (uint64_t)sum;
+        carry = (unsigned)(sum >> 64);
+    }
+}
+
+static int sign_of_sum(const product *products, int product_count) {
+    int lowest = 4096, highest = -4096;
+    for (int i = 0; i < product_count; i++) {
+        if (!products[i].magnitude) continue;
+        if (products[i].exponent < lowest) lowest = products[i].exponent;
+        if (products[i].exponent > highest) highest = products[i].exponent;
+    }
+    if (highest < lowest) return 0;
+    uint64_t limbs[LIMBS] = {0};
+    const int count = (highest - lowest + 106 + 8) / 64 + 1;
+    for (int i = 0; i < product_count; i++)
+        if (products[i].magnitude) add(limbs, count, &products[i], products[i].exponent - lowest);
+    if (limbs[count - 1] >> 63) return -1;
+    for (int i = 0; i < count; i++)
+        if (limbs[i]) return 1;
+    return 0;
+}
+
+/// What maps are full of, and no filter can decide: a point met again, points on an axial line.
+static bool plainly_on_line(sl_point a, sl_point b, sl_point c) {
+    return (a.x == c.x && (b.x == c.x || a.y == c.y)) || (b.y == c.y && (a.y == c.y || b.x == c.x));
+}
+
+int sl_orient_exact(sl_point a, sl_point b, sl_point c) {
+    if (plainly_on_line(a, b, c)) return 0;
+    const product products[6] = {
+        multiply(a.x, b.y, false), multiply(a.y, b.x, true),  multiply(b.x, c.y, false),
+        multiply(b.y, c.x, true),  multiply(c.x, a.y, false), multiply(c.y, a.x, true),
+    };
+    return sign_of_sum(products, 6);
+}

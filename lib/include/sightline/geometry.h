@@ -1,0 +1,31 @@
+/// Points, segments and boxes: plain doubles, y up, any unit.
+#ifndef SIGHTLINE_GEOMETRY_H
+#define SIGHTLINE_GEOMETRY_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Readers accept a coordinate that is 0 or whose magnitude lies in this range, so that no later
+/// stage can overflow or lose bits to underflow.
+#define SL_COORDINATE_MIN 1e-150
+#define SL_COORDINATE_MAX 1e150
+
+typedef struct sl_point {
+    double x, y;
+} sl_point;
+
+typedef struct sl_segment {
+    sl_point a, b;
+} sl_segment;
+
+/// Closed; min.x <= max.x and min.y <= max.y.
+typedef struct sl_box {
+    sl_point min, max;
+} sl_box;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
