@@ -1,0 +1,133 @@
+/// The map: walls and what else a plan holds, as read, before any subdivision.
+#ifndef SIGHTLINE_MAP_H
+#define SIGHTLINE_MAP_H
+
+#include "sightline/context.h"
+#include "sightline/geometry.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// A wall: a closed segment that blocks sight. `line` is the line of its file, 0 where there is
+/// none.
+typedef struct sl_wall {
+    sl_point a, b;
+    uint32_t line;
+} sl_wall;
+
+/// A portal that can be shut.
+typedef struct sl_door {
+    char *name;
+    sl_segment segment;
+    bool open;
+    uint32_t line;
+} sl_door;
+
+/// A mirror, or glass that is seen through from its right to its left, going from a to b.
+typedef struct sl_glass {
+    sl_segment segment;
+    uint32_t line;
+} sl_glass;
+
+/// A viewpoint; the heading in degrees, counter-clockwise from +x.
+typedef struct sl_start {
+    sl_point at;
+    double heading;
+    uint32_t line;
+} sl_start;
+
+typedef struct sl_path {
+    char *name;
+    sl_point *points;
+    size_t count; ///< at least 1
+    uint32_t line;
+} sl_path;
+
+/// Something to be culled.
+typedef struct sl_object {
+    char *name;
+    sl_box box;
+    uint32_t line;
+} sl_object;
+
+/// All arrays belong to the map; a map that is zeroed is empty.
+typedef struct sl_map {
+    char *source; ///< the file it came from, for messages; NULL for none
+    char *notes;  ///< notices to be kept with the map, lines; NULL for none
+    sl_wall *walls;
+    sl_door *doors;
+    sl_glass *mirrors;
+    sl_glass *oneways;
+    sl_start *starts;
+    sl_path *paths;
+    sl_object *objects;
+    size_t wall_count, door_count, mirror_count, oneway_count;
+    size_t start_count, path_count, object_count;
+    size_t wall_room, door_room, mirror_room, oneway_room;
+    size_t start_room, path_room, object_room;
+    double range; ///< nothing farther than this is seen; 0 for no limit
+    uint32_t range_line;
+} sl_map;
+
+SL_API void sl_map_destroy(sl_context *context, sl_map *map); ///< and zeroes it
+
+/// Each adds one thing and copies what it is given. Coordinates must be usable (below):
+/// SL_BAD_ARGUMENT otherwise.
+SL_API sl_status sl_map_add_wall(sl_context *context, sl_map *map, sl_point a, sl_point b,
+                                 uint32_t line);
+SL_API sl_status sl_map_add_door(sl_context *context, sl_map *map, const char *name, sl_segment at,
+                                 bool open, uint32_t line);
+SL_API sl_status sl_map_add_mirror(sl_context *context, sl_map *map, sl_segment at, uint32_t line);
+SL_API sl_status sl_map_add_oneway(sl_context *context, sl_map *map, sl_segment at, uint32_t line);
+SL_API sl_status sl_map_add_start(sl_context *context, sl_map *map, sl_point at, double heading,
+                                  uint32_t line);
+SL_API sl_status sl_map_add_path(sl_context *context, sl_map *map, const char *name,
+                                 const sl_point *points, size_t count, uint32_t line);
+SL_API sl_status sl_map_add_object(sl_context *context, sl_map *map, const char *name, sl_box box,
+                                   uint32_t line);
+/// Adds a line to the notes.
+SL_API sl_status sl_map_add_note(sl_context *context, sl_map *map, const char *text);
+
+/// Finite, and 0 or of a magnitude between SL_COORDINATE_MIN and SL_COORDINATE_MAX.
+SL_API bool sl_coordinate_usable(double value);
+
+/// The smallest box around all that the map holds; {{0,0},{0,0}} for an empty map.
+SL_API sl_box sl_map_bounds(const sl_map *map);
+
+/// What cleaning did, in walls.
+typedef struct sl_clean_account {
+    size_t before, after;
+    size_t zero_length; ///< dropped
+    size_t duplicate;   ///< dropped: the same two ends as another wall
+    size_t merged;      ///< swallowed by a collinear wall that they overlap or touch
+    size_t split;       ///< cut where another wall crosses or touches them
+} sl_clean_account;
+
+/// Makes the walls a planar set: zero-length walls dropped, duplicates and overlapping collinear
+/// axial walls merged, axial walls split where they cross or touch. No coordinate is computed:
+/// every end is an end, or made of two coordinates, of the input. The order is by place, whatever
+/// the input's was. Walls that are not axial are only freed of zero length and duplicates.
+/// `account` may be NULL. Time O((n + k) log n) for k meeting points.
+SL_API sl_status sl_map_clean(sl_context *context, sl_map *map, sl_clean_account *account);
+
+/// Reads the map text: SL_BAD_INPUT with file and line on anything it does not know.
+/// `name` is what messages call the text. The map must be empty; on failure it stays so.
+SL_API sl_status sl_map_read_text(sl_context *context, const char *name, const char *text,
+                                  size_t size, sl_map *map);
+/// Reads the ASCII plan: a character a unit square, the last line at y 0. '#' solid, ' ' and '.'
+/// open, '+' a door across the passage, '@' a start heading +x. Beyond the plan all is solid.
+SL_API sl_status sl_map_read_plan(sl_context *context, const char *name, const char *text,
+                                  size_t size, sl_map *map);
+
+/// Each writes to a file, "-" for stdout; the target is replaced only when all is written.
+SL_API sl_status sl_map_write_text(sl_context *context, const sl_map *map, const char *path);
+/// SL_UNSUPPORTED, naming the wall, where the map is no union of unit squares (or has more than
+/// 4096 x 4096 of them).
+SL_API sl_status sl_map_write_plan(sl_context *context, const sl_map *map, const char *path);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,206 @@
+#include "map/scan.h"
+
+#include <math.h>
+
+bool sl_coordinate_usable(double value) {
+    const double magnitude = fabs(value);
+    return value == 0 || (magnitude >= SL_COORDINATE_MIN && magnitude <= SL_COORDINATE_MAX);
+}
+
+/// The length of the UTF-8 character at the start of the text, 0 where there is none
+/// (RFC 3629: no overlong forms, no surrogates, nothing over U+10FFFF).
+static size_t character_length(const unsigned char *text, size_t size) {
+    static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
+    if (text[0] < 0x80) return 1;
+    const size_t length = text[0] < 0xc0 ? 0 : text[0] < 0xe0 ? 2 : text[0] < 0xf0 ? 3 : 4;
+    if (length == 0 || text[0] > 0xf4 || length > size) return 0;
+    uint32_t code = text[0] & (0x7fu >> length);
+    for (size_t i = 1; i < length; i++) {
+        if ((text[i] & 0xc0) != 0x80) return 0;
+        code = code << 6 | (text[i] & 0x3fu);
+    }
+    const bool surrogate = code >= 0xd800 && code < 0xe000;
+    return code < least[length] || code > 0x10ffff || surrogate ? 0 : length;
+}
+
+bool sl_name_usable(const char *name, size_t length) {
+    const unsigned char *text = (const unsigned char *)name;
+    for (size_t i = 0; i < length;) {
+        if (text[i] <= 0x20 || text[i] == 0x7f || text[i] == '#') return false;
+        const size_t step = character_length(text + i, length - i);
+        if (!step) return false;
+        i += step;
+    }
+    return length > 0;
+}
+
+void sl_map_destroy(sl_context *context, sl_map *map) {
+    for (size_t i = 0; i < map->door_count; i++) sl_free(context, map->doors[i].name);
+    for (size_t i = 0; i < map->object_count; i++) sl_free(context, map->objects[i].name);
+    for (size_t i = 0; i < map->path_count; i++) {
+        sl_free(context, map->paths[i].name);
+        sl_free(context, map->paths[i].points);
+    }
+    sl_free(context, map->source);
+    sl_free(context, map->notes);
+    sl_free(context, map->walls);
+    sl_free(context, map->doors);
+    sl_free(context, map->mirrors);
+    sl_free(context, map->oneways);
+    sl_free(context, map->starts);
+    sl_free(context, map->paths);
+    sl_free(context, map->objects);
+    *map = (sl_map){0};
+}
+
+static sl_status check_point(sl_context *context, const char *what, sl_point point) {
+    if (sl_coordinate_usable(point.x) && sl_coordinate_usable(point.y)) return SL_OK;
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "%s: coordinates %g %g: expected 0 or magnitudes from %g to %g", what, point.x,
+                   point.y, SL_COORDINATE_MIN, SL_COORDINATE_MAX);
+}
+
+static sl_status check_ends(sl_context *context, const char *what, sl_point a, sl_point b) {
+    SL_TRY(check_point(context, what, a));
+    return check_point(context, what, b);
+}
+
+/// A copy of the name of a door, path or object.
+static sl_status copy_name(sl_context *context, const char *what, const char *name, char **copy) {
+    const size_t length = strlen(name);
+    if (!sl_name_usable(name, length))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "%s: name '%s': expected one word of UTF-8 without '#'", what,
+                       sl_show((sl_word){name, length}).text);
+    *copy = sl_copy_text(context, name, length);
+    return *copy ? SL_OK : SL_NO_MEMORY;
+}
+
+/// Room for one more in one of the map's arrays.
+#define MAP_ROOM(context, map, items, thing)                                                       \
+    sl_reserve((context), (void **)&(map)->items, &(map)->thing##_room, (map)->thing##_count + 1,  \
+               sizeof *(map)->items)
+
+sl_status sl_map_add_wall(sl_context *context, sl_map *map, sl_point a, sl_point b, uint32_t line) {
+    SL_TRY(check_ends(context, "wall", a, b));
+    SL_TRY(MAP_ROOM(context, map, walls, wall));
+    map->walls[map->wall_count++] = (sl_wall){.a = a, .b = b, .line = line};
+    return SL_OK;
+}
+
+sl_status sl_map_add_door(sl_context *context, sl_map *map, const char *name, sl_segment at,
+                          bool open, uint32_t line) {
+    SL_TRY(check_ends(context, "door", at.a, at.b));
+    SL_TRY(MAP_ROOM(context, map, doors, door));
+    sl_door door = {.segment = at, .open = open, .line = line};
+    SL_TRY(copy_name(context, "door", name, &door.name));
+    map->doors[map->door_count++] = door;
+    return SL_OK;
+}
+
+sl_status sl_map_add_mirror(sl_context *context, sl_map *map, sl_segment at, uint32_t line) {
+    SL_TRY(check_ends(context, "mirror", at.a, at.b));
+    SL_TRY(MAP_ROOM(context, map, mirrors, mirror));
+    map->mirrors[map->mirror_count++] = (sl_glass){.segment = at, .line = line};
+    return SL_OK;
+}
+
+sl_status sl_map_add_oneway(sl_context *context, sl_map *map, sl_segment at, uint32_t line) {
+    SL_TRY(check_ends(context, "oneway", at.a, at.b));
+    SL_TRY(MAP_ROOM(context, map, oneways, oneway));
+    map->oneways[map->oneway_count++] = (sl_glass){.segment = at, .line = line};
+    return SL_OK;
+}
+
+sl_status sl_map_add_start(sl_context *context, sl_map *map, sl_point at, double heading,
+                           uint32_t line) {
+    SL_TRY(check_point(context, "start", at));
+    if (!isfinite(heading))
+        return sl_fail(context, SL_BAD_ARGUMENT, "start: heading %g: expected a finite angle",
+                       heading);
+    SL_TRY(MAP_ROOM(context, map, starts, start));
+    map->starts[map->start_count++] = (sl_start){.at = at, .heading = heading, .line = line};
+    return SL_OK;
+}
+
+sl_status sl_map_add_path(sl_context *context, sl_map *map, const char *name,
+                          const sl_point *points, size_t count, uint32_t line) {
+    if (count == 0) return sl_fail(context, SL_BAD_ARGUMENT, "path: expected at least one point");
+    for (size_t i = 0; i < count; i++) SL_TRY(check_point(context, "path", points[i]));
+    SL_TRY(MAP_ROOM(context, map, paths, path));
+    sl_path path = {.count = count, .line = line};
+    SL_TRY(copy_name(context, "path", name, &path.name));
+    path.points = sl_alloc_array(context, count, sizeof *points);
+    if (!path.points) {
+        sl_free(context, path.name);
+        return SL_NO_MEMORY;
+    }
+    memcpy(path.points, points, count * sizeof *points);
+    map->paths[map->path_count++] = path;
+    return SL_OK;
+}
+
+sl_status sl_map_add_object(sl_context *context, sl_map *map, const char *name, sl_box box,
+                            uint32_t line) {
+    SL_TRY(check_ends(context, "object", box.min, box.max));
+    if (box.min.x > box.max.x || box.min.y > box.max.y)
+        return sl_fail(context, SL_BAD_ARGUMENT, "object: the box's min is over its max");
+    SL_TRY(MAP_ROOM(context, map, objects, object));
+    sl_object object = {.box = box, .line = line};
+    SL_TRY(copy_name(context, "object", name, &object.name));
+    map->objects[map->object_count++] = object;
+    return SL_OK;
+}
+
+sl_status sl_map_add_note(sl_context *context, sl_map *map, const char *text) {
+    const size_t old = map->notes ? strlen(map->notes) : 0, length = strlen(text);
+    char *notes = sl_alloc(context, old + length + 2);
+    if (!notes) return SL_NO_MEMORY;
+    if (old) memcpy(notes, map->notes, old);
+    size_t end = old;
+    for (size_t i = 0; i < length; i++) {
+        // CR LF would not come back from the map text as it was.
+        if (text[i] == '\n')
+            while (end > old && notes[end - 1] == '\r') end--;
+        notes[end++] = text[i];
+    }
+    while (end > old && notes[end - 1] == '\r') end--;
+    if (length == 0 || text[length - 1] != '\n') notes[end++] = '\n';
+    notes[end] = '\0';
+    sl_free(context, map->notes);
+    map->notes = notes;
+    return SL_OK;
+}
+
+/// Takes in one more point; the first makes the box.
+static void grow(sl_box *box, bool *any, sl_point point) {
+    if (!*any) *box = (sl_box){.min = point, .max = point};
+    *any = true;
+    if (point.x < box->min.x) box->min.x = point.x;
+    if (point.y < box->min.y) box->min.y = point.y;
+    if (point.x > box->max.x) box->max.x = point.x;
+    if (point.y > box->max.y) box->max.y = point.y;
+}
+
+static void grow_segment(sl_box *box, bool *any, sl_segment segment) {
+    grow(box, any, segment.a);
+    grow(box, any, segment.b);
+}
+
+sl_box sl_map_bounds(const sl_map *map) {
+    sl_box box = {0};
+    bool any = false;
+    for (size_t i = 0; i < map->wall_count; i++)
+        grow_segment(&box, &any, (sl_segment){map->walls[i].a, map->walls[i].b});
+    for (size_t i = 0; i < map->door_count; i++) grow_segment(&box, &any, map->doors[i].segment);
+    for (size_t i = 0; i < map->mirror_count; i++)
+        grow_segment(&box, &any, map->mirrors[i].segment);
+    for (size_t i = 0; i < map->oneway_count; i++)
+        grow_segment(&box, &any, map->oneways[i].segment);
+    for (size_t i = 0; i < map->start_count; i++) grow(&box, &any, map->starts[i].at);
+    for (size_t i = 0; i < map->path_count; i++)
+        for (size_t k = 0; k < map->paths[i].count; k++) grow(&box, &any, map->paths[i].points[k]);
+    for (size_t i = 0; i < map->object_count; i++)
+        grow_segment(&box, &any, (sl_segment){map->objects[i].box.min, map->objects[i].box.max});
+    return box;
+}

@@ -1,0 +1,514 @@
+#include "base/file.h"
+#include "map/print.h"
+#include "map/scan.h"
+
+#include <math.h>
+
+/// The most unit squares a written plan has, a side.
+#define MOST_SQUARES 4096
+
+/// A plan as text: rows from the top down, of any lengths. What is not there is solid.
+typedef struct grid {
+    const sl_word *rows;
+    size_t count;
+} grid;
+
+static size_t row_length(const grid *plan, size_t row) {
+    return row < plan->count ? plan->rows[row].length : 0;
+}
+
+/// `row` and `column` may be one less than 0, as SIZE_MAX.
+static char square(const grid *plan, size_t row, size_t column) {
+    return column < row_length(plan, row) ? plan->rows[row].at[column] : '#';
+}
+
+static bool solid(const grid *plan, size_t row, size_t column) {
+    return square(plan, row, column) == '#';
+}
+
+/// The place of a square's lower left corner.
+static sl_point corner(const grid *plan, size_t row, size_t column) {
+    return (sl_point){(double)column, (double)(plan->count - 1 - row)};
+}
+
+/// Where the door of a square stands: through its middle, from one solid square to the one
+/// opposite. False unless there is just one such pair.
+static bool door_segment(const grid *plan, size_t row, size_t column, sl_segment *out) {
+    const bool beside = solid(plan, row, column - 1) && solid(plan, row, column + 1);
+    const bool along = solid(plan, row - 1, column) && solid(plan, row + 1, column);
+    const sl_point at = corner(plan, row, column);
+    if (beside)
+        *out = (sl_segment){{at.x, at.y + 0.5}, {at.x + 1, at.y + 0.5}};
+    else
+        *out = (sl_segment){{at.x + 0.5, at.y}, {at.x + 0.5, at.y + 1}};
+    return beside != along;
+}
+
+/// Where the start of a square stands.
+static sl_point middle(const grid *plan, size_t row, size_t column) {
+    const sl_point at = corner(plan, row, column);
+    return (sl_point){at.x + 0.5, at.y + 0.5};
+}
+
+/// A plan while it is read.
+typedef struct plan_reader {
+    sl_context *context;
+    const char *name;
+    grid plan;
+    sl_map *map;
+    size_t *open_runs; ///< for each column's left edge, the row where its wall begins, or NONE
+} plan_reader;
+
+#define NONE SIZE_MAX
+
+static sl_status check_row(const plan_reader *reader, size_t row) {
+    const sl_word line = reader->plan.rows[row];
+    for (size_t i = 0; i < line.length; i++) {
+        const unsigned char c = (unsigned char)line.at[i];
+        if (strchr("# .+@", c)) continue;
+        char shown[16];
+        snprintf(shown, sizeof shown, c > 0x20 && c < 0x7f ? "'%c'" : "byte 0x%02x", c);
+        return sl_fail_at(reader->context, reader->name, (unsigned)row + 1,
+                          "column %zu: expected '#', ' ', '.', '+' or '@', found %s", i + 1,
+                          c == '\t' ? "a tab" : shown);
+    }
+    return SL_OK;
+}
+
+/// The walls between a row and the one above it; `row` may be one behind the last.
+static sl_status add_level(const plan_reader *reader, size_t row) {
+    const grid *plan = &reader->plan;
+    const size_t above = row_length(plan, row - 1), below = row_length(plan, row);
+    const size_t length = above > below ? above : below;
+    const double y = (double)(plan->count - row);
+    const uint32_t line = (uint32_t)(row < plan->count ? row : row - 1) + 1;
+    for (size_t column = 0, first = NONE; column <= length; column++) {
+        const bool wall = solid(plan, row - 1, column) != solid(plan, row, column);
+        if (wall && first == NONE) first = column;
+        if (wall || first == NONE) continue;
+        SL_TRY(sl_map_add_wall(reader->context, reader->map, (sl_point){(double)first, y},
+                               (sl_point){(double)column, y}, line));
+        first = NONE;
+    }
+    return SL_OK;
+}
+
+/// Begins and ends the walls between the columns of a row; one behind the last ends them all.
+static sl_status add_uprights(const plan_reader *reader, size_t row) {
+    const grid *plan = &reader->plan;
+    const size_t above = row_length(plan, row - 1), here = row_length(plan, row);
+    const size_t length = above > here ? above : here;
+    for (size_t column = 0; column <= length; column++) {
+        size_t *first = &reader->open_runs[column];
+        const bool wall = solid(plan, row, column - 1) != solid(plan, row, column);
+        if (wall && *first == NONE) *first = row;
+        if (wall || *first == NONE) continue;
+        const double x = (double)column, low = (double)(plan->count - row);
+        const double high = (double)(plan->count - *first);
+        SL_TRY(sl_map_add_wall(reader->context, reader->map, (sl_point){x, low},
+                               (sl_point){x, high}, (uint32_t)*first + 1));
+        *first = NONE;
+    }
+    return SL_OK;
+}
+
+/// The doors and starts of a row.
+static sl_status add_things(const plan_reader *reader, size_t row) {
+    const grid *plan = &reader->plan;
+    const uint32_t line = (uint32_t)row + 1;
+    for (size_t column = 0; column < row_length(plan, row); column++) {
+        const char what = square(plan, row, column);
+        if (what == '@')
+            SL_TRY(
+                sl_map_add_start(reader->context, reader->map, middle(plan, row, column), 0, line));
+        if (what != '+') continue;
+        sl_segment at;
+        if (!door_segment(plan, row, column, &at))
+            return sl_fail_at(reader->context, reader->name, line,
+                              "column %zu: a door needs solid squares on two opposite sides, and "
+                              "open floor on one of the others",
+                              column + 1);
+        char label[32];
+        snprintf(label, sizeof label, "door%zu", reader->map->door_count + 1);
+        SL_TRY(sl_map_add_door(reader->context, reader->map, label, at, true, line));
+    }
+    return SL_OK;
+}
+
+static sl_status read_rows(plan_reader *reader) {
+    size_t width = 0;
+    bool any_open = false;
+    for (size_t row = 0; row < reader->plan.count; row++) {
+        SL_TRY(check_row(reader, row));
+        const sl_word line = reader->plan.rows[row];
+        if (line.length > width) width = line.length;
+        for (size_t i = 0; i < line.length && !any_open; i++) any_open = line.at[i] != '#';
+    }
+    if (!any_open)
+        return sl_fail_at(reader->context, reader->name, 0, "the plan has no open square");
+    reader->open_runs = sl_alloc_array(reader->context, width + 1, sizeof *reader->open_runs);
+    if (!reader->open_runs) return SL_NO_MEMORY;
+    for (size_t column = 0; column <= width; column++) reader->open_runs[column] = NONE;
+    for (size_t row = 0; row <= reader->plan.count; row++) {
+        if (row % 256 == 0) SL_TRY(sl_check_cancelled(reader->context));
+        SL_TRY(add_level(reader, row));
+        SL_TRY(add_uprights(reader, row));
+        SL_TRY(add_things(reader, row));
+    }
+    return SL_OK;
+}
+
+sl_status sl_map_read_plan(sl_context *context, const char *name, const char *text, size_t size,
+                           sl_map *map) {
+    SL_TRY(sl_refuse_nul(context, name, text, size));
+    sl_map read = {0};
+    SL_ARRAY(sl_word) rows = {0};
+    plan_reader reader = {.context = context, .name = name, .map = &read};
+    sl_lines lines = sl_lines_of(text, size);
+    sl_status status = SL_OK;
+    for (sl_word line; status == SL_OK && sl_lines_next(&lines, &line);) {
+        status = SL_ARRAY_ROOM(context, &rows, 1);
+        if (status == SL_OK) rows.items[rows.count++] = line;
+    }
+    reader.plan = (grid){.rows = rows.items, .count = rows.count};
+    if (status == SL_OK) status = read_rows(&reader);
+    sl_free(context, rows.items);
+    sl_free(context, reader.open_runs);
+    if (status == SL_OK)
+        *map = read;
+    else
+        sl_map_destroy(context, &read);
+    return status;
+}
+
+/// A plan while it is made from a map. Its squares are counted from the lower left; `left` and
+/// `bottom` are solid squares beyond the walls, and as many (one at most) stand on the other side.
+typedef struct plan_maker {
+    sl_context *context;
+    const sl_map *map;
+    sl_box walls;
+    size_t left, bottom;
+    size_t width, height;
+    unsigned char *squares; ///< of the plan and one more square all around, see the marks below
+    char *text;
+    sl_word *rows;
+} plan_maker;
+
+enum { WALL_LEFT = 1, WALL_BELOW = 2, KNOWN = 4, OPEN = 8 };
+
+static sl_status refuse(const plan_maker *maker, uint32_t line, const char *format, ...)
+    SL_PRINTF(3, 4);
+
+static sl_status refuse(const plan_maker *maker, uint32_t line, const char *format, ...) {
+    char what[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(what, sizeof what, format, arguments);
+    va_end(arguments);
+    const char *source = maker->map->source ? maker->map->source : "map";
+    if (line) return sl_fail(maker->context, SL_UNSUPPORTED, "%s:%u: %s", source, line, what);
+    return sl_fail(maker->context, SL_UNSUPPORTED, "%s: %s", source, what);
+}
+
+static sl_status refuse_segment(const plan_maker *maker, uint32_t line, const char *what,
+                                sl_point a, sl_point b, const char *why) {
+    char text[4][SL_NUMBER_TEXT];
+    sl_number_write(a.x, text[0]);
+    sl_number_write(a.y, text[1]);
+    sl_number_write(b.x, text[2]);
+    sl_number_write(b.y, text[3]);
+    return refuse(maker, line, "%s %s %s %s %s: %s", what, text[0], text[1], text[2], text[3], why);
+}
+
+static sl_status refuse_wall(const plan_maker *maker, const sl_wall *wall, const char *why) {
+    return refuse_segment(maker, wall->line, "wall", wall->a, wall->b, why);
+}
+
+/// What has no character in a plan is refused by name.
+static sl_status refuse_others(const plan_maker *maker) {
+    const sl_map *map = maker->map;
+    if (map->mirror_count)
+        return refuse(maker, map->mirrors[0].line, "a plan has no place for a mirror");
+    if (map->oneway_count)
+        return refuse(maker, map->oneways[0].line, "a plan has no place for one-way glass");
+    if (map->range > 0) return refuse(maker, map->range_line, "a plan has no place for a range");
+    if (map->path_count)
+        return refuse(maker, map->paths[0].line, "a plan has no place for path %s",
+                      map->paths[0].name);
+    if (map->object_count)
+        return refuse(maker, map->objects[0].line, "a plan has no place for object %s",
+                      map->objects[0].name);
+    if (map->notes) return refuse(maker, 0, "a plan has no place for the map's notes");
+    if (map->wall_count == 0) return refuse(maker, 0, "a plan needs walls, the map has none");
+    return SL_OK;
+}
+
+static bool whole(sl_point point) {
+    return floor(point.x) == point.x && floor(point.y) == point.y;
+}
+
+/// Places one axis: the squares that the walls span, and the solid ones around. Walls keep their
+/// coordinates where those are not negative and the squares suffice; else the first stands at 1, or
+/// at 0 where the walls take all squares there are.
+static bool place(double low, double high, size_t *before, size_t *size) {
+    if (high - low > MOST_SQUARES) return false;
+    const size_t span = (size_t)(high - low);
+    if (low >= 0 && low + (double)span + (low > 0) <= MOST_SQUARES)
+        *before = (size_t)low;
+    else
+        *before = span + 2 <= MOST_SQUARES;
+    *size = *before + span + (*before > 0);
+    return true;
+}
+
+static sl_status lay_out(plan_maker *maker) {
+    const sl_map *map = maker->map;
+    const sl_wall *first = &map->walls[0];
+    sl_box box = {.min = first->a, .max = first->a};
+    for (size_t i = 0; i < map->wall_count; i++) {
+        const sl_wall *wall = &map->walls[i];
+        if (wall->a.x != wall->b.x && wall->a.y != wall->b.y)
+            return refuse_wall(maker, wall, "a plan has horizontal and vertical walls only");
+        if (!whole(wall->a) || !whole(wall->b))
+            return refuse_wall(maker, wall, "a plan has walls at whole coordinates only");
+        box.min.x = fmin(box.min.x, fmin(wall->a.x, wall->b.x));
+        box.min.y = fmin(box.min.y, fmin(wall->a.y, wall->b.y));
+        box.max.x = fmax(box.max.x, fmax(wall->a.x, wall->b.x));
+        box.max.y = fmax(box.max.y, fmax(wall->a.y, wall->b.y));
+        if (!place(box.min.x, box.max.x, &maker->left, &maker->width) ||
+            !place(box.min.y, box.max.y, &maker->bottom, &maker->height))
+            return refuse_wall(maker, wall, "more than 4096 x 4096 squares up to this wall");
+    }
+    maker->walls = box;
+    if ((double)maker->left != box.min.x || (double)maker->bottom != box.min.y)
+        sl_note(maker->context, "the plan stands %g %g off the map's place",
+                (double)maker->left - box.min.x, (double)maker->bottom - box.min.y);
+    return SL_OK;
+}
+
+static size_t column_of(const plan_maker *maker, double x) {
+    return (size_t)(x - maker->walls.min.x) + maker->left;
+}
+
+static size_t level_of(const plan_maker *maker, double y) {
+    return (size_t)(y - maker->walls.min.y) + maker->bottom;
+}
+
+/// The marks of a square of the plan, or of those around it (column or level -1, as SIZE_MAX).
+static unsigned char *marks(const plan_maker *maker, size_t column, size_t level) {
+    return &maker->squares[(level + 1) * (maker->width + 2) + column + 1];
+}
+
+/// A wall as the unit edges that it covers: `count` squares from (column, level) on, each with the
+/// wall to its left (upright) or below it.
+typedef struct edges {
+    size_t column, level, count;
+    bool upright;
+} edges;
+
+static edges run_of(const plan_maker *maker, const sl_wall *wall) {
+    const bool upright = wall->a.x == wall->b.x;
+    const size_t columns[] = {column_of(maker, wall->a.x), column_of(maker, wall->b.x)};
+    const size_t levels[] = {level_of(maker, wall->a.y), level_of(maker, wall->b.y)};
+    const bool swapped = upright ? levels[1] < levels[0] : columns[1] < columns[0];
+    const size_t *along = upright ? levels : columns;
+    return (edges){.column = columns[swapped],
+                   .level = levels[swapped],
+                   .count = along[!swapped] - along[swapped],
+                   .upright = upright};
+}
+
+static void mark_walls(const plan_maker *maker) {
+    for (size_t i = 0; i < maker->map->wall_count; i++) {
+        const edges run = run_of(maker, &maker->map->walls[i]);
+        for (size_t k = 0; k < run.count; k++) {
+            if (run.upright)
+                *marks(maker, run.column, run.level + k) |= WALL_LEFT;
+            else
+                *marks(maker, run.column + k, run.level) |= WALL_BELOW;
+        }
+    }
+}
+
+typedef SL_ARRAY(uint32_t) squares;
+
+static sl_status push(sl_context *context, squares *list, size_t square) {
+    SL_TRY(SL_ARRAY_ROOM(context, list, 1));
+    list->items[list->count++] = (uint32_t)square;
+    return SL_OK;
+}
+
+/// Floods from the squares in `now` what no wall keeps out; what lies behind a wall goes to `next`.
+static sl_status flood(const plan_maker *maker, squares *now, squares *next) {
+    const size_t stride = maker->width + 2, rows = maker->height + 2;
+    unsigned char *all = maker->squares;
+    while (now->count) {
+        const size_t at = now->items[--now->count];
+        const size_t column = at % stride, level = at / stride;
+        const size_t to[] = {at - 1, at + 1, at - stride, at + stride};
+        const bool there[] = {column > 0, column + 1 < stride, level > 0, level + 1 < rows};
+        for (int side = 0; side < 4; side++) {
+            if (!there[side] || all[to[side]] & KNOWN) continue;
+            // A wall is marked in the right or upper one of the two squares.
+            const size_t marked = to[side] > at ? to[side] : at;
+            if (all[marked] & (side < 2 ? WALL_LEFT : WALL_BELOW)) {
+                SL_TRY(push(maker->context, next, to[side]));
+                continue;
+            }
+            all[to[side]] |= KNOWN | (all[at] & OPEN);
+            SL_TRY(push(maker->context, now, to[side]));
+        }
+    }
+    return SL_OK;
+}
+
+/// Outside is solid, and each wall parts solid from open: so squares an odd number of walls away
+/// from outside are open, on the way that crosses the fewest.
+static sl_status find_open(const plan_maker *maker) {
+    squares now = {0}, next = {0};
+    maker->squares[0] |= KNOWN;
+    sl_status status = push(maker->context, &now, 0);
+    for (unsigned char side = OPEN; status == SL_OK && now.count; side ^= OPEN) {
+        status = flood(maker, &now, &next);
+        for (size_t i = 0; status == SL_OK && i < next.count; i++) {
+            unsigned char *mark = &maker->squares[next.items[i]];
+            if (*mark & KNOWN) continue;
+            *mark |= KNOWN | side;
+            status = push(maker->context, &now, next.items[i]);
+        }
+        next.count = 0;
+    }
+    sl_free(maker->context, now.items);
+    sl_free(maker->context, next.items);
+    return status;
+}
+
+/// Every unit of every wall must part a solid square from an open one.
+static sl_status check_walls(const plan_maker *maker) {
+    for (size_t i = 0; i < maker->map->wall_count; i++) {
+        const edges run = run_of(maker, &maker->map->walls[i]);
+        for (size_t k = 0; k < run.count; k++) {
+            const size_t column = run.column + (run.upright ? 0 : k);
+            const size_t level = run.level + (run.upright ? k : 0);
+            const unsigned char here = *marks(maker, column, level);
+            const unsigned char there = *marks(maker, column - run.upright, level - !run.upright);
+            if ((here ^ there) & OPEN) continue;
+            return refuse_wall(maker, &maker->map->walls[i],
+                               here & OPEN ? "open floor on both sides"
+                                           : "no floor at either side");
+        }
+    }
+    return SL_OK;
+}
+
+/// The plan's text, without doors and starts.
+static sl_status make_text(plan_maker *maker) {
+    const size_t stride = maker->width + 1;
+    maker->text = sl_alloc_array(maker->context, maker->height, stride);
+    maker->rows = sl_alloc_array(maker->context, maker->height, sizeof *maker->rows);
+    if (!maker->text || !maker->rows) return SL_NO_MEMORY;
+    for (size_t level = 0; level < maker->height; level++) {
+        char *row = maker->text + (maker->height - 1 - level) * stride;
+        for (size_t column = 0; column < maker->width; column++)
+            row[column] = *marks(maker, column, level) & OPEN ? '.' : '#';
+        row[maker->width] = '\n';
+        maker->rows[maker->height - 1 - level] = (sl_word){row, maker->width};
+    }
+    return SL_OK;
+}
+
+/// The open square that holds a point (on an edge, the one right of or above it); NULL for none.
+static char *open_square(const plan_maker *maker, sl_point point, size_t *row, size_t *column) {
+    const double x = point.x - maker->walls.min.x, y = point.y - maker->walls.min.y;
+    if (!(x >= 0 && y >= 0 && point.x < maker->walls.max.x && point.y < maker->walls.max.y))
+        return NULL;
+    *column = (size_t)x + maker->left;
+    *row = maker->height - 1 - ((size_t)y + maker->bottom);
+    char *at = &maker->text[*row * (maker->width + 1) + *column];
+    return *at == '#' ? NULL : at;
+}
+
+/// A segment as it stands in the plan.
+static sl_segment moved(const plan_maker *maker, sl_segment segment) {
+    const double x = (double)maker->left - maker->walls.min.x;
+    const double y = (double)maker->bottom - maker->walls.min.y;
+    return (sl_segment){{segment.a.x + x, segment.a.y + y}, {segment.b.x + x, segment.b.y + y}};
+}
+
+static bool same_point(sl_point a, sl_point b) {
+    return a.x == b.x && a.y == b.y;
+}
+
+/// A door is put where reading the plan finds the same door.
+static sl_status put_door(const plan_maker *maker, const sl_door *door) {
+    const grid plan = {.rows = maker->rows, .count = maker->height};
+    const sl_segment at = moved(maker, door->segment);
+    size_t row, column;
+    sl_segment found;
+    if (!door->open)
+        return refuse_segment(maker, door->line, "door", door->segment.a, door->segment.b,
+                              "a plan has open doors only");
+    char *here = open_square(maker,
+                             (sl_point){fmin(door->segment.a.x, door->segment.b.x),
+                                        fmin(door->segment.a.y, door->segment.b.y)},
+                             &row, &column);
+    if (!here || *here != '.' || !door_segment(&plan, row, column, &found) ||
+        !((same_point(at.a, found.a) && same_point(at.b, found.b)) ||
+          (same_point(at.a, found.b) && same_point(at.b, found.a))))
+        return refuse_segment(maker, door->line, "door", door->segment.a, door->segment.b,
+                              "a plan's doors stand in the middle of a square, from one solid "
+                              "square to the one opposite");
+    *here = '+';
+    return SL_OK;
+}
+
+static sl_status put_things(const plan_maker *maker) {
+    const sl_map *map = maker->map;
+    const grid plan = {.rows = maker->rows, .count = maker->height};
+    for (size_t i = 0; i < map->door_count; i++) SL_TRY(put_door(maker, &map->doors[i]));
+    if (map->door_count) sl_note(maker->context, "a plan's doors are named in reading order");
+    size_t shifted = 0;
+    for (size_t i = 0; i < map->start_count; i++) {
+        const sl_start *start = &map->starts[i];
+        size_t row, column;
+        char *here = open_square(maker, start->at, &row, &column);
+        if (!here) return refuse(maker, start->line, "the start stands in a solid square");
+        if (*here != '.')
+            return refuse(maker, start->line, "the start's square holds a door or a start already");
+        *here = '@';
+        const sl_point at = moved(maker, (sl_segment){start->at, start->at}).a;
+        shifted += start->heading != 0 || !same_point(at, middle(&plan, row, column));
+    }
+    if (shifted)
+        sl_note(maker->context, "%zu starts moved to the middle of their square, heading 0",
+                shifted);
+    return SL_OK;
+}
+
+static sl_status make_plan(plan_maker *maker) {
+    SL_TRY(refuse_others(maker));
+    SL_TRY(lay_out(maker));
+    maker->squares = sl_alloc_array(maker->context, maker->height + 2, maker->width + 2);
+    if (!maker->squares) return SL_NO_MEMORY;
+    mark_walls(maker);
+    SL_TRY(find_open(maker));
+    SL_TRY(check_walls(maker));
+    SL_TRY(make_text(maker));
+    return put_things(maker);
+}
+
+sl_status sl_map_print_plan(sl_context *context, const sl_map *map, FILE *stream) {
+    plan_maker maker = {.context = context, .map = map};
+    const sl_status status = make_plan(&maker);
+    if (status == SL_OK) fwrite(maker.text, maker.width + 1, maker.height, stream);
+    sl_free(context, maker.squares);
+    sl_free(context, maker.text);
+    sl_free(context, maker.rows);
+    return status;
+}
+
+sl_status sl_map_write_plan(sl_context *context, const sl_map *map, const char *path) {
+    sl_output output;
+    SL_TRY(sl_output_open(context, path, &output));
+    return sl_output_close(context, &output, sl_map_print_plan(context, map, output.stream));
+}

@@ -1,0 +1,361 @@
+#include "base/file.h"
+#include "map/print.h"
+#include "map/scan.h"
+
+#include <math.h>
+
+/// The map text while it is read. `words` and `numbers` are those of the statement at hand, without
+/// its first word and its name.
+typedef struct text_reader {
+    sl_context *context;
+    const char *name;
+    uint32_t line;
+    sl_map *map;
+    SL_ARRAY(sl_word) words;
+    SL_ARRAY(double) numbers;
+    SL_ARRAY(char) notes;
+    char *label; ///< the name of a door, path or object
+} text_reader;
+
+static sl_point point_of(const text_reader *reader, size_t i) {
+    return (sl_point){reader->numbers.items[2 * i], reader->numbers.items[2 * i + 1]};
+}
+
+static sl_segment segment_of(const text_reader *reader) {
+    return (sl_segment){point_of(reader, 0), point_of(reader, 1)};
+}
+
+static sl_status refuse_no_length(const text_reader *reader, const char *what) {
+    const sl_segment at = segment_of(reader);
+    if (at.a.x != at.b.x || at.a.y != at.b.y) return SL_OK;
+    return sl_fail_at(reader->context, reader->name, reader->line,
+                      "%s: expected two different ends", what);
+}
+
+static sl_status read_walls(text_reader *reader) {
+    for (size_t i = 0; i + 1 < reader->numbers.count / 2; i++)
+        SL_TRY(sl_map_add_wall(reader->context, reader->map, point_of(reader, i),
+                               point_of(reader, i + 1), reader->line));
+    return SL_OK;
+}
+
+static sl_status read_door(text_reader *reader) {
+    bool open = true;
+    if (reader->words.count == 5) {
+        const sl_word word = reader->words.items[4];
+        open = sl_word_is(word, "open");
+        if (!open && !sl_word_is(word, "shut"))
+            return sl_fail_at(reader->context, reader->name, reader->line,
+                              "door: expected 'open' or 'shut', found '%s'", sl_show(word).text);
+    }
+    SL_TRY(refuse_no_length(reader, "door"));
+    return sl_map_add_door(reader->context, reader->map, reader->label, segment_of(reader), open,
+                           reader->line);
+}
+
+static sl_status read_mirror(text_reader *reader) {
+    SL_TRY(refuse_no_length(reader, "mirror"));
+    return sl_map_add_mirror(reader->context, reader->map, segment_of(reader), reader->line);
+}
+
+static sl_status read_oneway(text_reader *reader) {
+    SL_TRY(refuse_no_length(reader, "oneway"));
+    return sl_map_add_oneway(reader->context, reader->map, segment_of(reader), reader->line);
+}
+
+static sl_status read_range(text_reader *reader) {
+    if (reader->map->range > 0)
+        return sl_fail_at(reader->context, reader->name, reader->line,
+                          "a second range: the first is on line %u", reader->map->range_line);
+    const double range = reader->numbers.items[0];
+    if (!(range > 0))
+        return sl_fail_at(reader->context, reader->name, reader->line,
+                          "range: expected a number greater than 0, found '%s'",
+                          sl_show(reader->words.items[0]).text);
+    reader->map->range = range;
+    reader->map->range_line = reader->line;
+    return SL_OK;
+}
+
+/// The heading may be any finite number: it is an angle, not a coordinate.
+static sl_status read_start(text_reader *reader) {
+    const sl_word word = reader->words.items[2];
+    double heading;
+    if (!sl_number_read(word.at, word.length, &heading) || !isfinite(heading))
+        return sl_fail_at(reader->context, reader->name, reader->line,
+                          "start: expected a heading in degrees, found '%s'", sl_show(word).text);
+    return sl_map_add_start(reader->context, reader->map, point_of(reader, 0), heading,
+                            reader->line);
+}
+
+static sl_status read_path(text_reader *reader) {
+    const size_t count = reader->numbers.count / 2;
+    sl_point *points = sl_alloc_array(reader->context, count, sizeof *points);
+    if (!points) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++) points[i] = point_of(reader, i);
+    const sl_status status =
+        sl_map_add_path(reader->context, reader->map, reader->label, points, count, reader->line);
+    sl_free(reader->context, points);
+    return status;
+}
+
+/// Any two opposite corners will do.
+static sl_status read_object(text_reader *reader) {
+    const sl_point a = point_of(reader, 0), b = point_of(reader, 1);
+    const sl_box box = {.min = {b.x < a.x ? b.x : a.x, b.y < a.y ? b.y : a.y},
+                        .max = {b.x < a.x ? a.x : b.x, b.y < a.y ? a.y : b.y}};
+    return sl_map_add_object(reader->context, reader->map, reader->label, box, reader->line);
+}
+
+/// What a statement looks like: its first word, whether a name follows, then from `least` to `most`
+/// words, the first `numbers` of them coordinates (an even number where that is ANY).
+typedef struct statement {
+    const char *word, *usage;
+    bool named;
+    size_t least, most, numbers;
+    sl_status (*read)(text_reader *reader);
+} statement;
+
+#define ANY SIZE_MAX
+
+static const statement statements[] = {
+    {"wall", "wall x0 y0 x1 y1", false, 4, 4, 4, read_walls},
+    {"walls", "walls x0 y0 x1 y1 ...", false, 4, ANY, ANY, read_walls},
+    {"door", "door NAME x0 y0 x1 y1 open|shut", true, 4, 5, 4, read_door},
+    {"mirror", "mirror x0 y0 x1 y1", false, 4, 4, 4, read_mirror},
+    {"oneway", "oneway x0 y0 x1 y1", false, 4, 4, 4, read_oneway},
+    {"range", "range r", false, 1, 1, 1, read_range},
+    {"start", "start x y heading", false, 3, 3, 2, read_start},
+    {"path", "path NAME x y ...", true, 2, ANY, ANY, read_path},
+    {"object", "object NAME x0 y0 x1 y1", true, 4, 4, 4, read_object},
+};
+
+static const statement *find_statement(sl_word word) {
+    for (size_t i = 0; i < sizeof statements / sizeof *statements; i++)
+        if (sl_word_is(word, statements[i].word)) return &statements[i];
+    return NULL;
+}
+
+/// Splits a line into words, up to a '#'.
+static sl_status split(text_reader *reader, sl_word line) {
+    reader->words.count = 0;
+    for (size_t i = 0; i < line.length && line.at[i] != '#';) {
+        if (line.at[i] == ' ' || line.at[i] == '\t') {
+            i++;
+            continue;
+        }
+        const size_t first = i;
+        while (i < line.length && line.at[i] != ' ' && line.at[i] != '\t' && line.at[i] != '#') i++;
+        SL_TRY(SL_ARRAY_ROOM(reader->context, &reader->words, 1));
+        reader->words.items[reader->words.count++] = (sl_word){line.at + first, i - first};
+    }
+    return SL_OK;
+}
+
+static sl_status read_label(text_reader *reader, sl_word word) {
+    if (!sl_name_usable(word.at, word.length))
+        return sl_fail_at(reader->context, reader->name, reader->line,
+                          "expected a name of printable UTF-8, found '%s'", sl_show(word).text);
+    reader->label = sl_copy_text(reader->context, word.at, word.length);
+    return reader->label ? SL_OK : SL_NO_MEMORY;
+}
+
+static sl_status read_numbers(text_reader *reader, size_t count) {
+    reader->numbers.count = 0;
+    SL_TRY(SL_ARRAY_ROOM(reader->context, &reader->numbers, count));
+    for (size_t i = 0; i < count; i++)
+        SL_TRY(sl_read_coordinate(reader->context, reader->name, reader->line,
+                                  reader->words.items[i], &reader->numbers.items[i]));
+    reader->numbers.count = count;
+    return SL_OK;
+}
+
+/// Reads the words behind a statement's first one by its row of the table.
+static sl_status read_by(text_reader *reader, const statement *row) {
+    const size_t values = reader->words.count, names = row->named;
+    const bool any = row->numbers == ANY;
+    if (values < row->least + names || (!any && values > row->most + names) ||
+        (any && (values - names) % 2))
+        return sl_fail_at(reader->context, reader->name, reader->line,
+                          "expected '%s', found '%s' with %zu value%s", row->usage, row->word,
+                          values, values == 1 ? "" : "s");
+    if (names) {
+        SL_TRY(read_label(reader, reader->words.items[0]));
+        memmove(reader->words.items, reader->words.items + 1,
+                --reader->words.count * sizeof(sl_word));
+    }
+    SL_TRY(read_numbers(reader, any ? reader->words.count : row->numbers));
+    return row->read(reader);
+}
+
+static sl_status read_statement(text_reader *reader) {
+    const sl_word word = reader->words.items[0];
+    if (sl_word_is(word, "sightline"))
+        return sl_fail_at(reader->context, reader->name, reader->line,
+                          "a second 'sightline': it is only the first statement");
+    const statement *row = find_statement(word);
+    if (!row)
+        return sl_fail_at(reader->context, reader->name, reader->line,
+                          "unknown statement '%s': expected wall, walls, door, mirror, oneway, "
+                          "range, start, path or object",
+                          sl_show(word).text);
+    memmove(reader->words.items, reader->words.items + 1, --reader->words.count * sizeof(sl_word));
+    const sl_status status = read_by(reader, row);
+    sl_free(reader->context, reader->label);
+    reader->label = NULL;
+    return status;
+}
+
+static sl_status read_first(text_reader *reader) {
+    const sl_word *words = reader->words.items;
+    if (!sl_word_is(words[0], "sightline"))
+        return sl_fail_at(reader->context, reader->name, reader->line,
+                          "expected 'sightline 1' as the first statement, found '%s'",
+                          sl_show(words[0]).text);
+    if (reader->words.count != 2 || !sl_word_is(words[1], "1"))
+        return sl_fail_at(reader->context, reader->name, reader->line,
+                          "expected version 1 alone ('sightline 1'), found '%s'%s",
+                          reader->words.count < 2 ? "" : sl_show(words[1]).text,
+                          reader->words.count > 2 ? " and more" : "");
+    return SL_OK;
+}
+
+/// Keeps a line "#! text". They stand between the first statement and the second.
+static sl_status read_note(text_reader *reader, sl_word line) {
+    const size_t lead = line.length > 2 && line.at[2] == ' ' ? 3 : 2;
+    const size_t length = line.length - lead;
+    // Room for the 0 behind the last line too.
+    SL_TRY(SL_ARRAY_ROOM(reader->context, &reader->notes, length + 2));
+    if (length) memcpy(reader->notes.items + reader->notes.count, line.at + lead, length);
+    reader->notes.count += length;
+    reader->notes.items[reader->notes.count++] = '\n';
+    return SL_OK;
+}
+
+static bool is_note(sl_word line) {
+    return line.length >= 2 && memcmp(line.at, "#!", 2) == 0 &&
+           (line.length == 2 || line.at[2] == ' ');
+}
+
+static sl_status read_lines(text_reader *reader, const char *text, size_t size) {
+    SL_TRY(sl_refuse_nul(reader->context, reader->name, text, size));
+    sl_lines lines = sl_lines_of(text, size);
+    size_t statements_read = 0;
+    for (sl_word line; sl_lines_next(&lines, &line);) {
+        reader->line = lines.line;
+        if (lines.line % 4096 == 0) SL_TRY(sl_check_cancelled(reader->context));
+        if (statements_read == 1 && is_note(line)) {
+            SL_TRY(read_note(reader, line));
+            continue;
+        }
+        SL_TRY(split(reader, line));
+        if (reader->words.count == 0) continue;
+        SL_TRY(statements_read++ ? read_statement(reader) : read_first(reader));
+    }
+    if (statements_read == 0)
+        return sl_fail_at(reader->context, reader->name, lines.line,
+                          "expected 'sightline 1' as the first statement, found none");
+    if (reader->notes.count == 0) return SL_OK;
+    reader->notes.items[reader->notes.count] = '\0';
+    return sl_map_add_note(reader->context, reader->map, reader->notes.items);
+}
+
+sl_status sl_map_read_text(sl_context *context, const char *name, const char *text, size_t size,
+                           sl_map *map) {
+    sl_map read = {0};
+    text_reader reader = {.context = context, .name = name, .map = &read};
+    const sl_status status = read_lines(&reader, text, size);
+    sl_free(context, reader.words.items);
+    sl_free(context, reader.numbers.items);
+    sl_free(context, reader.notes.items);
+    if (status == SL_OK)
+        *map = read;
+    else
+        sl_map_destroy(context, &read);
+    return status;
+}
+
+static void print_number(FILE *stream, double value) {
+    char text[SL_NUMBER_TEXT];
+    sl_number_write(value, text);
+    fprintf(stream, " %s", text);
+}
+
+static void print_point(FILE *stream, sl_point point) {
+    print_number(stream, point.x);
+    print_number(stream, point.y);
+}
+
+static void print_ends(FILE *stream, sl_point a, sl_point b) {
+    print_point(stream, a);
+    print_point(stream, b);
+}
+
+static void print_notes(FILE *stream, const char *notes) {
+    sl_lines lines = {.at = notes, .end = notes + strlen(notes)};
+    for (sl_word line; sl_lines_next(&lines, &line);) {
+        fprintf(stream, line.length ? "#! " : "#!");
+        fwrite(line.at, 1, line.length, stream);
+        fprintf(stream, "\n");
+    }
+}
+
+/// What is not a wall.
+static void print_others(const sl_map *map, FILE *stream) {
+    for (size_t i = 0; i < map->door_count; i++) {
+        const sl_door *door = &map->doors[i];
+        fprintf(stream, "door %s", door->name);
+        print_ends(stream, door->segment.a, door->segment.b);
+        fprintf(stream, door->open ? " open\n" : " shut\n");
+    }
+    for (size_t i = 0; i < map->mirror_count; i++) {
+        fprintf(stream, "mirror");
+        print_ends(stream, map->mirrors[i].segment.a, map->mirrors[i].segment.b);
+        fprintf(stream, "\n");
+    }
+    for (size_t i = 0; i < map->oneway_count; i++) {
+        fprintf(stream, "oneway");
+        print_ends(stream, map->oneways[i].segment.a, map->oneways[i].segment.b);
+        fprintf(stream, "\n");
+    }
+    for (size_t i = 0; i < map->start_count; i++) {
+        fprintf(stream, "start");
+        print_point(stream, map->starts[i].at);
+        print_number(stream, map->starts[i].heading);
+        fprintf(stream, "\n");
+    }
+    for (size_t i = 0; i < map->path_count; i++) {
+        fprintf(stream, "path %s", map->paths[i].name);
+        for (size_t k = 0; k < map->paths[i].count; k++)
+            print_point(stream, map->paths[i].points[k]);
+        fprintf(stream, "\n");
+    }
+    for (size_t i = 0; i < map->object_count; i++) {
+        fprintf(stream, "object %s", map->objects[i].name);
+        print_ends(stream, map->objects[i].box.min, map->objects[i].box.max);
+        fprintf(stream, "\n");
+    }
+}
+
+void sl_map_print_text(const sl_map *map, FILE *stream) {
+    fprintf(stream, "sightline 1\n");
+    if (map->notes) print_notes(stream, map->notes);
+    if (map->range > 0) {
+        fprintf(stream, "range");
+        print_number(stream, map->range);
+        fprintf(stream, "\n");
+    }
+    for (size_t i = 0; i < map->wall_count; i++) {
+        fprintf(stream, "wall");
+        print_ends(stream, map->walls[i].a, map->walls[i].b);
+        fprintf(stream, "\n");
+    }
+    print_others(map, stream);
+}
+
+sl_status sl_map_write_text(sl_context *context, const sl_map *map, const char *path) {
+    sl_output output;
+    SL_TRY(sl_output_open(context, path, &output));
+    sl_map_print_text(map, output.stream);
+    return sl_output_close(context, &output, SL_OK);
+}

@@ -1,0 +1,158 @@
+// Every reader, the cleaning and the writers, with an allocator that gives out after N calls.
+#include "testing.h"
+
+#include "map_same.h"
+#include "sightline/import.h"
+
+static const char text[] = "sightline 1\n#! note\n#! and more\nwalls 0 0 9 0 9 9 0 9 0 0\n"
+                           "wall 0 0 9 0\nwall 3 0 3 9\nwall 0 3 9 3\nwall 0 0 4 4\n"
+                           "wall 0 1 1 1\nwall 0 2 1 2\nwall 0 4 1 4\nwall 0 5 1 5\n"
+                           "door a 0 0 0 1 open\ndoor b 1 0 1 1 shut\nmirror 0 0 1 0\n"
+                           "oneway 0 0 1 0\nrange 5\nstart 1 1 0\npath p 1 1 2 2 3 3\n"
+                           "path q 1 1\nobject o 1 1 2 2\nobject r 1 1 2 2\n";
+static const char plan[] = "#########\n#...#...#\n#.#.+.#.#\n#...#.@.#\n##+###+##\n#.......#\n"
+                           "#########\n";
+static const char model[] = "{ note }\nv a 0 0 0;v b 2 0 0;v c 2 3 0;v d 0 3 0;v A 0 0 4;"
+                            "v B 2 0 4;v C 2 3 4;v D 0 3 4;f s (a b B A);f e (b c C B);"
+                            "f n (c d D C);f w (d a A D);{ last }";
+// The table of vertices starts with room for 32.
+static char large_model[4000];
+
+typedef sl_status work(sl_context *context, sl_map *map);
+
+static sl_status read_text(sl_context *context, sl_map *map) {
+    return sl_map_read_text(context, "t", text, sizeof text - 1, map);
+}
+
+static sl_status read_plan(sl_context *context, sl_map *map) {
+    return sl_map_read_plan(context, "t", plan, sizeof plan - 1, map);
+}
+
+static sl_status read_model(sl_context *context, sl_map *map) {
+    const sl_import_options options = {.has_slice = true, .slice = 1};
+    return sl_map_read_unigrafix(context, "t", model, sizeof model - 1, &options, map);
+}
+
+static sl_status read_large_model(sl_context *context, sl_map *map) {
+    const sl_import_options options = {.has_slice = true, .slice = 1};
+    return sl_map_read_unigrafix(context, "t", large_model, strlen(large_model), &options, map);
+}
+
+static sl_status read_file(sl_context *context, sl_map *map) {
+    return sl_map_read(context, SIGHTLINE_SOURCE_DIR "/maps/dungeon.txt", NULL, map);
+}
+
+/// Runs with the Nth call failing and all after it, until there are enough; the map and all memory
+/// must be as before each time. Gives how many calls were needed.
+static long fail_at_each_call(work *run) {
+    for (long fail_at = 2;; fail_at++) {
+        testing_memory memory = {0};
+        sl_context *context = testing_context(&memory);
+        memory.fail_at = fail_at;
+        sl_map map = {0};
+        const sl_status status = run(context, &map);
+        if (status == SL_OK) {
+            assert_false(map_is_empty(&map));
+        } else {
+            assert_int_equal(status, SL_NO_MEMORY);
+            assert_string_equal(sl_context_message(context), "out of memory");
+            assert_true(map_is_empty(&map));
+            assert_int_equal(memory.live, 1);
+        }
+        sl_map_destroy(context, &map);
+        sl_context_destroy(context);
+        assert_int_equal(memory.live, 0);
+        if (status == SL_OK) return fail_at - 2;
+    }
+}
+
+static void test_readers(void **state) {
+    (void)state;
+    char *end = large_model;
+    for (int i = 0; i < 100; i++) end += sprintf(end, "v a%d %d %d %d;", i, i % 2, i, i % 3);
+    sprintf(end, "f f (a0 a1 a2);");
+    assert_true(fail_at_each_call(read_text) > 15);
+    assert_true(fail_at_each_call(read_plan) > 8);
+    assert_true(fail_at_each_call(read_model) > 5);
+    assert_true(fail_at_each_call(read_large_model) > 8);
+    assert_true(fail_at_each_call(read_file) > 4);
+}
+
+/// Runs on a map that is there already, which must stay as it was.
+static void fail_on_map(work *read, work *run) {
+    for (long fail_at = 1;; fail_at++) {
+        testing_memory memory = {0};
+        sl_context *context = testing_context(&memory);
+        sl_map map = {0}, kept = {0};
+        assert_ok(context, read(context, &map));
+        assert_ok(context, read(context, &kept));
+        const long live = memory.live;
+        memory.fail_at = memory.calls + fail_at;
+        const sl_status status = run(context, &map);
+        if (status != SL_OK) {
+            assert_int_equal(status, SL_NO_MEMORY);
+            assert_true(map_same(&map, &kept));
+            assert_int_equal(memory.live, live);
+        }
+        sl_map_destroy(context, &map);
+        sl_map_destroy(context, &kept);
+        sl_context_destroy(context);
+        assert_int_equal(memory.live, 0);
+        if (status != SL_OK) continue;
+        assert_true(fail_at > 1);
+        return;
+    }
+}
+
+static sl_status clean(sl_context *context, sl_map *map) {
+    return sl_map_clean(context, map, NULL);
+}
+
+static sl_status print_plan(sl_context *context, sl_map *map) {
+    sl_status status;
+    free(map_plan_text(context, map, &status));
+    return status;
+}
+
+static sl_status write_text(sl_context *context, sl_map *map) {
+    char path[] = "/tmp/sightline-memory-XXXXXX";
+    assert_true(mkstemp(path) >= 0);
+    const sl_status status = sl_map_write_text(context, map, path);
+    assert_int_equal(remove(path), 0);
+    return status;
+}
+
+static sl_status write_plan(sl_context *context, sl_map *map) {
+    char path[] = "/tmp/sightline-memory-XXXXXX";
+    assert_true(mkstemp(path) >= 0);
+    const sl_status status = sl_map_write_plan(context, map, path);
+    assert_int_equal(remove(path), 0);
+    return status;
+}
+
+static sl_status add_note(sl_context *context, sl_map *map) {
+    return sl_map_add_note(context, map, "one more");
+}
+
+static sl_status add_path(sl_context *context, sl_map *map) {
+    return sl_map_add_path(context, map, "one_more", &(sl_point){1, 2}, 1, 0);
+}
+
+static void test_others(void **state) {
+    (void)state;
+    fail_on_map(read_text, clean);
+    fail_on_map(read_plan, clean);
+    fail_on_map(read_plan, print_plan);
+    fail_on_map(read_text, write_text);
+    fail_on_map(read_plan, write_plan);
+    fail_on_map(read_text, add_note);
+    fail_on_map(read_text, add_path);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_readers),
+        cmocka_unit_test(test_others),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
