@@ -1,0 +1,94 @@
+// Any map file by one call: which format it is read as, and what the map says of its file.
+#include "testing.h"
+
+#include "map_same.h"
+
+static void write_file(const char *path, const char *text) {
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void test_table(void **state) {
+    (void)state;
+    size_t count;
+    const sl_map_format *formats = sl_map_formats(&count);
+    assert_true(count >= 3);
+    assert_string_equal(formats[0].endings, ".map");
+    for (size_t i = 0; i < count; i++)
+        assert_true(formats[i].name[0] && formats[i].endings[0] == '.' && formats[i].what[0] &&
+                    formats[i].read);
+    assert_false(sl_import_options_default().has_slice);
+}
+
+static void test_endings(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    const char *const text = "sightline 1\nwall 0 0 1 0\n", *const plan = "...\n";
+    const char *const model = "v a 0 0 0;v b 4 0 0;v c 2 0 2;f f (a b c);";
+    char folder[] = "/tmp/sightline-formats-XXXXXX";
+    assert_non_null(mkdtemp(folder));
+    const struct {
+        const char *file, *text;
+        size_t walls;
+    } cases[] = {
+        {"a.map", text, 1}, {"a.txt", plan, 4}, {"a.TXT", plan, 4},     {"a.ug", model, 1},
+        {"a", text, 1},     {"txt", text, 1},   {"a.txt.map", text, 1}, {"a.other", text, 1},
+    };
+    const sl_import_options options = {.has_slice = true, .slice = 1};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char path[100];
+        snprintf(path, sizeof path, "%s/%s", folder, cases[i].file);
+        write_file(path, cases[i].text);
+        sl_map map = {0};
+        assert_ok(context, sl_map_read(context, path, &options, &map));
+        assert_int_equal(map.wall_count, cases[i].walls);
+        assert_string_equal(map.source, path);
+        sl_map_destroy(context, &map);
+        remove(path);
+    }
+    remove(folder);
+    sl_context_destroy(context);
+}
+
+static void count_report(void *user, const sl_progress *progress) {
+    int *count = user;
+    assert_string_equal(progress->stage, "read");
+    assert_true(progress->done == progress->total && progress->total == 24);
+    ++*count;
+}
+
+static void test_report_and_failures(void **state) {
+    (void)state;
+    int reports = 0;
+    const sl_hooks hooks = {.user = &reports, .progress = count_report};
+    sl_context *context = sl_context_create(&hooks);
+    char path[] = "/tmp/sightline-formats-XXXXXX";
+    assert_true(mkstemp(path) >= 0);
+    sl_map map = {0};
+    write_file(path, "sightline 1\nwall 0 0 1 0");
+    assert_ok(context, sl_map_read(context, path, NULL, &map));
+    assert_int_equal(reports, 1);
+    sl_map_destroy(context, &map);
+    write_file(path, "sightline 1\n\nwall 0 0 1\n");
+    assert_int_equal(sl_map_read(context, path, NULL, &map), SL_BAD_INPUT);
+    assert_true(map_is_empty(&map));
+    char where[100];
+    snprintf(where, sizeof where, "%s:3: ", path);
+    assert_memory_equal(sl_context_message(context), where, strlen(where));
+    remove(path);
+    assert_int_equal(sl_map_read(context, path, NULL, &map), SL_BAD_ARGUMENT);
+    assert_true(map_is_empty(&map));
+    assert_int_equal(reports, 1);
+    sl_context_destroy(context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_table),
+        cmocka_unit_test(test_endings),
+        cmocka_unit_test(test_report_and_failures),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
