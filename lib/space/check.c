@@ -1,0 +1,277 @@
+/// The whole-graph check: what the later stages take for granted, proven for one space. Safe on any
+/// bytes: every index is checked before it is used.
+#include "base/bits.h"
+#include "sightline/space.h"
+#include "space/wall_lines.h"
+
+#include <math.h>
+
+typedef struct checker {
+    sl_context *context;
+    const sl_space *space;
+    sl_piece *walls;
+    sl_box *regions;      ///< of the nodes, then of the cells, as the tree has them
+    sl_bits *led_to;      ///< nodes, then cells, that some node leads to
+    uint8_t *exits_found; ///< by portal: 1 for the exit of cell[0], 2 for that of cell[1]
+} checker;
+
+static sl_status check_ranges(const checker *c) {
+    const sl_space *s = c->space;
+    if (!s->cell_count || s->node_count != s->cell_count - 1)
+        return sl_fail(c->context, SL_BAD_INPUT, "%u nodes cannot lead to %u cells", s->node_count,
+                       s->cell_count);
+    if (s->exit_count != 2 * (uint64_t)s->portal_count)
+        return sl_fail(c->context, SL_BAD_INPUT, "%u portals cannot have %u exits", s->portal_count,
+                       s->exit_count);
+    const sl_box *b = &s->bounds;
+    if (!isfinite(b->max.x - b->min.x) || !isfinite(b->max.y - b->min.y) ||
+        !(b->min.x < b->max.x) || !(b->min.y < b->max.y))
+        return sl_fail(c->context, SL_BAD_INPUT, "the bounds enclose no area");
+    return SL_OK;
+}
+
+static sl_status fail_node(const checker *c, uint32_t node, const char *what) {
+    return sl_fail(c->context, SL_BAD_INPUT, "node %u %s", node, what);
+}
+
+/// Gives the child of a node (-1 for the root) its region, once.
+static sl_status lead_to(checker *c, int64_t node, int32_t child, sl_box region) {
+    const sl_space *s = c->space;
+    const bool in_range = child < 0 ? (uint32_t)~child < s->cell_count
+                                    : child > node && (uint32_t)child < s->node_count;
+    const uint32_t parent = node < 0 ? 0 : (uint32_t)node;
+    if (!in_range) return fail_node(c, parent, "leads out of the tree");
+    const size_t slot = child < 0 ? (size_t)s->node_count + (uint32_t)~child : (size_t)child;
+    if (sl_bits_has(c->led_to, slot)) return fail_node(c, parent, "leads where another one does");
+    sl_bits_add(c->led_to, slot);
+    c->regions[slot] = region;
+    return SL_OK;
+}
+
+static sl_status check_tree(checker *c) {
+    const sl_space *s = c->space;
+    SL_TRY(lead_to(c, -1, s->root, s->bounds));
+    for (uint32_t i = 0; i < s->node_count; i++) {
+        const sl_node *node = &s->nodes[i];
+        if (!sl_bits_has(c->led_to, i)) return fail_node(c, i, "cannot be reached");
+        if (node->axis != 0 && node->axis != 1) return fail_node(c, i, "has no known axis");
+        sl_box below = c->regions[i], above = c->regions[i];
+        double *lo = node->axis ? &above.min.y : &above.min.x;
+        double *hi = node->axis ? &below.max.y : &below.max.x;
+        if (!(node->position > *lo && node->position < *hi))
+            return fail_node(c, i, "splits outside its region");
+        *lo = *hi = node->position;
+        SL_TRY(lead_to(c, i, node->below, below));
+        SL_TRY(lead_to(c, i, node->above, above));
+    }
+    return SL_OK; // cell_count - 1 nodes with two children each, none led to twice: all are reached
+}
+
+static sl_status fail_cell(const checker *c, uint32_t cell, const char *what) {
+    return sl_fail(c->context, SL_BAD_INPUT, "cell %u %s", cell, what);
+}
+
+static bool same_point(sl_point a, sl_point b) {
+    return a.x == b.x && a.y == b.y;
+}
+
+/// The corners must be those of the tree's region: a box, counter-clockwise, of positive area.
+static sl_status check_cells(const checker *c) {
+    const sl_space *s = c->space;
+    uint64_t exits = 0;
+    uint32_t inside = 0;
+    for (uint32_t i = 0; i < s->cell_count; i++) {
+        const sl_cell *cell = &s->cells[i];
+        if (cell->vertex_count != 4 || cell->first_vertex > s->vertex_count ||
+            s->vertex_count - cell->first_vertex < 4)
+            return fail_cell(c, i, "has corners out of range");
+        const sl_box *r = &c->regions[s->node_count + i];
+        const sl_point *v = &s->vertices[cell->first_vertex];
+        const sl_point lower_right = {r->max.x, r->min.y}, upper_left = {r->min.x, r->max.y};
+        if (!same_point(v[0], r->min) || !same_point(v[1], lower_right) ||
+            !same_point(v[2], r->max) || !same_point(v[3], upper_left))
+            return fail_cell(c, i, "is not the region that the tree gives it");
+        if (cell->first_exit != exits || cell->exit_count > s->exit_count - exits)
+            return fail_cell(c, i, "has exits out of range");
+        if (cell->inside > 1) return fail_cell(c, i, "is neither inside nor outside");
+        exits += cell->exit_count;
+        inside += cell->inside;
+    }
+    if (inside != s->inside_count || exits != s->exit_count)
+        return sl_fail(c->context, SL_BAD_INPUT, "the counts of cells or exits do not add up");
+    return SL_OK;
+}
+
+static sl_status check_area(const checker *c) {
+    const sl_space *s = c->space;
+    // Shares of the whole, so that neither huge nor tiny maps leave the range of doubles.
+    const double width = s->bounds.max.x - s->bounds.min.x;
+    const double height = s->bounds.max.y - s->bounds.min.y;
+    double sum = 0;
+    for (uint32_t i = 0; i < s->cell_count; i++) {
+        const sl_box *r = &c->regions[s->node_count + i];
+        sum += (r->max.x - r->min.x) / width * ((r->max.y - r->min.y) / height);
+    }
+    if (fabs(sum - 1) <= 1e-9) return SL_OK;
+    return sl_fail(c->context, SL_BAD_INPUT, "the cells' areas add up to %.17g of the bounds'",
+                   sum);
+}
+
+/// What of a wall lies in a child's region; false for nothing. A wall on the split lies in neither.
+static bool enters(const sl_node *node, bool above, sl_piece *wall) {
+    const double at = node->position;
+    if (wall->axis == node->axis) return above ? wall->at > at : wall->at < at;
+    if (above)
+        wall->lo = wall->lo > at ? wall->lo : at;
+    else
+        wall->hi = wall->hi < at ? wall->hi : at;
+    return wall->lo < wall->hi;
+}
+
+typedef struct visit {
+    int32_t child;
+    sl_piece wall;
+} visit;
+
+static sl_status check_wall(const checker *c, const sl_piece *wall, visit *stack) {
+    const sl_box *b = &c->space->bounds;
+    const double lo = wall->axis ? b->min.y : b->min.x, hi = wall->axis ? b->max.y : b->max.x;
+    const double side_lo = wall->axis ? b->min.x : b->min.y;
+    const double side_hi = wall->axis ? b->max.x : b->max.y;
+    if (!(wall->at >= lo && wall->at <= hi && wall->lo >= side_lo && wall->hi <= side_hi))
+        return sl_fail(c->context, SL_BAD_INPUT, "a wall leaves the bounds");
+    if (wall->at == lo || wall->at == hi) return SL_OK;
+    size_t count = 0;
+    stack[count++] = (visit){c->space->root, *wall};
+    while (count) {
+        const visit now = stack[--count];
+        if (now.child < 0) return fail_cell(c, (uint32_t)~now.child, "has a wall inside");
+        const sl_node *node = &c->space->nodes[now.child];
+        visit below = {node->below, now.wall}, above = {node->above, now.wall};
+        if (enters(node, true, &above.wall)) stack[count++] = above;
+        if (enters(node, false, &below.wall)) stack[count++] = below;
+    }
+    return SL_OK;
+}
+
+static sl_status check_walls(const checker *c) {
+    // A way down leaves at most one sibling waiting on each level.
+    visit *stack = sl_alloc_array(c->context, (size_t)c->space->node_count + 2, sizeof *stack);
+    if (!stack) return SL_NO_MEMORY;
+    sl_status status = SL_OK;
+    for (uint32_t i = 0; i < c->space->wall_count && status == SL_OK; i++)
+        status = check_wall(c, &c->walls[i], stack);
+    sl_free(c->context, stack);
+    return status;
+}
+
+/// An edge of a cell's box, walked counter-clockwise: along `axis`'s line at `at`, from `from` to
+/// `to`.
+typedef struct edge {
+    int axis;
+    double at, from, to;
+    bool on_border;
+} edge;
+
+static edge edge_of(const sl_box *r, const sl_box *bounds, int number) {
+    switch (number) {
+    case 0:
+        return (edge){1, r->min.y, r->min.x, r->max.x, r->min.y == bounds->min.y};
+    case 1:
+        return (edge){0, r->max.x, r->min.y, r->max.y, r->max.x == bounds->max.x};
+    case 2:
+        return (edge){1, r->max.y, r->max.x, r->min.x, r->max.y == bounds->max.y};
+    default:
+        return (edge){0, r->min.x, r->max.y, r->min.y, r->min.x == bounds->min.x};
+    }
+}
+
+static bool wall_between(const checker *c, const edge *e, double from, double to) {
+    const double lo = from < to ? from : to, hi = from < to ? to : from;
+    return sl_wall_lines_cover(c->walls, c->space->wall_count, e->axis, e->at, lo, hi);
+}
+
+static bool free_between(const checker *c, const edge *e, double from, double to) {
+    const double lo = from < to ? from : to, hi = from < to ? to : from;
+    const size_t i = sl_wall_lines_find(c->walls, c->space->wall_count, e->axis, e->at, lo);
+    return i == c->space->wall_count || c->walls[i].axis != e->axis || c->walls[i].at != e->at ||
+           c->walls[i].lo >= hi;
+}
+
+/// Whether an exit lies on an edge; its ends along the edge as walked.
+static bool exit_on_edge(const sl_exit *exit, const edge *e, double *from, double *to) {
+    const bool on = e->axis ? exit->right.y == e->at && exit->left.y == e->at
+                            : exit->right.x == e->at && exit->left.x == e->at;
+    *from = e->axis ? exit->right.x : exit->right.y;
+    *to = e->axis ? exit->left.x : exit->left.y;
+    return on && (e->from < e->to ? *from < *to : *from > *to);
+}
+
+static sl_status check_exit(checker *c, uint32_t cell, const sl_exit *exit) {
+    const sl_space *s = c->space;
+    if (exit->portal >= s->portal_count) return fail_cell(c, cell, "has an exit to no portal");
+    const sl_portal *p = &s->portals[exit->portal];
+    if (p->cell[0] >= p->cell[1] || p->cell[1] >= s->cell_count)
+        return sl_fail(c->context, SL_BAD_INPUT, "portal %u joins no two cells", exit->portal);
+    const int side = p->cell[0] == cell ? 0 : 1;
+    if (p->cell[side] != cell || exit->cell != p->cell[!side] ||
+        !same_point(exit->left, side ? p->right : p->left) ||
+        !same_point(exit->right, side ? p->left : p->right) ||
+        c->exits_found[exit->portal] & (1 << side))
+        return fail_cell(c, cell, "has an exit unlike its portal");
+    c->exits_found[exit->portal] |= (uint8_t)(1 << side);
+    return SL_OK;
+}
+
+/// Walks round a cell: each exit must start where the last one ended, or after a wall.
+static sl_status check_boundary(checker *c, uint32_t cell) {
+    const sl_space *s = c->space;
+    const sl_exit *exit = s->exits + s->cells[cell].first_exit;
+    const sl_exit *end = exit + s->cells[cell].exit_count;
+    for (int number = 0; number < 4; number++) {
+        const edge e = edge_of(&c->regions[s->node_count + cell], &s->bounds, number);
+        double at = e.from, from, to;
+        for (; exit < end && exit_on_edge(exit, &e, &from, &to); exit++) {
+            SL_TRY(check_exit(c, cell, exit));
+            const bool forward =
+                e.from < e.to ? from >= at && to <= e.to : from <= at && to >= e.to;
+            if (!forward || e.on_border) return fail_cell(c, cell, "has an exit out of place");
+            if (!free_between(c, &e, from, to)) return fail_cell(c, cell, "has an exit on a wall");
+            if (from != at && !wall_between(c, &e, at, from))
+                return fail_cell(c, cell, "has a boundary that is neither wall nor portal");
+            if (from == at && at != e.from && exit[-1].cell == exit->cell)
+                return fail_cell(c, cell, "has a portal that is not a longest piece");
+            at = to;
+        }
+        if (at != e.to && !e.on_border && !wall_between(c, &e, at, e.to))
+            return fail_cell(c, cell, "has a boundary that is neither wall nor portal");
+    }
+    // With as many exits as twice the portals and none told twice, each portal has both.
+    return exit == end ? SL_OK : fail_cell(c, cell, "has an exit that is not on its boundary");
+}
+
+static sl_status check_all(checker *c) {
+    const sl_space *s = c->space;
+    SL_TRY(check_tree(c));
+    SL_TRY(check_cells(c));
+    SL_TRY(check_area(c));
+    SL_TRY(sl_wall_lines(c->context, "the walls", s->walls, s->wall_count, &c->walls));
+    SL_TRY(check_walls(c));
+    for (uint32_t cell = 0; cell < s->cell_count; cell++) SL_TRY(check_boundary(c, cell));
+    return SL_OK;
+}
+
+sl_status sl_space_check(sl_context *context, const sl_space *space) {
+    checker c = {.context = context, .space = space};
+    SL_TRY(check_ranges(&c));
+    const size_t places = (size_t)space->node_count + space->cell_count;
+    c.regions = sl_alloc_array(context, places, sizeof *c.regions);
+    c.led_to = sl_alloc_array(context, sl_bits_words(places), sizeof *c.led_to);
+    c.exits_found = sl_alloc_array(context, space->portal_count, sizeof *c.exits_found);
+    const sl_status status = c.regions && c.led_to && c.exits_found ? check_all(&c) : SL_NO_MEMORY;
+    sl_free(context, c.walls);
+    sl_free(context, c.regions);
+    sl_free(context, c.led_to);
+    sl_free(context, c.exits_found);
+    return status;
+}

@@ -1,0 +1,314 @@
+/// The kd-tree (Teller & Séquin 1991, Spatial Subdivision): a leaf where no wall is inside, else a
+/// split on a line that holds a wall, chosen by the rules of sl_subdivide_options.
+#include "space/kd_tree.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// A region still to be divided, with the walls inside it, sorted by line. Owned by the stack.
+typedef struct region {
+    sl_box box;
+    sl_piece *pieces;
+    size_t count;
+    int32_t parent; ///< node that leads here, -1 for none
+    bool above;     ///< which child of it
+    uint32_t depth;
+} region;
+
+typedef SL_ARRAY(region) region_stack;
+
+/// A line that could be split on: pieces[first .. end) lie on it.
+typedef struct candidate {
+    size_t first, end;
+    double obscured; ///< share of the region's width that its walls cover
+    bool spanning;   ///< covered without a gap, decided by comparison
+    size_t cleaved;  ///< walls that the split would cut
+    size_t below, above;
+} candidate;
+
+/// Scratch of the choice, reused from region to region.
+typedef struct chooser {
+    const sl_subdivide_options *options;
+    SL_ARRAY(candidate) candidates;
+    SL_ARRAY(double) lows[2], highs[2]; ///< ends of the pieces on either axis, each sorted
+} chooser;
+
+static double low_of(const sl_box *box, int axis) {
+    return axis ? box->min.y : box->min.x;
+}
+
+static double high_of(const sl_box *box, int axis) {
+    return axis ? box->max.y : box->max.x;
+}
+
+static sl_status add_candidates(sl_context *context, chooser *choice, const region *r) {
+    choice->candidates.count = 0;
+    for (size_t first = 0, end; first < r->count; first = end) {
+        const sl_piece *line = &r->pieces[first];
+        const double lo = low_of(&r->box, !line->axis), hi = high_of(&r->box, !line->axis);
+        double covered = 0, reached = lo;
+        for (end = first; end < r->count; end++) {
+            const sl_piece *p = &r->pieces[end];
+            if (p->axis != line->axis || p->at != line->at) break;
+            // Halved, so that the widest maps do not overflow.
+            covered += p->hi / 2 - p->lo / 2;
+            if (p->lo == reached) reached = p->hi;
+        }
+        SL_TRY(SL_ARRAY_ROOM(context, &choice->candidates, 1));
+        choice->candidates.items[choice->candidates.count++] =
+            (candidate){.first = first,
+                        .end = end,
+                        .obscured = covered / (hi / 2 - lo / 2),
+                        .spanning = reached == hi};
+    }
+    return SL_OK;
+}
+
+static int compare_doubles(const void *left, const void *right) {
+    const double a = *(const double *)left, b = *(const double *)right;
+    return (a > b) - (a < b);
+}
+
+/// How many of sorted values are below `limit`.
+static size_t count_below(const double *values, size_t count, double limit) {
+    size_t first = 0;
+    while (first < count) {
+        const size_t middle = first + (count - first) / 2;
+        if (values[middle] < limit)
+            first = middle + 1;
+        else
+            count = middle;
+    }
+    return first;
+}
+
+static size_t count_not_above(const double *values, size_t count, double limit) {
+    return count_below(values, count, nextafter(limit, INFINITY));
+}
+
+static sl_status sort_ends(sl_context *context, chooser *choice, const region *r) {
+    for (int axis = 0; axis < 2; axis++) {
+        SL_TRY(SL_ARRAY_ROOM(context, &choice->lows[axis], r->count));
+        SL_TRY(SL_ARRAY_ROOM(context, &choice->highs[axis], r->count));
+        choice->lows[axis].count = choice->highs[axis].count = 0;
+    }
+    for (size_t i = 0; i < r->count; i++) {
+        const sl_piece *p = &r->pieces[i];
+        choice->lows[p->axis].items[choice->lows[p->axis].count++] = p->lo;
+        choice->highs[p->axis].items[choice->highs[p->axis].count++] = p->hi;
+    }
+    for (int axis = 0; axis < 2; axis++) {
+        qsort(choice->lows[axis].items, choice->lows[axis].count, sizeof(double), compare_doubles);
+        qsort(choice->highs[axis].items, choice->highs[axis].count, sizeof(double),
+              compare_doubles);
+    }
+    return SL_OK;
+}
+
+/// Counts what each candidate would cut and leave on either side.
+static void count_sides(chooser *choice, const region *r) {
+    size_t on_axis[2] = {choice->lows[0].count, choice->lows[1].count};
+    for (size_t i = 0; i < choice->candidates.count; i++) {
+        candidate *c = &choice->candidates.items[i];
+        const sl_piece *line = &r->pieces[c->first];
+        const int across = !line->axis;
+        const size_t base = line->axis ? on_axis[0] : 0;
+        const size_t starting = count_below(choice->lows[across].items, on_axis[across], line->at);
+        const size_t ended =
+            count_not_above(choice->highs[across].items, on_axis[across], line->at);
+        c->cleaved = starting - ended;
+        c->below = c->first - base + starting;
+        c->above = base + on_axis[line->axis] - c->end + on_axis[across] - ended;
+    }
+}
+
+/// Keeps the candidates for which `keep` holds, if it holds for any.
+static void filter(chooser *choice, bool (*keep)(const candidate *, double), double value) {
+    size_t kept = 0;
+    for (size_t i = 0; i < choice->candidates.count; i++)
+        if (keep(&choice->candidates.items[i], value)) kept++;
+    if (!kept) return;
+    size_t to = 0;
+    for (size_t i = 0; i < choice->candidates.count; i++)
+        if (keep(&choice->candidates.items[i], value))
+            choice->candidates.items[to++] = choice->candidates.items[i];
+    choice->candidates.count = to;
+}
+
+static bool is_spanning(const candidate *c, double value) {
+    (void)value;
+    return c->spanning;
+}
+
+static bool is_obscured(const candidate *c, double share) {
+    return c->spanning || c->obscured >= share;
+}
+
+static bool cleaves_at_most(const candidate *c, double most) {
+    return (double)c->cleaved <= most;
+}
+
+static bool any_spanning(const chooser *choice) {
+    for (size_t i = 0; i < choice->candidates.count; i++)
+        if (choice->candidates.items[i].spanning) return true;
+    return false;
+}
+
+static size_t least_cleaved(const chooser *choice) {
+    size_t least = SIZE_MAX;
+    for (size_t i = 0; i < choice->candidates.count; i++)
+        if (choice->candidates.items[i].cleaved < least)
+            least = choice->candidates.items[i].cleaved;
+    return least;
+}
+
+static size_t imbalance(const candidate *c) {
+    return c->below > c->above ? c->below - c->above : c->above - c->below;
+}
+
+static sl_status choose_split(sl_context *context, chooser *choice, const region *r,
+                              candidate *out) {
+    const sl_subdivide_options *rules = choice->options;
+    SL_TRY(add_candidates(context, choice, r));
+    SL_TRY(sort_ends(context, choice, r));
+    count_sides(choice, r);
+    if (rules->spanning && any_spanning(choice))
+        filter(choice, is_spanning, 0);
+    else {
+        if (rules->obscured > 0) filter(choice, is_obscured, rules->obscured);
+        if (rules->cleaving) filter(choice, cleaves_at_most, (double)least_cleaved(choice));
+    }
+    const candidate *best = &choice->candidates.items[0];
+    for (size_t i = 1; rules->median && i < choice->candidates.count; i++)
+        if (imbalance(&choice->candidates.items[i]) < imbalance(best))
+            best = &choice->candidates.items[i];
+    *out = *best;
+    return SL_OK;
+}
+
+static sl_status add_node(sl_context *context, sl_kd_tree *tree, const region *r,
+                          const candidate *split) {
+    const sl_piece *line = &r->pieces[split->first];
+    const size_t count = split->end - split->first;
+    if (tree->nodes.count == INT32_MAX) return sl_fail_memory(context);
+    SL_TRY(SL_ARRAY_ROOM(context, &tree->nodes, 1));
+    SL_TRY(SL_ARRAY_ROOM(context, &tree->splits, 1));
+    SL_TRY(SL_ARRAY_ROOM(context, &tree->on_splits, count));
+    tree->nodes.items[tree->nodes.count++] = (sl_node){.position = line->at, .axis = line->axis};
+    tree->splits.items[tree->splits.count++] =
+        (sl_split_walls){.first = tree->on_splits.count, .count = count};
+    memcpy(tree->on_splits.items + tree->on_splits.count, line, count * sizeof *line);
+    tree->on_splits.count += count;
+    return SL_OK;
+}
+
+/// The part of a piece that a split leaves on one side; lo == hi where there is none.
+static sl_piece clip_piece(const sl_piece *p, int axis, double at, bool above) {
+    sl_piece part = *p;
+    if (p->axis == axis) {
+        if (above ? p->at <= at : p->at >= at) part.lo = part.hi;
+    } else if (above) {
+        if (part.lo < at) part.lo = part.hi > at ? at : part.hi;
+    } else if (part.hi > at)
+        part.hi = part.lo < at ? at : part.lo;
+    return part;
+}
+
+static sl_status push_child(sl_context *context, region_stack *stack, const region *r,
+                            const candidate *split, int32_t node, bool above) {
+    const sl_piece *line = &r->pieces[split->first];
+    SL_TRY(SL_ARRAY_ROOM(context, stack, 1));
+    region child = {.box = r->box, .parent = node, .above = above, .depth = r->depth + 1};
+    sl_point *corner = above ? &child.box.min : &child.box.max;
+    *(line->axis ? &corner->y : &corner->x) = line->at;
+    child.pieces = sl_alloc_array(context, above ? split->above : split->below, sizeof *line);
+    if (!child.pieces) return SL_NO_MEMORY;
+    for (size_t i = 0; i < r->count; i++) {
+        const sl_piece part = clip_piece(&r->pieces[i], line->axis, line->at, above);
+        if (part.lo < part.hi) child.pieces[child.count++] = part;
+    }
+    stack->items[stack->count++] = child;
+    return SL_OK;
+}
+
+static void link_child(sl_kd_tree *tree, const region *r, int32_t child) {
+    if (r->parent < 0)
+        tree->root = child;
+    else if (r->above)
+        tree->nodes.items[r->parent].above = child;
+    else
+        tree->nodes.items[r->parent].below = child;
+}
+
+static sl_status divide(sl_context *context, chooser *choice, region_stack *stack, const region *r,
+                        sl_kd_tree *tree) {
+    if (r->count == 0) {
+        if (tree->cells.count == INT32_MAX) return sl_fail_memory(context);
+        SL_TRY(SL_ARRAY_ROOM(context, &tree->cells, 1));
+        link_child(tree, r, ~(int32_t)tree->cells.count);
+        tree->cells.items[tree->cells.count++] = r->box;
+        if (r->depth > tree->depth) tree->depth = r->depth;
+        return SL_OK;
+    }
+    const int32_t node = (int32_t)tree->nodes.count;
+    candidate split;
+    SL_TRY(choose_split(context, choice, r, &split));
+    SL_TRY(add_node(context, tree, r, &split));
+    link_child(tree, r, node);
+    SL_TRY(push_child(context, stack, r, &split, node, true));
+    return push_child(context, stack, r, &split, node, false);
+}
+
+/// The walls inside the bounds, those on the border left out.
+static sl_status push_root(sl_context *context, region_stack *stack, const sl_piece *walls,
+                           size_t count, sl_box bounds) {
+    SL_TRY(SL_ARRAY_ROOM(context, stack, 1));
+    region root = {.box = bounds, .parent = -1};
+    root.pieces = sl_alloc_array(context, count, sizeof *walls);
+    if (!root.pieces) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++) {
+        const int axis = walls[i].axis;
+        if (walls[i].at > low_of(&bounds, axis) && walls[i].at < high_of(&bounds, axis))
+            root.pieces[root.count++] = walls[i];
+    }
+    stack->items[stack->count++] = root;
+    return SL_OK;
+}
+
+static sl_status divide_all(sl_context *context, chooser *choice, region_stack *stack,
+                            sl_kd_tree *tree) {
+    while (stack->count) {
+        const region r = stack->items[--stack->count];
+        sl_status status = sl_check_cancelled(context);
+        if (status == SL_OK) status = divide(context, choice, stack, &r, tree);
+        sl_free(context, r.pieces);
+        SL_TRY(status);
+        sl_report(context, "subdivide", "cells", tree->cells.count, 0);
+    }
+    return SL_OK;
+}
+
+sl_status sl_kd_build(sl_context *context, const sl_piece *walls, size_t count, sl_box bounds,
+                      const sl_subdivide_options *options, sl_kd_tree *tree) {
+    region_stack stack = {0};
+    chooser choice = {.options = options};
+    sl_status status = push_root(context, &stack, walls, count, bounds);
+    if (status == SL_OK) status = divide_all(context, &choice, &stack, tree);
+    for (size_t i = 0; i < stack.count; i++) sl_free(context, stack.items[i].pieces);
+    sl_free(context, stack.items);
+    sl_free(context, choice.candidates.items);
+    for (int axis = 0; axis < 2; axis++) {
+        sl_free(context, choice.lows[axis].items);
+        sl_free(context, choice.highs[axis].items);
+    }
+    return status;
+}
+
+void sl_kd_destroy(sl_context *context, sl_kd_tree *tree) {
+    sl_free(context, tree->nodes.items);
+    sl_free(context, tree->splits.items);
+    sl_free(context, tree->on_splits.items);
+    sl_free(context, tree->cells.items);
+    *tree = (sl_kd_tree){0};
+}

@@ -1,0 +1,174 @@
+/// Portals: along each split line the cells on its two sides are merged and the walls on it left
+/// out. Exits: each cell's portals, as it crosses them on the way out.
+#include "space/kd_tree.h"
+
+#include <stdlib.h>
+
+typedef SL_ARRAY(uint32_t) cell_list;
+typedef SL_ARRAY(sl_portal) portal_list;
+
+typedef struct portal_maker {
+    const sl_kd_tree *tree;
+    SL_ARRAY(int32_t) stack;
+    cell_list below, above; ///< the cells that touch a split line, in order along it
+    portal_list portals;
+} portal_maker;
+
+/// Gathers the cells below `child` that touch the line of a split on `axis`: seen from the split,
+/// the subtree lies above or below it.
+static sl_status gather_cells(sl_context *context, portal_maker *maker, int32_t child, int axis,
+                              bool above, cell_list *out) {
+    out->count = maker->stack.count = 0;
+    SL_TRY(SL_ARRAY_ROOM(context, &maker->stack, 1));
+    maker->stack.items[maker->stack.count++] = child;
+    while (maker->stack.count) {
+        const int32_t next = maker->stack.items[--maker->stack.count];
+        if (next < 0) {
+            SL_TRY(SL_ARRAY_ROOM(context, out, 1));
+            out->items[out->count++] = (uint32_t)~next;
+            continue;
+        }
+        const sl_node *node = &maker->tree->nodes.items[next];
+        SL_TRY(SL_ARRAY_ROOM(context, &maker->stack, 2));
+        if (node->axis != axis || above)
+            maker->stack.items[maker->stack.count + (node->axis != axis)] = node->below;
+        if (node->axis != axis || !above) maker->stack.items[maker->stack.count] = node->above;
+        maker->stack.count += 1 + (node->axis != axis);
+    }
+    return SL_OK;
+}
+
+static void extent(const sl_box *box, int axis, double *lo, double *hi) {
+    *lo = axis ? box->min.y : box->min.x;
+    *hi = axis ? box->max.y : box->max.x;
+}
+
+static sl_status add_portal(sl_context *context, portal_list *portals, const sl_node *split,
+                            uint32_t below, uint32_t above, double lo, double hi) {
+    const double at = split->position;
+    SL_TRY(SL_ARRAY_ROOM(context, portals, 1));
+    // Going up in the split's coordinate, the left hand is at high y (axis 0) or at low x (axis 1).
+    const sl_portal portal = split->axis == 0 ? (sl_portal){{below, above}, {at, hi}, {at, lo}}
+                                              : (sl_portal){{below, above}, {lo, at}, {hi, at}};
+    portals->items[portals->count++] = portal;
+    return SL_OK;
+}
+
+/// Adds what walls[*next ...] leave of lo .. hi; moves *next past the walls that end there.
+static sl_status add_free_pieces(sl_context *context, portal_maker *maker, const sl_node *split,
+                                 uint32_t below, uint32_t above, double lo, double hi,
+                                 const sl_piece *walls, size_t count, size_t *next) {
+    while (*next < count && walls[*next].hi <= lo) ++*next;
+    for (size_t i = *next; i < count && walls[i].lo < hi; i++) {
+        if (walls[i].lo > lo)
+            SL_TRY(add_portal(context, &maker->portals, split, below, above, lo, walls[i].lo));
+        if (walls[i].hi > lo) lo = walls[i].hi;
+    }
+    if (lo < hi) SL_TRY(add_portal(context, &maker->portals, split, below, above, lo, hi));
+    return SL_OK;
+}
+
+static sl_status make_portals_of(sl_context *context, portal_maker *maker, size_t node) {
+    const sl_kd_tree *tree = maker->tree;
+    const sl_node *split = &tree->nodes.items[node];
+    const sl_piece *walls = tree->on_splits.items + tree->splits.items[node].first;
+    const size_t wall_count = tree->splits.items[node].count;
+    SL_TRY(gather_cells(context, maker, split->below, split->axis, false, &maker->below));
+    SL_TRY(gather_cells(context, maker, split->above, split->axis, true, &maker->above));
+    size_t next_wall = 0;
+    for (size_t i = 0, j = 0; i < maker->below.count && j < maker->above.count;) {
+        const uint32_t below = maker->below.items[i], above = maker->above.items[j];
+        double lo, hi, other_lo, other_hi;
+        extent(&tree->cells.items[below], !split->axis, &lo, &hi);
+        extent(&tree->cells.items[above], !split->axis, &other_lo, &other_hi);
+        i += hi <= other_hi;
+        j += other_hi <= hi;
+        if (other_lo > lo) lo = other_lo;
+        if (other_hi < hi) hi = other_hi;
+        SL_TRY(add_free_pieces(context, maker, split, below, above, lo, hi, walls, wall_count,
+                               &next_wall));
+    }
+    return SL_OK;
+}
+
+static int compare_points(sl_point a, sl_point b) {
+    if (a.x != b.x) return a.x < b.x ? -1 : 1;
+    return (a.y > b.y) - (a.y < b.y);
+}
+
+static int compare_portals(const void *left, const void *right) {
+    const sl_portal *a = left, *b = right;
+    if (a->cell[0] != b->cell[0]) return a->cell[0] < b->cell[0] ? -1 : 1;
+    if (a->cell[1] != b->cell[1]) return a->cell[1] < b->cell[1] ? -1 : 1;
+    return compare_points(a->right, b->right);
+}
+
+/// Compares two exits of one cell by their place on its boundary, counter-clockwise from the corner
+/// at the lower left. That way round, an exit's right end comes first.
+static int compare_exits(const void *left, const void *right) {
+    const sl_exit *a = left, *b = right;
+    const sl_point u = {a->left.x - a->right.x, a->left.y - a->right.y};
+    const sl_point v = {b->left.x - b->right.x, b->left.y - b->right.y};
+    const int edge_a = u.x > 0 ? 0 : u.y > 0 ? 1 : u.x < 0 ? 2 : 3;
+    const int edge_b = v.x > 0 ? 0 : v.y > 0 ? 1 : v.x < 0 ? 2 : 3;
+    if (edge_a != edge_b) return edge_a - edge_b;
+    const int order = compare_points(a->right, b->right);
+    return edge_a < 2 ? order : -order;
+}
+
+static sl_status make_exits(sl_context *context, sl_space *space) {
+    space->exits = sl_alloc_array(context, space->exit_count, sizeof *space->exits);
+    if (!space->exits) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < space->portal_count; i++)
+        for (int side = 0; side < 2; side++)
+            space->cells[space->portals[i].cell[side]].exit_count++;
+    uint32_t first = 0;
+    for (uint32_t i = 0; i < space->cell_count; i++) {
+        space->cells[i].first_exit = first;
+        first += space->cells[i].exit_count;
+        space->cells[i].exit_count = 0;
+    }
+    for (uint32_t i = 0; i < space->portal_count; i++) {
+        const sl_portal *p = &space->portals[i];
+        for (int side = 0; side < 2; side++) {
+            sl_cell *cell = &space->cells[p->cell[side]];
+            space->exits[cell->first_exit + cell->exit_count++] =
+                (sl_exit){.portal = i,
+                          .cell = p->cell[!side],
+                          .left = side ? p->right : p->left,
+                          .right = side ? p->left : p->right};
+        }
+    }
+    for (uint32_t i = 0; i < space->cell_count; i++) {
+        const sl_cell *cell = &space->cells[i];
+        qsort(space->exits + cell->first_exit, cell->exit_count, sizeof *space->exits,
+              compare_exits);
+    }
+    return SL_OK;
+}
+
+static sl_status make_all(sl_context *context, portal_maker *maker, sl_space *space) {
+    for (size_t node = 0; node < maker->tree->nodes.count; node++) {
+        SL_TRY(sl_check_cancelled(context));
+        SL_TRY(make_portals_of(context, maker, node));
+    }
+    if (maker->portals.count > UINT32_MAX / 2) return sl_fail_memory(context);
+    if (maker->portals.count)
+        qsort(maker->portals.items, maker->portals.count, sizeof *maker->portals.items,
+              compare_portals);
+    space->portals = maker->portals.items;
+    space->portal_count = (uint32_t)maker->portals.count;
+    space->exit_count = 2 * space->portal_count;
+    maker->portals.items = NULL;
+    return make_exits(context, space);
+}
+
+sl_status sl_make_portals(sl_context *context, const sl_kd_tree *tree, sl_space *space) {
+    portal_maker maker = {.tree = tree};
+    const sl_status status = make_all(context, &maker, space);
+    sl_free(context, maker.stack.items);
+    sl_free(context, maker.below.items);
+    sl_free(context, maker.above.items);
+    sl_free(context, maker.portals.items);
+    return status;
+}

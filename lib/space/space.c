@@ -1,0 +1,121 @@
+#include "sightline/space.h"
+
+#include "base/base.h"
+#include "space/kd_tree.h"
+
+#include <math.h>
+#include <string.h>
+
+sl_subdivide_options sl_subdivide_options_default(void) {
+    return (sl_subdivide_options){
+        .spanning = true, .obscured = 0.2, .cleaving = true, .median = true};
+}
+
+void sl_space_destroy(sl_context *context, sl_space *space) {
+    sl_free(context, space->nodes);
+    sl_free(context, space->cells);
+    sl_free(context, space->vertices);
+    sl_free(context, space->portals);
+    sl_free(context, space->exits);
+    sl_free(context, space->walls);
+    *space = (sl_space){0};
+}
+
+/// A map whose walls all lie on one line has no area: what it lacks is added on both sides.
+static sl_box padded(sl_box box) {
+    const double width = box.max.x - box.min.x, height = box.max.y - box.min.y;
+    const double wider = width > height ? width : height;
+    if (width == 0) {
+        // Far from the origin a step that rounds to nothing would leave the map without area.
+        box.min.x = fmin(box.min.x - wider / 2, nextafter(box.min.x, -INFINITY));
+        box.max.x = fmax(box.max.x + wider / 2, nextafter(box.max.x, INFINITY));
+    }
+    if (height == 0) {
+        box.min.y = fmin(box.min.y - wider / 2, nextafter(box.min.y, -INFINITY));
+        box.max.y = fmax(box.max.y + wider / 2, nextafter(box.max.y, INFINITY));
+    }
+    return box;
+}
+
+static sl_status copy_cells(sl_context *context, const sl_kd_tree *tree, sl_space *space) {
+    const size_t count = tree->cells.count;
+    if (count > UINT32_MAX / 4) return sl_fail_memory(context);
+    space->cell_count = (uint32_t)count;
+    space->vertex_count = (uint32_t)count * 4;
+    space->cells = sl_alloc_array(context, count, sizeof *space->cells);
+    space->vertices = sl_alloc_array(context, count * 4, sizeof *space->vertices);
+    if (!space->cells || !space->vertices) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < space->cell_count; i++) {
+        const sl_box *box = &tree->cells.items[i];
+        space->cells[i] = (sl_cell){.first_vertex = 4 * i, .vertex_count = 4};
+        const sl_point corners[4] = {
+            box->min, {box->max.x, box->min.y}, box->max, {box->min.x, box->max.y}};
+        memcpy(&space->vertices[(size_t)4 * i], corners, sizeof corners);
+    }
+    return SL_OK;
+}
+
+static sl_status fill_space(sl_context *context, const sl_map *map, const sl_piece *walls,
+                            const sl_subdivide_options *options, sl_kd_tree *tree,
+                            sl_space *space) {
+    SL_TRY(sl_kd_build(context, walls, map->wall_count, space->bounds, options, tree));
+    SL_TRY(copy_cells(context, tree, space));
+    space->walls = sl_alloc_array(context, map->wall_count, sizeof *space->walls);
+    if (!space->walls) return SL_NO_MEMORY;
+    memcpy(space->walls, map->walls, map->wall_count * sizeof *space->walls);
+    space->wall_count = (uint32_t)map->wall_count;
+    SL_TRY(sl_make_portals(context, tree, space));
+    space->root = tree->root;
+    space->tree_depth = tree->depth;
+    space->node_count = (uint32_t)tree->nodes.count;
+    space->nodes = tree->nodes.items;
+    tree->nodes.items = NULL;
+    SL_TRY(sl_mark_inside(context, map, walls, space));
+    sl_report(context, "subdivide", "cells", space->cell_count, space->cell_count);
+    return SL_OK;
+}
+
+sl_status sl_subdivide_kd(sl_context *context, const sl_map *map,
+                          const sl_subdivide_options *options, sl_space *out) {
+    if (!(options->obscured >= 0 && options->obscured <= 1))
+        return sl_fail(context, SL_BAD_ARGUMENT, "the obscured share must lie between 0 and 1");
+    const char *source = map->source ? map->source : "the map";
+    if (!map->wall_count)
+        return sl_fail_at(context, source, 0, "the map has no walls: nothing to subdivide");
+    if (map->wall_count > INT32_MAX) return sl_fail_memory(context);
+    sl_space space = {.bounds = padded(sl_map_bounds(map))};
+    sl_kd_tree tree = {0};
+    sl_piece *walls = NULL;
+    sl_status status = sl_wall_lines(context, source, map->walls, map->wall_count, &walls);
+    if (status == SL_OK) status = fill_space(context, map, walls, options, &tree, &space);
+    sl_free(context, walls);
+    sl_kd_destroy(context, &tree);
+    if (status == SL_OK)
+        *out = space;
+    else
+        sl_space_destroy(context, &space);
+    return status;
+}
+
+uint32_t sl_space_locate(const sl_space *space, sl_point point) {
+    const sl_box *b = &space->bounds;
+    if (!space->cell_count || !(point.x >= b->min.x && point.x <= b->max.x) ||
+        !(point.y >= b->min.y && point.y <= b->max.y))
+        return SL_NO_CELL;
+    int32_t at = space->root;
+    while (at >= 0) {
+        const sl_node *node = &space->nodes[at];
+        at = (node->axis ? point.y : point.x) < node->position ? node->below : node->above;
+    }
+    return (uint32_t)~at;
+}
+
+double sl_space_area(const sl_space *space, uint32_t cell) {
+    const sl_cell *c = &space->cells[cell];
+    const sl_point *v = space->vertices + c->first_vertex;
+    double twice = 0;
+    for (uint32_t i = 2; i < c->vertex_count; i++)
+        twice +=
+            (v[i - 1].x - v[0].x) * (v[i].y - v[0].y) - (v[i].x - v[0].x) * (v[i - 1].y - v[0].y);
+    return twice / 2;
+}
