@@ -1,0 +1,279 @@
+/// Stabbing as a linear program (Teller & Séquin 1991, Finding Sightlines), solved by GLPK's
+/// simplex.
+///
+/// The line is S(P) = ux Py - uy Px + c, positive to its left; the columns are ux, uy, c and the
+/// margin d that is maximised. Each portal gives two rows, S(L) - d >= 0 and S(R) + d <= 0. Row 1
+/// makes the trivial line impossible: w·u = 1, where w is the sum of the crossing directions of the
+/// two portals that differ most in direction. Every u but 0 that crosses all portals forwards has
+/// w·u > 0 (unless all lie on one line), so the row takes no line away; it only fixes the length of
+/// u.
+#include "sightline/glpk.h"
+
+#include "base/base.h"
+
+#include <glpk.h>
+#include <math.h>
+#include <setjmp.h>
+
+/// Margins this near to zero, as a share of the bounds' size, are not trusted: simplex stops when
+/// rows hold to about its tolerance.
+#define TOLERANCE         1e-9
+#define SIMPLEX_TOLERANCE 1e-10
+
+enum { UX = 1, UY, C, D, COLUMNS = D };
+
+typedef struct vector {
+    double x, y;
+} vector;
+
+/// A pushed portal, and what its push left behind.
+typedef struct level {
+    vector rightmost, leftmost; ///< extremes of the crossing directions so far
+    double ux, uy, c;           ///< the line found, and its margin as GLPK has it
+    double margin;
+    size_t statuses; ///< where this level's basis starts in the stack of statuses
+} level;
+
+typedef struct simplex {
+    glp_prob *problem;
+    glp_smcp settings;
+    sl_point origin; ///< the bounds' middle
+    double scale;    ///< a power of two that brings the bounds to unit size
+    SL_ARRAY(level) levels;
+    SL_ARRAY(uint8_t) statuses;
+    SL_ARRAY(vector) ends; ///< of the rows from row 2 on, scaled: left and right in turn
+    jmp_buf failed;        ///< where GLPK's error hook goes
+} simplex;
+
+/// GLPK would end the process.
+static void leave_glpk(void *info) {
+    simplex *s = info;
+    longjmp(s->failed, 1);
+}
+
+static sl_status fail_glpk(sl_context *context, simplex *s) {
+    glp_error_hook(NULL, NULL);
+    glp_free_env();
+    glp_term_out(GLP_OFF);
+    s->problem = NULL;
+    return sl_fail(context, SL_NO_MEMORY, "GLPK gave up: out of memory, or an error of its own");
+}
+
+static void make_problem(simplex *s) {
+    glp_term_out(GLP_OFF);
+    s->problem = glp_create_prob();
+    glp_set_obj_dir(s->problem, GLP_MAX);
+    glp_add_cols(s->problem, COLUMNS);
+    for (int column = 1; column <= COLUMNS; column++)
+        glp_set_col_bnds(s->problem, column, GLP_FR, 0, 0);
+    glp_set_obj_coef(s->problem, D, 1);
+    glp_add_rows(s->problem, 1);
+    glp_set_row_bnds(s->problem, 1, GLP_FX, 1, 1);
+    glp_init_smcp(&s->settings);
+    s->settings.msg_lev = GLP_MSG_OFF;
+    s->settings.meth = GLP_DUALP;
+    s->settings.tol_bnd = s->settings.tol_dj = SIMPLEX_TOLERANCE;
+}
+
+static sl_status create(sl_context *context, sl_box bounds, void **state) {
+    // Asked first, since GLPK would end the process where it finds no memory for itself.
+    if (glp_init_env() > 1) return sl_fail(context, SL_NO_MEMORY, "GLPK finds no memory to start");
+    simplex *s = sl_alloc_array(context, 1, sizeof *s);
+    if (!s) return SL_NO_MEMORY;
+    const double width = bounds.max.x / 2 - bounds.min.x / 2;
+    const double height = bounds.max.y / 2 - bounds.min.y / 2;
+    int exponent;
+    (void)frexp(fmax(width, height), &exponent);
+    s->scale = ldexp(1, -exponent);
+    s->origin = (sl_point){bounds.min.x + width, bounds.min.y + height};
+    if (setjmp(s->failed)) {
+        const sl_status status = fail_glpk(context, s);
+        sl_free(context, s);
+        return status;
+    }
+    glp_error_hook(leave_glpk, s);
+    make_problem(s);
+    glp_error_hook(NULL, NULL);
+    *state = s;
+    return SL_OK;
+}
+
+static void destroy(sl_context *context, void *state) {
+    simplex *s = state;
+    if (!s) return;
+    if (s->problem) glp_delete_prob(s->problem);
+    sl_free(context, s->levels.items);
+    sl_free(context, s->statuses.items);
+    sl_free(context, s->ends.items);
+    sl_free(context, s);
+}
+
+static bool same(vector a, vector b) {
+    return a.x == b.x && a.y == b.y;
+}
+
+static double cross(vector a, vector b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+/// The unit direction that crosses a portal forwards: from right to left, turned clockwise.
+static vector crossing(sl_point left, sl_point right) {
+    const vector n = {left.y - right.y, right.x - left.x};
+    const double length = hypot(n.x, n.y);
+    return (vector){n.x / length, n.y / length};
+}
+
+static void widen(level *to, const level *from, vector direction) {
+    to->rightmost = !from || cross(direction, from->rightmost) > 0 ? direction : from->rightmost;
+    to->leftmost = !from || cross(from->leftmost, direction) > 0 ? direction : from->leftmost;
+}
+
+static void set_normalisation(simplex *s, const level *l) {
+    vector w = l->rightmost;
+    if (cross(l->rightmost, l->leftmost) > 0) {
+        w.x += l->leftmost.x;
+        w.y += l->leftmost.y;
+    }
+    const int columns[] = {0, UX, UY};
+    const double values[] = {0, w.x, w.y};
+    glp_set_mat_row(s->problem, 1, 2, columns, values);
+}
+
+static void set_end_row(simplex *s, int row, sl_point at, bool left) {
+    const vector end = {(at.x - s->origin.x) * s->scale, (at.y - s->origin.y) * s->scale};
+    s->ends.items[s->ends.count++] = end;
+    const int columns[] = {0, UX, UY, C, D};
+    const double values[] = {0, end.y, -end.x, 1, left ? -1 : 1};
+    glp_set_mat_row(s->problem, row, COLUMNS, columns, values);
+    glp_set_row_bnds(s->problem, row, left ? GLP_LO : GLP_UP, 0, 0);
+}
+
+static void save_basis(simplex *s, level *l) {
+    l->statuses = s->statuses.count;
+    uint8_t *to = s->statuses.items + l->statuses;
+    for (int i = 1; i <= COLUMNS; i++) *to++ = (uint8_t)glp_get_col_stat(s->problem, i);
+    for (int i = 1; i <= glp_get_num_rows(s->problem); i++)
+        *to++ = (uint8_t)glp_get_row_stat(s->problem, i);
+    s->statuses.count = (size_t)(to - s->statuses.items);
+}
+
+static void restore_basis(simplex *s, const level *l) {
+    const uint8_t *from = s->statuses.items + l->statuses;
+    for (int i = 1; i <= COLUMNS; i++) glp_set_col_stat(s->problem, i, *from++);
+    for (int i = 1; i <= glp_get_num_rows(s->problem); i++)
+        glp_set_row_stat(s->problem, i, *from++);
+}
+
+/// The smallest margin that the line really has to the ends in the rows.
+static double margin_of(const simplex *s, double ux, double uy, double c) {
+    double least = INFINITY;
+    for (int row = 2; row <= glp_get_num_rows(s->problem); row++) {
+        const vector end = s->ends.items[row - 2];
+        const double side = ux * end.y - uy * end.x + c;
+        least = fmin(least, row % 2 == 0 ? side : -side);
+    }
+    return least;
+}
+
+/// Solves from the basis at hand. True where the optimum that GLPK tells is that of a line: an
+/// ill-conditioned basis makes it tell optima that are none.
+static bool solve_once(simplex *s, level *l) {
+    if (glp_simplex(s->problem, &s->settings) != 0 || glp_get_status(s->problem) != GLP_OPT)
+        return false;
+    l->ux = glp_get_col_prim(s->problem, UX);
+    l->uy = glp_get_col_prim(s->problem, UY);
+    l->c = glp_get_col_prim(s->problem, C);
+    const double length = hypot(l->ux, l->uy), margin = margin_of(s, l->ux, l->uy, l->c);
+    l->margin = glp_get_obj_val(s->problem) / length;
+    return fabs(margin / length - l->margin) <= TOLERANCE;
+}
+
+/// Solves from the basis of the push before, or from a fresh one where the program has changed too
+/// much for it or it fails. False where neither comes to an end that can be trusted.
+static bool solve(simplex *s, level *l) {
+    const bool turned = s->levels.count && (!same(l->rightmost, l[-1].rightmost) ||
+                                            !same(l->leftmost, l[-1].leftmost));
+    if (!turned && solve_once(s, l)) return true;
+    glp_std_basis(s->problem);
+    return solve_once(s, l);
+}
+
+static sl_status push(sl_context *context, void *state, sl_point left, sl_point right,
+                      sl_stab_verdict *verdict) {
+    simplex *s = state;
+    if (!s->problem) return sl_fail(context, SL_NO_MEMORY, "GLPK gave up earlier");
+    SL_TRY(SL_ARRAY_ROOM(context, &s->levels, 1));
+    // Four columns, row 1, and two rows a portal, this one's included.
+    SL_TRY(SL_ARRAY_ROOM(context, &s->statuses, COLUMNS + 1 + 2 * (s->levels.count + 1)));
+    SL_TRY(SL_ARRAY_ROOM(context, &s->ends, 2));
+    level *l = &s->levels.items[s->levels.count];
+    widen(l, s->levels.count ? l - 1 : NULL, crossing(left, right));
+    if (setjmp(s->failed)) return fail_glpk(context, s);
+    glp_error_hook(leave_glpk, s);
+    set_normalisation(s, l);
+    const int row = glp_add_rows(s->problem, 2);
+    set_end_row(s, row, left, true);
+    set_end_row(s, row + 1, right, false);
+    const bool solved = solve(s, l);
+    save_basis(s, l);
+    s->levels.count++;
+    glp_error_hook(NULL, NULL);
+    if (!solved) {
+        // A bounded, feasible program has an optimum: that GLPK finds none is rounding's doing.
+        *l = (level){.rightmost = l->rightmost, .leftmost = l->leftmost, .statuses = l->statuses};
+        l->ux = l->rightmost.x;
+        l->uy = l->rightmost.y;
+        *verdict = SL_GRAZING;
+        return SL_OK;
+    }
+    *verdict = l->margin > TOLERANCE     ? SL_STABBED
+               : l->margin >= -TOLERANCE ? SL_GRAZING
+                                         : SL_HIDDEN;
+    return SL_OK;
+}
+
+static void pop(void *state) {
+    simplex *s = state;
+    const level *l = &s->levels.items[--s->levels.count];
+    s->statuses.count = l->statuses;
+    s->ends.count -= 2;
+    if (!s->problem) return;
+    const int last = glp_get_num_rows(s->problem);
+    const int rows[] = {0, last - 1, last};
+    glp_del_rows(s->problem, 2, rows);
+    if (!s->levels.count) {
+        glp_std_basis(s->problem);
+        return;
+    }
+    set_normalisation(s, l - 1);
+    restore_basis(s, l - 1);
+}
+
+static sl_line witness(const void *state) {
+    const simplex *s = state;
+    const level *l = &s->levels.items[s->levels.count - 1];
+    // The point of the line nearest to the middle of the bounds, and one further on.
+    const double square = l->ux * l->ux + l->uy * l->uy;
+    const double x = l->c * l->uy / square, y = -l->c * l->ux / square;
+    return (sl_line){{s->origin.x + x / s->scale, s->origin.y + y / s->scale},
+                     {s->origin.x + (x + l->ux) / s->scale, s->origin.y + (y + l->uy) / s->scale}};
+}
+
+static void leave_thread(void) {
+    glp_free_env();
+}
+
+const sl_solver *sl_glpk_simplex(void) {
+    static const sl_solver solver = {
+        .name = "glpk",
+        .what = "linear program by GLPK's simplex, in doubles: the teaching reference",
+        .guarantee = SL_ROUNDED,
+        .create = create,
+        .destroy = destroy,
+        .push = push,
+        .pop = pop,
+        .witness = witness,
+        .leave_thread = leave_thread,
+    };
+    return &solver;
+}
