@@ -1,0 +1,221 @@
+/// Depth-first search (Teller & Séquin 1991, Cell to Cell Visibility): from each source cell over
+/// the portals, as long as the sequence has a sightline. What is visited is the source's stab tree.
+///
+/// A direction that crosses portals of a sequence forwards is never crossed backwards by it: no
+/// sightline passes both strictly, and a cell is never entered twice, so that the search ends.
+///
+/// A rounded solver marks answers near zero. They are followed with either sight, so that all pairs
+/// of which rounding decided are known: they count as seen with closed sight, not with open.
+#include "base/bits.h"
+#include "base/threads.h"
+#include "cell_to_cell/methods.h"
+#include "cell_to_cell/pvs_rows.h"
+#include "cell_to_cell/tree_store.h"
+
+#include <string.h>
+
+/// A cell on the way from the source.
+typedef struct step {
+    uint32_t cell;
+    uint32_t next;      ///< exit to try next, from 0
+    uint32_t node;      ///< in the stab tree
+    uint32_t crossings; ///< the directions crossed so far, bits of enum crossing
+    bool grazing;       ///< the sequence is no more than grazed
+} step;
+
+enum crossing { RIGHTWARDS = 1, LEFTWARDS = 2, UPWARDS = 4, DOWNWARDS = 8 };
+
+/// All searches together.
+typedef struct search {
+    const sl_space *space;
+    const sl_see_options *options;
+    sl_tree_store trees;
+    sl_row_bytes *sure,
+        *doubtful;            ///< rows by source: seen whatever rounding did; seen unless it erred
+    sl_see_account *accounts; ///< by source
+} search;
+
+/// One thread's own.
+typedef struct searcher {
+    void *solver;
+    SL_ARRAY(step) steps;
+    sl_bits *sure, *doubtful;
+    sl_growing_tree tree;
+    sl_see_account account; ///< of the source at hand
+} searcher;
+
+static uint32_t crossing_of(const sl_exit *exit) {
+    if (exit->left.x == exit->right.x) return exit->left.y > exit->right.y ? RIGHTWARDS : LEFTWARDS;
+    return exit->left.x < exit->right.x ? UPWARDS : DOWNWARDS;
+}
+
+static uint32_t opposite(uint32_t crossing) {
+    return crossing & (RIGHTWARDS | UPWARDS) ? crossing << 1 : crossing >> 1;
+}
+
+/// Goes on from `to`; a sequence that counts as seen becomes a node of the stab tree.
+static sl_status enter(sl_context *context, const search *all, searcher *me, step to,
+                       uint32_t parent, uint32_t exit, bool counts) {
+    if (counts) {
+        to.node = (uint32_t)me->account.nodes++;
+        const sl_stab_node node = {.parent = parent, .cell = to.cell, .exit = exit};
+        if (all->options->trees) SL_TRY(sl_tree_grow(context, &all->trees, &me->tree, node));
+    }
+    SL_TRY(SL_ARRAY_ROOM(context, &me->steps, 1));
+    me->steps.items[me->steps.count++] = to;
+    if (me->steps.count - 1 > me->account.deepest)
+        me->account.deepest = (uint32_t)me->steps.count - 1;
+    return SL_OK;
+}
+
+/// Tries one exit of the last step: tests the sequence with it, and enters the cell behind.
+static sl_status try_exit(sl_context *context, const search *all, searcher *me, uint32_t number) {
+    const sl_solver *solver = all->options->solver;
+    const sl_exit *exit = &all->space->exits[number];
+    const step from = me->steps.items[me->steps.count - 1];
+    const uint32_t crossing = crossing_of(exit);
+    if (from.crossings & opposite(crossing)) return SL_OK;
+    if (all->options->inside_only && !all->space->cells[exit->cell].inside) return SL_OK;
+    if (++me->account.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
+
+    sl_stab_verdict verdict;
+    SL_TRY(solver->push(context, me->solver, exit->left, exit->right, &verdict));
+    const bool closed = all->options->sight == SL_CLOSED;
+    const bool rounded = solver->guarantee == SL_ROUNDED;
+    const bool grazing = verdict == SL_GRAZING || from.grazing;
+    if (verdict == SL_HIDDEN || (grazing && !closed && !rounded)) {
+        solver->pop(me->solver);
+        return SL_OK;
+    }
+    sl_bits_add(grazing && rounded ? me->doubtful : me->sure, exit->cell);
+    const step to = {
+        .cell = exit->cell, .crossings = from.crossings | crossing, .grazing = grazing};
+    return enter(context, all, me, to, from.node, number, closed || !grazing);
+}
+
+static sl_status search_from(sl_context *context, const search *all, searcher *me,
+                             uint32_t source) {
+    const sl_space *space = all->space;
+    sl_bits_add(me->sure, source);
+    me->steps.count = 0;
+    SL_TRY(enter(context, all, me, (step){.cell = source}, 0, UINT32_MAX, true));
+    while (me->steps.count) {
+        step *last = &me->steps.items[me->steps.count - 1];
+        const sl_cell *cell = &space->cells[last->cell];
+        if (last->next < cell->exit_count) {
+            SL_TRY(try_exit(context, all, me, cell->first_exit + last->next++));
+        } else if (--me->steps.count)
+            all->options->solver->pop(me->solver);
+    }
+    return SL_OK;
+}
+
+static sl_status search_unit(sl_context *context, void *job, void *state, size_t unit) {
+    search *all = job;
+    searcher *me = state;
+    const uint32_t count = all->space->cell_count, source = (uint32_t)unit;
+    if (all->options->inside_only && !all->space->cells[source].inside) return SL_OK;
+    const size_t bytes = sl_bits_words(count) * sizeof(sl_bits);
+    memset(me->sure, 0, bytes);
+    memset(me->doubtful, 0, bytes);
+    me->account = (sl_see_account){0};
+    SL_TRY(search_from(context, all, me, source));
+    SL_TRY(sl_row_append(context, &all->sure[source], me->sure, count));
+    SL_TRY(sl_row_append(context, &all->doubtful[source], me->doubtful, count));
+    if (all->options->trees) sl_tree_store_put(context, &all->trees, source, &me->tree);
+    all->accounts[source] = me->account;
+    return SL_OK;
+}
+
+static void end(sl_context *context, void *job, void *state) {
+    const search *all = job;
+    searcher *me = state;
+    const sl_solver *solver = all->options->solver;
+    solver->destroy(context, me->solver);
+    sl_free(context, me->steps.items);
+    sl_free(context, me->sure);
+    sl_free(context, me->doubtful);
+    sl_free(context, me->tree.nodes.items);
+    sl_free(context, me);
+}
+
+static sl_status begin(sl_context *context, void *job, void **state) {
+    const search *all = job;
+    searcher *me = sl_alloc_array(context, 1, sizeof *me);
+    if (!me) return SL_NO_MEMORY;
+    const size_t words = sl_bits_words(all->space->cell_count);
+    me->sure = sl_alloc_array(context, words, sizeof *me->sure);
+    me->doubtful = sl_alloc_array(context, words, sizeof *me->doubtful);
+    sl_status status = me->sure && me->doubtful ? SL_OK : SL_NO_MEMORY;
+    if (status == SL_OK)
+        status = all->options->solver->create(context, all->space->bounds, &me->solver);
+    if (status == SL_OK)
+        *state = me;
+    else
+        end(context, job, me);
+    return status;
+}
+
+static void sum_accounts(const search *all, sl_see_account *sum) {
+    for (uint32_t i = 0; i < all->space->cell_count; i++) {
+        const sl_see_account *one = &all->accounts[i];
+        sum->tests += one->tests;
+        sum->nodes += one->nodes;
+        if (one->deepest > sum->deepest) sum->deepest = one->deepest;
+    }
+}
+
+static sl_status search_all(sl_context *context, search *all, sl_visibility *out) {
+    const uint32_t count = all->space->cell_count;
+    const sl_work work = {.job = all,
+                          .begin = begin,
+                          .unit = search_unit,
+                          .end = end,
+                          .leave_thread = all->options->solver->leave_thread,
+                          .stage = "cell_to_cell",
+                          .units = "cells"};
+    SL_TRY(sl_work_run(context, &work, count, all->options->threads));
+    sum_accounts(all, &out->account);
+    sl_pvs sure = {0}, doubtful = {0};
+    sl_status status = sl_pvs_join(context, all->sure, count, &sure);
+    if (status == SL_OK) status = sl_pvs_join(context, all->doubtful, count, &doubtful);
+    if (status == SL_OK) status = sl_visibility_settle(context, &sure, &doubtful, out);
+    sl_pvs_destroy(context, &sure);
+    sl_pvs_destroy(context, &doubtful);
+    if (status == SL_OK && all->options->trees)
+        status = sl_tree_store_join(context, &all->trees, &out->trees);
+    return status;
+}
+
+static sl_status allocate(sl_context *context, search *all) {
+    const uint32_t count = all->space->cell_count;
+    all->sure = sl_alloc_array(context, count, sizeof *all->sure);
+    all->doubtful = sl_alloc_array(context, count, sizeof *all->doubtful);
+    all->accounts = sl_alloc_array(context, count, sizeof *all->accounts);
+    if (!all->sure || !all->doubtful || !all->accounts) return SL_NO_MEMORY;
+    if (!all->options->trees) return SL_OK;
+    return sl_tree_store_create(context, count, all->options->tree_bytes, &all->trees);
+}
+
+sl_status sl_see_dfs(sl_context *context, const sl_space *space, const sl_see_options *options,
+                     sl_visibility *out) {
+    if (!options->solver)
+        return sl_fail(context, SL_BAD_ARGUMENT, "the method 'dfs' needs a solver");
+    search all = {.space = space, .options = options};
+    sl_visibility visibility = {.sight = options->sight, .guarantee = options->solver->guarantee};
+    sl_status status = allocate(context, &all);
+    if (status == SL_OK) status = search_all(context, &all, &visibility);
+    for (uint32_t i = 0; i < space->cell_count; i++) {
+        if (all.sure) sl_free(context, all.sure[i].items);
+        if (all.doubtful) sl_free(context, all.doubtful[i].items);
+    }
+    sl_free(context, all.sure);
+    sl_free(context, all.doubtful);
+    sl_free(context, all.accounts);
+    sl_tree_store_destroy(context, &all.trees);
+    if (status == SL_OK)
+        *out = visibility;
+    else
+        sl_visibility_destroy(context, &visibility);
+    return status;
+}

@@ -1,0 +1,28 @@
+/// The table of cell-to-cell methods, and what they share.
+#include "cell_to_cell/methods.h"
+
+#include "base/base.h"
+
+sl_see_options sl_see_options_default(void) {
+    return (sl_see_options){.sight = SL_CLOSED, .tree_bytes = UINT64_C(256) << 20};
+}
+
+void sl_visibility_destroy(sl_context *context, sl_visibility *visibility) {
+    sl_pvs_destroy(context, &visibility->pvs);
+    sl_pvs_destroy(context, &visibility->doubtful);
+    sl_free(context, visibility->trees.offsets);
+    sl_free(context, visibility->trees.nodes);
+    *visibility = (sl_visibility){0};
+}
+
+const sl_see_method *sl_see_methods(size_t *count) {
+    static const sl_see_method methods[] = {
+        {.name = "dfs",
+         .what = "depth-first search over portal sequences, each tested for a sightline",
+         .stabs = true,
+         .guarantee = SL_EXACT,
+         .see = sl_see_dfs},
+    };
+    *count = sizeof methods / sizeof *methods;
+    return methods;
+}

@@ -1,0 +1,10 @@
+/// The methods that the table lists.
+#ifndef SL_METHODS_H
+#define SL_METHODS_H
+
+#include "sightline/cell_to_cell.h"
+
+sl_status sl_see_dfs(sl_context *context, const sl_space *space, const sl_see_options *options,
+                     sl_visibility *out);
+
+#endif

@@ -1,0 +1,31 @@
+/// Making potentially visible sets row by row.
+#ifndef SL_PVS_ROWS_H
+#define SL_PVS_ROWS_H
+
+#include "base/base.h"
+#include "base/bits.h"
+#include "sightline/cell_to_cell.h"
+
+/// Bytes of one or more encoded rows, growing.
+typedef SL_ARRAY(uint8_t) sl_row_bytes;
+
+/// Appends the encoding of a set of `count` possible members.
+sl_status sl_row_append(sl_context *context, sl_row_bytes *bytes, const sl_bits *set,
+                        uint32_t count);
+
+/// Sets the bits of a row's members.
+void sl_row_add_to(const sl_pvs *pvs, uint32_t cell, sl_bits *set);
+
+/// Joins rows[0 .. count) into one PVS and frees them, also on failure.
+sl_status sl_pvs_join(sl_context *context, sl_row_bytes *rows, uint32_t count, sl_pvs *out);
+
+/// The pairs (b, a) of all (a, b). Time and memory grow with the number of pairs.
+sl_status sl_pvs_transpose(sl_context *context, const sl_pvs *pvs, sl_pvs *out);
+
+/// Makes the result of a symmetric method from what it saw for sure and what it saw unless rounding
+/// erred (no pairs for exact ones): a pair found in either direction holds in both. Sets the PVS,
+/// the doubtful pairs and the counts of both.
+sl_status sl_visibility_settle(sl_context *context, const sl_pvs *sure, const sl_pvs *doubtful,
+                               sl_visibility *out);
+
+#endif

@@ -1,0 +1,79 @@
+/// Cell-to-cell visibility: which cells can see which.
+#ifndef SIGHTLINE_CELL_TO_CELL_H
+#define SIGHTLINE_CELL_TO_CELL_H
+
+#include "sightline/pvs.h"
+#include "sightline/space.h"
+#include "sightline/stab.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// A node of a stab tree: the portal sequence from the source cell down to here has a sightline.
+typedef struct sl_stab_node {
+    uint32_t parent; ///< a node of the same tree, before this one; its own number for the root
+    uint32_t cell;   ///< where the sequence ends
+    uint32_t exit;   ///< the exit crossed last, an index of space.exits; UINT32_MAX for the root
+} sl_stab_node;
+
+/// The stab trees of all source cells: tree c is nodes[offsets[c] .. offsets[c + 1]), parents
+/// first, numbered from 0 in each tree. A tree that the memory limit left out is empty.
+typedef struct sl_stab_trees {
+    uint32_t cell_count;
+    uint32_t left_out; ///< trees that the limit left out
+    uint64_t *offsets; ///< cell_count + 1
+    sl_stab_node *nodes;
+} sl_stab_trees;
+
+typedef struct sl_see_account {
+    uint64_t tests;          ///< stabbing tests (for GLPK: linear programs)
+    uint64_t nodes;          ///< stab-tree nodes, roots included, kept or not
+    uint64_t pairs;          ///< ordered pairs seen, each cell with itself included
+    uint64_t doubtful_pairs; ///< ordered pairs of which rounding decided
+    uint32_t deepest;        ///< portals in the longest sequence
+} sl_see_account;
+
+/// The result. Zeroed, it is empty.
+typedef struct sl_visibility {
+    sl_sight sight;
+    sl_guarantee guarantee;
+    sl_pvs pvs;
+    sl_pvs
+        doubtful; ///< pairs of which a rounded answer near zero decided; no rows for exact solvers
+    sl_stab_trees trees; ///< no cells where trees were not asked for
+    sl_see_account account;
+} sl_visibility;
+
+SL_API void sl_visibility_destroy(sl_context *context,
+                                  sl_visibility *visibility); ///< and zeroes it
+
+/// Start from sl_see_options_default().
+typedef struct sl_see_options {
+    sl_sight sight;
+    const sl_solver *solver; ///< needed by methods that stab
+    unsigned threads;        ///< 0: one a core; the result does not depend on it
+    bool trees;              ///< keep stab trees
+    uint64_t tree_bytes;     ///< limit on memory for them; the PVS has none
+    bool inside_only;        ///< look from and at inside cells only; other rows are empty
+} sl_see_options;
+
+SL_API sl_see_options sl_see_options_default(void);
+
+/// A method: reachable by name, listed everywhere from this table. Each row of a PVS holds the cell
+/// itself; pairs are symmetric. Reports stage "cell_to_cell", unit "cells".
+typedef struct sl_see_method {
+    const char *name, *what;
+    bool stabs; ///< whether it needs a solver; its guarantee is then the solver's
+    sl_guarantee guarantee;
+    sl_status (*see)(sl_context *context, const sl_space *space, const sl_see_options *options,
+                     sl_visibility *out);
+} sl_see_method;
+
+SL_API const sl_see_method *sl_see_methods(size_t *count);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
