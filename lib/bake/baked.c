@@ -1,0 +1,16 @@
+#include "sightline/bake.h"
+
+#include "base/base.h"
+
+bool sl_baked_counts(const sl_baked *baked, uint32_t cell) {
+    const sl_pvs *pvs = &baked->visibility.pvs;
+    if (cell < pvs->cell_count && pvs->offsets[cell] == pvs->offsets[cell + 1]) return false;
+    return !baked->map.start_count || baked->space.cells[cell].inside;
+}
+
+void sl_baked_destroy(sl_context *context, sl_baked *baked) {
+    sl_map_destroy(context, &baked->map);
+    sl_space_destroy(context, &baked->space);
+    sl_visibility_destroy(context, &baked->visibility);
+    *baked = (sl_baked){0};
+}

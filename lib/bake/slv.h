@@ -1,0 +1,54 @@
+/// The layout of a baked file (.slv).
+///
+/// A header, a table of sections, then the sections, each at a multiple of 8 bytes from the file's
+/// start, zeros between. Numbers are in the writing machine's byte order, which the header tells.
+/// The checksum is zlib's CRC-32 of all bytes of the file, its own four taken as 0. Readers pass
+/// over sections whose tag they do not know.
+#ifndef SL_SLV_H
+#define SL_SLV_H
+
+#include "sightline/bake.h"
+
+#define SL_SLV_MAGIC      "\x89SLV\r\n\x1a\n"
+#define SL_SLV_VERSION    1u
+#define SL_SLV_BYTE_ORDER 0x01020304u
+
+typedef struct sl_slv_header {
+    char magic[8];
+    uint32_t version, byte_order;
+    uint64_t file_bytes;
+    uint32_t section_count, checksum;
+} sl_slv_header;
+
+typedef struct sl_slv_section {
+    char tag[4];
+    uint32_t item_bytes;
+    uint64_t offset; ///< from the file's start
+    uint64_t count;  ///< of items
+} sl_slv_section;
+
+/// Section INFO, one item.
+typedef struct sl_slv_info {
+    double bounds[4]; ///< min x, min y, max x, max y
+    int32_t root;     ///< as a child of a node
+    uint32_t tree_depth, inside_count;
+    uint32_t sight, guarantee; ///< of sl_sight, sl_guarantee
+    uint32_t deepest, trees_left_out;
+    uint32_t reserved; ///< 0
+    uint64_t tests, nodes, pairs, doubtful_pairs;
+    char method[16], solver[16]; ///< names, filled with zeros
+} sl_slv_info;
+
+/// The other sections: NODE, CELL, VERT, PORT, EXIT hold the arrays of sl_space item by item, WALL
+/// its walls as segments; PVSO and PVSB are the offsets and bytes of the visible sets, DBTO and
+/// DBTB those of the doubtful pairs (only if there are any), TREO and TREN the offsets and nodes of
+/// the stab trees (only if asked for); MAPT is what the map holds beside its walls, as map text.
+_Static_assert(sizeof(sl_slv_header) == 32 && sizeof(sl_slv_section) == 24 &&
+                   sizeof(sl_slv_info) == 128,
+               "no padding in the file");
+_Static_assert(sizeof(sl_node) == 24 && sizeof(sl_cell) == 24 && sizeof(sl_point) == 16 &&
+                   sizeof(sl_portal) == 40 && sizeof(sl_exit) == 40 && sizeof(sl_segment) == 32 &&
+                   sizeof(sl_stab_node) == 12,
+               "no padding in the file");
+
+#endif

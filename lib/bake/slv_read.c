@@ -1,0 +1,262 @@
+/// Reading a baked file: nothing in it is believed before it is checked.
+#include "bake/slv.h"
+#include "base/file.h"
+
+#include <string.h>
+#include <zlib.h>
+
+typedef struct reader {
+    sl_context *context;
+    const char *name;
+    const char *bytes;
+    size_t size;
+    sl_slv_header header;
+    sl_baked *out;
+} reader;
+
+static sl_status fail_file(const reader *r, const char *what) {
+    return sl_fail_at(r->context, r->name, 0, "%s", what);
+}
+
+/// The checksum over the file, its own four bytes taken as 0.
+static uint32_t checksum_of(const reader *r) {
+    sl_slv_header header = r->header;
+    header.checksum = 0;
+    uLong sum = crc32(0, (const Bytef *)&header, sizeof header);
+    const Bytef *at = (const Bytef *)r->bytes + sizeof header;
+    for (size_t left = r->size - sizeof header; left;) {
+        const uInt part = left < (1u << 30) ? (uInt)left : 1u << 30;
+        sum = crc32(sum, at, part);
+        at += part;
+        left -= part;
+    }
+    return (uint32_t)sum;
+}
+
+static sl_status check_header(reader *r) {
+    if (r->size < sizeof r->header || memcmp(r->bytes, SL_SLV_MAGIC, 8) != 0)
+        return fail_file(r, "not a baked file (.slv): make one with sightline bake");
+    memcpy(&r->header, r->bytes, sizeof r->header);
+    const sl_slv_header *h = &r->header;
+    if (h->byte_order != SL_SLV_BYTE_ORDER)
+        return fail_file(r, "baked on a machine of other byte order: bake it again here");
+    if (h->version != SL_SLV_VERSION)
+        return sl_fail_at(r->context, r->name, 0,
+                          "version %u of the baked format; this program knows version %u: bake "
+                          "the map again",
+                          h->version, SL_SLV_VERSION);
+    if (h->file_bytes != r->size)
+        return sl_fail_at(r->context, r->name, 0,
+                          "cut short or damaged: %llu bytes expected, %zu found",
+                          (unsigned long long)h->file_bytes, r->size);
+    if (h->section_count > (r->size - sizeof *h) / sizeof(sl_slv_section))
+        return fail_file(r, "damaged: more sections than fit");
+    if (checksum_of(r) != h->checksum) return fail_file(r, "damaged: the checksum does not match");
+    return SL_OK;
+}
+
+/// Finds a section and checks its place. False where the file has none of that tag.
+static sl_status find_section(const reader *r, const char *tag, size_t item_bytes,
+                              sl_slv_section *out, bool *found) {
+    *found = false;
+    for (uint32_t i = 0; i < r->header.section_count; i++) {
+        sl_slv_section s;
+        memcpy(&s, r->bytes + sizeof r->header + i * sizeof s, sizeof s);
+        if (memcmp(s.tag, tag, sizeof s.tag) != 0) continue;
+        if (*found)
+            return sl_fail_at(r->context, r->name, 0, "damaged: section %s is there twice", tag);
+        if (s.item_bytes != item_bytes || s.offset > r->size ||
+            s.count > (r->size - s.offset) / item_bytes)
+            return sl_fail_at(r->context, r->name, 0, "damaged: section %s does not fit", tag);
+        *out = s;
+        *found = true;
+    }
+    return SL_OK;
+}
+
+/// Copies a section's items; SL_OK and none where an optional one is missing.
+static sl_status load(const reader *r, const char *tag, size_t item_bytes, bool optional,
+                      void **items, uint64_t *count) {
+    sl_slv_section s;
+    bool found;
+    *count = 0;
+    SL_TRY(find_section(r, tag, item_bytes, &s, &found));
+    if (!found && optional) return SL_OK;
+    if (!found) return sl_fail_at(r->context, r->name, 0, "damaged: section %s is missing", tag);
+    *items = sl_alloc_array(r->context, s.count, item_bytes);
+    if (!*items) return SL_NO_MEMORY;
+    if (s.count) memcpy(*items, r->bytes + s.offset, s.count * item_bytes);
+    *count = s.count;
+    return SL_OK;
+}
+
+/// As load, into a field of 32 bits.
+static sl_status load_counted(const reader *r, const char *tag, size_t item_bytes, void **items,
+                              uint32_t *count) {
+    uint64_t found;
+    SL_TRY(load(r, tag, item_bytes, false, items, &found));
+    if (found > UINT32_MAX)
+        return sl_fail_at(r->context, r->name, 0, "damaged: section %s is too long", tag);
+    *count = (uint32_t)found;
+    return SL_OK;
+}
+
+static sl_status load_info(const reader *r) {
+    sl_slv_section s;
+    bool found;
+    SL_TRY(find_section(r, "INFO", sizeof(sl_slv_info), &s, &found));
+    if (!found || s.count != 1) return fail_file(r, "damaged: section INFO is missing");
+    sl_slv_info info;
+    memcpy(&info, r->bytes + s.offset, sizeof info);
+    if (info.sight > SL_OPEN || info.guarantee > SL_ROUNDED ||
+        !memchr(info.method, 0, sizeof info.method) || !memchr(info.solver, 0, sizeof info.solver))
+        return fail_file(r, "damaged: section INFO makes no sense");
+    sl_baked *out = r->out;
+    out->space.bounds =
+        (sl_box){{info.bounds[0], info.bounds[1]}, {info.bounds[2], info.bounds[3]}};
+    out->space.root = info.root;
+    out->space.tree_depth = info.tree_depth;
+    out->space.inside_count = info.inside_count;
+    out->visibility.sight = (sl_sight)info.sight;
+    out->visibility.guarantee = (sl_guarantee)info.guarantee;
+    out->visibility.trees.left_out = info.trees_left_out;
+    out->visibility.account = (sl_see_account){.tests = info.tests,
+                                               .nodes = info.nodes,
+                                               .pairs = info.pairs,
+                                               .doubtful_pairs = info.doubtful_pairs,
+                                               .deepest = info.deepest};
+    memcpy(out->method, info.method, sizeof out->method);
+    memcpy(out->solver, info.solver, sizeof out->solver);
+    return SL_OK;
+}
+
+static sl_status load_walls(const reader *r) {
+    sl_space *space = &r->out->space;
+    sl_segment *segments = NULL;
+    SL_TRY(load_counted(r, "WALL", sizeof *segments, (void **)&segments, &space->wall_count));
+    space->walls = sl_alloc_array(r->context, space->wall_count, sizeof *space->walls);
+    for (uint32_t i = 0; space->walls && i < space->wall_count; i++)
+        space->walls[i] = (sl_wall){.a = segments[i].a, .b = segments[i].b};
+    sl_free(r->context, segments);
+    return space->walls ? SL_OK : SL_NO_MEMORY;
+}
+
+static sl_status load_space(const reader *r) {
+    sl_space *s = &r->out->space;
+    SL_TRY(load_counted(r, "NODE", sizeof *s->nodes, (void **)&s->nodes, &s->node_count));
+    SL_TRY(load_counted(r, "CELL", sizeof *s->cells, (void **)&s->cells, &s->cell_count));
+    SL_TRY(load_counted(r, "VERT", sizeof *s->vertices, (void **)&s->vertices, &s->vertex_count));
+    SL_TRY(load_counted(r, "PORT", sizeof *s->portals, (void **)&s->portals, &s->portal_count));
+    SL_TRY(load_counted(r, "EXIT", sizeof *s->exits, (void **)&s->exits, &s->exit_count));
+    SL_TRY(load_walls(r));
+    return sl_space_check(r->context, s);
+}
+
+static sl_status load_pvs(const reader *r, const char *offsets_tag, const char *bytes_tag,
+                          bool optional, sl_pvs *pvs) {
+    const uint32_t cells = r->out->space.cell_count;
+    uint64_t offsets, bytes;
+    SL_TRY(load(r, offsets_tag, sizeof *pvs->offsets, optional, (void **)&pvs->offsets, &offsets));
+    if (!offsets && optional) return SL_OK;
+    SL_TRY(load(r, bytes_tag, 1, false, (void **)&pvs->bytes, &bytes));
+    if (offsets != (uint64_t)cells + 1 || pvs->offsets[cells] != bytes)
+        return fail_file(r, "damaged: not one visible set a cell");
+    pvs->cell_count = cells;
+    return sl_pvs_check(r->context, pvs);
+}
+
+static uint64_t count_pairs(const sl_pvs *pvs) {
+    uint64_t pairs = 0;
+    for (uint32_t cell = 0; cell < pvs->cell_count; cell++) pairs += sl_pvs_count(pvs, cell);
+    return pairs;
+}
+
+/// A tree's nodes: parents first, each exit one of the parent's cell and leading to the node's.
+static bool tree_is_sound(const sl_space *space, const sl_stab_node *nodes, uint64_t count,
+                          uint32_t source) {
+    if (!count) return true;
+    if (nodes[0].parent != 0 || nodes[0].cell != source || nodes[0].exit != UINT32_MAX)
+        return false;
+    for (uint64_t i = 1; i < count; i++) {
+        const sl_stab_node *node = &nodes[i];
+        if (node->parent >= i || node->exit >= space->exit_count) return false;
+        const sl_cell *from = &space->cells[nodes[node->parent].cell];
+        if (node->exit < from->first_exit || node->exit - from->first_exit >= from->exit_count ||
+            space->exits[node->exit].cell != node->cell)
+            return false;
+    }
+    return true;
+}
+
+static sl_status load_trees(const reader *r) {
+    const sl_space *space = &r->out->space;
+    sl_stab_trees *trees = &r->out->visibility.trees;
+    const uint32_t cells = space->cell_count;
+    uint64_t offsets, nodes;
+    SL_TRY(load(r, "TREO", sizeof *trees->offsets, true, (void **)&trees->offsets, &offsets));
+    if (!offsets) return SL_OK;
+    SL_TRY(load(r, "TREN", sizeof *trees->nodes, false, (void **)&trees->nodes, &nodes));
+    if (offsets != (uint64_t)cells + 1 || trees->offsets[0] != 0 || trees->offsets[cells] != nodes)
+        return fail_file(r, "damaged: not one stab tree a cell");
+    for (uint32_t i = 0; i < cells; i++)
+        if (trees->offsets[i] > trees->offsets[i + 1] || trees->offsets[i + 1] > nodes)
+            return fail_file(r, "damaged: a stab tree ends before it starts");
+    for (uint32_t i = 0; i < cells; i++)
+        if (!tree_is_sound(space, trees->nodes + trees->offsets[i],
+                           trees->offsets[i + 1] - trees->offsets[i], i))
+            return sl_fail_at(r->context, r->name, 0, "damaged: stab tree %u is no tree", i);
+    trees->cell_count = cells;
+    return SL_OK;
+}
+
+static sl_status load_map(const reader *r) {
+    sl_slv_section s;
+    bool found;
+    SL_TRY(find_section(r, "MAPT", 1, &s, &found));
+    if (!found) return fail_file(r, "damaged: section MAPT is missing");
+    return sl_map_read_text(r->context, r->name, r->bytes + s.offset, s.count, &r->out->map);
+}
+
+static sl_status load_all(reader *r) {
+    SL_TRY(check_header(r));
+    SL_TRY(load_info(r));
+    SL_TRY(load_space(r));
+    sl_visibility *visibility = &r->out->visibility;
+    SL_TRY(load_pvs(r, "PVSO", "PVSB", false, &visibility->pvs));
+    SL_TRY(load_pvs(r, "DBTO", "DBTB", true, &visibility->doubtful));
+    if (count_pairs(&visibility->pvs) != visibility->account.pairs ||
+        count_pairs(&visibility->doubtful) != visibility->account.doubtful_pairs)
+        return fail_file(r, "damaged: the visible sets do not hold as many pairs as they should");
+    SL_TRY(load_trees(r));
+    return load_map(r);
+}
+
+/// Leads a message that does not name the file with its name.
+static sl_status name_file(const reader *r, sl_status status) {
+    char message[sizeof r->context->message];
+    memcpy(message, r->context->message, sizeof message);
+    if (status == SL_BAD_INPUT && strncmp(message, r->name, strlen(r->name)) != 0)
+        return fail_file(r, message);
+    return status;
+}
+
+sl_status sl_baked_parse(sl_context *context, const char *name, const void *bytes, size_t size,
+                         sl_baked *out) {
+    sl_baked baked = {0};
+    reader r = {.context = context, .name = name, .bytes = bytes, .size = size, .out = &baked};
+    const sl_status status = load_all(&r);
+    if (status == SL_OK) {
+        *out = baked;
+        return SL_OK;
+    }
+    sl_baked_destroy(context, &baked);
+    return name_file(&r, status);
+}
+
+sl_status sl_baked_read(sl_context *context, const char *path, sl_baked *out) {
+    sl_bytes file;
+    SL_TRY(sl_file_read(context, path, &file));
+    const sl_status status = sl_baked_parse(context, path, file.data, file.size, out);
+    sl_free(context, file.data);
+    return status;
+}

@@ -1,0 +1,177 @@
+#include "bake/slv.h"
+#include "base/file.h"
+#include "map/print.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <zlib.h>
+
+enum { MOST_SECTIONS = 16 };
+
+/// A file made ready: what goes into each section, still where it lies.
+typedef struct plan {
+    sl_slv_header header;
+    sl_slv_section sections[MOST_SECTIONS];
+    const void *contents[MOST_SECTIONS];
+    sl_segment *walls;
+    char *map_text;
+} plan;
+
+static void add_section(plan *p, const char *tag, const void *items, size_t item_bytes,
+                        uint64_t count) {
+    sl_slv_section *s = &p->sections[p->header.section_count];
+    memcpy(s->tag, tag, sizeof s->tag);
+    s->item_bytes = (uint32_t)item_bytes;
+    s->count = count;
+    p->contents[p->header.section_count++] = items;
+}
+
+static uint64_t section_bytes(const sl_slv_section *section) {
+    return section->item_bytes * section->count;
+}
+
+static uint64_t padded(uint64_t bytes) {
+    return (bytes + 7) / 8 * 8;
+}
+
+static sl_slv_info make_info(const sl_baked *baked) {
+    const sl_space *space = &baked->space;
+    const sl_see_account *account = &baked->visibility.account;
+    sl_slv_info info = {
+        .bounds = {space->bounds.min.x, space->bounds.min.y, space->bounds.max.x,
+                   space->bounds.max.y},
+        .root = space->root,
+        .tree_depth = space->tree_depth,
+        .inside_count = space->inside_count,
+        .sight = baked->visibility.sight,
+        .guarantee = baked->visibility.guarantee,
+        .deepest = account->deepest,
+        .trees_left_out = baked->visibility.trees.left_out,
+        .tests = account->tests,
+        .nodes = account->nodes,
+        .pairs = account->pairs,
+        .doubtful_pairs = account->doubtful_pairs,
+    };
+    memcpy(info.method, baked->method, sizeof info.method);
+    memcpy(info.solver, baked->solver, sizeof info.solver);
+    return info;
+}
+
+static sl_status copy_walls(sl_context *context, const sl_space *space, plan *p) {
+    p->walls = sl_alloc_array(context, space->wall_count, sizeof *p->walls);
+    if (!p->walls) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < space->wall_count; i++)
+        p->walls[i] = (sl_segment){space->walls[i].a, space->walls[i].b};
+    return SL_OK;
+}
+
+/// The map's text without its walls, which the space has.
+static sl_status print_map(sl_context *context, const sl_map *map, plan *p, size_t *size) {
+    sl_map others = *map;
+    others.wall_count = 0;
+    FILE *stream = open_memstream(&p->map_text, size);
+    if (!stream) return sl_fail_memory(context);
+    sl_map_print_text(&others, stream);
+    const bool failed = ferror(stream) != 0;
+    if (fclose(stream) != 0 || failed) return sl_fail_memory(context);
+    return SL_OK;
+}
+
+static void add_pvs(plan *p, const char *offsets_tag, const char *bytes_tag, const sl_pvs *pvs) {
+    add_section(p, offsets_tag, pvs->offsets, sizeof *pvs->offsets, (uint64_t)pvs->cell_count + 1);
+    add_section(p, bytes_tag, pvs->bytes, 1, pvs->offsets[pvs->cell_count]);
+}
+
+static void add_sections(plan *p, const sl_baked *baked, const sl_slv_info *info,
+                         size_t map_bytes) {
+    const sl_space *space = &baked->space;
+    const sl_stab_trees *trees = &baked->visibility.trees;
+    add_section(p, "INFO", info, sizeof *info, 1);
+    add_section(p, "NODE", space->nodes, sizeof *space->nodes, space->node_count);
+    add_section(p, "CELL", space->cells, sizeof *space->cells, space->cell_count);
+    add_section(p, "VERT", space->vertices, sizeof *space->vertices, space->vertex_count);
+    add_section(p, "PORT", space->portals, sizeof *space->portals, space->portal_count);
+    add_section(p, "EXIT", space->exits, sizeof *space->exits, space->exit_count);
+    add_section(p, "WALL", p->walls, sizeof *p->walls, space->wall_count);
+    add_pvs(p, "PVSO", "PVSB", &baked->visibility.pvs);
+    if (baked->visibility.account.doubtful_pairs)
+        add_pvs(p, "DBTO", "DBTB", &baked->visibility.doubtful);
+    if (trees->cell_count) {
+        add_section(p, "TREO", trees->offsets, sizeof *trees->offsets,
+                    (uint64_t)trees->cell_count + 1);
+        add_section(p, "TREN", trees->nodes, sizeof *trees->nodes,
+                    trees->offsets[trees->cell_count]);
+    }
+    add_section(p, "MAPT", p->map_text, 1, map_bytes);
+}
+
+static uint32_t checksum_on(uint32_t checksum, const void *bytes, uint64_t count) {
+    const Bytef *at = bytes;
+    for (uint64_t left = count; left;) {
+        const uInt part = left < (1u << 30) ? (uInt)left : 1u << 30;
+        checksum = (uint32_t)crc32(checksum, at, part);
+        at += part;
+        left -= part;
+    }
+    return checksum;
+}
+
+/// Places the sections one behind the other and sums up what will be written.
+static void lay_out(plan *p) {
+    static const char zeros[8] = {0};
+    sl_slv_header *header = &p->header;
+    memcpy(header->magic, SL_SLV_MAGIC, sizeof header->magic);
+    header->version = SL_SLV_VERSION;
+    header->byte_order = SL_SLV_BYTE_ORDER;
+    uint64_t at = sizeof *header + header->section_count * sizeof *p->sections;
+    for (uint32_t i = 0; i < header->section_count; i++) {
+        p->sections[i].offset = at;
+        at = padded(at + section_bytes(&p->sections[i]));
+    }
+    header->file_bytes = at;
+    uint32_t sum = checksum_on(0, header, sizeof *header);
+    sum = checksum_on(sum, p->sections, header->section_count * sizeof *p->sections);
+    for (uint32_t i = 0; i < header->section_count; i++) {
+        const uint64_t bytes = section_bytes(&p->sections[i]);
+        sum = checksum_on(sum, p->contents[i], bytes);
+        sum = checksum_on(sum, zeros, padded(bytes) - bytes);
+    }
+    header->checksum = sum;
+}
+
+/// Refused writes are left to the stream's error flag, which the commit asks.
+static sl_status write_plan(sl_context *context, const plan *p, FILE *stream) {
+    static const char zeros[8] = {0};
+    fwrite(&p->header, sizeof p->header, 1, stream);
+    fwrite(p->sections, sizeof *p->sections, p->header.section_count, stream);
+    for (uint32_t i = 0; i < p->header.section_count; i++) {
+        SL_TRY(sl_check_cancelled(context));
+        const uint64_t bytes = section_bytes(&p->sections[i]);
+        if (bytes) fwrite(p->contents[i], 1, bytes, stream);
+        fwrite(zeros, 1, padded(bytes) - bytes, stream);
+        sl_report(context, "write", "bytes", p->sections[i].offset + bytes, p->header.file_bytes);
+    }
+    return SL_OK;
+}
+
+static sl_status write_file(sl_context *context, const plan *p, const char *path) {
+    sl_output output;
+    SL_TRY(sl_output_open(context, path, &output));
+    return sl_output_close(context, &output, write_plan(context, p, output.stream));
+}
+
+sl_status sl_baked_write(sl_context *context, const sl_baked *baked, const char *path) {
+    plan p = {0};
+    const sl_slv_info info = make_info(baked);
+    size_t map_bytes = 0;
+    sl_status status = copy_walls(context, &baked->space, &p);
+    if (status == SL_OK) status = print_map(context, &baked->map, &p, &map_bytes);
+    if (status == SL_OK) {
+        add_sections(&p, baked, &info, map_bytes);
+        lay_out(&p);
+        status = write_file(context, &p, path);
+    }
+    sl_free(context, p.walls);
+    free(p.map_text);
+    return status;
+}

@@ -1,0 +1,50 @@
+/// The baked file (.slv): a space and its visibility, for the tools and for games.
+#ifndef SIGHTLINE_BAKE_H
+#define SIGHTLINE_BAKE_H
+
+#include "sightline/cell_to_cell.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// All that a baked file holds. Zeroed, it is empty. `map` holds what the map had beside its walls
+/// (starts, paths, objects, notes ...); the walls are the space's.
+typedef struct sl_baked {
+    sl_map map;
+    sl_space space;
+    sl_visibility visibility;
+    char method[16], solver[16]; ///< by name; solver "" for none
+} sl_baked;
+
+SL_API void sl_baked_destroy(sl_context *context, sl_baked *baked); ///< and zeroes it
+
+/// Whether reports and pictures count a cell: the bake looked from it, and it is inside, where the
+/// map's starts say what inside is.
+SL_API bool sl_baked_counts(const sl_baked *baked, uint32_t cell);
+
+/// Writes beside the target and takes its place when all is written: SL_IO leaves the old file
+/// intact. The bytes depend on the contents alone. Reports stage "write".
+SL_API sl_status sl_baked_write(sl_context *context, const sl_baked *baked, const char *path);
+
+/// Reads and checks everything: the checksum, every count, offset and index, the whole graph.
+/// SL_BAD_INPUT, naming the file, on any fault. `out` must be empty; on failure it stays so.
+SL_API sl_status sl_baked_read(sl_context *context, const char *path, sl_baked *out);
+
+/// As sl_baked_read from memory, which is only read; `name` is for messages.
+SL_API sl_status sl_baked_parse(sl_context *context, const char *name, const void *bytes,
+                                size_t size, sl_baked *out);
+
+/// An export for other programs.
+typedef struct sl_export_format {
+    const char *name, *what;
+    sl_status (*write)(sl_context *context, const sl_baked *baked, const char *path);
+} sl_export_format;
+
+SL_API const sl_export_format *sl_export_formats(size_t *count);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

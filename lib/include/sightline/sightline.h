@@ -1,0 +1,16 @@
+/// Sightline: 2D cell-and-portal visibility. All of the core library's public headers.
+#ifndef SIGHTLINE_SIGHTLINE_H
+#define SIGHTLINE_SIGHTLINE_H
+
+#include "sightline/bake.h"
+#include "sightline/cell_to_cell.h"
+#include "sightline/context.h"
+#include "sightline/geometry.h"
+#include "sightline/import.h"
+#include "sightline/map.h"
+#include "sightline/pvs.h"
+#include "sightline/solvers.h"
+#include "sightline/space.h"
+#include "sightline/stab.h"
+
+#endif
