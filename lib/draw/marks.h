@@ -1,0 +1,46 @@
+/// The marks that stand for things, drawn alike in the plan and in its legend. In page coordinates.
+#ifndef SL_DRAW_MARKS_H
+#define SL_DRAW_MARKS_H
+
+#include "draw/canvas.h"
+#include "draw/palette.h"
+#include "draw/scene.h"
+
+/// Widths of lines, and the size of a start's mark: by how large the cells come out on the page,
+/// within bounds that keep them visible and apart.
+typedef struct sl_pens {
+    double wall, portal, outline, tree, mark;
+} sl_pens;
+
+sl_pens sl_pens_for(const sl_scene *scene, const sl_view *view);
+
+void sl_set_colour(cairo_t *cairo, sl_colour colour);
+
+/// Each strokes the path.
+void sl_pen_wall(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens);
+void sl_pen_portal(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens);
+void sl_pen_outline(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens);
+void sl_pen_source_edge(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens);
+void sl_pen_path(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens);
+void sl_pen_object(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens);
+/// `depth` portals from the source cell: fainter and thinner the farther.
+void sl_pen_tree(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens, uint32_t depth);
+void sl_pen_tree_dots(cairo_t *cairo, const sl_palette *palette,
+                      uint32_t depth); ///< fills the path
+double sl_tree_width(const sl_pens *pens, uint32_t depth);
+
+/// Slanting lines over a box, `phase` telling where they run.
+void sl_mark_hatch(cairo_t *cairo, const sl_palette *palette, sl_box box, double spacing,
+                   double phase);
+/// An arrow head that points the way of the heading, in degrees counter-clockwise from right.
+void sl_mark_start(cairo_t *cairo, const sl_palette *palette, sl_point at, double heading,
+                   double size);
+void sl_mark_door(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens, sl_point a,
+                  sl_point b, bool open);
+void sl_mark_mirror(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens, sl_point a,
+                    sl_point b);
+/// Its arrow points to where one looks through: `a` to `b` on the page, from its right to its left.
+void sl_mark_oneway(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens, sl_point a,
+                    sl_point b);
+
+#endif

@@ -1,0 +1,215 @@
+#include "draw/plan.h"
+
+#include "base/base.h"
+#include "draw/marks.h"
+
+#include <math.h>
+
+/// What every layer draws with.
+typedef struct plan {
+    cairo_t *cairo;
+    const sl_scene *scene;
+    const sl_space *space;
+    const sl_map *map;
+    const sl_view *view;
+    const sl_palette *palette;
+    sl_pens pens;
+} plan;
+
+static void add_cell(const plan *p, uint32_t cell) {
+    const sl_cell *c = &p->space->cells[cell];
+    sl_path_polygon(p->cairo, p->view, p->space->vertices + c->first_vertex, c->vertex_count);
+}
+
+/// What is not shown: all of the bounds, hatched like cut masonry; cells are painted over it.
+static void draw_ground(const plan *p) {
+    const uint32_t *begin = p->scene->paint_begin;
+    if (begin[SL_PAINT_NONE + 1] == begin[SL_PAINT_NONE]) return;
+    const sl_box guard = sl_view_guard(p->view);
+    const sl_point low = sl_view_point(p->view, p->space->bounds.min);
+    const sl_point high = sl_view_point(p->view, p->space->bounds.max);
+    const sl_box box = {{fmax(low.x, guard.min.x), fmax(high.y, guard.min.y)},
+                        {fmin(high.x, guard.max.x), fmin(low.y, guard.max.y)}};
+    if (!(box.min.x < box.max.x && box.min.y < box.max.y)) return;
+    sl_set_colour(p->cairo, p->palette->ground);
+    cairo_rectangle(p->cairo, box.min.x, box.min.y, box.max.x - box.min.x, box.max.y - box.min.y);
+    cairo_fill(p->cairo);
+    sl_mark_hatch(p->cairo, p->palette, box, 9 * p->view->unit, low.x + low.y);
+}
+
+/// Cells of one colour make one path. Its thin stroke closes the seams that smoothed edges leave
+/// between neighbours.
+static void draw_cells(const plan *p) {
+    for (unsigned paint = SL_PAINT_NONE + 1; paint < SL_PAINT_COUNT; paint++) {
+        const uint32_t first = p->scene->paint_begin[paint], end = p->scene->paint_begin[paint + 1];
+        if (first == end) continue;
+        for (uint32_t i = first; i < end; i++) add_cell(p, p->scene->order[i]);
+        sl_set_colour(p->cairo, sl_scene_colour(p->scene, paint));
+        cairo_fill_preserve(p->cairo);
+        cairo_set_line_width(p->cairo, 0.6);
+        cairo_set_line_join(p->cairo, CAIRO_LINE_JOIN_MITER);
+        cairo_stroke(p->cairo);
+    }
+}
+
+static void draw_outlines(const plan *p) {
+    for (unsigned paint = SL_PAINT_NONE + 1; paint < SL_PAINT_COUNT; paint++)
+        for (uint32_t i = p->scene->paint_begin[paint]; i < p->scene->paint_begin[paint + 1]; i++)
+            add_cell(p, p->scene->order[i]);
+    sl_pen_outline(p->cairo, p->palette, &p->pens);
+}
+
+static void draw_portals(const plan *p) {
+    for (uint32_t i = 0; i < p->space->portal_count; i++) {
+        const sl_portal *portal = &p->space->portals[i];
+        if (sl_scene_shows(p->scene, portal->cell[0]))
+            sl_path_segment(p->cairo, p->view, portal->left, portal->right);
+    }
+    sl_pen_portal(p->cairo, p->palette, &p->pens);
+}
+
+static void draw_source_edge(const plan *p) {
+    if (!p->scene->chosen) return;
+    add_cell(p, p->scene->options.cell);
+    sl_pen_source_edge(p->cairo, p->palette, &p->pens);
+}
+
+static void draw_walls(const plan *p) {
+    sl_point a, b;
+    for (uint32_t i = 0; i < p->space->wall_count; i++)
+        sl_path_segment(p->cairo, p->view, p->space->walls[i].a, p->space->walls[i].b);
+    sl_pen_wall(p->cairo, p->palette, &p->pens);
+    for (size_t i = 0; i < p->map->door_count; i++) {
+        const sl_door *door = &p->map->doors[i];
+        if (sl_view_segment(p->view, door->segment.a, door->segment.b, &a, &b))
+            sl_mark_door(p->cairo, p->palette, &p->pens, a, b, door->open);
+    }
+    for (size_t i = 0; i < p->map->mirror_count; i++)
+        if (sl_view_segment(p->view, p->map->mirrors[i].segment.a, p->map->mirrors[i].segment.b, &a,
+                            &b))
+            sl_mark_mirror(p->cairo, p->palette, &p->pens, a, b);
+    for (size_t i = 0; i < p->map->oneway_count; i++)
+        if (sl_view_segment(p->view, p->map->oneways[i].segment.a, p->map->oneways[i].segment.b, &a,
+                            &b))
+            sl_mark_oneway(p->cairo, p->palette, &p->pens, a, b);
+}
+
+static sl_point exit_middle(const sl_exit *exit) {
+    return (sl_point){exit->left.x + (exit->right.x - exit->left.x) / 2,
+                      exit->left.y + (exit->right.y - exit->left.y) / 2};
+}
+
+/// How far the ray from a point of the cell runs before it leaves the cell.
+static double ray_length(const sl_space *space, uint32_t cell, sl_point from, sl_point direction) {
+    const sl_cell *c = &space->cells[cell];
+    const sl_point *corners = space->vertices + c->first_vertex;
+    double length = INFINITY;
+    for (uint32_t i = 0; i < c->vertex_count; i++) {
+        const sl_point a = corners[i], b = corners[(i + 1) % c->vertex_count];
+        const double nx = b.y - a.y, ny = a.x - b.x; // outwards, corners being counter-clockwise
+        const double ahead = nx * direction.x + ny * direction.y;
+        const double room = nx * (a.x - from.x) + ny * (a.y - from.y);
+        if (ahead > 0) length = fmin(length, fmax(room / ahead, 0));
+    }
+    return length;
+}
+
+/// Where a stroke that crosses a portal at right angles may bend: into the cell from the portal's
+/// middle, along its normal. `sign` is 1 to go the exit's way. Both such points and both middles
+/// lie in the convex cell, and so does the curve between them.
+static sl_point bend(const sl_space *space, uint32_t cell, const sl_exit *exit, double sign,
+                     double reach) {
+    const sl_point middle = exit_middle(exit);
+    const double along_x = exit->left.x - exit->right.x, along_y = exit->left.y - exit->right.y;
+    const double width = hypot(along_x, along_y);
+    const sl_point forward = {sign * along_y / width, -sign * along_x / width};
+    const double length = fmin(reach, 0.9 * ray_length(space, cell, middle, forward));
+    return (sl_point){middle.x + forward.x * length, middle.y + forward.y * length};
+}
+
+static void add_stroke(const plan *p, const sl_stroke *stroke) {
+    const sl_exit *exits = p->space->exits;
+    const sl_exit *from = stroke->from == UINT32_MAX ? NULL : &exits[stroke->from];
+    const sl_exit *to = &exits[stroke->to];
+    const uint32_t cell = from ? from->cell : p->scene->options.cell;
+    const sl_point start = from ? exit_middle(from) : p->scene->eye, end = exit_middle(to);
+    const double reach = 0.4 * hypot(end.x - start.x, end.y - start.y);
+    const sl_point controls[4] = {start, from ? bend(p->space, cell, from, 1, reach) : start,
+                                  bend(p->space, cell, to, -1, reach), end};
+    sl_path_curve(p->cairo, p->view, controls);
+}
+
+/// Where the stroke crosses its portal.
+static void add_dot(const plan *p, const sl_stroke *stroke) {
+    const double radius = 0.75 * sl_tree_width(&p->pens, stroke->depth - 1);
+    sl_point place;
+    if (!sl_view_holds(p->view, exit_middle(&p->space->exits[stroke->to]), &place)) return;
+    cairo_new_sub_path(p->cairo);
+    cairo_arc(p->cairo, place.x, place.y, radius, 0, 6.283185307179586);
+}
+
+static void draw_tree(const plan *p) {
+    const sl_stroke *strokes = p->scene->strokes;
+    for (size_t first = 0, end; first < p->scene->stroke_count; first = end) {
+        const uint32_t depth = strokes[first].depth;
+        for (end = first; end < p->scene->stroke_count && strokes[end].depth == depth; end++)
+            add_stroke(p, &strokes[end]);
+        sl_pen_tree(p->cairo, p->palette, &p->pens, depth - 1);
+        for (size_t i = first; i < end; i++) add_dot(p, &strokes[i]);
+        sl_pen_tree_dots(p->cairo, p->palette, depth - 1);
+    }
+}
+
+static void draw_objects(const plan *p) {
+    for (size_t i = 0; i < p->map->object_count; i++) {
+        const sl_box box = p->map->objects[i].box;
+        const sl_point corners[4] = {
+            box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}};
+        sl_path_polygon(p->cairo, p->view, corners, 4);
+    }
+    sl_pen_object(p->cairo, p->palette, &p->pens);
+}
+
+static void draw_starts(const plan *p) {
+    draw_objects(p);
+    for (size_t i = 0; i < p->map->path_count; i++) {
+        const sl_path *path = &p->map->paths[i];
+        for (size_t k = 1; k < path->count; k++)
+            sl_path_segment(p->cairo, p->view, path->points[k - 1], path->points[k]);
+    }
+    sl_pen_path(p->cairo, p->palette, &p->pens);
+    for (size_t i = 0; i < p->map->start_count; i++) {
+        sl_point place;
+        if (sl_view_holds(p->view, p->map->starts[i].at, &place))
+            sl_mark_start(p->cairo, p->palette, place, p->map->starts[i].heading, p->pens.mark);
+    }
+}
+
+sl_status sl_draw_onto(sl_context *context, cairo_t *cairo, const sl_scene *scene,
+                       const sl_view *view) {
+    static const struct {
+        unsigned layers; ///< any of them calls for it; 0: always
+        void (*draw)(const plan *p);
+    } steps[] = {
+        {0, draw_ground},
+        {0, draw_cells},
+        {SL_LAYER_CELLS, draw_outlines},
+        {0, draw_source_edge},
+        {SL_LAYER_PORTALS, draw_portals},
+        {SL_LAYER_STAB_TREE, draw_tree},
+        {SL_LAYER_WALLS, draw_walls},
+        {SL_LAYER_STARTS, draw_starts},
+    };
+    const plan p = {.cairo = cairo,
+                    .scene = scene,
+                    .space = &scene->baked->space,
+                    .map = &scene->baked->map,
+                    .view = view,
+                    .palette = &scene->palette,
+                    .pens = sl_pens_for(scene, view)};
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
+        SL_TRY(sl_check_cancelled(context));
+        if (!steps[i].layers || scene->options.layers & steps[i].layers) steps[i].draw(&p);
+    }
+    return SL_OK;
+}

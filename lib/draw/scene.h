@@ -1,0 +1,68 @@
+/// What a picture shows, worked out from a baked map before anything is drawn: each cell's paint,
+/// the counts, the strokes of the stab tree. One scene serves any number of views.
+#ifndef SL_DRAW_SCENE_H
+#define SL_DRAW_SCENE_H
+
+#include "sightline/draw.h"
+
+#include "draw/palette.h"
+
+/// How a cell is filled: nothing (one not shown), a tone of the floor or of what is seen, the
+/// chosen cell, a doubtful one, or a step of the heat map.
+typedef enum sl_paint {
+    SL_PAINT_NONE,
+    SL_PAINT_FLOOR,
+    SL_PAINT_SEEN = SL_PAINT_FLOOR + SL_TONES,
+    SL_PAINT_DOUBTFUL = SL_PAINT_SEEN + SL_TONES,
+    SL_PAINT_SOURCE,
+    SL_PAINT_HEAT,
+} sl_paint;
+
+#define SL_HEAT_STEPS  64
+#define SL_PAINT_COUNT (SL_PAINT_HEAT + SL_HEAT_STEPS)
+
+/// A stroke of the stab tree, between places where sequences cross portals: exits of the space,
+/// UINT32_MAX for the root. Sequences that share it are drawn once, at their least depth.
+typedef struct sl_stroke {
+    uint32_t from, to, depth;
+} sl_stroke;
+
+typedef struct sl_scene {
+    const sl_baked *baked;
+    sl_draw_options options;
+    sl_palette palette;
+
+    /// Cells by paint: those of paint p are order[paint_begin[p] .. paint_begin[p + 1]).
+    uint32_t *order;
+    uint32_t paint_begin[SL_PAINT_COUNT + 1];
+
+    bool outside;             ///< cells that do not count are shown, those that do are not
+    uint32_t population;      ///< cells shown: what the counts refer to
+    double cell_size;         ///< the side of a square of their mean area
+    uint32_t portals;         ///< those shown
+    bool chosen;              ///< a cell is chosen
+    bool shows_seen;          ///< and what it sees is painted
+    bool heat;                ///< or each cell's share of the area is
+    uint32_t seen, doubtful;  ///< cells, of the population
+    double seen_share;        ///< of the population's area
+    double least, most, mean; ///< of all shares, where heat
+    sl_stroke *strokes;       ///< deepest first
+    size_t stroke_count;
+    uint64_t tree_nodes;
+    uint32_t tree_depth; ///< portals in the longest sequence
+    sl_point eye;        ///< where the stab tree starts: a start in the chosen cell, or its middle
+} sl_scene;
+
+/// No portal joins cells that count (sl_baked_counts) with the others, so that one of the two is
+/// shown: the chosen cell's, those that count where none is chosen. `baked` is referred to, not
+/// copied. `out` is untouched on failure.
+sl_status sl_scene_make(sl_context *context, const sl_baked *baked, const sl_draw_options *options,
+                        sl_scene *out);
+void sl_scene_destroy(sl_context *context, sl_scene *scene);
+
+bool sl_scene_shows(const sl_scene *scene, uint32_t cell);
+
+/// The colour of a paint.
+sl_colour sl_scene_colour(const sl_scene *scene, unsigned paint);
+
+#endif

@@ -1,0 +1,362 @@
+/// What is drawn where: pixels of pictures read back.
+#include "sightline/draw.h"
+
+#include "test_draw_map.h"
+
+#include "draw/palette.h"
+#include "draw/plan.h"
+
+#include <cairo.h>
+#include <math.h>
+#include <unistd.h>
+
+/// Without a title and a legend the map stands inside margins of 40 on a page 1000 wide: 23 pixels
+/// for a unit, the upper border 40 below the page's.
+enum { WIDTH = 1000, MARGIN = 40, UNIT = 23, HIGH = 30 };
+
+typedef struct picture {
+    cairo_surface_t *surface;
+    int width, height;
+} picture;
+
+static picture draw(const draw_map *map, sl_draw_options options) {
+    sl_context *context = testing_context(NULL);
+    char directory[32], path[48];
+    draw_directory(directory);
+    snprintf(path, sizeof path, "%s/a.png", directory);
+    assert_ok(context, sl_draw_file(context, &map->baked, &options, path));
+    cairo_surface_t *surface = cairo_image_surface_create_from_png(path);
+    assert_int_equal(cairo_surface_status(surface), CAIRO_STATUS_SUCCESS);
+    unlink(path);
+    assert_int_equal(rmdir(directory), 0); // nothing else was left there
+    sl_context_destroy(context);
+    return (picture){surface, cairo_image_surface_get_width(surface),
+                     cairo_image_surface_get_height(surface)};
+}
+
+static sl_draw_options options_for(unsigned layers, uint32_t cell, bool dark) {
+    sl_draw_options options = sl_draw_options_default();
+    options.layers = layers;
+    options.cell = cell;
+    options.width = WIDTH;
+    options.dark = dark;
+    return options;
+}
+
+static sl_colour pixel_at(const picture *p, int x, int y) {
+    assert_true(x >= 0 && x < p->width && y >= 0 && y < p->height);
+    uint32_t value;
+    memcpy(&value,
+           cairo_image_surface_get_data(p->surface) +
+               (size_t)y * (size_t)cairo_image_surface_get_stride(p->surface) + 4 * (size_t)x,
+           sizeof value);
+    return (sl_colour){(value >> 16 & 255) / 255.0, (value >> 8 & 255) / 255.0,
+                       (value & 255) / 255.0};
+}
+
+/// The pixel at a place of the map.
+static sl_colour colour_at(const picture *p, double x, double y) {
+    return pixel_at(p, (int)floor(MARGIN + UNIT * x), (int)floor(MARGIN + UNIT * (HIGH - y)));
+}
+
+static bool same(sl_colour a, sl_colour b) {
+    const double rounding = 1.6 / 255;
+    return fabs(a.red - b.red) < rounding && fabs(a.green - b.green) < rounding &&
+           fabs(a.blue - b.blue) < rounding;
+}
+
+static bool one_of(sl_colour colour, const sl_colour *tones) {
+    for (int i = 0; i < SL_TONES; i++)
+        if (same(colour, tones[i])) return true;
+    return false;
+}
+
+static void each_kind_of_cell_has_its_colour(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    draw_map map = draw_map_make(context, DRAW_PLAIN);
+    for (int dark = 0; dark < 2; dark++) {
+        const sl_palette palette = sl_palette_make(dark);
+        const picture p =
+            draw(&map, options_for(SL_LAYER_CELLS | SL_LAYER_PVS, map.cells[LEFT_BELOW], dark));
+        assert_int_equal(p.width, WIDTH);
+        assert_int_equal(p.height, 2 * MARGIN + UNIT * HIGH);
+        assert_true(same(pixel_at(&p, 5, 5), palette.page));
+        assert_true(same(colour_at(&p, 10, 7), palette.source));
+        assert_true(one_of(colour_at(&p, 30, 7), palette.seen));
+        assert_true(one_of(colour_at(&p, 10, 17), palette.floor));
+        assert_true(one_of(colour_at(&p, 30, 17), palette.floor));
+        int ground = 0, hatch = 0;
+        for (int i = 0; i < 200; i++) {
+            const sl_colour colour = colour_at(&p, 10 + 0.1 * i, 25);
+            ground += same(colour, palette.ground);
+            hatch += !same(colour, palette.ground);
+        }
+        assert_true(ground > 100 && hatch > 5);
+        cairo_surface_destroy(p.surface);
+    }
+    sl_baked_destroy(context, &map.baked);
+    sl_context_destroy(context);
+}
+
+static void neighbours_have_different_tones(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    draw_map map = draw_map_make(context, DRAW_PLAIN);
+    picture p = draw(&map, options_for(SL_LAYER_CELLS, SL_NO_CELL, false));
+    assert_false(same(colour_at(&p, 10, 7), colour_at(&p, 30, 7)));
+    cairo_surface_destroy(p.surface);
+    p = draw(&map, options_for(SL_LAYER_PORTALS, SL_NO_CELL, false));
+    assert_true(same(colour_at(&p, 10, 7), colour_at(&p, 30, 7)));
+    cairo_surface_destroy(p.surface);
+    sl_baked_destroy(context, &map.baked);
+    sl_context_destroy(context);
+}
+
+/// How many of the pixels on a line of the map have a colour.
+static int count_on(const picture *p, double x0, double y0, double x1, double y1,
+                    sl_colour colour) {
+    int count = 0;
+    for (int i = 0; i <= 100; i++)
+        count += same(colour_at(p, x0 + (x1 - x0) * i / 100, y0 + (y1 - y0) * i / 100), colour);
+    return count;
+}
+
+static void layers_draw_their_lines(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    draw_map map = draw_map_make(context, DRAW_PLAIN);
+    const sl_palette palette = sl_palette_make(false);
+    picture p = draw(&map, options_for(SL_LAYER_WALLS, SL_NO_CELL, false));
+    assert_int_equal(count_on(&p, 1, 10, 39, 10, palette.wall), 101);
+    assert_int_equal(count_on(&p, 20, 0.5, 20, 3.5, palette.wall), 101);
+    assert_int_equal(count_on(&p, 20, 5, 20, 9, palette.wall), 0);
+    cairo_surface_destroy(p.surface);
+
+    p = draw(&map, options_for(SL_LAYER_PORTALS, SL_NO_CELL, false));
+    assert_int_equal(count_on(&p, 1, 10, 39, 10, palette.wall), 0);
+    // Dashed: a part of the line, not all of it.
+    const sl_colour floor = colour_at(&p, 10, 7);
+    const int blank = count_on(&p, 20, 5, 20, 9, floor);
+    assert_true(blank > 20 && blank < 80);
+    assert_int_equal(count_on(&p, 20, 0.5, 20, 3.5, floor), 101);
+    cairo_surface_destroy(p.surface);
+
+    p = draw(&map, options_for(SL_LAYER_STARTS, SL_NO_CELL, false));
+    assert_true(same(colour_at(&p, 5, 5.1), palette.start));
+    assert_true(same(colour_at(&p, 30.1, 15), palette.start));
+    // Heading up: its tip reaches farther up than to either side.
+    assert_true(same(colour_at(&p, 5, 5.35), palette.start));
+    assert_false(same(colour_at(&p, 5.35, 5), palette.start));
+    assert_true(same(colour_at(&p, 30.35, 15), palette.start));
+    cairo_surface_destroy(p.surface);
+    sl_baked_destroy(context, &map.baked);
+    sl_context_destroy(context);
+}
+
+static void stab_tree_runs_from_the_start_to_the_portal(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    draw_map map = draw_map_make(context, DRAW_PLAIN);
+    const sl_palette palette = sl_palette_make(false);
+    const uint32_t cell = map.cells[LEFT_BELOW];
+    picture p = draw(&map, options_for(SL_LAYER_STAB_TREE, cell, false));
+    // Nothing but the stroke crosses the middle between start and portal.
+    int crossed = 0;
+    for (int i = 0; i < 400; i++) crossed += !same(colour_at(&p, 12, 1 + 0.02 * i), palette.source);
+    assert_true(crossed > 0 && crossed < 20);
+    assert_false(same(colour_at(&p, 20, 7), palette.source_edge));
+    cairo_surface_destroy(p.surface);
+    p = draw(&map, options_for(SL_LAYER_STAB_TREE, map.cells[RIGHT_BELOW], false));
+    assert_int_equal(count_on(&p, 30, 1, 30, 9, palette.source), 101); // a tree that was not kept
+    cairo_surface_destroy(p.surface);
+    sl_baked_destroy(context, &map.baked);
+    sl_context_destroy(context);
+}
+
+static void heat_runs_over_the_whole_ramp(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    draw_map map = draw_map_make(context, DRAW_PLAIN);
+    for (int dark = 0; dark < 2; dark++) {
+        const picture p = draw(&map, options_for(SL_LAYER_PVS, SL_NO_CELL, dark));
+        assert_true(same(colour_at(&p, 10, 7), sl_palette_ramp(dark, 1)));
+        assert_true(same(colour_at(&p, 30, 7), sl_palette_ramp(dark, 1)));
+        assert_true(same(colour_at(&p, 10, 17), sl_palette_ramp(dark, 0)));
+        assert_true(same(colour_at(&p, 30, 17), sl_palette_ramp(dark, 0)));
+        cairo_surface_destroy(p.surface);
+    }
+    sl_baked_destroy(context, &map.baked);
+    sl_context_destroy(context);
+}
+
+static void doubtful_cells_stand_out(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    draw_map map = draw_map_make(context, DRAW_PLAIN);
+    sl_row_bytes rows[5] = {0};
+    sl_bits set[1] = {0};
+    sl_bits_add(set, map.cells[RIGHT_BELOW]);
+    assert_ok(context, sl_row_append(context, &rows[map.cells[LEFT_BELOW]], set, 5));
+    assert_ok(context, sl_pvs_join(context, rows, 5, &map.baked.visibility.doubtful));
+    const sl_palette palette = sl_palette_make(false);
+    const picture p = draw(&map, options_for(SL_LAYER_PVS, map.cells[LEFT_BELOW], false));
+    assert_true(same(colour_at(&p, 10, 7), palette.source));
+    assert_true(same(colour_at(&p, 30, 7), palette.doubtful));
+    cairo_surface_destroy(p.surface);
+    sl_baked_destroy(context, &map.baked);
+    sl_context_destroy(context);
+}
+
+/// Counts and shares are of the cells on the chosen one's side, inside or outside.
+static void counts_refer_to_the_right_cells(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    draw_map map = draw_map_make(context, DRAW_PLAIN);
+    sl_scene scene;
+    sl_draw_options options = options_for(SL_LAYER_PVS, map.cells[LEFT_BELOW], false);
+    assert_ok(context, sl_scene_make(context, &map.baked, &options, &scene));
+    assert_int_equal(scene.population, 4);
+    assert_int_equal(scene.portals, 2);
+    assert_int_equal(scene.seen, 2);
+    assert_true(scene.seen_share == 0.5);
+    assert_true(scene.eye.x == 5 && scene.eye.y == 5);
+    sl_scene_destroy(context, &scene);
+    options.cell = map.cells[OUTSIDE];
+    assert_ok(context, sl_scene_make(context, &map.baked, &options, &scene));
+    assert_int_equal(scene.population, 1);
+    assert_true(scene.outside && sl_scene_shows(&scene, map.cells[OUTSIDE]));
+    assert_false(sl_scene_shows(&scene, map.cells[LEFT_BELOW]));
+    assert_int_equal(scene.seen, 0);
+    sl_scene_destroy(context, &scene);
+    options.cell = SL_NO_CELL;
+    assert_ok(context, sl_scene_make(context, &map.baked, &options, &scene));
+    assert_true(scene.heat && !scene.shows_seen);
+    assert_true(scene.least == 0.25 && scene.most == 0.5 && scene.mean == 0.375);
+    sl_scene_destroy(context, &scene);
+    sl_baked_destroy(context, &map.baked);
+    sl_context_destroy(context);
+}
+
+/// Wherever the map stands and however large it is, the same picture comes out.
+static void place_and_size_do_not_matter(void **state) {
+    (void)state;
+    static const draw_place places[] = {
+        {1099511627776, -1099511627776, 1, 1},
+        {0, 0, 0x1p-480, 0x1p-480},
+        {0, 0, 0x1p490, 0x1p490},
+        {-0x1p495, 0x1p494, 0x1p490, 0x1p490},
+    };
+    sl_context *context = testing_context(NULL);
+    draw_map map = draw_map_make(context, DRAW_PLAIN);
+    const unsigned layers = (unsigned)sl_draw_options_default().layers & ~(unsigned)SL_LAYER_LEGEND;
+    const picture plain = draw(&map, options_for(layers | SL_LAYER_STAB_TREE, map.cells[0], false));
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        draw_map other = draw_map_make(context, places[i]);
+        const picture p =
+            draw(&other, options_for(layers | SL_LAYER_STAB_TREE, other.cells[0], false));
+        assert_int_equal(p.height, plain.height);
+        for (int y = 0; y < p.height; y += 3)
+            for (int x = 0; x < p.width; x += 3)
+                if (!same(pixel_at(&p, x, y), pixel_at(&plain, x, y)))
+                    fail_msg("place %zu: pixel %d, %d differs", i, x, y);
+        cairo_surface_destroy(p.surface);
+        sl_baked_destroy(context, &other.baked);
+    }
+    cairo_surface_destroy(plain.surface);
+    sl_baked_destroy(context, &map.baked);
+    sl_context_destroy(context);
+}
+
+/// A map a million times longer than wide keeps its shape on a page of a bounded one.
+static void thin_maps_are_not_stretched(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    const sl_palette palette = sl_palette_make(false);
+    const draw_place flat = {0, 0, 1e6, 1}, tall = {0, 0, 1, 1e6};
+    draw_map map = draw_map_make(context, flat);
+    picture p = draw(&map, options_for(SL_LAYER_WALLS, SL_NO_CELL, false));
+    assert_int_equal(p.height, 80 + (920 + 5) / 6);
+    int drawn = 0;
+    for (int y = 0; y < p.height; y++) drawn += !same(pixel_at(&p, 500, y), palette.page);
+    assert_true(drawn >= 1 && drawn <= 3);
+    assert_false(same(pixel_at(&p, 500, p.height / 2 - 1), palette.page));
+    cairo_surface_destroy(p.surface);
+    sl_baked_destroy(context, &map.baked);
+    map = draw_map_make(context, tall);
+    p = draw(&map, options_for(SL_LAYER_WALLS, SL_NO_CELL, false));
+    assert_int_equal(p.height, 80 + 920 * 14 / 10);
+    drawn = 0;
+    for (int x = 0; x < p.width; x++) drawn += !same(pixel_at(&p, x, 100), palette.page);
+    assert_true(drawn >= 1 && drawn <= 3);
+    cairo_surface_destroy(p.surface);
+    sl_baked_destroy(context, &map.baked);
+    sl_context_destroy(context);
+}
+
+/// A view, as a window has it, of a millionth of a cell or of a wall's surroundings.
+static void a_view_zoomed_in_shows_what_is_there(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    draw_map map = draw_map_make(context, DRAW_PLAIN);
+    const sl_palette palette = sl_palette_make(false);
+    const sl_draw_options options = options_for(127, map.cells[LEFT_BELOW], false);
+    sl_scene scene;
+    assert_ok(context, sl_scene_make(context, &map.baked, &options, &scene));
+    static const sl_point corners[] = {{10, 8}, {30, 8}, {10, 12}, {10, 10 - 0.5e-9}, {500, 500}};
+    const sl_colour expected[] = {palette.source, {0, 0, 0}, {0, 0, 0}, palette.wall, palette.page};
+    for (size_t i = 0; i < 5; i++) {
+        picture p = {cairo_image_surface_create(CAIRO_FORMAT_RGB24, 100, 100), 100, 100};
+        cairo_t *cairo = cairo_create(p.surface);
+        cairo_set_source_rgb(cairo, palette.page.red, palette.page.green, palette.page.blue);
+        cairo_paint(cairo);
+        const sl_view view = {corners[i], 1e11, 0, 0, 100, 100, 1};
+        assert_ok(context, sl_draw_onto(context, cairo, &scene, &view));
+        assert_int_equal(cairo_status(cairo), CAIRO_STATUS_SUCCESS);
+        cairo_destroy(cairo);
+        cairo_surface_flush(p.surface);
+        const sl_colour middle = pixel_at(&p, 50, 50);
+        if (i == 1)
+            assert_true(one_of(middle, palette.seen));
+        else if (i == 2)
+            assert_true(one_of(middle, palette.floor));
+        else
+            assert_true(same(middle, expected[i]));
+        if (i != 3) assert_true(same(pixel_at(&p, 0, 0), pixel_at(&p, 99, 99)));
+        cairo_surface_destroy(p.surface);
+    }
+    sl_scene_destroy(context, &scene);
+    sl_baked_destroy(context, &map.baked);
+    sl_context_destroy(context);
+}
+
+static void lightness_of_the_ramp_runs_one_way(void **state) {
+    (void)state;
+    for (int dark = 0; dark < 2; dark++) {
+        double before = dark ? -1 : 2;
+        for (int i = 0; i <= 100; i++) {
+            const sl_colour c = sl_palette_ramp(dark, i / 100.0);
+            const double luminance =
+                0.2126 * pow(c.red, 2.2) + 0.7152 * pow(c.green, 2.2) + 0.0722 * pow(c.blue, 2.2);
+            assert_true(dark ? luminance > before : luminance < before);
+            before = luminance;
+        }
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_kind_of_cell_has_its_colour),
+        cmocka_unit_test(neighbours_have_different_tones),
+        cmocka_unit_test(layers_draw_their_lines),
+        cmocka_unit_test(stab_tree_runs_from_the_start_to_the_portal),
+        cmocka_unit_test(heat_runs_over_the_whole_ramp),
+        cmocka_unit_test(doubtful_cells_stand_out),
+        cmocka_unit_test(counts_refer_to_the_right_cells),
+        cmocka_unit_test(place_and_size_do_not_matter),
+        cmocka_unit_test(thin_maps_are_not_stretched),
+        cmocka_unit_test(a_view_zoomed_in_shows_what_is_there),
+        cmocka_unit_test(lightness_of_the_ramp_runs_one_way),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
