@@ -1,0 +1,117 @@
+"""A folder of its own for runs of a program, with what must hold after every run checked."""
+import os
+import pathlib
+import re
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+
+# A sanitizer's finding must not look like a failure of the program's own.
+SANITIZERS = {
+    "ASAN_OPTIONS": "exitcode=97",
+    "LSAN_OPTIONS": "exitcode=98:print_suppressions=0:suppressions="
+                    + str(pathlib.Path(__file__).with_name("leaks.supp")),
+    "TSAN_OPTIONS": "exitcode=96",
+}
+
+
+class Fault(Exception):
+    """Something that must hold does not."""
+
+
+def program_argument():
+    """The program's path, taken out of a test's command line."""
+    return os.path.abspath(sys.argv.pop(1))
+
+
+def check(holds, what):
+    if not holds:
+        raise Fault(what)
+
+
+class Result:
+    def __init__(self, status, stdout, stderr, new_files):
+        self.status, self.stdout, self.stderr, self.new_files = status, stdout, stderr, new_files
+
+    def text(self):
+        return f"status {self.status}\n-- stdout\n{self.stdout}\n-- stderr\n{self.stderr}"
+
+
+class Sandbox:
+    """with Sandbox(program) as box: box.run([...])"""
+
+    def __init__(self, program):
+        self.program = program
+
+    def __enter__(self):
+        self._folder = tempfile.TemporaryDirectory(prefix="sightline-command-")
+        self.folder = pathlib.Path(self._folder.name)
+        return self
+
+    def __exit__(self, *_):
+        self._folder.cleanup()
+
+    def path(self, name):
+        path = self.folder / name
+        check(self.folder in path.resolve().parents, f"{name} lies outside the test's folder")
+        return path
+
+    def files(self):
+        return {str(path.relative_to(self.folder)): path.read_bytes() if path.is_file() else None
+                for path in self.folder.rglob("*")}
+
+    def start(self, arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE, file_limit=None,
+              environment=None):
+        """The program as a running process. file_limit: no file may grow beyond so many bytes."""
+        def prepare():
+            # Whoever runs the tests in the background has signals ignored; the program must not.
+            signal.signal(signal.SIGINT, signal.SIG_DFL)
+            signal.signal(signal.SIGTERM, signal.SIG_DFL)
+            if file_limit is not None:
+                resource.setrlimit(resource.RLIMIT_FSIZE, (file_limit, file_limit))
+            if stdout is None:
+                os.close(1)
+        variables = dict(os.environ, TERM="xterm")
+        for name, options in SANITIZERS.items():
+            variables[name] = ":".join(filter(None, (variables.get(name), options)))
+        return subprocess.Popen([self.program, *arguments], cwd=self.folder,
+                                env=dict(variables, **(environment or {})),
+                                stdin=subprocess.DEVNULL, stdout=stdout, stderr=stderr,
+                                preexec_fn=prepare)
+
+    def run(self, arguments, timeout=120, **how):
+        before = self.files()
+        process = self.start(arguments, **how)
+        return self.finish(process, before, timeout)
+
+    def finish(self, process, before, timeout=120):
+        """Waits for the end and checks what holds for every run."""
+        try:
+            stdout, stderr = process.communicate(timeout=timeout)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.communicate()
+            raise Fault(f"does not end within {timeout} seconds")
+        after = self.files()
+        result = Result(process.returncode, (stdout or b"").decode(errors="replace"),
+                        stderr.decode(errors="replace"), sorted(set(after) - set(before)))
+        try:
+            self._check(result, before, after)
+        except Fault as fault:
+            raise Fault(f"{fault}\n{result.text()}")
+        return result
+
+    @staticmethod
+    def _check(result, before, after):
+        check(result.status in (0, 1, 2), f"ends with status {result.status}")
+        check(not set(before) - set(after), f"removed {sorted(set(before) - set(after))}")
+        told = [line for line in result.stderr.splitlines() if not line.startswith("note: ")]
+        if result.status == 0:
+            check(not told, "done, and yet something is said on stderr")
+            return
+        changed = [name for name in after if name not in before or after[name] != before[name]]
+        check(not changed, f"failed, and yet wrote {changed}")
+        check(len(told) == 1 and re.match(r"sightline: .*[^\s.:]$", told[0]),
+              "failed without one line 'sightline: what is wrong' on stderr")

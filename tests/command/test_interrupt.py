@@ -1,0 +1,60 @@
+"""Ctrl-C and SIGTERM during a long bake: status 1, one line, no file and nothing left beside it.
+
+test_interrupt.py PROGRAM
+"""
+import signal
+import time
+import unittest
+
+import sandbox
+
+
+def pillars(count):
+    """A hall of pillars, none quite in line: portal sequences without end."""
+    side = 4 * count
+    lines = ["sightline 1", f"walls 0 0 {side} 0 {side} {side} 0 {side} 0 0"]
+    for i in range(count):
+        for j in range(count):
+            x, y = 4 * i + 1 + j % 3 / 4, 4 * j + 1 + i % 3 / 4
+            lines.append(f"walls {x} {y} {x + 1} {y} {x + 1} {y + 1} {x} {y + 1} {x} {y}")
+    return "\n".join(lines) + "\n"
+
+
+class Interrupt(unittest.TestCase):
+    def interrupted(self, number, *options, old=None):
+        with sandbox.Sandbox(PROGRAM) as box:
+            box.path("hall.map").write_text(pillars(24))
+            if old:
+                box.path("hall.slv").write_text(old)
+            before = box.files()
+            process = box.start(["bake", "hall.map", "-o", "hall.slv", *options])
+            time.sleep(1)
+            self.assertIsNone(process.poll(), "the bake is over too soon to be interrupted")
+            asked = time.monotonic()
+            process.send_signal(number)
+            result = box.finish(process, before, timeout=30)
+            self.assertLess(time.monotonic() - asked, 10)
+            self.assertEqual((result.status, result.stdout), (1, ""))
+            self.assertEqual(result.stderr, "sightline: interrupted\n")
+            self.assertEqual(box.files(), before)
+
+    def test_ctrl_c(self):
+        self.interrupted(signal.SIGINT)
+
+    def test_terminate(self):
+        self.interrupted(signal.SIGTERM, "--threads", "1")
+
+    def test_old_file_stays(self):
+        self.interrupted(signal.SIGINT, "--threads", "3", "--stab-trees", old="an older file")
+
+    def test_ignored_signal_stays_ignored(self):
+        """As under nohup, or in the background of a shell script."""
+        with sandbox.Sandbox("/bin/sh") as box:
+            box.path("flat.map").write_text("sightline 1\nwalls 0 0 4 0 4 3 0 3 0 0\n")
+            result = box.run(["-c", f'trap "" INT; kill -INT $$; "{PROGRAM}" bake flat.map -q'])
+            self.assertEqual(result.status, 0)
+
+
+if __name__ == "__main__":
+    PROGRAM = sandbox.program_argument()
+    unittest.main()

@@ -1,0 +1,61 @@
+"""The progress line: on a terminal only, one line, written over, cleared at the end.
+
+test_terminal.py PROGRAM
+"""
+import os
+import signal
+import time
+import unittest
+
+import sandbox
+from test_interrupt import pillars
+
+
+class Terminal(unittest.TestCase):
+    def talk(self, *options, environment=None, seconds=1.5):
+        """What a bake that is interrupted says to a terminal, and its status."""
+        with sandbox.Sandbox(PROGRAM) as box:
+            box.path("hall.map").write_text(pillars(24))
+            master, slave = os.openpty()
+            process = box.start(["bake", "hall.map", *options], stderr=slave,
+                                environment=environment)
+            os.close(slave)
+            time.sleep(seconds)
+            process.send_signal(signal.SIGINT)
+            process.communicate(timeout=30)
+            text = b""
+            while True:
+                try:
+                    more = os.read(master, 65536)
+                except OSError:  # Linux's way to say that all is read
+                    break
+                if not more:
+                    break
+                text += more
+            os.close(master)
+            return text.decode(), process.returncode
+
+    def test_line(self):
+        text, status = self.talk()
+        self.assertEqual(status, 1)
+        shown = text.split("\r\x1b[K")
+        lines = [line for line in shown if line.startswith("cell to cell: ")]
+        self.assertTrue(lines, text)
+        for line in lines:
+            self.assertRegex(line, r"^cell to cell: \d+/\d+ cells, \d+ %, .*\d+ (s|min|h)( left)?$")
+            self.assertLess(len(line), 80)
+        # At most ten times a second, and the last thing before the message is to clear the line.
+        self.assertLess(len(lines), 1.5 * 10 + 5)
+        self.assertEqual(shown[-1], "sightline: interrupted\r\n")
+
+    def test_quiet(self):
+        self.assertEqual(self.talk("--quiet")[0], "sightline: interrupted\r\n")
+
+    def test_dumb_terminal(self):
+        text, _ = self.talk(environment={"TERM": "dumb"})
+        self.assertEqual(text, "sightline: interrupted\r\n")
+
+
+if __name__ == "__main__":
+    PROGRAM = sandbox.program_argument()
+    unittest.main()

@@ -1,0 +1,119 @@
+#include "bake_report.h"
+
+#include "base/base.h"
+#include "json_print.h"
+#include "mean_pvs.h"
+#include "names.h"
+#include "sizes.h"
+
+#include <inttypes.h>
+
+// --- JSON
+
+static void add_seconds(sl_json_fields *fields, const sl_bake_report *report) {
+    sl_json_fields seconds = sl_json_begin();
+    sl_json_add_real(&seconds, "read", report->seconds.read);
+    sl_json_add_real(&seconds, "subdivide", report->seconds.subdivide);
+    if (report->checked) sl_json_add_real(&seconds, "check", report->seconds.check);
+    sl_json_add_real(&seconds, "cell_to_cell", report->seconds.cell_to_cell);
+    sl_json_add_real(&seconds, "write", report->seconds.write);
+    sl_json_add_fields(fields, "seconds", &seconds);
+}
+
+static void add_visibility(sl_json_fields *fields, const sl_visibility *visibility) {
+    const sl_see_account *account = &visibility->account;
+    const sl_stab_trees *trees = &visibility->trees;
+    sl_json_add_count(fields, "pairs", account->pairs);
+    sl_json_add_count(fields, "doubtful_pairs", account->doubtful_pairs);
+    sl_json_add_count(fields, "tests", account->tests);
+    sl_json_add_count(fields, "tree_nodes", account->nodes);
+    sl_json_add_count(fields, "longest_sequence", account->deepest);
+    if (!trees->cell_count) return;
+    sl_json_add_count(fields, "tree_nodes_kept", trees->offsets[trees->cell_count]);
+    sl_json_add_count(fields, "trees_left_out", trees->left_out);
+}
+
+sl_status sl_bake_report_print_json(sl_context *context, const sl_bake_report *report) {
+    const sl_baked *baked = report->baked;
+    const sl_space *space = &baked->space;
+    sl_mean_pvs mean;
+    SL_TRY(sl_mean_pvs_of(context, baked, &mean));
+
+    sl_json_fields fields = sl_json_begin();
+    sl_json_add_text(&fields, "map", report->input);
+    sl_json_add_text(&fields, "output", report->output);
+    sl_json_add_text(&fields, "subdivide", report->subdivide);
+    sl_json_add_text(&fields, "method", baked->method);
+    sl_json_add_text(&fields, "solver", baked->solver[0] ? baked->solver : NULL);
+    sl_json_add_text(&fields, "sight", sl_sight_name(baked->visibility.sight));
+    sl_json_add_text(&fields, "guarantee", sl_guarantee_name(baked->visibility.guarantee));
+    add_seconds(&fields, report);
+    sl_json_add_cleaning(&fields, "cleaning", &report->cleaning);
+    sl_json_add_count(&fields, "walls", space->wall_count);
+    sl_json_add_count(&fields, "cells", space->cell_count);
+    sl_json_add_count(&fields, "inside_cells", space->inside_count);
+    sl_json_add_count(&fields, "portals", space->portal_count);
+    sl_json_add_count(&fields, "tree_depth", space->tree_depth);
+    add_visibility(&fields, &baked->visibility);
+    sl_mean_pvs_add_json(&fields, &mean);
+    sl_json_add_count(&fields, "peak_memory_bytes", sl_size_of_peak_memory());
+    sl_json_add_count(&fields, "file_bytes", sl_size_of_file(report->output));
+    return sl_json_print(context, &fields);
+}
+
+// --- text
+
+void sl_cleaning_print(const sl_clean_account *account) {
+    if (account->zero_length || account->duplicate || account->merged || account->split)
+        printf(", from %zu read: %zu of zero length, %zu duplicate, %zu merged, %zu split",
+               account->before, account->zero_length, account->duplicate, account->merged,
+               account->split);
+    putchar('\n');
+}
+
+static void print_visibility(const sl_baked *baked) {
+    const sl_visibility *visibility = &baked->visibility;
+    const sl_see_account *account = &visibility->account;
+    printf("  pairs     %" PRIu64 " seen, %s sight, by %s%s%s (%s)\n", account->pairs,
+           sl_sight_name(visibility->sight), baked->method, baked->solver[0] ? " with " : "",
+           baked->solver, sl_guarantee_name(visibility->guarantee));
+    if (account->doubtful_pairs)
+        printf("  doubtful  %" PRIu64 " of them, of which rounding decided\n",
+               account->doubtful_pairs);
+    printf("  work      %" PRIu64 " stabbing tests, %" PRIu64
+           " tree nodes, longest sequence %" PRIu32 "\n",
+           account->tests, account->nodes, account->deepest);
+    const sl_stab_trees *trees = &visibility->trees;
+    if (trees->cell_count)
+        printf("  trees     %" PRIu64 " nodes kept, %" PRIu32 " of %" PRIu32
+               " trees left out by --tree-memory\n",
+               trees->offsets[trees->cell_count], trees->left_out, trees->cell_count);
+}
+
+static void print_seconds(const sl_bake_report *report) {
+    printf("  seconds   read %.3f, subdivide %.3f", report->seconds.read,
+           report->seconds.subdivide);
+    if (report->checked) printf(", check %.3f", report->seconds.check);
+    printf(", cell to cell %.3f, write %.3f\n", report->seconds.cell_to_cell,
+           report->seconds.write);
+}
+
+sl_status sl_bake_report_print(sl_context *context, const sl_bake_report *report) {
+    const sl_space *space = &report->baked->space;
+    sl_mean_pvs mean;
+    SL_TRY(sl_mean_pvs_of(context, report->baked, &mean));
+    char file[SL_SIZE_TEXT], memory[SL_SIZE_TEXT];
+    sl_size_write(sl_size_of_file(report->output), file);
+    sl_size_write(sl_size_of_peak_memory(), memory);
+    printf("%s: %s, baked from %s\n", report->output, file, report->input);
+    printf("  walls     %" PRIu32, space->wall_count);
+    sl_cleaning_print(&report->cleaning);
+    printf("  cells     %" PRIu32 ", %" PRIu32 " of them inside; tree depth %" PRIu32 "\n",
+           space->cell_count, space->inside_count, space->tree_depth);
+    printf("  portals   %" PRIu32 "\n", space->portal_count);
+    print_visibility(report->baked);
+    sl_mean_pvs_print(&mean);
+    print_seconds(report);
+    printf("  memory    %s at most\n", memory);
+    return SL_OK;
+}

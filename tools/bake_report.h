@@ -1,0 +1,24 @@
+/// What a bake did and how long it took, as text for people and as JSON for programs.
+#ifndef BAKE_REPORT_H
+#define BAKE_REPORT_H
+
+#include "sightline/bake.h"
+
+typedef struct sl_bake_report {
+    const char *input, *output, *subdivide;
+    const sl_baked *baked;
+    sl_clean_account cleaning;
+    bool checked; ///< whether sl_space_check was run
+    struct {
+        double read; ///< cleaning included
+        double subdivide, check, cell_to_cell, write;
+    } seconds;
+} sl_bake_report;
+
+/// What cleaning did, if anything, and the end of the line.
+void sl_cleaning_print(const sl_clean_account *account);
+
+sl_status sl_bake_report_print(sl_context *context, const sl_bake_report *report);
+sl_status sl_bake_report_print_json(sl_context *context, const sl_bake_report *report);
+
+#endif

@@ -1,0 +1,53 @@
+#include "base/base.h"
+#include "commands.h"
+#include "inputs.h"
+#include "options.h"
+
+#include <stdio.h>
+
+static sl_status convert(sl_context *context, const char *input, const char *slice, bool clean,
+                         const char *output) {
+    sl_map map = {0};
+    SL_TRY(sl_input_read_either(context, input, slice, &map));
+    sl_status status = clean ? sl_map_clean(context, &map, NULL) : SL_OK;
+    if (status == SL_OK)
+        status = sl_input_ends_with(output, ".txt") ? sl_map_write_plan(context, &map, output)
+                                                    : sl_map_write_text(context, &map, output);
+    sl_map_destroy(context, &map);
+    return status;
+}
+
+sl_status sl_cmd_convert(sl_console *console, int argc, char **argv) {
+    const char *input = NULL, *output = NULL, *slice = NULL;
+    bool clean = false;
+    const sl_option_spec options[] = {
+        {"output", 'o', "OUT.map|OUT.txt", NULL, &output,
+         "map text or an ASCII plan, by the ending;\nwithout it, or for -, map text on stdout"},
+        {"slice", 0, "Z", NULL, &slice, "cut a 3D model at this height"},
+        {"clean", 0, NULL, &clean, NULL,
+         "merge and split walls as bake does before it\nsubdivides; without it they stay as read"},
+    };
+    const sl_command_usage usage = {
+        .name = "convert",
+        .synopsis = "IN [-o OUT.map|OUT.txt] [options]",
+        .operands = {"IN"},
+        .what =
+            "Writes any map that can be read, or the map of a baked file (by its ending, .slv),\n"
+            "as map text or as an ASCII plan.",
+        .tables = sl_input_print_formats,
+        .examples = "  sightline convert plan.txt -o plan.map\n"
+                    "  sightline convert tower.ug --slice 1040 -o floor.map",
+        .options = options,
+        .option_count = sizeof options / sizeof *options,
+    };
+    bool helped;
+    SL_TRY(sl_option_parse(console, &usage, argc, argv, &input, &helped));
+    if (helped) return SL_OK;
+    if (!output) output = "-";
+    const bool to_stdout = output[0] == '-' && !output[1];
+    if (!to_stdout && !sl_input_ends_with(output, ".map") && !sl_input_ends_with(output, ".txt"))
+        return sl_fail(console->context, SL_BAD_ARGUMENT,
+                       "-o %s: end the name in .map for map text or in .txt for an ASCII plan",
+                       output);
+    return convert(console->context, input, slice, clean, output);
+}

@@ -1,0 +1,55 @@
+#include "base/base.h"
+#include "commands.h"
+#include "inputs.h"
+#include "options.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+static sl_name_table format_names(void) {
+    size_t count;
+    const sl_export_format *formats = sl_export_formats(&count);
+    return (sl_name_table){"format", formats, sizeof *formats, count};
+}
+
+static void print_formats(void) {
+    size_t count;
+    const sl_export_format *formats = sl_export_formats(&count);
+    puts("\nformats (the first is the default):");
+    for (size_t i = 0; i < count; i++) printf("  %-10s%s\n", formats[i].name, formats[i].what);
+}
+
+sl_status sl_cmd_export(sl_console *console, int argc, char **argv) {
+    const char *path = NULL, *format = NULL, *output = NULL;
+    const sl_option_spec options[] = {
+        {"output", 'o', "FILE", NULL, &output, "where to write; stdout, or -, without it"},
+        {"format", 0, "NAME", NULL, &format, "what to write"},
+    };
+    const sl_command_usage usage = {
+        .name = "export",
+        .synopsis = "FILE.slv [--format NAME] [-o FILE] [options]",
+        .operands = {"FILE.slv"},
+        .what = "Writes a baked file for other programs: cells, portals, and what each cell sees.",
+        .tables = print_formats,
+        .examples = "  sightline export office.slv --format json -o office.json",
+        .options = options,
+        .option_count = sizeof options / sizeof *options,
+    };
+    bool helped;
+    SL_TRY(sl_option_parse(console, &usage, argc, argv, &path, &helped));
+    if (helped) return SL_OK;
+    size_t chosen = 0, count;
+    const sl_name_table names = format_names();
+    SL_TRY(sl_option_choice(console->context, "--format", format, &names, &chosen));
+
+    sl_baked baked = {0};
+    SL_TRY(sl_input_read_baked(console->context, path, &baked));
+    if (!output) output = "-";
+    sl_progress_line_clear(&console->line);
+    if (strcmp(output, "-") == 0 && isatty(STDOUT_FILENO)) console->line.shows = false;
+    const sl_status status =
+        sl_export_formats(&count)[chosen].write(console->context, &baked, output);
+    sl_baked_destroy(console->context, &baked);
+    return status;
+}

@@ -1,0 +1,272 @@
+#include "bake_report.h"
+#include "base/base.h"
+#include "base/number.h"
+#include "commands.h"
+#include "effects.h"
+#include "inputs.h"
+#include "json_print.h"
+#include "mean_pvs.h"
+#include "names.h"
+#include "options.h"
+#include "sizes.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+typedef struct info_request {
+    const char *path, *slice;
+    bool json;
+} info_request;
+
+static void print_bounds(sl_box box) {
+    const double values[4] = {box.min.x, box.min.y, box.max.x, box.max.y};
+    printf("  bounds    ");
+    for (int i = 0; i < 4; i++) {
+        char number[SL_NUMBER_TEXT];
+        sl_number_write(values[i], number);
+        printf("%s%s", i == 0 ? "" : i == 2 ? " to " : " ", number);
+    }
+    putchar('\n');
+}
+
+// --- maps
+
+/// What is counted of a map, in the order it is shown.
+typedef struct map_count {
+    const char *key;
+    size_t count;
+} map_count;
+
+enum { MAP_COUNTS = 8 };
+
+static size_t count_lines(const char *text) {
+    size_t lines = 0;
+    for (; text && *text; lines++) {
+        text += strcspn(text, "\n");
+        text += *text == '\n';
+    }
+    return lines;
+}
+
+static void count_map(const sl_map *map, map_count counts[MAP_COUNTS]) {
+    size_t open = 0;
+    for (size_t i = 0; i < map->door_count; i++) open += map->doors[i].open;
+    const map_count all[MAP_COUNTS] = {
+        {"doors", map->door_count},     {"open_doors", open},
+        {"mirrors", map->mirror_count}, {"oneways", map->oneway_count},
+        {"starts", map->start_count},   {"paths", map->path_count},
+        {"objects", map->object_count}, {"notices", count_lines(map->notes)},
+    };
+    memcpy(counts, all, sizeof all);
+}
+
+static sl_status print_map_json(sl_context *context, const info_request *request, const sl_map *map,
+                                size_t oblique, const sl_clean_account *cleaning) {
+    map_count counts[MAP_COUNTS];
+    count_map(map, counts);
+    sl_json_fields fields = sl_json_begin();
+    sl_json_add_text(&fields, "file", request->path);
+    sl_json_add_text(&fields, "kind", "map");
+    sl_json_add_box(&fields, "bounds", sl_map_bounds(map));
+    sl_json_add_count(&fields, "walls", cleaning->before);
+    sl_json_add_count(&fields, "oblique_walls", oblique);
+    for (int i = 0; i < MAP_COUNTS; i++) sl_json_add_count(&fields, counts[i].key, counts[i].count);
+    sl_json_add_real(&fields, "range", map->range);
+    sl_json_add_cleaning(&fields, "cleaning", cleaning);
+    const sl_name_table effects = sl_effect_table();
+    const unsigned called_for = sl_effects_of_map(map);
+    sl_json_fields calls = sl_json_begin();
+    for (size_t i = 0; i < effects.count; i++)
+        sl_json_add_flag(&calls, sl_name_table_at(&effects, i), called_for >> i & 1);
+    sl_json_add_fields(&fields, "effects", &calls);
+    return sl_json_print(context, &fields);
+}
+
+static void print_effects(const sl_map *map) {
+    const sl_name_table effects = sl_effect_table();
+    const unsigned called_for = sl_effects_of_map(map);
+    printf("  effects  ");
+    for (size_t i = 0; i < effects.count; i++)
+        if (called_for >> i & 1) printf(" %s", sl_name_table_at(&effects, i));
+    puts(called_for ? " (bake --without NAME leaves one out)" : " none");
+}
+
+static void print_notices(const char *notes) {
+    if (!notes) return;
+    puts("  notices");
+    while (*notes) {
+        const size_t length = strcspn(notes, "\n");
+        printf("    %.*s\n", (int)length, notes);
+        notes += length + (notes[length] == '\n');
+    }
+}
+
+static void print_map(const info_request *request, const sl_map *map, size_t oblique,
+                      const sl_clean_account *cleaning) {
+    map_count counts[MAP_COUNTS];
+    count_map(map, counts);
+    printf("%s: a map\n", request->path);
+    print_bounds(sl_map_bounds(map));
+    printf("  walls     %zu, ", cleaning->before);
+    if (oblique)
+        printf("%zu of them oblique\n", oblique);
+    else
+        puts("all axial");
+    for (int i = 0; i < MAP_COUNTS; i++)
+        if (counts[i].count) printf("  %-9s %zu\n", counts[i].key, counts[i].count);
+    if (map->range > 0) {
+        char number[SL_NUMBER_TEXT];
+        sl_number_write(map->range, number);
+        printf("  range     %s\n", number);
+    }
+    printf("  cleaned   %zu walls", cleaning->after);
+    sl_cleaning_print(cleaning);
+    print_effects(map);
+    print_notices(map->notes);
+}
+
+static sl_status inform_of_map(sl_console *console, const info_request *request) {
+    sl_map map = {0};
+    sl_clean_account cleaning;
+    SL_TRY(sl_input_read_map(console->context, request->path, request->slice, &map));
+    const size_t oblique = sl_input_count_oblique(map.walls, map.wall_count);
+    sl_status status = sl_map_clean(console->context, &map, &cleaning);
+    sl_progress_line_clear(&console->line);
+    if (status == SL_OK && request->json)
+        status = print_map_json(console->context, request, &map, oblique, &cleaning);
+    else if (status == SL_OK)
+        print_map(request, &map, oblique, &cleaning);
+    sl_map_destroy(console->context, &map);
+    return status;
+}
+
+// --- baked files
+
+/// A part of what a baked file holds, as it lies in memory.
+typedef struct baked_part {
+    const char *name;
+    uint64_t count, bytes;
+} baked_part;
+
+enum { BAKED_PARTS = 9 };
+
+static uint64_t pvs_bytes(const sl_pvs *pvs) {
+    if (!pvs->cell_count) return 0;
+    return ((uint64_t)pvs->cell_count + 1) * sizeof *pvs->offsets + pvs->offsets[pvs->cell_count];
+}
+
+static void list_parts(const sl_baked *baked, baked_part parts[BAKED_PARTS]) {
+    const sl_space *space = &baked->space;
+    const sl_visibility *visibility = &baked->visibility;
+    const sl_stab_trees *trees = &visibility->trees;
+    const uint64_t tree_nodes = trees->cell_count ? trees->offsets[trees->cell_count] : 0;
+    const uint64_t tree_bytes = tree_nodes * sizeof *trees->nodes;
+    const baked_part all[BAKED_PARTS] = {
+        {"walls", space->wall_count, space->wall_count * sizeof *space->walls},
+        {"cells", space->cell_count, space->cell_count * sizeof *space->cells},
+        {"vertices", space->vertex_count, space->vertex_count * sizeof *space->vertices},
+        {"portals", space->portal_count, space->portal_count * sizeof *space->portals},
+        {"exits", space->exit_count, space->exit_count * sizeof *space->exits},
+        {"nodes", space->node_count, space->node_count * sizeof *space->nodes},
+        {"pairs", visibility->account.pairs, pvs_bytes(&visibility->pvs)},
+        {"doubtful_pairs", visibility->account.doubtful_pairs, pvs_bytes(&visibility->doubtful)},
+        {"stab_tree_nodes", tree_nodes, tree_bytes},
+    };
+    memcpy(parts, all, sizeof all);
+}
+
+static sl_status print_baked_json(sl_context *context, const info_request *request,
+                                  const sl_baked *baked, const sl_mean_pvs *mean) {
+    baked_part parts[BAKED_PARTS];
+    list_parts(baked, parts);
+    sl_json_fields fields = sl_json_begin(), bytes = sl_json_begin();
+    sl_json_add_text(&fields, "file", request->path);
+    sl_json_add_text(&fields, "kind", "baked");
+    sl_json_add_box(&fields, "bounds", baked->space.bounds);
+    sl_json_add_text(&fields, "sight", sl_sight_name(baked->visibility.sight));
+    sl_json_add_text(&fields, "method", baked->method);
+    sl_json_add_text(&fields, "solver", baked->solver[0] ? baked->solver : NULL);
+    sl_json_add_text(&fields, "guarantee", sl_guarantee_name(baked->visibility.guarantee));
+    sl_json_add_count(&fields, "inside_cells", baked->space.inside_count);
+    sl_json_add_count(&fields, "tree_depth", baked->space.tree_depth);
+    sl_json_add_count(&fields, "stab_trees_left_out", baked->visibility.trees.left_out);
+    for (int i = 0; i < BAKED_PARTS; i++) {
+        sl_json_add_count(&fields, parts[i].name, parts[i].count);
+        sl_json_add_count(&bytes, parts[i].name, parts[i].bytes);
+    }
+    sl_mean_pvs_add_json(&fields, mean);
+    sl_json_add_fields(&fields, "memory_bytes", &bytes);
+    sl_json_add_count(&fields, "file_bytes", sl_size_of_file(request->path));
+    return sl_json_print(context, &fields);
+}
+
+static void print_baked(const info_request *request, const sl_baked *baked,
+                        const sl_mean_pvs *mean) {
+    baked_part parts[BAKED_PARTS];
+    list_parts(baked, parts);
+    const sl_space *space = &baked->space;
+    const sl_stab_trees *trees = &baked->visibility.trees;
+    char size[SL_SIZE_TEXT];
+    sl_size_write(sl_size_of_file(request->path), size);
+    printf("%s: a baked file, %s\n", request->path, size);
+    print_bounds(space->bounds);
+    printf("  seen      %s sight, by %s%s%s (%s)\n", sl_sight_name(baked->visibility.sight),
+           baked->method, baked->solver[0] ? " with " : "", baked->solver,
+           sl_guarantee_name(baked->visibility.guarantee));
+    printf("  inside    %" PRIu32 " of %" PRIu32 " cells; tree depth %" PRIu32 "\n",
+           space->inside_count, space->cell_count, space->tree_depth);
+    sl_mean_pvs_print(mean);
+    if (trees->cell_count)
+        printf("  trees     %" PRIu32 " of %" PRIu32 " stab trees left out\n", trees->left_out,
+               trees->cell_count);
+    printf("  %-16s %12s %12s\n", "part", "count", "in memory");
+    for (int i = 0; i < BAKED_PARTS; i++) {
+        sl_size_write(parts[i].bytes, size);
+        printf("  %-16s %12" PRIu64 " %12s\n", parts[i].name, parts[i].count, size);
+    }
+    print_notices(baked->map.notes);
+}
+
+static sl_status inform_of_baked(sl_console *console, const info_request *request) {
+    sl_baked baked = {0};
+    sl_mean_pvs mean;
+    SL_TRY(sl_input_refuse_slice(console->context, request->path, request->slice));
+    SL_TRY(sl_input_read_baked(console->context, request->path, &baked));
+    sl_status status = sl_mean_pvs_of(console->context, &baked, &mean);
+    sl_progress_line_clear(&console->line);
+    if (status == SL_OK && request->json)
+        status = print_baked_json(console->context, request, &baked, &mean);
+    else if (status == SL_OK)
+        print_baked(request, &baked, &mean);
+    sl_baked_destroy(console->context, &baked);
+    return status;
+}
+
+sl_status sl_cmd_info(sl_console *console, int argc, char **argv) {
+    info_request request = {0};
+    const sl_option_spec options[] = {
+        {.name = "json", .flag = &request.json, .help = "print one JSON object"},
+        {.name = "slice",
+         .argument = "Z",
+         .text = &request.slice,
+         .help = "cut a 3D model at this height"},
+    };
+    const sl_command_usage usage = {
+        .name = "info",
+        .synopsis = "MAP|FILE.slv [options]",
+        .operands = {"MAP|FILE.slv"},
+        .what = "Prints what a map holds, what cleaning its walls would do and which effects it\n"
+                "calls for; of a baked file (by its ending, .slv) its parts, how it was baked and\n"
+                "how much a cell sees.",
+        .tables = sl_input_print_formats,
+        .examples = "  sightline info office.map\n"
+                    "  sightline info office.slv --json",
+        .options = options,
+        .option_count = sizeof options / sizeof *options,
+    };
+    bool helped;
+    SL_TRY(sl_option_parse(console, &usage, argc, argv, &request.path, &helped));
+    if (helped) return SL_OK;
+    if (sl_input_ends_with(request.path, ".slv")) return inform_of_baked(console, &request);
+    return inform_of_map(console, &request);
+}

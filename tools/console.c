@@ -1,0 +1,114 @@
+#include "console.h"
+
+#include "base/base.h"
+#include "base/file.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/// Set by the first SIGINT or SIGTERM. At file scope because a signal handler is given nothing but
+/// the signal's number; lock-free and atomic because worker threads read it.
+static atomic_bool interrupted;
+
+static void set_handler(int number, void (*handler)(int)) {
+    struct sigaction action = {.sa_handler = handler};
+    sigemptyset(&action.sa_mask);
+    sigaction(number, &action, NULL);
+}
+
+/// The first signal asks the running call to stop and tidy up; the next one ends the program.
+static void on_signal(int number) {
+    (void)number;
+    atomic_store(&interrupted, true);
+    set_handler(SIGINT, SIG_DFL);
+    set_handler(SIGTERM, SIG_DFL);
+}
+
+/// A signal that whoever started the program has it ignore (nohup) stays ignored.
+static void catch_signal(int number) {
+    struct sigaction now;
+    if (sigaction(number, NULL, &now) == 0 && now.sa_handler != SIG_IGN)
+        set_handler(number, on_signal);
+}
+
+/// Where a standard stream is closed, the next file opened would take its number and be written to
+/// as if it were stdout. A descriptor open the wrong way round holds the place and fails instead.
+static void hold_standard_streams(void) {
+    for (int descriptor = 0; descriptor <= 2; descriptor++)
+        if (fcntl(descriptor, F_GETFD) == -1)
+            (void)!open("/dev/null", descriptor == 0 ? O_WRONLY : O_RDONLY);
+}
+
+static void show_note(void *user, const char *message) {
+    sl_console *console = user;
+    if (console->quiet) return;
+    sl_progress_line_clear(&console->line);
+    fprintf(stderr, "note: %s\n", message);
+}
+
+static void show_progress(void *user, const sl_progress *progress) {
+    sl_console *console = user;
+    if (!console->quiet) sl_progress_line_report(&console->line, progress);
+}
+
+/// Asked far more often than progress is reported, so that the line lives through long units of
+/// work.
+static bool is_cancelled(void *user) {
+    sl_console *console = user;
+    if (pthread_equal(pthread_self(), console->main_thread)) sl_progress_line_tick(&console->line);
+    return atomic_load(&interrupted);
+}
+
+bool sl_console_open(sl_console *console) {
+    hold_standard_streams();
+    // A reader that goes away and a file that grows beyond its limit are then failed writes.
+    set_handler(SIGPIPE, SIG_IGN);
+    set_handler(SIGXFSZ, SIG_IGN);
+    catch_signal(SIGINT);
+    catch_signal(SIGTERM);
+    const char *kind = getenv("TERM");
+    *console = (sl_console){
+        .main_thread = pthread_self(),
+        .line.shows = isatty(STDERR_FILENO) && !(kind && strcmp(kind, "dumb") == 0),
+    };
+    const sl_hooks hooks = {
+        .user = console, .progress = show_progress, .note = show_note, .cancelled = is_cancelled};
+    console->context = sl_context_create(&hooks);
+    if (!console->context) fputs("sightline: out of memory\n", stderr);
+    return console->context != NULL;
+}
+
+static int exit_status(sl_status status) {
+    switch (status) {
+    case SL_OK:
+        return 0;
+    case SL_NO_MEMORY:
+    case SL_CANCELLED:
+    case SL_IO:
+        return 1;
+    case SL_BAD_ARGUMENT:
+    case SL_BAD_INPUT:
+    case SL_UNSUPPORTED:
+        break;
+    }
+    return 2;
+}
+
+int sl_console_close(sl_console *console, sl_status status) {
+    sl_progress_line_clear(&console->line);
+    if (status == SL_OK) {
+        sl_output output;
+        status = sl_output_open(console->context, "-", &output);
+        if (status == SL_OK) status = sl_output_commit(console->context, &output);
+    }
+    // A system call that the signal broke off is reported as what it is.
+    if (status == SL_IO && atomic_load(&interrupted))
+        status = sl_fail(console->context, SL_CANCELLED, "%s", sl_status_name(SL_CANCELLED));
+    if (status != SL_OK) fprintf(stderr, "sightline: %s\n", sl_context_message(console->context));
+    sl_context_destroy(console->context);
+    return exit_status(status);
+}

@@ -1,0 +1,24 @@
+/// What a command has of the terminal and the system: the library's context with its hooks (notes,
+/// progress, Ctrl-C), and how the program ends.
+#ifndef CONSOLE_H
+#define CONSOLE_H
+
+#include "progress_line.h"
+
+#include <pthread.h>
+
+typedef struct sl_console {
+    sl_context *context;
+    pthread_t main_thread; ///< the only one that writes
+    sl_progress_line line; ///< shown where stderr is a terminal
+    bool quiet;            ///< --quiet: neither notes nor progress
+} sl_console;
+
+/// False, after a message, where there is no memory.
+bool sl_console_open(sl_console *console);
+
+/// Checks that all of stdout was written, tells of a failure, and gives the program's exit status:
+/// 0 done, 1 the work failed, 2 the arguments or an input are wrong.
+int sl_console_close(sl_console *console, sl_status status);
+
+#endif

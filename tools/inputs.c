@@ -1,0 +1,98 @@
+#include "inputs.h"
+
+#include "base/base.h"
+#include "options.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+bool sl_input_ends_with(const char *path, const char *ending) {
+    const size_t length = strlen(path), tail = strlen(ending);
+    return length > tail && strcasecmp(path + length - tail, ending) == 0;
+}
+
+static bool is_baked_name(const char *path) {
+    return sl_input_ends_with(path, ".slv");
+}
+
+/// Whether the name ends as that of a map does, of any format.
+static bool is_map_name(const char *path) {
+    size_t count;
+    const sl_map_format *formats = sl_map_formats(&count);
+    for (size_t i = 0; i < count; i++) {
+        for (const char *word = formats[i].endings; *word;) {
+            const size_t length = strcspn(word, " ");
+            char ending[32];
+            snprintf(ending, sizeof ending, "%.*s", (int)length, word);
+            if (sl_input_ends_with(path, ending)) return true;
+            word += length;
+            word += strspn(word, " ");
+        }
+    }
+    return false;
+}
+
+sl_status sl_input_read_map(sl_context *context, const char *path, const char *slice, sl_map *map) {
+    if (is_baked_name(path))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "%s: is baked already; name the map that it was made from", path);
+    sl_import_options options = sl_import_options_default();
+    SL_TRY(sl_option_number(context, "--slice", slice, &options.slice));
+    options.has_slice = slice != NULL;
+    return sl_map_read(context, path, &options, map);
+}
+
+sl_status sl_input_refuse_slice(sl_context *context, const char *path, const char *slice) {
+    if (!slice) return SL_OK;
+    return sl_fail(context, SL_BAD_ARGUMENT, "--slice: %s is baked, and so has been cut already",
+                   path);
+}
+
+sl_status sl_input_read_baked(sl_context *context, const char *path, sl_baked *baked) {
+    if (is_map_name(path))
+        return sl_fail(
+            context, SL_BAD_ARGUMENT,
+            "%s: is a map, not a baked file; bake it first: sightline bake %s -o FILE.slv", path,
+            path);
+    return sl_baked_read(context, path, baked);
+}
+
+/// The map that a baked file was made from: what it kept of it, and the walls of its space.
+static sl_status read_map_of_baked(sl_context *context, const char *path, sl_map *map) {
+    sl_baked baked = {0};
+    SL_TRY(sl_baked_read(context, path, &baked));
+    sl_status status = SL_OK;
+    const sl_space *space = &baked.space;
+    for (uint32_t i = 0; i < space->wall_count && status == SL_OK; i++) {
+        const sl_wall *wall = &space->walls[i];
+        status = sl_map_add_wall(context, &baked.map, wall->a, wall->b, wall->line);
+    }
+    if (status == SL_OK) {
+        *map = baked.map;
+        baked.map = (sl_map){0};
+    }
+    sl_baked_destroy(context, &baked);
+    return status;
+}
+
+sl_status sl_input_read_either(sl_context *context, const char *path, const char *slice,
+                               sl_map *map) {
+    if (!is_baked_name(path)) return sl_input_read_map(context, path, slice, map);
+    SL_TRY(sl_input_refuse_slice(context, path, slice));
+    return read_map_of_baked(context, path, map);
+}
+
+void sl_input_print_formats(void) {
+    size_t count;
+    const sl_map_format *formats = sl_map_formats(&count);
+    puts("\nmaps, by the ending of the file's name:");
+    for (size_t i = 0; i < count; i++) printf("  %-24s%s\n", formats[i].endings, formats[i].what);
+}
+
+size_t sl_input_count_oblique(const sl_wall *walls, size_t count) {
+    size_t oblique = 0;
+    for (size_t i = 0; i < count; i++)
+        oblique += walls[i].a.x != walls[i].b.x && walls[i].a.y != walls[i].b.y;
+    return oblique;
+}

@@ -1,0 +1,31 @@
+/// One JSON object on stdout, built field by field.
+#ifndef JSON_PRINT_H
+#define JSON_PRINT_H
+
+#include "sightline/map.h"
+
+#include <jansson.h>
+
+/// Fields are added without asking each time; one that finds no memory fails the whole at its end.
+typedef struct sl_json_fields {
+    json_t *object;
+    bool failed;
+} sl_json_fields;
+
+sl_json_fields sl_json_begin(void);
+void sl_json_add_count(sl_json_fields *fields, const char *key, uint64_t count);
+void sl_json_add_real(sl_json_fields *fields, const char *key, double finite);
+void sl_json_add_flag(sl_json_fields *fields, const char *key, bool flag);
+/// NULL gives null. A text that is no UTF-8, as names of files may be, gets '?' for what is not
+/// ASCII.
+void sl_json_add_text(sl_json_fields *fields, const char *key, const char *text);
+/// [x0, y0, x1, y1]
+void sl_json_add_box(sl_json_fields *fields, const char *key, sl_box box);
+/// An object within the object; `inner` is used up.
+void sl_json_add_fields(sl_json_fields *fields, const char *key, sl_json_fields *inner);
+void sl_json_add_cleaning(sl_json_fields *fields, const char *key, const sl_clean_account *account);
+
+/// Prints the object and uses it up.
+sl_status sl_json_print(sl_context *context, sl_json_fields *fields);
+
+#endif

@@ -1,0 +1,65 @@
+#include "mean_pvs.h"
+
+#include "base/base.h"
+
+#include <inttypes.h>
+
+/// What lies before a cell, of the cells that are looked at: a run of cells is one difference.
+typedef struct before {
+    double area;
+    uint32_t cells;
+} before;
+
+static void sum_before(const sl_baked *baked, before *sums) {
+    const sl_space *space = &baked->space;
+    sums[0] = (before){0};
+    for (uint32_t c = 0; c < space->cell_count; c++) {
+        sums[c + 1] = sums[c];
+        if (!sl_baked_counts(baked, c)) continue;
+        sums[c + 1].area += sl_space_area(space, c);
+        sums[c + 1].cells++;
+    }
+}
+
+sl_status sl_mean_pvs_of(sl_context *context, const sl_baked *baked, sl_mean_pvs *out) {
+    const sl_space *space = &baked->space;
+    sl_mean_pvs mean = {0};
+    before *sums = sl_alloc_array(context, (size_t)space->cell_count + 1, sizeof *sums);
+    if (!sums) return SL_NO_MEMORY;
+    sum_before(baked, sums);
+    const before all = sums[space->cell_count];
+
+    uint64_t cells = 0;
+    double area = 0; // shares, so that no sum grows beyond what a double holds
+    for (uint32_t c = 0; c < space->cell_count; c++) {
+        if (!sl_baked_counts(baked, c)) continue;
+        for (sl_pvs_run run = sl_pvs_begin(&baked->visibility.pvs, c); sl_pvs_next(&run);) {
+            cells += sums[run.end].cells - sums[run.first].cells;
+            area += (sums[run.end].area - sums[run.first].area) / all.area;
+        }
+    }
+    sl_free(context, sums);
+    mean.inside_only = all.cells < space->cell_count;
+    if (all.cells) {
+        mean.cell_count = all.cells;
+        mean.cells = (double)cells / all.cells;
+        mean.share_of_cells = mean.cells / all.cells;
+        mean.share_of_area = area / all.cells;
+    }
+    *out = mean;
+    return SL_OK;
+}
+
+void sl_mean_pvs_print(const sl_mean_pvs *mean) {
+    printf("  a cell    sees %.1f of %" PRIu32 " %scells (%.1f %%), %.1f %% of their area;\n"
+           "            means over those cells, each of the same weight\n",
+           mean->cells, mean->cell_count, mean->inside_only ? "inside " : "",
+           100 * mean->share_of_cells, 100 * mean->share_of_area);
+}
+
+void sl_mean_pvs_add_json(sl_json_fields *fields, const sl_mean_pvs *mean) {
+    sl_json_add_text(fields, "mean_pvs_over", mean->inside_only ? "inside cells" : "all cells");
+    sl_json_add_real(fields, "mean_pvs_cells", mean->cells);
+    sl_json_add_real(fields, "mean_pvs_share_of_cells", mean->share_of_cells);
+    sl_json_add_real(fields, "mean_pvs_share_of_area", mean->share_of_area);
+}

@@ -1,0 +1,59 @@
+#include "names.h"
+
+#include <string.h>
+
+const char *sl_name_table_at(const sl_name_table *table, size_t index) {
+    const char *item = (const char *)table->items + index * table->stride;
+    const char *name;
+    memcpy(&name, item, sizeof name);
+    return name;
+}
+
+/// Letters to insert, drop or change to make one word of the other (Levenshtein 1966), for words of
+/// less than `NEAR_LENGTH` letters.
+enum { NEAR_LENGTH = 32 };
+
+static size_t word_distance(const char *a, const char *b) {
+    size_t row[NEAR_LENGTH];
+    const size_t length = strlen(b);
+    for (size_t j = 0; j <= length; j++) row[j] = j;
+    for (size_t i = 0; a[i]; i++) {
+        size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (size_t j = 0; j < length; j++) {
+            const size_t changed = diagonal + (a[i] != b[j]);
+            diagonal = row[j + 1];
+            size_t least = changed < diagonal + 1 ? changed : diagonal + 1;
+            if (row[j] + 1 < least) least = row[j] + 1;
+            row[j + 1] = least;
+        }
+    }
+    return row[length];
+}
+
+const char *sl_nearest_name(const sl_name_table *table, const char *word) {
+    const size_t length = strlen(word);
+    if (length >= NEAR_LENGTH) return NULL;
+    const char *nearest = NULL;
+    size_t least = length < 6 ? 2 : 3; // more changes than that and it is another word
+    if (least >= length) least = length ? length - 1 : 0;
+    for (size_t i = 0; i < table->count; i++) {
+        const char *name = sl_name_table_at(table, i);
+        if (strlen(name) >= NEAR_LENGTH) continue;
+        const size_t distance = word_distance(word, name);
+        if (distance > least || (nearest && distance == least)) continue;
+        nearest = name;
+        least = distance;
+    }
+    return nearest;
+}
+
+static const char *const sights[] = {[SL_CLOSED] = "closed", [SL_OPEN] = "open"};
+
+sl_name_table sl_sight_table(void) {
+    return (sl_name_table){"sight", sights, sizeof *sights, sizeof sights / sizeof *sights};
+}
+
+const char *sl_sight_name(sl_sight sight) {
+    return sights[sight];
+}

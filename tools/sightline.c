@@ -1,0 +1,62 @@
+#include "base/base.h"
+#include "commands.h"
+#include "options.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct command {
+    const char *name, *summary;
+    sl_status (*run)(sl_console *console, int argc, char **argv);
+} command;
+
+static const command commands[] = {
+    {"info", "what a map or a baked file holds", sl_cmd_info},
+    {"bake", "cells, portals and cell-to-cell visibility of a map, into a file", sl_cmd_bake},
+    {"export", "a baked file for other programs", sl_cmd_export},
+    {"draw", "a picture of a baked file", sl_cmd_draw},
+    {"convert", "any map that can be read, as map text or ASCII plan", sl_cmd_convert},
+};
+enum { COMMAND_COUNT = sizeof commands / sizeof *commands };
+
+static void print_help(void) {
+    puts("usage: sightline COMMAND ...\n\n"
+         "2D cell-and-portal visibility: which cells of a map can see which.\n\ncommands:");
+    for (size_t i = 0; i < COMMAND_COUNT; i++)
+        printf("  %-10s%s\n", commands[i].name, commands[i].summary);
+    puts("\n'sightline COMMAND --help' tells what each takes.\n"
+         "Exit status: 0 done; 1 the work failed; 2 the arguments or an input file are wrong.\n\n"
+         "example:\n"
+         "  sightline bake office.map -o office.slv\n"
+         "  sightline draw office.slv -o office.png");
+}
+
+static sl_status run(sl_console *console, int argc, char **argv) {
+    if (argc < 2)
+        return sl_fail(console->context, SL_BAD_ARGUMENT,
+                       "no command is given; 'sightline --help' lists them");
+    const char *name = argv[1];
+    if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0) {
+        print_help();
+        return SL_OK;
+    }
+    if (strcmp(name, "--version") == 0) {
+        puts("sightline " SIGHTLINE_VERSION);
+        return SL_OK;
+    }
+    for (size_t i = 0; i < COMMAND_COUNT; i++)
+        if (strcmp(name, commands[i].name) == 0)
+            return commands[i].run(console, argc - 1, argv + 1);
+
+    const sl_name_table table = {"command", commands, sizeof *commands, COMMAND_COUNT};
+    const char *near = sl_nearest_name(&table, name);
+    return sl_fail(console->context, SL_BAD_ARGUMENT,
+                   "there is no command '%s'%s%s%s; 'sightline --help' lists them", name,
+                   near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
+}
+
+int main(int argc, char **argv) {
+    sl_console console;
+    if (!sl_console_open(&console)) return 1;
+    return sl_console_close(&console, run(&console, argc, argv));
+}
