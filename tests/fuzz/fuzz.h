@@ -1,0 +1,43 @@
+/// What the fuzzers share.
+#ifndef SL_FUZZ_H
+#define SL_FUZZ_H
+
+#include "unit/map_same.h"
+
+#include <stdio.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+/// Holds in every build: a finding is a program that ends here.
+#define FUZZ_CHECK(condition)                                                                      \
+    do {                                                                                           \
+        if (!(condition)) {                                                                        \
+            fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);                \
+            abort();                                                                               \
+        }                                                                                          \
+    } while (0)
+
+static inline sl_context *fuzz_context(void) {
+    sl_context *context = sl_context_create(NULL);
+    FUZZ_CHECK(context);
+    return context;
+}
+
+/// A map written as text must read back as the same map. Gives that text, for free().
+static inline char *fuzz_round_trip(sl_context *context, const sl_map *map) {
+    char *text = map_text(map);
+    sl_map back = {0};
+    FUZZ_CHECK(sl_map_read_text(context, "back", text, strlen(text), &back) == SL_OK);
+    FUZZ_CHECK(map_same(map, &back));
+    sl_map_destroy(context, &back);
+    return text;
+}
+
+/// What a reader refused: the status that bad input has, a message, and an empty map.
+static inline void fuzz_refused(sl_context *context, sl_status status, const sl_map *map) {
+    FUZZ_CHECK(status == SL_BAD_INPUT);
+    FUZZ_CHECK(strncmp(sl_context_message(context), "input:", 6) == 0);
+    FUZZ_CHECK(map_is_empty(map));
+}
+
+#endif
