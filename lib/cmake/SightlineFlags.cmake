@@ -1,0 +1,44 @@
+# The flags of every target of this project, as the interface target sightline_flags.
+include_guard()
+if(NOT CMAKE_C_COMPILER_ID MATCHES "GNU|Clang")
+  message(FATAL_ERROR "Sightline is built by gcc or clang; this is ${CMAKE_C_COMPILER_ID}")
+endif()
+set(THREADS_PREFER_PTHREAD_FLAG ON)
+find_package(Threads REQUIRED)
+set(CMAKE_C_STANDARD 11)
+set(CMAKE_C_STANDARD_REQUIRED ON)
+set(CMAKE_C_EXTENSIONS OFF)
+
+add_library(sightline_flags INTERFACE)
+target_compile_definitions(sightline_flags INTERFACE _XOPEN_SOURCE=700)
+target_compile_options(sightline_flags INTERFACE
+  # Contracting a multiply and an add changes the signs that exact predicates compute.
+  -ffp-contract=off
+  -fvisibility=hidden
+  -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla
+  -Wpointer-arith -Wcast-qual -Wundef -Wformat=2
+  $<$<BOOL:${SIGHTLINE_WERROR}>:-Werror>)
+
+if(SIGHTLINE_SANITIZE)
+  target_compile_options(sightline_flags INTERFACE
+    -fsanitize=${SIGHTLINE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
+  target_link_options(sightline_flags INTERFACE -fsanitize=${SIGHTLINE_SANITIZE})
+endif()
+
+# Elsewhere than on x86 these instructions are part of what every compiler uses anyway.
+if(SIGHTLINE_FMA)
+  include(CheckCSourceRuns)
+  check_c_source_runs("
+    int main(void) {
+    #if defined(__x86_64__)
+      return !(__builtin_cpu_supports(\"fma\") && __builtin_cpu_supports(\"avx2\"));
+    #else
+      return 1;
+    #endif
+    }" SIGHTLINE_MACHINE_IS_HASWELL)
+  if(SIGHTLINE_MACHINE_IS_HASWELL)
+    target_compile_options(sightline_flags INTERFACE -march=haswell)
+  else()
+    message(STATUS "SIGHTLINE_FMA: not an x86 machine with FMA; nothing added")
+  endif()
+endif()

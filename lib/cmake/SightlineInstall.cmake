@@ -1,0 +1,70 @@
+# What `cmake --install` puts down: libraries, headers, the command, the CMake package `sightline`
+# (components glpk and draw) and pkg-config files. All of it can be moved as one.
+include(CMakePackageConfigHelpers)
+set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/sightline")
+set(pkgconfig_dir "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+set(in "${PROJECT_SOURCE_DIR}/lib/cmake")
+set(out "${PROJECT_BINARY_DIR}/package")
+
+# A directory of the installation as a pkg-config file says it.
+function(from_prefix out_name dir)
+  if(IS_ABSOLUTE "${dir}")
+    set(${out_name} "${dir}" PARENT_SCOPE)
+  else()
+    set(${out_name} "\${prefix}/${dir}" PARENT_SCOPE)
+  endif()
+endfunction()
+from_prefix(PC_LIBDIR "${CMAKE_INSTALL_LIBDIR}")
+from_prefix(PC_INCLUDEDIR "${CMAKE_INSTALL_INCLUDEDIR}")
+if(IS_ABSOLUTE "${pkgconfig_dir}")
+  set(PC_PREFIX "${CMAKE_INSTALL_PREFIX}")
+else()
+  file(RELATIVE_PATH up "/${pkgconfig_dir}" "/")
+  string(REGEX REPLACE "/$" "" up "${up}")
+  set(PC_PREFIX "\${pcfiledir}/${up}")
+endif()
+set(PC_CFLAGS "-I\${includedir}")
+if(BUILD_SHARED_LIBS)
+  string(APPEND PC_CFLAGS " -DSIGHTLINE_SHARED")
+endif()
+
+function(install_library target)
+  install(TARGETS ${target} EXPORT ${target}-targets
+    ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+    RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  install(EXPORT ${target}-targets NAMESPACE sightline:: DESTINATION "${package_dir}")
+  configure_file("${in}/${target}.pc.in" "${out}/${target}.pc" @ONLY)
+  install(FILES "${out}/${target}.pc" DESTINATION "${pkgconfig_dir}")
+endfunction()
+
+set(headers "${PROJECT_SOURCE_DIR}/lib/include/sightline")
+install_library(sightline)
+install(DIRECTORY "${headers}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+  FILES_MATCHING PATTERN "*.h" PATTERN "glpk.h" EXCLUDE PATTERN "draw.h" EXCLUDE)
+
+if(SIGHTLINE_GLPK)
+  get_filename_component(dir "${GLPK_LIBRARY}" DIRECTORY)
+  set(PC_GLPK_LIBS "-lglpk")
+  if(NOT dir IN_LIST CMAKE_C_IMPLICIT_LINK_DIRECTORIES)
+    set(PC_GLPK_LIBS "-L${dir} -lglpk")
+  endif()
+  install_library(sightline_glpk)
+  install(FILES "${headers}/glpk.h" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/sightline")
+  install(FILES "${in}/FindGLPK.cmake" DESTINATION "${package_dir}")
+endif()
+if(SIGHTLINE_DRAW)
+  install_library(sightline_draw)
+  install(FILES "${headers}/draw.h" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/sightline")
+endif()
+if(SIGHTLINE_TOOLS)
+  install(TARGETS sightline_command RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+endif()
+
+configure_package_config_file("${in}/sightline-config.cmake.in" "${out}/sightline-config.cmake"
+  INSTALL_DESTINATION "${package_dir}" NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file("${out}/sightline-config-version.cmake"
+  COMPATIBILITY SameMinorVersion)
+install(FILES "${out}/sightline-config.cmake" "${out}/sightline-config-version.cmake"
+  DESTINATION "${package_dir}")
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")

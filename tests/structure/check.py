@@ -1,0 +1,202 @@
+"""Checks of the source tree: check.py SUBJECT ROOT.
+
+layers   a folder of lib/ includes only from itself and from folders before it, and lib/README.md
+         has a line for each
+sources  lib/CMakeLists.txt names every source of lib/
+headers  every public header compiles alone, as C11 and as C++
+format   every source is laid out as .clang-format says
+
+Prints each fault as FILE:LINE: what; exits 0 without faults, 1 with, 77 when it cannot tell.
+"""
+import argparse
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+# The stages, in order. Data goes one way: each knows those before it and nothing of those after it.
+FOLDERS = ["base", "geometry", "map", "import", "space", "effects", "stab", "cell_to_cell",
+           "eye_to_cell", "walk", "view_cells", "bake", "runtime", "draw"]
+# Used by games with no other part of the library beside it.
+ALONE = {"runtime"}
+# Public headers that are not named after their folder.
+HEADERS = {"context": "base", "glpk": "stab", "solvers": "stab", "pvs": "cell_to_cell"}
+# For users: it includes the others, and no part of the library includes it.
+ALL_HEADERS = "sightline"
+# Other versions lay out a few things differently.
+FORMAT_VERSION = 14
+CANNOT_TELL = 77
+
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
+
+
+class CannotTell(Exception):
+    pass
+
+
+def includes(path):
+    """(line, how, name) of each include, how being '"' or '<'."""
+    text = path.read_text(encoding="utf-8")
+    for found in INCLUDE.finditer(text):
+        yield text.count("\n", 0, found.start(1)) + 1, found[1], found[2]
+
+
+def sources(root, folders, endings):
+    for folder in folders:
+        for path in sorted((root / folder).rglob("*")):
+            if path.suffix in endings and path.is_file():
+                yield path
+
+
+def header_folder(name):
+    """The folder that a public header belongs to; None for none."""
+    name = HEADERS.get(name, name)
+    return name if name in FOLDERS else None
+
+
+def public_header(name):
+    """The name of a public header without its path and ending; None for other includes."""
+    path = pathlib.PurePosixPath(name)
+    return path.stem if path.parts[0] == "sightline" and len(path.parts) == 2 else None
+
+
+def include_fault(owner, how, name):
+    """What is wrong with an include in a file of the folder `owner`; None for nothing."""
+    public = public_header(name)
+    if public is None and how == "<":
+        return None
+    if public == ALL_HEADERS:
+        return f"{name} is for users of the library"
+    used = header_folder(public) if public else pathlib.PurePosixPath(name).parts[0]
+    if used not in FOLDERS:
+        return f'"{name}" is in no folder of lib; say folder/file.h or sightline/file.h'
+    if owner in ALONE:
+        return None if used == owner else f"{owner}/ includes from no other folder, but {name}"
+    if used in ALONE and used != owner:
+        return f"{used}/ stands alone, but {owner}/ includes {name}"
+    if FOLDERS.index(used) > FOLDERS.index(owner):
+        return f"{owner}/ comes before {used}/ and must not include {name}"
+    return None
+
+
+def check_layers(root):
+    lib = root / "lib"
+    there = sorted(path.parent.name for path in lib.glob("*/*") if path.suffix in {".c", ".h"})
+    there = list(dict.fromkeys(there))
+    for folder in there:
+        if folder not in FOLDERS:
+            yield f"lib/{folder}: unknown to check.py: give it its place in FOLDERS"
+    for folder in filter(FOLDERS.__contains__, there):
+        for path in sources(lib, [folder], {".c", ".h"}):
+            for line, how, name in includes(path):
+                fault = include_fault(folder, how, name)
+                if fault:
+                    yield f"{path.relative_to(root)}:{line}: {fault}"
+    for path in sorted((lib / "include/sightline").glob("*.h")):
+        if path.stem == ALL_HEADERS:
+            continue
+        owner = header_folder(path.stem)
+        if owner is None:
+            yield f"{path.relative_to(root)}: whose header is it? Name it in HEADERS of check.py"
+            continue
+        for line, how, name in includes(path):
+            fault = include_fault(owner, how, name)
+            if how == '"' and not public_header(name):
+                fault = f"a public header includes {name}, which is not installed"
+            if fault:
+                yield f"{path.relative_to(root)}:{line}: {fault}"
+    yield from check_map_of_the_house(lib, [name for name in FOLDERS if name in there])
+
+
+def check_map_of_the_house(lib, there):
+    """lib/README.md has a line for each folder that is there, in the order of the stages."""
+    text = (lib / "README.md").read_text(encoding="utf-8")
+    told = re.findall(r"^\| `([a-z_]+)/`", text, re.MULTILINE)
+    if told != there:
+        yield f"lib/README.md: tells of {told}, but lib/ has {there}"
+
+
+def check_sources(root):
+    lib = root / "lib"
+    text = re.sub(r"#[^\n]*", "", (lib / "CMakeLists.txt").read_text(encoding="utf-8"))
+    told = set(re.findall(r"[\w/]+\.c\b", text))
+    there = {path.relative_to(lib).as_posix() for path in lib.rglob("*.c")}
+    for name in sorted(there - told):
+        yield f"lib/CMakeLists.txt: does not name {name}"
+    for name in sorted(told - there):
+        yield f"lib/CMakeLists.txt: names {name}, which is not there"
+
+
+def check_headers(root, compilers):
+    include = root / "lib/include"
+    if not compilers:
+        raise CannotTell("no compiler given")
+    with tempfile.TemporaryDirectory() as scratch:
+        for language, compiler, flags in compilers:
+            for path in sorted((include / "sightline").glob("*.h")):
+                name = path.relative_to(include).as_posix()
+                # Twice: the guard is tested too. The function keeps the file from being empty.
+                unit = pathlib.Path(scratch) / f"alone.{language}"
+                unit.write_text(f'#include "{name}"\n' * 2 + "int main(void) { return 0; }\n")
+                command = [compiler, *flags, "-Wall", "-Wextra", "-Wpedantic", "-Werror",
+                           "-fsyntax-only", f"-I{include}", str(unit)]
+                done = subprocess.run(command, stderr=subprocess.PIPE, text=True)
+                if done.returncode:
+                    yield f"{path.relative_to(root)}: not alone as {flags[0][5:]}:\n{done.stderr}"
+
+
+def check_format(root):
+    program = shutil.which(f"clang-format-{FORMAT_VERSION}") or shutil.which("clang-format")
+    if not program:
+        raise CannotTell("clang-format is not here")
+    version = subprocess.run([program, "--version"], stdout=subprocess.PIPE, text=True).stdout
+    if not re.search(rf"version {FORMAT_VERSION}\.", version):
+        raise CannotTell(f"the layout is that of clang-format {FORMAT_VERSION}; here is {version}")
+    files = [str(path) for path in
+             sources(root, ["lib", "tools", "viewer", "tests"], {".c", ".h", ".cpp"})]
+    done = subprocess.run([program, "--style=file", "--dry-run", "--Werror", *files],
+                          stderr=subprocess.PIPE, text=True)
+    seen = set()
+    for name, line in re.findall(r"^(\S.*?):(\d+):\d+: error", done.stderr, re.MULTILINE):
+        if name not in seen:
+            seen.add(name)
+            yield f"{pathlib.Path(name).relative_to(root)}:{line}: clang-format -i would change it"
+    if done.returncode and not seen:
+        yield done.stderr
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("subject", choices=["layers", "sources", "headers", "format"])
+    parser.add_argument("root", type=pathlib.Path)
+    parser.add_argument("--cc", help="C compiler, for headers")
+    parser.add_argument("--cxx", help="C++ compiler, for headers")
+    options = parser.parse_args()
+    if options.subject == "headers":
+        compilers = [("c", options.cc, ["-std=c11"]), ("cpp", options.cxx, ["-std=c++11"])]
+        missing = [flags[0][5:] for _, program, flags in compilers
+                   if not (program and shutil.which(program))]
+        compilers = [each for each in compilers if each[2][0][5:] not in missing]
+        found = check_headers(options.root, compilers)
+    else:
+        missing = []
+        check = {"layers": check_layers, "sources": check_sources, "format": check_format}
+        found = check[options.subject](options.root)
+    try:
+        faults = list(found)
+    except CannotTell as reason:
+        print(f"{options.subject}: cannot tell: {reason}")
+        return CANNOT_TELL
+    for fault in faults:
+        print(fault)
+    if missing and not faults:
+        print(f"{options.subject}: no compiler for {', '.join(missing)}")
+        return CANNOT_TELL
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,126 @@
+"""Each check of check.py lets a good tree pass and finds the one fault of a bad one."""
+import argparse
+import pathlib
+import sys
+import tempfile
+import unittest
+
+import check
+
+HEADER = "#ifndef {0}_H\n#define {0}_H\n{1}\n#endif\n"
+GOOD = {
+    "lib/README.md": "| `base/` | one |\n| `map/` | two |\n| `space/` | three |\n",
+    "lib/CMakeLists.txt": "set(x base/a.c map/m.c # map/no.c\n space/s.c)\n",
+    "lib/base/a.c": '#include "sightline/context.h"\n#include <stdio.h>\n',
+    "lib/map/m.c": '#include "base/a.h"\n#include "sightline/map.h"\n',
+    "lib/space/s.c": '#include "map/m.h"\n#include "sightline/space.h"\n#include "space/t.h"\n',
+    "lib/include/sightline/sightline.h": HEADER.format("ALL", '#include "sightline/space.h"'),
+    "lib/include/sightline/context.h": HEADER.format("CONTEXT", "typedef int sl_number;"),
+    "lib/include/sightline/map.h": HEADER.format("MAP", '#include "sightline/context.h"'),
+    "lib/include/sightline/space.h":
+        HEADER.format("SPACE", '#include "sightline/map.h"\nsl_number sl_get(void);'),
+    ".clang-format": "BasedOnStyle: LLVM\n",
+}
+COMPILERS = []
+
+
+class CheckTest(unittest.TestCase):
+    def faults(self, checker, changed, *more):
+        """The faults of the good tree with some files changed."""
+        with tempfile.TemporaryDirectory() as scratch:
+            root = pathlib.Path(scratch)
+            for name, text in {**GOOD, **changed}.items():
+                path = root / name
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(text)
+            return list(checker(root, *more))
+
+    def assert_one(self, faults, *words):
+        self.assertEqual(len(faults), 1, faults)
+        for word in words:
+            self.assertIn(word, faults[0])
+
+    def layers(self, name, text):
+        return self.faults(check.check_layers, {name: text})
+
+    def test_good_tree(self):
+        self.assertEqual(self.faults(check.check_layers, {}), [])
+        self.assertEqual(self.faults(check.check_sources, {}), [])
+        self.assertEqual(self.faults(check.check_headers, {}, COMPILERS), [])
+
+    def test_private_include_of_a_later_stage(self):
+        faults = self.layers("lib/map/m.c", '\n#include "space/x.h"\n')
+        self.assert_one(faults, "lib/map/m.c:2", "space/x.h")
+        self.assert_one(self.layers("lib/base/b.h", '# include "map/m.h"\n'), "lib/base/b.h:1")
+
+    def test_public_include_of_a_later_stage(self):
+        self.assert_one(self.layers("lib/map/m.c", '#include "sightline/space.h"\n'), "space/")
+        self.assert_one(self.layers("lib/map/m.c", "#include <sightline/pvs.h>\n"), "cell_to_cell/")
+        self.assert_one(self.layers("lib/space/s.c", '#include "sightline/glpk.h"\n'), "stab/")
+
+    def test_include_of_all_headers(self):
+        faults = self.layers("lib/space/s.c", '#include "sightline/sightline.h"\n')
+        self.assert_one(faults, "for users")
+
+    def test_include_of_nowhere(self):
+        self.assert_one(self.layers("lib/space/s.c", '#include "s.h"\n'), "in no folder")
+        self.assert_one(self.layers("lib/space/s.c", '#include "../map/m.h"\n'), "in no folder")
+
+    def test_public_headers(self):
+        public = "lib/include/sightline/"
+        self.assert_one(self.layers(public + "map.h", '#include "sightline/space.h"\n'), "map.h:1")
+        self.assert_one(self.layers(public + "space.h", '#include "base/a.h"\n'), "not installed")
+        self.assert_one(self.layers(public + "cake.h", ""), "whose header")
+
+    def test_runtime_stands_alone(self):
+        readme = {"lib/README.md": GOOD["lib/README.md"] + "| `runtime/` | four |\n"}
+        source = '#include "runtime/r.h"\n#include "sightline/runtime.h"\n'
+        alone = {"lib/runtime/r.c": source, **readme}
+        self.assertEqual(self.faults(check.check_layers, alone), [])
+        uses = {"lib/runtime/r.c": '#include "base/a.h"\n', **readme}
+        self.assert_one(self.faults(check.check_layers, uses), "from no other folder")
+        used = {**alone, "lib/draw/d.c": '#include "runtime/r.h"\n',
+                "lib/README.md": readme["lib/README.md"] + "| `draw/` | five |\n"}
+        self.assert_one(self.faults(check.check_layers, used), "stands alone")
+
+    def test_folders_and_their_readme(self):
+        other_order = "| `map/` |\n| `base/` |\n| `space/` |\n"
+        self.assert_one(self.layers("lib/README.md", other_order), "README")
+        self.assert_one(self.layers("lib/stab/s.c", ""), "README")
+        self.assert_one(self.layers("lib/cake/c.c", ""), "cake")
+
+    def test_sources(self):
+        self.assert_one(self.faults(check.check_sources, {"lib/map/no.c": ""}), "map/no.c")
+        one_more = {"lib/CMakeLists.txt": "base/a.c map/m.c space/s.c x.c"}
+        self.assert_one(self.faults(check.check_sources, one_more), "x.c")
+
+    def test_headers(self):
+        def faults(text):
+            changed = {"lib/include/sightline/draw.h": text}
+            return self.faults(check.check_headers, changed, COMPILERS)
+        not_alone = faults(HEADER.format("DRAW", "sl_number sl_draw(void);"))
+        self.assertEqual(len(not_alone), len(COMPILERS), not_alone)
+        no_guard = faults("struct sl_picture { int a; };\n")
+        self.assertEqual(len(no_guard), len(COMPILERS), no_guard)
+        not_for_plus = faults(HEADER.format("DRAW", "extern int new;"))
+        self.assertEqual(len(not_for_plus), len(COMPILERS) - 1, not_for_plus)
+
+    def test_format(self):
+        try:
+            self.assertEqual(self.faults(check.check_format, {"lib/map/m.c": "int a;\n"}), [])
+        except check.CannotTell as reason:
+            self.skipTest(str(reason))
+        faults = self.faults(check.check_format, {"lib/map/m.c": "int  a ;\n"})
+        self.assert_one(faults, "lib/map/m.c:1")
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--cc")
+    parser.add_argument("--cxx")
+    options, rest = parser.parse_known_args()
+    if options.cc:
+        COMPILERS.append(("c", options.cc, ["-std=c11"]))
+    if options.cxx and not options.cxx.endswith("NOTFOUND"):
+        COMPILERS.append(("cpp", options.cxx, ["-std=c++11"]))
+    unittest.main(argv=[sys.argv[0], *rest])

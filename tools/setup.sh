@@ -1,0 +1,189 @@
+#!/bin/sh
+# Installs what Sightline needs and this machine has not: sh tools/setup.sh [--ci]
+# It looks at what is really there, asks the system's package manager for the rest, and does nothing
+# when all is there. --ci adds what the checks of .ci/run need: clang, its sanitizers, clang-format.
+#
+# Tried on Debian. Fedora, Arch and macOS are written from their package lists and untried.
+set -eu
+
+ci=no
+for argument in "$@"; do
+    case $argument in
+    --ci) ci=yes ;;
+    -h | --help) sed -n '2,6s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    *) echo "setup: unknown argument $argument (there is --ci)" >&2; exit 2 ;;
+    esac
+done
+
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+# ---- What is there ----
+
+has() { command -v "$1" >/dev/null 2>&1; }
+
+compiler() { for c in cc gcc clang; do has $c && echo $c && return; done; return 1; }
+cxx_compiler() { for c in c++ g++ clang++; do has $c && echo $c && return; done; return 1; }
+
+# A C program that includes a header and links a library.
+links() { # header library
+    c=$(compiler) || return 1
+    printf '#include <stddef.h>\n#include <stdarg.h>\n#include <setjmp.h>\n#include <stdint.h>\n#include <stdio.h>\n#include <%s>\nint main(void) { return 0; }\n' "$1" >"$scratch/try.c"
+    "$c" -o "$scratch/try" "$scratch/try.c" "-l$2" 2>/dev/null
+}
+
+module() { has pkg-config && pkg-config --exists "$1"; }
+
+cmake_is_new_enough() {
+    has cmake || return 1
+    version=$(cmake --version | sed -n '1s/[^0-9]*\([0-9]*\)\.\([0-9]*\).*/\1 \2/p')
+    [ "${version% *}" -gt 3 ] || { [ "${version% *}" -eq 3 ] && [ "${version#* }" -ge 20 ]; }
+}
+
+font() {
+    for folder in /usr/share/fonts /usr/local/share/fonts "$HOME/.fonts" "$HOME/.local/share/fonts" \
+        /Library/Fonts "$HOME/Library/Fonts"; do
+        [ -d "$folder" ] && [ -n "$(find "$folder" -name 'DejaVuSans.ttf' 2>/dev/null | head -n 1)" ] &&
+            return
+    done
+    return 1
+}
+
+clang_sanitizes() {
+    has clang || return 1
+    echo 'int main(void) { return 0; }' >"$scratch/try.c"
+    clang -fsanitize=address,undefined -o "$scratch/try" "$scratch/try.c" 2>/dev/null
+}
+
+is_there() {
+    case $1 in
+    c) compiler >/dev/null ;;
+    c++) cxx_compiler >/dev/null ;;
+    cmake) cmake_is_new_enough ;;
+    ninja) has ninja ;;
+    pkg-config) has pkg-config ;;
+    python3) has python3 ;;
+    glpk) links glpk.h glpk ;;
+    gmp) links gmp.h gmp ;;
+    cairo | cmocka | jansson | zlib) module "$1" ;;
+    font) font ;;
+    clang | clang-format) has "$1" ;;
+    clang-sanitizers) clang_sanitizes ;;
+    esac
+}
+
+# ---- What it is called here ----
+
+package() { # system thing
+    case $1:$2 in
+    apt:c) echo gcc libc6-dev ;;
+    apt:c++) echo g++ ;;
+    apt:ninja) echo ninja-build ;;
+    apt:glpk) echo libglpk-dev ;;
+    apt:gmp) echo libgmp-dev ;;
+    apt:cairo) echo libcairo2-dev ;;
+    apt:cmocka) echo libcmocka-dev ;;
+    apt:jansson) echo libjansson-dev ;;
+    apt:zlib) echo zlib1g-dev ;;
+    apt:font) echo fonts-dejavu-core ;;
+    apt:clang-sanitizers) echo libclang-rt-dev ;;
+
+    dnf:c) echo gcc ;;
+    dnf:c++) echo gcc-c++ ;;
+    dnf:ninja) echo ninja-build ;;
+    dnf:pkg-config) echo pkgconf-pkg-config ;;
+    dnf:font) echo dejavu-sans-fonts ;;
+    dnf:clang-format) echo clang-tools-extra ;;
+    dnf:clang-sanitizers) echo compiler-rt libasan libubsan libtsan ;;
+    dnf:glpk | dnf:gmp | dnf:cairo | dnf:jansson | dnf:zlib) echo "$2-devel" ;;
+    dnf:cmocka) echo libcmocka-devel ;;
+
+    pacman:c | pacman:c++) echo gcc ;;
+    pacman:pkg-config) echo pkgconf ;;
+    pacman:python3) echo python ;;
+    pacman:font) echo ttf-dejavu ;;
+    pacman:clang-format) echo clang ;;
+    pacman:clang-sanitizers) echo compiler-rt ;;
+
+    brew:c | brew:c++) echo gcc ;;
+    brew:pkg-config) echo pkgconf ;;
+    brew:python3) echo python ;;
+    brew:font) echo --cask font-dejavu ;;
+    brew:clang | brew:clang-sanitizers) echo llvm ;;
+
+    *) echo "$2" ;;
+    esac
+}
+
+as_root() {
+    if [ "$(id -u)" -eq 0 ]; then
+        "$@"
+    elif has sudo; then
+        sudo "$@"
+    else
+        echo "setup: this needs root, and there is no sudo; as root: $*" >&2
+        exit 1
+    fi
+}
+
+install_packages() { # system package...
+    system=$1
+    shift
+    case $system in
+    apt)
+        as_root apt-get -qq update >/dev/null || echo "setup: could not refresh the package lists; going on" >&2
+        as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq -y \
+            -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0 \
+            install --no-install-recommends "$@" >/dev/null
+        ;;
+    dnf) as_root dnf -y install "$@" ;;
+    pacman) as_root pacman -S --needed --noconfirm "$@" ;;
+    brew)
+        for each in "$@"; do
+            case $each in
+            --cask) cask=--cask ;;
+            *) brew install ${cask:-} "$each"; cask= ;;
+            esac
+        done
+        ;;
+    esac
+}
+
+# ---- What to do ----
+
+things="c c++ cmake ninja pkg-config python3 zlib jansson glpk cairo font cmocka gmp"
+[ $ci = yes ] && things="$things clang clang-sanitizers clang-format"
+
+missing=
+for thing in $things; do is_there "$thing" || missing="$missing $thing"; done
+if [ -z "$missing" ]; then
+    echo "setup: everything is here"
+    exit 0
+fi
+echo "setup: missing:$missing"
+
+system=
+for manager in apt-get:apt dnf:dnf pacman:pacman brew:brew; do
+    if has "${manager%:*}"; then system=${manager#*:}; break; fi
+done
+if [ -z "$system" ]; then
+    echo "setup: this system's package manager is none of apt, dnf, pacman, brew. Please install:" >&2
+    echo "  a C and a C++ compiler (gcc or clang), cmake 3.20 or newer, ninja, pkg-config, python3," >&2
+    echo "  zlib, jansson, GLPK, cairo, cmocka, GMP (each with its headers), the DejaVu fonts" >&2
+    exit 1
+fi
+
+packages=
+for thing in $missing; do packages="$packages $(package $system "$thing")"; done
+echo "setup: installing by $system:$packages"
+# Split into words on purpose.
+# shellcheck disable=SC2086
+install_packages $system $packages
+
+still=
+for thing in $missing; do is_there "$thing" || still="$still $thing"; done
+if [ -n "$still" ]; then
+    echo "setup: installed, but still not usable:$still" >&2
+    exit 1
+fi
+echo "setup: done"
