@@ -4,26 +4,32 @@
 
 #include "sightline/geometry.h"
 
+#include <math.h>
+
 /// As sl_orient, by exact arithmetic alone.
 int sl_orient_exact(sl_point a, sl_point b, sl_point c);
 
-/// The sign of (b - a) x (c - a): 1 where c lies to the left of the line from a to b, -1 to the
-/// right, 0 on it. Exact for all finite doubles, near overflow and underflow included.
+/// The sign of (b - a) x (c - a) where rounding cannot have changed it, else 0.
 ///
 /// The filter is Shewchuk's (1997, Adaptive Precision Floating-Point Arithmetic and Fast Robust
 /// Geometric Predicates, section 4.1): the rounded determinant has the right sign when it is larger
 /// than (3 + 16e)e times the sum of its two products, e = 2^-53. What underflow may take off a
 /// product is less than the last term of the bound. An overflow makes both comparisons false. The
 /// bound holds as well where the compiler fuses a product into the difference.
-static inline int sl_orient(sl_point a, sl_point b, sl_point c) {
+static inline int sl_orient_filter(sl_point a, sl_point b, sl_point c) {
     const double left = (a.x - c.x) * (b.y - c.y);
     const double right = (a.y - c.y) * (b.x - c.x);
     const double determinant = left - right;
-    const double sum = (left < 0 ? -left : left) + (right < 0 ? -right : right);
+    const double sum = fabs(left) + fabs(right);
     const double bound = (3 * 0x1p-53 + 16 * 0x1p-106) * sum + 0x1p-1000;
-    if (determinant > bound) return 1;
-    if (-determinant > bound) return -1;
-    return sl_orient_exact(a, b, c);
+    return (determinant > bound) - (-determinant > bound);
+}
+
+/// The sign of (b - a) x (c - a): 1 where c lies to the left of the line from a to b, -1 to the
+/// right, 0 on it. Exact for all finite doubles, near overflow and underflow included.
+static inline int sl_orient(sl_point a, sl_point b, sl_point c) {
+    const int sign = sl_orient_filter(a, b, c);
+    return sign ? sign : sl_orient_exact(a, b, c);
 }
 
 #endif

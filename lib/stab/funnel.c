@@ -23,22 +23,25 @@
 
 #include "base/base.h"
 #include "geometry/orient.h"
+#include "stab/conflict.h"
 
 #include <math.h>
 
+/// Portal i's ends are number 2 i, the left one, and 2 i + 1: a number tells the side.
+typedef uint32_t end_number;
+
 /// A line through two ends, and the end about which it turns to become the next corner's.
 typedef struct corner {
-    sl_point from, to;
-    sl_point pivot;
-    bool left; ///< the pivot is a left end: the turn is clockwise
+    sl_point at, direction; ///< the end `from`, and the way from there to `to`, rounded
+    end_number from, to, pivot;
 } corner;
 
 /// The lines through the sequence up to one push.
 typedef struct level {
-    size_t first, count; ///< its corners; none while on_line
-    size_t corners_before;
+    size_t first, corners_before; ///< its corners, and where they stood before the push
+    uint32_t count;               ///< none while on_line
+    end_number low, high;         ///< while on_line: right and left end of the interval crossed
     bool on_line, strict, hidden;
-    sl_point low, high; ///< while on_line: right and left end of the interval that is crossed
 } level;
 
 typedef struct funnel {
@@ -46,12 +49,18 @@ typedef struct funnel {
     SL_ARRAY(level) levels;
     SL_ARRAY(sl_portal_ends) portals;
     SL_ARRAY(signed char) sides; ///< scratch of a cut, one a corner; its count stays 0
+    sl_box box;                  ///< around all ends so far, popped ones too
+    double bound;                ///< of the rounding error of a side, for ends in the box
+    sl_stab_account account;
 } funnel;
 
 static sl_status create(sl_context *context, sl_box bounds, void **state) {
     (void)bounds;
-    *state = sl_alloc_array(context, 1, sizeof(funnel));
-    return *state ? SL_OK : SL_NO_MEMORY;
+    funnel *f = sl_alloc_array(context, 1, sizeof *f);
+    if (!f) return SL_NO_MEMORY;
+    f->box = (sl_box){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    *state = f;
+    return SL_OK;
 }
 
 static void destroy(sl_context *context, void *state) {
@@ -64,93 +73,138 @@ static void destroy(sl_context *context, void *state) {
     sl_free(context, f);
 }
 
-/// The corner made by end `p` on the edge that turns about `pivot`. `leaving`: going round, the cut
-/// starts here. Which of the two points comes first on the line follows from the sense of the turn.
-static corner cut_edge(sl_point pivot, bool pivot_left, sl_point p, bool p_left, bool leaving) {
-    const bool pivot_first = (pivot_left != leaving) == p_left;
-    return (corner){.from = pivot_first ? pivot : p,
-                    .to = pivot_first ? p : pivot,
-                    .pivot = leaving ? p : pivot,
-                    .left = leaving ? p_left : pivot_left};
+static bool is_left(end_number e) {
+    return e % 2 == 0;
 }
 
-/// Which of two points on the first portal's line comes first, going from its right to its left
-/// end.
-static bool comes_before(const funnel *f, sl_point a, sl_point b) {
-    const sl_point right = f->portals.items[0].right, left = f->portals.items[0].left;
-    if (left.x != right.x) return left.x > right.x ? a.x < b.x : a.x > b.x;
-    return left.y > right.y ? a.y < b.y : a.y > b.y;
+static sl_point place_of(const funnel *f, end_number e) {
+    const sl_portal_ends *p = &f->portals.items[e / 2];
+    return is_left(e) ? p->left : p->right;
 }
+
+/// Widens the box, and with it the bound on the error of a side. That is Shewchuk's
+/// (geometry/orient.h) with the largest that the two products can be in place of what they are, so
+/// that it need not be computed for each side.
+static void enclose(funnel *f, sl_point p) {
+    sl_box *b = &f->box;
+    if (p.x >= b->min.x && p.x <= b->max.x && p.y >= b->min.y && p.y <= b->max.y) return;
+    b->min = (sl_point){fmin(b->min.x, p.x), fmin(b->min.y, p.y)};
+    b->max = (sl_point){fmax(b->max.x, p.x), fmax(b->max.y, p.y)};
+    f->bound = 4 * 0x1p-53 * 2 * (b->max.x - b->min.x) * (b->max.y - b->min.y) + 0x1p-1000;
+}
+
+/// On which side of a corner's line an end lies: 1 left, -1 right, 0 on it.
+static int side_of(funnel *f, const corner *c, sl_point p) {
+    const double determinant = c->direction.x * (p.y - c->at.y) - c->direction.y * (p.x - c->at.x);
+    const int sign = (determinant > f->bound) - (determinant < -f->bound);
+    if (sign) return sign;
+    f->account.exact++;
+    return sl_orient_exact(c->at, place_of(f, c->to), p);
+}
+
+static corner make_corner(const funnel *f, end_number from, end_number to, end_number pivot) {
+    const sl_point a = place_of(f, from), b = place_of(f, to);
+    return (corner){
+        .at = a, .direction = {b.x - a.x, b.y - a.y}, .from = from, .to = to, .pivot = pivot};
+}
+
+/// The corner made by a new end on the edge that turns about `pivot`. `leaving`: going round, the
+/// cut starts here. Which of the two ends comes first on the line follows from the sense of the
+/// turn.
+static corner cut_edge(const funnel *f, end_number pivot, end_number new, bool leaving) {
+    const bool pivot_first = (is_left(pivot) != leaving) == is_left(new);
+    return make_corner(f, pivot_first ? pivot : new, pivot_first ? new : pivot,
+                       leaving ? new : pivot);
+}
+
+/// Which of two ends on the first portal's line comes first, going from its right to its left end.
+static bool comes_before(const funnel *f, end_number a, end_number b) {
+    const sl_point right = f->portals.items[0].right, left = f->portals.items[0].left;
+    const sl_point p = place_of(f, a), q = place_of(f, b);
+    if (left.x != right.x) return left.x > right.x ? p.x < q.x : p.x > q.x;
+    return left.y > right.y ? p.y < q.y : p.y > q.y;
+}
+
+enum { FIRST_LEFT, FIRST_RIGHT };
 
 /// Cuts while all ends so far lie on the first portal's line. Room for three corners is there.
-static void cut_interval(funnel *f, level *l, sl_point p, bool p_left) {
-    const sl_point right = f->portals.items[0].right, left = f->portals.items[0].left;
-    const int side = sl_orient(right, left, p);
+static void cut_interval(funnel *f, level *l, end_number new) {
+    const int side =
+        sl_orient(f->portals.items[0].right, f->portals.items[0].left, place_of(f, new));
+    f->account.orientations++;
     if (side == 0) {
-        if (p_left && comes_before(f, p, l->high)) l->high = p;
-        if (!p_left && comes_before(f, l->low, p)) l->low = p;
+        if (is_left(new) && comes_before(f, new, l->high)) l->high = new;
+        if (!is_left(new) && comes_before(f, l->low, new)) l->low = new;
         l->strict = comes_before(f, l->low, l->high);
         return;
     }
     // Of the two directions along the line, the new end leaves one. Upwards: from right to left.
-    const bool upwards = p_left == (side > 0);
+    const bool upwards = is_left(new) == (side > 0);
     corner *to = f->corners.items + f->corners.count;
     l->first = f->corners.count;
     l->count = 1;
     l->on_line = false;
-    to[0] = upwards ? (corner){right, left, l->high, true} : (corner){left, right, l->low, false};
+    to[0] = upwards ? make_corner(f, FIRST_RIGHT, FIRST_LEFT, l->high)
+                    : make_corner(f, FIRST_LEFT, FIRST_RIGHT, l->low);
     if (!comes_before(f, l->high, l->low)) {
-        to[1] = cut_edge(to[0].pivot, to[0].left, p, p_left, true);
-        to[2] = upwards ? cut_edge(l->low, false, p, p_left, false)
-                        : cut_edge(l->high, true, p, p_left, false);
+        to[1] = cut_edge(f, upwards ? l->high : l->low, new, true);
+        to[2] = cut_edge(f, upwards ? l->low : l->high, new, false);
         l->count = 3;
     }
     f->corners.count += l->count;
 }
 
-/// Copies the corners that the cut leaves, with the new ones, behind all others. `sides`: of the
-/// old corners, above 0 where the line keeps the end strictly on its side.
-static void copy_cut(funnel *f, level *l, const signed char *sides, sl_point p, bool p_left) {
-    const corner *from = f->corners.items + l->first;
-    corner *to = f->corners.items + f->corners.count;
-    size_t count = 0;
-    for (size_t i = 0; i < l->count; i++) {
-        const signed char here = sides[i], next = sides[i + 1 < l->count ? i + 1 : 0];
-        if (here >= 0) to[count++] = from[i];
-        if (here > 0 && next < 0)
-            to[count++] = cut_edge(from[i].pivot, from[i].left, p, p_left, true);
-        if (here == 0 && next < 0) {
-            to[count - 1].pivot = p;
-            to[count - 1].left = p_left;
-        }
-        if (here < 0 && next > 0)
-            to[count++] = cut_edge(from[i].pivot, from[i].left, p, p_left, false);
-    }
-    l->first = f->corners.count;
-    l->count = count;
-    f->corners.count += count;
-}
-
-/// Cuts the lines by an end that they must keep at their left or right. Room for the corners is
-/// there.
-static void cut(funnel *f, level *l, sl_point p, bool p_left) {
-    if (l->on_line) {
-        cut_interval(f, l, p, p_left);
-        return;
-    }
+/// Takes for each corner on which side its line leaves an end: above 0 where strictly on the right
+/// one. Tells the least and the greatest.
+static void take_sides(funnel *f, const level *l, sl_point p, int right_side, int *least,
+                       int *most) {
     const corner *corners = f->corners.items + l->first;
     signed char *sides = f->sides.items;
-    bool any_inside = false, any_outside = false, any_kept = false;
+    *least = 1;
+    *most = -1;
     for (size_t i = 0; i < l->count; i++) {
-        const int side = sl_orient(corners[i].from, corners[i].to, p);
-        sides[i] = (signed char)(p_left ? side : -side);
-        any_inside |= sides[i] > 0;
-        any_outside |= sides[i] < 0;
-        any_kept |= sides[i] >= 0;
+        const int side = right_side * side_of(f, &corners[i], p);
+        sides[i] = (signed char)side;
+        *least = side < *least ? side : *least;
+        *most = side > *most ? side : *most;
     }
-    l->strict = l->strict && any_inside;
-    l->hidden = !any_kept;
-    if (any_kept && any_outside) copy_cut(f, l, sides, p, p_left);
+    f->account.orientations += l->count;
+}
+
+/// Makes the list anew behind all others, without the corners on the wrong side (they follow on
+/// each other, since the polygon is convex) and with those of the cut in their place.
+static void splice(funnel *f, level *l, end_number new) {
+    const corner *from = f->corners.items + l->first;
+    const signed char *sides = f->sides.items;
+    const size_t count = l->count;
+    size_t end = 0; // of what is kept: the first cut off after one that is not
+    while (sides[end] >= 0 || sides[end ? end - 1 : count - 1] < 0) end++;
+    size_t first = end; // of what is kept
+    do first = first + 1 < count ? first + 1 : 0;
+    while (sides[first] < 0);
+
+    corner *const start = f->corners.items + f->corners.count, *to = start;
+    for (size_t i = first; i != end; i = i + 1 < count ? i + 1 : 0) *to++ = from[i];
+    const size_t last = end ? end - 1 : count - 1, gone = first ? first - 1 : count - 1;
+    if (sides[last] > 0) *to++ = cut_edge(f, from[last].pivot, new, true);
+    to[-1].pivot = new;
+    if (sides[first] > 0) *to++ = cut_edge(f, from[gone].pivot, new, false);
+    l->first = f->corners.count;
+    l->count = (uint32_t)(to - start);
+    f->corners.count += l->count;
+}
+
+/// Cuts the lines by an end that they must keep on its side. Room for the corners is there.
+static inline void cut(funnel *f, level *l, end_number new, sl_point p) {
+    if (l->on_line) {
+        cut_interval(f, l, new);
+        return;
+    }
+    int least, most;
+    take_sides(f, l, p, is_left(new) ? 1 : -1, &least, &most);
+    l->strict = l->strict && most > 0;
+    l->hidden = most < 0;
+    if (least < 0 && most >= 0) splice(f, l, new);
 }
 
 static sl_status make_room(sl_context *context, funnel *f) {
@@ -166,15 +220,18 @@ static sl_status push(sl_context *context, void *state, sl_point left, sl_point 
                       sl_stab_verdict *verdict) {
     funnel *f = state;
     SL_TRY(make_room(context, f));
+    enclose(f, left);
+    enclose(f, right);
+    const end_number new = (end_number)(2 * f->portals.count);
     f->portals.items[f->portals.count++] = (sl_portal_ends){left, right};
     level *l = &f->levels.items[f->levels.count++];
     if (f->levels.count == 1) {
-        *l = (level){.on_line = true, .strict = true, .low = right, .high = left};
+        *l = (level){.on_line = true, .strict = true, .low = FIRST_RIGHT, .high = FIRST_LEFT};
     } else {
         *l = l[-1];
         l->corners_before = f->corners.count;
-        cut(f, l, left, true);
-        if (!l->hidden) cut(f, l, right, false);
+        cut(f, l, new, left);
+        if (!l->hidden) cut(f, l, new + 1, right);
     }
     *verdict = l->hidden ? SL_HIDDEN : l->strict ? SL_STABBED : SL_GRAZING;
     return SL_OK;
@@ -208,12 +265,13 @@ static sl_point crossing_point(const funnel *f, double ux, double uy, double c,
 }
 
 /// A line in the middle of all, as near as doubles come: the mean of the corners, directions of
-/// unit length, between where it crosses the first portal and where the last.
-static sl_line middle_line(const funnel *f, const level *l) {
+/// unit length, between where it crosses the first portal and where the last; or (`by_direction`)
+/// from the first on in its direction, for portals that lie beside each other.
+static sl_line middle_line(const funnel *f, const level *l, bool by_direction) {
     const sl_portal_ends *first = f->portals.items, *last = first + f->portals.count - 1;
     if (l->on_line) {
-        const sl_point middle = {l->low.x + (l->high.x - l->low.x) / 2,
-                                 l->low.y + (l->high.y - l->low.y) / 2};
+        const sl_point low = place_of(f, l->low), high = place_of(f, l->high);
+        const sl_point middle = {low.x + (high.x - low.x) / 2, low.y + (high.y - low.y) / 2};
         return (sl_line){middle,
                          {middle.x + (first->left.y - first->right.y),
                           middle.y + (first->right.x - first->left.x)}};
@@ -221,24 +279,40 @@ static sl_line middle_line(const funnel *f, const level *l) {
     double ux = 0, uy = 0, c = 0;
     for (size_t i = 0; i < l->count; i++) {
         const corner *k = &f->corners.items[l->first + i];
-        const double x = k->to.x - k->from.x, y = k->to.y - k->from.y, length = hypot(x, y);
+        const double x = k->direction.x, y = k->direction.y, length = hypot(x, y);
         ux += x / length;
         uy += y / length;
-        c -= x / length * (k->from.y - first->left.y) - y / length * (k->from.x - first->left.x);
+        c -= x / length * (k->at.y - first->left.y) - y / length * (k->at.x - first->left.x);
     }
-    return (sl_line){crossing_point(f, ux, uy, c, first), crossing_point(f, ux, uy, c, last)};
+    const sl_point a = crossing_point(f, ux, uy, c, first);
+    if (!by_direction) return (sl_line){a, crossing_point(f, ux, uy, c, last)};
+    const double size = hypot(first->left.x - first->right.x, first->left.y - first->right.y);
+    return (sl_line){a, {a.x + ux * size, a.y + uy * size}};
 }
 
 static sl_line witness(const void *state) {
     const funnel *f = state;
     const level *l = &f->levels.items[f->levels.count - 1];
-    if (l->strict) {
-        const sl_line line = middle_line(f, l);
+    for (int way = 0; l->strict && way < 2; way++) {
+        const sl_line line = middle_line(f, l, way == 1);
         if (is_strict(f, line)) return line;
     }
     if (l->on_line) return (sl_line){f->portals.items[0].right, f->portals.items[0].left};
     const corner *k = &f->corners.items[l->first];
-    return (sl_line){k->from, k->to};
+    return (sl_line){k->at, place_of(f, k->to)};
+}
+
+static sl_status conflict(sl_context *context, const void *state,
+                          sl_stab_end ends[SL_CONFLICT_MOST], uint32_t *count) {
+    const funnel *f = state;
+    const level *l = &f->levels.items[f->levels.count - 1];
+    return sl_conflict_find(context, f->portals.items, f->portals.count, !l->hidden, ends, count);
+}
+
+static void account(const void *state, sl_stab_account *sum) {
+    const funnel *f = state;
+    sum->orientations += f->account.orientations;
+    sum->exact += f->account.exact;
 }
 
 const sl_solver *sl_funnel(void) {
@@ -251,6 +325,8 @@ const sl_solver *sl_funnel(void) {
         .push = push,
         .pop = pop,
         .witness = witness,
+        .conflict = conflict,
+        .account = account,
     };
     return &solver;
 }

@@ -7,18 +7,20 @@
 /// two portals that differ most in direction. Every u but 0 that crosses all portals forwards has
 /// w·u > 0 (unless all lie on one line), so the row takes no line away; it only fixes the length of
 /// u.
-#include "sightline/glpk.h"
+#include "stab/glpk_simplex.h"
 
 #include "base/base.h"
+#include "stab/glpk_guard.h"
 
-#include <glpk.h>
 #include <math.h>
-#include <setjmp.h>
 
 /// Margins this near to zero, as a share of the bounds' size, are not trusted: simplex stops when
 /// rows hold to about its tolerance.
 #define TOLERANCE         1e-9
 #define SIMPLEX_TOLERANCE 1e-10
+
+/// A warm start takes a few; where rounding makes the simplex go in circles it would never end.
+#define MOST_ITERATIONS 1000
 
 enum { UX = 1, UY, C, D, COLUMNS = D };
 
@@ -29,7 +31,8 @@ typedef struct vector {
 /// A pushed portal, and what its push left behind.
 typedef struct level {
     vector rightmost, leftmost; ///< extremes of the crossing directions so far
-    double ux, uy, c;           ///< the line found, and its margin as GLPK has it
+    uint32_t rightmost_portal, leftmost_portal;
+    double ux, uy, c; ///< the line found, and its margin as GLPK has it
     double margin;
     size_t statuses; ///< where this level's basis starts in the stack of statuses
 } level;
@@ -42,25 +45,10 @@ typedef struct simplex {
     SL_ARRAY(level) levels;
     SL_ARRAY(uint8_t) statuses;
     SL_ARRAY(vector) ends; ///< of the rows from row 2 on, scaled: left and right in turn
-    jmp_buf failed;        ///< where GLPK's error hook goes
+    sl_glpk_guard guard;
 } simplex;
 
-/// GLPK would end the process.
-static void leave_glpk(void *info) {
-    simplex *s = info;
-    longjmp(s->failed, 1);
-}
-
-static sl_status fail_glpk(sl_context *context, simplex *s) {
-    glp_error_hook(NULL, NULL);
-    glp_free_env();
-    glp_term_out(GLP_OFF);
-    s->problem = NULL;
-    return sl_fail(context, SL_NO_MEMORY, "GLPK gave up: out of memory, or an error of its own");
-}
-
 static void make_problem(simplex *s) {
-    glp_term_out(GLP_OFF);
     s->problem = glp_create_prob();
     glp_set_obj_dir(s->problem, GLP_MAX);
     glp_add_cols(s->problem, COLUMNS);
@@ -73,11 +61,11 @@ static void make_problem(simplex *s) {
     s->settings.msg_lev = GLP_MSG_OFF;
     s->settings.meth = GLP_DUALP;
     s->settings.tol_bnd = s->settings.tol_dj = SIMPLEX_TOLERANCE;
+    s->settings.it_lim = MOST_ITERATIONS;
 }
 
 static sl_status create(sl_context *context, sl_box bounds, void **state) {
-    // Asked first, since GLPK would end the process where it finds no memory for itself.
-    if (glp_init_env() > 1) return sl_fail(context, SL_NO_MEMORY, "GLPK finds no memory to start");
+    SL_TRY(sl_glpk_start(context));
     simplex *s = sl_alloc_array(context, 1, sizeof *s);
     if (!s) return SL_NO_MEMORY;
     const double width = bounds.max.x / 2 - bounds.min.x / 2;
@@ -86,14 +74,13 @@ static sl_status create(sl_context *context, sl_box bounds, void **state) {
     (void)frexp(fmax(width, height), &exponent);
     s->scale = ldexp(1, -exponent);
     s->origin = (sl_point){bounds.min.x + width, bounds.min.y + height};
-    if (setjmp(s->failed)) {
-        const sl_status status = fail_glpk(context, s);
+    if (setjmp(s->guard.left)) {
         sl_free(context, s);
-        return status;
+        return sl_glpk_failed(context);
     }
-    glp_error_hook(leave_glpk, s);
+    sl_glpk_enter(&s->guard);
     make_problem(s);
-    glp_error_hook(NULL, NULL);
+    sl_glpk_leave();
     *state = s;
     return SL_OK;
 }
@@ -123,17 +110,32 @@ static vector crossing(sl_point left, sl_point right) {
     return (vector){n.x / length, n.y / length};
 }
 
-static void widen(level *to, const level *from, vector direction) {
-    to->rightmost = !from || cross(direction, from->rightmost) > 0 ? direction : from->rightmost;
-    to->leftmost = !from || cross(from->leftmost, direction) > 0 ? direction : from->leftmost;
+/// Takes over the extremes of the level before, or what the new portal makes of them.
+static void widen(level *to, const level *from, vector direction, uint32_t portal) {
+    const bool first = !from;
+    *to = first ? (level){0} : *from;
+    if (first || cross(direction, from->rightmost) > 0) {
+        to->rightmost = direction;
+        to->rightmost_portal = portal;
+    }
+    if (first || cross(from->leftmost, direction) > 0) {
+        to->leftmost = direction;
+        to->leftmost_portal = portal;
+    }
 }
 
-static void set_normalisation(simplex *s, const level *l) {
+/// The sum of the two crossing directions that differ most.
+static vector crossing_sum(const level *l) {
     vector w = l->rightmost;
     if (cross(l->rightmost, l->leftmost) > 0) {
         w.x += l->leftmost.x;
         w.y += l->leftmost.y;
     }
+    return w;
+}
+
+static void set_normalisation(simplex *s, const level *l) {
+    const vector w = crossing_sum(l);
     const int columns[] = {0, UX, UY};
     const double values[] = {0, w.x, w.y};
     glp_set_mat_row(s->problem, 1, 2, columns, values);
@@ -198,6 +200,26 @@ static bool solve(simplex *s, level *l) {
     return solve_once(s, l);
 }
 
+/// Whether a line square to w is a sightline within the tolerance. Row 1 leaves such lines out, and
+/// those near to them need a u too long for doubles; it happens where all ends lie near one line.
+static bool grazes_across(const simplex *s, const level *l) {
+    const vector w = crossing_sum(l);
+    const double length = hypot(w.x, w.y);
+    for (int way = -1; way <= 1; way += 2) {
+        const double ux = -way * w.y / length, uy = way * w.x / length;
+        double left = INFINITY, right = -INFINITY;
+        for (size_t i = 0; i < s->ends.count; i++) {
+            const double side = ux * s->ends.items[i].y - uy * s->ends.items[i].x;
+            if (i % 2)
+                right = fmax(right, side);
+            else
+                left = fmin(left, side);
+        }
+        if ((left - right) / 2 >= -TOLERANCE) return true;
+    }
+    return false;
+}
+
 static sl_status push(sl_context *context, void *state, sl_point left, sl_point right,
                       sl_stab_verdict *verdict) {
     simplex *s = state;
@@ -207,9 +229,12 @@ static sl_status push(sl_context *context, void *state, sl_point left, sl_point 
     SL_TRY(SL_ARRAY_ROOM(context, &s->statuses, COLUMNS + 1 + 2 * (s->levels.count + 1)));
     SL_TRY(SL_ARRAY_ROOM(context, &s->ends, 2));
     level *l = &s->levels.items[s->levels.count];
-    widen(l, s->levels.count ? l - 1 : NULL, crossing(left, right));
-    if (setjmp(s->failed)) return fail_glpk(context, s);
-    glp_error_hook(leave_glpk, s);
+    widen(l, s->levels.count ? l - 1 : NULL, crossing(left, right), (uint32_t)s->levels.count);
+    if (setjmp(s->guard.left)) {
+        s->problem = NULL;
+        return sl_glpk_failed(context);
+    }
+    sl_glpk_enter(&s->guard);
     set_normalisation(s, l);
     const int row = glp_add_rows(s->problem, 2);
     set_end_row(s, row, left, true);
@@ -217,18 +242,18 @@ static sl_status push(sl_context *context, void *state, sl_point left, sl_point 
     const bool solved = solve(s, l);
     save_basis(s, l);
     s->levels.count++;
-    glp_error_hook(NULL, NULL);
+    sl_glpk_leave();
     if (!solved) {
         // A bounded, feasible program has an optimum: that GLPK finds none is rounding's doing.
-        *l = (level){.rightmost = l->rightmost, .leftmost = l->leftmost, .statuses = l->statuses};
         l->ux = l->rightmost.x;
         l->uy = l->rightmost.y;
+        l->c = 0;
         *verdict = SL_GRAZING;
         return SL_OK;
     }
-    *verdict = l->margin > TOLERANCE     ? SL_STABBED
-               : l->margin >= -TOLERANCE ? SL_GRAZING
-                                         : SL_HIDDEN;
+    *verdict = l->margin > TOLERANCE                            ? SL_STABBED
+               : l->margin >= -TOLERANCE || grazes_across(s, l) ? SL_GRAZING
+                                                                : SL_HIDDEN;
     return SL_OK;
 }
 
@@ -257,6 +282,23 @@ static sl_line witness(const void *state) {
     const double x = l->c * l->uy / square, y = -l->c * l->ux / square;
     return (sl_line){{s->origin.x + x / s->scale, s->origin.y + y / s->scale},
                      {s->origin.x + (x + l->ux) / s->scale, s->origin.y + (y + l->uy) / s->scale}};
+}
+
+static bool is_tight(const simplex *s, uint32_t portal) {
+    const int row = 2 + 2 * (int)portal;
+    return glp_get_row_stat(s->problem, row) != GLP_BS ||
+           glp_get_row_stat(s->problem, row + 1) != GLP_BS;
+}
+
+size_t sl_glpk_tight_portals(const void *state, uint32_t portals[SL_GLPK_TIGHT_MOST]) {
+    const simplex *s = state;
+    const level *l = &s->levels.items[s->levels.count - 1];
+    size_t count = 0;
+    if (!s->problem) return 0;
+    for (uint32_t i = 0; i < s->levels.count && count < SL_GLPK_TIGHT_MOST; i++)
+        if (i == l->rightmost_portal || i == l->leftmost_portal || is_tight(s, i))
+            portals[count++] = i;
+    return count;
 }
 
 static void leave_thread(void) {

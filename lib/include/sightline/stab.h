@@ -43,6 +43,26 @@ typedef struct sl_portal_ends {
     sl_point left, right;
 } sl_portal_ends;
 
+/// An end of a portal of the sequence, the first pushed being portal 0.
+typedef struct sl_stab_end {
+    uint32_t portal;
+    bool left;
+} sl_stab_end;
+
+/// The most ends that a conflict can have. Four always do where no strict line is asked away
+/// (Radon: two left and two right ends whose segments meet, or one within the triangle of three of
+/// the other side); that not even a grazing line is left can take one or two more, where ends of
+/// both sides coincide or lie on common lines.
+#define SL_CONFLICT_MOST 6
+
+/// What a solver has done since it was made.
+typedef struct sl_stab_account {
+    uint64_t orientations; ///< orientation tests
+    uint64_t exact;        ///< of them those that the filter left to exact arithmetic
+    uint64_t certified;    ///< verdicts of a rounded solver that predicates confirmed
+    uint64_t fallbacks;    ///< verdicts that an exact solver had to give instead
+} sl_stab_account;
+
 /// A solver holds a sequence of portals, pushed and popped at its end, and answers after each push.
 /// Made and destroyed in the same thread; several may live at once.
 typedef struct sl_solver {
@@ -58,6 +78,13 @@ typedef struct sl_solver {
     void (*pop)(void *state);
     /// The line found for the sequence as it stands, which must not be SL_HIDDEN or empty.
     sl_line (*witness)(const void *state);
+    /// The ends that alone prove the last push's verdict: after SL_HIDDEN no line keeps them on
+    /// their sides, after SL_GRAZING none strictly. None can be spared. Not to be asked after
+    /// SL_STABBED. NULL where the solver cannot tell.
+    sl_status (*conflict)(sl_context *context, const void *state,
+                          sl_stab_end ends[SL_CONFLICT_MOST], uint32_t *count);
+    /// Adds what the solver has done; NULL for nothing to tell.
+    void (*account)(const void *state, sl_stab_account *sum);
     /// Frees what the solver's library keeps for the calling thread, once no solver lives in it;
     /// NULL for nothing. For threads that end.
     void (*leave_thread)(void);

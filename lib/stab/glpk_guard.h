@@ -1,0 +1,48 @@
+/// GLPK ends the process where it runs out of memory or meets an error of its own; its hook lets us
+/// leave instead:
+///
+///     if (setjmp(guard.left)) return sl_glpk_failed(context);
+///     sl_glpk_enter(&guard);
+///     ... calls of GLPK ...
+///     sl_glpk_leave();
+///
+/// After a failure all that GLPK holds for the thread is gone, every problem included.
+#ifndef SL_GLPK_GUARD_H
+#define SL_GLPK_GUARD_H
+
+#include "base/base.h"
+
+#include <glpk.h>
+#include <setjmp.h>
+
+typedef struct sl_glpk_guard {
+    jmp_buf left;
+} sl_glpk_guard;
+
+static inline void sl_glpk_jump(void *guard) {
+    longjmp(((sl_glpk_guard *)guard)->left, 1);
+}
+
+static inline void sl_glpk_enter(sl_glpk_guard *guard) {
+    glp_error_hook(sl_glpk_jump, guard);
+}
+
+static inline void sl_glpk_leave(void) {
+    glp_error_hook(NULL, NULL);
+}
+
+static inline sl_status sl_glpk_failed(sl_context *context) {
+    glp_error_hook(NULL, NULL);
+    glp_free_env();
+    return sl_fail(context, SL_NO_MEMORY, "GLPK gave up: out of memory, or an error of its own");
+}
+
+/// Makes GLPK ready in this thread, and silent. First of all calls, since at its very start there
+/// is no hook yet.
+static inline sl_status sl_glpk_start(sl_context *context) {
+    if (glp_init_env() > 1) return sl_fail(context, SL_NO_MEMORY, "GLPK finds no memory to start");
+    glp_term_out(GLP_OFF);
+    return SL_OK;
+}
+
+#endif

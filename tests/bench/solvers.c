@@ -1,0 +1,136 @@
+// What a stabbing test costs with each solver: the pushes and pops of the depth-first search on a
+// map are recorded once and played to every solver in turn, round after round, in one run.
+//   bench_solvers MAP [Z]     CSV: machine, map, solver, tests, nanoseconds a test, times the
+//   first's
+#include "sightline/glpk.h"
+#include "sightline/sightline.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/utsname.h>
+#include <time.h>
+
+/// A push with its portal, or (pop) the last one taken back.
+typedef struct event {
+    sl_portal_ends portal;
+    bool pop;
+} event;
+
+typedef struct tape {
+    event *events;
+    size_t count, room;
+} tape;
+
+static void fail(const char *what) {
+    fprintf(stderr, "bench_solvers: %s\n", what);
+    exit(1);
+}
+
+static void record(tape *t, event e) {
+    if (t->count == t->room) {
+        t->room = t->room ? 2 * t->room : 4096;
+        t->events = realloc(t->events, t->room * sizeof *t->events);
+        if (!t->events) fail("out of memory");
+    }
+    t->events[t->count++] = e;
+}
+
+/// The search of the tool, cut down to what a tape needs: closed sight, every sequence with a line.
+static void search(sl_context *context, const sl_space *space, uint32_t cell, const void *solver,
+                   unsigned crossed, tape *t) {
+    const sl_cell *c = &space->cells[cell];
+    for (uint32_t i = 0; i < c->exit_count; i++) {
+        const sl_exit *exit = &space->exits[c->first_exit + i];
+        const bool vertical = exit->left.x == exit->right.x;
+        const bool up = vertical ? exit->left.y > exit->right.y : exit->left.x < exit->right.x;
+        const unsigned bit = (vertical ? 1u : 4u) << !up, against = (vertical ? 1u : 4u) << up;
+        if (crossed & against) continue;
+        sl_stab_verdict verdict;
+        if (sl_funnel()->push(context, (void *)(uintptr_t)solver, exit->left, exit->right,
+                              &verdict) != SL_OK)
+            fail(sl_context_message(context));
+        record(t, (event){{exit->left, exit->right}, false});
+        if (verdict != SL_HIDDEN) search(context, space, exit->cell, solver, crossed | bit, t);
+        sl_funnel()->pop((void *)(uintptr_t)solver);
+        record(t, (event){.pop = true});
+    }
+}
+
+static tape record_map(sl_context *context, const sl_space *space) {
+    tape t = {0};
+    void *state = NULL;
+    if (sl_funnel()->create(context, space->bounds, &state) != SL_OK) fail("out of memory");
+    for (uint32_t cell = 0; cell < space->cell_count; cell++)
+        search(context, space, cell, state, 0, &t);
+    sl_funnel()->destroy(context, state);
+    return t;
+}
+
+static double now(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+/// Seconds that a solver takes for the tape; 0 where it refuses a portal.
+static double play(sl_context *context, const sl_solver *solver, sl_box bounds, const tape *t) {
+    void *state = NULL;
+    if (solver->create(context, bounds, &state) != SL_OK) return 0;
+    const double start = now();
+    sl_status status = SL_OK;
+    for (size_t i = 0; i < t->count && status == SL_OK; i++) {
+        const event *e = &t->events[i];
+        sl_stab_verdict verdict;
+        if (e->pop)
+            solver->pop(state);
+        else
+            status = solver->push(context, state, e->portal.left, e->portal.right, &verdict);
+    }
+    const double seconds = now() - start;
+    solver->destroy(context, state);
+    return status == SL_OK ? seconds : 0;
+}
+
+static void read_space(sl_context *context, const char *path, const char *slice, sl_space *space) {
+    sl_import_options options = sl_import_options_default();
+    options.has_slice = slice != NULL;
+    options.slice = slice ? strtod(slice, NULL) : 0;
+    const sl_subdivide_options rules = sl_subdivide_options_default();
+    sl_map map = {0};
+    if (sl_map_read(context, path, &options, &map) != SL_OK ||
+        sl_map_clean(context, &map, NULL) != SL_OK ||
+        sl_subdivide_kd(context, &map, &rules, space) != SL_OK)
+        fail(sl_context_message(context));
+    sl_map_destroy(context, &map);
+}
+
+enum { ROUNDS = 5, SOLVERS = 4 };
+
+int main(int argc, char **argv) {
+    if (argc < 2) fail("usage: bench_solvers MAP [Z]");
+    sl_context *context = sl_context_create(NULL);
+    sl_space space = {0};
+    if (!context) fail("out of memory");
+    read_space(context, argv[1], argc > 2 ? argv[2] : NULL, &space);
+    tape t = record_map(context, &space);
+    const sl_solver *solvers[SOLVERS] = {sl_funnel(), sl_glpk_simplex(), sl_glpk_hybrid(),
+                                         sl_glpk_exact()};
+    // The least of all rounds: what the others have more is the machine's doing.
+    double least[SOLVERS] = {0};
+    for (int round = 0; round < ROUNDS; round++)
+        for (int i = 0; i < SOLVERS; i++) {
+            const double seconds = play(context, solvers[i], space.bounds, &t);
+            if (round == 0 || seconds < least[i]) least[i] = seconds;
+        }
+    struct utsname machine;
+    uname(&machine);
+    puts("machine,map,solver,tests,nanoseconds_a_test,times_the_first");
+    for (int i = 0; i < SOLVERS; i++)
+        printf("%s %s,%s,%s,%zu,%.1f,%.1f\n", machine.sysname, machine.machine, argv[1],
+               solvers[i]->name, t.count / 2, 2e9 * least[i] / (double)t.count,
+               least[i] / least[0]);
+    free(t.events);
+    sl_space_destroy(context, &space);
+    sl_context_destroy(context);
+    return 0;
+}
