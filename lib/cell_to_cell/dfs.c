@@ -8,10 +8,12 @@
 /// of which rounding decided are known: they count as seen with closed sight, not with open.
 #include "base/bits.h"
 #include "base/threads.h"
+#include "cell_to_cell/crossing.h"
 #include "cell_to_cell/methods.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "cell_to_cell/tree_store.h"
 
+#include <pthread.h>
 #include <string.h>
 
 /// A cell on the way from the source.
@@ -19,20 +21,20 @@ typedef struct step {
     uint32_t cell;
     uint32_t next;      ///< exit to try next, from 0
     uint32_t node;      ///< in the stab tree
-    uint32_t crossings; ///< the directions crossed so far, bits of enum crossing
+    uint32_t crossings; ///< the directions crossed so far, bits of sl_crossing
     bool grazing;       ///< the sequence is no more than grazed
 } step;
-
-enum crossing { RIGHTWARDS = 1, LEFTWARDS = 2, UPWARDS = 4, DOWNWARDS = 8 };
 
 /// All searches together.
 typedef struct search {
     const sl_space *space;
     const sl_see_options *options;
     sl_tree_store trees;
-    sl_row_bytes *sure,
-        *doubtful;            ///< rows by source: seen whatever rounding did; seen unless it erred
-    sl_see_account *accounts; ///< by source
+    sl_row_bytes *sure;     ///< by source: seen whatever rounding did
+    sl_row_bytes *doubtful; ///< by source: seen unless rounding erred
+    sl_see_account *accounts;
+    pthread_mutex_t lock;
+    sl_stab_account stab; ///< of all solvers, under the lock
 } search;
 
 /// One thread's own.
@@ -43,15 +45,6 @@ typedef struct searcher {
     sl_growing_tree tree;
     sl_see_account account; ///< of the source at hand
 } searcher;
-
-static uint32_t crossing_of(const sl_exit *exit) {
-    if (exit->left.x == exit->right.x) return exit->left.y > exit->right.y ? RIGHTWARDS : LEFTWARDS;
-    return exit->left.x < exit->right.x ? UPWARDS : DOWNWARDS;
-}
-
-static uint32_t opposite(uint32_t crossing) {
-    return crossing & (RIGHTWARDS | UPWARDS) ? crossing << 1 : crossing >> 1;
-}
 
 /// Goes on from `to`; a sequence that counts as seen becomes a node of the stab tree.
 static sl_status enter(sl_context *context, const search *all, searcher *me, step to,
@@ -73,8 +66,8 @@ static sl_status try_exit(sl_context *context, const search *all, searcher *me, 
     const sl_solver *solver = all->options->solver;
     const sl_exit *exit = &all->space->exits[number];
     const step from = me->steps.items[me->steps.count - 1];
-    const uint32_t crossing = crossing_of(exit);
-    if (from.crossings & opposite(crossing)) return SL_OK;
+    const uint32_t crossing = sl_crossing_of(exit);
+    if (from.crossings & sl_crossing_opposite(crossing)) return SL_OK;
     if (all->options->inside_only && !all->space->cells[exit->cell].inside) return SL_OK;
     if (++me->account.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
 
@@ -128,9 +121,14 @@ static sl_status search_unit(sl_context *context, void *job, void *state, size_t
 }
 
 static void end(sl_context *context, void *job, void *state) {
-    const search *all = job;
+    search *all = job;
     searcher *me = state;
     const sl_solver *solver = all->options->solver;
+    if (me->solver && solver->account) {
+        pthread_mutex_lock(&all->lock);
+        solver->account(me->solver, &all->stab);
+        pthread_mutex_unlock(&all->lock);
+    }
     solver->destroy(context, me->solver);
     sl_free(context, me->steps.items);
     sl_free(context, me->sure);
@@ -140,7 +138,7 @@ static void end(sl_context *context, void *job, void *state) {
 }
 
 static sl_status begin(sl_context *context, void *job, void **state) {
-    const search *all = job;
+    search *all = job;
     searcher *me = sl_alloc_array(context, 1, sizeof *me);
     if (!me) return SL_NO_MEMORY;
     const size_t words = sl_bits_words(all->space->cell_count);
@@ -163,6 +161,7 @@ static void sum_accounts(const search *all, sl_see_account *sum) {
         sum->nodes += one->nodes;
         if (one->deepest > sum->deepest) sum->deepest = one->deepest;
     }
+    sum->stab = all->stab;
 }
 
 static sl_status search_all(sl_context *context, search *all, sl_visibility *out) {
@@ -203,6 +202,7 @@ sl_status sl_see_dfs(sl_context *context, const sl_space *space, const sl_see_op
         return sl_fail(context, SL_BAD_ARGUMENT, "the method 'dfs' needs a solver");
     search all = {.space = space, .options = options};
     sl_visibility visibility = {.sight = options->sight, .guarantee = options->solver->guarantee};
+    pthread_mutex_init(&all.lock, NULL);
     sl_status status = allocate(context, &all);
     if (status == SL_OK) status = search_all(context, &all, &visibility);
     for (uint32_t i = 0; i < space->cell_count; i++) {
@@ -213,6 +213,7 @@ sl_status sl_see_dfs(sl_context *context, const sl_space *space, const sl_see_op
     sl_free(context, all.doubtful);
     sl_free(context, all.accounts);
     sl_tree_store_destroy(context, &all.trees);
+    pthread_mutex_destroy(&all.lock);
     if (status == SL_OK)
         *out = visibility;
     else

@@ -32,6 +32,7 @@ typedef struct sl_see_account {
     uint64_t pairs;          ///< ordered pairs seen, each cell with itself included
     uint64_t doubtful_pairs; ///< ordered pairs of which rounding decided
     uint32_t deepest;        ///< portals in the longest sequence
+    sl_stab_account stab;    ///< of the solvers
 } sl_see_account;
 
 /// The result. Zeroed, it is empty.

@@ -1,0 +1,334 @@
+/// The search behind an explanation: depth first over portal sequences, as dfs.c, but from one cell
+/// for another, with a bound on the number of portals that is doubled until nothing is left beyond
+/// it. A sequence that cannot reach the target within the bound by any way there is, seen or not,
+/// is left alone (iterative deepening with an admissible estimate: Korf 1985).
+///
+/// A pair is stabbed, only grazed, or hidden, whatever sight is asked for: sequences that are
+/// grazed are followed as well.
+#include "sightline/explain.h"
+
+#include "base/base.h"
+#include "cell_to_cell/crossing.h"
+#include "cell_to_cell/explain_line.h"
+#include "sightline/solvers.h"
+
+#include <string.h>
+
+/// A cell on the way from the first.
+typedef struct step {
+    uint32_t cell;
+    uint32_t next;      ///< exit to try next, from 0
+    uint32_t crossings; ///< the directions crossed so far, bits of sl_crossing
+    bool grazing;       ///< the sequence is no more than grazed
+} step;
+
+typedef struct search {
+    const sl_space *space;
+    const sl_explain_options *options;
+    void *solver;
+    uint32_t *distance; ///< by cell: portals to the target, SL_NO_WAY for no way
+    SL_ARRAY(step) steps;
+    SL_ARRAY(uint32_t) exits; ///< the sequence, with room for one more
+    uint32_t bound;           ///< sequences of more portals are left for later
+    bool cut;                 ///< some were
+    bool stopped;             ///< most_tests is reached
+    uint32_t stabbed, grazed; ///< portals of the shortest sequences found; UINT32_MAX for none
+    uint32_t most_misses;
+    sl_explanation out;
+} search;
+
+sl_explain_options sl_explain_options_default(void) {
+    return (sl_explain_options){.sight = SL_CLOSED, .solver = sl_funnel(), .most_misses = 3};
+}
+
+void sl_explanation_destroy(sl_context *context, sl_explanation *explanation) {
+    sl_free(context, explanation->sequence.exits);
+    for (uint32_t i = 0; i < explanation->miss_count; i++)
+        sl_free(context, explanation->misses[i].sequence.exits);
+    sl_free(context, explanation->misses);
+    *explanation = (sl_explanation){0};
+}
+
+// --- distances
+
+/// Breadth first from the target. Portals lead both ways, so that the ways there are the ways back.
+static sl_status find_distances(sl_context *context, search *s) {
+    const sl_space *space = s->space;
+    const uint32_t count = space->cell_count;
+    s->distance = sl_alloc_array(context, count, sizeof *s->distance);
+    uint32_t *queue = sl_alloc_array(context, count, sizeof *queue);
+    if (!s->distance || !queue) {
+        sl_free(context, queue);
+        return SL_NO_MEMORY;
+    }
+    for (uint32_t i = 0; i < count; i++) s->distance[i] = SL_NO_WAY;
+    uint32_t end = 0;
+    queue[end++] = s->out.to;
+    s->distance[s->out.to] = 0;
+    for (uint32_t begin = 0; begin < end; begin++) {
+        const sl_cell *cell = &space->cells[queue[begin]];
+        for (uint32_t i = 0; i < cell->exit_count; i++) {
+            const uint32_t next = space->exits[cell->first_exit + i].cell;
+            if (s->distance[next] != SL_NO_WAY) continue;
+            s->distance[next] = s->distance[queue[begin]] + 1;
+            queue[end++] = next;
+        }
+    }
+    sl_free(context, queue);
+    return SL_OK;
+}
+
+// --- sequences to be told
+
+/// A copy of the sequence as it stands with one more exit, without ends.
+static sl_status copy_sequence(sl_context *context, const search *s, uint32_t last,
+                               sl_sequence *out) {
+    const uint32_t before = (uint32_t)s->exits.count;
+    uint32_t *exits = sl_alloc_array(context, (size_t)before + 1, sizeof *exits);
+    if (!exits) return SL_NO_MEMORY;
+    if (before) memcpy(exits, s->exits.items, before * sizeof *exits);
+    exits[before] = last;
+    sl_free(context, out->exits);
+    *out = (sl_sequence){.exits = exits, .exit_count = before + 1};
+    return SL_OK;
+}
+
+/// The target is reached by the sequence with one more exit, which the solver holds.
+static sl_status note_found(sl_context *context, search *s, uint32_t last, bool grazing) {
+    const sl_solver *solver = s->options->solver;
+    sl_explanation *out = &s->out;
+    SL_TRY(copy_sequence(context, s, last, &out->sequence));
+    out->verdict = grazing ? SL_GRAZING : SL_STABBED;
+    out->witness = solver->witness(s->solver);
+    if (grazing) {
+        s->grazed = out->sequence.exit_count;
+        return solver->conflict(context, s->solver, out->sequence.ends, &out->sequence.end_count);
+    }
+    s->stabbed = out->sequence.exit_count;
+    s->grazed = 0;
+    return SL_OK;
+}
+
+/// The last cell before the sequence's last portal.
+static uint32_t last_cell(const sl_space *space, uint32_t from, const sl_sequence *sequence) {
+    const uint32_t count = sequence->exit_count;
+    return count > 1 ? space->exits[sequence->exits[count - 2]].cell : from;
+}
+
+static bool is_farther(const sl_miss *a, const sl_miss *b) {
+    if (a->missing != b->missing) return a->missing < b->missing;
+    if (a->turns != b->turns) return b->turns;
+    return a->sequence.exit_count < b->sequence.exit_count;
+}
+
+/// Where the miss belongs in the list, farthest first: the place of the one from the same last
+/// cell, or else the list's end, from where it moves up. UINT32_MAX where it does not.
+static uint32_t place_of_miss(const search *s, const sl_miss *miss) {
+    const sl_explanation *out = &s->out;
+    const uint32_t cell = s->steps.items[s->steps.count - 1].cell;
+    for (uint32_t i = 0; i < out->miss_count; i++)
+        if (last_cell(s->space, out->from, &out->misses[i].sequence) == cell)
+            return is_farther(miss, &out->misses[i]) ? i : UINT32_MAX;
+    if (out->miss_count < s->most_misses) return out->miss_count;
+    const uint32_t last = out->miss_count - 1;
+    return s->most_misses && is_farther(miss, &out->misses[last]) ? last : UINT32_MAX;
+}
+
+/// The ends of the last portal and of the last one before it that is crossed the other way.
+static void tell_turn(const search *s, sl_sequence *sequence) {
+    const uint32_t last = sequence->exit_count - 1;
+    const uint32_t wanted =
+        sl_crossing_opposite(sl_crossing_of(&s->space->exits[sequence->exits[last]]));
+    uint32_t other = last - 1;
+    while (sl_crossing_of(&s->space->exits[sequence->exits[other]]) != wanted) other--;
+    const sl_stab_end ends[4] = {{other, true}, {other, false}, {last, true}, {last, false}};
+    memcpy(sequence->ends, ends, sizeof ends);
+    sequence->end_count = 4;
+}
+
+static bool is_visited(const search *s, uint32_t cell) {
+    for (size_t i = 0; i < s->steps.count; i++)
+        if (s->steps.items[i].cell == cell) return true;
+    return false;
+}
+
+/// The exit stops the sequence: by ends, and the solver then holds it, or since it turns back. Only
+/// exits that lead nearer to the target are told of, what stands in the way there; and none that
+/// lead back to where the sequence has been.
+static sl_status note_miss(sl_context *context, search *s, uint32_t exit, bool turns) {
+    sl_explanation *out = &s->out;
+    const uint32_t missing = s->distance[s->steps.items[s->steps.count - 1].cell];
+    if (out->verdict != SL_HIDDEN || s->distance[s->space->exits[exit].cell] >= missing)
+        return SL_OK;
+    sl_miss miss = {
+        .sequence.exit_count = (uint32_t)s->exits.count + 1, .missing = missing, .turns = turns};
+    uint32_t at = place_of_miss(s, &miss);
+    if (at == UINT32_MAX || is_visited(s, s->space->exits[exit].cell)) return SL_OK;
+    SL_TRY(copy_sequence(context, s, exit, &miss.sequence));
+    if (turns) {
+        tell_turn(s, &miss.sequence);
+    } else {
+        const sl_status status = s->options->solver->conflict(
+            context, s->solver, miss.sequence.ends, &miss.sequence.end_count);
+        if (status != SL_OK) {
+            sl_free(context, miss.sequence.exits);
+            return status;
+        }
+    }
+    if (at == out->miss_count)
+        out->miss_count++;
+    else
+        sl_free(context, out->misses[at].sequence.exits);
+    for (; at > 0 && is_farther(&miss, &out->misses[at - 1]); at--)
+        out->misses[at] = out->misses[at - 1];
+    out->misses[at] = miss;
+    return SL_OK;
+}
+
+// --- the search
+
+/// Whether a sequence that takes at least so many portals in all is not to be followed: another one
+/// is as short, or it goes beyond the bound.
+static bool is_beyond(search *s, bool grazing, uint32_t portals) {
+    if (portals >= s->stabbed || (grazing && portals >= s->grazed)) return true;
+    if (portals > s->bound) s->cut = true;
+    return portals > s->bound;
+}
+
+static sl_status count_test(sl_context *context, search *s) {
+    sl_explanation *out = &s->out;
+    if (++out->tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
+    if (out->tests % 1024 == 0) sl_report(context, "explain", "tests", out->tests, 0);
+    s->stopped = out->tests == s->options->most_tests;
+    return SL_OK;
+}
+
+/// What comes of the sequence with one more exit, which the solver holds. `enters`: it is followed
+/// into the next cell, and the solver keeps it.
+static sl_status judge(sl_context *context, search *s, uint32_t number, sl_stab_verdict verdict,
+                       bool *enters) {
+    const sl_exit *exit = &s->space->exits[number];
+    const step from = s->steps.items[s->steps.count - 1];
+    const uint32_t portals = (uint32_t)s->exits.count + 1;
+    const bool grazing = verdict == SL_GRAZING;
+    *enters = false;
+    if (verdict == SL_HIDDEN) return note_miss(context, s, number, false);
+    if (is_beyond(s, grazing, portals + s->distance[exit->cell])) return SL_OK;
+    if (exit->cell == s->out.to) return note_found(context, s, number, grazing);
+    SL_TRY(SL_ARRAY_ROOM(context, &s->steps, 1));
+    SL_TRY(SL_ARRAY_ROOM(context, &s->exits, 1));
+    s->exits.items[s->exits.count++] = number;
+    s->steps.items[s->steps.count++] = (step){
+        .cell = exit->cell, .crossings = from.crossings | sl_crossing_of(exit), .grazing = grazing};
+    *enters = true;
+    return SL_OK;
+}
+
+static sl_status try_exit(sl_context *context, search *s, uint32_t number) {
+    const sl_solver *solver = s->options->solver;
+    const sl_exit *exit = &s->space->exits[number];
+    const step from = s->steps.items[s->steps.count - 1];
+    const uint32_t portals = (uint32_t)s->exits.count + 1 + s->distance[exit->cell];
+    if (from.crossings & sl_crossing_opposite(sl_crossing_of(exit)))
+        return note_miss(context, s, number, true);
+    if (is_beyond(s, from.grazing, portals)) return SL_OK;
+    SL_TRY(count_test(context, s));
+    sl_stab_verdict verdict;
+    bool enters;
+    SL_TRY(solver->push(context, s->solver, exit->left, exit->right, &verdict));
+    SL_TRY(judge(context, s, number, verdict, &enters));
+    if (!enters) solver->pop(s->solver);
+    return SL_OK;
+}
+
+/// All sequences within the bound.
+static sl_status search_within(sl_context *context, search *s) {
+    const sl_space *space = s->space;
+    SL_TRY(SL_ARRAY_ROOM(context, &s->steps, 1));
+    s->steps.items[s->steps.count++] = (step){.cell = s->out.from};
+    while (s->steps.count && !s->stopped) {
+        step *last = &s->steps.items[s->steps.count - 1];
+        const sl_cell *cell = &space->cells[last->cell];
+        if (last->next < cell->exit_count) {
+            SL_TRY(try_exit(context, s, cell->first_exit + last->next++));
+        } else if (--s->steps.count) {
+            s->exits.count--;
+            s->options->solver->pop(s->solver);
+        }
+    }
+    return SL_OK;
+}
+
+static sl_status search_all(sl_context *context, search *s) {
+    sl_explanation *out = &s->out;
+    const uint32_t cells = s->space->cell_count;
+    s->most_misses = s->options->most_misses < cells ? s->options->most_misses : cells;
+    out->misses = sl_alloc_array(context, s->most_misses, sizeof *out->misses);
+    if (!out->misses) return SL_NO_MEMORY;
+    for (s->bound = out->distance;; s->bound *= 2) {
+        s->cut = false;
+        SL_TRY(search_within(context, s));
+        if (!s->cut || s->stopped || out->verdict == SL_STABBED) break;
+    }
+    out->complete = !s->stopped;
+    return SL_OK;
+}
+
+static void drop_misses(sl_context *context, sl_explanation *out) {
+    for (uint32_t i = 0; i < out->miss_count; i++) sl_free(context, out->misses[i].sequence.exits);
+    out->miss_count = 0;
+}
+
+static sl_status explain(sl_context *context, search *s) {
+    const sl_solver *solver = s->options->solver;
+    sl_explanation *out = &s->out;
+    SL_TRY(find_distances(context, s));
+    out->distance = s->distance[out->from];
+    out->complete = true;
+    out->verdict = out->distance == 0 ? SL_STABBED : SL_HIDDEN;
+    if (out->distance != 0 && out->distance != SL_NO_WAY) {
+        SL_TRY(solver->create(context, s->space->bounds, &s->solver));
+        const sl_status status = search_all(context, s);
+        solver->destroy(context, s->solver);
+        SL_TRY(status);
+    }
+    out->seen =
+        out->verdict == SL_STABBED || (out->verdict == SL_GRAZING && out->sight == SL_CLOSED);
+    if (out->verdict != SL_HIDDEN) drop_misses(context, out);
+    if (!out->sequence.exit_count) return SL_OK;
+    out->touches =
+        out->verdict == SL_GRAZING || !sl_simplify_line(s->space, &out->sequence, &out->witness);
+    out->shown = sl_shown_segment(s->space, &out->sequence, out->from, out->witness);
+    return SL_OK;
+}
+
+static sl_status check(sl_context *context, const sl_space *space,
+                       const sl_explain_options *options, uint32_t from, uint32_t to) {
+    const sl_solver *solver = options->solver;
+    if (from >= space->cell_count || to >= space->cell_count)
+        return sl_fail(context, SL_BAD_ARGUMENT, "cell %u: the map has %u cells",
+                       from >= space->cell_count ? from : to, space->cell_count);
+    if (!solver || solver->guarantee != SL_EXACT || !solver->conflict)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "explaining needs an exact solver that tells conflicts");
+    return SL_OK;
+}
+
+sl_status sl_explain(sl_context *context, const sl_space *space, const sl_explain_options *options,
+                     uint32_t from, uint32_t to, sl_explanation *out) {
+    SL_TRY(check(context, space, options, from, to));
+    search s = {.space = space,
+                .options = options,
+                .stabbed = UINT32_MAX,
+                .grazed = UINT32_MAX,
+                .out = {.from = from, .to = to, .sight = options->sight}};
+    const sl_status status = explain(context, &s);
+    sl_free(context, s.distance);
+    sl_free(context, s.steps.items);
+    sl_free(context, s.exits.items);
+    if (status == SL_OK)
+        *out = s.out;
+    else
+        sl_explanation_destroy(context, &s.out);
+    return status;
+}

@@ -1,0 +1,80 @@
+#include "cell_to_cell/explain_line.h"
+
+#include "geometry/orient.h"
+#include "space/ray.h"
+
+/// Significant digits, of the size of the map, that are tried for a line's coordinates.
+#define MOST_DIGITS 15
+
+static bool is_strict(const sl_space *space, const sl_sequence *sequence, sl_line line) {
+    for (uint32_t i = 0; i < sequence->exit_count; i++) {
+        const sl_exit *exit = &space->exits[sequence->exits[i]];
+        if (sl_orient(line.a, line.b, exit->left) <= 0 ||
+            sl_orient(line.a, line.b, exit->right) >= 0)
+            return false;
+    }
+    return true;
+}
+
+/// At what share of the portal the line crosses it, from its left end.
+static double share_of(const sl_exit *exit, sl_line line) {
+    const double x = line.b.x - line.a.x, y = line.b.y - line.a.y;
+    const double left = x * (exit->left.y - line.a.y) - y * (exit->left.x - line.a.x);
+    const double right = x * (exit->right.y - line.a.y) - y * (exit->right.x - line.a.x);
+    return left > right ? fmin(fmax(left / (left - right), 0), 1) : 0;
+}
+
+/// Whether a line keeps half of what distance another one keeps from the portals' ends.
+static bool is_near(const sl_space *space, const sl_sequence *sequence, sl_line line,
+                    sl_line other) {
+    for (uint32_t i = 0; i < sequence->exit_count; i++) {
+        const sl_exit *exit = &space->exits[sequence->exits[i]];
+        const double share = share_of(exit, line), wanted = share_of(exit, other);
+        if (share < wanted / 2 || 1 - share < (1 - wanted) / 2) return false;
+    }
+    return true;
+}
+
+static sl_point rounded(sl_point p, double decimals) {
+    return (sl_point){round(p.x * decimals) / decimals, round(p.y * decimals) / decimals};
+}
+
+bool sl_simplify_line(const sl_space *space, const sl_sequence *sequence, sl_line *line) {
+    const sl_box b = space->bounds;
+    const double size =
+        fmax(fmax(fabs(b.min.x), fabs(b.max.x)), fmax(fabs(b.min.y), fabs(b.max.y)));
+    const double first = size > 0 ? 1 - ceil(log10(size)) : 0;
+    const bool strict = is_strict(space, sequence, *line);
+    for (int digits = 0; digits < MOST_DIGITS; digits++) {
+        const double decimals = pow(10, first + digits);
+        const sl_line simple = {rounded(line->a, decimals), rounded(line->b, decimals)};
+        if (!is_strict(space, sequence, simple)) continue;
+        if (strict && !is_near(space, sequence, simple, *line)) continue;
+        *line = simple;
+        return true;
+    }
+    return strict;
+}
+
+/// Where the line crosses a portal; an end of it where it lies along.
+static sl_point crossing_point(const sl_exit *exit, sl_line line) {
+    const double share = share_of(exit, line);
+    return (sl_point){exit->left.x + share * (exit->right.x - exit->left.x),
+                      exit->left.y + share * (exit->right.y - exit->left.y)};
+}
+
+/// From a point on the cell's boundary half the way through it.
+static sl_point into(const sl_space *space, uint32_t cell, sl_point at, sl_point direction) {
+    const double half = sl_ray_length(space, cell, at, direction) / 2;
+    return (sl_point){at.x + half * direction.x, at.y + half * direction.y};
+}
+
+sl_segment sl_shown_segment(const sl_space *space, const sl_sequence *sequence, uint32_t from,
+                            sl_line line) {
+    const sl_exit *first = &space->exits[sequence->exits[0]];
+    const sl_exit *last = &space->exits[sequence->exits[sequence->exit_count - 1]];
+    const double x = line.b.x - line.a.x, y = line.b.y - line.a.y, length = hypot(x, y);
+    const sl_point forward = {x / length, y / length}, back = {-x / length, -y / length};
+    return (sl_segment){into(space, from, crossing_point(first, line), back),
+                        into(space, last->cell, crossing_point(last, line), forward)};
+}

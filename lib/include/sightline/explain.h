@@ -1,0 +1,93 @@
+/// Why one cell does or does not see another: a portal sequence with a sightline, or the sequences
+/// that came farthest, each with the few portal ends that stand in the way.
+#ifndef SIGHTLINE_EXPLAIN_H
+#define SIGHTLINE_EXPLAIN_H
+
+#include "sightline/space.h"
+#include "sightline/stab.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// A distance where no portals lead from one cell to the other.
+#define SL_NO_WAY UINT32_MAX
+
+/// Start from sl_explain_options_default().
+typedef struct sl_explain_options {
+    sl_sight sight;
+    const sl_solver *solver; ///< exact, and one that tells conflicts; usually sl_funnel()
+    uint32_t most_misses;    ///< to be told of a hidden pair; usually 3
+    uint64_t most_tests;     ///< stabbing tests after which to give up; 0, as usual, for no limit
+} sl_explain_options;
+
+SL_API sl_explain_options sl_explain_options_default(void);
+
+/// A portal sequence, and the ends that decide on it; portal i of the ends is exits[i]'s.
+typedef struct sl_sequence {
+    uint32_t *exits; ///< of the space, in the order crossed
+    uint32_t exit_count;
+    uint32_t end_count;
+    sl_stab_end ends[SL_CONFLICT_MOST];
+} sl_sequence;
+
+/// A sequence that came to nothing: it has a sightline, of whatever sight, but for its last portal.
+typedef struct sl_miss {
+    /// The last exit is the one that stops it. Ends: those that no line keeps on their sides.
+    sl_sequence sequence;
+    uint32_t missing; ///< portals to the target from the cell before the last portal
+    bool turns; ///< the last portal is crossed backwards to one crossed before: the ends are those
+                ///< of both
+} sl_miss;
+
+/// The answer. Zeroed, it is empty.
+typedef struct sl_explanation {
+    uint32_t from, to;
+    sl_sight sight;
+    bool seen;     ///< with that sight: SL_STABBED, or SL_GRAZING with closed sight
+    bool complete; ///< false: most_tests ended the search, and what is told is what it knew by then
+    sl_stab_verdict verdict; ///< with closed sight and open; SL_STABBED for a cell and itself
+    uint32_t distance;       ///< portals on the shortest way, seen or not; 0 for a cell and itself
+    /// Where not SL_HIDDEN: of all sequences with that verdict one with the fewest portals. Ends:
+    /// for SL_GRAZING those that the line touches and that leave no other way.
+    sl_sequence sequence;
+    /// A line through the sequence, proven by exact orientation tests; of few decimals where it
+    /// can.
+    sl_line witness;
+    bool touches; ///< the witness touches ends: where SL_GRAZING, and where all lines that do not
+                  ///< lie too close together for doubles
+    /// Along the witness from the middle of its way through the first cell to that through the
+    /// last. Rounded: to be shown.
+    sl_segment shown;
+    /// Where SL_HIDDEN and there is a way: those that came farthest, from different last cells.
+    /// First those with the fewest portals missing; of these those that ends stop before those that
+    /// turn, and the shortest sequence first.
+    sl_miss *misses;
+    uint32_t miss_count;
+    uint64_t tests; ///< stabbing tests
+} sl_explanation;
+
+/// Searches for sightlines from cell `from` to cell `to`. Exact. The fewest portals first, by ever
+/// longer searches, so that a pair that is seen is found before all that is near has been tried; a
+/// hidden pair takes a search of all that `from` sees. Reports stage "explain", unit "tests".
+/// SL_BAD_ARGUMENT where a cell is none of the space or the solver cannot tell.
+SL_API sl_status sl_explain(sl_context *context, const sl_space *space,
+                            const sl_explain_options *options, uint32_t from, uint32_t to,
+                            sl_explanation *out);
+
+SL_API void sl_explanation_destroy(sl_context *context,
+                                   sl_explanation *explanation); ///< and zeroes it
+
+/// The place of an end of a sequence.
+SL_API sl_point sl_sequence_end(const sl_space *space, const sl_sequence *sequence,
+                                sl_stab_end end);
+
+/// What the ends of a sequence are to each other, as a clause: "the segment between those left ends
+/// crosses the segment between those right ends".
+SL_API const char *sl_sequence_reason(const sl_space *space, const sl_sequence *sequence);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
