@@ -32,6 +32,16 @@ void sl_text_show(cairo_t *cairo, sl_colour colour, double x, double y, const ch
     cairo_new_path(cairo);
 }
 
+void sl_text_copy(const char *text, size_t length, char *out, size_t room) {
+    if (length > room - 1) {
+        length = room - 1;
+        // A byte 10xxxxxx continues a character.
+        while (length > 0 && ((unsigned char)text[length] & 0xc0) == 0x80) length--;
+    }
+    memcpy(out, text, length);
+    out[length] = '\0';
+}
+
 /// The text's longest beginning, at a character's end, that fits with an ellipsis behind it.
 static void cut(cairo_t *cairo, const char *text, double width, char *out, size_t room) {
     size_t length = strlen(text);

@@ -22,6 +22,9 @@ void sl_text_show(cairo_t *cairo, sl_colour colour, double x, double y, const ch
 void sl_text_show_within(cairo_t *cairo, sl_colour colour, double x, double y, double width,
                          double size, bool bold, const char *text);
 
+/// Copies text[0 .. length) as far as there is room, whole characters only.
+void sl_text_copy(const char *text, size_t length, char *out, size_t room);
+
 #define SL_COUNT_TEXT 64
 
 /// A count with its thousands set apart, and what is counted: "1 204 cells", "1 cell".

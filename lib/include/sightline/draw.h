@@ -1,9 +1,10 @@
-/// Pictures of a baked map, by one drawing code for files and for windows. In a library of its own,
-/// sightline_draw, which needs cairo.
+/// Pictures of a baked map, by one drawing code for files and for windows; and charts. In a library
+/// of its own, sightline_draw, which needs cairo.
 #ifndef SIGHTLINE_DRAW_H
 #define SIGHTLINE_DRAW_H
 
 #include "sightline/bake.h"
+#include "sightline/explain.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -45,6 +46,82 @@ SL_API sl_draw_options sl_draw_options_default(void);
 /// of range, SL_IO or SL_NO_MEMORY otherwise; a failure leaves an older file as it was.
 SL_API sl_status sl_draw_file(sl_context *context, const sl_baked *baked,
                               const sl_draw_options *options, const char *path);
+
+/// Draws an explanation, likewise: over the part of the map that it is about the two cells, the
+/// portals that a sequence crosses with their left and right ends, and the line that passes them
+/// or, of a hidden pair, what stops the first of the misses. The options' width, title and dark
+/// count.
+SL_API sl_status sl_draw_explanation(sl_context *context, const sl_baked *baked,
+                                     const sl_explanation *explanation,
+                                     const sl_draw_options *options, const char *path);
+
+// --- charts
+
+/// How values lie along an axis. Symmetric logarithm: linear between -1 and 1, powers of ten at
+/// equal steps on either side.
+typedef enum sl_chart_scale { SL_CHART_LINEAR, SL_CHART_LOG, SL_CHART_SYMLOG } sl_chart_scale;
+
+/// An axis reaches as far as what is drawn, and a little farther. Texts here and below are UTF-8,
+/// and NULL for none.
+typedef struct sl_chart_axis {
+    const char *label;
+    sl_chart_scale scale;
+    bool seconds;     ///< values are durations: "20 ms"
+    const char *zero; ///< what 0 is called instead of "0"
+    /// What it means to be over and under 0 (y axis only). With both, 0 stands in the middle with a
+    /// line of its own, and numbers on either side have no sign.
+    const char *over, *under;
+} sl_chart_axis;
+
+/// From low to high; nothing where they are equal.
+typedef struct sl_chart_span {
+    double low, high;
+} sl_chart_span;
+
+typedef struct sl_chart_mark {
+    double x, y;
+    sl_chart_span x_whisker, y_whisker; ///< thin lines through the mark
+    sl_chart_span y_band;               ///< a broad pale bar at the mark's x
+    const char *label; ///< beside it, apart from all others; in a list below where there is no room
+    const char *note;  ///< a smaller line under the label, where there is room for it
+} sl_chart_mark;
+
+typedef enum sl_chart_style {
+    SL_CHART_MARKS, ///< a disc each
+    SL_CHART_LINE,  ///< a line from mark to mark, in the order given
+    /// A frontier: stairs through marks in ascending x, along x first. They start at the upper (or
+    /// lower) edge over the first mark and go on to the right edge behind the last; what lies
+    /// between them and 0 and left of them is shaded. Labels, whiskers and bands are not drawn.
+    SL_CHART_FRONTIER_OVER,
+    SL_CHART_FRONTIER_UNDER,
+} sl_chart_style;
+
+/// Colours that a series may have, from 0; told apart under every common colour blindness.
+#define SL_CHART_COLOURS 6
+
+typedef struct sl_chart_series {
+    const char *name; ///< in the key; series of one name should be of one style
+    sl_chart_style style;
+    unsigned colour; ///< below SL_CHART_COLOURS; not used for frontiers
+    const sl_chart_mark *marks;
+    size_t mark_count;
+} sl_chart_series;
+
+/// A chart. Zeroed but for its width, it is an empty frame.
+typedef struct sl_chart {
+    const char *title, *subtitle;
+    const char *notes; ///< lines under the key
+    const char *band;  ///< what the bands are, in the key
+    sl_chart_axis x, y;
+    const sl_chart_series *series;
+    size_t series_count;
+    double width; ///< as that of sl_draw_options; the height follows, so that all labels fit
+    bool dark;
+} sl_chart;
+
+/// Draws into a file, as sl_draw_file does. SL_BAD_ARGUMENT on values that are not finite, beyond
+/// 1e300, or not positive on a logarithmic axis.
+SL_API sl_status sl_draw_chart_file(sl_context *context, const sl_chart *chart, const char *path);
 
 #ifdef __cplusplus
 }

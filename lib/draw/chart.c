@@ -1,0 +1,333 @@
+#include "draw/chart_page.h"
+
+#include "base/base.h"
+#include "draw/paper.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define LARGEST 1e300
+
+static bool is_frontier(const sl_chart_series *series) {
+    return series->style == SL_CHART_FRONTIER_OVER || series->style == SL_CHART_FRONTIER_UNDER;
+}
+
+// --- what is refused
+
+static sl_status check_value(sl_context *context, const sl_chart_axis *axis, double value) {
+    if (!(fabs(value) <= LARGEST))
+        return sl_fail(context, SL_BAD_ARGUMENT, "a chart's value is %g: at most %g is drawn",
+                       value, LARGEST);
+    if (axis->scale == SL_CHART_LOG && !(value > 0))
+        return sl_fail(context, SL_BAD_ARGUMENT, "a chart's value is %g on a logarithmic axis",
+                       value);
+    return SL_OK;
+}
+
+static sl_status check_span(sl_context *context, const sl_chart_axis *axis, sl_chart_span span) {
+    if (span.low == span.high) return SL_OK;
+    SL_TRY(check_value(context, axis, span.low));
+    return check_value(context, axis, span.high);
+}
+
+static sl_status check_mark(sl_context *context, const sl_chart *chart, const sl_chart_mark *mark) {
+    SL_TRY(check_value(context, &chart->x, mark->x));
+    SL_TRY(check_value(context, &chart->y, mark->y));
+    SL_TRY(check_span(context, &chart->x, mark->x_whisker));
+    SL_TRY(check_span(context, &chart->y, mark->y_whisker));
+    return check_span(context, &chart->y, mark->y_band);
+}
+
+static sl_status check_chart(sl_context *context, const sl_chart *chart) {
+    if (!(chart->width >= SL_DRAW_WIDTH_MIN && chart->width <= SL_DRAW_WIDTH_MAX))
+        return sl_fail(context, SL_BAD_ARGUMENT, "width %g: must be %d to %d", chart->width,
+                       SL_DRAW_WIDTH_MIN, SL_DRAW_WIDTH_MAX);
+    for (size_t i = 0; i < chart->series_count; i++) {
+        const sl_chart_series *series = &chart->series[i];
+        if (series->colour >= SL_CHART_COLOURS)
+            return sl_fail(context, SL_BAD_ARGUMENT, "colour %u: a chart has %d", series->colour,
+                           SL_CHART_COLOURS);
+        for (size_t k = 0; k < series->mark_count; k++)
+            SL_TRY(check_mark(context, chart, &series->marks[k]));
+    }
+    return SL_OK;
+}
+
+// --- fitting the axes
+
+typedef struct extent {
+    double least, most;
+} extent;
+
+static void take(extent *e, double value) {
+    e->least = fmin(e->least, value);
+    e->most = fmax(e->most, value);
+}
+
+static void take_span(extent *e, sl_chart_span span) {
+    if (span.low == span.high) return;
+    take(e, span.low);
+    take(e, span.high);
+}
+
+/// Where nothing is drawn an axis has a range all the same.
+static sl_axis fit(const sl_chart_axis *axis, const extent *e) {
+    if (e->least <= e->most) return sl_axis_fit(axis, e->least, e->most);
+    return sl_axis_fit(axis, axis->scale == SL_CHART_LOG ? 1 : 0, 1);
+}
+
+static void fit_axes(sl_chart_page *page) {
+    const sl_chart *chart = page->chart;
+    extent x = {INFINITY, -INFINITY}, y = x;
+    for (size_t i = 0; i < chart->series_count; i++) {
+        for (size_t k = 0; k < chart->series[i].mark_count; k++) {
+            const sl_chart_mark *mark = &chart->series[i].marks[k];
+            take(&x, mark->x);
+            take_span(&x, mark->x_whisker);
+            take(&y, mark->y);
+            take_span(&y, mark->y_whisker);
+            take_span(&y, mark->y_band);
+        }
+    }
+    page->x = fit(&chart->x, &x);
+    page->y = fit(&chart->y, &y);
+    page->x_tick_count = sl_axis_ticks(&page->x, page->x_ticks);
+    page->y_tick_count = sl_axis_ticks(&page->y, page->y_ticks);
+}
+
+// --- the marks
+
+/// By place along x, which is how labels are best given room.
+static int compare_spots(const void *left, const void *right) {
+    const sl_spot *a = left, *b = right;
+    if (a->mark->x != b->mark->x) return a->mark->x < b->mark->x ? -1 : 1;
+    if (a->mark->y != b->mark->y) return a->mark->y < b->mark->y ? -1 : 1;
+    return a->mark < b->mark ? -1 : a->mark > b->mark;
+}
+
+static void gather_spots(sl_chart_page *page, bool labelled) {
+    const sl_chart *chart = page->chart;
+    for (size_t i = 0; i < chart->series_count; i++) {
+        const sl_chart_series *series = &chart->series[i];
+        for (size_t k = 0; k < series->mark_count && !is_frontier(series); k++)
+            if ((series->marks[k].label != NULL) == labelled)
+                page->spots[page->spot_count++] = (sl_spot){&series->marks[k], series, {0, 0}};
+    }
+}
+
+static sl_status make_spots(sl_context *context, sl_chart_page *page) {
+    size_t most = 0;
+    for (size_t i = 0; i < page->chart->series_count; i++)
+        most += page->chart->series[i].mark_count;
+    page->spots = sl_alloc_array(context, most, sizeof *page->spots);
+    if (!page->spots) return SL_NO_MEMORY;
+    gather_spots(page, true);
+    page->label_count = page->spot_count;
+    qsort(page->spots, page->label_count, sizeof *page->spots, compare_spots);
+    gather_spots(page, false);
+    page->labels = sl_alloc_array(context, page->label_count, sizeof *page->labels);
+    return page->labels ? SL_OK : SL_NO_MEMORY;
+}
+
+static void measure_labels(cairo_t *cairo, sl_chart_page *page) {
+    const double size = SL_CHART_LABEL * page->text, small = SL_CHART_NOTE * page->text;
+    for (size_t i = 0; i < page->label_count; i++) {
+        const sl_chart_mark *mark = page->spots[i].mark;
+        sl_label *label = &page->labels[i];
+        sl_text_font(cairo, size, true);
+        label->width = sl_text_width(cairo, mark->label);
+        label->height = SL_CHART_LINE_HEIGHT * size;
+        if (!mark->note || page->bare) continue;
+        sl_text_font(cairo, small, false);
+        label->width = fmax(label->width, sl_text_width(cairo, mark->note));
+        label->height += SL_CHART_LINE_HEIGHT * small;
+    }
+}
+
+// --- the page
+
+typedef SL_ARRAY(sl_obstacle) obstacles;
+
+static sl_status keep_off(sl_context *context, obstacles *list, sl_obstacle obstacle) {
+    SL_TRY(SL_ARRAY_ROOM(context, list, 1));
+    list->items[list->count++] = obstacle;
+    return SL_OK;
+}
+
+static sl_box box_around(double x0, double y0, double x1, double y1, double by) {
+    return (sl_box){{fmin(x0, x1) - by, fmin(y0, y1) - by}, {fmax(x0, x1) + by, fmax(y0, y1) + by}};
+}
+
+static sl_status keep_off_spot(sl_context *context, const sl_chart_page *page, size_t i,
+                               obstacles *list) {
+    const sl_spot *spot = &page->spots[i];
+    const sl_chart_mark *m = spot->mark;
+    const double disc = SL_CHART_DISC * page->text, thin = disc / 4;
+    const sl_point at = spot->at;
+    const size_t owner = i < page->label_count ? i : SIZE_MAX;
+    const double x0 = sl_axis_place(&page->x, m->x_whisker.low);
+    const double x1 = sl_axis_place(&page->x, m->x_whisker.high);
+    const double y0 = sl_axis_place(&page->y, m->y_whisker.low);
+    const double y1 = sl_axis_place(&page->y, m->y_whisker.high);
+    SL_TRY(keep_off(context, list,
+                    (sl_obstacle){box_around(at.x, at.y, at.x, at.y, disc), owner, false}));
+    if (m->x_whisker.low != m->x_whisker.high)
+        SL_TRY(keep_off(context, list,
+                        (sl_obstacle){box_around(x0, at.y, x1, at.y, thin), owner, true}));
+    if (m->y_whisker.low != m->y_whisker.high)
+        SL_TRY(keep_off(context, list,
+                        (sl_obstacle){box_around(at.x, y0, at.x, y1, thin), owner, true}));
+    if (m->y_band.low == m->y_band.high) return SL_OK;
+    const double b0 = sl_axis_place(&page->y, m->y_band.low);
+    const double b1 = sl_axis_place(&page->y, m->y_band.high);
+    return keep_off(context, list,
+                    (sl_obstacle){box_around(at.x, b0, at.x, b1, disc), owner, true});
+}
+
+static sl_status keep_off_frontier(sl_context *context, const sl_chart_page *page,
+                                   const sl_chart_series *series, obstacles *list) {
+    const double thin = 0.15 * page->text;
+    double y = series->style == SL_CHART_FRONTIER_OVER ? page->frame.min.y : page->frame.max.y;
+    for (size_t i = 0; i < series->mark_count; i++) {
+        const double x = sl_axis_place(&page->x, series->marks[i].x);
+        const double next = sl_axis_place(&page->y, series->marks[i].y);
+        const double end = i + 1 < series->mark_count
+                               ? sl_axis_place(&page->x, series->marks[i + 1].x)
+                               : page->frame.max.x;
+        SL_TRY(keep_off(context, list,
+                        (sl_obstacle){box_around(x, y, x, next, thin), SIZE_MAX, true}));
+        SL_TRY(keep_off(context, list,
+                        (sl_obstacle){box_around(x, next, end, next, thin), SIZE_MAX, true}));
+        y = next;
+    }
+    return SL_OK;
+}
+
+static sl_status gather_obstacles(sl_context *context, cairo_t *cairo, const sl_chart_page *page,
+                                  obstacles *list) {
+    const sl_chart *chart = page->chart;
+    for (size_t i = 0; i < page->spot_count; i++) SL_TRY(keep_off_spot(context, page, i, list));
+    for (size_t i = 0; i < chart->series_count; i++)
+        if (is_frontier(&chart->series[i]))
+            SL_TRY(keep_off_frontier(context, page, &chart->series[i], list));
+    for (int over = 0; over < 2; over++) {
+        const sl_box words = sl_chart_words(cairo, page, over);
+        if (words.max.y > words.min.y)
+            SL_TRY(keep_off(context, list, (sl_obstacle){words, SIZE_MAX, false}));
+    }
+    if (!(chart->y.over && chart->y.under)) return SL_OK;
+    const double zero = sl_axis_place(&page->y, 0), thin = 0.15 * page->text;
+    return keep_off(
+        context, list,
+        (sl_obstacle){box_around(page->frame.min.x, zero, page->frame.max.x, zero, thin), SIZE_MAX,
+                      true});
+}
+
+static void set_frame(sl_chart_page *page, double left, double top, double height) {
+    page->frame = (sl_box){{left, top}, {page->width - page->margin, top + height}};
+    page->x.from = page->frame.min.x;
+    page->x.to = page->frame.max.x;
+    page->y.from = page->frame.max.y;
+    page->y.to = page->frame.min.y;
+    for (size_t i = 0; i < page->spot_count; i++) {
+        sl_spot *spot = &page->spots[i];
+        spot->at.x = sl_axis_place(&page->x, spot->mark->x);
+        spot->at.y = sl_axis_place(&page->y, spot->mark->y);
+        if (i < page->label_count) page->labels[i].anchor = spot->at;
+    }
+}
+
+static bool place_labels(const sl_chart_page *page, const obstacles *list) {
+    const sl_box f = page->frame;
+    const double gap = 0.3 * page->text;
+    const sl_label_room room = {
+        .frame = {{f.min.x + gap, f.min.y + gap}, {f.max.x - gap, f.max.y - gap}},
+        .obstacles = list->items,
+        .obstacle_count = list->count,
+        .gap = gap,
+        .clearance = SL_CHART_DISC * page->text + 1.1 * gap,
+    };
+    return sl_labels_place(page->labels, page->label_count, &room);
+}
+
+/// The frame grows until all labels find room.
+static sl_status grow_frame(sl_context *context, cairo_t *cairo, sl_chart_page *page, double top,
+                            bool *fits) {
+    const double left = page->margin + sl_chart_gutter(cairo, page);
+    const double inner = page->width - page->margin - left;
+    measure_labels(cairo, page);
+    *fits = false;
+    for (double height = 0.48 * inner; !*fits && height < page->width; height *= 1.2) {
+        set_frame(page, left, top, height);
+        obstacles list = {0};
+        const sl_status status = gather_obstacles(context, cairo, page, &list);
+        if (status == SL_OK) *fits = place_labels(page, &list);
+        sl_free(context, list.items);
+        SL_TRY(status);
+        SL_TRY(sl_check_cancelled(context));
+    }
+    return SL_OK;
+}
+
+/// Where even the highest frame has no room, labels lose their notes; what then finds none is left
+/// out.
+static sl_status lay_out_frame(sl_context *context, cairo_t *cairo, sl_chart_page *page,
+                               double top) {
+    bool fits;
+    SL_TRY(grow_frame(context, cairo, page, top, &fits));
+    page->bare = !fits;
+    return fits ? SL_OK : grow_frame(context, cairo, page, top, &fits);
+}
+
+static sl_status lay_out(sl_context *context, cairo_t *cairo, sl_chart_page *page) {
+    page->width = round(page->chart->width);
+    page->margin = 0.04 * page->width;
+    page->text = 16.5 * pow(page->width / 1200, 0.75); // as plans have it
+    page->palette = sl_palette_make(page->chart->dark);
+    fit_axes(page);
+    SL_TRY(make_spots(context, page));
+    double y = page->margin + sl_chart_heading(cairo, page, false);
+    if (y > page->margin) y += 0.5 * page->margin;
+    SL_TRY(lay_out_frame(context, cairo, page, y));
+    y = page->frame.max.y + (page->chart->x.label ? 3.6 : 2.1) * page->text;
+    page->key_top = y;
+    page->height = ceil(y + sl_chart_key(cairo, page, false) + 0.8 * page->margin);
+    return SL_OK;
+}
+
+/// Measuring text needs a surface, and the file's needs the page's height.
+static sl_status measure(sl_context *context, sl_chart_page *page, const char *path) {
+    cairo_surface_t *scratch = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
+    cairo_t *cairo = cairo_create(scratch);
+    sl_status status = lay_out(context, cairo, page);
+    const cairo_status_t drawn = cairo_status(cairo);
+    cairo_destroy(cairo);
+    cairo_surface_destroy(scratch);
+    if (status == SL_OK && drawn) status = sl_fail_cairo(context, path, drawn);
+    return status;
+}
+
+static sl_status draw(sl_context *context, const sl_chart_page *page, const sl_paper_kind *kind,
+                      const char *path) {
+    sl_paper paper;
+    SL_TRY(sl_paper_open(context, kind, path, (int)page->width, (int)page->height,
+                         page->chart->title, &paper));
+    sl_chart_paint(paper.cairo, page);
+    return sl_paper_close(context, &paper, sl_check_cancelled(context));
+}
+
+sl_status sl_draw_chart_file(sl_context *context, const sl_chart *chart, const char *path) {
+    const sl_paper_kind *kind;
+    SL_TRY(sl_paper_kind_of(context, path, &kind));
+    SL_TRY(check_chart(context, chart));
+    sl_chart_page *page = sl_alloc_array(context, 1, sizeof *page);
+    if (!page) return SL_NO_MEMORY;
+    page->chart = chart;
+    sl_status status = measure(context, page, path);
+    if (status == SL_OK) status = draw(context, page, kind, path);
+    sl_free(context, page->spots);
+    sl_free(context, page->labels);
+    sl_free(context, page);
+    return status;
+}
