@@ -4,17 +4,29 @@
 
 #include <jansson.h>
 
-/// Prints a value with what stands before it, and frees it. False where there was no memory.
-static bool print(FILE *stream, const char *before, json_t *value) {
-    fputs(before, stream);
-    const bool printed =
-        value &&
-        json_dumpf(value, stream, JSON_ENCODE_ANY | JSON_COMPACT | JSON_REAL_PRECISION(17)) == 0;
+typedef struct printer {
+    sl_context *context;
+    FILE *stream;
+} printer;
+
+/// Prints a value with what stands before it, and frees it.
+static sl_status print(const printer *out, const char *before, json_t *value) {
+    const size_t flags = JSON_ENCODE_ANY | JSON_COMPACT | JSON_REAL_PRECISION(17);
+    sl_status status = sl_check_cancelled(out->context);
+    fputs(before, out->stream);
+    const bool printed = value && json_dumpf(value, out->stream, flags) == 0;
     json_decref(value);
-    return printed || ferror(stream);
+    // A stream that takes no more is left to its error flag, which the commit asks.
+    if (status == SL_OK && !printed && !ferror(out->stream)) status = sl_fail_memory(out->context);
+    return status;
 }
 
-static const char *separator(uint64_t i) {
+/// Whether there is an item to print, and a stream to take it.
+static bool goes_on(const printer *out, uint32_t i, uint32_t count) {
+    return i < count && !ferror(out->stream);
+}
+
+static const char *separator(uint32_t i) {
     return i ? ",\n" : "\n";
 }
 
@@ -35,6 +47,11 @@ static json_t *cell_json(const sl_space *space, uint32_t number) {
     return json_pack("{sIso}", "id", (json_int_t)number, "polygon", polygon);
 }
 
+static json_t *portal_json(const sl_portal *portal) {
+    return json_pack("{s[II]so}", "cells", (json_int_t)portal->cell[0], (json_int_t)portal->cell[1],
+                     "segment", segment_json(portal->left, portal->right));
+}
+
 static json_t *row_json(const sl_pvs *pvs, uint32_t cell) {
     json_t *row = json_array();
     for (sl_pvs_run run = sl_pvs_begin(pvs, cell); sl_pvs_next(&run);)
@@ -46,41 +63,37 @@ static json_t *row_json(const sl_pvs *pvs, uint32_t cell) {
     return row;
 }
 
-static bool print_space(const sl_space *space, FILE *stream) {
+static sl_status print_space(const printer *out, const sl_space *space) {
     const sl_box *b = &space->bounds;
-    bool good = print(stream, ",\n\"bounds\": ", segment_json(b->min, b->max));
-    fputs(",\n\"walls\": [", stream);
-    for (uint32_t i = 0; i < space->wall_count && good; i++)
-        good = print(stream, separator(i), segment_json(space->walls[i].a, space->walls[i].b));
-    fputs("],\n\"cells\": [", stream);
-    for (uint32_t i = 0; i < space->cell_count && good; i++)
-        good = print(stream, separator(i), cell_json(space, i));
-    fputs("],\n\"portals\": [", stream);
-    for (uint32_t i = 0; i < space->portal_count && good; i++) {
-        const sl_portal *p = &space->portals[i];
-        good = print(stream, separator(i),
-                     json_pack("{s[II]so}", "cells", (json_int_t)p->cell[0], (json_int_t)p->cell[1],
-                               "segment", segment_json(p->left, p->right)));
-    }
-    fputs("]", stream);
-    return good;
+    SL_TRY(print(out, ",\n\"bounds\": ", segment_json(b->min, b->max)));
+    fputs(",\n\"walls\": [", out->stream);
+    for (uint32_t i = 0; goes_on(out, i, space->wall_count); i++)
+        SL_TRY(print(out, separator(i), segment_json(space->walls[i].a, space->walls[i].b)));
+    fputs("],\n\"cells\": [", out->stream);
+    for (uint32_t i = 0; goes_on(out, i, space->cell_count); i++)
+        SL_TRY(print(out, separator(i), cell_json(space, i)));
+    fputs("],\n\"portals\": [", out->stream);
+    for (uint32_t i = 0; goes_on(out, i, space->portal_count); i++)
+        SL_TRY(print(out, separator(i), portal_json(&space->portals[i])));
+    fputs("]", out->stream);
+    return SL_OK;
 }
 
-static bool print_baked(const sl_baked *baked, FILE *stream) {
+static sl_status print_baked(const printer *out, const sl_baked *baked) {
     const sl_visibility *visibility = &baked->visibility;
-    fprintf(stream, "{\"format\": \"sightline\", \"version\": 1, \"sight\": \"%s\"",
+    fprintf(out->stream, "{\"format\": \"sightline\", \"version\": 1, \"sight\": \"%s\"",
             visibility->sight == SL_CLOSED ? "closed" : "open");
-    bool good = print_space(&baked->space, stream);
-    fputs(",\n\"pvs\": [", stream);
-    for (uint32_t i = 0; i < visibility->pvs.cell_count && good; i++)
-        good = print(stream, separator(i), row_json(&visibility->pvs, i));
-    fputs("]}\n", stream);
-    return good;
+    SL_TRY(print_space(out, &baked->space));
+    fputs(",\n\"pvs\": [", out->stream);
+    for (uint32_t i = 0; goes_on(out, i, visibility->pvs.cell_count); i++)
+        SL_TRY(print(out, separator(i), row_json(&visibility->pvs, i)));
+    fputs("]}\n", out->stream);
+    return SL_OK;
 }
 
 sl_status sl_export_json(sl_context *context, const sl_baked *baked, const char *path) {
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));
-    const bool printed = print_baked(baked, output.stream);
-    return sl_output_close(context, &output, printed ? SL_OK : sl_fail_memory(context));
+    const printer out = {context, output.stream};
+    return sl_output_close(context, &output, print_baked(&out, baked));
 }

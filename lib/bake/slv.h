@@ -9,6 +9,8 @@
 
 #include "sightline/bake.h"
 
+#include <stdio.h>
+
 #define SL_SLV_MAGIC      "\x89SLV\r\n\x1a\n"
 #define SL_SLV_VERSION    1u
 #define SL_SLV_BYTE_ORDER 0x01020304u
@@ -36,7 +38,7 @@ typedef struct sl_slv_info {
     uint32_t deepest, trees_left_out;
     uint32_t reserved; ///< 0
     uint64_t tests, nodes, pairs, doubtful_pairs;
-    char method[16], solver[16]; ///< names, filled with zeros
+    char method[16], solver[16]; ///< as sl_slv_is_name
 } sl_slv_info;
 
 /// The other sections: NODE, CELL, VERT, PORT, EXIT hold the arrays of sl_space item by item, WALL
@@ -50,5 +52,12 @@ _Static_assert(sizeof(sl_node) == 24 && sizeof(sl_cell) == 24 && sizeof(sl_point
                    sizeof(sl_portal) == 40 && sizeof(sl_exit) == 40 && sizeof(sl_segment) == 32 &&
                    sizeof(sl_stab_node) == 12,
                "no padding in the file");
+
+/// Whether it is letters, digits and dashes, zeros behind: nothing that plays tricks on a terminal.
+bool sl_slv_is_name(const char name[16]);
+
+/// Writes the file to a stream that is open already. Whether the stream took all is the caller's to
+/// ask.
+sl_status sl_slv_print(sl_context *context, const sl_baked *baked, FILE *stream);
 
 #endif

@@ -2,6 +2,7 @@
 #include "bake/slv.h"
 #include "base/file.h"
 
+#include <math.h>
 #include <string.h>
 #include <zlib.h>
 
@@ -16,6 +17,14 @@ typedef struct reader {
 
 static sl_status fail_file(const reader *r, const char *what) {
     return sl_fail_at(r->context, r->name, 0, "%s", what);
+}
+
+/// Leads the message of a check that knows of no file with the file's name.
+static sl_status in_file(const reader *r, sl_status status) {
+    if (status != SL_BAD_INPUT) return status;
+    char what[sizeof r->context->message];
+    memcpy(what, r->context->message, sizeof what);
+    return fail_file(r, what);
 }
 
 /// The checksum over the file, its own four bytes taken as 0.
@@ -101,6 +110,17 @@ static sl_status load_counted(const reader *r, const char *tag, size_t item_byte
     return SL_OK;
 }
 
+/// Within what a map without width or height is padded to: areas stay finite.
+static bool is_bound(double value) {
+    return fabs(value) <= 2 * SL_COORDINATE_MAX;
+}
+
+static bool makes_sense(const sl_slv_info *info) {
+    return info->sight <= SL_OPEN && info->guarantee <= SL_ROUNDED && is_bound(info->bounds[0]) &&
+           is_bound(info->bounds[1]) && is_bound(info->bounds[2]) && is_bound(info->bounds[3]) &&
+           sl_slv_is_name(info->method) && sl_slv_is_name(info->solver);
+}
+
 static sl_status load_info(const reader *r) {
     sl_slv_section s;
     bool found;
@@ -108,9 +128,7 @@ static sl_status load_info(const reader *r) {
     if (!found || s.count != 1) return fail_file(r, "damaged: section INFO is missing");
     sl_slv_info info;
     memcpy(&info, r->bytes + s.offset, sizeof info);
-    if (info.sight > SL_OPEN || info.guarantee > SL_ROUNDED ||
-        !memchr(info.method, 0, sizeof info.method) || !memchr(info.solver, 0, sizeof info.solver))
-        return fail_file(r, "damaged: section INFO makes no sense");
+    if (!makes_sense(&info)) return fail_file(r, "damaged: section INFO makes no sense");
     sl_baked *out = r->out;
     out->space.bounds =
         (sl_box){{info.bounds[0], info.bounds[1]}, {info.bounds[2], info.bounds[3]}};
@@ -130,15 +148,31 @@ static sl_status load_info(const reader *r) {
     return SL_OK;
 }
 
+/// The check of the graph sorts the walls, for which their coordinates must be numbers.
+static sl_status copy_walls(const reader *r, const sl_segment *segments, uint32_t count,
+                            sl_wall *walls) {
+    for (uint32_t i = 0; i < count; i++) {
+        const sl_segment *s = &segments[i];
+        if (!sl_coordinate_usable(s->a.x) || !sl_coordinate_usable(s->a.y) ||
+            !sl_coordinate_usable(s->b.x) || !sl_coordinate_usable(s->b.y))
+            return sl_fail_at(r->context, r->name, 0, "damaged: wall %u lies out of range", i);
+        walls[i] = (sl_wall){.a = s->a, .b = s->b};
+    }
+    return SL_OK;
+}
+
 static sl_status load_walls(const reader *r) {
     sl_space *space = &r->out->space;
     sl_segment *segments = NULL;
-    SL_TRY(load_counted(r, "WALL", sizeof *segments, (void **)&segments, &space->wall_count));
-    space->walls = sl_alloc_array(r->context, space->wall_count, sizeof *space->walls);
-    for (uint32_t i = 0; space->walls && i < space->wall_count; i++)
-        space->walls[i] = (sl_wall){.a = segments[i].a, .b = segments[i].b};
+    sl_status status =
+        load_counted(r, "WALL", sizeof *segments, (void **)&segments, &space->wall_count);
+    if (status == SL_OK) {
+        space->walls = sl_alloc_array(r->context, space->wall_count, sizeof *space->walls);
+        status =
+            space->walls ? copy_walls(r, segments, space->wall_count, space->walls) : SL_NO_MEMORY;
+    }
     sl_free(r->context, segments);
-    return space->walls ? SL_OK : SL_NO_MEMORY;
+    return status;
 }
 
 static sl_status load_space(const reader *r) {
@@ -149,7 +183,7 @@ static sl_status load_space(const reader *r) {
     SL_TRY(load_counted(r, "PORT", sizeof *s->portals, (void **)&s->portals, &s->portal_count));
     SL_TRY(load_counted(r, "EXIT", sizeof *s->exits, (void **)&s->exits, &s->exit_count));
     SL_TRY(load_walls(r));
-    return sl_space_check(r->context, s);
+    return in_file(r, sl_space_check(r->context, s));
 }
 
 static sl_status load_pvs(const reader *r, const char *offsets_tag, const char *bytes_tag,
@@ -162,7 +196,16 @@ static sl_status load_pvs(const reader *r, const char *offsets_tag, const char *
     if (offsets != (uint64_t)cells + 1 || pvs->offsets[cells] != bytes)
         return fail_file(r, "damaged: not one visible set a cell");
     pvs->cell_count = cells;
-    return sl_pvs_check(r->context, pvs);
+    return in_file(r, sl_pvs_check(r->context, pvs));
+}
+
+/// A cell sees itself; the row of one that was not looked from is empty.
+static sl_status check_rows(const reader *r, const sl_pvs *pvs) {
+    for (uint32_t cell = 0; cell < pvs->cell_count; cell++)
+        if (pvs->offsets[cell] < pvs->offsets[cell + 1] && !sl_pvs_sees(pvs, cell, cell))
+            return sl_fail_at(r->context, r->name, 0, "damaged: visible set %u lacks its own cell",
+                              cell);
+    return SL_OK;
 }
 
 static uint64_t count_pairs(const sl_pvs *pvs) {
@@ -214,7 +257,9 @@ static sl_status load_map(const reader *r) {
     bool found;
     SL_TRY(find_section(r, "MAPT", 1, &s, &found));
     if (!found) return fail_file(r, "damaged: section MAPT is missing");
-    return sl_map_read_text(r->context, r->name, r->bytes + s.offset, s.count, &r->out->map);
+    SL_TRY(sl_map_read_text(r->context, r->name, r->bytes + s.offset, s.count, &r->out->map));
+    if (r->out->map.wall_count) return fail_file(r, "damaged: section MAPT holds walls");
+    return SL_OK;
 }
 
 static sl_status load_all(reader *r) {
@@ -223,21 +268,13 @@ static sl_status load_all(reader *r) {
     SL_TRY(load_space(r));
     sl_visibility *visibility = &r->out->visibility;
     SL_TRY(load_pvs(r, "PVSO", "PVSB", false, &visibility->pvs));
+    SL_TRY(check_rows(r, &visibility->pvs));
     SL_TRY(load_pvs(r, "DBTO", "DBTB", true, &visibility->doubtful));
     if (count_pairs(&visibility->pvs) != visibility->account.pairs ||
         count_pairs(&visibility->doubtful) != visibility->account.doubtful_pairs)
         return fail_file(r, "damaged: the visible sets do not hold as many pairs as they should");
     SL_TRY(load_trees(r));
     return load_map(r);
-}
-
-/// Leads a message that does not name the file with its name.
-static sl_status name_file(const reader *r, sl_status status) {
-    char message[sizeof r->context->message];
-    memcpy(message, r->context->message, sizeof message);
-    if (status == SL_BAD_INPUT && strncmp(message, r->name, strlen(r->name)) != 0)
-        return fail_file(r, message);
-    return status;
 }
 
 sl_status sl_baked_parse(sl_context *context, const char *name, const void *bytes, size_t size,
@@ -250,7 +287,7 @@ sl_status sl_baked_parse(sl_context *context, const char *name, const void *byte
         return SL_OK;
     }
     sl_baked_destroy(context, &baked);
-    return name_file(&r, status);
+    return status;
 }
 
 sl_status sl_baked_read(sl_context *context, const char *path, sl_baked *out) {

@@ -52,8 +52,8 @@ static sl_slv_info make_info(const sl_baked *baked) {
         .pairs = account->pairs,
         .doubtful_pairs = account->doubtful_pairs,
     };
-    memcpy(info.method, baked->method, sizeof info.method);
-    memcpy(info.solver, baked->solver, sizeof info.solver);
+    memccpy(info.method, baked->method, 0, sizeof info.method);
+    memccpy(info.solver, baked->solver, 0, sizeof info.solver);
     return info;
 }
 
@@ -154,24 +154,49 @@ static sl_status write_plan(sl_context *context, const plan *p, FILE *stream) {
     return SL_OK;
 }
 
+/// Makes the file ready; `info` is part of it and must live as long.
+static sl_status make_plan(sl_context *context, const sl_baked *baked, const sl_slv_info *info,
+                           plan *p) {
+    const uint32_t cells = baked->space.cell_count;
+    if (!cells || baked->visibility.pvs.cell_count != cells)
+        return sl_fail(context, SL_BAD_ARGUMENT, "nothing baked: no visible set for each cell");
+    if (!sl_slv_is_name(info->method) || !sl_slv_is_name(info->solver))
+        return sl_fail(
+            context, SL_BAD_ARGUMENT,
+            "the names of method and solver must be up to 15 letters, digits and dashes");
+    size_t map_bytes = 0;
+    SL_TRY(copy_walls(context, &baked->space, p));
+    SL_TRY(print_map(context, &baked->map, p, &map_bytes));
+    add_sections(p, baked, info, map_bytes);
+    lay_out(p);
+    return SL_OK;
+}
+
 static sl_status write_file(sl_context *context, const plan *p, const char *path) {
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));
     return sl_output_close(context, &output, write_plan(context, p, output.stream));
 }
 
+static void destroy_plan(sl_context *context, plan *p) {
+    sl_free(context, p->walls);
+    free(p->map_text);
+}
+
+sl_status sl_slv_print(sl_context *context, const sl_baked *baked, FILE *stream) {
+    plan p = {0};
+    const sl_slv_info info = make_info(baked);
+    sl_status status = make_plan(context, baked, &info, &p);
+    if (status == SL_OK) status = write_plan(context, &p, stream);
+    destroy_plan(context, &p);
+    return status;
+}
+
 sl_status sl_baked_write(sl_context *context, const sl_baked *baked, const char *path) {
     plan p = {0};
     const sl_slv_info info = make_info(baked);
-    size_t map_bytes = 0;
-    sl_status status = copy_walls(context, &baked->space, &p);
-    if (status == SL_OK) status = print_map(context, &baked->map, &p, &map_bytes);
-    if (status == SL_OK) {
-        add_sections(&p, baked, &info, map_bytes);
-        lay_out(&p);
-        status = write_file(context, &p, path);
-    }
-    sl_free(context, p.walls);
-    free(p.map_text);
+    sl_status status = make_plan(context, baked, &info, &p);
+    if (status == SL_OK) status = write_file(context, &p, path);
+    destroy_plan(context, &p);
     return status;
 }

@@ -14,7 +14,8 @@ typedef struct sl_baked {
     sl_map map;
     sl_space space;
     sl_visibility visibility;
-    char method[16], solver[16]; ///< by name; solver "" for none
+    /// By name: letters, digits and dashes, zeros behind; solver "" for none.
+    char method[16], solver[16];
 } sl_baked;
 
 SL_API void sl_baked_destroy(sl_context *context, sl_baked *baked); ///< and zeroes it
@@ -24,7 +25,8 @@ SL_API void sl_baked_destroy(sl_context *context, sl_baked *baked); ///< and zer
 SL_API bool sl_baked_counts(const sl_baked *baked, uint32_t cell);
 
 /// Writes beside the target and takes its place when all is written: SL_IO leaves the old file
-/// intact. The bytes depend on the contents alone. Reports stage "write".
+/// intact. The bytes depend on the contents alone. SL_BAD_ARGUMENT where there is no visible set
+/// for each cell, or a name that is none. Reports stage "write".
 SL_API sl_status sl_baked_write(sl_context *context, const sl_baked *baked, const char *path);
 
 /// Reads and checks everything: the checksum, every count, offset and index, the whole graph.

@@ -1,0 +1,157 @@
+/// A baked file whose checksum is right and whose contents are wrong is refused, by name.
+#include "testing.h"
+
+#include "bake/slv.h"
+#include "sightline/solvers.h"
+
+#include <math.h>
+#include <zlib.h>
+
+/// Two rooms and a start, looked from with trees.
+static void bake(sl_context *context, sl_baked *baked) {
+    *baked = (sl_baked){.method = "dfs", .solver = "funnel"};
+    testing_space(context, "walls 0 0 9 0 9 9 0 9 0 0\nwall 4 0 4 5\nstart 1 1 45\n", &baked->map,
+                  &baked->space);
+    sl_see_options options = sl_see_options_default();
+    options.solver = sl_funnel();
+    options.trees = true;
+    size_t count;
+    assert_ok(context,
+              sl_see_methods(&count)->see(context, &baked->space, &options, &baked->visibility));
+    baked->map.wall_count = 0;
+}
+
+typedef struct file {
+    char *bytes;
+    size_t size;
+} file;
+
+static file print(sl_context *context, const sl_baked *baked) {
+    file f = {0};
+    FILE *stream = open_memstream(&f.bytes, &f.size);
+    assert_non_null(stream);
+    assert_ok(context, sl_slv_print(context, baked, stream));
+    assert_int_equal(fclose(stream), 0);
+    return f;
+}
+
+/// Where a section's items lie.
+static char *section(const file *f, const char *tag) {
+    sl_slv_header header;
+    memcpy(&header, f->bytes, sizeof header);
+    for (uint32_t i = 0; i < header.section_count; i++) {
+        sl_slv_section s;
+        memcpy(&s, f->bytes + sizeof header + i * sizeof s, sizeof s);
+        if (memcmp(s.tag, tag, 4) == 0) return f->bytes + s.offset;
+    }
+    fail_msg("no section %s", tag);
+    return NULL;
+}
+
+static void seal(const file *f) {
+    sl_slv_header header;
+    memcpy(&header, f->bytes, sizeof header);
+    header.checksum = 0;
+    memcpy(f->bytes, &header, sizeof header);
+    header.checksum = (uint32_t)crc32(0, (const Bytef *)f->bytes, (uInt)f->size);
+    memcpy(f->bytes, &header, sizeof header);
+}
+
+#define INFO_FIELD(field) offsetof(sl_slv_info, field), sizeof(((sl_slv_info *)0)->field)
+
+static void a_lie_under_a_seal_is_refused(void **state) {
+    (void)state;
+    const double nan = NAN, far = 1e200;
+    const uint64_t pairs = 2;
+    const uint32_t one = 1, most = UINT32_MAX;
+    const char escape[16] = "d\033[2Js", hidden[16] = "glpk\0hidden";
+    const struct {
+        const char *tag;
+        size_t offset, size;
+        const void *bytes;
+        const char *message;
+    } lies[] = {
+        {"INFO", offsetof(sl_slv_info, bounds), sizeof far, &far, "INFO makes no sense"},
+        {"INFO", offsetof(sl_slv_info, bounds), sizeof nan, &nan, "INFO makes no sense"},
+        {"INFO", INFO_FIELD(sight), &most, "INFO makes no sense"},
+        {"INFO", INFO_FIELD(method), escape, "INFO makes no sense"},
+        {"INFO", INFO_FIELD(solver), hidden, "INFO makes no sense"},
+        {"INFO", INFO_FIELD(solver), "sixteen-letters-", "INFO makes no sense"},
+        {"INFO", INFO_FIELD(pairs), &pairs, "do not hold as many pairs"},
+        {"WALL", 0, sizeof nan, &nan, "wall 0 lies out of range"},
+        {"WALL", 24, sizeof far, &far, "wall 0 lies out of range"},
+        {"CELL", offsetof(sl_cell, first_exit), sizeof most, &most, "cell 0 has exits out of"},
+        {"PVSB", 0, 2, "\1\1", "visible set 0 lacks its own cell"},
+        {"PVSB", 0, 1, "\3", "visible set 0 is damaged"},
+        {"TREN", offsetof(sl_stab_node, parent), sizeof one, &one, "stab tree 0 is no tree"},
+        {"MAPT", 12, 12, "wall 0 0 1 1", "section MAPT holds walls"},
+    };
+    sl_context *context = testing_context(NULL);
+    sl_baked baked, back = {0};
+    bake(context, &baked);
+    for (size_t i = 0; i < sizeof lies / sizeof *lies; i++) {
+        const file f = print(context, &baked);
+        assert_ok(context, sl_baked_parse(context, "cell", f.bytes, f.size, &back));
+        sl_baked_destroy(context, &back);
+        memcpy(section(&f, lies[i].tag) + lies[i].offset, lies[i].bytes, lies[i].size);
+        seal(&f);
+        // The name is how a message of the graph's check starts: it must stand before it all the
+        // same.
+        assert_int_equal(sl_baked_parse(context, "cell", f.bytes, f.size, &back), SL_BAD_INPUT);
+        assert_int_equal(strncmp(sl_context_message(context), "cell: ", 6), 0);
+        if (!strstr(sl_context_message(context), lies[i].message))
+            fail_msg("%s, where it should say %s", sl_context_message(context), lies[i].message);
+        free(f.bytes);
+    }
+    sl_baked_destroy(context, &baked);
+    sl_context_destroy(context);
+}
+
+static void what_cannot_be_read_back_is_not_written(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_baked baked, nothing = {0};
+    assert_int_equal(sl_baked_write(context, &nothing, "/dev/null"), SL_BAD_ARGUMENT);
+    bake(context, &baked);
+    assert_ok(context, sl_baked_write(context, &baked, "/dev/null"));
+    memcpy(baked.method, "two words", 10);
+    assert_int_equal(sl_baked_write(context, &baked, "/dev/null"), SL_BAD_ARGUMENT);
+    memcpy(baked.method, "sixteen-letters-", sizeof baked.method);
+    assert_int_equal(sl_baked_write(context, &baked, "/dev/null"), SL_BAD_ARGUMENT);
+    sl_baked_destroy(context, &baked);
+    sl_context_destroy(context);
+}
+
+static bool cancel_after(void *user) {
+    int *calls = user;
+    return (*calls)-- <= 0;
+}
+
+static void an_export_can_be_interrupted(void **state) {
+    (void)state;
+    int calls = 1000000;
+    const sl_hooks hooks = {.user = &calls, .cancelled = cancel_after};
+    sl_context *context = sl_context_create(&hooks);
+    assert_non_null(context);
+    sl_baked baked;
+    bake(context, &baked);
+    size_t count;
+    const sl_export_format *formats = sl_export_formats(&count);
+    for (size_t i = 0; i < count; i++) {
+        assert_ok(context, formats[i].write(context, &baked, "/dev/null"));
+        calls = 3;
+        assert_int_equal(formats[i].write(context, &baked, "/dev/null"), SL_CANCELLED);
+        calls = 1000000;
+    }
+    sl_baked_destroy(context, &baked);
+    sl_context_destroy(context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_lie_under_a_seal_is_refused),
+        cmocka_unit_test(what_cannot_be_read_back_is_not_written),
+        cmocka_unit_test(an_export_can_be_interrupted),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
