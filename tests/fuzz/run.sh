@@ -27,9 +27,9 @@ cmake --build "$build" --target fuzzers >&2 || exit 2
 # The endings of the files that a fuzzer starts from.
 seeds_of() {
     case $1 in
-    fuzz_map_text) echo map ;;
+    fuzz_map_text | fuzz_slv) echo map ;;
     fuzz_map_plan) echo txt ;;
-    fuzz_*) echo "${1#fuzz_}" ;;
+    fuzz_unigrafix) echo ug ;;
     esac
 }
 
@@ -39,12 +39,15 @@ run_one() {
     work=$build/fuzz/$name
     mkdir -p "$work/corpus" "$work/findings" "$work/seeds"
     ending=$(seeds_of "$name")
-    [ "$ending" != unigrafix ] || ending=ug
+    # A baked file is longer than the map that it was made from.
+    length=4096
+    [ "$name" != fuzz_slv ] || length=8192
     for seed in "$root"/maps/*."$ending" "$root"/tests/fuzz/seeds/*."$ending"; do
         [ ! -f "$seed" ] || cp "$seed" "$work/seeds/"
     done
     dictionary=$root/tests/fuzz/${name#fuzz_}.dict
-    set -- -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -max_len=4096 \
+    [ "$name" != fuzz_slv ] || dictionary=$root/tests/fuzz/map_text.dict
+    set -- -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -max_len=$length \
         -print_final_stats=1 -artifact_prefix="$work/findings/"
     [ ! -f "$dictionary" ] || set -- "$@" -dict="$dictionary"
     if "$build/tests/fuzz/$name" "$@" "$work/corpus" "$work/seeds" >"$work/log" 2>&1; then
