@@ -43,9 +43,10 @@ sl_status sl_cmd_export(sl_console *console, int argc, char **argv) {
     const sl_name_table names = format_names();
     SL_TRY(sl_option_choice(console->context, "--format", format, &names, &chosen));
 
+    if (!output) output = "-";
+    SL_TRY(sl_input_refuse_output(console->context, path, output));
     sl_baked baked = {0};
     SL_TRY(sl_input_read_baked(console->context, path, &baked));
-    if (!output) output = "-";
     sl_progress_line_clear(&console->line);
     if (strcmp(output, "-") == 0 && isatty(STDOUT_FILENO)) console->line.shows = false;
     const sl_status status =

@@ -96,7 +96,7 @@ static void print_notices(const char *notes) {
     puts("  notices");
     while (*notes) {
         const size_t length = strcspn(notes, "\n");
-        printf("    %.*s\n", (int)length, notes);
+        sl_console_print_line(stdout, "    ", notes, length);
         notes += length + (notes[length] == '\n');
     }
 }

@@ -43,11 +43,24 @@ static void hold_standard_streams(void) {
             (void)!open("/dev/null", descriptor == 0 ? O_WRONLY : O_RDONLY);
 }
 
+void sl_console_print_line(FILE *stream, const char *before, const char *text, size_t length) {
+    fputs(before, stream);
+    for (size_t i = 0; i < length; i++) {
+        const unsigned char c = (unsigned char)text[i];
+        const unsigned char next = i + 1 < length ? (unsigned char)text[i + 1] : 0;
+        // Those of Latin-1 are two bytes in UTF-8.
+        const bool second = c == 0xc2 && next >= 0x80 && next < 0xa0;
+        putc(c < 0x20 || c == 0x7f || second ? '?' : c, stream);
+        i += second;
+    }
+    putc('\n', stream);
+}
+
 static void show_note(void *user, const char *message) {
     sl_console *console = user;
     if (console->quiet) return;
     sl_progress_line_clear(&console->line);
-    fprintf(stderr, "note: %s\n", message);
+    sl_console_print_line(stderr, "note: ", message, strlen(message));
 }
 
 static void show_progress(void *user, const sl_progress *progress) {
@@ -108,7 +121,8 @@ int sl_console_close(sl_console *console, sl_status status) {
     // A system call that the signal broke off is reported as what it is.
     if (status == SL_IO && atomic_load(&interrupted))
         status = sl_fail(console->context, SL_CANCELLED, "%s", sl_status_name(SL_CANCELLED));
-    if (status != SL_OK) fprintf(stderr, "sightline: %s\n", sl_context_message(console->context));
+    const char *message = sl_context_message(console->context);
+    if (status != SL_OK) sl_console_print_line(stderr, "sightline: ", message, strlen(message));
     sl_context_destroy(console->context);
     return exit_status(status);
 }

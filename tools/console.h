@@ -6,6 +6,7 @@
 #include "progress_line.h"
 
 #include <pthread.h>
+#include <stdio.h>
 
 typedef struct sl_console {
     sl_context *context;
@@ -16,6 +17,10 @@ typedef struct sl_console {
 
 /// False, after a message, where there is no memory.
 bool sl_console_open(sl_console *console);
+
+/// Prints a line; control characters of a text that others wrote come out as '?', for they could
+/// play tricks on a terminal.
+void sl_console_print_line(FILE *stream, const char *before, const char *text, size_t length);
 
 /// Checks that all of stdout was written, tells of a failure, and gives the program's exit status:
 /// 0 done, 1 the work failed, 2 the arguments or an input are wrong.

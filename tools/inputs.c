@@ -6,10 +6,19 @@
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 
 bool sl_input_ends_with(const char *path, const char *ending) {
     const size_t length = strlen(path), tail = strlen(ending);
     return length > tail && strcasecmp(path + length - tail, ending) == 0;
+}
+
+const char *sl_input_base_name(const char *path, size_t *length) {
+    const char *slash = strrchr(path, '/');
+    const char *base = slash ? slash + 1 : path;
+    const char *dot = strrchr(base, '.');
+    *length = dot && dot > base ? (size_t)(dot - base) : strlen(base);
+    return base;
 }
 
 static bool is_baked_name(const char *path) {
@@ -56,6 +65,15 @@ sl_status sl_input_read_baked(sl_context *context, const char *path, sl_baked *b
             "%s: is a map, not a baked file; bake it first: sightline bake %s -o FILE.slv", path,
             path);
     return sl_baked_read(context, path, baked);
+}
+
+sl_status sl_input_refuse_output(sl_context *context, const char *path, const char *output) {
+    if (!*output) return sl_fail(context, SL_BAD_ARGUMENT, "-o is empty; name a file");
+    struct stat in, out;
+    if (stat(path, &in) != 0 || stat(output, &out) != 0) return SL_OK;
+    if (in.st_dev != out.st_dev || in.st_ino != out.st_ino || !S_ISREG(in.st_mode)) return SL_OK;
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "-o %s: is the input itself, which would be lost; give another name", output);
 }
 
 /// The map that a baked file was made from: what it kept of it, and the walls of its space.

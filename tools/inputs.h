@@ -8,6 +8,10 @@
 /// Whether the name ends with `ending`, in either case of letters: ".slv".
 bool sl_input_ends_with(const char *path, const char *ending);
 
+/// A file's name without its folders and its ending: "maps/office.map" gives "office", as a place
+/// in the path and a length.
+const char *sl_input_base_name(const char *path, size_t *length);
+
 /// Reads a map file. `slice` is the text of --slice, NULL where it is not given. A baked file is
 /// refused.
 sl_status sl_input_read_map(sl_context *context, const char *path, const char *slice, sl_map *map);
@@ -17,6 +21,9 @@ sl_status sl_input_read_baked(sl_context *context, const char *path, sl_baked *b
 
 /// SL_BAD_ARGUMENT where --slice is given with a baked file.
 sl_status sl_input_refuse_slice(sl_context *context, const char *path, const char *slice);
+
+/// SL_BAD_ARGUMENT where the output is no name, or the input itself, which it would replace.
+sl_status sl_input_refuse_output(sl_context *context, const char *path, const char *output);
 
 /// Reads a map file, or what map a baked file was made from.
 sl_status sl_input_read_either(sl_context *context, const char *path, const char *slice,

@@ -2,6 +2,18 @@
 
 #include "base/base.h"
 
+#include <string.h>
+
+void sl_text_make_readable(const char *text, char *out, size_t size) {
+    json_t *value = json_string(text); // NULL for what is no UTF-8
+    snprintf(out, size, "%s", text);
+    // The copy may end within a character.
+    if (!value || strlen(text) >= size)
+        for (char *at = out; *at; at++)
+            if ((unsigned char)*at >= 0x80) *at = '?';
+    json_decref(value);
+}
+
 sl_json_fields sl_json_begin(void) {
     json_t *object = json_object();
     return (sl_json_fields){.object = object, .failed = !object};
@@ -26,13 +38,22 @@ void sl_json_add_flag(sl_json_fields *fields, const char *key, bool flag) {
 void sl_json_add_text(sl_json_fields *fields, const char *key, const char *text) {
     json_t *value = text ? json_string(text) : json_null();
     if (!value) {
-        char ascii[256];
-        snprintf(ascii, sizeof ascii, "%s", text);
-        for (char *at = ascii; *at; at++)
-            if ((unsigned char)*at >= 0x80) *at = '?';
-        value = json_string(ascii);
+        char readable[256];
+        sl_text_make_readable(text, readable, sizeof readable);
+        value = json_string(readable);
     }
     add(fields, key, value);
+}
+
+void sl_json_add_list(sl_json_fields *fields, const char *key, sl_json_fields *items,
+                      size_t count) {
+    json_t *list = json_array();
+    for (size_t i = 0; i < count; i++) {
+        if (items[i].failed || json_array_append_new(list, items[i].object) != 0)
+            fields->failed = true;
+        items[i] = (sl_json_fields){0};
+    }
+    add(fields, key, list);
 }
 
 void sl_json_add_box(sl_json_fields *fields, const char *key, sl_box box) {

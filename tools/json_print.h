@@ -12,17 +12,22 @@ typedef struct sl_json_fields {
     bool failed;
 } sl_json_fields;
 
+/// A copy of a text; of one that is no UTF-8, as names of files may be, with '?' for what is not
+/// ASCII.
+void sl_text_make_readable(const char *text, char *out, size_t size);
+
 sl_json_fields sl_json_begin(void);
 void sl_json_add_count(sl_json_fields *fields, const char *key, uint64_t count);
 void sl_json_add_real(sl_json_fields *fields, const char *key, double finite);
 void sl_json_add_flag(sl_json_fields *fields, const char *key, bool flag);
-/// NULL gives null. A text that is no UTF-8, as names of files may be, gets '?' for what is not
-/// ASCII.
+/// NULL gives null. A text that is no UTF-8 is made readable.
 void sl_json_add_text(sl_json_fields *fields, const char *key, const char *text);
 /// [x0, y0, x1, y1]
 void sl_json_add_box(sl_json_fields *fields, const char *key, sl_box box);
 /// An object within the object; `inner` is used up.
 void sl_json_add_fields(sl_json_fields *fields, const char *key, sl_json_fields *inner);
+/// A list of such objects; all of them are used up.
+void sl_json_add_list(sl_json_fields *fields, const char *key, sl_json_fields *items, size_t count);
 void sl_json_add_cleaning(sl_json_fields *fields, const char *key, const sl_clean_account *account);
 
 /// Prints the object and uses it up.

@@ -5,6 +5,7 @@
 #include <inttypes.h>
 
 /// What lies before a cell, of the cells that are looked at: a run of cells is one difference.
+/// Where all areas are too small for a double, cells count in their place.
 typedef struct before {
     double area;
     uint32_t cells;
@@ -19,6 +20,8 @@ static void sum_before(const sl_baked *baked, before *sums) {
         sums[c + 1].area += sl_space_area(space, c);
         sums[c + 1].cells++;
     }
+    if (sums[space->cell_count].area > 0) return;
+    for (uint32_t c = 0; c <= space->cell_count; c++) sums[c].area = sums[c].cells;
 }
 
 sl_status sl_mean_pvs_of(sl_context *context, const sl_baked *baked, sl_mean_pvs *out) {

@@ -109,8 +109,9 @@ static sl_status parse_options(sl_context *context, const sl_command_usage *usag
         }
         option = find_option(options, count, optopt);
         if (code == ':')
-            return sl_fail(context, SL_BAD_ARGUMENT, "--%s needs an argument: %s", option->name,
-                           option->argument);
+            return sl_fail(context, SL_BAD_ARGUMENT,
+                           "--%s needs an argument: %s; 'sightline %s --help' tells more",
+                           option->name, option->argument, usage->name);
         if (option)
             return sl_fail(context, SL_BAD_ARGUMENT, "--%s takes no argument", option->name);
         const char short_word[3] = {'-', (char)optopt, '\0'};
@@ -130,7 +131,13 @@ static sl_status take_operands(sl_context *context, const sl_command_usage *usag
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "'%s' is one argument too many; 'sightline %s --help' tells more",
                        argv[optind + (int)wanted], usage->name);
-    for (size_t i = 0; i < wanted; i++) operands[i] = argv[optind + (int)i];
+    for (size_t i = 0; i < wanted; i++) {
+        operands[i] = argv[optind + (int)i];
+        if (!operands[i][0])
+            return sl_fail(context, SL_BAD_ARGUMENT,
+                           "%s is empty; 'sightline %s --help' tells more", usage->operands[i],
+                           usage->name);
+    }
     return SL_OK;
 }
 

@@ -28,8 +28,11 @@ cxx_compiler() { for c in c++ g++ clang++; do has $c && echo $c && return; done;
 # A C program that includes a header and links a library.
 links() { # header library
     c=$(compiler) || return 1
-    printf '#include <stddef.h>\n#include <stdarg.h>\n#include <setjmp.h>\n#include <stdint.h>\n#include <stdio.h>\n#include <%s>\nint main(void) { return 0; }\n' "$1" >"$scratch/try.c"
-    "$c" -o "$scratch/try" "$scratch/try.c" "-l$2" 2>/dev/null
+    printf '#include <stddef.h>\n#include <stdio.h>\n#include <%s>\nint main(void) { return 0; }\n' \
+        "$1" >"$scratch/try.c"
+    set -- "-l$2"
+    [ ! -d /opt/homebrew/lib ] || set -- -I/opt/homebrew/include -L/opt/homebrew/lib "$@"
+    "$c" -o "$scratch/try" "$scratch/try.c" "$@" 2>/dev/null
 }
 
 module() { has pkg-config && pkg-config --exists "$1"; }
@@ -65,9 +68,10 @@ is_there() {
     python3) has python3 ;;
     glpk) links glpk.h glpk ;;
     gmp) links gmp.h gmp ;;
-    cairo | cmocka | jansson | zlib) module "$1" ;;
+    zlib) links zlib.h z ;;
+    cairo | cmocka | jansson) module "$1" ;;
     font) font ;;
-    clang | clang-format) has "$1" ;;
+    clang | clang-format | llvm-symbolizer) has "$1" ;;
     clang-sanitizers) clang_sanitizes ;;
     esac
 }
@@ -87,6 +91,7 @@ package() { # system thing
     apt:zlib) echo zlib1g-dev ;;
     apt:font) echo fonts-dejavu-core ;;
     apt:clang-sanitizers) echo libclang-rt-dev ;;
+    *:llvm-symbolizer) echo llvm ;;
 
     dnf:c) echo gcc ;;
     dnf:c++) echo gcc-c++ ;;
@@ -152,7 +157,7 @@ install_packages() { # system package...
 # ---- What to do ----
 
 things="c c++ cmake ninja pkg-config python3 zlib jansson glpk cairo font cmocka gmp"
-[ $ci = yes ] && things="$things clang clang-sanitizers clang-format"
+[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format"
 
 missing=
 for thing in $things; do is_there "$thing" || missing="$missing $thing"; done

@@ -13,7 +13,10 @@ typedef struct command {
 static const command commands[] = {
     {"info", "what a map or a baked file holds", sl_cmd_info},
     {"bake", "cells, portals and cell-to-cell visibility of a map, into a file", sl_cmd_bake},
+    {"compare", "every method on one map: accuracy against time, as table and chart",
+     sl_cmd_compare},
     {"export", "a baked file for other programs", sl_cmd_export},
+    {"explain", "why a cell does or does not see another", sl_cmd_explain},
     {"draw", "a picture of a baked file", sl_cmd_draw},
     {"convert", "any map that can be read, as map text or ASCII plan", sl_cmd_convert},
 };

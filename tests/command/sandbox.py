@@ -63,16 +63,17 @@ class Sandbox:
                 for path in self.folder.rglob("*")}
 
     def start(self, arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE, file_limit=None,
-              environment=None):
-        """The program as a running process. file_limit: no file may grow beyond so many bytes."""
+              environment=None, closed=()):
+        """The program as a running process. file_limit: no file may grow beyond so many bytes.
+        closed: standard streams, by number, that it finds closed."""
         def prepare():
             # Whoever runs the tests in the background has signals ignored; the program must not.
             signal.signal(signal.SIGINT, signal.SIG_DFL)
             signal.signal(signal.SIGTERM, signal.SIG_DFL)
             if file_limit is not None:
                 resource.setrlimit(resource.RLIMIT_FSIZE, (file_limit, file_limit))
-            if stdout is None:
-                os.close(1)
+            for number in set(closed) | ({1} if stdout is None else set()):
+                os.close(number)
         variables = dict(os.environ, TERM="xterm")
         for name, options in SANITIZERS.items():
             variables[name] = ":".join(filter(None, (variables.get(name), options)))
@@ -107,6 +108,8 @@ class Sandbox:
     def _check(result, before, after):
         check(result.status in (0, 1, 2), f"ends with status {result.status}")
         check(not set(before) - set(after), f"removed {sorted(set(before) - set(after))}")
+        check(not re.search(r"[\0-\t\v-\x1f\x7f-\x9f]", result.stderr),
+              "a control character on stderr")
         told = [line for line in result.stderr.splitlines() if not line.startswith("note: ")]
         if result.status == 0:
             check(not told, "done, and yet something is said on stderr")

@@ -13,6 +13,8 @@ FAILING = {
     "unasked stdout": ("run -c 'echo one'\nstatus 0\n", "stdout should be empty"),
     "unasked note": ("run -c 'echo note: one >&2'\nstatus 0\n", "stderr should be empty"),
     "talks on stderr": ("run -c 'echo one >&2'\nstatus 0\nstderr one\n", "something is said"),
+    "plays tricks": ("run -c 'echo \"sightline: \\033[2J\" >&2; exit 1'\nstatus 1\nstderr a\n",
+                     "a control character"),
     "silent failure": ("run -c 'exit 1'\nstatus 1\n", "without one line"),
     "two lines": ("run -c 'echo sightline: a >&2; echo sightline: b >&2; exit 1'\nstatus 1\n"
                   "stderr a\n", "without one line"),

@@ -1,0 +1,221 @@
+/// The comparison as a chart: time across, pairs too many up and pairs too few down.
+#include "base/base.h"
+#include "compare_report.h"
+#include "inputs.h"
+#include "json_print.h"
+#include "names.h"
+#include "sightline/draw.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+#define DOT   "  \xc2\xb7  "
+#define MICRO "\xc2\xb5"
+#define TIMES "\xc3\x97"
+
+enum { GUARANTEES = 4, NOTE_TEXT = 256, NOTES_TEXT = 1024 };
+
+/// What a run's mark says.
+typedef struct mark_text {
+    char label[SL_RUN_NAME], note[NOTE_TEXT];
+} mark_text;
+
+typedef struct chart_parts {
+    const sl_comparison *comparison;
+    sl_chart_mark *marks, *over, *under; ///< by guarantee; of the frontier
+    mark_text *texts;
+    sl_chart_series series[GUARANTEES + 2];
+    char title[320], subtitle[256], notes[NOTES_TEXT];
+    sl_chart chart;
+} chart_parts;
+
+/// Adds to a text, as far as there is room.
+static void append(char *text, size_t size, const char *format, ...) SL_PRINTF(3, 4);
+
+static void append(char *text, size_t size, const char *format, ...) {
+    const size_t used = strlen(text);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text + used, size - used, format, arguments);
+    va_end(arguments);
+}
+
+/// "53.4 ms, 129 x · 43 us a test · 12 pairs doubtful"
+static void write_note(const sl_compare_run *run, char *note) {
+    const sl_see_account *account = &run->visibility.account;
+    char seconds[SL_SECONDS_TEXT];
+    sl_seconds_write(run->seconds, MICRO, seconds);
+    append(note, NOTE_TEXT, "%s", seconds);
+    if (run->ratio > 1)
+        append(note, NOTE_TEXT, ", %.*f " TIMES " as long", run->ratio < 9.95 ? 1 : 0, run->ratio);
+    if (account->tests) {
+        sl_seconds_write(run->seconds / (double)account->tests, MICRO, seconds);
+        append(note, NOTE_TEXT, DOT "%s a test", seconds);
+    }
+    if (run->too_many) append(note, NOTE_TEXT, DOT "%" PRIu64 " too many", run->too_many);
+    if (run->too_few) append(note, NOTE_TEXT, DOT "%" PRIu64 " too few", run->too_few);
+    if (account->doubtful_pairs)
+        append(note, NOTE_TEXT, DOT "%" PRIu64 " doubtful", account->doubtful_pairs);
+}
+
+/// A run that errs both ways stands where it errs more, with a whisker to the other side.
+static sl_chart_mark mark_of(const chart_parts *parts, const sl_compare_run *run,
+                             const mark_text *text) {
+    const double many = (double)run->too_many, few = (double)run->too_few;
+    const double doubtful = (double)run->visibility.account.doubtful_pairs;
+    sl_chart_mark mark = {.x = run->seconds,
+                          .y = many >= few ? many : -few,
+                          .x_whisker = {run->low, run->high},
+                          .label = text->label,
+                          .note = text->note};
+    if (many > 0 && few > 0) mark.y_whisker = (sl_chart_span){-few, many};
+    // Doubtful pairs count as seen with closed sight only, so they can err one way only.
+    if (run->judged)
+        mark.y_band = parts->comparison->sight == SL_CLOSED ? (sl_chart_span){0, doubtful}
+                                                            : (sl_chart_span){-doubtful, 0};
+    return mark;
+}
+
+static void add_guarantee(chart_parts *parts, sl_guarantee guarantee, size_t *used) {
+    const sl_comparison *comparison = parts->comparison;
+    sl_chart_series *series = &parts->series[parts->chart.series_count];
+    *series = (sl_chart_series){.name = sl_guarantee_name(guarantee),
+                                .style = SL_CHART_MARKS,
+                                .colour = guarantee == SL_EXACT          ? 0
+                                          : guarantee == SL_ROUNDED      ? 1
+                                          : guarantee == SL_CONSERVATIVE ? 2
+                                                                         : 3,
+                                .marks = parts->marks + *used};
+    for (size_t i = 0; i < comparison->run_count; i++) {
+        const sl_compare_run *run = &comparison->runs[i];
+        if (run->outcome != SL_RUN_DONE || run->guarantee != guarantee) continue;
+        mark_text *text = &parts->texts[*used];
+        sl_run_name(run, text->label);
+        write_note(run, text->note);
+        parts->marks[(*used)++] = mark_of(parts, run, text);
+        series->mark_count++;
+    }
+    if (series->mark_count) parts->chart.series_count++;
+}
+
+/// Runs that never miss make the frontier over 0, those that never add the one under it; exact runs
+/// belong to both.
+static void add_frontier(chart_parts *parts, bool over) {
+    const sl_comparison *comparison = parts->comparison;
+    sl_chart_mark *marks = over ? parts->over : parts->under;
+    size_t count = 0;
+    for (size_t i = 0; i < comparison->run_count; i++) {
+        const sl_compare_run *run = &comparison->runs[comparison->order[i]];
+        if (!run->frontier || (over ? run->too_few : run->too_many)) continue;
+        const double y = over ? (double)run->too_many : -(double)run->too_few;
+        marks[count++] = (sl_chart_mark){.x = run->seconds, .y = y};
+    }
+    if (!count) return;
+    parts->series[parts->chart.series_count++] =
+        (sl_chart_series){.name = "no run is as right in so little time",
+                          .style = over ? SL_CHART_FRONTIER_OVER : SL_CHART_FRONTIER_UNDER,
+                          .marks = marks,
+                          .mark_count = count};
+}
+
+static void list_runs(const sl_comparison *comparison, sl_run_outcome outcome, const char *lead,
+                      char *notes) {
+    bool begun = false;
+    for (size_t i = 0; i < comparison->run_count; i++) {
+        if (comparison->runs[i].outcome != outcome) continue;
+        char name[SL_RUN_NAME];
+        sl_run_name(&comparison->runs[i], name);
+        append(notes, NOTES_TEXT, "%s%s", begun ? ", " : lead, name);
+        begun = true;
+    }
+    if (begun) append(notes, NOTES_TEXT, "\n");
+}
+
+static void write_notes(const sl_comparison *comparison, char *notes) {
+    char lead[64];
+    size_t done = 0;
+    for (size_t i = 0; i < comparison->run_count; i++)
+        done += comparison->runs[i].outcome == SL_RUN_DONE;
+    if (comparison->reference == SL_NO_RUN)
+        append(notes, NOTES_TEXT, "No exact run is done: how right the others are is not known.\n");
+    else if (done > 1 && sl_compare_all_agree(comparison))
+        append(notes, NOTES_TEXT, "All %zu runs agree on every pair: what differs is the time.\n",
+               done);
+    snprintf(lead, sizeof lead, "Not done in %g s: ", comparison->limit);
+    list_runs(comparison, SL_RUN_NOT_DONE, lead, notes);
+    list_runs(comparison, SL_RUN_REFUSED, "Refused the map: ", notes);
+}
+
+static void write_heading(chart_parts *parts) {
+    const sl_comparison *comparison = parts->comparison;
+    char readable[256];
+    size_t length;
+    sl_text_make_readable(comparison->input, readable, sizeof readable);
+    const char *name = sl_input_base_name(readable, &length);
+    snprintf(parts->title, sizeof parts->title, "%.*s: what accuracy costs in time", (int)length,
+             name);
+    append(parts->subtitle, sizeof parts->subtitle, "%" PRIu32 " cells" DOT "%" PRIu32 " portals",
+           comparison->space->cell_count, comparison->space->portal_count);
+    if (comparison->reference != SL_NO_RUN) {
+        const sl_compare_run *exact = &comparison->runs[comparison->reference];
+        char by[SL_RUN_NAME];
+        sl_run_name(exact, by);
+        append(parts->subtitle, sizeof parts->subtitle, DOT "%" PRIu64 " pairs seen, by %s",
+               exact->visibility.account.pairs, by);
+    }
+    append(parts->subtitle, sizeof parts->subtitle, DOT "%s sight",
+           sl_sight_name(comparison->sight));
+}
+
+static void fill_chart(chart_parts *parts, bool dark) {
+    sl_chart *chart = &parts->chart;
+    const bool judged = parts->comparison->reference != SL_NO_RUN;
+    size_t used = 0;
+    *chart = (sl_chart){
+        .title = parts->title,
+        .subtitle = parts->subtitle,
+        .notes = parts->notes,
+        .x = {.label = "time for all cells, one thread (medians)",
+              .scale = SL_CHART_LOG,
+              .seconds = true},
+        .y = {.scale = SL_CHART_SYMLOG, .zero = judged ? "exact" : "not known"},
+        .series = parts->series,
+        .width = sl_draw_options_default().width,
+        .dark = dark,
+    };
+    if (judged) {
+        chart->y.over = "pairs too many: hidden, but said to be seen";
+        chart->y.under = "pairs too few: seen, but said to be hidden";
+    }
+    add_guarantee(parts, SL_EXACT, &used);
+    add_guarantee(parts, SL_CONSERVATIVE, &used);
+    add_guarantee(parts, SL_AGGRESSIVE, &used);
+    add_guarantee(parts, SL_ROUNDED, &used);
+    for (size_t i = 0; i < used; i++)
+        if (parts->marks[i].y_band.low != parts->marks[i].y_band.high)
+            chart->band = "pairs left to rounding";
+    add_frontier(parts, true);
+    add_frontier(parts, false);
+    write_heading(parts);
+    write_notes(parts->comparison, parts->notes);
+}
+
+sl_status sl_compare_draw(sl_context *context, const sl_comparison *comparison, bool dark,
+                          const char *path) {
+    const size_t count = comparison->run_count;
+    chart_parts parts = {.comparison = comparison};
+    parts.marks = sl_alloc_array(context, count, sizeof *parts.marks);
+    parts.over = sl_alloc_array(context, count, sizeof *parts.over);
+    parts.under = sl_alloc_array(context, count, sizeof *parts.under);
+    parts.texts = sl_alloc_array(context, count, sizeof *parts.texts);
+    sl_status status = SL_NO_MEMORY;
+    if (parts.marks && parts.over && parts.under && parts.texts) {
+        fill_chart(&parts, dark);
+        status = sl_draw_chart_file(context, &parts.chart, path);
+    }
+    sl_free(context, parts.marks);
+    sl_free(context, parts.over);
+    sl_free(context, parts.under);
+    sl_free(context, parts.texts);
+    return status;
+}

@@ -1,0 +1,108 @@
+#include "compare_time.h"
+
+#include "base/base.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/// Without --repeat: at least three runs and a fifth of a second, but no more once a few seconds
+/// have gone.
+enum { LEAST_TIMINGS = 3 };
+#define ENOUGH_SECONDS 0.2
+#define MOST_SECONDS   5.0
+
+/// The hooks of a run: the console's, and a clock.
+typedef struct watch {
+    const sl_hooks *console;
+    const char *label;
+    double deadline;
+    bool late; ///< the deadline was what stopped the run
+} watch;
+
+static void show_progress(void *user, const sl_progress *progress) {
+    const watch *w = user;
+    sl_progress shown = *progress;
+    shown.stage = w->label;
+    if (w->console->progress) w->console->progress(w->console->user, &shown);
+}
+
+static void show_note(void *user, const char *message) {
+    const watch *w = user;
+    if (w->console->note) w->console->note(w->console->user, message);
+}
+
+static bool is_cancelled(void *user) {
+    watch *w = user;
+    if (w->console->cancelled && w->console->cancelled(w->console->user)) return true;
+    w->late = sl_now() >= w->deadline;
+    return w->late;
+}
+
+static bool is_enough(const sl_timing *timing, size_t count, double sum) {
+    if (timing->repeat) return count >= timing->repeat;
+    return (count >= LEAST_TIMINGS && sum >= ENOUGH_SECONDS) || sum >= MOST_SECONDS;
+}
+
+static int compare_doubles(const void *left, const void *right) {
+    const double a = *(const double *)left, b = *(const double *)right;
+    return (a > b) - (a < b);
+}
+
+typedef SL_ARRAY(double) durations;
+
+/// Runs until it is enough; the first answer is kept, the others are the same.
+static sl_status run_often(sl_context *context, watch *w, const sl_space *space,
+                           const sl_see_options *options, const sl_timing *timing, durations *taken,
+                           sl_compare_run *run) {
+    double sum = 0;
+    while (!is_enough(timing, taken->count, sum)) {
+        SL_TRY(SL_ARRAY_ROOM(context, taken, 1));
+        sl_visibility visibility = {0};
+        const double start = sl_now();
+        w->deadline = start + timing->limit;
+        SL_TRY(run->method->see(context, space, options, &visibility));
+        const double seconds = sl_now() - start;
+        if (taken->count)
+            sl_visibility_destroy(context, &visibility);
+        else
+            run->visibility = visibility;
+        taken->items[taken->count++] = seconds;
+        sum += seconds;
+    }
+    return SL_OK;
+}
+
+static void summarise(const durations *taken, sl_compare_run *run) {
+    const size_t n = taken->count;
+    qsort(taken->items, n, sizeof *taken->items, compare_doubles);
+    run->timings = (unsigned)n;
+    run->low = taken->items[(n - 1) / 4];
+    run->high = taken->items[n - 1 - (n - 1) / 4];
+    run->seconds = (taken->items[(n - 1) / 2] + taken->items[n / 2]) / 2;
+}
+
+sl_status sl_compare_time(sl_console *console, const sl_space *space, const sl_see_options *options,
+                          const sl_timing *timing, const char *label, sl_compare_run *run) {
+    watch w = {.console = &console->context->hooks, .label = label};
+    const sl_hooks hooks = {
+        .user = &w, .progress = show_progress, .note = show_note, .cancelled = is_cancelled};
+    sl_context *context = sl_context_create(&hooks);
+    if (!context) return sl_fail_memory(console->context);
+    durations taken = {0};
+    sl_status status = run_often(context, &w, space, options, timing, &taken, run);
+    run->outcome = SL_RUN_DONE;
+    if (status == SL_UNSUPPORTED)
+        snprintf(run->refusal, sizeof run->refusal, "%s", sl_context_message(context));
+    if (status == SL_UNSUPPORTED || (status == SL_CANCELLED && w.late)) {
+        run->outcome = status == SL_UNSUPPORTED ? SL_RUN_REFUSED : SL_RUN_NOT_DONE;
+        status = SL_OK;
+    }
+    if (taken.count && status == SL_OK) {
+        run->outcome = SL_RUN_DONE; // a later run that was late, or none
+        summarise(&taken, run);
+    }
+    if (status != SL_OK) sl_fail(console->context, status, "%s", sl_context_message(context));
+    sl_free(context, taken.items);
+    sl_context_destroy(context);
+    return status;
+}

@@ -1,0 +1,101 @@
+#include "folder.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static char *join(sl_context *context, const char *folder, const char *name) {
+    const size_t length = strlen(folder) + strlen(name) + 2;
+    char *path = sl_alloc(context, length);
+    if (path) snprintf(path, length, "%s/%s", folder, name);
+    return path;
+}
+
+char *sl_folder_file(sl_context *context, const sl_folder *folder, const char *name) {
+    return join(context, folder->temporary, name);
+}
+
+static sl_status fail_write(sl_context *context, const char *path) {
+    return sl_fail(context, SL_IO, "%s: cannot write: %s", path, strerror(errno));
+}
+
+/// What stands where the folder or its files are to be.
+static sl_status look(sl_context *context, sl_folder *folder) {
+    struct stat there;
+    folder->exists = stat(folder->path, &there) == 0;
+    if (!folder->exists) return SL_OK;
+    if (!S_ISDIR(there.st_mode))
+        return sl_fail(context, SL_BAD_ARGUMENT, "%s: is no folder", folder->path);
+    for (size_t i = 0; folder->names[i]; i++) {
+        char *file = join(context, folder->path, folder->names[i]);
+        if (!file) return SL_NO_MEMORY;
+        sl_status status = SL_OK;
+        if (stat(file, &there) == 0 && !S_ISREG(there.st_mode))
+            status = sl_fail(context, SL_BAD_ARGUMENT, "%s: is in the way, and no file", file);
+        sl_free(context, file);
+        SL_TRY(status);
+    }
+    return SL_OK;
+}
+
+/// Within a folder that is there, so that moving never leaves the file system; beside one that is
+/// not, as which it is renamed.
+static sl_status make_temporary(sl_context *context, sl_folder *folder) {
+    const size_t length = strlen(folder->path) + sizeof "/.XXXXXX";
+    folder->temporary = sl_alloc(context, length);
+    if (!folder->temporary) return SL_NO_MEMORY;
+    snprintf(folder->temporary, length, "%s%s.XXXXXX", folder->path, folder->exists ? "/" : "");
+    if (!mkdtemp(folder->temporary)) {
+        folder->temporary[0] = '\0';
+        return fail_write(context, folder->path);
+    }
+    // mkdtemp makes folders private; this one is to be as any that the user makes.
+    const mode_t mask = umask(0);
+    umask(mask);
+    (void)!chmod(folder->temporary, 0777 & ~mask);
+    return SL_OK;
+}
+
+sl_status sl_folder_open(sl_context *context, const char *path, const char *const *names,
+                         sl_folder *out) {
+    size_t length = strlen(path);
+    while (length > 1 && path[length - 1] == '/') length--;
+    if (!length) return sl_fail(context, SL_BAD_ARGUMENT, "a folder without a name");
+    *out = (sl_folder){.names = names, .path = sl_copy_text(context, path, length)};
+    sl_status status = out->path ? look(context, out) : SL_NO_MEMORY;
+    if (status == SL_OK) status = make_temporary(context, out);
+    return status == SL_OK ? SL_OK : sl_folder_close(context, out, status);
+}
+
+static sl_status move_file(sl_context *context, const sl_folder *folder, const char *name) {
+    char *from = join(context, folder->temporary, name), *to = join(context, folder->path, name);
+    sl_status status = from && to ? SL_OK : SL_NO_MEMORY;
+    if (status == SL_OK && rename(from, to) != 0) status = fail_write(context, to);
+    sl_free(context, from);
+    sl_free(context, to);
+    return status;
+}
+
+static void remove_file(sl_context *context, const sl_folder *folder, const char *name) {
+    char *path = join(context, folder->temporary, name);
+    if (path) unlink(path);
+    sl_free(context, path);
+}
+
+sl_status sl_folder_close(sl_context *context, sl_folder *folder, sl_status status) {
+    const bool made = folder->temporary && folder->temporary[0];
+    if (status == SL_OK && !folder->exists && rename(folder->temporary, folder->path) != 0)
+        status = fail_write(context, folder->path);
+    for (size_t i = 0; folder->exists && folder->names[i] && status == SL_OK; i++)
+        status = move_file(context, folder, folder->names[i]);
+    if (made && (status != SL_OK || folder->exists)) {
+        for (size_t i = 0; folder->names[i]; i++) remove_file(context, folder, folder->names[i]);
+        rmdir(folder->temporary);
+    }
+    sl_free(context, folder->path);
+    sl_free(context, folder->temporary);
+    *folder = (sl_folder){0};
+    return status;
+}

@@ -1,0 +1,128 @@
+#include "pipeline.h"
+
+#include "base/base.h"
+#include "effects.h"
+#include "inputs.h"
+#include "solvers.h"
+
+typedef struct subdivider {
+    const char *name, *what;
+} subdivider;
+
+static const subdivider subdividers[] = {
+    {"kd", "kd-tree on the walls' own lines; walls must be axial"},
+};
+static const sl_name_table subdivider_names = {"subdivision", subdividers, sizeof *subdividers, 1};
+
+static const char *const kd_rules[] = {"spanning", "obscured", "cleaving", "median"};
+enum { SPANNING = 1, OBSCURED = 2, CLEAVING = 4, MEDIAN = 8, ALL_RULES = 15 };
+static const sl_name_table kd_rule_names = {"rule", kd_rules, sizeof *kd_rules, 4};
+
+static sl_status plan_subdivision(sl_context *context, const sl_pipeline_texts *texts,
+                                  sl_pipeline *plan) {
+    size_t subdivide = 0;
+    unsigned rules = ALL_RULES;
+    SL_TRY(
+        sl_option_choice(context, "--subdivide", texts->subdivide, &subdivider_names, &subdivide));
+    SL_TRY(sl_option_choices(context, "--kd-rules", texts->kd_rules, &kd_rule_names, &rules));
+    sl_subdivide_options *options = &plan->options;
+    *options = sl_subdivide_options_default();
+    SL_TRY(sl_option_number(context, "--kd-obscured", texts->kd_obscured, &options->obscured));
+    if (options->obscured < 0 || options->obscured > 1)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--kd-obscured %s: a share from 0 to 1 is needed",
+                       texts->kd_obscured);
+    if (texts->kd_obscured && !(rules & OBSCURED))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--kd-obscured needs the rule 'obscured', which --kd-rules leaves out");
+    if (texts->kd_rules) {
+        options->spanning = rules & SPANNING;
+        if (!(rules & OBSCURED)) options->obscured = 0;
+        options->cleaving = rules & CLEAVING;
+        options->median = rules & MEDIAN;
+    }
+    plan->subdivide = subdividers[subdivide].name;
+    return SL_OK;
+}
+
+sl_status sl_pipeline_plan(sl_context *context, const char *input, const sl_pipeline_texts *texts,
+                           sl_pipeline *out) {
+    sl_pipeline plan = {.input = input, .slice = texts->slice, .start = texts->start};
+    const sl_name_table effects = sl_effect_table();
+    SL_TRY(sl_option_choices(context, "--without", texts->without, &effects, &plan.without));
+    SL_TRY(plan_subdivision(context, texts, &plan));
+#ifdef NDEBUG
+    plan.check = texts->check;
+#else
+    plan.check = true;
+#endif
+    *out = plan;
+    return SL_OK;
+}
+
+static sl_status add_start(sl_context *context, const sl_pipeline *pipeline, sl_map *map) {
+    if (!pipeline->start) return SL_OK;
+    sl_point at = {0};
+    SL_TRY(sl_option_point(context, "--start", pipeline->start, &at));
+    const sl_box b = sl_map_bounds(map);
+    if (at.x < b.min.x || at.x > b.max.x || at.y < b.min.y || at.y > b.max.y)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--start %s: outside the map; sightline info %s tells its bounds",
+                       pipeline->start, pipeline->input);
+    return sl_map_add_start(context, map, at, 0, 0);
+}
+
+sl_status sl_pipeline_read(sl_context *context, const sl_pipeline *pipeline, sl_map *map) {
+    SL_TRY(sl_input_read_map(context, pipeline->input, pipeline->slice, map));
+    SL_TRY(add_start(context, pipeline, map));
+    sl_effects_leave_out(context, map, pipeline->without);
+    return SL_OK;
+}
+
+sl_status sl_pipeline_subdivide(sl_context *context, const sl_pipeline *pipeline, const sl_map *map,
+                                sl_space *space) {
+    return sl_subdivide_kd(context, map, &pipeline->options, space);
+}
+
+sl_status sl_pipeline_check(sl_context *context, const sl_pipeline *pipeline,
+                            const sl_space *space) {
+    return pipeline->check ? sl_space_check(context, space) : SL_OK;
+}
+
+sl_name_table sl_pipeline_solver_names(sl_solver solvers[SL_SOLVERS_MOST]) {
+    sl_name_table names = {"solver", solvers, sizeof *solvers, 0};
+    while (names.count < SL_SOLVERS_MOST && sl_solver_at(names.count)) {
+        solvers[names.count] = *sl_solver_at(names.count);
+        names.count++;
+    }
+    return names;
+}
+
+void sl_pipeline_print_subdivisions(void) {
+    puts("\nsubdivisions:");
+    for (size_t i = 0; i < subdivider_names.count; i++)
+        printf("  %-12s%s\n", subdividers[i].name, subdividers[i].what);
+    printf("              (rules: spanning, obscured at a share of %g, cleaving, median)\n",
+           sl_subdivide_options_default().obscured);
+}
+
+void sl_pipeline_print_effects(void) {
+    const sl_name_table effects = sl_effect_table();
+    printf("\neffects, for --without: ");
+    for (size_t i = 0; i < effects.count; i++)
+        printf("%s%s", i ? ", " : "", sl_name_table_at(&effects, i));
+    putchar('\n');
+}
+
+void sl_pipeline_print_methods(const char *remark) {
+    size_t count;
+    const sl_see_method *methods = sl_see_methods(&count);
+    printf("\nmethods%s:\n", remark);
+    for (size_t i = 0; i < count; i++)
+        printf("  %-12s%s; %s\n", methods[i].name, methods[i].what,
+               methods[i].stabs ? "as exact as the solver"
+                                : sl_guarantee_name(methods[i].guarantee));
+    printf("\nsolvers%s:\n", remark);
+    for (size_t i = 0; sl_solver_at(i); i++)
+        printf("  %-12s%s; %s\n", sl_solver_at(i)->name, sl_solver_at(i)->what,
+               sl_guarantee_name(sl_solver_at(i)->guarantee));
+}

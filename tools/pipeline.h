@@ -1,0 +1,74 @@
+/// The way from a map's file to its space, and the options that say how it is gone: shared by all
+/// commands that subdivide a map.
+#ifndef PIPELINE_H
+#define PIPELINE_H
+
+#include "options.h"
+#include "sightline/cell_to_cell.h"
+
+/// The options as they are given.
+typedef struct sl_pipeline_texts {
+    const char *subdivide, *kd_rules, *kd_obscured, *slice, *start, *without;
+    bool check;
+} sl_pipeline_texts;
+
+/// Those options, for a command's table of options.
+#define SL_PIPELINE_OPTIONS(texts)                                                                 \
+    {"subdivide", 0, "NAME", NULL, &(texts).subdivide, "how to cut the map into cells"},           \
+        {"kd-rules",                                                                               \
+         0,                                                                                        \
+         "RULE,...",                                                                               \
+         NULL,                                                                                     \
+         &(texts).kd_rules,                                                                        \
+         "the rules kept, of spanning, obscured, cleaving,\n"                                      \
+         "median (the default is all; none: none)"},                                               \
+        {"kd-obscured",                                                                            \
+         0,                                                                                        \
+         "SHARE",                                                                                  \
+         NULL,                                                                                     \
+         &(texts).kd_obscured,                                                                     \
+         "prefer lines of which walls cover this share, 0 to 1"},                                  \
+        {"slice", 0, "Z", NULL, &(texts).slice, "cut a 3D model at this height"},                  \
+        {"start",        0,                                                                        \
+         "X,Y",          NULL,                                                                     \
+         &(texts).start, "a start beside the map's own: starts tell inside\nfrom outside"},        \
+        {"without", 0, "EFFECT,...", NULL, &(texts).without, "leave out what the map calls for"},  \
+    {                                                                                              \
+        "check", 0, NULL, &(texts).check, NULL, "check the whole graph of cells and portals"       \
+    }
+
+/// The options as they are meant.
+typedef struct sl_pipeline {
+    const char *input, *slice, *start;
+    const char *subdivide; ///< its name
+    unsigned without;      ///< bits of sl_effect_table()
+    sl_subdivide_options options;
+    bool check;
+} sl_pipeline;
+
+sl_status sl_pipeline_plan(sl_context *context, const char *input, const sl_pipeline_texts *texts,
+                           sl_pipeline *out);
+
+/// Reads the map, adds the start asked for and leaves out the effects named.
+sl_status sl_pipeline_read(sl_context *context, const sl_pipeline *pipeline, sl_map *map);
+
+/// Subdivides a map that is clean.
+sl_status sl_pipeline_subdivide(sl_context *context, const sl_pipeline *pipeline, const sl_map *map,
+                                sl_space *space);
+
+/// Checks the space where that is asked for.
+sl_status sl_pipeline_check(sl_context *context, const sl_pipeline *pipeline,
+                            const sl_space *space);
+
+enum { SL_SOLVERS_MOST = 16 };
+
+/// The names of all solvers; `solvers` holds copies of them for the table.
+sl_name_table sl_pipeline_solver_names(sl_solver solvers[SL_SOLVERS_MOST]);
+
+/// For --help: what the options choose from.
+void sl_pipeline_print_subdivisions(void);
+void sl_pipeline_print_effects(void);
+/// Methods and solvers; `remark` stands behind both headings.
+void sl_pipeline_print_methods(const char *remark);
+
+#endif
