@@ -22,7 +22,8 @@ FOLDERS = ["base", "geometry", "map", "import", "space", "effects", "stab", "cel
 # Used by games with no other part of the library beside it.
 ALONE = {"runtime"}
 # Public headers that are not named after their folder.
-HEADERS = {"context": "base", "glpk": "stab", "solvers": "stab", "pvs": "cell_to_cell"}
+HEADERS = {"context": "base", "glpk": "stab", "solvers": "stab", "pvs": "cell_to_cell",
+           "explain": "cell_to_cell"}
 # For users: it includes the others, and no part of the library includes it.
 ALL_HEADERS = "sightline"
 # Other versions lay out a few things differently.

@@ -5,6 +5,7 @@
 #include "sightline/bake.h"
 #include "sightline/cell_to_cell.h"
 #include "sightline/context.h"
+#include "sightline/explain.h"
 #include "sightline/geometry.h"
 #include "sightline/import.h"
 #include "sightline/map.h"
