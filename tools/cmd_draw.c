@@ -1,5 +1,4 @@
 #include "base/base.h"
-#include "base/number.h"
 #include "commands.h"
 #include "inputs.h"
 #include "options.h"
@@ -65,14 +64,6 @@ static sl_status read_options(sl_context *context, const draw_texts *texts,
     return choose_layers(context, texts, options);
 }
 
-static sl_status fail_outside(sl_context *context, const char *at, sl_box bounds) {
-    const double values[4] = {bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y};
-    char text[4][SL_NUMBER_TEXT];
-    for (int i = 0; i < 4; i++) sl_number_write(values[i], text[i]);
-    return sl_fail(context, SL_BAD_ARGUMENT, "--at %s: outside the map, which is %s,%s to %s,%s",
-                   at, text[0], text[1], text[2], text[3]);
-}
-
 /// By number, by a point, or by the map's first start; "none" for an overview.
 static sl_status choose_cell(sl_context *context, const draw_texts *texts, const sl_baked *baked,
                              uint32_t *cell) {
@@ -86,7 +77,8 @@ static sl_status choose_cell(sl_context *context, const draw_texts *texts, const
         sl_point at = {0};
         SL_TRY(sl_option_point(context, "--at", texts->at, &at));
         *cell = sl_space_locate(space, at);
-        if (*cell == SL_NO_CELL) return fail_outside(context, texts->at, space->bounds);
+        if (*cell == SL_NO_CELL)
+            return sl_input_fail_outside(context, "--at", texts->at, space->bounds);
     } else if (!texts->cell && baked->map.start_count) {
         *cell = sl_space_locate(space, baked->map.starts[0].at);
     }

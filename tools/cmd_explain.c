@@ -1,5 +1,4 @@
 #include "base/base.h"
-#include "base/number.h"
 #include "commands.h"
 #include "explain_report.h"
 #include "inputs.h"
@@ -16,14 +15,6 @@ typedef struct explain_texts {
 
 enum { FILE_OPERAND, FROM_OPERAND, TO_OPERAND };
 
-static sl_status fail_outside(sl_context *context, const char *name, const char *text, sl_box b) {
-    const double values[4] = {b.min.x, b.min.y, b.max.x, b.max.y};
-    char bounds[4][SL_NUMBER_TEXT];
-    for (int i = 0; i < 4; i++) sl_number_write(values[i], bounds[i]);
-    return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: outside the map, which is %s,%s to %s,%s",
-                   name, text, bounds[0], bounds[1], bounds[2], bounds[3]);
-}
-
 /// A cell by its number or by a point in it.
 static sl_status choose_cell(sl_context *context, const char *name, const char *text,
                              const sl_space *space, uint32_t *cell) {
@@ -36,7 +27,7 @@ static sl_status choose_cell(sl_context *context, const char *name, const char *
     sl_point at = {0};
     SL_TRY(sl_option_point(context, name, text, &at));
     *cell = sl_space_locate(space, at);
-    return *cell == SL_NO_CELL ? fail_outside(context, name, text, space->bounds) : SL_OK;
+    return *cell == SL_NO_CELL ? sl_input_fail_outside(context, name, text, space->bounds) : SL_OK;
 }
 
 static sl_status read_options(sl_context *context, const explain_texts *texts,

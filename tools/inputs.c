@@ -1,6 +1,7 @@
 #include "inputs.h"
 
 #include "base/base.h"
+#include "base/number.h"
 #include "options.h"
 
 #include <stdio.h>
@@ -113,4 +114,13 @@ size_t sl_input_count_oblique(const sl_wall *walls, size_t count) {
     for (size_t i = 0; i < count; i++)
         oblique += walls[i].a.x != walls[i].b.x && walls[i].a.y != walls[i].b.y;
     return oblique;
+}
+
+sl_status sl_input_fail_outside(sl_context *context, const char *name, const char *text,
+                                sl_box bounds) {
+    const double values[4] = {bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y};
+    char numbers[4][SL_NUMBER_TEXT];
+    for (int i = 0; i < 4; i++) sl_number_write(values[i], numbers[i]);
+    return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: outside the map, which is %s,%s to %s,%s",
+                   name, text, numbers[0], numbers[1], numbers[2], numbers[3]);
 }

@@ -2,6 +2,7 @@
 
 #include "base/base.h"
 #include "draw/marks.h"
+#include "space/ray.h"
 
 #include <math.h>
 
@@ -99,21 +100,6 @@ static sl_point exit_middle(const sl_exit *exit) {
                       exit->left.y + (exit->right.y - exit->left.y) / 2};
 }
 
-/// How far the ray from a point of the cell runs before it leaves the cell.
-static double ray_length(const sl_space *space, uint32_t cell, sl_point from, sl_point direction) {
-    const sl_cell *c = &space->cells[cell];
-    const sl_point *corners = space->vertices + c->first_vertex;
-    double length = INFINITY;
-    for (uint32_t i = 0; i < c->vertex_count; i++) {
-        const sl_point a = corners[i], b = corners[(i + 1) % c->vertex_count];
-        const double nx = b.y - a.y, ny = a.x - b.x; // outwards, corners being counter-clockwise
-        const double ahead = nx * direction.x + ny * direction.y;
-        const double room = nx * (a.x - from.x) + ny * (a.y - from.y);
-        if (ahead > 0) length = fmin(length, fmax(room / ahead, 0));
-    }
-    return length;
-}
-
 /// Where a stroke that crosses a portal at right angles may bend: into the cell from the portal's
 /// middle, along its normal. `sign` is 1 to go the exit's way. Both such points and both middles
 /// lie in the convex cell, and so does the curve between them.
@@ -123,7 +109,7 @@ static sl_point bend(const sl_space *space, uint32_t cell, const sl_exit *exit, 
     const double along_x = exit->left.x - exit->right.x, along_y = exit->left.y - exit->right.y;
     const double width = hypot(along_x, along_y);
     const sl_point forward = {sign * along_y / width, -sign * along_x / width};
-    const double length = fmin(reach, 0.9 * ray_length(space, cell, middle, forward));
+    const double length = fmin(reach, 0.9 * sl_ray_length(space, cell, middle, forward));
     return (sl_point){middle.x + forward.x * length, middle.y + forward.y * length};
 }
 
