@@ -2,20 +2,20 @@
 
 #include <math.h>
 
-sl_view sl_view_fit(sl_box bounds, double left, double top, double width, double height,
-                    double unit) {
+sl_frame sl_frame_fit(sl_box bounds, double left, double top, double width, double height,
+                      double unit) {
     double wide = bounds.max.x - bounds.min.x, high = bounds.max.y - bounds.min.y;
     if (!(wide > 0) && !(high > 0)) wide = high = 1;
     const double scale =
         fmin(wide > 0 ? width / wide : INFINITY, high > 0 ? height / high : INFINITY);
     const double free_x = width - wide * scale, free_y = height - high * scale;
-    return (sl_view){.corner = bounds.min,
-                     .scale = scale,
-                     .left = left + free_x / 2,
-                     .top = top + free_y / 2,
-                     .width = wide * scale,
-                     .height = high * scale,
-                     .unit = unit};
+    return (sl_frame){.corner = bounds.min,
+                      .scale = scale,
+                      .left = left + free_x / 2,
+                      .top = top + free_y / 2,
+                      .width = wide * scale,
+                      .height = high * scale,
+                      .unit = unit};
 }
 
 /// Far beyond any page, and small enough for cutting to keep its precision.
@@ -23,18 +23,18 @@ static double tame(double value) {
     return fmin(fmax(value, -1e12), 1e12);
 }
 
-sl_point sl_view_point(const sl_view *view, sl_point point) {
+sl_point sl_frame_point(const sl_frame *frame, sl_point point) {
     return (sl_point){
-        tame(view->left + (point.x - view->corner.x) * view->scale),
-        tame(view->top + view->height - (point.y - view->corner.y) * view->scale),
+        tame(frame->left + (point.x - frame->corner.x) * frame->scale),
+        tame(frame->top + frame->height - (point.y - frame->corner.y) * frame->scale),
     };
 }
 
-sl_box sl_view_guard(const sl_view *view) {
+sl_box sl_frame_guard(const sl_frame *frame) {
     // Enough for the edge of the widest line, cut there, to stay out of sight.
-    const double around = 100 * view->unit;
-    return (sl_box){{view->left - around, view->top - around},
-                    {view->left + view->width + around, view->top + view->height + around}};
+    const double around = 100 * frame->unit;
+    return (sl_box){{frame->left - around, frame->top - around},
+                    {frame->left + frame->width + around, frame->top + frame->height + around}};
 }
 
 static bool holds(const sl_box *box, sl_point p) {
@@ -51,9 +51,9 @@ static bool narrow(double start, double step, double low, double high, double *f
     return *from <= *to;
 }
 
-bool sl_view_segment(const sl_view *view, sl_point a, sl_point b, sl_point *from, sl_point *to) {
-    const sl_box box = sl_view_guard(view);
-    const sl_point p = sl_view_point(view, a), q = sl_view_point(view, b);
+bool sl_frame_segment(const sl_frame *frame, sl_point a, sl_point b, sl_point *from, sl_point *to) {
+    const sl_box box = sl_frame_guard(frame);
+    const sl_point p = sl_frame_point(frame, a), q = sl_frame_point(frame, b);
     const double dx = q.x - p.x, dy = q.y - p.y;
     double enter = 0, leave = 1;
     if (!narrow(p.x, dx, box.min.x, box.max.x, &enter, &leave)) return false;
@@ -63,16 +63,16 @@ bool sl_view_segment(const sl_view *view, sl_point a, sl_point b, sl_point *from
     return true;
 }
 
-bool sl_view_holds(const sl_view *view, sl_point point, sl_point *place) {
-    const sl_box box = sl_view_guard(view);
-    const sl_point p = sl_view_point(view, point);
+bool sl_frame_holds(const sl_frame *frame, sl_point point, sl_point *place) {
+    const sl_box box = sl_frame_guard(frame);
+    const sl_point p = sl_frame_point(frame, point);
     if (place) *place = p;
     return holds(&box, p);
 }
 
-void sl_path_segment(cairo_t *cairo, const sl_view *view, sl_point a, sl_point b) {
+void sl_path_segment(cairo_t *cairo, const sl_frame *frame, sl_point a, sl_point b) {
     sl_point from, to;
-    if (!sl_view_segment(view, a, b, &from, &to)) return;
+    if (!sl_frame_segment(frame, a, b, &from, &to)) return;
     cairo_move_to(cairo, from.x, from.y);
     cairo_line_to(cairo, to.x, to.y);
 }
@@ -112,13 +112,13 @@ static void take(cairo_t *cairo, side *sides, int count, sl_point p) {
     if (depth(s, p) >= 0) take(cairo, sides + 1, count - 1, p);
 }
 
-static void add_cut(cairo_t *cairo, const sl_box *box, const sl_view *view, const sl_point *corners,
-                    size_t count) {
+static void add_cut(cairo_t *cairo, const sl_box *box, const sl_frame *frame,
+                    const sl_point *corners, size_t count) {
     side sides[4] = {{.vertical = true, .bound = box->min.x},
                      {.vertical = true, .upper = true, .bound = box->max.x},
                      {.bound = box->min.y},
                      {.upper = true, .bound = box->max.y}};
-    for (size_t i = 0; i < count; i++) take(cairo, sides, 4, sl_view_point(view, corners[i]));
+    for (size_t i = 0; i < count; i++) take(cairo, sides, 4, sl_frame_point(frame, corners[i]));
     for (int i = 0; i < 4; i++) {
         side *s = &sides[i];
         if (s->begun && (depth(s, s->last) >= 0) != (depth(s, s->first) >= 0))
@@ -126,33 +126,33 @@ static void add_cut(cairo_t *cairo, const sl_box *box, const sl_view *view, cons
     }
 }
 
-void sl_path_polygon(cairo_t *cairo, const sl_view *view, const sl_point *corners, size_t count) {
-    const sl_box box = sl_view_guard(view);
+void sl_path_polygon(cairo_t *cairo, const sl_frame *frame, const sl_point *corners, size_t count) {
+    const sl_box box = sl_frame_guard(frame);
     bool whole = true;
     for (size_t i = 0; i < count && whole; i++)
-        whole = holds(&box, sl_view_point(view, corners[i]));
+        whole = holds(&box, sl_frame_point(frame, corners[i]));
     cairo_new_sub_path(cairo);
     if (whole) {
         for (size_t i = 0; i < count; i++) {
-            const sl_point p = sl_view_point(view, corners[i]);
+            const sl_point p = sl_frame_point(frame, corners[i]);
             cairo_line_to(cairo, p.x, p.y);
         }
     } else {
-        add_cut(cairo, &box, view, corners, count);
+        add_cut(cairo, &box, frame, corners, count);
     }
     if (cairo_has_current_point(cairo)) cairo_close_path(cairo);
 }
 
-void sl_path_curve(cairo_t *cairo, const sl_view *view, const sl_point controls[4]) {
-    const sl_box box = sl_view_guard(view);
+void sl_path_curve(cairo_t *cairo, const sl_frame *frame, const sl_point controls[4]) {
+    const sl_box box = sl_frame_guard(frame);
     sl_point p[4];
     bool whole = true;
     for (int i = 0; i < 4; i++) {
-        p[i] = sl_view_point(view, controls[i]);
+        p[i] = sl_frame_point(frame, controls[i]);
         whole = whole && holds(&box, p[i]);
     }
     if (!whole) {
-        sl_path_segment(cairo, view, controls[0], controls[3]);
+        sl_path_segment(cairo, frame, controls[0], controls[3]);
         return;
     }
     cairo_move_to(cairo, p[0].x, p[0].y);

@@ -34,7 +34,7 @@ static sl_status check_options(sl_context *context, const sl_baked *baked,
 typedef struct page {
     double width, height;
     sl_strip heading, legend;
-    sl_view view;
+    sl_frame frame;
 } page;
 
 /// The frame for the map is as wide as the margins leave and as high as the map then is, but never
@@ -53,7 +53,7 @@ static page lay_out(cairo_t *cairo, const sl_scene *scene) {
     page p = {.width = width, .heading = {margin, margin, inner, text, false}};
     double y = margin + sl_draw_heading(cairo, scene, &p.heading);
     if (y > margin) y += 0.6 * margin;
-    p.view = sl_view_fit(bounds, margin, y, inner, map_height, width / 1200);
+    p.frame = sl_frame_fit(bounds, margin, y, inner, map_height, width / 1200);
     y += map_height;
     p.legend = (sl_strip){margin, y + 0.55 * margin, inner, text, false};
     if (scene->options.layers & SL_LAYER_LEGEND)
@@ -76,13 +76,13 @@ static sl_status measure(sl_context *context, const sl_scene *scene, const char 
 
 static sl_status draw_page(sl_context *context, cairo_t *cairo, const sl_scene *scene,
                            const page *p) {
-    const sl_pens pens = sl_pens_for(scene, &p->view);
+    const sl_pens pens = sl_pens_for(scene, &p->frame);
     sl_set_colour(cairo, scene->palette.page);
     cairo_paint(cairo);
     sl_draw_heading(cairo, scene, &p->heading);
-    SL_TRY(sl_draw_onto(context, cairo, scene, &p->view));
+    SL_TRY(sl_draw_onto(context, cairo, scene, &p->frame));
     if (scene->options.layers & SL_LAYER_LEGEND)
-        sl_draw_legend(cairo, scene, &p->view, &pens, &p->legend);
+        sl_draw_legend(cairo, scene, &p->frame, &pens, &p->legend);
     return SL_OK;
 }
 

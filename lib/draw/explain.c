@@ -254,7 +254,7 @@ static double draw_key(cairo_t *cairo, const sl_told *told, double left, double 
 typedef struct page {
     double width, height, margin, text;
     double key, caption; ///< their tops
-    sl_view view;
+    sl_frame frame;
 } page;
 
 /// Measures where `paint` is false, and draws all but the plan where it is true.
@@ -276,7 +276,7 @@ static void set_page(cairo_t *cairo, const sl_told *told, page *p, bool paint) {
         const double wide = told->frame.max.x - told->frame.min.x;
         const double high = told->frame.max.y - told->frame.min.y;
         const double height = inner * fmin(fmax(high / wide, 1.0 / 6), 1.1);
-        p->view = sl_view_fit(told->frame, p->margin, y, inner, height, p->width / 1200);
+        p->frame = sl_frame_fit(told->frame, p->margin, y, inner, height, p->width / 1200);
         p->key = y + height + 1.1 * p->text;
     }
     y = p->key + draw_key(cairo, told, p->margin, p->key, inner, p->text, paint);
@@ -303,7 +303,7 @@ static sl_status measure(sl_context *context, const sl_told *told, const char *p
 /// Where only a part of the map is shown a thin line says where it ends.
 static void draw_frame(cairo_t *cairo, const sl_told *told, const page *p) {
     if (!told->part) return;
-    const sl_view *v = &p->view;
+    const sl_frame *v = &p->frame;
     cairo_rectangle(cairo, v->left, v->top, v->width, v->height);
     sl_set_colour(cairo, told->scene.palette.faint);
     cairo_set_line_width(cairo, v->unit);
@@ -313,7 +313,7 @@ static void draw_frame(cairo_t *cairo, const sl_told *told, const page *p) {
 static sl_status draw_page(sl_context *context, cairo_t *cairo, const sl_told *told, page *p) {
     sl_set_colour(cairo, told->scene.palette.page);
     cairo_paint(cairo);
-    SL_TRY(sl_draw_told(context, cairo, told, &p->view));
+    SL_TRY(sl_draw_told(context, cairo, told, &p->frame));
     draw_frame(cairo, told, p);
     set_page(cairo, told, p, true);
     return SL_OK;

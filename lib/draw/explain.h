@@ -20,7 +20,7 @@ typedef struct sl_told {
 
 /// Draws the plan and over it what is told of it.
 sl_status sl_draw_told(sl_context *context, cairo_t *cairo, const sl_told *told,
-                       const sl_view *view);
+                       const sl_frame *frame);
 
 /// What stands for a portal's end: a disc for left ones, a square for right ones.
 void sl_mark_end(cairo_t *cairo, const sl_told *told, sl_point at, bool left, double radius);

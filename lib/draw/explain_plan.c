@@ -11,7 +11,7 @@
 
 #define FULL_TURN 6.283185307179586
 
-/// Radii, in units of the view.
+/// Radii, in units of the frame.
 #define BADGE     11.0
 #define MINOR_END 3.4
 #define MAJOR_END 6.2
@@ -26,7 +26,7 @@ typedef struct overlay {
     cairo_t *cairo;
     const sl_told *told;
     const sl_space *space;
-    const sl_view *view;
+    const sl_frame *frame;
     double unit;
     SL_ARRAY(spot) spots;
     sl_segment lines[2]; ///< that names and badges keep off
@@ -134,7 +134,7 @@ static void draw_head(const overlay *o, sl_point from, sl_point tip) {
 // --- places
 
 static sl_point place(const overlay *o, sl_point p) {
-    return sl_view_point(o->view, p);
+    return sl_frame_point(o->frame, p);
 }
 
 static const sl_exit *exit_at(const overlay *o, uint32_t number) {
@@ -179,7 +179,7 @@ static double crowding(const overlay *o, sl_point at, double radius) {
     }
     for (int i = 0; i < o->line_count; i++)
         sum += fmax(0, radius + 2 * gap - distance_to_segment(at, o->lines[i].a, o->lines[i].b));
-    const sl_view *v = o->view;
+    const sl_frame *v = o->frame;
     const bool inside = at.x - radius > v->left && at.x + radius < v->left + v->width &&
                         at.y - radius > v->top && at.y + radius < v->top + v->height;
     return inside ? sum : sum + 4 * radius;
@@ -191,7 +191,7 @@ static void draw_sequence(const overlay *o) {
     const sl_sequence *sequence = o->told->sequence;
     const uint32_t last = sequence->exit_count - 1;
     for (uint32_t i = 0; i <= last; i++) {
-        sl_path_segment(o->cairo, o->view, exit_at(o, i)->left, exit_at(o, i)->right);
+        sl_path_segment(o->cairo, o->frame, exit_at(o, i)->left, exit_at(o, i)->right);
         if (o->told->miss && i == last)
             sl_pen_stop(o->cairo, o->told, o->unit);
         else
@@ -225,7 +225,7 @@ static void draw_way(const overlay *o) {
         const double reach = 0.4 * hypot(end.x - start.x, end.y - start.y);
         if (i > 0) leave = bend(o, cell, exit_at(o, i - 1), 1, reach);
         const sl_point controls[4] = {start, leave, bend(o, cell, exit, -1, reach), end};
-        sl_path_curve(o->cairo, o->view, controls);
+        sl_path_curve(o->cairo, o->frame, controls);
         start = end;
         cell = exit->cell;
     }
@@ -421,22 +421,22 @@ static void draw_told_sequence(overlay *o) {
 }
 
 sl_status sl_draw_told(sl_context *context, cairo_t *cairo, const sl_told *told,
-                       const sl_view *view) {
+                       const sl_frame *frame) {
     overlay o = {.cairo = cairo,
                  .told = told,
                  .space = &told->scene.baked->space,
-                 .view = view,
-                 .unit = view->unit};
+                 .frame = frame,
+                 .unit = frame->unit};
     const sl_explanation *e = told->explanation;
     const sl_sequence *sequence = told->sequence;
     // Two names, a ring, and of each portal two ends, which may be marked twice, and a badge.
     const size_t spots = 3 + (sequence ? 3 * (size_t)sequence->exit_count + SL_CONFLICT_MOST : 0);
     SL_TRY(SL_ARRAY_ROOM(context, &o.spots, spots));
     cairo_save(cairo);
-    cairo_rectangle(cairo, view->left, view->top, view->width, view->height);
+    cairo_rectangle(cairo, frame->left, frame->top, frame->width, frame->height);
     if (told->part) cairo_clip(cairo);
     cairo_new_path(cairo);
-    const sl_status status = sl_draw_onto(context, cairo, &told->scene, view);
+    const sl_status status = sl_draw_onto(context, cairo, &told->scene, frame);
     if (status == SL_OK) {
         if (sequence) draw_told_sequence(&o);
         draw_name(&o, e->from, told->scene.palette.source_edge);

@@ -254,13 +254,13 @@ static bool round_length(double limit, double *length, char text[SL_NUMBER_TEXT]
     return found;
 }
 
-static void draw_scale_bar(cairo_t *cairo, const sl_scene *scene, const sl_view *view,
+static void draw_scale_bar(cairo_t *cairo, const sl_scene *scene, const sl_frame *frame,
                            const sl_strip *strip, double room) {
     double length;
     char number[SL_NUMBER_TEXT], text[SL_NUMBER_TEXT + 8];
-    if (!round_length(room / view->scale, &length, number)) return;
+    if (!round_length(room / frame->scale, &length, number)) return;
     snprintf(text, sizeof text, "%s unit%s", number, length == 1 ? "" : "s");
-    const double right = strip->left + strip->width, left = right - length * view->scale;
+    const double right = strip->left + strip->width, left = right - length * frame->scale;
     const double y = strip->top + 0.45 * LINE_HEIGHT * strip->text, tick = 0.35 * strip->text;
     cairo_move_to(cairo, left, y - tick);
     cairo_line_to(cairo, left, y);
@@ -303,7 +303,7 @@ static sl_pens key_pens(const sl_pens *pens, double size) {
     return fitted;
 }
 
-double sl_draw_legend(cairo_t *cairo, const sl_scene *scene, const sl_view *view,
+double sl_draw_legend(cairo_t *cairo, const sl_scene *scene, const sl_frame *frame,
                       const sl_pens *pens, const sl_strip *strip) {
     key k = {0};
     fill_key(&k, scene);
@@ -322,7 +322,7 @@ double sl_draw_legend(cairo_t *cairo, const sl_scene *scene, const sl_view *view
             draw_entry(cairo, scene, &fitted, &k.entries[i], strip->left + x, strip->top + y, size);
         x += wide + BETWEEN * size;
     }
-    if (strip->paint) draw_scale_bar(cairo, scene, view, strip, bar_room);
+    if (strip->paint) draw_scale_bar(cairo, scene, frame, strip, bar_room);
     return y + LINE_HEIGHT / 2 * size;
 }
 

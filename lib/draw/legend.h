@@ -17,8 +17,8 @@ typedef struct sl_strip {
 double sl_draw_heading(cairo_t *cairo, const sl_scene *scene, const sl_strip *strip);
 
 /// A key for all that is drawn, in lines as the width allows, and a scale bar at the right. Returns
-/// its height, which does not depend on the view or the pens.
-double sl_draw_legend(cairo_t *cairo, const sl_scene *scene, const sl_view *view,
+/// its height, which does not depend on the frame or the pens.
+double sl_draw_legend(cairo_t *cairo, const sl_scene *scene, const sl_frame *frame,
                       const sl_pens *pens, const sl_strip *strip);
 
 #endif

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-sl_pens sl_pens_for(const sl_scene *scene, const sl_view *view) {
-    const double unit = view->unit, cell = scene->cell_size * view->scale;
+sl_pens sl_pens_for(const sl_scene *scene, const sl_frame *frame) {
+    const double unit = frame->unit, cell = scene->cell_size * frame->scale;
     // Where cells come out tiny the lines give way, or nothing but lines would be seen.
     const double least = fmin(unit, 0.11 * cell);
     const double wall = fmin(fmax(0.048 * cell, fmax(least, 0.3 * unit)), 3.6 * unit);

@@ -12,7 +12,7 @@ typedef struct sl_pens {
     double wall, portal, outline, tree, mark;
 } sl_pens;
 
-sl_pens sl_pens_for(const sl_scene *scene, const sl_view *view);
+sl_pens sl_pens_for(const sl_scene *scene, const sl_frame *frame);
 
 void sl_set_colour(cairo_t *cairo, sl_colour colour);
 

@@ -12,30 +12,30 @@ typedef struct plan {
     const sl_scene *scene;
     const sl_space *space;
     const sl_map *map;
-    const sl_view *view;
+    const sl_frame *frame;
     const sl_palette *palette;
     sl_pens pens;
 } plan;
 
 static void add_cell(const plan *p, uint32_t cell) {
     const sl_cell *c = &p->space->cells[cell];
-    sl_path_polygon(p->cairo, p->view, p->space->vertices + c->first_vertex, c->vertex_count);
+    sl_path_polygon(p->cairo, p->frame, p->space->vertices + c->first_vertex, c->vertex_count);
 }
 
 /// What is not shown: all of the bounds, hatched like cut masonry; cells are painted over it.
 static void draw_ground(const plan *p) {
     const uint32_t *begin = p->scene->paint_begin;
     if (begin[SL_PAINT_NONE + 1] == begin[SL_PAINT_NONE]) return;
-    const sl_box guard = sl_view_guard(p->view);
-    const sl_point low = sl_view_point(p->view, p->space->bounds.min);
-    const sl_point high = sl_view_point(p->view, p->space->bounds.max);
+    const sl_box guard = sl_frame_guard(p->frame);
+    const sl_point low = sl_frame_point(p->frame, p->space->bounds.min);
+    const sl_point high = sl_frame_point(p->frame, p->space->bounds.max);
     const sl_box box = {{fmax(low.x, guard.min.x), fmax(high.y, guard.min.y)},
                         {fmin(high.x, guard.max.x), fmin(low.y, guard.max.y)}};
     if (!(box.min.x < box.max.x && box.min.y < box.max.y)) return;
     sl_set_colour(p->cairo, p->palette->ground);
     cairo_rectangle(p->cairo, box.min.x, box.min.y, box.max.x - box.min.x, box.max.y - box.min.y);
     cairo_fill(p->cairo);
-    sl_mark_hatch(p->cairo, p->palette, box, 9 * p->view->unit, low.x + low.y);
+    sl_mark_hatch(p->cairo, p->palette, box, 9 * p->frame->unit, low.x + low.y);
 }
 
 /// Cells of one colour make one path. Its thin stroke closes the seams that smoothed edges leave
@@ -64,7 +64,7 @@ static void draw_portals(const plan *p) {
     for (uint32_t i = 0; i < p->space->portal_count; i++) {
         const sl_portal *portal = &p->space->portals[i];
         if (sl_scene_shows(p->scene, portal->cell[0]))
-            sl_path_segment(p->cairo, p->view, portal->left, portal->right);
+            sl_path_segment(p->cairo, p->frame, portal->left, portal->right);
     }
     sl_pen_portal(p->cairo, p->palette, &p->pens);
 }
@@ -78,20 +78,20 @@ static void draw_source_edge(const plan *p) {
 static void draw_walls(const plan *p) {
     sl_point a, b;
     for (uint32_t i = 0; i < p->space->wall_count; i++)
-        sl_path_segment(p->cairo, p->view, p->space->walls[i].a, p->space->walls[i].b);
+        sl_path_segment(p->cairo, p->frame, p->space->walls[i].a, p->space->walls[i].b);
     sl_pen_wall(p->cairo, p->palette, &p->pens);
     for (size_t i = 0; i < p->map->door_count; i++) {
         const sl_door *door = &p->map->doors[i];
-        if (sl_view_segment(p->view, door->segment.a, door->segment.b, &a, &b))
+        if (sl_frame_segment(p->frame, door->segment.a, door->segment.b, &a, &b))
             sl_mark_door(p->cairo, p->palette, &p->pens, a, b, door->open);
     }
     for (size_t i = 0; i < p->map->mirror_count; i++)
-        if (sl_view_segment(p->view, p->map->mirrors[i].segment.a, p->map->mirrors[i].segment.b, &a,
-                            &b))
+        if (sl_frame_segment(p->frame, p->map->mirrors[i].segment.a, p->map->mirrors[i].segment.b,
+                             &a, &b))
             sl_mark_mirror(p->cairo, p->palette, &p->pens, a, b);
     for (size_t i = 0; i < p->map->oneway_count; i++)
-        if (sl_view_segment(p->view, p->map->oneways[i].segment.a, p->map->oneways[i].segment.b, &a,
-                            &b))
+        if (sl_frame_segment(p->frame, p->map->oneways[i].segment.a, p->map->oneways[i].segment.b,
+                             &a, &b))
             sl_mark_oneway(p->cairo, p->palette, &p->pens, a, b);
 }
 
@@ -122,14 +122,14 @@ static void add_stroke(const plan *p, const sl_stroke *stroke) {
     const double reach = 0.4 * hypot(end.x - start.x, end.y - start.y);
     const sl_point controls[4] = {start, from ? bend(p->space, cell, from, 1, reach) : start,
                                   bend(p->space, cell, to, -1, reach), end};
-    sl_path_curve(p->cairo, p->view, controls);
+    sl_path_curve(p->cairo, p->frame, controls);
 }
 
 /// Where the stroke crosses its portal.
 static void add_dot(const plan *p, const sl_stroke *stroke) {
     const double radius = 0.75 * sl_tree_width(&p->pens, stroke->depth - 1);
     sl_point place;
-    if (!sl_view_holds(p->view, exit_middle(&p->space->exits[stroke->to]), &place)) return;
+    if (!sl_frame_holds(p->frame, exit_middle(&p->space->exits[stroke->to]), &place)) return;
     cairo_new_sub_path(p->cairo);
     cairo_arc(p->cairo, place.x, place.y, radius, 0, 6.283185307179586);
 }
@@ -151,7 +151,7 @@ static void draw_objects(const plan *p) {
         const sl_box box = p->map->objects[i].box;
         const sl_point corners[4] = {
             box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}};
-        sl_path_polygon(p->cairo, p->view, corners, 4);
+        sl_path_polygon(p->cairo, p->frame, corners, 4);
     }
     sl_pen_object(p->cairo, p->palette, &p->pens);
 }
@@ -161,18 +161,18 @@ static void draw_starts(const plan *p) {
     for (size_t i = 0; i < p->map->path_count; i++) {
         const sl_path *path = &p->map->paths[i];
         for (size_t k = 1; k < path->count; k++)
-            sl_path_segment(p->cairo, p->view, path->points[k - 1], path->points[k]);
+            sl_path_segment(p->cairo, p->frame, path->points[k - 1], path->points[k]);
     }
     sl_pen_path(p->cairo, p->palette, &p->pens);
     for (size_t i = 0; i < p->map->start_count; i++) {
         sl_point place;
-        if (sl_view_holds(p->view, p->map->starts[i].at, &place))
+        if (sl_frame_holds(p->frame, p->map->starts[i].at, &place))
             sl_mark_start(p->cairo, p->palette, place, p->map->starts[i].heading, p->pens.mark);
     }
 }
 
 sl_status sl_draw_onto(sl_context *context, cairo_t *cairo, const sl_scene *scene,
-                       const sl_view *view) {
+                       const sl_frame *frame) {
     static const struct {
         unsigned layers; ///< any of them calls for it; 0: always
         void (*draw)(const plan *p);
@@ -190,9 +190,9 @@ sl_status sl_draw_onto(sl_context *context, cairo_t *cairo, const sl_scene *scen
                     .scene = scene,
                     .space = &scene->baked->space,
                     .map = &scene->baked->map,
-                    .view = view,
+                    .frame = frame,
                     .palette = &scene->palette,
-                    .pens = sl_pens_for(scene, view)};
+                    .pens = sl_pens_for(scene, frame)};
     for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
         SL_TRY(sl_check_cancelled(context));
         if (!steps[i].layers || scene->options.layers & steps[i].layers) steps[i].draw(&p);

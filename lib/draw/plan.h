@@ -1,4 +1,4 @@
-/// The plan itself: the layers of a scene, drawn onto whatever cairo draws on, through any view.
+/// The plan itself: the layers of a scene, drawn onto whatever cairo draws on, through any frame.
 /// Files and windows share it.
 #ifndef SL_DRAW_PLAN_H
 #define SL_DRAW_PLAN_H
@@ -9,6 +9,6 @@
 /// Draws the layers that the scene's options ask for (all but the legend), over what is there.
 /// What cairo could not do stays in cairo_status(cairo). SL_CANCELLED between layers.
 sl_status sl_draw_onto(sl_context *context, cairo_t *cairo, const sl_scene *scene,
-                       const sl_view *view);
+                       const sl_frame *frame);
 
 #endif

@@ -294,7 +294,7 @@ static void thin_maps_are_not_stretched(void **state) {
     sl_context_destroy(context);
 }
 
-/// A view, as a window has it, of a millionth of a cell or of a wall's surroundings.
+/// A frame, as a window has it, of a millionth of a cell or of a wall's surroundings.
 static void a_view_zoomed_in_shows_what_is_there(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
@@ -310,8 +310,8 @@ static void a_view_zoomed_in_shows_what_is_there(void **state) {
         cairo_t *cairo = cairo_create(p.surface);
         cairo_set_source_rgb(cairo, palette.page.red, palette.page.green, palette.page.blue);
         cairo_paint(cairo);
-        const sl_view view = {corners[i], 1e11, 0, 0, 100, 100, 1};
-        assert_ok(context, sl_draw_onto(context, cairo, &scene, &view));
+        const sl_frame frame = {corners[i], 1e11, 0, 0, 100, 100, 1};
+        assert_ok(context, sl_draw_onto(context, cairo, &scene, &frame));
         assert_int_equal(cairo_status(cairo), CAIRO_STATUS_SUCCESS);
         cairo_destroy(cairo);
         cairo_surface_flush(p.surface);

@@ -12,6 +12,13 @@ extern "C" {
 typedef struct sl_import_options {
     bool has_slice; ///< whether `slice` is given: readers of 3D models need it
     double slice;   ///< height of the cut, in the model's unit
+    /// Which of the maps of a file that holds several, by name; NULL for the only or first one.
+    const char *map;
+    /// The layers to take, by name, with commas between; NULL for the format's own choice.
+    const char *layers;
+    double tolerance; ///< how far a curve may be from its walls, in the map's unit; 0: the usual
+    double threshold; ///< images: darkness from which a pixel is solid, 0 .. 1; 0: the usual
+    bool doors;       ///< take doors as doors; off: as what they are when the map begins
 } sl_import_options;
 
 SL_API sl_import_options sl_import_options_default(void);

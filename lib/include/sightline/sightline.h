@@ -13,5 +13,6 @@
 #include "sightline/solvers.h"
 #include "sightline/space.h"
 #include "sightline/stab.h"
+#include "sightline/view.h"
 
 #endif
