@@ -5,10 +5,10 @@
 
 #include <stdio.h>
 
-static sl_status convert(sl_context *context, const char *input, const char *slice, bool clean,
-                         const char *output) {
+static sl_status convert(sl_context *context, const char *input, const sl_input_texts *texts,
+                         bool clean, const char *output) {
     sl_map map = {0};
-    SL_TRY(sl_input_read_either(context, input, slice, &map));
+    SL_TRY(sl_input_read_either(context, input, texts, &map));
     sl_status status = clean ? sl_map_clean(context, &map, NULL) : SL_OK;
     if (status == SL_OK)
         status = sl_input_ends_with(output, ".txt") ? sl_map_write_plan(context, &map, output)
@@ -18,12 +18,13 @@ static sl_status convert(sl_context *context, const char *input, const char *sli
 }
 
 sl_status sl_cmd_convert(sl_console *console, int argc, char **argv) {
-    const char *input = NULL, *output = NULL, *slice = NULL;
+    const char *input = NULL, *output = NULL;
+    sl_input_texts texts = {0};
     bool clean = false;
     const sl_option_spec options[] = {
         {"output", 'o', "OUT.map|OUT.txt", NULL, &output,
          "map text or an ASCII plan, by the ending;\nwithout it, or for -, map text on stdout"},
-        {"slice", 0, "Z", NULL, &slice, "cut a 3D model at this height"},
+        SL_INPUT_OPTIONS(texts),
         {"clean", 0, NULL, &clean, NULL,
          "merge and split walls as bake does before it\nsubdivides; without it they stay as read"},
     };
@@ -49,5 +50,5 @@ sl_status sl_cmd_convert(sl_console *console, int argc, char **argv) {
         return sl_fail(console->context, SL_BAD_ARGUMENT,
                        "-o %s: end the name in .map for map text or in .txt for an ASCII plan",
                        output);
-    return convert(console->context, input, slice, clean, output);
+    return convert(console->context, input, &texts, clean, output);
 }

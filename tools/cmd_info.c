@@ -14,7 +14,8 @@
 #include <string.h>
 
 typedef struct info_request {
-    const char *path, *slice;
+    const char *path;
+    sl_input_texts texts;
     bool json;
 } info_request;
 
@@ -125,10 +126,48 @@ static void print_map(const info_request *request, const sl_map *map, size_t obl
     print_notices(map->notes);
 }
 
+// --- files of several maps
+
+static sl_status print_list_json(sl_context *context, const char *path, const sl_map_list *list) {
+    sl_json_fields fields = sl_json_begin();
+    sl_json_fields *maps = sl_alloc_array(context, list->count, sizeof *maps);
+    if (!maps) return SL_NO_MEMORY;
+    for (size_t i = 0; i < list->count; i++) {
+        maps[i] = sl_json_begin();
+        sl_json_add_text(&maps[i], "name", list->names[i]);
+    }
+    sl_json_add_text(&fields, "file", path);
+    sl_json_add_text(&fields, "kind", "maps");
+    sl_json_add_list(&fields, "maps", maps, list->count);
+    sl_free(context, maps);
+    return sl_json_print(context, &fields);
+}
+
+static void print_list(const char *path, const sl_map_list *list) {
+    printf("%s: %zu maps (--map NAME chooses one)\n", path, list->count);
+    for (size_t i = 0; i < list->count; i++)
+        sl_console_print_line(stdout, "  ", list->names[i], strlen(list->names[i]));
+}
+
+/// Lists the maps of a file that holds several, where none is chosen; *done says whether.
+static sl_status inform_of_list(sl_console *console, const info_request *request, bool *done) {
+    sl_map_list list = {0};
+    SL_TRY(sl_map_list_read(console->context, request->path, &list));
+    sl_progress_line_clear(&console->line);
+    sl_status status = SL_OK;
+    *done = list.count > 1;
+    if (*done && request->json)
+        status = print_list_json(console->context, request->path, &list);
+    else if (*done)
+        print_list(request->path, &list);
+    sl_map_list_destroy(console->context, &list);
+    return status;
+}
+
 static sl_status inform_of_map(sl_console *console, const info_request *request) {
     sl_map map = {0};
     sl_clean_account cleaning;
-    SL_TRY(sl_input_read_map(console->context, request->path, request->slice, &map));
+    SL_TRY(sl_input_read_map(console->context, request->path, &request->texts, &map));
     const size_t oblique = sl_input_count_oblique(map.walls, map.wall_count);
     sl_status status = sl_map_clean(console->context, &map, &cleaning);
     sl_progress_line_clear(&console->line);
@@ -230,7 +269,7 @@ static void print_baked(const info_request *request, const sl_baked *baked,
 static sl_status inform_of_baked(sl_console *console, const info_request *request) {
     sl_baked baked = {0};
     sl_mean_pvs mean;
-    SL_TRY(sl_input_refuse_slice(console->context, request->path, request->slice));
+    SL_TRY(sl_input_refuse_texts(console->context, request->path, &request->texts));
     SL_TRY(sl_input_read_baked(console->context, request->path, &baked));
     sl_status status = sl_mean_pvs_of(console->context, &baked, &mean);
     sl_progress_line_clear(&console->line);
@@ -246,10 +285,7 @@ sl_status sl_cmd_info(sl_console *console, int argc, char **argv) {
     info_request request = {0};
     const sl_option_spec options[] = {
         {.name = "json", .flag = &request.json, .help = "print one JSON object"},
-        {.name = "slice",
-         .argument = "Z",
-         .text = &request.slice,
-         .help = "cut a 3D model at this height"},
+        SL_INPUT_OPTIONS(request.texts),
     };
     const sl_command_usage usage = {
         .name = "info",
@@ -268,5 +304,7 @@ sl_status sl_cmd_info(sl_console *console, int argc, char **argv) {
     SL_TRY(sl_option_parse(console, &usage, argc, argv, &request.path, &helped));
     if (helped) return SL_OK;
     if (sl_input_ends_with(request.path, ".slv")) return inform_of_baked(console, &request);
-    return inform_of_map(console, &request);
+    bool done = false;
+    if (!request.texts.map) SL_TRY(inform_of_list(console, &request, &done));
+    return done ? SL_OK : inform_of_map(console, &request);
 }

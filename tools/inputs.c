@@ -43,20 +43,47 @@ static bool is_map_name(const char *path) {
     return false;
 }
 
-sl_status sl_input_read_map(sl_context *context, const char *path, const char *slice, sl_map *map) {
+static sl_status read_options(sl_context *context, const sl_input_texts *texts,
+                              sl_import_options *options) {
+    *options = sl_import_options_default();
+    SL_TRY(sl_option_number(context, "--slice", texts->slice, &options->slice));
+    SL_TRY(sl_option_number(context, "--tolerance", texts->tolerance, &options->tolerance));
+    SL_TRY(sl_option_number(context, "--threshold", texts->threshold, &options->threshold));
+    if (texts->tolerance && options->tolerance <= 0)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--tolerance %s: a number over 0 is needed",
+                       texts->tolerance);
+    if (texts->threshold && !(options->threshold > 0 && options->threshold <= 1))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--threshold %s: a number over 0, at most 1, is needed", texts->threshold);
+    options->has_slice = texts->slice != NULL;
+    options->map = texts->map;
+    options->layers = texts->layers;
+    options->doors = texts->doors;
+    return SL_OK;
+}
+
+sl_status sl_input_read_map(sl_context *context, const char *path, const sl_input_texts *texts,
+                            sl_map *map) {
     if (is_baked_name(path))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "%s: is baked already; name the map that it was made from", path);
-    sl_import_options options = sl_import_options_default();
-    SL_TRY(sl_option_number(context, "--slice", slice, &options.slice));
-    options.has_slice = slice != NULL;
+    sl_import_options options;
+    SL_TRY(read_options(context, texts, &options));
     return sl_map_read(context, path, &options, map);
 }
 
-sl_status sl_input_refuse_slice(sl_context *context, const char *path, const char *slice) {
-    if (!slice) return SL_OK;
-    return sl_fail(context, SL_BAD_ARGUMENT, "--slice: %s is baked, and so has been cut already",
-                   path);
+sl_status sl_input_refuse_texts(sl_context *context, const char *path,
+                                const sl_input_texts *texts) {
+    const char *given = texts->map         ? "map"
+                        : texts->slice     ? "slice"
+                        : texts->layers    ? "layers"
+                        : texts->tolerance ? "tolerance"
+                        : texts->threshold ? "threshold"
+                        : texts->doors     ? "doors"
+                                           : NULL;
+    if (!given) return SL_OK;
+    return sl_fail(context, SL_BAD_ARGUMENT, "--%s: %s is baked; the option is for reading a map",
+                   given, path);
 }
 
 sl_status sl_input_read_baked(sl_context *context, const char *path, sl_baked *baked) {
@@ -95,10 +122,10 @@ static sl_status read_map_of_baked(sl_context *context, const char *path, sl_map
     return status;
 }
 
-sl_status sl_input_read_either(sl_context *context, const char *path, const char *slice,
+sl_status sl_input_read_either(sl_context *context, const char *path, const sl_input_texts *texts,
                                sl_map *map) {
-    if (!is_baked_name(path)) return sl_input_read_map(context, path, slice, map);
-    SL_TRY(sl_input_refuse_slice(context, path, slice));
+    if (!is_baked_name(path)) return sl_input_read_map(context, path, texts, map);
+    SL_TRY(sl_input_refuse_texts(context, path, texts));
     return read_map_of_baked(context, path, map);
 }
 

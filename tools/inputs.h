@@ -12,21 +12,46 @@ bool sl_input_ends_with(const char *path, const char *ending);
 /// in the path and a length.
 const char *sl_input_base_name(const char *path, size_t *length);
 
-/// Reads a map file. `slice` is the text of --slice, NULL where it is not given. A baked file is
-/// refused.
-sl_status sl_input_read_map(sl_context *context, const char *path, const char *slice, sl_map *map);
+/// The options of reading a map, as they are given.
+typedef struct sl_input_texts {
+    const char *map, *slice, *layers, *tolerance, *threshold;
+    bool doors;
+} sl_input_texts;
+
+/// Those options, for a command's table of options.
+#define SL_INPUT_OPTIONS(texts)                                                                    \
+    {"map", 0, "NAME", NULL, &(texts).map, "which map of a file that holds several"},              \
+        {"slice", 0, "Z", NULL, &(texts).slice, "cut a 3D model at this height"},                  \
+        {"layers",        0,                                                                       \
+         "LAYER,...",     NULL,                                                                    \
+         &(texts).layers, "the layers of a drawing or tile map to take"},                          \
+        {"tolerance", 0, "T", NULL, &(texts).tolerance, "how far curves may be from their walls"}, \
+        {"threshold",                                                                              \
+         0,                                                                                        \
+         "T",                                                                                      \
+         NULL,                                                                                     \
+         &(texts).threshold,                                                                       \
+         "darkness from which a pixel is solid, up to 1"},                                         \
+    {                                                                                              \
+        "doors", 0, NULL, &(texts).doors, NULL,                                                    \
+            "take doors as doors; without it as what they are\nwhen the map begins"                \
+    }
+
+/// Reads a map file. A baked file is refused.
+sl_status sl_input_read_map(sl_context *context, const char *path, const sl_input_texts *texts,
+                            sl_map *map);
 
 /// Reads a baked file. A map file, which is known by its ending, is refused with how to bake it.
 sl_status sl_input_read_baked(sl_context *context, const char *path, sl_baked *baked);
 
-/// SL_BAD_ARGUMENT where --slice is given with a baked file.
-sl_status sl_input_refuse_slice(sl_context *context, const char *path, const char *slice);
+/// SL_BAD_ARGUMENT where one of these options is given with a baked file.
+sl_status sl_input_refuse_texts(sl_context *context, const char *path, const sl_input_texts *texts);
 
 /// SL_BAD_ARGUMENT where the output is no name, or the input itself, which it would replace.
 sl_status sl_input_refuse_output(sl_context *context, const char *path, const char *output);
 
 /// Reads a map file, or what map a baked file was made from.
-sl_status sl_input_read_either(sl_context *context, const char *path, const char *slice,
+sl_status sl_input_read_either(sl_context *context, const char *path, const sl_input_texts *texts,
                                sl_map *map);
 
 /// Prints the formats of maps that can be read.

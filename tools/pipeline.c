@@ -46,7 +46,7 @@ static sl_status plan_subdivision(sl_context *context, const sl_pipeline_texts *
 
 sl_status sl_pipeline_plan(sl_context *context, const char *input, const sl_pipeline_texts *texts,
                            sl_pipeline *out) {
-    sl_pipeline plan = {.input = input, .slice = texts->slice, .start = texts->start};
+    sl_pipeline plan = {.input = input, .texts = texts->input, .start = texts->start};
     const sl_name_table effects = sl_effect_table();
     SL_TRY(sl_option_choices(context, "--without", texts->without, &effects, &plan.without));
     SL_TRY(plan_subdivision(context, texts, &plan));
@@ -72,7 +72,7 @@ static sl_status add_start(sl_context *context, const sl_pipeline *pipeline, sl_
 }
 
 sl_status sl_pipeline_read(sl_context *context, const sl_pipeline *pipeline, sl_map *map) {
-    SL_TRY(sl_input_read_map(context, pipeline->input, pipeline->slice, map));
+    SL_TRY(sl_input_read_map(context, pipeline->input, &pipeline->texts, map));
     SL_TRY(add_start(context, pipeline, map));
     sl_effects_leave_out(context, map, pipeline->without);
     return SL_OK;

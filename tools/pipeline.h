@@ -3,12 +3,14 @@
 #ifndef PIPELINE_H
 #define PIPELINE_H
 
+#include "inputs.h"
 #include "options.h"
 #include "sightline/cell_to_cell.h"
 
 /// The options as they are given.
 typedef struct sl_pipeline_texts {
-    const char *subdivide, *kd_rules, *kd_obscured, *slice, *start, *without;
+    sl_input_texts input;
+    const char *subdivide, *kd_rules, *kd_obscured, *start, *without;
     bool check;
 } sl_pipeline_texts;
 
@@ -28,7 +30,7 @@ typedef struct sl_pipeline_texts {
          NULL,                                                                                     \
          &(texts).kd_obscured,                                                                     \
          "prefer lines of which walls cover this share, 0 to 1"},                                  \
-        {"slice", 0, "Z", NULL, &(texts).slice, "cut a 3D model at this height"},                  \
+        SL_INPUT_OPTIONS((texts).input),                                                           \
         {"start",        0,                                                                        \
          "X,Y",          NULL,                                                                     \
          &(texts).start, "a start beside the map's own: starts tell inside\nfrom outside"},        \
@@ -39,7 +41,8 @@ typedef struct sl_pipeline_texts {
 
 /// The options as they are meant.
 typedef struct sl_pipeline {
-    const char *input, *slice, *start;
+    const char *input, *start;
+    sl_input_texts texts;  ///< how the input is read
     const char *subdivide; ///< its name
     unsigned without;      ///< bits of sl_effect_table()
     sl_subdivide_options options;

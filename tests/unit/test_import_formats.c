@@ -32,15 +32,17 @@ static void test_endings(void **state) {
     const struct {
         const char *file, *text;
         size_t walls;
+        bool slice;
     } cases[] = {
-        {"a.map", text, 1}, {"a.txt", plan, 4}, {"a.TXT", plan, 4},     {"a.ug", model, 1},
-        {"a", text, 1},     {"txt", text, 1},   {"a.txt.map", text, 1}, {"a.other", text, 1},
+        {"a.map", text, 1, false},     {"a.txt", plan, 4, false},   {"a.TXT", plan, 4, false},
+        {"a.ug", model, 1, true},      {"a", text, 1, false},       {"txt", text, 1, false},
+        {"a.txt.map", text, 1, false}, {"a.other", text, 1, false},
     };
-    const sl_import_options options = {.has_slice = true, .slice = 1};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char path[100];
         snprintf(path, sizeof path, "%s/%s", folder, cases[i].file);
         write_file(path, cases[i].text);
+        const sl_import_options options = {.has_slice = cases[i].slice, .slice = 1};
         sl_map map = {0};
         assert_ok(context, sl_map_read(context, path, &options, &map));
         assert_int_equal(map.wall_count, cases[i].walls);
@@ -84,10 +86,40 @@ static void test_report_and_failures(void **state) {
     sl_context_destroy(context);
 }
 
+/// A format refuses the options that it has no use for.
+static void test_options_refused(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    char path[] = "/tmp/sightline-formats-XXXXXX";
+    assert_true(mkstemp(path) >= 0);
+    write_file(path, "sightline 1\nwall 0 0 1 0");
+    const struct {
+        const char *name;
+        sl_import_options options;
+    } cases[] = {
+        {"--map:", {.map = "E1M1"}},          {"--slice:", {.has_slice = true}},
+        {"--layers:", {.layers = "walls"}},   {"--tolerance:", {.tolerance = 1}},
+        {"--threshold:", {.threshold = 0.5}}, {"--doors:", {.doors = true}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        sl_map map = {0};
+        assert_int_equal(sl_map_read(context, path, &cases[i].options, &map), SL_BAD_ARGUMENT);
+        assert_memory_equal(sl_context_message(context), cases[i].name, strlen(cases[i].name));
+        assert_true(map_is_empty(&map));
+    }
+    sl_map_list list = {0};
+    assert_ok(context, sl_map_list_read(context, path, &list));
+    assert_int_equal(list.count, 0);
+    remove(path);
+    assert_int_equal(sl_map_list_read(context, path, &list), SL_BAD_ARGUMENT);
+    sl_context_destroy(context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_table),
         cmocka_unit_test(test_endings),
+        cmocka_unit_test(test_options_refused),
         cmocka_unit_test(test_report_and_failures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -14,7 +14,7 @@ enum { PUSH_LIMIT = 10000000 };
 static void read_space(sl_context *context, const char *path, sl_space *space) {
     sl_map map = {0};
     sl_import_options options = sl_import_options_default();
-    options.has_slice = true;
+    options.has_slice = strcmp(path + strlen(path) - 3, ".ug") == 0;
     options.slice = 1040;
     assert_ok(context, sl_map_read(context, path, &options, &map));
     assert_ok(context, sl_map_clean(context, &map, NULL));

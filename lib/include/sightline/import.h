@@ -12,7 +12,8 @@ extern "C" {
 typedef struct sl_import_options {
     bool has_slice; ///< whether `slice` is given: readers of 3D models need it
     double slice;   ///< height of the cut, in the model's unit
-    /// Which of the maps of a file that holds several, by name; NULL for the only or first one.
+    /// Which of the maps of a file that holds several, by name; NULL for the only one (a reader
+    /// that is called by itself takes the first).
     const char *map;
     /// The layers to take, by name, with commas between; NULL for the format's own choice.
     const char *layers;
@@ -23,22 +24,55 @@ typedef struct sl_import_options {
 
 SL_API sl_import_options sl_import_options_default(void);
 
+/// Names of maps, in the order of their file. Zeroed, it is empty.
+typedef struct sl_map_list {
+    char **names;
+    size_t count, room;
+} sl_map_list;
+
+SL_API void sl_map_list_destroy(sl_context *context, sl_map_list *list); ///< and zeroes it
+/// Adds a copy of a name of `length` bytes.
+SL_API sl_status sl_map_list_add(sl_context *context, sl_map_list *list, const char *name,
+                                 size_t length);
+
+/// Which options a format takes; the others are refused.
+typedef enum sl_import_takes {
+    SL_TAKES_SLICE = 1,
+    SL_TAKES_LAYERS = 2,
+    SL_TAKES_TOLERANCE = 4,
+    SL_TAKES_THRESHOLD = 8,
+    SL_TAKES_DOORS = 16,
+} sl_import_takes;
+
 /// A format: its name, what its files' names end with (space-separated), what it is, how to read
-/// it.
+/// it. `text` is bytes where the format is binary; a 0 stands behind it.
 typedef struct sl_map_format {
     const char *name, *endings, *what;
     sl_status (*read)(sl_context *context, const char *name, const char *text, size_t size,
                       const sl_import_options *options, sl_map *map);
+    unsigned takes; ///< bits of sl_import_takes
+    /// Lists the maps of a file into an empty list; NULL for a format of one map a file.
+    sl_status (*list)(sl_context *context, const char *name, const char *text, size_t size,
+                      sl_map_list *list);
+    /// Whether the bytes look like this format's: asked where the ending does not tell. NULL:
+    /// never.
+    bool (*knows)(const char *text, size_t size);
 } sl_map_format;
 
 /// All formats; the first is the map text.
 SL_API const sl_map_format *sl_map_formats(size_t *count);
 
-/// Reads a map file, by the ending of its name; a file with an unknown ending is read as the map
-/// text. The map must be empty; on failure it stays so. SL_BAD_INPUT with file and line on a broken
-/// file.
+/// Reads a map file, by the ending of its name; where several formats have that ending, or none,
+/// by its first bytes; else as the map text. The map must be empty; on failure it stays so.
+/// SL_BAD_INPUT with file and line on a broken file. SL_BAD_ARGUMENT, with names to choose from,
+/// where the file holds several maps and options->map names none of them (letters and capitals
+/// are the same), and where the format takes no such option.
 SL_API sl_status sl_map_read(sl_context *context, const char *path,
                              const sl_import_options *options, sl_map *map);
+
+/// Lists the maps of a file into an empty list, which stays empty on failure and for a format of
+/// one map a file.
+SL_API sl_status sl_map_list_read(sl_context *context, const char *path, sl_map_list *list);
 
 /// Cuts a UniGrafix model at a height: every face that crosses the plane gives walls. Faces in the
 /// plane give none; comments that surround the model are kept as notes. What was taken is noted.
