@@ -1,42 +1,19 @@
 #include "base/file.h"
+#include "map/grid.h"
 #include "map/print.h"
-#include "map/scan.h"
 
 #include <math.h>
 
 /// The most unit squares a written plan has, a side.
 #define MOST_SQUARES 4096
 
-/// A plan as text: rows from the top down, of any lengths. What is not there is solid.
-typedef struct grid {
-    const sl_word *rows;
-    size_t count;
-} grid;
-
-static size_t row_length(const grid *plan, size_t row) {
-    return row < plan->count ? plan->rows[row].length : 0;
-}
-
-/// `row` and `column` may be one less than 0, as SIZE_MAX.
-static char square(const grid *plan, size_t row, size_t column) {
-    return column < row_length(plan, row) ? plan->rows[row].at[column] : '#';
-}
-
-static bool solid(const grid *plan, size_t row, size_t column) {
-    return square(plan, row, column) == '#';
-}
-
-/// The place of a square's lower left corner.
-static sl_point corner(const grid *plan, size_t row, size_t column) {
-    return (sl_point){(double)column, (double)(plan->count - 1 - row)};
-}
-
 /// Where the door of a square stands: through its middle, from one solid square to the one
 /// opposite. False unless there is just one such pair.
-static bool door_segment(const grid *plan, size_t row, size_t column, sl_segment *out) {
-    const bool beside = solid(plan, row, column - 1) && solid(plan, row, column + 1);
-    const bool along = solid(plan, row - 1, column) && solid(plan, row + 1, column);
-    const sl_point at = corner(plan, row, column);
+static bool door_segment(const sl_grid *plan, size_t row, size_t column, sl_segment *out) {
+    const bool beside =
+        sl_grid_solid(plan, row, column - 1) && sl_grid_solid(plan, row, column + 1);
+    const bool along = sl_grid_solid(plan, row - 1, column) && sl_grid_solid(plan, row + 1, column);
+    const sl_point at = sl_grid_corner(plan, row, column);
     if (beside)
         *out = (sl_segment){{at.x, at.y + 0.5}, {at.x + 1, at.y + 0.5}};
     else
@@ -45,8 +22,8 @@ static bool door_segment(const grid *plan, size_t row, size_t column, sl_segment
 }
 
 /// Where the start of a square stands.
-static sl_point middle(const grid *plan, size_t row, size_t column) {
-    const sl_point at = corner(plan, row, column);
+static sl_point middle(const sl_grid *plan, size_t row, size_t column) {
+    const sl_point at = sl_grid_corner(plan, row, column);
     return (sl_point){at.x + 0.5, at.y + 0.5};
 }
 
@@ -54,12 +31,9 @@ static sl_point middle(const grid *plan, size_t row, size_t column) {
 typedef struct plan_reader {
     sl_context *context;
     const char *name;
-    grid plan;
+    sl_grid plan;
     sl_map *map;
-    size_t *open_runs; ///< for each column's left edge, the row where its wall begins, or NONE
 } plan_reader;
-
-#define NONE SIZE_MAX
 
 static sl_status check_row(const plan_reader *reader, size_t row) {
     const sl_word line = reader->plan.rows[row];
@@ -75,49 +49,12 @@ static sl_status check_row(const plan_reader *reader, size_t row) {
     return SL_OK;
 }
 
-/// The walls between a row and the one above it; `row` may be one behind the last.
-static sl_status add_level(const plan_reader *reader, size_t row) {
-    const grid *plan = &reader->plan;
-    const size_t above = row_length(plan, row - 1), below = row_length(plan, row);
-    const size_t length = above > below ? above : below;
-    const double y = (double)(plan->count - row);
-    const uint32_t line = (uint32_t)(row < plan->count ? row : row - 1) + 1;
-    for (size_t column = 0, first = NONE; column <= length; column++) {
-        const bool wall = solid(plan, row - 1, column) != solid(plan, row, column);
-        if (wall && first == NONE) first = column;
-        if (wall || first == NONE) continue;
-        SL_TRY(sl_map_add_wall(reader->context, reader->map, (sl_point){(double)first, y},
-                               (sl_point){(double)column, y}, line));
-        first = NONE;
-    }
-    return SL_OK;
-}
-
-/// Begins and ends the walls between the columns of a row; one behind the last ends them all.
-static sl_status add_uprights(const plan_reader *reader, size_t row) {
-    const grid *plan = &reader->plan;
-    const size_t above = row_length(plan, row - 1), here = row_length(plan, row);
-    const size_t length = above > here ? above : here;
-    for (size_t column = 0; column <= length; column++) {
-        size_t *first = &reader->open_runs[column];
-        const bool wall = solid(plan, row, column - 1) != solid(plan, row, column);
-        if (wall && *first == NONE) *first = row;
-        if (wall || *first == NONE) continue;
-        const double x = (double)column, low = (double)(plan->count - row);
-        const double high = (double)(plan->count - *first);
-        SL_TRY(sl_map_add_wall(reader->context, reader->map, (sl_point){x, low},
-                               (sl_point){x, high}, (uint32_t)*first + 1));
-        *first = NONE;
-    }
-    return SL_OK;
-}
-
 /// The doors and starts of a row.
 static sl_status add_things(const plan_reader *reader, size_t row) {
-    const grid *plan = &reader->plan;
+    const sl_grid *plan = &reader->plan;
     const uint32_t line = (uint32_t)row + 1;
-    for (size_t column = 0; column < row_length(plan, row); column++) {
-        const char what = square(plan, row, column);
+    for (size_t column = 0; column < plan->rows[row].length; column++) {
+        const char what = sl_grid_square(plan, row, column);
         if (what == '@')
             SL_TRY(
                 sl_map_add_start(reader->context, reader->map, middle(plan, row, column), 0, line));
@@ -135,27 +72,26 @@ static sl_status add_things(const plan_reader *reader, size_t row) {
     return SL_OK;
 }
 
-static sl_status read_rows(plan_reader *reader) {
-    size_t width = 0;
+static sl_status read_rows(const plan_reader *reader) {
     bool any_open = false;
     for (size_t row = 0; row < reader->plan.count; row++) {
         SL_TRY(check_row(reader, row));
         const sl_word line = reader->plan.rows[row];
-        if (line.length > width) width = line.length;
         for (size_t i = 0; i < line.length && !any_open; i++) any_open = line.at[i] != '#';
     }
     if (!any_open)
         return sl_fail_at(reader->context, reader->name, 0, "the plan has no open square");
-    reader->open_runs = sl_alloc_array(reader->context, width + 1, sizeof *reader->open_runs);
-    if (!reader->open_runs) return SL_NO_MEMORY;
-    for (size_t column = 0; column <= width; column++) reader->open_runs[column] = NONE;
-    for (size_t row = 0; row <= reader->plan.count; row++) {
+    SL_TRY(sl_grid_add_walls(reader->context, &reader->plan, reader->map));
+    for (size_t row = 0; row < reader->plan.count; row++) {
         if (row % 256 == 0) SL_TRY(sl_check_cancelled(reader->context));
-        SL_TRY(add_level(reader, row));
-        SL_TRY(add_uprights(reader, row));
         SL_TRY(add_things(reader, row));
     }
     return SL_OK;
+}
+
+/// The plan of these rows: unit squares, a row a line.
+static sl_grid plan_of(sl_word *rows, size_t count) {
+    return (sl_grid){.rows = rows, .count = count, .step = {1, 1}, .first_line = 1};
 }
 
 sl_status sl_map_read_plan(sl_context *context, const char *name, const char *text, size_t size,
@@ -170,10 +106,9 @@ sl_status sl_map_read_plan(sl_context *context, const char *name, const char *te
         status = SL_ARRAY_ROOM(context, &rows, 1);
         if (status == SL_OK) rows.items[rows.count++] = line;
     }
-    reader.plan = (grid){.rows = rows.items, .count = rows.count};
+    reader.plan = plan_of(rows.items, rows.count);
     if (status == SL_OK) status = read_rows(&reader);
     sl_free(context, rows.items);
-    sl_free(context, reader.open_runs);
     if (status == SL_OK)
         *map = read;
     else
@@ -441,7 +376,7 @@ static bool same_point(sl_point a, sl_point b) {
 
 /// A door is put where reading the plan finds the same door.
 static sl_status put_door(const plan_maker *maker, const sl_door *door) {
-    const grid plan = {.rows = maker->rows, .count = maker->height};
+    const sl_grid plan = plan_of(maker->rows, maker->height);
     const sl_segment at = moved(maker, door->segment);
     size_t row, column;
     sl_segment found;
@@ -464,7 +399,7 @@ static sl_status put_door(const plan_maker *maker, const sl_door *door) {
 
 static sl_status put_things(const plan_maker *maker) {
     const sl_map *map = maker->map;
-    const grid plan = {.rows = maker->rows, .count = maker->height};
+    const sl_grid plan = plan_of(maker->rows, maker->height);
     for (size_t i = 0; i < map->door_count; i++) SL_TRY(put_door(maker, &map->doors[i]));
     if (map->door_count) sl_note(maker->context, "a plan's doors are named in reading order");
     size_t shifted = 0;

@@ -1,0 +1,98 @@
+// Grids of squares: their walls, where they stand and how few they are.
+#include "testing.h"
+
+#include "map/grid.h"
+#include "unit/map_same.h"
+
+static void fill(sl_grid *grid, const char *squares) {
+    memcpy(grid->squares, squares, grid->count * grid->rows[0].length);
+}
+
+static void assert_walls(const sl_grid *grid, const char *expected) {
+    sl_context *context = testing_context(NULL);
+    sl_map map = {0};
+    assert_ok(context, sl_grid_add_walls(context, grid, &map));
+    char *text = map_text(&map);
+    assert_string_equal(text, expected);
+    free(text);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
+static sl_grid grid_of(size_t width, size_t height, const char *squares) {
+    sl_context *context = testing_context(NULL);
+    sl_grid grid;
+    assert_ok(context, sl_grid_create(context, width, height, &grid));
+    fill(&grid, squares);
+    sl_context_destroy(context);
+    return grid;
+}
+
+static void destroy(sl_grid *grid) {
+    sl_context *context = testing_context(NULL);
+    sl_grid_destroy(context, grid);
+    sl_context_destroy(context);
+}
+
+static void test_open_floor_has_a_frame(void **state) {
+    (void)state;
+    sl_grid grid = grid_of(3, 2, "......");
+    assert_walls(&grid, "sightline 1\nwall 0 2 3 2\nwall 0 0 3 0\nwall 0 0 0 2\nwall 3 0 3 2\n");
+    grid.open_beyond = true;
+    assert_walls(&grid, "sightline 1\n");
+    destroy(&grid);
+}
+
+static void test_walls_run_over_many_squares(void **state) {
+    (void)state;
+    sl_grid grid = grid_of(4, 3, ".....##.....");
+    grid.open_beyond = true;
+    assert_walls(&grid, "sightline 1\nwall 1 2 3 2\nwall 1 1 3 1\nwall 1 1 1 2\nwall 3 1 3 2\n");
+    destroy(&grid);
+}
+
+static void test_squares_that_touch_at_a_corner(void **state) {
+    (void)state;
+    sl_grid grid = grid_of(2, 2, "#..#");
+    grid.open_beyond = true;
+    // Where two squares meet at a corner both lines go on: solid and open change sides.
+    assert_walls(&grid, "sightline 1\nwall 0 2 1 2\nwall 0 1 2 1\nwall 0 1 0 2\n"
+                        "wall 1 0 2 0\nwall 1 0 1 2\nwall 2 0 2 1\n");
+    destroy(&grid);
+}
+
+static void test_origin_and_step(void **state) {
+    (void)state;
+    sl_grid grid = grid_of(1, 2, ".#");
+    grid.origin = (sl_point){-10, 0.5};
+    grid.step = (sl_point){16, 0.25};
+    assert_walls(&grid, "sightline 1\nwall -10 1 6 1\nwall -10 0.75 6 0.75\n"
+                        "wall -10 0.75 -10 1\nwall 6 0.75 6 1\n");
+    destroy(&grid);
+}
+
+static void test_memory(void **state) {
+    (void)state;
+    for (long fail_at = 1; fail_at <= 2; fail_at++) {
+        testing_memory memory = {0};
+        sl_context *context = testing_context(&memory);
+        memory.fail_at = memory.calls + fail_at;
+        sl_grid grid = {0};
+        assert_int_equal(sl_grid_create(context, 3, 3, &grid), SL_NO_MEMORY);
+        assert_null(grid.rows);
+        memory.fail_at = 0;
+        sl_context_destroy(context);
+        assert_int_equal(memory.live, 0);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_open_floor_has_a_frame),
+        cmocka_unit_test(test_walls_run_over_many_squares),
+        cmocka_unit_test(test_squares_that_touch_at_a_corner),
+        cmocka_unit_test(test_origin_and_step),
+        cmocka_unit_test(test_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
