@@ -29,8 +29,7 @@ static size_t skip_digits(const char *text, size_t length, size_t at) {
     return at;
 }
 
-/// The length of the decimal number at the start of the text, 0 for none.
-static size_t scan_decimal(const char *text, size_t length) {
+size_t sl_number_length(const char *text, size_t length) {
     size_t at = length && (text[0] == '-' || text[0] == '+');
     const size_t whole = at;
     at = skip_digits(text, length, at);
@@ -52,7 +51,8 @@ static size_t scan_decimal(const char *text, size_t length) {
 
 bool sl_number_read(const char *text, size_t length, double *value) {
     char copy[512];
-    if (length == 0 || length >= sizeof copy || scan_decimal(text, length) != length) return false;
+    if (length == 0 || length >= sizeof copy || sl_number_length(text, length) != length)
+        return false;
     memcpy(copy, text, length);
     copy[length] = '\0';
     replace(copy, '.', decimal_point());

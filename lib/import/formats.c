@@ -20,6 +20,16 @@ static sl_status read_plan(sl_context *context, const char *name, const char *te
     return sl_map_read_plan(context, name, text, size, map);
 }
 
+static bool knows_svg(const char *text, size_t size) {
+    (void)size;
+    return *text == '<' && strstr(text, "<svg");
+}
+
+static bool knows_image(const char *text, size_t size) {
+    return (size > 4 && memcmp(text, "\x89PNG", 4) == 0) ||
+           (size > 3 && text[0] == 'P' && strchr("1245", text[1]) && strchr(" \t\r\n#", text[2]));
+}
+
 static const sl_map_format formats[] = {
     {.name = "text", .endings = ".map", .what = "the map text", .read = read_text},
     {.name = "plan", .endings = ".txt", .what = "an ASCII plan", .read = read_plan},
@@ -28,6 +38,28 @@ static const sl_map_format formats[] = {
      .what = "a UniGrafix model, cut at a height",
      .read = sl_map_read_unigrafix,
      .takes = SL_TAKES_SLICE},
+    {.name = "dxf",
+     .endings = ".dxf",
+     .what = "a DXF drawing",
+     .read = sl_map_read_dxf,
+     .takes = SL_TAKES_LAYERS | SL_TAKES_TOLERANCE},
+    {.name = "svg",
+     .endings = ".svg",
+     .what = "an SVG drawing",
+     .read = sl_map_read_svg,
+     .takes = SL_TAKES_LAYERS | SL_TAKES_TOLERANCE,
+     .knows = knows_svg},
+    {.name = "image",
+     .endings = ".png .pgm .pbm",
+     .what = "a picture: its dark pixels are solid",
+     .read = sl_map_read_image,
+     .takes = SL_TAKES_THRESHOLD,
+     .knows = knows_image},
+    {.name = "ros",
+     .endings = ".yaml .yml",
+     .what = "a map of ROS: a picture with its scale",
+     .read = sl_map_read_ros,
+     .takes = SL_TAKES_THRESHOLD},
 };
 #define FORMAT_COUNT (sizeof formats / sizeof *formats)
 

@@ -30,6 +30,10 @@ seeds_of() {
     fuzz_map_text | fuzz_slv) echo map ;;
     fuzz_map_plan) echo txt ;;
     fuzz_unigrafix) echo ug ;;
+    fuzz_dxf) echo dxf ;;
+    fuzz_svg) echo svg ;;
+    fuzz_image) echo pgm ;;
+    fuzz_ros) echo yaml ;;
     esac
 }
 

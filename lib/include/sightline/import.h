@@ -79,6 +79,26 @@ SL_API sl_status sl_map_list_read(sl_context *context, const char *path, sl_map_
 SL_API sl_status sl_map_read_unigrafix(sl_context *context, const char *name, const char *text,
                                        size_t size, const sl_import_options *options, sl_map *map);
 
+/// The lines, polylines with bulges, arcs, circles and ellipses of an ASCII DXF drawing, in blocks
+/// as inserted, on layers that are on and not frozen or on those asked for. What was taken is
+/// noted.
+SL_API sl_status sl_map_read_dxf(sl_context *context, const char *name, const char *text,
+                                 size_t size, const sl_import_options *options, sl_map *map);
+
+/// The outlines of an SVG drawing's shapes, in its user units, y turned up. Layers are groups by id
+/// or label. What was taken is noted.
+SL_API sl_status sl_map_read_svg(sl_context *context, const char *name, const char *text,
+                                 size_t size, const sl_import_options *options, sl_map *map);
+
+/// A picture (PNG, PGM, PBM): pixels are unit squares, dark ones solid (threshold: the usual is
+/// 0.5), the lower left one's corner at the origin. What was taken is noted.
+SL_API sl_status sl_map_read_image(sl_context *context, const char *name, const char *text,
+                                   size_t size, const sl_import_options *options, sl_map *map);
+
+/// A map.yaml of ROS with its picture, found from the folder of `name`. Unit: metres.
+SL_API sl_status sl_map_read_ros(sl_context *context, const char *name, const char *text,
+                                 size_t size, const sl_import_options *options, sl_map *map);
+
 #ifdef __cplusplus
 }
 #endif

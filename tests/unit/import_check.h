@@ -1,0 +1,41 @@
+/// Short cuts for tests of importers: the walls that a text gives, and the message that it gets.
+#ifndef SL_TEST_IMPORT_CHECK_H
+#define SL_TEST_IMPORT_CHECK_H
+
+#include "map_same.h"
+
+typedef sl_status import_reader(sl_context *context, const char *name, const char *text,
+                                size_t size, const sl_import_options *options, sl_map *map);
+
+/// The text's walls are those of the map text, its first line left out.
+static inline void assert_walls_of(import_reader *read, const sl_import_options *options,
+                                   const char *input, size_t size, const char *expected) {
+    sl_context *context = testing_context(NULL);
+    const sl_import_options usual = sl_import_options_default();
+    sl_map map = {0};
+    assert_ok(context, read(context, "f", input, size, options ? options : &usual, &map));
+    char *text = map_text(&map);
+    assert_string_equal(text + strlen("sightline 1\n"), expected);
+    free(text);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
+/// The text is refused, with a message that starts with `message`, and the map stays empty.
+static inline void assert_refused_of(import_reader *read, const sl_import_options *options,
+                                     const char *input, size_t size, sl_status status,
+                                     const char *message) {
+    testing_memory memory = {0};
+    sl_context *context = testing_context(&memory);
+    const sl_import_options usual = sl_import_options_default();
+    const long live = memory.live;
+    sl_map map = {0};
+    assert_int_equal(read(context, "f", input, size, options ? options : &usual, &map), status);
+    if (strncmp(sl_context_message(context), message, strlen(message)) != 0)
+        fail_msg("'%s' is not '%s'", sl_context_message(context), message);
+    assert_int_equal(map.wall_count, 0);
+    assert_int_equal(memory.live, live);
+    sl_context_destroy(context);
+}
+
+#endif

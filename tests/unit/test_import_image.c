@@ -1,0 +1,186 @@
+// Pictures: each kind of file, thresholds, scale, ROS' map.yaml, and what is refused.
+#include "testing.h"
+
+#include "import_check.h"
+
+#include <png.h>
+#include <unistd.h>
+
+static void assert_walls(const char *text, size_t size, double threshold, const char *expected) {
+    sl_import_options options = sl_import_options_default();
+    options.threshold = threshold;
+    assert_walls_of(sl_map_read_image, &options, text, size, expected);
+}
+
+static void assert_refused(const char *text, size_t size, const char *message) {
+    assert_refused_of(sl_map_read_image, NULL, text, size, SL_BAD_INPUT, message);
+}
+
+// The two lower pixels of the left column of 3 x 3, and the one in the upper right corner.
+#define SHAPE                                                                                      \
+    "wall 2 3 3 3\nwall 2 2 2 3\nwall 3 2 3 3\nwall 2 2 3 2\n"                                     \
+    "wall 0 2 1 2\nwall 0 0 0 2\nwall 1 0 1 2\nwall 0 0 1 0\n"
+
+static int compare_lines(const void *left, const void *right) {
+    return strcmp(*(char *const *)left, *(char *const *)right);
+}
+
+/// The lines of a text in one order, whatever the order of the walls.
+static void sort_lines(char *text) {
+    char *lines[64], copy[4096];
+    size_t count = 0;
+    snprintf(copy, sizeof copy, "%s", text);
+    for (char *line = strtok(copy, "\n"); line; line = strtok(NULL, "\n")) lines[count++] = line;
+    qsort(lines, count, sizeof *lines, compare_lines);
+    for (size_t i = 0; i < count; i++) text += sprintf(text, "%s\n", lines[i]);
+}
+
+static void assert_shape(const char *bytes, size_t size, double threshold, bool is) {
+    sl_context *context = testing_context(NULL);
+    sl_import_options options = sl_import_options_default();
+    options.threshold = threshold;
+    sl_map map = {0};
+    assert_ok(context, sl_map_read_image(context, "f", bytes, size, &options, &map));
+    char *text = map_text(&map), expected[] = SHAPE;
+    sort_lines(text + strlen("sightline 1\n"));
+    sort_lines(expected);
+    if (is)
+        assert_string_equal(text + strlen("sightline 1\n"), expected);
+    else
+        assert_string_not_equal(text + strlen("sightline 1\n"), expected);
+    free(text);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
+static void test_portable(void **state) {
+    (void)state;
+    static const char bits[] = "P1 3 3\n001 100\n# a comment\n1 00";
+    assert_shape(bits, sizeof bits - 1, 0, true);
+    static const char packed[] = "P4\n3 3\n\x20\x80\x80";
+    assert_shape(packed, sizeof packed - 1, 0, true);
+    static const char grey[] = "P2\n# made by hand\n3 3 10\n9 9 4\n4 9 9\n4 9 9\n";
+    assert_shape(grey, sizeof grey - 1, 0, true);
+    assert_shape(grey, sizeof grey - 1, 0.7, false);
+    assert_shape(grey, sizeof grey - 1, 0.05, false);
+    static const char bytes[] = "P5 3 3 255\n\xff\xff\x10\x10\xff\xff\x10\xff\xff";
+    assert_shape(bytes, sizeof bytes - 1, 0, true);
+    static const char wide[] = "P5 3 3 65535\n\xff.\xff.\x10.\x10.\xff.\xff.\x10.\xff.\xff.";
+    assert_shape(wide, sizeof wide - 1, 0, true);
+    assert_walls("P1 2 2 00 00", 12, 0, "");
+}
+
+static void test_png(void **state) {
+    (void)state;
+    // Grey with alpha: what is transparent is white, however dark.
+    static const unsigned char pixels[] = {255, 255, 0, 0,   0,   255, 20,  255, 255,
+                                           255, 90,  0, 100, 255, 255, 255, 200, 255};
+    png_image image = {
+        .version = PNG_IMAGE_VERSION, .width = 3, .height = 3, .format = PNG_FORMAT_GA};
+    char bytes[1024];
+    png_alloc_size_t size = sizeof bytes;
+    assert_true(png_image_write_to_memory(&image, bytes, &size, 0, pixels, 0, NULL));
+    assert_shape(bytes, size, 0, true);
+    assert_refused(bytes, size - 20, "f: PNG: ");
+    assert_refused(bytes, 20, "f: PNG: ");
+    bytes[20] ^= 1;
+    assert_refused(bytes, size, "f: PNG: ");
+}
+
+static void test_refused(void **state) {
+    (void)state;
+#define REFUSED(text, message) assert_refused(text, sizeof text - 1, message)
+    REFUSED("", "f: neither PNG nor");
+    REFUSED("P3 1 1 1 0 0 0", "f: neither PNG nor");
+    REFUSED("P5 3", "f:1: expected a number, found the end");
+    REFUSED("P5 3 x", "f:1: expected a number, found something else");
+    REFUSED("P5\n3 3 255\n\1\2", "f: 3 x 3 pixels need 9 bytes; the file has 2");
+    REFUSED("P5 0 3 255\n", "f: a picture without pixels");
+    REFUSED("P5 3 3 0\n", "f:1: the largest value is 0");
+    REFUSED("P5 3 3 70000\n", "f:1: the largest value is 70000");
+    REFUSED("P2\n1 1\n7 8", "f:3: a pixel of 8: at most 7");
+    REFUSED("P5 100000 100000 255\n", "f: a picture of 100000 x 100000 pixels: more than");
+    REFUSED("P5 99999999999999999999999 1 255\n", "f:1: the largest value");
+}
+
+// --- ROS
+
+static void write_file(const char *path, const char *text) {
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void read_ros(const char *yaml, const char *expected, const char *message) {
+    char folder[] = "/tmp/sightline-ros-XXXXXX", path[64], picture[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/m.yaml", folder);
+    snprintf(picture, sizeof picture, "%s/m.pgm", folder);
+    write_file(picture, "P2 2 1 255 0 205");
+    sl_context *context = testing_context(NULL);
+    const sl_import_options options = sl_import_options_default();
+    sl_map map = {0};
+    const sl_status status = sl_map_read_ros(context, path, yaml, strlen(yaml), &options, &map);
+    if (expected) {
+        assert_ok(context, status);
+        char *text = map_text(&map);
+        sort_lines(text);
+        assert_string_equal(text, expected);
+        free(text);
+    } else {
+        assert_int_equal(status, SL_BAD_INPUT);
+        if (!strstr(sl_context_message(context), message))
+            fail_msg("'%s' has not '%s'", sl_context_message(context), message);
+        assert_int_equal(map.wall_count, 0);
+    }
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+    unlink(picture);
+    assert_int_equal(rmdir(folder), 0);
+}
+
+static void test_ros(void **state) {
+    (void)state;
+    static const char square[] = "sightline 1\nwall -0.5 2 -0.5 2.5\nwall -1 2 -0.5 2\n"
+                                 "wall -1 2 -1 2.5\nwall -1 2.5 -0.5 2.5\n";
+    char sorted[sizeof square];
+    memcpy(sorted, square, sizeof square);
+    sort_lines(sorted);
+    read_ros("image: m.pgm\nresolution: 0.5\norigin: [-1, 2, 0.0]\nnegate: 0\n"
+             "occupied_thresh: 0.65\nfree_thresh: 0.196\n",
+             sorted, NULL);
+    // Renamed, and in another style.
+    read_ros("{image: other.pgm, resolution: 0.5, origin: [-1, 2, 0], mode: trinary}", sorted,
+             NULL);
+    // The lighter of the two, at 0.80, then neither.
+    read_ros("image: m.pgm\nresolution: 1\nnegate: 1\noccupied_thresh: 0.9\n", "sightline 1\n",
+             NULL);
+    read_ros("image: m.pgm\n", NULL, "m.yaml: 'resolution' is missing or not positive");
+    read_ros("resolution: 1\n", NULL, "m.yaml: no 'image' is named");
+    read_ros("image: m.pgm\nresolution: thin\n", NULL, "m.yaml:2: resolution: expected a number");
+    read_ros("image: m.pgm\nresolution: 1\norigin: [0, 0, 0.1]\n", NULL,
+             "m.yaml:3: origin: a turned");
+    read_ros("image: m.pgm\nresolution: 1\norigin: [0, 0, 0, 0]\n", NULL, "m.yaml:3: origin: more");
+    read_ros("image: [m.pgm\n", NULL, "m.yaml:2: YAML: ");
+    read_ros("image: {a: b}\n", NULL, "m.yaml:1: expected 'key: value'");
+    read_ros("image: m.pgm\nresolution: 1\nmode: raw\n", NULL, "m.yaml: mode: only trinary");
+}
+
+static void test_ros_without_a_picture(void **state) {
+    (void)state;
+    static const char yaml[] = "resolution: 1\nimage: /nowhere/m.pgm\n";
+    assert_refused_of(sl_map_read_ros, NULL, yaml, sizeof yaml - 1, SL_BAD_INPUT,
+                      "f:2: image: there is no picture '/nowhere/m.pgm'");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_portable),
+        cmocka_unit_test(test_png),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_ros),
+        cmocka_unit_test(test_ros_without_a_picture),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

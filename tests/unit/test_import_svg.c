@@ -1,0 +1,168 @@
+// SVG: each shape, transforms, paths with all commands, groups and layers, and what is refused.
+#include "testing.h"
+
+#include "import_check.h"
+
+#include <math.h>
+
+#define SVG(body) "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 20 10'>\n" body "</svg>"
+
+/// y is turned up: the box's lower edge, at y 10, is at 0.
+static void assert_walls(const char *text, const char *expected) {
+    assert_walls_of(sl_map_read_svg, NULL, text, strlen(text), expected);
+}
+
+static void assert_refused(const char *text, const char *message) {
+    assert_refused_of(sl_map_read_svg, NULL, text, strlen(text), SL_BAD_INPUT, message);
+}
+
+static void test_shapes(void **state) {
+    (void)state;
+    assert_walls(SVG("<line x1='1' y1='2' x2='3' y2='10'/>"), "wall 1 8 3 0\n");
+    assert_walls(SVG("<line x1='1px' x2='1in' y1='1' y2='1'/>"), "wall 1 9 96 9\n");
+    assert_walls(SVG("<polyline points='0,0 1,0,1 1'/>"), "wall 0 10 1 10\nwall 1 10 1 9\n");
+    assert_walls(SVG("<polygon points='0 0 1 0 1 1'/>"),
+                 "wall 0 10 1 10\nwall 1 10 1 9\nwall 1 9 0 10\n");
+    assert_walls(SVG("<rect x='1' y='1' width='3' height='2'/>"),
+                 "wall 1 9 4 9\nwall 4 9 4 7\nwall 4 7 1 7\nwall 1 7 1 9\n");
+    assert_walls(SVG("<rect x='1' y='1' width='3'/>"), "");
+    assert_walls("<svg height='4'><line x2='1'/></svg>", "wall 0 4 1 4\n");
+    assert_walls("<svg height='100%'><line x2='1'/></svg>", "wall 0 0 1 0\n");
+}
+
+static void test_transforms(void **state) {
+    (void)state;
+#define SHIFTED(transform) SVG("<line transform='" transform "' x2='1'/>")
+    assert_walls(SHIFTED("translate(3,4)"), "wall 3 6 4 6\n");
+    assert_walls(SHIFTED("translate(3)"), "wall 3 10 4 10\n");
+    assert_walls(SHIFTED("rotate(90)"), "wall 0 10 0 9\n");
+    assert_walls(SHIFTED("rotate(90 1 0)"), "wall 1 11 1 10\n");
+    assert_walls(SHIFTED("scale(2)translate(1 1)"), "wall 2 8 4 8\n");
+    assert_walls(SHIFTED("matrix(1 2 3 4 5 6)"), "wall 5 4 6 2\n");
+    assert_walls(SVG("<g transform='translate(1 0)'><g transform='scale(2 3)'>"
+                     "<line x1='1' y1='1' x2='2' y2='1'/></g></g>"),
+                 "wall 3 7 5 7\n");
+    assert_walls(
+        SVG("<svg x='2' y='2' width='4' height='4' viewBox='0 0 2 1'><line x2='1'/></svg>"),
+        "wall 2 7 4 7\n");
+    assert_walls(SVG("<defs><g id='a'><line x2='1'/></g></defs><use href='#a' x='5' y='5'/>"),
+                 "wall 5 5 6 5\n");
+}
+
+static void test_paths(void **state) {
+    (void)state;
+#define PATH(data) SVG("<path d='" data "'/>")
+    assert_walls(PATH("M0 0L1,0 1 1z"), "wall 0 10 1 10\nwall 1 10 1 9\nwall 1 9 0 10\n");
+    assert_walls(PATH("m1-1.5.5.5h2v1H0V0"), "wall 1 11.5 1.5 11\nwall 1.5 11 3.5 11\n"
+                                             "wall 3.5 11 3.5 10\nwall 3.5 10 0 10\n");
+    // Numbers behind a move are lines; a closed subpath starts the next one.
+    assert_walls(PATH("m1 1 1 0 0 1zl0 2"),
+                 "wall 1 9 2 9\nwall 2 9 2 8\nwall 2 8 1 9\nwall 1 9 1 7\n");
+    // Curves that are straight.
+    assert_walls(PATH("M0 0C1 0 2 0 3 0S5 0 6 0"), "wall 0 10 3 10\nwall 3 10 6 10\n");
+    assert_walls(PATH("M0 0A0 1 0 0 0 5 0"), "wall 0 10 5 10\n");
+}
+
+/// All wall ends on a circle about (5,5) in the drawing of radius 5, from one place to another.
+static void assert_circle(const char *data, double sweep) {
+    char text[512];
+    snprintf(text, sizeof text, SVG("<path d='%s'/>"), data);
+    sl_context *context = testing_context(NULL);
+    const sl_import_options options = sl_import_options_default();
+    sl_map map = {0};
+    assert_ok(context, sl_map_read_svg(context, "f", text, strlen(text), &options, &map));
+    double turned = 0;
+    for (size_t i = 0; i < map.wall_count; i++) {
+        const sl_point u = {map.walls[i].a.x - 5, map.walls[i].a.y - 5};
+        const sl_point v = {map.walls[i].b.x - 5, map.walls[i].b.y - 5};
+        assert_true(fabs(hypot(u.x, u.y) - 5) < 1e-12);
+        turned += atan2(u.x * v.y - u.y * v.x, u.x * v.x + u.y * v.y);
+    }
+    if (fabs(turned - sweep) > 1e-9) fail_msg("%s turns by %g, not %g", data, turned, sweep);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
+static void test_arcs(void **state) {
+    (void)state;
+    const double quarter = acos(0);
+    // In the drawing y runs down: a positive sweep turns clockwise in the map.
+    assert_circle("M10 5A5 5 0 0 1 5 10", -quarter);
+    assert_circle("M10 5A5 5 0 1 0 5 10", 3 * quarter);
+    assert_circle("M10 5A5 5 30 11 5 0", -3 * quarter);
+    assert_circle("M10 5a5 5 0 00-5-5", quarter);
+    assert_circle("M10 5A1 1 0 0 1 0 5", -2 * quarter);
+    // Béziers: the ends are on the curve, the chords near it.
+    sl_context *context = testing_context(NULL);
+    sl_import_options options = sl_import_options_default();
+    options.tolerance = 0.01;
+    sl_map map = {0};
+    const char *const text = PATH("M0 10Q5 0 10 10T20 10");
+    assert_ok(context, sl_map_read_svg(context, "f", text, strlen(text), &options, &map));
+    double highest = -9, lowest = 9;
+    for (size_t i = 0; i < map.wall_count; i++) {
+        const sl_point at = map.walls[i].b;
+        const double t = fmod(at.x, 10) / 10, height = 2 * 10 * t * (1 - t);
+        const double expected = at.x < 10 ? height : -height;
+        assert_true(at.x == 20 || fabs(at.y - expected) < 1e-12);
+        highest = fmax(highest, at.y);
+        lowest = fmin(lowest, at.y);
+    }
+    assert_true(highest > 4.98 && highest <= 5 && lowest < -4.98 && lowest >= -5);
+    assert_true(map.wall_count < 100);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
+static void test_layers(void **state) {
+    (void)state;
+    static const char text[] =
+        SVG("<g id='walls'><line x2='1'/><g display='none'><line x2='2'/></g></g>"
+            "<g xmlns:i='urn:i' i:label='Furniture'><line x2='3'/></g><line x2='4'/>"
+            "<line x2='5' style='stroke:red; display : none'/><text>no</text>");
+    assert_walls(text, "wall 0 10 1 10\nwall 0 10 3 10\nwall 0 10 4 10\n");
+    sl_import_options options = sl_import_options_default();
+    options.layers = "Furniture";
+    assert_walls_of(sl_map_read_svg, &options, text, sizeof text - 1, "wall 0 10 3 10\n");
+    options.layers = "x,walls";
+    assert_walls_of(sl_map_read_svg, &options, text, sizeof text - 1, "wall 0 10 1 10\n");
+}
+
+static void test_refused(void **state) {
+    (void)state;
+    assert_refused("", "f: the file is empty");
+    assert_refused("<svg>", "f:1: XML: ");
+    assert_refused("<svg>\n<line x1='1'</svg>", "f:2: XML: ");
+    assert_refused("<html/>", "f:1: expected an svg element, found 'html'");
+    assert_refused(SVG("\n<line x1='one'/>"), "f:3: x1: expected a number, found 'one'");
+    assert_refused(SVG("<line x2='1em'/>"), "f:2: x2: the unit 'em' is not known");
+    assert_refused(SVG("<line x2='1e200' y2='1'/>"), "f:2: a coordinate is out of range");
+    assert_refused(SVG("<line x2='1e999' y2='1'/>"), "f:2: x2: expected a number");
+    assert_refused(PATH("L1 1"), "f:2: path data: expected an M to start with, found 'L1 1'");
+    assert_refused(PATH("M1 1 2"), "f:2: path data: expected a number, found the end");
+    assert_refused(PATH("M1 1k2"), "f:2: path data: expected one of MZLHVCSQTA, found 'k2'");
+    assert_refused(PATH("M1 1z2"), "f:2: path data: expected a command, found '2'");
+    assert_refused(PATH("M1 1A1 1 0 2 0 3 3"), "f:2: path data: expected a flag, 0 or 1");
+    assert_refused(SVG("<polyline points='1 2 3'/>"), "f:2: points: expected a number");
+    assert_refused(SHIFTED("turn(3)"), "f:2: transform: there is no 'turn' of 1 numbers");
+    assert_refused(SHIFTED("scale 3"), "f:2: transform: expected '('");
+    assert_refused(SVG("<use href='#x'/>"), "f:2: use: there is no element '#x'");
+    assert_refused(SVG("<g id='a'><use href='#a'/></g>"), "f:2: elements within elements");
+    assert_refused("<svg viewBox='0 0 0 1'/>", "f:1: viewBox: its width and height");
+    // Uses of uses of uses: two to the thirtieth lines.
+    char text[4096] = "<svg><line id='u0' x2='1'/>\n", *end = text + strlen(text);
+    for (int i = 1; i <= 30; i++)
+        end +=
+            sprintf(end, "<g id='u%d'><use href='#u%d'/><use href='#u%d'/></g>\n", i, i - 1, i - 1);
+    strcpy(end, "</svg>");
+    assert_refused(text, "f:4: the drawing's uses give more than");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_shapes), cmocka_unit_test(test_transforms),
+        cmocka_unit_test(test_paths),  cmocka_unit_test(test_arcs),
+        cmocka_unit_test(test_layers), cmocka_unit_test(test_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
