@@ -5,6 +5,7 @@
 #include "import/image.h"
 #include "map/scan.h"
 
+#include <sys/stat.h>
 #include <yaml.h>
 
 typedef struct ros_map {
@@ -129,11 +130,10 @@ static char *beside(const ros_map *m, const char *file) {
     return path;
 }
 
-/// A file that may not be there: a failure to read it says so without a message of its own.
+/// A plain file: a device may never end.
 static bool is_there(const char *path) {
-    FILE *file = fopen(path, "rb");
-    if (file) fclose(file);
-    return file != NULL;
+    struct stat facts;
+    return stat(path, &facts) == 0 && S_ISREG(facts.st_mode);
 }
 
 /// The picture as named or, since maps are often renamed, one that has the map's own name.

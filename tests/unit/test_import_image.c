@@ -172,6 +172,9 @@ static void test_ros_without_a_picture(void **state) {
     static const char yaml[] = "resolution: 1\nimage: /nowhere/m.pgm\n";
     assert_refused_of(sl_map_read_ros, NULL, yaml, sizeof yaml - 1, SL_BAD_INPUT,
                       "f:2: image: there is no picture '/nowhere/m.pgm'");
+    static const char device[] = "resolution: 1\nimage: /dev/zero\n";
+    assert_refused_of(sl_map_read_ros, NULL, device, sizeof device - 1, SL_BAD_INPUT,
+                      "f:2: image: there is no picture '/dev/zero'");
 }
 
 int main(void) {
