@@ -6,6 +6,7 @@
 
 /// Each is given its own name as argv[0]. A failure's message is in the console's context.
 sl_status sl_cmd_bake(sl_console *console, int argc, char **argv);
+sl_status sl_cmd_check(sl_console *console, int argc, char **argv);
 sl_status sl_cmd_compare(sl_console *console, int argc, char **argv);
 sl_status sl_cmd_convert(sl_console *console, int argc, char **argv);
 sl_status sl_cmd_draw(sl_console *console, int argc, char **argv);

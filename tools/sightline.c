@@ -13,6 +13,7 @@ typedef struct command {
 static const command commands[] = {
     {"info", "what a map or a baked file holds", sl_cmd_info},
     {"bake", "cells, portals and cell-to-cell visibility of a map, into a file", sl_cmd_bake},
+    {"check", "what is wrong with a map: leaks, gaps, overlaps, thin cells", sl_cmd_check},
     {"compare", "every method on one map: accuracy against time, as table and chart",
      sl_cmd_compare},
     {"export", "a baked file for other programs", sl_cmd_export},

@@ -1,6 +1,7 @@
 #include "draw/legend.h"
 
 #include "base/number.h"
+#include "draw/faults.h"
 #include "draw/text.h"
 
 #include <math.h>
@@ -24,7 +25,7 @@ typedef struct entry {
     char text[TEXT_MAX];
 } entry;
 
-#define ENTRIES 16
+#define ENTRIES 24
 
 typedef struct key {
     entry entries[ENTRIES];
@@ -166,6 +167,34 @@ static void swatch_object(cairo_t *cairo, const sl_scene *scene, const sl_pens *
     sl_pen_object(cairo, &scene->palette, pens);
 }
 
+#define SWATCH_FAULT(name, kind)                                                                   \
+    static void name(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens, sl_box box) {     \
+        sl_mark_fault(cairo, &scene->palette, pens, kind, left_middle(box), right_middle(box));    \
+    }
+SWATCH_FAULT(swatch_leak, SL_FAULT_LEAK)
+SWATCH_FAULT(swatch_gap, SL_FAULT_GAP)
+SWATCH_FAULT(swatch_overlap, SL_FAULT_OVERLAP)
+SWATCH_FAULT(swatch_crossing, SL_FAULT_CROSSING)
+SWATCH_FAULT(swatch_thin, SL_FAULT_THIN)
+SWATCH_FAULT(swatch_unreachable, SL_FAULT_UNREACHABLE)
+
+static void add_faults(key *k, const sl_faults *faults) {
+    static const struct {
+        void (*swatch)(cairo_t *, const sl_scene *, const sl_pens *, sl_box);
+        const char *what;
+    } kinds[SL_FAULT_KINDS] = {
+        [SL_FAULT_LEAK] = {swatch_leak, "leak"},
+        [SL_FAULT_GAP] = {swatch_gap, "gap"},
+        [SL_FAULT_OVERLAP] = {swatch_overlap, "overlap"},
+        [SL_FAULT_CROSSING] = {swatch_crossing, "crossing"},
+        [SL_FAULT_THIN] = {swatch_thin, "thin cell"},
+        [SL_FAULT_UNREACHABLE] = {swatch_unreachable, "unreachable room"},
+    };
+    for (int kind = 0; kind < SL_FAULT_KINDS; kind++)
+        if (faults->counts[kind])
+            add_count(k, kinds[kind].swatch, faults->counts[kind], kinds[kind].what);
+}
+
 static void add_seen(key *k, const sl_scene *scene) {
     char text[TEXT_MAX], seen[SL_COUNT_TEXT], of[SL_COUNT_TEXT], share[SL_COUNT_TEXT];
     sl_text_percent(scene->seen_share, share);
@@ -214,6 +243,7 @@ static void fill_key(key *k, const sl_scene *scene) {
     const sl_space *space = &scene->baked->space;
     const sl_map *map = &scene->baked->map;
     const unsigned layers = scene->options.layers;
+    if (scene->options.faults) add_faults(k, scene->options.faults);
     if (scene->heat) add_heat(k, scene);
     if (scene->chosen) {
         char text[SL_COUNT_TEXT];

@@ -1,6 +1,7 @@
 #include "draw/plan.h"
 
 #include "base/base.h"
+#include "draw/faults.h"
 #include "draw/marks.h"
 #include "space/ray.h"
 
@@ -171,6 +172,11 @@ static void draw_starts(const plan *p) {
     }
 }
 
+static void draw_fault_marks(const plan *p) {
+    if (p->scene->options.faults)
+        sl_draw_faults(p->cairo, p->palette, &p->pens, p->frame, p->scene->options.faults);
+}
+
 sl_status sl_draw_onto(sl_context *context, cairo_t *cairo, const sl_scene *scene,
                        const sl_frame *frame) {
     static const struct {
@@ -185,6 +191,7 @@ sl_status sl_draw_onto(sl_context *context, cairo_t *cairo, const sl_scene *scen
         {SL_LAYER_STAB_TREE, draw_tree},
         {SL_LAYER_WALLS, draw_walls},
         {SL_LAYER_STARTS, draw_starts},
+        {0, draw_fault_marks},
     };
     const plan p = {.cairo = cairo,
                     .scene = scene,

@@ -5,6 +5,7 @@
 
 #include "sightline/bake.h"
 #include "sightline/explain.h"
+#include "sightline/faults.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -31,8 +32,9 @@ typedef struct sl_draw_options {
     uint32_t cell;   ///< the chosen cell; usually SL_NO_CELL, for none
     double width; ///< of the picture, pixels (PDF: points), SL_DRAW_WIDTH_MIN to ..._MAX; usually
                   ///< 1200. Lines and text grow with it; the height follows the map
-    const char *title; ///< UTF-8; NULL for none
-    bool dark;         ///< light lines on a dark page
+    const char *title;       ///< UTF-8; NULL for none
+    bool dark;               ///< light lines on a dark page
+    const sl_faults *faults; ///< marked over all else; NULL for none
 } sl_draw_options;
 
 SL_API sl_draw_options sl_draw_options_default(void);

@@ -1,0 +1,242 @@
+// The search for faults on maps made to have them, one by one; and what snapping mends.
+#include "testing.h"
+
+#include "map_same.h"
+
+#include <math.h>
+
+typedef struct examined {
+    sl_context *context;
+    testing_memory memory;
+    sl_map map, cleaned;
+    sl_space space;
+    sl_faults faults;
+} examined;
+
+static void read_into(sl_context *context, const char *statements, sl_map *map) {
+    char text[4096];
+    snprintf(text, sizeof text, "sightline 1\n%s", statements);
+    assert_ok(context, sl_map_read_text(context, "f", text, strlen(text), map));
+}
+
+static void examine(const char *statements, double gap, double thin, examined *out) {
+    *out = (examined){0};
+    out->context = testing_context(&out->memory);
+    const sl_faults_options options = {.gap = gap, .thin = thin};
+    read_into(out->context, statements, &out->map);
+    testing_space(out->context, statements, &out->cleaned, &out->space);
+    assert_ok(out->context,
+              sl_find_faults(out->context, &out->map, &out->space, &options, &out->faults));
+}
+
+static void finish(examined *e) {
+    sl_map_destroy(e->context, &e->map);
+    sl_map_destroy(e->context, &e->cleaned);
+    sl_space_destroy(e->context, &e->space);
+    sl_faults_destroy(e->context, &e->faults);
+    sl_context_destroy(e->context);
+    assert_int_equal(e->memory.live, 0);
+}
+
+static void assert_counts(const examined *e, uint32_t leaks, uint32_t gaps, uint32_t overlaps,
+                          uint32_t crossings, uint32_t thin, uint32_t unreachable) {
+    const uint32_t expected[SL_FAULT_KINDS] = {leaks, gaps, overlaps, crossings, thin, unreachable};
+    uint32_t sum = 0;
+    for (int kind = 0; kind < SL_FAULT_KINDS; kind++) {
+        if (e->faults.counts[kind] != expected[kind])
+            fail_msg("%s: %u, not %u", sl_fault_name((sl_fault_kind)kind), e->faults.counts[kind],
+                     expected[kind]);
+        sum += expected[kind];
+    }
+    assert_int_equal(e->faults.count, sum);
+    for (uint32_t i = 1; i < e->faults.count; i++)
+        assert_true(e->faults.items[i - 1].kind <= e->faults.items[i].kind);
+}
+
+#define ROOM "walls 0 0 10 0 10 10 0 10 0 0\n"
+
+static void test_nothing(void **state) {
+    (void)state;
+    examined e;
+    examine(ROOM "start 5 5 0\n", 0.5, 0.5, &e);
+    assert_counts(&e, 0, 0, 0, 0, 0, 0);
+    assert_true(e.faults.has_starts);
+    finish(&e);
+    examine(ROOM, 0.5, 0.5, &e);
+    assert_counts(&e, 0, 0, 0, 0, 0, 0);
+    assert_false(e.faults.has_starts);
+    finish(&e);
+}
+
+/// A room in a frame, with a way out of the room 2 wide and one out of the frame 1 wide and 3 wide.
+static void test_leak(void **state) {
+    (void)state;
+    examined e;
+    examine(
+        "walls 4 2 2 2 2 8 8 8 8 2 6 2\n"
+        "walls 0 0 10 0 10 4\nwall 10 5 10 10\nwalls 0 10 0 0\nwalls 0 10 4 10\nwall 7 10 10 10\n"
+        "start 5 5 0\n",
+        0.5, 0.1, &e);
+    assert_counts(&e, 1, 0, 0, 0, 0, 0);
+    const sl_fault *leak = &e.faults.items[0];
+    assert_true(leak->size == 2);
+    assert_true(leak->at.a.y == 2 && leak->at.b.y == 2);
+    const sl_point *way = e.faults.points + leak->first_point;
+    assert_true(way[0].x == 5 && way[0].y == 5);
+    const sl_point end = way[leak->point_count - 1];
+    assert_true(end.x == 0 || end.x == 10 || end.y == 0 || end.y == 10);
+    assert_int_equal(leak->point_count, leak->cells + 1);
+    finish(&e);
+    // Two starts in the same room leak once; one in a closed room does not.
+    examine("walls 4 2 2 2 2 8 8 8 8 2 6 2\nwalls 20 2 25 2 25 8 20 8 20 2\n"
+            "start 5 5 0\nstart 6 6 0\nstart 22 4 0\n",
+            0.5, 0.1, &e);
+    assert_int_equal(e.faults.counts[SL_FAULT_LEAK], 1);
+    finish(&e);
+}
+
+static void test_gaps(void **state) {
+    (void)state;
+    examined e;
+    // An end near the middle of a wall, and two ends near each other.
+    examine(ROOM "wall 5 0.25 5 6\nwall 5 6.5 5 10\nstart 1 1 0\n", 0.5, 0.1, &e);
+    assert_counts(&e, 0, 2, 0, 0, 0, 0);
+    assert_true(e.faults.items[0].size == 0.25 && e.faults.items[1].size == 0.5);
+    assert_true(e.faults.items[0].at.b.y == 0 && e.faults.items[0].at.b.x == 5);
+    finish(&e);
+    examine(ROOM "wall 5 0.25 5 6\nwall 5 6.5 5 10\nstart 1 1 0\n", 0.4, 0.1, &e);
+    assert_counts(&e, 0, 1, 0, 0, 0, 0);
+    finish(&e);
+    // Joined by a short wall, or with a wall between, it is no gap.
+    examine(ROOM "wall 5 0.25 5 6\nwall 5 0.25 5 0\nstart 1 1 0\n", 0.5, 0.1, &e);
+    assert_counts(&e, 0, 0, 0, 0, 0, 0);
+    finish(&e);
+    examine(ROOM "wall 5 0.25 5 6\nwall 4 0.125 6 0.125\nstart 1 1 0\n", 0.3, 0.01, &e);
+    assert_counts(&e, 0, 3, 0, 0, 0, 0);
+    for (int i = 0; i < 3; i++) assert_true(e.faults.items[i].size == 0.125);
+    finish(&e);
+}
+
+static void test_pairs(void **state) {
+    (void)state;
+    examined e;
+    examine(ROOM "wall 2 5 6 5\nwall 4 5 8 5\nwall 4 5 4.5 5\nstart 1 1 0\n", 0.1, 0.1, &e);
+    assert_counts(&e, 0, 0, 3, 0, 0, 0);
+    assert_true(e.faults.items[0].size == 2 && e.faults.items[1].size == 0.5);
+    finish(&e);
+    // Walls that touch in a point, end to end and end to side, are in order.
+    examine(ROOM "wall 2 5 6 5\nwall 6 5 8 5\nwall 5 5 5 7\nstart 1 1 0\n", 0.1, 0.1, &e);
+    assert_counts(&e, 0, 0, 0, 0, 0, 0);
+    finish(&e);
+    examine(ROOM "wall 2 5 6 5\nwall 5 4 5 7\nstart 1 1 0\n", 0.1, 0.1, &e);
+    assert_counts(&e, 0, 0, 0, 1, 0, 0);
+    assert_true(e.faults.items[0].at.a.x == 5 && e.faults.items[0].at.a.y == 5);
+    finish(&e);
+}
+
+static void test_cells(void **state) {
+    (void)state;
+    examined e;
+    examine(ROOM "walls 4 4 6 4 6 6 4 6 4 4\nwall 6 6 6 10\nwall 6.25 6 6.25 10\nstart 1 1 0\n",
+            0.1, 0.3, &e);
+    assert_counts(&e, 0, 0, 0, 0, 1, 1);
+    assert_true(e.faults.items[0].size == 0.25);
+    assert_true(e.faults.items[1].size == 4 && e.faults.items[1].cells == 1);
+    assert_true(e.faults.items[1].at.a.x == 5 && e.faults.items[1].at.a.y == 5);
+    finish(&e);
+}
+
+/// Any order and turn of the walls tells the same faults.
+static void test_order(void **state) {
+    (void)state;
+    const char *const walls[] = {"wall 0 0 10 0\n", "wall 10 0 10 10\n", "wall 10 10 0 10\n",
+                                 "wall 0 10 0 0\n", "wall 5 0.25 5 6\n", "wall 5 6.5 5 9.5\n",
+                                 "wall 2 3 5 3\n",  "wall 1 3 4 3\n",    "wall 4 2 4 4\n"};
+    const size_t count = sizeof walls / sizeof *walls;
+    for (size_t first = 0; first < count; first++) {
+        char text[512] = "start 1 1 0\n";
+        for (size_t i = 0; i < count; i++) strcat(text, walls[(first + 2 * i) % count]);
+        examined e;
+        examine(text, 0.5, 0.1, &e);
+        assert_counts(&e, 0, 3, 1, 1, 0, 0);
+        finish(&e);
+    }
+}
+
+static void assert_snapped(const char *before, double gap, const char *after, size_t moved) {
+    sl_context *context = testing_context(NULL);
+    sl_map map = {0};
+    sl_snap_account account;
+    read_into(context, before, &map);
+    assert_ok(context, sl_map_snap(context, &map, gap, &account));
+    char *text = map_text(&map);
+    assert_string_equal(text + strlen("sightline 1\n"), after);
+    assert_int_equal(account.moved, moved);
+    assert_true(account.farthest <= gap);
+    free(text);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
+static void test_snap(void **state) {
+    (void)state;
+    // Onto a wall, along its own line; the other end is too far.
+    assert_snapped("wall 0 0 10 0\nwall 5 0.25 5 6\n", 0.5, "wall 0 0 10 0\nwall 5 0 5 6\n", 1);
+    // Ends that are near: the place that more walls have stays.
+    assert_snapped("wall 0 0 5 0.25\nwall 5 0 9 0\nwall 5 0 5 4\n", 0.5,
+                   "wall 0 0 5 0\nwall 5 0 9 0\nwall 5 0 5 4\n", 1);
+    // What touches is left alone, and so is what is farther.
+    assert_snapped("wall 0 0 10 0\nwall 5 0 5 6\nwall 7 1 7 3\n", 0.5,
+                   "wall 0 0 10 0\nwall 5 0 5 6\nwall 7 1 7 3\n", 0);
+    // A wall shorter than the gap vanishes.
+    assert_snapped("wall 0 0 0.25 0\nwall 3 0 5 0\n", 0.5, "wall 3 0 5 0\n", 1);
+    // Oblique, onto an upright wall: exactly onto it.
+    assert_snapped("wall 0 0 0 9\nwall 0.25 4 3 8\n", 0.5, "wall 0 0 0 9\nwall 0 4 3 8\n", 1);
+    sl_context *context = testing_context(NULL);
+    sl_map map = {0};
+    assert_int_equal(sl_map_snap(context, &map, 0, NULL), SL_BAD_ARGUMENT);
+    assert_int_equal(sl_map_snap(context, &map, NAN, NULL), SL_BAD_ARGUMENT);
+    assert_ok(context, sl_map_snap(context, &map, 1, NULL));
+    sl_context_destroy(context);
+}
+
+/// Whatever allocation fails, nothing is lost.
+static void test_memory(void **state) {
+    (void)state;
+    for (long fail_at = 1;; fail_at++) {
+        testing_memory memory = {0};
+        sl_context *context = testing_context(&memory);
+        sl_map map = {0}, cleaned = {0};
+        sl_space space = {0};
+        sl_faults faults = {0};
+        const char *const text = ROOM "wall 5 0.25 5 6\nwall 2 5 8 5\nstart 1 1 0\n";
+        read_into(context, text, &map);
+        testing_space(context, text, &cleaned, &space);
+        const long live = memory.live;
+        memory.calls = 0;
+        memory.fail_at = fail_at;
+        const sl_faults_options options = {.gap = 0.5};
+        const sl_status status = sl_find_faults(context, &map, &space, &options, &faults);
+        memory.fail_at = 0;
+        if (status != SL_OK) {
+            assert_int_equal(status, SL_NO_MEMORY);
+            assert_int_equal(memory.live, live);
+        }
+        sl_faults_destroy(context, &faults);
+        sl_map_destroy(context, &map);
+        sl_map_destroy(context, &cleaned);
+        sl_space_destroy(context, &space);
+        sl_context_destroy(context);
+        assert_int_equal(memory.live, 0);
+        if (status == SL_OK) break;
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_nothing), cmocka_unit_test(test_leak),   cmocka_unit_test(test_gaps),
+        cmocka_unit_test(test_pairs),   cmocka_unit_test(test_cells),  cmocka_unit_test(test_order),
+        cmocka_unit_test(test_snap),    cmocka_unit_test(test_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
