@@ -1,0 +1,992 @@
+/// Sightline's runtime for games: reads a baked file (.slv) and answers which cells are seen.
+///
+/// One file, C99 or C++, nothing but the standard library's memcpy, memset and memcmp; no
+/// allocation, no global state. Copy it into your sources, include it where you need it, and in
+/// exactly one file of C or C++ say before the include
+///
+///     #define SIGHTLINE_RUNTIME_IMPLEMENTATION
+///
+/// A baked file is a map cut into convex cells, numbered from 0, and for each cell its row: the
+/// cells that can be seen from anywhere in it. sl_runtime_open checks the whole file once; no later
+/// call can then read out of bounds or fail to end, whatever the file holds, and none fails. The
+/// bytes must stay where they are, unchanged, for as long as the sl_runtime is used. They are only
+/// read, and at any alignment: a mapped file, an array in the program, a piece of an archive.
+///
+/// An open sl_runtime is only read: any number of threads may ask it.
+///
+/// It wants IEEE doubles. Compiled with -ffast-math, or for x87, it stays as safe, and what
+/// sl_runtime_look says is then right but for rounding.
+#ifndef SIGHTLINE_RUNTIME_H
+#define SIGHTLINE_RUNTIME_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/// What stands before each function: `static` keeps them all to the file that implements them.
+#ifndef SL_RUNTIME_API
+#define SL_RUNTIME_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum sl_runtime_status {
+    SL_RUNTIME_OK = 0,
+    SL_RUNTIME_NOT_BAKED,  ///< no baked file at all
+    SL_RUNTIME_BYTE_ORDER, ///< baked on a machine of other byte order
+    SL_RUNTIME_VERSION,    ///< of a version that this header does not know
+    SL_RUNTIME_SIZE,       ///< cut short, or longer than it says
+    SL_RUNTIME_CHECKSUM,   ///< changed since it was written
+    SL_RUNTIME_SECTION,    ///< a section is missing, there twice, or does not fit
+    SL_RUNTIME_SPACE,      ///< the bounds, the tree, cells, exits: a number is out of range
+    SL_RUNTIME_ROW         ///< the rows: one is damaged
+} sl_runtime_status;
+
+/// The cell of a point outside the map.
+#define SL_RUNTIME_NO_CELL UINT32_MAX
+
+/// An open file. Counts and bounds are for reading; the pointers are the functions' own.
+typedef struct sl_runtime {
+    double min_x, min_y, max_x, max_y; ///< bounds of the map
+    uint32_t cell_count;
+    uint32_t portal_count; ///< portals are numbered too, for a game that keeps doors by them
+    uint32_t exit_count;   ///< of all cells: two a portal
+    uint32_t vertex_count;
+    uint32_t node_count;
+    uint32_t line_count;
+    int32_t root;
+    const unsigned char *nodes, *lines, *cells, *vertices, *exits, *row_offsets, *row_bytes;
+} sl_runtime;
+
+/// Checks everything. On failure `out` is left as it was.
+SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size, sl_runtime *out);
+
+/// A status in words, for a log.
+SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status);
+
+/// The cell that holds a point; SL_RUNTIME_NO_CELL outside the bounds and for NaN. On a split line
+/// the cell above (right of or over) it, on an oblique one the cell at its left; on the upper or
+/// right border the cell inside. Time: the tree's depth.
+SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, double y);
+
+/// Whether anything in cell `to` can be seen from anywhere in cell `from`. False where either is no
+/// cell (SL_RUNTIME_NO_CELL) and for a cell without a row. Time: the row's length. To ask for many
+/// cells from one, unpack its row (sl_runtime_row_bits).
+SL_RUNTIME_API bool sl_runtime_can_see(const sl_runtime *runtime, uint32_t from, uint32_t to);
+
+/// Whether a cell was looked from. A bake of the inside only leaves the cells outside without rows.
+SL_RUNTIME_API bool sl_runtime_has_row(const sl_runtime *runtime, uint32_t cell);
+
+/// Whether a cell is inside, where the map says what inside is.
+SL_RUNTIME_API bool sl_runtime_is_inside(const sl_runtime *runtime, uint32_t cell);
+
+/// A run of cells of a row: first .. end - 1.
+typedef struct sl_runtime_run {
+    uint32_t first, end;
+    const unsigned char *next, *stop; ///< the iteration's own
+} sl_runtime_run;
+
+/// Iterates the cells seen from one, ascending:
+///
+///     sl_runtime_run run = sl_runtime_row(&runtime, cell);
+///     while (sl_runtime_next(&run))
+///         for (uint32_t seen = run.first; seen < run.end; seen++) ...
+SL_RUNTIME_API sl_runtime_run sl_runtime_row(const sl_runtime *runtime, uint32_t cell);
+SL_RUNTIME_API bool sl_runtime_next(sl_runtime_run *run);
+
+/// How many cells are seen from one.
+SL_RUNTIME_API uint32_t sl_runtime_row_count(const sl_runtime *runtime, uint32_t cell);
+
+/// Unpacks a row: cell c is seen where bits[c / 8] >> c % 8 & 1. `bits` has (cell_count + 7) / 8
+/// bytes.
+SL_RUNTIME_API void sl_runtime_row_bits(const sl_runtime *runtime, uint32_t cell,
+                                        unsigned char *bits);
+
+/// An eye with its cone: from the direction `right` counter-clockwise to the direction `left`, its
+/// borders included. The directions are vectors of any length from 1e-150 to 1e150; with one that
+/// is not (0, NaN) the view is all round.
+typedef struct sl_runtime_view {
+    double x, y;
+    bool all_round; ///< `right` and `left` are not looked at
+    double right[2], left[2];
+} sl_runtime_view;
+
+SL_RUNTIME_API sl_runtime_view sl_runtime_view_all_round(double x, double y);
+
+/// A cone of less than 180 degrees about a direction; `tan_half` is the tangent of half its angle:
+/// 1 for 90 degrees. The borders are rounded: give a little more where the last bit matters.
+SL_RUNTIME_API sl_runtime_view sl_runtime_view_toward(double x, double y, double direction_x,
+                                                      double direction_y, double tan_half);
+
+/// How many uint32_t sl_runtime_look needs for scratch.
+SL_RUNTIME_API size_t sl_runtime_scratch_count(const sl_runtime *runtime);
+
+/// Eye-to-cell: the cells that some line from the eye, inside the cone, gets to through portals
+/// (Teller & Séquin 1991, depth first). Gives how many there are, and the first `room` of them in
+/// `cells`: the eye's own cell first, each other one after a cell through which it is seen. 0 where
+/// the eye is in no cell. `scratch` needs not be set to anything; one for each thread.
+///
+/// Exact for the coordinates in the file, with closed sight: a line may touch corners and run along
+/// walls. No sign is taken from a rounded number, so no cell is missed and none added. (A
+/// coordinate of the eye or of a direction that is below 1e-200 counts as 0.) Of the cells so seen
+/// it gives those in the row of the eye's cell, if that has one. A search that takes very long,
+/// which in a sound file is not to be expected, ends with that whole row, or without one with all
+/// cells.
+SL_RUNTIME_API uint32_t sl_runtime_look(const sl_runtime *runtime, const sl_runtime_view *view,
+                                        uint32_t *scratch, uint32_t *cells, uint32_t room);
+
+/// A cell: its corners, counter-clockwise, are the vertices first_vertex .., its exits first_exit
+/// ..
+typedef struct sl_runtime_cell {
+    uint32_t first_vertex, vertex_count, first_exit, exit_count;
+} sl_runtime_cell;
+
+/// A portal as a cell has it: which cell it leads to, and its ends as crossed on the way out.
+typedef struct sl_runtime_exit {
+    uint32_t portal, cell;
+    double left[2], right[2];
+} sl_runtime_exit;
+
+/// For drawing, finding ways, doors. The number must be less than the count of its kind.
+SL_RUNTIME_API sl_runtime_cell sl_runtime_get_cell(const sl_runtime *runtime, uint32_t cell);
+SL_RUNTIME_API sl_runtime_exit sl_runtime_get_exit(const sl_runtime *runtime, uint32_t exit);
+SL_RUNTIME_API void sl_runtime_get_vertex(const sl_runtime *runtime, uint32_t vertex, double *x,
+                                          double *y);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
+
+#if defined(SIGHTLINE_RUNTIME_IMPLEMENTATION) && !defined(SIGHTLINE_RUNTIME_IMPLEMENTED)
+#define SIGHTLINE_RUNTIME_IMPLEMENTED
+
+#include <string.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// --- numbers in the file: copied out, so that neither alignment nor aliasing matters
+
+static uint32_t slrt_u32(const unsigned char *at) {
+    uint32_t value;
+    memcpy(&value, at, sizeof value);
+    return value;
+}
+
+static int32_t slrt_i32(const unsigned char *at) {
+    int32_t value;
+    memcpy(&value, at, sizeof value);
+    return value;
+}
+
+static uint64_t slrt_u64(const unsigned char *at) {
+    uint64_t value;
+    memcpy(&value, at, sizeof value);
+    return value;
+}
+
+static double slrt_f64(const unsigned char *at) {
+    double value;
+    memcpy(&value, at, sizeof value);
+    return value;
+}
+
+// --- the file: layout as in lib/bake/slv.h
+
+enum {
+    SLRT_HEADER_BYTES = 32,
+    SLRT_ENTRY_BYTES = 24, ///< of the table of sections
+    SLRT_NODE_BYTES = 24,
+    SLRT_CELL_BYTES = 24,
+    SLRT_VERTEX_BYTES = 16,
+    SLRT_EXIT_BYTES = 40,
+    SLRT_LINE_BYTES = 32
+};
+
+enum slrt_tag {
+    SLRT_INFO,
+    SLRT_NODE,
+    SLRT_CELL,
+    SLRT_VERT,
+    SLRT_PORT,
+    SLRT_EXIT,
+    SLRT_PVSO,
+    SLRT_PVSB,
+    SLRT_LINE,
+    SLRT_TAGS
+};
+
+typedef struct slrt_section {
+    const unsigned char *items; ///< NULL where the file has none
+    uint64_t count;
+} slrt_section;
+
+static uint32_t slrt_crc_on(const uint32_t *table, uint32_t sum, const unsigned char *at,
+                            size_t count) {
+    size_t i;
+    for (i = 0; i < count; i++) sum = table[(sum ^ at[i]) & 255] ^ sum >> 8;
+    return sum;
+}
+
+/// CRC-32 (as zlib's) of the file, the checksum's own four bytes taken as 0.
+static uint32_t slrt_checksum(const unsigned char *bytes, size_t size) {
+    static const unsigned char zeros[4] = {0, 0, 0, 0};
+    uint32_t table[256], sum = UINT32_MAX, i;
+    for (i = 0; i < 256; i++) {
+        uint32_t value = i;
+        int bit;
+        for (bit = 0; bit < 8; bit++) value = value >> 1 ^ (value & 1 ? 0xedb88320u : 0);
+        table[i] = value;
+    }
+    sum = slrt_crc_on(table, sum, bytes, SLRT_HEADER_BYTES - 4);
+    sum = slrt_crc_on(table, sum, zeros, 4);
+    sum = slrt_crc_on(table, sum, bytes + SLRT_HEADER_BYTES, size - SLRT_HEADER_BYTES);
+    return ~sum;
+}
+
+static sl_runtime_status slrt_check_header(const unsigned char *bytes, size_t size) {
+    static const unsigned char magic[8] = {0x89, 'S', 'L', 'V', '\r', '\n', 0x1a, '\n'};
+    if (!bytes || size < 8 || memcmp(bytes, magic, 8) != 0) return SL_RUNTIME_NOT_BAKED;
+    if (size < SLRT_HEADER_BYTES) return SL_RUNTIME_SIZE;
+    if (slrt_u32(bytes + 12) != 0x01020304u) return SL_RUNTIME_BYTE_ORDER;
+    if (slrt_u32(bytes + 8) != 1) return SL_RUNTIME_VERSION;
+    if (slrt_u64(bytes + 16) != size) return SL_RUNTIME_SIZE;
+    if (slrt_checksum(bytes, size) != slrt_u32(bytes + 28)) return SL_RUNTIME_CHECKSUM;
+    if (slrt_u32(bytes + 24) > (size - SLRT_HEADER_BYTES) / SLRT_ENTRY_BYTES)
+        return SL_RUNTIME_SECTION;
+    return SL_RUNTIME_OK;
+}
+
+/// Finds the sections that the runtime knows; what else there is it passes over.
+static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t size,
+                                            slrt_section *found) {
+    static const char tags[SLRT_TAGS][5] = {"INFO", "NODE", "CELL", "VERT", "PORT",
+                                            "EXIT", "PVSO", "PVSB", "LINE"};
+    static const uint32_t item_bytes[SLRT_TAGS] = {
+        128, SLRT_NODE_BYTES, SLRT_CELL_BYTES, SLRT_VERTEX_BYTES, 40, SLRT_EXIT_BYTES, 8,
+        1,   SLRT_LINE_BYTES};
+    const uint32_t count = slrt_u32(bytes + 24);
+    uint32_t i;
+    int tag;
+    for (i = 0; i < count; i++) {
+        const unsigned char *entry =
+            bytes + SLRT_HEADER_BYTES + (size_t)i * (size_t)SLRT_ENTRY_BYTES;
+        const uint64_t offset = slrt_u64(entry + 8), items = slrt_u64(entry + 16);
+        for (tag = 0; tag < SLRT_TAGS && memcmp(entry, tags[tag], 4) != 0;) tag++;
+        if (tag == SLRT_TAGS) continue;
+        if (found[tag].items || slrt_u32(entry + 4) != item_bytes[tag] || offset > size ||
+            items > (size - offset) / item_bytes[tag])
+            return SL_RUNTIME_SECTION;
+        found[tag].items = bytes + offset;
+        found[tag].count = items;
+    }
+    for (tag = 0; tag < SLRT_LINE; tag++)
+        if (!found[tag].items) return SL_RUNTIME_SECTION;
+    return SL_RUNTIME_OK;
+}
+
+/// Whether coordinates are what a sound file may hold: numbers, of 2e150 at most, so that products
+/// stay finite. Compared as integers, which no compiler's idea of fast arithmetic changes.
+static bool slrt_usable(const unsigned char *at, int count) {
+    const double most = 2e150;
+    uint64_t limit;
+    int i;
+    memcpy(&limit, &most, sizeof limit);
+    for (i = 0; i < count; i++)
+        if ((slrt_u64(at + 8 * i) & UINT64_MAX >> 1) > limit) return false;
+    return true;
+}
+
+static sl_runtime_status slrt_check_sizes(const slrt_section *found, sl_runtime *rt) {
+    const unsigned char *info = found[SLRT_INFO].items;
+    if (found[SLRT_INFO].count != 1 || found[SLRT_PVSO].count != found[SLRT_CELL].count + 1)
+        return SL_RUNTIME_SECTION;
+    // Cells are told as ~cell in 32 bits with sign; the search numbers the ends of exits.
+    if (!found[SLRT_CELL].count || found[SLRT_CELL].count > INT32_MAX ||
+        found[SLRT_NODE].count > INT32_MAX || found[SLRT_LINE].count > INT32_MAX ||
+        found[SLRT_EXIT].count > INT32_MAX / 2 - 4 || found[SLRT_VERT].count > UINT32_MAX ||
+        found[SLRT_PORT].count > UINT32_MAX)
+        return SL_RUNTIME_SPACE;
+    rt->cell_count = (uint32_t)found[SLRT_CELL].count;
+    rt->node_count = (uint32_t)found[SLRT_NODE].count;
+    rt->line_count = (uint32_t)found[SLRT_LINE].count;
+    rt->exit_count = (uint32_t)found[SLRT_EXIT].count;
+    rt->vertex_count = (uint32_t)found[SLRT_VERT].count;
+    rt->portal_count = (uint32_t)found[SLRT_PORT].count;
+    rt->nodes = found[SLRT_NODE].items;
+    rt->lines = found[SLRT_LINE].items;
+    rt->cells = found[SLRT_CELL].items;
+    rt->vertices = found[SLRT_VERT].items;
+    rt->exits = found[SLRT_EXIT].items;
+    rt->row_offsets = found[SLRT_PVSO].items;
+    rt->row_bytes = found[SLRT_PVSB].items;
+    if (!slrt_usable(info, 4)) return SL_RUNTIME_SPACE;
+    rt->min_x = slrt_f64(info);
+    rt->min_y = slrt_f64(info + 8);
+    rt->max_x = slrt_f64(info + 16);
+    rt->max_y = slrt_f64(info + 24);
+    rt->root = slrt_i32(info + 32);
+    return rt->min_x < rt->max_x && rt->min_y < rt->max_y ? SL_RUNTIME_OK : SL_RUNTIME_SPACE;
+}
+
+/// A child comes after its parent, so that every way down ends.
+static bool slrt_child_is_sound(const sl_runtime *rt, int64_t parent, int32_t child) {
+    return child < 0 ? (uint32_t)~child < rt->cell_count
+                     : child > parent && (uint32_t)child < rt->node_count;
+}
+
+static bool slrt_tree_is_sound(const sl_runtime *rt) {
+    uint32_t i;
+    if (!slrt_child_is_sound(rt, -1, rt->root)) return false;
+    for (i = 0; i < rt->node_count; i++) {
+        const unsigned char *node = rt->nodes + (size_t)i * SLRT_NODE_BYTES;
+        const int32_t axis = slrt_i32(node + 8);
+        if (!slrt_usable(node, 1) || !slrt_child_is_sound(rt, i, slrt_i32(node + 12)) ||
+            !slrt_child_is_sound(rt, i, slrt_i32(node + 16)))
+            return false;
+        if (axis < 0 || axis > 2 || (axis == 2 && slrt_u32(node + 20) >= rt->line_count))
+            return false;
+    }
+    for (i = 0; i < rt->line_count; i++) {
+        const unsigned char *line = rt->lines + (size_t)i * SLRT_LINE_BYTES;
+        if (!slrt_usable(line, 4) ||
+            (slrt_f64(line) == slrt_f64(line + 16) && slrt_f64(line + 8) == slrt_f64(line + 24)))
+            return false;
+    }
+    return true;
+}
+
+static bool slrt_cells_are_sound(const sl_runtime *rt) {
+    uint32_t i, exits = 0;
+    for (i = 0; i < rt->cell_count; i++) {
+        const sl_runtime_cell cell = sl_runtime_get_cell(rt, i);
+        if (cell.vertex_count < 3 || cell.first_vertex > rt->vertex_count ||
+            cell.vertex_count > rt->vertex_count - cell.first_vertex || cell.first_exit != exits ||
+            cell.exit_count > rt->exit_count - exits)
+            return false;
+        exits += cell.exit_count;
+    }
+    if (exits != rt->exit_count) return false;
+    for (i = 0; i < rt->vertex_count; i++)
+        if (!slrt_usable(rt->vertices + (size_t)i * SLRT_VERTEX_BYTES, 2)) return false;
+    for (i = 0; i < rt->exit_count; i++) {
+        const unsigned char *exit = rt->exits + (size_t)i * SLRT_EXIT_BYTES;
+        if (slrt_u32(exit) >= rt->portal_count || slrt_u32(exit + 4) >= rt->cell_count ||
+            !slrt_usable(exit + 8, 4))
+            return false;
+    }
+    return true;
+}
+
+/// A number of a row in LEB128: seven bits a byte, low first, the high bit set on all but the last.
+/// Checked rows only.
+static uint32_t slrt_number(const unsigned char **next) {
+    uint32_t number = *(*next)++;
+    if (number & 0x80) {
+        unsigned shift = 0;
+        uint32_t byte;
+        number &= 0x7f;
+        do {
+            shift += 7;
+            byte = *(*next)++;
+            number |= (byte & 0x7f) << shift;
+        } while (byte & 0x80);
+    }
+    return number;
+}
+
+/// Passes over a number of an unchecked row; false where the row ends within it or it takes more
+/// than 32 bits.
+static bool slrt_pass_number(const unsigned char **next, const unsigned char *stop) {
+    int i;
+    for (i = 0; i < 5 && *next < stop; i++) {
+        const unsigned char byte = *(*next)++;
+        if (!(byte & 0x80)) return i < 4 || byte < 16;
+    }
+    return false;
+}
+
+/// A row: runs of cells in ascending order, with gaps between, the row's own cell among them; or
+/// nothing at all.
+static bool slrt_row_is_sound(const sl_runtime *rt, uint32_t cell) {
+    const unsigned char *next = rt->row_bytes + slrt_u64(rt->row_offsets + (size_t)cell * 8);
+    const unsigned char *stop = rt->row_bytes + slrt_u64(rt->row_offsets + (size_t)cell * 8 + 8);
+    const bool empty = next == stop;
+    uint64_t end = 0;
+    bool has_own = false;
+    while (next < stop) {
+        const unsigned char *at = next;
+        uint64_t first;
+        uint32_t skip, length;
+        if (!slrt_pass_number(&next, stop) || !slrt_pass_number(&next, stop)) return false;
+        skip = slrt_number(&at);
+        length = slrt_number(&at);
+        if ((!skip && end) || !length) return false;
+        first = end + skip;
+        end = first + length;
+        if (end > rt->cell_count) return false;
+        has_own = has_own || (cell >= first && cell < end);
+    }
+    return has_own || empty;
+}
+
+static bool slrt_rows_are_sound(const sl_runtime *rt, uint64_t byte_count) {
+    uint64_t before = 0;
+    uint32_t i;
+    if (slrt_u64(rt->row_offsets) != 0) return false;
+    for (i = 0; i < rt->cell_count; i++) {
+        const uint64_t end = slrt_u64(rt->row_offsets + (size_t)i * 8 + 8);
+        if (end < before || end > byte_count || (end != byte_count && i + 1 == rt->cell_count))
+            return false;
+        before = end;
+        if (!slrt_row_is_sound(rt, i)) return false;
+    }
+    return true;
+}
+
+SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size, sl_runtime *out) {
+    const unsigned char *file = (const unsigned char *)bytes;
+    slrt_section found[SLRT_TAGS];
+    sl_runtime rt;
+    sl_runtime_status status = slrt_check_header(file, size);
+    if (status != SL_RUNTIME_OK) return status;
+    memset(found, 0, sizeof found);
+    status = slrt_find_sections(file, size, found);
+    if (status == SL_RUNTIME_OK) status = slrt_check_sizes(found, &rt);
+    if (status != SL_RUNTIME_OK) return status;
+    if (!slrt_tree_is_sound(&rt) || !slrt_cells_are_sound(&rt)) return SL_RUNTIME_SPACE;
+    if (!slrt_rows_are_sound(&rt, found[SLRT_PVSB].count)) return SL_RUNTIME_ROW;
+    *out = rt;
+    return SL_RUNTIME_OK;
+}
+
+SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status) {
+    switch (status) {
+    case SL_RUNTIME_OK:
+        return "no fault";
+    case SL_RUNTIME_NOT_BAKED:
+        return "not a baked file (.slv)";
+    case SL_RUNTIME_BYTE_ORDER:
+        return "baked on a machine of other byte order";
+    case SL_RUNTIME_VERSION:
+        return "of another version of the baked format";
+    case SL_RUNTIME_SIZE:
+        return "cut short, or longer than it says";
+    case SL_RUNTIME_CHECKSUM:
+        return "damaged: the checksum does not match";
+    case SL_RUNTIME_SECTION:
+        return "damaged: a section is missing, there twice, or does not fit";
+    case SL_RUNTIME_SPACE:
+        return "damaged: a number of the bounds, tree, cells or exits is out of range";
+    case SL_RUNTIME_ROW:
+        return "damaged: a row of the visible sets";
+    }
+    return "unknown status";
+}
+
+SL_RUNTIME_API sl_runtime_cell sl_runtime_get_cell(const sl_runtime *runtime, uint32_t cell) {
+    sl_runtime_cell out;
+    memcpy(&out, runtime->cells + (size_t)cell * SLRT_CELL_BYTES, sizeof out);
+    return out;
+}
+
+SL_RUNTIME_API sl_runtime_exit sl_runtime_get_exit(const sl_runtime *runtime, uint32_t exit) {
+    sl_runtime_exit out;
+    memcpy(&out, runtime->exits + (size_t)exit * SLRT_EXIT_BYTES, sizeof out);
+    return out;
+}
+
+SL_RUNTIME_API void sl_runtime_get_vertex(const sl_runtime *runtime, uint32_t vertex, double *x,
+                                          double *y) {
+    const unsigned char *at = runtime->vertices + (size_t)vertex * SLRT_VERTEX_BYTES;
+    *x = slrt_f64(at);
+    *y = slrt_f64(at + 8);
+}
+
+// --- rows
+
+SL_RUNTIME_API sl_runtime_run sl_runtime_row(const sl_runtime *runtime, uint32_t cell) {
+    sl_runtime_run run;
+    run.first = run.end = 0;
+    run.next = run.stop = NULL;
+    if (cell < runtime->cell_count) {
+        const unsigned char *offsets = runtime->row_offsets + (size_t)cell * 8;
+        run.next = runtime->row_bytes + slrt_u64(offsets);
+        run.stop = runtime->row_bytes + slrt_u64(offsets + 8);
+    }
+    return run;
+}
+
+SL_RUNTIME_API bool sl_runtime_next(sl_runtime_run *run) {
+    if (run->next == run->stop) return false;
+    run->first = run->end + slrt_number(&run->next);
+    run->end = run->first + slrt_number(&run->next);
+    return true;
+}
+
+SL_RUNTIME_API bool sl_runtime_can_see(const sl_runtime *runtime, uint32_t from, uint32_t to) {
+    sl_runtime_run run = sl_runtime_row(runtime, from);
+    while (sl_runtime_next(&run))
+        if (to < run.end) return to >= run.first;
+    return false;
+}
+
+SL_RUNTIME_API bool sl_runtime_has_row(const sl_runtime *runtime, uint32_t cell) {
+    const sl_runtime_run run = sl_runtime_row(runtime, cell);
+    return run.next != run.stop;
+}
+
+SL_RUNTIME_API bool sl_runtime_is_inside(const sl_runtime *runtime, uint32_t cell) {
+    return cell < runtime->cell_count &&
+           slrt_u32(runtime->cells + (size_t)cell * SLRT_CELL_BYTES + 16) != 0;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_row_count(const sl_runtime *runtime, uint32_t cell) {
+    sl_runtime_run run = sl_runtime_row(runtime, cell);
+    uint32_t count = 0;
+    while (sl_runtime_next(&run)) count += run.end - run.first;
+    return count;
+}
+
+SL_RUNTIME_API void sl_runtime_row_bits(const sl_runtime *runtime, uint32_t cell,
+                                        unsigned char *bits) {
+    sl_runtime_run run = sl_runtime_row(runtime, cell);
+    memset(bits, 0, ((size_t)runtime->cell_count + 7) / 8);
+    while (sl_runtime_next(&run)) {
+        uint32_t i;
+        for (i = run.first; i < run.end; i++) bits[i / 8] |= (unsigned char)(1 << i % 8);
+    }
+}
+
+// --- signs
+
+/// A vector between two points: rounded, and the points that it goes to and from.
+typedef struct slrt_arm {
+    double x, y;
+    double to_x, to_y, from_x, from_y;
+} slrt_arm;
+
+static slrt_arm slrt_make_arm(double from_x, double from_y, double to_x, double to_y) {
+    slrt_arm arm;
+    arm.x = to_x - from_x;
+    arm.y = to_y - from_y;
+    arm.to_x = to_x;
+    arm.to_y = to_y;
+    arm.from_x = from_x;
+    arm.from_y = from_y;
+    return arm;
+}
+
+/// Adds a number to a sum kept without rounding, as parts that do not overlap, least first
+/// (Shewchuk 1997, Grow-Expansion with zero elimination). Gives the new count of parts.
+static int slrt_add(double *parts, int count, double number) {
+    int i, kept = 0;
+    for (i = 0; i < count; i++) {
+        const double sum = number + parts[i], added = sum - number;
+        const double lost = (number - (sum - added)) + (parts[i] - added);
+        if (lost != 0) parts[kept++] = lost;
+        number = sum;
+    }
+    if (number != 0) parts[kept++] = number;
+    return kept;
+}
+
+/// The upper half of a number's bits, rounded: what is left has as few.
+static double slrt_upper(double number) {
+    uint64_t bits;
+    memcpy(&bits, &number, sizeof bits);
+    bits = (bits + (UINT64_C(1) << 26)) & ~((UINT64_C(1) << 27) - 1);
+    memcpy(&number, &bits, sizeof number);
+    return number;
+}
+
+/// Adds a product, in two parts (Dekker's). The halves being cut by their bits, each step is
+/// without rounding also where a compiler fuses it with the next.
+static int slrt_add_product(double *parts, int count, double a, double b) {
+    const double product = a * b;
+    const double a_upper = slrt_upper(a), a_lower = a - a_upper;
+    const double b_upper = slrt_upper(b), b_lower = b - b_upper;
+    const double lost = a_lower * b_lower -
+                        (((product - a_upper * b_upper) - a_lower * b_upper) - a_upper * b_lower);
+    return slrt_add(parts, slrt_add(parts, count, lost), product);
+}
+
+static double slrt_larger(double a, double b) {
+    if (a < 0) a = -a;
+    if (b < 0) b = -b;
+    return a > b ? a : b;
+}
+
+/// The points of an arm, scaled so that no product of two comes near underflow.
+static void slrt_scaled(const slrt_arm *arm, double *to_x, double *to_y, double *from_x,
+                        double *from_y) {
+    const double largest =
+        slrt_larger(slrt_larger(arm->to_x, arm->to_y), slrt_larger(arm->from_x, arm->from_y));
+    const double scale = largest < 1e50 ? 8.749002899132048e+99 : 1; // 2^332
+    *to_x = scale * arm->to_x;
+    *to_y = scale * arm->to_y;
+    *from_x = scale * arm->from_x;
+    *from_y = scale * arm->from_y;
+}
+
+/// As slrt_side, without rounding.
+static int slrt_side_exact(const slrt_arm *u, const slrt_arm *v) {
+    double a_x, a_y, b_x, b_y, c_x, c_y, d_x, d_y, parts[16], sum;
+    int count = 0;
+    // What maps are full of: points on one axial line.
+    if (u->to_x == u->from_x && v->to_x == v->from_x) return 0;
+    if (u->to_y == u->from_y && v->to_y == v->from_y) return 0;
+    slrt_scaled(u, &a_x, &a_y, &b_x, &b_y);
+    slrt_scaled(v, &c_x, &c_y, &d_x, &d_y);
+    count = slrt_add_product(parts, count, a_x, c_y);
+    count = slrt_add_product(parts, count, a_x, -d_y);
+    count = slrt_add_product(parts, count, -b_x, c_y);
+    count = slrt_add_product(parts, count, b_x, d_y);
+    count = slrt_add_product(parts, count, -a_y, c_x);
+    count = slrt_add_product(parts, count, a_y, d_x);
+    count = slrt_add_product(parts, count, b_y, c_x);
+    count = slrt_add_product(parts, count, -b_y, d_x);
+    sum = count ? parts[count - 1] : 0;
+    return (sum > 0) - (sum < 0);
+}
+
+/// The sign of u x v: 1 where v points to the left of u. From the rounded product where that is
+/// large enough (Shewchuk 1997, section 4.1: (3 + 16e)e of the sum of its parts, e = 2^-53).
+static int slrt_side(const slrt_arm *u, const slrt_arm *v) {
+    const double left = u->x * v->y, right = u->y * v->x;
+    const double product = left - right;
+    const double sum = (left < 0 ? -left : left) + (right < 0 ? -right : right);
+    const double bound = 4e-16 * sum + 1e-300;
+    if (product > bound) return 1;
+    if (-product > bound) return -1;
+    return slrt_side_exact(u, v);
+}
+
+/// Whether two vectors on one line point the same way; false where either is 0.
+static bool slrt_same_way(const slrt_arm *u, const slrt_arm *v) {
+    return (u->to_x > u->from_x && v->to_x > v->from_x) ||
+           (u->to_x < u->from_x && v->to_x < v->from_x) ||
+           (u->to_y > u->from_y && v->to_y > v->from_y) ||
+           (u->to_y < u->from_y && v->to_y < v->from_y);
+}
+
+// --- from point to cell
+
+static int slrt_side_of_line(const unsigned char *line, double x, double y) {
+    const double a_x = slrt_f64(line), a_y = slrt_f64(line + 8);
+    const slrt_arm along = slrt_make_arm(a_x, a_y, slrt_f64(line + 16), slrt_f64(line + 24));
+    const slrt_arm to = slrt_make_arm(a_x, a_y, x, y);
+    return slrt_side(&along, &to);
+}
+
+/// The exit of a cell that a point lies strictly beyond; NULL for none.
+static const unsigned char *slrt_exit_before(const sl_runtime *rt, uint32_t cell, double x,
+                                             double y) {
+    const sl_runtime_cell c = sl_runtime_get_cell(rt, cell);
+    uint32_t i;
+    for (i = 0; i < c.exit_count; i++) {
+        const unsigned char *exit = rt->exits + (size_t)(c.first_exit + i) * SLRT_EXIT_BYTES;
+        // Left to right: what is beyond lies at the left hand.
+        if (slrt_side_of_line(exit + 8, x, y) > 0) return exit;
+    }
+    return NULL;
+}
+
+/// The descent by oblique lines. The corners of their cells are rounded, so the cell that the tree
+/// leads to may be next to the one that holds the point.
+static uint32_t slrt_locate_oblique(const sl_runtime *rt, double x, double y) {
+    int32_t at = rt->root;
+    uint32_t cell, steps;
+    while (at >= 0) {
+        const unsigned char *node = rt->nodes + (size_t)at * SLRT_NODE_BYTES;
+        const int32_t axis = slrt_i32(node + 8);
+        const bool below =
+            axis == 2 ? slrt_side_of_line(rt->lines + (size_t)slrt_u32(node + 20) * SLRT_LINE_BYTES,
+                                          x, y) < 0
+                      : (axis ? y : x) < slrt_f64(node);
+        at = slrt_i32(node + (below ? 12 : 16));
+    }
+    cell = (uint32_t)~at;
+    for (steps = 0; steps < 16; steps++) {
+        const unsigned char *exit = slrt_exit_before(rt, cell, x, y);
+        if (!exit) break;
+        cell = slrt_u32(exit + 4);
+    }
+    return cell;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, double y) {
+    int32_t at = runtime->root;
+    if (!(x >= runtime->min_x && x <= runtime->max_x && y >= runtime->min_y && y <= runtime->max_y))
+        return SL_RUNTIME_NO_CELL;
+    if (runtime->line_count) return slrt_locate_oblique(runtime, x, y);
+    while (at >= 0) {
+        const unsigned char *node = runtime->nodes + (size_t)at * SLRT_NODE_BYTES;
+        at = slrt_i32(node + ((slrt_i32(node + 8) ? y : x) >= slrt_f64(node) ? 16 : 12));
+    }
+    return (uint32_t)~at;
+}
+
+// --- eye-to-cell
+
+SL_RUNTIME_API sl_runtime_view sl_runtime_view_all_round(double x, double y) {
+    sl_runtime_view view;
+    memset(&view, 0, sizeof view);
+    view.x = x;
+    view.y = y;
+    view.all_round = true;
+    return view;
+}
+
+SL_RUNTIME_API sl_runtime_view sl_runtime_view_toward(double x, double y, double direction_x,
+                                                      double direction_y, double tan_half) {
+    sl_runtime_view view = sl_runtime_view_all_round(x, y);
+    view.all_round = false;
+    view.right[0] = direction_x + direction_y * tan_half;
+    view.right[1] = direction_y - direction_x * tan_half;
+    view.left[0] = direction_x - direction_y * tan_half;
+    view.left[1] = direction_y + direction_x * tan_half;
+    return view;
+}
+
+/// A border of a sector is told by a number: end 0 (left) or 1 (right) of exit e as 2e or 2e + 1,
+/// SLRT_REVERSED more for the opposite direction; or one of the cone's arms.
+#define SLRT_REVERSED  0x80000000u
+#define SLRT_ARM       (UINT32_MAX - 4)
+#define SLRT_ALL_ROUND UINT32_MAX ///< no borders, but in the eye's cell
+enum { SLRT_MOST_ARMS = 4 };
+
+enum { SLRT_SEEN = 1, SLRT_ENTERED = 2, SLRT_ON_PATH = 4, SLRT_IN_ROW = 8 };
+
+/// A search, depth first. The path is a stack of four numbers a cell: the cell, how many of its
+/// exits are done, the right and left border of the sector that it is seen in from the eye.
+typedef struct slrt_search {
+    const sl_runtime *rt;
+    const sl_runtime_view *view;
+    double x, y; ///< the eye
+    slrt_arm cone[SLRT_MOST_ARMS];
+    uint32_t *path, depth;
+    uint32_t *sectors; ///< by cell: borders of the sector that it was last entered with
+    unsigned char *marks;
+    bool has_row;
+    uint32_t *cells, room, count;
+    uint64_t patience;
+} slrt_search;
+
+static slrt_arm slrt_border(const slrt_search *s, uint32_t border) {
+    const double x = s->x, y = s->y;
+    const uint32_t number = border & ~SLRT_REVERSED;
+    const unsigned char *end;
+    if (border >= SLRT_ARM) return s->cone[border - SLRT_ARM];
+    end = s->rt->exits + (size_t)(number / 2) * SLRT_EXIT_BYTES + 8 + 16 * (number % 2);
+    return border == number ? slrt_make_arm(x, y, slrt_f64(end), slrt_f64(end + 8))
+                            : slrt_make_arm(slrt_f64(end), slrt_f64(end + 8), x, y);
+}
+
+static bool slrt_is_zero(const slrt_arm *arm) {
+    return arm->to_x == arm->from_x && arm->to_y == arm->from_y;
+}
+
+/// Whether v is in the sector from a counter-clockwise to b, of at most 180 degrees and borders
+/// included, given the signs of a x v and v x b.
+static bool slrt_within(const slrt_arm *v, const slrt_arm *a, const slrt_arm *b, int from_a,
+                        int to_b) {
+    if (from_a < 0 || to_b < 0) return false;
+    return (from_a && to_b) || slrt_same_way(a, v) || slrt_same_way(b, v);
+}
+
+/// Narrows a sector of less than 180 degrees to what of it leaves through an exit; false for
+/// nothing. From an eye on the exit everything in front of it does.
+static bool slrt_narrow(const slrt_search *s, uint32_t exit, uint32_t *right, uint32_t *left) {
+    uint32_t exit_right = 2 * exit + 1, exit_left = 2 * exit;
+    slrt_arm p = slrt_border(s, exit_right), q = slrt_border(s, exit_left), a, b;
+    int a_p, a_q;
+    bool right_within;
+    if (slrt_side(&p, &q) < 0) return false;
+    if (*right == SLRT_ALL_ROUND) {
+        *right = exit_right;
+        *left = exit_left;
+        return true;
+    }
+    if (slrt_is_zero(&p)) {
+        exit_right = exit_left | SLRT_REVERSED;
+        p = slrt_border(s, exit_right);
+    } else if (slrt_is_zero(&q)) {
+        exit_left = exit_right | SLRT_REVERSED;
+        q = slrt_border(s, exit_left);
+    }
+    a = slrt_border(s, *right);
+    b = slrt_border(s, *left);
+    a_p = slrt_side(&a, &p);
+    a_q = slrt_side(&a, &q);
+    right_within = slrt_within(&p, &a, &b, a_p, slrt_side(&p, &b));
+    if (!right_within && !slrt_within(&a, &p, &q, -a_p, a_q)) return false;
+    if (slrt_within(&q, &a, &b, a_q, slrt_side(&q, &b))) *left = exit_left;
+    if (right_within) *right = exit_right;
+    return true;
+}
+
+/// Whether the sector that a cell was last entered with holds another.
+static bool slrt_covered(const slrt_search *s, uint32_t cell, uint32_t right, uint32_t left) {
+    const uint32_t was_right = s->sectors[2 * (size_t)cell];
+    const uint32_t was_left = s->sectors[2 * (size_t)cell + 1];
+    slrt_arm a, b, v, w;
+    if (was_right == right && was_left == left) return true;
+    a = slrt_border(s, was_right);
+    b = slrt_border(s, was_left);
+    v = slrt_border(s, right);
+    w = slrt_border(s, left);
+    return slrt_within(&v, &a, &b, slrt_side(&a, &v), slrt_side(&v, &b)) &&
+           slrt_within(&w, &a, &b, slrt_side(&a, &w), slrt_side(&w, &b));
+}
+
+static void slrt_see(slrt_search *s, uint32_t cell) {
+    if (s->marks[cell] & SLRT_SEEN) return;
+    s->marks[cell] |= SLRT_SEEN;
+    if (s->count < s->room) s->cells[s->count] = cell;
+    s->count++;
+}
+
+/// Goes on into a cell, unless nothing new can come of it: a line passes a convex cell once, so one
+/// that is on the path has been seen by a wider sector; so has one that was entered by one.
+static void slrt_enter(slrt_search *s, uint32_t cell, uint32_t right, uint32_t left) {
+    uint32_t *top = s->path + 4 * (size_t)s->depth;
+    if (s->has_row && !(s->marks[cell] & SLRT_IN_ROW)) return;
+    if (s->marks[cell] & SLRT_ON_PATH) return;
+    if (s->marks[cell] & SLRT_ENTERED && slrt_covered(s, cell, right, left)) return;
+    slrt_see(s, cell);
+    s->marks[cell] |= SLRT_ENTERED | SLRT_ON_PATH;
+    s->sectors[2 * (size_t)cell] = right;
+    s->sectors[2 * (size_t)cell + 1] = left;
+    top[0] = cell;
+    top[1] = 0;
+    top[2] = right;
+    top[3] = left;
+    s->depth++;
+}
+
+static void slrt_see_row(slrt_search *s) {
+    uint32_t i;
+    for (i = 0; i < s->rt->cell_count; i++)
+        if (!s->has_row || s->marks[i] & SLRT_IN_ROW) slrt_see(s, i);
+}
+
+static void slrt_search_from(slrt_search *s, uint32_t cell, uint32_t right, uint32_t left) {
+    slrt_enter(s, cell, right, left);
+    while (s->depth) {
+        uint32_t *top = s->path + 4 * (size_t)(s->depth - 1);
+        const sl_runtime_cell c = sl_runtime_get_cell(s->rt, top[0]);
+        if (top[1] == c.exit_count) {
+            s->marks[top[0]] &= (unsigned char)~SLRT_ON_PATH;
+            s->depth--;
+        } else if (!s->patience) {
+            slrt_see_row(s);
+            s->depth = 0;
+        } else {
+            const uint32_t exit = c.first_exit + top[1]++;
+            s->patience--;
+            right = top[2];
+            left = top[3];
+            if (slrt_narrow(s, exit, &right, &left))
+                slrt_enter(s, slrt_u32(s->rt->exits + (size_t)exit * SLRT_EXIT_BYTES + 4), right,
+                           left);
+        }
+    }
+}
+
+static bool slrt_is_direction(const double *d) {
+    const double larger = slrt_larger(d[0], d[1]);
+    return d[0] == d[0] && d[1] == d[1] && larger >= 1e-150 && larger <= 1e150;
+}
+
+/// A number too small for a map as 0: its products would underflow.
+static double slrt_no_dust(double number) {
+    return number > -1e-200 && number < 1e-200 ? 0 : number;
+}
+
+static slrt_arm slrt_direction(double x, double y) {
+    return slrt_make_arm(0, 0, slrt_no_dust(x), slrt_no_dust(y));
+}
+
+SL_RUNTIME_API size_t sl_runtime_scratch_count(const sl_runtime *runtime) {
+    return (size_t)runtime->cell_count * 6 + ((size_t)runtime->cell_count + 3) / 4;
+}
+
+/// Whether the eye is on an exit of its cell.
+static bool slrt_is_on_exit(const slrt_search *s, uint32_t cell) {
+    const sl_runtime_cell c = sl_runtime_get_cell(s->rt, cell);
+    uint32_t i;
+    for (i = c.first_exit; i < c.first_exit + c.exit_count; i++) {
+        const slrt_arm p = slrt_border(s, 2 * i + 1), q = slrt_border(s, 2 * i);
+        if (!slrt_side(&p, &q) && !slrt_same_way(&p, &q)) return true;
+    }
+    return false;
+}
+
+static bool slrt_same_ray(const slrt_arm *u, const slrt_arm *v) {
+    return !slrt_side(u, v) && slrt_same_way(u, v);
+}
+
+/// Looks within the view's cone: in pieces of less than 180 degrees, what is left of which by an
+/// exit is one sector. All round from within a cell, each exit is such a piece.
+static void slrt_search_cone(slrt_search *s, uint32_t cell) {
+    const double *right = s->view->right, *left = s->view->left;
+    uint32_t i, pieces = 3, last = 3;
+    if (s->view->all_round || !slrt_is_direction(right) || !slrt_is_direction(left)) {
+        if (!slrt_is_on_exit(s, cell)) {
+            slrt_search_from(s, cell, SLRT_ALL_ROUND, SLRT_ALL_ROUND);
+            return;
+        }
+        s->cone[0] = slrt_direction(1, 0);
+        s->cone[1] = slrt_direction(-1, 1);
+        s->cone[2] = slrt_direction(-1, -1);
+        last = 0;
+    } else {
+        s->cone[0] = slrt_direction(right[0], right[1]);
+        s->cone[1] = slrt_direction(-right[1], right[0]);
+        s->cone[2] = slrt_direction(-right[0], -right[1]);
+        s->cone[3] = slrt_direction(left[0], left[1]);
+        if (slrt_side(&s->cone[0], &s->cone[3]) > 0 || slrt_same_ray(&s->cone[0], &s->cone[3]))
+            pieces = 1;
+    }
+    for (i = 0; i < pieces; i++)
+        slrt_search_from(s, cell, SLRT_ARM + i, SLRT_ARM + (i + 1 < pieces ? i + 1 : last));
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_look(const sl_runtime *runtime, const sl_runtime_view *view,
+                                        uint32_t *scratch, uint32_t *cells, uint32_t room) {
+    const double x = slrt_no_dust(view->x), y = slrt_no_dust(view->y);
+    const uint32_t cell = sl_runtime_locate(runtime, x, y);
+    const size_t count = runtime->cell_count;
+    sl_runtime_run run;
+    slrt_search s;
+    if (cell == SL_RUNTIME_NO_CELL) return 0;
+    memset(&s, 0, sizeof s);
+    s.rt = runtime;
+    s.view = view;
+    s.x = x;
+    s.y = y;
+    s.path = scratch;
+    s.sectors = scratch + 4 * count;
+    s.marks = (unsigned char *)(scratch + 6 * count);
+    s.cells = cells;
+    s.room = room;
+    s.patience = 4096 + 256 * (uint64_t)runtime->exit_count;
+    memset(s.marks, 0, count);
+    run = sl_runtime_row(runtime, cell);
+    s.has_row = run.next != run.stop;
+    while (sl_runtime_next(&run)) memset(s.marks + run.first, SLRT_IN_ROW, run.end - run.first);
+    slrt_search_cone(&s, cell);
+    return s.count;
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

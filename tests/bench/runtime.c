@@ -1,0 +1,284 @@
+// What a game pays for a question to the runtime, beside a matrix of bits that it could keep
+// itself.
+//   bench_runtime MAP [Z]       a map file, and the height of its slice
+//   bench_runtime rooms:N       N x N rooms of random doors
+// CSV: machine, map, cells, what was asked, bytes that it reads, nanoseconds, times the first's.
+#include "bake/slv.h"
+#include "base/random.h"
+#include "sightline/sightline.h"
+
+#define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#include "runtime/sightline_runtime.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/utsname.h>
+#include <time.h>
+
+static void fail(const char *what) {
+    fprintf(stderr, "bench_runtime: %s\n", what);
+    exit(1);
+}
+
+// --- what is asked
+
+/// Rooms of 10 by 10; through every wall between two of them goes a door of 2, somewhere, or none.
+static char *rooms_text(int side, size_t *size) {
+    char *text = NULL;
+    FILE *stream = open_memstream(&text, size);
+    sl_random random = {1};
+    if (!stream) fail("out of memory");
+    const int width = 10 * side;
+    fprintf(stream, "sightline 1\nwalls 0 0 %d 0 %d %d 0 %d 0 0\n", width, width, width, width);
+    for (int i = 1; i < side; i++)
+        for (int j = 0; j < side; j++)
+            for (int turned = 0; turned < 2; turned++) {
+                const int at = 10 * i, from = 10 * j,
+                          door = from + (int)sl_random_below(&random, 9);
+                const bool shut = sl_random_below(&random, 4) == 0;
+                const int ends[2][2] = {{from, shut ? from + 10 : door}, {door + 2, from + 10}};
+                for (int k = 0; k < (shut ? 1 : 2); k++) {
+                    if (ends[k][0] >= ends[k][1]) continue;
+                    if (turned)
+                        fprintf(stream, "wall %d %d %d %d\n", ends[k][0], at, ends[k][1], at);
+                    else
+                        fprintf(stream, "wall %d %d %d %d\n", at, ends[k][0], at, ends[k][1]);
+                }
+            }
+    if (fclose(stream) != 0) fail("out of memory");
+    return text;
+}
+
+static void read_map(sl_context *context, const char *name, const char *slice, sl_map *map) {
+    sl_import_options options = sl_import_options_default();
+    options.has_slice = slice != NULL;
+    options.slice = slice ? strtod(slice, NULL) : 0;
+    sl_status status;
+    if (strncmp(name, "rooms:", 6) == 0) {
+        size_t size;
+        char *text = rooms_text(atoi(name + 6), &size);
+        status = sl_map_read_text(context, name, text, size, map);
+        free(text);
+    } else {
+        status = sl_map_read(context, name, &options, map);
+    }
+    if (status != SL_OK || sl_map_clean(context, map, NULL) != SL_OK)
+        fail(sl_context_message(context));
+}
+
+/// The baked file's bytes, for free().
+static char *bake(sl_context *context, const char *name, const char *slice, size_t *size) {
+    sl_baked baked = {.method = "dfs", .solver = "funnel"};
+    const sl_subdivide_options rules = sl_subdivide_options_default();
+    sl_see_options options = sl_see_options_default();
+    options.solver = sl_funnel();
+    size_t count;
+    read_map(context, name, slice, &baked.map);
+    if (sl_subdivide_kd(context, &baked.map, &rules, &baked.space) != SL_OK ||
+        sl_see_methods(&count)->see(context, &baked.space, &options, &baked.visibility) != SL_OK)
+        fail(sl_context_message(context));
+    char *bytes = NULL;
+    FILE *stream = open_memstream(&bytes, size);
+    if (!stream || sl_slv_print(context, &baked, stream) != SL_OK || fclose(stream) != 0)
+        fail("out of memory");
+    sl_baked_destroy(context, &baked);
+    return bytes;
+}
+
+// --- the questions: each asks for element i of the lists and adds the answer up
+
+enum { ASKED = 1 << 14, LOOKS = 1 << 10, ROUNDS = 15 };
+
+typedef struct bench {
+    sl_runtime runtime;
+    const char *bytes;
+    size_t size;
+    uint32_t from[ASKED], to[ASKED], seen[ASKED]; ///< cells; seen: one of the row of from
+    double x[ASKED], y[ASKED], angle[ASKED];
+    unsigned char *matrix, *bits;
+    size_t stride;
+    uint32_t *scratch, *cells;
+} bench;
+
+typedef uint32_t question(const bench *b, uint32_t i);
+
+static uint32_t ask_matrix(const bench *b, uint32_t i) {
+    const uint32_t to = b->to[i];
+    return b->matrix[b->from[i] * b->stride + to / 8] >> to % 8 & 1;
+}
+
+static uint32_t ask_can_see(const bench *b, uint32_t i) {
+    return sl_runtime_can_see(&b->runtime, b->from[i], b->to[i]);
+}
+
+static uint32_t ask_can_see_seen(const bench *b, uint32_t i) {
+    return sl_runtime_can_see(&b->runtime, b->from[i], b->seen[i]);
+}
+
+static uint32_t ask_locate(const bench *b, uint32_t i) {
+    return sl_runtime_locate(&b->runtime, b->x[i], b->y[i]);
+}
+
+/// The eye moves on a little.
+static uint32_t ask_locate_near(const bench *b, uint32_t i) {
+    return sl_runtime_locate(&b->runtime, b->x[i >> 6] + 1e-4 * (i & 63), b->y[i >> 6]);
+}
+
+static uint32_t ask_row(const bench *b, uint32_t i) {
+    uint32_t sum = 0;
+    sl_runtime_run run = sl_runtime_row(&b->runtime, b->from[i]);
+    while (sl_runtime_next(&run))
+        for (uint32_t cell = run.first; cell < run.end; cell++) sum += cell;
+    return sum;
+}
+
+static uint32_t ask_row_of_matrix(const bench *b, uint32_t i) {
+    uint32_t sum = 0;
+    const unsigned char *row = b->matrix + b->from[i] * b->stride;
+    for (uint32_t cell = 0; cell < b->runtime.cell_count; cell++)
+        if (row[cell / 8] >> cell % 8 & 1) sum += cell;
+    return sum;
+}
+
+static uint32_t ask_row_count(const bench *b, uint32_t i) {
+    return sl_runtime_row_count(&b->runtime, b->from[i]);
+}
+
+static uint32_t ask_row_bits(const bench *b, uint32_t i) {
+    sl_runtime_row_bits(&b->runtime, b->from[i], b->bits);
+    return b->bits[0];
+}
+
+static uint32_t ask_look(const bench *b, uint32_t i) {
+    const sl_runtime_view view = sl_runtime_view_all_round(b->x[i], b->y[i]);
+    return sl_runtime_look(&b->runtime, &view, b->scratch, b->cells, b->runtime.cell_count);
+}
+
+static uint32_t ask_look_60(const bench *b, uint32_t i) {
+    const sl_runtime_view view = sl_runtime_view_toward(b->x[i], b->y[i], cos(b->angle[i]),
+                                                        sin(b->angle[i]), 0.57735026918962584);
+    return sl_runtime_look(&b->runtime, &view, b->scratch, b->cells, b->runtime.cell_count);
+}
+
+static uint32_t ask_open(const bench *b, uint32_t i) {
+    sl_runtime runtime;
+    (void)i;
+    return (uint32_t)sl_runtime_open(b->bytes, b->size, &runtime);
+}
+
+static double now(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return 1e9 * (double)time.tv_sec + (double)time.tv_nsec;
+}
+
+/// What a call takes: the least of all rounds.
+static double measure(const bench *b, question *ask, uint32_t count, uint64_t *sum) {
+    double least = INFINITY;
+    for (int round = 0; round < ROUNDS; round++) {
+        *sum = 0;
+        const double start = now();
+        for (uint32_t i = 0; i < count; i++) *sum += ask(b, i);
+        const double took = now() - start;
+        if (took < least) least = took;
+    }
+    return least / count;
+}
+
+// --- the lists
+
+static void *room(size_t bytes) {
+    void *block = calloc(bytes ? bytes : 1, 1);
+    if (!block) fail("out of memory");
+    return block;
+}
+
+/// Somewhere inside, each place as likely.
+static void choose_places(bench *b) {
+    const sl_runtime *r = &b->runtime;
+    sl_random random = {7};
+    for (uint32_t i = 0; i < ASKED;) {
+        b->x[i] = r->min_x + sl_random_unit(&random) * (r->max_x - r->min_x);
+        b->y[i] = r->min_y + sl_random_unit(&random) * (r->max_y - r->min_y);
+        b->angle[i] = 6.2831853 * sl_random_unit(&random);
+        b->from[i] = sl_runtime_locate(r, b->x[i], b->y[i]);
+        if (!sl_runtime_is_inside(r, b->from[i])) continue;
+        b->to[i] = (uint32_t)sl_random_below(&random, r->cell_count);
+        const sl_runtime_view view = sl_runtime_view_all_round(b->x[i], b->y[i]);
+        const uint32_t seen = sl_runtime_look(r, &view, b->scratch, b->cells, r->cell_count);
+        b->seen[i++] = b->cells[sl_random_below(&random, seen)];
+    }
+}
+
+static void prepare(bench *b) {
+    const sl_runtime *r = &b->runtime;
+    b->stride = ((size_t)r->cell_count + 7) / 8;
+    b->matrix = room(b->stride * r->cell_count);
+    b->bits = room(b->stride);
+    b->scratch = room(sl_runtime_scratch_count(r) * sizeof *b->scratch);
+    b->cells = room(r->cell_count * sizeof *b->cells);
+    for (uint32_t i = 0; i < r->cell_count; i++)
+        sl_runtime_row_bits(r, i, b->matrix + i * b->stride);
+    choose_places(b);
+}
+
+static void print_table(const bench *b, const char *name) {
+    const sl_runtime *r = &b->runtime;
+    const size_t matrix = b->stride * r->cell_count;
+    const size_t rows =
+        8 * ((size_t)r->cell_count + 1) + slrt_u64(r->row_offsets + 8 * (size_t)r->cell_count);
+    const size_t tree = (size_t)r->node_count * SLRT_NODE_BYTES;
+    const struct {
+        const char *what;
+        question *ask;
+        uint32_t count;
+        size_t bytes;
+    } table[] = {
+        {"can see: matrix of bits", ask_matrix, ASKED, matrix},
+        {"can see: any two cells", ask_can_see, ASKED, rows},
+        {"can see: one in view", ask_can_see_seen, ASKED, rows},
+        {"locate: anywhere", ask_locate, ASKED, tree},
+        {"locate: near the last", ask_locate_near, ASKED, tree},
+        {"iterate a row: matrix of bits", ask_row_of_matrix, LOOKS, matrix},
+        {"iterate a row", ask_row, ASKED, rows},
+        {"count a row", ask_row_count, ASKED, rows},
+        {"unpack a row", ask_row_bits, ASKED, rows},
+        {"look all round", ask_look, LOOKS, b->size},
+        {"look in a cone of 60", ask_look_60, LOOKS, b->size},
+        {"open the file", ask_open, 1, b->size},
+    };
+    struct utsname machine;
+    uname(&machine);
+    double first = 0;
+    puts("machine,map,cells,asked,bytes,nanoseconds,times_the_first,mean_answer");
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
+        uint64_t sum;
+        const double took = measure(b, table[i].ask, table[i].count, &sum);
+        if (!i) first = took;
+        printf("%s %s,%s,%u,%s,%zu,%.1f,%.1f,%.3g\n", machine.sysname, machine.machine, name,
+               r->cell_count, table[i].what, table[i].bytes, took, took / first,
+               (double)sum / table[i].count);
+    }
+}
+
+int main(int argc, char **argv) {
+    if (argc < 2) fail("usage: bench_runtime MAP [Z] | rooms:N");
+    sl_context *context = sl_context_create(NULL);
+    bench *b = room(sizeof *b);
+    if (!context) fail("out of memory");
+    char *bytes = bake(context, argv[1], argc > 2 ? argv[2] : NULL, &b->size);
+    b->bytes = bytes;
+    const sl_runtime_status status = sl_runtime_open(bytes, b->size, &b->runtime);
+    if (status != SL_RUNTIME_OK) fail(sl_runtime_status_text(status));
+    prepare(b);
+    print_table(b, argv[1]);
+    free(b->matrix);
+    free(b->bits);
+    free(b->scratch);
+    free(b->cells);
+    free(b);
+    free(bytes);
+    sl_context_destroy(context);
+    return 0;
+}

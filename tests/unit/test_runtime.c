@@ -1,0 +1,195 @@
+// The runtime for games answers as the library does: on every map, for all pairs of cells and for
+// points wherever they can fall.
+#define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#include "runtime_maps.h"
+
+#include "base/random.h"
+
+#include <math.h>
+
+static void same_cell(const baked_file *f, double x, double y) {
+    const uint32_t is = sl_space_locate(&f->baked.space, (sl_point){x, y});
+    const uint32_t said = sl_runtime_locate(&f->runtime, x, y);
+    if (said != is) fail_msg("%s: (%.17g, %.17g) is in %u, not in %u", f->name, x, y, is, said);
+}
+
+/// A point, and those a step of rounding away from it.
+static void same_cells_about(const baked_file *f, sl_point at) {
+    for (int i = -1; i <= 1; i++)
+        for (int j = -1; j <= 1; j++)
+            same_cell(f, i ? nextafter(at.x, i * INFINITY) : at.x,
+                      j ? nextafter(at.y, j * INFINITY) : at.y);
+}
+
+static void points_are_in_the_same_cells(const baked_file *f) {
+    const sl_space *s = &f->baked.space;
+    const sl_box *b = &s->bounds;
+    sl_random random = {3};
+    for (uint32_t i = 0; i < s->vertex_count; i++) same_cells_about(f, s->vertices[i]);
+    for (uint32_t i = 0; i < s->portal_count; i++) {
+        const sl_portal *p = &s->portals[i];
+        same_cells_about(
+            f, (sl_point){p->left.x / 2 + p->right.x / 2, p->left.y / 2 + p->right.y / 2});
+    }
+    for (int i = 0; i < 4000; i++) {
+        // A tenth of the width beyond the bounds on every side, too.
+        const double x = 1.2 * sl_random_unit(&random) - 0.1,
+                     y = 1.2 * sl_random_unit(&random) - 0.1;
+        same_cell(f, b->min.x + x * (b->max.x - b->min.x), b->min.y + y * (b->max.y - b->min.y));
+    }
+    for (uint32_t i = 0; i < s->node_count; i++) {
+        const double across = s->nodes[i].position, along = sl_random_unit(&random);
+        if (s->nodes[i].axis)
+            same_cells_about(f, (sl_point){b->min.x + along * (b->max.x - b->min.x), across});
+        else
+            same_cells_about(f, (sl_point){across, b->min.y + along * (b->max.y - b->min.y)});
+    }
+    const double odd[] = {NAN, INFINITY, -INFINITY, 1e308, -1e308, 0, -0.0, 5e-324};
+    const size_t odds = sizeof odd / sizeof *odd;
+    for (size_t i = 0; i < odds * odds; i++) same_cell(f, odd[i / odds], odd[i % odds]);
+    for (size_t i = 0; i < odds; i++) {
+        same_cell(f, odd[i], b->min.y / 2 + b->max.y / 2);
+        same_cell(f, b->min.x / 2 + b->max.x / 2, odd[i]);
+    }
+}
+
+static void every_point_is_in_the_same_cell(void **state) {
+    (void)state;
+    baked_file_each(points_are_in_the_same_cells);
+}
+
+static void rows_are_the_same(const baked_file *f) {
+    const sl_runtime *r = &f->runtime;
+    const sl_pvs *pvs = &f->baked.visibility.pvs;
+    unsigned char *bits = malloc(r->cell_count / 8 + 1);
+    assert_non_null(bits);
+    assert_int_equal(r->cell_count, pvs->cell_count);
+    for (uint32_t from = 0; from < r->cell_count; from++) {
+        sl_runtime_row_bits(r, from, bits);
+        for (uint32_t to = 0; to < r->cell_count; to++) {
+            const bool sees = sl_pvs_sees(pvs, from, to);
+            assert_int_equal(sl_runtime_can_see(r, from, to), sees);
+            assert_int_equal(bits[to / 8] >> to % 8 & 1, sees);
+        }
+        assert_int_equal(sl_runtime_row_count(r, from), sl_pvs_count(pvs, from));
+        assert_int_equal(sl_runtime_has_row(r, from), sl_pvs_count(pvs, from) > 0);
+        sl_runtime_run run = sl_runtime_row(r, from);
+        for (sl_pvs_run is = sl_pvs_begin(pvs, from); sl_pvs_next(&is);) {
+            assert_true(sl_runtime_next(&run));
+            assert_int_equal(run.first, is.first);
+            assert_int_equal(run.end, is.end);
+        }
+        assert_false(sl_runtime_next(&run));
+        assert_false(sl_runtime_next(&run));
+    }
+    free(bits);
+}
+
+static void every_pair_is_seen_the_same(void **state) {
+    (void)state;
+    baked_file_each(rows_are_the_same);
+}
+
+static void what_is_no_cell_sees_nothing(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    baked_file f = baked_file_of_text(context, "walls 0 0 9 0 9 9 0 9 0 0\nwall 4 0 4 5\n");
+    const uint32_t none[] = {f.runtime.cell_count, SL_RUNTIME_NO_CELL, 0x80000000};
+    for (size_t i = 0; i < sizeof none / sizeof *none; i++) {
+        assert_false(sl_runtime_can_see(&f.runtime, none[i], 0));
+        assert_false(sl_runtime_can_see(&f.runtime, 0, none[i]));
+        assert_false(sl_runtime_can_see(&f.runtime, none[i], none[i]));
+        assert_false(sl_runtime_has_row(&f.runtime, none[i]));
+        assert_false(sl_runtime_is_inside(&f.runtime, none[i]));
+        assert_int_equal(sl_runtime_row_count(&f.runtime, none[i]), 0);
+        unsigned char bits = 0xff;
+        assert_true(f.runtime.cell_count <= 8);
+        sl_runtime_row_bits(&f.runtime, none[i], &bits);
+        assert_int_equal(bits, 0);
+    }
+    baked_file_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
+static void the_space_is_the_same(const baked_file *f) {
+    const sl_runtime *r = &f->runtime;
+    const sl_space *s = &f->baked.space;
+    assert_int_equal(r->portal_count, s->portal_count);
+    assert_int_equal(r->exit_count, s->exit_count);
+    assert_int_equal(r->vertex_count, s->vertex_count);
+    assert_int_equal(r->line_count, 0);
+    assert_true(r->min_x == s->bounds.min.x && r->max_x == s->bounds.max.x);
+    assert_true(r->min_y == s->bounds.min.y && r->max_y == s->bounds.max.y);
+    for (uint32_t i = 0; i < r->cell_count; i++) {
+        const sl_runtime_cell cell = sl_runtime_get_cell(r, i);
+        assert_int_equal(cell.first_vertex, s->cells[i].first_vertex);
+        assert_int_equal(cell.vertex_count, s->cells[i].vertex_count);
+        assert_int_equal(cell.first_exit, s->cells[i].first_exit);
+        assert_int_equal(cell.exit_count, s->cells[i].exit_count);
+        assert_int_equal(sl_runtime_is_inside(r, i), s->cells[i].inside);
+    }
+    for (uint32_t i = 0; i < r->exit_count; i++) {
+        const sl_runtime_exit exit = sl_runtime_get_exit(r, i);
+        const sl_exit *is = &s->exits[i];
+        assert_int_equal(exit.portal, is->portal);
+        assert_int_equal(exit.cell, is->cell);
+        assert_true(exit.left[0] == is->left.x && exit.left[1] == is->left.y);
+        assert_true(exit.right[0] == is->right.x && exit.right[1] == is->right.y);
+    }
+    for (uint32_t i = 0; i < r->vertex_count; i++) {
+        double x, y;
+        sl_runtime_get_vertex(r, i, &x, &y);
+        assert_true(x == s->vertices[i].x && y == s->vertices[i].y);
+    }
+}
+
+static void cells_exits_and_corners_are_the_same(void **state) {
+    (void)state;
+    baked_file_each(the_space_is_the_same);
+}
+
+static void cells_not_looked_from_have_no_row(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    baked_file f = {.name = "inside", .baked = {.method = "dfs", .solver = "funnel"}};
+    const char *text = "sightline 1\nwalls 0 0 4 0 4 2 2 2 2 4 0 4 0 0\n";
+    assert_ok(context, sl_map_read_text(context, "inside", text, strlen(text), &f.baked.map));
+    baked_file_make(context, &f, true);
+    assert_in_range(f.baked.space.inside_count, 1, f.runtime.cell_count - 1);
+    for (uint32_t i = 0; i < f.runtime.cell_count; i++)
+        assert_int_equal(sl_runtime_has_row(&f.runtime, i), sl_runtime_is_inside(&f.runtime, i));
+    rows_are_the_same(&f);
+    baked_file_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
+static void any_alignment_will_do(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    baked_file f = baked_file_of(context, SIGHTLINE_SOURCE_DIR "/maps/grazing.map", NULL);
+    char *moved = malloc(f.size + 8), *bytes = f.bytes;
+    assert_non_null(moved);
+    for (size_t i = 0; i < 8; i++) {
+        f.bytes = memcpy(moved + i, bytes, f.size);
+        baked_file_open(&f);
+        rows_are_the_same(&f);
+        the_space_is_the_same(&f);
+        points_are_in_the_same_cells(&f);
+    }
+    f.bytes = bytes;
+    free(moved);
+    baked_file_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_point_is_in_the_same_cell),
+        cmocka_unit_test(every_pair_is_seen_the_same),
+        cmocka_unit_test(what_is_no_cell_sees_nothing),
+        cmocka_unit_test(cells_exits_and_corners_are_the_same),
+        cmocka_unit_test(cells_not_looked_from_have_no_row),
+        cmocka_unit_test(any_alignment_will_do),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

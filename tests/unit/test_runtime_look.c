@@ -1,0 +1,251 @@
+// Eye-to-cell of the runtime against an oracle: what one eye sees is told by its lines through the
+// ends of portals and along the cone's borders, each followed by itself through the cells.
+#define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#include "runtime_maps.h"
+
+#include "base/random.h"
+#include "geometry/orient.h"
+#include "sightline/view.h"
+
+#include <math.h>
+
+typedef struct trial {
+    const baked_file *f;
+    uint32_t *scratch, *cells, *stack;
+    bool *reached, *is_seen, *said;
+    size_t lines_left; ///< what the oracle may still follow on this map
+} trial;
+
+static bool same(sl_point a, sl_point b) {
+    return a.x == b.x && a.y == b.y;
+}
+
+/// Whether the closed ray from an eye through another point leaves by an exit.
+static bool leaves_by(sl_point eye, sl_point through, const sl_exit *exit) {
+    const int facing = sl_orient(exit->right, exit->left, eye);
+    const int right = sl_orient(eye, through, exit->right),
+              left = sl_orient(eye, through, exit->left);
+    if (facing < 0 || right > 0 || left < 0) return false;
+    if (facing > 0) return true;
+    // In line with it: on it, or looking along it.
+    const sl_view ray = {.eye = eye, .left = through, .right = through};
+    const sl_view to_left = {.eye = eye, .left = exit->left, .right = exit->left};
+    return same(eye, exit->left) || same(eye, exit->right) ||
+           !sl_view_holds(&to_left, exit->right) || sl_view_holds(&ray, exit->right);
+}
+
+/// Adds what one line sees within the row of the eye's cell.
+static void follow(trial *t, sl_point eye, uint32_t from, sl_point through) {
+    const sl_space *s = &t->f->baked.space;
+    memset(t->reached, 0, s->cell_count * sizeof *t->reached);
+    uint32_t count = 0;
+    t->reached[from] = true;
+    t->stack[count++] = from;
+    while (count) {
+        const sl_cell *c = &s->cells[t->stack[--count]];
+        t->is_seen[c - s->cells] = true;
+        for (uint32_t i = 0; i < c->exit_count; i++) {
+            const sl_exit *exit = &s->exits[c->first_exit + i];
+            if (t->reached[exit->cell] || !sl_runtime_can_see(&t->f->runtime, from, exit->cell) ||
+                !leaves_by(eye, through, exit))
+                continue;
+            t->reached[exit->cell] = true;
+            t->stack[count++] = exit->cell;
+        }
+    }
+}
+
+static void ask_oracle(trial *t, const sl_view *view, uint32_t cell) {
+    const sl_space *s = &t->f->baked.space;
+    memset(t->is_seen, 0, s->cell_count * sizeof *t->is_seen);
+    t->is_seen[cell] = true;
+    for (uint32_t i = 0; i < 2 * s->portal_count; i++) {
+        const sl_point end = i % 2 ? s->portals[i / 2].left : s->portals[i / 2].right;
+        if (!same(end, view->eye) && sl_view_holds(view, end)) follow(t, view->eye, cell, end);
+    }
+    if (!view->full) {
+        follow(t, view->eye, cell, view->right);
+        follow(t, view->eye, cell, view->left);
+    }
+    t->lines_left -= t->lines_left < 2 * s->portal_count ? t->lines_left : 2 * s->portal_count;
+}
+
+static void compare(trial *t, const sl_view *view) {
+    const sl_runtime *r = &t->f->runtime;
+    const sl_point eye = view->eye;
+    // Directions may have any length but a very small one.
+    const double up = r->max_x - r->min_x < 1 ? 0x1p300 : 1;
+    const sl_runtime_view same_view = {eye.x,
+                                       eye.y,
+                                       view->full,
+                                       {up * (view->right.x - eye.x), up * (view->right.y - eye.y)},
+                                       {up * (view->left.x - eye.x), up * (view->left.y - eye.y)}};
+    const uint32_t cell = sl_runtime_locate(r, eye.x, eye.y);
+    const uint32_t count = sl_runtime_look(r, &same_view, t->scratch, t->cells, r->cell_count);
+    assert_in_range(count, 1, r->cell_count);
+    assert_int_equal(t->cells[0], cell);
+    memset(t->said, 0, r->cell_count * sizeof *t->said);
+    for (uint32_t i = 0; i < count; i++) {
+        assert_false(t->said[t->cells[i]]);
+        t->said[t->cells[i]] = true;
+    }
+    ask_oracle(t, view, cell);
+    for (uint32_t i = 0; i < r->cell_count; i++) {
+        if (t->said[i] != t->is_seen[i])
+            fail_msg("%s: (%.17g, %.17g)%s: cell %u is %s", t->f->name, eye.x, eye.y,
+                     view->full ? "" : " with a cone", i, t->is_seen[i] ? "missed" : "added");
+    }
+}
+
+/// Whether a rounded sum is the sum (Knuth's two-sum leaves nothing over).
+static bool is_sum(double a, double b, double sum) {
+    return sum - a == b && sum - b == a;
+}
+
+/// A point of the cone's border in one of some directions, also along walls; exact to subtract
+/// again. The eye itself where there is none such.
+static sl_point border(sl_random *random, sl_point eye, double reach) {
+    const double step = ldexp(1, ilogb(reach) - 4);
+    const sl_point by = {step * ((double)sl_random_below(random, 9) - 4),
+                         step * ((double)sl_random_below(random, 9) - 4)};
+    const sl_point at = {eye.x + by.x, eye.y + by.y};
+    return is_sum(eye.x, by.x, at.x) && is_sum(eye.y, by.y, at.y) ? at : eye;
+}
+
+static void look_from(trial *t, sl_random *random, sl_point eye) {
+    const sl_box *b = &t->f->baked.space.bounds;
+    const double reach = b->max.x / 2 - b->min.x / 2;
+    if (sl_space_locate(&t->f->baked.space, eye) == SL_NO_CELL || !t->lines_left) return;
+    sl_view view = sl_view_all_round(eye);
+    compare(t, &view);
+    view = (sl_view){
+        .eye = eye, .right = border(random, eye, reach), .left = border(random, eye, reach)};
+    if (!same(view.right, eye) && !same(view.left, eye)) compare(t, &view);
+}
+
+static sl_point between(sl_point a, sl_point b, double part) {
+    return (sl_point){a.x + part * (b.x - a.x), a.y + part * (b.y - a.y)};
+}
+
+static void looks_are_exact(const baked_file *f) {
+    const sl_space *s = &f->baked.space;
+    const uint32_t n = s->cell_count;
+    sl_random random = {11};
+    trial t = {.f = f, .lines_left = 100000};
+    t.scratch = malloc(sl_runtime_scratch_count(&f->runtime) * sizeof *t.scratch);
+    t.cells = calloc(n, sizeof *t.cells);
+    t.stack = calloc(n, sizeof *t.stack);
+    t.reached = calloc(n, sizeof *t.reached);
+    t.is_seen = calloc(n, sizeof *t.is_seen);
+    t.said = calloc(n, sizeof *t.said);
+    assert_true(t.scratch && t.cells && t.stack && t.reached && t.is_seen && t.said);
+    for (int i = 0; i < 300 && t.lines_left; i++) {
+        const sl_point *corner = &s->vertices[sl_random_below(&random, s->vertex_count)];
+        const sl_point *other = &s->vertices[sl_random_below(&random, s->vertex_count)];
+        look_from(&t, &random, *corner);
+        // On the lines of walls and portals, and near and anywhere between corners.
+        look_from(&t, &random, (sl_point){corner->x, other->y});
+        if (other->y != 0)
+            look_from(&t, &random, (sl_point){corner->x, nextafter(other->y, INFINITY)});
+        look_from(&t, &random, between(*corner, *other, sl_random_unit(&random)));
+        if (!s->portal_count) continue;
+        const sl_portal *p = &s->portals[sl_random_below(&random, s->portal_count)];
+        look_from(&t, &random, between(p->left, p->right, sl_random_unit(&random)));
+    }
+    free(t.scratch);
+    free(t.cells);
+    free(t.stack);
+    free(t.reached);
+    free(t.is_seen);
+    free(t.said);
+}
+
+static void what_an_eye_sees_is_exact(void **state) {
+    (void)state;
+    baked_file_each(looks_are_exact);
+}
+
+/// Two rooms, a door of 2 between them.
+static const char *const two_rooms = "walls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 4\n"
+                                     "wall 10 6 10 10\n";
+
+static void an_odd_direction_looks_all_round(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    baked_file f = baked_file_of_text(context, two_rooms);
+    uint32_t scratch[64], cells[8];
+    assert_true(sl_runtime_scratch_count(&f.runtime) <= 64);
+    const sl_runtime_view round = sl_runtime_view_all_round(5, 5);
+    const uint32_t all = sl_runtime_look(&f.runtime, &round, scratch, cells, 8);
+    assert_int_equal(all, f.runtime.cell_count);
+    // Away from the door, to be sure that a cone hides something.
+    const sl_runtime_view away = sl_runtime_view_toward(5, 5, -1, 0, 1);
+    const uint32_t fewer = sl_runtime_look(&f.runtime, &away, scratch, cells, 8);
+    assert_in_range(fewer, 1, all - 1);
+    const double odd[] = {0, NAN, INFINITY, 1e200, 1e-200};
+    for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
+        sl_runtime_view view = away;
+        view.left[0] = odd[i];
+        view.left[1] = 0;
+        assert_int_equal(sl_runtime_look(&f.runtime, &view, scratch, cells, 8), all);
+        view.left[0] = -1;
+        view.right[0] = 0;
+        view.right[1] = odd[i];
+        assert_int_equal(sl_runtime_look(&f.runtime, &view, scratch, cells, 8), all);
+    }
+    baked_file_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
+static void no_more_is_written_than_there_is_room(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    baked_file f = baked_file_of_text(context, two_rooms);
+    uint32_t scratch[64], cells[8];
+    const sl_runtime_view view = sl_runtime_view_all_round(5, 5);
+    for (uint32_t room = 0; room <= f.runtime.cell_count; room++) {
+        for (uint32_t i = 0; i < 8; i++) cells[i] = 77;
+        assert_int_equal(sl_runtime_look(&f.runtime, &view, scratch, room ? cells : NULL, room),
+                         f.runtime.cell_count);
+        for (uint32_t i = 0; i < 8; i++) assert_int_equal(cells[i] == 77, i >= room);
+    }
+    const double outside[][2] = {{-1, 5}, {NAN, 5}, {5, INFINITY}};
+    for (size_t i = 0; i < 3; i++) {
+        const sl_runtime_view none = sl_runtime_view_all_round(outside[i][0], outside[i][1]);
+        assert_int_equal(sl_runtime_look(&f.runtime, &none, scratch, cells, 8), 0);
+    }
+    baked_file_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
+/// Signs of cross products of three points, as they are or as the eye's arms give them.
+static void signs_are_exact(void **state) {
+    (void)state;
+    sl_random random = {5};
+    for (int i = 0; i < 200000; i++) {
+        // Nearly in line, far from the origin, of mixed sizes.
+        const double scale = ldexp(1, (int)sl_random_below(&random, 900) - 430);
+        const double offset = sl_random_below(&random, 2) ? 0 : scale * 1000;
+        sl_point p[3];
+        for (int k = 0; k < 3; k++) {
+            const double along = 1 + (double)sl_random_below(&random, 64);
+            p[k] = (sl_point){offset + scale * along, offset + scale * along * 3};
+            if (sl_random_below(&random, 2)) p[k].x = nextafter(p[k].x, INFINITY);
+            if (sl_random_below(&random, 2)) p[k].y = nextafter(p[k].y, -INFINITY);
+        }
+        const slrt_arm u = slrt_make_arm(p[0].x, p[0].y, p[1].x, p[1].y);
+        const slrt_arm v = slrt_make_arm(p[0].x, p[0].y, p[2].x, p[2].y);
+        assert_int_equal(slrt_side(&u, &v), sl_orient(p[0], p[1], p[2]));
+        assert_int_equal(slrt_side_exact(&u, &v), sl_orient(p[0], p[1], p[2]));
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(signs_are_exact),
+        cmocka_unit_test(what_an_eye_sees_is_exact),
+        cmocka_unit_test(an_odd_direction_looks_all_round),
+        cmocka_unit_test(no_more_is_written_than_there_is_room),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
