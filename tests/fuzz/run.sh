@@ -27,7 +27,7 @@ cmake --build "$build" --target fuzzers >&2 || exit 2
 # The endings of the files that a fuzzer starts from.
 seeds_of() {
     case $1 in
-    fuzz_map_text | fuzz_slv) echo map ;;
+    fuzz_map_text | fuzz_slv | fuzz_runtime) echo map ;;
     fuzz_map_plan) echo txt ;;
     fuzz_unigrafix) echo ug ;;
     fuzz_dxf) echo dxf ;;
@@ -45,12 +45,13 @@ run_one() {
     ending=$(seeds_of "$name")
     # A baked file is longer than the map that it was made from.
     length=4096
-    [ "$name" != fuzz_slv ] || length=8192
+    baked=no
+    case $name in fuzz_slv | fuzz_runtime) baked=yes length=8192 ;; esac
     for seed in "$root"/maps/*."$ending" "$root"/tests/fuzz/seeds/*."$ending"; do
         [ ! -f "$seed" ] || cp "$seed" "$work/seeds/"
     done
     dictionary=$root/tests/fuzz/${name#fuzz_}.dict
-    [ "$name" != fuzz_slv ] || dictionary=$root/tests/fuzz/map_text.dict
+    [ $baked = no ] || dictionary=$root/tests/fuzz/map_text.dict
     set -- -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -max_len=$length \
         -print_final_stats=1 -artifact_prefix="$work/findings/"
     [ ! -f "$dictionary" ] || set -- "$@" -dict="$dictionary"

@@ -1,0 +1,158 @@
+// The runtime for games: no file makes it read or write out of bounds (the sanitizers watch) or
+// come to no end, and of what the library reads it says what the library says.
+#include "slv_mutator.h"
+
+#define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#include "runtime/sightline_runtime.h"
+
+/// Buffers of just the size that the header asks for, so that a byte more is found out.
+typedef struct buffers {
+    unsigned char *bits, *seen;
+    uint32_t *scratch, *cells;
+} buffers;
+
+static void *room(size_t bytes) {
+    void *block = malloc(bytes ? bytes : 1);
+    FUZZ_CHECK(block);
+    return block;
+}
+
+static void check_row(const sl_runtime *r, uint32_t cell, const buffers *b) {
+    uint32_t count = 0, end = 0;
+    sl_runtime_row_bits(r, cell, b->bits);
+    sl_runtime_run run = sl_runtime_row(r, cell);
+    while (sl_runtime_next(&run)) {
+        FUZZ_CHECK(run.first < run.end && run.end <= r->cell_count && (!end || run.first > end));
+        end = run.end;
+        count += run.end - run.first;
+    }
+    FUZZ_CHECK(sl_runtime_row_count(r, cell) == count);
+    FUZZ_CHECK(sl_runtime_has_row(r, cell) == (count > 0));
+    FUZZ_CHECK(sl_runtime_can_see(r, cell, cell) == (count > 0));
+    for (uint32_t to = 0; to < r->cell_count; to++) {
+        const bool sees = sl_runtime_can_see(r, cell, to);
+        FUZZ_CHECK(sees == (b->bits[to / 8] >> to % 8 & 1));
+        count -= sees;
+    }
+    FUZZ_CHECK(count == 0);
+}
+
+static void check_look(const sl_runtime *r, const sl_runtime_view *view, const buffers *b) {
+    const uint32_t cell = sl_runtime_locate(r, slrt_no_dust(view->x), slrt_no_dust(view->y));
+    const uint32_t count = sl_runtime_look(r, view, b->scratch, b->cells, r->cell_count);
+    FUZZ_CHECK((count > 0) == (cell != SL_RUNTIME_NO_CELL) && count <= r->cell_count);
+    FUZZ_CHECK(!count || b->cells[0] == cell);
+    memset(b->seen, 0, r->cell_count);
+    for (uint32_t i = 0; i < count; i++) {
+        FUZZ_CHECK(b->cells[i] < r->cell_count && !b->seen[b->cells[i]]++);
+        FUZZ_CHECK(!sl_runtime_has_row(r, cell) || sl_runtime_can_see(r, cell, b->cells[i]));
+    }
+}
+
+static void check_place(const sl_runtime *r, double x, double y, sl_random *random,
+                        const buffers *b) {
+    const uint32_t cell = sl_runtime_locate(r, x, y);
+    const bool within = x >= r->min_x && x <= r->max_x && y >= r->min_y && y <= r->max_y;
+    FUZZ_CHECK(within ? cell < r->cell_count : cell == SL_RUNTIME_NO_CELL);
+    const sl_runtime_view round = sl_runtime_view_all_round(x, y);
+    check_look(r, &round, b);
+    sl_runtime_view cone = round;
+    cone.all_round = false;
+    for (int i = 0; i < 2; i++) {
+        cone.left[i] = sl_random_below(random, 4) ? sl_random_unit(random) - 0.5 : odd_real(random);
+        cone.right[i] =
+            sl_random_below(random, 4) ? sl_random_unit(random) - 0.5 : odd_real(random);
+    }
+    check_look(r, &cone, b);
+}
+
+static void check_places(const sl_runtime *r, sl_random *random, const buffers *b) {
+    for (int i = 0; i < 2; i++) {
+        double x, y;
+        sl_runtime_get_vertex(r, (uint32_t)sl_random_below(random, r->vertex_count), &x, &y);
+        check_place(r, x, y, random, b);
+        check_place(r, r->min_x + sl_random_unit(random) * (r->max_x - r->min_x),
+                    r->min_y + sl_random_unit(random) * (r->max_y - r->min_y), random, b);
+        if (!r->exit_count) continue;
+        const sl_runtime_exit e =
+            sl_runtime_get_exit(r, (uint32_t)sl_random_below(random, r->exit_count));
+        FUZZ_CHECK(e.cell < r->cell_count && e.portal < r->portal_count);
+        check_place(r, e.left[0] / 2 + e.right[0] / 2, e.left[1] / 2 + e.right[1] / 2, random, b);
+    }
+    check_place(r, odd_real(random), odd_real(random), random, b);
+}
+
+static void check_open(const sl_runtime *r, sl_random *random) {
+    const buffers b = {.bits = room((r->cell_count + 7) / 8),
+                       .seen = room(r->cell_count),
+                       .scratch = room(sl_runtime_scratch_count(r) * sizeof *b.scratch),
+                       .cells = room(r->cell_count * sizeof *b.cells)};
+    for (uint32_t cell = 0; cell < r->cell_count; cell++) {
+        const sl_runtime_cell c = sl_runtime_get_cell(r, cell);
+        FUZZ_CHECK((uint64_t)c.first_exit + c.exit_count <= r->exit_count);
+        FUZZ_CHECK((uint64_t)c.first_vertex + c.vertex_count <= r->vertex_count);
+        check_row(r, cell, &b);
+    }
+    FUZZ_CHECK(!sl_runtime_can_see(r, r->cell_count, 0) &&
+               !sl_runtime_can_see(r, 0, r->cell_count));
+    check_places(r, random, &b);
+    free(b.bits);
+    free(b.seen);
+    free(b.scratch);
+    free(b.cells);
+}
+
+/// The runtime opens whatever the library reads, and finds the same in it.
+static void check_same(const uint8_t *bytes, size_t size, sl_runtime_status status,
+                       const sl_runtime *r, sl_random *random) {
+    sl_context *context = fuzz_context();
+    sl_baked baked = {0};
+    if (sl_baked_parse(context, "input", bytes, size, &baked) == SL_OK) {
+        const sl_space *s = &baked.space;
+        FUZZ_CHECK(status == SL_RUNTIME_OK && r->cell_count == s->cell_count);
+        for (uint32_t from = 0; from < s->cell_count; from++)
+            for (uint32_t to = 0; to < s->cell_count; to++)
+                FUZZ_CHECK(sl_runtime_can_see(r, from, to) ==
+                           sl_pvs_sees(&baked.visibility.pvs, from, to));
+        for (uint32_t i = 0; i < s->vertex_count; i++) {
+            const sl_point a = s->vertices[i],
+                           b = s->vertices[sl_random_below(random, s->vertex_count)];
+            FUZZ_CHECK(sl_runtime_locate(r, a.x, b.y) == sl_space_locate(s, (sl_point){a.x, b.y}));
+        }
+    }
+    sl_baked_destroy(context, &baked);
+    sl_context_destroy(context);
+}
+
+static void check_bytes(const uint8_t *data, size_t size) {
+    sl_random random = {size};
+    // A block of its own, anywhere: what is read beyond its end is found out.
+    const size_t shift = size % 8;
+    uint8_t *block = room(size + shift), *bytes = block + shift;
+    if (size) memcpy(bytes, data, size);
+    const sl_runtime empty = {0};
+    sl_runtime r = empty;
+    const sl_runtime_status status = sl_runtime_open(bytes, size, &r);
+    if (status == SL_RUNTIME_OK)
+        check_open(&r, &random);
+    else
+        FUZZ_CHECK(memcmp(&r, &empty, sizeof r) == 0 && *sl_runtime_status_text(status));
+    check_same(bytes, size, status, &r, &random);
+    FUZZ_CHECK(!size || memcmp(bytes, data, size) == 0);
+    free(block);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    if (is_baked(data, size) || !size) {
+        check_bytes(data, size);
+        return 0;
+    }
+    size_t baked_size = 0;
+    char *baked = baked_text(data, size, &baked_size);
+    if (baked)
+        check_bytes((const uint8_t *)baked, baked_size);
+    else
+        check_bytes(data, size);
+    free(baked);
+    return 0;
+}
