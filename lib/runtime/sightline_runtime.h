@@ -761,6 +761,12 @@ SL_RUNTIME_API sl_runtime_view sl_runtime_view_toward(double x, double y, double
 #define SLRT_ALL_ROUND UINT32_MAX ///< no borders, but in the eye's cell
 enum { SLRT_MOST_ARMS = 4 };
 
+/// Steps that a search may take for each exit of the map. (In sound ones few need more than one;
+/// four is the most seen.)
+#ifndef SLRT_PATIENCE
+#define SLRT_PATIENCE 256
+#endif
+
 enum { SLRT_SEEN = 1, SLRT_ENTERED = 2, SLRT_ON_PATH = 4, SLRT_IN_ROW = 8 };
 
 /// A search, depth first. The path is a stack of four numbers a cell: the cell, how many of its
@@ -976,7 +982,7 @@ SL_RUNTIME_API uint32_t sl_runtime_look(const sl_runtime *runtime, const sl_runt
     s.marks = (unsigned char *)(scratch + 6 * count);
     s.cells = cells;
     s.room = room;
-    s.patience = 4096 + 256 * (uint64_t)runtime->exit_count;
+    s.patience = SLRT_PATIENCE * ((uint64_t)runtime->exit_count + 16);
     memset(s.marks, 0, count);
     run = sl_runtime_row(runtime, cell);
     s.has_row = run.next != run.stop;
