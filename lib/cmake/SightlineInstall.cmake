@@ -1,5 +1,5 @@
 # What `cmake --install` puts down: libraries, headers, the command, the CMake package `sightline`
-# (components glpk and draw) and pkg-config files. All of it can be moved as one.
+# (components runtime, glpk and draw) and pkg-config files. All of it can be moved as one.
 include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/sightline")
 set(pkgconfig_dir "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
@@ -42,6 +42,10 @@ set(headers "${PROJECT_SOURCE_DIR}/lib/include/sightline")
 install_library(sightline)
 install(DIRECTORY "${headers}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
   FILES_MATCHING PATTERN "*.h" PATTERN "glpk.h" EXCLUDE PATTERN "draw.h" EXCLUDE)
+
+install_library(sightline_runtime)
+install(FILES "${PROJECT_SOURCE_DIR}/lib/runtime/sightline_runtime.h"
+  DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 
 if(SIGHTLINE_GLPK)
   get_filename_component(dir "${GLPK_LIBRARY}" DIRECTORY)

@@ -102,12 +102,23 @@ static void check_open(const sl_runtime *r, sl_random *random) {
     free(b.cells);
 }
 
-/// The runtime opens whatever the library reads, and finds the same in it.
+/// Whether there is a section LINE, given a file whose header and table are sound.
+static bool has_lines(const uint8_t *bytes) {
+    sl_slv_header header;
+    memcpy(&header, bytes, sizeof header);
+    for (uint32_t i = 0; i < header.section_count; i++)
+        if (memcmp(bytes + sizeof header + i * sizeof(sl_slv_section), "LINE", 4) == 0) return true;
+    return false;
+}
+
+/// The runtime opens whatever the library reads, and finds the same in it; but for lines that no
+/// node splits along, which only the runtime looks at.
 static void check_same(const uint8_t *bytes, size_t size, sl_runtime_status status,
                        const sl_runtime *r, sl_random *random) {
     sl_context *context = fuzz_context();
     sl_baked baked = {0};
-    if (sl_baked_parse(context, "input", bytes, size, &baked) == SL_OK) {
+    if (sl_baked_parse(context, "input", bytes, size, &baked) == SL_OK &&
+        (status == SL_RUNTIME_OK || !has_lines(bytes))) {
         const sl_space *s = &baked.space;
         FUZZ_CHECK(status == SL_RUNTIME_OK && r->cell_count == s->cell_count);
         for (uint32_t from = 0; from < s->cell_count; from++)
