@@ -340,6 +340,8 @@ static bool slrt_child_is_sound(const sl_runtime *rt, int64_t parent, int32_t ch
                      : child > parent && (uint32_t)child < rt->node_count;
 }
 
+/// A node splits at x (axis 0) or y (axis 1) = its position, or along a line of the section LINE
+/// (axis 2): below is what lies strictly to the right of the line from its a to its b.
 static bool slrt_tree_is_sound(const sl_runtime *rt) {
     uint32_t i;
     if (!slrt_child_is_sound(rt, -1, rt->root)) return false;

@@ -95,6 +95,7 @@ typedef struct bench {
     const char *bytes;
     size_t size;
     uint32_t from[ASKED], to[ASKED], seen[ASKED]; ///< cells; seen: one of the row of from
+    uint32_t longest;                             ///< the cell of the longest row
     double x[ASKED], y[ASKED], angle[ASKED];
     unsigned char *matrix, *bits;
     size_t stride;
@@ -114,6 +115,11 @@ static uint32_t ask_can_see(const bench *b, uint32_t i) {
 
 static uint32_t ask_can_see_seen(const bench *b, uint32_t i) {
     return sl_runtime_can_see(&b->runtime, b->from[i], b->seen[i]);
+}
+
+/// From the cell that sees the most pieces of the map: what a row costs at the worst.
+static uint32_t ask_can_see_longest(const bench *b, uint32_t i) {
+    return sl_runtime_can_see(&b->runtime, b->longest, b->to[i]);
 }
 
 static uint32_t ask_locate(const bench *b, uint32_t i) {
@@ -211,6 +217,11 @@ static void choose_places(bench *b) {
     }
 }
 
+static size_t row_bytes(const sl_runtime *r, uint32_t cell) {
+    const sl_runtime_run run = sl_runtime_row(r, cell);
+    return (size_t)(run.stop - run.next);
+}
+
 static void prepare(bench *b) {
     const sl_runtime *r = &b->runtime;
     b->stride = ((size_t)r->cell_count + 7) / 8;
@@ -218,8 +229,10 @@ static void prepare(bench *b) {
     b->bits = room(b->stride);
     b->scratch = room(sl_runtime_scratch_count(r) * sizeof *b->scratch);
     b->cells = room(r->cell_count * sizeof *b->cells);
-    for (uint32_t i = 0; i < r->cell_count; i++)
+    for (uint32_t i = 0; i < r->cell_count; i++) {
         sl_runtime_row_bits(r, i, b->matrix + i * b->stride);
+        if (row_bytes(r, i) > row_bytes(r, b->longest)) b->longest = i;
+    }
     choose_places(b);
 }
 
@@ -238,6 +251,7 @@ static void print_table(const bench *b, const char *name) {
         {"can see: matrix of bits", ask_matrix, ASKED, matrix},
         {"can see: any two cells", ask_can_see, ASKED, rows},
         {"can see: one in view", ask_can_see_seen, ASKED, rows},
+        {"can see: from the longest row", ask_can_see_longest, ASKED, row_bytes(r, b->longest)},
         {"locate: anywhere", ask_locate, ASKED, tree},
         {"locate: near the last", ask_locate_near, ASKED, tree},
         {"iterate a row: matrix of bits", ask_row_of_matrix, LOOKS, matrix},
