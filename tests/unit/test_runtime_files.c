@@ -108,7 +108,7 @@ static void a_lie_under_a_seal_is_refused(void **state) {
         {"EXIT", offsetof(sl_exit, cell), 4, &most, SL_RUNTIME_SPACE},
         {"EXIT", offsetof(sl_exit, left), 8, &nan, SL_RUNTIME_SPACE},
         {"EXIT", offsetof(sl_exit, right) + 8, 8, &far, SL_RUNTIME_SPACE},
-        {"PVSO", 0, 8, &one, SL_RUNTIME_ROW},
+        {"PVSO", 0, 4, &one, SL_RUNTIME_ROW},
         {"PVSO", 8, 8, &much, SL_RUNTIME_ROW},
         {"PVSB", 0, 1, "\1", SL_RUNTIME_ROW},       // not its own cell
         {"PVSB", 1, 1, "\0", SL_RUNTIME_ROW},       // a run of none
