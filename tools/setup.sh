@@ -73,6 +73,7 @@ is_there() {
     libpng) module libpng ;;
     libxml2) module libxml-2.0 ;;
     libyaml) module yaml-0.1 ;;
+    zstd) module libzstd ;;
     font) font ;;
     clang | clang-format | llvm-symbolizer) has "$1" ;;
     clang-sanitizers) clang_sanitizes ;;
@@ -92,6 +93,7 @@ package() { # system thing
     apt:cmocka) echo libcmocka-dev ;;
     apt:jansson) echo libjansson-dev ;;
     apt:zlib) echo zlib1g-dev ;;
+    apt:zstd) echo libzstd-dev ;;
     apt:libpng | apt:libxml2 | apt:libyaml) echo "$2-dev" ;;
     apt:font) echo fonts-dejavu-core ;;
     apt:clang-sanitizers) echo libclang-rt-dev ;;
@@ -105,6 +107,7 @@ package() { # system thing
     dnf:clang-format) echo clang-tools-extra ;;
     dnf:clang-sanitizers) echo compiler-rt libasan libubsan libtsan ;;
     dnf:glpk | dnf:gmp | dnf:cairo | dnf:jansson | dnf:zlib) echo "$2-devel" ;;
+    dnf:zstd) echo libzstd-devel ;;
     dnf:libpng | dnf:libxml2 | dnf:libyaml) echo "$2-devel" ;;
     dnf:cmocka) echo libcmocka-devel ;;
 
@@ -161,7 +164,7 @@ install_packages() { # system package...
 
 # ---- What to do ----
 
-things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml glpk cairo font cmocka gmp"
+things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml zstd glpk cairo font cmocka gmp"
 [ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format"
 
 missing=
@@ -179,7 +182,7 @@ done
 if [ -z "$system" ]; then
     echo "setup: this system's package manager is none of apt, dnf, pacman, brew. Please install:" >&2
     echo "  a C and a C++ compiler (gcc or clang), cmake 3.20 or newer, ninja, pkg-config, python3," >&2
-    echo "  zlib, jansson, libpng, libxml2, libyaml, GLPK, cairo, cmocka, GMP (each with its headers), the DejaVu fonts" >&2
+    echo "  zlib, jansson, libpng, libxml2, libyaml, zstd, GLPK, cairo, cmocka, GMP (each with its headers), the DejaVu fonts" >&2
     exit 1
 fi
 

@@ -30,6 +30,44 @@ static bool knows_image(const char *text, size_t size) {
            (size > 3 && text[0] == 'P' && strchr("1245", text[1]) && strchr(" \t\r\n#", text[2]));
 }
 
+static bool knows_tmx(const char *text, size_t size) {
+    (void)size;
+    return *text == '<' && strstr(text, "<map") && strstr(text, "tilewidth");
+}
+
+/// Whether the text begins as JSON does and has both words in quotation marks somewhere.
+static bool is_json_with(const char *text, const char *word, const char *other) {
+    const char *at = text + strspn(text, "\xef\xbb\xbf \t\r\n");
+    return (*at == '{' || *at == '[') && strstr(at, word) && strstr(at, other);
+}
+
+static bool knows_tmj(const char *text, size_t size) {
+    (void)size;
+    return is_json_with(text, "\"tilewidth\"", "\"layers\"");
+}
+
+static bool knows_ldtk(const char *text, size_t size) {
+    (void)size;
+    return is_json_with(text, "\"__header__\"", "\"ldtk") ||
+           is_json_with(text, "\"__header__\"", "LDtk");
+}
+
+static bool knows_uvtt(const char *text, size_t size) {
+    (void)size;
+    return is_json_with(text, "\"line_of_sight\"", "\"resolution\"");
+}
+
+static bool knows_export(const char *text, size_t size) {
+    (void)size;
+    return is_json_with(text, "\"format\"", "\"sightline\"");
+}
+
+static bool knows_foundry(const char *text, size_t size) {
+    (void)size;
+    return is_json_with(text, "\"c\"", "\"move\"") ||
+           is_json_with(text, "\"walls\"", "\"padding\"");
+}
+
 static const sl_map_format formats[] = {
     {.name = "text", .endings = ".map", .what = "the map text", .read = read_text},
     {.name = "plan", .endings = ".txt", .what = "an ASCII plan", .read = read_plan},
@@ -60,6 +98,42 @@ static const sl_map_format formats[] = {
      .what = "a map of ROS: a picture with its scale",
      .read = sl_map_read_ros,
      .takes = SL_TAKES_THRESHOLD},
+    {.name = "tmx",
+     .endings = ".tmx",
+     .what = "a map of Tiled",
+     .read = sl_map_read_tmx,
+     .takes = SL_TAKES_LAYERS | SL_TAKES_TOLERANCE,
+     .knows = knows_tmx},
+    {.name = "export",
+     .endings = ".json",
+     .what = "the walls of an export of ours",
+     .read = sl_map_read_export,
+     .knows = knows_export},
+    {.name = "tmj",
+     .endings = ".tmj .json",
+     .what = "a map of Tiled, as JSON",
+     .read = sl_map_read_tmj,
+     .takes = SL_TAKES_LAYERS | SL_TAKES_TOLERANCE,
+     .knows = knows_tmj},
+    {.name = "ldtk",
+     .endings = ".ldtk .ldtkl .json",
+     .what = "a project or a level of LDtk",
+     .read = sl_map_read_ldtk,
+     .takes = SL_TAKES_LAYERS,
+     .list = sl_map_list_ldtk,
+     .knows = knows_ldtk},
+    {.name = "uvtt",
+     .endings = ".dd2vtt .uvtt .df2vtt .json",
+     .what = "a Universal VTT map",
+     .read = sl_map_read_uvtt,
+     .takes = SL_TAKES_LAYERS | SL_TAKES_DOORS,
+     .knows = knows_uvtt},
+    {.name = "foundry",
+     .endings = ".json",
+     .what = "a scene of Foundry VTT",
+     .read = sl_map_read_foundry,
+     .takes = SL_TAKES_DOORS,
+     .knows = knows_foundry},
 };
 #define FORMAT_COUNT (sizeof formats / sizeof *formats)
 

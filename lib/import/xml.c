@@ -6,6 +6,9 @@
 #include <limits.h>
 #include <string.h>
 
+/// The longest text that libxml2 takes where it is not told to take all.
+#define LONGEST_TEXT 10000000
+
 /// libxml2's message as one line that is safe to show.
 static sl_status fail(sl_context *context, const char *name, const xmlError *error) {
     char message[256] = "not well formed";
@@ -21,17 +24,32 @@ static sl_status fail(sl_context *context, const char *name, const xmlError *err
                       "XML: %s", message);
 }
 
+/// In a document whose texts may be of any length, entities could be nested to any length too.
+static void refuse_entity(void *user, const xmlChar *name, int type, const xmlChar *public_id,
+                          const xmlChar *system_id, xmlChar *content) {
+    (void)name, (void)type, (void)public_id, (void)system_id, (void)content;
+    xmlParserCtxt *parser = user;
+    parser->_private = parser;
+    xmlStopParser(parser);
+}
+
 sl_status sl_xml_read(sl_context *context, const char *name, const char *text, size_t size,
                       xmlDoc **out) {
     if (size == 0 || size > INT_MAX)
         return sl_fail_at(context, name, 0, size ? "too large for XML" : "the file is empty");
     xmlParserCtxt *parser = xmlNewParserCtxt();
     if (!parser) return sl_fail_memory(context);
-    const int options = XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING |
-                        XML_PARSE_NOCDATA | XML_PARSE_BIG_LINES;
+    int options = XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING | XML_PARSE_NOCDATA |
+                  XML_PARSE_BIG_LINES;
+    if (size > LONGEST_TEXT) {
+        options |= XML_PARSE_HUGE;
+        parser->sax->entityDecl = refuse_entity;
+    }
     xmlDoc *document = xmlCtxtReadMemory(parser, text, (int)size, NULL, NULL, options);
     sl_status status = SL_OK;
-    if (!document || !xmlDocGetRootElement(document))
+    if (parser->_private)
+        status = sl_fail_at(context, name, 0, "XML: it declares entities");
+    else if (!document || !xmlDocGetRootElement(document))
         status = fail(context, name, xmlCtxtGetLastError(parser));
     if (status != SL_OK) {
         xmlFreeDoc(document);
@@ -58,6 +76,10 @@ char *sl_xml_attribute(const xmlNode *node, const char *name) {
     for (const xmlAttr *each = node->properties; each; each = each->next)
         if (strcmp((const char *)each->name, name) == 0) return plain_text(each->children);
     return NULL;
+}
+
+char *sl_xml_content(const xmlNode *node) {
+    return plain_text(node->children);
 }
 
 void sl_xml_free(char *text) {

@@ -34,6 +34,11 @@ seeds_of() {
     fuzz_svg) echo svg ;;
     fuzz_image) echo pgm ;;
     fuzz_ros) echo yaml ;;
+    fuzz_tmx) echo tmx ;;
+    fuzz_tmj) echo tmj ;;
+    fuzz_ldtk) echo ldtk ;;
+    fuzz_uvtt) echo dd2vtt ;;
+    fuzz_foundry) echo foundry ;;
     esac
 }
 

@@ -99,6 +99,35 @@ SL_API sl_status sl_map_read_image(sl_context *context, const char *name, const 
 SL_API sl_status sl_map_read_ros(sl_context *context, const char *name, const char *text,
                                  size_t size, const sl_import_options *options, sl_map *map);
 
+/// A map of Tiled, as XML (.tmx) or JSON (.tmj): orthogonal, of either size, fixed or without
+/// bounds, with its tilesets, those in files beside it too. Solid is what the layers asked for
+/// hold; else what the layers, tiles and objects themselves say (lib/import/FORMATS.md). Unit:
+/// pixels. What was taken is noted.
+SL_API sl_status sl_map_read_tmx(sl_context *context, const char *name, const char *text,
+                                 size_t size, const sl_import_options *options, sl_map *map);
+SL_API sl_status sl_map_read_tmj(sl_context *context, const char *name, const char *text,
+                                 size_t size, const sl_import_options *options, sl_map *map);
+
+/// A level of an LDtk project, one in a file of its own too, or all levels of a world ("all", or
+/// the world's name): the cells of its IntGrid layers. Unit: pixels. What was taken is noted.
+SL_API sl_status sl_map_read_ldtk(sl_context *context, const char *name, const char *text,
+                                  size_t size, const sl_import_options *options, sl_map *map);
+SL_API sl_status sl_map_list_ldtk(sl_context *context, const char *name, const char *text,
+                                  size_t size, sl_map_list *list);
+
+/// A Universal VTT file: walls and portals. Unit: squares of its grid. What was taken is noted.
+SL_API sl_status sl_map_read_uvtt(sl_context *context, const char *name, const char *text,
+                                  size_t size, const sl_import_options *options, sl_map *map);
+
+/// The walls of a scene of Foundry VTT: what stops sight, doors, one-way walls. Unit: pixels. What
+/// was taken is noted.
+SL_API sl_status sl_map_read_foundry(sl_context *context, const char *name, const char *text,
+                                     size_t size, const sl_import_options *options, sl_map *map);
+
+/// The walls of our own JSON export.
+SL_API sl_status sl_map_read_export(sl_context *context, const char *name, const char *text,
+                                    size_t size, const sl_import_options *options, sl_map *map);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,0 +1,31 @@
+// LDtk: each map that is listed is read or refused; what is read is written as map text and read
+// back the same.
+#include "fuzz.h"
+
+#include "sightline/import.h"
+
+static void read_one(sl_context *context, const uint8_t *data, size_t size, const char *name) {
+    sl_import_options options = sl_import_options_default();
+    options.map = name;
+    sl_map map = {0};
+    const sl_status status =
+        sl_map_read_ldtk(context, "input", (const char *)data, size, &options, &map);
+    if (status == SL_OK)
+        free(fuzz_round_trip(context, &map));
+    else
+        fuzz_refused(context, status, &map);
+    sl_map_destroy(context, &map);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    sl_context *context = fuzz_context();
+    sl_map_list list = {0};
+    const sl_status status = sl_map_list_ldtk(context, "input", (const char *)data, size, &list);
+    if (status != SL_OK) FUZZ_CHECK(status == SL_BAD_INPUT && !list.count && !list.names);
+    for (size_t i = 0; i < list.count && i < 4; i++)
+        read_one(context, data, size, list.names[list.count - 1 - i]);
+    read_one(context, data, size, NULL);
+    sl_map_list_destroy(context, &list);
+    sl_context_destroy(context);
+    return 0;
+}
