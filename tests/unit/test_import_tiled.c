@@ -1,0 +1,542 @@
+// Tiled maps in both notations: all ways to write tiles, what says that something is solid,
+// objects, chunks, tilesets in files of their own, and what is refused.
+#include "testing.h"
+
+#include "import/solid.h"
+#include "import_check.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+// The tiles 0 1 1 / 0 0 0; the third is mirrored.
+#define RAW               "AAAAAAEAAAABAACAAAAAAAAAAAAAAAAA"
+#define ZLIB              "eJxjYGBgYITgBgYkAAAGvACD"
+#define GZIP              "H4sIAAAAAAACA2NgYGBghOAGBiQAAOBFpMgYAAAA"
+#define ZSTD              "KLUv/QRYfQAAOAAAAAABgAACADiDH5wWV9Vy0Q=="
+#define SIZE              " width='3' height='2' "
+#define MAP(body)         "<map" SIZE "tilewidth='8' tileheight='8'>\n" body "</map>"
+#define SET               "<tileset firstgid='1' tilewidth='8' tileheight='8'/>"
+#define LAYER(name, data) "<layer name='" name "'" SIZE ">\n" data "</layer>"
+#define DATA(how, text)   "<data " how ">" text "</data>"
+#define CSV(text)         DATA("encoding='csv'", text)
+#define TRUE(name)        "<properties><property name='" name "' type='bool' value='true'/></properties>"
+#define FALSE(name)       "<properties><property name='" name "' type='bool' value='false'/></properties>"
+
+/// The walls of two solid tiles at the upper right, with those about the map.
+#define TWO_TILES                                                                                  \
+    "wall 0 16 8 16\nwall 8 8 24 8\nwall 8 8 8 16\nwall 0 0 24 0\nwall 0 0 0 16\nwall 24 0 24 8\n"
+#define FRAME "wall 0 16 24 16\nwall 0 0 24 0\nwall 0 0 0 16\nwall 24 0 24 16\n"
+
+static void assert_walls(const char *text, const char *expected) {
+    assert_walls_of(sl_map_read_tmx, NULL, text, strlen(text), expected);
+}
+
+static void assert_walls_json(const char *text, const char *expected) {
+    assert_walls_of(sl_map_read_tmj, NULL, text, strlen(text), expected);
+}
+
+static void assert_chosen(const char *layers, const char *text, const char *expected) {
+    const sl_import_options options = {.layers = layers};
+    assert_walls_of(sl_map_read_tmx, &options, text, strlen(text), expected);
+}
+
+static void assert_refused(const char *text, const char *message) {
+    assert_refused_of(sl_map_read_tmx, NULL, text, strlen(text), SL_BAD_INPUT, message);
+}
+
+static void assert_refused_json(const char *text, const char *message) {
+    assert_refused_of(sl_map_read_tmj, NULL, text, strlen(text), SL_BAD_INPUT, message);
+}
+
+static void assert_not_chosen(const char *layers, const char *text, const char *message) {
+    const sl_import_options options = {.layers = layers};
+    assert_refused_of(sl_map_read_tmx, &options, text, strlen(text), SL_BAD_ARGUMENT, message);
+}
+
+static void test_encodings(void **state) {
+    (void)state;
+    static const char *const data[] = {
+        DATA("", "<tile gid='0'/><tile gid='1'/><tile gid='2147483649'/><tile/><tile/><tile/>"),
+        CSV("\n0,1,2147483649,\n0,0,0\n"),
+        CSV("0,1,2147483649,0,0,0,"),
+        DATA("encoding='base64'", "\n  " RAW "\n"),
+        DATA("encoding='base64' compression=''", RAW),
+        DATA("encoding='base64' compression='zlib'", ZLIB),
+        DATA("encoding='base64' compression='gzip'", GZIP),
+        DATA("encoding='base64' compression='zstd'", "\n" ZSTD),
+    };
+    for (size_t i = 0; i < sizeof data / sizeof *data; i++) {
+        char text[1024];
+        snprintf(text, sizeof text, MAP(SET LAYER("walls", "%s")), data[i]);
+        assert_walls(text, TWO_TILES);
+    }
+}
+
+#define JSON(layers)                                                                               \
+    "{\"width\": 3, \"height\": 2, \"tilewidth\": 8, \"tileheight\": 8, \"tilesets\": [{"          \
+    "\"firstgid\": 1, \"tilewidth\": 8, \"tileheight\": 8}],\n\"layers\": [" layers "]}"
+#define JSON_LAYER(data)                                                                           \
+    "{\"type\": \"tilelayer\", \"name\": \"walls\", \"width\": 3, \"height\": 2, " data "}"
+
+static void test_json(void **state) {
+    (void)state;
+    assert_walls_json(JSON(JSON_LAYER("\"data\": [0, 1, 2147483649, 0, 0, 0]")), TWO_TILES);
+    assert_walls_json(JSON(JSON_LAYER("\"encoding\": \"base64\", \"data\": \"" RAW "\"")),
+                      TWO_TILES);
+    assert_walls_json(JSON(JSON_LAYER("\"encoding\": \"base64\", \"compression\": \"zstd\", "
+                                      "\"data\": \"" ZSTD "\"")),
+                      TWO_TILES);
+    assert_walls_json(JSON("{\"type\": \"group\", \"name\": \"Walls\", \"layers\": [{\"type\": "
+                           "\"objectgroup\", \"objects\": [{\"x\": 1, \"y\": 2, \"polyline\": "
+                           "[{\"x\": 0, \"y\": 0}, {\"x\": 3, \"y\": 4}]}]}]}"),
+                      "wall 1 14 4 10\n");
+    assert_refused_json(JSON("{\"type\": "), "f:2: column ");
+    assert_refused_json("[]", "f: expected an object, found an array");
+    assert_refused_json(JSON("7"), "f: layers[0]: expected an object, found 7");
+    assert_refused_json(JSON(JSON_LAYER("\"data\": [0, 1]")),
+                        "f: layers[0].data: 2 tiles, the layer has 6");
+    assert_refused_json(JSON(JSON_LAYER("\"data\": [0, 1, 2, 3, -4, 5]")),
+                        "f: layers[0].data[4]: -4 is out of range");
+    assert_refused_json(JSON(JSON_LAYER("\"data\": [0, 1, 2, 3, \"4\", 5]")),
+                        "f: layers[0].data[4]: expected a whole number, found '4'");
+    assert_refused_json(JSON(JSON_LAYER("\"offsetx\": 1e308, \"data\": []")),
+                        "f: layers[0].offsetx: 1e+308 is out of range");
+    assert_refused_json(JSON(JSON_LAYER("\"offsetx\": 1e400, \"data\": []")), "f:2: column ");
+    assert_refused_json(JSON(JSON_LAYER("\"offsetx\": NaN, \"data\": []")), "f:2: column ");
+}
+
+static void test_names_that_say_solid(void **state) {
+    (void)state;
+    static const char *const solid[] = {
+        "walls",     "Wall",           "WALLS",           "Collision Layer 1", "solid",
+        "obstacles", "CollisionLayer", "collision_boxes", "blocking",          "wallTiles"};
+    static const char *const others[] = {"",      "Floor",   "wall_tops",    "wallpaper",
+                                         "layer", "unsolid", "Wand\xc3\xa4", "walls behind"};
+    for (size_t i = 0; i < sizeof solid / sizeof *solid; i++)
+        if (!sl_says_solid(solid[i])) fail_msg("%s", solid[i]);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (sl_says_solid(others[i])) fail_msg("%s", others[i]);
+}
+
+static void test_layers_that_are_solid(void **state) {
+    (void)state;
+#define TILES CSV("0,1,1,0,0,0")
+    assert_walls(MAP(SET LAYER("a", TRUE("solid") TILES)), TWO_TILES);
+    assert_walls(MAP(SET "<layer name='a' class='Wall'" SIZE ">" TILES "</layer>"), TWO_TILES);
+    assert_walls(MAP(SET "<group name='collision'>" LAYER("a", TILES) "</group>"), TWO_TILES);
+    // A property is over a name; what is said not to be solid is left out.
+    assert_walls(MAP(SET LAYER("walls", FALSE("solid") CSV("1,0,0,0,0,0")) LAYER("walls", TILES)),
+                 TWO_TILES);
+    // Two layers on one grid become one.
+    assert_walls(MAP(SET LAYER("walls", CSV("0,1,0,0,0,0")) LAYER("walls", CSV("0,0,1,0,0,0"))),
+                 TWO_TILES);
+    // One that is off the grid adds its own outlines.
+    assert_walls(MAP(SET LAYER("walls", TILES) "<layer name='walls' offsetx='1' offsety='-2'" SIZE
+                                               ">" CSV("0,0,0,0,1,0") "</layer>"),
+                 TWO_TILES "wall 9 10 17 10\nwall 9 2 17 2\nwall 9 2 9 10\nwall 17 2 17 10\n");
+}
+
+static void test_layers_asked_for(void **state) {
+    (void)state;
+#define THREE MAP(SET LAYER("a:b", CSV("0,5,7,0,0,0")) LAYER("walls", CSV("1,1,1,1,1,0")))
+    assert_chosen("a:b", THREE, TWO_TILES);
+    assert_chosen("a:b:5+7", THREE, TWO_TILES);
+    assert_chosen("walls:2, a:b:4-7", THREE, TWO_TILES);
+    assert_chosen("a:b:9", THREE, FRAME);
+    assert_not_chosen("b", THREE, "f: there is no layer 'b'");
+    assert_not_chosen("a:b,walls2", THREE, "f: there is no layer 'walls2'");
+    assert_not_chosen("walls:1-", THREE, "f: layer 'walls:1-': expected tile numbers");
+    assert_not_chosen("walls:1;2", THREE, "f: layer 'walls:1;2': expected tile numbers");
+}
+
+#define SET_OF(tiles)    "<tileset firstgid='1' tilewidth='8' tileheight='8'>" tiles "</tileset>"
+#define BOX(x, y, w, h)  "<object x='" x "' y='" y "' width='" w "' height='" h "'/>"
+#define COLLIDES(shapes) "<tile id='0'><objectgroup>" shapes "</objectgroup></tile>"
+
+static void test_tiles_that_are_solid(void **state) {
+    (void)state;
+    assert_walls(
+        MAP(SET_OF("<tile id='4'>" TRUE("solid") "</tile>") LAYER("a", CSV("2,5,5,1,0,0"))),
+        TWO_TILES);
+    assert_walls(MAP(SET_OF("<tile id='4' type='wall'/>") LAYER("a", CSV("2,5,5,1,0,0"))),
+                 TWO_TILES);
+    assert_walls(MAP(SET_OF(TRUE("collides") "<tile id='1'>" FALSE("solid") "</tile>")
+                         LAYER("a", CSV("2,5,5,2,0,0"))),
+                 TWO_TILES);
+    // A tile that is open stays so in a layer that is solid.
+    assert_walls(
+        MAP(SET_OF("<tile id='1'>" FALSE("solid") "</tile>") LAYER("walls", CSV("2,5,5,2,0,0"))),
+        TWO_TILES);
+    // A shape that covers its tile is a solid tile.
+    assert_walls(MAP(SET_OF(COLLIDES(BOX("0", "0", "8", "8"))) LAYER("a", TILES)), TWO_TILES);
+}
+
+static void test_shapes_of_tiles(void **state) {
+    (void)state;
+#define SHAPED(shapes, gid) MAP(SET_OF(COLLIDES(shapes)) LAYER("a", CSV("0," gid ",0,0,0,0")))
+#define AS_BOX(a, b, c, d)                                                                         \
+    "wall " a " " b "\nwall " b " " c "\nwall " c " " d "\nwall " d " " a "\n" FRAME
+    assert_walls(SHAPED(BOX("1", "2", "3", "4"), "1"), AS_BOX("9 14", "12 14", "12 10", "9 10"));
+    // Mirrored across, down, both; x and y exchanged; a quarter turn clockwise.
+    assert_walls(SHAPED(BOX("1", "2", "3", "4"), "2147483649"),
+                 AS_BOX("15 14", "12 14", "12 10", "15 10"));
+    assert_walls(SHAPED(BOX("1", "2", "3", "4"), "1073741825"),
+                 AS_BOX("9 10", "12 10", "12 14", "9 14"));
+    assert_walls(SHAPED(BOX("1", "2", "3", "4"), "3221225473"),
+                 AS_BOX("15 10", "12 10", "12 14", "15 14"));
+    assert_walls(SHAPED(BOX("1", "2", "3", "4"), "536870913"),
+                 AS_BOX("10 15", "10 12", "14 12", "14 15"));
+    assert_walls(SHAPED(BOX("1", "2", "3", "4"), "2684354561"),
+                 AS_BOX("14 15", "14 12", "10 12", "10 15"));
+    assert_walls(SHAPED("<object x='1' y='1'><polyline points='0,0 2,3'/></object>", "1"),
+                 "wall 9 15 11 12\n" FRAME);
+    // A larger tile stands on the lower left corner of its square.
+    assert_walls(MAP("<tileset firstgid='1' tilewidth='4' tileheight='12'><tileoffset x='1' y='2'/>"
+                     "<tile id='0'><objectgroup><object><polyline points='0,0 4,12'/></object>"
+                     "</objectgroup></tile></tileset>" LAYER("a", CSV("0,0,0,0,1,0"))),
+                 "wall 9 10 13 -2\n" FRAME);
+}
+
+#define OBJECTS(body)                                                                              \
+    MAP("<objectgroup name='collision' offsetx='1' offsety='-1'>" body "</objectgroup>")
+
+static void test_objects(void **state) {
+    (void)state;
+    assert_walls(OBJECTS(BOX("1", "2", "3", "4")),
+                 "wall 2 15 5 15\nwall 5 15 5 11\nwall 5 11 2 11\nwall 2 11 2 15\n");
+    // Turned clockwise about its place.
+    assert_walls(OBJECTS("<object x='4' y='5' width='3' height='2' rotation='90'/>"),
+                 "wall 5 12 5 9\nwall 5 9 3 9\nwall 3 9 3 12\nwall 3 12 5 12\n");
+    assert_walls(OBJECTS("<object x='4' y='5' width='3' height='2' rotation='-180'/>"),
+                 "wall 5 12 2 12\nwall 2 12 2 14\nwall 2 14 5 14\nwall 5 14 5 12\n");
+    assert_walls(OBJECTS("<object x='1' y='1'><polygon points='0,0 2,0 0,3'/></object>"),
+                 "wall 2 16 4 16\nwall 4 16 2 13\nwall 2 13 2 16\n");
+    assert_walls(OBJECTS("<object x='1' y='1'><polyline points='0,0 2.5,-1 0,0'/></object>"),
+                 "wall 2 16 4.5 17\nwall 4.5 17 2 16\n");
+    // A tile as an object stands on its place.
+    assert_walls(OBJECTS("<object gid='1' x='0' y='4' width='2' height='3'/>"),
+                 "wall 1 16 3 16\nwall 3 16 3 13\nwall 3 13 1 13\nwall 1 13 1 16\n");
+    // Others are left out.
+    assert_walls(OBJECTS("<object x='1' y='1'><point/></object><object x='1' y='1' width='4' "
+                         "height='4'><text>wall</text></object><object template='t.tx'/>"
+                         "<object x='3' y='3'/><object x='1' y='1'><polyline points='0,0 1,0'/>"
+                         "</object>"),
+                 "wall 2 16 3 16\n");
+    assert_walls(
+        MAP("<objectgroup name='things'>" BOX(
+            "0", "0", "1",
+            "1") "<object type='wall'><polyline points='0,0 1,0'/></object>"
+                 "<object name='Wall 7'><polyline points='2,0 3,0'/></object>"
+                 "<object>" TRUE("solid") "<polyline points='4,0 5,0'/></object></objectgroup>"),
+        "wall 0 16 1 16\nwall 2 16 3 16\nwall 4 16 5 16\n");
+}
+
+static void test_ellipses(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    const char *text = OBJECTS("<object x='2' y='1' width='8' height='4'><ellipse/></object>");
+    for (int i = 0; i < 2; i++) {
+        const sl_import_options options = {.tolerance = i ? 0.001 : 0};
+        sl_map map = {0};
+        assert_ok(context, sl_map_read_tmx(context, "f", text, strlen(text), &options, &map));
+        assert_in_range(map.wall_count, i ? 60 : 16, 400);
+        for (size_t k = 0; k < map.wall_count; k++) {
+            const double x = (map.walls[k].a.x - 7) / 4, y = (map.walls[k].a.y - 14) / 2;
+            assert_true(x * x + y * y > 1 - 1e-12 && x * x + y * y < 1 + 1e-12);
+            const size_t next = (k + 1) % map.wall_count;
+            assert_true(map.walls[k].b.x == map.walls[next].a.x);
+            assert_true(map.walls[k].b.y == map.walls[next].a.y);
+        }
+        sl_map_destroy(context, &map);
+    }
+    sl_context_destroy(context);
+}
+
+#define INFINITE(layers)                                                                           \
+    "<map width='3' height='2' tilewidth='8' tileheight='8' infinite='1'>\n" SET layers "</map>"
+#define CHUNK(x, y, w, h, data)                                                                    \
+    "<chunk x='" x "' y='" y "' width='" w "' height='" h "'>" data "</chunk>"
+
+static void test_chunks(void **state) {
+    (void)state;
+    assert_walls(
+        INFINITE(LAYER("empty", CSV("")) LAYER(
+            "walls", CSV(CHUNK("0", "0", "2", "2", "0,1,0,0") CHUNK("2", "0", "1", "2", "1,0")))),
+        TWO_TILES);
+    assert_walls(INFINITE(LAYER("walls", CSV(CHUNK("-2", "0", "1", "1", "0")
+                                                 CHUNK("1", "-1", "1", "2", "1,1")))),
+                 "wall -16 24 8 24\nwall -16 8 8 8\nwall -16 8 -16 24\nwall 8 8 8 24\n");
+    assert_refused(INFINITE(LAYER("walls", CSV(CHUNK("-2", "0", "1", "1", "0")
+                                                   CHUNK("70000000", "0", "1", "1", "1")))),
+                   "f: its tiles are spread over 70000003 x 1 squares");
+    assert_refused(INFINITE(LAYER("walls", CSV(CHUNK("1e9", "0", "1", "1", "0,1")))),
+                   "f:3: layers[0].chunks[0].data: more than the layer's 1 tiles");
+    assert_refused(INFINITE(LAYER("walls", CSV(CHUNK("1e10", "0", "1", "1", "0")))),
+                   "f:3: layers[0].chunks[0].x: 1e+10 is out of range");
+    assert_refused(INFINITE(LAYER("walls", CSV(CHUNK("0", "0", "99999", "99999", "0")))),
+                   "f:3: layers[0].chunks[0]: 99999 x 99999 tiles are more than can be read");
+    assert_refused(INFINITE(LAYER("walls", CSV(CHUNK("0", "0", "0", "1", "0")))),
+                   "f:3: layers[0].chunks[0].width: 0 is out of range");
+}
+
+static void test_guess(void **state) {
+    (void)state;
+    // Nothing says what is solid: the empty squares of the lowest layer, else its most frequent
+    // tile.
+    assert_walls(MAP(SET LAYER("a", CSV("3,0,0,4,4,5")) LAYER("b", CSV("3,9,0,4,0,0"))), TWO_TILES);
+    assert_walls(MAP(SET LAYER("a", CSV("2,1,1,3,4,5"))), TWO_TILES);
+    assert_refused(MAP(SET LAYER("a", CSV("1,1,1,1,1,1"))),
+                   "f:1: nothing in it says what is solid");
+    assert_refused(MAP(""), "f:1: nothing in it says what is solid");
+}
+
+static void test_damaged_data(void **state) {
+    (void)state;
+#define BROKEN(how, text, message)                                                                 \
+    assert_refused(MAP(SET LAYER("walls", DATA(how, text))), "f:2: layers[0]" message)
+#define BASE64 "encoding='base64'"
+    BROKEN("encoding='csv'", "0,1,1", ".data: 3 tiles, the layer has 6");
+    BROKEN("encoding='csv'", "0,1,1,0,0,0,0", ".data: more than the layer's 6 tiles");
+    BROKEN("encoding='csv'", "0,1,x,0,0,0",
+           ".data: tile 3 of 6: expected a whole number, found 'x'");
+    BROKEN("encoding='csv'", "0,1,-1,0,0,0", ".data: tile 3 of 6: expected a whole number");
+    BROKEN("encoding='csv'", "0,1,4294967296,0,0,0", ".data: tile 3 of 6: expected a whole number");
+    BROKEN("encoding='csv'", "0,1 1,0,0,0", ".data: tile 2 of 6: expected ',', found '1'");
+    BROKEN("", "<tile gid='1'/>", ".data: 1 tiles, the layer has 6");
+    BROKEN("", "<tile gid='1e308'/><tile/><tile/><tile/><tile/><tile/>",
+           ".data[0]: 1e+308 is out of range");
+    BROKEN(BASE64, "AAA", ".data: the base64 text is cut off");
+    BROKEN(BASE64, "AA==AAAA", ".data: character 5 is not base64");
+    BROKEN(BASE64, "A*AA", ".data: character 2 is not base64");
+    BROKEN(BASE64, "AAAA", ".data: the data is not that of the layer's 6 tiles");
+    BROKEN(BASE64 " compression='zlib'", "AAAA", ".data: the compressed data is damaged");
+    BROKEN(BASE64 " compression='zlib'", "eJxjYGBgYITg",
+           ".data: the compressed data is damaged: it is cut");
+    BROKEN(BASE64 " compression='zlib'", "eJxjYGBgYITgBgYoAAAEsACD",
+           ".data: the data is not that of the layer's 6");
+    BROKEN(BASE64 " compression='zlib'",
+           "eJxjYGBgYITgBgY0gE0cABmoAQU=", ".data: the data is not that of the layer's 6");
+    BROKEN(BASE64 " compression='gzip'", "AAAA", ".data: the compressed data is damaged");
+    BROKEN(BASE64 " compression='zstd'", "AAAA", ".data: the compressed data is damaged");
+    BROKEN(BASE64 " compression='zstd'",
+           "KLUv/QSnfQAAOAAAAAABgAACADiDH5wWV9VyhA==", ".data: the compressed data is damaged");
+    BROKEN(BASE64 " compression='zstd'", "KLUv/QRYQQAAAAAAAAEAAACpoo4m",
+           ".data: the data is not that of the layer's 6");
+    BROKEN(BASE64 " compression='zstd'", "KLUv/QRYlQAAOAAAAAABgAADAO00Aa7jB6cFXZtEww==",
+           ".data: the data is not that of the layer's 6");
+    BROKEN(BASE64 " compression='lzma'", RAW, ".compression: 'lzma' is unknown");
+    BROKEN("encoding='rot13'", RAW, ".encoding: 'rot13' is unknown");
+    assert_refused(MAP("<layer name='walls' width='9999' height='9999'>" CSV("0") "</layer>"),
+                   "f:2: layers[0].data: the data is not that of the layer's 99980001 tiles");
+}
+
+static void test_refused(void **state) {
+    (void)state;
+    assert_refused("", "f: the file is empty");
+    assert_refused("<map>\n<layer></map>", "f:2: XML: ");
+    assert_refused("\n<svg/>", "f:2: expected <map>, found <svg>");
+    assert_refused("<map orientation='isometric' " SIZE "/>",
+                   "f:1: orientation: 'isometric': only orthogonal maps are taken");
+    assert_refused("<map" SIZE "tilewidth='8'/>",
+                   "f:1: tileheight: expected a number, found nothing");
+    assert_refused("<map" SIZE "tilewidth='nan' tileheight='8'/>",
+                   "f:1: tilewidth: expected a number, found 'nan'");
+    assert_refused("<map" SIZE "tilewidth='1e308' tileheight='8'/>",
+                   "f:1: tilewidth: 1e+308 is out of range");
+    assert_refused("<map" SIZE "tilewidth='-8' tileheight='8'>" LAYER("walls", TILES) "</map>",
+                   "f: 3 x 2 tiles of -8 x 8 pixels at 0 0: out of range");
+    assert_refused("<map width='3' height='-2' tilewidth='8' tileheight='8'/>",
+                   "f:1: height: -2 is out of range");
+    assert_refused(MAP("<tileset tilewidth='8' tileheight='8'/>"),
+                   "f:2: tilesets[0].firstgid: expected a whole number, found nothing");
+    assert_refused(MAP("<tileset firstgid='1' tilewidth='8'/>"),
+                   "f:2: tilesets[0].tileheight: expected a number, found nothing");
+    assert_refused(MAP(SET_OF("<tile/>")), "f:2: tilesets[0].tiles[0].id: expected a whole number");
+    assert_refused(MAP("<layer name='walls' width='3'/>"),
+                   "f:2: layers[0].height: expected a whole number, found nothing");
+    assert_refused(MAP("<layer name='walls'" SIZE "/>"), "f:2: layers[0].data: expected text");
+    assert_refused(OBJECTS("\n<object x='1e308'/>"), "f:3: layers[0].objects[0].x: 1e+308 is out");
+    assert_refused(OBJECTS("\n<object rotation='x'/>"),
+                   "f:3: layers[0].objects[0].rotation: expected a number, found 'x'");
+    assert_refused(OBJECTS("<object><polygon points='0,0 1,1'/></object>"),
+                   "f:2: layers[0].objects[0].polygon: 2 points, at least 3 are needed");
+    assert_refused(OBJECTS("<object><polyline points='0,0 1'/></object>"),
+                   "f:2: layers[0].objects[0].polyline: point 2: expected x,y; found ''");
+    assert_refused(OBJECTS("<object><polyline points='0,0 1,1e999'/></object>"),
+                   "f:2: layers[0].objects[0].polyline: point 2: expected x,y; found '1e999'");
+    assert_refused(OBJECTS("<object x='1e150' width='1e150' height='1'/>"),
+                   "f:2: a coordinate is out of range");
+}
+
+static void test_entities_are_not_followed(void **state) {
+    (void)state;
+    // Ten levels of ten: the name would be of 10^10 characters, and of one that says solid.
+    char text[2048] = "<!DOCTYPE map [<!ENTITY a0 'wallwallwa'>";
+    for (int i = 1; i <= 10; i++) {
+        char line[128], *end = line + snprintf(line, sizeof line, "<!ENTITY a%d '", i);
+        for (int k = 0; k < 10; k++) end += snprintf(end, 8, "&a%d;", i - 1);
+        strcat(text, line);
+        strcat(text, "'>");
+    }
+    strcat(text, "<!ENTITY file SYSTEM '/etc/passwd'>]>");
+    strcat(text, MAP(SET LAYER("&a10;", TILES) LAYER("walls", CSV("&file;0,1,1,0,0,0"))));
+    sl_context *context = testing_context(NULL);
+    const sl_import_options options = sl_import_options_default();
+    sl_map map = {0};
+    const sl_status status = sl_map_read_tmx(context, "f", text, strlen(text), &options, &map);
+    // libxml2 may refuse the nested entities by itself, or they are passed over.
+    assert_true(status == SL_OK || status == SL_BAD_INPUT);
+    assert_null(strstr(sl_context_message(context), "root:"));
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
+static void test_long_texts(void **state) {
+    (void)state;
+    // More characters than libxml2 takes of itself; then declared entities are refused.
+    const size_t columns = 2000, rows = 2600;
+    const char *heads[] = {"<map ", "<!DOCTYPE map [<!ENTITY a 'b'>]><map "};
+    char *text = malloc(2 * columns * rows + 512);
+    assert_non_null(text);
+    for (int i = 0; i < 2; i++) {
+        char *end = text + sprintf(text,
+                                   "%swidth='%zu' height='%zu' tilewidth='1' tileheight='1'><layer "
+                                   "name='walls' width='%zu' height='%zu'><data encoding='csv'>",
+                                   heads[i], columns, rows, columns, rows);
+        for (size_t k = 0; k < columns * rows; k++) end += sprintf(end, "0,");
+        strcpy(end - 1, "</data></layer></map>");
+        if (i)
+            assert_refused(text, "f: XML: it declares entities");
+        else
+            assert_walls(text, "wall 0 2600 2000 2600\nwall 0 0 2000 0\nwall 0 0 0 2600\n"
+                               "wall 2000 0 2000 2600\n");
+    }
+    free(text);
+}
+
+// --- files beside the map
+
+static void write_file(const char *folder, const char *name, const char *text) {
+    char path[256];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *stream = fopen(path, "w");
+    assert_non_null(stream);
+    fputs(text, stream);
+    assert_int_equal(fclose(stream), 0);
+}
+
+static void remove_file(const char *folder, const char *name) {
+    char path[256];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    assert_int_equal(remove(path), 0);
+}
+
+#define BESIDE(source, layers) MAP("<tileset firstgid='1' source='" source "'/>" layers)
+
+static sl_status read_beside(sl_context *context, const char *folder, const char *text,
+                             sl_map *map) {
+    char path[256];
+    snprintf(path, sizeof path, "%s/m.tmx", folder);
+    write_file(folder, "m.tmx", text);
+    return sl_map_read(context, path, NULL, map);
+}
+
+static void test_tilesets_beside(void **state) {
+    (void)state;
+    char folder[] = "/tmp/sightline-tiled-XXXXXX", inner[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(inner, sizeof inner, "%s/sets", folder);
+    assert_int_equal(mkdir(inner, 0700), 0);
+    write_file(inner, "a.tsx",
+               "<?xml version='1.0'?><tileset tilewidth='8' tileheight='8'>"
+               "<tile id='4'>" TRUE("solid") "</tile></tileset>");
+    write_file(
+        inner, "b.tsj",
+        "{\"tilewidth\": 8, \"tileheight\": 8, \"tiles\": [{\"id\": 4, \"type\": \"wall\"}]}");
+    write_file(inner, "broken.tsx", "<tileset tilewidth='8'/>");
+    static const struct {
+        const char *text, *message;
+    } cases[] = {
+        {BESIDE("sets/a.tsx", LAYER("a", CSV("1,5,5,0,0,0"))), NULL},
+        {BESIDE("sets\\a.tsx", LAYER("a", CSV("1,5,5,0,0,0"))), NULL},
+        {BESIDE("sets/b.tsj", LAYER("a", CSV("1,5,5,0,0,0"))), NULL},
+        // A file that is missing does no harm where a layer says that it is solid.
+        {BESIDE("no.tsx", LAYER("a", CSV("1,5,5,0,0,0")) LAYER("walls", TILES)), NULL},
+        {BESIDE("no.tsx", LAYER("a", TILES)), "its tileset 'no.tsx' cannot be read"},
+        {BESIDE("sets", LAYER("a", TILES)), "its tileset 'sets' cannot be read"},
+        {BESIDE("sets/broken.tsx", LAYER("a", TILES)), "broken.tsx:1: tileheight: expected"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        testing_memory memory = {0};
+        sl_context *context = testing_context(&memory);
+        sl_map map = {0};
+        const sl_status status = read_beside(context, folder, cases[i].text, &map);
+        const char *said = sl_context_message(context);
+        if (cases[i].message) {
+            assert_int_equal(status, SL_BAD_INPUT);
+            if (!strstr(said, cases[i].message)) fail_msg("%s", said);
+        } else {
+            if (status != SL_OK) fail_msg("%s", said);
+            char *walls = map_text(&map);
+            assert_string_equal(walls + strlen("sightline 1\n"), TWO_TILES);
+            free(walls);
+        }
+        sl_map_destroy(context, &map);
+        sl_context_destroy(context);
+        assert_int_equal(memory.live, 0);
+    }
+    remove_file(inner, "a.tsx");
+    remove_file(inner, "b.tsj");
+    remove_file(inner, "broken.tsx");
+    remove_file(folder, "m.tmx");
+    assert_int_equal(rmdir(inner), 0);
+    assert_int_equal(rmdir(folder), 0);
+}
+
+/// Each allocation of ours fails once.
+static void test_memory(void **state) {
+    (void)state;
+    const char *text =
+        MAP(SET_OF(COLLIDES(BOX("1", "1", "2", "2")) "<tile id='1' type='wall'/>")
+                LAYER("a", DATA("encoding='base64' compression='zlib'",
+                                ZLIB)) "<objectgroup "
+                                       "name='walls'>" BOX("1", "1", "2", "2") "</objectgroup>");
+    const sl_import_options options = sl_import_options_default();
+    sl_status status = SL_NO_MEMORY;
+    for (long fail_at = 1; status != SL_OK; fail_at++) {
+        testing_memory memory = {0};
+        sl_context *context = testing_context(&memory);
+        memory.fail_at = memory.calls + fail_at;
+        sl_map map = {0};
+        status = sl_map_read_tmx(context, "f", text, strlen(text), &options, &map);
+        if (status != SL_OK) assert_int_equal(status, SL_NO_MEMORY);
+        if (status != SL_OK) assert_true(map_is_empty(&map));
+        sl_map_destroy(context, &map);
+        sl_context_destroy(context);
+        assert_int_equal(memory.live, 0);
+        assert_in_range(fail_at, 1, 100);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_encodings),
+        cmocka_unit_test(test_json),
+        cmocka_unit_test(test_names_that_say_solid),
+        cmocka_unit_test(test_layers_that_are_solid),
+        cmocka_unit_test(test_layers_asked_for),
+        cmocka_unit_test(test_tiles_that_are_solid),
+        cmocka_unit_test(test_shapes_of_tiles),
+        cmocka_unit_test(test_objects),
+        cmocka_unit_test(test_ellipses),
+        cmocka_unit_test(test_chunks),
+        cmocka_unit_test(test_guess),
+        cmocka_unit_test(test_damaged_data),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_entities_are_not_followed),
+        cmocka_unit_test(test_long_texts),
+        cmocka_unit_test(test_tilesets_beside),
+        cmocka_unit_test(test_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
