@@ -1,0 +1,238 @@
+// LDtk: levels by name, worlds, layers, values, levels in files of their own, and what is refused.
+#include "testing.h"
+
+#include "import_check.h"
+
+#include <unistd.h>
+
+#define GRID(name, cells, more)                                                                    \
+    "{\"__identifier\": \"" name "\", \"__type\": \"IntGrid\", \"__cWid\": 3, \"__cHei\": 2, "     \
+    "\"__gridSize\": 8, \"layerDefUid\": 7, \"intGridCsv\": [" cells "]" more "}"
+#define LEVEL(name, x, y, layers)                                                                  \
+    "{\"identifier\": \"" name "\", \"iid\": \"id-" name "\", \"worldX\": " x ", \"worldY\": " y   \
+    ", \"pxWid\": 24, \"pxHei\": 16, \"layerInstances\": [" layers "]}"
+#define PROJECT(more, levels)                                                                      \
+    "{\"__header__\": {\"app\": \"LDtk\"}, \"worlds\": []" more ",\n\"levels\": [" levels "]}"
+#define VALUES                                                                                     \
+    ", \"defs\": {\"layers\": [{\"uid\": 6}, {\"uid\": 7, \"intGridValues\": [{\"value\": 1, "     \
+    "\"identifier\": \"Wall\"}, {\"value\": 2, \"identifier\": null}, {\"value\": 3, "             \
+    "\"identifier\": \"solid\"}]}]}"
+
+#define TWO_TILES                                                                                  \
+    "wall 0 16 8 16\nwall 8 8 24 8\nwall 8 8 8 16\nwall 0 0 24 0\nwall 0 0 0 16\nwall 24 0 24 8\n"
+
+static void assert_walls(const char *text, const char *name, const char *layers,
+                         const char *expected) {
+    const sl_import_options options = {.map = name, .layers = layers};
+    assert_walls_of(sl_map_read_ldtk, &options, text, strlen(text), expected);
+}
+
+static void assert_refused(const char *text, const char *message) {
+    assert_refused_of(sl_map_read_ldtk, NULL, text, strlen(text), SL_BAD_INPUT, message);
+}
+
+static void assert_no_such(const char *text, const char *name, const char *layers,
+                           const char *message) {
+    const sl_import_options options = {.map = name, .layers = layers};
+    assert_refused_of(sl_map_read_ldtk, &options, text, strlen(text), SL_BAD_ARGUMENT, message);
+}
+
+static void test_values(void **state) {
+    (void)state;
+    // Without names all values but 0 are solid; with names those that say so.
+    assert_walls(PROJECT("", LEVEL("A", "0", "0", GRID("Any", "0,1,2,0,0,0", ""))), NULL, NULL,
+                 TWO_TILES);
+    assert_walls(PROJECT(VALUES, LEVEL("A", "0", "0", GRID("Any", "2,1,3,4,0,2", ""))), NULL, NULL,
+                 TWO_TILES);
+    assert_walls(LEVEL("A", "5", "5", GRID("Any", "0,1,2,0,0,0", "")), NULL, NULL, TWO_TILES);
+}
+
+static void test_layers(void **state) {
+    (void)state;
+#define LAYERS                                                                                     \
+    PROJECT("", LEVEL("A", "0", "0",                                                               \
+                      GRID("Water", "1,1,1,1,1,0",                                                 \
+                           "") ",{\"__type\": \"Entities\", "                                      \
+                               "\"__identifier\": \"Walls_2\", \"entityInstances\": [{}]}," GRID(  \
+                                   "Collisions", "0,1,0,0,0,0", "") "," GRID("Walls",              \
+                                                                             "0,0,1,0,0,0", "")))
+    assert_walls(LAYERS, NULL, NULL, TWO_TILES);
+    assert_walls(LAYERS, NULL, "Walls,Collisions", TWO_TILES);
+    assert_walls(LAYERS, NULL, "Water",
+                 "wall 16 8 24 8\nwall 16 0 24 0\nwall 16 0 16 8\nwall 24 0 24 8\n");
+    assert_no_such(LAYERS, NULL, "Water,Walls_2", "f: there is no IntGrid layer 'Walls_2'");
+    // A layer's offset moves it; what it does not cover is solid.
+    assert_walls(PROJECT("", LEVEL("A", "0", "0",
+                                   GRID("Any", "0,0,0,0,0,0",
+                                        ", \"__pxTotalOffsetX\": 4, \"__pxTotalOffsetY\": -3"))),
+                 NULL, NULL, "wall 4 19 28 19\nwall 4 3 28 3\nwall 4 3 4 19\nwall 28 3 28 19\n");
+}
+
+#define WORLD                                                                                      \
+    LEVEL("A", "-8", "100", GRID("Any", "1,0,0,1,0,0", ""))                                        \
+    "," LEVEL(                                                                                     \
+        "B", "16", "108",                                                                          \
+        GRID("Any", "0,0,0,0,1,1",                                                                 \
+             "")) ",{\"identifier\": \"Up\", "                                                     \
+                  "\"worldDepth\": 1, \"worldX\": 0, \"worldY\": 0, \"pxWid\": 8, \"pxHei\": 8}"
+
+static void test_levels(void **state) {
+    (void)state;
+    static const char a[] = "wall 8 16 24 16\nwall 8 0 24 0\nwall 8 0 8 16\nwall 24 0 24 16\n";
+    assert_walls(PROJECT("", WORLD), NULL, NULL, a);
+    assert_walls(PROJECT("", WORLD), "A", NULL, a);
+    assert_walls(PROJECT("", WORLD), "id-A", NULL, a);
+    assert_walls(PROJECT("", WORLD), "B", NULL,
+                 "wall 0 16 24 16\nwall 8 8 24 8\nwall 24 8 24 16\nwall 0 0 8 0\nwall 0 0 0 16\n"
+                 "wall 8 0 8 8\n");
+    // Side by side they are one: the way from A to B is open where both are.
+    assert_walls(PROJECT("", WORLD), "all", NULL,
+                 "wall 0 24 16 24\nwall 16 16 40 16\nwall 16 16 16 24\nwall 0 8 16 8\n"
+                 "wall 24 8 40 8\nwall 0 8 0 24\nwall 40 8 40 16\nwall 16 0 24 0\n"
+                 "wall 16 0 16 8\nwall 24 0 24 8\n");
+    assert_no_such(PROJECT("", WORLD), "C", NULL, "f: there is no level or world 'C'");
+    assert_no_such(LEVEL("A", "0", "0", ""), "B", NULL, "f: the level's name is 'A'");
+}
+
+static void test_layouts(void **state) {
+    (void)state;
+#define ROW(layout)                                                                                \
+    PROJECT(", \"worldLayout\": \"" layout "\"",                                                   \
+            LEVEL("A", "-1", "-1", GRID("Any", "0,0,0,0,0,0", "")) "," LEVEL(                      \
+                "B", "-1", "-1", GRID("Any", "0,0,0,0,0,0", "")))
+    assert_walls(ROW("LinearHorizontal"), "all", NULL,
+                 "wall 0 16 48 16\nwall 0 0 48 0\nwall 0 0 0 16\nwall 48 0 48 16\n");
+    assert_walls(ROW("LinearVertical"), "all", NULL,
+                 "wall 0 32 24 32\nwall 0 0 24 0\nwall 0 0 0 32\nwall 24 0 24 32\n");
+    // Levels off each other's grid keep walls of their own.
+    assert_walls(PROJECT("", LEVEL("A", "0", "0", GRID("Any", "0,0,0,0,0,0", "")) "," LEVEL(
+                                 "B", "25", "0", GRID("Any", "0,0,0,0,0,0", ""))),
+                 "all", NULL,
+                 "wall 0 16 24 16\nwall 0 0 24 0\nwall 0 0 0 16\nwall 24 0 24 16\n"
+                 "wall 25 16 49 16\nwall 25 0 49 0\nwall 25 0 25 16\nwall 49 0 49 16\n");
+}
+
+static void test_several_worlds(void **state) {
+    (void)state;
+    static const char text[] =
+        "{\"levels\": [], \"worlds\": [{\"identifier\": \"W1\", \"levels\": []}, {\"identifier\": "
+        "\"W2\", \"levels\": [" LEVEL("A", "0", "0", GRID("Any", "0,1,1,0,0,0", "")) "]}]}";
+    assert_walls(text, "A", NULL, TWO_TILES);
+    assert_walls(text, "W2", NULL, TWO_TILES);
+    assert_refused("{\"levels\": [], \"worlds\": []}", "f: the project has no level");
+}
+
+static void assert_list(const char *text, const char *expected) {
+    testing_memory memory = {0};
+    sl_context *context = testing_context(&memory);
+    sl_map_list list = {0};
+    char names[256] = "";
+    assert_ok(context, sl_map_list_ldtk(context, "f", text, strlen(text), &list));
+    for (size_t i = 0; i < list.count; i++) {
+        strcat(names, list.names[i]);
+        strcat(names, " ");
+    }
+    assert_string_equal(names, expected);
+    sl_map_list_destroy(context, &list);
+    sl_context_destroy(context);
+    assert_int_equal(memory.live, 0);
+}
+
+static void test_list(void **state) {
+    (void)state;
+    assert_list(PROJECT("", WORLD), "A B Up all ");
+    assert_list(PROJECT("", LEVEL("A", "0", "0", "")), "A ");
+    assert_list(LEVEL("A", "0", "0", ""), "A ");
+    assert_list("{\"worlds\": [{\"identifier\": \"W\", \"levels\": [" LEVEL(
+                    "A", "0", "0", "") "]}, {\"identifier\": \"V\", \"levels\": []}]}",
+                "A W V ");
+    sl_context *context = testing_context(NULL);
+    sl_map_list list = {0};
+    assert_int_equal(sl_map_list_ldtk(context, "f", "{\"levels\": [{}]}", 16, &list), SL_BAD_INPUT);
+    assert_string_equal(sl_context_message(context),
+                        "f: levels[0].identifier: expected text, found nothing");
+    assert_null(list.names);
+    sl_context_destroy(context);
+}
+
+static void test_refused(void **state) {
+    (void)state;
+    assert_refused("{", "f:1: column ");
+    assert_refused("7", "f:1: column 1: no JSON");
+    assert_refused("[]", "f: expected an object, found an array");
+    assert_refused("{\"levels\": 7}", "f: levels: expected an array, found 7");
+    assert_refused("{\"levels\": [7]}", "f: levels[0]: expected an object, found 7");
+    assert_refused("{\"levels\": [{}]}", "f: levels[0].pxHei: expected a whole number");
+    assert_refused(PROJECT("", "{\"pxHei\": 1.5}"), "f: levels[0].pxHei: expected a whole number, "
+                                                    "found 1.5");
+    assert_refused(PROJECT("", "{\"pxHei\": 1e308}"), "f: levels[0].pxHei: 1e+308 is out of range");
+    assert_refused(PROJECT("", "{\"pxHei\": 8}"), "f: levels[0].layerInstances: expected an array");
+    assert_refused(PROJECT("", LEVEL("A", "0", "0", "")), "f: level A has no IntGrid layer");
+    assert_refused(PROJECT("", LEVEL("A", "0", "0", "7")),
+                   "f: levels[0].layerInstances[0]: expected");
+#define IN_LAYER "f: levels[0].layerInstances[0]"
+    assert_refused(PROJECT("", LEVEL("A", "0", "0", GRID("Any", "0,1,1,0,0", ""))),
+                   IN_LAYER ".intGridCsv: 3 x 2 cells are 6, found 5");
+    assert_refused(PROJECT("", LEVEL("A", "0", "0", GRID("Any", "0,1,1,0,0,0,0", ""))),
+                   IN_LAYER ".intGridCsv: 3 x 2 cells are 6, found 7");
+    assert_refused(PROJECT("", LEVEL("A", "0", "0", GRID("Any", "0,1,-1,0,0,0", ""))),
+                   IN_LAYER ".intGridCsv[2]: -1 is out of range");
+    assert_refused(PROJECT("", LEVEL("A", "0", "0", GRID("Any", "0,1,\"1\",0,0,0", ""))),
+                   IN_LAYER ".intGridCsv[2]: expected a whole number, found '1'");
+    assert_refused(PROJECT("", LEVEL("A", "0", "0", "{\"__type\": \"IntGrid\", \"__cWid\": 0}")),
+                   IN_LAYER ".__cWid: 0 is out of range");
+    assert_refused(PROJECT("", LEVEL("A", "0", "0",
+                                     "{\"__type\": \"IntGrid\", \"__cWid\": 2147483647, "
+                                     "\"__cHei\": 2147483647, \"__gridSize\": 8, "
+                                     "\"intGridCsv\": [1]}")),
+                   IN_LAYER ".intGridCsv: 2147483647 x 2147483647 cells are");
+    assert_refused(PROJECT("", "{\"pxHei\": 8, \"externalRelPath\": \"no/such.ldtkl\"}"),
+                   "f: it names the file no/such.ldtkl, but ");
+}
+
+static void write_file(const char *path, const char *text) {
+    FILE *stream = fopen(path, "w");
+    assert_non_null(stream);
+    fputs(text, stream);
+    assert_int_equal(fclose(stream), 0);
+}
+
+static void test_separate_levels(void **state) {
+    (void)state;
+    char folder[] = "/tmp/sightline-ldtk-XXXXXX", project[64], level[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(project, sizeof project, "%s/p.ldtk", folder);
+    snprintf(level, sizeof level, "%s/A.ldtkl", folder);
+    write_file(project, PROJECT(VALUES, "{\"identifier\": \"A\", \"pxHei\": 16, \"pxWid\": 24, "
+                                        "\"layerInstances\": null, "
+                                        "\"externalRelPath\": \"A.ldtkl\"}"));
+    write_file(level, LEVEL("A", "0", "0", GRID("Any", "2,1,3,0,0,2", "")));
+    testing_memory memory = {0};
+    sl_context *context = testing_context(&memory);
+    sl_map map = {0};
+    // The project knows the names of the values.
+    assert_ok(context, sl_map_read(context, project, NULL, &map));
+    char *text = map_text(&map);
+    assert_string_equal(text + strlen("sightline 1\n"), TWO_TILES);
+    free(text);
+    sl_map_destroy(context, &map);
+    assert_ok(context, sl_map_read(context, level, NULL, &map));
+    assert_int_equal(map.wall_count, 4);
+    sl_map_destroy(context, &map);
+    write_file(level, "{");
+    assert_int_equal(sl_map_read(context, project, NULL, &map), SL_BAD_INPUT);
+    assert_non_null(strstr(sl_context_message(context), "A.ldtkl:1: column "));
+    sl_context_destroy(context);
+    assert_int_equal(memory.live, 0);
+    assert_int_equal(remove(project) | remove(level) | rmdir(folder), 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_values),         cmocka_unit_test(test_layers),
+        cmocka_unit_test(test_levels),         cmocka_unit_test(test_layouts),
+        cmocka_unit_test(test_several_worlds), cmocka_unit_test(test_list),
+        cmocka_unit_test(test_refused),        cmocka_unit_test(test_separate_levels),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
