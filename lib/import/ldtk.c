@@ -292,19 +292,18 @@ static sl_status read_project(ldtk *reader) {
                    reader->name, sl_show((sl_word){map, strlen(map)}).text);
 }
 
-/// What was taken and what not. Walls inside the map are counted after their merging.
+/// What was taken, merged and left out.
 static void give_account(const ldtk *reader, const sl_map *map, size_t grids) {
     char bottom[SL_NUMBER_TEXT];
     sl_number_write(reader->bottom, bottom);
     sl_note(reader->context,
-            "%s: level %s%s: %zu IntGrid layers on %zu grids give %zu walls; solid are %s; left "
-            "out: %zu other levels, %zu at other depths, %zu other layers, %zu entities; unit: "
-            "pixels, y = %s - the file's y",
+            "%s: level %s%s: taken: %zu IntGrid layers, solid are %s; merged into %zu walls (grids "
+            "of cells: %zu); left out: %zu other levels, %zu at other depths, %zu other layers, "
+            "%zu entities; unit: pixels, y = %s - the file's y",
             reader->name, reader->taken, reader->levels > 1 ? " and all of its world" : "",
-            reader->layers, grids, map->wall_count,
-            reader->by_name ? "the values whose names say so" : "all values but 0",
-            reader->other_levels, reader->other_depths, reader->other_layers, reader->entities,
-            bottom);
+            reader->layers, reader->by_name ? "the values whose names say so" : "all values but 0",
+            map->wall_count, grids, reader->other_levels, reader->other_depths,
+            reader->other_layers, reader->entities, bottom);
 }
 
 static sl_status read_file(ldtk *reader, sl_map *map) {

@@ -355,12 +355,12 @@ static void give_account(const tiled *reader, size_t grids) {
     char top[SL_NUMBER_TEXT];
     sl_number_write(reader->top, top);
     sl_note(reader->context,
-            "%s: %zu layers solid as a whole, %zu tiles and %zu shapes of tiles by their tilesets, "
-            "%zu objects; tiles on %zu grids and shapes give %zu walls; left out: %zu layers, %zu "
-            "objects, %zu shapes of other kinds, %zu lines of no length, %zu tilesets not found; "
-            "unit: pixels, y = %s - the file's y",
+            "%s: taken: %zu layers solid as a whole, %zu tiles and %zu shapes of tiles by their "
+            "tilesets, %zu objects; merged into %zu walls (grids of tiles: %zu); left out: %zu "
+            "layers, %zu objects, %zu shapes of other kinds, %zu lines of no length, %zu tilesets "
+            "not found; unit: pixels, y = %s - the file's y",
             reader->map->file->name, reader->solid_layers, reader->solid_tiles, reader->shapes,
-            reader->objects, grids, reader->pen.map->wall_count, reader->other_layers,
+            reader->objects, reader->pen.map->wall_count, grids, reader->other_layers,
             reader->other_objects, reader->other_shapes, reader->pen.points, reader->sets.missing,
             top);
 }

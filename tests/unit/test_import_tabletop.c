@@ -134,20 +134,21 @@ static void test_foundry_sides(void **state) {
 
 static void test_foundry_doors(void **state) {
     (void)state;
-#define DOORS                                                                                             \
-    SCENE(BASE "," WALL("1, 2, 3, 2", ", \"door\": 1, \"ds\": 0") "," WALL(                               \
-        "3, 2, 5, 2",                                                                                     \
-        ", \"door\": "                                                                                    \
-        "1, \"ds\": "                                                                                     \
-        "1") "," WALL("5, 2, 7, 2", ", \"door\": 2, \"ds\": 2") "," WALL("7, 2, 9, 2",                    \
-                                                                         ", \"door\": 1, "                \
-                                                                         "\"dir\": 1") "," WALL("7, 2, "  \
-                                                                                                "9, 2",   \
-                                                                                                ", "      \
-                                                                                                "\"door"  \
-                                                                                                "\": 1, " \
-                                                                                                "\"sight" \
-                                                                                                "\": 0"))
+#define DOORS                                                                                      \
+    SCENE(BASE "," WALL("1, 2, 3, 2", ", \"door\": 1, \"ds\": 0") "," WALL(                        \
+        "3, 2, 5, 2",                                                                              \
+        ", \"door\": "                                                                             \
+        "1, \"ds\": "                                                                              \
+        "1") "," WALL("5, 2, 7, 2",                                                                \
+                      ", \"door\": 2, \"ds\": 2") "," WALL("7, 2, 9, 2",                           \
+                                                           ", \"door\": 1, "                       \
+                                                           "\"dir\": 1") "," WALL("7, 2, "         \
+                                                                                  "9, 2",          \
+                                                                                  ", "             \
+                                                                                  "\"door"         \
+                                                                                  "\": 1, "        \
+                                                                                  "\"sight"        \
+                                                                                  "\": 0"))
     assert_foundry(NULL, DOORS, BASE_WALL "wall 1 8 3 8\nwall 5 8 7 8\noneway 7 8 9 8\n");
     assert_foundry(&with_doors, DOORS,
                    BASE_WALL
