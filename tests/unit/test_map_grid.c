@@ -1,6 +1,7 @@
 // Grids of squares: their walls, where they stand and how few they are.
 #include "testing.h"
 
+#include "base/random.h"
 #include "map/grid.h"
 #include "unit/map_same.h"
 
@@ -71,6 +72,60 @@ static void test_origin_and_step(void **state) {
     destroy(&grid);
 }
 
+enum { SIDE = 6 };
+
+/// How many walls run along the unit edge from a corner, to the right or up.
+static int walls_along(const sl_map *map, double x, double y, bool upright) {
+    int count = 0;
+    for (size_t i = 0; i < map->wall_count; i++) {
+        const sl_wall *wall = &map->walls[i];
+        if ((wall->a.x == wall->b.x) != upright) continue;
+        count += upright ? wall->a.x == x && wall->a.y <= y && y < wall->b.y
+                         : wall->a.y == y && wall->a.x <= x && x < wall->b.x;
+    }
+    return count;
+}
+
+/// No wall goes on where another in its line ends.
+static void assert_longest(const sl_map *map) {
+    for (size_t i = 0; i < map->wall_count; i++)
+        for (size_t k = 0; k < map->wall_count; k++) {
+            const sl_wall *a = &map->walls[i], *b = &map->walls[k];
+            if ((a->a.x == a->b.x) != (b->a.x == b->b.x)) continue;
+            assert_false(a->b.x == b->a.x && a->b.y == b->a.y);
+        }
+}
+
+static void test_random_grids(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_random random = {.state = 1};
+    for (int run = 0; run < 2000; run++) {
+        const size_t width = 1 + (size_t)run % SIDE, height = 1 + (size_t)run / SIDE % SIDE;
+        sl_grid grid;
+        sl_map map = {0};
+        assert_ok(context, sl_grid_create(context, width, height, &grid));
+        grid.open_beyond = run & 1;
+        for (size_t i = 0; i < width * height; i++)
+            if (sl_random_below(&random, 256) < (uint64_t)(run & 0xff)) grid.squares[i] = '#';
+        assert_ok(context, sl_grid_add_walls(context, &grid, &map));
+        // Row by row from one above the top, each square's left and lower edge.
+        for (size_t row = SIZE_MAX; row == SIZE_MAX || row < height; row++)
+            for (size_t column = 0; column <= width; column++) {
+                const double x = (double)column, y = (double)(height - 1 - row);
+                const bool here = sl_grid_solid(&grid, row, column);
+                assert_int_equal(walls_along(&map, x, y, true),
+                                 here != sl_grid_solid(&grid, row, column - 1));
+                assert_int_equal(walls_along(&map, x, y, false),
+                                 here != sl_grid_solid(&grid, row + 1, column));
+            }
+        assert_longest(&map);
+        sl_map_destroy(context, &map);
+        sl_grid_destroy(context, &grid);
+    }
+    sl_context_destroy(context);
+}
+
 static void test_memory(void **state) {
     (void)state;
     for (long fail_at = 1; fail_at <= 2; fail_at++) {
@@ -92,6 +147,7 @@ int main(void) {
         cmocka_unit_test(test_walls_run_over_many_squares),
         cmocka_unit_test(test_squares_that_touch_at_a_corner),
         cmocka_unit_test(test_origin_and_step),
+        cmocka_unit_test(test_random_grids),
         cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
