@@ -2,6 +2,8 @@
 // BLOCKS, ENTITIES. Its entities are drawn by dxf_entities.c.
 #include "import/dxf.h"
 
+#include "import/layers.h"
+
 #include <stdlib.h>
 
 static sl_word trimmed(sl_word word) {
@@ -121,14 +123,10 @@ static sl_status read_header(sl_dxf *dxf, sl_dxf_range section) {
     return SL_OK;
 }
 
-/// Whether the option names the layer; it is a list with commas between.
-static bool is_asked_for(const char *list, sl_word name) {
-    for (const char *at = list;; at++) {
-        const size_t length = strcspn(at, ",");
-        if (same_name(trimmed((sl_word){at, length}), name)) return true;
-        at += length;
-        if (!*at) return false;
-    }
+static bool is_asked_for(const char *list, sl_word layer) {
+    for (sl_word name; sl_layers_next(&list, &name);)
+        if (same_name(name, layer)) return true;
+    return false;
 }
 
 /// Layers of the table: without the option those are taken that are on and not frozen.
@@ -246,9 +244,8 @@ static sl_status read_sections(sl_dxf *dxf) {
 
 /// A layer that is asked for and not there is a mistake worth telling of.
 static sl_status check_layers(const sl_dxf *dxf) {
-    for (const char *at = dxf->options->layers; at && *at;) {
-        const size_t length = strcspn(at, ",");
-        const sl_word name = trimmed((sl_word){at, length});
+    const char *list = dxf->options->layers;
+    for (sl_word name; list && sl_layers_next(&list, &name);) {
         bool known = dxf->layers.count == 0;
         for (size_t i = 0; i < dxf->layers.count; i++)
             known |= same_name(dxf->layers.items[i].name, name);
@@ -257,7 +254,6 @@ static sl_status check_layers(const sl_dxf *dxf) {
                            "%s: there is no layer '%s' among the drawing's %zu; the first is '%s'",
                            dxf->name, sl_show(name).text, dxf->layers.count,
                            sl_show(dxf->layers.items[0].name).text);
-        at += length + (at[length] == ',');
     }
     return SL_OK;
 }

@@ -1,11 +1,10 @@
 // The map.yaml of ROS' map_server: a picture's name, the size of its pixels, where it lies, and
 // from which occupancy a pixel is an obstacle.
-#include "base/file.h"
 #include "base/number.h"
+#include "import/beside.h"
 #include "import/image.h"
 #include "map/scan.h"
 
-#include <sys/stat.h>
 #include <yaml.h>
 
 typedef struct ros_map {
@@ -119,28 +118,11 @@ static sl_status read_yaml(ros_map *m, const char *text, size_t size) {
     return SL_OK;
 }
 
-/// The path of a file named in a file: from that one's folder, unless it is a whole path.
-static char *beside(const ros_map *m, const char *file) {
-    const char *slash = *file == '/' ? NULL : strrchr(m->name, '/');
-    const size_t folder = slash ? (size_t)(slash - m->name) + 1 : 0, length = strlen(file);
-    char *path = sl_alloc(m->context, folder + length + 1);
-    if (!path) return NULL;
-    memcpy(path, m->name, folder);
-    memcpy(path + folder, file, length + 1);
-    return path;
-}
-
-/// A plain file: a device may never end.
-static bool is_there(const char *path) {
-    struct stat facts;
-    return stat(path, &facts) == 0 && S_ISREG(facts.st_mode);
-}
-
 /// The picture as named or, since maps are often renamed, one that has the map's own name.
 static sl_status find_image(const ros_map *m, char **path) {
-    *path = beside(m, m->image);
+    *path = sl_beside_path(m->context, m->name, m->image);
     if (!*path) return SL_NO_MEMORY;
-    if (is_there(*path)) return SL_OK;
+    if (sl_beside_is_there(*path)) return SL_OK;
     sl_free(m->context, *path);
     const char *dot = strrchr(m->name, '.');
     const size_t stem = dot ? (size_t)(dot - m->name) : strlen(m->name);
@@ -150,7 +132,7 @@ static sl_status find_image(const ros_map *m, char **path) {
     static const char *const endings[] = {".pgm", ".png"};
     for (int i = 0; i < 2; i++) {
         memcpy(*path + stem, endings[i], 5);
-        if (!is_there(*path)) continue;
+        if (!sl_beside_is_there(*path)) continue;
         sl_note(m->context, "%s: there is no picture '%s' beside it; '%s' is taken", m->name,
                 m->image, *path);
         return SL_OK;

@@ -4,6 +4,7 @@
 
 #include "base/base.h"
 #include "base/number.h"
+#include "import/layers.h"
 #include "import/xml.h"
 #include "map/scan.h"
 #include "sightline/import.h"
@@ -103,13 +104,7 @@ static bool is_hidden(xmlNode *node) {
 }
 
 static bool names_layer(const char *list, const char *name) {
-    for (const char *at = list; name;) {
-        const size_t length = strcspn(at, ",");
-        if (strlen(name) == length && strncmp(at, name, length) == 0) return true;
-        if (!at[length]) break;
-        at += length + 1;
-    }
-    return false;
+    return name && sl_layers_have(list, name);
 }
 
 /// Whether the group's id or label is among the layers asked for.

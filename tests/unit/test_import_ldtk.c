@@ -187,7 +187,7 @@ static void test_refused(void **state) {
                                      "\"intGridCsv\": [1]}")),
                    IN_LAYER ".intGridCsv: 2147483647 x 2147483647 cells are");
     assert_refused(PROJECT("", "{\"pxHei\": 8, \"externalRelPath\": \"no/such.ldtkl\"}"),
-                   "f: it names the file no/such.ldtkl, but ");
+                   "f: it names the file no/such.ldtkl: ");
 }
 
 static void write_file(const char *path, const char *text) {
