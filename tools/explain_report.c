@@ -1,7 +1,6 @@
 #include "explain_report.h"
 
 #include "base/number.h"
-#include "cell_to_cell/crossing.h"
 #include "json_print.h"
 #include "names.h"
 
@@ -102,10 +101,11 @@ static void print_miss(const sl_space *space, const sl_explanation *e, const sl_
     printf("Portal %" PRIu32 ", which would come next, into cell %" PRIu32 ", stops it: ",
            exit->portal, exit->cell);
     if (miss->turns) {
-        const uint32_t other = sequence->ends[0].portal;
-        printf("it is crossed %s and portal %" PRIu32 " %s, and no straight line does both.\n",
-               sl_crossing_name(sl_crossing_of(exit)), portal_of(space, sequence, other),
-               sl_crossing_name(sl_crossing_of(&space->exits[sequence->exits[other]])));
+        printf("it turns back, and no straight line crosses it and portal %" PRIu32,
+               portal_of(space, sequence, sequence->ends[0].portal));
+        if (sequence->end_count > 4)
+            printf(" and portal %" PRIu32, portal_of(space, sequence, sequence->ends[2].portal));
+        puts(" all forwards.");
         return;
     }
     printf("a line would have to keep ");

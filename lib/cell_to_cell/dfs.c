@@ -1,8 +1,8 @@
 /// Depth-first search (Teller & Séquin 1991, Cell to Cell Visibility): from each source cell over
 /// the portals, as long as the sequence has a sightline. What is visited is the source's stab tree.
 ///
-/// A direction that crosses portals of a sequence forwards is never crossed backwards by it: no
-/// sightline passes both strictly, and a cell is never entered twice, so that the search ends.
+/// A sequence's portals are all crossed forwards by some one direction: no sightline does without,
+/// and a cell is never entered twice, so that the search ends.
 ///
 /// A rounded solver marks answers near zero. They are followed with either sight, so that all pairs
 /// of which rounding decided are known: they count as seen with closed sight, not with open.
@@ -19,10 +19,10 @@
 /// A cell on the way from the source.
 typedef struct step {
     uint32_t cell;
-    uint32_t next;      ///< exit to try next, from 0
-    uint32_t node;      ///< in the stab tree
-    uint32_t crossings; ///< the directions crossed so far, bits of sl_crossing
-    bool grazing;       ///< the sequence is no more than grazed
+    uint32_t next;          ///< exit to try next, from 0
+    uint32_t node;          ///< in the stab tree
+    sl_crossings crossings; ///< of the portals so far
+    bool grazing;           ///< the sequence is no more than grazed
 } step;
 
 /// All searches together.
@@ -66,8 +66,8 @@ static sl_status try_exit(sl_context *context, const search *all, searcher *me, 
     const sl_solver *solver = all->options->solver;
     const sl_exit *exit = &all->space->exits[number];
     const step from = me->steps.items[me->steps.count - 1];
-    const uint32_t crossing = sl_crossing_of(exit);
-    if (from.crossings & sl_crossing_opposite(crossing)) return SL_OK;
+    sl_crossings crossings = from.crossings;
+    if (!sl_crossings_add(all->space, &crossings, number)) return SL_OK;
     if (all->options->inside_only && !all->space->cells[exit->cell].inside) return SL_OK;
     if (++me->account.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
 
@@ -81,8 +81,7 @@ static sl_status try_exit(sl_context *context, const search *all, searcher *me, 
         return SL_OK;
     }
     sl_bits_add(grazing && rounded ? me->doubtful : me->sure, exit->cell);
-    const step to = {
-        .cell = exit->cell, .crossings = from.crossings | crossing, .grazing = grazing};
+    const step to = {.cell = exit->cell, .crossings = crossings, .grazing = grazing};
     return enter(context, all, me, to, from.node, number, closed || !grazing);
 }
 
@@ -91,7 +90,8 @@ static sl_status search_from(sl_context *context, const search *all, searcher *m
     const sl_space *space = all->space;
     sl_bits_add(me->sure, source);
     me->steps.count = 0;
-    SL_TRY(enter(context, all, me, (step){.cell = source}, 0, UINT32_MAX, true));
+    SL_TRY(enter(context, all, me, (step){.cell = source, .crossings = SL_CROSSINGS_NONE}, 0,
+                 UINT32_MAX, true));
     while (me->steps.count) {
         step *last = &me->steps.items[me->steps.count - 1];
         const sl_cell *cell = &space->cells[last->cell];

@@ -17,9 +17,9 @@
 /// A cell on the way from the first.
 typedef struct step {
     uint32_t cell;
-    uint32_t next;      ///< exit to try next, from 0
-    uint32_t crossings; ///< the directions crossed so far, bits of sl_crossing
-    bool grazing;       ///< the sequence is no more than grazed
+    uint32_t next;          ///< exit to try next, from 0
+    sl_crossings crossings; ///< of the portals so far
+    bool grazing;           ///< the sequence is no more than grazed
 } step;
 
 typedef struct search {
@@ -134,16 +134,31 @@ static uint32_t place_of_miss(const search *s, const sl_miss *miss) {
     return s->most_misses && is_farther(miss, &out->misses[last]) ? last : UINT32_MAX;
 }
 
-/// The ends of the last portal and of the last one before it that is crossed the other way.
+static uint32_t place_of_exit(const sl_sequence *sequence, uint32_t exit) {
+    uint32_t at = 0;
+    while (sequence->exits[at] != exit) at++;
+    return at;
+}
+
+/// The ends of the last portal and of the one or two before it that leave no direction for it: one
+/// that it is crossed backwards to, or the two that bound the directions there were.
 static void tell_turn(const search *s, sl_sequence *sequence) {
     const uint32_t last = sequence->exit_count - 1;
-    const uint32_t wanted =
-        sl_crossing_opposite(sl_crossing_of(&s->space->exits[sequence->exits[last]]));
-    uint32_t other = last - 1;
-    while (sl_crossing_of(&s->space->exits[sequence->exits[other]]) != wanted) other--;
-    const sl_stab_end ends[4] = {{other, true}, {other, false}, {last, true}, {last, false}};
-    memcpy(sequence->ends, ends, sizeof ends);
-    sequence->end_count = 4;
+    const uint32_t stop = sequence->exits[last];
+    const sl_crossings before = s->steps.items[s->steps.count - 1].crossings;
+    uint32_t portals[3] = {place_of_exit(sequence, before.least),
+                           place_of_exit(sequence, before.most), last};
+    uint32_t first = 0;
+    for (uint32_t i = last; i-- > 0 && !first;) {
+        sl_crossings pair = {stop, stop};
+        if (sl_crossings_add(s->space, &pair, sequence->exits[i])) continue;
+        portals[1] = i;
+        first = 1;
+    }
+    for (uint32_t i = first; i < 3; i++)
+        for (int side = 0; side < 2; side++)
+            sequence->ends[sequence->end_count++] =
+                (sl_stab_end){.portal = portals[i], .left = side == 0};
 }
 
 static bool is_visited(const search *s, uint32_t cell) {
@@ -218,8 +233,9 @@ static sl_status judge(sl_context *context, search *s, uint32_t number, sl_stab_
     SL_TRY(SL_ARRAY_ROOM(context, &s->steps, 1));
     SL_TRY(SL_ARRAY_ROOM(context, &s->exits, 1));
     s->exits.items[s->exits.count++] = number;
-    s->steps.items[s->steps.count++] = (step){
-        .cell = exit->cell, .crossings = from.crossings | sl_crossing_of(exit), .grazing = grazing};
+    s->steps.items[s->steps.count++] =
+        (step){.cell = exit->cell, .crossings = from.crossings, .grazing = grazing};
+    sl_crossings_add(s->space, &s->steps.items[s->steps.count - 1].crossings, number);
     *enters = true;
     return SL_OK;
 }
@@ -229,8 +245,8 @@ static sl_status try_exit(sl_context *context, search *s, uint32_t number) {
     const sl_exit *exit = &s->space->exits[number];
     const step from = s->steps.items[s->steps.count - 1];
     const uint32_t portals = (uint32_t)s->exits.count + 1 + s->distance[exit->cell];
-    if (from.crossings & sl_crossing_opposite(sl_crossing_of(exit)))
-        return note_miss(context, s, number, true);
+    sl_crossings crossings = from.crossings;
+    if (!sl_crossings_add(s->space, &crossings, number)) return note_miss(context, s, number, true);
     if (is_beyond(s, from.grazing, portals)) return SL_OK;
     SL_TRY(count_test(context, s));
     sl_stab_verdict verdict;
@@ -245,7 +261,7 @@ static sl_status try_exit(sl_context *context, search *s, uint32_t number) {
 static sl_status search_within(sl_context *context, search *s) {
     const sl_space *space = s->space;
     SL_TRY(SL_ARRAY_ROOM(context, &s->steps, 1));
-    s->steps.items[s->steps.count++] = (step){.cell = s->out.from};
+    s->steps.items[s->steps.count++] = (step){.cell = s->out.from, .crossings = SL_CROSSINGS_NONE};
     while (s->steps.count && !s->stopped) {
         step *last = &s->steps.items[s->steps.count - 1];
         const sl_cell *cell = &space->cells[last->cell];

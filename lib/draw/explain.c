@@ -1,7 +1,6 @@
 /// The page of an explanation: a heading, the plan with what is told, a key, and a caption.
 #include "draw/explain.h"
 
-#include "cell_to_cell/crossing.h"
 #include "draw/paper.h"
 #include "draw/text.h"
 #include "sightline/draw.h"
@@ -123,14 +122,14 @@ static void write_caption(const sl_told *told, char text[CAPTION_TEXT]) {
                  "between them, for %s.",
                  sl_sequence_reason(space, sequence));
     } else if (told->miss->turns) {
-        const sl_exit *exits = space->exits, *stop = &exits[sequence->exits[count - 1]];
-        const uint32_t other = sequence->ends[0].portal;
+        char second[32] = "";
+        if (sequence->end_count > 4)
+            snprintf(second, sizeof second, " and portal %u", sequence->ends[2].portal + 1);
         snprintf(text, CAPTION_TEXT,
                  "Of all sequences that have a sightline this one comes nearest. It stops before "
-                 "the crossed badge: that portal leads %s and portal %u %s, and no straight line "
-                 "does both.",
-                 sl_crossing_name(sl_crossing_of(stop)), other + 1,
-                 sl_crossing_name(sl_crossing_of(&exits[sequence->exits[other]])));
+                 "the crossed badge: that portal turns back, and no straight line crosses it and "
+                 "portal %u%s all forwards.",
+                 sequence->ends[0].portal + 1, second);
     } else {
         snprintf(text, CAPTION_TEXT,
                  "Of all sequences that have a sightline this one comes nearest. It stops before "

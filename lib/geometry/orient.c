@@ -1,6 +1,7 @@
-/// The exact rest of the predicate: six products of two coordinates, each an integer of at most 106
-/// bits times a power of two, summed in a fixed-point number wide enough for all of them. Integers
-/// only: no rounding, no overflow, nothing that a compiler's treatment of doubles could change.
+/// The exact rest of the predicates: six or eight products of two coordinates, each an integer of
+/// at most 106 bits times a power of two, summed in a fixed-point number wide enough for all of
+/// them. Integers only: no rounding, no overflow, nothing that a compiler's treatment of doubles
+/// could change.
 #include "geometry/orient.h"
 
 #include <math.h>
@@ -34,7 +35,7 @@ static product multiply(double a, double b, bool negative) {
                      .negative = negative != (signbit(a) != signbit(b))};
 }
 
-/// Limbs for exponents from -2148 to 1942, 106 bits of a product above, and the carries of six.
+/// Limbs for exponents from -2148 to 1942, 106 bits of a product above, and the carries of eight.
 enum { LIMBS = (2148 + 1942 + 106 + 8) / 64 + 2 };
 
 /// Adds a product, shifted to start at bit `shift`, to a number in two's complement.
@@ -81,4 +82,15 @@ int sl_orient_exact(sl_point a, sl_point b, sl_point c) {
         multiply(b.y, c.x, true),  multiply(c.x, a.y, false), multiply(c.y, a.x, true),
     };
     return sign_of_sum(products, 6);
+}
+
+int sl_turn_exact(sl_point a, sl_point b, sl_point c, sl_point d) {
+    // Directions along one axis, of which maps are full.
+    if ((a.x == b.x && c.x == d.x) || (a.y == b.y && c.y == d.y)) return 0;
+    const product products[8] = {
+        multiply(b.x, d.y, false), multiply(b.x, c.y, true), multiply(a.x, d.y, true),
+        multiply(a.x, c.y, false), multiply(b.y, d.x, true), multiply(b.y, c.x, false),
+        multiply(a.y, d.x, false), multiply(a.y, c.x, true),
+    };
+    return sign_of_sum(products, 8);
 }

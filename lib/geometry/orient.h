@@ -1,4 +1,4 @@
-/// The exact predicate: where all signs about points and lines are decided.
+/// The exact predicates: where all signs about points and lines are decided.
 #ifndef SL_ORIENT_H
 #define SL_ORIENT_H
 
@@ -30,6 +30,22 @@ static inline int sl_orient_filter(sl_point a, sl_point b, sl_point c) {
 static inline int sl_orient(sl_point a, sl_point b, sl_point c) {
     const int sign = sl_orient_filter(a, b, c);
     return sign ? sign : sl_orient_exact(a, b, c);
+}
+
+/// As sl_turn, by exact arithmetic alone.
+int sl_turn_exact(sl_point a, sl_point b, sl_point c, sl_point d);
+
+/// The sign of (b - a) x (d - c): 1 where the direction from c to d lies to the left of that from a
+/// to b, by less than half a turn; -1 to the right; 0 along it, either way. Exact for all finite
+/// doubles. The filter's bound is that of sl_orient_filter: two products of two differences.
+static inline int sl_turn(sl_point a, sl_point b, sl_point c, sl_point d) {
+    const double left = (b.x - a.x) * (d.y - c.y);
+    const double right = (b.y - a.y) * (d.x - c.x);
+    const double determinant = left - right;
+    const double sum = fabs(left) + fabs(right);
+    const double bound = (3 * 0x1p-53 + 16 * 0x1p-106) * sum + 0x1p-1000;
+    const int sign = (determinant > bound) - (-determinant > bound);
+    return sign ? sign : sl_turn_exact(a, b, c, d);
 }
 
 #endif

@@ -36,8 +36,9 @@ typedef struct sl_miss {
     /// The last exit is the one that stops it. Ends: those that no line keeps on their sides.
     sl_sequence sequence;
     uint32_t missing; ///< portals to the target from the cell before the last portal
-    bool turns; ///< the last portal is crossed backwards to one crossed before: the ends are those
-                ///< of both
+    /// No direction crosses all portals forwards: the last one turns back against one before it, or
+    /// against two together; the ends are those of these portals, in order, the left ones first.
+    bool turns;
 } sl_miss;
 
 /// The answer. Zeroed, it is empty.
