@@ -1,5 +1,5 @@
 #include "sightline/view.h"
-#include "geometry/orient.h"
+#include "eye_to_cell/cone.h"
 
 #include <math.h>
 
@@ -33,22 +33,28 @@ sl_view sl_view_cone(sl_point eye, double heading, double fov, double reach) {
     return fov >= 360 || (fov > 180 && closed) ? sl_view_all_round(eye) : cone;
 }
 
-/// Whether two points lie on one ray from the eye, given that they are in line with it.
-static bool same_ray(sl_point eye, sl_point a, sl_point b) {
-    const bool x = (a.x > eye.x) == (b.x > eye.x) && (a.x < eye.x) == (b.x < eye.x);
-    const bool y = (a.y > eye.y) == (b.y > eye.y) && (a.y < eye.y) == (b.y < eye.y);
-    return x && y;
+bool sl_view_usable(const sl_view *view) {
+    if (!isfinite(view->eye.x) || !isfinite(view->eye.y)) return false;
+    if (view->full) return true;
+    return isfinite(view->left.x) && isfinite(view->left.y) && isfinite(view->right.x) &&
+           isfinite(view->right.y) && !sl_same_point(view->eye, view->left) &&
+           !sl_same_point(view->eye, view->right);
 }
 
 bool sl_view_holds(const sl_view *view, sl_point point) {
-    const sl_point eye = view->eye;
-    if (view->full || (point.x == eye.x && point.y == eye.y)) return true;
-    const int width = sl_orient(eye, view->right, view->left);
-    const int from_right = sl_orient(eye, view->right, point);
-    const int from_left = sl_orient(eye, view->left, point);
-    if (width > 0) return from_right >= 0 && from_left <= 0;
-    if (width < 0) return from_right >= 0 || from_left <= 0;
-    if (same_ray(eye, view->right, view->left))
-        return from_right == 0 && same_ray(eye, view->right, point);
-    return from_right >= 0;
+    sl_pivot pivot = {.eye = view->eye};
+    const sl_cone cone = sl_cone_of(&pivot, view);
+    return sl_cone_holds(&pivot, &cone, point);
+}
+
+bool sl_view_meets_segment(const sl_view *view, sl_segment segment) {
+    sl_pivot pivot = {.eye = view->eye};
+    const sl_cone cone = sl_cone_of(&pivot, view);
+    return sl_cone_meets_segment(&pivot, &cone, segment.a, segment.b);
+}
+
+bool sl_view_meets_polygon(const sl_view *view, const sl_point *corners, size_t count) {
+    sl_pivot pivot = {.eye = view->eye};
+    const sl_cone cone = sl_cone_of(&pivot, view);
+    return sl_cone_meets_polygon(&pivot, &cone, corners, count);
 }

@@ -6,6 +6,7 @@
 #include "sightline/cell_to_cell.h"
 #include "sightline/context.h"
 #include "sightline/explain.h"
+#include "sightline/eye_to_cell.h"
 #include "sightline/faults.h"
 #include "sightline/geometry.h"
 #include "sightline/import.h"

@@ -25,8 +25,19 @@ SL_API sl_view sl_view_all_round(sl_point eye);
 /// and rounded; pass the map's size, so that they differ from the eye.
 SL_API sl_view sl_view_cone(sl_point eye, double heading, double fov, double reach);
 
+/// Whether the view is one: all its points finite, and the cone's other than the eye. What follows,
+/// and all that takes a view, needs that.
+SL_API bool sl_view_usable(const sl_view *view);
+
 /// Whether a point is within the cone, its border included. The eye itself always is. Exact.
 SL_API bool sl_view_holds(const sl_view *view, sl_point point);
+
+/// Whether any point of a closed segment is within the cone, its border included. Exact.
+SL_API bool sl_view_meets_segment(const sl_view *view, sl_segment segment);
+
+/// Likewise a polygon's border, of three corners or more. A polygon that meets the cone does so
+/// with its border too: a cone has no end. Exact.
+SL_API bool sl_view_meets_polygon(const sl_view *view, const sl_point *corners, size_t count);
 
 #ifdef __cplusplus
 }

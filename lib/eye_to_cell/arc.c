@@ -1,0 +1,98 @@
+#include "eye_to_cell/arc.h"
+
+/// Whether `b` lies from `a` the way of its coordinates that differ: -1, 0, 1 for x, else for y.
+static int way(sl_point a, sl_point b) {
+    return a.x != b.x ? (b.x > a.x) - (b.x < a.x) : (b.y > a.y) - (b.y < a.y);
+}
+
+bool sl_ray_same_way(const sl_pivot *pivot, sl_ray a, sl_ray b) {
+    const bool points = way(pivot->eye, a.point) == way(pivot->eye, b.point);
+    return points == (a.away == b.away);
+}
+
+static bool is_same_ray(sl_pivot *pivot, sl_ray a, sl_ray b) {
+    return sl_turn(pivot, a, b) == 0 && sl_ray_same_way(pivot, a, b);
+}
+
+bool sl_arc_make(sl_pivot *pivot, sl_ray right, sl_ray left, sl_arc *out) {
+    const int turn = sl_turn(pivot, right, left);
+    if (turn < 0) return false;
+    sl_span span = SL_SPAN_WEDGE;
+    if (turn == 0) span = sl_ray_same_way(pivot, right, left) ? SL_SPAN_RAY : SL_SPAN_HALF;
+    if (span == SL_SPAN_RAY && right.along && left.along) return false;
+    *out = (sl_arc){right, left, span};
+    return true;
+}
+
+bool sl_arc_has(sl_pivot *pivot, const sl_arc *arc, sl_ray ray) {
+    const int turn = sl_turn(pivot, arc->right, ray);
+    if (arc->span == SL_SPAN_RAY) return turn == 0 && sl_ray_same_way(pivot, arc->right, ray);
+    return turn >= 0 && (arc->span == SL_SPAN_HALF || sl_turn(pivot, ray, arc->left) >= 0);
+}
+
+/// The one of two borders that lies within the other's arc; of one ray both, and portals along
+/// either are along it.
+static bool choose(sl_pivot *pivot, bool a_counts, sl_ray a, bool b_counts, sl_ray b, sl_ray *out) {
+    *out = b_counts ? b : a;
+    if (a_counts && b_counts && is_same_ray(pivot, a, b)) out->along = a.along || b.along;
+    return a_counts || b_counts;
+}
+
+unsigned sl_arc_meet(sl_pivot *pivot, const sl_arc *a, const sl_arc *b, sl_arc pieces[2]) {
+    const bool b_right = sl_arc_has(pivot, a, b->right), a_right = sl_arc_has(pivot, b, a->right);
+    const bool b_left = sl_arc_has(pivot, a, b->left), a_left = sl_arc_has(pivot, b, a->left);
+    if (b_right && a_right && !is_same_ray(pivot, a->right, b->right)) {
+        unsigned count = sl_arc_make(pivot, a->right, b->left, &pieces[0]);
+        count += sl_arc_make(pivot, b->right, a->left, &pieces[count]);
+        return count;
+    }
+    sl_ray right, left;
+    return choose(pivot, a_right, a->right, b_right, b->right, &right) &&
+           choose(pivot, a_left, a->left, b_left, b->left, &left) &&
+           sl_arc_make(pivot, right, left, &pieces[0]);
+}
+
+/// Marks the border at which a portal that lies along the ray is crossed. `ray` is the arc's.
+static void mark_along(const sl_pivot *pivot, const sl_exit *exit, sl_arc *arc) {
+    // Who goes from the portal's right end to its left end crosses it to the right.
+    const bool ahead = way(pivot->eye, arc->right.point) == way(exit->right, exit->left);
+    if (ahead != arc->right.away)
+        arc->left.along = true;
+    else
+        arc->right.along = true;
+}
+
+bool sl_arc_of_exit(sl_pivot *pivot, const sl_exit *exit, sl_arc *out) {
+    const sl_point eye = pivot->eye;
+    sl_arc arc = {sl_ray_to(exit->right), sl_ray_to(exit->left), SL_SPAN_HALF};
+    if (sl_same_point(eye, exit->left)) {
+        arc.left = (sl_ray){.point = exit->right, .away = true};
+    } else if (sl_same_point(eye, exit->right)) {
+        arc.right = (sl_ray){.point = exit->left, .away = true};
+    } else {
+        const int turn = sl_turn(pivot, arc.right, arc.left);
+        if (turn < 0) return false;
+        if (turn > 0)
+            arc.span = SL_SPAN_WEDGE;
+        else if (sl_ray_same_way(pivot, arc.right, arc.left))
+            arc.span = SL_SPAN_RAY;
+    }
+    if (arc.span == SL_SPAN_HALF) arc.right.along = arc.left.along = true;
+    if (arc.span == SL_SPAN_RAY) mark_along(pivot, exit, &arc);
+    *out = arc;
+    return true;
+}
+
+bool sl_arc_narrow(sl_pivot *pivot, const sl_arc *arc, const sl_exit *exit, sl_arc *out) {
+    const sl_ray to_right = sl_ray_to(exit->right), to_left = sl_ray_to(exit->left);
+    sl_arc narrow = *arc;
+    if (sl_turn(pivot, arc->right, to_right) > 0) narrow.right = to_right;
+    if (sl_turn(pivot, arc->left, to_left) < 0) narrow.left = to_left;
+    const int turn = sl_turn(pivot, narrow.right, narrow.left);
+    if (turn < 0) return false;
+    narrow.span = turn > 0 ? SL_SPAN_WEDGE : SL_SPAN_RAY;
+    if (turn == 0 && sl_turn(pivot, to_right, to_left) == 0) mark_along(pivot, exit, &narrow);
+    if (turn == 0 && narrow.right.along && narrow.left.along) return false;
+    *out = narrow;
+    return true;
+}

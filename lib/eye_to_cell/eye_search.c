@@ -1,0 +1,107 @@
+#include "eye_to_cell/eye_search.h"
+
+#include "cell_to_cell/pvs_rows.h"
+
+#include <string.h>
+
+size_t sl_eye_words(const sl_space *space) {
+    return sl_bits_words(space->cell_count);
+}
+
+static sl_status check_fits(sl_context *context, const sl_space *space,
+                            const sl_visibility *visibility) {
+    const uint32_t rows = visibility->pvs.cell_count, trees = visibility->trees.cell_count;
+    if ((!rows || rows == space->cell_count) && (!trees || trees == space->cell_count))
+        return SL_OK;
+    return sl_fail(context, SL_BAD_ARGUMENT, "the visible sets are those of another space");
+}
+
+sl_status sl_eye_search_create(sl_context *context, const sl_space *space,
+                               const sl_visibility *visibility, sl_eye_search **out) {
+    SL_TRY(check_fits(context, space, visibility));
+    sl_eye_search *search = sl_alloc_array(context, 1, sizeof *search);
+    if (!search) return SL_NO_MEMORY;
+    const size_t count = space->cell_count;
+    search->space = space;
+    search->visibility = visibility;
+    search->has_pvs = visibility->pvs.cell_count > 0;
+    search->row = sl_alloc_array(context, sl_eye_words(space), sizeof *search->row);
+    search->queue = sl_alloc_array(context, count, sizeof *search->queue);
+    search->steps = sl_alloc_array(context, count + 3, sizeof *search->steps);
+    search->rays = sl_alloc_array(context, SL_RAY_SIDES * count, sizeof *search->rays);
+    if (!search->row || !search->queue || !search->steps || !search->rays) {
+        sl_eye_search_destroy(context, search);
+        return SL_NO_MEMORY;
+    }
+    *out = search;
+    return SL_OK;
+}
+
+void sl_eye_search_destroy(sl_context *context, sl_eye_search *search) {
+    if (!search) return;
+    sl_free(context, search->row);
+    sl_free(context, search->queue);
+    sl_free(context, search->steps);
+    sl_free(context, search->rays);
+    sl_free(context, search);
+}
+
+sl_status sl_eye_begin(sl_context *context, sl_eye_search *search, const sl_view *view,
+                       bool needs_pvs, uint64_t *cells, sl_eye_query *out) {
+    if (!sl_view_usable(view))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "the view is none: its points must be finite, the cone's not the eye");
+    if (needs_pvs && !search->has_pvs)
+        return sl_fail(context, SL_BAD_ARGUMENT, "there are no visible sets to cull");
+    const size_t words = sl_eye_words(search->space);
+    memset(cells, 0, words * sizeof *cells);
+    *out = (sl_eye_query){.search = search,
+                          .space = search->space,
+                          .pivot = {.eye = view->eye},
+                          .cell = sl_space_locate(search->space, view->eye),
+                          .cells = cells};
+    if (out->cell == SL_NO_CELL) return SL_OK;
+    if (search->has_pvs) {
+        memset(search->row, 0, words * sizeof *search->row);
+        sl_row_add_to(&search->visibility->pvs, out->cell, search->row);
+        if (!sl_bits_has(search->row, out->cell)) out->cell = SL_NO_CELL;
+    }
+    out->cone = sl_cone_of(&out->pivot, view);
+    return SL_OK;
+}
+
+void sl_eye_end(const sl_eye_query *query, sl_eye_account *account) {
+    *account = (sl_eye_account){.nodes = query->nodes, .orientations = query->pivot.tests};
+}
+
+sl_eye_step sl_eye_first_step(const sl_eye_query *query) {
+    return (sl_eye_step){.cell = query->cell, .near = true};
+}
+
+bool sl_eye_pass(sl_eye_query *query, const sl_eye_step *from, bool first, const sl_exit *exit,
+                 sl_eye_step *to) {
+    sl_pivot *pivot = &query->pivot;
+    *to = (sl_eye_step){.cell = exit->cell};
+    if (from->near) {
+        sl_arc through;
+        if (!sl_arc_of_exit(pivot, exit, &through)) return false;
+        to->near = through.span == SL_SPAN_HALF;
+        if (first) to->arc_count = sl_cone_clip(pivot, &query->cone, &through, to->arcs);
+        // Each arc meets the portal's half in one arc at most: along a half opposite to it there
+        // are portals that are crossed the other way.
+        for (unsigned i = 0; i < from->arc_count; i++) {
+            sl_arc pieces[2];
+            if (sl_arc_meet(pivot, &from->arcs[i], &through, pieces))
+                to->arcs[to->arc_count++] = pieces[0];
+        }
+    } else {
+        for (unsigned i = 0; i < from->arc_count; i++)
+            to->arc_count += sl_arc_narrow(pivot, &from->arcs[i], exit, &to->arcs[to->arc_count]);
+    }
+    if (query->search->visibility->sight == SL_CLOSED) return to->arc_count > 0;
+    unsigned kept = 0;
+    for (unsigned i = 0; i < to->arc_count; i++)
+        if (to->arcs[i].span != SL_SPAN_RAY) to->arcs[kept++] = to->arcs[i];
+    to->arc_count = kept;
+    return kept > 0;
+}

@@ -1,0 +1,81 @@
+/// What the culling methods share: the scratch of a search, and how each query begins.
+#ifndef SL_EYE_SEARCH_H
+#define SL_EYE_SEARCH_H
+
+#include "base/base.h"
+#include "base/bits.h"
+#include "eye_to_cell/cone.h"
+#include "sightline/eye_to_cell.h"
+
+/// A cell on the way of the exact method, or a node of the stab tree with all above it.
+typedef struct sl_eye_step {
+    uint32_t cell;
+    uint32_t next;      ///< exit to try next, from 0; in a stab tree the node's number
+    uint32_t ray;       ///< over portals: of the ray that is left, where a single one is
+    bool near;          ///< the eye is on the portal crossed last, or in the cell of the source
+    unsigned arc_count; ///< over portals, 1 but for the eye's cell
+    sl_arc arcs[2];     ///< what is seen into the cell: within a wide cone up to two arcs
+} sl_eye_step;
+
+struct sl_eye_search {
+    const sl_space *space;
+    const sl_visibility *visibility;
+    bool has_pvs;
+    sl_bits *row;       ///< the visible set of the eye's cell
+    uint32_t *queue;    ///< cells still to be looked at from
+    sl_eye_step *steps; ///< cell_count + 3 of them
+    uint32_t *rays;     ///< SL_RAY_SIDES a cell: the last ray that has come to it
+    uint32_t ray_count;
+};
+
+enum { SL_RAY_SIDES = 3 };
+
+/// A query under way.
+typedef struct sl_eye_query {
+    sl_eye_search *search;
+    const sl_space *space;
+    sl_pivot pivot;
+    sl_cone cone;
+    uint32_t cell;  ///< the eye's; SL_NO_CELL where nothing is to be seen
+    uint64_t nodes; ///< so far
+    sl_bits *cells; ///< the result
+} sl_eye_query;
+
+/// Checks the view, finds the eye's cell and its visible set, and empties the result.
+sl_status sl_eye_begin(sl_context *context, sl_eye_search *search, const sl_view *view,
+                       bool needs_pvs, uint64_t *cells, sl_eye_query *out);
+
+void sl_eye_end(const sl_eye_query *query, sl_eye_account *account);
+
+/// Whether a cell is in the visible set of the eye's, or there are no visible sets.
+static inline bool sl_eye_may_see(const sl_eye_query *query, uint32_t cell) {
+    return !query->search->has_pvs || sl_bits_has(query->search->row, cell);
+}
+
+/// Whether a cell meets the cone.
+static inline bool sl_eye_meets_cell(sl_eye_query *query, uint32_t number) {
+    const sl_cell *cell = &query->space->cells[number];
+    return query->cone.full ||
+           sl_cone_meets_polygon(&query->pivot, &query->cone,
+                                 query->space->vertices + cell->first_vertex, cell->vertex_count);
+}
+
+/// Whether a portal meets the cone.
+static inline bool sl_eye_meets_exit(sl_eye_query *query, const sl_exit *exit) {
+    return query->cone.full ||
+           sl_cone_meets_segment(&query->pivot, &query->cone, exit->left, exit->right);
+}
+
+/// The first step of the exact method: the eye's cell, with all of the cone.
+sl_eye_step sl_eye_first_step(const sl_eye_query *query);
+
+/// What of a step's arcs passes an exit of its cell; `first` for the eye's own cell. False where
+/// nothing does, or nothing that counts.
+bool sl_eye_pass(sl_eye_query *query, const sl_eye_step *from, bool first, const sl_exit *exit,
+                 sl_eye_step *to);
+
+/// The exact method down the stab tree of the eye's cell. `done` is false, with nothing done, where
+/// that is not kept or its nodes do not come in the order of a depth-first search.
+sl_status sl_eye_exact_tree(sl_context *context, sl_eye_query *query, bool *done);
+
+#endif

@@ -1,0 +1,30 @@
+#include "eye_to_cell/spread.h"
+
+/// Looks at the cells beside one that is kept.
+static size_t look_around(sl_eye_query *query, sl_spread_test *test, uint32_t from, uint32_t *queue,
+                          size_t queued) {
+    const sl_cell *cell = &query->space->cells[from];
+    for (uint32_t i = 0; i < cell->exit_count; i++) {
+        const sl_exit *exit = &query->space->exits[cell->first_exit + i];
+        if (sl_bits_has(query->cells, exit->cell) || !sl_eye_may_see(query, exit->cell)) continue;
+        query->nodes++;
+        if (!test(query, exit)) continue;
+        sl_bits_add(query->cells, exit->cell);
+        queue[queued++] = exit->cell;
+    }
+    return queued;
+}
+
+sl_status sl_eye_spread(sl_context *context, sl_eye_query *query, sl_spread_test *test) {
+    if (query->cell == SL_NO_CELL) return SL_OK;
+    uint32_t *queue = query->search->queue;
+    size_t queued = 0;
+    sl_bits_add(query->cells, query->cell);
+    queue[queued++] = query->cell;
+    query->nodes = 1;
+    for (size_t at = 0; at < queued; at++) {
+        if (at % 4096 == 4095) SL_TRY(sl_check_cancelled(context));
+        queued = look_around(query, test, queue[at], queue, queued);
+    }
+    return SL_OK;
+}
