@@ -1,6 +1,7 @@
 #include "json_print.h"
 
 #include "base/base.h"
+#include "base/bits.h"
 
 #include <string.h>
 
@@ -58,6 +59,15 @@ void sl_json_add_list(sl_json_fields *fields, const char *key, sl_json_fields *i
 
 void sl_json_add_box(sl_json_fields *fields, const char *key, sl_box box) {
     add(fields, key, json_pack("[f, f, f, f]", box.min.x, box.min.y, box.max.x, box.max.y));
+}
+
+void sl_json_add_members(sl_json_fields *fields, const char *key, const uint64_t *set,
+                         uint32_t count) {
+    json_t *list = json_array();
+    for (uint32_t i = 0; i < count; i++)
+        if (sl_bits_has(set, i) && json_array_append_new(list, json_integer(i)) != 0)
+            fields->failed = true;
+    add(fields, key, list);
 }
 
 void sl_json_add_fields(sl_json_fields *fields, const char *key, sl_json_fields *inner) {

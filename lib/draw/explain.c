@@ -18,12 +18,9 @@
 static sl_status paint_cells(sl_context *context, sl_told *told) {
     sl_scene *scene = &told->scene;
     const sl_space *space = &scene->baked->space;
-    const uint32_t count = space->cell_count;
-    uint8_t *paint = sl_alloc_array(context, count, sizeof *paint);
+    uint8_t *paint = sl_alloc_array(context, space->cell_count, sizeof *paint);
     if (!paint) return SL_NO_MEMORY;
-    for (unsigned p = 0; p < SL_PAINT_COUNT; p++)
-        for (uint32_t i = scene->paint_begin[p]; i < scene->paint_begin[p + 1]; i++)
-            paint[scene->order[i]] = (uint8_t)p;
+    sl_scene_get_paint(scene, paint);
     const uint32_t inner = told->sequence ? told->sequence->exit_count - 1 : 0;
     for (uint32_t i = 0; i < inner; i++) {
         uint8_t *p = &paint[space->exits[told->sequence->exits[i]].cell];
@@ -31,13 +28,7 @@ static sl_status paint_cells(sl_context *context, sl_told *told) {
     }
     if (told->explanation->from != told->explanation->to)
         paint[told->explanation->to] = SL_PAINT_DOUBTFUL;
-    uint32_t at = 0;
-    for (unsigned p = 0; p < SL_PAINT_COUNT; p++) {
-        scene->paint_begin[p] = at;
-        for (uint32_t cell = 0; cell < count; cell++)
-            if (paint[cell] == p) scene->order[at++] = cell;
-    }
-    scene->paint_begin[SL_PAINT_COUNT] = at;
+    sl_scene_set_paint(scene, paint);
     sl_free(context, paint);
     return SL_OK;
 }

@@ -129,15 +129,22 @@ static sl_status paint_heat(sl_context *context, maker *m, sl_scene *scene) {
     return SL_OK;
 }
 
-static void sort_by_paint(const maker *m, sl_scene *scene) {
-    const uint32_t count = m->baked->space.cell_count;
+void sl_scene_get_paint(const sl_scene *scene, uint8_t *paint) {
+    for (unsigned p = 0; p < SL_PAINT_COUNT; p++)
+        for (uint32_t i = scene->paint_begin[p]; i < scene->paint_begin[p + 1]; i++)
+            paint[scene->order[i]] = (uint8_t)p;
+}
+
+void sl_scene_set_paint(sl_scene *scene, const uint8_t *paint) {
+    const uint32_t count = scene->baked->space.cell_count;
     uint32_t at[SL_PAINT_COUNT];
-    for (uint32_t cell = 0; cell < count; cell++) scene->paint_begin[m->paint[cell] + 1]++;
+    memset(scene->paint_begin, 0, sizeof scene->paint_begin);
+    for (uint32_t cell = 0; cell < count; cell++) scene->paint_begin[paint[cell] + 1]++;
     for (unsigned p = 0; p < SL_PAINT_COUNT; p++) {
         scene->paint_begin[p + 1] += scene->paint_begin[p];
         at[p] = scene->paint_begin[p];
     }
-    for (uint32_t cell = 0; cell < count; cell++) scene->order[at[m->paint[cell]]++] = cell;
+    for (uint32_t cell = 0; cell < count; cell++) scene->order[at[paint[cell]]++] = cell;
 }
 
 static int by_depth(const void *a, const void *b) {
@@ -209,7 +216,7 @@ static sl_status fill(sl_context *context, maker *m, sl_scene *scene) {
         m->paint[options->cell] = SL_PAINT_SOURCE;
         scene->eye = find_eye(m->baked, options->cell);
     }
-    sort_by_paint(m, scene);
+    sl_scene_set_paint(scene, m->paint);
     if (scene->chosen && options->layers & SL_LAYER_STAB_TREE) SL_TRY(make_strokes(context, scene));
     return SL_OK;
 }

@@ -62,6 +62,10 @@ void sl_scene_destroy(sl_context *context, sl_scene *scene);
 
 bool sl_scene_shows(const sl_scene *scene, uint32_t cell);
 
+/// Each cell's paint, for a change by the caller: cell_count entries; and back.
+void sl_scene_get_paint(const sl_scene *scene, uint8_t *paint);
+void sl_scene_set_paint(sl_scene *scene, const uint8_t *paint);
+
 /// The colour of a paint.
 sl_colour sl_scene_colour(const sl_scene *scene, unsigned paint);
 

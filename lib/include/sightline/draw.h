@@ -6,6 +6,7 @@
 #include "sightline/bake.h"
 #include "sightline/explain.h"
 #include "sightline/faults.h"
+#include "sightline/view.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -56,6 +57,22 @@ SL_API sl_status sl_draw_file(sl_context *context, const sl_baked *baked,
 SL_API sl_status sl_draw_explanation(sl_context *context, const sl_baked *baked,
                                      const sl_explanation *explanation,
                                      const sl_draw_options *options, const char *path);
+
+/// What several methods keep of one view, for a picture.
+typedef struct sl_eye_layer {
+    const char *name;      ///< of the method, for the key
+    const uint64_t *cells; ///< bit c % 64 of word c / 64: cell c is kept
+} sl_eye_layer;
+
+#define SL_EYE_LAYERS_MOST 16
+
+/// Draws what an eye sees, likewise: the map, the eye and its cone, and each cell in the colour of
+/// the last layer that still keeps it; layers go from loose to tight, each within the one before.
+/// The options' width, title and dark count. SL_BAD_ARGUMENT on more layers than
+/// SL_EYE_LAYERS_MOST or a view that is not usable.
+SL_API sl_status sl_draw_eye(sl_context *context, const sl_baked *baked, const sl_view *view,
+                             const sl_eye_layer *layers, size_t layer_count,
+                             const sl_draw_options *options, const char *path);
 
 // --- charts
 

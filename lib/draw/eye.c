@@ -1,0 +1,286 @@
+/// The page of what an eye sees: a heading, the plan with the cells that each method keeps, the eye
+/// and its cone over it, and a key with the methods' counts.
+#include "draw/marks.h"
+#include "draw/paper.h"
+#include "draw/plan.h"
+#include "draw/text.h"
+#include "sightline/draw.h"
+
+#include "base/bits.h"
+#include "base/number.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#define FULL_TURN 6.283185307179586
+
+enum { KEY_TEXT = 256 };
+
+typedef struct eye_picture {
+    sl_scene scene;
+    const sl_view *view;
+    const sl_eye_layer *layers;
+    size_t layer_count;
+    uint32_t counts[SL_EYE_LAYERS_MOST];
+    double shares[SL_EYE_LAYERS_MOST]; ///< of the area shown
+} eye_picture;
+
+// --- what is shown
+
+/// Steps of the ramp, which tells more from less by lightness: the palest is for the loosest.
+static uint8_t paint_of_layer(const eye_picture *p, size_t layer) {
+    const double share = p->layer_count > 1 ? (double)layer / (double)(p->layer_count - 1) : 1;
+    return (uint8_t)(SL_PAINT_HEAT + (unsigned)((0.08 + 0.92 * share) * (SL_HEAT_STEPS - 1)));
+}
+
+static sl_status paint_cells(sl_context *context, eye_picture *p) {
+    const sl_space *space = &p->scene.baked->space;
+    uint8_t *paint = sl_alloc_array(context, space->cell_count, sizeof *paint);
+    if (!paint) return SL_NO_MEMORY;
+    double whole = 0;
+    sl_scene_get_paint(&p->scene, paint);
+    for (uint32_t cell = 0; cell < space->cell_count; cell++) {
+        if (!sl_scene_shows(&p->scene, cell)) continue;
+        const double area = sl_space_area(space, cell);
+        whole += area;
+        for (size_t i = 0; i < p->layer_count; i++) {
+            if (!sl_bits_has(p->layers[i].cells, cell)) continue;
+            paint[cell] = paint_of_layer(p, i);
+            p->counts[i]++;
+            p->shares[i] += area;
+        }
+    }
+    for (size_t i = 0; i < p->layer_count && whole > 0; i++) p->shares[i] /= whole;
+    sl_scene_set_paint(&p->scene, paint);
+    sl_free(context, paint);
+    return SL_OK;
+}
+
+// --- the eye
+
+/// Degrees counter-clockwise from +x.
+static double heading_to(sl_point from, sl_point to) {
+    return atan2(to.y - from.y, to.x - from.x) * (360 / FULL_TURN);
+}
+
+static double width_of(const sl_view *view) {
+    const double width =
+        fmod(heading_to(view->eye, view->left) - heading_to(view->eye, view->right), 360);
+    return width < 0 ? width + 360 : width;
+}
+
+/// The cone as far as the frame, and its borders.
+static void draw_cone(cairo_t *cairo, const eye_picture *p, const sl_frame *frame) {
+    if (p->view->full) return;
+    const sl_palette *palette = &p->scene.palette;
+    const sl_point eye = sl_frame_point(frame, p->view->eye);
+    const double reach = 2 * hypot(frame->width, frame->height);
+    const double right = heading_to(p->view->eye, p->view->right) * (FULL_TURN / 360);
+    const double left = right + width_of(p->view) * (FULL_TURN / 360);
+    cairo_save(cairo);
+    cairo_rectangle(cairo, frame->left, frame->top, frame->width, frame->height);
+    cairo_clip(cairo);
+    cairo_move_to(cairo, eye.x, eye.y);
+    cairo_arc_negative(cairo, eye.x, eye.y, reach, -right, -left); // on the page y runs down
+    cairo_close_path(cairo);
+    cairo_set_source_rgba(cairo, palette->start.red, palette->start.green, palette->start.blue,
+                          0.06);
+    cairo_fill_preserve(cairo);
+    cairo_set_line_width(cairo, 1.6 * frame->unit);
+    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_BEVEL);
+    sl_set_colour(cairo, palette->start);
+    cairo_stroke(cairo);
+    cairo_restore(cairo);
+}
+
+static void draw_disc(cairo_t *cairo, const sl_palette *palette, sl_point at, double radius) {
+    cairo_new_sub_path(cairo);
+    cairo_arc(cairo, at.x, at.y, radius, 0, FULL_TURN);
+    cairo_set_line_width(cairo, 0.6 * radius);
+    sl_set_colour(cairo, palette->page);
+    cairo_stroke_preserve(cairo);
+    sl_set_colour(cairo, palette->start);
+    cairo_fill(cairo);
+}
+
+static void draw_eye_mark(cairo_t *cairo, const eye_picture *p, const sl_frame *frame) {
+    sl_point at;
+    if (sl_frame_holds(frame, p->view->eye, &at))
+        draw_disc(cairo, &p->scene.palette, at, 6 * frame->unit);
+}
+
+// --- words
+
+static void write_title(const eye_picture *p, char text[KEY_TEXT]) {
+    char x[SL_NUMBER_TEXT], y[SL_NUMBER_TEXT];
+    sl_number_write(p->view->eye.x, x);
+    sl_number_write(p->view->eye.y, y);
+    snprintf(text, KEY_TEXT, "What is seen from %s,%s", x, y);
+}
+
+static void write_subtitle(const eye_picture *p, char text[KEY_TEXT]) {
+    const char *sight = p->scene.baked->visibility.sight == SL_OPEN ? "open" : "closed";
+    char cone[96] = "all round";
+    if (!p->view->full) {
+        const double width = width_of(p->view);
+        double middle = fmod(heading_to(p->view->eye, p->view->right) + width / 2 + 360, 360);
+        middle = round(10 * middle) / 10;
+        snprintf(cone, sizeof cone, "looking %g\xc2\xb0, a cone of %g\xc2\xb0",
+                 middle < 360 ? middle : 0, round(10 * width) / 10);
+    }
+    if (p->scene.chosen)
+        snprintf(text, KEY_TEXT, "%s  \xc2\xb7  cell %u  \xc2\xb7  %s sight", cone,
+                 (unsigned)p->scene.options.cell, sight);
+    else
+        snprintf(text, KEY_TEXT, "%s  \xc2\xb7  outside the map", cone);
+}
+
+// --- the key
+
+static void draw_swatch(cairo_t *cairo, const eye_picture *p, size_t entry, double left,
+                        double middle, double size) {
+    const double height = 1.15 * size, width = 2 * size;
+    if (entry == p->layer_count) {
+        draw_disc(cairo, &p->scene.palette, (sl_point){left + width / 2, middle}, 0.4 * size);
+        return;
+    }
+    cairo_rectangle(cairo, left, middle - height / 2, width, height);
+    sl_set_colour(cairo, sl_scene_colour(&p->scene, paint_of_layer(p, entry)));
+    cairo_fill_preserve(cairo);
+    sl_set_colour(cairo, p->scene.palette.outline);
+    cairo_set_line_width(cairo, 0.06 * size);
+    cairo_stroke(cairo);
+}
+
+/// "exact: 12 cells, 1.8 % of the area", the last entry for the eye.
+static void write_entry(const eye_picture *p, size_t entry, char text[KEY_TEXT]) {
+    if (entry == p->layer_count) {
+        snprintf(text, KEY_TEXT, "the eye%s", p->view->full ? "" : " and its cone");
+        return;
+    }
+    char name[64], cells[SL_COUNT_TEXT], share[SL_COUNT_TEXT];
+    snprintf(name, sizeof name, "%s", p->layers[entry].name);
+    for (char *at = name; *at; at++)
+        if (*at == '_') *at = ' ';
+    sl_text_count(p->counts[entry], "cell", cells);
+    sl_text_percent(p->shares[entry], share);
+    snprintf(text, KEY_TEXT, "%s: %s, %s", name, cells, share);
+}
+
+/// Entries in lines as the width allows. Returns the height; without `paint` nothing is drawn.
+static double draw_key(cairo_t *cairo, const eye_picture *p, double left, double top, double width,
+                       double size, bool paint) {
+    double x = left, y = top;
+    sl_text_font(cairo, size, false);
+    for (size_t i = 0; i <= p->layer_count; i++) {
+        char text[KEY_TEXT];
+        write_entry(p, i, text);
+        const double wide = 2.55 * size + sl_text_width(cairo, text);
+        if (x > left && x + wide > left + width) {
+            x = left;
+            y += 1.95 * size;
+        }
+        if (paint) {
+            draw_swatch(cairo, p, i, x, y + 0.8 * size, size);
+            sl_text_font(cairo, size, false);
+            sl_text_show(cairo, p->scene.palette.ink, x + 2.55 * size, y + 1.16 * size, text);
+        }
+        x += wide + 1.9 * size;
+    }
+    return y + 1.95 * size - top;
+}
+
+// --- the page
+
+typedef struct page {
+    double width, height, margin, text, key;
+    sl_frame frame;
+} page;
+
+/// Measures where `paint` is false, and draws all but the plan where it is true.
+static void set_page(cairo_t *cairo, const eye_picture *p, page *out, bool paint) {
+    const sl_palette *palette = &p->scene.palette;
+    const double inner = out->width - 2 * out->margin;
+    char text[KEY_TEXT];
+    double y = out->margin + 1.7 * out->text;
+    write_title(p, text);
+    const char *title = p->scene.options.title ? p->scene.options.title : text;
+    if (paint)
+        sl_text_show_within(cairo, palette->ink, out->margin, y, inner, 1.9 * out->text, true,
+                            title);
+    y += 1.7 * out->text;
+    write_subtitle(p, text);
+    if (paint)
+        sl_text_show_within(cairo, palette->faint, out->margin, y, inner, out->text, false, text);
+    y += 1.3 * out->text;
+    if (!paint) {
+        const sl_box bounds = p->scene.baked->space.bounds;
+        const double wide = bounds.max.x - bounds.min.x, high = bounds.max.y - bounds.min.y;
+        const double height = inner * fmin(fmax(high / wide, 1.0 / 6), 1.4);
+        out->frame = sl_frame_fit(bounds, out->margin, y, inner, height, out->width / 1200);
+        out->key = y + height + 1.1 * out->text;
+    }
+    y = out->key + draw_key(cairo, p, out->margin, out->key, inner, out->text, paint);
+    out->height = ceil(y + 0.5 * out->margin);
+}
+
+/// Measuring text needs a surface, and the file's needs the page's height.
+static sl_status measure(sl_context *context, const eye_picture *p, const char *path, page *out) {
+    const double width = round(p->scene.options.width);
+    cairo_surface_t *scratch = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
+    cairo_t *cairo = cairo_create(scratch);
+    // Text shrinks less than the picture does, to stay readable in small ones.
+    *out = (page){.width = width, .margin = 0.04 * width, .text = 16.5 * pow(width / 1200, 0.75)};
+    set_page(cairo, p, out, false);
+    const cairo_status_t status = cairo_status(cairo);
+    cairo_destroy(cairo);
+    cairo_surface_destroy(scratch);
+    return status ? sl_fail_cairo(context, path, status) : SL_OK;
+}
+
+static sl_status draw_page(sl_context *context, cairo_t *cairo, const eye_picture *p, page *at) {
+    sl_set_colour(cairo, p->scene.palette.page);
+    cairo_paint(cairo);
+    SL_TRY(sl_draw_onto(context, cairo, &p->scene, &at->frame));
+    draw_cone(cairo, p, &at->frame);
+    draw_eye_mark(cairo, p, &at->frame);
+    set_page(cairo, p, at, true);
+    return SL_OK;
+}
+
+static sl_status draw_picture(sl_context *context, eye_picture *p, const sl_paper_kind *kind,
+                              const char *path) {
+    sl_paper paper;
+    page at;
+    char title[KEY_TEXT];
+    write_title(p, title);
+    SL_TRY(paint_cells(context, p));
+    SL_TRY(measure(context, p, path, &at));
+    SL_TRY(sl_paper_open(context, kind, path, (int)at.width, (int)at.height, title, &paper));
+    return sl_paper_close(context, &paper, draw_page(context, paper.cairo, p, &at));
+}
+
+sl_status sl_draw_eye(sl_context *context, const sl_baked *baked, const sl_view *view,
+                      const sl_eye_layer *layers, size_t layer_count,
+                      const sl_draw_options *options, const char *path) {
+    const sl_paper_kind *kind;
+    SL_TRY(sl_paper_kind_of(context, path, &kind));
+    if (layer_count > SL_EYE_LAYERS_MOST)
+        return sl_fail(context, SL_BAD_ARGUMENT, "%zu layers: at most %d can be told apart",
+                       layer_count, SL_EYE_LAYERS_MOST);
+    if (!sl_view_usable(view))
+        return sl_fail(context, SL_BAD_ARGUMENT, "the view to be drawn is none");
+    if (!(options->width >= SL_DRAW_WIDTH_MIN && options->width <= SL_DRAW_WIDTH_MAX))
+        return sl_fail(context, SL_BAD_ARGUMENT, "width %g: must be %d to %d", options->width,
+                       SL_DRAW_WIDTH_MIN, SL_DRAW_WIDTH_MAX);
+    sl_draw_options plain = *options;
+    plain.layers = SL_LAYER_CELLS | SL_LAYER_PORTALS | SL_LAYER_WALLS;
+    plain.cell = sl_space_locate(&baked->space, view->eye);
+    eye_picture p = {.view = view, .layers = layers, .layer_count = layer_count};
+    SL_TRY(sl_scene_make(context, baked, &plain, &p.scene));
+    // Green would be lost among the ramp's colours.
+    p.scene.palette.portal = sl_colour_mix(p.scene.palette.wall, p.scene.palette.page, 0.2);
+    const sl_status status = draw_picture(context, &p, kind, path);
+    sl_scene_destroy(context, &p.scene);
+    return status;
+}

@@ -1,0 +1,112 @@
+#include "base/base.h"
+#include "commands.h"
+#include "eye_report.h"
+#include "eye_run.h"
+#include "inputs.h"
+#include "options.h"
+#include "sightline/draw.h"
+
+/// The operand and options as they are given.
+typedef struct eye_texts {
+    const char *input, *at, *look, *fov, *output, *width;
+    bool json, dark;
+} eye_texts;
+
+static sl_status read_view(sl_context *context, const eye_texts *texts, const sl_space *space,
+                           sl_view *view) {
+    sl_point eye = {0};
+    double heading = 0, fov = 360;
+    if (!texts->at) return sl_fail(context, SL_BAD_ARGUMENT, "--at is missing: where the eye is");
+    if (!texts->look != !texts->fov)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--look and --fov make a view cone together; without both the eye looks "
+                       "all round");
+    SL_TRY(sl_option_point(context, "--at", texts->at, &eye));
+    SL_TRY(sl_option_number(context, "--look", texts->look, &heading));
+    SL_TRY(sl_option_number(context, "--fov", texts->fov, &fov));
+    if (fov < 0 || fov > 360)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--fov %s: degrees from 0 to 360 are needed",
+                       texts->fov);
+    if (sl_space_locate(space, eye) == SL_NO_CELL)
+        return sl_input_fail_outside(context, "--at", texts->at, space->bounds);
+    *view = sl_view_cone(eye, heading, fov, sl_eye_reach(space));
+    return SL_OK;
+}
+
+static sl_status draw(sl_context *context, const eye_texts *texts, const sl_baked *baked,
+                      const sl_eye_run *run) {
+    sl_draw_options options = sl_draw_options_default();
+    sl_eye_layer layers[SL_EYE_LAYERS_MOST];
+    size_t count;
+    const sl_eye_method *methods = sl_eye_methods(&count);
+    options.dark = texts->dark;
+    SL_TRY(sl_option_number(context, "--width", texts->width, &options.width));
+    for (size_t i = 0; i < count; i++)
+        layers[i] = (sl_eye_layer){methods[i].name, run->results[i].cells};
+    return sl_draw_eye(context, baked, &run->view, layers, count, &options, texts->output);
+}
+
+static sl_status look(sl_console *console, const eye_texts *texts, const sl_baked *baked) {
+    sl_context *context = console->context;
+    sl_view view;
+    sl_eye_run run;
+    SL_TRY(read_view(context, texts, &baked->space, &view));
+    if (texts->output) SL_TRY(sl_input_refuse_output(context, texts->input, texts->output));
+    SL_TRY(sl_eye_run_make(context, baked, &view, !texts->json, &run));
+    sl_status status = texts->output ? draw(context, texts, baked, &run) : SL_OK;
+    sl_progress_line_clear(&console->line);
+    if (status == SL_OK && texts->json)
+        status = sl_eye_print_json(context, baked, &run);
+    else if (status == SL_OK && !(console->quiet && texts->output))
+        sl_eye_print(baked, &run);
+    sl_eye_run_destroy(context, &run);
+    return status;
+}
+
+static void print_methods(void) {
+    size_t count;
+    const sl_eye_method *methods = sl_eye_methods(&count);
+    puts("\nmethods, each within the one before:");
+    for (size_t i = 0; i < count; i++)
+        printf("  %-20s%s; %s\n", methods[i].name, methods[i].what,
+               sl_guarantee_name(methods[i].guarantee));
+}
+
+sl_status sl_cmd_eye(sl_console *console, int argc, char **argv) {
+    eye_texts t = {0};
+    const sl_option_spec options[] = {
+        {"at", 0, "X,Y", NULL, &t.at, "where the eye is"},
+        {"look", 0, "DEG", NULL, &t.look,
+         "which way it looks, in degrees counter-clockwise\nfrom +x"},
+        {"fov", 0, "DEG", NULL, &t.fov,
+         "how wide, 0 to 360 degrees in all; without --look\nand --fov all round"},
+        {"output", 'o', "PICTURE", NULL, &t.output,
+         "draw it too: .png, .svg or .pdf, by the ending"},
+        {"width", 0, "PX", NULL, &t.width, "of the picture, 64 to 20000 pixels or points"},
+        {"dark", 0, NULL, &t.dark, NULL, "the picture light on dark"},
+        {"json", 0, NULL, &t.json, NULL, "print JSON: the cells that each method keeps"},
+    };
+    const sl_command_usage usage = {
+        .name = "eye",
+        .synopsis = "FILE.slv --at X,Y [--look DEG --fov DEG] [options]",
+        .operands = {"FILE.slv"},
+        .what = "Tells what one viewpoint sees: the cells that each culling method keeps, their "
+                "share of\nthe area, and what it costs.",
+        .tables = print_methods,
+        .examples = "  sightline eye office.slv --at 53,20\n"
+                    "  sightline eye office.slv --at 53,20 --look 180 --fov 60 -o eye.png",
+        .options = options,
+        .option_count = sizeof options / sizeof *options,
+    };
+    bool helped;
+    SL_TRY(sl_option_parse(console, &usage, argc, argv, &t.input, &helped));
+    if (helped) return SL_OK;
+    if ((t.width || t.dark) && !t.output)
+        return sl_fail(console->context, SL_BAD_ARGUMENT,
+                       "--width and --dark are for the picture, which needs -o");
+    sl_baked baked = {0};
+    SL_TRY(sl_input_read_baked(console->context, t.input, &baked));
+    const sl_status status = look(console, &t, &baked);
+    sl_baked_destroy(console->context, &baked);
+    return status;
+}

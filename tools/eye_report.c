@@ -1,0 +1,43 @@
+#include "eye_report.h"
+
+#include "base/number.h"
+#include "compare_report.h"
+#include "json_print.h"
+#include "names.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+
+void sl_eye_print(const sl_baked *baked, const sl_eye_run *run) {
+    size_t count;
+    const sl_eye_method *methods = sl_eye_methods(&count);
+    char x[SL_NUMBER_TEXT], y[SL_NUMBER_TEXT], seconds[SL_SECONDS_TEXT];
+    sl_number_write(run->view.eye.x, x);
+    sl_number_write(run->view.eye.y, y);
+    printf("eye at %s,%s: cell %" PRIu32 ", %s sight\n", x, y, run->cell,
+           sl_sight_name(baked->visibility.sight));
+    puts("\n  method               guarantee       cells     area     nodes  orientations     "
+         "time");
+    for (size_t i = 0; i < count; i++) {
+        const sl_eye_result *result = &run->results[i];
+        sl_seconds_write(result->seconds, "u", seconds);
+        printf("  %-20s %-13s %7" PRIu32 " %6.2f %% %9" PRIu64 " %13" PRIu64 " %8s\n",
+               methods[i].name, sl_guarantee_name(methods[i].guarantee), result->count,
+               100 * result->share, result->account.nodes, result->account.orientations, seconds);
+    }
+    if (!run->results[0].count)
+        printf("\nthe file has no visible set for cell %" PRIu32
+               ": it was baked for inside cells only\n",
+               run->cell);
+}
+
+sl_status sl_eye_print_json(sl_context *context, const sl_baked *baked, const sl_eye_run *run) {
+    size_t count;
+    const sl_eye_method *methods = sl_eye_methods(&count);
+    sl_json_fields fields = sl_json_begin(), sets = sl_json_begin();
+    sl_json_add_count(&fields, "cell", run->cell);
+    for (size_t i = 0; i < count; i++)
+        sl_json_add_members(&sets, methods[i].name, run->results[i].cells, baked->space.cell_count);
+    sl_json_add_fields(&fields, "methods", &sets);
+    return sl_json_print(context, &fields);
+}
