@@ -1,5 +1,6 @@
 #include "base/base.h"
 #include "commands.h"
+#include "compare_eye.h"
 #include "compare_report.h"
 #include "compare_time.h"
 #include "effects.h"
@@ -16,8 +17,9 @@ enum { MAX_REPEAT = 100000 };
 /// The options as they are given.
 typedef struct compare_texts {
     sl_pipeline_texts pipeline;
+    sl_compare_eye_texts eye_texts;
     const char *output, *methods, *solvers, *sight, *repeat, *time_limit;
-    bool inside, dark, json;
+    bool inside, dark, json, eye;
 } compare_texts;
 
 /// The options as they are meant.
@@ -27,12 +29,14 @@ typedef struct compare_plan {
     unsigned methods, solvers; ///< bits of both tables
     sl_timing timing;
     sl_see_options see;
+    sl_compare_eye_plan eye;
     bool dark, json;
 } compare_plan;
 
 /// In the order of a reader's interest.
 static const char *const file_names[] = {"compare.csv", "compare.png", "compare.svg", "pairs.csv",
                                          NULL};
+static const char *const eye_file_names[] = {"eye.csv", "eye.png", "eye.svg", NULL};
 
 /// What is worked with, from the map to the runs.
 typedef struct comparing {
@@ -75,10 +79,34 @@ static sl_status plan_timing(sl_context *context, const compare_texts *texts, sl
     return SL_OK;
 }
 
+/// Of the two comparisons, each has options that the other cannot have.
+static sl_status check_options_fit(sl_context *context, const compare_texts *texts) {
+    const struct {
+        const char *name;
+        bool given, for_eye;
+    } options[] = {
+        {"--methods", texts->methods, false},
+        {"--solvers", texts->solvers, false},
+        {"--inside", texts->inside, false},
+        {"--repeat", texts->repeat, false},
+        {"--time-limit", texts->time_limit, false},
+        {"--viewpoints", texts->eye_texts.viewpoints, true},
+        {"--seed", texts->eye_texts.seed, true},
+        {"--fov", texts->eye_texts.fov, true},
+    };
+    for (size_t i = 0; i < sizeof options / sizeof *options; i++)
+        if (options[i].given && options[i].for_eye != texts->eye)
+            return sl_fail(context, SL_BAD_ARGUMENT, "%s is of no use %s --eye", options[i].name,
+                           texts->eye ? "with" : "without");
+    return SL_OK;
+}
+
 static sl_status make_plan(sl_context *context, const char *input, const compare_texts *texts,
                            compare_plan *plan) {
     *plan = (compare_plan){.output = texts->output, .dark = texts->dark, .json = texts->json};
+    SL_TRY(check_options_fit(context, texts));
     SL_TRY(sl_pipeline_plan(context, input, &texts->pipeline, &plan->pipeline));
+    SL_TRY(sl_compare_eye_plan_make(context, &texts->eye_texts, &plan->eye));
     SL_TRY(plan_seeing(context, texts, plan));
     SL_TRY(plan_timing(context, texts, &plan->timing));
     if (texts->dark && !texts->output)
@@ -232,10 +260,60 @@ static sl_status compare_and_report(sl_console *console, const compare_plan *pla
     return status;
 }
 
+// --- culling for an eye
+
+static sl_status write_eye_files(sl_context *context, const sl_compare_eye *comparison, bool dark,
+                                 const sl_folder *folder) {
+    for (size_t i = 0; eye_file_names[i]; i++) {
+        char *path = sl_folder_file(context, folder, eye_file_names[i]);
+        if (!path) return SL_NO_MEMORY;
+        const sl_status status = i == 0 ? sl_compare_eye_write_csv(context, comparison, path)
+                                        : sl_compare_eye_draw(context, comparison, dark, path);
+        sl_free(context, path);
+        SL_TRY(status);
+    }
+    return SL_OK;
+}
+
+/// `folder` is NULL without -o.
+static sl_status compare_eye(sl_console *console, comparing *all, const sl_folder *folder,
+                             sl_compare_eye *out) {
+    sl_context *context = console->context;
+    const sl_pipeline *pipeline = &all->plan->pipeline;
+    SL_TRY(sl_pipeline_read(context, pipeline, &all->map));
+    SL_TRY(sl_effects_check(context, &all->map, "compare --eye"));
+    SL_TRY(sl_map_clean(context, &all->map, NULL));
+    SL_TRY(sl_pipeline_subdivide(context, pipeline, &all->map, &all->space));
+    SL_TRY(sl_pipeline_check(context, pipeline, &all->space));
+    SL_TRY(sl_compare_eye_run(console, &all->plan->eye, &all->space, all->plan->see.sight, out));
+    out->input = pipeline->input;
+    return folder ? write_eye_files(context, out, all->plan->dark, folder) : SL_OK;
+}
+
+static sl_status compare_eye_and_report(sl_console *console, const compare_plan *plan) {
+    sl_context *context = console->context;
+    comparing all = {.plan = plan};
+    sl_compare_eye comparison = {0};
+    sl_folder folder;
+    if (plan->output) SL_TRY(sl_folder_open(context, plan->output, eye_file_names, &folder));
+    sl_status status = compare_eye(console, &all, plan->output ? &folder : NULL, &comparison);
+    if (plan->output) status = sl_folder_close(context, &folder, status);
+    sl_progress_line_clear(&console->line);
+    if (status == SL_OK && plan->json)
+        status = sl_compare_eye_print_json(context, &comparison);
+    else if (status == SL_OK && !(console->quiet && plan->output))
+        sl_compare_eye_print(&comparison);
+    sl_free(context, comparison.rows);
+    sl_space_destroy(context, &all.space);
+    sl_map_destroy(context, &all.map);
+    return status;
+}
+
 // --- help
 
 static void print_tables(void) {
     sl_compare_print_columns();
+    sl_compare_eye_print_columns();
     sl_pipeline_print_methods("");
     sl_pipeline_print_subdivisions();
     sl_pipeline_print_effects();
@@ -257,6 +335,12 @@ sl_status sl_cmd_compare(sl_console *console, int argc, char **argv) {
          "time each run N times; 0, the default: three times\nand 0.2 s at least, until 5 s"},
         {"time-limit", 0, "S", NULL, &t.time_limit,
          "give up on a run that takes longer, in seconds\n(the default is 60)"},
+        {"eye", 0, NULL, &t.eye, NULL,
+         "compare what culling for an eye keeps instead, over\nmany viewpoints, as Teller & Sequin "
+         "1991 do; -o then\nwrites eye.csv, eye.png and eye.svg"},
+        {"viewpoints", 0, "N", NULL, &t.eye_texts.viewpoints, "how many; 10000 without it"},
+        {"seed", 0, "S", NULL, &t.eye_texts.seed, "what they are drawn from; 1 without it"},
+        {"fov", 0, "DEG,...", NULL, &t.eye_texts.fov, "view cones in degrees; 360,60 without it"},
         {"dark", 0, NULL, &t.dark, NULL, "the chart light on dark"},
         {"json", 0, NULL, &t.json, NULL, "print one JSON object instead of the table"},
         SL_PIPELINE_OPTIONS(t.pipeline),
@@ -269,7 +353,8 @@ sl_status sl_cmd_compare(sl_console *console, int argc, char **argv) {
                 "map, each on one thread, and holds what it sees against the first exact answer.",
         .tables = print_tables,
         .examples = "  sightline compare office.map\n"
-                    "  sightline compare office.map -o out --sight open --time-limit 10",
+                    "  sightline compare office.map -o out --sight open --time-limit 10\n"
+                    "  sightline compare office.map --eye --viewpoints 100000 -o out",
         .options = options,
         .option_count = sizeof options / sizeof *options,
     };
@@ -279,5 +364,5 @@ sl_status sl_cmd_compare(sl_console *console, int argc, char **argv) {
     if (helped) return SL_OK;
     compare_plan plan;
     SL_TRY(make_plan(console->context, input, &t, &plan));
-    return compare_and_report(console, &plan);
+    return t.eye ? compare_eye_and_report(console, &plan) : compare_and_report(console, &plan);
 }

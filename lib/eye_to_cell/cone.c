@@ -9,10 +9,16 @@ sl_cone sl_cone_of(sl_pivot *pivot, const sl_view *view) {
     return cone;
 }
 
+/// Whether the cone, which is not full, holds a ray that is `turn` from its arc's right border.
+static bool holds_turned(sl_pivot *pivot, const sl_cone *cone, sl_ray ray, int turn) {
+    const sl_arc *arc = &cone->arc;
+    if (cone->wide) return turn <= 0 || sl_turn(pivot, ray, arc->left) <= 0;
+    if (arc->span == SL_SPAN_RAY) return turn == 0 && sl_ray_same_way(pivot, arc->right, ray);
+    return turn >= 0 && (arc->span == SL_SPAN_HALF || sl_turn(pivot, ray, arc->left) >= 0);
+}
+
 static bool holds_ray(sl_pivot *pivot, const sl_cone *cone, sl_ray ray) {
-    if (cone->full) return true;
-    if (!cone->wide) return sl_arc_has(pivot, &cone->arc, ray);
-    return sl_turn(pivot, cone->arc.right, ray) <= 0 || sl_turn(pivot, ray, cone->arc.left) <= 0;
+    return cone->full || holds_turned(pivot, cone, ray, sl_turn(pivot, cone->arc.right, ray));
 }
 
 bool sl_cone_holds(sl_pivot *pivot, const sl_cone *cone, sl_point point) {
@@ -20,28 +26,34 @@ bool sl_cone_holds(sl_pivot *pivot, const sl_cone *cone, sl_point point) {
 }
 
 /// Whether a segment neither end of which is within the cone passes through it nevertheless: over
-/// its border on both sides, or through the eye.
-static bool passes(sl_pivot *pivot, const sl_cone *cone, sl_ray a, sl_ray b) {
+/// its border on both sides, or through the eye. The ends are `to_a` and `to_b` from the arc's
+/// right border, and on either side of it where they do. What a wide cone leaves out is convex, so
+/// that no such segment leaves it.
+static bool passes(sl_pivot *pivot, const sl_cone *cone, sl_ray a, int to_a, sl_ray b, int to_b) {
+    if (cone->wide || to_a * to_b >= 0) return false;
     const int turn = sl_turn(pivot, a, b);
-    if (turn == 0) return !sl_ray_same_way(pivot, a, b);
-    if (cone->wide) return false; // what it leaves out is convex
-    const int to_a = sl_turn(pivot, cone->arc.right, a), to_b = sl_turn(pivot, cone->arc.right, b);
-    return to_a * to_b < 0 && turn == to_b;
-}
-
-bool sl_cone_meets_segment(sl_pivot *pivot, const sl_cone *cone, sl_point a, sl_point b) {
-    if (sl_cone_holds(pivot, cone, a) || sl_cone_holds(pivot, cone, b)) return true;
-    return passes(pivot, cone, sl_ray_to(a), sl_ray_to(b));
+    return turn == to_b || turn == 0;
 }
 
 bool sl_cone_meets_polygon(sl_pivot *pivot, const sl_cone *cone, const sl_point *corners,
                            size_t count) {
-    for (size_t i = 0; i < count; i++)
-        if (sl_cone_holds(pivot, cone, corners[i])) return true;
-    for (size_t i = 0; i < count; i++)
-        if (passes(pivot, cone, sl_ray_to(corners[i]), sl_ray_to(corners[(i + 1) % count])))
+    if (cone->full) return true;
+    sl_ray before = sl_ray_to(corners[count - 1]);
+    int turn_before = sl_turn(pivot, cone->arc.right, before);
+    for (size_t i = 0; i < count; i++) {
+        const sl_ray ray = sl_ray_to(corners[i]);
+        const int turn = sl_turn(pivot, cone->arc.right, ray);
+        if (sl_same_point(corners[i], pivot->eye) || holds_turned(pivot, cone, ray, turn) ||
+            passes(pivot, cone, before, turn_before, ray, turn))
             return true;
+        before = ray;
+        turn_before = turn;
+    }
     return false;
+}
+
+bool sl_cone_meets_segment(sl_pivot *pivot, const sl_cone *cone, sl_point a, sl_point b) {
+    return sl_cone_meets_polygon(pivot, cone, (const sl_point[2]){a, b}, 2);
 }
 
 /// A border of an arc, where the cone's border is the same ray.

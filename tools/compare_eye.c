@@ -1,0 +1,275 @@
+#include "compare_eye.h"
+
+#include "base/base.h"
+#include "base/bits.h"
+#include "base/number.h"
+#include "base/random.h"
+#include "eye_run.h"
+#include "sightline/solvers.h"
+
+#include <math.h>
+#include <string.h>
+
+/// Queries between two looks at the clock, and how often they are run: the shortest time counts,
+/// since other work of the machine only adds to it. What they keep is summed up apart.
+enum { BATCH = 64, RUNS = 3 };
+#define MAX_VIEWPOINTS 1000000000
+
+/// What one query says: cells, or an area by itself.
+typedef struct answer {
+    uint64_t *cells;
+    sl_eye_account account;
+    bool has_area; ///< `area` was set, and no cells
+    double area;
+} answer;
+
+typedef struct viewpoint {
+    sl_point at;
+    double heading;
+} viewpoint;
+
+typedef struct comparing {
+    sl_context *context;
+    const sl_compare_eye_plan *plan;
+    const sl_space *space;
+    sl_visibility visibility;
+    sl_eye_search *search;
+    double *area; ///< by cell; 0 for outside cells
+    double whole;
+    viewpoint *viewpoints;
+    answer answers[BATCH];
+} comparing;
+
+/// A way to say what is seen: a row of the table for each cone.
+typedef struct contender {
+    const char *name;
+    sl_guarantee guarantee;
+    sl_status (*ask)(comparing *all, const struct contender *me, const sl_view *view, answer *out);
+    const sl_eye_method *method;
+} contender;
+
+enum { CONTENDERS_MOST = 16 };
+
+static sl_status ask_method(comparing *all, const contender *me, const sl_view *view, answer *out) {
+    return me->method->cull(all->context, all->search, view, out->cells, &out->account);
+}
+
+/// The library's methods, from the loosest to the exact one.
+static size_t list_contenders(contender contenders[CONTENDERS_MOST]) {
+    size_t count;
+    const sl_eye_method *methods = sl_eye_methods(&count);
+    for (size_t i = 0; i < count; i++)
+        contenders[i] = (contender){methods[i].name, methods[i].guarantee, ask_method, &methods[i]};
+    return count;
+}
+
+// --- reading the options
+
+static sl_status read_fovs(sl_context *context, const char *text, sl_compare_eye_plan *plan) {
+    for (const char *word = text;; word++) {
+        const size_t length = strcspn(word, ",");
+        double fov;
+        if (!sl_number_read(word, length, &fov) || !(fov >= 0 && fov <= 360))
+            return sl_fail(context, SL_BAD_ARGUMENT,
+                           "--fov %s: degrees from 0 to 360 are needed, with commas between", text);
+        if (plan->fov_count == SL_FOVS_MOST)
+            return sl_fail(context, SL_BAD_ARGUMENT, "--fov %s: at most %d cones can be compared",
+                           text, SL_FOVS_MOST);
+        plan->fovs[plan->fov_count++] = fov;
+        word += length;
+        if (!*word) return SL_OK;
+    }
+}
+
+sl_status sl_compare_eye_plan_make(sl_context *context, const sl_compare_eye_texts *texts,
+                                   sl_compare_eye_plan *out) {
+    sl_compare_eye_plan plan = {.viewpoints = 10000, .seed = 1};
+    SL_TRY(sl_option_count(context, "--viewpoints", texts->viewpoints, MAX_VIEWPOINTS,
+                           &plan.viewpoints));
+    if (!plan.viewpoints)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--viewpoints 0: one at least is needed");
+    SL_TRY(sl_option_count(context, "--seed", texts->seed, UINT64_MAX, &plan.seed));
+    SL_TRY(read_fovs(context, texts->fov ? texts->fov : "360,60", &plan));
+    *out = plan;
+    return SL_OK;
+}
+
+// --- viewpoints
+
+/// A point of a cell, all alike: of a triangle of its fan, chosen by area, any point.
+static sl_point point_in(const sl_space *space, uint32_t number, sl_random *random) {
+    const sl_cell *cell = &space->cells[number];
+    const sl_point *v = space->vertices + cell->first_vertex;
+    double rest = sl_random_unit(random) * 2 * sl_space_area(space, number);
+    uint32_t i = 1;
+    for (; i + 2 < cell->vertex_count; i++) {
+        const double twice =
+            (v[i].x - v[0].x) * (v[i + 1].y - v[0].y) - (v[i + 1].x - v[0].x) * (v[i].y - v[0].y);
+        if (rest < twice) break;
+        rest -= twice;
+    }
+    double s = sl_random_unit(random), t = sl_random_unit(random);
+    if (s + t > 1) {
+        s = 1 - s;
+        t = 1 - t;
+    }
+    return (sl_point){v[0].x + s * (v[i].x - v[0].x) + t * (v[i + 1].x - v[0].x),
+                      v[0].y + s * (v[i].y - v[0].y) + t * (v[i + 1].y - v[0].y)};
+}
+
+/// The cell in which an area, counted from the first cell on, ends; found by halving.
+static uint32_t cell_at(const double *before, uint32_t count, double area) {
+    uint32_t low = 0, high = count;
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (before[middle] <= area)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/// Rounding may put a point on the far side of its cell's border: there another one is drawn, and
+/// where that never ends, as in cells too thin for doubles, the corner does.
+static void draw_viewpoint(const comparing *all, const double *before, sl_random *random,
+                           viewpoint *out) {
+    const sl_space *space = all->space;
+    const double area = sl_random_unit(random) * all->whole;
+    const uint32_t cell = cell_at(before, space->cell_count, area);
+    out->heading = 360 * sl_random_unit(random);
+    for (int i = 0; i < 64; i++) {
+        out->at = point_in(space, cell, random);
+        if (sl_space_locate(space, out->at) == cell) return;
+    }
+    out->at = space->vertices[space->cells[cell].first_vertex];
+}
+
+static sl_status draw_viewpoints(sl_context *context, comparing *all) {
+    const uint32_t count = all->space->cell_count;
+    sl_random random = {all->plan->seed};
+    all->area = sl_alloc_array(context, count, sizeof *all->area);
+    all->viewpoints = sl_alloc_array(context, all->plan->viewpoints, sizeof *all->viewpoints);
+    double *before = sl_alloc_array(context, (size_t)count + 1, sizeof *before);
+    if (!all->area || !all->viewpoints || !before) {
+        sl_free(context, before);
+        return SL_NO_MEMORY;
+    }
+    for (uint32_t c = 0; c < count; c++) {
+        all->area[c] = all->space->cells[c].inside ? sl_space_area(all->space, c) : 0;
+        before[c + 1] = before[c] + all->area[c];
+    }
+    all->whole = before[count];
+    for (uint64_t i = 0; i < all->plan->viewpoints; i++)
+        draw_viewpoint(all, before, &random, &all->viewpoints[i]);
+    sl_free(context, before);
+    return all->whole > 0 ? SL_OK
+                          : sl_fail(context, SL_BAD_INPUT,
+                                    "the map's cells are too small for their areas to be told");
+}
+
+// --- the runs
+
+static void add_answer(const comparing *all, const answer *a, sl_compare_eye_row *row) {
+    double area = a->has_area ? a->area : 0;
+    const size_t words = a->has_area ? 0 : sl_eye_words(all->space);
+    for (size_t word = 0; word < words; word++)
+        for (sl_bits rest = a->cells[word]; rest; rest &= rest - 1) {
+            area += all->area[64 * word + (size_t)__builtin_ctzll(rest)];
+            row->cells++;
+        }
+    row->share += area / all->whole;
+    row->nodes += (double)a->account.nodes;
+    row->orientations += (double)a->account.orientations;
+}
+
+static sl_status run_batch(comparing *all, const contender *who, double reach, size_t first,
+                           size_t count, sl_compare_eye_row *row) {
+    sl_view views[BATCH];
+    for (size_t i = 0; i < count; i++)
+        views[i] = sl_view_cone(all->viewpoints[first + i].at, all->viewpoints[first + i].heading,
+                                row->fov, reach);
+    const double start = sl_now();
+    for (size_t i = 0; i < count; i++) SL_TRY(who->ask(all, who, &views[i], &all->answers[i]));
+    row->seconds += sl_now() - start;
+    for (size_t i = 0; i < count; i++) add_answer(all, &all->answers[i], row);
+    return SL_OK;
+}
+
+static sl_status run_row(comparing *all, const contender *who, sl_compare_eye_row *row) {
+    const uint64_t total = all->plan->viewpoints;
+    const double reach = sl_eye_reach(all->space), n = (double)total;
+    char stage[64];
+    snprintf(stage, sizeof stage, "%s, %g degrees", who->name, row->fov);
+    for (uint64_t done = 0; done < total;) {
+        sl_report(all->context, stage, "viewpoints", done, total);
+        SL_TRY(sl_check_cancelled(all->context));
+        const uint64_t count = total - done < BATCH ? total - done : BATCH;
+        SL_TRY(run_batch(all, who, reach, done, count, row));
+        done += count;
+    }
+    row->share /= n;
+    row->cells /= n;
+    row->nodes /= n;
+    row->orientations /= n;
+    row->seconds /= n;
+    return SL_OK;
+}
+
+static sl_status run_rows(comparing *all, sl_compare_eye *out) {
+    contender contenders[CONTENDERS_MOST];
+    const size_t count = list_contenders(contenders), fovs = all->plan->fov_count;
+    out->rows = sl_alloc_array(all->context, count * fovs, sizeof *out->rows);
+    if (!out->rows) return SL_NO_MEMORY;
+    for (size_t f = 0; f < fovs; f++)
+        for (size_t i = 0; i < count; i++) {
+            sl_compare_eye_row *row = &out->rows[out->row_count++];
+            *row = (sl_compare_eye_row){.name = contenders[i].name,
+                                        .guarantee = contenders[i].guarantee,
+                                        .fov = all->plan->fovs[f]};
+            SL_TRY(run_row(all, &contenders[i], row));
+        }
+    return SL_OK;
+}
+
+static sl_status see(comparing *all, sl_sight sight, double *seconds) {
+    size_t count;
+    sl_see_options options = sl_see_options_default();
+    options.solver = sl_funnel();
+    options.sight = sight;
+    options.inside_only = true;
+    const double start = sl_now();
+    SL_TRY(sl_see_methods(&count)->see(all->context, all->space, &options, &all->visibility));
+    *seconds = sl_now() - start;
+    return sl_eye_search_create(all->context, all->space, &all->visibility, &all->search);
+}
+
+static sl_status make_answers(comparing *all) {
+    for (size_t i = 0; i < BATCH; i++) {
+        all->answers[i].cells =
+            sl_alloc_array(all->context, sl_eye_words(all->space), sizeof *all->answers[i].cells);
+        if (!all->answers[i].cells) return SL_NO_MEMORY;
+    }
+    return SL_OK;
+}
+
+sl_status sl_compare_eye_run(sl_console *console, const sl_compare_eye_plan *plan,
+                             const sl_space *space, sl_sight sight, sl_compare_eye *out) {
+    sl_context *context = console->context;
+    comparing all = {.context = context, .plan = plan, .space = space};
+    sl_compare_eye result = {.space = space, .sight = sight, .plan = plan};
+    sl_status status = draw_viewpoints(context, &all);
+    if (status == SL_OK) status = make_answers(&all);
+    if (status == SL_OK) status = see(&all, sight, &result.pvs_seconds);
+    if (status == SL_OK) status = run_rows(&all, &result);
+    for (size_t i = 0; i < BATCH; i++) sl_free(context, all.answers[i].cells);
+    sl_eye_search_destroy(context, all.search);
+    sl_visibility_destroy(context, &all.visibility);
+    sl_free(context, all.area);
+    sl_free(context, all.viewpoints);
+    if (status == SL_OK)
+        *out = result;
+    else
+        sl_free(context, result.rows);
+    return status;
+}
