@@ -8,6 +8,7 @@
 #include "sightline/solvers.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /// Queries between two looks at the clock, and how often they are run: the shortest time counts,
@@ -183,53 +184,81 @@ static void add_answer(const comparing *all, const answer *a, sl_compare_eye_row
     row->orientations += (double)a->account.orientations;
 }
 
-static sl_status run_batch(comparing *all, const contender *who, double reach, size_t first,
-                           size_t count, sl_compare_eye_row *row) {
-    sl_view views[BATCH];
-    for (size_t i = 0; i < count; i++)
-        views[i] = sl_view_cone(all->viewpoints[first + i].at, all->viewpoints[first + i].heading,
-                                row->fov, reach);
-    const double start = sl_now();
-    for (size_t i = 0; i < count; i++) SL_TRY(who->ask(all, who, &views[i], &all->answers[i]));
-    row->seconds += sl_now() - start;
+/// Asks a batch of views, and tells the time of a query.
+static sl_status run_batch(comparing *all, const contender *who, const sl_view *views, size_t count,
+                           sl_compare_eye_row *row, double *seconds) {
+    double least = INFINITY;
+    for (int run = 0; run < RUNS; run++) {
+        const double start = sl_now();
+        for (size_t i = 0; i < count; i++) SL_TRY(who->ask(all, who, &views[i], &all->answers[i]));
+        least = fmin(least, sl_now() - start);
+    }
+    *seconds = least / (double)count;
     for (size_t i = 0; i < count; i++) add_answer(all, &all->answers[i], row);
     return SL_OK;
 }
 
-static sl_status run_row(comparing *all, const contender *who, sl_compare_eye_row *row) {
-    const uint64_t total = all->plan->viewpoints;
-    const double reach = sl_eye_reach(all->space), n = (double)total;
-    char stage[64];
-    snprintf(stage, sizeof stage, "%s, %g degrees", who->name, row->fov);
-    for (uint64_t done = 0; done < total;) {
-        sl_report(all->context, stage, "viewpoints", done, total);
-        SL_TRY(sl_check_cancelled(all->context));
-        const uint64_t count = total - done < BATCH ? total - done : BATCH;
-        SL_TRY(run_batch(all, who, reach, done, count, row));
-        done += count;
-    }
+static int compare_doubles(const void *left, const void *right) {
+    const double a = *(const double *)left, b = *(const double *)right;
+    return (a > b) - (a < b);
+}
+
+/// From sums to means; `seconds` are those of all batches, the median of which is told.
+static void finish_row(const comparing *all, double *seconds, size_t batches,
+                       sl_compare_eye_row *row) {
+    const double n = (double)all->plan->viewpoints;
     row->share /= n;
     row->cells /= n;
     row->nodes /= n;
     row->orientations /= n;
-    row->seconds /= n;
+    qsort(seconds, batches, sizeof *seconds, compare_doubles);
+    row->seconds = (seconds[(batches - 1) / 2] + seconds[batches / 2]) / 2;
+}
+
+/// All contenders take turns, batch by batch, so that what else the machine does in the meantime
+/// slows none more than another.
+static sl_status run_cone(comparing *all, const contender *contenders, size_t count, double fov,
+                          double *seconds, sl_compare_eye_row *rows) {
+    const uint64_t total = all->plan->viewpoints;
+    const size_t batches = (size_t)((total + BATCH - 1) / BATCH);
+    const double reach = sl_eye_reach(all->space);
+    sl_view views[BATCH];
+    char stage[32];
+    snprintf(stage, sizeof stage, "cones of %g degrees", fov);
+    for (size_t b = 0; b < batches; b++) {
+        const uint64_t first = (uint64_t)b * BATCH;
+        const size_t size = total - first < BATCH ? (size_t)(total - first) : BATCH;
+        sl_report(all->context, stage, "viewpoints", first, total);
+        SL_TRY(sl_check_cancelled(all->context));
+        for (size_t i = 0; i < size; i++)
+            views[i] = sl_view_cone(all->viewpoints[first + i].at,
+                                    all->viewpoints[first + i].heading, fov, reach);
+        for (size_t k = 0; k < count; k++)
+            SL_TRY(
+                run_batch(all, &contenders[k], views, size, &rows[k], &seconds[k * batches + b]));
+    }
+    for (size_t k = 0; k < count; k++) finish_row(all, seconds + k * batches, batches, &rows[k]);
     return SL_OK;
 }
 
-static sl_status run_rows(comparing *all, sl_compare_eye *out) {
+static sl_status run_cones(comparing *all, sl_compare_eye *out) {
     contender contenders[CONTENDERS_MOST];
-    const size_t count = list_contenders(contenders), fovs = all->plan->fov_count;
-    out->rows = sl_alloc_array(all->context, count * fovs, sizeof *out->rows);
-    if (!out->rows) return SL_NO_MEMORY;
-    for (size_t f = 0; f < fovs; f++)
-        for (size_t i = 0; i < count; i++) {
-            sl_compare_eye_row *row = &out->rows[out->row_count++];
-            *row = (sl_compare_eye_row){.name = contenders[i].name,
-                                        .guarantee = contenders[i].guarantee,
-                                        .fov = all->plan->fovs[f]};
-            SL_TRY(run_row(all, &contenders[i], row));
-        }
-    return SL_OK;
+    const size_t count = list_contenders(contenders), cones = all->plan->fov_count;
+    const size_t batches = (size_t)((all->plan->viewpoints + BATCH - 1) / BATCH);
+    out->rows = sl_alloc_array(all->context, count * cones, sizeof *out->rows);
+    double *seconds = sl_alloc_array(all->context, count * batches, sizeof *seconds);
+    sl_status status = out->rows && seconds ? SL_OK : SL_NO_MEMORY;
+    for (size_t f = 0; f < cones && status == SL_OK; f++) {
+        sl_compare_eye_row *rows = out->rows + f * count;
+        for (size_t k = 0; k < count; k++)
+            rows[k] = (sl_compare_eye_row){.name = contenders[k].name,
+                                           .guarantee = contenders[k].guarantee,
+                                           .fov = all->plan->fovs[f]};
+        status = run_cone(all, contenders, count, all->plan->fovs[f], seconds, rows);
+    }
+    out->row_count = count * cones;
+    sl_free(all->context, seconds);
+    return status;
 }
 
 static sl_status see(comparing *all, sl_sight sight, double *seconds) {
@@ -261,7 +290,7 @@ sl_status sl_compare_eye_run(sl_console *console, const sl_compare_eye_plan *pla
     sl_status status = draw_viewpoints(context, &all);
     if (status == SL_OK) status = make_answers(&all);
     if (status == SL_OK) status = see(&all, sight, &result.pvs_seconds);
-    if (status == SL_OK) status = run_rows(&all, &result);
+    if (status == SL_OK) status = run_cones(&all, &result);
     for (size_t i = 0; i < BATCH; i++) sl_free(context, all.answers[i].cells);
     sl_eye_search_destroy(context, all.search);
     sl_visibility_destroy(context, &all.visibility);

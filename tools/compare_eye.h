@@ -24,7 +24,8 @@ typedef struct sl_compare_eye_plan {
 sl_status sl_compare_eye_plan_make(sl_context *context, const sl_compare_eye_texts *texts,
                                    sl_compare_eye_plan *out);
 
-/// One way to say what is seen, with one cone: means over all viewpoints.
+/// One way to say what is seen, with one cone: means over all viewpoints but
+/// for the time.
 typedef struct sl_compare_eye_row {
     const char *name; ///< of the method, as in the library's table
     sl_guarantee guarantee;
@@ -32,7 +33,7 @@ typedef struct sl_compare_eye_row {
     double share;               ///< of the map's area that is kept
     double cells;               ///< that are kept
     double nodes, orientations; ///< see sl_eye_account
-    double seconds;             ///< a query
+    double seconds;             ///< a query: the median over batches of some
 } sl_compare_eye_row;
 
 typedef struct sl_compare_eye {

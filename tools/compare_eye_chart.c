@@ -86,7 +86,7 @@ sl_status sl_compare_eye_draw(sl_context *context, const sl_compare_eye *compari
             .subtitle = parts.subtitle,
             .notes = "Each method keeps some of what the one before it does; the exact ones all "
                      "that is seen.",
-            .x = {.label = "time of a query, one thread (means)",
+            .x = {.label = "time of a query, one thread (medians)",
                   .scale = SL_CHART_LOG,
                   .seconds = true},
             .y = {.label = "area kept, % of the inside", .scale = scale_of(comparison)},

@@ -73,7 +73,8 @@ void sl_compare_eye_print(const sl_compare_eye *comparison) {
         fov = row->fov;
         print_row(row);
     }
-    puts("\nmeans over all viewpoints, a query; reduction: 1 / area kept; paper: Teller & Sequin "
+    puts("\nmeans over all viewpoints (time: the median), a query; reduction: 1 / area kept; "
+         "paper: Teller & Sequin "
          "1991,\nof Soda Hall");
 }
 
@@ -120,7 +121,7 @@ void sl_compare_eye_print_columns(void) {
          "  cells               those kept\n"
          "  nodes               cells looked at; exact: nodes of the stab tree visited\n"
          "  orientations        orientation tests\n"
-         "  seconds             a query, on one thread\n"
+         "  seconds             a query, on one thread (the median)\n"
          "  paper_share, paper_reduction\n"
          "                      what Teller & Sequin 1991 tell of Soda Hall");
 }

@@ -47,6 +47,20 @@ class Interrupt(unittest.TestCase):
     def test_old_file_stays(self):
         self.interrupted(signal.SIGINT, "--threads", "3", "--stab-trees", old="an older file")
 
+    def test_compare_eye(self):
+        with sandbox.Sandbox(PROGRAM) as box:
+            box.path("hall.map").write_text(pillars(3))
+            before = box.files()
+            process = box.start(["compare", "hall.map", "--eye", "--viewpoints", "10000000",
+                                 "-o", "out"])
+            time.sleep(1.5)
+            self.assertIsNone(process.poll(), "too soon over to be interrupted")
+            process.send_signal(signal.SIGINT)
+            result = box.finish(process, before, timeout=30)
+            self.assertEqual((result.status, result.stdout), (1, ""))
+            self.assertEqual(result.stderr, "sightline: interrupted\n")
+            self.assertEqual(box.files(), before)
+
     def test_ignored_signal_stays_ignored(self):
         """As under nohup, or in the background of a shell script."""
         with sandbox.Sandbox("/bin/sh") as box:

@@ -46,11 +46,109 @@ static void all_round(void **state) {
     }
 }
 
+// --- segments and polygons, on a small grid against integers
+
+typedef struct vector {
+    int x, y;
+} vector;
+
+static int cross(vector u, vector v) {
+    return u.x * v.y - u.y * v.x;
+}
+
+static int dot(vector u, vector v) {
+    return u.x * v.x + u.y * v.y;
+}
+
+/// A share of the way along a segment.
+typedef struct share {
+    int num, den;
+} share;
+
+static bool is_less(share a, share b) {
+    return a.num * b.den < b.num * a.den;
+}
+
+/// Keeps of a segment where a value is not negative that runs evenly from its one end to the other.
+static void keep_where(int from, int to, share *low, share *high, bool *any) {
+    if (from < 0 && to < 0) *any = false;
+    if ((from < 0) == (to < 0)) return;
+    const share at = {abs(from), abs(from) + abs(to)};
+    if (from < 0 && is_less(*low, at)) *low = at;
+    if (to < 0 && is_less(at, *high)) *high = at;
+}
+
+static bool meets_by_integers(vector right, vector left, vector a, vector b) {
+    const int width = cross(right, left);
+    share low = {0, 1}, high = {1, 1};
+    bool any = true;
+    if (width < 0) // a union of two half-planes
+        return cross(right, a) >= 0 || cross(right, b) >= 0 || cross(a, left) >= 0 ||
+               cross(b, left) >= 0;
+    keep_where(cross(right, a), cross(right, b), &low, &high, &any);
+    if (width > 0 || dot(right, left) > 0)
+        keep_where(cross(a, left), cross(b, left), &low, &high, &any);
+    if (width == 0 && dot(right, left) > 0)
+        keep_where(dot(right, a), dot(right, b), &low, &high, &any);
+    return any && !is_less(high, low);
+}
+
+static sl_point on_grid(vector v) {
+    return (sl_point){v.x + 7, v.y - 3};
+}
+
+/// The nth of the 25 vectors of up to two steps each way.
+static vector nth(int n) {
+    return (vector){n % 5 - 2, n / 5 - 2};
+}
+
+static void segments_on_a_grid(void **state) {
+    (void)state;
+    size_t met = 0, all = 0;
+    for (int r = 0; r < 25; r++)
+        for (int l = 0; l < 25; l++) {
+            if (r == 12 || l == 12) continue; // the eye
+            const sl_view view = {
+                .eye = on_grid(nth(12)), .right = on_grid(nth(r)), .left = on_grid(nth(l))};
+            for (int a = 0; a < 25; a++)
+                for (int b = 0; b < 25; b++) {
+                    const bool expected = meets_by_integers(nth(r), nth(l), nth(a), nth(b));
+                    const sl_segment segment = {on_grid(nth(a)), on_grid(nth(b))};
+                    if (sl_view_meets_segment(&view, segment) != expected)
+                        fail_msg("right %d left %d segment %d %d", r, l, a, b);
+                    met += expected;
+                    all++;
+                }
+        }
+    assert_true(met > all / 10 && met < all);
+}
+
+static void polygons_on_a_grid(void **state) {
+    (void)state;
+    for (int r = 0; r < 25; r++)
+        for (int l = 0; l < 25; l++) {
+            if (r == 12 || l == 12) continue;
+            const sl_view view = {
+                .eye = on_grid(nth(12)), .right = on_grid(nth(r)), .left = on_grid(nth(l))};
+            for (int a = 0; a < 25; a++)
+                for (int b = 0; b < 25; b += 2)
+                    for (int c = 0; c < 25; c += 3) {
+                        const vector v[3] = {nth(a), nth(b), nth(c)};
+                        bool expected = false;
+                        for (int i = 0; i < 3; i++)
+                            expected |= meets_by_integers(nth(r), nth(l), v[i], v[(i + 1) % 3]);
+                        const sl_point corners[3] = {on_grid(v[0]), on_grid(v[1]), on_grid(v[2])};
+                        if (sl_view_meets_polygon(&view, corners, 3) != expected)
+                            fail_msg("right %d left %d corners %d %d %d", r, l, a, b, c);
+                    }
+        }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quarter_turns),
-        cmocka_unit_test(the_border_belongs_to_the_cone),
-        cmocka_unit_test(all_round),
+        cmocka_unit_test(quarter_turns),      cmocka_unit_test(the_border_belongs_to_the_cone),
+        cmocka_unit_test(all_round),          cmocka_unit_test(segments_on_a_grid),
+        cmocka_unit_test(polygons_on_a_grid),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,7 +8,7 @@
 /// strictly forwards, and closed sight takes lines that touch portal ends or run along portals. So
 ///
 /// - an eye on a portal, or where portals meet, sees to all sides of it, whichever of the cells it
-///   is in;
+///   is in; cells that a line passes at the eye itself, on the way to what is behind them, count;
 /// - an eye on a wall, or on a wall's end, stands in its cell and sees what is to be seen from
 ///   there: not through the wall, nor round its end against the direction of sight;
 /// - an eye outside the bounds sees nothing: no method keeps a cell;

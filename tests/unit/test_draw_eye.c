@@ -1,0 +1,121 @@
+/// Pictures of what an eye sees: the counts of each layer, cones of all widths, failures.
+#include "sightline/draw.h"
+
+#include "test_draw_map.h"
+
+#include "base/file.h"
+
+#include <math.h>
+#include <unistd.h>
+
+typedef struct bench {
+    sl_context *context;
+    sl_baked baked;
+    char directory[32], path[64];
+} bench;
+
+static int set_up(void **state) {
+    bench *b = calloc(1, sizeof *b);
+    if (!b) return -1;
+    b->context = testing_context(NULL);
+    testing_space(b->context,
+                  "walls 0 0 40 0 40 10 0 10 0 0\nwall 10 0 10 4\nwall 10 6 10 10\n"
+                  "wall 20 2 20 10\nwall 30 0 30 8\n",
+                  &b->baked.map, &b->baked.space);
+    draw_directory(b->directory);
+    *state = b;
+    return 0;
+}
+
+/// Fails where a test left a file.
+static int tear_down(void **state) {
+    bench *b = *state;
+    const int left = rmdir(b->directory);
+    sl_baked_destroy(b->context, &b->baked);
+    sl_context_destroy(b->context);
+    free(b);
+    return left;
+}
+
+static const char *path_of(bench *b, const char *name) {
+    snprintf(b->path, sizeof b->path, "%s/%s", b->directory, name);
+    return b->path;
+}
+
+/// All four cells, three, and one.
+static const uint64_t sets[3] = {15, 7, 1};
+static const sl_eye_layer layers[3] = {
+    {"cell_to_cell", &sets[0]}, {"incident_portals", &sets[1]}, {"exact", &sets[2]}};
+
+static sl_bytes drawn(bench *b, const sl_view *view, const char *name) {
+    const sl_draw_options options = sl_draw_options_default();
+    sl_bytes file;
+    assert_ok(b->context,
+              sl_draw_eye(b->context, &b->baked, view, layers, 3, &options, path_of(b, name)));
+    assert_ok(b->context, sl_file_read(b->context, b->path, &file));
+    unlink(b->path);
+    return file;
+}
+
+static void views_look_different(void **state) {
+    bench *b = *state;
+    const sl_point eye = {5, 5};
+    const sl_view views[] = {
+        sl_view_all_round(eye),          sl_view_cone(eye, 0, 0, 40),
+        sl_view_cone(eye, 30, 60, 40),   sl_view_cone(eye, 30, 200, 40),
+        sl_view_cone(eye, -90, 359, 40), sl_view_all_round((sl_point){15, 5}),
+    };
+    enum { VIEWS = sizeof views / sizeof *views };
+    sl_bytes files[VIEWS];
+    for (int i = 0; i < VIEWS; i++) {
+        files[i] = drawn(b, &views[i], "eye.svg");
+        assert_non_null(strstr(files[i].data, "<svg"));
+        for (int k = 0; k < i; k++)
+            assert_true(files[i].size != files[k].size ||
+                        memcmp(files[i].data, files[k].data, files[i].size) != 0);
+    }
+    sl_bytes again = drawn(b, &views[2], "eye.svg");
+    assert_int_equal(again.size, files[2].size);
+    assert_memory_equal(again.data, files[2].data, again.size);
+    sl_free(b->context, again.data);
+    for (int i = 0; i < VIEWS; i++) sl_free(b->context, files[i].data);
+}
+
+static void an_eye_outside_can_be_drawn(void **state) {
+    bench *b = *state;
+    const sl_view view = sl_view_cone((sl_point){-1e6, 5}, 0, 60, 40);
+    sl_bytes file = drawn(b, &view, "eye.png");
+    assert_true(file.size > 1000);
+    sl_free(b->context, file.data);
+}
+
+static void refused(bench *b, const sl_view *view, size_t count, double width, const char *name) {
+    sl_draw_options options = sl_draw_options_default();
+    sl_eye_layer many[SL_EYE_LAYERS_MOST + 1];
+    for (size_t i = 0; i <= SL_EYE_LAYERS_MOST; i++) many[i] = layers[0];
+    options.width = width;
+    assert_int_equal(
+        sl_draw_eye(b->context, &b->baked, view, many, count, &options, path_of(b, name)),
+        SL_BAD_ARGUMENT);
+    assert_int_not_equal(access(b->path, F_OK), 0);
+}
+
+static void what_is_refused(void **state) {
+    bench *b = *state;
+    const sl_view view = sl_view_all_round((sl_point){5, 5});
+    const sl_view none = sl_view_all_round((sl_point){NAN, 5});
+    refused(b, &view, SL_EYE_LAYERS_MOST + 1, 1200, "eye.png");
+    refused(b, &view, 1, 63, "eye.png");
+    refused(b, &view, 1, NAN, "eye.png");
+    refused(b, &view, 1, 1200, "eye.jpg");
+    refused(b, &none, 1, 1200, "eye.png");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(views_look_different, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(an_eye_outside_can_be_drawn, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(what_is_refused, set_up, tear_down),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
