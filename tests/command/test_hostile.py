@@ -14,7 +14,7 @@ import sandbox
 from case import MAPS
 
 VALUES = {"MAP": "flat.map", "IN": "flat.map", "MAP|FILE.slv": "flat.map", "FILE.slv": "flat.slv",
-          "A": "0", "B": "0"}
+          "A": "0", "B": "0", "X,Y": "1,1"}
 OUTPUTS = {"FILE.slv": "out.slv", "PICTURE": "out.png", "OUT.map|OUT.txt": "out.map",
            "FILE": "out.json", "DIR": "out"}
 # What no number, point, size or share is.
@@ -35,11 +35,19 @@ class Command:
         self.output = dict(self.options).get("output")
         if "-o" in words:  # what follows it is no operand
             self.operands.remove(words[words.index("-o") + 1])
+        # Options that cannot be left out, with their arguments.
+        self.needed = [(word, words[at + 1]) for at, word in enumerate(words)
+                       if word.startswith("--")]
+        for _, argument in self.needed:
+            self.operands.remove(argument)
 
     def call(self, *options, operands=None, output=None):
         """Its arguments, all that is not given put in."""
         given = [VALUES.get(word, word) for word in self.operands] if operands is None else operands
         arguments = [self.name, *options]
+        for option, argument in self.needed:
+            if option not in [each.split("=")[0] for each in options]:
+                arguments += [option, VALUES[argument]]
         if self.output and output is None and "--output" not in options:
             output = OUTPUTS.get(self.output, "out")
         if output is not None:
