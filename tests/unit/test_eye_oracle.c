@@ -100,7 +100,9 @@ static void ask(trial *t, const sl_visibility *visibility, const char *who, cons
 
 static void try_eye(trial *t) {
     const uint32_t count = t->space.cell_count;
-    const sl_point eye = random_eye(t);
+    sl_point eye; // rounding may have put it beyond the border
+    do eye = random_eye(t);
+    while (sl_space_locate(&t->space, eye) == SL_NO_CELL);
     sl_view views[VIEWS] = {sl_view_all_round(eye)};
     sl_point borders[2 * VIEWS];
     for (int i = 1; i < VIEWS; i++) {
