@@ -1,7 +1,7 @@
 // What a stabbing test costs with each solver: the pushes and pops of the depth-first search on a
 // map are recorded once and played to every solver in turn, round after round, in one run.
 //   bench_solvers MAP [Z]     CSV: machine, map, solver, tests, nanoseconds a test, times the
-//   first's
+//   first's, and the same two without what playing alone takes
 #include "sightline/glpk.h"
 #include "sightline/sightline.h"
 
@@ -72,6 +72,35 @@ static double now(void) {
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
+static sl_status push_nothing(sl_context *context, void *state, sl_point left, sl_point right,
+                              sl_stab_verdict *verdict) {
+    (void)context, (void)state;
+    // Takes the portal, as a solver must.
+    *verdict = left.x == right.x && left.y == right.y ? SL_HIDDEN : SL_STABBED;
+    return SL_OK;
+}
+
+static void pop_nothing(void *state) {
+    (void)state;
+}
+
+static sl_status create_nothing(sl_context *context, sl_box bounds, void **state) {
+    (void)context, (void)bounds;
+    *state = NULL;
+    return SL_OK;
+}
+
+static void destroy_nothing(sl_context *context, void *state) {
+    (void)context, (void)state;
+}
+
+/// What playing the tape takes by itself.
+static const sl_solver nothing = {.name = "nothing",
+                                  .create = create_nothing,
+                                  .destroy = destroy_nothing,
+                                  .push = push_nothing,
+                                  .pop = pop_nothing};
+
 /// Seconds that a solver takes for the tape; 0 where it refuses a portal.
 static double play(sl_context *context, const sl_solver *solver, sl_box bounds, const tape *t) {
     void *state = NULL;
@@ -104,7 +133,7 @@ static void read_space(sl_context *context, const char *path, const char *slice,
     sl_map_destroy(context, &map);
 }
 
-enum { ROUNDS = 5, SOLVERS = 4 };
+enum { ROUNDS = 5, SOLVERS = 5, NOTHING = SOLVERS - 1 };
 
 int main(int argc, char **argv) {
     if (argc < 2) fail("usage: bench_solvers MAP [Z]");
@@ -114,7 +143,7 @@ int main(int argc, char **argv) {
     read_space(context, argv[1], argc > 2 ? argv[2] : NULL, &space);
     tape t = record_map(context, &space);
     const sl_solver *solvers[SOLVERS] = {sl_funnel(), sl_glpk_simplex(), sl_glpk_hybrid(),
-                                         sl_glpk_exact()};
+                                         sl_glpk_exact(), &nothing};
     // The least of all rounds: what the others have more is the machine's doing.
     double least[SOLVERS] = {0};
     for (int round = 0; round < ROUNDS; round++)
@@ -124,11 +153,14 @@ int main(int argc, char **argv) {
         }
     struct utsname machine;
     uname(&machine);
-    puts("machine,map,solver,tests,nanoseconds_a_test,times_the_first");
+    puts("machine,map,solver,tests,nanoseconds_a_test,times_the_first,nanoseconds_of_its_own,"
+         "times_the_first_of_its_own");
+    const double test = 1e-9 * (double)t.count / 2;
     for (int i = 0; i < SOLVERS; i++)
-        printf("%s %s,%s,%s,%zu,%.1f,%.1f\n", machine.sysname, machine.machine, argv[1],
-               solvers[i]->name, t.count / 2, 2e9 * least[i] / (double)t.count,
-               least[i] / least[0]);
+        printf("%s %s,%s,%s,%zu,%.1f,%.1f,%.1f,%.1f\n", machine.sysname, machine.machine, argv[1],
+               solvers[i]->name, t.count / 2, least[i] / test, least[i] / least[0],
+               (least[i] - least[NOTHING]) / test,
+               (least[i] - least[NOTHING]) / (least[0] - least[NOTHING]));
     free(t.events);
     sl_space_destroy(context, &space);
     sl_context_destroy(context);

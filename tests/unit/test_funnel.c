@@ -285,11 +285,56 @@ static void test_account_counts(void **state) {
     sl_context_destroy(context);
 }
 
+static uint64_t orientations_of(const void *made) {
+    sl_stab_account sum = {.orientations = 0};
+    sl_funnel()->account(made, &sum);
+    return sum.orientations;
+}
+
+enum { CURVE = 65 };
+
+/// Between two curves bent away from each other: every end of either adds a corner to the funnel.
+static void test_long_lists(void **state) {
+    (void)state;
+    const sl_solver *solver = sl_funnel();
+    sl_context *context = testing_context(NULL);
+    oracle_portal portals[CURVE + 1];
+    sl_stab_verdict verdict;
+    void *made;
+    assert_ok(context, solver->create(context, (sl_box){{-256, -5000}, {400, 5000}}, &made));
+    for (int i = 0; i < CURVE; i++) {
+        const double x = i - CURVE / 2;
+        portals[i] = (oracle_portal){{8 * x, 1024 + x * x}, {8 * x, -1024 - x * x}};
+        assert_ok(context,
+                  solver->push(context, made, portals[i].left, portals[i].right, &verdict));
+        assert_int_equal(verdict, SL_STABBED);
+    }
+    size_t verdicts[SL_STABBED + 1] = {0};
+    uint64_t most = 0;
+    const double sizes[] = {8, 1000, 4000, 7000};
+    for (int i = 0; i < 4; i++)
+        for (double low = -4000; low <= 4000; low += 100) {
+            oracle_portal *window = &portals[CURVE];
+            *window = (oracle_portal){{400, low + sizes[i]}, {400, low}};
+            const uint64_t before = orientations_of(made);
+            assert_ok(context, solver->push(context, made, window->left, window->right, &verdict));
+            if (orientations_of(made) - before > most) most = orientations_of(made) - before;
+            assert_int_equal(verdict, oracle_margin_of(portals, CURVE + 1).verdict);
+            verdicts[verdict]++;
+            solver->pop(made);
+        }
+    assert_true(verdicts[SL_HIDDEN] && verdicts[SL_GRAZING] && verdicts[SL_STABBED]);
+    assert_true(most > 2 * 100);
+    solver->destroy(context, made);
+    sl_context_destroy(context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_random_sequences),
         cmocka_unit_test(test_memory_may_fail_at_any_call),
         cmocka_unit_test(test_account_counts),
+        cmocka_unit_test(test_long_lists),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
