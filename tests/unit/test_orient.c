@@ -2,6 +2,7 @@
 #include "testing.h"
 
 #include "base/random.h"
+#include "contraction/expansion.h"
 #include "geometry/orient.h"
 
 #include <gmp.h>
@@ -82,6 +83,34 @@ static void near_collinear_grids_are_decided(void **state) {
     }
 }
 
+enum { GRID = 128 };
+
+/// How many signs on the grid a predicate gets wrong.
+static int wrong_on_grid(int (*orient)(sl_point a, sl_point b, sl_point c), double scale) {
+    const sl_point b = {12 * scale, 12 * scale}, c = {24 * scale, 24 * scale};
+    int wrong = 0;
+    for (int i = 0; i < GRID; i++)
+        for (int j = 0; j < GRID; j++) {
+            const sl_point a = {steps(0.5 * scale, i), steps(0.5 * scale, j)};
+            wrong += orient(a, b, c) != sign(rational_orient(a, b, c));
+        }
+    return wrong;
+}
+
+/// The grid tells when a compiler contracts what must be rounded twice: the same text passes
+/// compiled as all is, and fails compiled with contraction by force.
+static void the_grid_finds_contraction(void **state) {
+    (void)state;
+    assert_int_equal(wrong_on_grid(orient_kept, 1), 0);
+    if (!orient_contracts()) {
+        print_message("skipped: this compiler or machine has no fused multiply-add\n");
+        skip();
+    }
+    const int wrong = wrong_on_grid(orient_contracted, 1);
+    print_message("contracted, %d of %d signs are wrong\n", wrong, GRID * GRID);
+    assert_true(wrong > 0);
+}
+
 static double random_double(sl_random *random, int lowest, int highest) {
     const double mantissa = 1 + sl_random_unit(random);
     const int exponent = lowest + (int)sl_random_below(random, (uint64_t)(highest - lowest + 1));
@@ -139,6 +168,7 @@ static void nearly_collinear_points_are_decided(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(near_collinear_grids_are_decided),
+        cmocka_unit_test(the_grid_finds_contraction),
         cmocka_unit_test(any_finite_doubles_are_decided),
         cmocka_unit_test(nearly_collinear_points_are_decided),
     };
