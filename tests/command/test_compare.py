@@ -166,7 +166,6 @@ class Compare(unittest.TestCase):
         told, _, _ = self.compare("flat.map", "--solvers", "funnel")
         run, = told["runs"]
         self.assertGreater(run["timings"], 3)
-        self.assertGreater(run["timings"] * run["seconds_high"], 0.05)
 
     def stop(self, number, *options):
         self.box.path("hall.map").write_text(pillars(24))
