@@ -1,4 +1,5 @@
 #include "base/file.h"
+#include "import/wad.h"
 #include "sightline/import.h"
 
 #include <string.h>
@@ -68,6 +69,10 @@ static bool knows_foundry(const char *text, size_t size) {
            is_json_with(text, "\"walls\"", "\"padding\"");
 }
 
+static bool knows_wad(const char *text, size_t size) {
+    return sl_wad_known(text, size);
+}
+
 static const sl_map_format formats[] = {
     {.name = "text", .endings = ".map", .what = "the map text", .read = read_text},
     {.name = "plan", .endings = ".txt", .what = "an ASCII plan", .read = read_plan},
@@ -134,6 +139,13 @@ static const sl_map_format formats[] = {
      .read = sl_map_read_foundry,
      .takes = SL_TAKES_DOORS,
      .knows = knows_foundry},
+    {.name = "wad",
+     .endings = ".wad",
+     .what = "a Doom WAD, classic, Hexen's or UDMF",
+     .read = sl_map_read_wad,
+     .takes = SL_TAKES_DOORS,
+     .list = sl_map_list_wad,
+     .knows = knows_wad},
 };
 #define FORMAT_COUNT (sizeof formats / sizeof *formats)
 

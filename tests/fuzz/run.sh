@@ -39,6 +39,7 @@ seeds_of() {
     fuzz_ldtk) echo ldtk ;;
     fuzz_uvtt) echo dd2vtt ;;
     fuzz_foundry) echo foundry ;;
+    fuzz_wad) echo wad ;;
     esac
 }
 

@@ -19,7 +19,9 @@ typedef struct sl_import_options {
     const char *layers;
     double tolerance; ///< how far a curve may be from its walls, in the map's unit; 0: the usual
     double threshold; ///< images: darkness from which a pixel is solid, 0 .. 1; 0: the usual
-    bool doors;       ///< take doors as doors; off: as what they are when the map begins
+    /// Take doors as doors. Off: as what they are when the map begins; those of a game that opens
+    /// them at a touch (Doom) are seen through.
+    bool doors;
 } sl_import_options;
 
 SL_API sl_import_options sl_import_options_default(void);
@@ -127,6 +129,18 @@ SL_API sl_status sl_map_read_foundry(sl_context *context, const char *name, cons
 /// The walls of our own JSON export.
 SL_API sl_status sl_map_read_export(sl_context *context, const char *name, const char *text,
                                     size_t size, const sl_import_options *options, sl_map *map);
+
+/// Reads a map of a Doom WAD: lumps of Doom's or Hexen's records, or a TEXTMAP (UDMF). Lines with
+/// one side are walls; those with two are seen through, and so are doors, shut ones too: what a
+/// player may open hides nothing. With options->doors each line between a door sector (one whose
+/// ceiling meets the floor when the map begins, or that a door special of a line moves) and another
+/// is a door, named "sector_" and its number, open where there is room under the ceiling. Player
+/// 1's start is kept. What was taken is noted. Messages name the lump, and the line in a TEXTMAP.
+SL_API sl_status sl_map_read_wad(sl_context *context, const char *name, const char *text,
+                                 size_t size, const sl_import_options *options, sl_map *map);
+/// Its maps, each name once, in the order of the directory.
+SL_API sl_status sl_map_list_wad(sl_context *context, const char *name, const char *text,
+                                 size_t size, sl_map_list *list);
 
 #ifdef __cplusplus
 }

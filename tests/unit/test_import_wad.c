@@ -1,0 +1,447 @@
+// Doom WADs: maps by name, lines with one side and with two, doors, both kinds of records and the
+// text format; and each way in which a WAD can be broken.
+#include "testing.h"
+
+#include "unit/map_same.h"
+#include "wad_make.h"
+
+typedef struct noted {
+    char text[2048];
+} noted;
+
+static void keep_note(void *user, const char *message) {
+    noted *notes = user;
+    const size_t used = strlen(notes->text);
+    snprintf(notes->text + used, sizeof notes->text - used, "%s\n", message);
+}
+
+static sl_status read_wad(sl_context *context, const wad_made *wad, const char *name, bool doors,
+                          sl_map *map) {
+    const sl_import_options options = {.map = name, .doors = doors};
+    // Read from a block of its own size, so that a byte too far is seen.
+    char *copy = malloc(wad->size + 1);
+    assert_non_null(copy);
+    memcpy(copy, wad->bytes, wad->size);
+    const sl_status status = sl_map_read_wad(context, "in.wad", copy, wad->size, &options, map);
+    free(copy);
+    return status;
+}
+
+static void two_rooms(wad_made *wad, int special, int tag, int ceiling) {
+    wad_begin(wad);
+    wad_two_rooms(wad, "MAP01", special, tag, ceiling, NULL);
+    wad_end(wad);
+}
+
+static void test_lines(void **state) {
+    (void)state;
+    noted notes = {""};
+    const sl_hooks hooks = {.user = &notes, .note = keep_note};
+    sl_context *context = sl_context_create(&hooks);
+    wad_made wad;
+    two_rooms(&wad, 0, 0, 128);
+    sl_map map = {0};
+    assert_ok(context, read_wad(context, &wad, "map01", false, &map));
+    assert_int_equal(map.wall_count, 12);
+    assert_int_equal(map.door_count, 0);
+    assert_int_equal(map.start_count, 1);
+    assert_true(map.starts[0].at.x == 32 && map.starts[0].at.y == 32);
+    assert_true(map.starts[0].heading == 90);
+    const sl_box box = sl_map_bounds(&map);
+    assert_true(box.min.x == 0 && box.min.y == 0 && box.max.x == 136 && box.max.y == 64);
+    assert_non_null(strstr(notes.text, "of 14 lines 12 with one side are walls, 2 with two are"));
+    assert_null(strstr(notes.text, "--doors"));
+    sl_map_destroy(context, &map);
+    free(wad.bytes);
+    sl_context_destroy(context);
+}
+
+/// By hand, by tag, by Boom's generalized specials, and without a special where the ceiling meets
+/// the floor.
+static void test_doors(void **state) {
+    (void)state;
+    const struct {
+        int special, tag, ceiling;
+        size_t doors;
+        bool open;
+    } cases[] = {
+        {1, 0, 0, 2, false},        {1, 0, 100, 2, true},       {31, 0, 100, 2, true},
+        {2, 7, 100, 2, true},       {2, 8, 100, 0, false},      {0, 0, 0, 2, false},
+        {0, 0, -8, 2, false},       {0, 0, 1, 0, false},        {11, 7, 100, 0, false},
+        {0x3c06, 0, 100, 2, true},  {0x3c00, 7, 100, 2, true},  {0x3c00, 0, 100, 0, false},
+        {0x3807, 9, 100, 2, true},  {0x4000, 7, 100, 0, false}, {-1, 7, 100, 0, false},
+        {0x37ff, 7, 100, 0, false}, {196, 7, 64, 2, true},
+    };
+    sl_context *context = testing_context(NULL);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        wad_made wad;
+        two_rooms(&wad, cases[i].special, cases[i].tag, cases[i].ceiling);
+        sl_map map = {0};
+        assert_ok(context, read_wad(context, &wad, NULL, true, &map));
+        assert_int_equal(map.wall_count, 12);
+        if (map.door_count != cases[i].doors)
+            fail_msg("special %d, tag %d, ceiling %d: %zu doors", cases[i].special, cases[i].tag,
+                     cases[i].ceiling, map.door_count);
+        for (size_t k = 0; k < map.door_count; k++) {
+            assert_string_equal(map.doors[k].name, "sector_1");
+            assert_int_equal(map.doors[k].open, cases[i].open);
+            assert_true(map.doors[k].segment.a.x == (k ? 72 : 64));
+        }
+        sl_map_destroy(context, &map);
+        assert_ok(context, read_wad(context, &wad, NULL, false, &map));
+        assert_int_equal(map.wall_count, 12);
+        assert_int_equal(map.door_count, 0);
+        sl_map_destroy(context, &map);
+        free(wad.bytes);
+    }
+    sl_context_destroy(context);
+}
+
+/// Maps by name, each once; what lies between them is no map.
+static void test_list(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    wad_made wad;
+    wad_begin(&wad);
+    wad_text(&wad, "PLAYPAL", "colours");
+    wad_two_rooms(&wad, "E1M1", 0, 0, 0, NULL);
+    wad_two_rooms(&wad, "E1M2", 0, 0, 0, NULL);
+    wad_text(&wad, "CREDIT", "between");
+    wad_lump(&wad, "WORLD", NULL, 0);
+    wad_text(&wad, "TEXTMAP", "namespace = \"doom\";");
+    wad_lump(&wad, "ZNODES", NULL, 0);
+    wad_lump(&wad, "ENDMAP", NULL, 0);
+    wad_two_rooms(&wad, "E1M1", 0, 0, 0, "SECTORS");
+    wad_end(&wad);
+    sl_map_list list = {0};
+    assert_ok(context, sl_map_list_wad(context, "in.wad", (char *)wad.bytes, wad.size, &list));
+    assert_int_equal(list.count, 3);
+    assert_string_equal(list.names[0], "E1M1");
+    assert_string_equal(list.names[1], "E1M2");
+    assert_string_equal(list.names[2], "WORLD");
+    sl_map_list_destroy(context, &list);
+    sl_map map = {0};
+    assert_ok(context, read_wad(context, &wad, "E1M2", false, &map));
+    sl_map_destroy(context, &map);
+    assert_ok(context, read_wad(context, &wad, "world", false, &map));
+    assert_int_equal(map.wall_count, 0);
+    sl_map_destroy(context, &map);
+    // Of two maps with one name the game takes the last; here that one is broken.
+    assert_int_equal(read_wad(context, &wad, "E1M1", false, &map), SL_BAD_INPUT);
+    assert_string_equal(sl_context_message(context), "in.wad: map E1M1 has no lump SECTORS");
+    assert_int_equal(read_wad(context, &wad, "E9M9", false, &map), SL_BAD_INPUT);
+    assert_true(map_is_empty(&map));
+    free(wad.bytes);
+    sl_context_destroy(context);
+}
+
+/// The same through sl_map_read: the name is asked for where there are several.
+static void test_choice(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    char path[] = "/tmp/sightline-wad-XXXXXX";
+    const int descriptor = mkstemp(path);
+    assert_true(descriptor >= 0);
+    wad_made wad;
+    wad_begin(&wad);
+    for (int i = 1; i <= 8; i++) {
+        char name[9];
+        snprintf(name, sizeof name, "MAP%02d", i);
+        wad_lump(&wad, name, NULL, 0);
+        wad_text(&wad, "TEXTMAP", "namespace = \"doom\"; vertex { x = 1; y = 2; }");
+        wad_lump(&wad, "ENDMAP", NULL, 0);
+    }
+    wad_end(&wad);
+    FILE *file = fdopen(descriptor, "wb");
+    assert_int_equal(fwrite(wad.bytes, 1, wad.size, file), wad.size);
+    assert_int_equal(fclose(file), 0);
+    sl_map map = {0};
+    char expected[200];
+    // Known by its bytes: the name has no ending.
+    assert_int_equal(sl_map_read(context, path, NULL, &map), SL_BAD_ARGUMENT);
+    snprintf(expected, sizeof expected,
+             "%s: it holds 8 maps, MAP01, MAP02, MAP03, MAP04, MAP05, MAP06 ...: choose one by "
+             "--map NAME",
+             path);
+    assert_string_equal(sl_context_message(context), expected);
+    const sl_import_options unknown = {.map = "MAP9"}, known = {.map = "map07"};
+    assert_int_equal(sl_map_read(context, path, &unknown, &map), SL_BAD_ARGUMENT);
+    snprintf(expected, sizeof expected,
+             "%s: there is no map 'MAP9': it holds 8 maps, MAP01, MAP02, MAP03, MAP04, MAP05, "
+             "MAP06 ...",
+             path);
+    assert_string_equal(sl_context_message(context), expected);
+    assert_true(map_is_empty(&map));
+    assert_ok(context, sl_map_read(context, path, &known, &map));
+    sl_map_destroy(context, &map);
+    sl_map_list list = {0};
+    assert_ok(context, sl_map_list_read(context, path, &list));
+    assert_int_equal(list.count, 8);
+    sl_map_list_destroy(context, &list);
+    remove(path);
+    free(wad.bytes);
+    sl_context_destroy(context);
+}
+
+static void test_hexen(void **state) {
+    (void)state;
+    static const size_t vertex[] = {0, 2}, side[] = {28}, sector[] = {0, 2, 24};
+    static const int vertices[][2] = {{-8, -8}, {8, 8}}, sides[][1] = {{0}, {1}},
+                     sectors[][3] = {{0, 64, 0}, {0, 64, 3}};
+    // from, to, special and first argument in one, sides
+    static const size_t line[] = {0, 2, 6, 12, 14}, thing[] = {2, 4, 8, 10};
+    static const int lines[][5] = {{0, 1, 12 | 3 << 8, 0, 1}, {1, 0, 0, 0, 0xffff}};
+    static const int things[][4] = {{-4, 4, 270, 1}, {4, -4, 45, 1}, {0, 0, 0, 2}};
+    sl_context *context = testing_context(NULL);
+    wad_made wad;
+    wad_begin(&wad);
+    wad_lump(&wad, "MAP05", NULL, 0);
+    wad_records(&wad, "THINGS", 20, 4, thing, WAD_ROWS(things));
+    wad_records(&wad, "LINEDEFS", 16, 5, line, WAD_ROWS(lines));
+    wad_records(&wad, "SIDEDEFS", 30, 1, side, WAD_ROWS(sides));
+    wad_records(&wad, "VERTEXES", 4, 2, vertex, WAD_ROWS(vertices));
+    wad_records(&wad, "SECTORS", 26, 3, sector, WAD_ROWS(sectors));
+    wad_text(&wad, "BEHAVIOR", "ACS");
+    wad_end(&wad);
+    sl_map map = {0};
+    assert_ok(context, read_wad(context, &wad, "MAP05", true, &map));
+    assert_int_equal(map.wall_count, 1);
+    assert_true(map.walls[0].a.x == 8 && map.walls[0].b.y == -8);
+    assert_int_equal(map.door_count, 1);
+    assert_string_equal(map.doors[0].name, "sector_1");
+    assert_int_equal(map.start_count, 1);
+    assert_true(map.starts[0].at.x == 4 && map.starts[0].heading == 45);
+    sl_map_destroy(context, &map);
+    free(wad.bytes);
+    sl_context_destroy(context);
+}
+
+// --- the text format
+
+static void text_wad(wad_made *wad, const char *text) {
+    wad_begin(wad);
+    wad_lump(wad, "MAP01", NULL, 0);
+    wad_text(wad, "TEXTMAP", text);
+    wad_lump(wad, "ENDMAP", NULL, 0);
+    wad_end(wad);
+}
+
+#define SQUARE                                                                                     \
+    "vertex { x = 0; y = 0; } vertex { x = 0.5; y = 8e0; } VERTEX{X=+8;Y=0x8;}\n"                  \
+    "sidedef { sector = 0; texturemiddle = \"a \\\" } b\"; } sidedef { sector = 01; }\n"           \
+    "sector { heightceiling = 64; } sector { id = 5; heightceiling = 32; }\n"
+
+static void test_textmap(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    wad_made wad;
+    text_wad(&wad, "// a comment\nnamespace = \"ZDoom\"; /* another\n { */ unknown = yes;\n" SQUARE
+                   "linedef // at once\n{ v1 = 0; v2 = 1; sidefront = 0; blocking = true; }\n"
+                   "linedef { v1 = 1; v2 = 2; sidefront = 0; sideback = 1; special = 11; "
+                   "arg0 = 5; id = 9; }\n"
+                   "linedef { v1 = 1; v2 = 1; sidefront = 0; }\n"
+                   "linedef { v1 = 0; v2 = 2; sidefront = -1; }\n"
+                   "thing { x = 1; y = 2.25; type = 1; angle = -45; } weird { a = b; }");
+    sl_map map = {0};
+    assert_ok(context, read_wad(context, &wad, "MAP01", true, &map));
+    assert_int_equal(map.wall_count, 1);
+    assert_true(map.walls[0].b.x == 0.5 && map.walls[0].b.y == 8);
+    assert_int_equal(map.walls[0].line, 7);
+    assert_int_equal(map.door_count, 1);
+    assert_string_equal(map.doors[0].name, "sector_1");
+    assert_true(map.doors[0].segment.b.x == 8 && map.doors[0].segment.b.y == 8);
+    assert_int_equal(map.start_count, 1);
+    assert_true(map.starts[0].heading == -45);
+    sl_map_destroy(context, &map);
+    free(wad.bytes);
+    // Doom's namespace has Doom's specials, and the id as the tag.
+    text_wad(&wad, "namespace = \"doom\";" SQUARE
+                   "linedef { v1 = 1; v2 = 2; sidefront = 0; sideback = 1; special = 2; id = 5; }");
+    assert_ok(context, read_wad(context, &wad, "MAP01", true, &map));
+    assert_int_equal(map.door_count, 1);
+    sl_map_destroy(context, &map);
+    free(wad.bytes);
+    sl_context_destroy(context);
+}
+
+static void test_textmap_broken(void **state) {
+    (void)state;
+    const struct {
+        const char *text, *message;
+    } cases[] = {
+        {"vertex { x = 1; y = 2;", "in.wad:1: map MAP01, lump TEXTMAP: expected a field's name or "
+                                   "'}', found the end of the lump"},
+        {"\nvertex { x = 1; }", "in.wad:2: map MAP01, lump TEXTMAP: this vertex has no y"},
+        {"\n\nvertex { x = one; y = 2; }",
+         "in.wad:3: map MAP01, lump TEXTMAP: x: expected a number, found 'one'"},
+        {"vertex { x = 1e400; y = 2; }",
+         "in.wad:1: map MAP01, lump TEXTMAP: x: expected a number, found '1e400'"},
+        {"vertex { x = 1; y = 2 }", "in.wad:1: map MAP01, lump TEXTMAP: expected ';', found '}'"},
+        {"vertex { x 1; }", "in.wad:1: map MAP01, lump TEXTMAP: expected '=', found '1'"},
+        {"vertex { x = ; }", "in.wad:1: map MAP01, lump TEXTMAP: expected a value, found ';'"},
+        {"}", "in.wad:1: map MAP01, lump TEXTMAP: expected a name, found '}'"},
+        {"vertex x", "in.wad:1: map MAP01, lump TEXTMAP: expected '{', found 'x'"},
+        {"a = \"text\n\\\"", "in.wad:1: map MAP01, lump TEXTMAP: '\"' without a second one"},
+        {"a = \"\\", "in.wad:1: map MAP01, lump TEXTMAP: '\"' without a second one"},
+        {"a\n/* b", "in.wad:2: map MAP01, lump TEXTMAP: '/*' without '*/'"},
+        {"sidedef { sector = 0.5; }",
+         "in.wad:1: map MAP01, lump TEXTMAP: sector: expected a whole number, found '0.5'"},
+        {"sidedef { sector = 0x100000000; }",
+         "in.wad:1: map MAP01, lump TEXTMAP: sector: expected a whole number, found '0x100000000'"},
+        {"linedef { v1 = 0; v2 = 1; }",
+         "in.wad:1: map MAP01, lump TEXTMAP: this linedef has no sidefront"},
+        {SQUARE "linedef { v1 = 0; v2 = 3; sidefront = 0; }",
+         "in.wad:4: map MAP01, linedef 0: vertex 3, but there are 3"},
+        {SQUARE "\nlinedef { v1 = 0; v2 = 1; sidefront = 2; }",
+         "in.wad:5: map MAP01, linedef 0: sidedef 2, but there are 2"},
+        {SQUARE "linedef { v1 = 0; v2 = 1; sidefront = -2; }",
+         "in.wad:4: map MAP01, linedef 0: sidedef -2, but there are 2"},
+        {SQUARE "sidedef { sector = 2; }\nlinedef { v1 = 0; v2 = 1; sidefront = 2; }",
+         "in.wad:4: map MAP01, sidedef 2: sector 2, but there are 2"},
+    };
+    sl_context *context = testing_context(NULL);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        wad_made wad;
+        text_wad(&wad, cases[i].text);
+        sl_map map = {0};
+        assert_int_equal(read_wad(context, &wad, NULL, false, &map), SL_BAD_INPUT);
+        assert_string_equal(sl_context_message(context), cases[i].message);
+        assert_true(map_is_empty(&map));
+        free(wad.bytes);
+    }
+    sl_context_destroy(context);
+}
+
+// --- broken files
+
+static void expect_broken(sl_context *context, const wad_made *wad, const char *message) {
+    sl_map map = {0};
+    const sl_status status = read_wad(context, wad, NULL, false, &map);
+    if (status != SL_BAD_INPUT || !strstr(sl_context_message(context), message))
+        fail_msg("expected '%s', found '%s'", message,
+                 status == SL_OK ? "" : sl_context_message(context));
+    assert_memory_equal(sl_context_message(context), "in.wad: ", 8);
+    assert_true(map_is_empty(&map));
+}
+
+static void test_directory_broken(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    wad_made wad;
+    two_rooms(&wad, 0, 0, 0);
+    const size_t whole = wad.size;
+    // Cut off anywhere, it is refused, and nothing is read beyond the end.
+    for (wad.size = 0; wad.size < whole; wad.size += wad.size < 16 ? 1 : 7)
+        expect_broken(context, &wad, "");
+    wad.size = 11;
+    expect_broken(context, &wad, "the WAD's header is cut off: 11 bytes of 12");
+    wad.size = whole - 1;
+    expect_broken(context, &wad, "does not lie in the file's");
+    wad.size = whole;
+    wad_u32(wad.bytes + 4, UINT32_MAX);
+    expect_broken(context, &wad, "the directory of 4294967295 lumps");
+    wad_u32(wad.bytes + 4, 0);
+    expect_broken(context, &wad, "holds no map");
+    memcpy(wad.bytes, "QWAD", 4);
+    expect_broken(context, &wad, "no WAD: expected 'IWAD' or 'PWAD'");
+    free(wad.bytes);
+    sl_context_destroy(context);
+}
+
+static void test_lumps_broken(void **state) {
+    (void)state;
+    static const char *const needed[] = {"THINGS", "LINEDEFS", "SIDEDEFS", "VERTEXES", "SECTORS"};
+    sl_context *context = testing_context(NULL);
+    char message[100];
+    for (size_t i = 0; i < sizeof needed / sizeof *needed; i++) {
+        wad_made wad;
+        wad_begin(&wad);
+        wad_two_rooms(&wad, "MAP01", 0, 0, 0, needed[i]);
+        wad_end(&wad);
+        snprintf(message, sizeof message, "map MAP01 has no lump %s", needed[i]);
+        expect_broken(context, &wad, message);
+        free(wad.bytes);
+        two_rooms(&wad, 0, 0, 0);
+        for (size_t k = 0; k < wad.lump_count; k++) {
+            unsigned char *entry = wad.bytes + wad.size - (wad.lump_count - k) * 16;
+            if (strcmp(wad.lumps[k].name, needed[i]) != 0) continue;
+            wad_u32(entry + 4, (uint32_t)wad.lumps[k].size - 1);
+            snprintf(message, sizeof message, "lump %s: %zu bytes are no whole number of records",
+                     needed[i], wad.lumps[k].size - 1);
+            expect_broken(context, &wad, message);
+            wad_u32(entry + 4, (uint32_t)wad.size);
+            snprintf(message, sizeof message, "lump %zu, %s: its %zu bytes at byte", k, needed[i],
+                     wad.size);
+            expect_broken(context, &wad, message);
+            wad_u32(entry, UINT32_MAX);
+            expect_broken(context, &wad, "at byte 4294967295 do not lie in the file's");
+        }
+        free(wad.bytes);
+    }
+    sl_context_destroy(context);
+}
+
+/// One number of a lump is too large.
+static void test_references_broken(void **state) {
+    (void)state;
+    const struct {
+        const char *lump;
+        size_t place;
+        int value;
+        const char *message;
+    } cases[] = {
+        {"LINEDEFS", 2, 12, "map MAP01, linedef 0: vertex 12, but there are 12"},
+        {"LINEDEFS", 14, 0xffff, "map MAP01, linedef 1: vertex 65535, but there are 12"},
+        {"LINEDEFS", 24, 3, "map MAP01, linedef 1: sidedef 3, but there are 3"},
+        {"LINEDEFS", 12 * 14 + 12, 77, "map MAP01, linedef 12: sidedef 77, but there are 3"},
+        {"SIDEDEFS", 58, 3, "map MAP01, sidedef 1: sector 3, but there are 3"},
+    };
+    sl_context *context = testing_context(NULL);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        wad_made wad;
+        two_rooms(&wad, 0, 0, 0);
+        for (size_t k = 0; k < wad.lump_count; k++)
+            if (strcmp(wad.lumps[k].name, cases[i].lump) == 0)
+                wad_u16(wad.bytes + wad.lumps[k].offset + cases[i].place, cases[i].value);
+        expect_broken(context, &wad, cases[i].message);
+        free(wad.bytes);
+    }
+    sl_context_destroy(context);
+}
+
+static void test_memory(void **state) {
+    (void)state;
+    testing_memory memory = {0};
+    sl_context *context = testing_context(&memory);
+    const long outside = memory.live;
+    wad_made wads[2];
+    two_rooms(&wads[0], 1, 0, 0);
+    text_wad(&wads[1], SQUARE "linedef { v1 = 0; v2 = 1; sidefront = 0; }"
+                              "thing { x = 1; y = 2; type = 1; }");
+    for (size_t i = 0; i < 2; i++) {
+        for (long fail_at = 1;; fail_at++) {
+            memory.fail_at = memory.calls + fail_at;
+            sl_map map = {0};
+            const sl_status status = read_wad(context, &wads[i], NULL, true, &map);
+            memory.fail_at = 0;
+            sl_map_destroy(context, &map);
+            assert_int_equal(memory.live, outside);
+            if (status == SL_OK) break;
+            assert_int_equal(status, SL_NO_MEMORY);
+        }
+        free(wads[i].bytes);
+    }
+    sl_context_destroy(context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_lines),          cmocka_unit_test(test_doors),
+        cmocka_unit_test(test_list),           cmocka_unit_test(test_choice),
+        cmocka_unit_test(test_hexen),          cmocka_unit_test(test_textmap),
+        cmocka_unit_test(test_textmap_broken), cmocka_unit_test(test_directory_broken),
+        cmocka_unit_test(test_lumps_broken),   cmocka_unit_test(test_references_broken),
+        cmocka_unit_test(test_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
