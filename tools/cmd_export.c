@@ -20,11 +20,23 @@ static void print_formats(void) {
     for (size_t i = 0; i < count; i++) printf("  %-10s%s\n", formats[i].name, formats[i].what);
 }
 
+/// --wad and --map are for the formats that take them, and the WAD is not written over.
+static sl_status check_wad(sl_context *context, const sl_export_format *format,
+                           const sl_export_options *given, const char *output) {
+    if (!format->takes_wad && (given->wad || given->map))
+        return sl_fail(context, SL_BAD_ARGUMENT, "--%s: the format %s has no use for it",
+                       given->wad ? "wad" : "map", format->name);
+    return given->wad ? sl_input_refuse_output(context, given->wad, output) : SL_OK;
+}
+
 sl_status sl_cmd_export(sl_console *console, int argc, char **argv) {
     const char *path = NULL, *format = NULL, *output = NULL;
+    sl_export_options given = {0};
     const sl_option_spec options[] = {
         {"output", 'o', "FILE", NULL, &output, "where to write; stdout, or -, without it"},
         {"format", 0, "NAME", NULL, &format, "what to write"},
+        {"wad", 0, "IN.wad", NULL, &given.wad, "reject: the WAD of the map that was baked"},
+        {"map", 0, "NAME", NULL, &given.map, "reject: the name of that map"},
     };
     const sl_command_usage usage = {
         .name = "export",
@@ -32,7 +44,9 @@ sl_status sl_cmd_export(sl_console *console, int argc, char **argv) {
         .operands = {"FILE.slv"},
         .what = "Writes a baked file for other programs: cells, portals, and what each cell sees.",
         .tables = print_formats,
-        .examples = "  sightline export office.slv --format json -o office.json",
+        .examples =
+            "  sightline export office.slv --format json -o office.json\n"
+            "  sightline export e1m1.slv --format reject --wad doom.wad --map E1M1 -o new.wad",
         .options = options,
         .option_count = sizeof options / sizeof *options,
     };
@@ -45,12 +59,13 @@ sl_status sl_cmd_export(sl_console *console, int argc, char **argv) {
 
     if (!output) output = "-";
     SL_TRY(sl_input_refuse_output(console->context, path, output));
+    SL_TRY(check_wad(console->context, &sl_export_formats(&count)[chosen], &given, output));
     sl_baked baked = {0};
     SL_TRY(sl_input_read_baked(console->context, path, &baked));
     sl_progress_line_clear(&console->line);
     if (strcmp(output, "-") == 0 && isatty(STDOUT_FILENO)) console->line.shows = false;
     const sl_status status =
-        sl_export_formats(&count)[chosen].write(console->context, &baked, output);
+        sl_export_formats(&count)[chosen].write(console->context, &baked, &given, output);
     sl_baked_destroy(console->context, &baked);
     return status;
 }

@@ -91,7 +91,9 @@ static sl_status print_baked(const printer *out, const sl_baked *baked) {
     return SL_OK;
 }
 
-sl_status sl_export_json(sl_context *context, const sl_baked *baked, const char *path) {
+sl_status sl_export_json(sl_context *context, const sl_baked *baked,
+                         const sl_export_options *options, const char *path) {
+    (void)options;
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));
     const printer out = {context, output.stream};

@@ -8,7 +8,7 @@
 //
 // Prints one line of CSV with its heading. Exit status: 0 nothing lost, 1 something lost (the first
 // few are told on stderr), 2 wrong arguments or files.
-#include "sectors.h"
+#include "oracle/sectors.h"
 
 #include "base/file.h"
 #include "base/random.h"
@@ -33,7 +33,7 @@ typedef struct check {
     sl_baked baked;
     sl_bytes map_bytes, reject_bytes;
     sl_doom_level level;
-    sectors *sectors;
+    sector_finder *sectors;
     sl_lump reject;
     bool *lost_sectors; ///< pairs found lost, count x count
 
@@ -187,7 +187,7 @@ static void read_sectors(check *run) {
          sl_wad_open(run->context, run->map_path, run->map_bytes.data, run->map_bytes.size, &wad));
     must(run, sl_wad_find_map(run->context, &wad, run->import.map, &map));
     must(run, sl_doom_read(run->context, &wad, &map, &run->level));
-    run->sectors = sectors_create(&run->level);
+    run->sectors = sector_finder_create(&run->level);
     run->lost_sectors = calloc(run->level.sector_count * run->level.sector_count + 1, 1);
     if (!run->lost_sectors) abort();
 
@@ -267,7 +267,7 @@ int main(int argc, char **argv) {
         read_sectors(&run);
     check_all(&run);
     print_result(&run);
-    if (run.sectors) sectors_destroy(run.sectors);
+    if (run.sectors) sector_finder_destroy(run.sectors);
     blockers_destroy(run.walls);
     sl_free(run.context, run.map_bytes.data);
     sl_free(run.context, run.reject_bytes.data);

@@ -113,10 +113,12 @@ static void an_export_can_be_interrupted(void **state) {
     bake(context, &baked);
     size_t count;
     const sl_export_format *formats = sl_export_formats(&count);
+    const sl_export_options none = {0};
     for (size_t i = 0; i < count; i++) {
-        assert_ok(context, formats[i].write(context, &baked, "/dev/null"));
+        if (formats[i].takes_wad) continue;
+        assert_ok(context, formats[i].write(context, &baked, &none, "/dev/null"));
         calls = 3;
-        assert_int_equal(formats[i].write(context, &baked, "/dev/null"), SL_CANCELLED);
+        assert_int_equal(formats[i].write(context, &baked, &none, "/dev/null"), SL_CANCELLED);
         calls = 1000000;
     }
     sl_baked_destroy(context, &baked);

@@ -37,10 +37,18 @@ SL_API sl_status sl_baked_read(sl_context *context, const char *path, sl_baked *
 SL_API sl_status sl_baked_parse(sl_context *context, const char *name, const void *bytes,
                                 size_t size, sl_baked *out);
 
+/// What an export needs beside the baked file. Zeroed: nothing.
+typedef struct sl_export_options {
+    const char *wad; ///< "reject": the WAD that holds the map that was baked
+    const char *map; ///< "reject": that map's name
+} sl_export_options;
+
 /// An export for other programs.
 typedef struct sl_export_format {
     const char *name, *what;
-    sl_status (*write)(sl_context *context, const sl_baked *baked, const char *path);
+    bool takes_wad; ///< the options `wad` and `map` are for it
+    sl_status (*write)(sl_context *context, const sl_baked *baked, const sl_export_options *options,
+                       const char *path);
 } sl_export_format;
 
 SL_API const sl_export_format *sl_export_formats(size_t *count);

@@ -1,16 +1,16 @@
-#include "sectors.h"
+#include "oracle/sectors.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-struct sectors {
+struct sector_finder {
     const sl_doom_level *level;
     blockers *lines;
     double reach; ///< farther than the map is wide
 };
 
-sectors *sectors_create(const sl_doom_level *level) {
-    sectors *map = calloc(1, sizeof *map);
+sector_finder *sector_finder_create(const sl_doom_level *level) {
+    sector_finder *map = calloc(1, sizeof *map);
     sl_segment *segments = calloc(level->line_count + 1, sizeof *segments);
     if (!map || !segments) abort();
     for (size_t i = 0; i < level->line_count; i++) {
@@ -25,12 +25,30 @@ sectors *sectors_create(const sl_doom_level *level) {
     return map;
 }
 
-void sectors_destroy(sectors *map) {
+void sector_finder_destroy(sector_finder *map) {
     blockers_destroy(map->lines);
     free(map);
 }
 
-uint32_t sectors_at(sectors *map, sl_point point) {
+static bool same_point(sl_point a, sl_point b) {
+    return a.x == b.x && a.y == b.y;
+}
+
+/// The sector at the side of a line where the point is; of walls that lie back to back with the
+/// same ends, that of the one which has a sector there.
+static uint32_t facing_sector(const sector_finder *map, size_t line, sl_point point) {
+    const sl_doom_line *lines = map->level->lines, *own = &lines[line];
+    const int turn = blockers_turn(own->from, own->to, point);
+    if (turn == 0) return SL_NO_SECTOR;
+    const uint32_t sector = turn > 0 ? own->left : own->right;
+    if (sector != SL_NO_SECTOR) return sector;
+    for (size_t i = 0; i < map->level->line_count; i++)
+        if (same_point(lines[i].from, own->to) && same_point(lines[i].to, own->from))
+            return turn > 0 ? lines[i].right : lines[i].left;
+    return SL_NO_SECTOR;
+}
+
+uint32_t sectors_at(sector_finder *map, sl_point point) {
     static const double ways[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
     uint32_t sector = SL_NO_SECTOR;
     for (int i = 0; i < 4; i++) {
@@ -38,9 +56,7 @@ uint32_t sectors_at(sectors *map, sl_point point) {
         size_t wall;
         blockers_reach(map->lines, (sl_segment){point, far}, &wall);
         if (wall == SIZE_MAX) return SL_NO_SECTOR;
-        const sl_doom_line *line = &map->level->lines[wall];
-        const int turn = blockers_turn(line->from, line->to, point);
-        const uint32_t found = turn == 0 ? SL_NO_SECTOR : turn > 0 ? line->left : line->right;
+        const uint32_t found = facing_sector(map, wall, point);
         if (found == SL_NO_SECTOR || (i > 0 && found != sector)) return SL_NO_SECTOR;
         sector = found;
     }

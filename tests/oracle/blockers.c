@@ -1,4 +1,4 @@
-#include "blockers.h"
+#include "oracle/blockers.h"
 
 #include <gmp.h>
 #include <math.h>

@@ -3,17 +3,17 @@
 #ifndef SECTORS_H
 #define SECTORS_H
 
-#include "blockers.h"
 #include "import/doom.h"
+#include "oracle/blockers.h"
 
-typedef struct sectors sectors;
+typedef struct sector_finder sector_finder;
 
-sectors *sectors_create(const sl_doom_level *level);
-void sectors_destroy(sectors *map);
+sector_finder *sector_finder_create(const sl_doom_level *level);
+void sector_finder_destroy(sector_finder *map);
 
 /// The sector that the nearest lines to the left, right, top and bottom agree on; SL_NO_SECTOR
 /// outside the map, and where they do not agree.
-uint32_t sectors_at(sectors *map, sl_point point);
+uint32_t sectors_at(sector_finder *map, sl_point point);
 
 /// Whether a REJECT of so many sectors says that `to` is never seen from `from`.
 static inline bool sectors_rejected(const sl_lump *reject, size_t count, uint32_t from,

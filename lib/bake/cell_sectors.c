@@ -1,0 +1,158 @@
+#include "bake/cell_sectors.h"
+
+#include "geometry/orient.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/// What is looked at for one cell.
+typedef struct cell_view {
+    const sl_point *corners;
+    uint32_t count;
+    sl_box box;
+    sl_point middle;
+} cell_view;
+
+typedef struct finder {
+    sl_context *context;
+    const sl_doom_level *level;
+    SL_ARRAY(uint32_t) found; ///< of all cells so far
+    size_t begin;             ///< of the current cell
+} finder;
+
+static cell_view view_of(const sl_space *space, uint32_t cell) {
+    cell_view view = {.corners = space->vertices + space->cells[cell].first_vertex,
+                      .count = space->cells[cell].vertex_count};
+    view.box = (sl_box){view.corners[0], view.corners[0]};
+    for (uint32_t i = 0; i < view.count; i++) {
+        const sl_point corner = view.corners[i];
+        view.box.min.x = fmin(view.box.min.x, corner.x);
+        view.box.min.y = fmin(view.box.min.y, corner.y);
+        view.box.max.x = fmax(view.box.max.x, corner.x);
+        view.box.max.y = fmax(view.box.max.y, corner.y);
+        view.middle.x += corner.x / view.count;
+        view.middle.y += corner.y / view.count;
+    }
+    return view;
+}
+
+static sl_status add(finder *find, uint32_t sector) {
+    if (sector == SL_NO_SECTOR) return SL_OK;
+    for (size_t i = find->begin; i < find->found.count; i++)
+        if (find->found.items[i] == sector) return SL_OK;
+    SL_TRY(SL_ARRAY_ROOM(find->context, &find->found, 1));
+    find->found.items[find->found.count++] = sector;
+    return SL_OK;
+}
+
+static bool boxes_meet(const cell_view *view, const sl_doom_line *line) {
+    return fmin(line->from.x, line->to.x) <= view->box.max.x &&
+           fmax(line->from.x, line->to.x) >= view->box.min.x &&
+           fmin(line->from.y, line->to.y) <= view->box.max.y &&
+           fmax(line->from.y, line->to.y) >= view->box.min.y;
+}
+
+/// Whether an edge of the cell, to the left of which the cell lies, has all of the line at its
+/// right or on it: then the line does not pass through the interior.
+static bool is_parted_by_an_edge(const cell_view *view, const sl_doom_line *line) {
+    for (uint32_t i = 0; i < view->count; i++) {
+        const sl_point a = view->corners[i], b = view->corners[(i + 1) % view->count];
+        if (sl_orient(a, b, line->from) <= 0 && sl_orient(a, b, line->to) <= 0) return true;
+    }
+    return false;
+}
+
+/// Whether the line, which holds both points, has a piece of positive length between them.
+static bool overlaps(const sl_doom_line *line, sl_point a, sl_point b) {
+    const bool by_x = fabs(line->to.x - line->from.x) >= fabs(line->to.y - line->from.y);
+    const double c = by_x ? line->from.x : line->from.y, d = by_x ? line->to.x : line->to.y;
+    const double e = by_x ? a.x : a.y, f = by_x ? b.x : b.y;
+    return fmin(c, d) < fmax(e, f) && fmin(e, f) < fmax(c, d);
+}
+
+/// Adds what a line tells of the sectors within the cell.
+static sl_status ask_line(finder *find, const cell_view *view, const sl_doom_line *line) {
+    if (!boxes_meet(view, line)) return SL_OK;
+    bool at_left = false, at_right = false, runs_along = false;
+    int before = sl_orient(line->from, line->to, view->corners[view->count - 1]);
+    for (uint32_t i = 0; i < view->count; i++) {
+        const int side = sl_orient(line->from, line->to, view->corners[i]);
+        at_left |= side > 0;
+        at_right |= side < 0;
+        if (side == 0 && before == 0)
+            runs_along |=
+                overlaps(line, view->corners[i], view->corners[i ? i - 1 : view->count - 1]);
+        before = side;
+    }
+    const bool passes = at_left && at_right && !is_parted_by_an_edge(view, line);
+    if (!passes && !runs_along) return SL_OK;
+    if (at_left) SL_TRY(add(find, line->left));
+    return at_right ? add(find, line->right) : SL_OK;
+}
+
+/// The sector that the nearest line to the right of a point says that the point is in. Of lines
+/// that lie on each other, as walls back to back do, one that has a sector at this side.
+static uint32_t sector_left_of_nearest(const sl_doom_level *level, sl_point point) {
+    double nearest = HUGE_VAL;
+    uint32_t sector = SL_NO_SECTOR;
+    for (size_t i = 0; i < level->line_count; i++) {
+        const sl_doom_line *line = &level->lines[i];
+        if ((line->from.y <= point.y) == (line->to.y <= point.y)) continue;
+        const double share = (point.y - line->from.y) / (line->to.y - line->from.y);
+        const double x = line->from.x + share * (line->to.x - line->from.x);
+        const int side = sl_orient(line->from, line->to, point);
+        const uint32_t facing = side > 0 ? line->left : line->right;
+        // Rounding parts what lies together by less than this; too wide adds a sector at worst.
+        const double close = 1e-9 * (fabs(x) + fabs(point.x));
+        const bool fits = x < nearest - close || (x <= nearest + close && sector == SL_NO_SECTOR);
+        if (x < point.x || side == 0 || !fits) continue;
+        nearest = fmin(x, nearest);
+        sector = facing;
+    }
+    return sector;
+}
+
+static int compare_sectors(const void *left, const void *right) {
+    const uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
+    return (a > b) - (a < b);
+}
+
+static sl_status find_cell(finder *find, const sl_space *space, uint32_t cell) {
+    const cell_view view = view_of(space, cell);
+    find->begin = find->found.count;
+    for (size_t i = 0; i < find->level->line_count; i++)
+        SL_TRY(ask_line(find, &view, &find->level->lines[i]));
+    SL_TRY(add(find, sector_left_of_nearest(find->level, view.middle)));
+    if (find->found.count > UINT32_MAX)
+        return sl_fail(find->context, SL_UNSUPPORTED,
+                       "more cells with sectors than can be counted");
+    const size_t count = find->found.count - find->begin;
+    if (count > 1) qsort(find->found.items + find->begin, count, sizeof(uint32_t), compare_sectors);
+    return SL_OK;
+}
+
+sl_status sl_cell_sectors_find(sl_context *context, const sl_space *space,
+                               const sl_doom_level *level, sl_cell_sectors *out) {
+    finder find = {.context = context, .level = level};
+    uint32_t *first = sl_alloc_array(context, (size_t)space->cell_count + 1, sizeof *first);
+    if (!first) return SL_NO_MEMORY;
+    sl_status status = SL_OK;
+    for (uint32_t cell = 0; cell < space->cell_count && status == SL_OK; cell++) {
+        if (cell % 256 == 0) sl_report(context, "sectors", "cells", cell, space->cell_count);
+        status = sl_check_cancelled(context);
+        if (status == SL_OK) status = find_cell(&find, space, cell);
+        first[cell + 1] = (uint32_t)find.found.count;
+    }
+    sl_cell_sectors made = {.first = first, .sectors = find.found.items};
+    if (status == SL_OK)
+        *out = made;
+    else
+        sl_cell_sectors_destroy(context, &made);
+    return status;
+}
+
+void sl_cell_sectors_destroy(sl_context *context, sl_cell_sectors *sectors) {
+    sl_free(context, sectors->first);
+    sl_free(context, sectors->sectors);
+    *sectors = (sl_cell_sectors){0};
+}
