@@ -9,20 +9,25 @@
 /// As sl_orient, by exact arithmetic alone.
 int sl_orient_exact(sl_point a, sl_point b, sl_point c);
 
-/// The sign of (b - a) x (c - a) where rounding cannot have changed it, else 0.
+/// The sign of a x b for two vectors whose coordinates are differences, each rounded once, where
+/// rounding cannot have changed it, else 0.
 ///
 /// The filter is Shewchuk's (1997, Adaptive Precision Floating-Point Arithmetic and Fast Robust
 /// Geometric Predicates, section 4.1): the rounded determinant has the right sign when it is larger
 /// than (3 + 16e)e times the sum of its two products, e = 2^-53. What underflow may take off a
 /// product is less than the last term of the bound. An overflow makes both comparisons false. The
 /// bound holds as well where the compiler fuses a product into the difference.
-static inline int sl_orient_filter(sl_point a, sl_point b, sl_point c) {
-    const double left = (a.x - c.x) * (b.y - c.y);
-    const double right = (a.y - c.y) * (b.x - c.x);
+static inline int sl_turn_filter(sl_point a, sl_point b) {
+    const double left = a.x * b.y, right = a.y * b.x;
     const double determinant = left - right;
     const double sum = fabs(left) + fabs(right);
     const double bound = (3 * 0x1p-53 + 16 * 0x1p-106) * sum + 0x1p-1000;
     return (determinant > bound) - (-determinant > bound);
+}
+
+/// The sign of (b - a) x (c - a) where rounding cannot have changed it, else 0.
+static inline int sl_orient_filter(sl_point a, sl_point b, sl_point c) {
+    return sl_turn_filter((sl_point){a.x - c.x, a.y - c.y}, (sl_point){b.x - c.x, b.y - c.y});
 }
 
 /// The sign of (b - a) x (c - a): 1 where c lies to the left of the line from a to b, -1 to the

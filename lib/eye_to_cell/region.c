@@ -1,0 +1,299 @@
+/// The expansion: the view is spread over the sides of the eye's cells; through a portal it goes on
+/// as a cone of two rays, over the sides of the cell beyond that lie between them. A cell is convex
+/// and a cone narrower than half a circle, so that on the way around a cell from its entry, corners
+/// pass the right ray once, and then the left ray: one predicate a side.
+#include "eye_to_cell/region_parts.h"
+
+#include <math.h>
+
+typedef struct expansion {
+    sl_context *context;
+    const sl_outline *outline;
+    sl_region *region;
+} expansion;
+
+static const sl_side *side(const expansion *x, uint32_t i) {
+    return &x->outline->sides[i];
+}
+
+static sl_eye_ray to_start(const expansion *x, uint32_t i) {
+    return sl_eye_ray_through(x->region->view.eye, side(x, i)->start);
+}
+
+/// Whether a side is out of range, however its distance was rounded.
+static bool is_far(const sl_region *region, const sl_eye_ray *a, const sl_eye_ray *b) {
+    const sl_point p = a->offset, d = {b->at.x - a->at.x, b->at.y - a->at.y};
+    const double along = -(p.x * d.x + p.y * d.y) / (d.x * d.x + d.y * d.y);
+    const double share = along > 0 ? along < 1 ? along : 1 : 0;
+    return hypot(p.x + share * d.x, p.y + share * d.y) > region->range * (1 + 1e-9);
+}
+
+static bool same_sign(double a, double b) {
+    return (a > 0) == (b > 0) && (a < 0) == (b < 0);
+}
+
+/// Whether two rays that lie in one line are one.
+static bool same_direction(const sl_eye_ray *a, const sl_eye_ray *b) {
+    return same_sign(a->offset.x, b->offset.x) && same_sign(a->offset.y, b->offset.y);
+}
+
+static sl_status push(expansion *x, sl_region_frame frame) {
+    struct sl_region_memory *m = x->region->memory;
+    SL_TRY(SL_ARRAY_ROOM(x->context, &m->frames, 1));
+    m->frames.items[m->frames.count++] = frame;
+    return SL_OK;
+}
+
+/// What is seen of a side, from ray to ray: through a portal the cell beyond, later; else a piece.
+static sl_status see(expansion *x, uint32_t at, const sl_eye_ray *a, const sl_eye_ray *b,
+                     const sl_region_piece *seen) {
+    sl_region *region = x->region;
+    sl_region_piece piece = *seen;
+    piece.a = a->at;
+    piece.b = b->at;
+    piece.beyond = side(x, at)->beyond;
+    if (sl_side_is_portal(side(x, at))) {
+        if (region->range == 0 || !is_far(region, a, b)) {
+            region->crossings++;
+            const uint32_t entry = piece.beyond;
+            return push(x, (sl_region_frame){.side = side(x, entry)->next,
+                                             .entry = entry,
+                                             .fresh = true,
+                                             .right = piece.right,
+                                             .left = piece.left});
+        }
+        piece.beyond = SL_PIECE_FAR;
+    }
+    return sl_region_add_piece(x->context, region, &piece);
+}
+
+/// Moves a fresh frame to the first side that is seen. False where there is none, which only
+/// rounded corners of cells can bring about.
+static bool find_first(const expansion *x, sl_region_frame *f, bool *from_end) {
+    const sl_point eye = x->region->view.eye;
+    sl_eye_ray start = to_start(x, f->side);
+    int turn = sl_eye_turn(eye, &f->right, &start);
+    while (f->side != f->entry) {
+        const uint32_t next = side(x, f->side)->next;
+        const sl_eye_ray end = to_start(x, next);
+        const int end_turn = sl_eye_turn(eye, &f->right, &end);
+        if (end_turn > 0) {
+            *from_end = turn == 0;
+            return true;
+        }
+        turn = end_turn;
+        f->side = next;
+    }
+    return false;
+}
+
+/// Goes on with the last frame: up to the next portal, whose cell comes first then, or to its end.
+static sl_status sweep(expansion *x) {
+    struct sl_region_memory *m = x->region->memory;
+    const sl_point eye = x->region->view.eye;
+    sl_region_frame f = m->frames.items[--m->frames.count];
+    bool from_end = true;
+    if (f.fresh && !find_first(x, &f, &from_end)) return SL_OK;
+    sl_eye_ray a = to_start(x, f.side);
+    while (f.side != f.entry) {
+        const uint32_t next = side(x, f.side)->next;
+        const sl_eye_ray b = to_start(x, next);
+        const int turn = sl_eye_turn(eye, &f.left, &b);
+        const sl_region_piece seen = {.right = from_end ? a : f.right,
+                                      .left = turn > 0 ? f.left : b,
+                                      .from_end = from_end,
+                                      .to_end = turn <= 0};
+        const uint32_t at = f.side;
+        const bool waits = sl_side_is_portal(side(x, at)) && turn < 0;
+        f.side = next;
+        f.fresh = false;
+        if (waits) SL_TRY(push(x, f));
+        SL_TRY(see(x, at, &a, &b, &seen));
+        if (turn >= 0 || waits) return SL_OK;
+        from_end = true;
+        a = b;
+    }
+    return SL_OK;
+}
+
+/// What is seen of a side of the fan, from `right` and to `left` where they are given, else from
+/// and to its ends; with all that lies behind it.
+static sl_status see_fan(expansion *x, uint32_t k, const sl_eye_ray *right,
+                         const sl_eye_ray *left) {
+    struct sl_region_memory *m = x->region->memory;
+    const uint32_t at = m->fan.items[k];
+    const sl_eye_ray a = to_start(x, at), b = to_start(x, side(x, at)->next);
+    const sl_point eye = x->region->view.eye;
+    const bool from_end = !right || sl_eye_turn(eye, right, &a) == 0;
+    const bool to_end = !left || sl_eye_turn(eye, left, &b) == 0;
+    const sl_region_piece seen = {.right = from_end ? a : *right,
+                                  .left = to_end ? b : *left,
+                                  .from_end = from_end,
+                                  .to_end = to_end};
+    SL_TRY(see(x, at, &a, &b, &seen));
+    while (m->frames.count) SL_TRY(sweep(x));
+    return SL_OK;
+}
+
+/// The end of the wall at the eye that lies on the ray through `toward`.
+static sl_point wall_end(const expansion *x, uint32_t beyond, sl_point toward) {
+    const sl_wall *wall = &x->outline->space->walls[beyond - SL_SIDE_WALL];
+    const sl_point eye = x->region->view.eye;
+    const sl_eye_ray to_a = sl_eye_ray_through(eye, wall->a);
+    const sl_eye_ray to_side = sl_eye_ray_through(eye, toward);
+    return same_direction(&to_a, &to_side) ? wall->a : wall->b;
+}
+
+/// The wall at the eye is seen edge-on, but it bounds what is seen: an edge from the eye to its
+/// end, or the other way.
+static sl_status see_wall_at_eye(expansion *x, uint32_t beyond, sl_point from, sl_point to) {
+    const sl_point eye = x->region->view.eye;
+    const sl_region_piece piece = {.beyond = beyond,
+                                   .a = from,
+                                   .b = to,
+                                   .right = sl_eye_ray_through(eye, from),
+                                   .left = sl_eye_ray_through(eye, to),
+                                   .from_end = true,
+                                   .to_end = true};
+    return sl_region_add_piece(x->context, x->region, &piece);
+}
+
+/// From the eye along the wall or border where an open fan starts.
+static sl_status start_open(expansion *x) {
+    const uint32_t right = x->region->memory->right, beyond = side(x, right)->beyond;
+    if (beyond >= SL_SIDE_BORDER) return sl_region_add_eye(x->context, x->region, SL_EDGE_BORDER);
+    const sl_point end = wall_end(x, beyond, side(x, side(x, right)->next)->start);
+    return see_wall_at_eye(x, beyond, x->region->view.eye, end);
+}
+
+/// Along the wall or border where an open fan ends, to the eye.
+static sl_status end_open(expansion *x) {
+    const sl_side *left = side(x, x->region->memory->left);
+    if (left->beyond >= SL_SIDE_BORDER) return sl_region_end_at_eye(x->context, x->region);
+    const sl_point end = wall_end(x, left->beyond, left->start);
+    return see_wall_at_eye(x, left->beyond, end, x->region->view.eye);
+}
+
+static sl_status see_all_round(expansion *x) {
+    const struct sl_region_memory *m = x->region->memory;
+    if (m->open) SL_TRY(start_open(x));
+    for (uint32_t k = 0; k < m->fan.count; k++) SL_TRY(see_fan(x, k, NULL, NULL));
+    if (m->open) SL_TRY(end_open(x));
+    return SL_OK;
+}
+
+/// The side of the fan in which a ray lies, one end of each side counted: where the fan goes on
+/// counter-clockwise (`onward`) or clockwise of the ray. UINT32_MAX for none.
+static uint32_t find_side(const expansion *x, const sl_eye_ray *ray, bool onward) {
+    const struct sl_region_memory *m = x->region->memory;
+    const sl_point eye = x->region->view.eye;
+    for (uint32_t k = 0; k < m->fan.count; k++) {
+        const sl_eye_ray a = to_start(x, m->fan.items[k]);
+        const sl_eye_ray b = to_start(x, side(x, m->fan.items[k])->next);
+        const int from = sl_eye_turn(eye, &a, ray), to = sl_eye_turn(eye, ray, &b);
+        if (onward ? from >= 0 && to > 0 : from > 0 && to >= 0) return k;
+    }
+    return UINT32_MAX;
+}
+
+/// A cone that starts beside an open fan: what it holds of the fan starts where the fan does.
+static sl_status see_from_gap(expansion *x, const sl_eye_ray *left, uint32_t stop) {
+    const struct sl_region_memory *m = x->region->memory;
+    const sl_view *view = &x->region->view;
+    const sl_eye_ray start = to_start(x, side(x, m->right)->next);
+    if (stop == UINT32_MAX) {
+        const bool touches =
+            sl_eye_turn(view->eye, &start, left) == 0 && same_direction(&start, left);
+        return sl_view_holds(view, start.at) && !touches ? see_all_round(x) : SL_OK;
+    }
+    SL_TRY(start_open(x));
+    for (uint32_t k = 0; k < stop; k++) SL_TRY(see_fan(x, k, NULL, NULL));
+    return see_fan(x, stop, NULL, left);
+}
+
+static sl_status see_cone(expansion *x) {
+    const struct sl_region_memory *m = x->region->memory;
+    const sl_view *view = &x->region->view;
+    const sl_eye_ray right = sl_eye_ray_through(view->eye, view->right);
+    const sl_eye_ray left = sl_eye_ray_through(view->eye, view->left);
+    const uint32_t start = find_side(x, &right, true), stop = find_side(x, &left, false);
+    if (start == UINT32_MAX) return see_from_gap(x, &left, stop);
+    SL_TRY(sl_region_add_eye(x->context, x->region, SL_EDGE_CONE));
+    if (start == stop && sl_eye_turn(view->eye, &right, &left) > 0)
+        return see_fan(x, start, &right, &left);
+    SL_TRY(see_fan(x, start, &right, NULL));
+    const bool wraps = stop <= start;
+    for (uint32_t k = start + 1; k < m->fan.count && (wraps || k < stop); k++)
+        SL_TRY(see_fan(x, k, NULL, NULL));
+    if (stop != UINT32_MAX && !wraps) return see_fan(x, stop, NULL, &left);
+    if (m->open) SL_TRY(end_open(x));
+    if (stop == UINT32_MAX) return SL_OK;
+    if (m->open) SL_TRY(start_open(x));
+    for (uint32_t k = 0; k < stop; k++) SL_TRY(see_fan(x, k, NULL, NULL));
+    return see_fan(x, stop, NULL, &left);
+}
+
+static bool is_one_ray(const sl_view *cone) {
+    const sl_eye_ray right = sl_eye_ray_through(cone->eye, cone->right);
+    const sl_eye_ray left = sl_eye_ray_through(cone->eye, cone->left);
+    return sl_eye_turn(cone->eye, &right, &left) == 0 && same_direction(&right, &left);
+}
+
+static bool usable(sl_point eye, sl_point border) {
+    return isfinite(border.x) && isfinite(border.y) && (border.x != eye.x || border.y != eye.y);
+}
+
+static sl_status check_view(sl_context *context, const sl_view *view, double range) {
+    if (!(range >= 0 && isfinite(range)))
+        return sl_fail(context, SL_BAD_ARGUMENT, "range %g: must be finite and not negative",
+                       range);
+    if (!view->full && (!usable(view->eye, view->left) || !usable(view->eye, view->right)))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "the borders of the view cone must be points other than the eye");
+    return SL_OK;
+}
+
+static sl_status make(expansion *x) {
+    sl_region *region = x->region;
+    if (region->cell == SL_NO_CELL) return SL_OK;
+    if (!region->view.full && is_one_ray(&region->view)) return SL_OK;
+    SL_TRY(sl_region_gather_fan(x->context, x->outline, region));
+    SL_TRY(region->view.full ? see_all_round(x) : see_cone(x));
+    SL_TRY(sl_region_close(x->context, region));
+    return region->range > 0 ? sl_region_cut_range(x->context, region) : SL_OK;
+}
+
+sl_status sl_region_make(sl_context *context, const sl_outline *outline, const sl_view *view,
+                         double range, sl_region *region) {
+    region->count = 0;
+    region->crossings = 0;
+    region->cell = SL_NO_CELL;
+    SL_TRY(check_view(context, view, range));
+    if (!region->memory) {
+        region->memory = sl_alloc_array(context, 1, sizeof *region->memory);
+        if (!region->memory) return SL_NO_MEMORY;
+    }
+    region->memory->pending = false;
+    region->memory->first = SL_PIECE_FAR;
+    region->memory->frames.count = 0;
+    region->view = *view;
+    region->range = range;
+    region->cell = sl_space_locate(outline->space, view->eye);
+    expansion x = {context, outline, region};
+    const sl_status status = make(&x);
+    if (status != SL_OK) region->count = 0;
+    return status;
+}
+
+void sl_region_destroy(sl_context *context, sl_region *region) {
+    sl_free(context, region->points);
+    sl_free(context, region->offsets);
+    sl_free(context, region->edges);
+    if (region->memory) {
+        sl_free(context, region->memory->frames.items);
+        sl_free(context, region->memory->fan.items);
+        sl_free(context, region->memory->whole.items);
+    }
+    sl_free(context, region->memory);
+    *region = (sl_region){0};
+}

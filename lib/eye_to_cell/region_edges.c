@@ -1,0 +1,178 @@
+/// The polygon as it grows: pieces of one wall become one edge, and between pieces that do not meet
+/// stands an occluding edge. Where a piece ends is computed only when the next is known not to go
+/// on along the same wall.
+#include "eye_to_cell/region_parts.h"
+
+#include <math.h>
+
+/// A number as the unevaluated sum of two, for the few lines that a ray meets at a sharp angle.
+typedef struct pair {
+    double high, low;
+} pair;
+
+static pair quick_sum(double a, double b) {
+    const double sum = a + b;
+    return (pair){sum, b - (sum - a)};
+}
+
+/// Exact (Knuth; Shewchuk 1997, theorem 7).
+static pair difference(double a, double b) {
+    const double sum = a - b, part = sum - a;
+    return (pair){sum, (a - (sum - part)) - (b + part)};
+}
+
+static pair product(pair a, pair b) {
+    const double high = a.high * b.high;
+    const double low = fma(a.high, b.high, -high) + (a.high * b.low + a.low * b.high);
+    return quick_sum(high, low);
+}
+
+static pair minus(pair a, pair b) {
+    const pair sum = difference(a.high, b.high);
+    return quick_sum(sum.high, sum.low + (a.low - b.low));
+}
+
+static double cross_of_pairs(pair ax, pair ay, pair bx, pair by) {
+    const pair cross = minus(product(ax, by), product(ay, bx));
+    return cross.high + cross.low;
+}
+
+/// a x b for differences of points, to about a unit in the last place whatever cancels.
+static double cross(sl_point from, sl_point to, sl_point other_from, sl_point other_to) {
+    return cross_of_pairs(difference(to.x, from.x), difference(to.y, from.y),
+                          difference(other_to.x, other_from.x),
+                          difference(other_to.y, other_from.y));
+}
+
+sl_point sl_region_meet(sl_point eye, const sl_eye_ray *ray, sl_point a, sl_point b) {
+    const sl_point d = ray->offset;
+    // A line parallel to an axis, at a known distance: nothing cancels.
+    if (a.x == b.x) return (sl_point){a.x - eye.x, d.y * ((a.x - eye.x) / d.x)};
+    if (a.y == b.y) return (sl_point){d.x * ((a.y - eye.y) / d.y), a.y - eye.y};
+    const double share = cross(eye, a, a, b) / cross(eye, ray->at, a, b);
+    return (sl_point){d.x * share, d.y * share};
+}
+
+static sl_status grow(sl_context *context, sl_region *region) {
+    size_t room[3] = {region->memory->room, region->memory->room, region->memory->room};
+    const size_t needed = region->count + 4;
+    SL_TRY(sl_reserve(context, &region->points, &room[0], needed, sizeof *region->points));
+    SL_TRY(sl_reserve(context, &region->offsets, &room[1], needed, sizeof *region->offsets));
+    SL_TRY(sl_reserve(context, &region->edges, &room[2], needed, sizeof *region->edges));
+    region->memory->room = room[0];
+    return SL_OK;
+}
+
+sl_status sl_region_add_point(sl_context *context, sl_region *region, sl_point point,
+                              sl_point offset, sl_region_edge edge) {
+    if (region->count == region->memory->room) SL_TRY(grow(context, region));
+    if (region->count) {
+        const sl_point last = region->points[region->count - 1];
+        if (last.x == point.x && last.y == point.y) {
+            // An edge shorter than what doubles can tell.
+            region->count--;
+            if (!region->count) region->memory->first = SL_PIECE_FAR;
+        }
+    }
+    region->points[region->count] = point;
+    region->offsets[region->count] = offset;
+    region->edges[region->count++] = edge;
+    return SL_OK;
+}
+
+/// An end of a piece.
+typedef struct place {
+    sl_point point, offset;
+    bool exact;
+} place;
+
+static double within(double a, double value, double b) {
+    const double low = a < b ? a : b, high = a < b ? b : a;
+    return value < low ? low : value > high ? high : value;
+}
+
+static place place_of(sl_point eye, const sl_eye_ray *ray, bool at_end, sl_point a, sl_point b) {
+    if (at_end) return (place){ray->at, ray->offset, true};
+    const sl_point offset = sl_region_meet(eye, ray, a, b);
+    const sl_point point = {within(a.x, eye.x + offset.x, b.x), within(a.y, eye.y + offset.y, b.y)};
+    return (place){point, offset, false};
+}
+
+static place right_of(const sl_region *region, const sl_region_piece *p) {
+    return place_of(region->view.eye, &p->right, p->from_end, p->a, p->b);
+}
+
+static place left_of(const sl_region *region, const sl_region_piece *p) {
+    return place_of(region->view.eye, &p->left, p->to_end, p->a, p->b);
+}
+
+static sl_region_edge edge_along(uint32_t beyond, bool exact) {
+    if (beyond == SL_PIECE_FAR) return (sl_region_edge){SL_NO_WALL, SL_EDGE_ARC, exact};
+    if (beyond >= SL_SIDE_BORDER) return (sl_region_edge){SL_NO_WALL, SL_EDGE_BORDER, exact};
+    return (sl_region_edge){beyond - SL_SIDE_WALL, SL_EDGE_WALL, exact};
+}
+
+static bool same(const place *a, const place *b) {
+    return a->point.x == b->point.x && a->point.y == b->point.y;
+}
+
+/// Writes where the pending piece ends, unless that is where the next one starts.
+static sl_status end_piece(sl_context *context, sl_region *region, const place *next,
+                           sl_edge_kind kind) {
+    const place end = left_of(region, &region->memory->piece);
+    region->memory->pending = false;
+    if (next && same(&end, next)) return SL_OK;
+    const sl_region_edge edge = {SL_NO_WALL, (uint8_t)kind, end.exact};
+    return sl_region_add_point(context, region, end.point, end.offset, edge);
+}
+
+sl_status sl_region_add_piece(sl_context *context, sl_region *region,
+                              const sl_region_piece *piece) {
+    struct sl_region_memory *m = region->memory;
+    if (m->pending && m->piece.beyond == piece->beyond && piece->beyond != SL_PIECE_FAR) {
+        m->piece.a = piece->a;
+        m->piece.b = piece->b;
+        m->piece.left = piece->left;
+        m->piece.to_end = piece->to_end;
+        return SL_OK;
+    }
+    const place start = right_of(region, piece);
+    if (region->count == 0) m->first = piece->beyond;
+    if (m->pending) SL_TRY(end_piece(context, region, &start, SL_EDGE_OCCLUDING));
+    m->piece = *piece;
+    m->pending = true;
+    return sl_region_add_point(context, region, start.point, start.offset,
+                               edge_along(piece->beyond, start.exact));
+}
+
+sl_status sl_region_add_eye(sl_context *context, sl_region *region, sl_edge_kind kind) {
+    const sl_region_edge edge = {SL_NO_WALL, (uint8_t)kind, true};
+    const place eye = {region->view.eye, {0, 0}, true};
+    if (region->memory->pending) SL_TRY(end_piece(context, region, &eye, SL_EDGE_BORDER));
+    return sl_region_add_point(context, region, eye.point, eye.offset, edge);
+}
+
+sl_status sl_region_end_at_eye(sl_context *context, sl_region *region) {
+    return end_piece(context, region, NULL, SL_EDGE_BORDER);
+}
+
+/// Whether the pending piece goes on as the first one.
+static bool goes_around(const sl_region *region) {
+    const struct sl_region_memory *m = region->memory;
+    return region->count > 1 && m->piece.beyond == m->first && m->first != SL_PIECE_FAR &&
+           region->edges[0].kind != SL_EDGE_CONE;
+}
+
+sl_status sl_region_close(sl_context *context, sl_region *region) {
+    if (!region->memory->pending) return SL_OK;
+    if (goes_around(region)) {
+        const size_t last = --region->count;
+        region->memory->pending = false;
+        region->points[0] = region->points[last];
+        region->offsets[0] = region->offsets[last];
+        region->edges[0] = region->edges[last];
+        return SL_OK;
+    }
+    const place first = {region->points[0], region->offsets[0], region->edges[0].exact};
+    return end_piece(context, region, &first, region->view.full ? SL_EDGE_OCCLUDING : SL_EDGE_CONE);
+}

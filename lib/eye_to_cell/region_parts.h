@@ -1,0 +1,87 @@
+/// What the parts of making a region share: rays from the eye, what is seen between two of them,
+/// and the polygon as it grows.
+#ifndef SL_REGION_PARTS_H
+#define SL_REGION_PARTS_H
+
+#include "base/base.h"
+#include "geometry/orient.h"
+#include "sightline/region.h"
+
+/// A ray from the eye through a point other than it: a corner of the space, or a cone's border.
+typedef struct sl_eye_ray {
+    sl_point at, offset; ///< the point, and as seen from the eye: each coordinate rounded once
+} sl_eye_ray;
+
+/// A portal being looked through, between two rays: what is left to see of the cell beyond.
+typedef struct sl_region_frame {
+    uint32_t side;  ///< to look at next
+    uint32_t entry; ///< the portal as a side of the cell
+    bool fresh;     ///< nothing of the cell was looked at; else `side` starts on the ray `right`
+    sl_eye_ray right, left;
+} sl_region_frame;
+
+/// What is seen of a side that is no portal, from ray to ray. A flag tells that the side's own end
+/// is seen and lies on the ray; else the ray passes within the side.
+typedef struct sl_region_piece {
+    uint32_t beyond; ///< as that of sl_side; SL_PIECE_FAR: all of it is out of range
+    sl_point a, b;   ///< the side
+    sl_eye_ray right, left;
+    bool from_end, to_end;
+} sl_region_piece;
+
+#define SL_PIECE_FAR UINT32_MAX
+
+typedef struct sl_region_corner {
+    sl_point point, offset;
+    sl_region_edge edge;
+} sl_region_corner;
+
+struct sl_region_memory {
+    SL_ARRAY(sl_region_frame) frames;
+    SL_ARRAY(uint32_t) fan; ///< the sides seen from the eye's cells, counter-clockwise
+    bool open;              ///< the fan is not all round: it ends at walls
+    uint32_t right, left;   ///< where it is open: the walls at the eye that it starts and ends at
+    bool pending;           ///< `piece` is seen, but where it ends is not written yet
+    sl_region_piece piece;
+    uint32_t first;                   ///< what the first piece lies on
+    size_t room;                      ///< of points, offsets and edges
+    SL_ARRAY(sl_region_corner) whole; ///< the region before its range was cut
+};
+
+static inline sl_eye_ray sl_eye_ray_through(sl_point eye, sl_point at) {
+    return (sl_eye_ray){at, {at.x - eye.x, at.y - eye.y}};
+}
+
+/// Where b lies from the ray a: 1 to its left, -1 to its right, 0 in line with it. Exact.
+static inline int sl_eye_turn(sl_point eye, const sl_eye_ray *a, const sl_eye_ray *b) {
+    const int sign = sl_turn_filter(a->offset, b->offset);
+    if (sign) return sign;
+    if (a->at.x == b->at.x && a->at.y == b->at.y) return 0;
+    return sl_orient(eye, a->at, b->at);
+}
+
+/// Gathers the fan about the eye, given the cell that it is located in.
+sl_status sl_region_gather_fan(sl_context *context, const sl_outline *outline, sl_region *region);
+
+/// Adds what is seen next, counter-clockwise.
+sl_status sl_region_add_piece(sl_context *context, sl_region *region, const sl_region_piece *piece);
+/// Adds the eye as a point, with the kind of the edge that starts there.
+sl_status sl_region_add_eye(sl_context *context, sl_region *region, sl_edge_kind kind);
+/// Ends what is seen with an edge along the border to the eye, which is added next or was the first
+/// point.
+sl_status sl_region_end_at_eye(sl_context *context, sl_region *region);
+/// Ends the polygon.
+sl_status sl_region_close(sl_context *context, sl_region *region);
+
+/// Adds a point, given from the eye.
+sl_status sl_region_add_point(sl_context *context, sl_region *region, sl_point point,
+                              sl_point offset, sl_region_edge edge);
+
+/// Where a ray meets the line through a and b, from the eye; it is given that it does. Good to a
+/// few units in the last place of each coordinate.
+sl_point sl_region_meet(sl_point eye, const sl_eye_ray *ray, sl_point a, sl_point b);
+
+/// Cuts the region to its range.
+sl_status sl_region_cut_range(sl_context *context, sl_region *region);
+
+#endif

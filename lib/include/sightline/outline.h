@@ -1,0 +1,46 @@
+/// The outline: the boundary of every cell, side by side, in one table to walk through a space by.
+#ifndef SIGHTLINE_OUTLINE_H
+#define SIGHTLINE_OUTLINE_H
+
+#include "sightline/space.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// What lies beyond a side. A value below SL_SIDE_WALL: the portal's other side, as an index of
+/// sides. From SL_SIDE_WALL on: the wall of that number. From SL_SIDE_BORDER on: the map's border,
+/// lower, right, upper or left, where no wall is.
+#define SL_SIDE_WALL   UINT32_C(0x80000000)
+#define SL_SIDE_BORDER UINT32_C(0xfffffff0)
+
+/// A piece of a cell's boundary: a portal, or what lies on one wall, or on the border. It starts at
+/// `start` and ends where the next one starts, counter-clockwise around the cell.
+typedef struct sl_side {
+    sl_point start;
+    uint32_t next, beyond;
+} sl_side;
+
+/// Zeroed, an outline is empty.
+typedef struct sl_outline {
+    const sl_space *space; ///< the caller's; it must stay as long as the outline
+    sl_side *sides;        ///< those of a cell stand together, in order
+    uint32_t *first;       ///< by cell, and one more: sides[first[c] .. first[c + 1])
+    uint32_t side_count;
+} sl_outline;
+
+/// Makes the outline of a space that is as sl_space_check wants it. No coordinate is computed.
+/// SL_BAD_ARGUMENT where a piece of a cell's boundary is none of portal, wall and border. Time
+/// O(n log n) for n walls and sides, as long as few walls share a line's neighbourhood.
+SL_API sl_status sl_outline_make(sl_context *context, const sl_space *space, sl_outline *out);
+SL_API void sl_outline_destroy(sl_context *context, sl_outline *outline); ///< and zeroes it
+
+static inline bool sl_side_is_portal(const sl_side *side) {
+    return side->beyond < SL_SIDE_WALL;
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

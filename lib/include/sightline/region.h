@@ -1,0 +1,104 @@
+/// The visible region (isovist) of an eye: an exact polygon with arcs where its range ends it.
+#ifndef SIGHTLINE_REGION_H
+#define SIGHTLINE_REGION_H
+
+#include "sightline/outline.h"
+#include "sightline/view.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// The `wall` of an edge that lies on none.
+#define SL_NO_WALL UINT32_MAX
+
+typedef enum sl_edge_kind {
+    SL_EDGE_WALL,      ///< on a wall, or on several pieces that portals cut one wall into
+    SL_EDGE_BORDER,    ///< on the map's border, where no wall is
+    SL_EDGE_OCCLUDING, ///< radial: what lies beyond it is hidden by the corner at its near end
+    SL_EDGE_CONE,      ///< on a border of the view cone
+    SL_EDGE_ARC,       ///< of less than half a circle about the eye, counter-clockwise: the range
+} sl_edge_kind;
+
+typedef struct sl_region_edge {
+    uint32_t wall; ///< index of the space's walls; SL_NO_WALL for all kinds but walls
+    uint8_t kind;  ///< of sl_edge_kind
+    bool exact;    ///< its start is a corner of the space (or the eye), not a computed point
+} sl_region_edge;
+
+/// A region: a polygon, counter-clockwise, star-shaped about the eye. Edge i leads from points[i]
+/// to the next point, around. Zero it to start; it keeps its memory from one sl_region_make to the
+/// next, so that repeated ones allocate only while regions grow.
+///
+/// Which walls are met, and in what order, is decided exactly; a point that is no corner is
+/// computed in doubles, to a few units in the last place of its distance from the eye along each
+/// axis. What only rays of one direction see (a needle) is no part of the region; a wall that is
+/// seen edge-on hides nothing, and the radial edge along it counts as occluding.
+typedef struct sl_region {
+    sl_view view;
+    double range;  ///< 0 for no limit
+    uint32_t cell; ///< that sl_space_locate gives for the eye; SL_NO_CELL: the region is empty
+    size_t count;  ///< of points, offsets and edges; 0 for an empty region
+    sl_point *points;
+    sl_point *offsets; ///< the points as seen from the eye: more precise far from the origin
+    sl_region_edge *edges;
+    uint64_t crossings; ///< portals passed to find it
+    struct sl_region_memory *memory;
+} sl_region;
+
+SL_API void sl_region_destroy(sl_context *context, sl_region *region); ///< and zeroes it
+
+/// The region of a view: by expanding the view through portals, from the cells at the eye (Teller
+/// 1992, Visibility Computations in Densely Occluded Polyhedral Environments, eye-to-region; Bungiu
+/// et al. 2014, Efficient Computation of Visibility Polygons, on triangles). `range` limits how far
+/// is seen; 0 for no limit.
+///
+/// An eye on a portal or a free corner of cells sees all around. An eye on a wall sees what the
+/// cell that sl_space_locate gives sees, and every cell that touches the eye and is joined to that
+/// one by portals that touch it: the side (right of or over the wall, where the wall bounds the map
+/// the one inside) on which that cell lies; where a wall ends at the eye, all around it but the
+/// wall. Such an eye is a point of its region. So is the eye of a cone. An eye outside the bounds,
+/// and a cone of 0 degrees, see nothing: the region is empty.
+///
+/// SL_BAD_ARGUMENT on a range that is negative or not finite, and a cone's border that is the eye
+/// itself or not finite. On failure the region is empty.
+SL_API sl_status sl_region_make(sl_context *context, const sl_outline *outline, const sl_view *view,
+                                double range, sl_region *region);
+
+/// Measures under the names that depthmapX gives them (isovist.cpp of its salalib), in the map's
+/// unit. All are 0 for an empty region. Arcs count as what they are, not as chords.
+typedef struct sl_region_measures {
+    double area;
+    double perimeter;       ///< of all edges, borders of a view cone among them
+    double compactness;     ///< 4 pi area / perimeter^2: 1 for a circle
+    double occlusivity;     ///< length of the occluding edges
+    double drift_magnitude; ///< from the eye to the region's centre of gravity
+    double drift_angle;     ///< its direction, degrees from 0 to 360 counter-clockwise from +x
+    double min_radial;      ///< to the nearest point of an edge that is not of the view cone
+    double max_radial;      ///< to the farthest point
+    // Over all directions of the view, by angle (Benedikt 1979, To Take Hold of Space):
+    double mean_radial;     ///< of the lengths of radials
+    double radial_variance; ///< their second moment about the mean
+    double radial_skewness; ///< their third moment about the mean
+} sl_region_measures;
+
+SL_API sl_region_measures sl_region_measure(const sl_region *region);
+
+/// Area alone: faster.
+SL_API double sl_region_area(const sl_region *region);
+
+/// The corners of walls that are seen: ends of walls that are points of the region, in its order.
+/// Writes up to `room` of them and returns how many there are; at most region->count.
+SL_API size_t sl_region_corners(const sl_region *region, const sl_space *space, sl_point *corners,
+                                size_t room);
+
+/// The region as a plain polygon, its arcs as chords that lie within `tolerance` of them. Writes up
+/// to `room` points and returns how many there are.
+SL_API size_t sl_region_flatten(const sl_region *region, double tolerance, sl_point *points,
+                                size_t room);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
