@@ -37,102 +37,119 @@ static bool same_direction(const sl_eye_ray *a, const sl_eye_ray *b) {
     return same_sign(a->offset.x, b->offset.x) && same_sign(a->offset.y, b->offset.y);
 }
 
-static sl_status push(expansion *x, sl_region_frame frame) {
+/// What is seen of a side that is no portal (or of one out of range, SL_PIECE_FAR) from ray to ray.
+static sl_status see_piece(expansion *x, uint32_t beyond, const sl_eye_ray *a, const sl_eye_ray *b,
+                           const sl_eye_ray *right, const sl_eye_ray *left) {
     struct sl_region_memory *m = x->region->memory;
-    SL_TRY(SL_ARRAY_ROOM(x->context, &m->frames, 1));
-    m->frames.items[m->frames.count++] = frame;
-    return SL_OK;
-}
-
-/// What is seen of a side, from ray to ray: through a portal the cell beyond, later; else a piece.
-static sl_status see(expansion *x, uint32_t at, const sl_eye_ray *a, const sl_eye_ray *b,
-                     const sl_region_piece *seen) {
-    sl_region *region = x->region;
-    sl_region_piece piece = *seen;
-    piece.a = a->at;
-    piece.b = b->at;
-    piece.beyond = side(x, at)->beyond;
-    if (sl_side_is_portal(side(x, at))) {
-        if (region->range == 0 || !is_far(region, a, b)) {
-            region->crossings++;
-            const uint32_t entry = piece.beyond;
-            return push(x, (sl_region_frame){.side = side(x, entry)->next,
-                                             .entry = entry,
-                                             .fresh = true,
-                                             .right = piece.right,
-                                             .left = piece.left});
-        }
-        piece.beyond = SL_PIECE_FAR;
+    if (m->pending && m->piece.beyond == beyond && beyond != SL_PIECE_FAR) {
+        m->piece.a = a->at;
+        m->piece.b = b->at;
+        m->piece.left = left ? *left : *b;
+        m->piece.to_end = !left;
+        return SL_OK;
     }
-    return sl_region_add_piece(x->context, region, &piece);
+    const sl_region_piece piece = {.beyond = beyond,
+                                   .a = a->at,
+                                   .b = b->at,
+                                   .right = right ? *right : *a,
+                                   .left = left ? *left : *b,
+                                   .from_end = !right,
+                                   .to_end = !left};
+    return sl_region_add_piece(x->context, x->region, &piece);
 }
 
-/// Moves a fresh frame to the first side that is seen. False where there is none, which only
-/// rounded corners of cells can bring about.
-static bool find_first(const expansion *x, sl_region_frame *f, bool *from_end) {
+/// Whether a portal leads nowhere that is within range.
+static bool is_barred(const sl_region *region, const sl_eye_ray *a, const sl_eye_ray *b) {
+    return region->range > 0 && is_far(region, a, b);
+}
+
+/// On from side `*at` around a cell to the first side that is seen left of a ray: one that ends
+/// there. Its start lies on the ray or (`*within`) to the right of it. False where there is none,
+/// which only rounded corners of cells can bring about.
+static bool find_first(const expansion *x, uint32_t entry, const sl_eye_ray *right, uint32_t *at,
+                       bool *within) {
     const sl_point eye = x->region->view.eye;
-    sl_eye_ray start = to_start(x, f->side);
-    int turn = sl_eye_turn(eye, &f->right, &start);
-    while (f->side != f->entry) {
-        const uint32_t next = side(x, f->side)->next;
+    const uint32_t first = *at;
+    int before = -1;
+    for (uint32_t i = first; i != entry;) {
+        const uint32_t next = side(x, i)->next;
         const sl_eye_ray end = to_start(x, next);
-        const int end_turn = sl_eye_turn(eye, &f->right, &end);
-        if (end_turn > 0) {
-            *from_end = turn == 0;
+        const int turn = sl_eye_turn(eye, right, &end);
+        if (turn > 0) {
+            const sl_eye_ray start = to_start(x, i);
+            *at = i;
+            *within = (i == first ? sl_eye_turn(eye, right, &start) : before) != 0;
             return true;
         }
-        turn = end_turn;
-        f->side = next;
+        before = turn;
+        i = next;
     }
     return false;
 }
 
-/// Goes on with the last frame: up to the next portal, whose cell comes first then, or to its end.
-static sl_status sweep(expansion *x) {
-    struct sl_region_memory *m = x->region->memory;
-    const sl_point eye = x->region->view.eye;
-    sl_region_frame f = m->frames.items[--m->frames.count];
-    bool from_end = true;
-    if (f.fresh && !find_first(x, &f, &from_end)) return SL_OK;
-    sl_eye_ray a = to_start(x, f.side);
-    while (f.side != f.entry) {
-        const uint32_t next = side(x, f.side)->next;
-        const sl_eye_ray b = to_start(x, next);
-        const int turn = sl_eye_turn(eye, &f.left, &b);
-        const sl_region_piece seen = {.right = from_end ? a : f.right,
-                                      .left = turn > 0 ? f.left : b,
-                                      .from_end = from_end,
-                                      .to_end = turn <= 0};
-        const uint32_t at = f.side;
-        const bool waits = sl_side_is_portal(side(x, at)) && turn < 0;
-        f.side = next;
-        f.fresh = false;
-        if (waits) SL_TRY(push(x, f));
-        SL_TRY(see(x, at, &a, &b, &seen));
-        if (turn >= 0 || waits) return SL_OK;
-        from_end = true;
-        a = b;
+/// What is seen through a portal, given as the other side of it, between two rays. A cell's first
+/// portal that is seen is gone through at once; what is left to see of the cell waits.
+static sl_status look_through(expansion *x, uint32_t entry, sl_eye_ray right, sl_eye_ray left) {
+    sl_region *region = x->region;
+    struct sl_region_memory *m = region->memory;
+    const sl_point eye = region->view.eye;
+    const size_t floor = m->frames.count;
+    uint32_t at;
+    bool within, enter = true;
+    for (;;) {
+        if (enter) {
+            region->crossings++;
+            at = side(x, entry)->next;
+        }
+        if (!enter || find_first(x, entry, &right, &at, &within)) {
+            enter = false;
+            sl_eye_ray a = to_start(x, at);
+            while (at != entry) {
+                const uint32_t next = side(x, at)->next, beyond = side(x, at)->beyond;
+                const sl_eye_ray b = to_start(x, next);
+                const int turn = sl_eye_turn(eye, &left, &b);
+                if (beyond < SL_SIDE_WALL && !is_barred(region, &a, &b)) {
+                    if (turn < 0) {
+                        SL_TRY(SL_ARRAY_ROOM(x->context, &m->frames, 1));
+                        m->frames.items[m->frames.count++] = (sl_region_frame){next, entry, left};
+                        left = b;
+                    } else if (turn == 0)
+                        left = b;
+                    if (!within) right = a;
+                    entry = beyond;
+                    enter = true;
+                    break;
+                }
+                SL_TRY(see_piece(x, beyond < SL_SIDE_WALL ? SL_PIECE_FAR : beyond, &a, &b,
+                                 within ? &right : NULL, turn > 0 ? &left : NULL));
+                if (turn >= 0) break;
+                within = false;
+                a = b;
+                at = next;
+            }
+            if (enter) continue;
+        }
+        if (m->frames.count == floor) return SL_OK;
+        const sl_region_frame *f = &m->frames.items[--m->frames.count];
+        at = f->side;
+        entry = f->entry;
+        left = f->left;
+        within = enter = false;
     }
-    return SL_OK;
 }
 
 /// What is seen of a side of the fan, from `right` and to `left` where they are given, else from
 /// and to its ends; with all that lies behind it.
 static sl_status see_fan(expansion *x, uint32_t k, const sl_eye_ray *right,
                          const sl_eye_ray *left) {
-    struct sl_region_memory *m = x->region->memory;
-    const uint32_t at = m->fan.items[k];
-    const sl_eye_ray a = to_start(x, at), b = to_start(x, side(x, at)->next);
+    const uint32_t i = x->region->memory->fan.items[k], beyond = side(x, i)->beyond;
+    const sl_eye_ray a = to_start(x, i), b = to_start(x, side(x, i)->next);
     const sl_point eye = x->region->view.eye;
-    const bool from_end = !right || sl_eye_turn(eye, right, &a) == 0;
-    const bool to_end = !left || sl_eye_turn(eye, left, &b) == 0;
-    const sl_region_piece seen = {.right = from_end ? a : *right,
-                                  .left = to_end ? b : *left,
-                                  .from_end = from_end,
-                                  .to_end = to_end};
-    SL_TRY(see(x, at, &a, &b, &seen));
-    while (m->frames.count) SL_TRY(sweep(x));
-    return SL_OK;
+    if (right && sl_eye_turn(eye, right, &a) == 0) right = NULL;
+    if (left && sl_eye_turn(eye, left, &b) == 0) left = NULL;
+    if (beyond < SL_SIDE_WALL && !is_barred(x->region, &a, &b))
+        return look_through(x, beyond, right ? *right : a, left ? *left : b);
+    return see_piece(x, beyond < SL_SIDE_WALL ? SL_PIECE_FAR : beyond, &a, &b, right, left);
 }
 
 /// The end of the wall at the eye that lies on the ray through `toward`.
@@ -148,14 +165,8 @@ static sl_point wall_end(const expansion *x, uint32_t beyond, sl_point toward) {
 /// end, or the other way.
 static sl_status see_wall_at_eye(expansion *x, uint32_t beyond, sl_point from, sl_point to) {
     const sl_point eye = x->region->view.eye;
-    const sl_region_piece piece = {.beyond = beyond,
-                                   .a = from,
-                                   .b = to,
-                                   .right = sl_eye_ray_through(eye, from),
-                                   .left = sl_eye_ray_through(eye, to),
-                                   .from_end = true,
-                                   .to_end = true};
-    return sl_region_add_piece(x->context, x->region, &piece);
+    const sl_eye_ray a = sl_eye_ray_through(eye, from), b = sl_eye_ray_through(eye, to);
+    return see_piece(x, beyond, &a, &b, NULL, NULL);
 }
 
 /// From the eye along the wall or border where an open fan starts.

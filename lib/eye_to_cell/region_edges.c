@@ -129,13 +129,6 @@ static sl_status end_piece(sl_context *context, sl_region *region, const place *
 sl_status sl_region_add_piece(sl_context *context, sl_region *region,
                               const sl_region_piece *piece) {
     struct sl_region_memory *m = region->memory;
-    if (m->pending && m->piece.beyond == piece->beyond && piece->beyond != SL_PIECE_FAR) {
-        m->piece.a = piece->a;
-        m->piece.b = piece->b;
-        m->piece.left = piece->left;
-        m->piece.to_end = piece->to_end;
-        return SL_OK;
-    }
     const place start = right_of(region, piece);
     if (region->count == 0) m->first = piece->beyond;
     if (m->pending) SL_TRY(end_piece(context, region, &start, SL_EDGE_OCCLUDING));

@@ -12,12 +12,11 @@ typedef struct sl_eye_ray {
     sl_point at, offset; ///< the point, and as seen from the eye: each coordinate rounded once
 } sl_eye_ray;
 
-/// A portal being looked through, between two rays: what is left to see of the cell beyond.
+/// What is left to see of a cell: from where `side` starts to the ray `left`.
 typedef struct sl_region_frame {
-    uint32_t side;  ///< to look at next
-    uint32_t entry; ///< the portal as a side of the cell
-    bool fresh;     ///< nothing of the cell was looked at; else `side` starts on the ray `right`
-    sl_eye_ray right, left;
+    uint32_t side;
+    uint32_t entry; ///< the portal that the cell is seen through, as a side of it
+    sl_eye_ray left;
 } sl_region_frame;
 
 /// What is seen of a side that is no portal, from ray to ray. A flag tells that the side's own end
@@ -63,7 +62,7 @@ static inline int sl_eye_turn(sl_point eye, const sl_eye_ray *a, const sl_eye_ra
 /// Gathers the fan about the eye, given the cell that it is located in.
 sl_status sl_region_gather_fan(sl_context *context, const sl_outline *outline, sl_region *region);
 
-/// Adds what is seen next, counter-clockwise.
+/// Adds what is seen next, counter-clockwise: not on the wall that the piece before is on.
 sl_status sl_region_add_piece(sl_context *context, sl_region *region, const sl_region_piece *piece);
 /// Adds the eye as a point, with the kind of the edge that starts there.
 sl_status sl_region_add_eye(sl_context *context, sl_region *region, sl_edge_kind kind);

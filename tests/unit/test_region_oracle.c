@@ -84,9 +84,15 @@ static void check_shape(const sl_region *region, const sl_space *space, uint64_t
 static void check_eye(sl_context *context, const sl_outline *outline, const sl_view *view,
                       uint64_t seed, sl_region *region) {
     assert_ok(context, sl_region_make(context, outline, view, 0, region));
+    if (sl_space_locate(outline->space, view->eye) == SL_NO_CELL) {
+        assert_int_equal(region->count, 0); // mixed from two points and rounded, out of the bounds
+        return;
+    }
     const oracle_isovist expected = oracle_isovist_of(outline->space, view);
     const sl_region_measures found = sl_region_measure(region);
-    assert_near("area", found.area, expected.area, expected.area, seed, view);
+    // Of a sliver, the places of its corners say less than of the square on its length.
+    const double square = found.max_radial * found.max_radial;
+    assert_near("area", found.area, expected.area, fmax(expected.area, 1e-3 * square), seed, view);
     assert_near("perimeter", found.perimeter, expected.perimeter, expected.perimeter, seed, view);
     assert_near("occlusivity", found.occlusivity, expected.occlusivity, expected.perimeter, seed,
                 view);
