@@ -14,5 +14,6 @@ sl_status sl_cmd_explain(sl_console *console, int argc, char **argv);
 sl_status sl_cmd_export(sl_console *console, int argc, char **argv);
 sl_status sl_cmd_eye(sl_console *console, int argc, char **argv);
 sl_status sl_cmd_info(sl_console *console, int argc, char **argv);
+sl_status sl_cmd_isovist(sl_console *console, int argc, char **argv);
 
 #endif

@@ -83,7 +83,16 @@ static const sl_option_spec *find_option(const sl_option_spec *options, size_t c
     return NULL;
 }
 
-static sl_status take_option(sl_context *context, const sl_option_spec *option) {
+static sl_status take_option(sl_context *context, const sl_command_usage *usage,
+                             const sl_option_spec *option) {
+    if (usage->repeats && strcmp(option->name, usage->repeats) == 0) {
+        sl_option_list *list = usage->repeated;
+        if (list->count == SL_OPTION_LIST_MOST)
+            return sl_fail(context, SL_BAD_ARGUMENT, "--%s is given more than %d times",
+                           option->name, SL_OPTION_LIST_MOST);
+        list->items[list->count++] = optarg;
+        return SL_OK;
+    }
     if (option->flag ? *option->flag : *option->text != NULL)
         return sl_fail(context, SL_BAD_ARGUMENT, "--%s is given twice", option->name);
     if (option->flag)
@@ -104,7 +113,7 @@ static sl_status parse_options(sl_context *context, const sl_command_usage *usag
         if (code == -1) return SL_OK;
         const sl_option_spec *option = find_option(options, count, code);
         if (option) {
-            SL_TRY(take_option(context, option));
+            SL_TRY(take_option(context, usage, option));
             continue;
         }
         option = find_option(options, count, optopt);

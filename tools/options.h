@@ -7,7 +7,16 @@
 #include "names.h"
 #include "sightline/geometry.h"
 
-/// An option: either a flag, or text that the functions below read. Given twice it is an error.
+#define SL_OPTION_LIST_MOST 256
+
+/// The arguments of an option that may be given several times, in order.
+typedef struct sl_option_list {
+    const char *items[SL_OPTION_LIST_MOST];
+    size_t count;
+} sl_option_list;
+
+/// An option: either a flag, or text that the functions below read. Given twice it is an error, but
+/// for a command's option that may repeat.
 typedef struct sl_option_spec {
     const char *name;     ///< without its dashes
     char letter;          ///< its short form, 0 for none
@@ -27,6 +36,8 @@ typedef struct sl_command_usage {
     const char *examples; ///< lines
     const sl_option_spec *options;
     size_t option_count;
+    const char *repeats;      ///< the name of the option that may be given several times, or NULL
+    sl_option_list *repeated; ///< where all its arguments go
 } sl_command_usage;
 
 /// Reads the arguments after the command's name, argv[0]; adds --help and --quiet to the options.

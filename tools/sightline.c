@@ -19,6 +19,7 @@ static const command commands[] = {
     {"export", "a baked file for other programs", sl_cmd_export},
     {"explain", "why a cell does or does not see another", sl_cmd_explain},
     {"eye", "what one viewpoint sees, by every culling method", sl_cmd_eye},
+    {"isovist", "what is seen from points: regions, their measures, heat maps", sl_cmd_isovist},
     {"draw", "a picture of a baked file", sl_cmd_draw},
     {"convert", "any map that can be read, as map text or ASCII plan", sl_cmd_convert},
 };

@@ -177,22 +177,26 @@ static void draw_fault_marks(const plan *p) {
         sl_draw_faults(p->cairo, p->palette, &p->pens, p->frame, p->scene->options.faults);
 }
 
-sl_status sl_draw_onto(sl_context *context, cairo_t *cairo, const sl_scene *scene,
-                       const sl_frame *frame) {
-    static const struct {
-        unsigned layers; ///< any of them calls for it; 0: always
-        void (*draw)(const plan *p);
-    } steps[] = {
-        {0, draw_ground},
-        {0, draw_cells},
-        {SL_LAYER_CELLS, draw_outlines},
-        {0, draw_source_edge},
-        {SL_LAYER_PORTALS, draw_portals},
-        {SL_LAYER_STAB_TREE, draw_tree},
-        {SL_LAYER_WALLS, draw_walls},
-        {SL_LAYER_STARTS, draw_starts},
-        {0, draw_fault_marks},
-    };
+typedef struct step {
+    unsigned layers; ///< any of them calls for it; 0: always
+    void (*draw)(const plan *p);
+} step;
+
+static const step steps[] = {
+    {0, draw_ground},
+    {0, draw_cells},
+    {SL_LAYER_CELLS, draw_outlines},
+    {0, draw_source_edge},
+    {SL_LAYER_PORTALS, draw_portals},
+    {SL_LAYER_STAB_TREE, draw_tree},
+    {SL_LAYER_WALLS, draw_walls},
+    {SL_LAYER_STARTS, draw_starts},
+    {0, draw_fault_marks},
+};
+enum { STEPS = sizeof steps / sizeof *steps, WALLS_STEP = STEPS - 3 };
+
+static sl_status draw_steps(sl_context *context, cairo_t *cairo, const sl_scene *scene,
+                            const sl_frame *frame, int first) {
     const plan p = {.cairo = cairo,
                     .scene = scene,
                     .space = &scene->baked->space,
@@ -200,9 +204,19 @@ sl_status sl_draw_onto(sl_context *context, cairo_t *cairo, const sl_scene *scen
                     .frame = frame,
                     .palette = &scene->palette,
                     .pens = sl_pens_for(scene, frame)};
-    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
+    for (int i = first; i < STEPS; i++) {
         SL_TRY(sl_check_cancelled(context));
         if (!steps[i].layers || scene->options.layers & steps[i].layers) steps[i].draw(&p);
     }
     return SL_OK;
+}
+
+sl_status sl_draw_onto(sl_context *context, cairo_t *cairo, const sl_scene *scene,
+                       const sl_frame *frame) {
+    return draw_steps(context, cairo, scene, frame, 0);
+}
+
+sl_status sl_draw_walls_onto(sl_context *context, cairo_t *cairo, const sl_scene *scene,
+                             const sl_frame *frame) {
+    return draw_steps(context, cairo, scene, frame, WALLS_STEP);
 }

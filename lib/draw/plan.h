@@ -11,4 +11,8 @@
 sl_status sl_draw_onto(sl_context *context, cairo_t *cairo, const sl_scene *scene,
                        const sl_frame *frame);
 
+/// Of these layers the walls and the starts alone, over what is drawn on the cells.
+sl_status sl_draw_walls_onto(sl_context *context, cairo_t *cairo, const sl_scene *scene,
+                             const sl_frame *frame);
+
 #endif

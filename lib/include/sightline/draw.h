@@ -74,6 +74,36 @@ SL_API sl_status sl_draw_eye(sl_context *context, const sl_baked *baked, const s
                              const sl_eye_layer *layers, size_t layer_count,
                              const sl_draw_options *options, const char *path);
 
+// --- what is seen from places
+
+/// A polygon that is seen from an eye.
+typedef struct sl_drawn_region {
+    sl_point eye;
+    const sl_point *points;
+    size_t count;
+} sl_drawn_region;
+
+/// Draws the plan with regions over it. The options' width, title and dark count; `caption` is a
+/// line below the picture, NULL for none.
+SL_API sl_status sl_draw_regions_file(sl_context *context, const sl_baked *baked,
+                                      const sl_drawn_region *regions, size_t count,
+                                      const char *caption, const sl_draw_options *options,
+                                      const char *path);
+
+/// Values on a grid of squares, row after row from the lower left.
+typedef struct sl_field {
+    const char *name;     ///< what the values are: "area"
+    sl_point corner;      ///< the lower left of the first square
+    double step;          ///< side of a square
+    size_t columns, rows; ///< at least 1
+    const double *values; ///< NaN for none
+} sl_field;
+
+/// Draws a heat map over the plan with its colour scale, likewise.
+SL_API sl_status sl_draw_field_file(sl_context *context, const sl_baked *baked,
+                                    const sl_field *field, const sl_draw_options *options,
+                                    const char *path);
+
 // --- charts
 
 /// How values lie along an axis. Symmetric logarithm: linear between -1 and 1, powers of ten at

@@ -1,0 +1,229 @@
+/// Pictures of what is seen from places: regions over the plan, and heat maps of their measures.
+#include "base/base.h"
+#include "draw/legend.h"
+#include "draw/paper.h"
+#include "draw/plan.h"
+#include "draw/text.h"
+#include "sightline/draw.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { TICKS = 5, RAMP_STEPS = 64 };
+
+/// What a picture shows: regions, or else a field.
+typedef struct picture {
+    sl_scene scene;
+    const sl_drawn_region *regions;
+    size_t region_count;
+    const sl_field *field;
+    const char *caption;
+    double least, most; ///< of the field's values
+} picture;
+
+typedef struct page {
+    double width, height, margin, text, key; ///< `key`: the top of what is below the plan
+    sl_frame frame;
+} page;
+
+static void find_range(picture *p) {
+    const sl_field *f = p->field;
+    p->least = INFINITY;
+    p->most = -INFINITY;
+    for (size_t i = 0; i < f->columns * f->rows; i++) {
+        if (isnan(f->values[i])) continue;
+        p->least = fmin(p->least, f->values[i]);
+        p->most = fmax(p->most, f->values[i]);
+    }
+}
+
+static double share_of(const picture *p, double value) {
+    return p->most > p->least ? (value - p->least) / (p->most - p->least) : 0;
+}
+
+static int step_of(const picture *p, double value) {
+    return (int)fmin(share_of(p, value) * RAMP_STEPS, RAMP_STEPS - 1);
+}
+
+static void add_square(cairo_t *cairo, const sl_frame *frame, const sl_box *bounds,
+                       const sl_field *f, size_t i) {
+    const double x = f->corner.x + f->step * (double)(i % f->columns);
+    const double y = f->corner.y + f->step * (double)(i / f->columns);
+    const sl_point low = {fmax(x, bounds->min.x), fmax(y, bounds->min.y)};
+    const sl_point high = {fmin(x + f->step, bounds->max.x), fmin(y + f->step, bounds->max.y)};
+    const sl_point corners[4] = {low, {high.x, low.y}, high, {low.x, high.y}};
+    if (low.x < high.x && low.y < high.y) sl_path_polygon(cairo, frame, corners, 4);
+}
+
+/// Squares of one colour make one path, with a thin stroke over the seams between them.
+static sl_status draw_field(sl_context *context, cairo_t *cairo, const picture *p,
+                            const sl_frame *frame) {
+    const sl_field *f = p->field;
+    for (int step = 0; step < RAMP_STEPS; step++) {
+        SL_TRY(sl_check_cancelled(context));
+        for (size_t i = 0; i < f->columns * f->rows; i++)
+            if (!isnan(f->values[i]) && step_of(p, f->values[i]) == step)
+                add_square(cairo, frame, &p->scene.baked->space.bounds, f, i);
+        sl_set_colour(cairo, sl_palette_ramp(p->scene.palette.dark, (step + 0.5) / RAMP_STEPS));
+        cairo_fill_preserve(cairo);
+        cairo_set_line_width(cairo, 0.6);
+        cairo_stroke(cairo);
+    }
+    return SL_OK;
+}
+
+static void draw_region(cairo_t *cairo, const picture *p, const sl_frame *frame,
+                        const sl_drawn_region *region) {
+    const sl_palette *palette = &p->scene.palette;
+    for (size_t i = 0; i < region->count; i++) {
+        const sl_point at = sl_frame_point(frame, region->points[i]);
+        cairo_line_to(cairo, at.x, at.y);
+    }
+    cairo_close_path(cairo);
+    cairo_set_source_rgba(cairo, palette->glass.red, palette->glass.green, palette->glass.blue,
+                          0.4);
+    cairo_fill_preserve(cairo);
+    sl_set_colour(cairo, palette->glass);
+    cairo_set_line_width(cairo, 1.5 * frame->unit);
+    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+    cairo_stroke(cairo);
+}
+
+static void draw_eye(cairo_t *cairo, const picture *p, const sl_frame *frame, sl_point eye) {
+    const sl_point at = sl_frame_point(frame, eye);
+    cairo_new_sub_path(cairo);
+    cairo_arc(cairo, at.x, at.y, 5 * frame->unit, 0, 6.283185307179586);
+    sl_set_colour(cairo, p->scene.palette.start);
+    cairo_fill_preserve(cairo);
+    sl_set_colour(cairo, p->scene.palette.page);
+    cairo_set_line_width(cairo, 1.2 * frame->unit);
+    cairo_stroke(cairo);
+}
+
+static sl_status draw_plan(sl_context *context, cairo_t *cairo, const picture *p,
+                           const sl_frame *frame) {
+    SL_TRY(sl_draw_onto(context, cairo, &p->scene, frame));
+    if (p->field) SL_TRY(draw_field(context, cairo, p, frame));
+    for (size_t i = 0; i < p->region_count; i++) draw_region(cairo, p, frame, &p->regions[i]);
+    SL_TRY(sl_draw_walls_onto(context, cairo, &p->scene, frame));
+    for (size_t i = 0; i < p->region_count; i++) draw_eye(cairo, p, frame, p->regions[i].eye);
+    return SL_OK;
+}
+
+/// The ramp with numbers under it. Returns its height.
+static double draw_scale(cairo_t *cairo, const picture *p, const page *g, bool paint) {
+    const double width = fmin(30 * g->text, g->width - 2 * g->margin), high = 1.2 * g->text;
+    if (!paint || !(p->least <= p->most)) return 3.2 * g->text;
+    for (int i = 0; i < RAMP_STEPS; i++) {
+        cairo_rectangle(cairo, g->margin + width * i / RAMP_STEPS, g->key,
+                        width / RAMP_STEPS + (i + 1 < RAMP_STEPS ? 0.5 : 0), high);
+        sl_set_colour(cairo, sl_palette_ramp(p->scene.palette.dark, (i + 0.5) / RAMP_STEPS));
+        cairo_fill(cairo);
+    }
+    sl_text_font(cairo, g->text, false);
+    const int ticks = p->most > p->least ? TICKS : 1;
+    for (int i = 0; i < ticks; i++) {
+        const double share = ticks > 1 ? (double)i / (ticks - 1) : 0;
+        char number[32];
+        snprintf(number, sizeof number, "%.4g", p->least + share * (p->most - p->least));
+        const double x = g->margin + share * width, wide = sl_text_width(cairo, number);
+        cairo_move_to(cairo, x, g->key + high);
+        cairo_line_to(cairo, x, g->key + high + 0.35 * g->text);
+        sl_set_colour(cairo, p->scene.palette.ink);
+        cairo_set_line_width(cairo, 0.09 * g->text);
+        cairo_stroke(cairo);
+        sl_text_show(cairo, p->scene.palette.ink, fmax(x - wide / 2, g->margin),
+                     g->key + high + 1.5 * g->text, number);
+    }
+    sl_text_show(cairo, p->scene.palette.ink, g->margin + width + 1.6 * g->text,
+                 g->key + 0.95 * g->text, p->field->name);
+    return 3.2 * g->text;
+}
+
+/// Measures where `paint` is false, and draws all but the plan where it is true.
+static void set_page(cairo_t *cairo, const picture *p, page *g, bool paint) {
+    const double inner = g->width - 2 * g->margin;
+    const char *title = p->scene.options.title;
+    double y = g->margin;
+    if (title) {
+        y += 1.7 * g->text;
+        if (paint)
+            sl_text_show_within(cairo, p->scene.palette.ink, g->margin, y, inner, 1.9 * g->text,
+                                true, title);
+        y += 1.3 * g->text;
+    }
+    if (!paint) {
+        const sl_box b = p->scene.baked->space.bounds;
+        const double ratio = (b.max.y - b.min.y) / (b.max.x - b.min.x);
+        const double height = inner * fmin(fmax(ratio, 1.0 / 6), 1.4);
+        g->frame = sl_frame_fit(b, g->margin, y, inner, height, g->width / 1200);
+        g->key = y + height + 1.1 * g->text;
+    }
+    y = g->key;
+    if (p->field) y += draw_scale(cairo, p, g, paint);
+    if (p->caption) {
+        if (paint)
+            sl_text_show_within(cairo, p->scene.palette.ink, g->margin, y + 1.1 * g->text, inner,
+                                g->text, false, p->caption);
+        y += 1.6 * g->text;
+    }
+    g->height = ceil(y + 0.7 * g->margin);
+}
+
+/// Measuring text needs a surface, and the file's needs the page's height.
+static sl_status measure(sl_context *context, const picture *p, const char *path, page *out) {
+    const double width = round(p->scene.options.width);
+    cairo_surface_t *scratch = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
+    cairo_t *cairo = cairo_create(scratch);
+    *out = (page){.width = width, .margin = 0.04 * width, .text = 16.5 * pow(width / 1200, 0.75)};
+    set_page(cairo, p, out, false);
+    const cairo_status_t status = cairo_status(cairo);
+    cairo_destroy(cairo);
+    cairo_surface_destroy(scratch);
+    return status ? sl_fail_cairo(context, path, status) : SL_OK;
+}
+
+static sl_status draw_page(sl_context *context, cairo_t *cairo, const picture *p, page *g) {
+    sl_set_colour(cairo, p->scene.palette.page);
+    cairo_paint(cairo);
+    SL_TRY(draw_plan(context, cairo, p, &g->frame));
+    set_page(cairo, p, g, true);
+    return SL_OK;
+}
+
+static sl_status draw_picture(sl_context *context, const sl_baked *baked,
+                              const sl_draw_options *options, picture *p, const char *path) {
+    const sl_paper_kind *kind;
+    sl_paper paper;
+    page g;
+    SL_TRY(sl_paper_kind_of(context, path, &kind));
+    if (!(options->width >= SL_DRAW_WIDTH_MIN && options->width <= SL_DRAW_WIDTH_MAX))
+        return sl_fail(context, SL_BAD_ARGUMENT, "width %g: must be %d to %d", options->width,
+                       SL_DRAW_WIDTH_MIN, SL_DRAW_WIDTH_MAX);
+    sl_draw_options plain = *options;
+    plain.layers = SL_LAYER_WALLS | (p->field ? 0 : (unsigned)SL_LAYER_STARTS);
+    plain.cell = SL_NO_CELL;
+    SL_TRY(sl_scene_make(context, baked, &plain, &p->scene));
+    sl_status status = measure(context, p, path, &g);
+    if (status == SL_OK)
+        status =
+            sl_paper_open(context, kind, path, (int)g.width, (int)g.height, options->title, &paper);
+    if (status == SL_OK)
+        status = sl_paper_close(context, &paper, draw_page(context, paper.cairo, p, &g));
+    sl_scene_destroy(context, &p->scene);
+    return status;
+}
+
+sl_status sl_draw_regions_file(sl_context *context, const sl_baked *baked,
+                               const sl_drawn_region *regions, size_t count, const char *caption,
+                               const sl_draw_options *options, const char *path) {
+    picture p = {.regions = regions, .region_count = count, .caption = caption};
+    return draw_picture(context, baked, options, &p, path);
+}
+
+sl_status sl_draw_field_file(sl_context *context, const sl_baked *baked, const sl_field *field,
+                             const sl_draw_options *options, const char *path) {
+    picture p = {.field = field};
+    find_range(&p);
+    return draw_picture(context, baked, options, &p, path);
+}
