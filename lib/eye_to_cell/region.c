@@ -63,22 +63,18 @@ static bool is_barred(const sl_region *region, const sl_eye_ray *a, const sl_eye
     return region->range > 0 && is_far(region, a, b);
 }
 
-/// On from side `*at` around a cell to the first side that is seen left of a ray: one that ends
-/// there. Its start lies on the ray or (`*within`) to the right of it. False where there is none,
-/// which only rounded corners of cells can bring about.
-static bool find_first(const expansion *x, uint32_t entry, const sl_eye_ray *right, uint32_t *at,
-                       bool *within) {
-    const sl_point eye = x->region->view.eye;
+bool sl_region_find_first(const sl_outline *o, sl_point eye, uint32_t entry, const sl_eye_ray *ray,
+                          uint32_t *at, bool *within) {
     const uint32_t first = *at;
     int before = -1;
     for (uint32_t i = first; i != entry;) {
-        const uint32_t next = side(x, i)->next;
-        const sl_eye_ray end = to_start(x, next);
-        const int turn = sl_eye_turn(eye, right, &end);
+        const uint32_t next = o->sides[i].next;
+        const sl_eye_ray end = sl_eye_ray_through(eye, o->sides[next].start);
+        const int turn = sl_eye_turn(eye, ray, &end);
         if (turn > 0) {
-            const sl_eye_ray start = to_start(x, i);
+            const sl_eye_ray start = sl_eye_ray_through(eye, o->sides[i].start);
             *at = i;
-            *within = (i == first ? sl_eye_turn(eye, right, &start) : before) != 0;
+            *within = (i == first ? sl_eye_turn(eye, ray, &start) : before) != 0;
             return true;
         }
         before = turn;
@@ -101,7 +97,7 @@ static sl_status look_through(expansion *x, uint32_t entry, sl_eye_ray right, sl
             region->crossings++;
             at = side(x, entry)->next;
         }
-        if (!enter || find_first(x, entry, &right, &at, &within)) {
+        if (!enter || sl_region_find_first(x->outline, eye, entry, &right, &at, &within)) {
             enter = false;
             sl_eye_ray a = to_start(x, at);
             while (at != entry) {
@@ -193,14 +189,14 @@ static sl_status see_all_round(expansion *x) {
     return SL_OK;
 }
 
-/// The side of the fan in which a ray lies, one end of each side counted: where the fan goes on
-/// counter-clockwise (`onward`) or clockwise of the ray. UINT32_MAX for none.
-static uint32_t find_side(const expansion *x, const sl_eye_ray *ray, bool onward) {
-    const struct sl_region_memory *m = x->region->memory;
-    const sl_point eye = x->region->view.eye;
+uint32_t sl_region_find_side(const sl_outline *o, const sl_region *region, const sl_eye_ray *ray,
+                             bool onward) {
+    const struct sl_region_memory *m = region->memory;
+    const sl_point eye = region->view.eye;
     for (uint32_t k = 0; k < m->fan.count; k++) {
-        const sl_eye_ray a = to_start(x, m->fan.items[k]);
-        const sl_eye_ray b = to_start(x, side(x, m->fan.items[k])->next);
+        const sl_side *s = &o->sides[m->fan.items[k]];
+        const sl_eye_ray a = sl_eye_ray_through(eye, s->start);
+        const sl_eye_ray b = sl_eye_ray_through(eye, o->sides[s->next].start);
         const int from = sl_eye_turn(eye, &a, ray), to = sl_eye_turn(eye, ray, &b);
         if (onward ? from >= 0 && to > 0 : from > 0 && to >= 0) return k;
     }
@@ -227,7 +223,8 @@ static sl_status see_cone(expansion *x) {
     const sl_view *view = &x->region->view;
     const sl_eye_ray right = sl_eye_ray_through(view->eye, view->right);
     const sl_eye_ray left = sl_eye_ray_through(view->eye, view->left);
-    const uint32_t start = find_side(x, &right, true), stop = find_side(x, &left, false);
+    const uint32_t start = sl_region_find_side(x->outline, x->region, &right, true);
+    const uint32_t stop = sl_region_find_side(x->outline, x->region, &left, false);
     if (start == UINT32_MAX) return see_from_gap(x, &left, stop);
     SL_TRY(sl_region_add_eye(x->context, x->region, SL_EDGE_CONE));
     if (start == stop && sl_eye_turn(view->eye, &right, &left) > 0)

@@ -62,6 +62,17 @@ static inline int sl_eye_turn(sl_point eye, const sl_eye_ray *a, const sl_eye_ra
 /// Gathers the fan about the eye, given the cell that it is located in.
 sl_status sl_region_gather_fan(sl_context *context, const sl_outline *outline, sl_region *region);
 
+/// The side of the fan that a ray meets, one end of each side counted: just counter-clockwise of
+/// the ray (`onward`) or just clockwise of it. UINT32_MAX for none.
+uint32_t sl_region_find_side(const sl_outline *outline, const sl_region *region,
+                             const sl_eye_ray *ray, bool onward);
+
+/// Moves *at on around a cell, from the side after `entry`, to the first one that ends to the left
+/// of a ray: where it leaves the cell. *within is false where the side's start lies on the ray.
+/// False where there is none, which only rounded corners of cells can bring about.
+bool sl_region_find_first(const sl_outline *outline, sl_point eye, uint32_t entry,
+                          const sl_eye_ray *ray, uint32_t *at, bool *within);
+
 /// Adds what is seen next, counter-clockwise: not on the wall that the piece before is on.
 sl_status sl_region_add_piece(sl_context *context, sl_region *region, const sl_region_piece *piece);
 /// Adds the eye as a point, with the kind of the edge that starts there.

@@ -14,6 +14,7 @@
 #include "sightline/outline.h"
 #include "sightline/pvs.h"
 #include "sightline/region.h"
+#include "sightline/sees.h"
 #include "sightline/solvers.h"
 #include "sightline/space.h"
 #include "sightline/stab.h"

@@ -1,0 +1,148 @@
+/// One line of sight. A segment is followed from cell to cell; where it touches a corner of cells
+/// it may go on in several, and all are tried.
+#include "sightline/sees.h"
+
+#include "base/bits.h"
+#include "eye_to_cell/region_parts.h"
+
+#include <math.h>
+
+typedef struct seer {
+    const sl_outline *outline;
+    sl_point eye, point;
+    bool touches; ///< a wall, somewhere
+    SL_ARRAY(uint32_t) waiting;
+    sl_bits *entered; ///< by side: the cells entered are marked by their first side
+} seer;
+
+/// Whether two segments in one line have a point in common.
+static bool overlap(sl_point a, sl_point b, sl_point c, sl_point d) {
+    return fmax(fmin(a.x, b.x), fmin(c.x, d.x)) <= fmin(fmax(a.x, b.x), fmax(c.x, d.x)) &&
+           fmax(fmin(a.y, b.y), fmin(c.y, d.y)) <= fmin(fmax(a.y, b.y), fmax(c.y, d.y));
+}
+
+/// Whether the segment and a side have a point in common.
+static bool meets(const seer *s, sl_point a, sl_point b) {
+    const int ea = sl_orient(s->eye, s->point, a), eb = sl_orient(s->eye, s->point, b);
+    const int from = sl_orient(a, b, s->eye), to = sl_orient(a, b, s->point);
+    if (ea == 0 && eb == 0) return overlap(s->eye, s->point, a, b);
+    return ea * eb <= 0 && from * to <= 0;
+}
+
+static bool cell_holds(const seer *s, uint32_t cell, sl_point point) {
+    const sl_side *sides = s->outline->sides;
+    for (uint32_t i = s->outline->first[cell]; i < s->outline->first[cell + 1]; i++)
+        if (sl_orient(sides[i].start, sides[sides[i].next].start, point) < 0) return false;
+    return true;
+}
+
+static uint32_t cell_of(const sl_outline *o, uint32_t side) {
+    uint32_t low = 0, high = o->space->cell_count;
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (o->first[middle] <= side)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static sl_status enter(sl_context *context, seer *s, uint32_t cell) {
+    if (sl_bits_has(s->entered, cell)) return SL_OK;
+    sl_bits_add(s->entered, cell);
+    SL_TRY(SL_ARRAY_ROOM(context, &s->waiting, 1));
+    s->waiting.items[s->waiting.count++] = cell;
+    return SL_OK;
+}
+
+/// Enters all cells that the segment leads to; notes whether one of them holds the point.
+static sl_status follow(sl_context *context, seer *s, bool *arrives) {
+    const sl_outline *o = s->outline;
+    while (s->waiting.count) {
+        const uint32_t cell = s->waiting.items[--s->waiting.count];
+        *arrives = *arrives || cell_holds(s, cell, s->point);
+        for (uint32_t i = o->first[cell]; i < o->first[cell + 1]; i++) {
+            const sl_side *side = &o->sides[i];
+            if (!meets(s, side->start, o->sides[side->next].start)) continue;
+            if (sl_side_is_portal(side))
+                SL_TRY(enter(context, s, cell_of(o, side->beyond)));
+            else if (side->beyond < SL_SIDE_BORDER)
+                s->touches = true;
+        }
+    }
+    return SL_OK;
+}
+
+sl_status sl_sees(sl_context *context, const sl_outline *outline, sl_point eye, sl_point point,
+                  sl_sight sight, bool *out) {
+    const sl_space *space = outline->space;
+    const uint32_t start = sl_space_locate(space, eye);
+    if (start == SL_NO_CELL || sl_space_locate(space, point) == SL_NO_CELL) {
+        *out = false;
+        return SL_OK;
+    }
+    seer s = {.outline = outline, .eye = eye, .point = point};
+    bool arrives = false;
+    s.entered = sl_alloc_array(context, sl_bits_words(space->cell_count), sizeof *s.entered);
+    sl_status status = s.entered ? enter(context, &s, start) : SL_NO_MEMORY;
+    if (status == SL_OK) status = follow(context, &s, &arrives);
+    sl_free(context, s.entered);
+    sl_free(context, s.waiting.items);
+    if (status == SL_OK) *out = arrives && (sight == SL_CLOSED || !s.touches);
+    return status;
+}
+
+/// The wall or border side that the ray meets, from a side of the fan on; false where the boundary
+/// of a cell does not hold together, by rounding.
+static bool walk(const sl_outline *o, sl_point eye, const sl_eye_ray *ray, uint32_t *at,
+                 bool *within) {
+    while (sl_side_is_portal(&o->sides[*at])) {
+        const uint32_t entry = o->sides[*at].beyond;
+        *at = o->sides[entry].next;
+        if (!sl_region_find_first(o, eye, entry, ray, at, within)) return false;
+    }
+    return true;
+}
+
+static void tell(const sl_outline *o, sl_point eye, const sl_eye_ray *ray, uint32_t at, bool within,
+                 sl_hit *out) {
+    const sl_side *side = &o->sides[at];
+    out->wall = side->beyond >= SL_SIDE_BORDER ? UINT32_MAX : side->beyond - SL_SIDE_WALL;
+    out->point = side->start;
+    if (!within) return;
+    const sl_point a = side->start, b = o->sides[side->next].start;
+    const sl_point offset = sl_region_meet(eye, ray, a, b);
+    out->point.x = fmin(fmax(eye.x + offset.x, fmin(a.x, b.x)), fmax(a.x, b.x));
+    out->point.y = fmin(fmax(eye.y + offset.y, fmin(a.y, b.y)), fmax(a.y, b.y));
+}
+
+sl_status sl_shoot(sl_context *context, const sl_outline *outline, sl_point eye, sl_point through,
+                   sl_hit *out) {
+    struct sl_region_memory memory = {0};
+    sl_region region = {.view = sl_view_all_round(eye), .memory = &memory};
+    region.cell = sl_space_locate(outline->space, eye);
+    if (region.cell == SL_NO_CELL)
+        return sl_fail(context, SL_BAD_ARGUMENT, "the eye is outside the map");
+    if (!isfinite(through.x) || !isfinite(through.y) || (through.x == eye.x && through.y == eye.y))
+        return sl_fail(context, SL_BAD_ARGUMENT, "a ray needs a second point");
+    const sl_eye_ray ray = sl_eye_ray_through(eye, through);
+    sl_status status = sl_region_gather_fan(context, outline, &region);
+    if (status == SL_OK) {
+        const uint32_t k = sl_region_find_side(outline, &region, &ray, true);
+        uint32_t at = k == UINT32_MAX ? memory.left : memory.fan.items[k];
+        sl_hit hit = {0};
+        bool within = true;
+        if (k != UINT32_MAX) {
+            const sl_eye_ray start = sl_eye_ray_through(eye, outline->sides[at].start);
+            within = sl_eye_turn(eye, &ray, &start) != 0;
+        }
+        if (k != UINT32_MAX && !walk(outline, eye, &ray, &at, &within))
+            status = sl_fail(context, SL_BAD_ARGUMENT, "the outline of a cell is not closed");
+        tell(outline, eye, &ray, at, within && k != UINT32_MAX, &hit);
+        if (k == UINT32_MAX) hit.point = eye;
+        if (status == SL_OK) *out = hit;
+    }
+    sl_free(context, memory.fan.items);
+    return status;
+}

@@ -1,0 +1,167 @@
+/// Single lines of sight on random maps of small integers, beside every wall taken by itself.
+#include "testing.h"
+
+#include "oracle/random_map.h"
+#include "sightline/sees.h"
+
+#include <math.h>
+
+/// Twice a coordinate is a small integer, so that all of this is exact.
+static double cross(sl_point a, sl_point b, sl_point c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+static bool on_segment(sl_point a, sl_point b, sl_point p) {
+    return cross(a, b, p) == 0 && fmin(a.x, b.x) <= p.x && p.x <= fmax(a.x, b.x) &&
+           fmin(a.y, b.y) <= p.y && p.y <= fmax(a.y, b.y);
+}
+
+static bool crosses(sl_point a, sl_point b, const sl_wall *w) {
+    return cross(a, b, w->a) * cross(a, b, w->b) < 0 &&
+           cross(w->a, w->b, a) * cross(w->a, w->b, b) < 0;
+}
+
+static bool touches(sl_point a, sl_point b, const sl_wall *w) {
+    return crosses(a, b, w) || on_segment(a, b, w->a) || on_segment(a, b, w->b) ||
+           on_segment(w->a, w->b, a) || on_segment(w->a, w->b, b);
+}
+
+/// The wall that a ray turned a little to the left meets first; on a tie either. UINT32_MAX: none.
+static double first_wall(const sl_space *space, sl_point eye, sl_point through, uint32_t *wall) {
+    const sl_point d = {through.x - eye.x, through.y - eye.y};
+    const sl_point ray = {d.x - 0x1p-20 * d.y, d.y + 0x1p-20 * d.x}, origin = {0, 0};
+    double least = INFINITY;
+    *wall = UINT32_MAX;
+    for (uint32_t i = 0; i < space->wall_count; i++) {
+        const sl_wall *w = &space->walls[i];
+        const sl_point a = {w->a.x - eye.x, w->a.y - eye.y}, b = {w->b.x - eye.x, w->b.y - eye.y};
+        if (cross(origin, ray, a) * cross(origin, ray, b) >= 0) continue;
+        const sl_point along = {b.x - a.x, b.y - a.y};
+        const double share = cross(origin, a, along) / cross(origin, ray, along);
+        if (share < 0 || share >= least) continue;
+        least = share;
+        *wall = i;
+    }
+    return least;
+}
+
+static sl_point random_point(const sl_space *space, sl_random *random) {
+    const sl_box *b = &space->bounds;
+    const uint64_t wide = (uint64_t)(2 * (b->max.x - b->min.x)) + 1;
+    const uint64_t high = (uint64_t)(2 * (b->max.y - b->min.y)) + 1;
+    return (sl_point){b->min.x + (double)sl_random_below(random, wide) / 2,
+                      b->min.y + (double)sl_random_below(random, high) / 2};
+}
+
+typedef struct tally {
+    int closed, open, grazing, shots;
+} tally;
+
+static void check_pair(sl_context *context, const sl_outline *outline, sl_point eye, sl_point point,
+                       tally *count) {
+    const sl_space *space = outline->space;
+    bool closed = false, open = false, back = false, free = true, crossed = false, on_wall = false;
+    assert_ok(context, sl_sees(context, outline, eye, point, SL_CLOSED, &closed));
+    assert_ok(context, sl_sees(context, outline, eye, point, SL_OPEN, &open));
+    assert_ok(context, sl_sees(context, outline, point, eye, SL_CLOSED, &back));
+    for (uint32_t i = 0; i < space->wall_count; i++) {
+        const sl_wall *w = &space->walls[i];
+        free = free && !touches(eye, point, w);
+        crossed = crossed || crosses(eye, point, w);
+        on_wall = on_wall || on_segment(w->a, w->b, eye) || on_segment(w->a, w->b, point);
+    }
+    assert_int_equal(open, free);
+    assert_true(closed || !open);
+    assert_false(closed && crossed);
+    if (!on_wall) assert_int_equal(closed, back);
+    count->closed += closed;
+    count->open += open;
+    count->grazing += closed && !open;
+    if (on_wall || (eye.x == point.x && eye.y == point.y)) return;
+    sl_hit hit;
+    uint32_t wall;
+    assert_ok(context, sl_shoot(context, outline, eye, point, &hit));
+    const double share = first_wall(space, eye, point, &wall);
+    assert_int_equal(hit.wall, wall);
+    if (wall == UINT32_MAX) return;
+    const double reach = hypot(hit.point.x - eye.x, hit.point.y - eye.y);
+    const double due = share * hypot(point.x - eye.x, point.y - eye.y);
+    assert_true(fabs(reach - due) <= 1e-3 * (1 + due));
+    count->shots++;
+}
+
+static void as_every_wall_says(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    tally count = {0};
+    for (uint64_t seed = 1; seed <= 150; seed++) {
+        sl_map map = {0};
+        sl_space space = {0};
+        sl_outline outline = {0};
+        assert_ok(context, oracle_random_map(context, seed, ORACLE_GRID_INTEGER, &map));
+        assert_ok(context, sl_map_clean(context, &map, NULL));
+        const sl_subdivide_options options = sl_subdivide_options_default();
+        if (map.wall_count && sl_subdivide_kd(context, &map, &options, &space) == SL_OK) {
+            assert_ok(context, sl_outline_make(context, &space, &outline));
+            sl_random random = {seed};
+            for (int i = 0; i < 200; i++)
+                check_pair(context, &outline, random_point(&space, &random),
+                           random_point(&space, &random), &count);
+        }
+        sl_outline_destroy(context, &outline);
+        sl_space_destroy(context, &space);
+        sl_map_destroy(context, &map);
+    }
+    assert_true(count.open > 1000 && count.grazing > 1000 && count.shots > 1000);
+    assert_true(count.closed < 150 * 200);
+    sl_context_destroy(context);
+}
+
+static void corners_and_slits(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_map map = {0};
+    sl_space space = {0};
+    sl_outline outline = {0};
+    testing_space(
+        context,
+        "walls 0 0 8 0 8 8 0 8 0 0\nwall 2 0 2 4\nwall 4 4 4 8\nwall 6 0 6 4\nwall 6 4 6 8\n", &map,
+        &space);
+    assert_ok(context, sl_outline_make(context, &space, &outline));
+    bool seen = false;
+    // Along y = 4: past one corner on its upper and one on its lower side.
+    assert_ok(context,
+              sl_sees(context, &outline, (sl_point){1, 4}, (sl_point){5, 4}, SL_CLOSED, &seen));
+    assert_true(seen);
+    assert_ok(context,
+              sl_sees(context, &outline, (sl_point){1, 4}, (sl_point){5, 4}, SL_OPEN, &seen));
+    assert_false(seen);
+    // Where two walls meet in a corner there is no way between them.
+    assert_ok(context,
+              sl_sees(context, &outline, (sl_point){1, 4}, (sl_point){7, 4}, SL_CLOSED, &seen));
+    assert_false(seen);
+    assert_ok(context,
+              sl_sees(context, &outline, (sl_point){9, 4}, (sl_point){7, 4}, SL_CLOSED, &seen));
+    assert_false(seen);
+    sl_hit hit;
+    const sl_point eye = {1, 4}, outside = {9, 9};
+    assert_ok(context, sl_shoot(context, &outline, eye, (sl_point){2, 4}, &hit));
+    assert_true(hit.point.x == 4 && hit.point.y == 4);
+    assert_ok(context, sl_shoot(context, &outline, (sl_point){2, 1}, (sl_point){1, 1}, &hit));
+    assert_true(hit.point.x == 2 && hit.point.y == 1);
+    assert_int_equal(sl_shoot(context, &outline, eye, eye, &hit), SL_BAD_ARGUMENT);
+    assert_int_equal(sl_shoot(context, &outline, outside, eye, &hit), SL_BAD_ARGUMENT);
+    assert_int_equal(sl_shoot(context, &outline, eye, (sl_point){NAN, 0}, &hit), SL_BAD_ARGUMENT);
+    sl_outline_destroy(context, &outline);
+    sl_space_destroy(context, &space);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(as_every_wall_says),
+        cmocka_unit_test(corners_and_slits),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
