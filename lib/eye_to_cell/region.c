@@ -63,74 +63,91 @@ static bool is_barred(const sl_region *region, const sl_eye_ray *a, const sl_eye
     return region->range > 0 && is_far(region, a, b);
 }
 
-bool sl_region_find_first(const sl_outline *o, sl_point eye, uint32_t entry, const sl_eye_ray *ray,
-                          uint32_t *at, bool *within) {
+bool sl_region_find_first(const sl_outline *o, sl_point eye, sl_point reach, uint32_t entry,
+                          const sl_eye_ray *ray, uint32_t *at, bool *within) {
+    const double limit = sl_turn_limit(ray->offset, reach);
+    const sl_side *sides = o->sides, *side = &sides[*at];
     const uint32_t first = *at;
-    int before = -1;
+    int turn = -1;
     for (uint32_t i = first; i != entry;) {
-        const uint32_t next = o->sides[i].next;
-        const sl_eye_ray end = sl_eye_ray_through(eye, o->sides[next].start);
-        const int turn = sl_eye_turn(eye, ray, &end);
+        const uint32_t next = side->next;
+        const sl_side *after = &sides[next];
+        const sl_point end = {after->start.x - eye.x, after->start.y - eye.y};
+        const int before = turn;
+        turn = sl_turn_filter_within(ray->offset, end, limit);
+        if (!turn) turn = sl_eye_turn(eye, ray, &(sl_eye_ray){after->start, end});
         if (turn > 0) {
-            const sl_eye_ray start = sl_eye_ray_through(eye, o->sides[i].start);
+            const sl_eye_ray start = sl_eye_ray_through(eye, side->start);
             *at = i;
             *within = (i == first ? sl_eye_turn(eye, ray, &start) : before) != 0;
             return true;
         }
-        before = turn;
         i = next;
+        side = after;
     }
     return false;
 }
 
-/// What is seen through a portal, given as the other side of it, between two rays. A cell's first
-/// portal that is seen is gone through at once; what is left to see of the cell waits.
-static sl_status look_through(expansion *x, uint32_t entry, sl_eye_ray right, sl_eye_ray left) {
+/// Where a cell is being looked at: between the rays `right` and `left`, from the side `at` on.
+typedef struct gaze {
+    uint32_t entry, at;
+    bool within; ///< `right` passes within that side; else the side starts on it
+    sl_eye_ray right, left;
+} gaze;
+
+/// Goes around a cell up to a portal, through which the gaze is turned (*enters), or to its end.
+/// What is left to see of a cell behind a portal waits.
+static sl_status sweep(expansion *x, gaze *g, bool *enters) {
     sl_region *region = x->region;
     struct sl_region_memory *m = region->memory;
     const sl_point eye = region->view.eye;
-    const size_t floor = m->frames.count;
-    uint32_t at;
-    bool within, enter = true;
-    for (;;) {
-        if (enter) {
-            region->crossings++;
-            at = side(x, entry)->next;
-        }
-        if (!enter || sl_region_find_first(x->outline, eye, entry, &right, &at, &within)) {
-            enter = false;
-            sl_eye_ray a = to_start(x, at);
-            while (at != entry) {
-                const uint32_t next = side(x, at)->next, beyond = side(x, at)->beyond;
-                const sl_eye_ray b = to_start(x, next);
-                const int turn = sl_eye_turn(eye, &left, &b);
-                if (beyond < SL_SIDE_WALL && !is_barred(region, &a, &b)) {
-                    if (turn < 0) {
-                        SL_TRY(SL_ARRAY_ROOM(x->context, &m->frames, 1));
-                        m->frames.items[m->frames.count++] = (sl_region_frame){next, entry, left};
-                        left = b;
-                    } else if (turn == 0)
-                        left = b;
-                    if (!within) right = a;
-                    entry = beyond;
-                    enter = true;
-                    break;
-                }
-                SL_TRY(see_piece(x, beyond < SL_SIDE_WALL ? SL_PIECE_FAR : beyond, &a, &b,
-                                 within ? &right : NULL, turn > 0 ? &left : NULL));
-                if (turn >= 0) break;
-                within = false;
-                a = b;
-                at = next;
+    const double limit = sl_turn_limit(g->left.offset, m->reach);
+    sl_eye_ray a = to_start(x, g->at);
+    *enters = false;
+    while (g->at != g->entry) {
+        const uint32_t next = side(x, g->at)->next, beyond = side(x, g->at)->beyond;
+        const sl_eye_ray b = to_start(x, next);
+        const int turn = sl_eye_turn_within(eye, &g->left, &b, limit);
+        if (beyond < SL_SIDE_WALL && !is_barred(region, &a, &b)) {
+            if (turn < 0) {
+                SL_TRY(SL_ARRAY_ROOM(x->context, &m->frames, 1));
+                m->frames.items[m->frames.count++] = (sl_region_frame){next, g->entry, g->left};
             }
-            if (enter) continue;
+            if (turn <= 0) g->left = b;
+            if (!g->within) g->right = a;
+            g->entry = beyond;
+            *enters = true;
+            return SL_OK;
+        }
+        SL_TRY(see_piece(x, beyond < SL_SIDE_WALL ? SL_PIECE_FAR : beyond, &a, &b,
+                         g->within ? &g->right : NULL, turn > 0 ? &g->left : NULL));
+        if (turn >= 0) return SL_OK;
+        g->within = false;
+        g->at = next;
+        a = b;
+    }
+    return SL_OK;
+}
+
+/// What is seen through a portal, given as the other side of it, between two rays.
+static sl_status look_through(expansion *x, uint32_t entry, sl_eye_ray right, sl_eye_ray left) {
+    struct sl_region_memory *m = x->region->memory;
+    const sl_point eye = x->region->view.eye;
+    const size_t floor = m->frames.count;
+    gaze g = {.entry = entry, .right = right, .left = left};
+    for (bool enters = true;;) {
+        while (enters) {
+            x->region->crossings++;
+            g.at = side(x, g.entry)->next;
+            if (!sl_region_find_first(x->outline, eye, m->reach, g.entry, &g.right, &g.at,
+                                      &g.within))
+                break;
+            SL_TRY(sweep(x, &g, &enters));
         }
         if (m->frames.count == floor) return SL_OK;
         const sl_region_frame *f = &m->frames.items[--m->frames.count];
-        at = f->side;
-        entry = f->entry;
-        left = f->left;
-        within = enter = false;
+        g = (gaze){.entry = f->entry, .at = f->side, .left = f->left};
+        SL_TRY(sweep(x, &g, &enters));
     }
 }
 
@@ -286,6 +303,7 @@ sl_status sl_region_make(sl_context *context, const sl_outline *outline, const s
     region->memory->frames.count = 0;
     region->view = *view;
     region->range = range;
+    region->memory->reach = sl_eye_reach(outline->space, view->eye);
     region->cell = sl_space_locate(outline->space, view->eye);
     expansion x = {context, outline, region};
     const sl_status status = make(&x);

@@ -38,6 +38,7 @@ typedef struct sl_region_corner {
 struct sl_region_memory {
     SL_ARRAY(sl_region_frame) frames;
     SL_ARRAY(uint32_t) fan; ///< the sides seen from the eye's cells, counter-clockwise
+    sl_point reach;         ///< of the bounds, from the eye
     bool open;              ///< the fan is not all round: it ends at walls
     uint32_t right, left;   ///< where it is open: the walls at the eye that it starts and ends at
     bool pending;           ///< `piece` is seen, but where it ends is not written yet
@@ -62,6 +63,20 @@ static inline int sl_eye_turn(sl_point eye, const sl_eye_ray *a, const sl_eye_ra
 /// Gathers the fan about the eye, given the cell that it is located in.
 sl_status sl_region_gather_fan(sl_context *context, const sl_outline *outline, sl_region *region);
 
+/// How far the bounds reach from the eye, for sl_turn_limit.
+static inline sl_point sl_eye_reach(const sl_space *space, sl_point eye) {
+    const sl_box *b = &space->bounds;
+    return (sl_point){fmax(eye.x - b->min.x, b->max.x - eye.x),
+                      fmax(eye.y - b->min.y, b->max.y - eye.y)};
+}
+
+/// As sl_eye_turn, given the limit of `a`.
+static inline int sl_eye_turn_within(sl_point eye, const sl_eye_ray *a, const sl_eye_ray *b,
+                                     double limit) {
+    const int sign = sl_turn_filter_within(a->offset, b->offset, limit);
+    return sign ? sign : sl_eye_turn(eye, a, b);
+}
+
 /// The side of the fan that a ray meets, one end of each side counted: just counter-clockwise of
 /// the ray (`onward`) or just clockwise of it. UINT32_MAX for none.
 uint32_t sl_region_find_side(const sl_outline *outline, const sl_region *region,
@@ -70,7 +85,7 @@ uint32_t sl_region_find_side(const sl_outline *outline, const sl_region *region,
 /// Moves *at on around a cell, from the side after `entry`, to the first one that ends to the left
 /// of a ray: where it leaves the cell. *within is false where the side's start lies on the ray.
 /// False where there is none, which only rounded corners of cells can bring about.
-bool sl_region_find_first(const sl_outline *outline, sl_point eye, uint32_t entry,
+bool sl_region_find_first(const sl_outline *outline, sl_point eye, sl_point reach, uint32_t entry,
                           const sl_eye_ray *ray, uint32_t *at, bool *within);
 
 /// Adds what is seen next, counter-clockwise: not on the wall that the piece before is on.

@@ -1,10 +1,11 @@
 /// The outline: each cell's exits in order, and between them what walls and the border there are.
-/// Which wall lies on a piece of the boundary is found through a grid of buckets over the walls and
-/// decided by the exact predicate.
+/// Which wall lies on a piece of the boundary is found through a grid over the walls and decided by
+/// the exact predicate.
 #include "sightline/outline.h"
 
 #include "base/base.h"
 #include "geometry/orient.h"
+#include "space/wall_grid.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -16,66 +17,14 @@ typedef struct cover {
     uint32_t wall;
 } cover;
 
-/// Walls by the squares of a grid that their boxes meet: those of a square are
-/// walls[begin[s] .. begin[s + 1]).
-typedef struct buckets {
-    uint32_t across;
-    uint32_t *begin, *walls;
-} buckets;
-
 typedef struct outliner {
     const sl_space *space;
-    buckets near;
+    sl_wall_grid grid;
+    double reach; ///< of the grid
     SL_ARRAY(cover) covers;
     SL_ARRAY(sl_side) sides;
     uint32_t *of_exit; ///< the side of each exit
 } outliner;
-
-static uint32_t column(double value, double low, double high, uint32_t across) {
-    const double place = (value / 2 - low / 2) / (high / 2 - low / 2) * across;
-    return place <= 0 ? 0 : place >= across ? across - 1 : (uint32_t)place;
-}
-
-/// The squares that the box of two points meets, columns and rows inclusive.
-static void squares_of(const outliner *o, sl_point a, sl_point b, uint32_t out[4]) {
-    const sl_box *box = &o->space->bounds;
-    const uint32_t across = o->near.across;
-    out[0] = column(fmin(a.x, b.x), box->min.x, box->max.x, across);
-    out[1] = column(fmax(a.x, b.x), box->min.x, box->max.x, across);
-    out[2] = column(fmin(a.y, b.y), box->min.y, box->max.y, across);
-    out[3] = column(fmax(a.y, b.y), box->min.y, box->max.y, across);
-}
-
-/// Counts the walls of each square into begin[square + 1], or (fill) puts them in their places.
-static void deal_walls(outliner *o, bool fill) {
-    buckets *n = &o->near;
-    for (uint32_t w = 0; w < o->space->wall_count; w++) {
-        uint32_t s[4];
-        squares_of(o, o->space->walls[w].a, o->space->walls[w].b, s);
-        for (uint32_t y = s[2]; y <= s[3]; y++)
-            for (uint32_t x = s[0]; x <= s[1]; x++) {
-                uint32_t *slot = &n->begin[(size_t)y * n->across + x + !fill];
-                if (fill) n->walls[*slot] = w;
-                ++*slot;
-            }
-    }
-}
-
-static sl_status make_buckets(sl_context *context, outliner *o) {
-    buckets *n = &o->near;
-    n->across = (uint32_t)fmin(ceil(sqrt((double)o->space->wall_count)), 1024) + 1;
-    const size_t squares = (size_t)n->across * n->across;
-    n->begin = sl_alloc_array(context, squares + 1, sizeof *n->begin);
-    if (!n->begin) return SL_NO_MEMORY;
-    deal_walls(o, false);
-    for (size_t i = 0; i < squares; i++) n->begin[i + 1] += n->begin[i];
-    n->walls = sl_alloc_array(context, n->begin[squares], sizeof *n->walls);
-    if (!n->walls) return SL_NO_MEMORY;
-    deal_walls(o, true);
-    for (size_t i = squares; i > 0; i--) n->begin[i] = n->begin[i - 1];
-    n->begin[0] = 0;
-    return SL_OK;
-}
 
 static bool same(sl_point a, sl_point b) {
     return a.x == b.x && a.y == b.y;
@@ -107,17 +56,17 @@ static sl_status add_cover(sl_context *context, outliner *o, uint32_t wall, sl_p
     return SL_OK;
 }
 
+/// Every wall on the way is near to some point of it; those near to several come several times.
 static sl_status gather_covers(sl_context *context, outliner *o, sl_point from, sl_point to) {
-    const buckets *n = &o->near;
-    uint32_t s[4];
-    squares_of(o, from, to, s);
+    const sl_point d = {to.x - from.x, to.y - from.y};
+    const double steps = ceil((fabs(d.x) + fabs(d.y)) / o->reach);
     o->covers.count = 0;
-    for (uint32_t y = s[2]; y <= s[3]; y++)
-        for (uint32_t x = s[0]; x <= s[1]; x++) {
-            const size_t square = (size_t)y * n->across + x;
-            for (uint32_t i = n->begin[square]; i < n->begin[square + 1]; i++)
-                SL_TRY(add_cover(context, o, n->walls[i], from, to));
-        }
+    for (double i = 0; i <= steps; i++) {
+        const sl_point at = {from.x + d.x * (i / steps), from.y + d.y * (i / steps)};
+        uint32_t count;
+        const uint32_t *walls = sl_wall_grid_at(&o->grid, at, &count);
+        for (uint32_t k = 0; k < count; k++) SL_TRY(add_cover(context, o, walls[k], from, to));
+    }
     if (o->covers.count)
         qsort(o->covers.items, o->covers.count, sizeof *o->covers.items, compare_covers);
     return SL_OK;
@@ -213,7 +162,10 @@ static sl_status join_portals(sl_context *context, outliner *o) {
 
 static sl_status outline_all(sl_context *context, outliner *o, uint32_t *first) {
     const sl_space *s = o->space;
-    SL_TRY(make_buckets(context, o));
+    const sl_map map = {.walls = s->walls, .wall_count = s->wall_count};
+    const double size = fmax(s->bounds.max.x - s->bounds.min.x, s->bounds.max.y - s->bounds.min.y);
+    o->reach = size / (4 * sqrt((double)s->wall_count) + 4);
+    SL_TRY(sl_wall_grid_create(context, &map, o->reach, &o->grid));
     o->of_exit = sl_alloc_array(context, s->exit_count, sizeof *o->of_exit);
     if (!o->of_exit) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < s->cell_count; i++) {
@@ -236,8 +188,7 @@ sl_status sl_outline_make(sl_context *context, const sl_space *space, sl_outline
     }
     sl_free(context, first);
     sl_free(context, o.sides.items);
-    sl_free(context, o.near.begin);
-    sl_free(context, o.near.walls);
+    sl_wall_grid_destroy(context, &o.grid);
     sl_free(context, o.covers.items);
     sl_free(context, o.of_exit);
     return status;
