@@ -50,15 +50,15 @@ static sl_status read_length(sl_context *context, const char *option, const char
 
 static sl_status plan_eyes(sl_context *context, const isovist_texts *t, isovist_plan *plan) {
     const int ways = (t->at.count > 0) + !!t->grid + !!t->cells + !!t->path + !!t->csv;
-    if (ways != 1)
+    if (ways > 1)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "where to look from: give one of --at, --grid, --cells, --path, --csv");
     if (t->step && !t->path)
         return sl_fail(context, SL_BAD_ARGUMENT, "--step is for --path, which is not given");
-    if (t->picture && !t->at.count && !t->grid && !t->cells)
+    if (t->picture && (t->path || t->csv))
         return sl_fail(context, SL_BAD_ARGUMENT,
-                       "--picture is for points (--at) and grids (--grid, --cells)");
-    if (t->measure && !(t->picture && !t->at.count))
+                       "--picture is for points (--at, starts) and grids (--grid, --cells)");
+    if (t->measure && !(t->picture && (t->grid || t->cells)))
         return sl_fail(context, SL_BAD_ARGUMENT, "--measure is for the --picture of a grid");
     plan->like.fov = 360;
     SL_TRY(sl_option_number(context, "--look", t->look, &plan->like.look));
@@ -150,12 +150,27 @@ static sl_status add_path(sl_context *context, const isovist_plan *plan, isovist
                    name, near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
 }
 
+/// Without a word on where to look from: from the map's starts, with their headings.
+static sl_status add_starts(sl_context *context, const isovist_plan *plan, isovist_work *w) {
+    const sl_map *map = &w->baked.map;
+    if (!map->start_count)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "the map has no start to look from: give one of --at, --grid, --cells, "
+                       "--path, --csv");
+    for (size_t i = 0; i < map->start_count; i++) {
+        const double look = plan->texts->look ? plan->like.look : map->starts[i].heading;
+        SL_TRY(sl_eyes_add(context, &w->eyes, (sl_eye){map->starts[i].at, look, plan->like.fov}));
+    }
+    return SL_OK;
+}
+
 static sl_status gather_eyes(sl_context *context, const isovist_plan *plan, isovist_work *w) {
     const isovist_texts *t = plan->texts;
     const sl_space *space = &w->baked.space;
     if (t->at.count) return add_points(context, plan, w);
     if (t->path) return add_path(context, plan, w);
     if (t->csv) return sl_eyes_read_csv(context, t->csv, space, plan->like, &w->eyes);
+    if (!t->grid && !t->cells) return add_starts(context, plan, w);
     double step = plan->grid;
     if (t->cells) {
         uint64_t across = 1;
@@ -240,7 +255,7 @@ static sl_status work(sl_console *console, isovist_plan *plan, isovist_work *w) 
     if (!w->isovists) return SL_NO_MEMORY;
     SL_TRY(sl_isovist_run(context, &w->outline, &w->eyes, plan->range, plan->threads, w->isovists));
     if (t->picture)
-        SL_TRY(t->at.count ? draw_points(context, plan, w) : draw_grid(context, plan, w));
+        SL_TRY(w->eyes.columns ? draw_grid(context, plan, w) : draw_points(context, plan, w));
     sl_progress_line_clear(&console->line);
     if (t->picture && !t->output) return SL_OK;
     return sl_isovist_write(context, &w->eyes, w->isovists, t->output ? t->output : "-");
@@ -280,10 +295,11 @@ sl_status sl_cmd_isovist(sl_console *console, int argc, char **argv) {
     };
     const sl_command_usage usage = {
         .name = "isovist",
-        .synopsis = "MAP|FILE.slv (--at X,Y | --grid STEP | ...) [options]",
+        .synopsis = "MAP|FILE.slv [options]",
         .operands = {"MAP|FILE.slv"},
         .what = "Finds the region that is seen from each of many points, exactly, and prints its "
-                "measures\nas CSV, under the names that depthmapX gives them.",
+                "measures\nas CSV, under the names that depthmapX gives them. Without a word on "
+                "where to look\nfrom, that is from the map's starts.",
         .tables = print_tables,
         .examples = "  sightline isovist office.map --at 53,20 --picture seen.png\n"
                     "  sightline isovist office.map --grid 0.5 --measure occlusivity --picture "
