@@ -11,11 +11,11 @@ bool sl_ray_same_way(const sl_pivot *pivot, sl_ray a, sl_ray b) {
 }
 
 static bool is_same_ray(sl_pivot *pivot, sl_ray a, sl_ray b) {
-    return sl_turn(pivot, a, b) == 0 && sl_ray_same_way(pivot, a, b);
+    return sl_ray_turn(pivot, a, b) == 0 && sl_ray_same_way(pivot, a, b);
 }
 
 bool sl_arc_make(sl_pivot *pivot, sl_ray right, sl_ray left, sl_arc *out) {
-    const int turn = sl_turn(pivot, right, left);
+    const int turn = sl_ray_turn(pivot, right, left);
     if (turn < 0) return false;
     sl_span span = SL_SPAN_WEDGE;
     if (turn == 0) span = sl_ray_same_way(pivot, right, left) ? SL_SPAN_RAY : SL_SPAN_HALF;
@@ -25,9 +25,9 @@ bool sl_arc_make(sl_pivot *pivot, sl_ray right, sl_ray left, sl_arc *out) {
 }
 
 bool sl_arc_has(sl_pivot *pivot, const sl_arc *arc, sl_ray ray) {
-    const int turn = sl_turn(pivot, arc->right, ray);
+    const int turn = sl_ray_turn(pivot, arc->right, ray);
     if (arc->span == SL_SPAN_RAY) return turn == 0 && sl_ray_same_way(pivot, arc->right, ray);
-    return turn >= 0 && (arc->span == SL_SPAN_HALF || sl_turn(pivot, ray, arc->left) >= 0);
+    return turn >= 0 && (arc->span == SL_SPAN_HALF || sl_ray_turn(pivot, ray, arc->left) >= 0);
 }
 
 /// The one of two borders that lies within the other's arc; of one ray both, and portals along
@@ -70,7 +70,7 @@ bool sl_arc_of_exit(sl_pivot *pivot, const sl_exit *exit, sl_arc *out) {
     } else if (sl_same_point(eye, exit->right)) {
         arc.right = (sl_ray){.point = exit->left, .away = true};
     } else {
-        const int turn = sl_turn(pivot, arc.right, arc.left);
+        const int turn = sl_ray_turn(pivot, arc.right, arc.left);
         if (turn < 0) return false;
         if (turn > 0)
             arc.span = SL_SPAN_WEDGE;
@@ -86,12 +86,12 @@ bool sl_arc_of_exit(sl_pivot *pivot, const sl_exit *exit, sl_arc *out) {
 bool sl_arc_narrow(sl_pivot *pivot, const sl_arc *arc, const sl_exit *exit, sl_arc *out) {
     const sl_ray to_right = sl_ray_to(exit->right), to_left = sl_ray_to(exit->left);
     sl_arc narrow = *arc;
-    if (sl_turn(pivot, arc->right, to_right) > 0) narrow.right = to_right;
-    if (sl_turn(pivot, arc->left, to_left) < 0) narrow.left = to_left;
-    const int turn = sl_turn(pivot, narrow.right, narrow.left);
+    if (sl_ray_turn(pivot, arc->right, to_right) > 0) narrow.right = to_right;
+    if (sl_ray_turn(pivot, arc->left, to_left) < 0) narrow.left = to_left;
+    const int turn = sl_ray_turn(pivot, narrow.right, narrow.left);
     if (turn < 0) return false;
     narrow.span = turn > 0 ? SL_SPAN_WEDGE : SL_SPAN_RAY;
-    if (turn == 0 && sl_turn(pivot, to_right, to_left) == 0) mark_along(pivot, exit, &narrow);
+    if (turn == 0 && sl_ray_turn(pivot, to_right, to_left) == 0) mark_along(pivot, exit, &narrow);
     if (turn == 0 && narrow.right.along && narrow.left.along) return false;
     *out = narrow;
     return true;

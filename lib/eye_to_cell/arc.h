@@ -33,7 +33,7 @@ typedef struct sl_arc {
 } sl_arc;
 
 /// The sense of the turn from one ray to another: 1 to the left, -1 to the right, 0 in line.
-static inline int sl_turn(sl_pivot *pivot, sl_ray from, sl_ray to) {
+static inline int sl_ray_turn(sl_pivot *pivot, sl_ray from, sl_ray to) {
     pivot->tests++;
     const int sign = sl_orient(pivot->eye, from.point, to.point);
     return from.away == to.away ? sign : -sign;

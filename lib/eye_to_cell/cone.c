@@ -12,13 +12,13 @@ sl_cone sl_cone_of(sl_pivot *pivot, const sl_view *view) {
 /// Whether the cone, which is not full, holds a ray that is `turn` from its arc's right border.
 static bool holds_turned(sl_pivot *pivot, const sl_cone *cone, sl_ray ray, int turn) {
     const sl_arc *arc = &cone->arc;
-    if (cone->wide) return turn <= 0 || sl_turn(pivot, ray, arc->left) <= 0;
+    if (cone->wide) return turn <= 0 || sl_ray_turn(pivot, ray, arc->left) <= 0;
     if (arc->span == SL_SPAN_RAY) return turn == 0 && sl_ray_same_way(pivot, arc->right, ray);
-    return turn >= 0 && (arc->span == SL_SPAN_HALF || sl_turn(pivot, ray, arc->left) >= 0);
+    return turn >= 0 && (arc->span == SL_SPAN_HALF || sl_ray_turn(pivot, ray, arc->left) >= 0);
 }
 
 static bool holds_ray(sl_pivot *pivot, const sl_cone *cone, sl_ray ray) {
-    return cone->full || holds_turned(pivot, cone, ray, sl_turn(pivot, cone->arc.right, ray));
+    return cone->full || holds_turned(pivot, cone, ray, sl_ray_turn(pivot, cone->arc.right, ray));
 }
 
 bool sl_cone_holds(sl_pivot *pivot, const sl_cone *cone, sl_point point) {
@@ -31,7 +31,7 @@ bool sl_cone_holds(sl_pivot *pivot, const sl_cone *cone, sl_point point) {
 /// that no such segment leaves it.
 static bool passes(sl_pivot *pivot, const sl_cone *cone, sl_ray a, int to_a, sl_ray b, int to_b) {
     if (cone->wide || to_a * to_b >= 0) return false;
-    const int turn = sl_turn(pivot, a, b);
+    const int turn = sl_ray_turn(pivot, a, b);
     return turn == to_b || turn == 0;
 }
 
@@ -39,10 +39,10 @@ bool sl_cone_meets_polygon(sl_pivot *pivot, const sl_cone *cone, const sl_point 
                            size_t count) {
     if (cone->full) return true;
     sl_ray before = sl_ray_to(corners[count - 1]);
-    int turn_before = sl_turn(pivot, cone->arc.right, before);
+    int turn_before = sl_ray_turn(pivot, cone->arc.right, before);
     for (size_t i = 0; i < count; i++) {
         const sl_ray ray = sl_ray_to(corners[i]);
-        const int turn = sl_turn(pivot, cone->arc.right, ray);
+        const int turn = sl_ray_turn(pivot, cone->arc.right, ray);
         if (sl_same_point(corners[i], pivot->eye) || holds_turned(pivot, cone, ray, turn) ||
             passes(pivot, cone, before, turn_before, ray, turn))
             return true;
@@ -58,7 +58,7 @@ bool sl_cone_meets_segment(sl_pivot *pivot, const sl_cone *cone, sl_point a, sl_
 
 /// A border of an arc, where the cone's border is the same ray.
 static sl_ray border(sl_pivot *pivot, sl_ray cone, sl_ray arc) {
-    return sl_turn(pivot, cone, arc) == 0 && sl_ray_same_way(pivot, cone, arc) ? arc : cone;
+    return sl_ray_turn(pivot, cone, arc) == 0 && sl_ray_same_way(pivot, cone, arc) ? arc : cone;
 }
 
 /// Around what a wide cone leaves out.

@@ -54,14 +54,10 @@ int sl_turn_exact(sl_point a, sl_point b, sl_point c, sl_point d);
 
 /// The sign of (b - a) x (d - c): 1 where the direction from c to d lies to the left of that from a
 /// to b, by less than half a turn; -1 to the right; 0 along it, either way. Exact for all finite
-/// doubles. The filter's bound is that of sl_orient_filter: two products of two differences.
+/// doubles.
 static inline int sl_turn(sl_point a, sl_point b, sl_point c, sl_point d) {
-    const double left = (b.x - a.x) * (d.y - c.y);
-    const double right = (b.y - a.y) * (d.x - c.x);
-    const double determinant = left - right;
-    const double sum = fabs(left) + fabs(right);
-    const double bound = (3 * 0x1p-53 + 16 * 0x1p-106) * sum + 0x1p-1000;
-    const int sign = (determinant > bound) - (-determinant > bound);
+    const int sign =
+        sl_turn_filter((sl_point){b.x - a.x, b.y - a.y}, (sl_point){d.x - c.x, d.y - c.y});
     return sign ? sign : sl_turn_exact(a, b, c, d);
 }
 
