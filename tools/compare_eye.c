@@ -5,6 +5,7 @@
 #include "base/number.h"
 #include "base/random.h"
 #include "eye_run.h"
+#include "sightline/region.h"
 #include "sightline/solvers.h"
 
 #include <math.h>
@@ -35,6 +36,8 @@ typedef struct comparing {
     const sl_space *space;
     sl_visibility visibility;
     sl_eye_search *search;
+    sl_outline outline;
+    sl_region region;
     double *area; ///< by cell; 0 for outside cells
     double whole;
     viewpoint *viewpoints;
@@ -55,12 +58,23 @@ static sl_status ask_method(comparing *all, const contender *me, const sl_view *
     return me->method->cull(all->context, all->search, view, out->cells, &out->account);
 }
 
-/// The library's methods, from the loosest to the exact one.
+/// The exact visible region: what is seen of each cell, and no more.
+static sl_status ask_region(comparing *all, const contender *me, const sl_view *view, answer *out) {
+    (void)me;
+    SL_TRY(sl_region_make(all->context, &all->outline, view, 0, &all->region));
+    out->has_area = true;
+    out->area = sl_region_area(&all->region);
+    out->account = (sl_eye_account){.nodes = all->region.crossings};
+    return SL_OK;
+}
+
+/// The library's methods, from the loosest to the exact one, and the region.
 static size_t list_contenders(contender contenders[CONTENDERS_MOST]) {
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
     for (size_t i = 0; i < count; i++)
         contenders[i] = (contender){methods[i].name, methods[i].guarantee, ask_method, &methods[i]};
+    contenders[count++] = (contender){"visible_area", SL_EXACT, ask_region, NULL};
     return count;
 }
 
@@ -190,7 +204,10 @@ static sl_status run_batch(comparing *all, const contender *who, const sl_view *
     double least = INFINITY;
     for (int run = 0; run < RUNS; run++) {
         const double start = sl_now();
-        for (size_t i = 0; i < count; i++) SL_TRY(who->ask(all, who, &views[i], &all->answers[i]));
+        for (size_t i = 0; i < count; i++) {
+            all->answers[i].has_area = false;
+            SL_TRY(who->ask(all, who, &views[i], &all->answers[i]));
+        }
         least = fmin(least, sl_now() - start);
     }
     *seconds = least / (double)count;
@@ -290,8 +307,11 @@ sl_status sl_compare_eye_run(sl_console *console, const sl_compare_eye_plan *pla
     sl_status status = draw_viewpoints(context, &all);
     if (status == SL_OK) status = make_answers(&all);
     if (status == SL_OK) status = see(&all, sight, &result.pvs_seconds);
+    if (status == SL_OK) status = sl_outline_make(context, space, &all.outline);
     if (status == SL_OK) status = run_cones(&all, &result);
     for (size_t i = 0; i < BATCH; i++) sl_free(context, all.answers[i].cells);
+    sl_region_destroy(context, &all.region);
+    sl_outline_destroy(context, &all.outline);
     sl_eye_search_destroy(context, all.search);
     sl_visibility_destroy(context, &all.visibility);
     sl_free(context, all.area);

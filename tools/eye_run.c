@@ -21,36 +21,58 @@ static int compare_doubles(const void *left, const void *right) {
     return (a > b) - (a < b);
 }
 
-static sl_status time_queries(sl_context *context, sl_eye_search *search,
-                              const sl_eye_method *method, const sl_view *view,
-                              sl_eye_result *result) {
+/// A query of one kind, to be asked again and again.
+typedef struct query {
+    sl_context *context;
+    const sl_eye_method *method; ///< NULL for the region
+    sl_eye_search *search;
+    const sl_outline *outline;
+    const sl_view *view;
+    sl_eye_result *result;
+    sl_region *region;
+} query;
+
+static sl_status ask(const query *q) {
+    if (!q->method) return sl_region_make(q->context, q->outline, q->view, 0, q->region);
+    return q->method->cull(q->context, q->search, q->view, q->result->cells, &q->result->account);
+}
+
+static sl_status time_queries(const query *q, double *out) {
     double seconds[ROUNDS];
     size_t queries = 1;
     for (int round = 0; round < ROUNDS;) {
         const double start = sl_now();
-        for (size_t i = 0; i < queries; i++)
-            SL_TRY(method->cull(context, search, view, result->cells, &result->account));
+        for (size_t i = 0; i < queries; i++) SL_TRY(ask(q));
         const double taken = sl_now() - start;
         if (taken < ROUND_SECONDS && queries < QUERIES_MOST) {
             queries *= 2;
             continue;
         }
         seconds[round++] = taken / (double)queries;
-        SL_TRY(sl_check_cancelled(context));
+        SL_TRY(sl_check_cancelled(q->context));
     }
     qsort(seconds, ROUNDS, sizeof *seconds, compare_doubles);
-    result->seconds = seconds[ROUNDS / 2];
+    *out = seconds[ROUNDS / 2];
     return SL_OK;
+}
+
+/// The area of the cells on a cell's side of sl_baked_counts.
+static double area_of_side(const sl_baked *baked, uint32_t cell) {
+    const bool side = sl_baked_counts(baked, cell);
+    double whole = 0;
+    for (uint32_t c = 0; c < baked->space.cell_count; c++)
+        if (sl_baked_counts(baked, c) == side) whole += sl_space_area(&baked->space, c);
+    return whole;
 }
 
 static void measure(const sl_baked *baked, uint32_t eye_cell, sl_eye_result *result) {
     const sl_space *space = &baked->space;
     const bool side = sl_baked_counts(baked, eye_cell);
-    double whole = 0, kept = 0;
+    const double whole = area_of_side(baked, eye_cell);
+    double kept = 0;
     for (uint32_t c = 0; c < space->cell_count; c++) {
         const bool seen = sl_eye_sees(result->cells, c);
         const double area = sl_baked_counts(baked, c) == side ? sl_space_area(space, c) : 0;
-        whole += area;
         kept += seen ? area : 0;
         result->count += seen;
     }
@@ -66,13 +88,28 @@ static sl_status run_methods(sl_context *context, const sl_baked *baked, sl_eye_
         sl_eye_result *result = &run->results[i];
         result->cells = sl_alloc_array(context, sl_eye_words(&baked->space), sizeof *result->cells);
         if (!result->cells) return SL_NO_MEMORY;
-        if (timed)
-            SL_TRY(time_queries(context, search, &methods[i], &run->view, result));
-        else
-            SL_TRY(methods[i].cull(context, search, &run->view, result->cells, &result->account));
+        const query q = {.context = context,
+                         .method = &methods[i],
+                         .search = search,
+                         .view = &run->view,
+                         .result = result};
+        SL_TRY(timed ? time_queries(&q, &result->seconds) : ask(&q));
         measure(baked, run->cell, result);
     }
     return SL_OK;
+}
+
+static sl_status run_region(sl_context *context, const sl_baked *baked, bool timed,
+                            sl_eye_run *run) {
+    sl_outline outline;
+    SL_TRY(sl_outline_make(context, &baked->space, &outline));
+    const query q = {
+        .context = context, .outline = &outline, .view = &run->view, .region = &run->region};
+    const sl_status status = timed ? time_queries(&q, &run->region_seconds) : ask(&q);
+    sl_outline_destroy(context, &outline);
+    const double whole = area_of_side(baked, run->cell);
+    run->region_share = whole > 0 ? sl_region_area(&run->region) / whole : 0;
+    return status;
 }
 
 sl_status sl_eye_run_make(sl_context *context, const sl_baked *baked, const sl_view *view,
@@ -80,7 +117,8 @@ sl_status sl_eye_run_make(sl_context *context, const sl_baked *baked, const sl_v
     sl_eye_search *search;
     sl_eye_run run = {.view = *view, .cell = sl_space_locate(&baked->space, view->eye)};
     SL_TRY(sl_eye_search_create(context, &baked->space, &baked->visibility, &search));
-    const sl_status status = run_methods(context, baked, search, timed, &run);
+    sl_status status = run_methods(context, baked, search, timed, &run);
+    if (status == SL_OK) status = run_region(context, baked, timed, &run);
     sl_eye_search_destroy(context, search);
     if (status == SL_OK)
         *out = run;
@@ -93,5 +131,6 @@ void sl_eye_run_destroy(sl_context *context, sl_eye_run *run) {
     for (size_t i = 0; run->results && i < run->result_count; i++)
         sl_free(context, run->results[i].cells);
     sl_free(context, run->results);
+    sl_region_destroy(context, &run->region);
     *run = (sl_eye_run){0};
 }

@@ -4,6 +4,7 @@
 
 #include "sightline/bake.h"
 #include "sightline/eye_to_cell.h"
+#include "sightline/region.h"
 
 /// What one method says.
 typedef struct sl_eye_result {
@@ -21,6 +22,9 @@ typedef struct sl_eye_run {
     uint32_t cell;          ///< the eye's
     sl_eye_result *results; ///< one a method of sl_eye_methods()
     size_t result_count;
+    sl_region region;      ///< the exact visible region
+    double region_share;   ///< of the same area
+    double region_seconds; ///< as above
 } sl_eye_run;
 
 /// A distance for sl_view_cone: as large as anything in the map.

@@ -108,19 +108,12 @@ sl_status sl_faults_print(const sl_faults_report *report) {
 
 // --- JSON
 
-static void add_points(json_t *object, const char *key, const sl_point *points, uint32_t count) {
-    json_t *list = json_array();
-    for (uint32_t i = 0; i < count; i++)
-        json_array_append_new(list, json_pack("[f,f]", points[i].x, points[i].y));
-    json_object_set_new(object, key, list);
-}
-
 static sl_json_fields fault_fields(const sl_faults_report *report, const sl_fault *fault) {
     sl_json_fields fields = sl_json_begin();
     const sl_point at[2] = {fault->at.a, fault->at.b};
     sl_json_add_text(&fields, "kind", sl_fault_name(fault->kind));
     sl_json_add_real(&fields, "size", fault->size);
-    if (fields.object) add_points(fields.object, "at", at, 2);
+    sl_json_add_points(&fields, "at", at, 2);
     if (fault->walls[0] != UINT32_MAX) {
         sl_json_add_count(&fields, "wall", fault->walls[0]);
         sl_json_add_count(&fields, "line", report->map->walls[fault->walls[0]].line);
@@ -129,9 +122,9 @@ static sl_json_fields fault_fields(const sl_faults_report *report, const sl_faul
     }
     if (fault->walls[0] == UINT32_MAX) sl_json_add_count(&fields, "cell", fault->cell);
     if (fault->cells) sl_json_add_count(&fields, "cells", fault->cells);
-    if (fields.object && fault->point_count)
-        add_points(fields.object, "way", report->faults->points + fault->first_point,
-                   fault->point_count);
+    if (fault->point_count)
+        sl_json_add_points(&fields, "way", report->faults->points + fault->first_point,
+                           fault->point_count);
     return fields;
 }
 

@@ -70,6 +70,15 @@ void sl_json_add_members(sl_json_fields *fields, const char *key, const uint64_t
     add(fields, key, list);
 }
 
+void sl_json_add_points(sl_json_fields *fields, const char *key, const sl_point *points,
+                        size_t count) {
+    json_t *list = json_array();
+    for (size_t i = 0; i < count; i++)
+        if (json_array_append_new(list, json_pack("[f, f]", points[i].x, points[i].y)) != 0)
+            fields->failed = true;
+    add(fields, key, list);
+}
+
 void sl_json_add_fields(sl_json_fields *fields, const char *key, sl_json_fields *inner) {
     if (inner->failed) fields->failed = true;
     add(fields, key, inner->object);

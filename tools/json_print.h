@@ -27,6 +27,9 @@ void sl_json_add_box(sl_json_fields *fields, const char *key, sl_box box);
 /// A list of the numbers below `count` whose bits are set: bit n % 64 of word n / 64.
 void sl_json_add_members(sl_json_fields *fields, const char *key, const uint64_t *set,
                          uint32_t count);
+/// [[x, y], ...]
+void sl_json_add_points(sl_json_fields *fields, const char *key, const sl_point *points,
+                        size_t count);
 /// An object within the object; `inner` is used up.
 void sl_json_add_fields(sl_json_fields *fields, const char *key, sl_json_fields *inner);
 /// A list of such objects; all of them are used up.

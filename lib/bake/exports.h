@@ -14,4 +14,15 @@ sl_status sl_export_json(sl_context *context, const sl_baked *baked,
 sl_status sl_export_reject(sl_context *context, const sl_baked *baked,
                            const sl_export_options *options, const char *path);
 
+/// "from,to", a line for each ordered pair seen.
+sl_status sl_export_csv(sl_context *context, const sl_baked *baked,
+                        const sl_export_options *options, const char *path);
+/// A PNG of one bit a pixel: row a, column b is black where cell a sees cell b. SL_UNSUPPORTED for
+/// more cells than such a picture can have.
+sl_status sl_export_png(sl_context *context, const sl_baked *baked,
+                        const sl_export_options *options, const char *path);
+/// A C header with the matrix, a bit a pair.
+sl_status sl_export_c(sl_context *context, const sl_baked *baked, const sl_export_options *options,
+                      const char *path);
+
 #endif
