@@ -22,6 +22,10 @@ const sl_see_method *sl_see_methods(size_t *count) {
          .stabs = true,
          .guarantee = SL_EXACT,
          .see = sl_see_dfs},
+        {.name = "sweep",
+         .what = "a line turned about every corner of walls, by exact predicates: the fastest",
+         .guarantee = SL_EXACT,
+         .see = sl_see_sweep},
     };
     *count = sizeof methods / sizeof *methods;
     return methods;

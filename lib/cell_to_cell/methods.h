@@ -6,5 +6,7 @@
 
 sl_status sl_see_dfs(sl_context *context, const sl_space *space, const sl_see_options *options,
                      sl_visibility *out);
+sl_status sl_see_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
+                       sl_visibility *out);
 
 #endif

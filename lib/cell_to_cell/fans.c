@@ -1,0 +1,237 @@
+/// Walks round every portal end, from portal to portal, and chooses which fans serve which cells.
+#include "cell_to_cell/fans.h"
+
+#include "base/bits.h"
+#include "geometry/orient.h"
+
+#include <string.h>
+
+void sl_fans_destroy(sl_context *context, sl_fans *fans) {
+    sl_free(context, fans->first_exit);
+    sl_free(context, fans->exits);
+    sl_free(context, fans->fans.items);
+    sl_free(context, fans->cells.items);
+    *fans = (sl_fans){0};
+}
+
+// --- exits
+
+static bool takes_part(const sl_space *space, const sl_see_options *options, uint32_t cell) {
+    return !options->inside_only || space->cells[cell].inside;
+}
+
+static sl_status copy_exits(sl_context *context, const sl_space *space,
+                            const sl_see_options *options, sl_fans *fans) {
+    const uint32_t count = space->cell_count;
+    fans->cell_count = count;
+    fans->first_exit = sl_alloc_array(context, (size_t)count + 1, sizeof *fans->first_exit);
+    fans->exits = sl_alloc_array(context, space->exit_count, sizeof *fans->exits);
+    uint32_t *of_portal = sl_alloc_array(context, space->portal_count, sizeof *of_portal);
+    if (!fans->first_exit || !fans->exits || !of_portal) {
+        sl_free(context, of_portal);
+        return SL_NO_MEMORY;
+    }
+    memset(of_portal, 0xff, space->portal_count * sizeof *of_portal);
+    uint32_t at = 0;
+    for (uint32_t cell = 0; cell < count; cell++) {
+        fans->first_exit[cell] = at;
+        const sl_exit *exits = space->exits + space->cells[cell].first_exit;
+        for (uint32_t i = 0; i < space->cells[cell].exit_count; i++) {
+            const sl_exit *e = &exits[i];
+            if (!takes_part(space, options, cell) || !takes_part(space, options, e->cell)) continue;
+            uint32_t *other = &of_portal[e->portal];
+            fans->exits[at] =
+                (sl_walk_exit){.left = e->left, .right = e->right, .cell = e->cell, .twin = *other};
+            if (*other == UINT32_MAX)
+                *other = at;
+            else
+                fans->exits[*other].twin = at;
+            at++;
+        }
+    }
+    fans->first_exit[count] = at;
+    sl_free(context, of_portal);
+    return SL_OK;
+}
+
+// --- walking round
+
+typedef struct walker {
+    const sl_space *space;
+    sl_fans *fans;
+    bool closed;
+} walker;
+
+/// The exits of a cell that come after and before one, all round.
+static uint32_t exit_after(const sl_fans *fans, uint32_t cell, uint32_t exit) {
+    return exit + 1 < fans->first_exit[cell + 1] ? exit + 1 : fans->first_exit[cell];
+}
+
+static uint32_t exit_before(const sl_fans *fans, uint32_t cell, uint32_t exit) {
+    return (exit > fans->first_exit[cell] ? exit : fans->first_exit[cell + 1]) - 1;
+}
+
+/// The corner of a cell that follows a point of its boundary, counter-clockwise or (`back`)
+/// clockwise.
+static sl_point corner_beside(const sl_space *space, uint32_t cell, sl_point at, bool back) {
+    const uint32_t count = space->cells[cell].vertex_count;
+    const sl_point *corners = space->vertices + space->cells[cell].first_vertex;
+    for (uint32_t i = 0; i < count; i++)
+        if (sl_same_point(corners[i], at)) return corners[(back ? i + count - 1 : i + 1) % count];
+    for (uint32_t i = 0; i < count; i++) {
+        const sl_point a = corners[i], b = corners[(i + 1) % count];
+        if (sl_orient(a, b, at) == 0 && sl_opposite(at, a, b)) return back ? a : b;
+    }
+    return at; // no point of the boundary: not in a space that keeps its promises
+}
+
+static sl_status add_cell(sl_context *context, sl_fans *fans, sl_fan_cell cell) {
+    SL_TRY(SL_ARRAY_ROOM(context, &fans->cells, 1));
+    fans->cells.items[fans->cells.count++] = cell;
+    return SL_OK;
+}
+
+/// How the edges lie to half a turn from the first and from the last. Angles only grow, and a
+/// sector is half a turn at most, so that one orientation test tells on which side of it.
+static void measure(const sl_fan *fan, sl_fan_cell *cells) {
+    int past = -1;
+    for (uint32_t i = 1; i <= fan->count; i++) {
+        past = past >= 0 ? 1 : -sl_orient(fan->at, cells[0].edge, cells[i].edge);
+        cells[i].past_half = (int8_t)past;
+    }
+    cells[0].past_half = -1;
+    past = 1;
+    for (uint32_t i = fan->count; i-- > 0;) {
+        past = past <= 0 ? -1 : sl_orient(fan->at, cells[i].edge, cells[fan->count].edge);
+        cells[i].past_rest = (int8_t)past;
+    }
+    cells[fan->count].past_rest = 1;
+}
+
+/// The fan that starts with the cell that `exit` leaves, its left end being the fan's point.
+static sl_status walk_round(sl_context *context, walker *w, uint32_t cell, uint32_t exit,
+                            bool full_turn, sl_bits *walked) {
+    sl_fans *fans = w->fans;
+    const sl_walk_exit *exits = fans->exits;
+    sl_fan fan = {
+        .at = exits[exit].left, .first = (uint32_t)fans->cells.count, .full_turn = full_turn};
+    const uint32_t start = exit;
+    uint32_t begin = exit_after(fans, cell, exit);
+    sl_point edge = full_turn ? exits[begin].left : corner_beside(w->space, cell, fan.at, false);
+    for (;;) {
+        sl_bits_add(walked, exit);
+        SL_TRY(add_cell(context, fans, (sl_fan_cell){.cell = cell, .begin = begin, .edge = edge}));
+        cell = exits[exit].cell;
+        begin = exits[exit].twin;
+        edge = exits[begin].left;
+        exit = exit_before(fans, cell, begin);
+        if (exit == start) break;
+        if (!sl_same_point(exits[exit].left, fan.at)) {
+            SL_TRY(
+                add_cell(context, fans, (sl_fan_cell){.cell = cell, .begin = begin, .edge = edge}));
+            edge = corner_beside(w->space, cell, fan.at, true);
+            break;
+        }
+    }
+    fan.count = (uint32_t)fans->cells.count - fan.first;
+    SL_TRY(add_cell(context, fans, (sl_fan_cell){.cell = UINT32_MAX, .edge = edge}));
+    sl_fan_cell *cells = fans->cells.items + fan.first;
+    measure(&fan, cells);
+    fan.wide = !full_turn && cells[fan.count].past_half >= (w->closed ? 0 : 1);
+    fan.back_to_back = fan.wide && sl_orient(fan.at, cells[0].edge, edge) == 0 &&
+                       !sl_opposite(fan.at, cells[0].edge, edge);
+    SL_TRY(SL_ARRAY_ROOM(context, &fans->fans, 1));
+    fans->fans.items[fans->fans.count++] = fan;
+    return SL_OK;
+}
+
+static sl_status walk_all(sl_context *context, walker *w, sl_bits *walked) {
+    const sl_fans *fans = w->fans;
+    for (int full_turn = 0; full_turn < 2; full_turn++)
+        for (uint32_t cell = 0; cell < fans->cell_count; cell++) {
+            for (uint32_t e = fans->first_exit[cell]; e < fans->first_exit[cell + 1]; e++) {
+                const sl_point next = fans->exits[exit_after(fans, cell, e)].right;
+                const bool starts = full_turn || !sl_same_point(next, fans->exits[e].left);
+                if (starts && !sl_bits_has(walked, e))
+                    SL_TRY(walk_round(context, w, cell, e, full_turn, walked));
+            }
+        }
+    return SL_OK;
+}
+
+// --- who serves whom
+
+/// What one cell more is worth at a fan: a point with walls is expanded anyway, or most of the way.
+enum { WORTH_OF_WIDE = 4, WORTH_OF_NARROW = 2, WORTH_OF_FULL_TURN = 1 };
+
+static uint32_t worth_of(const sl_fans *fans, const sl_fan *fan, const sl_bits *served) {
+    uint32_t waiting = 0;
+    for (uint32_t i = 0; i < fan->count; i++)
+        waiting += !sl_bits_has(served, fans->cells.items[fan->first + i].cell);
+    return waiting * (fan->wide        ? WORTH_OF_WIDE
+                      : fan->full_turn ? WORTH_OF_FULL_TURN
+                                       : WORTH_OF_NARROW);
+}
+
+static void serve(sl_fans *fans, sl_fan *fan, sl_bits *served) {
+    for (uint32_t i = 0; i < fan->count; i++) {
+        sl_fan_cell *c = &fans->cells.items[fan->first + i];
+        c->served = !sl_bits_has(served, c->cell);
+        fan->serves |= c->served;
+        sl_bits_add(served, c->cell);
+    }
+}
+
+/// Greedily, those of most worth first. Worth only falls, so that a fan found to be worth less than
+/// where it stands moves on to a later round.
+static sl_status share_out(sl_context *context, sl_fans *fans, sl_bits *served) {
+    const size_t count = fans->fans.count;
+    uint32_t *worth = sl_alloc_array(context, count, sizeof *worth);
+    if (!worth) return SL_NO_MEMORY;
+    uint32_t most = 0;
+    for (size_t i = 0; i < count; i++) {
+        sl_fan *fan = &fans->fans.items[i];
+        // Round one wall nothing is left to expand but what the turning line needs.
+        if (fan->back_to_back) serve(fans, fan, served);
+        worth[i] = worth_of(fans, fan, served);
+        if (worth[i] > most) most = worth[i];
+    }
+    for (uint32_t now = most; now > 0;) {
+        uint32_t next = 0;
+        for (size_t i = 0; i < count; i++) {
+            if (worth[i] >= now) worth[i] = worth_of(fans, &fans->fans.items[i], served);
+            if (worth[i] >= now) {
+                serve(fans, &fans->fans.items[i], served);
+                worth[i] = 0;
+            }
+            if (worth[i] > next) next = worth[i];
+        }
+        now = next < now ? next : now - 1;
+    }
+    sl_free(context, worth);
+    return SL_OK;
+}
+
+static void drop_idle(sl_fans *fans) {
+    size_t kept = 0;
+    for (size_t i = 0; i < fans->fans.count; i++) {
+        const sl_fan fan = fans->fans.items[i];
+        if (fan.wide || fan.serves) fans->fans.items[kept++] = fan;
+    }
+    fans->fans.count = kept;
+}
+
+sl_status sl_fans_find(sl_context *context, const sl_space *space, const sl_see_options *options,
+                       sl_fans *fans) {
+    SL_TRY(copy_exits(context, space, options, fans));
+    walker w = {.space = space, .fans = fans, .closed = options->sight == SL_CLOSED};
+    sl_bits *walked = sl_alloc_array(context, sl_bits_words(space->exit_count), sizeof *walked);
+    sl_bits *served = sl_alloc_array(context, sl_bits_words(space->cell_count), sizeof *served);
+    sl_status status = walked && served ? SL_OK : SL_NO_MEMORY;
+    if (status == SL_OK) status = walk_all(context, &w, walked);
+    if (status == SL_OK) status = share_out(context, fans, served);
+    sl_free(context, walked);
+    sl_free(context, served);
+    if (status == SL_OK) drop_idle(fans);
+    return status;
+}

@@ -1,0 +1,64 @@
+/// What lies round the portal ends: for each, the cells between two walls, or all round it.
+#ifndef SL_FANS_H
+#define SL_FANS_H
+
+#include "base/base.h"
+#include "sightline/cell_to_cell.h"
+
+/// An exit as the sweep walks through it. The exits of a cell are exits[first[cell] ..
+/// first[cell + 1]), counter-clockwise; cells left out of the search have none, and none leads to
+/// them.
+typedef struct sl_walk_exit {
+    sl_point left, right;
+    uint32_t cell; ///< where it leads
+    uint32_t twin; ///< the exit that leads back
+} sl_walk_exit;
+
+/// A cell of a fan: the sector between two of its edges, seen from the fan's point.
+typedef struct sl_fan_cell {
+    uint32_t cell;
+    uint32_t begin; ///< its exits counter-clockwise from the fan's point start with this one
+    sl_point edge;  ///< the other end of its first edge, clockwise of it
+    /// Sign of the edge's angle beyond the fan's first edge, less pi; and of the angle by which the
+    /// fan's last edge is beyond the edge, taken from pi.
+    int8_t past_half, past_rest;
+    bool served; ///< what is seen from the fan's point counts for the cell
+} sl_fan_cell;
+
+/// Consecutive cells round a portal end, counter-clockwise. A fan between walls has one item more
+/// than cells: its last edge. So has a full turn without walls: the first edge again.
+typedef struct sl_fan {
+    sl_point at;
+    uint32_t first, count; ///< of cells
+    bool full_turn;        ///< no wall stops it
+    bool wide;             ///< it leaves a line room to turn beside the corner of its walls
+    bool back_to_back;     ///< it goes all round one wall: first and last edge are the same
+    bool serves;           ///< some of its cells are served
+} sl_fan;
+
+typedef struct sl_fans {
+    uint32_t cell_count;
+    uint32_t *first_exit; ///< cell_count + 1
+    sl_walk_exit *exits;
+    SL_ARRAY(sl_fan) fans;
+    SL_ARRAY(sl_fan_cell) cells;
+} sl_fans;
+
+/// Finds the fans of all portal ends. Each cell that has an exit is served by one of them at least.
+/// Fans without room to turn that serve nobody are left out. `fans` is zeroed, and to be destroyed
+/// also on failure. Time: a hash table of the ends.
+sl_status sl_fans_find(sl_context *context, const sl_space *space, const sl_see_options *options,
+                       sl_fans *fans);
+void sl_fans_destroy(sl_context *context, sl_fans *fans);
+
+static inline bool sl_same_point(sl_point a, sl_point b) {
+    return a.x == b.x && a.y == b.y;
+}
+
+/// Whether two points on one line through `v` lie on different sides of it.
+static inline bool sl_opposite(sl_point v, sl_point a, sl_point b) {
+    return (a.x > v.x && b.x < v.x) || (a.x < v.x && b.x > v.x) || (a.y > v.y && b.y < v.y) ||
+           (a.y < v.y && b.y > v.y);
+}
+
+#endif

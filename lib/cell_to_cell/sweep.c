@@ -1,0 +1,144 @@
+/// The exact sweep: a line turns about every corner of walls, and notes at each cell that comes
+/// into its sight what it sees on the other side. No portal sequences, no solver; all signs by
+/// sl_orient, so that its answer is the depth-first search's with an exact solver, bit for bit.
+///
+/// Which lines count. A sightline of closed sight is a directed line S that touches the closed
+/// segment of every portal of its sequence, such that one direction crosses all of them strictly
+/// forwards. S itself may run along a portal; its direction is then on the border of those that
+/// cross strictly, which form an open cone, and turning S a little to one side, clockwise or
+/// counter-clockwise, leads into the cone. So a sightline is a pair (S, turn), and what it may do
+/// is a matter of each portal alone: S crosses it strictly and touches it, or S runs along it and
+/// the turn crosses it forwards. Two cells see each other if for some (S, turn) the portals that it
+/// may cross lead from one to the other. Where S passes a corner of several cells, it may go round
+/// on either side as far as there are portals; along a wall it may go on either side of it. Open
+/// sight takes lines that pass strictly between the ends, and the turn does not matter.
+///
+/// About a point the pairs (S, turn) have an order: at each angle clockwise, then counter-clockwise
+/// (reach.h calls them levels). What can be seen through a portal from a point behind it is an
+/// interval of that order: from its right end, clockwise, to its left end, counter-clockwise; for a
+/// portal on a line with the point it is one pair. So cells are found by cutting intervals, with
+/// degenerate lines as intervals of one pair or two, and nothing is special about them.
+///
+/// Why corners of walls, and one corner of each cell, are enough. Let A see B by a line that
+/// touches A in p and B in q. Move p within A to A's chosen corner c, and let the line follow, with
+/// q held. As long as the line passes no portal's end, its sequence stays. Where it passes an end w
+/// of a portal, it goes round w on the other side if portals lead round w there; else a wall ends
+/// at w, the line passes w beside that wall, and it is met when a line turns about w through all
+/// angles that leave the side of w free over half a turn. If nothing stops p, it comes to c, and
+/// the line is met when all is looked at from c. There the line may touch A in c alone; it goes
+/// round c through portals, so that what a direction sees counts for A if the edges of the cells
+/// between A and that direction are portals which the line crosses forwards: they are within half a
+/// turn of it (fans.h, sweep_fan.c).
+///
+/// About w the line's backward half starts at the first edge of the free fan, its forward half
+/// there plus half a turn. Going round w counter-clockwise, the line crosses the edges between
+/// strictly; along the edge at the backward half's own angle it starts in the cell counter-
+/// clockwise of it and may cross the edge's portal if it is about to turn clockwise, and its
+/// forward half ends in the cell clockwise of its edge and may cross that if about to turn
+/// counter-clockwise. That is why the edges' angles themselves are left out of the sectors, on one
+/// side each, and looked at as rays of their own.
+#include "cell_to_cell/sweep.h"
+#include "cell_to_cell/methods.h"
+
+#include "base/threads.h"
+
+#include <pthread.h>
+
+/// Fans that a thread takes at once.
+enum { FANS_AT_ONCE = 32 };
+
+typedef struct sweep {
+    const sl_space *space;
+    const sl_see_options *options;
+    sl_fans fans;
+    pthread_mutex_t lock;
+    sl_bit_rows rows; ///< joined from the threads', under the lock
+    uint64_t pieces;
+    uint32_t deepest;
+} sweep;
+
+static sl_status begin(sl_context *context, void *job, void **state) {
+    const sweep *all = job;
+    sl_sweeper *me = sl_alloc_array(context, 1, sizeof *me);
+    if (!me) return SL_NO_MEMORY;
+    const sl_status status =
+        sl_sweeper_create(context, &all->fans, all->options->sight == SL_CLOSED, me);
+    if (status == SL_OK) {
+        *state = me;
+        return SL_OK;
+    }
+    sl_sweeper_destroy(context, me);
+    sl_free(context, me);
+    return status;
+}
+
+static void end(sl_context *context, void *job, void *state) {
+    sweep *all = job;
+    sl_sweeper *me = state;
+    pthread_mutex_lock(&all->lock);
+    if (all->rows.bits) {
+        sl_bit_rows_join(&all->rows, &me->rows);
+    } else {
+        all->rows = me->rows;
+        me->rows = (sl_bit_rows){0};
+    }
+    all->pieces += me->reacher.pieces;
+    if (me->reacher.deepest > all->deepest) all->deepest = me->reacher.deepest;
+    pthread_mutex_unlock(&all->lock);
+    sl_sweeper_destroy(context, me);
+    sl_free(context, me);
+}
+
+static sl_status sweep_unit(sl_context *context, void *job, void *state, size_t unit) {
+    const sweep *all = job;
+    const size_t count = all->fans.fans.count, first = unit * FANS_AT_ONCE;
+    for (size_t i = first; i < first + FANS_AT_ONCE && i < count; i++)
+        SL_TRY(sl_sweep_fan(context, state, &all->fans.fans.items[i]));
+    return SL_OK;
+}
+
+/// Each cell sees itself, and through each of its portals the cell behind.
+static void add_neighbours(sweep *all) {
+    for (uint32_t cell = 0; cell < all->space->cell_count; cell++) {
+        if (all->options->inside_only && !all->space->cells[cell].inside) continue;
+        sl_bits *row = sl_bit_row(&all->rows, cell);
+        sl_bits_add(row, cell);
+        for (uint32_t e = all->fans.first_exit[cell]; e < all->fans.first_exit[cell + 1]; e++)
+            sl_bits_add(row, all->fans.exits[e].cell);
+    }
+}
+
+static sl_status sweep_all(sl_context *context, sweep *all, sl_visibility *out) {
+    SL_TRY(sl_fans_find(context, all->space, all->options, &all->fans));
+    const sl_work work = {.job = all,
+                          .begin = begin,
+                          .unit = sweep_unit,
+                          .end = end,
+                          .stage = "cell_to_cell",
+                          .units = "corners"};
+    const size_t units = (all->fans.fans.count + FANS_AT_ONCE - 1) / FANS_AT_ONCE;
+    SL_TRY(sl_work_run(context, &work, units, all->options->threads));
+    add_neighbours(all);
+    sl_bit_rows_mirror(&all->rows);
+    out->account.nodes = all->pieces;
+    out->account.deepest = all->deepest;
+    return sl_bit_rows_encode(context, &all->rows, out);
+}
+
+sl_status sl_see_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
+                       sl_visibility *out) {
+    if (options->trees)
+        return sl_fail(context, SL_UNSUPPORTED, "the method 'sweep' makes no stab trees");
+    sweep all = {.space = space, .options = options};
+    sl_visibility visibility = {.sight = options->sight, .guarantee = SL_EXACT};
+    pthread_mutex_init(&all.lock, NULL);
+    const sl_status status = sweep_all(context, &all, &visibility);
+    pthread_mutex_destroy(&all.lock);
+    sl_fans_destroy(context, &all.fans);
+    sl_bit_rows_destroy(context, &all.rows);
+    if (status == SL_OK)
+        *out = visibility;
+    else
+        sl_visibility_destroy(context, &visibility);
+    return status;
+}

@@ -1,0 +1,209 @@
+/// One fan of the sweep: what is seen from its point, cut into what a turning line has behind
+/// itself, before itself, and what lies between and counts only for cells that the point serves.
+#include "cell_to_cell/sweep.h"
+
+#include "geometry/orient.h"
+
+#include <string.h>
+
+sl_status sl_sweeper_create(sl_context *context, const sl_fans *fans, bool closed, sl_sweeper *s) {
+    *s = (sl_sweeper){.fans = fans, .closed = closed};
+    SL_TRY(sl_bit_rows_create(context, fans->cell_count, &s->rows));
+    SL_TRY(sl_reacher_create(context, fans, closed, &s->reacher));
+    s->behind.bits = sl_alloc_array(context, s->rows.words, sizeof *s->behind.bits);
+    s->before.bits = sl_alloc_array(context, s->rows.words, sizeof *s->before.bits);
+    s->behind.low = s->before.low = SIZE_MAX;
+    return s->behind.bits && s->before.bits ? SL_OK : SL_NO_MEMORY;
+}
+
+void sl_sweeper_destroy(sl_context *context, sl_sweeper *s) {
+    sl_bit_rows_destroy(context, &s->rows);
+    sl_reacher_destroy(context, &s->reacher);
+    sl_reach_destroy(context, &s->back);
+    sl_reach_destroy(context, &s->middle);
+    sl_reach_destroy(context, &s->ahead);
+    sl_rays_destroy(context, &s->rays);
+    sl_free(context, s->rays_of.items);
+    sl_free(context, s->passing.items);
+    sl_free(context, s->behind.bits);
+    sl_free(context, s->before.bits);
+    *s = (sl_sweeper){0};
+}
+
+void sl_word_set_add(sl_word_set *set, uint32_t cell) {
+    const size_t word = cell / 64;
+    sl_bits_add(set->bits, cell);
+    if (word < set->low) set->low = word;
+    if (word >= set->high) set->high = word + 1;
+}
+
+void sl_word_set_clear(sl_word_set *set) {
+    if (set->low < set->high)
+        memset(set->bits + set->low, 0, (set->high - set->low) * sizeof *set->bits);
+    set->low = SIZE_MAX;
+    set->high = 0;
+}
+
+void sl_sweep_add(sl_sweeper *s, uint32_t cell, const sl_word_set *set) {
+    sl_bits *restrict row = sl_bit_row(&s->rows, cell);
+    const sl_bits *restrict from = set->bits;
+    for (size_t i = set->low; i < set->high; i++) row[i] |= from[i];
+}
+
+// --- three parts of a fan
+
+/// The levels at which sectors start and end: edges that the line passes along belong to rays.
+static sl_bound after_edge(const sl_sweeper *s, sl_point at) {
+    return (sl_bound){.at = at, .level = s->closed ? SL_COUNTER : SL_AFTER};
+}
+
+static sl_bound before_edge(const sl_sweeper *s, sl_point at) {
+    return (sl_bound){.at = at, .level = s->closed ? SL_CLOCKWISE : SL_BEFORE};
+}
+
+static sl_status reach_back(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
+    const sl_fan_cell *cells = s->fans->cells.items + fan->first;
+    const sl_bound end = {
+        .at = cells[fan->count].edge, .away = true, .level = s->closed ? SL_COUNTER : SL_BEFORE};
+    for (uint32_t k = 0; k < fan->count && cells[k].past_rest <= (s->closed ? 0 : -1); k++) {
+        const sl_bound low = after_edge(s, cells[k].edge);
+        const bool whole = cells[k + 1].past_rest <= 0;
+        const sl_bound high = whole ? before_edge(s, cells[k + 1].edge) : end;
+        SL_TRY(sl_reach_add(context, &s->reacher, &cells[k], low, high, cells[k].past_rest == 0,
+                            &s->back));
+    }
+    return SL_OK;
+}
+
+static sl_status reach_ahead(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
+    const sl_fan_cell *cells = s->fans->cells.items + fan->first;
+    const sl_bound start = {
+        .at = cells[0].edge, .away = true, .level = s->closed ? SL_CLOCKWISE : SL_AFTER};
+    for (uint32_t k = 0; k < fan->count; k++) {
+        if (cells[k + 1].past_half < (s->closed ? 0 : 1)) continue;
+        const sl_bound low = cells[k].past_half >= 0 ? after_edge(s, cells[k].edge) : start;
+        const sl_bound high = before_edge(s, cells[k + 1].edge);
+        SL_TRY(sl_reach_add(context, &s->reacher, &cells[k], low, high, cells[k + 1].past_half == 0,
+                            &s->ahead));
+    }
+    return SL_OK;
+}
+
+/// Between the two; all of a fan that is not wide.
+static sl_status reach_middle(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
+    const sl_fan_cell *cells = s->fans->cells.items + fan->first;
+    const sl_bound start = {.at = cells[fan->count].edge, .away = true, .level = SL_AFTER};
+    const sl_bound end = {.at = cells[0].edge, .away = true, .level = SL_BEFORE};
+    for (uint32_t k = 0; k < fan->count; k++) {
+        sl_bound low = after_edge(s, cells[k].edge), high = before_edge(s, cells[k + 1].edge);
+        if (fan->wide && (cells[k + 1].past_rest <= 0 || cells[k].past_half >= 0)) continue;
+        if (fan->wide && cells[k].past_rest < 0) low = start;
+        if (fan->wide && cells[k + 1].past_half > 0) high = end;
+        SL_TRY(sl_reach_add(context, &s->reacher, &cells[k], low, high, false, &s->middle));
+    }
+    return SL_OK;
+}
+
+// --- rays along the edges
+
+static sl_status add_ray(sl_context *context, sl_sweeper *s, const sl_fan *fan, uint32_t k,
+                         bool last) {
+    const sl_fan_cell *cells = s->fans->cells.items + fan->first;
+    sl_fan_rays *of = &s->rays_of.items[k];
+    uint32_t *ray = last ? &of->last : &of->first;
+    if (*ray != UINT32_MAX) return SL_OK;
+    *ray = s->rays.starts.count ? (uint32_t)s->rays.starts.count - 1 : 0;
+    return sl_rays_add(context, &s->reacher, &cells[k], cells[k + last].edge, last, &s->rays);
+}
+
+/// Gives the turns at the edges of one part their rays.
+static sl_status add_rays(sl_context *context, sl_sweeper *s, const sl_fan *fan, sl_reach *reach,
+                          uint32_t first, bool last) {
+    uint32_t k = first;
+    for (size_t i = 0; i < reach->cells.count; i++) {
+        const sl_reached *c = &reach->cells.items[i];
+        if (!c->start) continue;
+        SL_TRY(add_ray(context, s, fan, k, last));
+        const sl_fan_rays *of = &s->rays_of.items[k++];
+        reach->turns.items[last ? c->leave : c->enter].ray = last ? of->last : of->first;
+    }
+    return SL_OK;
+}
+
+static sl_status find_rays(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
+    const sl_fan_cell *cells = s->fans->cells.items + fan->first;
+    s->rays.starts.count = s->rays.cells.count = 0;
+    SL_TRY(SL_ARRAY_ROOM(context, &s->rays_of, fan->count));
+    for (uint32_t k = 0; k < fan->count; k++)
+        s->rays_of.items[k] = (sl_fan_rays){UINT32_MAX, UINT32_MAX};
+    uint32_t ahead = 0;
+    while (cells[ahead + 1].past_half < 0 && ahead + 1 < fan->count) ahead++;
+    SL_TRY(add_rays(context, s, fan, &s->back, 0, false));
+    SL_TRY(add_rays(context, s, fan, &s->ahead, ahead, true));
+    for (uint32_t k = 0; fan->serves && k < fan->count; k++) {
+        SL_TRY(add_ray(context, s, fan, k, false));
+        SL_TRY(add_ray(context, s, fan, k, true));
+    }
+    return SL_OK;
+}
+
+// --- what the point sees for the cells that it serves
+
+static void add_reach(sl_word_set *set, const sl_reach *reach) {
+    for (size_t i = 0; i < reach->cells.count; i++)
+        sl_word_set_add(set, reach->cells.items[i].cell);
+}
+
+static void add_ray_cells(const sl_sweeper *s, uint32_t ray, sl_word_set *set) {
+    for (uint32_t i = s->rays.starts.items[ray]; i < s->rays.starts.items[ray + 1]; i++)
+        sl_word_set_add(set, s->rays.cells.items[i]);
+}
+
+/// The rays that a cell of the fan can turn to about the point, by less than half a turn from its
+/// own edges: counter-clockwise those along last edges, clockwise those along first ones.
+static void add_rays_beside(const sl_sweeper *s, const sl_fan *fan, uint32_t k, sl_word_set *set) {
+    const sl_fan_cell *cells = s->fans->cells.items + fan->first;
+    for (uint32_t j = k, left = fan->count; left; left--) {
+        if (j != k && sl_orient(fan->at, cells[k + 1].edge, cells[j + 1].edge) <= 0) break;
+        add_ray_cells(s, s->rays_of.items[j].last, set);
+        if (++j < fan->count) continue;
+        if (!fan->full_turn) break;
+        j = 0;
+    }
+    for (uint32_t j = k, left = fan->count; left; left--) {
+        if (j != k && sl_orient(fan->at, cells[k].edge, cells[j].edge) >= 0) break;
+        add_ray_cells(s, s->rays_of.items[j].first, set);
+        if (j == 0 && !fan->full_turn) break;
+        j = j ? j - 1 : fan->count - 1;
+    }
+}
+
+/// What the turning line does not join with a cell of the fan anyway: see sl_sweep_turn.
+static void serve(sl_sweeper *s, const sl_fan *fan) {
+    const sl_fan_cell *cells = s->fans->cells.items + fan->first;
+    for (uint32_t k = 0; k < fan->count; k++) {
+        if (!cells[k].served) continue;
+        sl_word_set *set = &s->behind;
+        add_reach(set, &s->middle);
+        if (fan->wide && cells[k].past_half <= 0) add_reach(set, &s->back);
+        if (fan->wide && cells[k + 1].past_rest >= 0) add_reach(set, &s->ahead);
+        if (s->closed) add_rays_beside(s, fan, k, set);
+        sl_sweep_add(s, cells[k].cell, set);
+        sl_word_set_clear(set);
+    }
+}
+
+sl_status sl_sweep_fan(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
+    s->reacher.from = fan->at;
+    sl_reach_clear(&s->back);
+    sl_reach_clear(&s->middle);
+    sl_reach_clear(&s->ahead);
+    if (fan->wide) {
+        SL_TRY(reach_back(context, s, fan));
+        SL_TRY(reach_ahead(context, s, fan));
+    }
+    if (fan->serves && !fan->back_to_back) SL_TRY(reach_middle(context, s, fan));
+    if (s->closed) SL_TRY(find_rays(context, s, fan));
+    if (fan->serves) serve(s, fan);
+    return fan->wide ? sl_sweep_turn(context, s, fan) : SL_OK;
+}

@@ -1,0 +1,141 @@
+/// The turning line: its backward half goes over one part of a fan, its forward half over the part
+/// half a turn on. A cell that comes into sight of one half is seen from all that the other half
+/// sees at that moment.
+#include "cell_to_cell/sweep.h"
+
+#include <string.h>
+
+/// One half of the line.
+typedef struct half {
+    const sl_reach *reach;
+    sl_word_set *seen;
+    uint32_t turn;   ///< the next one
+    uint32_t cursor; ///< the first cell that is entered there or later
+    int8_t ray_level;
+    bool starts_stay; ///< cells of the fan, once entered, are touched by the line to its end
+} half;
+
+static void drop(sl_word_set *set, uint32_t cell) {
+    set->bits[cell / 64] &= ~((sl_bits)1 << (cell % 64));
+}
+
+static void enter(half *h, int8_t level) {
+    const sl_reached *cells = h->reach->cells.items;
+    for (uint32_t i = h->cursor; i < h->reach->cells.count && cells[i].enter == h->turn; i++)
+        if (cells[i].enter_level == level) sl_word_set_add(h->seen, cells[i].cell);
+}
+
+/// Adds to the rows of what `h` has come to see all that the other half sees.
+static void join(sl_sweeper *s, const half *h, const half *other, int8_t level) {
+    const sl_reached *cells = h->reach->cells.items;
+    for (uint32_t i = h->cursor; i < h->reach->cells.count && cells[i].enter == h->turn; i++)
+        if (cells[i].enter_level == level) sl_sweep_add(s, cells[i].cell, other->seen);
+}
+
+static void leave(half *h, int8_t level) {
+    const sl_reached *cells = h->reach->cells.items;
+    for (uint32_t i = h->reach->turns.items[h->turn].leave; i != UINT32_MAX; i = cells[i].next)
+        if (cells[i].leave_level == level && !(cells[i].start && h->starts_stay))
+            drop(h->seen, cells[i].cell);
+}
+
+static void advance(half *h) {
+    const sl_reached *cells = h->reach->cells.items;
+    while (h->cursor < h->reach->cells.count && cells[h->cursor].enter == h->turn) h->cursor++;
+    h->turn++;
+}
+
+/// The cells of the ray at a half's turn, of level `level`.
+static void ray_of(const sl_sweeper *s, const half *h, int8_t level, const uint32_t **cells,
+                   uint32_t *count) {
+    const uint32_t ray = h->reach->turns.items[h->turn].ray;
+    *count = 0;
+    if (ray == UINT32_MAX || h->ray_level != level) return;
+    const uint32_t first = s->rays.starts.items[ray];
+    *cells = s->rays.cells.items + first;
+    *count = s->rays.starts.items[ray + 1] - first;
+}
+
+/// A ray's cells come into sight for a moment: those that were not seen already are noted.
+static sl_status pass_ray(sl_context *context, sl_sweeper *s, half *h, int8_t level) {
+    const uint32_t *cells;
+    uint32_t count;
+    ray_of(s, h, level, &cells, &count);
+    s->passing.count = 0;
+    SL_TRY(SL_ARRAY_ROOM(context, &s->passing, count));
+    for (uint32_t i = 0; i < count; i++) {
+        if (sl_bits_has(h->seen->bits, cells[i])) continue;
+        sl_word_set_add(h->seen, cells[i]);
+        s->passing.items[s->passing.count++] = cells[i];
+    }
+    return SL_OK;
+}
+
+/// One moment: all that comes into sight, on either side, is joined with all that is in sight.
+static sl_status at_level(sl_context *context, sl_sweeper *s, half *halves[2], unsigned here,
+                          int8_t level) {
+    for (unsigned i = 0; i < 2; i++)
+        if (here & 1u << i) enter(halves[i], level);
+    // At one level only one of the halves has rays.
+    half *with_ray = halves[halves[0]->ray_level == level ? 0 : 1];
+    s->passing.count = 0;
+    if (s->closed && here & (with_ray == halves[0] ? 1u : 2u))
+        SL_TRY(pass_ray(context, s, with_ray, level));
+    for (unsigned i = 0; i < 2; i++)
+        if (here & 1u << i) join(s, halves[i], halves[!i], level);
+    const half *other = with_ray == halves[0] ? halves[1] : halves[0];
+    for (size_t i = 0; i < s->passing.count; i++) {
+        sl_sweep_add(s, s->passing.items[i], other->seen);
+    }
+    for (size_t i = 0; i < s->passing.count; i++) drop(with_ray->seen, s->passing.items[i]);
+    for (unsigned i = 0; i < 2; i++)
+        if (here & 1u << i) leave(halves[i], level);
+    return SL_OK;
+}
+
+static void link_leaving(sl_reach *reach) {
+    for (uint32_t i = 0; i < reach->cells.count; i++) {
+        sl_reached *c = &reach->cells.items[i];
+        uint32_t *first = &reach->turns.items[c->leave].leave;
+        c->next = *first;
+        *first = i;
+    }
+}
+
+/// The cells of the fan that the backward half will see are touched by the line from its start.
+static void touch_starts(half *h) {
+    for (size_t i = 0; i < h->reach->cells.count; i++)
+        if (h->reach->cells.items[i].start) sl_word_set_add(h->seen, h->reach->cells.items[i].cell);
+}
+
+sl_status sl_sweep_turn(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
+    const sl_point first = s->fans->cells.items[fan->first].edge;
+    half back = {.reach = &s->back, .seen = &s->behind, .ray_level = SL_CLOCKWISE};
+    half ahead = {
+        .reach = &s->ahead, .seen = &s->before, .ray_level = SL_COUNTER, .starts_stay = true};
+    half *halves[2] = {&back, &ahead};
+    link_leaving(&s->back);
+    link_leaving(&s->ahead);
+    touch_starts(&back);
+    const int8_t levels[2] = {s->closed ? SL_CLOCKWISE : SL_BEFORE,
+                              s->closed ? SL_COUNTER : SL_AFTER};
+    sl_status status = SL_OK;
+    while (status == SL_OK) {
+        const bool more_back = back.turn < s->back.turns.count;
+        const bool more_ahead = ahead.turn < s->ahead.turns.count;
+        if (!more_back && !more_ahead) break;
+        const int order = !more_ahead ? -1
+                          : !more_back
+                              ? 1
+                              : sl_turns_compare(fan->at, first, &s->back.turns.items[back.turn],
+                                                 &s->ahead.turns.items[ahead.turn]);
+        const unsigned here = (order <= 0 ? 1u : 0u) | (order >= 0 ? 2u : 0u);
+        for (unsigned i = 0; i < 2 && status == SL_OK; i++)
+            status = at_level(context, s, halves, here, levels[i]);
+        if (order <= 0) advance(&back);
+        if (order >= 0) advance(&ahead);
+    }
+    sl_word_set_clear(&s->behind);
+    sl_word_set_clear(&s->before);
+    return status;
+}
