@@ -104,12 +104,17 @@ static inline int8_t smaller(int8_t a, int8_t b) {
     return a < b ? a : b;
 }
 
-/// An exit that touches a bound's direction from one side, or lies along it: false where it cannot
-/// be crossed there.
-static bool touch(const sl_reacher *r, const sl_walk_exit *e, const sl_bound *at, int8_t low,
-                  int8_t high, piece *out) {
+/// An exit that touches a bound's line with one end, or lies along it: false where it cannot be
+/// crossed there. Beside the point itself it may lie on the line's other half.
+static bool touch(const sl_reacher *r, const sl_walk_exit *e, const sl_bound *at, bool by_left,
+                  int8_t low, int8_t high, piece *out) {
     const int facing = sl_orient(e->right, e->left, r->from);
     if (facing < 0) return false;
+    const sl_point end = by_left ? e->left : e->right, other = by_left ? e->right : e->left;
+    const bool at_point = sl_same_point(end, r->from);
+    const sl_point there = at_point ? other : end;
+    if (at_point && side(r, at, other) != 0) return false;
+    if (sl_opposite(r->from, at->at, there) != at->away) return false;
     if (facing == 0) {
         const int8_t level = (int8_t)level_along(r, e);
         low = larger(low, level);
@@ -137,7 +142,7 @@ static inline bool next_piece(const sl_reacher *r, sl_reach_step *s, piece *out)
         out->exit = number;
         if (past_low == 0) {
             const int8_t high = s->thin ? smaller(s->high.level, SL_COUNTER) : SL_COUNTER;
-            if (r->closed && touch(r, e, &s->low, s->low.level, high, out)) return true;
+            if (r->closed && touch(r, e, &s->low, true, s->low.level, high, out)) return true;
             continue;
         }
         const int past_high = side(r, &s->high, e->right);
@@ -147,7 +152,7 @@ static inline bool next_piece(const sl_reacher *r, sl_reach_step *s, piece *out)
         }
         if (past_high == 0) {
             const int8_t low = s->thin ? larger(s->low.level, SL_CLOCKWISE) : SL_CLOCKWISE;
-            if (r->closed && touch(r, e, &s->high, low, s->high.level, out)) return true;
+            if (r->closed && touch(r, e, &s->high, false, low, s->high.level, out)) return true;
             continue;
         }
         out->low = side(r, &s->low, e->right) > 0 ? from_right(r, e) : s->low;
@@ -202,6 +207,7 @@ static sl_status add_reached(sl_context *context, sl_reacher *r, sl_reach *reach
                              sl_reached reached) {
     SL_TRY(SL_ARRAY_ROOM(context, &reach->cells, 1));
     r->last[reached.cell] = (uint32_t)reach->cells.count;
+    reached.leave = UINT32_MAX;
     reach->cells.items[reach->cells.count++] = reached;
     return SL_OK;
 }

@@ -22,7 +22,8 @@ typedef struct sl_reached {
     uint32_t cell, enter, leave;
     uint32_t next; ///< that leaves at the same turn; UINT32_MAX for none
     int8_t enter_level, leave_level;
-    bool start; ///< the point is a corner of the cell
+    bool start;   ///< the point is a corner of the cell
+    bool touched; ///< for its user: it counts where the line touches it in the point alone
 } sl_reached;
 
 /// A direction in which cells are entered or left.

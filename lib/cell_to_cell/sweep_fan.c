@@ -69,8 +69,10 @@ static sl_status reach_back(sl_context *context, sl_sweeper *s, const sl_fan *fa
         const sl_bound low = after_edge(s, cells[k].edge);
         const bool whole = cells[k + 1].past_rest <= 0;
         const sl_bound high = whole ? before_edge(s, cells[k + 1].edge) : end;
+        const size_t found = s->back.cells.count;
         SL_TRY(sl_reach_add(context, &s->reacher, &cells[k], low, high, cells[k].past_rest == 0,
                             &s->back));
+        s->back.cells.items[found].touched = cells[k + 1].past_rest < 0;
     }
     return SL_OK;
 }
@@ -81,10 +83,12 @@ static sl_status reach_ahead(sl_context *context, sl_sweeper *s, const sl_fan *f
         .at = cells[0].edge, .away = true, .level = s->closed ? SL_CLOCKWISE : SL_AFTER};
     for (uint32_t k = 0; k < fan->count; k++) {
         if (cells[k + 1].past_half < (s->closed ? 0 : 1)) continue;
+        const size_t found = s->ahead.cells.count;
         const sl_bound low = cells[k].past_half >= 0 ? after_edge(s, cells[k].edge) : start;
         const sl_bound high = before_edge(s, cells[k + 1].edge);
         SL_TRY(sl_reach_add(context, &s->reacher, &cells[k], low, high, cells[k + 1].past_half == 0,
                             &s->ahead));
+        s->ahead.cells.items[found].touched = cells[k].past_half > 0;
     }
     return SL_OK;
 }

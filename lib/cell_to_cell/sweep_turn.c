@@ -12,7 +12,7 @@ typedef struct half {
     uint32_t turn;   ///< the next one
     uint32_t cursor; ///< the first cell that is entered there or later
     int8_t ray_level;
-    bool starts_stay; ///< cells of the fan, once entered, are touched by the line to its end
+    bool touched_stay; ///< touched cells, once entered, are so to the end
 } half;
 
 static void drop(sl_word_set *set, uint32_t cell) {
@@ -35,7 +35,7 @@ static void join(sl_sweeper *s, const half *h, const half *other, int8_t level) 
 static void leave(half *h, int8_t level) {
     const sl_reached *cells = h->reach->cells.items;
     for (uint32_t i = h->reach->turns.items[h->turn].leave; i != UINT32_MAX; i = cells[i].next)
-        if (cells[i].leave_level == level && !(cells[i].start && h->starts_stay))
+        if (cells[i].leave_level == level && !(cells[i].touched && h->touched_stay))
             drop(h->seen, cells[i].cell);
 }
 
@@ -103,20 +103,21 @@ static void link_leaving(sl_reach *reach) {
 }
 
 /// The cells of the fan that the backward half will see are touched by the line from its start.
-static void touch_starts(half *h) {
+static void touch(half *h) {
     for (size_t i = 0; i < h->reach->cells.count; i++)
-        if (h->reach->cells.items[i].start) sl_word_set_add(h->seen, h->reach->cells.items[i].cell);
+        if (h->reach->cells.items[i].touched)
+            sl_word_set_add(h->seen, h->reach->cells.items[i].cell);
 }
 
 sl_status sl_sweep_turn(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     const sl_point first = s->fans->cells.items[fan->first].edge;
     half back = {.reach = &s->back, .seen = &s->behind, .ray_level = SL_CLOCKWISE};
     half ahead = {
-        .reach = &s->ahead, .seen = &s->before, .ray_level = SL_COUNTER, .starts_stay = true};
+        .reach = &s->ahead, .seen = &s->before, .ray_level = SL_COUNTER, .touched_stay = true};
     half *halves[2] = {&back, &ahead};
     link_leaving(&s->back);
     link_leaving(&s->ahead);
-    touch_starts(&back);
+    touch(&back);
     const int8_t levels[2] = {s->closed ? SL_CLOCKWISE : SL_BEFORE,
                               s->closed ? SL_COUNTER : SL_AFTER};
     sl_status status = SL_OK;
