@@ -1,0 +1,183 @@
+// The sweep against other ways to the same answer: the depth-first search with the funnel on every
+// map, the rational oracle on random spaces with oblique walls; and what it promises beside.
+#include "testing.h"
+
+#include "base/random.h"
+#include "oracle/convex_space.h"
+#include "oracle/oracle.h"
+#include "oracle/random_map.h"
+
+#include <glob.h>
+#include <unistd.h>
+
+enum { RANDOM_MAPS = 400, RANDOM_SPACES = 1500, PUSH_LIMIT = 30000 };
+
+static const sl_see_method *method_of(const char *name) {
+    size_t count;
+    const sl_see_method *methods = sl_see_methods(&count);
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(methods[i].name, name) == 0) return &methods[i];
+    fail_msg("no method '%s'", name);
+    return NULL;
+}
+
+static sl_visibility see(sl_context *context, const sl_space *space, const char *name,
+                         sl_sight sight, unsigned threads, bool inside_only) {
+    const sl_see_method *method = method_of(name);
+    sl_see_options options = sl_see_options_default();
+    options.sight = sight;
+    options.threads = threads;
+    options.inside_only = inside_only;
+    options.solver = method->stabs ? sl_funnel() : NULL;
+    sl_visibility seen;
+    assert_ok(context, method->see(context, space, &options, &seen));
+    return seen;
+}
+
+static bool same_rows(const sl_pvs *a, const sl_pvs *b) {
+    const size_t offsets = ((size_t)a->cell_count + 1) * sizeof *a->offsets;
+    return a->cell_count == b->cell_count && memcmp(a->offsets, b->offsets, offsets) == 0 &&
+           memcmp(a->bytes, b->bytes, a->offsets[a->cell_count]) == 0;
+}
+
+static void compare_to_search(sl_context *context, const char *name, const sl_space *space) {
+    for (int sight = SL_CLOSED; sight <= SL_OPEN; sight++)
+        for (int inside = 0; inside < 2; inside++) {
+            sl_visibility dfs = see(context, space, "dfs", (sl_sight)sight, 1, inside);
+            sl_visibility sweep = see(context, space, "sweep", (sl_sight)sight, 1, inside);
+            if (!same_rows(&dfs.pvs, &sweep.pvs))
+                fail_msg("%s, %s sight: the sweep sees other pairs than the search", name,
+                         sight == SL_CLOSED ? "closed" : "open");
+            assert_int_equal(dfs.account.pairs, sweep.account.pairs);
+            assert_int_equal(sweep.guarantee, SL_EXACT);
+            sl_visibility_destroy(context, &dfs);
+            sl_visibility_destroy(context, &sweep);
+        }
+}
+
+static void check_file(const char *path) {
+    sl_context *context = testing_context(NULL);
+    sl_map map = {0};
+    sl_space space;
+    sl_import_options options = sl_import_options_default();
+    options.has_slice = true;
+    options.slice = 1040;
+    const sl_subdivide_options rules = sl_subdivide_options_default();
+    assert_ok(context, sl_map_read(context, path, &options, &map));
+    assert_ok(context, sl_map_clean(context, &map, NULL));
+    assert_ok(context, sl_subdivide_kd(context, &map, &rules, &space));
+    compare_to_search(context, path, &space);
+    sl_map_destroy(context, &map);
+    sl_space_destroy(context, &space);
+    sl_context_destroy(context);
+}
+
+static void maps_are_seen_as_by_the_search(void **state) {
+    (void)state;
+    const char *patterns[] = {"/maps/*.map", "/maps/*.txt", "/tests/cases/*.map",
+                              "/../shared/data/soda-hall-floor5.ug"};
+    for (size_t i = 0; i < sizeof patterns / sizeof *patterns; i++) {
+        char pattern[4096];
+        glob_t found;
+        snprintf(pattern, sizeof pattern, "%s%s", SIGHTLINE_SOURCE_DIR, patterns[i]);
+        if (glob(pattern, 0, NULL, &found) != 0) {
+            print_message("skipped: %s is not there\n", pattern);
+            continue;
+        }
+        for (size_t k = 0; k < found.gl_pathc; k++) check_file(found.gl_pathv[k]);
+        globfree(&found);
+    }
+}
+
+static void random_maps_are_seen_as_by_the_search(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    for (uint64_t seed = 1; seed <= RANDOM_MAPS; seed++) {
+        sl_map map = {0};
+        sl_space space;
+        char name[32];
+        snprintf(name, sizeof name, "seed %d", (int)seed);
+        assert_ok(context, oracle_random_map(context, 77777 + seed, (oracle_grid)(seed % 3), &map));
+        assert_ok(context, sl_map_clean(context, &map, NULL));
+        const sl_subdivide_options rules = sl_subdivide_options_default();
+        assert_ok(context, sl_subdivide_kd(context, &map, &rules, &space));
+        compare_to_search(context, name, &space);
+        sl_map_destroy(context, &map);
+        sl_space_destroy(context, &space);
+    }
+    sl_context_destroy(context);
+}
+
+// --- oblique walls
+
+static void print_space(const sl_space *space) {
+    for (uint32_t c = 0; c < space->cell_count; c++) {
+        print_error("cell %u:", c);
+        for (uint32_t i = 0; i < space->cells[c].vertex_count; i++) {
+            const sl_point p = space->vertices[space->cells[c].first_vertex + i];
+            print_error(" %.17g,%.17g", p.x, p.y);
+        }
+        print_error("\n");
+    }
+    for (uint32_t i = 0; i < space->portal_count; i++) {
+        const sl_portal *p = &space->portals[i];
+        print_error("portal %u %u: %.17g,%.17g %.17g,%.17g\n", p->cell[0], p->cell[1], p->left.x,
+                    p->left.y, p->right.x, p->right.y);
+    }
+}
+
+static void compare_to_oracle(sl_context *context, uint64_t seed, const sl_space *space,
+                              sl_sight sight, const bool *truth) {
+    sl_visibility seen = see(context, space, "sweep", sight, 1, false);
+    const uint32_t n = space->cell_count;
+    for (uint32_t a = 0; a < n; a++)
+        for (uint32_t b = 0; b < n; b++)
+            if (sl_pvs_sees(&seen.pvs, a, b) != truth[(size_t)a * n + b]) {
+                print_space(space);
+                fail_msg("space %d, %s sight: cells %u and %u are %s", (int)seed,
+                         sight == SL_CLOSED ? "closed" : "open", a, b,
+                         truth[(size_t)a * n + b] ? "hidden, but see each other"
+                                                  : "seen, but hidden");
+            }
+    sl_visibility_destroy(context, &seen);
+}
+
+static void oblique_spaces_are_seen_as_by_the_oracle(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    const char *seeds = getenv("SIGHTLINE_SEEDS");
+    const uint64_t count = seeds ? strtoull(seeds, NULL, 10) : RANDOM_SPACES;
+    size_t asked = 0, grazing = 0, hidden = 0;
+    for (uint64_t seed = 1; seed <= count; seed++) {
+        sl_space space;
+        oracle_random_space(context, seed, &space);
+        const size_t pairs = (size_t)space.cell_count * space.cell_count;
+        bool *closed = calloc(pairs, sizeof *closed), *open = calloc(pairs, sizeof *open);
+        assert_true(closed && open);
+        if (oracle_by_sequences(&space, PUSH_LIMIT, closed, open)) {
+            asked++;
+            compare_to_oracle(context, seed, &space, SL_CLOSED, closed);
+            compare_to_oracle(context, seed, &space, SL_OPEN, open);
+            for (size_t i = 0; i < pairs; i++) {
+                grazing += closed[i] && !open[i];
+                hidden += !closed[i];
+            }
+        }
+        free(closed);
+        free(open);
+        sl_space_destroy(context, &space);
+    }
+    print_message("%zu spaces asked, %zu pairs hidden, %zu by grazing lines only\n", asked, hidden,
+                  grazing);
+    assert_true(asked * 10 > count * 9 && hidden > 0 && grazing > 0);
+    sl_context_destroy(context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(maps_are_seen_as_by_the_search),
+        cmocka_unit_test(random_maps_are_seen_as_by_the_search),
+        cmocka_unit_test(oblique_spaces_are_seen_as_by_the_oracle),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
