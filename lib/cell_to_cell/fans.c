@@ -59,7 +59,6 @@ static sl_status copy_exits(sl_context *context, const sl_space *space,
 typedef struct walker {
     const sl_space *space;
     sl_fans *fans;
-    bool closed;
 } walker;
 
 /// The exits of a cell that come after and before one, all round.
@@ -137,7 +136,7 @@ static sl_status walk_round(sl_context *context, walker *w, uint32_t cell, uint3
     SL_TRY(add_cell(context, fans, (sl_fan_cell){.cell = UINT32_MAX, .edge = edge}));
     sl_fan_cell *cells = fans->cells.items + fan.first;
     measure(&fan, cells);
-    fan.wide = !full_turn && cells[fan.count].past_half >= (w->closed ? 0 : 1);
+    fan.wide = !full_turn && cells[fan.count].past_half > 0;
     fan.back_to_back = fan.wide && sl_orient(fan.at, cells[0].edge, edge) == 0 &&
                        !sl_opposite(fan.at, cells[0].edge, edge);
     SL_TRY(SL_ARRAY_ROOM(context, &fans->fans, 1));
@@ -224,7 +223,7 @@ static void drop_idle(sl_fans *fans) {
 sl_status sl_fans_find(sl_context *context, const sl_space *space, const sl_see_options *options,
                        sl_fans *fans) {
     SL_TRY(copy_exits(context, space, options, fans));
-    walker w = {.space = space, .fans = fans, .closed = options->sight == SL_CLOSED};
+    walker w = {.space = space, .fans = fans};
     sl_bits *walked = sl_alloc_array(context, sl_bits_words(space->exit_count), sizeof *walked);
     sl_bits *served = sl_alloc_array(context, sl_bits_words(space->cell_count), sizeof *served);
     sl_status status = walked && served ? SL_OK : SL_NO_MEMORY;

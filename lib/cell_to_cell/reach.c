@@ -39,7 +39,7 @@ void sl_rays_destroy(sl_context *context, sl_rays *rays) {
 /// On which side of a direction a point lies: 1 counter-clockwise of it, -1 clockwise, 0 on its
 /// line. For points less than half a turn away.
 static inline int side(const sl_reacher *r, const sl_bound *bound, sl_point p) {
-    const int sign = sl_orient(r->from, bound->at, p);
+    const int sign = sl_orient(bound->at, p, r->from); // differences from the point, once a bound
     return bound->away ? -sign : sign;
 }
 
@@ -128,6 +128,23 @@ static bool touch(const sl_reacher *r, const sl_walk_exit *e, const sl_bound *at
     return true;
 }
 
+/// An exit whose left end is past `low`. -1: it lies beyond `high`, as do all that follow; 0:
+/// nothing is seen through it.
+static inline int cut(const sl_reacher *r, const sl_reach_step *s, const sl_walk_exit *e,
+                      piece *out) {
+    const int past_high = side(r, &s->high, e->right);
+    if (past_high > 0) return -1;
+    if (past_high == 0) {
+        const int8_t low = s->thin ? larger(s->low.level, SL_CLOCKWISE) : SL_CLOCKWISE;
+        return r->closed && touch(r, e, &s->high, false, low, s->high.level, out);
+    }
+    // Behind an exit that was crossed all right ends are past `low` too.
+    out->low = s->crossed || side(r, &s->low, e->right) > 0 ? from_right(r, e) : s->low;
+    out->high = side(r, &s->high, e->left) < 0 ? to_left(r, e) : s->high;
+    out->thin = s->thin;
+    return 1;
+}
+
 /// The next exit of a step through which something is seen. Exits turn counter-clockwise from the
 /// portal by which the cell was entered: first those that turn back towards the point, all at or
 /// before `low`, then those on the far side, then those that turn back beyond `high`.
@@ -135,9 +152,9 @@ static inline bool next_piece(const sl_reacher *r, sl_reach_step *s, piece *out)
     while (s->left) {
         const uint32_t number = s->next;
         const sl_walk_exit *e = &r->fans->exits[number];
-        s->next = number + 1 < s->first + s->count ? number + 1 : s->first;
+        s->next = number + 1 < s->end ? number + 1 : s->first;
         s->left--;
-        const int past_low = side(r, &s->low, e->left);
+        const int past_low = s->crossed ? 1 : side(r, &s->low, e->left);
         if (past_low < 0) continue;
         out->exit = number;
         if (past_low == 0) {
@@ -145,34 +162,24 @@ static inline bool next_piece(const sl_reacher *r, sl_reach_step *s, piece *out)
             if (r->closed && touch(r, e, &s->low, true, s->low.level, high, out)) return true;
             continue;
         }
-        const int past_high = side(r, &s->high, e->right);
-        if (past_high > 0) {
-            s->left = 0;
-            return false;
-        }
-        if (past_high == 0) {
-            const int8_t low = s->thin ? larger(s->low.level, SL_CLOCKWISE) : SL_CLOCKWISE;
-            if (r->closed && touch(r, e, &s->high, false, low, s->high.level, out)) return true;
-            continue;
-        }
-        out->low = side(r, &s->low, e->right) > 0 ? from_right(r, e) : s->low;
-        out->high = side(r, &s->high, e->left) < 0 ? to_left(r, e) : s->high;
-        out->thin = s->thin;
-        return true;
+        const int found = cut(r, s, e, out);
+        if (found < 0) break;
+        s->crossed = true;
+        if (found) return true;
     }
+    s->left = 0;
     return false;
 }
 
 static sl_status push_step(sl_context *context, sl_reacher *r, const piece *p, uint32_t found) {
     const sl_walk_exit *e = &r->fans->exits[p->exit];
-    const uint32_t first = r->fans->first_exit[e->cell];
-    const uint32_t count = r->fans->first_exit[e->cell + 1] - first;
+    const uint32_t first = r->fans->first_exit[e->cell], end = r->fans->first_exit[e->cell + 1];
     SL_TRY(SL_ARRAY_ROOM(context, &r->steps, 1));
     r->steps.items[r->steps.count++] = (sl_reach_step){
-        .next = e->twin + 1 < first + count ? e->twin + 1 : first,
-        .left = count - 1,
+        .next = e->twin + 1 < end ? e->twin + 1 : first,
+        .left = end - first - 1,
         .first = first,
-        .count = count,
+        .end = end,
         .found = found,
         .low = p->low,
         .high = p->high,

@@ -48,11 +48,12 @@ typedef struct sl_reach {
 
 /// A piece of the search: the rest of the exits of a cell, seen between two directions.
 typedef struct sl_reach_step {
-    uint32_t next, left;   ///< exit to look at next, and how many are left
-    uint32_t first, count; ///< the cell's exits
-    uint32_t found;        ///< of sl_reach.cells
+    uint32_t next, left; ///< exit to look at next, and how many are left
+    uint32_t first, end; ///< the cell's exits
+    uint32_t found;      ///< of sl_reach.cells
     sl_bound low, high;
-    bool thin; ///< low and high are the same angle
+    bool thin;    ///< low and high are the same angle
+    bool crossed; ///< an exit has been crossed beyond `low`
 } sl_reach_step;
 
 /// Scratch of one thread, for one point at a time.
