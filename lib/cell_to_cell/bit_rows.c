@@ -36,32 +36,33 @@ static void transpose(sl_bits block[64]) {
 static bool take_block(const sl_bit_rows *rows, size_t first_row, size_t word, sl_bits block[64]) {
     sl_bits any = 0;
     for (size_t i = 0; i < 64; i++) {
-        block[i] =
-            first_row + i < rows->count ? rows->bits[(first_row + i) * rows->words + word] : 0;
+        const size_t row = first_row + i;
+        block[i] = row < rows->count ? rows->bits[row * rows->words + word] : 0;
         any |= block[i];
     }
     return any != 0;
 }
 
-static void add_block(sl_bit_rows *rows, size_t first_row, size_t word, const sl_bits block[64]) {
-    for (size_t i = 0; i < 64 && first_row + i < rows->count; i++)
-        rows->bits[(first_row + i) * rows->words + word] |= block[i];
+static void merge_block(sl_bit_rows *rows, size_t first_row, size_t word, const sl_bits block[64],
+                        sl_mirroring how) {
+    for (size_t i = 0; i < 64 && first_row + i < rows->count; i++) {
+        sl_bits *bits = &rows->bits[(first_row + i) * rows->words + word];
+        *bits = how == SL_ADD_MIRRORED ? *bits | block[i] : *bits & block[i];
+    }
 }
 
-void sl_bit_rows_mirror(sl_bit_rows *rows) {
+void sl_bit_rows_mirror(sl_bit_rows *rows, sl_mirroring how) {
     sl_bits below[64], above[64];
     for (size_t i = 0; i < rows->words; i++)
         for (size_t k = 0; k <= i; k++) {
             const bool some_below = take_block(rows, 64 * i, k, below);
             const bool some_above = take_block(rows, 64 * k, i, above);
-            if (some_below) {
-                transpose(below);
-                add_block(rows, 64 * k, i, below);
-            }
-            if (some_above && k != i) {
-                transpose(above);
-                add_block(rows, 64 * i, k, above);
-            }
+            if (!some_below && !some_above) continue;
+            transpose(below);
+            merge_block(rows, 64 * k, i, below, how);
+            if (k == i) continue;
+            transpose(above);
+            merge_block(rows, 64 * i, k, above, how);
         }
 }
 

@@ -22,8 +22,9 @@ static inline sl_bits *sl_bit_row(const sl_bit_rows *rows, uint32_t cell) {
 /// Adds what another one holds.
 void sl_bit_rows_join(sl_bit_rows *rows, const sl_bit_rows *other);
 
-/// Adds the pair (b, a) of each pair (a, b).
-void sl_bit_rows_mirror(sl_bit_rows *rows);
+/// Makes pairs symmetric: where (a, b) alone is there, (b, a) is added, or (a, b) taken away.
+typedef enum sl_mirroring { SL_ADD_MIRRORED, SL_KEEP_MUTUAL } sl_mirroring;
+void sl_bit_rows_mirror(sl_bit_rows *rows, sl_mirroring how);
 
 /// Makes of them a PVS, and counts its pairs.
 sl_status sl_bit_rows_encode(sl_context *context, const sl_bit_rows *rows, sl_visibility *out);

@@ -6,9 +6,17 @@
 ///
 /// A rounded solver marks answers near zero. They are followed with either sight, so that all pairs
 /// of which rounding decided are known: they count as seen with closed sight, not with open.
+///
+/// The method "prune" is the same search, but goes through an exit only while something is left to
+/// be found there: cells not seen yet that the exit's upper bound (flood.c) and those of all exits
+/// before leave possible, as Quake's vis does. The bound misses nothing, so that a cell that is
+/// seen stays possible all along a sequence that leads to it. Exact solvers need find each pair
+/// from one of its cells only.
 #include "base/bits.h"
 #include "base/threads.h"
+#include "cell_to_cell/bit_rows.h"
 #include "cell_to_cell/crossing.h"
+#include "cell_to_cell/flood.h"
 #include "cell_to_cell/methods.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "cell_to_cell/tree_store.h"
@@ -35,6 +43,9 @@ typedef struct search {
     sl_see_account *accounts;
     pthread_mutex_t lock;
     sl_stab_account stab; ///< of all solvers, under the lock
+    bool prunes;
+    size_t words;    ///< of a set of cells
+    sl_bits *bounds; ///< where it prunes: by exit, what may be seen through it
 } search;
 
 /// One thread's own.
@@ -42,6 +53,7 @@ typedef struct searcher {
     void *solver;
     SL_ARRAY(step) steps;
     sl_bits *sure, *doubtful;
+    SL_ARRAY(sl_bits) wanted; ///< where it prunes: a set for each step, what may be seen beyond it
     sl_growing_tree tree;
     sl_see_account account; ///< of the source at hand
 } searcher;
@@ -61,6 +73,37 @@ static sl_status enter(sl_context *context, const search *all, searcher *me, ste
     return SL_OK;
 }
 
+/// Where the search prunes: makes the set of what is wanted beyond an exit of the last step. False
+/// where nothing is.
+static sl_status want(sl_context *context, const search *all, searcher *me, uint32_t exit,
+                      bool *something) {
+    *something = true;
+    if (!all->prunes) return SL_OK;
+    const size_t words = all->words, depth = me->steps.count;
+    SL_TRY(SL_ARRAY_ROOM(context, &me->wanted, (depth + 1) * words));
+    const sl_bits *before = me->wanted.items + (depth - 1) * words;
+    const sl_bits *bound = all->bounds + exit * words;
+    sl_bits *beyond = me->wanted.items + depth * words, any = 0;
+    for (size_t i = 0; i < words; i++) {
+        beyond[i] = before[i] & bound[i];
+        any |= beyond[i] & ~me->sure[i];
+    }
+    *something = any != 0;
+    return SL_OK;
+}
+
+/// What is wanted of a source to begin with: all cells, or where pairs are found from either cell
+/// alike those from itself on.
+static sl_status want_from(sl_context *context, const search *all, searcher *me, uint32_t source) {
+    if (!all->prunes) return SL_OK;
+    SL_TRY(SL_ARRAY_ROOM(context, &me->wanted, all->words));
+    memset(me->wanted.items, 0xff, all->words * sizeof *me->wanted.items);
+    if (all->options->solver->guarantee != SL_EXACT) return SL_OK;
+    memset(me->wanted.items, 0, source / 64 * sizeof *me->wanted.items);
+    me->wanted.items[source / 64] = ~(sl_bits)0 << (source % 64);
+    return SL_OK;
+}
+
 /// Tries one exit of the last step: tests the sequence with it, and enters the cell behind.
 static sl_status try_exit(sl_context *context, const search *all, searcher *me, uint32_t number) {
     const sl_solver *solver = all->options->solver;
@@ -69,6 +112,9 @@ static sl_status try_exit(sl_context *context, const search *all, searcher *me, 
     sl_crossings crossings = from.crossings;
     if (!sl_crossings_add(all->space, &crossings, number)) return SL_OK;
     if (all->options->inside_only && !all->space->cells[exit->cell].inside) return SL_OK;
+    bool something;
+    SL_TRY(want(context, all, me, number, &something));
+    if (!something) return SL_OK;
     if (++me->account.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
 
     sl_stab_verdict verdict;
@@ -89,6 +135,7 @@ static sl_status search_from(sl_context *context, const search *all, searcher *m
                              uint32_t source) {
     const sl_space *space = all->space;
     sl_bits_add(me->sure, source);
+    SL_TRY(want_from(context, all, me, source));
     me->steps.count = 0;
     SL_TRY(enter(context, all, me, (step){.cell = source, .crossings = SL_CROSSINGS_NONE}, 0,
                  UINT32_MAX, true));
@@ -133,6 +180,7 @@ static void end(sl_context *context, void *job, void *state) {
     sl_free(context, me->steps.items);
     sl_free(context, me->sure);
     sl_free(context, me->doubtful);
+    sl_free(context, me->wanted.items);
     sl_free(context, me->tree.nodes.items);
     sl_free(context, me);
 }
@@ -141,7 +189,7 @@ static sl_status begin(sl_context *context, void *job, void **state) {
     search *all = job;
     searcher *me = sl_alloc_array(context, 1, sizeof *me);
     if (!me) return SL_NO_MEMORY;
-    const size_t words = sl_bits_words(all->space->cell_count);
+    const size_t words = all->words;
     me->sure = sl_alloc_array(context, words, sizeof *me->sure);
     me->doubtful = sl_alloc_array(context, words, sizeof *me->doubtful);
     sl_status status = me->sure && me->doubtful ? SL_OK : SL_NO_MEMORY;
@@ -196,27 +244,62 @@ static sl_status allocate(sl_context *context, search *all) {
     return sl_tree_store_create(context, count, all->options->tree_bytes, &all->trees);
 }
 
-sl_status sl_see_dfs(sl_context *context, const sl_space *space, const sl_see_options *options,
-                     sl_visibility *out) {
-    if (!options->solver)
-        return sl_fail(context, SL_BAD_ARGUMENT, "the method 'dfs' needs a solver");
-    search all = {.space = space, .options = options};
-    sl_visibility visibility = {.sight = options->sight, .guarantee = options->solver->guarantee};
-    pthread_mutex_init(&all.lock, NULL);
-    sl_status status = allocate(context, &all);
-    if (status == SL_OK) status = search_all(context, &all, &visibility);
-    for (uint32_t i = 0; i < space->cell_count; i++) {
-        if (all.sure) sl_free(context, all.sure[i].items);
-        if (all.doubtful) sl_free(context, all.doubtful[i].items);
+/// The upper bound of every exit.
+static sl_status find_bounds(sl_context *context, search *all) {
+    const sl_space *space = all->space;
+    if (all->words && space->exit_count > SIZE_MAX / all->words) return sl_fail_memory(context);
+    all->bounds = sl_alloc_array(context, space->exit_count * all->words, sizeof *all->bounds);
+    uint32_t *stack = sl_alloc_array(context, space->cell_count, sizeof *stack);
+    sl_status status = all->bounds && stack ? SL_OK : SL_NO_MEMORY;
+    for (uint32_t i = 0; i < space->exit_count && status == SL_OK; i++) {
+        sl_flood_through(space, all->options, &space->exits[i], all->bounds + i * all->words,
+                         stack);
+        status = sl_check_cancelled(context);
     }
-    sl_free(context, all.sure);
-    sl_free(context, all.doubtful);
-    sl_free(context, all.accounts);
-    sl_tree_store_destroy(context, &all.trees);
-    pthread_mutex_destroy(&all.lock);
+    sl_free(context, stack);
+    return status;
+}
+
+static sl_status see(sl_context *context, search *all, sl_visibility *out) {
+    sl_visibility visibility = {.sight = all->options->sight,
+                                .guarantee = all->options->solver->guarantee};
+    const uint32_t count = all->space->cell_count;
+    all->words = sl_bits_words(count);
+    pthread_mutex_init(&all->lock, NULL);
+    sl_status status = all->prunes ? find_bounds(context, all) : SL_OK;
+    if (status == SL_OK) status = allocate(context, all);
+    if (status == SL_OK) status = search_all(context, all, &visibility);
+    for (uint32_t i = 0; i < count; i++) {
+        if (all->sure) sl_free(context, all->sure[i].items);
+        if (all->doubtful) sl_free(context, all->doubtful[i].items);
+    }
+    sl_free(context, all->sure);
+    sl_free(context, all->doubtful);
+    sl_free(context, all->accounts);
+    sl_free(context, all->bounds);
+    sl_tree_store_destroy(context, &all->trees);
+    pthread_mutex_destroy(&all->lock);
     if (status == SL_OK)
         *out = visibility;
     else
         sl_visibility_destroy(context, &visibility);
     return status;
+}
+
+sl_status sl_see_dfs(sl_context *context, const sl_space *space, const sl_see_options *options,
+                     sl_visibility *out) {
+    if (!options->solver)
+        return sl_fail(context, SL_BAD_ARGUMENT, "the method 'dfs' needs a solver");
+    search all = {.space = space, .options = options};
+    return see(context, &all, out);
+}
+
+sl_status sl_see_prune(sl_context *context, const sl_space *space, const sl_see_options *options,
+                       sl_visibility *out) {
+    if (!options->solver)
+        return sl_fail(context, SL_BAD_ARGUMENT, "the method 'prune' needs a solver");
+    if (options->trees)
+        return sl_fail(context, SL_UNSUPPORTED, "the method 'prune' makes no stab trees");
+    search all = {.space = space, .options = options, .prunes = true};
+    return see(context, &all, out);
 }

@@ -4,7 +4,8 @@
 #include "base/base.h"
 
 sl_see_options sl_see_options_default(void) {
-    return (sl_see_options){.sight = SL_CLOSED, .tree_bytes = UINT64_C(256) << 20};
+    return (sl_see_options){
+        .sight = SL_CLOSED, .tree_bytes = UINT64_C(256) << 20, .seed = 1, .samples = 100};
 }
 
 void sl_visibility_destroy(sl_context *context, sl_visibility *visibility) {
@@ -26,6 +27,19 @@ const sl_see_method *sl_see_methods(size_t *count) {
          .what = "a line turned about every corner of walls, by exact predicates: the fastest",
          .guarantee = SL_EXACT,
          .see = sl_see_sweep},
+        {.name = "prune",
+         .what = "dfs only on where a bound leaves something to be found",
+         .stabs = true,
+         .guarantee = SL_EXACT,
+         .see = sl_see_prune},
+        {.name = "flood",
+         .what = "all that portals in pairs leave possible",
+         .guarantee = SL_CONSERVATIVE,
+         .see = sl_see_flood},
+        {.name = "sampling",
+         .what = "random lines from each cell",
+         .guarantee = SL_AGGRESSIVE,
+         .see = sl_see_sampling},
     };
     *count = sizeof methods / sizeof *methods;
     return methods;

@@ -8,5 +8,11 @@ sl_status sl_see_dfs(sl_context *context, const sl_space *space, const sl_see_op
                      sl_visibility *out);
 sl_status sl_see_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
                        sl_visibility *out);
+sl_status sl_see_prune(sl_context *context, const sl_space *space, const sl_see_options *options,
+                       sl_visibility *out);
+sl_status sl_see_flood(sl_context *context, const sl_space *space, const sl_see_options *options,
+                       sl_visibility *out);
+sl_status sl_see_sampling(sl_context *context, const sl_space *space, const sl_see_options *options,
+                          sl_visibility *out);
 
 #endif

@@ -27,9 +27,10 @@ typedef struct sl_stab_trees {
 } sl_stab_trees;
 
 typedef struct sl_see_account {
-    uint64_t tests;          ///< stabbing tests (for GLPK: linear programs)
-    uint64_t nodes;          ///< stab-tree nodes, roots included, kept or not
-    uint64_t pairs;          ///< ordered pairs seen, each cell with itself included
+    uint64_t tests; ///< stabbing tests (for GLPK: linear programs)
+    uint64_t nodes; ///< stab-tree nodes, roots included, kept or not; for the sweep: pieces of
+                    ///< cells looked at
+    uint64_t pairs; ///< ordered pairs seen, each cell with itself included
     uint64_t doubtful_pairs; ///< ordered pairs of which rounding decided
     uint32_t deepest;        ///< portals in the longest sequence
     sl_stab_account stab;    ///< of the solvers
@@ -57,12 +58,15 @@ typedef struct sl_see_options {
     bool trees;              ///< keep stab trees
     uint64_t tree_bytes;     ///< limit on memory for them; the PVS has none
     bool inside_only;        ///< look from and at inside cells only; other rows are empty
+    uint64_t seed;           ///< of methods that draw at random
+    uint32_t samples;        ///< lines that "sampling" draws from each cell
 } sl_see_options;
 
 SL_API sl_see_options sl_see_options_default(void);
 
 /// A method: reachable by name, listed everywhere from this table. Each row of a PVS holds the cell
-/// itself; pairs are symmetric. Reports stage "cell_to_cell", unit "cells".
+/// itself; pairs are symmetric. Reports stage "cell_to_cell", unit "cells" or "corners". Methods
+/// that make no stab trees refuse to (SL_UNSUPPORTED).
 typedef struct sl_see_method {
     const char *name, *what;
     bool stabs; ///< whether it needs a solver; its guarantee is then the solver's

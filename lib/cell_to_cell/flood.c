@@ -1,0 +1,117 @@
+/// The upper bound alone, as Quake's vis makes it before it looks closer: from each exit on through
+/// all portals that lie ahead of it, at least in part, and have some of it behind them. Signs are
+/// exact, so that nothing is missed.
+#include "cell_to_cell/flood.h"
+
+#include "base/threads.h"
+#include "cell_to_cell/bit_rows.h"
+#include "cell_to_cell/methods.h"
+#include "geometry/orient.h"
+
+#include <string.h>
+
+/// Whether some of a portal lies ahead of (`sign` -1) or behind (1) an exit; for closed sight its
+/// line is enough.
+static bool reaches(const sl_exit *exit, sl_point left, sl_point right, int sign, bool closed) {
+    const int least = closed ? 0 : 1;
+    return sign * sl_orient(exit->right, exit->left, left) >= least ||
+           sign * sl_orient(exit->right, exit->left, right) >= least;
+}
+
+void sl_flood_through(const sl_space *space, const sl_see_options *options, const sl_exit *exit,
+                      sl_bits *set, uint32_t *stack) {
+    const bool closed = options->sight == SL_CLOSED;
+    uint32_t count = 0;
+    if (options->inside_only && !space->cells[exit->cell].inside) return;
+    sl_bits_add(set, exit->cell);
+    stack[count++] = exit->cell;
+    while (count) {
+        const sl_cell *cell = &space->cells[stack[--count]];
+        for (uint32_t i = 0; i < cell->exit_count; i++) {
+            const sl_exit *next = &space->exits[cell->first_exit + i];
+            if (sl_bits_has(set, next->cell)) continue;
+            if (options->inside_only && !space->cells[next->cell].inside) continue;
+            if (!reaches(exit, next->left, next->right, -1, closed)) continue;
+            if (!reaches(next, exit->left, exit->right, 1, closed)) continue;
+            sl_bits_add(set, next->cell);
+            stack[count++] = next->cell;
+        }
+    }
+}
+
+// --- the method
+
+typedef struct flood {
+    const sl_space *space;
+    const sl_see_options *options;
+    sl_bit_rows rows; ///< each is written by one thread
+} flood;
+
+/// One thread's own.
+typedef struct flooder {
+    uint32_t *stack;
+    sl_bits *set; ///< through one exit
+} flooder;
+
+static void end(sl_context *context, void *job, void *state) {
+    (void)job;
+    flooder *me = state;
+    sl_free(context, me->stack);
+    sl_free(context, me->set);
+    sl_free(context, me);
+}
+
+static sl_status begin(sl_context *context, void *job, void **state) {
+    const flood *all = job;
+    flooder *me = sl_alloc_array(context, 1, sizeof *me);
+    if (!me) return SL_NO_MEMORY;
+    me->stack = sl_alloc_array(context, all->space->cell_count, sizeof *me->stack);
+    me->set = sl_alloc_array(context, all->rows.words, sizeof *me->set);
+    if (me->stack && me->set) {
+        *state = me;
+        return SL_OK;
+    }
+    end(context, job, me);
+    return SL_NO_MEMORY;
+}
+
+static sl_status flood_unit(sl_context *context, void *job, void *state, size_t unit) {
+    const flood *all = job;
+    const flooder *me = state;
+    const sl_cell *cell = &all->space->cells[unit];
+    if (all->options->inside_only && !cell->inside) return SL_OK;
+    sl_bits *row = sl_bit_row(&all->rows, (uint32_t)unit);
+    sl_bits_add(row, unit);
+    for (uint32_t i = 0; i < cell->exit_count; i++) {
+        memset(me->set, 0, all->rows.words * sizeof *me->set);
+        sl_flood_through(all->space, all->options, &all->space->exits[cell->first_exit + i],
+                         me->set, me->stack);
+        for (size_t word = 0; word < all->rows.words; word++) row[word] |= me->set[word];
+    }
+    return sl_check_cancelled(context);
+}
+
+static sl_status flood_all(sl_context *context, flood *all, sl_visibility *out) {
+    SL_TRY(sl_bit_rows_create(context, all->space->cell_count, &all->rows));
+    const sl_work work = {.job = all,
+                          .begin = begin,
+                          .unit = flood_unit,
+                          .end = end,
+                          .stage = "cell_to_cell",
+                          .units = "cells"};
+    SL_TRY(sl_work_run(context, &work, all->space->cell_count, all->options->threads));
+    sl_bit_rows_mirror(&all->rows, SL_KEEP_MUTUAL);
+    return sl_bit_rows_encode(context, &all->rows, out);
+}
+
+sl_status sl_see_flood(sl_context *context, const sl_space *space, const sl_see_options *options,
+                       sl_visibility *out) {
+    if (options->trees)
+        return sl_fail(context, SL_UNSUPPORTED, "the method 'flood' makes no stab trees");
+    flood all = {.space = space, .options = options};
+    sl_visibility visibility = {.sight = options->sight, .guarantee = SL_CONSERVATIVE};
+    const sl_status status = flood_all(context, &all, &visibility);
+    sl_bit_rows_destroy(context, &all.rows);
+    if (status == SL_OK) *out = visibility;
+    return status;
+}

@@ -1,0 +1,14 @@
+/// A bound on what is seen through one exit, by signs of portals in pairs.
+#ifndef SL_FLOOD_H
+#define SL_FLOOD_H
+
+#include "base/base.h"
+#include "base/bits.h"
+#include "sightline/cell_to_cell.h"
+
+/// Adds to a set all cells that a sightline through the exit may reach: never misses one. `stack`:
+/// scratch, one a cell.
+void sl_flood_through(const sl_space *space, const sl_see_options *options, const sl_exit *exit,
+                      sl_bits *set, uint32_t *stack);
+
+#endif
