@@ -27,6 +27,7 @@ static void add_visibility(sl_json_fields *fields, const sl_visibility *visibili
     sl_json_add_count(fields, "doubtful_pairs", account->doubtful_pairs);
     sl_json_add_count(fields, "tests", account->tests);
     sl_json_add_count(fields, "tree_nodes", account->nodes);
+    sl_json_add_count(fields, "pieces", account->pieces);
     sl_json_add_count(fields, "longest_sequence", account->deepest);
     if (!trees->cell_count) return;
     sl_json_add_count(fields, "tree_nodes_kept", trees->offsets[trees->cell_count]);
@@ -80,9 +81,13 @@ static void print_visibility(const sl_baked *baked) {
     if (account->doubtful_pairs)
         printf("  doubtful  %" PRIu64 " of them, of which rounding decided\n",
                account->doubtful_pairs);
-    printf("  work      %" PRIu64 " stabbing tests, %" PRIu64
-           " tree nodes, longest sequence %" PRIu32 "\n",
-           account->tests, account->nodes, account->deepest);
+    if (account->tests)
+        printf("  work      %" PRIu64 " stabbing tests, %" PRIu64
+               " tree nodes, longest sequence %" PRIu32 "\n",
+               account->tests, account->nodes, account->deepest);
+    else if (account->pieces)
+        printf("  work      %" PRIu64 " pieces of cells, longest sequence %" PRIu32 "\n",
+               account->pieces, account->deepest);
     const sl_stab_trees *trees = &visibility->trees;
     if (trees->cell_count)
         printf("  trees     %" PRIu64 " nodes kept, %" PRIu32 " of %" PRIu32

@@ -314,7 +314,7 @@ static sl_status compare_eye_and_report(sl_console *console, const compare_plan 
 static void print_tables(void) {
     sl_compare_print_columns();
     sl_compare_eye_print_columns();
-    sl_pipeline_print_methods("");
+    sl_pipeline_print_methods("", "");
     sl_pipeline_print_subdivisions();
     sl_pipeline_print_effects();
     sl_input_print_formats();

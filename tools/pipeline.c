@@ -113,15 +113,15 @@ void sl_pipeline_print_effects(void) {
     putchar('\n');
 }
 
-void sl_pipeline_print_methods(const char *remark) {
+void sl_pipeline_print_methods(const char *on_methods, const char *on_solvers) {
     size_t count;
     const sl_see_method *methods = sl_see_methods(&count);
-    printf("\nmethods%s:\n", remark);
+    printf("\nmethods%s:\n", on_methods);
     for (size_t i = 0; i < count; i++)
         printf("  %-12s%s; %s\n", methods[i].name, methods[i].what,
                methods[i].stabs ? "as exact as the solver"
                                 : sl_guarantee_name(methods[i].guarantee));
-    printf("\nsolvers%s:\n", remark);
+    printf("\nsolvers%s:\n", on_solvers);
     for (size_t i = 0; sl_solver_at(i); i++)
         printf("  %-12s%s; %s\n", sl_solver_at(i)->name, sl_solver_at(i)->what,
                sl_guarantee_name(sl_solver_at(i)->guarantee));

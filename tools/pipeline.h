@@ -71,7 +71,7 @@ sl_name_table sl_pipeline_solver_names(sl_solver solvers[SL_SOLVERS_MOST]);
 /// For --help: what the options choose from.
 void sl_pipeline_print_subdivisions(void);
 void sl_pipeline_print_effects(void);
-/// Methods and solvers; `remark` stands behind both headings.
-void sl_pipeline_print_methods(const char *remark);
+/// Methods and solvers; the remarks stand behind the headings.
+void sl_pipeline_print_methods(const char *on_methods, const char *on_solvers);
 
 #endif

@@ -120,7 +120,7 @@ static sl_status sweep_all(sl_context *context, sweep *all, sl_visibility *out) 
     SL_TRY(sl_work_run(context, &work, units, all->options->threads));
     add_neighbours(all);
     sl_bit_rows_mirror(&all->rows, SL_ADD_MIRRORED);
-    out->account.nodes = all->pieces;
+    out->account.pieces = all->pieces;
     out->account.deepest = all->deepest;
     return sl_bit_rows_encode(context, &all->rows, out);
 }

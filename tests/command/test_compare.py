@@ -57,8 +57,10 @@ class Compare(unittest.TestCase):
     def table(self, name):
         return list(csv.DictReader(io.StringIO(self.box.path("out/" + name).read_text())))
 
-    def export(self, name, solver, *options):
-        self.run_ok("bake", name, "-o", "out.slv", "-q", "--solver", solver, *options)
+    def export(self, name, run, *options):
+        method, solver = run
+        options = ["--method", method, *(["--solver", solver] if solver else []), *options]
+        self.run_ok("bake", name, "-o", "out.slv", "-q", *options)
         return json.loads(self.run_ok("export", "out.slv").stdout)
 
     def agrees_with_bakes(self, name, *options):
@@ -66,12 +68,13 @@ class Compare(unittest.TestCase):
         told, rows, pairs = self.compare(name, "--repeat", "1", *options)
         done = [row for row in rows if row["outcome"] == "done"]
         self.assertTrue(done)
-        exports = {row["solver"]: self.export(name, row["solver"], *options) for row in done}
-        seen = {solver: {(a, b) for a, row in enumerate(export["pvs"]) for b in row}
-                for solver, export in exports.items()}
-        exact = seen[told["reference"].split()[-1]]
+        exports = {(row["method"], row["solver"]):
+                   self.export(name, (row["method"], row["solver"]), *options) for row in done}
+        seen = {run: {(a, b) for a, row in enumerate(export["pvs"]) for b in row}
+                for run, export in exports.items()}
+        exact = seen[tuple((told["reference"] + " with ").split(" with ")[:2])]
         for row in done:
-            mine = seen[row["solver"]]
+            mine = seen[row["method"], row["solver"]]
             self.assertEqual(int(row["pairs"]), len(mine))
             self.assertEqual(int(row["pairs_too_many"]), len(mine - exact))
             self.assertEqual(int(row["pairs_too_few"]), len(exact - mine))
@@ -80,8 +83,9 @@ class Compare(unittest.TestCase):
         cells = next(iter(exports.values()))["cells"]
         for row in pairs:
             a, b = int(row["a"]), int(row["b"])
-            for solver in seen:
-                self.assertEqual(row["dfs/" + solver], str(int((a, b) in seen[solver])))
+            for run in seen:
+                told_so = row["/".join(filter(None, run))]
+                self.assertEqual(told_so, str(int((a, b) in seen[run])))
             self.assertTrue(holds(cells[a]["polygon"], float(row["ax"]), float(row["ay"])))
             self.assertTrue(holds(cells[b]["polygon"], float(row["bx"]), float(row["by"])))
         return rows, pairs
@@ -96,7 +100,7 @@ class Compare(unittest.TestCase):
     def test_rounding_decides(self):
         self.box.path("hair.map").write_text(HAIR)
         rows, pairs = self.agrees_with_bakes("hair.map")
-        rounded, = [row for row in rows if row["solver"] == "glpk"]
+        rounded, = [row for row in rows if (row["method"], row["solver"]) == ("dfs", "glpk")]
         self.assertGreater(int(rounded["pairs_too_many"]), 0)
         self.assertGreaterEqual(int(rounded["doubtful_pairs"]), int(rounded["pairs_too_many"]))
         self.assertTrue(pairs)
@@ -117,8 +121,9 @@ class Compare(unittest.TestCase):
             self.assertLessEqual(run["seconds_low"], run["seconds"])
             self.assertLessEqual(run["seconds"], run["seconds_high"])
             self.assertAlmostEqual(run["ratio"], run["seconds"] / fastest, delta=1e-9)
-            self.assertAlmostEqual(run["seconds_per_test"], run["seconds"] / run["tests"],
-                                   delta=1e-15)
+            if run["tests"]:
+                self.assertAlmostEqual(run["seconds_per_test"], run["seconds"] / run["tests"],
+                                       delta=1e-15)
             if run["orientations"]:
                 self.assertAlmostEqual(
                     run["filter_share"], 1 - run["exact_orientations"] / run["orientations"])
@@ -126,7 +131,7 @@ class Compare(unittest.TestCase):
                 self.assertIsNone(run["filter_share"])
         statistics = json.loads(self.run_ok("bake", "office.map", "-o", "o.slv", "--json",
                                             "--solver", "glpk").stdout)
-        rounded, = [run for run in done if run["solver"] == "glpk"]
+        rounded, = [run for run in done if (run["method"], run["solver"]) == ("dfs", "glpk")]
         for key in ("tests", "tree_nodes", "longest_sequence", "pairs", "doubtful_pairs"):
             self.assertEqual(rounded[key], statistics[key])
         self.assertTrue(any(run["frontier"] for run in done))
@@ -135,15 +140,16 @@ class Compare(unittest.TestCase):
         """Runs that take too long are given up and listed; without an exact one nothing is judged."""
         self.box.path("hall.map").write_text(pillars(24))
         start = time.monotonic()
-        told, rows, pairs = self.compare("hall.map", "--time-limit", "0.3", "--solvers",
-                                         "funnel,glpk")
+        told, rows, pairs = self.compare("hall.map", "--time-limit", "0.3", "--methods", "dfs",
+                                         "--solvers", "funnel,glpk")
         self.assertLess(time.monotonic() - start, 20)
         self.assertEqual([run["outcome"] for run in told["runs"]], ["not done", "not done"])
         self.assertIsNone(told["reference"])
         for row in rows:
             self.assertEqual((row["seconds"], row["pairs"], row["pairs_too_many"]), ("", "", ""))
         self.assertEqual(pairs, [])
-        table = self.run_ok("compare", "hall.map", "--time-limit", "0.3", "--solvers", "funnel")
+        table = self.run_ok("compare", "hall.map", "--time-limit", "0.3", "--methods", "dfs",
+                            "--solvers", "funnel")
         self.assertRegex(table.stdout, r"dfs +funnel +exact +not done in 0\.3 s\n")
         self.assertIn("no exact run is done", table.stdout)
 
@@ -157,13 +163,14 @@ class Compare(unittest.TestCase):
         table = self.run_ok("compare", "hair.map", "--repeat", "1").stdout
         for run in refused:
             self.assertIsNone(run["pairs"])
-            self.assertRegex(table, rf"dfs +{run['solver']} .* refused: \S")
-            alone = self.box.run(["compare", "hair.map", "--solvers", run["solver"]])
+            self.assertRegex(table, rf"{run['method']} +{run['solver']} .* refused: \S")
+            alone = self.box.run(["compare", "hair.map", "--methods", run["method"],
+                                  "--solvers", run["solver"]])
             self.assertEqual(alone.status, 2)
 
     def test_repeats_until_enough(self):
         self.box.path("flat.map").write_bytes((MAPS / "flat.map").read_bytes())
-        told, _, _ = self.compare("flat.map", "--solvers", "funnel")
+        told, _, _ = self.compare("flat.map", "--methods", "dfs", "--solvers", "funnel")
         run, = told["runs"]
         self.assertGreater(run["timings"], 3)
 
@@ -207,8 +214,8 @@ class Compare(unittest.TestCase):
     def test_progress_names_the_run(self):
         self.box.path("hall.map").write_text(pillars(24))
         master, slave = os.openpty()
-        process = self.box.start(["compare", "hall.map", "--time-limit", "1", "--solvers",
-                                  "funnel,glpk"], stderr=slave)
+        process = self.box.start(["compare", "hall.map", "--time-limit", "1", "--methods", "dfs",
+                                  "--solvers", "funnel,glpk"], stderr=slave)
         os.close(slave)
         process.communicate(timeout=30)
         text = os.read(master, 1 << 20).decode()

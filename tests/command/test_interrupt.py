@@ -27,7 +27,7 @@ class Interrupt(unittest.TestCase):
             if old:
                 box.path("hall.slv").write_text(old)
             before = box.files()
-            process = box.start(["bake", "hall.map", "-o", "hall.slv", *options])
+            process = box.start(["bake", "hall.map", "-o", "hall.slv", "--method", "dfs", *options])
             time.sleep(1)
             self.assertIsNone(process.poll(), "the bake is over too soon to be interrupted")
             asked = time.monotonic()

@@ -17,7 +17,7 @@ class Terminal(unittest.TestCase):
         with sandbox.Sandbox(PROGRAM) as box:
             box.path("hall.map").write_text(pillars(24))
             master, slave = os.openpty()
-            process = box.start(["bake", "hall.map", *options], stderr=slave,
+            process = box.start(["bake", "hall.map", "--method", "dfs", *options], stderr=slave,
                                 environment=environment)
             os.close(slave)
             time.sleep(seconds)

@@ -58,7 +58,7 @@ static sl_visibility see(sl_context *context, const sl_space *space, const sl_se
     options.sight = sight;
     options.solver = method->stabs ? sl_funnel() : NULL;
     options.threads = 1;
-    options.trees = method->stabs;
+    options.trees = strcmp(method->name, "dfs") == 0;
     sl_visibility seen;
     assert_ok(context, method->see(context, space, &options, &seen));
     assert_int_equal(seen.trees.left_out, 0);
@@ -172,8 +172,10 @@ static void change_each_way(sl_context *context, const char *name, const sl_map 
     subdivide(context, &again, &changed);
     for (size_t i = 1; i < CHANGES; i++) {
         if (!change_space(&changes[i], &space, &changed)) continue;
+        // What is drawn at random falls elsewhere in another space.
         for (size_t m = 0; m < method_count; m++)
-            compare_changed(context, name, &space, &changed, &methods[m], changes[i].name);
+            if (methods[m].guarantee != SL_AGGRESSIVE)
+                compare_changed(context, name, &space, &changed, &methods[m], changes[i].name);
     }
     sl_space_destroy(context, &space);
     sl_space_destroy(context, &changed);

@@ -27,11 +27,11 @@ typedef struct sl_stab_trees {
 } sl_stab_trees;
 
 typedef struct sl_see_account {
-    uint64_t tests; ///< stabbing tests (for GLPK: linear programs)
-    uint64_t nodes; ///< stab-tree nodes, roots included, kept or not; for the sweep: pieces of
-                    ///< cells looked at
-    uint64_t pairs; ///< ordered pairs seen, each cell with itself included
+    uint64_t tests;          ///< stabbing tests (for GLPK: linear programs)
+    uint64_t nodes;          ///< stab-tree nodes, roots included, kept or not
+    uint64_t pairs;          ///< ordered pairs seen, each cell with itself included
     uint64_t doubtful_pairs; ///< ordered pairs of which rounding decided
+    uint64_t pieces;         ///< of cells looked at by the sweep
     uint32_t deepest;        ///< portals in the longest sequence
     sl_stab_account stab;    ///< of the solvers
 } sl_see_account;
