@@ -2,6 +2,7 @@
 /// at most 106 bits times a power of two, summed in a fixed-point number wide enough for all of
 /// them. Integers only: no rounding, no overflow, nothing that a compiler's treatment of doubles
 /// could change.
+/// Where differences are exact, as between points on a grid, two products do.
 #include "geometry/orient.h"
 
 #include <math.h>
@@ -75,8 +76,49 @@ static bool plainly_on_line(sl_point a, sl_point b, sl_point c) {
     return (a.x == c.x && (b.x == c.x || a.y == c.y)) || (b.y == c.y && (a.y == c.y || b.x == c.x));
 }
 
+/// a - b where doubles hold it without rounding (Knuth's two-sum; Shewchuk 1997, theorem 7).
+static bool subtract(double a, double b, double *difference) {
+    const double d = a - b, b_part = a - d, a_part = d + b_part;
+    *difference = d;
+    return (a - a_part) + (b_part - b) == 0;
+}
+
+/// Compares two products of two doubles: -1, 0, 1. False where a factor has no full mantissa.
+static bool compare_products(const product *p, const product *q, int *order) {
+    const wide full = (wide)1 << 104; // of two mantissas of 53 bits
+    if (!p->magnitude || !q->magnitude || p->negative != q->negative) {
+        const int sign_p = !p->magnitude ? 0 : p->negative ? -1 : 1;
+        const int sign_q = !q->magnitude ? 0 : q->negative ? -1 : 1;
+        *order = (sign_p > sign_q) - (sign_p < sign_q);
+        return true;
+    }
+    if (p->magnitude < full || q->magnitude < full) return false;
+    int shift = p->exponent - q->exponent;
+    int larger = shift > 2 ? 1 : shift < -2 ? -1 : 0;
+    if (!larger) {
+        const wide of_p = p->magnitude << (shift > 0 ? shift : 0);
+        const wide of_q = q->magnitude << (shift < 0 ? -shift : 0);
+        larger = (of_p > of_q) - (of_p < of_q);
+    }
+    *order = p->negative ? -larger : larger;
+    return true;
+}
+
+/// Points as maps have them, on a grid: differences of coordinates are exact, and two products are
+/// all that is left to compare.
+static bool orient_by_differences(sl_point a, sl_point b, sl_point c, int *sign) {
+    double ax, ay, bx, by;
+    if (!subtract(a.x, c.x, &ax) || !subtract(a.y, c.y, &ay) || !subtract(b.x, c.x, &bx) ||
+        !subtract(b.y, c.y, &by))
+        return false;
+    const product left = multiply(ax, by, false), right = multiply(ay, bx, false);
+    return compare_products(&left, &right, sign);
+}
+
 int sl_orient_exact(sl_point a, sl_point b, sl_point c) {
+    int sign;
     if (plainly_on_line(a, b, c)) return 0;
+    if (orient_by_differences(a, b, c, &sign)) return sign;
     const product products[6] = {
         multiply(a.x, b.y, false), multiply(a.y, b.x, true),  multiply(b.x, c.y, false),
         multiply(b.y, c.x, true),  multiply(c.x, a.y, false), multiply(c.y, a.x, true),
