@@ -273,8 +273,9 @@ static sl_status run(sl_context *context, sl_reacher *r, sl_reach *reach, piece 
 static bool first_piece(const sl_reacher *r, const sl_walk_exit *e, const sl_bound *low,
                         const sl_bound *high, bool thin, piece *out) {
     if (sl_orient(e->right, e->left, r->from) <= 0) return false;
-    const int low_to_left = side_in_sector(r, low, e->left, 1);
-    const int high_to_right = side_in_sector(r, high, e->right, -1);
+    // What faces the point lies past the sector's first edge, and not past its last.
+    const int low_to_left = low->away ? side_in_sector(r, low, e->left, 1) : 1;
+    const int high_to_right = high->away ? side_in_sector(r, high, e->right, -1) : -1;
     if (low_to_left < 0 || high_to_right > 0) return false;
     const int low_to_right = side_in_sector(r, low, e->right, -1);
     const int high_to_left = side_in_sector(r, high, e->left, 1);

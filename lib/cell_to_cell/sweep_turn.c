@@ -71,25 +71,47 @@ static sl_status pass_ray(sl_context *context, sl_sweeper *s, half *h, int8_t le
     return SL_OK;
 }
 
-/// One moment: all that comes into sight, on either side, is joined with all that is in sight.
-static sl_status at_level(sl_context *context, sl_sweeper *s, half *halves[2], unsigned here,
-                          int8_t level) {
-    for (unsigned i = 0; i < 2; i++)
-        if (here & 1u << i) enter(halves[i], level);
+/// One level of a moment of both halves: all that comes into sight, on either side, is joined with
+/// all that is in sight.
+static sl_status at_level(sl_context *context, sl_sweeper *s, half *halves[2], int8_t level) {
+    for (int i = 0; i < 2; i++) enter(halves[i], level);
     // At one level only one of the halves has rays.
-    half *with_ray = halves[halves[0]->ray_level == level ? 0 : 1];
-    s->passing.count = 0;
-    if (s->closed && here & (with_ray == halves[0] ? 1u : 2u))
-        SL_TRY(pass_ray(context, s, with_ray, level));
-    for (unsigned i = 0; i < 2; i++)
-        if (here & 1u << i) join(s, halves[i], halves[!i], level);
-    const half *other = with_ray == halves[0] ? halves[1] : halves[0];
-    for (size_t i = 0; i < s->passing.count; i++) {
-        sl_sweep_add(s, s->passing.items[i], other->seen);
+    const int with_ray = halves[0]->ray_level == level ? 0 : 1;
+    SL_TRY(pass_ray(context, s, halves[with_ray], level));
+    for (int i = 0; i < 2; i++) join(s, halves[i], halves[!i], level);
+    for (size_t i = 0; i < s->passing.count; i++)
+        sl_sweep_add(s, s->passing.items[i], halves[!with_ray]->seen);
+    for (size_t i = 0; i < s->passing.count; i++) drop(halves[with_ray]->seen, s->passing.items[i]);
+    for (int i = 0; i < 2; i++) leave(halves[i], level);
+    return SL_OK;
+}
+
+/// A moment of one half alone. What the other half sees does not change in it, so that levels make
+/// no difference.
+static void at_turn(sl_sweeper *s, half *h, const half *other) {
+    const sl_reached *cells = h->reach->cells.items;
+    for (; h->cursor < h->reach->cells.count && cells[h->cursor].enter == h->turn; h->cursor++) {
+        sl_word_set_add(h->seen, cells[h->cursor].cell);
+        sl_sweep_add(s, cells[h->cursor].cell, other->seen);
     }
-    for (size_t i = 0; i < s->passing.count; i++) drop(with_ray->seen, s->passing.items[i]);
-    for (unsigned i = 0; i < 2; i++)
-        if (here & 1u << i) leave(halves[i], level);
+    const uint32_t *passing;
+    uint32_t count;
+    ray_of(s, h, h->ray_level, &passing, &count);
+    for (uint32_t i = 0; i < count; i++) sl_sweep_add(s, passing[i], other->seen);
+    for (uint32_t i = h->reach->turns.items[h->turn].leave; i != UINT32_MAX; i = cells[i].next)
+        if (!(cells[i].touched && h->touched_stay)) drop(h->seen, cells[i].cell);
+    h->turn++;
+}
+
+/// A moment of both halves.
+static sl_status at_both_turns(sl_context *context, sl_sweeper *s, half *halves[2]) {
+    for (int i = 0; i < 2; i++)
+        SL_TRY(at_level(context, s, halves,
+                        s->closed ? i ? SL_COUNTER : SL_CLOCKWISE
+                        : i       ? SL_AFTER
+                                  : SL_BEFORE));
+    advance(halves[0]);
+    advance(halves[1]);
     return SL_OK;
 }
 
@@ -118,8 +140,6 @@ sl_status sl_sweep_turn(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     link_leaving(&s->back);
     link_leaving(&s->ahead);
     touch(&back);
-    const int8_t levels[2] = {s->closed ? SL_CLOCKWISE : SL_BEFORE,
-                              s->closed ? SL_COUNTER : SL_AFTER};
     sl_status status = SL_OK;
     while (status == SL_OK) {
         const bool more_back = back.turn < s->back.turns.count;
@@ -130,11 +150,12 @@ sl_status sl_sweep_turn(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
                               ? 1
                               : sl_turns_compare(fan->at, first, &s->back.turns.items[back.turn],
                                                  &s->ahead.turns.items[ahead.turn]);
-        const unsigned here = (order <= 0 ? 1u : 0u) | (order >= 0 ? 2u : 0u);
-        for (unsigned i = 0; i < 2 && status == SL_OK; i++)
-            status = at_level(context, s, halves, here, levels[i]);
-        if (order <= 0) advance(&back);
-        if (order >= 0) advance(&ahead);
+        if (order < 0)
+            at_turn(s, &back, &ahead);
+        else if (order > 0)
+            at_turn(s, &ahead, &back);
+        else
+            status = at_both_turns(context, s, halves);
     }
     sl_word_set_clear(&s->behind);
     sl_word_set_clear(&s->before);
