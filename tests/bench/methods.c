@@ -1,0 +1,124 @@
+// What the whole cell-to-cell stage costs by each method, in one run on one thread.
+//   bench_methods MAP [Z]     CSV: machine, map, cells, sight, method, solver, pairs, seconds,
+//   times
+//                             the sweep's; what takes longer than a minute has no figures
+#include "sightline/glpk.h"
+#include "sightline/sightline.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/utsname.h>
+#include <time.h>
+
+enum { ROUNDS = 5, LIMIT_SECONDS = 60 };
+
+typedef struct clock_hook {
+    double deadline;
+} clock_hook;
+
+static double now(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+static bool too_late(void *user) {
+    const clock_hook *hook = user;
+    return now() > hook->deadline;
+}
+
+static void fail(const char *what) {
+    fprintf(stderr, "bench_methods: %s\n", what);
+    exit(1);
+}
+
+static void read_space(sl_context *context, const char *path, const char *slice, sl_space *space) {
+    sl_import_options options = sl_import_options_default();
+    options.has_slice = slice != NULL;
+    options.slice = slice ? strtod(slice, NULL) : 0;
+    const sl_subdivide_options rules = sl_subdivide_options_default();
+    sl_map map = {0};
+    if (sl_map_read(context, path, &options, &map) != SL_OK ||
+        sl_map_clean(context, &map, NULL) != SL_OK ||
+        sl_subdivide_kd(context, &map, &rules, space) != SL_OK)
+        fail(sl_context_message(context));
+    sl_map_destroy(context, &map);
+}
+
+typedef struct bench {
+    sl_context *context;
+    clock_hook *clock;
+    const char *map;
+    sl_space space;
+    char machine[128];
+    double of_sweep; ///< seconds, of the sight at hand
+} bench;
+
+/// The least of some rounds: what the others have more is the machine's doing. 0 where the time ran
+/// out.
+static double least_of_rounds(bench *b, const sl_see_method *method, const sl_see_options *options,
+                              uint64_t *pairs) {
+    double least = 0;
+    for (int round = 0; round < ROUNDS; round++) {
+        sl_visibility seen;
+        const double start = now();
+        b->clock->deadline = start + LIMIT_SECONDS;
+        if (method->see(b->context, &b->space, options, &seen) != SL_OK) return 0;
+        const double seconds = now() - start;
+        *pairs = seen.account.pairs;
+        sl_visibility_destroy(b->context, &seen);
+        if (round == 0 || seconds < least) least = seconds;
+        if (seconds > 1) break;
+    }
+    return least;
+}
+
+static void run(bench *b, const sl_see_method *method, const sl_solver *solver, sl_sight sight) {
+    sl_see_options options = sl_see_options_default();
+    options.sight = sight;
+    options.solver = solver;
+    options.threads = 1;
+    uint64_t pairs = 0;
+    const double seconds = least_of_rounds(b, method, &options, &pairs);
+    if (strcmp(method->name, "sweep") == 0) b->of_sweep = seconds;
+    printf("%s,%s,%u,%s,%s,%s,", b->machine, b->map, b->space.cell_count,
+           sight == SL_CLOSED ? "closed" : "open", method->name, solver ? solver->name : "");
+    if (seconds > 0)
+        printf("%llu,%.6f,%.2f\n", (unsigned long long)pairs, seconds, seconds / b->of_sweep);
+    else
+        puts(",,");
+}
+
+static const sl_see_method *method_of(const char *name) {
+    size_t count;
+    const sl_see_method *methods = sl_see_methods(&count);
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(methods[i].name, name) == 0) return &methods[i];
+    fail("a method is missing");
+    return NULL;
+}
+
+int main(int argc, char **argv) {
+    if (argc < 2) fail("usage: bench_methods MAP [Z]");
+    clock_hook hook = {.deadline = 1e300};
+    const sl_hooks hooks = {.user = &hook, .cancelled = too_late};
+    bench b = {.context = sl_context_create(&hooks), .clock = &hook, .map = argv[1]};
+    if (!b.context) fail("out of memory");
+    read_space(b.context, argv[1], argc > 2 ? argv[2] : NULL, &b.space);
+    struct utsname machine;
+    uname(&machine);
+    snprintf(b.machine, sizeof b.machine, "%.40s %.40s", machine.sysname, machine.machine);
+    puts("machine,map,cells,sight,method,solver,pairs,seconds,times_the_sweep");
+    for (int sight = SL_CLOSED; sight <= SL_OPEN; sight++) {
+        run(&b, method_of("sweep"), NULL, (sl_sight)sight);
+        run(&b, method_of("flood"), NULL, (sl_sight)sight);
+        run(&b, method_of("sampling"), NULL, (sl_sight)sight);
+        run(&b, method_of("prune"), sl_funnel(), (sl_sight)sight);
+        run(&b, method_of("dfs"), sl_funnel(), (sl_sight)sight);
+        run(&b, method_of("dfs"), sl_glpk_simplex(), (sl_sight)sight);
+    }
+    sl_space_destroy(b.context, &b.space);
+    sl_context_destroy(b.context);
+    return 0;
+}
