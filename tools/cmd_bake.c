@@ -13,7 +13,7 @@ enum { MAX_THREADS = 4096 };
 /// The options as they are given.
 typedef struct bake_texts {
     sl_pipeline_texts pipeline;
-    const char *output, *method, *solver, *sight, *threads, *tree_memory;
+    const char *output, *method, *solver, *sight, *threads, *tree_memory, *samples, *seed;
     bool stab_trees, inside, json;
 } bake_texts;
 
@@ -61,10 +61,18 @@ static sl_status plan_seeing(sl_context *context, const bake_texts *texts, bake_
     SL_TRY(sl_option_choice(context, "--sight", texts->sight, &sight_names, &sight));
     SL_TRY(sl_option_count(context, "--threads", texts->threads, MAX_THREADS, &threads));
     SL_TRY(sl_option_size(context, "--tree-memory", texts->tree_memory, &tree_bytes));
+    sl_see_options see = sl_see_options_default();
+    uint64_t samples = see.samples;
+    SL_TRY(sl_option_count(context, "--samples", texts->samples, UINT32_MAX, &samples));
+    SL_TRY(sl_option_count(context, "--seed", texts->seed, UINT64_MAX, &see.seed));
+    if ((texts->samples || texts->seed) && methods[method].guarantee != SL_AGGRESSIVE)
+        return sl_fail(context, SL_BAD_ARGUMENT, "%s: the method '%s' draws nothing at random",
+                       texts->samples ? "--samples" : "--seed", methods[method].name);
     if (texts->tree_memory && !texts->stab_trees)
         return sl_fail(context, SL_BAD_ARGUMENT, "--tree-memory needs --stab-trees");
     plan->method = &methods[method];
-    plan->see = sl_see_options_default();
+    plan->see = see;
+    plan->see.samples = (uint32_t)samples;
     plan->see.sight = (sl_sight)sight;
     plan->see.threads = (unsigned)threads;
     plan->see.trees = texts->stab_trees;
@@ -192,6 +200,8 @@ sl_status sl_cmd_bake(sl_console *console, int argc, char **argv) {
          "closed (the default): lines that only touch\nwall ends count; open: they do not"},
         {"threads", 0, "N", NULL, &t.threads,
          "0, the default, for one a core;\nthe result is the same for any number"},
+        {"samples", 0, "N", NULL, &t.samples, "lines from each cell, for sampling"},
+        {"seed", 0, "N", NULL, &t.seed, "of random numbers, for sampling"},
         {"stab-trees", 0, NULL, &t.stab_trees, NULL, "keep the trees of portal sequences"},
         {"tree-memory", 0, "SIZE", NULL, &t.tree_memory,
          "for them at most, as 64K, 256M (the default), 2G"},

@@ -47,6 +47,9 @@
 /// Fans that a thread takes at once.
 enum { FANS_AT_ONCE = 32 };
 
+/// The most bytes that rows take where more than one thread has its own.
+#define MOST_ROW_BYTES (UINT64_C(1) << 30)
+
 typedef struct sweep {
     const sl_space *space;
     const sl_see_options *options;
@@ -108,6 +111,14 @@ static void add_neighbours(sweep *all) {
     }
 }
 
+/// As many threads as are asked for, but fewer where their rows would take too much.
+static unsigned thread_count(const sweep *all) {
+    const uint64_t count = all->space->cell_count, bytes = count * ((count + 63) / 64 * 8);
+    const uint64_t fitting = bytes ? MOST_ROW_BYTES / bytes : UINT32_MAX;
+    const unsigned wanted = all->options->threads ? all->options->threads : sl_core_count();
+    return wanted <= fitting ? wanted : fitting ? (unsigned)fitting : 1;
+}
+
 static sl_status sweep_all(sl_context *context, sweep *all, sl_visibility *out) {
     SL_TRY(sl_fans_find(context, all->space, all->options, &all->fans));
     const sl_work work = {.job = all,
@@ -117,7 +128,7 @@ static sl_status sweep_all(sl_context *context, sweep *all, sl_visibility *out) 
                           .stage = "cell_to_cell",
                           .units = "corners"};
     const size_t units = (all->fans.fans.count + FANS_AT_ONCE - 1) / FANS_AT_ONCE;
-    SL_TRY(sl_work_run(context, &work, units, all->options->threads));
+    SL_TRY(sl_work_run(context, &work, units, thread_count(all)));
     add_neighbours(all);
     sl_bit_rows_mirror(&all->rows, SL_ADD_MIRRORED);
     out->account.pieces = all->pieces;

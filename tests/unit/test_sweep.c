@@ -173,11 +173,130 @@ static void oblique_spaces_are_seen_as_by_the_oracle(void **state) {
     sl_context_destroy(context);
 }
 
+// --- what is promised beside
+
+static void read_office(sl_context *context, sl_map *map, sl_space *space) {
+    const sl_subdivide_options rules = sl_subdivide_options_default();
+    assert_ok(context, sl_map_read(context, SIGHTLINE_SOURCE_DIR "/maps/office.map", NULL, map));
+    assert_ok(context, sl_map_clean(context, map, NULL));
+    assert_ok(context, sl_subdivide_kd(context, map, &rules, space));
+}
+
+static void threads_make_no_difference(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_map map = {0};
+    sl_space space;
+    const char *names[] = {"sweep", "prune", "flood", "sampling"};
+    read_office(context, &map, &space);
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        sl_visibility one = see(context, &space, names[i], SL_CLOSED, 1, false);
+        for (unsigned threads = 2; threads <= 7; threads += 5) {
+            sl_visibility many = see(context, &space, names[i], SL_CLOSED, threads, false);
+            assert_true(same_rows(&one.pvs, &many.pvs));
+            assert_int_equal(one.account.pairs, many.account.pairs);
+            assert_int_equal(one.account.pieces, many.account.pieces);
+            sl_visibility_destroy(context, &many);
+        }
+        sl_visibility_destroy(context, &one);
+    }
+    sl_space_destroy(context, &space);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
+static void lack_of_memory_is_told_and_leaves_nothing(void **state) {
+    (void)state;
+    testing_memory memory = {0};
+    sl_context *context = testing_context(&memory);
+    sl_map map = {0};
+    sl_space space;
+    size_t count;
+    const sl_see_method *methods = sl_see_methods(&count);
+    read_office(context, &map, &space);
+    for (size_t m = 1; m < count; m++) {
+        sl_see_options options = sl_see_options_default();
+        options.threads = 1;
+        options.solver = methods[m].stabs ? sl_funnel() : NULL;
+        const long live = memory.live;
+        sl_status status = SL_NO_MEMORY;
+        long calls = 0;
+        for (long fail_at = 1; status == SL_NO_MEMORY; fail_at++, calls++) {
+            sl_visibility seen = {0};
+            memory.calls = 0;
+            memory.fail_at = fail_at;
+            status = methods[m].see(context, &space, &options, &seen);
+            memory.fail_at = 0;
+            if (status == SL_OK) sl_visibility_destroy(context, &seen);
+            assert_int_equal(memory.live, live);
+            assert_null(seen.pvs.bytes);
+        }
+        assert_int_equal(status, SL_OK);
+        assert_true(calls > 3);
+    }
+    sl_space_destroy(context, &space);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
+static bool stop(void *user) {
+    (void)user;
+    return true;
+}
+
+static void what_cannot_be_done_is_refused(void **state) {
+    (void)state;
+    const sl_hooks hooks = {.cancelled = stop};
+    sl_context *context = testing_context(NULL), *stopped = sl_context_create(&hooks);
+    assert_non_null(stopped);
+    sl_map map = {0};
+    sl_space space;
+    size_t count;
+    const sl_see_method *methods = sl_see_methods(&count);
+    read_office(context, &map, &space);
+    for (size_t m = 1; m < count; m++) {
+        sl_visibility seen;
+        sl_see_options options = sl_see_options_default();
+        options.solver = methods[m].stabs ? sl_funnel() : NULL;
+        assert_int_equal(methods[m].see(stopped, &space, &options, &seen), SL_CANCELLED);
+        options.trees = true;
+        assert_int_equal(methods[m].see(context, &space, &options, &seen), SL_UNSUPPORTED);
+        assert_non_null(strstr(sl_context_message(context), methods[m].name));
+    }
+    sl_space_destroy(context, &space);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(stopped);
+    sl_context_destroy(context);
+}
+
+/// No walls at all, and cells without portals.
+static void cells_alone_see_themselves(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_map map = {0};
+    sl_space space;
+    testing_space(context, "walls 0 0 4 0 4 4 0 4 0 0\nwall 2 0 2 4\n", &map, &space);
+    assert_int_equal(space.portal_count, 0);
+    const char *names[] = {"sweep", "prune", "flood", "sampling"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        sl_visibility seen = see(context, &space, names[i], SL_CLOSED, 2, false);
+        assert_int_equal(seen.account.pairs, space.cell_count);
+        sl_visibility_destroy(context, &seen);
+    }
+    sl_space_destroy(context, &space);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(maps_are_seen_as_by_the_search),
         cmocka_unit_test(random_maps_are_seen_as_by_the_search),
         cmocka_unit_test(oblique_spaces_are_seen_as_by_the_oracle),
+        cmocka_unit_test(threads_make_no_difference),
+        cmocka_unit_test(lack_of_memory_is_told_and_leaves_nothing),
+        cmocka_unit_test(what_cannot_be_done_is_refused),
+        cmocka_unit_test(cells_alone_see_themselves),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
