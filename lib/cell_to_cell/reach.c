@@ -54,7 +54,8 @@ static bool same_direction(sl_point from, sl_point a, bool away_a, sl_point b, b
     return sl_orient(from, a, b) == 0 && sl_opposite(from, a, b) == (away_a != away_b);
 }
 
-int sl_turns_compare(sl_point from, sl_point first, const sl_turn *a, const sl_turn *b) {
+int sl_turns_compare(sl_point from, sl_point first, const sl_reach_turn *a,
+                     const sl_reach_turn *b) {
     const bool turned = !b->away;
     const int sign = sl_orient(from, a->at, b->at);
     if (sign != 0) return (a->away != turned) ? sign : -sign;
@@ -196,15 +197,15 @@ static sl_status turn_of(sl_context *context, const sl_reacher *r, sl_reach *rea
                          const sl_bound *bound, uint32_t *turn) {
     const size_t count = reach->turns.count;
     if (count) {
-        const sl_turn *last = &reach->turns.items[count - 1];
+        const sl_reach_turn *last = &reach->turns.items[count - 1];
         if (same_direction(r->from, last->at, last->away, bound->at, bound->away)) {
             *turn = (uint32_t)count - 1;
             return SL_OK;
         }
     }
     SL_TRY(SL_ARRAY_ROOM(context, &reach->turns, 1));
-    reach->turns.items[count] =
-        (sl_turn){.at = bound->at, .away = bound->away, .ray = UINT32_MAX, .leave = UINT32_MAX};
+    reach->turns.items[count] = (sl_reach_turn){
+        .at = bound->at, .away = bound->away, .ray = UINT32_MAX, .leave = UINT32_MAX};
     reach->turns.count++;
     *turn = (uint32_t)count;
     return SL_OK;

@@ -27,12 +27,12 @@ typedef struct sl_reached {
 } sl_reached;
 
 /// A direction in which cells are entered or left.
-typedef struct sl_turn {
+typedef struct sl_reach_turn {
     sl_point at;
     bool away;
     uint32_t ray;   ///< of sl_reach.rays; UINT32_MAX for none
     uint32_t leave; ///< the first cell that is left here; UINT32_MAX for none
-} sl_turn;
+} sl_reach_turn;
 
 /// Cells seen along one edge of the fan alone: ray r has cells[rays[r] .. rays[r + 1]).
 typedef struct sl_rays {
@@ -42,7 +42,7 @@ typedef struct sl_rays {
 
 /// Counter-clockwise: turns in their order, cells in the order in which they are entered.
 typedef struct sl_reach {
-    SL_ARRAY(sl_turn) turns;
+    SL_ARRAY(sl_reach_turn) turns;
     SL_ARRAY(sl_reached) cells;
 } sl_reach;
 
@@ -89,6 +89,6 @@ void sl_rays_destroy(sl_context *context, sl_rays *rays);
 
 /// Compares the directions of two turns seen from a point, the second turned by half a turn, both
 /// within half a turn from `first` on: -1, 0, 1.
-int sl_turns_compare(sl_point from, sl_point first, const sl_turn *a, const sl_turn *b);
+int sl_turns_compare(sl_point from, sl_point first, const sl_reach_turn *a, const sl_reach_turn *b);
 
 #endif

@@ -63,16 +63,14 @@ static void take_truth(const sl_visibility *seen, bool *truth) {
         truth[i] = sl_pvs_sees(&seen->pvs, (uint32_t)(i / n), (uint32_t)(i % n));
 }
 
-/// Asks every method, the search for portal sequences only where `axial`. Without the oracle's word
-/// the first method's counts.
-static bool space_fails(sl_context *context, const sl_space *space, bool axial, bool *truth[2],
-                        bool known, char why[WHY_SIZE]) {
+/// Asks every method. Without the oracle's word the first method's counts.
+static bool space_fails(sl_context *context, const sl_space *space, bool *truth[2], bool known,
+                        char why[WHY_SIZE]) {
     size_t count;
     const sl_see_method *methods = sl_see_methods(&count);
     bool fails = false;
     for (int sight = SL_CLOSED; sight <= SL_OPEN; sight++)
         for (size_t m = 0; m < count && !fails; m++) {
-            if (methods[m].stabs && !axial) continue;
             sl_visibility seen = see(context, space, &methods[m], (sl_sight)sight);
             if (m == 0 && !known) take_truth(&seen, truth[sight]);
             fails = errs(&seen, methods[m].name, truth[sight], why);
@@ -81,13 +79,13 @@ static bool space_fails(sl_context *context, const sl_space *space, bool axial, 
     return fails;
 }
 
-static bool try_space(sl_context *context, const sl_space *space, bool axial, bool ask_oracle,
+static bool try_space(sl_context *context, const sl_space *space, bool ask_oracle,
                       char why[WHY_SIZE]) {
     const size_t pairs = (size_t)space->cell_count * space->cell_count;
     bool *truth[2] = {must(calloc(pairs, sizeof **truth)), must(calloc(pairs, sizeof **truth))};
     const bool known =
         ask_oracle && oracle_by_sequences(space, PUSH_LIMIT, truth[SL_CLOSED], truth[SL_OPEN]);
-    const bool fails = (known || axial) && space_fails(context, space, axial, truth, known, why);
+    const bool fails = space_fails(context, space, truth, known, why);
     free(truth[0]);
     free(truth[1]);
     return fails;
@@ -105,7 +103,7 @@ static bool map_fails(sl_context *context, const sl_map *map, char why[WHY_SIZE]
         sl_space space;
         const sl_subdivide_options rules = sl_subdivide_options_default();
         need(context, sl_subdivide_kd(context, &clean, &rules, &space));
-        fails = try_space(context, &space, true, false, why);
+        fails = try_space(context, &space, false, why);
         sl_space_destroy(context, &space);
     }
     sl_map_destroy(context, &clean);
@@ -152,7 +150,7 @@ static bool try_oblique(sl_context *context, uint64_t seed) {
     char why[WHY_SIZE];
     sl_space space;
     oracle_random_space(context, seed, &space);
-    const bool fails = try_space(context, &space, false, true, why);
+    const bool fails = try_space(context, &space, true, why);
     if (fails) printf("# oblique space of seed %llu, %s\n", (unsigned long long)seed, why);
     sl_space_destroy(context, &space);
     return fails;

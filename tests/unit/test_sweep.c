@@ -60,7 +60,7 @@ static void check_file(const char *path) {
     sl_map map = {0};
     sl_space space;
     sl_import_options options = sl_import_options_default();
-    options.has_slice = true;
+    options.has_slice = strstr(path, ".ug") != NULL;
     options.slice = 1040;
     const sl_subdivide_options rules = sl_subdivide_options_default();
     assert_ok(context, sl_map_read(context, path, &options, &map));
