@@ -89,7 +89,8 @@ static sl_status read_events(ros_map *m, yaml_parser_t *parser) {
         if (type == YAML_SEQUENCE_END_EVENT) has_key = false;
         if (type != YAML_SCALAR_EVENT) continue;
         if (!has_key) {
-            snprintf(key, sizeof key, "%s", value.text);
+            // Longer than any key that is asked for: cut, it is none of them.
+            snprintf(key, sizeof key, "%.63s", value.text);
             has_key = true;
         } else if (lists) {
             SL_TRY(take_item(m, key, &value));
