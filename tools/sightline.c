@@ -22,6 +22,7 @@ static const command commands[] = {
     {"isovist", "what is seen from points: regions, their measures, heat maps", sl_cmd_isovist},
     {"draw", "a picture of a baked file", sl_cmd_draw},
     {"convert", "any map that can be read, as map text or ASCII plan", sl_cmd_convert},
+    {"generate", "procedural maps: maze, office, city, pillars, tunnels, tower", sl_cmd_generate},
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof *commands };
 

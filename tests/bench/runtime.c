@@ -1,7 +1,7 @@
 // What a game pays for a question to the runtime, beside a matrix of bits that it could keep
 // itself.
 //   bench_runtime MAP [Z]       a map file, and the height of its slice
-//   bench_runtime rooms:N       N x N rooms of random doors
+//   bench_runtime KIND:N        a generated map: office:20
 // CSV: machine, map, cells, what was asked, bytes that it reads, nanoseconds, times the first's.
 #include "bake/slv.h"
 #include "base/random.h"
@@ -23,46 +23,27 @@ static void fail(const char *what) {
 
 // --- what is asked
 
-/// Rooms of 10 by 10; through every wall between two of them goes a door of 2, somewhere, or none.
-static char *rooms_text(int side, size_t *size) {
-    char *text = NULL;
-    FILE *stream = open_memstream(&text, size);
-    sl_random random = {1};
-    if (!stream) fail("out of memory");
-    const int width = 10 * side;
-    fprintf(stream, "sightline 1\nwalls 0 0 %d 0 %d %d 0 %d 0 0\n", width, width, width, width);
-    for (int i = 1; i < side; i++)
-        for (int j = 0; j < side; j++)
-            for (int turned = 0; turned < 2; turned++) {
-                const int at = 10 * i, from = 10 * j,
-                          door = from + (int)sl_random_below(&random, 9);
-                const bool shut = sl_random_below(&random, 4) == 0;
-                const int ends[2][2] = {{from, shut ? from + 10 : door}, {door + 2, from + 10}};
-                for (int k = 0; k < (shut ? 1 : 2); k++) {
-                    if (ends[k][0] >= ends[k][1]) continue;
-                    if (turned)
-                        fprintf(stream, "wall %d %d %d %d\n", ends[k][0], at, ends[k][1], at);
-                    else
-                        fprintf(stream, "wall %d %d %d %d\n", at, ends[k][0], at, ends[k][1]);
-                }
-            }
-    if (fclose(stream) != 0) fail("out of memory");
-    return text;
+/// KIND:N is a generated map of the size N; any other name, without a colon, is a file's.
+static sl_status generate(sl_context *context, const char *name, const char *colon, sl_map *map) {
+    size_t count;
+    const sl_map_kind *kinds = sl_map_kinds(&count);
+    const size_t length = (size_t)(colon - name);
+    sl_generate_options options = sl_generate_options_default();
+    options.size = strtoull(colon + 1, NULL, 10);
+    for (size_t i = 0; i < count; i++)
+        if (strlen(kinds[i].name) == length && memcmp(kinds[i].name, name, length) == 0)
+            return sl_generate(context, &kinds[i], &options, map);
+    fail("there is no such kind of map");
+    return SL_BAD_ARGUMENT;
 }
 
 static void read_map(sl_context *context, const char *name, const char *slice, sl_map *map) {
     sl_import_options options = sl_import_options_default();
     options.has_slice = slice != NULL;
     options.slice = slice ? strtod(slice, NULL) : 0;
-    sl_status status;
-    if (strncmp(name, "rooms:", 6) == 0) {
-        size_t size;
-        char *text = rooms_text(atoi(name + 6), &size);
-        status = sl_map_read_text(context, name, text, size, map);
-        free(text);
-    } else {
-        status = sl_map_read(context, name, &options, map);
-    }
+    const char *colon = strchr(name, ':');
+    const sl_status status =
+        colon ? generate(context, name, colon, map) : sl_map_read(context, name, &options, map);
     if (status != SL_OK || sl_map_clean(context, map, NULL) != SL_OK)
         fail(sl_context_message(context));
 }
@@ -277,7 +258,7 @@ static void print_table(const bench *b, const char *name) {
 }
 
 int main(int argc, char **argv) {
-    if (argc < 2) fail("usage: bench_runtime MAP [Z] | rooms:N");
+    if (argc < 2) fail("usage: bench_runtime MAP [Z] | KIND:N");
     sl_context *context = sl_context_create(NULL);
     bench *b = room(sizeof *b);
     if (!context) fail("out of memory");

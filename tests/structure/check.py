@@ -17,7 +17,7 @@ import sys
 import tempfile
 
 # The stages, in order. Data goes one way: each knows those before it and nothing of those after it.
-FOLDERS = ["base", "geometry", "map", "import", "space", "effects", "stab", "cell_to_cell",
+FOLDERS = ["base", "geometry", "map", "import", "generate", "space", "effects", "stab", "cell_to_cell",
            "eye_to_cell", "walk", "view_cells", "bake", "runtime", "draw"]
 # Used by games with no other part of the library beside it.
 ALONE = {"runtime"}
