@@ -14,12 +14,13 @@ import sandbox
 from case import MAPS
 
 VALUES = {"MAP": "flat.map", "IN": "flat.map", "MAP|FILE.slv": "flat.map", "FILE.slv": "flat.slv",
-          "A": "0", "B": "0", "X,Y": "1,1"}
+          "A": "0", "B": "0", "X,Y": "1,1", "KIND": "tunnels"}
 OUTPUTS = {"FILE.slv": "out.slv", "PICTURE": "out.png", "OUT.map|OUT.txt": "out.map",
+           "OUT.map": "out.map",
            "FILE": "out.json", "FILE.csv": "out.csv", "DIR": "out"}
 # What no number, point, size or share is.
 NO_NUMBERS = ["", "nan", "-1e999", "0x10", "1 2", "1,", "1\n", "9" * 600]
-NUMBERS = {"N", "Z", "PX", "SIZE", "SHARE", "X,Y", "DEG", "SECONDS"}
+NUMBERS = {"N", "Z", "PX", "SIZE", "SHARE", "X,Y", "DEG", "PERCENT", "SECONDS"}
 NAMES = {"NAME", "closed|open", "RULE,...", "EFFECT,...", "LAYER,..."}
 
 
@@ -57,7 +58,8 @@ class Command:
 
     def reads(self):
         """What its first operand is called; None where that is no file."""
-        return VALUES.get(self.operands[0]) if self.operands else None
+        value = VALUES.get(self.operands[0], "") if self.operands else ""
+        return value if "." in value else None
 
 
 class Hostile(unittest.TestCase):
@@ -184,7 +186,8 @@ class Hostile(unittest.TestCase):
         for command in self.commands:
             for name, argument in command.options:
                 if argument in NUMBERS:
-                    for value in NO_NUMBERS + ["-1"] * (argument in ("N", "SIZE", "SHARE", "PX")):
+                    positive = argument in ("N", "SIZE", "SHARE", "PX", "PERCENT")
+                    for value in NO_NUMBERS + ["-1"] * positive:
                         self.refused(command.call(f"--{name}={value}"), 2)
                 elif argument in NAMES:
                     for value in ("", "x" * 5000, "none,none", "\033[2J"):

@@ -2,6 +2,7 @@
 #ifndef SL_FUZZ_H
 #define SL_FUZZ_H
 
+#include "sightline/import.h"
 #include "unit/map_same.h"
 
 #include <stdio.h>
@@ -38,6 +39,27 @@ static inline void fuzz_refused(sl_context *context, sl_status status, const sl_
     FUZZ_CHECK(status == SL_BAD_INPUT);
     FUZZ_CHECK(strncmp(sl_context_message(context), "input:", 6) == 0);
     FUZZ_CHECK(map_is_empty(map));
+}
+
+typedef sl_status fuzz_reader(sl_context *context, const char *name, const char *text, size_t size,
+                              const sl_import_options *options, sl_map *map);
+
+/// Reads a map: whatever is read is written as map text and read back the same. `argument` is what
+/// the message names where the options do not fit the file; NULL where they always do.
+static inline void fuzz_read(sl_context *context, const uint8_t *data, size_t size,
+                             fuzz_reader *read, const sl_import_options *options,
+                             const char *argument) {
+    sl_map map = {0};
+    const sl_status status = read(context, "input", (const char *)data, size, options, &map);
+    if (status == SL_OK) {
+        free(fuzz_round_trip(context, &map));
+    } else if (argument && status == SL_BAD_ARGUMENT) {
+        FUZZ_CHECK(strstr(sl_context_message(context), argument));
+        FUZZ_CHECK(map_is_empty(&map));
+    } else {
+        fuzz_refused(context, status, &map);
+    }
+    sl_map_destroy(context, &map);
 }
 
 #endif

@@ -2,19 +2,10 @@
 // back the same.
 #include "fuzz.h"
 
-#include "sightline/import.h"
-
 static void read_one(sl_context *context, const uint8_t *data, size_t size, const char *name) {
     sl_import_options options = sl_import_options_default();
     options.map = name;
-    sl_map map = {0};
-    const sl_status status =
-        sl_map_read_ldtk(context, "input", (const char *)data, size, &options, &map);
-    if (status == SL_OK)
-        free(fuzz_round_trip(context, &map));
-    else
-        fuzz_refused(context, status, &map);
-    sl_map_destroy(context, &map);
+    fuzz_read(context, data, size, sl_map_read_ldtk, &options, NULL);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {

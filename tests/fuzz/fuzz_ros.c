@@ -1,19 +1,10 @@
 // ROS' map.yaml: what names a picture that is not there is refused, all else too.
 #include "fuzz.h"
 
-#include "sightline/import.h"
-
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     sl_context *context = fuzz_context();
     const sl_import_options options = sl_import_options_default();
-    sl_map map = {0};
-    const sl_status status =
-        sl_map_read_ros(context, "input", (const char *)data, size, &options, &map);
-    if (status == SL_OK)
-        free(fuzz_round_trip(context, &map));
-    else
-        fuzz_refused(context, status, &map);
-    sl_map_destroy(context, &map);
+    fuzz_read(context, data, size, sl_map_read_ros, &options, NULL);
     sl_context_destroy(context);
     return 0;
 }

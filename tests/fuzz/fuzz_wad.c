@@ -2,18 +2,10 @@
 // and read back the same.
 #include "fuzz.h"
 
-#include "sightline/import.h"
-
-static void read_one(sl_context *context, const char *text, size_t size, const char *name,
+static void read_one(sl_context *context, const uint8_t *data, size_t size, const char *name,
                      bool doors) {
     const sl_import_options options = {.map = name, .doors = doors};
-    sl_map map = {0};
-    const sl_status status = sl_map_read_wad(context, "input", text, size, &options, &map);
-    if (status == SL_OK)
-        free(fuzz_round_trip(context, &map));
-    else
-        fuzz_refused(context, status, &map);
-    sl_map_destroy(context, &map);
+    fuzz_read(context, data, size, sl_map_read_wad, &options, NULL);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
@@ -22,8 +14,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     sl_map_list list = {0};
     if (sl_map_list_wad(context, "input", text, size, &list) == SL_OK)
         for (size_t i = 0; i < list.count && i < 4; i++)
-            read_one(context, text, size, list.names[i], size % 2);
-    read_one(context, text, size, NULL, size % 2 == 0);
+            read_one(context, data, size, list.names[i], size % 2);
+    read_one(context, data, size, NULL, size % 2 == 0);
     sl_map_list_destroy(context, &list);
     sl_context_destroy(context);
     return 0;
