@@ -9,11 +9,13 @@ sl_status sl_reacher_create(sl_context *context, const sl_fans *fans, bool close
                             sl_reacher *reacher) {
     *reacher = (sl_reacher){.fans = fans, .closed = closed};
     reacher->last = sl_alloc_array(context, fans->cell_count, sizeof *reacher->last);
-    return reacher->last ? SL_OK : SL_NO_MEMORY;
+    reacher->on_rays = sl_alloc_array(context, fans->cell_count, sizeof *reacher->on_rays);
+    return reacher->last && reacher->on_rays ? SL_OK : SL_NO_MEMORY;
 }
 
 void sl_reacher_destroy(sl_context *context, sl_reacher *reacher) {
     sl_free(context, reacher->last);
+    sl_free(context, reacher->on_rays);
     sl_free(context, reacher->steps.items);
     *reacher = (sl_reacher){0};
 }
@@ -313,15 +315,35 @@ sl_status sl_reach_add(sl_context *context, sl_reacher *r, const sl_fan_cell *ce
 
 // --- along one ray
 
+/// A ray, and what is known of its moment.
+typedef struct ray {
+    sl_bound along;
+    const sl_reach *known; ///< NULL for nothing
+    uint32_t turn;         ///< of `known`
+    uint32_t first;        ///< of its cells
+} ray;
+
+/// Whether a cell is seen at the ray's moment without it, and so all that lies beyond.
+static bool is_known(const sl_reacher *r, const ray *of, uint32_t cell) {
+    if (!of->known) return false;
+    const uint32_t found = r->last[cell];
+    if (found >= of->known->cells.count) return false;
+    const sl_reached *c = &of->known->cells.items[found];
+    const int8_t level = of->along.level;
+    return c->cell == cell &&
+           (c->enter < of->turn || (c->enter == of->turn && c->enter_level <= level)) &&
+           (c->leave > of->turn || (c->leave == of->turn && c->leave_level >= level));
+}
+
 /// As arrive, for a ray: each cell once.
-static sl_status arrive_along(sl_context *context, sl_reacher *r, sl_rays *rays, const piece *p) {
-    const uint32_t cell = r->fans->exits[p->exit].cell;
-    const uint32_t start = rays->starts.items[rays->starts.count - 1];
-    const uint32_t known = r->last[cell];
-    if (known >= start && known < rays->cells.count && rays->cells.items[known] == cell)
+static sl_status arrive_along(sl_context *context, sl_reacher *r, const ray *of, sl_rays *rays,
+                              const piece *p) {
+    const uint32_t cell = r->fans->exits[p->exit].cell, on_ray = r->on_rays[cell];
+    if (on_ray >= of->first && on_ray < rays->cells.count && rays->cells.items[on_ray] == cell)
         return SL_OK;
+    if (is_known(r, of, cell)) return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(context, &rays->cells, 1));
-    r->last[cell] = (uint32_t)rays->cells.count;
+    r->on_rays[cell] = (uint32_t)rays->cells.count;
     rays->cells.items[rays->cells.count++] = cell;
     return push_step(context, r, p, 0);
 }
@@ -344,28 +366,30 @@ static bool first_along(const sl_reacher *r, const sl_walk_exit *e, const sl_bou
     return true;
 }
 
-sl_status sl_rays_add(sl_context *context, sl_reacher *r, const sl_fan_cell *cell, sl_point edge,
-                      bool last, sl_rays *rays) {
-    const sl_bound along = {.at = edge, .level = last ? SL_COUNTER : SL_CLOCKWISE};
+sl_status sl_rays_add(sl_context *context, sl_reacher *r, sl_fan_edge edge, const sl_reach *known,
+                      uint32_t turn, sl_rays *rays) {
+    const uint32_t cell = edge.cell->cell;
+    const ray of = {.along = {.at = edge.edge, .level = edge.last ? SL_COUNTER : SL_CLOCKWISE},
+                    .known = known,
+                    .turn = turn,
+                    .first = (uint32_t)rays->cells.count};
     SL_TRY(SL_ARRAY_ROOM(context, &rays->starts, 2));
     if (!rays->starts.count) rays->starts.items[rays->starts.count++] = 0;
     SL_TRY(SL_ARRAY_ROOM(context, &rays->cells, 1));
-    r->last[cell->cell] = (uint32_t)rays->cells.count;
-    rays->cells.items[rays->cells.count++] = cell->cell;
+    r->on_rays[cell] = of.first;
+    rays->cells.items[rays->cells.count++] = cell;
     r->steps.count = 0;
-    for (uint32_t e = r->fans->first_exit[cell->cell]; e < r->fans->first_exit[cell->cell + 1];
-         e++) {
+    for (uint32_t e = r->fans->first_exit[cell]; e < r->fans->first_exit[cell + 1]; e++) {
         piece p = {.exit = e};
-        if (!first_along(r, &r->fans->exits[e], &along, &p)) continue;
-        SL_TRY(arrive_along(context, r, rays, &p));
+        if (!first_along(r, &r->fans->exits[e], &of.along, &p)) continue;
+        SL_TRY(arrive_along(context, r, &of, rays, &p));
         while (r->steps.count) {
             if (next_piece(r, &r->steps.items[r->steps.count - 1], &p))
-                SL_TRY(arrive_along(context, r, rays, &p));
+                SL_TRY(arrive_along(context, r, &of, rays, &p));
             else
                 r->steps.count--;
         }
     }
-    SL_TRY(SL_ARRAY_ROOM(context, &rays->starts, 1));
     rays->starts.items[rays->starts.count++] = (uint32_t)rays->cells.count;
     return SL_OK;
 }

@@ -61,7 +61,8 @@ typedef struct sl_reacher {
     const sl_fans *fans;
     bool closed;
     sl_point from;
-    uint32_t *last; ///< by cell: where it may stand in what is being found
+    uint32_t *last;    ///< by cell: where it may stand in what is being found
+    uint32_t *on_rays; ///< by cell: where it may stand among the cells of rays
     SL_ARRAY(sl_reach_step) steps;
     uint64_t pieces; ///< done so far
     uint32_t deepest;
@@ -78,10 +79,18 @@ void sl_reacher_destroy(sl_context *context, sl_reacher *reacher);
 sl_status sl_reach_add(sl_context *context, sl_reacher *reacher, const sl_fan_cell *cell,
                        sl_bound low, sl_bound high, bool thin, sl_reach *reach);
 
-/// Adds one ray: what is seen from a cell of a fan along its first edge, turning clockwise, or its
-/// `last` edge, which leads to `edge`, turning counter-clockwise.
-sl_status sl_rays_add(sl_context *context, sl_reacher *reacher, const sl_fan_cell *cell,
-                      sl_point edge, bool last, sl_rays *rays);
+/// An edge of a fan's cell: the first, about which the line turns clockwise, or the last,
+/// counter-clockwise.
+typedef struct sl_fan_edge {
+    const sl_fan_cell *cell;
+    sl_point edge;
+    bool last;
+} sl_fan_edge;
+
+/// Adds one ray: what is seen from a cell of a fan along an edge. `known`: what was found last, in
+/// which the edge is a turn's direction, or NULL; what it has at that moment is left out.
+sl_status sl_rays_add(sl_context *context, sl_reacher *reacher, sl_fan_edge along,
+                      const sl_reach *known, uint32_t turn, sl_rays *rays);
 
 void sl_reach_clear(sl_reach *reach);
 void sl_reach_destroy(sl_context *context, sl_reach *reach);

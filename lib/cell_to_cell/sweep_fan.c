@@ -77,12 +77,19 @@ static sl_status reach_back(sl_context *context, sl_sweeper *s, const sl_fan *fa
     return SL_OK;
 }
 
+/// The first cell of the fan that lies, in part or with its last edge, half a turn on.
+static uint32_t first_ahead(const sl_sweeper *s, const sl_fan *fan) {
+    const sl_fan_cell *cells = s->fans->cells.items + fan->first;
+    uint32_t k = 0;
+    while (cells[k + 1].past_half < (s->closed ? 0 : 1)) k++;
+    return k;
+}
+
 static sl_status reach_ahead(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     const sl_fan_cell *cells = s->fans->cells.items + fan->first;
     const sl_bound start = {
         .at = cells[0].edge, .away = true, .level = s->closed ? SL_CLOCKWISE : SL_AFTER};
-    for (uint32_t k = 0; k < fan->count; k++) {
-        if (cells[k + 1].past_half < (s->closed ? 0 : 1)) continue;
+    for (uint32_t k = first_ahead(s, fan); k < fan->count; k++) {
         const size_t found = s->ahead.cells.count;
         const sl_bound low = cells[k].past_half >= 0 ? after_edge(s, cells[k].edge) : start;
         const sl_bound high = before_edge(s, cells[k + 1].edge);
@@ -110,43 +117,46 @@ static sl_status reach_middle(sl_context *context, sl_sweeper *s, const sl_fan *
 
 // --- rays along the edges
 
+static sl_status start_rays(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
+    s->rays.starts.count = s->rays.cells.count = 0;
+    SL_TRY(SL_ARRAY_ROOM(context, &s->rays_of, fan->count));
+    for (uint32_t k = 0; k < fan->count; k++)
+        s->rays_of.items[k] = (sl_fan_rays){UINT32_MAX, UINT32_MAX};
+    return SL_OK;
+}
+
 static sl_status add_ray(sl_context *context, sl_sweeper *s, const sl_fan *fan, uint32_t k,
-                         bool last) {
+                         bool last, const sl_reach *known, uint32_t turn) {
     const sl_fan_cell *cells = s->fans->cells.items + fan->first;
     sl_fan_rays *of = &s->rays_of.items[k];
     uint32_t *ray = last ? &of->last : &of->first;
     if (*ray != UINT32_MAX) return SL_OK;
     *ray = s->rays.starts.count ? (uint32_t)s->rays.starts.count - 1 : 0;
-    return sl_rays_add(context, &s->reacher, &cells[k], cells[k + last].edge, last, &s->rays);
+    const sl_fan_edge along = {.cell = &cells[k], .edge = cells[k + last].edge, .last = last};
+    return sl_rays_add(context, &s->reacher, along, known, turn, &s->rays);
 }
 
-/// Gives the turns at the edges of one part their rays.
+/// Gives the turns at the edges of one part, which was found last, their rays. `first`: its first
+/// cell of the fan.
 static sl_status add_rays(sl_context *context, sl_sweeper *s, const sl_fan *fan, sl_reach *reach,
                           uint32_t first, bool last) {
     uint32_t k = first;
     for (size_t i = 0; i < reach->cells.count; i++) {
         const sl_reached *c = &reach->cells.items[i];
         if (!c->start) continue;
-        SL_TRY(add_ray(context, s, fan, k, last));
+        const uint32_t turn = last ? c->leave : c->enter;
+        SL_TRY(add_ray(context, s, fan, k, last, reach, turn));
         const sl_fan_rays *of = &s->rays_of.items[k++];
-        reach->turns.items[last ? c->leave : c->enter].ray = last ? of->last : of->first;
+        reach->turns.items[turn].ray = last ? of->last : of->first;
     }
     return SL_OK;
 }
 
-static sl_status find_rays(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
-    const sl_fan_cell *cells = s->fans->cells.items + fan->first;
-    s->rays.starts.count = s->rays.cells.count = 0;
-    SL_TRY(SL_ARRAY_ROOM(context, &s->rays_of, fan->count));
-    for (uint32_t k = 0; k < fan->count; k++)
-        s->rays_of.items[k] = (sl_fan_rays){UINT32_MAX, UINT32_MAX};
-    uint32_t ahead = 0;
-    while (cells[ahead + 1].past_half < 0 && ahead + 1 < fan->count) ahead++;
-    SL_TRY(add_rays(context, s, fan, &s->back, 0, false));
-    SL_TRY(add_rays(context, s, fan, &s->ahead, ahead, true));
-    for (uint32_t k = 0; fan->serves && k < fan->count; k++) {
-        SL_TRY(add_ray(context, s, fan, k, false));
-        SL_TRY(add_ray(context, s, fan, k, true));
+/// Those that only served cells need.
+static sl_status add_other_rays(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
+    for (uint32_t k = 0; k < fan->count; k++) {
+        SL_TRY(add_ray(context, s, fan, k, false, NULL, 0));
+        SL_TRY(add_ray(context, s, fan, k, true, NULL, 0));
     }
     return SL_OK;
 }
@@ -202,12 +212,15 @@ sl_status sl_sweep_fan(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     sl_reach_clear(&s->back);
     sl_reach_clear(&s->middle);
     sl_reach_clear(&s->ahead);
+    if (s->closed) SL_TRY(start_rays(context, s, fan));
     if (fan->wide) {
         SL_TRY(reach_back(context, s, fan));
+        if (s->closed) SL_TRY(add_rays(context, s, fan, &s->back, 0, false));
         SL_TRY(reach_ahead(context, s, fan));
+        if (s->closed) SL_TRY(add_rays(context, s, fan, &s->ahead, first_ahead(s, fan), true));
     }
     if (fan->serves && !fan->back_to_back) SL_TRY(reach_middle(context, s, fan));
-    if (s->closed) SL_TRY(find_rays(context, s, fan));
+    if (s->closed && fan->serves) SL_TRY(add_other_rays(context, s, fan));
     if (fan->serves) serve(s, fan);
     return fan->wide ? sl_sweep_turn(context, s, fan) : SL_OK;
 }
