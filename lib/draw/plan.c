@@ -220,3 +220,14 @@ sl_status sl_draw_walls_onto(sl_context *context, cairo_t *cairo, const sl_scene
                              const sl_frame *frame) {
     return draw_steps(context, cairo, scene, frame, WALLS_STEP);
 }
+
+void sl_draw_tree_onto(cairo_t *cairo, const sl_scene *scene, const sl_frame *frame) {
+    const plan p = {.cairo = cairo,
+                    .scene = scene,
+                    .space = &scene->baked->space,
+                    .map = &scene->baked->map,
+                    .frame = frame,
+                    .palette = &scene->palette,
+                    .pens = sl_pens_for(scene, frame)};
+    draw_tree(&p);
+}

@@ -15,4 +15,7 @@ sl_status sl_draw_onto(sl_context *context, cairo_t *cairo, const sl_scene *scen
 sl_status sl_draw_walls_onto(sl_context *context, cairo_t *cairo, const sl_scene *scene,
                              const sl_frame *frame);
 
+/// Of these layers the stab tree alone.
+void sl_draw_tree_onto(cairo_t *cairo, const sl_scene *scene, const sl_frame *frame);
+
 #endif

@@ -5,6 +5,7 @@
 #include "sightline/bake.h"
 #include "sightline/cell_to_cell.h"
 #include "sightline/context.h"
+#include "sightline/dual.h"
 #include "sightline/explain.h"
 #include "sightline/eye_to_cell.h"
 #include "sightline/faults.h"
@@ -19,6 +20,7 @@
 #include "sightline/solvers.h"
 #include "sightline/space.h"
 #include "sightline/stab.h"
+#include "sightline/steps.h"
 #include "sightline/view.h"
 
 #endif

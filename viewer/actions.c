@@ -1,0 +1,401 @@
+#include "actions.h"
+
+#include "edit.h"
+#include "quiz.h"
+#include "save.h"
+#include "walk.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    EXPLORE = 1 << SL_MODE_EXPLORE,
+    LEARN = 1 << SL_MODE_LEARN,
+    DRAW = 1 << SL_MODE_DRAW,
+    QUIZ = 1 << SL_MODE_QUIZ,
+    NOT_LEARN = EXPLORE | DRAW | QUIZ,
+    WALKS = EXPLORE | DRAW | LEARN,
+};
+
+// --- modes
+
+static void set_mode(sl_app *app, sl_mode mode) {
+    app->mode = mode;
+    app->held = 0;
+    app->lesson.plays = false;
+    sl_quiz_forget(app);
+    if (mode == SL_MODE_QUIZ) sl_quiz_ask(app);
+    sl_app_tick(app, 0);
+}
+
+#define MODE(name, value)                                                                          \
+    static void name(sl_app *app) {                                                                \
+        set_mode(app, value);                                                                      \
+    }                                                                                              \
+    static bool is_##name(const sl_app *app) {                                                     \
+        return app->mode == (value);                                                               \
+    }
+MODE(explore, SL_MODE_EXPLORE)
+MODE(learn, SL_MODE_LEARN)
+MODE(draw, SL_MODE_DRAW)
+MODE(quiz, SL_MODE_QUIZ)
+
+// --- layers
+
+#define LAYER(name, bit)                                                                           \
+    static void name(sl_app *app) {                                                                \
+        app->show ^= (bit);                                                                        \
+    }                                                                                              \
+    static bool is_##name(const sl_app *app) {                                                     \
+        return (app->show & (bit)) != 0;                                                           \
+    }
+LAYER(cells, SL_SHOW_CELLS)
+LAYER(portals, SL_SHOW_PORTALS)
+LAYER(splits, SL_SHOW_SPLITS)
+LAYER(pvs, SL_SHOW_PVS)
+LAYER(tree, SL_SHOW_TREE)
+LAYER(cull, SL_SHOW_CULL)
+LAYER(region, SL_SHOW_REGION)
+LAYER(starts, SL_SHOW_STARTS)
+
+#define SWITCH(name, field)                                                                        \
+    static void name(sl_app *app) {                                                                \
+        app->field = !app->field;                                                                  \
+    }                                                                                              \
+    static bool is_##name(const sl_app *app) {                                                     \
+        return app->field;                                                                         \
+    }
+SWITCH(first_person, first_person)
+SWITCH(side_panel, side_panel)
+SWITCH(dark, dark)
+SWITCH(help, help)
+SWITCH(maps, maps_open)
+SWITCH(fly, eye.flies)
+
+static void split_less(sl_app *app) {
+    if (app->split_depth > 1) app->split_depth--;
+}
+
+static void split_more(sl_app *app) {
+    if (app->split_depth < 64) app->split_depth++;
+}
+
+/// From the whole tree the first step down is that of its deepest nodes.
+static void tree_less(sl_app *app) {
+    const uint32_t deepest = app->tree.baked ? app->tree.tree_depth : 64;
+    if (app->tree_depth > deepest) app->tree_depth = deepest;
+    if (app->tree_depth > 0) app->tree_depth--;
+}
+
+static void tree_more(sl_app *app) {
+    if (app->tree_depth < 64) app->tree_depth++;
+}
+
+// --- view
+
+static void fit(sl_app *app) {
+    app->fitted = true;
+}
+
+static void zoom(sl_app *app, double factor) {
+    app->fitted = false;
+    app->motion = 0.2;
+    if (app->camera.scale > 0) sl_camera_zoom(&app->camera, factor, (sl_point){0, 0});
+}
+
+static void zoom_in(sl_app *app) {
+    zoom(app, 1.25);
+}
+
+static void zoom_out(sl_app *app) {
+    zoom(app, 1 / 1.25);
+}
+
+static void text_larger(sl_app *app) {
+    app->text_scale = fmin(app->text_scale * 1.15, 3);
+}
+
+static void text_smaller(sl_app *app) {
+    app->text_scale = fmax(app->text_scale / 1.15, 0.7);
+}
+
+static void narrower(sl_app *app) {
+    app->eye.fov = fmax(app->eye.fov > 5 ? app->eye.fov - 5 : app->eye.fov - 1, 1);
+}
+
+static void wider(sl_app *app) {
+    app->eye.fov = fmin(app->eye.fov < 5 ? app->eye.fov + 1 : app->eye.fov + 5, 360);
+}
+
+static void all_round(sl_app *app) {
+    app->eye.fov = app->eye.fov >= 360 ? 90 : 360;
+}
+
+static void home(sl_app *app) {
+    sl_walk_home(app);
+}
+
+// --- methods
+
+static void method_next(sl_app *app) {
+    size_t count;
+    sl_eye_methods(&count);
+    app->method = (app->method + 1) % count;
+}
+
+static void other_next(sl_app *app) {
+    size_t count;
+    sl_eye_methods(&count);
+    app->other = (app->other + 1) % count;
+}
+
+static void compare(sl_app *app) {
+    static const char *const words[] = {"one method", "two methods side by side",
+                                        "what the looser one adds, in orange"};
+    app->compare = (sl_compare)((app->compare + 1) % 3);
+    sl_app_say(app, false, "%s", words[app->compare]);
+}
+
+static bool is_compare(const sl_app *app) {
+    return app->compare != SL_COMPARE_OFF;
+}
+
+// --- the lesson
+
+static void step_next(sl_app *app) {
+    sl_lesson_go(&app->lesson, &app->document, app->lesson.at + 1);
+}
+
+static void step_back(sl_app *app) {
+    if (app->lesson.at) sl_lesson_go(&app->lesson, &app->document, app->lesson.at - 1);
+}
+
+static void step_first(sl_app *app) {
+    sl_lesson_go(&app->lesson, &app->document, 0);
+}
+
+static void step_last(sl_app *app) {
+    sl_lesson_go(&app->lesson, &app->document, SIZE_MAX);
+}
+
+SWITCH(play_steps, lesson.plays)
+
+static void subject(sl_app *app) {
+    app->lesson.subject =
+        app->lesson.subject == SL_SUBJECT_SEARCH ? SL_SUBJECT_SUBDIVISION : SL_SUBJECT_SEARCH;
+    app->lesson.plays = false;
+    sl_lesson_go(&app->lesson, &app->document, 0);
+}
+
+// --- walls
+
+static void travel(sl_app *app, bool redo) {
+    sl_status status = SL_OK;
+    if (!sl_history_undo(app->context, &app->history, &app->document.map, redo, &status)) {
+        sl_app_say(app, false, redo ? "nothing to redo" : "nothing to undo");
+        return;
+    }
+    sl_app_check(app, status);
+    sl_app_say(app, false, redo ? "redone" : "undone");
+    app->wall = UINT32_MAX;
+    sl_app_after_edit(app);
+}
+
+static void undo(sl_app *app) {
+    travel(app, false);
+}
+
+static void redo(sl_app *app) {
+    travel(app, true);
+}
+
+static void delete_wall(sl_app *app) {
+    sl_edit_delete(app);
+}
+
+// --- the quiz
+
+static void answer_yes(sl_app *app) {
+    sl_quiz_answer(app, true);
+}
+
+static void answer_no(sl_app *app) {
+    sl_quiz_answer(app, false);
+}
+
+static void next_question(sl_app *app) {
+    sl_quiz_ask(app);
+}
+
+// --- recording
+
+static void record(sl_app *app) {
+    sl_recorder *r = &app->recorder;
+    r->plays = false;
+    r->waited = 0;
+    if (!r->records) r->frames.count = 0;
+    r->records = !r->records;
+    sl_app_say(app, false, r->records ? "recording the eye's way" : "recorded");
+}
+
+static bool is_record(const sl_app *app) {
+    return app->recorder.records;
+}
+
+/// Without a recording the map's first path is walked.
+static void play(sl_app *app) {
+    sl_recorder *r = &app->recorder;
+    r->records = false;
+    if (!r->frames.count && app->document.baked && app->document.baked->map.path_count)
+        sl_app_check(app, sl_record_path(app->context, r, &app->document.baked->map.paths[0],
+                                         sl_walk_speed(app)));
+    if (!r->frames.count) {
+        sl_app_say(app, false, "nothing was recorded, and the map has no path");
+        return;
+    }
+    r->plays = !r->plays;
+    r->next = 0;
+    r->waited = 0;
+}
+
+static bool is_play(const sl_app *app) {
+    return app->recorder.plays;
+}
+
+static void export_series(sl_app *app) {
+    sl_app_check(app, sl_save_series(app, "sightline-frames", 2));
+}
+
+// --- files
+
+static void save_png(sl_app *app) {
+    sl_save_numbered(app, "png");
+}
+
+static void save_svg(sl_app *app) {
+    sl_save_numbered(app, "svg");
+}
+
+static void save_pdf(sl_app *app) {
+    sl_save_numbered(app, "pdf");
+}
+
+static void quit(sl_app *app) {
+    app->quit = true;
+}
+
+static void escape(sl_app *app) {
+    if (app->help || app->maps_open)
+        app->help = app->maps_open = false;
+    else if (app->document.job) {
+        sl_document_cancel(app->context, &app->document);
+        sl_app_say(app, false, "stopped; what is there without cell-to-cell visibility stays");
+    } else if (app->recorder.plays)
+        app->recorder.plays = false;
+    else
+        sl_quiz_forget(app);
+}
+
+#define HOLD(name, key, what, modes, bit)                                                          \
+    { name, key, NULL, what, modes, bit, NULL, NULL }
+
+static const sl_action actions[] = {
+    {"explore", "F1", "Explore", "explore: walk about", 0, 0, explore, is_explore},
+    {"learn", "F2", "Learn", "learn: step by step", 0, 0, learn, is_learn},
+    {"draw", "F3", "Draw", "draw: walls by hand", 0, 0, draw, is_draw},
+    {"quiz", "F4", "Quiz", "quiz: seen or not?", 0, 0, quiz, is_quiz},
+
+    HOLD("forward", "W", "walk ahead", WALKS, SL_HOLD_FORWARD),
+    HOLD("forward_too", "Up", "walk ahead", WALKS, SL_HOLD_FORWARD),
+    HOLD("back", "S", "walk back", WALKS, SL_HOLD_BACK),
+    HOLD("back_too", "Down", "walk back", WALKS, SL_HOLD_BACK),
+    HOLD("left", "A", "step to the left", WALKS, SL_HOLD_LEFT),
+    HOLD("right", "D", "step to the right", WALKS, SL_HOLD_RIGHT),
+    HOLD("turn_left", "Left", "turn left", EXPLORE | DRAW, SL_HOLD_TURN_LEFT),
+    HOLD("turn_right", "Right", "turn right", EXPLORE | DRAW, SL_HOLD_TURN_RIGHT),
+    {"fly", "G", "Fly", "fly through walls, or walk", 0, 0, fly, is_fly},
+    {"home", "H", "Home", "back to the map's start", 0, 0, home, NULL},
+    {"narrower", ",", NULL, "narrower view cone", 0, 0, narrower, NULL},
+    {"wider", ".", NULL, "wider view cone", 0, 0, wider, NULL},
+    {"all_round", "/", NULL, "all round, or a cone", 0, 0, all_round, NULL},
+
+    {"cells", "C", "Cells", "layer: cells", 0, 0, cells, is_cells},
+    {"portals", "P", "Portals", "layer: portals", 0, 0, portals, is_portals},
+    {"splits", "K", "Splits of the tree", "layer: splits by depth", 0, 0, splits, is_splits},
+    {"split_less", "[", NULL, "splits less deep", 0, 0, split_less, NULL},
+    {"split_more", "]", NULL, "splits deeper", 0, 0, split_more, NULL},
+    {"pvs", "V", "Visible set of the cell", "layer: the visible set", 0, 0, pvs, is_pvs},
+    {"tree", "B", "Stab tree of the cell", "layer: the stab tree", 0, 0, tree, is_tree},
+    {"tree_less", "-", NULL, "stab tree: a portal shorter", 0, 0, tree_less, NULL},
+    {"tree_more", "=", NULL, "stab tree: a portal longer", 0, 0, tree_more, NULL},
+    {"cull", "M", "Cells kept", "layer: cells kept by culling", 0, 0, cull, is_cull},
+    {"region", "R", "Visible region", "layer: the visible region", 0, 0, region, is_region},
+    {"starts", "J", "Starts, paths, objects", "layer: starts and paths", 0, 0, starts, is_starts},
+    {"first_person", "I", "First person", "first-person pane", 0, 0, first_person, is_first_person},
+
+    {"method", "E", NULL, "the next culling method", 0, 0, method_next, NULL},
+    {"compare", "X", "Compare", "two methods: panes, difference", EXPLORE, 0, compare, is_compare},
+    {"other", "Z", NULL, "the next method to compare with", EXPLORE, 0, other_next, NULL},
+
+    {"step_next", "Right", "\xe2\x96\xb6", "learn: a step on", LEARN, 0, step_next, NULL},
+    {"step_back", "Left", "\xe2\x97\x80", "learn: a step back", LEARN, 0, step_back, NULL},
+    {"step_first", "Home", "|\xe2\x97\x80", "learn: to the first step", LEARN, 0, step_first, NULL},
+    {"step_last", "End", "\xe2\x96\xb6|", "learn: to the last step", LEARN, 0, step_last, NULL},
+    {"play_steps", "Space", "Play", "learn: play the steps", LEARN, 0, play_steps, is_play_steps},
+    {"subject", "U", "Other", "learn: search or subdivision", LEARN, 0, subject, NULL},
+
+    {"undo", "Ctrl+Z", "Undo", "undo a change of walls", 0, 0, undo, NULL},
+    {"redo", "Ctrl+Y", "Redo", "redo it", 0, 0, redo, NULL},
+    {"delete", "Delete", "Delete", "draw: delete the chosen wall", DRAW, 0, delete_wall, NULL},
+
+    {"answer_yes", "Y", "Yes", "quiz: seen", QUIZ, 0, answer_yes, NULL},
+    {"answer_no", "N", "No", "quiz: not seen", QUIZ, 0, answer_no, NULL},
+    {"next_question", "Space", "Next", "quiz: the next question", QUIZ, 0, next_question, NULL},
+
+    {"record", "F9", "Record", "record the eye's way", 0, 0, record, is_record},
+    {"play", "F10", "Play", "play it, or the map's path", 0, 0, play, is_play},
+    {"export_series", "F11", "Export", "save it as numbered pictures", 0, 0, export_series, NULL},
+
+    {"maps", "O", "Maps", "open a map at hand", 0, 0, maps, is_maps},
+    {"save_png", "Ctrl+S", "Save", "save the plan as PNG", 0, 0, save_png, NULL},
+    {"save_svg", "Ctrl+G", "SVG", "save the plan as SVG", 0, 0, save_svg, NULL},
+    {"save_pdf", "Ctrl+P", "PDF", "save the plan as PDF", 0, 0, save_pdf, NULL},
+    {"fit", "F", "Fit", "show all of the map", 0, 0, fit, NULL},
+    {"zoom_in", "PageUp", NULL, "zoom in", 0, 0, zoom_in, NULL},
+    {"zoom_out", "PageDown", NULL, "zoom out", 0, 0, zoom_out, NULL},
+    {"dark", "T", "Dark", "light or dark", 0, 0, dark, is_dark},
+    {"text_larger", "Ctrl+=", NULL, "larger text", 0, 0, text_larger, NULL},
+    {"text_smaller", "Ctrl+-", NULL, "smaller text", 0, 0, text_smaller, NULL},
+    {"side_panel", "Tab", "Panel", "the panel at the right", 0, 0, side_panel, is_side_panel},
+    {"help", "?", "?", "this help", 0, 0, help, is_help},
+    {"escape", "Escape", NULL, "stop, close", 0, 0, escape, NULL},
+    {"quit", "Ctrl+Q", NULL, "quit", 0, 0, quit, NULL},
+};
+enum { COUNT = sizeof actions / sizeof *actions };
+
+const sl_action *sl_actions(size_t *count) {
+    *count = COUNT;
+    return actions;
+}
+
+int sl_action_find(const char *name) {
+    for (int i = 0; i < COUNT; i++)
+        if (strcmp(actions[i].name, name) == 0) return i;
+    return -1;
+}
+
+int sl_action_of_key(const char *key, sl_mode mode) {
+    for (int i = 0; i < COUNT; i++)
+        if (actions[i].key && strcmp(actions[i].key, key) == 0 &&
+            (!actions[i].modes || actions[i].modes & 1u << mode))
+            return i;
+    return -1;
+}
+
+void sl_action_run(sl_app *app, int action) {
+    if (action < 0 || action >= COUNT) return;
+    if (actions[action].run)
+        actions[action].run(app);
+    else
+        app->held |= actions[action].hold;
+}

@@ -1,0 +1,232 @@
+#include "app.h"
+
+#include "base/base.h"
+#include "panes.h"
+#include "quiz.h"
+#include "walk.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <string.h>
+
+void sl_app_init(sl_app *app, sl_context *context) {
+    size_t count;
+    sl_eye_methods(&count);
+    *app = (sl_app){.context = context,
+                    .eye = {.fov = 90},
+                    .show = SL_SHOW_CELLS | SL_SHOW_PORTALS | SL_SHOW_CULL | SL_SHOW_REGION |
+                            SL_SHOW_STARTS,
+                    .split_depth = 6,
+                    .tree_depth = 64,
+                    .method = count - 1,
+                    .other = 0,
+                    .side_panel = true,
+                    .text_scale = 1,
+                    .width = 1200,
+                    .height = 760,
+                    .wall = UINT32_MAX,
+                    .fitted = true,
+                    .pointer = {-1, -1},
+                    .quiz = {.random = 1}};
+}
+
+static void drop_scene(sl_app *app, sl_scene *scene) {
+    if (scene->baked) sl_scene_destroy(app->context, scene);
+}
+
+void sl_app_destroy(sl_app *app) {
+    drop_scene(app, &app->scene);
+    drop_scene(app, &app->tree);
+    if (app->under.surface) cairo_surface_destroy(app->under.surface);
+    if (app->over.surface) cairo_surface_destroy(app->over.surface);
+    sl_seen_destroy(app->context, &app->seen);
+    sl_lesson_destroy(app->context, &app->lesson);
+    sl_history_clear(app->context, &app->history);
+    sl_record_destroy(app->context, &app->recorder);
+    sl_explanation_destroy(app->context, &app->quiz.explanation);
+    sl_document_close(app->context, &app->document);
+    for (size_t i = 0; i < app->map_count; i++) sl_free(app->context, app->maps[i]);
+    if (app->maps) sl_free(app->context, app->maps);
+}
+
+void sl_app_say(sl_app *app, bool error, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(app->message, sizeof app->message, format, arguments);
+    va_end(arguments);
+    app->message_is_error = error;
+}
+
+void sl_app_check(sl_app *app, sl_status status) {
+    if (status != SL_OK && status != SL_CANCELLED)
+        sl_app_say(app, true, "%s", sl_context_message(app->context));
+}
+
+void sl_app_open(sl_app *app, const char *path) {
+    sl_document_source source = app->document.source;
+    source.path = (char *)(uintptr_t)path;
+    source.map = NULL;
+    app->maps_open = false;
+    sl_app_check(app, sl_document_open(app->context, &app->document, &source));
+}
+
+uint32_t sl_app_eye_cell(const sl_app *app) {
+    return app->document.baked ? sl_space_locate(&app->document.baked->space, app->eye.at)
+                               : SL_NO_CELL;
+}
+
+static sl_view eye_view(const sl_app *app) {
+    const sl_box b = app->document.baked->space.bounds;
+    const double reach = hypot(b.max.x - b.min.x, b.max.y - b.min.y);
+    return app->eye.fov >= 360 ? sl_view_all_round(app->eye.at)
+                               : sl_view_cone(app->eye.at, app->eye.heading, app->eye.fov, reach);
+}
+
+/// A map that was opened starts from its own start; one that was edited keeps the eye.
+static void take_document(sl_app *app, bool opened) {
+    if (!app->document.baked) return;
+    drop_scene(app, &app->scene);
+    drop_scene(app, &app->tree);
+    app->seen.valid = false;
+    app->wall = UINT32_MAX;
+    if (app->mode == SL_MODE_QUIZ) sl_quiz_forget(app);
+    if (!opened) return;
+    app->fitted = true;
+    sl_history_clear(app->context, &app->history);
+    app->recorder.records = app->recorder.plays = false;
+    app->recorder.frames.count = 0;
+    sl_walk_home(app);
+    const char *path = app->document.source.path;
+    const char *slash = path ? strrchr(path, '/') : NULL;
+    sl_app_say(app, false, "%s: %u cells, %u portals, %u walls",
+               slash ? slash + 1 : (path ? path : "map"), app->document.baked->space.cell_count,
+               app->document.baked->space.portal_count, app->document.baked->space.wall_count);
+}
+
+void sl_app_take_opened(sl_app *app) {
+    take_document(app, true);
+}
+
+static void poll(sl_app *app, bool wait) {
+    const char *before = app->document.source.path;
+    const sl_baked *baked = app->document.baked;
+    bool changed = false;
+    const sl_status status = wait ? sl_document_wait(app->context, &app->document, &changed)
+                                  : sl_document_poll(app->context, &app->document, &changed);
+    if (status == SL_CANCELLED) sl_app_say(app, false, "stopped");
+    if (changed) take_document(app, before != app->document.source.path || !baked);
+    sl_app_check(app, status);
+}
+
+static void look(sl_app *app) {
+    if (!app->document.baked) return;
+    const sl_view view = eye_view(app);
+    sl_app_check(app, sl_seen_update(app->context, &app->seen, &app->document, &view));
+    if (app->mode == SL_MODE_LEARN)
+        sl_app_check(app, sl_lesson_update(app->context, &app->lesson, &app->document,
+                                           sl_app_eye_cell(app)));
+}
+
+void sl_app_settle(sl_app *app) {
+    poll(app, true);
+    look(app);
+}
+
+void sl_app_tick(sl_app *app, double seconds) {
+    poll(app, app->steady);
+    app->motion = fmax(app->motion - seconds, 0);
+    sl_record_frame frame;
+    if (sl_record_play(&app->recorder, seconds, &frame)) {
+        app->eye.at = frame.at;
+        app->eye.heading = frame.heading;
+    } else {
+        sl_walk(app, fmin(seconds, 0.1));
+    }
+    sl_app_check(app, sl_record_tick(app->context, &app->recorder, seconds,
+                                     (sl_record_frame){app->eye.at, app->eye.heading}));
+    if (app->document.baked) sl_lesson_tick(&app->lesson, &app->document, seconds);
+    look(app);
+}
+
+void sl_app_before_edit(sl_app *app) {
+    sl_app_check(app, sl_history_keep(app->context, &app->history, &app->document.map));
+}
+
+void sl_app_after_edit(sl_app *app) {
+    sl_app_check(app, sl_document_rebuild(app->context, &app->document));
+}
+
+// --- the frame
+
+static sl_box box(double left, double top, double right, double bottom) {
+    return (sl_box){{left, top}, {fmax(right, left + 1), fmax(bottom, top + 1)}};
+}
+
+sl_layout sl_app_layout(const sl_app *app) {
+    const double t = 13 * app->text_scale, w = app->width, h = app->height;
+    sl_layout l = {.plan_count = 1};
+    const double bar = 2.3 * t, status = 1.9 * t;
+    const double side = app->side_panel ? fmin(24 * t, 0.5 * w) : 0;
+    l.bar = box(0, 0, w, bar);
+    l.status = box(0, h - status, w, h);
+    l.side = box(w - side, bar, w, h - status);
+    const double right = w - side;
+    double bottom = h - status;
+    if (app->mode == SL_MODE_LEARN) {
+        l.time = box(0, bottom - 4.7 * t, right, bottom);
+        bottom = l.time.min.y;
+    }
+    const bool dual = app->mode == SL_MODE_LEARN && app->lesson.subject == SL_SUBJECT_SEARCH;
+    if (dual || app->first_person) {
+        const double top = bar + (bottom - bar) * (dual ? 0.60 : 0.56);
+        const double split = dual && app->first_person ? right / 2 : right;
+        if (dual) l.dual = box(0, top, split, bottom);
+        if (app->first_person) l.first_person = box(dual ? split : 0, top, right, bottom);
+        bottom = top;
+    }
+    l.plan[0] = box(0, bar, right, bottom);
+    if (app->compare == SL_COMPARE_PANES && app->mode == SL_MODE_EXPLORE) {
+        l.plan_count = 2;
+        l.plan[0].max.x = floor(right / 2);
+        l.plan[1] = box(l.plan[0].max.x, bar, right, bottom);
+    }
+    return l;
+}
+
+static void draw_side(sl_app *app, sl_box where) {
+    switch (app->mode) {
+    case SL_MODE_EXPLORE:
+        sl_pane_side(app, where);
+        break;
+    case SL_MODE_LEARN:
+        sl_pane_learn(app, where);
+        break;
+    case SL_MODE_DRAW:
+        sl_pane_draw(app, where);
+        break;
+    case SL_MODE_QUIZ:
+        sl_pane_quiz(app, where);
+        break;
+    }
+}
+
+void sl_app_draw(sl_app *app, cairo_t *cairo) {
+    const sl_layout l = sl_app_layout(app);
+    app->ui.cairo = cairo;
+    app->ui.palette = sl_palette_make(app->dark);
+    app->ui.text = 13 * app->text_scale;
+    app->ui.pointer = app->pointer;
+    app->ui.hit_count = 0;
+    if (app->fitted && app->document.baked)
+        app->camera = sl_camera_fit(app->document.baked->space.bounds, sl_box_width(l.plan[0]),
+                                    sl_box_height(l.plan[0]));
+    for (int i = 0; i < l.plan_count; i++) sl_pane_plan(app, l.plan[i], i, false);
+    if (sl_box_width(l.dual) > 0) sl_pane_dual(app, l.dual);
+    if (sl_box_width(l.first_person) > 0) sl_pane_first_person(app, l.first_person);
+    if (sl_box_width(l.time) > 0) sl_pane_time(app, l.time);
+    if (app->side_panel) draw_side(app, l.side);
+    sl_pane_bar(app, l.bar);
+    sl_pane_status(app, l.status);
+    if (app->maps_open) sl_pane_maps(app);
+    if (app->help) sl_pane_help(app);
+}

@@ -1,0 +1,165 @@
+/// The viewer's state, and the frame that is drawn of it. Knows nothing of windows: the window, a
+/// script and a test drive it alike.
+#ifndef VIEWER_APP_H
+#define VIEWER_APP_H
+
+#include "camera.h"
+#include "document.h"
+#include "draw/scene.h"
+#include "history.h"
+#include "lesson.h"
+#include "record.h"
+#include "seen.h"
+#include "sightline/explain.h"
+#include "ui.h"
+
+typedef enum sl_mode { SL_MODE_EXPLORE, SL_MODE_LEARN, SL_MODE_DRAW, SL_MODE_QUIZ } sl_mode;
+
+/// What the plan shows beside walls.
+enum sl_show {
+    SL_SHOW_CELLS = 1,
+    SL_SHOW_PORTALS = 2,
+    SL_SHOW_SPLITS = 4,
+    SL_SHOW_PVS = 8,
+    SL_SHOW_TREE = 16,
+    SL_SHOW_CULL = 32,
+    SL_SHOW_REGION = 64,
+    SL_SHOW_STARTS = 128,
+};
+
+typedef enum sl_compare { SL_COMPARE_OFF, SL_COMPARE_PANES, SL_COMPARE_DIFFERENCE } sl_compare;
+
+/// Keys held down.
+enum sl_hold {
+    SL_HOLD_FORWARD = 1,
+    SL_HOLD_BACK = 2,
+    SL_HOLD_LEFT = 4,
+    SL_HOLD_RIGHT = 8,
+    SL_HOLD_TURN_LEFT = 16,
+    SL_HOLD_TURN_RIGHT = 32,
+};
+
+typedef struct sl_eye {
+    sl_point at;
+    double heading, fov; ///< degrees; 360: all round
+    bool flies;          ///< through walls
+} sl_eye;
+
+/// A picture that is kept as long as what it shows does not change.
+typedef struct sl_kept {
+    cairo_surface_t *surface;
+    struct {
+        uint32_t version, show, depth, dark;
+        sl_frame frame;
+    } key;
+    double seconds; ///< that drawing it took
+} sl_kept;
+
+/// What the pointer does while its button is down.
+typedef enum sl_drag_kind {
+    SL_DRAG_NONE,
+    SL_DRAG_PAN,
+    SL_DRAG_LOOK,
+    SL_DRAG_HIT,  ///< a slider, the time line, the dual plane
+    SL_DRAG_LINE, ///< the lesson's line, in the plan
+    SL_DRAG_END,  ///< a portal end of the lesson
+    SL_DRAG_NEW_WALL,
+    SL_DRAG_WALL,
+} sl_drag_kind;
+
+typedef struct sl_drag {
+    sl_drag_kind kind;
+    sl_hit hit;
+    sl_point from, last; ///< pointer
+    sl_point at;         ///< where it began, in the map
+    uint32_t index;
+    bool moved;
+} sl_drag;
+
+typedef struct sl_quiz {
+    uint32_t from, to;
+    bool asked, answered, right;
+    unsigned asked_count, right_count;
+    uint64_t random;
+    sl_explanation explanation; ///< once answered
+} sl_quiz;
+
+typedef struct sl_app {
+    sl_context *context;
+    sl_document document;
+    sl_history history;
+    sl_camera camera;
+    bool fitted; ///< the camera fits the map, and follows the window's size
+    sl_eye eye;
+    unsigned held; ///< of sl_hold
+    unsigned show; ///< of sl_show
+    uint32_t split_depth, tree_depth;
+    sl_mode mode;
+    size_t method, other; ///< of sl_eye_methods: chosen, and compared with
+    sl_compare compare;
+    bool side_panel, first_person, help, maps_open, dark;
+    double text_scale;
+    bool steady; ///< under a script: no clock shows, nothing is remembered
+    bool quit;
+    int width, height;
+    sl_point pointer;
+    sl_drag drag;
+    sl_seen seen;
+    sl_lesson lesson;
+    sl_quiz quiz;
+    sl_recorder recorder;
+    uint32_t wall; ///< chosen, of the map; UINT32_MAX: none
+    sl_ui ui;
+    sl_kept under, over; ///< below and above what changes from frame to frame
+    sl_scene scene;      ///< that they are drawn of; baked NULL: none yet
+    sl_scene tree;       ///< the stab tree of the eye's cell, likewise
+    uint32_t scene_version, scene_show, tree_version;
+    double motion;     ///< seconds for which a moving plan may be drawn by moving the kept picture
+    char message[512]; ///< the last thing to say
+    bool message_is_error;
+    char **maps; ///< files at hand
+    size_t map_count;
+    double frame_seconds; ///< smoothed; shown in the corner unless steady
+} sl_app;
+
+void sl_app_init(sl_app *app, sl_context *context);
+void sl_app_destroy(sl_app *app);
+
+void sl_app_open(sl_app *app, const char *path);
+
+/// The first map is there: looks at it from its start.
+void sl_app_take_opened(sl_app *app);
+
+/// Says something in the status line.
+void sl_app_say(sl_app *app, bool error, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/// Says what failed, where something did.
+void sl_app_check(sl_app *app, sl_status status);
+
+/// Time goes on: walks, plays, takes over what the background has done.
+void sl_app_tick(sl_app *app, double seconds);
+
+/// Waits for the background, so that scripts are the same on every machine.
+void sl_app_settle(sl_app *app);
+
+/// Draws the whole window of width x height.
+void sl_app_draw(sl_app *app, cairo_t *cairo);
+
+/// The map was changed by hand: remembers it for undo (before the change) or makes all anew
+/// (after).
+void sl_app_before_edit(sl_app *app);
+void sl_app_after_edit(sl_app *app);
+
+/// The cell of the eye; SL_NO_CELL outside and without a map.
+uint32_t sl_app_eye_cell(const sl_app *app);
+
+/// Where things are on the page.
+typedef struct sl_layout {
+    sl_box bar, side, status, plan[2], first_person, dual, time;
+    int plan_count;
+} sl_layout;
+
+sl_layout sl_app_layout(const sl_app *app);
+
+#endif

@@ -1,0 +1,120 @@
+#include "bake_job.h"
+
+#include "base/base.h"
+#include "map_copy.h"
+#include "sightline/import.h"
+#include "sightline/solvers.h"
+
+#include <string.h>
+#include <strings.h>
+
+/// A stab tree is kept as long as all fit into this.
+#define TREE_BYTES ((uint64_t)128 << 20)
+
+static bool is_cancelled(void *user) {
+    return atomic_load(&((sl_bake_job *)user)->cancel);
+}
+
+static void take_progress(void *user, const sl_progress *progress) {
+    sl_bake_job *job = user;
+    atomic_store(&job->stage, progress->stage);
+    atomic_store(&job->count, progress->done);
+    atomic_store(&job->total, progress->total);
+}
+
+static bool is_baked_file(const char *path) {
+    const size_t length = strlen(path);
+    return length > 4 && strcasecmp(path + length - 4, ".slv") == 0;
+}
+
+/// A baked file has everything but the map as drawn, which its space's walls stand for.
+static sl_status read_baked(sl_context *context, sl_bake_job *job) {
+    SL_TRY(sl_baked_read(context, job->source.path, job->baked));
+    SL_TRY(sl_map_copy(context, &job->baked->map, &job->map));
+    SL_TRY(sl_map_set_walls(context, &job->map, job->baked->space.walls,
+                            job->baked->space.wall_count));
+    job->visibility = job->baked->visibility;
+    job->baked->visibility = (sl_visibility){0};
+    atomic_store(&job->space_ready, true);
+    return SL_OK;
+}
+
+static sl_status read_map(sl_context *context, sl_bake_job *job) {
+    sl_import_options options = sl_import_options_default();
+    options.has_slice = job->source.has_slice;
+    options.slice = job->source.slice;
+    options.map = job->source.map;
+    return sl_map_read(context, job->source.path, &options, &job->map);
+}
+
+/// The walls of a baked map are its space's.
+static void drop_walls(sl_map *map) {
+    map->wall_count = 0;
+}
+
+static sl_status bake(sl_context *context, sl_bake_job *job) {
+    sl_baked *baked = job->baked;
+    const sl_subdivide_options how = sl_subdivide_options_default();
+    SL_TRY(sl_map_copy(context, &job->map, &baked->map));
+    SL_TRY(sl_map_clean(context, &baked->map, NULL));
+    SL_TRY(sl_subdivide_kd(context, &baked->map, &how, &baked->space));
+    drop_walls(&baked->map);
+    size_t count;
+    const sl_see_method *method = &sl_see_methods(&count)[0];
+    sl_see_options options = sl_see_options_default();
+    options.solver = sl_funnel();
+    options.trees = true;
+    options.tree_bytes = TREE_BYTES;
+    snprintf(baked->method, sizeof baked->method, "%s", method->name);
+    snprintf(baked->solver, sizeof baked->solver, "%s", options.solver->name);
+    atomic_store(&job->space_ready, true);
+    return method->see(context, &baked->space, &options, &job->visibility);
+}
+
+static sl_status work(sl_context *context, sl_bake_job *job) {
+    if (job->source.path && is_baked_file(job->source.path)) return read_baked(context, job);
+    if (job->source.path) SL_TRY(read_map(context, job));
+    return bake(context, job);
+}
+
+static void *run(void *user) {
+    sl_bake_job *job = user;
+    const sl_hooks hooks = {.user = job, .progress = take_progress, .cancelled = is_cancelled};
+    sl_context *context = sl_context_create(&hooks);
+    job->status = context ? work(context, job) : SL_NO_MEMORY;
+    snprintf(job->message, sizeof job->message, "%s",
+             context ? sl_context_message(context) : "out of memory");
+    if (context) sl_context_destroy(context);
+    atomic_store(&job->done, true);
+    return NULL;
+}
+
+static void free_source(sl_context *context, sl_document_source *source) {
+    sl_free(context, source->path);
+    sl_free(context, source->map);
+    *source = (sl_document_source){0};
+}
+
+static void free_job(sl_context *context, sl_bake_job *job) {
+    if (!job->taken && job->baked) {
+        sl_baked_destroy(context, job->baked);
+        sl_free(context, job->baked);
+    }
+    sl_visibility_destroy(context, &job->visibility);
+    sl_map_destroy(context, &job->map);
+    free_source(context, &job->source);
+    sl_free(context, job);
+}
+
+sl_status sl_bake_job_start(sl_context *context, sl_bake_job *job) {
+    atomic_store(&job->stage, "read");
+    job->baked = sl_alloc_array(context, 1, sizeof *job->baked);
+    if (job->baked && pthread_create(&job->thread, NULL, run, job) == 0) return SL_OK;
+    free_job(context, job);
+    return sl_fail(context, SL_NO_MEMORY, "no thread for the work in the background");
+}
+
+void sl_bake_job_end(sl_context *context, sl_bake_job *job) {
+    pthread_join(job->thread, NULL);
+    free_job(context, job);
+}

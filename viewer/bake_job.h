@@ -1,0 +1,31 @@
+/// The work in the background: from a file or a map to its space, and on to its visibility, in a
+/// thread of its own.
+#ifndef VIEWER_BAKE_JOB_H
+#define VIEWER_BAKE_JOB_H
+
+#include "document.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+
+struct sl_bake_job {
+    sl_document_source source; ///< what to read; no path: `map` is what to bake
+    sl_map map;                ///< as drawn; filled by the job where it reads
+    sl_baked *baked;           ///< the job's until space_ready, then only its visibility is
+    sl_visibility visibility;  ///< written when `done`
+    sl_status status;          ///< when `done`
+    char message[1024];
+    pthread_t thread;
+    atomic_bool cancel, space_ready, done;
+    _Atomic(const char *) stage;
+    atomic_uint_fast64_t count, total;
+    bool taken; ///< the main thread has the space
+};
+
+/// Starts the thread. Takes what the job holds in any case.
+sl_status sl_bake_job_start(sl_context *context, sl_bake_job *job);
+
+/// Waits for the thread and frees the job with what nobody has taken.
+void sl_bake_job_end(sl_context *context, sl_bake_job *job);
+
+#endif

@@ -1,0 +1,13 @@
+/// The clock that meters read.
+#ifndef VIEWER_CLOCK_H
+#define VIEWER_CLOCK_H
+
+#include <time.h>
+
+static inline double sl_clock_seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+#endif

@@ -1,0 +1,182 @@
+#include "document.h"
+
+#include "bake_job.h"
+#include "base/base.h"
+#include "map_copy.h"
+
+#include <string.h>
+#include <time.h>
+
+static char *copy_or_null(sl_context *context, const char *text) {
+    return text ? sl_copy_text(context, text, strlen(text)) : NULL;
+}
+
+static sl_status start(sl_context *context, sl_document *document, sl_bake_job *job) {
+    sl_document_cancel(context, document);
+    SL_TRY(sl_bake_job_start(context, job));
+    document->job = job;
+    return SL_OK;
+}
+
+sl_status sl_document_open(sl_context *context, sl_document *document,
+                           const sl_document_source *source) {
+    sl_bake_job *job = sl_alloc_array(context, 1, sizeof *job);
+    if (!job) return SL_NO_MEMORY;
+    job->source = (sl_document_source){.path = copy_or_null(context, source->path),
+                                       .has_slice = source->has_slice,
+                                       .slice = source->slice,
+                                       .map = copy_or_null(context, source->map)};
+    return start(context, document, job);
+}
+
+sl_status sl_document_rebuild(sl_context *context, sl_document *document) {
+    sl_bake_job *job = sl_alloc_array(context, 1, sizeof *job);
+    if (!job) return SL_NO_MEMORY;
+    const sl_status status = sl_map_copy(context, &document->map, &job->map);
+    if (status != SL_OK) {
+        sl_free(context, job);
+        return status;
+    }
+    return start(context, document, job);
+}
+
+static void drop_baked(sl_context *context, sl_document *document) {
+    if (document->search) sl_eye_search_destroy(context, document->search);
+    document->search = NULL;
+    sl_outline_destroy(context, &document->outline);
+    if (document->areas) sl_free(context, document->areas);
+    document->areas = NULL;
+    if (document->baked) {
+        sl_baked_destroy(context, document->baked);
+        sl_free(context, document->baked);
+    }
+    document->baked = NULL;
+    document->has_visibility = document->seeing = false;
+}
+
+static sl_status make_search(sl_context *context, sl_document *document) {
+    if (document->search) sl_eye_search_destroy(context, document->search);
+    document->search = NULL;
+    return sl_eye_search_create(context, &document->baked->space, &document->baked->visibility,
+                                &document->search);
+}
+
+static sl_status measure_cells(sl_context *context, sl_document *document) {
+    const sl_space *space = &document->baked->space;
+    document->areas = sl_alloc_array(context, space->cell_count, sizeof *document->areas);
+    if (!document->areas) return SL_NO_MEMORY;
+    document->area = 0;
+    document->counted = 0;
+    for (uint32_t cell = 0; cell < space->cell_count; cell++) {
+        document->areas[cell] = sl_space_area(space, cell);
+        if (!sl_baked_counts(document->baked, cell)) continue;
+        document->area += document->areas[cell];
+        document->counted++;
+    }
+    return SL_OK;
+}
+
+/// The space is there: from now on it is what is shown.
+static sl_status take_space(sl_context *context, sl_document *document) {
+    sl_bake_job *job = document->job;
+    drop_baked(context, document);
+    document->baked = job->baked;
+    job->taken = true;
+    document->seeing = true;
+    document->version++;
+    sl_map_destroy(context, &document->map);
+    SL_TRY(sl_map_copy(context, &job->map, &document->map));
+    if (job->source.path) {
+        sl_document_source *source = &document->source;
+        sl_free(context, source->path);
+        sl_free(context, source->map);
+        *source = job->source;
+        job->source = (sl_document_source){0};
+    }
+    SL_TRY(measure_cells(context, document));
+    SL_TRY(sl_outline_make(context, &document->baked->space, &document->outline));
+    return make_search(context, document);
+}
+
+static sl_status take_visibility(sl_context *context, sl_document *document) {
+    sl_bake_job *job = document->job;
+    document->baked->visibility = job->visibility;
+    job->visibility = (sl_visibility){0};
+    document->has_visibility = true;
+    document->version++;
+    return make_search(context, document);
+}
+
+static sl_status finish(sl_context *context, sl_document *document) {
+    sl_bake_job *job = document->job;
+    sl_status status = job->status;
+    if (status == SL_OK)
+        status = take_visibility(context, document);
+    else
+        sl_fail(context, status, "%s", job->message);
+    document->job = NULL;
+    document->seeing = false;
+    sl_bake_job_end(context, job);
+    return status;
+}
+
+sl_status sl_document_poll(sl_context *context, sl_document *document, bool *changed) {
+    *changed = false;
+    sl_bake_job *job = document->job;
+    if (!job) return SL_OK;
+    const bool done = atomic_load(&job->done);
+    if (!job->taken && atomic_load(&job->space_ready)) {
+        *changed = true;
+        const sl_status status = take_space(context, document);
+        if (status != SL_OK) {
+            sl_document_close(context, document);
+            return status;
+        }
+    }
+    if (!done) return SL_OK;
+    *changed = true;
+    return finish(context, document);
+}
+
+sl_status sl_document_wait(sl_context *context, sl_document *document, bool *changed) {
+    bool any = false;
+    sl_status status = SL_OK;
+    while (document->job) {
+        bool now;
+        status = sl_document_poll(context, document, &now);
+        any |= now;
+        if (document->job && !now) {
+            const struct timespec pause = {0, 500000};
+            nanosleep(&pause, NULL);
+        }
+    }
+    *changed = any;
+    return status;
+}
+
+sl_document_progress sl_document_progress_of(const sl_document *document) {
+    const sl_bake_job *job = document->job;
+    if (!job) return (sl_document_progress){0};
+    const uint64_t total = atomic_load(&job->total), count = atomic_load(&job->count);
+    return (sl_document_progress){.running = true,
+                                  .stage = atomic_load(&job->stage),
+                                  .share = total ? (double)count / (double)total : -1};
+}
+
+void sl_document_cancel(sl_context *context, sl_document *document) {
+    sl_bake_job *job = document->job;
+    if (!job) return;
+    atomic_store(&job->cancel, true);
+    document->job = NULL;
+    document->seeing = false;
+    sl_bake_job_end(context, job);
+}
+
+void sl_document_close(sl_context *context, sl_document *document) {
+    sl_document_cancel(context, document);
+    drop_baked(context, document);
+    sl_map_destroy(context, &document->map);
+    sl_free(context, document->source.path);
+    sl_free(context, document->source.map);
+    *document = (sl_document){0};
+}

@@ -1,0 +1,65 @@
+/// What is open: a map with its space and visibility, made anew in the background after each
+/// change.
+#ifndef VIEWER_DOCUMENT_H
+#define VIEWER_DOCUMENT_H
+
+#include "sightline/bake.h"
+#include "sightline/eye_to_cell.h"
+#include "sightline/region.h"
+
+/// How to read a file.
+typedef struct sl_document_source {
+    char *path; ///< NULL: none was opened
+    bool has_slice;
+    double slice;
+    char *map; ///< of a file of several maps; NULL for the only one
+} sl_document_source;
+
+typedef struct sl_bake_job sl_bake_job;
+
+/// A document, zeroed to start. All but the pointers marked so stay empty while nothing is open.
+typedef struct sl_document {
+    sl_document_source source;
+    sl_map map;          ///< as drawn: what is edited and baked
+    sl_baked *baked;     ///< its space may be there before its visibility; NULL while nothing is
+    bool seeing;         ///< the visibility is still being worked out
+    bool has_visibility; ///< and it is there
+    sl_outline outline;
+    sl_eye_search *search;
+    double *areas;    ///< of the cells
+    double area;      ///< of all cells that count
+    uint32_t counted; ///< how many there are
+    uint32_t version; ///< grows with every change, for those who keep pictures
+    sl_bake_job *job; ///< NULL: none runs
+} sl_document;
+
+/// How the work in the background stands.
+typedef struct sl_document_progress {
+    bool running;
+    const char *stage;
+    double share; ///< 0 to 1; negative where it is not known
+} sl_document_progress;
+
+/// Starts to open a file (map or .slv): what is open stays until the new map has its space. Copies
+/// the source.
+sl_status sl_document_open(sl_context *context, sl_document *document,
+                           const sl_document_source *source);
+
+/// Starts to make space and visibility of the map as it is now.
+sl_status sl_document_rebuild(sl_context *context, sl_document *document);
+
+/// Takes over what the background has done; *changed where something new can be shown. A job that
+/// failed gives its status and message, and leaves what was open.
+sl_status sl_document_poll(sl_context *context, sl_document *document, bool *changed);
+
+/// Waits until nothing runs any more.
+sl_status sl_document_wait(sl_context *context, sl_document *document, bool *changed);
+
+sl_document_progress sl_document_progress_of(const sl_document *document);
+
+/// Stops the work in the background, if there is any.
+void sl_document_cancel(sl_context *context, sl_document *document);
+
+void sl_document_close(sl_context *context, sl_document *document);
+
+#endif

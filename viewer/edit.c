@@ -1,0 +1,125 @@
+#include "edit.h"
+
+#include "draw/marks.h"
+#include "draw/sight.h"
+
+#include <math.h>
+
+double sl_edit_step(const sl_app *app) {
+    const double wanted = 11 / app->camera.scale;
+    double step = pow(10, floor(log10(wanted)));
+    if (step * 2 >= wanted) return step * 2;
+    return step * 5 >= wanted ? step * 5 : step * 10;
+}
+
+sl_point sl_edit_snap(const sl_app *app, sl_point at) {
+    const double step = sl_edit_step(app);
+    return (sl_point){step * round(at.x / step), step * round(at.y / step)};
+}
+
+static double distance_to(sl_point p, sl_point a, sl_point b) {
+    const double dx = b.x - a.x, dy = b.y - a.y, length = dx * dx + dy * dy;
+    const double along = length > 0 ? ((p.x - a.x) * dx + (p.y - a.y) * dy) / length : 0;
+    const double t = fmin(fmax(along, 0), 1);
+    return hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
+}
+
+uint32_t sl_edit_pick(const sl_app *app, sl_point at) {
+    const sl_map *map = &app->document.map;
+    double nearest = 7 / app->camera.scale;
+    uint32_t found = UINT32_MAX;
+    for (size_t i = 0; i < map->wall_count; i++) {
+        const double distance = distance_to(at, map->walls[i].a, map->walls[i].b);
+        if (distance > nearest) continue;
+        nearest = distance;
+        found = (uint32_t)i;
+    }
+    return found;
+}
+
+static sl_point made_axial(sl_point from, sl_point to) {
+    if (fabs(to.x - from.x) >= fabs(to.y - from.y)) return (sl_point){to.x, from.y};
+    return (sl_point){from.x, to.y};
+}
+
+void sl_edit_add(sl_app *app, sl_point from, sl_point to) {
+    const sl_point end = made_axial(from, to);
+    if (end.x == from.x && end.y == from.y) return;
+    if (!sl_coordinate_usable(end.x) || !sl_coordinate_usable(end.y)) return;
+    sl_app_before_edit(app);
+    sl_app_check(app, sl_map_add_wall(app->context, &app->document.map, from, end, 0));
+    sl_app_say(app, false, "wall from %g,%g to %g,%g", from.x, from.y, end.x, end.y);
+    sl_app_after_edit(app);
+}
+
+void sl_edit_move(sl_app *app, uint32_t wall, double dx, double dy) {
+    if (wall >= app->document.map.wall_count || (dx == 0 && dy == 0)) return;
+    const sl_wall *old = &app->document.map.walls[wall];
+    const double moved[4] = {old->a.x + dx, old->a.y + dy, old->b.x + dx, old->b.y + dy};
+    for (int i = 0; i < 4; i++)
+        if (!sl_coordinate_usable(moved[i])) return;
+    sl_app_before_edit(app);
+    sl_wall *w = &app->document.map.walls[wall];
+    w->a = (sl_point){moved[0], moved[1]};
+    w->b = (sl_point){moved[2], moved[3]};
+    sl_app_say(app, false, "wall moved by %g,%g", dx, dy);
+    sl_app_after_edit(app);
+}
+
+void sl_edit_delete(sl_app *app) {
+    sl_map *map = &app->document.map;
+    if (app->wall >= map->wall_count) {
+        sl_app_say(app, false, "no wall is chosen: click on one");
+        return;
+    }
+    if (map->wall_count == 1) {
+        sl_app_say(app, true, "the last wall stays: a map without walls has no cells");
+        return;
+    }
+    sl_app_before_edit(app);
+    map->walls[app->wall] = map->walls[--map->wall_count];
+    app->wall = UINT32_MAX;
+    sl_app_say(app, false, "wall deleted");
+    sl_app_after_edit(app);
+}
+
+static void draw_grid(sl_app *app, const sl_frame *frame) {
+    const double step = sl_edit_step(app), size = fmax(frame->unit, 1);
+    const double x0 = step * ceil(frame->corner.x / step);
+    const double y0 = step * ceil(frame->corner.y / step);
+    const int columns = (int)(frame->width / frame->scale / step) + 1;
+    const int rows = (int)(frame->height / frame->scale / step) + 1;
+    for (int i = 0; i < columns && columns < 1000; i++)
+        for (int k = 0; k < rows && rows < 1000; k++) {
+            const sl_point at = sl_frame_point(frame, (sl_point){x0 + i * step, y0 + k * step});
+            cairo_rectangle(app->ui.cairo, floor(at.x), floor(at.y), size, size);
+        }
+    const sl_colour c = app->ui.palette.faint;
+    cairo_set_source_rgba(app->ui.cairo, c.red, c.green, c.blue, 0.4);
+    cairo_fill(app->ui.cairo);
+}
+
+void sl_edit_draw(sl_app *app, const sl_frame *frame) {
+    const sl_map *map = &app->document.map;
+    const sl_colour colour = app->ui.palette.start;
+    const sl_drag *drag = &app->drag;
+    draw_grid(app, frame);
+    const sl_layout l = sl_app_layout(app);
+    const sl_point now = sl_camera_point(&app->camera, l.plan[0], app->pointer);
+    if (app->wall < map->wall_count)
+        sl_draw_line(app->ui.cairo, frame, map->walls[app->wall].a, map->walls[app->wall].b, colour,
+                     5 * frame->unit);
+    if (drag->kind == SL_DRAG_NEW_WALL) {
+        const sl_point from = sl_edit_snap(app, drag->at);
+        sl_draw_line(app->ui.cairo, frame, from, made_axial(from, sl_edit_snap(app, now)), colour,
+                     4 * frame->unit);
+    }
+    if (drag->kind == SL_DRAG_WALL && drag->index < map->wall_count) {
+        const double step = sl_edit_step(app);
+        const double dx = step * round((now.x - drag->at.x) / step);
+        const double dy = step * round((now.y - drag->at.y) / step);
+        const sl_wall *w = &map->walls[drag->index];
+        sl_draw_line(app->ui.cairo, frame, (sl_point){w->a.x + dx, w->a.y + dy},
+                     (sl_point){w->b.x + dx, w->b.y + dy}, colour, 4 * frame->unit);
+    }
+}

@@ -1,0 +1,114 @@
+#include "lesson.h"
+
+#include "base/base.h"
+
+#include <math.h>
+
+static void forget(sl_context *context, sl_lesson *lesson) {
+    sl_steps_destroy(context, &lesson->steps);
+    if (lesson->boxes) sl_free(context, lesson->boxes);
+    if (lesson->depths) sl_free(context, lesson->depths);
+    lesson->boxes = NULL;
+    lesson->depths = NULL;
+    lesson->node_count = 0;
+    lesson->made = false;
+    lesson->end_count = 0;
+    lesson->dragged = false;
+}
+
+void sl_lesson_destroy(sl_context *context, sl_lesson *lesson) {
+    forget(context, lesson);
+    *lesson = (sl_lesson){0};
+}
+
+/// Nodes stand in the array as the subdivision makes them, a parent before its children.
+static sl_status make_boxes(sl_context *context, sl_lesson *lesson, const sl_space *space) {
+    lesson->boxes = sl_alloc_array(context, space->node_count, sizeof *lesson->boxes);
+    lesson->depths = sl_alloc_array(context, space->node_count, sizeof *lesson->depths);
+    if (!lesson->boxes || !lesson->depths) return SL_NO_MEMORY;
+    lesson->node_count = space->node_count;
+    if (space->root >= 0) lesson->boxes[space->root] = space->bounds;
+    for (uint32_t i = 0; i < space->node_count; i++) {
+        const sl_node *node = &space->nodes[i];
+        sl_box below = lesson->boxes[i], above = below;
+        if (node->axis == 0)
+            below.max.x = above.min.x = node->position;
+        else
+            below.max.y = above.min.y = node->position;
+        const int32_t children[2] = {node->below, node->above};
+        for (int k = 0; k < 2; k++) {
+            if (children[k] < 0) continue;
+            lesson->boxes[children[k]] = k ? above : below;
+            lesson->depths[children[k]] = lesson->depths[i] + 1;
+        }
+    }
+    return SL_OK;
+}
+
+sl_status sl_lesson_update(sl_context *context, sl_lesson *lesson, const sl_document *document,
+                           uint32_t source) {
+    if (!document->baked || source == SL_NO_CELL) return SL_OK;
+    if (lesson->made && lesson->version == document->version && lesson->source == source)
+        return SL_OK;
+    const bool same_document = lesson->made && lesson->version == document->version;
+    const size_t at = lesson->at;
+    forget(context, lesson);
+    SL_TRY(make_boxes(context, lesson, &document->baked->space));
+    sl_steps_options options = sl_steps_options_default();
+    options.sight = document->baked->visibility.sight;
+    SL_TRY(sl_steps_record(context, &document->baked->space, &options, source, &lesson->steps));
+    lesson->made = true;
+    lesson->version = document->version;
+    lesson->source = source;
+    lesson->plays = false;
+    // The subdivision does not depend on the eye: it stays where it is.
+    const bool stay = same_document && lesson->subject == SL_SUBJECT_SUBDIVISION;
+    sl_lesson_go(lesson, document, stay ? at : 0);
+    return SL_OK;
+}
+
+size_t sl_lesson_length(const sl_lesson *lesson) {
+    if (!lesson->made) return 0;
+    return lesson->subject == SL_SUBJECT_SEARCH ? lesson->steps.count : lesson->node_count;
+}
+
+void sl_lesson_refresh(sl_lesson *lesson) {
+    if (!lesson->end_count) return;
+    const uint32_t count = lesson->end_count;
+    sl_dual_make(lesson->ends, count, count, &lesson->dual);
+    sl_dual_make(lesson->ends, count, count - 1, &lesson->before);
+}
+
+/// Takes the portals of the step's sequence, and of the lines through them the one with the largest
+/// margin.
+static void take_sequence(sl_lesson *lesson, const sl_space *space) {
+    uint32_t exits[SL_DUAL_PORTALS_MOST];
+    uint32_t count = sl_steps_sequence(&lesson->steps, lesson->at, exits, SL_DUAL_PORTALS_MOST);
+    if (count > SL_DUAL_PORTALS_MOST) count = SL_DUAL_PORTALS_MOST;
+    for (uint32_t i = 0; i < count; i++)
+        lesson->ends[i] =
+            (sl_portal_ends){space->exits[exits[i]].left, space->exits[exits[i]].right};
+    lesson->end_count = count;
+    lesson->dragged = false;
+    sl_lesson_refresh(lesson);
+    if (count) lesson->line = lesson->dual.best;
+}
+
+void sl_lesson_go(sl_lesson *lesson, const sl_document *document, size_t step) {
+    const size_t length = sl_lesson_length(lesson);
+    if (!length) return;
+    lesson->at = step < length ? step : length - 1;
+    lesson->waited = 0;
+    if (lesson->subject == SL_SUBJECT_SEARCH)
+        take_sequence(lesson, &document->baked->space);
+    else
+        lesson->end_count = 0;
+}
+
+void sl_lesson_tick(sl_lesson *lesson, const sl_document *document, double seconds) {
+    if (!lesson->plays) return;
+    lesson->waited += seconds;
+    if (lesson->waited < 0.5) return;
+    if (lesson->at + 1 >= sl_lesson_length(lesson)) lesson->plays = false;
+    sl_lesson_go(lesson, document, lesson->at + 1);
+}

@@ -1,0 +1,194 @@
+/// sightline-view: its arguments, and how it ends: 0 done, 1 the work failed (no display), 2 the
+/// arguments or an input file are wrong.
+#include "base/base.h"
+#include "bench.h"
+#include "save.h"
+#include "script.h"
+#include "settings.h"
+#include "shelf.h"
+#include "soak.h"
+#include "window.h"
+
+#include <getopt.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct arguments {
+    const char *map, *screenshot, *script, *of;
+    double slice, soak;
+    bool has_slice, bench, help, version;
+    unsigned long frames;
+    unsigned long long seed;
+} arguments;
+
+static void print_help(void) {
+    puts("usage: sightline-view [MAP] [options]\n\n"
+         "Shows a map (or a baked .slv file), what is seen in it, and how that is found out.\n"
+         "'?' in the window tells keys and mouse.\n\n"
+         "  --slice Z            height of the cut, for models (.ug)\n"
+         "  --map NAME           which map of a file of several\n"
+         "  --script FILE        do what the file says, without a window\n"
+         "  --screenshot OUT     save the window (.png, .svg, .pdf), after the script; no display\n"
+         "                       is needed\n"
+         "  --bench [--frames N] print frame times with all layers on, without a display\n"
+         "  --soak SECONDS [--seed N]\n"
+         "                       random events, without a display\n"
+         "  --help, --version\n\n"
+         "A script has a command a line: open FILE; key NAME; down NAME; up NAME; action NAME;\n"
+         "move X Y; click X Y; right X Y; drag X Y X2 Y2; wheel STEPS; wait FRAMES; size W H;\n"
+         "eye X Y HEADING [CONE]; text SCALE; screenshot FILE; save FILE; export FOLDER.\n\n"
+         "Exit status: 0 done; 1 the work failed; 2 the arguments or an input file are wrong.\n\n"
+         "example:\n"
+         "  sightline-view maps/office.map");
+}
+
+static sl_status read_number(sl_context *context, const char *option, const char *text, double low,
+                             double *value) {
+    char *end;
+    *value = strtod(text, &end);
+    if (end == text || *end || !isfinite(*value) || *value < low)
+        return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: a number is needed", option, text);
+    return SL_OK;
+}
+
+static sl_status read_option(sl_context *context, int option, arguments *a) {
+    double number;
+    switch (option) {
+    case 'z':
+        a->has_slice = true;
+        return read_number(context, "--slice", optarg, -1e150, &a->slice);
+    case 'm':
+        a->of = optarg;
+        return SL_OK;
+    case 's':
+        a->script = optarg;
+        return SL_OK;
+    case 'o':
+        a->screenshot = optarg;
+        return SL_OK;
+    case 'b':
+        a->bench = true;
+        return SL_OK;
+    case 'f':
+        SL_TRY(read_number(context, "--frames", optarg, 1, &number));
+        a->frames = (unsigned long)fmin(number, 1e6);
+        return SL_OK;
+    case 'k':
+        return read_number(context, "--soak", optarg, 0, &a->soak);
+    case 'e':
+        SL_TRY(read_number(context, "--seed", optarg, 0, &number));
+        a->seed = (unsigned long long)fmin(number, 9e15);
+        return SL_OK;
+    case 'h':
+        a->help = true;
+        return SL_OK;
+    case 'v':
+        a->version = true;
+        return SL_OK;
+    default:
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "wrong arguments; 'sightline-view --help' tells the right ones");
+    }
+}
+
+static sl_status read_arguments(sl_context *context, int argc, char **argv, arguments *a) {
+    static const struct option options[] = {
+        {"slice", required_argument, NULL, 'z'},
+        {"map", required_argument, NULL, 'm'},
+        {"script", required_argument, NULL, 's'},
+        {"screenshot", required_argument, NULL, 'o'},
+        {"bench", no_argument, NULL, 'b'},
+        {"frames", required_argument, NULL, 'f'},
+        {"soak", required_argument, NULL, 'k'},
+        {"seed", required_argument, NULL, 'e'},
+        {"help", no_argument, NULL, 'h'},
+        {"version", no_argument, NULL, 'v'},
+        {NULL, 0, NULL, 0},
+    };
+    *a = (arguments){.frames = 300, .seed = 1};
+    opterr = 0;
+    for (int option; (option = getopt_long(argc, argv, "h", options, NULL)) != -1;)
+        SL_TRY(read_option(context, option, a));
+    if (argc - optind > 1)
+        return sl_fail(context, SL_BAD_ARGUMENT, "one map at a time, not also '%s'",
+                       argv[optind + 1]);
+    if (optind < argc) a->map = argv[optind];
+    return SL_OK;
+}
+
+/// Opens the map named; without a window it is waited for, and what is wrong with it ends all.
+static sl_status open_map(sl_app *app, const arguments *a, bool wait) {
+    if (!a->map) return SL_OK;
+    const sl_document_source source = {.path = (char *)(uintptr_t)a->map,
+                                       .has_slice = a->has_slice,
+                                       .slice = a->slice,
+                                       .map = (char *)(uintptr_t)a->of};
+    SL_TRY(sl_document_open(app->context, &app->document, &source));
+    if (!wait) return SL_OK;
+    sl_status status = SL_OK;
+    bool changed;
+    // The window's own way, but for the status, which is the program's here.
+    while (app->document.job && !app->document.baked && status == SL_OK)
+        status = sl_document_poll(app->context, &app->document, &changed);
+    return status;
+}
+
+static sl_status run_headless(sl_app *app, const arguments *a) {
+    app->steady = true;
+    SL_TRY(open_map(app, a, true));
+    sl_app_take_opened(app);
+    sl_app_settle(app);
+    if (a->script) SL_TRY(sl_script_run(app, a->script, NULL, NULL));
+    if (a->bench) SL_TRY(sl_bench_run(app, (unsigned)a->frames));
+    if (a->soak > 0) {
+        app->steady = false;
+        SL_TRY(sl_soak_run(app, a->soak, a->seed));
+    }
+    return a->screenshot ? sl_save_window(app, a->screenshot) : SL_OK;
+}
+
+static sl_status run_window(sl_app *app, const arguments *a) {
+    sl_window *window;
+    SL_TRY(open_map(app, a, true));
+    sl_app_take_opened(app);
+    sl_settings_load(app);
+    SL_TRY(sl_window_open(app, false, &window));
+    if (!a->map) app->maps_open = true;
+    const sl_status status = sl_window_run(window);
+    sl_window_close(window);
+    if (status == SL_OK) sl_settings_save(app);
+    return status;
+}
+
+static sl_status run(sl_context *context, int argc, char **argv) {
+    arguments a;
+    SL_TRY(read_arguments(context, argc, argv, &a));
+    if (a.help) print_help();
+    if (a.version) puts("sightline-view " SIGHTLINE_VERSION);
+    if (a.help || a.version) return SL_OK;
+    sl_app *app = sl_alloc_array(context, 1, sizeof *app);
+    if (!app) return SL_NO_MEMORY;
+    sl_app_init(app, context);
+    sl_shelf_fill(app, a.map);
+    const bool headless = a.script || a.screenshot || a.bench || a.soak > 0;
+    const sl_status status = headless ? run_headless(app, &a) : run_window(app, &a);
+    sl_app_destroy(app);
+    sl_free(context, app);
+    return status;
+}
+
+int main(int argc, char **argv) {
+    sl_context *context = sl_context_create(NULL);
+    if (!context) {
+        fputs("sightline-view: out of memory\n", stderr);
+        return 1;
+    }
+    const sl_status status = run(context, argc, argv);
+    if (status != SL_OK) fprintf(stderr, "sightline-view: %s\n", sl_context_message(context));
+    sl_context_destroy(context);
+    const bool input =
+        status == SL_BAD_ARGUMENT || status == SL_BAD_INPUT || status == SL_UNSUPPORTED;
+    return status == SL_OK ? 0 : input ? 2 : 1;
+}

@@ -1,0 +1,342 @@
+/// The panel at the right: what can be shown, what each method keeps, what the pointer is over.
+#include "panes.h"
+
+#include "actions.h"
+#include "draw/text.h"
+#include "quiz.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct column {
+    double left, right, y;
+} column;
+
+static column begin_panel(sl_app *app, sl_box box) {
+    sl_ui *ui = &app->ui;
+    sl_ui_fill(ui, box, ui->palette.page);
+    sl_ui_line(ui, box.min.x + 0.5, box.min.y, box.min.x + 0.5, box.max.y, ui->palette.outline);
+    sl_ui_hit(ui, SL_HIT_PANEL, 0, box);
+    return (column){box.min.x + 1.1 * ui->text, box.max.x - 1.1 * ui->text, box.min.y};
+}
+
+static void heading(sl_app *app, column *c, const char *text, const char *right) {
+    sl_ui *ui = &app->ui;
+    c->y += 1.9 * ui->text;
+    sl_ui_text(ui, c->left, c->y, 1, true, ui->palette.ink, text);
+    if (right) sl_ui_text_right(ui, c->right, c->y, 0.9, ui->palette.faint, right);
+    c->y += 0.55 * ui->text;
+}
+
+static void check_row(sl_app *app, column *c, const char *name) {
+    size_t count;
+    const int number = sl_action_find(name);
+    const sl_action *action = &sl_actions(&count)[number];
+    const double height = 1.5 * app->ui.text;
+    sl_ui_check(&app->ui,
+                (sl_box){{c->left - 0.4 * app->ui.text, c->y},
+                         {c->right + 0.4 * app->ui.text, c->y + height}},
+                action->label, action->key, action->on(app), number);
+    c->y += height;
+}
+
+static void slider_row(sl_app *app, column *c, const char *label, const char *value, double share,
+                       sl_hit_kind kind) {
+    sl_ui *ui = &app->ui;
+    const double t = ui->text, middle = c->y + 0.8 * t;
+    sl_ui_text(ui, c->left, middle + 0.36 * t, 1, false, ui->palette.ink, label);
+    sl_ui_text_right(ui, c->right, middle + 0.36 * t, 1, ui->palette.ink, value);
+    sl_ui_slider(ui, (sl_box){{c->left + 6.4 * t, c->y}, {c->right - 4.2 * t, c->y + 1.6 * t}},
+                 share, kind);
+    c->y += 1.7 * t;
+}
+
+// --- methods
+
+static void write_seconds(const sl_app *app, double seconds, char text[32]) {
+    if (app->steady)
+        snprintf(text, 32, "\xe2\x80\x93");
+    else if (seconds < 1e-3)
+        snprintf(text, 32, "%.0f \xc2\xb5s", 1e6 * seconds);
+    else
+        snprintf(text, 32, "%.1f ms", 1e3 * seconds);
+}
+
+static void cells_text(double x, sl_ui *ui, double y, uint64_t count, sl_colour colour) {
+    char text[SL_COUNT_TEXT];
+    sl_text_count(count, "", text);
+    sl_ui_text_right(ui, x, y, 0.95, colour, text);
+}
+
+typedef struct method_row {
+    const char *name;
+    sl_colour colour;
+    bool known, chosen, other;
+    uint32_t cells;
+    double area, seconds;
+    uint64_t tests;
+} method_row;
+
+static void draw_method(sl_app *app, column *c, const method_row *row, int number) {
+    sl_ui *ui = &app->ui;
+    const double t = ui->text, height = 1.55 * t, base = c->y + 1.12 * t;
+    const sl_box box = {{c->left - 0.4 * t, c->y}, {c->right + 0.4 * t, c->y + height}};
+    if (row->chosen || row->other || sl_box_has(box, ui->pointer))
+        sl_ui_fill_round(ui, box, 0.25 * t,
+                         sl_colour_mix(ui->palette.page,
+                                       row->chosen ? ui->palette.glass : ui->palette.ink,
+                                       row->chosen ? 0.2 : 0.08));
+    sl_ui_fill_round(ui, (sl_box){{c->left, c->y + 0.35 * t}, {c->left + 0.9 * t, c->y + 1.25 * t}},
+                     0.15 * t, row->colour);
+    char words[64], text[SL_COUNT_TEXT];
+    snprintf(words, sizeof words, "%s", row->name);
+    for (char *at = words; *at; at++)
+        if (*at == '_') *at = ' ';
+    sl_text_show_within(ui->cairo, ui->palette.ink, c->left + 1.3 * t, base,
+                        c->right - c->left - 14.6 * t, 0.95 * t, false, words);
+    if (row->known) {
+        const double unit = (c->right - c->left) / 22;
+        cells_text(c->left + 11.2 * unit, ui, base, row->cells, ui->palette.ink);
+        sl_text_percent(app->document.area > 0 ? row->area / app->document.area : 0, text);
+        sl_ui_text_right(ui, c->left + 14.8 * unit, base, 0.95, ui->palette.ink, text);
+        cells_text(c->left + 18 * unit, ui, base, row->tests, ui->palette.ink);
+        write_seconds(app, row->seconds, text);
+        sl_ui_text_right(ui, c->right, base, 0.95, ui->palette.faint, text);
+    }
+    if (number >= 0) sl_ui_hit(ui, SL_HIT_METHOD, number, box);
+    c->y += height;
+}
+
+static void draw_methods(sl_app *app, column *c) {
+    sl_ui *ui = &app->ui;
+    size_t count;
+    const sl_eye_method *methods = sl_eye_methods(&count);
+    const double unit = (c->right - c->left) / 22, t = ui->text;
+    heading(app, c, "What is kept", NULL);
+    c->y -= 0.55 * t;
+    sl_ui_text_right(ui, c->left + 11.2 * unit, c->y, 0.85, ui->palette.faint, "cells");
+    sl_ui_text_right(ui, c->left + 14.8 * unit, c->y, 0.85, ui->palette.faint, "area");
+    sl_ui_text_right(ui, c->left + 18 * unit, c->y, 0.85, ui->palette.faint, "tests");
+    sl_ui_text_right(ui, c->right, c->y, 0.85, ui->palette.faint, "time");
+    c->y += 0.4 * t;
+    for (size_t i = 0; i < count && i < SL_SEEN_MOST; i++) {
+        const sl_seen_method *m = &app->seen.methods[i];
+        const method_row row = {.name = methods[i].name,
+                                .colour = sl_pane_method_colour(app, i),
+                                .known = app->seen.valid && m->known,
+                                .chosen = i == app->method,
+                                .other = app->compare && i == app->other,
+                                .cells = m->count,
+                                .area = m->area,
+                                .seconds = m->seconds,
+                                .tests = m->account.orientations};
+        draw_method(app, c, &row, (int)i);
+    }
+    char text[SL_COUNT_TEXT], line[160];
+    const double base = c->y + 1.12 * t;
+    sl_ui_fill_round(ui, (sl_box){{c->left, c->y + 0.35 * t}, {c->left + 0.9 * t, c->y + 1.25 * t}},
+                     0.15 * t, ui->palette.source);
+    sl_ui_text(ui, c->left + 1.3 * t, base, 0.95, false, ui->palette.ink, "visible region");
+    sl_text_percent(
+        app->document.area > 0 && app->seen.valid ? app->seen.region_area / app->document.area : 0,
+        text);
+    sl_ui_text_right(ui, c->left + 14.8 * unit, base, 0.95, ui->palette.ink, text);
+    cells_text(c->left + 18 * unit, ui, base, app->seen.valid ? app->seen.region.crossings : 0,
+               ui->palette.ink);
+    write_seconds(app, app->seen.region_seconds, text);
+    sl_ui_text_right(ui, c->right, base, 0.95, ui->palette.faint, text);
+    c->y += 1.6 * t;
+    if (app->seen.valid && app->seen.methods[app->method].known && app->seen.region_area > 0) {
+        snprintf(line, sizeof line, "The cells kept have %.1f times the area that is visible.",
+                 app->seen.methods[app->method].area / app->seen.region_area);
+        c->y = sl_ui_paragraph(ui, c->left, c->y + t, c->right - c->left, 0.9, ui->palette.faint,
+                               line) -
+               t;
+    }
+}
+
+// --- words
+
+void sl_pane_describe(const sl_app *app, sl_point at, char *text, size_t room) {
+    text[0] = '\0';
+    if (!app->document.baked) return;
+    const sl_space *space = &app->document.baked->space;
+    const uint32_t cell = sl_space_locate(space, at);
+    if (cell == SL_NO_CELL) {
+        snprintf(text, room, "%.6g, %.6g: outside the map", at.x, at.y);
+        return;
+    }
+    const sl_cell *c = &space->cells[cell];
+    const size_t word = cell / 64, bit = cell % 64;
+    const bool counts = sl_baked_counts(app->document.baked, cell);
+    int length = snprintf(text, room, "Cell %u at %.4g, %.4g: %u portal%s, area %.4g%s.", cell,
+                          at.x, at.y, c->exit_count, c->exit_count == 1 ? "" : "s",
+                          app->document.areas[cell], counts ? "" : ", not inside");
+    if (!app->seen.valid || !app->seen.pvs || length < 0 || (size_t)length >= room) return;
+    size_t count;
+    sl_eye_methods(&count);
+    const bool seen = count && app->seen.methods[count - 1].known &&
+                      app->seen.methods[count - 1].cells[word] >> bit & 1;
+    const bool pvs = app->seen.pvs[word] >> bit & 1;
+    snprintf(text + length, room - (size_t)length, " %s",
+             cell == app->seen.cell ? "The eye stands in it."
+             : seen                 ? "The eye sees it."
+             : pvs                  ? "The eye's cell sees it, the eye does not."
+                                    : "It is not seen from the eye's cell.");
+}
+
+static void draw_words(sl_app *app, column *c) {
+    char text[512];
+    const sl_layout l = sl_app_layout(app);
+    sl_point at = app->eye.at;
+    const bool over = sl_box_has(l.plan[0], app->pointer);
+    if (over) at = sl_camera_point(&app->camera, l.plan[0], app->pointer);
+    sl_pane_describe(app, at, text, sizeof text);
+    heading(app, c, over ? "Under the pointer" : "Under the eye", NULL);
+    c->y = sl_ui_paragraph(&app->ui, c->left, c->y + 0.7 * app->ui.text, c->right - c->left, 0.95,
+                           app->ui.palette.ink, text);
+}
+
+static void draw_sliders(sl_app *app, column *c) {
+    char text[32];
+    if (app->eye.fov >= 360)
+        snprintf(text, sizeof text, "360\xc2\xb0");
+    else
+        snprintf(text, sizeof text, "%.0f\xc2\xb0", app->eye.fov);
+    slider_row(app, c, "View cone", text, (app->eye.fov - 1) / 359, SL_HIT_CONE);
+    if (app->show & SL_SHOW_SPLITS && app->document.baked) {
+        const double depth = app->document.baked->space.tree_depth;
+        snprintf(text, sizeof text, "%.0f", fmin(app->split_depth, depth));
+        slider_row(app, c, "Split depth", text, app->split_depth / fmax(depth, 1),
+                   SL_HIT_SPLIT_DEPTH);
+    }
+    if (app->show & SL_SHOW_TREE && app->tree.baked) {
+        const double depth = app->tree.tree_depth;
+        snprintf(text, sizeof text, "%.0f", fmin(app->tree_depth, depth));
+        slider_row(app, c, "Tree grown", text, app->tree_depth / fmax(depth, 1), SL_HIT_TREE_DEPTH);
+    }
+}
+
+void sl_pane_side(sl_app *app, sl_box box) {
+    column c = begin_panel(app, box);
+    static const char *const rows[] = {"cells", "portals", "splits", "pvs",         "tree",
+                                       "cull",  "region",  "starts", "first_person"};
+    heading(app, &c, "Layers", "key");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) check_row(app, &c, rows[i]);
+    c.y += 0.3 * app->ui.text;
+    draw_sliders(app, &c);
+    draw_methods(app, &c);
+    draw_words(app, &c);
+}
+
+// --- learning
+
+static void draw_code(sl_app *app, column *c) {
+    sl_ui *ui = &app->ui;
+    size_t count;
+    const char *const *code = sl_lesson_code(&app->lesson, &count);
+    const size_t lit = sl_lesson_code_line(&app->lesson);
+    const double t = ui->text;
+    for (size_t i = 0; i < count; i++) {
+        const char *line = code[i];
+        const size_t indent = strspn(line, " ");
+        const double x = c->left + 0.45 * t * (double)indent;
+        if (i == lit)
+            sl_ui_fill_round(
+                ui, (sl_box){{c->left - 0.4 * t, c->y}, {c->right + 0.4 * t, c->y + 1.5 * t}},
+                0.25 * t, sl_colour_mix(ui->palette.page, ui->palette.source, 0.55));
+        sl_text_show_within(ui->cairo, i == lit ? ui->palette.ink : ui->palette.faint, x,
+                            c->y + 1.08 * t, c->right - x, 0.95 * t, i == lit, line + indent);
+        c->y += 1.5 * t;
+    }
+}
+
+static void draw_account(sl_app *app, column *c) {
+    const sl_lesson *lesson = &app->lesson;
+    if (lesson->subject != SL_SUBJECT_SEARCH || !lesson->steps.count) return;
+    const sl_step *s = &lesson->steps.steps[lesson->at];
+    char text[160];
+    heading(app, c, "So far", NULL);
+    snprintf(text, sizeof text, "%u cells seen, %u nodes in the stab tree, %u portals in sequence.",
+             s->seen, s->node, s->depth);
+    c->y = sl_ui_paragraph(&app->ui, c->left, c->y + 0.7 * app->ui.text, c->right - c->left, 1,
+                           app->ui.palette.ink, text);
+    if (!lesson->end_count) return;
+    heading(app, c, "The line", lesson->dragged ? "ends were dragged" : NULL);
+    const double margin =
+        sl_dual_margin(&lesson->dual, lesson->ends, lesson->end_count, lesson->line);
+    snprintf(text, sizeof text,
+             "Its margin is %.3g, the best is %.3g. %s Drag it in the plan or as a point in the "
+             "dual plane; drag portal ends too.",
+             margin * lesson->dual.scale, lesson->dual.margin * lesson->dual.scale,
+             lesson->dual.corner_count ? "" : "No line is left.");
+    c->y = sl_ui_paragraph(&app->ui, c->left, c->y + 0.7 * app->ui.text, c->right - c->left, 0.95,
+                           app->ui.palette.ink, text);
+}
+
+void sl_pane_learn(sl_app *app, sl_box box) {
+    column c = begin_panel(app, box);
+    const bool search = app->lesson.subject == SL_SUBJECT_SEARCH;
+    heading(app, &c, search ? "Depth-first search" : "Subdivision", "U: the other");
+    draw_code(app, &c);
+    draw_account(app, &c);
+    heading(app, &c, "Layers", "key");
+    check_row(app, &c, "cells");
+    check_row(app, &c, "portals");
+    check_row(app, &c, "splits");
+    check_row(app, &c, "first_person");
+    draw_words(app, &c);
+}
+
+// --- drawing walls
+
+static void rule(sl_app *app, column *c, const char *text) {
+    c->y = sl_ui_paragraph(&app->ui, c->left, c->y + 0.35 * app->ui.text, c->right - c->left, 0.95,
+                           app->ui.palette.ink, text);
+}
+
+void sl_pane_draw(sl_app *app, sl_box box) {
+    column c = begin_panel(app, box);
+    char text[160];
+    heading(app, &c, "Walls", NULL);
+    c.y += 0.7 * app->ui.text;
+    rule(app, &c, "Drag on free ground: a new wall, parallel to an axis, on the grid.");
+    rule(app, &c, "Drag a wall: moves it. Click: chooses it. Delete: deletes it.");
+    snprintf(text, sizeof text, "%zu walls; %zu steps to undo, %zu to redo.",
+             app->document.map.wall_count, app->history.done_count, app->history.undone_count);
+    rule(app, &c, text);
+    heading(app, &c, "Layers", "key");
+    static const char *const rows[] = {"cells", "portals", "splits", "pvs", "cull", "region"};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) check_row(app, &c, rows[i]);
+    draw_methods(app, &c);
+    draw_words(app, &c);
+}
+
+// --- the quiz
+
+void sl_pane_quiz(sl_app *app, sl_box box) {
+    column c = begin_panel(app, box);
+    sl_ui *ui = &app->ui;
+    const sl_quiz *q = &app->quiz;
+    const double t = ui->text;
+    char text[512];
+    snprintf(text, sizeof text, "%u of %u right", q->right_count, q->asked_count);
+    heading(app, &c, "Seen or not?", q->asked_count ? text : NULL);
+    if (!q->asked) {
+        c.y += 0.7 * t;
+        rule(app, &c, "Space asks about two cells. The visibility must be there first.");
+        return;
+    }
+    snprintf(text, sizeof text, "Can the orange cell %u see the purple cell %u?", q->from, q->to);
+    c.y = sl_ui_paragraph(ui, c.left, c.y + t, c.right - c.left, 1.15, ui->palette.ink, text);
+    double x = c.left;
+    if (!q->answered) {
+        x = sl_ui_button(ui, x, c.y, 2 * t, "Yes, seen (Y)", false, sl_action_find("answer_yes"));
+        sl_ui_button(ui, x + 0.6 * t, c.y, 2 * t, "No (N)", false, sl_action_find("answer_no"));
+        return;
+    }
+    sl_quiz_words(app, text, sizeof text);
+    c.y = sl_ui_paragraph(ui, c.left, c.y + t, c.right - c.left, 1, ui->palette.ink, text) + t;
+    sl_ui_button(ui, x, c.y, 2 * t, "Next (Space)", false, sl_action_find("next_question"));
+}

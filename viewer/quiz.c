@@ -1,0 +1,111 @@
+#include "quiz.h"
+
+#include "base/random.h"
+#include "sightline/solvers.h"
+
+#include <stdio.h>
+
+/// A hidden pair can take a search of all that is seen.
+#define TESTS_MOST 200000
+
+void sl_quiz_forget(sl_app *app) {
+    app->quiz.asked = app->quiz.answered = false;
+    sl_explanation_destroy(app->context, &app->quiz.explanation);
+}
+
+void sl_quiz_explain(sl_app *app, uint32_t from, uint32_t to) {
+    sl_quiz_forget(app);
+    const sl_document *d = &app->document;
+    if (!d->baked || from >= d->baked->space.cell_count || to >= d->baked->space.cell_count) return;
+    sl_explain_options options = sl_explain_options_default();
+    options.solver = sl_funnel();
+    options.most_tests = TESTS_MOST;
+    app->quiz.from = from;
+    app->quiz.to = to;
+    app->quiz.asked = true;
+    const sl_status status =
+        sl_explain(app->context, &d->baked->space, &options, from, to, &app->quiz.explanation);
+    app->quiz.answered = status == SL_OK;
+    sl_app_check(app, status);
+}
+
+/// A pair that is not too easy: neighbours of a few portals' distance, as many seen as not where
+/// that can be had.
+void sl_quiz_ask(sl_app *app) {
+    const sl_document *d = &app->document;
+    sl_quiz_forget(app);
+    if (!d->baked || !d->has_visibility || d->counted < 2) return;
+    const sl_space *space = &d->baked->space;
+    sl_random random = {app->quiz.random};
+    const bool wanted = sl_random_next(&random) & 1;
+    uint32_t from = 0, to = 0;
+    for (int attempt = 0; attempt < 4000; attempt++) {
+        from = (uint32_t)sl_random_below(&random, space->cell_count);
+        to = (uint32_t)sl_random_below(&random, space->cell_count);
+        if (from == to || !sl_baked_counts(d->baked, from) || !sl_baked_counts(d->baked, to))
+            continue;
+        bool neighbours = false;
+        for (uint32_t i = 0; i < space->cells[from].exit_count; i++)
+            neighbours |= space->exits[space->cells[from].first_exit + i].cell == to;
+        if (neighbours && attempt < 3000) continue;
+        if (sl_pvs_sees(&d->baked->visibility.pvs, from, to) == wanted || attempt > 2000) break;
+    }
+    app->quiz.random = random.state;
+    app->quiz.from = from;
+    app->quiz.to = to;
+    app->quiz.asked = from != to;
+}
+
+void sl_quiz_answer(sl_app *app, bool seen) {
+    sl_quiz *q = &app->quiz;
+    if (!q->asked || q->answered) return;
+    const bool is_seen = sl_pvs_sees(&app->document.baked->visibility.pvs, q->from, q->to);
+    sl_quiz_explain(app, q->from, q->to);
+    q->right = is_seen == seen;
+    q->asked_count++;
+    q->right_count += q->right;
+}
+
+static const sl_sequence *sequence_of(const sl_explanation *e) {
+    return e->verdict != SL_HIDDEN ? &e->sequence : e->miss_count ? &e->misses[0].sequence : NULL;
+}
+
+uint32_t sl_quiz_portals(const sl_app *app, sl_portal_ends *ends, uint32_t room) {
+    const sl_sequence *sequence = sequence_of(&app->quiz.explanation);
+    uint32_t count = 0;
+    for (; sequence && count < sequence->exit_count && count < room; count++) {
+        const sl_exit *exit = &app->document.baked->space.exits[sequence->exits[count]];
+        ends[count] = (sl_portal_ends){exit->left, exit->right};
+    }
+    return count;
+}
+
+void sl_quiz_words(const sl_app *app, char *text, size_t room) {
+    const sl_explanation *e = &app->quiz.explanation;
+    const sl_space *space = &app->document.baked->space;
+    const sl_sequence *sequence = sequence_of(e);
+    if (e->from == e->to)
+        snprintf(text, room, "A cell sees itself: it is convex, and no wall is inside it.");
+    else if (e->verdict == SL_STABBED)
+        snprintf(text, room,
+                 "Seen: the line passes %u portal%s, left ends at its left and right ends at its "
+                 "right.",
+                 e->sequence.exit_count, e->sequence.exit_count == 1 ? "" : "s");
+    else if (e->verdict == SL_GRAZING)
+        snprintf(text, room, "Only grazed: the line touches portal ends, for %s.",
+                 sl_sequence_reason(space, sequence));
+    else if (!e->complete)
+        snprintf(text, room, "Not found seen after %llu tests.", (unsigned long long)e->tests);
+    else if (!sequence)
+        snprintf(text, room, "Not seen: no portals lead from one to the other.");
+    else if (e->misses[0].turns)
+        snprintf(text, room,
+                 "Not seen. The sequence that comes nearest would have to turn back at its last "
+                 "portal, and no straight line does.");
+    else
+        snprintf(text, room,
+                 "Not seen. The sequence that comes nearest stops at its last portal: a line would "
+                 "have to keep left ends (discs) at its left and right ends (squares) at its "
+                 "right, but %s.",
+                 sl_sequence_reason(space, sequence));
+}

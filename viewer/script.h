@@ -1,0 +1,19 @@
+/// Text commands that drive the viewer, one a line; '#' starts a comment.
+///
+///   open FILE            key NAME        down NAME / up NAME     action NAME
+///   move X Y             click X Y       right X Y               drag X Y X2 Y2
+///   wheel STEPS          wait FRAMES     size W H                eye X Y HEADING [CONE]
+///   screenshot FILE      save FILE       export FOLDER EVERY     text SCALE
+#ifndef VIEWER_SCRIPT_H
+#define VIEWER_SCRIPT_H
+
+#include "app.h"
+
+/// Runs a script; `after` (NULL for nothing) is called after each of its frames, with `user`.
+sl_status sl_script_run(sl_app *app, const char *path, void (*after)(void *user, sl_app *app),
+                        void *user);
+
+/// A frame as the window would show it, onto nothing: so that clicks find what is there.
+void sl_script_frame(sl_app *app);
+
+#endif

@@ -1,0 +1,104 @@
+#include "seen.h"
+
+#include "base/base.h"
+#include "base/bits.h"
+#include "clock.h"
+
+#include <math.h>
+#include <string.h>
+
+static void free_sets(sl_context *context, sl_seen *seen) {
+    for (int i = 0; i < SL_SEEN_MOST; i++) {
+        if (seen->methods[i].cells) sl_free(context, seen->methods[i].cells);
+        seen->methods[i] = (sl_seen_method){0};
+    }
+    if (seen->pvs) sl_free(context, seen->pvs);
+    seen->pvs = NULL;
+}
+
+void sl_seen_destroy(sl_context *context, sl_seen *seen) {
+    free_sets(context, seen);
+    sl_region_destroy(context, &seen->region);
+    *seen = (sl_seen){0};
+}
+
+static sl_status make_sets(sl_context *context, sl_seen *seen, const sl_space *space) {
+    size_t count;
+    sl_eye_methods(&count);
+    free_sets(context, seen);
+    const size_t words = sl_eye_words(space);
+    seen->pvs = sl_alloc_array(context, words, sizeof *seen->pvs);
+    if (!seen->pvs) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count && i < SL_SEEN_MOST; i++) {
+        seen->methods[i].cells = sl_alloc_array(context, words, sizeof *seen->pvs);
+        if (!seen->methods[i].cells) return SL_NO_MEMORY;
+    }
+    return SL_OK;
+}
+
+static void sum_up(const sl_document *document, const uint64_t *cells, uint32_t *count,
+                   double *area) {
+    *count = 0;
+    *area = 0;
+    for (uint32_t cell = 0; cell < document->baked->space.cell_count; cell++) {
+        if (!sl_bits_has(cells, cell)) continue;
+        ++*count;
+        *area += document->areas[cell];
+    }
+}
+
+static void look(sl_context *context, sl_seen_method *m, const sl_eye_method *method,
+                 const sl_document *document, const sl_view *view) {
+    const double before = sl_clock_seconds();
+    m->known = method->cull(context, document->search, view, m->cells, &m->account) == SL_OK;
+    const double seconds = sl_clock_seconds() - before;
+    m->seconds = m->seconds > 0 ? 0.9 * m->seconds + 0.1 * seconds : seconds;
+    if (!m->known) memset(m->cells, 0, sl_eye_words(&document->baked->space) * sizeof *m->cells);
+    sum_up(document, m->cells, &m->count, &m->area);
+}
+
+static void take_pvs(sl_seen *seen, const sl_document *document, sl_point eye) {
+    const sl_space *space = &document->baked->space;
+    const sl_pvs *pvs = &document->baked->visibility.pvs;
+    memset(seen->pvs, 0, sl_eye_words(space) * sizeof *seen->pvs);
+    seen->cell = sl_space_locate(space, eye);
+    if (seen->cell != SL_NO_CELL && document->has_visibility && pvs->cell_count)
+        for (sl_pvs_run r = sl_pvs_begin(pvs, seen->cell); sl_pvs_next(&r);)
+            for (uint32_t cell = r.first; cell < r.end; cell++) sl_bits_add(seen->pvs, cell);
+    sum_up(document, seen->pvs, &seen->pvs_count, &seen->pvs_area);
+}
+
+static bool same_view(const sl_view *a, const sl_view *b) {
+    return a->eye.x == b->eye.x && a->eye.y == b->eye.y && a->full == b->full &&
+           (a->full || (a->left.x == b->left.x && a->left.y == b->left.y &&
+                        a->right.x == b->right.x && a->right.y == b->right.y));
+}
+
+sl_status sl_seen_update(sl_context *context, sl_seen *seen, const sl_document *document,
+                         const sl_view *view) {
+    if (!document->baked || !document->search) {
+        seen->valid = false;
+        return SL_OK;
+    }
+    if (seen->version != document->version || !seen->pvs) {
+        seen->valid = false;
+        SL_TRY(make_sets(context, seen, &document->baked->space));
+    }
+    if (seen->valid && same_view(&seen->view, view)) return SL_OK;
+    seen->version = document->version;
+    seen->view = *view;
+    seen->valid = true;
+    take_pvs(seen, document, view->eye);
+    size_t count;
+    const sl_eye_method *methods = sl_eye_methods(&count);
+    for (size_t i = 0; i < count && i < SL_SEEN_MOST; i++)
+        look(context, &seen->methods[i], &methods[i], document, view);
+    const double before = sl_clock_seconds();
+    const sl_status status =
+        sl_region_make(context, &document->outline, view, document->map.range, &seen->region);
+    const double seconds = sl_clock_seconds() - before;
+    seen->region_seconds =
+        seen->region_seconds > 0 ? 0.9 * seen->region_seconds + 0.1 * seconds : seconds;
+    seen->region_area = sl_region_area(&seen->region);
+    return status;
+}

@@ -1,0 +1,36 @@
+/// What the eye sees now, by every culling method, with what each cost.
+#ifndef VIEWER_SEEN_H
+#define VIEWER_SEEN_H
+
+#include "document.h"
+
+enum { SL_SEEN_MOST = 16 };
+
+typedef struct sl_seen_method {
+    uint64_t *cells; ///< words of the space's; NULL before the first look
+    bool known;      ///< the method could answer
+    uint32_t count;
+    double area, seconds; ///< seconds are smoothed
+    sl_eye_account account;
+} sl_seen_method;
+
+/// Zeroed to start.
+typedef struct sl_seen {
+    uint32_t version; ///< of the document that it is of
+    sl_view view;
+    bool valid;
+    sl_seen_method methods[SL_SEEN_MOST];
+    uint64_t *pvs; ///< of the eye's cell; all 0 while it is not known
+    uint32_t cell, pvs_count;
+    double pvs_area;
+    sl_region region;
+    double region_area, region_seconds;
+    double range;
+} sl_seen;
+
+/// Looks again where the view or the document has changed.
+sl_status sl_seen_update(sl_context *context, sl_seen *seen, const sl_document *document,
+                         const sl_view *view);
+void sl_seen_destroy(sl_context *context, sl_seen *seen);
+
+#endif

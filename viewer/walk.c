@@ -1,0 +1,91 @@
+#include "walk.h"
+
+#include "geometry/orient.h"
+
+#include <math.h>
+
+#define RADIANS (3.14159265358979323846 / 180)
+
+double sl_walk_speed(const sl_app *app) {
+    const sl_document *d = &app->document;
+    return d->counted ? 1.6 * sqrt(d->area / d->counted) : 1;
+}
+
+static bool spans(double a, double b, double low, double high) {
+    return fmax(a, b) >= low && fmin(a, b) <= high;
+}
+
+/// Whether two closed segments have a point in common. Exact.
+static bool meet(sl_point a, sl_point b, sl_point p, sl_point q) {
+    if (!spans(a.x, b.x, fmin(p.x, q.x), fmax(p.x, q.x)) ||
+        !spans(a.y, b.y, fmin(p.y, q.y), fmax(p.y, q.y)))
+        return false;
+    return sl_orient(a, b, p) * sl_orient(a, b, q) <= 0 &&
+           sl_orient(p, q, a) * sl_orient(p, q, b) <= 0;
+}
+
+static bool is_free(const sl_space *space, sl_point from, sl_point to) {
+    for (uint32_t i = 0; i < space->wall_count; i++)
+        if (meet(from, to, space->walls[i].a, space->walls[i].b)) return false;
+    return sl_space_locate(space, to) != SL_NO_CELL;
+}
+
+static bool try_move(sl_app *app, double dx, double dy, double body) {
+    const double length = hypot(dx, dy);
+    if (!(length > 0)) return false;
+    const sl_point at = app->eye.at, to = {at.x + dx, at.y + dy};
+    // A little farther than the step, so that some room to the wall is left.
+    const sl_point ahead = {to.x + dx / length * body, to.y + dy / length * body};
+    if (!app->eye.flies && !is_free(&app->document.baked->space, at, ahead)) return false;
+    app->eye.at = to;
+    return true;
+}
+
+void sl_walk(sl_app *app, double seconds) {
+    if (!app->document.baked || !app->held) return;
+    const unsigned held = app->held;
+    const double turn = ((held & SL_HOLD_TURN_LEFT) != 0) - ((held & SL_HOLD_TURN_RIGHT) != 0);
+    app->eye.heading = fmod(app->eye.heading + 120 * turn * seconds + 360, 360);
+    const double ahead = ((held & SL_HOLD_FORWARD) != 0) - ((held & SL_HOLD_BACK) != 0);
+    const double aside = ((held & SL_HOLD_RIGHT) != 0) - ((held & SL_HOLD_LEFT) != 0);
+    const double length = hypot(ahead, aside);
+    if (!(length > 0)) return;
+    const double step = sl_walk_speed(app) * seconds / length, body = 0.04 * sl_walk_speed(app);
+    const double c = cos(app->eye.heading * RADIANS), s = sin(app->eye.heading * RADIANS);
+    const double dx = step * (ahead * c + aside * s), dy = step * (ahead * s - aside * c);
+    if (try_move(app, dx, dy, body)) return;
+    if (fabs(dx) >= fabs(dy)) {
+        if (!try_move(app, dx, 0, body)) try_move(app, 0, dy, body);
+    } else if (!try_move(app, 0, dy, body)) {
+        try_move(app, dx, 0, body);
+    }
+}
+
+static sl_point middle_of(const sl_space *space, uint32_t cell) {
+    const sl_cell *c = &space->cells[cell];
+    sl_point sum = {0, 0};
+    for (uint32_t i = 0; i < c->vertex_count; i++) {
+        sum.x += space->vertices[c->first_vertex + i].x / c->vertex_count;
+        sum.y += space->vertices[c->first_vertex + i].y / c->vertex_count;
+    }
+    return sum;
+}
+
+void sl_walk_home(sl_app *app) {
+    const sl_document *d = &app->document;
+    if (!d->baked) return;
+    const sl_map *map = &d->baked->map;
+    if (map->start_count) {
+        app->eye.at = map->starts[0].at;
+        app->eye.heading = fmod(map->starts[0].heading, 360);
+        return;
+    }
+    uint32_t best = 0;
+    double largest = -1;
+    for (uint32_t cell = 0; cell < d->baked->space.cell_count; cell++)
+        if (sl_baked_counts(d->baked, cell) && d->areas[cell] > largest) {
+            largest = d->areas[cell];
+            best = cell;
+        }
+    if (d->baked->space.cell_count) app->eye.at = middle_of(&d->baked->space, best);
+}

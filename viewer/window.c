@@ -1,0 +1,191 @@
+#include "window.h"
+
+#include "base/base.h"
+#include "clock.h"
+#include "input.h"
+
+#include <SDL.h>
+#include <ctype.h>
+#include <math.h>
+
+struct sl_window {
+    sl_app *app;
+    SDL_Window *window;
+    SDL_Renderer *renderer;
+    SDL_Texture *texture;
+    cairo_surface_t *surface;
+    int width, height; ///< of texture and surface, pixels
+};
+
+static sl_status fail(sl_context *context, const char *what) {
+    return sl_fail(context, SL_IO, "%s: %s", what, SDL_GetError());
+}
+
+static sl_status open_window(sl_window *w, bool hidden) {
+    sl_context *context = w->app->context;
+    if (hidden) SDL_SetHint(SDL_HINT_VIDEODRIVER, "dummy");
+    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "0");
+    if (SDL_Init(SDL_INIT_VIDEO) != 0) return fail(context, "no display");
+    w->window = SDL_CreateWindow("Sightline", SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED,
+                                 w->app->width, w->app->height,
+                                 SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
+    if (!w->window) return fail(context, "no window");
+    SDL_SetWindowMinimumSize(w->window, 640, 480);
+    const Uint32 wanted = hidden ? SDL_RENDERER_SOFTWARE : SDL_RENDERER_PRESENTVSYNC;
+    w->renderer = SDL_CreateRenderer(w->window, -1, wanted);
+    if (!w->renderer) w->renderer = SDL_CreateRenderer(w->window, -1, SDL_RENDERER_SOFTWARE);
+    if (!w->renderer) return fail(context, "no renderer");
+    SDL_EventState(SDL_DROPFILE, SDL_ENABLE);
+    return SL_OK;
+}
+
+sl_status sl_window_open(sl_app *app, bool hidden, sl_window **out) {
+    sl_window *w = sl_alloc_array(app->context, 1, sizeof *w);
+    if (!w) return SL_NO_MEMORY;
+    w->app = app;
+    const sl_status status = open_window(w, hidden);
+    if (status == SL_OK)
+        *out = w;
+    else
+        sl_window_close(w);
+    return status;
+}
+
+void sl_window_close(sl_window *w) {
+    if (w->surface) cairo_surface_destroy(w->surface);
+    if (w->texture) SDL_DestroyTexture(w->texture);
+    if (w->renderer) SDL_DestroyRenderer(w->renderer);
+    if (w->window) SDL_DestroyWindow(w->window);
+    SDL_Quit();
+    sl_free(w->app->context, w);
+}
+
+/// The texture is as large as the window's pixels, of which high-density screens have more.
+static sl_status fit_texture(sl_window *w) {
+    int width, height;
+    if (SDL_GetRendererOutputSize(w->renderer, &width, &height) != 0)
+        return fail(w->app->context, "no size");
+    if (w->texture && width == w->width && height == w->height) return SL_OK;
+    if (w->texture) SDL_DestroyTexture(w->texture);
+    if (w->surface) cairo_surface_destroy(w->surface);
+    w->width = width;
+    w->height = height;
+    w->app->width = width;
+    w->app->height = height;
+    w->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
+    w->texture = SDL_CreateTexture(w->renderer, SDL_PIXELFORMAT_RGB888, SDL_TEXTUREACCESS_STREAMING,
+                                   width, height);
+    return w->texture ? SL_OK : fail(w->app->context, "no texture");
+}
+
+sl_status sl_window_show(sl_window *w) {
+    SL_TRY(fit_texture(w));
+    cairo_t *cairo = cairo_create(w->surface);
+    sl_app_draw(w->app, cairo);
+    cairo_destroy(cairo);
+    cairo_surface_flush(w->surface);
+    SDL_UpdateTexture(w->texture, NULL, cairo_image_surface_get_data(w->surface),
+                      cairo_image_surface_get_stride(w->surface));
+    SDL_RenderCopy(w->renderer, w->texture, NULL, NULL);
+    SDL_RenderPresent(w->renderer);
+    return SL_OK;
+}
+
+// --- events
+
+/// The key's name as the table of actions has it: letters as capitals, '?' for itself.
+static void key_name(const SDL_Keysym *sym, char name[48]) {
+    const bool ctrl = sym->mod & (KMOD_CTRL | KMOD_GUI), shift = sym->mod & KMOD_SHIFT;
+    const char *plain = SDL_GetKeyName(sym->sym);
+    if (shift && sym->sym == SDLK_SLASH) plain = "?";
+    if (sym->sym == SDLK_QUESTION) plain = "?";
+    if (sym->sym == SDLK_PLUS || sym->sym == SDLK_KP_PLUS) plain = "=";
+    if (sym->sym == SDLK_KP_MINUS) plain = "-";
+    if (sym->sym == SDLK_BACKSPACE) plain = "Delete";
+    snprintf(name, 48, "%s%s", ctrl ? "Ctrl+" : "", plain);
+}
+
+/// From window coordinates to pixels.
+static sl_point to_pixels(const sl_window *w, int x, int y) {
+    int width, height;
+    SDL_GetWindowSize(w->window, &width, &height);
+    return (sl_point){(double)x * w->width / (width > 0 ? width : 1),
+                      (double)y * w->height / (height > 0 ? height : 1)};
+}
+
+static void take_button(sl_window *w, const SDL_MouseButtonEvent *e) {
+    const sl_point at = to_pixels(w, e->x, e->y);
+    if (e->type == SDL_MOUSEBUTTONUP) {
+        sl_input_release(w->app, at);
+        return;
+    }
+    sl_input_press(w->app,
+                   e->button == SDL_BUTTON_RIGHT    ? SL_BUTTON_RIGHT
+                   : e->button == SDL_BUTTON_MIDDLE ? SL_BUTTON_MIDDLE
+                                                    : SL_BUTTON_LEFT,
+                   at);
+}
+
+static void take_event(sl_window *w, const SDL_Event *e) {
+    char name[48];
+    switch (e->type) {
+    case SDL_QUIT:
+        w->app->quit = true;
+        break;
+    case SDL_KEYDOWN:
+    case SDL_KEYUP:
+        key_name(&e->key.keysym, name);
+        sl_input_key(w->app, name, e->type == SDL_KEYDOWN);
+        break;
+    case SDL_MOUSEBUTTONDOWN:
+    case SDL_MOUSEBUTTONUP:
+        take_button(w, &e->button);
+        break;
+    case SDL_MOUSEMOTION:
+        sl_input_move(w->app, to_pixels(w, e->motion.x, e->motion.y));
+        break;
+    case SDL_MOUSEWHEEL:
+        sl_input_wheel(w->app, e->wheel.y);
+        break;
+    case SDL_DROPFILE:
+        sl_app_open(w->app, e->drop.file);
+        SDL_free(e->drop.file);
+        break;
+    case SDL_WINDOWEVENT:
+        if (e->window.event == SDL_WINDOWEVENT_FOCUS_LOST) w->app->held = 0;
+        break;
+    default:
+        break;
+    }
+}
+
+/// Whether something moves by itself.
+static bool is_lively(const sl_app *app) {
+    return app->held || app->document.job || app->recorder.plays || app->recorder.records ||
+           app->lesson.plays || app->motion > 0;
+}
+
+sl_status sl_window_run(sl_window *w) {
+    sl_app *app = w->app;
+    double last = sl_clock_seconds();
+    while (!app->quit) {
+        SDL_Event event;
+        // Nothing is drawn again while nothing happens.
+        const bool any = is_lively(app) ? SDL_PollEvent(&event) : SDL_WaitEventTimeout(&event, 250);
+        if (any) {
+            take_event(w, &event);
+            while (SDL_PollEvent(&event)) take_event(w, &event);
+        }
+        const double now = sl_clock_seconds();
+        const bool lively = is_lively(app);
+        sl_app_tick(app, lively ? now - last : 0);
+        last = now;
+        SL_TRY(sl_window_show(w));
+        const double spent = sl_clock_seconds() - now;
+        app->frame_seconds =
+            app->frame_seconds > 0 ? 0.9 * app->frame_seconds + 0.1 * spent : spent;
+        // Where the display does not make us wait for it, we wait ourselves.
+        if (lively && spent < 0.004) SDL_Delay((Uint32)((0.0155 - spent) * 1000));
+    }
+    return SL_OK;
+}
