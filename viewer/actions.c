@@ -20,11 +20,18 @@ enum {
 // --- modes
 
 static void set_mode(sl_app *app, sl_mode mode) {
+    static const char *const hints[] = {
+        [SL_MODE_EXPLORE] = "W A S D and arrows walk, a click puts the eye, the wheel zooms",
+        [SL_MODE_LEARN] = "Left and Right step, Space plays, U changes the subject",
+        [SL_MODE_DRAW] = "Drag to draw a wall or to move one; Ctrl+Z undoes",
+        [SL_MODE_QUIZ] = "Y or N answers, Space asks again",
+    };
     app->mode = mode;
     app->held = 0;
     app->lesson.plays = false;
     sl_quiz_forget(app);
     if (mode == SL_MODE_QUIZ) sl_quiz_ask(app);
+    sl_app_say(app, false, "%s", hints[mode]);
     sl_app_tick(app, 0);
 }
 

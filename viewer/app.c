@@ -166,7 +166,7 @@ sl_layout sl_app_layout(const sl_app *app) {
     const double t = 13 * app->text_scale, w = app->width, h = app->height;
     sl_layout l = {.plan_count = 1};
     const double bar = 2.3 * t, status = 1.9 * t;
-    const double side = app->side_panel ? fmin(24 * t, 0.5 * w) : 0;
+    const double side = app->side_panel ? fmin(26 * t, 0.5 * w) : 0;
     l.bar = box(0, 0, w, bar);
     l.status = box(0, h - status, w, h);
     l.side = box(w - side, bar, w, h - status);

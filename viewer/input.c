@@ -40,7 +40,7 @@ static void follow(sl_app *app, const sl_hit *hit, sl_point at) {
     const size_t length = sl_lesson_length(&app->lesson);
     switch (hit->kind) {
     case SL_HIT_CONE:
-        app->eye.fov = round(1 + 359 * share);
+        app->eye.fov = round(1 + 359 * share * share); // finer for narrow cones
         break;
     case SL_HIT_SPLIT_DEPTH:
         if (app->document.baked)

@@ -3,6 +3,7 @@
 
 #include "draw/dual_plane.h"
 #include "draw/marks.h"
+#include "draw/text.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -36,9 +37,10 @@ void sl_pane_dual(sl_app *app, sl_box box) {
     sl_draw_dual(ui->cairo, &ui->palette, &frame, &lesson->dual, lesson->ends, lesson->end_count,
                  lesson->line);
     const double base = frame.top + frame.height + 1.2 * t;
-    sl_ui_text(ui, frame.left, base, 0.85, false, ui->palette.faint,
-               "slope \xe2\x86\x92   height \xe2\x86\x91   blue: left ends, from above   orange: "
-               "right ends, from below   bar: the best line and its margin");
+    sl_text_show_within(
+        ui->cairo, ui->palette.faint, frame.left, base, frame.width, 0.85 * t, false,
+        "slope \xe2\x86\x92   height \xe2\x86\x91   blue: left ends, from above   orange: "
+        "right ends, from below   bar: the best line and its margin");
     sl_ui_hit(
         ui, SL_HIT_DUAL, 0,
         (sl_box){{frame.left, frame.top}, {frame.left + frame.width, frame.top + frame.height}});

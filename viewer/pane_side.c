@@ -93,14 +93,14 @@ static void draw_method(sl_app *app, column *c, const method_row *row, int numbe
     snprintf(words, sizeof words, "%s", row->name);
     for (char *at = words; *at; at++)
         if (*at == '_') *at = ' ';
-    sl_text_show_within(ui->cairo, ui->palette.ink, c->left + 1.3 * t, base,
-                        c->right - c->left - 14.6 * t, 0.95 * t, false, words);
+    sl_text_show_within(ui->cairo, ui->palette.ink, c->left + 1.3 * t, base, 10.4 * t, 0.95 * t,
+                        false, words);
     if (row->known) {
         const double unit = (c->right - c->left) / 22;
-        cells_text(c->left + 11.2 * unit, ui, base, row->cells, ui->palette.ink);
+        cells_text(c->left + 12.9 * unit, ui, base, row->cells, ui->palette.ink);
         sl_text_percent(app->document.area > 0 ? row->area / app->document.area : 0, text);
-        sl_ui_text_right(ui, c->left + 14.8 * unit, base, 0.95, ui->palette.ink, text);
-        cells_text(c->left + 18 * unit, ui, base, row->tests, ui->palette.ink);
+        sl_ui_text_right(ui, c->left + 16.1 * unit, base, 0.95, ui->palette.ink, text);
+        cells_text(c->left + 18.9 * unit, ui, base, row->tests, ui->palette.ink);
         write_seconds(app, row->seconds, text);
         sl_ui_text_right(ui, c->right, base, 0.95, ui->palette.faint, text);
     }
@@ -115,9 +115,9 @@ static void draw_methods(sl_app *app, column *c) {
     const double unit = (c->right - c->left) / 22, t = ui->text;
     heading(app, c, "What is kept", NULL);
     c->y -= 0.55 * t;
-    sl_ui_text_right(ui, c->left + 11.2 * unit, c->y, 0.85, ui->palette.faint, "cells");
-    sl_ui_text_right(ui, c->left + 14.8 * unit, c->y, 0.85, ui->palette.faint, "area");
-    sl_ui_text_right(ui, c->left + 18 * unit, c->y, 0.85, ui->palette.faint, "tests");
+    sl_ui_text_right(ui, c->left + 12.9 * unit, c->y, 0.85, ui->palette.faint, "cells");
+    sl_ui_text_right(ui, c->left + 16.1 * unit, c->y, 0.85, ui->palette.faint, "area");
+    sl_ui_text_right(ui, c->left + 18.9 * unit, c->y, 0.85, ui->palette.faint, "tests");
     sl_ui_text_right(ui, c->right, c->y, 0.85, ui->palette.faint, "time");
     c->y += 0.4 * t;
     for (size_t i = 0; i < count && i < SL_SEEN_MOST; i++) {
@@ -141,8 +141,8 @@ static void draw_methods(sl_app *app, column *c) {
     sl_text_percent(
         app->document.area > 0 && app->seen.valid ? app->seen.region_area / app->document.area : 0,
         text);
-    sl_ui_text_right(ui, c->left + 14.8 * unit, base, 0.95, ui->palette.ink, text);
-    cells_text(c->left + 18 * unit, ui, base, app->seen.valid ? app->seen.region.crossings : 0,
+    sl_ui_text_right(ui, c->left + 16.1 * unit, base, 0.95, ui->palette.ink, text);
+    cells_text(c->left + 18.9 * unit, ui, base, app->seen.valid ? app->seen.region.crossings : 0,
                ui->palette.ink);
     write_seconds(app, app->seen.region_seconds, text);
     sl_ui_text_right(ui, c->right, base, 0.95, ui->palette.faint, text);
@@ -204,7 +204,7 @@ static void draw_sliders(sl_app *app, column *c) {
         snprintf(text, sizeof text, "360\xc2\xb0");
     else
         snprintf(text, sizeof text, "%.0f\xc2\xb0", app->eye.fov);
-    slider_row(app, c, "View cone", text, (app->eye.fov - 1) / 359, SL_HIT_CONE);
+    slider_row(app, c, "View cone", text, sqrt((app->eye.fov - 1) / 359), SL_HIT_CONE);
     if (app->show & SL_SHOW_SPLITS && app->document.baked) {
         const double depth = app->document.baked->space.tree_depth;
         snprintf(text, sizeof text, "%.0f", fmin(app->split_depth, depth));

@@ -15,7 +15,7 @@ sl_colour sl_pane_method_colour(const sl_app *app, size_t method) {
     size_t count;
     sl_eye_methods(&count);
     const double share = count > 1 ? (double)method / (double)(count - 1) : 1;
-    return sl_palette_ramp(app->dark, 0.12 + 0.88 * share);
+    return sl_palette_ramp(app->dark, 0.10 + 0.66 * share);
 }
 
 /// All methods up to the chosen one, each in its colour where it is the last to keep a cell.
@@ -231,5 +231,5 @@ void sl_overlays_above_walls(sl_app *app, const sl_frame *frame) {
         sl_draw_cone(app->ui.cairo, frame, app->eye.at, app->eye.heading, app->eye.fov,
                      6 * app->ui.text, palette->start);
     sl_draw_eye_mark(app->ui.cairo, palette, frame, app->eye.at, app->eye.heading,
-                     0.62 * app->ui.text);
+                     0.5 * app->ui.text);
 }

@@ -105,7 +105,7 @@ void sl_draw_region(cairo_t *cairo, const sl_frame *frame, const sl_region *regi
                     sl_colour colour) {
     if (region->count < 3) return;
     sl_path_polygon(cairo, frame, region->points, region->count);
-    set_faded(cairo, colour, 0.28);
+    set_faded(cairo, colour, 0.6);
     cairo_fill_preserve(cairo);
     set_faded(cairo, colour, 0.9);
     cairo_set_line_width(cairo, 1.3 * frame->unit);
