@@ -84,13 +84,12 @@ static sl_view eye_view(const sl_app *app) {
 
 /// A map that was opened starts from its own start; one that was edited keeps the eye.
 static void take_document(sl_app *app, bool opened) {
-    if (!app->document.baked) return;
     drop_scene(app, &app->scene);
     drop_scene(app, &app->tree);
     app->seen.valid = false;
     app->wall = UINT32_MAX;
-    if (app->mode == SL_MODE_QUIZ) sl_quiz_forget(app);
-    if (!opened) return;
+    sl_quiz_forget(app);
+    if (!opened || !app->document.baked) return;
     app->fitted = true;
     sl_history_clear(app->context, &app->history);
     app->recorder.records = app->recorder.plays = false;

@@ -178,5 +178,5 @@ void sl_document_close(sl_context *context, sl_document *document) {
     sl_map_destroy(context, &document->map);
     sl_free(context, document->source.path);
     sl_free(context, document->source.map);
-    *document = (sl_document){0};
+    *document = (sl_document){.version = document->version + 1};
 }

@@ -47,10 +47,10 @@ static sl_status make_boxes(sl_context *context, sl_lesson *lesson, const sl_spa
 
 sl_status sl_lesson_update(sl_context *context, sl_lesson *lesson, const sl_document *document,
                            uint32_t source) {
+    if (lesson->made && lesson->version != document->version) forget(context, lesson);
     if (!document->baked || source == SL_NO_CELL) return SL_OK;
-    if (lesson->made && lesson->version == document->version && lesson->source == source)
-        return SL_OK;
-    const bool same_document = lesson->made && lesson->version == document->version;
+    if (lesson->made && lesson->source == source) return SL_OK;
+    const bool same_document = lesson->made;
     const size_t at = lesson->at;
     forget(context, lesson);
     SL_TRY(make_boxes(context, lesson, &document->baked->space));
@@ -96,7 +96,7 @@ static void take_sequence(sl_lesson *lesson, const sl_space *space) {
 
 void sl_lesson_go(sl_lesson *lesson, const sl_document *document, size_t step) {
     const size_t length = sl_lesson_length(lesson);
-    if (!length) return;
+    if (!length || lesson->version != document->version) return;
     lesson->at = step < length ? step : length - 1;
     lesson->waited = 0;
     if (lesson->subject == SL_SUBJECT_SEARCH)

@@ -114,7 +114,7 @@ static void say_subdivision(const sl_lesson *lesson, const sl_space *space,
 void sl_lesson_sentence(const sl_lesson *lesson, const sl_document *document,
                         char text[SL_SENTENCE]) {
     text[0] = '\0';
-    if (!sl_lesson_length(lesson) || !document->baked) return;
+    if (!sl_lesson_length(lesson) || lesson->version != document->version) return;
     if (lesson->subject == SL_SUBJECT_SEARCH)
         say_search(lesson, text);
     else

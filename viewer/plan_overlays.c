@@ -84,8 +84,8 @@ static void explore_below(sl_app *app, const sl_frame *frame, int index) {
         sl_draw_cell_set(cairo, space, frame, app->seen.pvs, NULL, palette->seen[0], 0.8);
     if (app->show & SL_SHOW_CULL) draw_cull(app, frame, index);
     if (app->seen.cell != SL_NO_CELL && app->show & (SL_SHOW_PVS | SL_SHOW_CULL | SL_SHOW_TREE))
-        sl_draw_cell(cairo, space, frame, app->seen.cell, palette->source_edge, 0.25,
-                     1.6 * frame->unit);
+        sl_draw_cell(cairo, space, frame, app->seen.cell, palette->source_edge, 0,
+                     2.4 * frame->unit);
     if (app->show & SL_SHOW_REGION)
         sl_draw_region(cairo, frame, &app->seen.region, palette->source);
     if (app->show & SL_SHOW_TREE) draw_tree(app, frame);

@@ -21,7 +21,7 @@ void sl_draw_cell_set(cairo_t *cairo, const sl_space *space, const sl_frame *fra
                       double opacity) {
     for (size_t w = 0; w < sl_bits_words(space->cell_count); w++) {
         const uint64_t word = cells[w] & ~(without ? without[w] : 0);
-        for (uint32_t i = 0; word >> i && i < 64; i++)
+        for (uint32_t i = 0; i < 64 && word >> i; i++)
             if (word >> i & 1) add_cell(cairo, space, frame, (uint32_t)(64 * w + i));
     }
     set_faded(cairo, colour, opacity);
