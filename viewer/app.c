@@ -148,6 +148,7 @@ void sl_app_tick(sl_app *app, double seconds) {
 }
 
 void sl_app_before_edit(sl_app *app) {
+    app->fitted = false; // the plan stays where it is, whatever the map becomes
     sl_app_check(app, sl_history_keep(app->context, &app->history, &app->document.map));
 }
 
@@ -209,6 +210,12 @@ static void draw_side(sl_app *app, sl_box where) {
     }
 }
 
+void sl_app_fit(sl_app *app, sl_box plan) {
+    if (app->fitted && app->document.baked)
+        app->camera = sl_camera_fit(app->document.baked->space.bounds, sl_box_width(plan),
+                                    sl_box_height(plan));
+}
+
 void sl_app_draw(sl_app *app, cairo_t *cairo) {
     const sl_layout l = sl_app_layout(app);
     app->ui.cairo = cairo;
@@ -216,9 +223,7 @@ void sl_app_draw(sl_app *app, cairo_t *cairo) {
     app->ui.text = 13 * app->text_scale;
     app->ui.pointer = app->pointer;
     app->ui.hit_count = 0;
-    if (app->fitted && app->document.baked)
-        app->camera = sl_camera_fit(app->document.baked->space.bounds, sl_box_width(l.plan[0]),
-                                    sl_box_height(l.plan[0]));
+    sl_app_fit(app, l.plan[0]);
     for (int i = 0; i < l.plan_count; i++) sl_pane_plan(app, l.plan[i], i, false);
     if (sl_box_width(l.dual) > 0) sl_pane_dual(app, l.dual);
     if (sl_box_width(l.first_person) > 0) sl_pane_first_person(app, l.first_person);

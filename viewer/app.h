@@ -146,6 +146,9 @@ void sl_app_settle(sl_app *app);
 /// Draws the whole window of width x height.
 void sl_app_draw(sl_app *app, cairo_t *cairo);
 
+/// The camera fits the map into a plan of that size, where it is to.
+void sl_app_fit(sl_app *app, sl_box plan);
+
 /// The map was changed by hand: remembers it for undo (before the change) or makes all anew
 /// (after).
 void sl_app_before_edit(sl_app *app);

@@ -1,0 +1,115 @@
+"""The viewer's pictures against stored ones, and each layer against none: VIEW SAME ROOT [--store].
+
+--store writes the stored pictures anew: look at them before they are kept.
+"""
+import pathlib
+import shutil
+import sys
+import tempfile
+
+from viewing import TOLERANCE, Viewer
+
+SIZE = "size 640 480\ntext 0.75\n"
+
+# name: (map, script). All end in a picture of that name.
+PICTURES = {
+    "explore": ("office.map", "eye 53 20 160 90\nkey B\n"),
+    "panes": ("office.map", "eye 53 20 160 90\nkey X\nkey Tab\n"),
+    "difference": ("office.map", "eye 53 20 160 90\nkey X\nkey X\n"),
+    "splits_dark": ("dungeon.txt", "key K\nkey T\nkey M\nkey R\n"),
+    "search": ("office.map", "eye 53 20 160\nkey F2\n" + "key Right\n" * 9 + "key Left\n"),
+    "hidden": ("office.map", "eye 53 20 160\nkey F2\n" + "key Right\n" * 6),
+    "subdivision": ("maze.map", "key F2\nkey U\n" + "key Right\n" * 4),
+    "draw": ("office.map", "key Tab\nkey F3\ndrag 200 100 200 300\nkey Tab\n"),
+    "quiz": ("office.map", "key F4\nkey Y\n"),
+    "first_person": ("pillars.map", "key I\nkey Tab\nwait 2\n"),
+}
+
+# Keys that change the plan, each on its own; and how each is taken back.
+LAYERS = ["C", "P", "K", "V", "B", "M", "R", "J"]
+SWITCHES = {"I": "I", "T": "T", "X": "X X", "Tab": "Tab", "?": "Escape", "O": "Escape",
+            "F2": "F1", "F3": "F1", "F4": "F1", "PageUp": "F", "Ctrl+=": "Ctrl+-", "/": "/"}
+
+
+def shoot(viewer, folder):
+    for name, (map_name, script) in PICTURES.items():
+        viewer.script(folder, map_name, SIZE + script + f"screenshot {name}.png\n")
+
+
+def check_stored(viewer, folder, stored):
+    for name in PICTURES:
+        share = viewer.difference(folder / f"{name}.png", stored / f"{name}.png")
+        viewer.check(share <= TOLERANCE, f"{name}: {share:.2%} of the pixels are others")
+
+
+def check_switches(viewer, folder):
+    """Each key changes the picture, a layer by more than the tolerance, and back again."""
+    script = SIZE + "eye 53 20 160 90\nkey Tab\nkey M\nkey R\nsave before.png\n"
+    for key in LAYERS:
+        script += f"key {key}\nsave {key}.png\nkey {key}\n"
+    for i, (key, back) in enumerate(SWITCHES.items()):
+        script += f"screenshot off{i}.png\nkey {key}\nscreenshot on{i}.png\n"
+        script += "".join(f"key {one}\n" for one in back.split())
+    viewer.script(folder, "office.map", script + "save after.png\n")
+    for key in LAYERS:
+        share = viewer.difference(folder / "before.png", folder / f"{key}.png")
+        viewer.check(share > TOLERANCE, f"layer {key} changes only {share:.2%}")
+    for i, key in enumerate(SWITCHES):
+        share = viewer.difference(folder / f"off{i}.png", folder / f"on{i}.png")
+        viewer.check(share > TOLERANCE, f"key {key} changes only {share:.2%}")
+    viewer.check((folder / "before.png").read_bytes() == (folder / "after.png").read_bytes(),
+                 "the plan is not as it was before")
+
+
+def check_files(viewer, folder):
+    """The plan as PNG, SVG and PDF; a series; the same bytes from the same script."""
+    script = (SIZE + "eye 53 20 160 90\nsave a.png\nsave a.svg\nsave a.pdf\nscreenshot w.svg\n"
+              "key F9\ndown W\nwait 6\nup W\nkey F9\nexport series\n")
+    viewer.script(folder, "office.map", script)
+    starts = {"a.png": b"\x89PNG", "a.svg": b"<?xml", "a.pdf": b"%PDF", "w.svg": b"<?xml"}
+    for name, start in starts.items():
+        viewer.check((folder / name).read_bytes().startswith(start), f"{name} is none")
+    frames = sorted(path.name for path in (folder / "series").glob("*.png"))
+    viewer.check(frames[:2] == ["frame-0001.png", "frame-0002.png"], f"the series is {frames}")
+    first = (folder / "a.png").read_bytes()
+    viewer.script(folder, "office.map", script)
+    viewer.check(first == (folder / "a.png").read_bytes(), "not the same bytes again")
+
+
+def check_undo(viewer, folder):
+    """A wall drawn, moved, deleted, and all of it undone and redone."""
+    steps = ["plain", "drawn", "moved", "deleted", "undone", "all", "redone"]
+    commands = ["", "drag 60 80 60 390", "drag 60 225 250 225", "click 250 225\nkey Delete",
+                "key Ctrl+Z\nkey Ctrl+Z", "key Ctrl+Z", "key Ctrl+Y\nkey Ctrl+Y"]
+    script = SIZE + "key Tab\nkey F3\n"
+    for name, command in zip(steps, commands):
+        script += f"{command}\nmove 5 5\nsave {name}.png\n"
+    viewer.script(folder, "office.map", script)
+    shots = {name: folder / f"{name}.png" for name in steps}
+    for one, other in [("drawn", "undone"), ("plain", "all"), ("plain", "deleted"),
+                       ("moved", "redone")]:
+        share = viewer.difference(shots[one], shots[other])
+        viewer.check(share < TOLERANCE, f"{one} and {other} differ: {share:.2%}")
+    for one, other in [("plain", "drawn"), ("drawn", "moved"), ("moved", "deleted")]:
+        share = viewer.difference(shots[one], shots[other])
+        viewer.check(share > TOLERANCE, f"{one} and {other} are alike: {share:.2%}")
+
+
+def main():
+    viewer = Viewer(sys.argv)
+    stored = pathlib.Path(__file__).parent / "pictures"
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        shoot(viewer, folder)
+        if "--store" in sys.argv:
+            for picture in PICTURES:
+                shutil.copy(folder / f"{picture}.png", stored)
+        check_stored(viewer, folder, stored)
+        check_switches(viewer, folder)
+        check_files(viewer, folder)
+        check_undo(viewer, folder)
+    viewer.end()
+
+
+if __name__ == "__main__":
+    main()
