@@ -172,9 +172,11 @@ sl_status sl_window_run(sl_window *w) {
         SDL_Event event;
         // Nothing is drawn again while nothing happens.
         const bool any = is_lively(app) ? SDL_PollEvent(&event) : SDL_WaitEventTimeout(&event, 250);
-        if (any) {
+        bool more = any;
+        for (bool stale = false; more; stale = true, more = SDL_PollEvent(&event)) {
+            // A click meant what is there after the key before it.
+            if (stale && event.type == SDL_MOUSEBUTTONDOWN) SL_TRY(sl_window_show(w));
             take_event(w, &event);
-            while (SDL_PollEvent(&event)) take_event(w, &event);
         }
         const double now = sl_clock_seconds();
         const bool lively = is_lively(app);

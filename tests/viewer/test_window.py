@@ -27,7 +27,7 @@ STEPS = [
     ("light", ["t", "k", "b", "p"], [], "key T\nkey K\nkey B\nkey P\n"),
     ("learn", ["F2", "Right", "Right", "Right"], [], "key F2\n" + "key Right\n" * 3),
     ("back", ["Left"], [], "key Left\n"),
-    ("wall", ["F3"], [(150, 210, 150, 400)], "key F3\ndrag 150 210 150 400\n"),
+    ("wall", ["F3"], [(225, 260, 225, 320)], "key F3\ndrag 225 260 225 320\n"),
     ("undone", ["ctrl+z"], [], "key Ctrl+Z\n"),
 ]
 
@@ -47,6 +47,7 @@ def start_display():
 class Window:
     def __init__(self, environment):
         self.environment = environment
+        self.id = None
 
     def do(self, *words):
         done = subprocess.run(["xdotool", *map(str, words)], env=self.environment, text=True,
@@ -63,9 +64,10 @@ class Window:
         return None
 
     def drag(self, x0, y0, x1, y1):
-        self.do("mousemove", x0, y0, "mousedown", 1)
+        self.do("mousemove", "--window", self.id, x0, y0, "mousedown", 1)
         for i in range(1, 5):
-            self.do("mousemove", x0 + (x1 - x0) * i // 4, y0 + (y1 - y0) * i // 4)
+            self.do("mousemove", "--window", self.id, x0 + (x1 - x0) * i // 4,
+                    y0 + (y1 - y0) * i // 4)
         self.do("mouseup", 1)
 
 
@@ -78,7 +80,7 @@ def wait_for_file(path):
 
 def save(window, folder, number):
     """The pointer rests on the panel, where it changes nothing in the plan."""
-    window.do("mousemove", 1100, 600)
+    window.do("mousemove", "--window", window.id, 1100, 600)
     window.do("key", "ctrl+s")
     return wait_for_file(folder / f"sightline-{number}.png")
 
@@ -88,7 +90,9 @@ def drive(viewer, window, folder):
     viewer.check(found is not None, "no window")
     if not found:
         return
+    window.id = found
     window.do("windowfocus", found)
+    time.sleep(1)
     for number, (name, keys, drags, _) in enumerate(STEPS, 1):
         for key in keys:
             window.do("key", key)
