@@ -1,7 +1,8 @@
 #!/bin/sh
 # Installs what Sightline needs and this machine has not: sh tools/setup.sh [--ci]
 # It looks at what is really there, asks the system's package manager for the rest, and does nothing
-# when all is there. --ci adds what the checks of .ci/run need: clang, its sanitizers, clang-format.
+# when all is there. --ci adds what the checks of .ci/run need: clang, its sanitizers, clang-format,
+# and a display that is none, with keys to press (Xvfb, xdotool).
 #
 # Tried on Debian. Fedora, Arch and macOS are written from their package lists and untried.
 set -eu
@@ -10,7 +11,7 @@ ci=no
 for argument in "$@"; do
     case $argument in
     --ci) ci=yes ;;
-    -h | --help) sed -n '2,6s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    -h | --help) sed -n '2,7s/^# \{0,1\}//p' "$0"; exit 0 ;;
     *) echo "setup: unknown argument $argument (there is --ci)" >&2; exit 2 ;;
     esac
 done
@@ -74,6 +75,9 @@ is_there() {
     libxml2) module libxml-2.0 ;;
     libyaml) module yaml-0.1 ;;
     zstd) module libzstd ;;
+    sdl2) module sdl2 ;;
+    xvfb) has Xvfb ;;
+    xdotool) has xdotool ;;
     font) font ;;
     clang | clang-format | llvm-symbolizer) has "$1" ;;
     clang-sanitizers) clang_sanitizes ;;
@@ -94,6 +98,7 @@ package() { # system thing
     apt:jansson) echo libjansson-dev ;;
     apt:zlib) echo zlib1g-dev ;;
     apt:zstd) echo libzstd-dev ;;
+    apt:sdl2) echo libsdl2-dev ;;
     apt:libpng | apt:libxml2 | apt:libyaml) echo "$2-dev" ;;
     apt:font) echo fonts-dejavu-core ;;
     apt:clang-sanitizers) echo libclang-rt-dev ;;
@@ -108,6 +113,8 @@ package() { # system thing
     dnf:clang-sanitizers) echo compiler-rt libasan libubsan libtsan ;;
     dnf:glpk | dnf:gmp | dnf:cairo | dnf:jansson | dnf:zlib) echo "$2-devel" ;;
     dnf:zstd) echo libzstd-devel ;;
+    dnf:sdl2) echo SDL2-devel ;;
+    dnf:xvfb) echo xorg-x11-server-Xvfb ;;
     dnf:libpng | dnf:libxml2 | dnf:libyaml) echo "$2-devel" ;;
     dnf:cmocka) echo libcmocka-devel ;;
 
@@ -116,6 +123,7 @@ package() { # system thing
     pacman:python3) echo python ;;
     pacman:font) echo ttf-dejavu ;;
     pacman:clang-format) echo clang ;;
+    pacman:xvfb) echo xorg-server-xvfb ;;
     pacman:clang-sanitizers) echo compiler-rt ;;
 
     brew:c | brew:c++) echo gcc ;;
@@ -123,6 +131,7 @@ package() { # system thing
     brew:python3) echo python ;;
     brew:font) echo --cask font-dejavu ;;
     brew:clang | brew:clang-sanitizers) echo llvm ;;
+    brew:xvfb) echo --cask xquartz ;;
 
     *) echo "$2" ;;
     esac
@@ -164,8 +173,8 @@ install_packages() { # system package...
 
 # ---- What to do ----
 
-things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml zstd glpk cairo font cmocka gmp"
-[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format"
+things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml zstd glpk cairo sdl2 font cmocka gmp"
+[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format xvfb xdotool"
 
 missing=
 for thing in $things; do is_there "$thing" || missing="$missing $thing"; done
@@ -182,7 +191,7 @@ done
 if [ -z "$system" ]; then
     echo "setup: this system's package manager is none of apt, dnf, pacman, brew. Please install:" >&2
     echo "  a C and a C++ compiler (gcc or clang), cmake 3.20 or newer, ninja, pkg-config, python3," >&2
-    echo "  zlib, jansson, libpng, libxml2, libyaml, zstd, GLPK, cairo, cmocka, GMP (each with its headers), the DejaVu fonts" >&2
+    echo "  zlib, jansson, libpng, libxml2, libyaml, zstd, GLPK, cairo, SDL2, cmocka, GMP (each with its headers), the DejaVu fonts" >&2
     exit 1
 fi
 

@@ -1,0 +1,69 @@
+#!/bin/sh
+# Makes the pictures of viewer/README.md anew, without a display: sh viewer/tour.sh [SIGHTLINE-VIEW]
+set -eu
+cd "$(dirname "$0")/.."
+
+view=${1:-build/release/viewer/sightline-view}
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+shoot() { # map picture, the script on stdin
+    { echo "size 900 600"; echo "text 0.92"; cat; } >"$scratch/script.txt"
+    "$view" "maps/$1" --script "$scratch/script.txt" --screenshot "viewer/tour/$2.png"
+    echo "viewer/tour/$2.png"
+}
+
+shoot office.map explore <<'END'
+eye 53 20 160 90
+key B
+END
+shoot office.map difference <<'END'
+eye 53 20 160 90
+key X
+key X
+END
+shoot office.map search <<'END'
+eye 53 20 160
+key F2
+key Right
+key Right
+key Right
+key Right
+END
+shoot office.map hidden <<'END'
+eye 53 20 160
+key F2
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+END
+shoot maze.map subdivision <<'END'
+key F2
+key U
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+END
+shoot office.map draw <<'END'
+eye 53 20 160 90
+key F3
+drag 180 215 180 262
+move 700 590
+END
+shoot office.map quiz <<'END'
+key F4
+key N
+key Space
+key N
+END
+shoot pillars.map first-person <<'END'
+eye 4 4 40 80
+key T
+key I
+END
