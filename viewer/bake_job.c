@@ -11,6 +11,10 @@
 /// A stab tree is kept as long as all fit into this.
 #define TREE_BYTES ((uint64_t)128 << 20)
 
+/// Up to this many cells the search goes through all portal sequences, and so knows the stab trees;
+/// larger maps are swept, which takes far less time.
+enum { SEARCHED_CELLS_MOST = 3000 };
+
 static bool is_cancelled(void *user) {
     return atomic_load(&((sl_bake_job *)user)->cancel);
 }
@@ -47,6 +51,15 @@ static sl_status read_map(sl_context *context, sl_bake_job *job) {
     return sl_map_read(context, job->source.path, &options, &job->map);
 }
 
+static const sl_see_method *choose_method(const sl_space *space) {
+    const char *name = space->cell_count <= SEARCHED_CELLS_MOST ? "dfs" : "sweep";
+    size_t count;
+    const sl_see_method *methods = sl_see_methods(&count);
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(methods[i].name, name) == 0) return &methods[i];
+    return &methods[0];
+}
+
 /// The walls of a baked map are its space's.
 static void drop_walls(sl_map *map) {
     map->wall_count = 0;
@@ -59,14 +72,15 @@ static sl_status bake(sl_context *context, sl_bake_job *job) {
     SL_TRY(sl_map_clean(context, &baked->map, NULL));
     SL_TRY(sl_subdivide_kd(context, &baked->map, &how, &baked->space));
     drop_walls(&baked->map);
-    size_t count;
-    const sl_see_method *method = &sl_see_methods(&count)[0];
+    const sl_see_method *method = choose_method(&baked->space);
     sl_see_options options = sl_see_options_default();
-    options.solver = sl_funnel();
-    options.trees = true;
-    options.tree_bytes = TREE_BYTES;
+    if (method->stabs) {
+        options.solver = sl_funnel();
+        options.trees = true;
+        options.tree_bytes = TREE_BYTES;
+        snprintf(baked->solver, sizeof baked->solver, "%s", options.solver->name);
+    }
     snprintf(baked->method, sizeof baked->method, "%s", method->name);
-    snprintf(baked->solver, sizeof baked->solver, "%s", options.solver->name);
     atomic_store(&job->space_ready, true);
     return method->see(context, &baked->space, &options, &job->visibility);
 }
