@@ -11,18 +11,18 @@
 #include <string.h>
 #include <sys/utsname.h>
 
-static void print_row(const sl_app *app, const char *part, sl_meter *meter) {
+static void print_row(const sl_app *app, const char *part, sl_meter *meter, double processor) {
     const sl_meter_summary sum = sl_meter_sum_up(meter);
     const char *path = app->document.source.path, *slash = path ? strrchr(path, '/') : NULL;
     struct utsname machine;
     if (uname(&machine) != 0) snprintf(machine.nodename, sizeof machine.nodename, "unknown");
-    printf("%s,%u,%u,%s,%zu,%.2f,%.2f,%.2f,%.2f,%s\n",
+    printf("%s,%u,%u,%s,%zu,%.2f,%.2f,%.2f,%.2f,%.2f,%s\n",
            slash  ? slash + 1
            : path ? path
                   : "",
            app->document.baked->space.cell_count, app->document.baked->space.wall_count, part,
            meter->count, 1e3 * sum.mean, 1e3 * sum.median, 1e3 * sum.p95, 1e3 * sum.worst,
-           machine.nodename);
+           1e3 * processor / (double)meter->count, machine.nodename);
 }
 
 /// One frame of a part of the benchmark.
@@ -49,11 +49,13 @@ sl_status sl_bench_run(sl_app *app, unsigned frames) {
     sl_status status = meter ? SL_OK : SL_NO_MEMORY;
     app->show = 255;
     app->steady = false;
-    puts("map,cells,walls,part,frames,mean_ms,median_ms,p95_ms,worst_ms,machine");
+    puts("map,cells,walls,part,frames,mean_ms,median_ms,p95_ms,worst_ms,processor_ms,machine");
     for (int part = 0; part < 3 && status == SL_OK; part++) {
+        double processor = 0;
         meter->count = 0;
         app->held = 0;
         for (unsigned i = 0; i < frames + 5 && status == SL_OK; i++) {
+            if (i == 5) processor = sl_clock_processor();
             const double before = sl_clock_seconds();
             move(app, part, i);
             sl_app_tick(app, 1.0 / 60);
@@ -61,7 +63,7 @@ sl_status sl_bench_run(sl_app *app, unsigned frames) {
             // The first frames make what is kept from then on.
             if (i >= 5) sl_meter_add(meter, sl_clock_seconds() - before);
         }
-        if (status == SL_OK) print_row(app, parts[part], meter);
+        if (status == SL_OK) print_row(app, parts[part], meter, sl_clock_processor() - processor);
     }
     if (meter) sl_free(app->context, meter);
     sl_window_close(window);

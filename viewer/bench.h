@@ -5,7 +5,7 @@
 #include "app.h"
 
 /// Walks, turns and pans through the map that is open and prints a CSV line a part of it:
-/// map,cells,walls,part,frames,mean_ms,median_ms,p95_ms,worst_ms,machine
+/// map,cells,walls,part,frames,mean_ms,median_ms,p95_ms,worst_ms,processor_ms,machine
 sl_status sl_bench_run(sl_app *app, unsigned frames);
 
 #endif
