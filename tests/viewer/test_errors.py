@@ -1,10 +1,9 @@
 """What goes wrong is told in one clear line, with status 1 or 2: VIEW SAME ROOT."""
-import os
 import pathlib
 import sys
 import tempfile
 
-from viewing import Viewer
+from viewing import Viewer, environment
 
 
 def main():
@@ -21,7 +20,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         out = folder / "out.png"
-        nowhere = {**os.environ, "DISPLAY": ":9999", "SDL_VIDEODRIVER": "x11"}
+        nowhere = environment(DISPLAY=":9999")
         nowhere.pop("WAYLAND_DISPLAY", None)
         broken = folder / "broken.map"
         broken.write_text("sightline 1\nwall 0 0 1\n")

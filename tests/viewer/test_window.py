@@ -12,7 +12,7 @@ import sys
 import tempfile
 import time
 
-from viewing import TOLERANCE, Viewer
+from viewing import TOLERANCE, Viewer, environment
 
 SKIP = 77
 PATIENCE = 30
@@ -132,11 +132,10 @@ def main():
     try:
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
-            environment = {**os.environ, "DISPLAY": display, "SDL_VIDEODRIVER": "x11",
-                           "XDG_CONFIG_HOME": str(folder / "config")}
+            shown = environment(DISPLAY=display, XDG_CONFIG_HOME=str(folder / "config"))
             program = subprocess.Popen([viewer.view, viewer.root / "maps/office.map"], cwd=folder,
-                                       env=environment, stderr=subprocess.PIPE, text=True)
-            drive(viewer, Window(environment), folder)
+                                       env=shown, stderr=subprocess.PIPE, text=True)
+            drive(viewer, Window(shown), folder)
             try:
                 _, said = program.communicate(timeout=PATIENCE)
                 viewer.check(program.returncode == 0, f"status {program.returncode}: {said}")

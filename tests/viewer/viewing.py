@@ -1,4 +1,5 @@
 """What the tests of the viewer share: running it, and comparing pictures."""
+import os
 import pathlib
 import subprocess
 import sys
@@ -6,6 +7,12 @@ import sys
 # The share of pixels that may differ from a stored picture: other versions of the font and of its
 # renderer move the edges of letters. The tests make sure that each layer changes more than that.
 TOLERANCE = 0.004
+
+
+def environment(**more):
+    """For runs that look for a display: what its drivers keep until the end is not ours."""
+    leaks = os.environ.get("ASAN_OPTIONS", "") + ":detect_leaks=0"
+    return {**os.environ, "ASAN_OPTIONS": leaks.lstrip(":"), "SDL_VIDEODRIVER": "x11", **more}
 
 
 class Viewer:
