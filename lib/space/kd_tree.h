@@ -27,8 +27,12 @@ void sl_kd_destroy(sl_context *context, sl_kd_tree *tree);
 /// Makes the space's portals and exits from its tree and cells.
 sl_status sl_make_portals(sl_context *context, const sl_kd_tree *tree, sl_space *space);
 
+/// A map whose walls all lie on one line has no area: what it lacks is added on both sides.
+sl_box sl_padded(sl_box box);
+
 /// Marks the cells that are inside: reached from the map's starts, or, where it has none, not
-/// reached from the border. Where that leaves none, all are.
+/// reached from the border. Where that leaves none, all are. `walls` is not looked at where the
+/// space tells its sides.
 sl_status sl_mark_inside(sl_context *context, const sl_map *map, const sl_piece *walls,
                          sl_space *space);
 

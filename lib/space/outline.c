@@ -115,7 +115,31 @@ static bool on_edge(sl_point a, sl_point b, sl_point p) {
            along(a, b, p) <= along(a, b, b);
 }
 
+/// The sides of a cell of which the space tells them.
+static sl_status outline_told(sl_context *context, outliner *o, uint32_t cell) {
+    const sl_space *s = o->space;
+    const sl_cell *c = &s->cells[cell];
+    const uint32_t first = (uint32_t)o->sides.count;
+    uint32_t exit = c->first_exit;
+    for (uint32_t i = 0; i < c->vertex_count; i++) {
+        const sl_point *corners = s->vertices + c->first_vertex;
+        const uint32_t edge = s->edges[c->first_vertex + i];
+        if (edge == SL_EDGE_BORDER) {
+            SL_TRY(add_border(context, o, cell, corners[i], corners[(i + 1) % c->vertex_count]));
+        } else if (edge != SL_EDGE_EXIT) {
+            SL_TRY(add_side(context, o, corners[i], SL_SIDE_WALL + (edge & ~SL_EDGE_RIGHT)));
+        } else {
+            o->of_exit[exit++] = (uint32_t)o->sides.count;
+            SL_TRY(add_side(context, o, corners[i], 0));
+        }
+    }
+    if (o->sides.count > INT32_MAX) return sl_fail_memory(context);
+    o->sides.items[o->sides.count - 1].next = first;
+    return SL_OK;
+}
+
 static sl_status outline_cell(sl_context *context, outliner *o, uint32_t cell) {
+    if (o->space->edges) return outline_told(context, o, cell);
     const sl_cell *c = &o->space->cells[cell];
     const sl_point *corners = o->space->vertices + c->first_vertex;
     const uint32_t first = (uint32_t)o->sides.count;

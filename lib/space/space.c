@@ -1,6 +1,7 @@
 #include "sightline/space.h"
 
 #include "base/base.h"
+#include "geometry/orient.h"
 #include "space/kd_tree.h"
 
 #include <math.h>
@@ -18,11 +19,12 @@ void sl_space_destroy(sl_context *context, sl_space *space) {
     sl_free(context, space->portals);
     sl_free(context, space->exits);
     sl_free(context, space->walls);
+    sl_free(context, space->lines);
+    sl_free(context, space->edges);
     *space = (sl_space){0};
 }
 
-/// A map whose walls all lie on one line has no area: what it lacks is added on both sides.
-static sl_box padded(sl_box box) {
+sl_box sl_padded(sl_box box) {
     const double width = box.max.x - box.min.x, height = box.max.y - box.min.y;
     const double wider = width > height ? width : height;
     if (width == 0) {
@@ -83,7 +85,7 @@ sl_status sl_subdivide_kd(sl_context *context, const sl_map *map,
     if (!map->wall_count)
         return sl_fail_at(context, source, 0, "the map has no walls: nothing to subdivide");
     if (map->wall_count > INT32_MAX) return sl_fail_memory(context);
-    sl_space space = {.bounds = padded(sl_map_bounds(map))};
+    sl_space space = {.bounds = sl_padded(sl_map_bounds(map))};
     sl_kd_tree tree = {0};
     sl_piece *walls = NULL;
     sl_status status = sl_wall_lines(context, source, map->walls, map->wall_count, &walls);
@@ -97,6 +99,26 @@ sl_status sl_subdivide_kd(sl_context *context, const sl_map *map,
     return status;
 }
 
+/// Whether a point is on the lower side of a split.
+static bool is_below(const sl_space *space, const sl_node *node, sl_point point) {
+    if (node->axis < 2) return (node->axis ? point.y : point.x) < node->position;
+    const sl_segment *line = &space->lines[node->line];
+    return sl_orient(line->a, line->b, point) < 0;
+}
+
+/// Portals are rounded: the point may be strictly beyond one of the cell that the tree leads to.
+static uint32_t walk_to(const sl_space *space, uint32_t cell, sl_point point) {
+    enum { MOST_STEPS = 16 };
+    for (int step = 0; step < MOST_STEPS; step++) {
+        const sl_exit *exit = space->exits + space->cells[cell].first_exit;
+        const sl_exit *end = exit + space->cells[cell].exit_count;
+        while (exit < end && sl_orient(exit->left, exit->right, point) <= 0) exit++;
+        if (exit == end) break;
+        cell = exit->cell;
+    }
+    return cell;
+}
+
 uint32_t sl_space_locate(const sl_space *space, sl_point point) {
     const sl_box *b = &space->bounds;
     if (!space->cell_count || !(point.x >= b->min.x && point.x <= b->max.x) ||
@@ -105,9 +127,9 @@ uint32_t sl_space_locate(const sl_space *space, sl_point point) {
     int32_t at = space->root;
     while (at >= 0) {
         const sl_node *node = &space->nodes[at];
-        at = (node->axis ? point.y : point.x) < node->position ? node->below : node->above;
+        at = is_below(space, node, point) ? node->below : node->above;
     }
-    return (uint32_t)~at;
+    return space->line_count ? walk_to(space, (uint32_t)~at, point) : (uint32_t)~at;
 }
 
 double sl_space_area(const sl_space *space, uint32_t cell) {

@@ -244,7 +244,7 @@ static void tilt_split(parts *all, sl_random *random) {
     const sl_segment line =
         node->axis ? (sl_segment){{0, at}, {1, at + by}} : (sl_segment){{at, 1}, {at + by, 0}};
     node->axis = 2;
-    node->reserved = (int32_t)(lines->size / sizeof line);
+    node->line = (int32_t)(lines->size / sizeof line);
     memcpy((uint8_t *)lines->bytes + lines->size, &line, sizeof line);
     lines->size += sizeof line;
 }

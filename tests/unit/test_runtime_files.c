@@ -263,7 +263,7 @@ static char *with_lines(const baked_file *f, double tilt, size_t *size) {
         lines[i] = node.axis ? (sl_segment){{b->min.x, at}, {b->max.x, at + tilt}}
                              : (sl_segment){{at, b->max.y}, {at + tilt, b->min.y}};
         node.axis = 2;
-        node.reserved = (int32_t)i;
+        node.line = (int32_t)i;
         memcpy(nodes + i * sizeof node, &node, sizeof node);
     }
     *size = f->size;
@@ -365,7 +365,7 @@ static void lines_that_are_none_are_refused(void **state) {
     assert_int_equal(open_bytes(bytes, size), SL_RUNTIME_OK);
     const uint32_t numbers[] = {f.runtime.node_count, UINT32_MAX, 0x80000000};
     for (size_t i = 0; i < 3; i++) {
-        memcpy(node + offsetof(sl_node, reserved), &numbers[i], 4);
+        memcpy(node + offsetof(sl_node, line), &numbers[i], 4);
         slv_seal(bytes, size);
         assert_int_equal(open_bytes(bytes, size), SL_RUNTIME_SPACE);
     }

@@ -14,10 +14,10 @@ extern "C" {
 /// A node of the subdivision tree. A child c >= 0 is node c, a child c < 0 is cell ~c.
 typedef struct sl_node {
     double position; ///< the split line: x = position (axis 0) or y = position (axis 1)
-    int32_t axis;
-    int32_t below;    ///< where the coordinate is less than the position
-    int32_t above;    ///< where it is not
-    int32_t reserved; ///< 0
+    int32_t axis;    ///< 2: the line through space.lines[line], from its a to its b; position is 0
+    int32_t below;   ///< where the coordinate is less than the position; strictly right of the line
+    int32_t above;   ///< where it is not
+    int32_t line;    ///< 0 but for axis 2
 } sl_node;
 
 /// A portal: a longest wall-free piece of the boundary that two cells share, of positive length.
@@ -42,19 +42,33 @@ typedef struct sl_cell {
     uint32_t reserved; ///< 0
 } sl_cell;
 
+/// What sl_space.edges says of a side that is no wall: the cell's next exit, or the map's border.
+/// Else it is the wall's number, with SL_EDGE_RIGHT or-ed where the cell is at the wall's right,
+/// going from its a to its b.
+#define SL_EDGE_EXIT   UINT32_MAX
+#define SL_EDGE_BORDER (UINT32_MAX - 1)
+#define SL_EDGE_RIGHT  0x80000000u
+
 /// Zeroed, a space is empty.
+///
+/// A space made by a BSP has `edges`. Its cells' corners may then be flat: there is one wherever a
+/// portal ends, so that each side is one exit, a piece of one wall, or border.
 typedef struct sl_space {
     sl_box bounds;
     int32_t root; ///< as a child of a node
     uint32_t node_count, cell_count, vertex_count, portal_count, exit_count, wall_count;
     uint32_t inside_count;
     uint32_t tree_depth; ///< nodes on the longest way down
+    uint32_t line_count; ///< 0 for a kd-tree
     sl_node *nodes;      ///< a parent before its children
     sl_cell *cells;
     sl_point *vertices;
     sl_portal *portals; ///< by cell[0], then cell[1], then place
     sl_exit *exits;     ///< grouped by cell
     sl_wall *walls;     ///< those of the map it was made from
+    sl_segment *lines;  ///< of two different ends; what nodes of axis 2 split along
+    uint32_t *edges;    ///< by vertex: the wall on the side from there to the cell's next corner,
+                        ///< SL_EDGE_EXIT or SL_EDGE_BORDER; NULL for a kd-tree
 } sl_space;
 
 /// The kd-tree's rules (Teller & Séquin 1991, Spatial Subdivision), applied one after the other to
@@ -75,11 +89,41 @@ SL_API sl_subdivide_options sl_subdivide_options_default(void);
 SL_API sl_status sl_subdivide_kd(sl_context *context, const sl_map *map,
                                  const sl_subdivide_options *options, sl_space *out);
 
+/// The BSP's cost of a split, the least of which is taken: cuts * (share of the walls that it cuts)
+/// + imbalance * (difference between the shares left on either side) - obscured * (share of its
+/// length that walls cover). Start from sl_bsp_options_default().
+typedef struct sl_bsp_options {
+    double cuts, imbalance, obscured; ///< finite, not negative
+    uint32_t candidates;              ///< walls tried for each split, at least 1
+} sl_bsp_options;
+
+SL_API sl_bsp_options sl_bsp_options_default(void);
+
+/// Subdivides by a BSP on the walls' own lines (auto-partition: Teller 1992) until no wall is
+/// inside a cell. Walls may be oblique and may cross, touch, overlap and repeat; those of no length
+/// count for nothing.
+///
+/// Cells are convex by exact predicates on the corners as they are stored, both sides of a portal
+/// have the same ends, and a wall's ends stay exact: all later stages are exact for the space as it
+/// stands. No place sees less than in the map: whatever two points a segment joins that touches no
+/// wall, the cells that sl_space_locate names for them see each other. For that, corners that have
+/// to be computed (where walls cross each other or a portal) lie on their wall's line or behind it,
+/// as seen from the cell: neighbouring cells may overlap along walls, and sight be added through
+/// slivers, by the size of rounding. A portal runs along a wall's line only as far as doubles can
+/// tell a point exactly on it; where there is none, a wall that ends in the open is joined to two
+/// corners instead, a triangle between them. Axial coordinates stay exact.
+///
+/// Time about O(n log n) for n walls with few long ones; reports stage "subdivide".
+/// SL_BAD_INPUT where there is no wall, SL_BAD_ARGUMENT for options out of range.
+SL_API sl_status sl_subdivide_bsp(sl_context *context, const sl_map *map,
+                                  const sl_bsp_options *options, sl_space *out);
+
 SL_API void sl_space_destroy(sl_context *context, sl_space *space); ///< and zeroes it
 
-/// The cell that holds a point. On a split line the cell above (right of or over) it; on the upper
-/// or right border the cell inside; SL_NO_CELL outside the bounds and for NaN. Time: the tree's
-/// depth.
+/// The cell that holds a point. On a split line the cell above (right of or over) it, left of an
+/// oblique one; on the upper or right border the cell inside; SL_NO_CELL outside the bounds and for
+/// NaN. Time: the tree's depth. Where portals are rounded (a BSP's), what the tree finds is left
+/// through exits that have the point strictly beyond them, 16 at most.
 SL_API uint32_t sl_space_locate(const sl_space *space, sl_point point);
 
 /// Area of a cell.
@@ -88,7 +132,9 @@ SL_API double sl_space_area(const sl_space *space, uint32_t cell);
 /// Checks the whole graph: cells convex and of positive area, areas adding up to the bounds', no
 /// wall inside a cell, portals on both their cells and on no wall, every piece of a cell's boundary
 /// wall, portal or border, exits and portals telling the same, the tree leading to each cell once.
-/// All but the sum of areas (relative 1e-9) by comparison of exact coordinates.
+/// All but the sum of areas (relative 1e-9) by comparison of exact coordinates. For a BSP: corners
+/// convex by exact predicates, walls' sides on their wall's line or behind it; that areas add up
+/// and walls are covered is told within rounding.
 /// SL_BAD_INPUT with the first fault found.
 SL_API sl_status sl_space_check(sl_context *context, const sl_space *space);
 

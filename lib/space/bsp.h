@@ -1,0 +1,176 @@
+/// The BSP while it is built: faces, convex polygons in doubles, that are split until no wall is
+/// inside one.
+///
+/// What holds at all times: every face is convex by exact predicates; a portal's side has a twin
+/// with the same two ends in the face beyond; the ends of a wall's side lie on the wall's line or
+/// behind it, as seen from the face. A wall is put in whole: where it goes on through a portal, the
+/// face beyond is split with it, so that it never stands half in the way.
+#ifndef SL_BSP_H
+#define SL_BSP_H
+
+#include "base/base.h"
+#include "geometry/orient.h"
+#include "sightline/space.h"
+
+#define SL_NO_FACE UINT32_MAX
+
+/// From a corner to the face's next one, counter-clockwise.
+typedef struct sl_bsp_side {
+    sl_point from;
+    uint32_t what;   ///< a wall, SL_EDGE_EXIT or SL_EDGE_BORDER
+    uint32_t beyond; ///< the face behind a portal; SL_NO_FACE while it is not known, and for others
+    uint32_t joint;  ///< the same for both sides of a portal that is new; 0 for others
+    bool reversed;   ///< a wall's side that runs from the wall's b to its a
+} sl_bsp_side;
+
+typedef SL_ARRAY(sl_bsp_side) sl_bsp_sides;
+typedef SL_ARRAY(uint32_t) sl_bsp_walls;
+
+typedef struct sl_bsp_face {
+    sl_bsp_sides sides;
+    sl_bsp_walls walls; ///< those inside it
+    int32_t node;       ///< that leads here; -1 for none
+    uint32_t depth;     ///< nodes above
+    bool above;         ///< which child of the node
+} sl_bsp_face;
+
+/// A side that crosses the line that is put in, or a corner on it.
+typedef struct sl_bsp_crossing {
+    size_t side;    ///< of the face: the one crossed, or the one that starts in the corner
+    bool at_corner; ///< the corner lies exactly on the line
+    bool walled;    ///< a wall on the line reaches up to here from within the face
+    bool passes;    ///< and goes on through a portal
+    sl_point touch; ///< where the wall ends exactly on the side, if so
+    bool touches;
+} sl_bsp_crossing;
+
+/// What the line does in one face.
+typedef struct sl_bsp_passage {
+    uint32_t face;
+    sl_bsp_crossing entry, exit;
+    size_t first_stop, stop_count;  ///< of sl_bsp.stops: exact points on the line inside the face
+    uint32_t entry_wall, exit_wall; ///< the walls before the first stop and behind the last one
+    /// The corners on either side of the line; equal where the line is free there.
+    sl_point entry_left, entry_right, exit_left, exit_right;
+    /// The line, being free, ends in a new corner on the side; else in a corner that is there.
+    bool entry_new, exit_new;
+    /// How often corners have been placed in vain, for the pieces left and right of the line, and
+    /// how far off those of walls are tried for it: 0 as near as can be.
+    uint32_t failures[2], entry_try[2], exit_try[2];
+    int32_t node;       ///< that splits the face
+    sl_bsp_walls walls; ///< those that were inside the face
+} sl_bsp_passage;
+
+/// A point on the line with what goes on from there along it: a wall, or SL_EDGE_EXIT.
+typedef struct sl_bsp_stop {
+    sl_point at;
+    uint32_t wall;
+} sl_bsp_stop;
+
+/// A convex piece of a face that is being split.
+typedef struct sl_bsp_piece {
+    sl_bsp_sides sides;
+    int32_t node;
+    uint32_t depth, passage, face;
+    bool above, left;
+} sl_bsp_piece;
+
+/// A wall end on the line, for sorting.
+typedef struct sl_bsp_along {
+    double key; ///< a coordinate, growing along the line
+    sl_point at;
+} sl_bsp_along;
+
+typedef struct sl_bsp {
+    sl_context *context;
+    const sl_map *map;
+    const sl_bsp_options *options;
+    sl_box bounds;
+    SL_ARRAY(sl_bsp_face) faces;
+    SL_ARRAY(sl_node) nodes; ///< children: as in sl_node, but ~face for cells
+    SL_ARRAY(sl_segment) lines;
+    SL_ARRAY(uint32_t) waiting; ///< faces that have walls inside
+    int32_t root;
+    uint32_t depth;
+    // The line being put in, and scratch for it.
+    sl_point a, b;
+    SL_ARRAY(sl_bsp_passage) passages; ///< in order along the line
+    SL_ARRAY(sl_bsp_stop) stops;
+    SL_ARRAY(sl_bsp_piece) pieces;
+    sl_bsp_walls on_line; ///< walls on the line in the face at hand
+    SL_ARRAY(sl_bsp_along) along;
+    SL_ARRAY(int8_t) signs;
+    bool placed;             ///< the pieces' sides are the faces' already
+    uint32_t failed_passage; ///< where a piece cannot be made convex
+    bool failed_left;
+} sl_bsp;
+
+/// After so many failures, corners within a wall are left out.
+#define SL_BSP_PATIENCE 4
+
+// --- faces (bsp_face.c)
+
+static inline bool sl_same_point(sl_point a, sl_point b) {
+    return a.x == b.x && a.y == b.y;
+}
+
+static inline sl_point sl_side_end(const sl_bsp_sides *sides, size_t i) {
+    return sides->items[i + 1 == sides->count ? 0 : i + 1].from;
+}
+
+/// Exactly convex, counter-clockwise, of positive area; corners may be flat, but not repeat. They
+/// lie `stride` bytes apart.
+bool sl_convex_corners(const void *first, size_t stride, size_t count);
+bool sl_bsp_convex(const sl_bsp_sides *sides);
+/// Whether the point is strictly inside a convex face.
+bool sl_bsp_holds(const sl_bsp_sides *sides, sl_point point);
+/// Whether a wall has a point strictly inside a convex face. If not, *along is the side that it
+/// lies along, or SIZE_MAX.
+bool sl_bsp_hits(const sl_bsp_sides *sides, const sl_wall *wall, size_t *along);
+/// Whether the point is on the wall's line or behind it, as seen from a side that it stands on.
+bool sl_bsp_behind(const sl_wall *wall, bool reversed, sl_point point);
+/// The diagonal, from corner *from to corner *to, that cuts an inner corner away; false where there
+/// is none.
+bool sl_bsp_diagonal(const sl_bsp_sides *sides, size_t *from, size_t *to);
+sl_status sl_bsp_add_side(sl_context *context, sl_bsp_sides *sides, sl_bsp_side side);
+
+// --- putting a line in
+
+/// Follows a wall from a face both ways: fills passages and stops (bsp_trace.c).
+sl_status sl_bsp_trace(sl_bsp *bsp, uint32_t face, uint32_t wall);
+/// Chooses the corners (bsp_place.c).
+void sl_bsp_place(sl_bsp *bsp);
+/// Has the corners where the pieces failed tried farther off; false where all has been tried.
+bool sl_bsp_try_farther(sl_bsp *bsp);
+/// Makes the convex pieces that the faces are split into; *done is false where the corners do not
+/// allow it, and failed_passage and failed_left tell where (bsp_pieces.c).
+sl_status sl_bsp_make_pieces(sl_bsp *bsp, bool *done);
+void sl_bsp_drop_pieces(sl_bsp *bsp);
+/// Puts the pieces in the place of the faces (bsp_cut.c).
+sl_status sl_bsp_replace_faces(sl_bsp *bsp);
+/// Gives the pieces the walls that the faces had inside (bsp_walls.c).
+sl_status sl_bsp_deal_walls(sl_bsp *bsp);
+
+/// The side of a face that runs from one point to another and leads to `beyond`; SIZE_MAX for none.
+size_t sl_bsp_find_side(const sl_bsp_face *face, sl_point from, sl_point to, uint32_t beyond);
+/// Puts a corner into a side: what is behind it becomes a side of its own.
+sl_status sl_bsp_insert_corner(sl_context *context, sl_bsp_face *face, size_t side, sl_point at);
+bool sl_bsp_is_passage(const sl_bsp *bsp, uint32_t face);
+
+/// A coordinate that grows along the line.
+static inline double sl_bsp_key(const sl_bsp *bsp, sl_point p) {
+    if (fabs(bsp->b.x - bsp->a.x) >= fabs(bsp->b.y - bsp->a.y))
+        return bsp->b.x > bsp->a.x ? p.x : -p.x;
+    return bsp->b.y > bsp->a.y ? p.y : -p.y;
+}
+
+/// The wall of a face whose line is the split of least cost (bsp_choose.c).
+uint32_t sl_bsp_choose(const sl_bsp *bsp, const sl_bsp_face *face);
+
+/// Makes a space of the faces (bsp_space.c).
+sl_status sl_bsp_make_space(sl_bsp *bsp, sl_space *out);
+
+/// The check of a space that tells its sides, of which counts and bounds are checked (check_bsp.c).
+sl_status sl_check_bsp(sl_context *context, const sl_space *space);
+
+#endif

@@ -1,0 +1,267 @@
+/// The whole-graph check of a BSP's space. What sight depends on is checked exactly: convex cells,
+/// portals that both cells have alike, walls' sides that lie on their wall or behind it. That walls
+/// are all there and that cells fill the bounds is checked within rounding.
+#include "base/bits.h"
+#include "space/bsp.h"
+
+#include <math.h>
+
+typedef struct checker {
+    sl_context *context;
+    const sl_space *space;
+    double slack;         ///< what rounding may have done to a place
+    sl_bits *led_to;      ///< nodes, then cells, that some node leads to
+    uint8_t *exits_found; ///< by portal: 1 for the exit of cell[0], 2 for that of cell[1]
+    int32_t *stack;
+} checker;
+
+static sl_status fail_node(const checker *c, uint32_t node, const char *what) {
+    return sl_fail(c->context, SL_BAD_INPUT, "node %u %s", node, what);
+}
+
+static sl_status fail_cell(const checker *c, uint32_t cell, const char *what) {
+    return sl_fail(c->context, SL_BAD_INPUT, "cell %u %s", cell, what);
+}
+
+// --- the tree
+
+static sl_status lead_to(const checker *c, int64_t node, int32_t child) {
+    const sl_space *s = c->space;
+    const bool in_range = child < 0 ? (uint32_t)~child < s->cell_count
+                                    : child > node && (uint32_t)child < s->node_count;
+    const uint32_t parent = node < 0 ? 0 : (uint32_t)node;
+    if (!in_range) return fail_node(c, parent, "leads out of the tree");
+    const size_t slot = child < 0 ? (size_t)s->node_count + (uint32_t)~child : (size_t)child;
+    if (sl_bits_has(c->led_to, slot)) return fail_node(c, parent, "leads where another one does");
+    sl_bits_add(c->led_to, slot);
+    return SL_OK;
+}
+
+/// Within what a map without width or height is padded to.
+static bool is_usable(sl_point p) {
+    return (sl_coordinate_usable(p.x) || sl_coordinate_usable(p.x / 2)) &&
+           (sl_coordinate_usable(p.y) || sl_coordinate_usable(p.y / 2));
+}
+
+static sl_status check_tree(const checker *c) {
+    const sl_space *s = c->space;
+    SL_TRY(lead_to(c, -1, s->root));
+    for (uint32_t i = 0; i < s->node_count; i++) {
+        const sl_node *node = &s->nodes[i];
+        if (!sl_bits_has(c->led_to, i)) return fail_node(c, i, "cannot be reached");
+        if (node->axis != 2 || node->line < 0 || (uint32_t)node->line >= s->line_count)
+            return fail_node(c, i, "splits along no known line");
+        SL_TRY(lead_to(c, i, node->below));
+        SL_TRY(lead_to(c, i, node->above));
+    }
+    for (uint32_t i = 0; i < s->line_count; i++) {
+        const sl_segment *line = &s->lines[i];
+        if (!is_usable(line->a) || !is_usable(line->b) || sl_same_point(line->a, line->b))
+            return sl_fail(c->context, SL_BAD_INPUT, "line %u is none", i);
+    }
+    return SL_OK;
+}
+
+// --- cells
+
+/// The numbers of a cell, and its corners: convex, within the bounds.
+static sl_status check_cell(const checker *c, uint32_t number, uint64_t vertices, uint64_t exits) {
+    const sl_space *s = c->space;
+    const sl_cell *cell = &s->cells[number];
+    if (cell->first_vertex != vertices || cell->vertex_count > s->vertex_count - vertices)
+        return fail_cell(c, number, "has corners out of range");
+    if (cell->first_exit != exits || cell->exit_count > s->exit_count - exits)
+        return fail_cell(c, number, "has exits out of range");
+    if (cell->inside > 1) return fail_cell(c, number, "is neither inside nor outside");
+    const sl_point *corners = s->vertices + cell->first_vertex;
+    const sl_box *b = &s->bounds;
+    for (uint32_t i = 0; i < cell->vertex_count; i++)
+        if (!is_usable(corners[i]) || corners[i].x < b->min.x - c->slack ||
+            corners[i].x > b->max.x + c->slack || corners[i].y < b->min.y - c->slack ||
+            corners[i].y > b->max.y + c->slack)
+            return fail_cell(c, number, "leaves the bounds");
+    if (!sl_convex_corners(corners, sizeof *corners, cell->vertex_count))
+        return fail_cell(c, number, "is not convex");
+    return SL_OK;
+}
+
+static double share_of(const sl_space *s, const sl_cell *cell) {
+    const double width = s->bounds.max.x - s->bounds.min.x;
+    const double height = s->bounds.max.y - s->bounds.min.y;
+    const sl_point *v = s->vertices + cell->first_vertex;
+    double twice = 0;
+    for (uint32_t i = 2; i < cell->vertex_count; i++)
+        twice += (v[i - 1].x - v[0].x) / width * ((v[i].y - v[0].y) / height) -
+                 (v[i].x - v[0].x) / width * ((v[i - 1].y - v[0].y) / height);
+    return twice / 2;
+}
+
+static sl_status check_cells(const checker *c) {
+    const sl_space *s = c->space;
+    uint64_t vertices = 0, exits = 0;
+    uint32_t inside = 0;
+    double sum = 0;
+    for (uint32_t i = 0; i < s->cell_count; i++) {
+        SL_TRY(check_cell(c, i, vertices, exits));
+        vertices += s->cells[i].vertex_count;
+        exits += s->cells[i].exit_count;
+        inside += s->cells[i].inside;
+        sum += share_of(s, &s->cells[i]);
+    }
+    if (inside != s->inside_count || exits != s->exit_count || vertices != s->vertex_count)
+        return sl_fail(c->context, SL_BAD_INPUT,
+                       "the counts of cells, corners or exits do not add up");
+    const double width = s->bounds.max.x - s->bounds.min.x;
+    const double height = s->bounds.max.y - s->bounds.min.y;
+    const double slack = 1e-9 + (double)vertices * c->slack / fmin(width, height);
+    // More where walls within rounding of each other leave no room for corners between them.
+    if (sum >= 1 - slack && sum <= 1.5 + slack) return SL_OK;
+    return sl_fail(c->context, SL_BAD_INPUT, "the cells' areas add up to %.17g of the bounds'",
+                   sum);
+}
+
+// --- sides
+
+static sl_status check_exit(const checker *c, uint32_t cell, const sl_exit *exit, sl_point from,
+                            sl_point to) {
+    const sl_space *s = c->space;
+    if (exit->portal >= s->portal_count) return fail_cell(c, cell, "has an exit to no portal");
+    const sl_portal *p = &s->portals[exit->portal];
+    if (p->cell[0] >= p->cell[1] || p->cell[1] >= s->cell_count)
+        return sl_fail(c->context, SL_BAD_INPUT, "portal %u joins no two cells", exit->portal);
+    const int side = p->cell[0] == cell ? 0 : 1;
+    if (p->cell[side] != cell || exit->cell != p->cell[!side] ||
+        !sl_same_point(exit->left, side ? p->right : p->left) ||
+        !sl_same_point(exit->right, side ? p->left : p->right) ||
+        c->exits_found[exit->portal] & (1 << side))
+        return fail_cell(c, cell, "has an exit unlike its portal");
+    if (!sl_same_point(exit->right, from) || !sl_same_point(exit->left, to))
+        return fail_cell(c, cell, "has an exit that is not on its boundary");
+    c->exits_found[exit->portal] |= (uint8_t)(1 << side);
+    return SL_OK;
+}
+
+static bool is_on_border(const sl_box *b, sl_point p, sl_point q) {
+    return (p.x == q.x && (p.x == b->min.x || p.x == b->max.x)) ||
+           (p.y == q.y && (p.y == b->min.y || p.y == b->max.y));
+}
+
+/// On the wall's line or behind it, as seen from the cell.
+static bool is_behind(const sl_space *s, uint32_t what, sl_point from, sl_point to) {
+    const uint32_t number = what & ~SL_EDGE_RIGHT;
+    if (number >= s->wall_count) return false;
+    const sl_wall *wall = &s->walls[number];
+    const bool right = what & SL_EDGE_RIGHT;
+    return sl_bsp_behind(wall, right, from) && sl_bsp_behind(wall, right, to);
+}
+
+static sl_status check_sides(const checker *c, uint32_t number) {
+    const sl_space *s = c->space;
+    const sl_cell *cell = &s->cells[number];
+    const sl_point *corners = s->vertices + cell->first_vertex;
+    uint32_t exits = 0;
+    for (uint32_t i = 0; i < cell->vertex_count; i++) {
+        const uint32_t what = s->edges[cell->first_vertex + i];
+        const sl_point from = corners[i], to = corners[i + 1 == cell->vertex_count ? 0 : i + 1];
+        if (what == SL_EDGE_EXIT) {
+            if (exits == cell->exit_count) return fail_cell(c, number, "has too few exits");
+            SL_TRY(check_exit(c, number, &s->exits[cell->first_exit + exits++], from, to));
+        } else if (what == SL_EDGE_BORDER) {
+            if (!is_on_border(&s->bounds, from, to))
+                return fail_cell(c, number, "has a border within the bounds");
+        } else if (!is_behind(s, what, from, to))
+            return fail_cell(c, number, "has a wall's side that is not behind the wall");
+    }
+    return exits == cell->exit_count ? SL_OK : fail_cell(c, number, "has too many exits");
+}
+
+// --- walls
+
+/// How deep the middle of what is inside of a wall lies in a cell; 0 where nothing is.
+static double depth_in(const sl_space *s, const sl_cell *cell, const sl_wall *wall) {
+    const sl_point *v = s->vertices + cell->first_vertex;
+    double low = 0, high = 1;
+    for (int round = 0; round < 2; round++) {
+        const double middle = (low + high) / 2;
+        const sl_point p = {wall->a.x + middle * (wall->b.x - wall->a.x),
+                            wall->a.y + middle * (wall->b.y - wall->a.y)};
+        double depth = INFINITY;
+        for (uint32_t i = 0; i < cell->vertex_count; i++) {
+            const sl_point a = v[i], b = v[i + 1 == cell->vertex_count ? 0 : i + 1];
+            const double length = hypot(b.x - a.x, b.y - a.y);
+            const double ux = (b.x - a.x) / length, uy = (b.y - a.y) / length;
+            const double from = ux * (wall->a.y - a.y) - uy * (wall->a.x - a.x);
+            const double to = ux * (wall->b.y - a.y) - uy * (wall->b.x - a.x);
+            if (from <= 0 && to <= 0) return 0;
+            if (from < 0)
+                low = fmax(low, from / (from - to));
+            else if (to < 0)
+                high = fmin(high, from / (from - to));
+            depth = fmin(depth, ux * (p.y - a.y) - uy * (p.x - a.x));
+        }
+        if (low >= high) return 0;
+        if (round) return depth;
+    }
+    return 0;
+}
+
+/// Follows a wall down the tree: it must be inside no cell that it leads to.
+static sl_status check_wall(const checker *c, const sl_wall *wall) {
+    const sl_space *s = c->space;
+    size_t count = 0;
+    c->stack[count++] = s->root;
+    while (count) {
+        const int32_t at = c->stack[--count];
+        if (at < 0) {
+            const uint32_t cell = (uint32_t)~at;
+            if (depth_in(s, &s->cells[cell], wall) > c->slack)
+                return fail_cell(c, cell, "has a wall inside");
+            continue;
+        }
+        const sl_segment *line = &s->lines[s->nodes[at].line];
+        const int a = sl_orient(line->a, line->b, wall->a);
+        const int b = sl_orient(line->a, line->b, wall->b);
+        if (a > 0 || b > 0) c->stack[count++] = s->nodes[at].above;
+        if (a < 0 || b < 0) c->stack[count++] = s->nodes[at].below;
+    }
+    return SL_OK;
+}
+
+static sl_status check_walls(const checker *c) {
+    const sl_space *s = c->space;
+    const sl_box *b = &s->bounds;
+    for (uint32_t i = 0; i < s->wall_count; i++) {
+        const sl_wall *wall = &s->walls[i];
+        if (!(fmin(wall->a.x, wall->b.x) >= b->min.x && fmax(wall->a.x, wall->b.x) <= b->max.x &&
+              fmin(wall->a.y, wall->b.y) >= b->min.y && fmax(wall->a.y, wall->b.y) <= b->max.y))
+            return sl_fail(c->context, SL_BAD_INPUT, "a wall leaves the bounds");
+        if (i % 256 == 0) SL_TRY(sl_check_cancelled(c->context));
+        if (!sl_same_point(wall->a, wall->b)) SL_TRY(check_wall(c, wall));
+    }
+    return SL_OK;
+}
+
+static sl_status check_all(const checker *c) {
+    SL_TRY(check_tree(c));
+    SL_TRY(check_cells(c));
+    for (uint32_t cell = 0; cell < c->space->cell_count; cell++) SL_TRY(check_sides(c, cell));
+    return check_walls(c);
+}
+
+sl_status sl_check_bsp(sl_context *context, const sl_space *space) {
+    const sl_box *b = &space->bounds;
+    const double size = fmax(b->max.x - b->min.x, b->max.y - b->min.y);
+    const double farthest =
+        fmax(fmax(fabs(b->min.x), fabs(b->max.x)), fmax(fabs(b->min.y), fabs(b->max.y)));
+    checker c = {.context = context, .space = space, .slack = 0x1p-30 * size + 0x1p-49 * farthest};
+    const size_t places = (size_t)space->node_count + space->cell_count;
+    c.led_to = sl_alloc_array(context, sl_bits_words(places), sizeof *c.led_to);
+    c.exits_found = sl_alloc_array(context, space->portal_count, sizeof *c.exits_found);
+    // A way down leaves at most one sibling waiting on each level.
+    c.stack = sl_alloc_array(context, (size_t)space->node_count + 2, sizeof *c.stack);
+    const sl_status status = c.led_to && c.exits_found && c.stack ? check_all(&c) : SL_NO_MEMORY;
+    sl_free(context, c.led_to);
+    sl_free(context, c.exits_found);
+    sl_free(context, c.stack);
+    return status;
+}
