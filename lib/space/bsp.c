@@ -52,7 +52,7 @@ static sl_status add_border_side(sl_bsp *bsp, sl_bsp_face *face, int number, con
     const double end = along_border(number, corners[(number + 1) % 4]);
     for (size_t i = 0; i <= count; i++) {
         const double low = i < count ? covers[i].low : end;
-        sl_bsp_side side = {.what = SL_EDGE_BORDER, .beyond = SL_NO_FACE};
+        sl_bsp_side side = {.what = SL_BEYOND_BORDER, .beyond = SL_NO_FACE};
         if (low > at) {
             side.from = on_border(b, number, at);
             SL_TRY(sl_bsp_add_side(bsp->context, &face->sides, side));

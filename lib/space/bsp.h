@@ -17,7 +17,7 @@
 /// From a corner to the face's next one, counter-clockwise.
 typedef struct sl_bsp_side {
     sl_point from;
-    uint32_t what;   ///< a wall, SL_EDGE_EXIT or SL_EDGE_BORDER
+    uint32_t what;   ///< a wall, SL_BEYOND_EXIT or SL_BEYOND_BORDER
     uint32_t beyond; ///< the face behind a portal; SL_NO_FACE while it is not known, and for others
     uint32_t joint;  ///< the same for both sides of a portal that is new; 0 for others
     bool reversed;   ///< a wall's side that runs from the wall's b to its a
@@ -61,7 +61,7 @@ typedef struct sl_bsp_passage {
     sl_bsp_walls walls; ///< those that were inside the face
 } sl_bsp_passage;
 
-/// A point on the line with what goes on from there along it: a wall, or SL_EDGE_EXIT.
+/// A point on the line with what goes on from there along it: a wall, or SL_BEYOND_EXIT.
 typedef struct sl_bsp_stop {
     sl_point at;
     uint32_t wall;

@@ -28,7 +28,8 @@ static sl_status tell_face_beyond(sl_bsp *bsp, const sl_bsp_passage *passage, bo
     const size_t number = out ? passage->exit.side : passage->entry.side;
     const sl_bsp_sides *sides = &bsp->faces.items[passage->face].sides;
     const sl_bsp_side *side = &sides->items[number];
-    if (!is_new || side->what != SL_EDGE_EXIT || sl_bsp_is_passage(bsp, side->beyond)) return SL_OK;
+    if (!is_new || side->what != SL_BEYOND_EXIT || sl_bsp_is_passage(bsp, side->beyond))
+        return SL_OK;
     sl_bsp_face *beyond = &bsp->faces.items[side->beyond];
     const size_t twin =
         sl_bsp_find_side(beyond, sl_side_end(sides, number), side->from, passage->face);
@@ -40,7 +41,7 @@ static sl_status tell_face_beyond(sl_bsp *bsp, const sl_bsp_passage *passage, bo
 /// is told by its place, on one side of the line.
 static bool is_twin(const sl_bsp_piece *a, size_t i, const sl_bsp_piece *b, size_t k) {
     const sl_bsp_side *s = &a->sides.items[i], *t = &b->sides.items[k];
-    return t->what == SL_EDGE_EXIT && t->beyond == SL_NO_FACE && s->joint == t->joint &&
+    return t->what == SL_BEYOND_EXIT && t->beyond == SL_NO_FACE && s->joint == t->joint &&
            (s->joint || (a->passage != b->passage && a->left == b->left)) &&
            sl_same_point(s->from, sl_side_end(&b->sides, k)) &&
            sl_same_point(t->from, sl_side_end(&a->sides, i));
@@ -111,7 +112,7 @@ static void tell_faces_around(sl_bsp *bsp, const sl_bsp_piece *piece) {
     const uint32_t old = bsp->passages.items[piece->passage].face;
     for (size_t i = 0; i < piece->sides.count && piece->face != old; i++) {
         const sl_bsp_side *side = &piece->sides.items[i];
-        if (side->what != SL_EDGE_EXIT || side->beyond == SL_NO_FACE) continue;
+        if (side->what != SL_BEYOND_EXIT || side->beyond == SL_NO_FACE) continue;
         sl_bsp_face *beyond = &bsp->faces.items[side->beyond];
         const size_t twin =
             sl_bsp_find_side(beyond, sl_side_end(&piece->sides, i), side->from, old);
@@ -123,7 +124,7 @@ static sl_status join_pieces(sl_bsp *bsp) {
     for (size_t n = 0; n < bsp->pieces.count; n++) {
         const sl_bsp_sides *sides = &bsp->pieces.items[n].sides;
         for (size_t i = 0; i < sides->count; i++)
-            if (sides->items[i].what == SL_EDGE_EXIT && sides->items[i].beyond == SL_NO_FACE)
+            if (sides->items[i].what == SL_BEYOND_EXIT && sides->items[i].beyond == SL_NO_FACE)
                 SL_TRY(join(bsp, n, i));
     }
     return SL_OK;

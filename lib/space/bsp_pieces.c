@@ -50,8 +50,8 @@ static sl_status add_line_sides(sl_bsp *bsp, const sl_bsp_passage *p, bool left,
         sl_point low = k ? stops[k - 1].at : left ? p->entry_left : p->entry_right;
         sl_point high = k < count ? stops[k].at : left ? p->exit_left : p->exit_right;
         const uint32_t what = part_of_line(p, stops, k);
-        while (spare && i < count && what < SL_EDGE_BORDER &&
-               part_of_line(p, stops, left ? k + 1 : k - 1) < SL_EDGE_BORDER) {
+        while (spare && i < count && what < SL_BEYOND_BORDER &&
+               part_of_line(p, stops, left ? k + 1 : k - 1) < SL_BEYOND_BORDER) {
             k = left ? k + 1 : k - 1;
             i++;
             if (left)
@@ -60,8 +60,8 @@ static sl_status add_line_sides(sl_bsp *bsp, const sl_bsp_passage *p, bool left,
                 low = k ? stops[k - 1].at : p->entry_right;
         }
         sl_bsp_side side = {.from = left ? low : high, .what = what, .beyond = SL_NO_FACE};
-        if (what == SL_EDGE_EXIT) side.joint = line_joint(bsp, p, k);
-        if (what < SL_EDGE_BORDER) {
+        if (what == SL_BEYOND_EXIT) side.joint = line_joint(bsp, p, k);
+        if (what < SL_BEYOND_BORDER) {
             const sl_wall *wall = &bsp->map->walls[what];
             side.reversed = (sl_bsp_key(bsp, wall->a) < sl_bsp_key(bsp, wall->b)) != left;
         }
@@ -125,8 +125,10 @@ static sl_status copy_part(sl_bsp *bsp, const sl_bsp_sides *sides, size_t from, 
                            uint32_t joint, sl_bsp_sides *out) {
     for (size_t i = from; i != to; i = i + 1 == sides->count ? 0 : i + 1)
         SL_TRY(sl_bsp_add_side(bsp->context, out, sides->items[i]));
-    const sl_bsp_side last = {
-        .from = sides->items[to].from, .what = SL_EDGE_EXIT, .beyond = SL_NO_FACE, .joint = joint};
+    const sl_bsp_side last = {.from = sides->items[to].from,
+                              .what = SL_BEYOND_EXIT,
+                              .beyond = SL_NO_FACE,
+                              .joint = joint};
     return sl_bsp_add_side(bsp->context, out, last);
 }
 

@@ -62,7 +62,7 @@ static gate make_gate(const sl_bsp *bsp, const sl_bsp_passage *passage, bool out
     const sl_bsp_side *side = &face->sides.items[number];
     const sl_point end = sl_side_end(&face->sides, number);
     gate g = {.bsp = bsp, .left = out ? end : side->from, .right = out ? side->from : end};
-    if (side->what < SL_EDGE_BORDER) {
+    if (side->what < SL_BEYOND_BORDER) {
         g.wall = &bsp->map->walls[side->what];
         g.reversed = side->reversed;
     }
@@ -163,9 +163,9 @@ static bool may_end(const gate *g, const sl_bsp_passage *passage, bool out, sl_p
     const uint32_t what = face->sides.items[number].what;
     const int inside =
         sl_orient(face->sides.items[number].from, sl_side_end(&face->sides, number), p);
-    if (what == SL_EDGE_BORDER ? inside != 0
-        : g->wall              ? !sl_bsp_behind(g->wall, g->reversed, p)
-                               : inside < 0)
+    if (what == SL_BEYOND_BORDER ? inside != 0
+        : g->wall                ? !sl_bsp_behind(g->wall, g->reversed, p)
+                                 : inside < 0)
         return false;
     if (count_bent(g->at_left, g->left_count, p) || count_bent(g->at_right, g->right_count, p))
         return false;
@@ -243,7 +243,7 @@ static void place_free(sl_bsp *bsp, sl_bsp_passage *passage, bool out) {
     const sl_bsp_sides *sides = &bsp->faces.items[passage->face].sides;
     const size_t number = out ? passage->exit.side : passage->entry.side;
     const sl_bsp_side *side = &sides->items[number];
-    if (side->what == SL_EDGE_EXIT) {
+    if (side->what == SL_BEYOND_EXIT) {
         const sl_bsp_face *beyond = &bsp->faces.items[side->beyond];
         for (size_t i = 0; i < beyond->sides.count; i++)
             if (sl_same_point(beyond->sides.items[i].from, sl_side_end(sides, number)) &&

@@ -88,8 +88,8 @@ static sl_status copy_cells(maker *m) {
         for (size_t k = 0; k < sides->count; k++) {
             const sl_bsp_side *side = &sides->items[(first + k) % sides->count];
             s->vertices[vertices] = side->from;
-            s->edges[vertices++] = side->what | (side->reversed ? SL_EDGE_RIGHT : 0);
-            s->cells[i].exit_count += side->what == SL_EDGE_EXIT;
+            s->beyond[vertices++] = side->what | (side->reversed ? SL_BEYOND_RIGHT : 0);
+            s->cells[i].exit_count += side->what == SL_BEYOND_EXIT;
         }
         exits += s->cells[i].exit_count;
     }
@@ -100,7 +100,7 @@ static sl_status copy_cells(maker *m) {
 static uint32_t exit_number(const sl_bsp_sides *sides, size_t side) {
     uint32_t number = 0;
     for (size_t k = first_corner(sides); k != side; k = k + 1 == sides->count ? 0 : k + 1)
-        number += sides->items[k].what == SL_EDGE_EXIT;
+        number += sides->items[k].what == SL_BEYOND_EXIT;
     return number;
 }
 
@@ -109,7 +109,7 @@ static sl_status add_joints(maker *m, uint32_t cell) {
     const sl_bsp_sides *sides = &m->bsp->faces.items[face].sides;
     for (size_t i = 0; i < sides->count; i++) {
         const sl_bsp_side *side = &sides->items[i];
-        if (side->what != SL_EDGE_EXIT || m->cell_of[side->beyond] < cell) continue;
+        if (side->what != SL_BEYOND_EXIT || m->cell_of[side->beyond] < cell) continue;
         const sl_bsp_face *beyond = &m->bsp->faces.items[side->beyond];
         const sl_point from = side->from, to = sl_side_end(sides, i);
         const size_t twin = sl_bsp_find_side(beyond, to, from, face);
@@ -174,13 +174,13 @@ static sl_status allocate(maker *m) {
     s->tree_depth = bsp->depth;
     s->cells = sl_alloc_array(bsp->context, s->cell_count, sizeof *s->cells);
     s->vertices = sl_alloc_array(bsp->context, s->vertex_count, sizeof *s->vertices);
-    s->edges = sl_alloc_array(bsp->context, s->vertex_count, sizeof *s->edges);
+    s->beyond = sl_alloc_array(bsp->context, s->vertex_count, sizeof *s->beyond);
     s->walls = sl_alloc_array(bsp->context, s->wall_count, sizeof *s->walls);
     s->nodes = sl_alloc_array(bsp->context, s->node_count, sizeof *s->nodes);
     s->lines = sl_alloc_array(bsp->context, s->line_count, sizeof *s->lines);
     m->cell_of = sl_alloc_array(bsp->context, s->cell_count, sizeof *m->cell_of);
     m->face_of = sl_alloc_array(bsp->context, s->cell_count, sizeof *m->face_of);
-    if (!s->cells || !s->vertices || !s->edges || !s->walls || !s->nodes || !s->lines ||
+    if (!s->cells || !s->vertices || !s->beyond || !s->walls || !s->nodes || !s->lines ||
         !m->cell_of || !m->face_of)
         return SL_NO_MEMORY;
     memcpy(s->walls, bsp->map->walls, s->wall_count * sizeof *s->walls);

@@ -41,10 +41,10 @@ static sl_status add_wall(sl_bsp *bsp, const sl_bsp_face *face, uint32_t wall) {
 static sl_status gather(sl_bsp *bsp, const sl_bsp_face *face, uint32_t through) {
     bsp->on_line.count = bsp->along.count = 0;
     for (size_t i = 0; i < face->walls.count; i++) {
-        if (face->walls.items[i] == through) through = SL_EDGE_EXIT;
+        if (face->walls.items[i] == through) through = SL_BEYOND_EXIT;
         SL_TRY(add_wall(bsp, face, face->walls.items[i]));
     }
-    if (through != SL_EDGE_EXIT) SL_TRY(add_wall(bsp, face, through));
+    if (through != SL_BEYOND_EXIT) SL_TRY(add_wall(bsp, face, through));
     if (bsp->along.count)
         qsort(bsp->along.items, bsp->along.count, sizeof *bsp->along.items, compare_along);
     return SL_OK;
@@ -58,7 +58,7 @@ static uint32_t covering(const sl_bsp *bsp, double from, double to) {
         if (sl_bsp_key(bsp, low) <= from && sl_bsp_key(bsp, high) >= to)
             return bsp->on_line.items[i];
     }
-    return SL_EDGE_EXIT;
+    return SL_BEYOND_EXIT;
 }
 
 static sl_status make_stops(sl_bsp *bsp, sl_bsp_passage *passage) {
@@ -67,7 +67,7 @@ static sl_status make_stops(sl_bsp *bsp, sl_bsp_passage *passage) {
     for (size_t i = 0; i < bsp->along.count; i++) {
         if (i && bsp->along.items[i].key == bsp->along.items[i - 1].key) continue;
         bsp->stops.items[bsp->stops.count++] =
-            (sl_bsp_stop){.at = bsp->along.items[i].at, .wall = SL_EDGE_EXIT};
+            (sl_bsp_stop){.at = bsp->along.items[i].at, .wall = SL_BEYOND_EXIT};
     }
     passage->stop_count = bsp->stops.count - passage->first_stop;
     sl_bsp_stop *stops = bsp->stops.items + passage->first_stop;
@@ -104,7 +104,7 @@ static sl_status find_crossings(sl_bsp *bsp, const sl_bsp_face *face, sl_bsp_pas
 static uint32_t wall_beyond(const sl_bsp *bsp, const sl_bsp_passage *passage, bool out,
                             sl_point *end) {
     const sl_bsp_stop *stops = bsp->stops.items + passage->first_stop;
-    uint32_t best = SL_EDGE_EXIT;
+    uint32_t best = SL_BEYOND_EXIT;
     double farthest = 0;
     for (size_t i = 0; i < bsp->on_line.count; i++) {
         sl_point low, high;
@@ -115,7 +115,7 @@ static uint32_t wall_beyond(const sl_bsp *bsp, const sl_bsp_passage *passage, bo
             const double last = sl_bsp_key(bsp, stops[out ? passage->stop_count - 1 : 0].at) * sign;
             if (reach <= last || sign * sl_bsp_key(bsp, out ? low : high) > last) continue;
         }
-        if (best != SL_EDGE_EXIT && reach <= farthest) continue;
+        if (best != SL_BEYOND_EXIT && reach <= farthest) continue;
         best = bsp->on_line.items[i];
         farthest = reach;
         *end = out ? high : low;
@@ -127,16 +127,16 @@ static uint32_t wall_beyond(const sl_bsp *bsp, const sl_bsp_passage *passage, bo
 /// it: rounding alone has left room between the two.
 static uint32_t wall_up_to(const sl_bsp *bsp, const sl_bsp_passage *passage,
                            const sl_bsp_side *side, bool out) {
-    if (!passage->stop_count || side->what >= SL_EDGE_BORDER) return SL_EDGE_EXIT;
+    if (!passage->stop_count || side->what >= SL_BEYOND_BORDER) return SL_BEYOND_EXIT;
     const sl_bsp_stop *stops = bsp->stops.items + passage->first_stop;
     const sl_point last = stops[out ? passage->stop_count - 1 : 0].at;
-    if (!sl_bsp_behind(&bsp->map->walls[side->what], side->reversed, last)) return SL_EDGE_EXIT;
+    if (!sl_bsp_behind(&bsp->map->walls[side->what], side->reversed, last)) return SL_BEYOND_EXIT;
     for (size_t i = 0; i < bsp->on_line.count; i++) {
         sl_point low, high;
         ends_along(bsp, bsp->on_line.items[i], &low, &high);
         if (sl_same_point(out ? high : low, last)) return bsp->on_line.items[i];
     }
-    return SL_EDGE_EXIT;
+    return SL_BEYOND_EXIT;
 }
 
 /// What of the line reaches the crossing, and whether it goes on.
@@ -145,14 +145,14 @@ static uint32_t tell_crossing(const sl_bsp *bsp, const sl_bsp_face *face,
     sl_point end = {0};
     uint32_t wall = wall_beyond(bsp, passage, out, &end);
     const sl_bsp_side *side = &face->sides.items[crossing->side];
-    if (wall != SL_EDGE_EXIT && !crossing->at_corner) {
+    if (wall != SL_BEYOND_EXIT && !crossing->at_corner) {
         const int sign = sl_orient(side->from, sl_side_end(&face->sides, crossing->side), end);
         crossing->touches = sign == 0;
         crossing->touch = end;
-        crossing->passes = sign < 0 && side->what == SL_EDGE_EXIT;
+        crossing->passes = sign < 0 && side->what == SL_BEYOND_EXIT;
     }
-    if (wall == SL_EDGE_EXIT && !crossing->at_corner) wall = wall_up_to(bsp, passage, side, out);
-    crossing->walled = wall != SL_EDGE_EXIT;
+    if (wall == SL_BEYOND_EXIT && !crossing->at_corner) wall = wall_up_to(bsp, passage, side, out);
+    crossing->walled = wall != SL_BEYOND_EXIT;
     return wall;
 }
 

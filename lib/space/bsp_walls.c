@@ -67,7 +67,7 @@ static sl_status close_portals(sl_bsp *bsp, uint32_t number, uint32_t wall_numbe
     const sl_wall *wall = &bsp->map->walls[wall_number];
     for (size_t i = 0; i < bsp->faces.items[number].sides.count; i++) {
         const sl_bsp_sides *sides = &bsp->faces.items[number].sides;
-        if (sides->items[i].what == SL_EDGE_EXIT &&
+        if (sides->items[i].what == SL_BEYOND_EXIT &&
             sl_orient(wall->a, wall->b, sides->items[i].from) == 0 &&
             sl_orient(wall->a, wall->b, sl_side_end(sides, i)) == 0)
             SL_TRY(close_portal(bsp, number, i, wall_number));
@@ -91,7 +91,7 @@ static sl_status deal_around(sl_bsp *bsp, uint32_t passage, uint32_t wall) {
         for (size_t i = 0; i < sides->count; i++) {
             const uint32_t beyond = sides->items[i].beyond;
             size_t along;
-            if (sides->items[i].what == SL_EDGE_EXIT &&
+            if (sides->items[i].what == SL_BEYOND_EXIT &&
                 sl_bsp_hits(&bsp->faces.items[beyond].sides, &bsp->map->walls[wall], &along) &&
                 !has_wall(&bsp->faces.items[beyond], wall))
                 SL_TRY(add_wall(bsp, beyond, wall));

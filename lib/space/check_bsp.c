@@ -148,10 +148,10 @@ static bool is_on_border(const sl_box *b, sl_point p, sl_point q) {
 
 /// On the wall's line or behind it, as seen from the cell.
 static bool is_behind(const sl_space *s, uint32_t what, sl_point from, sl_point to) {
-    const uint32_t number = what & ~SL_EDGE_RIGHT;
+    const uint32_t number = what & ~SL_BEYOND_RIGHT;
     if (number >= s->wall_count) return false;
     const sl_wall *wall = &s->walls[number];
-    const bool right = what & SL_EDGE_RIGHT;
+    const bool right = what & SL_BEYOND_RIGHT;
     return sl_bsp_behind(wall, right, from) && sl_bsp_behind(wall, right, to);
 }
 
@@ -161,12 +161,12 @@ static sl_status check_sides(const checker *c, uint32_t number) {
     const sl_point *corners = s->vertices + cell->first_vertex;
     uint32_t exits = 0;
     for (uint32_t i = 0; i < cell->vertex_count; i++) {
-        const uint32_t what = s->edges[cell->first_vertex + i];
+        const uint32_t what = s->beyond[cell->first_vertex + i];
         const sl_point from = corners[i], to = corners[i + 1 == cell->vertex_count ? 0 : i + 1];
-        if (what == SL_EDGE_EXIT) {
+        if (what == SL_BEYOND_EXIT) {
             if (exits == cell->exit_count) return fail_cell(c, number, "has too few exits");
             SL_TRY(check_exit(c, number, &s->exits[cell->first_exit + exits++], from, to));
-        } else if (what == SL_EDGE_BORDER) {
+        } else if (what == SL_BEYOND_BORDER) {
             if (!is_on_border(&s->bounds, from, to))
                 return fail_cell(c, number, "has a border within the bounds");
         } else if (!is_behind(s, what, from, to))

@@ -17,9 +17,9 @@ static void flood(const sl_space *space, sl_bits *reached, uint32_t *stack, size
 
 /// Whether some of the map's border that the cell touches is free of walls.
 static bool open_to_border(const sl_space *space, const sl_cell *cell, const sl_piece *walls) {
-    if (space->edges) {
+    if (space->beyond) {
         for (uint32_t i = 0; i < cell->vertex_count; i++)
-            if (space->edges[cell->first_vertex + i] == SL_EDGE_BORDER) return true;
+            if (space->beyond[cell->first_vertex + i] == SL_BEYOND_BORDER) return true;
         return false;
     }
     const sl_point min = space->vertices[cell->first_vertex];

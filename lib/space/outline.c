@@ -123,11 +123,11 @@ static sl_status outline_told(sl_context *context, outliner *o, uint32_t cell) {
     uint32_t exit = c->first_exit;
     for (uint32_t i = 0; i < c->vertex_count; i++) {
         const sl_point *corners = s->vertices + c->first_vertex;
-        const uint32_t edge = s->edges[c->first_vertex + i];
-        if (edge == SL_EDGE_BORDER) {
+        const uint32_t edge = s->beyond[c->first_vertex + i];
+        if (edge == SL_BEYOND_BORDER) {
             SL_TRY(add_border(context, o, cell, corners[i], corners[(i + 1) % c->vertex_count]));
-        } else if (edge != SL_EDGE_EXIT) {
-            SL_TRY(add_side(context, o, corners[i], SL_SIDE_WALL + (edge & ~SL_EDGE_RIGHT)));
+        } else if (edge != SL_BEYOND_EXIT) {
+            SL_TRY(add_side(context, o, corners[i], SL_SIDE_WALL + (edge & ~SL_BEYOND_RIGHT)));
         } else {
             o->of_exit[exit++] = (uint32_t)o->sides.count;
             SL_TRY(add_side(context, o, corners[i], 0));
@@ -139,7 +139,7 @@ static sl_status outline_told(sl_context *context, outliner *o, uint32_t cell) {
 }
 
 static sl_status outline_cell(sl_context *context, outliner *o, uint32_t cell) {
-    if (o->space->edges) return outline_told(context, o, cell);
+    if (o->space->beyond) return outline_told(context, o, cell);
     const sl_cell *c = &o->space->cells[cell];
     const sl_point *corners = o->space->vertices + c->first_vertex;
     const uint32_t first = (uint32_t)o->sides.count;

@@ -20,7 +20,7 @@ void sl_space_destroy(sl_context *context, sl_space *space) {
     sl_free(context, space->exits);
     sl_free(context, space->walls);
     sl_free(context, space->lines);
-    sl_free(context, space->edges);
+    sl_free(context, space->beyond);
     *space = (sl_space){0};
 }
 

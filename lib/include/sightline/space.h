@@ -42,16 +42,16 @@ typedef struct sl_cell {
     uint32_t reserved; ///< 0
 } sl_cell;
 
-/// What sl_space.edges says of a side that is no wall: the cell's next exit, or the map's border.
-/// Else it is the wall's number, with SL_EDGE_RIGHT or-ed where the cell is at the wall's right,
+/// What sl_space.beyond says of a side that is no wall: the cell's next exit, or the map's border.
+/// Else it is the wall's number, with SL_BEYOND_RIGHT or-ed where the cell is at the wall's right,
 /// going from its a to its b.
-#define SL_EDGE_EXIT   UINT32_MAX
-#define SL_EDGE_BORDER (UINT32_MAX - 1)
-#define SL_EDGE_RIGHT  0x80000000u
+#define SL_BEYOND_EXIT   UINT32_MAX
+#define SL_BEYOND_BORDER (UINT32_MAX - 1)
+#define SL_BEYOND_RIGHT  0x80000000u
 
 /// Zeroed, a space is empty.
 ///
-/// A space made by a BSP has `edges`. Its cells' corners may then be flat: there is one wherever a
+/// A space made by a BSP has `beyond`. Its cells' corners may then be flat: there is one wherever a
 /// portal ends, so that each side is one exit, a piece of one wall, or border.
 typedef struct sl_space {
     sl_box bounds;
@@ -67,8 +67,8 @@ typedef struct sl_space {
     sl_exit *exits;     ///< grouped by cell
     sl_wall *walls;     ///< those of the map it was made from
     sl_segment *lines;  ///< of two different ends; what nodes of axis 2 split along
-    uint32_t *edges;    ///< by vertex: the wall on the side from there to the cell's next corner,
-                        ///< SL_EDGE_EXIT or SL_EDGE_BORDER; NULL for a kd-tree
+    uint32_t *beyond;   ///< by vertex: the wall on the side from there to the cell's next corner,
+                        ///< SL_BEYOND_EXIT or SL_BEYOND_BORDER; NULL for a kd-tree
 } sl_space;
 
 /// The kd-tree's rules (Teller & Séquin 1991, Spatial Subdivision), applied one after the other to
