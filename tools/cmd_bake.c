@@ -133,6 +133,7 @@ static sl_status read_and_clean(sl_context *context, const bake_plan *plan, sl_m
 static sl_status subdivide(sl_context *context, const bake_plan *plan, const sl_map *map,
                            sl_bake_report *report, sl_space *space, double *time) {
     SL_TRY(sl_pipeline_subdivide(context, &plan->pipeline, map, space));
+    report->subdivide = sl_pipeline_subdivision(&plan->pipeline, map);
     report->seconds.subdivide = lap(time);
     SL_TRY(sl_pipeline_check(context, &plan->pipeline, space));
     report->seconds.check = lap(time);
@@ -164,7 +165,6 @@ static sl_status bake_and_report(sl_console *console, const bake_plan *plan) {
     sl_baked baked = {0};
     sl_bake_report report = {.input = plan->pipeline.input,
                              .output = plan->output,
-                             .subdivide = plan->pipeline.subdivide,
                              .baked = &baked};
     sl_status status = bake(context, plan, &map, &baked, &report);
     sl_progress_line_clear(&console->line);

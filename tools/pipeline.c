@@ -5,14 +5,19 @@
 #include "inputs.h"
 #include "solvers.h"
 
+#include <string.h>
+
 typedef struct subdivider {
     const char *name, *what;
 } subdivider;
 
 static const subdivider subdividers[] = {
     {"kd", "kd-tree on the walls' own lines; walls must be axial"},
+    {"bsp", "binary space partition on the walls' own lines; walls may be oblique"},
 };
-static const sl_name_table subdivider_names = {"subdivision", subdividers, sizeof *subdividers, 1};
+enum { KD, BSP, SUBDIVIDERS };
+static const sl_name_table subdivider_names = {"subdivision", subdividers, sizeof *subdividers,
+                                               SUBDIVIDERS};
 
 static const char *const kd_rules[] = {"spanning", "obscured", "cleaving", "median"};
 enum { SPANNING = 1, OBSCURED = 2, CLEAVING = 4, MEDIAN = 8, ALL_RULES = 15 };
@@ -40,7 +45,11 @@ static sl_status plan_subdivision(sl_context *context, const sl_pipeline_texts *
         options->cleaving = rules & CLEAVING;
         options->median = rules & MEDIAN;
     }
-    plan->subdivide = subdividers[subdivide].name;
+    const bool kd_wanted = texts->kd_rules || texts->kd_obscured;
+    if (texts->subdivide && subdivide != KD && kd_wanted)
+        return sl_fail(context, SL_BAD_ARGUMENT, "%s is for --subdivide kd, not %s",
+                       texts->kd_rules ? "--kd-rules" : "--kd-obscured", texts->subdivide);
+    if (texts->subdivide || kd_wanted) plan->subdivide = subdividers[subdivide].name;
     return SL_OK;
 }
 
@@ -78,9 +87,17 @@ sl_status sl_pipeline_read(sl_context *context, const sl_pipeline *pipeline, sl_
     return SL_OK;
 }
 
+const char *sl_pipeline_subdivision(const sl_pipeline *pipeline, const sl_map *map) {
+    if (pipeline->subdivide) return pipeline->subdivide;
+    return subdividers[sl_input_count_oblique(map->walls, map->wall_count) ? BSP : KD].name;
+}
+
 sl_status sl_pipeline_subdivide(sl_context *context, const sl_pipeline *pipeline, const sl_map *map,
                                 sl_space *space) {
-    return sl_subdivide_kd(context, map, &pipeline->options, space);
+    if (strcmp(sl_pipeline_subdivision(pipeline, map), subdividers[KD].name) == 0)
+        return sl_subdivide_kd(context, map, &pipeline->options, space);
+    const sl_bsp_options options = sl_bsp_options_default();
+    return sl_subdivide_bsp(context, map, &options, space);
 }
 
 sl_status sl_pipeline_check(sl_context *context, const sl_pipeline *pipeline,
@@ -98,11 +115,13 @@ sl_name_table sl_pipeline_solver_names(sl_solver solvers[SL_SOLVERS_MOST]) {
 }
 
 void sl_pipeline_print_subdivisions(void) {
-    puts("\nsubdivisions:");
+    puts("\nsubdivisions (kd where all walls are axial, else bsp):");
     for (size_t i = 0; i < subdivider_names.count; i++)
         printf("  %-12s%s\n", subdividers[i].name, subdividers[i].what);
-    printf("              (rules: spanning, obscured at a share of %g, cleaving, median)\n",
-           sl_subdivide_options_default().obscured);
+    const sl_bsp_options bsp = sl_bsp_options_default();
+    printf("              (kd's rules: spanning, obscured at a share of %g, cleaving, median;\n"
+           "              bsp's cost of a split: %g x walls cut + %g x imbalance - %g x obscured)\n",
+           sl_subdivide_options_default().obscured, bsp.cuts, bsp.imbalance, bsp.obscured);
 }
 
 void sl_pipeline_print_effects(void) {

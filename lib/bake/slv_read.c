@@ -183,6 +183,13 @@ static sl_status load_space(const reader *r) {
     SL_TRY(load_counted(r, "PORT", sizeof *s->portals, (void **)&s->portals, &s->portal_count));
     SL_TRY(load_counted(r, "EXIT", sizeof *s->exits, (void **)&s->exits, &s->exit_count));
     SL_TRY(load_walls(r));
+    uint64_t lines, sides;
+    SL_TRY(load(r, "LINE", sizeof *s->lines, true, (void **)&s->lines, &lines));
+    SL_TRY(load(r, "BEYO", sizeof *s->beyond, true, (void **)&s->beyond, &sides));
+    if (lines > INT32_MAX) return fail_file(r, "damaged: section LINE is too long");
+    if (s->beyond && sides != s->vertex_count)
+        return fail_file(r, "damaged: section BEYO does not tell of each side");
+    s->line_count = (uint32_t)lines;
     return in_file(r, sl_space_check(r->context, s));
 }
 

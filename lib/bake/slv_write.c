@@ -93,6 +93,10 @@ static void add_sections(plan *p, const sl_baked *baked, const sl_slv_info *info
     add_section(p, "PORT", space->portals, sizeof *space->portals, space->portal_count);
     add_section(p, "EXIT", space->exits, sizeof *space->exits, space->exit_count);
     add_section(p, "WALL", p->walls, sizeof *p->walls, space->wall_count);
+    if (space->line_count)
+        add_section(p, "LINE", space->lines, sizeof *space->lines, space->line_count);
+    if (space->beyond)
+        add_section(p, "BEYO", space->beyond, sizeof *space->beyond, space->vertex_count);
     add_pvs(p, "PVSO", "PVSB", &baked->visibility.pvs);
     if (baked->visibility.account.doubtful_pairs)
         add_pvs(p, "DBTO", "DBTB", &baked->visibility.doubtful);

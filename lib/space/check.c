@@ -265,6 +265,8 @@ sl_status sl_space_check(sl_context *context, const sl_space *space) {
     checker c = {.context = context, .space = space};
     SL_TRY(check_ranges(&c));
     if (space->beyond) return sl_check_bsp(context, space);
+    if (space->line_count)
+        return sl_fail(context, SL_BAD_INPUT, "the lines of a BSP without its sides");
     const size_t places = (size_t)space->node_count + space->cell_count;
     c.regions = sl_alloc_array(context, places, sizeof *c.regions);
     c.led_to = sl_alloc_array(context, sl_bits_words(places), sizeof *c.led_to);
