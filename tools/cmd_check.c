@@ -62,6 +62,10 @@ static sl_status mend(sl_context *context, const check_plan *plan, const checked
     checked after = {0};
     sl_status status = copy_map(context, &before->map, &after.map);
     if (status == SL_OK) status = sl_map_snap(context, &after.map, report->gap, &report->snap);
+    if (status == SL_OK && !after.map.wall_count)
+        status = sl_fail(context, SL_BAD_ARGUMENT,
+                         "--snap %s: closing gaps up to %g (--gap) leaves no wall", plan->snap,
+                         report->gap);
     if (status == SL_OK) status = copy_map(context, &after.map, &after.baked.map);
     if (status == SL_OK) status = examine(context, plan, &after);
     if (status == SL_OK) status = sl_map_write_text(context, &after.map, plan->snap);
@@ -96,13 +100,18 @@ static sl_status check(sl_console *console, const check_plan *plan, checked *c) 
     return plan->json ? sl_faults_print_json(context, &report) : sl_faults_print(&report);
 }
 
+static sl_status read_size(sl_context *context, const char *option, const char *text,
+                           double *size) {
+    SL_TRY(sl_option_number(context, option, text, size));
+    if (!text || *size > 0) return SL_OK;
+    return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: a number over 0 is needed", option, text);
+}
+
 static sl_status make_plan(sl_context *context, const char *input, const check_texts *t,
                            check_plan *plan) {
     SL_TRY(sl_pipeline_plan(context, input, &t->pipeline, &plan->pipeline));
-    SL_TRY(sl_option_number(context, "--gap", t->gap, &plan->faults.gap));
-    SL_TRY(sl_option_number(context, "--thin", t->thin, &plan->faults.thin));
-    if ((t->gap && !(plan->faults.gap > 0)) || (t->thin && !(plan->faults.thin > 0)))
-        return sl_fail(context, SL_BAD_ARGUMENT, "--gap and --thin: a positive number is needed");
+    SL_TRY(read_size(context, "--gap", t->gap, &plan->faults.gap));
+    SL_TRY(read_size(context, "--thin", t->thin, &plan->faults.thin));
     plan->most = 10;
     SL_TRY(sl_option_count(context, "--most", t->most, UINT32_MAX, &plan->most));
     plan->drawing = sl_draw_options_default();

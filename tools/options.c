@@ -42,6 +42,11 @@ static void print_help(const sl_command_usage *usage, const sl_option_spec *opti
 
 static sl_status fail_unknown(sl_context *context, const sl_command_usage *usage, const char *word,
                               const sl_option_spec *options, size_t count) {
+    if (word[1] == '.' || (word[1] >= '0' && word[1] <= '9'))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "'%s...' looks like an option; 'sightline %s [options] -- ...' takes what "
+                       "follows the -- as it is",
+                       word, usage->name);
     const sl_name_table names = {"option", options, sizeof *options, count};
     const char *bare = word + strspn(word, "-");
     const size_t length = strcspn(bare, "=");
