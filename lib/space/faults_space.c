@@ -2,6 +2,7 @@
 #include "base/bits.h"
 #include "space/faults.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -171,13 +172,11 @@ static sl_status make_rooms(sl_context *context, const sl_space *space, rooms *o
 // --- leaks
 
 /// Joins cells over portals, the widest first, until the start's cell is joined with one that is
-/// open: the portal that did it is the narrowest of the way that keeps widest. False for no leak.
-static bool find_bottleneck(const sl_space *space, rooms *r, uint32_t start, uint32_t *portal) {
+/// open: the portal that did it is the narrowest of the way that keeps widest. UINT32_MAX where the
+/// start's cell is open itself. Some way there is.
+static uint32_t find_bottleneck(const sl_space *space, rooms *r, uint32_t start) {
     const uint32_t count = space->cell_count;
-    if (sl_bits_has(r->open, start)) {
-        *portal = UINT32_MAX;
-        return true;
-    }
+    if (sl_bits_has(r->open, start)) return UINT32_MAX;
     for (uint32_t i = 0; i < count; i++) r->parents[i] = i;
     // Open cells are one set from the beginning: that of the first of them.
     uint32_t open = UINT32_MAX;
@@ -186,17 +185,14 @@ static bool find_bottleneck(const sl_space *space, rooms *r, uint32_t start, uin
         if (open == UINT32_MAX) open = i;
         r->parents[i] = open;
     }
-    if (open == UINT32_MAX) return false;
-    for (uint32_t i = 0; i < space->portal_count; i++) {
-        const sl_portal *each = &space->portals[r->order[i]];
+    uint32_t next = 0;
+    while (find_root(r->parents, start) != find_root(r->parents, open)) {
+        assert(next < space->portal_count);
+        const sl_portal *each = &space->portals[r->order[next++]];
         const uint32_t a = find_root(r->parents, each->cell[0]);
-        const uint32_t b = find_root(r->parents, each->cell[1]);
-        if (a == b) continue;
-        r->parents[a] = b;
-        *portal = r->order[i];
-        if (find_root(r->parents, start) == find_root(r->parents, open)) return true;
+        r->parents[a] = find_root(r->parents, each->cell[1]);
     }
-    return false;
+    return r->order[next - 1];
 }
 
 /// The shortest way, in portals no narrower than `width`, to an open cell; SL_NO_CELL for none.
@@ -263,10 +259,10 @@ static sl_status add_leak(sl_fault_search *search, rooms *r, sl_point start, uin
 
 // --- rooms
 
-/// Marks all that can be reached from a cell.
-static void reach(const sl_space *space, rooms *r, sl_bits *reached, uint32_t start) {
+/// Marks all that can be reached from a cell; whether some of it is open to the border.
+static bool reach(const sl_space *space, rooms *r, sl_bits *reached, uint32_t start) {
     uint32_t end = 0;
-    if (sl_bits_has(reached, start)) return;
+    bool open = sl_bits_has(r->open, start);
     sl_bits_add(reached, start);
     r->queue[end++] = start;
     while (end) {
@@ -275,9 +271,11 @@ static void reach(const sl_space *space, rooms *r, sl_bits *reached, uint32_t st
             const uint32_t next = space->exits[cell->first_exit + i].cell;
             if (sl_bits_has(reached, next)) continue;
             sl_bits_add(reached, next);
+            open |= sl_bits_has(r->open, next);
             r->queue[end++] = next;
         }
     }
+    return open;
 }
 
 /// A leak for each room that a start is in, and marks what starts reach.
@@ -286,9 +284,9 @@ static sl_status find_leaks(sl_fault_search *search, rooms *r, sl_bits *reached)
     for (size_t i = 0; i < map->start_count; i++) {
         const uint32_t start = sl_space_locate(search->space, map->starts[i].at);
         if (start == SL_NO_CELL || sl_bits_has(reached, start)) continue;
-        reach(search->space, r, reached, start);
-        uint32_t narrowest;
-        if (!find_bottleneck(search->space, r, start, &narrowest)) continue;
+        SL_TRY(sl_check_cancelled(search->context));
+        if (!reach(search->space, r, reached, start)) continue;
+        const uint32_t narrowest = find_bottleneck(search->space, r, start);
         const double width =
             narrowest == UINT32_MAX ? 0 : width_of(&search->space->portals[narrowest]);
         const uint32_t last = find_way(search->space, r, start, width);
