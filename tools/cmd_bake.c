@@ -163,9 +163,8 @@ static sl_status bake_and_report(sl_console *console, const bake_plan *plan) {
     sl_context *context = console->context;
     sl_map map = {0};
     sl_baked baked = {0};
-    sl_bake_report report = {.input = plan->pipeline.input,
-                             .output = plan->output,
-                             .baked = &baked};
+    sl_bake_report report = {
+        .input = plan->pipeline.input, .output = plan->output, .baked = &baked};
     sl_status status = bake(context, plan, &map, &baked, &report);
     sl_progress_line_clear(&console->line);
     if (status == SL_OK && plan->json)

@@ -119,9 +119,10 @@ void sl_pipeline_print_subdivisions(void) {
     for (size_t i = 0; i < subdivider_names.count; i++)
         printf("  %-12s%s\n", subdividers[i].name, subdividers[i].what);
     const sl_bsp_options bsp = sl_bsp_options_default();
-    printf("              (kd's rules: spanning, obscured at a share of %g, cleaving, median;\n"
-           "              bsp's cost of a split: %g x walls cut + %g x imbalance - %g x obscured)\n",
-           sl_subdivide_options_default().obscured, bsp.cuts, bsp.imbalance, bsp.obscured);
+    printf(
+        "              (kd's rules: spanning, obscured at a share of %g, cleaving, median;\n"
+        "              bsp's cost of a split: %g x walls cut + %g x imbalance - %g x obscured)\n",
+        sl_subdivide_options_default().obscured, bsp.cuts, bsp.imbalance, bsp.obscured);
 }
 
 void sl_pipeline_print_effects(void) {

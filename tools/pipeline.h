@@ -16,8 +16,12 @@ typedef struct sl_pipeline_texts {
 
 /// Those options, for a command's table of options.
 #define SL_PIPELINE_OPTIONS(texts)                                                                 \
-    {"subdivide", 0, "NAME", NULL, &(texts).subdivide,                                            \
-         "how to cut the map into cells, if not as its walls\ncall for"},           \
+    {"subdivide",                                                                                  \
+     0,                                                                                            \
+     "NAME",                                                                                       \
+     NULL,                                                                                         \
+     &(texts).subdivide,                                                                           \
+     "how to cut the map into cells, if not as its walls\ncall for"},                              \
         {"kd-rules",                                                                               \
          0,                                                                                        \
          "RULE,...",                                                                               \

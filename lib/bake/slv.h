@@ -43,9 +43,10 @@ typedef struct sl_slv_info {
 
 /// The other sections: NODE, CELL, VERT, PORT, EXIT hold the arrays of sl_space item by item, WALL
 /// its walls as segments, LINE the lines of oblique splits (only if there are any), BEYO what is
-/// beyond the cells' sides (only for a BSP); PVSO and PVSB are the offsets and bytes of the visible sets, DBTO and
-/// DBTB those of the doubtful pairs (only if there are any), TREO and TREN the offsets and nodes of
-/// the stab trees (only if asked for); MAPT is what the map holds beside its walls, as map text.
+/// beyond the cells' sides (only for a BSP); PVSO and PVSB are the offsets and bytes of the visible
+/// sets, DBTO and DBTB those of the doubtful pairs (only if there are any), TREO and TREN the
+/// offsets and nodes of the stab trees (only if asked for); MAPT is what the map holds beside its
+/// walls, as map text.
 _Static_assert(sizeof(sl_slv_header) == 32 && sizeof(sl_slv_section) == 24 &&
                    sizeof(sl_slv_info) == 128,
                "no padding in the file");
