@@ -699,8 +699,22 @@ static const unsigned char *slrt_exit_before(const sl_runtime *rt, uint32_t cell
     return NULL;
 }
 
+static bool slrt_holds(const sl_runtime *rt, uint32_t cell, double x, double y) {
+    const sl_runtime_cell c = sl_runtime_get_cell(rt, cell);
+    const unsigned char *corners = rt->vertices + (size_t)c.first_vertex * 16;
+    unsigned char closing[32];
+    uint32_t i;
+    // Corners stand one behind the other: two of them are a line.
+    for (i = 0; i + 1 < c.vertex_count; i++)
+        if (slrt_side_of_line(corners + (size_t)i * 16, x, y) < 0) return false;
+    memcpy(closing, corners + (size_t)i * 16, 16);
+    memcpy(closing + 16, corners, 16);
+    return slrt_side_of_line(closing, x, y) >= 0;
+}
+
 /// The descent by oblique lines. The corners of their cells are rounded, so the cell that the tree
-/// leads to may be next to the one that holds the point.
+/// leads to may be next to the one that holds the point; where walls stand between the two, all
+/// cells are asked.
 static uint32_t slrt_locate_oblique(const sl_runtime *rt, double x, double y) {
     int32_t at = rt->root;
     uint32_t cell, steps;
@@ -719,6 +733,9 @@ static uint32_t slrt_locate_oblique(const sl_runtime *rt, double x, double y) {
         if (!exit) break;
         cell = slrt_u32(exit + 4);
     }
+    if (slrt_holds(rt, cell, x, y)) return cell;
+    for (steps = 0; steps < rt->cell_count; steps++)
+        if (slrt_holds(rt, steps, x, y)) return steps;
     return cell;
 }
 

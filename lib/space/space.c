@@ -119,6 +119,28 @@ static uint32_t walk_to(const sl_space *space, uint32_t cell, sl_point point) {
     return cell;
 }
 
+static bool cell_holds(const sl_space *space, uint32_t number, sl_point point) {
+    const sl_cell *cell = &space->cells[number];
+    const sl_point *corners = space->vertices + cell->first_vertex;
+    for (uint32_t i = 0; i < cell->vertex_count; i++)
+        if (sl_orient(corners[i], corners[i + 1 < cell->vertex_count ? i + 1 : 0], point) < 0)
+            return false;
+    return true;
+}
+
+/// Where a wall's end is joined to corners beside its line, the lines of the tree do not tell the
+/// cells there apart, and walls may stand in the way of walking: then all cells are asked.
+static uint32_t ask_all(const sl_space *space, uint32_t cell, sl_point point) {
+    for (uint32_t i = 0; i < space->cell_count; i++)
+        if (cell_holds(space, i, point)) return i;
+    return cell;
+}
+
+static uint32_t mend(const sl_space *space, uint32_t cell, sl_point point) {
+    cell = walk_to(space, cell, point);
+    return cell_holds(space, cell, point) ? cell : ask_all(space, cell, point);
+}
+
 uint32_t sl_space_locate(const sl_space *space, sl_point point) {
     const sl_box *b = &space->bounds;
     if (!space->cell_count || !(point.x >= b->min.x && point.x <= b->max.x) ||
@@ -129,7 +151,7 @@ uint32_t sl_space_locate(const sl_space *space, sl_point point) {
         const sl_node *node = &space->nodes[at];
         at = is_below(space, node, point) ? node->below : node->above;
     }
-    return space->line_count ? walk_to(space, (uint32_t)~at, point) : (uint32_t)~at;
+    return space->line_count ? mend(space, (uint32_t)~at, point) : (uint32_t)~at;
 }
 
 double sl_space_area(const sl_space *space, uint32_t cell) {

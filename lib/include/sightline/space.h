@@ -122,8 +122,9 @@ SL_API void sl_space_destroy(sl_context *context, sl_space *space); ///< and zer
 
 /// The cell that holds a point. On a split line the cell above (right of or over) it, left of an
 /// oblique one; on the upper or right border the cell inside; SL_NO_CELL outside the bounds and for
-/// NaN. Time: the tree's depth. Where portals are rounded (a BSP's), what the tree finds is left
-/// through exits that have the point strictly beyond them, 16 at most.
+/// NaN. Time: the tree's depth. In a BSP's space what the tree finds is left through exits that
+/// have the point strictly beyond them, 16 at most; where that leads to no cell that holds the
+/// point, all cells are asked.
 SL_API uint32_t sl_space_locate(const sl_space *space, sl_point point);
 
 /// Area of a cell.
