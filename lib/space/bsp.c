@@ -6,6 +6,7 @@
 #include "space/kd_tree.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -86,8 +87,10 @@ static sl_status add_border(sl_bsp *bsp, sl_bsp_face *face, int number, cover *c
 static sl_status make_first_face(sl_bsp *bsp) {
     SL_TRY(SL_ARRAY_ROOM(bsp->context, &bsp->faces, 1));
     sl_bsp_face *face = &bsp->faces.items[bsp->faces.count++];
-    *face = (sl_bsp_face){.node = -1};
+    *face = (sl_bsp_face){0};
     bsp->root = ~0;
+    SL_TRY(SL_ARRAY_ROOM(bsp->context, &face->places, 1));
+    face->places.items[face->places.count++] = (sl_bsp_spot){.node = -1};
     cover *covers = sl_alloc_array(bsp->context, bsp->map->wall_count, sizeof *covers);
     if (!covers) return SL_NO_MEMORY;
     sl_status status = SL_OK;
@@ -117,7 +120,7 @@ static void forget_passages(sl_bsp *bsp) {
 
 /// A face too small for a wall to be put in does without: where faces are of the size of rounding,
 /// sight may be added.
-static void leave_out(sl_bsp_face *face, uint32_t wall) {
+static void leave_out(sl_bsp_face *face, uint32_t wall) {printf("LEAVE %u\n",wall);
     size_t kept = 0;
     for (size_t i = 0; i < face->walls.count; i++)
         if (face->walls.items[i] != wall) face->walls.items[kept++] = face->walls.items[i];
@@ -127,7 +130,9 @@ static void leave_out(sl_bsp_face *face, uint32_t wall) {
 static sl_status put_in(sl_bsp *bsp, uint32_t face, uint32_t wall) {
     const size_t nodes = bsp->nodes.count, lines = bsp->lines.count;
     bool done = false, more = true;
+if(getenv("BSPDBG"))printf("put %u in face %u (%zu sides, %zu walls)\n",wall,face,bsp->faces.items[face].sides.count,bsp->faces.items[face].walls.count);
     SL_TRY(sl_bsp_trace(bsp, face, wall));
+if(getenv("BSPDBG"))for(size_t i=0;i<bsp->passages.count;i++)printf("  passage face %u entry side %zu corner %d walled %d passes %d touches %d exit side %zu corner %d walled %d passes %d touches %d stops %zu\n",bsp->passages.items[i].face,bsp->passages.items[i].entry.side,bsp->passages.items[i].entry.at_corner,bsp->passages.items[i].entry.walled,bsp->passages.items[i].entry.passes,bsp->passages.items[i].entry.touches,bsp->passages.items[i].exit.side,bsp->passages.items[i].exit.at_corner,bsp->passages.items[i].exit.walled,bsp->passages.items[i].exit.passes,bsp->passages.items[i].exit.touches,bsp->passages.items[i].stop_count);
     while (!done && more) {
         sl_bsp_drop_pieces(bsp);
         bsp->nodes.count = nodes;
@@ -172,6 +177,7 @@ static void destroy(sl_bsp *bsp) {
     sl_bsp_drop_pieces(bsp);
     for (size_t i = 0; i < bsp->faces.count; i++) {
         sl_free(bsp->context, bsp->faces.items[i].sides.items);
+        sl_free(bsp->context, bsp->faces.items[i].places.items);
         sl_free(bsp->context, bsp->faces.items[i].walls.items);
     }
     sl_free(bsp->context, bsp->faces.items);
@@ -181,6 +187,7 @@ static void destroy(sl_bsp *bsp) {
     sl_free(bsp->context, bsp->passages.items);
     sl_free(bsp->context, bsp->stops.items);
     sl_free(bsp->context, bsp->pieces.items);
+    sl_free(bsp->context, bsp->cuts.items);
     sl_free(bsp->context, bsp->on_line.items);
     sl_free(bsp->context, bsp->along.items);
     sl_free(bsp->context, bsp->signs.items);

@@ -26,12 +26,16 @@ typedef struct sl_bsp_side {
 typedef SL_ARRAY(sl_bsp_side) sl_bsp_sides;
 typedef SL_ARRAY(uint32_t) sl_bsp_walls;
 
+/// A place in the tree: a child of a node. The root's node is -1.
+typedef struct sl_bsp_spot {
+    int32_t node;
+    bool above;
+} sl_bsp_spot;
+
 typedef struct sl_bsp_face {
     sl_bsp_sides sides;
-    sl_bsp_walls walls; ///< those inside it
-    int32_t node;       ///< that leads here; -1 for none
-    uint32_t depth;     ///< nodes above
-    bool above;         ///< which child of the node
+    sl_bsp_walls walls;            ///< those inside it
+    SL_ARRAY(sl_bsp_spot) places; ///< all that lead here
 } sl_bsp_face;
 
 /// A side that crosses the line that is put in, or a corner on it.
@@ -57,7 +61,7 @@ typedef struct sl_bsp_passage {
     /// How often corners have been placed in vain, for the pieces left and right of the line, and
     /// how far off those of walls are tried for it: 0 as near as can be.
     uint32_t failures[2], entry_try[2], exit_try[2];
-    int32_t node;       ///< that splits the face
+    int32_t node;       ///< that splits the face along the line
     sl_bsp_walls walls; ///< those that were inside the face
 } sl_bsp_passage;
 
@@ -70,10 +74,19 @@ typedef struct sl_bsp_stop {
 /// A convex piece of a face that is being split.
 typedef struct sl_bsp_piece {
     sl_bsp_sides sides;
-    int32_t node;
-    uint32_t depth, passage, face;
-    bool above, left;
+    sl_bsp_spot place;
+    uint32_t passage, face;
+    bool left;         ///< of the line
+    bool reaches_over; ///< and beyond it: a corner is cut off the other side for it
 } sl_bsp_piece;
+
+/// Where the line, being free, gives way to a portal to a corner beside it, what lies between the
+/// two belongs to the other side of the line: to the piece there that has the portal.
+typedef struct sl_bsp_corner_cut {
+    sl_bsp_spot place;
+    uint32_t passage, joint;
+    bool left; ///< of the piece
+} sl_bsp_corner_cut;
 
 /// A wall end on the line, for sorting.
 typedef struct sl_bsp_along {
@@ -91,12 +104,12 @@ typedef struct sl_bsp {
     SL_ARRAY(sl_segment) lines;
     SL_ARRAY(uint32_t) waiting; ///< faces that have walls inside
     int32_t root;
-    uint32_t depth;
     // The line being put in, and scratch for it.
     sl_point a, b;
     SL_ARRAY(sl_bsp_passage) passages; ///< in order along the line
     SL_ARRAY(sl_bsp_stop) stops;
     SL_ARRAY(sl_bsp_piece) pieces;
+    SL_ARRAY(sl_bsp_corner_cut) cuts;
     sl_bsp_walls on_line; ///< walls on the line in the face at hand
     SL_ARRAY(sl_bsp_along) along;
     SL_ARRAY(int8_t) signs;

@@ -79,32 +79,61 @@ static sl_status number_pieces(sl_bsp *bsp) {
     return SL_OK;
 }
 
-/// Puts the nodes in the place of the faces in the tree, and the pieces' sides in theirs.
-static void put_pieces(sl_bsp *bsp) {
+/// Puts something, a node or ~face, in a place of the tree.
+static void lead(sl_bsp *bsp, sl_bsp_spot place, int32_t child) {
+    if (place.node < 0)
+        bsp->root = child;
+    else if (place.above)
+        bsp->nodes.items[place.node].above = child;
+    else
+        bsp->nodes.items[place.node].below = child;
+}
+
+static sl_status add_place(sl_bsp *bsp, uint32_t number, sl_bsp_spot place) {
+    sl_bsp_face *face = &bsp->faces.items[number];
+    SL_TRY(SL_ARRAY_ROOM(bsp->context, &face->places, 1));
+    face->places.items[face->places.count++] = place;
+    lead(bsp, place, ~(int32_t)number);
+    return SL_OK;
+}
+
+/// The faces' places in the tree are taken by nodes, their numbers by pieces.
+static void take_faces_away(sl_bsp *bsp) {
     for (size_t i = 0; i < bsp->passages.count; i++) {
         sl_bsp_passage *passage = &bsp->passages.items[i];
         sl_bsp_face *face = &bsp->faces.items[passage->face];
-        if (face->node < 0)
-            bsp->root = passage->node;
-        else if (face->above)
-            bsp->nodes.items[face->node].above = passage->node;
-        else
-            bsp->nodes.items[face->node].below = passage->node;
+        for (size_t k = 0; k < face->places.count; k++)
+            lead(bsp, face->places.items[k], passage->node);
         passage->walls = face->walls;
+        sl_free(bsp->context, face->places.items);
         sl_free(bsp->context, face->sides.items);
         *face = (sl_bsp_face){0};
     }
+    for (size_t i = 0; i < bsp->pieces.count; i++)
+        bsp->faces.items[bsp->pieces.items[i].face].sides = bsp->pieces.items[i].sides;
+    bsp->placed = true;
+}
+
+static bool has_joint(const sl_bsp_sides *sides, uint32_t joint) {
+    for (size_t i = 0; i < sides->count; i++)
+        if (sides->items[i].joint == joint) return true;
+    return false;
+}
+
+static sl_status place_pieces(sl_bsp *bsp) {
     for (size_t i = 0; i < bsp->pieces.count; i++) {
         sl_bsp_piece *piece = &bsp->pieces.items[i];
-        bsp->faces.items[piece->face] = (sl_bsp_face){.sides = piece->sides,
-                                                      .node = piece->node,
-                                                      .depth = piece->depth,
-                                                      .above = piece->above};
-        sl_node *node = &bsp->nodes.items[piece->node];
-        *(piece->above ? &node->above : &node->below) = ~(int32_t)piece->face;
-        if (piece->depth > bsp->depth) bsp->depth = piece->depth;
+        SL_TRY(add_place(bsp, piece->face, piece->place));
+        for (size_t k = 0; k < bsp->cuts.count; k++) {
+            const sl_bsp_corner_cut *cut = &bsp->cuts.items[k];
+            if (cut->passage != piece->passage || cut->left != piece->left ||
+                !has_joint(&piece->sides, cut->joint))
+                continue;
+            piece->reaches_over = true;
+            SL_TRY(add_place(bsp, piece->face, cut->place));
+        }
     }
-    bsp->placed = true;
+    return SL_OK;
 }
 
 /// Tells the faces around which piece is beyond their portals now.
@@ -135,7 +164,8 @@ sl_status sl_bsp_replace_faces(sl_bsp *bsp) {
         for (int out = 0; out < 2; out++)
             SL_TRY(tell_face_beyond(bsp, &bsp->passages.items[i], out));
     SL_TRY(number_pieces(bsp));
-    put_pieces(bsp);
+    take_faces_away(bsp);
+    SL_TRY(place_pieces(bsp));
     for (size_t i = 0; i < bsp->pieces.count; i++) tell_faces_around(bsp, &bsp->pieces.items[i]);
     return join_pieces(bsp);
 }

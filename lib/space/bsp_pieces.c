@@ -3,6 +3,8 @@
 #include "space/bsp.h"
 
 #include <string.h>
+#include <stdlib.h>
+#include <stdio.h>
 
 // --- joints
 
@@ -95,15 +97,19 @@ static sl_status make_polygon(sl_bsp *bsp, const sl_bsp_passage *p, bool left, s
 
 // --- convex pieces
 
-static sl_status add_node(sl_bsp *bsp, sl_bsp_piece *piece, uint32_t line, int32_t *node) {
+static void lead(sl_bsp *bsp, sl_bsp_spot place, int32_t child) {
+    if (place.node < 0) return; // the place of a face: it is kept until all pieces are made
+    sl_node *parent = &bsp->nodes.items[place.node];
+    *(place.above ? &parent->above : &parent->below) = child;
+}
+
+static sl_status add_node(sl_bsp *bsp, sl_bsp_spot place, uint32_t line, int32_t *node) {
     if (bsp->nodes.count == INT32_MAX || bsp->lines.count > INT32_MAX)
         return sl_fail_memory(bsp->context);
     SL_TRY(SL_ARRAY_ROOM(bsp->context, &bsp->nodes, 1));
     *node = (int32_t)bsp->nodes.count;
     bsp->nodes.items[bsp->nodes.count++] = (sl_node){.axis = 2, .line = (int32_t)line};
-    if (piece->node < 0) return SL_OK;
-    sl_node *parent = &bsp->nodes.items[piece->node];
-    *(piece->above ? &parent->above : &parent->below) = *node;
+    lead(bsp, place, *node);
     return SL_OK;
 }
 
@@ -137,9 +143,8 @@ static sl_status cut_piece(sl_bsp *bsp, size_t number, size_t from, size_t to) {
     sl_bsp_piece piece = bsp->pieces.items[number], other = piece;
     uint32_t line;
     SL_TRY(add_line(bsp, piece.sides.items[from].from, piece.sides.items[to].from, &line));
-    SL_TRY(add_node(bsp, &piece, line, &other.node));
-    other.depth++;
-    other.above = true;
+    SL_TRY(add_node(bsp, piece.place, line, &other.place.node));
+    other.place.above = true;
     other.sides = (sl_bsp_sides){0};
     sl_bsp_sides below = {0};
     const uint32_t joint = diagonal_joint(bsp, line);
@@ -154,9 +159,7 @@ static sl_status cut_piece(sl_bsp *bsp, size_t number, size_t from, size_t to) {
     sl_bsp_piece *mine = &bsp->pieces.items[number];
     sl_free(bsp->context, mine->sides.items);
     mine->sides = below;
-    mine->node = other.node;
-    mine->depth = other.depth;
-    mine->above = false;
+    mine->place = (sl_bsp_spot){.node = other.place.node, .above = false};
     return SL_OK;
 }
 
@@ -172,6 +175,7 @@ static sl_status make_convex(sl_bsp *bsp, bool *done) {
         }
         if (sides->count < 4 || !sl_bsp_diagonal(sides, &from, &to)) {
             bsp->failed_passage = bsp->pieces.items[i].passage;
+            if(getenv("BSPDBG")){printf("FAIL passage %u left %d\n",bsp->pieces.items[i].passage,bsp->pieces.items[i].left);for(size_t k=0;k<sides->count;k++)printf("  %.17g %.17g %d\n",sides->items[k].from.x,sides->items[k].from.y,(int)sides->items[k].what);}
             bsp->failed_left = bsp->pieces.items[i].left;
             return SL_OK;
         }
@@ -188,17 +192,42 @@ void sl_bsp_drop_pieces(sl_bsp *bsp) {
     bsp->placed = false;
 }
 
+/// Where the line ends in a corner on this side, what lies between the two is cut off: it is part
+/// of a piece of the other side.
+static sl_status cut_corner(sl_bsp *bsp, const sl_bsp_passage *p, bool out, sl_bsp_piece *piece) {
+    const sl_bsp_crossing *c = out ? &p->exit : &p->entry;
+    const bool is_new = out ? p->exit_new : p->entry_new;
+    if (c->at_corner || c->walled || is_new) return SL_OK;
+    const sl_point corner = out ? p->exit_left : p->entry_left;
+    if (sl_orient(bsp->a, bsp->b, corner) * (piece->left ? 1 : -1) < 0) return SL_OK;
+    const sl_bsp_stop *stops = bsp->stops.items + p->first_stop;
+    const sl_point stop = stops[out ? p->stop_count - 1 : 0].at;
+    uint32_t line;
+    int32_t node;
+    SL_TRY(out ? add_line(bsp, stop, corner, &line) : add_line(bsp, corner, stop, &line));
+    SL_TRY(add_node(bsp, piece->place, line, &node));
+    SL_TRY(SL_ARRAY_ROOM(bsp->context, &bsp->cuts, 1));
+    bsp->cuts.items[bsp->cuts.count++] =
+        (sl_bsp_corner_cut){.place = {.node = node, .above = !piece->left},
+                            .passage = piece->passage,
+                            .joint = line_joint(bsp, p, out ? p->stop_count : 0),
+                            .left = !piece->left};
+    piece->place = (sl_bsp_spot){.node = node, .above = piece->left};
+    return SL_OK;
+}
+
 sl_status sl_bsp_make_pieces(sl_bsp *bsp, bool *done) {
     uint32_t line;
+    bsp->cuts.count = 0;
     SL_TRY(add_line(bsp, bsp->a, bsp->b, &line));
     for (size_t i = 0; i < bsp->passages.count; i++) {
         sl_bsp_passage *passage = &bsp->passages.items[i];
-        sl_bsp_piece piece = {.node = -1, .depth = bsp->faces.items[passage->face].depth + 1};
-        SL_TRY(add_node(bsp, &piece, line, &piece.node));
-        passage->node = piece.node;
-        piece.passage = (uint32_t)i;
+        SL_TRY(add_node(bsp, (sl_bsp_spot){.node = -1}, line, &passage->node));
         for (int left = 0; left < 2; left++) {
-            piece.above = piece.left = left;
+            sl_bsp_piece piece = {.place = {.node = passage->node, .above = left},
+                                  .passage = (uint32_t)i,
+                                  .left = left};
+            for (int out = 0; out < 2; out++) SL_TRY(cut_corner(bsp, passage, out, &piece));
             SL_TRY(add_piece(bsp, piece));
             sl_bsp_piece *added = &bsp->pieces.items[bsp->pieces.count - 1];
             SL_TRY(make_polygon(bsp, passage, left, &added->sides));

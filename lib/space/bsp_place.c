@@ -157,7 +157,7 @@ static bool may_end(const gate *g, const sl_bsp_passage *passage, bool out, sl_p
     const double ahead = sl_bsp_key(bsp, p) - sl_bsp_key(bsp, last);
     if (out ? ahead <= 0 : ahead >= 0) return false;
     const double room = fmin(distance(g->left, g->right), distance(last, g->guess));
-    if (!(distance(p, g->guess) <= 0x1p-24 * room)) return false;
+    if (!(distance(p, g->guess) <= 0x1p-30 * room)) return false;
     const sl_bsp_face *face = &bsp->faces.items[passage->face];
     const size_t number = out ? passage->exit.side : passage->entry.side;
     const uint32_t what = face->sides.items[number].what;
@@ -190,7 +190,7 @@ static bool place_on_line(const gate *g, const sl_bsp_passage *passage, bool out
     const sl_point a = g->bsp->a, b = g->bsp->b;
     const double dx = b.x - a.x, dy = b.y - a.y;
     const double t = fabs(dx) >= fabs(dy) ? (g->guess.x - a.x) / dx : (g->guess.y - a.y) / dy;
-    for (int bits = 44; bits >= 24; bits -= 4)
+    for (int bits = 48; bits >= 32; bits -= 4)
         for (int i = -1; i <= 2; i++) {
             const double part = ldexp(floor(ldexp(t, bits)) + i, -bits);
             *at = (sl_point){a.x + part * dx, a.y + part * dy};

@@ -15,6 +15,7 @@ typedef struct maker {
     sl_space *space;
     uint32_t *cell_of; ///< by face
     uint32_t *face_of; ///< by cell
+    bool *seen;        ///< by node: gone down already
     SL_ARRAY(joint) joints;
 } maker;
 
@@ -45,35 +46,64 @@ static size_t first_corner(const sl_bsp_sides *sides) {
     return first;
 }
 
-/// Numbers the cells in the tree's order, what is below first.
-static sl_status number_cells(maker *m) {
-    const sl_bsp *bsp = m->bsp;
-    sl_context *context = bsp->context;
-    SL_ARRAY(int32_t) stack = {0};
-    sl_status status = sl_reserve(context, &stack.items, &stack.capacity, bsp->nodes.count + 1,
-                                  sizeof *stack.items);
-    SL_TRY(status);
-    stack.items[stack.count++] = bsp->root;
+/// Numbers the cells as the tree leads to them first, what is below before what is above.
+static void number_cells(maker *m, int32_t *stack) {
+    sl_space *s = m->space;
+    size_t count = 0;
     uint32_t cells = 0;
-    while (stack.count) {
-        const int32_t at = stack.items[--stack.count];
-        if (at < 0) {
+    for (uint32_t i = 0; i < s->cell_count; i++) m->cell_of[i] = UINT32_MAX;
+    stack[count++] = m->bsp->root;
+    while (count) {
+        const int32_t at = stack[--count];
+        if (at >= 0) {
+            if (m->seen[at]) continue;
+            m->seen[at] = true;
+            stack[count++] = s->nodes[at].above;
+            stack[count++] = s->nodes[at].below;
+        } else if (m->cell_of[~at] == UINT32_MAX) {
             m->face_of[cells] = (uint32_t)~at;
             m->cell_of[~at] = cells++;
-            continue;
         }
-        sl_node *node = &m->space->nodes[at];
-        stack.items[stack.count++] = node->above;
-        stack.items[stack.count++] = node->below;
     }
-    sl_free(context, stack.items);
-    for (uint32_t i = 0; i < m->space->node_count; i++) {
-        sl_node *node = &m->space->nodes[i];
-        if (node->below < 0) node->below = ~(int32_t)m->cell_of[~node->below];
-        if (node->above < 0) node->above = ~(int32_t)m->cell_of[~node->above];
+}
+
+static int32_t renumbered(const maker *m, int32_t child) {
+    return child < 0 ? ~(int32_t)m->cell_of[~child] : child;
+}
+
+static void deepen(uint32_t *depths, sl_space *s, int32_t child, uint32_t depth) {
+    if (depth > s->tree_depth) s->tree_depth = depth;
+    if (child >= 0 && depth > depths[child]) depths[child] = depth;
+}
+
+/// Gives the tree's leaves the cells' numbers, and measures its depth.
+static void finish_tree(maker *m, uint32_t *depths) {
+    sl_space *s = m->space;
+    s->root = renumbered(m, m->bsp->root);
+    for (uint32_t i = 0; i < s->node_count; i++) {
+        sl_node *node = &s->nodes[i];
+        node->below = renumbered(m, node->below);
+        node->above = renumbered(m, node->above);
+        deepen(depths, s, node->below, depths[i] + 1);
+        deepen(depths, s, node->above, depths[i] + 1);
     }
-    m->space->root = bsp->root < 0 ? ~(int32_t)m->cell_of[~bsp->root] : bsp->root;
-    return SL_OK;
+}
+
+static sl_status make_tree(maker *m) {
+    sl_context *context = m->bsp->context;
+    const size_t count = m->space->node_count;
+    int32_t *stack = sl_alloc_array(context, 2 * count + 1, sizeof *stack);
+    uint32_t *depths = sl_alloc_array(context, count, sizeof *depths);
+    m->seen = sl_alloc_array(context, count, sizeof *m->seen);
+    const bool done = stack && depths && m->seen;
+    if (done) {
+        number_cells(m, stack);
+        finish_tree(m, depths);
+    }
+    sl_free(context, stack);
+    sl_free(context, depths);
+    sl_free(context, m->seen);
+    return done ? SL_OK : SL_NO_MEMORY;
 }
 
 static sl_status copy_cells(maker *m) {
@@ -171,7 +201,6 @@ static sl_status allocate(maker *m) {
     s->node_count = (uint32_t)bsp->nodes.count;
     s->line_count = (uint32_t)bsp->lines.count;
     s->wall_count = (uint32_t)bsp->map->wall_count;
-    s->tree_depth = bsp->depth;
     s->cells = sl_alloc_array(bsp->context, s->cell_count, sizeof *s->cells);
     s->vertices = sl_alloc_array(bsp->context, s->vertex_count, sizeof *s->vertices);
     s->beyond = sl_alloc_array(bsp->context, s->vertex_count, sizeof *s->beyond);
@@ -192,7 +221,7 @@ static sl_status allocate(maker *m) {
 sl_status sl_bsp_make_space(sl_bsp *bsp, sl_space *out) {
     maker m = {.bsp = bsp, .space = out};
     sl_status status = allocate(&m);
-    if (status == SL_OK) status = number_cells(&m);
+    if (status == SL_OK) status = make_tree(&m);
     if (status == SL_OK) status = copy_cells(&m);
     if (status == SL_OK) status = make_portals(&m);
     sl_free(bsp->context, m.cell_of);

@@ -107,8 +107,8 @@ static sl_status deal(sl_bsp *bsp, uint32_t passage, uint32_t number) {
     bool taken = false;
     for (size_t k = 0; k < bsp->pieces.count; k++) {
         const sl_bsp_piece *piece = &bsp->pieces.items[k];
-        if (piece->passage != passage || (piece->left ? a <= 0 && b <= 0 : a >= 0 && b >= 0))
-            continue;
+        const bool beside = piece->left ? a <= 0 && b <= 0 : a >= 0 && b >= 0;
+        if (piece->passage != passage || (beside && !piece->reaches_over)) continue;
         size_t along;
         if (sl_bsp_hits(&bsp->faces.items[piece->face].sides, wall, &along)) {
             SL_TRY(add_wall(bsp, piece->face, number));

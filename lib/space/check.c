@@ -17,7 +17,8 @@ typedef struct checker {
 
 static sl_status check_ranges(const checker *c) {
     const sl_space *s = c->space;
-    if (!s->cell_count || s->node_count != s->cell_count - 1)
+    if (!s->cell_count ||
+        (s->beyond ? s->node_count < s->cell_count - 1 : s->node_count != s->cell_count - 1))
         return sl_fail(c->context, SL_BAD_INPUT, "%u nodes cannot lead to %u cells", s->node_count,
                        s->cell_count);
     if (s->exit_count != 2 * (uint64_t)s->portal_count)

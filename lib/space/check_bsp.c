@@ -32,7 +32,6 @@ static sl_status lead_to(const checker *c, int64_t node, int32_t child) {
     const uint32_t parent = node < 0 ? 0 : (uint32_t)node;
     if (!in_range) return fail_node(c, parent, "leads out of the tree");
     const size_t slot = child < 0 ? (size_t)s->node_count + (uint32_t)~child : (size_t)child;
-    if (sl_bits_has(c->led_to, slot)) return fail_node(c, parent, "leads where another one does");
     sl_bits_add(c->led_to, slot);
     return SL_OK;
 }
@@ -43,6 +42,7 @@ static bool is_usable(sl_point p) {
            (sl_coordinate_usable(p.y) || sl_coordinate_usable(p.y / 2));
 }
 
+/// Several nodes may lead to one: all must be reached.
 static sl_status check_tree(const checker *c) {
     const sl_space *s = c->space;
     SL_TRY(lead_to(c, -1, s->root));
@@ -54,6 +54,9 @@ static sl_status check_tree(const checker *c) {
         SL_TRY(lead_to(c, i, node->below));
         SL_TRY(lead_to(c, i, node->above));
     }
+    for (uint32_t i = 0; i < s->cell_count; i++)
+        if (!sl_bits_has(c->led_to, (size_t)s->node_count + i))
+            return sl_fail(c->context, SL_BAD_INPUT, "no node leads to cell %u", i);
     for (uint32_t i = 0; i < s->line_count; i++) {
         const sl_segment *line = &s->lines[i];
         if (!is_usable(line->a) || !is_usable(line->b) || sl_same_point(line->a, line->b))

@@ -11,7 +11,8 @@ extern "C" {
 /// What sl_space_locate says of a point outside the bounds.
 #define SL_NO_CELL UINT32_MAX
 
-/// A node of the subdivision tree. A child c >= 0 is node c, a child c < 0 is cell ~c.
+/// A node of the subdivision tree. A child c >= 0 is node c, a child c < 0 is cell ~c. In a BSP
+/// several nodes may have one child.
 typedef struct sl_node {
     double position; ///< the split line: x = position (axis 0) or y = position (axis 1)
     int32_t axis;    ///< 2: the line through space.lines[line], from its a to its b; position is 0
