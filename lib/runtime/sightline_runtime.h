@@ -686,17 +686,28 @@ static int slrt_side_of_line(const unsigned char *line, double x, double y) {
     return slrt_side(&along, &to);
 }
 
-/// The exit of a cell that a point lies strictly beyond; NULL for none.
+/// Whether a point is beside an exit, not past its ends. Rounded: it says where to look first.
+static bool slrt_beside(const unsigned char *exit, double x, double y) {
+    const double left_x = slrt_f64(exit + 8), left_y = slrt_f64(exit + 16);
+    const double right_x = slrt_f64(exit + 24), right_y = slrt_f64(exit + 32);
+    const double dx = left_x - right_x, dy = left_y - right_y;
+    return dx * (x - right_x) + dy * (y - right_y) >= 0 &&
+           dx * (left_x - x) + dy * (left_y - y) >= 0;
+}
+
+/// The exit of a cell that a point lies strictly beyond, one beside it first; NULL for none.
 static const unsigned char *slrt_exit_before(const sl_runtime *rt, uint32_t cell, double x,
                                              double y) {
     const sl_runtime_cell c = sl_runtime_get_cell(rt, cell);
+    const unsigned char *chosen = NULL;
     uint32_t i;
-    for (i = 0; i < c.exit_count; i++) {
+    for (i = 0; i < c.exit_count && !(chosen && slrt_beside(chosen, x, y)); i++) {
         const unsigned char *exit = rt->exits + (size_t)(c.first_exit + i) * SLRT_EXIT_BYTES;
         // Left to right: what is beyond lies at the left hand.
-        if (slrt_side_of_line(exit + 8, x, y) > 0) return exit;
+        if (slrt_side_of_line(exit + 8, x, y) > 0 && (!chosen || slrt_beside(exit, x, y)))
+            chosen = exit;
     }
-    return NULL;
+    return chosen;
 }
 
 static bool slrt_holds(const sl_runtime *rt, uint32_t cell, double x, double y) {

@@ -106,15 +106,26 @@ static bool is_below(const sl_space *space, const sl_node *node, sl_point point)
     return sl_orient(line->a, line->b, point) < 0;
 }
 
-/// Portals are rounded: the point may be strictly beyond one of the cell that the tree leads to.
+/// Whether a point is beside a portal, not past its ends. Rounded: it says where to look first.
+static bool is_beside(const sl_exit *exit, sl_point p) {
+    const double dx = exit->left.x - exit->right.x, dy = exit->left.y - exit->right.y;
+    return dx * (p.x - exit->right.x) + dy * (p.y - exit->right.y) >= 0 &&
+           dx * (exit->left.x - p.x) + dy * (exit->left.y - p.y) >= 0;
+}
+
+/// Portals are rounded: the point may be strictly beyond one of the cell that the tree leads to. It
+/// is then just beyond; portals nearly in line with that one are for later.
 static uint32_t walk_to(const sl_space *space, uint32_t cell, sl_point point) {
     enum { MOST_STEPS = 16 };
     for (int step = 0; step < MOST_STEPS; step++) {
-        const sl_exit *exit = space->exits + space->cells[cell].first_exit;
+        const sl_exit *exit = space->exits + space->cells[cell].first_exit, *chosen = NULL;
         const sl_exit *end = exit + space->cells[cell].exit_count;
-        while (exit < end && sl_orient(exit->left, exit->right, point) <= 0) exit++;
-        if (exit == end) break;
-        cell = exit->cell;
+        for (; exit < end && !(chosen && is_beside(chosen, point)); exit++)
+            if (sl_orient(exit->left, exit->right, point) > 0 &&
+                (!chosen || is_beside(exit, point)))
+                chosen = exit;
+        if (!chosen) break;
+        cell = chosen->cell;
     }
     return cell;
 }
