@@ -120,7 +120,8 @@ static void forget_passages(sl_bsp *bsp) {
 
 /// A face too small for a wall to be put in does without: where faces are of the size of rounding,
 /// sight may be added.
-static void leave_out(sl_bsp_face *face, uint32_t wall) {printf("LEAVE %u\n",wall);
+static void leave_out(sl_bsp_face *face, uint32_t wall) {
+    printf("LEAVE %u\n", wall);
     size_t kept = 0;
     for (size_t i = 0; i < face->walls.count; i++)
         if (face->walls.items[i] != wall) face->walls.items[kept++] = face->walls.items[i];
@@ -130,9 +131,20 @@ static void leave_out(sl_bsp_face *face, uint32_t wall) {printf("LEAVE %u\n",wal
 static sl_status put_in(sl_bsp *bsp, uint32_t face, uint32_t wall) {
     const size_t nodes = bsp->nodes.count, lines = bsp->lines.count;
     bool done = false, more = true;
-if(getenv("BSPDBG"))printf("put %u in face %u (%zu sides, %zu walls)\n",wall,face,bsp->faces.items[face].sides.count,bsp->faces.items[face].walls.count);
+    if (getenv("BSPDBG"))
+        printf("put %u in face %u (%zu sides, %zu walls)\n", wall, face,
+               bsp->faces.items[face].sides.count, bsp->faces.items[face].walls.count);
     SL_TRY(sl_bsp_trace(bsp, face, wall));
-if(getenv("BSPDBG"))for(size_t i=0;i<bsp->passages.count;i++)printf("  passage face %u entry side %zu corner %d walled %d passes %d touches %d exit side %zu corner %d walled %d passes %d touches %d stops %zu\n",bsp->passages.items[i].face,bsp->passages.items[i].entry.side,bsp->passages.items[i].entry.at_corner,bsp->passages.items[i].entry.walled,bsp->passages.items[i].entry.passes,bsp->passages.items[i].entry.touches,bsp->passages.items[i].exit.side,bsp->passages.items[i].exit.at_corner,bsp->passages.items[i].exit.walled,bsp->passages.items[i].exit.passes,bsp->passages.items[i].exit.touches,bsp->passages.items[i].stop_count);
+    if (getenv("BSPDBG"))
+        for (size_t i = 0; i < bsp->passages.count; i++)
+            printf("  passage face %u entry side %zu corner %d walled %d passes %d touches %d exit "
+                   "side %zu corner %d walled %d passes %d touches %d stops %zu\n",
+                   bsp->passages.items[i].face, bsp->passages.items[i].entry.side,
+                   bsp->passages.items[i].entry.at_corner, bsp->passages.items[i].entry.walled,
+                   bsp->passages.items[i].entry.passes, bsp->passages.items[i].entry.touches,
+                   bsp->passages.items[i].exit.side, bsp->passages.items[i].exit.at_corner,
+                   bsp->passages.items[i].exit.walled, bsp->passages.items[i].exit.passes,
+                   bsp->passages.items[i].exit.touches, bsp->passages.items[i].stop_count);
     while (!done && more) {
         sl_bsp_drop_pieces(bsp);
         bsp->nodes.count = nodes;

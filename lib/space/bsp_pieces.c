@@ -2,9 +2,9 @@
 /// further where they are not convex, with the nodes that lead to them.
 #include "space/bsp.h"
 
-#include <string.h>
-#include <stdlib.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 // --- joints
 
@@ -175,7 +175,13 @@ static sl_status make_convex(sl_bsp *bsp, bool *done) {
         }
         if (sides->count < 4 || !sl_bsp_diagonal(sides, &from, &to)) {
             bsp->failed_passage = bsp->pieces.items[i].passage;
-            if(getenv("BSPDBG")){printf("FAIL passage %u left %d\n",bsp->pieces.items[i].passage,bsp->pieces.items[i].left);for(size_t k=0;k<sides->count;k++)printf("  %.17g %.17g %d\n",sides->items[k].from.x,sides->items[k].from.y,(int)sides->items[k].what);}
+            if (getenv("BSPDBG")) {
+                printf("FAIL passage %u left %d\n", bsp->pieces.items[i].passage,
+                       bsp->pieces.items[i].left);
+                for (size_t k = 0; k < sides->count; k++)
+                    printf("  %.17g %.17g %d\n", sides->items[k].from.x, sides->items[k].from.y,
+                           (int)sides->items[k].what);
+            }
             bsp->failed_left = bsp->pieces.items[i].left;
             return SL_OK;
         }

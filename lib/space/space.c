@@ -130,11 +130,22 @@ static uint32_t walk_to(const sl_space *space, uint32_t cell, sl_point point) {
     return cell;
 }
 
+/// Whether a wall that stands on a side of a cell has the point on the cell's side of it: cells
+/// reach over their walls by rounding, and what is there belongs to those behind.
+static bool is_before_wall(const sl_space *space, uint32_t beyond, sl_point point) {
+    if (beyond == SL_BEYOND_EXIT || beyond == SL_BEYOND_BORDER) return true;
+    const sl_wall *wall = &space->walls[beyond & ~SL_BEYOND_RIGHT];
+    const int side = sl_orient(wall->a, wall->b, point);
+    return beyond & SL_BEYOND_RIGHT ? side <= 0 : side >= 0;
+}
+
 static bool cell_holds(const sl_space *space, uint32_t number, sl_point point) {
     const sl_cell *cell = &space->cells[number];
     const sl_point *corners = space->vertices + cell->first_vertex;
+    const uint32_t *beyond = space->beyond + cell->first_vertex;
     for (uint32_t i = 0; i < cell->vertex_count; i++)
-        if (sl_orient(corners[i], corners[i + 1 < cell->vertex_count ? i + 1 : 0], point) < 0)
+        if (sl_orient(corners[i], corners[i + 1 < cell->vertex_count ? i + 1 : 0], point) < 0 ||
+            !is_before_wall(space, beyond[i], point))
             return false;
     return true;
 }
@@ -162,7 +173,7 @@ uint32_t sl_space_locate(const sl_space *space, sl_point point) {
         const sl_node *node = &space->nodes[at];
         at = is_below(space, node, point) ? node->below : node->above;
     }
-    return space->line_count ? mend(space, (uint32_t)~at, point) : (uint32_t)~at;
+    return space->beyond ? mend(space, (uint32_t)~at, point) : (uint32_t)~at;
 }
 
 double sl_space_area(const sl_space *space, uint32_t cell) {
