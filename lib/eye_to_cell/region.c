@@ -38,24 +38,17 @@ static bool same_direction(const sl_eye_ray *a, const sl_eye_ray *b) {
 }
 
 /// What is seen of a side that is no portal (or of one out of range, SL_PIECE_FAR) from ray to ray.
-static sl_status see_piece(expansion *x, uint32_t beyond, const sl_eye_ray *a, const sl_eye_ray *b,
-                           const sl_eye_ray *right, const sl_eye_ray *left) {
+static inline sl_status see_piece(expansion *x, uint32_t beyond, const sl_eye_ray *a,
+                                  const sl_eye_ray *b, const sl_eye_ray *right,
+                                  const sl_eye_ray *left) {
     struct sl_region_memory *m = x->region->memory;
-    if (m->pending && m->piece.beyond == beyond && beyond != SL_PIECE_FAR) {
-        m->piece.a = a->at;
-        m->piece.b = b->at;
-        m->piece.left = left ? *left : *b;
-        m->piece.to_end = !left;
-        return SL_OK;
-    }
-    const sl_region_piece piece = {.beyond = beyond,
-                                   .a = a->at,
-                                   .b = b->at,
-                                   .right = right ? *right : *a,
-                                   .left = left ? *left : *b,
-                                   .from_end = !right,
-                                   .to_end = !left};
-    return sl_region_add_piece(x->context, x->region, &piece);
+    if (!m->pending || m->piece.beyond != beyond || beyond == SL_PIECE_FAR)
+        SL_TRY(sl_region_start_piece(x->context, x->region, beyond, a, b, right));
+    m->piece.a = a->at;
+    m->piece.b = b->at;
+    m->piece.left = left ? *left : *b;
+    m->piece.to_end = !left;
+    return SL_OK;
 }
 
 /// Whether a portal leads nowhere that is within range.
@@ -63,45 +56,39 @@ static bool is_barred(const sl_region *region, const sl_eye_ray *a, const sl_eye
     return region->range > 0 && is_far(region, a, b);
 }
 
-bool sl_region_find_first(const sl_outline *o, sl_point eye, sl_point reach, uint32_t entry,
-                          const sl_eye_ray *ray, uint32_t *at, bool *within) {
-    const double limit = sl_turn_limit(ray->offset, reach);
-    const sl_side *sides = o->sides, *side = &sides[*at];
-    const uint32_t first = *at;
-    int turn = -1;
-    for (uint32_t i = first; i != entry;) {
-        const uint32_t next = side->next;
-        const sl_side *after = &sides[next];
-        const sl_point end = {after->start.x - eye.x, after->start.y - eye.y};
-        const int before = turn;
-        turn = sl_turn_filter_within(ray->offset, end, limit);
-        if (!turn) turn = sl_eye_turn(eye, ray, &(sl_eye_ray){after->start, end});
-        if (turn > 0) {
-            const sl_eye_ray start = sl_eye_ray_through(eye, side->start);
-            *at = i;
-            *within = (i == first ? sl_eye_turn(eye, ray, &start) : before) != 0;
-            return true;
-        }
-        i = next;
-        side = after;
-    }
-    return false;
-}
-
-/// Where a cell is being looked at: between the rays `right` and `left`, from the side `at` on.
+/// Where a cell is being looked at: from the ray `right` on, which passes within the side `at` or
+/// goes through its start, to the ray `left`.
 typedef struct gaze {
     uint32_t entry, at;
-    bool within; ///< `right` passes within that side; else the side starts on it
+    bool within;
     sl_eye_ray right, left;
 } gaze;
 
+static sl_status grow_frames(expansion *x) {
+    return SL_ARRAY_ROOM(x->context, &x->region->memory->frames, 1);
+}
+
+/// Turns the gaze through the portal that it is at, whose ends are a and b; `turn` tells where the
+/// left ray leaves b. What is left to see of the cell waits.
+static inline sl_status enter(expansion *x, gaze *g, const sl_eye_ray *a, const sl_eye_ray *b,
+                              int turn) {
+    struct sl_region_memory *m = x->region->memory;
+    const sl_side *portal = side(x, g->at);
+    if (turn < 0) {
+        if (m->frames.count == m->frames.capacity) SL_TRY(grow_frames(x));
+        m->frames.items[m->frames.count++] = (sl_region_frame){portal->next, g->entry, g->left};
+    }
+    if (turn <= 0) g->left = *b;
+    if (!g->within) g->right = *a;
+    g->entry = portal->beyond;
+    return SL_OK;
+}
+
 /// Goes around a cell up to a portal, through which the gaze is turned (*enters), or to its end.
-/// What is left to see of a cell behind a portal waits.
-static sl_status sweep(expansion *x, gaze *g, bool *enters) {
+static inline sl_status sweep(expansion *x, gaze *g, bool *enters) {
     sl_region *region = x->region;
-    struct sl_region_memory *m = region->memory;
     const sl_point eye = region->view.eye;
-    const double limit = sl_turn_limit(g->left.offset, m->reach);
+    const double limit = region->memory->limit;
     sl_eye_ray a = to_start(x, g->at);
     *enters = false;
     while (g->at != g->entry) {
@@ -109,15 +96,8 @@ static sl_status sweep(expansion *x, gaze *g, bool *enters) {
         const sl_eye_ray b = to_start(x, next);
         const int turn = sl_eye_turn_within(eye, &g->left, &b, limit);
         if (beyond < SL_SIDE_WALL && !is_barred(region, &a, &b)) {
-            if (turn < 0) {
-                SL_TRY(SL_ARRAY_ROOM(x->context, &m->frames, 1));
-                m->frames.items[m->frames.count++] = (sl_region_frame){next, g->entry, g->left};
-            }
-            if (turn <= 0) g->left = b;
-            if (!g->within) g->right = a;
-            g->entry = beyond;
             *enters = true;
-            return SL_OK;
+            return enter(x, g, &a, &b, turn);
         }
         SL_TRY(see_piece(x, beyond < SL_SIDE_WALL ? SL_PIECE_FAR : beyond, &a, &b,
                          g->within ? &g->right : NULL, turn > 0 ? &g->left : NULL));
@@ -129,26 +109,30 @@ static sl_status sweep(expansion *x, gaze *g, bool *enters) {
     return SL_OK;
 }
 
-/// What is seen through a portal, given as the other side of it, between two rays.
-static sl_status look_through(expansion *x, uint32_t entry, sl_eye_ray right, sl_eye_ray left) {
+/// What is seen through a portal between two rays. `gaze` is at the cell's side of it.
+static sl_status look_through(expansion *x, gaze g) {
     struct sl_region_memory *m = x->region->memory;
     const sl_point eye = x->region->view.eye;
     const size_t floor = m->frames.count;
-    gaze g = {.entry = entry, .right = right, .left = left};
+    uint64_t crossings = 0;
     for (bool enters = true;;) {
         while (enters) {
-            x->region->crossings++;
-            g.at = side(x, g.entry)->next;
-            if (!sl_region_find_first(x->outline, eye, m->reach, g.entry, &g.right, &g.at,
+            crossings++;
+            if (!sl_region_find_first(x->outline, eye, m->limit, g.entry, &g.right, &g.at,
                                       &g.within))
                 break;
             SL_TRY(sweep(x, &g, &enters));
         }
-        if (m->frames.count == floor) return SL_OK;
+        if (m->frames.count == floor) break;
         const sl_region_frame *f = &m->frames.items[--m->frames.count];
-        g = (gaze){.entry = f->entry, .at = f->side, .left = f->left};
+        g.entry = f->entry;
+        g.at = f->side;
+        g.left = f->left;
+        g.within = false;
         SL_TRY(sweep(x, &g, &enters));
     }
+    x->region->crossings += crossings;
+    return SL_OK;
 }
 
 /// What is seen of a side of the fan, from `right` and to `left` where they are given, else from
@@ -161,7 +145,10 @@ static sl_status see_fan(expansion *x, uint32_t k, const sl_eye_ray *right,
     if (right && sl_eye_turn(eye, right, &a) == 0) right = NULL;
     if (left && sl_eye_turn(eye, left, &b) == 0) left = NULL;
     if (beyond < SL_SIDE_WALL && !is_barred(x->region, &a, &b))
-        return look_through(x, beyond, right ? *right : a, left ? *left : b);
+        return look_through(x, (gaze){.entry = beyond,
+                                      .within = right,
+                                      .right = right ? *right : a,
+                                      .left = left ? *left : b});
     return see_piece(x, beyond < SL_SIDE_WALL ? SL_PIECE_FAR : beyond, &a, &b, right, left);
 }
 
@@ -303,7 +290,7 @@ sl_status sl_region_make(sl_context *context, const sl_outline *outline, const s
     region->memory->frames.count = 0;
     region->view = *view;
     region->range = range;
-    region->memory->reach = sl_eye_reach(outline->space, view->eye);
+    region->memory->limit = sl_eye_limit(outline->space, view);
     region->cell = sl_space_locate(outline->space, view->eye);
     expansion x = {context, outline, region};
     const sl_status status = make(&x);

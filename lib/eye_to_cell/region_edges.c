@@ -98,10 +98,6 @@ static place place_of(sl_point eye, const sl_eye_ray *ray, bool at_end, sl_point
     return (place){point, offset, false};
 }
 
-static place right_of(const sl_region *region, const sl_region_piece *p) {
-    return place_of(region->view.eye, &p->right, p->from_end, p->a, p->b);
-}
-
 static place left_of(const sl_region *region, const sl_region_piece *p) {
     return place_of(region->view.eye, &p->left, p->to_end, p->a, p->b);
 }
@@ -126,16 +122,16 @@ static sl_status end_piece(sl_context *context, sl_region *region, const place *
     return sl_region_add_point(context, region, end.point, end.offset, edge);
 }
 
-sl_status sl_region_add_piece(sl_context *context, sl_region *region,
-                              const sl_region_piece *piece) {
+sl_status sl_region_start_piece(sl_context *context, sl_region *region, uint32_t beyond,
+                                const sl_eye_ray *a, const sl_eye_ray *b, const sl_eye_ray *right) {
     struct sl_region_memory *m = region->memory;
-    const place start = right_of(region, piece);
-    if (region->count == 0) m->first = piece->beyond;
+    const place start = place_of(region->view.eye, right ? right : a, !right, a->at, b->at);
+    if (region->count == 0) m->first = beyond;
     if (m->pending) SL_TRY(end_piece(context, region, &start, SL_EDGE_OCCLUDING));
-    m->piece = *piece;
+    m->piece.beyond = beyond;
     m->pending = true;
     return sl_region_add_point(context, region, start.point, start.offset,
-                               edge_along(piece->beyond, start.exact));
+                               edge_along(beyond, start.exact));
 }
 
 sl_status sl_region_add_eye(sl_context *context, sl_region *region, sl_edge_kind kind) {

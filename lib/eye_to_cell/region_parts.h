@@ -19,13 +19,12 @@ typedef struct sl_region_frame {
     sl_eye_ray left;
 } sl_region_frame;
 
-/// What is seen of a side that is no portal, from ray to ray. A flag tells that the side's own end
-/// is seen and lies on the ray; else the ray passes within the side.
+/// What is seen of a side that is no portal, up to the ray `left`.
 typedef struct sl_region_piece {
     uint32_t beyond; ///< as that of sl_side; SL_PIECE_FAR: all of it is out of range
     sl_point a, b;   ///< the side
-    sl_eye_ray right, left;
-    bool from_end, to_end;
+    sl_eye_ray left;
+    bool to_end; ///< the side's own end is seen and lies on `left`; else that passes within it
 } sl_region_piece;
 
 #define SL_PIECE_FAR UINT32_MAX
@@ -38,7 +37,7 @@ typedef struct sl_region_corner {
 struct sl_region_memory {
     SL_ARRAY(sl_region_frame) frames;
     SL_ARRAY(uint32_t) fan; ///< the sides seen from the eye's cells, counter-clockwise
-    sl_point reach;         ///< of the bounds, from the eye
+    double limit;           ///< see sl_eye_limit
     bool open;              ///< the fan is not all round: it ends at walls
     uint32_t right, left;   ///< where it is open: the walls at the eye that it starts and ends at
     bool pending;           ///< `piece` is seen, but where it ends is not written yet
@@ -63,14 +62,21 @@ static inline int sl_eye_turn(sl_point eye, const sl_eye_ray *a, const sl_eye_ra
 /// Gathers the fan about the eye, given the cell that it is located in.
 sl_status sl_region_gather_fan(sl_context *context, const sl_outline *outline, sl_region *region);
 
-/// How far the bounds reach from the eye, for sl_turn_limit.
-static inline sl_point sl_eye_reach(const sl_space *space, sl_point eye) {
+/// The limit of sl_turn_filter_within for any two rays to corners or to the cone's borders: one for
+/// all, from the largest products that there can be. What it leaves open is decided more closely.
+static inline double sl_eye_limit(const sl_space *space, const sl_view *view) {
     const sl_box *b = &space->bounds;
-    return (sl_point){fmax(eye.x - b->min.x, b->max.x - eye.x),
+    const sl_point eye = view->eye;
+    sl_point reach = {fmax(eye.x - b->min.x, b->max.x - eye.x),
                       fmax(eye.y - b->min.y, b->max.y - eye.y)};
+    if (!view->full) {
+        reach.x = fmax(reach.x, fmax(fabs(view->right.x - eye.x), fabs(view->left.x - eye.x)));
+        reach.y = fmax(reach.y, fmax(fabs(view->right.y - eye.y), fabs(view->left.y - eye.y)));
+    }
+    return sl_turn_limit(reach, reach);
 }
 
-/// As sl_eye_turn, given the limit of `a`.
+/// As sl_eye_turn, given the limit of the view.
 static inline int sl_eye_turn_within(sl_point eye, const sl_eye_ray *a, const sl_eye_ray *b,
                                      double limit) {
     const int sign = sl_turn_filter_within(a->offset, b->offset, limit);
@@ -82,14 +88,32 @@ static inline int sl_eye_turn_within(sl_point eye, const sl_eye_ray *a, const sl
 uint32_t sl_region_find_side(const sl_outline *outline, const sl_region *region,
                              const sl_eye_ray *ray, bool onward);
 
-/// Moves *at on around a cell, from the side after `entry`, to the first one that ends to the left
-/// of a ray: where it leaves the cell. *within is false where the side's start lies on the ray.
+/// Finds the side by which a ray leaves a cell that it enters through `entry`: the first one around
+/// that ends to the left of it. *within, given whether the ray passes within the entry rather than
+/// through its right end, becomes whether it passes within that side rather than through its start.
 /// False where there is none, which only rounded corners of cells can bring about.
-bool sl_region_find_first(const sl_outline *outline, sl_point eye, sl_point reach, uint32_t entry,
-                          const sl_eye_ray *ray, uint32_t *at, bool *within);
+static inline bool sl_region_find_first(const sl_outline *o, sl_point eye, double limit,
+                                        uint32_t entry, const sl_eye_ray *ray, uint32_t *at,
+                                        bool *within) {
+    const sl_side *sides = o->sides;
+    for (uint32_t i = sides[entry].next; i != entry;) {
+        const uint32_t next = sides[i].next;
+        const sl_eye_ray end = sl_eye_ray_through(eye, sides[next].start);
+        const int turn = sl_eye_turn_within(eye, ray, &end, limit);
+        if (turn > 0) {
+            *at = i;
+            return true;
+        }
+        *within = turn < 0;
+        i = next;
+    }
+    return false;
+}
 
-/// Adds what is seen next, counter-clockwise: not on the wall that the piece before is on.
-sl_status sl_region_add_piece(sl_context *context, sl_region *region, const sl_region_piece *piece);
+/// Starts what is seen next, counter-clockwise, at the ray `right` or, where that is NULL, at the
+/// start of the side from a to b. The caller fills in the rest of the piece, which is pending then.
+sl_status sl_region_start_piece(sl_context *context, sl_region *region, uint32_t beyond,
+                                const sl_eye_ray *a, const sl_eye_ray *b, const sl_eye_ray *right);
 /// Adds the eye as a point, with the kind of the edge that starts there.
 sl_status sl_region_add_eye(sl_context *context, sl_region *region, sl_edge_kind kind);
 /// Ends what is seen with an edge along the border to the eye, which is added next or was the first

@@ -97,11 +97,11 @@ sl_status sl_sees(sl_context *context, const sl_outline *outline, sl_point eye, 
 /// of a cell does not hold together, by rounding.
 static bool walk(const sl_outline *o, sl_point eye, const sl_eye_ray *ray, uint32_t *at,
                  bool *within) {
-    const sl_point reach = sl_eye_reach(o->space, eye);
+    const sl_view view = {.eye = eye, .left = ray->at, .right = ray->at};
+    const double limit = sl_eye_limit(o->space, &view);
     while (sl_side_is_portal(&o->sides[*at])) {
         const uint32_t entry = o->sides[*at].beyond;
-        *at = o->sides[entry].next;
-        if (!sl_region_find_first(o, eye, reach, entry, ray, at, within)) return false;
+        if (!sl_region_find_first(o, eye, limit, entry, ray, at, within)) return false;
     }
     return true;
 }
