@@ -31,8 +31,8 @@ static bool between(double a, double value, double b) {
 }
 
 /// Finds the sides at the eye; false where it is within the cell.
-static bool find_corner(const sl_outline *o, uint32_t cell, sl_point eye, corner *out) {
-    for (uint32_t i = o->first[cell]; i < o->first[cell + 1]; i++) {
+static bool find_corner(const sl_outline *o, uint32_t room, sl_point eye, corner *out) {
+    for (uint32_t i = o->first[room]; i < o->first[room + 1]; i++) {
         const sl_point a = side(o, i)->start, b = end_of(o, i);
         if (same(eye, b) || sl_orient(a, b, eye) != 0) continue;
         if (!between(a.x, eye.x, b.x) || !between(a.y, eye.y, b.y)) continue;
@@ -80,11 +80,11 @@ static bool ends_at_eye(const sl_outline *o, sl_point eye, corner at) {
 sl_status sl_region_gather_fan(sl_context *context, const sl_outline *o, sl_region *region) {
     struct sl_region_memory *m = region->memory;
     const sl_point eye = region->view.eye;
-    const uint32_t home = o->first[region->cell];
+    const uint32_t room = sl_outline_room(o, region->cell, eye), home = o->first[room];
     m->fan.count = 0;
     m->open = false;
     corner at;
-    if (!find_corner(o, region->cell, eye, &at)) return add_sides(context, o, eye, home, home, m);
+    if (!find_corner(o, room, eye, &at)) return add_sides(context, o, eye, home, home, m);
     // Clockwise as far as portals lead, or once around.
     const uint32_t start = at.right;
     bool around = false;

@@ -29,15 +29,15 @@ static bool meets(const seer *s, sl_point a, sl_point b) {
     return ea * eb <= 0 && from * to <= 0;
 }
 
-static bool cell_holds(const seer *s, uint32_t cell, sl_point point) {
+static bool room_holds(const seer *s, uint32_t room, sl_point point) {
     const sl_side *sides = s->outline->sides;
-    for (uint32_t i = s->outline->first[cell]; i < s->outline->first[cell + 1]; i++)
+    for (uint32_t i = s->outline->first[room]; i < s->outline->first[room + 1]; i++)
         if (sl_orient(sides[i].start, sides[sides[i].next].start, point) < 0) return false;
     return true;
 }
 
-static uint32_t cell_of(const sl_outline *o, uint32_t side) {
-    uint32_t low = 0, high = o->space->cell_count;
+static uint32_t room_of(const sl_outline *o, uint32_t side) {
+    uint32_t low = 0, high = o->room_count;
     while (high - low > 1) {
         const uint32_t middle = low + (high - low) / 2;
         if (o->first[middle] <= side)
@@ -48,11 +48,11 @@ static uint32_t cell_of(const sl_outline *o, uint32_t side) {
     return low;
 }
 
-static sl_status enter(sl_context *context, seer *s, uint32_t cell) {
-    if (sl_bits_has(s->entered, cell)) return SL_OK;
-    sl_bits_add(s->entered, cell);
+static sl_status enter(sl_context *context, seer *s, uint32_t room) {
+    if (sl_bits_has(s->entered, room)) return SL_OK;
+    sl_bits_add(s->entered, room);
     SL_TRY(SL_ARRAY_ROOM(context, &s->waiting, 1));
-    s->waiting.items[s->waiting.count++] = cell;
+    s->waiting.items[s->waiting.count++] = room;
     return SL_OK;
 }
 
@@ -60,13 +60,13 @@ static sl_status enter(sl_context *context, seer *s, uint32_t cell) {
 static sl_status follow(sl_context *context, seer *s, bool *arrives) {
     const sl_outline *o = s->outline;
     while (s->waiting.count) {
-        const uint32_t cell = s->waiting.items[--s->waiting.count];
-        *arrives = *arrives || cell_holds(s, cell, s->point);
-        for (uint32_t i = o->first[cell]; i < o->first[cell + 1]; i++) {
+        const uint32_t room = s->waiting.items[--s->waiting.count];
+        *arrives = *arrives || room_holds(s, room, s->point);
+        for (uint32_t i = o->first[room]; i < o->first[room + 1]; i++) {
             const sl_side *side = &o->sides[i];
             if (!meets(s, side->start, o->sides[side->next].start)) continue;
             if (sl_side_is_portal(side))
-                SL_TRY(enter(context, s, cell_of(o, side->beyond)));
+                SL_TRY(enter(context, s, room_of(o, side->beyond)));
             else if (side->beyond < SL_SIDE_BORDER)
                 s->touches = true;
         }
@@ -84,8 +84,9 @@ sl_status sl_sees(sl_context *context, const sl_outline *outline, sl_point eye, 
     }
     seer s = {.outline = outline, .eye = eye, .point = point};
     bool arrives = false;
-    s.entered = sl_alloc_array(context, sl_bits_words(space->cell_count), sizeof *s.entered);
-    sl_status status = s.entered ? enter(context, &s, start) : SL_NO_MEMORY;
+    s.entered = sl_alloc_array(context, sl_bits_words(outline->room_count), sizeof *s.entered);
+    sl_status status =
+        s.entered ? enter(context, &s, sl_outline_room(outline, start, eye)) : SL_NO_MEMORY;
     if (status == SL_OK) status = follow(context, &s, &arrives);
     sl_free(context, s.entered);
     sl_free(context, s.waiting.items);

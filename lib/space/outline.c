@@ -5,6 +5,7 @@
 
 #include "base/base.h"
 #include "geometry/orient.h"
+#include "space/rooms.h"
 #include "space/wall_grid.h"
 
 #include <math.h>
@@ -201,17 +202,26 @@ static sl_status outline_all(sl_context *context, outliner *o, uint32_t *first) 
     return join_portals(context, o);
 }
 
+/// Makes each cell a room of its own.
+static sl_status start_rooms(sl_context *context, const sl_space *space, sl_outline *out) {
+    out->space = space;
+    out->room_count = space->cell_count;
+    out->first = sl_alloc_array(context, (size_t)space->cell_count + 1, sizeof *out->first);
+    return out->first ? SL_OK : SL_NO_MEMORY;
+}
+
 sl_status sl_outline_make(sl_context *context, const sl_space *space, sl_outline *out) {
     outliner o = {.space = space};
-    uint32_t *first = sl_alloc_array(context, (size_t)space->cell_count + 1, sizeof *first);
-    sl_status status = first ? outline_all(context, &o, first) : SL_NO_MEMORY;
-    if (status == SL_OK) {
-        *out = (sl_outline){space, o.sides.items, first, (uint32_t)o.sides.count};
-        o.sides.items = NULL;
-        first = NULL;
-    }
-    sl_free(context, first);
-    sl_free(context, o.sides.items);
+    sl_outline made = {0};
+    sl_status status = start_rooms(context, space, &made);
+    if (status == SL_OK) status = outline_all(context, &o, made.first);
+    made.sides = o.sides.items;
+    made.side_count = (uint32_t)o.sides.count;
+    if (status == SL_OK) status = sl_rooms_make(context, &made);
+    if (status == SL_OK)
+        *out = made;
+    else
+        sl_outline_destroy(context, &made);
     sl_wall_grid_destroy(context, &o.grid);
     sl_free(context, o.covers.items);
     sl_free(context, o.of_exit);
@@ -221,5 +231,7 @@ sl_status sl_outline_make(sl_context *context, const sl_space *space, sl_outline
 void sl_outline_destroy(sl_context *context, sl_outline *outline) {
     sl_free(context, outline->sides);
     sl_free(context, outline->first);
+    sl_free(context, outline->first_part);
+    sl_free(context, outline->parts);
     *outline = (sl_outline){0};
 }
