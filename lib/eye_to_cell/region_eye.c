@@ -30,17 +30,30 @@ static bool between(double a, double value, double b) {
     return (a <= value && value <= b) || (b <= value && value <= a);
 }
 
-/// Finds the sides at the eye; false where it is within the cell.
-static bool find_corner(const sl_outline *o, uint32_t room, sl_point eye, corner *out) {
-    for (uint32_t i = o->first[room]; i < o->first[room + 1]; i++) {
-        const sl_point a = side(o, i)->start, b = end_of(o, i);
-        if (same(eye, b) || sl_orient(a, b, eye) != 0) continue;
-        if (!between(a.x, eye.x, b.x) || !between(a.y, eye.y, b.y)) continue;
-        out->right = i;
-        out->left = same(eye, a) ? previous(o, i) : i;
-        return true;
+/// Whether the eye is on a side, whose line it is in, other than at its end.
+static bool is_on(const sl_outline *o, uint32_t i, sl_point eye) {
+    const sl_point a = side(o, i)->start, b = end_of(o, i);
+    return !same(eye, b) && between(a.x, eye.x, b.x) && between(a.y, eye.y, b.y);
+}
+
+/// Makes the fan of all sides of the eye's room, where it is within: they all show a face to it.
+/// Where it is on a side, *at are the sides there, and the fan is to be made by going around it.
+static sl_status gather_room(sl_context *context, const sl_outline *o, uint32_t room, sl_point eye,
+                             struct sl_region_memory *m, corner *at, bool *within) {
+    const uint32_t first = o->first[room], stop = o->first[room + 1];
+    SL_TRY(SL_ARRAY_ROOM(context, &m->fan, stop - first));
+    *within = true;
+    for (uint32_t i = first; i < stop; i++) {
+        const int turn = sl_orient(side(o, i)->start, end_of(o, i), eye);
+        if (turn > 0) m->fan.items[m->fan.count++] = i;
+        if (turn != 0 || !is_on(o, i, eye)) continue;
+        at->right = i;
+        at->left = same(eye, side(o, i)->start) ? previous(o, i) : i;
+        m->fan.count = 0;
+        *within = false;
+        return SL_OK;
     }
-    return false;
+    return SL_OK;
 }
 
 /// The corner at the eye of the cell beyond a portal there, which is that cell's `side`.
@@ -80,11 +93,13 @@ static bool ends_at_eye(const sl_outline *o, sl_point eye, corner at) {
 sl_status sl_region_gather_fan(sl_context *context, const sl_outline *o, sl_region *region) {
     struct sl_region_memory *m = region->memory;
     const sl_point eye = region->view.eye;
-    const uint32_t room = sl_outline_room(o, region->cell, eye), home = o->first[room];
+    const uint32_t room = sl_outline_room(o, region->cell, eye);
     m->fan.count = 0;
     m->open = false;
-    corner at;
-    if (!find_corner(o, room, eye, &at)) return add_sides(context, o, eye, home, home, m);
+    corner at = {0};
+    bool within;
+    SL_TRY(gather_room(context, o, room, eye, m, &at, &within));
+    if (within) return SL_OK;
     // Clockwise as far as portals lead, or once around.
     const uint32_t start = at.right;
     bool around = false;
