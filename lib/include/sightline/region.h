@@ -42,7 +42,7 @@ typedef struct sl_region {
     sl_point *points;
     sl_point *offsets; ///< the points as seen from the eye: more precise far from the origin
     sl_region_edge *edges;
-    uint64_t crossings; ///< portals passed to find it
+    uint64_t crossings; ///< portals of the outline passed to find it
     struct sl_region_memory *memory;
 } sl_region;
 
