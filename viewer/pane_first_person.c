@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #define RADIANS (3.14159265358979323846 / 180)
 
@@ -59,19 +60,32 @@ static void add_wall(viewer *v, sl_point from, sl_point to, uint32_t wall, doubl
     }
 }
 
+static void add_room(viewer *v, const sl_outline *outline, uint32_t room, double near) {
+    const uint32_t first = outline->first[room], end = outline->first[room + 1];
+    for (uint32_t i = first; i < end; i++) {
+        if (sl_side_is_portal(&outline->sides[i])) continue;
+        const uint32_t next = i + 1 < end ? i + 1 : first;
+        add_wall(v, outline->sides[i].start, outline->sides[next].start, outline->sides[i].beyond,
+                 near);
+    }
+}
+
+/// The walls of the rooms that have a part of a cell that is seen, each room once.
 static void add_cells(const sl_app *app, viewer *v, double near) {
     const sl_outline *outline = &app->document.outline;
     const sl_seen_method *method = &app->seen.methods[app->method];
+    bool *added = calloc(outline->room_count, sizeof *added);
+    if (!added) return;
     for (uint32_t cell = 0; cell < app->document.baked->space.cell_count; cell++) {
         if (!(method->cells[cell / 64] >> (cell % 64) & 1)) continue;
-        const uint32_t first = outline->first[cell], end = outline->first[cell + 1];
-        for (uint32_t i = first; i < end; i++) {
-            if (sl_side_is_portal(&outline->sides[i])) continue;
-            const uint32_t next = i + 1 < end ? i + 1 : first;
-            add_wall(v, outline->sides[i].start, outline->sides[next].start,
-                     outline->sides[i].beyond, near);
+        for (uint32_t i = outline->first_part[cell]; i < outline->first_part[cell + 1]; i++) {
+            const uint32_t room = outline->parts[i];
+            if (added[room]) continue;
+            added[room] = true;
+            add_room(v, outline, room, near);
         }
     }
+    free(added);
 }
 
 /// Columns of one wall make one shape, whose upper and lower edges are straight.

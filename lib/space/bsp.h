@@ -34,7 +34,7 @@ typedef struct sl_bsp_spot {
 
 typedef struct sl_bsp_face {
     sl_bsp_sides sides;
-    sl_bsp_walls walls;            ///< those inside it
+    sl_bsp_walls walls;           ///< those inside it
     SL_ARRAY(sl_bsp_spot) places; ///< all that lead here
 } sl_bsp_face;
 
