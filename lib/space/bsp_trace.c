@@ -63,7 +63,8 @@ static uint32_t covering(const sl_bsp *bsp, double from, double to) {
 
 static sl_status make_stops(sl_bsp *bsp, sl_bsp_passage *passage) {
     passage->first_stop = bsp->stops.count;
-    SL_TRY(SL_ARRAY_ROOM(bsp->context, &bsp->stops, bsp->along.count));
+    // One more, so that there is an array to point into where no stop is.
+    SL_TRY(SL_ARRAY_ROOM(bsp->context, &bsp->stops, bsp->along.count + 1));
     for (size_t i = 0; i < bsp->along.count; i++) {
         if (i && bsp->along.items[i].key == bsp->along.items[i - 1].key) continue;
         bsp->stops.items[bsp->stops.count++] =
