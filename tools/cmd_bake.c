@@ -133,7 +133,7 @@ static sl_status read_and_clean(sl_context *context, const bake_plan *plan, sl_m
 static sl_status subdivide(sl_context *context, const bake_plan *plan, const sl_map *map,
                            sl_bake_report *report, sl_space *space, double *time) {
     SL_TRY(sl_pipeline_subdivide(context, &plan->pipeline, map, space));
-    report->subdivide = sl_pipeline_subdivision(&plan->pipeline, map);
+    report->subdivide = sl_pipeline_subdivision(&plan->pipeline, map)->name;
     report->seconds.subdivide = lap(time);
     SL_TRY(sl_pipeline_check(context, &plan->pipeline, space));
     report->seconds.check = lap(time);

@@ -136,13 +136,6 @@ void sl_input_print_formats(void) {
     for (size_t i = 0; i < count; i++) printf("  %-24s%s\n", formats[i].endings, formats[i].what);
 }
 
-size_t sl_input_count_oblique(const sl_wall *walls, size_t count) {
-    size_t oblique = 0;
-    for (size_t i = 0; i < count; i++)
-        oblique += walls[i].a.x != walls[i].b.x && walls[i].a.y != walls[i].b.y;
-    return oblique;
-}
-
 sl_status sl_input_fail_outside(sl_context *context, const char *name, const char *text,
                                 sl_box bounds) {
     const double values[4] = {bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y};

@@ -57,9 +57,6 @@ sl_status sl_input_read_either(sl_context *context, const char *path, const sl_i
 /// Prints the formats of maps that can be read.
 void sl_input_print_formats(void);
 
-/// Whether each wall is parallel to an axis; counts those that are not.
-size_t sl_input_count_oblique(const sl_wall *walls, size_t count);
-
 /// SL_BAD_ARGUMENT: the point that an option or operand gives lies outside the map's bounds.
 sl_status sl_input_fail_outside(sl_context *context, const char *name, const char *text,
                                 sl_box bounds);

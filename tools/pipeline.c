@@ -7,17 +7,11 @@
 
 #include <string.h>
 
-typedef struct subdivider {
-    const char *name, *what;
-} subdivider;
-
-static const subdivider subdividers[] = {
-    {"kd", "kd-tree on the walls' own lines; walls must be axial"},
-    {"bsp", "binary space partition on the walls' own lines; walls may be oblique"},
-};
-enum { KD, BSP, SUBDIVIDERS };
-static const sl_name_table subdivider_names = {"subdivision", subdividers, sizeof *subdividers,
-                                               SUBDIVIDERS};
+static sl_name_table subdivision_names(void) {
+    sl_name_table names = {.kind = "subdivision", .stride = sizeof(sl_subdivision)};
+    names.items = sl_subdivisions(&names.count);
+    return names;
+}
 
 static const char *const kd_rules[] = {"spanning", "obscured", "cleaving", "median"};
 enum { SPANNING = 1, OBSCURED = 2, CLEAVING = 4, MEDIAN = 8, ALL_RULES = 15 };
@@ -25,10 +19,10 @@ static const sl_name_table kd_rule_names = {"rule", kd_rules, sizeof *kd_rules, 
 
 static sl_status plan_subdivision(sl_context *context, const sl_pipeline_texts *texts,
                                   sl_pipeline *plan) {
-    size_t subdivide = 0;
+    const sl_name_table names = subdivision_names();
+    size_t subdivide = 0; // which takes rules
     unsigned rules = ALL_RULES;
-    SL_TRY(
-        sl_option_choice(context, "--subdivide", texts->subdivide, &subdivider_names, &subdivide));
+    SL_TRY(sl_option_choice(context, "--subdivide", texts->subdivide, &names, &subdivide));
     SL_TRY(sl_option_choices(context, "--kd-rules", texts->kd_rules, &kd_rule_names, &rules));
     sl_subdivide_options *options = &plan->options;
     *options = sl_subdivide_options_default();
@@ -46,10 +40,11 @@ static sl_status plan_subdivision(sl_context *context, const sl_pipeline_texts *
         options->median = rules & MEDIAN;
     }
     const bool kd_wanted = texts->kd_rules || texts->kd_obscured;
-    if (texts->subdivide && subdivide != KD && kd_wanted)
+    const sl_subdivision *chosen = (const sl_subdivision *)names.items + subdivide;
+    if (!chosen->takes_rules && kd_wanted)
         return sl_fail(context, SL_BAD_ARGUMENT, "%s is for --subdivide kd, not %s",
                        texts->kd_rules ? "--kd-rules" : "--kd-obscured", texts->subdivide);
-    if (texts->subdivide || kd_wanted) plan->subdivide = subdividers[subdivide].name;
+    if (texts->subdivide || kd_wanted) plan->subdivision = chosen;
     return SL_OK;
 }
 
@@ -87,17 +82,14 @@ sl_status sl_pipeline_read(sl_context *context, const sl_pipeline *pipeline, sl_
     return SL_OK;
 }
 
-const char *sl_pipeline_subdivision(const sl_pipeline *pipeline, const sl_map *map) {
-    if (pipeline->subdivide) return pipeline->subdivide;
-    return subdividers[sl_input_count_oblique(map->walls, map->wall_count) ? BSP : KD].name;
+const sl_subdivision *sl_pipeline_subdivision(const sl_pipeline *pipeline, const sl_map *map) {
+    return pipeline->subdivision ? pipeline->subdivision : sl_subdivision_for(map);
 }
 
 sl_status sl_pipeline_subdivide(sl_context *context, const sl_pipeline *pipeline, const sl_map *map,
                                 sl_space *space) {
-    if (strcmp(sl_pipeline_subdivision(pipeline, map), subdividers[KD].name) == 0)
-        return sl_subdivide_kd(context, map, &pipeline->options, space);
-    const sl_bsp_options options = sl_bsp_options_default();
-    return sl_subdivide_bsp(context, map, &options, space);
+    const sl_subdivision *subdivision = sl_pipeline_subdivision(pipeline, map);
+    return subdivision->subdivide(context, map, &pipeline->options, space);
 }
 
 sl_status sl_pipeline_check(sl_context *context, const sl_pipeline *pipeline,
@@ -116,8 +108,10 @@ sl_name_table sl_pipeline_solver_names(sl_solver solvers[SL_SOLVERS_MOST]) {
 
 void sl_pipeline_print_subdivisions(void) {
     puts("\nsubdivisions (kd where all walls are axial, else bsp):");
-    for (size_t i = 0; i < subdivider_names.count; i++)
-        printf("  %-12s%s\n", subdividers[i].name, subdividers[i].what);
+    size_t count;
+    const sl_subdivision *subdivisions = sl_subdivisions(&count);
+    for (size_t i = 0; i < count; i++)
+        printf("  %-12s%s\n", subdivisions[i].name, subdivisions[i].what);
     const sl_bsp_options bsp = sl_bsp_options_default();
     printf(
         "              (kd's rules: spanning, obscured at a share of %g, cleaving, median;\n"

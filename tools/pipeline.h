@@ -47,9 +47,9 @@ typedef struct sl_pipeline_texts {
 /// The options as they are meant.
 typedef struct sl_pipeline {
     const char *input, *start;
-    sl_input_texts texts;  ///< how the input is read
-    const char *subdivide; ///< its name; NULL where the map decides
-    unsigned without;      ///< bits of sl_effect_table()
+    sl_input_texts texts;              ///< how the input is read
+    const sl_subdivision *subdivision; ///< NULL where the map decides
+    unsigned without;                  ///< bits of sl_effect_table()
     sl_subdivide_options options;
     bool check;
 } sl_pipeline;
@@ -60,8 +60,8 @@ sl_status sl_pipeline_plan(sl_context *context, const char *input, const sl_pipe
 /// Reads the map, adds the start asked for and leaves out the effects named.
 sl_status sl_pipeline_read(sl_context *context, const sl_pipeline *pipeline, sl_map *map);
 
-/// The name of the subdivision: the one asked for, or what the map's walls call for.
-const char *sl_pipeline_subdivision(const sl_pipeline *pipeline, const sl_map *map);
+/// The subdivision: the one asked for, or what the map's walls call for.
+const sl_subdivision *sl_pipeline_subdivision(const sl_pipeline *pipeline, const sl_map *map);
 
 /// Subdivides a map that is clean.
 sl_status sl_pipeline_subdivide(sl_context *context, const sl_pipeline *pipeline, const sl_map *map,

@@ -67,10 +67,9 @@ static void drop_walls(sl_map *map) {
 
 static sl_status bake(sl_context *context, sl_bake_job *job) {
     sl_baked *baked = job->baked;
-    const sl_subdivide_options how = sl_subdivide_options_default();
     SL_TRY(sl_map_copy(context, &job->map, &baked->map));
     SL_TRY(sl_map_clean(context, &baked->map, NULL));
-    SL_TRY(sl_subdivide_kd(context, &baked->map, &how, &baked->space));
+    SL_TRY(sl_subdivision_for(&baked->map)->subdivide(context, &baked->map, NULL, &baked->space));
     drop_walls(&baked->map);
     const sl_see_method *method = choose_method(&baked->space);
     sl_see_options options = sl_see_options_default();

@@ -44,6 +44,7 @@ static void drop_baked(sl_context *context, sl_document *document) {
     if (document->search) sl_eye_search_destroy(context, document->search);
     document->search = NULL;
     sl_outline_destroy(context, &document->outline);
+    sl_splits_destroy(context, &document->splits);
     if (document->areas) sl_free(context, document->areas);
     document->areas = NULL;
     if (document->baked) {
@@ -95,6 +96,7 @@ static sl_status take_space(sl_context *context, sl_document *document) {
     }
     SL_TRY(measure_cells(context, document));
     SL_TRY(sl_outline_make(context, &document->baked->space, &document->outline));
+    SL_TRY(sl_splits_make(context, &document->baked->space, &document->splits));
     return make_search(context, document);
 }
 

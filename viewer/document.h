@@ -6,6 +6,7 @@
 #include "sightline/bake.h"
 #include "sightline/eye_to_cell.h"
 #include "sightline/region.h"
+#include "space/splits.h"
 
 /// How to read a file.
 typedef struct sl_document_source {
@@ -25,6 +26,7 @@ typedef struct sl_document {
     bool seeing;         ///< the visibility is still being worked out
     bool has_visibility; ///< and it is there
     sl_outline outline;
+    sl_splits splits;
     sl_eye_search *search;
     double *areas;    ///< of the cells
     double area;      ///< of all cells that count

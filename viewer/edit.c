@@ -37,13 +37,7 @@ uint32_t sl_edit_pick(const sl_app *app, sl_point at) {
     return found;
 }
 
-static sl_point made_axial(sl_point from, sl_point to) {
-    if (fabs(to.x - from.x) >= fabs(to.y - from.y)) return (sl_point){to.x, from.y};
-    return (sl_point){from.x, to.y};
-}
-
-void sl_edit_add(sl_app *app, sl_point from, sl_point to) {
-    const sl_point end = made_axial(from, to);
+void sl_edit_add(sl_app *app, sl_point from, sl_point end) {
     if (end.x == from.x && end.y == from.y) return;
     if (!sl_coordinate_usable(end.x) || !sl_coordinate_usable(end.y)) return;
     sl_app_before_edit(app);
@@ -111,8 +105,7 @@ void sl_edit_draw(sl_app *app, const sl_frame *frame) {
                      5 * frame->unit);
     if (drag->kind == SL_DRAG_NEW_WALL) {
         const sl_point from = sl_edit_snap(app, drag->at);
-        sl_draw_line(app->ui.cairo, frame, from, made_axial(from, sl_edit_snap(app, now)), colour,
-                     4 * frame->unit);
+        sl_draw_line(app->ui.cairo, frame, from, sl_edit_snap(app, now), colour, 4 * frame->unit);
     }
     if (drag->kind == SL_DRAG_WALL && drag->index < map->wall_count) {
         const double step = sl_edit_step(app);

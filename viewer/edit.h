@@ -12,8 +12,8 @@ sl_point sl_edit_snap(const sl_app *app, sl_point at);
 /// The wall within a few pixels of a place of the map; UINT32_MAX for none.
 uint32_t sl_edit_pick(const sl_app *app, sl_point at);
 
-/// A new wall, parallel to an axis: the longer way counts. Nothing where it has no length.
-void sl_edit_add(sl_app *app, sl_point from, sl_point to);
+/// A new wall, in any direction. Nothing where it has no length.
+void sl_edit_add(sl_app *app, sl_point from, sl_point end);
 void sl_edit_move(sl_app *app, uint32_t wall, double dx, double dy);
 void sl_edit_delete(sl_app *app);
 

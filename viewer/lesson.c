@@ -6,11 +6,6 @@
 
 static void forget(sl_context *context, sl_lesson *lesson) {
     sl_steps_destroy(context, &lesson->steps);
-    if (lesson->boxes) sl_free(context, lesson->boxes);
-    if (lesson->depths) sl_free(context, lesson->depths);
-    lesson->boxes = NULL;
-    lesson->depths = NULL;
-    lesson->node_count = 0;
     lesson->made = false;
     lesson->end_count = 0;
     lesson->dragged = false;
@@ -21,30 +16,6 @@ void sl_lesson_destroy(sl_context *context, sl_lesson *lesson) {
     *lesson = (sl_lesson){0};
 }
 
-/// Nodes stand in the array as the subdivision makes them, a parent before its children.
-static sl_status make_boxes(sl_context *context, sl_lesson *lesson, const sl_space *space) {
-    lesson->boxes = sl_alloc_array(context, space->node_count, sizeof *lesson->boxes);
-    lesson->depths = sl_alloc_array(context, space->node_count, sizeof *lesson->depths);
-    if (!lesson->boxes || !lesson->depths) return SL_NO_MEMORY;
-    lesson->node_count = space->node_count;
-    if (space->root >= 0) lesson->boxes[space->root] = space->bounds;
-    for (uint32_t i = 0; i < space->node_count; i++) {
-        const sl_node *node = &space->nodes[i];
-        sl_box below = lesson->boxes[i], above = below;
-        if (node->axis == 0)
-            below.max.x = above.min.x = node->position;
-        else
-            below.max.y = above.min.y = node->position;
-        const int32_t children[2] = {node->below, node->above};
-        for (int k = 0; k < 2; k++) {
-            if (children[k] < 0) continue;
-            lesson->boxes[children[k]] = k ? above : below;
-            lesson->depths[children[k]] = lesson->depths[i] + 1;
-        }
-    }
-    return SL_OK;
-}
-
 sl_status sl_lesson_update(sl_context *context, sl_lesson *lesson, const sl_document *document,
                            uint32_t source) {
     if (lesson->made && lesson->version != document->version) forget(context, lesson);
@@ -53,7 +24,7 @@ sl_status sl_lesson_update(sl_context *context, sl_lesson *lesson, const sl_docu
     const bool same_document = lesson->made;
     const size_t at = lesson->at;
     forget(context, lesson);
-    SL_TRY(make_boxes(context, lesson, &document->baked->space));
+    lesson->node_count = document->splits.node_count;
     sl_steps_options options = sl_steps_options_default();
     options.sight = document->baked->visibility.sight;
     SL_TRY(sl_steps_record(context, &document->baked->space, &options, source, &lesson->steps));

@@ -17,10 +17,8 @@ typedef struct sl_lesson {
     bool made;
     uint32_t version, source; ///< what was recorded: of which document, from which cell
     sl_steps steps;
-    sl_box *boxes;    ///< by node, for the subdivision
-    uint32_t *depths; ///< likewise
-    size_t node_count;
-    size_t at; ///< the step shown
+    size_t node_count; ///< splits of the subdivision
+    size_t at;         ///< the step shown
     bool plays;
     double waited;
     /// The portals of the sequence at hand; their ends may have been dragged.
@@ -48,7 +46,8 @@ void sl_lesson_refresh(sl_lesson *lesson);
 void sl_lesson_sentence(const sl_lesson *lesson, const sl_document *document,
                         char text[SL_SENTENCE]);
 /// The pseudo-code, and which of its lines the step is at.
-const char *const *sl_lesson_code(const sl_lesson *lesson, size_t *count);
+const char *const *sl_lesson_code(const sl_lesson *lesson, const sl_document *document,
+                                  size_t *count);
 size_t sl_lesson_code_line(const sl_lesson *lesson);
 
 #endif

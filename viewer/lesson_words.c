@@ -1,7 +1,6 @@
 /// What the lesson says: pseudo-code and sentences.
 #include "lesson.h"
 
-#include <math.h>
 #include <stdio.h>
 
 static const char *const search_code[] = {
@@ -15,7 +14,7 @@ static const char *const search_code[] = {
     "    return",
 };
 
-static const char *const subdivide_code[] = {
+static const char *const kd_code[] = {
     "subdivide(box):",
     "    if no wall is inside box: it is a cell",
     "    lines = those that hold a wall inside",
@@ -25,11 +24,29 @@ static const char *const subdivide_code[] = {
     "    subdivide(below), subdivide(above)",
 };
 
-const char *const *sl_lesson_code(const sl_lesson *lesson, size_t *count) {
-    const bool search = lesson->subject == SL_SUBJECT_SEARCH;
-    *count = search ? sizeof search_code / sizeof *search_code
-                    : sizeof subdivide_code / sizeof *subdivide_code;
-    return search ? search_code : subdivide_code;
+static const char *const bsp_code[] = {
+    "subdivide(cell):",
+    "    if no wall is inside cell: it is done",
+    "    for the lines of walls inside:",
+    "        cost = walls that it cuts + imbalance",
+    "            - share of it that walls cover",
+    "    split along the cheapest; where its wall goes on,",
+    "        split the cells there too",
+    "    subdivide(right of it), subdivide(left of it)",
+};
+
+const char *const *sl_lesson_code(const sl_lesson *lesson, const sl_document *document,
+                                  size_t *count) {
+    static const struct {
+        const char *const *lines;
+        size_t count;
+    } search = {search_code, sizeof search_code / sizeof *search_code},
+      kd = {kd_code, sizeof kd_code / sizeof *kd_code},
+      bsp = {bsp_code, sizeof bsp_code / sizeof *bsp_code};
+    const bool is_bsp = document->baked && document->baked->space.beyond;
+    const bool is_search = lesson->subject == SL_SUBJECT_SEARCH;
+    *count = is_search ? search.count : is_bsp ? bsp.count : kd.count;
+    return is_search ? search.lines : is_bsp ? bsp.lines : kd.lines;
 }
 
 size_t sl_lesson_code_line(const sl_lesson *lesson) {
@@ -83,29 +100,29 @@ static void say_search(const sl_lesson *lesson, char text[SL_SENTENCE]) {
     }
 }
 
-/// The share of a split, within its box, that walls cover.
-static double covered(const sl_space *space, const sl_node *node, sl_box box) {
-    double sum = 0;
-    const bool upright = node->axis == 0;
-    const double low = upright ? box.min.y : box.min.x, high = upright ? box.max.y : box.max.x;
-    for (uint32_t i = 0; i < space->wall_count; i++) {
-        const sl_wall *w = &space->walls[i];
-        const double place_a = upright ? w->a.x : w->a.y, place_b = upright ? w->b.x : w->b.y;
-        if (place_a != node->position || place_b != node->position) continue;
-        const double a = upright ? w->a.y : w->a.x, b = upright ? w->b.y : w->b.x;
-        sum += fmax(0, fmin(fmax(a, b), high) - fmax(fmin(a, b), low));
+static void name_line(const sl_space *space, const sl_node *node, char text[160]) {
+    if (node->axis == 2) {
+        const sl_segment *line = &space->lines[node->line];
+        snprintf(text, 160, "from %.6g, %.6g to %.6g, %.6g", line->a.x, line->a.y, line->b.x,
+                 line->b.y);
+    } else {
+        snprintf(text, 160, "%s = %.6g", node->axis == 0 ? "x" : "y", node->position);
     }
-    return high > low ? sum / (high - low) : 0;
 }
 
-static void say_subdivision(const sl_lesson *lesson, const sl_space *space,
+static void say_subdivision(const sl_lesson *lesson, const sl_document *document,
                             char text[SL_SENTENCE]) {
-    const sl_node *node = &space->nodes[lesson->at];
+    const sl_space *space = &document->baked->space;
+    const uint32_t at = (uint32_t)lesson->at;
+    const sl_node *node = &space->nodes[at];
+    const sl_splits *splits = &document->splits;
+    const bool shown = splits->first[at] < splits->first[at + 1];
+    const uint32_t depth = shown ? splits->splits.items[splits->first[at]].depth : 0;
+    char line[160];
+    name_line(space, node, line);
     snprintf(text, SL_SENTENCE,
-             "Split %zu of %u, %u deep: the line %s = %g, of which walls cover %.0f %% here; %s.",
-             lesson->at + 1, space->node_count, lesson->depths[lesson->at] + 1,
-             node->axis == 0 ? "x" : "y", node->position,
-             100 * covered(space, node, lesson->boxes[lesson->at]),
+             "Split %u of %u, %u deep: the line %s, of which walls cover %.0f %% here; %s.", at + 1,
+             space->node_count, depth + 1, line, 100 * sl_splits_covered(splits, space, at),
              node->below < 0 && node->above < 0   ? "both sides are cells"
              : node->below < 0 || node->above < 0 ? "one side is a cell, the other goes on"
                                                   : "both sides go on");
@@ -118,5 +135,5 @@ void sl_lesson_sentence(const sl_lesson *lesson, const sl_document *document,
     if (lesson->subject == SL_SUBJECT_SEARCH)
         say_search(lesson, text);
     else
-        say_subdivision(lesson, &document->baked->space, text);
+        say_subdivision(lesson, document, text);
 }

@@ -50,8 +50,7 @@ static void draw_under(sl_app *app, cairo_t *cairo, const sl_frame *frame) {
     cairo_paint(cairo);
     sl_app_check(app, sl_draw_onto(app->context, cairo, &under, frame));
     if (app->show & SL_SHOW_SPLITS)
-        sl_draw_splits(cairo, &app->ui.palette, &app->document.baked->space, frame,
-                       app->split_depth);
+        sl_draw_splits(cairo, &app->ui.palette, &app->document.splits, frame, app->split_depth);
 }
 
 /// What is over it: walls and what else the map has.

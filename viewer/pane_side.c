@@ -235,7 +235,7 @@ void sl_pane_side(sl_app *app, sl_box box) {
 static void draw_code(sl_app *app, column *c) {
     sl_ui *ui = &app->ui;
     size_t count;
-    const char *const *code = sl_lesson_code(&app->lesson, &count);
+    const char *const *code = sl_lesson_code(&app->lesson, &app->document, &count);
     const size_t lit = sl_lesson_code_line(&app->lesson);
     const double t = ui->text;
     for (size_t i = 0; i < count; i++) {
@@ -301,7 +301,7 @@ void sl_pane_draw(sl_app *app, sl_box box) {
     char text[160];
     heading(app, &c, "Walls", NULL);
     c.y += 0.7 * app->ui.text;
-    rule(app, &c, "Drag on free ground: a new wall, parallel to an axis, on the grid.");
+    rule(app, &c, "Drag on free ground: a new wall, in any direction, its ends on the grid.");
     rule(app, &c, "Drag a wall: moves it. Click: chooses it. Delete: deletes it.");
     snprintf(text, sizeof text, "%zu walls; %zu steps to undo, %zu to redo.",
              app->document.map.wall_count, app->history.done_count, app->history.undone_count);

@@ -154,20 +154,8 @@ static void lesson_below(sl_app *app, const sl_frame *frame) {
         search_below(app, frame);
         return;
     }
-    const sl_space *space = &app->document.baked->space;
-    for (size_t i = 0; i < lesson->at; i++) {
-        const sl_node *node = &space->nodes[i];
-        const sl_box b = lesson->boxes[i];
-        sl_path_segment(
-            app->ui.cairo, frame,
-            node->axis ? (sl_point){b.min.x, node->position} : (sl_point){node->position, b.min.y},
-            node->axis ? (sl_point){b.max.x, node->position} : (sl_point){node->position, b.max.y});
-    }
-    sl_set_colour(app->ui.cairo, app->ui.palette.portal);
-    cairo_set_line_width(app->ui.cairo, 1.2 * frame->unit);
-    cairo_stroke(app->ui.cairo);
-    sl_draw_split(app->ui.cairo, &app->ui.palette, space, frame, (uint32_t)lesson->at,
-                  lesson->boxes[lesson->at]);
+    sl_draw_split(app->ui.cairo, &app->ui.palette, &app->document.splits, frame,
+                  (uint32_t)lesson->at);
 }
 
 static void lesson_above(sl_app *app, const sl_frame *frame) {

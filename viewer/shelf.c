@@ -69,5 +69,6 @@ void sl_shelf_fill(sl_app *app, const char *beside) {
                  slash == beside ? "/" : beside);
     add_folder(app, folder, true);
     if (!same_folder(folder, "maps")) add_folder(app, "maps", true);
+    if (!same_folder(folder, "maps/oblique")) add_folder(app, "maps/oblique", true);
     if (!same_folder(folder, ".")) add_folder(app, ".", false);
 }

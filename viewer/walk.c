@@ -24,21 +24,40 @@ static bool meet(sl_point a, sl_point b, sl_point p, sl_point q) {
            sl_orient(p, q, a) * sl_orient(p, q, b) <= 0;
 }
 
-static bool is_free(const sl_space *space, sl_point from, sl_point to) {
+/// The wall in the way; wall_count for none.
+static uint32_t first_wall(const sl_space *space, sl_point from, sl_point to) {
     for (uint32_t i = 0; i < space->wall_count; i++)
-        if (meet(from, to, space->walls[i].a, space->walls[i].b)) return false;
-    return sl_space_locate(space, to) != SL_NO_CELL;
+        if (meet(from, to, space->walls[i].a, space->walls[i].b)) return i;
+    return space->wall_count;
 }
 
-static bool try_move(sl_app *app, double dx, double dy, double body) {
+/// Moves as far as that where nothing stops it; else *wall is what does (wall_count: the map's
+/// border).
+static bool try_move(sl_app *app, double dx, double dy, double body, uint32_t *wall) {
+    const sl_space *space = &app->document.baked->space;
     const double length = hypot(dx, dy);
+    *wall = space->wall_count;
     if (!(length > 0)) return false;
     const sl_point at = app->eye.at, to = {at.x + dx, at.y + dy};
     // A little farther than the step, so that some room to the wall is left.
     const sl_point ahead = {to.x + dx / length * body, to.y + dy / length * body};
-    if (!app->eye.flies && !is_free(&app->document.baked->space, at, ahead)) return false;
+    if (!app->eye.flies) {
+        *wall = first_wall(space, at, ahead);
+        if (*wall < space->wall_count || sl_space_locate(space, ahead) == SL_NO_CELL) return false;
+    }
     app->eye.at = to;
     return true;
+}
+
+/// What a wall leaves of a step: the part along it.
+static void slide(sl_app *app, double dx, double dy, double body, uint32_t wall) {
+    const sl_space *space = &app->document.baked->space;
+    if (wall >= space->wall_count) return;
+    const sl_wall *w = &space->walls[wall];
+    const double x = w->b.x - w->a.x, y = w->b.y - w->a.y, square = x * x + y * y;
+    if (!(square > 0)) return;
+    const double share = (dx * x + dy * y) / square;
+    try_move(app, share * x, share * y, body, &wall);
 }
 
 void sl_walk(sl_app *app, double seconds) {
@@ -53,12 +72,8 @@ void sl_walk(sl_app *app, double seconds) {
     const double step = sl_walk_speed(app) * seconds / length, body = 0.04 * sl_walk_speed(app);
     const double c = cos(app->eye.heading * RADIANS), s = sin(app->eye.heading * RADIANS);
     const double dx = step * (ahead * c + aside * s), dy = step * (ahead * s - aside * c);
-    if (try_move(app, dx, dy, body)) return;
-    if (fabs(dx) >= fabs(dy)) {
-        if (!try_move(app, dx, 0, body)) try_move(app, 0, dy, body);
-    } else if (!try_move(app, 0, dy, body)) {
-        try_move(app, dx, 0, body);
-    }
+    uint32_t wall;
+    if (!try_move(app, dx, dy, body, &wall)) slide(app, dx, dy, body, wall);
 }
 
 static sl_point middle_of(const sl_space *space, uint32_t cell) {

@@ -41,64 +41,51 @@ void sl_draw_cell(cairo_t *cairo, const sl_space *space, const sl_frame *frame, 
     cairo_stroke(cairo);
 }
 
-/// The split of a node and the boxes of its children.
-static sl_segment cut_box(const sl_node *node, sl_box box, sl_box *below, sl_box *above) {
-    *below = *above = box;
-    if (node->axis == 0) {
-        below->max.x = above->min.x = node->position;
-        return (sl_segment){{node->position, box.min.y}, {node->position, box.max.y}};
-    }
-    below->max.y = above->min.y = node->position;
-    return (sl_segment){{box.min.x, node->position}, {box.max.x, node->position}};
-}
-
-/// Adds the splits at one depth below a node that is `above` levels over them.
-static void add_level(cairo_t *cairo, const sl_space *space, const sl_frame *frame, int32_t child,
-                      sl_box box, uint32_t above) {
-    if (child < 0) return;
-    const sl_node *node = &space->nodes[child];
-    sl_box low, high;
-    const sl_segment split = cut_box(node, box, &low, &high);
-    if (above == 0) {
-        sl_path_segment(cairo, frame, split.a, split.b);
-        return;
-    }
-    add_level(cairo, space, frame, node->below, low, above - 1);
-    add_level(cairo, space, frame, node->above, high, above - 1);
-}
-
-void sl_draw_splits(cairo_t *cairo, const sl_palette *palette, const sl_space *space,
+void sl_draw_splits(cairo_t *cairo, const sl_palette *palette, const sl_splits *splits,
                     const sl_frame *frame, uint32_t depth) {
-    const uint32_t deepest = depth < space->tree_depth ? depth : space->tree_depth;
+    uint32_t deepest = 0;
+    for (size_t i = 0; i < splits->splits.count; i++)
+        if (splits->splits.items[i].depth >= deepest) deepest = splits->splits.items[i].depth + 1;
+    if (depth < deepest) deepest = depth;
     cairo_set_line_cap(cairo, CAIRO_LINE_CAP_BUTT);
     for (uint32_t level = deepest; level-- > 0;) {
         const double share = deepest > 1 ? (double)level / (deepest - 1) : 0;
-        add_level(cairo, space, frame, space->root, space->bounds, level);
+        for (size_t i = 0; i < splits->splits.count; i++) {
+            const sl_split *split = &splits->splits.items[i];
+            if (split->depth == level)
+                sl_path_segment(cairo, frame, split->along.a, split->along.b);
+        }
         sl_set_colour(cairo, sl_palette_ramp(palette->dark, 1 - 0.75 * share));
         cairo_set_line_width(cairo, (3.2 - 2.2 * share) * frame->unit);
         cairo_stroke(cairo);
     }
 }
 
-static void add_box(cairo_t *cairo, const sl_frame *frame, sl_box box) {
-    const sl_point corners[4] = {box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}};
-    sl_path_polygon(cairo, frame, corners, 4);
+static void fill_side(cairo_t *cairo, const sl_frame *frame, const sl_splits *splits,
+                      sl_split_region side, sl_colour colour, double opacity) {
+    if (!side.count) return;
+    sl_path_polygon(cairo, frame, splits->corners.items + side.first, side.count);
+    set_faded(cairo, colour, opacity);
+    cairo_fill(cairo);
 }
 
-void sl_draw_split(cairo_t *cairo, const sl_palette *palette, const sl_space *space,
-                   const sl_frame *frame, uint32_t node, sl_box box) {
-    sl_box below, above;
-    const sl_segment split = cut_box(&space->nodes[node], box, &below, &above);
-    add_box(cairo, frame, below);
-    set_faded(cairo, palette->glass, 0.22);
-    cairo_fill(cairo);
-    add_box(cairo, frame, above);
-    set_faded(cairo, palette->source, 0.30);
-    cairo_fill(cairo);
-    sl_path_segment(cairo, frame, split.a, split.b);
-    sl_set_colour(cairo, palette->start);
-    cairo_set_line_width(cairo, 4 * frame->unit);
+void sl_draw_split(cairo_t *cairo, const sl_palette *palette, const sl_splits *splits,
+                   const sl_frame *frame, uint32_t node) {
+    const sl_split *items = splits->splits.items;
+    const uint32_t first = splits->first[node], end = splits->first[node + 1];
+    for (uint32_t i = 0; i < first; i++)
+        sl_path_segment(cairo, frame, items[i].along.a, items[i].along.b);
+    sl_set_colour(cairo, palette->portal);
+    cairo_set_line_width(cairo, 1.2 * frame->unit);
     cairo_stroke(cairo);
+    for (uint32_t i = first; i < end; i++) {
+        fill_side(cairo, frame, splits, items[i].below, palette->glass, 0.22);
+        fill_side(cairo, frame, splits, items[i].above, palette->source, 0.30);
+        sl_path_segment(cairo, frame, items[i].along.a, items[i].along.b);
+        sl_set_colour(cairo, palette->start);
+        cairo_set_line_width(cairo, 4 * frame->unit);
+        cairo_stroke(cairo);
+    }
 }
 
 void sl_draw_region(cairo_t *cairo, const sl_frame *frame, const sl_region *region,

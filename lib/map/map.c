@@ -204,3 +204,12 @@ sl_box sl_map_bounds(const sl_map *map) {
         grow_segment(&box, &any, (sl_segment){map->objects[i].box.min, map->objects[i].box.max});
     return box;
 }
+
+size_t sl_map_count_oblique(const sl_map *map) {
+    size_t oblique = 0;
+    for (size_t i = 0; i < map->wall_count; i++) {
+        const sl_wall *wall = &map->walls[i];
+        oblique += wall->a.x != wall->b.x && wall->a.y != wall->b.y;
+    }
+    return oblique;
+}

@@ -95,6 +95,9 @@ SL_API bool sl_coordinate_usable(double value);
 /// The smallest box around all that the map holds; {{0,0},{0,0}} for an empty map.
 SL_API sl_box sl_map_bounds(const sl_map *map);
 
+/// How many walls are parallel to neither axis.
+SL_API size_t sl_map_count_oblique(const sl_map *map);
+
 /// What cleaning did, in walls.
 typedef struct sl_clean_account {
     size_t before, after;

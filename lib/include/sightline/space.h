@@ -119,6 +119,21 @@ SL_API sl_bsp_options sl_bsp_options_default(void);
 SL_API sl_status sl_subdivide_bsp(sl_context *context, const sl_map *map,
                                   const sl_bsp_options *options, sl_space *out);
 
+/// A way to subdivide: reachable by name, listed everywhere from this table.
+typedef struct sl_subdivision {
+    const char *name, *what;
+    bool takes_rules; ///< the kd-tree's rules are for it; others pass them over
+    /// NULL for the usual rules. Fails as the function does that it stands for.
+    sl_status (*subdivide)(sl_context *context, const sl_map *map,
+                           const sl_subdivide_options *rules, sl_space *out);
+} sl_subdivision;
+
+/// All of them: "kd", "bsp".
+SL_API const sl_subdivision *sl_subdivisions(size_t *count);
+
+/// What a map's walls call for: the kd-tree where all are axial, else the BSP.
+SL_API const sl_subdivision *sl_subdivision_for(const sl_map *map);
+
 SL_API void sl_space_destroy(sl_context *context, sl_space *space); ///< and zeroes it
 
 /// The cell that holds a point. On a split line the cell above (right of or over) it, left of an
