@@ -2,69 +2,106 @@
 
 #include "cell_to_cell/pvs_rows.h"
 
-sl_status sl_bit_rows_create(sl_context *context, uint32_t count, sl_bit_rows *rows) {
-    const size_t words = sl_bits_words(count);
-    if (words && count > SIZE_MAX / words) return sl_fail_memory(context);
-    sl_bits *bits = sl_alloc_array(context, count * words, sizeof *bits);
-    if (!bits) return SL_NO_MEMORY;
-    *rows = (sl_bit_rows){.count = count, .words = words, .bits = bits};
+#include <pthread.h>
+
+/// Up to here, rows that hold every bit are faster: they fit a processor's caches.
+#define MOST_DENSE_BYTES (UINT64_C(16) << 20)
+
+/// Neighbours are asked for at once, so that they have locks of their own.
+enum { LOCKS = 256 };
+
+struct sl_shared_rows {
+    sl_row_budget budget;
+    pthread_mutex_t locks[LOCKS];
+};
+
+static bool choose_sparse(uint64_t count, size_t words, sl_row_storage storage) {
+    if (storage != SL_ROWS_BY_SIZE) return storage == SL_ROWS_SPARSE;
+    return count * words * sizeof(sl_bits) > MOST_DENSE_BYTES;
+}
+
+static sl_status create_sparse(sl_context *context, sl_bit_rows *rows, uint64_t most) {
+    const uint64_t heads = rows->count * sizeof *rows->sparse;
+    rows->sparse = sl_alloc_array(context, rows->count, sizeof *rows->sparse);
+    rows->shared = sl_alloc(context, sizeof *rows->shared);
+    if (!rows->sparse || !rows->shared) {
+        sl_free(context, rows->sparse);
+        sl_free(context, rows->shared);
+        return SL_NO_MEMORY;
+    }
+    rows->shared->budget.most = most;
+    atomic_init(&rows->shared->budget.used, heads);
+    for (size_t i = 0; i < LOCKS; i++) pthread_mutex_init(&rows->shared->locks[i], NULL);
+    return SL_OK;
+}
+
+static sl_status create_dense(sl_context *context, sl_bit_rows *rows) {
+    if (rows->words && rows->count > SIZE_MAX / rows->words) return sl_fail_memory(context);
+    rows->bits = sl_alloc_array(context, rows->count * rows->words, sizeof *rows->bits);
+    return rows->bits ? SL_OK : SL_NO_MEMORY;
+}
+
+sl_status sl_bit_rows_create(sl_context *context, uint32_t count, const sl_see_options *options,
+                             sl_bit_rows *rows) {
+    sl_bit_rows made = {.count = count, .words = sl_bits_words(count)};
+    if (choose_sparse(count, made.words, options->rows))
+        SL_TRY(create_sparse(context, &made, options->row_bytes));
+    else
+        SL_TRY(create_dense(context, &made));
+    *rows = made;
     return SL_OK;
 }
 
 void sl_bit_rows_destroy(sl_context *context, sl_bit_rows *rows) {
     sl_free(context, rows->bits);
+    for (uint32_t cell = 0; rows->sparse && cell < rows->count; cell++)
+        sl_sparse_row_destroy(context, &rows->sparse[cell]);
+    sl_free(context, rows->sparse);
+    for (size_t i = 0; rows->shared && i < LOCKS; i++)
+        pthread_mutex_destroy(&rows->shared->locks[i]);
+    sl_free(context, rows->shared);
     *rows = (sl_bit_rows){0};
 }
 
-void sl_bit_rows_join(sl_bit_rows *rows, const sl_bit_rows *other) {
-    for (size_t i = 0; i < rows->count * rows->words; i++) rows->bits[i] |= other->bits[i];
+sl_status sl_bit_rows_fork(sl_context *context, const sl_bit_rows *rows, sl_bit_rows *fork) {
+    sl_bit_rows made = *rows;
+    if (rows->bits) SL_TRY(create_dense(context, &made));
+    *fork = made;
+    return SL_OK;
 }
 
-/// Mirrors 64 rows of 64 bits about their diagonal, by swapping ever smaller blocks (Warren 2003,
-/// Hacker's Delight, section 7-3).
-static void transpose(sl_bits block[64]) {
-    sl_bits mask = 0x00000000ffffffff;
-    for (unsigned size = 32; size; size >>= 1, mask ^= mask << size)
-        for (unsigned i = 0; i < 64; i = ((i | size) + 1) & ~size) {
-            const sl_bits swap = (block[i] >> size ^ block[i | size]) & mask;
-            block[i] ^= swap << size;
-            block[i | size] ^= swap;
-        }
+void sl_bit_rows_join(sl_context *context, sl_bit_rows *rows, sl_bit_rows *fork) {
+    for (size_t i = 0; fork->bits && i < rows->count * rows->words; i++)
+        rows->bits[i] |= fork->bits[i];
+    sl_free(context, fork->bits);
+    *fork = (sl_bit_rows){0};
 }
 
-/// Copies 64 rows of one word each; rows past the last are empty. Returns whether any bit is set.
-static bool take_block(const sl_bit_rows *rows, size_t first_row, size_t word, sl_bits block[64]) {
-    sl_bits any = 0;
-    for (size_t i = 0; i < 64; i++) {
-        const size_t row = first_row + i;
-        block[i] = row < rows->count ? rows->bits[row * rows->words + word] : 0;
-        any |= block[i];
+sl_status sl_bit_rows_add_sparse(sl_context *context, sl_bit_rows *rows, uint32_t cell,
+                                 const sl_word_set *set) {
+    pthread_mutex_t *lock = &rows->shared->locks[cell % LOCKS];
+    pthread_mutex_lock(lock);
+    const sl_status status =
+        sl_sparse_row_add(context, &rows->sparse[cell], rows->words, set, &rows->shared->budget);
+    pthread_mutex_unlock(lock);
+    return status;
+}
+
+sl_status sl_bit_rows_add_word(sl_context *context, sl_bit_rows *rows, uint32_t cell, size_t word,
+                               sl_bits bits) {
+    if (rows->bits) {
+        sl_bit_rows_dense(rows, cell)[word] |= bits;
+        return SL_OK;
     }
-    return any != 0;
+    pthread_mutex_t *lock = &rows->shared->locks[cell % LOCKS];
+    pthread_mutex_lock(lock);
+    const sl_status status = sl_sparse_row_add_word(context, &rows->sparse[cell], rows->words, word,
+                                                    bits, &rows->shared->budget);
+    pthread_mutex_unlock(lock);
+    return status;
 }
 
-static void merge_block(sl_bit_rows *rows, size_t first_row, size_t word, const sl_bits block[64],
-                        sl_mirroring how) {
-    for (size_t i = 0; i < 64 && first_row + i < rows->count; i++) {
-        sl_bits *bits = &rows->bits[(first_row + i) * rows->words + word];
-        *bits = how == SL_ADD_MIRRORED ? *bits | block[i] : *bits & block[i];
-    }
-}
-
-void sl_bit_rows_mirror(sl_bit_rows *rows, sl_mirroring how) {
-    sl_bits below[64], above[64];
-    for (size_t i = 0; i < rows->words; i++)
-        for (size_t k = 0; k <= i; k++) {
-            const bool some_below = take_block(rows, 64 * i, k, below);
-            const bool some_above = take_block(rows, 64 * k, i, above);
-            if (!some_below && !some_above) continue;
-            transpose(below);
-            merge_block(rows, 64 * k, i, below, how);
-            if (k == i) continue;
-            transpose(above);
-            merge_block(rows, 64 * i, k, above, how);
-        }
-}
+// --- encoding
 
 static uint64_t count_bits(const sl_bits *bits, size_t words) {
     uint64_t count = 0;
@@ -72,13 +109,29 @@ static uint64_t count_bits(const sl_bits *bits, size_t words) {
     return count;
 }
 
-static sl_status encode(sl_context *context, const sl_bit_rows *rows, sl_row_bytes *bytes,
-                        sl_pvs *out) {
+static sl_status append_row(sl_context *context, sl_bit_rows *rows, uint32_t cell,
+                            sl_row_bytes *bytes, uint64_t *pairs) {
+    if (rows->bits) {
+        *pairs += count_bits(sl_bit_rows_dense(rows, cell), rows->words);
+        return sl_row_append(context, bytes, sl_bit_rows_dense(rows, cell), rows->count);
+    }
+    sl_sparse_row *row = &rows->sparse[cell];
+    const bool all = row->count == SL_ALL_WORDS;
+    const size_t count = all ? rows->words : row->count;
+    *pairs += count_bits(row->words, count);
+    SL_TRY(
+        sl_row_append_words(context, bytes, row->words, all ? NULL : sl_sparse_index(row), count));
+    sl_sparse_row_destroy(context, row);
+    return SL_OK;
+}
+
+static sl_status encode(sl_context *context, sl_bit_rows *rows, sl_row_bytes *bytes, sl_pvs *out,
+                        uint64_t *pairs) {
     out->cell_count = rows->count;
     out->offsets = sl_alloc_array(context, (size_t)rows->count + 1, sizeof *out->offsets);
     if (!out->offsets) return SL_NO_MEMORY;
     for (uint32_t cell = 0; cell < rows->count; cell++) {
-        SL_TRY(sl_row_append(context, bytes, sl_bit_row(rows, cell), rows->count));
+        SL_TRY(append_row(context, rows, cell, bytes, pairs));
         out->offsets[cell + 1] = bytes->count;
     }
     // Never NULL, also where no cell sees any.
@@ -88,16 +141,17 @@ static sl_status encode(sl_context *context, const sl_bit_rows *rows, sl_row_byt
     return SL_OK;
 }
 
-sl_status sl_bit_rows_encode(sl_context *context, const sl_bit_rows *rows, sl_visibility *out) {
+sl_status sl_bit_rows_encode(sl_context *context, sl_bit_rows *rows, sl_visibility *out) {
     sl_row_bytes bytes = {0};
     sl_pvs pvs = {0};
-    const sl_status status = encode(context, rows, &bytes, &pvs);
+    uint64_t pairs = 0;
+    const sl_status status = encode(context, rows, &bytes, &pvs, &pairs);
     sl_free(context, bytes.items);
     if (status != SL_OK) {
         sl_pvs_destroy(context, &pvs);
         return status;
     }
     out->pvs = pvs;
-    out->account.pairs = count_bits(rows->bits, rows->count * rows->words);
+    out->account.pairs = pairs;
     return SL_OK;
 }

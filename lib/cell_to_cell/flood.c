@@ -8,8 +8,6 @@
 #include "cell_to_cell/methods.h"
 #include "geometry/orient.h"
 
-#include <string.h>
-
 /// Whether some of a portal lies ahead of (`sign` -1) or behind (1) an exit; for closed sight its
 /// line is enough.
 static bool reaches(const sl_exit *exit, sl_point left, sl_point right, int sign, bool closed) {
@@ -18,15 +16,15 @@ static bool reaches(const sl_exit *exit, sl_point left, sl_point right, int sign
            sign * sl_orient(exit->right, exit->left, right) >= least;
 }
 
-void sl_flood_through(const sl_space *space, const sl_see_options *options, const sl_exit *exit,
-                      sl_bits *set, uint32_t *stack) {
+uint32_t sl_flood_through(const sl_space *space, const sl_see_options *options, const sl_exit *exit,
+                          sl_bits *set, uint32_t *found) {
     const bool closed = options->sight == SL_CLOSED;
     uint32_t count = 0;
-    if (options->inside_only && !space->cells[exit->cell].inside) return;
+    if (options->inside_only && !space->cells[exit->cell].inside) return 0;
     sl_bits_add(set, exit->cell);
-    stack[count++] = exit->cell;
-    while (count) {
-        const sl_cell *cell = &space->cells[stack[--count]];
+    found[count++] = exit->cell;
+    for (uint32_t done = 0; done < count; done++) {
+        const sl_cell *cell = &space->cells[found[done]];
         for (uint32_t i = 0; i < cell->exit_count; i++) {
             const sl_exit *next = &space->exits[cell->first_exit + i];
             if (sl_bits_has(set, next->cell)) continue;
@@ -34,9 +32,10 @@ void sl_flood_through(const sl_space *space, const sl_see_options *options, cons
             if (!reaches(exit, next->left, next->right, -1, closed)) continue;
             if (!reaches(next, exit->left, exit->right, 1, closed)) continue;
             sl_bits_add(set, next->cell);
-            stack[count++] = next->cell;
+            found[count++] = next->cell;
         }
     }
+    return count;
 }
 
 // --- the method
@@ -49,15 +48,17 @@ typedef struct flood {
 
 /// One thread's own.
 typedef struct flooder {
-    uint32_t *stack;
-    sl_bits *set; ///< through one exit
+    uint32_t *found; ///< through one exit
+    sl_bits *set;    ///< of them
+    sl_word_set row; ///< of them through all exits
 } flooder;
 
 static void end(sl_context *context, void *job, void *state) {
     (void)job;
     flooder *me = state;
-    sl_free(context, me->stack);
+    sl_free(context, me->found);
     sl_free(context, me->set);
+    sl_word_set_destroy(context, &me->row);
     sl_free(context, me);
 }
 
@@ -65,9 +66,10 @@ static sl_status begin(sl_context *context, void *job, void **state) {
     const flood *all = job;
     flooder *me = sl_alloc_array(context, 1, sizeof *me);
     if (!me) return SL_NO_MEMORY;
-    me->stack = sl_alloc_array(context, all->space->cell_count, sizeof *me->stack);
+    me->found = sl_alloc_array(context, all->space->cell_count, sizeof *me->found);
     me->set = sl_alloc_array(context, all->rows.words, sizeof *me->set);
-    if (me->stack && me->set) {
+    if (me->found && me->set &&
+        sl_word_set_create(context, all->space->cell_count, &me->row) == SL_OK) {
         *state = me;
         return SL_OK;
     }
@@ -76,23 +78,26 @@ static sl_status begin(sl_context *context, void *job, void **state) {
 }
 
 static sl_status flood_unit(sl_context *context, void *job, void *state, size_t unit) {
-    const flood *all = job;
-    const flooder *me = state;
+    flood *all = job;
+    flooder *me = state;
     const sl_cell *cell = &all->space->cells[unit];
     if (all->options->inside_only && !cell->inside) return SL_OK;
-    sl_bits *row = sl_bit_row(&all->rows, (uint32_t)unit);
-    sl_bits_add(row, unit);
+    sl_word_set_add(&me->row, (uint32_t)unit);
     for (uint32_t i = 0; i < cell->exit_count; i++) {
-        memset(me->set, 0, all->rows.words * sizeof *me->set);
-        sl_flood_through(all->space, all->options, &all->space->exits[cell->first_exit + i],
-                         me->set, me->stack);
-        for (size_t word = 0; word < all->rows.words; word++) row[word] |= me->set[word];
+        const uint32_t count = sl_flood_through(
+            all->space, all->options, &all->space->exits[cell->first_exit + i], me->set, me->found);
+        for (uint32_t k = 0; k < count; k++) {
+            sl_word_set_add(&me->row, me->found[k]);
+            me->set[me->found[k] / 64] = 0;
+        }
     }
+    SL_TRY(sl_bit_rows_add(context, &all->rows, (uint32_t)unit, &me->row));
+    sl_word_set_clear(&me->row);
     return sl_check_cancelled(context);
 }
 
 static sl_status flood_all(sl_context *context, flood *all, sl_visibility *out) {
-    SL_TRY(sl_bit_rows_create(context, all->space->cell_count, &all->rows));
+    SL_TRY(sl_bit_rows_create(context, all->space->cell_count, all->options, &all->rows));
     const sl_work work = {.job = all,
                           .begin = begin,
                           .unit = flood_unit,
@@ -100,7 +105,7 @@ static sl_status flood_all(sl_context *context, flood *all, sl_visibility *out) 
                           .stage = "cell_to_cell",
                           .units = "cells"};
     SL_TRY(sl_work_run(context, &work, all->space->cell_count, all->options->threads));
-    sl_bit_rows_mirror(&all->rows, SL_KEEP_MUTUAL);
+    SL_TRY(sl_bit_rows_mirror(context, &all->rows, SL_KEEP_MUTUAL));
     return sl_bit_rows_encode(context, &all->rows, out);
 }
 

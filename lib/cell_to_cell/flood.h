@@ -6,9 +6,9 @@
 #include "base/bits.h"
 #include "sightline/cell_to_cell.h"
 
-/// Adds to a set all cells that a sightline through the exit may reach: never misses one. `stack`:
-/// scratch, one a cell.
-void sl_flood_through(const sl_space *space, const sl_see_options *options, const sl_exit *exit,
-                      sl_bits *set, uint32_t *stack);
+/// Adds to an empty set all cells that a sightline through the exit may reach: never misses one.
+/// They are listed in `found`, which has room for all cells, and counted.
+uint32_t sl_flood_through(const sl_space *space, const sl_see_options *options, const sl_exit *exit,
+                          sl_bits *set, uint32_t *found);
 
 #endif

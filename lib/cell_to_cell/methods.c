@@ -4,8 +4,11 @@
 #include "base/base.h"
 
 sl_see_options sl_see_options_default(void) {
-    return (sl_see_options){
-        .sight = SL_CLOSED, .tree_bytes = UINT64_C(256) << 20, .seed = 1, .samples = 100};
+    return (sl_see_options){.sight = SL_CLOSED,
+                            .tree_bytes = UINT64_C(256) << 20,
+                            .seed = 1,
+                            .samples = 100,
+                            .row_bytes = UINT64_MAX};
 }
 
 void sl_visibility_destroy(sl_context *context, sl_visibility *visibility) {

@@ -114,6 +114,29 @@ sl_status sl_row_append(sl_context *context, sl_row_bytes *bytes, const sl_bits 
     }
 }
 
+sl_status sl_row_append_words(sl_context *context, sl_row_bytes *bytes, const sl_bits *words,
+                              const uint32_t *index, size_t count) {
+    uint64_t before = 0, first = 0, end = 0; // the end of the run before, and a run in the making
+    for (size_t i = 0; i < count; i++) {
+        const uint64_t base = 64 * (uint64_t)(index ? index[i] : i);
+        for (sl_bits left = words[i]; left;) {
+            const unsigned start = (unsigned)__builtin_ctzll(left);
+            const sl_bits beyond = ~(left >> start); // 0 where all 64 are there
+            const unsigned length = beyond ? (unsigned)__builtin_ctzll(beyond) : 64;
+            left = start + length < 64 ? left >> (start + length) << (start + length) : 0;
+            if (base + start != end && end > first) {
+                SL_TRY(append_run(context, bytes, (uint32_t)(first - before),
+                                  (uint32_t)(end - first)));
+                before = end;
+            }
+            if (base + start != end || end == first) first = base + start;
+            end = base + start + length;
+        }
+    }
+    if (end == first) return SL_OK;
+    return append_run(context, bytes, (uint32_t)(first - before), (uint32_t)(end - first));
+}
+
 void sl_row_add_to(const sl_pvs *pvs, uint32_t cell, sl_bits *set) {
     for (sl_pvs_run run = sl_pvs_begin(pvs, cell); sl_pvs_next(&run);)
         for (uint32_t i = run.first; i < run.end; i++) sl_bits_add(set, i);

@@ -13,6 +13,11 @@ typedef SL_ARRAY(uint8_t) sl_row_bytes;
 sl_status sl_row_append(sl_context *context, sl_row_bytes *bytes, const sl_bits *set,
                         uint32_t count);
 
+/// As sl_row_append, of a set of which only some words are there: words[i] is the set's word
+/// index[i], ascending, or its word i where `index` is NULL.
+sl_status sl_row_append_words(sl_context *context, sl_row_bytes *bytes, const sl_bits *words,
+                              const uint32_t *index, size_t count);
+
 /// Sets the bits of a row's members.
 void sl_row_add_to(const sl_pvs *pvs, uint32_t cell, sl_bits *set);
 

@@ -14,7 +14,7 @@ typedef struct sampling {
     const sl_space *space;
     const sl_see_options *options;
     pthread_mutex_t lock;
-    sl_bit_rows rows; ///< joined from the threads', under the lock
+    sl_bit_rows rows; ///< joined from the threads' forks, under the lock
 } sampling;
 
 /// One thread's own.
@@ -27,14 +27,8 @@ static void end(sl_context *context, void *job, void *state) {
     sampling *all = job;
     sampler *me = state;
     pthread_mutex_lock(&all->lock);
-    if (all->rows.bits) {
-        sl_bit_rows_join(&all->rows, &me->rows);
-    } else {
-        all->rows = me->rows;
-        me->rows = (sl_bit_rows){0};
-    }
+    sl_bit_rows_join(context, &all->rows, &me->rows);
     pthread_mutex_unlock(&all->lock);
-    sl_bit_rows_destroy(context, &me->rows);
     sl_free(context, me->way.items);
     sl_free(context, me);
 }
@@ -43,7 +37,7 @@ static sl_status begin(sl_context *context, void *job, void **state) {
     const sampling *all = job;
     sampler *me = sl_alloc_array(context, 1, sizeof *me);
     if (!me) return SL_NO_MEMORY;
-    const sl_status status = sl_bit_rows_create(context, all->space->cell_count, &me->rows);
+    const sl_status status = sl_bit_rows_fork(context, &all->rows, &me->rows);
     if (status == SL_OK)
         *state = me;
     else
@@ -99,7 +93,7 @@ static sl_status sample(sl_context *context, const sampling *all, sampler *me, u
     SL_TRY(walk(context, all, me, cell, (sl_line){b, a}));
     for (size_t i = 0; i < me->way.count; i++)
         for (size_t k = i; k < me->way.count; k++)
-            sl_bits_add(sl_bit_row(&me->rows, me->way.items[i]), me->way.items[k]);
+            SL_TRY(sl_bit_rows_add_one(context, &me->rows, me->way.items[i], me->way.items[k]));
     return SL_OK;
 }
 
@@ -108,11 +102,11 @@ static sl_status sample_unit(sl_context *context, void *job, void *state, size_t
     sampler *me = state;
     const sl_cell *cell = &all->space->cells[unit];
     if (all->options->inside_only && !cell->inside) return SL_OK;
-    sl_bits *row = sl_bit_row(&me->rows, (uint32_t)unit);
-    sl_bits_add(row, unit);
+    SL_TRY(sl_bit_rows_add_one(context, &me->rows, (uint32_t)unit, (uint32_t)unit));
     for (uint32_t i = 0; i < cell->exit_count; i++) {
         const uint32_t next = all->space->exits[cell->first_exit + i].cell;
-        if (!all->options->inside_only || all->space->cells[next].inside) sl_bits_add(row, next);
+        if (!all->options->inside_only || all->space->cells[next].inside)
+            SL_TRY(sl_bit_rows_add_one(context, &me->rows, (uint32_t)unit, next));
     }
     sl_random random = {all->options->seed + (uint64_t)unit * 0x9e3779b97f4a7c15u};
     random.state = sl_random_next(&random); // so that neighbours' numbers are not each other's
@@ -122,6 +116,7 @@ static sl_status sample_unit(sl_context *context, void *job, void *state, size_t
 }
 
 static sl_status sample_all(sl_context *context, sampling *all, sl_visibility *out) {
+    SL_TRY(sl_bit_rows_create(context, all->space->cell_count, all->options, &all->rows));
     const sl_work work = {.job = all,
                           .begin = begin,
                           .unit = sample_unit,
@@ -129,7 +124,7 @@ static sl_status sample_all(sl_context *context, sampling *all, sl_visibility *o
                           .stage = "cell_to_cell",
                           .units = "cells"};
     SL_TRY(sl_work_run(context, &work, all->space->cell_count, all->options->threads));
-    sl_bit_rows_mirror(&all->rows, SL_ADD_MIRRORED);
+    SL_TRY(sl_bit_rows_mirror(context, &all->rows, SL_ADD_MIRRORED));
     return sl_bit_rows_encode(context, &all->rows, out);
 }
 

@@ -47,15 +47,12 @@
 /// Fans that a thread takes at once.
 enum { FANS_AT_ONCE = 32 };
 
-/// The most bytes that rows take where more than one thread has its own.
-#define MOST_ROW_BYTES (UINT64_C(1) << 30)
-
 typedef struct sweep {
     const sl_space *space;
     const sl_see_options *options;
     sl_fans fans;
     pthread_mutex_t lock;
-    sl_bit_rows rows; ///< joined from the threads', under the lock
+    sl_bit_rows rows; ///< joined from the threads' forks, under the lock
     uint64_t pieces;
     uint32_t deepest;
 } sweep;
@@ -65,7 +62,7 @@ static sl_status begin(sl_context *context, void *job, void **state) {
     sl_sweeper *me = sl_alloc_array(context, 1, sizeof *me);
     if (!me) return SL_NO_MEMORY;
     const sl_status status =
-        sl_sweeper_create(context, &all->fans, all->options->sight == SL_CLOSED, me);
+        sl_sweeper_create(context, &all->fans, all->options->sight == SL_CLOSED, &all->rows, me);
     if (status == SL_OK) {
         *state = me;
         return SL_OK;
@@ -79,12 +76,7 @@ static void end(sl_context *context, void *job, void *state) {
     sweep *all = job;
     sl_sweeper *me = state;
     pthread_mutex_lock(&all->lock);
-    if (all->rows.bits) {
-        sl_bit_rows_join(&all->rows, &me->rows);
-    } else {
-        all->rows = me->rows;
-        me->rows = (sl_bit_rows){0};
-    }
+    sl_bit_rows_join(context, &all->rows, &me->rows);
     all->pieces += me->reacher.pieces;
     if (me->reacher.deepest > all->deepest) all->deepest = me->reacher.deepest;
     pthread_mutex_unlock(&all->lock);
@@ -101,26 +93,19 @@ static sl_status sweep_unit(sl_context *context, void *job, void *state, size_t 
 }
 
 /// Each cell sees itself, and through each of its portals the cell behind.
-static void add_neighbours(sweep *all) {
+static sl_status add_neighbours(sl_context *context, sweep *all) {
     for (uint32_t cell = 0; cell < all->space->cell_count; cell++) {
         if (all->options->inside_only && !all->space->cells[cell].inside) continue;
-        sl_bits *row = sl_bit_row(&all->rows, cell);
-        sl_bits_add(row, cell);
+        SL_TRY(sl_bit_rows_add_one(context, &all->rows, cell, cell));
         for (uint32_t e = all->fans.first_exit[cell]; e < all->fans.first_exit[cell + 1]; e++)
-            sl_bits_add(row, all->fans.exits[e].cell);
+            SL_TRY(sl_bit_rows_add_one(context, &all->rows, cell, all->fans.exits[e].cell));
     }
-}
-
-/// As many threads as are asked for, but fewer where their rows would take too much.
-static unsigned thread_count(const sweep *all) {
-    const uint64_t count = all->space->cell_count, bytes = count * ((count + 63) / 64 * 8);
-    const uint64_t fitting = bytes ? MOST_ROW_BYTES / bytes : UINT32_MAX;
-    const unsigned wanted = all->options->threads ? all->options->threads : sl_core_count();
-    return wanted <= fitting ? wanted : fitting ? (unsigned)fitting : 1;
+    return SL_OK;
 }
 
 static sl_status sweep_all(sl_context *context, sweep *all, sl_visibility *out) {
     SL_TRY(sl_fans_find(context, all->space, all->options, &all->fans));
+    SL_TRY(sl_bit_rows_create(context, all->space->cell_count, all->options, &all->rows));
     const sl_work work = {.job = all,
                           .begin = begin,
                           .unit = sweep_unit,
@@ -128,9 +113,9 @@ static sl_status sweep_all(sl_context *context, sweep *all, sl_visibility *out) 
                           .stage = "cell_to_cell",
                           .units = "corners"};
     const size_t units = (all->fans.fans.count + FANS_AT_ONCE - 1) / FANS_AT_ONCE;
-    SL_TRY(sl_work_run(context, &work, units, thread_count(all)));
-    add_neighbours(all);
-    sl_bit_rows_mirror(&all->rows, SL_ADD_MIRRORED);
+    SL_TRY(sl_work_run(context, &work, units, all->options->threads));
+    SL_TRY(add_neighbours(context, all));
+    SL_TRY(sl_bit_rows_mirror(context, &all->rows, SL_ADD_MIRRORED));
     out->account.pieces = all->pieces;
     out->account.deepest = all->deepest;
     return sl_bit_rows_encode(context, &all->rows, out);

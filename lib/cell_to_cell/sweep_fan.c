@@ -4,20 +4,16 @@
 
 #include "geometry/orient.h"
 
-#include <string.h>
-
-sl_status sl_sweeper_create(sl_context *context, const sl_fans *fans, bool closed, sl_sweeper *s) {
+sl_status sl_sweeper_create(sl_context *context, const sl_fans *fans, bool closed,
+                            const sl_bit_rows *rows, sl_sweeper *s) {
     *s = (sl_sweeper){.fans = fans, .closed = closed};
-    SL_TRY(sl_bit_rows_create(context, fans->cell_count, &s->rows));
     SL_TRY(sl_reacher_create(context, fans, closed, &s->reacher));
-    s->behind.bits = sl_alloc_array(context, s->rows.words, sizeof *s->behind.bits);
-    s->before.bits = sl_alloc_array(context, s->rows.words, sizeof *s->before.bits);
-    s->behind.low = s->before.low = SIZE_MAX;
-    return s->behind.bits && s->before.bits ? SL_OK : SL_NO_MEMORY;
+    SL_TRY(sl_word_set_create(context, fans->cell_count, &s->behind));
+    SL_TRY(sl_word_set_create(context, fans->cell_count, &s->before));
+    return sl_bit_rows_fork(context, rows, &s->rows);
 }
 
 void sl_sweeper_destroy(sl_context *context, sl_sweeper *s) {
-    sl_bit_rows_destroy(context, &s->rows);
     sl_reacher_destroy(context, &s->reacher);
     sl_reach_destroy(context, &s->back);
     sl_reach_destroy(context, &s->middle);
@@ -25,29 +21,9 @@ void sl_sweeper_destroy(sl_context *context, sl_sweeper *s) {
     sl_rays_destroy(context, &s->rays);
     sl_free(context, s->rays_of.items);
     sl_free(context, s->passing.items);
-    sl_free(context, s->behind.bits);
-    sl_free(context, s->before.bits);
+    sl_word_set_destroy(context, &s->behind);
+    sl_word_set_destroy(context, &s->before);
     *s = (sl_sweeper){0};
-}
-
-void sl_word_set_add(sl_word_set *set, uint32_t cell) {
-    const size_t word = cell / 64;
-    sl_bits_add(set->bits, cell);
-    if (word < set->low) set->low = word;
-    if (word >= set->high) set->high = word + 1;
-}
-
-void sl_word_set_clear(sl_word_set *set) {
-    if (set->low < set->high)
-        memset(set->bits + set->low, 0, (set->high - set->low) * sizeof *set->bits);
-    set->low = SIZE_MAX;
-    set->high = 0;
-}
-
-void sl_sweep_add(sl_sweeper *s, uint32_t cell, const sl_word_set *set) {
-    sl_bits *restrict row = sl_bit_row(&s->rows, cell);
-    const sl_bits *restrict from = set->bits;
-    for (size_t i = set->low; i < set->high; i++) row[i] |= from[i];
 }
 
 // --- three parts of a fan
@@ -193,7 +169,7 @@ static void add_rays_beside(const sl_sweeper *s, const sl_fan *fan, uint32_t k, 
 }
 
 /// What the turning line does not join with a cell of the fan anyway: see sl_sweep_turn.
-static void serve(sl_sweeper *s, const sl_fan *fan) {
+static sl_status serve(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     const sl_fan_cell *cells = s->fans->cells.items + fan->first;
     for (uint32_t k = 0; k < fan->count; k++) {
         if (!cells[k].served) continue;
@@ -202,9 +178,10 @@ static void serve(sl_sweeper *s, const sl_fan *fan) {
         if (fan->wide && cells[k].past_half <= 0) add_reach(set, &s->back);
         if (fan->wide && cells[k + 1].past_rest >= 0) add_reach(set, &s->ahead);
         if (s->closed) add_rays_beside(s, fan, k, set);
-        sl_sweep_add(s, cells[k].cell, set);
+        SL_TRY(sl_bit_rows_add(context, &s->rows, cells[k].cell, set));
         sl_word_set_clear(set);
     }
+    return SL_OK;
 }
 
 sl_status sl_sweep_fan(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
@@ -221,6 +198,6 @@ sl_status sl_sweep_fan(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     }
     if (fan->serves && !fan->back_to_back) SL_TRY(reach_middle(context, s, fan));
     if (s->closed && fan->serves) SL_TRY(add_other_rays(context, s, fan));
-    if (fan->serves) serve(s, fan);
+    if (fan->serves) SL_TRY(serve(context, s, fan));
     return fan->wide ? sl_sweep_turn(context, s, fan) : SL_OK;
 }

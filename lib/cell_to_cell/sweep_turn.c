@@ -3,8 +3,6 @@
 /// sees at that moment.
 #include "cell_to_cell/sweep.h"
 
-#include <string.h>
-
 /// One half of the line.
 typedef struct half {
     const sl_reach *reach;
@@ -15,10 +13,6 @@ typedef struct half {
     bool touched_stay; ///< touched cells, once entered, are so to the end
 } half;
 
-static void drop(sl_word_set *set, uint32_t cell) {
-    set->bits[cell / 64] &= ~((sl_bits)1 << (cell % 64));
-}
-
 static void enter(half *h, int8_t level) {
     const sl_reached *cells = h->reach->cells.items;
     for (uint32_t i = h->cursor; i < h->reach->cells.count && cells[i].enter == h->turn; i++)
@@ -26,17 +20,20 @@ static void enter(half *h, int8_t level) {
 }
 
 /// Adds to the rows of what `h` has come to see all that the other half sees.
-static void join(sl_sweeper *s, const half *h, const half *other, int8_t level) {
+static sl_status join(sl_context *context, sl_sweeper *s, const half *h, const half *other,
+                      int8_t level) {
     const sl_reached *cells = h->reach->cells.items;
     for (uint32_t i = h->cursor; i < h->reach->cells.count && cells[i].enter == h->turn; i++)
-        if (cells[i].enter_level == level) sl_sweep_add(s, cells[i].cell, other->seen);
+        if (cells[i].enter_level == level)
+            SL_TRY(sl_bit_rows_add(context, &s->rows, cells[i].cell, other->seen));
+    return SL_OK;
 }
 
 static void leave(half *h, int8_t level) {
     const sl_reached *cells = h->reach->cells.items;
     for (uint32_t i = h->reach->turns.items[h->turn].leave; i != UINT32_MAX; i = cells[i].next)
         if (cells[i].leave_level == level && !(cells[i].touched && h->touched_stay))
-            drop(h->seen, cells[i].cell);
+            sl_word_set_drop(h->seen, cells[i].cell);
 }
 
 static void advance(half *h) {
@@ -78,29 +75,32 @@ static sl_status at_level(sl_context *context, sl_sweeper *s, half *halves[2], i
     // At one level only one of the halves has rays.
     const int with_ray = halves[0]->ray_level == level ? 0 : 1;
     SL_TRY(pass_ray(context, s, halves[with_ray], level));
-    for (int i = 0; i < 2; i++) join(s, halves[i], halves[!i], level);
+    for (int i = 0; i < 2; i++) SL_TRY(join(context, s, halves[i], halves[!i], level));
     for (size_t i = 0; i < s->passing.count; i++)
-        sl_sweep_add(s, s->passing.items[i], halves[!with_ray]->seen);
-    for (size_t i = 0; i < s->passing.count; i++) drop(halves[with_ray]->seen, s->passing.items[i]);
+        SL_TRY(sl_bit_rows_add(context, &s->rows, s->passing.items[i], halves[!with_ray]->seen));
+    for (size_t i = 0; i < s->passing.count; i++)
+        sl_word_set_drop(halves[with_ray]->seen, s->passing.items[i]);
     for (int i = 0; i < 2; i++) leave(halves[i], level);
     return SL_OK;
 }
 
 /// A moment of one half alone. What the other half sees does not change in it, so that levels make
 /// no difference.
-static void at_turn(sl_sweeper *s, half *h, const half *other) {
+static sl_status at_turn(sl_context *context, sl_sweeper *s, half *h, const half *other) {
     const sl_reached *cells = h->reach->cells.items;
     for (; h->cursor < h->reach->cells.count && cells[h->cursor].enter == h->turn; h->cursor++) {
         sl_word_set_add(h->seen, cells[h->cursor].cell);
-        sl_sweep_add(s, cells[h->cursor].cell, other->seen);
+        SL_TRY(sl_bit_rows_add(context, &s->rows, cells[h->cursor].cell, other->seen));
     }
     const uint32_t *passing;
     uint32_t count;
     ray_of(s, h, h->ray_level, &passing, &count);
-    for (uint32_t i = 0; i < count; i++) sl_sweep_add(s, passing[i], other->seen);
+    for (uint32_t i = 0; i < count; i++)
+        SL_TRY(sl_bit_rows_add(context, &s->rows, passing[i], other->seen));
     for (uint32_t i = h->reach->turns.items[h->turn].leave; i != UINT32_MAX; i = cells[i].next)
-        if (!(cells[i].touched && h->touched_stay)) drop(h->seen, cells[i].cell);
+        if (!(cells[i].touched && h->touched_stay)) sl_word_set_drop(h->seen, cells[i].cell);
     h->turn++;
+    return SL_OK;
 }
 
 /// A moment of both halves.
@@ -151,9 +151,9 @@ sl_status sl_sweep_turn(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
                               : sl_turns_compare(fan->at, first, &s->back.turns.items[back.turn],
                                                  &s->ahead.turns.items[ahead.turn]);
         if (order < 0)
-            at_turn(s, &back, &ahead);
+            status = at_turn(context, s, &back, &ahead);
         else if (order > 0)
-            at_turn(s, &ahead, &back);
+            status = at_turn(context, s, &ahead, &back);
         else
             status = at_both_turns(context, s, halves);
     }

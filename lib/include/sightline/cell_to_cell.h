@@ -50,6 +50,10 @@ typedef struct sl_visibility {
 SL_API void sl_visibility_destroy(sl_context *context,
                                   sl_visibility *visibility); ///< and zeroes it
 
+/// How methods keep what they have found so far: all bits of a row, or the words that have any.
+/// Which it is makes no difference to the result.
+typedef enum sl_row_storage { SL_ROWS_BY_SIZE, SL_ROWS_DENSE, SL_ROWS_SPARSE } sl_row_storage;
+
 /// Start from sl_see_options_default().
 typedef struct sl_see_options {
     sl_sight sight;
@@ -60,6 +64,8 @@ typedef struct sl_see_options {
     bool inside_only;        ///< look from and at inside cells only; other rows are empty
     uint64_t seed;           ///< of methods that draw at random
     uint32_t samples;        ///< lines that "sampling" draws from each cell
+    sl_row_storage rows;     ///< of methods that keep rows of bits: "sweep", "flood", "sampling"
+    uint64_t row_bytes; ///< limit on memory for sparse rows; beyond it they fail (SL_NO_MEMORY)
 } sl_see_options;
 
 SL_API sl_see_options sl_see_options_default(void);
