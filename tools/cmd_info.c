@@ -38,7 +38,7 @@ typedef struct map_count {
     size_t count;
 } map_count;
 
-enum { MAP_COUNTS = 8 };
+enum { MAP_COUNTS = 9 };
 
 static size_t count_lines(const char *text) {
     size_t lines = 0;
@@ -53,10 +53,11 @@ static void count_map(const sl_map *map, map_count counts[MAP_COUNTS]) {
     size_t open = 0;
     for (size_t i = 0; i < map->door_count; i++) open += map->doors[i].open;
     const map_count all[MAP_COUNTS] = {
-        {"doors", map->door_count},     {"open_doors", open},
-        {"mirrors", map->mirror_count}, {"oneways", map->oneway_count},
-        {"starts", map->start_count},   {"paths", map->path_count},
-        {"objects", map->object_count}, {"notices", count_lines(map->notes)},
+        {"doors", map->door_count},           {"open_doors", open},
+        {"mirrors", map->mirror_count},       {"oneways", map->oneway_count},
+        {"seams", map->seam_count},           {"starts", map->start_count},
+        {"paths", map->path_count},           {"objects", map->object_count},
+        {"notices", count_lines(map->notes)},
     };
     memcpy(counts, all, sizeof all);
 }

@@ -43,16 +43,17 @@ typedef struct sl_slv_info {
 
 /// The other sections: NODE, CELL, VERT, PORT, EXIT hold the arrays of sl_space item by item, WALL
 /// its walls as segments, LINE the lines of oblique splits (only if there are any), BEYO what is
-/// beyond the cells' sides (only for a BSP); PVSO and PVSB are the offsets and bytes of the visible
-/// sets, DBTO and DBTB those of the doubtful pairs (only if there are any), TREO and TREN the
-/// offsets and nodes of the stab trees (only if asked for); MAPT is what the map holds beside its
-/// walls, as map text.
+/// beyond the cells' sides (only for a BSP), SEAM the seams and SEPO the portals on them (only if
+/// there are any); PVSO and PVSB are the offsets and bytes of the visible sets, DBTO and DBTB those
+/// of the doubtful pairs (only if there are any), TREO and TREN the offsets and nodes of the stab
+/// trees (only if asked for); MAPT is what the map holds beside its walls, as map text.
 _Static_assert(sizeof(sl_slv_header) == 32 && sizeof(sl_slv_section) == 24 &&
                    sizeof(sl_slv_info) == 128,
                "no padding in the file");
 _Static_assert(sizeof(sl_node) == 24 && sizeof(sl_cell) == 24 && sizeof(sl_point) == 16 &&
                    sizeof(sl_portal) == 40 && sizeof(sl_exit) == 40 && sizeof(sl_segment) == 32 &&
-                   sizeof(sl_stab_node) == 12,
+                   sizeof(sl_stab_node) == 12 && sizeof(sl_seam) == 40 &&
+                   sizeof(sl_seam_portal) == 12,
                "no padding in the file");
 
 /// Whether it is letters, digits and dashes, zeros behind: nothing that plays tricks on a terminal.

@@ -175,6 +175,32 @@ static sl_status load_walls(const reader *r) {
     return status;
 }
 
+static sl_status load_seams(const reader *r) {
+    sl_space *s = &r->out->space;
+    uint64_t seams, portals;
+    SL_TRY(load(r, "SEAM", sizeof *s->seams, true, (void **)&s->seams, &seams));
+    SL_TRY(load(r, "SEPO", sizeof *s->seam_portals, true, (void **)&s->seam_portals, &portals));
+    if (seams > INT32_MAX || portals > UINT32_MAX)
+        return fail_file(r, "damaged: section SEAM or SEPO is too long");
+    s->seam_count = (uint32_t)seams;
+    s->seam_portal_count = (uint32_t)portals;
+    return SL_OK;
+}
+
+/// Each seam must be of something that the map has.
+static sl_status check_seams(const reader *r) {
+    const sl_baked *b = r->out;
+    for (uint32_t i = 0; i < b->space.seam_count; i++) {
+        const sl_seam *seam = &b->space.seams[i];
+        const size_t most = seam->kind == SL_SEAM_DOOR     ? b->map.door_count
+                            : seam->kind == SL_SEAM_ONEWAY ? b->map.oneway_count
+                                                           : b->map.seam_count;
+        if (seam->number >= most)
+            return sl_fail_at(r->context, r->name, 0, "damaged: seam %u is of nothing", i);
+    }
+    return SL_OK;
+}
+
 static sl_status load_space(const reader *r) {
     sl_space *s = &r->out->space;
     SL_TRY(load_counted(r, "NODE", sizeof *s->nodes, (void **)&s->nodes, &s->node_count));
@@ -186,6 +212,7 @@ static sl_status load_space(const reader *r) {
     uint64_t lines, sides;
     SL_TRY(load(r, "LINE", sizeof *s->lines, true, (void **)&s->lines, &lines));
     SL_TRY(load(r, "BEYO", sizeof *s->beyond, true, (void **)&s->beyond, &sides));
+    SL_TRY(load_seams(r));
     if (lines > INT32_MAX) return fail_file(r, "damaged: section LINE is too long");
     if (s->beyond && sides != s->vertex_count)
         return fail_file(r, "damaged: section BEYO does not tell of each side");
@@ -281,7 +308,8 @@ static sl_status load_all(reader *r) {
         count_pairs(&visibility->doubtful) != visibility->account.doubtful_pairs)
         return fail_file(r, "damaged: the visible sets do not hold as many pairs as they should");
     SL_TRY(load_trees(r));
-    return load_map(r);
+    SL_TRY(load_map(r));
+    return check_seams(r);
 }
 
 sl_status sl_baked_parse(sl_context *context, const char *name, const void *bytes, size_t size,

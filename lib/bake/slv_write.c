@@ -6,7 +6,7 @@
 #include <string.h>
 #include <zlib.h>
 
-enum { MOST_SECTIONS = 16 };
+enum { MOST_SECTIONS = 24 };
 
 /// A file made ready: what goes into each section, still where it lies.
 typedef struct plan {
@@ -97,6 +97,11 @@ static void add_sections(plan *p, const sl_baked *baked, const sl_slv_info *info
         add_section(p, "LINE", space->lines, sizeof *space->lines, space->line_count);
     if (space->beyond)
         add_section(p, "BEYO", space->beyond, sizeof *space->beyond, space->vertex_count);
+    if (space->seam_count)
+        add_section(p, "SEAM", space->seams, sizeof *space->seams, space->seam_count);
+    if (space->seam_portal_count)
+        add_section(p, "SEPO", space->seam_portals, sizeof *space->seam_portals,
+                    space->seam_portal_count);
     add_pvs(p, "PVSO", "PVSB", &baked->visibility.pvs);
     if (baked->visibility.account.doubtful_pairs)
         add_pvs(p, "DBTO", "DBTB", &baked->visibility.doubtful);

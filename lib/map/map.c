@@ -47,6 +47,7 @@ void sl_map_destroy(sl_context *context, sl_map *map) {
     sl_free(context, map->doors);
     sl_free(context, map->mirrors);
     sl_free(context, map->oneways);
+    sl_free(context, map->seams);
     sl_free(context, map->starts);
     sl_free(context, map->paths);
     sl_free(context, map->objects);
@@ -109,6 +110,13 @@ sl_status sl_map_add_oneway(sl_context *context, sl_map *map, sl_segment at, uin
     SL_TRY(check_ends(context, "oneway", at.a, at.b));
     SL_TRY(MAP_ROOM(context, map, oneways, oneway));
     map->oneways[map->oneway_count++] = (sl_glass){.segment = at, .line = line};
+    return SL_OK;
+}
+
+sl_status sl_map_add_seam(sl_context *context, sl_map *map, sl_segment at, uint32_t line) {
+    SL_TRY(check_ends(context, "seam", at.a, at.b));
+    SL_TRY(MAP_ROOM(context, map, seams, seam));
+    map->seams[map->seam_count++] = (sl_glass){.segment = at, .line = line};
     return SL_OK;
 }
 
@@ -197,6 +205,7 @@ sl_box sl_map_bounds(const sl_map *map) {
         grow_segment(&box, &any, map->mirrors[i].segment);
     for (size_t i = 0; i < map->oneway_count; i++)
         grow_segment(&box, &any, map->oneways[i].segment);
+    for (size_t i = 0; i < map->seam_count; i++) grow_segment(&box, &any, map->seams[i].segment);
     for (size_t i = 0; i < map->start_count; i++) grow(&box, &any, map->starts[i].at);
     for (size_t i = 0; i < map->path_count; i++)
         for (size_t k = 0; k < map->paths[i].count; k++) grow(&box, &any, map->paths[i].points[k]);

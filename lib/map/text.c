@@ -63,6 +63,11 @@ static sl_status read_oneway(text_reader *reader) {
     return sl_map_add_oneway(reader->context, reader->map, segment_of(reader), reader->line);
 }
 
+static sl_status read_seam(text_reader *reader) {
+    SL_TRY(refuse_no_length(reader, "seam"));
+    return sl_map_add_seam(reader->context, reader->map, segment_of(reader), reader->line);
+}
+
 static sl_status read_range(text_reader *reader) {
     if (reader->map->range > 0)
         return sl_fail_at(reader->context, reader->name, reader->line,
@@ -124,6 +129,7 @@ static const statement statements[] = {
     {"door", "door NAME x0 y0 x1 y1 open|shut", true, 4, 5, 4, read_door},
     {"mirror", "mirror x0 y0 x1 y1", false, 4, 4, 4, read_mirror},
     {"oneway", "oneway x0 y0 x1 y1", false, 4, 4, 4, read_oneway},
+    {"seam", "seam x0 y0 x1 y1", false, 4, 4, 4, read_seam},
     {"range", "range r", false, 1, 1, 1, read_range},
     {"start", "start x y heading", false, 3, 3, 2, read_start},
     {"path", "path NAME x y ...", true, 2, ANY, ANY, read_path},
@@ -197,7 +203,7 @@ static sl_status read_statement(text_reader *reader) {
     if (!row)
         return sl_fail_at(reader->context, reader->name, reader->line,
                           "unknown statement '%s': expected wall, walls, door, mirror, oneway, "
-                          "range, start, path or object",
+                          "seam, range, start, path or object",
                           sl_show(word).text);
     memmove(reader->words.items, reader->words.items + 1, --reader->words.count * sizeof(sl_word));
     const sl_status status = read_by(reader, row);
@@ -316,6 +322,11 @@ static void print_others(const sl_map *map, FILE *stream) {
     for (size_t i = 0; i < map->oneway_count; i++) {
         fprintf(stream, "oneway");
         print_ends(stream, map->oneways[i].segment.a, map->oneways[i].segment.b);
+        fprintf(stream, "\n");
+    }
+    for (size_t i = 0; i < map->seam_count; i++) {
+        fprintf(stream, "seam");
+        print_ends(stream, map->seams[i].segment.a, map->seams[i].segment.b);
         fprintf(stream, "\n");
     }
     for (size_t i = 0; i < map->start_count; i++) {

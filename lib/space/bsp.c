@@ -6,7 +6,6 @@
 #include "space/kd_tree.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -71,8 +70,8 @@ static sl_status add_border_side(sl_bsp *bsp, sl_bsp_face *face, int number, con
 
 static sl_status add_border(sl_bsp *bsp, sl_bsp_face *face, int number, cover *covers) {
     size_t count = 0;
-    for (size_t i = 0; i < bsp->map->wall_count; i++) {
-        const sl_wall *wall = &bsp->map->walls[i];
+    for (size_t i = 0; i < bsp->wall_count; i++) {
+        const sl_wall *wall = &bsp->walls[i];
         if (!is_on_border(&bsp->bounds, number, wall->a) ||
             !is_on_border(&bsp->bounds, number, wall->b))
             continue;
@@ -91,16 +90,16 @@ static sl_status make_first_face(sl_bsp *bsp) {
     bsp->root = ~0;
     SL_TRY(SL_ARRAY_ROOM(bsp->context, &face->places, 1));
     face->places.items[face->places.count++] = (sl_bsp_spot){.node = -1};
-    cover *covers = sl_alloc_array(bsp->context, bsp->map->wall_count, sizeof *covers);
+    cover *covers = sl_alloc_array(bsp->context, bsp->wall_count, sizeof *covers);
     if (!covers) return SL_NO_MEMORY;
     sl_status status = SL_OK;
     for (int number = 0; number < 4 && status == SL_OK; number++)
         status = add_border(bsp, face, number, covers);
     sl_free(bsp->context, covers);
     SL_TRY(status);
-    SL_TRY(SL_ARRAY_ROOM(bsp->context, &face->walls, bsp->map->wall_count));
-    for (size_t i = 0; i < bsp->map->wall_count; i++) {
-        const sl_wall *wall = &bsp->map->walls[i];
+    SL_TRY(SL_ARRAY_ROOM(bsp->context, &face->walls, bsp->wall_count));
+    for (size_t i = 0; i < bsp->wall_count; i++) {
+        const sl_wall *wall = &bsp->walls[i];
         size_t along;
         if (!sl_same_point(wall->a, wall->b) && sl_bsp_hits(&face->sides, wall, &along))
             face->walls.items[face->walls.count++] = (uint32_t)i;
@@ -121,7 +120,6 @@ static void forget_passages(sl_bsp *bsp) {
 /// A face too small for a wall to be put in does without: where faces are of the size of rounding,
 /// sight may be added.
 static void leave_out(sl_bsp_face *face, uint32_t wall) {
-    printf("LEAVE %u\n", wall);
     size_t kept = 0;
     for (size_t i = 0; i < face->walls.count; i++)
         if (face->walls.items[i] != wall) face->walls.items[kept++] = face->walls.items[i];
@@ -131,25 +129,13 @@ static void leave_out(sl_bsp_face *face, uint32_t wall) {
 static sl_status put_in(sl_bsp *bsp, uint32_t face, uint32_t wall) {
     const size_t nodes = bsp->nodes.count, lines = bsp->lines.count;
     bool done = false, more = true;
-    if (getenv("BSPDBG"))
-        printf("put %u in face %u (%zu sides, %zu walls)\n", wall, face,
-               bsp->faces.items[face].sides.count, bsp->faces.items[face].walls.count);
     SL_TRY(sl_bsp_trace(bsp, face, wall));
-    if (getenv("BSPDBG"))
-        for (size_t i = 0; i < bsp->passages.count; i++)
-            printf("  passage face %u entry side %zu corner %d walled %d passes %d touches %d exit "
-                   "side %zu corner %d walled %d passes %d touches %d stops %zu\n",
-                   bsp->passages.items[i].face, bsp->passages.items[i].entry.side,
-                   bsp->passages.items[i].entry.at_corner, bsp->passages.items[i].entry.walled,
-                   bsp->passages.items[i].entry.passes, bsp->passages.items[i].entry.touches,
-                   bsp->passages.items[i].exit.side, bsp->passages.items[i].exit.at_corner,
-                   bsp->passages.items[i].exit.walled, bsp->passages.items[i].exit.passes,
-                   bsp->passages.items[i].exit.touches, bsp->passages.items[i].stop_count);
     while (!done && more) {
         sl_bsp_drop_pieces(bsp);
         bsp->nodes.count = nodes;
         bsp->lines.count = lines;
         sl_bsp_place(bsp);
+        if (bsp->unplaced) break;
         SL_TRY(sl_bsp_make_pieces(bsp, &done));
         if (!done) more = sl_bsp_try_farther(bsp);
     }
@@ -158,6 +144,7 @@ static sl_status put_in(sl_bsp *bsp, uint32_t face, uint32_t wall) {
         bsp->lines.count = lines;
         forget_passages(bsp);
         leave_out(&bsp->faces.items[face], wall);
+        bsp->seams_left_out += sl_bsp_is_seam(bsp, wall);
         return SL_OK;
     }
     SL_TRY(sl_bsp_replace_faces(bsp));
@@ -167,8 +154,7 @@ static sl_status put_in(sl_bsp *bsp, uint32_t face, uint32_t wall) {
     return SL_OK;
 }
 
-static sl_status split_all(sl_bsp *bsp) {
-    SL_TRY(make_first_face(bsp));
+static sl_status split_waiting(sl_bsp *bsp) {
     while (bsp->waiting.count) {
         const uint32_t number = bsp->waiting.items[--bsp->waiting.count];
         const sl_bsp_face *face = &bsp->faces.items[number];
@@ -182,6 +168,14 @@ static sl_status split_all(sl_bsp *bsp) {
         }
     }
     return SL_OK;
+}
+
+static sl_status split_all(sl_bsp *bsp, size_t seam_count) {
+    SL_TRY(make_first_face(bsp));
+    SL_TRY(split_waiting(bsp));
+    if (!seam_count) return SL_OK;
+    SL_TRY(sl_bsp_deal_seams(bsp, seam_count));
+    return split_waiting(bsp);
 }
 
 static void destroy(sl_bsp *bsp) {
@@ -205,6 +199,41 @@ static void destroy(sl_bsp *bsp) {
     sl_free(bsp->context, bsp->signs.items);
 }
 
+/// The map's walls, and the parts of its seams behind them.
+static sl_status gather_walls(sl_context *context, const sl_map *map, const sl_seam_parts *seams,
+                              sl_wall **out) {
+    const size_t count = map->wall_count + seams->parts.count;
+    if (count >= INT32_MAX - 1) return sl_fail_memory(context);
+    sl_wall *walls = sl_alloc_array(context, count, sizeof *walls);
+    if (!walls) return SL_NO_MEMORY;
+    memcpy(walls, map->walls, map->wall_count * sizeof *walls);
+    for (size_t i = 0; i < seams->parts.count; i++)
+        walls[map->wall_count + i] =
+            (sl_wall){.a = seams->parts.items[i].a, .b = seams->parts.items[i].b};
+    *out = walls;
+    return SL_OK;
+}
+
+static sl_status subdivide(sl_context *context, const sl_map *map, const sl_bsp_options *options,
+                           const sl_seam_parts *seams, sl_space *space) {
+    sl_wall *walls = NULL;
+    if (seams->parts.count) SL_TRY(gather_walls(context, map, seams, &walls));
+    sl_bsp bsp = {.context = context,
+                  .walls = walls ? walls : map->walls,
+                  .wall_count = (uint32_t)map->wall_count,
+                  .options = options,
+                  .bounds = space->bounds};
+    sl_status status = split_all(&bsp, seams->parts.count);
+    if (status == SL_OK) status = sl_bsp_make_space(&bsp, seams, space);
+    if (status == SL_OK) status = sl_mark_inside(context, map, NULL, space);
+    if (status == SL_OK && bsp.seams_left_out)
+        sl_note(context, "rounding left no room for a seam in %zu cells: they are seen across",
+                bsp.seams_left_out);
+    destroy(&bsp);
+    sl_free(context, walls);
+    return status;
+}
+
 static bool is_weight(double value) {
     return value >= 0 && isfinite(value);
 }
@@ -220,15 +249,12 @@ sl_status sl_subdivide_bsp(sl_context *context, const sl_map *map, const sl_bsp_
     if (!map->wall_count)
         return sl_fail_at(context, source, 0, "the map has no walls: nothing to subdivide");
     if (map->wall_count >= INT32_MAX - 1) return sl_fail_memory(context);
-    sl_bsp bsp = {.context = context,
-                  .map = map,
-                  .options = options,
-                  .bounds = sl_padded(sl_map_bounds(map))};
-    sl_space space = {.bounds = bsp.bounds};
-    sl_status status = split_all(&bsp);
-    if (status == SL_OK) status = sl_bsp_make_space(&bsp, &space);
-    if (status == SL_OK) status = sl_mark_inside(context, map, NULL, &space);
-    destroy(&bsp);
+    sl_space space = {.bounds = sl_padded(sl_map_bounds(map))};
+    sl_seam_parts seams = {0};
+    sl_status status = sl_seams_of_map(context, map, false, &space);
+    if (status == SL_OK && space.seam_count) status = sl_seams_part(context, &space, &seams);
+    if (status == SL_OK) status = subdivide(context, map, options, &seams, &space);
+    sl_seam_parts_destroy(context, &seams);
     if (status == SL_OK) {
         sl_report(context, "subdivide", "cells", space.cell_count, space.cell_count);
         *out = space;

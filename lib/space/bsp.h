@@ -11,6 +11,7 @@
 #include "base/base.h"
 #include "geometry/orient.h"
 #include "sightline/space.h"
+#include "space/seams.h"
 
 #define SL_NO_FACE UINT32_MAX
 
@@ -20,7 +21,8 @@ typedef struct sl_bsp_side {
     uint32_t what;   ///< a wall, SL_BEYOND_EXIT or SL_BEYOND_BORDER
     uint32_t beyond; ///< the face behind a portal; SL_NO_FACE while it is not known, and for others
     uint32_t joint;  ///< the same for both sides of a portal that is new; 0 for others
-    bool reversed;   ///< a wall's side that runs from the wall's b to its a
+    uint32_t seam : 31;    ///< what part of the seams a portal lies on: 1 + its number; 0 for none
+    uint32_t reversed : 1; ///< a wall's side that runs from the wall's b to its a
 } sl_bsp_side;
 
 typedef SL_ARRAY(sl_bsp_side) sl_bsp_sides;
@@ -96,7 +98,8 @@ typedef struct sl_bsp_along {
 
 typedef struct sl_bsp {
     sl_context *context;
-    const sl_map *map;
+    const sl_wall *walls; ///< the map's, and behind them the parts of its seams
+    uint32_t wall_count;  ///< of the map's
     const sl_bsp_options *options;
     sl_box bounds;
     SL_ARRAY(sl_bsp_face) faces;
@@ -113,6 +116,8 @@ typedef struct sl_bsp {
     sl_bsp_walls on_line; ///< walls on the line in the face at hand
     SL_ARRAY(sl_bsp_along) along;
     SL_ARRAY(int8_t) signs;
+    size_t seams_left_out;   ///< in how many cells
+    bool unplaced;           ///< a seam has nowhere to pass
     bool placed;             ///< the pieces' sides are the faces' already
     uint32_t failed_passage; ///< where a piece cannot be made convex
     bool failed_left;
@@ -120,6 +125,16 @@ typedef struct sl_bsp {
 
 /// After so many failures, corners within a wall are left out.
 #define SL_BSP_PATIENCE 4
+
+/// Whether a number, of a wall or of what is on the line, is that of a part of a seam. A seam is
+/// put in as a wall is, but its sides are portals.
+static inline bool sl_bsp_is_seam(const sl_bsp *bsp, uint32_t what) {
+    return what >= bsp->wall_count && what < SL_BEYOND_BORDER;
+}
+
+static inline bool sl_bsp_is_wall(const sl_bsp *bsp, uint32_t what) {
+    return what < bsp->wall_count;
+}
 
 // --- faces (bsp_face.c)
 
@@ -164,6 +179,10 @@ sl_status sl_bsp_replace_faces(sl_bsp *bsp);
 /// Gives the pieces the walls that the faces had inside (bsp_walls.c).
 sl_status sl_bsp_deal_walls(sl_bsp *bsp);
 
+/// Gives all faces the parts of the seams that they have inside, when the walls are in, and marks
+/// the portals on parts (bsp_walls.c).
+sl_status sl_bsp_deal_seams(sl_bsp *bsp, size_t count);
+
 /// The side of a face that runs from one point to another and leads to `beyond`; SIZE_MAX for none.
 size_t sl_bsp_find_side(const sl_bsp_face *face, sl_point from, sl_point to, uint32_t beyond);
 /// Puts a corner into a side: what is behind it becomes a side of its own.
@@ -180,8 +199,8 @@ static inline double sl_bsp_key(const sl_bsp *bsp, sl_point p) {
 /// The wall of a face whose line is the split of least cost (bsp_choose.c).
 uint32_t sl_bsp_choose(const sl_bsp *bsp, const sl_bsp_face *face);
 
-/// Makes a space of the faces (bsp_space.c).
-sl_status sl_bsp_make_space(sl_bsp *bsp, sl_space *out);
+/// Makes a space of the faces, the seams told of its portals (bsp_space.c).
+sl_status sl_bsp_make_space(sl_bsp *bsp, const sl_seam_parts *seams, sl_space *out);
 
 /// The check of a space that tells its sides, of which counts and bounds are checked (check_bsp.c).
 sl_status sl_check_bsp(sl_context *context, const sl_space *space);

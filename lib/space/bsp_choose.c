@@ -49,7 +49,7 @@ static double cost(const sl_bsp *bsp, const sl_bsp_face *face, const sl_wall *li
     size_t weighed = 0;
     clip(face, line, &s);
     for (size_t i = 0; i < face->walls.count; i += step, weighed++)
-        weigh_wall(line, &bsp->map->walls[face->walls.items[i]], &s);
+        weigh_wall(line, &bsp->walls[face->walls.items[i]], &s);
     const double all = (double)weighed;
     const double unequal = fabs((double)s.left - (double)s.right) / all;
     const double obscured = s.high > s.low ? fmin(1, s.covered / (s.high - s.low)) : 1;
@@ -63,7 +63,7 @@ uint32_t sl_bsp_choose(const sl_bsp *bsp, const sl_bsp_face *face) {
     double least = INFINITY;
     for (size_t i = 0; i < (count < tried ? count : tried); i++) {
         const size_t k = count <= tried ? i : (size_t)((double)i * (double)count / (double)tried);
-        const double c = cost(bsp, face, &bsp->map->walls[face->walls.items[k]]);
+        const double c = cost(bsp, face, &bsp->walls[face->walls.items[k]]);
         if (c >= least) continue;
         least = c;
         best = k;

@@ -2,10 +2,6 @@
 /// further where they are not convex, with the nodes that lead to them.
 #include "space/bsp.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 // --- joints
 
 /// The part of a passage's line before its k-th stop.
@@ -52,8 +48,8 @@ static sl_status add_line_sides(sl_bsp *bsp, const sl_bsp_passage *p, bool left,
         sl_point low = k ? stops[k - 1].at : left ? p->entry_left : p->entry_right;
         sl_point high = k < count ? stops[k].at : left ? p->exit_left : p->exit_right;
         const uint32_t what = part_of_line(p, stops, k);
-        while (spare && i < count && what < SL_BEYOND_BORDER &&
-               part_of_line(p, stops, left ? k + 1 : k - 1) < SL_BEYOND_BORDER) {
+        while (spare && i < count && sl_bsp_is_wall(bsp, what) &&
+               sl_bsp_is_wall(bsp, part_of_line(p, stops, left ? k + 1 : k - 1))) {
             k = left ? k + 1 : k - 1;
             i++;
             if (left)
@@ -62,9 +58,13 @@ static sl_status add_line_sides(sl_bsp *bsp, const sl_bsp_passage *p, bool left,
                 low = k ? stops[k - 1].at : p->entry_right;
         }
         sl_bsp_side side = {.from = left ? low : high, .what = what, .beyond = SL_NO_FACE};
-        if (what == SL_BEYOND_EXIT) side.joint = line_joint(bsp, p, k);
-        if (what < SL_BEYOND_BORDER) {
-            const sl_wall *wall = &bsp->map->walls[what];
+        if (sl_bsp_is_seam(bsp, what)) {
+            side.what = SL_BEYOND_EXIT;
+            side.seam = (what - bsp->wall_count + 1) & INT32_MAX;
+        }
+        if (side.what == SL_BEYOND_EXIT) side.joint = line_joint(bsp, p, k);
+        if (sl_bsp_is_wall(bsp, what)) {
+            const sl_wall *wall = &bsp->walls[what];
             side.reversed = (sl_bsp_key(bsp, wall->a) < sl_bsp_key(bsp, wall->b)) != left;
         }
         SL_TRY(add_corner(bsp, out, side, left ? high : low));
@@ -175,13 +175,6 @@ static sl_status make_convex(sl_bsp *bsp, bool *done) {
         }
         if (sides->count < 4 || !sl_bsp_diagonal(sides, &from, &to)) {
             bsp->failed_passage = bsp->pieces.items[i].passage;
-            if (getenv("BSPDBG")) {
-                printf("FAIL passage %u left %d\n", bsp->pieces.items[i].passage,
-                       bsp->pieces.items[i].left);
-                for (size_t k = 0; k < sides->count; k++)
-                    printf("  %.17g %.17g %d\n", sides->items[k].from.x, sides->items[k].from.y,
-                           (int)sides->items[k].what);
-            }
             bsp->failed_left = bsp->pieces.items[i].left;
             return SL_OK;
         }

@@ -63,7 +63,7 @@ static gate make_gate(const sl_bsp *bsp, const sl_bsp_passage *passage, bool out
     const sl_point end = sl_side_end(&face->sides, number);
     gate g = {.bsp = bsp, .left = out ? end : side->from, .right = out ? side->from : end};
     if (side->what < SL_BEYOND_BORDER) {
-        g.wall = &bsp->map->walls[side->what];
+        g.wall = &bsp->walls[side->what];
         g.reversed = side->reversed;
     }
     g.guess = cross_at(&g);
@@ -144,6 +144,41 @@ static sl_point place_behind(const gate *g, bool left, uint32_t try, const sl_po
     return best.at;
 }
 
+// --- where a seam passes: one corner for both sides of it
+
+static void weigh_seam(const gate *g, sl_point p, choice *best) {
+    if (!sl_coordinate_usable(p.x) || !sl_coordinate_usable(p.y) || !is_between(g, p)) return;
+    if (g->wall && !sl_bsp_behind(g->wall, g->reversed, p)) return;
+    const int bent =
+        count_bent(g->at_left, g->left_count, p) + count_bent(g->at_right, g->right_count, p);
+    const int side = sl_orient(g->bsp->a, g->bsp->b, p);
+    const choice new = {p, 2 * bent + (side != 0), distance(p, g->guess)};
+    if (new.faults < best->faults || (new.faults == best->faults &&new.distance < best->distance))
+        *best = new;
+}
+
+/// The nearest place that bends no face, on the seam's line if there is one. At higher tries what
+/// is near is passed over. False where there is none nearer than rounding explains.
+static bool place_seam(const gate *g, uint32_t try, sl_point *at) {
+    const double length = distance(g->left, g->right);
+    const double step = fmax(g->step_x, g->step_y);
+    const double ux = (g->left.x - g->right.x) / length, uy = (g->left.y - g->right.y) / length;
+    choice best = {g->guess, INFINITY, INFINITY};
+    for (int k = (int)try; best.faults >= 2 && k < 40; k++) {
+        const double off = k ? ldexp(step, k + 1) : 0;
+        if (off > 0x1p-20 * length) break;
+        for (int sign = -1; sign <= 1; sign += 2)
+            for (int i = g->step_x ? -AROUND : 0; i <= (g->step_x ? AROUND : 0); i++)
+                for (int j = g->step_y ? -AROUND : 0; j <= (g->step_y ? AROUND : 0); j++)
+                    weigh_seam(g,
+                               (sl_point){g->guess.x + sign * off * ux + i * g->step_x,
+                                          g->guess.y + sign * off * uy + j * g->step_y},
+                               &best);
+    }
+    *at = best.at;
+    return best.faults < INFINITY;
+}
+
 // --- where the line is free: a new corner exactly on it, or one that is there
 
 /// Whether a free line may end in a point: on the side or, where a portal or a wall leaves room,
@@ -213,8 +248,15 @@ static void place_walled(sl_bsp *bsp, sl_bsp_passage *passage, bool out, sl_bsp_
         const size_t side = out ? next->entry.side : next->exit.side;
         add_neighbours(&g, &bsp->faces.items[next->face], side, !out);
     }
-    const bool entered = out && (passage->entry.at_corner || passage->entry.walled);
     const uint32_t *tries = out ? passage->exit_try : passage->entry_try;
+    if (sl_bsp_is_seam(bsp, out ? passage->exit_wall : passage->entry_wall)) {
+        sl_point at;
+        if (!place_seam(&g, tries[0] > tries[1] ? tries[0] : tries[1], &at)) bsp->unplaced = true;
+        set_ends(passage, out, at, at);
+        if (next) set_ends(next, !out, at, at);
+        return;
+    }
+    const bool entered = out && (passage->entry.at_corner || passage->entry.walled);
     const sl_point left = place_behind(&g, true, tries[1], entered ? &passage->entry_left : NULL);
     const sl_point right =
         place_behind(&g, false, tries[0], entered ? &passage->entry_right : NULL);
@@ -271,6 +313,7 @@ static void place_exact(sl_bsp *bsp, sl_bsp_passage *passage, bool out) {
 }
 
 void sl_bsp_place(sl_bsp *bsp) {
+    bsp->unplaced = false;
     const size_t count = bsp->passages.count;
     for (size_t i = 0; i < count; i++)
         for (int out = 0; out < 2; out++) {

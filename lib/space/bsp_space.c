@@ -8,6 +8,7 @@
 typedef struct joint {
     sl_portal portal;
     uint32_t exits[2];
+    uint32_t seam; ///< as of its sides
 } joint;
 
 typedef struct maker {
@@ -29,7 +30,7 @@ static void join_sides(sl_bsp_sides *sides) {
         const sl_bsp_side *before = kept ? &items[kept - 1] : &items[count - 1];
         const sl_point after = i + 1 < count ? items[i + 1].from : first.from;
         const bool same = before->what == items[i].what && before->beyond == items[i].beyond &&
-                          before->reversed == items[i].reversed;
+                          before->reversed == items[i].reversed && before->seam == items[i].seam;
         if (same && sl_orient(before->from, items[i].from, after) == 0) continue;
         items[kept++] = items[i];
     }
@@ -150,7 +151,8 @@ static sl_status add_joints(maker *m, uint32_t cell) {
         m->joints.items[m->joints.count++] = (joint){
             .portal = {.cell = {cell, other}, .left = to, .right = from},
             .exits = {m->space->cells[cell].first_exit + exit_number(sides, i),
-                      m->space->cells[other].first_exit + exit_number(&beyond->sides, twin)}};
+                      m->space->cells[other].first_exit + exit_number(&beyond->sides, twin)},
+            .seam = side->seam};
     }
     return SL_OK;
 }
@@ -200,7 +202,7 @@ static sl_status allocate(maker *m) {
     s->vertex_count = (uint32_t)vertices;
     s->node_count = (uint32_t)bsp->nodes.count;
     s->line_count = (uint32_t)bsp->lines.count;
-    s->wall_count = (uint32_t)bsp->map->wall_count;
+    s->wall_count = (uint32_t)bsp->wall_count;
     s->cells = sl_alloc_array(bsp->context, s->cell_count, sizeof *s->cells);
     s->vertices = sl_alloc_array(bsp->context, s->vertex_count, sizeof *s->vertices);
     s->beyond = sl_alloc_array(bsp->context, s->vertex_count, sizeof *s->beyond);
@@ -212,18 +214,29 @@ static sl_status allocate(maker *m) {
     if (!s->cells || !s->vertices || !s->beyond || !s->walls || !s->nodes || !s->lines ||
         !m->cell_of || !m->face_of)
         return SL_NO_MEMORY;
-    memcpy(s->walls, bsp->map->walls, s->wall_count * sizeof *s->walls);
+    memcpy(s->walls, bsp->walls, s->wall_count * sizeof *s->walls);
     if (s->node_count) memcpy(s->nodes, bsp->nodes.items, s->node_count * sizeof *s->nodes);
     if (s->line_count) memcpy(s->lines, bsp->lines.items, s->line_count * sizeof *s->lines);
     return SL_OK;
 }
 
-sl_status sl_bsp_make_space(sl_bsp *bsp, sl_space *out) {
+static sl_status tag_portals(const maker *m, const sl_seam_parts *seams) {
+    sl_context *context = m->bsp->context;
+    uint32_t *on = sl_alloc_array(context, m->joints.count, sizeof *on);
+    if (!on) return SL_NO_MEMORY;
+    for (size_t i = 0; i < m->joints.count; i++) on[i] = m->joints.items[i].seam;
+    const sl_status status = sl_seams_tag(context, seams, on, m->space);
+    sl_free(context, on);
+    return status;
+}
+
+sl_status sl_bsp_make_space(sl_bsp *bsp, const sl_seam_parts *seams, sl_space *out) {
     maker m = {.bsp = bsp, .space = out};
     sl_status status = allocate(&m);
     if (status == SL_OK) status = make_tree(&m);
     if (status == SL_OK) status = copy_cells(&m);
     if (status == SL_OK) status = make_portals(&m);
+    if (status == SL_OK && seams->parts.count) status = tag_portals(&m, seams);
     sl_free(bsp->context, m.cell_of);
     sl_free(bsp->context, m.face_of);
     sl_free(bsp->context, m.joints.items);

@@ -12,7 +12,7 @@ static int compare_along(const void *left, const void *right) {
 
 /// The wall's ends in the line's order.
 static void ends_along(const sl_bsp *bsp, uint32_t wall, sl_point *low, sl_point *high) {
-    const sl_wall *w = &bsp->map->walls[wall];
+    const sl_wall *w = &bsp->walls[wall];
     const bool forward = sl_bsp_key(bsp, w->a) < sl_bsp_key(bsp, w->b);
     *low = forward ? w->a : w->b;
     *high = forward ? w->b : w->a;
@@ -26,7 +26,7 @@ static sl_status add_end(sl_bsp *bsp, const sl_bsp_face *face, sl_point end) {
 }
 
 static sl_status add_wall(sl_bsp *bsp, const sl_bsp_face *face, uint32_t wall) {
-    const sl_wall *w = &bsp->map->walls[wall];
+    const sl_wall *w = &bsp->walls[wall];
     const bool a = sl_orient(bsp->a, bsp->b, w->a) == 0, b = sl_orient(bsp->a, bsp->b, w->b) == 0;
     if (a) SL_TRY(add_end(bsp, face, w->a));
     if (b) SL_TRY(add_end(bsp, face, w->b));
@@ -131,11 +131,12 @@ static uint32_t wall_up_to(const sl_bsp *bsp, const sl_bsp_passage *passage,
     if (!passage->stop_count || side->what >= SL_BEYOND_BORDER) return SL_BEYOND_EXIT;
     const sl_bsp_stop *stops = bsp->stops.items + passage->first_stop;
     const sl_point last = stops[out ? passage->stop_count - 1 : 0].at;
-    if (!sl_bsp_behind(&bsp->map->walls[side->what], side->reversed, last)) return SL_BEYOND_EXIT;
+    if (!sl_bsp_behind(&bsp->walls[side->what], side->reversed, last)) return SL_BEYOND_EXIT;
     for (size_t i = 0; i < bsp->on_line.count; i++) {
         sl_point low, high;
         ends_along(bsp, bsp->on_line.items[i], &low, &high);
-        if (sl_same_point(out ? high : low, last)) return bsp->on_line.items[i];
+        if (sl_bsp_is_wall(bsp, bsp->on_line.items[i]) && sl_same_point(out ? high : low, last))
+            return bsp->on_line.items[i];
     }
     return SL_BEYOND_EXIT;
 }
@@ -192,8 +193,8 @@ static sl_status go_on(sl_bsp *bsp, bool out) {
 }
 
 sl_status sl_bsp_trace(sl_bsp *bsp, uint32_t face, uint32_t wall) {
-    bsp->a = bsp->map->walls[wall].a;
-    bsp->b = bsp->map->walls[wall].b;
+    bsp->a = bsp->walls[wall].a;
+    bsp->b = bsp->walls[wall].b;
     bsp->passages.count = bsp->stops.count = 0;
     SL_TRY(SL_ARRAY_ROOM(bsp->context, &bsp->passages, 1));
     SL_TRY(make_passage(bsp, face, wall, &bsp->passages.items[0]));

@@ -3,6 +3,7 @@
 /// of its face, as a portal was moved, goes to the faces around.
 #include "space/bsp.h"
 
+#include <math.h>
 #include <string.h>
 
 static sl_status add_wall(sl_bsp *bsp, uint32_t number, uint32_t wall) {
@@ -40,9 +41,10 @@ static void set_wall(sl_bsp_side *side, const sl_wall *wall, uint32_t number, sl
                           .reversed = is_before(wall->b, wall->a, side->from, to)};
 }
 
-/// Makes a wall of what a wall covers of a portal that it is in line with.
+/// Makes a wall of what a wall covers of a portal that it is in line with; a part of a seam only
+/// marks it.
 static sl_status close_portal(sl_bsp *bsp, uint32_t number, size_t side, uint32_t wall_number) {
-    const sl_wall *wall = &bsp->map->walls[wall_number];
+    const sl_wall *wall = &bsp->walls[wall_number];
     const sl_bsp_sides *sides = &bsp->faces.items[number].sides;
     const sl_point from = sides->items[side].from, to = sl_side_end(sides, side);
     const bool forward = is_before(from, to, wall->a, wall->b);
@@ -58,13 +60,18 @@ static sl_status close_portal(sl_bsp *bsp, uint32_t number, size_t side, uint32_
     sl_bsp_face *beyond = &bsp->faces.items[mine->beyond];
     const sl_point start = mine->from, end = sl_side_end(&face->sides, side);
     const size_t twin = sl_bsp_find_side(beyond, end, start, number);
+    if (sl_bsp_is_seam(bsp, wall_number)) {
+        mine->seam = (wall_number - bsp->wall_count + 1) & INT32_MAX;
+        beyond->sides.items[twin].seam = mine->seam;
+        return SL_OK;
+    }
     set_wall(mine, wall, wall_number, end);
     set_wall(&beyond->sides.items[twin], wall, wall_number, start);
     return SL_OK;
 }
 
 static sl_status close_portals(sl_bsp *bsp, uint32_t number, uint32_t wall_number) {
-    const sl_wall *wall = &bsp->map->walls[wall_number];
+    const sl_wall *wall = &bsp->walls[wall_number];
     for (size_t i = 0; i < bsp->faces.items[number].sides.count; i++) {
         const sl_bsp_sides *sides = &bsp->faces.items[number].sides;
         if (sides->items[i].what == SL_BEYOND_EXIT &&
@@ -92,7 +99,7 @@ static sl_status deal_around(sl_bsp *bsp, uint32_t passage, uint32_t wall) {
             const uint32_t beyond = sides->items[i].beyond;
             size_t along;
             if (sides->items[i].what == SL_BEYOND_EXIT &&
-                sl_bsp_hits(&bsp->faces.items[beyond].sides, &bsp->map->walls[wall], &along) &&
+                sl_bsp_hits(&bsp->faces.items[beyond].sides, &bsp->walls[wall], &along) &&
                 !has_wall(&bsp->faces.items[beyond], wall))
                 SL_TRY(add_wall(bsp, beyond, wall));
         }
@@ -101,7 +108,7 @@ static sl_status deal_around(sl_bsp *bsp, uint32_t passage, uint32_t wall) {
 }
 
 static sl_status deal(sl_bsp *bsp, uint32_t passage, uint32_t number) {
-    const sl_wall *wall = &bsp->map->walls[number];
+    const sl_wall *wall = &bsp->walls[number];
     const int a = sl_orient(bsp->a, bsp->b, wall->a), b = sl_orient(bsp->a, bsp->b, wall->b);
     if (a == 0 && b == 0) return SL_OK; // it is put in
     bool taken = false;
@@ -127,4 +134,47 @@ sl_status sl_bsp_deal_walls(sl_bsp *bsp) {
         for (size_t k = 0; k < walls->count; k++) SL_TRY(deal(bsp, i, walls->items[k]));
     }
     return SL_OK;
+}
+
+// --- seams
+
+/// A box around a face or a seam: what does not meet it is soon told.
+static sl_box box_of(const sl_bsp_sides *sides) {
+    sl_box box = {sides->items[0].from, sides->items[0].from};
+    for (size_t i = 1; i < sides->count; i++) {
+        const sl_point p = sides->items[i].from;
+        box.min = (sl_point){fmin(box.min.x, p.x), fmin(box.min.y, p.y)};
+        box.max = (sl_point){fmax(box.max.x, p.x), fmax(box.max.y, p.y)};
+    }
+    return box;
+}
+
+static bool may_meet(const sl_box *box, const sl_wall *part) {
+    return fmax(part->a.x, part->b.x) >= box->min.x && fmin(part->a.x, part->b.x) <= box->max.x &&
+           fmax(part->a.y, part->b.y) >= box->min.y && fmin(part->a.y, part->b.y) <= box->max.y;
+}
+
+static sl_status deal_seam(sl_bsp *bsp, const sl_box *boxes, uint32_t number) {
+    for (uint32_t i = 0; i < bsp->faces.count; i++) {
+        if (!may_meet(&boxes[i], &bsp->walls[number])) continue;
+        size_t along;
+        if (sl_bsp_hits(&bsp->faces.items[i].sides, &bsp->walls[number], &along))
+            SL_TRY(add_wall(bsp, i, number));
+        else if (along != SIZE_MAX)
+            SL_TRY(close_portals(bsp, i, number));
+    }
+    return SL_OK;
+}
+
+sl_status sl_bsp_deal_seams(sl_bsp *bsp, size_t count) {
+    sl_box *boxes = sl_alloc_array(bsp->context, bsp->faces.count, sizeof *boxes);
+    if (!boxes) return SL_NO_MEMORY;
+    for (size_t i = 0; i < bsp->faces.count; i++) boxes[i] = box_of(&bsp->faces.items[i].sides);
+    sl_status status = SL_OK;
+    for (uint32_t i = 0; i < count && status == SL_OK; i++) {
+        status = sl_check_cancelled(bsp->context);
+        if (status == SL_OK) status = deal_seam(bsp, boxes, bsp->wall_count + i);
+    }
+    sl_free(bsp->context, boxes);
+    return status;
 }

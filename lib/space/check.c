@@ -2,6 +2,7 @@
 /// bytes: every index is checked before it is used.
 #include "base/bits.h"
 #include "space/bsp.h"
+#include "space/seams.h"
 #include "space/wall_lines.h"
 
 #include <math.h>
@@ -155,14 +156,57 @@ static sl_status check_wall(const checker *c, const sl_piece *wall, visit *stack
     return SL_OK;
 }
 
-static sl_status check_walls(const checker *c) {
+/// Of walls, or of the parts of seams.
+static sl_status check_walls(const checker *c, const sl_piece *walls, size_t count) {
     // A way down leaves at most one sibling waiting on each level.
     visit *stack = sl_alloc_array(c->context, (size_t)c->space->node_count + 2, sizeof *stack);
     if (!stack) return SL_NO_MEMORY;
     sl_status status = SL_OK;
-    for (uint32_t i = 0; i < c->space->wall_count && status == SL_OK; i++)
-        status = check_wall(c, &c->walls[i], stack);
+    for (size_t i = 0; i < count && status == SL_OK; i++) status = check_wall(c, &walls[i], stack);
     sl_free(c->context, stack);
+    return status;
+}
+
+// --- seams
+
+static bool lies_on(const sl_portal *p, const sl_segment *seam) {
+    const bool upright = seam->a.x == seam->b.x;
+    const double at = upright ? seam->a.x : seam->a.y;
+    const double from = upright ? seam->a.y : seam->a.x, to = upright ? seam->b.y : seam->b.x;
+    const double one = upright ? p->left.y : p->left.x, other = upright ? p->right.y : p->right.x;
+    const bool in_line =
+        upright ? p->left.x == at && p->right.x == at : p->left.y == at && p->right.y == at;
+    return in_line && fmin(one, other) >= fmin(from, to) && fmax(one, other) <= fmax(from, to);
+}
+
+/// The parts that seams are cut into must be inside no cell, and each portal on one told as such.
+static sl_status check_parts(const checker *c, const sl_seam_parts *parts, const sl_piece *pieces) {
+    sl_space told = *c->space;
+    told.seam_portals = NULL;
+    told.seam_portal_count = 0;
+    SL_TRY(check_walls(c, pieces, parts->parts.count));
+    sl_status status = sl_seams_tag_axial(c->context, parts, &told);
+    bool same = status == SL_OK && told.seam_portal_count == c->space->seam_portal_count;
+    for (uint32_t i = 0; same && i < told.seam_portal_count; i++) {
+        const sl_seam_portal *a = &told.seam_portals[i], *b = &c->space->seam_portals[i];
+        same = a->portal == b->portal && a->seam == b->seam && a->forward == b->forward &&
+               lies_on(&told.portals[a->portal], &told.seams[a->seam].at);
+    }
+    sl_free(c->context, told.seam_portals);
+    if (status != SL_OK || same) return status;
+    return sl_fail(c->context, SL_BAD_INPUT, "portals on seams are not told as such");
+}
+
+static sl_status check_seams(const checker *c) {
+    if (!c->space->seam_count && !c->space->seam_portal_count) return SL_OK;
+    SL_TRY(sl_seams_check(c->context, c->space, true));
+    sl_seam_parts parts = {0};
+    sl_piece *pieces = NULL;
+    sl_status status = sl_seams_part(c->context, c->space, &parts);
+    if (status == SL_OK) status = sl_seam_lines(c->context, NULL, 0, &parts, &pieces);
+    if (status == SL_OK) status = check_parts(c, &parts, pieces);
+    sl_seam_parts_destroy(c->context, &parts);
+    sl_free(c->context, pieces);
     return status;
 }
 
@@ -240,7 +284,8 @@ static sl_status check_boundary(checker *c, uint32_t cell) {
             if (!free_between(c, &e, from, to)) return fail_cell(c, cell, "has an exit on a wall");
             if (from != at && !wall_between(c, &e, at, from))
                 return fail_cell(c, cell, "has a boundary that is neither wall nor portal");
-            if (from == at && at != e.from && exit[-1].cell == exit->cell)
+            if (from == at && at != e.from && exit[-1].cell == exit->cell &&
+                sl_seams_same(s, exit[-1].portal, exit->portal))
                 return fail_cell(c, cell, "has a portal that is not a longest piece");
             at = to;
         }
@@ -257,9 +302,9 @@ static sl_status check_all(checker *c) {
     SL_TRY(check_cells(c));
     SL_TRY(check_area(c));
     SL_TRY(sl_wall_lines(c->context, "the walls", s->walls, s->wall_count, &c->walls));
-    SL_TRY(check_walls(c));
+    SL_TRY(check_walls(c, c->walls, s->wall_count));
     for (uint32_t cell = 0; cell < s->cell_count; cell++) SL_TRY(check_boundary(c, cell));
-    return SL_OK;
+    return check_seams(c);
 }
 
 sl_status sl_space_check(sl_context *context, const sl_space *space) {

@@ -244,11 +244,43 @@ static sl_status check_walls(const checker *c) {
     return SL_OK;
 }
 
+// --- seams
+
+/// How far a point is from a segment, at most its ends' distance.
+static double distance_to(const sl_segment *s, sl_point p) {
+    const double dx = s->b.x - s->a.x, dy = s->b.y - s->a.y, length = hypot(dx, dy);
+    const double along = ((p.x - s->a.x) * (dx / length) + (p.y - s->a.y) * (dy / length)) / length;
+    const double t = fmin(1, fmax(0, along));
+    return hypot(p.x - s->a.x - t * dx, p.y - s->a.y - t * dy);
+}
+
+/// Portals told to be on a seam are, within rounding.
+static sl_status check_seams(const checker *c) {
+    const sl_space *s = c->space;
+    SL_TRY(sl_seams_check(c->context, s, false));
+    for (uint32_t i = 0; i < s->seam_portal_count; i++) {
+        const sl_seam_portal *at = &s->seam_portals[i];
+        const sl_segment *seam = &s->seams[at->seam].at;
+        const sl_portal *p = &s->portals[at->portal];
+        const double along = (seam->b.x - seam->a.x) * (p->right.x - p->left.x) +
+                             (seam->b.y - seam->a.y) * (p->right.y - p->left.y);
+        if (distance_to(seam, p->left) > c->slack || distance_to(seam, p->right) > c->slack)
+            return sl_fail(c->context, SL_BAD_INPUT, "portal %u is not on seam %u", at->portal,
+                           at->seam);
+        const double length = hypot(seam->b.x - seam->a.x, seam->b.y - seam->a.y);
+        if (fabs(along) > c->slack * length && (along > 0) != (at->forward == 1))
+            return sl_fail(c->context, SL_BAD_INPUT, "portal %u is told the wrong way on seam %u",
+                           at->portal, at->seam);
+    }
+    return SL_OK;
+}
+
 static sl_status check_all(const checker *c) {
     SL_TRY(check_tree(c));
     SL_TRY(check_cells(c));
     for (uint32_t cell = 0; cell < c->space->cell_count; cell++) SL_TRY(check_sides(c, cell));
-    return check_walls(c);
+    SL_TRY(check_walls(c));
+    return check_seams(c);
 }
 
 sl_status sl_check_bsp(sl_context *context, const sl_space *space) {

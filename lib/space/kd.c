@@ -53,7 +53,7 @@ static sl_status add_candidates(sl_context *context, chooser *choice, const regi
             if (p->axis != line->axis || p->at != line->at) break;
             // Halved, so that the widest maps do not overflow.
             covered += p->hi / 2 - p->lo / 2;
-            if (p->lo == reached) reached = p->hi;
+            if (p->lo <= reached && p->hi > reached) reached = p->hi;
         }
         SL_TRY(SL_ARRAY_ROOM(context, &choice->candidates, 1));
         choice->candidates.items[choice->candidates.count++] =

@@ -54,18 +54,36 @@ static sl_status add_portal(sl_context *context, portal_list *portals, const sl_
     return SL_OK;
 }
 
+/// Adds lo .. hi, cut where a seam on the split line begins or ends.
+static sl_status add_cut_piece(sl_context *context, portal_maker *maker, const sl_node *split,
+                               uint32_t below, uint32_t above, double lo, double hi,
+                               const sl_piece *walls, size_t count, size_t next) {
+    for (size_t i = next; i < count && walls[i].lo < hi; i++) {
+        if (!walls[i].seam || walls[i].hi <= lo) continue;
+        const double cuts[2] = {walls[i].lo, walls[i].hi};
+        for (int k = 0; k < 2; k++) {
+            if (cuts[k] <= lo || cuts[k] >= hi) continue;
+            SL_TRY(add_portal(context, &maker->portals, split, below, above, lo, cuts[k]));
+            lo = cuts[k];
+        }
+    }
+    return add_portal(context, &maker->portals, split, below, above, lo, hi);
+}
+
 /// Adds what walls[*next ...] leave of lo .. hi; moves *next past the walls that end there.
 static sl_status add_free_pieces(sl_context *context, portal_maker *maker, const sl_node *split,
                                  uint32_t below, uint32_t above, double lo, double hi,
                                  const sl_piece *walls, size_t count, size_t *next) {
     while (*next < count && walls[*next].hi <= lo) ++*next;
     for (size_t i = *next; i < count && walls[i].lo < hi; i++) {
+        if (walls[i].seam) continue;
         if (walls[i].lo > lo)
-            SL_TRY(add_portal(context, &maker->portals, split, below, above, lo, walls[i].lo));
+            SL_TRY(add_cut_piece(context, maker, split, below, above, lo, walls[i].lo, walls, count,
+                                 *next));
         if (walls[i].hi > lo) lo = walls[i].hi;
     }
-    if (lo < hi) SL_TRY(add_portal(context, &maker->portals, split, below, above, lo, hi));
-    return SL_OK;
+    if (lo >= hi) return SL_OK;
+    return add_cut_piece(context, maker, split, below, above, lo, hi, walls, count, *next);
 }
 
 static sl_status make_portals_of(sl_context *context, portal_maker *maker, size_t node) {

@@ -3,6 +3,7 @@
 #include "base/base.h"
 #include "geometry/orient.h"
 #include "space/kd_tree.h"
+#include "space/seams.h"
 
 #include <math.h>
 #include <string.h>
@@ -21,6 +22,8 @@ void sl_space_destroy(sl_context *context, sl_space *space) {
     sl_free(context, space->walls);
     sl_free(context, space->lines);
     sl_free(context, space->beyond);
+    sl_free(context, space->seams);
+    sl_free(context, space->seam_portals);
     *space = (sl_space){0};
 }
 
@@ -57,16 +60,30 @@ static sl_status copy_cells(sl_context *context, const sl_kd_tree *tree, sl_spac
     return SL_OK;
 }
 
+/// The tree over the walls and, where the map has any, the parts of its seams.
+static sl_status build_tree(sl_context *context, const sl_piece *walls, size_t count,
+                            const sl_seam_parts *seams, const sl_subdivide_options *options,
+                            sl_box bounds, sl_kd_tree *tree) {
+    if (!seams->parts.count) return sl_kd_build(context, walls, count, bounds, options, tree);
+    sl_piece *all = NULL;
+    sl_status status = sl_seam_lines(context, walls, count, seams, &all);
+    if (status == SL_OK)
+        status = sl_kd_build(context, all, count + seams->parts.count, bounds, options, tree);
+    sl_free(context, all);
+    return status;
+}
+
 static sl_status fill_space(sl_context *context, const sl_map *map, const sl_piece *walls,
-                            const sl_subdivide_options *options, sl_kd_tree *tree,
-                            sl_space *space) {
-    SL_TRY(sl_kd_build(context, walls, map->wall_count, space->bounds, options, tree));
+                            const sl_seam_parts *seams, const sl_subdivide_options *options,
+                            sl_kd_tree *tree, sl_space *space) {
+    SL_TRY(build_tree(context, walls, map->wall_count, seams, options, space->bounds, tree));
     SL_TRY(copy_cells(context, tree, space));
     space->walls = sl_alloc_array(context, map->wall_count, sizeof *space->walls);
     if (!space->walls) return SL_NO_MEMORY;
     memcpy(space->walls, map->walls, map->wall_count * sizeof *space->walls);
     space->wall_count = (uint32_t)map->wall_count;
     SL_TRY(sl_make_portals(context, tree, space));
+    if (space->seam_count) SL_TRY(sl_seams_tag_axial(context, seams, space));
     space->root = tree->root;
     space->tree_depth = tree->depth;
     space->node_count = (uint32_t)tree->nodes.count;
@@ -88,8 +105,12 @@ sl_status sl_subdivide_kd(sl_context *context, const sl_map *map,
     sl_space space = {.bounds = sl_padded(sl_map_bounds(map))};
     sl_kd_tree tree = {0};
     sl_piece *walls = NULL;
+    sl_seam_parts seams = {0};
     sl_status status = sl_wall_lines(context, source, map->walls, map->wall_count, &walls);
-    if (status == SL_OK) status = fill_space(context, map, walls, options, &tree, &space);
+    if (status == SL_OK) status = sl_seams_of_map(context, map, true, &space);
+    if (status == SL_OK && space.seam_count) status = sl_seams_part(context, &space, &seams);
+    if (status == SL_OK) status = fill_space(context, map, walls, &seams, options, &tree, &space);
+    sl_seam_parts_destroy(context, &seams);
     sl_free(context, walls);
     sl_kd_destroy(context, &tree);
     if (status == SL_OK)

@@ -24,6 +24,19 @@ const sl_subdivision *sl_subdivisions(size_t *count) {
     return subdivisions;
 }
 
+static bool is_oblique(sl_segment at) {
+    return at.a.x != at.b.x && at.a.y != at.b.y;
+}
+
+/// Whether all that cuts cells is axial.
+static bool is_axial(const sl_map *map) {
+    bool oblique = sl_map_count_oblique(map) > 0;
+    for (size_t i = 0; i < map->door_count; i++) oblique |= is_oblique(map->doors[i].segment);
+    for (size_t i = 0; i < map->oneway_count; i++) oblique |= is_oblique(map->oneways[i].segment);
+    for (size_t i = 0; i < map->seam_count; i++) oblique |= is_oblique(map->seams[i].segment);
+    return !oblique;
+}
+
 const sl_subdivision *sl_subdivision_for(const sl_map *map) {
-    return &subdivisions[sl_map_count_oblique(map) ? BSP : KD];
+    return &subdivisions[is_axial(map) ? KD : BSP];
 }

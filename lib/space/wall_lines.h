@@ -10,6 +10,7 @@
 typedef struct sl_piece {
     double at, lo, hi;
     int axis;
+    uint32_t seam; ///< 0 for a wall; else 1 + the part of the seams that this is of
 } sl_piece;
 
 /// All walls, by axis, at, lo. SL_BAD_INPUT names the first wall of `source` that is not axial, and

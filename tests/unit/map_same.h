@@ -100,11 +100,12 @@ static inline bool same_objects(const sl_object *a, const sl_object *b, size_t c
 static inline bool map_same(const sl_map *a, const sl_map *b) {
     return same_walls(a, b) && a->door_count == b->door_count &&
            a->mirror_count == b->mirror_count && a->oneway_count == b->oneway_count &&
-           a->start_count == b->start_count && a->path_count == b->path_count &&
-           a->object_count == b->object_count && same_text(a->notes, b->notes) &&
-           same_doors(a->doors, b->doors, a->door_count) &&
+           a->seam_count == b->seam_count && a->start_count == b->start_count &&
+           a->path_count == b->path_count && a->object_count == b->object_count &&
+           same_text(a->notes, b->notes) && same_doors(a->doors, b->doors, a->door_count) &&
            same_glass(a->mirrors, b->mirrors, a->mirror_count) &&
            same_glass(a->oneways, b->oneways, a->oneway_count) &&
+           same_glass(a->seams, b->seams, a->seam_count) &&
            same_starts(a->starts, b->starts, a->start_count) &&
            same_paths(a->paths, b->paths, a->path_count) &&
            same_objects(a->objects, b->objects, a->object_count) &&
@@ -115,7 +116,7 @@ static inline bool map_same(const sl_map *a, const sl_map *b) {
 static inline bool map_is_empty(const sl_map *map) {
     const sl_map empty = {0};
     return map_same(map, &empty) && !map->source && !map->walls && !map->doors && !map->mirrors &&
-           !map->oneways && !map->starts && !map->paths && !map->objects;
+           !map->oneways && !map->seams && !map->starts && !map->paths && !map->objects;
 }
 
 #endif

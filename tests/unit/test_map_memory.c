@@ -4,12 +4,13 @@
 #include "map_same.h"
 #include "sightline/import.h"
 
-static const char text[] = "sightline 1\n#! note\n#! and more\nwalls 0 0 9 0 9 9 0 9 0 0\n"
-                           "wall 0 0 9 0\nwall 3 0 3 9\nwall 0 3 9 3\nwall 0 0 4 4\n"
-                           "wall 0 1 1 1\nwall 0 2 1 2\nwall 0 4 1 4\nwall 0 5 1 5\n"
-                           "door a 0 0 0 1 open\ndoor b 1 0 1 1 shut\nmirror 0 0 1 0\n"
-                           "oneway 0 0 1 0\nrange 5\nstart 1 1 0\npath p 1 1 2 2 3 3\n"
-                           "path q 1 1\nobject o 1 1 2 2\nobject r 1 1 2 2\n";
+static const char text[] =
+    "sightline 1\n#! note\n#! and more\nwalls 0 0 9 0 9 9 0 9 0 0\n"
+    "wall 0 0 9 0\nwall 3 0 3 9\nwall 0 3 9 3\nwall 0 0 4 4\n"
+    "wall 0 1 1 1\nwall 0 2 1 2\nwall 0 4 1 4\nwall 0 5 1 5\n"
+    "door a 0 0 0 1 open\ndoor b 1 0 1 1 shut\nmirror 0 0 1 0\n"
+    "oneway 0 0 1 0\nseam 0 0 1 0\nrange 5\nstart 1 1 0\npath p 1 1 2 2 3 3\n"
+    "path q 1 1\nobject o 1 1 2 2\nobject r 1 1 2 2\n";
 static const char plan[] = "#########\n#...#...#\n#.#.+.#.#\n#...#.@.#\n##+###+##\n#.......#\n"
                            "#########\n";
 static const char model[] = "{ note }\nv a 0 0 0;v b 2 0 0;v c 2 3 0;v d 0 3 0;v A 0 0 4;"

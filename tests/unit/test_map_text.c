@@ -25,6 +25,7 @@ static void test_all_statements(void **state) {
                             "door side 2 4 2 6\n"
                             "mirror 3 0 6 0\n"
                             "oneway 12 2 12 4\n"
+                            "seam 0 6 20 6\n"
                             "range 500\n"
                             "start 5 -5 1e300\n"
                             "path tour 5 5 15 5 15 8\n"
@@ -40,7 +41,8 @@ static void test_all_statements(void **state) {
     assert_true(map.mirror_count == 1 && map.mirrors[0].segment.b.x == 6);
     assert_true(map.oneway_count == 1 && map.oneways[0].segment.b.y == 4);
     assert_true(map.oneways[0].line == 10);
-    assert_true(map.range == 500 && map.range_line == 11);
+    assert_true(map.seam_count == 1 && map.seams[0].segment.b.x == 20);
+    assert_true(map.range == 500 && map.range_line == 12);
     assert_true(map.starts[0].at.y == -5 && map.starts[0].heading == 1e300);
     assert_true(map.paths[0].count == 3 && map.paths[0].points[2].y == 8);
     assert_true(map.objects[0].box.min.x == 4 && map.objects[0].box.max.x == 5);
@@ -118,6 +120,7 @@ static void test_refusals(void **state) {
         {"door d\xff 0 0 0 1", "a name of printable UTF-8"},
         {"mirror 1 1 1 1", "two different ends"},
         {"oneway 1 1 1 1", "two different ends"},
+        {"seam 1 1 1 1", "two different ends"},
         {"oneway 1 1 1", "with 3 values"},
         {"range 0", "greater than 0, found '0'"},
         {"range -5", "greater than 0, found '-5'"},

@@ -8,8 +8,8 @@
 /// Two rooms and a start, looked from with trees.
 static void bake(sl_context *context, sl_baked *baked) {
     *baked = (sl_baked){.method = "dfs", .solver = "funnel"};
-    testing_space(context, "walls 0 0 9 0 9 9 0 9 0 0\nwall 4 0 4 5\nstart 1 1 45\n", &baked->map,
-                  &baked->space);
+    testing_space(context, "walls 0 0 9 0 9 9 0 9 0 0\nwall 4 0 4 5\nseam 4 5 4 9\nstart 1 1 45\n",
+                  &baked->map, &baked->space);
     sl_see_options options = sl_see_options_default();
     options.solver = sl_funnel();
     options.trees = true;
@@ -60,6 +60,9 @@ static void a_lie_under_a_seal_is_refused(void **state) {
         {"PVSB", 0, 2, "\1\1", "visible set 0 lacks its own cell"},
         {"PVSB", 0, 1, "\3", "visible set 0 is damaged"},
         {"TREN", offsetof(sl_stab_node, parent), sizeof one, &one, "stab tree 0 is no tree"},
+        {"SEAM", offsetof(sl_seam, number), sizeof one, &one, "seam 0 is of nothing"},
+        {"SEAM", offsetof(sl_seam, at), sizeof far, &far, "seam 0 leaves the bounds"},
+        {"SEPO", offsetof(sl_seam_portal, portal), sizeof most, &most, "portals on seams are"},
         {"MAPT", 12, 12, "wall 0 0 1 1", "section MAPT holds walls"},
     };
     sl_context *context = testing_context(NULL);

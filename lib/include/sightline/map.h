@@ -24,7 +24,8 @@ typedef struct sl_door {
     uint32_t line;
 } sl_door;
 
-/// A mirror, or glass that is seen through from its right to its left, going from a to b.
+/// A mirror, glass that is seen through from its right to its left, going from a to b, or a seam: a
+/// line that cuts the cells and is seen through.
 typedef struct sl_glass {
     sl_segment segment;
     uint32_t line;
@@ -59,12 +60,13 @@ typedef struct sl_map {
     sl_door *doors;
     sl_glass *mirrors;
     sl_glass *oneways;
+    sl_glass *seams;
     sl_start *starts;
     sl_path *paths;
     sl_object *objects;
-    size_t wall_count, door_count, mirror_count, oneway_count;
+    size_t wall_count, door_count, mirror_count, oneway_count, seam_count;
     size_t start_count, path_count, object_count;
-    size_t wall_room, door_room, mirror_room, oneway_room;
+    size_t wall_room, door_room, mirror_room, oneway_room, seam_room;
     size_t start_room, path_room, object_room;
     double range; ///< nothing farther than this is seen; 0 for no limit
     uint32_t range_line;
@@ -80,6 +82,7 @@ SL_API sl_status sl_map_add_door(sl_context *context, sl_map *map, const char *n
                                  bool open, uint32_t line);
 SL_API sl_status sl_map_add_mirror(sl_context *context, sl_map *map, sl_segment at, uint32_t line);
 SL_API sl_status sl_map_add_oneway(sl_context *context, sl_map *map, sl_segment at, uint32_t line);
+SL_API sl_status sl_map_add_seam(sl_context *context, sl_map *map, sl_segment at, uint32_t line);
 SL_API sl_status sl_map_add_start(sl_context *context, sl_map *map, sl_point at, double heading,
                                   uint32_t line);
 SL_API sl_status sl_map_add_path(sl_context *context, sl_map *map, const char *name,

@@ -43,6 +43,22 @@ typedef struct sl_cell {
     uint32_t reserved; ///< 0
 } sl_cell;
 
+typedef enum sl_seam_kind { SL_SEAM_PLAIN, SL_SEAM_DOOR, SL_SEAM_ONEWAY } sl_seam_kind;
+
+/// A seam: what of the map is seen through, or can be, and cuts the cells all the same.
+typedef struct sl_seam {
+    sl_segment at;
+    uint32_t kind;   ///< of sl_seam_kind
+    uint32_t number; ///< of the map's seams, doors or oneways
+} sl_seam;
+
+/// That a portal lies on a seam.
+typedef struct sl_seam_portal {
+    uint32_t portal, seam;
+    uint32_t forward; ///< 1 where going from cell[0] to cell[1] crosses the seam from its right to
+                      ///< its left, going from its a to its b; else 0
+} sl_seam_portal;
+
 /// What sl_space.beyond says of a side that is no wall: the cell's next exit, or the map's border.
 /// Else it is the wall's number, with SL_BEYOND_RIGHT or-ed where the cell is at the wall's right,
 /// going from its a to its b.
@@ -54,6 +70,9 @@ typedef struct sl_cell {
 ///
 /// A space made by a BSP has `beyond`. Its cells' corners may then be flat: there is one wherever a
 /// portal ends, so that each side is one exit, a piece of one wall, or border.
+///
+/// Cells do not run over seams: each portal lies on a seam wholly or not at all. Where a wall
+/// covers a seam there is no portal.
 typedef struct sl_space {
     sl_box bounds;
     int32_t root; ///< as a child of a node
@@ -61,7 +80,8 @@ typedef struct sl_space {
     uint32_t inside_count;
     uint32_t tree_depth; ///< nodes on the longest way down
     uint32_t line_count; ///< 0 for a kd-tree
-    sl_node *nodes;      ///< a parent before its children
+    uint32_t seam_count, seam_portal_count;
+    sl_node *nodes; ///< a parent before its children
     sl_cell *cells;
     sl_point *vertices;
     sl_portal *portals; ///< by cell[0], then cell[1], then place
@@ -70,6 +90,8 @@ typedef struct sl_space {
     sl_segment *lines;  ///< of two different ends; what nodes of axis 2 split along
     uint32_t *beyond;   ///< by vertex: the wall on the side from there to the cell's next corner,
                         ///< SL_BEYOND_EXIT or SL_BEYOND_BORDER; NULL for a kd-tree
+    sl_seam *seams;     ///< the map's doors, one-way glass and seams; NULL for none
+    sl_seam_portal *seam_portals; ///< by portal, then seam; NULL for none
 } sl_space;
 
 /// The kd-tree's rules (Teller & Séquin 1991, Spatial Subdivision), applied one after the other to
@@ -83,10 +105,11 @@ typedef struct sl_subdivide_options {
 
 SL_API sl_subdivide_options sl_subdivide_options_default(void);
 
-/// Subdivides by a kd-tree on the walls' own lines until no wall is inside a cell. Walls must be
-/// axial (SL_BAD_INPUT names the first that is not) and clean (sl_map_clean). No coordinate is
-/// computed: every one in the space is one of the map's (but for the bounds of a map without height
-/// or width, which are padded), so that predicates on it are exact. Reports stage "subdivide".
+/// Subdivides by a kd-tree on the walls' own lines until no wall is inside a cell. Walls and seams
+/// must be axial (SL_BAD_INPUT names the first that is not), walls clean (sl_map_clean). No
+/// coordinate is computed: every one in the space is one of the map's (but for the bounds of a map
+/// without height or width, which are padded), so that predicates on it are exact. Reports stage
+/// "subdivide".
 SL_API sl_status sl_subdivide_kd(sl_context *context, const sl_map *map,
                                  const sl_subdivide_options *options, sl_space *out);
 
@@ -114,6 +137,10 @@ SL_API sl_bsp_options sl_bsp_options_default(void);
 /// tell a point exactly on it; where there is none, a wall that ends in the open is joined to two
 /// corners instead, a triangle between them. Axial coordinates stay exact.
 ///
+/// Seams are put in after the walls, and seen through: where a portal on one has to end in a point
+/// that is computed, it lies beside the seam's line by the size of rounding. A cell that rounding
+/// leaves no room in for such a point goes without the seam, and a note says so.
+///
 /// Time about O(n log n) for n walls with few long ones; reports stage "subdivide".
 /// SL_BAD_INPUT where there is no wall, SL_BAD_ARGUMENT for options out of range.
 SL_API sl_status sl_subdivide_bsp(sl_context *context, const sl_map *map,
@@ -131,7 +158,7 @@ typedef struct sl_subdivision {
 /// All of them: "kd", "bsp".
 SL_API const sl_subdivision *sl_subdivisions(size_t *count);
 
-/// What a map's walls call for: the kd-tree where all are axial, else the BSP.
+/// What a map calls for: the kd-tree where all walls and seams are axial, else the BSP.
 SL_API const sl_subdivision *sl_subdivision_for(const sl_map *map);
 
 SL_API void sl_space_destroy(sl_context *context, sl_space *space); ///< and zeroes it
@@ -143,12 +170,18 @@ SL_API void sl_space_destroy(sl_context *context, sl_space *space); ///< and zer
 /// point, all cells are asked.
 SL_API uint32_t sl_space_locate(const sl_space *space, sl_point point);
 
+/// The seams that a portal lies on, *count of them; NULL for none.
+SL_API const sl_seam_portal *sl_space_seams_of(const sl_space *space, uint32_t portal,
+                                               size_t *count);
+
 /// Area of a cell.
 SL_API double sl_space_area(const sl_space *space, uint32_t cell);
 
 /// Checks the whole graph: cells convex and of positive area, areas adding up to the bounds', no
 /// wall inside a cell, portals on both their cells and on no wall, every piece of a cell's boundary
 /// wall, portal or border, exits and portals telling the same, the tree leading to each cell once.
+/// Portals on seams are told as such; in a kd-tree's
+/// space no seam runs through a cell.
 /// All but the sum of areas (relative 1e-9) by comparison of exact coordinates. For a BSP: corners
 /// convex by exact predicates, walls' sides on their wall's line or behind it; that areas add up
 /// and walls are covered is told within rounding.

@@ -1,0 +1,313 @@
+#include "space/seams.h"
+
+#include "geometry/orient.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// --- the seams of a map
+
+static sl_status add_seam(sl_context *context, const sl_map *map, bool axial, sl_segment at,
+                          uint32_t line, sl_seam seam, sl_space *space) {
+    const bool upright = at.a.x == at.b.x, level = at.a.y == at.b.y;
+    if (upright && level) return SL_OK;
+    static const char *const names[] = {"seam", "door", "one-way glass"};
+    if (axial && !upright && !level)
+        return sl_fail_at(context, map->source ? map->source : "the map", line,
+                          "the %s from %.17g %.17g to %.17g %.17g is neither horizontal nor "
+                          "vertical, which the kd-tree needs: make it axial or leave it out",
+                          names[seam.kind], at.a.x, at.a.y, at.b.x, at.b.y);
+    seam.at = at;
+    space->seams[space->seam_count++] = seam;
+    return SL_OK;
+}
+
+sl_status sl_seams_of_map(sl_context *context, const sl_map *map, bool axial, sl_space *space) {
+    const size_t count = map->door_count + map->oneway_count + map->seam_count;
+    if (!count) return SL_OK;
+    if (count > INT32_MAX) return sl_fail_memory(context);
+    space->seams = sl_alloc_array(context, count, sizeof *space->seams);
+    if (!space->seams) return SL_NO_MEMORY;
+    for (size_t i = 0; i < map->door_count; i++)
+        SL_TRY(add_seam(context, map, axial, map->doors[i].segment, map->doors[i].line,
+                        (sl_seam){.kind = SL_SEAM_DOOR, .number = (uint32_t)i}, space));
+    for (size_t i = 0; i < map->oneway_count; i++)
+        SL_TRY(add_seam(context, map, axial, map->oneways[i].segment, map->oneways[i].line,
+                        (sl_seam){.kind = SL_SEAM_ONEWAY, .number = (uint32_t)i}, space));
+    for (size_t i = 0; i < map->seam_count; i++)
+        SL_TRY(add_seam(context, map, axial, map->seams[i].segment, map->seams[i].line,
+                        (sl_seam){.kind = SL_SEAM_PLAIN, .number = (uint32_t)i}, space));
+    return SL_OK;
+}
+
+// --- parts
+
+static int compare_points(sl_point a, sl_point b) {
+    if (a.x != b.x) return a.x < b.x ? -1 : 1;
+    return (a.y > b.y) - (a.y < b.y);
+}
+
+/// A seam with its ends in order; while parts are made, a part of it.
+typedef struct stretch {
+    sl_point a, b;
+    sl_seam_mark mark;
+} stretch;
+
+static int compare_stretches(const void *left, const void *right) {
+    const stretch *s = left, *t = right;
+    const int a = compare_points(s->a, t->a), b = compare_points(s->b, t->b);
+    if (a || b) return a ? a : b;
+    return (s->mark.seam > t->mark.seam) - (s->mark.seam < t->mark.seam);
+}
+
+typedef struct parter {
+    sl_context *context;
+    stretch *seams;
+    size_t count;
+    SL_ARRAY(stretch) parts;
+    SL_ARRAY(sl_point) cuts; ///< of the seam at hand
+} parter;
+
+static sl_status add_cut(parter *p, const stretch *seam, sl_point at) {
+    if (compare_points(at, seam->a) <= 0 || compare_points(at, seam->b) >= 0) return SL_OK;
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->cuts, 1));
+    p->cuts.items[p->cuts.count++] = at;
+    return SL_OK;
+}
+
+static int compare_cuts(const void *left, const void *right) {
+    return compare_points(*(const sl_point *)left, *(const sl_point *)right);
+}
+
+static sl_status add_part(parter *p, const stretch *seam, sl_point a, sl_point b) {
+    if (compare_points(a, b) == 0) return SL_OK;
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->parts, 1));
+    p->parts.items[p->parts.count++] = (stretch){a, b, seam->mark};
+    return SL_OK;
+}
+
+/// Cuts a seam where others that are in line with it end. They are sorted by their lower x.
+static sl_status part_seam(parter *p, const stretch *seam, double widest) {
+    p->cuts.count = 0;
+    size_t first = 0, end = p->count;
+    while (first < end) {
+        const size_t middle = first + (end - first) / 2;
+        if (p->seams[middle].a.x < seam->a.x - widest)
+            first = middle + 1;
+        else
+            end = middle;
+    }
+    for (size_t i = first; i < p->count && p->seams[i].a.x <= seam->b.x; i++) {
+        const stretch *other = &p->seams[i];
+        if (fmax(other->a.y, other->b.y) < fmin(seam->a.y, seam->b.y) ||
+            fmin(other->a.y, other->b.y) > fmax(seam->a.y, seam->b.y) ||
+            sl_orient(seam->a, seam->b, other->a) != 0 ||
+            sl_orient(seam->a, seam->b, other->b) != 0)
+            continue;
+        SL_TRY(add_cut(p, seam, other->a));
+        SL_TRY(add_cut(p, seam, other->b));
+    }
+    if (p->cuts.count) qsort(p->cuts.items, p->cuts.count, sizeof(sl_point), compare_cuts);
+    sl_point from = seam->a;
+    for (size_t i = 0; i < p->cuts.count; i++) {
+        SL_TRY(add_part(p, seam, from, p->cuts.items[i]));
+        from = p->cuts.items[i];
+    }
+    return add_part(p, seam, from, seam->b);
+}
+
+/// Puts those together that are the same segment.
+static sl_status group_parts(const parter *p, sl_seam_parts *out) {
+    SL_TRY(SL_ARRAY_ROOM(p->context, &out->parts, p->parts.count));
+    SL_TRY(SL_ARRAY_ROOM(p->context, &out->marks, p->parts.count));
+    for (size_t i = 0; i < p->parts.count; i++) {
+        const stretch *part = &p->parts.items[i];
+        sl_seam_part *last = out->parts.count ? &out->parts.items[out->parts.count - 1] : NULL;
+        if (!last || compare_points(last->a, part->a) || compare_points(last->b, part->b)) {
+            last = &out->parts.items[out->parts.count++];
+            *last = (sl_seam_part){part->a, part->b, .first = out->marks.count};
+        }
+        out->marks.items[out->marks.count++] = part->mark;
+        last->count++;
+    }
+    return SL_OK;
+}
+
+static sl_status part_all(parter *p, const sl_space *space, sl_seam_parts *out) {
+    double widest = 0;
+    p->count = space->seam_count;
+    p->seams = sl_alloc_array(p->context, p->count, sizeof *p->seams);
+    if (!p->seams) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < space->seam_count; i++) {
+        const sl_segment at = space->seams[i].at;
+        const bool along = compare_points(at.a, at.b) < 0;
+        p->seams[i] = (stretch){along ? at.a : at.b, along ? at.b : at.a, {i, along}};
+        widest = fmax(widest, p->seams[i].b.x - p->seams[i].a.x);
+    }
+    // Up by one, for the difference is rounded.
+    widest = nextafter(widest, INFINITY);
+    qsort(p->seams, p->count, sizeof *p->seams, compare_stretches);
+    for (size_t i = 0; i < p->count; i++) {
+        if (i % 256 == 0) SL_TRY(sl_check_cancelled(p->context));
+        SL_TRY(part_seam(p, &p->seams[i], widest));
+    }
+    if (p->parts.count) qsort(p->parts.items, p->parts.count, sizeof(stretch), compare_stretches);
+    return group_parts(p, out);
+}
+
+sl_status sl_seams_part(sl_context *context, const sl_space *space, sl_seam_parts *out) {
+    parter p = {.context = context};
+    const sl_status status = part_all(&p, space, out);
+    sl_free(context, p.seams);
+    sl_free(context, p.parts.items);
+    sl_free(context, p.cuts.items);
+    return status;
+}
+
+void sl_seam_parts_destroy(sl_context *context, sl_seam_parts *parts) {
+    sl_free(context, parts->parts.items);
+    sl_free(context, parts->marks.items);
+    *parts = (sl_seam_parts){0};
+}
+
+// --- along the axes
+
+static int compare_pieces(const void *left, const void *right) {
+    const sl_piece *a = left, *b = right;
+    if (a->axis != b->axis) return a->axis - b->axis;
+    if (a->at != b->at) return a->at < b->at ? -1 : 1;
+    if (a->lo != b->lo) return a->lo < b->lo ? -1 : 1;
+    return (a->seam > b->seam) - (a->seam < b->seam);
+}
+
+sl_status sl_seam_lines(sl_context *context, const sl_piece *walls, size_t wall_count,
+                        const sl_seam_parts *parts, sl_piece **out) {
+    const size_t count = wall_count + parts->parts.count;
+    sl_piece *pieces = sl_alloc_array(context, count, sizeof *pieces);
+    if (!pieces) return SL_NO_MEMORY;
+    if (wall_count) memcpy(pieces, walls, wall_count * sizeof *pieces);
+    for (size_t i = 0; i < parts->parts.count; i++) {
+        const sl_seam_part *part = &parts->parts.items[i];
+        const bool upright = part->a.x == part->b.x;
+        pieces[wall_count + i] = (sl_piece){.at = upright ? part->a.x : part->a.y,
+                                            .lo = upright ? part->a.y : part->a.x,
+                                            .hi = upright ? part->b.y : part->b.x,
+                                            .axis = upright ? 0 : 1,
+                                            .seam = (uint32_t)i + 1};
+    }
+    qsort(pieces, count, sizeof *pieces, compare_pieces);
+    *out = pieces;
+    return SL_OK;
+}
+
+// --- telling portals
+
+/// Whether the way from a portal's left end to its right one goes as a part does, from a to b. Told
+/// by the coordinate that changes more: a portal's ends may be rounded.
+static bool goes_along(const sl_seam_part *part, const sl_portal *portal) {
+    const double dx = part->b.x - part->a.x, dy = part->b.y - part->a.y;
+    return fabs(dx) >= fabs(dy) ? (portal->left.x < portal->right.x) == (dx > 0)
+                                : (portal->left.y < portal->right.y) == (dy > 0);
+}
+
+sl_status sl_seams_tag(sl_context *context, const sl_seam_parts *parts, const uint32_t *on,
+                       sl_space *space) {
+    size_t count = 0;
+    for (uint32_t i = 0; i < space->portal_count; i++)
+        if (on[i]) count += parts->parts.items[on[i] - 1].count;
+    if (count > UINT32_MAX) return sl_fail_memory(context);
+    if (!count) return SL_OK;
+    space->seam_portals = sl_alloc_array(context, count, sizeof *space->seam_portals);
+    if (!space->seam_portals) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < space->portal_count; i++) {
+        if (!on[i]) continue;
+        const sl_seam_part *part = &parts->parts.items[on[i] - 1];
+        const bool along = goes_along(part, &space->portals[i]);
+        for (size_t k = 0; k < part->count; k++) {
+            const sl_seam_mark mark = parts->marks.items[part->first + k];
+            space->seam_portals[space->seam_portal_count++] =
+                (sl_seam_portal){i, mark.seam, mark.along == along};
+        }
+    }
+    return SL_OK;
+}
+
+/// The part that a portal is on, as 1 + its number.
+static uint32_t part_of(const sl_piece *pieces, size_t count, const sl_portal *portal) {
+    const bool upright = portal->left.x == portal->right.x;
+    const double at = upright ? portal->left.x : portal->left.y;
+    const double one = upright ? portal->left.y : portal->left.x;
+    const double other = upright ? portal->right.y : portal->right.x;
+    const size_t i =
+        sl_wall_lines_find(pieces, count, upright ? 0 : 1, at, one < other ? one : other);
+    if (i == count || pieces[i].axis != (upright ? 0 : 1) || pieces[i].at != at ||
+        pieces[i].lo >= fmax(one, other))
+        return 0;
+    return pieces[i].seam;
+}
+
+sl_status sl_seams_tag_axial(sl_context *context, const sl_seam_parts *parts, sl_space *space) {
+    sl_piece *pieces = NULL;
+    SL_TRY(sl_seam_lines(context, NULL, 0, parts, &pieces));
+    uint32_t *on = sl_alloc_array(context, space->portal_count, sizeof *on);
+    sl_status status = on ? SL_OK : SL_NO_MEMORY;
+    for (uint32_t i = 0; on && i < space->portal_count; i++)
+        on[i] = part_of(pieces, parts->parts.count, &space->portals[i]);
+    if (status == SL_OK) status = sl_seams_tag(context, parts, on, space);
+    sl_free(context, pieces);
+    sl_free(context, on);
+    return status;
+}
+
+const sl_seam_portal *sl_space_seams_of(const sl_space *space, uint32_t portal, size_t *count) {
+    size_t first = 0, end = space->seam_portal_count;
+    while (first < end) {
+        const size_t middle = first + (end - first) / 2;
+        if (space->seam_portals[middle].portal < portal)
+            first = middle + 1;
+        else
+            end = middle;
+    }
+    for (end = first; end < space->seam_portal_count && space->seam_portals[end].portal == portal;)
+        end++;
+    *count = end - first;
+    return *count ? space->seam_portals + first : NULL;
+}
+
+bool sl_seams_same(const sl_space *space, uint32_t portal, uint32_t other) {
+    size_t count, other_count;
+    const sl_seam_portal *a = sl_space_seams_of(space, portal, &count);
+    const sl_seam_portal *b = sl_space_seams_of(space, other, &other_count);
+    if (count != other_count) return false;
+    for (size_t i = 0; i < count; i++)
+        if (a[i].seam != b[i].seam) return false;
+    return true;
+}
+
+// --- checks
+
+static bool is_within(const sl_box *b, sl_point p) {
+    return sl_coordinate_usable(p.x) && sl_coordinate_usable(p.y) && p.x >= b->min.x &&
+           p.x <= b->max.x && p.y >= b->min.y && p.y <= b->max.y;
+}
+
+sl_status sl_seams_check(sl_context *context, const sl_space *space, bool axial) {
+    for (uint32_t i = 0; i < space->seam_count; i++) {
+        const sl_seam *seam = &space->seams[i];
+        const bool upright = seam->at.a.x == seam->at.b.x, level = seam->at.a.y == seam->at.b.y;
+        if (!is_within(&space->bounds, seam->at.a) || !is_within(&space->bounds, seam->at.b))
+            return sl_fail(context, SL_BAD_INPUT, "seam %u leaves the bounds", i);
+        if ((upright && level) || (axial && !upright && !level) || seam->kind > SL_SEAM_ONEWAY)
+            return sl_fail(context, SL_BAD_INPUT, "seam %u is none", i);
+    }
+    for (uint32_t i = 0; i < space->seam_portal_count; i++) {
+        const sl_seam_portal *at = &space->seam_portals[i], *last = i ? at - 1 : NULL;
+        const bool ordered = !last || last->portal < at->portal ||
+                             (last->portal == at->portal && last->seam < at->seam);
+        if (!ordered || at->portal >= space->portal_count || at->seam >= space->seam_count ||
+            at->forward > 1)
+            return sl_fail(context, SL_BAD_INPUT, "the portals on seams are out of range or order");
+    }
+    return SL_OK;
+}
