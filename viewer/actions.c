@@ -3,6 +3,7 @@
 #include "edit.h"
 #include "quiz.h"
 #include "save.h"
+#include "shelf.h"
 #include "walk.h"
 
 #include <math.h>
@@ -76,7 +77,16 @@ SWITCH(first_person, first_person)
 SWITCH(side_panel, side_panel)
 SWITCH(dark, dark)
 SWITCH(help, help)
-SWITCH(maps, maps_open)
+
+static void maps(sl_app *app) {
+    app->maps_open = !app->maps_open;
+    if (app->maps_open) sl_shelf_forget_maps(app);
+}
+
+static bool is_maps(const sl_app *app) {
+    return app->maps_open;
+}
+
 SWITCH(fly, eye.flies)
 
 static void split_less(sl_app *app) {
@@ -275,6 +285,40 @@ static void export_series(sl_app *app) {
 
 // --- files
 
+static void choose(sl_app *app) {
+    if (app->maps_open) sl_shelf_choose(app, app->shelf.at);
+}
+
+static bool is_doors(const sl_app *app) {
+    return app->document.source.options.doors;
+}
+
+static void doors(sl_app *app) {
+    sl_import_options options = app->document.source.options;
+    if (!(app->document.source.takes & SL_TAKES_DOORS)) {
+        sl_app_say(app, false, "this map's format has no doors to be taken otherwise");
+        return;
+    }
+    options.doors = !options.doors;
+    sl_shelf_open_again(app, &options);
+}
+
+static void cut_by(sl_app *app, double share) {
+    const sl_document_source *source = &app->document.source;
+    sl_import_options options = source->options;
+    const double by = share * (source->highest - source->lowest);
+    options.slice = fmin(fmax(options.slice + by, source->lowest), source->highest);
+    if (options.slice != source->options.slice) sl_shelf_open_again(app, &options);
+}
+
+static void cut_lower(sl_app *app) {
+    cut_by(app, -0.02);
+}
+
+static void cut_higher(sl_app *app) {
+    cut_by(app, 0.02);
+}
+
 static void save_png(sl_app *app) {
     sl_save_numbered(app, "png");
 }
@@ -364,6 +408,10 @@ static const sl_action actions[] = {
     {"export_series", "F11", "Export", "save it as numbered pictures", 0, 0, export_series, NULL},
 
     {"maps", "O", "Maps", "open a map at hand", 0, 0, maps, is_maps},
+    {"choose", "Return", NULL, "list: open what is chosen", 0, 0, choose, NULL},
+    {"doors", "Ctrl+D", NULL, "doors as doors, or as they begin", 0, 0, doors, is_doors},
+    {"cut_lower", "Ctrl+Down", NULL, "3D model: cut it lower", 0, 0, cut_lower, NULL},
+    {"cut_higher", "Ctrl+Up", NULL, "3D model: cut it higher", 0, 0, cut_higher, NULL},
     {"save_png", "Ctrl+S", "Save", "save the plan as PNG", 0, 0, save_png, NULL},
     {"save_svg", "Ctrl+G", "SVG", "save the plan as SVG", 0, 0, save_svg, NULL},
     {"save_pdf", "Ctrl+P", "PDF", "save the plan as PDF", 0, 0, save_pdf, NULL},

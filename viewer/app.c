@@ -3,6 +3,7 @@
 #include "base/base.h"
 #include "panes.h"
 #include "quiz.h"
+#include "shelf.h"
 #include "walk.h"
 
 #include <math.h>
@@ -45,8 +46,7 @@ void sl_app_destroy(sl_app *app) {
     sl_record_destroy(app->context, &app->recorder);
     sl_explanation_destroy(app->context, &app->quiz.explanation);
     sl_document_close(app->context, &app->document);
-    for (size_t i = 0; i < app->map_count; i++) sl_free(app->context, app->maps[i]);
-    if (app->maps) sl_free(app->context, app->maps);
+    sl_shelf_empty(app);
 }
 
 void sl_app_say(sl_app *app, bool error, const char *format, ...) {
@@ -60,14 +60,6 @@ void sl_app_say(sl_app *app, bool error, const char *format, ...) {
 void sl_app_check(sl_app *app, sl_status status) {
     if (status != SL_OK && status != SL_CANCELLED)
         sl_app_say(app, true, "%s", sl_context_message(app->context));
-}
-
-void sl_app_open(sl_app *app, const char *path) {
-    sl_document_source source = app->document.source;
-    source.path = (char *)(uintptr_t)path;
-    source.map = NULL;
-    app->maps_open = false;
-    sl_app_check(app, sl_document_open(app->context, &app->document, &source));
 }
 
 uint32_t sl_app_eye_cell(const sl_app *app) {
@@ -97,9 +89,14 @@ static void take_document(sl_app *app, bool opened) {
     sl_walk_home(app);
     const char *path = app->document.source.path;
     const char *slash = path ? strrchr(path, '/') : NULL;
-    sl_app_say(app, false, "%s: %u cells, %u portals, %u walls",
-               slash ? slash + 1 : (path ? path : "map"), app->document.baked->space.cell_count,
-               app->document.baked->space.portal_count, app->document.baked->space.wall_count);
+    const char *map = app->document.source.options.map;
+    const sl_space *space = &app->document.baked->space;
+    sl_app_say(app, false, "%s%s%s: %u cells, %u portals, %u walls",
+               slash  ? slash + 1
+               : path ? path
+                      : "map",
+               map ? " " : "", map ? map : "", space->cell_count, space->portal_count,
+               space->wall_count);
 }
 
 void sl_app_take_opened(sl_app *app) {
@@ -107,13 +104,12 @@ void sl_app_take_opened(sl_app *app) {
 }
 
 static void poll(sl_app *app, bool wait) {
-    const char *before = app->document.source.path;
-    const sl_baked *baked = app->document.baked;
+    const uint32_t before = app->document.opened;
     bool changed = false;
     const sl_status status = wait ? sl_document_wait(app->context, &app->document, &changed)
                                   : sl_document_poll(app->context, &app->document, &changed);
     if (status == SL_CANCELLED) sl_app_say(app, false, "stopped");
-    if (changed) take_document(app, before != app->document.source.path || !baked);
+    if (changed) take_document(app, before != app->document.opened);
     sl_app_check(app, status);
 }
 

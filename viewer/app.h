@@ -76,6 +76,14 @@ typedef struct sl_drag {
     bool moved;
 } sl_drag;
 
+/// The list that is shown while `maps_open`: files at hand, or the maps of one of them.
+typedef struct sl_shelf {
+    sl_map_list files;         ///< paths
+    sl_document_source source; ///< whose maps are listed; no path: files are
+    sl_map_list maps;          ///< of that file
+    size_t at, first;          ///< the row that the keys are at, and the first one shown
+} sl_shelf;
+
 typedef struct sl_quiz {
     uint32_t from, to;
     bool asked, answered, right;
@@ -117,15 +125,13 @@ typedef struct sl_app {
     double motion;     ///< seconds for which a moving plan may be drawn by moving the kept picture
     char message[512]; ///< the last thing to say
     bool message_is_error;
-    char **maps; ///< files at hand
-    size_t map_count;
-    double frame_seconds; ///< smoothed; shown in the corner unless steady
+    sl_shelf shelf;
+    sl_import_options options; ///< the command line's, for files opened later too
+    double frame_seconds;      ///< smoothed; shown in the corner unless steady
 } sl_app;
 
 void sl_app_init(sl_app *app, sl_context *context);
 void sl_app_destroy(sl_app *app);
-
-void sl_app_open(sl_app *app, const char *path);
 
 /// The first map is there: looks at it from its start.
 void sl_app_take_opened(sl_app *app);

@@ -2,11 +2,9 @@
 
 #include "base/base.h"
 #include "map_copy.h"
-#include "sightline/import.h"
 #include "sightline/solvers.h"
 
 #include <string.h>
-#include <strings.h>
 
 /// A stab tree is kept as long as all fit into this.
 #define TREE_BYTES ((uint64_t)128 << 20)
@@ -26,11 +24,6 @@ static void take_progress(void *user, const sl_progress *progress) {
     atomic_store(&job->total, progress->total);
 }
 
-static bool is_baked_file(const char *path) {
-    const size_t length = strlen(path);
-    return length > 4 && strcasecmp(path + length - 4, ".slv") == 0;
-}
-
 /// A baked file has everything but the map as drawn, which its space's walls stand for.
 static sl_status read_baked(sl_context *context, sl_bake_job *job) {
     SL_TRY(sl_baked_read(context, job->source.path, job->baked));
@@ -44,11 +37,16 @@ static sl_status read_baked(sl_context *context, sl_bake_job *job) {
 }
 
 static sl_status read_map(sl_context *context, sl_bake_job *job) {
-    sl_import_options options = sl_import_options_default();
-    options.has_slice = job->source.has_slice;
-    options.slice = job->source.slice;
-    options.map = job->source.map;
-    return sl_map_read(context, job->source.path, &options, &job->map);
+    const sl_document_source *source = &job->source;
+    SL_TRY(sl_map_read(context, source->path, &source->options, &job->map));
+    if (!source->has_start) return SL_OK;
+    const sl_box b = sl_map_bounds(&job->map);
+    const sl_point at = source->start;
+    if (at.x < b.min.x || at.x > b.max.x || at.y < b.min.y || at.y > b.max.y)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--start %.10g,%.10g: outside the map, which is %.10g,%.10g to %.10g,%.10g",
+                       at.x, at.y, b.min.x, b.min.y, b.max.x, b.max.y);
+    return sl_map_add_start(context, &job->map, source->start, 0, 0);
 }
 
 static const sl_see_method *choose_method(const sl_space *space) {
@@ -85,7 +83,7 @@ static sl_status bake(sl_context *context, sl_bake_job *job) {
 }
 
 static sl_status work(sl_context *context, sl_bake_job *job) {
-    if (job->source.path && is_baked_file(job->source.path)) return read_baked(context, job);
+    if (job->source.path && sl_document_is_baked(job->source.path)) return read_baked(context, job);
     if (job->source.path) SL_TRY(read_map(context, job));
     return bake(context, job);
 }
@@ -102,12 +100,6 @@ static void *run(void *user) {
     return NULL;
 }
 
-static void free_source(sl_context *context, sl_document_source *source) {
-    sl_free(context, source->path);
-    sl_free(context, source->map);
-    *source = (sl_document_source){0};
-}
-
 static void free_job(sl_context *context, sl_bake_job *job) {
     if (!job->taken && job->baked) {
         sl_baked_destroy(context, job->baked);
@@ -115,7 +107,7 @@ static void free_job(sl_context *context, sl_bake_job *job) {
     }
     sl_visibility_destroy(context, &job->visibility);
     sl_map_destroy(context, &job->map);
-    free_source(context, &job->source);
+    sl_document_source_destroy(context, &job->source);
     sl_free(context, job);
 }
 

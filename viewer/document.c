@@ -5,10 +5,36 @@
 #include "map_copy.h"
 
 #include <string.h>
+#include <strings.h>
 #include <time.h>
 
-static char *copy_or_null(sl_context *context, const char *text) {
-    return text ? sl_copy_text(context, text, strlen(text)) : NULL;
+static sl_status copy_text(sl_context *context, const char *text, char **out) {
+    *out = text ? sl_copy_text(context, text, strlen(text)) : NULL;
+    return text && !*out ? SL_NO_MEMORY : SL_OK;
+}
+
+void sl_document_source_destroy(sl_context *context, sl_document_source *source) {
+    sl_free(context, source->path);
+    sl_free(context, (char *)(uintptr_t)source->options.map);
+    sl_free(context, (char *)(uintptr_t)source->options.layers);
+    *source = (sl_document_source){0};
+}
+
+sl_status sl_document_source_copy(sl_context *context, const sl_document_source *from,
+                                  sl_document_source *to) {
+    char *path = NULL, *map = NULL, *layers = NULL;
+    sl_status status = copy_text(context, from->path, &path);
+    if (status == SL_OK) status = copy_text(context, from->options.map, &map);
+    if (status == SL_OK) status = copy_text(context, from->options.layers, &layers);
+    sl_document_source copy = *from;
+    copy.path = path;
+    copy.options.map = map;
+    copy.options.layers = layers;
+    if (status == SL_OK)
+        *to = copy;
+    else
+        sl_document_source_destroy(context, &copy);
+    return status;
 }
 
 static sl_status start(sl_context *context, sl_document *document, sl_bake_job *job) {
@@ -18,14 +44,20 @@ static sl_status start(sl_context *context, sl_document *document, sl_bake_job *
     return SL_OK;
 }
 
+bool sl_document_is_baked(const char *path) {
+    const size_t length = strlen(path);
+    return length > 4 && strcasecmp(path + length - 4, ".slv") == 0;
+}
+
 sl_status sl_document_open(sl_context *context, sl_document *document,
                            const sl_document_source *source) {
     sl_bake_job *job = sl_alloc_array(context, 1, sizeof *job);
     if (!job) return SL_NO_MEMORY;
-    job->source = (sl_document_source){.path = copy_or_null(context, source->path),
-                                       .has_slice = source->has_slice,
-                                       .slice = source->slice,
-                                       .map = copy_or_null(context, source->map)};
+    const sl_status status = sl_document_source_copy(context, source, &job->source);
+    if (status != SL_OK) {
+        sl_free(context, job);
+        return status;
+    }
     return start(context, document, job);
 }
 
@@ -88,11 +120,10 @@ static sl_status take_space(sl_context *context, sl_document *document) {
     sl_map_destroy(context, &document->map);
     SL_TRY(sl_map_copy(context, &job->map, &document->map));
     if (job->source.path) {
-        sl_document_source *source = &document->source;
-        sl_free(context, source->path);
-        sl_free(context, source->map);
-        *source = job->source;
+        sl_document_source_destroy(context, &document->source);
+        document->source = job->source;
         job->source = (sl_document_source){0};
+        document->opened += !document->source.again;
     }
     SL_TRY(measure_cells(context, document));
     SL_TRY(sl_outline_make(context, &document->baked->space, &document->outline));
@@ -178,7 +209,6 @@ void sl_document_close(sl_context *context, sl_document *document) {
     sl_document_cancel(context, document);
     drop_baked(context, document);
     sl_map_destroy(context, &document->map);
-    sl_free(context, document->source.path);
-    sl_free(context, document->source.map);
-    *document = (sl_document){.version = document->version + 1};
+    sl_document_source_destroy(context, &document->source);
+    *document = (sl_document){.version = document->version + 1, .opened = document->opened};
 }

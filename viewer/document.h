@@ -5,16 +5,25 @@
 
 #include "sightline/bake.h"
 #include "sightline/eye_to_cell.h"
+#include "sightline/import.h"
 #include "sightline/region.h"
 #include "space/splits.h"
 
 /// How to read a file.
 typedef struct sl_document_source {
-    char *path; ///< NULL: none was opened
-    bool has_slice;
-    double slice;
-    char *map; ///< of a file of several maps; NULL for the only one
+    char *path;                ///< NULL: none was opened
+    sl_import_options options; ///< its texts are the source's
+    bool has_start;
+    sl_point start;         ///< one beside the map's own
+    double lowest, highest; ///< of a 3D model; equal for all else
+    unsigned takes;         ///< of sl_import_takes: what the format has a use for
+    bool again;             ///< the file that is open with other options: no other one is opened
 } sl_document_source;
+
+/// A copy. `to` is untouched on failure.
+sl_status sl_document_source_copy(sl_context *context, const sl_document_source *from,
+                                  sl_document_source *to);
+void sl_document_source_destroy(sl_context *context, sl_document_source *source); ///< and zeroes it
 
 typedef struct sl_bake_job sl_bake_job;
 
@@ -32,6 +41,7 @@ typedef struct sl_document {
     double area;      ///< of all cells that count
     uint32_t counted; ///< how many there are
     uint32_t version; ///< grows with every change, for those who keep pictures
+    uint32_t opened;  ///< grows with every file that is opened
     sl_bake_job *job; ///< NULL: none runs
 } sl_document;
 
@@ -41,6 +51,9 @@ typedef struct sl_document_progress {
     const char *stage;
     double share; ///< 0 to 1; negative where it is not known
 } sl_document_progress;
+
+/// Whether a file's name is that of a baked one.
+bool sl_document_is_baked(const char *path);
 
 /// Starts to open a file (map or .slv): what is open stays until the new map has its space. Copies
 /// the source.

@@ -4,11 +4,28 @@
 #include "edit.h"
 #include "panes.h"
 #include "quiz.h"
+#include "shelf.h"
 
 #include <math.h>
+#include <string.h>
+
+/// The list takes the keys that choose from it.
+static bool list_key(sl_app *app, const char *key, bool down) {
+    static const struct {
+        const char *key;
+        int by;
+    } moves[] = {{"Up", -1}, {"Down", 1}, {"PageUp", -10}, {"PageDown", 10}};
+    for (size_t i = 0; i < sizeof moves / sizeof *moves; i++) {
+        if (strcmp(key, moves[i].key) != 0) continue;
+        if (down) sl_shelf_move(app, moves[i].by);
+        return true;
+    }
+    return false;
+}
 
 void sl_input_key(sl_app *app, const char *key, bool down) {
     size_t count;
+    if (app->maps_open && list_key(app, key, down)) return;
     const sl_action *actions = sl_actions(&count);
     const int number = sl_action_of_key(key, app->mode);
     if (number < 0) return;
@@ -34,6 +51,14 @@ static double slider_share(const sl_hit *hit, const sl_app *app, sl_point at) {
     return high > low ? fmin(fmax((at.x - low) / (high - low), 0), 1) : 0;
 }
 
+/// A 3D model is cut at a share of its height.
+static void cut_at(sl_app *app, double share) {
+    const sl_document_source *source = &app->document.source;
+    sl_import_options options = source->options;
+    options.slice = source->lowest + share * (source->highest - source->lowest);
+    if (options.slice != source->options.slice) sl_shelf_open_again(app, &options);
+}
+
 /// Sliders, the time line and the dual plane follow the pointer.
 static void follow(sl_app *app, const sl_hit *hit, sl_point at) {
     const double share = slider_share(hit, app, at);
@@ -49,6 +74,9 @@ static void follow(sl_app *app, const sl_hit *hit, sl_point at) {
         break;
     case SL_HIT_TREE_DEPTH:
         app->tree_depth = (uint32_t)round(share * app->tree.tree_depth);
+        break;
+    case SL_HIT_CUT:
+        cut_at(app, share);
         break;
     case SL_HIT_TIME:
         if (length)
@@ -104,8 +132,8 @@ static void click(sl_app *app, const sl_hit *hit) {
     } else if (hit->kind == SL_HIT_METHOD) {
         if (app->compare && (size_t)hit->value != app->method) app->other = app->method;
         app->method = (size_t)hit->value;
-    } else if (hit->kind == SL_HIT_MAP && (size_t)hit->value < app->map_count) {
-        sl_app_open(app, app->maps[hit->value]);
+    } else if (hit->kind == SL_HIT_MAP) {
+        sl_shelf_choose(app, (size_t)hit->value);
     } else if (hit->kind == SL_HIT_PANEL && hit->value == 1) {
         app->help = app->maps_open = false;
     }
@@ -219,6 +247,10 @@ void sl_input_release(sl_app *app, sl_point at) {
 }
 
 void sl_input_wheel(sl_app *app, double steps) {
+    if (app->maps_open) {
+        sl_shelf_move(app, -(int)round(fmin(fmax(steps, -3), 3)));
+        return;
+    }
     const sl_layout l = sl_app_layout(app);
     for (int i = 0; i < l.plan_count; i++) {
         if (!sl_box_has(l.plan[i], app->pointer) || !(app->camera.scale > 0)) continue;

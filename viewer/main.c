@@ -16,9 +16,12 @@
 #include <string.h>
 
 typedef struct arguments {
-    const char *map, *screenshot, *script, *of;
-    double slice, soak;
-    bool has_slice, bench, help, version;
+    const char *map, *screenshot, *script;
+    sl_import_options options;
+    bool has_start;
+    sl_point start;
+    double soak;
+    bool bench, help, version;
     unsigned long frames;
     unsigned long long seed;
 } arguments;
@@ -27,8 +30,14 @@ static void print_help(void) {
     puts("usage: sightline-view [MAP] [options]\n\n"
          "Shows a map (or a baked .slv file), what is seen in it, and how that is found out.\n"
          "'?' in the window tells keys and mouse.\n\n"
-         "  --slice Z            height of the cut, for models (.ug)\n"
-         "  --map NAME           which map of a file of several\n"
+         "  --map NAME           which map of a file that holds several\n"
+         "  --slice Z            cut a 3D model at this height, not in its middle\n"
+         "  --layers LAYER,...   the layers of a drawing or tile map to take\n"
+         "  --tolerance T        how far curves may be from their walls\n"
+         "  --threshold T        darkness from which a pixel is solid, up to 1\n"
+         "  --doors              take doors as doors; without it as what they are when the map\n"
+         "                       begins\n"
+         "  --start X,Y          where the eye begins; tells inside from outside too\n\n"
          "  --script FILE        do what the file says, without a window\n"
          "  --screenshot OUT     save the window (.png, .svg, .pdf), after the script; no display\n"
          "                       is needed\n"
@@ -53,15 +62,50 @@ static sl_status read_number(sl_context *context, const char *option, const char
     return SL_OK;
 }
 
+static sl_status read_point(sl_context *context, const char *option, const char *text,
+                            sl_point *point) {
+    char *end;
+    point->x = strtod(text, &end);
+    const bool comma = end != text && *end == ',';
+    const char *second = end + 1;
+    if (comma) point->y = strtod(second, &end);
+    if (!comma || end == second || *end || !sl_coordinate_usable(point->x) ||
+        !sl_coordinate_usable(point->y))
+        return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: a place is needed, as X,Y", option, text);
+    return SL_OK;
+}
+
+static sl_status read_map_option(sl_context *context, int option, arguments *a) {
+    sl_import_options *o = &a->options;
+    switch (option) {
+    case 'z':
+        o->has_slice = true;
+        return read_number(context, "--slice", optarg, -1e150, &o->slice);
+    case 'm':
+        o->map = optarg;
+        return SL_OK;
+    case 'l':
+        o->layers = optarg;
+        return SL_OK;
+    case 't':
+        return read_number(context, "--tolerance", optarg, 1e-300, &o->tolerance);
+    case 'd':
+        SL_TRY(read_number(context, "--threshold", optarg, 1e-300, &o->threshold));
+        if (o->threshold <= 1) return SL_OK;
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--threshold %s: a number over 0, at most 1, is needed", optarg);
+    case 'r':
+        o->doors = true;
+        return SL_OK;
+    default:
+        a->has_start = true;
+        return read_point(context, "--start", optarg, &a->start);
+    }
+}
+
 static sl_status read_option(sl_context *context, int option, arguments *a) {
     double number;
     switch (option) {
-    case 'z':
-        a->has_slice = true;
-        return read_number(context, "--slice", optarg, -1e150, &a->slice);
-    case 'm':
-        a->of = optarg;
-        return SL_OK;
     case 's':
         a->script = optarg;
         return SL_OK;
@@ -87,27 +131,27 @@ static sl_status read_option(sl_context *context, int option, arguments *a) {
     case 'v':
         a->version = true;
         return SL_OK;
-    default:
+    case '?':
+    case ':':
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "wrong arguments; 'sightline-view --help' tells the right ones");
+    default:
+        return read_map_option(context, option, a);
     }
 }
 
 static sl_status read_arguments(sl_context *context, int argc, char **argv, arguments *a) {
     static const struct option options[] = {
-        {"slice", required_argument, NULL, 'z'},
-        {"map", required_argument, NULL, 'm'},
-        {"script", required_argument, NULL, 's'},
-        {"screenshot", required_argument, NULL, 'o'},
-        {"bench", no_argument, NULL, 'b'},
-        {"frames", required_argument, NULL, 'f'},
-        {"soak", required_argument, NULL, 'k'},
-        {"seed", required_argument, NULL, 'e'},
-        {"help", no_argument, NULL, 'h'},
-        {"version", no_argument, NULL, 'v'},
-        {NULL, 0, NULL, 0},
+        {"slice", required_argument, NULL, 'z'},      {"map", required_argument, NULL, 'm'},
+        {"layers", required_argument, NULL, 'l'},     {"tolerance", required_argument, NULL, 't'},
+        {"threshold", required_argument, NULL, 'd'},  {"doors", no_argument, NULL, 'r'},
+        {"start", required_argument, NULL, 'p'},      {"script", required_argument, NULL, 's'},
+        {"screenshot", required_argument, NULL, 'o'}, {"bench", no_argument, NULL, 'b'},
+        {"frames", required_argument, NULL, 'f'},     {"soak", required_argument, NULL, 'k'},
+        {"seed", required_argument, NULL, 'e'},       {"help", no_argument, NULL, 'h'},
+        {"version", no_argument, NULL, 'v'},          {NULL, 0, NULL, 0},
     };
-    *a = (arguments){.frames = 300, .seed = 1};
+    *a = (arguments){.frames = 300, .seed = 1, .options = sl_import_options_default()};
     opterr = 0;
     for (int option; (option = getopt_long(argc, argv, "h", options, NULL)) != -1;)
         SL_TRY(read_option(context, option, a));
@@ -118,15 +162,15 @@ static sl_status read_arguments(sl_context *context, int argc, char **argv, argu
     return SL_OK;
 }
 
-/// Opens the map named; without a window it is waited for, and what is wrong with it ends all.
-static sl_status open_map(sl_app *app, const arguments *a, bool wait) {
+/// Opens the map named, and waits until it is there: what is wrong with it ends all.
+static sl_status open_map(sl_app *app, const arguments *a, bool ask) {
+    app->options = a->options;
     if (!a->map) return SL_OK;
     const sl_document_source source = {.path = (char *)(uintptr_t)a->map,
-                                       .has_slice = a->has_slice,
-                                       .slice = a->slice,
-                                       .map = (char *)(uintptr_t)a->of};
-    SL_TRY(sl_document_open(app->context, &app->document, &source));
-    if (!wait) return SL_OK;
+                                       .options = a->options,
+                                       .has_start = a->has_start,
+                                       .start = a->start};
+    SL_TRY(sl_shelf_open_source(app, &source, ask));
     sl_status status = SL_OK;
     bool changed;
     // The window's own way, but for the status, which is the program's here.
@@ -137,7 +181,7 @@ static sl_status open_map(sl_app *app, const arguments *a, bool wait) {
 
 static sl_status run_headless(sl_app *app, const arguments *a) {
     app->steady = true;
-    SL_TRY(open_map(app, a, true));
+    SL_TRY(open_map(app, a, false));
     sl_app_take_opened(app);
     sl_app_settle(app);
     if (a->script) SL_TRY(sl_script_run(app, a->script, NULL, NULL));

@@ -3,6 +3,7 @@
 
 #include "actions.h"
 #include "draw/text.h"
+#include "shelf.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -55,24 +56,44 @@ void sl_pane_help(sl_app *app) {
     }
 }
 
+static void draw_row(sl_app *app, sl_box row, size_t i, const char *name) {
+    sl_ui *ui = &app->ui;
+    const double t = ui->text;
+    const bool over = sl_box_has(row, ui->pointer);
+    if (over || i == app->shelf.at)
+        sl_ui_fill_round(ui, row, 0.3 * t,
+                         sl_colour_mix(ui->palette.page, ui->palette.glass, over ? 0.25 : 0.14));
+    sl_text_show_within(ui->cairo, ui->palette.ink, row.min.x + 0.6 * t, row.min.y + 1.3 * t,
+                        sl_box_width(row) - 1.2 * t, t, false, name);
+    sl_ui_hit(ui, SL_HIT_MAP, (int)i, row);
+}
+
+/// Rows go down one column after the other; of a long list the part that has the row chosen shows.
 void sl_pane_maps(sl_app *app) {
     sl_ui *ui = &app->ui;
     const double t = ui->text, high = 1.9 * t;
-    const double wanted = 4.6 * t + high * fmax((double)app->map_count, 1);
-    const sl_box sheet = begin_sheet(app, 40 * t, wanted, "Maps at hand");
-    double y = sheet.min.y + 3.3 * t;
-    if (!app->map_count)
-        sl_ui_text(ui, sheet.min.x + 1.5 * t, y + t, 1, false, ui->palette.faint,
+    const sl_map_list *list = sl_shelf_list(app);
+    const bool maps = list == &app->shelf.maps;
+    const double columns = fmin(fmax(ceil(high * (double)list->count / (app->height - 8 * t)), 1),
+                                fmax(floor(app->width / (22 * t)), 1));
+    const double rows = fmax(ceil((double)list->count / columns), 1);
+    const sl_box sheet = begin_sheet(app, fmax(40, 22 * columns) * t, 4.6 * t + high * rows,
+                                     maps ? "Which of its maps?" : "Maps at hand");
+    const double top = sheet.min.y + 3.3 * t, width = (sl_box_width(sheet) - 2 * t) / columns;
+    const size_t fit = (size_t)fmax(floor((sheet.max.y - top) / high), 1);
+    const size_t page = fit * (size_t)columns;
+    if (!list->count)
+        sl_ui_text(ui, sheet.min.x + 1.5 * t, top + t, 1, false, ui->palette.faint,
                    "None. Drop a file on the window.");
-    for (size_t i = 0; i < app->map_count && y + high < sheet.max.y; i++) {
-        const sl_box row = {{sheet.min.x + t, y}, {sheet.max.x - t, y + high}};
-        const char *slash = strrchr(app->maps[i], '/');
-        if (sl_box_has(row, ui->pointer))
-            sl_ui_fill_round(ui, row, 0.3 * t,
-                             sl_colour_mix(ui->palette.page, ui->palette.glass, 0.25));
-        sl_ui_text(ui, row.min.x + 0.6 * t, y + 1.3 * t, 1, false, ui->palette.ink,
-                   slash ? slash + 1 : app->maps[i]);
-        sl_ui_hit(ui, SL_HIT_MAP, (int)i, row);
-        y += high;
+    sl_shelf *shelf = &app->shelf;
+    if (shelf->at < shelf->first) shelf->first = shelf->at;
+    if (shelf->at >= shelf->first + page) shelf->first = shelf->at - page + 1;
+    for (size_t i = shelf->first; i < list->count && i < shelf->first + page; i++) {
+        const size_t place = i - shelf->first;
+        const double x = sheet.min.x + t + width * (double)(place / fit);
+        const double y = top + high * (double)(place % fit);
+        const char *slash = maps ? NULL : strrchr(list->names[i], '/');
+        draw_row(app, (sl_box){{x, y}, {x + width, y + high}}, i,
+                 slash ? slash + 1 : list->names[i]);
     }
 }

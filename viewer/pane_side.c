@@ -93,13 +93,13 @@ static void draw_method(sl_app *app, column *c, const method_row *row, int numbe
     snprintf(words, sizeof words, "%s", row->name);
     for (char *at = words; *at; at++)
         if (*at == '_') *at = ' ';
-    sl_text_show_within(ui->cairo, ui->palette.ink, c->left + 1.3 * t, base, 10.4 * t, 0.95 * t,
+    sl_text_show_within(ui->cairo, ui->palette.ink, c->left + 1.3 * t, base, 10.1 * t, 0.95 * t,
                         false, words);
     if (row->known) {
         const double unit = (c->right - c->left) / 22;
-        cells_text(c->left + 12.9 * unit, ui, base, row->cells, ui->palette.ink);
+        cells_text(c->left + 12.7 * unit, ui, base, row->cells, ui->palette.ink);
         sl_text_percent(app->document.area > 0 ? row->area / app->document.area : 0, text);
-        sl_ui_text_right(ui, c->left + 16.1 * unit, base, 0.95, ui->palette.ink, text);
+        sl_ui_text_right(ui, c->left + 16.3 * unit, base, 0.95, ui->palette.ink, text);
         cells_text(c->left + 18.9 * unit, ui, base, row->tests, ui->palette.ink);
         write_seconds(app, row->seconds, text);
         sl_ui_text_right(ui, c->right, base, 0.95, ui->palette.faint, text);
@@ -115,8 +115,8 @@ static void draw_methods(sl_app *app, column *c) {
     const double unit = (c->right - c->left) / 22, t = ui->text;
     heading(app, c, "What is kept", NULL);
     c->y -= 0.55 * t;
-    sl_ui_text_right(ui, c->left + 12.9 * unit, c->y, 0.85, ui->palette.faint, "cells");
-    sl_ui_text_right(ui, c->left + 16.1 * unit, c->y, 0.85, ui->palette.faint, "area");
+    sl_ui_text_right(ui, c->left + 12.7 * unit, c->y, 0.85, ui->palette.faint, "cells");
+    sl_ui_text_right(ui, c->left + 16.3 * unit, c->y, 0.85, ui->palette.faint, "area");
     sl_ui_text_right(ui, c->left + 18.9 * unit, c->y, 0.85, ui->palette.faint, "tests");
     sl_ui_text_right(ui, c->right, c->y, 0.85, ui->palette.faint, "time");
     c->y += 0.4 * t;
@@ -141,7 +141,7 @@ static void draw_methods(sl_app *app, column *c) {
     sl_text_percent(
         app->document.area > 0 && app->seen.valid ? app->seen.region_area / app->document.area : 0,
         text);
-    sl_ui_text_right(ui, c->left + 16.1 * unit, base, 0.95, ui->palette.ink, text);
+    sl_ui_text_right(ui, c->left + 16.3 * unit, base, 0.95, ui->palette.ink, text);
     cells_text(c->left + 18.9 * unit, ui, base, app->seen.valid ? app->seen.region.crossings : 0,
                ui->palette.ink);
     write_seconds(app, app->seen.region_seconds, text);
@@ -158,6 +158,14 @@ static void draw_methods(sl_app *app, column *c) {
 
 // --- words
 
+/// Areas beyond four digits without a power of ten.
+static void write_area(double area, char text[SL_COUNT_TEXT]) {
+    if (area >= 1e4 && area < 1e15)
+        sl_text_count((uint64_t)llround(area), "", text);
+    else
+        snprintf(text, SL_COUNT_TEXT, "%.4g", area);
+}
+
 void sl_pane_describe(const sl_app *app, sl_point at, char *text, size_t room) {
     text[0] = '\0';
     if (!app->document.baked) return;
@@ -170,9 +178,11 @@ void sl_pane_describe(const sl_app *app, sl_point at, char *text, size_t room) {
     const sl_cell *c = &space->cells[cell];
     const size_t word = cell / 64, bit = cell % 64;
     const bool counts = sl_baked_counts(app->document.baked, cell);
-    int length = snprintf(text, room, "Cell %u at %.4g, %.4g: %u portal%s, area %.4g%s.", cell,
-                          at.x, at.y, c->exit_count, c->exit_count == 1 ? "" : "s",
-                          app->document.areas[cell], counts ? "" : ", not inside");
+    char area[SL_COUNT_TEXT];
+    write_area(app->document.areas[cell], area);
+    int length =
+        snprintf(text, room, "Cell %u at %.4g, %.4g: %u portal%s, area %s%s.", cell, at.x, at.y,
+                 c->exit_count, c->exit_count == 1 ? "" : "s", area, counts ? "" : ", not inside");
     if (!app->seen.valid || !app->seen.pvs || length < 0 || (size_t)length >= room) return;
     size_t count;
     sl_eye_methods(&count);
@@ -205,6 +215,13 @@ static void draw_sliders(sl_app *app, column *c) {
     else
         snprintf(text, sizeof text, "%.0f\xc2\xb0", app->eye.fov);
     slider_row(app, c, "View cone", text, sqrt((app->eye.fov - 1) / 359), SL_HIT_CONE);
+    const sl_document_source *source = &app->document.source;
+    if (source->highest > source->lowest) {
+        const double share =
+            (source->options.slice - source->lowest) / (source->highest - source->lowest);
+        snprintf(text, sizeof text, "%.5g", source->options.slice);
+        slider_row(app, c, "Cut at", text, share, SL_HIT_CUT);
+    }
     if (app->show & SL_SHOW_SPLITS && app->document.baked) {
         const double depth = app->document.baked->space.tree_depth;
         snprintf(text, sizeof text, "%.0f", fmin(app->split_depth, depth));

@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "input.h"
 #include "save.h"
+#include "shelf.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -45,7 +46,7 @@ static void frame(reader *r, double seconds) {
 // --- commands
 
 static sl_status do_open(reader *r, const words *w) {
-    sl_app_open(r->app, w->rest);
+    sl_shelf_open(r->app, w->rest);
     sl_app_settle(r->app);
     if (r->app->message_is_error)
         return sl_fail_at(r->app->context, r->file, r->line, "%s", r->app->message);

@@ -6,6 +6,7 @@
 #include "clock.h"
 #include "input.h"
 #include "script.h"
+#include "shelf.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -60,7 +61,8 @@ static void random_event(sl_app *app, sl_random *random) {
         app->held = 0;
         break;
     case 2:
-        if (app->map_count) sl_app_open(app, app->maps[sl_random_below(random, app->map_count)]);
+        if (app->shelf.files.count)
+            sl_shelf_choose(app, sl_random_below(random, sl_shelf_list(app)->count));
         break;
     case 3:
     case 4:

@@ -19,7 +19,8 @@ typedef enum sl_hit_kind {
     SL_HIT_CONE, ///< the slider of the view cone
     SL_HIT_SPLIT_DEPTH,
     SL_HIT_TREE_DEPTH,
-    SL_HIT_MAP, ///< value: of the list of maps
+    SL_HIT_CUT, ///< the height at which a 3D model is cut
+    SL_HIT_MAP, ///< value: row of the list that is open
 } sl_hit_kind;
 
 typedef struct sl_hit {

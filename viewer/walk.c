@@ -90,6 +90,10 @@ void sl_walk_home(sl_app *app) {
     const sl_document *d = &app->document;
     if (!d->baked) return;
     const sl_map *map = &d->baked->map;
+    if (d->source.has_start) {
+        app->eye.at = d->source.start;
+        return;
+    }
     if (map->start_count) {
         app->eye.at = map->starts[0].at;
         app->eye.heading = fmod(map->starts[0].heading, 360);

@@ -3,6 +3,7 @@
 #include "base/base.h"
 #include "clock.h"
 #include "input.h"
+#include "shelf.h"
 
 #include <SDL.h>
 #include <ctype.h>
@@ -148,7 +149,7 @@ static void take_event(sl_window *w, const SDL_Event *e) {
         sl_input_wheel(w->app, e->wheel.y);
         break;
     case SDL_DROPFILE:
-        sl_app_open(w->app, e->drop.file);
+        sl_shelf_open(w->app, e->drop.file);
         SDL_free(e->drop.file);
         break;
     case SDL_WINDOWEVENT:

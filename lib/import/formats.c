@@ -80,6 +80,7 @@ static const sl_map_format formats[] = {
      .endings = ".ug",
      .what = "a UniGrafix model, cut at a height",
      .read = sl_map_read_unigrafix,
+     .heights = sl_map_heights_unigrafix,
      .takes = SL_TAKES_SLICE},
     {.name = "dxf",
      .endings = ".dxf",
@@ -301,17 +302,32 @@ sl_status sl_map_read(sl_context *context, const char *path, const sl_import_opt
     return SL_OK;
 }
 
-sl_status sl_map_list_read(sl_context *context, const char *path, sl_map_list *list) {
+void sl_map_choice_destroy(sl_context *context, sl_map_choice *choice) {
+    sl_map_list_destroy(context, &choice->maps);
+    *choice = (sl_map_choice){0};
+}
+
+sl_status sl_map_choice_read(sl_context *context, const char *path, sl_map_choice *out) {
     sl_bytes bytes;
     SL_TRY(sl_file_read(context, path, &bytes));
-    const sl_map_format *format = find_format(path, &bytes);
-    sl_map_list read = {0};
+    sl_map_choice read = {.format = find_format(path, &bytes)};
+    const sl_map_format *format = read.format;
     sl_status status = SL_OK;
-    if (format->list) status = format->list(context, path, bytes.data, bytes.size, &read);
+    if (format->list) status = format->list(context, path, bytes.data, bytes.size, &read.maps);
+    if (status == SL_OK && format->heights)
+        status =
+            format->heights(context, path, bytes.data, bytes.size, &read.lowest, &read.highest);
     sl_free(context, bytes.data);
     if (status == SL_OK)
-        *list = read;
+        *out = read;
     else
-        sl_map_list_destroy(context, &read);
+        sl_map_choice_destroy(context, &read);
     return status;
+}
+
+sl_status sl_map_list_read(sl_context *context, const char *path, sl_map_list *list) {
+    sl_map_choice choice;
+    SL_TRY(sl_map_choice_read(context, path, &choice));
+    *list = choice.maps;
+    return SL_OK;
 }

@@ -307,8 +307,6 @@ static sl_status read_statements(ug_model *model, const char *text, bool faces) 
 
 static sl_status check_slice(const ug_model *model, const sl_import_options *options) {
     char text[3][SL_NUMBER_TEXT];
-    if (model->vertices.count == 0)
-        return sl_fail_at(model->context, model->name, 0, "the model has no vertices");
     sl_number_write(model->lowest, text[0]);
     sl_number_write(model->highest, text[1]);
     if (!options->has_slice)
@@ -326,15 +324,21 @@ static sl_status check_slice(const ug_model *model, const sl_import_options *opt
                    text[2], text[0], text[1]);
 }
 
+/// The points alone.
+static sl_status read_points(ug_model *model, const char *text, size_t size) {
+    SL_TRY(sl_refuse_nul(model->context, model->name, text, size));
+    model->end = size ? text + size : text;
+    SL_TRY(read_statements(model, sl_lines_of(text, size).at, false));
+    if (model->vertices.count) return SL_OK;
+    return sl_fail_at(model->context, model->name, 0, "the model has no vertices");
+}
+
 static sl_status read_model(ug_model *model, const char *text, size_t size,
                             const sl_import_options *options) {
-    SL_TRY(sl_refuse_nul(model->context, model->name, text, size));
-    const char *begin = sl_lines_of(text, size).at;
-    model->end = size ? text + size : text;
-    SL_TRY(read_statements(model, begin, false));
+    SL_TRY(read_points(model, text, size));
     SL_TRY(check_slice(model, options));
     model->slice = options->slice;
-    SL_TRY(read_statements(model, begin, true));
+    SL_TRY(read_statements(model, sl_lines_of(text, size).at, true));
     if (model->notes.count) {
         model->notes.items[model->notes.count] = '\0';
         SL_TRY(sl_map_add_note(model->context, model->map, model->notes.items));
@@ -349,19 +353,34 @@ static sl_status read_model(ug_model *model, const char *text, size_t size,
     return SL_OK;
 }
 
+static void free_model(ug_model *model) {
+    sl_free(model->context, model->vertices.items);
+    sl_free(model->context, model->slots);
+    sl_free(model->context, model->crossings.items);
+    sl_free(model->context, model->notes.items);
+}
+
 sl_status sl_map_read_unigrafix(sl_context *context, const char *name, const char *text,
                                 size_t size, const sl_import_options *options, sl_map *map) {
     sl_map read = {0};
     ug_model model = {
         .context = context, .name = name, .map = &read, .lowest = HUGE_VAL, .highest = -HUGE_VAL};
     const sl_status status = read_model(&model, text, size, options);
-    sl_free(context, model.vertices.items);
-    sl_free(context, model.slots);
-    sl_free(context, model.crossings.items);
-    sl_free(context, model.notes.items);
+    free_model(&model);
     if (status == SL_OK)
         *map = read;
     else
         sl_map_destroy(context, &read);
     return status;
+}
+
+sl_status sl_map_heights_unigrafix(sl_context *context, const char *name, const char *text,
+                                   size_t size, double *lowest, double *highest) {
+    ug_model model = {.context = context, .name = name, .lowest = HUGE_VAL, .highest = -HUGE_VAL};
+    const sl_status status = read_points(&model, text, size);
+    free_model(&model);
+    if (status != SL_OK) return status;
+    *lowest = model.lowest;
+    *highest = model.highest;
+    return SL_OK;
 }

@@ -110,8 +110,15 @@ static void test_options_refused(void **state) {
     sl_map_list list = {0};
     assert_ok(context, sl_map_list_read(context, path, &list));
     assert_int_equal(list.count, 0);
+    sl_map_choice choice;
+    assert_ok(context, sl_map_choice_read(context, path, &choice));
+    assert_string_equal(choice.format->name, "text");
+    assert_int_equal(choice.maps.count, 0);
+    assert_true(choice.lowest == choice.highest);
+    sl_map_choice_destroy(context, &choice);
     remove(path);
     assert_int_equal(sl_map_list_read(context, path, &list), SL_BAD_ARGUMENT);
+    assert_int_equal(sl_map_choice_read(context, path, &choice), SL_BAD_ARGUMENT);
     sl_context_destroy(context);
 }
 

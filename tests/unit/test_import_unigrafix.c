@@ -29,6 +29,12 @@ static void test_cut(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
     assert_cut(context, BOX, 1, BOX_CUT);
+    double lowest = 9, highest = 9;
+    assert_ok(context,
+              sl_map_heights_unigrafix(context, "m.ug", BOX, strlen(BOX), &lowest, &highest));
+    assert_true(lowest == 0 && highest == 4);
+    assert_int_equal(sl_map_heights_unigrafix(context, "m.ug", "", 0, &lowest, &highest),
+                     SL_BAD_INPUT);
     // A vertex in the plane counts as above it: the top edge is cut, the bottom edge is not.
     assert_cut(context, BOX, 4, BOX_CUT);
     assert_cut(context, BOX, 0, "");

@@ -34,6 +34,11 @@ def main():
         fails(2, "wrong arguments", "--nonsense")
         fails(2, "one map at a time", office, office)
         fails(2, "--slice tall", office, "--slice", "tall")
+        fails(2, "--start 3", office, "--start", "3")
+        fails(2, "--start 1,2,3", office, "--start", "1,2,3")
+        fails(2, "--threshold 2", office, "--threshold", "2")
+        fails(2, "has no use for it", office, "--doors", "--screenshot", out)
+        fails(2, "outside", office, "--start", "1e6,1e6", "--screenshot", out)
         fails(2, "ends in .png", office, "--screenshot", folder / "out.gif")
         fails(2, "missing.txt", office, "--script", folder / "missing.txt")
         for line, words in [("dance", "no command is called 'dance'"),

@@ -56,6 +56,9 @@ typedef struct sl_map_format {
     /// Lists the maps of a file into an empty list; NULL for a format of one map a file.
     sl_status (*list)(sl_context *context, const char *name, const char *text, size_t size,
                       sl_map_list *list);
+    /// Between which heights a 3D model lies; NULL for a format of plans.
+    sl_status (*heights)(sl_context *context, const char *name, const char *text, size_t size,
+                         double *lowest, double *highest);
     /// Whether the bytes look like this format's: asked where the ending does not tell. NULL:
     /// never.
     bool (*knows)(const char *text, size_t size);
@@ -76,10 +79,24 @@ SL_API sl_status sl_map_read(sl_context *context, const char *path,
 /// one map a file.
 SL_API sl_status sl_map_list_read(sl_context *context, const char *path, sl_map_list *list);
 
+/// What there is to choose before a file is read. Zeroed, it is empty.
+typedef struct sl_map_choice {
+    const sl_map_format *format; ///< by which sl_map_read reads it
+    sl_map_list maps;            ///< none for a format of one map a file
+    double lowest, highest;      ///< of a 3D model; equal for all else
+} sl_map_choice;
+
+/// Fails as sl_map_read does where the file is broken; `out` then stays as it was.
+SL_API sl_status sl_map_choice_read(sl_context *context, const char *path, sl_map_choice *out);
+SL_API void sl_map_choice_destroy(sl_context *context, sl_map_choice *choice); ///< and zeroes it
+
 /// Cuts a UniGrafix model at a height: every face that crosses the plane gives walls. Faces in the
 /// plane give none; comments that surround the model are kept as notes. What was taken is noted.
 SL_API sl_status sl_map_read_unigrafix(sl_context *context, const char *name, const char *text,
                                        size_t size, const sl_import_options *options, sl_map *map);
+
+SL_API sl_status sl_map_heights_unigrafix(sl_context *context, const char *name, const char *text,
+                                          size_t size, double *lowest, double *highest);
 
 /// The lines, polylines with bulges, arcs, circles and ellipses of an ASCII DXF drawing, in blocks
 /// as inserted, on layers that are on and not frozen or on those asked for. What was taken is
