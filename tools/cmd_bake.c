@@ -4,6 +4,7 @@
 #include "effects.h"
 #include "inputs.h"
 #include "pipeline.h"
+#include "sizes.h"
 #include "solvers.h"
 
 #include <string.h>
@@ -13,7 +14,7 @@ enum { MAX_THREADS = 4096 };
 /// The options as they are given.
 typedef struct bake_texts {
     sl_pipeline_texts pipeline;
-    const char *output, *method, *solver, *sight, *threads, *tree_memory, *samples, *seed;
+    const char *output, *method, *solver, *sight, *threads, *memory, *tree_memory, *samples, *seed;
     bool stab_trees, inside, json;
 } bake_texts;
 
@@ -70,6 +71,12 @@ static sl_status plan_seeing(sl_context *context, const bake_texts *texts, bake_
                        texts->samples ? "--samples" : "--seed", methods[method].name);
     if (texts->tree_memory && !texts->stab_trees)
         return sl_fail(context, SL_BAD_ARGUMENT, "--tree-memory needs --stab-trees");
+    if (texts->memory && !methods[method].keeps_rows)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--memory: the method '%s' keeps no more than it writes",
+                       methods[method].name);
+    see.row_bytes = sl_size_of_machine_memory() / 2;
+    SL_TRY(sl_option_size(context, "--memory", texts->memory, &see.row_bytes));
     plan->method = &methods[method];
     plan->see = see;
     plan->see.samples = (uint32_t)samples;
@@ -201,6 +208,9 @@ sl_status sl_cmd_bake(sl_console *console, int argc, char **argv) {
          "0, the default, for one a core;\nthe result is the same for any number"},
         {"samples", 0, "N", NULL, &t.samples, "lines from each cell, for sampling"},
         {"seed", 0, "N", NULL, &t.seed, "of random numbers, for sampling"},
+        {"memory", 0, "SIZE", NULL, &t.memory,
+         "for the visible sets in the making at most, as 64M,\n2G; half of the machine's unless "
+         "told"},
         {"stab-trees", 0, NULL, &t.stab_trees, NULL, "keep the trees of portal sequences"},
         {"tree-memory", 0, "SIZE", NULL, &t.tree_memory,
          "for them at most, as 64K, 256M (the default), 2G"},

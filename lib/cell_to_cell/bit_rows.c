@@ -1,10 +1,11 @@
 #include "cell_to_cell/bit_rows.h"
 
+#include "base/threads.h"
 #include "cell_to_cell/pvs_rows.h"
 
 #include <pthread.h>
 
-/// Up to here, rows that hold every bit are faster: they fit a processor's caches.
+/// Up to here, rows that hold every bit are as fast or faster: they fit a processor's caches.
 #define MOST_DENSE_BYTES (UINT64_C(16) << 20)
 
 /// Neighbours are asked for at once, so that they have locks of their own.
@@ -15,9 +16,12 @@ struct sl_shared_rows {
     pthread_mutex_t locks[LOCKS];
 };
 
-static bool choose_sparse(uint64_t count, size_t words, sl_row_storage storage) {
-    if (storage != SL_ROWS_BY_SIZE) return storage == SL_ROWS_SPARSE;
-    return count * words * sizeof(sl_bits) > MOST_DENSE_BYTES;
+/// Of dense rows each thread has its own.
+static bool choose_sparse(uint64_t count, size_t words, const sl_see_options *options) {
+    if (options->rows != SL_ROWS_BY_SIZE) return options->rows == SL_ROWS_SPARSE;
+    const uint64_t bytes = count * words * sizeof(sl_bits);
+    const uint64_t forks = options->threads ? options->threads : sl_core_count();
+    return bytes > MOST_DENSE_BYTES || bytes * (forks + 1) > options->row_bytes;
 }
 
 static sl_status create_sparse(sl_context *context, sl_bit_rows *rows, uint64_t most) {
@@ -44,7 +48,7 @@ static sl_status create_dense(sl_context *context, sl_bit_rows *rows) {
 sl_status sl_bit_rows_create(sl_context *context, uint32_t count, const sl_see_options *options,
                              sl_bit_rows *rows) {
     sl_bit_rows made = {.count = count, .words = sl_bits_words(count)};
-    if (choose_sparse(count, made.words, options->rows))
+    if (choose_sparse(count, made.words, options))
         SL_TRY(create_sparse(context, &made, options->row_bytes));
     else
         SL_TRY(create_dense(context, &made));

@@ -19,17 +19,15 @@ static sl_status fail_budget(sl_context *context, const sl_row_budget *budget) {
                    (double)budget->most / (1 << 20));
 }
 
-enum { BYTES_OF_SPARSE_WORD = sizeof(sl_bits) + sizeof(uint32_t) };
-
 static sl_status make_room(sl_context *context, sl_sparse_row *row, uint32_t more,
                            sl_row_budget *budget) {
     const uint32_t needed = row->count + more;
     if (needed <= row->room) return SL_OK;
     uint32_t room = row->room + row->room / 2 + 2;
     if (room < needed) room = needed;
-    if (!spend(budget, (uint64_t)(room - row->room) * BYTES_OF_SPARSE_WORD))
+    if (!spend(budget, (uint64_t)(room - row->room) * SL_SPARSE_WORD_BYTES))
         return fail_budget(context, budget);
-    sl_bits *words = sl_alloc(context, (size_t)room * BYTES_OF_SPARSE_WORD);
+    sl_bits *words = sl_alloc(context, (size_t)room * SL_SPARSE_WORD_BYTES);
     if (!words) return SL_NO_MEMORY;
     const sl_sparse_row grown = {.words = words, .room = room, .count = row->count};
     if (row->count) {
@@ -43,7 +41,7 @@ static sl_status make_room(sl_context *context, sl_sparse_row *row, uint32_t mor
 
 static sl_status keep_all_words(sl_context *context, sl_sparse_row *row, size_t words,
                                 sl_row_budget *budget) {
-    const uint64_t before = (uint64_t)row->room * BYTES_OF_SPARSE_WORD;
+    const uint64_t before = (uint64_t)row->room * SL_SPARSE_WORD_BYTES;
     const uint64_t after = words * sizeof(sl_bits);
     // Where rows shrink by it, the difference wraps and takes off.
     if (!spend(budget, after - before)) return fail_budget(context, budget);
@@ -58,7 +56,7 @@ static sl_status keep_all_words(sl_context *context, sl_sparse_row *row, size_t 
 
 /// Whether so many words take less room without their indices.
 static bool are_many(size_t count, size_t words) {
-    return count * BYTES_OF_SPARSE_WORD >= words * sizeof(sl_bits);
+    return count * SL_SPARSE_WORD_BYTES >= words * sizeof(sl_bits);
 }
 
 /// The first place from `at` on whose index is not below `word`.

@@ -103,9 +103,27 @@ static sl_status add_neighbours(sl_context *context, sweep *all) {
     return SL_OK;
 }
 
+/// Says what sparse rows will take, and refuses what is far from what they may.
+static sl_status tell_memory(sl_context *context, sweep *all) {
+    if (all->rows.bits) return SL_OK;
+    const double limit = (double)all->options->row_bytes, mib = 1 << 20;
+    uint64_t bytes = 0;
+    SL_TRY(sl_sweep_estimate(context, &all->fans, all->options->sight == SL_CLOSED, &all->rows,
+                             &bytes));
+    if ((double)bytes / 2 > limit)
+        return sl_fail(context, SL_NO_MEMORY,
+                       "the visible sets would take about %.1f MiB, and may take %.1f MiB: allow "
+                       "more memory, or bake in parts",
+                       (double)bytes / mib, limit / mib);
+    sl_note(context, "the visible sets of %u cells will take about %.0f MiB of memory",
+            all->rows.count, (double)bytes / mib);
+    return SL_OK;
+}
+
 static sl_status sweep_all(sl_context *context, sweep *all, sl_visibility *out) {
     SL_TRY(sl_fans_find(context, all->space, all->options, &all->fans));
     SL_TRY(sl_bit_rows_create(context, all->space->cell_count, all->options, &all->rows));
+    SL_TRY(tell_memory(context, all));
     const sl_work work = {.job = all,
                           .begin = begin,
                           .unit = sweep_unit,

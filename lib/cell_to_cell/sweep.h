@@ -34,6 +34,11 @@ void sl_sweeper_destroy(sl_context *context, sl_sweeper *sweeper);
 /// only.
 sl_status sl_sweep_fan(sl_context *context, sl_sweeper *sweeper, const sl_fan *fan);
 
+/// About how much sparse rows will take when all fans are swept, half as much or twice as much.
+/// Some fans are swept for it.
+sl_status sl_sweep_estimate(sl_context *context, const sl_fans *fans, bool closed,
+                            sl_bit_rows *rows, uint64_t *bytes);
+
 /// Turns the line: adds the pairs of what is seen by both its halves.
 sl_status sl_sweep_turn(sl_context *context, sl_sweeper *sweeper, const sl_fan *fan);
 

@@ -64,8 +64,8 @@ typedef struct sl_see_options {
     bool inside_only;        ///< look from and at inside cells only; other rows are empty
     uint64_t seed;           ///< of methods that draw at random
     uint32_t samples;        ///< lines that "sampling" draws from each cell
-    sl_row_storage rows;     ///< of methods that keep rows of bits: "sweep", "flood", "sampling"
-    uint64_t row_bytes; ///< limit on memory for sparse rows; beyond it they fail (SL_NO_MEMORY)
+    sl_row_storage rows;     ///< of methods that keep rows of bits
+    uint64_t row_bytes;      ///< limit on memory for them; what needs more fails (SL_NO_MEMORY)
 } sl_see_options;
 
 SL_API sl_see_options sl_see_options_default(void);
@@ -75,7 +75,8 @@ SL_API sl_see_options sl_see_options_default(void);
 /// that make no stab trees refuse to (SL_UNSUPPORTED).
 typedef struct sl_see_method {
     const char *name, *what;
-    bool stabs; ///< whether it needs a solver; its guarantee is then the solver's
+    bool stabs;      ///< whether it needs a solver; its guarantee is then the solver's
+    bool keeps_rows; ///< of bits, as options->rows and row_bytes say
     sl_guarantee guarantee;
     sl_status (*see)(sl_context *context, const sl_space *space, const sl_see_options *options,
                      sl_visibility *out);
