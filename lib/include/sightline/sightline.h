@@ -22,5 +22,6 @@
 #include "sightline/stab.h"
 #include "sightline/steps.h"
 #include "sightline/view.h"
+#include "sightline/walk.h"
 
 #endif

@@ -1,0 +1,131 @@
+/// Walking with coherence: hierarchical visibility culling frame by frame, without visible sets
+/// (Bittner & Havran 2002, Exploiting coherence in hierarchical visibility algorithms).
+///
+/// Of each frame, a few large occluders are chosen, and what they leave unhidden within the view
+/// cone is that frame's visible part of the plane. A node of the hierarchy is invisible where
+/// nothing of its inside lies in that part, visible where all of it does, else partially visible.
+/// What only single rays see counts as hidden, as it does for the visible region (region.h).
+#ifndef SIGHTLINE_WALK_H
+#define SIGHTLINE_WALK_H
+
+#include "sightline/space.h"
+#include "sightline/view.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// A node of the hierarchy. Node 0 is the root; a node stands before those below it.
+typedef struct sl_walk_node {
+    sl_box box;       ///< in a kd-tree's space the node itself; else it holds the node's cells
+    int32_t parent;   ///< -1 for the root
+    int32_t child[2]; ///< below the split and above it; -1, -1 for a leaf
+    uint32_t split;   ///< of the space's nodes; not used in leaves
+    uint32_t cell;    ///< of a leaf; else SL_NO_CELL
+    uint32_t first_leaf, leaf_count; ///< of sl_hierarchy.leaves: those of the node
+    /// Ropes (Havran, Bittner & Zara 1998): by face (left, right, lower, upper) the least node
+    /// beyond that holds all of the face; -1 for none.
+    int32_t rope[4];
+} sl_walk_node;
+
+/// The hierarchy of a space: its tree with boxes, and with the walls of its cells. In a BSP's
+/// space, where several nodes may have one child, the first of them has it alone. Zeroed, it is
+/// empty.
+typedef struct sl_hierarchy {
+    const sl_space *space; ///< the caller's; it must stay as long as the hierarchy
+    bool tiles;            ///< a kd-tree's: children make up their parent, leaves are their boxes
+    uint32_t node_count, leaf_count, occluder_count;
+    uint32_t corner_most; ///< corners of the cell that has most, at least 4
+    sl_walk_node *nodes;
+    uint32_t *leaves;      ///< cells, in the order of the nodes
+    uint32_t *first_wall;  ///< by cell, and one more
+    uint32_t *walls;       ///< those on cell c's boundary: from first_wall[c] on
+    sl_segment *occluders; ///< the walls, where axial ones that overlap or touch in line are one
+} sl_hierarchy;
+
+/// Time O(n log n).
+SL_API sl_status sl_hierarchy_make(sl_context *context, const sl_space *space, sl_hierarchy *out);
+SL_API void sl_hierarchy_destroy(sl_context *context, sl_hierarchy *hierarchy); ///< and zeroes it
+
+typedef enum sl_node_state {
+    SL_NODE_INVISIBLE, ///< nothing of its inside is in the visible part
+    SL_NODE_PARTIAL,
+    SL_NODE_VISIBLE, ///< all of its inside is
+} sl_node_state;
+
+/// A node visibility test: how the occluders' shadows are merged and a node is looked up in them.
+/// For the nodes of a kd-tree's space all tests give the same answer, which is exact for the chosen
+/// occluders. Elsewhere a node that a wall's line cuts counts as partly before and partly behind
+/// it: conservative. A node's answer is always that of a box that holds it, or of itself.
+typedef struct sl_node_test {
+    const char *name, *what;
+    const struct sl_node_test_calls *calls; ///< the library's own
+} sl_node_test;
+
+/// All tests: "tree", "intervals".
+SL_API const sl_node_test *sl_node_tests(size_t *count);
+
+#define SL_WALK_OCCLUDERS_MOST 1024
+
+/// Start from sl_walk_options_default().
+typedef struct sl_walk_options {
+    const sl_node_test *test;
+    uint32_t occluders; ///< chosen of each frame, at most; usually 16, SL_WALK_OCCLUDERS_MOST most
+    uint32_t cheap;     ///< a node of no more walls than this is drawn without a test; usually 0
+} sl_walk_options;
+
+SL_API sl_walk_options sl_walk_options_default(void);
+
+/// A method of walking: reachable by name, listed everywhere from this table.
+typedef struct sl_walk_method {
+    const char *name, *what;
+} sl_walk_method;
+
+SL_API const sl_walk_method *sl_walk_methods(size_t *count);
+
+/// What decided of a node's state, in the frame in which it was last visited.
+typedef enum sl_walk_reason {
+    SL_WALK_FRUSTUM, ///< outside the view cone
+    SL_WALK_CHEAP,   ///< cheaper to draw than to test
+    SL_WALK_TESTED,  ///< the node visibility test
+} sl_walk_reason;
+
+/// What a frame came to, in nodes where nothing else is said.
+typedef struct sl_walk_frame {
+    uint32_t occluders;                        ///< chosen
+    uint32_t visited;                          ///< reached on the way down
+    uint32_t frustum_tests;                    ///< by view-frustum culling
+    uint32_t tests;                            ///< by the node visibility test
+    uint32_t cheap;                            ///< taken as visible for being cheap
+    uint32_t out, invisible, partial, visible; ///< visited, by state; `out`: of the view cone
+    uint32_t cells;                            ///< to be drawn
+    uint64_t orientations;                     ///< orientation tests
+} sl_walk_frame;
+
+/// A walk: it keeps from frame to frame what its method needs. Serves one thread at a time.
+typedef struct sl_walk sl_walk;
+
+/// Both must outlive the walk. SL_BAD_ARGUMENT on options out of range. Memory is allocated here
+/// and by no frame.
+SL_API sl_status sl_walk_create(sl_context *context, const sl_hierarchy *hierarchy,
+                                const sl_walk_method *method, const sl_walk_options *options,
+                                sl_walk **out);
+SL_API void sl_walk_destroy(sl_context *context, sl_walk *walk);
+
+/// The next frame: classifies what the view sees. An eye outside the bounds looks in from there. A
+/// cone of 0 degrees sees nothing. SL_BAD_ARGUMENT on a view that is not usable.
+SL_API sl_status sl_walk_step(sl_context *context, sl_walk *walk, const sl_view *view,
+                              sl_walk_frame *out);
+
+/// Of the last frame. A node that it did not reach has the state of the nearest above that it did.
+SL_API sl_node_state sl_walk_state(const sl_walk *walk, uint32_t node, sl_walk_reason *reason);
+
+/// The cells to be drawn in the last frame: bit c % 64 of word c / 64 is cell c. All cells that
+/// the view sees by more than single rays are among them.
+SL_API const uint64_t *sl_walk_cells(const sl_walk *walk);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

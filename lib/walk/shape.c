@@ -1,0 +1,156 @@
+#include "walk/shape.h"
+
+bool sl_sector_clip(sl_pivot *pivot, sl_sector *sector, sl_ray ray) {
+    const int right = sl_ray_turn(pivot, ray, sector->right);
+    const int left = sl_ray_turn(pivot, ray, sector->left);
+    if (right <= 0 && left <= 0) return false;
+    if (right < 0) sector->right = ray;
+    if (left < 0) sector->left = sl_ray_back(ray);
+    return true;
+}
+
+sl_split sl_sector_split(sl_pivot *pivot, const sl_sector *sector, sl_ray ray) {
+    const int from = sl_ray_turn(pivot, ray, sector->right);
+    const int to = sl_ray_turn(pivot, ray, sector->left);
+    sl_split split = {from, to, from > 0 || to > 0, from < 0 || to < 0, *sector, *sector};
+    // Counter-clockwise from right of the line to left of it the ray itself is passed, else its
+    // other half.
+    if (from < 0 && to > 0) split.right.left = split.left.right = ray;
+    if (from > 0 && to < 0) split.left.left = split.right.right = sl_ray_back(ray);
+    return split;
+}
+
+/// The corners of a box that is seen from outside, rightmost and leftmost, by where the eye is:
+/// left of it, over or under it, right of it; and likewise below, beside, above.
+static const uint8_t box_ends[3][3][2] = {
+    {{1, 3}, {0, 3}, {0, 2}},
+    {{1, 0}, {0, 0}, {3, 2}},
+    {{2, 0}, {2, 1}, {3, 1}},
+};
+
+static bool box_sector(const sl_shape *shape, sl_point eye, sl_sector *sector) {
+    const sl_box *b = &shape->box;
+    const int column = eye.x < b->min.x ? 0 : eye.x > b->max.x ? 2 : 1;
+    const int row = eye.y < b->min.y ? 0 : eye.y > b->max.y ? 2 : 1;
+    if (column == 1 && row == 1) return false;
+    const uint8_t *ends = box_ends[column][row];
+    *sector = (sl_sector){sl_ray_to(shape->corners[ends[0]]), sl_ray_to(shape->corners[ends[1]])};
+    return true;
+}
+
+uint32_t sl_shape_sectors(sl_pivot *pivot, const sl_shape *shape, sl_sector *sectors) {
+    if (shape->is_box && box_sector(shape, pivot->eye, sectors)) return 1;
+    uint32_t inner = 0, facing = 0;
+    sl_sector outer = {.right = sl_ray_to(shape->corners[0])};
+    const sl_point *corners = shape->corners;
+    const uint32_t last = shape->count - 1;
+    pivot->tests += shape->count;
+    bool before = sl_orient(corners[last], corners[0], pivot->eye) < 0;
+    for (uint32_t k = 0; k <= last; k++) {
+        const sl_point from = corners[k], to = corners[k < last ? k + 1 : 0];
+        const int side = sl_orient(from, to, pivot->eye);
+        if (side > 0) sectors[inner++] = (sl_sector){sl_ray_to(from), sl_ray_to(to)};
+        // The sides that face the eye are one chain, which runs from the left to the right.
+        if (side < 0 && !before) outer.left = sl_ray_to(from);
+        if (side >= 0 && before) outer.right = sl_ray_to(from);
+        before = side < 0;
+        facing += before;
+    }
+    if (!facing) return inner;
+    sectors[0] = outer;
+    return 1;
+}
+
+sl_walk_cone sl_walk_cone_of(sl_pivot *pivot, const sl_view *view) {
+    sl_walk_cone cone = {.kind = SL_CONE_ALL};
+    if (view->full) return cone;
+    cone.right = sl_ray_to(view->right);
+    cone.left = sl_ray_to(view->left);
+    const int turn = sl_ray_turn(pivot, cone.right, cone.left);
+    if (turn > 0)
+        cone.kind = SL_CONE_WEDGE;
+    else if (turn < 0)
+        cone.kind = SL_CONE_WIDE;
+    else
+        cone.kind = sl_ray_same_way(pivot, cone.right, cone.left) ? SL_CONE_NONE : SL_CONE_HALF;
+    return cone;
+}
+
+/// A cone of more than half a turn: what is left of its right border, and of the rest what is right
+/// of its left one.
+static unsigned in_wide_cone(sl_pivot *pivot, const sl_walk_cone *cone, const sl_sector *sector,
+                             sl_sector parts[2], bool *cut) {
+    unsigned count = 0;
+    const sl_split split = sl_sector_split(pivot, sector, cone->right);
+    if (split.has_left) parts[count++] = split.left;
+    if (!split.has_right) return count;
+    const sl_split rest = sl_sector_split(pivot, &split.right, cone->left);
+    if (rest.has_right) parts[count++] = rest.right;
+    *cut = *cut || rest.has_left;
+    return count;
+}
+
+unsigned sl_sector_in_cone(sl_pivot *pivot, const sl_walk_cone *cone, const sl_sector *sector,
+                           sl_sector parts[2], bool *cut) {
+    if (cone->kind == SL_CONE_WIDE) return in_wide_cone(pivot, cone, sector, parts, cut);
+    parts[0] = *sector;
+    if (cone->kind == SL_CONE_ALL) return 1;
+    if (cone->kind == SL_CONE_NONE) return *cut = true, 0;
+    const sl_split first = sl_sector_split(pivot, sector, cone->right);
+    *cut = *cut || first.has_right;
+    parts[0] = first.left;
+    if (!first.has_left || cone->kind == SL_CONE_HALF) return first.has_left;
+    const sl_split second = sl_sector_split(pivot, &first.left, cone->left);
+    *cut = *cut || second.has_left;
+    parts[0] = second.right;
+    return second.has_right;
+}
+
+/// Whether a box has directions in common with a sector.
+static bool box_meets(sl_pivot *pivot, const sl_box *box, const sl_sector *sector) {
+    const sl_point corners[4] = {
+        box->min, {box->max.x, box->min.y}, box->max, {box->min.x, box->max.y}};
+    sl_sector sectors[4];
+    const uint32_t count = sl_shape_sectors(pivot, &(sl_shape){corners, 4, *box, true}, sectors);
+    for (uint32_t i = 0; i < count; i++)
+        if (sl_sector_meet(pivot, &sectors[i], sector)) return true;
+    return false;
+}
+
+/// The line of an axial occluder cuts the box into two, of the same coordinates.
+static unsigned box_about(sl_pivot *pivot, const sl_box *box, const sl_sector *sector,
+                          const sl_occluder *o) {
+    sl_box lower = *box, upper = *box;
+    bool eye_below;
+    if (o->a.x == o->b.x) {
+        lower.max.x = upper.min.x = o->a.x;
+        eye_below = pivot->eye.x < o->a.x;
+    } else {
+        lower.max.y = upper.min.y = o->a.y;
+        eye_below = pivot->eye.y < o->a.y;
+    }
+    const unsigned before = box_meets(pivot, eye_below ? &lower : &upper, sector) ? SL_BEFORE : 0;
+    const unsigned behind = box_meets(pivot, eye_below ? &upper : &lower, sector) ? SL_BEHIND : 0;
+    return before | behind;
+}
+
+unsigned sl_shape_about(sl_pivot *pivot, const sl_shape *shape, const sl_sector *sector,
+                        const sl_occluder *occluder) {
+    bool before = false, behind = false;
+    for (uint32_t k = 0; k < shape->count && !(before && behind); k++) {
+        const int side = sl_orient(occluder->a, occluder->b, shape->corners[k]);
+        pivot->tests++;
+        before = before || side > 0;
+        behind = behind || side < 0;
+    }
+    if (!behind) return SL_BEFORE;
+    if (!before) return SL_BEHIND;
+    const bool axial = occluder->a.x == occluder->b.x || occluder->a.y == occluder->b.y;
+    return axial ? box_about(pivot, &shape->box, sector, occluder) : SL_BEFORE | SL_BEHIND;
+}
+
+bool sl_occluder_is_behind(const sl_occluder *one, const sl_occluder *other) {
+    if (sl_orient(other->a, other->b, one->a) <= 0 && sl_orient(other->a, other->b, one->b) <= 0)
+        return true;
+    return sl_orient(one->a, one->b, other->a) >= 0 && sl_orient(one->a, one->b, other->b) >= 0;
+}

@@ -1,0 +1,80 @@
+/// Shapes about an eye: which directions a node lies in, and on which side of a wall. Decided by
+/// orientation tests on given points alone.
+#ifndef SL_SHAPE_H
+#define SL_SHAPE_H
+
+#include "eye_to_cell/arc.h"
+#include "sightline/view.h"
+
+/// Directions strictly between two rays, counter-clockwise from right to left: more than 0 and
+/// less than 180 degrees.
+typedef struct sl_sector {
+    sl_ray right, left;
+} sl_sector;
+
+/// A convex polygon of positive area, counter-clockwise, and the least box that holds it.
+typedef struct sl_shape {
+    const sl_point *corners;
+    uint32_t count;
+    sl_box box;
+    bool is_box; ///< the polygon is its box, from the lower left corner on
+} sl_shape;
+
+/// A wall that hides what is behind it; the eye is strictly left of it, going from a to b.
+typedef struct sl_occluder {
+    sl_point a, b;
+} sl_occluder;
+
+static inline sl_ray sl_ray_back(sl_ray ray) {
+    ray.away = !ray.away;
+    return ray;
+}
+
+/// Narrows a sector to what lies left of a ray's line; false where nothing does.
+bool sl_sector_clip(sl_pivot *pivot, sl_sector *sector, sl_ray ray);
+
+/// Narrows a sector to another; false where they have no direction in common.
+static inline bool sl_sector_meet(sl_pivot *pivot, sl_sector *sector, const sl_sector *other) {
+    return sl_sector_clip(pivot, sector, other->right) &&
+           sl_sector_clip(pivot, sector, sl_ray_back(other->left));
+}
+
+/// The parts that a ray's line cuts a sector into.
+typedef struct sl_split {
+    int right_turn, left_turn; ///< from the ray to the sector's borders
+    bool has_left, has_right;
+    sl_sector left, right;
+} sl_split;
+
+sl_split sl_sector_split(sl_pivot *pivot, const sl_sector *sector, sl_ray ray);
+
+/// The directions in which a shape's inside lies, as sectors without common directions: one where
+/// the eye is outside, else one for each side that it is not on. Returns how many, at most `count`
+/// of the shape.
+uint32_t sl_shape_sectors(sl_pivot *pivot, const sl_shape *shape, sl_sector *sectors);
+
+/// A view cone, taken apart once a frame.
+typedef struct sl_walk_cone {
+    enum { SL_CONE_ALL, SL_CONE_NONE, SL_CONE_WEDGE, SL_CONE_HALF, SL_CONE_WIDE } kind;
+    sl_ray right, left;
+} sl_walk_cone;
+
+sl_walk_cone sl_walk_cone_of(sl_pivot *pivot, const sl_view *view);
+
+/// Narrows a sector to the cone: up to two parts; returns how many. *cut is set where something was
+/// taken off, and else left as it is.
+unsigned sl_sector_in_cone(sl_pivot *pivot, const sl_walk_cone *cone, const sl_sector *sector,
+                           sl_sector parts[2], bool *cut);
+
+/// Where a shape's inside lies, within a sector, about an occluder that spans the sector: bits. At
+/// least one is set. Exact for a box and an axial occluder, else too many bits may be set; what is
+/// set for a shape is set for every shape that holds it. The sector must be part of one of the
+/// shape's.
+enum { SL_BEFORE = 1, SL_BEHIND = 2 };
+unsigned sl_shape_about(sl_pivot *pivot, const sl_shape *shape, const sl_sector *sector,
+                        const sl_occluder *occluder);
+
+/// Whether one occluder hides nothing that another does not hide, within a sector that both span.
+bool sl_occluder_is_behind(const sl_occluder *one, const sl_occluder *other);
+
+#endif

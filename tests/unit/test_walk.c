@@ -1,0 +1,286 @@
+/// Walks on random maps: nothing that is seen is missed, by any method with any test, and those
+/// that should agree do.
+#include "testing.h"
+
+#include "geometry/orient.h"
+#include "oracle/random_map.h"
+
+#include <math.h>
+
+enum { MOST_WALKS = 40 };
+
+/// A map with its space, and a walk of each method with each test.
+typedef struct world {
+    sl_context *context;
+    sl_map map;
+    sl_space space;
+    sl_outline outline;
+    sl_hierarchy hierarchy;
+    sl_visibility none; ///< no visible sets: exact culling then searches the whole space
+    sl_eye_search *search;
+    sl_region region;
+    uint64_t *seen; ///< cells, by exact culling or by points of the visible region
+    sl_walk *walks[MOST_WALKS];
+    const sl_walk_method *methods[MOST_WALKS];
+    size_t walk_count;
+} world;
+
+static void open_world(world *w, const sl_walk_options *like) {
+    sl_context *context = w->context;
+    size_t methods_count, tests_count;
+    const sl_walk_method *methods = sl_walk_methods(&methods_count);
+    const sl_node_test *tests = sl_node_tests(&tests_count);
+    assert_ok(context, sl_outline_make(context, &w->space, &w->outline));
+    assert_ok(context, sl_hierarchy_make(context, &w->space, &w->hierarchy));
+    w->none.sight = SL_OPEN;
+    assert_ok(context, sl_eye_search_create(context, &w->space, &w->none, &w->search));
+    w->seen = calloc(sl_eye_words(&w->space), sizeof *w->seen);
+    assert_non_null(w->seen);
+    for (size_t m = 0; m < methods_count; m++)
+        for (size_t t = 0; t < tests_count; t++) {
+            sl_walk_options options = *like;
+            options.test = &tests[t];
+            assert_true(w->walk_count < MOST_WALKS);
+            w->methods[w->walk_count] = &methods[m];
+            assert_ok(context, sl_walk_create(context, &w->hierarchy, &methods[m], &options,
+                                              &w->walks[w->walk_count++]));
+        }
+}
+
+static void close_world(world *w) {
+    for (size_t i = 0; i < w->walk_count; i++) sl_walk_destroy(w->context, w->walks[i]);
+    free(w->seen);
+    sl_region_destroy(w->context, &w->region);
+    sl_eye_search_destroy(w->context, w->search);
+    sl_hierarchy_destroy(w->context, &w->hierarchy);
+    sl_outline_destroy(w->context, &w->outline);
+    sl_space_destroy(w->context, &w->space);
+    sl_map_destroy(w->context, &w->map);
+    *w = (world){.context = w->context};
+}
+
+static void see(world *w, uint32_t cell) {
+    w->seen[cell / 64] |= UINT64_C(1) << cell % 64;
+}
+
+/// Whether the eye is in its cell, not on its border.
+static bool stands_free(const world *w, sl_point eye, uint32_t cell) {
+    if (cell == SL_NO_CELL) return false;
+    const sl_cell *c = &w->space.cells[cell];
+    const sl_point *corners = w->space.vertices + c->first_vertex;
+    for (uint32_t i = 0; i < c->vertex_count; i++)
+        if (sl_orient(corners[i], corners[(i + 1) % c->vertex_count], eye) <= 0) return false;
+    return true;
+}
+
+/// Whether a wall crosses the segment between two points.
+static bool crosses_wall(const world *w, sl_point from, sl_point to) {
+    for (uint32_t i = 0; i < w->space.wall_count; i++) {
+        const sl_wall *wall = &w->space.walls[i];
+        if (sl_orient(wall->a, wall->b, from) * sl_orient(wall->a, wall->b, to) < 0 &&
+            sl_orient(from, to, wall->a) * sl_orient(from, to, wall->b) < 0)
+            return true;
+    }
+    return false;
+}
+
+/// By exact culling, of an eye that is free in its cell: one on a border has cells count that it
+/// only touches. A BSP's space may have slivers of rounding to see through: not of those.
+static void look_exactly(world *w, const sl_view *view) {
+    if (w->space.beyond || !stands_free(w, view->eye, sl_space_locate(&w->space, view->eye)))
+        return;
+    size_t count;
+    const sl_eye_method *methods = sl_eye_methods(&count);
+    sl_eye_account account;
+    assert_ok(w->context, methods[count - 1].cull(w->context, w->search, view, w->seen, &account));
+}
+
+/// By points of the visible region, for every eye.
+static void look_at_region(world *w, const sl_view *view) {
+    assert_ok(w->context, sl_region_make(w->context, &w->outline, view, 0, &w->region));
+    const sl_region *r = &w->region;
+    const sl_box b = w->space.bounds;
+    const double floor_area = 1e-9 * (b.max.x - b.min.x) * (b.max.y - b.min.y);
+    for (size_t i = 0; i < r->count; i++) {
+        const sl_point p = r->offsets[i], q = r->offsets[(i + 1) % r->count];
+        // A triangle too thin holds no point that doubles can tell.
+        if (p.x * q.y - p.y * q.x < floor_area) continue;
+        for (int k = 1; k < 8; k++) {
+            const double along = k / 8., out = (k * 5 % 8) / 8. * 0.98 + 0.01;
+            const sl_point at = {view->eye.x + out * (p.x + along * (q.x - p.x)),
+                                 view->eye.y + out * (p.y + along * (q.y - p.y))};
+            const uint32_t cell = sl_space_locate(&w->space, at);
+            if (stands_free(w, at, cell) && sl_view_holds(view, at) &&
+                !crosses_wall(w, view->eye, at))
+                see(w, cell);
+        }
+    }
+}
+
+/// By the middles of cells and points about them, beside the walls alone.
+static void look_past_walls(world *w, const sl_view *view) {
+    for (uint32_t c = 0; c < w->space.cell_count; c++) {
+        const sl_cell *cell = &w->space.cells[c];
+        const sl_point *corners = w->space.vertices + cell->first_vertex;
+        sl_point middle = {0, 0};
+        for (uint32_t i = 0; i < cell->vertex_count; i++) {
+            middle.x += corners[i].x / cell->vertex_count;
+            middle.y += corners[i].y / cell->vertex_count;
+        }
+        for (uint32_t i = 0; i < cell->vertex_count && !sl_eye_sees(w->seen, c); i++) {
+            const sl_point at = {corners[i].x + 0.9 * (middle.x - corners[i].x),
+                                 corners[i].y + 0.9 * (middle.y - corners[i].y)};
+            if (stands_free(w, at, c) && sl_view_holds(view, at) && !crosses_wall(w, view->eye, at))
+                see(w, c);
+        }
+    }
+}
+
+static void look(world *w, const sl_view *view) {
+    memset(w->seen, 0, sl_eye_words(&w->space) * sizeof *w->seen);
+    look_exactly(w, view);
+    look_at_region(w, view);
+    if (w->space.beyond) look_past_walls(w, view);
+}
+
+typedef struct tally {
+    long seen, drawn, frames;
+} tally;
+
+/// The leaves' states and the cells to be drawn say the same.
+static void check_leaves(const world *w, const sl_walk *walk) {
+    const uint64_t *cells = sl_walk_cells(walk);
+    for (uint32_t i = 0; i < w->hierarchy.node_count; i++) {
+        const sl_walk_node *n = &w->hierarchy.nodes[i];
+        sl_walk_reason reason;
+        if (n->cell == SL_NO_CELL) continue;
+        const bool drawn = sl_walk_state(walk, i, &reason) != SL_NODE_INVISIBLE;
+        assert_int_equal(drawn, sl_eye_sees(cells, n->cell));
+    }
+}
+
+static void step(world *w, const sl_view *view, tally *count) {
+    look(w, view);
+    for (size_t i = 0; i < w->walk_count; i++) {
+        sl_walk_frame frame;
+        assert_ok(w->context, sl_walk_step(w->context, w->walks[i], view, &frame));
+        const uint64_t *cells = sl_walk_cells(w->walks[i]);
+        for (uint32_t c = 0; c < w->space.cell_count; c++) {
+            const bool seen = sl_eye_sees(w->seen, c), drawn = sl_eye_sees(cells, c);
+            if (seen && !drawn)
+                fail_msg("%s misses cell %u from %.17g %.17g", w->methods[i]->name, c, view->eye.x,
+                         view->eye.y);
+            count->seen += seen;
+            count->drawn += drawn;
+        }
+        check_leaves(w, w->walks[i]);
+        assert_int_equal(frame.out + frame.invisible + frame.partial + frame.visible,
+                         frame.visited);
+        // All tests give one answer: walks of a method with one and another are the same.
+        if (i && w->methods[i] == w->methods[i - 1])
+            for (uint32_t n = 0; n < w->hierarchy.node_count; n++) {
+                sl_walk_reason reason;
+                assert_int_equal(sl_walk_state(w->walks[i], n, &reason),
+                                 sl_walk_state(w->walks[i - 1], n, &reason));
+            }
+    }
+    count->frames++;
+}
+
+/// Walks about: short steps with jumps between, cones of all widths, eyes on walls, splits, corners
+/// and far away.
+static void walk_about(world *w, uint64_t seed, int steps, tally *count) {
+    sl_random random = {seed};
+    const sl_box b = w->space.bounds;
+    const double size = fmax(b.max.x - b.min.x, b.max.y - b.min.y);
+    static const double widths[] = {360, 60, 90, 180, 270, 10, 350, 0.01};
+    sl_point eye = {(b.min.x + b.max.x) / 2, (b.min.y + b.max.y) / 2};
+    double heading = 30, width = 360;
+    for (int i = 0; i < steps; i++) {
+        if (i % 10 == 0) {
+            const uint64_t kind = sl_random_below(&random, 4);
+            const uint32_t v = (uint32_t)sl_random_below(&random, w->space.vertex_count);
+            eye.x = b.min.x + sl_random_unit(&random) * (b.max.x - b.min.x);
+            eye.y = b.min.y + sl_random_unit(&random) * (b.max.y - b.min.y);
+            if (kind < 2) eye.x = w->space.vertices[v].x;
+            if (kind == 0) eye.y = w->space.vertices[v].y;
+            width = widths[sl_random_below(&random, sizeof widths / sizeof *widths)];
+        }
+        heading += (sl_random_unit(&random) - 0.5) * 10;
+        const double step_length = i % 10 == 0 ? 0 : size / 100;
+        eye.x += step_length * cos(heading / 57.3);
+        eye.y += step_length * sin(heading / 57.3);
+        const sl_view view =
+            sl_view_cone(eye, i % 3 ? heading : 90 * floor(heading / 90), width, size);
+        step(w, &view, count);
+    }
+}
+
+static void kd_world(sl_context *context, uint64_t seed, const sl_walk_options *like, int steps,
+                     tally *count) {
+    world w = {.context = context};
+    assert_ok(context, oracle_random_map(context, seed, (oracle_grid)(seed % 3), &w.map));
+    assert_ok(context, sl_map_clean(context, &w.map, NULL));
+    const sl_subdivide_options options = sl_subdivide_options_default();
+    if (w.map.wall_count && sl_subdivide_kd(context, &w.map, &options, &w.space) == SL_OK) {
+        open_world(&w, like);
+        walk_about(&w, seed, steps, count);
+    }
+    close_world(&w);
+}
+
+static void random_walks_miss_nothing(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    tally count = {0};
+    for (uint64_t seed = 1; seed <= 120; seed++) {
+        sl_walk_options options = sl_walk_options_default();
+        options.occluders = seed % 5 ? (uint32_t)(seed % 5 * 4) : SL_WALK_OCCLUDERS_MOST;
+        options.cheap = seed % 4 == 3 ? 2 : 0;
+        kd_world(context, seed, &options, 60, &count);
+    }
+    // Not by drawing all: no more than a few times what is seen.
+    assert_true(count.frames > 5000 && count.seen > 20000);
+    assert_true(count.drawn < 3 * count.seen);
+    sl_context_destroy(context);
+}
+
+/// Oblique walls: a generated map, turned.
+static void turned_world(sl_context *context, const char *name, tally *count) {
+    world w = {.context = context};
+    sl_generate_options how = sl_generate_options_default();
+    how.walls = 300;
+    how.turned = 17;
+    size_t kinds_count;
+    const sl_map_kind *kinds = sl_map_kinds(&kinds_count);
+    for (size_t i = 0; i < kinds_count; i++)
+        if (strcmp(kinds[i].name, name) == 0)
+            assert_ok(context, sl_generate(context, &kinds[i], &how, &w.map));
+    assert_true(w.map.wall_count > 0);
+    assert_ok(context, sl_map_clean(context, &w.map, NULL));
+    const sl_bsp_options options = sl_bsp_options_default();
+    assert_ok(context, sl_subdivide_bsp(context, &w.map, &options, &w.space));
+    const sl_walk_options like = sl_walk_options_default();
+    open_world(&w, &like);
+    walk_about(&w, 1, 200, count);
+    close_world(&w);
+}
+
+static void bsp_walks_miss_nothing(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    tally count = {0};
+    turned_world(context, "tunnels", &count);
+    turned_world(context, "pillars", &count);
+    turned_world(context, "city", &count);
+    assert_true(count.drawn < 5 * count.seen);
+    sl_context_destroy(context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(random_walks_miss_nothing),
+        cmocka_unit_test(bsp_walks_miss_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
