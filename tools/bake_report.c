@@ -28,6 +28,12 @@ static void add_visibility(sl_json_fields *fields, const sl_visibility *visibili
     sl_json_add_count(fields, "tests", account->tests);
     sl_json_add_count(fields, "tree_nodes", account->nodes);
     sl_json_add_count(fields, "pieces", account->pieces);
+    if (account->sectors) {
+        sl_json_add_count(fields, "sectors", account->sectors);
+        sl_json_add_count(fields, "candidates", account->candidates);
+        sl_json_add_count(fields, "relations", account->relations);
+        sl_json_add_count(fields, "cells_on_cycles", account->on_cycles);
+    }
     sl_json_add_count(fields, "longest_sequence", account->deepest);
     if (!trees->cell_count) return;
     sl_json_add_count(fields, "tree_nodes_kept", trees->offsets[trees->cell_count]);

@@ -15,6 +15,7 @@ enum { MAX_THREADS = 4096 };
 typedef struct bake_texts {
     sl_pipeline_texts pipeline;
     const char *output, *method, *solver, *sight, *threads, *memory, *tree_memory, *samples, *seed;
+    const char *sectors;
     bool stab_trees, inside, json;
 } bake_texts;
 
@@ -69,6 +70,13 @@ static sl_status plan_seeing(sl_context *context, const bake_texts *texts, bake_
     if ((texts->samples || texts->seed) && methods[method].guarantee != SL_AGGRESSIVE)
         return sl_fail(context, SL_BAD_ARGUMENT, "%s: the method '%s' draws nothing at random",
                        texts->samples ? "--samples" : "--seed", methods[method].name);
+    uint64_t sectors = see.sectors;
+    SL_TRY(sl_option_count(context, "--sectors", texts->sectors, UINT32_MAX, &sectors));
+    if (texts->sectors && strcmp(methods[method].name, "multipass") != 0)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--sectors: the method '%s' makes no passes",
+                       methods[method].name);
+    if (texts->sectors && sectors && sectors < 4)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--sectors: at least 4, or 0 for all");
     if (texts->tree_memory && !texts->stab_trees)
         return sl_fail(context, SL_BAD_ARGUMENT, "--tree-memory needs --stab-trees");
     if (texts->memory && !methods[method].keeps_rows)
@@ -80,6 +88,7 @@ static sl_status plan_seeing(sl_context *context, const bake_texts *texts, bake_
     plan->method = &methods[method];
     plan->see = see;
     plan->see.samples = (uint32_t)samples;
+    plan->see.sectors = (uint32_t)sectors;
     plan->see.sight = (sl_sight)sight;
     plan->see.threads = (unsigned)threads;
     plan->see.trees = texts->stab_trees;
@@ -211,6 +220,8 @@ sl_status sl_cmd_bake(sl_console *console, int argc, char **argv) {
         {"memory", 0, "SIZE", NULL, &t.memory,
          "for the visible sets in the making at most, as 64M,\n2G; half of the machine's unless "
          "told"},
+        {"sectors", 0, "N", NULL, &t.sectors,
+         "directions cut into at most so many, for multipass;\n0: at all portals' own"},
         {"stab-trees", 0, NULL, &t.stab_trees, NULL, "keep the trees of portal sequences"},
         {"tree-memory", 0, "SIZE", NULL, &t.tree_memory,
          "for them at most, as 64K, 256M (the default), 2G"},

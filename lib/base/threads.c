@@ -10,6 +10,8 @@ typedef struct crew {
     size_t count;
     atomic_size_t next, done;
     atomic_bool failed;
+    pthread_mutex_t lock; ///< with `moved`: where units wait for others, so that they hear of these
+    pthread_cond_t moved;
 } crew;
 
 typedef struct worker {
@@ -21,6 +23,26 @@ typedef struct worker {
     bool reports;
 } worker;
 
+/// Tells threads that wait of what has changed.
+static void tell(crew *c) {
+    if (!c->work->after) return;
+    pthread_mutex_lock(&c->lock);
+    pthread_cond_broadcast(&c->moved);
+    pthread_mutex_unlock(&c->lock);
+}
+
+/// Waits until a unit may start; false where another one has failed. Units are handed out in order,
+/// so that all that this one waits for are in some thread's hands; and as none of its own kind
+/// starts before these are done, their number tells that they are.
+static bool is_ready(crew *c, size_t unit) {
+    if (!c->work->after) return true;
+    pthread_mutex_lock(&c->lock);
+    while (atomic_load(&c->done) < c->work->after[unit] && !atomic_load(&c->failed))
+        pthread_cond_wait(&c->moved, &c->lock);
+    pthread_mutex_unlock(&c->lock);
+    return !atomic_load(&c->failed);
+}
+
 static sl_status run_units(worker *w, void *state) {
     crew *c = w->crew;
     while (!atomic_load(&c->failed)) {
@@ -28,8 +50,10 @@ static sl_status run_units(worker *w, void *state) {
         if (unit >= c->count) break;
         w->failed_unit = unit;
         SL_TRY(sl_check_cancelled(&w->context));
+        if (!is_ready(c, unit)) break;
         SL_TRY(c->work->unit(&w->context, c->work->job, state, unit));
         const size_t done = atomic_fetch_add(&c->done, 1) + 1;
+        tell(c);
         if (w->reports) sl_report(&w->context, c->work->stage, c->work->units, done, c->count);
     }
     return SL_OK;
@@ -43,7 +67,9 @@ static void run_worker(worker *w) {
         w->status = run_units(w, state);
         if (work->end) work->end(&w->context, work->job, state);
     }
-    if (w->status != SL_OK) atomic_store(&w->crew->failed, true);
+    if (w->status == SL_OK) return;
+    atomic_store(&w->crew->failed, true);
+    tell(w->crew);
 }
 
 static void *run_thread(void *argument) {
@@ -73,6 +99,8 @@ sl_status sl_work_run(sl_context *context, const sl_work *work, size_t count, un
     for (size_t i = 0; i < wanted; i++)
         workers[i] = (worker){.crew = &c, .context = *context, .reports = i == 0};
 
+    pthread_mutex_init(&c.lock, NULL);
+    pthread_cond_init(&c.moved, NULL);
     sl_report(context, work->stage, work->units, 0, count);
     // A thread that the system refuses is work for the others, not a failure.
     size_t started = 1;
@@ -81,6 +109,8 @@ sl_status sl_work_run(sl_context *context, const sl_work *work, size_t count, un
         started++;
     run_worker(&workers[0]);
     for (size_t i = 1; i < started; i++) pthread_join(workers[i].thread, NULL);
+    pthread_cond_destroy(&c.moved);
+    pthread_mutex_destroy(&c.lock);
     const sl_status status = first_failure(context, workers, started);
     if (status == SL_OK) sl_report(context, work->stage, work->units, count, count);
     sl_free(context, workers);

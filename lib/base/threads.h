@@ -7,6 +7,8 @@
 /// What a thread does. `begin` makes what the thread needs for itself (out into *state), `unit`
 /// does one unit, `end` frees the state; begin, units and end of a state run in one thread. Units
 /// are handed out in ascending order, any thread may get any unit. `begin` and `end` may be NULL.
+/// `after`: NULL, or for each unit how many of the first units must be done before it starts; never
+/// descending, and no more than the unit's own number.
 typedef struct sl_work {
     void *job;
     sl_status (*begin)(sl_context *context, void *job, void **state);
@@ -14,6 +16,7 @@ typedef struct sl_work {
     void (*end)(sl_context *context, void *job, void *state);
     void (*leave_thread)(void);
     const char *stage, *units; ///< for the progress report
+    const size_t *after;
 } sl_work;
 
 /// Runs units 0 .. count-1 on `threads` threads (0: one a core), the caller's among them. The first

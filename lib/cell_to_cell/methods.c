@@ -8,7 +8,8 @@ sl_see_options sl_see_options_default(void) {
                             .tree_bytes = UINT64_C(256) << 20,
                             .seed = 1,
                             .samples = 100,
-                            .row_bytes = UINT64_MAX};
+                            .row_bytes = UINT64_MAX,
+                            .sectors = 8};
 }
 
 void sl_visibility_destroy(sl_context *context, sl_visibility *visibility) {
@@ -36,6 +37,12 @@ const sl_see_method *sl_see_methods(size_t *count) {
          .stabs = true,
          .guarantee = SL_EXACT,
          .see = sl_see_prune},
+        {.name = "multipass",
+         .what = "sector by sector of directions, each cell among what those behind it see",
+         .stabs = true,
+         .guarantee = SL_EXACT,
+         .keeps_rows = true,
+         .see = sl_see_multipass},
         {.name = "flood",
          .what = "all that portals in pairs leave possible",
          .keeps_rows = true,

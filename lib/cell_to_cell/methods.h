@@ -14,5 +14,7 @@ sl_status sl_see_flood(sl_context *context, const sl_space *space, const sl_see_
                        sl_visibility *out);
 sl_status sl_see_sampling(sl_context *context, const sl_space *space, const sl_see_options *options,
                           sl_visibility *out);
+sl_status sl_see_multipass(sl_context *context, const sl_space *space,
+                           const sl_see_options *options, sl_visibility *out);
 
 #endif

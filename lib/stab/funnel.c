@@ -347,6 +347,33 @@ static void pop(void *state) {
     f->corners.count = f->levels.count ? l->first + l->count : 0;
 }
 
+/// The lines found form a convex polygon, so that their directions are those between the corners'.
+/// A corner may lie along a portal that bounds the directions asked for, on the far side from them;
+/// it then counts as beyond that bound, which is where its neighbours are.
+static sl_status toward(sl_context *context, void *state, sl_line right, sl_line left,
+                        sl_stab_verdict *verdict) {
+    (void)context;
+    const funnel *f = state;
+    const level *l = &f->levels.items[f->levels.count - 1];
+    // Lines through one line's ends alone go in all directions that cross it.
+    bool low = !l->count, high = !l->count, between = false, on_bound = false;
+    for (size_t i = 0; i < l->count; i++) {
+        const corner *c = &f->corners.items[l->first + i];
+        const sl_point from = place_of(f, c->from), to = place_of(f, c->to);
+        const int of_right = sl_turn(right.a, right.b, from, to);
+        const int of_left = sl_turn(left.a, left.b, from, to);
+        if (of_right > 0 && of_left < 0) between = true;
+        if (of_right >= 0 && of_left <= 0) on_bound = true;
+        low |= of_right < 0 || (of_right == 0 && of_left < 0);
+        high |= of_left > 0 || (of_left == 0 && of_right > 0);
+    }
+    if (between || (low && high))
+        *verdict = l->verdict;
+    else
+        *verdict = on_bound ? SL_GRAZING : SL_HIDDEN;
+    return SL_OK;
+}
+
 /// Whether the line keeps all left ends strictly at its left and all right ends at its right.
 static bool is_strict(const funnel *f, sl_line line) {
     for (end_number e = 0; e < f->ends.count; e++)
@@ -431,6 +458,7 @@ const sl_solver *sl_funnel(void) {
         .destroy = destroy,
         .push = push,
         .pop = pop,
+        .toward = toward,
         .witness = witness,
         .conflict = conflict,
         .account = account,

@@ -136,13 +136,18 @@ static bool all_on_one_line(const program *p) {
 }
 
 /// The largest margin; false where GLPK comes to no end.
-static bool solve(program *p, double *margin) {
-    glp_prob *problem = make_problem(p);
+static bool maximise(glp_prob *problem, double *margin) {
     glp_smcp settings;
     glp_init_smcp(&settings);
     settings.msg_lev = GLP_MSG_OFF;
     const bool solved = glp_exact(problem, &settings) == 0 && glp_get_status(problem) == GLP_OPT;
     *margin = glp_get_obj_val(problem);
+    return solved;
+}
+
+static bool solve(program *p, double *margin) {
+    glp_prob *problem = make_problem(p);
+    const bool solved = maximise(problem, margin);
     p->ux = glp_get_col_prim(problem, UX);
     p->uy = glp_get_col_prim(problem, UY);
     p->c = glp_get_col_prim(problem, C);
@@ -170,6 +175,49 @@ static sl_status push(sl_context *context, void *state, sl_point left, sl_point 
         p->ux = p->uy = p->c = 0;
         *verdict = SL_GRAZING;
     }
+    return SL_OK;
+}
+
+/// A direction in whole numbers, up to its length. False where they do not fit.
+static bool in_whole_numbers(sl_line direction, sl_point *out) {
+    const sl_point a = direction.a, b = direction.b;
+    if (!difference_is_exact(b.x, a.x) || !difference_is_exact(b.y, a.y)) return false;
+    const double x = b.x - a.x, y = b.y - a.y;
+    const int lowest = lowest_bit(x) < lowest_bit(y) ? lowest_bit(x) : lowest_bit(y);
+    *out = (sl_point){ldexp(x, -lowest), ldexp(y, -lowest)};
+    return fabs(out->x) <= LARGEST && fabs(out->y) <= LARGEST;
+}
+
+/// A direction is an end at infinity: its row has no c.
+static void set_direction_row(glp_prob *problem, int row, sl_point direction, bool left) {
+    const int columns[] = {0, UX, UY, D};
+    const double values[] = {0, direction.y, -direction.x, left ? -1 : 1};
+    glp_set_mat_row(problem, row, 3, columns, values);
+    glp_set_row_bnds(problem, row, left ? GLP_LO : GLP_UP, 0, 0);
+}
+
+static sl_status toward(sl_context *context, void *state, sl_line right, sl_line left,
+                        sl_stab_verdict *verdict) {
+    program *p = state;
+    sl_point of_right, of_left;
+    if (!in_whole_numbers(right, &of_right) || !in_whole_numbers(left, &of_left))
+        return sl_fail(context, SL_UNSUPPORTED,
+                       "glpk-exact needs directions in whole numbers up to 2^51; take the solver "
+                       "'funnel'");
+    if (setjmp(p->guard.left)) return sl_glpk_failed(context);
+    sl_glpk_enter(&p->guard);
+    double margin;
+    glp_prob *problem = make_problem(p);
+    const int row = glp_add_rows(problem, 2);
+    set_direction_row(problem, row, of_left, true);
+    set_direction_row(problem, row + 1, of_right, false);
+    const bool solved = maximise(problem, &margin);
+    glp_delete_prob(problem);
+    sl_glpk_leave();
+    if (!solved) return sl_fail(context, SL_UNSUPPORTED, "glpk-exact found no optimum");
+    *verdict = margin > 0 ? SL_STABBED : margin < 0 ? SL_HIDDEN : SL_GRAZING;
+    // Row 1 leaves out the line that all ends lie on.
+    if (*verdict == SL_HIDDEN && all_on_one_line(p)) *verdict = SL_GRAZING;
     return SL_OK;
 }
 
@@ -204,6 +252,7 @@ const sl_solver *sl_glpk_exact(void) {
         .destroy = destroy,
         .push = push,
         .pop = pop,
+        .toward = toward,
         .witness = witness,
         .leave_thread = leave_thread,
     };

@@ -122,6 +122,14 @@ static void pop(void *state) {
     h->answers.count--;
 }
 
+/// Left to the exact solver: directions are compared by few predicates, once it has the sequence.
+static sl_status toward(sl_context *context, void *state, sl_line right, sl_line left,
+                        sl_stab_verdict *verdict) {
+    hybrid *h = state;
+    if (h->exact_count < h->portals.count) SL_TRY(decide_exactly(context, h, verdict));
+    return sl_funnel()->toward(context, h->exact, right, left, verdict);
+}
+
 static sl_line witness(const void *state) {
     const hybrid *h = state;
     const bool certified = h->answers.items[h->answers.count - 1].certified;
@@ -158,6 +166,7 @@ const sl_solver *sl_glpk_hybrid(void) {
         .destroy = destroy,
         .push = push,
         .pop = pop,
+        .toward = toward,
         .witness = witness,
         .conflict = conflict,
         .account = account,

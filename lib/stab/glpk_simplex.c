@@ -284,6 +284,46 @@ static sl_line witness(const void *state) {
                      {s->origin.x + (x + l->ux) / s->scale, s->origin.y + (y + l->uy) / s->scale}};
 }
 
+/// A direction is an end at infinity: its row has no c.
+static void set_direction_row(simplex *s, int row, sl_line direction, bool left) {
+    const double x = direction.b.x - direction.a.x, y = direction.b.y - direction.a.y;
+    const double length = hypot(x, y);
+    const int columns[] = {0, UX, UY, D};
+    const double values[] = {0, y / length, -x / length, left ? -1 : 1};
+    glp_set_mat_row(s->problem, row, 3, columns, values);
+    glp_set_row_bnds(s->problem, row, left ? GLP_LO : GLP_UP, 0, 0);
+}
+
+/// Solves with two more rows, which are taken away again.
+static sl_status toward(sl_context *context, void *state, sl_line right, sl_line left,
+                        sl_stab_verdict *verdict) {
+    simplex *s = state;
+    if (!s->problem) return sl_fail(context, SL_NO_MEMORY, "GLPK gave up earlier");
+    const level *l = &s->levels.items[s->levels.count - 1];
+    if (setjmp(s->guard.left)) {
+        s->problem = NULL;
+        return sl_glpk_failed(context);
+    }
+    sl_glpk_enter(&s->guard);
+    const int row = glp_add_rows(s->problem, 2);
+    set_direction_row(s, row, left, true);
+    set_direction_row(s, row + 1, right, false);
+    glp_std_basis(s->problem);
+    const bool solved = glp_simplex(s->problem, &s->settings) == 0;
+    const int found = glp_get_status(s->problem);
+    const double length = hypot(glp_get_col_prim(s->problem, UX), glp_get_col_prim(s->problem, UY));
+    const double margin = glp_get_obj_val(s->problem) / length;
+    const int rows[] = {0, row, row + 1};
+    glp_del_rows(s->problem, 2, rows);
+    restore_basis(s, l);
+    sl_glpk_leave();
+    // What cannot be told within the tolerance counts as grazing, as in a push.
+    *verdict = !solved || found != GLP_OPT || fabs(margin) <= TOLERANCE ? SL_GRAZING
+               : margin > 0                                             ? SL_STABBED
+                                                                        : SL_HIDDEN;
+    return SL_OK;
+}
+
 static bool is_tight(const simplex *s, uint32_t portal) {
     const int row = 2 + 2 * (int)portal;
     return glp_get_row_stat(s->problem, row) != GLP_BS ||
@@ -314,6 +354,7 @@ const sl_solver *sl_glpk_simplex(void) {
         .destroy = destroy,
         .push = push,
         .pop = pop,
+        .toward = toward,
         .witness = witness,
         .leave_thread = leave_thread,
     };

@@ -187,7 +187,7 @@ static void threads_make_no_difference(void **state) {
     sl_context *context = testing_context(NULL);
     sl_map map = {0};
     sl_space space;
-    const char *names[] = {"sweep", "prune", "flood", "sampling"};
+    const char *names[] = {"sweep", "prune", "multipass", "flood", "sampling"};
     read_office(context, &map, &space);
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         sl_visibility one = see(context, &space, names[i], SL_CLOSED, 1, false);
@@ -277,7 +277,7 @@ static void cells_alone_see_themselves(void **state) {
     sl_space space;
     testing_space(context, "walls 0 0 4 0 4 4 0 4 0 0\nwall 2 0 2 4\n", &map, &space);
     assert_int_equal(space.portal_count, 0);
-    const char *names[] = {"sweep", "prune", "flood", "sampling"};
+    const char *names[] = {"sweep", "prune", "multipass", "flood", "sampling"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         sl_visibility seen = see(context, &space, names[i], SL_CLOSED, 2, false);
         assert_int_equal(seen.account.pairs, space.cell_count);

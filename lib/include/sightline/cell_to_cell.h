@@ -32,6 +32,10 @@ typedef struct sl_see_account {
     uint64_t pairs;          ///< ordered pairs seen, each cell with itself included
     uint64_t doubtful_pairs; ///< ordered pairs of which rounding decided
     uint64_t pieces;         ///< of cells looked at by the sweep
+    uint64_t candidates;     ///< of "multipass": cells to be decided on, over all faces and sectors
+    uint64_t relations;      ///< and those of them that were seen
+    uint64_t on_cycles;      ///< cells without an order, over all sectors
+    uint32_t sectors;        ///< that directions were cut into; 0 by all other methods
     uint32_t deepest;        ///< portals in the longest sequence
     sl_stab_account stab;    ///< of the solvers
 } sl_see_account;
@@ -66,6 +70,9 @@ typedef struct sl_see_options {
     uint32_t samples;        ///< lines that "sampling" draws from each cell
     sl_row_storage rows;     ///< of methods that keep rows of bits
     uint64_t row_bytes;      ///< limit on memory for them; what needs more fails (SL_NO_MEMORY)
+    /// Sectors that "multipass" cuts all directions into, at most: 4 at least; 0: at each portal's
+    /// own, so that cells have an order in each. The result does not depend on it.
+    uint32_t sectors;
 } sl_see_options;
 
 SL_API sl_see_options sl_see_options_default(void);

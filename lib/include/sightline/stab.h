@@ -76,6 +76,12 @@ typedef struct sl_solver {
     sl_status (*push)(sl_context *context, void *state, sl_point left, sl_point right,
                       sl_stab_verdict *verdict);
     void (*pop)(void *state);
+    /// The verdict on lines of the sequence as it stands (not SL_HIDDEN, not empty) whose direction
+    /// lies from that of `right` counter-clockwise to that of `left`, both included: less than half
+    /// a turn, of which what lies between crosses every portal forwards. Leaves the sequence as it
+    /// is. NULL where the solver cannot tell.
+    sl_status (*toward)(sl_context *context, void *state, sl_line right, sl_line left,
+                        sl_stab_verdict *verdict);
     /// The line found for the sequence as it stands, which must not be SL_HIDDEN or empty.
     sl_line (*witness)(const void *state);
     /// The ends that alone prove the last push's verdict: after SL_HIDDEN no line keeps them on
