@@ -242,12 +242,6 @@ static sl_status check_rows(const reader *r, const sl_pvs *pvs) {
     return SL_OK;
 }
 
-static uint64_t count_pairs(const sl_pvs *pvs) {
-    uint64_t pairs = 0;
-    for (uint32_t cell = 0; cell < pvs->cell_count; cell++) pairs += sl_pvs_count(pvs, cell);
-    return pairs;
-}
-
 /// A tree's nodes: parents first, each exit one of the parent's cell and leading to the node's.
 static bool tree_is_sound(const sl_space *space, const sl_stab_node *nodes, uint64_t count,
                           uint32_t source) {
@@ -304,8 +298,8 @@ static sl_status load_all(reader *r) {
     SL_TRY(load_pvs(r, "PVSO", "PVSB", false, &visibility->pvs));
     SL_TRY(check_rows(r, &visibility->pvs));
     SL_TRY(load_pvs(r, "DBTO", "DBTB", true, &visibility->doubtful));
-    if (count_pairs(&visibility->pvs) != visibility->account.pairs ||
-        count_pairs(&visibility->doubtful) != visibility->account.doubtful_pairs)
+    if (sl_pvs_pairs(&visibility->pvs) != visibility->account.pairs ||
+        sl_pvs_pairs(&visibility->doubtful) != visibility->account.doubtful_pairs)
         return fail_file(r, "damaged: the visible sets do not hold as many pairs as they should");
     SL_TRY(load_trees(r));
     SL_TRY(load_map(r));

@@ -16,6 +16,7 @@
 #include "base/threads.h"
 #include "cell_to_cell/bit_rows.h"
 #include "cell_to_cell/crossing.h"
+#include "cell_to_cell/findings.h"
 #include "cell_to_cell/flood.h"
 #include "cell_to_cell/methods.h"
 #include "cell_to_cell/pvs_rows.h"
@@ -42,7 +43,9 @@ typedef struct search {
     sl_row_bytes *doubtful; ///< by source: seen unless rounding erred
     sl_see_account *accounts;
     pthread_mutex_t lock;
-    sl_stab_account stab; ///< of all solvers, under the lock
+    sl_stab_account stab;      ///< of all solvers, under the lock
+    const sl_findings *before; ///< what is known; NULL: nothing, and all is to be done
+    uint8_t *done;             ///< by source, where there is `before`
     bool prunes;
     size_t words;    ///< of a set of cells
     sl_bits *bounds; ///< where it prunes: by exit, what may be seen through it
@@ -104,6 +107,12 @@ static sl_status want_from(sl_context *context, const search *all, searcher *me,
     return SL_OK;
 }
 
+/// Whether to stop, asked now and then.
+static sl_status check_going_on(sl_context *context, const search *all) {
+    SL_TRY(sl_check_cancelled(context));
+    return all->before && sl_is_enough(all->options) ? SL_CANCELLED : SL_OK;
+}
+
 /// Tries one exit of the last step: tests the sequence with it, and enters the cell behind.
 static sl_status try_exit(sl_context *context, const search *all, searcher *me, uint32_t number) {
     const sl_solver *solver = all->options->solver;
@@ -115,7 +124,7 @@ static sl_status try_exit(sl_context *context, const search *all, searcher *me, 
     bool something;
     SL_TRY(want(context, all, me, number, &something));
     if (!something) return SL_OK;
-    if (++me->account.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
+    if (++me->account.tests % 64 == 0) SL_TRY(check_going_on(context, all));
 
     sl_stab_verdict verdict;
     SL_TRY(solver->push(context, me->solver, exit->left, exit->right, &verdict));
@@ -150,11 +159,8 @@ static sl_status search_from(sl_context *context, const search *all, searcher *m
     return SL_OK;
 }
 
-static sl_status search_unit(sl_context *context, void *job, void *state, size_t unit) {
-    search *all = job;
-    searcher *me = state;
-    const uint32_t count = all->space->cell_count, source = (uint32_t)unit;
-    if (all->options->inside_only && !all->space->cells[source].inside) return SL_OK;
+static sl_status search_source(sl_context *context, search *all, searcher *me, uint32_t source) {
+    const uint32_t count = all->space->cell_count;
     const size_t bytes = sl_bits_words(count) * sizeof(sl_bits);
     memset(me->sure, 0, bytes);
     memset(me->doubtful, 0, bytes);
@@ -164,6 +170,24 @@ static sl_status search_unit(sl_context *context, void *job, void *state, size_t
     SL_TRY(sl_row_append(context, &all->doubtful[source], me->doubtful, count));
     if (all->options->trees) sl_tree_store_put(context, &all->trees, source, &me->tree);
     all->accounts[source] = me->account;
+    return SL_OK;
+}
+
+static sl_status search_unit(sl_context *context, void *job, void *state, size_t unit) {
+    search *all = job;
+    const uint32_t source = (uint32_t)unit;
+    const bool takes_part = !all->options->inside_only || all->space->cells[source].inside;
+    if (!all->before) return takes_part ? search_source(context, all, state, source) : SL_OK;
+    if (!sl_unit_is_wanted(all->options, all->before, source)) return SL_OK;
+    if (sl_is_enough(all->options)) return SL_OK;
+    if (takes_part) {
+        const sl_status status = search_source(context, all, state, source);
+        // What the source has seen so far is let go: its row would not be exact.
+        if (status == SL_CANCELLED && sl_is_enough(all->options))
+            return sl_check_cancelled(context);
+        SL_TRY(status);
+    }
+    all->done[source] = 1;
     return SL_OK;
 }
 
@@ -212,8 +236,7 @@ static void sum_accounts(const search *all, sl_see_account *sum) {
     sum->stab = all->stab;
 }
 
-static sl_status search_all(sl_context *context, search *all, sl_visibility *out) {
-    const uint32_t count = all->space->cell_count;
+static sl_status run_search(sl_context *context, search *all) {
     const sl_work work = {.job = all,
                           .begin = begin,
                           .unit = search_unit,
@@ -221,7 +244,12 @@ static sl_status search_all(sl_context *context, search *all, sl_visibility *out
                           .leave_thread = all->options->solver->leave_thread,
                           .stage = "cell_to_cell",
                           .units = "cells"};
-    SL_TRY(sl_work_run(context, &work, count, all->options->threads));
+    return sl_work_run(context, &work, all->space->cell_count, all->options->threads);
+}
+
+static sl_status search_all(sl_context *context, search *all, sl_visibility *out) {
+    const uint32_t count = all->space->cell_count;
+    SL_TRY(run_search(context, all));
     sum_accounts(all, &out->account);
     sl_pvs sure = {0}, doubtful = {0};
     sl_status status = sl_pvs_join(context, all->sure, count, &sure);
@@ -260,16 +288,15 @@ static sl_status find_bounds(sl_context *context, search *all) {
     return status;
 }
 
-static sl_status see(sl_context *context, search *all, sl_visibility *out) {
-    sl_visibility visibility = {.sight = all->options->sight,
-                                .guarantee = all->options->solver->guarantee};
-    const uint32_t count = all->space->cell_count;
-    all->words = sl_bits_words(count);
+static sl_status prepare(sl_context *context, search *all) {
+    all->words = sl_bits_words(all->space->cell_count);
     pthread_mutex_init(&all->lock, NULL);
-    sl_status status = all->prunes ? find_bounds(context, all) : SL_OK;
-    if (status == SL_OK) status = allocate(context, all);
-    if (status == SL_OK) status = search_all(context, all, &visibility);
-    for (uint32_t i = 0; i < count; i++) {
+    if (all->prunes) SL_TRY(find_bounds(context, all));
+    return allocate(context, all);
+}
+
+static void tidy_up(sl_context *context, search *all) {
+    for (uint32_t i = 0; i < all->space->cell_count; i++) {
         if (all->sure) sl_free(context, all->sure[i].items);
         if (all->doubtful) sl_free(context, all->doubtful[i].items);
     }
@@ -277,8 +304,17 @@ static sl_status see(sl_context *context, search *all, sl_visibility *out) {
     sl_free(context, all->doubtful);
     sl_free(context, all->accounts);
     sl_free(context, all->bounds);
+    sl_free(context, all->done);
     sl_tree_store_destroy(context, &all->trees);
     pthread_mutex_destroy(&all->lock);
+}
+
+static sl_status see(sl_context *context, search *all, sl_visibility *out) {
+    sl_visibility visibility = {.sight = all->options->sight,
+                                .guarantee = all->options->solver->guarantee};
+    sl_status status = prepare(context, all);
+    if (status == SL_OK) status = search_all(context, all, &visibility);
+    tidy_up(context, all);
     if (status == SL_OK)
         *out = visibility;
     else
@@ -286,20 +322,78 @@ static sl_status see(sl_context *context, search *all, sl_visibility *out) {
     return status;
 }
 
+// --- in parts
+
+/// Adds what the search has found to what was known.
+static sl_status hand_over(sl_context *context, search *all, sl_findings *findings) {
+    const uint32_t count = all->space->cell_count;
+    sl_findings found = {.unit_count = count, .inside_only = all->options->inside_only};
+    found.done = sl_alloc_array(context, sl_bits_words(count), sizeof *found.done);
+    sl_status status = found.done ? SL_OK : SL_NO_MEMORY;
+    if (status == SL_OK) status = sl_pvs_join(context, all->sure, count, &found.sure);
+    if (status == SL_OK) status = sl_pvs_join(context, all->doubtful, count, &found.doubtful);
+    if (status == SL_OK) {
+        sl_findings_note_bytes(&found, all->done);
+        status = sl_findings_join(context, findings, &found);
+    }
+    sl_findings_destroy(context, &found);
+    return status;
+}
+
+static sl_status search_some(sl_context *context, search *all, sl_findings *findings) {
+    const uint32_t count = all->space->cell_count;
+    SL_TRY(prepare(context, all));
+    SL_TRY(sl_findings_start(context, all->space, all->options, count, findings));
+    all->before = findings;
+    all->done = sl_alloc_array(context, count, sizeof *all->done);
+    if (!all->done) return SL_NO_MEMORY;
+    SL_TRY(run_search(context, all));
+    return hand_over(context, all, findings);
+}
+
+static sl_status look(sl_context *context, search *all, sl_findings *findings) {
+    if (all->options->trees)
+        return sl_fail(context, SL_UNSUPPORTED, "a search done in parts makes no stab trees");
+    const sl_status status = search_some(context, all, findings);
+    tidy_up(context, all);
+    return status;
+}
+
+// --- the methods
+
+static sl_status check_options(sl_context *context, const sl_see_options *options, bool prunes) {
+    if (!options->solver)
+        return sl_fail(context, SL_BAD_ARGUMENT, "the method '%s' needs a solver",
+                       prunes ? "prune" : "dfs");
+    if (prunes && options->trees)
+        return sl_fail(context, SL_UNSUPPORTED, "the method 'prune' makes no stab trees");
+    return SL_OK;
+}
+
 sl_status sl_see_dfs(sl_context *context, const sl_space *space, const sl_see_options *options,
                      sl_visibility *out) {
-    if (!options->solver)
-        return sl_fail(context, SL_BAD_ARGUMENT, "the method 'dfs' needs a solver");
     search all = {.space = space, .options = options};
+    SL_TRY(check_options(context, options, all.prunes));
     return see(context, &all, out);
+}
+
+sl_status sl_look_dfs(sl_context *context, const sl_space *space, const sl_see_options *options,
+                      sl_findings *findings) {
+    search all = {.space = space, .options = options};
+    SL_TRY(check_options(context, options, all.prunes));
+    return look(context, &all, findings);
 }
 
 sl_status sl_see_prune(sl_context *context, const sl_space *space, const sl_see_options *options,
                        sl_visibility *out) {
-    if (!options->solver)
-        return sl_fail(context, SL_BAD_ARGUMENT, "the method 'prune' needs a solver");
-    if (options->trees)
-        return sl_fail(context, SL_UNSUPPORTED, "the method 'prune' makes no stab trees");
     search all = {.space = space, .options = options, .prunes = true};
+    SL_TRY(check_options(context, options, all.prunes));
     return see(context, &all, out);
+}
+
+sl_status sl_look_prune(sl_context *context, const sl_space *space, const sl_see_options *options,
+                        sl_findings *findings) {
+    search all = {.space = space, .options = options, .prunes = true};
+    SL_TRY(check_options(context, options, all.prunes));
+    return look(context, &all, findings);
 }

@@ -4,9 +4,12 @@
 #include "cell_to_cell/flood.h"
 
 #include "base/threads.h"
-#include "cell_to_cell/bit_rows.h"
+#include "cell_to_cell/findings.h"
 #include "cell_to_cell/methods.h"
+#include "cell_to_cell/pvs_rows.h"
 #include "geometry/orient.h"
+
+#include <string.h>
 
 /// Whether some of a portal lies ahead of (`sign` -1) or behind (1) an exit; for closed sight its
 /// line is enough.
@@ -43,6 +46,7 @@ uint32_t sl_flood_through(const sl_space *space, const sl_see_options *options, 
 typedef struct flood {
     const sl_space *space;
     const sl_see_options *options;
+    bool hurries;     ///< gives up where that is enough
     sl_bit_rows rows; ///< each is written by one thread
 } flood;
 
@@ -82,6 +86,7 @@ static sl_status flood_unit(sl_context *context, void *job, void *state, size_t 
     flooder *me = state;
     const sl_cell *cell = &all->space->cells[unit];
     if (all->options->inside_only && !cell->inside) return SL_OK;
+    if (all->hurries && sl_is_enough(all->options)) return SL_CANCELLED;
     sl_word_set_add(&me->row, (uint32_t)unit);
     for (uint32_t i = 0; i < cell->exit_count; i++) {
         const uint32_t count = sl_flood_through(
@@ -118,5 +123,65 @@ sl_status sl_see_flood(sl_context *context, const sl_space *space, const sl_see_
     const sl_status status = flood_all(context, &all, &visibility);
     sl_bit_rows_destroy(context, &all.rows);
     if (status == SL_OK) *out = visibility;
+    return status;
+}
+
+// --- the bound for sets that are not decided
+
+static bool takes_part(const sl_space *space, const sl_see_options *options, uint32_t cell) {
+    return !options->inside_only || space->cells[cell].inside;
+}
+
+static uint32_t count_taking_part(const sl_space *space, const sl_see_options *options) {
+    return options->inside_only ? space->inside_count : space->cell_count;
+}
+
+/// The row of all cells, once for each.
+static sl_status repeat_row(sl_context *context, const sl_space *space,
+                            const sl_see_options *options, const sl_row_bytes *row, sl_pvs *out) {
+    const uint32_t count = space->cell_count;
+    out->cell_count = count;
+    out->offsets = sl_alloc_array(context, (size_t)count + 1, sizeof *out->offsets);
+    out->bytes = sl_alloc(context, row->count * count_taking_part(space, options) + 1);
+    if (!out->offsets || !out->bytes) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < count; i++) {
+        const size_t length = takes_part(space, options, i) ? row->count : 0;
+        if (length) memcpy(out->bytes + out->offsets[i], row->items, length);
+        out->offsets[i + 1] = out->offsets[i] + length;
+    }
+    return SL_OK;
+}
+
+static sl_status pair_all(sl_context *context, const sl_space *space, const sl_see_options *options,
+                          sl_pvs *out) {
+    sl_pvs all = {0};
+    sl_row_bytes row = {0};
+    sl_bits *set = sl_alloc_array(context, sl_bits_words(space->cell_count), sizeof *set);
+    if (!set) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < space->cell_count; i++)
+        if (takes_part(space, options, i)) sl_bits_add(set, i);
+    sl_status status = sl_row_append(context, &row, set, space->cell_count);
+    if (status == SL_OK) status = repeat_row(context, space, options, &row, &all);
+    sl_free(context, row.items);
+    sl_free(context, set);
+    if (status == SL_OK)
+        *out = all;
+    else
+        sl_pvs_destroy(context, &all);
+    return status;
+}
+
+sl_status sl_flood_bound(sl_context *context, const sl_space *space, const sl_see_options *options,
+                         sl_pvs *out, bool *bounded) {
+    flood all = {.space = space, .options = options, .hurries = true};
+    sl_visibility visibility = {0};
+    sl_status status = flood_all(context, &all, &visibility);
+    sl_bit_rows_destroy(context, &all.rows);
+    *bounded = status == SL_OK;
+    if (status == SL_CANCELLED && sl_is_enough(options)) {
+        SL_TRY(sl_check_cancelled(context));
+        return pair_all(context, space, options, out);
+    }
+    if (status == SL_OK) *out = visibility.pvs;
     return status;
 }

@@ -1,4 +1,4 @@
-/// A bound on what is seen through one exit, by signs of portals in pairs.
+/// A bound on what is seen, by signs of portals in pairs.
 #ifndef SL_FLOOD_H
 #define SL_FLOOD_H
 
@@ -10,5 +10,10 @@
 /// They are listed in `found`, which has room for all cells, and counted.
 uint32_t sl_flood_through(const sl_space *space, const sl_see_options *options, const sl_exit *exit,
                           sl_bits *set, uint32_t *found);
+
+/// The bound on what all cells see, symmetric. Once options.enough says so there is none: *bounded
+/// is then false, and all pairs are in it.
+sl_status sl_flood_bound(sl_context *context, const sl_space *space, const sl_see_options *options,
+                         sl_pvs *out, bool *bounded);
 
 #endif

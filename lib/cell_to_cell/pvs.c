@@ -47,6 +47,12 @@ uint32_t sl_pvs_count(const sl_pvs *pvs, uint32_t cell) {
     return count;
 }
 
+uint64_t sl_pvs_pairs(const sl_pvs *pvs) {
+    uint64_t pairs = 0;
+    for (uint32_t cell = 0; cell < pvs->cell_count; cell++) pairs += sl_pvs_count(pvs, cell);
+    return pairs;
+}
+
 static bool row_is_sound(const sl_pvs *pvs, uint32_t cell) {
     const uint8_t *next = pvs->bytes + pvs->offsets[cell];
     const uint8_t *stop = pvs->bytes + pvs->offsets[cell + 1];
@@ -167,31 +173,31 @@ sl_status sl_pvs_join(sl_context *context, sl_row_bytes *rows, uint32_t count, s
     return status;
 }
 
-/// The sources that see each cell, ascending: column c is members[starts[c] .. starts[c + 1]).
-typedef struct columns {
-    uint64_t *starts;
-    uint32_t *members;
-} columns;
-
-static sl_status gather_columns(sl_context *context, const sl_pvs *pvs, columns *out) {
-    const uint32_t count = pvs->cell_count;
+sl_status sl_columns_gather(sl_context *context, const sl_pvs *rows, uint32_t count,
+                            sl_columns *out) {
     out->starts = sl_alloc_array(context, (size_t)count + 2, sizeof *out->starts);
     if (!out->starts) return SL_NO_MEMORY;
     // Counted two places on, then summed, so that filling moves each start to where it belongs.
-    for (uint32_t from = 0; from < count; from++)
-        for (sl_pvs_run run = sl_pvs_begin(pvs, from); sl_pvs_next(&run);)
+    for (uint32_t row = 0; row < rows->cell_count; row++)
+        for (sl_pvs_run run = sl_pvs_begin(rows, row); sl_pvs_next(&run);)
             for (uint32_t to = run.first; to < run.end; to++) out->starts[to + 2]++;
     for (uint32_t i = 1; i < count + 2; i++) out->starts[i] += out->starts[i - 1];
     out->members = sl_alloc_array(context, out->starts[count + 1], sizeof *out->members);
     if (!out->members) return SL_NO_MEMORY;
-    for (uint32_t from = 0; from < count; from++)
-        for (sl_pvs_run run = sl_pvs_begin(pvs, from); sl_pvs_next(&run);)
+    for (uint32_t row = 0; row < rows->cell_count; row++)
+        for (sl_pvs_run run = sl_pvs_begin(rows, row); sl_pvs_next(&run);)
             for (uint32_t to = run.first; to < run.end; to++)
-                out->members[out->starts[to + 1]++] = from;
+                out->members[out->starts[to + 1]++] = row;
     return SL_OK;
 }
 
-static sl_status encode_column(sl_context *context, const columns *all, uint32_t cell,
+void sl_columns_destroy(sl_context *context, sl_columns *columns) {
+    sl_free(context, columns->starts);
+    sl_free(context, columns->members);
+    *columns = (sl_columns){0};
+}
+
+static sl_status encode_column(sl_context *context, const sl_columns *all, uint32_t cell,
                                sl_row_bytes *row) {
     uint32_t end = 0;
     for (uint64_t i = all->starts[cell]; i < all->starts[cell + 1];) {
@@ -204,8 +210,8 @@ static sl_status encode_column(sl_context *context, const columns *all, uint32_t
 
 sl_status sl_pvs_transpose(sl_context *context, const sl_pvs *pvs, sl_pvs *out) {
     const uint32_t count = pvs->cell_count;
-    columns gathered = {0};
-    sl_status status = gather_columns(context, pvs, &gathered);
+    sl_columns gathered = {0};
+    sl_status status = sl_columns_gather(context, pvs, count, &gathered);
     sl_row_bytes *rows = status == SL_OK ? sl_alloc_array(context, count, sizeof *rows) : NULL;
     if (status == SL_OK && !rows) status = SL_NO_MEMORY;
     for (uint32_t cell = 0; cell < count && status == SL_OK; cell++)
@@ -215,7 +221,6 @@ sl_status sl_pvs_transpose(sl_context *context, const sl_pvs *pvs, sl_pvs *out) 
     else
         for (uint32_t cell = 0; rows && cell < count; cell++) sl_free(context, rows[cell].items);
     sl_free(context, rows);
-    sl_free(context, gathered.starts);
-    sl_free(context, gathered.members);
+    sl_columns_destroy(context, &gathered);
     return status;
 }

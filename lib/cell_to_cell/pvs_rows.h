@@ -24,6 +24,18 @@ void sl_row_add_to(const sl_pvs *pvs, uint32_t cell, sl_bits *set);
 /// Joins rows[0 .. count) into one PVS and frees them, also on failure.
 sl_status sl_pvs_join(sl_context *context, sl_row_bytes *rows, uint32_t count, sl_pvs *out);
 
+/// The rows that hold each cell, ascending: those of cell c are members[starts[c] ..
+/// starts[c + 1]).
+typedef struct sl_columns {
+    uint64_t *starts;
+    uint32_t *members;
+} sl_columns;
+
+/// Of rows of `count` possible members. `out` is zeroed, and to be destroyed also on failure.
+sl_status sl_columns_gather(sl_context *context, const sl_pvs *rows, uint32_t count,
+                            sl_columns *out);
+void sl_columns_destroy(sl_context *context, sl_columns *columns);
+
 /// The pairs (b, a) of all (a, b). Time and memory grow with the number of pairs.
 sl_status sl_pvs_transpose(sl_context *context, const sl_pvs *pvs, sl_pvs *out);
 

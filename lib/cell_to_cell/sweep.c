@@ -38,6 +38,7 @@
 /// counter-clockwise. That is why the edges' angles themselves are left out of the sectors, on one
 /// side each, and looked at as rays of their own.
 #include "cell_to_cell/sweep.h"
+#include "cell_to_cell/findings.h"
 #include "cell_to_cell/methods.h"
 
 #include "base/threads.h"
@@ -51,6 +52,8 @@ typedef struct sweep {
     const sl_space *space;
     const sl_see_options *options;
     sl_fans fans;
+    const sl_findings *before; ///< what is known; NULL: nothing, and all is to be done
+    uint8_t *done;             ///< by fan, where there is `before`; each is written by one thread
     pthread_mutex_t lock;
     sl_bit_rows rows; ///< joined from the threads' forks, under the lock
     uint64_t pieces;
@@ -87,18 +90,11 @@ static void end(sl_context *context, void *job, void *state) {
 static sl_status sweep_unit(sl_context *context, void *job, void *state, size_t unit) {
     const sweep *all = job;
     const size_t count = all->fans.fans.count, first = unit * FANS_AT_ONCE;
-    for (size_t i = first; i < first + FANS_AT_ONCE && i < count; i++)
+    for (size_t i = first; i < first + FANS_AT_ONCE && i < count; i++) {
+        if (all->before && !sl_unit_is_wanted(all->options, all->before, (uint32_t)i)) continue;
+        if (all->before && sl_is_enough(all->options)) return SL_OK;
         SL_TRY(sl_sweep_fan(context, state, &all->fans.fans.items[i]));
-    return SL_OK;
-}
-
-/// Each cell sees itself, and through each of its portals the cell behind.
-static sl_status add_neighbours(sl_context *context, sweep *all) {
-    for (uint32_t cell = 0; cell < all->space->cell_count; cell++) {
-        if (all->options->inside_only && !all->space->cells[cell].inside) continue;
-        SL_TRY(sl_bit_rows_add_one(context, &all->rows, cell, cell));
-        for (uint32_t e = all->fans.first_exit[cell]; e < all->fans.first_exit[cell + 1]; e++)
-            SL_TRY(sl_bit_rows_add_one(context, &all->rows, cell, all->fans.exits[e].cell));
+        if (all->before) all->done[i] = 1;
     }
     return SL_OK;
 }
@@ -120,10 +116,9 @@ static sl_status tell_memory(sl_context *context, sweep *all) {
     return SL_OK;
 }
 
-static sl_status sweep_all(sl_context *context, sweep *all, sl_visibility *out) {
-    SL_TRY(sl_fans_find(context, all->space, all->options, &all->fans));
+static sl_status turn_about_all(sl_context *context, sweep *all) {
     SL_TRY(sl_bit_rows_create(context, all->space->cell_count, all->options, &all->rows));
-    SL_TRY(tell_memory(context, all));
+    if (!all->options->shard_count) SL_TRY(tell_memory(context, all));
     const sl_work work = {.job = all,
                           .begin = begin,
                           .unit = sweep_unit,
@@ -131,18 +126,25 @@ static sl_status sweep_all(sl_context *context, sweep *all, sl_visibility *out) 
                           .stage = "cell_to_cell",
                           .units = "corners"};
     const size_t units = (all->fans.fans.count + FANS_AT_ONCE - 1) / FANS_AT_ONCE;
-    SL_TRY(sl_work_run(context, &work, units, all->options->threads));
-    SL_TRY(add_neighbours(context, all));
-    SL_TRY(sl_bit_rows_mirror(context, &all->rows, SL_ADD_MIRRORED));
+    return sl_work_run(context, &work, units, all->options->threads);
+}
+
+static sl_status sweep_all(sl_context *context, sweep *all, sl_visibility *out) {
+    SL_TRY(sl_fans_find(context, all->space, all->options, &all->fans));
+    SL_TRY(turn_about_all(context, all));
     out->account.pieces = all->pieces;
     out->account.deepest = all->deepest;
-    return sl_bit_rows_encode(context, &all->rows, out);
+    return sl_sweep_finish(context, all->space, all->options, &all->rows, out);
+}
+
+static sl_status check_options(sl_context *context, const sl_see_options *options) {
+    if (!options->trees) return SL_OK;
+    return sl_fail(context, SL_UNSUPPORTED, "the method 'sweep' makes no stab trees");
 }
 
 sl_status sl_see_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
                        sl_visibility *out) {
-    if (options->trees)
-        return sl_fail(context, SL_UNSUPPORTED, "the method 'sweep' makes no stab trees");
+    SL_TRY(check_options(context, options));
     sweep all = {.space = space, .options = options};
     sl_visibility visibility = {.sight = options->sight, .guarantee = SL_EXACT};
     pthread_mutex_init(&all.lock, NULL);
@@ -154,5 +156,37 @@ sl_status sl_see_sweep(sl_context *context, const sl_space *space, const sl_see_
         *out = visibility;
     else
         sl_visibility_destroy(context, &visibility);
+    return status;
+}
+
+// --- in parts
+
+static sl_status sweep_some(sl_context *context, sweep *all, sl_findings *findings) {
+    SL_TRY(sl_fans_find(context, all->space, all->options, &all->fans));
+    const uint32_t count = (uint32_t)all->fans.fans.count;
+    SL_TRY(sl_findings_start(context, all->space, all->options, count, findings));
+    all->before = findings;
+    all->done = sl_alloc_array(context, count, sizeof *all->done);
+    if (!all->done) return SL_NO_MEMORY;
+    SL_TRY(turn_about_all(context, all));
+    SL_TRY(sl_bit_rows_add_pvs(context, &all->rows, &findings->sure));
+    sl_visibility found = {0};
+    SL_TRY(sl_bit_rows_encode(context, &all->rows, &found));
+    sl_pvs_destroy(context, &findings->sure);
+    findings->sure = found.pvs;
+    sl_findings_note_bytes(findings, all->done);
+    return SL_OK;
+}
+
+sl_status sl_look_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
+                        sl_findings *findings) {
+    SL_TRY(check_options(context, options));
+    sweep all = {.space = space, .options = options};
+    pthread_mutex_init(&all.lock, NULL);
+    const sl_status status = sweep_some(context, &all, findings);
+    pthread_mutex_destroy(&all.lock);
+    sl_fans_destroy(context, &all.fans);
+    sl_bit_rows_destroy(context, &all.rows);
+    sl_free(context, all.done);
     return status;
 }

@@ -42,4 +42,9 @@ sl_status sl_sweep_estimate(sl_context *context, const sl_fans *fans, bool close
 /// Turns the line: adds the pairs of what is seen by both its halves.
 sl_status sl_sweep_turn(sl_context *context, sl_sweeper *sweeper, const sl_fan *fan);
 
+/// Makes the result of all that was found: adds that each cell sees itself and through each of its
+/// portals the cell behind, and that pairs are mutual. Sets the PVS and its count.
+sl_status sl_sweep_finish(sl_context *context, const sl_space *space, const sl_see_options *options,
+                          sl_bit_rows *rows, sl_visibility *out);
+
 #endif

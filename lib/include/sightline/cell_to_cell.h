@@ -54,6 +54,28 @@ typedef struct sl_visibility {
 SL_API void sl_visibility_destroy(sl_context *context,
                                   sl_visibility *visibility); ///< and zeroes it
 
+/// What is known when some units of a method's work are done: of the sweep the fans round portal
+/// ends, of the searches the source cells. Each unit finds its pairs alone, so that findings of
+/// different units join by OR, in any order, from any number of runs. Zeroed: nothing is known.
+typedef struct sl_findings {
+    uint32_t unit_count, done_count;
+    uint64_t *done;              ///< a bit a unit: unit u is done[u / 64] >> u % 64 & 1
+    sl_pvs sure, doubtful;       ///< pairs found, some one way only; doubtful: by rounded solvers
+    bool inside_only;            ///< the option they were found with
+    uint32_t shard, shard_count; ///< which part of the work was asked for; 0, 0 for all
+} sl_findings;
+
+SL_API void sl_findings_destroy(sl_context *context, sl_findings *findings); ///< and zeroes it
+
+/// Whether there are findings at all; whether they are those of all units.
+SL_API bool sl_findings_begun(const sl_findings *findings);
+SL_API bool sl_findings_complete(const sl_findings *findings);
+
+/// Adds what others hold, of the same space and method: SL_BAD_ARGUMENT where the units or the
+/// options are not the same.
+SL_API sl_status sl_findings_join(sl_context *context, sl_findings *findings,
+                                  const sl_findings *other);
+
 /// How methods keep what they have found so far: all bits of a row, or the words that have any.
 /// Which it is makes no difference to the result.
 typedef enum sl_row_storage { SL_ROWS_BY_SIZE, SL_ROWS_DENSE, SL_ROWS_SPARSE } sl_row_storage;
@@ -73,6 +95,13 @@ typedef struct sl_see_options {
     /// Sectors that "multipass" cuts all directions into, at most: 4 at least; 0: at each portal's
     /// own, so that cells have an order in each. The result does not depend on it.
     uint32_t sectors;
+    /// For `look` alone. The part of the units to be done, 1 .. shard_count; 0, 0 for all.
+    uint32_t shard, shard_count;
+    /// For `look` and `settle`: asked often, from several threads at once; once true, it stays
+    /// true, and `look` begins no unit and goes on with none, `settle` takes looser bounds. NULL:
+    /// never.
+    bool (*enough)(void *user);
+    void *enough_user;
 } sl_see_options;
 
 SL_API sl_see_options sl_see_options_default(void);
@@ -87,9 +116,35 @@ typedef struct sl_see_method {
     sl_guarantee guarantee;
     sl_status (*see)(sl_context *context, const sl_space *space, const sl_see_options *options,
                      sl_visibility *out);
+    const char *units; ///< what its units are, plural; NULL, as the functions below, where it is
+                       ///< done in one go only
+    /// Does units that are not done yet, those of the shard, and adds to the findings what they
+    /// find. Findings that are not zeroed must be of the same space and options.
+    sl_status (*look)(sl_context *context, const sl_space *space, const sl_see_options *options,
+                      sl_findings *findings);
+    /// The result. From findings of all units the same as `see` gives, but for the account of the
+    /// work. Else what is not decided yet counts as seen, within the bound of the method "flood":
+    /// an exact method's set is then SL_CONSERVATIVE.
+    sl_status (*settle)(sl_context *context, const sl_space *space, const sl_see_options *options,
+                        const sl_findings *findings, sl_visibility *out);
+    /// Notes as done the units that can find no pair but of cells whose rows are known, and
+    /// known not to hold others: `enclosed` has the bits of these cells (sl_findings_carry); `kept`
+    /// those of all cells whose rows are known.
+    sl_status (*carry)(sl_context *context, const sl_space *space, const sl_see_options *options,
+                       const uint64_t *kept, const uint64_t *enclosed, sl_findings *findings);
 } sl_see_method;
 
 SL_API const sl_see_method *sl_see_methods(size_t *count);
+
+/// Makes findings for a space from what was seen in another one, before some walls were changed: of
+/// all pairs that no changed cell can have a part in. The rest is for `look`; the result is the
+/// same as without them. SL_BAD_ARGUMENT, and a message that says why, where nothing can be taken
+/// over: the sets seen are not exact or were made with other options, or what is asked for is not
+/// exact. `findings` is zeroed before.
+SL_API sl_status sl_findings_carry(sl_context *context, const sl_space *before,
+                                   const sl_visibility *seen, const sl_space *space,
+                                   const sl_see_method *method, const sl_see_options *options,
+                                   sl_findings *findings);
 
 #ifdef __cplusplus
 }

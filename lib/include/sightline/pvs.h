@@ -31,6 +31,7 @@ SL_API bool sl_pvs_next(sl_pvs_run *run);
 
 SL_API bool sl_pvs_sees(const sl_pvs *pvs, uint32_t from, uint32_t to);
 SL_API uint32_t sl_pvs_count(const sl_pvs *pvs, uint32_t cell);
+SL_API uint64_t sl_pvs_pairs(const sl_pvs *pvs); ///< of all rows
 
 /// Checks rows from an untrusted file: in range, in order, ending where they should. SL_BAD_INPUT.
 SL_API sl_status sl_pvs_check(sl_context *context, const sl_pvs *pvs);

@@ -1,0 +1,246 @@
+/// What of a space's visible sets still holds when some walls have changed.
+///
+/// A cell is unchanged where the new space has one of the same corners and the same exits, and each
+/// exit leads to the same cell as before, or to a changed one. Let A be unchanged, and let all that
+/// it saw be unchanged too. Then it sees the same cells as before, for a sightline's sequence of
+/// portals is made of exits, and each beginning of it has a sightline as well:
+///
+/// - Each sequence from A that had a sightline goes through unchanged cells only, since A saw all
+///   of them. The new space has the same one, exit for exit, and the same line.
+/// - Take a sequence from A that has a sightline in the new space, and the first of its exits that
+///   does not lead to the same cell as before. Up to there the old space had the same sequence,
+///   with the same line, which went on through that exit: A saw the cell that it led to, and so
+///   that cell is unchanged. But then the exit would lead to it now.
+///
+/// So A's row is the old one. With exact sets it does not matter by which method they were found.
+///
+/// Pairs of which neither cell is such an A are looked for anew. A fan of the sweep joins cells
+/// that see each other by lines through its point, and each of the two is seen from the cell of
+/// the fan by which its half of the line leaves the point (or is that cell). Where all cells of the
+/// fan are such A's, and see only such A's, all pairs that it joins are of these rows, and it is
+/// passed over (sweep_settle.c). Of the searches a source that is such an A is.
+///
+/// Nothing of it depends on how the cells are numbered, nor on the subdivision being the same: a
+/// split line that moves only makes more cells count as changed.
+#include "cell_to_cell/findings.h"
+#include "cell_to_cell/pvs_maker.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define NO_CELL UINT32_MAX
+
+typedef struct carrying {
+    const sl_space *before, *space;
+    const sl_pvs *seen;
+    uint32_t *now;     ///< by cell of the space before: the same cell, or NO_CELL
+    uint32_t *then;    ///< by cell of the space: the same cell before, or NO_CELL
+    sl_bits *kept;     ///< cells whose rows are as they were
+    sl_bits *enclosed; ///< those of them that see only such cells
+    sl_bits *set;      ///< scratch
+} carrying;
+
+// --- the same cells
+
+/// A cell with its corners at hand, for sorting.
+typedef struct shape {
+    const sl_point *corners;
+    uint32_t count, cell;
+} shape;
+
+static int compare_shapes(const void *a, const void *b) {
+    const shape *s = a, *t = b;
+    if (s->count != t->count) return s->count < t->count ? -1 : 1;
+    return memcmp(s->corners, t->corners, s->count * sizeof *s->corners);
+}
+
+static shape *sort_shapes(sl_context *context, const sl_space *space) {
+    shape *shapes = sl_alloc_array(context, space->cell_count, sizeof *shapes);
+    if (!shapes) return NULL;
+    for (uint32_t i = 0; i < space->cell_count; i++) {
+        const sl_cell *cell = &space->cells[i];
+        shapes[i] = (shape){space->vertices + cell->first_vertex, cell->vertex_count, i};
+    }
+    qsort(shapes, space->cell_count, sizeof *shapes, compare_shapes);
+    return shapes;
+}
+
+/// Whether no other one is like it.
+static bool is_alone(const shape *shapes, uint32_t count, uint32_t i) {
+    return (i == 0 || compare_shapes(&shapes[i - 1], &shapes[i]) != 0) &&
+           (i + 1 == count || compare_shapes(&shapes[i], &shapes[i + 1]) != 0);
+}
+
+static bool same_exits(const carrying *c, uint32_t then, uint32_t now) {
+    const sl_cell *a = &c->before->cells[then], *b = &c->space->cells[now];
+    if (a->exit_count != b->exit_count || a->inside != b->inside) return false;
+    for (uint32_t i = 0; i < a->exit_count; i++) {
+        const sl_exit *e = &c->before->exits[a->first_exit + i];
+        const sl_exit *f = &c->space->exits[b->first_exit + i];
+        if (e->left.x != f->left.x || e->left.y != f->left.y || e->right.x != f->right.x ||
+            e->right.y != f->right.y)
+            return false;
+    }
+    return true;
+}
+
+static void match(const carrying *c, const shape *old, const shape *new) {
+    const uint32_t old_count = c->before->cell_count, new_count = c->space->cell_count;
+    for (uint32_t i = 0, k = 0; i < old_count && k < new_count;) {
+        const int order = compare_shapes(&old[i], &new[k]);
+        if (order == 0 && is_alone(old, old_count, i) && is_alone(new, new_count, k) &&
+            same_exits(c, old[i].cell, new[k].cell)) {
+            c->now[old[i].cell] = new[k].cell;
+            c->then[new[k].cell] = old[i].cell;
+        }
+        i += order <= 0;
+        k += order >= 0;
+    }
+}
+
+/// Whether each exit leads to the same cell as before, or to one that is none of the same now.
+static bool leads_the_same_way(const carrying *c, uint32_t then, uint32_t now) {
+    const sl_cell *a = &c->before->cells[then], *b = &c->space->cells[now];
+    for (uint32_t i = 0; i < a->exit_count; i++) {
+        const uint32_t to = c->now[c->before->exits[a->first_exit + i].cell];
+        if (to != NO_CELL && to != c->space->exits[b->first_exit + i].cell) return false;
+    }
+    return true;
+}
+
+static sl_status find_same_cells(sl_context *context, const carrying *c) {
+    memset(c->now, 0xff, c->before->cell_count * sizeof *c->now);
+    memset(c->then, 0xff, c->space->cell_count * sizeof *c->then);
+    shape *old = sort_shapes(context, c->before), *new = sort_shapes(context, c->space);
+    if (old && new) match(c, old, new);
+    const sl_status status = old && new ? SL_OK : SL_NO_MEMORY;
+    sl_free(context, old);
+    sl_free(context, new);
+    if (status != SL_OK) return status;
+    // A cell that no longer counts as the same only makes others lead to a changed one.
+    for (uint32_t then = 0; then < c->before->cell_count; then++) {
+        const uint32_t now = c->now[then];
+        if (now == NO_CELL || leads_the_same_way(c, then, now)) continue;
+        c->now[then] = c->then[now] = NO_CELL;
+    }
+    return SL_OK;
+}
+
+// --- their rows
+
+static bool saw_no_changed_cell(const carrying *c, uint32_t then) {
+    for (sl_pvs_run run = sl_pvs_begin(c->seen, then); sl_pvs_next(&run);)
+        for (uint32_t i = run.first; i < run.end; i++)
+            if (c->now[i] == NO_CELL) return false;
+    return true;
+}
+
+static bool saw_kept_cells_only(const carrying *c, uint32_t then) {
+    for (sl_pvs_run run = sl_pvs_begin(c->seen, then); sl_pvs_next(&run);)
+        for (uint32_t i = run.first; i < run.end; i++)
+            if (!sl_bits_has(c->kept, c->now[i])) return false;
+    return true;
+}
+
+static void find_kept(const carrying *c) {
+    for (uint32_t now = 0; now < c->space->cell_count; now++)
+        if (c->then[now] != NO_CELL && saw_no_changed_cell(c, c->then[now]))
+            sl_bits_add(c->kept, now);
+    for (uint32_t now = 0; now < c->space->cell_count; now++)
+        if (sl_bits_has(c->kept, now) && saw_kept_cells_only(c, c->then[now]))
+            sl_bits_add(c->enclosed, now);
+}
+
+static sl_status make_rows(sl_context *context, const carrying *c, sl_pvs_maker *maker,
+                           sl_pvs *out) {
+    const uint32_t count = c->space->cell_count;
+    SL_TRY(sl_pvs_maker_create(context, count, count, maker));
+    for (uint32_t now = 0; now < count; now++) {
+        if (sl_bits_has(c->kept, now))
+            for (sl_pvs_run run = sl_pvs_begin(c->seen, c->then[now]); sl_pvs_next(&run);)
+                for (uint32_t i = run.first; i < run.end; i++)
+                    sl_word_set_add(&maker->row, c->now[i]);
+        SL_TRY(sl_pvs_maker_end_row(context, maker));
+    }
+    return sl_pvs_maker_finish(context, maker, out);
+}
+
+static sl_status take_rows(sl_context *context, const carrying *c, sl_findings *findings) {
+    sl_pvs_maker maker;
+    sl_pvs rows = {0};
+    const sl_status status = make_rows(context, c, &maker, &rows);
+    sl_pvs_maker_destroy(context, &maker);
+    if (status != SL_OK) return status;
+    sl_pvs_destroy(context, &findings->sure);
+    findings->sure = rows;
+    return SL_OK;
+}
+
+// --- all of it
+
+/// A bake that looked from inside cells only left the others without rows.
+static bool looked_from_the_same(const sl_space *space, const sl_pvs *seen, bool inside_only) {
+    for (uint32_t i = 0; i < space->cell_count; i++) {
+        const bool has_row = seen->offsets[i] < seen->offsets[i + 1];
+        if (has_row != (!inside_only || space->cells[i].inside)) return false;
+    }
+    return true;
+}
+
+static sl_status check_same_question(sl_context *context, const sl_space *before,
+                                     const sl_visibility *seen, const sl_see_method *method,
+                                     const sl_see_options *options) {
+    const sl_guarantee wanted =
+        method->stabs && options->solver ? options->solver->guarantee : method->guarantee;
+    if (!method->carry || wanted != SL_EXACT)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "only what an exact method looks for can be taken over");
+    if (seen->guarantee != SL_EXACT)
+        return sl_fail(context, SL_BAD_ARGUMENT, "it is not exact, but %s",
+                       sl_guarantee_name(seen->guarantee));
+    if (seen->sight != options->sight)
+        return sl_fail(context, SL_BAD_ARGUMENT, "it was baked with %s sight",
+                       seen->sight == SL_OPEN ? "open" : "closed");
+    if (seen->pvs.cell_count != before->cell_count ||
+        !looked_from_the_same(before, &seen->pvs, options->inside_only))
+        return sl_fail(context, SL_BAD_ARGUMENT, "it was not baked from %s",
+                       options->inside_only ? "the inside alone" : "all cells");
+    return SL_OK;
+}
+
+static sl_status allocate(sl_context *context, carrying *c) {
+    const size_t words = sl_bits_words(c->space->cell_count);
+    c->now = sl_alloc_array(context, c->before->cell_count, sizeof *c->now);
+    c->then = sl_alloc_array(context, c->space->cell_count, sizeof *c->then);
+    c->kept = sl_alloc_array(context, words, sizeof *c->kept);
+    c->enclosed = sl_alloc_array(context, words, sizeof *c->enclosed);
+    return c->now && c->then && c->kept && c->enclosed ? SL_OK : SL_NO_MEMORY;
+}
+
+static sl_status carry(sl_context *context, carrying *c, const sl_see_method *method,
+                       const sl_see_options *options, sl_findings *findings) {
+    SL_TRY(allocate(context, c));
+    SL_TRY(find_same_cells(context, c));
+    SL_TRY(sl_check_cancelled(context));
+    find_kept(c);
+    SL_TRY(method->carry(context, c->space, options, c->kept, c->enclosed, findings));
+    return take_rows(context, c, findings);
+}
+
+sl_status sl_findings_carry(sl_context *context, const sl_space *before, const sl_visibility *seen,
+                            const sl_space *space, const sl_see_method *method,
+                            const sl_see_options *options, sl_findings *findings) {
+    SL_TRY(check_same_question(context, before, seen, method, options));
+    carrying c = {.before = before, .space = space, .seen = &seen->pvs};
+    sl_findings carried = {0};
+    const sl_status status = carry(context, &c, method, options, &carried);
+    sl_free(context, c.now);
+    sl_free(context, c.then);
+    sl_free(context, c.kept);
+    sl_free(context, c.enclosed);
+    if (status == SL_OK)
+        *findings = carried;
+    else
+        sl_findings_destroy(context, &carried);
+    return status;
+}

@@ -1,0 +1,35 @@
+/// Work in parts: which units a call is to do, and what becomes of their findings.
+#ifndef SL_FINDINGS_H
+#define SL_FINDINGS_H
+
+#include "base/base.h"
+#include "base/bits.h"
+#include "cell_to_cell/bit_rows.h"
+#include "sightline/cell_to_cell.h"
+
+/// Makes empty findings of a method with so many units; findings that are begun already must be
+/// its: SL_BAD_ARGUMENT.
+sl_status sl_findings_start(sl_context *context, const sl_space *space,
+                            const sl_see_options *options, uint32_t unit_count,
+                            sl_findings *findings);
+
+/// Whether a unit is of the shard and not done yet. Shards have turns at runs of a few units.
+static inline bool sl_unit_is_wanted(const sl_see_options *options, const sl_findings *findings,
+                                     uint32_t unit) {
+    if (sl_bits_has(findings->done, unit)) return false;
+    return !options->shard_count || unit / 8 % options->shard_count == options->shard - 1;
+}
+
+static inline bool sl_is_enough(const sl_see_options *options) {
+    return options->enough && options->enough(options->enough_user);
+}
+
+/// Notes units as done.
+void sl_findings_note(sl_findings *findings, const sl_bits *done);
+/// As sl_findings_note, those whose byte is not 0: threads can write bytes side by side.
+void sl_findings_note_bytes(sl_findings *findings, const uint8_t *done);
+
+/// Adds all pairs of a PVS.
+sl_status sl_bit_rows_add_pvs(sl_context *context, sl_bit_rows *rows, const sl_pvs *pvs);
+
+#endif

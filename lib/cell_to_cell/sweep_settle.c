@@ -1,0 +1,188 @@
+/// What fans of the sweep have found becomes a result, also where some are missing.
+///
+/// What a missing fan could add. It joins cells that lines through its point pass, each of which
+/// leaves the point through a cell of the fan: so both cells of such a pair are seen from cells of
+/// the fan, and are within the bound of "flood" from there. Pairs of which no missing fan has both
+/// cells within its bound are decided: what was not found is hidden.
+#include "cell_to_cell/findings.h"
+#include "cell_to_cell/flood.h"
+#include "cell_to_cell/methods.h"
+#include "cell_to_cell/pvs_maker.h"
+#include "cell_to_cell/sweep.h"
+
+sl_status sl_sweep_finish(sl_context *context, const sl_space *space, const sl_see_options *options,
+                          sl_bit_rows *rows, sl_visibility *out) {
+    for (uint32_t c = 0; c < space->cell_count; c++) {
+        const sl_cell *cell = &space->cells[c];
+        if (options->inside_only && !cell->inside) continue;
+        SL_TRY(sl_bit_rows_add_one(context, rows, c, c));
+        for (uint32_t i = 0; i < cell->exit_count; i++) {
+            const uint32_t next = space->exits[cell->first_exit + i].cell;
+            if (options->inside_only && !space->cells[next].inside) continue;
+            SL_TRY(sl_bit_rows_add_one(context, rows, c, next));
+        }
+    }
+    SL_TRY(sl_bit_rows_mirror(context, rows, SL_ADD_MIRRORED));
+    return sl_bit_rows_encode(context, rows, out);
+}
+
+// --- what missing fans could join
+
+/// Fans that lie side by side are taken together.
+enum { FANS_OF_A_GROUP = 32 };
+
+/// For each group that misses fans, the cells that these may see; and for each cell the groups that
+/// may see it.
+typedef struct reaches {
+    sl_pvs groups; ///< a row a group
+    sl_columns seen_by;
+} reaches;
+
+/// Adds to a set what the missing fans of a group may see.
+static void reach_group(const sl_fans *fans, const sl_findings *findings, const sl_pvs *bound,
+                        uint32_t group, sl_word_set *set) {
+    const uint32_t first = group * FANS_OF_A_GROUP;
+    for (uint32_t i = first; i < first + FANS_OF_A_GROUP && i < fans->fans.count; i++) {
+        if (sl_bits_has(findings->done, i)) continue;
+        const sl_fan *fan = &fans->fans.items[i];
+        for (uint32_t k = 0; k < fan->count; k++)
+            sl_word_set_add_row(set, bound, fans->cells.items[fan->first + k].cell);
+    }
+}
+
+static sl_status find_groups(sl_context *context, const sl_fans *fans, const sl_findings *findings,
+                             const sl_pvs *bound, sl_pvs_maker *maker, reaches *out) {
+    const uint32_t count = (uint32_t)((fans->fans.count + FANS_OF_A_GROUP - 1) / FANS_OF_A_GROUP);
+    SL_TRY(sl_pvs_maker_create(context, fans->cell_count, count, maker));
+    for (uint32_t group = 0; group < count; group++) {
+        reach_group(fans, findings, bound, group, &maker->row);
+        SL_TRY(sl_pvs_maker_end_row(context, maker));
+        SL_TRY(sl_check_cancelled(context));
+    }
+    SL_TRY(sl_pvs_maker_finish(context, maker, &out->groups));
+    return sl_columns_gather(context, &out->groups, fans->cell_count, &out->seen_by);
+}
+
+static sl_status make_rows(sl_context *context, const reaches *r, const sl_pvs *seen,
+                           const sl_pvs *bound, sl_word_set *open, sl_pvs_maker *maker,
+                           sl_pvs *out) {
+    const uint32_t count = seen->cell_count;
+    SL_TRY(sl_word_set_create(context, count, open));
+    SL_TRY(sl_pvs_maker_create(context, count, count, maker));
+    for (uint32_t cell = 0; cell < count; cell++) {
+        for (uint64_t i = r->seen_by.starts[cell]; i < r->seen_by.starts[cell + 1]; i++)
+            sl_word_set_add_row(open, &r->groups, r->seen_by.members[i]);
+        sl_pvs_maker_add(maker, seen, cell);
+        sl_word_set_add_common(&maker->row, bound, cell, open);
+        sl_word_set_clear(open);
+        SL_TRY(sl_pvs_maker_end_row(context, maker));
+        SL_TRY(sl_check_cancelled(context));
+    }
+    return sl_pvs_maker_finish(context, maker, out);
+}
+
+/// Adds to what is seen the open pairs within the bound.
+static sl_status add_open(sl_context *context, const sl_fans *fans, const sl_findings *findings,
+                          const sl_pvs *bound, sl_visibility *out) {
+    reaches all = {0};
+    sl_word_set open = {0};
+    sl_pvs_maker groups = {0}, maker = {0};
+    sl_pvs rows = {0};
+    sl_status status = find_groups(context, fans, findings, bound, &groups, &all);
+    if (status == SL_OK) status = make_rows(context, &all, &out->pvs, bound, &open, &maker, &rows);
+    if (status == SL_OK) {
+        sl_pvs_destroy(context, &out->pvs);
+        out->pvs = rows;
+        out->account.pairs = maker.pairs;
+    }
+    sl_pvs_maker_destroy(context, &groups);
+    sl_pvs_maker_destroy(context, &maker);
+    sl_word_set_destroy(context, &open);
+    sl_pvs_destroy(context, &all.groups);
+    sl_columns_destroy(context, &all.seen_by);
+    return status;
+}
+
+static sl_status bound_open(sl_context *context, const sl_space *space,
+                            const sl_see_options *options, const sl_findings *findings,
+                            sl_visibility *out) {
+    sl_fans fans = {0};
+    sl_pvs bound = {0};
+    bool bounded = false;
+    sl_status status = sl_fans_find(context, space, options, &fans);
+    if (status == SL_OK && fans.fans.count != findings->unit_count)
+        status = sl_fail(context, SL_BAD_ARGUMENT, "findings of another space or other options");
+    if (status == SL_OK) status = sl_flood_bound(context, space, options, &bound, &bounded);
+    if (status == SL_OK && bounded) status = add_open(context, &fans, findings, &bound, out);
+    if (status == SL_OK && !bounded) {
+        // Any missing fan may see all.
+        sl_pvs_destroy(context, &out->pvs);
+        out->pvs = bound;
+        bound = (sl_pvs){0};
+        out->account.pairs = sl_pvs_pairs(&out->pvs);
+    }
+    sl_pvs_destroy(context, &bound);
+    sl_fans_destroy(context, &fans);
+    return status;
+}
+
+// --- the result
+
+static sl_status settle_rows(sl_context *context, const sl_space *space,
+                             const sl_see_options *options, const sl_findings *findings,
+                             sl_bit_rows *rows, sl_visibility *out) {
+    SL_TRY(sl_bit_rows_create(context, space->cell_count, options, rows));
+    SL_TRY(sl_bit_rows_add_pvs(context, rows, &findings->sure));
+    SL_TRY(sl_sweep_finish(context, space, options, rows, out));
+    if (sl_findings_complete(findings)) return SL_OK;
+    out->guarantee = SL_CONSERVATIVE;
+    return bound_open(context, space, options, findings, out);
+}
+
+sl_status sl_settle_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
+                          const sl_findings *findings, sl_visibility *out) {
+    sl_bit_rows rows = {0};
+    sl_visibility visibility = {.sight = options->sight, .guarantee = SL_EXACT};
+    if (findings->sure.cell_count != space->cell_count)
+        return sl_fail(context, SL_BAD_ARGUMENT, "findings of another space or other options");
+    const sl_status status = settle_rows(context, space, options, findings, &rows, &visibility);
+    sl_bit_rows_destroy(context, &rows);
+    if (status == SL_OK)
+        *out = visibility;
+    else
+        sl_visibility_destroy(context, &visibility);
+    return status;
+}
+
+// --- what is known from another space
+
+static bool is_spared(const sl_fans *fans, const sl_fan *fan, const uint64_t *enclosed) {
+    for (uint32_t k = 0; k < fan->count; k++)
+        if (!sl_bits_has(enclosed, fans->cells.items[fan->first + k].cell)) return false;
+    return true;
+}
+
+/// A fan joins cells that its own cells see: where these see no cell but such whose rows are known,
+/// it has nothing to add.
+static sl_status spare(sl_context *context, const sl_fans *fans, const uint64_t *enclosed,
+                       sl_findings *findings) {
+    uint8_t *done = sl_alloc_array(context, fans->fans.count, sizeof *done);
+    if (!done) return SL_NO_MEMORY;
+    for (size_t i = 0; i < fans->fans.count; i++)
+        done[i] = is_spared(fans, &fans->fans.items[i], enclosed);
+    sl_findings_note_bytes(findings, done);
+    sl_free(context, done);
+    return SL_OK;
+}
+
+sl_status sl_carry_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
+                         const uint64_t *kept, const uint64_t *enclosed, sl_findings *findings) {
+    (void)kept;
+    sl_fans fans = {0};
+    sl_status status = sl_fans_find(context, space, options, &fans);
+    if (status == SL_OK)
+        status = sl_findings_start(context, space, options, (uint32_t)fans.fans.count, findings);
+    if (status == SL_OK) status = spare(context, &fans, enclosed, findings);
+    sl_fans_destroy(context, &fans);
+    return status;
+}

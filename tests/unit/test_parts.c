@@ -1,0 +1,492 @@
+/// Work in parts: shards, what is stopped and gone on with, and what is taken over from a map
+/// before it was changed all come to what is found in one go; what is stopped never misses a pair.
+#include "testing.h"
+
+#include "base/bits.h"
+#include "base/random.h"
+#include "oracle/random_map.h"
+
+#include <stdatomic.h>
+
+enum { AXIAL_MAPS = 40, OBLIQUE_MAPS = 40, EDITS = 12, GRID = 12 };
+
+static const char *const names[] = {"sweep", "dfs", "prune"};
+enum { NAMES = sizeof names / sizeof *names };
+
+static const sl_see_method *method_of(const char *name) {
+    size_t count;
+    const sl_see_method *methods = sl_see_methods(&count);
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(methods[i].name, name) == 0) return &methods[i];
+    fail_msg("no method '%s'", name);
+    return NULL;
+}
+
+static sl_see_options options_for(const sl_see_method *method, sl_sight sight, bool inside_only,
+                                  unsigned threads) {
+    sl_see_options options = sl_see_options_default();
+    options.sight = sight;
+    options.inside_only = inside_only;
+    options.threads = threads;
+    options.solver = method->stabs ? sl_funnel() : NULL;
+    return options;
+}
+
+static bool same_rows(const sl_pvs *a, const sl_pvs *b) {
+    const size_t offsets = ((size_t)a->cell_count + 1) * sizeof *a->offsets;
+    return a->cell_count == b->cell_count && memcmp(a->offsets, b->offsets, offsets) == 0 &&
+           memcmp(a->bytes, b->bytes, a->offsets[a->cell_count]) == 0;
+}
+
+static void assert_same(const sl_visibility *a, const sl_visibility *b) {
+    assert_true(same_rows(&a->pvs, &b->pvs));
+    assert_int_equal(a->account.pairs, b->account.pairs);
+    assert_int_equal(a->sight, b->sight);
+    assert_int_equal(a->guarantee, b->guarantee);
+}
+
+// --- maps
+
+typedef struct place {
+    sl_map map;
+    sl_space space;
+} place;
+
+static void destroy(sl_context *context, place *p) {
+    sl_map_destroy(context, &p->map);
+    sl_space_destroy(context, &p->space);
+}
+
+static void subdivide(sl_context *context, bool oblique, place *p) {
+    assert_ok(context, sl_map_clean(context, &p->map, NULL));
+    const sl_subdivide_options kd = sl_subdivide_options_default();
+    const sl_bsp_options bsp = sl_bsp_options_default();
+    if (oblique)
+        assert_ok(context, sl_subdivide_bsp(context, &p->map, &bsp, &p->space));
+    else
+        assert_ok(context, sl_subdivide_kd(context, &p->map, &kd, &p->space));
+}
+
+static sl_point random_point(sl_random *random) {
+    return (sl_point){(double)sl_random_below(random, GRID), (double)sl_random_below(random, GRID)};
+}
+
+static void add_oblique_walls(sl_context *context, sl_random *random, sl_map *map) {
+    for (uint64_t i = 2 + sl_random_below(random, 14); i > 0; i--)
+        assert_ok(context,
+                  sl_map_add_wall(context, map, random_point(random), random_point(random), 0));
+    const sl_point corners[] = {{-1, -1}, {GRID, -1}, {GRID, GRID}, {-1, GRID}};
+    for (int i = 0; i < 4; i++)
+        assert_ok(context, sl_map_add_wall(context, map, corners[i], corners[(i + 1) % 4], 0));
+}
+
+static place random_map(sl_context *context, uint64_t seed, bool oblique) {
+    place p = {0};
+    sl_random random = {seed};
+    if (oblique)
+        add_oblique_walls(context, &random, &p.map);
+    else
+        assert_ok(context, oracle_random_map(context, seed, (oracle_grid)(seed % 3), &p.map));
+    subdivide(context, oblique, &p);
+    return p;
+}
+
+static place generated(sl_context *context, const char *kind, uint64_t walls, double turned) {
+    size_t count;
+    const sl_map_kind *kinds = sl_map_kinds(&count);
+    sl_generate_options options = sl_generate_options_default();
+    options.walls = walls;
+    options.turned = turned;
+    place p = {0};
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(kinds[i].name, kind) == 0)
+            assert_ok(context, sl_generate(context, &kinds[i], &options, &p.map));
+    assert_true(p.map.wall_count > 0);
+    subdivide(context, turned != 0, &p);
+    return p;
+}
+
+// --- one go and parts
+
+typedef struct patience {
+    atomic_long asked;
+    long most;
+} patience;
+
+static bool is_over(void *user) {
+    patience *p = user;
+    return atomic_fetch_add(&p->asked, 1) >= p->most;
+}
+
+static void check_shards(sl_context *context, const sl_see_method *method, const sl_space *space,
+                         sl_see_options options, const sl_visibility *plain) {
+    for (uint32_t count = 1; count <= 7; count += 3) {
+        sl_findings all = {0};
+        for (uint32_t shard = count; shard > 0; shard--) {
+            sl_findings part = {0};
+            options.shard = shard;
+            options.shard_count = count;
+            assert_ok(context, method->look(context, space, &options, &part));
+            if (shard == count) {
+                all = part;
+                continue;
+            }
+            assert_false(sl_findings_complete(&all) && all.unit_count);
+            assert_ok(context, sl_findings_join(context, &all, &part));
+            sl_findings_destroy(context, &part);
+        }
+        sl_visibility joined;
+        assert_true(sl_findings_complete(&all));
+        assert_ok(context, method->settle(context, space, &options, &all, &joined));
+        assert_same(&joined, plain);
+        sl_visibility_destroy(context, &joined);
+        sl_findings_destroy(context, &all);
+    }
+}
+
+static void assert_misses_nothing(const sl_visibility *part, const sl_visibility *plain) {
+    const uint32_t count = plain->pvs.cell_count;
+    for (uint32_t a = 0; a < count; a++)
+        for (uint32_t b = 0; b < count; b++) {
+            const bool seen = sl_pvs_sees(&part->pvs, a, b);
+            assert_true(seen || !sl_pvs_sees(&plain->pvs, a, b));
+            assert_true(seen == sl_pvs_sees(&part->pvs, b, a));
+        }
+    assert_int_equal(part->guarantee, SL_CONSERVATIVE);
+    assert_true(part->account.pairs >= plain->account.pairs);
+}
+
+/// Stops again and again, each time a little later; gives how often it was stopped short.
+static int check_stops(sl_context *context, const sl_see_method *method, const sl_space *space,
+                       sl_see_options options, const sl_visibility *plain, sl_random *random) {
+    sl_findings findings = {0};
+    patience p = {0};
+    options.enough = is_over;
+    options.enough_user = &p;
+    int stops = 0;
+    long most = 0;
+    do {
+        const uint32_t before = findings.done_count;
+        atomic_store(&p.asked, 0);
+        p.most = most;
+        most += 1 + (long)sl_random_below(random, 40) + most / 2;
+        assert_ok(context, method->look(context, space, &options, &findings));
+        assert_true(findings.done_count >= before);
+        sl_visibility now;
+        if (sl_random_below(random, 2)) p.most *= 4; // for a tight bound, or a loose one
+        assert_ok(context, method->settle(context, space, &options, &findings, &now));
+        if (sl_findings_complete(&findings)) {
+            assert_same(&now, plain);
+        } else {
+            assert_misses_nothing(&now, plain);
+            stops++;
+        }
+        sl_visibility_destroy(context, &now);
+    } while (!sl_findings_complete(&findings));
+    sl_findings_destroy(context, &findings);
+    return stops;
+}
+
+static int check_space(sl_context *context, const sl_space *space, sl_random *random) {
+    int stops = 0;
+    for (size_t m = 0; m < NAMES; m++)
+        for (int sight = SL_CLOSED; sight <= SL_OPEN; sight++)
+            for (unsigned threads = 1; threads <= 2; threads++) {
+                const sl_see_method *method = method_of(names[m]);
+                const bool inside = sl_random_below(random, 3) == 0;
+                sl_see_options options = options_for(method, (sl_sight)sight, inside, threads);
+                options.rows = sl_random_below(random, 2) ? SL_ROWS_SPARSE : SL_ROWS_DENSE;
+                sl_visibility plain;
+                assert_ok(context, method->see(context, space, &options, &plain));
+                check_shards(context, method, space, options, &plain);
+                stops += check_stops(context, method, space, options, &plain, random);
+                sl_visibility_destroy(context, &plain);
+            }
+    return stops;
+}
+
+static void parts_come_to_the_whole(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_random random = {5};
+    int stops = 0;
+    for (uint64_t seed = 1; seed <= AXIAL_MAPS + OBLIQUE_MAPS; seed++) {
+        place p = random_map(context, seed, seed > AXIAL_MAPS);
+        stops += check_space(context, &p.space, &random);
+        destroy(context, &p);
+    }
+    assert_true(stops > 5 * (AXIAL_MAPS + OBLIQUE_MAPS));
+    sl_context_destroy(context);
+}
+
+static void larger_maps_come_to_the_whole(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_random random = {6};
+    place office = generated(context, "office", 300, 0), city = generated(context, "city", 200, 20);
+    assert_true(check_space(context, &office.space, &random) > 20);
+    assert_true(check_space(context, &city.space, &random) > 20);
+    destroy(context, &office);
+    destroy(context, &city);
+    sl_context_destroy(context);
+}
+
+/// A set that half of the work made is nearer to the truth than the bound alone.
+static void decided_pairs_are_told_from_others(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    place p = generated(context, "tunnels", 1000, 0);
+    const sl_see_method *method = method_of("sweep"), *flood = method_of("flood");
+    sl_see_options options = options_for(method, SL_CLOSED, false, 1);
+    sl_visibility plain, bound, half;
+    assert_ok(context, method->see(context, &p.space, &options, &plain));
+    assert_ok(context, flood->see(context, &p.space, &options, &bound));
+    sl_findings findings = {0};
+    assert_ok(context, method->look(context, &p.space, &options, &findings));
+    memset(findings.done + sl_bits_words(findings.unit_count / 2), 0,
+           (sl_bits_words(findings.unit_count) - sl_bits_words(findings.unit_count / 2)) *
+               sizeof *findings.done);
+    findings.done_count = findings.unit_count / 2;
+    assert_ok(context, method->settle(context, &p.space, &options, &findings, &half));
+    assert_misses_nothing(&half, &plain);
+    assert_true(bound.account.pairs > plain.account.pairs);
+    print_message("%d pairs seen, %d by half of the work, %d by the bound\n",
+                  (int)plain.account.pairs, (int)half.account.pairs, (int)bound.account.pairs);
+    assert_true(half.account.pairs - plain.account.pairs <
+                (bound.account.pairs - plain.account.pairs) * 9 / 10);
+    sl_visibility_destroy(context, &plain);
+    sl_visibility_destroy(context, &bound);
+    sl_visibility_destroy(context, &half);
+    sl_findings_destroy(context, &findings);
+    destroy(context, &p);
+    sl_context_destroy(context);
+}
+
+// --- a map that is changed
+
+/// Takes a wall away, moves one a little, or adds one.
+static place edited(sl_context *context, const place *from, bool oblique, sl_random *random) {
+    place p = {0};
+    const sl_space *space = &from->space;
+    const uint64_t kind = sl_random_below(random, 3);
+    const uint32_t chosen = (uint32_t)sl_random_below(random, space->wall_count);
+    const double unit = (space->bounds.max.x - space->bounds.min.x) / 64;
+    for (uint32_t i = 0; i < space->wall_count; i++) {
+        sl_point a = space->walls[i].a, b = space->walls[i].b;
+        const bool upright = a.x == b.x;
+        if (i == chosen && kind == 0) continue;
+        if (i == chosen && kind == 1) {
+            if (upright || oblique) b.y += unit;
+            if (!upright || oblique) b.x -= unit;
+        }
+        assert_ok(context, sl_map_add_wall(context, &p.map, a, b, 0));
+        if (i != chosen || kind != 2) continue;
+        const sl_point end = {upright || oblique ? a.x + unit : a.x, upright ? a.y : a.y + unit};
+        assert_ok(context, sl_map_add_wall(context, &p.map, a, end, 0));
+    }
+    subdivide(context, oblique, &p);
+    return p;
+}
+
+/// Gives how many units were taken over.
+static uint32_t check_edit(sl_context *context, const place *before, const place *after,
+                           sl_random *random) {
+    uint32_t kept = 0;
+    for (size_t m = 0; m < NAMES; m++)
+        for (int sight = SL_CLOSED; sight <= SL_OPEN; sight++) {
+            const sl_see_method *method = method_of(names[m]);
+            const bool inside = sl_random_below(random, 4) == 0;
+            const unsigned threads = 1 + (unsigned)sl_random_below(random, 2);
+            const sl_see_options options = options_for(method, (sl_sight)sight, inside, threads);
+            sl_visibility old, plain, again;
+            sl_findings findings = {0};
+            assert_ok(context, method->see(context, &before->space, &options, &old));
+            assert_ok(context, method->see(context, &after->space, &options, &plain));
+            assert_ok(context, sl_findings_carry(context, &before->space, &old, &after->space,
+                                                 method, &options, &findings));
+            kept += findings.done_count;
+            sl_visibility bound;
+            assert_ok(context, method->settle(context, &after->space, &options, &findings, &bound));
+            if (!sl_findings_complete(&findings)) assert_misses_nothing(&bound, &plain);
+            assert_ok(context, method->look(context, &after->space, &options, &findings));
+            assert_ok(context, method->settle(context, &after->space, &options, &findings, &again));
+            assert_same(&again, &plain);
+            sl_findings_destroy(context, &findings);
+            sl_visibility_destroy(context, &old);
+            sl_visibility_destroy(context, &plain);
+            sl_visibility_destroy(context, &again);
+            sl_visibility_destroy(context, &bound);
+        }
+    return kept;
+}
+
+static uint32_t check_edits(sl_context *context, place *first, bool oblique, int edits,
+                            sl_random *random) {
+    uint32_t kept = 0;
+    place before = *first;
+    for (int i = 0; i < edits; i++) {
+        place after = edited(context, &before, oblique, random);
+        kept += check_edit(context, &before, &after, random);
+        destroy(context, &before);
+        before = after;
+    }
+    destroy(context, &before);
+    return kept;
+}
+
+static void what_a_change_cannot_affect_is_kept(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_random random = {7};
+    for (uint64_t seed = 1; seed <= AXIAL_MAPS + OBLIQUE_MAPS; seed++) {
+        place p = random_map(context, seed, seed > AXIAL_MAPS);
+        check_edits(context, &p, seed > AXIAL_MAPS, 2, &random);
+    }
+    const char *const kinds[] = {"office", "city", "maze"};
+    uint32_t kept = 0;
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        place axial = generated(context, kinds[i], 300, 0);
+        kept += check_edits(context, &axial, false, EDITS, &random);
+        place turned = generated(context, kinds[i], 150, 30);
+        kept += check_edits(context, &turned, true, EDITS, &random);
+    }
+    print_message("%u units were taken over\n", kept);
+    assert_true(kept > 1000);
+    sl_context_destroy(context);
+}
+
+static void other_questions_take_nothing_over(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    place p = {0};
+    testing_space(context, "walls 0 0 8 0 8 8 0 8 0 0\nwalls 2 2 4 2 4 4 2 4 2 2\nstart 1 1 0\n",
+                  &p.map, &p.space);
+    const sl_see_method *sweep = method_of("sweep"), *flood = method_of("flood");
+    const sl_see_options closed = options_for(sweep, SL_CLOSED, false, 1);
+    const sl_see_options open = options_for(sweep, SL_OPEN, false, 1);
+    const sl_see_options inside = options_for(sweep, SL_CLOSED, true, 1);
+    sl_visibility exact, bound;
+    sl_findings findings = {0};
+    assert_ok(context, sweep->see(context, &p.space, &closed, &exact));
+    assert_ok(context, flood->see(context, &p.space, &closed, &bound));
+    const struct {
+        const sl_visibility *seen;
+        const sl_see_method *method;
+        const sl_see_options *options;
+        const char *said;
+    } cases[] = {
+        {&exact, sweep, &open, "closed sight"},
+        {&exact, sweep, &inside, "inside alone"},
+        {&bound, sweep, &closed, "not exact"},
+        {&exact, flood, &closed, "exact method"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        assert_int_equal(sl_findings_carry(context, &p.space, cases[i].seen, &p.space,
+                                           cases[i].method, cases[i].options, &findings),
+                         SL_BAD_ARGUMENT);
+        assert_non_null(strstr(sl_context_message(context), cases[i].said));
+        assert_false(sl_findings_begun(&findings));
+    }
+    assert_ok(context,
+              sl_findings_carry(context, &p.space, &exact, &p.space, sweep, &closed, &findings));
+    assert_true(sl_findings_complete(&findings));
+    sl_findings_destroy(context, &findings);
+    sl_visibility_destroy(context, &exact);
+    sl_visibility_destroy(context, &bound);
+    destroy(context, &p);
+    sl_context_destroy(context);
+}
+
+// --- misuse, and lack of memory
+
+static void what_does_not_belong_together_is_refused(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    place p = generated(context, "office", 100, 0), q = generated(context, "office", 200, 0);
+    for (size_t m = 0; m < NAMES; m++) {
+        const sl_see_method *method = method_of(names[m]);
+        sl_see_options options = options_for(method, SL_CLOSED, false, 1);
+        sl_findings one = {0}, other = {0};
+        options.shard = 3, options.shard_count = 2;
+        assert_int_equal(method->look(context, &p.space, &options, &one), SL_BAD_ARGUMENT);
+        assert_false(sl_findings_begun(&one));
+        options.shard = 0, options.shard_count = 0;
+        assert_ok(context, method->look(context, &p.space, &options, &one));
+        assert_ok(context, method->look(context, &q.space, &options, &other));
+        assert_int_equal(method->look(context, &q.space, &options, &one), SL_BAD_ARGUMENT);
+        assert_int_equal(sl_findings_join(context, &one, &other), SL_BAD_ARGUMENT);
+        options.inside_only = true;
+        assert_int_equal(method->look(context, &p.space, &options, &one), SL_BAD_ARGUMENT);
+        options.trees = true;
+        sl_findings none = {0};
+        assert_int_not_equal(method->look(context, &p.space, &options, &none), SL_OK);
+        sl_findings_destroy(context, &one);
+        sl_findings_destroy(context, &other);
+    }
+    destroy(context, &p);
+    destroy(context, &q);
+    sl_context_destroy(context);
+}
+
+/// Stopped, settled, gone on with, taken over to a changed map, joined.
+static sl_status go_all_ways(sl_context *context, const sl_see_method *method, const place *p,
+                             const place *q, sl_visibility *out, sl_findings *findings) {
+    patience few = {.most = 12};
+    sl_see_options options = options_for(method, SL_CLOSED, false, 1);
+    sl_see_options stopped = options;
+    stopped.enough = is_over;
+    stopped.enough_user = &few;
+    sl_status status = method->look(context, &p->space, &stopped, &findings[0]);
+    if (status == SL_OK)
+        status = method->settle(context, &p->space, &options, &findings[0], &out[0]);
+    if (status == SL_OK) status = method->look(context, &p->space, &options, &findings[0]);
+    if (status == SL_OK)
+        status = method->settle(context, &p->space, &options, &findings[0], &out[1]);
+    if (status == SL_OK)
+        status = sl_findings_carry(context, &p->space, &out[1], &q->space, method, &options,
+                                   &findings[1]);
+    return status == SL_OK ? sl_findings_join(context, &findings[0], &findings[0]) : status;
+}
+
+static void lack_of_memory_is_told_and_leaves_nothing(void **state) {
+    (void)state;
+    for (size_t m = 0; m < NAMES; m++) {
+        testing_memory memory = {0};
+        sl_context *context = testing_context(&memory);
+        const sl_see_method *method = method_of(names[m]);
+        sl_random random = {8};
+        place p = random_map(context, 5, false), q = edited(context, &p, false, &random);
+        const long live = memory.live;
+        sl_status status = SL_NO_MEMORY;
+        for (long fail_at = 1; status == SL_NO_MEMORY; fail_at++) {
+            sl_visibility seen[2] = {0};
+            sl_findings findings[2] = {0};
+            memory.calls = 0;
+            memory.fail_at = fail_at;
+            status = go_all_ways(context, method, &p, &q, seen, findings);
+            memory.fail_at = 0;
+            for (int i = 0; i < 2; i++) {
+                sl_visibility_destroy(context, &seen[i]);
+                sl_findings_destroy(context, &findings[i]);
+            }
+            assert_int_equal(memory.live, live);
+        }
+        assert_ok(context, status);
+        destroy(context, &p);
+        destroy(context, &q);
+        sl_context_destroy(context);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(parts_come_to_the_whole),
+        cmocka_unit_test(larger_maps_come_to_the_whole),
+        cmocka_unit_test(decided_pairs_are_told_from_others),
+        cmocka_unit_test(what_a_change_cannot_affect_is_kept),
+        cmocka_unit_test(other_questions_take_nothing_over),
+        cmocka_unit_test(what_does_not_belong_together_is_refused),
+        cmocka_unit_test(lack_of_memory_is_told_and_leaves_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
