@@ -1,15 +1,8 @@
 /// A walk, frame by frame: down the hierarchy, each node through the tests from the cheapest on.
 #include "sightline/walk.h"
-#include "base/bits.h"
-#include "walk/occlusion.h"
+#include "walk/walk_parts.h"
 
 #include <string.h>
-
-/// What is known of a node since it was last visited.
-typedef struct walk_node {
-    uint64_t frame; ///< when that was; 0 for never
-    uint8_t state, reason;
-} walk_node;
 
 /// A node on the way: its numbers and the sectors of the cone that it lies in.
 typedef struct looked {
@@ -20,49 +13,15 @@ typedef struct looked {
     bool cut; ///< part of it is outside the cone
 } looked;
 
-struct sl_walk {
-    const sl_hierarchy *hierarchy;
-    sl_walk_options options;
-    const sl_node_test_calls *test;
-    sl_occlusion *occlusion;
-    sl_chooser *chooser;
-    sl_walk_cone cone;
-    walk_node *nodes;
-    uint32_t *stack;
-    sl_sector *sectors; ///< those of the node at hand, within the cone
-    sl_bits *cells;
-    uint32_t *wall_counts; ///< by node, those of its cells added up
-    uint64_t frame;
-};
-
-static const sl_node_test tests[] = {
-    {"tree", "shadows merged into a BSP of directions", &sl_occlusion_tree},
-    {"intervals", "shadows merged into an array of angular intervals", &sl_occlusion_intervals},
-};
-
-const sl_node_test *sl_node_tests(size_t *count) {
-    *count = sizeof tests / sizeof *tests;
-    return tests;
-}
-
-static const sl_walk_method methods[] = {
-    {"classical", "every node from the root down, in every frame"},
-};
-
-const sl_walk_method *sl_walk_methods(size_t *count) {
-    *count = sizeof methods / sizeof *methods;
-    return methods;
-}
-
-sl_walk_options sl_walk_options_default(void) {
-    return (sl_walk_options){.test = tests, .occluders = 16};
-}
-
 static sl_status check_options(sl_context *context, const sl_walk_options *options) {
     if (!options->test) return sl_fail(context, SL_BAD_ARGUMENT, "no node visibility test given");
     if (options->occluders > SL_WALK_OCCLUDERS_MOST)
         return sl_fail(context, SL_BAD_ARGUMENT, "%u occluders: at most %d can be chosen",
                        options->occluders, SL_WALK_OCCLUDERS_MOST);
+    if (!(options->p_vp >= 0 && options->p_vp <= 1) ||
+        !(options->p_skip >= 0 && options->p_skip <= 1))
+        return sl_fail(context, SL_BAD_ARGUMENT, "chances %g and %g: from 0 to 1 is needed",
+                       options->p_vp, options->p_skip);
     return SL_OK;
 }
 
@@ -79,7 +38,7 @@ static void count_walls(sl_walk *w) {
 static sl_status fill_walk(sl_context *context, sl_walk *w) {
     const sl_hierarchy *h = w->hierarchy;
     w->nodes = sl_alloc_array(context, h->node_count, sizeof *w->nodes);
-    w->stack = sl_alloc_array(context, h->node_count, sizeof *w->stack);
+    w->stack = sl_alloc_array(context, 2 * (size_t)h->node_count, sizeof *w->stack);
     w->sectors = sl_alloc_array(context, 2 * (size_t)h->corner_most, sizeof *w->sectors);
     w->cells = sl_alloc_array(context, sl_bits_words(h->space->cell_count), sizeof *w->cells);
     w->wall_counts = sl_alloc_array(context, h->node_count, sizeof *w->wall_counts);
@@ -94,11 +53,12 @@ sl_status sl_walk_create(sl_context *context, const sl_hierarchy *hierarchy,
                          const sl_walk_method *method, const sl_walk_options *options,
                          sl_walk **out) {
     SL_TRY(check_options(context, options));
-    (void)method;
     sl_walk *w = sl_alloc_array(context, 1, sizeof *w);
     if (!w) return SL_NO_MEMORY;
     w->hierarchy = hierarchy;
+    w->method = method;
     w->options = *options;
+    w->random.state = options->seed;
     w->test = options->test->calls;
     const sl_status status = fill_walk(context, w);
     if (status == SL_OK)
@@ -165,22 +125,76 @@ static sl_node_state test_node(sl_walk *w, const looked *l) {
                                 : SL_NODE_INVISIBLE;
 }
 
-static void decide(sl_walk *w, uint32_t id, sl_walk_frame *frame) {
-    walk_node *state = &w->nodes[id];
+static bool does(const sl_walk *w, unsigned policy) {
+    return (w->method->policies & policy) != 0;
+}
+
+static bool is_cheap(const sl_walk *w, uint32_t id) {
+    return w->options.cheap && w->wall_counts[id] <= w->options.cheap;
+}
+
+static bool by_chance(sl_walk *w, double chance) {
+    return sl_random_unit(&w->random) < chance;
+}
+
+/// Whether propagation takes the node's state from its neighbours. It is tried on nodes that were
+/// not partially visible in the last frame, always where it last succeeded, else by chance.
+static bool propagates(sl_walk *w, uint32_t id, bool known, sl_walk_frame *frame) {
+    sl_walk_memory *m = &w->nodes[id];
+    const bool again = known && m->spread;
+    m->spread = false;
+    if (!does(w, SL_WALK_PROPAGATES) || !w->hierarchy->tiles ||
+        (known && m->state == SL_NODE_PARTIAL))
+        return false;
+    const double chance = does(w, SL_WALK_ADAPTS) ? sl_walk_share(&m->spreads) : w->options.p_vp;
+    if (!again && !by_chance(w, chance)) return false;
+    sl_node_state state;
+    m->spread = sl_walk_propagate(w, id, &state);
+    frame->propagations++;
+    frame->propagated += m->spread;
+    sl_walk_note(&m->spreads, m->spread);
+    if (m->spread) m->state = (uint8_t)state;
+    return m->spread;
+}
+
+/// Whether a node that the last frame ended at and drew is drawn again without a test. Where the
+/// history says so, the chance is 0 for one that changes every second time.
+static bool is_skipped(sl_walk *w, uint32_t id, bool known) {
+    const sl_walk_memory *m = &w->nodes[id];
+    const bool leaf = w->hierarchy->nodes[id].cell != SL_NO_CELL;
+    if (!known || m->state == SL_NODE_INVISIBLE || (m->state == SL_NODE_PARTIAL && !leaf))
+        return false;
+    const double steady = 2 * sl_walk_share(&m->kept) - 1;
+    if (does(w, SL_WALK_PREDICTS)) return m->state == SL_NODE_PARTIAL && by_chance(w, steady);
+    return does(w, SL_WALK_SKIPS) &&
+           by_chance(w, does(w, SL_WALK_ADAPTS) ? steady : w->options.p_skip);
+}
+
+static void decide(sl_walk *w, uint32_t id, bool known, sl_walk_frame *frame) {
+    sl_walk_memory *m = &w->nodes[id];
     looked l;
     look_at(w, &w->hierarchy->nodes[id], &l);
     frame->frustum_tests++;
     if (!l.sector_count) {
-        state->state = SL_NODE_INVISIBLE;
-        state->reason = SL_WALK_FRUSTUM;
-    } else if (w->wall_counts[id] <= w->options.cheap) {
-        state->state = SL_NODE_VISIBLE;
-        state->reason = SL_WALK_CHEAP;
+        m->state = SL_NODE_INVISIBLE;
+        m->reason = SL_WALK_FRUSTUM;
+        m->spread = false;
+    } else if (is_cheap(w, id)) {
+        m->state = SL_NODE_VISIBLE;
+        m->reason = SL_WALK_CHEAP;
         frame->cheap++;
+    } else if (propagates(w, id, known, frame)) {
+        m->reason = SL_WALK_PROPAGATED;
+    } else if (is_skipped(w, id, known)) {
+        if (!does(w, SL_WALK_PREDICTS)) m->state = SL_NODE_VISIBLE;
+        m->reason = SL_WALK_SKIPPED;
+        frame->skipped++;
     } else {
-        state->state = (uint8_t)test_node(w, &l);
-        state->reason = SL_WALK_TESTED;
+        const bool drawn = known && m->state != SL_NODE_INVISIBLE;
+        m->state = (uint8_t)test_node(w, &l);
+        m->reason = SL_WALK_TESTED;
         frame->tests++;
+        if (drawn) sl_walk_note(&m->kept, m->state != SL_NODE_INVISIBLE);
     }
 }
 
@@ -192,34 +206,88 @@ static void draw_node(sl_walk *w, const sl_walk_node *n, sl_walk_frame *frame) {
     frame->cells += n->leaf_count;
 }
 
-static void count_state(const walk_node *state, sl_walk_frame *frame) {
-    frame->visited++;
-    if (state->state == SL_NODE_VISIBLE) frame->visible++;
-    if (state->state == SL_NODE_PARTIAL) frame->partial++;
-    if (state->state != SL_NODE_INVISIBLE) return;
-    if (state->reason == SL_WALK_FRUSTUM)
+static void count_state(const sl_walk_memory *m, sl_walk_frame *frame) {
+    if (m->state == SL_NODE_VISIBLE) frame->visible++;
+    if (m->state == SL_NODE_PARTIAL) frame->partial++;
+    if (m->state != SL_NODE_INVISIBLE) return;
+    if (m->reason == SL_WALK_FRUSTUM)
         frame->out++;
     else
         frame->invisible++;
 }
 
+/// Whether a node is not tested because the last frame opened it. One with a child that is drawn
+/// without a test is: what is hidden there is known by its parent alone.
+static bool stays_open(const sl_walk *w, uint32_t id, bool known) {
+    const sl_walk_node *n = &w->hierarchy->nodes[id];
+    if (!does(w, SL_WALK_UPDATES) || !known || n->cell != SL_NO_CELL ||
+        w->nodes[id].state != SL_NODE_PARTIAL)
+        return false;
+    return !is_cheap(w, (uint32_t)n->child[0]) && !is_cheap(w, (uint32_t)n->child[1]);
+}
+
+/// A node whose children are all visible, or all invisible, is so too.
+static void pull_up(sl_walk *w, uint32_t id) {
+    const sl_walk_node *n = &w->hierarchy->nodes[id];
+    const sl_walk_memory *a = &w->nodes[n->child[0]], *b = &w->nodes[n->child[1]];
+    sl_walk_memory *m = &w->nodes[id];
+    if (a->state != b->state || a->state == SL_NODE_PARTIAL) return;
+    m->state = a->state;
+    m->reason = a->reason == b->reason ? a->reason : (uint8_t)SL_WALK_PULLED_UP;
+}
+
+/// Which child of an opened node lies before the other.
+static int nearer_child(const sl_walk *w, const sl_walk_node *n) {
+    const sl_space *space = w->hierarchy->space;
+    const sl_node *split = &space->nodes[n->split];
+    const sl_point eye = w->occlusion->shadows.pivot.eye;
+    if (split->axis < 2) return (split->axis ? eye.y : eye.x) >= split->position;
+    const sl_segment *line = &space->lines[split->line];
+    return sl_orient(line->a, line->b, eye) >= 0;
+}
+
+/// Visits a node; true where its children are to be visited.
+static bool visit(sl_walk *w, uint32_t id, sl_walk_frame *frame) {
+    const sl_walk_node *n = &w->hierarchy->nodes[id];
+    sl_walk_memory *m = &w->nodes[id];
+    const bool known = w->frame > 1 && m->frame == w->frame - 1;
+    frame->visited++;
+    if (stays_open(w, id, known)) {
+        m->reason = SL_WALK_OPENED;
+        m->spread = false;
+        frame->opened++;
+    } else {
+        decide(w, id, known, frame);
+    }
+    m->frame = w->frame;
+    const bool leaf = n->cell != SL_NO_CELL;
+    if (m->state == SL_NODE_VISIBLE || (leaf && m->state == SL_NODE_PARTIAL))
+        draw_node(w, n, frame);
+    if (m->state == SL_NODE_PARTIAL && !leaf) return true;
+    count_state(m, frame);
+    return false;
+}
+
+enum { COMING_UP = 1 }; // a number on the stack is twice a node's, with this on the way back up
+
+/// Front to back; a frame's opened nodes are seen again on the way up.
 static void go_down(sl_walk *w, sl_walk_frame *frame) {
     const sl_hierarchy *h = w->hierarchy;
-    uint32_t waiting = 0;
+    size_t waiting = 0;
     w->stack[waiting++] = 0;
     while (waiting) {
-        const uint32_t id = w->stack[--waiting];
+        const uint64_t top = w->stack[--waiting];
+        const uint32_t id = (uint32_t)(top / 2);
         const sl_walk_node *n = &h->nodes[id];
-        walk_node *state = &w->nodes[id];
-        decide(w, id, frame);
-        state->frame = w->frame;
-        count_state(state, frame);
-        const bool leaf = n->cell != SL_NO_CELL;
-        if (state->state == SL_NODE_VISIBLE || (leaf && state->state == SL_NODE_PARTIAL))
-            draw_node(w, n, frame);
-        if (state->state != SL_NODE_PARTIAL || leaf) continue;
-        w->stack[waiting++] = (uint32_t)n->child[1];
-        w->stack[waiting++] = (uint32_t)n->child[0];
+        if (top & COMING_UP) {
+            if (does(w, SL_WALK_UPDATES)) pull_up(w, id);
+            count_state(&w->nodes[id], frame);
+        } else if (visit(w, id, frame)) {
+            const int near = nearer_child(w, n);
+            w->stack[waiting++] = top | COMING_UP;
+            w->stack[waiting++] = 2 * (uint64_t)n->child[!near];
+            w->stack[waiting++] = 2 * (uint64_t)n->child[near];
+        }
     }
 }
 

@@ -23,6 +23,7 @@ typedef struct world {
     sl_walk *walks[MOST_WALKS];
     const sl_walk_method *methods[MOST_WALKS];
     size_t walk_count;
+    bool cheap;
 } world;
 
 static void open_world(world *w, const sl_walk_options *like) {
@@ -33,6 +34,7 @@ static void open_world(world *w, const sl_walk_options *like) {
     assert_ok(context, sl_outline_make(context, &w->space, &w->outline));
     assert_ok(context, sl_hierarchy_make(context, &w->space, &w->hierarchy));
     w->none.sight = SL_OPEN;
+    w->cheap = like->cheap > 0;
     assert_ok(context, sl_eye_search_create(context, &w->space, &w->none, &w->search));
     w->seen = calloc(sl_eye_words(&w->space), sizeof *w->seen);
     assert_non_null(w->seen);
@@ -144,7 +146,8 @@ static void look(world *w, const sl_view *view) {
 }
 
 typedef struct tally {
-    long seen, drawn, frames;
+    long seen, drawn, frames, propagated, skipped, opened;
+    long tests[MOST_WALKS]; ///< by method
 } tally;
 
 /// The leaves' states and the cells to be drawn say the same.
@@ -156,6 +159,21 @@ static void check_leaves(const world *w, const sl_walk *walk) {
         if (n->cell == SL_NO_CELL) continue;
         const bool drawn = sl_walk_state(walk, i, &reason) != SL_NODE_INVISIBLE;
         assert_int_equal(drawn, sl_eye_sees(cells, n->cell));
+    }
+}
+
+/// Beside the classical method: every leaf as there, or no leaf less. In a kd-tree's space, where
+/// tests are exact, all nodes are as there.
+static void check_beside_classical(const world *w, size_t i, bool cheap) {
+    const bool exact = w->hierarchy.tiles && !cheap;
+    for (uint32_t n = 0; n < w->hierarchy.node_count; n++) {
+        sl_walk_reason reason;
+        const sl_node_state due = sl_walk_state(w->walks[0], n, &reason);
+        const sl_node_state found = sl_walk_state(w->walks[i], n, &reason);
+        if (!exact && w->hierarchy.nodes[n].cell == SL_NO_CELL) continue;
+        if (w->methods[i]->as_classical ? found != due : !found && due)
+            fail_msg("%s: node %u is in state %d, classical: %d (by reason %d)",
+                     w->methods[i]->name, n, found, due, reason);
     }
 }
 
@@ -174,8 +192,13 @@ static void step(world *w, const sl_view *view, tally *count) {
             count->drawn += drawn;
         }
         check_leaves(w, w->walks[i]);
+        check_beside_classical(w, i, w->cheap);
         assert_int_equal(frame.out + frame.invisible + frame.partial + frame.visible,
                          frame.visited);
+        count->tests[w->methods[i] - sl_walk_methods(&(size_t){0})] += frame.tests;
+        count->propagated += frame.propagated;
+        count->skipped += frame.skipped;
+        count->opened += frame.opened;
         // All tests give one answer: walks of a method with one and another are the same.
         if (i && w->methods[i] == w->methods[i - 1])
             for (uint32_t n = 0; n < w->hierarchy.node_count; n++) {
@@ -242,6 +265,10 @@ static void random_walks_miss_nothing(void **state) {
     // Not by drawing all: no more than a few times what is seen.
     assert_true(count.frames > 5000 && count.seen > 20000);
     assert_true(count.drawn < 3 * count.seen);
+    assert_true(count.propagated > 100 && count.skipped > 1000 && count.opened > 10000);
+    // In the table's order each method up to "skipping" saves more tests.
+    assert_true(count.tests[1] < count.tests[0] && count.tests[2] < count.tests[1]);
+    assert_true(count.tests[3] < count.tests[2]);
     sl_context_destroy(context);
 }
 
@@ -277,10 +304,124 @@ static void bsp_walks_miss_nothing(void **state) {
     sl_context_destroy(context);
 }
 
+/// The faces that ropes lead to hold the whole face, and no less node beyond does.
+static void ropes_hold_faces(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    long ropes = 0;
+    for (uint64_t seed = 1; seed <= 60; seed++) {
+        world w = {.context = context};
+        assert_ok(context, oracle_random_map(context, seed, ORACLE_GRID_INTEGER, &w.map));
+        assert_ok(context, sl_map_clean(context, &w.map, NULL));
+        const sl_subdivide_options options = sl_subdivide_options_default();
+        if (w.map.wall_count && sl_subdivide_kd(context, &w.map, &options, &w.space) == SL_OK)
+            assert_ok(context, sl_hierarchy_make(context, &w.space, &w.hierarchy));
+        for (uint32_t i = 0; i < w.hierarchy.node_count; i++)
+            for (int face = 0; face < 4; face++) {
+                const sl_box *b = &w.hierarchy.nodes[i].box, *all = &w.space.bounds;
+                const double at[4] = {b->min.x, b->max.x, b->min.y, b->max.y};
+                const double edge[4] = {all->min.x, all->max.x, all->min.y, all->max.y};
+                int32_t least = -1;
+                for (uint32_t k = 0; k < w.hierarchy.node_count; k++) {
+                    const sl_box *o = &w.hierarchy.nodes[k].box;
+                    const double touch[4] = {o->max.x, o->min.x, o->max.y, o->min.y};
+                    const bool holds = face < 2 ? o->min.y <= b->min.y && b->max.y <= o->max.y
+                                                : o->min.x <= b->min.x && b->max.x <= o->max.x;
+                    if (touch[face] == at[face] && holds) least = (int32_t)k;
+                }
+                // Nodes stand before those below them: the last that holds the face is the least.
+                assert_int_equal(w.hierarchy.nodes[i].rope[face], least);
+                assert_int_equal(least < 0, at[face] == edge[face]);
+                ropes += least >= 0;
+            }
+        close_world(&w);
+    }
+    assert_true(ropes > 1000);
+    sl_context_destroy(context);
+}
+
+static void square_room(sl_context *context, world *w) {
+    testing_space(context, "walls 0 0 8 0 8 8 0 8 0 0\nwall 4 0 4 3\nwall 4 5 4 8\n", &w->map,
+                  &w->space);
+}
+
+static void bad_arguments_are_refused(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    world w = {.context = context};
+    square_room(context, &w);
+    assert_ok(context, sl_hierarchy_make(context, &w.space, &w.hierarchy));
+    const sl_walk_method *method = sl_walk_methods(&(size_t){0});
+    const sl_walk_options good = sl_walk_options_default();
+    sl_walk_options bad[5] = {good, good, good, good, good};
+    bad[0].test = NULL;
+    bad[1].occluders = SL_WALK_OCCLUDERS_MOST + 1;
+    bad[2].p_vp = 1.5;
+    bad[3].p_skip = -0.1;
+    bad[4].p_skip = NAN;
+    sl_walk *walk = NULL;
+    for (int i = 0; i < 5; i++) {
+        assert_int_equal(sl_walk_create(context, &w.hierarchy, method, &bad[i], &walk),
+                         SL_BAD_ARGUMENT);
+        assert_null(walk);
+    }
+    assert_ok(context, sl_walk_create(context, &w.hierarchy, method, &good, &walk));
+    const sl_view nowhere = sl_view_all_round((sl_point){NAN, 0});
+    const sl_view edge = {.eye = {1, 1}, .left = {1, 1}, .right = {2, 1}};
+    sl_walk_frame frame = {.visited = 77};
+    assert_int_equal(sl_walk_step(context, walk, &nowhere, &frame), SL_BAD_ARGUMENT);
+    assert_int_equal(sl_walk_step(context, walk, &edge, &frame), SL_BAD_ARGUMENT);
+    assert_int_equal(frame.visited, 77);
+    // A cone of no width sees nothing.
+    const sl_view ray = {.eye = {1, 1}, .left = {2, 1}, .right = {3, 1}};
+    assert_ok(context, sl_walk_step(context, walk, &ray, &frame));
+    assert_int_equal(frame.cells, 0);
+    sl_walk_destroy(context, walk);
+    close_world(&w);
+    sl_context_destroy(context);
+}
+
+/// Every allocation fails once; what comes of it is a status, and no memory lost.
+static void memory_runs_out(void **state) {
+    (void)state;
+    testing_memory memory = {0};
+    sl_context *context = testing_context(&memory);
+    world w = {.context = context};
+    square_room(context, &w);
+    size_t tests_count;
+    const sl_node_test *tests = sl_node_tests(&tests_count);
+    const long live = memory.live;
+    for (size_t t = 0; t < tests_count; t++)
+        for (long fail_at = 1;; fail_at++) {
+            sl_walk_options options = sl_walk_options_default();
+            options.test = &tests[t];
+            sl_walk *walk = NULL;
+            sl_walk_frame frame;
+            const sl_view view = sl_view_all_round((sl_point){1, 1});
+            memory.calls = 0;
+            memory.fail_at = fail_at;
+            sl_status status = sl_hierarchy_make(context, &w.space, &w.hierarchy);
+            if (status == SL_OK)
+                status = sl_walk_create(context, &w.hierarchy, sl_walk_methods(&(size_t){0}),
+                                        &options, &walk);
+            if (status == SL_OK) status = sl_walk_step(context, walk, &view, &frame);
+            memory.fail_at = 0;
+            sl_walk_destroy(context, walk);
+            sl_hierarchy_destroy(context, &w.hierarchy);
+            assert_int_equal(memory.live, live);
+            if (status == SL_OK) break;
+            assert_int_equal(status, SL_NO_MEMORY);
+            assert_true(fail_at < 1000);
+        }
+    close_world(&w);
+    sl_context_destroy(context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_walks_miss_nothing),
-        cmocka_unit_test(bsp_walks_miss_nothing),
+        cmocka_unit_test(random_walks_miss_nothing), cmocka_unit_test(bsp_walks_miss_nothing),
+        cmocka_unit_test(ropes_hold_faces),          cmocka_unit_test(bad_arguments_are_refused),
+        cmocka_unit_test(memory_runs_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

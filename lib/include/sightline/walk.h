@@ -71,7 +71,10 @@ SL_API const sl_node_test *sl_node_tests(size_t *count);
 typedef struct sl_walk_options {
     const sl_node_test *test;
     uint32_t occluders; ///< chosen of each frame, at most; usually 16, SL_WALK_OCCLUDERS_MOST most
-    uint32_t cheap;     ///< a node of no more walls than this is drawn without a test; usually 0
+    uint32_t cheap;     ///< a node of no more walls is drawn without a test; usually 0: no node
+    double p_vp;        ///< the chance that visibility propagation is tried; usually 0.5
+    double p_skip;      ///< the chance that what was drawn is drawn again untested; usually 0.5
+    uint64_t seed;      ///< of all chances
 } sl_walk_options;
 
 SL_API sl_walk_options sl_walk_options_default(void);
@@ -79,24 +82,37 @@ SL_API sl_walk_options sl_walk_options_default(void);
 /// A method of walking: reachable by name, listed everywhere from this table.
 typedef struct sl_walk_method {
     const char *name, *what;
+    /// Its leaves have the states of those of the first method, in every frame. Else more of them
+    /// may be drawn.
+    bool as_classical;
+    unsigned policies; ///< the library's own
 } sl_walk_method;
 
+/// All methods, the classical one first: "classical", "updating", "propagation", "skipping" (A to D
+/// in the paper), "adaptive", "predicting". Each draws all cells that are seen (see sl_walk_cells).
 SL_API const sl_walk_method *sl_walk_methods(size_t *count);
 
 /// What decided of a node's state, in the frame in which it was last visited.
 typedef enum sl_walk_reason {
-    SL_WALK_FRUSTUM, ///< outside the view cone
-    SL_WALK_CHEAP,   ///< cheaper to draw than to test
-    SL_WALK_TESTED,  ///< the node visibility test
+    SL_WALK_FRUSTUM,    ///< outside the view cone
+    SL_WALK_CHEAP,      ///< cheaper to draw than to test
+    SL_WALK_TESTED,     ///< the node visibility test
+    SL_WALK_OPENED,     ///< nothing: it was opened by the last frame, and is again
+    SL_WALK_PROPAGATED, ///< its neighbours' states
+    SL_WALK_SKIPPED,    ///< chance: it was drawn in the last frame
+    SL_WALK_PULLED_UP,  ///< its children's states, which have different reasons
 } sl_walk_reason;
 
 /// What a frame came to, in nodes where nothing else is said.
 typedef struct sl_walk_frame {
-    uint32_t occluders;                        ///< chosen
-    uint32_t visited;                          ///< reached on the way down
-    uint32_t frustum_tests;                    ///< by view-frustum culling
-    uint32_t tests;                            ///< by the node visibility test
-    uint32_t cheap;                            ///< taken as visible for being cheap
+    uint32_t occluders;                ///< chosen
+    uint32_t visited;                  ///< reached on the way down
+    uint32_t frustum_tests;            ///< by view-frustum culling
+    uint32_t tests;                    ///< by the node visibility test
+    uint32_t cheap;                    ///< taken as visible for being cheap
+    uint32_t opened;                   ///< not tested for having been opened by the last frame
+    uint32_t propagations, propagated; ///< tries to take a state from neighbours, and successes
+    uint32_t skipped;                  ///< taken to be as drawn as in the last frame
     uint32_t out, invisible, partial, visible; ///< visited, by state; `out`: of the view cone
     uint32_t cells;                            ///< to be drawn
     uint64_t orientations;                     ///< orientation tests

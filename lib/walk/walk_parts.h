@@ -1,0 +1,70 @@
+/// What the parts of a walk share.
+#ifndef SL_WALK_PARTS_H
+#define SL_WALK_PARTS_H
+
+#include "base/bits.h"
+#include "base/random.h"
+#include "sightline/walk.h"
+#include "walk/occlusion.h"
+
+/// What a method does beside the classical way, or-ed.
+enum {
+    SL_WALK_UPDATES = 1,    ///< skips the nodes that the last frame opened, and pulls states up
+    SL_WALK_PROPAGATES = 2, ///< takes a node's state from its neighbours where they allow it
+    SL_WALK_SKIPS = 4,      ///< takes what was drawn as visible, by chance, without a test
+    SL_WALK_ADAPTS = 8,     ///< and sets the chances by each node's history
+    SL_WALK_PREDICTS = 16,  ///< takes leaves to stay partially visible, by their history
+};
+
+/// A share of successes, as far back as the last few tries.
+typedef struct sl_walk_history {
+    uint8_t tries, hits;
+} sl_walk_history;
+
+/// What is known of a node since it was last visited.
+typedef struct sl_walk_memory {
+    uint64_t frame; ///< when that was; 0 for never
+    uint8_t state, reason;
+    bool spread;             ///< propagation decided of it when it was last visited
+    sl_walk_history kept;    ///< of what was drawn, how often a test found it to be drawn still
+    sl_walk_history spreads; ///< how often propagation succeeded
+} sl_walk_memory;
+
+struct sl_walk {
+    const sl_hierarchy *hierarchy;
+    const sl_walk_method *method;
+    sl_walk_options options;
+    const sl_node_test_calls *test;
+    sl_occlusion *occlusion;
+    sl_chooser *chooser;
+    sl_walk_cone cone;
+    sl_walk_memory *nodes;
+    uint64_t *stack;
+    sl_sector *sectors; ///< those of the node at hand, within the cone
+    sl_bits *cells;
+    uint32_t *wall_counts; ///< by node, those of its cells added up
+    uint64_t frame;
+    sl_random random;
+};
+
+/// The state of a node by its neighbours': false where they do not tell. Nodes before it, front to
+/// back, must have been visited in this frame (propagation.c).
+bool sl_walk_propagate(const sl_walk *walk, uint32_t node, sl_node_state *state);
+
+/// Counts a try. Half of what was before is forgotten whenever there is much of it.
+static inline void sl_walk_note(sl_walk_history *history, bool hit) {
+    enum { MUCH = 16 };
+    if (history->tries == MUCH) {
+        history->tries /= 2;
+        history->hits /= 2;
+    }
+    history->tries++;
+    history->hits += hit;
+}
+
+/// The estimated share of successes: a half where nothing is known (Laplace's rule).
+static inline double sl_walk_share(const sl_walk_history *history) {
+    return (history->hits + 1.) / (history->tries + 2.);
+}
+
+#endif
