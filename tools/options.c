@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_OPTIONS = 32, HELP_COLUMN = 26 };
+enum { MAX_OPTIONS = 64, HELP_COLUMN = 26 };
 
 // --- help
 

@@ -1,4 +1,5 @@
-/// Pictures of what is seen from places: regions over the plan, and heat maps of their measures.
+/// Pictures of what is seen from places: regions over the plan, heat maps of their measures, and
+/// patches coloured by what they cost.
 #include "base/base.h"
 #include "draw/legend.h"
 #include "draw/paper.h"
@@ -11,14 +12,17 @@
 
 enum { TICKS = 5, RAMP_STEPS = 64 };
 
-/// What a picture shows: regions, or else a field.
+/// What a picture shows: regions, or else a field, or else patches.
 typedef struct picture {
     sl_scene scene;
     const sl_drawn_region *regions;
     size_t region_count;
     const sl_field *field;
-    const char *caption;
-    double least, most; ///< of the field's values
+    const sl_patches *patches;
+    const char *caption, *scale; ///< `scale`: what the colours tell
+    const double *values;        ///< of the field or the patches
+    size_t value_count;
+    double least, most; ///< of the values
 } picture;
 
 typedef struct page {
@@ -27,13 +31,12 @@ typedef struct page {
 } page;
 
 static void find_range(picture *p) {
-    const sl_field *f = p->field;
     p->least = INFINITY;
     p->most = -INFINITY;
-    for (size_t i = 0; i < f->columns * f->rows; i++) {
-        if (isnan(f->values[i])) continue;
-        p->least = fmin(p->least, f->values[i]);
-        p->most = fmax(p->most, f->values[i]);
+    for (size_t i = 0; i < p->value_count; i++) {
+        if (isnan(p->values[i])) continue;
+        p->least = fmin(p->least, p->values[i]);
+        p->most = fmax(p->most, p->values[i]);
     }
 }
 
@@ -55,21 +58,41 @@ static void add_square(cairo_t *cairo, const sl_frame *frame, const sl_box *boun
     if (low.x < high.x && low.y < high.y) sl_path_polygon(cairo, frame, corners, 4);
 }
 
-/// Squares of one colour make one path, with a thin stroke over the seams between them.
-static sl_status draw_field(sl_context *context, cairo_t *cairo, const picture *p,
-                            const sl_frame *frame) {
-    const sl_field *f = p->field;
+static void add_patch(cairo_t *cairo, const sl_frame *frame, const sl_patches *patches, size_t i) {
+    const uint32_t first = patches->first[i];
+    sl_path_polygon(cairo, frame, patches->points + first, patches->first[i + 1] - first);
+}
+
+/// What is of one colour makes one path, with a thin stroke over the seams within.
+static sl_status draw_values(sl_context *context, cairo_t *cairo, const picture *p,
+                             const sl_frame *frame) {
     for (int step = 0; step < RAMP_STEPS; step++) {
         SL_TRY(sl_check_cancelled(context));
-        for (size_t i = 0; i < f->columns * f->rows; i++)
-            if (!isnan(f->values[i]) && step_of(p, f->values[i]) == step)
-                add_square(cairo, frame, &p->scene.baked->space.bounds, f, i);
+        for (size_t i = 0; i < p->value_count; i++) {
+            if (isnan(p->values[i]) || step_of(p, p->values[i]) != step) continue;
+            if (p->field)
+                add_square(cairo, frame, &p->scene.baked->space.bounds, p->field, i);
+            else
+                add_patch(cairo, frame, p->patches, i);
+        }
         sl_set_colour(cairo, sl_palette_ramp(p->scene.palette.dark, (step + 0.5) / RAMP_STEPS));
         cairo_fill_preserve(cairo);
         cairo_set_line_width(cairo, 0.6);
         cairo_stroke(cairo);
     }
     return SL_OK;
+}
+
+static void draw_lines(cairo_t *cairo, const picture *p, const sl_frame *frame) {
+    for (size_t i = 0; i < p->patches->line_count; i++) {
+        const sl_point a = sl_frame_point(frame, p->patches->lines[i].a);
+        const sl_point b = sl_frame_point(frame, p->patches->lines[i].b);
+        cairo_move_to(cairo, a.x, a.y);
+        cairo_line_to(cairo, b.x, b.y);
+    }
+    sl_set_colour(cairo, p->scene.palette.page);
+    cairo_set_line_width(cairo, 0.8 * frame->unit);
+    cairo_stroke(cairo);
 }
 
 static void draw_region(cairo_t *cairo, const picture *p, const sl_frame *frame,
@@ -103,7 +126,8 @@ static void draw_eye(cairo_t *cairo, const picture *p, const sl_frame *frame, sl
 static sl_status draw_plan(sl_context *context, cairo_t *cairo, const picture *p,
                            const sl_frame *frame) {
     SL_TRY(sl_draw_onto(context, cairo, &p->scene, frame));
-    if (p->field) SL_TRY(draw_field(context, cairo, p, frame));
+    SL_TRY(draw_values(context, cairo, p, frame));
+    if (p->patches) draw_lines(cairo, p, frame);
     for (size_t i = 0; i < p->region_count; i++) draw_region(cairo, p, frame, &p->regions[i]);
     SL_TRY(sl_draw_walls_onto(context, cairo, &p->scene, frame));
     for (size_t i = 0; i < p->region_count; i++) draw_eye(cairo, p, frame, p->regions[i].eye);
@@ -136,7 +160,7 @@ static double draw_scale(cairo_t *cairo, const picture *p, const page *g, bool p
                      g->key + high + 1.5 * g->text, number);
     }
     sl_text_show(cairo, p->scene.palette.ink, g->margin + width + 1.6 * g->text,
-                 g->key + 0.95 * g->text, p->field->name);
+                 g->key + 0.95 * g->text, p->scale);
     return 3.2 * g->text;
 }
 
@@ -160,7 +184,7 @@ static void set_page(cairo_t *cairo, const picture *p, page *g, bool paint) {
         g->key = y + height + 1.1 * g->text;
     }
     y = g->key;
-    if (p->field) y += draw_scale(cairo, p, g, paint);
+    if (p->scale) y += draw_scale(cairo, p, g, paint);
     if (p->caption) {
         if (paint)
             sl_text_show_within(cairo, p->scene.palette.ink, g->margin, y + 1.1 * g->text, inner,
@@ -201,7 +225,7 @@ static sl_status draw_picture(sl_context *context, const sl_baked *baked,
         return sl_fail(context, SL_BAD_ARGUMENT, "width %g: must be %d to %d", options->width,
                        SL_DRAW_WIDTH_MIN, SL_DRAW_WIDTH_MAX);
     sl_draw_options plain = *options;
-    plain.layers = SL_LAYER_WALLS | (p->field ? 0 : (unsigned)SL_LAYER_STARTS);
+    plain.layers = SL_LAYER_WALLS | (p->scale ? 0 : (unsigned)SL_LAYER_STARTS);
     plain.cell = SL_NO_CELL;
     SL_TRY(sl_scene_make(context, baked, &plain, &p->scene));
     sl_status status = measure(context, p, path, &g);
@@ -223,7 +247,22 @@ sl_status sl_draw_regions_file(sl_context *context, const sl_baked *baked,
 
 sl_status sl_draw_field_file(sl_context *context, const sl_baked *baked, const sl_field *field,
                              const sl_draw_options *options, const char *path) {
-    picture p = {.field = field};
+    picture p = {.field = field,
+                 .scale = field->name,
+                 .values = field->values,
+                 .value_count = field->columns * field->rows};
+    find_range(&p);
+    return draw_picture(context, baked, options, &p, path);
+}
+
+sl_status sl_draw_patches_file(sl_context *context, const sl_baked *baked,
+                               const sl_patches *patches, const char *caption,
+                               const sl_draw_options *options, const char *path) {
+    picture p = {.patches = patches,
+                 .caption = caption,
+                 .scale = patches->name,
+                 .values = patches->values,
+                 .value_count = patches->count};
     find_range(&p);
     return draw_picture(context, baked, options, &p, path);
 }

@@ -104,6 +104,22 @@ SL_API sl_status sl_draw_field_file(sl_context *context, const sl_baked *baked,
                                     const sl_field *field, const sl_draw_options *options,
                                     const char *path);
 
+/// Polygons coloured by a value each, and lines over them.
+typedef struct sl_patches {
+    const char *name; ///< what the values are: "render cost"
+    const sl_point *points;
+    const uint32_t *first; ///< by polygon, and one more: points[first[i] .. first[i + 1])
+    const double *values;
+    uint32_t count;
+    const sl_segment *lines;
+    size_t line_count;
+} sl_patches;
+
+/// Draws patches under the plan's walls with their colour scale, likewise; `caption` as above.
+SL_API sl_status sl_draw_patches_file(sl_context *context, const sl_baked *baked,
+                                      const sl_patches *patches, const char *caption,
+                                      const sl_draw_options *options, const char *path);
+
 // --- charts
 
 /// How values lie along an axis. Symmetric logarithm: linear between -1 and 1, powers of ten at

@@ -22,6 +22,7 @@
 #include "sightline/stab.h"
 #include "sightline/steps.h"
 #include "sightline/view.h"
+#include "sightline/view_cells.h"
 #include "sightline/walk.h"
 
 #endif

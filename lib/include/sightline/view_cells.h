@@ -1,0 +1,235 @@
+/// View cells that adapt to what is seen (Mattausch, Bittner & Wimmer 2006, Adaptive
+/// Visibility-Driven View Cell Construction): the set of regions of view space which, for their
+/// number, makes rendering cost least.
+///
+/// The way through: segments (what sees what, sampled) and a scene (what rendering costs, where
+/// viewpoints are) give a tree of elementary view cells; merging gives a hierarchy of them; a cut
+/// of the hierarchy is a set of view cells.
+///
+/// Sampling estimates costs and places cells; it decides no visibility. Its arithmetic is rounded.
+#ifndef SIGHTLINE_VIEW_CELLS_H
+#define SIGHTLINE_VIEW_CELLS_H
+
+#include "sightline/outline.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// "No view cell": empty space, where no viewpoint is.
+#define SL_NO_VIEW_CELL UINT32_MAX
+
+// --- what is seen
+
+/// The objects that potentially visible sets are made of.
+typedef enum sl_view_objects {
+    SL_VIEW_WALLS, ///< the space's walls: a segment sees those at its ends
+    SL_VIEW_CELLS, ///< the space's cells: a segment sees all that it passes
+} sl_view_objects;
+
+/// Start from sl_view_sampling_default().
+typedef struct sl_view_sampling {
+    sl_view_objects objects;
+    uint64_t samples; ///< points drawn, those in empty space included; below 2^32
+    uint64_t seed;    ///< the same seed gives the same segments, whatever the threads
+    unsigned threads; ///< 0: one a core
+} sl_view_sampling;
+
+SL_API sl_view_sampling sl_view_sampling_default(void);
+
+/// Visibility segments: maximal free segments (section 4.1). Zeroed, there are none.
+typedef struct sl_view_segments {
+    uint32_t count;
+    sl_segment *items;
+    uint64_t *first;   ///< by segment, and one more: objects[first[s] .. first[s + 1]) are its own
+    uint32_t *objects; ///< each once a segment
+    uint64_t drawn;    ///< points
+    uint64_t empty;    ///< of them: in empty space
+    uint64_t unseeing; ///< of them: the line there ends at no wall, only at the map's border
+    uint64_t lost;     ///< of them: on a corner or an edge, or where rounding broke the walk
+} sl_view_segments;
+
+/// Draws points evenly over the map's bounds and directions evenly over the circle, and follows the
+/// line both ways to what it hits. Points outside the inside (sl_cell.inside) are in empty space
+/// and are passed over. The walk from room to room is decided by exact predicates; the ends are
+/// rounded. Reports stage "sample". SL_BAD_ARGUMENT where too many samples are asked for.
+SL_API sl_status sl_view_sample(sl_context *context, const sl_outline *outline,
+                                const sl_view_sampling *options, sl_view_segments *out);
+SL_API void sl_view_segments_destroy(sl_context *context, sl_view_segments *segments);
+
+// --- what rendering costs, and where viewpoints are
+
+/// The time to render an object (section 3.3): max(a, b * t, c * p), where t is the number of walls
+/// that make it up and p the share of the full circle that it takes, seen from the middle of the
+/// view cell. Not negative, finite. Start from sl_render_cost_default(): 1 an object.
+typedef struct sl_render_cost {
+    double a, b, c;
+} sl_render_cost;
+
+SL_API sl_render_cost sl_render_cost_default(void);
+
+/// Places of viewpoints: convex polygons and single points, each with its share of the probability.
+typedef struct sl_view_places {
+    uint32_t count;
+    sl_point *points;
+    uint32_t *first; ///< by place, and one more: points[first[i] .. first[i + 1]); one, or three up
+    double *mass;    ///< positive; even over the polygon
+} sl_view_places;
+
+/// Viewpoints spread evenly over the inside of a space. SL_BAD_ARGUMENT where it has none.
+SL_API sl_status sl_view_places_inside(sl_context *context, const sl_space *space,
+                                       sl_view_places *out);
+/// Viewpoints along a map's paths, as walked at an even speed: points `step` apart. SL_BAD_ARGUMENT
+/// where there is no path within the bounds, or for a step that is not positive.
+SL_API sl_status sl_view_places_paths(sl_context *context, const sl_map *map, const sl_space *space,
+                                      double step, sl_view_places *out);
+/// Viewpoints by a density: values over a grid that covers the bounds of the space, row after row
+/// from the lower left, not negative; even over each square. SL_BAD_ARGUMENT where none is
+/// positive.
+SL_API sl_status sl_view_places_density(sl_context *context, const sl_space *space,
+                                        const double *values, uint32_t columns, uint32_t rows,
+                                        sl_view_places *out);
+SL_API void sl_view_places_destroy(sl_context *context, sl_view_places *places);
+
+/// All that costs depend on beside the view cells.
+typedef struct sl_view_scene {
+    const sl_space *space; ///< the caller's, as all else here
+    sl_view_objects objects;
+    sl_render_cost cost;
+    const sl_view_places *places;
+} sl_view_scene;
+
+// --- elementary view cells
+
+/// A binary space partition of the bounds. Nodes are in the order of splitting, so that the first
+/// k of them make k + 1 leaves. A child c >= 0 is node c, a child c < 0 is leaf ~c. Leaves below
+/// cell_count are elementary view cells; those from there on are empty space.
+typedef struct sl_view_tree {
+    sl_box bounds;
+    int32_t root; ///< as a child of a node
+    uint32_t node_count, leaf_count, cell_count, line_count;
+    sl_node *nodes; ///< axis 2: along lines[line]
+    sl_segment *lines;
+    sl_point *corners; ///< of the leaves' polygons, counter-clockwise
+    uint32_t *edges;   ///< by corner: the node that made the side from there; UINT32_MAX: border
+    uint32_t *first;   ///< by leaf, and one more: corners[first[i] .. first[i + 1])
+    double *mass;      ///< by leaf: the probability that a viewpoint is in it
+} sl_view_tree;
+
+SL_API void sl_view_tree_destroy(sl_context *context, sl_view_tree *tree);
+
+/// The leaf that holds a point: on a split line the one above (right of or over) it, left of an
+/// oblique one; decided exactly. SL_NO_VIEW_CELL outside the bounds and for NaN.
+SL_API uint32_t sl_view_tree_locate(const sl_view_tree *tree, sl_point point);
+
+/// Start from sl_view_subdivision_default().
+typedef struct sl_view_subdivision {
+    uint32_t cells;       ///< stop at so many elementary view cells, at least 1
+    double least_gain;    ///< stop where splits gain less than this share of the first cost ...
+    uint32_t patience;    ///< ... so many times one after the other, at least 1
+    double cost_weight;   ///< of a cell's own cost in its priority, 0 to 1; the paper has 0.01
+    uint32_t candidates;  ///< axis-aligned splits tried for a cell; 0: all that can be best
+    uint32_t wall_splits; ///< walls' own lines tried for a cell; 0: only axis-aligned splits
+    double visible_share; ///< KD-VT: cells that see no more than this share of all are not split
+    uint32_t deepest;     ///< KD-VT*: cells so far down are not split
+    uint64_t seed;        ///< of candidates that are drawn
+} sl_view_subdivision;
+
+SL_API sl_view_subdivision sl_view_subdivision_default(void);
+
+/// Sets of objects, a row of bits each.
+typedef struct sl_view_sets {
+    uint32_t count, object_count;
+    size_t words;   ///< of a row
+    uint64_t *bits; ///< bit o % 64 of word o / 64 of a row: object o is in the set
+} sl_view_sets;
+
+/// What each elementary view cell of a tree sees by the segments that pass it. `threads`: 0 for one
+/// a core.
+SL_API sl_status sl_view_sets_sample(sl_context *context, const sl_view_scene *scene,
+                                     const sl_view_tree *tree, const sl_view_segments *segments,
+                                     unsigned threads, sl_view_sets *out);
+SL_API void sl_view_sets_destroy(sl_context *context, sl_view_sets *sets);
+
+// --- the hierarchy and its cuts
+
+/// An inner part of a hierarchy: it joins two earlier ones. Numbers below cell_count are elementary
+/// view cells, c + cell_count is joints[c].
+typedef struct sl_view_joint {
+    uint32_t parts[2];
+} sl_view_joint;
+
+/// A hierarchy over elementary view cells: the first j joints leave cell_count - j view cells.
+/// `cost`, `mass`, `objects` and `bytes` are by number: what a viewpoint there is to render
+/// (rounded), its probability, the size of its set, and what its set takes as runs (pvs.h).
+typedef struct sl_view_hierarchy {
+    uint32_t cell_count;   ///< at least 1; there is one joint fewer
+    sl_view_joint *joints; ///< the last one is all of view space
+    double *cost, *mass;
+    uint32_t *objects;
+    uint64_t *bytes;
+} sl_view_hierarchy;
+
+SL_API void sl_view_hierarchy_destroy(sl_context *context, sl_view_hierarchy *hierarchy);
+
+/// A method of making view cells: reachable by name, listed everywhere from this table. Each
+/// divides view space into a tree; `merges` tells whether cells are then merged by cost (the merge
+/// history tree, section 4.3) or put together again in the reverse order of splits.
+typedef struct sl_view_method {
+    const char *name, *what;
+    bool merges;
+    bool needs_segments; ///< it looks at what is seen; others may be given none
+    sl_status (*divide)(sl_context *context, const sl_view_scene *scene,
+                        const sl_view_segments *segments, const sl_view_subdivision *options,
+                        sl_view_tree *out);
+} sl_view_method;
+
+SL_API const sl_view_method *sl_view_methods(size_t *count);
+
+/// The hierarchy of the splits themselves, or the merge history: always the two neighbours of which
+/// merging costs least become one. Cells are neighbours where they share a piece of boundary; where
+/// no neighbours are left, view space being in several parts, those with the lowest numbers are
+/// taken. `sets`: what the elementary cells see. Reports stage "merge".
+SL_API sl_status sl_view_join_splits(sl_context *context, const sl_view_scene *scene,
+                                     const sl_view_tree *tree, const sl_view_sets *sets,
+                                     sl_view_hierarchy *out);
+SL_API sl_status sl_view_merge(sl_context *context, const sl_view_scene *scene,
+                               const sl_view_tree *tree, const sl_view_sets *sets,
+                               sl_view_hierarchy *out);
+
+/// The same joints with what other sets say of them: so is a hierarchy evaluated by segments that
+/// had no part in making it.
+SL_API sl_status sl_view_evaluate(sl_context *context, const sl_view_scene *scene,
+                                  const sl_view_tree *tree, const sl_view_hierarchy *hierarchy,
+                                  const sl_view_sets *sets, sl_view_hierarchy *out);
+
+/// The expected cost (equation 1) and the bytes of all sets, of the cut with n view cells, into
+/// place n - 1 of each. Either may be NULL.
+SL_API void sl_view_curve(const sl_view_hierarchy *hierarchy, double *costs, uint64_t *bytes);
+
+/// Where to cut: so many cells, or what fits into a number of bytes, or what costs at most
+/// 1 + tolerance times what the elementary cells do. Each gives a number of view cells, at least 1
+/// and as many as there are elementary ones at most (section 5.1).
+SL_API uint32_t sl_view_cut_by_count(const sl_view_hierarchy *hierarchy, uint64_t cells);
+SL_API sl_status sl_view_cut_by_bytes(sl_context *context, const sl_view_hierarchy *hierarchy,
+                                      uint64_t bytes, uint32_t *cells);
+SL_API sl_status sl_view_cut_by_cost(sl_context *context, const sl_view_hierarchy *hierarchy,
+                                     double tolerance, uint32_t *cells);
+
+/// The view cells of a cut, ascending by the lowest of their elementary cells: view_cells[e] is the
+/// view cell of elementary cell e, numbers[v] the number of view cell v in the hierarchy. Arrays of
+/// cell_count and of `cells` items.
+SL_API sl_status sl_view_cut(sl_context *context, const sl_view_hierarchy *hierarchy,
+                             uint32_t cells, uint32_t *view_cells, uint32_t *numbers);
+
+/// The pieces of boundary between different view cells, for pictures; the array is the caller's,
+/// who hands it to sl_view_borders_free.
+SL_API sl_status sl_view_borders(sl_context *context, const sl_view_tree *tree,
+                                 const uint32_t *view_cells, sl_segment **borders, size_t *count);
+SL_API void sl_view_borders_free(sl_context *context, sl_segment *borders);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,305 @@
+/// Top-down subdivision (Mattausch et al. 2006, section 4.2): the part that a priority queue names
+/// is split next, wherever it lies.
+#include "view_cells/divide.h"
+
+#include <math.h>
+#include <string.h>
+
+sl_view_subdivision sl_view_subdivision_default(void) {
+    return (sl_view_subdivision){.cells = 2000,
+                                 .least_gain = 1e-7,
+                                 .patience = 100,
+                                 .cost_weight = 0.01,
+                                 .visible_share = 0.02,
+                                 .deepest = 14,
+                                 .seed = 1};
+}
+
+int sl_view_longer_axis(const sl_view_part *part) {
+    return part->box.max.y - part->box.min.y > part->box.max.x - part->box.min.x;
+}
+
+bool sl_view_split_middle(const sl_view_part *part, int axis, sl_view_split *out) {
+    const double low = sl_along(part->box.min, axis), high = sl_along(part->box.max, axis);
+    const double middle = low + (high - low) / 2;
+    if (!(middle > low && middle < high)) return false;
+    *out = (sl_view_split){.axis = axis, .position = middle};
+    return true;
+}
+
+/// The cost of what a part's segments see, from its middle.
+static double seen_cost(sl_view_divider *d, const sl_view_part *part) {
+    const sl_point middle = sl_view_part_middle(part);
+    double sum = 0;
+    size_t seen = 0;
+    for (size_t i = 0; i < part->segments.count; i++) {
+        const uint64_t *first = &d->segments->first[part->segments.items[i]];
+        for (uint64_t k = first[0]; k < first[1]; k++) {
+            const uint32_t object = d->segments->objects[k];
+            if (d->sides[object]) continue;
+            d->sides[object] = 1;
+            d->seen.items[seen++] = object;
+            sum += sl_view_render_object(&d->render, object, middle);
+        }
+    }
+    for (size_t i = 0; i < seen; i++) d->sides[d->seen.items[i]] = 0;
+    return sum;
+}
+
+// --- beginning
+
+static sl_status make_scratch(sl_view_divider *d) {
+    const size_t objects = d->render.object_count;
+    for (int axis = 0; axis < 2; axis++) {
+        d->low[axis] = sl_alloc_array(d->context, objects, sizeof *d->low[axis]);
+        d->high[axis] = sl_alloc_array(d->context, objects, sizeof *d->high[axis]);
+        if (!d->low[axis] || !d->high[axis]) return SL_NO_MEMORY;
+        for (size_t i = 0; i < objects; i++) {
+            d->low[axis][i] = INFINITY;
+            d->high[axis][i] = -INFINITY;
+        }
+    }
+    d->sides = sl_alloc_array(d->context, objects, 1);
+    if (!d->sides) return SL_NO_MEMORY;
+    return SL_ARRAY_ROOM(d->context, &d->seen, objects);
+}
+
+static sl_status copy_share(sl_context *context, const sl_view_places *places,
+                            sl_view_share *share) {
+    const uint32_t points = places->first[places->count];
+    SL_TRY(SL_ARRAY_ROOM(context, &share->points, points));
+    SL_TRY(SL_ARRAY_ROOM(context, &share->ends, places->count));
+    SL_TRY(SL_ARRAY_ROOM(context, &share->mass, places->count));
+    memcpy(share->points.items, places->points, points * sizeof *share->points.items);
+    share->points.count = points;
+    double all = 0;
+    for (uint32_t i = 0; i < places->count; i++) all += places->mass[i];
+    for (uint32_t i = 0; i < places->count; i++) {
+        share->ends.items[share->ends.count++] = places->first[i + 1];
+        share->mass.items[share->mass.count++] = places->mass[i] / all;
+    }
+    return SL_OK;
+}
+
+/// The part that is all of view space.
+static sl_status make_first(sl_view_divider *d, sl_view_part *part) {
+    const sl_box *b = &d->scene->space->bounds;
+    const sl_point corners[4] = {b->min, {b->max.x, b->min.y}, b->max, {b->min.x, b->max.y}};
+    *part = (sl_view_part){.box = *b, .is_box = true, .mass = 1, .parent = -1};
+    SL_TRY(SL_ARRAY_ROOM(d->context, &part->corners, 4));
+    SL_TRY(SL_ARRAY_ROOM(d->context, &part->edges, 4));
+    for (int i = 0; i < 4; i++) {
+        part->corners.items[part->corners.count++] = corners[i];
+        part->edges.items[part->edges.count++] = UINT32_MAX;
+    }
+    const uint32_t count = d->segments ? d->segments->count : 0;
+    SL_TRY(SL_ARRAY_ROOM(d->context, &part->segments, count));
+    for (uint32_t i = 0; i < count; i++) part->segments.items[part->segments.count++] = i;
+    return copy_share(d->context, d->scene->places, &part->share);
+}
+
+/// Puts a part that is done into the queue, if it is to be split at all.
+static sl_status enqueue(sl_view_divider *d, sl_view_choose choose, uint32_t number) {
+    sl_view_part *part = &d->parts.items[number];
+    if (!(part->mass > 0)) return SL_OK;
+    double priority = 0;
+    bool splits = false;
+    part->seen = d->segments ? seen_cost(d, part) : 0;
+    SL_TRY(choose(d, part, &priority, &splits));
+    if (!splits) return SL_OK;
+    return sl_heap_push(d->context, &d->queue, (sl_heap_item){.key = priority, .a = number});
+}
+
+// --- splitting
+
+/// A segment is on a side where it has more than a point there; one along the split is above.
+static sl_status deal_segments(sl_view_divider *d, const sl_view_part *part, sl_view_part *below,
+                               sl_view_part *above) {
+    for (size_t i = 0; i < part->segments.count; i++) {
+        const uint32_t number = part->segments.items[i];
+        const sl_segment inner = sl_view_part_clip(part, &d->segments->items[number]);
+        const double from = sl_view_side(&part->split, inner.a);
+        const double to = sl_view_side(&part->split, inner.b);
+        if (from < 0 || to < 0) {
+            SL_TRY(SL_ARRAY_ROOM(d->context, &below->segments, 1));
+            below->segments.items[below->segments.count++] = number;
+        }
+        if (from > 0 || to > 0 || (from >= 0 && to >= 0)) {
+            SL_TRY(SL_ARRAY_ROOM(d->context, &above->segments, 1));
+            above->segments.items[above->segments.count++] = number;
+        }
+    }
+    return SL_OK;
+}
+
+static sl_status add_node(sl_view_divider *d, const sl_view_part *part) {
+    const sl_view_split *split = &part->split;
+    if (d->nodes.count == INT32_MAX - 1) return sl_fail_memory(d->context);
+    SL_TRY(SL_ARRAY_ROOM(d->context, &d->nodes, 1));
+    sl_node node = {.position = split->position, .axis = split->axis};
+    if (split->axis == 2) {
+        SL_TRY(SL_ARRAY_ROOM(d->context, &d->lines, 1));
+        node.line = (int32_t)d->lines.count;
+        node.position = 0;
+        d->lines.items[d->lines.count++] = split->line;
+    }
+    if (part->parent >= 0) {
+        sl_node *parent = &d->nodes.items[part->parent];
+        *(part->above ? &parent->above : &parent->below) = (int32_t)d->nodes.count;
+    }
+    d->nodes.items[d->nodes.count++] = node;
+    return SL_OK;
+}
+
+static sl_status make_halves(sl_view_divider *d, const sl_view_part *part, sl_view_part *below,
+                             sl_view_part *above) {
+    const uint32_t node = (uint32_t)d->nodes.count;
+    SL_TRY(sl_view_part_cut(d->context, part, &part->split, node, below, above));
+    below->parent = above->parent = (int32_t)node;
+    above->above = true;
+    if (d->segments) SL_TRY(deal_segments(d, part, below, above));
+    return add_node(d, part);
+}
+
+/// The part below takes the number of the whole.
+static sl_status split(sl_view_divider *d, sl_view_choose choose, uint32_t number) {
+    SL_TRY(SL_ARRAY_ROOM(d->context, &d->parts, 1));
+    sl_view_part below = {0}, above = {0};
+    const sl_status status = make_halves(d, &d->parts.items[number], &below, &above);
+    if (status != SL_OK) {
+        sl_view_part_destroy(d->context, &below);
+        sl_view_part_destroy(d->context, &above);
+        return status;
+    }
+    sl_view_part_destroy(d->context, &d->parts.items[number]);
+    d->parts.items[number] = below;
+    d->parts.items[d->parts.count++] = above;
+    d->with_mass += (below.mass > 0) + (above.mass > 0) - 1;
+    SL_TRY(enqueue(d, choose, number));
+    return enqueue(d, choose, (uint32_t)d->parts.count - 1);
+}
+
+static sl_status divide(sl_view_divider *d, sl_view_choose choose, bool stops_early) {
+    SL_TRY(make_scratch(d));
+    SL_TRY(SL_ARRAY_ROOM(d->context, &d->parts, 1));
+    d->parts.items[d->parts.count++] = (sl_view_part){0};
+    SL_TRY(make_first(d, &d->parts.items[0]));
+    d->with_mass = 1;
+    SL_TRY(enqueue(d, choose, 0));
+    const double first_cost = d->parts.items[0].seen;
+    uint32_t without_gain = 0;
+    while (d->queue.count && d->with_mass < d->options->cells) {
+        SL_TRY(sl_check_cancelled(d->context));
+        const uint32_t number = sl_heap_pop(&d->queue).a;
+        const double gain = d->parts.items[number].split.gain;
+        without_gain = gain < d->options->least_gain * first_cost ? without_gain + 1 : 0;
+        if (stops_early && without_gain >= d->options->patience) break;
+        SL_TRY(split(d, choose, number));
+        sl_report(d->context, "divide", "view cells", d->with_mass, d->options->cells);
+    }
+    return SL_OK;
+}
+
+// --- ending
+
+static sl_status make_leaf_arrays(sl_view_divider *d, sl_view_tree *tree) {
+    size_t corners = 0;
+    for (size_t i = 0; i < d->parts.count; i++) corners += d->parts.items[i].corners.count;
+    if (corners > UINT32_MAX) return sl_fail_memory(d->context);
+    tree->leaf_count = (uint32_t)d->parts.count;
+    tree->cell_count = d->with_mass;
+    tree->corners = sl_alloc_array(d->context, corners, sizeof *tree->corners);
+    tree->edges = sl_alloc_array(d->context, corners, sizeof *tree->edges);
+    tree->first = sl_alloc_array(d->context, tree->leaf_count + (size_t)1, sizeof *tree->first);
+    tree->mass = sl_alloc_array(d->context, tree->leaf_count, sizeof *tree->mass);
+    return tree->corners && tree->edges && tree->first && tree->mass ? SL_OK : SL_NO_MEMORY;
+}
+
+/// Leaves are numbered in the order in which they were made, those with mass first.
+static void fill_leaves(sl_view_divider *d, sl_view_tree *tree) {
+    uint32_t number = 0;
+    for (int empty = 0; empty < 2; empty++)
+        for (size_t i = 0; i < d->parts.count; i++) {
+            const sl_view_part *part = &d->parts.items[i];
+            if ((part->mass > 0) == (empty == 1)) continue;
+            const uint32_t first = tree->first[number];
+            memcpy(tree->corners + first, part->corners.items,
+                   part->corners.count * sizeof *tree->corners);
+            memcpy(tree->edges + first, part->edges.items, part->edges.count * sizeof *tree->edges);
+            tree->mass[number] = part->mass;
+            if (part->parent < 0)
+                tree->root = ~(int32_t)number;
+            else if (part->above)
+                d->nodes.items[part->parent].above = ~(int32_t)number;
+            else
+                d->nodes.items[part->parent].below = ~(int32_t)number;
+            tree->first[++number] = first + (uint32_t)part->corners.count;
+        }
+}
+
+static sl_status make_tree(sl_view_divider *d, sl_view_tree *tree) {
+    tree->bounds = d->scene->space->bounds;
+    SL_TRY(make_leaf_arrays(d, tree));
+    fill_leaves(d, tree);
+    tree->node_count = (uint32_t)d->nodes.count;
+    tree->line_count = (uint32_t)d->lines.count;
+    tree->nodes = d->nodes.items;
+    tree->lines = d->lines.items;
+    d->nodes.items = NULL;
+    d->lines.items = NULL;
+    return SL_OK;
+}
+
+static void destroy(sl_view_divider *d) {
+    for (size_t i = 0; i < d->parts.count; i++)
+        sl_view_part_destroy(d->context, &d->parts.items[i]);
+    for (int axis = 0; axis < 2; axis++) {
+        sl_free(d->context, d->low[axis]);
+        sl_free(d->context, d->high[axis]);
+    }
+    sl_free(d->context, d->parts.items);
+    sl_free(d->context, d->nodes.items);
+    sl_free(d->context, d->lines.items);
+    sl_free(d->context, d->queue.items);
+    sl_free(d->context, d->sides);
+    sl_free(d->context, d->seen.items);
+    sl_free(d->context, d->starts.items);
+    sl_free(d->context, d->ends.items);
+    sl_free(d->context, d->positions.items);
+    sl_free(d->context, d->clipped.items);
+    sl_free(d->context, d->walls.items);
+    sl_view_render_destroy(d->context, &d->render);
+}
+
+static sl_status check_options(sl_context *context, const sl_view_subdivision *o) {
+    if (!o->cells || !o->patience)
+        return sl_fail(context, SL_BAD_ARGUMENT, "view cells and patience: at least 1 is needed");
+    if (!(o->cost_weight >= 0 && o->cost_weight <= 1) || !(o->least_gain >= 0) ||
+        !(o->visible_share >= 0))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "the cost's weight must be 0 to 1, the least gain and the visible share "
+                       "not negative");
+    return SL_OK;
+}
+
+sl_status sl_view_divide(sl_context *context, const sl_view_scene *scene,
+                         const sl_view_segments *segments, const sl_view_subdivision *options,
+                         sl_view_choose choose, bool stops_early, sl_view_tree *out) {
+    SL_TRY(check_options(context, options));
+    sl_view_divider d = {.context = context,
+                         .scene = scene,
+                         .segments = segments,
+                         .options = options,
+                         .random = {options->seed}};
+    SL_TRY(sl_view_render_make(context, scene, &d.render));
+    for (uint32_t i = 0; i < d.render.object_count; i++) d.all_seen += d.render.fixed[i];
+    sl_view_tree tree = {0};
+    sl_status status = divide(&d, choose, stops_early);
+    if (status == SL_OK) status = make_tree(&d, &tree);
+    destroy(&d);
+    if (status == SL_OK)
+        *out = tree;
+    else
+        sl_view_tree_destroy(context, &tree);
+    return status;
+}

@@ -1,0 +1,128 @@
+/// Dividing view space from the top: parts of it, each with the segments that pass it, split one
+/// after the other in an order that each method gives.
+#ifndef SL_VIEW_DIVIDE_H
+#define SL_VIEW_DIVIDE_H
+
+#include "base/random.h"
+#include "view_cells/heap.h"
+#include "view_cells/render.h"
+
+/// A split: along an axis at a position, or (axis 2) along a line, below being right of it.
+typedef struct sl_view_split {
+    int32_t axis;
+    double position;
+    sl_segment line;
+    double gain; ///< of expected cost, as the segments tell it
+} sl_view_split;
+
+typedef SL_ARRAY(sl_point) sl_view_points;
+
+/// Pieces of sl_view_places within a part.
+typedef struct sl_view_share {
+    sl_view_points points;
+    SL_ARRAY(uint32_t) ends; ///< by piece: where its points end
+    SL_ARRAY(double) mass;   ///< of each piece
+} sl_view_share;
+
+/// A leaf while view space is divided.
+typedef struct sl_view_part {
+    sl_view_points corners;
+    SL_ARRAY(uint32_t) edges;    ///< as in sl_view_tree
+    SL_ARRAY(uint32_t) segments; ///< those that pass it
+    sl_view_share share;
+    sl_box box;     ///< about the corners
+    bool is_box;    ///< no oblique split made it
+    double mass;    ///< of `share`
+    double seen;    ///< cost of rendering what its segments see
+    uint32_t depth; ///< splits above it
+    int32_t parent; ///< node that leads here, -1 for none
+    bool above;     ///< which child of it
+    sl_view_split split;
+} sl_view_part;
+
+/// Where an object starts or ends to be seen along an axis, and its cost.
+typedef struct sl_view_event {
+    double at, cost;
+} sl_view_event;
+
+typedef SL_ARRAY(sl_view_event) sl_view_events;
+typedef SL_ARRAY(uint32_t) sl_view_numbers;
+
+typedef struct sl_view_divider {
+    sl_context *context;
+    const sl_view_scene *scene;
+    const sl_view_segments *segments;
+    const sl_view_subdivision *options;
+    sl_view_render render;
+    sl_random random;
+    double all_seen;              ///< cost of rendering all objects
+    SL_ARRAY(sl_view_part) parts; ///< the leaves
+    SL_ARRAY(sl_node) nodes;
+    SL_ARRAY(sl_segment) lines;
+    uint32_t with_mass; ///< parts that are not empty space
+    uint64_t made;      ///< parts that a method has put in line
+    sl_heap queue;
+    // Scratch of choosing.
+    double *low[2], *high[2]; ///< by object: where along an axis it is seen, within the part
+    uint8_t *sides;           ///< by object: 1: seen right of a line, 2: left of it
+    SL_ARRAY(uint32_t) seen;  ///< objects that the part sees
+    sl_view_events starts, ends;
+    SL_ARRAY(double) positions;
+    SL_ARRAY(sl_segment) clipped; ///< the part's segments, what is within it
+    sl_view_numbers walls;
+} sl_view_divider;
+
+/// Sets part->split and *priority (the highest is split first); *splits is false for a part that
+/// stays whole. Called once for each part that has mass.
+typedef sl_status (*sl_view_choose)(sl_view_divider *d, sl_view_part *part, double *priority,
+                                    bool *splits);
+
+/// `stops_early`: by least_gain and patience.
+sl_status sl_view_divide(sl_context *context, const sl_view_scene *scene,
+                         const sl_view_segments *segments, const sl_view_subdivision *options,
+                         sl_view_choose choose, bool stops_early, sl_view_tree *out);
+
+/// Across the longer side of a part, or across an axis, in its middle; false where doubles allow
+/// none. `gain` is 0.
+bool sl_view_split_middle(const sl_view_part *part, int axis, sl_view_split *out);
+int sl_view_longer_axis(const sl_view_part *part);
+
+/// Raises *best to the axis-aligned split of the most gain, if any is better (divide_axes.c).
+sl_status sl_view_choose_axes(sl_view_divider *d, const sl_view_part *part, sl_view_split *best);
+/// Likewise along the lines of walls within the part (divide_walls.c).
+sl_status sl_view_choose_walls(sl_view_divider *d, const sl_view_part *part, sl_view_split *best);
+
+/// The split along a wall's line.
+sl_view_split sl_view_split_along(const sl_wall *wall);
+/// Walls that go into a part and whose lines divide it: all, or `most` of them drawn at random.
+sl_status sl_view_walls_within(sl_view_divider *d, const sl_view_part *part, uint32_t most,
+                               sl_view_numbers *out);
+
+// --- geometry of parts (parts.c)
+
+static inline double sl_along(sl_point p, int axis) {
+    return axis ? p.y : p.x;
+}
+
+/// Where a point lies: below a split (negative), on it or above it. Rounded for oblique ones.
+static inline double sl_view_side(const sl_view_split *split, sl_point p) {
+    if (split->axis < 2) return sl_along(p, split->axis) - split->position;
+    const sl_point a = split->line.a, b = split->line.b;
+    return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+}
+
+sl_point sl_view_part_middle(const sl_view_part *part);
+void sl_view_part_destroy(sl_context *context, sl_view_part *part);
+
+/// What of a segment is within a part; a point where rounding leaves nothing.
+sl_segment sl_view_part_clip(const sl_view_part *part, const sl_segment *segment);
+
+/// Cuts a part's polygon and share in two. `node` is the one that splits it.
+sl_status sl_view_part_cut(sl_context *context, const sl_view_part *part,
+                           const sl_view_split *split, uint32_t node, sl_view_part *below,
+                           sl_view_part *above);
+
+/// What of a share is below a split.
+double sl_view_share_below(const sl_view_share *share, const sl_view_split *split);
+
+#endif

@@ -1,0 +1,159 @@
+/// The methods of making view cells: ours of the paper, and those that it is compared with
+/// (Mattausch et al. 2006, section 6.3). What tells them apart is which split a part gets and when
+/// its turn comes.
+#include "view_cells/divide.h"
+
+#include "geometry/orient.h"
+
+#include <math.h>
+
+// --- adaptive
+
+/// The split of the most gain; a small weight on the part's own cost sees to it that also those
+/// parts are split that only further splits would pay for.
+static sl_status choose_adaptive(sl_view_divider *d, sl_view_part *part, double *priority,
+                                 bool *splits) {
+    if (!(part->seen > 0)) return SL_OK;
+    if (!sl_view_split_middle(part, sl_view_longer_axis(part), &part->split)) return SL_OK;
+    SL_TRY(sl_view_choose_axes(d, part, &part->split));
+    if (d->options->wall_splits) SL_TRY(sl_view_choose_walls(d, part, &part->split));
+    const double weight = d->options->cost_weight;
+    *priority = (1 - weight) * part->split.gain + weight * part->mass * part->seen;
+    *splits = true;
+    return SL_OK;
+}
+
+static sl_status divide_adaptive(sl_context *context, const sl_view_scene *scene,
+                                 const sl_view_segments *segments,
+                                 const sl_view_subdivision *options, sl_view_tree *out) {
+    return sl_view_divide(context, scene, segments, options, choose_adaptive, true, out);
+}
+
+// --- kd-trees
+
+/// In the order in which parts are made.
+static double next_in_line(sl_view_divider *d) {
+    return -(double)d->made++;
+}
+
+static sl_status choose_cycling(sl_view_divider *d, sl_view_part *part, double *priority,
+                                bool *splits) {
+    *splits = sl_view_split_middle(part, part->depth % 2, &part->split);
+    *priority = next_in_line(d);
+    return SL_OK;
+}
+
+static sl_status choose_longest(sl_view_divider *d, sl_view_part *part, double *priority,
+                                bool *splits) {
+    *splits = sl_view_split_middle(part, sl_view_longer_axis(part), &part->split);
+    *priority = next_in_line(d);
+    return SL_OK;
+}
+
+static bool sees_enough(const sl_view_divider *d, const sl_view_part *part) {
+    return part->seen > d->options->visible_share * d->all_seen;
+}
+
+static sl_status choose_visible(sl_view_divider *d, sl_view_part *part, double *priority,
+                                bool *splits) {
+    if (!sees_enough(d, part)) return SL_OK;
+    return choose_longest(d, part, priority, splits);
+}
+
+static sl_status choose_depth_first(sl_view_divider *d, sl_view_part *part, double *priority,
+                                    bool *splits) {
+    if (!sees_enough(d, part) || part->depth >= d->options->deepest) return SL_OK;
+    SL_TRY(choose_longest(d, part, priority, splits));
+    *priority = -*priority;
+    return SL_OK;
+}
+
+static sl_status divide_cycling(sl_context *context, const sl_view_scene *scene,
+                                const sl_view_segments *segments,
+                                const sl_view_subdivision *options, sl_view_tree *out) {
+    (void)segments;
+    return sl_view_divide(context, scene, NULL, options, choose_cycling, false, out);
+}
+
+static sl_status divide_longest(sl_context *context, const sl_view_scene *scene,
+                                const sl_view_segments *segments,
+                                const sl_view_subdivision *options, sl_view_tree *out) {
+    (void)segments;
+    return sl_view_divide(context, scene, NULL, options, choose_longest, false, out);
+}
+
+static sl_status divide_visible(sl_context *context, const sl_view_scene *scene,
+                                const sl_view_segments *segments,
+                                const sl_view_subdivision *options, sl_view_tree *out) {
+    return sl_view_divide(context, scene, segments, options, choose_visible, false, out);
+}
+
+static sl_status divide_depth_first(sl_context *context, const sl_view_scene *scene,
+                                    const sl_view_segments *segments,
+                                    const sl_view_subdivision *options, sl_view_tree *out) {
+    return sl_view_divide(context, scene, segments, options, choose_depth_first, false, out);
+}
+
+// --- aligned with the walls
+
+/// Walls weighed and lines tried for one split, at most.
+enum { MOST_WEIGHED = 512, MOST_TRIED = 24 };
+
+/// What a line costs: walls cut, and sides uneven, as shares of all (sl_bsp_options).
+static double line_cost(const sl_view_divider *d, const sl_segment *line) {
+    const size_t step = (d->walls.count + MOST_WEIGHED - 1) / MOST_WEIGHED;
+    double cut = 0, left = 0, right = 0, all = 0;
+    for (size_t i = 0; i < d->walls.count; i += step, all++) {
+        const sl_wall *w = &d->scene->space->walls[d->walls.items[i]];
+        const int a = sl_orient(line->a, line->b, w->a), b = sl_orient(line->a, line->b, w->b);
+        cut += a * b < 0;
+        left += a * b >= 0 && a + b > 0;
+        right += a * b >= 0 && a + b < 0;
+    }
+    return (4 * cut + fabs(left - right)) / all;
+}
+
+/// Auto-partition (Teller 1992): the line of a wall within; a part without walls stays whole.
+static sl_status choose_wall(sl_view_divider *d, sl_view_part *part, double *priority,
+                             bool *splits) {
+    SL_TRY(sl_view_walls_within(d, part, UINT32_MAX, &d->walls));
+    const size_t count = d->walls.count;
+    double least = INFINITY;
+    for (size_t i = 0; i < count && i < MOST_TRIED; i++) {
+        const size_t k = count <= MOST_TRIED ? i : i * count / MOST_TRIED;
+        const sl_wall *w = &d->scene->space->walls[d->walls.items[k]];
+        const sl_segment line = {w->a, w->b};
+        const double cost = line_cost(d, &line);
+        if (cost >= least) continue;
+        least = cost;
+        part->split = sl_view_split_along(w);
+    }
+    *splits = count > 0;
+    *priority = next_in_line(d);
+    return SL_OK;
+}
+
+static sl_status divide_by_walls(sl_context *context, const sl_view_scene *scene,
+                                 const sl_view_segments *segments,
+                                 const sl_view_subdivision *options, sl_view_tree *out) {
+    (void)segments;
+    return sl_view_divide(context, scene, NULL, options, choose_wall, false, out);
+}
+
+static const sl_view_method methods[] = {
+    {"av-m", "adaptive: the split that gains most first, then merging", true, true,
+     divide_adaptive},
+    {"av-s", "adaptive, without merging", false, true, divide_adaptive},
+    {"kd-casm", "kd-tree, breadth first, in the middle across each axis in turn", false, false,
+     divide_cycling},
+    {"kd-lasm", "kd-tree, breadth first, in the middle across the longer axis", false, false,
+     divide_longest},
+    {"kd-vt", "likewise, until little is seen", false, true, divide_visible},
+    {"kd-vt-df", "likewise, depth first (KD-VT*)", false, true, divide_depth_first},
+    {"bsp", "along walls, until none is inside (Teller 1992)", false, false, divide_by_walls},
+};
+
+const sl_view_method *sl_view_methods(size_t *count) {
+    *count = sizeof methods / sizeof *methods;
+    return methods;
+}

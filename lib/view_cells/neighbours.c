@@ -1,0 +1,114 @@
+#include "view_cells/neighbours.h"
+
+#include "view_cells/tree.h"
+
+#include <stdlib.h>
+
+/// A side of a leaf on a split: from low to high along it.
+typedef struct side {
+    uint32_t node, leaf;
+    bool above;
+    double low, high;
+    sl_point from, to; ///< the ends there
+} side;
+
+typedef SL_ARRAY(side) sides;
+
+static int compare_sides(const void *left, const void *right) {
+    const side *a = left, *b = right;
+    if (a->node != b->node) return a->node < b->node ? -1 : 1;
+    if (a->above != b->above) return a->above ? 1 : -1;
+    if (a->low != b->low) return a->low < b->low ? -1 : 1;
+    return (a->leaf > b->leaf) - (a->leaf < b->leaf);
+}
+
+/// A coordinate that grows along a split.
+static double along(const sl_view_tree *tree, const sl_node *node, sl_point p) {
+    if (node->axis < 2) return node->axis ? p.x : p.y;
+    const sl_segment *l = &tree->lines[node->line];
+    return fabs(l->b.x - l->a.x) >= fabs(l->b.y - l->a.y) ? p.x : p.y;
+}
+
+/// Told by the middle of the leaf, which is well off the split.
+static bool is_above(const sl_view_tree *tree, const sl_node *node, uint32_t leaf) {
+    const sl_point middle = sl_view_leaf_middle(tree, leaf);
+    if (node->axis < 2) return (node->axis ? middle.y : middle.x) >= node->position;
+    const sl_segment *l = &tree->lines[node->line];
+    return (l->b.x - l->a.x) * (middle.y - l->a.y) - (l->b.y - l->a.y) * (middle.x - l->a.x) >= 0;
+}
+
+static sl_status gather(sl_context *context, const sl_view_tree *tree, sides *all) {
+    for (uint32_t leaf = 0; leaf < tree->cell_count; leaf++) {
+        const uint32_t first = tree->first[leaf], end = tree->first[leaf + 1];
+        SL_TRY(SL_ARRAY_ROOM(context, all, end - first));
+        for (uint32_t i = first; i < end; i++) {
+            const uint32_t number = tree->edges[i];
+            if (number == UINT32_MAX) continue;
+            const sl_node *node = &tree->nodes[number];
+            const sl_point p = tree->corners[i], q = tree->corners[i + 1 < end ? i + 1 : first];
+            const double from = along(tree, node, p), to = along(tree, node, q);
+            if (from == to) continue;
+            const bool above = is_above(tree, node, leaf);
+            all->items[all->count++] = from < to ? (side){number, leaf, above, from, to, p, q}
+                                                 : (side){number, leaf, above, to, from, q, p};
+        }
+    }
+    return SL_OK;
+}
+
+/// Sides on either side of one split, in order along it: below[0 .. middle), then above.
+static sl_status pair_up(sl_context *context, const side *below, const side *middle,
+                         const side *end, sl_view_pairs *out) {
+    const side *above = middle;
+    while (below < middle && above < end) {
+        if (fmax(below->low, above->low) < fmin(below->high, above->high)) {
+            SL_TRY(SL_ARRAY_ROOM(context, out, 1));
+            const sl_segment shared = {below->low > above->low ? below->from : above->from,
+                                       below->high < above->high ? below->to : above->to};
+            out->items[out->count++] = (sl_view_pair){below->leaf, above->leaf, shared};
+        }
+        if (below->high <= above->high)
+            below++;
+        else
+            above++;
+    }
+    return SL_OK;
+}
+
+sl_status sl_view_neighbours(sl_context *context, const sl_view_tree *tree, sl_view_pairs *out) {
+    sides all = {0};
+    sl_status status = gather(context, tree, &all);
+    if (status == SL_OK && all.count) qsort(all.items, all.count, sizeof *all.items, compare_sides);
+    for (size_t i = 0, middle, end; i < all.count && status == SL_OK; i = end) {
+        const uint32_t node = all.items[i].node;
+        for (middle = i; middle < all.count && all.items[middle].node == node; middle++)
+            if (all.items[middle].above) break;
+        for (end = middle; end < all.count && all.items[end].node == node;) end++;
+        status = pair_up(context, all.items + i, all.items + middle, all.items + end, out);
+    }
+    sl_free(context, all.items);
+    return status;
+}
+
+sl_status sl_view_borders(sl_context *context, const sl_view_tree *tree, const uint32_t *view_cells,
+                          sl_segment **borders, size_t *count) {
+    sl_view_pairs pairs = {0};
+    sl_status status = sl_view_neighbours(context, tree, &pairs);
+    sl_segment *made = NULL;
+    if (status == SL_OK) made = sl_alloc_array(context, pairs.count, sizeof *made);
+    if (status == SL_OK && !made) status = SL_NO_MEMORY;
+    size_t found = 0;
+    for (size_t i = 0; i < pairs.count && status == SL_OK; i++) {
+        const sl_view_pair *p = &pairs.items[i];
+        if (view_cells[p->a] != view_cells[p->b]) made[found++] = p->shared;
+    }
+    sl_free(context, pairs.items);
+    if (status != SL_OK) return status;
+    *borders = made;
+    *count = found;
+    return SL_OK;
+}
+
+void sl_view_borders_free(sl_context *context, sl_segment *borders) {
+    sl_free(context, borders);
+}

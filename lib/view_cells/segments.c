@@ -1,0 +1,227 @@
+/// Visibility sampling (Mattausch et al. 2006, section 4.1): from a point a line is followed both
+/// ways, room by room, to the walls at its ends.
+#include "sightline/view_cells.h"
+
+#include "base/base.h"
+#include "base/random.h"
+#include "base/threads.h"
+#include "geometry/orient.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { SAMPLES_A_UNIT = 4096 };
+
+/// What one unit of samples gives.
+typedef struct batch {
+    SL_ARRAY(sl_segment) segments;
+    SL_ARRAY(uint32_t) counts; ///< of objects, by segment
+    SL_ARRAY(uint32_t) objects;
+    uint64_t empty, unseeing, lost;
+} batch;
+
+typedef struct sampler {
+    const sl_outline *outline;
+    const sl_view_sampling *options;
+    batch *batches;
+} sampler;
+
+/// One end of a line: where it hits, and what.
+typedef struct line_end {
+    sl_point at;
+    uint32_t wall; ///< UINT32_MAX: the map's border
+} line_end;
+
+sl_view_sampling sl_view_sampling_default(void) {
+    return (sl_view_sampling){.samples = 200000, .seed = 1};
+}
+
+void sl_view_segments_destroy(sl_context *context, sl_view_segments *segments) {
+    sl_free(context, segments->items);
+    sl_free(context, segments->first);
+    sl_free(context, segments->objects);
+    *segments = (sl_view_segments){0};
+}
+
+/// Where the directed line through p and q meets the side from a (not left of it) to b (left).
+static sl_point meet(sl_point p, sl_point q, sl_point a, sl_point b) {
+    const double dx = q.x - p.x, dy = q.y - p.y;
+    const double from = dx * (a.y - p.y) - dy * (a.x - p.x);
+    const double to = dx * (b.y - p.y) - dy * (b.x - p.x);
+    const double t = to != from ? from / (from - to) : 0;
+    const sl_point at = {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
+    return (sl_point){fmin(fmax(at.x, fmin(a.x, b.x)), fmax(a.x, b.x)),
+                      fmin(fmax(at.y, fmin(a.y, b.y)), fmax(a.y, b.y))};
+}
+
+/// Follows the directed line through p and q, from a side of a room on. A line leaves a convex room
+/// where the boundary, counter-clockwise, comes from not left of it to left of it. False where
+/// there is no such side, or no end to it: by rounding, or along an edge.
+static bool follow(const sl_outline *outline, uint32_t side, sl_point p, sl_point q,
+                   line_end *out) {
+    for (uint32_t rooms = 0; rooms <= outline->room_count; rooms++) {
+        const uint32_t first = side;
+        bool left = sl_orient(p, q, outline->sides[side].start) > 0;
+        while (true) {
+            const sl_side *s = &outline->sides[side];
+            const sl_point end = outline->sides[s->next].start;
+            const bool then = sl_orient(p, q, end) > 0;
+            if (!left && then) break;
+            left = then;
+            side = s->next;
+            if (side == first) return false;
+        }
+        const sl_side *s = &outline->sides[side];
+        if (!sl_side_is_portal(s)) {
+            out->at = meet(p, q, s->start, outline->sides[s->next].start);
+            out->wall = s->beyond >= SL_SIDE_BORDER ? UINT32_MAX : s->beyond - SL_SIDE_WALL;
+            return true;
+        }
+        side = s->beyond;
+    }
+    return false;
+}
+
+/// Adds the cells that the directed line through p and q passes from a cell on, without it.
+static sl_status pass_cells(sl_context *context, const sl_space *space, uint32_t cell, sl_point p,
+                            sl_point q, batch *b) {
+    for (uint32_t passed = 0; passed <= space->cell_count; passed++) {
+        const sl_exit *exit = space->exits + space->cells[cell].first_exit;
+        const sl_exit *end = exit + space->cells[cell].exit_count;
+        while (exit < end && (sl_orient(p, q, exit->right) > 0 || sl_orient(p, q, exit->left) <= 0))
+            exit++;
+        if (exit == end) return SL_OK;
+        cell = exit->cell;
+        SL_TRY(SL_ARRAY_ROOM(context, &b->objects, 1));
+        b->objects.items[b->objects.count++] = cell;
+    }
+    return SL_OK;
+}
+
+/// A line may come back to a cell by rounding alone; sets want each object once.
+static void drop_repeated(batch *b, size_t first) {
+    size_t kept = first;
+    for (size_t i = first; i < b->objects.count; i++) {
+        size_t k = first;
+        while (k < kept && b->objects.items[k] != b->objects.items[i]) k++;
+        if (k == kept) b->objects.items[kept++] = b->objects.items[i];
+    }
+    b->objects.count = kept;
+}
+
+static sl_status add_objects(sl_context *context, const sampler *s, uint32_t cell, sl_point p,
+                             sl_point q, const line_end ends[2], batch *b) {
+    const size_t before = b->objects.count;
+    SL_TRY(SL_ARRAY_ROOM(context, &b->objects, 2));
+    if (s->options->objects == SL_VIEW_WALLS) {
+        for (int i = 0; i < 2; i++)
+            if (ends[i].wall != UINT32_MAX) b->objects.items[b->objects.count++] = ends[i].wall;
+    } else {
+        b->objects.items[b->objects.count++] = cell;
+        SL_TRY(pass_cells(context, s->outline->space, cell, p, q, b));
+        SL_TRY(pass_cells(context, s->outline->space, cell, q, p, b));
+    }
+    drop_repeated(b, before);
+    SL_TRY(SL_ARRAY_ROOM(context, &b->counts, 1));
+    b->counts.items[b->counts.count++] = (uint32_t)(b->objects.count - before);
+    return SL_OK;
+}
+
+static sl_status add_sample(sl_context *context, const sampler *s, sl_random *random, batch *b) {
+    const sl_outline *outline = s->outline;
+    const sl_box *box = &outline->space->bounds;
+    const double width = box->max.x - box->min.x, height = box->max.y - box->min.y;
+    const sl_point p = {box->min.x + width * sl_random_unit(random),
+                        box->min.y + height * sl_random_unit(random)};
+    const double angle = 6.283185307179586 * sl_random_unit(random);
+    const double reach = fmax(width, height);
+    const sl_point q = {p.x + reach * cos(angle), p.y + reach * sin(angle)};
+    const uint32_t cell = sl_space_locate(outline->space, p);
+    if (cell == SL_NO_CELL || !outline->space->cells[cell].inside) {
+        b->empty++;
+        return SL_OK;
+    }
+    const uint32_t side = outline->first[sl_outline_room(outline, cell, p)];
+    line_end ends[2];
+    // Backwards it is the same line, told by the same two points.
+    if (!follow(outline, side, q, p, &ends[0]) || !follow(outline, side, p, q, &ends[1]) ||
+        (ends[0].at.x == ends[1].at.x && ends[0].at.y == ends[1].at.y)) {
+        b->lost++;
+        return SL_OK;
+    }
+    if (ends[0].wall == UINT32_MAX && ends[1].wall == UINT32_MAX) {
+        b->unseeing++;
+        return SL_OK;
+    }
+    SL_TRY(SL_ARRAY_ROOM(context, &b->segments, 1));
+    b->segments.items[b->segments.count++] = (sl_segment){ends[0].at, ends[1].at};
+    return add_objects(context, s, cell, p, q, ends, b);
+}
+
+static sl_status sample_unit(sl_context *context, void *job, void *state, size_t unit) {
+    (void)state;
+    const sampler *s = job;
+    const uint64_t first = (uint64_t)unit * SAMPLES_A_UNIT;
+    const uint64_t left = s->options->samples - first;
+    // Every unit has numbers of its own, so that it does not matter which thread takes it.
+    sl_random random = {s->options->seed};
+    random.state = sl_random_next(&random) ^ (uint64_t)unit * 0xd1342543de82ef95u;
+    for (uint64_t i = 0; i < left && i < SAMPLES_A_UNIT; i++)
+        SL_TRY(add_sample(context, s, &random, &s->batches[unit]));
+    return SL_OK;
+}
+
+/// Puts the batches one behind the other.
+static sl_status join(sl_context *context, const batch *batches, size_t count,
+                      sl_view_segments *out) {
+    size_t segments = 0, objects = 0;
+    for (size_t i = 0; i < count; i++) {
+        segments += batches[i].segments.count;
+        objects += batches[i].objects.count;
+    }
+    out->items = sl_alloc_array(context, segments, sizeof *out->items);
+    out->first = sl_alloc_array(context, segments + 1, sizeof *out->first);
+    out->objects = sl_alloc_array(context, objects, sizeof *out->objects);
+    if (!out->items || !out->first || !out->objects) return SL_NO_MEMORY;
+    uint64_t at = 0;
+    for (size_t i = 0; i < count; i++) {
+        const batch *b = &batches[i];
+        out->empty += b->empty;
+        out->unseeing += b->unseeing;
+        out->lost += b->lost;
+        if (!b->segments.count) continue;
+        memcpy(out->items + out->count, b->segments.items, b->segments.count * sizeof *out->items);
+        memcpy(out->objects + at, b->objects.items, b->objects.count * sizeof *out->objects);
+        for (size_t k = 0; k < b->segments.count; k++) {
+            at += b->counts.items[k];
+            out->first[++out->count] = at;
+        }
+    }
+    return SL_OK;
+}
+
+sl_status sl_view_sample(sl_context *context, const sl_outline *outline,
+                         const sl_view_sampling *options, sl_view_segments *out) {
+    if (options->samples > UINT32_MAX)
+        return sl_fail(context, SL_BAD_ARGUMENT, "%llu samples: at most %u are possible",
+                       (unsigned long long)options->samples, UINT32_MAX);
+    const size_t units = (size_t)((options->samples + SAMPLES_A_UNIT - 1) / SAMPLES_A_UNIT);
+    sampler s = {outline, options, sl_alloc_array(context, units, sizeof(batch))};
+    if (!s.batches) return SL_NO_MEMORY;
+    const sl_work work = {
+        .job = &s, .unit = sample_unit, .stage = "sample", .units = "bundles of lines"};
+    sl_view_segments made = {.drawn = options->samples};
+    sl_status status = sl_work_run(context, &work, units, options->threads);
+    if (status == SL_OK) status = join(context, s.batches, units, &made);
+    for (size_t i = 0; i < units; i++) {
+        sl_free(context, s.batches[i].segments.items);
+        sl_free(context, s.batches[i].counts.items);
+        sl_free(context, s.batches[i].objects.items);
+    }
+    sl_free(context, s.batches);
+    if (status == SL_OK)
+        *out = made;
+    else
+        sl_view_segments_destroy(context, &made);
+    return status;
+}

@@ -1,0 +1,140 @@
+#include "view_run.h"
+
+#include "base/base.h"
+#include "base/file.h"
+#include "import/image.h"
+
+#include <time.h>
+
+double sl_view_clock(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
+}
+
+/// Light pixels are where viewpoints are: the picture covers the map's bounds.
+static sl_status places_by_picture(sl_context *context, const char *path, sl_view_run *run) {
+    sl_bytes bytes;
+    sl_image image = {0};
+    SL_TRY(sl_file_read(context, path, &bytes));
+    sl_status status = sl_image_read(context, path, bytes.data, bytes.size, &image);
+    sl_free(context, bytes.data);
+    SL_TRY(status);
+    const size_t count = image.width * image.height;
+    double *values = sl_alloc_array(context, count, sizeof *values);
+    status = values ? SL_OK : SL_NO_MEMORY;
+    for (size_t i = 0; i < count && values; i++) {
+        const size_t row = image.height - 1 - i / image.width;
+        values[row * image.width + i % image.width] = image.pixels[i] / 255.0;
+    }
+    if (status == SL_OK)
+        status = sl_view_places_density(context, &run->baked.space, values, (uint32_t)image.width,
+                                        (uint32_t)image.height, &run->places);
+    sl_free(context, values);
+    sl_image_destroy(context, &image);
+    return status;
+}
+
+static sl_status find_places(sl_context *context, const sl_view_run_options *options,
+                             sl_view_run *run) {
+    const sl_space *space = &run->baked.space;
+    if (options->density) return places_by_picture(context, options->density, run);
+    if (options->paths)
+        return sl_view_places_paths(context, &run->baked.map, space, options->step, &run->places);
+    return sl_view_places_inside(context, space, &run->places);
+}
+
+static sl_status join(sl_context *context, const sl_view_run_options *options, sl_view_run *run) {
+    sl_view_sets sets = {0};
+    SL_TRY(sl_view_sets_sample(context, &run->scene, &run->tree, &run->segments,
+                               options->sampling.threads, &sets));
+    const sl_status status =
+        options->method->merges
+            ? sl_view_merge(context, &run->scene, &run->tree, &sets, &run->hierarchy)
+            : sl_view_join_splits(context, &run->scene, &run->tree, &sets, &run->hierarchy);
+    sl_view_sets_destroy(context, &sets);
+    return status;
+}
+
+/// Other lines than those that made the cells.
+static sl_status evaluate(sl_context *context, const sl_view_run_options *options,
+                          sl_view_run *run) {
+    if (!options->evaluation) return SL_OK;
+    sl_view_sampling sampling = options->sampling;
+    sampling.samples = options->evaluation;
+    sampling.seed = ~sampling.seed;
+    sl_view_segments segments = {0};
+    sl_view_sets sets = {0};
+    SL_TRY(sl_view_sample(context, &run->outline, &sampling, &segments));
+    sl_status status =
+        sl_view_sets_sample(context, &run->scene, &run->tree, &segments, sampling.threads, &sets);
+    if (status == SL_OK)
+        status = sl_view_evaluate(context, &run->scene, &run->tree, &run->hierarchy, &sets,
+                                  &run->evaluated);
+    sl_view_sets_destroy(context, &sets);
+    sl_view_segments_destroy(context, &segments);
+    return status;
+}
+
+static sl_status cut(sl_context *context, const sl_view_run_options *options, sl_view_run *run) {
+    const sl_view_hierarchy *h = sl_view_run_told(run);
+    if (options->budget == SL_BUDGET_CELLS)
+        run->cell_count = sl_view_cut_by_count(h, options->cells);
+    else if (options->budget == SL_BUDGET_BYTES)
+        SL_TRY(sl_view_cut_by_bytes(context, h, options->bytes, &run->cell_count));
+    else
+        SL_TRY(sl_view_cut_by_cost(context, h, options->tolerance, &run->cell_count));
+    run->view_cells = sl_alloc_array(context, h->cell_count, sizeof *run->view_cells);
+    run->numbers = sl_alloc_array(context, run->cell_count, sizeof *run->numbers);
+    if (!run->view_cells || !run->numbers) return SL_NO_MEMORY;
+    return sl_view_cut(context, h, run->cell_count, run->view_cells, run->numbers);
+}
+
+sl_status sl_view_run_make(sl_context *context, const sl_view_run_options *options,
+                           sl_view_run *run) {
+    const double start = sl_view_clock();
+    SL_TRY(sl_outline_make(context, &run->baked.space, &run->outline));
+    SL_TRY(find_places(context, options, run));
+    run->scene = (sl_view_scene){&run->baked.space, options->sampling.objects, options->render,
+                                 &run->places};
+    SL_TRY(sl_view_sample(context, &run->outline, &options->sampling, &run->segments));
+    const double sampled = sl_view_clock();
+    SL_TRY(options->method->divide(context, &run->scene, &run->segments, &options->subdivision,
+                                   &run->tree));
+    const double divided = sl_view_clock();
+    SL_TRY(join(context, options, run));
+    const double joined = sl_view_clock();
+    SL_TRY(evaluate(context, options, run));
+    run->seconds.sample = sampled - start;
+    run->seconds.divide = divided - sampled;
+    run->seconds.merge = joined - divided;
+    run->seconds.evaluate = sl_view_clock() - joined;
+    return cut(context, options, run);
+}
+
+void sl_view_run_destroy(sl_context *context, sl_view_run *run) {
+    sl_view_hierarchy_destroy(context, &run->hierarchy);
+    sl_view_hierarchy_destroy(context, &run->evaluated);
+    sl_view_tree_destroy(context, &run->tree);
+    sl_view_segments_destroy(context, &run->segments);
+    sl_view_places_destroy(context, &run->places);
+    sl_outline_destroy(context, &run->outline);
+    sl_baked_destroy(context, &run->baked);
+    sl_free(context, run->view_cells);
+    sl_free(context, run->numbers);
+}
+
+sl_status sl_view_run_cost(sl_context *context, const sl_view_hierarchy *hierarchy, uint32_t cells,
+                           double *cost, uint64_t *bytes) {
+    double *costs = sl_alloc_array(context, hierarchy->cell_count, sizeof *costs);
+    uint64_t *sizes = sl_alloc_array(context, hierarchy->cell_count, sizeof *sizes);
+    if (costs && sizes) {
+        sl_view_curve(hierarchy, costs, sizes);
+        *cost = costs[cells - 1];
+        *bytes = sizes[cells - 1];
+    }
+    const bool done = costs && sizes;
+    sl_free(context, costs);
+    sl_free(context, sizes);
+    return done ? SL_OK : SL_NO_MEMORY;
+}

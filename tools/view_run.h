@@ -1,0 +1,65 @@
+/// View cells as the command makes them: from a map that is read to a cut of the hierarchy.
+#ifndef VIEW_RUN_H
+#define VIEW_RUN_H
+
+#include "sightline/bake.h"
+#include "sightline/view_cells.h"
+
+/// How the number of view cells is chosen.
+typedef enum sl_view_budget {
+    SL_BUDGET_TOLERANCE,
+    SL_BUDGET_CELLS,
+    SL_BUDGET_BYTES
+} sl_view_budget;
+
+typedef struct sl_view_run_options {
+    const sl_view_method *method;
+    sl_view_sampling sampling;
+    sl_view_subdivision subdivision;
+    sl_render_cost render;
+    uint64_t evaluation; ///< samples for it; 0 for none
+    bool paths;          ///< viewpoints are along the map's paths
+    double step;         ///< along them
+    const char *density; ///< a picture of where viewpoints are, NULL for none
+    sl_view_budget budget;
+    uint64_t cells, bytes;
+    double tolerance;
+} sl_view_run_options;
+
+typedef struct sl_view_seconds {
+    double read, subdivide, sample, divide, merge, evaluate;
+} sl_view_seconds;
+
+/// All that was made, and what it took.
+typedef struct sl_view_run {
+    sl_baked baked; ///< map and space alone
+    sl_outline outline;
+    sl_view_places places;
+    sl_view_scene scene;
+    sl_view_segments segments;
+    sl_view_tree tree;
+    sl_view_hierarchy hierarchy; ///< as the segments tell it that it was made by
+    sl_view_hierarchy evaluated; ///< as others do; no cells where there were none
+    uint32_t cell_count;         ///< of the cut
+    uint32_t *view_cells;        ///< by elementary cell
+    uint32_t *numbers;           ///< by view cell: its number in the hierarchy
+    sl_view_seconds seconds;
+} sl_view_run;
+
+/// From run->baked, whose map and space are there, on. `run` is to be destroyed also on failure.
+sl_status sl_view_run_make(sl_context *context, const sl_view_run_options *options,
+                           sl_view_run *run);
+void sl_view_run_destroy(sl_context *context, sl_view_run *run);
+
+/// What costs are told by: other samples than those that cells were made by, where there are some.
+static inline const sl_view_hierarchy *sl_view_run_told(const sl_view_run *run) {
+    return run->evaluated.cell_count ? &run->evaluated : &run->hierarchy;
+}
+
+/// Expected cost with n view cells: all of the hierarchy's sum of mass times cost.
+sl_status sl_view_run_cost(sl_context *context, const sl_view_hierarchy *hierarchy, uint32_t cells,
+                           double *cost, uint64_t *bytes);
+
+double sl_view_clock(void);
+
+#endif
