@@ -1,6 +1,8 @@
 #include "actions.h"
 
 #include "edit.h"
+#include "layers.h"
+#include "modes.h"
 #include "quiz.h"
 #include "save.h"
 #include "shelf.h"
@@ -21,18 +23,12 @@ enum {
 // --- modes
 
 static void set_mode(sl_app *app, sl_mode mode) {
-    static const char *const hints[] = {
-        [SL_MODE_EXPLORE] = "W A S D and arrows walk, a click puts the eye, the wheel zooms",
-        [SL_MODE_LEARN] = "Left and Right step, Space plays, U changes the subject",
-        [SL_MODE_DRAW] = "Drag to draw a wall or to move one; Ctrl+Z undoes",
-        [SL_MODE_QUIZ] = "Y or N answers, Space asks again",
-    };
     app->mode = mode;
     app->held = 0;
     app->lesson.plays = false;
     sl_quiz_forget(app);
     if (mode == SL_MODE_QUIZ) sl_quiz_ask(app);
-    sl_app_say(app, false, "%s", hints[mode]);
+    sl_app_say(app, false, "%s", sl_mode_rows()[mode].hint);
     sl_app_tick(app, 0);
 }
 
@@ -50,21 +46,14 @@ MODE(quiz, SL_MODE_QUIZ)
 
 // --- layers
 
-#define LAYER(name, bit)                                                                           \
-    static void name(sl_app *app) {                                                                \
-        app->show ^= (bit);                                                                        \
+#define TOGGLE(NAME, ...)                                                                          \
+    static void toggle_##NAME(sl_app *app) {                                                       \
+        app->show ^= SL_SHOW_##NAME;                                                               \
     }                                                                                              \
-    static bool is_##name(const sl_app *app) {                                                     \
-        return (app->show & (bit)) != 0;                                                           \
+    static bool is_##NAME(const sl_app *app) {                                                     \
+        return (app->show & SL_SHOW_##NAME) != 0;                                                  \
     }
-LAYER(cells, SL_SHOW_CELLS)
-LAYER(portals, SL_SHOW_PORTALS)
-LAYER(splits, SL_SHOW_SPLITS)
-LAYER(pvs, SL_SHOW_PVS)
-LAYER(tree, SL_SHOW_TREE)
-LAYER(cull, SL_SHOW_CULL)
-LAYER(region, SL_SHOW_REGION)
-LAYER(starts, SL_SHOW_STARTS)
+SL_LAYERS(TOGGLE)
 
 #define SWITCH(name, field)                                                                        \
     static void name(sl_app *app) {                                                                \
@@ -74,6 +63,7 @@ LAYER(starts, SL_SHOW_STARTS)
         return app->field;                                                                         \
     }
 SWITCH(first_person, first_person)
+SWITCH(account, accounts)
 SWITCH(side_panel, side_panel)
 SWITCH(dark, dark)
 SWITCH(help, help)
@@ -198,10 +188,8 @@ static void step_last(sl_app *app) {
 SWITCH(play_steps, lesson.plays)
 
 static void subject(sl_app *app) {
-    app->lesson.subject =
-        app->lesson.subject == SL_SUBJECT_SEARCH ? SL_SUBJECT_SUBDIVISION : SL_SUBJECT_SEARCH;
-    app->lesson.plays = false;
-    sl_lesson_go(&app->lesson, &app->document, 0);
+    sl_lesson_change(app->context, &app->lesson, app->lesson.subject + 1);
+    sl_app_tick(app, 0);
 }
 
 // --- walls
@@ -350,6 +338,9 @@ static void escape(sl_app *app) {
 #define HOLD(name, key, what, modes, bit)                                                          \
     { name, key, NULL, what, modes, bit, NULL, NULL }
 
+#define LAYER_ROW(NAME, name, key, label, help, modes, draw)                                       \
+    {name, key, label, "layer: " help, 0, 0, toggle_##NAME, is_##NAME},
+
 static const sl_action actions[] = {
     {"explore", "F1", "Explore", "explore: walk about", 0, 0, explore, is_explore},
     {"learn", "F2", "Learn", "learn: step by step", 0, 0, learn, is_learn},
@@ -370,19 +361,13 @@ static const sl_action actions[] = {
     {"wider", ".", NULL, "wider view cone", 0, 0, wider, NULL},
     {"all_round", "/", NULL, "all round, or a cone", 0, 0, all_round, NULL},
 
-    {"cells", "C", "Cells", "layer: cells", 0, 0, cells, is_cells},
-    {"portals", "P", "Portals", "layer: portals", 0, 0, portals, is_portals},
-    {"splits", "K", "Splits of the tree", "layer: splits by depth", 0, 0, splits, is_splits},
-    {"split_less", "[", NULL, "splits less deep", 0, 0, split_less, NULL},
+    SL_LAYERS(LAYER_ROW){"split_less", "[", NULL, "splits less deep", 0, 0, split_less, NULL},
     {"split_more", "]", NULL, "splits deeper", 0, 0, split_more, NULL},
-    {"pvs", "V", "Visible set of the cell", "layer: the visible set", 0, 0, pvs, is_pvs},
-    {"tree", "B", "Stab tree of the cell", "layer: the stab tree", 0, 0, tree, is_tree},
     {"tree_less", "-", NULL, "stab tree: a portal shorter", 0, 0, tree_less, NULL},
     {"tree_more", "=", NULL, "stab tree: a portal longer", 0, 0, tree_more, NULL},
-    {"cull", "M", "Cells kept", "layer: cells kept by culling", 0, 0, cull, is_cull},
-    {"region", "R", "Visible region", "layer: the visible region", 0, 0, region, is_region},
-    {"starts", "J", "Starts, paths, objects", "layer: starts and paths", 0, 0, starts, is_starts},
     {"first_person", "I", "First person", "first-person pane", 0, 0, first_person, is_first_person},
+    {"account", "L", "What accuracy costs", "what accuracy costs, as a chart", 0, 0, account,
+     is_account},
 
     {"method", "E", NULL, "the next culling method", 0, 0, method_next, NULL},
     {"compare", "X", "Compare", "two methods: panes, difference", EXPLORE, 0, compare, is_compare},

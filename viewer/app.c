@@ -1,6 +1,7 @@
 #include "app.h"
 
 #include "base/base.h"
+#include "modes.h"
 #include "panes.h"
 #include "quiz.h"
 #include "shelf.h"
@@ -40,6 +41,7 @@ void sl_app_destroy(sl_app *app) {
     drop_scene(app, &app->tree);
     if (app->under.surface) cairo_surface_destroy(app->under.surface);
     if (app->over.surface) cairo_surface_destroy(app->over.surface);
+    if (app->account.surface) cairo_surface_destroy(app->account.surface);
     sl_seen_destroy(app->context, &app->seen);
     sl_lesson_destroy(app->context, &app->lesson);
     sl_history_clear(app->context, &app->history);
@@ -172,12 +174,15 @@ sl_layout sl_app_layout(const sl_app *app) {
         l.time = box(0, bottom - 4.7 * t, right, bottom);
         bottom = l.time.min.y;
     }
-    const bool dual = app->mode == SL_MODE_LEARN && app->lesson.subject == SL_SUBJECT_SEARCH;
-    if (dual || app->first_person) {
-        const double top = bar + (bottom - bar) * (dual ? 0.60 : 0.56);
-        const double split = dual && app->first_person ? right / 2 : right;
-        if (dual) l.dual = box(0, top, split, bottom);
-        if (app->first_person) l.first_person = box(dual ? split : 0, top, right, bottom);
+    int shown = 0, before = 0;
+    for (int i = 0; i < SL_PANES_BELOW; i++) shown += sl_panes_below()[i].shown(app);
+    if (shown) {
+        const double top = bar + (bottom - bar) * 0.58;
+        for (int i = 0; i < SL_PANES_BELOW; i++) {
+            if (!sl_panes_below()[i].shown(app)) continue;
+            const double left = right * before / shown;
+            l.below[i] = box(left, top, right * ++before / shown, bottom);
+        }
         bottom = top;
     }
     l.plan[0] = box(0, bar, right, bottom);
@@ -187,23 +192,6 @@ sl_layout sl_app_layout(const sl_app *app) {
         l.plan[1] = box(l.plan[0].max.x, bar, right, bottom);
     }
     return l;
-}
-
-static void draw_side(sl_app *app, sl_box where) {
-    switch (app->mode) {
-    case SL_MODE_EXPLORE:
-        sl_pane_side(app, where);
-        break;
-    case SL_MODE_LEARN:
-        sl_pane_learn(app, where);
-        break;
-    case SL_MODE_DRAW:
-        sl_pane_draw(app, where);
-        break;
-    case SL_MODE_QUIZ:
-        sl_pane_quiz(app, where);
-        break;
-    }
 }
 
 void sl_app_fit(sl_app *app, sl_box plan) {
@@ -221,10 +209,10 @@ void sl_app_draw(sl_app *app, cairo_t *cairo) {
     app->ui.hit_count = 0;
     sl_app_fit(app, l.plan[0]);
     for (int i = 0; i < l.plan_count; i++) sl_pane_plan(app, l.plan[i], i, false);
-    if (sl_box_width(l.dual) > 0) sl_pane_dual(app, l.dual);
-    if (sl_box_width(l.first_person) > 0) sl_pane_first_person(app, l.first_person);
+    for (int i = 0; i < SL_PANES_BELOW; i++)
+        if (sl_box_width(l.below[i]) > 0) sl_panes_below()[i].draw(app, l.below[i]);
     if (sl_box_width(l.time) > 0) sl_pane_time(app, l.time);
-    if (app->side_panel) draw_side(app, l.side);
+    if (app->side_panel) sl_mode_rows()[app->mode].panel(app, l.side);
     sl_pane_bar(app, l.bar);
     sl_pane_status(app, l.status);
     if (app->maps_open) sl_pane_maps(app);

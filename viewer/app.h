@@ -7,6 +7,7 @@
 #include "document.h"
 #include "draw/scene.h"
 #include "history.h"
+#include "layers.h"
 #include "lesson.h"
 #include "record.h"
 #include "seen.h"
@@ -14,18 +15,6 @@
 #include "ui.h"
 
 typedef enum sl_mode { SL_MODE_EXPLORE, SL_MODE_LEARN, SL_MODE_DRAW, SL_MODE_QUIZ } sl_mode;
-
-/// What the plan shows beside walls.
-enum sl_show {
-    SL_SHOW_CELLS = 1,
-    SL_SHOW_PORTALS = 2,
-    SL_SHOW_SPLITS = 4,
-    SL_SHOW_PVS = 8,
-    SL_SHOW_TREE = 16,
-    SL_SHOW_CULL = 32,
-    SL_SHOW_REGION = 64,
-    SL_SHOW_STARTS = 128,
-};
 
 typedef enum sl_compare { SL_COMPARE_OFF, SL_COMPARE_PANES, SL_COMPARE_DIFFERENCE } sl_compare;
 
@@ -54,6 +43,14 @@ typedef struct sl_kept {
     } key;
     double seconds; ///< that drawing it took
 } sl_kept;
+
+/// The account as it was drawn last.
+typedef struct sl_account_picture {
+    cairo_surface_t *surface;
+    uint32_t version;
+    bool dark;
+    double text, made; ///< when, by the clock
+} sl_account_picture;
 
 /// What the pointer does while its button is down.
 typedef enum sl_drag_kind {
@@ -92,7 +89,7 @@ typedef struct sl_quiz {
     sl_explanation explanation; ///< once answered
 } sl_quiz;
 
-typedef struct sl_app {
+struct sl_app {
     sl_context *context;
     sl_document document;
     sl_history history;
@@ -105,7 +102,7 @@ typedef struct sl_app {
     sl_mode mode;
     size_t method, other; ///< of sl_eye_methods: chosen, and compared with
     sl_compare compare;
-    bool side_panel, first_person, help, maps_open, dark;
+    bool side_panel, first_person, accounts, help, maps_open, dark;
     double text_scale;
     bool steady; ///< under a script: no clock shows, nothing is remembered
     bool quit;
@@ -119,8 +116,9 @@ typedef struct sl_app {
     uint32_t wall; ///< chosen, of the map; UINT32_MAX: none
     sl_ui ui;
     sl_kept under, over; ///< below and above what changes from frame to frame
-    sl_scene scene;      ///< that they are drawn of; baked NULL: none yet
-    sl_scene tree;       ///< the stab tree of the eye's cell, likewise
+    sl_account_picture account;
+    sl_scene scene; ///< that they are drawn of; baked NULL: none yet
+    sl_scene tree;  ///< the stab tree of the eye's cell, likewise
     uint32_t scene_version, scene_show, tree_version;
     double motion;     ///< seconds for which a moving plan may be drawn by moving the kept picture
     char message[512]; ///< the last thing to say
@@ -128,7 +126,7 @@ typedef struct sl_app {
     sl_shelf shelf;
     sl_import_options options; ///< the command line's, for files opened later too
     double frame_seconds;      ///< smoothed; shown in the corner unless steady
-} sl_app;
+};
 
 void sl_app_init(sl_app *app, sl_context *context);
 void sl_app_destroy(sl_app *app);
@@ -163,10 +161,14 @@ void sl_app_after_edit(sl_app *app);
 /// The cell of the eye; SL_NO_CELL outside and without a map.
 uint32_t sl_app_eye_cell(const sl_app *app);
 
+/// The panes below the plan, side by side: the rows of the table in panes.c.
+enum { SL_PANE_DUAL, SL_PANE_FIRST_PERSON, SL_PANE_ACCOUNT, SL_PANES_BELOW };
+
 /// Where things are on the page.
 typedef struct sl_layout {
-    sl_box bar, side, status, plan[2], first_person, dual, time;
+    sl_box bar, side, status, plan[2], time;
     int plan_count;
+    sl_box below[SL_PANES_BELOW]; ///< the plan; of no width where they are not shown
 } sl_layout;
 
 sl_layout sl_app_layout(const sl_app *app);

@@ -47,7 +47,7 @@ sl_status sl_bench_run(sl_app *app, unsigned frames) {
     SL_TRY(sl_window_open(app, true, &window));
     sl_meter *meter = sl_alloc_array(app->context, 1, sizeof *meter);
     sl_status status = meter ? SL_OK : SL_NO_MEMORY;
-    app->show = 255;
+    app->show = SL_SHOW_ALL;
     app->steady = false;
     puts("map,cells,walls,part,frames,mean_ms,median_ms,p95_ms,worst_ms,processor_ms,machine");
     for (int part = 0; part < 3 && status == SL_OK; part++) {

@@ -5,6 +5,7 @@
 #include "panes.h"
 #include "quiz.h"
 #include "shelf.h"
+#include "sliders.h"
 
 #include <math.h>
 #include <string.h>
@@ -51,39 +52,21 @@ static double slider_share(const sl_hit *hit, const sl_app *app, sl_point at) {
     return high > low ? fmin(fmax((at.x - low) / (high - low), 0), 1) : 0;
 }
 
-/// A 3D model is cut at a share of its height.
-static void cut_at(sl_app *app, double share) {
-    const sl_document_source *source = &app->document.source;
-    sl_import_options options = source->options;
-    options.slice = source->lowest + share * (source->highest - source->lowest);
-    if (options.slice != source->options.slice) sl_shelf_open_again(app, &options);
-}
-
 /// Sliders, the time line and the dual plane follow the pointer.
 static void follow(sl_app *app, const sl_hit *hit, sl_point at) {
     const double share = slider_share(hit, app, at);
     const size_t length = sl_lesson_length(&app->lesson);
+    size_t count;
     switch (hit->kind) {
-    case SL_HIT_CONE:
-        app->eye.fov = round(1 + 359 * share * share); // finer for narrow cones
-        break;
-    case SL_HIT_SPLIT_DEPTH:
-        if (app->document.baked)
-            app->split_depth =
-                (uint32_t)fmax(1, round(share * app->document.baked->space.tree_depth));
-        break;
-    case SL_HIT_TREE_DEPTH:
-        app->tree_depth = (uint32_t)round(share * app->tree.tree_depth);
-        break;
-    case SL_HIT_CUT:
-        cut_at(app, share);
+    case SL_HIT_SLIDER:
+        sl_sliders(&count)[hit->value].set(app, share);
         break;
     case SL_HIT_TIME:
         if (length)
             sl_lesson_go(&app->lesson, &app->document, (size_t)round(share * (double)(length - 1)));
         break;
     case SL_HIT_DUAL:
-        sl_pane_dual_drag(app, sl_app_layout(app).dual, at);
+        sl_pane_dual_drag(app, sl_app_layout(app).below[SL_PANE_DUAL], at);
         break;
     default:
         break;
@@ -116,8 +99,7 @@ static bool near_line(const sl_app *app, sl_point at) {
 }
 
 static sl_drag_kind plan_drag(sl_app *app, sl_drag *drag) {
-    const bool searches = app->mode == SL_MODE_LEARN && app->lesson.subject == SL_SUBJECT_SEARCH &&
-                          sl_lesson_length(&app->lesson) > 0;
+    const bool searches = app->mode == SL_MODE_LEARN && app->lesson.end_count > 0;
     if (searches && pick_end(app, drag->at, &drag->index)) return SL_DRAG_END;
     if (searches && near_line(app, drag->at)) return SL_DRAG_LINE;
     if (app->mode != SL_MODE_DRAW) return SL_DRAG_PAN;
@@ -128,7 +110,9 @@ static sl_drag_kind plan_drag(sl_app *app, sl_drag *drag) {
 
 static void click(sl_app *app, const sl_hit *hit) {
     if (hit->kind == SL_HIT_ACTION) {
-        sl_action_run(app, hit->value);
+        const bool from_help = app->help;
+        app->help = false;
+        if (!from_help || hit->value != sl_action_find("help")) sl_action_run(app, hit->value);
     } else if (hit->kind == SL_HIT_METHOD) {
         if (app->compare && (size_t)hit->value != app->method) app->other = app->method;
         app->method = (size_t)hit->value;

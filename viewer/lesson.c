@@ -4,7 +4,18 @@
 
 #include <math.h>
 
-static void forget(sl_context *context, sl_lesson *lesson) {
+static const sl_subject *const subjects[] = {&sl_lesson_search, &sl_lesson_subdivision};
+
+const sl_subject *const *sl_subjects(size_t *count) {
+    *count = sizeof subjects / sizeof *subjects;
+    return subjects;
+}
+
+const sl_subject *sl_lesson_subject(const sl_lesson *lesson) {
+    return subjects[lesson->subject];
+}
+
+void sl_lesson_forget(sl_context *context, sl_lesson *lesson) {
     sl_steps_destroy(context, &lesson->steps);
     lesson->made = false;
     lesson->end_count = 0;
@@ -12,35 +23,49 @@ static void forget(sl_context *context, sl_lesson *lesson) {
 }
 
 void sl_lesson_destroy(sl_context *context, sl_lesson *lesson) {
-    forget(context, lesson);
+    sl_lesson_forget(context, lesson);
     *lesson = (sl_lesson){0};
 }
 
 sl_status sl_lesson_update(sl_context *context, sl_lesson *lesson, const sl_document *document,
                            uint32_t source) {
-    if (lesson->made && lesson->version != document->version) forget(context, lesson);
-    if (!document->baked || source == SL_NO_CELL) return SL_OK;
-    if (lesson->made && lesson->source == source) return SL_OK;
-    const bool same_document = lesson->made;
-    const size_t at = lesson->at;
-    forget(context, lesson);
-    lesson->node_count = document->splits.node_count;
-    sl_steps_options options = sl_steps_options_default();
-    options.sight = document->baked->visibility.sight;
-    SL_TRY(sl_steps_record(context, &document->baked->space, &options, source, &lesson->steps));
+    const sl_subject *subject = sl_lesson_subject(lesson);
+    const bool same_document = lesson->made && lesson->version == document->version;
+    if (lesson->made && !same_document) sl_lesson_forget(context, lesson);
+    if (!document->baked || (subject->of_eye && source == SL_NO_CELL)) return SL_OK;
+    if (lesson->made && (!subject->of_eye || lesson->source == source)) return SL_OK;
+    sl_lesson_forget(context, lesson);
+    SL_TRY(subject->record(context, lesson, document, source));
     lesson->made = true;
     lesson->version = document->version;
     lesson->source = source;
     lesson->plays = false;
-    // The subdivision does not depend on the eye: it stays where it is.
-    const bool stay = same_document && lesson->subject == SL_SUBJECT_SUBDIVISION;
-    sl_lesson_go(lesson, document, stay ? at : 0);
+    sl_lesson_go(lesson, document, 0);
     return SL_OK;
 }
 
 size_t sl_lesson_length(const sl_lesson *lesson) {
-    if (!lesson->made) return 0;
-    return lesson->subject == SL_SUBJECT_SEARCH ? lesson->steps.count : lesson->node_count;
+    return lesson->made ? sl_lesson_subject(lesson)->length(lesson) : 0;
+}
+
+bool sl_lesson_shows(const sl_lesson *lesson, const sl_document *document) {
+    return sl_lesson_length(lesson) && lesson->version == document->version;
+}
+
+void sl_lesson_change(sl_context *context, sl_lesson *lesson, size_t subject) {
+    size_t count;
+    sl_subjects(&count);
+    sl_lesson_forget(context, lesson);
+    lesson->subject = subject % count;
+    lesson->plays = false;
+    lesson->at = 0;
+}
+
+void sl_lesson_sentence(const sl_lesson *lesson, const sl_document *document,
+                        char text[SL_SENTENCE]) {
+    text[0] = '\0';
+    if (sl_lesson_shows(lesson, document))
+        sl_lesson_subject(lesson)->sentence(lesson, document, text);
 }
 
 void sl_lesson_refresh(sl_lesson *lesson) {
@@ -53,27 +78,19 @@ void sl_lesson_refresh(sl_lesson *lesson) {
 /// Takes the portals of the step's sequence, and of the lines through them the one with the largest
 /// margin.
 static void take_sequence(sl_lesson *lesson, const sl_space *space) {
-    uint32_t exits[SL_DUAL_PORTALS_MOST];
-    uint32_t count = sl_steps_sequence(&lesson->steps, lesson->at, exits, SL_DUAL_PORTALS_MOST);
-    if (count > SL_DUAL_PORTALS_MOST) count = SL_DUAL_PORTALS_MOST;
-    for (uint32_t i = 0; i < count; i++)
-        lesson->ends[i] =
-            (sl_portal_ends){space->exits[exits[i]].left, space->exits[exits[i]].right};
-    lesson->end_count = count;
+    const sl_subject *subject = sl_lesson_subject(lesson);
+    lesson->end_count = subject->sequence ? subject->sequence(lesson, space, lesson->ends) : 0;
     lesson->dragged = false;
     sl_lesson_refresh(lesson);
-    if (count) lesson->line = lesson->dual.best;
+    if (lesson->end_count) lesson->line = lesson->dual.best;
 }
 
 void sl_lesson_go(sl_lesson *lesson, const sl_document *document, size_t step) {
     const size_t length = sl_lesson_length(lesson);
-    if (!length || lesson->version != document->version) return;
+    if (!sl_lesson_shows(lesson, document)) return;
     lesson->at = step < length ? step : length - 1;
     lesson->waited = 0;
-    if (lesson->subject == SL_SUBJECT_SEARCH)
-        take_sequence(lesson, &document->baked->space);
-    else
-        lesson->end_count = 0;
+    take_sequence(lesson, &document->baked->space);
 }
 
 void sl_lesson_tick(sl_lesson *lesson, const sl_document *document, double seconds) {

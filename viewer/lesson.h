@@ -4,21 +4,51 @@
 #define VIEWER_LESSON_H
 
 #include "document.h"
+#include "draw/canvas.h"
 #include "sightline/dual.h"
 #include "sightline/steps.h"
 
-typedef enum sl_subject { SL_SUBJECT_SEARCH, SL_SUBJECT_SUBDIVISION } sl_subject;
+typedef struct sl_app sl_app;
+typedef struct sl_lesson sl_lesson;
 
 enum { SL_SENTENCE = 512 };
 
+/// A subject: one file (lesson_search.c, lesson_subdivision.c) and one row of the table in
+/// lesson.c. Its record stands in sl_lesson. Functions behind `code` may be NULL. All but the first
+/// two are asked only while there is a step: at < length.
+typedef struct sl_subject {
+    const char *title;
+    bool of_eye; ///< recorded anew where the eye's cell is another; needs one
+    /// Records all steps. What is recorded goes with sl_lesson_forget().
+    sl_status (*record)(sl_context *context, sl_lesson *lesson, const sl_document *document,
+                        uint32_t source);
+    size_t (*length)(const sl_lesson *lesson);
+    void (*sentence)(const sl_lesson *lesson, const sl_document *document, char text[SL_SENTENCE]);
+    /// The pseudo-code; *lit is the line that the step is at.
+    const char *const *(*code)(const sl_lesson *lesson, const sl_document *document, size_t *count,
+                               size_t *lit);
+    /// What has been found so far, in a sentence.
+    void (*account)(const sl_lesson *lesson, char text[SL_SENTENCE]);
+    /// The portals of the step's sequence, into lesson->ends; for subjects that have one. Its lines
+    /// are then shown in the dual plane and can be dragged.
+    uint32_t (*sequence)(const sl_lesson *lesson, const sl_space *space, sl_portal_ends *ends);
+    void (*below)(sl_app *app, const sl_frame *frame); ///< drawn below the walls
+    void (*above)(sl_app *app, const sl_frame *frame); ///< and above them
+} sl_subject;
+
+extern const sl_subject sl_lesson_search, sl_lesson_subdivision;
+
+/// All subjects.
+const sl_subject *const *sl_subjects(size_t *count);
+
 /// Zeroed to start.
-typedef struct sl_lesson {
-    sl_subject subject;
+struct sl_lesson {
+    size_t subject; ///< of the table
     bool made;
     uint32_t version, source; ///< what was recorded: of which document, from which cell
-    sl_steps steps;
-    size_t node_count; ///< splits of the subdivision
-    size_t at;         ///< the step shown
+    sl_steps steps;           ///< of the search
+    size_t split_count;       ///< of the subdivision
+    size_t at;                ///< the step shown
     bool plays;
     double waited;
     /// The portals of the sequence at hand; their ends may have been dragged.
@@ -27,11 +57,19 @@ typedef struct sl_lesson {
     bool dragged;         ///< ends are not where the map has them
     sl_dual dual, before; ///< with all portals, and without the last
     sl_dual_line line;    ///< the one chosen
-} sl_lesson;
+};
+
+const sl_subject *sl_lesson_subject(const sl_lesson *lesson);
+/// Another subject; it is recorded by the next update.
+void sl_lesson_change(sl_context *context, sl_lesson *lesson, size_t subject);
+/// Whether there is a step to show of the document as it is.
+bool sl_lesson_shows(const sl_lesson *lesson, const sl_document *document);
 
 /// Records anew where the document, the source or the subject are others.
 sl_status sl_lesson_update(sl_context *context, sl_lesson *lesson, const sl_document *document,
                            uint32_t source);
+/// Drops what is recorded.
+void sl_lesson_forget(sl_context *context, sl_lesson *lesson);
 void sl_lesson_destroy(sl_context *context, sl_lesson *lesson);
 
 size_t sl_lesson_length(const sl_lesson *lesson);
@@ -45,9 +83,5 @@ void sl_lesson_refresh(sl_lesson *lesson);
 
 void sl_lesson_sentence(const sl_lesson *lesson, const sl_document *document,
                         char text[SL_SENTENCE]);
-/// The pseudo-code, and which of its lines the step is at.
-const char *const *sl_lesson_code(const sl_lesson *lesson, const sl_document *document,
-                                  size_t *count);
-size_t sl_lesson_code_line(const sl_lesson *lesson);
 
 #endif

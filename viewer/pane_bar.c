@@ -109,5 +109,5 @@ void sl_pane_time(sl_app *app, sl_box box) {
     const double wide = sl_ui_text_width(ui, 0.95, false, text);
     sl_ui_text_right(ui, box.max.x - 0.9 * t, y + 1.15 * t, 0.95, ui->palette.faint, text);
     sl_ui_slider(ui, (sl_box){{x + t, y}, {box.max.x - wide - 2 * t, y + 1.6 * t}},
-                 length > 1 ? (double)lesson->at / (double)(length - 1) : 0, SL_HIT_TIME);
+                 length > 1 ? (double)lesson->at / (double)(length - 1) : 0, SL_HIT_TIME, 0);
 }

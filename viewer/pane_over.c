@@ -31,7 +31,8 @@ void sl_pane_help(sl_app *app) {
     size_t count, shown = 0;
     const sl_action *actions = sl_actions(&count);
     for (size_t i = 0; i < count; i++) shown += actions[i].key != NULL;
-    const sl_box sheet = begin_sheet(app, 74 * t, 44 * t, "Keys and mouse");
+    const sl_box sheet =
+        begin_sheet(app, 74 * t, 44 * t, "Keys and mouse; a click on a line does it");
     const int columns = 2;
     const size_t rows = (shown + 3 + columns - 1) / columns;
     const double top = sheet.min.y + 3.4 * t, column = (sl_box_width(sheet) - 2 * t) / columns;
@@ -49,6 +50,13 @@ void sl_pane_help(sl_app *app) {
         if (!key) continue;
         const double x = sheet.min.x + 1.5 * t + column * (double)(at / rows);
         const double y = top + high * ((double)(at % rows) + 0.7);
+        const sl_box row = {{x - 0.4 * t, y - 0.75 * high}, {x + column - t, y + 0.25 * high}};
+        if (i >= 3 && actions[i - 3].run) {
+            if (sl_box_has(row, ui->pointer))
+                sl_ui_fill_round(ui, row, 0.25 * t,
+                                 sl_colour_mix(ui->palette.page, ui->palette.glass, 0.2));
+            sl_ui_hit(ui, SL_HIT_ACTION, (int)i - 3, row);
+        }
         sl_ui_text(ui, x, y, size, true, ui->palette.glass, key);
         sl_text_show_within(ui->cairo, ui->palette.ink, x + 7.2 * t * size, y,
                             column - 7.6 * t * size, size * t, false, help);

@@ -6,7 +6,7 @@
 #include "draw/plan.h"
 #include "draw/sight.h"
 #include "draw/text.h"
-#include "plan_overlays.h"
+#include "modes.h"
 
 #include <math.h>
 #include <string.h>
@@ -185,12 +185,12 @@ void sl_pane_plan(sl_app *app, sl_box box, int index, bool vector) {
         draw_under(app, cairo, &frame);
     else
         show_kept(app, &app->under, false, &frame);
-    sl_overlays_below_walls(app, &frame, index);
+    sl_modes_draw_below(app, &frame, index);
     if (vector)
         draw_over(app, cairo, &frame);
     else
         show_kept(app, &app->over, true, &frame);
-    sl_overlays_above_walls(app, &frame);
+    sl_modes_draw_above(app, &frame);
     const bool panes = app->compare == SL_COMPARE_PANES && app->mode == SL_MODE_EXPLORE;
     draw_name(app, box, index, panes ? 2 : 1);
     cairo_restore(cairo);

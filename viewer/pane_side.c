@@ -4,6 +4,7 @@
 #include "actions.h"
 #include "draw/text.h"
 #include "quiz.h"
+#include "sliders.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -41,15 +42,29 @@ static void check_row(sl_app *app, column *c, const char *name) {
     c->y += height;
 }
 
-static void slider_row(sl_app *app, column *c, const char *label, const char *value, double share,
-                       sl_hit_kind kind) {
+/// The layers that have their place in the present mode.
+static void layer_rows(sl_app *app, column *c) {
+    heading(app, c, "Layers", "key");
+    for (unsigned i = 0; i < SL_LAYER_COUNT; i++)
+        if (sl_layer_rows()[i].modes >> app->mode & 1) check_row(app, c, sl_layer_rows()[i].name);
+}
+
+static void draw_sliders(sl_app *app, column *c) {
     sl_ui *ui = &app->ui;
-    const double t = ui->text, middle = c->y + 0.8 * t;
-    sl_ui_text(ui, c->left, middle + 0.36 * t, 1, false, ui->palette.ink, label);
-    sl_ui_text_right(ui, c->right, middle + 0.36 * t, 1, ui->palette.ink, value);
-    sl_ui_slider(ui, (sl_box){{c->left + 6.4 * t, c->y}, {c->right - 4.2 * t, c->y + 1.6 * t}},
-                 share, kind);
-    c->y += 1.7 * t;
+    const double t = ui->text;
+    size_t count;
+    const sl_slider *sliders = sl_sliders(&count);
+    for (size_t i = 0; i < count; i++) {
+        if (!sliders[i].shown(app)) continue;
+        char text[SL_SLIDER_TEXT];
+        const double middle = c->y + 0.8 * t;
+        sliders[i].text(app, text);
+        sl_ui_text(ui, c->left, middle + 0.36 * t, 1, false, ui->palette.ink, sliders[i].label);
+        sl_ui_text_right(ui, c->right, middle + 0.36 * t, 1, ui->palette.ink, text);
+        sl_ui_slider(ui, (sl_box){{c->left + 6.4 * t, c->y}, {c->right - 4.2 * t, c->y + 1.6 * t}},
+                     sliders[i].share(app), SL_HIT_SLIDER, (int)i);
+        c->y += 1.7 * t;
+    }
 }
 
 // --- methods
@@ -208,39 +223,11 @@ static void draw_words(sl_app *app, column *c) {
                            app->ui.palette.ink, text);
 }
 
-static void draw_sliders(sl_app *app, column *c) {
-    char text[32];
-    if (app->eye.fov >= 360)
-        snprintf(text, sizeof text, "360\xc2\xb0");
-    else
-        snprintf(text, sizeof text, "%.0f\xc2\xb0", app->eye.fov);
-    slider_row(app, c, "View cone", text, sqrt((app->eye.fov - 1) / 359), SL_HIT_CONE);
-    const sl_document_source *source = &app->document.source;
-    if (source->highest > source->lowest) {
-        const double share =
-            (source->options.slice - source->lowest) / (source->highest - source->lowest);
-        snprintf(text, sizeof text, "%.5g", source->options.slice);
-        slider_row(app, c, "Cut at", text, share, SL_HIT_CUT);
-    }
-    if (app->show & SL_SHOW_SPLITS && app->document.baked) {
-        const double depth = app->document.baked->space.tree_depth;
-        snprintf(text, sizeof text, "%.0f", fmin(app->split_depth, depth));
-        slider_row(app, c, "Split depth", text, app->split_depth / fmax(depth, 1),
-                   SL_HIT_SPLIT_DEPTH);
-    }
-    if (app->show & SL_SHOW_TREE && app->tree.baked) {
-        const double depth = app->tree.tree_depth;
-        snprintf(text, sizeof text, "%.0f", fmin(app->tree_depth, depth));
-        slider_row(app, c, "Tree grown", text, app->tree_depth / fmax(depth, 1), SL_HIT_TREE_DEPTH);
-    }
-}
-
 void sl_pane_side(sl_app *app, sl_box box) {
     column c = begin_panel(app, box);
-    static const char *const rows[] = {"cells", "portals", "splits", "pvs",         "tree",
-                                       "cull",  "region",  "starts", "first_person"};
-    heading(app, &c, "Layers", "key");
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) check_row(app, &c, rows[i]);
+    layer_rows(app, &c);
+    check_row(app, &c, "first_person");
+    check_row(app, &c, "account");
     c.y += 0.3 * app->ui.text;
     draw_sliders(app, &c);
     draw_methods(app, &c);
@@ -251,9 +238,10 @@ void sl_pane_side(sl_app *app, sl_box box) {
 
 static void draw_code(sl_app *app, column *c) {
     sl_ui *ui = &app->ui;
-    size_t count;
-    const char *const *code = sl_lesson_code(&app->lesson, &app->document, &count);
-    const size_t lit = sl_lesson_code_line(&app->lesson);
+    size_t count, lit;
+    if (!sl_lesson_shows(&app->lesson, &app->document)) return;
+    const char *const *code =
+        sl_lesson_subject(&app->lesson)->code(&app->lesson, &app->document, &count, &lit);
     const double t = ui->text;
     for (size_t i = 0; i < count; i++) {
         const char *line = code[i];
@@ -271,14 +259,15 @@ static void draw_code(sl_app *app, column *c) {
 
 static void draw_account(sl_app *app, column *c) {
     const sl_lesson *lesson = &app->lesson;
-    if (lesson->subject != SL_SUBJECT_SEARCH || !lesson->steps.count) return;
-    const sl_step *s = &lesson->steps.steps[lesson->at];
-    char text[160];
-    heading(app, c, "So far", NULL);
-    snprintf(text, sizeof text, "%u cells seen, %u nodes in the stab tree, %u portals in sequence.",
-             s->seen, s->node, s->depth);
-    c->y = sl_ui_paragraph(&app->ui, c->left, c->y + 0.7 * app->ui.text, c->right - c->left, 1,
-                           app->ui.palette.ink, text);
+    const sl_subject *subject = sl_lesson_subject(lesson);
+    char text[SL_SENTENCE];
+    if (!sl_lesson_shows(lesson, &app->document)) return;
+    if (subject->account) {
+        subject->account(lesson, text);
+        heading(app, c, "So far", NULL);
+        c->y = sl_ui_paragraph(&app->ui, c->left, c->y + 0.7 * app->ui.text, c->right - c->left, 1,
+                               app->ui.palette.ink, text);
+    }
     if (!lesson->end_count) return;
     heading(app, c, "The line", lesson->dragged ? "ends were dragged" : NULL);
     const double margin =
@@ -294,14 +283,10 @@ static void draw_account(sl_app *app, column *c) {
 
 void sl_pane_learn(sl_app *app, sl_box box) {
     column c = begin_panel(app, box);
-    const bool search = app->lesson.subject == SL_SUBJECT_SEARCH;
-    heading(app, &c, search ? "Depth-first search" : "Subdivision", "U: the other");
+    heading(app, &c, sl_lesson_subject(&app->lesson)->title, "U: another");
     draw_code(app, &c);
     draw_account(app, &c);
-    heading(app, &c, "Layers", "key");
-    check_row(app, &c, "cells");
-    check_row(app, &c, "portals");
-    check_row(app, &c, "splits");
+    layer_rows(app, &c);
     check_row(app, &c, "first_person");
     draw_words(app, &c);
 }
@@ -323,9 +308,7 @@ void sl_pane_draw(sl_app *app, sl_box box) {
     snprintf(text, sizeof text, "%zu walls; %zu steps to undo, %zu to redo.",
              app->document.map.wall_count, app->history.done_count, app->history.undone_count);
     rule(app, &c, text);
-    heading(app, &c, "Layers", "key");
-    static const char *const rows[] = {"cells", "portals", "splits", "pvs", "cull", "region"};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) check_row(app, &c, rows[i]);
+    layer_rows(app, &c);
     draw_methods(app, &c);
     draw_words(app, &c);
 }

@@ -17,8 +17,18 @@ void sl_pane_status(sl_app *app, sl_box box);       ///< the line at the bottom
 void sl_pane_time(sl_app *app, sl_box box);         ///< the time line of the lesson
 void sl_pane_dual(sl_app *app, sl_box box);         ///< lines as points
 void sl_pane_first_person(sl_app *app, sl_box box); ///< what the eye sees
+void sl_pane_account(sl_app *app, sl_box box);      ///< what accuracy costs
 void sl_pane_help(sl_app *app);                     ///< over all
 void sl_pane_maps(sl_app *app);                     ///< over all: the list of maps
+
+/// A pane below the plan: its file draws it, and a row of the table in panes.c tells when.
+typedef struct sl_pane_below {
+    bool (*shown)(const sl_app *app);
+    void (*draw)(sl_app *app, sl_box box);
+} sl_pane_below;
+
+/// SL_PANES_BELOW of them.
+const sl_pane_below *sl_panes_below(void);
 
 /// The cell under a point in words; its lines are broken by the caller.
 void sl_pane_describe(const sl_app *app, sl_point at, char *text, size_t room);

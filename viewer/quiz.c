@@ -1,6 +1,7 @@
 #include "quiz.h"
 
 #include "base/random.h"
+#include "draw/sight.h"
 #include "sightline/solvers.h"
 
 #include <stdio.h>
@@ -70,16 +71,6 @@ static const sl_sequence *sequence_of(const sl_explanation *e) {
     return e->verdict != SL_HIDDEN ? &e->sequence : e->miss_count ? &e->misses[0].sequence : NULL;
 }
 
-uint32_t sl_quiz_portals(const sl_app *app, sl_portal_ends *ends, uint32_t room) {
-    const sl_sequence *sequence = sequence_of(&app->quiz.explanation);
-    uint32_t count = 0;
-    for (; sequence && count < sequence->exit_count && count < room; count++) {
-        const sl_exit *exit = &app->document.baked->space.exits[sequence->exits[count]];
-        ends[count] = (sl_portal_ends){exit->left, exit->right};
-    }
-    return count;
-}
-
 void sl_quiz_words(const sl_app *app, char *text, size_t room) {
     const sl_explanation *e = &app->quiz.explanation;
     const sl_space *space = &app->document.baked->space;
@@ -108,4 +99,33 @@ void sl_quiz_words(const sl_app *app, char *text, size_t room) {
                  "have to keep left ends (discs) at its left and right ends (squares) at its "
                  "right, but %s.",
                  sl_sequence_reason(space, sequence));
+}
+
+// --- drawing
+
+void sl_quiz_draw_below(sl_app *app, const sl_frame *frame) {
+    const sl_quiz *q = &app->quiz;
+    const sl_palette *palette = &app->ui.palette;
+    if (!q->asked) return;
+    const sl_space *space = &app->document.baked->space;
+    sl_draw_cell(app->ui.cairo, space, frame, q->from, palette->source_edge, 0.5, 2 * frame->unit);
+    sl_draw_cell(app->ui.cairo, space, frame, q->to, palette->door, 0.5, 2 * frame->unit);
+}
+
+void sl_quiz_draw_above(sl_app *app, const sl_frame *frame) {
+    const sl_quiz *q = &app->quiz;
+    if (!q->asked || !q->answered) return;
+    sl_portal_ends ends[SL_DUAL_PORTALS_MOST] = {0};
+    const sl_sequence *sequence = sequence_of(&q->explanation);
+    const sl_exit *exits = app->document.baked->space.exits;
+    uint32_t count = 0;
+    for (; sequence && count < sequence->exit_count && count < SL_DUAL_PORTALS_MOST; count++) {
+        const sl_exit *exit = &exits[sequence->exits[count]];
+        ends[count] = (sl_portal_ends){exit->left, exit->right};
+    }
+    const bool seen = q->explanation.verdict != SL_HIDDEN;
+    sl_draw_portal_ends(app->ui.cairo, &app->ui.palette, frame, ends, count, !seen);
+    if (seen)
+        sl_draw_line(app->ui.cairo, frame, q->explanation.shown.a, q->explanation.shown.b,
+                     app->ui.palette.ink, 2.2 * frame->unit);
 }

@@ -14,7 +14,8 @@ void sl_quiz_explain(sl_app *app, uint32_t from, uint32_t to);
 /// What is to be said once it is answered.
 void sl_quiz_words(const sl_app *app, char *text, size_t room);
 
-/// The portals that the explanation shows, with their ends; returns how many.
-uint32_t sl_quiz_portals(const sl_app *app, sl_portal_ends *ends, uint32_t room);
+/// The pair, and once it is explained its portals and its line.
+void sl_quiz_draw_below(sl_app *app, const sl_frame *frame);
+void sl_quiz_draw_above(sl_app *app, const sl_frame *frame);
 
 #endif

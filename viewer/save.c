@@ -1,5 +1,6 @@
 #include "save.h"
 
+#include "account.h"
 #include "base/base.h"
 #include "draw/paper.h"
 #include "panes.h"
@@ -41,12 +42,16 @@ sl_status sl_save_plan(sl_app *app, const char *path) {
 }
 
 void sl_save_numbered(sl_app *app, const char *ending) {
-    char path[64];
+    char path[64], chart[64];
     for (unsigned i = 1; i < 10000; i++) {
         snprintf(path, sizeof path, "sightline-%u.%s", i, ending);
-        if (access(path, F_OK) == 0) continue;
-        const sl_status status = sl_save_plan(app, path);
-        if (status == SL_OK) sl_app_say(app, false, "saved %s", path);
+        snprintf(chart, sizeof chart, "sightline-%u-account.%s", i, ending);
+        if (access(path, F_OK) == 0 || access(chart, F_OK) == 0) continue;
+        sl_status status = sl_save_plan(app, path);
+        if (status == SL_OK && app->accounts) status = sl_account_save(app, chart);
+        if (status == SL_OK)
+            sl_app_say(app, false, "saved %s%s%s", path, app->accounts ? " and " : "",
+                       app->accounts ? chart : "");
         sl_app_check(app, status);
         return;
     }

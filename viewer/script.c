@@ -1,5 +1,6 @@
 #include "script.h"
 
+#include "account.h"
 #include "actions.h"
 #include "base/file.h"
 #include "input.h"
@@ -166,6 +167,11 @@ static sl_status do_save(reader *r, const words *w) {
     return sl_save_plan(r->app, w->rest);
 }
 
+static sl_status do_account(reader *r, const words *w) {
+    sl_app_tick(r->app, 0);
+    return sl_account_save(r->app, w->rest);
+}
+
 static sl_status do_export(reader *r, const words *w) {
     return sl_save_series(r->app, w->rest, 2);
 }
@@ -180,7 +186,7 @@ static const struct command {
     {"click", 2, do_click}, {"right", 2, do_right},    {"drag", 4, do_drag},
     {"wheel", 1, do_wheel}, {"wait", 1, do_wait},      {"size", 2, do_size},
     {"eye", -2, do_eye},    {"text", 1, do_text},      {"screenshot", -1, do_screenshot},
-    {"save", -1, do_save},  {"export", -1, do_export},
+    {"save", -1, do_save},  {"export", -1, do_export}, {"account", -1, do_account},
 };
 
 static sl_status run_command(reader *r, const struct command *command, words *w) {

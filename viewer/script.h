@@ -3,7 +3,8 @@
 ///   open FILE            key NAME        down NAME / up NAME     action NAME
 ///   move X Y             click X Y       right X Y               drag X Y X2 Y2
 ///   wheel STEPS          wait FRAMES     size W H                eye X Y HEADING [CONE]
-///   screenshot FILE      save FILE       export FOLDER EVERY     text SCALE
+///   screenshot FILE      save FILE       account FILE            export FOLDER
+///   text SCALE
 #ifndef VIEWER_SCRIPT_H
 #define VIEWER_SCRIPT_H
 

@@ -35,7 +35,7 @@ typedef struct setting {
     double low, high, value;
 } setting;
 
-enum { DARK, TEXT, SHOW, CONE, METHOD, WIDTH, HEIGHT, PANEL, SETTINGS };
+enum { DARK, TEXT, SHOW, CONE, METHOD, WIDTH, HEIGHT, PANEL, FIRST_PERSON, ACCOUNT, SETTINGS };
 
 static void describe(const sl_app *app, setting list[SETTINGS]) {
     size_t count;
@@ -43,12 +43,14 @@ static void describe(const sl_app *app, setting list[SETTINGS]) {
     const setting all[SETTINGS] = {
         [DARK] = {"dark", 0, 1, app->dark},
         [TEXT] = {"text", 0.7, 3, app->text_scale},
-        [SHOW] = {"layers", 0, 255, app->show},
+        [SHOW] = {"layers", 0, SL_SHOW_ALL, app->show},
         [CONE] = {"cone", 1, 360, app->eye.fov},
         [METHOD] = {"method", 0, (double)count - 1, (double)app->method},
         [WIDTH] = {"width", 320, 8192, app->width},
         [HEIGHT] = {"height", 240, 8192, app->height},
         [PANEL] = {"panel", 0, 1, app->side_panel},
+        [FIRST_PERSON] = {"first_person", 0, 1, app->first_person},
+        [ACCOUNT] = {"account", 0, 1, app->accounts},
     };
     memcpy(list, all, sizeof all);
 }
@@ -79,6 +81,8 @@ void sl_settings_load(sl_app *app) {
     app->width = (int)list[WIDTH].value;
     app->height = (int)list[HEIGHT].value;
     app->side_panel = list[PANEL].value != 0;
+    app->first_person = list[FIRST_PERSON].value != 0;
+    app->accounts = list[ACCOUNT].value != 0;
 }
 
 void sl_settings_save(sl_app *app) {

@@ -130,7 +130,7 @@ void sl_ui_check(sl_ui *ui, sl_box row, const char *label, const char *key, bool
     sl_ui_hit(ui, SL_HIT_ACTION, action, row);
 }
 
-void sl_ui_slider(sl_ui *ui, sl_box track, double value, sl_hit_kind kind) {
+void sl_ui_slider(sl_ui *ui, sl_box track, double value, sl_hit_kind kind, int number) {
     const double t = ui->text, y = (track.min.y + track.max.y) / 2;
     const double x = track.min.x + fmin(fmax(value, 0), 1) * sl_box_width(track);
     const double thick = 0.14 * t;
@@ -141,6 +141,6 @@ void sl_ui_slider(sl_ui *ui, sl_box track, double value, sl_hit_kind kind) {
     cairo_arc(ui->cairo, x, y, 0.5 * t, 0, 6.283185307179586);
     sl_set_colour(ui->cairo, ui->palette.glass);
     cairo_fill(ui->cairo);
-    sl_ui_hit(ui, kind, 0,
+    sl_ui_hit(ui, kind, number,
               (sl_box){{track.min.x - 0.5 * t, track.min.y}, {track.max.x + 0.5 * t, track.max.y}});
 }

@@ -15,12 +15,9 @@ typedef enum sl_hit_kind {
     SL_HIT_METHOD, ///< value: of the culling methods
     SL_HIT_PLAN,   ///< value: which of the plans, from 0
     SL_HIT_DUAL,
-    SL_HIT_TIME, ///< the time line
-    SL_HIT_CONE, ///< the slider of the view cone
-    SL_HIT_SPLIT_DEPTH,
-    SL_HIT_TREE_DEPTH,
-    SL_HIT_CUT, ///< the height at which a 3D model is cut
-    SL_HIT_MAP, ///< value: row of the list that is open
+    SL_HIT_TIME,   ///< the time line
+    SL_HIT_SLIDER, ///< value: of the table of sliders
+    SL_HIT_MAP,    ///< value: row of the list that is open
 } sl_hit_kind;
 
 typedef struct sl_hit {
@@ -75,6 +72,6 @@ double sl_ui_button(sl_ui *ui, double x, double y, double height, const char *la
 /// A row with a box to check, a label and the key at the right.
 void sl_ui_check(sl_ui *ui, sl_box row, const char *label, const char *key, bool on, int action);
 /// A slider with its value from 0 to 1.
-void sl_ui_slider(sl_ui *ui, sl_box track, double value, sl_hit_kind kind);
+void sl_ui_slider(sl_ui *ui, sl_box track, double value, sl_hit_kind kind, int number);
 
 #endif

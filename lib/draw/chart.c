@@ -1,3 +1,5 @@
+#include "draw/chart.h"
+
 #include "draw/chart_page.h"
 
 #include "base/base.h"
@@ -251,20 +253,25 @@ static bool place_labels(const sl_chart_page *page, const obstacles *list) {
     return sl_labels_place(page->labels, page->label_count, &room);
 }
 
+/// Whether all labels find room in a frame of that height.
+static sl_status try_frame(sl_context *context, cairo_t *cairo, sl_chart_page *page, double top,
+                           double height, bool *fits) {
+    obstacles list = {0};
+    set_frame(page, page->margin + sl_chart_gutter(cairo, page), top, height);
+    measure_labels(cairo, page);
+    const sl_status status = gather_obstacles(context, cairo, page, &list);
+    if (status == SL_OK) *fits = place_labels(page, &list);
+    sl_free(context, list.items);
+    return status;
+}
+
 /// The frame grows until all labels find room.
 static sl_status grow_frame(sl_context *context, cairo_t *cairo, sl_chart_page *page, double top,
                             bool *fits) {
-    const double left = page->margin + sl_chart_gutter(cairo, page);
-    const double inner = page->width - page->margin - left;
-    measure_labels(cairo, page);
+    const double inner = page->width - 2 * page->margin - sl_chart_gutter(cairo, page);
     *fits = false;
     for (double height = 0.48 * inner; !*fits && height < page->width; height *= 1.2) {
-        set_frame(page, left, top, height);
-        obstacles list = {0};
-        const sl_status status = gather_obstacles(context, cairo, page, &list);
-        if (status == SL_OK) *fits = place_labels(page, &list);
-        sl_free(context, list.items);
-        SL_TRY(status);
+        SL_TRY(try_frame(context, cairo, page, top, height, fits));
         SL_TRY(sl_check_cancelled(context));
     }
     return SL_OK;
@@ -280,17 +287,29 @@ static sl_status lay_out_frame(sl_context *context, cairo_t *cairo, sl_chart_pag
     return fits ? SL_OK : grow_frame(context, cairo, page, top, &fits);
 }
 
-static sl_status lay_out(sl_context *context, cairo_t *cairo, sl_chart_page *page) {
-    page->width = round(page->chart->width);
-    page->margin = 0.04 * page->width;
-    page->text = 16.5 * pow(page->width / 1200, 0.75); // as plans have it
+/// What has been put on the page before the frame: its top.
+static sl_status begin_page(sl_context *context, cairo_t *cairo, sl_chart_page *page, double *top) {
     page->palette = sl_palette_make(page->chart->dark);
     fit_axes(page);
     SL_TRY(make_spots(context, page));
-    double y = page->margin + sl_chart_heading(cairo, page, false);
-    if (y > page->margin) y += 0.5 * page->margin;
-    SL_TRY(lay_out_frame(context, cairo, page, y));
-    y = page->frame.max.y + (page->chart->x.label ? 3.6 : 2.1) * page->text;
+    *top = page->margin + sl_chart_heading(cairo, page, false);
+    if (*top > page->margin) *top += 0.5 * page->margin;
+    return SL_OK;
+}
+
+/// What stands between the frame and the key.
+static double below_frame(const sl_chart_page *page) {
+    return (page->chart->x.label ? 3.6 : 2.1) * page->text;
+}
+
+static sl_status lay_out(sl_context *context, cairo_t *cairo, sl_chart_page *page) {
+    double top;
+    page->width = round(page->chart->width);
+    page->margin = 0.04 * page->width;
+    page->text = 16.5 * pow(page->width / 1200, 0.75); // as plans have it
+    SL_TRY(begin_page(context, cairo, page, &top));
+    SL_TRY(lay_out_frame(context, cairo, page, top));
+    const double y = page->frame.max.y + below_frame(page);
     page->key_top = y;
     page->height = ceil(y + sl_chart_key(cairo, page, false) + 0.8 * page->margin);
     return SL_OK;
@@ -326,6 +345,41 @@ sl_status sl_draw_chart_file(sl_context *context, const sl_chart *chart, const c
     page->chart = chart;
     sl_status status = measure(context, page, path);
     if (status == SL_OK) status = draw(context, page, kind, path);
+    sl_free(context, page->spots);
+    sl_free(context, page->labels);
+    sl_free(context, page);
+    return status;
+}
+
+static sl_status lay_out_within(sl_context *context, cairo_t *cairo, sl_chart_page *page) {
+    double top;
+    bool fits;
+    SL_TRY(begin_page(context, cairo, page, &top));
+    const double key = sl_chart_key(cairo, page, false), below = below_frame(page);
+    const double height = fmax(page->height - top - below - key - 0.5 * page->margin, page->text);
+    SL_TRY(try_frame(context, cairo, page, top, height, &fits));
+    page->key_top = top + height + below;
+    page->bare = !fits;
+    return fits ? SL_OK : try_frame(context, cairo, page, top, height, &fits);
+}
+
+sl_status sl_draw_chart_onto(sl_context *context, cairo_t *cairo, const sl_chart *chart, sl_box box,
+                             double text) {
+    SL_TRY(check_chart(context, chart));
+    sl_chart_page *page = sl_alloc_array(context, 1, sizeof *page);
+    if (!page) return SL_NO_MEMORY;
+    page->chart = chart;
+    page->width = box.max.x - box.min.x;
+    page->height = box.max.y - box.min.y;
+    page->text = text;
+    page->margin = text;
+    cairo_save(cairo);
+    cairo_rectangle(cairo, box.min.x, box.min.y, page->width, page->height);
+    cairo_clip(cairo);
+    cairo_translate(cairo, box.min.x, box.min.y);
+    const sl_status status = lay_out_within(context, cairo, page);
+    if (status == SL_OK) sl_chart_paint(cairo, page);
+    cairo_restore(cairo);
     sl_free(context, page->spots);
     sl_free(context, page->labels);
     sl_free(context, page);

@@ -22,12 +22,17 @@ PICTURES = {
     "subdivision": ("maze.map", "key F2\nkey U\n" + "key Right\n" * 4),
     "draw": ("office.map", "key Tab\nkey F3\ndrag 200 100 200 300\nkey Tab\n"),
     "quiz": ("office.map", "key F4\nkey Y\n"),
+    "account": ("office.map", "eye 53 20 160 90\nkey Tab\nkey L\n"),
+    "oblique": ("oblique/rotunda.map", "key B\nkey K\n"),
+    "oblique_subdivision": ("oblique/rotunda.map", "key F2\nkey U\n" + "key Right\n" * 6),
+    "oblique_search": ("oblique/rotunda.map", "key F2\n" + "key Right\n" * 12),
+    "oblique_first_person": ("oblique/rotunda.map", "key I\nkey Tab\nwait 2\n"),
     "first_person": ("pillars.map", "key I\nkey Tab\nwait 2\n"),
 }
 
 # Keys that change the plan, each on its own; and how each is taken back.
 LAYERS = ["C", "P", "K", "V", "B", "M", "R", "J"]
-SWITCHES = {"I": "I", "T": "T", "X": "X X", "Tab": "Tab", "?": "Escape", "O": "Escape",
+SWITCHES = {"I": "I", "L": "L", "T": "T", "X": "X X", "Tab": "Tab", "?": "Escape", "O": "Escape",
             "F2": "F1", "F3": "F1", "F4": "F1", "PageUp": "F", "Ctrl+=": "Ctrl+-", "/": "/"}
 
 
@@ -42,21 +47,21 @@ def check_stored(viewer, folder, stored):
         viewer.check(share <= TOLERANCE, f"{name}: {share:.2%} of the pixels are others")
 
 
-def check_switches(viewer, folder):
-    """Each key changes the picture, a layer by more than the tolerance, and back again."""
-    script = SIZE + "eye 53 20 160 90\nkey Tab\nkey M\nkey R\nsave before.png\n"
+def check_switches(viewer, folder, map_name, eye, least):
+    """Each key changes the picture, a layer by at least a share, and back again."""
+    script = SIZE + f"eye {eye}\nkey Tab\nkey M\nkey R\nsave before.png\n"
     for key in LAYERS:
         script += f"key {key}\nsave {key}.png\nkey {key}\n"
     for i, (key, back) in enumerate(SWITCHES.items()):
         script += f"screenshot off{i}.png\nkey {key}\nscreenshot on{i}.png\n"
         script += "".join(f"key {one}\n" for one in back.split())
-    viewer.script(folder, "office.map", script + "save after.png\n")
+    viewer.script(folder, map_name, script + "save after.png\n")
     for key in LAYERS:
         share = viewer.difference(folder / "before.png", folder / f"{key}.png")
-        viewer.check(share > TOLERANCE, f"layer {key} changes only {share:.2%}")
+        viewer.check(share > least, f"{map_name}: layer {key} changes only {share:.2%}")
     for i, key in enumerate(SWITCHES):
         share = viewer.difference(folder / f"off{i}.png", folder / f"on{i}.png")
-        viewer.check(share > TOLERANCE, f"key {key} changes only {share:.2%}")
+        viewer.check(share > TOLERANCE, f"{map_name}: key {key} changes only {share:.2%}")
     viewer.check((folder / "before.png").read_bytes() == (folder / "after.png").read_bytes(),
                  "the plan is not as it was before")
 
@@ -64,9 +69,11 @@ def check_switches(viewer, folder):
 def check_files(viewer, folder):
     """The plan as PNG, SVG and PDF; a series; the same bytes from the same script."""
     script = (SIZE + "eye 53 20 160 90\nsave a.png\nsave a.svg\nsave a.pdf\nscreenshot w.svg\n"
+              "account c.png\naccount c.svg\naccount c.pdf\n"
               "key F9\ndown W\nwait 6\nup W\nkey F9\nexport series\n")
     viewer.script(folder, "office.map", script)
-    starts = {"a.png": b"\x89PNG", "a.svg": b"<?xml", "a.pdf": b"%PDF", "w.svg": b"<?xml"}
+    starts = {"a.png": b"\x89PNG", "a.svg": b"<?xml", "a.pdf": b"%PDF", "w.svg": b"<?xml",
+              "c.png": b"\x89PNG", "c.svg": b"<?xml", "c.pdf": b"%PDF"}
     for name, start in starts.items():
         viewer.check((folder / name).read_bytes().startswith(start), f"{name} is none")
     frames = sorted(path.name for path in (folder / "series").glob("*.png"))
@@ -105,7 +112,8 @@ def main():
             for picture in PICTURES:
                 shutil.copy(folder / f"{picture}.png", stored)
         check_stored(viewer, folder, stored)
-        check_switches(viewer, folder)
+        check_switches(viewer, folder, "office.map", "53 20 160 90", TOLERANCE)
+        check_switches(viewer, folder, "oblique/rotunda.map", "50 48 200 90", TOLERANCE / 2)
         check_files(viewer, folder)
         check_undo(viewer, folder)
     viewer.end()

@@ -1,0 +1,116 @@
+#include "account.h"
+
+#include "draw/chart.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { MARKS_MOST = SL_SEEN_MOST + 1, TEXT = 96 };
+
+/// A chart and what its pointers lead to.
+typedef struct account {
+    sl_chart_mark marks[MARKS_MOST];
+    char labels[MARKS_MOST][64], notes[MARKS_MOST][TEXT];
+    sl_chart_series series[2];
+    char title[TEXT];
+    sl_chart chart;
+} account;
+
+/// Under a script tests stand for the time, so that pictures are the same each time.
+static double cost_of(const sl_app *app, double seconds, uint64_t tests) {
+    return app->steady ? fmax((double)tests, 1) : fmax(seconds, 1e-8);
+}
+
+static void write_cost(const sl_app *app, double cost, char text[32]) {
+    if (app->steady)
+        snprintf(text, 32, "%.0f test%s", cost, cost == 1 ? "" : "s");
+    else if (cost < 1e-3)
+        snprintf(text, 32, "%.3g \xc2\xb5s", 1e6 * cost);
+    else
+        snprintf(text, 32, "%.3g ms", 1e3 * cost);
+}
+
+static void add_mark(account *a, size_t i, double cost, double share) {
+    a->marks[i] =
+        (sl_chart_mark){.x = cost, .y = 100 * share, .label = a->labels[i], .note = a->notes[i]};
+}
+
+/// Marks of the methods that could answer, from loose to exact, and how many there are.
+static size_t add_methods(const sl_app *app, account *a) {
+    size_t count, marks = 0;
+    const sl_eye_method *methods = sl_eye_methods(&count);
+    for (size_t i = 0; i < count && i < SL_SEEN_MOST; i++) {
+        const sl_seen_method *m = &app->seen.methods[i];
+        if (!m->known) continue;
+        char cost[32];
+        const double spent = cost_of(app, m->seconds, m->account.orientations);
+        const double share = app->document.area > 0 ? m->area / app->document.area : 0;
+        write_cost(app, spent, cost);
+        snprintf(a->labels[marks], sizeof a->labels[marks], "%s", methods[i].name);
+        for (char *at = a->labels[marks]; *at; at++)
+            if (*at == '_') *at = ' ';
+        snprintf(a->notes[marks], TEXT, "%u cells, %.1f %% in %s", m->count, 100 * share, cost);
+        add_mark(a, marks++, spent, share);
+    }
+    return marks;
+}
+
+static void add_region(const sl_app *app, account *a, size_t i) {
+    char cost[32];
+    const double spent = cost_of(app, app->seen.region_seconds, app->seen.region.crossings);
+    const double share = app->document.area > 0 ? app->seen.region_area / app->document.area : 0;
+    write_cost(app, spent, cost);
+    snprintf(a->labels[i], sizeof a->labels[i], "visible region");
+    snprintf(a->notes[i], TEXT, "%.1f %% in %s", 100 * share, cost);
+    add_mark(a, i, spent, share);
+}
+
+/// Logarithmic, as methods differ by factors, but for areas that are nothing.
+static sl_chart_scale area_scale(const account *a, size_t marks) {
+    for (size_t i = 0; i < marks; i++)
+        if (!(a->marks[i].y > 0)) return SL_CHART_LINEAR;
+    return SL_CHART_LOG;
+}
+
+/// Where there is little room the title is a line of plain size.
+static void make(const sl_app *app, account *a, bool small) {
+    const size_t methods = app->seen.valid ? add_methods(app, a) : 0;
+    if (app->seen.valid) add_region(app, a, methods);
+    const size_t marks = app->seen.valid ? methods + 1 : 0;
+    a->series[0] = (sl_chart_series){.name = "cells kept by culling",
+                                     .style = SL_CHART_MARKS,
+                                     .colour = 0,
+                                     .marks = a->marks,
+                                     .mark_count = methods};
+    a->series[1] = (sl_chart_series){.name = "what is visible of them",
+                                     .style = SL_CHART_MARKS,
+                                     .colour = 1,
+                                     .marks = a->marks + methods,
+                                     .mark_count = marks - methods};
+    snprintf(a->title, sizeof a->title, "What accuracy costs here: cell %u, cone of %.0f\xc2\xb0",
+             app->seen.cell, app->eye.fov);
+    a->chart = (sl_chart){
+        .title = small ? NULL : a->title,
+        .subtitle = small ? a->title : NULL,
+        .x = {.label = app->steady ? "tests" : "time of a query",
+              .scale = SL_CHART_LOG,
+              .seconds = !app->steady},
+        .y = {.label = "% of the area", .scale = area_scale(a, marks)},
+        .series = a->series,
+        .series_count = 2,
+        .width = sl_draw_options_default().width,
+        .dark = app->dark,
+    };
+}
+
+void sl_account_draw(sl_app *app, cairo_t *cairo, sl_box box) {
+    account a;
+    make(app, &a, true);
+    sl_app_check(app, sl_draw_chart_onto(app->context, cairo, &a.chart, box, 0.92 * app->ui.text));
+}
+
+sl_status sl_account_save(sl_app *app, const char *path) {
+    account a;
+    make(app, &a, false);
+    return sl_draw_chart_file(app->context, &a.chart, path);
+}

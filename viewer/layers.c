@@ -1,0 +1,107 @@
+#include "layers.h"
+
+#include "draw/plan.h"
+#include "draw/sight.h"
+#include "panes.h"
+
+#define ROW(NAME, name, key, label, help, modes, draw) {name, modes, draw},
+static const sl_layer_row rows[] = {SL_LAYERS(ROW)};
+#undef ROW
+
+const sl_layer_row *sl_layer_rows(void) {
+    return rows;
+}
+
+void sl_layers_draw(sl_app *app, const sl_frame *frame, int index) {
+    const unsigned about_cell = SL_SHOW_PVS | SL_SHOW_CULL | SL_SHOW_TREE;
+    unsigned drawn = 0;
+    if (!app->seen.valid) return;
+    for (unsigned i = 0; i < SL_LAYER_COUNT; i++) {
+        if (!rows[i].draw || !(app->show >> i & 1) || !(rows[i].modes >> app->mode & 1)) continue;
+        rows[i].draw(app, frame, index);
+        drawn |= 1u << i;
+    }
+    if (app->seen.cell != SL_NO_CELL && drawn & about_cell)
+        sl_draw_cell(app->ui.cairo, &app->document.baked->space, frame, app->seen.cell,
+                     app->ui.palette.source_edge, 0, 2.4 * frame->unit);
+}
+
+void sl_layer_pvs(sl_app *app, const sl_frame *frame, int index) {
+    (void)index;
+    sl_draw_cell_set(app->ui.cairo, &app->document.baked->space, frame, app->seen.pvs, NULL,
+                     app->ui.palette.seen[0], 0.8);
+}
+
+void sl_layer_region(sl_app *app, const sl_frame *frame, int index) {
+    (void)index;
+    sl_draw_region(app->ui.cairo, frame, &app->seen.region, app->ui.palette.source);
+}
+
+// --- culling
+
+sl_colour sl_pane_method_colour(const sl_app *app, size_t method) {
+    size_t count;
+    sl_eye_methods(&count);
+    const double share = count > 1 ? (double)method / (double)(count - 1) : 1;
+    return sl_palette_ramp(app->dark, 0.10 + 0.66 * share);
+}
+
+/// All methods up to the chosen one, each in its colour where it is the last to keep a cell.
+void sl_layer_cull(sl_app *app, const sl_frame *frame, int index) {
+    const sl_space *space = &app->document.baked->space;
+    cairo_t *cairo = app->ui.cairo;
+    const sl_seen *seen = &app->seen;
+    if (app->compare == SL_COMPARE_DIFFERENCE) {
+        const bool other_is_loose = app->other < app->method;
+        const size_t loose = other_is_loose ? app->other : app->method;
+        const size_t tight = other_is_loose ? app->method : app->other;
+        sl_draw_cell_set(cairo, space, frame, seen->methods[tight].cells, NULL,
+                         sl_pane_method_colour(app, tight), 0.75);
+        sl_draw_cell_set(cairo, space, frame, seen->methods[loose].cells,
+                         seen->methods[tight].cells, app->ui.palette.start, 0.6);
+        return;
+    }
+    const size_t last = index ? app->other : app->method;
+    if (app->compare == SL_COMPARE_PANES) {
+        sl_draw_cell_set(cairo, space, frame, seen->methods[last].cells, NULL,
+                         sl_pane_method_colour(app, last), 0.8);
+        return;
+    }
+    for (size_t i = 0; i <= last; i++)
+        if (seen->methods[i].known || i == last)
+            sl_draw_cell_set(cairo, space, frame, seen->methods[i].cells,
+                             i < last ? seen->methods[i + 1].cells : NULL,
+                             sl_pane_method_colour(app, i), 0.8);
+}
+
+// --- the stab tree
+
+static bool make_tree(sl_app *app) {
+    const uint32_t cell = app->seen.cell;
+    if (cell == SL_NO_CELL || !app->document.has_visibility) return false;
+    if (app->tree.baked && app->tree_version == app->document.version &&
+        app->tree.options.cell == cell && app->tree.options.dark == app->dark)
+        return true;
+    if (app->tree.baked) sl_scene_destroy(app->context, &app->tree);
+    sl_draw_options options = sl_draw_options_default();
+    options.layers = SL_LAYER_STAB_TREE;
+    options.cell = cell;
+    options.dark = app->dark;
+    const sl_status status = sl_scene_make(app->context, app->document.baked, &options, &app->tree);
+    sl_app_check(app, status);
+    app->tree_version = app->document.version;
+    return status == SL_OK;
+}
+
+/// The strokes stand deepest first: those too deep are left out at the front.
+void sl_layer_tree(sl_app *app, const sl_frame *frame, int index) {
+    (void)index;
+    if (!make_tree(app)) return;
+    sl_scene grown = app->tree;
+    grown.eye = app->eye.at;
+    while (grown.stroke_count && grown.strokes->depth > app->tree_depth) {
+        grown.strokes++;
+        grown.stroke_count--;
+    }
+    sl_draw_tree_onto(app->ui.cairo, &grown, frame);
+}

@@ -1,0 +1,186 @@
+/// The lesson of the depth-first search from the eye's cell: which portals it tries, and why it
+/// goes on or back.
+#include "app.h"
+#include "draw/marks.h"
+#include "draw/sight.h"
+
+#include <stdio.h>
+
+static sl_status record(sl_context *context, sl_lesson *lesson, const sl_document *document,
+                        uint32_t source) {
+    sl_steps_options options = sl_steps_options_default();
+    options.sight = document->baked->visibility.sight;
+    return sl_steps_record(context, &document->baked->space, &options, source, &lesson->steps);
+}
+
+static size_t length(const sl_lesson *lesson) {
+    return lesson->steps.count;
+}
+
+// --- words
+
+static const char *const search_code[] = {
+    "search(cell, sequence):",
+    "    cell is seen",
+    "    for each portal out of cell:",
+    "        if it goes back: pass it over",
+    "        if no line stabs sequence + portal:",
+    "            pass it over",
+    "        search(cell behind, sequence + portal)",
+    "    return",
+};
+
+static const char *const *code(const sl_lesson *lesson, const sl_document *document, size_t *count,
+                               size_t *lit) {
+    (void)document;
+    *count = sizeof search_code / sizeof *search_code;
+    switch (lesson->steps.steps[lesson->at].kind) {
+    case SL_STEP_ENTER:
+        *lit = lesson->at ? 6 : 1;
+        break;
+    case SL_STEP_BACKWARDS:
+        *lit = 3;
+        break;
+    case SL_STEP_HIDDEN:
+        *lit = 5;
+        break;
+    case SL_STEP_LEAVE:
+        *lit = 7;
+        break;
+    }
+    return search_code;
+}
+
+static void say(const sl_lesson *lesson, const sl_document *document, char text[SL_SENTENCE]) {
+    (void)document;
+    const sl_step *s = &lesson->steps.steps[lesson->at];
+    const uint32_t here = lesson->steps.steps[s->parent].cell;
+    const char *plural = s->depth == 1 ? "" : "s";
+    switch (s->kind) {
+    case SL_STEP_ENTER:
+        if (!lesson->at)
+            snprintf(text, SL_SENTENCE, "The search starts in cell %u, which sees itself.",
+                     s->cell);
+        else
+            snprintf(text, SL_SENTENCE, "A line %s the %u portal%s: enter cell %u, %s.",
+                     s->grazing ? "only grazes" : "stabs", s->depth, plural, s->cell,
+                     s->first ? "seen for the first time" : "already seen another way");
+        return;
+    case SL_STEP_BACKWARDS:
+        snprintf(text, SL_SENTENCE,
+                 "The portal from cell %u to cell %u goes back against the sequence: passed over.",
+                 here, s->cell);
+        return;
+    case SL_STEP_HIDDEN:
+        snprintf(text, SL_SENTENCE,
+                 "No line stabs the %u portal%s to cell %u: its half-planes leave nothing.",
+                 s->depth, plural, s->cell);
+        return;
+    case SL_STEP_LEAVE:
+        if (s->depth)
+            snprintf(text, SL_SENTENCE, "All portals of cell %u are tried: back one portal.",
+                     s->cell);
+        else
+            snprintf(text, SL_SENTENCE, "All portals of cell %u are tried: it sees %u cells.",
+                     s->cell, s->seen);
+        return;
+    }
+}
+
+static void account(const sl_lesson *lesson, char text[SL_SENTENCE]) {
+    const sl_step *s = &lesson->steps.steps[lesson->at];
+    snprintf(text, SL_SENTENCE, "%u cells seen, %u nodes in the stab tree, %u portals in sequence.",
+             s->seen, s->node, s->depth);
+}
+
+static uint32_t sequence(const sl_lesson *lesson, const sl_space *space, sl_portal_ends *ends) {
+    uint32_t exits[SL_DUAL_PORTALS_MOST];
+    uint32_t count = sl_steps_sequence(&lesson->steps, lesson->at, exits, SL_DUAL_PORTALS_MOST);
+    if (count > SL_DUAL_PORTALS_MOST) count = SL_DUAL_PORTALS_MOST;
+    for (uint32_t i = 0; i < count; i++)
+        ends[i] = (sl_portal_ends){space->exits[exits[i]].left, space->exits[exits[i]].right};
+    return count;
+}
+
+// --- drawing
+
+/// The cells that the search has entered so far, and the way between their portals.
+static void draw_entered(sl_app *app, const sl_frame *frame) {
+    const sl_lesson *lesson = &app->lesson;
+    const sl_space *space = &app->document.baked->space;
+    const sl_palette *palette = &app->ui.palette;
+    cairo_t *cairo = app->ui.cairo;
+    for (size_t i = 0; i <= lesson->at; i++) {
+        const sl_step *s = &lesson->steps.steps[i];
+        if (s->kind != SL_STEP_ENTER || !s->first) continue;
+        const sl_cell *c = &space->cells[s->cell];
+        sl_path_polygon(cairo, frame, space->vertices + c->first_vertex, c->vertex_count);
+    }
+    sl_set_colour(cairo, palette->seen[0]);
+    cairo_fill(cairo);
+}
+
+static sl_point exit_middle(const sl_space *space, uint32_t exit, sl_point none) {
+    if (exit == UINT32_MAX) return none;
+    const sl_exit *e = &space->exits[exit];
+    return (sl_point){(e->left.x + e->right.x) / 2, (e->left.y + e->right.y) / 2};
+}
+
+static void draw_branches(sl_app *app, const sl_frame *frame) {
+    const sl_lesson *lesson = &app->lesson;
+    const sl_space *space = &app->document.baked->space;
+    const sl_palette *palette = &app->ui.palette;
+    cairo_t *cairo = app->ui.cairo;
+    for (size_t i = 1; i <= lesson->at; i++) {
+        const sl_step *s = &lesson->steps.steps[i];
+        if (s->kind != SL_STEP_ENTER) continue;
+        const sl_step *from = &lesson->steps.steps[s->parent];
+        sl_path_segment(cairo, frame, exit_middle(space, from->exit, app->eye.at),
+                        exit_middle(space, s->exit, app->eye.at));
+    }
+    cairo_set_source_rgba(cairo, palette->tree.red, palette->tree.green, palette->tree.blue, 0.45);
+    cairo_set_line_width(cairo, 1.5 * frame->unit);
+    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+    cairo_stroke(cairo);
+}
+
+static void below(sl_app *app, const sl_frame *frame) {
+    const sl_lesson *lesson = &app->lesson;
+    const sl_space *space = &app->document.baked->space;
+    const sl_palette *palette = &app->ui.palette;
+    const sl_step *now = &lesson->steps.steps[lesson->at];
+    const uint32_t here = now->kind == SL_STEP_ENTER || now->kind == SL_STEP_LEAVE
+                              ? now->cell
+                              : lesson->steps.steps[now->parent].cell;
+    draw_entered(app, frame);
+    sl_draw_cell(app->ui.cairo, space, frame, here, palette->source_edge, 0.55, 2 * frame->unit);
+    if (now->kind == SL_STEP_HIDDEN || now->kind == SL_STEP_BACKWARDS)
+        sl_draw_cell(app->ui.cairo, space, frame, now->cell, palette->start, 0.25, 2 * frame->unit);
+}
+
+static void above(sl_app *app, const sl_frame *frame) {
+    const sl_lesson *lesson = &app->lesson;
+    const sl_step_kind kind = lesson->steps.steps[lesson->at].kind;
+    draw_branches(app, frame);
+    sl_draw_portal_ends(app->ui.cairo, &app->ui.palette, frame, lesson->ends, lesson->end_count,
+                        kind == SL_STEP_HIDDEN || kind == SL_STEP_BACKWARDS);
+    if (!lesson->end_count) return;
+    const sl_line line = sl_dual_line_at(&lesson->dual, lesson->line, -3, 3);
+    const bool good =
+        sl_dual_margin(&lesson->dual, lesson->ends, lesson->end_count, lesson->line) >= 0;
+    sl_draw_line(app->ui.cairo, frame, line.a, line.b,
+                 good ? app->ui.palette.ink : app->ui.palette.start, 2 * frame->unit);
+}
+
+const sl_subject sl_lesson_search = {
+    .title = "Depth-first search",
+    .of_eye = true,
+    .record = record,
+    .length = length,
+    .sentence = say,
+    .code = code,
+    .account = account,
+    .sequence = sequence,
+    .below = below,
+    .above = above,
+};

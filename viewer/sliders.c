@@ -1,0 +1,100 @@
+#include "sliders.h"
+
+#include "layers.h"
+#include "shelf.h"
+
+#include <math.h>
+#include <stdio.h>
+
+// --- the view cone: finer where it is narrow
+
+static bool always(const sl_app *app) {
+    (void)app;
+    return true;
+}
+
+static double cone_share(const sl_app *app) {
+    return sqrt((app->eye.fov - 1) / 359);
+}
+
+static void cone_text(const sl_app *app, char text[SL_SLIDER_TEXT]) {
+    snprintf(text, SL_SLIDER_TEXT, "%.0f\xc2\xb0", app->eye.fov);
+}
+
+static void set_cone(sl_app *app, double share) {
+    app->eye.fov = round(1 + 359 * share * share);
+}
+
+// --- the height at which a 3D model is cut
+
+static bool is_model(const sl_app *app) {
+    return app->document.source.highest > app->document.source.lowest;
+}
+
+static double cut_share(const sl_app *app) {
+    const sl_document_source *s = &app->document.source;
+    return (s->options.slice - s->lowest) / (s->highest - s->lowest);
+}
+
+static void cut_text(const sl_app *app, char text[SL_SLIDER_TEXT]) {
+    snprintf(text, SL_SLIDER_TEXT, "%.5g", app->document.source.options.slice);
+}
+
+static void set_cut(sl_app *app, double share) {
+    const sl_document_source *source = &app->document.source;
+    sl_import_options options = source->options;
+    options.slice = source->lowest + share * (source->highest - source->lowest);
+    if (options.slice != source->options.slice) sl_shelf_open_again(app, &options);
+}
+
+// --- how deep splits are shown
+
+static bool has_splits(const sl_app *app) {
+    return app->show & SL_SHOW_SPLITS && app->document.baked;
+}
+
+static double deepest_split(const sl_app *app) {
+    return fmax(app->document.baked->space.tree_depth, 1);
+}
+
+static double split_share(const sl_app *app) {
+    return app->split_depth / deepest_split(app);
+}
+
+static void split_text(const sl_app *app, char text[SL_SLIDER_TEXT]) {
+    snprintf(text, SL_SLIDER_TEXT, "%.0f", fmin(app->split_depth, deepest_split(app)));
+}
+
+static void set_split(sl_app *app, double share) {
+    app->split_depth = (uint32_t)fmax(1, round(share * deepest_split(app)));
+}
+
+// --- how far the stab tree is grown
+
+static bool has_tree(const sl_app *app) {
+    return app->show & SL_SHOW_TREE && app->tree.baked;
+}
+
+static double tree_share(const sl_app *app) {
+    return app->tree_depth / fmax(app->tree.tree_depth, 1);
+}
+
+static void tree_text(const sl_app *app, char text[SL_SLIDER_TEXT]) {
+    snprintf(text, SL_SLIDER_TEXT, "%.0f", fmin(app->tree_depth, app->tree.tree_depth));
+}
+
+static void set_tree(sl_app *app, double share) {
+    app->tree_depth = (uint32_t)round(share * app->tree.tree_depth);
+}
+
+static const sl_slider sliders[] = {
+    {"View cone", always, cone_share, cone_text, set_cone},
+    {"Cut at", is_model, cut_share, cut_text, set_cut},
+    {"Split depth", has_splits, split_share, split_text, set_split},
+    {"Tree grown", has_tree, tree_share, tree_text, set_tree},
+};
+
+const sl_slider *sl_sliders(size_t *count) {
+    *count = sizeof sliders / sizeof *sliders;
+    return sliders;
+}
