@@ -78,6 +78,7 @@ is_there() {
     sdl2) module sdl2 ;;
     xvfb) has Xvfb ;;
     xdotool) has xdotool ;;
+    x11) module x11 ;;
     font) font ;;
     clang | clang-format | llvm-symbolizer) has "$1" ;;
     clang-sanitizers) clang_sanitizes ;;
@@ -99,6 +100,7 @@ package() { # system thing
     apt:zlib) echo zlib1g-dev ;;
     apt:zstd) echo libzstd-dev ;;
     apt:sdl2) echo libsdl2-dev ;;
+    apt:x11) echo libx11-dev ;;
     apt:libpng | apt:libxml2 | apt:libyaml) echo "$2-dev" ;;
     apt:font) echo fonts-dejavu-core ;;
     apt:clang-sanitizers) echo libclang-rt-dev ;;
@@ -115,6 +117,7 @@ package() { # system thing
     dnf:zstd) echo libzstd-devel ;;
     dnf:sdl2) echo SDL2-devel ;;
     dnf:xvfb) echo xorg-x11-server-Xvfb ;;
+    dnf:x11) echo libX11-devel ;;
     dnf:libpng | dnf:libxml2 | dnf:libyaml) echo "$2-devel" ;;
     dnf:cmocka) echo libcmocka-devel ;;
 
@@ -124,6 +127,7 @@ package() { # system thing
     pacman:font) echo ttf-dejavu ;;
     pacman:clang-format) echo clang ;;
     pacman:xvfb) echo xorg-server-xvfb ;;
+    pacman:x11) echo libx11 ;;
     pacman:clang-sanitizers) echo compiler-rt ;;
 
     brew:c | brew:c++) echo gcc ;;
@@ -132,6 +136,7 @@ package() { # system thing
     brew:font) echo --cask font-dejavu ;;
     brew:clang | brew:clang-sanitizers) echo llvm ;;
     brew:xvfb) echo --cask xquartz ;;
+    brew:x11) echo libx11 ;;
 
     *) echo "$2" ;;
     esac
@@ -174,7 +179,7 @@ install_packages() { # system package...
 # ---- What to do ----
 
 things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml zstd glpk cairo sdl2 font cmocka gmp"
-[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format xvfb xdotool"
+[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format xvfb xdotool x11"
 
 missing=
 for thing in $things; do is_there "$thing" || missing="$missing $thing"; done

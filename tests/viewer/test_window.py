@@ -16,20 +16,42 @@ from viewing import TOLERANCE, Viewer, environment
 
 SKIP = 77
 PATIENCE = 30
+DROP = pathlib.Path(sys.argv[2]).with_name("drop_file")
 
-# (name, keys by their names for X, drags in the window, the same for the script)
+# Where the cone's slider stands in a window of 1200 x 760: its knob at 90 degrees, and farther on.
+CONE, WIDER = (1045, 271), (1090, 271)
+
+# name, what is done in the window (a list of acts), and the same for the script.
+# Acts: a key by its name for X; ("drag", X, Y, X2, Y2); ("wheel", X, Y, TURNS); ("drop", MAP).
 STEPS = [
-    ("start", [], [], ""),
-    ("portals", ["p"], [], "key P\n"),
-    ("tree", ["b"], [], "key B\n"),
-    ("splits", ["k"], [], "key K\n"),
-    ("dark", ["t"], [], "key T\n"),
-    ("light", ["t", "k", "b", "p"], [], "key T\nkey K\nkey B\nkey P\n"),
-    ("learn", ["F2", "Right", "Right", "Right"], [], "key F2\n" + "key Right\n" * 3),
-    ("back", ["Left"], [], "key Left\n"),
-    ("wall", ["F3"], [(225, 260, 225, 320)], "key F3\ndrag 225 260 225 320\n"),
-    ("undone", ["ctrl+z"], [], "key Ctrl+Z\n"),
+    ("start", [], ""),
+    ("portals", ["p"], "key P\n"),
+    ("tree", ["b"], "key B\n"),
+    ("splits", ["k"], "key K\n"),
+    ("dark", ["t"], "key T\n"),
+    ("light", ["t", "k", "b", "p"], "key T\nkey K\nkey B\nkey P\n"),
+    ("cone", [("drag", *CONE, *WIDER)], f"drag {CONE[0]} {CONE[1]} {WIDER[0]} {WIDER[1]}\n"),
+    ("zoomed", [("wheel", 300, 300, 3)], "move 300 300\n" + "wheel 1\n" * 3),
+    ("back_out", [("wheel", 300, 300, -3)], "move 300 300\n" + "wheel -1\n" * 3),
+    ("fit", ["f"], "key F\n"),
+    ("learn", ["F2", "Right", "Right", "Right"], "key F2\n" + "key Right\n" * 3),
+    ("back", ["Left"], "key Left\n"),
+    ("wall", ["F3", ("drag", 225, 260, 225, 320)], "key F3\ndrag 225 260 225 320\n"),
+    ("undone", ["ctrl+z"], "key Ctrl+Z\n"),
+    ("dropped", ["F1", ("drop", "oblique/rotunda.map")], "key F1\nopen {maps}/oblique/rotunda.map\n"),
+    ("oblique_tree", ["b"], "key B\n"),
+    ("oblique_splits", ["k"], "key K\n"),
+    ("oblique_cells", ["c"], "key C\n"),
+    ("oblique_learn", ["F2", "u", "Right", "Right"], "key F2\nkey U\nkey Right\nkey Right\n"),
+    ("oblique_wall", ["F3", ("drag", 330, 440, 420, 470)], "key F3\ndrag 330 440 420 470\n"),
+    ("oblique_undone", ["ctrl+z"], "key Ctrl+Z\n"),
 ]
+
+
+def steps():
+    """Those that can be done: without the program that drops files, up to there."""
+    names = [name for name, _, _ in STEPS]
+    return STEPS if DROP.exists() else STEPS[:names.index("dropped")]
 
 
 def start_display():
@@ -45,8 +67,9 @@ def start_display():
 
 
 class Window:
-    def __init__(self, environment):
+    def __init__(self, environment, viewer):
         self.environment = environment
+        self.viewer = viewer
         self.id = None
 
     def do(self, *words):
@@ -69,6 +92,26 @@ class Window:
             self.do("mousemove", "--window", self.id, x0 + (x1 - x0) * i // 4,
                     y0 + (y1 - y0) * i // 4)
         self.do("mouseup", 1)
+
+    def wheel(self, x, y, turns):
+        self.do("mousemove", "--window", self.id, x, y)
+        for _ in range(abs(turns)):
+            self.do("click", 4 if turns > 0 else 5)
+
+    def drop(self, name):
+        path = self.viewer.root / "maps" / name
+        done = subprocess.run([DROP, self.id, str(path.resolve())], env=self.environment, text=True,
+                              stderr=subprocess.PIPE, timeout=PATIENCE)
+        self.viewer.check(done.returncode == 0, f"{name}: {done.stderr.strip()}")
+
+    def act(self, act):
+        """What changes the map is waited for: it is made anew in the background."""
+        if isinstance(act, str):
+            self.do("key", act)
+        else:
+            getattr(self, act[0])(*act[1:])
+        if act == "ctrl+z" or act[0] in ("drag", "drop"):
+            time.sleep(1)
 
 
 def wait_for_file(path):
@@ -93,32 +136,28 @@ def drive(viewer, window, folder):
     window.id = found
     window.do("windowfocus", found)
     time.sleep(1)
-    for number, (name, keys, drags, _) in enumerate(STEPS, 1):
-        for key in keys:
-            window.do("key", key)
-            if key == "ctrl+z":
-                time.sleep(1)
-        for one in drags:
-            window.drag(*one)
-            time.sleep(1)  # the map is made anew in the background
+    for number, (name, acts, _) in enumerate(steps(), 1):
+        for act in acts:
+            window.act(act)
         viewer.check(save(window, folder, number), f"{name}: nothing was saved")
     # Walking takes as long as it takes: only that the eye moves can be told.
     window.do("key", "F1", "keydown", "w")
     time.sleep(0.6)
     window.do("keyup", "w")
-    viewer.check(save(window, folder, len(STEPS) + 1), "nothing was saved after the walk")
-    share = viewer.difference(folder / f"sightline-{len(STEPS)}.png",
-                              folder / f"sightline-{len(STEPS) + 1}.png")
+    viewer.check(save(window, folder, len(steps()) + 1), "nothing was saved after the walk")
+    share = viewer.difference(folder / f"sightline-{len(steps())}.png",
+                              folder / f"sightline-{len(steps()) + 1}.png")
     viewer.check(share > TOLERANCE, f"the eye did not walk: {share:.2%}")
     window.do("key", "ctrl+q")
 
 
 def compare(viewer, folder):
     script = "size 1200 760\n"
-    for name, _, _, commands in STEPS:
+    for name, _, commands in steps():
+        commands = commands.replace("{maps}", str(viewer.root / "maps"))
         script += f"{commands}move 1100 600\nsave {name}.png\n"
     viewer.script(folder, "office.map", script)
-    for number, (name, _, _, _) in enumerate(STEPS, 1):
+    for number, (name, _, _) in enumerate(steps(), 1):
         share = viewer.difference(folder / f"{name}.png", folder / f"sightline-{number}.png")
         viewer.check(share <= TOLERANCE, f"{name}: the window shows {share:.2%} otherwise")
 
@@ -135,7 +174,7 @@ def main():
             shown = environment(DISPLAY=display, XDG_CONFIG_HOME=str(folder / "config"))
             program = subprocess.Popen([viewer.view, viewer.root / "maps/office.map"], cwd=folder,
                                        env=shown, stderr=subprocess.PIPE, text=True)
-            drive(viewer, Window(shown), folder)
+            drive(viewer, Window(shown, viewer), folder)
             try:
                 _, said = program.communicate(timeout=PATIENCE)
                 viewer.check(program.returncode == 0, f"status {program.returncode}: {said}")
