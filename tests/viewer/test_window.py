@@ -111,7 +111,7 @@ class Window:
         else:
             getattr(self, act[0])(*act[1:])
         if act == "ctrl+z" or act[0] in ("drag", "drop"):
-            time.sleep(1)
+            time.sleep(0.5)
 
 
 def wait_for_file(path):
