@@ -130,11 +130,12 @@ static double lap(double *last) {
     return *last - before;
 }
 
-/// What a baked file keeps of the map: all but the walls, which the space has.
+/// What a baked file keeps of the map: all but the walls and cells, which the space has.
 static void keep_rest_of_map(sl_context *context, sl_map *map, sl_baked *baked) {
     sl_free(context, map->walls);
     map->walls = NULL;
     map->wall_count = map->wall_room = 0;
+    sl_map_drop_cells(context, map);
     baked->map = *map;
     *map = (sl_map){0};
 }

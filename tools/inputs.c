@@ -59,6 +59,7 @@ static sl_status read_options(sl_context *context, const sl_input_texts *texts,
     options->map = texts->map;
     options->layers = texts->layers;
     options->doors = texts->doors;
+    options->cells = texts->cells;
     return SL_OK;
 }
 

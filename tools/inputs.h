@@ -16,6 +16,7 @@ const char *sl_input_base_name(const char *path, size_t *length);
 typedef struct sl_input_texts {
     const char *map, *slice, *layers, *tolerance, *threshold;
     bool doors;
+    bool cells; ///< the file's own cells are asked for
 } sl_input_texts;
 
 /// Those options, for a command's table of options.

@@ -45,6 +45,7 @@ static sl_status plan_subdivision(sl_context *context, const sl_pipeline_texts *
         return sl_fail(context, SL_BAD_ARGUMENT, "%s is for --subdivide kd, not %s",
                        texts->kd_rules ? "--kd-rules" : "--kd-obscured", texts->subdivide);
     if (texts->subdivide || kd_wanted) plan->subdivision = chosen;
+    plan->texts.cells = texts->subdivide && chosen->takes_cells;
     return SL_OK;
 }
 
@@ -77,6 +78,8 @@ static sl_status add_start(sl_context *context, const sl_pipeline *pipeline, sl_
 
 sl_status sl_pipeline_read(sl_context *context, const sl_pipeline *pipeline, sl_map *map) {
     SL_TRY(sl_input_read_map(context, pipeline->input, &pipeline->texts, map));
+    if (pipeline->subdivision && !pipeline->subdivision->takes_cells)
+        sl_map_drop_cells(context, map);
     SL_TRY(add_start(context, pipeline, map));
     sl_effects_leave_out(context, map, pipeline->without);
     return SL_OK;
@@ -107,7 +110,8 @@ sl_name_table sl_pipeline_solver_names(sl_solver solvers[SL_SOLVERS_MOST]) {
 }
 
 void sl_pipeline_print_subdivisions(void) {
-    puts("\nsubdivisions (kd where all walls are axial, else bsp):");
+    puts("\nsubdivisions (given where a map text brings cells; kd where all walls\nare axial, else "
+         "bsp):");
     size_t count;
     const sl_subdivision *subdivisions = sl_subdivisions(&count);
     for (size_t i = 0; i < count; i++)

@@ -36,7 +36,7 @@ typedef struct sl_slv_info {
     uint32_t tree_depth, inside_count;
     uint32_t sight, guarantee; ///< of sl_sight, sl_guarantee
     uint32_t deepest, trees_left_out;
-    uint32_t reserved; ///< 0
+    uint32_t partial; ///< 1 where the cells need not fill the bounds
     uint64_t tests, nodes, pairs, doubtful_pairs;
     char method[16], solver[16]; ///< as sl_slv_is_name
 } sl_slv_info;

@@ -135,6 +135,7 @@ static sl_status load_info(const reader *r) {
     out->space.root = info.root;
     out->space.tree_depth = info.tree_depth;
     out->space.inside_count = info.inside_count;
+    out->space.partial = info.partial;
     out->visibility.sight = (sl_sight)info.sight;
     out->visibility.guarantee = (sl_guarantee)info.guarantee;
     out->visibility.trees.left_out = info.trees_left_out;
@@ -286,7 +287,8 @@ static sl_status load_map(const reader *r) {
     SL_TRY(find_section(r, "MAPT", 1, &s, &found));
     if (!found) return fail_file(r, "damaged: section MAPT is missing");
     SL_TRY(sl_map_read_text(r->context, r->name, r->bytes + s.offset, s.count, &r->out->map));
-    if (r->out->map.wall_count) return fail_file(r, "damaged: section MAPT holds walls");
+    if (r->out->map.wall_count || r->out->map.cell_count)
+        return fail_file(r, "damaged: section MAPT holds walls or cells");
     return SL_OK;
 }
 

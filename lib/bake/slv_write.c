@@ -43,6 +43,7 @@ static sl_slv_info make_info(const sl_baked *baked) {
         .root = space->root,
         .tree_depth = space->tree_depth,
         .inside_count = space->inside_count,
+        .partial = space->partial,
         .sight = baked->visibility.sight,
         .guarantee = baked->visibility.guarantee,
         .deepest = account->deepest,
@@ -65,10 +66,11 @@ static sl_status copy_walls(sl_context *context, const sl_space *space, plan *p)
     return SL_OK;
 }
 
-/// The map's text without its walls, which the space has.
+/// The map's text without its walls and cells, which the space has.
 static sl_status print_map(sl_context *context, const sl_map *map, plan *p, size_t *size) {
     sl_map others = *map;
-    others.wall_count = 0;
+    others.wall_count = others.cell_count = 0;
+    others.snap = 0;
     FILE *stream = open_memstream(&p->map_text, size);
     if (!stream) return sl_fail_memory(context);
     sl_map_print_text(&others, stream);

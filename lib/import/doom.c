@@ -1,4 +1,4 @@
-#include "import/doom.h"
+#include "import/doom_cells.h"
 
 #include "sightline/import.h"
 
@@ -13,6 +13,7 @@ typedef struct doom_import {
     sl_context *context;
     const sl_doom_level *level;
     const bool *is_door; ///< NULL where doors are seen through
+    uint32_t *walls;     ///< by line: its wall, or SL_NO_WALL; NULL where nobody asks
     sl_map *map;
     line_account lines;
 } doom_import;
@@ -50,6 +51,8 @@ static sl_status add_line(doom_import *import, const sl_doom_line *line) {
         return import->is_door ? add_door(import, line) : SL_OK;
     }
     lines->walls++;
+    if (import->walls)
+        import->walls[line - import->level->lines] = (uint32_t)import->map->wall_count;
     return sl_map_add_wall(import->context, import->map, line->from, line->to, line->line);
 }
 
@@ -89,16 +92,38 @@ static void tell_doors_left_out(sl_context *context, const char *name, const sl_
                 name, level->name, doors);
 }
 
-static sl_status make_map(sl_context *context, const char *name, const sl_doom_level *level,
-                          const sl_import_options *options, sl_map *map) {
+/// The lines, and the cells that a node builder made of them.
+static sl_status add_cells(doom_import *import, const sl_wad *wad, const sl_wad_map *chosen) {
+    const size_t count = import->level->line_count;
+    import->walls = sl_alloc_array(import->context, count, sizeof *import->walls);
+    if (!import->walls) return SL_NO_MEMORY;
+    memset(import->walls, 0xff, count * sizeof *import->walls);
+    sl_status status = SL_OK;
+    for (size_t i = 0; i < count && status == SL_OK; i++)
+        status = add_line(import, &import->level->lines[i]);
+    if (status == SL_OK)
+        status = sl_doom_add_cells(import->context, wad, chosen, import->level, import->walls,
+                                   import->map);
+    sl_free(import->context, import->walls);
+    return status;
+}
+
+static sl_status add_lines(doom_import *import) {
+    for (size_t i = 0; i < import->level->line_count; i++)
+        SL_TRY(add_line(import, &import->level->lines[i]));
+    return SL_OK;
+}
+
+static sl_status make_map(sl_context *context, const sl_wad *wad, const sl_wad_map *chosen,
+                          const sl_doom_level *level, const sl_import_options *options,
+                          sl_map *map) {
+    const char *name = wad->name;
     bool *is_door = sl_alloc_array(context, level->sector_count, sizeof *is_door);
     if (!is_door) return SL_NO_MEMORY;
     sl_doom_find_doors(level, is_door);
     doom_import import = {
         .context = context, .level = level, .is_door = options->doors ? is_door : NULL, .map = map};
-    sl_status status = SL_OK;
-    for (size_t i = 0; i < level->line_count && status == SL_OK; i++)
-        status = add_line(&import, &level->lines[i]);
+    sl_status status = options->cells ? add_cells(&import, wad, chosen) : add_lines(&import);
     if (status == SL_OK) status = add_start(&import);
     if (status == SL_OK) tell(&import, name);
     if (status == SL_OK && !options->doors) tell_doors_left_out(context, name, level, is_door);
@@ -115,7 +140,7 @@ sl_status sl_map_read_wad(sl_context *context, const char *name, const char *tex
     SL_TRY(sl_wad_open(context, name, text, size, &wad));
     SL_TRY(sl_wad_find_map(context, &wad, options->map, &chosen));
     SL_TRY(sl_doom_read(context, &wad, &chosen, &level));
-    const sl_status status = make_map(context, name, &level, options, &read);
+    const sl_status status = make_map(context, &wad, &chosen, &level, options, &read);
     sl_doom_level_destroy(context, &level);
     if (status == SL_OK)
         *map = read;

@@ -74,7 +74,11 @@ static bool knows_wad(const char *text, size_t size) {
 }
 
 static const sl_map_format formats[] = {
-    {.name = "text", .endings = ".map", .what = "the map text", .read = read_text},
+    {.name = "text",
+     .endings = ".map",
+     .what = "the map text",
+     .read = read_text,
+     .takes = SL_TAKES_CELLS},
     {.name = "plan", .endings = ".txt", .what = "an ASCII plan", .read = read_plan},
     {.name = "unigrafix",
      .endings = ".ug",
@@ -144,7 +148,7 @@ static const sl_map_format formats[] = {
      .endings = ".wad",
      .what = "a Doom WAD, classic, Hexen's or UDMF",
      .read = sl_map_read_wad,
-     .takes = SL_TAKES_DOORS,
+     .takes = SL_TAKES_DOORS | SL_TAKES_CELLS,
      .list = sl_map_list_wad,
      .knows = knows_wad},
 };
@@ -255,6 +259,7 @@ static sl_status check_options(sl_context *context, const char *path, const sl_m
         {"tolerance", options->tolerance != 0, format->takes & SL_TAKES_TOLERANCE},
         {"threshold", options->threshold != 0, format->takes & SL_TAKES_THRESHOLD},
         {"doors", options->doors, format->takes & SL_TAKES_DOORS},
+        {"subdivide given", options->cells, format->takes & SL_TAKES_CELLS},
     };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (all[i].given && !all[i].taken)

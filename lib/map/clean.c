@@ -344,6 +344,12 @@ static sl_status clean(cleaning *work, sl_map *map) {
 
 sl_status sl_map_clean(sl_context *context, sl_map *map, sl_clean_account *account) {
     cleaning work = {.context = context, .account.before = map->wall_count};
+    if (map->cell_count) {
+        // Its cells' sides tell walls by their numbers.
+        if (account)
+            *account = (sl_clean_account){.before = map->wall_count, .after = map->wall_count};
+        return SL_OK;
+    }
     const sl_status status = clean(&work, map);
     sl_free(context, work.uprights.items);
     sl_free(context, work.levels.items);

@@ -82,6 +82,20 @@ static sl_status read_range(text_reader *reader) {
     return SL_OK;
 }
 
+static sl_status read_snap(text_reader *reader) {
+    if (reader->map->snap > 0)
+        return sl_fail_at(reader->context, reader->name, reader->line,
+                          "a second snap: the first is on line %u", reader->map->snap_line);
+    const double snap = reader->numbers.items[0];
+    if (!(snap > 0))
+        return sl_fail_at(reader->context, reader->name, reader->line,
+                          "snap: expected a number greater than 0, found '%s'",
+                          sl_show(reader->words.items[0]).text);
+    reader->map->snap = snap;
+    reader->map->snap_line = reader->line;
+    return SL_OK;
+}
+
 /// The heading may be any finite number: it is an angle, not a coordinate.
 static sl_status read_start(text_reader *reader) {
     const sl_word word = reader->words.items[2];
@@ -93,13 +107,30 @@ static sl_status read_start(text_reader *reader) {
                             reader->line);
 }
 
+/// All points of the statement; the caller frees them.
+static sl_point *copy_points(text_reader *reader, size_t *count) {
+    *count = reader->numbers.count / 2;
+    sl_point *points = sl_alloc_array(reader->context, *count, sizeof *points);
+    for (size_t i = 0; points && i < *count; i++) points[i] = point_of(reader, i);
+    return points;
+}
+
 static sl_status read_path(text_reader *reader) {
-    const size_t count = reader->numbers.count / 2;
-    sl_point *points = sl_alloc_array(reader->context, count, sizeof *points);
+    size_t count;
+    sl_point *points = copy_points(reader, &count);
     if (!points) return SL_NO_MEMORY;
-    for (size_t i = 0; i < count; i++) points[i] = point_of(reader, i);
     const sl_status status =
         sl_map_add_path(reader->context, reader->map, reader->label, points, count, reader->line);
+    sl_free(reader->context, points);
+    return status;
+}
+
+static sl_status read_cell(text_reader *reader) {
+    size_t count;
+    sl_point *points = copy_points(reader, &count);
+    if (!points) return SL_NO_MEMORY;
+    const sl_status status =
+        sl_map_add_cell(reader->context, reader->map, points, NULL, count, reader->line);
     sl_free(reader->context, points);
     return status;
 }
@@ -134,6 +165,8 @@ static const statement statements[] = {
     {"start", "start x y heading", false, 3, 3, 2, read_start},
     {"path", "path NAME x y ...", true, 2, ANY, ANY, read_path},
     {"object", "object NAME x0 y0 x1 y1", true, 4, 4, 4, read_object},
+    {"cell", "cell x0 y0 x1 y1 x2 y2 ...", false, 6, ANY, ANY, read_cell},
+    {"snap", "snap d", false, 1, 1, 1, read_snap},
 };
 
 static const statement *find_statement(sl_word word) {
@@ -203,7 +236,7 @@ static sl_status read_statement(text_reader *reader) {
     if (!row)
         return sl_fail_at(reader->context, reader->name, reader->line,
                           "unknown statement '%s': expected wall, walls, door, mirror, oneway, "
-                          "seam, range, start, path or object",
+                          "seam, range, start, path, object, cell or snap",
                           sl_show(word).text);
     memmove(reader->words.items, reader->words.items + 1, --reader->words.count * sizeof(sl_word));
     const sl_status status = read_by(reader, row);
@@ -348,6 +381,20 @@ static void print_others(const sl_map *map, FILE *stream) {
     }
 }
 
+static void print_cells(const sl_map *map, FILE *stream) {
+    if (map->snap > 0) {
+        fprintf(stream, "snap");
+        print_number(stream, map->snap);
+        fprintf(stream, "\n");
+    }
+    for (size_t i = 0; i < map->cell_count; i++) {
+        fprintf(stream, "cell");
+        for (uint32_t k = 0; k < map->cells[i].count; k++)
+            print_point(stream, map->corners[map->cells[i].first + k]);
+        fprintf(stream, "\n");
+    }
+}
+
 void sl_map_print_text(const sl_map *map, FILE *stream) {
     fprintf(stream, "sightline 1\n");
     if (map->notes) print_notes(stream, map->notes);
@@ -362,6 +409,7 @@ void sl_map_print_text(const sl_map *map, FILE *stream) {
         fprintf(stream, "\n");
     }
     print_others(map, stream);
+    print_cells(map, stream);
 }
 
 sl_status sl_map_write_text(sl_context *context, const sl_map *map, const char *path) {

@@ -56,6 +56,7 @@ typedef struct sl_runtime {
     uint32_t vertex_count;
     uint32_t node_count;
     uint32_t line_count;
+    bool partial; // the cells need not fill the bounds
     int32_t root;
     const unsigned char *nodes, *lines, *cells, *vertices, *exits, *row_offsets, *row_bytes;
 } sl_runtime;
@@ -66,9 +67,10 @@ SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size,
 /// A status in words, for a log.
 SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status);
 
-/// The cell that holds a point; SL_RUNTIME_NO_CELL outside the bounds and for NaN. On a split line
-/// the cell above (right of or over) it, on an oblique one the cell at its left; on the upper or
-/// right border the cell inside. Time: the tree's depth.
+/// The cell that holds a point; SL_RUNTIME_NO_CELL outside the bounds, for NaN, and where cells
+/// that came with the map leave a gap. On a split line the cell above (right of or over) it, on an
+/// oblique one the cell at its left; on the upper or right border the cell inside. Time: the tree's
+/// depth.
 SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, double y);
 
 /// Whether anything in cell `to` can be seen from anywhere in cell `from`. False where either is no
@@ -331,6 +333,7 @@ static sl_runtime_status slrt_check_sizes(const slrt_section *found, sl_runtime 
     rt->max_x = slrt_f64(info + 16);
     rt->max_y = slrt_f64(info + 24);
     rt->root = slrt_i32(info + 32);
+    rt->partial = slrt_u32(info + 60) != 0;
     return rt->min_x < rt->max_x && rt->min_y < rt->max_y ? SL_RUNTIME_OK : SL_RUNTIME_SPACE;
 }
 
@@ -747,14 +750,14 @@ static uint32_t slrt_locate_oblique(const sl_runtime *rt, double x, double y) {
     if (slrt_holds(rt, cell, x, y)) return cell;
     for (steps = 0; steps < rt->cell_count; steps++)
         if (slrt_holds(rt, steps, x, y)) return steps;
-    return cell;
+    return rt->partial ? SL_RUNTIME_NO_CELL : cell;
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, double y) {
     int32_t at = runtime->root;
     if (!(x >= runtime->min_x && x <= runtime->max_x && y >= runtime->min_y && y <= runtime->max_y))
         return SL_RUNTIME_NO_CELL;
-    if (runtime->line_count) return slrt_locate_oblique(runtime, x, y);
+    if (runtime->line_count || runtime->partial) return slrt_locate_oblique(runtime, x, y);
     while (at >= 0) {
         const unsigned char *node = runtime->nodes + (size_t)at * SLRT_NODE_BYTES;
         at = slrt_i32(node + ((slrt_i32(node + 8) ? y : x) >= slrt_f64(node) ? 16 : 12));

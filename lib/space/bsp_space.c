@@ -214,7 +214,7 @@ static sl_status allocate(maker *m) {
     if (!s->cells || !s->vertices || !s->beyond || !s->walls || !s->nodes || !s->lines ||
         !m->cell_of || !m->face_of)
         return SL_NO_MEMORY;
-    memcpy(s->walls, bsp->walls, s->wall_count * sizeof *s->walls);
+    if (s->wall_count) memcpy(s->walls, bsp->walls, s->wall_count * sizeof *s->walls);
     if (s->node_count) memcpy(s->nodes, bsp->nodes.items, s->node_count * sizeof *s->nodes);
     if (s->line_count) memcpy(s->lines, bsp->lines.items, s->line_count * sizeof *s->lines);
     return SL_OK;

@@ -310,9 +310,11 @@ static sl_status check_all(checker *c) {
 sl_status sl_space_check(sl_context *context, const sl_space *space) {
     checker c = {.context = context, .space = space};
     SL_TRY(check_ranges(&c));
+    if (space->partial > 1) return sl_fail(context, SL_BAD_INPUT, "the space is of no known kind");
     if (space->beyond) return sl_check_bsp(context, space);
-    if (space->line_count)
-        return sl_fail(context, SL_BAD_INPUT, "the lines of a BSP without its sides");
+    if (space->line_count || space->partial)
+        return sl_fail(context, SL_BAD_INPUT, "%s without what is beyond the cells' sides",
+                       space->line_count ? "the lines of a BSP" : "cells of the map's own");
     const size_t places = (size_t)space->node_count + space->cell_count;
     c.regions = sl_alloc_array(context, places, sizeof *c.regions);
     c.led_to = sl_alloc_array(context, sl_bits_words(places), sizeof *c.led_to);

@@ -118,7 +118,7 @@ static sl_status check_cells(const checker *c) {
     const double height = s->bounds.max.y - s->bounds.min.y;
     const double slack = 1e-9 + (double)vertices * c->slack / fmin(width, height);
     // More where walls within rounding of each other leave no room for corners between them.
-    if (sum >= 1 - slack && sum <= 1.5 + slack) return SL_OK;
+    if ((s->partial || sum >= 1 - slack) && sum <= 1.5 + slack) return SL_OK;
     return sl_fail(c->context, SL_BAD_INPUT, "the cells' areas add up to %.17g of the bounds'",
                    sum);
 }
@@ -149,6 +149,27 @@ static bool is_on_border(const sl_box *b, sl_point p, sl_point q) {
            (p.y == q.y && (p.y == b->min.y || p.y == b->max.y));
 }
 
+/// Whether no corner is on the right of a side: sight that leaves there comes back nowhere.
+static bool is_outermost(const sl_space *s, sl_point from, sl_point to) {
+    for (uint32_t i = 0; i < s->vertex_count; i++)
+        if (sl_orient(from, to, s->vertices[i]) < 0) return false;
+    return true;
+}
+
+static bool is_strictly_inside(const sl_space *s, const sl_cell *cell, sl_point point) {
+    const sl_point *v = s->vertices + cell->first_vertex;
+    for (uint32_t i = 0; i < cell->vertex_count; i++)
+        if (sl_orient(v[i], v[i + 1 == cell->vertex_count ? 0 : i + 1], point) <= 0) return false;
+    return true;
+}
+
+/// Where cells came with the map, a wall that a side is along must not end before it does.
+static bool ends_within(const sl_space *s, const sl_cell *cell, uint32_t what) {
+    const sl_wall *wall = &s->walls[what & ~SL_BEYOND_RIGHT];
+    return s->partial &&
+           (is_strictly_inside(s, cell, wall->a) || is_strictly_inside(s, cell, wall->b));
+}
+
 /// On the wall's line or behind it, as seen from the cell.
 static bool is_behind(const sl_space *s, uint32_t what, sl_point from, sl_point to) {
     const uint32_t number = what & ~SL_BEYOND_RIGHT;
@@ -170,10 +191,13 @@ static sl_status check_sides(const checker *c, uint32_t number) {
             if (exits == cell->exit_count) return fail_cell(c, number, "has too few exits");
             SL_TRY(check_exit(c, number, &s->exits[cell->first_exit + exits++], from, to));
         } else if (what == SL_BEYOND_BORDER) {
-            if (!is_on_border(&s->bounds, from, to))
+            SL_TRY(sl_check_cancelled(c->context));
+            if (s->partial ? !is_outermost(s, from, to) : !is_on_border(&s->bounds, from, to))
                 return fail_cell(c, number, "has a border within the bounds");
         } else if (!is_behind(s, what, from, to))
             return fail_cell(c, number, "has a wall's side that is not behind the wall");
+        else if (ends_within(s, cell, what))
+            return fail_cell(c, number, "has a wall's side that is longer than the wall");
     }
     return exits == cell->exit_count ? SL_OK : fail_cell(c, number, "has too many exits");
 }

@@ -38,7 +38,7 @@ static void mark(const sl_map *map, const sl_piece *walls, sl_space *space, sl_b
     const bool from_starts = map->start_count > 0;
     for (size_t i = 0; i < map->start_count; i++) {
         const uint32_t cell = sl_space_locate(space, map->starts[i].at);
-        if (sl_bits_has(reached, cell)) continue;
+        if (cell == SL_NO_CELL || sl_bits_has(reached, cell)) continue;
         sl_bits_add(reached, cell);
         stack[count++] = cell;
     }

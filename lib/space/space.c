@@ -176,7 +176,7 @@ static bool cell_holds(const sl_space *space, uint32_t number, sl_point point) {
 static uint32_t ask_all(const sl_space *space, uint32_t cell, sl_point point) {
     for (uint32_t i = 0; i < space->cell_count; i++)
         if (cell_holds(space, i, point)) return i;
-    return cell;
+    return space->partial ? SL_NO_CELL : cell;
 }
 
 static uint32_t mend(const sl_space *space, uint32_t cell, sl_point point) {

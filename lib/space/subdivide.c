@@ -13,11 +13,26 @@ static sl_status by_bsp(sl_context *context, const sl_map *map, const sl_subdivi
     return sl_subdivide_bsp(context, map, &options, out);
 }
 
+static sl_status as_given(sl_context *context, const sl_map *map, const sl_subdivide_options *rules,
+                          sl_space *out) {
+    (void)rules;
+    return sl_subdivide_given(context, map, out);
+}
+
 static const sl_subdivision subdivisions[] = {
-    {"kd", "kd-tree on the walls' own lines; walls must be axial", true, by_kd},
-    {"bsp", "binary space partition on the walls' own lines; walls may be oblique", false, by_bsp},
+    {.name = "kd",
+     .what = "kd-tree on the walls' own lines; walls must be axial",
+     .takes_rules = true,
+     .subdivide = by_kd},
+    {.name = "bsp",
+     .what = "binary space partition on the walls' own lines; walls may be oblique",
+     .subdivide = by_bsp},
+    {.name = "given",
+     .what = "the cells that the file brings: 'cell' of a map text, GL nodes of a WAD",
+     .takes_cells = true,
+     .subdivide = as_given},
 };
-enum { KD, BSP };
+enum { KD, BSP, GIVEN };
 
 const sl_subdivision *sl_subdivisions(size_t *count) {
     *count = sizeof subdivisions / sizeof *subdivisions;
@@ -38,5 +53,5 @@ static bool is_axial(const sl_map *map) {
 }
 
 const sl_subdivision *sl_subdivision_for(const sl_map *map) {
-    return &subdivisions[is_axial(map) ? KD : BSP];
+    return &subdivisions[map->cell_count ? GIVEN : is_axial(map) ? KD : BSP];
 }

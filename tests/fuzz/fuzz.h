@@ -3,6 +3,7 @@
 #define SL_FUZZ_H
 
 #include "sightline/import.h"
+#include "sightline/space.h"
 #include "unit/map_same.h"
 
 #include <stdio.h>
@@ -39,6 +40,17 @@ static inline void fuzz_refused(sl_context *context, sl_status status, const sl_
     FUZZ_CHECK(status == SL_BAD_INPUT);
     FUZZ_CHECK(strncmp(sl_context_message(context), "input:", 6) == 0);
     FUZZ_CHECK(map_is_empty(map));
+}
+
+/// A map's own cells make a space that is in order, or are refused.
+static inline void fuzz_cells(sl_context *context, const sl_map *map) {
+    sl_space space = {0};
+    const sl_status status = sl_subdivide_given(context, map, &space);
+    if (status == SL_OK)
+        FUZZ_CHECK(sl_space_check(context, &space) == SL_OK);
+    else
+        FUZZ_CHECK((status == SL_BAD_INPUT || status == SL_UNSUPPORTED) && !space.cells);
+    sl_space_destroy(context, &space);
 }
 
 typedef sl_status fuzz_reader(sl_context *context, const char *name, const char *text, size_t size,

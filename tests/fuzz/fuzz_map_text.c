@@ -1,4 +1,5 @@
-// The map text: whatever is read is written and read back the same, and cleaning it is idempotent.
+// The map text: whatever is read is written and read back the same, and cleaning it is idempotent;
+// its own cells make a space or are refused.
 #include "fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
@@ -7,6 +8,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     const sl_status status = sl_map_read_text(context, "input", (const char *)data, size, &map);
     if (status == SL_OK) {
         free(fuzz_round_trip(context, &map));
+        if (map.cell_count) fuzz_cells(context, &map);
         FUZZ_CHECK(sl_map_clean(context, &map, NULL) == SL_OK);
         char *clean = map_text(&map);
         FUZZ_CHECK(sl_map_clean(context, &map, NULL) == SL_OK);

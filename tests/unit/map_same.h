@@ -97,6 +97,15 @@ static inline bool same_objects(const sl_object *a, const sl_object *b, size_t c
     return true;
 }
 
+static inline bool same_cells(const sl_map *a, const sl_map *b) {
+    if (a->cell_count != b->cell_count || a->corner_count != b->corner_count) return false;
+    for (size_t i = 0; i < a->cell_count; i++)
+        if (a->cells[i].first != b->cells[i].first || a->cells[i].count != b->cells[i].count)
+            return false;
+    return same_points(a->corners, b->corners, a->corner_count) &&
+           same_numbers(&a->snap, &b->snap, 1);
+}
+
 static inline bool map_same(const sl_map *a, const sl_map *b) {
     return same_walls(a, b) && a->door_count == b->door_count &&
            a->mirror_count == b->mirror_count && a->oneway_count == b->oneway_count &&
@@ -108,7 +117,7 @@ static inline bool map_same(const sl_map *a, const sl_map *b) {
            same_glass(a->seams, b->seams, a->seam_count) &&
            same_starts(a->starts, b->starts, a->start_count) &&
            same_paths(a->paths, b->paths, a->path_count) &&
-           same_objects(a->objects, b->objects, a->object_count) &&
+           same_objects(a->objects, b->objects, a->object_count) && same_cells(a, b) &&
            same_numbers(&a->range, &b->range, 1);
 }
 
@@ -116,7 +125,8 @@ static inline bool map_same(const sl_map *a, const sl_map *b) {
 static inline bool map_is_empty(const sl_map *map) {
     const sl_map empty = {0};
     return map_same(map, &empty) && !map->source && !map->walls && !map->doors && !map->mirrors &&
-           !map->oneways && !map->seams && !map->starts && !map->paths && !map->objects;
+           !map->oneways && !map->seams && !map->starts && !map->paths && !map->objects &&
+           !map->cells;
 }
 
 #endif

@@ -22,6 +22,9 @@ typedef struct sl_import_options {
     /// Take doors as doors. Off: as what they are when the map begins; those of a game that opens
     /// them at a touch (Doom) are seen through.
     bool doors;
+    /// Take the cells that the file brings along, for sl_subdivide_given. Map texts give theirs
+    /// without being asked.
+    bool cells;
 } sl_import_options;
 
 SL_API sl_import_options sl_import_options_default(void);
@@ -44,6 +47,7 @@ typedef enum sl_import_takes {
     SL_TAKES_TOLERANCE = 4,
     SL_TAKES_THRESHOLD = 8,
     SL_TAKES_DOORS = 16,
+    SL_TAKES_CELLS = 32,
 } sl_import_takes;
 
 /// A format: its name, what its files' names end with (space-separated), what it is, how to read

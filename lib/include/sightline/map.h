@@ -52,6 +52,16 @@ typedef struct sl_object {
     uint32_t line;
 } sl_object;
 
+/// What sl_map.corner_walls says of a side that is along no wall.
+#define SL_NO_WALL UINT32_MAX
+
+/// A cell that the map brings along: corners[first .. first + count), either way round.
+typedef struct sl_map_cell {
+    size_t first;
+    uint32_t count; ///< at least 3
+    uint32_t line;
+} sl_map_cell;
+
 /// All arrays belong to the map; a map that is zeroed is empty.
 typedef struct sl_map {
     char *source; ///< the file it came from, for messages; NULL for none
@@ -68,6 +78,15 @@ typedef struct sl_map {
     size_t start_count, path_count, object_count;
     size_t wall_room, door_room, mirror_room, oneway_room, seam_room;
     size_t start_room, path_room, object_room;
+    /// Cells of the map's own, for sl_subdivide_given; cell_count is 0 for most maps.
+    sl_map_cell *cells;
+    sl_point *corners;
+    /// By corner: the wall that the side from there to the cell's next corner is along, or
+    /// SL_NO_WALL. NULL where the cells do not tell, and the walls' places do.
+    uint32_t *corner_walls;
+    size_t cell_count, corner_count, cell_room, corner_room, corner_wall_room;
+    double snap; ///< corners and walls of cells that are no farther apart are one place
+    uint32_t snap_line;
     double range; ///< nothing farther than this is seen; 0 for no limit
     uint32_t range_line;
 } sl_map;
@@ -89,6 +108,12 @@ SL_API sl_status sl_map_add_path(sl_context *context, sl_map *map, const char *n
                                  const sl_point *points, size_t count, uint32_t line);
 SL_API sl_status sl_map_add_object(sl_context *context, sl_map *map, const char *name, sl_box box,
                                    uint32_t line);
+/// Adds a cell of the map's own. `walls` has a number of a wall or SL_NO_WALL for each corner, or
+/// is NULL, for all cells alike.
+SL_API sl_status sl_map_add_cell(sl_context *context, sl_map *map, const sl_point *corners,
+                                 const uint32_t *walls, size_t count, uint32_t line);
+/// Drops the map's own cells.
+SL_API void sl_map_drop_cells(sl_context *context, sl_map *map);
 /// Adds a line to the notes.
 SL_API sl_status sl_map_add_note(sl_context *context, sl_map *map, const char *text);
 
@@ -113,7 +138,8 @@ typedef struct sl_clean_account {
 /// Makes the walls a planar set: zero-length walls dropped, duplicates and overlapping collinear
 /// axial walls merged, axial walls split where they cross or touch. No coordinate is computed:
 /// every end is an end, or made of two coordinates, of the input. The order is by place, whatever
-/// the input's was. Walls that are not axial are only freed of zero length and duplicates.
+/// the input's was. Walls that are not axial are only freed of zero length and duplicates. A map
+/// with cells of its own is left as it is.
 /// `account` may be NULL. Time O((n + k) log n) for k meeting points.
 SL_API sl_status sl_map_clean(sl_context *context, sl_map *map, sl_clean_account *account);
 

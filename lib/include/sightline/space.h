@@ -80,6 +80,7 @@ typedef struct sl_space {
     uint32_t inside_count;
     uint32_t tree_depth; ///< nodes on the longest way down
     uint32_t line_count; ///< 0 for a kd-tree
+    uint32_t partial;    ///< 1 where cells need not fill the bounds: they came with the map
     uint32_t seam_count, seam_portal_count;
     sl_node *nodes; ///< a parent before its children
     sl_cell *cells;
@@ -146,19 +147,37 @@ SL_API sl_bsp_options sl_bsp_options_default(void);
 SL_API sl_status sl_subdivide_bsp(sl_context *context, const sl_map *map,
                                   const sl_bsp_options *options, sl_space *out);
 
+/// Takes the cells that the map brings along (sl_map.cells) for a space of the BSP's kind. They may
+/// be as rounded as node builders leave them: cells bent by rounding, T-junctions, corners off
+/// their walls; places within the map's `snap` of each other are one. Corners on walls are moved
+/// onto the wall's line or behind it, and cells that are bent are cut by diagonals: a cell becomes
+/// several then, and none is joined; those without area are left out.
+///
+/// What a BSP's space promises holds here within the cells: whatever two points of cells a segment
+/// joins that touches no wall, the cells that sl_space_locate names for them see each other. So the
+/// cells may leave gaps only where nobody sees: behind walls, and beyond sides that have all cells
+/// on one hand. Points in no cell have none (SL_NO_CELL).
+///
+/// SL_BAD_INPUT, naming the cell and the place, for cells that cannot be taken: a side that is
+/// neither along a wall nor shared with another cell, cells that overlap or are bent beyond repair,
+/// a wall within a cell. The whole graph is checked (sl_space_check).
+SL_API sl_status sl_subdivide_given(sl_context *context, const sl_map *map, sl_space *out);
+
 /// A way to subdivide: reachable by name, listed everywhere from this table.
 typedef struct sl_subdivision {
     const char *name, *what;
     bool takes_rules; ///< the kd-tree's rules are for it; others pass them over
+    bool takes_cells; ///< it needs the map's own cells; others pass them over
     /// NULL for the usual rules. Fails as the function does that it stands for.
     sl_status (*subdivide)(sl_context *context, const sl_map *map,
                            const sl_subdivide_options *rules, sl_space *out);
 } sl_subdivision;
 
-/// All of them: "kd", "bsp".
+/// All of them: "kd", "bsp", "given".
 SL_API const sl_subdivision *sl_subdivisions(size_t *count);
 
-/// What a map calls for: the kd-tree where all walls and seams are axial, else the BSP.
+/// What a map calls for: its own cells where it has any, the kd-tree where all walls and seams are
+/// axial, else the BSP.
 SL_API const sl_subdivision *sl_subdivision_for(const sl_map *map);
 
 SL_API void sl_space_destroy(sl_context *context, sl_space *space); ///< and zeroes it
@@ -167,7 +186,7 @@ SL_API void sl_space_destroy(sl_context *context, sl_space *space); ///< and zer
 /// oblique one; on the upper or right border the cell inside; SL_NO_CELL outside the bounds and for
 /// NaN. Time: the tree's depth. In a BSP's space what the tree finds is left through exits that
 /// have the point strictly beyond them, 16 at most; where that leads to no cell that holds the
-/// point, all cells are asked.
+/// point, all cells are asked; SL_NO_CELL where the cells came with the map and none holds it.
 SL_API uint32_t sl_space_locate(const sl_space *space, sl_point point);
 
 /// The seams that a portal lies on, *count of them; NULL for none.
@@ -184,7 +203,8 @@ SL_API double sl_space_area(const sl_space *space, uint32_t cell);
 /// space no seam runs through a cell.
 /// All but the sum of areas (relative 1e-9) by comparison of exact coordinates. For a BSP: corners
 /// convex by exact predicates, walls' sides on their wall's line or behind it; that areas add up
-/// and walls are covered is told within rounding.
+/// and walls are covered is told within rounding. For cells that came with a map: that, but for the
+/// sum of areas, and sides of the border must have all cells on one hand.
 /// SL_BAD_INPUT with the first fault found.
 SL_API sl_status sl_space_check(sl_context *context, const sl_space *space);
 
