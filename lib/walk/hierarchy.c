@@ -200,6 +200,7 @@ void sl_hierarchy_destroy(sl_context *context, sl_hierarchy *hierarchy) {
     sl_free(context, hierarchy->leaves);
     sl_free(context, hierarchy->first_wall);
     sl_free(context, hierarchy->walls);
+    sl_free(context, hierarchy->first_occluder);
     sl_free(context, hierarchy->occluders);
     *hierarchy = (sl_hierarchy){0};
 }

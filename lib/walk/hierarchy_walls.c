@@ -118,26 +118,77 @@ sl_status sl_hierarchy_add_walls(sl_context *context, sl_hierarchy *h) {
     return status;
 }
 
-sl_status sl_hierarchy_add_occluders(sl_context *context, sl_hierarchy *h) {
-    const sl_space *space = h->space;
-    uint32_t count;
-    run *walls = sort_walls(context, space, &count);
-    h->occluders = sl_alloc_array(context, count, sizeof *h->occluders);
-    const sl_status status = walls && h->occluders ? SL_OK : SL_NO_MEMORY;
-    for (uint32_t i = 0; i < count && status == SL_OK;) {
+/// The walls, where axial ones that overlap or touch in line are one.
+static void join_walls(const sl_space *space, const run *walls, uint32_t count, sl_segment *joined,
+                       uint32_t *joined_count) {
+    *joined_count = 0;
+    for (uint32_t i = 0; i < count;) {
         run r = walls[i++];
         const sl_wall *w = &space->walls[r.wall];
-        sl_segment joined = {w->a, w->b};
-        if (r.axis < 2) {
-            for (;
-                 i < count && walls[i].axis == r.axis && walls[i].at == r.at && walls[i].lo <= r.hi;
-                 i++)
-                r.hi = fmax(r.hi, walls[i].hi);
-            joined = r.axis ? (sl_segment){{r.lo, r.at}, {r.hi, r.at}}
-                            : (sl_segment){{r.at, r.lo}, {r.at, r.hi}};
-        }
-        h->occluders[h->occluder_count++] = joined;
+        sl_segment *out = &joined[(*joined_count)++];
+        *out = (sl_segment){w->a, w->b};
+        if (r.axis == 2) continue;
+        for (; i < count && walls[i].axis == r.axis && walls[i].at == r.at && walls[i].lo <= r.hi;
+             i++)
+            r.hi = fmax(r.hi, walls[i].hi);
+        *out = r.axis ? (sl_segment){{r.lo, r.at}, {r.hi, r.at}}
+                      : (sl_segment){{r.at, r.lo}, {r.at, r.hi}};
+    }
+}
+
+/// Whether a wall lies within a box, and not along one of its sides.
+static bool is_within(const sl_segment *s, const sl_box *b) {
+    const double left = fmin(s->a.x, s->b.x), right = fmax(s->a.x, s->b.x);
+    const double low = fmin(s->a.y, s->b.y), high = fmax(s->a.y, s->b.y);
+    return left >= b->min.x && right <= b->max.x && low >= b->min.y && high <= b->max.y &&
+           left < b->max.x && right > b->min.x && low < b->max.y && high > b->min.y;
+}
+
+/// The least node that a wall lies within.
+static uint32_t node_of(const sl_hierarchy *h, const sl_segment *wall) {
+    uint32_t at = 0;
+    while (h->nodes[at].cell == SL_NO_CELL) {
+        const uint32_t below = (uint32_t)h->nodes[at].child[0];
+        const uint32_t above = (uint32_t)h->nodes[at].child[1];
+        if (is_within(wall, &h->nodes[below].box))
+            at = below;
+        else if (is_within(wall, &h->nodes[above].box))
+            at = above;
+        else
+            break;
+    }
+    return at;
+}
+
+/// Sorts walls by node.
+static void deal(sl_hierarchy *h, const sl_segment *joined, uint32_t *nodes) {
+    for (uint32_t i = 0; i < h->occluder_count; i++)
+        h->first_occluder[(nodes[i] = node_of(h, &joined[i])) + 1]++;
+    for (uint32_t n = 0; n < h->node_count; n++) h->first_occluder[n + 1] += h->first_occluder[n];
+    for (uint32_t i = h->occluder_count; i-- > 0;) {
+        // Filled from behind, each node's end comes to be its beginning.
+        h->occluders[--h->first_occluder[nodes[i] + 1]] = joined[i];
+    }
+    for (uint32_t n = 0; n < h->node_count; n++) h->first_occluder[n] = h->first_occluder[n + 1];
+    h->first_occluder[h->node_count] = h->occluder_count;
+}
+
+sl_status sl_hierarchy_add_occluders(sl_context *context, sl_hierarchy *h) {
+    uint32_t count;
+    run *walls = sort_walls(context, h->space, &count);
+    sl_segment *joined = sl_alloc_array(context, count, sizeof *joined);
+    uint32_t *nodes = sl_alloc_array(context, count, sizeof *nodes);
+    h->occluders = sl_alloc_array(context, count, sizeof *h->occluders);
+    h->first_occluder =
+        sl_alloc_array(context, (size_t)h->node_count + 1, sizeof *h->first_occluder);
+    sl_status status = SL_NO_MEMORY;
+    if (walls && joined && nodes && h->occluders && h->first_occluder) {
+        join_walls(h->space, walls, count, joined, &h->occluder_count);
+        deal(h, joined, nodes);
+        status = SL_OK;
     }
     sl_free(context, walls);
+    sl_free(context, joined);
+    sl_free(context, nodes);
     return status;
 }

@@ -1,39 +1,62 @@
 /// The choice of occluders: those that take up the largest angles about the eye, as far as those
-/// chosen before leave anything of them to see. Angles are estimates: they decide of nothing but
-/// the order in which walls are tried.
-#include "walk/occlusion.h"
+/// chosen before leave anything of them to see. Nodes wait among the walls, by the largest angle
+/// that a wall inside could take up; one that is hidden when its turn comes is passed over, with
+/// all that is inside. Angles are estimates: they decide of nothing but the order.
+#include "walk/walk_parts.h"
 
 #include <math.h>
 
+/// A wall, or a node.
 typedef struct candidate {
     double size; ///< grows with the angle
-    uint32_t wall;
+    uint32_t number;
+    bool is_node;
 } candidate;
 
 struct sl_chooser {
-    const sl_segment *walls;
+    const sl_hierarchy *hierarchy;
+    double *longest; ///< by node: the longest wall in it, scaled
     candidate *heap;
-    uint32_t count;
-    double scale; ///< brings coordinates near 1, so that no product overflows
+    uint32_t count; ///< in the heap
+    double scale;   ///< brings coordinates near 1, so that no product overflows
+    // Of the frame:
+    sl_walk_cone cone;
+    sl_point eye, right, left;
 };
 
-sl_status sl_chooser_create(sl_context *context, const sl_segment *walls, uint32_t count,
-                            sl_box bounds, sl_chooser **out) {
+static void find_longest(sl_chooser *c) {
+    const sl_hierarchy *h = c->hierarchy;
+    for (uint32_t i = h->node_count; i-- > 0;) {
+        for (uint32_t k = h->first_occluder[i]; k < h->first_occluder[i + 1]; k++) {
+            const sl_segment *s = &h->occluders[k];
+            const double length = hypot((s->b.x - s->a.x) * c->scale, (s->b.y - s->a.y) * c->scale);
+            c->longest[i] = fmax(c->longest[i], length);
+        }
+        const int32_t parent = h->nodes[i].parent;
+        if (parent >= 0) c->longest[parent] = fmax(c->longest[parent], c->longest[i]);
+    }
+}
+
+sl_status sl_chooser_create(sl_context *context, const sl_hierarchy *h, sl_chooser **out) {
     sl_chooser *c = sl_alloc_array(context, 1, sizeof *c);
-    candidate *heap = sl_alloc_array(context, count, sizeof *heap);
-    if (!c || !heap) {
-        sl_free(context, c);
-        sl_free(context, heap);
+    if (!c) return SL_NO_MEMORY;
+    c->hierarchy = h;
+    c->heap = sl_alloc_array(context, (size_t)h->occluder_count + h->node_count, sizeof *c->heap);
+    c->longest = sl_alloc_array(context, h->node_count, sizeof *c->longest);
+    if (!c->heap || !c->longest) {
+        sl_chooser_destroy(context, c);
         return SL_NO_MEMORY;
     }
-    const double size = fmax(bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y);
-    *c = (sl_chooser){walls, heap, count, 1 / size};
+    const sl_box *b = &h->space->bounds;
+    c->scale = 1 / fmax(b->max.x - b->min.x, b->max.y - b->min.y);
+    find_longest(c);
     *out = c;
     return SL_OK;
 }
 
 void sl_chooser_destroy(sl_context *context, sl_chooser *chooser) {
     if (chooser) sl_free(context, chooser->heap);
+    if (chooser) sl_free(context, chooser->longest);
     sl_free(context, chooser);
 }
 
@@ -43,16 +66,15 @@ static double cross(sl_point a, sl_point b) {
 
 /// How large a wall is that reaches from p to q as seen from the eye: minus the signed square of
 /// the angle's cosine; -2 for one that is not in the cone, or edge-on.
-static double angle_size(sl_point p, sl_point q, const sl_walk_cone *cone, sl_point right,
-                         sl_point left) {
+static double wall_size(const sl_chooser *c, sl_point p, sl_point q) {
     if (cross(p, q) < 0) {
         const sl_point turned = p;
         p = q;
         q = turned;
     }
-    if (cone->kind == SL_CONE_WEDGE) {
-        if (cross(right, p) < 0) p = right;
-        if (cross(q, left) < 0) q = left;
+    if (c->cone.kind == SL_CONE_WEDGE) {
+        if (cross(c->right, p) < 0) p = c->right;
+        if (cross(q, c->left) < 0) q = c->left;
     }
     const double turn = cross(p, q);
     if (!(turn > 0)) return -2;
@@ -61,33 +83,59 @@ static double angle_size(sl_point p, sl_point q, const sl_walk_cone *cone, sl_po
     return size >= -1 ? size : -1;
 }
 
-static void sift_down(candidate *heap, uint32_t count, uint32_t i) {
-    const candidate sinking = heap[i];
-    for (uint32_t child; (child = 2 * i + 1) < count; i = child) {
-        if (child + 1 < count && heap[child + 1].size > heap[child].size) child++;
-        if (heap[child].size <= sinking.size) break;
-        heap[i] = heap[child];
-    }
-    heap[i] = sinking;
+/// How large a wall inside a node can be: one of the longest's length, at the node's distance and
+/// square to the line of sight.
+static double node_size(const sl_chooser *c, uint32_t node) {
+    const sl_box *b = &c->hierarchy->nodes[node].box;
+    const double x = fmax(fmax(b->min.x - c->eye.x, c->eye.x - b->max.x), 0) * c->scale;
+    const double y = fmax(fmax(b->min.y - c->eye.y, c->eye.y - b->max.y), 0) * c->scale;
+    const double far = 4 * (x * x + y * y), length = c->longest[node] * c->longest[node];
+    const double cosine = (far - length) / (far + length);
+    return length > 0 ? -cosine * fabs(cosine) : -2;
 }
 
-static sl_point toward(const sl_chooser *c, sl_point eye, sl_point at) {
-    return (sl_point){(at.x - eye.x) * c->scale, (at.y - eye.y) * c->scale};
+static void push(sl_chooser *c, candidate what) {
+    if (!(what.size >= -1)) return;
+    uint32_t i = c->count++;
+    for (; i && c->heap[(i - 1) / 2].size < what.size; i = (i - 1) / 2)
+        c->heap[i] = c->heap[(i - 1) / 2];
+    c->heap[i] = what;
 }
 
-/// Fills the heap; returns how many walls are in it.
-static uint32_t gather(sl_chooser *c, const sl_view *view, const sl_walk_cone *cone) {
-    const sl_point right = toward(c, view->eye, view->right),
-                   left = toward(c, view->eye, view->left);
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < c->count; i++) {
-        const sl_point p = toward(c, view->eye, c->walls[i].a);
-        const sl_point q = toward(c, view->eye, c->walls[i].b);
-        const double size = angle_size(p, q, cone, right, left);
-        if (size >= -1) c->heap[count++] = (candidate){size, i};
+static candidate pop(sl_chooser *c) {
+    const candidate top = c->heap[0], last = c->heap[--c->count];
+    uint32_t i = 0;
+    for (uint32_t child; (child = 2 * i + 1) < c->count; i = child) {
+        if (child + 1 < c->count && c->heap[child + 1].size > c->heap[child].size) child++;
+        if (c->heap[child].size <= last.size) break;
+        c->heap[i] = c->heap[child];
     }
-    for (uint32_t i = count / 2; i-- > 0;) sift_down(c->heap, count, i);
-    return count;
+    c->heap[i] = last;
+    return top;
+}
+
+static sl_point toward(const sl_chooser *c, sl_point at) {
+    return (sl_point){(at.x - c->eye.x) * c->scale, (at.y - c->eye.y) * c->scale};
+}
+
+static void push_node(sl_chooser *c, uint32_t node) {
+    push(c, (candidate){node_size(c, node), node, true});
+}
+
+/// Has what is in a node wait, unless it is hidden.
+static void open_node(sl_chooser *c, sl_walk *w, uint32_t node) {
+    const sl_hierarchy *h = c->hierarchy;
+    const sl_walk_node *n = &h->nodes[node];
+    sl_walk_look look;
+    sl_walk_look_at(w, node, &look);
+    if (!look.sector_count || sl_walk_test(w, &look) == SL_NODE_INVISIBLE) return;
+    for (uint32_t i = h->first_occluder[node]; i < h->first_occluder[node + 1]; i++) {
+        const sl_segment *s = &h->occluders[i];
+        push(c, (candidate){wall_size(c, toward(c, s->a), toward(c, s->b)), i, false});
+    }
+    if (n->cell != SL_NO_CELL) return;
+    push_node(c, (uint32_t)n->child[0]);
+    push_node(c, (uint32_t)n->child[1]);
 }
 
 /// Tries a wall: it is chosen where it hides anything within the cone that was free.
@@ -111,15 +159,22 @@ static sl_status try_wall(sl_context *context, const sl_segment *wall, const sl_
     return SL_OK;
 }
 
-sl_status sl_chooser_choose(sl_context *context, sl_chooser *c, const sl_view *view,
-                            const sl_walk_cone *cone, uint32_t most, const sl_node_test_calls *test,
-                            sl_occlusion *occlusion) {
-    if (!most) return SL_OK;
-    const sl_shadows *s = &occlusion->shadows;
-    for (uint32_t left = gather(c, view, cone); left && s->occluders.count < most;) {
-        SL_TRY(try_wall(context, &c->walls[c->heap[0].wall], cone, test, occlusion));
-        c->heap[0] = c->heap[--left];
-        sift_down(c->heap, left, 0);
+sl_status sl_chooser_choose(sl_context *context, sl_walk *w, const sl_view *view) {
+    sl_chooser *c = w->chooser;
+    const sl_shadows *s = &w->occlusion->shadows;
+    c->count = 0;
+    c->cone = w->cone;
+    c->eye = view->eye;
+    c->right = toward(c, view->right);
+    c->left = toward(c, view->left);
+    if (w->options.occluders) push_node(c, 0);
+    while (c->count && s->occluders.count < w->options.occluders) {
+        const candidate next = pop(c);
+        if (next.is_node)
+            open_node(c, w, next.number);
+        else
+            SL_TRY(try_wall(context, &c->hierarchy->occluders[next.number], &w->cone, w->test,
+                            w->occlusion));
     }
     return SL_OK;
 }

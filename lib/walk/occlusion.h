@@ -55,14 +55,4 @@ void sl_shadows_look(sl_shadows *shadows, int32_t leaf, const sl_shape *shape,
 
 enum { SL_LOOK_BOTH = SL_BEFORE | SL_BEHIND };
 
-/// Chooses the largest occluders that are seen.
-typedef struct sl_chooser sl_chooser;
-sl_status sl_chooser_create(sl_context *context, const sl_segment *walls, uint32_t count,
-                            sl_box bounds, sl_chooser **out);
-void sl_chooser_destroy(sl_context *context, sl_chooser *chooser);
-/// Fills an occlusion that is clear with up to `most` occluders that the cone meets.
-sl_status sl_chooser_choose(sl_context *context, sl_chooser *chooser, const sl_view *view,
-                            const sl_walk_cone *cone, uint32_t most, const sl_node_test_calls *test,
-                            sl_occlusion *occlusion);
-
 #endif

@@ -89,16 +89,17 @@ static sl_status sink(sinking *s, const part *p, int32_t *place) {
     const int32_t node = *place;
     const sl_ray ray = t->nodes.items[node].ray;
     const sl_split split = sl_sector_split(&t->base.shadows.pivot, &p->sector, ray);
-    const int from = split.right_turn, to = split.left_turn;
     // Nodes may move while a part sinks: a child is put back by its node's number.
-    if (split.has_left) {
-        const part left = {split.left, p->own_right && from > 0, p->own_left && to > 0};
+    if (sl_has_left(split)) {
+        const part left = {sl_left_part(&p->sector, split, ray), p->own_right && split.right > 0,
+                           p->own_left && split.left > 0};
         int32_t child = t->nodes.items[node].left;
         SL_TRY(sink(s, &left, &child));
         t->nodes.items[node].left = child;
     }
-    if (split.has_right) {
-        const part right = {split.right, p->own_right && from < 0, p->own_left && to < 0};
+    if (sl_has_right(split)) {
+        const part right = {sl_right_part(&p->sector, split, ray), p->own_right && split.right < 0,
+                            p->own_left && split.left < 0};
         int32_t child = t->nodes.items[node].right;
         SL_TRY(sink(s, &right, &child));
         t->nodes.items[node].right = child;
@@ -125,12 +126,14 @@ static void search(tree *t, int32_t place, const sl_shape *shape, const sl_secto
     while (place >= 0) {
         const tree_node *node = &t->nodes.items[place];
         const sl_split split = sl_sector_split(&t->base.shadows.pivot, &here, node->ray);
-        if (split.has_left && split.has_right) {
-            search(t, node->left, shape, &split.left, bits);
+        const bool goes_right = sl_has_right(split);
+        if (goes_right && sl_has_left(split)) {
+            const sl_sector left = sl_left_part(&here, split, node->ray);
+            search(t, node->left, shape, &left, bits);
             if (*bits == SL_LOOK_BOTH) return;
+            here = sl_right_part(&here, split, node->ray);
         }
-        here = split.has_right ? split.right : split.left;
-        place = split.has_right ? node->right : node->left;
+        place = goes_right ? node->right : node->left;
     }
     sl_shadows_look(&t->base.shadows, t->leaves.items[~place], shape, &here, bits);
 }

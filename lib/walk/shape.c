@@ -1,23 +1,10 @@
 #include "walk/shape.h"
 
 bool sl_sector_clip(sl_pivot *pivot, sl_sector *sector, sl_ray ray) {
-    const int right = sl_ray_turn(pivot, ray, sector->right);
-    const int left = sl_ray_turn(pivot, ray, sector->left);
-    if (right <= 0 && left <= 0) return false;
-    if (right < 0) sector->right = ray;
-    if (left < 0) sector->left = sl_ray_back(ray);
+    const sl_split split = sl_sector_split(pivot, sector, ray);
+    if (!sl_has_left(split)) return false;
+    *sector = sl_left_part(sector, split, ray);
     return true;
-}
-
-sl_split sl_sector_split(sl_pivot *pivot, const sl_sector *sector, sl_ray ray) {
-    const int from = sl_ray_turn(pivot, ray, sector->right);
-    const int to = sl_ray_turn(pivot, ray, sector->left);
-    sl_split split = {from, to, from > 0 || to > 0, from < 0 || to < 0, *sector, *sector};
-    // Counter-clockwise from right of the line to left of it the ray itself is passed, else its
-    // other half.
-    if (from < 0 && to > 0) split.right.left = split.left.right = ray;
-    if (from > 0 && to < 0) split.left.left = split.right.right = sl_ray_back(ray);
-    return split;
 }
 
 /// The corners of a box that is seen from outside, rightmost and leftmost, by where the eye is:
@@ -82,11 +69,12 @@ static unsigned in_wide_cone(sl_pivot *pivot, const sl_walk_cone *cone, const sl
                              sl_sector parts[2], bool *cut) {
     unsigned count = 0;
     const sl_split split = sl_sector_split(pivot, sector, cone->right);
-    if (split.has_left) parts[count++] = split.left;
-    if (!split.has_right) return count;
-    const sl_split rest = sl_sector_split(pivot, &split.right, cone->left);
-    if (rest.has_right) parts[count++] = rest.right;
-    *cut = *cut || rest.has_left;
+    if (sl_has_left(split)) parts[count++] = sl_left_part(sector, split, cone->right);
+    if (!sl_has_right(split)) return count;
+    const sl_sector right = sl_right_part(sector, split, cone->right);
+    const sl_split rest = sl_sector_split(pivot, &right, cone->left);
+    if (sl_has_right(rest)) parts[count++] = sl_right_part(&right, rest, cone->left);
+    *cut = *cut || sl_has_left(rest);
     return count;
 }
 
@@ -97,13 +85,15 @@ unsigned sl_sector_in_cone(sl_pivot *pivot, const sl_walk_cone *cone, const sl_s
     if (cone->kind == SL_CONE_ALL) return 1;
     if (cone->kind == SL_CONE_NONE) return *cut = true, 0;
     const sl_split first = sl_sector_split(pivot, sector, cone->right);
-    *cut = *cut || first.has_right;
-    parts[0] = first.left;
-    if (!first.has_left || cone->kind == SL_CONE_HALF) return first.has_left;
-    const sl_split second = sl_sector_split(pivot, &first.left, cone->left);
-    *cut = *cut || second.has_left;
-    parts[0] = second.right;
-    return second.has_right;
+    *cut = *cut || sl_has_right(first);
+    if (!sl_has_left(first)) return 0;
+    if (sl_has_right(first)) parts[0] = sl_left_part(sector, first, cone->right);
+    if (cone->kind == SL_CONE_HALF) return 1;
+    const sl_split second = sl_sector_split(pivot, &parts[0], cone->left);
+    *cut = *cut || sl_has_left(second);
+    if (sl_has_left(second) && sl_has_right(second))
+        parts[0] = sl_right_part(&parts[0], second, cone->left);
+    return sl_has_right(second);
 }
 
 /// Whether a box has directions in common with a sector.

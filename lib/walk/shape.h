@@ -39,14 +39,40 @@ static inline bool sl_sector_meet(sl_pivot *pivot, sl_sector *sector, const sl_s
            sl_sector_clip(pivot, sector, sl_ray_back(other->left));
 }
 
-/// The parts that a ray's line cuts a sector into.
+/// How a ray's line lies to a sector: the turns from the ray to its borders. It cuts the sector
+/// where they are opposite, else the sector lies on the side that one of them tells.
 typedef struct sl_split {
-    int right_turn, left_turn; ///< from the ray to the sector's borders
-    bool has_left, has_right;
-    sl_sector left, right;
+    int right, left;
 } sl_split;
 
-sl_split sl_sector_split(sl_pivot *pivot, const sl_sector *sector, sl_ray ray);
+static inline sl_split sl_sector_split(sl_pivot *pivot, const sl_sector *sector, sl_ray ray) {
+    return (sl_split){sl_ray_turn(pivot, ray, sector->right),
+                      sl_ray_turn(pivot, ray, sector->left)};
+}
+
+static inline bool sl_has_left(sl_split split) {
+    return split.right > 0 || split.left > 0;
+}
+
+static inline bool sl_has_right(sl_split split) {
+    return split.right < 0 || split.left < 0;
+}
+
+/// The part of a sector that is left of the ray's line, which there must be.
+static inline sl_sector sl_left_part(const sl_sector *sector, sl_split split, sl_ray ray) {
+    sl_sector part = *sector;
+    if (split.right < 0) part.right = ray;
+    if (split.left < 0) part.left = sl_ray_back(ray);
+    return part;
+}
+
+/// Likewise right of it.
+static inline sl_sector sl_right_part(const sl_sector *sector, sl_split split, sl_ray ray) {
+    sl_sector part = *sector;
+    if (split.right > 0) part.right = sl_ray_back(ray);
+    if (split.left > 0) part.left = ray;
+    return part;
+}
 
 /// The directions in which a shape's inside lies, as sectors without common directions: one where
 /// the eye is outside, else one for each side that it is not on. Returns how many, at most `count`

@@ -4,15 +4,6 @@
 
 #include <string.h>
 
-/// A node on the way: its numbers and the sectors of the cone that it lies in.
-typedef struct looked {
-    const sl_walk_node *node;
-    sl_point box_corners[4];
-    sl_shape shape;
-    uint32_t sector_count;
-    bool cut; ///< part of it is outside the cone
-} looked;
-
 static sl_status check_options(sl_context *context, const sl_walk_options *options) {
     if (!options->test) return sl_fail(context, SL_BAD_ARGUMENT, "no node visibility test given");
     if (options->occluders > SL_WALK_OCCLUDERS_MOST)
@@ -44,8 +35,7 @@ static sl_status fill_walk(sl_context *context, sl_walk *w) {
     w->wall_counts = sl_alloc_array(context, h->node_count, sizeof *w->wall_counts);
     if (!w->nodes || !w->stack || !w->sectors || !w->cells || !w->wall_counts) return SL_NO_MEMORY;
     count_walls(w);
-    SL_TRY(
-        sl_chooser_create(context, h->occluders, h->occluder_count, h->space->bounds, &w->chooser));
+    SL_TRY(sl_chooser_create(context, h, &w->chooser));
     return w->test->create(context, &w->occlusion);
 }
 
@@ -85,45 +75,6 @@ void sl_walk_destroy(sl_context *context, sl_walk *walk) {
 }
 
 // --- one node
-
-/// The node's shape and its sectors within the cone.
-static void look_at(sl_walk *w, const sl_walk_node *n, looked *l) {
-    const sl_space *space = w->hierarchy->space;
-    sl_pivot *pivot = &w->occlusion->shadows.pivot;
-    const sl_box *b = &n->box;
-    l->node = n;
-    l->cut = false;
-    l->shape = (sl_shape){l->box_corners, 4, *b, true};
-    if (n->cell != SL_NO_CELL && !w->hierarchy->tiles) {
-        const sl_cell *c = &space->cells[n->cell];
-        l->shape = (sl_shape){space->vertices + c->first_vertex, c->vertex_count, *b, false};
-    } else {
-        l->box_corners[0] = b->min;
-        l->box_corners[1] = (sl_point){b->max.x, b->min.y};
-        l->box_corners[2] = b->max;
-        l->box_corners[3] = (sl_point){b->min.x, b->max.y};
-    }
-    l->sector_count = sl_shape_sectors(pivot, &l->shape, w->sectors);
-    if (w->cone.kind == SL_CONE_ALL) return;
-    // From the last on, so that the parts of one take the room behind those yet to come.
-    uint32_t kept = 2 * w->hierarchy->corner_most;
-    for (uint32_t i = l->sector_count; i-- > 0;) {
-        sl_sector parts[2];
-        const unsigned count = sl_sector_in_cone(pivot, &w->cone, &w->sectors[i], parts, &l->cut);
-        for (unsigned k = count; k-- > 0;) w->sectors[--kept] = parts[k];
-    }
-    l->sector_count = 2 * w->hierarchy->corner_most - kept;
-    memmove(w->sectors, w->sectors + kept, l->sector_count * sizeof *w->sectors);
-}
-
-static sl_node_state test_node(sl_walk *w, const looked *l) {
-    unsigned bits = l->cut ? SL_BEHIND : 0;
-    for (uint32_t i = 0; i < l->sector_count && bits != SL_LOOK_BOTH; i++)
-        w->test->look(w->occlusion, &l->shape, &w->sectors[i], &bits);
-    return bits == SL_LOOK_BOTH ? SL_NODE_PARTIAL
-           : bits == SL_BEFORE  ? SL_NODE_VISIBLE
-                                : SL_NODE_INVISIBLE;
-}
 
 static bool does(const sl_walk *w, unsigned policy) {
     return (w->method->policies & policy) != 0;
@@ -172,8 +123,8 @@ static bool is_skipped(sl_walk *w, uint32_t id, bool known) {
 
 static void decide(sl_walk *w, uint32_t id, bool known, sl_walk_frame *frame) {
     sl_walk_memory *m = &w->nodes[id];
-    looked l;
-    look_at(w, &w->hierarchy->nodes[id], &l);
+    sl_walk_look l;
+    sl_walk_look_at(w, id, &l);
     frame->frustum_tests++;
     if (!l.sector_count) {
         m->state = SL_NODE_INVISIBLE;
@@ -191,7 +142,7 @@ static void decide(sl_walk *w, uint32_t id, bool known, sl_walk_frame *frame) {
         frame->skipped++;
     } else {
         const bool drawn = known && m->state != SL_NODE_INVISIBLE;
-        m->state = (uint8_t)test_node(w, &l);
+        m->state = (uint8_t)sl_walk_test(w, &l);
         m->reason = SL_WALK_TESTED;
         frame->tests++;
         if (drawn) sl_walk_note(&m->kept, m->state != SL_NODE_INVISIBLE);
@@ -297,8 +248,7 @@ static sl_status choose(sl_context *context, sl_walk *w, const sl_view *view) {
     shadows->occluders.count = shadows->shadows.count = 0;
     w->cone = sl_walk_cone_of(&shadows->pivot, view);
     SL_TRY(w->test->clear(context, w->occlusion, view->eye));
-    return sl_chooser_choose(context, w->chooser, view, &w->cone, w->options.occluders, w->test,
-                             w->occlusion);
+    return sl_chooser_choose(context, w, view);
 }
 
 sl_status sl_walk_step(sl_context *context, sl_walk *w, const sl_view *view, sl_walk_frame *out) {

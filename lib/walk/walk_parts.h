@@ -30,6 +30,8 @@ typedef struct sl_walk_memory {
     sl_walk_history spreads; ///< how often propagation succeeded
 } sl_walk_memory;
 
+typedef struct sl_chooser sl_chooser;
+
 struct sl_walk {
     const sl_hierarchy *hierarchy;
     const sl_walk_method *method;
@@ -46,6 +48,24 @@ struct sl_walk {
     uint64_t frame;
     sl_random random;
 };
+
+/// A node as it is seen: its sectors within the cone are the walk's, until the next look.
+typedef struct sl_walk_look {
+    sl_point box_corners[4];
+    sl_shape shape;
+    uint32_t sector_count; ///< 0: outside the cone
+    bool cut;              ///< part of it is outside the cone
+} sl_walk_look;
+
+void sl_walk_look_at(sl_walk *walk, uint32_t node, sl_walk_look *look);
+/// The node visibility test.
+sl_node_state sl_walk_test(sl_walk *walk, const sl_walk_look *look);
+
+/// Chooses the occluders of a frame: the largest that are seen (occluders.c).
+sl_status sl_chooser_create(sl_context *context, const sl_hierarchy *hierarchy, sl_chooser **out);
+void sl_chooser_destroy(sl_context *context, sl_chooser *chooser);
+/// Fills the walk's occlusion, which must be clear.
+sl_status sl_chooser_choose(sl_context *context, sl_walk *walk, const sl_view *view);
 
 /// The state of a node by its neighbours': false where they do not tell. Nodes before it, front to
 /// back, must have been visited in this frame (propagation.c).

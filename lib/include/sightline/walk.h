@@ -37,9 +37,11 @@ typedef struct sl_hierarchy {
     uint32_t node_count, leaf_count, occluder_count;
     uint32_t corner_most; ///< corners of the cell that has most, at least 4
     sl_walk_node *nodes;
-    uint32_t *leaves;      ///< cells, in the order of the nodes
-    uint32_t *first_wall;  ///< by cell, and one more
-    uint32_t *walls;       ///< those on cell c's boundary: from first_wall[c] on
+    uint32_t *leaves;     ///< cells, in the order of the nodes
+    uint32_t *first_wall; ///< by cell, and one more
+    uint32_t *walls;      ///< those on cell c's boundary: from first_wall[c] on
+    /// By node, and one more: the occluders that lie within it, and in neither child.
+    uint32_t *first_occluder;
     sl_segment *occluders; ///< the walls, where axial ones that overlap or touch in line are one
 } sl_hierarchy;
 
