@@ -22,6 +22,8 @@ static const command commands[] = {
     {"isovist", "what is seen from points: regions, their measures, heat maps", sl_cmd_isovist},
     {"viewcells", "view cells that adapt to what is seen, for a budget", sl_cmd_viewcells},
     {"walk", "a walk, frame by frame: culling without visible sets, with coherence", sl_cmd_walk},
+    {"regions", "what view cells see: brute force, hierarchy and multipass compared",
+     sl_cmd_regions},
     {"draw", "a picture of a baked file", sl_cmd_draw},
     {"convert", "any map that can be read, as map text or ASCII plan", sl_cmd_convert},
     {"generate", "procedural maps: maze, office, city, pillars, tunnels, tower", sl_cmd_generate},

@@ -1,0 +1,253 @@
+#include "base/base.h"
+#include "commands.h"
+#include "effects.h"
+#include "folder.h"
+#include "inputs.h"
+#include "pipeline.h"
+#include "regions_run.h"
+#include "solvers.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { GRIDS_MOST = 8 };
+
+/// The options as they are given.
+typedef struct regions_texts {
+    sl_input_texts input;
+    sl_option_list also;
+    const char *also_text, *output, *grid, *view_cells, *objects, *groups, *solver, *stab, *sight;
+    const char *points, *pixels, *seed, *threads, *without;
+    bool cut, dark;
+} regions_texts;
+
+/// The options as they are meant.
+typedef struct regions_plan {
+    const regions_texts *texts;
+    const char *input;
+    sl_regions_options what;
+    sl_from_region_options how;
+    uint32_t grids[GRIDS_MOST];
+    size_t grid_count;
+    unsigned without;
+} regions_plan;
+
+static const char *const file_names[] = {"regions.csv", "refine.png", "refine.svg",
+                                         "work.png",    "work.svg",   NULL};
+
+// --- the options
+
+static const char *const view_cell_kinds[] = {"grid", "leaves", "boxes"};
+static const char *const object_kinds[] = {"walls", "groups", "boxes", "cells"};
+
+static sl_status plan_grids(sl_context *context, const char *text, regions_plan *plan) {
+    for (const char *at = text; *at;) {
+        char *end;
+        const unsigned long grid = strtoul(at, &end, 10);
+        if (end == at || *at == '-' || (*end && *end != ',') || (*end && !end[1]) || grid < 1 ||
+            grid > SL_VIEW_GRID_MOST)
+            return sl_fail(context, SL_BAD_ARGUMENT,
+                           "--grid %s: numbers from 1 to %d are needed, with commas between", text,
+                           SL_VIEW_GRID_MOST);
+        if (plan->grid_count == GRIDS_MOST)
+            return sl_fail(context, SL_BAD_ARGUMENT, "--grid %s: at most %d grids", text,
+                           GRIDS_MOST);
+        plan->grids[plan->grid_count++] = (uint32_t)grid;
+        at = *end ? end + 1 : end;
+    }
+    if (!plan->grid_count) return sl_fail(context, SL_BAD_ARGUMENT, "--grid: no number is given");
+    return SL_OK;
+}
+
+static sl_status plan_what(sl_context *context, const regions_texts *t, regions_plan *plan) {
+    const sl_name_table cells = {"kind of view cells", view_cell_kinds, sizeof *view_cell_kinds, 3};
+    const sl_name_table objects = {"kind of objects", object_kinds, sizeof *object_kinds, 4};
+    plan->what = sl_regions_options_default();
+    size_t view_cell = plan->what.view_cells, object = plan->what.objects;
+    uint64_t groups = plan->what.groups;
+    SL_TRY(sl_option_choice(context, "--view-cells", t->view_cells, &cells, &view_cell));
+    SL_TRY(sl_option_choice(context, "--objects", t->objects, &objects, &object));
+    SL_TRY(sl_option_count(context, "--groups", t->groups, UINT32_MAX, &groups));
+    plan->what.view_cells = (sl_view_cell_kind)view_cell;
+    plan->what.objects = (sl_object_kind)object;
+    plan->what.groups = (uint32_t)groups;
+    plan->what.cut_cycles = t->cut;
+    if (t->grid && plan->what.view_cells != SL_VIEW_CELLS_GRID)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--grid is for --view-cells grid, not %s",
+                       t->view_cells);
+    if (t->groups && plan->what.objects != SL_OBJECTS_GROUPS)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--groups is for --objects groups, not %s",
+                       t->objects);
+    if (plan->what.view_cells == SL_VIEW_CELLS_GRID)
+        return plan_grids(context, t->grid ? t->grid : "2,4,8", plan);
+    plan->grids[plan->grid_count++] = plan->what.grid; // of no use, but one round
+    return SL_OK;
+}
+
+static sl_status plan_how(sl_context *context, const regions_texts *t, regions_plan *plan) {
+    plan->how = sl_from_region_options_default();
+    sl_name_table solvers = {.kind = "solver", .stride = sizeof(sl_from_region_solver)};
+    solvers.items = sl_from_region_solvers(&solvers.count);
+    sl_solver stabs[SL_SOLVERS_MOST];
+    const sl_name_table stab_names = sl_pipeline_solver_names(stabs);
+    const sl_name_table sights = sl_sight_table();
+    size_t solver = 0, stab = 0, sight = SL_CLOSED;
+    uint64_t points = plan->how.points, pixels = plan->how.pixels, threads = 0;
+    SL_TRY(sl_option_choice(context, "--solver", t->solver, &solvers, &solver));
+    SL_TRY(sl_option_choice(context, "--stab", t->stab, &stab_names, &stab));
+    SL_TRY(sl_option_choice(context, "--sight", t->sight, &sights, &sight));
+    SL_TRY(sl_option_count(context, "--points", t->points, 1u << 20, &points));
+    SL_TRY(sl_option_count(context, "--pixels", t->pixels, 1u << 16, &pixels));
+    SL_TRY(sl_option_count(context, "--seed", t->seed, UINT64_MAX, &plan->how.seed));
+    SL_TRY(sl_option_count(context, "--threads", t->threads, 1024, &threads));
+    plan->how.solver = (const sl_from_region_solver *)solvers.items + solver;
+    plan->how.stab = sl_solver_at(stab);
+    plan->how.sight = (sl_sight)sight;
+    plan->how.points = (uint32_t)points;
+    plan->how.pixels = (uint32_t)pixels;
+    plan->how.threads = (unsigned)threads;
+    const char *name = plan->how.solver->name;
+    if (plan->how.solver->stabs && (t->points || t->pixels || t->seed))
+        return sl_fail(context, SL_BAD_ARGUMENT, "%s is for --solver sampling, not %s",
+                       t->points   ? "--points"
+                       : t->pixels ? "--pixels"
+                                   : "--seed",
+                       name);
+    if (!plan->how.solver->stabs && (t->stab || t->sight))
+        return sl_fail(context, SL_BAD_ARGUMENT, "%s is for --solver stabs, not %s",
+                       t->stab ? "--stab" : "--sight", name);
+    return SL_OK;
+}
+
+static sl_status make_plan(sl_context *context, const char *input, const regions_texts *t,
+                           regions_plan *plan) {
+    const sl_name_table effects = sl_effect_table();
+    *plan = (regions_plan){.texts = t, .input = input};
+    SL_TRY(sl_option_choices(context, "--without", t->without, &effects, &plan->without));
+    SL_TRY(plan_what(context, t, plan));
+    return plan_how(context, t, plan);
+}
+
+// --- the work
+
+static sl_status measure_map(sl_context *context, const regions_plan *plan, const char *path,
+                             uint32_t grid, sl_regions_rows *rows) {
+    sl_map map = {0};
+    sl_regions_options what = plan->what;
+    what.grid = grid;
+    char name[48];
+    size_t length;
+    const char *base = sl_input_base_name(path, &length);
+    snprintf(name, sizeof name, "%.*s", (int)length, base);
+    sl_status status = sl_input_read_map(context, path, &plan->texts->input, &map);
+    if (status == SL_OK) {
+        sl_effects_leave_out(context, &map, plan->without);
+        status = sl_effects_check(context, &map, "regions");
+    }
+    if (status == SL_OK) status = sl_map_clean(context, &map, NULL);
+    if (status == SL_OK) status = sl_regions_measure(context, &map, name, &what, &plan->how, rows);
+    sl_map_destroy(context, &map);
+    return status;
+}
+
+static sl_status measure_all(sl_context *context, const regions_plan *plan, sl_regions_rows *rows) {
+    for (size_t i = 0; i < plan->grid_count; i++) {
+        SL_TRY(measure_map(context, plan, plan->input, plan->grids[i], rows));
+        for (size_t k = 0; k < plan->texts->also.count; k++)
+            SL_TRY(measure_map(context, plan, plan->texts->also.items[k], plan->grids[i], rows));
+    }
+    return SL_OK;
+}
+
+static sl_status write_file(sl_context *context, const regions_plan *plan,
+                            const sl_regions_rows *rows, const sl_folder *folder,
+                            const char *name) {
+    char *path = sl_folder_file(context, folder, name);
+    if (!path) return SL_NO_MEMORY;
+    const sl_status status = strstr(name, ".csv") ? sl_regions_write_csv(context, rows, path)
+                             : strstr(name, "refine")
+                                 ? sl_regions_draw_refine(context, rows, plan->texts->dark, path)
+                                 : sl_regions_draw_work(context, rows, plan->texts->dark, path);
+    sl_free(context, path);
+    return status;
+}
+
+static sl_status run(sl_context *context, const regions_plan *plan) {
+    sl_regions_rows rows = {0};
+    sl_folder folder;
+    const char *output = plan->texts->output;
+    if (output) SL_TRY(sl_folder_open(context, output, file_names, &folder));
+    sl_status status = measure_all(context, plan, &rows);
+    for (size_t i = 0; file_names[i] && output && status == SL_OK; i++)
+        status = write_file(context, plan, &rows, &folder, file_names[i]);
+    if (output) status = sl_folder_close(context, &folder, status);
+    if (status == SL_OK) sl_regions_print(&rows);
+    sl_free(context, rows.items);
+    return status;
+}
+
+static void print_tables(void) {
+    size_t count;
+    puts("\nmethods, all of which run:");
+    const sl_from_region_method *methods = sl_from_region_methods(&count);
+    for (size_t i = 0; i < count; i++) printf("  %-12s%s\n", methods[i].name, methods[i].what);
+    puts("\nsolvers (the first is the default):");
+    const sl_from_region_solver *solvers = sl_from_region_solvers(&count);
+    for (size_t i = 0; i < count; i++)
+        printf("  %-12s%s; %s\n", solvers[i].name, solvers[i].what,
+               sl_guarantee_name(solvers[i].guarantee));
+    sl_pipeline_print_effects();
+    sl_input_print_formats();
+}
+
+sl_status sl_cmd_regions(sl_console *console, int argc, char **argv) {
+    regions_texts t = {0};
+    const sl_option_spec options[] = {
+        {"output", 'o', "DIR", NULL, &t.output,
+         "a folder for regions.csv and the charts refine and work\n(.png, .svg); made if missing"},
+        {"also", 0, "MAP", NULL, &t.also_text, "a map to be set beside; may be given again"},
+        {"grid", 0, "N,...", NULL, &t.grid, "N x N view cells, for each number; 2,4,8 without it"},
+        {"view-cells", 0, "KIND", NULL, &t.view_cells,
+         "grid (the default), leaves of the kd-tree, or the map's\n'object' boxes, those of one "
+         "name together"},
+        {"cut", 0, NULL, &t.cut, NULL, "cut view cells that depend on each other round a cycle"},
+        {"objects", 0, "KIND", NULL, &t.objects,
+         "groups of walls (the default), walls, the map's 'object'\nboxes, or cells of the "
+         "kd-tree"},
+        {"groups", 0, "N", NULL, &t.groups, "how many; 1800 without it"},
+        {"solver", 0, "NAME", NULL, &t.solver, "what decides on what is seen"},
+        {"points", 0, "N", NULL, &t.points, "sampling: points along the map's longer side; 256"},
+        {"pixels", 0, "N", NULL, &t.pixels, "sampling: lines from a point in half a quadrant; 32"},
+        {"seed", 0, "S", NULL, &t.seed, "sampling: what lines are drawn from; 1"},
+        {"stab", 0, "NAME", NULL, &t.stab, "stabs: the stabbing solver; funnel"},
+        {"sight", 0, "closed|open", NULL, &t.sight, "stabs: whether grazing lines count; closed"},
+        {"threads", 0, "N", NULL, &t.threads, "0, the default, for one a core"},
+        {"dark", 0, NULL, &t.dark, NULL, "charts light on dark"},
+        SL_INPUT_OPTIONS(t.input),
+        {"without", 0, "EFFECT,...", NULL, &t.without, "leave out what the map calls for"},
+    };
+    const sl_command_usage usage = {
+        .name = "regions",
+        .synopsis = "MAP [--also MAP ...] [-o DIR] [options]",
+        .operands = {"MAP"},
+        .what = "Which objects are seen from which view cells, by every method with the same\n"
+                "solver under it: what the refine sets come to, and the time (Laine 2005). Walls\n"
+                "must be axial. Methods must find the same: where they do not, the command fails.",
+        .tables = print_tables,
+        .examples = "  sightline regions office.map --objects walls --grid 4\n"
+                    "  sightline regions t10.map --also t100.map -o out --threads 1\n"
+                    "  sightline regions office.map --view-cells leaves --objects cells --solver "
+                    "stabs",
+        .options = options,
+        .option_count = sizeof options / sizeof *options,
+        .repeats = "also",
+        .repeated = &t.also,
+    };
+    const char *input;
+    bool helped;
+    SL_TRY(sl_option_parse(console, &usage, argc, argv, &input, &helped));
+    if (helped) return SL_OK;
+    regions_plan plan;
+    SL_TRY(make_plan(console->context, input, &t, &plan));
+    return run(console->context, &plan);
+}
