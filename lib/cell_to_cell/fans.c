@@ -50,6 +50,10 @@ static sl_status copy_exits(sl_context *context, const sl_space *space,
         }
     }
     fans->first_exit[count] = at;
+    for (uint32_t i = 0; i < at; i++) {
+        fans->exits[i].first = fans->first_exit[fans->exits[i].cell];
+        fans->exits[i].end = fans->first_exit[fans->exits[i].cell + 1];
+    }
     sl_free(context, of_portal);
     return SL_OK;
 }

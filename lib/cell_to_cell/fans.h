@@ -10,8 +10,9 @@
 /// them.
 typedef struct sl_walk_exit {
     sl_point left, right;
-    uint32_t cell; ///< where it leads
-    uint32_t twin; ///< the exit that leads back
+    uint32_t cell;       ///< where it leads
+    uint32_t twin;       ///< the exit that leads back
+    uint32_t first, end; ///< of the exits there
 } sl_walk_exit;
 
 /// A cell of a fan: the sector between two of its edges, seen from the fan's point.

@@ -96,30 +96,6 @@ static sl_status append_run(sl_context *context, sl_row_bytes *bytes, uint32_t s
     return SL_OK;
 }
 
-/// The first index from `at` on whose bit is `wanted`; `count` where there is none.
-static uint32_t find_bit(const sl_bits *set, uint32_t at, uint32_t count, bool wanted) {
-    while (at < count) {
-        const sl_bits word = (wanted ? set[at / 64] : ~set[at / 64]) >> (at % 64);
-        if (word) {
-            at += (uint32_t)__builtin_ctzll(word);
-            return at < count ? at : count;
-        }
-        at = (at / 64 + 1) * 64;
-    }
-    return count;
-}
-
-sl_status sl_row_append(sl_context *context, sl_row_bytes *bytes, const sl_bits *set,
-                        uint32_t count) {
-    for (uint32_t end = 0;;) {
-        const uint32_t first = find_bit(set, end, count, true);
-        if (first == count) return SL_OK;
-        const uint32_t skip = first - end;
-        end = find_bit(set, first, count, false);
-        SL_TRY(append_run(context, bytes, skip, end - first));
-    }
-}
-
 sl_status sl_row_append_words(sl_context *context, sl_row_bytes *bytes, const sl_bits *words,
                               const uint32_t *index, size_t count) {
     uint64_t before = 0, first = 0, end = 0; // the end of the run before, and a run in the making
@@ -141,6 +117,11 @@ sl_status sl_row_append_words(sl_context *context, sl_row_bytes *bytes, const sl
     }
     if (end == first) return SL_OK;
     return append_run(context, bytes, (uint32_t)(first - before), (uint32_t)(end - first));
+}
+
+sl_status sl_row_append(sl_context *context, sl_row_bytes *bytes, const sl_bits *set,
+                        uint32_t count) {
+    return sl_row_append_words(context, bytes, set, NULL, sl_bits_words(count));
 }
 
 void sl_row_add_to(const sl_pvs *pvs, uint32_t cell, sl_bits *set) {

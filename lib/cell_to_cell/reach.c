@@ -41,27 +41,28 @@ void sl_rays_destroy(sl_context *context, sl_rays *rays) {
 /// On which side of a direction a point lies: 1 counter-clockwise of it, -1 clockwise, 0 on its
 /// line. For points less than half a turn away.
 static inline int side(const sl_reacher *r, const sl_bound *bound, sl_point p) {
-    const int sign = sl_orient(bound->at, p, r->from); // differences from the point, once a bound
+    const int sign = sl_orient(*bound->at, p, r->from); // differences from the point, once a bound
     return bound->away ? -sign : sign;
 }
 
 /// As side, for a point half a turn away at most; where it is half a turn away, `answer`.
 static int side_in_sector(const sl_reacher *r, const sl_bound *bound, sl_point p, int answer) {
     const int sign = side(r, bound, p);
-    return sign == 0 && sl_opposite(r->from, bound->at, p) != bound->away ? answer : sign;
+    return sign == 0 && sl_opposite(r->from, *bound->at, p) != bound->away ? answer : sign;
 }
 
-static bool same_direction(sl_point from, sl_point a, bool away_a, sl_point b, bool away_b) {
-    if (sl_same_point(a, b)) return away_a == away_b;
-    return sl_orient(from, a, b) == 0 && sl_opposite(from, a, b) == (away_a != away_b);
+static bool same_direction(sl_point from, const sl_point *a, bool away_a, const sl_point *b,
+                           bool away_b) {
+    if (a == b || sl_same_point(*a, *b)) return away_a == away_b;
+    return sl_orient(from, *a, *b) == 0 && sl_opposite(from, *a, *b) == (away_a != away_b);
 }
 
-int sl_turns_compare(sl_point from, sl_point first, const sl_reach_turn *a,
+int sl_turns_compare(sl_point from, const sl_point *first, const sl_reach_turn *a,
                      const sl_reach_turn *b) {
     const bool turned = !b->away;
-    const int sign = sl_orient(from, a->at, b->at);
+    const int sign = sl_orient(from, *a->at, *b->at);
     if (sign != 0) return (a->away != turned) ? sign : -sign;
-    if (sl_opposite(from, a->at, b->at) == (a->away != turned)) return 0;
+    if (sl_opposite(from, *a->at, *b->at) == (a->away != turned)) return 0;
     // Half a turn apart: the one in the first direction comes first.
     return same_direction(from, first, false, a->at, a->away) ? -1 : 1;
 }
@@ -83,11 +84,11 @@ static int level_along(const sl_reacher *r, const sl_walk_exit *e) {
 
 /// The two bounds that a portal's ends make.
 static inline sl_bound from_right(const sl_reacher *r, const sl_walk_exit *e) {
-    return (sl_bound){.at = e->right, .level = r->closed ? SL_CLOCKWISE : SL_AFTER};
+    return (sl_bound){.at = &e->right, .level = r->closed ? SL_CLOCKWISE : SL_AFTER};
 }
 
 static inline sl_bound to_left(const sl_reacher *r, const sl_walk_exit *e) {
-    return (sl_bound){.at = e->left, .level = r->closed ? SL_COUNTER : SL_BEFORE};
+    return (sl_bound){.at = &e->left, .level = r->closed ? SL_COUNTER : SL_BEFORE};
 }
 
 // --- one step
@@ -117,7 +118,7 @@ static bool touch(const sl_reacher *r, const sl_walk_exit *e, const sl_bound *at
     const bool at_point = sl_same_point(end, r->from);
     const sl_point there = at_point ? other : end;
     if (at_point && side(r, at, other) != 0) return false;
-    if (sl_opposite(r->from, at->at, there) != at->away) return false;
+    if (sl_opposite(r->from, *at->at, there) != at->away) return false;
     if (facing == 0) {
         const int8_t level = (int8_t)level_along(r, e);
         low = larger(low, level);
@@ -176,13 +177,12 @@ static inline bool next_piece(const sl_reacher *r, sl_reach_step *s, piece *out)
 
 static sl_status push_step(sl_context *context, sl_reacher *r, const piece *p, uint32_t found) {
     const sl_walk_exit *e = &r->fans->exits[p->exit];
-    const uint32_t first = r->fans->first_exit[e->cell], end = r->fans->first_exit[e->cell + 1];
     SL_TRY(SL_ARRAY_ROOM(context, &r->steps, 1));
     r->steps.items[r->steps.count++] = (sl_reach_step){
-        .next = e->twin + 1 < end ? e->twin + 1 : first,
-        .left = end - first - 1,
-        .first = first,
-        .end = end,
+        .next = e->twin + 1 < e->end ? e->twin + 1 : e->first,
+        .left = e->end - e->first - 1,
+        .first = e->first,
+        .end = e->end,
         .found = found,
         .low = p->low,
         .high = p->high,
@@ -353,12 +353,12 @@ static bool first_along(const sl_reacher *r, const sl_walk_exit *e, const sl_bou
                         piece *out) {
     const int facing = sl_orient(e->right, e->left, r->from);
     if (facing < 0) return false;
-    const sl_point far = sl_same_point(e->left, r->from) ? e->right : e->left;
+    const sl_point *far = sl_same_point(e->left, r->from) ? &e->right : &e->left;
     if (facing == 0) {
         if (!same_direction(r->from, along->at, false, far, false)) return false;
         if (level_along(r, e) != along->level) return false;
     } else {
-        const sl_point touching = along->level == SL_CLOCKWISE ? e->right : e->left;
+        const sl_point *touching = along->level == SL_CLOCKWISE ? &e->right : &e->left;
         if (!same_direction(r->from, along->at, false, touching, false)) return false;
     }
     out->low = out->high = *along;

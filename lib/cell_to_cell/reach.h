@@ -10,9 +10,10 @@
 
 enum { SL_BEFORE = -2, SL_CLOCKWISE = -1, SL_COUNTER = 1, SL_AFTER = 2 };
 
-/// An end of an interval of directions: from the point towards `at`, or away from it.
+/// An end of an interval of directions: from the point towards `at`, which is the fans' or the
+/// caller's to keep, or away from it.
 typedef struct sl_bound {
-    sl_point at;
+    const sl_point *at;
     int8_t level;
     bool away;
 } sl_bound;
@@ -28,7 +29,7 @@ typedef struct sl_reached {
 
 /// A direction in which cells are entered or left.
 typedef struct sl_reach_turn {
-    sl_point at;
+    const sl_point *at;
     bool away;
     uint32_t ray;   ///< of sl_reach.rays; UINT32_MAX for none
     uint32_t leave; ///< the first cell that is left here; UINT32_MAX for none
@@ -83,7 +84,7 @@ sl_status sl_reach_add(sl_context *context, sl_reacher *reacher, const sl_fan_ce
 /// counter-clockwise.
 typedef struct sl_fan_edge {
     const sl_fan_cell *cell;
-    sl_point edge;
+    const sl_point *edge;
     bool last;
 } sl_fan_edge;
 
@@ -98,6 +99,7 @@ void sl_rays_destroy(sl_context *context, sl_rays *rays);
 
 /// Compares the directions of two turns seen from a point, the second turned by half a turn, both
 /// within half a turn from `first` on: -1, 0, 1.
-int sl_turns_compare(sl_point from, sl_point first, const sl_reach_turn *a, const sl_reach_turn *b);
+int sl_turns_compare(sl_point from, const sl_point *first, const sl_reach_turn *a,
+                     const sl_reach_turn *b);
 
 #endif

@@ -29,22 +29,22 @@ void sl_sweeper_destroy(sl_context *context, sl_sweeper *s) {
 // --- three parts of a fan
 
 /// The levels at which sectors start and end: edges that the line passes along belong to rays.
-static sl_bound after_edge(const sl_sweeper *s, sl_point at) {
+static sl_bound after_edge(const sl_sweeper *s, const sl_point *at) {
     return (sl_bound){.at = at, .level = s->closed ? SL_COUNTER : SL_AFTER};
 }
 
-static sl_bound before_edge(const sl_sweeper *s, sl_point at) {
+static sl_bound before_edge(const sl_sweeper *s, const sl_point *at) {
     return (sl_bound){.at = at, .level = s->closed ? SL_CLOCKWISE : SL_BEFORE};
 }
 
 static sl_status reach_back(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     const sl_fan_cell *cells = s->fans->cells.items + fan->first;
     const sl_bound end = {
-        .at = cells[fan->count].edge, .away = true, .level = s->closed ? SL_COUNTER : SL_BEFORE};
+        .at = &cells[fan->count].edge, .away = true, .level = s->closed ? SL_COUNTER : SL_BEFORE};
     for (uint32_t k = 0; k < fan->count && cells[k].past_rest <= (s->closed ? 0 : -1); k++) {
-        const sl_bound low = after_edge(s, cells[k].edge);
+        const sl_bound low = after_edge(s, &cells[k].edge);
         const bool whole = cells[k + 1].past_rest <= 0;
-        const sl_bound high = whole ? before_edge(s, cells[k + 1].edge) : end;
+        const sl_bound high = whole ? before_edge(s, &cells[k + 1].edge) : end;
         const size_t found = s->back.cells.count;
         SL_TRY(sl_reach_add(context, &s->reacher, &cells[k], low, high, cells[k].past_rest == 0,
                             &s->back));
@@ -64,11 +64,11 @@ static uint32_t first_ahead(const sl_sweeper *s, const sl_fan *fan) {
 static sl_status reach_ahead(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     const sl_fan_cell *cells = s->fans->cells.items + fan->first;
     const sl_bound start = {
-        .at = cells[0].edge, .away = true, .level = s->closed ? SL_CLOCKWISE : SL_AFTER};
+        .at = &cells[0].edge, .away = true, .level = s->closed ? SL_CLOCKWISE : SL_AFTER};
     for (uint32_t k = first_ahead(s, fan); k < fan->count; k++) {
         const size_t found = s->ahead.cells.count;
-        const sl_bound low = cells[k].past_half >= 0 ? after_edge(s, cells[k].edge) : start;
-        const sl_bound high = before_edge(s, cells[k + 1].edge);
+        const sl_bound low = cells[k].past_half >= 0 ? after_edge(s, &cells[k].edge) : start;
+        const sl_bound high = before_edge(s, &cells[k + 1].edge);
         SL_TRY(sl_reach_add(context, &s->reacher, &cells[k], low, high, cells[k + 1].past_half == 0,
                             &s->ahead));
         s->ahead.cells.items[found].touched = cells[k].past_half > 0;
@@ -79,10 +79,10 @@ static sl_status reach_ahead(sl_context *context, sl_sweeper *s, const sl_fan *f
 /// Between the two; all of a fan that is not wide.
 static sl_status reach_middle(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     const sl_fan_cell *cells = s->fans->cells.items + fan->first;
-    const sl_bound start = {.at = cells[fan->count].edge, .away = true, .level = SL_AFTER};
-    const sl_bound end = {.at = cells[0].edge, .away = true, .level = SL_BEFORE};
+    const sl_bound start = {.at = &cells[fan->count].edge, .away = true, .level = SL_AFTER};
+    const sl_bound end = {.at = &cells[0].edge, .away = true, .level = SL_BEFORE};
     for (uint32_t k = 0; k < fan->count; k++) {
-        sl_bound low = after_edge(s, cells[k].edge), high = before_edge(s, cells[k + 1].edge);
+        sl_bound low = after_edge(s, &cells[k].edge), high = before_edge(s, &cells[k + 1].edge);
         if (fan->wide && (cells[k + 1].past_rest <= 0 || cells[k].past_half >= 0)) continue;
         if (fan->wide && cells[k].past_rest < 0) low = start;
         if (fan->wide && cells[k + 1].past_half > 0) high = end;
@@ -108,7 +108,7 @@ static sl_status add_ray(sl_context *context, sl_sweeper *s, const sl_fan *fan, 
     uint32_t *ray = last ? &of->last : &of->first;
     if (*ray != UINT32_MAX) return SL_OK;
     *ray = s->rays.starts.count ? (uint32_t)s->rays.starts.count - 1 : 0;
-    const sl_fan_edge along = {.cell = &cells[k], .edge = cells[k + last].edge, .last = last};
+    const sl_fan_edge along = {.cell = &cells[k], .edge = &cells[k + last].edge, .last = last};
     return sl_rays_add(context, &s->reacher, along, known, turn, &s->rays);
 }
 

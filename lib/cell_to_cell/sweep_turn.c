@@ -132,7 +132,7 @@ static void touch(half *h) {
 }
 
 sl_status sl_sweep_turn(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
-    const sl_point first = s->fans->cells.items[fan->first].edge;
+    const sl_point *first = &s->fans->cells.items[fan->first].edge;
     half back = {.reach = &s->back, .seen = &s->behind, .ray_level = SL_CLOCKWISE};
     half ahead = {
         .reach = &s->ahead, .seen = &s->before, .ray_level = SL_COUNTER, .touched_stay = true};

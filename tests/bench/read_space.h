@@ -1,0 +1,28 @@
+/// A space for measurements: from a map file, cut as the map calls for.
+#ifndef SL_BENCH_READ_SPACE_H
+#define SL_BENCH_READ_SPACE_H
+
+#include "sightline/import.h"
+#include "sightline/space.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/// `which`: the height of a model's slice, a WAD's level, or NULL.
+static inline sl_status bench_read_space(sl_context *context, const char *path, const char *which,
+                                         sl_space *space) {
+    const char *ending = strrchr(path, '.');
+    const bool is_wad = ending && strcmp(ending, ".wad") == 0;
+    sl_import_options options = sl_import_options_default();
+    options.map = is_wad ? which : NULL;
+    options.has_slice = which && !is_wad;
+    options.slice = options.has_slice ? strtod(which, NULL) : 0;
+    sl_map map = {0};
+    sl_status status = sl_map_read(context, path, &options, &map);
+    if (status == SL_OK) status = sl_map_clean(context, &map, NULL);
+    if (status == SL_OK) status = sl_subdivision_for(&map)->subdivide(context, &map, NULL, space);
+    sl_map_destroy(context, &map);
+    return status;
+}
+
+#endif
