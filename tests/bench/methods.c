@@ -1,7 +1,11 @@
-// What the whole cell-to-cell stage costs by each method, in one run on one thread.
-//   bench_methods MAP [Z]     CSV: machine, map, cells, sight, method, solver, pairs, seconds,
-//   times
-//                             the sweep's; what takes longer than a minute has no figures
+// What the whole cell-to-cell stage costs by each method with each solver, in one run on one
+// thread.
+//   bench_methods MAP [Z]           a map file, and the height of its slice
+//   bench_methods FILE.wad LEVEL    a level of a WAD
+// CSV: machine, map, cells, sight, method, solver, pairs, seconds, times the sweep's. What takes
+// longer than a minute has no figures.
+#include "read_space.h"
+
 #include "sightline/glpk.h"
 #include "sightline/sightline.h"
 
@@ -31,19 +35,6 @@ static bool too_late(void *user) {
 static void fail(const char *what) {
     fprintf(stderr, "bench_methods: %s\n", what);
     exit(1);
-}
-
-static void read_space(sl_context *context, const char *path, const char *slice, sl_space *space) {
-    sl_import_options options = sl_import_options_default();
-    options.has_slice = slice != NULL;
-    options.slice = slice ? strtod(slice, NULL) : 0;
-    const sl_subdivide_options rules = sl_subdivide_options_default();
-    sl_map map = {0};
-    if (sl_map_read(context, path, &options, &map) != SL_OK ||
-        sl_map_clean(context, &map, NULL) != SL_OK ||
-        sl_subdivide_kd(context, &map, &rules, space) != SL_OK)
-        fail(sl_context_message(context));
-    sl_map_destroy(context, &map);
 }
 
 typedef struct bench {
@@ -84,6 +75,7 @@ static void run(bench *b, const sl_see_method *method, const sl_solver *solver, 
     if (strcmp(method->name, "sweep") == 0) b->of_sweep = seconds;
     printf("%s,%s,%u,%s,%s,%s,", b->machine, b->map, b->space.cell_count,
            sight == SL_CLOSED ? "closed" : "open", method->name, solver ? solver->name : "");
+    fflush(stdout);
     if (seconds > 0)
         printf("%llu,%.6f,%.2f\n", (unsigned long long)pairs, seconds, seconds / b->of_sweep);
     else
@@ -100,23 +92,29 @@ static const sl_see_method *method_of(const char *name) {
 }
 
 int main(int argc, char **argv) {
-    if (argc < 2) fail("usage: bench_methods MAP [Z]");
+    static const sl_solver *(*const solvers[])(void) = {sl_funnel, sl_glpk_simplex, sl_glpk_hybrid,
+                                                        sl_glpk_exact};
+    if (argc < 2) fail("usage: bench_methods MAP [Z], or FILE.wad LEVEL");
     clock_hook hook = {.deadline = 1e300};
     const sl_hooks hooks = {.user = &hook, .cancelled = too_late};
     bench b = {.context = sl_context_create(&hooks), .clock = &hook, .map = argv[1]};
     if (!b.context) fail("out of memory");
-    read_space(b.context, argv[1], argc > 2 ? argv[2] : NULL, &b.space);
+    if (bench_read_space(b.context, argv[1], argc > 2 ? argv[2] : NULL, &b.space) != SL_OK)
+        fail(sl_context_message(b.context));
     struct utsname machine;
     uname(&machine);
     snprintf(b.machine, sizeof b.machine, "%.40s %.40s", machine.sysname, machine.machine);
     puts("machine,map,cells,sight,method,solver,pairs,seconds,times_the_sweep");
+    size_t count;
+    const sl_see_method *methods = sl_see_methods(&count);
     for (int sight = SL_CLOSED; sight <= SL_OPEN; sight++) {
         run(&b, method_of("sweep"), NULL, (sl_sight)sight);
-        run(&b, method_of("flood"), NULL, (sl_sight)sight);
-        run(&b, method_of("sampling"), NULL, (sl_sight)sight);
-        run(&b, method_of("prune"), sl_funnel(), (sl_sight)sight);
-        run(&b, method_of("dfs"), sl_funnel(), (sl_sight)sight);
-        run(&b, method_of("dfs"), sl_glpk_simplex(), (sl_sight)sight);
+        for (size_t m = 0; m < count; m++) {
+            if (strcmp(methods[m].name, "sweep") == 0) continue;
+            const size_t with = methods[m].stabs ? sizeof solvers / sizeof *solvers : 1;
+            for (size_t i = 0; i < with; i++)
+                run(&b, &methods[m], methods[m].stabs ? solvers[i]() : NULL, (sl_sight)sight);
+        }
     }
     sl_space_destroy(b.context, &b.space);
     sl_context_destroy(b.context);
