@@ -20,6 +20,25 @@ static void add_seconds(sl_json_fields *fields, const sl_bake_report *report) {
     sl_json_add_fields(fields, "seconds", &seconds);
 }
 
+/// What was done of the work, where it was not all in one go.
+static void add_parts(sl_json_fields *fields, const sl_bake_report *report) {
+    const sl_bake_parts_account *parts = &report->parts;
+    const sl_findings *findings = &report->baked->findings;
+    sl_json_add_flag(fields, "finished", !sl_findings_begun(findings));
+    if (!parts->units) return;
+    sl_json_fields inner = sl_json_begin();
+    sl_json_add_text(&inner, "units", parts->units);
+    sl_json_add_count(&inner, "count", parts->unit_count);
+    sl_json_add_count(&inner, "known_before", parts->known);
+    sl_json_add_count(&inner, "done", parts->done);
+    if (findings->shard_count) {
+        sl_json_add_count(&inner, "shard", findings->shard);
+        sl_json_add_count(&inner, "shards", findings->shard_count);
+        sl_json_add_count(&inner, "left", sl_findings_left(findings));
+    }
+    sl_json_add_fields(fields, "work", &inner);
+}
+
 static void add_visibility(sl_json_fields *fields, const sl_visibility *visibility) {
     const sl_see_account *account = &visibility->account;
     const sl_stab_trees *trees = &visibility->trees;
@@ -43,8 +62,9 @@ static void add_visibility(sl_json_fields *fields, const sl_visibility *visibili
 sl_status sl_bake_report_print_json(sl_context *context, const sl_bake_report *report) {
     const sl_baked *baked = report->baked;
     const sl_space *space = &baked->space;
+    const bool has_sets = !sl_baked_is_shard(baked);
     sl_mean_pvs mean;
-    SL_TRY(sl_mean_pvs_of(context, baked, &mean));
+    if (has_sets) SL_TRY(sl_mean_pvs_of(context, baked, &mean));
 
     sl_json_fields fields = sl_json_begin();
     sl_json_add_text(&fields, "map", report->input);
@@ -54,6 +74,7 @@ sl_status sl_bake_report_print_json(sl_context *context, const sl_bake_report *r
     sl_json_add_text(&fields, "solver", baked->solver[0] ? baked->solver : NULL);
     sl_json_add_text(&fields, "sight", sl_sight_name(baked->visibility.sight));
     sl_json_add_text(&fields, "guarantee", sl_guarantee_name(baked->visibility.guarantee));
+    add_parts(&fields, report);
     add_seconds(&fields, report);
     sl_json_add_cleaning(&fields, "cleaning", &report->cleaning);
     sl_json_add_count(&fields, "walls", space->wall_count);
@@ -61,8 +82,8 @@ sl_status sl_bake_report_print_json(sl_context *context, const sl_bake_report *r
     sl_json_add_count(&fields, "inside_cells", space->inside_count);
     sl_json_add_count(&fields, "portals", space->portal_count);
     sl_json_add_count(&fields, "tree_depth", space->tree_depth);
-    add_visibility(&fields, &baked->visibility);
-    sl_mean_pvs_add_json(&fields, &mean);
+    if (has_sets) add_visibility(&fields, &baked->visibility);
+    if (has_sets) sl_mean_pvs_add_json(&fields, &mean);
     sl_json_add_count(&fields, "peak_memory_bytes", sl_size_of_peak_memory());
     sl_json_add_count(&fields, "file_bytes", sl_size_of_file(report->output));
     return sl_json_print(context, &fields);
@@ -76,6 +97,22 @@ void sl_cleaning_print(const sl_clean_account *account) {
                account->before, account->zero_length, account->duplicate, account->merged,
                account->split);
     putchar('\n');
+}
+
+static void print_parts(const sl_bake_report *report) {
+    const sl_bake_parts_account *parts = &report->parts;
+    const sl_findings *findings = &report->baked->findings;
+    char partial[SL_PARTIAL_TEXT];
+    if (!parts->units) return;
+    printf("  %-9s %" PRIu32 ", %" PRIu32 " of them done, %" PRIu32 " known before\n", parts->units,
+           parts->unit_count, parts->done, parts->known);
+    if (findings->shard_count) {
+        printf("  shard     %" PRIu32 " of %" PRIu32 ", %" PRIu32 " %s left\n", findings->shard,
+               findings->shard_count, sl_findings_left(findings), parts->units);
+        return;
+    }
+    sl_baked_say_partial(report->baked, partial);
+    if (partial[0]) printf("  %s\n", partial);
 }
 
 static void print_visibility(const sl_baked *baked) {
@@ -111,8 +148,9 @@ static void print_seconds(const sl_bake_report *report) {
 
 sl_status sl_bake_report_print(sl_context *context, const sl_bake_report *report) {
     const sl_space *space = &report->baked->space;
+    const bool has_sets = !sl_baked_is_shard(report->baked);
     sl_mean_pvs mean;
-    SL_TRY(sl_mean_pvs_of(context, report->baked, &mean));
+    if (has_sets) SL_TRY(sl_mean_pvs_of(context, report->baked, &mean));
     char file[SL_SIZE_TEXT], memory[SL_SIZE_TEXT];
     sl_size_write(sl_size_of_file(report->output), file);
     sl_size_write(sl_size_of_peak_memory(), memory);
@@ -122,8 +160,11 @@ sl_status sl_bake_report_print(sl_context *context, const sl_bake_report *report
     printf("  cells     %" PRIu32 ", %" PRIu32 " of them inside; tree depth %" PRIu32 "\n",
            space->cell_count, space->inside_count, space->tree_depth);
     printf("  portals   %" PRIu32 "\n", space->portal_count);
-    print_visibility(report->baked);
-    sl_mean_pvs_print(&mean);
+    print_parts(report);
+    if (has_sets) {
+        print_visibility(report->baked);
+        sl_mean_pvs_print(&mean);
+    }
     print_seconds(report);
     printf("  memory    %s at most\n", memory);
     return SL_OK;

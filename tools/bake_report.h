@@ -2,12 +2,13 @@
 #ifndef BAKE_REPORT_H
 #define BAKE_REPORT_H
 
-#include "sightline/bake.h"
+#include "bake_parts.h"
 
 typedef struct sl_bake_report {
     const char *input, *output, *subdivide;
     const sl_baked *baked;
     sl_clean_account cleaning;
+    sl_bake_parts_account parts;
     bool checked; ///< whether sl_space_check was run
     struct {
         double read; ///< cleaning included

@@ -1,6 +1,8 @@
+#include "bake_parts.h"
 #include "bake_report.h"
 #include "base/base.h"
 #include "commands.h"
+#include "crew.h"
 #include "effects.h"
 #include "inputs.h"
 #include "pipeline.h"
@@ -17,6 +19,7 @@ typedef struct bake_texts {
     const char *output, *method, *solver, *sight, *threads, *memory, *tree_memory, *samples, *seed;
     const char *sectors;
     bool stab_trees, inside, json;
+    sl_bake_part_texts parts;
 } bake_texts;
 
 /// The options as they are meant.
@@ -25,6 +28,7 @@ typedef struct bake_plan {
     const char *output;
     const sl_see_method *method;
     sl_see_options see;
+    sl_bake_parts parts;
     bool json;
     bool named_by_map; // no -o was given
 } bake_plan;
@@ -118,7 +122,7 @@ static sl_status make_plan(sl_context *context, const char *input, const bake_te
     SL_TRY(plan_seeing(context, texts, plan));
     plan->output = texts->output;
     plan->json = texts->json;
-    return SL_OK;
+    return sl_bake_parts_plan(context, &texts->parts, plan->method, &plan->see, &plan->parts);
 }
 
 // --- the work
@@ -165,11 +169,13 @@ static sl_status bake(sl_context *context, const bake_plan *plan, sl_map *map, s
     report->seconds.read = lap(&time);
     SL_TRY(subdivide(context, plan, map, report, &baked->space, &time));
     keep_rest_of_map(context, map, baked);
-    SL_TRY(plan->method->see(context, &baked->space, &plan->see, &baked->visibility));
-    report->seconds.cell_to_cell = lap(&time);
     snprintf(baked->method, sizeof baked->method, "%s", plan->method->name);
     if (plan->see.solver)
         snprintf(baked->solver, sizeof baked->solver, "%s", plan->see.solver->name);
+    SL_TRY(
+        sl_bake_parts_see(context, &plan->parts, plan->method, &plan->see, baked, &report->parts));
+    report->seconds.cell_to_cell = lap(&time);
+    if (sl_crew_rank() != 0) return SL_OK;
     if (plan->named_by_map) sl_note(context, "writing %s, as no -o is given", plan->output);
     SL_TRY(sl_baked_write(context, baked, plan->output));
     report->seconds.write = lap(&time);
@@ -184,7 +190,9 @@ static sl_status bake_and_report(sl_console *console, const bake_plan *plan) {
         .input = plan->pipeline.input, .output = plan->output, .baked = &baked};
     sl_status status = bake(context, plan, &map, &baked, &report);
     sl_progress_line_clear(&console->line);
-    if (status == SL_OK && plan->json)
+    if (status == SL_OK && sl_crew_rank() != 0)
+        status = SL_OK; // the first process reports
+    else if (status == SL_OK && plan->json)
         status = sl_bake_report_print_json(context, &report);
     else if (status == SL_OK && !console->quiet)
         status = sl_bake_report_print(context, &report);
@@ -229,6 +237,7 @@ sl_status sl_cmd_bake(sl_console *console, int argc, char **argv) {
         {"inside", 0, NULL, &t.inside, NULL,
          "look from and at inside cells only: those that a\nstart leads to or that walls enclose"},
         {"json", 0, NULL, &t.json, NULL, "print the statistics as one JSON object"},
+        SL_BAKE_PART_OPTIONS(t.parts),
     };
     const sl_command_usage usage = {
         .name = "bake",
@@ -238,7 +247,10 @@ sl_status sl_cmd_bake(sl_console *console, int argc, char **argv) {
                 "and writes both into a file. The time for reading includes cleaning the walls.",
         .tables = print_tables,
         .examples = "  sightline bake office.map -o office.slv\n"
-                    "  sightline bake tower.ug --slice 1040 --start 1400,1600 --inside --json",
+                    "  sightline bake tower.ug --slice 1040 --start 1400,1600 --inside --json\n"
+                    "  sightline bake office.map --previous office.slv -o office.slv\n"
+                    "  sightline bake city.map --time-limit 60 -o city.slv\n"
+                    "  sightline bake city.map --resume city.slv -o city.slv",
         .options = options,
         .option_count = sizeof options / sizeof *options,
     };

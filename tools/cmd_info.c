@@ -227,6 +227,7 @@ static sl_status print_baked_json(sl_context *context, const info_request *reque
     sl_json_add_text(&fields, "method", baked->method);
     sl_json_add_text(&fields, "solver", baked->solver[0] ? baked->solver : NULL);
     sl_json_add_text(&fields, "guarantee", sl_guarantee_name(baked->visibility.guarantee));
+    sl_json_add_flag(&fields, "finished", !sl_findings_begun(&baked->findings));
     sl_json_add_count(&fields, "inside_cells", baked->space.inside_count);
     sl_json_add_count(&fields, "tree_depth", baked->space.tree_depth);
     sl_json_add_count(&fields, "stab_trees_left_out", baked->visibility.trees.left_out);
@@ -253,6 +254,9 @@ static void print_baked(const info_request *request, const sl_baked *baked,
     printf("  seen      %s sight, by %s%s%s (%s)\n", sl_sight_name(baked->visibility.sight),
            baked->method, baked->solver[0] ? " with " : "", baked->solver,
            sl_guarantee_name(baked->visibility.guarantee));
+    char partial[SL_PARTIAL_TEXT];
+    sl_baked_say_partial(baked, partial);
+    if (partial[0]) printf("  %s\n", partial);
     printf("  inside    %" PRIu32 " of %" PRIu32 " cells; tree depth %" PRIu32 "\n",
            space->inside_count, space->cell_count, space->tree_depth);
     sl_mean_pvs_print(mean);

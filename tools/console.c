@@ -10,9 +10,12 @@
 #include <string.h>
 #include <unistd.h>
 
-/// Set by the first SIGINT or SIGTERM. At file scope because a signal handler is given nothing but
+/// Set by SIGINT or SIGTERM. At file scope because a signal handler is given nothing but
 /// the signal's number; lock-free and atomic because worker threads read it.
 static atomic_bool interrupted;
+
+/// As it: whether the first signal is to ask only, and whether it did.
+static atomic_bool asks_first, asked;
 
 static void set_handler(int number, void (*handler)(int)) {
     struct sigaction action = {.sa_handler = handler};
@@ -20,9 +23,11 @@ static void set_handler(int number, void (*handler)(int)) {
     sigaction(number, &action, NULL);
 }
 
-/// The first signal asks the running call to stop and tidy up; the next one ends the program.
+/// The first signal makes the running call stop and tidy up; the next one ends the program. Where
+/// the first one is to ask only, it is the second and the third that do.
 static void on_signal(int number) {
     (void)number;
+    if (atomic_load(&asks_first) && !atomic_exchange(&asked, true)) return;
     atomic_store(&interrupted, true);
     set_handler(SIGINT, SIG_DFL);
     set_handler(SIGTERM, SIG_DFL);
@@ -41,6 +46,14 @@ static void hold_standard_streams(void) {
     for (int descriptor = 0; descriptor <= 2; descriptor++)
         if (fcntl(descriptor, F_GETFD) == -1)
             (void)!open("/dev/null", descriptor == 0 ? O_WRONLY : O_RDONLY);
+}
+
+void sl_console_ask_first(void) {
+    atomic_store(&asks_first, true);
+}
+
+bool sl_console_is_asked(void) {
+    return atomic_load(&asked);
 }
 
 void sl_console_print_line(FILE *stream, const char *before, const char *text, size_t length) {
@@ -122,7 +135,8 @@ int sl_console_close(sl_console *console, sl_status status) {
     if (status == SL_IO && atomic_load(&interrupted))
         status = sl_fail(console->context, SL_CANCELLED, "%s", sl_status_name(SL_CANCELLED));
     const char *message = sl_context_message(console->context);
-    if (status != SL_OK) sl_console_print_line(stderr, "sightline: ", message, strlen(message));
+    if (status != SL_OK && message[0])
+        sl_console_print_line(stderr, "sightline: ", message, strlen(message));
     sl_context_destroy(console->context);
     return exit_status(status);
 }

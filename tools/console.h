@@ -18,6 +18,12 @@ typedef struct sl_console {
 /// False, after a message, where there is no memory.
 bool sl_console_open(sl_console *console);
 
+/// From now on the first Ctrl-C (or SIGTERM) only asks, and the second one makes running calls
+/// stop.
+void sl_console_ask_first(void);
+/// Whether there was one.
+bool sl_console_is_asked(void);
+
 /// Prints a line; control characters of a text that others wrote come out as '?', for they could
 /// play tricks on a terminal.
 void sl_console_print_line(FILE *stream, const char *before, const char *text, size_t length);

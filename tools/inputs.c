@@ -93,7 +93,11 @@ sl_status sl_input_read_baked(sl_context *context, const char *path, sl_baked *b
             context, SL_BAD_ARGUMENT,
             "%s: is a map, not a baked file; bake it first: sightline bake %s -o FILE.slv", path,
             path);
-    return sl_baked_read(context, path, baked);
+    SL_TRY(sl_baked_read(context, path, baked));
+    char partial[SL_PARTIAL_TEXT];
+    sl_baked_say_partial(baked, partial);
+    if (partial[0]) sl_note(context, "%s is %s", path, partial);
+    return SL_OK;
 }
 
 sl_status sl_input_refuse_output(sl_context *context, const char *path, const char *output) {

@@ -141,7 +141,7 @@ static sl_status take_operands(sl_context *context, const sl_command_usage *usag
     if (given < wanted)
         return sl_fail(context, SL_BAD_ARGUMENT, "%s is missing; 'sightline %s --help' tells more",
                        usage->operands[given], usage->name);
-    if (given > wanted)
+    if (given > wanted && !usage->more)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "'%s' is one argument too many; 'sightline %s --help' tells more",
                        argv[optind + (int)wanted], usage->name);
@@ -151,6 +151,13 @@ static sl_status take_operands(sl_context *context, const sl_command_usage *usag
             return sl_fail(context, SL_BAD_ARGUMENT,
                            "%s is empty; 'sightline %s --help' tells more", usage->operands[i],
                            usage->name);
+    }
+    for (size_t i = wanted; i < given; i++) {
+        sl_option_list *list = usage->more;
+        if (list->count == SL_OPTION_LIST_MOST)
+            return sl_fail(context, SL_BAD_ARGUMENT, "more than %d arguments after %s",
+                           SL_OPTION_LIST_MOST, usage->operands[wanted - 1]);
+        list->items[list->count++] = argv[optind + (int)i];
     }
     return SL_OK;
 }

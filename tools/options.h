@@ -7,7 +7,7 @@
 #include "names.h"
 #include "sightline/geometry.h"
 
-#define SL_OPTION_LIST_MOST 256
+#define SL_OPTION_LIST_MOST 4096
 
 /// The arguments of an option that may be given several times, in order.
 typedef struct sl_option_list {
@@ -38,6 +38,7 @@ typedef struct sl_command_usage {
     size_t option_count;
     const char *repeats;      ///< the name of the option that may be given several times, or NULL
     sl_option_list *repeated; ///< where all its arguments go
+    sl_option_list *more;     ///< where what follows the operands goes; NULL where nothing may
 } sl_command_usage;
 
 /// Reads the arguments after the command's name, argv[0]; adds --help and --quiet to the options.

@@ -1,5 +1,6 @@
 #include "base/base.h"
 #include "commands.h"
+#include "crew.h"
 #include "options.h"
 
 #include <stdio.h>
@@ -13,6 +14,7 @@ typedef struct command {
 static const command commands[] = {
     {"info", "what a map or a baked file holds", sl_cmd_info},
     {"bake", "cells, portals and cell-to-cell visibility of a map, into a file", sl_cmd_bake},
+    {"merge", "the shards of a bake, put together", sl_cmd_merge},
     {"check", "what is wrong with a map: leaks, gaps, overlaps, thin cells", sl_cmd_check},
     {"compare", "every method on one map: accuracy against time, as table and chart",
      sl_cmd_compare},
@@ -66,8 +68,20 @@ static sl_status run(sl_console *console, int argc, char **argv) {
                    near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
 }
 
+/// Where several processes share a command, the first one reports.
+static sl_status run_in_crew(sl_console *console, int argc, char **argv) {
+    if (sl_crew_size() > 1 && !(argc > 1 && strcmp(argv[1], "bake") == 0))
+        return sl_fail(console->context, SL_BAD_ARGUMENT,
+                       "several processes can share 'bake' alone");
+    return run(console, argc, argv);
+}
+
 int main(int argc, char **argv) {
     sl_console console;
+    sl_crew_begin(&argc, &argv);
     if (!sl_console_open(&console)) return 1;
-    return sl_console_close(&console, run(&console, argc, argv));
+    const sl_status status = run_in_crew(&console, argc, argv);
+    const int code = sl_console_close(&console, sl_crew_agree(console.context, status));
+    sl_crew_end();
+    return code;
 }

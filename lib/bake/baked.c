@@ -3,6 +3,7 @@
 #include "bake/slv.h"
 #include "base/base.h"
 
+#include <inttypes.h>
 #include <string.h>
 
 bool sl_slv_is_name(const char name[16]) {
@@ -19,9 +20,52 @@ bool sl_baked_counts(const sl_baked *baked, uint32_t cell) {
     return !baked->map.start_count || baked->space.cells[cell].inside;
 }
 
+bool sl_baked_is_shard(const sl_baked *baked) {
+    return sl_findings_begun(&baked->findings) && baked->findings.shard_count;
+}
+
+void sl_baked_say_partial(const sl_baked *baked, char text[SL_PARTIAL_TEXT]) {
+    text[0] = '\0';
+    if (!sl_findings_begun(&baked->findings)) return;
+    size_t count;
+    const sl_see_method *methods = sl_see_methods(&count);
+    const char *units = "units";
+    for (size_t i = 0; i < count; i++)
+        if (methods[i].units && strcmp(methods[i].name, baked->method) == 0)
+            units = methods[i].units;
+    snprintf(text, SL_PARTIAL_TEXT,
+             "partial: %" PRIu32 " of %" PRIu32 " %s looked at; what is not decided counts as seen",
+             baked->findings.done_count, baked->findings.unit_count, units);
+}
+
+/// Whether two arrays are the same, of items without padding.
+#define SAME_ITEMS(a, b, items, count)                                                             \
+    ((a)->count == (b)->count &&                                                                   \
+     (!(a)->count || memcmp((a)->items, (b)->items, (a)->count * sizeof *(a)->items) == 0))
+
+static bool same_walls(const sl_space *a, const sl_space *b) {
+    if (a->wall_count != b->wall_count) return false;
+    for (uint32_t i = 0; i < a->wall_count; i++)
+        if (memcmp(&a->walls[i].a, &b->walls[i].a, sizeof(sl_point)) != 0 ||
+            memcmp(&a->walls[i].b, &b->walls[i].b, sizeof(sl_point)) != 0)
+            return false;
+    return true;
+}
+
+bool sl_baked_same_space(const sl_space *a, const sl_space *b) {
+    return a->root == b->root && a->partial == b->partial && SAME_ITEMS(a, b, nodes, node_count) &&
+           SAME_ITEMS(a, b, cells, cell_count) && SAME_ITEMS(a, b, vertices, vertex_count) &&
+           SAME_ITEMS(a, b, portals, portal_count) && SAME_ITEMS(a, b, exits, exit_count) &&
+           SAME_ITEMS(a, b, lines, line_count) && SAME_ITEMS(a, b, seams, seam_count) &&
+           SAME_ITEMS(a, b, seam_portals, seam_portal_count) && same_walls(a, b) &&
+           !a->beyond == !b->beyond &&
+           (!a->beyond || memcmp(a->beyond, b->beyond, a->vertex_count * sizeof *a->beyond) == 0);
+}
+
 void sl_baked_destroy(sl_context *context, sl_baked *baked) {
     sl_map_destroy(context, &baked->map);
     sl_space_destroy(context, &baked->space);
     sl_visibility_destroy(context, &baked->visibility);
+    sl_findings_destroy(context, &baked->findings);
     *baked = (sl_baked){0};
 }

@@ -35,20 +35,34 @@ typedef struct sl_slv_info {
     int32_t root;     ///< as a child of a node
     uint32_t tree_depth, inside_count;
     uint32_t sight, guarantee; ///< of sl_sight, sl_guarantee
-    uint32_t deepest, trees_left_out;
-    uint32_t partial; ///< 1 where the cells need not fill the bounds
-    uint64_t tests, nodes, pairs, doubtful_pairs;
+    uint32_t unused;           ///< 0
+    uint32_t trees_left_out;
+    uint32_t partial;          ///< 1 where the cells need not fill the bounds
+    uint64_t unused_counts[2]; ///< 0
+    uint64_t pairs, doubtful_pairs;
     char method[16], solver[16]; ///< as sl_slv_is_name
 } sl_slv_info;
+
+/// Section PART, one item, of a bake that is not finished. INFO then says conservative (but rounded
+/// of a rounded method), so that who does not know this section takes the sets for what they are.
+typedef struct sl_slv_part {
+    uint32_t shard, shard_count; ///< 0, 0 where it is no shard
+    uint32_t unit_count;
+    uint32_t inside_only; ///< 0 or 1
+} sl_slv_part;
 
 /// The other sections: NODE, CELL, VERT, PORT, EXIT hold the arrays of sl_space item by item, WALL
 /// its walls as segments, LINE the lines of oblique splits (only if there are any), BEYO what is
 /// beyond the cells' sides (only for a BSP), SEAM the seams and SEPO the portals on them (only if
 /// there are any); PVSO and PVSB are the offsets and bytes of the visible sets, DBTO and DBTB those
 /// of the doubtful pairs (only if there are any), TREO and TREN the offsets and nodes of the stab
-/// trees (only if asked for); MAPT is what the map holds beside its walls, as map text.
+/// trees (only if asked for); MAPT is what the map holds beside its walls, as map text. Beside PART
+/// there are DONE, a bit for each unit of the work that is done, in words of 64, and the offsets
+/// and bytes of the pairs found by them: FNDO and FNDB, doubtful ones in FNRO and FNRB. A shard has
+/// no PVSO and PVSB. What the work took (tests, nodes ...) is in no file: it would depend on the
+/// way.
 _Static_assert(sizeof(sl_slv_header) == 32 && sizeof(sl_slv_section) == 24 &&
-                   sizeof(sl_slv_info) == 128,
+                   sizeof(sl_slv_info) == 128 && sizeof(sl_slv_part) == 16,
                "no padding in the file");
 _Static_assert(sizeof(sl_node) == 24 && sizeof(sl_cell) == 24 && sizeof(sl_point) == 16 &&
                    sizeof(sl_portal) == 40 && sizeof(sl_exit) == 40 && sizeof(sl_segment) == 32 &&

@@ -1,5 +1,6 @@
 /// Reading a baked file: nothing in it is believed before it is checked.
 #include "bake/slv.h"
+#include "base/bits.h"
 #include "base/file.h"
 
 #include <math.h>
@@ -12,6 +13,7 @@ typedef struct reader {
     const char *bytes;
     size_t size;
     sl_slv_header header;
+    bool takes_shards;
     sl_baked *out;
 } reader;
 
@@ -139,11 +141,8 @@ static sl_status load_info(const reader *r) {
     out->visibility.sight = (sl_sight)info.sight;
     out->visibility.guarantee = (sl_guarantee)info.guarantee;
     out->visibility.trees.left_out = info.trees_left_out;
-    out->visibility.account = (sl_see_account){.tests = info.tests,
-                                               .nodes = info.nodes,
-                                               .pairs = info.pairs,
-                                               .doubtful_pairs = info.doubtful_pairs,
-                                               .deepest = info.deepest};
+    out->visibility.account =
+        (sl_see_account){.pairs = info.pairs, .doubtful_pairs = info.doubtful_pairs};
     memcpy(out->method, info.method, sizeof out->method);
     memcpy(out->solver, info.solver, sizeof out->solver);
     return SL_OK;
@@ -292,26 +291,81 @@ static sl_status load_map(const reader *r) {
     return SL_OK;
 }
 
-static sl_status load_all(reader *r) {
-    SL_TRY(check_header(r));
-    SL_TRY(load_info(r));
-    SL_TRY(load_space(r));
+// --- what is not finished
+
+static bool bits_beyond_are_clear(const sl_findings *findings) {
+    const uint32_t last = findings->unit_count % 64;
+    return !last || !(findings->done[findings->unit_count / 64] >> last);
+}
+
+static sl_status load_done(const reader *r, sl_findings *findings) {
+    uint64_t words;
+    SL_TRY(load(r, "DONE", sizeof *findings->done, false, (void **)&findings->done, &words));
+    if (words != sl_bits_words(findings->unit_count) || !bits_beyond_are_clear(findings))
+        return fail_file(r, "damaged: section DONE does not tell of each unit");
+    for (uint64_t i = 0; i < words; i++)
+        findings->done_count += (uint32_t)__builtin_popcountll(findings->done[i]);
+    return SL_OK;
+}
+
+static sl_status load_findings(const reader *r) {
+    sl_findings *findings = &r->out->findings;
+    sl_slv_section s;
+    sl_slv_part part;
+    bool found;
+    SL_TRY(find_section(r, "PART", sizeof part, &s, &found));
+    if (!found) return SL_OK;
+    if (s.count != 1) return fail_file(r, "damaged: section PART makes no sense");
+    memcpy(&part, r->bytes + s.offset, sizeof part);
+    if (part.inside_only > 1 || part.shard > part.shard_count || (part.shard_count && !part.shard))
+        return fail_file(r, "damaged: section PART makes no sense");
+    findings->shard = part.shard;
+    findings->shard_count = part.shard_count;
+    findings->unit_count = part.unit_count;
+    findings->inside_only = part.inside_only;
+    SL_TRY(load_done(r, findings));
+    SL_TRY(load_pvs(r, "FNDO", "FNDB", false, &findings->sure));
+    return load_pvs(r, "FNRO", "FNRB", false, &findings->doubtful);
+}
+
+/// The visible sets, which a shard has none of.
+static sl_status load_seen(const reader *r) {
     sl_visibility *visibility = &r->out->visibility;
+    if (r->out->findings.shard_count) {
+        if (r->takes_shards) return SL_OK;
+        return sl_fail_at(r->context, r->name, 0,
+                          "one shard of a bake, %u of %u: put them together with sightline merge",
+                          r->out->findings.shard, r->out->findings.shard_count);
+    }
     SL_TRY(load_pvs(r, "PVSO", "PVSB", false, &visibility->pvs));
     SL_TRY(check_rows(r, &visibility->pvs));
     SL_TRY(load_pvs(r, "DBTO", "DBTB", true, &visibility->doubtful));
     if (sl_pvs_pairs(&visibility->pvs) != visibility->account.pairs ||
         sl_pvs_pairs(&visibility->doubtful) != visibility->account.doubtful_pairs)
         return fail_file(r, "damaged: the visible sets do not hold as many pairs as they should");
+    return SL_OK;
+}
+
+static sl_status load_all(reader *r) {
+    SL_TRY(check_header(r));
+    SL_TRY(load_info(r));
+    SL_TRY(load_space(r));
+    SL_TRY(load_findings(r));
+    SL_TRY(load_seen(r));
     SL_TRY(load_trees(r));
     SL_TRY(load_map(r));
     return check_seams(r);
 }
 
-sl_status sl_baked_parse(sl_context *context, const char *name, const void *bytes, size_t size,
-                         sl_baked *out) {
+static sl_status parse(sl_context *context, const char *name, const void *bytes, size_t size,
+                       bool takes_shards, sl_baked *out) {
     sl_baked baked = {0};
-    reader r = {.context = context, .name = name, .bytes = bytes, .size = size, .out = &baked};
+    reader r = {.context = context,
+                .name = name,
+                .bytes = bytes,
+                .size = size,
+                .takes_shards = takes_shards,
+                .out = &baked};
     const sl_status status = load_all(&r);
     if (status == SL_OK) {
         *out = baked;
@@ -321,10 +375,24 @@ sl_status sl_baked_parse(sl_context *context, const char *name, const void *byte
     return status;
 }
 
-sl_status sl_baked_read(sl_context *context, const char *path, sl_baked *out) {
+sl_status sl_baked_parse(sl_context *context, const char *name, const void *bytes, size_t size,
+                         sl_baked *out) {
+    return parse(context, name, bytes, size, false, out);
+}
+
+static sl_status read_file(sl_context *context, const char *path, bool takes_shards,
+                           sl_baked *out) {
     sl_bytes file;
     SL_TRY(sl_file_read(context, path, &file));
-    const sl_status status = sl_baked_parse(context, path, file.data, file.size, out);
+    const sl_status status = parse(context, path, file.data, file.size, takes_shards, out);
     sl_free(context, file.data);
     return status;
+}
+
+sl_status sl_baked_read(sl_context *context, const char *path, sl_baked *out) {
+    return read_file(context, path, false, out);
+}
+
+sl_status sl_baked_read_part(sl_context *context, const char *path, sl_baked *out) {
+    return read_file(context, path, true, out);
 }

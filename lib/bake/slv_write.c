@@ -1,4 +1,5 @@
 #include "bake/slv.h"
+#include "base/bits.h"
 #include "base/file.h"
 #include "map/print.h"
 
@@ -15,6 +16,7 @@ typedef struct plan {
     const void *contents[MOST_SECTIONS];
     sl_segment *walls;
     char *map_text;
+    sl_slv_part part;
 } plan;
 
 static void add_section(plan *p, const char *tag, const void *items, size_t item_bytes,
@@ -46,10 +48,7 @@ static sl_slv_info make_info(const sl_baked *baked) {
         .partial = space->partial,
         .sight = baked->visibility.sight,
         .guarantee = baked->visibility.guarantee,
-        .deepest = account->deepest,
         .trees_left_out = baked->visibility.trees.left_out,
-        .tests = account->tests,
-        .nodes = account->nodes,
         .pairs = account->pairs,
         .doubtful_pairs = account->doubtful_pairs,
     };
@@ -84,6 +83,18 @@ static void add_pvs(plan *p, const char *offsets_tag, const char *bytes_tag, con
     add_section(p, bytes_tag, pvs->bytes, 1, pvs->offsets[pvs->cell_count]);
 }
 
+static void add_findings(plan *p, const sl_findings *findings) {
+    p->part = (sl_slv_part){.shard = findings->shard,
+                            .shard_count = findings->shard_count,
+                            .unit_count = findings->unit_count,
+                            .inside_only = findings->inside_only};
+    add_section(p, "PART", &p->part, sizeof p->part, 1);
+    add_section(p, "DONE", findings->done, sizeof *findings->done,
+                sl_bits_words(findings->unit_count));
+    add_pvs(p, "FNDO", "FNDB", &findings->sure);
+    add_pvs(p, "FNRO", "FNRB", &findings->doubtful);
+}
+
 static void add_sections(plan *p, const sl_baked *baked, const sl_slv_info *info,
                          size_t map_bytes) {
     const sl_space *space = &baked->space;
@@ -104,7 +115,7 @@ static void add_sections(plan *p, const sl_baked *baked, const sl_slv_info *info
     if (space->seam_portal_count)
         add_section(p, "SEPO", space->seam_portals, sizeof *space->seam_portals,
                     space->seam_portal_count);
-    add_pvs(p, "PVSO", "PVSB", &baked->visibility.pvs);
+    if (!sl_baked_is_shard(baked)) add_pvs(p, "PVSO", "PVSB", &baked->visibility.pvs);
     if (baked->visibility.account.doubtful_pairs)
         add_pvs(p, "DBTO", "DBTB", &baked->visibility.doubtful);
     if (trees->cell_count) {
@@ -113,6 +124,7 @@ static void add_sections(plan *p, const sl_baked *baked, const sl_slv_info *info
         add_section(p, "TREN", trees->nodes, sizeof *trees->nodes,
                     trees->offsets[trees->cell_count]);
     }
+    if (sl_findings_begun(&baked->findings)) add_findings(p, &baked->findings);
     add_section(p, "MAPT", p->map_text, 1, map_bytes);
 }
 
@@ -169,7 +181,8 @@ static sl_status write_plan(sl_context *context, const plan *p, FILE *stream) {
 static sl_status make_plan(sl_context *context, const sl_baked *baked, const sl_slv_info *info,
                            plan *p) {
     const uint32_t cells = baked->space.cell_count;
-    if (!cells || baked->visibility.pvs.cell_count != cells)
+    const sl_pvs *rows = sl_baked_is_shard(baked) ? &baked->findings.sure : &baked->visibility.pvs;
+    if (!cells || rows->cell_count != cells)
         return sl_fail(context, SL_BAD_ARGUMENT, "nothing baked: no visible set for each cell");
     if (!sl_slv_is_name(info->method) || !sl_slv_is_name(info->solver))
         return sl_fail(

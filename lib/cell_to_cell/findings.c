@@ -18,6 +18,13 @@ bool sl_findings_complete(const sl_findings *findings) {
     return sl_findings_begun(findings) && findings->done_count == findings->unit_count;
 }
 
+uint32_t sl_findings_left(const sl_findings *f) {
+    uint32_t left = 0;
+    for (uint32_t i = 0; i < f->unit_count; i++)
+        left += sl_unit_is_of(f->shard, f->shard_count, i) && !sl_bits_has(f->done, i);
+    return left;
+}
+
 static sl_status make_empty_rows(sl_context *context, uint32_t count, sl_pvs *pvs) {
     pvs->offsets = sl_alloc_array(context, (size_t)count + 1, sizeof *pvs->offsets);
     pvs->bytes = sl_alloc_array(context, 1, 1);

@@ -13,11 +13,16 @@ sl_status sl_findings_start(sl_context *context, const sl_space *space,
                             const sl_see_options *options, uint32_t unit_count,
                             sl_findings *findings);
 
-/// Whether a unit is of the shard and not done yet. Shards have turns at runs of a few units.
+/// Whether a unit is of a shard; 0, 0 for all. Shards have turns at runs of a few units.
+static inline bool sl_unit_is_of(uint32_t shard, uint32_t shard_count, uint32_t unit) {
+    return !shard_count || unit / 8 % shard_count == shard - 1;
+}
+
+/// Whether a unit is of the shard and not done yet.
 static inline bool sl_unit_is_wanted(const sl_see_options *options, const sl_findings *findings,
                                      uint32_t unit) {
-    if (sl_bits_has(findings->done, unit)) return false;
-    return !options->shard_count || unit / 8 % options->shard_count == options->shard - 1;
+    return !sl_bits_has(findings->done, unit) &&
+           sl_unit_is_of(options->shard, options->shard_count, unit);
 }
 
 static inline bool sl_is_enough(const sl_see_options *options) {

@@ -370,9 +370,10 @@ static void describe(const sl_scene *scene, char *text, size_t room) {
         snprintf(how, sizeof how, "  \xc2\xb7  %.15s%s%.15s", baked->method,
                  baked->solver[0] ? " with " : "", baked->solver);
     if (scene->heat || scene->shows_seen)
-        snprintf(text, room, "%s%s  \xc2\xb7  %s sight, %s", what, how,
+        snprintf(text, room, "%s%s  \xc2\xb7  %s sight, %s%s", what, how,
                  baked->visibility.sight == SL_OPEN ? "open" : "closed",
-                 sl_guarantee_name(baked->visibility.guarantee));
+                 sl_guarantee_name(baked->visibility.guarantee),
+                 sl_findings_begun(&baked->findings) ? " (partial)" : "");
     else
         snprintf(text, room, "%s", what);
 }

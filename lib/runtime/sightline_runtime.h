@@ -41,7 +41,8 @@ typedef enum sl_runtime_status {
     SL_RUNTIME_CHECKSUM,   ///< changed since it was written
     SL_RUNTIME_SECTION,    ///< a section is missing, there twice, or does not fit
     SL_RUNTIME_SPACE,      ///< the bounds, the tree, cells, exits: a number is out of range
-    SL_RUNTIME_ROW         ///< the rows: one is damaged
+    SL_RUNTIME_ROW,        ///< the rows: one is damaged
+    SL_RUNTIME_SHARD       ///< one shard of a bake, which has no rows yet
 } sl_runtime_status;
 
 /// The cell of a point outside the map.
@@ -58,6 +59,7 @@ typedef struct sl_runtime {
     uint32_t line_count;
     bool partial; // the cells need not fill the bounds
     int32_t root;
+    bool unfinished; ///< the bake was stopped: rows miss nothing, but hold what was not decided
     const unsigned char *nodes, *lines, *cells, *vertices, *exits, *row_offsets, *row_bytes;
 } sl_runtime;
 
@@ -220,6 +222,7 @@ enum slrt_tag {
     SLRT_PVSO,
     SLRT_PVSB,
     SLRT_LINE,
+    SLRT_PART,
     SLRT_TAGS
 };
 
@@ -268,10 +271,17 @@ static sl_runtime_status slrt_check_header(const unsigned char *bytes, size_t si
 static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t size,
                                             slrt_section *found) {
     static const char tags[SLRT_TAGS][5] = {"INFO", "NODE", "CELL", "VERT", "PORT",
-                                            "EXIT", "PVSO", "PVSB", "LINE"};
-    static const uint32_t item_bytes[SLRT_TAGS] = {
-        128, SLRT_NODE_BYTES, SLRT_CELL_BYTES, SLRT_VERTEX_BYTES, 40, SLRT_EXIT_BYTES, 8,
-        1,   SLRT_LINE_BYTES};
+                                            "EXIT", "PVSO", "PVSB", "LINE", "PART"};
+    static const uint32_t item_bytes[SLRT_TAGS] = {128,
+                                                   SLRT_NODE_BYTES,
+                                                   SLRT_CELL_BYTES,
+                                                   SLRT_VERTEX_BYTES,
+                                                   40,
+                                                   SLRT_EXIT_BYTES,
+                                                   8,
+                                                   1,
+                                                   SLRT_LINE_BYTES,
+                                                   16};
     const uint32_t count = slrt_u32(bytes + 24);
     uint32_t i;
     int tag;
@@ -287,6 +297,8 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
         found[tag].items = bytes + offset;
         found[tag].count = items;
     }
+    if (found[SLRT_PART].items && found[SLRT_PART].count != 1) return SL_RUNTIME_SECTION;
+    if (found[SLRT_PART].items && slrt_u32(found[SLRT_PART].items + 4)) return SL_RUNTIME_SHARD;
     for (tag = 0; tag < SLRT_LINE; tag++)
         if (!found[tag].items) return SL_RUNTIME_SECTION;
     return SL_RUNTIME_OK;
@@ -327,6 +339,7 @@ static sl_runtime_status slrt_check_sizes(const slrt_section *found, sl_runtime 
     rt->exits = found[SLRT_EXIT].items;
     rt->row_offsets = found[SLRT_PVSO].items;
     rt->row_bytes = found[SLRT_PVSB].items;
+    rt->unfinished = found[SLRT_PART].items != NULL;
     if (!slrt_usable(info, 4)) return SL_RUNTIME_SPACE;
     rt->min_x = slrt_f64(info);
     rt->min_y = slrt_f64(info + 8);
@@ -490,6 +503,8 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status) {
         return "damaged: a number of the bounds, tree, cells or exits is out of range";
     case SL_RUNTIME_ROW:
         return "damaged: a row of the visible sets";
+    case SL_RUNTIME_SHARD:
+        return "one shard of a bake, not all of it: sightline merge puts shards together";
     }
     return "unknown status";
 }

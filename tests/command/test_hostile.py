@@ -14,7 +14,7 @@ import sandbox
 from case import MAPS
 
 VALUES = {"MAP": "flat.map", "IN": "flat.map", "MAP|FILE.slv": "flat.map", "FILE.slv": "flat.slv",
-          "A": "0", "B": "0", "X,Y": "1,1", "KIND": "tunnels"}
+          "PART.slv": "part.slv", "A": "0", "B": "0", "X,Y": "1,1", "KIND": "tunnels"}
 OUTPUTS = {"FILE.slv": "out.slv", "PICTURE": "out.png", "OUT.map|OUT.txt": "out.map",
            "OUT.map": "out.map",
            "FILE": "out.json", "FILE.csv": "out.csv", "DIR": "out"}
@@ -77,6 +77,7 @@ class Hostile(unittest.TestCase):
         self.addCleanup(box.__exit__)
         self.box.path("flat.map").write_bytes((MAPS / "flat.map").read_bytes())
         self.done("bake", "flat.map", "-o", "flat.slv", "--quiet")
+        self.done("bake", "flat.map", "-o", "part.slv", "--quiet", "--shard", "1/1")
 
     def done(self, *arguments):
         result = self.box.run(arguments)

@@ -2,6 +2,7 @@
 
 test_interrupt.py PROGRAM
 """
+import json
 import signal
 import time
 import unittest
@@ -46,6 +47,39 @@ class Interrupt(unittest.TestCase):
 
     def test_old_file_stays(self):
         self.interrupted(signal.SIGINT, "--threads", "3", "--stab-trees", old="an older file")
+
+    def test_kept(self):
+        """With --keep-partial the first Ctrl-C writes what there is, which can be gone on with."""
+        with sandbox.Sandbox(PROGRAM) as box:
+            box.path("hall.map").write_text(pillars(24))
+            bake = ["bake", "hall.map", "--method", "dfs", "--threads", "2", "--json"]
+            before = box.files()
+            process = box.start([*bake, "--keep-partial", "-o", "part.slv"])
+            time.sleep(1)
+            self.assertIsNone(process.poll(), "the bake is over too soon to be interrupted")
+            process.send_signal(signal.SIGINT)
+            result = box.finish(process, before, timeout=60)
+            self.assertEqual((result.status, result.new_files), (0, ["part.slv"]))
+            told = json.loads(result.stdout)
+            self.assertEqual((told["finished"], told["guarantee"]), (False, "conservative"))
+            self.assertLess(told["work"]["done"], told["work"]["count"])
+            result = box.run(["info", "part.slv"])
+            self.assertIn("what is not decided counts as seen", result.stdout)
+
+    def test_kept_stops_at_the_second(self):
+        with sandbox.Sandbox(PROGRAM) as box:
+            box.path("hall.map").write_text(pillars(40))
+            before = box.files()
+            process = box.start(["bake", "hall.map", "--method", "dfs", "--keep-partial"])
+            time.sleep(1)
+            self.assertIsNone(process.poll(), "the bake is over too soon to be interrupted")
+            process.send_signal(signal.SIGINT)
+            time.sleep(0.05)
+            process.send_signal(signal.SIGINT)
+            result = box.finish(process, before, timeout=60)
+            self.assertEqual((result.status, result.stdout), (1, ""))
+            self.assertEqual(result.stderr, "sightline: interrupted\n")
+            self.assertEqual(box.files(), before)
 
     def test_compare_eye(self):
         with sandbox.Sandbox(PROGRAM) as box:

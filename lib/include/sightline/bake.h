@@ -16,6 +16,9 @@ typedef struct sl_baked {
     sl_visibility visibility;
     /// By name: letters, digits and dashes, zeros behind; solver "" for none.
     char method[16], solver[16];
+    /// Of a bake that is not finished: what it has found. The visible sets then count as seen what
+    /// is not decided; a shard has none. Zeroed where the bake is finished.
+    sl_findings findings;
 } sl_baked;
 
 SL_API void sl_baked_destroy(sl_context *context, sl_baked *baked); ///< and zeroes it
@@ -24,14 +27,31 @@ SL_API void sl_baked_destroy(sl_context *context, sl_baked *baked); ///< and zer
 /// map's starts say what inside is.
 SL_API bool sl_baked_counts(const sl_baked *baked, uint32_t cell);
 
+/// Whether it is one shard of a bake: it has findings and no visible sets.
+SL_API bool sl_baked_is_shard(const sl_baked *baked);
+
+/// The longest text of sl_baked_say_partial, its 0 included.
+#define SL_PARTIAL_TEXT 128
+
+/// Says for reports that the visible sets are those of a bake that was stopped: "partial: 412 of
+/// 990 corners looked at; what is not decided counts as seen". Empty where the bake is finished.
+SL_API void sl_baked_say_partial(const sl_baked *baked, char text[SL_PARTIAL_TEXT]);
+
+/// Whether two spaces are the same to the last bit, cell by cell.
+SL_API bool sl_baked_same_space(const sl_space *a, const sl_space *b);
+
 /// Writes beside the target and takes its place when all is written: SL_IO leaves the old file
 /// intact. The bytes depend on the contents alone. SL_BAD_ARGUMENT where there is no visible set
 /// for each cell, or a name that is none. Reports stage "write".
 SL_API sl_status sl_baked_write(sl_context *context, const sl_baked *baked, const char *path);
 
 /// Reads and checks everything: the checksum, every count, offset and index, the whole graph.
-/// SL_BAD_INPUT, naming the file, on any fault. `out` must be empty; on failure it stays so.
+/// SL_BAD_INPUT, naming the file, on any fault, and for a shard. `out` must be empty; on failure it
+/// stays so.
 SL_API sl_status sl_baked_read(sl_context *context, const char *path, sl_baked *out);
+
+/// As sl_baked_read, and takes shards too.
+SL_API sl_status sl_baked_read_part(sl_context *context, const char *path, sl_baked *out);
 
 /// As sl_baked_read from memory, which is only read; `name` is for messages.
 SL_API sl_status sl_baked_parse(sl_context *context, const char *name, const void *bytes,

@@ -71,6 +71,9 @@ SL_API void sl_findings_destroy(sl_context *context, sl_findings *findings); ///
 SL_API bool sl_findings_begun(const sl_findings *findings);
 SL_API bool sl_findings_complete(const sl_findings *findings);
 
+/// How many units of what was asked for, all or one shard, are left to do.
+SL_API uint32_t sl_findings_left(const sl_findings *findings);
+
 /// Adds what others hold, of the same space and method: SL_BAD_ARGUMENT where the units or the
 /// options are not the same.
 SL_API sl_status sl_findings_join(sl_context *context, sl_findings *findings,
