@@ -2,7 +2,7 @@
 # Installs what Sightline needs and this machine has not: sh tools/setup.sh [--ci]
 # It looks at what is really there, asks the system's package manager for the rest, and does nothing
 # when all is there. --ci adds what the checks of .ci/run need: clang, its sanitizers, clang-format,
-# and a display that is none, with keys to press (Xvfb, xdotool).
+# a display that is none, with keys to press (Xvfb, xdotool), and MPI.
 #
 # Tried on Debian. Fedora, Arch and macOS are written from their package lists and untried.
 set -eu
@@ -76,6 +76,7 @@ is_there() {
     libyaml) module yaml-0.1 ;;
     zstd) module libzstd ;;
     sdl2) module sdl2 ;;
+    mpi) has mpirun && has mpicc ;;
     xvfb) has Xvfb ;;
     xdotool) has xdotool ;;
     x11) module x11 ;;
@@ -100,6 +101,7 @@ package() { # system thing
     apt:zlib) echo zlib1g-dev ;;
     apt:zstd) echo libzstd-dev ;;
     apt:sdl2) echo libsdl2-dev ;;
+    apt:mpi) echo libopenmpi-dev openmpi-bin ;;
     apt:x11) echo libx11-dev ;;
     apt:libpng | apt:libxml2 | apt:libyaml) echo "$2-dev" ;;
     apt:font) echo fonts-dejavu-core ;;
@@ -116,6 +118,7 @@ package() { # system thing
     dnf:glpk | dnf:gmp | dnf:cairo | dnf:jansson | dnf:zlib) echo "$2-devel" ;;
     dnf:zstd) echo libzstd-devel ;;
     dnf:sdl2) echo SDL2-devel ;;
+    dnf:mpi) echo openmpi-devel ;;
     dnf:xvfb) echo xorg-x11-server-Xvfb ;;
     dnf:x11) echo libX11-devel ;;
     dnf:libpng | dnf:libxml2 | dnf:libyaml) echo "$2-devel" ;;
@@ -136,6 +139,8 @@ package() { # system thing
     brew:font) echo --cask font-dejavu ;;
     brew:clang | brew:clang-sanitizers) echo llvm ;;
     brew:xvfb) echo --cask xquartz ;;
+
+    pacman:mpi | brew:mpi) echo openmpi ;;
     brew:x11) echo libx11 ;;
 
     *) echo "$2" ;;
@@ -179,7 +184,7 @@ install_packages() { # system package...
 # ---- What to do ----
 
 things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml zstd glpk cairo sdl2 font cmocka gmp"
-[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format xvfb xdotool x11"
+[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format xvfb xdotool x11 mpi"
 
 missing=
 for thing in $things; do is_there "$thing" || missing="$missing $thing"; done
