@@ -10,6 +10,7 @@ sl_view_subdivision sl_view_subdivision_default(void) {
                                  .least_gain = 1e-7,
                                  .patience = 100,
                                  .cost_weight = 0.01,
+                                 .weighed = 100000,
                                  .visible_share = 0.02,
                                  .deepest = 14,
                                  .seed = 1};
@@ -27,38 +28,31 @@ bool sl_view_split_middle(const sl_view_part *part, int axis, sl_view_split *out
     return true;
 }
 
-/// The cost of what a part's segments see, from its middle.
-static double seen_cost(sl_view_divider *d, const sl_view_part *part) {
+void sl_view_find_seen(sl_view_divider *d, sl_view_part *part) {
     const sl_point middle = sl_view_part_middle(part);
-    double sum = 0;
-    size_t seen = 0;
-    for (size_t i = 0; i < part->segments.count; i++) {
+    const size_t step = sl_view_step(d, part);
+    d->seen.count = 0;
+    part->seen = 0;
+    for (size_t i = 0; i < part->segments.count; i += step) {
         const uint64_t *first = &d->segments->first[part->segments.items[i]];
         for (uint64_t k = first[0]; k < first[1]; k++) {
             const uint32_t object = d->segments->objects[k];
             if (d->sides[object]) continue;
             d->sides[object] = 1;
-            d->seen.items[seen++] = object;
-            sum += sl_view_render_object(&d->render, object, middle);
+            d->seen.items[d->seen.count++] = object;
+            part->seen += sl_view_render_object(&d->render, object, middle);
         }
     }
-    for (size_t i = 0; i < seen; i++) d->sides[d->seen.items[i]] = 0;
-    return sum;
+    for (size_t i = 0; i < d->seen.count; i++) d->sides[d->seen.items[i]] = 0;
 }
 
 // --- beginning
 
 static sl_status make_scratch(sl_view_divider *d) {
     const size_t objects = d->render.object_count;
-    for (int axis = 0; axis < 2; axis++) {
-        d->low[axis] = sl_alloc_array(d->context, objects, sizeof *d->low[axis]);
-        d->high[axis] = sl_alloc_array(d->context, objects, sizeof *d->high[axis]);
-        if (!d->low[axis] || !d->high[axis]) return SL_NO_MEMORY;
-        for (size_t i = 0; i < objects; i++) {
-            d->low[axis][i] = INFINITY;
-            d->high[axis][i] = -INFINITY;
-        }
-    }
+    d->extents = sl_alloc_array(d->context, objects, sizeof *d->extents);
+    if (!d->extents) return SL_NO_MEMORY;
+    for (size_t i = 0; i < objects; i++) d->extents[i] = sl_view_no_extent();
     d->sides = sl_alloc_array(d->context, objects, 1);
     if (!d->sides) return SL_NO_MEMORY;
     return SL_ARRAY_ROOM(d->context, &d->seen, objects);
@@ -104,7 +98,6 @@ static sl_status enqueue(sl_view_divider *d, sl_view_choose choose, uint32_t num
     if (!(part->mass > 0)) return SL_OK;
     double priority = 0;
     bool splits = false;
-    part->seen = d->segments ? seen_cost(d, part) : 0;
     SL_TRY(choose(d, part, &priority, &splits));
     if (!splits) return SL_OK;
     return sl_heap_push(d->context, &d->queue, (sl_heap_item){.key = priority, .a = number});
@@ -112,19 +105,31 @@ static sl_status enqueue(sl_view_divider *d, sl_view_choose choose, uint32_t num
 
 // --- splitting
 
-/// A segment is on a side where it has more than a point there; one along the split is above.
+/// On which sides of its split a part's segment is: 1 below, 2 above, 3 both. It is on a side where
+/// it has more than a point there; along the split it is above.
+static int sides_of(const sl_view_part *part, const sl_segment *s) {
+    const sl_view_split *split = &part->split;
+    double from = sl_view_side(split, s->a), to = sl_view_side(split, s->b);
+    if (from >= 0 && to >= 0) return 2;
+    if (from <= 0 && to <= 0) return 1;
+    const sl_segment inner = sl_view_part_clip(part, s);
+    from = sl_view_side(split, inner.a);
+    to = sl_view_side(split, inner.b);
+    const bool below = from < 0 || to < 0;
+    const bool above = from > 0 || to > 0 || (from >= 0 && to >= 0);
+    return (below ? 1 : 0) | (above ? 2 : 0);
+}
+
 static sl_status deal_segments(sl_view_divider *d, const sl_view_part *part, sl_view_part *below,
                                sl_view_part *above) {
     for (size_t i = 0; i < part->segments.count; i++) {
         const uint32_t number = part->segments.items[i];
-        const sl_segment inner = sl_view_part_clip(part, &d->segments->items[number]);
-        const double from = sl_view_side(&part->split, inner.a);
-        const double to = sl_view_side(&part->split, inner.b);
-        if (from < 0 || to < 0) {
+        const int sides = sides_of(part, &d->segments->items[number]);
+        if (sides & 1) {
             SL_TRY(SL_ARRAY_ROOM(d->context, &below->segments, 1));
             below->segments.items[below->segments.count++] = number;
         }
-        if (from > 0 || to > 0 || (from >= 0 && to >= 0)) {
+        if (sides & 2) {
             SL_TRY(SL_ARRAY_ROOM(d->context, &above->segments, 1));
             above->segments.items[above->segments.count++] = number;
         }
@@ -185,8 +190,10 @@ static sl_status divide(sl_view_divider *d, sl_view_choose choose, bool stops_ea
     d->parts.items[d->parts.count++] = (sl_view_part){0};
     SL_TRY(make_first(d, &d->parts.items[0]));
     d->with_mass = 1;
+    sl_view_part *whole = &d->parts.items[0];
+    if (d->segments) sl_view_find_seen(d, whole);
+    const double first_cost = whole->seen;
     SL_TRY(enqueue(d, choose, 0));
-    const double first_cost = d->parts.items[0].seen;
     uint32_t without_gain = 0;
     while (d->queue.count && d->with_mass < d->options->cells) {
         SL_TRY(sl_check_cancelled(d->context));
@@ -253,10 +260,7 @@ static sl_status make_tree(sl_view_divider *d, sl_view_tree *tree) {
 static void destroy(sl_view_divider *d) {
     for (size_t i = 0; i < d->parts.count; i++)
         sl_view_part_destroy(d->context, &d->parts.items[i]);
-    for (int axis = 0; axis < 2; axis++) {
-        sl_free(d->context, d->low[axis]);
-        sl_free(d->context, d->high[axis]);
-    }
+    sl_free(d->context, d->extents);
     sl_free(d->context, d->parts.items);
     sl_free(d->context, d->nodes.items);
     sl_free(d->context, d->lines.items);
@@ -272,8 +276,9 @@ static void destroy(sl_view_divider *d) {
 }
 
 static sl_status check_options(sl_context *context, const sl_view_subdivision *o) {
-    if (!o->cells || !o->patience)
-        return sl_fail(context, SL_BAD_ARGUMENT, "view cells and patience: at least 1 is needed");
+    if (!o->cells || !o->patience || !o->weighed)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "view cells, patience and segments weighed: at least 1 is needed");
     if (!(o->cost_weight >= 0 && o->cost_weight <= 1) || !(o->least_gain >= 0) ||
         !(o->visible_share >= 0))
         return sl_fail(context, SL_BAD_ARGUMENT,

@@ -7,6 +7,8 @@
 #include "view_cells/heap.h"
 #include "view_cells/render.h"
 
+#include <math.h>
+
 /// A split: along an axis at a position, or (axis 2) along a line, below being right of it.
 typedef struct sl_view_split {
     int32_t axis;
@@ -46,6 +48,16 @@ typedef struct sl_view_event {
 } sl_view_event;
 
 typedef SL_ARRAY(sl_view_event) sl_view_events;
+
+/// Between which places along each axis an object is seen, within a part.
+typedef struct sl_view_extent {
+    double low[2], high[2];
+} sl_view_extent;
+
+static inline sl_view_extent sl_view_no_extent(void) {
+    return (sl_view_extent){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+}
+
 typedef SL_ARRAY(uint32_t) sl_view_numbers;
 
 typedef struct sl_view_divider {
@@ -63,9 +75,9 @@ typedef struct sl_view_divider {
     uint64_t made;      ///< parts that a method has put in line
     sl_heap queue;
     // Scratch of choosing.
-    double *low[2], *high[2]; ///< by object: where along an axis it is seen, within the part
-    uint8_t *sides;           ///< by object: 1: seen right of a line, 2: left of it
-    SL_ARRAY(uint32_t) seen;  ///< objects that the part sees
+    sl_view_extent *extents; ///< by object; low over high for those not seen
+    uint8_t *sides;          ///< by object: 1: seen right of a line, 2: left of it
+    SL_ARRAY(uint32_t) seen; ///< objects that the part sees
     sl_view_events starts, ends;
     SL_ARRAY(double) positions;
     SL_ARRAY(sl_segment) clipped; ///< the part's segments, what is within it
@@ -86,6 +98,18 @@ sl_status sl_view_divide(sl_context *context, const sl_view_scene *scene,
 /// none. `gain` is 0.
 bool sl_view_split_middle(const sl_view_part *part, int axis, sl_view_split *out);
 int sl_view_longer_axis(const sl_view_part *part);
+
+/// Of so many of a part's segments one is weighed, so that they are as few as the options say.
+static inline size_t sl_view_step(const sl_view_divider *d, const sl_view_part *part) {
+    return part->segments.count ? 1 + (part->segments.count - 1) / d->options->weighed : 1;
+}
+
+/// Finds out what a part's segments see, for part->seen and for choosing; forgotten again before
+/// the next part's turn.
+void sl_view_find_extents(sl_view_divider *d, sl_view_part *part);
+void sl_view_forget_extents(sl_view_divider *d);
+/// The same for part->seen alone.
+void sl_view_find_seen(sl_view_divider *d, sl_view_part *part);
 
 /// Raises *best to the axis-aligned split of the most gain, if any is better (divide_axes.c).
 sl_status sl_view_choose_axes(sl_view_divider *d, const sl_view_part *part, sl_view_split *best);

@@ -24,31 +24,35 @@ static int compare_positions(const void *left, const void *right) {
     return (a > b) - (a < b);
 }
 
-/// Finds for each object where it is seen within the part.
-static void find_extents(sl_view_divider *d, const sl_view_part *part) {
+/// Finds for each object where it is seen within the part, and what rendering all of them costs.
+void sl_view_find_extents(sl_view_divider *d, sl_view_part *part) {
+    const sl_point middle = sl_view_part_middle(part);
+    const size_t step = sl_view_step(d, part);
     d->seen.count = 0;
-    for (size_t i = 0; i < part->segments.count; i++) {
+    part->seen = 0;
+    for (size_t i = 0; i < part->segments.count; i += step) {
         const uint32_t number = part->segments.items[i];
         const sl_segment inner = sl_view_part_clip(part, &d->segments->items[number]);
-        const double x0 = fmin(inner.a.x, inner.b.x), x1 = fmax(inner.a.x, inner.b.x);
-        const double y0 = fmin(inner.a.y, inner.b.y), y1 = fmax(inner.a.y, inner.b.y);
+        const bool right = inner.a.x < inner.b.x, up = inner.a.y < inner.b.y;
+        const double x0 = right ? inner.a.x : inner.b.x, x1 = right ? inner.b.x : inner.a.x;
+        const double y0 = up ? inner.a.y : inner.b.y, y1 = up ? inner.b.y : inner.a.y;
         for (uint64_t k = d->segments->first[number]; k < d->segments->first[number + 1]; k++) {
             const uint32_t object = d->segments->objects[k];
-            if (d->low[0][object] == INFINITY) d->seen.items[d->seen.count++] = object;
-            if (x0 < d->low[0][object]) d->low[0][object] = x0;
-            if (x1 > d->high[0][object]) d->high[0][object] = x1;
-            if (y0 < d->low[1][object]) d->low[1][object] = y0;
-            if (y1 > d->high[1][object]) d->high[1][object] = y1;
+            sl_view_extent *extent = &d->extents[object];
+            if (extent->low[0] == INFINITY) {
+                d->seen.items[d->seen.count++] = object;
+                part->seen += sl_view_render_object(&d->render, object, middle);
+            }
+            if (x0 < extent->low[0]) extent->low[0] = x0;
+            if (x1 > extent->high[0]) extent->high[0] = x1;
+            if (y0 < extent->low[1]) extent->low[1] = y0;
+            if (y1 > extent->high[1]) extent->high[1] = y1;
         }
     }
 }
 
-static void forget_extents(sl_view_divider *d) {
-    for (size_t i = 0; i < d->seen.count; i++)
-        for (int axis = 0; axis < 2; axis++) {
-            d->low[axis][d->seen.items[i]] = INFINITY;
-            d->high[axis][d->seen.items[i]] = -INFINITY;
-        }
+void sl_view_forget_extents(sl_view_divider *d) {
+    for (size_t i = 0; i < d->seen.count; i++) d->extents[d->seen.items[i]] = sl_view_no_extent();
 }
 
 static sl_status add_event(sl_context *context, sl_view_events *events, double at, double cost) {
@@ -67,7 +71,7 @@ static sl_status gather_events(sl_view_divider *d, const sl_view_part *part, int
     for (size_t i = 0; i < d->seen.count; i++) {
         const uint32_t object = d->seen.items[i];
         const double cost = sl_view_render_object(&d->render, object, middle);
-        const double start = d->low[axis][object], end = d->high[axis][object];
+        const double start = d->extents[object].low[axis], end = d->extents[object].high[axis];
         if (start <= low)
             *below += cost;
         else
@@ -142,15 +146,12 @@ static void weigh(sl_view_divider *d, const sl_view_part *part, int axis, double
 }
 
 sl_status sl_view_choose_axes(sl_view_divider *d, const sl_view_part *part, sl_view_split *best) {
-    find_extents(d, part);
-    sl_status status = SL_OK;
-    for (int axis = 0; axis < 2 && status == SL_OK; axis++) {
+    for (int axis = 0; axis < 2; axis++) {
         const double low = sl_along(part->box.min, axis), high = sl_along(part->box.max, axis);
         double below;
-        status = gather_events(d, part, axis, low, high, &below);
-        if (status == SL_OK) status = gather_positions(d, low, high);
-        if (status == SL_OK) weigh(d, part, axis, below, best);
+        SL_TRY(gather_events(d, part, axis, low, high, &below));
+        SL_TRY(gather_positions(d, low, high));
+        weigh(d, part, axis, below, best);
     }
-    forget_extents(d);
-    return status;
+    return SL_OK;
 }

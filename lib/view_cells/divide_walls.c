@@ -82,15 +82,17 @@ sl_status sl_view_walls_within(sl_view_divider *d, const sl_view_part *part, uin
 
 static sl_status clip_all(sl_view_divider *d, const sl_view_part *part) {
     SL_TRY(SL_ARRAY_ROOM(d->context, &d->clipped, part->segments.count));
-    for (size_t i = 0; i < part->segments.count; i++)
+    const size_t step = sl_view_step(d, part);
+    for (size_t i = 0; i < part->segments.count; i += step)
         d->clipped.items[i] = sl_view_part_clip(part, &d->segments->items[part->segments.items[i]]);
     return SL_OK;
 }
 
 /// Marks the objects that are seen on either side of a split.
 static void mark_sides(sl_view_divider *d, const sl_view_part *part, const sl_view_split *split) {
+    const size_t step = sl_view_step(d, part);
     d->seen.count = 0;
-    for (size_t i = 0; i < part->segments.count; i++) {
+    for (size_t i = 0; i < part->segments.count; i += step) {
         const double a = sl_view_side(split, d->clipped.items[i].a);
         const double b = sl_view_side(split, d->clipped.items[i].b);
         const uint8_t sides =

@@ -9,17 +9,22 @@
 
 // --- adaptive
 
+static sl_status find_best_split(sl_view_divider *d, sl_view_part *part, bool *splits) {
+    *splits = part->seen > 0 && sl_view_split_middle(part, sl_view_longer_axis(part), &part->split);
+    return *splits ? sl_view_choose_axes(d, part, &part->split) : SL_OK;
+}
+
 /// The split of the most gain; a small weight on the part's own cost sees to it that also those
 /// parts are split that only further splits would pay for.
 static sl_status choose_adaptive(sl_view_divider *d, sl_view_part *part, double *priority,
                                  bool *splits) {
-    if (!(part->seen > 0)) return SL_OK;
-    if (!sl_view_split_middle(part, sl_view_longer_axis(part), &part->split)) return SL_OK;
-    SL_TRY(sl_view_choose_axes(d, part, &part->split));
-    if (d->options->wall_splits) SL_TRY(sl_view_choose_walls(d, part, &part->split));
+    sl_view_find_extents(d, part);
+    const sl_status status = find_best_split(d, part, splits);
+    sl_view_forget_extents(d);
+    SL_TRY(status);
+    if (*splits && d->options->wall_splits) SL_TRY(sl_view_choose_walls(d, part, &part->split));
     const double weight = d->options->cost_weight;
     *priority = (1 - weight) * part->split.gain + weight * part->mass * part->seen;
-    *splits = true;
     return SL_OK;
 }
 
@@ -50,7 +55,8 @@ static sl_status choose_longest(sl_view_divider *d, sl_view_part *part, double *
     return SL_OK;
 }
 
-static bool sees_enough(const sl_view_divider *d, const sl_view_part *part) {
+static bool sees_enough(sl_view_divider *d, sl_view_part *part) {
+    sl_view_find_seen(d, part);
     return part->seen > d->options->visible_share * d->all_seen;
 }
 

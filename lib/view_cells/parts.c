@@ -46,19 +46,33 @@ static double within(double value, double low, double high) {
     return value < low ? low : value > high ? high : value;
 }
 
+/// Keeps of t0 .. t1 what lies between low and high where it goes from a to b: told with a division
+/// only where an end lies outside.
+static void clip_axis(double a, double b, double low, double high, double *t0, double *t1) {
+    const bool starts_out = a < low || a > high, ends_out = b < low || b > high;
+    if (!starts_out && !ends_out) return;
+    const double inverse = 1 / (b - a);
+    if (starts_out) {
+        const double t = ((a < low ? low : high) - a) * inverse;
+        if (!(t <= *t0)) *t0 = t;
+    }
+    if (ends_out) {
+        const double t = ((b < low ? low : high) - a) * inverse;
+        if (!(t >= *t1)) *t1 = t;
+    }
+}
+
 sl_segment sl_view_part_clip(const sl_view_part *part, const sl_segment *s) {
     const sl_box *box = &part->box;
-    const double dx = s->b.x - s->a.x, dy = s->b.y - s->a.y;
     double t0 = 0, t1 = 1;
-    keep(box->min.x - s->a.x, -dx, &t0, &t1);
-    keep(s->a.x - box->max.x, dx, &t0, &t1);
-    keep(box->min.y - s->a.y, -dy, &t0, &t1);
-    keep(s->a.y - box->max.y, dy, &t0, &t1);
+    clip_axis(s->a.x, s->b.x, box->min.x, box->max.x, &t0, &t1);
+    clip_axis(s->a.y, s->b.y, box->min.y, box->max.y, &t0, &t1);
     if (!part->is_box) clip_to_polygon(part, s, &t0, &t1);
-    if (t0 > t1) t0 = t1 = within((t0 + t1) / 2, 0, 1);
-    const sl_segment inner = {{s->a.x + t0 * dx, s->a.y + t0 * dy},
-                              {s->a.x + t1 * dx, s->a.y + t1 * dy}};
-    const sl_point a = t0 > 0 ? inner.a : s->a, b = t1 < 1 ? inner.b : s->b;
+    // What does not run along the part at all, or beside it, is there by rounding.
+    if (!(t0 <= t1)) t0 = t1 = t0 >= 0 && t0 <= 1 ? t0 : 0.5;
+    const double dx = s->b.x - s->a.x, dy = s->b.y - s->a.y;
+    const sl_point a = t0 > 0 ? (sl_point){s->a.x + t0 * dx, s->a.y + t0 * dy} : s->a;
+    const sl_point b = t1 < 1 ? (sl_point){s->a.x + t1 * dx, s->a.y + t1 * dy} : s->b;
     return (sl_segment){{within(a.x, box->min.x, box->max.x), within(a.y, box->min.y, box->max.y)},
                         {within(b.x, box->min.x, box->max.x), within(b.y, box->min.y, box->max.y)}};
 }

@@ -8,6 +8,7 @@
 #include "geometry/orient.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { SAMPLES_A_UNIT = 4096 };
@@ -171,6 +172,56 @@ static sl_status sample_unit(sl_context *context, void *job, void *state, size_t
     return SL_OK;
 }
 
+/// Where the middle of a segment lies: places near each other mostly have numbers near each other
+/// (Morton 1966).
+static uint32_t place_of(const sl_box *box, const sl_segment *s) {
+    const double x = (s->a.x / 2 + s->b.x / 2 - box->min.x) / (box->max.x - box->min.x);
+    const double y = (s->a.y / 2 + s->b.y / 2 - box->min.y) / (box->max.y - box->min.y);
+    const uint32_t across = (uint32_t)(fmin(fmax(x, 0), 1) * 65535);
+    const uint32_t up = (uint32_t)(fmin(fmax(y, 0), 1) * 65535);
+    uint32_t place = 0;
+    for (int bit = 0; bit < 16; bit++)
+        place |= (across >> bit & 1) << 2 * bit | (up >> bit & 1) << (2 * bit + 1);
+    return place;
+}
+
+typedef struct placed {
+    uint32_t place, number;
+} placed;
+
+static int compare_placed(const void *left, const void *right) {
+    const placed *a = left, *b = right;
+    if (a->place != b->place) return a->place < b->place ? -1 : 1;
+    return (a->number > b->number) - (a->number < b->number);
+}
+
+/// Puts segments in the order of their places, which later passes over those of one region are
+/// several times faster for: they then lie together in memory.
+static sl_status sort(sl_context *context, const sl_box *box, const sl_view_segments *from,
+                      sl_view_segments *out) {
+    placed *order = sl_alloc_array(context, from->count, sizeof *order);
+    out->items = sl_alloc_array(context, from->count, sizeof *out->items);
+    out->first = sl_alloc_array(context, (size_t)from->count + 1, sizeof *out->first);
+    out->objects = sl_alloc_array(context, from->first[from->count], sizeof *out->objects);
+    if (!order || !out->items || !out->first || !out->objects) {
+        sl_free(context, order);
+        return SL_NO_MEMORY;
+    }
+    for (uint32_t i = 0; i < from->count; i++)
+        order[i] = (placed){place_of(box, &from->items[i]), i};
+    if (from->count) qsort(order, from->count, sizeof *order, compare_placed);
+    for (out->count = 0; out->count < from->count; out->count++) {
+        const uint32_t number = order[out->count].number;
+        uint64_t at = out->first[out->count];
+        out->items[out->count] = from->items[number];
+        for (uint64_t k = from->first[number]; k < from->first[number + 1]; k++)
+            out->objects[at++] = from->objects[k];
+        out->first[out->count + 1] = at;
+    }
+    sl_free(context, order);
+    return SL_OK;
+}
+
 /// Puts the batches one behind the other.
 static sl_status join(sl_context *context, const batch *batches, size_t count,
                       sl_view_segments *out) {
@@ -210,9 +261,14 @@ sl_status sl_view_sample(sl_context *context, const sl_outline *outline,
     if (!s.batches) return SL_NO_MEMORY;
     const sl_work work = {
         .job = &s, .unit = sample_unit, .stage = "sample", .units = "bundles of lines"};
-    sl_view_segments made = {.drawn = options->samples};
+    sl_view_segments joined = {0}, made = {.drawn = options->samples};
     sl_status status = sl_work_run(context, &work, units, options->threads);
-    if (status == SL_OK) status = join(context, s.batches, units, &made);
+    if (status == SL_OK) status = join(context, s.batches, units, &joined);
+    if (status == SL_OK) status = sort(context, &outline->space->bounds, &joined, &made);
+    made.empty = joined.empty;
+    made.unseeing = joined.unseeing;
+    made.lost = joined.lost;
+    sl_view_segments_destroy(context, &joined);
     for (size_t i = 0; i < units; i++) {
         sl_free(context, s.batches[i].segments.items);
         sl_free(context, s.batches[i].counts.items);

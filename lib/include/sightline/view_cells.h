@@ -128,6 +128,7 @@ typedef struct sl_view_subdivision {
     double least_gain;    ///< stop where splits gain less than this share of the first cost ...
     uint32_t patience;    ///< ... so many times one after the other, at least 1
     double cost_weight;   ///< of a cell's own cost in its priority, 0 to 1; the paper has 0.01
+    uint32_t weighed;     ///< segments that a cell's split is chosen by, at most; at least 1
     uint32_t candidates;  ///< axis-aligned splits tried for a cell; 0: all that can be best
     uint32_t wall_splits; ///< walls' own lines tried for a cell; 0: only axis-aligned splits
     double visible_share; ///< KD-VT: cells that see no more than this share of all are not split
