@@ -104,8 +104,6 @@ static sl_status make_first_face(sl_bsp *bsp) {
         if (!sl_same_point(wall->a, wall->b) && sl_bsp_hits(&face->sides, wall, &along))
             face->walls.items[face->walls.count++] = (uint32_t)i;
     }
-    SL_TRY(SL_ARRAY_ROOM(bsp->context, &bsp->waiting, 1));
-    bsp->waiting.items[bsp->waiting.count++] = 0;
     return SL_OK;
 }
 
@@ -117,16 +115,17 @@ static void forget_passages(sl_bsp *bsp) {
     bsp->passages.count = 0;
 }
 
-/// A face too small for a wall to be put in does without: where faces are of the size of rounding,
-/// sight may be added.
-static void leave_out(sl_bsp_face *face, uint32_t wall) {
-    size_t kept = 0;
-    for (size_t i = 0; i < face->walls.count; i++)
-        if (face->walls.items[i] != wall) face->walls.items[kept++] = face->walls.items[i];
-    face->walls.count = kept;
+/// What cannot be put in now may be when others have been.
+static void set_aside(sl_bsp_face *face, size_t number) {
+    const size_t last = face->walls.count - ++face->set_aside;
+    const uint32_t wall = face->walls.items[number];
+    face->walls.items[number] = face->walls.items[last];
+    face->walls.items[last] = wall;
 }
 
-static sl_status put_in(sl_bsp *bsp, uint32_t face, uint32_t wall) {
+/// Puts the wall of that number in a face in, or sets it aside.
+static sl_status put_in(sl_bsp *bsp, uint32_t face, size_t number) {
+    const uint32_t wall = bsp->faces.items[face].walls.items[number];
     const size_t nodes = bsp->nodes.count, lines = bsp->lines.count;
     bool done = false, more = true;
     SL_TRY(sl_bsp_trace(bsp, face, wall));
@@ -143,8 +142,7 @@ static sl_status put_in(sl_bsp *bsp, uint32_t face, uint32_t wall) {
         bsp->nodes.count = nodes;
         bsp->lines.count = lines;
         forget_passages(bsp);
-        leave_out(&bsp->faces.items[face], wall);
-        bsp->seams_left_out += sl_bsp_is_seam(bsp, wall);
+        set_aside(&bsp->faces.items[face], number);
         return SL_OK;
     }
     SL_TRY(sl_bsp_replace_faces(bsp));
@@ -154,28 +152,65 @@ static sl_status put_in(sl_bsp *bsp, uint32_t face, uint32_t wall) {
     return SL_OK;
 }
 
+static sl_status wait_for(sl_bsp *bsp, uint32_t face) {
+    SL_TRY(SL_ARRAY_ROOM(bsp->context, &bsp->waiting, 1));
+    bsp->waiting.items[bsp->waiting.count++] = face;
+    return SL_OK;
+}
+
 static sl_status split_waiting(sl_bsp *bsp) {
     while (bsp->waiting.count) {
         const uint32_t number = bsp->waiting.items[--bsp->waiting.count];
         const sl_bsp_face *face = &bsp->faces.items[number];
-        if (!face->walls.count) continue;
+        if (face->walls.count == face->set_aside) continue;
         SL_TRY(sl_check_cancelled(bsp->context));
         SL_TRY(put_in(bsp, number, sl_bsp_choose(bsp, face)));
         sl_report(bsp->context, "subdivide", "cells", bsp->faces.count, 0);
-        if (bsp->faces.items[number].walls.count) {
-            SL_TRY(SL_ARRAY_ROOM(bsp->context, &bsp->waiting, 1));
-            bsp->waiting.items[bsp->waiting.count++] = number;
-        }
+        face = &bsp->faces.items[number];
+        if (face->walls.count > face->set_aside) SL_TRY(wait_for(bsp, number));
     }
     return SL_OK;
 }
 
+static sl_status wait_for_set_aside(sl_bsp *bsp) {
+    for (uint32_t i = 0; i < bsp->faces.count; i++) {
+        if (!bsp->faces.items[i].set_aside) continue;
+        bsp->faces.items[i].set_aside = 0;
+        SL_TRY(wait_for(bsp, i));
+    }
+    return SL_OK;
+}
+
+/// Tries again what was set aside or lost as long as any face is split. What is left then are walls
+/// in faces of the size of rounding, which do without: sight may be added there.
+static sl_status settle(sl_bsp *bsp) {
+    SL_TRY(split_waiting(bsp));
+    for (size_t before = 0; before < bsp->faces.count;) {
+        before = bsp->faces.count;
+        SL_TRY(wait_for_set_aside(bsp));
+        SL_TRY(sl_bsp_find_lost(bsp));
+        SL_TRY(split_waiting(bsp));
+    }
+    return SL_OK;
+}
+
+static size_t count_seams_left(const sl_bsp *bsp) {
+    size_t left = 0;
+    for (size_t i = 0; i < bsp->faces.count; i++)
+        for (size_t k = 0; k < bsp->faces.items[i].walls.count; k++)
+            left += sl_bsp_is_seam(bsp, bsp->faces.items[i].walls.items[k]);
+    return left;
+}
+
 static sl_status split_all(sl_bsp *bsp, size_t seam_count) {
     SL_TRY(make_first_face(bsp));
-    SL_TRY(split_waiting(bsp));
+    SL_TRY(wait_for(bsp, 0));
+    SL_TRY(settle(bsp));
     if (!seam_count) return SL_OK;
     SL_TRY(sl_bsp_deal_seams(bsp, seam_count));
-    return split_waiting(bsp);
+    SL_TRY(settle(bsp));
+    bsp->seams_left_out = count_seams_left(bsp);
+    return SL_OK;
 }
 
 static void destroy(sl_bsp *bsp) {

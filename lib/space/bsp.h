@@ -37,6 +37,7 @@ typedef struct sl_bsp_spot {
 typedef struct sl_bsp_face {
     sl_bsp_sides sides;
     sl_bsp_walls walls;           ///< those inside it
+    size_t set_aside;             ///< the last so many of them could not be put in
     SL_ARRAY(sl_bsp_spot) places; ///< all that lead here
 } sl_bsp_face;
 
@@ -178,6 +179,17 @@ void sl_bsp_drop_pieces(sl_bsp *bsp);
 sl_status sl_bsp_replace_faces(sl_bsp *bsp);
 /// Gives the pieces the walls that the faces had inside (bsp_walls.c).
 sl_status sl_bsp_deal_walls(sl_bsp *bsp);
+/// Has a wall wait in a face to be put in.
+sl_status sl_bsp_add_wall(sl_bsp *bsp, uint32_t face, uint32_t wall);
+bool sl_bsp_has_wall(const sl_bsp_face *face, uint32_t wall);
+/// Adds walls to the faces that have them inside by more than rounding, and do not know of them
+/// (bsp_lost.c).
+sl_status sl_bsp_find_lost(sl_bsp *bsp);
+/// How deep the middle of what is inside of a wall lies in a convex face, whose corners lie
+/// `stride` bytes apart; 0 where nothing is. Rounded.
+double sl_wall_depth(const void *first, size_t stride, size_t count, const sl_wall *wall);
+/// What rounding may have done to a place, at most.
+double sl_bsp_slack(const sl_box *bounds);
 
 /// Gives all faces the parts of the seams that they have inside, when the walls are in, and marks
 /// the portals on parts (bsp_walls.c).
@@ -196,8 +208,9 @@ static inline double sl_bsp_key(const sl_bsp *bsp, sl_point p) {
     return bsp->b.y > bsp->a.y ? p.y : -p.y;
 }
 
-/// The wall of a face whose line is the split of least cost (bsp_choose.c).
-uint32_t sl_bsp_choose(const sl_bsp *bsp, const sl_bsp_face *face);
+/// Where among a face's walls the one is whose line is the split of least cost, but for those that
+/// are set aside (bsp_choose.c).
+size_t sl_bsp_choose(const sl_bsp *bsp, const sl_bsp_face *face);
 
 /// Makes a space of the faces, the seams told of its portals (bsp_space.c).
 sl_status sl_bsp_make_space(sl_bsp *bsp, const sl_seam_parts *seams, sl_space *out);

@@ -57,8 +57,8 @@ static double cost(const sl_bsp *bsp, const sl_bsp_face *face, const sl_wall *li
     return o->cuts * (double)s.cut / all + o->imbalance * unequal - o->obscured * obscured;
 }
 
-uint32_t sl_bsp_choose(const sl_bsp *bsp, const sl_bsp_face *face) {
-    const size_t count = face->walls.count, tried = bsp->options->candidates;
+size_t sl_bsp_choose(const sl_bsp *bsp, const sl_bsp_face *face) {
+    const size_t count = face->walls.count - face->set_aside, tried = bsp->options->candidates;
     size_t best = 0;
     double least = INFINITY;
     for (size_t i = 0; i < (count < tried ? count : tried); i++) {
@@ -68,5 +68,5 @@ uint32_t sl_bsp_choose(const sl_bsp *bsp, const sl_bsp_face *face) {
         least = c;
         best = k;
     }
-    return face->walls.items[best];
+    return best;
 }

@@ -6,7 +6,13 @@
 #include <math.h>
 #include <string.h>
 
-static sl_status add_wall(sl_bsp *bsp, uint32_t number, uint32_t wall) {
+bool sl_bsp_has_wall(const sl_bsp_face *face, uint32_t wall) {
+    for (size_t i = 0; i < face->walls.count; i++)
+        if (face->walls.items[i] == wall) return true;
+    return false;
+}
+
+sl_status sl_bsp_add_wall(sl_bsp *bsp, uint32_t number, uint32_t wall) {
     sl_bsp_face *face = &bsp->faces.items[number];
     SL_TRY(SL_ARRAY_ROOM(bsp->context, &face->walls, 1));
     face->walls.items[face->walls.count++] = wall;
@@ -84,12 +90,6 @@ static sl_status close_portals(sl_bsp *bsp, uint32_t number, uint32_t wall_numbe
 
 // --- dealing out
 
-static bool has_wall(const sl_bsp_face *face, uint32_t wall) {
-    for (size_t i = 0; i < face->walls.count; i++)
-        if (face->walls.items[i] == wall) return true;
-    return false;
-}
-
 /// Of walls that no piece takes: to the faces beyond the portals of the pieces.
 static sl_status deal_around(sl_bsp *bsp, uint32_t passage, uint32_t wall) {
     for (size_t k = 0; k < bsp->pieces.count; k++) {
@@ -100,8 +100,8 @@ static sl_status deal_around(sl_bsp *bsp, uint32_t passage, uint32_t wall) {
             size_t along;
             if (sides->items[i].what == SL_BEYOND_EXIT &&
                 sl_bsp_hits(&bsp->faces.items[beyond].sides, &bsp->walls[wall], &along) &&
-                !has_wall(&bsp->faces.items[beyond], wall))
-                SL_TRY(add_wall(bsp, beyond, wall));
+                !sl_bsp_has_wall(&bsp->faces.items[beyond], wall))
+                SL_TRY(sl_bsp_add_wall(bsp, beyond, wall));
         }
     }
     return SL_OK;
@@ -118,7 +118,7 @@ static sl_status deal(sl_bsp *bsp, uint32_t passage, uint32_t number) {
         if (piece->passage != passage || (beside && !piece->reaches_over)) continue;
         size_t along;
         if (sl_bsp_hits(&bsp->faces.items[piece->face].sides, wall, &along)) {
-            SL_TRY(add_wall(bsp, piece->face, number));
+            SL_TRY(sl_bsp_add_wall(bsp, piece->face, number));
             taken = true;
         }
         if (along == SIZE_MAX) continue;
@@ -159,7 +159,7 @@ static sl_status deal_seam(sl_bsp *bsp, const sl_box *boxes, uint32_t number) {
         if (!may_meet(&boxes[i], &bsp->walls[number])) continue;
         size_t along;
         if (sl_bsp_hits(&bsp->faces.items[i].sides, &bsp->walls[number], &along))
-            SL_TRY(add_wall(bsp, i, number));
+            SL_TRY(sl_bsp_add_wall(bsp, i, number));
         else if (along != SIZE_MAX)
             SL_TRY(close_portals(bsp, i, number));
     }

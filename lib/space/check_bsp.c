@@ -204,34 +204,6 @@ static sl_status check_sides(const checker *c, uint32_t number) {
 
 // --- walls
 
-/// How deep the middle of what is inside of a wall lies in a cell; 0 where nothing is.
-static double depth_in(const sl_space *s, const sl_cell *cell, const sl_wall *wall) {
-    const sl_point *v = s->vertices + cell->first_vertex;
-    double low = 0, high = 1;
-    for (int round = 0; round < 2; round++) {
-        const double middle = (low + high) / 2;
-        const sl_point p = {wall->a.x + middle * (wall->b.x - wall->a.x),
-                            wall->a.y + middle * (wall->b.y - wall->a.y)};
-        double depth = INFINITY;
-        for (uint32_t i = 0; i < cell->vertex_count; i++) {
-            const sl_point a = v[i], b = v[i + 1 == cell->vertex_count ? 0 : i + 1];
-            const double length = hypot(b.x - a.x, b.y - a.y);
-            const double ux = (b.x - a.x) / length, uy = (b.y - a.y) / length;
-            const double from = ux * (wall->a.y - a.y) - uy * (wall->a.x - a.x);
-            const double to = ux * (wall->b.y - a.y) - uy * (wall->b.x - a.x);
-            if (from <= 0 && to <= 0) return 0;
-            if (from < 0)
-                low = fmax(low, from / (from - to));
-            else if (to < 0)
-                high = fmin(high, from / (from - to));
-            depth = fmin(depth, ux * (p.y - a.y) - uy * (p.x - a.x));
-        }
-        if (low >= high) return 0;
-        if (round) return depth;
-    }
-    return 0;
-}
-
 /// Follows a wall down the tree: it must be inside no cell that it leads to.
 static sl_status check_wall(const checker *c, const sl_wall *wall) {
     const sl_space *s = c->space;
@@ -241,7 +213,9 @@ static sl_status check_wall(const checker *c, const sl_wall *wall) {
         const int32_t at = c->stack[--count];
         if (at < 0) {
             const uint32_t cell = (uint32_t)~at;
-            if (depth_in(s, &s->cells[cell], wall) > c->slack)
+            const sl_point *corners = s->vertices + s->cells[cell].first_vertex;
+            if (sl_wall_depth(corners, sizeof *corners, s->cells[cell].vertex_count, wall) >
+                c->slack)
                 return fail_cell(c, cell, "has a wall inside");
             continue;
         }
@@ -308,11 +282,7 @@ static sl_status check_all(const checker *c) {
 }
 
 sl_status sl_check_bsp(sl_context *context, const sl_space *space) {
-    const sl_box *b = &space->bounds;
-    const double size = fmax(b->max.x - b->min.x, b->max.y - b->min.y);
-    const double farthest =
-        fmax(fmax(fabs(b->min.x), fabs(b->max.x)), fmax(fabs(b->min.y), fabs(b->max.y)));
-    checker c = {.context = context, .space = space, .slack = 0x1p-30 * size + 0x1p-49 * farthest};
+    checker c = {.context = context, .space = space, .slack = sl_bsp_slack(&space->bounds)};
     const size_t places = (size_t)space->node_count + space->cell_count;
     c.led_to = sl_alloc_array(context, sl_bits_words(places), sizeof *c.led_to);
     c.exits_found = sl_alloc_array(context, space->portal_count, sizeof *c.exits_found);

@@ -112,7 +112,10 @@ static sl_status bake(sl_context *context, const uint8_t *text, size_t size, sl_
     SL_TRY(sl_map_read_text(context, "input", (const char *)text, size, &out->map));
     SL_TRY(sl_map_clean(context, &out->map, NULL));
     const sl_subdivide_options rules = sl_subdivide_options_default();
-    SL_TRY(sl_subdivide_kd(context, &out->map, &rules, &out->space));
+    const sl_bsp_options weights = sl_bsp_options_default();
+    if (size & 16 || sl_subdivide_kd(context, &out->map, &rules, &out->space) == SL_BAD_INPUT)
+        SL_TRY(sl_subdivide_bsp(context, &out->map, &weights, &out->space));
+    if (!out->space.cell_count) return SL_CANCELLED;
     out->map.wall_count = 0;
     sl_see_options options = sl_see_options_default();
     options.solver = sl_funnel();

@@ -4,6 +4,7 @@ layers   a folder of lib/ includes only from itself and from folders before it, 
          has a line for each
 sources  lib/CMakeLists.txt names every source of lib/
 headers  every public header compiles alone, as C11 and as C++
+silent   the library prints nothing of its own accord, and reads nothing from the environment
 format   every source is laid out as .clang-format says
 
 Prints each fault as FILE:LINE: what; exits 0 without faults, 1 with, 77 when it cannot tell.
@@ -131,6 +132,16 @@ def check_sources(root):
         yield f"lib/CMakeLists.txt: names {name}, which is not there"
 
 
+PRINTS = re.compile(r"\b(?:v?printf|puts|putchar|perror|getenv)\s*\(")
+
+
+def check_silent(root):
+    for path in sources(root, ["lib"], {".c", ".h"}):
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            if found := PRINTS.search(line):
+                yield f"{path.relative_to(root)}:{number}: {found[0]}...) in the library"
+
+
 def check_headers(root, compilers):
     include = root / "lib/include"
     if not compilers:
@@ -172,7 +183,7 @@ def check_format(root):
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("subject", choices=["layers", "sources", "headers", "format"])
+    parser.add_argument("subject", choices=["layers", "sources", "silent", "headers", "format"])
     parser.add_argument("root", type=pathlib.Path)
     parser.add_argument("--cc", help="C compiler, for headers")
     parser.add_argument("--cxx", help="C++ compiler, for headers")
@@ -185,7 +196,8 @@ def main():
         found = check_headers(options.root, compilers)
     else:
         missing = []
-        check = {"layers": check_layers, "sources": check_sources, "format": check_format}
+        check = {"layers": check_layers, "sources": check_sources, "silent": check_silent,
+                 "format": check_format}
         found = check[options.subject](options.root)
     try:
         faults = list(found)

@@ -94,6 +94,11 @@ class CheckTest(unittest.TestCase):
         one_more = {"lib/CMakeLists.txt": "base/a.c map/m.c space/s.c x.c"}
         self.assert_one(self.faults(check.check_sources, one_more), "x.c")
 
+    def test_silence(self):
+        self.assertEqual(self.faults(check.check_silent, {"lib/map/m.c": "snprintf(fprintf("}), [])
+        loud = self.faults(check.check_silent, {"lib/map/m.c": '\n    printf("here")'})
+        self.assert_one(loud, "lib/map/m.c:2", "printf")
+
     def test_headers(self):
         def faults(text):
             changed = {"lib/include/sightline/draw.h": text}
