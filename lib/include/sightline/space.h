@@ -136,8 +136,8 @@ SL_API sl_bsp_options sl_bsp_options_default(void);
 /// as seen from the cell: neighbouring cells may overlap along walls, and sight be added through
 /// slivers, by the size of rounding. A portal runs along a wall's line only as far as doubles can
 /// tell a point exactly on it; where there is none, a wall that ends in the open is joined to two
-/// corners instead, a triangle between them. Where walls are a few steps of doubles apart, one may be
-/// left out of a cell that has no room for its corners: sight is added there, and sl_space_check
+/// corners instead, a triangle between them. Where walls are a few steps of doubles apart, one may
+/// be left out of a cell that has no room for its corners: sight is added there, and sl_space_check
 /// names the cell.
 ///
 /// Seams are put in after the walls, and seen through: where a portal on one has to end in a point
