@@ -79,6 +79,9 @@ static sl_status plan_methods(sl_context *context, const walk_texts *t, walk_pla
     plan->tests = (1u << tests.count) - 1;
     SL_TRY(sl_option_choices(context, "--method", t->methods, &methods, &plan->methods));
     SL_TRY(sl_option_choices(context, "--test", t->tests, &tests, &plan->tests));
+    if (!plan->methods || !plan->tests)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--%s none: at least one is needed",
+                       plan->methods ? "test" : "method");
     SL_TRY(
         sl_option_count(context, "--occluders", t->occluders, SL_WALK_OCCLUDERS_MOST, &occluders));
     SL_TRY(sl_option_count(context, "--cheap", t->cheap, UINT32_MAX, &cheap));
@@ -248,8 +251,22 @@ static sl_status walk_once(sl_console *console, const walk_plan *plan, walk_work
 
 // --- the study: over speeds and chances
 
-static const char *const study_files[] = {
-    "speeds.csv", "chances.csv", "tests.png", "visibility.png", "frames.png", "chances.png", NULL};
+/// The charts over speed: the paper's methods, A to D, by its Figures 8 to 10; then A and B beside
+/// those beyond it.
+enum { IN_PAPER = 0x0f, BEYOND = 0xf3 };
+static const sl_walk_chart charts[] = {
+    {"Node visibility tests over the speed of the walk", SL_FIGURE_TESTS, IN_PAPER},
+    {"Time for visibility over the speed of the walk", SL_FIGURE_VISIBILITY, IN_PAPER},
+    {"Time of a frame over the speed of the walk", SL_FIGURE_FRAME, IN_PAPER},
+    {"Beyond the paper: node visibility tests", SL_FIGURE_TESTS, BEYOND},
+    {"Beyond the paper: time of a frame", SL_FIGURE_FRAME, BEYOND},
+};
+enum { CHARTS = sizeof charts / sizeof *charts };
+
+/// The charts, in that order; then the others.
+static const char *const study_files[] = {"tests.png",        "visibility.png",    "frames.png",
+                                          "beyond_tests.png", "beyond_frames.png", "chances.png",
+                                          "speeds.csv",       "chances.csv",       NULL};
 
 static sl_status run_speeds(sl_console *console, const walk_plan *plan, walk_work *w) {
     static const double speeds[] = {0.25, 0.5, 1, 2, 4, 8};
@@ -289,32 +306,14 @@ static sl_status run_chances(sl_console *console, const walk_plan *plan, walk_wo
     return status;
 }
 
-typedef enum study_file { SPEEDS_CSV, CHANCES_CSV, TESTS, VISIBILITY, FRAMES, CHANCES } study_file;
-
 static sl_status write_study(sl_context *context, const walk_plan *plan, const walk_work *w,
-                             const walk_work *chances, study_file file, const char *path) {
-    size_t test_count;
-    const sl_node_test *tests = sl_node_tests(&test_count);
+                             const walk_work *chances, int file, const char *path) {
     size_t t = 0;
     while (!(plan->tests >> t & 1)) t++;
-    const char *test = tests[t].name;
-    switch (file) {
-    case SPEEDS_CSV:
-        return sl_walk_write_rows(context, &w->rows, path);
-    case CHANCES_CSV:
-        return sl_walk_write_rows(context, &chances->rows, path);
-    case TESTS:
-        return sl_walk_draw_speeds(context, &w->rows, test, SL_FIGURE_TESTS,
-                                   "Node visibility tests over the speed of the walk", path);
-    case VISIBILITY:
-        return sl_walk_draw_speeds(context, &w->rows, test, SL_FIGURE_VISIBILITY,
-                                   "Time for visibility over the speed of the walk", path);
-    case FRAMES:
-        return sl_walk_draw_speeds(context, &w->rows, test, SL_FIGURE_FRAME,
-                                   "Time of a frame over the speed of the walk", path);
-    case CHANCES:
-        break;
-    }
+    const char *test = sl_node_tests(&(size_t){0})[t].name;
+    if (file < CHARTS) return sl_walk_draw_speeds(context, &w->rows, &charts[file], test, path);
+    if (file > CHARTS)
+        return sl_walk_write_rows(context, file == CHARTS + 1 ? &w->rows : &chances->rows, path);
     return sl_walk_draw_chances(context, &chances->rows,
                                 "Time of a frame over the chance to skip a test", path);
 }
@@ -329,7 +328,7 @@ static sl_status study(sl_console *console, const walk_plan *plan, walk_work *w)
     if (status == SL_OK) status = run_chances(console, plan, &chances);
     for (int i = 0; study_files[i] && status == SL_OK; i++) {
         char *path = sl_folder_file(context, &folder, study_files[i]);
-        status = path ? write_study(context, plan, w, &chances, (study_file)i, path) : SL_NO_MEMORY;
+        status = path ? write_study(context, plan, w, &chances, i, path) : SL_NO_MEMORY;
         sl_free(context, path);
     }
     sl_free(context, chances.rows.items);

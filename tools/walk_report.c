@@ -29,7 +29,7 @@ void sl_walk_print(const sl_walk_rows *rows) {
         if (r->choice.method)
             printf("%6.1f %5.1f%% %6.1f %6.2f %6.1f", m[SL_FIGURE_TESTS],
                    100 * sl_walk_saving(rows, i), m[SL_FIGURE_FRUSTUM_TESTS],
-                   m[SL_FIGURE_PROPAGATED], m[SL_FIGURE_SKIPPED]);
+                   m[SL_FIGURE_PROPAGATED], m[SL_FIGURE_SKIPPED] + m[SL_FIGURE_BOUNDED]);
         else
             printf("%6s %6s %6s %6s %6s", "-", "-", "-", "-", "-");
         printf(" %6.1f %6.1f %7.2f %7.2f %7.2f\n", m[SL_FIGURE_CELLS], m[SL_FIGURE_WALLS],
@@ -101,6 +101,8 @@ sl_status sl_walk_write_frames(sl_context *context, const sl_walk_rows *rows, co
 
 // --- charts
 
+#define FRAME_LABEL "visibility and drawing, a frame"
+
 enum { MOST_MARKS = 64, MOST_SERIES = SL_CHART_COLOURS };
 
 typedef struct lines {
@@ -122,9 +124,8 @@ static void add_mark(lines *l, const char *name, double x, double y) {
 }
 
 static sl_status draw(sl_context *context, const lines *l, const char *title, sl_chart_axis x,
-                      sl_chart_axis y, const char *notes, const char *path) {
+                      sl_chart_axis y, const char *path) {
     const sl_chart chart = {.title = title,
-                            .notes = notes,
                             .x = x,
                             .y = y,
                             .series = l->series,
@@ -133,24 +134,24 @@ static sl_status draw(sl_context *context, const lines *l, const char *title, sl
     return sl_draw_chart_file(context, &chart, path);
 }
 
-sl_status sl_walk_draw_speeds(sl_context *context, const sl_walk_rows *rows, const char *test,
-                              sl_walk_figure figure, const char *title, const char *path) {
+sl_status sl_walk_draw_speeds(sl_context *context, const sl_walk_rows *rows,
+                              const sl_walk_chart *chart, const char *test, const char *path) {
     lines *l = sl_alloc_array(context, 1, sizeof *l);
     if (!l) return SL_NO_MEMORY;
+    const sl_walk_method *methods = sl_walk_methods(&(size_t){0});
     for (size_t i = 0; i < rows->count; i++) {
         const sl_walk_row *r = &rows->items[i];
-        if (r->choice.method && strcmp(r->choice.options.test->name, test) == 0)
-            add_mark(l, r->choice.method->name, r->speed, r->means[figure]);
+        const sl_walk_method *method = r->choice.method;
+        if (method && chart->methods >> (method - methods) & 1 &&
+            strcmp(r->choice.options.test->name, test) == 0)
+            add_mark(l, method->name, r->speed, r->means[chart->figure]);
     }
-    const bool seconds = figure >= SL_FIGURE_VISIBILITY;
-    const char *labels[] = {"node visibility tests a frame", "visibility, a frame",
-                            "visibility and drawing, a frame"};
-    const sl_chart_axis y = {.label = labels[figure == SL_FIGURE_VISIBILITY ? 1
-                                             : figure == SL_FIGURE_FRAME    ? 2
-                                                                            : 0],
-                             .seconds = seconds};
+    const char *label = chart->figure == SL_FIGURE_TESTS        ? "node visibility tests a frame"
+                        : chart->figure == SL_FIGURE_VISIBILITY ? "visibility, a frame"
+                                                                : FRAME_LABEL;
+    const sl_chart_axis y = {.label = label, .seconds = chart->figure >= SL_FIGURE_VISIBILITY};
     const sl_chart_axis x = {.label = "relative speed", .scale = SL_CHART_LOG};
-    const sl_status status = draw(context, l, title, x, y, NULL, path);
+    const sl_status status = draw(context, l, chart->title, x, y, path);
     sl_free(context, l);
     return status;
 }
@@ -165,8 +166,8 @@ sl_status sl_walk_draw_chances(sl_context *context, const sl_walk_rows *rows, co
                  r->means[SL_FIGURE_FRAME]);
     }
     const sl_chart_axis x = {.label = "p_skip"};
-    const sl_chart_axis y = {.label = "visibility and drawing, a frame", .seconds = true};
-    const sl_status status = draw(context, l, title, x, y, NULL, path);
+    const sl_chart_axis y = {.label = FRAME_LABEL, .seconds = true};
+    const sl_status status = draw(context, l, title, x, y, path);
     sl_free(context, l);
     return status;
 }

@@ -28,9 +28,16 @@ sl_status sl_walk_write_rows(sl_context *context, const sl_walk_rows *rows, cons
 sl_status sl_walk_write_frames(sl_context *context, const sl_walk_rows *rows, const sl_eyes *eyes,
                                double *const *frames, const char *path);
 
-/// A figure over the speed, a line for each method of a test.
-sl_status sl_walk_draw_speeds(sl_context *context, const sl_walk_rows *rows, const char *test,
-                              sl_walk_figure figure, const char *title, const char *path);
+/// A chart of a figure over the speed: a line for each of some methods (bits, in the order of the
+/// table; no more than a chart has colours) with one test.
+typedef struct sl_walk_chart {
+    const char *title;
+    sl_walk_figure figure;
+    unsigned methods;
+} sl_walk_chart;
+
+sl_status sl_walk_draw_speeds(sl_context *context, const sl_walk_rows *rows,
+                              const sl_walk_chart *chart, const char *test, const char *path);
 
 /// The time of a frame over p_skip, a line for each test.
 sl_status sl_walk_draw_chances(sl_context *context, const sl_walk_rows *rows, const char *title,

@@ -6,10 +6,9 @@
 #include <math.h>
 
 static const char *const names[SL_FIGURES] = {
-    "tests",   "frustum_tests", "opened",    "propagations", "propagated",
-    "skipped", "cheap",         "visited",   "out",          "invisible",
-    "partial", "visible",       "occluders", "orientations", "cells",
-    "walls",   "visibility_s",  "drawing_s", "frame_s",
+    "tests",        "frustum_tests", "opened", "propagations", "propagated", "skipped", "bounded",
+    "cheap",        "visited",       "out",    "invisible",    "partial",    "visible", "occluders",
+    "orientations", "cells",         "walls",  "visibility_s", "drawing_s",  "frame_s",
 };
 
 const char *sl_walk_figure_name(sl_walk_figure figure) {
@@ -54,13 +53,10 @@ static void stop(sl_context *context, running *r) {
 }
 
 static void put_counts(const sl_walk_frame *f, double *out) {
-    const double values[] = {f->tests,      f->frustum_tests,
-                             f->opened,     f->propagations,
-                             f->propagated, f->skipped,
-                             f->cheap,      f->visited,
-                             f->out,        f->invisible,
-                             f->partial,    f->visible,
-                             f->occluders,  (double)f->orientations};
+    const double values[] = {
+        f->tests,     f->frustum_tests, f->opened,  f->propagations, f->propagated,
+        f->skipped,   f->bounded,       f->cheap,   f->visited,      f->out,
+        f->invisible, f->partial,       f->visible, f->occluders,    (double)f->orientations};
     for (int i = 0; i <= SL_FIGURE_ORIENTATIONS; i++) out[i] = values[i];
 }
 

@@ -121,8 +121,20 @@ static bool is_skipped(sl_walk *w, uint32_t id, bool known) {
            by_chance(w, does(w, SL_WALK_ADAPTS) ? steady : w->options.p_skip);
 }
 
+/// Whether the eye is where the node is known to be hidden from.
+static bool stays_hidden(const sl_walk *w, uint32_t id) {
+    const sl_walk_memory *m = &w->nodes[id];
+    return m->bound > 0 && sl_walk_moved(m->from, w->occlusion->shadows.pivot.eye) < m->bound;
+}
+
 static void decide(sl_walk *w, uint32_t id, bool known, sl_walk_frame *frame) {
     sl_walk_memory *m = &w->nodes[id];
+    if (stays_hidden(w, id)) {
+        m->state = SL_NODE_INVISIBLE;
+        m->reason = SL_WALK_BOUNDED;
+        frame->bounded++;
+        return;
+    }
     sl_walk_look l;
     sl_walk_look_at(w, id, &l);
     frame->frustum_tests++;
@@ -145,6 +157,10 @@ static void decide(sl_walk *w, uint32_t id, bool known, sl_walk_frame *frame) {
         m->state = (uint8_t)sl_walk_test(w, &l);
         m->reason = SL_WALK_TESTED;
         frame->tests++;
+        if (does(w, SL_WALK_BOUNDS) && m->state == SL_NODE_INVISIBLE) {
+            m->from = w->occlusion->shadows.pivot.eye;
+            m->bound = sl_walk_hidden_bound(w, &l);
+        }
         if (drawn) sl_walk_note(&m->kept, m->state != SL_NODE_INVISIBLE);
     }
 }

@@ -14,6 +14,7 @@ enum {
     SL_WALK_SKIPS = 4,      ///< takes what was drawn as visible, by chance, without a test
     SL_WALK_ADAPTS = 8,     ///< and sets the chances by each node's history
     SL_WALK_PREDICTS = 16,  ///< takes leaves to stay partially visible, by their history
+    SL_WALK_BOUNDS = 32,    ///< tests nothing hidden before the eye has moved far enough to see it
 };
 
 /// A share of successes, as far back as the last few tries.
@@ -28,6 +29,8 @@ typedef struct sl_walk_memory {
     bool spread;             ///< propagation decided of it when it was last visited
     sl_walk_history kept;    ///< of what was drawn, how often a test found it to be drawn still
     sl_walk_history spreads; ///< how often propagation succeeded
+    sl_point from;           ///< hidden from here, and from wherever is no farther off than this:
+    double bound;
 } sl_walk_memory;
 
 typedef struct sl_chooser sl_chooser;
@@ -66,6 +69,12 @@ sl_status sl_chooser_create(sl_context *context, const sl_hierarchy *hierarchy, 
 void sl_chooser_destroy(sl_context *context, sl_chooser *chooser);
 /// Fills the walk's occlusion, which must be clear.
 sl_status sl_chooser_choose(sl_context *context, sl_walk *walk, const sl_view *view);
+
+/// How far the eye may move, any way, with an invisible node still being so; 0 where that is not
+/// known (bounds.c).
+double sl_walk_hidden_bound(const sl_walk *walk, const sl_walk_look *look);
+/// No less than how far an eye has moved.
+double sl_walk_moved(sl_point from, sl_point to);
 
 /// The state of a node by its neighbours': false where they do not tell. Nodes before it, front to
 /// back, must have been visited in this frame (propagation.c).

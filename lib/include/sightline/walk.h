@@ -81,17 +81,24 @@ typedef struct sl_walk_options {
 
 SL_API sl_walk_options sl_walk_options_default(void);
 
+/// What a method draws beside what the first one, the classical, does in the same frame. All draw
+/// all that is seen.
+typedef enum sl_walk_agreement {
+    SL_WALK_AS_CLASSICAL, ///< the same: its leaves have the same states, in every frame
+    SL_WALK_MAYBE_MORE,   ///< that, and maybe more
+    SL_WALK_MAYBE_LESS,   ///< that, but for what it knows to be hidden from earlier frames
+    SL_WALK_MAYBE_EITHER, ///< less here and more there
+} sl_walk_agreement;
+
 /// A method of walking: reachable by name, listed everywhere from this table.
 typedef struct sl_walk_method {
     const char *name, *what;
-    /// Its leaves have the states of those of the first method, in every frame. Else more of them
-    /// may be drawn.
-    bool as_classical;
+    sl_walk_agreement agreement;
     unsigned policies; ///< the library's own
 } sl_walk_method;
 
 /// All methods, the classical one first: "classical", "updating", "propagation", "skipping" (A to D
-/// in the paper), "adaptive", "predicting". Each draws all cells that are seen (see sl_walk_cells).
+/// in the paper), "adaptive", "predicting", "bounded", "combined".
 SL_API const sl_walk_method *sl_walk_methods(size_t *count);
 
 /// What decided of a node's state, in the frame in which it was last visited.
@@ -103,6 +110,7 @@ typedef enum sl_walk_reason {
     SL_WALK_PROPAGATED, ///< its neighbours' states
     SL_WALK_SKIPPED,    ///< chance: it was drawn in the last frame
     SL_WALK_PULLED_UP,  ///< its children's states, which have different reasons
+    SL_WALK_BOUNDED,    ///< it was hidden from where the eye was, and still is from so near
 } sl_walk_reason;
 
 /// What a frame came to, in nodes where nothing else is said.
@@ -115,6 +123,7 @@ typedef struct sl_walk_frame {
     uint32_t opened;                   ///< not tested for having been opened by the last frame
     uint32_t propagations, propagated; ///< tries to take a state from neighbours, and successes
     uint32_t skipped;                  ///< taken to be as drawn as in the last frame
+    uint32_t bounded;                  ///< known to be hidden still
     uint32_t out, invisible, partial, visible; ///< visited, by state; `out`: of the view cone
     uint32_t cells;                            ///< to be drawn
     uint64_t orientations;                     ///< orientation tests
