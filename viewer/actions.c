@@ -328,7 +328,7 @@ static void escape(sl_app *app) {
         app->help = app->maps_open = false;
     else if (app->document.job) {
         sl_document_cancel(app->context, &app->document);
-        sl_app_say(app, false, "stopped; what is there without cell-to-cell visibility stays");
+        sl_app_say(app, false, "stopped; what is there stays");
     } else if (app->recorder.plays)
         app->recorder.plays = false;
     else
@@ -369,16 +369,16 @@ static const sl_action actions[] = {
     {"account", "L", "What accuracy costs", "what accuracy costs, as a chart", 0, 0, account,
      is_account},
 
-    {"method", "E", NULL, "the next culling method", 0, 0, method_next, NULL},
+    {"method", "E", "Method", "the next culling method", 0, 0, method_next, NULL},
     {"compare", "X", "Compare", "two methods: panes, difference", EXPLORE, 0, compare, is_compare},
-    {"other", "Z", NULL, "the next method to compare with", EXPLORE, 0, other_next, NULL},
+    {"other", "Z", "Other", "the next method to compare with", EXPLORE, 0, other_next, NULL},
 
     {"step_next", "Right", "\xe2\x96\xb6", "learn: a step on", LEARN, 0, step_next, NULL},
     {"step_back", "Left", "\xe2\x97\x80", "learn: a step back", LEARN, 0, step_back, NULL},
     {"step_first", "Home", "|\xe2\x97\x80", "learn: to the first step", LEARN, 0, step_first, NULL},
     {"step_last", "End", "\xe2\x96\xb6|", "learn: to the last step", LEARN, 0, step_last, NULL},
     {"play_steps", "Space", "Play", "learn: play the steps", LEARN, 0, play_steps, is_play_steps},
-    {"subject", "U", "Other", "learn: search or subdivision", LEARN, 0, subject, NULL},
+    {"subject", "U", "Another subject (U)", "learn: another subject", LEARN, 0, subject, NULL},
 
     {"undo", "Ctrl+Z", "Undo", "undo a change of walls", 0, 0, undo, NULL},
     {"redo", "Ctrl+Y", "Redo", "redo it", 0, 0, redo, NULL},
@@ -394,7 +394,7 @@ static const sl_action actions[] = {
 
     {"maps", "O", "Maps", "open a map at hand", 0, 0, maps, is_maps},
     {"choose", "Return", NULL, "list: open what is chosen", 0, 0, choose, NULL},
-    {"doors", "Ctrl+D", NULL, "doors as doors, or as they begin", 0, 0, doors, is_doors},
+    {"doors", "Ctrl+D", "Doors", "doors as doors, or as they begin", 0, 0, doors, is_doors},
     {"cut_lower", "Ctrl+Down", NULL, "3D model: cut it lower", 0, 0, cut_lower, NULL},
     {"cut_higher", "Ctrl+Up", NULL, "3D model: cut it higher", 0, 0, cut_higher, NULL},
     {"save_png", "Ctrl+S", "Save", "save the plan as PNG", 0, 0, save_png, NULL},
@@ -408,7 +408,7 @@ static const sl_action actions[] = {
     {"text_smaller", "Ctrl+-", NULL, "smaller text", 0, 0, text_smaller, NULL},
     {"side_panel", "Tab", "Panel", "the panel at the right", 0, 0, side_panel, is_side_panel},
     {"help", "?", "?", "this help", 0, 0, help, is_help},
-    {"escape", "Escape", NULL, "stop, close", 0, 0, escape, NULL},
+    {"escape", "Escape", "Stop", "stop, close", 0, 0, escape, NULL},
     {"quit", "Ctrl+Q", NULL, "quit", 0, 0, quit, NULL},
 };
 enum { COUNT = sizeof actions / sizeof *actions };

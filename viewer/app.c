@@ -24,6 +24,7 @@ void sl_app_init(sl_app *app, sl_context *context) {
                     .other = 0,
                     .side_panel = true,
                     .text_scale = 1,
+                    .density = 1,
                     .width = 1200,
                     .height = 760,
                     .wall = UINT32_MAX,
@@ -161,7 +162,7 @@ static sl_box box(double left, double top, double right, double bottom) {
 }
 
 sl_layout sl_app_layout(const sl_app *app) {
-    const double t = 13 * app->text_scale, w = app->width, h = app->height;
+    const double t = sl_app_text(app), w = app->width, h = app->height;
     sl_layout l = {.plan_count = 1};
     const double bar = 2.3 * t, status = 1.9 * t;
     const double side = app->side_panel ? fmin(26 * t, 0.5 * w) : 0;
@@ -204,7 +205,7 @@ void sl_app_draw(sl_app *app, cairo_t *cairo) {
     const sl_layout l = sl_app_layout(app);
     app->ui.cairo = cairo;
     app->ui.palette = sl_palette_make(app->dark);
-    app->ui.text = 13 * app->text_scale;
+    app->ui.text = sl_app_text(app);
     app->ui.pointer = app->pointer;
     app->ui.hit_count = 0;
     sl_app_fit(app, l.plan[0]);

@@ -104,7 +104,8 @@ struct sl_app {
     sl_compare compare;
     bool side_panel, first_person, accounts, help, maps_open, dark;
     double text_scale;
-    bool steady; ///< under a script: no clock shows, nothing is remembered
+    double density; ///< of the screen: pixels where a common one has 1
+    bool steady;    ///< under a script: no clock shows, nothing is remembered
     bool quit;
     int width, height;
     sl_point pointer;
@@ -133,6 +134,15 @@ void sl_app_destroy(sl_app *app);
 
 /// The first map is there: looks at it from its start.
 void sl_app_take_opened(sl_app *app);
+
+/// How many times larger than plain lines and marks are drawn.
+static inline double sl_app_scale(const sl_app *app) {
+    return app->text_scale * app->density;
+}
+/// The size of plain text, pixels.
+static inline double sl_app_text(const sl_app *app) {
+    return 13 * sl_app_scale(app);
+}
 
 /// Says something in the status line.
 void sl_app_say(sl_app *app, bool error, const char *format, ...)

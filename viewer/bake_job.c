@@ -1,6 +1,7 @@
 #include "bake_job.h"
 
 #include "base/base.h"
+#include "clock.h"
 #include "map_copy.h"
 #include "sightline/solvers.h"
 
@@ -9,12 +10,12 @@
 /// A stab tree is kept as long as all fit into this.
 #define TREE_BYTES ((uint64_t)128 << 20)
 
-/// Up to this many cells the search goes through all portal sequences, and so knows the stab trees;
-/// larger maps are swept, which takes far less time.
-enum { SEARCHED_CELLS_MOST = 3000 };
+/// Stab trees are searched for no longer than this: open places have too many sequences.
+#define TREE_SECONDS 20
 
 static bool is_cancelled(void *user) {
-    return atomic_load(&((sl_bake_job *)user)->cancel);
+    const sl_bake_job *job = user;
+    return atomic_load(&job->cancel) || (job->until > 0 && sl_clock_seconds() > job->until);
 }
 
 static void take_progress(void *user, const sl_progress *progress) {
@@ -33,6 +34,7 @@ static sl_status read_baked(sl_context *context, sl_bake_job *job) {
     job->visibility = job->baked->visibility;
     job->baked->visibility = (sl_visibility){0};
     atomic_store(&job->space_ready, true);
+    atomic_store(&job->seen_ready, true);
     return SL_OK;
 }
 
@@ -49,8 +51,7 @@ static sl_status read_map(sl_context *context, sl_bake_job *job) {
     return sl_map_add_start(context, &job->map, source->start, 0, 0);
 }
 
-static const sl_see_method *choose_method(const sl_space *space) {
-    const char *name = space->cell_count <= SEARCHED_CELLS_MOST ? "dfs" : "sweep";
+static const sl_see_method *method_named(const char *name) {
     size_t count;
     const sl_see_method *methods = sl_see_methods(&count);
     for (size_t i = 0; i < count; i++)
@@ -63,23 +64,37 @@ static void drop_walls(sl_map *map) {
     map->wall_count = 0;
 }
 
+/// The sweep tells what is seen, in far less time than a search.
+static sl_status see_all(sl_context *context, sl_bake_job *job) {
+    const sl_see_method *sweep = method_named("sweep");
+    const sl_see_options options = sl_see_options_default();
+    SL_TRY(sweep->see(context, &job->baked->space, &options, &job->visibility));
+    atomic_store(&job->seen_ready, true);
+    return SL_OK;
+}
+
+/// The search knows the stab trees too. Where it takes too long there are none.
+static sl_status search_trees(sl_context *context, sl_bake_job *job) {
+    sl_see_options options = sl_see_options_default();
+    options.solver = sl_funnel();
+    options.trees = true;
+    options.tree_bytes = TREE_BYTES;
+    job->until = sl_clock_seconds() + TREE_SECONDS;
+    const sl_status status =
+        method_named("dfs")->see(context, &job->baked->space, &options, &job->with_trees);
+    return status == SL_CANCELLED && !atomic_load(&job->cancel) ? SL_OK : status;
+}
+
 static sl_status bake(sl_context *context, sl_bake_job *job) {
     sl_baked *baked = job->baked;
     SL_TRY(sl_map_copy(context, &job->map, &baked->map));
     SL_TRY(sl_map_clean(context, &baked->map, NULL));
     SL_TRY(sl_subdivision_for(&baked->map)->subdivide(context, &baked->map, NULL, &baked->space));
     drop_walls(&baked->map);
-    const sl_see_method *method = choose_method(&baked->space);
-    sl_see_options options = sl_see_options_default();
-    if (method->stabs) {
-        options.solver = sl_funnel();
-        options.trees = true;
-        options.tree_bytes = TREE_BYTES;
-        snprintf(baked->solver, sizeof baked->solver, "%s", options.solver->name);
-    }
-    snprintf(baked->method, sizeof baked->method, "%s", method->name);
+    snprintf(baked->method, sizeof baked->method, "sweep");
     atomic_store(&job->space_ready, true);
-    return method->see(context, &baked->space, &options, &job->visibility);
+    SL_TRY(see_all(context, job));
+    return search_trees(context, job);
 }
 
 static sl_status work(sl_context *context, sl_bake_job *job) {
@@ -106,6 +121,7 @@ static void free_job(sl_context *context, sl_bake_job *job) {
         sl_free(context, job->baked);
     }
     sl_visibility_destroy(context, &job->visibility);
+    sl_visibility_destroy(context, &job->with_trees);
     sl_map_destroy(context, &job->map);
     sl_document_source_destroy(context, &job->source);
     sl_free(context, job);

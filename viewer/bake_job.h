@@ -12,14 +12,16 @@ struct sl_bake_job {
     sl_document_source source; ///< what to read; no path: `map` is what to bake
     sl_map map;                ///< as drawn; filled by the job where it reads
     sl_baked *baked;           ///< the job's until space_ready, then only its visibility is
-    sl_visibility visibility;  ///< written when `done`
-    sl_status status;          ///< when `done`
+    sl_visibility visibility;  ///< the job's until seen_ready
+    sl_visibility with_trees; ///< the same with stab trees, when `done`; empty where there are none
+    sl_status status;         ///< when `done`
     char message[1024];
     pthread_t thread;
-    atomic_bool cancel, space_ready, done;
+    atomic_bool cancel, space_ready, seen_ready, done;
+    double until; ///< the clock's time at which the job gives up stab trees; 0: never
     _Atomic(const char *) stage;
     atomic_uint_fast64_t count, total;
-    bool taken; ///< the main thread has the space
+    bool taken, seen_taken; ///< the main thread has the space, the visibility
 };
 
 /// Starts the thread. Takes what the job holds in any case.

@@ -27,7 +27,8 @@ static void print_row(const sl_app *app, const char *part, sl_meter *meter, doub
 
 /// One frame of a part of the benchmark.
 static void move(sl_app *app, int part, unsigned frame) {
-    if (part == 0) { // walks, and turns away from walls
+    app->first_person = app->accounts = part == 3;
+    if (part == 0 || part == 3) { // walks, and turns away from walls
         app->held = SL_HOLD_FORWARD | (frame / 20 % 3 == 0 ? SL_HOLD_TURN_LEFT : 0u);
     } else if (part == 1) { // looks round
         app->eye.heading = fmod(app->eye.heading + 2, 360);
@@ -40,7 +41,8 @@ static void move(sl_app *app, int part, unsigned frame) {
 }
 
 sl_status sl_bench_run(sl_app *app, unsigned frames) {
-    static const char *const parts[] = {"walk", "look round", "pan and zoom"};
+    static const char *const parts[] = {"walk", "look round", "pan and zoom",
+                                        "walk with all panes"};
     sl_window *window;
     sl_app_settle(app);
     if (!app->document.baked) return sl_fail(app->context, SL_BAD_ARGUMENT, "no map is open");
@@ -50,7 +52,7 @@ sl_status sl_bench_run(sl_app *app, unsigned frames) {
     app->show = SL_SHOW_ALL;
     app->steady = false;
     puts("map,cells,walls,part,frames,mean_ms,median_ms,p95_ms,worst_ms,processor_ms,machine");
-    for (int part = 0; part < 3 && status == SL_OK; part++) {
+    for (int part = 0; part < 4 && status == SL_OK; part++) {
         double processor = 0;
         meter->count = 0;
         app->held = 0;

@@ -84,7 +84,7 @@ static void drop_baked(sl_context *context, sl_document *document) {
         sl_free(context, document->baked);
     }
     document->baked = NULL;
-    document->has_visibility = document->seeing = false;
+    document->has_visibility = false;
 }
 
 static sl_status make_search(sl_context *context, sl_document *document) {
@@ -115,7 +115,6 @@ static sl_status take_space(sl_context *context, sl_document *document) {
     drop_baked(context, document);
     document->baked = job->baked;
     job->taken = true;
-    document->seeing = true;
     document->version++;
     sl_map_destroy(context, &document->map);
     SL_TRY(sl_map_copy(context, &job->map, &document->map));
@@ -131,10 +130,13 @@ static sl_status take_space(sl_context *context, sl_document *document) {
     return make_search(context, document);
 }
 
-static sl_status take_visibility(sl_context *context, sl_document *document) {
-    sl_bake_job *job = document->job;
-    document->baked->visibility = job->visibility;
-    job->visibility = (sl_visibility){0};
+/// What is seen is there, or is there with its stab trees.
+static sl_status take_visibility(sl_context *context, sl_document *document, sl_visibility *from) {
+    if (document->search) sl_eye_search_destroy(context, document->search);
+    document->search = NULL;
+    sl_visibility_destroy(context, &document->baked->visibility);
+    document->baked->visibility = *from;
+    *from = (sl_visibility){0};
     document->has_visibility = true;
     document->version++;
     return make_search(context, document);
@@ -143,12 +145,11 @@ static sl_status take_visibility(sl_context *context, sl_document *document) {
 static sl_status finish(sl_context *context, sl_document *document) {
     sl_bake_job *job = document->job;
     sl_status status = job->status;
-    if (status == SL_OK)
-        status = take_visibility(context, document);
-    else
+    if (status != SL_OK)
         sl_fail(context, status, "%s", job->message);
+    else if (job->with_trees.pvs.cell_count)
+        status = take_visibility(context, document, &job->with_trees);
     document->job = NULL;
-    document->seeing = false;
     sl_bake_job_end(context, job);
     return status;
 }
@@ -165,6 +166,11 @@ sl_status sl_document_poll(sl_context *context, sl_document *document, bool *cha
             sl_document_close(context, document);
             return status;
         }
+    }
+    if (job->taken && !job->seen_taken && atomic_load(&job->seen_ready)) {
+        *changed = true;
+        job->seen_taken = true;
+        SL_TRY(take_visibility(context, document, &job->visibility));
     }
     if (!done) return SL_OK;
     *changed = true;
@@ -201,7 +207,6 @@ void sl_document_cancel(sl_context *context, sl_document *document) {
     if (!job) return;
     atomic_store(&job->cancel, true);
     document->job = NULL;
-    document->seeing = false;
     sl_bake_job_end(context, job);
 }
 

@@ -32,8 +32,7 @@ typedef struct sl_document {
     sl_document_source source;
     sl_map map;          ///< as drawn: what is edited and baked
     sl_baked *baked;     ///< its space may be there before its visibility; NULL while nothing is
-    bool seeing;         ///< the visibility is still being worked out
-    bool has_visibility; ///< and it is there
+    bool has_visibility; ///< what cells see; stab trees come later, or not
     sl_outline outline;
     sl_splits splits;
     sl_eye_search *search;

@@ -6,7 +6,7 @@
 #include <math.h>
 
 double sl_edit_step(const sl_app *app) {
-    const double wanted = 11 / app->camera.scale;
+    const double wanted = 11 * app->density / app->camera.scale;
     double step = pow(10, floor(log10(wanted)));
     if (step * 2 >= wanted) return step * 2;
     return step * 5 >= wanted ? step * 5 : step * 10;
@@ -26,7 +26,7 @@ static double distance_to(sl_point p, sl_point a, sl_point b) {
 
 uint32_t sl_edit_pick(const sl_app *app, sl_point at) {
     const sl_map *map = &app->document.map;
-    double nearest = 7 / app->camera.scale;
+    double nearest = 7 * app->density / app->camera.scale;
     uint32_t found = UINT32_MAX;
     for (size_t i = 0; i < map->wall_count; i++) {
         const double distance = distance_to(at, map->walls[i].a, map->walls[i].b);

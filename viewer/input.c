@@ -76,7 +76,7 @@ static void follow(sl_app *app, const sl_hit *hit, sl_point at) {
 /// A portal end of the lesson under the pointer: twice its number, and one more for a right end.
 static bool pick_end(const sl_app *app, sl_point at, uint32_t *found) {
     const sl_lesson *lesson = &app->lesson;
-    double nearest = 8 * app->text_scale / app->camera.scale;
+    double nearest = 8 * sl_app_scale(app) / app->camera.scale;
     bool any = false;
     for (uint32_t i = 0; i < 2 * lesson->end_count; i++) {
         const sl_point p = i % 2 ? lesson->ends[i / 2].right : lesson->ends[i / 2].left;
@@ -95,7 +95,7 @@ static bool near_line(const sl_app *app, sl_point at) {
     const sl_point p = sl_dual_point(&lesson->dual, at);
     const double off =
         fabs(p.y - lesson->line.slope * p.x - lesson->line.height) / hypot(1, lesson->line.slope);
-    return off * lesson->dual.scale * app->camera.scale < 7 * app->text_scale;
+    return off * lesson->dual.scale * app->camera.scale < 7 * sl_app_scale(app);
 }
 
 static sl_drag_kind plan_drag(sl_app *app, sl_drag *drag) {

@@ -47,9 +47,13 @@ static void draw_progress(sl_app *app, sl_box box) {
     const sl_document_progress p = sl_document_progress_of(&app->document);
     const double t = ui->text, wide = 11 * t;
     char text[96];
-    snprintf(text, sizeof text, "%s%s  Esc stops", p.stage ? p.stage : "",
-             p.share >= 0 ? "" : " ...");
-    const double x = box.max.x - wide - t, middle = (box.min.y + box.max.y) / 2;
+    snprintf(text, sizeof text, "%s%s", p.stage ? p.stage : "", p.share >= 0 ? "" : " ...");
+    for (char *at = text; *at; at++)
+        if (*at == '_') *at = ' ';
+    const double middle = (box.min.y + box.max.y) / 2, stop = box.max.x - 7.5 * t;
+    sl_ui_button(ui, stop, box.min.y + 0.15 * t, 1.6 * t, "Stop (Esc)", false,
+                 sl_action_find("escape"));
+    const double x = stop - wide - 0.6 * t;
     sl_ui_fill_round(ui, (sl_box){{x, middle - 0.3 * t}, {x + wide, middle + 0.3 * t}}, 0.3 * t,
                      ui->palette.outline);
     if (p.share > 0.05)
@@ -79,7 +83,8 @@ void sl_pane_status(sl_app *app, sl_box box) {
         sl_ui_text_right(ui, box.max.x - 0.8 * t, base, 0.95, ui->palette.faint, text);
     }
     const sl_colour colour = app->message_is_error ? ui->palette.start : ui->palette.ink;
-    sl_text_show_within(ui->cairo, colour, 0.8 * t, base, box.max.x - 15 * t, 0.95 * t, false,
+    sl_text_show_within(ui->cairo, colour, 0.8 * t, base,
+                        box.max.x - (app->document.job ? 30 : 15) * t, 0.95 * t, false,
                         app->message);
 }
 

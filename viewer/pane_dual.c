@@ -9,10 +9,10 @@
 #include <stdio.h>
 
 static sl_dual_frame frame_of(const sl_app *app, sl_box box) {
-    const double t = 13 * app->text_scale;
+    const double t = sl_app_text(app);
     return sl_dual_frame_fit(&app->lesson.before, box.min.x + 0.9 * t, box.min.y + 2.2 * t,
                              fmax(sl_box_width(box) - 1.8 * t, 8),
-                             fmax(sl_box_height(box) - 4.1 * t, 8), app->text_scale);
+                             fmax(sl_box_height(box) - 4.1 * t, 8), sl_app_scale(app));
 }
 
 void sl_pane_dual(sl_app *app, sl_box box) {

@@ -127,12 +127,14 @@ static void draw_count(sl_app *app, const viewer *v, sl_box box) {
     snprintf(text, sizeof text, "%u of %u wall pieces drawn, %.1f %% culled by %s", v->pieces,
              walls, walls ? 100.0 * (walls - v->pieces) / walls : 0,
              sl_eye_methods(&count)[app->method].name);
-    const double t = app->ui.text, width = sl_ui_text_width(&app->ui, 0.95, false, text);
+    const double t = app->ui.text;
+    const double width =
+        fmin(sl_ui_text_width(&app->ui, 0.95, false, text), sl_box_width(box) - 2.6 * t);
     const sl_box ground = {{box.min.x + 0.7 * t, box.max.y - 2.3 * t},
                            {box.min.x + 1.9 * t + width, box.max.y - 0.6 * t}};
     sl_ui_fill_round(&app->ui, ground, 0.3 * t, app->ui.palette.page);
-    sl_ui_text(&app->ui, ground.min.x + 0.6 * t, ground.max.y - 0.5 * t, 0.95, false,
-               app->ui.palette.ink, text);
+    sl_text_show_within(app->ui.cairo, app->ui.palette.ink, ground.min.x + 0.6 * t,
+                        ground.max.y - 0.5 * t, width, 0.95 * t, false, text);
 }
 
 void sl_pane_first_person(sl_app *app, sl_box box) {

@@ -177,7 +177,7 @@ void sl_pane_plan(sl_app *app, sl_box box, int index, bool vector) {
         draw_empty(app, box);
         return;
     }
-    const sl_frame frame = sl_camera_frame(&app->camera, box, app->text_scale);
+    const sl_frame frame = sl_camera_frame(&app->camera, box, sl_app_scale(app));
     cairo_save(cairo);
     cairo_rectangle(cairo, box.min.x, box.min.y, sl_box_width(box), sl_box_height(box));
     cairo_clip(cairo);

@@ -11,7 +11,7 @@
 #include <string.h>
 
 typedef struct column {
-    double left, right, y;
+    double left, right, y, bottom;
 } column;
 
 static column begin_panel(sl_app *app, sl_box box) {
@@ -19,7 +19,7 @@ static column begin_panel(sl_app *app, sl_box box) {
     sl_ui_fill(ui, box, ui->palette.page);
     sl_ui_line(ui, box.min.x + 0.5, box.min.y, box.min.x + 0.5, box.max.y, ui->palette.outline);
     sl_ui_hit(ui, SL_HIT_PANEL, 0, box);
-    return (column){box.min.x + 1.1 * ui->text, box.max.x - 1.1 * ui->text, box.min.y};
+    return (column){box.min.x + 1.1 * ui->text, box.max.x - 1.1 * ui->text, box.min.y, box.max.y};
 }
 
 static void heading(sl_app *app, column *c, const char *text, const char *right) {
@@ -40,6 +40,23 @@ static void check_row(sl_app *app, column *c, const char *name) {
                          {c->right + 0.4 * app->ui.text, c->y + height}},
                 action->label, action->key, action->on(app), number);
     c->y += height;
+}
+
+/// Buttons of actions, as many as there is room for; the names end with NULL.
+static void button_row(sl_app *app, column *c, const char *const *names) {
+    size_t count;
+    const sl_action *actions = sl_actions(&count);
+    const double t = app->ui.text;
+    double x = c->left;
+    if (c->y + 2 * t > c->bottom) return;
+    for (; *names; names++) {
+        const sl_action *a = &actions[sl_action_find(*names)];
+        if (x + sl_ui_text_width(&app->ui, 0.95, false, a->label) + 1.3 * t > c->right) break;
+        x = sl_ui_button(&app->ui, x, c->y + 0.4 * t, 1.6 * t, a->label, a->on && a->on(app),
+                         (int)(a - actions)) +
+            0.4 * t;
+    }
+    c->y += 2 * t;
 }
 
 /// The layers that have their place in the present mode.
@@ -162,13 +179,38 @@ static void draw_methods(sl_app *app, column *c) {
     write_seconds(app, app->seen.region_seconds, text);
     sl_ui_text_right(ui, c->right, base, 0.95, ui->palette.faint, text);
     c->y += 1.6 * t;
-    if (app->seen.valid && app->seen.methods[app->method].known && app->seen.region_area > 0) {
+    const bool told = app->seen.valid && app->seen.methods[app->method].known;
+    if (told && !app->compare && app->seen.region_area > 0) {
         snprintf(line, sizeof line, "The cells kept have %.1f times the area that is visible.",
                  app->seen.methods[app->method].area / app->seen.region_area);
         c->y = sl_ui_paragraph(ui, c->left, c->y + t, c->right - c->left, 0.9, ui->palette.faint,
                                line) -
                t;
     }
+}
+
+/// What the looser of the two methods compared adds.
+static void draw_difference(sl_app *app, column *c) {
+    size_t count;
+    const sl_eye_method *methods = sl_eye_methods(&count);
+    const size_t loose = app->other < app->method ? app->other : app->method;
+    const size_t tight = app->other < app->method ? app->method : app->other;
+    const sl_seen_method *more = &app->seen.methods[loose], *less = &app->seen.methods[tight];
+    if (!app->compare || loose == tight || !app->seen.valid || !more->known || !less->known) return;
+    char share[SL_COUNT_TEXT], text[256], cost[80] = "";
+    sl_text_percent(app->document.area > 0 ? (more->area - less->area) / app->document.area : 0,
+                    share);
+    if (!app->steady && more->seconds > 0)
+        snprintf(cost, sizeof cost, ", which takes %.2g times as long",
+                 less->seconds / more->seconds);
+    snprintf(text, sizeof text, "%s adds %u cells, %s of the area, to %s%s.", methods[loose].name,
+             more->count - less->count, share, methods[tight].name, cost);
+    for (char *at = text; *at; at++)
+        if (*at == '_') *at = ' ';
+    const double t = app->ui.text;
+    c->y = sl_ui_paragraph(&app->ui, c->left, c->y + t, c->right - c->left, 0.95,
+                           app->ui.palette.ink, text) -
+           t;
 }
 
 // --- words
@@ -231,7 +273,12 @@ void sl_pane_side(sl_app *app, sl_box box) {
     c.y += 0.3 * app->ui.text;
     draw_sliders(app, &c);
     draw_methods(app, &c);
+    draw_difference(app, &c);
     draw_words(app, &c);
+    static const char *const rows[][5] = {{"home", "fly", "method", "other", NULL},
+                                          {"record", "play", "export_series", NULL},
+                                          {"save_svg", "save_pdf", "doors", NULL}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) button_row(app, &c, rows[i]);
 }
 
 // --- learning
@@ -266,7 +313,8 @@ static void draw_account(sl_app *app, column *c) {
         subject->account(lesson, text);
         heading(app, c, "So far", NULL);
         c->y = sl_ui_paragraph(&app->ui, c->left, c->y + 0.7 * app->ui.text, c->right - c->left, 1,
-                               app->ui.palette.ink, text);
+                               app->ui.palette.ink, text) -
+               0.9 * app->ui.text;
     }
     if (!lesson->end_count) return;
     heading(app, c, "The line", lesson->dragged ? "ends were dragged" : NULL);
@@ -278,13 +326,16 @@ static void draw_account(sl_app *app, column *c) {
              margin * lesson->dual.scale, lesson->dual.margin * lesson->dual.scale,
              lesson->dual.corner_count ? "" : "No line is left.");
     c->y = sl_ui_paragraph(&app->ui, c->left, c->y + 0.7 * app->ui.text, c->right - c->left, 0.95,
-                           app->ui.palette.ink, text);
+                           app->ui.palette.ink, text) -
+           0.9 * app->ui.text;
 }
 
 void sl_pane_learn(sl_app *app, sl_box box) {
     column c = begin_panel(app, box);
-    heading(app, &c, sl_lesson_subject(&app->lesson)->title, "U: another");
+    heading(app, &c, sl_lesson_subject(&app->lesson)->title, NULL);
     draw_code(app, &c);
+    static const char *const other[] = {"subject", NULL};
+    button_row(app, &c, other);
     draw_account(app, &c);
     layer_rows(app, &c);
     check_row(app, &c, "first_person");

@@ -25,7 +25,7 @@ static sl_status save(sl_app *app, const char *path, bool window) {
         const sl_ui before = app->ui;
         app->ui.cairo = paper.cairo;
         app->ui.palette = sl_palette_make(app->dark);
-        app->ui.text = 13 * app->text_scale;
+        app->ui.text = sl_app_text(app);
         sl_app_fit(app, l.plan[0]);
         sl_pane_plan(app, (sl_box){{0, 0}, {w, h}}, 0, true);
         app->ui = before;

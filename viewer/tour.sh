@@ -22,6 +22,24 @@ eye 53 20 160 90
 key X
 key X
 END
+shoot office.map account <<'END'
+eye 53 20 160 90
+key L
+END
+shoot oblique/rotunda.map oblique <<'END'
+key B
+key K
+END
+shoot oblique/rotunda.map oblique-subdivision <<'END'
+key F2
+key U
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+END
 shoot office.map search <<'END'
 eye 53 20 160
 key F2

@@ -8,6 +8,7 @@
 #include <SDL.h>
 #include <ctype.h>
 #include <math.h>
+#include <string.h>
 
 struct sl_window {
     sl_app *app;
@@ -22,13 +23,31 @@ static sl_status fail(sl_context *context, const char *what) {
     return sl_fail(context, SL_IO, "%s: %s", what, SDL_GetError());
 }
 
+/// A screen's pixels to an inch against the usual 96, where they are clearly more.
+static double density_of_screen(int screen) {
+    float inch;
+    if (SDL_GetDisplayDPI(screen, &inch, NULL, NULL) != 0) return 1;
+    return inch >= 130 && inch <= 600 ? round(2 * inch / 96) / 2 : 1;
+}
+
+/// Pixels to a point of the window, where the system tells the two apart; else the screen's own.
+static double find_density(const sl_window *w) {
+    int width;
+    SDL_GetWindowSize(w->window, &width, NULL);
+    if (width > 0 && w->width > width) return (double)w->width / width;
+    return density_of_screen(SDL_GetWindowDisplayIndex(w->window));
+}
+
 static sl_status open_window(sl_window *w, bool hidden) {
     sl_context *context = w->app->context;
     if (hidden) SDL_SetHint(SDL_HINT_VIDEODRIVER, "dummy");
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "0");
     if (SDL_Init(SDL_INIT_VIDEO) != 0) return fail(context, "no display");
+    const char *driver = SDL_GetCurrentVideoDriver();
+    // X's windows are measured in pixels, whatever the screen.
+    const double by = driver && strcmp(driver, "x11") == 0 ? density_of_screen(0) : 1;
     w->window = SDL_CreateWindow("Sightline", SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED,
-                                 w->app->width, w->app->height,
+                                 (int)(by * w->app->width), (int)(by * w->app->height),
                                  SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
     if (!w->window) return fail(context, "no window");
     SDL_SetWindowMinimumSize(w->window, 640, 480);
@@ -73,6 +92,7 @@ static sl_status fit_texture(sl_window *w) {
     w->height = height;
     w->app->width = width;
     w->app->height = height;
+    if (!w->app->steady) w->app->density = find_density(w);
     w->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
     w->texture = SDL_CreateTexture(w->renderer, SDL_PIXELFORMAT_RGB888, SDL_TEXTUREACCESS_STREAMING,
                                    width, height);
