@@ -149,6 +149,7 @@ void sl_app_tick(sl_app *app, double seconds) {
 void sl_app_before_edit(sl_app *app) {
     app->fitted = false; // the plan stays where it is, whatever the map becomes
     sl_app_check(app, sl_history_keep(app->context, &app->history, &app->document.map));
+    sl_map_drop_cells(app->context, &app->document.map); // the file's own do not know other walls
 }
 
 void sl_app_after_edit(sl_app *app) {

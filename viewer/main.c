@@ -37,6 +37,7 @@ static void print_help(void) {
          "  --threshold T        darkness from which a pixel is solid, up to 1\n"
          "  --doors              take doors as doors; without it as what they are when the map\n"
          "                       begins\n"
+         "  --cells              take the cells that the file brings along (GL nodes of a WAD)\n"
          "  --start X,Y          where the eye begins; tells inside from outside too\n\n"
          "  --script FILE        do what the file says, without a window\n"
          "  --screenshot OUT     save the window (.png, .svg, .pdf), after the script; no display\n"
@@ -97,6 +98,9 @@ static sl_status read_map_option(sl_context *context, int option, arguments *a) 
                        "--threshold %s: a number over 0, at most 1, is needed", optarg);
     case 'r':
         o->doors = true;
+        return SL_OK;
+    case 'c':
+        o->cells = true;
         return SL_OK;
     default:
         a->has_start = true;

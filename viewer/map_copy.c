@@ -15,6 +15,20 @@ static sl_status copy_effects(sl_context *context, const sl_map *from, sl_map *t
         SL_TRY(sl_map_add_oneway(context, to, from->oneways[i].segment, from->oneways[i].line));
     for (size_t i = 0; i < from->seam_count; i++)
         SL_TRY(sl_map_add_seam(context, to, from->seams[i].segment, from->seams[i].line));
+    for (size_t i = 0; i < from->seam_count; i++)
+        SL_TRY(sl_map_add_seam(context, to, from->seams[i].segment, from->seams[i].line));
+    return SL_OK;
+}
+
+static sl_status copy_cells(sl_context *context, const sl_map *from, sl_map *to) {
+    to->snap = from->snap;
+    to->snap_line = from->snap_line;
+    for (size_t i = 0; i < from->cell_count; i++) {
+        const sl_map_cell *cell = &from->cells[i];
+        SL_TRY(sl_map_add_cell(context, to, from->corners + cell->first,
+                               from->corner_walls ? from->corner_walls + cell->first : NULL,
+                               cell->count, cell->line));
+    }
     return SL_OK;
 }
 
@@ -42,6 +56,7 @@ sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to) {
     sl_map map = {.range = from->range, .range_line = from->range_line};
     sl_status status = sl_map_set_walls(context, &map, from->walls, from->wall_count);
     if (status == SL_OK) status = copy_effects(context, from, &map);
+    if (status == SL_OK) status = copy_cells(context, from, &map);
     if (status == SL_OK) status = copy_things(context, from, &map);
     if (status == SL_OK && from->notes) {
         map.notes = sl_copy_text(context, from->notes, strlen(from->notes));
