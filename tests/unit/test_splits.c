@@ -34,7 +34,7 @@ static void walls_choose_the_subdivision(void **state) {
     assert_string_equal(sl_subdivision_for(&map)->name, "bsp");
     size_t count;
     const sl_subdivision *all = sl_subdivisions(&count);
-    assert_int_equal(count, 2);
+    assert_true(count >= 2);
     sl_space space;
     assert_int_equal(all[0].subdivide(context, &map, NULL, &space), SL_BAD_INPUT);
     assert_ok(context, all[1].subdivide(context, &map, NULL, &space));
