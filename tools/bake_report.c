@@ -4,6 +4,7 @@
 #include "json_print.h"
 #include "mean_pvs.h"
 #include "names.h"
+#include "plan_report.h"
 #include "sizes.h"
 
 #include <inttypes.h>
@@ -54,6 +55,14 @@ static void add_visibility(sl_json_fields *fields, const sl_visibility *visibili
         sl_json_add_count(fields, "cells_on_cycles", account->on_cycles);
     }
     sl_json_add_count(fields, "longest_sequence", account->deepest);
+    sl_json_fields work = sl_json_begin();
+    sl_json_add_count(&work, "mirrored_pairs", account->mirrored_pairs);
+    sl_json_add_count(&work, "rounded_places", account->rounded_places);
+    sl_json_add_count(&work, "door_bytes", sl_door_sets_bytes(&visibility->doors));
+    sl_json_add_count(&work, "door_fallbacks", account->door_fallbacks);
+    sl_json_add_count(&work, "range_tests", account->range_tests);
+    sl_json_add_count(&work, "close_calls", account->close_calls);
+    sl_json_add_fields(fields, "effect_work", &work);
     if (!trees->cell_count) return;
     sl_json_add_count(fields, "tree_nodes_kept", trees->offsets[trees->cell_count]);
     sl_json_add_count(fields, "trees_left_out", trees->left_out);
@@ -74,6 +83,7 @@ sl_status sl_bake_report_print_json(sl_context *context, const sl_bake_report *r
     sl_json_add_text(&fields, "solver", baked->solver[0] ? baked->solver : NULL);
     sl_json_add_text(&fields, "sight", sl_sight_name(baked->visibility.sight));
     sl_json_add_text(&fields, "guarantee", sl_guarantee_name(baked->visibility.guarantee));
+    sl_plan_add_json(&fields, &baked->map);
     add_parts(&fields, report);
     add_seconds(&fields, report);
     sl_json_add_cleaning(&fields, "cleaning", &report->cleaning);
@@ -115,6 +125,24 @@ static void print_parts(const sl_bake_report *report) {
     if (partial[0]) printf("  %s\n", partial);
 }
 
+static void print_effect_work(const sl_visibility *visibility) {
+    const sl_see_account *account = &visibility->account;
+    const sl_door_sets *doors = &visibility->doors;
+    if (visibility->mirrored.cell_count)
+        printf("  mirrored  %" PRIu64 " pairs seen by mirror; %" PRIu64 " places rounded\n",
+               account->mirrored_pairs, account->rounded_places);
+    if (doors->cell_count)
+        printf("  doors     %" PRIu64 " bytes of door sets, %.2f a pair; %" PRIu64
+               " pairs with more than kept: they count as seen\n",
+               sl_door_sets_bytes(doors),
+               account->pairs ? (double)sl_door_sets_bytes(doors) / (double)account->pairs : 0,
+               account->door_fallbacks);
+    if (account->range_tests)
+        printf("  in range  %" PRIu64 " sequences measured, %" PRIu64
+               " within rounding of the range: they count as seen\n",
+               account->range_tests, account->close_calls);
+}
+
 static void print_visibility(const sl_baked *baked) {
     const sl_visibility *visibility = &baked->visibility;
     const sl_see_account *account = &visibility->account;
@@ -131,6 +159,7 @@ static void print_visibility(const sl_baked *baked) {
     else if (account->pieces)
         printf("  work      %" PRIu64 " pieces of cells, longest sequence %" PRIu32 "\n",
                account->pieces, account->deepest);
+    print_effect_work(visibility);
     const sl_stab_trees *trees = &visibility->trees;
     if (trees->cell_count)
         printf("  trees     %" PRIu64 " nodes kept, %" PRIu32 " of %" PRIu32
@@ -160,6 +189,7 @@ sl_status sl_bake_report_print(sl_context *context, const sl_bake_report *report
     printf("  cells     %" PRIu32 ", %" PRIu32 " of them inside; tree depth %" PRIu32 "\n",
            space->cell_count, space->inside_count, space->tree_depth);
     printf("  portals   %" PRIu32 "\n", space->portal_count);
+    sl_plan_print(&report->baked->map);
     print_parts(report);
     if (has_sets) {
         print_visibility(report->baked);

@@ -3,7 +3,6 @@
 #include "base/base.h"
 #include "commands.h"
 #include "crew.h"
-#include "effects.h"
 #include "inputs.h"
 #include "pipeline.h"
 #include "sizes.h"
@@ -17,7 +16,7 @@ enum { MAX_THREADS = 4096 };
 typedef struct bake_texts {
     sl_pipeline_texts pipeline;
     const char *output, *method, *solver, *sight, *threads, *memory, *tree_memory, *samples, *seed;
-    const char *sectors;
+    const char *sectors, *mirror_depth, *door_sets;
     bool stab_trees, inside, json;
     sl_bake_part_texts parts;
 } bake_texts;
@@ -29,7 +28,9 @@ typedef struct bake_plan {
     const sl_see_method *method;
     sl_see_options see;
     sl_bake_parts parts;
+    uint64_t mirror_depth, door_sets;
     bool json;
+    bool any_method;   // none was asked for, nor what only one gives
     bool named_by_map; // no -o was given
 } bake_plan;
 
@@ -54,6 +55,24 @@ static size_t default_method(const bake_texts *texts, const sl_see_method *metho
     for (size_t i = 0; i < count && !texts->stab_trees && !texts->solver; i++)
         if (strcmp(methods[i].name, "sweep") == 0) return i;
     return 0;
+}
+
+/// What else than walls a map calls for only some methods know: of those the fastest.
+static sl_status fit_method(sl_context *context, const sl_map *map, bake_plan *plan) {
+    const unsigned effects = sl_plan_make(map).effects;
+    size_t count;
+    const sl_see_method *methods = sl_see_methods(&count);
+    for (size_t i = 0; i < count && plan->any_method && effects & ~plan->method->knows; i++)
+        if (strcmp(methods[i].name, "prune") == 0) plan->method = &methods[i];
+    return plan->see.solver ? SL_OK : plan_solver(context, NULL, plan);
+}
+
+static sl_status plan_effects(sl_context *context, const bake_texts *texts, bake_plan *plan) {
+    plan->mirror_depth = 1;
+    plan->door_sets = 16;
+    SL_TRY(
+        sl_option_count(context, "--mirror-depth", texts->mirror_depth, 16, &plan->mirror_depth));
+    return sl_option_count(context, "--door-sets", texts->door_sets, 65535, &plan->door_sets);
 }
 
 static sl_status plan_seeing(sl_context *context, const bake_texts *texts, bake_plan *plan) {
@@ -90,6 +109,8 @@ static sl_status plan_seeing(sl_context *context, const bake_texts *texts, bake_
     see.row_bytes = sl_size_of_machine_memory() / 2;
     SL_TRY(sl_option_size(context, "--memory", texts->memory, &see.row_bytes));
     plan->method = &methods[method];
+    plan->any_method = !texts->method && !texts->solver && !texts->stab_trees;
+    SL_TRY(plan_effects(context, texts, plan));
     plan->see = see;
     plan->see.samples = (uint32_t)samples;
     plan->see.sectors = (uint32_t)sectors;
@@ -144,10 +165,11 @@ static void keep_rest_of_map(sl_context *context, sl_map *map, sl_baked *baked) 
     *map = (sl_map){0};
 }
 
-static sl_status read_and_clean(sl_context *context, const bake_plan *plan, sl_map *map,
+static sl_status read_and_clean(sl_context *context, bake_plan *plan, sl_map *map,
                                 sl_bake_report *report) {
     SL_TRY(sl_pipeline_read(context, &plan->pipeline, map));
-    SL_TRY(sl_effects_check(context, map, plan->method->name));
+    SL_TRY(fit_method(context, map, plan));
+    SL_TRY(sl_see_check(context, plan->method, plan->see.solver, map));
     return sl_map_clean(context, map, &report->cleaning);
 }
 
@@ -162,7 +184,17 @@ static sl_status subdivide(sl_context *context, const bake_plan *plan, const sl_
     return SL_OK;
 }
 
-static sl_status bake(sl_context *context, const bake_plan *plan, sl_map *map, sl_baked *baked,
+static sl_status see(sl_context *context, const bake_plan *plan, sl_baked *baked,
+                     sl_bake_report *report) {
+    sl_plan effects = sl_plan_make(&baked->map);
+    effects.mirror_depth = (uint32_t)plan->mirror_depth;
+    effects.door_limit = (uint32_t)plan->door_sets;
+    sl_see_options options = plan->see;
+    options.plan = &effects;
+    return sl_bake_parts_see(context, &plan->parts, plan->method, &options, baked, &report->parts);
+}
+
+static sl_status bake(sl_context *context, bake_plan *plan, sl_map *map, sl_baked *baked,
                       sl_bake_report *report) {
     double time = sl_now();
     SL_TRY(read_and_clean(context, plan, map, report));
@@ -172,8 +204,7 @@ static sl_status bake(sl_context *context, const bake_plan *plan, sl_map *map, s
     snprintf(baked->method, sizeof baked->method, "%s", plan->method->name);
     if (plan->see.solver)
         snprintf(baked->solver, sizeof baked->solver, "%s", plan->see.solver->name);
-    SL_TRY(
-        sl_bake_parts_see(context, &plan->parts, plan->method, &plan->see, baked, &report->parts));
+    SL_TRY(see(context, plan, baked, report));
     report->seconds.cell_to_cell = lap(&time);
     if (sl_crew_rank() != 0) return SL_OK;
     if (plan->named_by_map) sl_note(context, "writing %s, as no -o is given", plan->output);
@@ -182,7 +213,7 @@ static sl_status bake(sl_context *context, const bake_plan *plan, sl_map *map, s
     return SL_OK;
 }
 
-static sl_status bake_and_report(sl_console *console, const bake_plan *plan) {
+static sl_status bake_and_report(sl_console *console, bake_plan *plan) {
     sl_context *context = console->context;
     sl_map map = {0};
     sl_baked baked = {0};
@@ -205,9 +236,9 @@ static sl_status bake_and_report(sl_console *console, const bake_plan *plan) {
 
 static void print_tables(void) {
     sl_pipeline_print_subdivisions();
-    sl_pipeline_print_methods(
-        "; sweep is the default, but dfs where stab trees or a solver are asked for",
-        " (the first is the default)");
+    sl_pipeline_print_methods("; sweep is the default, but dfs where stab trees or a solver are "
+                              "asked for,\nand prune where the map has effects",
+                              " (the first is the default)");
     sl_pipeline_print_effects();
     sl_input_print_formats();
 }
@@ -236,6 +267,10 @@ sl_status sl_cmd_bake(sl_console *console, int argc, char **argv) {
          "for them at most, as 64K, 256M (the default), 2G"},
         {"inside", 0, NULL, &t.inside, NULL,
          "look from and at inside cells only: those that a\nstart leads to or that walls enclose"},
+        {"mirror-depth", 0, "N", NULL, &t.mirror_depth,
+         "reflections of a sightline, at most (1 without it, up\nto 16; 0: mirrors are walls)"},
+        {"door-sets", 0, "N", NULL, &t.door_sets,
+         "sets of doors kept of a pair, at most (16 without\nit); a pair with more counts as seen"},
         {"json", 0, NULL, &t.json, NULL, "print the statistics as one JSON object"},
         SL_BAKE_PART_OPTIONS(t.parts),
     };

@@ -3,7 +3,6 @@
 #include "compare_eye.h"
 #include "compare_report.h"
 #include "compare_time.h"
-#include "effects.h"
 #include "folder.h"
 #include "inputs.h"
 #include "pipeline.h"
@@ -154,7 +153,7 @@ static sl_status fail_if_all_refuse(sl_context *context, const comparing *all) {
 static void refuse_effects(sl_context *context, comparing *all) {
     for (size_t i = 0; i < all->runs.count; i++) {
         sl_compare_run *run = &all->runs.items[i];
-        if (sl_effects_check(context, &all->map, run->method->name) == SL_OK) continue;
+        if (sl_see_check(context, run->method, run->solver, &all->map) == SL_OK) continue;
         run->outcome = SL_RUN_REFUSED;
         snprintf(run->refusal, sizeof run->refusal, "%s", sl_context_message(context));
     }
@@ -162,6 +161,8 @@ static void refuse_effects(sl_context *context, comparing *all) {
 
 static sl_status time_runs(sl_console *console, comparing *all) {
     sl_see_options see = all->plan->see;
+    const sl_plan effects = sl_plan_make(&all->map);
+    see.plan = &effects;
     for (size_t i = 0; i < all->runs.count; i++) {
         sl_compare_run *run = &all->runs.items[i];
         if (run->outcome == SL_RUN_REFUSED) continue;
@@ -281,7 +282,7 @@ static sl_status compare_eye(sl_console *console, comparing *all, const sl_folde
     sl_context *context = console->context;
     const sl_pipeline *pipeline = &all->plan->pipeline;
     SL_TRY(sl_pipeline_read(context, pipeline, &all->map));
-    SL_TRY(sl_effects_check(context, &all->map, "compare --eye"));
+    SL_TRY(sl_effects_check(context, &all->map, "compare --eye", 0));
     SL_TRY(sl_map_clean(context, &all->map, NULL));
     SL_TRY(sl_pipeline_subdivide(context, pipeline, &all->map, &all->space));
     SL_TRY(sl_pipeline_check(context, pipeline, &all->space));

@@ -98,7 +98,8 @@ sl_status sl_cmd_explain(sl_console *console, int argc, char **argv) {
     if (helped) return SL_OK;
     sl_baked baked = {0};
     SL_TRY(sl_input_read_baked(console->context, t.operands[FILE_OPERAND], &baked));
-    const sl_status status = explain(console, &t, &baked);
+    sl_status status = sl_effects_check(console->context, &baked.map, "explain", 0);
+    if (status == SL_OK) status = explain(console, &t, &baked);
     sl_baked_destroy(console->context, &baked);
     return status;
 }

@@ -64,8 +64,11 @@ sl_status sl_cmd_export(sl_console *console, int argc, char **argv) {
     SL_TRY(sl_input_read_baked(console->context, path, &baked));
     sl_progress_line_clear(&console->line);
     if (strcmp(output, "-") == 0 && isatty(STDOUT_FILENO)) console->line.shows = false;
-    const sl_status status =
-        sl_export_formats(&count)[chosen].write(console->context, &baked, &given, output);
+    // Exports hold what is seen with all doors open; what is seen by mirror they have no place for.
+    sl_status status = sl_effects_check(console->context, &baked.map, "export",
+                                        SL_EFFECT_DOOR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE);
+    if (status == SL_OK)
+        status = sl_export_formats(&count)[chosen].write(console->context, &baked, &given, output);
     sl_baked_destroy(console->context, &baked);
     return status;
 }

@@ -106,7 +106,8 @@ sl_status sl_cmd_eye(sl_console *console, int argc, char **argv) {
                        "--width and --dark are for the picture, which needs -o");
     sl_baked baked = {0};
     SL_TRY(sl_input_read_baked(console->context, t.input, &baked));
-    const sl_status status = look(console, &t, &baked);
+    sl_status status = sl_effects_check(console->context, &baked.map, "eye", 0);
+    if (status == SL_OK) status = look(console, &t, &baked);
     sl_baked_destroy(console->context, &baked);
     return status;
 }

@@ -2,12 +2,12 @@
 #include "base/base.h"
 #include "base/number.h"
 #include "commands.h"
-#include "effects.h"
 #include "inputs.h"
 #include "json_print.h"
 #include "mean_pvs.h"
 #include "names.h"
 #include "options.h"
+#include "plan_report.h"
 #include "sizes.h"
 
 #include <inttypes.h>
@@ -75,22 +75,19 @@ static sl_status print_map_json(sl_context *context, const info_request *request
     for (int i = 0; i < MAP_COUNTS; i++) sl_json_add_count(&fields, counts[i].key, counts[i].count);
     sl_json_add_real(&fields, "range", map->range);
     sl_json_add_cleaning(&fields, "cleaning", cleaning);
-    const sl_name_table effects = sl_effect_table();
-    const unsigned called_for = sl_effects_of_map(map);
-    sl_json_fields calls = sl_json_begin();
-    for (size_t i = 0; i < effects.count; i++)
-        sl_json_add_flag(&calls, sl_name_table_at(&effects, i), called_for >> i & 1);
-    sl_json_add_fields(&fields, "effects", &calls);
+    sl_plan_add_json(&fields, map);
     return sl_json_print(context, &fields);
 }
 
 static void print_effects(const sl_map *map) {
-    const sl_name_table effects = sl_effect_table();
-    const unsigned called_for = sl_effects_of_map(map);
+    sl_effect_names names;
+    const sl_name_table effects = sl_effect_table(&names);
+    const unsigned called_for = sl_plan_make(map).effects;
     printf("  effects  ");
     for (size_t i = 0; i < effects.count; i++)
         if (called_for >> i & 1) printf(" %s", sl_name_table_at(&effects, i));
     puts(called_for ? " (bake --without NAME leaves one out)" : " none");
+    sl_plan_print(map);
 }
 
 static void print_notices(const char *notes) {

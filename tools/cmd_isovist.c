@@ -1,6 +1,5 @@
 #include "base/base.h"
 #include "commands.h"
-#include "effects.h"
 #include "isovist_run.h"
 #include "pipeline.h"
 #include "sightline/draw.h"
@@ -103,13 +102,8 @@ static sl_status make_plan(sl_context *context, const isovist_texts *t, isovist_
 
 // --- the work
 
-/// A range is all that is known here of what a map may call for.
 static sl_status check_effects(sl_context *context, sl_map *map) {
-    const double range = map->range;
-    map->range = 0;
-    const sl_status status = sl_effects_check(context, map, "isovist");
-    map->range = range;
-    return status;
+    return sl_effects_check(context, map, "isovist", SL_EFFECT_RANGE);
 }
 
 static sl_status read_space(sl_context *context, const isovist_plan *plan, sl_baked *baked) {

@@ -1,9 +1,9 @@
 #include "base/base.h"
 #include "commands.h"
-#include "effects.h"
 #include "folder.h"
 #include "inputs.h"
 #include "pipeline.h"
+#include "plan_report.h"
 #include "regions_run.h"
 #include "solvers.h"
 
@@ -121,7 +121,8 @@ static sl_status plan_how(sl_context *context, const regions_texts *t, regions_p
 
 static sl_status make_plan(sl_context *context, const char *input, const regions_texts *t,
                            regions_plan *plan) {
-    const sl_name_table effects = sl_effect_table();
+    sl_effect_names list;
+    const sl_name_table effects = sl_effect_table(&list);
     *plan = (regions_plan){.texts = t, .input = input};
     SL_TRY(sl_option_choices(context, "--without", t->without, &effects, &plan->without));
     SL_TRY(plan_what(context, t, plan));
@@ -142,7 +143,7 @@ static sl_status measure_map(sl_context *context, const regions_plan *plan, cons
     sl_status status = sl_input_read_map(context, path, &plan->texts->input, &map);
     if (status == SL_OK) {
         sl_effects_leave_out(context, &map, plan->without);
-        status = sl_effects_check(context, &map, "regions");
+        status = sl_effects_check(context, &map, "regions", 0);
     }
     if (status == SL_OK) status = sl_map_clean(context, &map, NULL);
     if (status == SL_OK) status = sl_regions_measure(context, &map, name, &what, &plan->how, rows);

@@ -1,6 +1,5 @@
 #include "base/base.h"
 #include "commands.h"
-#include "effects.h"
 #include "pipeline.h"
 #include "view_report.h"
 
@@ -159,7 +158,7 @@ static sl_status read_space(sl_context *context, viewcells_plan *plan, sl_view_r
     sl_baked *baked = &run->baked;
     const double start = sl_view_clock();
     SL_TRY(sl_pipeline_read(context, &plan->pipeline, &baked->map));
-    SL_TRY(sl_effects_check(context, &baked->map, "viewcells"));
+    SL_TRY(sl_effects_check(context, &baked->map, "viewcells", 0));
     SL_TRY(sl_map_clean(context, &baked->map, NULL));
     const double read = sl_view_clock();
     SL_TRY(sl_pipeline_subdivide(context, &plan->pipeline, &baked->map, &baked->space));

@@ -1,6 +1,5 @@
 #include "base/base.h"
 #include "commands.h"
-#include "effects.h"
 #include "folder.h"
 #include "pipeline.h"
 #include "walk_path.h"
@@ -136,10 +135,10 @@ static sl_status read_space(sl_context *context, const walk_plan *plan, sl_baked
     if (sl_input_ends_with(t->input, ".slv")) {
         SL_TRY(sl_input_refuse_texts(context, t->input, &t->pipeline.input));
         SL_TRY(sl_input_read_baked(context, t->input, baked));
-        return sl_effects_check(context, &baked->map, "walk");
+        return sl_effects_check(context, &baked->map, "walk", 0);
     }
     SL_TRY(sl_pipeline_read(context, &plan->pipeline, &baked->map));
-    SL_TRY(sl_effects_check(context, &baked->map, "walk"));
+    SL_TRY(sl_effects_check(context, &baked->map, "walk", 0));
     SL_TRY(sl_map_clean(context, &baked->map, NULL));
     SL_TRY(sl_pipeline_subdivide(context, &plan->pipeline, &baked->map, &baked->space));
     return sl_pipeline_check(context, &plan->pipeline, &baked->space);

@@ -1,8 +1,8 @@
 #include "pipeline.h"
 
 #include "base/base.h"
-#include "effects.h"
 #include "inputs.h"
+#include "plan_report.h"
 #include "solvers.h"
 
 #include <string.h>
@@ -52,7 +52,8 @@ static sl_status plan_subdivision(sl_context *context, const sl_pipeline_texts *
 sl_status sl_pipeline_plan(sl_context *context, const char *input, const sl_pipeline_texts *texts,
                            sl_pipeline *out) {
     sl_pipeline plan = {.input = input, .texts = texts->input, .start = texts->start};
-    const sl_name_table effects = sl_effect_table();
+    sl_effect_names list;
+    const sl_name_table effects = sl_effect_table(&list);
     SL_TRY(sl_option_choices(context, "--without", texts->without, &effects, &plan.without));
     SL_TRY(plan_subdivision(context, texts, &plan));
 #ifdef NDEBUG
@@ -124,7 +125,8 @@ void sl_pipeline_print_subdivisions(void) {
 }
 
 void sl_pipeline_print_effects(void) {
-    const sl_name_table effects = sl_effect_table();
+    sl_effect_names list;
+    const sl_name_table effects = sl_effect_table(&list);
     printf("\neffects, for --without: ");
     for (size_t i = 0; i < effects.count; i++)
         printf("%s%s", i ? ", " : "", sl_name_table_at(&effects, i));

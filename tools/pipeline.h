@@ -49,7 +49,7 @@ typedef struct sl_pipeline {
     const char *input, *start;
     sl_input_texts texts;              ///< how the input is read
     const sl_subdivision *subdivision; ///< NULL where the map decides
-    unsigned without;                  ///< bits of sl_effect_table()
+    unsigned without;                  ///< bits of sl_effects()
     sl_subdivide_options options;
     bool check;
 } sl_pipeline;

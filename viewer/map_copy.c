@@ -9,8 +9,10 @@ static sl_status copy_effects(sl_context *context, const sl_map *from, sl_map *t
         const sl_door *d = &from->doors[i];
         SL_TRY(sl_map_add_door(context, to, d->name, d->segment, d->open, d->line));
     }
-    for (size_t i = 0; i < from->mirror_count; i++)
+    for (size_t i = 0; i < from->mirror_count; i++) {
         SL_TRY(sl_map_add_mirror(context, to, from->mirrors[i].segment, from->mirrors[i].line));
+        to->mirrors[i].one_sided = from->mirrors[i].one_sided;
+    }
     for (size_t i = 0; i < from->oneway_count; i++)
         SL_TRY(sl_map_add_oneway(context, to, from->oneways[i].segment, from->oneways[i].line));
     for (size_t i = 0; i < from->seam_count; i++)

@@ -55,12 +55,13 @@ typedef struct sl_slv_part {
 /// its walls as segments, LINE the lines of oblique splits (only if there are any), BEYO what is
 /// beyond the cells' sides (only for a BSP), SEAM the seams and SEPO the portals on them (only if
 /// there are any); PVSO and PVSB are the offsets and bytes of the visible sets, DBTO and DBTB those
-/// of the doubtful pairs (only if there are any), TREO and TREN the offsets and nodes of the stab
-/// trees (only if asked for); MAPT is what the map holds beside its walls, as map text. Beside PART
-/// there are DONE, a bit for each unit of the work that is done, in words of 64, and the offsets
-/// and bytes of the pairs found by them: FNDO and FNDB, doubtful ones in FNRO and FNRB. A shard has
-/// no PVSO and PVSB. What the work took (tests, nodes ...) is in no file: it would depend on the
-/// way.
+/// of the doubtful pairs (only if there are any), MIRO and MIRB those of what is seen by mirror,
+/// DORO and DORB the offsets and bytes of the sets of doors, MDOO and MDOB those of pairs seen by
+/// mirror (each only if there are any), TREO and TREN the offsets and nodes of the stab trees (only
+/// if asked for); MAPT is what the map holds beside its walls, as map text. Beside PART there are
+/// DONE, a bit for each unit of the work that is done, in words of 64, and the offsets and bytes of
+/// the pairs found by them: FNDO and FNDB, doubtful ones in FNRO and FNRB. A shard has no PVSO and
+/// PVSB. What the work took (tests, nodes ...) is in no file: it would depend on the way.
 _Static_assert(sizeof(sl_slv_header) == 32 && sizeof(sl_slv_section) == 24 &&
                    sizeof(sl_slv_info) == 128 && sizeof(sl_slv_part) == 16,
                "no padding in the file");

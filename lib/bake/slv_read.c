@@ -233,6 +233,33 @@ static sl_status load_pvs(const reader *r, const char *offsets_tag, const char *
     return in_file(r, sl_pvs_check(r->context, pvs));
 }
 
+static uint64_t count_pairs(const sl_pvs *pvs) {
+    uint64_t pairs = 0;
+    for (uint32_t cell = 0; cell < pvs->cell_count; cell++) pairs += sl_pvs_count(pvs, cell);
+    return pairs;
+}
+
+static sl_status load_doors(const reader *r, const char *offsets_tag, const char *bytes_tag,
+                            sl_door_sets *sets) {
+    const uint32_t cells = r->out->space.cell_count;
+    uint64_t offsets, bytes;
+    SL_TRY(load(r, offsets_tag, sizeof *sets->offsets, true, (void **)&sets->offsets, &offsets));
+    if (!offsets) return SL_OK;
+    SL_TRY(load(r, bytes_tag, 1, false, (void **)&sets->bytes, &bytes));
+    if (offsets != (uint64_t)cells + 1 || sets->offsets[cells] != bytes)
+        return fail_file(r, "damaged: not one row of door sets a cell");
+    sets->cell_count = cells;
+    return SL_OK;
+}
+
+static sl_status load_effects(const reader *r) {
+    sl_visibility *v = &r->out->visibility;
+    SL_TRY(load_pvs(r, "MIRO", "MIRB", true, &v->mirrored));
+    v->account.mirrored_pairs = count_pairs(&v->mirrored);
+    SL_TRY(load_doors(r, "DORO", "DORB", &v->doors));
+    return load_doors(r, "MDOO", "MDOB", &v->mirrored_doors);
+}
+
 /// A cell sees itself; the row of one that was not looked from is empty.
 static sl_status check_rows(const reader *r, const sl_pvs *pvs) {
     for (uint32_t cell = 0; cell < pvs->cell_count; cell++)
@@ -352,8 +379,13 @@ static sl_status load_all(reader *r) {
     SL_TRY(load_space(r));
     SL_TRY(load_findings(r));
     SL_TRY(load_seen(r));
+    SL_TRY(load_effects(r));
     SL_TRY(load_trees(r));
     SL_TRY(load_map(r));
+    const sl_visibility *visibility = &r->out->visibility;
+    const size_t doors = r->out->map.door_count;
+    SL_TRY(in_file(r, sl_door_sets_check(r->context, &visibility->doors, doors)));
+    SL_TRY(in_file(r, sl_door_sets_check(r->context, &visibility->mirrored_doors, doors)));
     return check_seams(r);
 }
 

@@ -95,6 +95,20 @@ static void add_findings(plan *p, const sl_findings *findings) {
     add_pvs(p, "FNRO", "FNRB", &findings->doubtful);
 }
 
+static void add_doors(plan *p, const char *offsets_tag, const char *bytes_tag,
+                      const sl_door_sets *sets) {
+    if (!sets->cell_count) return;
+    add_section(p, offsets_tag, sets->offsets, sizeof *sets->offsets,
+                (uint64_t)sets->cell_count + 1);
+    add_section(p, bytes_tag, sets->bytes, 1, sl_door_sets_bytes(sets));
+}
+
+static void add_effects(plan *p, const sl_visibility *visibility) {
+    if (visibility->mirrored.cell_count) add_pvs(p, "MIRO", "MIRB", &visibility->mirrored);
+    add_doors(p, "DORO", "DORB", &visibility->doors);
+    add_doors(p, "MDOO", "MDOB", &visibility->mirrored_doors);
+}
+
 static void add_sections(plan *p, const sl_baked *baked, const sl_slv_info *info,
                          size_t map_bytes) {
     const sl_space *space = &baked->space;
@@ -118,6 +132,7 @@ static void add_sections(plan *p, const sl_baked *baked, const sl_slv_info *info
     if (!sl_baked_is_shard(baked)) add_pvs(p, "PVSO", "PVSB", &baked->visibility.pvs);
     if (baked->visibility.account.doubtful_pairs)
         add_pvs(p, "DBTO", "DBTB", &baked->visibility.doubtful);
+    add_effects(p, &baked->visibility);
     if (trees->cell_count) {
         add_section(p, "TREO", trees->offsets, sizeof *trees->offsets,
                     (uint64_t)trees->cell_count + 1);

@@ -12,57 +12,16 @@
 /// before leave possible, as Quake's vis does. The bound misses nothing, so that a cell that is
 /// seen stays possible all along a sequence that leads to it. Exact solvers need find each pair
 /// from one of its cells only.
-#include "base/bits.h"
+#include "cell_to_cell/dfs.h"
+
 #include "base/threads.h"
 #include "cell_to_cell/bit_rows.h"
-#include "cell_to_cell/crossing.h"
-#include "cell_to_cell/findings.h"
 #include "cell_to_cell/flood.h"
 #include "cell_to_cell/methods.h"
-#include "cell_to_cell/pvs_rows.h"
-#include "cell_to_cell/tree_store.h"
 
-#include <pthread.h>
 #include <string.h>
 
-/// A cell on the way from the source.
-typedef struct step {
-    uint32_t cell;
-    uint32_t next;          ///< exit to try next, from 0
-    uint32_t node;          ///< in the stab tree
-    sl_crossings crossings; ///< of the portals so far
-    bool grazing;           ///< the sequence is no more than grazed
-} step;
-
-/// All searches together.
-typedef struct search {
-    const sl_space *space;
-    const sl_see_options *options;
-    sl_tree_store trees;
-    sl_row_bytes *sure;     ///< by source: seen whatever rounding did
-    sl_row_bytes *doubtful; ///< by source: seen unless rounding erred
-    sl_see_account *accounts;
-    pthread_mutex_t lock;
-    sl_stab_account stab;      ///< of all solvers, under the lock
-    const sl_findings *before; ///< what is known; NULL: nothing, and all is to be done
-    uint8_t *done;             ///< by source, where there is `before`
-    bool prunes;
-    size_t words;    ///< of a set of cells
-    sl_bits *bounds; ///< where it prunes: by exit, what may be seen through it
-} search;
-
-/// One thread's own.
-typedef struct searcher {
-    void *solver;
-    SL_ARRAY(step) steps;
-    sl_bits *sure, *doubtful;
-    SL_ARRAY(sl_bits) wanted; ///< where it prunes: a set for each step, what may be seen beyond it
-    sl_growing_tree tree;
-    sl_see_account account; ///< of the source at hand
-} searcher;
-
-/// Goes on from `to`; a sequence that counts as seen becomes a node of the stab tree.
-static sl_status enter(sl_context *context, const search *all, searcher *me, step to,
+sl_status sl_dfs_enter(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, sl_dfs_step to,
                        uint32_t parent, uint32_t exit, bool counts) {
     if (counts) {
         to.node = (uint32_t)me->account.nodes++;
@@ -78,7 +37,7 @@ static sl_status enter(sl_context *context, const search *all, searcher *me, ste
 
 /// Where the search prunes: makes the set of what is wanted beyond an exit of the last step. False
 /// where nothing is.
-static sl_status want(sl_context *context, const search *all, searcher *me, uint32_t exit,
+static sl_status want(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, uint32_t exit,
                       bool *something) {
     *something = true;
     if (!all->prunes) return SL_OK;
@@ -97,7 +56,8 @@ static sl_status want(sl_context *context, const search *all, searcher *me, uint
 
 /// What is wanted of a source to begin with: all cells, or where pairs are found from either cell
 /// alike those from itself on.
-static sl_status want_from(sl_context *context, const search *all, searcher *me, uint32_t source) {
+static sl_status want_from(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
+                           uint32_t source) {
     if (!all->prunes) return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(context, &me->wanted, all->words));
     memset(me->wanted.items, 0xff, all->words * sizeof *me->wanted.items);
@@ -108,16 +68,17 @@ static sl_status want_from(sl_context *context, const search *all, searcher *me,
 }
 
 /// Whether to stop, asked now and then.
-static sl_status check_going_on(sl_context *context, const search *all) {
+static sl_status check_going_on(sl_context *context, const sl_dfs *all) {
     SL_TRY(sl_check_cancelled(context));
     return all->before && sl_is_enough(all->options) ? SL_CANCELLED : SL_OK;
 }
 
 /// Tries one exit of the last step: tests the sequence with it, and enters the cell behind.
-static sl_status try_exit(sl_context *context, const search *all, searcher *me, uint32_t number) {
+static sl_status try_exit(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
+                          uint32_t number) {
     const sl_solver *solver = all->options->solver;
     const sl_exit *exit = &all->space->exits[number];
-    const step from = me->steps.items[me->steps.count - 1];
+    const sl_dfs_step from = me->steps.items[me->steps.count - 1];
     sl_crossings crossings = from.crossings;
     if (!sl_crossings_add(all->space, &crossings, number)) return SL_OK;
     if (all->options->inside_only && !all->space->cells[exit->cell].inside) return SL_OK;
@@ -136,20 +97,21 @@ static sl_status try_exit(sl_context *context, const search *all, searcher *me, 
         return SL_OK;
     }
     sl_bits_add(grazing && rounded ? me->doubtful : me->sure, exit->cell);
-    const step to = {.cell = exit->cell, .crossings = crossings, .grazing = grazing};
-    return enter(context, all, me, to, from.node, number, closed || !grazing);
+    const sl_dfs_step to = {.cell = exit->cell, .crossings = crossings, .grazing = grazing};
+    return sl_dfs_enter(context, all, me, to, from.node, number, closed || !grazing);
 }
 
-static sl_status search_from(sl_context *context, const search *all, searcher *me,
+static sl_status search_from(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
                              uint32_t source) {
     const sl_space *space = all->space;
     sl_bits_add(me->sure, source);
     SL_TRY(want_from(context, all, me, source));
     me->steps.count = 0;
-    SL_TRY(enter(context, all, me, (step){.cell = source, .crossings = SL_CROSSINGS_NONE}, 0,
-                 UINT32_MAX, true));
+    SL_TRY(sl_dfs_enter(context, all, me,
+                        (sl_dfs_step){.cell = source, .crossings = SL_CROSSINGS_NONE}, 0,
+                        UINT32_MAX, true));
     while (me->steps.count) {
-        step *last = &me->steps.items[me->steps.count - 1];
+        sl_dfs_step *last = &me->steps.items[me->steps.count - 1];
         const sl_cell *cell = &space->cells[last->cell];
         if (last->next < cell->exit_count) {
             SL_TRY(try_exit(context, all, me, cell->first_exit + last->next++));
@@ -159,13 +121,15 @@ static sl_status search_from(sl_context *context, const search *all, searcher *m
     return SL_OK;
 }
 
-static sl_status search_source(sl_context *context, search *all, searcher *me, uint32_t source) {
+static sl_status search_source(sl_context *context, sl_dfs *all, sl_dfs_thread *me,
+                               uint32_t source) {
     const uint32_t count = all->space->cell_count;
     const size_t bytes = sl_bits_words(count) * sizeof(sl_bits);
     memset(me->sure, 0, bytes);
     memset(me->doubtful, 0, bytes);
     me->account = (sl_see_account){0};
-    SL_TRY(search_from(context, all, me, source));
+    SL_TRY(all->effects ? sl_dfs_effects_search(context, all, me, source)
+                        : search_from(context, all, me, source));
     SL_TRY(sl_row_append(context, &all->sure[source], me->sure, count));
     SL_TRY(sl_row_append(context, &all->doubtful[source], me->doubtful, count));
     if (all->options->trees) sl_tree_store_put(context, &all->trees, source, &me->tree);
@@ -174,7 +138,7 @@ static sl_status search_source(sl_context *context, search *all, searcher *me, u
 }
 
 static sl_status search_unit(sl_context *context, void *job, void *state, size_t unit) {
-    search *all = job;
+    sl_dfs *all = job;
     const uint32_t source = (uint32_t)unit;
     const bool takes_part = !all->options->inside_only || all->space->cells[source].inside;
     if (!all->before) return takes_part ? search_source(context, all, state, source) : SL_OK;
@@ -192,8 +156,8 @@ static sl_status search_unit(sl_context *context, void *job, void *state, size_t
 }
 
 static void end(sl_context *context, void *job, void *state) {
-    search *all = job;
-    searcher *me = state;
+    sl_dfs *all = job;
+    sl_dfs_thread *me = state;
     const sl_solver *solver = all->options->solver;
     if (me->solver && solver->account) {
         pthread_mutex_lock(&all->lock);
@@ -205,13 +169,14 @@ static void end(sl_context *context, void *job, void *state) {
     sl_free(context, me->sure);
     sl_free(context, me->doubtful);
     sl_free(context, me->wanted.items);
+    sl_dfs_effects_end(context, me);
     sl_free(context, me->tree.nodes.items);
     sl_free(context, me);
 }
 
 static sl_status begin(sl_context *context, void *job, void **state) {
-    search *all = job;
-    searcher *me = sl_alloc_array(context, 1, sizeof *me);
+    sl_dfs *all = job;
+    sl_dfs_thread *me = sl_alloc_array(context, 1, sizeof *me);
     if (!me) return SL_NO_MEMORY;
     const size_t words = all->words;
     me->sure = sl_alloc_array(context, words, sizeof *me->sure);
@@ -219,6 +184,7 @@ static sl_status begin(sl_context *context, void *job, void **state) {
     sl_status status = me->sure && me->doubtful ? SL_OK : SL_NO_MEMORY;
     if (status == SL_OK)
         status = all->options->solver->create(context, all->space->bounds, &me->solver);
+    if (status == SL_OK && all->effects) status = sl_dfs_effects_begin(context, all, me);
     if (status == SL_OK)
         *state = me;
     else
@@ -226,7 +192,7 @@ static sl_status begin(sl_context *context, void *job, void **state) {
     return status;
 }
 
-static void sum_accounts(const search *all, sl_see_account *sum) {
+static void sum_accounts(const sl_dfs *all, sl_see_account *sum) {
     for (uint32_t i = 0; i < all->space->cell_count; i++) {
         const sl_see_account *one = &all->accounts[i];
         sum->tests += one->tests;
@@ -236,7 +202,7 @@ static void sum_accounts(const search *all, sl_see_account *sum) {
     sum->stab = all->stab;
 }
 
-static sl_status run_search(sl_context *context, search *all) {
+static sl_status run_search(sl_context *context, sl_dfs *all) {
     const sl_work work = {.job = all,
                           .begin = begin,
                           .unit = search_unit,
@@ -247,33 +213,37 @@ static sl_status run_search(sl_context *context, search *all) {
     return sl_work_run(context, &work, all->space->cell_count, all->options->threads);
 }
 
-static sl_status search_all(sl_context *context, search *all, sl_visibility *out) {
+static sl_status search_all(sl_context *context, sl_dfs *all, sl_visibility *out) {
     const uint32_t count = all->space->cell_count;
     SL_TRY(run_search(context, all));
     sum_accounts(all, &out->account);
     sl_pvs sure = {0}, doubtful = {0};
     sl_status status = sl_pvs_join(context, all->sure, count, &sure);
     if (status == SL_OK) status = sl_pvs_join(context, all->doubtful, count, &doubtful);
-    if (status == SL_OK) status = sl_visibility_settle(context, &sure, &doubtful, out);
+    const bool mutual = !all->effects || all->options->plan->mutual;
+    if (status == SL_OK) status = sl_visibility_settle(context, &sure, &doubtful, mutual, out);
     sl_pvs_destroy(context, &sure);
     sl_pvs_destroy(context, &doubtful);
+    if (status == SL_OK && all->effects) status = sl_dfs_effects_finish(context, all, out);
     if (status == SL_OK && all->options->trees)
         status = sl_tree_store_join(context, &all->trees, &out->trees);
     return status;
 }
 
-static sl_status allocate(sl_context *context, search *all) {
+static sl_status allocate(sl_context *context, sl_dfs *all) {
     const uint32_t count = all->space->cell_count;
     all->sure = sl_alloc_array(context, count, sizeof *all->sure);
     all->doubtful = sl_alloc_array(context, count, sizeof *all->doubtful);
     all->accounts = sl_alloc_array(context, count, sizeof *all->accounts);
     if (!all->sure || !all->doubtful || !all->accounts) return SL_NO_MEMORY;
+    if (all->options->plan && all->options->plan->effects)
+        SL_TRY(sl_dfs_effects_create(context, all));
     if (!all->options->trees) return SL_OK;
     return sl_tree_store_create(context, count, all->options->tree_bytes, &all->trees);
 }
 
 /// The upper bound of every exit.
-static sl_status find_bounds(sl_context *context, search *all) {
+static sl_status find_bounds(sl_context *context, sl_dfs *all) {
     const sl_space *space = all->space;
     if (all->words && space->exit_count > SIZE_MAX / all->words) return sl_fail_memory(context);
     all->bounds = sl_alloc_array(context, space->exit_count * all->words, sizeof *all->bounds);
@@ -288,14 +258,14 @@ static sl_status find_bounds(sl_context *context, search *all) {
     return status;
 }
 
-static sl_status prepare(sl_context *context, search *all) {
+static sl_status prepare(sl_context *context, sl_dfs *all) {
     all->words = sl_bits_words(all->space->cell_count);
     pthread_mutex_init(&all->lock, NULL);
     if (all->prunes) SL_TRY(find_bounds(context, all));
     return allocate(context, all);
 }
 
-static void tidy_up(sl_context *context, search *all) {
+static void tidy_up(sl_context *context, sl_dfs *all) {
     for (uint32_t i = 0; i < all->space->cell_count; i++) {
         if (all->sure) sl_free(context, all->sure[i].items);
         if (all->doubtful) sl_free(context, all->doubtful[i].items);
@@ -304,12 +274,13 @@ static void tidy_up(sl_context *context, search *all) {
     sl_free(context, all->doubtful);
     sl_free(context, all->accounts);
     sl_free(context, all->bounds);
+    sl_dfs_effects_destroy(context, all);
     sl_free(context, all->done);
     sl_tree_store_destroy(context, &all->trees);
     pthread_mutex_destroy(&all->lock);
 }
 
-static sl_status see(sl_context *context, search *all, sl_visibility *out) {
+static sl_status see(sl_context *context, sl_dfs *all, sl_visibility *out) {
     sl_visibility visibility = {.sight = all->options->sight,
                                 .guarantee = all->options->solver->guarantee};
     sl_status status = prepare(context, all);
@@ -325,7 +296,7 @@ static sl_status see(sl_context *context, search *all, sl_visibility *out) {
 // --- in parts
 
 /// Adds what the search has found to what was known.
-static sl_status hand_over(sl_context *context, search *all, sl_findings *findings) {
+static sl_status hand_over(sl_context *context, sl_dfs *all, sl_findings *findings) {
     const uint32_t count = all->space->cell_count;
     sl_findings found = {.unit_count = count, .inside_only = all->options->inside_only};
     found.done = sl_alloc_array(context, sl_bits_words(count), sizeof *found.done);
@@ -340,7 +311,7 @@ static sl_status hand_over(sl_context *context, search *all, sl_findings *findin
     return status;
 }
 
-static sl_status search_some(sl_context *context, search *all, sl_findings *findings) {
+static sl_status search_some(sl_context *context, sl_dfs *all, sl_findings *findings) {
     const uint32_t count = all->space->cell_count;
     SL_TRY(prepare(context, all));
     SL_TRY(sl_findings_start(context, all->space, all->options, count, findings));
@@ -351,9 +322,11 @@ static sl_status search_some(sl_context *context, search *all, sl_findings *find
     return hand_over(context, all, findings);
 }
 
-static sl_status look(sl_context *context, search *all, sl_findings *findings) {
+static sl_status look(sl_context *context, sl_dfs *all, sl_findings *findings) {
     if (all->options->trees)
         return sl_fail(context, SL_UNSUPPORTED, "a search done in parts makes no stab trees");
+    if (all->options->plan && all->options->plan->effects)
+        return sl_fail(context, SL_UNSUPPORTED, "a search done in parts knows no effects");
     const sl_status status = search_some(context, all, findings);
     tidy_up(context, all);
     return status;
@@ -372,28 +345,28 @@ static sl_status check_options(sl_context *context, const sl_see_options *option
 
 sl_status sl_see_dfs(sl_context *context, const sl_space *space, const sl_see_options *options,
                      sl_visibility *out) {
-    search all = {.space = space, .options = options};
+    sl_dfs all = {.space = space, .options = options};
     SL_TRY(check_options(context, options, all.prunes));
     return see(context, &all, out);
 }
 
 sl_status sl_look_dfs(sl_context *context, const sl_space *space, const sl_see_options *options,
                       sl_findings *findings) {
-    search all = {.space = space, .options = options};
+    sl_dfs all = {.space = space, .options = options};
     SL_TRY(check_options(context, options, all.prunes));
     return look(context, &all, findings);
 }
 
 sl_status sl_see_prune(sl_context *context, const sl_space *space, const sl_see_options *options,
                        sl_visibility *out) {
-    search all = {.space = space, .options = options, .prunes = true};
+    sl_dfs all = {.space = space, .options = options, .prunes = true};
     SL_TRY(check_options(context, options, all.prunes));
     return see(context, &all, out);
 }
 
 sl_status sl_look_prune(sl_context *context, const sl_space *space, const sl_see_options *options,
                         sl_findings *findings) {
-    search all = {.space = space, .options = options, .prunes = true};
+    sl_dfs all = {.space = space, .options = options, .prunes = true};
     SL_TRY(check_options(context, options, all.prunes));
     return look(context, &all, findings);
 }

@@ -2,6 +2,9 @@
 #include "cell_to_cell/methods.h"
 
 #include "base/base.h"
+#include "sightline/solvers.h"
+
+#include <string.h>
 
 sl_see_options sl_see_options_default(void) {
     return (sl_see_options){.sight = SL_CLOSED,
@@ -15,9 +18,33 @@ sl_see_options sl_see_options_default(void) {
 void sl_visibility_destroy(sl_context *context, sl_visibility *visibility) {
     sl_pvs_destroy(context, &visibility->pvs);
     sl_pvs_destroy(context, &visibility->doubtful);
+    sl_pvs_destroy(context, &visibility->mirrored);
+    sl_door_sets_destroy(context, &visibility->doors);
+    sl_door_sets_destroy(context, &visibility->mirrored_doors);
     sl_free(context, visibility->trees.offsets);
     sl_free(context, visibility->trees.nodes);
     *visibility = (sl_visibility){0};
+}
+
+sl_status sl_plan_check_solver(sl_context *context, const sl_plan *plan, const sl_solver *solver) {
+    if (plan->range > 0 && strcmp(solver->name, sl_funnel()->name) != 0)
+        return sl_fail(context, SL_UNSUPPORTED,
+                       "the solver '%s' does not tell how long sightlines are, which a view range "
+                       "asks for: take 'funnel'",
+                       solver->name);
+    if (plan->effects && solver->guarantee != SL_EXACT)
+        return sl_fail(context, SL_UNSUPPORTED,
+                       "the solver '%s' is rounded, and the map's effects ask for an exact one: "
+                       "take 'funnel'",
+                       solver->name);
+    return SL_OK;
+}
+
+sl_status sl_see_check(sl_context *context, const sl_see_method *method, const sl_solver *solver,
+                       const sl_map *map) {
+    SL_TRY(sl_effects_check(context, map, method->name, method->knows));
+    const sl_plan plan = sl_plan_make(map);
+    return method->stabs ? sl_plan_check_solver(context, &plan, solver) : SL_OK;
 }
 
 const sl_see_method *sl_see_methods(size_t *count) {
@@ -26,6 +53,7 @@ const sl_see_method *sl_see_methods(size_t *count) {
          .what = "depth-first search over portal sequences, each tested for a sightline",
          .stabs = true,
          .guarantee = SL_EXACT,
+         .knows = SL_EFFECT_DOOR | SL_EFFECT_MIRROR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE,
          .see = sl_see_dfs,
          .units = "cells",
          .look = sl_look_dfs,
@@ -44,6 +72,7 @@ const sl_see_method *sl_see_methods(size_t *count) {
          .what = "dfs only on where a bound leaves something to be found",
          .stabs = true,
          .guarantee = SL_EXACT,
+         .knows = SL_EFFECT_DOOR | SL_EFFECT_MIRROR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE,
          .see = sl_see_prune,
          .units = "cells",
          .look = sl_look_prune,

@@ -35,4 +35,7 @@ sl_status sl_carry_search(sl_context *context, const sl_space *space, const sl_s
 sl_status sl_carry_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
                          const uint64_t *kept, const uint64_t *enclosed, sl_findings *findings);
 
+/// SL_UNSUPPORTED where a solver cannot serve a plan.
+sl_status sl_plan_check_solver(sl_context *context, const sl_plan *plan, const sl_solver *solver);
+
 #endif

@@ -39,10 +39,10 @@ void sl_columns_destroy(sl_context *context, sl_columns *columns);
 /// The pairs (b, a) of all (a, b). Time and memory grow with the number of pairs.
 sl_status sl_pvs_transpose(sl_context *context, const sl_pvs *pvs, sl_pvs *out);
 
-/// Makes the result of a symmetric method from what it saw for sure and what it saw unless rounding
-/// erred (no pairs for exact ones): a pair found in either direction holds in both. Sets the PVS,
+/// Makes the result of a method from what it saw for sure and what it saw unless rounding erred (no
+/// pairs for exact ones). `mutual`: a pair found in either direction holds in both. Sets the PVS,
 /// the doubtful pairs and the counts of both.
 sl_status sl_visibility_settle(sl_context *context, const sl_pvs *sure, const sl_pvs *doubtful,
-                               sl_visibility *out);
+                               bool mutual, sl_visibility *out);
 
 #endif

@@ -73,7 +73,7 @@ static sl_status settle(sl_context *context, const sl_space *space, const sl_see
                                    : prunes              ? FROM_LOWER
                                                          : FROM_EITHER};
     sl_status status =
-        sl_visibility_settle(context, &findings->sure, &findings->doubtful, &visibility);
+        sl_visibility_settle(context, &findings->sure, &findings->doubtful, true, &visibility);
     if (status == SL_OK && !sl_findings_complete(findings)) {
         if (guarantee == SL_EXACT) visibility.guarantee = SL_CONSERVATIVE;
         status = add_open(context, space, options, &m, &visibility);

@@ -1,4 +1,4 @@
-/// From what a search found in each direction to one symmetric result.
+/// From what a search found in each direction to one result.
 #include "cell_to_cell/pvs_rows.h"
 
 #include <string.h>
@@ -27,9 +27,9 @@ static sl_status settle_row(sl_context *context, const findings *in, result_rows
     memset(rows->set, 0, words * sizeof *rows->set);
     memset(rows->open, 0, words * sizeof *rows->open);
     sl_row_add_to(in->sure, cell, rows->set);
-    sl_row_add_to(&in->sure_back, cell, rows->set);
+    if (in->sure_back.cell_count) sl_row_add_to(&in->sure_back, cell, rows->set);
     sl_row_add_to(in->doubtful, cell, rows->open);
-    sl_row_add_to(&in->doubtful_back, cell, rows->open);
+    if (in->doubtful_back.cell_count) sl_row_add_to(&in->doubtful_back, cell, rows->open);
     for (size_t i = 0; i < words; i++) rows->open[i] &= ~rows->set[i];
     SL_TRY(sl_row_append(context, &rows->doubtful[cell], rows->open, count));
     out->account.doubtful_pairs += count_bits(rows->open, words);
@@ -53,11 +53,12 @@ static sl_status settle_rows(sl_context *context, const findings *in, result_row
 }
 
 sl_status sl_visibility_settle(sl_context *context, const sl_pvs *sure, const sl_pvs *doubtful,
-                               sl_visibility *out) {
+                               bool mutual, sl_visibility *out) {
     findings in = {.sure = sure, .doubtful = doubtful};
     result_rows rows = {0};
-    sl_status status = sl_pvs_transpose(context, sure, &in.sure_back);
-    if (status == SL_OK) status = sl_pvs_transpose(context, doubtful, &in.doubtful_back);
+    sl_status status = SL_OK;
+    if (mutual) status = sl_pvs_transpose(context, sure, &in.sure_back);
+    if (mutual && status == SL_OK) status = sl_pvs_transpose(context, doubtful, &in.doubtful_back);
     if (status == SL_OK) status = settle_rows(context, &in, &rows, out);
     sl_pvs_destroy(context, &in.sure_back);
     sl_pvs_destroy(context, &in.doubtful_back);

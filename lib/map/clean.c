@@ -70,25 +70,33 @@ typedef struct cleaning {
 } cleaning;
 
 /// Tells the walls apart by direction, their ends in order.
+static sl_status sort_in(cleaning *work, sl_wall wall) {
+    wall.a = plain(wall.a);
+    wall.b = plain(wall.b);
+    const int order = compare_points(wall.a, wall.b);
+    if (order == 0) {
+        work->account.zero_length++;
+        return SL_OK;
+    }
+    if (order > 0) wall = (sl_wall){.a = wall.b, .b = wall.a, .line = wall.line};
+    if (wall.a.x == wall.b.x)
+        return add_piece(work->context, &work->uprights,
+                         (piece){wall.a.x, wall.a.y, wall.b.y, wall.line, false});
+    if (wall.a.y == wall.b.y)
+        return add_piece(work->context, &work->levels,
+                         (piece){wall.a.y, wall.a.x, wall.b.x, wall.line, false});
+    SL_TRY(SL_ARRAY_ROOM(work->context, &work->others, 1));
+    work->others.items[work->others.count++] = wall;
+    return SL_OK;
+}
+
+/// Mirrors are walls as well.
 static sl_status sort_out(cleaning *work, const sl_map *map) {
-    for (size_t i = 0; i < map->wall_count; i++) {
-        sl_wall wall = {plain(map->walls[i].a), plain(map->walls[i].b), map->walls[i].line};
-        const int order = compare_points(wall.a, wall.b);
-        if (order == 0) {
-            work->account.zero_length++;
-            continue;
-        }
-        if (order > 0) wall = (sl_wall){.a = wall.b, .b = wall.a, .line = wall.line};
-        if (wall.a.x == wall.b.x) {
-            SL_TRY(add_piece(work->context, &work->uprights,
-                             (piece){wall.a.x, wall.a.y, wall.b.y, wall.line, false}));
-        } else if (wall.a.y == wall.b.y) {
-            SL_TRY(add_piece(work->context, &work->levels,
-                             (piece){wall.a.y, wall.a.x, wall.b.x, wall.line, false}));
-        } else {
-            SL_TRY(SL_ARRAY_ROOM(work->context, &work->others, 1));
-            work->others.items[work->others.count++] = wall;
-        }
+    for (size_t i = 0; i < map->wall_count; i++) SL_TRY(sort_in(work, map->walls[i]));
+    for (size_t i = 0; i < map->mirror_count; i++) {
+        const sl_glass *mirror = &map->mirrors[i];
+        SL_TRY(
+            sort_in(work, (sl_wall){mirror->segment.a, mirror->segment.b, .line = mirror->line}));
     }
     return SL_OK;
 }

@@ -55,7 +55,17 @@ static sl_status read_door(text_reader *reader) {
 
 static sl_status read_mirror(text_reader *reader) {
     SL_TRY(refuse_no_length(reader, "mirror"));
-    return sl_map_add_mirror(reader->context, reader->map, segment_of(reader), reader->line);
+    bool one_sided = false;
+    if (reader->words.count == 5) {
+        const sl_word word = reader->words.items[4];
+        one_sided = sl_word_is(word, "one");
+        if (!one_sided && !sl_word_is(word, "both"))
+            return sl_fail_at(reader->context, reader->name, reader->line,
+                              "mirror: expected 'one' or 'both', found '%s'", sl_show(word).text);
+    }
+    SL_TRY(sl_map_add_mirror(reader->context, reader->map, segment_of(reader), reader->line));
+    reader->map->mirrors[reader->map->mirror_count - 1].one_sided = one_sided;
+    return SL_OK;
 }
 
 static sl_status read_oneway(text_reader *reader) {
@@ -158,7 +168,7 @@ static const statement statements[] = {
     {"wall", "wall x0 y0 x1 y1", false, 4, 4, 4, read_walls},
     {"walls", "walls x0 y0 x1 y1 ...", false, 4, ANY, ANY, read_walls},
     {"door", "door NAME x0 y0 x1 y1 open|shut", true, 4, 5, 4, read_door},
-    {"mirror", "mirror x0 y0 x1 y1", false, 4, 4, 4, read_mirror},
+    {"mirror", "mirror x0 y0 x1 y1 one|both", false, 4, 5, 4, read_mirror},
     {"oneway", "oneway x0 y0 x1 y1", false, 4, 4, 4, read_oneway},
     {"seam", "seam x0 y0 x1 y1", false, 4, 4, 4, read_seam},
     {"range", "range r", false, 1, 1, 1, read_range},
@@ -350,7 +360,7 @@ static void print_others(const sl_map *map, FILE *stream) {
     for (size_t i = 0; i < map->mirror_count; i++) {
         fprintf(stream, "mirror");
         print_ends(stream, map->mirrors[i].segment.a, map->mirrors[i].segment.b);
-        fprintf(stream, "\n");
+        fprintf(stream, map->mirrors[i].one_sided ? " one\n" : "\n");
     }
     for (size_t i = 0; i < map->oneway_count; i++) {
         fprintf(stream, "oneway");

@@ -24,6 +24,7 @@
 #include "base/base.h"
 #include "geometry/orient.h"
 #include "stab/conflict.h"
+#include "stab/funnel.h"
 
 #include <math.h>
 
@@ -447,6 +448,23 @@ static void account(const void *state, sl_stab_account *sum) {
     const funnel *f = state;
     sum->orientations += f->account.orientations;
     sum->exact += f->account.exact;
+}
+
+uint32_t sl_funnel_corner_count(const void *state) {
+    const funnel *f = state;
+    return (uint32_t)f->levels.items[f->levels.count - 1].count;
+}
+
+sl_funnel_corner sl_funnel_corner_at(const void *state, uint32_t i) {
+    const funnel *f = state;
+    const corner *c = &f->corners.items[f->levels.items[f->levels.count - 1].first + i];
+    return (sl_funnel_corner){place_of(f, c->from), place_of(f, c->to), place_of(f, c->pivot)};
+}
+
+sl_portal_ends sl_funnel_portal(const void *state, bool last) {
+    const funnel *f = state;
+    const end_number left = last ? (end_number)f->ends.count - 2 : FIRST_LEFT;
+    return (sl_portal_ends){place_of(f, left), place_of(f, left + 1)};
 }
 
 const sl_solver *sl_funnel(void) {

@@ -225,8 +225,9 @@ static void test_cases(void **state) {
     assert_cleaned(context, "wall 0 0 0.1 0\nwall 0.10000000000000002 0 1 0\n",
                    "wall 0 0 0.1 0\nwall 0.10000000000000002 0 1 0\n");
     // What is not a wall stays.
-    assert_cleaned(context, "wall 1 1 0 1\ndoor d 1 0 0 0 shut\nmirror 1 0 0 0\nstart -0 0 1\n",
-                   "wall 0 1 1 1\ndoor d 1 0 0 0 shut\nmirror 1 0 0 0\nstart -0 0 1\n");
+    assert_cleaned(
+        context, "wall 1 1 0 1\ndoor d 1 0 0 0 shut\nmirror 1 0 0 0\nstart -0 0 1\n",
+        "wall 0 0 1 0\nwall 0 1 1 1\ndoor d 1 0 0 0 shut\nmirror 1 0 0 0\nstart -0 0 1\n");
     sl_context_destroy(context);
 }
 

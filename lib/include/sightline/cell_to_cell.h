@@ -2,6 +2,8 @@
 #ifndef SIGHTLINE_CELL_TO_CELL_H
 #define SIGHTLINE_CELL_TO_CELL_H
 
+#include "sightline/doors.h"
+#include "sightline/effects.h"
 #include "sightline/pvs.h"
 #include "sightline/space.h"
 #include "sightline/stab.h"
@@ -38,6 +40,12 @@ typedef struct sl_see_account {
     uint32_t sectors;        ///< that directions were cut into; 0 by all other methods
     uint32_t deepest;        ///< portals in the longest sequence
     sl_stab_account stab;    ///< of the solvers
+    // Of effects; all 0 where the plan has none.
+    uint64_t mirrored_pairs; ///< ordered pairs seen by mirror; a cell may so see itself
+    uint64_t door_fallbacks; ///< ordered pairs that more sets of doors join than the limit
+    uint64_t range_tests;    ///< sequences whose shortest sightline was held against the range
+    uint64_t close_calls;    ///< of them those within rounding of it: they count as seen
+    uint64_t rounded_places; ///< portals whose place in a mirror was rounded
 } sl_see_account;
 
 /// The result. Zeroed, it is empty.
@@ -47,7 +55,10 @@ typedef struct sl_visibility {
     sl_pvs pvs;
     sl_pvs
         doubtful; ///< pairs of which a rounded answer near zero decided; no rows for exact solvers
-    sl_stab_trees trees; ///< no cells where trees were not asked for
+    sl_pvs mirrored;             ///< what is seen by mirror; no rows where the plan has none
+    sl_door_sets doors;          ///< of the pairs of `pvs`; no rows where the plan has no doors
+    sl_door_sets mirrored_doors; ///< of those of `mirrored`
+    sl_stab_trees trees;         ///< no cells where trees were not asked for
     sl_see_account account;
 } sl_visibility;
 
@@ -94,6 +105,7 @@ typedef struct sl_see_options {
     uint64_t seed;           ///< of methods that draw at random
     uint32_t samples;        ///< lines that "sampling" draws from each cell
     sl_row_storage rows;     ///< of methods that keep rows of bits
+    const sl_plan *plan;     ///< what the map calls for; NULL: nothing but walls
     uint64_t row_bytes;      ///< limit on memory for them; what needs more fails (SL_NO_MEMORY)
     /// Sectors that "multipass" cuts all directions into, at most: 4 at least; 0: at each portal's
     /// own, so that cells have an order in each. The result does not depend on it.
@@ -110,13 +122,14 @@ typedef struct sl_see_options {
 SL_API sl_see_options sl_see_options_default(void);
 
 /// A method: reachable by name, listed everywhere from this table. Each row of a PVS holds the cell
-/// itself; pairs are symmetric. Reports stage "cell_to_cell", unit "cells" or "corners". Methods
-/// that make no stab trees refuse to (SL_UNSUPPORTED).
+/// itself; pairs are symmetric where the plan is mutual. Reports stage "cell_to_cell", unit "cells"
+/// or "corners". Methods that make no stab trees refuse to (SL_UNSUPPORTED).
 typedef struct sl_see_method {
     const char *name, *what;
     bool stabs;      ///< whether it needs a solver; its guarantee is then the solver's
     bool keeps_rows; ///< of bits, as options->rows and row_bytes say
     sl_guarantee guarantee;
+    unsigned knows; ///< the effects that it takes account of where options ask for them: bits
     sl_status (*see)(sl_context *context, const sl_space *space, const sl_see_options *options,
                      sl_visibility *out);
     const char *units; ///< what its units are, plural; NULL, as the functions below, where it is
@@ -138,6 +151,12 @@ typedef struct sl_see_method {
 } sl_see_method;
 
 SL_API const sl_see_method *sl_see_methods(size_t *count);
+
+/// SL_UNSUPPORTED, by name, where a method with a solver (NULL for methods that do not stab) does
+/// not know what a map calls for. To be asked before any work; the methods themselves believe
+/// their options.
+SL_API sl_status sl_see_check(sl_context *context, const sl_see_method *method,
+                              const sl_solver *solver, const sl_map *map);
 
 /// Makes findings for a space from what was seen in another one, before some walls were changed: of
 /// all pairs that no changed cell can have a part in. The rest is for `look`; the result is the

@@ -29,6 +29,7 @@ typedef struct sl_door {
 typedef struct sl_glass {
     sl_segment segment;
     uint32_t line;
+    bool one_sided; ///< of a mirror: it reflects on its left only, going from a to b
 } sl_glass;
 
 /// A viewpoint; the heading in degrees, counter-clockwise from +x.
@@ -135,12 +136,12 @@ typedef struct sl_clean_account {
     size_t split;       ///< cut where another wall crosses or touches them
 } sl_clean_account;
 
-/// Makes the walls a planar set: zero-length walls dropped, duplicates and overlapping collinear
-/// axial walls merged, axial walls split where they cross or touch. No coordinate is computed:
-/// every end is an end, or made of two coordinates, of the input. The order is by place, whatever
-/// the input's was. Walls that are not axial are only freed of zero length and duplicates. A map
-/// with cells of its own is left as it is.
-/// `account` may be NULL. Time O((n + k) log n) for k meeting points.
+/// Adds a wall for each mirror, which hides what is behind it, and makes the walls a planar set:
+/// zero-length walls dropped, duplicates and overlapping collinear axial walls merged, axial walls
+/// split where they cross or touch. No coordinate is computed: every end is an end, or made of two
+/// coordinates, of the input. The order is by place, whatever the input's was. Walls that are not
+/// axial are only freed of zero length and duplicates. `account` may be NULL. Time O((n + k) log n)
+/// for k meeting points. A map with cells of its own is left as it is.
 SL_API sl_status sl_map_clean(sl_context *context, sl_map *map, sl_clean_account *account);
 
 /// Reads the map text: SL_BAD_INPUT with file and line on anything it does not know.

@@ -1,0 +1,66 @@
+/// The depth-first search: what its two forms share, the plain one and the one with effects.
+#ifndef SL_DFS_H
+#define SL_DFS_H
+
+#include "base/bits.h"
+#include "cell_to_cell/crossing.h"
+#include "cell_to_cell/findings.h"
+#include "cell_to_cell/pvs_rows.h"
+#include "cell_to_cell/tree_store.h"
+#include "sightline/cell_to_cell.h"
+
+#include <pthread.h>
+
+/// A cell on the way from the source.
+typedef struct sl_dfs_step {
+    uint32_t cell;
+    uint32_t next;          ///< exit to try next, from 0
+    uint32_t node;          ///< in the stab tree
+    sl_crossings crossings; ///< of the portals so far
+    bool grazing;           ///< the sequence is no more than grazed
+} sl_dfs_step;
+
+/// All searches together.
+typedef struct sl_dfs {
+    const sl_space *space;
+    const sl_see_options *options;
+    sl_tree_store trees;
+    sl_row_bytes *sure;     ///< by source: seen whatever rounding did
+    sl_row_bytes *doubtful; ///< by source: seen unless rounding erred
+    sl_see_account *accounts;
+    pthread_mutex_t lock;
+    sl_stab_account stab;      ///< of all solvers, under the lock
+    const sl_findings *before; ///< what is known; NULL: nothing, and all is to be done
+    uint8_t *done;             ///< by source, where there is `before`
+    bool prunes;
+    size_t words;                   ///< of a set of cells
+    sl_bits *bounds;                ///< where it prunes: by exit, what may be seen through it
+    struct sl_dfs_effects *effects; ///< where the plan has any, all that is done for them
+} sl_dfs;
+
+/// One thread's own.
+typedef struct sl_dfs_thread {
+    void *solver;
+    SL_ARRAY(sl_dfs_step) steps;
+    sl_bits *sure, *doubtful;
+    SL_ARRAY(sl_bits) wanted; ///< where it prunes: a set for each step, what may be seen beyond it
+    sl_growing_tree tree;
+    sl_see_account account; ///< of the source at hand
+    struct sl_dfs_effects_thread *effects;
+} sl_dfs_thread;
+
+/// Goes on from `to`; a sequence that counts as seen becomes a node of the stab tree.
+sl_status sl_dfs_enter(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, sl_dfs_step to,
+                       uint32_t parent, uint32_t exit, bool counts);
+
+/// The search with effects (dfs_effects.c). What it finds beside the sets of cells seen goes to the
+/// visibility at the end.
+sl_status sl_dfs_effects_create(sl_context *context, sl_dfs *all);
+void sl_dfs_effects_destroy(sl_context *context, sl_dfs *all);
+sl_status sl_dfs_effects_begin(sl_context *context, const sl_dfs *all, sl_dfs_thread *me);
+void sl_dfs_effects_end(sl_context *context, sl_dfs_thread *me);
+sl_status sl_dfs_effects_search(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
+                                uint32_t source);
+sl_status sl_dfs_effects_finish(sl_context *context, sl_dfs *all, sl_visibility *out);
+
+#endif

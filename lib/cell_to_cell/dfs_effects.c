@@ -1,0 +1,334 @@
+/// The depth-first search where the map calls for effects. Each of them is a matter of one step
+/// more of a sequence: which doors it has passed, whether glass lets it through, how long its
+/// shortest sightline is, and where in mirrored space it has come to. All are monotone: what a
+/// sequence fails, all that go on from it fail too, so that the search stays exact.
+///
+/// The range is exact to rounding: of sightlines through the sequence, the piece between the first
+/// portal and the last is what lies between the two cells (0 for neighbours), and its shortest is
+/// held against the range. Within rounding it counts as in range, and is counted.
+///
+/// A mirror is one more portal of the sequence, which leads back into the cell before it,
+/// reflected: the sequence goes on in the frame of mirrored space that lies beyond
+/// (effects/frame.h).
+#include "cell_to_cell/dfs.h"
+
+#include "cell_to_cell/door_table.h"
+#include "cell_to_cell/methods.h"
+#include "effects/frame.h"
+#include "effects/mirror_sides.h"
+#include "stab/funnel.h"
+
+#include <string.h>
+
+/// Beside a step of the search, at the same place of its array.
+typedef struct place {
+    sl_exit ends;         ///< of the portal crossed last, where mirrored space has it
+    uint32_t least, most; ///< places that bound the directions of all portals; 0 for none yet
+    sl_frame frame;
+    uint32_t mirror; ///< crossed last; UINT32_MAX for a portal
+} place;
+
+struct sl_dfs_effects {
+    const sl_plan *plan;
+    bool doors, mirrors, oneway;
+    size_t door_words;
+    sl_mirror_sides sides;
+    sl_row_bytes *door_rows, *mirrored_rows, *mirrored_door_rows; ///< by source
+    pthread_mutex_t *lock; ///< the search's, over the sums below
+    uint64_t fallbacks, range_tests, close_calls, rounded_places;
+};
+
+struct sl_dfs_effects_thread {
+    SL_ARRAY(place) places;
+    SL_ARRAY(sl_bits) doors; ///< a set for each place
+    sl_door_table direct, mirrored;
+    uint64_t range_tests, close_calls, rounded_places;
+    struct sl_dfs_effects *all;
+};
+
+typedef struct sl_dfs_effects effects;
+typedef struct sl_dfs_effects_thread thread;
+
+// --- one step
+
+/// The doors beyond a portal: those before it and its own.
+static sl_status pass_doors(sl_context *context, const sl_space *space, const effects *all,
+                            thread *me, uint32_t portal, size_t depth) {
+    const size_t words = all->door_words;
+    if (!words) return SL_OK;
+    SL_TRY(SL_ARRAY_ROOM(context, &me->doors, (depth + 1) * words));
+    sl_bits *set = me->doors.items + depth * words;
+    memcpy(set, set - words, words * sizeof *set);
+    if (portal == UINT32_MAX) return SL_OK;
+    size_t count;
+    const sl_seam_portal *on = sl_space_seams_of(space, portal, &count);
+    for (size_t i = 0; i < count; i++)
+        if (space->seams[on[i].seam].kind == SL_SEAM_DOOR)
+            sl_bits_add(set, space->seams[on[i].seam].number);
+    return SL_OK;
+}
+
+static const sl_bits *doors_at(const effects *all, const thread *me, size_t depth) {
+    return me->doors.items + depth * all->door_words;
+}
+
+/// Where a portal lies in the frame of the last place.
+static sl_exit unfold(thread *me, const sl_frame *frame, sl_point left, sl_point right) {
+    bool rounded = frame->rounded;
+    if (!frame->depth) return (sl_exit){.left = left, .right = right};
+    const sl_point l = sl_frame_place(frame, left, &rounded);
+    const sl_point r = sl_frame_place(frame, right, &rounded);
+    me->rounded_places += rounded;
+    return frame->depth % 2 ? (sl_exit){.left = r, .right = l} : (sl_exit){.left = l, .right = r};
+}
+
+/// Whether some direction crosses all portals up to a new place; sets its bounds.
+static bool may_cross(const thread *me, const place *from, place *to) {
+    const uint32_t here = (uint32_t)me->places.count;
+    to->least = from->least;
+    to->most = from->most;
+    if (!from->least) {
+        to->least = to->most = here;
+        return true;
+    }
+    const place *places = me->places.items;
+    const sl_crossing crossing = sl_crossing_of(&places[from->least].ends, &places[from->most].ends,
+                                                from->least == from->most, &to->ends);
+    if (crossing == SL_CROSSES_LEAST) to->least = here;
+    if (crossing == SL_CROSSES_MOST) to->most = here;
+    return crossing != SL_CROSSES_NEVER;
+}
+
+/// Whether the sequence has a sightline of which no more than the range lies between the cells.
+static bool is_in_range(const effects *all, thread *me, const void *solver) {
+    const double range = all->plan->range;
+    if (!(range > 0)) return true;
+    me->range_tests++;
+    const double shortest = sl_funnel_shortest(solver), error = SL_SHORTEST_ERROR * range;
+    me->close_calls += shortest > range - error && shortest <= range + error;
+    return shortest <= range + error;
+}
+
+/// Whether anything is left to be found beyond an exit: of what the bounds of all exits so far
+/// leave possible, a cell that no subset of the doors passed is known to join to the source.
+static sl_status want(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, uint32_t exit,
+                      bool *something) {
+    *something = true;
+    if (!all->prunes || all->effects->mirrors) return SL_OK;
+    const size_t words = all->words, depth = me->steps.count;
+    SL_TRY(SL_ARRAY_ROOM(context, &me->wanted, (depth + 1) * words));
+    sl_bits *beyond = me->wanted.items + depth * words;
+    const sl_bits *bound = all->bounds + exit * words,
+                  *doors = doors_at(all->effects, me->effects, depth);
+    const sl_door_table *table = &me->effects->direct;
+    const sl_bits *before = depth > 1 ? beyond - words : NULL;
+    *something = false;
+    for (size_t i = 0; i < words; i++) {
+        beyond[i] = (before ? before[i] : ~(sl_bits)0) & bound[i];
+        for (sl_bits open = beyond[i] & ~table->free[i]; open && !*something; open &= open - 1) {
+            const uint32_t cell = (uint32_t)(64 * i) + (uint32_t)__builtin_ctzll(open);
+            *something = !sl_door_table_proves(table, cell, doors);
+        }
+    }
+    return SL_OK;
+}
+
+/// Tests the sequence with one portal more, and enters the cell behind.
+static sl_status push(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, place to,
+                      uint32_t cell, uint32_t exit) {
+    thread *e = me->effects;
+    const sl_solver *solver = all->options->solver;
+    const sl_dfs_step from = me->steps.items[me->steps.count - 1];
+    if (++me->account.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
+    sl_stab_verdict verdict;
+    SL_TRY(solver->push(context, me->solver, to.ends.left, to.ends.right, &verdict));
+    const bool grazing = verdict == SL_GRAZING || from.grazing;
+    const bool hidden = verdict == SL_HIDDEN || (grazing && all->options->sight == SL_OPEN);
+    if (hidden || !is_in_range(all->effects, e, me->solver)) {
+        solver->pop(me->solver);
+        return SL_OK;
+    }
+    sl_door_table *table = to.frame.depth ? &e->mirrored : &e->direct;
+    SL_TRY(sl_door_table_add(context, table, cell, doors_at(all->effects, e, e->places.count)));
+    if (!to.frame.depth) sl_bits_add(me->sure, cell);
+    SL_TRY(SL_ARRAY_ROOM(context, &e->places, 1));
+    e->places.items[e->places.count++] = to;
+    return sl_dfs_enter(context, all, me, (sl_dfs_step){.cell = cell, .grazing = grazing},
+                        from.node, exit, true);
+}
+
+static sl_status try_exit(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
+                          uint32_t number) {
+    thread *e = me->effects;
+    const sl_exit *exit = &all->space->exits[number];
+    const place *from = &e->places.items[e->places.count - 1];
+    const uint32_t cell = me->steps.items[me->steps.count - 1].cell;
+    if (all->options->inside_only && !all->space->cells[exit->cell].inside) return SL_OK;
+    if (all->effects->oneway && sl_exit_is_dark(all->space, cell, number)) return SL_OK;
+    place to = {.ends = unfold(e, &from->frame, exit->left, exit->right),
+                .frame = from->frame,
+                .mirror = UINT32_MAX};
+    if (!may_cross(e, from, &to)) return SL_OK;
+    SL_TRY(pass_doors(context, all->space, all->effects, e, exit->portal, e->places.count));
+    bool something;
+    SL_TRY(want(context, all, me, number, &something));
+    return something ? push(context, all, me, to, exit->cell, number) : SL_OK;
+}
+
+static sl_status try_mirror(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
+                            uint32_t number) {
+    thread *e = me->effects;
+    const sl_mirror_side *side = &all->effects->sides.sides[number];
+    const place *from = &e->places.items[e->places.count - 1];
+    // Behind a mirror its own side is behind the line of sight, but for rounding.
+    if (from->mirror == side->mirror || from->frame.depth == all->effects->plan->mirror_depth)
+        return SL_OK;
+    place to = {.ends = unfold(e, &from->frame, side->left, side->right),
+                .frame = sl_frame_reflect(&from->frame,
+                                          all->effects->plan->map->mirrors[side->mirror].segment),
+                .mirror = side->mirror};
+    if (!may_cross(e, from, &to)) return SL_OK;
+    SL_TRY(pass_doors(context, all->space, all->effects, e, UINT32_MAX, e->places.count));
+    return push(context, all, me, to, side->cell, UINT32_MAX);
+}
+
+// --- one source
+
+static sl_status start(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, uint32_t source) {
+    thread *e = me->effects;
+    sl_door_table_clear(&e->direct);
+    sl_door_table_clear(&e->mirrored);
+    e->places.count = 0;
+    SL_TRY(SL_ARRAY_ROOM(context, &e->places, 1));
+    e->places.items[e->places.count++] = (place){.frame = sl_frame_of_map(), .mirror = UINT32_MAX};
+    SL_TRY(SL_ARRAY_ROOM(context, &e->doors, all->effects->door_words + 1));
+    memset(e->doors.items, 0, all->effects->door_words * sizeof *e->doors.items);
+    SL_TRY(sl_door_table_add(context, &e->direct, source, e->doors.items));
+    sl_bits_add(me->sure, source);
+    me->steps.count = 0;
+    return sl_dfs_enter(context, all, me, (sl_dfs_step){.cell = source}, 0, UINT32_MAX, true);
+}
+
+static sl_status keep(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, uint32_t source) {
+    effects *shared = all->effects;
+    thread *e = me->effects;
+    if (shared->doors)
+        SL_TRY(sl_door_table_append(context, &e->direct, &shared->door_rows[source]));
+    if (!shared->mirrors) return SL_OK;
+    SL_TRY(sl_row_append(context, &shared->mirrored_rows[source], e->mirrored.seen,
+                         all->space->cell_count));
+    if (!shared->doors) return SL_OK;
+    return sl_door_table_append(context, &e->mirrored, &shared->mirrored_door_rows[source]);
+}
+
+sl_status sl_dfs_effects_search(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
+                                uint32_t source) {
+    const sl_space *space = all->space;
+    const uint32_t *first = all->effects->sides.first;
+    SL_TRY(start(context, all, me, source));
+    while (me->steps.count) {
+        sl_dfs_step *last = &me->steps.items[me->steps.count - 1];
+        const sl_cell *cell = &space->cells[last->cell];
+        const uint32_t mirrors = first ? first[last->cell + 1] - first[last->cell] : 0;
+        const uint32_t next = last->next++;
+        if (next < cell->exit_count) {
+            SL_TRY(try_exit(context, all, me, cell->first_exit + next));
+        } else if (next < cell->exit_count + mirrors) {
+            SL_TRY(try_mirror(context, all, me, first[last->cell] + next - cell->exit_count));
+        } else {
+            me->effects->places.count--;
+            if (--me->steps.count) all->options->solver->pop(me->solver);
+        }
+    }
+    return keep(context, all, me, source);
+}
+
+// --- begin and end
+
+sl_status sl_dfs_effects_begin(sl_context *context, const sl_dfs *all, sl_dfs_thread *me) {
+    me->effects = sl_alloc_array(context, 1, sizeof *me->effects);
+    if (!me->effects) return SL_NO_MEMORY;
+    const sl_plan *plan = all->effects->plan;
+    const size_t doors = all->effects->doors ? plan->map->door_count : 0;
+    const uint32_t cells = all->space->cell_count;
+    me->effects->all = all->effects;
+    SL_TRY(sl_door_table_create(context, cells, doors, plan->door_limit, &me->effects->direct));
+    return sl_door_table_create(context, cells, doors, plan->door_limit, &me->effects->mirrored);
+}
+
+void sl_dfs_effects_end(sl_context *context, sl_dfs_thread *me) {
+    thread *e = me->effects;
+    if (!e) return;
+    pthread_mutex_lock(e->all->lock);
+    e->all->fallbacks += e->direct.fallbacks + e->mirrored.fallbacks;
+    e->all->range_tests += e->range_tests;
+    e->all->close_calls += e->close_calls;
+    e->all->rounded_places += e->rounded_places;
+    pthread_mutex_unlock(e->all->lock);
+    sl_door_table_destroy(context, &e->direct);
+    sl_door_table_destroy(context, &e->mirrored);
+    sl_free(context, e->places.items);
+    sl_free(context, e->doors.items);
+    sl_free(context, e);
+    me->effects = NULL;
+}
+
+sl_status sl_dfs_effects_create(sl_context *context, sl_dfs *all) {
+    const sl_plan *plan = all->options->plan;
+    const uint32_t cells = all->space->cell_count;
+    SL_TRY(sl_plan_check_solver(context, plan, all->options->solver));
+    if (all->options->trees && plan->effects & SL_EFFECT_MIRROR)
+        return sl_fail(context, SL_UNSUPPORTED, "stab trees do not know mirrors");
+    effects *e = all->effects = sl_alloc_array(context, 1, sizeof *e);
+    if (!e) return SL_NO_MEMORY;
+    e->plan = plan;
+    e->lock = &all->lock;
+    e->doors = plan->effects & SL_EFFECT_DOOR;
+    e->mirrors = plan->effects & SL_EFFECT_MIRROR;
+    e->oneway = plan->effects & SL_EFFECT_ONEWAY;
+    e->door_words = e->doors ? sl_bits_words(plan->map->door_count) : 0;
+    e->door_rows = sl_alloc_array(context, cells, sizeof *e->door_rows);
+    e->mirrored_rows = sl_alloc_array(context, cells, sizeof *e->mirrored_rows);
+    e->mirrored_door_rows = sl_alloc_array(context, cells, sizeof *e->mirrored_door_rows);
+    if (!e->door_rows || !e->mirrored_rows || !e->mirrored_door_rows) return SL_NO_MEMORY;
+    return e->mirrors ? sl_mirror_sides_find(context, all->space, plan->map, &e->sides) : SL_OK;
+}
+
+void sl_dfs_effects_destroy(sl_context *context, sl_dfs *all) {
+    effects *e = all->effects;
+    if (!e) return;
+    sl_row_bytes *const rows[] = {e->door_rows, e->mirrored_rows, e->mirrored_door_rows};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        for (uint32_t cell = 0; rows[i] && cell < all->space->cell_count; cell++)
+            sl_free(context, rows[i][cell].items);
+        sl_free(context, rows[i]);
+    }
+    sl_mirror_sides_destroy(context, &e->sides);
+    sl_free(context, e);
+    all->effects = NULL;
+}
+
+/// Rows of door sets are joined as those of visible sets are.
+static sl_status join_doors(sl_context *context, sl_row_bytes *rows, uint32_t cells,
+                            sl_door_sets *out) {
+    sl_pvs joined = {0};
+    SL_TRY(sl_pvs_join(context, rows, cells, &joined));
+    *out = (sl_door_sets){joined.cell_count, joined.offsets, joined.bytes};
+    return SL_OK;
+}
+
+sl_status sl_dfs_effects_finish(sl_context *context, sl_dfs *all, sl_visibility *out) {
+    effects *e = all->effects;
+    const uint32_t cells = all->space->cell_count;
+    out->account.door_fallbacks = e->fallbacks;
+    out->account.range_tests = e->range_tests;
+    out->account.close_calls = e->close_calls;
+    out->account.rounded_places = e->rounded_places;
+    if (e->doors) SL_TRY(join_doors(context, e->door_rows, cells, &out->doors));
+    if (!e->mirrors) return SL_OK;
+    SL_TRY(sl_pvs_join(context, e->mirrored_rows, cells, &out->mirrored));
+    for (uint32_t i = 0; i < cells; i++)
+        out->account.mirrored_pairs += sl_pvs_count(&out->mirrored, i);
+    if (!e->doors) return SL_OK;
+    return join_doors(context, e->mirrored_door_rows, cells, &out->mirrored_doors);
+}

@@ -1,0 +1,90 @@
+#include "effects/mirror_sides.h"
+
+#include "base/base.h"
+#include "geometry/orient.h"
+
+#include <math.h>
+
+typedef struct finder {
+    sl_context *context;
+    const sl_space *space;
+    const sl_map *map;
+    SL_ARRAY(sl_mirror_side) sides;
+} finder;
+
+/// A side of a cell, counter-clockwise.
+typedef struct side {
+    uint32_t cell, vertex; ///< of the space's
+    sl_point from, to;
+} side;
+
+static bool in_line(sl_point a, sl_point b, sl_point p, sl_point q) {
+    return sl_orient(a, b, p) == 0 && sl_orient(a, b, q) == 0;
+}
+
+/// Whether the side is on the mirror's line: itself, or what the space tells of its wall.
+static bool is_on_line(const finder *f, const side *s, const sl_segment *mirror) {
+    if (!f->space->beyond) return in_line(mirror->a, mirror->b, s->from, s->to);
+    const uint32_t what = f->space->beyond[s->vertex];
+    if (what >= SL_BEYOND_BORDER) return false;
+    const sl_wall *wall = &f->space->walls[what & ~SL_BEYOND_RIGHT];
+    return in_line(wall->a, wall->b, mirror->a, mirror->b);
+}
+
+/// A coordinate that grows from one point to another.
+static double along(sl_point from, sl_point to, sl_point p) {
+    if (fabs(to.x - from.x) >= fabs(to.y - from.y)) return to.x > from.x ? p.x : -p.x;
+    return to.y > from.y ? p.y : -p.y;
+}
+
+/// Adds what of a side lies on a mirror, if the mirror reflects there: on its left, if on one side.
+static sl_status add(finder *f, const side *s, uint32_t number) {
+    const sl_glass *mirror = &f->map->mirrors[number];
+    const sl_segment *at = &mirror->segment;
+    if (!is_on_line(f, s, at)) return SL_OK;
+    const bool same_way = along(s->from, s->to, at->a) < along(s->from, s->to, at->b);
+    if (mirror->one_sided && !same_way) return SL_OK;
+    const sl_point low = same_way ? at->a : at->b, high = same_way ? at->b : at->a;
+    const sl_point right =
+        along(s->from, s->to, low) > along(s->from, s->to, s->from) ? low : s->from;
+    const sl_point left = along(s->from, s->to, high) < along(s->from, s->to, s->to) ? high : s->to;
+    if (along(s->from, s->to, right) >= along(s->from, s->to, left)) return SL_OK;
+    SL_TRY(SL_ARRAY_ROOM(f->context, &f->sides, 1));
+    f->sides.items[f->sides.count++] = (sl_mirror_side){left, right, s->cell, number};
+    return SL_OK;
+}
+
+static sl_status find(finder *f, uint32_t *first) {
+    for (uint32_t i = 0; i < f->space->cell_count; i++) {
+        const sl_cell *cell = &f->space->cells[i];
+        const sl_point *v = f->space->vertices + cell->first_vertex;
+        first[i] = (uint32_t)f->sides.count;
+        for (uint32_t k = 0; k < cell->vertex_count; k++) {
+            const side s = {i, cell->first_vertex + k, v[k],
+                            v[k + 1 == cell->vertex_count ? 0 : k + 1]};
+            for (uint32_t m = 0; m < f->map->mirror_count; m++) SL_TRY(add(f, &s, m));
+        }
+    }
+    first[f->space->cell_count] = (uint32_t)f->sides.count;
+    return SL_OK;
+}
+
+sl_status sl_mirror_sides_find(sl_context *context, const sl_space *space, const sl_map *map,
+                               sl_mirror_sides *out) {
+    finder f = {.context = context, .space = space, .map = map};
+    uint32_t *first = sl_alloc_array(context, (size_t)space->cell_count + 1, sizeof *first);
+    const sl_status status = first ? find(&f, first) : SL_NO_MEMORY;
+    if (status == SL_OK) {
+        *out = (sl_mirror_sides){f.sides.items, first};
+        return SL_OK;
+    }
+    sl_free(context, f.sides.items);
+    sl_free(context, first);
+    return status;
+}
+
+void sl_mirror_sides_destroy(sl_context *context, sl_mirror_sides *sides) {
+    sl_free(context, sides->sides);
+    sl_free(context, sides->first);
+    *sides = (sl_mirror_sides){0};
+}

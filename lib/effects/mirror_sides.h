@@ -1,0 +1,24 @@
+/// Where cells end at mirrors.
+#ifndef SL_MIRROR_SIDES_H
+#define SL_MIRROR_SIDES_H
+
+#include "sightline/space.h"
+
+/// A piece of a cell's boundary on a mirror that reflects there; its ends as crossed on the way
+/// out.
+typedef struct sl_mirror_side {
+    sl_point left, right;
+    uint32_t cell, mirror;
+} sl_mirror_side;
+
+typedef struct sl_mirror_sides {
+    sl_mirror_side *sides; ///< those of cell c: sides[first[c] .. first[c + 1])
+    uint32_t *first;
+} sl_mirror_sides;
+
+/// Mirrors must be walls of the space too (sl_map_clean makes them so).
+sl_status sl_mirror_sides_find(sl_context *context, const sl_space *space, const sl_map *map,
+                               sl_mirror_sides *out);
+void sl_mirror_sides_destroy(sl_context *context, sl_mirror_sides *sides);
+
+#endif

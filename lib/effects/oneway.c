@@ -1,0 +1,36 @@
+#include "effects/effects.h"
+
+static size_t count(const sl_map *map) {
+    return map->oneway_count;
+}
+
+static uint32_t line(const sl_map *map) {
+    return map->oneways[0].line;
+}
+
+static void leave_out(sl_context *context, sl_map *map) {
+    (void)context;
+    map->oneway_count = 0;
+}
+
+const sl_effect sl_effect_oneway = {
+    .name = "oneway",
+    .several = "one-way glass",
+    .adds = "cells end at glass; sequences cross it one way, pairs are no longer mutual",
+    .without = "sight passes it both ways",
+    .mutual = false,
+    .count = count,
+    .line = line,
+    .leave_out = leave_out,
+};
+
+bool sl_exit_is_dark(const sl_space *space, uint32_t cell, uint32_t exit) {
+    const uint32_t portal = space->exits[exit].portal;
+    const bool forward = space->portals[portal].cell[0] == cell;
+    size_t count;
+    const sl_seam_portal *on = sl_space_seams_of(space, portal, &count);
+    for (size_t i = 0; i < count; i++)
+        if (space->seams[on[i].seam].kind == SL_SEAM_ONEWAY && on[i].forward != forward)
+            return true;
+    return false;
+}

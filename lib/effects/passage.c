@@ -1,0 +1,154 @@
+/// The space for the time being: doors shut become walls, one-way glass loses exits.
+#include "effects/effects.h"
+
+#include <string.h>
+
+typedef struct maker {
+    const sl_space *from;
+    const sl_passage *passage;
+    uint32_t *portals; ///< new numbers; UINT32_MAX for walls
+    bool *barred;      ///< exits that are left out, walls' ones among them
+    sl_space *out;
+} maker;
+
+static bool is_shut(const maker *m, uint32_t portal) {
+    size_t count;
+    const sl_seam_portal *on = sl_space_seams_of(m->from, portal, &count);
+    for (size_t i = 0; i < count; i++) {
+        const sl_seam *seam = &m->from->seams[on[i].seam];
+        if (seam->kind == SL_SEAM_DOOR && m->passage->shut && m->passage->shut[seam->number])
+            return true;
+    }
+    return false;
+}
+
+/// What of the space goes on as it is.
+static sl_status copy(sl_context *context, void **to, const void *from, size_t count, size_t size,
+                      size_t more) {
+    if (!from) return SL_OK;
+    *to = sl_alloc_array(context, count + more, size);
+    if (!*to) return SL_NO_MEMORY;
+    if (count) memcpy(*to, from, count * size);
+    return SL_OK;
+}
+
+#define COPY(items, count, more)                                                                   \
+    SL_TRY(copy(context, (void **)&s->items, f->items, f->count, sizeof *s->items, (more)))
+
+static sl_status copy_space(sl_context *context, maker *m, size_t walls) {
+    const sl_space *f = m->from;
+    sl_space *s = m->out;
+    *s = *f;
+    s->nodes = NULL, s->cells = NULL, s->vertices = NULL, s->portals = NULL, s->exits = NULL;
+    s->walls = NULL, s->lines = NULL, s->beyond = NULL, s->seams = NULL, s->seam_portals = NULL;
+    COPY(nodes, node_count, 0);
+    COPY(cells, cell_count, 0);
+    COPY(vertices, vertex_count, 0);
+    COPY(portals, portal_count, 0);
+    COPY(exits, exit_count, 0);
+    COPY(walls, wall_count, walls);
+    COPY(lines, line_count, 0);
+    COPY(beyond, vertex_count, 0);
+    COPY(seams, seam_count, 0);
+    COPY(seam_portals, seam_portal_count, 0);
+    return SL_OK;
+}
+
+/// Makes walls of the portals on doors that are shut.
+static void shut_portals(maker *m) {
+    sl_space *s = m->out;
+    s->portal_count = s->seam_portal_count = 0;
+    for (uint32_t i = 0; i < m->from->portal_count; i++) {
+        const sl_portal *portal = &m->from->portals[i];
+        if (m->portals[i] == UINT32_MAX)
+            s->walls[s->wall_count++] = (sl_wall){.a = portal->right, .b = portal->left};
+        else
+            s->portals[s->portal_count++] = *portal;
+    }
+    for (uint32_t i = 0; i < m->from->seam_portal_count; i++) {
+        sl_seam_portal on = m->from->seam_portals[i];
+        on.portal = m->portals[on.portal];
+        if (on.portal != UINT32_MAX) s->seam_portals[s->seam_portal_count++] = on;
+    }
+}
+
+/// The wall that a portal has become, counted as shut_portals does.
+static void number_walls(const maker *m, uint32_t *walls) {
+    uint32_t next = m->from->wall_count;
+    for (uint32_t i = 0; i < m->from->portal_count; i++)
+        walls[i] = m->portals[i] == UINT32_MAX ? next++ : UINT32_MAX;
+}
+
+/// Tells the sides of a BSP's cell which of them are walls now. The new walls run from the right
+/// end to the left one as crossed from cell[0], which is on their left.
+static void tell_sides(const maker *m, const uint32_t *walls) {
+    const sl_space *f = m->from;
+    for (uint32_t i = 0; i < f->cell_count; i++) {
+        const sl_cell *cell = &f->cells[i];
+        uint32_t exit = cell->first_exit;
+        for (uint32_t k = 0; k < cell->vertex_count; k++) {
+            uint32_t *what = &m->out->beyond[cell->first_vertex + k];
+            if (*what != SL_BEYOND_EXIT) continue;
+            const uint32_t portal = f->exits[exit++].portal;
+            if (walls[portal] != UINT32_MAX)
+                *what = walls[portal] | (f->portals[portal].cell[0] == i ? 0 : SL_BEYOND_RIGHT);
+        }
+    }
+}
+
+static void drop_exits(maker *m) {
+    sl_space *s = m->out;
+    s->exit_count = 0;
+    for (uint32_t i = 0; i < s->cell_count; i++) {
+        const sl_cell *from = &m->from->cells[i];
+        s->cells[i].first_exit = s->exit_count;
+        for (uint32_t k = from->first_exit; k < from->first_exit + from->exit_count; k++) {
+            if (m->barred[k]) continue;
+            sl_exit exit = m->from->exits[k];
+            exit.portal = m->portals[exit.portal];
+            s->exits[s->exit_count++] = exit;
+        }
+        s->cells[i].exit_count = s->exit_count - s->cells[i].first_exit;
+    }
+}
+
+static sl_status make(sl_context *context, maker *m) {
+    const sl_space *f = m->from;
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < f->portal_count; i++)
+        m->portals[i] = is_shut(m, i) ? UINT32_MAX : kept++;
+    for (uint32_t i = 0; i < f->cell_count; i++)
+        for (uint32_t k = f->cells[i].first_exit;
+             k < f->cells[i].first_exit + f->cells[i].exit_count; k++) {
+            const uint32_t portal = f->exits[k].portal;
+            m->barred[k] = m->portals[portal] == UINT32_MAX ||
+                           (m->passage->one_way && sl_exit_is_dark(f, i, k));
+        }
+    SL_TRY(copy_space(context, m, f->portal_count - kept));
+    shut_portals(m);
+    drop_exits(m);
+    if (!f->beyond) return SL_OK;
+    uint32_t *walls = sl_alloc_array(context, f->portal_count, sizeof *walls);
+    if (!walls) return SL_NO_MEMORY;
+    number_walls(m, walls);
+    tell_sides(m, walls);
+    sl_free(context, walls);
+    return SL_OK;
+}
+
+sl_status sl_passage_make(sl_context *context, const sl_space *space, const sl_passage *passage,
+                          uint32_t *portals, sl_space *out) {
+    sl_space made = {0};
+    maker m = {.from = space, .passage = passage, .portals = portals, .out = &made};
+    uint32_t *own = NULL;
+    if (!portals) m.portals = own = sl_alloc_array(context, space->portal_count, sizeof *own);
+    m.barred = sl_alloc_array(context, space->exit_count, sizeof *m.barred);
+    const sl_status status = m.portals && m.barred ? make(context, &m) : SL_NO_MEMORY;
+    sl_free(context, own);
+    sl_free(context, m.barred);
+    if (status == SL_OK)
+        *out = made;
+    else
+        sl_space_destroy(context, &made);
+    return status;
+}

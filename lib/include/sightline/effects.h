@@ -1,0 +1,78 @@
+/// Effects: what a map may call for beside walls, and the plan of the work that follows from it.
+/// What a map does not have costs it nothing; what a method does not know, it refuses by name.
+#ifndef SIGHTLINE_EFFECTS_H
+#define SIGHTLINE_EFFECTS_H
+
+#include "sightline/space.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// A bit for each effect, by its place in the table.
+enum {
+    SL_EFFECT_DOOR = 1,
+    SL_EFFECT_MIRROR = 2,
+    SL_EFFECT_ONEWAY = 4,
+    SL_EFFECT_RANGE = 8,
+};
+
+/// An effect: reachable by name, listed everywhere from the table.
+typedef struct sl_effect {
+    const char *name;    ///< "mirror"
+    const char *several; ///< "mirrors"
+    const char *adds;    ///< what it adds to the work
+    const char *without; ///< what holds where it is left out
+    bool mutual;         ///< with it, who is seen sees as well
+    size_t (*count)(const sl_map *map);
+    uint32_t (*line)(const sl_map *map); ///< of the first, 0 where unknown; only if there is one
+    void (*leave_out)(sl_context *context, sl_map *map);
+} sl_effect;
+
+/// All effects: "door", "mirror", "oneway", "range".
+SL_API const sl_effect *const *sl_effects(size_t *count);
+
+/// The plan: what a map calls for. It is made once, and asked by each stage as it begins.
+typedef struct sl_plan {
+    unsigned effects;      ///< bits
+    bool mutual;           ///< whether who is seen sees as well: pairs are symmetric
+    double range;          ///< nothing farther than this is seen; 0 for no limit
+    const sl_map *map;     ///< that it was made of, and must outlive it
+    uint32_t mirror_depth; ///< reflections of a sightline, at most; 1 by itself
+    uint32_t door_limit;   ///< sets of doors kept of a pair, at most; 16 by itself
+} sl_plan;
+
+SL_API sl_plan sl_plan_make(const sl_map *map);
+
+/// Takes effects out of a map, and notes what was taken.
+SL_API void sl_effects_leave_out(sl_context *context, sl_map *map, unsigned effects);
+
+/// SL_UNSUPPORTED, with what to do about it, where a map calls for more than `known`. `method` is
+/// what messages call the method.
+SL_API sl_status sl_effects_check(sl_context *context, const sl_map *map, const char *method,
+                                  unsigned known);
+
+/// The space as sight finds it for the time being, with what holds it back made part of the space:
+/// portals on doors that are shut become walls, and one-way glass has no exit on the side from
+/// which it is not seen through. Cells, vertices and the numbers of portals stay.
+typedef struct sl_passage {
+    const bool *shut; ///< by door of the map; NULL: all are open
+    bool one_way;     ///< with its glass; else that is open both ways
+} sl_passage;
+
+/// A copy of a space for a passage. It is as sl_space_check wants it where the passage is not
+/// one-way: then all methods work on it. With one-way exits missing, only those that go through
+/// exits do, one way: "dfs", and eye-to-cell. Portals that are walls have no exits and are left
+/// out; `portals` (portal_count of `space`, or NULL) gets the new number of each, UINT32_MAX for
+/// none.
+SL_API sl_status sl_passage_make(sl_context *context, const sl_space *space,
+                                 const sl_passage *passage, uint32_t *portals, sl_space *out);
+
+/// Whether one-way glass keeps sight from leaving a cell by an exit.
+SL_API bool sl_exit_is_dark(const sl_space *space, uint32_t cell, uint32_t exit);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

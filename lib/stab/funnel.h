@@ -1,0 +1,30 @@
+/// What the incremental exact solver knows beyond its verdict.
+#ifndef SL_FUNNEL_H
+#define SL_FUNNEL_H
+
+#include "sightline/solvers.h"
+
+/// A corner of the polygon of lines: a directed line through two portal ends, and the end about
+/// which it turns to become the next corner's line. In order, around.
+typedef struct sl_funnel_corner {
+    sl_point from, to, pivot;
+} sl_funnel_corner;
+
+/// Of the sequence as it stands, which must not be hidden or empty. No corners: all portals lie on
+/// one line.
+uint32_t sl_funnel_corner_count(const void *state);
+sl_funnel_corner sl_funnel_corner_at(const void *state, uint32_t i);
+sl_portal_ends sl_funnel_portal(const void *state, bool last); ///< the first or the last
+
+/// The length of the shortest piece, between the first portal and the last one, of the lines
+/// through the sequence as it stands, which must not be hidden or empty. 0 for one portal. Rounded:
+/// to within SL_SHORTEST_ERROR of itself.
+///
+/// The lines make up a convex polygon in the plane of lines, whose edges are turns about one portal
+/// end each. Along a turn the length is the sum of two secants of the angle, which is convex; and
+/// the shortest piece of all lies on an edge, for it touches an end of some portal.
+double sl_funnel_shortest(const void *state);
+
+#define SL_SHORTEST_ERROR 0x1p-40
+
+#endif

@@ -1,0 +1,205 @@
+/// Effects against an oracle that knows them, on random maps with all their combinations; doors
+/// against bakes with walls in those that are shut.
+#include "testing.h"
+
+#include "base/random.h"
+#include "oracle/effects.h"
+
+#include <math.h>
+
+enum { SIZE = 7, MAPS = 160, STATES = 12, PUSHES = 6000 };
+
+typedef struct trial {
+    sl_context *context;
+    sl_map map;
+    sl_space space;
+    sl_plan plan;
+    uint64_t seed;
+    uint32_t depth;
+} trial;
+
+static const sl_see_method *method(const char *name) {
+    size_t count;
+    const sl_see_method *methods = sl_see_methods(&count);
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(methods[i].name, name) == 0) return &methods[i];
+    fail_msg("there is no method %s", name);
+    return NULL;
+}
+
+static void see(sl_context *context, const sl_space *space, const sl_plan *plan, const char *name,
+                sl_sight sight, sl_visibility *out) {
+    sl_see_options options = sl_see_options_default();
+    options.sight = sight;
+    options.solver = method(name)->stabs ? sl_funnel() : NULL;
+    options.plan = plan;
+    assert_ok(context, method(name)->see(context, space, &options, out));
+}
+
+// --- random maps
+
+static sl_segment draw_segment(sl_random *random) {
+    const bool upright = sl_random_below(random, 2);
+    const double at = (double)sl_random_below(random, SIZE + 1);
+    const double from = (double)sl_random_below(random, SIZE + 1);
+    double to;
+    do to = (double)sl_random_below(random, SIZE + 1);
+    while (to == from);
+    return upright ? (sl_segment){{at, from}, {at, to}} : (sl_segment){{from, at}, {to, at}};
+}
+
+/// `effects`: bits of those that the map has.
+static void begin(trial *t, uint64_t seed, unsigned effects) {
+    *t = (trial){.context = testing_context(NULL), .seed = seed};
+    sl_random random = {seed};
+    const sl_point corners[5] = {{0, 0}, {SIZE, 0}, {SIZE, SIZE}, {0, SIZE}, {0, 0}};
+    for (int i = 0; i < 4; i++)
+        assert_ok(t->context, sl_map_add_wall(t->context, &t->map, corners[i], corners[i + 1], 0));
+    for (uint64_t i = sl_random_below(&random, 5); i > 0; i--) {
+        const sl_segment at = draw_segment(&random);
+        assert_ok(t->context, sl_map_add_wall(t->context, &t->map, at.a, at.b, 0));
+    }
+    for (int i = 0; i < 3 && effects & SL_EFFECT_DOOR; i++) {
+        char name[] = {(char)('a' + i), 0};
+        assert_ok(t->context,
+                  sl_map_add_door(t->context, &t->map, name, draw_segment(&random), true, 0));
+    }
+    for (int i = 0; i < 2 && effects & SL_EFFECT_ONEWAY; i++)
+        assert_ok(t->context, sl_map_add_oneway(t->context, &t->map, draw_segment(&random), 0));
+    for (int i = 0; i < 2 && effects & SL_EFFECT_MIRROR; i++) {
+        assert_ok(t->context, sl_map_add_mirror(t->context, &t->map, draw_segment(&random), 0));
+        t->map.mirrors[i].one_sided = sl_random_below(&random, 2);
+    }
+    if (effects & SL_EFFECT_RANGE) t->map.range = 0.37 + (double)sl_random_below(&random, SIZE);
+    t->depth = (uint32_t)sl_random_below(&random, 3);
+    assert_ok(t->context, sl_map_clean(t->context, &t->map, NULL));
+    const sl_subdivide_options options = sl_subdivide_options_default();
+    assert_ok(t->context, sl_subdivide_kd(t->context, &t->map, &options, &t->space));
+    assert_ok(t->context, sl_space_check(t->context, &t->space));
+    t->plan = sl_plan_make(&t->map);
+    assert_int_equal(t->plan.effects, effects);
+    t->plan.mirror_depth = t->depth;
+    t->plan.door_limit = 1000;
+}
+
+static void end(trial *t) {
+    sl_space_destroy(t->context, &t->space);
+    sl_map_destroy(t->context, &t->map);
+    sl_context_destroy(t->context);
+}
+
+// --- against the oracle
+
+/// What the oracle says of a pair while doors are shut: seen for sure, or unless its lengths err.
+typedef struct truth {
+    bool sure, possible;
+} truth;
+
+static void gather(const trial *t, const oracle_ways *ways, uint32_t shut, bool mirrored,
+                   truth *out) {
+    const uint32_t n = t->space.cell_count;
+    memset(out, 0, (size_t)n * n * sizeof *out);
+    for (uint32_t i = 0; i < n && !mirrored; i++) out[i * n + i] = (truth){true, true};
+    for (size_t i = 0; i < ways->count; i++) {
+        const oracle_way *w = &ways->items[i];
+        if (w->doors & shut || w->mirrored != mirrored) continue;
+        truth *pair = &out[w->from * n + w->to];
+        const double range = t->map.range;
+        pair->sure |= !(range > 0) || w->length <= range;
+        pair->possible |= !(range > 0) || w->length <= range * 1.003;
+    }
+}
+
+static void compare(const trial *t, const oracle_ways *ways, const sl_pvs *pvs,
+                    const sl_door_sets *doors, bool mirrored, uint32_t shut, truth *truths) {
+    const uint32_t n = t->space.cell_count;
+    bool state[32];
+    for (int i = 0; i < 32; i++) state[i] = shut >> i & 1;
+    gather(t, ways, shut, mirrored, truths);
+    for (uint32_t a = 0; a < n; a++)
+        for (uint32_t b = 0; b < n; b++) {
+            const truth *expected = &truths[a * n + b];
+            const bool seen =
+                pvs->cell_count && sl_pvs_sees(pvs, a, b) && sl_door_sets_open(doors, a, b, state);
+            if (seen ? expected->possible : !expected->sure) continue;
+            sl_map_write_text(t->context, &t->map, "-");
+            fail_msg("seed %llu, effects %u, depth %u, shut %x: cell %u %s cell %u%s",
+                     (unsigned long long)t->seed, t->plan.effects, t->depth, shut, a,
+                     seen ? "sees" : "does not see", b, mirrored ? " by mirror" : "");
+        }
+}
+
+/// False where the map is too much for the oracle.
+static bool try_map(uint64_t seed, unsigned effects, sl_sight sight) {
+    trial t;
+    oracle_ways ways;
+    begin(&t, seed, effects);
+    const bool within = oracle_effects(&t.space, &t.map, sight, t.depth, PUSHES, &ways);
+    const uint32_t n = t.space.cell_count;
+    truth *truths = calloc((size_t)n * n, sizeof *truths);
+    assert_non_null(truths);
+    for (int which = 0; which < 2 && within; which++) {
+        sl_visibility v = {0};
+        see(t.context, &t.space, &t.plan, which ? "prune" : "dfs", sight, &v);
+        assert_int_equal(v.account.door_fallbacks, 0);
+        for (uint32_t shut = 0; shut < (effects & SL_EFFECT_DOOR ? 8u : 1u); shut++) {
+            compare(&t, &ways, &v.pvs, &v.doors, false, shut, truths);
+            compare(&t, &ways, &v.mirrored, &v.mirrored_doors, true, shut, truths);
+        }
+        sl_visibility_destroy(t.context, &v);
+    }
+    free(truths);
+    free(ways.items);
+    end(&t);
+    return within;
+}
+
+static void random_maps(void **state) {
+    (void)state;
+    int done = 0;
+    const char *seeds = getenv("SIGHTLINE_SEEDS");
+    const int maps = seeds ? atoi(seeds) : MAPS;
+    for (int i = 0; i < maps; i++)
+        done += try_map((uint64_t)i + 1, (unsigned)i % 16, i / 16 % 2 ? SL_OPEN : SL_CLOSED);
+    assert_true(done > maps / 2);
+}
+
+// --- doors against walls
+
+static void compare_with_walls(const trial *t, const sl_visibility *all_open, const bool *shut) {
+    sl_space walled;
+    sl_visibility fresh = {0};
+    const sl_passage passage = {.shut = shut};
+    assert_ok(t->context, sl_passage_make(t->context, &t->space, &passage, NULL, &walled));
+    assert_ok(t->context, sl_space_check(t->context, &walled));
+    see(t->context, &walled, NULL, "sweep", all_open->sight, &fresh);
+    for (uint32_t a = 0; a < t->space.cell_count; a++)
+        for (uint32_t b = 0; b < t->space.cell_count; b++)
+            if (sl_pvs_sees(&fresh.pvs, a, b) != (sl_pvs_sees(&all_open->pvs, a, b) &&
+                                                  sl_door_sets_open(&all_open->doors, a, b, shut)))
+                fail_msg("seed %llu: cells %u and %u", (unsigned long long)t->seed, a, b);
+    sl_visibility_destroy(t->context, &fresh);
+    sl_space_destroy(t->context, &walled);
+}
+
+static void shut_doors_are_walls(void **state) {
+    (void)state;
+    for (uint64_t seed = 1; seed <= MAPS / 4; seed++) {
+        trial t;
+        sl_visibility v = {0};
+        begin(&t, seed, SL_EFFECT_DOOR);
+        see(t.context, &t.space, &t.plan, "prune", seed % 2 ? SL_OPEN : SL_CLOSED, &v);
+        for (unsigned shut = 0; shut < 8; shut++)
+            compare_with_walls(&t, &v, (bool[]){shut & 1, shut & 2, shut & 4});
+        sl_visibility_destroy(t.context, &v);
+        end(&t);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(random_maps),
+        cmocka_unit_test(shut_doors_are_walls),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
