@@ -58,6 +58,7 @@ static sl_status read_options(sl_context *context, const sl_input_texts *texts,
     options->has_slice = texts->slice != NULL;
     options->map = texts->map;
     options->layers = texts->layers;
+    options->unit = texts->unit;
     options->doors = texts->doors;
     options->cells = texts->cells;
     return SL_OK;
@@ -79,6 +80,7 @@ sl_status sl_input_refuse_texts(sl_context *context, const char *path,
                         : texts->slice     ? "slice"
                         : texts->layers    ? "layers"
                         : texts->tolerance ? "tolerance"
+                        : texts->unit      ? "unit"
                         : texts->threshold ? "threshold"
                         : texts->doors     ? "doors"
                                            : NULL;

@@ -14,7 +14,7 @@ const char *sl_input_base_name(const char *path, size_t *length);
 
 /// The options of reading a map, as they are given.
 typedef struct sl_input_texts {
-    const char *map, *slice, *layers, *tolerance, *threshold;
+    const char *map, *slice, *layers, *tolerance, *unit, *threshold;
     bool doors;
     bool cells; ///< the file's own cells are asked for
 } sl_input_texts;
@@ -27,6 +27,9 @@ typedef struct sl_input_texts {
          "LAYER,...",     NULL,                                                                    \
          &(texts).layers, "the layers of a drawing or tile map to take"},                          \
         {"tolerance", 0, "T", NULL, &(texts).tolerance, "how far curves may be from their walls"}, \
+        {"unit",        0,                                                                         \
+         "UNIT",        NULL,                                                                      \
+         &(texts).unit, "of a drawing, turned into this: mm cm m km in ft yd"},                    \
         {"threshold",                                                                              \
          0,                                                                                        \
          "T",                                                                                      \

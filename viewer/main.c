@@ -34,6 +34,7 @@ static void print_help(void) {
          "  --slice Z            cut a 3D model at this height, not in its middle\n"
          "  --layers LAYER,...   the layers of a drawing or tile map to take\n"
          "  --tolerance T        how far curves may be from their walls\n"
+         "  --unit UNIT          of a drawing, turned into this: mm cm m km in ft yd\n"
          "  --threshold T        darkness from which a pixel is solid, up to 1\n"
          "  --doors              take doors as doors; without it as what they are when the map\n"
          "                       begins\n"
@@ -91,6 +92,9 @@ static sl_status read_map_option(sl_context *context, int option, arguments *a) 
         return SL_OK;
     case 't':
         return read_number(context, "--tolerance", optarg, 1e-300, &o->tolerance);
+    case 'u':
+        o->unit = optarg;
+        return SL_OK;
     case 'd':
         SL_TRY(read_number(context, "--threshold", optarg, 1e-300, &o->threshold));
         if (o->threshold <= 1) return SL_OK;
@@ -147,14 +151,23 @@ static sl_status read_option(sl_context *context, int option, arguments *a) {
 
 static sl_status read_arguments(sl_context *context, int argc, char **argv, arguments *a) {
     static const struct option options[] = {
-        {"slice", required_argument, NULL, 'z'},      {"map", required_argument, NULL, 'm'},
-        {"layers", required_argument, NULL, 'l'},     {"tolerance", required_argument, NULL, 't'},
-        {"threshold", required_argument, NULL, 'd'},  {"doors", no_argument, NULL, 'r'},
-        {"start", required_argument, NULL, 'p'},      {"script", required_argument, NULL, 's'},
-        {"screenshot", required_argument, NULL, 'o'}, {"bench", no_argument, NULL, 'b'},
-        {"frames", required_argument, NULL, 'f'},     {"soak", required_argument, NULL, 'k'},
-        {"seed", required_argument, NULL, 'e'},       {"help", no_argument, NULL, 'h'},
-        {"version", no_argument, NULL, 'v'},          {NULL, 0, NULL, 0},
+        {"slice", required_argument, NULL, 'z'},
+        {"map", required_argument, NULL, 'm'},
+        {"layers", required_argument, NULL, 'l'},
+        {"tolerance", required_argument, NULL, 't'},
+        {"unit", required_argument, NULL, 'u'},
+        {"threshold", required_argument, NULL, 'd'},
+        {"doors", no_argument, NULL, 'r'},
+        {"start", required_argument, NULL, 'p'},
+        {"script", required_argument, NULL, 's'},
+        {"screenshot", required_argument, NULL, 'o'},
+        {"bench", no_argument, NULL, 'b'},
+        {"frames", required_argument, NULL, 'f'},
+        {"soak", required_argument, NULL, 'k'},
+        {"seed", required_argument, NULL, 'e'},
+        {"help", no_argument, NULL, 'h'},
+        {"version", no_argument, NULL, 'v'},
+        {NULL, 0, NULL, 0},
     };
     *a = (arguments){.frames = 300, .seed = 1, .options = sl_import_options_default()};
     opterr = 0;

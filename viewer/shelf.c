@@ -90,6 +90,7 @@ static void keep_useful(sl_import_options *options, unsigned takes) {
     if (!(takes & SL_TAKES_SLICE)) options->has_slice = false;
     if (!(takes & SL_TAKES_LAYERS)) options->layers = NULL;
     if (!(takes & SL_TAKES_TOLERANCE)) options->tolerance = usual.tolerance;
+    if (!(takes & SL_TAKES_UNIT)) options->unit = NULL;
     if (!(takes & SL_TAKES_THRESHOLD)) options->threshold = usual.threshold;
     if (!(takes & SL_TAKES_DOORS)) options->doors = false;
     if (!(takes & SL_TAKES_CELLS)) options->cells = false;

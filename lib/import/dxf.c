@@ -258,12 +258,40 @@ static sl_status check_layers(const sl_dxf *dxf) {
     return SL_OK;
 }
 
+/// By $INSUNITS: what a drawing's coordinates are in, and how long that is in metres.
+static const struct {
+    const char *name, *word; ///< the word that asks for it, NULL for none
+    double metres;
+} units[] = {
+    {"not told", NULL, 0},      {"inches", "in", 0.0254},    {"feet", "ft", 0.3048},
+    {"miles", NULL, 1609.344},  {"millimetres", "mm", 1e-3}, {"centimetres", "cm", 1e-2},
+    {"metres", "m", 1},         {"kilometres", "km", 1e3},   {"microinches", NULL, 2.54e-8},
+    {"mils", NULL, 2.54e-5},    {"yards", "yd", 0.9144},     {"angstroms", NULL, 1e-10},
+    {"nanometres", NULL, 1e-9}, {"microns", NULL, 1e-6},     {"decimetres", NULL, 0.1},
+};
+enum { UNITS = sizeof units / sizeof *units };
+
 static const char *unit_name(int unit) {
-    static const char *const names[] = {"not told",    "inches",      "feet",      "miles",
-                                        "millimetres", "centimetres", "metres",    "kilometres",
-                                        "microinches", "mils",        "yards",     "angstroms",
-                                        "nanometres",  "microns",     "decimetres"};
-    return unit >= 0 && (size_t)unit < sizeof names / sizeof *names ? names[unit] : "unusual";
+    return unit >= 0 && unit < UNITS ? units[unit].name : "unusual";
+}
+
+/// Has the pen draw in the unit that is asked for.
+static sl_status take_unit(sl_dxf *dxf) {
+    const char *word = dxf->options->unit;
+    if (!word) return SL_OK;
+    size_t to = 0;
+    while (to < UNITS && !(units[to].word && strcmp(units[to].word, word) == 0)) to++;
+    if (to == UNITS)
+        return sl_fail(dxf->context, SL_BAD_ARGUMENT,
+                       "there is no unit '%s'; choose from mm, cm, m, km, in, ft, yd", word);
+    if (dxf->unit <= 0 || dxf->unit >= UNITS)
+        return sl_fail(dxf->context, SL_BAD_ARGUMENT,
+                       "%s: the drawing's own unit is %s, so it cannot be turned into %s",
+                       dxf->name, unit_name(dxf->unit), units[to].name);
+    if ((size_t)dxf->unit == to) return SL_OK;
+    const double scale = units[dxf->unit].metres / units[to].metres;
+    dxf->pen.affine = (sl_affine){.xx = scale, .yy = scale};
+    return SL_OK;
 }
 
 static sl_status read_drawing(sl_dxf *dxf, const char *text, size_t size) {
@@ -271,12 +299,15 @@ static sl_status read_drawing(sl_dxf *dxf, const char *text, size_t size) {
     SL_TRY(read_pairs(dxf, text, size));
     SL_TRY(read_sections(dxf));
     SL_TRY(check_layers(dxf));
+    SL_TRY(take_unit(dxf));
     SL_TRY(sl_dxf_draw(dxf, dxf->entities, (sl_word){"", 0}, 0));
     sl_note(dxf->context,
-            "%s: %zu entities give %zu walls (unit: %s); left out: %zu on other layers, %zu of "
+            "%s: %zu entities give %zu walls (unit: %s%s%s); left out: %zu on other layers, %zu of "
             "other kinds, %zu on the paper, %zu out of the plan's plane, %zu lines of no length",
-            dxf->name, dxf->drawn, dxf->pen.walls, unit_name(dxf->unit), dxf->other_layers,
-            dxf->other_kinds, dxf->on_paper, dxf->out_of_plane, dxf->pen.points);
+            dxf->name, dxf->drawn, dxf->pen.walls, unit_name(dxf->unit),
+            dxf->options->unit ? ", turned into " : "",
+            dxf->options->unit ? dxf->options->unit : "", dxf->other_layers, dxf->other_kinds,
+            dxf->on_paper, dxf->out_of_plane, dxf->pen.points);
     return SL_OK;
 }
 

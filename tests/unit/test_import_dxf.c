@@ -162,11 +162,34 @@ static void test_refused(void **state) {
     assert_refused("AC1027....", "f: a DWG drawing");
 }
 
+#define IN(unit) "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n" #unit "\n0\nENDSEC\n"
+
+static void test_units(void **state) {
+    (void)state;
+    sl_import_options options = sl_import_options_default();
+    const char *const feet = IN(2) HEAD LINE(0, 10, 100, 0) TAIL;
+    options.unit = "m";
+    assert_walls_of(sl_map_read_dxf, &options, feet, strlen(feet), "wall 0 3.048 30.48 0\n");
+    options.unit = "ft";
+    assert_walls_of(sl_map_read_dxf, &options, feet, strlen(feet), "wall 0 10 100 0\n");
+    options.unit = "ell";
+    assert_refused_of(sl_map_read_dxf, &options, feet, strlen(feet), SL_BAD_ARGUMENT,
+                      "there is no unit 'ell'; choose from mm, cm, m, km, in, ft, yd");
+    options.unit = "m";
+    const char *const untold = HEAD LINE(0, 10, 100, 0) TAIL;
+    assert_refused_of(sl_map_read_dxf, &options, untold, strlen(untold), SL_BAD_ARGUMENT,
+                      "f: the drawing's own unit is not told, so it cannot be turned into metres");
+    const char *const strange = IN(99) HEAD LINE(0, 10, 100, 0) TAIL;
+    assert_refused_of(sl_map_read_dxf, &options, strange, strlen(strange), SL_BAD_ARGUMENT,
+                      "f: the drawing's own unit is unusual, so it cannot be turned into metres");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_lines),  cmocka_unit_test(test_polylines),
-        cmocka_unit_test(test_curves), cmocka_unit_test(test_blocks),
-        cmocka_unit_test(test_layers), cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_lines),   cmocka_unit_test(test_polylines),
+        cmocka_unit_test(test_curves),  cmocka_unit_test(test_blocks),
+        cmocka_unit_test(test_layers),  cmocka_unit_test(test_units),
+        cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

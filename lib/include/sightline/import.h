@@ -18,6 +18,8 @@ typedef struct sl_import_options {
     /// The layers to take, by name, with commas between; NULL for the format's own choice.
     const char *layers;
     double tolerance; ///< how far a curve may be from its walls, in the map's unit; 0: the usual
+    /// Coordinates are to be in this unit: mm, cm, m, km, in, ft or yd; NULL: in the file's own.
+    const char *unit;
     double threshold; ///< images: darkness from which a pixel is solid, 0 .. 1; 0: the usual
     /// Take doors as doors. Off: as what they are when the map begins; those of a game that opens
     /// them at a touch (Doom) are seen through.
@@ -48,6 +50,7 @@ typedef enum sl_import_takes {
     SL_TAKES_THRESHOLD = 8,
     SL_TAKES_DOORS = 16,
     SL_TAKES_CELLS = 32,
+    SL_TAKES_UNIT = 64,
 } sl_import_takes;
 
 /// A format: its name, what its files' names end with (space-separated), what it is, how to read
@@ -104,7 +107,8 @@ SL_API sl_status sl_map_heights_unigrafix(sl_context *context, const char *name,
 
 /// The lines, polylines with bulges, arcs, circles and ellipses of an ASCII DXF drawing, in blocks
 /// as inserted, on layers that are on and not frozen or on those asked for. What was taken is
-/// noted.
+/// noted. SL_BAD_ARGUMENT where a unit is asked for and there is none of that name, or the drawing
+/// does not tell its own.
 SL_API sl_status sl_map_read_dxf(sl_context *context, const char *name, const char *text,
                                  size_t size, const sl_import_options *options, sl_map *map);
 
