@@ -174,6 +174,7 @@ static sl_status start_queue(merger *m) {
     sl_status status = sl_view_neighbours(m->context, m->tree, &pairs);
     for (size_t i = 0; i < pairs.count && status == SL_OK; i++) {
         const sl_view_pair p = pairs.items[i];
+        if (p.a >= m->cell_count || p.b >= m->cell_count) continue;
         status = add_around(m, p.a, p.b);
         if (status == SL_OK) status = add_around(m, p.b, p.a);
         if (status == SL_OK) status = weigh(m, p.a, p.b);

@@ -38,7 +38,7 @@ static bool is_above(const sl_view_tree *tree, const sl_node *node, uint32_t lea
 }
 
 static sl_status gather(sl_context *context, const sl_view_tree *tree, sides *all) {
-    for (uint32_t leaf = 0; leaf < tree->cell_count; leaf++) {
+    for (uint32_t leaf = 0; leaf < tree->leaf_count; leaf++) {
         const uint32_t first = tree->first[leaf], end = tree->first[leaf + 1];
         SL_TRY(SL_ARRAY_ROOM(context, all, end - first));
         for (uint32_t i = first; i < end; i++) {
@@ -100,7 +100,9 @@ sl_status sl_view_borders(sl_context *context, const sl_view_tree *tree, const u
     size_t found = 0;
     for (size_t i = 0; i < pairs.count && status == SL_OK; i++) {
         const sl_view_pair *p = &pairs.items[i];
-        if (view_cells[p->a] != view_cells[p->b]) made[found++] = p->shared;
+        const uint32_t a = p->a < tree->cell_count ? view_cells[p->a] : SL_NO_VIEW_CELL;
+        const uint32_t b = p->b < tree->cell_count ? view_cells[p->b] : SL_NO_VIEW_CELL;
+        if (a != b) made[found++] = p->shared;
     }
     sl_free(context, pairs.items);
     if (status != SL_OK) return status;

@@ -1,4 +1,4 @@
-/// Which elementary view cells share a piece of boundary.
+/// Which leaves share a piece of boundary.
 #ifndef SL_VIEW_NEIGHBOURS_H
 #define SL_VIEW_NEIGHBOURS_H
 
@@ -12,7 +12,7 @@ typedef struct sl_view_pair {
 
 typedef SL_ARRAY(sl_view_pair) sl_view_pairs;
 
-/// Adds each pair of elementary cells that are neighbours, once for each piece that they share.
+/// Adds each pair of leaves that are neighbours, once for each piece that they share.
 /// Pieces of oblique splits overlap within rounding.
 sl_status sl_view_neighbours(sl_context *context, const sl_view_tree *tree, sl_view_pairs *out);
 

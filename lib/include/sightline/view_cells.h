@@ -11,6 +11,7 @@
 #define SIGHTLINE_VIEW_CELLS_H
 
 #include "sightline/outline.h"
+#include "sightline/pvs.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -223,11 +224,55 @@ SL_API sl_status sl_view_cut_by_cost(sl_context *context, const sl_view_hierarch
 SL_API sl_status sl_view_cut(sl_context *context, const sl_view_hierarchy *hierarchy,
                              uint32_t cells, uint32_t *view_cells, uint32_t *numbers);
 
-/// The pieces of boundary between different view cells, for pictures; the array is the caller's,
-/// who hands it to sl_view_borders_free.
+/// The pieces of boundary between different view cells, and between view cells and empty space; the
+/// array is the caller's, who hands it to sl_view_borders_free.
 SL_API sl_status sl_view_borders(sl_context *context, const sl_view_tree *tree,
                                  const uint32_t *view_cells, sl_segment **borders, size_t *count);
 SL_API void sl_view_borders_free(sl_context *context, sl_segment *borders);
+
+// --- exact sets, for use
+
+/// Adds the borders of view cells to a map as seams: no cell of a space that is made of it then
+/// lies in two view cells (in a BSP's space, but for rounding), and what a view cell sees is what
+/// its cells see, by any method.
+SL_API sl_status sl_view_add_seams(sl_context *context, const sl_view_tree *tree,
+                                   const uint32_t *view_cells, sl_map *map);
+
+/// What view cells see, in cells of a space. Rows hang in a tree: nodes below view_cell_count are
+/// view cells, and a view cell sees what its own row holds and those of all nodes above it
+/// (section 5.2). Zeroed: none.
+typedef struct sl_view_rows {
+    uint32_t view_cell_count, node_count;
+    uint32_t *view_cells; ///< by cell of the space: its view cell, or SL_NO_VIEW_CELL
+    uint32_t *parents;    ///< by node: a node of a higher number, or SL_NO_VIEW_CELL
+    sl_pvs rows;          ///< by node; there are as many rows as cells, those that are over empty
+} sl_view_rows;
+
+/// The rows of the view cells of a cut (as from sl_view_cut), over a space with their seams, from
+/// what its cells see; inside cells alone count. `compressed`: what two siblings of the hierarchy
+/// both see is told once, above them; else there are no nodes above. SL_BAD_ARGUMENT where the
+/// space has no cell for each node.
+SL_API sl_status sl_view_rows_make(sl_context *context, const sl_space *space, const sl_pvs *pvs,
+                                   const sl_view_tree *tree, const sl_view_hierarchy *hierarchy,
+                                   uint32_t cells, bool compressed, sl_view_rows *out);
+SL_API void sl_view_rows_destroy(sl_context *context, sl_view_rows *rows); ///< and zeroes it
+
+/// The view cell of a point: that of its cell in the space. SL_NO_VIEW_CELL for none.
+SL_API uint32_t sl_view_rows_locate(const sl_view_rows *rows, const sl_space *space,
+                                    sl_point point);
+/// Sets bit c % 64 of word c / 64 for each cell c that a view cell sees; other bits stay.
+SL_API void sl_view_rows_add_to(const sl_view_rows *rows, uint32_t view_cell, uint64_t *bits);
+SL_API bool sl_view_rows_sees(const sl_view_rows *rows, uint32_t view_cell, uint32_t cell);
+
+/// Checks rows from an untrusted file. SL_BAD_INPUT.
+SL_API sl_status sl_view_rows_check(sl_context *context, const sl_view_rows *rows);
+
+/// The expected cost (equation 1) by exact sets, in cells of the scene's own space, whose objects
+/// must be cells; `space` is the one with the seams. `hierarchy` and `cells` tell the cut.
+SL_API sl_status sl_view_rows_cost(sl_context *context, const sl_view_scene *scene,
+                                   const sl_space *space, const sl_view_rows *rows,
+                                   const sl_view_hierarchy *hierarchy, uint32_t cells,
+                                   double *cost);
 
 #ifdef __cplusplus
 }

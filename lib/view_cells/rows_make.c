@@ -1,0 +1,232 @@
+/// Exact sets of view cells: their borders become seams of the map, and what their cells see is
+/// pulled up the hierarchy (Mattausch et al. 2006, section 5.2).
+#include "cell_to_cell/pvs_rows.h"
+#include "view_cells/render.h"
+#include "view_cells/tree.h"
+
+#include <string.h>
+
+sl_status sl_view_add_seams(sl_context *context, const sl_view_tree *tree,
+                            const uint32_t *view_cells, sl_map *map) {
+    sl_segment *borders;
+    size_t count;
+    SL_TRY(sl_view_borders(context, tree, view_cells, &borders, &count));
+    sl_status status = SL_OK;
+    for (size_t i = 0; i < count && status == SL_OK; i++)
+        status = sl_map_add_seam(context, map, borders[i], 0);
+    sl_view_borders_free(context, borders);
+    return status;
+}
+
+/// The mean of a cell's corners.
+static sl_point middle_of(const sl_space *space, uint32_t cell) {
+    const sl_cell *c = &space->cells[cell];
+    sl_point sum = {0, 0};
+    for (uint32_t i = 0; i < c->vertex_count; i++) {
+        sum.x += space->vertices[c->first_vertex + i].x / c->vertex_count;
+        sum.y += space->vertices[c->first_vertex + i].y / c->vertex_count;
+    }
+    return sum;
+}
+
+typedef struct maker {
+    const sl_space *space;
+    const sl_view_tree *tree;
+    const sl_view_hierarchy *hierarchy;
+    uint32_t cells;     ///< view cells
+    uint32_t *cut;      ///< by elementary cell: its view cell
+    uint32_t *numbers;  ///< by view cell: its number in the hierarchy
+    uint32_t *node_of;  ///< by number in the hierarchy: its node
+    sl_view_sets sets;  ///< by node
+    sl_row_bytes bytes; ///< of the rows
+    sl_view_rows *out;
+} maker;
+
+static sl_status find_cut(sl_context *context, maker *m) {
+    const uint32_t count = m->hierarchy->cell_count;
+    m->cut = sl_alloc_array(context, count, sizeof *m->cut);
+    m->numbers = sl_alloc_array(context, m->cells, sizeof *m->numbers);
+    m->node_of = sl_alloc_array(context, 2 * (size_t)count, sizeof *m->node_of);
+    if (!m->cut || !m->numbers || !m->node_of) return SL_NO_MEMORY;
+    return sl_view_cut(context, m->hierarchy, m->cells, m->cut, m->numbers);
+}
+
+static sl_status deal_cells(sl_context *context, maker *m) {
+    const sl_space *space = m->space;
+    m->out->view_cells = sl_alloc_array(context, space->cell_count, sizeof *m->out->view_cells);
+    if (!m->out->view_cells) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < space->cell_count; i++) {
+        const uint32_t leaf = sl_view_tree_locate(m->tree, middle_of(space, i));
+        const bool in = space->cells[i].inside && leaf < m->tree->cell_count;
+        m->out->view_cells[i] = in ? m->cut[leaf] : SL_NO_VIEW_CELL;
+    }
+    return SL_OK;
+}
+
+/// The joints above the cut become nodes; parents come after their children.
+static sl_status hang_nodes(sl_context *context, maker *m, bool compressed) {
+    const uint32_t count = m->hierarchy->cell_count, below = count - m->cells;
+    sl_view_rows *rows = m->out;
+    rows->view_cell_count = m->cells;
+    rows->node_count = compressed ? 2 * m->cells - 1 : m->cells;
+    if (rows->node_count > m->space->cell_count)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "%u rows of view cells, but the space has %u cells only", rows->node_count,
+                       m->space->cell_count);
+    rows->parents = sl_alloc_array(context, rows->node_count, sizeof *rows->parents);
+    if (!rows->parents) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < rows->node_count; i++) rows->parents[i] = SL_NO_VIEW_CELL;
+    for (uint32_t v = 0; v < m->cells; v++) m->node_of[m->numbers[v]] = v;
+    for (uint32_t i = 0; compressed && i + 1 < m->cells; i++) {
+        m->node_of[count + below + i] = m->cells + i;
+        for (int k = 0; k < 2; k++)
+            rows->parents[m->node_of[m->hierarchy->joints[below + i].parts[k]]] = m->cells + i;
+    }
+    return SL_OK;
+}
+
+/// What children both have goes up to their parent.
+static void pull_up(maker *m) {
+    const uint32_t below = m->hierarchy->cell_count - m->cells;
+    for (uint32_t node = m->cells; node < m->out->node_count; node++) {
+        const uint32_t *parts = m->hierarchy->joints[below + node - m->cells].parts;
+        sl_bits *up = sl_view_set(&m->sets, node);
+        sl_bits *a = sl_view_set(&m->sets, m->node_of[parts[0]]);
+        sl_bits *b = sl_view_set(&m->sets, m->node_of[parts[1]]);
+        for (size_t i = 0; i < m->sets.words; i++) {
+            up[i] = a[i] & b[i];
+            a[i] &= ~up[i];
+            b[i] &= ~up[i];
+        }
+    }
+}
+
+static sl_status encode(sl_context *context, maker *m) {
+    const uint32_t cells = m->space->cell_count;
+    sl_pvs *rows = &m->out->rows;
+    rows->offsets = sl_alloc_array(context, (size_t)cells + 1, sizeof *rows->offsets);
+    if (!rows->offsets) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < cells; i++) {
+        if (i < m->out->node_count)
+            SL_TRY(sl_row_append(context, &m->bytes, sl_view_set(&m->sets, i), cells));
+        rows->offsets[i + 1] = m->bytes.count;
+    }
+    // Never NULL, also where no view cell sees any.
+    SL_TRY(SL_ARRAY_ROOM(context, &m->bytes, 1));
+    rows->bytes = m->bytes.items;
+    rows->cell_count = cells;
+    m->bytes.items = NULL;
+    return SL_OK;
+}
+
+static sl_status make(sl_context *context, maker *m, const sl_pvs *pvs, bool compressed) {
+    SL_TRY(find_cut(context, m));
+    SL_TRY(deal_cells(context, m));
+    SL_TRY(hang_nodes(context, m, compressed));
+    SL_TRY(sl_view_sets_create(context, m->out->node_count, m->space->cell_count, &m->sets));
+    for (uint32_t i = 0; i < m->space->cell_count; i++)
+        if (m->out->view_cells[i] != SL_NO_VIEW_CELL)
+            sl_row_add_to(pvs, i, sl_view_set(&m->sets, m->out->view_cells[i]));
+    pull_up(m);
+    return encode(context, m);
+}
+
+sl_status sl_view_rows_make(sl_context *context, const sl_space *space, const sl_pvs *pvs,
+                            const sl_view_tree *tree, const sl_view_hierarchy *hierarchy,
+                            uint32_t cells, bool compressed, sl_view_rows *out) {
+    sl_view_rows rows = {0};
+    maker m = {.space = space, .tree = tree, .hierarchy = hierarchy, .cells = cells, .out = &rows};
+    if (pvs->cell_count != space->cell_count || !cells || cells > hierarchy->cell_count)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "the visible sets or the number of view cells are of something else");
+    const sl_status status = make(context, &m, pvs, compressed);
+    sl_free(context, m.cut);
+    sl_free(context, m.numbers);
+    sl_free(context, m.node_of);
+    sl_free(context, m.bytes.items);
+    sl_view_sets_destroy(context, &m.sets);
+    if (status == SL_OK)
+        *out = rows;
+    else
+        sl_view_rows_destroy(context, &rows);
+    return status;
+}
+
+// --- cost
+
+/// Of each cell with seams, the cell of the scene's space that it lies in.
+static sl_status find_homes(sl_context *context, const sl_space *home, const sl_space *space,
+                            uint32_t **out) {
+    uint32_t *homes = sl_alloc_array(context, space->cell_count, sizeof *homes);
+    if (!homes) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < space->cell_count; i++)
+        homes[i] = sl_space_locate(home, middle_of(space, i));
+    *out = homes;
+    return SL_OK;
+}
+
+/// The largest cell of a view cell tells where it is seen from.
+static sl_point eye_of(const sl_space *space, const sl_view_rows *rows, uint32_t view_cell) {
+    double most = 0;
+    sl_point eye = {0, 0};
+    for (uint32_t i = 0; i < space->cell_count; i++) {
+        if (rows->view_cells[i] != view_cell || sl_space_area(space, i) <= most) continue;
+        most = sl_space_area(space, i);
+        eye = middle_of(space, i);
+    }
+    return eye;
+}
+
+typedef struct coster {
+    sl_view_render render;
+    uint32_t *homes, *cut, *numbers;
+    sl_bits *seen, *homes_seen;
+} coster;
+
+static sl_status add_costs(sl_context *context, coster *c, const sl_space *space,
+                           const sl_view_rows *rows, const sl_view_hierarchy *hierarchy,
+                           double *cost) {
+    const size_t words = sl_bits_words(space->cell_count);
+    const size_t home_words = sl_bits_words(c->render.object_count);
+    *cost = 0;
+    for (uint32_t v = 0; v < rows->view_cell_count; v++) {
+        SL_TRY(sl_check_cancelled(context));
+        memset(c->seen, 0, words * sizeof *c->seen);
+        memset(c->homes_seen, 0, home_words * sizeof *c->homes_seen);
+        sl_view_rows_add_to(rows, v, c->seen);
+        for (uint32_t i = 0; i < space->cell_count; i++)
+            if (sl_bits_has(c->seen, i) && c->homes[i] != SL_NO_CELL)
+                sl_bits_add(c->homes_seen, c->homes[i]);
+        const sl_point eye = c->render.even ? (sl_point){0, 0} : eye_of(space, rows, v);
+        *cost += hierarchy->mass[c->numbers[v]] *
+                 sl_view_render_set(&c->render, c->homes_seen, home_words, eye);
+    }
+    return SL_OK;
+}
+
+sl_status sl_view_rows_cost(sl_context *context, const sl_view_scene *scene, const sl_space *space,
+                            const sl_view_rows *rows, const sl_view_hierarchy *hierarchy,
+                            uint32_t cells, double *cost) {
+    if (scene->objects != SL_VIEW_CELLS)
+        return sl_fail(context, SL_BAD_ARGUMENT, "exact costs are in cells, not in walls");
+    coster c = {0};
+    double sum = 0;
+    SL_TRY(sl_view_render_make(context, scene, &c.render));
+    c.cut = sl_alloc_array(context, hierarchy->cell_count, sizeof *c.cut);
+    c.numbers = sl_alloc_array(context, cells, sizeof *c.numbers);
+    c.seen = sl_alloc_array(context, sl_bits_words(space->cell_count), sizeof *c.seen);
+    c.homes_seen =
+        sl_alloc_array(context, sl_bits_words(c.render.object_count), sizeof *c.homes_seen);
+    sl_status status = c.cut && c.numbers && c.seen && c.homes_seen ? SL_OK : SL_NO_MEMORY;
+    if (status == SL_OK) status = find_homes(context, scene->space, space, &c.homes);
+    if (status == SL_OK) status = sl_view_cut(context, hierarchy, cells, c.cut, c.numbers);
+    if (status == SL_OK) status = add_costs(context, &c, space, rows, hierarchy, &sum);
+    sl_view_render_destroy(context, &c.render);
+    sl_free(context, c.homes);
+    sl_free(context, c.cut);
+    sl_free(context, c.numbers);
+    sl_free(context, c.seen);
+    sl_free(context, c.homes_seen);
+    if (status == SL_OK) *cost = sum;
+    return status;
+}

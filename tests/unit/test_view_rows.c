@@ -1,0 +1,174 @@
+/// Exact sets of view cells: location beside the tree's own, rows beside the union of what their
+/// cells see, compressed and not.
+#include "view_cells_maps.h"
+
+#include "base/bits.h"
+#include "base/random.h"
+#include "cell_to_cell/pvs_rows.h"
+#include "sightline/cell_to_cell.h"
+
+typedef struct seen {
+    view_world world;
+    sl_view_tree tree;
+    sl_view_hierarchy hierarchy;
+    uint32_t cells;
+    uint32_t *view_cells, *numbers;
+    sl_map map; ///< with seams
+    sl_space space;
+    sl_visibility visibility;
+} seen;
+
+static const sl_see_method *sweep(void) {
+    size_t count;
+    const sl_see_method *methods = sl_see_methods(&count);
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(methods[i].name, "sweep") == 0) return &methods[i];
+    return NULL;
+}
+
+static void see(sl_context *context, const char *statements, bool oblique, uint32_t elementary,
+                uint32_t cells, sl_sight sight, seen *s) {
+    *s = (seen){.cells = cells};
+    make_world(context, statements, oblique, SL_VIEW_CELLS, 4000, &s->world);
+    sl_view_subdivision options = sl_view_subdivision_default();
+    options.cells = elementary;
+    sl_view_sets sets;
+    assert_ok(context, view_method("av-m")->divide(context, &s->world.scene, &s->world.segments,
+                                                   &options, &s->tree));
+    assert_ok(context, sl_view_sets_sample(context, &s->world.scene, &s->tree, &s->world.segments,
+                                           1, &sets));
+    assert_ok(context, sl_view_merge(context, &s->world.scene, &s->tree, &sets, &s->hierarchy));
+    sl_view_sets_destroy(context, &sets);
+    s->view_cells = calloc(s->hierarchy.cell_count, sizeof *s->view_cells);
+    s->numbers = calloc(cells, sizeof *s->numbers);
+    assert_ok(context, sl_view_cut(context, &s->hierarchy, cells, s->view_cells, s->numbers));
+    char text[1024];
+    snprintf(text, sizeof text, "sightline 1\n%s", statements);
+    assert_ok(context, sl_map_read_text(context, "test", text, strlen(text), &s->map));
+    assert_ok(context, sl_map_clean(context, &s->map, NULL));
+    assert_ok(context, sl_view_add_seams(context, &s->tree, s->view_cells, &s->map));
+    assert_ok(context, sl_subdivision_for(&s->map)->subdivide(context, &s->map, NULL, &s->space));
+    sl_see_options seeing = sl_see_options_default();
+    seeing.sight = sight;
+    assert_ok(context, sweep()->see(context, &s->space, &seeing, &s->visibility));
+}
+
+static void drop(sl_context *context, seen *s) {
+    sl_visibility_destroy(context, &s->visibility);
+    sl_space_destroy(context, &s->space);
+    sl_map_destroy(context, &s->map);
+    sl_view_hierarchy_destroy(context, &s->hierarchy);
+    sl_view_tree_destroy(context, &s->tree);
+    free(s->view_cells);
+    free(s->numbers);
+    drop_world(context, &s->world);
+}
+
+/// A merged view cell that is no convex polygon, or in several parts, is found in all its places.
+static void check_location(const seen *s, const sl_view_rows *rows, bool exact) {
+    const sl_box *b = &s->space.bounds;
+    sl_random random = {3};
+    int other = 0;
+    for (int i = 0; i < 5000; i++) {
+        sl_point p = {b->min.x + (b->max.x - b->min.x) * sl_random_unit(&random),
+                      b->min.y + (b->max.y - b->min.y) * sl_random_unit(&random)};
+        // Some on walls and borders.
+        if (i % 4 == 0) p = (sl_point){floor(p.x), floor(p.y)};
+        const uint32_t leaf = sl_view_tree_locate(&s->tree, p);
+        const uint32_t cell = sl_space_locate(&s->space, p);
+        uint32_t expected = SL_NO_VIEW_CELL;
+        if (s->space.cells[cell].inside && leaf < s->tree.cell_count)
+            expected = s->view_cells[leaf];
+        const bool same = sl_view_rows_locate(rows, &s->space, p) == expected;
+        if (exact) assert_true(same);
+        other += !same;
+    }
+    assert_true(other < 5);
+    assert_int_equal(sl_view_rows_locate(rows, &s->space, (sl_point){NAN, 0}), SL_NO_VIEW_CELL);
+}
+
+static uint64_t check_rows(sl_context *context, const seen *s, bool compressed, bool exact) {
+    sl_view_rows rows;
+    assert_ok(context, sl_view_rows_make(context, &s->space, &s->visibility.pvs, &s->tree,
+                                         &s->hierarchy, s->cells, compressed, &rows));
+    assert_ok(context, sl_view_rows_check(context, &rows));
+    assert_int_equal(rows.view_cell_count, s->cells);
+    const size_t words = sl_bits_words(s->space.cell_count);
+    sl_bits *expected = calloc(words, sizeof *expected), *found = calloc(words, sizeof *found);
+    for (uint32_t v = 0; v < s->cells; v++) {
+        memset(expected, 0, words * sizeof *expected);
+        memset(found, 0, words * sizeof *found);
+        for (uint32_t c = 0; c < s->space.cell_count; c++)
+            if (rows.view_cells[c] == v) sl_row_add_to(&s->visibility.pvs, c, expected);
+        sl_view_rows_add_to(&rows, v, found);
+        assert_memory_equal(expected, found, words * sizeof *found);
+        for (uint32_t c = 0; c < s->space.cell_count; c++)
+            assert_int_equal(sl_view_rows_sees(&rows, v, c), sl_bits_has(expected, c));
+    }
+    free(expected);
+    free(found);
+    check_location(s, &rows, exact);
+    uint64_t references = sl_pvs_pairs(&rows.rows);
+    sl_view_rows_destroy(context, &rows);
+    return references;
+}
+
+static void rows_hold_what_their_cells_see(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    for (int oblique = 0; oblique < 2; oblique++) {
+        seen s;
+        see(context, oblique ? OBLIQUE_ROOMS : TWO_ROOMS, oblique, 40, 12, SL_CLOSED, &s);
+        const uint64_t plain = check_rows(context, &s, false, !oblique);
+        const uint64_t compressed = check_rows(context, &s, true, !oblique);
+        assert_true(compressed < plain);
+        drop(context, &s);
+    }
+    sl_context_destroy(context);
+}
+
+/// What samples see is seen: their sets are part of the exact ones, and cost less.
+static void samples_see_no_more_than_there_is(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    seen s;
+    see(context, TWO_ROOMS, false, 40, 15, SL_OPEN, &s);
+    sl_view_rows rows;
+    assert_ok(context, sl_view_rows_make(context, &s.space, &s.visibility.pvs, &s.tree,
+                                         &s.hierarchy, s.cells, true, &rows));
+    double exact, sampled[64];
+    assert_ok(context, sl_view_rows_cost(context, &s.world.scene, &s.space, &rows, &s.hierarchy,
+                                         s.cells, &exact));
+    sl_view_curve(&s.hierarchy, sampled, NULL);
+    assert_true(sampled[s.cells - 1] <= exact + 1e-9);
+    assert_true(exact < 1.3 * sampled[s.cells - 1]);
+    s.world.scene.objects = SL_VIEW_WALLS;
+    assert_int_equal(
+        sl_view_rows_cost(context, &s.world.scene, &s.space, &rows, &s.hierarchy, s.cells, &exact),
+        SL_BAD_ARGUMENT);
+    // Rows that a file could hold, each with one fault.
+    assert_ok(context, sl_view_rows_check(context, &rows));
+    const uint32_t parent = rows.parents[0], of = rows.view_cells[0], count = rows.view_cell_count;
+    rows.parents[0] = 0;
+    assert_int_equal(sl_view_rows_check(context, &rows), SL_BAD_INPUT);
+    rows.parents[0] = rows.node_count;
+    assert_int_equal(sl_view_rows_check(context, &rows), SL_BAD_INPUT);
+    rows.parents[0] = parent;
+    rows.view_cells[0] = count;
+    assert_int_equal(sl_view_rows_check(context, &rows), SL_BAD_INPUT);
+    rows.view_cells[0] = of;
+    rows.view_cell_count = 0;
+    assert_int_equal(sl_view_rows_check(context, &rows), SL_BAD_INPUT);
+    rows.view_cell_count = count;
+    sl_view_rows_destroy(context, &rows);
+    drop(context, &s);
+    sl_context_destroy(context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rows_hold_what_their_cells_see),
+        cmocka_unit_test(samples_see_no_more_than_there_is),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
