@@ -10,7 +10,7 @@ typedef struct viewcells_texts {
     sl_pipeline_texts pipeline;
     const char *input, *cells, *memory, *tolerance, *method, *objects, *elementary, *samples;
     const char *evaluate, *render, *step, *density, *candidates, *wall_splits, *seed, *threads;
-    const char *output, *picture, *width, *title;
+    const char *output, *picture, *width, *title, *slv, *see;
     bool paths, dark, json;
 } viewcells_texts;
 
@@ -20,6 +20,7 @@ typedef struct viewcells_plan {
     sl_pipeline pipeline;
     sl_view_run_options run;
     sl_draw_options drawing;
+    const sl_see_method *see; ///< for exact sets
 } viewcells_plan;
 
 static const char *const object_names[] = {"walls", "cells"};
@@ -141,8 +142,20 @@ static sl_status plan_drawing(sl_context *context, const viewcells_texts *t,
     return SL_OK;
 }
 
+static sl_status plan_seeing(sl_context *context, const viewcells_texts *t, viewcells_plan *plan) {
+    size_t count, method = 0;
+    const sl_see_method *methods = sl_see_methods(&count);
+    const sl_name_table names = {"method", methods, sizeof *methods, count};
+    SL_TRY(sl_option_choice(context, "--see", t->see ? t->see : "sweep", &names, &method));
+    if (t->see && !t->slv)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--see is for --slv, which is not given");
+    plan->see = &methods[method];
+    return t->slv ? sl_input_refuse_output(context, t->input, t->slv) : SL_OK;
+}
+
 static sl_status make_plan(sl_context *context, const viewcells_texts *t, viewcells_plan *plan) {
     plan->texts = t;
+    SL_TRY(plan_seeing(context, t, plan));
     SL_TRY(plan_budget(context, t, &plan->run));
     SL_TRY(plan_subdivision(context, t, &plan->run));
     SL_TRY(plan_sampling(context, t, &plan->run));
@@ -183,6 +196,10 @@ static sl_status work(sl_console *console, viewcells_plan *plan, sl_view_run *ru
         .run = run};
     if (t->output) SL_TRY(sl_view_report_write_csv(context, run, t->output));
     if (t->picture) SL_TRY(sl_view_report_draw(context, &report, &plan->drawing, t->picture));
+    if (t->slv) {
+        SL_TRY(sl_view_run_see(context, &plan->run, plan->see, run));
+        SL_TRY(sl_baked_write(context, &run->exact, t->slv));
+    }
     sl_progress_line_clear(&console->line);
     if (t->json) return sl_view_report_print_json(context, &report);
     return t->output && strcmp(t->output, "-") == 0 ? SL_OK
@@ -230,6 +247,9 @@ sl_status sl_cmd_viewcells(sl_console *console, int argc, char **argv) {
         {"output", 'o', "FILE.csv", NULL, &t.output, "a table of the view cells; - for stdout"},
         {"picture", 0, "PICTURE", NULL, &t.picture,
          "draw the cells by their cost: .png, .svg or .pdf"},
+        {"slv", 0, "FILE.slv", NULL, &t.slv,
+         "bake the map with these view cells: exact sets, for\nthe tools and for games"},
+        {"see", 0, "NAME", NULL, &t.see, "the method of bake for that; sweep without it"},
         {"width", 0, "PX", NULL, &t.width, "of the picture, 64 to 20000 pixels or points"},
         {"dark", 0, NULL, &t.dark, NULL, "light on dark"},
         {"title", 0, "TEXT", NULL, &t.title, "a line over the picture"},
@@ -246,7 +266,8 @@ sl_status sl_cmd_viewcells(sl_console *console, int argc, char **argv) {
                 "most, and neighbours\nare merged where that costs least.",
         .tables = print_tables,
         .examples = "  sightline viewcells office.map --cells 60 --picture cells.png\n"
-                    "  sightline viewcells office.map --memory 4K -o cells.csv --json",
+                    "  sightline viewcells office.map --memory 4K -o cells.csv --json\n"
+                    "  sightline viewcells office.map --objects cells --cells 60 --slv office.slv",
         .options = options,
         .option_count = sizeof options / sizeof *options,
     };

@@ -42,6 +42,17 @@ sl_status sl_view_report_print(sl_context *context, const sl_view_report *report
     printf("segments          %u of %" PRIu64 " samples (%" PRIu64 " in empty space, %" PRIu64
            " saw no wall, %" PRIu64 " lost)\n",
            s->count, s->drawn, s->empty, s->unseeing, s->lost);
+    if (run->has_exact) {
+        char plain[SL_SIZE_TEXT], rows[SL_SIZE_TEXT], cells[SL_SIZE_TEXT];
+        const sl_pvs *pulled = &run->exact.views.rows;
+        sl_size_write(run->plain_bytes, plain);
+        sl_size_write(pulled->offsets[pulled->cell_count], rows);
+        sl_size_write(run->cell_bytes, cells);
+        printf("exact sets        %s in rows of the %u cells, %s in those of view cells, %s pulled "
+               "up\n",
+               cells, run->exact.space.cell_count, plain, rows);
+        if (run->exact_cost > 0) printf("exact cost        %.6g cells\n", run->exact_cost);
+    }
     if (run->evaluated.cell_count)
         printf("evaluated by      %" PRIu64 " other samples\n", report->options->evaluation);
     printf("seconds           read %.3f, subdivide %.3f, sample %.3f, divide %.3f, merge %.3f, "
@@ -59,6 +70,7 @@ static void add_seconds(sl_json_fields *fields, const sl_view_seconds *seconds) 
     sl_json_add_real(&inner, "divide", seconds->divide);
     sl_json_add_real(&inner, "merge", seconds->merge);
     sl_json_add_real(&inner, "evaluate", seconds->evaluate);
+    sl_json_add_real(&inner, "see", seconds->see);
     sl_json_add_fields(fields, "seconds", &inner);
 }
 
@@ -87,6 +99,15 @@ sl_status sl_view_report_print_json(sl_context *context, const sl_view_report *r
     sl_json_add_real(&fields, "cost_of_all", t.finest);
     sl_json_add_count(&fields, "bytes", t.cut_bytes);
     sl_json_add_count(&fields, "bytes_of_all", t.finest_bytes);
+    if (run->has_exact) {
+        const sl_pvs *pulled = &run->exact.views.rows;
+        sl_json_add_count(&fields, "exact_cells", run->exact.space.cell_count);
+        sl_json_add_count(&fields, "exact_row_bytes_of_cells", run->cell_bytes);
+        sl_json_add_count(&fields, "exact_row_bytes", run->plain_bytes);
+        sl_json_add_count(&fields, "exact_row_bytes_pulled_up",
+                          pulled->offsets[pulled->cell_count]);
+        if (run->exact_cost > 0) sl_json_add_real(&fields, "exact_cost", run->exact_cost);
+    }
     add_seconds(&fields, &run->seconds);
     sl_json_add_count(&fields, "peak_memory_bytes", sl_size_of_peak_memory());
     return sl_json_print(context, &fields);

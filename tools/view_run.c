@@ -3,6 +3,7 @@
 #include "base/base.h"
 #include "base/file.h"
 #include "import/image.h"
+#include "solvers.h"
 
 #include <time.h>
 
@@ -112,6 +113,52 @@ sl_status sl_view_run_make(sl_context *context, const sl_view_run_options *optio
     return cut(context, options, run);
 }
 
+static sl_status make_rows(sl_context *context, sl_view_run *run) {
+    sl_baked *exact = &run->exact;
+    const sl_view_hierarchy *h = sl_view_run_told(run);
+    sl_view_rows *rows = &exact->views;
+    sl_view_rows plain = {0};
+    const sl_pvs *pvs = &exact->visibility.pvs;
+    run->cell_bytes = pvs->offsets[pvs->cell_count];
+    SL_TRY(sl_view_rows_make(context, &exact->space, pvs, &run->tree, h, run->cell_count, false,
+                             &plain));
+    run->plain_bytes = plain.rows.offsets[plain.rows.cell_count];
+    // Rows for groups of view cells pay where there is room for them.
+    if (2 * run->cell_count - 1 > exact->space.cell_count) {
+        *rows = plain;
+    } else {
+        sl_view_rows_destroy(context, &plain);
+        SL_TRY(sl_view_rows_make(context, &exact->space, pvs, &run->tree, h, run->cell_count, true,
+                                 rows));
+    }
+    if (run->scene.objects != SL_VIEW_CELLS) return SL_OK;
+    return sl_view_rows_cost(context, &run->scene, &exact->space, rows, h, run->cell_count,
+                             &run->exact_cost);
+}
+
+sl_status sl_view_run_see(sl_context *context, const sl_view_run_options *options,
+                          const sl_see_method *method, sl_view_run *run) {
+    const double start = sl_view_clock();
+    sl_baked *exact = &run->exact;
+    sl_see_options seeing = sl_see_options_default();
+    seeing.threads = options->sampling.threads;
+    seeing.inside_only = true;
+    if (method->stabs) seeing.solver = sl_solver_at(0);
+    // The map has done its work for the samples; from here on it is that of the baked file.
+    exact->map = run->baked.map;
+    run->baked.map = (sl_map){0};
+    const sl_space *objects = run->scene.objects == SL_VIEW_CELLS ? &run->baked.space : NULL;
+    SL_TRY(sl_view_add_seams(context, &run->tree, run->view_cells, objects, &exact->map));
+    SL_TRY(sl_subdivision_for(&exact->map)->subdivide(context, &exact->map, NULL, &exact->space));
+    SL_TRY(method->see(context, &exact->space, &seeing, &exact->visibility));
+    snprintf(exact->method, sizeof exact->method, "%s", method->name);
+    if (method->stabs) snprintf(exact->solver, sizeof exact->solver, "%s", seeing.solver->name);
+    SL_TRY(make_rows(context, run));
+    run->seconds.see = sl_view_clock() - start;
+    run->has_exact = true;
+    return SL_OK;
+}
+
 void sl_view_run_destroy(sl_context *context, sl_view_run *run) {
     sl_view_hierarchy_destroy(context, &run->hierarchy);
     sl_view_hierarchy_destroy(context, &run->evaluated);
@@ -120,6 +167,7 @@ void sl_view_run_destroy(sl_context *context, sl_view_run *run) {
     sl_view_places_destroy(context, &run->places);
     sl_outline_destroy(context, &run->outline);
     sl_baked_destroy(context, &run->baked);
+    sl_baked_destroy(context, &run->exact);
     sl_free(context, run->view_cells);
     sl_free(context, run->numbers);
 }

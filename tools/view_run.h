@@ -27,7 +27,7 @@ typedef struct sl_view_run_options {
 } sl_view_run_options;
 
 typedef struct sl_view_seconds {
-    double read, subdivide, sample, divide, merge, evaluate;
+    double read, subdivide, sample, divide, merge, evaluate, see;
 } sl_view_seconds;
 
 /// All that was made, and what it took.
@@ -43,12 +43,20 @@ typedef struct sl_view_run {
     uint32_t cell_count;         ///< of the cut
     uint32_t *view_cells;        ///< by elementary cell
     uint32_t *numbers;           ///< by view cell: its number in the hierarchy
+    bool has_exact;              ///< exact sets are there
+    sl_baked exact;              ///< the map with the borders of view cells as seams, seen
+    double exact_cost;           ///< expected, in cells; 0 where objects are walls
+    uint64_t cell_bytes;         ///< what rows of the cells of `exact` take
+    uint64_t plain_bytes;        ///< what rows of view cells take, before compression
     sl_view_seconds seconds;
 } sl_view_run;
 
 /// From run->baked, whose map and space are there, on. `run` is to be destroyed also on failure.
 sl_status sl_view_run_make(sl_context *context, const sl_view_run_options *options,
                            sl_view_run *run);
+/// Bakes the map with the view cells of the cut: exact sets by a method of sl_see_methods().
+sl_status sl_view_run_see(sl_context *context, const sl_view_run_options *options,
+                          const sl_see_method *method, sl_view_run *run);
 void sl_view_run_destroy(sl_context *context, sl_view_run *run);
 
 /// What costs are told by: other samples than those that cells were made by, where there are some.

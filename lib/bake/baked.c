@@ -66,6 +66,7 @@ void sl_baked_destroy(sl_context *context, sl_baked *baked) {
     sl_map_destroy(context, &baked->map);
     sl_space_destroy(context, &baked->space);
     sl_visibility_destroy(context, &baked->visibility);
+    sl_view_rows_destroy(context, &baked->views);
     sl_findings_destroy(context, &baked->findings);
     *baked = (sl_baked){0};
 }

@@ -62,6 +62,16 @@ typedef struct sl_slv_part {
 /// DONE, a bit for each unit of the work that is done, in words of 64, and the offsets and bytes of
 /// the pairs found by them: FNDO and FNDB, doubtful ones in FNRO and FNRB. A shard has no PVSO and
 /// PVSB. What the work took (tests, nodes ...) is in no file: it would depend on the way.
+///
+/// View cells (only with sightline viewcells --slv): VCIN has one sl_slv_views, VCEL the view cell
+/// of each cell (32 bits, all set for none), VCPA the parent of each node (likewise), VCRO and VCRB
+/// offsets and bytes of the nodes' rows, as PVSO and PVSB, with empty ones behind the last node so
+/// that there are as many as cells. A view cell is the node of its number, and sees what its row
+/// and those of the nodes above it hold.
+typedef struct sl_slv_views {
+    uint32_t view_cell_count, node_count;
+} sl_slv_views;
+
 _Static_assert(sizeof(sl_slv_header) == 32 && sizeof(sl_slv_section) == 24 &&
                    sizeof(sl_slv_info) == 128 && sizeof(sl_slv_part) == 16,
                "no padding in the file");

@@ -307,6 +307,26 @@ static sl_status load_trees(const reader *r) {
     return SL_OK;
 }
 
+static sl_status load_views(const reader *r) {
+    sl_view_rows *views = &r->out->views;
+    sl_slv_section s;
+    bool found;
+    SL_TRY(find_section(r, "VCIN", sizeof(sl_slv_views), &s, &found));
+    if (!found) return SL_OK;
+    if (s.count != 1) return fail_file(r, "damaged: section VCIN makes no sense");
+    sl_slv_views told;
+    memcpy(&told, r->bytes + s.offset, sizeof told);
+    uint32_t cells, nodes;
+    SL_TRY(load_counted(r, "VCEL", sizeof *views->view_cells, (void **)&views->view_cells, &cells));
+    SL_TRY(load_counted(r, "VCPA", sizeof *views->parents, (void **)&views->parents, &nodes));
+    SL_TRY(load_pvs(r, "VCRO", "VCRB", false, &views->rows));
+    if (cells != views->rows.cell_count || nodes != told.node_count)
+        return fail_file(r, "damaged: sections VCIN, VCEL and VCPA do not fit");
+    views->view_cell_count = told.view_cell_count;
+    views->node_count = told.node_count;
+    return in_file(r, sl_view_rows_check(r->context, views));
+}
+
 static sl_status load_map(const reader *r) {
     sl_slv_section s;
     bool found;
@@ -381,6 +401,7 @@ static sl_status load_all(reader *r) {
     SL_TRY(load_seen(r));
     SL_TRY(load_effects(r));
     SL_TRY(load_trees(r));
+    SL_TRY(load_views(r));
     SL_TRY(load_map(r));
     const sl_visibility *visibility = &r->out->visibility;
     const size_t doors = r->out->map.door_count;

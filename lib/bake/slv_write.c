@@ -7,7 +7,7 @@
 #include <string.h>
 #include <zlib.h>
 
-enum { MOST_SECTIONS = 24 };
+enum { MOST_SECTIONS = 40 };
 
 /// A file made ready: what goes into each section, still where it lies.
 typedef struct plan {
@@ -16,6 +16,7 @@ typedef struct plan {
     const void *contents[MOST_SECTIONS];
     sl_segment *walls;
     char *map_text;
+    sl_slv_views views;
     sl_slv_part part;
 } plan;
 
@@ -109,6 +110,14 @@ static void add_effects(plan *p, const sl_visibility *visibility) {
     add_doors(p, "MDOO", "MDOB", &visibility->mirrored_doors);
 }
 
+static void add_views(plan *p, const sl_view_rows *views) {
+    p->views = (sl_slv_views){views->view_cell_count, views->node_count};
+    add_section(p, "VCIN", &p->views, sizeof p->views, 1);
+    add_section(p, "VCEL", views->view_cells, sizeof *views->view_cells, views->rows.cell_count);
+    add_section(p, "VCPA", views->parents, sizeof *views->parents, views->node_count);
+    add_pvs(p, "VCRO", "VCRB", &views->rows);
+}
+
 static void add_sections(plan *p, const sl_baked *baked, const sl_slv_info *info,
                          size_t map_bytes) {
     const sl_space *space = &baked->space;
@@ -140,6 +149,7 @@ static void add_sections(plan *p, const sl_baked *baked, const sl_slv_info *info
                     trees->offsets[trees->cell_count]);
     }
     if (sl_findings_begun(&baked->findings)) add_findings(p, &baked->findings);
+    if (baked->views.view_cell_count) add_views(p, &baked->views);
     add_section(p, "MAPT", p->map_text, 1, map_bytes);
 }
 
@@ -199,6 +209,8 @@ static sl_status make_plan(sl_context *context, const sl_baked *baked, const sl_
     const sl_pvs *rows = sl_baked_is_shard(baked) ? &baked->findings.sure : &baked->visibility.pvs;
     if (!cells || rows->cell_count != cells)
         return sl_fail(context, SL_BAD_ARGUMENT, "nothing baked: no visible set for each cell");
+    if (baked->views.view_cell_count && baked->views.rows.cell_count != cells)
+        return sl_fail(context, SL_BAD_ARGUMENT, "the view cells are of another space");
     if (!sl_slv_is_name(info->method) || !sl_slv_is_name(info->solver))
         return sl_fail(
             context, SL_BAD_ARGUMENT,

@@ -60,7 +60,10 @@ typedef struct sl_runtime {
     bool partial; // the cells need not fill the bounds
     int32_t root;
     bool unfinished; ///< the bake was stopped: rows miss nothing, but hold what was not decided
+    uint32_t view_cell_count; ///< 0 where the map was baked without view cells
+    uint32_t view_node_count; ///< rows of view cells, and of groups of them
     const unsigned char *nodes, *lines, *cells, *vertices, *exits, *row_offsets, *row_bytes;
+    const unsigned char *views, *view_parents, *view_offsets, *view_bytes;
 } sl_runtime;
 
 /// Checks everything. On failure `out` is left as it was.
@@ -107,6 +110,21 @@ SL_RUNTIME_API uint32_t sl_runtime_row_count(const sl_runtime *runtime, uint32_t
 /// bytes.
 SL_RUNTIME_API void sl_runtime_row_bits(const sl_runtime *runtime, uint32_t cell,
                                         unsigned char *bits);
+
+// View cells group cells: what is seen from anywhere in one is one set, which a game that keeps
+// what it draws from frame to frame changes only when the eye comes into another view cell.
+
+/// The view cell that a cell is in; SL_RUNTIME_NO_CELL for none. Of a point:
+/// sl_runtime_view_cell(runtime, sl_runtime_locate(runtime, x, y)).
+SL_RUNTIME_API uint32_t sl_runtime_view_cell(const sl_runtime *runtime, uint32_t cell);
+
+/// Whether anything in a cell can be seen from anywhere in a view cell. False where either is none.
+SL_RUNTIME_API bool sl_runtime_view_can_see(const sl_runtime *runtime, uint32_t view_cell,
+                                            uint32_t to);
+
+/// Unpacks what a view cell sees, as sl_runtime_row_bits does a cell's row.
+SL_RUNTIME_API void sl_runtime_view_bits(const sl_runtime *runtime, uint32_t view_cell,
+                                         unsigned char *bits);
 
 /// An eye with its cone: from the direction `right` counter-clockwise to the direction `left`, its
 /// borders included. The directions are vectors of any length from 1e-150 to 1e150; with one that
@@ -223,6 +241,11 @@ enum slrt_tag {
     SLRT_PVSB,
     SLRT_LINE,
     SLRT_PART,
+    SLRT_VCIN,
+    SLRT_VCEL,
+    SLRT_VCPA,
+    SLRT_VCRO,
+    SLRT_VCRB,
     SLRT_TAGS
 };
 
@@ -271,7 +294,8 @@ static sl_runtime_status slrt_check_header(const unsigned char *bytes, size_t si
 static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t size,
                                             slrt_section *found) {
     static const char tags[SLRT_TAGS][5] = {"INFO", "NODE", "CELL", "VERT", "PORT",
-                                            "EXIT", "PVSO", "PVSB", "LINE", "PART"};
+                                            "EXIT", "PVSO", "PVSB", "LINE", "PART",
+                                            "VCIN", "VCEL", "VCPA", "VCRO", "VCRB"};
     static const uint32_t item_bytes[SLRT_TAGS] = {128,
                                                    SLRT_NODE_BYTES,
                                                    SLRT_CELL_BYTES,
@@ -281,7 +305,12 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                                                    8,
                                                    1,
                                                    SLRT_LINE_BYTES,
-                                                   16};
+                                                   16,
+                                                   8,
+                                                   4,
+                                                   4,
+                                                   8,
+                                                   1};
     const uint32_t count = slrt_u32(bytes + 24);
     uint32_t i;
     int tag;
@@ -429,9 +458,9 @@ static bool slrt_pass_number(const unsigned char **next, const unsigned char *st
     return false;
 }
 
-/// A row: runs of cells in ascending order, with gaps between, the row's own cell among them; or
-/// nothing at all.
-static bool slrt_row_is_sound(const sl_runtime *rt, uint32_t cell) {
+/// A row: runs of cells in ascending order, with gaps between, the row's own cell among them if it
+/// is of a cell; or nothing at all.
+static bool slrt_row_is_sound(const sl_runtime *rt, uint32_t cell, bool of_cell) {
     const unsigned char *next = rt->row_bytes + slrt_u64(rt->row_offsets + (size_t)cell * 8);
     const unsigned char *stop = rt->row_bytes + slrt_u64(rt->row_offsets + (size_t)cell * 8 + 8);
     const bool empty = next == stop;
@@ -450,10 +479,10 @@ static bool slrt_row_is_sound(const sl_runtime *rt, uint32_t cell) {
         if (end > rt->cell_count) return false;
         has_own = has_own || (cell >= first && cell < end);
     }
-    return has_own || empty;
+    return has_own || empty || !of_cell;
 }
 
-static bool slrt_rows_are_sound(const sl_runtime *rt, uint64_t byte_count) {
+static bool slrt_rows_are_sound(const sl_runtime *rt, uint64_t byte_count, bool of_cells) {
     uint64_t before = 0;
     uint32_t i;
     if (slrt_u64(rt->row_offsets) != 0) return false;
@@ -462,9 +491,57 @@ static bool slrt_rows_are_sound(const sl_runtime *rt, uint64_t byte_count) {
         if (end < before || end > byte_count || (end != byte_count && i + 1 == rt->cell_count))
             return false;
         before = end;
-        if (!slrt_row_is_sound(rt, i)) return false;
+        if (!slrt_row_is_sound(rt, i, of_cells)) return false;
     }
     return true;
+}
+
+/// The rows of view cells read as if they were those of cells.
+static sl_runtime slrt_view_rows(const sl_runtime *rt) {
+    sl_runtime rows = *rt;
+    rows.row_offsets = rt->view_offsets;
+    rows.row_bytes = rt->view_bytes;
+    return rows;
+}
+
+/// A node's parent comes after it, so that every way up ends.
+static bool slrt_view_nodes_are_sound(const sl_runtime *rt) {
+    uint32_t i;
+    for (i = 0; i < rt->cell_count; i++) {
+        const uint32_t view = slrt_u32(rt->views + (size_t)i * 4);
+        if (view != SL_RUNTIME_NO_CELL && view >= rt->view_cell_count) return false;
+    }
+    for (i = 0; i < rt->view_node_count; i++) {
+        const uint32_t parent = slrt_u32(rt->view_parents + (size_t)i * 4);
+        if (parent != SL_RUNTIME_NO_CELL && (parent <= i || parent >= rt->view_node_count))
+            return false;
+    }
+    return true;
+}
+
+/// View cells, where the file has any.
+static bool slrt_open_views(const slrt_section *found, sl_runtime *rt) {
+    sl_runtime rows;
+    int tag;
+    rt->view_cell_count = rt->view_node_count = 0;
+    rt->views = rt->view_parents = rt->view_offsets = rt->view_bytes = NULL;
+    if (!found[SLRT_VCIN].items) return true;
+    for (tag = SLRT_VCIN; tag <= SLRT_VCRB; tag++)
+        if (!found[tag].items) return false;
+    rt->view_cell_count = slrt_u32(found[SLRT_VCIN].items);
+    rt->view_node_count = slrt_u32(found[SLRT_VCIN].items + 4);
+    if (found[SLRT_VCIN].count != 1 || found[SLRT_VCEL].count != rt->cell_count ||
+        found[SLRT_VCPA].count != rt->view_node_count ||
+        found[SLRT_VCRO].count != (uint64_t)rt->cell_count + 1 ||
+        rt->view_cell_count > rt->view_node_count || rt->view_node_count > rt->cell_count)
+        return false;
+    rt->views = found[SLRT_VCEL].items;
+    rt->view_parents = found[SLRT_VCPA].items;
+    rt->view_offsets = found[SLRT_VCRO].items;
+    rt->view_bytes = found[SLRT_VCRB].items;
+    rows = slrt_view_rows(rt);
+    return slrt_view_nodes_are_sound(rt) &&
+           slrt_rows_are_sound(&rows, found[SLRT_VCRB].count, false);
 }
 
 SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size, sl_runtime *out) {
@@ -478,7 +555,8 @@ SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size,
     if (status == SL_RUNTIME_OK) status = slrt_check_sizes(found, &rt);
     if (status != SL_RUNTIME_OK) return status;
     if (!slrt_tree_is_sound(&rt) || !slrt_cells_are_sound(&rt)) return SL_RUNTIME_SPACE;
-    if (!slrt_rows_are_sound(&rt, found[SLRT_PVSB].count)) return SL_RUNTIME_ROW;
+    if (!slrt_rows_are_sound(&rt, found[SLRT_PVSB].count, true)) return SL_RUNTIME_ROW;
+    if (!slrt_open_views(found, &rt)) return SL_RUNTIME_ROW;
     *out = rt;
     return SL_RUNTIME_OK;
 }
@@ -580,6 +658,39 @@ SL_RUNTIME_API void sl_runtime_row_bits(const sl_runtime *runtime, uint32_t cell
     while (sl_runtime_next(&run)) {
         uint32_t i;
         for (i = run.first; i < run.end; i++) bits[i / 8] |= (unsigned char)(1 << i % 8);
+    }
+}
+
+// --- view cells
+
+SL_RUNTIME_API uint32_t sl_runtime_view_cell(const sl_runtime *runtime, uint32_t cell) {
+    if (!runtime->view_cell_count || cell >= runtime->cell_count) return SL_RUNTIME_NO_CELL;
+    return slrt_u32(runtime->views + (size_t)cell * 4);
+}
+
+SL_RUNTIME_API bool sl_runtime_view_can_see(const sl_runtime *runtime, uint32_t view_cell,
+                                            uint32_t to) {
+    uint32_t node = view_cell < runtime->view_cell_count ? view_cell : SL_RUNTIME_NO_CELL;
+    const sl_runtime rows = slrt_view_rows(runtime);
+    while (node != SL_RUNTIME_NO_CELL) {
+        if (sl_runtime_can_see(&rows, node, to)) return true;
+        node = slrt_u32(runtime->view_parents + (size_t)node * 4);
+    }
+    return false;
+}
+
+SL_RUNTIME_API void sl_runtime_view_bits(const sl_runtime *runtime, uint32_t view_cell,
+                                         unsigned char *bits) {
+    uint32_t node = view_cell < runtime->view_cell_count ? view_cell : SL_RUNTIME_NO_CELL;
+    const sl_runtime rows = slrt_view_rows(runtime);
+    memset(bits, 0, ((size_t)runtime->cell_count + 7) / 8);
+    while (node != SL_RUNTIME_NO_CELL) {
+        sl_runtime_run run = sl_runtime_row(&rows, node);
+        while (sl_runtime_next(&run)) {
+            uint32_t i;
+            for (i = run.first; i < run.end; i++) bits[i / 8] |= (unsigned char)(1 << i % 8);
+        }
+        node = slrt_u32(runtime->view_parents + (size_t)node * 4);
     }
 }
 

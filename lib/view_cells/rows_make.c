@@ -7,7 +7,7 @@
 #include <string.h>
 
 sl_status sl_view_add_seams(sl_context *context, const sl_view_tree *tree,
-                            const uint32_t *view_cells, sl_map *map) {
+                            const uint32_t *view_cells, const sl_space *objects, sl_map *map) {
     sl_segment *borders;
     size_t count;
     SL_TRY(sl_view_borders(context, tree, view_cells, &borders, &count));
@@ -15,6 +15,10 @@ sl_status sl_view_add_seams(sl_context *context, const sl_view_tree *tree,
     for (size_t i = 0; i < count && status == SL_OK; i++)
         status = sl_map_add_seam(context, map, borders[i], 0);
     sl_view_borders_free(context, borders);
+    for (uint32_t i = 0; objects && i < objects->portal_count && status == SL_OK; i++) {
+        const sl_segment portal = {objects->portals[i].right, objects->portals[i].left};
+        status = sl_map_add_seam(context, map, portal, 0);
+    }
     return status;
 }
 

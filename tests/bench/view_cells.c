@@ -27,7 +27,7 @@ enum { POINTS_MOST = 64, SERIES_MOST = 7, WALL_SPLITS = 150, BINS = 30 };
 
 typedef struct bench {
     sl_context *context;
-    const char *path, *chart;
+    const char *path, *name, *chart; ///< `name`: the path's last part
     double turn;
     uint64_t samples, evaluate;
     uint32_t cells;
@@ -190,7 +190,7 @@ static void add_mark(bench *b, double x, double y) {
 static void draw(bench *b, const char *title, sl_chart_axis x, sl_chart_axis y) {
     if (!b->chart) return;
     const sl_chart chart = {.title = title,
-                            .subtitle = b->path,
+                            .subtitle = b->name,
                             .x = x,
                             .y = y,
                             .series = b->series,
@@ -215,7 +215,7 @@ static void curves(bench *b) {
         const bool ends = strcmp(methods[i].name, "kd-vt-df") == 0;
         begin_series(b, methods[i].name, ends ? SL_CHART_MARKS : SL_CHART_LINE);
         for (uint32_t n = 10; n <= m.told.cell_count; n = next_count(n, m.told.cell_count)) {
-            printf("%s,%s,%s,%u,%.6g,%.6g,", b->machine, b->path, methods[i].name, n,
+            printf("%s,%s,%s,%u,%.6g,%.6g,", b->machine, b->name, methods[i].name, n,
                    m.told_costs[n - 1], m.costs[n - 1]);
             const double ratio = n <= best.told.cell_count ? m.costs[n - 1] / best.costs[n - 1] : 0;
             if (ratio > 0)
@@ -249,7 +249,7 @@ static void samples(bench *b) {
             for (uint32_t n = 10; n <= m.told.cell_count; n = next_count(n, m.told.cell_count)) {
                 add_mark(b, n, told ? m.told_costs[n - 1] : m.costs[n - 1]);
                 if (!told)
-                    printf("%s,%s,%llu,%u,%.6g,%.6g\n", b->machine, b->path,
+                    printf("%s,%s,%llu,%u,%.6g,%.6g\n", b->machine, b->name,
                            (unsigned long long)counts[i], n, m.told_costs[n - 1], m.costs[n - 1]);
             }
         }
@@ -284,11 +284,11 @@ static void histogram(bench *b) {
         }
         begin_series(b, names[i], SL_CHART_LINE);
         for (int k = 0; k < BINS; k++) {
-            printf("%s,%s,%s,%u,%.4g,%.4g,%.6g\n", b->machine, b->path, names[i], cells, k * top,
+            printf("%s,%s,%s,%u,%.4g,%.4g,%.6g\n", b->machine, b->name, names[i], cells, k * top,
                    (k + 1) * top, bins[k]);
             add_mark(b, (k + 0.5) * top, 100 * bins[k]);
         }
-        printf("%s,%s,%s,%u,%.6g,,largest\n", b->machine, b->path, names[i], cells, most);
+        printf("%s,%s,%s,%u,%.6g,,largest\n", b->machine, b->name, names[i], cells, most);
         free(of);
         free(numbers);
         drop(b, &m);
@@ -307,7 +307,7 @@ static void walls(bench *b) {
     begin_series(b, "only axis-aligned, beside walls' own lines too", SL_CHART_LINE);
     for (uint32_t n = 10; n <= b->cells; n = next_count(n, b->cells)) {
         if (n > axes.told.cell_count || n > both.told.cell_count) break;
-        printf("%s,%s,%g,%u,%.6g,%.6g,%.4f\n", b->machine, b->path, b->turn, n, axes.costs[n - 1],
+        printf("%s,%s,%g,%u,%.6g,%.6g,%.4f\n", b->machine, b->name, b->turn, n, axes.costs[n - 1],
                both.costs[n - 1], axes.costs[n - 1] / both.costs[n - 1]);
         add_mark(b, n, axes.costs[n - 1] / both.costs[n - 1]);
     }
@@ -327,7 +327,7 @@ static void times(bench *b) {
     options.wall_splits = WALL_SPLITS;
     make(b, method_named("av-m"), &b->segments, &options, &both);
     puts("machine,map,samples,segments,view_cells,axes_s,axes_and_walls_s,merge_s,peak_mib");
-    printf("%s,%s,%llu,%u,%u,%.2f,%.2f,%.2f,%ld\n", b->machine, b->path,
+    printf("%s,%s,%llu,%u,%u,%.2f,%.2f,%.2f,%ld\n", b->machine, b->name,
            (unsigned long long)b->samples, b->segments.count, axes.tree.cell_count, axes.divide,
            both.divide, axes.merge, usage.ru_maxrss / 1024);
     drop(b, &axes);
@@ -384,6 +384,7 @@ int main(int argc, char **argv) {
     b.context = sl_context_create(NULL);
     if (!b.context) fail("out of memory");
     b.path = argv[2];
+    b.name = strrchr(b.path, '/') ? strrchr(b.path, '/') + 1 : b.path;
     for (int i = 3; i < argc; i++) read_option(&b, argv[i], &import, &start, &has_start);
     struct utsname machine;
     if (uname(&machine) == 0) snprintf(b.machine, sizeof b.machine, "%s", machine.nodename);

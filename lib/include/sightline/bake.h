@@ -3,6 +3,7 @@
 #define SIGHTLINE_BAKE_H
 
 #include "sightline/cell_to_cell.h"
+#include "sightline/view_cells.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -16,6 +17,7 @@ typedef struct sl_baked {
     sl_visibility visibility;
     /// By name: letters, digits and dashes, zeros behind; solver "" for none.
     char method[16], solver[16];
+    sl_view_rows views; ///< over the cells; none where the map was baked without view cells
     /// Of a bake that is not finished: what it has found. The visible sets then count as seen what
     /// is not decided; a shard has none. Zeroed where the bake is finished.
     sl_findings findings;

@@ -234,9 +234,11 @@ SL_API void sl_view_borders_free(sl_context *context, sl_segment *borders);
 
 /// Adds the borders of view cells to a map as seams: no cell of a space that is made of it then
 /// lies in two view cells (in a BSP's space, but for rounding), and what a view cell sees is what
-/// its cells see, by any method.
+/// its cells see, by any method. With `objects`, a space of the map, its portals become seams too:
+/// then no cell lies in two of its cells either, which sl_view_rows_cost asks for; NULL for none.
 SL_API sl_status sl_view_add_seams(sl_context *context, const sl_view_tree *tree,
-                                   const uint32_t *view_cells, sl_map *map);
+                                   const uint32_t *view_cells, const sl_space *objects,
+                                   sl_map *map);
 
 /// What view cells see, in cells of a space. Rows hang in a tree: nodes below view_cell_count are
 /// view cells, and a view cell sees what its own row holds and those of all nodes above it
@@ -268,7 +270,8 @@ SL_API bool sl_view_rows_sees(const sl_view_rows *rows, uint32_t view_cell, uint
 SL_API sl_status sl_view_rows_check(sl_context *context, const sl_view_rows *rows);
 
 /// The expected cost (equation 1) by exact sets, in cells of the scene's own space, whose objects
-/// must be cells; `space` is the one with the seams. `hierarchy` and `cells` tell the cut.
+/// must be cells; `space` is the one with the seams, those of the scene's cells among them.
+/// `hierarchy` and `cells` tell the cut.
 SL_API sl_status sl_view_rows_cost(sl_context *context, const sl_view_scene *scene,
                                    const sl_space *space, const sl_view_rows *rows,
                                    const sl_view_hierarchy *hierarchy, uint32_t cells,

@@ -1,0 +1,196 @@
+/// View cells in the runtime: merged ones, that need not be convex, are found and looked up right.
+///   test_view_runtime [POINTS]    so many random points instead of some thousands
+#define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#include "view_cells_maps.h"
+
+#include "bake/slv.h"
+#include "base/bits.h"
+#include "base/random.h"
+#include "cell_to_cell/pvs_rows.h"
+#include "runtime/sightline_runtime.h"
+#include "sightline/bake.h"
+#include "sightline/import.h"
+
+static uint64_t points = 4000;
+
+/// A map of the project's with view cells of the cut, as a file in memory.
+typedef struct viewed {
+    view_world world;
+    sl_view_tree tree;
+    sl_view_hierarchy hierarchy;
+    sl_baked baked;
+    char *bytes;
+    size_t size;
+} viewed;
+
+static void read_map(sl_context *context, const char *name, sl_map *map) {
+    char path[1024];
+    snprintf(path, sizeof path, "%s/maps/%s", SIGHTLINE_SOURCE_DIR, name);
+    const sl_import_options options = sl_import_options_default();
+    assert_ok(context, sl_map_read(context, path, &options, map));
+    assert_ok(context, sl_map_clean(context, map, NULL));
+}
+
+static void make_cells(sl_context *context, const char *name, viewed *v) {
+    view_world *w = &v->world;
+    read_map(context, name, &w->map);
+    assert_ok(context, sl_subdivision_for(&w->map)->subdivide(context, &w->map, NULL, &w->space));
+    assert_ok(context, sl_outline_make(context, &w->space, &w->outline));
+    assert_ok(context, sl_view_places_inside(context, &w->space, &w->places));
+    w->scene = (sl_view_scene){&w->space, SL_VIEW_WALLS, sl_render_cost_default(), &w->places};
+    sl_view_sampling sampling = sl_view_sampling_default();
+    sampling.samples = 5000;
+    assert_ok(context, sl_view_sample(context, &w->outline, &sampling, &w->segments));
+    sl_view_subdivision options = sl_view_subdivision_default();
+    options.cells = 100;
+    assert_ok(context,
+              view_method("av-m")->divide(context, &w->scene, &w->segments, &options, &v->tree));
+    sl_view_sets sets;
+    assert_ok(context, sl_view_sets_sample(context, &w->scene, &v->tree, &w->segments, 1, &sets));
+    assert_ok(context, sl_view_merge(context, &w->scene, &v->tree, &sets, &v->hierarchy));
+    sl_view_sets_destroy(context, &sets);
+}
+
+static void bake(sl_context *context, const char *name, uint32_t cells, viewed *v) {
+    sl_baked *b = &v->baked;
+    uint32_t *view_cells = calloc(v->hierarchy.cell_count, sizeof *view_cells);
+    uint32_t *numbers = calloc(cells, sizeof *numbers);
+    assert_ok(context, sl_view_cut(context, &v->hierarchy, cells, view_cells, numbers));
+    read_map(context, name, &b->map);
+    assert_ok(context, sl_view_add_seams(context, &v->tree, view_cells, NULL, &b->map));
+    free(view_cells);
+    free(numbers);
+    assert_ok(context, sl_subdivision_for(&b->map)->subdivide(context, &b->map, NULL, &b->space));
+    sl_see_options seeing = sl_see_options_default();
+    seeing.inside_only = true;
+    size_t count;
+    const sl_see_method *methods = sl_see_methods(&count);
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(methods[i].name, "sweep") == 0)
+            assert_ok(context, methods[i].see(context, &b->space, &seeing, &b->visibility));
+    snprintf(b->method, sizeof b->method, "sweep");
+    assert_ok(context, sl_view_rows_make(context, &b->space, &b->visibility.pvs, &v->tree,
+                                         &v->hierarchy, cells, true, &b->views));
+    FILE *stream = open_memstream(&v->bytes, &v->size);
+    assert_non_null(stream);
+    assert_ok(context, sl_slv_print(context, b, stream));
+    fclose(stream);
+}
+
+static void drop(sl_context *context, viewed *v) {
+    free(v->bytes);
+    sl_baked_destroy(context, &v->baked);
+    sl_view_hierarchy_destroy(context, &v->hierarchy);
+    sl_view_tree_destroy(context, &v->tree);
+    drop_world(context, &v->world);
+}
+
+/// What a point's view cell sees holds all that its cell sees; the runtime says what the library
+/// does.
+static void check_points(const viewed *v, const sl_runtime *rt) {
+    const sl_baked *b = &v->baked;
+    const sl_box box = b->space.bounds;
+    const size_t words = sl_bits_words(b->space.cell_count);
+    sl_bits *rows = calloc(b->views.view_cell_count * words, sizeof *rows);
+    sl_bits *own = calloc(words, sizeof *own);
+    unsigned char *unpacked = calloc(b->space.cell_count / 8 + 1, 1);
+    for (uint32_t i = 0; i < b->views.view_cell_count; i++) {
+        sl_view_rows_add_to(&b->views, i, rows + i * words);
+        sl_runtime_view_bits(rt, i, unpacked);
+        for (uint32_t c = 0; c < b->space.cell_count; c++)
+            assert_int_equal(unpacked[c / 8] >> c % 8 & 1, sl_bits_has(rows + i * words, c));
+    }
+    sl_random random = {17};
+    uint64_t found = 0;
+    for (uint64_t i = 0; i < points; i++) {
+        sl_point p = {box.min.x + (box.max.x - box.min.x) * sl_random_unit(&random),
+                      box.min.y + (box.max.y - box.min.y) * sl_random_unit(&random)};
+        if (i % 5 == 0) p = (sl_point){floor(p.x), floor(p.y)};
+        const uint32_t cell = sl_runtime_locate(rt, p.x, p.y);
+        const uint32_t view = sl_runtime_view_cell(rt, cell);
+        assert_int_equal(view, sl_view_rows_locate(&b->views, &b->space, p));
+        if (view == SL_NO_VIEW_CELL) continue;
+        found++;
+        memset(own, 0, words * sizeof *own);
+        sl_row_add_to(&b->visibility.pvs, cell, own);
+        for (size_t k = 0; k < words; k++) assert_int_equal(own[k] & ~rows[view * words + k], 0);
+        const uint32_t to = (uint32_t)sl_random_below(&random, b->space.cell_count);
+        assert_int_equal(sl_runtime_view_can_see(rt, view, to),
+                         sl_bits_has(rows + view * words, to));
+    }
+    assert_true(found > points / 4);
+    assert_int_equal(sl_runtime_view_cell(rt, SL_RUNTIME_NO_CELL), SL_RUNTIME_NO_CELL);
+    assert_false(sl_runtime_view_can_see(rt, SL_RUNTIME_NO_CELL, 0));
+    free(rows);
+    free(own);
+    free(unpacked);
+}
+
+static void view_cells_are_found_and_looked_up(void **state) {
+    (void)state;
+    static const char *const names[] = {"office.map", "dungeon.txt", "gallery.map"};
+    sl_context *context = testing_context(NULL);
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        viewed v = {0};
+        make_cells(context, names[i], &v);
+        bake(context, names[i], 20, &v);
+        sl_runtime rt;
+        assert_int_equal(sl_runtime_open(v.bytes, v.size, &rt), SL_RUNTIME_OK);
+        assert_int_equal(rt.view_cell_count, 20);
+        check_points(&v, &rt);
+        sl_baked again = {0};
+        assert_ok(context, sl_baked_parse(context, "memory", v.bytes, v.size, &again));
+        assert_int_equal(again.views.node_count, v.baked.views.node_count);
+        assert_memory_equal(again.views.parents, v.baked.views.parents,
+                            again.views.node_count * sizeof *again.views.parents);
+        assert_memory_equal(again.views.view_cells, v.baked.views.view_cells,
+                            again.space.cell_count * sizeof *again.views.view_cells);
+        sl_baked_destroy(context, &again);
+        // Another space's rows are refused.
+        v.baked.views.rows.cell_count--;
+        assert_int_equal(sl_baked_write(context, &v.baked, "unwritten.slv"), SL_BAD_ARGUMENT);
+        v.baked.views.rows.cell_count++;
+        drop(context, &v);
+    }
+    sl_context_destroy(context);
+}
+
+/// Every word of the sections of view cells, made large: both readers refuse or stay in bounds.
+static void damaged_view_cells_are_refused(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    viewed v = {0};
+    make_cells(context, "office.map", &v);
+    bake(context, "office.map", 6, &v);
+    sl_view_rows *views = &v.baked.views;
+    for (int fault = 0; fault < 4; fault++) {
+        uint32_t *word = fault == 0   ? &views->parents[0]
+                         : fault == 1 ? &views->view_cells[3]
+                         : fault == 2 ? &views->view_cell_count
+                                      : &views->parents[views->node_count - 1];
+        const uint32_t before = *word;
+        *word = fault == 2 ? views->node_count + 1 : fault == 3 ? 0 : views->node_count;
+        char *bytes;
+        size_t size;
+        FILE *stream = open_memstream(&bytes, &size);
+        assert_ok(context, sl_slv_print(context, &v.baked, stream));
+        fclose(stream);
+        sl_runtime rt;
+        sl_baked again = {0};
+        assert_int_equal(sl_runtime_open(bytes, size, &rt), SL_RUNTIME_ROW);
+        assert_int_equal(sl_baked_parse(context, "memory", bytes, size, &again), SL_BAD_INPUT);
+        free(bytes);
+        *word = before;
+    }
+    drop(context, &v);
+    sl_context_destroy(context);
+}
+
+int main(int argc, char **argv) {
+    if (argc > 1) points = strtoull(argv[1], NULL, 10);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(view_cells_are_found_and_looked_up),
+        cmocka_unit_test(damaged_view_cells_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
