@@ -77,11 +77,16 @@ static sl_view eye_view(const sl_app *app) {
                                : sl_view_cone(app->eye.at, app->eye.heading, app->eye.fov, reach);
 }
 
-/// A map that was opened starts from its own start; one that was edited keeps the eye.
-static void take_document(sl_app *app, bool opened) {
+/// What was made of the document before its last change.
+static void drop_made(sl_app *app) {
     drop_scene(app, &app->scene);
     drop_scene(app, &app->tree);
     app->seen.valid = false;
+}
+
+/// A map that was opened starts from its own start; one that was edited keeps the eye.
+static void take_document(sl_app *app, bool opened) {
+    drop_made(app);
     app->wall = UINT32_MAX;
     sl_quiz_forget(app);
     if (!opened || !app->document.baked) return;
@@ -94,12 +99,15 @@ static void take_document(sl_app *app, bool opened) {
     const char *slash = path ? strrchr(path, '/') : NULL;
     const char *map = app->document.source.options.map;
     const sl_space *space = &app->document.baked->space;
-    sl_app_say(app, false, "%s%s%s: %u cells, %u portals, %u walls",
+    const sl_map *drawn = &app->document.baked->map;
+    const bool effects = drawn->door_count + drawn->mirror_count + drawn->oneway_count > 0;
+    sl_app_say(app, false, "%s%s%s: %u cells, %u portals, %u walls%s",
                slash  ? slash + 1
                : path ? path
                       : "map",
                map ? " " : "", map ? map : "", space->cell_count, space->portal_count,
-               space->wall_count);
+               space->wall_count,
+               effects ? "; doors and glass are drawn, and all seen through" : "");
 }
 
 void sl_app_take_opened(sl_app *app) {
@@ -107,12 +115,13 @@ void sl_app_take_opened(sl_app *app) {
 }
 
 static void poll(sl_app *app, bool wait) {
-    const uint32_t before = app->document.opened;
+    const uint32_t before = app->document.opened, version = app->document.version;
     bool changed = false;
     const sl_status status = wait ? sl_document_wait(app->context, &app->document, &changed)
                                   : sl_document_poll(app->context, &app->document, &changed);
     if (status == SL_CANCELLED) sl_app_say(app, false, "stopped");
-    if (changed) take_document(app, before != app->document.opened);
+    if (changed) drop_made(app);
+    if (version != app->document.version) take_document(app, before != app->document.opened);
     sl_app_check(app, status);
 }
 

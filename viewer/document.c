@@ -130,15 +130,15 @@ static sl_status take_space(sl_context *context, sl_document *document) {
     return make_search(context, document);
 }
 
-/// What is seen is there, or is there with its stab trees.
+/// What is seen is there, or, with no change but for them, is there with its stab trees.
 static sl_status take_visibility(sl_context *context, sl_document *document, sl_visibility *from) {
     if (document->search) sl_eye_search_destroy(context, document->search);
     document->search = NULL;
     sl_visibility_destroy(context, &document->baked->visibility);
     document->baked->visibility = *from;
     *from = (sl_visibility){0};
+    document->version += !document->has_visibility;
     document->has_visibility = true;
-    document->version++;
     return make_search(context, document);
 }
 

@@ -39,7 +39,7 @@ typedef struct sl_document {
     double *areas;    ///< of the cells
     double area;      ///< of all cells that count
     uint32_t counted; ///< how many there are
-    uint32_t version; ///< grows with every change, for those who keep pictures
+    uint32_t version; ///< grows with every change but that of stab trees, for who keeps pictures
     uint32_t opened;  ///< grows with every file that is opened
     sl_bake_job *job; ///< NULL: none runs
 } sl_document;
