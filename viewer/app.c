@@ -43,6 +43,7 @@ void sl_app_destroy(sl_app *app) {
     if (app->under.surface) cairo_surface_destroy(app->under.surface);
     if (app->over.surface) cairo_surface_destroy(app->over.surface);
     if (app->account.surface) cairo_surface_destroy(app->account.surface);
+    sl_node_layer_destroy(app->context, app->nodes);
     sl_seen_destroy(app->context, &app->seen);
     sl_lesson_destroy(app->context, &app->lesson);
     sl_history_clear(app->context, &app->history);

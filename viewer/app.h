@@ -7,6 +7,7 @@
 #include "document.h"
 #include "draw/scene.h"
 #include "history.h"
+#include "layer_nodes.h"
 #include "layers.h"
 #include "lesson.h"
 #include "record.h"
@@ -118,8 +119,9 @@ struct sl_app {
     sl_ui ui;
     sl_kept under, over; ///< below and above what changes from frame to frame
     sl_account_picture account;
-    sl_scene scene; ///< that they are drawn of; baked NULL: none yet
-    sl_scene tree;  ///< the stab tree of the eye's cell, likewise
+    sl_scene scene;       ///< that they are drawn of; baked NULL: none yet
+    sl_scene tree;        ///< the stab tree of the eye's cell, likewise
+    sl_node_layer *nodes; ///< NULL: none yet
     uint32_t scene_version, scene_show, tree_version;
     double motion;     ///< seconds for which a moving plan may be drawn by moving the kept picture
     char message[512]; ///< the last thing to say

@@ -30,6 +30,8 @@ typedef struct sl_app sl_app;
           SL_IN_EXPLORE | SL_IN_DRAW, sl_layer_region)                                             \
     LAYER(TREE, "tree", "B", "Stab tree of the cell", "the stab tree", SL_IN_EXPLORE | SL_IN_DRAW, \
           sl_layer_tree)                                                                           \
+    LAYER(NODES, "nodes", "Q", "Nodes without visible sets",                                       \
+          "nodes, walking without visible sets", SL_IN_EXPLORE | SL_IN_DRAW, sl_layer_nodes)       \
     LAYER(STARTS, "starts", "J", "Starts, paths, objects", "starts, paths, objects",               \
           SL_IN_ALL_MODES, NULL)
 
@@ -55,9 +57,14 @@ const sl_layer_row *sl_layer_rows(void);
 /// Draws what is on and has its place in the present mode.
 void sl_layers_draw(sl_app *app, const sl_frame *frame, int index);
 
+/// Over all else in the plan: the keys of what is drawn.
+void sl_layers_draw_keys(sl_app *app, const sl_frame *frame);
+
 void sl_layer_pvs(sl_app *app, const sl_frame *frame, int index);
 void sl_layer_cull(sl_app *app, const sl_frame *frame, int index);
 void sl_layer_region(sl_app *app, const sl_frame *frame, int index);
 void sl_layer_tree(sl_app *app, const sl_frame *frame, int index);
+void sl_layer_nodes(sl_app *app, const sl_frame *frame, int index);
+void sl_layer_nodes_key(sl_app *app, const sl_frame *frame); ///< its colours and counts
 
 #endif

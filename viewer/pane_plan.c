@@ -191,6 +191,7 @@ void sl_pane_plan(sl_app *app, sl_box box, int index, bool vector) {
     else
         show_kept(app, &app->over, true, &frame);
     sl_modes_draw_above(app, &frame);
+    if (!index) sl_layers_draw_keys(app, &frame);
     const bool panes = app->compare == SL_COMPARE_PANES && app->mode == SL_MODE_EXPLORE;
     draw_name(app, box, index, panes ? 2 : 1);
     cairo_restore(cairo);

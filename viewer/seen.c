@@ -68,7 +68,7 @@ static void take_pvs(sl_seen *seen, const sl_document *document, sl_point eye) {
     sum_up(document, seen->pvs, &seen->pvs_count, &seen->pvs_area);
 }
 
-static bool same_view(const sl_view *a, const sl_view *b) {
+bool sl_seen_same_view(const sl_view *a, const sl_view *b) {
     return a->eye.x == b->eye.x && a->eye.y == b->eye.y && a->full == b->full &&
            (a->full || (a->left.x == b->left.x && a->left.y == b->left.y &&
                         a->right.x == b->right.x && a->right.y == b->right.y));
@@ -84,7 +84,7 @@ sl_status sl_seen_update(sl_context *context, sl_seen *seen, const sl_document *
         seen->valid = false;
         SL_TRY(make_sets(context, seen, &document->baked->space));
     }
-    if (seen->valid && same_view(&seen->view, view)) return SL_OK;
+    if (seen->valid && sl_seen_same_view(&seen->view, view)) return SL_OK;
     seen->version = document->version;
     seen->view = *view;
     seen->valid = true;

@@ -31,6 +31,8 @@ typedef struct sl_seen {
 /// Looks again where the view or the document has changed.
 sl_status sl_seen_update(sl_context *context, sl_seen *seen, const sl_document *document,
                          const sl_view *view);
+/// Whether two views are one.
+bool sl_seen_same_view(const sl_view *a, const sl_view *b);
 void sl_seen_destroy(sl_context *context, sl_seen *seen);
 
 #endif

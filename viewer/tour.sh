@@ -22,6 +22,13 @@ eye 53 20 160 90
 key X
 key X
 END
+shoot office.map nodes <<'END'
+eye 53 20 160 60
+key M
+key R
+key Q
+key Tab
+END
 shoot office.map account <<'END'
 eye 53 20 160 90
 key L

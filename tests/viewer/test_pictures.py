@@ -22,6 +22,7 @@ PICTURES = {
     "subdivision": ("maze.map", "key F2\nkey U\n" + "key Right\n" * 4),
     "draw": ("office.map", "key Tab\nkey F3\ndrag 200 100 200 300\nkey Tab\n"),
     "quiz": ("office.map", "key F4\nkey Y\n"),
+    "nodes": ("office.map", "eye 53 20 160 60\nkey M\nkey R\nkey Q\nkey Tab\n"),
     "account": ("office.map", "eye 53 20 160 90\nkey Tab\nkey L\n"),
     "oblique": ("oblique/rotunda.map", "key B\nkey K\n"),
     "oblique_subdivision": ("oblique/rotunda.map", "key F2\nkey U\n" + "key Right\n" * 6),
@@ -31,7 +32,7 @@ PICTURES = {
 }
 
 # Keys that change the plan, each on its own; and how each is taken back.
-LAYERS = ["C", "P", "K", "V", "B", "M", "R", "J"]
+LAYERS = ["C", "P", "K", "V", "B", "M", "R", "J", "Q"]
 SWITCHES = {"I": "I", "L": "L", "T": "T", "X": "X X", "Tab": "Tab", "?": "Escape", "O": "Escape",
             "F2": "F1", "F3": "F1", "F4": "F1", "PageUp": "F", "Ctrl+=": "Ctrl+-", "/": "/"}
 

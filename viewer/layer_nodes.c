@@ -1,0 +1,154 @@
+/// The hierarchy's nodes as a walk without visible sets classifies them, frame by frame, in the
+/// colours of Bittner & Havran 2002, Figure 12.
+#include "layer_nodes.h"
+
+#include "app.h"
+#include "base/base.h"
+#include "base/bits.h"
+#include "draw/sight.h"
+#include "sightline/walk.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef enum kind { OUT, INVISIBLE, PROPAGATED, VISIBLE, PARTIAL, KINDS } kind;
+
+static const struct {
+    const char *label;
+    sl_colour colour;
+    double opacity; ///< partially visible ones stay as they are
+} kinds[KINDS] = {
+    [OUT] = {"outside the view cone", {0.35, 0.66, 0.36}, 0.45},
+    [INVISIBLE] = {"invisible", {0.13, 0.25, 0.56}, 0.7},
+    [PROPAGATED] = {"invisible by propagation", {0.42, 0.70, 0.92}, 0.7},
+    [VISIBLE] = {"visible", {0.96, 0.80, 0.16}, 0.75},
+    [PARTIAL] = {"partially visible", {1, 1, 1}, 0},
+};
+
+struct sl_node_layer {
+    uint32_t version; ///< of the document that it is of
+    sl_hierarchy hierarchy;
+    sl_walk *walk;
+    sl_view view;
+    bool stepped;
+    sl_walk_frame frame;
+    sl_bits *sets[KINDS]; ///< cells
+    uint32_t counts[KINDS];
+};
+
+void sl_node_layer_destroy(sl_context *context, sl_node_layer *layer) {
+    if (!layer) return;
+    sl_walk_destroy(context, layer->walk);
+    sl_hierarchy_destroy(context, &layer->hierarchy);
+    for (int k = 0; k < KINDS; k++) sl_free(context, layer->sets[k]);
+    sl_free(context, layer);
+}
+
+static const sl_walk_method *find_method(const char *name) {
+    size_t count, i = 0;
+    const sl_walk_method *methods = sl_walk_methods(&count);
+    while (i + 1 < count && strcmp(methods[i].name, name) != 0) i++;
+    return &methods[i];
+}
+
+static sl_status fill(sl_context *context, const sl_document *document, sl_node_layer *layer) {
+    const sl_space *space = &document->baked->space;
+    const sl_walk_options options = sl_walk_options_default();
+    layer->version = document->version;
+    for (int k = 0; k < KINDS; k++) {
+        layer->sets[k] =
+            sl_alloc_array(context, sl_bits_words(space->cell_count), sizeof *layer->sets[k]);
+        if (!layer->sets[k]) return SL_NO_MEMORY;
+    }
+    SL_TRY(sl_hierarchy_make(context, space, &layer->hierarchy));
+    return sl_walk_create(context, &layer->hierarchy, find_method("propagation"), &options,
+                          &layer->walk);
+}
+
+/// Makes it for the document that is open, where it is not there yet.
+static sl_status prepare(sl_app *app) {
+    if (app->nodes && app->nodes->version == app->document.version) return SL_OK;
+    sl_node_layer_destroy(app->context, app->nodes);
+    app->nodes = NULL;
+    sl_node_layer *layer = sl_alloc_array(app->context, 1, sizeof *layer);
+    if (!layer) return SL_NO_MEMORY;
+    const sl_status status = fill(app->context, &app->document, layer);
+    if (status == SL_OK)
+        app->nodes = layer;
+    else
+        sl_node_layer_destroy(app->context, layer);
+    return status;
+}
+
+static kind kind_of(sl_node_state state, sl_walk_reason reason) {
+    if (state == SL_NODE_PARTIAL) return PARTIAL;
+    if (state == SL_NODE_VISIBLE) return VISIBLE;
+    return reason == SL_WALK_FRUSTUM ? OUT : reason == SL_WALK_PROPAGATED ? PROPAGATED : INVISIBLE;
+}
+
+static void sort_cells(sl_node_layer *layer) {
+    const sl_hierarchy *h = &layer->hierarchy;
+    for (int k = 0; k < KINDS; k++) {
+        memset(layer->sets[k], 0, sl_bits_words(h->space->cell_count) * sizeof *layer->sets[k]);
+        layer->counts[k] = 0;
+    }
+    for (uint32_t i = 0; i < h->node_count; i++) {
+        sl_walk_reason reason;
+        if (h->nodes[i].cell == SL_NO_CELL) continue;
+        const sl_node_state state = sl_walk_state(layer->walk, i, &reason);
+        const kind k = kind_of(state, reason);
+        sl_bits_add(layer->sets[k], h->nodes[i].cell);
+        layer->counts[k]++;
+    }
+}
+
+/// A frame of the walk, where the eye has moved since the last one.
+static sl_status step(sl_app *app) {
+    SL_TRY(prepare(app));
+    sl_node_layer *layer = app->nodes;
+    if (layer->stepped && sl_seen_same_view(&layer->view, &app->seen.view)) return SL_OK;
+    SL_TRY(sl_walk_step(app->context, layer->walk, &app->seen.view, &layer->frame));
+    layer->view = app->seen.view;
+    layer->stepped = true;
+    sort_cells(layer);
+    return SL_OK;
+}
+
+void sl_layer_nodes_key(sl_app *app, const sl_frame *frame) {
+    const sl_node_layer *layer = app->nodes;
+    if (!layer || !layer->stepped) return;
+    sl_ui *ui = &app->ui;
+    const double t = ui->text, left = frame->left + t, row = 1.5 * t;
+    const double top = frame->top + frame->height - t - (KINDS + 1) * row - 0.6 * t;
+    sl_ui_fill_round(ui, (sl_box){{left, top}, {left + 19 * t, frame->top + frame->height - t}},
+                     0.3 * t, ui->palette.page);
+    for (int k = 0; k < KINDS; k++) {
+        char count[16];
+        const double base = top + 0.3 * t + (k + 0.8) * row;
+        const sl_colour colour =
+            sl_colour_mix(ui->palette.floor[0], kinds[k].colour, kinds[k].opacity);
+        sl_ui_fill_round(
+            ui, (sl_box){{left + 0.6 * t, base - 0.8 * t}, {left + 1.6 * t, base + 0.1 * t}},
+            0.15 * t, colour);
+        sl_ui_text(ui, left + 2.1 * t, base, 0.95, false, ui->palette.ink, kinds[k].label);
+        snprintf(count, sizeof count, "%u", layer->counts[k]);
+        sl_ui_text_right(ui, left + 18.4 * t, base, 0.95, ui->palette.ink, count);
+    }
+    char text[96];
+    const sl_walk_frame *f = &layer->frame;
+    snprintf(text, sizeof text, "%u tests for %u nodes, %u occluders", f->tests, f->visited,
+             f->occluders);
+    sl_ui_text(ui, left + 0.6 * t, top + 0.3 * t + (KINDS + 0.8) * row, 0.95, false,
+               ui->palette.faint, text);
+}
+
+void sl_layer_nodes(sl_app *app, const sl_frame *frame, int index) {
+    const sl_status status = step(app);
+    sl_app_check(app, status);
+    if (status != SL_OK) return;
+    for (int k = 0; k < KINDS; k++)
+        if (kinds[k].opacity > 0)
+            sl_draw_cell_set(app->ui.cairo, &app->document.baked->space, frame, app->nodes->sets[k],
+                             NULL, kinds[k].colour, kinds[k].opacity);
+    (void)index;
+}
