@@ -1,9 +1,9 @@
-// What the whole cell-to-cell stage costs by each method with each solver, in one run on one
-// thread.
+// What the whole cell-to-cell stage costs by each method with each solver, on one thread, in one
+// run.
 //   bench_methods MAP [Z]           a map file, and the height of its slice
 //   bench_methods FILE.wad LEVEL    a level of a WAD
-// CSV: machine, map, cells, sight, method, solver, pairs, seconds, times the sweep's. What takes
-// longer than a minute has no figures.
+// CSV: machine, map, cells, sight, method, solver, pairs, seconds of the processor, times those of
+// the sweep. What takes longer than a minute has no figures.
 #include "read_space.h"
 
 #include "sightline/glpk.h"
@@ -23,7 +23,7 @@ typedef struct clock_hook {
 
 static double now(void) {
     struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 

@@ -109,8 +109,9 @@ static double time_fans(sl_context *context, const sl_space *space, const sl_see
     return least;
 }
 
-static double time_sweep(sl_context *context, const sl_space *space,
-                         const sl_see_options *options) {
+static double time_sweep(sl_context *context, const sl_space *space, sl_see_options options,
+                         sl_row_storage rows) {
+    options.rows = rows;
     size_t count;
     const sl_see_method *methods = sl_see_methods(&count);
     double least = 1e300;
@@ -118,7 +119,7 @@ static double time_sweep(sl_context *context, const sl_space *space,
         for (int round = 0; round < ROUNDS && strcmp(methods[m].name, "sweep") == 0; round++) {
             sl_visibility seen;
             const double start = now();
-            must(context, methods[m].see(context, space, options, &seen));
+            must(context, methods[m].see(context, space, &options, &seen));
             const double took = now() - start;
             sl_visibility_destroy(context, &seen);
             if (took < least) least = took;
@@ -203,7 +204,8 @@ static void measure(sl_context *context, const sl_space *space, sl_sight sight, 
         {"cells seen", "", (double)f.cells},
         {"row operations", "", events},
         {"words a row operation", "", events > 0 ? (double)f.words / events : 0},
-        {"whole stage", "ms", time_sweep(context, space, &options)},
+        {"whole stage with whole rows", "ms", time_sweep(context, space, options, SL_ROWS_DENSE)},
+        {"whole stage with sparse rows", "ms", time_sweep(context, space, options, SL_ROWS_SPARSE)},
         {"of it: finding the fans", "ms", time_fans(context, space, &options)},
         {"floor: row operations alone", "ms", time_rows(&sweeper.rows, &f, sweeper.behind.bits)},
         {"floor: their bytes through memory", "ms", bytes / bandwidth(context)},
