@@ -29,10 +29,12 @@ static void print_row(const sl_regions_row *row) {
 }
 
 void sl_regions_print(const sl_regions_rows *rows) {
-    puts("METHOD %: objects given to the solver, an image's mean share of all, after view-frustum\n"
-         "culling; METHOD s: seconds; PVS %: a view cell's mean share of the objects seen;\n"
-         "work/seen: multipass's candidates over what it found in all quadrants. All methods took "
-         "the\nsame samples and found the same.");
+    puts(
+        "METHOD %: objects given to the solver, an image's mean share of all, after view-frustum\n"
+        "culling; METHOD s: seconds of processor time; PVS %: a view cell's mean share of the "
+        "objects\n"
+        "seen; work/seen: multipass's candidates over what it found in all quadrants. All methods\n"
+        "took the same samples and found the same.");
     const char *last = NULL;
     for (size_t i = 0; i < rows->count; i++) {
         if (!last || strcmp(last, rows->items[i].view_cells) != 0) print_heading(&rows->items[i]);

@@ -10,7 +10,7 @@ enum { SL_REGIONS_METHODS_MOST = 4 };
 /// What a method cost.
 typedef struct sl_regions_cost {
     const char *method;
-    double seconds;
+    double seconds;      ///< of processor time, all threads'
     double refined;      ///< objects given to the solver, an image's mean share of all
     uint64_t candidates; ///< over view cells and quadrants
     uint64_t relations;  ///< 0 where the method does not tell

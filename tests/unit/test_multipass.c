@@ -71,7 +71,7 @@ static void check_file(const char *path) {
     const sl_subdivide_options rules = sl_subdivide_options_default();
     assert_ok(context, sl_map_read(context, path, &options, &map));
     assert_ok(context, sl_map_clean(context, &map, NULL));
-    assert_ok(context, sl_subdivide_kd(context, &map, &rules, &space));
+    assert_ok(context, sl_subdivision_for(&map)->subdivide(context, &map, &rules, &space));
     compare(context, path, &space, "dfs");
     sl_map_destroy(context, &map);
     sl_space_destroy(context, &space);
@@ -80,8 +80,8 @@ static void check_file(const char *path) {
 
 static void maps_are_seen_as_by_the_search(void **state) {
     (void)state;
-    const char *patterns[] = {"/maps/*.map", "/maps/*.txt", "/tests/cases/*.map",
-                              "/../shared/data/soda-hall-floor5.ug"};
+    const char *patterns[] = {"/maps/*.map", "/maps/*.txt", "/maps/oblique/*.map",
+                              "/tests/cases/*.map", "/../shared/data/soda-hall-floor5.ug"};
     for (size_t i = 0; i < sizeof patterns / sizeof *patterns; i++) {
         char pattern[4096];
         glob_t found;
