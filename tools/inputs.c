@@ -60,6 +60,7 @@ static sl_status read_options(sl_context *context, const sl_input_texts *texts,
     options->layers = texts->layers;
     options->unit = texts->unit;
     options->doors = texts->doors;
+    options->sectors = texts->sectors;
     options->cells = texts->cells;
     return SL_OK;
 }
@@ -83,6 +84,7 @@ sl_status sl_input_refuse_texts(sl_context *context, const char *path,
                         : texts->unit      ? "unit"
                         : texts->threshold ? "threshold"
                         : texts->doors     ? "doors"
+                        : texts->sectors   ? "sectors"
                                            : NULL;
     if (!given) return SL_OK;
     return sl_fail(context, SL_BAD_ARGUMENT, "--%s: %s is baked; the option is for reading a map",

@@ -15,7 +15,7 @@ const char *sl_input_base_name(const char *path, size_t *length);
 /// The options of reading a map, as they are given.
 typedef struct sl_input_texts {
     const char *map, *slice, *layers, *tolerance, *unit, *threshold;
-    bool doors;
+    bool doors, sectors;
     bool cells; ///< the file's own cells are asked for
 } sl_input_texts;
 
@@ -36,6 +36,12 @@ typedef struct sl_input_texts {
          NULL,                                                                                     \
          &(texts).threshold,                                                                       \
          "darkness from which a pixel is solid, up to 1"},                                         \
+        {"sectors",                                                                                \
+         0,                                                                                        \
+         NULL,                                                                                     \
+         &(texts).sectors,                                                                         \
+         NULL,                                                                                     \
+         "cut cells between the sectors of a Doom map too: for\na REJECT that hides more"},        \
     {                                                                                              \
         "doors", 0, NULL, &(texts).doors, NULL,                                                    \
             "take doors as doors; without it as what they are\nwhen the map begins"                \

@@ -16,6 +16,8 @@ typedef struct cell_view {
 typedef struct finder {
     sl_context *context;
     const sl_doom_level *level;
+    double slack;             ///< what rounding may have moved a corner by
+    bool is_thin;             ///< the current cell lies on a line: it has no sector of its own
     SL_ARRAY(uint32_t) found; ///< of all cells so far
     size_t begin;             ///< of the current cell
 } finder;
@@ -46,10 +48,10 @@ static sl_status add(finder *find, uint32_t sector) {
 }
 
 static bool boxes_meet(const cell_view *view, const sl_doom_line *line) {
-    return fmin(line->from.x, line->to.x) <= view->box.max.x &&
-           fmax(line->from.x, line->to.x) >= view->box.min.x &&
-           fmin(line->from.y, line->to.y) <= view->box.max.y &&
-           fmax(line->from.y, line->to.y) >= view->box.min.y;
+    const sl_point a = line->from, b = line->to;
+    const sl_box *box = &view->box;
+    return (a.x <= box->max.x || b.x <= box->max.x) && (a.x >= box->min.x || b.x >= box->min.x) &&
+           (a.y <= box->max.y || b.y <= box->max.y) && (a.y >= box->min.y || b.y >= box->min.y);
 }
 
 /// Whether an edge of the cell, to the left of which the cell lies, has all of the line at its
@@ -70,9 +72,28 @@ static bool overlaps(const sl_doom_line *line, sl_point a, sl_point b) {
     return fmin(c, d) < fmax(e, f) && fmin(e, f) < fmax(c, d);
 }
 
+/// How far the cell reaches beyond a line on its left and on its right.
+static void measure_depths(const cell_view *view, const sl_doom_line *line, double *left,
+                           double *right) {
+    const double dx = line->to.x - line->from.x, dy = line->to.y - line->from.y;
+    const double length = hypot(dx, dy);
+    *left = *right = 0;
+    for (uint32_t i = 0; i < view->count; i++) {
+        const sl_point at = view->corners[i];
+        const double off = (dx * (at.y - line->from.y) - dy * (at.x - line->from.x)) / length;
+        *left = fmax(*left, off);
+        *right = fmax(*right, -off);
+    }
+}
+
 /// Adds what a line tells of the sectors within the cell.
 static sl_status ask_line(finder *find, const cell_view *view, const sl_doom_line *line) {
     if (!boxes_meet(view, line)) return SL_OK;
+    double left, right;
+    measure_depths(view, line, &left, &right);
+    find->is_thin |= left <= find->slack && right <= find->slack;
+    // A cell that was cut along the line is beyond it by rounding alone.
+    if ((left > 0 && left <= find->slack) || (right > 0 && right <= find->slack)) return SL_OK;
     bool at_left = false, at_right = false, runs_along = false;
     int before = sl_orient(line->from, line->to, view->corners[view->count - 1]);
     for (uint32_t i = 0; i < view->count; i++) {
@@ -90,26 +111,38 @@ static sl_status ask_line(finder *find, const cell_view *view, const sl_doom_lin
     return at_right ? add(find, line->right) : SL_OK;
 }
 
-/// The sector that the nearest line to the right of a point says that the point is in. Of lines
-/// that lie on each other, as walls back to back do, one that has a sector at this side.
+/// What a line to the right of a point says of it.
+typedef struct hit {
+    double x;     ///< where it is met
+    double slope; ///< how x grows with y
+    uint32_t sector;
+} hit;
+
+/// Whether a line is met before another. Where both are met in one place, the ray is taken to run a
+/// little higher; of lines that lie on each other, as walls back to back do, one that has a sector
+/// at this side is wanted.
+static bool is_before(const hit *a, const hit *b, double point_x) {
+    // Rounding parts what lies together by less than this.
+    const double close = 1e-9 * (fabs(a->x) + fabs(point_x));
+    if (fabs(a->x - b->x) > close) return a->x < b->x;
+    if (fabs(a->slope - b->slope) > 1e-9 * (1 + fabs(a->slope))) return a->slope < b->slope;
+    return b->sector == SL_NO_SECTOR;
+}
+
+/// The sector that the nearest line to the right of a point says that the point is in.
 static uint32_t sector_left_of_nearest(const sl_doom_level *level, sl_point point) {
-    double nearest = HUGE_VAL;
-    uint32_t sector = SL_NO_SECTOR;
+    hit nearest = {.x = HUGE_VAL, .sector = SL_NO_SECTOR};
     for (size_t i = 0; i < level->line_count; i++) {
         const sl_doom_line *line = &level->lines[i];
         if ((line->from.y <= point.y) == (line->to.y <= point.y)) continue;
-        const double share = (point.y - line->from.y) / (line->to.y - line->from.y);
-        const double x = line->from.x + share * (line->to.x - line->from.x);
+        const double slope = (line->to.x - line->from.x) / (line->to.y - line->from.y);
+        const double x = line->from.x + (point.y - line->from.y) * slope;
+        if (x < point.x) continue;
         const int side = sl_orient(line->from, line->to, point);
-        const uint32_t facing = side > 0 ? line->left : line->right;
-        // Rounding parts what lies together by less than this; too wide adds a sector at worst.
-        const double close = 1e-9 * (fabs(x) + fabs(point.x));
-        const bool fits = x < nearest - close || (x <= nearest + close && sector == SL_NO_SECTOR);
-        if (x < point.x || side == 0 || !fits) continue;
-        nearest = fmin(x, nearest);
-        sector = facing;
+        const hit met = {x, slope, side > 0 ? line->left : line->right};
+        if (side != 0 && is_before(&met, &nearest, point.x)) nearest = met;
     }
-    return sector;
+    return nearest.sector;
 }
 
 static int compare_sectors(const void *left, const void *right) {
@@ -120,9 +153,13 @@ static int compare_sectors(const void *left, const void *right) {
 static sl_status find_cell(finder *find, const sl_space *space, uint32_t cell) {
     const cell_view view = view_of(space, cell);
     find->begin = find->found.count;
+    find->is_thin = false;
     for (size_t i = 0; i < find->level->line_count; i++)
         SL_TRY(ask_line(find, &view, &find->level->lines[i]));
-    SL_TRY(add(find, sector_left_of_nearest(find->level, view.middle)));
+    if (find->is_thin)
+        find->found.count = find->begin;
+    else
+        SL_TRY(add(find, sector_left_of_nearest(find->level, view.middle)));
     if (find->found.count > UINT32_MAX)
         return sl_fail(find->context, SL_UNSUPPORTED,
                        "more cells with sectors than can be counted");
@@ -133,7 +170,10 @@ static sl_status find_cell(finder *find, const sl_space *space, uint32_t cell) {
 
 sl_status sl_cell_sectors_find(sl_context *context, const sl_space *space,
                                const sl_doom_level *level, sl_cell_sectors *out) {
-    finder find = {.context = context, .level = level};
+    const sl_box *b = &space->bounds;
+    finder find = {.context = context,
+                   .level = level,
+                   .slack = 0x1p-24 * fmax(b->max.x - b->min.x, b->max.y - b->min.y)};
     uint32_t *first = sl_alloc_array(context, (size_t)space->cell_count + 1, sizeof *first);
     if (!first) return SL_NO_MEMORY;
     sl_status status = SL_OK;

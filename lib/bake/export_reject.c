@@ -24,15 +24,22 @@ typedef struct reject_export {
 
 // --- the same map
 
-/// SL_BAD_INPUT where the walls of the space are not those of the WAD's map.
-static sl_status check_same_walls(const reject_export *export, const sl_map *map) {
-    const sl_space *space = &export->baked->space;
-    bool same = map->wall_count == space->wall_count;
-    for (size_t i = 0; i < map->wall_count && same; i++) {
+static bool has_walls(const sl_space *space, const sl_map *map) {
+    if (map->wall_count != space->wall_count) return false;
+    for (size_t i = 0; i < map->wall_count; i++) {
         const sl_wall *a = &map->walls[i], *b = &space->walls[i];
-        same = a->a.x == b->a.x && a->a.y == b->a.y && a->b.x == b->b.x && a->b.y == b->b.y;
+        if (a->a.x != b->a.x || a->a.y != b->a.y || a->b.x != b->b.x || a->b.y != b->b.y)
+            return false;
     }
-    if (same) return SL_OK;
+    return true;
+}
+
+/// SL_BAD_INPUT where the walls of the space are not those of the WAD's map: as they are, which
+/// cells of the map's own leave them, or cleaned.
+static sl_status check_walls(const reject_export *export, sl_map *map) {
+    if (has_walls(&export->baked->space, map)) return SL_OK;
+    SL_TRY(sl_map_clean(export->context, map, NULL));
+    if (has_walls(&export->baked->space, map)) return SL_OK;
     return sl_fail_at(export->context, export->wad.name, 0,
                       "map %s has other walls than the baked file, which was made from another map",
                       export->map.name);
@@ -43,8 +50,7 @@ static sl_status check_map(const reject_export *export) {
     sl_map map = {0};
     SL_TRY(sl_map_read_wad(export->context, export->wad.name, (const char *)export->wad.bytes,
                            export->wad.size, &options, &map));
-    sl_status status = sl_map_clean(export->context, &map, NULL);
-    if (status == SL_OK) status = check_same_walls(export, &map);
+    const sl_status status = check_walls(export, &map);
     sl_map_destroy(export->context, &map);
     return status;
 }

@@ -13,6 +13,7 @@ typedef struct doom_import {
     sl_context *context;
     const sl_doom_level *level;
     const bool *is_door; ///< NULL where doors are seen through
+    bool seams;          ///< lines between sectors are to cut cells
     uint32_t *walls;     ///< by line: its wall, or SL_NO_WALL; NULL where nobody asks
     sl_map *map;
     line_account lines;
@@ -48,6 +49,9 @@ static sl_status add_line(doom_import *import, const sl_doom_line *line) {
     }
     if (line->right != SL_NO_SECTOR && line->left != SL_NO_SECTOR) {
         lines->seen_through++;
+        if (import->seams && line->right != line->left)
+            SL_TRY(sl_map_add_seam(import->context, import->map, (sl_segment){line->from, line->to},
+                                   line->line));
         return import->is_door ? add_door(import, line) : SL_OK;
     }
     lines->walls++;
@@ -121,8 +125,11 @@ static sl_status make_map(sl_context *context, const sl_wad *wad, const sl_wad_m
     bool *is_door = sl_alloc_array(context, level->sector_count, sizeof *is_door);
     if (!is_door) return SL_NO_MEMORY;
     sl_doom_find_doors(level, is_door);
-    doom_import import = {
-        .context = context, .level = level, .is_door = options->doors ? is_door : NULL, .map = map};
+    doom_import import = {.context = context,
+                          .level = level,
+                          .is_door = options->doors ? is_door : NULL,
+                          .seams = options->sectors,
+                          .map = map};
     sl_status status = options->cells ? add_cells(&import, wad, chosen) : add_lines(&import);
     if (status == SL_OK) status = add_start(&import);
     if (status == SL_OK) tell(&import, name);

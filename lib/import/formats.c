@@ -148,7 +148,7 @@ static const sl_map_format formats[] = {
      .endings = ".wad",
      .what = "a Doom WAD, classic, Hexen's or UDMF",
      .read = sl_map_read_wad,
-     .takes = SL_TAKES_DOORS | SL_TAKES_CELLS,
+     .takes = SL_TAKES_DOORS | SL_TAKES_CELLS | SL_TAKES_SECTORS,
      .list = sl_map_list_wad,
      .knows = knows_wad},
 };
@@ -260,6 +260,7 @@ static sl_status check_options(sl_context *context, const char *path, const sl_m
         {"unit", options->unit, format->takes & SL_TAKES_UNIT},
         {"threshold", options->threshold != 0, format->takes & SL_TAKES_THRESHOLD},
         {"doors", options->doors, format->takes & SL_TAKES_DOORS},
+        {"sectors", options->sectors, format->takes & SL_TAKES_SECTORS},
         {"subdivide given", options->cells, format->takes & SL_TAKES_CELLS},
     };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)

@@ -24,6 +24,9 @@ typedef struct sl_import_options {
     /// Take doors as doors. Off: as what they are when the map begins; those of a game that opens
     /// them at a touch (Doom) are seen through.
     bool doors;
+    /// Make seams of the lines between different sectors (Doom), so that each cell is in one
+    /// sector.
+    bool sectors;
     /// Take the cells that the file brings along, for sl_subdivide_given. Map texts give theirs
     /// without being asked.
     bool cells;
@@ -51,6 +54,7 @@ typedef enum sl_import_takes {
     SL_TAKES_DOORS = 16,
     SL_TAKES_CELLS = 32,
     SL_TAKES_UNIT = 64,
+    SL_TAKES_SECTORS = 128,
 } sl_import_takes;
 
 /// A format: its name, what its files' names end with (space-separated), what it is, how to read
