@@ -206,7 +206,7 @@ sl_status sl_cmd_regions(sl_console *console, int argc, char **argv) {
     const sl_option_spec options[] = {
         {"output", 'o', "DIR", NULL, &t.output,
          "a folder for regions.csv and the charts refine and work\n(.png, .svg); made if missing"},
-        {"also", 0, "MAP", NULL, &t.also_text, "a map to be set beside; may be given again"},
+        {"also", 0, "MAP", NULL, &t.also_text, "a map beside; may be given several times"},
         {"grid", 0, "N,...", NULL, &t.grid, "N x N view cells, for each number; 2,4,8 without it"},
         {"view-cells", 0, "KIND", NULL, &t.view_cells,
          "grid (the default), leaves of the kd-tree, or the map's\n'object' boxes, those of one "
