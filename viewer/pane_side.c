@@ -125,11 +125,11 @@ static void draw_method(sl_app *app, column *c, const method_row *row, int numbe
     snprintf(words, sizeof words, "%s", row->name);
     for (char *at = words; *at; at++)
         if (*at == '_') *at = ' ';
-    sl_text_show_within(ui->cairo, ui->palette.ink, c->left + 1.3 * t, base, 10.1 * t, 0.95 * t,
+    sl_text_show_within(ui->cairo, ui->palette.ink, c->left + 1.3 * t, base, 9.4 * t, 0.95 * t,
                         false, words);
     if (row->known) {
         const double unit = (c->right - c->left) / 22;
-        cells_text(c->left + 12.7 * unit, ui, base, row->cells, ui->palette.ink);
+        cells_text(c->left + 12.3 * unit, ui, base, row->cells, ui->palette.ink);
         sl_text_percent(app->document.area > 0 ? row->area / app->document.area : 0, text);
         sl_ui_text_right(ui, c->left + 16.3 * unit, base, 0.95, ui->palette.ink, text);
         cells_text(c->left + 18.9 * unit, ui, base, row->tests, ui->palette.ink);
@@ -147,7 +147,7 @@ static void draw_methods(sl_app *app, column *c) {
     const double unit = (c->right - c->left) / 22, t = ui->text;
     heading(app, c, "What is kept", NULL);
     c->y -= 0.55 * t;
-    sl_ui_text_right(ui, c->left + 12.7 * unit, c->y, 0.85, ui->palette.faint, "cells");
+    sl_ui_text_right(ui, c->left + 12.3 * unit, c->y, 0.85, ui->palette.faint, "cells");
     sl_ui_text_right(ui, c->left + 16.3 * unit, c->y, 0.85, ui->palette.faint, "area");
     sl_ui_text_right(ui, c->left + 18.9 * unit, c->y, 0.85, ui->palette.faint, "tests");
     sl_ui_text_right(ui, c->right, c->y, 0.85, ui->palette.faint, "time");
