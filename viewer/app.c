@@ -109,6 +109,9 @@ static void take_document(sl_app *app, bool opened) {
                map ? " " : "", map ? map : "", space->cell_count, space->portal_count,
                space->wall_count,
                effects ? "; doors and glass are drawn, and all seen through" : "");
+    char partial[SL_PARTIAL_TEXT];
+    sl_baked_say_partial(app->document.baked, partial);
+    if (partial[0]) sl_app_say(app, false, "%s is %s", slash ? slash + 1 : path, partial);
 }
 
 void sl_app_take_opened(sl_app *app) {

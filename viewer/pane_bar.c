@@ -73,8 +73,11 @@ void sl_pane_status(sl_app *app, sl_box box) {
     if (app->document.job) {
         draw_progress(app, box);
     } else {
+        const sl_baked *baked = app->document.baked;
+        const bool partial = baked && sl_findings_begun(&baked->findings);
         const char *doing = app->recorder.records ? "recording"
                             : app->recorder.plays ? "playing"
+                            : partial             ? "a partial bake"
                                                   : "";
         if (app->steady || app->frame_seconds <= 0)
             snprintf(text, sizeof text, "%s", doing);

@@ -66,6 +66,31 @@ class Interrupt(unittest.TestCase):
             result = box.run(["info", "part.slv"])
             self.assertIn("what is not decided counts as seen", result.stdout)
 
+    def test_killed_shard(self):
+        """A part that is killed leaves nothing; run again it gives the whole all the same."""
+        with sandbox.Sandbox(PROGRAM) as box:
+            box.path("hall.map").write_text(pillars(12))
+            bake = ["bake", "hall.map", "--method", "dfs", "--threads", "1", "-q"]
+            self.assertEqual(box.run([*bake, "-o", "whole.slv"]).status, 0)
+            for part in "1", "2", "3":
+                if part == "2":
+                    before = box.files()
+                    process = box.start([*bake, "--shard", "2/3", "-o", "2.slv"])
+                    time.sleep(0.1)
+                    self.assertIsNone(process.poll(), "the shard is over too soon to be killed")
+                    process.kill()
+                    process.communicate()
+                    self.assertEqual(box.files(), before)
+                    result = box.run(["merge", "1.slv", "-o", "merged.slv"])
+                    self.assertEqual(result.stderr,
+                                     "sightline: of 3 shards 2 are missing: 2, 3\n")
+                result = box.run([*bake, "--shard", f"{part}/3", "-o", f"{part}.slv"])
+                self.assertEqual(result.status, 0)
+            result = box.run(["merge", "1.slv", "3.slv", "2.slv", "-o", "merged.slv"])
+            self.assertEqual(result.status, 0)
+            self.assertEqual(box.path("merged.slv").read_bytes(),
+                             box.path("whole.slv").read_bytes())
+
     def test_kept_stops_at_the_second(self):
         with sandbox.Sandbox(PROGRAM) as box:
             box.path("hall.map").write_text(pillars(40))

@@ -1,6 +1,8 @@
 /// A baked file whose checksum is right and whose contents are wrong is refused, by name.
 #include "slv_file.h"
 
+#define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#include "runtime/sightline_runtime.h"
 #include "sightline/solvers.h"
 
 #include <math.h>
@@ -128,11 +130,115 @@ static void an_export_can_be_interrupted(void **state) {
     sl_context_destroy(context);
 }
 
+// --- what is not finished
+
+static bool after_one_source(void *user) {
+    return (*(int *)user)++ > 0;
+}
+
+/// The same bake, stopped after a source, or one shard of it.
+static void bake_part(sl_context *context, uint32_t shard_count, sl_baked *baked) {
+    bake(context, baked);
+    sl_visibility_destroy(context, &baked->visibility);
+    int asked = 0;
+    size_t count;
+    const sl_see_method *dfs = sl_see_methods(&count);
+    sl_see_options options = sl_see_options_default();
+    options.solver = sl_funnel();
+    options.threads = 1;
+    options.shard = options.shard_count = shard_count;
+    options.enough = after_one_source;
+    options.enough_user = &asked;
+    assert_ok(context, dfs->look(context, &baked->space, &options, &baked->findings));
+    assert_true(sl_findings_left(&baked->findings) > 0 || shard_count);
+    if (!shard_count)
+        assert_ok(context, dfs->settle(context, &baked->space, &options, &baked->findings,
+                                       &baked->visibility));
+}
+
+static void a_partial_file_says_what_it_is(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_baked baked, back = {0};
+    char text[SL_PARTIAL_TEXT];
+    bake_part(context, 0, &baked);
+    const file f = print(context, &baked);
+    assert_ok(context, sl_baked_parse(context, "part", f.bytes, f.size, &back));
+    assert_int_equal(back.visibility.guarantee, SL_CONSERVATIVE);
+    assert_int_equal(back.findings.done_count, baked.findings.done_count);
+    sl_baked_say_partial(&back, text);
+    assert_non_null(strstr(text, "cells looked at; what is not decided counts as seen"));
+    const file again = print(context, &back);
+    assert_int_equal(again.size, f.size);
+    assert_memory_equal(again.bytes, f.bytes, f.size);
+    sl_runtime runtime;
+    assert_int_equal(sl_runtime_open(f.bytes, f.size, &runtime), SL_RUNTIME_OK);
+    assert_true(runtime.unfinished);
+    sl_baked_destroy(context, &baked);
+    sl_baked_destroy(context, &back);
+    free(f.bytes);
+    free(again.bytes);
+    sl_context_destroy(context);
+}
+
+static void a_shard_is_no_baked_file(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_baked baked, back = {0};
+    bake_part(context, 3, &baked);
+    const file f = print(context, &baked);
+    assert_int_equal(sl_baked_parse(context, "part", f.bytes, f.size, &back), SL_BAD_INPUT);
+    assert_non_null(strstr(sl_context_message(context), "one shard of a bake, 3 of 3"));
+    sl_runtime runtime;
+    assert_int_equal(sl_runtime_open(f.bytes, f.size, &runtime), SL_RUNTIME_SHARD);
+    sl_baked_destroy(context, &baked);
+    free(f.bytes);
+    sl_context_destroy(context);
+}
+
+static void a_lie_about_what_is_done_is_refused(void **state) {
+    (void)state;
+    const uint32_t two = 2, most = UINT32_MAX;
+    const struct {
+        const char *tag;
+        size_t offset, size;
+        const void *bytes;
+        const char *message;
+    } lies[] = {
+        {"PART", offsetof(sl_slv_part, shard), 4, &two, "PART makes no sense"},
+        {"PART", offsetof(sl_slv_part, inside_only), 4, &two, "PART makes no sense"},
+        {"PART", offsetof(sl_slv_part, unit_count), 4, &most, "DONE does not tell of each unit"},
+        {"PART", offsetof(sl_slv_part, shard_count), 4, &two, "PART makes no sense"},
+        {"DONE", 7, 1, "\200", "DONE does not tell of each unit"},
+        {"FNDO", 0, 4, &most, "do not start at their first byte"},
+        {"FNDB", 0, 1, "\177", "visible set 0 is damaged"},
+    };
+    sl_context *context = testing_context(NULL);
+    sl_baked baked, back = {0};
+    bake_part(context, 0, &baked);
+    for (size_t i = 0; i < sizeof lies / sizeof *lies; i++) {
+        const file f = print(context, &baked);
+        memcpy(slv_items(f.bytes, lies[i].tag) + lies[i].offset, lies[i].bytes, lies[i].size);
+        slv_seal(f.bytes, f.size);
+        assert_int_equal(sl_baked_parse(context, "part", f.bytes, f.size, &back), SL_BAD_INPUT);
+        if (!strstr(sl_context_message(context), lies[i].message))
+            fail_msg("%s: %s, where it should say %s", lies[i].tag, sl_context_message(context),
+                     lies[i].message);
+        assert_non_null(strstr(sl_context_message(context), "part: "));
+        free(f.bytes);
+    }
+    sl_baked_destroy(context, &baked);
+    sl_context_destroy(context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_lie_under_a_seal_is_refused),
         cmocka_unit_test(what_cannot_be_read_back_is_not_written),
         cmocka_unit_test(an_export_can_be_interrupted),
+        cmocka_unit_test(a_partial_file_says_what_it_is),
+        cmocka_unit_test(a_shard_is_no_baked_file),
+        cmocka_unit_test(a_lie_about_what_is_done_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
