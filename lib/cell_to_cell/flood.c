@@ -6,7 +6,7 @@
 #include "base/threads.h"
 #include "cell_to_cell/findings.h"
 #include "cell_to_cell/methods.h"
-#include "cell_to_cell/pvs_rows.h"
+#include "cell_to_cell/pvs_maker.h"
 #include "geometry/orient.h"
 
 #include <string.h>
@@ -132,38 +132,78 @@ static bool takes_part(const sl_space *space, const sl_see_options *options, uin
     return !options->inside_only || space->cells[cell].inside;
 }
 
-static uint32_t count_taking_part(const sl_space *space, const sl_see_options *options) {
-    return options->inside_only ? space->inside_count : space->cell_count;
+/// Cells that portals join, as rows; and which of them each cell is in.
+typedef struct components {
+    sl_pvs_maker rows;
+    uint32_t *of; ///< by cell; UINT32_MAX for none
+    uint32_t *stack;
+} components;
+
+static void gather_component(const sl_space *space, const sl_see_options *options, uint32_t from,
+                             components *c) {
+    uint32_t count = 0;
+    c->of[from] = c->rows.made;
+    c->stack[count++] = from;
+    while (count) {
+        const uint32_t cell = c->stack[--count];
+        const sl_exit *exits = space->exits + space->cells[cell].first_exit;
+        sl_word_set_add(&c->rows.row, cell);
+        for (uint32_t i = 0; i < space->cells[cell].exit_count; i++) {
+            const uint32_t next = exits[i].cell;
+            if (c->of[next] != UINT32_MAX || !takes_part(space, options, next)) continue;
+            c->of[next] = c->rows.made;
+            c->stack[count++] = next;
+        }
+    }
 }
 
-/// The row of all cells, once for each.
-static sl_status repeat_row(sl_context *context, const sl_space *space,
-                            const sl_see_options *options, const sl_row_bytes *row, sl_pvs *out) {
+static sl_status find_components(sl_context *context, const sl_space *space,
+                                 const sl_see_options *options, components *c) {
     const uint32_t count = space->cell_count;
-    out->cell_count = count;
-    out->offsets = sl_alloc_array(context, (size_t)count + 1, sizeof *out->offsets);
-    out->bytes = sl_alloc(context, row->count * count_taking_part(space, options) + 1);
-    if (!out->offsets || !out->bytes) return SL_NO_MEMORY;
-    for (uint32_t i = 0; i < count; i++) {
-        const size_t length = takes_part(space, options, i) ? row->count : 0;
-        if (length) memcpy(out->bytes + out->offsets[i], row->items, length);
-        out->offsets[i + 1] = out->offsets[i] + length;
+    SL_TRY(sl_pvs_maker_create(context, count, count, &c->rows));
+    c->of = sl_alloc_array(context, count, sizeof *c->of);
+    c->stack = sl_alloc_array(context, count, sizeof *c->stack);
+    if (!c->of || !c->stack) return SL_NO_MEMORY;
+    memset(c->of, 0xff, count * sizeof *c->of);
+    for (uint32_t cell = 0; cell < count; cell++) {
+        if (c->of[cell] != UINT32_MAX || !takes_part(space, options, cell)) continue;
+        gather_component(space, options, cell, c);
+        SL_TRY(sl_pvs_maker_end_row(context, &c->rows));
     }
     return SL_OK;
 }
 
-static sl_status pair_all(sl_context *context, const sl_space *space, const sl_see_options *options,
-                          sl_pvs *out) {
+/// Each cell's row is its component's.
+static sl_status spread_rows(sl_context *context, const components *c, uint32_t count,
+                             sl_pvs *out) {
+    const uint64_t *offsets = c->rows.offsets;
+    out->cell_count = count;
+    out->offsets = sl_alloc_array(context, (size_t)count + 1, sizeof *out->offsets);
+    if (!out->offsets) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t of = c->of[i];
+        out->offsets[i + 1] =
+            out->offsets[i] + (of == UINT32_MAX ? 0 : offsets[of + 1] - offsets[of]);
+    }
+    out->bytes = sl_alloc(context, out->offsets[count] + 1);
+    if (!out->bytes) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < count; i++)
+        if (c->of[i] != UINT32_MAX)
+            memcpy(out->bytes + out->offsets[i], c->rows.bytes.items + offsets[c->of[i]],
+                   out->offsets[i + 1] - out->offsets[i]);
+    return SL_OK;
+}
+
+/// The bound that takes no time: all pairs of cells that portals join.
+static sl_status pair_components(sl_context *context, const sl_space *space,
+                                 const sl_see_options *options, sl_pvs *out) {
     sl_pvs all = {0};
-    sl_row_bytes row = {0};
-    sl_bits *set = sl_alloc_array(context, sl_bits_words(space->cell_count), sizeof *set);
-    if (!set) return SL_NO_MEMORY;
-    for (uint32_t i = 0; i < space->cell_count; i++)
-        if (takes_part(space, options, i)) sl_bits_add(set, i);
-    sl_status status = sl_row_append(context, &row, set, space->cell_count);
-    if (status == SL_OK) status = repeat_row(context, space, options, &row, &all);
-    sl_free(context, row.items);
-    sl_free(context, set);
+    components c = {0};
+    sl_status status = find_components(context, space, options, &c);
+    if (status == SL_OK) status = spread_rows(context, &c, space->cell_count, &all);
+    sl_pvs_maker_destroy(context, &c.rows);
+    sl_free(context, c.of);
+    sl_free(context, c.stack);
     if (status == SL_OK)
         *out = all;
     else
@@ -180,7 +220,7 @@ sl_status sl_flood_bound(sl_context *context, const sl_space *space, const sl_se
     *bounded = status == SL_OK;
     if (status == SL_CANCELLED && sl_is_enough(options)) {
         SL_TRY(sl_check_cancelled(context));
-        return pair_all(context, space, options, out);
+        return pair_components(context, space, options, out);
     }
     if (status == SL_OK) *out = visibility.pvs;
     return status;

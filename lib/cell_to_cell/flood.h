@@ -11,8 +11,8 @@
 uint32_t sl_flood_through(const sl_space *space, const sl_see_options *options, const sl_exit *exit,
                           sl_bits *set, uint32_t *found);
 
-/// The bound on what all cells see, symmetric. Once options.enough says so there is none: *bounded
-/// is then false, and all pairs are in it.
+/// The bound on what all cells see, symmetric. Once options.enough says so there is none but
+/// what portals join: *bounded is then false.
 sl_status sl_flood_bound(sl_context *context, const sl_space *space, const sl_see_options *options,
                          sl_pvs *out, bool *bounded);
 
