@@ -129,6 +129,10 @@ static sl_status take_over(sl_context *context, const char *path, const sl_see_m
                            const sl_see_options *see, const sl_baked *baked, sl_baked *before,
                            sl_findings *findings) {
     SL_TRY(sl_baked_read(context, path, before));
+    if (sl_plan_make(&before->map).effects) {
+        sl_note(context, "nothing is taken over from %s: it has effects", path);
+        return SL_OK;
+    }
     const sl_status status = sl_findings_carry(context, &before->space, &before->visibility,
                                                &baked->space, method, see, findings);
     if (status != SL_BAD_ARGUMENT) return status;

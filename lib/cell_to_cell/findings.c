@@ -47,6 +47,10 @@ sl_status sl_findings_start(sl_context *context, const sl_space *space,
                              : options->shard)
         return sl_fail(context, SL_BAD_ARGUMENT, "there is no shard %u of %u", options->shard,
                        options->shard_count);
+    if (options->plan && options->plan->effects)
+        return sl_fail(context, SL_UNSUPPORTED,
+                       "a map with effects is baked in one go: leave them out, --without, or do "
+                       "without parts");
     if (sl_findings_begun(findings)) {
         if (findings->sure.cell_count != space->cell_count || findings->unit_count != unit_count ||
             findings->inside_only != options->inside_only)

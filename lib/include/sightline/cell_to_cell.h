@@ -160,9 +160,9 @@ SL_API sl_status sl_see_check(sl_context *context, const sl_see_method *method,
 
 /// Makes findings for a space from what was seen in another one, before some walls were changed: of
 /// all pairs that no changed cell can have a part in. The rest is for `look`; the result is the
-/// same as without them. SL_BAD_ARGUMENT, and a message that says why, where nothing can be taken
-/// over: the sets seen are not exact or were made with other options, or what is asked for is not
-/// exact. `findings` is zeroed before.
+/// same as without them. `seen` must have been made without effects. SL_BAD_ARGUMENT, and a message
+/// that says why, where nothing can be taken over: the sets seen are not exact or were made with
+/// other options, or what is asked for is not exact. `findings` is zeroed before.
 SL_API sl_status sl_findings_carry(sl_context *context, const sl_space *before,
                                    const sl_visibility *seen, const sl_space *space,
                                    const sl_see_method *method, const sl_see_options *options,
