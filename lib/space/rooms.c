@@ -265,7 +265,10 @@ static bool holds(const sl_outline *o, uint32_t room, sl_point point) {
 
 uint32_t sl_outline_room(const sl_outline *o, uint32_t cell, sl_point point) {
     const uint32_t last = o->first_part[cell + 1] - 1;
-    for (uint32_t i = o->first_part[cell]; i < last; i++)
+    for (uint32_t i = o->first_part[cell]; i <= last; i++)
         if (holds(o, o->parts[i], point)) return o->parts[i];
+    // Rounded corners may part the cells of a room, so that one of them is not known to have it.
+    for (uint32_t room = 0; room < o->room_count; room++)
+        if (holds(o, room, point)) return room;
     return o->parts[last];
 }

@@ -40,7 +40,9 @@ typedef struct sl_outline {
 SL_API sl_status sl_outline_make(sl_context *context, const sl_space *space, sl_outline *out);
 SL_API void sl_outline_destroy(sl_context *context, sl_outline *outline); ///< and zeroes it
 
-/// A room that holds a point of a cell's, and has a part of that cell.
+/// A room that holds a point of a cell's; one that has a part of that cell, where there is one.
+/// Time: the sides of those rooms, but that of all rooms where rounding hides the room from the
+/// cell.
 SL_API uint32_t sl_outline_room(const sl_outline *outline, uint32_t cell, sl_point point);
 
 static inline bool sl_side_is_portal(const sl_side *side) {
