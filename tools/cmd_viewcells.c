@@ -11,7 +11,7 @@ typedef struct viewcells_texts {
     const char *input, *cells, *memory, *tolerance, *method, *objects, *elementary, *samples;
     const char *evaluate, *render, *step, *density, *candidates, *wall_splits, *seed, *threads;
     const char *output, *picture, *width, *title, *slv, *see;
-    bool paths, dark, json;
+    bool paths, exact, dark, json;
 } viewcells_texts;
 
 /// The options as they are meant.
@@ -106,7 +106,13 @@ static sl_status plan_sampling(sl_context *context, const viewcells_texts *t,
     run->sampling = sl_view_sampling_default();
     run->evaluation = 2 * run->sampling.samples;
     SL_TRY(sl_option_choice(context, "--objects", t->objects, &object_table, &objects));
-    run->sampling.objects = (sl_view_objects)objects;
+    if (t->exact && t->objects && objects == SL_VIEW_WALLS)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--exact: exact sets are of --objects cells");
+    if (t->exact && t->evaluate)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--exact needs no --evaluate");
+    run->exact = t->exact;
+    if (t->exact) run->evaluation = 0;
+    run->sampling.objects = t->exact ? SL_VIEW_CELLS : (sl_view_objects)objects;
     SL_TRY(sl_option_count(context, "--samples", t->samples, UINT32_MAX, &run->sampling.samples));
     SL_TRY(sl_option_count(context, "--evaluate", t->evaluate, UINT32_MAX, &run->evaluation));
     SL_TRY(sl_option_count(context, "--seed", t->seed, UINT64_MAX, &run->sampling.seed));
@@ -230,6 +236,9 @@ sl_status sl_cmd_viewcells(sl_console *console, int argc, char **argv) {
         {"samples", 0, "N", NULL, &t.samples, "lines to sample visibility by, 200000 unless told"},
         {"evaluate", 0, "N", NULL, &t.evaluate,
          "other lines to tell costs by: 400000; 0: by the same"},
+        {"exact", 0, NULL, &t.exact, NULL,
+         "merge by, and tell costs by, the exact sets of all\nelementary cells, in cells of the "
+         "space"},
         {"objects", 0, "KIND", NULL, &t.objects,
          "what is seen: walls, at the ends of lines, or cells\nof the space, along them"},
         {"render", 0, "A,B,C", NULL, &t.render,

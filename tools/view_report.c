@@ -53,6 +53,7 @@ sl_status sl_view_report_print(sl_context *context, const sl_view_report *report
                cells, run->exact.space.cell_count, plain, rows);
         if (run->exact_cost > 0) printf("exact cost        %.6g cells\n", run->exact_cost);
     }
+    if (report->options->exact) printf("costs             by exact sets\n");
     if (run->evaluated.cell_count)
         printf("evaluated by      %" PRIu64 " other samples\n", report->options->evaluation);
     printf("seconds           read %.3f, subdivide %.3f, sample %.3f, divide %.3f, merge %.3f, "
@@ -92,6 +93,7 @@ sl_status sl_view_report_print_json(sl_context *context, const sl_view_report *r
     sl_json_add_count(&fields, "samples_lost", s->lost);
     sl_json_add_count(&fields, "segments", s->count);
     sl_json_add_count(&fields, "evaluation_samples", report->options->evaluation);
+    sl_json_add_flag(&fields, "exact", report->options->exact);
     sl_json_add_count(&fields, "elementary_view_cells", run->tree.cell_count);
     sl_json_add_count(&fields, "view_cells", run->cell_count);
     sl_json_add_real(&fields, "cost_of_one", t.whole);

@@ -5,6 +5,7 @@
 #include "import/image.h"
 #include "solvers.h"
 
+#include <string.h>
 #include <time.h>
 
 double sl_view_clock(void) {
@@ -45,10 +46,29 @@ static sl_status find_places(sl_context *context, const sl_view_run_options *opt
     return sl_view_places_inside(context, space, &run->places);
 }
 
+static const sl_see_method *sweep(void) {
+    size_t count, i = 0;
+    const sl_see_method *methods = sl_see_methods(&count);
+    while (i + 1 < count && strcmp(methods[i].name, "sweep") != 0) i++;
+    return &methods[i];
+}
+
+/// Of the elementary cells.
+static sl_status find_sets(sl_context *context, const sl_view_run_options *options,
+                           const sl_view_run *run, sl_view_sets *sets) {
+    if (!options->exact)
+        return sl_view_sets_sample(context, &run->scene, &run->tree, &run->segments,
+                                   options->sampling.threads, sets);
+    sl_see_options seeing = sl_see_options_default();
+    seeing.threads = options->sampling.threads;
+    seeing.inside_only = true;
+    return sl_view_sets_exact(context, &run->baked.map, &run->scene, &run->tree, sweep(), &seeing,
+                              sets);
+}
+
 static sl_status join(sl_context *context, const sl_view_run_options *options, sl_view_run *run) {
     sl_view_sets sets = {0};
-    SL_TRY(sl_view_sets_sample(context, &run->scene, &run->tree, &run->segments,
-                               options->sampling.threads, &sets));
+    SL_TRY(find_sets(context, options, run, &sets));
     const sl_status status =
         options->method->merges
             ? sl_view_merge(context, &run->scene, &run->tree, &sets, &run->hierarchy)

@@ -17,6 +17,7 @@ typedef struct sl_view_run_options {
     sl_view_sampling sampling;
     sl_view_subdivision subdivision;
     sl_render_cost render;
+    bool exact;          ///< merged and told by exact sets
     uint64_t evaluation; ///< samples for it; 0 for none
     bool paths;          ///< viewpoints are along the map's paths
     double step;         ///< along them

@@ -22,17 +22,6 @@ sl_status sl_view_add_seams(sl_context *context, const sl_view_tree *tree,
     return status;
 }
 
-/// The mean of a cell's corners.
-static sl_point middle_of(const sl_space *space, uint32_t cell) {
-    const sl_cell *c = &space->cells[cell];
-    sl_point sum = {0, 0};
-    for (uint32_t i = 0; i < c->vertex_count; i++) {
-        sum.x += space->vertices[c->first_vertex + i].x / c->vertex_count;
-        sum.y += space->vertices[c->first_vertex + i].y / c->vertex_count;
-    }
-    return sum;
-}
-
 typedef struct maker {
     const sl_space *space;
     const sl_view_tree *tree;
@@ -60,7 +49,7 @@ static sl_status deal_cells(sl_context *context, maker *m) {
     m->out->view_cells = sl_alloc_array(context, space->cell_count, sizeof *m->out->view_cells);
     if (!m->out->view_cells) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < space->cell_count; i++) {
-        const uint32_t leaf = sl_view_tree_locate(m->tree, middle_of(space, i));
+        const uint32_t leaf = sl_view_tree_locate(m->tree, sl_view_cell_middle(space, i));
         const bool in = space->cells[i].inside && leaf < m->tree->cell_count;
         m->out->view_cells[i] = in ? m->cut[leaf] : SL_NO_VIEW_CELL;
     }
@@ -164,7 +153,7 @@ static sl_status find_homes(sl_context *context, const sl_space *home, const sl_
     uint32_t *homes = sl_alloc_array(context, space->cell_count, sizeof *homes);
     if (!homes) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < space->cell_count; i++)
-        homes[i] = sl_space_locate(home, middle_of(space, i));
+        homes[i] = sl_space_locate(home, sl_view_cell_middle(space, i));
     *out = homes;
     return SL_OK;
 }
@@ -176,7 +165,7 @@ static sl_point eye_of(const sl_space *space, const sl_view_rows *rows, uint32_t
     for (uint32_t i = 0; i < space->cell_count; i++) {
         if (rows->view_cells[i] != view_cell || sl_space_area(space, i) <= most) continue;
         most = sl_space_area(space, i);
-        eye = middle_of(space, i);
+        eye = sl_view_cell_middle(space, i);
     }
     return eye;
 }

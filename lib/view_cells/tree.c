@@ -45,6 +45,16 @@ sl_point sl_view_leaf_middle(const sl_view_tree *tree, uint32_t leaf) {
     return sum;
 }
 
+sl_point sl_view_cell_middle(const sl_space *space, uint32_t cell) {
+    const sl_cell *c = &space->cells[cell];
+    sl_point sum = {0, 0};
+    for (uint32_t i = 0; i < c->vertex_count; i++) {
+        sum.x += space->vertices[c->first_vertex + i].x / c->vertex_count;
+        sum.y += space->vertices[c->first_vertex + i].y / c->vertex_count;
+    }
+    return sum;
+}
+
 // --- what the leaves see, by segments
 
 /// A part of a segment on its way down the tree.

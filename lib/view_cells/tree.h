@@ -12,6 +12,9 @@
 /// The mean of a leaf's corners.
 sl_point sl_view_leaf_middle(const sl_view_tree *tree, uint32_t leaf);
 
+/// The mean of the corners of a space's cell.
+sl_point sl_view_cell_middle(const sl_space *space, uint32_t cell);
+
 sl_status sl_view_sets_create(sl_context *context, uint32_t count, uint32_t object_count,
                               sl_view_sets *sets);
 

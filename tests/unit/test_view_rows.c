@@ -143,7 +143,25 @@ static void samples_see_no_more_than_there_is(void **state) {
     sl_view_curve(&s.hierarchy, sampled, NULL);
     assert_true(sampled[s.cells - 1] <= exact + 1e-9);
     assert_true(exact < 1.3 * sampled[s.cells - 1]);
+    // The same cut by the exact sets of elementary cells.
+    sl_view_sets sets;
+    sl_view_hierarchy told;
+    sl_see_options seeing = sl_see_options_default();
+    seeing.sight = SL_OPEN;
+    double curve[64];
+    assert_ok(context, sl_view_sets_exact(context, &s.world.map, &s.world.scene, &s.tree, sweep(),
+                                          &seeing, &sets));
+    assert_ok(context,
+              sl_view_evaluate(context, &s.world.scene, &s.tree, &s.hierarchy, &sets, &told));
+    sl_view_curve(&told, curve, NULL);
+    assert_true(fabs(curve[s.cells - 1] - exact) < 1e-9);
+    for (uint32_t i = 0; i < told.cell_count; i++) assert_true(sampled[i] <= curve[i] + 1e-9);
+    sl_view_hierarchy_destroy(context, &told);
+    sl_view_sets_destroy(context, &sets);
     s.world.scene.objects = SL_VIEW_WALLS;
+    assert_int_equal(
+        sl_view_sets_exact(context, &s.world.map, &s.world.scene, &s.tree, sweep(), &seeing, &sets),
+        SL_BAD_ARGUMENT);
     assert_int_equal(
         sl_view_rows_cost(context, &s.world.scene, &s.space, &rows, &s.hierarchy, s.cells, &exact),
         SL_BAD_ARGUMENT);

@@ -10,8 +10,8 @@
 #ifndef SIGHTLINE_VIEW_CELLS_H
 #define SIGHTLINE_VIEW_CELLS_H
 
+#include "sightline/cell_to_cell.h"
 #include "sightline/outline.h"
-#include "sightline/pvs.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -239,6 +239,14 @@ SL_API void sl_view_borders_free(sl_context *context, sl_segment *borders);
 SL_API sl_status sl_view_add_seams(sl_context *context, const sl_view_tree *tree,
                                    const uint32_t *view_cells, const sl_space *objects,
                                    sl_map *map);
+
+/// What each elementary view cell sees, exactly as `method` is, in cells of the scene's space,
+/// whose objects must be cells (SL_BAD_ARGUMENT): merged by these, and told by them, view cells owe
+/// nothing to chance but where they could be split. `map` is the one that the scene's space is of.
+SL_API sl_status sl_view_sets_exact(sl_context *context, const sl_map *map,
+                                    const sl_view_scene *scene, const sl_view_tree *tree,
+                                    const sl_see_method *method, const sl_see_options *options,
+                                    sl_view_sets *out);
 
 /// What view cells see, in cells of a space. Rows hang in a tree: nodes below view_cell_count are
 /// view cells, and a view cell sees what its own row holds and those of all nodes above it
