@@ -4,7 +4,8 @@
 
 #include <math.h>
 
-static const sl_subject *const subjects[] = {&sl_lesson_search, &sl_lesson_subdivision};
+static const sl_subject *const subjects[] = {&sl_lesson_search, &sl_lesson_subdivision,
+                                             &sl_lesson_pass};
 
 const sl_subject *const *sl_subjects(size_t *count) {
     *count = sizeof subjects / sizeof *subjects;
@@ -17,6 +18,8 @@ const sl_subject *sl_lesson_subject(const sl_lesson *lesson) {
 
 void sl_lesson_forget(sl_context *context, sl_lesson *lesson) {
     sl_steps_destroy(context, &lesson->steps);
+    for (int i = 0; i < SL_PASSES; i++) sl_pass_destroy(context, &lesson->passes[i]);
+    lesson->pass_cells = 0;
     lesson->made = false;
     lesson->end_count = 0;
     lesson->dragged = false;

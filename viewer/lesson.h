@@ -1,8 +1,9 @@
-/// The lesson: a search or a subdivision step by step, each step in a sentence with its line of
-/// pseudo-code; and the lines through the portal sequence at hand.
+/// The lesson: a search, a subdivision or the passes of multipass step by step, each step in a
+/// sentence with its line of pseudo-code; and the lines through the portal sequence at hand.
 #ifndef VIEWER_LESSON_H
 #define VIEWER_LESSON_H
 
+#include "cell_to_cell/pass.h"
 #include "document.h"
 #include "draw/canvas.h"
 #include "sightline/dual.h"
@@ -11,11 +12,11 @@
 typedef struct sl_app sl_app;
 typedef struct sl_lesson sl_lesson;
 
-enum { SL_SENTENCE = 512 };
+enum { SL_SENTENCE = 512, SL_PASSES = 4 };
 
-/// A subject: one file (lesson_search.c, lesson_subdivision.c) and one row of the table in
-/// lesson.c. Its record stands in sl_lesson. Functions behind `code` may be NULL. All but the first
-/// two are asked only while there is a step: at < length.
+/// A subject: one file (lesson_search.c, lesson_subdivision.c, lesson_pass.c) and one row of the
+/// table in lesson.c. Its record stands in sl_lesson. Functions behind `code` may be NULL. All but
+/// the first two are asked only while there is a step: at < length.
 typedef struct sl_subject {
     const char *title;
     bool of_eye; ///< recorded anew where the eye's cell is another; needs one
@@ -36,7 +37,7 @@ typedef struct sl_subject {
     void (*above)(sl_app *app, const sl_frame *frame); ///< and above them
 } sl_subject;
 
-extern const sl_subject sl_lesson_search, sl_lesson_subdivision;
+extern const sl_subject sl_lesson_search, sl_lesson_subdivision, sl_lesson_pass;
 
 /// All subjects.
 const sl_subject *const *sl_subjects(size_t *count);
@@ -45,10 +46,12 @@ const sl_subject *const *sl_subjects(size_t *count);
 struct sl_lesson {
     size_t subject; ///< of the table
     bool made;
-    uint32_t version, source; ///< what was recorded: of which document, from which cell
-    sl_steps steps;           ///< of the search
-    size_t split_count;       ///< of the subdivision
-    size_t at;                ///< the step shown
+    uint32_t version, source;  ///< what was recorded: of which document, from which cell
+    sl_steps steps;            ///< of the search
+    size_t split_count;        ///< of the subdivision
+    sl_pass passes[SL_PASSES]; ///< of multipass, by quadrant
+    uint32_t pass_cells;
+    size_t at; ///< the step shown
     bool plays;
     double waited;
     /// The portals of the sequence at hand; their ends may have been dragged.

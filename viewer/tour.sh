@@ -65,6 +65,41 @@ key Right
 key Right
 key Right
 END
+shoot office.map pass <<'END'
+key F2
+key U
+key U
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+key Right
+END
 shoot maze.map subdivision <<'END'
 key F2
 key U

@@ -20,6 +20,7 @@ PICTURES = {
     "search": ("office.map", "eye 53 20 160\nkey F2\n" + "key Right\n" * 9 + "key Left\n"),
     "hidden": ("office.map", "eye 53 20 160\nkey F2\n" + "key Right\n" * 6),
     "subdivision": ("maze.map", "key F2\nkey U\n" + "key Right\n" * 4),
+    "pass": ("maze.map", "key F2\nkey U\nkey U\n" + "key Right\n" * 30),
     "draw": ("office.map", "key Tab\nkey F3\ndrag 200 100 200 300\nkey Tab\n"),
     "quiz": ("office.map", "key F4\nkey Y\n"),
     "nodes": ("office.map", "eye 53 20 160 60\nkey M\nkey R\nkey Q\nkey Tab\n"),
