@@ -1,5 +1,6 @@
 #include "base/base.h"
 #include "commands.h"
+#include "doors_shut.h"
 #include "eye_report.h"
 #include "eye_run.h"
 #include "inputs.h"
@@ -8,7 +9,7 @@
 
 /// The operand and options as they are given.
 typedef struct eye_texts {
-    const char *input, *at, *look, *fov, *output, *width;
+    const char *input, *at, *look, *fov, *output, *width, *shut;
     bool json, dark;
 } eye_texts;
 
@@ -76,6 +77,9 @@ sl_status sl_cmd_eye(sl_console *console, int argc, char **argv) {
     eye_texts t = {0};
     const sl_option_spec options[] = {
         {"at", 0, "X,Y", NULL, &t.at, "where the eye is"},
+        {"shut", 0, "NAME,...", NULL, &t.shut,
+         "doors that are shut, the others being open; 'none':\nall open; without it as the map "
+         "says"},
         {"look", 0, "DEG", NULL, &t.look,
          "which way it looks, in degrees counter-clockwise\nfrom +x"},
         {"fov", 0, "DEG", NULL, &t.fov,
@@ -106,7 +110,8 @@ sl_status sl_cmd_eye(sl_console *console, int argc, char **argv) {
                        "--width and --dark are for the picture, which needs -o");
     sl_baked baked = {0};
     SL_TRY(sl_input_read_baked(console->context, t.input, &baked));
-    sl_status status = sl_effects_check(console->context, &baked.map, "eye", 0);
+    sl_status status = sl_effects_check(console->context, &baked.map, "eye", SL_EFFECT_DOOR);
+    if (status == SL_OK) status = sl_doors_shut(console->context, t.shut, &baked);
     if (status == SL_OK) status = look(console, &t, &baked);
     sl_baked_destroy(console->context, &baked);
     return status;

@@ -2,6 +2,7 @@
 #include "base/base.h"
 #include "base/number.h"
 #include "commands.h"
+#include "doors_shut.h"
 #include "inputs.h"
 #include "json_print.h"
 #include "mean_pvs.h"
@@ -16,6 +17,7 @@
 typedef struct info_request {
     const char *path;
     sl_input_texts texts;
+    const char *shut;
     bool json;
 } info_request;
 
@@ -273,7 +275,9 @@ static sl_status inform_of_baked(sl_console *console, const info_request *reques
     sl_mean_pvs mean;
     SL_TRY(sl_input_refuse_texts(console->context, request->path, &request->texts));
     SL_TRY(sl_input_read_baked(console->context, request->path, &baked));
-    sl_status status = sl_mean_pvs_of(console->context, &baked, &mean);
+    sl_status status =
+        request->shut ? sl_doors_shut(console->context, request->shut, &baked) : SL_OK;
+    if (status == SL_OK) status = sl_mean_pvs_of(console->context, &baked, &mean);
     sl_progress_line_clear(&console->line);
     if (status == SL_OK && request->json)
         status = print_baked_json(console->context, request, &baked, &mean);
@@ -287,6 +291,7 @@ sl_status sl_cmd_info(sl_console *console, int argc, char **argv) {
     info_request request = {0};
     const sl_option_spec options[] = {
         {.name = "json", .flag = &request.json, .help = "print one JSON object"},
+        {"shut", 0, "NAME,...", NULL, &request.shut, "of a baked file: with these doors shut"},
         SL_INPUT_OPTIONS(request.texts),
     };
     const sl_command_usage usage = {
@@ -306,6 +311,8 @@ sl_status sl_cmd_info(sl_console *console, int argc, char **argv) {
     SL_TRY(sl_option_parse(console, &usage, argc, argv, &request.path, &helped));
     if (helped) return SL_OK;
     if (sl_input_ends_with(request.path, ".slv")) return inform_of_baked(console, &request);
+    if (request.shut)
+        return sl_fail(console->context, SL_BAD_ARGUMENT, "--shut is for baked files");
     bool done = false;
     if (!request.texts.map) SL_TRY(inform_of_list(console, &request, &done));
     return done ? SL_OK : inform_of_map(console, &request);

@@ -62,7 +62,9 @@ typedef struct sl_runtime {
     bool unfinished; ///< the bake was stopped: rows miss nothing, but hold what was not decided
     uint32_t view_cell_count; ///< 0 where the map was baked without view cells
     uint32_t view_node_count; ///< rows of view cells, and of groups of them
+    uint32_t door_count;      ///< doors are numbered as the map names them
     const unsigned char *nodes, *lines, *cells, *vertices, *exits, *row_offsets, *row_bytes;
+    const unsigned char *door_offsets, *door_bytes; ///< NULL where no pair depends on doors
     const unsigned char *views, *view_parents, *view_offsets, *view_bytes;
 } sl_runtime;
 
@@ -82,6 +84,13 @@ SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, d
 /// cell (SL_RUNTIME_NO_CELL) and for a cell without a row. Time: the row's length. To ask for many
 /// cells from one, unpack its row (sl_runtime_row_bits).
 SL_RUNTIME_API bool sl_runtime_can_see(const sl_runtime *runtime, uint32_t from, uint32_t to);
+
+/// As sl_runtime_can_see while some doors are shut: `shut` has door_count bytes, not 0 for those
+/// that are. The game keeps them, and a change costs nothing. Exact as the bake was: a pair is seen
+/// if some sightline passes no shut door (but for pairs of which the bake told that they need more
+/// sets of doors than it keeps: they count as seen). Time: the lengths of the rows.
+SL_RUNTIME_API bool sl_runtime_can_see_past(const sl_runtime *runtime, uint32_t from, uint32_t to,
+                                            const unsigned char *shut);
 
 /// Whether a cell was looked from. A bake of the inside only leaves the cells outside without rows.
 SL_RUNTIME_API bool sl_runtime_has_row(const sl_runtime *runtime, uint32_t cell);
@@ -246,6 +255,9 @@ enum slrt_tag {
     SLRT_VCPA,
     SLRT_VCRO,
     SLRT_VCRB,
+    SLRT_SEAM,
+    SLRT_DORO,
+    SLRT_DORB,
     SLRT_TAGS
 };
 
@@ -293,9 +305,9 @@ static sl_runtime_status slrt_check_header(const unsigned char *bytes, size_t si
 /// Finds the sections that the runtime knows; what else there is it passes over.
 static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t size,
                                             slrt_section *found) {
-    static const char tags[SLRT_TAGS][5] = {"INFO", "NODE", "CELL", "VERT", "PORT",
-                                            "EXIT", "PVSO", "PVSB", "LINE", "PART",
-                                            "VCIN", "VCEL", "VCPA", "VCRO", "VCRB"};
+    static const char tags[SLRT_TAGS][5] = {"INFO", "NODE", "CELL", "VERT", "PORT", "EXIT",
+                                            "PVSO", "PVSB", "LINE", "PART", "VCIN", "VCEL",
+                                            "VCPA", "VCRO", "VCRB", "SEAM", "DORO", "DORB"};
     static const uint32_t item_bytes[SLRT_TAGS] = {128,
                                                    SLRT_NODE_BYTES,
                                                    SLRT_CELL_BYTES,
@@ -309,6 +321,9 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                                                    8,
                                                    4,
                                                    4,
+                                                   8,
+                                                   1,
+                                                   40,
                                                    8,
                                                    1};
     const uint32_t count = slrt_u32(bytes + 24);
@@ -544,6 +559,66 @@ static bool slrt_open_views(const slrt_section *found, sl_runtime *rt) {
            slrt_rows_are_sound(&rows, found[SLRT_VCRB].count, false);
 }
 
+/// An alternative of a pair: doors in ascending order.
+static bool slrt_doors_are_sound(const sl_runtime *rt, const unsigned char **next,
+                                 const unsigned char *stop) {
+    const unsigned char *at = *next;
+    uint64_t door = 0;
+    uint32_t count, i;
+    if (!slrt_pass_number(next, stop)) return false;
+    count = slrt_number(&at);
+    for (i = 0; i < count; i++) {
+        if (!slrt_pass_number(next, stop)) return false;
+        door += slrt_number(&at) + (uint64_t)(i > 0);
+        if (door >= rt->door_count) return false;
+    }
+    return count > 0;
+}
+
+static bool slrt_door_row_is_sound(const sl_runtime *rt, uint32_t row) {
+    const unsigned char *next = rt->door_bytes + slrt_u64(rt->door_offsets + (size_t)row * 8);
+    const unsigned char *stop = rt->door_bytes + slrt_u64(rt->door_offsets + (size_t)row * 8 + 8);
+    uint64_t cell = 0;
+    bool first = true;
+    for (; next < stop; first = false) {
+        const unsigned char *at = next;
+        uint32_t count, i;
+        if (!slrt_pass_number(&next, stop) || !slrt_pass_number(&next, stop)) return false;
+        cell += slrt_number(&at) + (uint64_t)!first;
+        count = slrt_number(&at);
+        if (cell >= rt->cell_count || !count) return false;
+        for (i = 0; i < count; i++)
+            if (!slrt_doors_are_sound(rt, &next, stop)) return false;
+    }
+    return true;
+}
+
+static bool slrt_take_doors(sl_runtime *rt, const slrt_section *found) {
+    uint64_t i, before = 0;
+    rt->door_count = 0;
+    rt->door_offsets = found[SLRT_DORO].items;
+    rt->door_bytes = found[SLRT_DORB].items;
+    for (i = 0; found[SLRT_SEAM].items && i < found[SLRT_SEAM].count; i++) {
+        const unsigned char *seam = found[SLRT_SEAM].items + i * 40;
+        const uint32_t number = slrt_u32(seam + 36);
+        if (slrt_u32(seam + 32) != 1) continue;
+        if (number >= INT32_MAX) return false;
+        if (number >= rt->door_count) rt->door_count = number + 1;
+    }
+    if (!rt->door_offsets && !rt->door_bytes) return true;
+    if (!rt->door_offsets || !rt->door_bytes ||
+        found[SLRT_DORO].count != (uint64_t)rt->cell_count + 1)
+        return false;
+    for (i = 0; i <= rt->cell_count; i++) {
+        const uint64_t end = slrt_u64(rt->door_offsets + i * 8);
+        if (end < before || end > found[SLRT_DORB].count || (!i && end)) return false;
+        before = end;
+    }
+    for (i = 0; i < rt->cell_count; i++)
+        if (!slrt_door_row_is_sound(rt, (uint32_t)i)) return false;
+    return true;
+}
+
 SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size, sl_runtime *out) {
     const unsigned char *file = (const unsigned char *)bytes;
     slrt_section found[SLRT_TAGS];
@@ -555,6 +630,7 @@ SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size,
     if (status == SL_RUNTIME_OK) status = slrt_check_sizes(found, &rt);
     if (status != SL_RUNTIME_OK) return status;
     if (!slrt_tree_is_sound(&rt) || !slrt_cells_are_sound(&rt)) return SL_RUNTIME_SPACE;
+    if (!slrt_take_doors(&rt, found)) return SL_RUNTIME_ROW;
     if (!slrt_rows_are_sound(&rt, found[SLRT_PVSB].count, true)) return SL_RUNTIME_ROW;
     if (!slrt_open_views(found, &rt)) return SL_RUNTIME_ROW;
     *out = rt;
@@ -632,6 +708,40 @@ SL_RUNTIME_API bool sl_runtime_can_see(const sl_runtime *runtime, uint32_t from,
     while (sl_runtime_next(&run))
         if (to < run.end) return to >= run.first;
     return false;
+}
+
+/// Reads on over a pair's alternatives: whether one of them has no shut door.
+static bool slrt_is_open(const unsigned char **next, const unsigned char *shut) {
+    uint32_t alternatives = slrt_number(next);
+    bool any = false;
+    for (; alternatives; alternatives--) {
+        uint32_t doors = slrt_number(next), door = UINT32_MAX;
+        bool open = true;
+        for (; doors; doors--) {
+            door += 1 + slrt_number(next);
+            open = open && !shut[door];
+        }
+        any = any || open;
+    }
+    return any;
+}
+
+SL_RUNTIME_API bool sl_runtime_can_see_past(const sl_runtime *runtime, uint32_t from, uint32_t to,
+                                            const unsigned char *shut) {
+    const unsigned char *next, *stop;
+    uint32_t cell = UINT32_MAX;
+    if (!sl_runtime_can_see(runtime, from, to)) return false;
+    if (!runtime->door_offsets) return true;
+    next = runtime->door_bytes + slrt_u64(runtime->door_offsets + (size_t)from * 8);
+    stop = runtime->door_bytes + slrt_u64(runtime->door_offsets + (size_t)from * 8 + 8);
+    while (next < stop) {
+        bool open;
+        cell += 1 + slrt_number(&next);
+        if (cell > to) return true;
+        open = slrt_is_open(&next, shut);
+        if (cell == to) return open;
+    }
+    return true;
 }
 
 SL_RUNTIME_API bool sl_runtime_has_row(const sl_runtime *runtime, uint32_t cell) {

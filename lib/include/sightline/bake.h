@@ -42,6 +42,12 @@ SL_API void sl_baked_say_partial(const sl_baked *baked, char text[SL_PARTIAL_TEX
 /// Whether two spaces are the same to the last bit, cell by cell.
 SL_API bool sl_baked_same_space(const sl_space *a, const sl_space *b);
 
+/// Shuts doors (by number, those of `shut` that are true): the space gets walls in their place, and
+/// the visible sets keep what is seen past them. Exact where the bake was; time and memory about
+/// those of the visible sets. Stab trees and sets of doors are let go. SL_UNSUPPORTED where there
+/// are mirrors. On failure `baked` stays as it was.
+SL_API sl_status sl_baked_shut(sl_context *context, sl_baked *baked, const bool *shut);
+
 /// Writes beside the target and takes its place when all is written: SL_IO leaves the old file
 /// intact. The bytes depend on the contents alone. SL_BAD_ARGUMENT where there is no visible set
 /// for each cell, or a name that is none. Reports stage "write".

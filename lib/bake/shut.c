@@ -1,0 +1,57 @@
+/// A baked file with doors shut: what is left to see, without a new bake.
+#include "sightline/bake.h"
+
+#include "base/base.h"
+#include "base/bits.h"
+#include "cell_to_cell/pvs_rows.h"
+
+#include <string.h>
+
+/// What a row keeps of its cells.
+static sl_status keep_row(sl_context *context, const sl_visibility *v, uint32_t row,
+                          const bool *shut, sl_bits *set, sl_row_bytes *out) {
+    const uint32_t count = v->pvs.cell_count;
+    memset(set, 0, sl_bits_words(count) * sizeof *set);
+    sl_row_add_to(&v->pvs, row, set);
+    for (sl_door_pairs p = sl_door_pairs_begin(&v->doors, row); sl_door_pairs_next(&p, shut);)
+        if (!p.open) set[p.cell / 64] &= ~((sl_bits)1 << p.cell % 64);
+    return sl_row_append(context, out, set, count);
+}
+
+static sl_status keep_rows(sl_context *context, const sl_visibility *v, const bool *shut,
+                           sl_pvs *out) {
+    const uint32_t count = v->pvs.cell_count;
+    sl_row_bytes *rows = sl_alloc_array(context, count, sizeof *rows);
+    sl_bits *set = sl_alloc_array(context, sl_bits_words(count), sizeof *set);
+    sl_status status = rows && set ? SL_OK : SL_NO_MEMORY;
+    for (uint32_t i = 0; i < count && status == SL_OK; i++)
+        status = keep_row(context, v, i, shut, set, &rows[i]);
+    if (status == SL_OK) status = sl_pvs_join(context, rows, count, out);
+    for (uint32_t i = 0; rows && i < count; i++) sl_free(context, rows[i].items);
+    sl_free(context, rows);
+    sl_free(context, set);
+    return status;
+}
+
+sl_status sl_baked_shut(sl_context *context, sl_baked *baked, const bool *shut) {
+    const sl_passage passage = {.shut = shut};
+    sl_visibility *v = &baked->visibility;
+    sl_space walled;
+    sl_visibility kept = {.sight = v->sight, .guarantee = v->guarantee, .account = v->account};
+    if (v->mirrored.cell_count)
+        return sl_fail(context, SL_UNSUPPORTED, "doors are not shut where there are mirrors");
+    SL_TRY(sl_passage_make(context, &baked->space, &passage, NULL, &walled));
+    const sl_status status = keep_rows(context, v, shut, &kept.pvs);
+    if (status != SL_OK) {
+        sl_space_destroy(context, &walled);
+        return status;
+    }
+    kept.account.pairs = 0;
+    for (uint32_t i = 0; i < kept.pvs.cell_count; i++)
+        kept.account.pairs += sl_pvs_count(&kept.pvs, i);
+    sl_space_destroy(context, &baked->space);
+    sl_visibility_destroy(context, v);
+    baked->space = walled;
+    *v = kept;
+    return SL_OK;
+}

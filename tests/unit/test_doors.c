@@ -1,0 +1,171 @@
+/// Doors of a large plan: every state of them is seen as a bake is that has walls in those that are
+/// shut, by the library and by the runtime for games.
+#define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#include "runtime_maps.h"
+
+#include "base/random.h"
+
+enum { COLUMNS = 6, ROWS = 4, DOORS = 30, STATES = 1000, SIZE = 10 };
+
+/// Rooms in a grid, a gap of 2 in the middle of each wall between two of them, doors in the first
+/// 30 gaps.
+static void draw_plan(sl_context *context, sl_map *map) {
+    const double width = COLUMNS * SIZE, height = ROWS * SIZE;
+    const sl_point box[5] = {{0, 0}, {width, 0}, {width, height}, {0, height}, {0, 0}};
+    for (int i = 0; i < 4; i++)
+        assert_ok(context, sl_map_add_wall(context, map, box[i], box[i + 1], 0));
+    for (int i = 0; i < COLUMNS; i++)
+        for (int k = 0; k < ROWS; k++)
+            for (int upright = 0; upright < 2; upright++) {
+                if (upright ? i == 0 : k == 0) continue;
+                const double x = i * SIZE, y = k * SIZE;
+                const double along[4] = {0, 3.0 + (i + 2 * k) % 3, 5.0 + (i + 2 * k) % 3, SIZE};
+                sl_point p[4];
+                for (int j = 0; j < 4; j++)
+                    p[j] = upright ? (sl_point){x, y + along[j]} : (sl_point){x + along[j], y};
+                assert_ok(context, sl_map_add_wall(context, map, p[0], p[1], 0));
+                assert_ok(context, sl_map_add_wall(context, map, p[2], p[3], 0));
+                if (map->door_count == DOORS) continue;
+                char name[16];
+                snprintf(name, sizeof name, "d%zu", map->door_count);
+                assert_ok(context,
+                          sl_map_add_door(context, map, name, (sl_segment){p[1], p[2]}, true, 0));
+            }
+    assert_int_equal(map->door_count, DOORS);
+}
+
+static const sl_see_method *method(const char *name) {
+    size_t count;
+    const sl_see_method *methods = sl_see_methods(&count);
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(methods[i].name, name) == 0) return &methods[i];
+    return NULL;
+}
+
+static void bake(sl_context *context, baked_file *f) {
+    sl_baked *b = &f->baked;
+    *f = (baked_file){.name = "doors", .baked = {.method = "prune", .solver = "funnel"}};
+    draw_plan(context, &b->map);
+    const sl_subdivide_options rules = sl_subdivide_options_default();
+    assert_ok(context, sl_map_clean(context, &b->map, NULL));
+    assert_ok(context, sl_subdivide_kd(context, &b->map, &rules, &b->space));
+    sl_plan plan = sl_plan_make(&b->map);
+    plan.door_limit = 200;
+    sl_see_options options = sl_see_options_default();
+    options.solver = sl_funnel();
+    options.plan = &plan;
+    assert_ok(context, method("prune")->see(context, &b->space, &options, &b->visibility));
+    assert_int_equal(b->visibility.account.door_fallbacks, 0);
+    FILE *stream = open_memstream(&f->bytes, &f->size);
+    assert_non_null(stream);
+    assert_ok(context, sl_slv_print(context, b, stream));
+    assert_int_equal(fclose(stream), 0);
+    baked_file_open(f);
+    assert_int_equal(f->runtime.door_count, DOORS);
+}
+
+static void compare(sl_context *context, const baked_file *f, const bool *shut) {
+    const sl_space *space = &f->baked.space;
+    const sl_visibility *v = &f->baked.visibility;
+    sl_space walled;
+    sl_visibility fresh = {0};
+    const sl_passage passage = {.shut = shut};
+    sl_see_options options = sl_see_options_default();
+    unsigned char bytes[DOORS];
+    for (int i = 0; i < DOORS; i++) bytes[i] = shut[i];
+    assert_ok(context, sl_passage_make(context, space, &passage, NULL, &walled));
+    assert_ok(context, method("sweep")->see(context, &walled, &options, &fresh));
+    for (uint32_t a = 0; a < space->cell_count; a++)
+        for (uint32_t b = 0; b < space->cell_count; b++) {
+            const bool sees = sl_pvs_sees(&fresh.pvs, a, b);
+            assert_int_equal(sees, sl_pvs_sees(&v->pvs, a, b) &&
+                                       sl_door_sets_open(&v->doors, a, b, shut));
+            assert_int_equal(sees, sl_runtime_can_see_past(&f->runtime, a, b, bytes));
+        }
+    sl_visibility_destroy(context, &fresh);
+    sl_space_destroy(context, &walled);
+}
+
+static void states_are_as_fresh_bakes(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_random random = {30};
+    baked_file f;
+    bake(context, &f);
+    for (int i = 0; i < STATES; i++) {
+        bool shut[DOORS];
+        // From few doors shut to nearly all.
+        for (int k = 0; k < DOORS; k++) shut[k] = sl_random_below(&random, 10) < (uint64_t)(i % 10);
+        compare(context, &f, shut);
+    }
+    print_message("%u cells, %llu pairs, %.2f bytes of door sets a pair\n",
+                  f.baked.space.cell_count, (unsigned long long)f.baked.visibility.account.pairs,
+                  (double)sl_door_sets_bytes(&f.baked.visibility.doors) /
+                      (double)f.baked.visibility.account.pairs);
+    sl_baked_destroy(context, &f.baked);
+    free(f.bytes);
+    sl_context_destroy(context);
+}
+
+/// Pairs that need more sets of doors than are kept count as seen, and are counted.
+static void what_is_beyond_the_limit_counts_as_seen(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    baked_file f;
+    bake(context, &f);
+    sl_plan plan = sl_plan_make(&f.baked.map);
+    plan.door_limit = 1;
+    sl_see_options options = sl_see_options_default();
+    options.solver = sl_funnel();
+    options.plan = &plan;
+    sl_visibility few = {0};
+    assert_ok(context, method("dfs")->see(context, &f.baked.space, &options, &few));
+    assert_true(few.account.door_fallbacks > 0);
+    bool shut[DOORS] = {false};
+    for (int i = 0; i < DOORS; i += 2) shut[i] = true;
+    for (uint32_t a = 0; a < few.pvs.cell_count; a++)
+        for (uint32_t b = 0; b < few.pvs.cell_count; b++)
+            if (sl_door_sets_open(&f.baked.visibility.doors, a, b, shut))
+                assert_true(sl_door_sets_open(&few.doors, a, b, shut));
+    sl_visibility_destroy(context, &few);
+    sl_baked_destroy(context, &f.baked);
+    free(f.bytes);
+    sl_context_destroy(context);
+}
+
+static void damaged_sets_are_refused(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    const struct {
+        uint8_t bytes[6];
+        uint64_t size;
+        bool sound;
+    } rows[] = {
+        {{0, 1, 1, 0}, 4, true},       // cell 0, one set, of door 0
+        {{1, 2, 1, 0, 1, 2}, 6, true}, // cell 1: door 0, or door 2
+        {{0, 1, 1, 3}, 4, false},      // there is no door 3
+        {{2, 1, 1, 0}, 4, false},      // nor cell 2
+        {{0, 0}, 2, false},            // no set
+        {{0, 1, 0}, 3, false},         // a set of no door
+        {{0, 1, 2, 0}, 4, false},      // cut short
+        {{0, 1, 1, 0x80}, 4, false},   // in the middle of a number
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        uint64_t offsets[3] = {0, rows[i].size, rows[i].size};
+        uint8_t bytes[6];
+        memcpy(bytes, rows[i].bytes, sizeof bytes);
+        const sl_door_sets sets = {.cell_count = 2, .offsets = offsets, .bytes = bytes};
+        assert_int_equal(sl_door_sets_check(context, &sets, 3),
+                         rows[i].sound ? SL_OK : SL_BAD_INPUT);
+    }
+    sl_context_destroy(context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(states_are_as_fresh_bakes),
+        cmocka_unit_test(what_is_beyond_the_limit_counts_as_seen),
+        cmocka_unit_test(damaged_sets_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
