@@ -44,7 +44,7 @@ def arguments():
     parser.add_argument("--aimed", default="E1M6,E3M6,E4M6,E4M7,MAP01,MAP27",
                         help="levels of which sightlines are written")
     parser.add_argument("bake", nargs="*", metavar="BAKE-OPTION")
-    return parser.parse_args()
+    return parser.parse_intermixed_args()
 
 
 def run(*command):
