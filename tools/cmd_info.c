@@ -187,7 +187,7 @@ typedef struct baked_part {
     uint64_t count, bytes;
 } baked_part;
 
-enum { BAKED_PARTS = 9 };
+enum { BAKED_PARTS = 10 };
 
 static uint64_t pvs_bytes(const sl_pvs *pvs) {
     if (!pvs->cell_count) return 0;
@@ -210,6 +210,7 @@ static void list_parts(const sl_baked *baked, baked_part parts[BAKED_PARTS]) {
         {"pairs", visibility->account.pairs, pvs_bytes(&visibility->pvs)},
         {"doubtful_pairs", visibility->account.doubtful_pairs, pvs_bytes(&visibility->doubtful)},
         {"stab_tree_nodes", tree_nodes, tree_bytes},
+        {"view_cells", baked->views.view_cell_count, pvs_bytes(&baked->views.rows)},
     };
     memcpy(parts, all, sizeof all);
 }
