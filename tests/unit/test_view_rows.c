@@ -184,10 +184,48 @@ static void samples_see_no_more_than_there_is(void **state) {
     sl_context_destroy(context);
 }
 
+/// Where memory ends, wherever that is, nothing is left behind.
+static void no_memory_is_told(void **state) {
+    (void)state;
+    testing_memory memory = {0};
+    sl_context *context = testing_context(&memory);
+    seen s;
+    see(context, TWO_ROOMS, false, 6, 3, SL_CLOSED, &s);
+    const long before = memory.live;
+    bool done = false;
+    for (long fail = 1; !done; fail++) {
+        sl_view_rows rows = {0};
+        sl_view_sets sets = {0};
+        sl_see_options seeing = sl_see_options_default();
+        seeing.threads = 1;
+        double cost;
+        memory.calls = 0;
+        memory.fail_at = fail;
+        sl_status status = sl_view_rows_make(context, &s.space, &s.visibility.pvs, &s.tree,
+                                             &s.hierarchy, s.cells, true, &rows);
+        if (status == SL_OK)
+            status = sl_view_rows_cost(context, &s.world.scene, &s.space, &rows, &s.hierarchy,
+                                       s.cells, &cost);
+        if (status == SL_OK)
+            status = sl_view_sets_exact(context, &s.world.map, &s.world.scene, &s.tree, sweep(),
+                                        &seeing, &sets);
+        assert_true(status == SL_OK || status == SL_NO_MEMORY);
+        done = status == SL_OK;
+        memory.fail_at = 0;
+        sl_view_rows_destroy(context, &rows);
+        sl_view_sets_destroy(context, &sets);
+        assert_int_equal(memory.live, before);
+    }
+    drop(context, &s);
+    sl_context_destroy(context);
+    assert_int_equal(memory.live, 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rows_hold_what_their_cells_see),
         cmocka_unit_test(samples_see_no_more_than_there_is),
+        cmocka_unit_test(no_memory_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
