@@ -2,7 +2,7 @@
 
 A case is lines; # starts a comment. What is there before the runs:
   file NAME              with the lines that follow it, each led by "| "
-  map NAME               a copy of a map of the project's maps/
+  map NAME               a copy of a map of the project's maps/ or of a folder in it
   noise NAME COUNT       bytes without sense, the same each time
   folder NAME
   cut NAME COUNT         the file's first COUNT bytes are kept
@@ -65,7 +65,7 @@ class Case:
         self.box.path(name).write_text("".join(content), encoding="utf-8")
 
     def do_map(self, name):
-        shutil.copyfile(MAPS / name, self.box.path(name))
+        shutil.copyfile(MAPS / name, self.box.path(pathlib.Path(name).name))
 
     def do_noise(self, rest):
         name, count = rest.split()
