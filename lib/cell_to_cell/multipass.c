@@ -98,7 +98,11 @@ static sl_status push(sl_context *context, const multipass *all, searcher *me, c
     if (++me->account.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
     SL_TRY(solver->push(context, me->solver, exit->left, exit->right, verdict));
     if (*verdict == SL_HIDDEN) return SL_OK;
-    return solver->toward(context, me->solver, cone->right, cone->left, verdict);
+    const bool near = *verdict == SL_GRAZING && solver->guarantee == SL_ROUNDED;
+    SL_TRY(solver->toward(context, me->solver, cone->right, cone->left, verdict));
+    // Whether a line that rounding may have made is within the sector cannot be told either.
+    if (near && *verdict == SL_HIDDEN) *verdict = SL_GRAZING;
+    return SL_OK;
 }
 
 /// Whether candidates that are not seen yet are left beyond an exit of the last step, or of the
