@@ -16,7 +16,7 @@ enum { MAX_THREADS = 4096 };
 typedef struct bake_texts {
     sl_pipeline_texts pipeline;
     const char *output, *method, *solver, *sight, *threads, *memory, *tree_memory, *samples, *seed;
-    const char *sectors, *mirror_depth, *door_sets;
+    const char *passes, *mirror_depth, *door_sets;
     bool stab_trees, inside, json;
     sl_bake_part_texts parts;
 } bake_texts;
@@ -94,12 +94,12 @@ static sl_status plan_seeing(sl_context *context, const bake_texts *texts, bake_
         return sl_fail(context, SL_BAD_ARGUMENT, "%s: the method '%s' draws nothing at random",
                        texts->samples ? "--samples" : "--seed", methods[method].name);
     uint64_t sectors = see.sectors;
-    SL_TRY(sl_option_count(context, "--sectors", texts->sectors, UINT32_MAX, &sectors));
-    if (texts->sectors && strcmp(methods[method].name, "multipass") != 0)
-        return sl_fail(context, SL_BAD_ARGUMENT, "--sectors: the method '%s' makes no passes",
+    SL_TRY(sl_option_count(context, "--passes", texts->passes, UINT32_MAX, &sectors));
+    if (texts->passes && strcmp(methods[method].name, "multipass") != 0)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--passes: the method '%s' makes none",
                        methods[method].name);
-    if (texts->sectors && sectors && sectors < 4)
-        return sl_fail(context, SL_BAD_ARGUMENT, "--sectors: at least 4, or 0 for all");
+    if (texts->passes && sectors && sectors < 4)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--passes: at least 4, or 0 for all");
     if (texts->tree_memory && !texts->stab_trees)
         return sl_fail(context, SL_BAD_ARGUMENT, "--tree-memory needs --stab-trees");
     if (texts->memory && !methods[method].keeps_rows)
@@ -260,8 +260,9 @@ sl_status sl_cmd_bake(sl_console *console, int argc, char **argv) {
         {"memory", 0, "SIZE", NULL, &t.memory,
          "for the visible sets in the making at most, as 64M,\n2G; half of the machine's unless "
          "told"},
-        {"sectors", 0, "N", NULL, &t.sectors,
-         "directions cut into at most so many, for multipass;\n0: at all portals' own"},
+        {"passes", 0, "N", NULL, &t.passes,
+         "sectors that multipass cuts directions into, at most;\n8 unless told; 0: at all portals' "
+         "own"},
         {"stab-trees", 0, NULL, &t.stab_trees, NULL, "keep the trees of portal sequences"},
         {"tree-memory", 0, "SIZE", NULL, &t.tree_memory,
          "for them at most, as 64K, 256M (the default), 2G"},
