@@ -159,6 +159,10 @@ static sl_status refuse_wall(const plan_maker *maker, const sl_wall *wall, const
     return refuse_segment(maker, wall->line, "wall", wall->a, wall->b, why);
 }
 
+static bool same_point(sl_point a, sl_point b) {
+    return a.x == b.x && a.y == b.y;
+}
+
 /// What has no character in a plan is refused by name.
 static sl_status refuse_others(const plan_maker *maker) {
     const sl_map *map = maker->map;
@@ -166,6 +170,9 @@ static sl_status refuse_others(const plan_maker *maker) {
         return refuse(maker, map->mirrors[0].line, "a plan has no place for a mirror");
     if (map->oneway_count)
         return refuse(maker, map->oneways[0].line, "a plan has no place for one-way glass");
+    if (map->seam_count) return refuse(maker, map->seams[0].line, "a plan has no place for a seam");
+    if (map->cell_count)
+        return refuse(maker, map->cells[0].line, "a plan has no place for cells of the map's own");
     if (map->range > 0) return refuse(maker, map->range_line, "a plan has no place for a range");
     if (map->path_count)
         return refuse(maker, map->paths[0].line, "a plan has no place for path %s",
@@ -174,7 +181,10 @@ static sl_status refuse_others(const plan_maker *maker) {
         return refuse(maker, map->objects[0].line, "a plan has no place for object %s",
                       map->objects[0].name);
     if (map->notes) return refuse(maker, 0, "a plan has no place for the map's notes");
-    if (map->wall_count == 0) return refuse(maker, 0, "a plan needs walls, the map has none");
+    bool walled = false;
+    for (size_t i = 0; i < map->wall_count && !walled; i++)
+        walled = !same_point(map->walls[i].a, map->walls[i].b);
+    if (!walled) return refuse(maker, 0, "a plan needs walls, the map has none");
     return SL_OK;
 }
 
@@ -368,10 +378,6 @@ static sl_segment moved(const plan_maker *maker, sl_segment segment) {
     const double x = (double)maker->left - maker->walls.min.x;
     const double y = (double)maker->bottom - maker->walls.min.y;
     return (sl_segment){{segment.a.x + x, segment.a.y + y}, {segment.b.x + x, segment.b.y + y}};
-}
-
-static bool same_point(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
 }
 
 /// A door is put where reading the plan finds the same door.

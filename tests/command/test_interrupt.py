@@ -69,14 +69,14 @@ class Interrupt(unittest.TestCase):
     def test_killed_shard(self):
         """A part that is killed leaves nothing; run again it gives the whole all the same."""
         with sandbox.Sandbox(PROGRAM) as box:
-            box.path("hall.map").write_text(pillars(12))
+            box.path("hall.map").write_text(pillars(14))
             bake = ["bake", "hall.map", "--method", "dfs", "--threads", "1", "-q"]
             self.assertEqual(box.run([*bake, "-o", "whole.slv"]).status, 0)
             for part in "1", "2", "3":
                 if part == "2":
                     before = box.files()
                     process = box.start([*bake, "--shard", "2/3", "-o", "2.slv"])
-                    time.sleep(0.1)
+                    time.sleep(0.03)
                     self.assertIsNone(process.poll(), "the shard is over too soon to be killed")
                     process.kill()
                     process.communicate()
