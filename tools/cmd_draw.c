@@ -2,6 +2,7 @@
 #include "commands.h"
 #include "inputs.h"
 #include "options.h"
+#include "pictures.h"
 #include "sightline/draw.h"
 
 #include <stdio.h>
@@ -48,19 +49,10 @@ static sl_status read_options(sl_context *context, const draw_texts *texts,
     if (!texts->output)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "-o is missing: name the picture, ending in .png, .svg or .pdf");
-    if (!sl_input_ends_with(texts->output, ".png") && !sl_input_ends_with(texts->output, ".svg") &&
-        !sl_input_ends_with(texts->output, ".pdf"))
-        return sl_fail(context, SL_BAD_ARGUMENT, "-o %s: end the name in .png, .svg or .pdf",
-                       texts->output);
+    SL_TRY(sl_picture_check_name(context, "-o", texts->output));
     if (texts->cell && texts->at)
         return sl_fail(context, SL_BAD_ARGUMENT, "--cell and --at both choose a cell; give one");
-    *options = sl_draw_options_default();
-    options->dark = texts->dark;
-    options->title = texts->title;
-    SL_TRY(sl_option_number(context, "--width", texts->width, &options->width));
-    if (!(options->width >= SL_DRAW_WIDTH_MIN && options->width <= SL_DRAW_WIDTH_MAX))
-        return sl_fail(context, SL_BAD_ARGUMENT, "--width %s: a number from %d to %d is needed",
-                       texts->width, SL_DRAW_WIDTH_MIN, SL_DRAW_WIDTH_MAX);
+    SL_TRY(sl_picture_plan(context, texts->width, texts->title, texts->dark, options));
     return choose_layers(context, texts, options);
 }
 

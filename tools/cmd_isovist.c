@@ -1,6 +1,7 @@
 #include "base/base.h"
 #include "commands.h"
 #include "isovist_run.h"
+#include "pictures.h"
 #include "pipeline.h"
 #include "sightline/draw.h"
 
@@ -73,19 +74,9 @@ static sl_status plan_eyes(sl_context *context, const isovist_texts *t, isovist_
 
 static sl_status plan_drawing(sl_context *context, const isovist_texts *t, isovist_plan *plan) {
     const sl_name_table measures = sl_isovist_measures();
-    plan->drawing = sl_draw_options_default();
-    plan->drawing.dark = t->dark;
-    plan->drawing.title = t->title;
     SL_TRY(sl_option_choice(context, "--measure", t->measure, &measures, &plan->measure));
-    SL_TRY(sl_option_number(context, "--width", t->width, &plan->drawing.width));
-    if (!(plan->drawing.width >= SL_DRAW_WIDTH_MIN && plan->drawing.width <= SL_DRAW_WIDTH_MAX))
-        return sl_fail(context, SL_BAD_ARGUMENT, "--width %s: a number from %d to %d is needed",
-                       t->width, SL_DRAW_WIDTH_MIN, SL_DRAW_WIDTH_MAX);
-    if (t->picture && !sl_input_ends_with(t->picture, ".png") &&
-        !sl_input_ends_with(t->picture, ".svg") && !sl_input_ends_with(t->picture, ".pdf"))
-        return sl_fail(context, SL_BAD_ARGUMENT, "--picture %s: end the name in .png, .svg or .pdf",
-                       t->picture);
-    return SL_OK;
+    SL_TRY(sl_picture_plan(context, t->width, t->title, t->dark, &plan->drawing));
+    return sl_picture_check_name(context, "--picture", t->picture);
 }
 
 static sl_status make_plan(sl_context *context, const isovist_texts *t, isovist_plan *plan) {

@@ -1,5 +1,6 @@
 #include "base/base.h"
 #include "commands.h"
+#include "pictures.h"
 #include "pipeline.h"
 #include "view_report.h"
 
@@ -134,18 +135,8 @@ static sl_status plan_sampling(sl_context *context, const viewcells_texts *t,
 
 static sl_status plan_drawing(sl_context *context, const viewcells_texts *t,
                               sl_draw_options *drawing) {
-    *drawing = sl_draw_options_default();
-    drawing->dark = t->dark;
-    drawing->title = t->title;
-    SL_TRY(sl_option_number(context, "--width", t->width, &drawing->width));
-    if (!(drawing->width >= SL_DRAW_WIDTH_MIN && drawing->width <= SL_DRAW_WIDTH_MAX))
-        return sl_fail(context, SL_BAD_ARGUMENT, "--width %s: a number from %d to %d is needed",
-                       t->width, SL_DRAW_WIDTH_MIN, SL_DRAW_WIDTH_MAX);
-    if (t->picture && !sl_input_ends_with(t->picture, ".png") &&
-        !sl_input_ends_with(t->picture, ".svg") && !sl_input_ends_with(t->picture, ".pdf"))
-        return sl_fail(context, SL_BAD_ARGUMENT, "--picture %s: end the name in .png, .svg or .pdf",
-                       t->picture);
-    return SL_OK;
+    SL_TRY(sl_picture_plan(context, t->width, t->title, t->dark, drawing));
+    return sl_picture_check_name(context, "--picture", t->picture);
 }
 
 static sl_status plan_seeing(sl_context *context, const viewcells_texts *t, viewcells_plan *plan) {
