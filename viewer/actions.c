@@ -98,6 +98,19 @@ static void tree_more(sl_app *app) {
     if (app->tree_depth < 64) app->tree_depth++;
 }
 
+static void views_merge(sl_app *app) {
+    const uint32_t shown = sl_view_layer_shown(app->views);
+    if (shown > 1) sl_view_layer_go(app, shown - 1);
+}
+
+static void views_split(sl_app *app) {
+    sl_view_layer_go(app, sl_view_layer_shown(app->views) + 1);
+}
+
+static void views_largest(sl_app *app) {
+    sl_view_layer_mark_next(app);
+}
+
 // --- view
 
 static void fit(sl_app *app) {
@@ -329,7 +342,9 @@ static void escape(sl_app *app) {
     else if (app->document.job) {
         sl_document_cancel(app->context, &app->document);
         sl_app_say(app, false, "stopped; what is there stays");
-    } else if (app->recorder.plays)
+    } else if (sl_view_layer_stop(app))
+        sl_app_say(app, false, "stopped; F5 twice makes view cells again");
+    else if (app->recorder.plays)
         app->recorder.plays = false;
     else
         sl_quiz_forget(app);
@@ -365,6 +380,10 @@ static const sl_action actions[] = {
     {"split_more", "]", NULL, "splits deeper", 0, 0, split_more, NULL},
     {"tree_less", "-", NULL, "stab tree: a portal shorter", 0, 0, tree_less, NULL},
     {"tree_more", "=", NULL, "stab tree: a portal longer", 0, 0, tree_more, NULL},
+    {"views_merge", "Ctrl+Left", "Merge", "view cells: one fewer", 0, 0, views_merge, NULL},
+    {"views_split", "Ctrl+Right", "Split", "view cells: one more", 0, 0, views_split, NULL},
+    {"views_largest", "F6", "Largest cost", "view cells: the largest cost, then the next", 0, 0,
+     views_largest, NULL},
     {"first_person", "I", "First person", "first-person pane", 0, 0, first_person, is_first_person},
     {"account", "L", "What accuracy costs", "what accuracy costs, as a chart", 0, 0, account,
      is_account},

@@ -44,6 +44,7 @@ void sl_app_destroy(sl_app *app) {
     if (app->over.surface) cairo_surface_destroy(app->over.surface);
     if (app->account.surface) cairo_surface_destroy(app->account.surface);
     sl_node_layer_destroy(app->context, app->nodes);
+    sl_view_layer_destroy(app->context, app->views);
     sl_seen_destroy(app->context, &app->seen);
     sl_lesson_destroy(app->context, &app->lesson);
     sl_history_clear(app->context, &app->history);
@@ -127,6 +128,12 @@ static void poll(sl_app *app, bool wait) {
     if (changed) drop_made(app);
     if (version != app->document.version) take_document(app, before != app->document.opened);
     sl_app_check(app, status);
+    sl_view_layer_update(app, wait);
+}
+
+sl_document_progress sl_app_progress(const sl_app *app) {
+    const sl_document_progress document = sl_document_progress_of(&app->document);
+    return document.running ? document : sl_view_layer_progress(app->views);
 }
 
 static void look(sl_app *app) {

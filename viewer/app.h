@@ -8,6 +8,7 @@
 #include "draw/scene.h"
 #include "history.h"
 #include "layer_nodes.h"
+#include "layer_views.h"
 #include "layers.h"
 #include "lesson.h"
 #include "record.h"
@@ -39,7 +40,7 @@ typedef struct sl_eye {
 typedef struct sl_kept {
     cairo_surface_t *surface;
     struct {
-        uint32_t version, show, depth, dark;
+        uint32_t version, show, depth, dark, views, mark;
         sl_frame frame;
     } key;
     double seconds; ///< that drawing it took
@@ -122,6 +123,7 @@ struct sl_app {
     sl_scene scene;       ///< that they are drawn of; baked NULL: none yet
     sl_scene tree;        ///< the stab tree of the eye's cell, likewise
     sl_node_layer *nodes; ///< NULL: none yet
+    sl_view_layer *views; ///< likewise
     uint32_t scene_version, scene_show, tree_version;
     double motion;     ///< seconds for which a moving plan may be drawn by moving the kept picture
     char message[512]; ///< the last thing to say
@@ -158,6 +160,9 @@ void sl_app_tick(sl_app *app, double seconds);
 
 /// Waits for the background, so that scripts are the same on every machine.
 void sl_app_settle(sl_app *app);
+
+/// How the work in the background stands: the document's before all else.
+sl_document_progress sl_app_progress(const sl_app *app);
 
 /// Draws the whole window of width x height.
 void sl_app_draw(sl_app *app, cairo_t *cairo);

@@ -44,12 +44,12 @@ sl_status sl_bench_run(sl_app *app, unsigned frames) {
     static const char *const parts[] = {"walk", "look round", "pan and zoom",
                                         "walk with all panes"};
     sl_window *window;
+    app->show = SL_SHOW_ALL;
     sl_app_settle(app);
     if (!app->document.baked) return sl_fail(app->context, SL_BAD_ARGUMENT, "no map is open");
     SL_TRY(sl_window_open(app, true, &window));
     sl_meter *meter = sl_alloc_array(app->context, 1, sizeof *meter);
     sl_status status = meter ? SL_OK : SL_NO_MEMORY;
-    app->show = SL_SHOW_ALL;
     app->steady = false;
     puts("map,cells,walls,part,frames,mean_ms,median_ms,p95_ms,worst_ms,processor_ms,machine");
     for (int part = 0; part < 4 && status == SL_OK; part++) {

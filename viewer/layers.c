@@ -12,12 +12,15 @@ const sl_layer_row *sl_layer_rows(void) {
     return rows;
 }
 
-static bool is_drawn(const sl_app *app, unsigned layer) {
+bool sl_layers_shows(const sl_app *app, unsigned layer) {
     return app->show >> layer & 1 && rows[layer].modes >> app->mode & 1;
 }
 
 void sl_layers_draw_keys(sl_app *app, const sl_frame *frame) {
-    if (app->seen.valid && is_drawn(app, SL_LAYER_NUMBER_NODES)) sl_layer_nodes_key(app, frame);
+    if (app->seen.valid && sl_layers_shows(app, SL_LAYER_NUMBER_NODES))
+        sl_layer_nodes_key(app, frame);
+    if (app->seen.valid && sl_layers_shows(app, SL_LAYER_NUMBER_VIEWS))
+        sl_view_layer_draw_key(app, frame);
 }
 
 void sl_layers_draw(sl_app *app, const sl_frame *frame, int index) {
@@ -25,7 +28,7 @@ void sl_layers_draw(sl_app *app, const sl_frame *frame, int index) {
     unsigned drawn = 0;
     if (!app->seen.valid) return;
     for (unsigned i = 0; i < SL_LAYER_COUNT; i++) {
-        if (!rows[i].draw || !is_drawn(app, i)) continue;
+        if (!rows[i].draw || !sl_layers_shows(app, i)) continue;
         rows[i].draw(app, frame, index);
         drawn |= 1u << i;
     }

@@ -22,6 +22,8 @@ typedef struct sl_app sl_app;
     LAYER(CELLS, "cells", "C", "Cells", "cells", SL_IN_ALL_MODES, NULL)                            \
     LAYER(PORTALS, "portals", "P", "Portals", "portals", SL_IN_ALL_MODES, NULL)                    \
     LAYER(SPLITS, "splits", "K", "Splits of the tree", "splits by depth", SL_IN_ALL_MODES, NULL)   \
+    LAYER(VIEWS, "views", "F5", "View cells by cost", "view cells that adapt, by cost",            \
+          SL_IN_EXPLORE | SL_IN_DRAW, NULL)                                                        \
     LAYER(PVS, "pvs", "V", "Visible set of the cell", "the visible set",                           \
           SL_IN_EXPLORE | SL_IN_DRAW, sl_layer_pvs)                                                \
     LAYER(CULL, "cull", "M", "Cells kept", "cells kept by culling", SL_IN_EXPLORE | SL_IN_DRAW,    \
@@ -53,6 +55,9 @@ typedef struct sl_layer_row {
 
 /// SL_LAYER_COUNT of them.
 const sl_layer_row *sl_layer_rows(void);
+
+/// Whether a layer, by SL_LAYER_NUMBER_..., is on and has its place in the present mode.
+bool sl_layers_shows(const sl_app *app, unsigned layer);
 
 /// Draws what is on and has its place in the present mode.
 void sl_layers_draw(sl_app *app, const sl_frame *frame, int index);

@@ -44,7 +44,7 @@ void sl_pane_bar(sl_app *app, sl_box box) {
 
 static void draw_progress(sl_app *app, sl_box box) {
     sl_ui *ui = &app->ui;
-    const sl_document_progress p = sl_document_progress_of(&app->document);
+    const sl_document_progress p = sl_app_progress(app);
     const double t = ui->text, wide = 11 * t;
     char text[96];
     snprintf(text, sizeof text, "%s%s", p.stage ? p.stage : "", p.share >= 0 ? "" : " ...");
@@ -70,7 +70,8 @@ void sl_pane_status(sl_app *app, sl_box box) {
     sl_ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, ui->palette.outline);
     sl_ui_hit(ui, SL_HIT_PANEL, 0, box);
     char text[160];
-    if (app->document.job) {
+    const bool works = sl_app_progress(app).running;
+    if (works) {
         draw_progress(app, box);
     } else {
         const sl_baked *baked = app->document.baked;
@@ -86,9 +87,8 @@ void sl_pane_status(sl_app *app, sl_box box) {
         sl_ui_text_right(ui, box.max.x - 0.8 * t, base, 0.95, ui->palette.faint, text);
     }
     const sl_colour colour = app->message_is_error ? ui->palette.start : ui->palette.ink;
-    sl_text_show_within(ui->cairo, colour, 0.8 * t, base,
-                        box.max.x - (app->document.job ? 30 : 15) * t, 0.95 * t, false,
-                        app->message);
+    sl_text_show_within(ui->cairo, colour, 0.8 * t, base, box.max.x - (works ? 30 : 15) * t,
+                        0.95 * t, false, app->message);
 }
 
 void sl_pane_time(sl_app *app, sl_box box) {

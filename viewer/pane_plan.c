@@ -42,13 +42,14 @@ static bool make_scene(sl_app *app) {
 
 // --- pictures that are kept
 
-/// What is below all that changes: cells, portals, splits.
+/// What is below all that changes: cells, portals, view cells, splits.
 static void draw_under(sl_app *app, cairo_t *cairo, const sl_frame *frame) {
     sl_scene under = app->scene;
     under.options.layers &= ~(unsigned)(SL_LAYER_WALLS | SL_LAYER_STARTS);
     sl_set_colour(cairo, app->ui.palette.page);
     cairo_paint(cairo);
     sl_app_check(app, sl_draw_onto(app->context, cairo, &under, frame));
+    if (sl_layers_shows(app, SL_LAYER_NUMBER_VIEWS)) sl_view_layer_draw(app, cairo, frame);
     if (app->show & SL_SHOW_SPLITS)
         sl_draw_splits(cairo, &app->ui.palette, &app->document.splits, frame, app->split_depth);
 }
@@ -121,6 +122,10 @@ static void show_kept(sl_app *app, sl_kept *kept, bool over, const sl_frame *fra
     now.key.show = scene_layers(app) | (app->show & SL_SHOW_SPLITS && !over ? 2048u : 0u);
     now.key.depth = app->show & SL_SHOW_SPLITS && !over ? app->split_depth : 0;
     now.key.dark = app->dark;
+    if (!over && sl_layers_shows(app, SL_LAYER_NUMBER_VIEWS)) {
+        now.key.views = sl_view_layer_shown(app->views);
+        now.key.mark = sl_view_layer_marked(app->views);
+    }
     now.key.frame = at_origin(*frame);
     const bool same = kept->surface && memcmp(&kept->key, &now.key, sizeof now.key) == 0;
     if (!same) {

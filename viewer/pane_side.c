@@ -272,6 +272,8 @@ void sl_pane_side(sl_app *app, sl_box box) {
     check_row(app, &c, "account");
     c.y += 0.3 * app->ui.text;
     draw_sliders(app, &c);
+    static const char *const views[] = {"views_merge", "views_split", "views_largest", NULL};
+    if (app->show & SL_SHOW_VIEWS && sl_view_layer_shown(app->views)) button_row(app, &c, views);
     draw_methods(app, &c);
     draw_difference(app, &c);
     draw_words(app, &c);

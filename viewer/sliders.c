@@ -87,11 +87,32 @@ static void set_tree(sl_app *app, double share) {
     app->tree_depth = (uint32_t)round(share * app->tree.tree_depth);
 }
 
+// --- the walk through the merge history: from one view cell to all elementary ones, finer where
+// there are few
+
+static bool has_views(const sl_app *app) {
+    return app->show & SL_SHOW_VIEWS && sl_view_layer_most(app->views) > 1;
+}
+
+static double views_share(const sl_app *app) {
+    return log(sl_view_layer_shown(app->views)) / log(sl_view_layer_most(app->views));
+}
+
+static void views_text(const sl_app *app, char text[SL_SLIDER_TEXT]) {
+    snprintf(text, SL_SLIDER_TEXT, "%u", sl_view_layer_shown(app->views));
+}
+
+static void set_views(sl_app *app, double share) {
+    const double most = sl_view_layer_most(app->views);
+    sl_view_layer_go(app, (uint32_t)round(pow(most, share)));
+}
+
 static const sl_slider sliders[] = {
     {"View cone", always, cone_share, cone_text, set_cone},
     {"Cut at", is_model, cut_share, cut_text, set_cut},
     {"Split depth", has_splits, split_share, split_text, set_split},
     {"Tree grown", has_tree, tree_share, tree_text, set_tree},
+    {"View cells", has_views, views_share, views_text, set_views},
 };
 
 const sl_slider *sl_sliders(size_t *count) {

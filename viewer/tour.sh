@@ -29,6 +29,14 @@ key R
 key Q
 key Tab
 END
+shoot office.map view-cells <<'END'
+eye 53 20 160 90
+key M
+key R
+key F5
+drag 818 306 761 306
+key F6
+END
 shoot office.map account <<'END'
 eye 53 20 160 90
 key L

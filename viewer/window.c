@@ -182,8 +182,8 @@ static void take_event(sl_window *w, const SDL_Event *e) {
 
 /// Whether something moves by itself.
 static bool is_lively(const sl_app *app) {
-    return app->held || app->document.job || app->recorder.plays || app->recorder.records ||
-           app->lesson.plays || app->motion > 0;
+    return app->held || sl_app_progress(app).running || app->recorder.plays ||
+           app->recorder.records || app->lesson.plays || app->motion > 0;
 }
 
 sl_status sl_window_run(sl_window *w) {

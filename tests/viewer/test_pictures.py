@@ -24,6 +24,9 @@ PICTURES = {
     "draw": ("office.map", "key Tab\nkey F3\ndrag 200 100 200 300\nkey Tab\n"),
     "quiz": ("office.map", "key F4\nkey Y\n"),
     "nodes": ("office.map", "eye 53 20 160 60\nkey M\nkey R\nkey Q\nkey Tab\n"),
+    "views": ("office.map", "eye 53 20 160 90\nkey M\nkey R\nkey F5\ndrag 573 249 530 249\n"
+                            "key F6\nmove 200 200\n"),
+    "oblique_views": ("oblique/rotunda.map", "key Tab\nkey M\nkey R\nkey F5\n"),
     "account": ("office.map", "eye 53 20 160 90\nkey Tab\nkey L\n"),
     "oblique": ("oblique/rotunda.map", "key B\nkey K\n"),
     "oblique_subdivision": ("oblique/rotunda.map", "key F2\nkey U\n" + "key Right\n" * 6),
@@ -33,7 +36,7 @@ PICTURES = {
 }
 
 # Keys that change the plan, each on its own; and how each is taken back.
-LAYERS = ["C", "P", "K", "V", "B", "M", "R", "J", "Q"]
+LAYERS = ["C", "P", "K", "F5", "V", "B", "M", "R", "J", "Q"]
 SWITCHES = {"I": "I", "L": "L", "T": "T", "X": "X X", "Tab": "Tab", "?": "Escape", "O": "Escape",
             "F2": "F1", "F3": "F1", "F4": "F1", "PageUp": "F", "Ctrl+=": "Ctrl+-", "/": "/"}
 
@@ -104,6 +107,22 @@ def check_undo(viewer, folder):
         viewer.check(share > TOLERANCE, f"{one} and {other} are alike: {share:.2%}")
 
 
+def check_views(viewer, folder):
+    """A merge and its way back, the largest cost and the next one."""
+    steps = {"cut": "key F5", "fewer": "key Ctrl+Left", "again": "key Ctrl+Right",
+             "largest": "key F6", "next": "key F6",
+             "unmarked": "key Ctrl+Left\nkey Ctrl+Right", "off": "key F5", "on": "key F5"}
+    script = SIZE + "key Tab\nkey M\nkey R\n"
+    for name, command in steps.items():
+        script += f"{command}\nsave {name}.png\n"
+    viewer.script(folder, "office.map", script)
+    shots = {name: (folder / f"{name}.png").read_bytes() for name in steps}
+    for name in ["again", "unmarked", "on"]:
+        viewer.check(shots[name] == shots["cut"], f"view cells: {name} and cut differ")
+    for one, other in [("cut", "fewer"), ("cut", "largest"), ("largest", "next"), ("cut", "off")]:
+        viewer.check(shots[one] != shots[other], f"view cells: {one} and {other} are alike")
+
+
 def main():
     viewer = Viewer(sys.argv)
     stored = pathlib.Path(__file__).parent / "pictures"
@@ -118,6 +137,7 @@ def main():
         check_switches(viewer, folder, "oblique/rotunda.map", "50 48 200 90", TOLERANCE / 2)
         check_files(viewer, folder)
         check_undo(viewer, folder)
+        check_views(viewer, folder)
     viewer.end()
 
 
