@@ -285,11 +285,10 @@ static void draw_borders(cairo_t *cairo, const sl_frame *frame, const sl_segment
 
 /// View cells reach into walled-in space where no viewpoint is.
 static void clip_to_inside(const sl_app *app, cairo_t *cairo, const sl_frame *frame) {
-    const sl_baked *baked = app->document.baked;
-    const sl_space *space = &baked->space;
+    const sl_space *space = &app->document.baked->space;
     for (uint32_t i = 0; i < space->cell_count; i++) {
         const sl_cell *c = &space->cells[i];
-        if (sl_baked_counts(baked, i))
+        if (c->inside)
             sl_path_polygon(cairo, frame, space->vertices + c->first_vertex, c->vertex_count);
     }
     cairo_clip(cairo);
