@@ -9,21 +9,25 @@
 
 #include <math.h>
 
-#define SLACK 0x1p-50 ///< more than the rounding of a few operations, relative
+#define SLACK SL_WALK_SLACK
 
-/// No more than the distance from a point to the line through two others; 0 where rounding leaves
-/// nothing to be sure of. The bound on the determinant is that of sl_turn_filter, with room.
-static double clearance(sl_point p, sl_point a, sl_point b) {
+/// The bound on the determinant is that of sl_turn_filter, with room.
+double sl_walk_clearance(sl_point p, sl_point a, sl_point b) {
     const double ax = a.x - p.x, ay = a.y - p.y, bx = b.x - p.x, by = b.y - p.y;
     const double left = ax * by, right = ay * bx;
     const double area = fabs(left - right) - 8 * 0x1p-53 * (fabs(left) + fabs(right)) - 0x1p-900;
-    const double length = hypot(b.x - a.x, b.y - a.y) * (1 + SLACK);
+    const double length = sl_walk_length(b.x - a.x, b.y - a.y) * (1 + SLACK);
     const double distance = area / length * (1 - SLACK);
     return distance > 0 ? distance : 0; // not NaN, where it overflows
 }
 
+double sl_walk_length(double x, double y) {
+    const double square = x * x + y * y;
+    return square > 0x1p-900 && square < 0x1p900 ? sqrt(square) : hypot(x, y);
+}
+
 double sl_walk_moved(sl_point from, sl_point to) {
-    return hypot(to.x - from.x, to.y - from.y) * (1 + SLACK) + 0x1p-900;
+    return sl_walk_length(to.x - from.x, to.y - from.y) * (1 + SLACK) + 0x1p-900;
 }
 
 static bool hides_from(const sl_occluder *o, const sl_shape *shape) {
@@ -51,15 +55,16 @@ static double clear_of_corners(sl_point eye, sl_point end, const sl_shape *shape
     double least = INFINITY;
     for (uint32_t k = 0; k < shape->count; k++) {
         const sl_point c = shape->corners[k];
-        if (c.x != end.x || c.y != end.y) least = fmin(least, clearance(eye, end, c));
+        if (c.x != end.x || c.y != end.y) least = fmin(least, sl_walk_clearance(eye, end, c));
     }
     return least;
 }
 
-double sl_walk_hidden_bound(const sl_walk *w, const sl_walk_look *look) {
-    const sl_shadows *s = &w->occlusion->shadows;
+double sl_walk_hidden_bound(sl_walk *w, const sl_walk_look *look) {
+    sl_shadows *s = &w->occlusion->shadows;
     const sl_point eye = s->pivot.eye;
-    if (look->cut || look->sector_count != 1) return 0;
+    // What is outside the cone must be hidden too: the cone may turn.
+    if (sl_shape_sectors(&s->pivot, &look->shape, w->sectors) != 1) return 0;
     const sl_point left = w->sectors[0].left.point;
     sl_point at = w->sectors[0].right.point;
     double bound = INFINITY;
@@ -67,11 +72,11 @@ double sl_walk_hidden_bound(const sl_walk *w, const sl_walk_look *look) {
     while (bound > 0) {
         const sl_occluder *o = farthest(s, &look->shape, at);
         if (!o) return 0;
-        bound = fmin(bound, clearance(eye, o->a, o->b));
+        bound = fmin(bound, sl_walk_clearance(eye, o->a, o->b));
         if (!before)
             bound = fmin(bound, clear_of_corners(eye, o->a, &look->shape));
         else if (before->b.x != o->a.x || before->b.y != o->a.y)
-            bound = fmin(bound, clearance(eye, o->a, before->b));
+            bound = fmin(bound, sl_walk_clearance(eye, o->a, before->b));
         if (sl_orient(eye, left, o->b) >= 0)
             return fmin(bound, clear_of_corners(eye, o->b, &look->shape));
         before = o;

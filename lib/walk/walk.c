@@ -121,15 +121,49 @@ static bool is_skipped(sl_walk *w, uint32_t id, bool known) {
            by_chance(w, does(w, SL_WALK_ADAPTS) ? steady : w->options.p_skip);
 }
 
-/// Whether the eye is where the node is known to be hidden from.
-static bool stays_hidden(const sl_walk *w, uint32_t id) {
-    const sl_walk_memory *m = &w->nodes[id];
-    return m->bound > 0 && sl_walk_moved(m->from, w->occlusion->shadows.pivot.eye) < m->bound;
+/// Whether the eye is still near enough to where something was found out about a node.
+static bool still_holds(const sl_walk *w, const sl_walk_memory *m) {
+    return m->bound > 0 && sl_walk_moved(m->from, w->view.eye) < m->bound;
+}
+
+/// Whether a node in the cone is known to be in view, and in which state.
+static bool stays_seen(const sl_walk *w, const sl_walk_look *l, sl_walk_memory *m) {
+    if (!still_holds(w, m) || m->known == SL_WALK_HIDDEN ||
+        (m->known == SL_WALK_WITNESS && !sl_view_holds(&w->view, m->witness)))
+        return false;
+    m->state = m->known == SL_WALK_IN_VIEW && !l->cut ? SL_NODE_VISIBLE : SL_NODE_PARTIAL;
+    return true;
+}
+
+static double find_bound(sl_walk *w, const sl_walk_look *l, bool leaf, sl_walk_memory *m) {
+    m->known = SL_WALK_HIDDEN;
+    if (m->state == SL_NODE_INVISIBLE) return sl_walk_hidden_bound(w, l);
+    m->known = SL_WALK_IN_VIEW;
+    const double whole = m->state == SL_NODE_VISIBLE ? sl_walk_whole_bound(w, l) : 0;
+    if (whole > 0 || !leaf) return whole;
+    m->known = SL_WALK_WITNESS;
+    return sl_walk_witness_bound(w, l, &m->witness);
+}
+
+/// Finds out how far the eye may move with a tested node in its state. Where that came to nothing
+/// it is not tried again with the next tests, each time for twice as many.
+static void note_bound(sl_walk *w, uint32_t id, const sl_walk_look *l) {
+    enum { LONGEST = 15 };
+    sl_walk_memory *m = &w->nodes[id];
+    m->bound = 0;
+    if (m->waiting) {
+        m->waiting--;
+        return;
+    }
+    m->from = w->view.eye;
+    m->bound = find_bound(w, l, w->hierarchy->nodes[id].cell != SL_NO_CELL, m);
+    m->wait = m->bound > 0 ? 0 : m->wait < LONGEST ? (uint8_t)(2 * m->wait + 1) : m->wait;
+    m->waiting = m->wait;
 }
 
 static void decide(sl_walk *w, uint32_t id, bool known, sl_walk_frame *frame) {
     sl_walk_memory *m = &w->nodes[id];
-    if (stays_hidden(w, id)) {
+    if (m->known == SL_WALK_HIDDEN && still_holds(w, m)) {
         m->state = SL_NODE_INVISIBLE;
         m->reason = SL_WALK_BOUNDED;
         frame->bounded++;
@@ -148,6 +182,9 @@ static void decide(sl_walk *w, uint32_t id, bool known, sl_walk_frame *frame) {
         frame->cheap++;
     } else if (propagates(w, id, known, frame)) {
         m->reason = SL_WALK_PROPAGATED;
+    } else if (stays_seen(w, &l, m)) {
+        m->reason = SL_WALK_BOUNDED;
+        frame->bounded++;
     } else if (is_skipped(w, id, known)) {
         if (!does(w, SL_WALK_PREDICTS)) m->state = SL_NODE_VISIBLE;
         m->reason = SL_WALK_SKIPPED;
@@ -157,10 +194,7 @@ static void decide(sl_walk *w, uint32_t id, bool known, sl_walk_frame *frame) {
         m->state = (uint8_t)sl_walk_test(w, &l);
         m->reason = SL_WALK_TESTED;
         frame->tests++;
-        if (does(w, SL_WALK_BOUNDS) && m->state == SL_NODE_INVISIBLE) {
-            m->from = w->occlusion->shadows.pivot.eye;
-            m->bound = sl_walk_hidden_bound(w, &l);
-        }
+        if (does(w, SL_WALK_BOUNDS)) note_bound(w, id, &l);
         if (drawn) sl_walk_note(&m->kept, m->state != SL_NODE_INVISIBLE);
     }
 }
@@ -207,7 +241,7 @@ static void pull_up(sl_walk *w, uint32_t id) {
 static int nearer_child(const sl_walk *w, const sl_walk_node *n) {
     const sl_space *space = w->hierarchy->space;
     const sl_node *split = &space->nodes[n->split];
-    const sl_point eye = w->occlusion->shadows.pivot.eye;
+    const sl_point eye = w->view.eye;
     if (split->axis < 2) return (split->axis ? eye.y : eye.x) >= split->position;
     const sl_segment *line = &space->lines[split->line];
     return sl_orient(line->a, line->b, eye) >= 0;
@@ -260,6 +294,8 @@ static void go_down(sl_walk *w, sl_walk_frame *frame) {
 
 static sl_status choose(sl_context *context, sl_walk *w, const sl_view *view) {
     sl_shadows *shadows = &w->occlusion->shadows;
+    w->moved = w->frame ? sl_walk_moved(w->view.eye, view->eye) : 0;
+    w->view = *view;
     shadows->pivot = (sl_pivot){view->eye, 0};
     shadows->occluders.count = shadows->shadows.count = 0;
     w->cone = sl_walk_cone_of(&shadows->pivot, view);

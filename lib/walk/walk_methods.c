@@ -22,8 +22,8 @@ static const sl_walk_method methods[] = {
      SL_WALK_UPDATES | SL_WALK_PROPAGATES | SL_WALK_SKIPS | SL_WALK_ADAPTS},
     {"predicting", "B, and leaves are taken to stay partially visible, by their history",
      SL_WALK_MAYBE_MORE, SL_WALK_UPDATES | SL_WALK_PREDICTS},
-    {"bounded", "B, and nothing hidden is tested before the eye has moved far enough to see it",
-     SL_WALK_MAYBE_LESS, SL_WALK_UPDATES | SL_WALK_BOUNDS},
+    {"bounded", "B, and nothing is tested before the eye has moved far enough to change its state",
+     SL_WALK_MAYBE_EITHER, SL_WALK_UPDATES | SL_WALK_BOUNDS},
     {"combined", "bounded and predicting", SL_WALK_MAYBE_EITHER,
      SL_WALK_UPDATES | SL_WALK_BOUNDS | SL_WALK_PREDICTS},
 };

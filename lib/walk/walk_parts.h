@@ -14,13 +14,20 @@ enum {
     SL_WALK_SKIPS = 4,      ///< takes what was drawn as visible, by chance, without a test
     SL_WALK_ADAPTS = 8,     ///< and sets the chances by each node's history
     SL_WALK_PREDICTS = 16,  ///< takes leaves to stay partially visible, by their history
-    SL_WALK_BOUNDS = 32,    ///< tests nothing hidden before the eye has moved far enough to see it
+    SL_WALK_BOUNDS = 32,    ///< tests nothing before the eye has moved far enough to matter
 };
 
 /// A share of successes, as far back as the last few tries.
 typedef struct sl_walk_history {
     uint8_t tries, hits;
 } sl_walk_history;
+
+/// What holds of a node while the eye is near enough.
+typedef enum sl_walk_known {
+    SL_WALK_HIDDEN,  ///< all of it is hidden
+    SL_WALK_IN_VIEW, ///< the occluders then chosen hide nothing of it
+    SL_WALK_WITNESS, ///< they do not hide a point inside it
+} sl_walk_known;
 
 /// What is known of a node since it was last visited.
 typedef struct sl_walk_memory {
@@ -29,8 +36,11 @@ typedef struct sl_walk_memory {
     bool spread;             ///< propagation decided of it when it was last visited
     sl_walk_history kept;    ///< of what was drawn, how often a test found it to be drawn still
     sl_walk_history spreads; ///< how often propagation succeeded
-    sl_point from;           ///< hidden from here, and from wherever is no farther off than this:
-    double bound;
+    uint8_t known;           ///< an sl_walk_known, of the eye here:
+    sl_point from;
+    double bound;          ///< and wherever is less far off than this
+    uint8_t wait, waiting; ///< tests without a search for a bound: in all, and to come
+    sl_point witness;      ///< where it is known to be seen in part
 } sl_walk_memory;
 
 typedef struct sl_chooser sl_chooser;
@@ -42,6 +52,8 @@ struct sl_walk {
     const sl_node_test_calls *test;
     sl_occlusion *occlusion;
     sl_chooser *chooser;
+    sl_view view; ///< the frame's
+    double moved; ///< no less than how far the eye moved to this frame
     sl_walk_cone cone;
     sl_walk_memory *nodes;
     uint64_t *stack;
@@ -72,7 +84,19 @@ sl_status sl_chooser_choose(sl_context *context, sl_walk *walk, const sl_view *v
 
 /// How far the eye may move, any way, with an invisible node still being so; 0 where that is not
 /// known (bounds.c).
-double sl_walk_hidden_bound(const sl_walk *walk, const sl_walk_look *look);
+double sl_walk_hidden_bound(sl_walk *walk, const sl_walk_look *look);
+/// Likewise with nothing of a node being hidden by the occluders of this frame (bounds_seen.c).
+double sl_walk_whole_bound(sl_walk *walk, const sl_walk_look *look);
+/// Likewise with a point inside a node, and in the view's cone, being hidden by none of them: the
+/// best of a few points.
+double sl_walk_witness_bound(sl_walk *walk, const sl_walk_look *look, sl_point *witness);
+
+#define SL_WALK_SLACK 0x1p-50 ///< more than the rounding of a few operations, relative
+/// A vector's length, to a few roundings.
+double sl_walk_length(double x, double y);
+/// No more than the distance from a point to the line through two others; 0 where rounding leaves
+/// nothing to be sure of.
+double sl_walk_clearance(sl_point p, sl_point a, sl_point b);
 /// No less than how far an eye has moved.
 double sl_walk_moved(sl_point from, sl_point to);
 

@@ -172,10 +172,9 @@ static void check_beside_classical(const world *w, size_t i, bool cheap) {
         const sl_node_state found = sl_walk_state(w->walks[i], n, &reason);
         if (!exact && w->hierarchy.nodes[n].cell == SL_NO_CELL) continue;
         const sl_walk_agreement agreement = w->methods[i]->agreement;
-        const bool more = found && !due, less = !found && due;
+        const bool less = !found && due;
         if (agreement == SL_WALK_AS_CLASSICAL ? found != due
-            : agreement == SL_WALK_MAYBE_MORE ? less
-                                              : agreement == SL_WALK_MAYBE_LESS && more)
+                                              : agreement == SL_WALK_MAYBE_MORE && less)
             fail_msg("%s: node %u is in state %d, classical: %d (by reason %d)",
                      w->methods[i]->name, n, found, due, reason);
     }
@@ -275,6 +274,86 @@ static void random_walks_miss_nothing(void **state) {
     // In the table's order each method up to "skipping" saves more tests.
     assert_true(count.tests[1] < count.tests[0] && count.tests[2] < count.tests[1]);
     assert_true(count.tests[3] < count.tests[2]);
+    sl_context_destroy(context);
+}
+
+typedef struct bound_tally {
+    long hidden, seen, whole, turned;
+} bound_tally;
+
+/// With all walls for occluders, what a bound decides is what a test gives. Where the cone turns, a
+/// wall may come into it unlooked at: what is seen may then be more, what is hidden is hidden.
+static void check_bounds(const world *w, const sl_walk *bounded, const sl_walk *tested, bool turns,
+                         bound_tally *count) {
+    for (uint32_t n = 0; n < w->hierarchy.node_count; n++) {
+        sl_walk_reason reason, ignored;
+        const sl_node_state found = sl_walk_state(bounded, n, &reason);
+        if (reason != SL_WALK_BOUNDED) continue;
+        const sl_node_state due = sl_walk_state(tested, n, &ignored);
+        const bool leaf = w->hierarchy.nodes[n].cell != SL_NO_CELL;
+        const bool in_part = leaf && found == SL_NODE_PARTIAL && due == SL_NODE_VISIBLE;
+        const bool may_be_more = turns && found > due;
+        if (found != due && !in_part && !may_be_more)
+            fail_msg("node %u is in state %d by a bound, %d by a test", n, found, due);
+        count->hidden += found == SL_NODE_INVISIBLE;
+        count->seen += found == SL_NODE_PARTIAL;
+        count->whole += found == SL_NODE_VISIBLE;
+        count->turned += turns;
+    }
+}
+
+/// Short steps of an eye in line with no wall, all round and with a cone that turns.
+static void walk_by_bounds(world *w, uint64_t seed, bool turns, bound_tally *count) {
+    size_t method_count;
+    const sl_walk_method *methods = sl_walk_methods(&method_count);
+    sl_walk_options options = sl_walk_options_default();
+    options.occluders = SL_WALK_OCCLUDERS_MOST;
+    sl_walk *tested = NULL, *bounded = NULL;
+    assert_ok(w->context,
+              sl_walk_create(w->context, &w->hierarchy, &methods[0], &options, &tested));
+    for (size_t m = 0; m < method_count; m++)
+        if (strcmp(methods[m].name, "bounded") == 0)
+            assert_ok(w->context,
+                      sl_walk_create(w->context, &w->hierarchy, &methods[m], &options, &bounded));
+    assert_non_null(bounded);
+    sl_random random = {seed};
+    const sl_box b = w->space.bounds;
+    const double size = fmax(b.max.x - b.min.x, b.max.y - b.min.y);
+    sl_point eye = b.min;
+    for (int i = 0; i < 200; i++) {
+        if (i % 40 == 0)
+            eye = (sl_point){b.min.x + sl_random_unit(&random) * (b.max.x - b.min.x),
+                             b.min.y + sl_random_unit(&random) * (b.max.y - b.min.y)};
+        eye.x += (sl_random_unit(&random) - 0.4) * size / 200;
+        eye.y += (sl_random_unit(&random) - 0.4) * size / 200;
+        const sl_view view = sl_view_cone(eye, 5 * i, turns ? 100 : 360, size);
+        sl_walk_frame frame;
+        assert_ok(w->context, sl_walk_step(w->context, tested, &view, &frame));
+        assert_ok(w->context, sl_walk_step(w->context, bounded, &view, &frame));
+        check_bounds(w, bounded, tested, turns, count);
+    }
+    sl_walk_destroy(w->context, tested);
+    sl_walk_destroy(w->context, bounded);
+}
+
+static void bounds_decide_as_tests_do(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    bound_tally count = {0};
+    for (uint64_t seed = 1; seed <= 60; seed++) {
+        world w = {.context = context};
+        assert_ok(context, oracle_random_map(context, seed, (oracle_grid)(seed % 3), &w.map));
+        assert_ok(context, sl_map_clean(context, &w.map, NULL));
+        const sl_subdivide_options options = sl_subdivide_options_default();
+        if (w.map.wall_count && sl_subdivide_kd(context, &w.map, &options, &w.space) == SL_OK) {
+            assert_ok(context, sl_hierarchy_make(context, &w.space, &w.hierarchy));
+            walk_by_bounds(&w, seed, false, &count);
+            walk_by_bounds(&w, seed, true, &count);
+        }
+        close_world(&w);
+    }
+    assert_true(count.hidden > 1000 && count.seen > 1000);
+    assert_true(count.whole > 1000 && count.turned > 1000);
     sl_context_destroy(context);
 }
 
@@ -426,8 +505,8 @@ static void memory_runs_out(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_walks_miss_nothing), cmocka_unit_test(bsp_walks_miss_nothing),
-        cmocka_unit_test(ropes_hold_faces),          cmocka_unit_test(bad_arguments_are_refused),
-        cmocka_unit_test(memory_runs_out),
+        cmocka_unit_test(bounds_decide_as_tests_do), cmocka_unit_test(ropes_hold_faces),
+        cmocka_unit_test(bad_arguments_are_refused), cmocka_unit_test(memory_runs_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

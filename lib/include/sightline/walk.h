@@ -86,8 +86,9 @@ SL_API sl_walk_options sl_walk_options_default(void);
 typedef enum sl_walk_agreement {
     SL_WALK_AS_CLASSICAL, ///< the same: its leaves have the same states, in every frame
     SL_WALK_MAYBE_MORE,   ///< that, and maybe more
-    SL_WALK_MAYBE_LESS,   ///< that, but for what it knows to be hidden from earlier frames
-    SL_WALK_MAYBE_EITHER, ///< less here and more there
+    /// Less where a node is known to be hidden from earlier frames, more where it is drawn
+    /// untested.
+    SL_WALK_MAYBE_EITHER,
 } sl_walk_agreement;
 
 /// A method of walking: reachable by name, listed everywhere from this table.
@@ -110,7 +111,10 @@ typedef enum sl_walk_reason {
     SL_WALK_PROPAGATED, ///< its neighbours' states
     SL_WALK_SKIPPED,    ///< chance: it was drawn in the last frame
     SL_WALK_PULLED_UP,  ///< its children's states, which have different reasons
-    SL_WALK_BOUNDED,    ///< it was hidden from where the eye was, and still is from so near
+    /// How far the eye has moved since a test: not far enough for the occluders of then to give
+    /// another answer. A leaf of which they leave a part in view is partially visible, even where
+    /// all of it is.
+    SL_WALK_BOUNDED,
 } sl_walk_reason;
 
 /// What a frame came to, in nodes where nothing else is said.
@@ -123,7 +127,7 @@ typedef struct sl_walk_frame {
     uint32_t opened;                   ///< not tested for having been opened by the last frame
     uint32_t propagations, propagated; ///< tries to take a state from neighbours, and successes
     uint32_t skipped;                  ///< taken to be as drawn as in the last frame
-    uint32_t bounded;                  ///< known to be hidden still
+    uint32_t bounded;                  ///< known to be hidden still, or in view
     uint32_t out, invisible, partial, visible; ///< visited, by state; `out`: of the view cone
     uint32_t cells;                            ///< to be drawn
     uint64_t orientations;                     ///< orientation tests
