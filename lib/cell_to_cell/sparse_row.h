@@ -12,7 +12,7 @@ typedef struct sl_row_budget {
     atomic_uint_least64_t used;
 } sl_row_budget;
 
-enum { SL_ALL_WORDS = UINT32_MAX };
+#define SL_ALL_WORDS UINT32_MAX
 enum { SL_SPARSE_WORD_BYTES = sizeof(sl_bits) + sizeof(uint32_t) };
 
 /// Words by ascending index, the indices behind them in the same block; where they are many, all
