@@ -2,6 +2,7 @@
 // come to no end, and of what the library reads it says what the library says.
 #include "slv_mutator.h"
 
+#include "geometry/orient.h"
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime/sightline_runtime.h"
 
@@ -53,7 +54,9 @@ static void check_place(const sl_runtime *r, double x, double y, sl_random *rand
                         const buffers *b) {
     const uint32_t cell = sl_runtime_locate(r, x, y);
     const bool within = x >= r->min_x && x <= r->max_x && y >= r->min_y && y <= r->max_y;
-    FUZZ_CHECK(within ? cell < r->cell_count : cell == SL_RUNTIME_NO_CELL);
+    const bool found = cell < r->cell_count;
+    FUZZ_CHECK(found || cell == SL_RUNTIME_NO_CELL);
+    FUZZ_CHECK(within ? found || r->partial : !found);
     const sl_runtime_view round = sl_runtime_view_all_round(x, y);
     check_look(r, &round, b);
     sl_runtime_view cone = round;
@@ -111,6 +114,21 @@ static bool has_lines(const uint8_t *bytes) {
     return false;
 }
 
+static bool has_corners_round(const sl_space *s, uint32_t cell, sl_point p) {
+    const sl_point *corners = s->vertices + s->cells[cell].first_vertex;
+    const uint32_t count = s->cells[cell].vertex_count;
+    for (uint32_t i = 0; i < count; i++)
+        if (sl_orient(corners[i], corners[i + 1 < count ? i + 1 : 0], p) < 0) return false;
+    return true;
+}
+
+/// The runtime does not look at the walls that rounded cells reach over: where the library names
+/// the cell behind, it may name the one before.
+static void check_located(const sl_runtime *r, const sl_space *s, sl_point p) {
+    const uint32_t cell = sl_runtime_locate(r, p.x, p.y), due = sl_space_locate(s, p);
+    FUZZ_CHECK(cell == due || (s->beyond && cell < s->cell_count && has_corners_round(s, cell, p)));
+}
+
 /// The runtime opens whatever the library reads, and finds the same in it; but for lines that no
 /// node splits along, which only the runtime looks at.
 static void check_same(const uint8_t *bytes, size_t size, sl_runtime_status status,
@@ -128,7 +146,7 @@ static void check_same(const uint8_t *bytes, size_t size, sl_runtime_status stat
         for (uint32_t i = 0; i < s->vertex_count; i++) {
             const sl_point a = s->vertices[i],
                            b = s->vertices[sl_random_below(random, s->vertex_count)];
-            FUZZ_CHECK(sl_runtime_locate(r, a.x, b.y) == sl_space_locate(s, (sl_point){a.x, b.y}));
+            check_located(r, s, (sl_point){a.x, b.y});
         }
     }
     sl_baked_destroy(context, &baked);

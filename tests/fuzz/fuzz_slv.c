@@ -25,7 +25,8 @@ static void check_baked(sl_context *context, const sl_baked *baked) {
         FUZZ_CHECK(sl_pvs_count(pvs, cell) <= space->cell_count);
         if (sl_baked_counts(baked, cell)) FUZZ_CHECK(sl_pvs_sees(pvs, cell, cell));
         const sl_point corner = space->vertices[space->cells[cell].first_vertex];
-        FUZZ_CHECK(sl_space_locate(space, corner) == cell);
+        // Several cells of a BSP hold their common corner, or rounding has put it out of bounds.
+        if (!space->beyond) FUZZ_CHECK(sl_space_locate(space, corner) == cell);
     }
     check_trees(space, &baked->visibility.trees);
     size_t formats;
