@@ -77,8 +77,8 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status);
 /// The cell that holds a point; SL_RUNTIME_NO_CELL outside the bounds, for NaN, and where cells
 /// that came with the map leave a gap. On a split line the cell above (right of or over) it, on an
 /// oblique one the cell at its left; on the upper or right border the cell inside. Where walls are
-/// oblique, cells reach over them by the size of rounding: a point so near behind a wall may be held
-/// by the cell before it. Time: the tree's depth.
+/// oblique, cells reach over them by the size of rounding: a point so near behind a wall may be
+/// held by the cell before it. Time: the tree's depth.
 SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, double y);
 
 /// Whether anything in cell `to` can be seen from anywhere in cell `from`. False where either is no
