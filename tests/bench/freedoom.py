@@ -18,6 +18,7 @@ import json
 import os
 import pathlib
 import platform
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -45,7 +46,10 @@ def arguments():
     parser.add_argument("--nodes", metavar="GLBSP", help="the program glbsp: bake its cells")
     parser.add_argument("--keep", action="store_true", help="keep the baked files in DIR")
     parser.add_argument("bake", nargs="*", metavar="BAKE-OPTION")
-    return parser.parse_intermixed_args()
+    options = parser.parse_intermixed_args()
+    if options.nodes and not shutil.which(options.nodes):
+        parser.error(f"--nodes {options.nodes}: there is no such program; the package is glbsp")
+    return options
 
 
 def run(command, seconds=None):
