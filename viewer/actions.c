@@ -64,6 +64,7 @@ SL_LAYERS(TOGGLE)
     }
 SWITCH(first_person, first_person)
 SWITCH(account, accounts)
+SWITCH(effects, effects)
 SWITCH(side_panel, side_panel)
 SWITCH(dark, dark)
 SWITCH(help, help)
@@ -387,6 +388,8 @@ static const sl_action actions[] = {
     {"first_person", "I", "First person", "first-person pane", 0, 0, first_person, is_first_person},
     {"account", "L", "What accuracy costs", "what accuracy costs, as a chart", 0, 0, account,
      is_account},
+    {"effects", "F8", "What the map calls for", "what the map calls for", 0, 0, effects,
+     is_effects},
 
     {"method", "E", "Method", "the next culling method", 0, 0, method_next, NULL},
     {"compare", "X", "Compare", "two methods: panes, difference", EXPLORE, 0, compare, is_compare},

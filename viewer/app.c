@@ -1,6 +1,7 @@
 #include "app.h"
 
 #include "base/base.h"
+#include "effect_words.h"
 #include "modes.h"
 #include "panes.h"
 #include "quiz.h"
@@ -23,6 +24,7 @@ void sl_app_init(sl_app *app, sl_context *context) {
                     .method = count - 1,
                     .other = 0,
                     .side_panel = true,
+                    .effects = true,
                     .text_scale = 1,
                     .density = 1,
                     .width = 1200,
@@ -101,15 +103,14 @@ static void take_document(sl_app *app, bool opened) {
     const char *slash = path ? strrchr(path, '/') : NULL;
     const char *map = app->document.source.options.map;
     const sl_space *space = &app->document.baked->space;
-    const sl_map *drawn = &app->document.baked->map;
-    const bool effects = drawn->door_count + drawn->mirror_count + drawn->oneway_count > 0;
-    sl_app_say(app, false, "%s%s%s: %u cells, %u portals, %u walls%s",
+    char calls[SL_CALLS_TEXT];
+    sl_effects_in_words(&app->document.map, calls);
+    sl_app_say(app, false, "%s%s%s: %u cells, %u portals, %u walls; %s",
                slash  ? slash + 1
                : path ? path
                       : "map",
                map ? " " : "", map ? map : "", space->cell_count, space->portal_count,
-               space->wall_count,
-               effects ? "; doors and glass are drawn, and all seen through" : "");
+               space->wall_count, calls);
     char partial[SL_PARTIAL_TEXT];
     sl_baked_say_partial(app->document.baked, partial);
     if (partial[0]) sl_app_say(app, false, "%s is %s", slash ? slash + 1 : path, partial);
@@ -197,9 +198,16 @@ sl_layout sl_app_layout(const sl_app *app) {
         bottom = l.time.min.y;
     }
     int shown = 0, before = 0;
-    for (int i = 0; i < SL_PANES_BELOW; i++) shown += sl_panes_below()[i].shown(app);
+    const double share = 0.42 * (bottom - bar);
+    double high = 0;
+    for (int i = 0; i < SL_PANES_BELOW; i++) {
+        const sl_pane_below *pane = &sl_panes_below()[i];
+        if (!pane->shown(app)) continue;
+        high = fmax(high, pane->lines ? fmin(1.4 * t * pane->lines(app), share) : share);
+        shown++;
+    }
     if (shown) {
-        const double top = bar + (bottom - bar) * 0.58;
+        const double top = bottom - high;
         for (int i = 0; i < SL_PANES_BELOW; i++) {
             if (!sl_panes_below()[i].shown(app)) continue;
             const double left = right * before / shown;

@@ -104,7 +104,7 @@ struct sl_app {
     sl_mode mode;
     size_t method, other; ///< of sl_eye_methods: chosen, and compared with
     sl_compare compare;
-    bool side_panel, first_person, accounts, help, maps_open, dark;
+    bool side_panel, first_person, accounts, effects, help, maps_open, dark;
     double text_scale;
     double density; ///< of the screen: pixels where a common one has 1
     bool steady;    ///< under a script: no clock shows, nothing is remembered
@@ -179,7 +179,7 @@ void sl_app_after_edit(sl_app *app);
 uint32_t sl_app_eye_cell(const sl_app *app);
 
 /// The panes below the plan, side by side: the rows of the table in panes.c.
-enum { SL_PANE_DUAL, SL_PANE_FIRST_PERSON, SL_PANE_ACCOUNT, SL_PANES_BELOW };
+enum { SL_PANE_DUAL, SL_PANE_FIRST_PERSON, SL_PANE_ACCOUNT, SL_PANE_EFFECTS, SL_PANES_BELOW };
 
 /// Where things are on the page.
 typedef struct sl_layout {

@@ -59,23 +59,34 @@ static const sl_see_method *method_named(const char *name) {
     return &methods[0];
 }
 
+/// The sweep is the fastest by far. A search knows all that a map can call for.
+static const sl_see_method *method_for(const sl_plan *plan) {
+    const sl_see_method *sweep = method_named("sweep");
+    return plan->effects & ~sweep->knows ? method_named("prune") : sweep;
+}
+
 /// The walls of a baked map are its space's.
 static void drop_walls(sl_map *map) {
     map->wall_count = 0;
 }
 
-/// The sweep tells what is seen, in far less time than a search.
-static sl_status see_all(sl_context *context, sl_bake_job *job) {
-    const sl_see_method *sweep = method_named("sweep");
-    const sl_see_options options = sl_see_options_default();
-    SL_TRY(sweep->see(context, &job->baked->space, &options, &job->visibility));
+static sl_status see_all(sl_context *context, sl_bake_job *job, const sl_plan *plan) {
+    const sl_see_method *method = method_for(plan);
+    sl_see_options options = sl_see_options_default();
+    options.plan = plan;
+    options.solver = sl_funnel();
+    snprintf(job->baked->method, sizeof job->baked->method, "%s", method->name);
+    atomic_store(&job->space_ready, true);
+    SL_TRY(method->see(context, &job->baked->space, &options, &job->visibility));
     atomic_store(&job->seen_ready, true);
     return SL_OK;
 }
 
-/// The search knows the stab trees too. Where it takes too long there are none.
-static sl_status search_trees(sl_context *context, sl_bake_job *job) {
+/// The search knows the stab trees too, but for mirrors. Where it takes too long there are none.
+static sl_status search_trees(sl_context *context, sl_bake_job *job, const sl_plan *plan) {
+    if (plan->effects & SL_EFFECT_MIRROR) return SL_OK;
     sl_see_options options = sl_see_options_default();
+    options.plan = plan;
     options.solver = sl_funnel();
     options.trees = true;
     options.tree_bytes = TREE_BYTES;
@@ -87,14 +98,14 @@ static sl_status search_trees(sl_context *context, sl_bake_job *job) {
 
 static sl_status bake(sl_context *context, sl_bake_job *job) {
     sl_baked *baked = job->baked;
+    // Of the job's own map: from space_ready on the other one is the main thread's.
+    const sl_plan plan = sl_plan_make(&job->map);
     SL_TRY(sl_map_copy(context, &job->map, &baked->map));
     SL_TRY(sl_map_clean(context, &baked->map, NULL));
     SL_TRY(sl_subdivision_for(&baked->map)->subdivide(context, &baked->map, NULL, &baked->space));
     drop_walls(&baked->map);
-    snprintf(baked->method, sizeof baked->method, "sweep");
-    atomic_store(&job->space_ready, true);
-    SL_TRY(see_all(context, job));
-    return search_trees(context, job);
+    SL_TRY(see_all(context, job, &plan));
+    return search_trees(context, job, &plan);
 }
 
 static sl_status work(sl_context *context, sl_bake_job *job) {

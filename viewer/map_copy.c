@@ -17,8 +17,6 @@ static sl_status copy_effects(sl_context *context, const sl_map *from, sl_map *t
         SL_TRY(sl_map_add_oneway(context, to, from->oneways[i].segment, from->oneways[i].line));
     for (size_t i = 0; i < from->seam_count; i++)
         SL_TRY(sl_map_add_seam(context, to, from->seams[i].segment, from->seams[i].line));
-    for (size_t i = 0; i < from->seam_count; i++)
-        SL_TRY(sl_map_add_seam(context, to, from->seams[i].segment, from->seams[i].line));
     return SL_OK;
 }
 

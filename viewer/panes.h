@@ -18,6 +18,7 @@ void sl_pane_time(sl_app *app, sl_box box);         ///< the time line of the le
 void sl_pane_dual(sl_app *app, sl_box box);         ///< lines as points
 void sl_pane_first_person(sl_app *app, sl_box box); ///< what the eye sees
 void sl_pane_account(sl_app *app, sl_box box);      ///< what accuracy costs
+void sl_pane_effects(sl_app *app, sl_box box);      ///< what the map calls for
 void sl_pane_help(sl_app *app);                     ///< over all
 void sl_pane_maps(sl_app *app);                     ///< over all: the list of maps
 
@@ -25,6 +26,8 @@ void sl_pane_maps(sl_app *app);                     ///< over all: the list of m
 typedef struct sl_pane_below {
     bool (*shown)(const sl_app *app);
     void (*draw)(sl_app *app, sl_box box);
+    double (*lines)(
+        const sl_app *app); ///< of text that it has room for; NULL: a share of the window
 } sl_pane_below;
 
 /// SL_PANES_BELOW of them.

@@ -35,7 +35,20 @@ typedef struct setting {
     double low, high, value;
 } setting;
 
-enum { DARK, TEXT, SHOW, CONE, METHOD, WIDTH, HEIGHT, PANEL, FIRST_PERSON, ACCOUNT, SETTINGS };
+enum {
+    DARK,
+    TEXT,
+    SHOW,
+    CONE,
+    METHOD,
+    WIDTH,
+    HEIGHT,
+    PANEL,
+    FIRST_PERSON,
+    ACCOUNT,
+    EFFECTS,
+    SETTINGS
+};
 
 static void describe(const sl_app *app, setting list[SETTINGS]) {
     size_t count;
@@ -51,6 +64,7 @@ static void describe(const sl_app *app, setting list[SETTINGS]) {
         [PANEL] = {"panel", 0, 1, app->side_panel},
         [FIRST_PERSON] = {"first_person", 0, 1, app->first_person},
         [ACCOUNT] = {"account", 0, 1, app->accounts},
+        [EFFECTS] = {"effects", 0, 1, app->effects},
     };
     memcpy(list, all, sizeof all);
 }
@@ -83,6 +97,7 @@ void sl_settings_load(sl_app *app) {
     app->side_panel = list[PANEL].value != 0;
     app->first_person = list[FIRST_PERSON].value != 0;
     app->accounts = list[ACCOUNT].value != 0;
+    app->effects = list[EFFECTS].value != 0;
 }
 
 void sl_settings_save(sl_app *app) {

@@ -32,6 +32,10 @@ PICTURES = {
     "oblique_subdivision": ("oblique/rotunda.map", "key F2\nkey U\n" + "key Right\n" * 6),
     "oblique_search": ("oblique/rotunda.map", "key F2\n" + "key Right\n" * 12),
     "oblique_first_person": ("oblique/rotunda.map", "key I\nkey Tab\nwait 2\n"),
+    "doors": ("effects/doors.map", "key V\nkey M\n"),
+    "mirrors": ("effects/mirrors.map", "key V\nkey M\nkey Tab\n"),
+    "oneway": ("effects/oneway.map", "eye 25 10 180 60\nkey Tab\n"),
+    "range": ("effects/range.map", "key V\nkey M\nkey Tab\n"),
     "first_person": ("pillars.map", "key I\nkey Tab\nwait 2\n"),
 }
 
