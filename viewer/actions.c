@@ -1,5 +1,6 @@
 #include "actions.h"
 
+#include "doors.h"
 #include "edit.h"
 #include "layers.h"
 #include "modes.h"
@@ -210,14 +211,18 @@ static void subject(sl_app *app) {
 
 static void travel(sl_app *app, bool redo) {
     sl_status status = SL_OK;
-    if (!sl_history_undo(app->context, &app->history, &app->document.map, redo, &status)) {
+    bool bake = false;
+    if (!sl_history_undo(app->context, &app->history, &app->document.map, redo, &bake, &status)) {
         sl_app_say(app, false, redo ? "nothing to redo" : "nothing to undo");
         return;
     }
     sl_app_check(app, status);
     sl_app_say(app, false, redo ? "redone" : "undone");
     app->wall = UINT32_MAX;
-    sl_app_after_edit(app);
+    if (bake)
+        sl_app_after_edit(app);
+    else
+        sl_app_after_touch(app);
 }
 
 static void undo(sl_app *app) {
@@ -230,6 +235,12 @@ static void redo(sl_app *app) {
 
 static void delete_wall(sl_app *app) {
     sl_edit_delete(app);
+}
+
+// --- doors
+
+static void nearest_door(sl_app *app) {
+    sl_door_toggle_nearest(app);
 }
 
 // --- the quiz
@@ -402,9 +413,12 @@ static const sl_action actions[] = {
     {"play_steps", "Space", "Play", "learn: play the steps", LEARN, 0, play_steps, is_play_steps},
     {"subject", "U", "Another subject (U)", "learn: another subject", LEARN, 0, subject, NULL},
 
-    {"undo", "Ctrl+Z", "Undo", "undo a change of walls", 0, 0, undo, NULL},
+    {"undo", "Ctrl+Z", "Undo", "undo a change by hand", 0, 0, undo, NULL},
     {"redo", "Ctrl+Y", "Redo", "redo it", 0, 0, redo, NULL},
     {"delete", "Delete", "Delete", "draw: delete the chosen wall", DRAW, 0, delete_wall, NULL},
+
+    {"nearest_door", "N", "Door", "shut or open the nearest door (click: any door)",
+     EXPLORE | LEARN | DRAW, 0, nearest_door, NULL},
 
     {"answer_yes", "Y", "Yes", "quiz: seen", QUIZ, 0, answer_yes, NULL},
     {"answer_no", "N", "No", "quiz: not seen", QUIZ, 0, answer_no, NULL},

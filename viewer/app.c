@@ -48,6 +48,7 @@ void sl_app_destroy(sl_app *app) {
     sl_node_layer_destroy(app->context, app->nodes);
     sl_view_layer_destroy(app->context, app->views);
     sl_seen_destroy(app->context, &app->seen);
+    sl_present_drop(app->context, &app->present);
     sl_lesson_destroy(app->context, &app->lesson);
     sl_history_clear(app->context, &app->history);
     sl_record_destroy(app->context, &app->recorder);
@@ -120,6 +121,13 @@ void sl_app_take_opened(sl_app *app) {
     take_document(app, true);
 }
 
+/// What the eye sees of the document now; words about what it was are dropped.
+static void follow(sl_app *app) {
+    const uint32_t before = app->present.version;
+    sl_app_check(app, sl_present_update(app->context, &app->present, &app->document, app->eye.at));
+    if (app->present.version != before && app->quiz.answered) sl_quiz_forget(app);
+}
+
 static void poll(sl_app *app, bool wait) {
     const uint32_t before = app->document.opened, version = app->document.version;
     bool changed = false;
@@ -128,6 +136,7 @@ static void poll(sl_app *app, bool wait) {
     if (status == SL_CANCELLED) sl_app_say(app, false, "stopped");
     if (changed) drop_made(app);
     if (version != app->document.version) take_document(app, before != app->document.opened);
+    follow(app);
     sl_app_check(app, status);
     sl_view_layer_update(app, wait);
 }
@@ -139,8 +148,10 @@ sl_document_progress sl_app_progress(const sl_app *app) {
 
 static void look(sl_app *app) {
     if (!app->document.baked) return;
+    follow(app);
     const sl_view view = eye_view(app);
-    sl_app_check(app, sl_seen_update(app->context, &app->seen, &app->document, &view));
+    sl_app_check(app,
+                 sl_seen_update(app->context, &app->seen, &app->document, &app->present, &view));
     if (app->mode == SL_MODE_LEARN)
         sl_app_check(app, sl_lesson_update(app->context, &app->lesson, &app->document,
                                            sl_app_eye_cell(app)));
@@ -167,9 +178,18 @@ void sl_app_tick(sl_app *app, double seconds) {
     look(app);
 }
 
+void sl_app_keep(sl_app *app) {
+    sl_app_check(app, sl_history_keep(app->context, &app->history, &app->document.map));
+}
+
+void sl_app_after_touch(sl_app *app) {
+    sl_document_touch(&app->document);
+    follow(app);
+}
+
 void sl_app_before_edit(sl_app *app) {
     app->fitted = false; // the plan stays where it is, whatever the map becomes
-    sl_app_check(app, sl_history_keep(app->context, &app->history, &app->document.map));
+    sl_app_keep(app);
     sl_map_drop_cells(app->context, &app->document.map); // the file's own do not know other walls
 }
 

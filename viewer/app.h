@@ -11,6 +11,7 @@
 #include "layer_views.h"
 #include "layers.h"
 #include "lesson.h"
+#include "present.h"
 #include "record.h"
 #include "seen.h"
 #include "sightline/explain.h"
@@ -40,7 +41,7 @@ typedef struct sl_eye {
 typedef struct sl_kept {
     cairo_surface_t *surface;
     struct {
-        uint32_t version, show, depth, dark, views, mark;
+        uint32_t version, touched, show, depth, dark, views, mark;
         sl_frame frame;
     } key;
     double seconds; ///< that drawing it took
@@ -112,6 +113,7 @@ struct sl_app {
     int width, height;
     sl_point pointer;
     sl_drag drag;
+    sl_present present;
     sl_seen seen;
     sl_lesson lesson;
     sl_quiz quiz;
@@ -170,10 +172,13 @@ void sl_app_draw(sl_app *app, cairo_t *cairo);
 /// The camera fits the map into a plan of that size, where it is to.
 void sl_app_fit(sl_app *app, sl_box plan);
 
-/// The map was changed by hand: remembers it for undo (before the change) or makes all anew
-/// (after).
+/// The map is about to be changed by hand: remembers it for undo.
+void sl_app_keep(sl_app *app);
+/// Likewise where a new bake will be needed; after the change, makes all anew.
 void sl_app_before_edit(sl_app *app);
 void sl_app_after_edit(sl_app *app);
+/// The map was changed, and no new bake is needed.
+void sl_app_after_touch(sl_app *app);
 
 /// The cell of the eye; SL_NO_CELL outside and without a map.
 uint32_t sl_app_eye_cell(const sl_app *app);

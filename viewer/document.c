@@ -72,6 +72,14 @@ sl_status sl_document_rebuild(sl_context *context, sl_document *document) {
     return start(context, document, job);
 }
 
+void sl_document_touch(sl_document *document) {
+    const sl_map *map = &document->map;
+    document->touched++;
+    if (!document->baked || document->baked->map.door_count != map->door_count) return;
+    for (size_t i = 0; i < map->door_count; i++)
+        document->baked->map.doors[i].open = map->doors[i].open;
+}
+
 static void drop_baked(sl_context *context, sl_document *document) {
     if (document->search) sl_eye_search_destroy(context, document->search);
     document->search = NULL;
@@ -116,14 +124,15 @@ static sl_status take_space(sl_context *context, sl_document *document) {
     document->baked = job->baked;
     job->taken = true;
     document->version++;
-    sl_map_destroy(context, &document->map);
-    SL_TRY(sl_map_copy(context, &job->map, &document->map));
     if (job->source.path) {
+        sl_map_destroy(context, &document->map);
+        SL_TRY(sl_map_copy(context, &job->map, &document->map));
         sl_document_source_destroy(context, &document->source);
         document->source = job->source;
         job->source = (sl_document_source){0};
         document->opened += !document->source.again;
     }
+    sl_document_touch(document); // doors may have been turned while the job was at work
     SL_TRY(measure_cells(context, document));
     SL_TRY(sl_outline_make(context, &document->baked->space, &document->outline));
     SL_TRY(sl_splits_make(context, &document->baked->space, &document->splits));
@@ -215,5 +224,6 @@ void sl_document_close(sl_context *context, sl_document *document) {
     drop_baked(context, document);
     sl_map_destroy(context, &document->map);
     sl_document_source_destroy(context, &document->source);
-    *document = (sl_document){.version = document->version + 1, .opened = document->opened};
+    *document = (sl_document){
+        .version = document->version + 1, .touched = document->touched, .opened = document->opened};
 }

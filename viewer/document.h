@@ -40,6 +40,7 @@ typedef struct sl_document {
     double area;      ///< of all cells that count
     uint32_t counted; ///< how many there are
     uint32_t version; ///< grows with every change but that of stab trees, for who keeps pictures
+    uint32_t touched; ///< grows with every change that needs no new bake
     uint32_t opened;  ///< grows with every file that is opened
     sl_bake_job *job; ///< NULL: none runs
 } sl_document;
@@ -61,6 +62,9 @@ sl_status sl_document_open(sl_context *context, sl_document *document,
 
 /// Starts to make space and visibility of the map as it is now.
 sl_status sl_document_rebuild(sl_context *context, sl_document *document);
+
+/// What was changed in the map needs no new bake: shows it.
+void sl_document_touch(sl_document *document);
 
 /// Takes over what the background has done; *changed where something new can be shown. A job that
 /// failed gives its status and message, and leaves what was open.

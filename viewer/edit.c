@@ -17,19 +17,23 @@ sl_point sl_edit_snap(const sl_app *app, sl_point at) {
     return (sl_point){step * round(at.x / step), step * round(at.y / step)};
 }
 
-static double distance_to(sl_point p, sl_point a, sl_point b) {
+double sl_edit_distance(sl_point p, sl_point a, sl_point b) {
     const double dx = b.x - a.x, dy = b.y - a.y, length = dx * dx + dy * dy;
     const double along = length > 0 ? ((p.x - a.x) * dx + (p.y - a.y) * dy) / length : 0;
     const double t = fmin(fmax(along, 0), 1);
     return hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
 }
 
+double sl_edit_reach(const sl_app *app) {
+    return 7 * app->density / app->camera.scale;
+}
+
 uint32_t sl_edit_pick(const sl_app *app, sl_point at) {
     const sl_map *map = &app->document.map;
-    double nearest = 7 * app->density / app->camera.scale;
+    double nearest = sl_edit_reach(app);
     uint32_t found = UINT32_MAX;
     for (size_t i = 0; i < map->wall_count; i++) {
-        const double distance = distance_to(at, map->walls[i].a, map->walls[i].b);
+        const double distance = sl_edit_distance(at, map->walls[i].a, map->walls[i].b);
         if (distance > nearest) continue;
         nearest = distance;
         found = (uint32_t)i;

@@ -20,4 +20,10 @@ void sl_edit_delete(sl_app *app);
 /// The grid, the chosen wall, and the one that is being drawn or moved.
 void sl_edit_draw(sl_app *app, const sl_frame *frame);
 
+/// How far a point is from a segment.
+double sl_edit_distance(sl_point p, sl_point a, sl_point b);
+
+/// Within which distance, in the map, the pointer takes hold of something.
+double sl_edit_reach(const sl_app *app);
+
 #endif

@@ -1,6 +1,7 @@
 #include "input.h"
 
 #include "actions.h"
+#include "doors.h"
 #include "edit.h"
 #include "panes.h"
 #include "quiz.h"
@@ -223,7 +224,10 @@ void sl_input_release(sl_app *app, sl_point at) {
     if ((drag.kind == SL_DRAG_NEW_WALL || drag.kind == SL_DRAG_WALL) && drag.moved)
         finish_wall(app, &drag, now);
     const bool puts = drag.kind == SL_DRAG_PAN && !drag.moved && app->mode != SL_MODE_QUIZ;
-    if (puts && sl_space_locate(&app->document.baked->space, now) != SL_NO_CELL) {
+    const uint32_t door = puts ? sl_door_at(app, now) : UINT32_MAX;
+    if (door != UINT32_MAX) {
+        sl_door_toggle(app, door);
+    } else if (puts && sl_space_locate(&app->document.baked->space, now) != SL_NO_CELL) {
         app->eye.at = now;
         app->recorder.plays = false;
         if (app->mode == SL_MODE_EXPLORE) sl_quiz_forget(app);

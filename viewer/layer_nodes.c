@@ -26,7 +26,7 @@ static const struct {
 };
 
 struct sl_node_layer {
-    uint32_t version; ///< of the document that it is of
+    uint32_t version; ///< of what is present that it is of
     sl_hierarchy hierarchy;
     sl_walk *walk;
     sl_view view;
@@ -51,10 +51,10 @@ static const sl_walk_method *find_method(const char *name) {
     return &methods[i];
 }
 
-static sl_status fill(sl_context *context, const sl_document *document, sl_node_layer *layer) {
-    const sl_space *space = &document->baked->space;
+static sl_status fill(sl_context *context, const sl_present *present, sl_node_layer *layer) {
+    const sl_space *space = present->space;
     const sl_walk_options options = sl_walk_options_default();
-    layer->version = document->version;
+    layer->version = present->version;
     for (int k = 0; k < KINDS; k++) {
         layer->sets[k] =
             sl_alloc_array(context, sl_bits_words(space->cell_count), sizeof *layer->sets[k]);
@@ -65,14 +65,14 @@ static sl_status fill(sl_context *context, const sl_document *document, sl_node_
                           &layer->walk);
 }
 
-/// Makes it for the document that is open, where it is not there yet.
+/// Makes it for what is present, where it is not there yet.
 static sl_status prepare(sl_app *app) {
-    if (app->nodes && app->nodes->version == app->document.version) return SL_OK;
+    if (app->nodes && app->nodes->version == app->present.version) return SL_OK;
     sl_node_layer_destroy(app->context, app->nodes);
     app->nodes = NULL;
     sl_node_layer *layer = sl_alloc_array(app->context, 1, sizeof *layer);
     if (!layer) return SL_NO_MEMORY;
-    const sl_status status = fill(app->context, &app->document, layer);
+    const sl_status status = fill(app->context, &app->present, layer);
     if (status == SL_OK)
         app->nodes = layer;
     else

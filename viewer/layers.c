@@ -1,5 +1,6 @@
 #include "layers.h"
 
+#include "base/base.h"
 #include "draw/plan.h"
 #include "draw/sight.h"
 #include "panes.h"
@@ -87,10 +88,24 @@ void sl_layer_cull(sl_app *app, const sl_frame *frame, int index) {
 
 // --- the stab tree
 
+/// Where doors are shut, of the tree that is left.
+static sl_status make_tree_scene(sl_app *app, const sl_draw_options *options) {
+    const sl_document *document = &app->document;
+    if (!app->present.own) return sl_scene_make(app->context, document->baked, options, &app->tree);
+    sl_baked left = *document->baked;
+    SL_TRY(sl_present_tree(app->context, &app->present, document, options->cell,
+                           &left.visibility.trees));
+    const sl_status status = sl_scene_make(app->context, &left, options, &app->tree);
+    sl_free(app->context, left.visibility.trees.offsets);
+    sl_free(app->context, left.visibility.trees.nodes);
+    if (status == SL_OK) app->tree.baked = document->baked;
+    return status;
+}
+
 static bool make_tree(sl_app *app) {
     const uint32_t cell = app->seen.cell;
     if (cell == SL_NO_CELL || !app->document.has_visibility) return false;
-    if (app->tree.baked && app->tree_version == app->document.version &&
+    if (app->tree.baked && app->tree_version == app->present.version &&
         app->tree.options.cell == cell && app->tree.options.dark == app->dark)
         return true;
     if (app->tree.baked) sl_scene_destroy(app->context, &app->tree);
@@ -98,9 +113,9 @@ static bool make_tree(sl_app *app) {
     options.layers = SL_LAYER_STAB_TREE;
     options.cell = cell;
     options.dark = app->dark;
-    const sl_status status = sl_scene_make(app->context, app->document.baked, &options, &app->tree);
+    const sl_status status = make_tree_scene(app, &options);
     sl_app_check(app, status);
-    app->tree_version = app->document.version;
+    app->tree_version = app->present.version;
     return status == SL_OK;
 }
 

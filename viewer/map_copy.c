@@ -72,3 +72,27 @@ sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to) {
         sl_map_destroy(context, &map);
     return status;
 }
+
+static bool same_segment(sl_segment a, sl_segment b) {
+    return a.a.x == b.a.x && a.a.y == b.a.y && a.b.x == b.b.x && a.b.y == b.b.y;
+}
+
+static bool same_glass(const sl_glass *a, size_t a_count, const sl_glass *b, size_t b_count) {
+    bool same = a_count == b_count;
+    for (size_t i = 0; i < a_count && same; i++)
+        same = same_segment(a[i].segment, b[i].segment) && a[i].one_sided == b[i].one_sided;
+    return same;
+}
+
+bool sl_map_same_bake(const sl_map *a, const sl_map *b) {
+    bool same = a->wall_count == b->wall_count && a->door_count == b->door_count &&
+                a->cell_count == b->cell_count && a->range == b->range;
+    for (size_t i = 0; i < a->wall_count && same; i++)
+        same = same_segment((sl_segment){a->walls[i].a, a->walls[i].b},
+                            (sl_segment){b->walls[i].a, b->walls[i].b});
+    for (size_t i = 0; i < a->door_count && same; i++)
+        same = same_segment(a->doors[i].segment, b->doors[i].segment);
+    return same && same_glass(a->mirrors, a->mirror_count, b->mirrors, b->mirror_count) &&
+           same_glass(a->oneways, a->oneway_count, b->oneways, b->oneway_count) &&
+           same_glass(a->seams, a->seam_count, b->seams, b->seam_count);
+}

@@ -72,7 +72,7 @@ static void add_room(viewer *v, const sl_outline *outline, uint32_t room, double
 
 /// The walls of the rooms that have a part of a cell that is seen, each room once.
 static void add_cells(const sl_app *app, viewer *v, double near) {
-    const sl_outline *outline = &app->document.outline;
+    const sl_outline *outline = app->present.outline;
     const sl_seen_method *method = &app->seen.methods[app->method];
     bool *added = calloc(outline->room_count, sizeof *added);
     if (!added) return;
@@ -120,9 +120,9 @@ static void draw_columns(sl_app *app, const viewer *v, sl_box box, double high, 
 
 static void draw_count(sl_app *app, const viewer *v, sl_box box) {
     char text[160];
-    const uint32_t all = app->document.outline.side_count;
+    const uint32_t all = app->present.outline->side_count;
     uint32_t walls = 0;
-    for (uint32_t i = 0; i < all; i++) walls += !sl_side_is_portal(&app->document.outline.sides[i]);
+    for (uint32_t i = 0; i < all; i++) walls += !sl_side_is_portal(&app->present.outline->sides[i]);
     size_t count;
     snprintf(text, sizeof text, "%u of %u wall pieces drawn, %.1f %% culled by %s", v->pieces,
              walls, walls ? 100.0 * (walls - v->pieces) / walls : 0,

@@ -119,6 +119,7 @@ static void show_kept(sl_app *app, sl_kept *kept, bool over, const sl_frame *fra
     sl_kept now;
     memset(&now.key, 0, sizeof now.key);
     now.key.version = app->document.version;
+    now.key.touched = over ? app->document.touched : 0;
     now.key.show = scene_layers(app) | (app->show & SL_SHOW_SPLITS && !over ? 2048u : 0u);
     now.key.depth = app->show & SL_SHOW_SPLITS && !over ? app->split_depth : 0;
     now.key.dark = app->dark;

@@ -2,6 +2,7 @@
 #include "panes.h"
 
 #include "actions.h"
+#include "doors.h"
 #include "draw/text.h"
 #include "quiz.h"
 #include "sliders.h"
@@ -259,7 +260,14 @@ static void draw_words(sl_app *app, column *c) {
     sl_point at = app->eye.at;
     const bool over = sl_box_has(l.plan[0], app->pointer);
     if (over) at = sl_camera_point(&app->camera, l.plan[0], app->pointer);
-    sl_pane_describe(app, at, text, sizeof text);
+    const uint32_t door = over ? sl_door_at(app, at) : UINT32_MAX;
+    if (door != UINT32_MAX)
+        snprintf(text, sizeof text, "Door %s, which is %s: a click %s it.",
+                 app->document.map.doors[door].name,
+                 app->document.map.doors[door].open ? "open" : "shut",
+                 app->document.map.doors[door].open ? "shuts" : "opens");
+    else
+        sl_pane_describe(app, at, text, sizeof text);
     heading(app, c, over ? "Under the pointer" : "Under the eye", NULL);
     c->y = sl_ui_paragraph(&app->ui, c->left, c->y + 0.7 * app->ui.text, c->right - c->left, 0.95,
                            app->ui.palette.ink, text);

@@ -5,6 +5,7 @@
 #include "sightline/solvers.h"
 
 #include <stdio.h>
+#include <string.h>
 
 /// A hidden pair can take a search of all that is seen.
 #define TESTS_MOST 200000
@@ -25,7 +26,7 @@ void sl_quiz_explain(sl_app *app, uint32_t from, uint32_t to) {
     app->quiz.to = to;
     app->quiz.asked = true;
     const sl_status status =
-        sl_explain(app->context, &d->baked->space, &options, from, to, &app->quiz.explanation);
+        sl_explain(app->context, app->present.space, &options, from, to, &app->quiz.explanation);
     app->quiz.answered = status == SL_OK;
     sl_app_check(app, status);
 }
@@ -49,7 +50,7 @@ void sl_quiz_ask(sl_app *app) {
         for (uint32_t i = 0; i < space->cells[from].exit_count; i++)
             neighbours |= space->exits[space->cells[from].first_exit + i].cell == to;
         if (neighbours && attempt < 3000) continue;
-        if (sl_pvs_sees(&d->baked->visibility.pvs, from, to) == wanted || attempt > 2000) break;
+        if (sl_present_sees(&app->present, d, from, to) == wanted || attempt > 2000) break;
     }
     app->quiz.random = random.state;
     app->quiz.from = from;
@@ -60,7 +61,7 @@ void sl_quiz_ask(sl_app *app) {
 void sl_quiz_answer(sl_app *app, bool seen) {
     sl_quiz *q = &app->quiz;
     if (!q->asked || q->answered) return;
-    const bool is_seen = sl_pvs_sees(&app->document.baked->visibility.pvs, q->from, q->to);
+    const bool is_seen = sl_present_sees(&app->present, &app->document, q->from, q->to);
     sl_quiz_explain(app, q->from, q->to);
     q->right = is_seen == seen;
     q->asked_count++;
@@ -71,9 +72,22 @@ static const sl_sequence *sequence_of(const sl_explanation *e) {
     return e->verdict != SL_HIDDEN ? &e->sequence : e->miss_count ? &e->misses[0].sequence : NULL;
 }
 
-void sl_quiz_words(const sl_app *app, char *text, size_t room) {
+/// What the map calls for can tell otherwise than the portals that are passed.
+static const char *words_of_effects(const sl_app *app) {
     const sl_explanation *e = &app->quiz.explanation;
-    const sl_space *space = &app->document.baked->space;
+    const sl_document *d = &app->document;
+    const sl_visibility *v = &d->baked->visibility;
+    if (!d->has_visibility || !sl_plan_make(&d->map).effects || !e->complete) return "";
+    if (v->mirrored.cell_count && sl_pvs_sees(&v->mirrored, e->from, e->to))
+        return " It is seen by mirror.";
+    const bool sees = sl_present_sees(&app->present, d, e->from, e->to);
+    if (e->seen && !sees) return " But glass is dark that way, or it is out of the view's range.";
+    return !e->seen && sees ? " From elsewhere in its cell glass lets it through." : "";
+}
+
+static void write_words(const sl_app *app, char *text, size_t room) {
+    const sl_explanation *e = &app->quiz.explanation;
+    const sl_space *space = app->present.space;
     const sl_sequence *sequence = sequence_of(e);
     if (e->from == e->to)
         snprintf(text, room, "A cell sees itself: it is convex, and no wall is inside it.");
@@ -101,6 +115,12 @@ void sl_quiz_words(const sl_app *app, char *text, size_t room) {
                  sl_sequence_reason(space, sequence));
 }
 
+void sl_quiz_words(const sl_app *app, char *text, size_t room) {
+    write_words(app, text, room);
+    const size_t used = strlen(text);
+    snprintf(text + used, room - used, "%s", words_of_effects(app));
+}
+
 // --- drawing
 
 void sl_quiz_draw_below(sl_app *app, const sl_frame *frame) {
@@ -117,7 +137,7 @@ void sl_quiz_draw_above(sl_app *app, const sl_frame *frame) {
     if (!q->asked || !q->answered) return;
     sl_portal_ends ends[SL_DUAL_PORTALS_MOST] = {0};
     const sl_sequence *sequence = sequence_of(&q->explanation);
-    const sl_exit *exits = app->document.baked->space.exits;
+    const sl_exit *exits = app->present.space->exits;
     uint32_t count = 0;
     for (; sequence && count < sequence->exit_count && count < SL_DUAL_PORTALS_MOST; count++) {
         const sl_exit *exit = &exits[sequence->exits[count]];

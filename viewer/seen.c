@@ -48,23 +48,22 @@ static void sum_up(const sl_document *document, const uint64_t *cells, uint32_t 
 }
 
 static void look(sl_context *context, sl_seen_method *m, const sl_eye_method *method,
-                 const sl_document *document, const sl_view *view) {
+                 const sl_document *document, sl_eye_search *search, const sl_view *view) {
     const double before = sl_clock_seconds();
-    m->known = method->cull(context, document->search, view, m->cells, &m->account) == SL_OK;
+    m->known = method->cull(context, search, view, m->cells, &m->account) == SL_OK;
     const double seconds = sl_clock_seconds() - before;
     m->seconds = m->seconds > 0 ? 0.9 * m->seconds + 0.1 * seconds : seconds;
     if (!m->known) memset(m->cells, 0, sl_eye_words(&document->baked->space) * sizeof *m->cells);
     sum_up(document, m->cells, &m->count, &m->area);
 }
 
-static void take_pvs(sl_seen *seen, const sl_document *document, sl_point eye) {
+static void take_pvs(sl_seen *seen, const sl_document *document, const sl_present *present,
+                     sl_point eye) {
     const sl_space *space = &document->baked->space;
-    const sl_pvs *pvs = &document->baked->visibility.pvs;
     memset(seen->pvs, 0, sl_eye_words(space) * sizeof *seen->pvs);
     seen->cell = sl_space_locate(space, eye);
-    if (seen->cell != SL_NO_CELL && document->has_visibility && pvs->cell_count)
-        for (sl_pvs_run r = sl_pvs_begin(pvs, seen->cell); sl_pvs_next(&r);)
-            for (uint32_t cell = r.first; cell < r.end; cell++) sl_bits_add(seen->pvs, cell);
+    if (seen->cell != SL_NO_CELL && document->has_visibility)
+        sl_present_add_row(present, document, seen->cell, seen->pvs);
     sum_up(document, seen->pvs, &seen->pvs_count, &seen->pvs_area);
 }
 
@@ -75,27 +74,28 @@ bool sl_seen_same_view(const sl_view *a, const sl_view *b) {
 }
 
 sl_status sl_seen_update(sl_context *context, sl_seen *seen, const sl_document *document,
-                         const sl_view *view) {
-    if (!document->baked || !document->search) {
+                         const sl_present *present, const sl_view *view) {
+    const double range = document->map.range;
+    if (!document->baked || !present->search) {
         seen->valid = false;
         return SL_OK;
     }
-    if (seen->version != document->version || !seen->pvs) {
+    if (seen->version != present->version || !seen->pvs) {
         seen->valid = false;
         SL_TRY(make_sets(context, seen, &document->baked->space));
     }
-    if (seen->valid && sl_seen_same_view(&seen->view, view)) return SL_OK;
-    seen->version = document->version;
+    if (seen->valid && seen->range == range && sl_seen_same_view(&seen->view, view)) return SL_OK;
+    seen->version = present->version;
     seen->view = *view;
+    seen->range = range;
     seen->valid = true;
-    take_pvs(seen, document, view->eye);
+    take_pvs(seen, document, present, view->eye);
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
     for (size_t i = 0; i < count && i < SL_SEEN_MOST; i++)
-        look(context, &seen->methods[i], &methods[i], document, view);
+        look(context, &seen->methods[i], &methods[i], document, present->search, view);
     const double before = sl_clock_seconds();
-    const sl_status status =
-        sl_region_make(context, &document->outline, view, document->map.range, &seen->region);
+    const sl_status status = sl_region_make(context, present->outline, view, range, &seen->region);
     const double seconds = sl_clock_seconds() - before;
     seen->region_seconds =
         seen->region_seconds > 0 ? 0.9 * seen->region_seconds + 0.1 * seconds : seconds;

@@ -2,7 +2,7 @@
 #ifndef VIEWER_SEEN_H
 #define VIEWER_SEEN_H
 
-#include "document.h"
+#include "present.h"
 
 enum { SL_SEEN_MOST = 16 };
 
@@ -16,7 +16,7 @@ typedef struct sl_seen_method {
 
 /// Zeroed to start.
 typedef struct sl_seen {
-    uint32_t version; ///< of the document that it is of
+    uint32_t version; ///< of what is present that it is of
     sl_view view;
     bool valid;
     sl_seen_method methods[SL_SEEN_MOST];
@@ -28,9 +28,9 @@ typedef struct sl_seen {
     double range;
 } sl_seen;
 
-/// Looks again where the view or the document has changed.
+/// Looks again where the view, the range or what is present has changed.
 sl_status sl_seen_update(sl_context *context, sl_seen *seen, const sl_document *document,
-                         const sl_view *view);
+                         const sl_present *present, const sl_view *view);
 /// Whether two views are one.
 bool sl_seen_same_view(const sl_view *a, const sl_view *b);
 void sl_seen_destroy(sl_context *context, sl_seen *seen);

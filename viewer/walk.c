@@ -34,7 +34,7 @@ static uint32_t first_wall(const sl_space *space, sl_point from, sl_point to) {
 /// Moves as far as that where nothing stops it; else *wall is what does (wall_count: the map's
 /// border).
 static bool try_move(sl_app *app, double dx, double dy, double body, uint32_t *wall) {
-    const sl_space *space = &app->document.baked->space;
+    const sl_space *space = app->present.space;
     const double length = hypot(dx, dy);
     *wall = space->wall_count;
     if (!(length > 0)) return false;
@@ -51,7 +51,7 @@ static bool try_move(sl_app *app, double dx, double dy, double body, uint32_t *w
 
 /// What a wall leaves of a step: the part along it.
 static void slide(sl_app *app, double dx, double dy, double body, uint32_t wall) {
-    const sl_space *space = &app->document.baked->space;
+    const sl_space *space = app->present.space;
     if (wall >= space->wall_count) return;
     const sl_wall *w = &space->walls[wall];
     const double x = w->b.x - w->a.x, y = w->b.y - w->a.y, square = x * x + y * y;
@@ -61,7 +61,7 @@ static void slide(sl_app *app, double dx, double dy, double body, uint32_t wall)
 }
 
 void sl_walk(sl_app *app, double seconds) {
-    if (!app->document.baked || !app->held) return;
+    if (!app->present.space || !app->held) return;
     const unsigned held = app->held;
     const double turn = ((held & SL_HOLD_TURN_LEFT) != 0) - ((held & SL_HOLD_TURN_RIGHT) != 0);
     app->eye.heading = fmod(app->eye.heading + 120 * turn * seconds + 360, 360);

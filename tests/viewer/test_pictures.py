@@ -111,6 +111,49 @@ def check_undo(viewer, folder):
         viewer.check(share > TOLERANCE, f"{one} and {other} are alike: {share:.2%}")
 
 
+EYES = ["5 5 0", "15 5 0", "25 5 180", "5 15 0", "15 15 90", "25 15 180"]
+
+
+def walled(plan, shut):
+    """A map with walls in place of some doors, the others open, and a start in each room."""
+    lines = []
+    for line in plan.splitlines():
+        words = line.split()
+        if words and words[0] == "door":
+            ends = " ".join(words[2:6])
+            line = f"wall {ends}" if words[1] in shut else f"door {words[1]} {ends} open"
+        lines.append(line)
+    return "\n".join(lines + [f"start {eye}" for eye in EYES]) + "\n"
+
+
+def check_doors(viewer, folder):
+    """Doors turned by hand, against maps with walls in place of those that are shut."""
+    plan = (viewer.root / "maps/effects/doors.map").read_text()
+    before = SIZE + "key Tab\nkey C\nkey P\nkey V\nkey J\nkey F8\n"
+    # As the map begins; two turned by clicks; the one nearest to the eye turned back; the clicks
+    # undone, and one redone.
+    states = {"begin": (["north-east"], ""),
+              "clicked": (["east"], "click 420 342\nclick 420 142\n"),
+              "nearest": ([], "eye 19 5 0\nkey N\n"),
+              "undone": (["north-east", "east"], "key Ctrl+Z\nkey Ctrl+Z\n"),
+              "redone": (["east"], "key Ctrl+Y\n")}
+
+    def looks(name):
+        return "".join(f"eye {eye}\nsave {name}{i}.png\n" for i, eye in enumerate(EYES))
+
+    viewer.script(folder, "effects/doors.map",
+                  before + "".join(done + looks(name) for name, (_, done) in states.items()))
+    for name, (shut, _) in states.items():
+        path = folder / f"{name}.map"
+        path.write_text(walled(plan, shut))
+        viewer.script(folder, path, before + looks(f"{name}-walled"))
+        for i in range(len(EYES)):
+            share = viewer.difference(folder / f"{name}{i}.png", folder / f"{name}-walled{i}.png")
+            viewer.check(share < TOLERANCE, f"doors: {name}, eye {i} is {share:.2%} off")
+    share = viewer.difference(folder / "begin0.png", folder / "clicked0.png")
+    viewer.check(share > TOLERANCE, f"doors: a click changes only {share:.2%}")
+
+
 def check_views(viewer, folder):
     """A merge and its way back, the largest cost and the next one."""
     steps = {"cut": "key F5", "fewer": "key Ctrl+Left", "again": "key Ctrl+Right",
@@ -142,6 +185,7 @@ def main():
         check_files(viewer, folder)
         check_undo(viewer, folder)
         check_views(viewer, folder)
+        check_doors(viewer, folder)
     viewer.end()
 
 

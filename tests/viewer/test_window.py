@@ -45,6 +45,9 @@ STEPS = [
     ("oblique_learn", ["F2", "u", "Right", "Right"], "key F2\nkey U\nkey Right\nkey Right\n"),
     ("oblique_wall", ["F3", ("drag", 330, 440, 420, 470)], "key F3\ndrag 330 440 420 470\n"),
     ("oblique_undone", ["ctrl+z"], "key Ctrl+Z\n"),
+    ("doors", ["F1", ("drop", "effects/doors.map")], "key F1\nopen {maps}/effects/doors.map\n"),
+    ("door_shut", ["n"], "key N\n"),
+    ("door_undone", ["ctrl+z"], "key Ctrl+Z\n"),
 ]
 
 

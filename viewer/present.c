@@ -1,0 +1,231 @@
+#include "present.h"
+
+#include "base/base.h"
+#include "cell_to_cell/pvs_rows.h"
+#include "geometry/orient.h"
+
+#include <string.h>
+
+typedef struct sl_present_own {
+    sl_space space;
+    sl_outline outline;
+    sl_visibility row; ///< of one cell
+    uint32_t cell;
+    sl_eye_search *search;
+} own;
+
+// --- what is shut
+
+/// Going from its a to its b, glass is seen through from its right to its left. A straight line
+/// that crosses it comes from the side that the eye is on: seen from its left it is a wall.
+static bool find_shut(const sl_map *map, sl_point eye, bool *shut) {
+    bool any = false;
+    for (size_t i = 0; i < map->door_count; i++) any |= shut[i] = !map->doors[i].open;
+    for (size_t i = 0; i < map->oneway_count; i++) {
+        const sl_segment glass = map->oneways[i].segment;
+        any |= shut[map->door_count + i] = sl_orient(glass.a, glass.b, eye) > 0;
+    }
+    return any;
+}
+
+/// The space with walls in what is shut. To the library dark glass is one more door.
+static sl_status make_space(sl_context *context, const sl_present *present,
+                            const sl_document *document, sl_space *out) {
+    sl_space from = document->baked->space;
+    sl_seam *seams = sl_alloc_array(context, from.seam_count, sizeof *seams);
+    if (!seams) return SL_NO_MEMORY;
+    if (from.seam_count) memcpy(seams, from.seams, from.seam_count * sizeof *seams);
+    for (uint32_t i = 0; i < from.seam_count; i++) {
+        if (seams[i].kind != SL_SEAM_ONEWAY) continue;
+        seams[i].kind = SL_SEAM_DOOR;
+        seams[i].number += (uint32_t)document->map.door_count;
+    }
+    from.seams = seams;
+    const sl_passage passage = {.shut = present->shut};
+    const sl_status status = sl_passage_make(context, &from, &passage, NULL, out);
+    sl_free(context, seams);
+    return status;
+}
+
+// --- what it is made of
+
+static void drop_own(sl_context *context, sl_present *present) {
+    own *o = present->own;
+    if (!o) return;
+    sl_eye_search_destroy(context, o->search);
+    sl_visibility_destroy(context, &o->row);
+    sl_outline_destroy(context, &o->outline);
+    sl_space_destroy(context, &o->space);
+    sl_free(context, o);
+    present->own = NULL;
+}
+
+void sl_present_drop(sl_context *context, sl_present *present) {
+    drop_own(context, present);
+    sl_free(context, present->shut);
+    sl_free(context, present->wanted);
+    *present = (sl_present){.version = present->version + 1};
+}
+
+void sl_present_add_row(const sl_present *present, const sl_document *document, uint32_t cell,
+                        sl_bits *set) {
+    const sl_visibility *v = &document->baked->visibility;
+    if (cell >= v->pvs.cell_count) return;
+    sl_row_add_to(&v->pvs, cell, set);
+    if (!v->doors.cell_count || !present->shut) return;
+    for (sl_door_pairs p = sl_door_pairs_begin(&v->doors, cell);
+         sl_door_pairs_next(&p, present->shut);)
+        if (!p.open) set[p.cell / 64] &= ~((sl_bits)1 << p.cell % 64);
+}
+
+bool sl_present_sees(const sl_present *present, const sl_document *document, uint32_t from,
+                     uint32_t to) {
+    const sl_visibility *v = &document->baked->visibility;
+    if (!sl_pvs_sees(&v->pvs, from, to)) return false;
+    return !v->doors.cell_count || !present->shut ||
+           sl_door_sets_open(&v->doors, from, to, present->shut);
+}
+
+/// The visible set of the eye's cell, as rows of which the others are empty.
+static sl_status make_row(sl_context *context, const sl_present *present,
+                          const sl_document *document, uint32_t cell, sl_pvs *out) {
+    const uint32_t count = document->baked->space.cell_count;
+    sl_row_bytes *rows = sl_alloc_array(context, count, sizeof *rows);
+    sl_bits *set = sl_alloc_array(context, sl_bits_words(count), sizeof *set);
+    sl_status status = rows && set ? SL_OK : SL_NO_MEMORY;
+    if (status == SL_OK && cell != SL_NO_CELL) {
+        sl_present_add_row(present, document, cell, set);
+        status = sl_row_append(context, &rows[cell], set, count);
+    }
+    if (status == SL_OK)
+        status = sl_pvs_join(context, rows, count, out);
+    else if (rows && cell != SL_NO_CELL)
+        sl_free(context, rows[cell].items);
+    sl_free(context, rows);
+    sl_free(context, set);
+    return status;
+}
+
+/// The search looks the row up again in each query.
+static sl_status follow_eye(sl_context *context, sl_present *present, const sl_document *document,
+                            sl_point eye) {
+    own *o = present->own;
+    const uint32_t cell = sl_space_locate(&o->space, eye);
+    if (o->search && (o->cell == cell || !document->has_visibility)) return SL_OK;
+    sl_pvs row = {0};
+    if (document->has_visibility) SL_TRY(make_row(context, present, document, cell, &row));
+    sl_pvs_destroy(context, &o->row.pvs);
+    o->row.sight = document->baked->visibility.sight;
+    o->row.pvs = row;
+    o->cell = cell;
+    if (o->search) return SL_OK;
+    return sl_eye_search_create(context, &o->space, &o->row, &o->search);
+}
+
+static sl_status make_own(sl_context *context, sl_present *present, const sl_document *document) {
+    own *o = present->own = sl_alloc_array(context, 1, sizeof *o);
+    if (!o) return SL_NO_MEMORY;
+    SL_TRY(make_space(context, present, document, &o->space));
+    return sl_outline_make(context, &o->space, &o->outline);
+}
+
+/// Begins anew with a document, or one that has changed.
+static sl_status begin(sl_context *context, sl_present *present, const sl_document *document) {
+    sl_present_drop(context, present);
+    const size_t count = document->map.door_count + document->map.oneway_count;
+    present->document_version = document->version;
+    present->shut_count = count;
+    if (!count) return SL_OK;
+    present->shut = sl_alloc_array(context, count, sizeof *present->shut);
+    present->wanted = sl_alloc_array(context, count, sizeof *present->wanted);
+    return present->shut && present->wanted ? SL_OK : SL_NO_MEMORY;
+}
+
+static sl_status update(sl_context *context, sl_present *present, const sl_document *document,
+                        sl_point eye) {
+    const bool fresh = !present->space || present->document_version != document->version;
+    if (fresh) SL_TRY(begin(context, present, document));
+    const size_t count = present->shut_count;
+    const bool any = count && find_shut(&document->map, eye, present->wanted);
+    const size_t size = count * sizeof *present->shut;
+    if (count && (fresh || memcmp(present->shut, present->wanted, size) != 0)) {
+        memcpy(present->shut, present->wanted, size);
+        present->version++;
+        drop_own(context, present);
+        if (any) SL_TRY(make_own(context, present, document));
+    }
+    if (present->own) SL_TRY(follow_eye(context, present, document, eye));
+    const own *o = present->own;
+    present->space = o ? &o->space : &document->baked->space;
+    present->outline = o ? &o->outline : &document->outline;
+    present->search = o ? o->search : document->search;
+    return SL_OK;
+}
+
+sl_status sl_present_update(sl_context *context, sl_present *present, const sl_document *document,
+                            sl_point eye) {
+    if (!document->baked) {
+        if (present->space) sl_present_drop(context, present);
+        return SL_OK;
+    }
+    const sl_status status = update(context, present, document, eye);
+    if (status != SL_OK) sl_present_drop(context, present);
+    return status;
+}
+
+// --- the stab tree
+
+static bool passes_shut(const sl_present *present, const sl_space *space, uint32_t exit) {
+    size_t count;
+    const sl_seam_portal *on = sl_space_seams_of(space, space->exits[exit].portal, &count);
+    for (size_t i = 0; i < count; i++) {
+        const sl_seam *seam = &space->seams[on[i].seam];
+        if (seam->kind == SL_SEAM_DOOR && present->shut[seam->number]) return true;
+    }
+    return false;
+}
+
+/// Keeps nodes whose parents are kept; `numbers` gets the new number of each.
+static uint32_t keep_nodes(const sl_present *present, const sl_space *space,
+                           const sl_stab_node *from, uint32_t count, uint32_t *numbers,
+                           sl_stab_node *to) {
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        numbers[i] = UINT32_MAX;
+        const bool root = from[i].exit == UINT32_MAX;
+        if (!root &&
+            (numbers[from[i].parent] == UINT32_MAX || passes_shut(present, space, from[i].exit)))
+            continue;
+        to[kept] = from[i];
+        to[kept].parent = root ? kept : numbers[from[i].parent];
+        numbers[i] = kept++;
+    }
+    return kept;
+}
+
+sl_status sl_present_tree(sl_context *context, const sl_present *present,
+                          const sl_document *document, uint32_t cell, sl_stab_trees *out) {
+    const sl_stab_trees *all = &document->baked->visibility.trees;
+    const uint32_t cells = document->baked->space.cell_count;
+    if (cell >= all->cell_count) {
+        *out = (sl_stab_trees){0};
+        return SL_OK;
+    }
+    const uint32_t count = (uint32_t)(all->offsets[cell + 1] - all->offsets[cell]);
+    sl_stab_trees tree = {.cell_count = cells};
+    uint32_t *numbers = sl_alloc_array(context, count, sizeof *numbers);
+    tree.offsets = sl_alloc_array(context, (size_t)cells + 1, sizeof *tree.offsets);
+    tree.nodes = sl_alloc_array(context, count, sizeof *tree.nodes);
+    if (!numbers || !tree.offsets || !tree.nodes) {
+        sl_free(context, numbers);
+        sl_free(context, tree.offsets);
+        sl_free(context, tree.nodes);
+        return SL_NO_MEMORY;
+    }
+    const uint32_t kept = keep_nodes(present, &document->baked->space,
+                                     all->nodes + all->offsets[cell], count, numbers, tree.nodes);
+    for (uint32_t i = cell + 1; i <= cells; i++) tree.offsets[i] = kept;
+    sl_free(context, numbers);
+    *out = tree;
+    return SL_OK;
+}

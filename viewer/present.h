@@ -1,0 +1,42 @@
+/// The document as sight finds it for the time being: doors that are shut, and glass that is dark
+/// from where the eye is, stand as walls. Where none does it is the document itself, and costs
+/// nothing.
+#ifndef VIEWER_PRESENT_H
+#define VIEWER_PRESENT_H
+
+#include "base/bits.h"
+#include "document.h"
+
+/// Zeroed to start. The pointers are NULL while nothing is open.
+typedef struct sl_present {
+    uint32_t version;      ///< grows with every change, the document's among them
+    const sl_space *space; ///< its cells and exits' cells are the document's; exits are not
+    const sl_outline *outline;
+    sl_eye_search *search; ///< with the eye's cell's visible set alone, where something is shut
+    bool *shut;            ///< by door, then by glass; NULL where the map has neither
+    size_t shut_count;
+    struct sl_present_own *own; ///< what is made for it; NULL while it is the document itself
+    bool *wanted;               ///< scratch, as `shut`
+    uint32_t document_version;
+} sl_present;
+
+/// Follows the document and the eye. Doors are as the document's map has them.
+sl_status sl_present_update(sl_context *context, sl_present *present, const sl_document *document,
+                            sl_point eye);
+/// Forgets all but its version.
+void sl_present_drop(sl_context *context, sl_present *present);
+
+/// Whether cell `from` sees cell `to`: as it was baked, with doors as they are.
+bool sl_present_sees(const sl_present *present, const sl_document *document, uint32_t from,
+                     uint32_t to);
+
+/// What a cell sees, likewise, added to a set of cells.
+void sl_present_add_row(const sl_present *present, const sl_document *document, uint32_t cell,
+                        sl_bits *set);
+
+/// A cell's stab tree without the sequences through doors that are shut; other trees are empty. Of
+/// the document's space. `out` is untouched on failure.
+sl_status sl_present_tree(sl_context *context, const sl_present *present,
+                          const sl_document *document, uint32_t cell, sl_stab_trees *out);
+
+#endif
