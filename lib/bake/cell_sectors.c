@@ -1,6 +1,7 @@
 #include "bake/cell_sectors.h"
 
 #include "geometry/orient.h"
+#include "space/box_tree.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -16,6 +17,8 @@ typedef struct cell_view {
 typedef struct finder {
     sl_context *context;
     const sl_doom_level *level;
+    sl_box_tree tree;         ///< of the lines
+    sl_box_list nearby;       ///< lines, of the current question
     double slack;             ///< what rounding may have moved a corner by
     bool is_thin;             ///< the current cell lies on a line: it has no sector of its own
     SL_ARRAY(uint32_t) found; ///< of all cells so far
@@ -45,13 +48,6 @@ static sl_status add(finder *find, uint32_t sector) {
     SL_TRY(SL_ARRAY_ROOM(find->context, &find->found, 1));
     find->found.items[find->found.count++] = sector;
     return SL_OK;
-}
-
-static bool boxes_meet(const cell_view *view, const sl_doom_line *line) {
-    const sl_point a = line->from, b = line->to;
-    const sl_box *box = &view->box;
-    return (a.x <= box->max.x || b.x <= box->max.x) && (a.x >= box->min.x || b.x >= box->min.x) &&
-           (a.y <= box->max.y || b.y <= box->max.y) && (a.y >= box->min.y || b.y >= box->min.y);
 }
 
 /// Whether an edge of the cell, to the left of which the cell lies, has all of the line at its
@@ -88,7 +84,6 @@ static void measure_depths(const cell_view *view, const sl_doom_line *line, doub
 
 /// Adds what a line tells of the sectors within the cell.
 static sl_status ask_line(finder *find, const cell_view *view, const sl_doom_line *line) {
-    if (!boxes_meet(view, line)) return SL_OK;
     double left, right;
     measure_depths(view, line, &left, &right);
     find->is_thin |= left <= find->slack && right <= find->slack;
@@ -130,10 +125,12 @@ static bool is_before(const hit *a, const hit *b, double point_x) {
 }
 
 /// The sector that the nearest line to the right of a point says that the point is in.
-static uint32_t sector_left_of_nearest(const sl_doom_level *level, sl_point point) {
+static sl_status find_left_of_nearest(finder *find, sl_point point, uint32_t *sector) {
+    const sl_box ray = {{point.x - find->slack, point.y}, {HUGE_VAL, point.y}};
+    SL_TRY(sl_box_tree_find(find->context, &find->tree, &ray, &find->nearby));
     hit nearest = {.x = HUGE_VAL, .sector = SL_NO_SECTOR};
-    for (size_t i = 0; i < level->line_count; i++) {
-        const sl_doom_line *line = &level->lines[i];
+    for (size_t i = 0; i < find->nearby.count; i++) {
+        const sl_doom_line *line = &find->level->lines[find->nearby.items[i]];
         if ((line->from.y <= point.y) == (line->to.y <= point.y)) continue;
         const double slope = (line->to.x - line->from.x) / (line->to.y - line->from.y);
         const double x = line->from.x + (point.y - line->from.y) * slope;
@@ -142,7 +139,8 @@ static uint32_t sector_left_of_nearest(const sl_doom_level *level, sl_point poin
         const hit met = {x, slope, side > 0 ? line->left : line->right};
         if (side != 0 && is_before(&met, &nearest, point.x)) nearest = met;
     }
-    return nearest.sector;
+    *sector = nearest.sector;
+    return SL_OK;
 }
 
 static int compare_sectors(const void *left, const void *right) {
@@ -154,18 +152,34 @@ static sl_status find_cell(finder *find, const sl_space *space, uint32_t cell) {
     const cell_view view = view_of(space, cell);
     find->begin = find->found.count;
     find->is_thin = false;
-    for (size_t i = 0; i < find->level->line_count; i++)
-        SL_TRY(ask_line(find, &view, &find->level->lines[i]));
-    if (find->is_thin)
+    SL_TRY(sl_box_tree_find(find->context, &find->tree, &view.box, &find->nearby));
+    for (size_t i = 0; i < find->nearby.count; i++)
+        SL_TRY(ask_line(find, &view, &find->level->lines[find->nearby.items[i]]));
+    if (find->is_thin) {
         find->found.count = find->begin;
-    else
-        SL_TRY(add(find, sector_left_of_nearest(find->level, view.middle)));
+    } else {
+        uint32_t sector;
+        SL_TRY(find_left_of_nearest(find, view.middle, &sector));
+        SL_TRY(add(find, sector));
+    }
     if (find->found.count > UINT32_MAX)
         return sl_fail(find->context, SL_UNSUPPORTED,
                        "more cells with sectors than can be counted");
     const size_t count = find->found.count - find->begin;
     if (count > 1) qsort(find->found.items + find->begin, count, sizeof(uint32_t), compare_sectors);
     return SL_OK;
+}
+
+static sl_status make_tree(finder *find) {
+    const sl_doom_level *level = find->level;
+    sl_box *boxes = sl_alloc_array(find->context, level->line_count, sizeof *boxes);
+    if (!boxes) return SL_NO_MEMORY;
+    for (size_t i = 0; i < level->line_count; i++)
+        boxes[i] = sl_box_around(level->lines[i].from, level->lines[i].to);
+    const sl_status status =
+        sl_box_tree_create(find->context, boxes, level->line_count, &find->tree);
+    sl_free(find->context, boxes);
+    return status;
 }
 
 sl_status sl_cell_sectors_find(sl_context *context, const sl_space *space,
@@ -176,13 +190,15 @@ sl_status sl_cell_sectors_find(sl_context *context, const sl_space *space,
                    .slack = 0x1p-24 * fmax(b->max.x - b->min.x, b->max.y - b->min.y)};
     uint32_t *first = sl_alloc_array(context, (size_t)space->cell_count + 1, sizeof *first);
     if (!first) return SL_NO_MEMORY;
-    sl_status status = SL_OK;
+    sl_status status = make_tree(&find);
     for (uint32_t cell = 0; cell < space->cell_count && status == SL_OK; cell++) {
         if (cell % 256 == 0) sl_report(context, "sectors", "cells", cell, space->cell_count);
         status = sl_check_cancelled(context);
         if (status == SL_OK) status = find_cell(&find, space, cell);
         first[cell + 1] = (uint32_t)find.found.count;
     }
+    sl_box_tree_destroy(context, &find.tree);
+    sl_free(context, find.nearby.items);
     sl_cell_sectors made = {.first = first, .sectors = find.found.items};
     if (status == SL_OK)
         *out = made;

@@ -191,8 +191,11 @@ double sl_wall_depth(const void *first, size_t stride, size_t count, const sl_wa
 /// What rounding may have done to a place, at most.
 double sl_bsp_slack(const sl_box *bounds);
 
+/// Makes walls of what a wall covers of the portals of a face that it is in line with; a part of a
+/// seam marks them (bsp_walls.c).
+sl_status sl_bsp_close_portals(sl_bsp *bsp, uint32_t face, uint32_t wall);
 /// Gives all faces the parts of the seams that they have inside, when the walls are in, and marks
-/// the portals on parts (bsp_walls.c).
+/// the portals on parts (bsp_seams.c).
 sl_status sl_bsp_deal_seams(sl_bsp *bsp, size_t count);
 
 /// The side of a face that runs from one point to another and leads to `beyond`; SIZE_MAX for none.

@@ -3,9 +3,6 @@
 /// of its face, as a portal was moved, goes to the faces around.
 #include "space/bsp.h"
 
-#include <math.h>
-#include <string.h>
-
 bool sl_bsp_has_wall(const sl_bsp_face *face, uint32_t wall) {
     for (size_t i = 0; i < face->walls.count; i++)
         if (face->walls.items[i] == wall) return true;
@@ -76,7 +73,7 @@ static sl_status close_portal(sl_bsp *bsp, uint32_t number, size_t side, uint32_
     return SL_OK;
 }
 
-static sl_status close_portals(sl_bsp *bsp, uint32_t number, uint32_t wall_number) {
+sl_status sl_bsp_close_portals(sl_bsp *bsp, uint32_t number, uint32_t wall_number) {
     const sl_wall *wall = &bsp->walls[wall_number];
     for (size_t i = 0; i < bsp->faces.items[number].sides.count; i++) {
         const sl_bsp_sides *sides = &bsp->faces.items[number].sides;
@@ -122,7 +119,7 @@ static sl_status deal(sl_bsp *bsp, uint32_t passage, uint32_t number) {
             taken = true;
         }
         if (along == SIZE_MAX) continue;
-        SL_TRY(close_portals(bsp, piece->face, number));
+        SL_TRY(sl_bsp_close_portals(bsp, piece->face, number));
         taken = true;
     }
     return taken ? SL_OK : deal_around(bsp, passage, number);
@@ -134,47 +131,4 @@ sl_status sl_bsp_deal_walls(sl_bsp *bsp) {
         for (size_t k = 0; k < walls->count; k++) SL_TRY(deal(bsp, i, walls->items[k]));
     }
     return SL_OK;
-}
-
-// --- seams
-
-/// A box around a face or a seam: what does not meet it is soon told.
-static sl_box box_of(const sl_bsp_sides *sides) {
-    sl_box box = {sides->items[0].from, sides->items[0].from};
-    for (size_t i = 1; i < sides->count; i++) {
-        const sl_point p = sides->items[i].from;
-        box.min = (sl_point){fmin(box.min.x, p.x), fmin(box.min.y, p.y)};
-        box.max = (sl_point){fmax(box.max.x, p.x), fmax(box.max.y, p.y)};
-    }
-    return box;
-}
-
-static bool may_meet(const sl_box *box, const sl_wall *part) {
-    return fmax(part->a.x, part->b.x) >= box->min.x && fmin(part->a.x, part->b.x) <= box->max.x &&
-           fmax(part->a.y, part->b.y) >= box->min.y && fmin(part->a.y, part->b.y) <= box->max.y;
-}
-
-static sl_status deal_seam(sl_bsp *bsp, const sl_box *boxes, uint32_t number) {
-    for (uint32_t i = 0; i < bsp->faces.count; i++) {
-        if (!may_meet(&boxes[i], &bsp->walls[number])) continue;
-        size_t along;
-        if (sl_bsp_hits(&bsp->faces.items[i].sides, &bsp->walls[number], &along))
-            SL_TRY(sl_bsp_add_wall(bsp, i, number));
-        else if (along != SIZE_MAX)
-            SL_TRY(close_portals(bsp, i, number));
-    }
-    return SL_OK;
-}
-
-sl_status sl_bsp_deal_seams(sl_bsp *bsp, size_t count) {
-    sl_box *boxes = sl_alloc_array(bsp->context, bsp->faces.count, sizeof *boxes);
-    if (!boxes) return SL_NO_MEMORY;
-    for (size_t i = 0; i < bsp->faces.count; i++) boxes[i] = box_of(&bsp->faces.items[i].sides);
-    sl_status status = SL_OK;
-    for (uint32_t i = 0; i < count && status == SL_OK; i++) {
-        status = sl_check_cancelled(bsp->context);
-        if (status == SL_OK) status = deal_seam(bsp, boxes, bsp->wall_count + i);
-    }
-    sl_free(bsp->context, boxes);
-    return status;
 }

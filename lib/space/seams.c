@@ -1,6 +1,7 @@
 #include "space/seams.h"
 
 #include "geometry/orient.h"
+#include "space/box_tree.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -65,6 +66,8 @@ typedef struct parter {
     sl_context *context;
     stretch *seams;
     size_t count;
+    sl_box_tree tree;   ///< of the seams
+    sl_box_list nearby; ///< to the seam at hand
     SL_ARRAY(stretch) parts;
     SL_ARRAY(sl_point) cuts; ///< of the seam at hand
 } parter;
@@ -87,22 +90,14 @@ static sl_status add_part(parter *p, const stretch *seam, sl_point a, sl_point b
     return SL_OK;
 }
 
-/// Cuts a seam where others that are in line with it end. They are sorted by their lower x.
-static sl_status part_seam(parter *p, const stretch *seam, double widest) {
+/// Cuts a seam where others that are in line with it end.
+static sl_status part_seam(parter *p, const stretch *seam) {
+    const sl_box box = sl_box_around(seam->a, seam->b);
     p->cuts.count = 0;
-    size_t first = 0, end = p->count;
-    while (first < end) {
-        const size_t middle = first + (end - first) / 2;
-        if (p->seams[middle].a.x < seam->a.x - widest)
-            first = middle + 1;
-        else
-            end = middle;
-    }
-    for (size_t i = first; i < p->count && p->seams[i].a.x <= seam->b.x; i++) {
-        const stretch *other = &p->seams[i];
-        if (fmax(other->a.y, other->b.y) < fmin(seam->a.y, seam->b.y) ||
-            fmin(other->a.y, other->b.y) > fmax(seam->a.y, seam->b.y) ||
-            sl_orient(seam->a, seam->b, other->a) != 0 ||
+    SL_TRY(sl_box_tree_find(p->context, &p->tree, &box, &p->nearby));
+    for (size_t i = 0; i < p->nearby.count; i++) {
+        const stretch *other = &p->seams[p->nearby.items[i]];
+        if (sl_orient(seam->a, seam->b, other->a) != 0 ||
             sl_orient(seam->a, seam->b, other->b) != 0)
             continue;
         SL_TRY(add_cut(p, seam, other->a));
@@ -134,8 +129,16 @@ static sl_status group_parts(const parter *p, sl_seam_parts *out) {
     return SL_OK;
 }
 
+static sl_status make_tree(parter *p) {
+    sl_box *boxes = sl_alloc_array(p->context, p->count, sizeof *boxes);
+    if (!boxes) return SL_NO_MEMORY;
+    for (size_t i = 0; i < p->count; i++) boxes[i] = sl_box_around(p->seams[i].a, p->seams[i].b);
+    const sl_status status = sl_box_tree_create(p->context, boxes, p->count, &p->tree);
+    sl_free(p->context, boxes);
+    return status;
+}
+
 static sl_status part_all(parter *p, const sl_space *space, sl_seam_parts *out) {
-    double widest = 0;
     p->count = space->seam_count;
     p->seams = sl_alloc_array(p->context, p->count, sizeof *p->seams);
     if (!p->seams) return SL_NO_MEMORY;
@@ -143,14 +146,11 @@ static sl_status part_all(parter *p, const sl_space *space, sl_seam_parts *out) 
         const sl_segment at = space->seams[i].at;
         const bool along = compare_points(at.a, at.b) < 0;
         p->seams[i] = (stretch){along ? at.a : at.b, along ? at.b : at.a, {i, along}};
-        widest = fmax(widest, p->seams[i].b.x - p->seams[i].a.x);
     }
-    // Up by one, for the difference is rounded.
-    widest = nextafter(widest, INFINITY);
-    qsort(p->seams, p->count, sizeof *p->seams, compare_stretches);
+    SL_TRY(make_tree(p));
     for (size_t i = 0; i < p->count; i++) {
         if (i % 256 == 0) SL_TRY(sl_check_cancelled(p->context));
-        SL_TRY(part_seam(p, &p->seams[i], widest));
+        SL_TRY(part_seam(p, &p->seams[i]));
     }
     if (p->parts.count) qsort(p->parts.items, p->parts.count, sizeof(stretch), compare_stretches);
     return group_parts(p, out);
@@ -162,6 +162,8 @@ sl_status sl_seams_part(sl_context *context, const sl_space *space, sl_seam_part
     sl_free(context, p.seams);
     sl_free(context, p.parts.items);
     sl_free(context, p.cuts.items);
+    sl_box_tree_destroy(context, &p.tree);
+    sl_free(context, p.nearby.items);
     return status;
 }
 
