@@ -5,6 +5,7 @@
 #include "layers.h"
 #include "modes.h"
 #include "quiz.h"
+#include "range.h"
 #include "save.h"
 #include "shelf.h"
 #include "walk.h"
@@ -80,6 +81,14 @@ static bool is_maps(const sl_app *app) {
 }
 
 SWITCH(fly, eye.flies)
+
+static void range(sl_app *app) {
+    sl_range_toggle(app);
+}
+
+static bool is_range(const sl_app *app) {
+    return app->document.map.range > 0;
+}
 
 static void split_less(sl_app *app) {
     if (app->split_depth > 1) app->split_depth--;
@@ -386,6 +395,7 @@ static const sl_action actions[] = {
     {"home", "H", "Home", "back to the map's start", 0, 0, home, NULL},
     {"narrower", ",", NULL, "narrower view cone", 0, 0, narrower, NULL},
     {"wider", ".", NULL, "wider view cone", 0, 0, wider, NULL},
+    {"range", "Ctrl+R", "Range", "set a view range, or lift it", 0, 0, range, is_range},
     {"all_round", "/", NULL, "all round, or a cone", 0, 0, all_round, NULL},
 
     SL_LAYERS(LAYER_ROW){"split_less", "[", NULL, "splits less deep", 0, 0, split_less, NULL},

@@ -72,6 +72,11 @@ sl_status sl_document_rebuild(sl_context *context, sl_document *document) {
     return start(context, document, job);
 }
 
+bool sl_document_has_rows(const sl_document *document) {
+    const double now = document->map.range, baked = document->baked->map.range;
+    return document->has_visibility && (baked == 0 || (now > 0 && now <= baked));
+}
+
 void sl_document_touch(sl_document *document) {
     const sl_map *map = &document->map;
     document->touched++;

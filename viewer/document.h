@@ -63,6 +63,9 @@ sl_status sl_document_open(sl_context *context, sl_document *document,
 /// Starts to make space and visibility of the map as it is now.
 sl_status sl_document_rebuild(sl_context *context, sl_document *document);
 
+/// Whether what cells see is there, and holds all that they see with the map's range as it is now.
+bool sl_document_has_rows(const sl_document *document);
+
 /// What was changed in the map needs no new bake: shows it.
 void sl_document_touch(sl_document *document);
 

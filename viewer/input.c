@@ -53,14 +53,18 @@ static double slider_share(const sl_hit *hit, const sl_app *app, sl_point at) {
     return high > low ? fmin(fmax((at.x - low) / (high - low), 0), 1) : 0;
 }
 
+static const sl_slider *slider_of(const sl_hit *hit) {
+    size_t count;
+    return &sl_sliders(&count)[hit->value];
+}
+
 /// Sliders, the time line and the dual plane follow the pointer.
 static void follow(sl_app *app, const sl_hit *hit, sl_point at) {
     const double share = slider_share(hit, app, at);
     const size_t length = sl_lesson_length(&app->lesson);
-    size_t count;
     switch (hit->kind) {
     case SL_HIT_SLIDER:
-        sl_sliders(&count)[hit->value].set(app, share);
+        slider_of(hit)->set(app, share);
         break;
     case SL_HIT_TIME:
         if (length)
@@ -144,6 +148,7 @@ void sl_input_press(sl_app *app, sl_button button, sl_point at) {
     if (hit.kind != SL_HIT_PLAN) {
         if (button != SL_BUTTON_LEFT) return;
         drag->kind = SL_DRAG_HIT;
+        if (hit.kind == SL_HIT_SLIDER && slider_of(&hit)->begin) slider_of(&hit)->begin(app);
         click(app, &hit);
         follow(app, &hit, at);
         return;
@@ -220,6 +225,7 @@ void sl_input_release(sl_app *app, sl_point at) {
     app->drag = (sl_drag){0};
     app->pointer = at;
     if (!app->document.baked) return;
+    if (drag.hit.kind == SL_HIT_SLIDER && slider_of(&drag.hit)->end) slider_of(&drag.hit)->end(app);
     const sl_point now = to_map(app, drag.hit.value, at);
     if ((drag.kind == SL_DRAG_NEW_WALL || drag.kind == SL_DRAG_WALL) && drag.moved)
         finish_wall(app, &drag, now);

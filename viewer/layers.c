@@ -104,7 +104,7 @@ static sl_status make_tree_scene(sl_app *app, const sl_draw_options *options) {
 
 static bool make_tree(sl_app *app) {
     const uint32_t cell = app->seen.cell;
-    if (cell == SL_NO_CELL || !app->document.has_visibility) return false;
+    if (cell == SL_NO_CELL || !sl_document_has_rows(&app->document)) return false;
     if (app->tree.baked && app->tree_version == app->present.version &&
         app->tree.options.cell == cell && app->tree.options.dark == app->dark)
         return true;

@@ -5,6 +5,7 @@
 #include "layers.h"
 #include "panes.h"
 #include "quiz.h"
+#include "range.h"
 
 static void lesson_below(sl_app *app, const sl_frame *frame) {
     const sl_subject *subject = sl_lesson_subject(&app->lesson);
@@ -44,6 +45,7 @@ void sl_modes_draw_above(sl_app *app, const sl_frame *frame) {
     if (mode->cone)
         sl_draw_cone(app->ui.cairo, frame, app->eye.at, app->eye.heading, app->eye.fov,
                      6 * app->ui.text, palette->start);
+    if (mode->eye) sl_range_draw(app, frame);
     if (mode->eye)
         sl_draw_eye_mark(app->ui.cairo, palette, frame, app->eye.at, app->eye.heading,
                          0.5 * app->ui.text);

@@ -70,7 +70,7 @@ void sl_present_drop(sl_context *context, sl_present *present) {
 void sl_present_add_row(const sl_present *present, const sl_document *document, uint32_t cell,
                         sl_bits *set) {
     const sl_visibility *v = &document->baked->visibility;
-    if (cell >= v->pvs.cell_count) return;
+    if (!present->has_rows || cell >= v->pvs.cell_count) return;
     sl_row_add_to(&v->pvs, cell, set);
     if (!v->doors.cell_count || !present->shut) return;
     for (sl_door_pairs p = sl_door_pairs_begin(&v->doors, cell);
@@ -111,9 +111,9 @@ static sl_status follow_eye(sl_context *context, sl_present *present, const sl_d
                             sl_point eye) {
     own *o = present->own;
     const uint32_t cell = sl_space_locate(&o->space, eye);
-    if (o->search && (o->cell == cell || !document->has_visibility)) return SL_OK;
+    if (o->search && (o->cell == cell || !present->has_rows)) return SL_OK;
     sl_pvs row = {0};
-    if (document->has_visibility) SL_TRY(make_row(context, present, document, cell, &row));
+    if (present->has_rows) SL_TRY(make_row(context, present, document, cell, &row));
     sl_pvs_destroy(context, &o->row.pvs);
     o->row.sight = document->baked->visibility.sight;
     o->row.pvs = row;
@@ -146,13 +146,16 @@ static sl_status update(sl_context *context, sl_present *present, const sl_docum
     const bool fresh = !present->space || present->document_version != document->version;
     if (fresh) SL_TRY(begin(context, present, document));
     const size_t count = present->shut_count;
+    const bool has_rows = sl_document_has_rows(document);
+    const bool unused = document->has_visibility && !has_rows; // its search would believe them
     const bool any = count && find_shut(&document->map, eye, present->wanted);
-    const size_t size = count * sizeof *present->shut;
-    if (count && (fresh || memcmp(present->shut, present->wanted, size) != 0)) {
-        memcpy(present->shut, present->wanted, size);
+    const bool same = !count || memcmp(present->shut, present->wanted, count) == 0;
+    if (fresh || !same || has_rows != present->has_rows) {
+        if (count) memcpy(present->shut, present->wanted, count);
+        present->has_rows = has_rows;
         present->version++;
         drop_own(context, present);
-        if (any) SL_TRY(make_own(context, present, document));
+        if (any || unused) SL_TRY(make_own(context, present, document));
     }
     if (present->own) SL_TRY(follow_eye(context, present, document, eye));
     const own *o = present->own;

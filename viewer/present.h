@@ -12,12 +12,15 @@ typedef struct sl_present {
     uint32_t version;      ///< grows with every change, the document's among them
     const sl_space *space; ///< its cells and exits' cells are the document's; exits are not
     const sl_outline *outline;
-    sl_eye_search *search; ///< with the eye's cell's visible set alone, where something is shut
-    bool *shut;            ///< by door, then by glass; NULL where the map has neither
+    /// With the eye's cell's visible set alone, where something is shut; with none, where they were
+    /// baked with a shorter range.
+    sl_eye_search *search;
+    bool *shut; ///< by door, then by glass; NULL where the map has neither
     size_t shut_count;
     struct sl_present_own *own; ///< what is made for it; NULL while it is the document itself
     bool *wanted;               ///< scratch, as `shut`
     uint32_t document_version;
+    bool has_rows; ///< there are visible sets, and they can be believed
 } sl_present;
 
 /// Follows the document and the eye. Doors are as the document's map has them.

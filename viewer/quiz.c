@@ -36,7 +36,7 @@ void sl_quiz_explain(sl_app *app, uint32_t from, uint32_t to) {
 void sl_quiz_ask(sl_app *app) {
     const sl_document *d = &app->document;
     sl_quiz_forget(app);
-    if (!d->baked || !d->has_visibility || d->counted < 2) return;
+    if (!d->baked || !sl_document_has_rows(d) || d->counted < 2) return;
     const sl_space *space = &d->baked->space;
     sl_random random = {app->quiz.random};
     const bool wanted = sl_random_next(&random) & 1;
@@ -77,7 +77,7 @@ static const char *words_of_effects(const sl_app *app) {
     const sl_explanation *e = &app->quiz.explanation;
     const sl_document *d = &app->document;
     const sl_visibility *v = &d->baked->visibility;
-    if (!d->has_visibility || !sl_plan_make(&d->map).effects || !e->complete) return "";
+    if (!sl_document_has_rows(d) || !sl_plan_make(&d->map).effects || !e->complete) return "";
     if (v->mirrored.cell_count && sl_pvs_sees(&v->mirrored, e->from, e->to))
         return " It is seen by mirror.";
     const bool sees = sl_present_sees(&app->present, d, e->from, e->to);

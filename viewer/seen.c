@@ -3,6 +3,7 @@
 #include "base/base.h"
 #include "base/bits.h"
 #include "clock.h"
+#include "edit.h"
 
 #include <math.h>
 #include <string.h>
@@ -47,13 +48,34 @@ static void sum_up(const sl_document *document, const uint64_t *cells, uint32_t 
     }
 }
 
-static void look(sl_context *context, sl_seen_method *m, const sl_eye_method *method,
-                 const sl_document *document, sl_eye_search *search, const sl_view *view) {
+static double distance_to_cell(const sl_space *space, uint32_t number, sl_point at) {
+    const sl_cell *cell = &space->cells[number];
+    const sl_point *corners = space->vertices + cell->first_vertex;
+    double nearest = INFINITY;
+    for (uint32_t i = 0; i < cell->vertex_count; i++)
+        nearest =
+            fmin(nearest, sl_edit_distance(at, corners[i], corners[(i + 1) % cell->vertex_count]));
+    return nearest;
+}
+
+/// Drops cells that are out of range as a whole.
+static void keep_in_range(const sl_seen *seen, const sl_space *space, uint64_t *cells) {
+    if (!(seen->range > 0)) return;
+    for (uint32_t cell = 0; cell < space->cell_count; cell++)
+        if (sl_bits_has(cells, cell) && cell != seen->cell &&
+            distance_to_cell(space, cell, seen->view.eye) > seen->range * (1 + 1e-12))
+            cells[cell / 64] &= ~((sl_bits)1 << cell % 64);
+}
+
+static void look(sl_context *context, const sl_seen *seen, sl_seen_method *m,
+                 const sl_eye_method *method, const sl_document *document, sl_eye_search *search,
+                 const sl_view *view) {
     const double before = sl_clock_seconds();
     m->known = method->cull(context, search, view, m->cells, &m->account) == SL_OK;
     const double seconds = sl_clock_seconds() - before;
     m->seconds = m->seconds > 0 ? 0.9 * m->seconds + 0.1 * seconds : seconds;
     if (!m->known) memset(m->cells, 0, sl_eye_words(&document->baked->space) * sizeof *m->cells);
+    keep_in_range(seen, &document->baked->space, m->cells);
     sum_up(document, m->cells, &m->count, &m->area);
 }
 
@@ -62,8 +84,7 @@ static void take_pvs(sl_seen *seen, const sl_document *document, const sl_presen
     const sl_space *space = &document->baked->space;
     memset(seen->pvs, 0, sl_eye_words(space) * sizeof *seen->pvs);
     seen->cell = sl_space_locate(space, eye);
-    if (seen->cell != SL_NO_CELL && document->has_visibility)
-        sl_present_add_row(present, document, seen->cell, seen->pvs);
+    if (seen->cell != SL_NO_CELL) sl_present_add_row(present, document, seen->cell, seen->pvs);
     sum_up(document, seen->pvs, &seen->pvs_count, &seen->pvs_area);
 }
 
@@ -93,7 +114,7 @@ sl_status sl_seen_update(sl_context *context, sl_seen *seen, const sl_document *
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
     for (size_t i = 0; i < count && i < SL_SEEN_MOST; i++)
-        look(context, &seen->methods[i], &methods[i], document, present->search, view);
+        look(context, seen, &seen->methods[i], &methods[i], document, present->search, view);
     const double before = sl_clock_seconds();
     const sl_status status = sl_region_make(context, present->outline, view, range, &seen->region);
     const double seconds = sl_clock_seconds() - before;

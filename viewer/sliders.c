@@ -1,6 +1,7 @@
 #include "sliders.h"
 
 #include "layers.h"
+#include "range.h"
 #include "shelf.h"
 
 #include <math.h>
@@ -107,12 +108,31 @@ static void set_views(sl_app *app, double share) {
     sl_view_layer_go(app, (uint32_t)round(pow(most, share)));
 }
 
+// --- the view range, finer where it is short
+
+static bool has_range(const sl_app *app) {
+    return app->document.baked && app->document.map.range > 0;
+}
+
+static double range_share(const sl_app *app) {
+    return sqrt(fmin(app->document.map.range / sl_range_most(app), 1));
+}
+
+static void range_text(const sl_app *app, char text[SL_SLIDER_TEXT]) {
+    snprintf(text, SL_SLIDER_TEXT, "%.3g", app->document.map.range);
+}
+
+static void set_range(sl_app *app, double share) {
+    sl_range_set(app, share * share * sl_range_most(app));
+}
+
 static const sl_slider sliders[] = {
-    {"View cone", always, cone_share, cone_text, set_cone},
-    {"Cut at", is_model, cut_share, cut_text, set_cut},
-    {"Split depth", has_splits, split_share, split_text, set_split},
-    {"Tree grown", has_tree, tree_share, tree_text, set_tree},
-    {"View cells", has_views, views_share, views_text, set_views},
+    {"View cone", always, cone_share, cone_text, set_cone, NULL, NULL},
+    {"View range", has_range, range_share, range_text, set_range, sl_app_keep, sl_range_settle},
+    {"Cut at", is_model, cut_share, cut_text, set_cut, NULL, NULL},
+    {"Split depth", has_splits, split_share, split_text, set_split, NULL, NULL},
+    {"Tree grown", has_tree, tree_share, tree_text, set_tree, NULL, NULL},
+    {"View cells", has_views, views_share, views_text, set_views, NULL, NULL},
 };
 
 const sl_slider *sl_sliders(size_t *count) {

@@ -154,6 +154,25 @@ def check_doors(viewer, folder):
     viewer.check(share > TOLERANCE, f"doors: a click changes only {share:.2%}")
 
 
+def check_range(viewer, folder):
+    """A range set, moved by its slider, undone and lifted, against maps that have it."""
+    plan = (viewer.root / "maps/effects/range.map").read_text()
+    before = SIZE + "eye 5 5 0 90\nkey V\nkey F8\n"
+    after = "action side_panel\nmove 5 5\nsave {0}.png\naction side_panel\n"
+    # The slider dragged to its end, and back; undone; no range; the one that is set first.
+    states = {"given": ("20", ""), "farther": ("60.8", "drag 566 249 600 249\n"),
+              "nearer": ("9.69", "drag 588 249 511 249\n"), "undone": ("60.8", "key Ctrl+Z\n"),
+              "lifted": (None, "key Ctrl+R\n"), "set": ("18.2", "key Ctrl+R\n")}
+    viewer.script(folder, "effects/range.map", before + "".join(
+        done + after.format(name) for name, (_, done) in states.items()))
+    for name, (value, _) in states.items():
+        path = folder / f"{name}.map"
+        path.write_text(plan.replace("range 20\n", f"range {value}\n" if value else ""))
+        viewer.script(folder, path, before + after.format(f"{name}-given"))
+        share = viewer.difference(folder / f"{name}.png", folder / f"{name}-given.png")
+        viewer.check(share < TOLERANCE, f"range: {name} is {share:.2%} off")
+
+
 def check_views(viewer, folder):
     """A merge and its way back, the largest cost and the next one."""
     steps = {"cut": "key F5", "fewer": "key Ctrl+Left", "again": "key Ctrl+Right",
@@ -186,6 +205,7 @@ def main():
         check_undo(viewer, folder)
         check_views(viewer, folder)
         check_doors(viewer, folder)
+        check_range(viewer, folder)
     viewer.end()
 
 

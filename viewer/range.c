@@ -1,0 +1,56 @@
+#include "range.h"
+
+#include "draw/marks.h"
+
+#include <math.h>
+
+double sl_range_most(const sl_app *app) {
+    const sl_box b = app->document.baked->space.bounds;
+    return hypot(b.max.x - b.min.x, b.max.y - b.min.y);
+}
+
+/// To three digits, so that it can be read.
+static double rounded(double range) {
+    const double step = pow(10, floor(log10(range)) - 2);
+    return step * round(range / step);
+}
+
+void sl_range_set(sl_app *app, double range) {
+    app->document.map.range = rounded(fmax(range, 1e-3 * sl_range_most(app)));
+    sl_app_after_touch(app);
+}
+
+void sl_range_settle(sl_app *app) {
+    if (app->document.baked->map.range != app->document.map.range) sl_app_after_edit(app);
+}
+
+void sl_range_toggle(sl_app *app) {
+    if (!app->document.baked) return;
+    sl_app_keep(app);
+    app->document.map.range =
+        app->document.map.range > 0 ? 0 : rounded(fmax(0.3 * sl_range_most(app), 1e-100));
+    sl_app_after_touch(app);
+    sl_range_settle(app);
+    if (app->document.map.range > 0)
+        sl_app_say(app, false, "nothing farther than %g is seen; the slider changes that",
+                   app->document.map.range);
+    else
+        sl_app_say(app, false, "sight reaches any distance");
+}
+
+void sl_range_draw(sl_app *app, const sl_frame *frame) {
+    cairo_t *cairo = app->ui.cairo;
+    const double radius = app->document.map.range * frame->scale;
+    const double dashes[] = {5 * frame->unit, 4 * frame->unit};
+    sl_point at;
+    // One that is larger than what cairo can hold is nowhere near the page's middle either.
+    if (!(radius > 0) || radius > 1e5 || !sl_frame_holds(frame, app->eye.at, &at)) return;
+    cairo_save(cairo);
+    cairo_new_path(cairo);
+    cairo_arc(cairo, at.x, at.y, radius, 0, 6.283185307179586);
+    sl_set_colour(cairo, app->ui.palette.start);
+    cairo_set_line_width(cairo, 1.4 * frame->unit);
+    cairo_set_dash(cairo, dashes, 2, 0);
+    cairo_stroke(cairo);
+    cairo_restore(cairo);
+}
