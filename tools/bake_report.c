@@ -56,6 +56,9 @@ static void add_visibility(sl_json_fields *fields, const sl_visibility *visibili
     }
     sl_json_add_count(fields, "longest_sequence", account->deepest);
     sl_json_fields work = sl_json_begin();
+    sl_json_add_count(&work, "door_steps", account->door_steps);
+    sl_json_add_count(&work, "mirror_steps", account->mirror_steps);
+    sl_json_add_count(&work, "glass_tests", account->glass_tests);
     sl_json_add_count(&work, "mirrored_pairs", account->mirrored_pairs);
     sl_json_add_count(&work, "rounded_places", account->rounded_places);
     sl_json_add_count(&work, "door_bytes", sl_door_sets_bytes(&visibility->doors));

@@ -35,14 +35,15 @@ struct sl_dfs_effects {
     sl_mirror_sides sides;
     sl_row_bytes *door_rows, *mirrored_rows, *mirrored_door_rows; ///< by source
     pthread_mutex_t *lock; ///< the search's, over the sums below
-    uint64_t fallbacks, range_tests, close_calls, rounded_places;
+    uint64_t fallbacks, door_steps, mirror_steps, glass_tests;
+    uint64_t range_tests, close_calls, rounded_places;
 };
 
 struct sl_dfs_effects_thread {
     SL_ARRAY(place) places;
     SL_ARRAY(sl_bits) doors; ///< a set for each place
     sl_door_table direct, mirrored;
-    uint64_t range_tests, close_calls, rounded_places;
+    uint64_t door_steps, mirror_steps, glass_tests, range_tests, close_calls, rounded_places;
     struct sl_dfs_effects *all;
 };
 
@@ -56,6 +57,7 @@ static sl_status pass_doors(sl_context *context, const sl_space *space, const ef
                             thread *me, uint32_t portal, size_t depth) {
     const size_t words = all->door_words;
     if (!words) return SL_OK;
+    me->door_steps++;
     SL_TRY(SL_ARRAY_ROOM(context, &me->doors, (depth + 1) * words));
     sl_bits *set = me->doors.items + depth * words;
     memcpy(set, set - words, words * sizeof *set);
@@ -164,7 +166,10 @@ static sl_status try_exit(sl_context *context, const sl_dfs *all, sl_dfs_thread 
     const place *from = &e->places.items[e->places.count - 1];
     const uint32_t cell = me->steps.items[me->steps.count - 1].cell;
     if (all->options->inside_only && !all->space->cells[exit->cell].inside) return SL_OK;
-    if (all->effects->oneway && sl_exit_is_dark(all->space, cell, number)) return SL_OK;
+    if (all->effects->oneway) {
+        e->glass_tests++;
+        if (sl_exit_is_dark(all->space, cell, number)) return SL_OK;
+    }
     place to = {.ends = unfold(e, &from->frame, exit->left, exit->right),
                 .frame = from->frame,
                 .mirror = UINT32_MAX};
@@ -180,6 +185,7 @@ static sl_status try_mirror(sl_context *context, const sl_dfs *all, sl_dfs_threa
     thread *e = me->effects;
     const sl_mirror_side *side = &all->effects->sides.sides[number];
     const place *from = &e->places.items[e->places.count - 1];
+    e->mirror_steps++;
     // Behind a mirror its own side is behind the line of sight, but for rounding.
     if (from->mirror == side->mirror || from->frame.depth == all->effects->plan->mirror_depth)
         return SL_OK;
@@ -261,6 +267,9 @@ void sl_dfs_effects_end(sl_context *context, sl_dfs_thread *me) {
     if (!e) return;
     pthread_mutex_lock(e->all->lock);
     e->all->fallbacks += e->direct.fallbacks + e->mirrored.fallbacks;
+    e->all->door_steps += e->door_steps;
+    e->all->mirror_steps += e->mirror_steps;
+    e->all->glass_tests += e->glass_tests;
     e->all->range_tests += e->range_tests;
     e->all->close_calls += e->close_calls;
     e->all->rounded_places += e->rounded_places;
@@ -321,6 +330,9 @@ sl_status sl_dfs_effects_finish(sl_context *context, sl_dfs *all, sl_visibility 
     effects *e = all->effects;
     const uint32_t cells = all->space->cell_count;
     out->account.door_fallbacks = e->fallbacks;
+    out->account.door_steps = e->door_steps;
+    out->account.mirror_steps = e->mirror_steps;
+    out->account.glass_tests = e->glass_tests;
     out->account.range_tests = e->range_tests;
     out->account.close_calls = e->close_calls;
     out->account.rounded_places = e->rounded_places;

@@ -10,4 +10,7 @@ extern const sl_effect sl_effect_mirror;
 extern const sl_effect sl_effect_oneway;
 extern const sl_effect sl_effect_range;
 
+/// SL_UNSUPPORTED: what functions of effects say in a build without them.
+sl_status sl_effects_refuse(sl_context *context);
+
 #endif

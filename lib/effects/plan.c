@@ -42,9 +42,13 @@ static void append(char *text, size_t size, const char *between, const char *mor
     snprintf(text + used, size - used, "%s%s", used ? between : "", more);
 }
 
+bool sl_effects_are_built(void) {
+    return SIGHTLINE_EFFECTS;
+}
+
 sl_status sl_effects_check(sl_context *context, const sl_map *map, const char *method,
                            unsigned known) {
-    const unsigned unknown = sl_plan_make(map).effects & ~known;
+    const unsigned unknown = sl_plan_make(map).effects & ~(SIGHTLINE_EFFECTS ? known : 0);
     if (!unknown) return SL_OK;
     char several[128] = "", names[64] = "", line[16] = "";
     uint32_t first = UINT32_MAX;
@@ -55,9 +59,15 @@ sl_status sl_effects_check(sl_context *context, const sl_map *map, const char *m
         if (table[i]->line(map) < first) first = table[i]->line(map);
     }
     if (first) snprintf(line, sizeof line, "%u:", (unsigned)first);
+    const char *source = map->source ? map->source : "the map";
+    const char *them = unknown == SL_EFFECT_RANGE ? "it" : "them";
+    if (!SIGHTLINE_EFFECTS)
+        return sl_fail(context, SL_UNSUPPORTED,
+                       "%s:%s the map calls for %s, and this build is without effects: --without "
+                       "%s leaves %s out, a build with -DSIGHTLINE_EFFECTS=ON knows %s",
+                       source, line, several, names, them, them);
     return sl_fail(context, SL_UNSUPPORTED,
                    "%s:%s the map calls for %s, which the method '%s' does not know; "
                    "--without %s leaves %s out",
-                   map->source ? map->source : "the map", line, several, method, names,
-                   unknown == SL_EFFECT_RANGE ? "it" : "them");
+                   source, line, several, method, names, them);
 }

@@ -59,6 +59,14 @@ class Statistics(unittest.TestCase):
                 with self.subTest(map=path.name, sight=sight):
                     self.agree(*self.bake(path, "--sight", sight))
 
+    def test_no_work_for_effects_that_are_not_there(self):
+        for method in ("sweep", "dfs", "prune", "multipass"):
+            with self.subTest(method=method):
+                statistics, _, _ = self.bake(MAPS / "office.map", "--method", method)
+                self.assertFalse(any(statistics["effects"].values()))
+                self.assertTrue(statistics["effect_work"])
+                self.assertEqual(set(statistics["effect_work"].values()), {0})
+
     def means(self, statistics, export, sources):
         """The means by their definition, of source cells each weighted equally."""
         areas = [area(cell["polygon"]) for cell in export["cells"]]

@@ -1,5 +1,6 @@
 /// Effects against an oracle that knows them, on random maps with all their combinations; doors
 /// against bakes with walls in those that are shut.
+// needs effects
 #include "testing.h"
 
 #include "base/random.h"

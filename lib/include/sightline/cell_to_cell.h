@@ -41,6 +41,9 @@ typedef struct sl_see_account {
     uint32_t deepest;        ///< portals in the longest sequence
     sl_stab_account stab;    ///< of the solvers
     // Of effects; all 0 where the plan has none.
+    uint64_t door_steps;     ///< sequences of which the doors that they pass were noted
+    uint64_t mirror_steps;   ///< times that a sequence was to go on in a mirror
+    uint64_t glass_tests;    ///< exits asked whether one-way glass bars them
     uint64_t mirrored_pairs; ///< ordered pairs seen by mirror; a cell may so see itself
     uint64_t door_fallbacks; ///< ordered pairs that more sets of doors join than the limit
     uint64_t range_tests;    ///< sequences whose shortest sightline was held against the range
