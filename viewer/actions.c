@@ -374,8 +374,8 @@ static void escape(sl_app *app) {
 #define HOLD(name, key, what, modes, bit)                                                          \
     { name, key, NULL, what, modes, bit, NULL, NULL }
 
-#define LAYER_ROW(NAME, name, key, label, help, modes, draw)                                       \
-    {name, key, label, "layer: " help, 0, 0, toggle_##NAME, is_##NAME},
+#define LAYER_ROW(NAME, name, key, label, help, modes, calls, draw)                                \
+    {name, key, label, "layer: " help, modes, 0, toggle_##NAME, is_##NAME},
 
 static const sl_action actions[] = {
     {"explore", "F1", "Explore", "explore: walk about", 0, 0, explore, is_explore},

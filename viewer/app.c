@@ -47,6 +47,7 @@ void sl_app_destroy(sl_app *app) {
     if (app->account.surface) cairo_surface_destroy(app->account.surface);
     sl_node_layer_destroy(app->context, app->nodes);
     sl_view_layer_destroy(app->context, app->views);
+    sl_watch_layer_destroy(app->context, app->watch);
     sl_seen_destroy(app->context, &app->seen);
     sl_present_drop(app->context, &app->present);
     sl_lesson_destroy(app->context, &app->lesson);

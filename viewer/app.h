@@ -9,6 +9,7 @@
 #include "history.h"
 #include "layer_nodes.h"
 #include "layer_views.h"
+#include "layer_watch.h"
 #include "layers.h"
 #include "lesson.h"
 #include "present.h"
@@ -122,10 +123,11 @@ struct sl_app {
     sl_ui ui;
     sl_kept under, over; ///< below and above what changes from frame to frame
     sl_account_picture account;
-    sl_scene scene;       ///< that they are drawn of; baked NULL: none yet
-    sl_scene tree;        ///< the stab tree of the eye's cell, likewise
-    sl_node_layer *nodes; ///< NULL: none yet
-    sl_view_layer *views; ///< likewise
+    sl_scene scene;        ///< that they are drawn of; baked NULL: none yet
+    sl_scene tree;         ///< the stab tree of the eye's cell, likewise
+    sl_node_layer *nodes;  ///< NULL: none yet
+    sl_view_layer *views;  ///< likewise
+    sl_watch_layer *watch; ///< likewise
     uint32_t scene_version, scene_show, tree_version;
     double motion;     ///< seconds for which a moving plan may be drawn by moving the kept picture
     char message[512]; ///< the last thing to say

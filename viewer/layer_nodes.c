@@ -117,29 +117,14 @@ static sl_status step(sl_app *app) {
 void sl_layer_nodes_key(sl_app *app, const sl_frame *frame) {
     const sl_node_layer *layer = app->nodes;
     if (!layer || !layer->stepped) return;
-    sl_ui *ui = &app->ui;
-    const double t = ui->text, left = frame->left + t, row = 1.5 * t;
-    const double top = frame->top + frame->height - t - (KINDS + 1) * row - 0.6 * t;
-    sl_ui_fill_round(ui, (sl_box){{left, top}, {left + 19 * t, frame->top + frame->height - t}},
-                     0.3 * t, ui->palette.page);
-    for (int k = 0; k < KINDS; k++) {
-        char count[16];
-        const double base = top + 0.3 * t + (k + 0.8) * row;
-        const sl_colour colour =
-            sl_colour_mix(ui->palette.floor[0], kinds[k].colour, kinds[k].opacity);
-        sl_ui_fill_round(
-            ui, (sl_box){{left + 0.6 * t, base - 0.8 * t}, {left + 1.6 * t, base + 0.1 * t}},
-            0.15 * t, colour);
-        sl_ui_text(ui, left + 2.1 * t, base, 0.95, false, ui->palette.ink, kinds[k].label);
-        snprintf(count, sizeof count, "%u", layer->counts[k]);
-        sl_ui_text_right(ui, left + 18.4 * t, base, 0.95, ui->palette.ink, count);
-    }
+    sl_key_row rows[KINDS];
+    for (int k = 0; k < KINDS; k++)
+        rows[k] = (sl_key_row){kinds[k].label, kinds[k].colour, kinds[k].opacity, layer->counts[k]};
     char text[96];
     const sl_walk_frame *f = &layer->frame;
     snprintf(text, sizeof text, "%u tests for %u nodes, %u occluders", f->tests, f->visited,
              f->occluders);
-    sl_ui_text(ui, left + 0.6 * t, top + 0.3 * t + (KINDS + 0.8) * row, 0.95, false,
-               ui->palette.faint, text);
+    sl_layers_draw_key(app, frame, rows, KINDS, text);
 }
 
 void sl_layer_nodes(sl_app *app, const sl_frame *frame, int index) {

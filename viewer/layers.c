@@ -5,7 +5,9 @@
 #include "draw/sight.h"
 #include "panes.h"
 
-#define ROW(NAME, name, key, label, help, modes, draw) {name, modes, draw},
+#include <stdio.h>
+
+#define ROW(NAME, name, key, label, help, modes, calls, draw) {name, modes, calls, draw},
 static const sl_layer_row rows[] = {SL_LAYERS(ROW)};
 #undef ROW
 
@@ -13,13 +15,43 @@ const sl_layer_row *sl_layer_rows(void) {
     return rows;
 }
 
+bool sl_layers_lists(const sl_app *app, unsigned layer) {
+    const unsigned calls = rows[layer].calls;
+    return rows[layer].modes >> app->mode & 1 &&
+           (!calls || calls & sl_plan_make(&app->document.map).effects);
+}
+
 bool sl_layers_shows(const sl_app *app, unsigned layer) {
-    return app->show >> layer & 1 && rows[layer].modes >> app->mode & 1;
+    return app->show >> layer & 1 && sl_layers_lists(app, layer);
+}
+
+void sl_layers_draw_key(sl_app *app, const sl_frame *frame, const sl_key_row *key, int count,
+                        const char *line) {
+    sl_ui *ui = &app->ui;
+    const double t = ui->text, left = frame->left + t, row = 1.5 * t;
+    const int lines = count + (line != NULL);
+    const double bottom = frame->top + frame->height - t, top = bottom - lines * row - 0.6 * t;
+    sl_ui_fill_round(ui, (sl_box){{left, top}, {left + 19 * t, bottom}}, 0.3 * t, ui->palette.page);
+    for (int i = 0; i < count; i++) {
+        char text[16];
+        const double base = top + 0.3 * t + (i + 0.8) * row;
+        sl_ui_fill_round(
+            ui, (sl_box){{left + 0.6 * t, base - 0.8 * t}, {left + 1.6 * t, base + 0.1 * t}},
+            0.15 * t, sl_colour_mix(ui->palette.floor[0], key[i].colour, key[i].opacity));
+        sl_ui_text(ui, left + 2.1 * t, base, 0.95, false, ui->palette.ink, key[i].label);
+        snprintf(text, sizeof text, "%u", key[i].count);
+        sl_ui_text_right(ui, left + 18.4 * t, base, 0.95, ui->palette.ink, text);
+    }
+    if (line)
+        sl_ui_text(ui, left + 0.6 * t, top + 0.3 * t + (count + 0.8) * row, 0.95, false,
+                   ui->palette.faint, line);
 }
 
 void sl_layers_draw_keys(sl_app *app, const sl_frame *frame) {
     if (app->seen.valid && sl_layers_shows(app, SL_LAYER_NUMBER_NODES))
         sl_layer_nodes_key(app, frame);
+    if (app->seen.valid && sl_layers_shows(app, SL_LAYER_NUMBER_WATCH))
+        sl_layer_watch_key(app, frame);
     if (app->seen.valid && sl_layers_shows(app, SL_LAYER_NUMBER_VIEWS))
         sl_view_layer_draw_key(app, frame);
 }

@@ -64,7 +64,7 @@ static void button_row(sl_app *app, column *c, const char *const *names) {
 static void layer_rows(sl_app *app, column *c) {
     heading(app, c, "Layers", "key");
     for (unsigned i = 0; i < SL_LAYER_COUNT; i++)
-        if (sl_layer_rows()[i].modes >> app->mode & 1) check_row(app, c, sl_layer_rows()[i].name);
+        if (sl_layers_lists(app, i)) check_row(app, c, sl_layer_rows()[i].name);
 }
 
 static void draw_sliders(sl_app *app, column *c) {
@@ -252,6 +252,13 @@ void sl_pane_describe(const sl_app *app, sl_point at, char *text, size_t room) {
              : seen                 ? "The eye sees it."
              : pvs                  ? "The eye's cell sees it, the eye does not."
                                     : "It is not seen from the eye's cell.");
+    const bool both = sl_plan_make(&app->document.map).mutual || app->seen.cell == SL_NO_CELL;
+    const size_t used = strlen(text);
+    if (!both && cell != app->seen.cell)
+        snprintf(text + used, room - used, " It %s the eye's cell.",
+                 sl_present_sees(&app->present, &app->document, cell, app->seen.cell)
+                     ? "sees"
+                     : "does not see");
 }
 
 static void draw_words(sl_app *app, column *c) {

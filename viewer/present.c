@@ -18,12 +18,13 @@ typedef struct sl_present_own {
 
 /// Going from its a to its b, glass is seen through from its right to its left. A straight line
 /// that crosses it comes from the side that the eye is on: seen from its left it is a wall.
-static bool find_shut(const sl_map *map, sl_point eye, bool *shut) {
+static bool find_shut(const sl_map *map, sl_point eye, bool backwards, bool *shut) {
     bool any = false;
     for (size_t i = 0; i < map->door_count; i++) any |= shut[i] = !map->doors[i].open;
     for (size_t i = 0; i < map->oneway_count; i++) {
         const sl_segment glass = map->oneways[i].segment;
-        any |= shut[map->door_count + i] = sl_orient(glass.a, glass.b, eye) > 0;
+        any |= shut[map->door_count + i] =
+            (backwards ? sl_orient(glass.b, glass.a, eye) : sl_orient(glass.a, glass.b, eye)) > 0;
     }
     return any;
 }
@@ -64,7 +65,7 @@ void sl_present_drop(sl_context *context, sl_present *present) {
     drop_own(context, present);
     sl_free(context, present->shut);
     sl_free(context, present->wanted);
-    *present = (sl_present){.version = present->version + 1};
+    *present = (sl_present){.version = present->version + 1, .backwards = present->backwards};
 }
 
 void sl_present_add_row(const sl_present *present, const sl_document *document, uint32_t cell,
@@ -81,7 +82,7 @@ void sl_present_add_row(const sl_present *present, const sl_document *document, 
 bool sl_present_sees(const sl_present *present, const sl_document *document, uint32_t from,
                      uint32_t to) {
     const sl_visibility *v = &document->baked->visibility;
-    if (!sl_pvs_sees(&v->pvs, from, to)) return false;
+    if (from >= v->pvs.cell_count || !sl_pvs_sees(&v->pvs, from, to)) return false;
     return !v->doors.cell_count || !present->shut ||
            sl_door_sets_open(&v->doors, from, to, present->shut);
 }
@@ -148,7 +149,7 @@ static sl_status update(sl_context *context, sl_present *present, const sl_docum
     const size_t count = present->shut_count;
     const bool has_rows = sl_document_has_rows(document);
     const bool unused = document->has_visibility && !has_rows; // its search would believe them
-    const bool any = count && find_shut(&document->map, eye, present->wanted);
+    const bool any = count && find_shut(&document->map, eye, present->backwards, present->wanted);
     const bool same = !count || memcmp(present->shut, present->wanted, count) == 0;
     if (fresh || !same || has_rows != present->has_rows) {
         if (count) memcpy(present->shut, present->wanted, count);
@@ -157,7 +158,7 @@ static sl_status update(sl_context *context, sl_present *present, const sl_docum
         drop_own(context, present);
         if (any || unused) SL_TRY(make_own(context, present, document));
     }
-    if (present->own) SL_TRY(follow_eye(context, present, document, eye));
+    if (present->own && !present->backwards) SL_TRY(follow_eye(context, present, document, eye));
     const own *o = present->own;
     present->space = o ? &o->space : &document->baked->space;
     present->outline = o ? &o->outline : &document->outline;

@@ -20,7 +20,8 @@ typedef struct sl_present {
     struct sl_present_own *own; ///< what is made for it; NULL while it is the document itself
     bool *wanted;               ///< scratch, as `shut`
     uint32_t document_version;
-    bool has_rows; ///< there are visible sets, and they can be believed
+    bool backwards; ///< the caller's: as the eye is seen, not as it sees; there is no search then
+    bool has_rows;  ///< there are visible sets, and they can be believed
 } sl_present;
 
 /// Follows the document and the eye. Doors are as the document's map has them.

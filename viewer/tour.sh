@@ -118,6 +118,11 @@ key Right
 key Right
 key Right
 END
+shoot effects/oneway.map watch <<'END'
+eye 5 5 0 60
+key M
+key Y
+END
 shoot office.map draw <<'END'
 eye 53 20 160 90
 key F3

@@ -35,6 +35,7 @@ PICTURES = {
     "doors": ("effects/doors.map", "key V\nkey M\n"),
     "mirrors": ("effects/mirrors.map", "key V\nkey M\nkey Tab\n"),
     "oneway": ("effects/oneway.map", "eye 25 10 180 60\nkey Tab\n"),
+    "watch": ("effects/oneway.map", "eye 5 5 0 60\nkey M\nkey Y\nkey F8\n"),
     "range": ("effects/range.map", "key V\nkey M\nkey Tab\n"),
     "first_person": ("pillars.map", "key I\nkey Tab\nwait 2\n"),
 }
@@ -154,6 +155,23 @@ def check_doors(viewer, folder):
     viewer.check(share > TOLERANCE, f"doors: a click changes only {share:.2%}")
 
 
+def check_glass(viewer, folder):
+    """What is seen past glass that lets sight through, and past glass that is dark, against maps
+    that have nothing there, or walls."""
+    plan = (viewer.root / "maps/effects/oneway.map").read_text()
+    (folder / "lit.map").write_text(plan.replace("oneway", "seam"))
+    starts = "start 5 5 0\nstart 5 15 0\n"
+    (folder / "dark.map").write_text(plan.replace("oneway", "wall") + starts)
+    before = SIZE + "key Tab\nkey C\nkey P\nkey J\nkey F8\n"
+    for i, (eye, like) in enumerate([("25 10 180 90", "lit"), ("5 5 0 90", "dark"),
+                                     ("12 15 90 360", "dark"), ("18.5 15 180 360", "lit")]):
+        viewer.script(folder, "effects/oneway.map", before + f"eye {eye}\nsave glass{i}.png\n")
+        viewer.script(folder, folder / f"{like}.map", before + f"eye {eye}\nsave like{i}.png\n")
+        share = viewer.difference(folder / f"glass{i}.png", folder / f"like{i}.png")
+        # The glass itself is drawn otherwise than a wall.
+        viewer.check(share < 2 * TOLERANCE, f"glass: eye {i} sees {share:.2%} otherwise")
+
+
 def check_range(viewer, folder):
     """A range set, moved by its slider, undone and lifted, against maps that have it."""
     plan = (viewer.root / "maps/effects/range.map").read_text()
@@ -205,6 +223,7 @@ def main():
         check_undo(viewer, folder)
         check_views(viewer, folder)
         check_doors(viewer, folder)
+        check_glass(viewer, folder)
         check_range(viewer, folder)
     viewer.end()
 
