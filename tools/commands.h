@@ -17,6 +17,7 @@ sl_status sl_cmd_generate(sl_console *console, int argc, char **argv);
 sl_status sl_cmd_info(sl_console *console, int argc, char **argv);
 sl_status sl_cmd_merge(sl_console *console, int argc, char **argv);
 sl_status sl_cmd_isovist(sl_console *console, int argc, char **argv);
+sl_status sl_cmd_reject(sl_console *console, int argc, char **argv);
 sl_status sl_cmd_regions(sl_console *console, int argc, char **argv);
 sl_status sl_cmd_viewcells(sl_console *console, int argc, char **argv);
 sl_status sl_cmd_walk(sl_console *console, int argc, char **argv);

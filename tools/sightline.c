@@ -19,6 +19,7 @@ static const command commands[] = {
     {"compare", "every method on one map: accuracy against time, as table and chart",
      sl_cmd_compare},
     {"export", "a baked file for other programs", sl_cmd_export},
+    {"reject", "the REJECT of all maps of a Doom WAD, made anew in one go", sl_cmd_reject},
     {"explain", "why a cell does or does not see another", sl_cmd_explain},
     {"eye", "what one viewpoint sees, by every culling method", sl_cmd_eye},
     {"isovist", "what is seen from points: regions, their measures, heat maps", sl_cmd_isovist},

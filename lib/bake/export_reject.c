@@ -1,13 +1,9 @@
-// Doom's REJECT: a bit for each ordered pair of sectors, set where no place of the one sees a place
-// of the other, rows by the looking sector, low bits first (Unofficial Doom Specs 1.666, 4-9).
-#include "bake/cell_sectors.h"
+// A copy of a WAD with the REJECT of the map that was baked.
 #include "bake/exports.h"
-#include "base/bits.h"
+#include "bake/reject.h"
 #include "base/file.h"
 #include "import/wad_write.h"
 #include "sightline/import.h"
-
-#include <string.h>
 
 typedef struct reject_export {
     sl_context *context;
@@ -16,13 +12,8 @@ typedef struct reject_export {
     sl_wad wad;
     sl_wad_map map;
     sl_doom_level level;
-    sl_cell_sectors cells;
-    size_t words;   ///< of a row of sectors
-    sl_bits *seen;  ///< a row for each sector
-    size_t unknown; ///< sectors that no cell reaches into, or of which a cell was not looked at
+    sl_reject reject;
 } reject_export;
-
-// --- the same map
 
 static bool has_walls(const sl_space *space, const sl_map *map) {
     if (map->wall_count != space->wall_count) return false;
@@ -69,100 +60,26 @@ static sl_status check_baked(sl_context *context, const sl_baked *baked) {
     return SL_OK;
 }
 
-// --- sectors that see each other
-
-static sl_bits *row_of(const reject_export *export, size_t sector) {
-    return export->seen + sector * export->words;
-}
-
-/// All sectors that cells seen from this one reach into.
-static void collect_seen(const reject_export *export, uint32_t cell, sl_bits *row) {
-    const sl_cell_sectors *cells = &export->cells;
-    memset(row, 0, export->words * sizeof *row);
-    for (sl_pvs_run r = sl_pvs_begin(&export->baked->visibility.pvs, cell); sl_pvs_next(&r);)
-        for (uint32_t i = cells->first[r.first]; i < cells->first[r.end]; i++)
-            sl_bits_add(row, cells->sectors[i]);
-}
-
-static void see_all(const reject_export *export, size_t sector) {
-    memset(row_of(export, sector), 0xff, export->words * sizeof(sl_bits));
-}
-
-static sl_status spread_rows(reject_export *export, sl_bits *row, bool *reached) {
-    const sl_cell_sectors *cells = &export->cells;
-    for (uint32_t cell = 0; cell < export->baked->space.cell_count; cell++) {
-        if (cell % 256 == 0) SL_TRY(sl_check_cancelled(export->context));
-        if (cells->first[cell] == cells->first[cell + 1]) continue;
-        const bool looked = sl_pvs_count(&export->baked->visibility.pvs, cell) > 0;
-        collect_seen(export, cell, row);
-        for (uint32_t i = cells->first[cell]; i < cells->first[cell + 1]; i++) {
-            const uint32_t sector = cells->sectors[i];
-            sl_bits *seen = row_of(export, sector);
-            for (size_t w = 0; w < export->words; w++) seen[w] |= row[w];
-            reached[sector] |= looked;
-            // Nothing is known of what a cell sees that the bake did not look from.
-            if (!looked) see_all(export, sector);
-        }
-    }
-    for (size_t i = 0; i < export->level.sector_count; i++) {
-        export->unknown += !reached[i];
-        if (!reached[i]) see_all(export, i);
-    }
+static sl_status write_reject(const reject_export *export, const char *path) {
+    const sl_wad_edit edit = {
+        .map = export->map, .name = "REJECT", .lump = {export->reject.bytes, export->reject.size}};
+    SL_TRY(sl_wad_write(export->context, &export->wad, &edit, 1, path));
+    const sl_reject_account *account = &export->reject.account;
+    const double pairs = (double)account->sectors * ((double)account->sectors - 1) / 2;
+    sl_note(export->context,
+            "map %s: of %u sectors %llu pairs (%.1f %%) are hidden; %u sectors that no "
+            "looked-at cell reaches into hide nothing",
+            export->map.name, account->sectors, (unsigned long long)account->hidden,
+            pairs > 0 ? 100 * (double)account->hidden / pairs : 0, account->unknown);
     return SL_OK;
-}
-
-static sl_status find_seen(reject_export *export) {
-    const size_t count = export->level.sector_count;
-    export->words = sl_bits_words(count);
-    if (count && export->words > SIZE_MAX / 64 / count) return sl_fail_memory(export->context);
-    export->seen = sl_alloc_array(export->context, count * export->words, sizeof(sl_bits));
-    sl_bits *row = sl_alloc_array(export->context, export->words, sizeof *row);
-    bool *reached = sl_alloc_array(export->context, count, sizeof *reached);
-    const sl_status status =
-        export->seen && row && reached ? spread_rows(export, row, reached) : SL_NO_MEMORY;
-    sl_free(export->context, row);
-    sl_free(export->context, reached);
-    return status;
-}
-
-// --- the lump
-
-static sl_status write_reject(reject_export *export, const char *path) {
-    const size_t count = export->level.sector_count;
-    const size_t size = (count * count + 7) / 8;
-    uint64_t hidden = 0;
-    unsigned char *bytes = sl_alloc_array(export->context, size, 1);
-    if (!bytes) return SL_NO_MEMORY;
-    for (size_t a = 0; a < count; a++)
-        for (size_t b = 0; b < count; b++) {
-            // Sight goes both ways: a pair of which one sees the other is not hidden.
-            if (a == b || sl_bits_has(row_of(export, a), b) || sl_bits_has(row_of(export, b), a))
-                continue;
-            const size_t bit = a * count + b;
-            bytes[bit / 8] |= (unsigned char)(1u << bit % 8);
-            hidden++;
-        }
-    const sl_lump lump = {.bytes = bytes, .size = size};
-    const sl_status status =
-        sl_wad_write_with(export->context, &export->wad, &export->map, "REJECT", &lump, path);
-    if (status == SL_OK)
-        sl_note(export->context,
-                "map %s: of %zu sectors %llu pairs (%.1f %%) are hidden; %zu sectors that no "
-                "looked-at cell reaches into hide nothing",
-                export->map.name, count, (unsigned long long)hidden / 2,
-                count > 1 ? 100 * (double)hidden / ((double)count * (double)(count - 1)) : 0,
-                export->unknown);
-    sl_free(export->context, bytes);
-    return status;
 }
 
 static sl_status export_map(reject_export *export, const char *path) {
     SL_TRY(sl_wad_find_map(export->context, &export->wad, export->options->map, &export->map));
     SL_TRY(check_map(export));
     SL_TRY(sl_doom_read(export->context, &export->wad, &export->map, &export->level));
-    SL_TRY(sl_cell_sectors_find(export->context, &export->baked->space, &export->level,
-                                &export->cells));
-    SL_TRY(find_seen(export));
+    SL_TRY(sl_reject_make(export->context, &export->baked->space, &export->baked->visibility.pvs,
+                          &export->level, &export->reject));
     return write_reject(export, path);
 }
 
@@ -179,8 +96,7 @@ sl_status sl_export_reject(sl_context *context, const sl_baked *baked,
     sl_status status = sl_wad_open(context, options->wad, bytes.data, bytes.size, &export.wad);
     if (status == SL_OK) status = export_map(&export, path);
     sl_doom_level_destroy(context, &export.level);
-    sl_cell_sectors_destroy(context, &export.cells);
-    sl_free(context, export.seen);
+    sl_reject_destroy(context, &export.reject);
     sl_free(context, bytes.data);
     return status;
 }

@@ -2,18 +2,30 @@
 
 #include "base/file.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 enum { HEADER_BYTES = 12, ENTRY_BYTES = 16 };
 
-typedef struct wad_edit {
-    sl_context *context;
-    const sl_wad *wad;
+/// A lump with other bytes.
+typedef struct change {
+    const char *name;
+    sl_lump lump;
     uint32_t index; ///< of the lump, or of the one that it comes before
     bool is_new;
-    const char *name;
-    const sl_lump *lump;
-} wad_edit;
+    bool in_place;   ///< written over what is there
+    uint32_t offset; ///< of its bytes in the copy
+} change;
+
+typedef struct wad_copy {
+    sl_context *context;
+    const sl_wad *wad;
+    change *changes; ///< by index, and as they were given
+    size_t count;
+    size_t kept; ///< bytes of the WAD before the new ones: all but a directory at the end
+    size_t end;  ///< of the new ones
+    uint32_t lump_count;
+} wad_copy;
 
 static const unsigned char *entry_of(const sl_wad *wad, uint32_t index) {
     return wad->bytes + wad->directory + (size_t)index * ENTRY_BYTES;
@@ -28,20 +40,61 @@ static bool ranges_meet(size_t a, size_t a_size, size_t b, size_t b_size) {
 }
 
 /// Whether the lump may be written over where it is: nothing else has these bytes.
-static bool fits_in_place(const wad_edit *edit) {
-    const sl_wad *wad = edit->wad;
-    const unsigned char *own = entry_of(wad, edit->index);
+static bool fits_in_place(const sl_wad *wad, const change *to) {
+    if (to->is_new) return false;
+    const unsigned char *own = entry_of(wad, to->index);
     const size_t offset = sl_wad_u32(own), size = sl_wad_u32(own + 4);
-    if (size != edit->lump->size || offset > wad->size || size > wad->size - offset) return false;
+    if (size != to->lump.size || offset > wad->size || size > wad->size - offset) return false;
     if (ranges_meet(offset, size, 0, HEADER_BYTES)) return false;
     if (ranges_meet(offset, size, wad->directory, (size_t)wad->lump_count * ENTRY_BYTES))
         return false;
     for (uint32_t i = 0; i < wad->lump_count; i++) {
         const unsigned char *other = entry_of(wad, i);
-        if (i != edit->index && ranges_meet(offset, size, sl_wad_u32(other), sl_wad_u32(other + 4)))
+        if (i != to->index && ranges_meet(offset, size, sl_wad_u32(other), sl_wad_u32(other + 4)))
             return false;
     }
     return true;
+}
+
+static change make_change(const sl_wad *wad, const sl_wad_edit *edit) {
+    change to = {.name = edit->name, .lump = edit->lump};
+    to.index = sl_wad_find_lump(wad, &edit->map, edit->name);
+    to.is_new = to.index == wad->lump_count;
+    if (to.is_new) to.index = sl_wad_find_lump(wad, &edit->map, "BLOCKMAP");
+    if (to.index == wad->lump_count) to.index = edit->map.end;
+    to.in_place = fits_in_place(wad, &to);
+    return to;
+}
+
+static int compare_indices(const void *left, const void *right) {
+    const change *a = left, *b = right;
+    return (a->index > b->index) - (a->index < b->index);
+}
+
+static int compare_offsets(const void *left, const void *right) {
+    const change *a = left, *b = right;
+    return (a->offset > b->offset) - (a->offset < b->offset);
+}
+
+/// Says where all bytes go.
+static sl_status lay_out(wad_copy *copy) {
+    const sl_wad *wad = copy->wad;
+    const size_t directory_bytes = (size_t)wad->lump_count * ENTRY_BYTES;
+    const bool is_last =
+        wad->directory >= HEADER_BYTES && wad->directory + directory_bytes == wad->size;
+    uint64_t end = copy->kept = is_last ? wad->directory : wad->size, lumps = wad->lump_count;
+    for (size_t i = 0; i < copy->count; i++) {
+        change *to = &copy->changes[i];
+        to->offset = to->in_place ? sl_wad_u32(entry_of(wad, to->index)) : (uint32_t)end;
+        if (!to->in_place) end += to->lump.size;
+        lumps += to->is_new;
+        if (end > UINT32_MAX || lumps > UINT32_MAX)
+            return sl_fail(copy->context, SL_UNSUPPORTED, "%s: no WAD can be larger than 4 GiB",
+                           wad->name);
+    }
+    copy->end = (size_t)end;
+    copy->lump_count = (uint32_t)lumps;
+    return SL_OK;
 }
 
 /// A stream that takes no more is left to its error flag, which the commit asks.
@@ -49,62 +102,73 @@ static void put(FILE *stream, const void *bytes, size_t size) {
     if (size) fwrite(bytes, 1, size, stream);
 }
 
-static void write_in_place(const wad_edit *edit, FILE *stream) {
-    const sl_wad *wad = edit->wad;
-    const size_t offset = sl_wad_u32(entry_of(wad, edit->index));
-    put(stream, wad->bytes, edit->lump->size ? offset : wad->size);
-    if (!edit->lump->size) return;
-    put(stream, edit->lump->bytes, edit->lump->size);
-    put(stream, wad->bytes + offset + edit->lump->size, wad->size - offset - edit->lump->size);
-}
-
-static void write_directory(const wad_edit *edit, uint32_t offset, FILE *stream) {
-    const sl_wad *wad = edit->wad;
-    unsigned char entry[ENTRY_BYTES] = {0};
-    put_u32(entry, offset);
-    put_u32(entry + 4, (uint32_t)edit->lump->size);
-    memcpy(entry + 8, edit->name, strlen(edit->name));
-    put(stream, entry_of(wad, 0), (size_t)edit->index * ENTRY_BYTES);
-    put(stream, entry, sizeof entry);
-    const uint32_t next = edit->index + !edit->is_new;
-    put(stream, entry_of(wad, next), (size_t)(wad->lump_count - next) * ENTRY_BYTES);
-}
-
-/// All that was there but a directory at the end, the new bytes, the new directory.
-static sl_status write_behind(const wad_edit *edit, FILE *stream) {
-    const sl_wad *wad = edit->wad;
-    const size_t directory_bytes = (size_t)wad->lump_count * ENTRY_BYTES;
-    const bool is_last =
-        wad->directory >= HEADER_BYTES && wad->directory + directory_bytes == wad->size;
-    const size_t kept = is_last ? wad->directory : wad->size;
-    if (edit->lump->size > UINT32_MAX || kept > UINT32_MAX - edit->lump->size ||
-        wad->lump_count == UINT32_MAX)
-        return sl_fail(edit->context, SL_UNSUPPORTED, "%s: no WAD can be larger than 4 GiB",
-                       wad->name);
-    unsigned char header[HEADER_BYTES];
-    memcpy(header, wad->bytes, 4);
-    put_u32(header + 4, wad->lump_count + edit->is_new);
-    put_u32(header + 8, (uint32_t)(kept + edit->lump->size));
-    put(stream, header, sizeof header);
-    put(stream, wad->bytes + HEADER_BYTES, kept - HEADER_BYTES);
-    put(stream, edit->lump->bytes, edit->lump->size);
-    write_directory(edit, (uint32_t)kept, stream);
+/// The WAD's own bytes from one place to another, with what changes in place.
+static sl_status put_kept(wad_copy *copy, size_t from, size_t to, FILE *stream) {
+    change *changes = sl_alloc_array(copy->context, copy->count, sizeof *changes);
+    if (!changes) return SL_NO_MEMORY;
+    memcpy(changes, copy->changes, copy->count * sizeof *changes);
+    qsort(changes, copy->count, sizeof *changes, compare_offsets);
+    for (size_t i = 0; i < copy->count; i++) {
+        if (!changes[i].in_place || !changes[i].lump.size) continue;
+        put(stream, copy->wad->bytes + from, changes[i].offset - from);
+        put(stream, changes[i].lump.bytes, changes[i].lump.size);
+        from = changes[i].offset + changes[i].lump.size;
+    }
+    put(stream, copy->wad->bytes + from, to - from);
+    sl_free(copy->context, changes);
     return SL_OK;
 }
 
-sl_status sl_wad_write_with(sl_context *context, const sl_wad *wad, const sl_wad_map *map,
-                            const char *lump_name, const sl_lump *lump, const char *path) {
-    wad_edit edit = {.context = context, .wad = wad, .name = lump_name, .lump = lump};
-    edit.index = sl_wad_find_lump(wad, map, lump_name);
-    edit.is_new = edit.index == wad->lump_count;
-    if (edit.is_new) edit.index = sl_wad_find_lump(wad, map, "BLOCKMAP");
-    if (edit.index == wad->lump_count) edit.index = map->end;
+static void put_directory(const wad_copy *copy, FILE *stream) {
+    uint32_t next = 0;
+    for (size_t i = 0; i < copy->count; i++) {
+        const change *to = &copy->changes[i];
+        unsigned char entry[ENTRY_BYTES] = {0};
+        put_u32(entry, to->offset);
+        put_u32(entry + 4, (uint32_t)to->lump.size);
+        memcpy(entry + 8, to->name, strlen(to->name));
+        put(stream, entry_of(copy->wad, next), (size_t)(to->index - next) * ENTRY_BYTES);
+        put(stream, entry, sizeof entry);
+        next = to->index + !to->is_new;
+    }
+    put(stream, entry_of(copy->wad, next), (size_t)(copy->wad->lump_count - next) * ENTRY_BYTES);
+}
+
+/// All that was there but a directory at the end, the new bytes, the new directory.
+static sl_status write_behind(wad_copy *copy, FILE *stream) {
+    unsigned char header[HEADER_BYTES];
+    memcpy(header, copy->wad->bytes, 4);
+    put_u32(header + 4, copy->lump_count);
+    put_u32(header + 8, (uint32_t)copy->end);
+    put(stream, header, sizeof header);
+    SL_TRY(put_kept(copy, HEADER_BYTES, copy->kept, stream));
+    for (size_t i = 0; i < copy->count; i++)
+        if (!copy->changes[i].in_place)
+            put(stream, copy->changes[i].lump.bytes, copy->changes[i].lump.size);
+    put_directory(copy, stream);
+    return SL_OK;
+}
+
+static sl_status write_copy(wad_copy *copy, const char *path) {
+    SL_TRY(lay_out(copy));
     sl_output output;
-    SL_TRY(sl_output_open(context, path, &output));
-    sl_status status = SL_OK;
-    if (!edit.is_new && fits_in_place(&edit))
-        write_in_place(&edit, output.stream);
-    else
-        status = write_behind(&edit, output.stream);
-    return sl_output_close(context, &output, status);
+    SL_TRY(sl_output_open(copy->context, path, &output));
+    bool in_place = true;
+    for (size_t i = 0; i < copy->count; i++) in_place &= copy->changes[i].in_place;
+    const sl_status status = in_place ? put_kept(copy, 0, copy->wad->size, output.stream)
+                                      : write_behind(copy, output.stream);
+    return sl_output_close(copy->context, &output, status);
+}
+
+sl_status sl_wad_write(sl_context *context, const sl_wad *wad, const sl_wad_edit *edits,
+                       size_t count, const char *path) {
+    wad_copy copy = {.context = context, .wad = wad, .count = count};
+    copy.changes = sl_alloc_array(context, count, sizeof *copy.changes);
+    if (!copy.changes) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++) copy.changes[i] = make_change(wad, &edits[i]);
+    // No two have one index: lumps of one map differ, and what is new in one stands within it.
+    qsort(copy.changes, count, sizeof *copy.changes, compare_indices);
+    const sl_status status = write_copy(&copy, path);
+    sl_free(context, copy.changes);
+    return status;
 }

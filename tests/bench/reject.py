@@ -1,18 +1,18 @@
 """REJECT of all levels of the Debian package `freedoom`, beside the one that each level comes with.
 
-reject.py SIGHTLINE CHECK_REJECT CHECK_SIGHTLINES [-o DIR] [option...] [-- BAKE-OPTION...]
+reject.py SIGHTLINE CHECK_REJECT CHECK_SIGHTLINES [-o DIR] [option...]
 
-Each level is baked with cells that lie in one sector each (--sectors) and open sight, which is all
-that a sightline that meets no wall asks for; the REJECT is exported and held against the level's
-own, pair by pair, and against free sightlines of the level's walls. Pairs are unordered. `right` is
-what both hide, `wrong` what the builder hides and a sightline that was found joins, `undecided` what
-the builder hides, we do not, and no sightline was found for. Seconds are of the processor, of bake
-and export together, reading and writing included.
+First `sightline reject` makes the REJECTs of each WAD, from reading it to the copy written, which is
+timed by the clock: once with one thread, once with one a core. Then each level's REJECT is held
+against its own, pair by pair, and against free sightlines of the level's walls. Pairs are unordered.
+`right` is what both hide, `wrong` what the builder hides and a sightline that was found joins,
+`undecided` what the builder hides, we do not, and no sightline was found for. Sightlines are looked
+for by cells: those of the same bake (--sectors and open sight).
 
 Writes DIR/reject.csv, DIR/reject.txt (the same as a table, with sums, and the ratio to the 12.3 s
 that are stated for the builder in use today) and DIR/aimed.txt: sightlines across what the builder
-hides on the levels of --aimed. Exit status: 0 all well, 1 where something was lost or failed, 77
-where the WADs are not there.
+hides on the levels of --aimed. With --time the REJECTs are made and timed, no more. Exit status: 0
+all well, 1 where something was lost or failed, 77 where the WADs are not there.
 """
 import argparse
 import csv
@@ -24,11 +24,12 @@ import resource
 import subprocess
 import sys
 import tempfile
+import time
 
 WADS = ["freedoom1.wad", "freedoom2.wad"]
 BUILDER_SECONDS = 12.3
 COLUMNS = ["machine", "wad", "map", "sectors", "cells", "theirs", "right", "wrong", "undecided",
-           "hidden", "sightlines", "lost", "seconds", "result"]
+           "hidden", "sightlines", "lost", "result"]
 
 
 def arguments():
@@ -43,8 +44,8 @@ def arguments():
     parser.add_argument("--count", type=int, default=1000000, help="free sightlines a level")
     parser.add_argument("--aimed", default="E1M6,E3M6,E4M6,E4M7,MAP01,MAP27",
                         help="levels of which sightlines are written")
-    parser.add_argument("bake", nargs="*", metavar="BAKE-OPTION")
-    return parser.parse_intermixed_args()
+    parser.add_argument("--time", action="store_true", help="time the whole run, no more")
+    return parser.parse_args()
 
 
 def run(*command):
@@ -55,9 +56,16 @@ def run(*command):
     return done.stdout
 
 
-def processor_seconds():
-    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return usage.ru_utime + usage.ru_stime
+def make_all(options, folder, threads):
+    """Seconds that the REJECTs of all WADs take, which are written into the folder: by the clock, and
+    of the processor."""
+    began, before = time.monotonic(), resource.getrusage(resource.RUSAGE_CHILDREN)
+    for name in WADS:
+        run(options.sightline, "reject", options.wads / name, "-o", folder / name, "--threads",
+            threads, "--quiet")
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return (time.monotonic() - began,
+            after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
 
 
 def table_of(text):
@@ -77,15 +85,11 @@ def levels(options):
 
 def do_level(options, wad, level, folder, aimed):
     row = {"machine": platform.node(), "wad": wad.name, "map": level, "result": "written"}
-    baked, made = folder / "level.slv", folder / "level.wad"
+    baked, made = folder / "level.slv", folder / wad.name
     try:
-        began = processor_seconds()
         told = json.loads(run(options.sightline, "bake", wad, "--map", level, "-o", baked,
-                              "--sectors", "--sight", "open", "--threads", 1, "--json", "--quiet",
-                              *options.bake))
-        run(options.sightline, "export", baked, "--format", "reject", "--wad", wad, "--map", level,
-            "-o", made, "--quiet")
-        row.update(cells=told["cells"], seconds=round(processor_seconds() - began, 3))
+                              "--sectors", "--sight", "open", "--json", "--quiet"))
+        row.update(cells=told["cells"])
         shown = ["--aimed"] if level in options.aimed.upper().split(",") else []
         text = run(options.check_reject, wad, "--map", level, "--slv", baked, "--reject", made,
                    *shown)
@@ -102,7 +106,7 @@ def do_level(options, wad, level, folder, aimed):
     return row
 
 
-def write_table(path, rows):
+def write_table(path, rows, times):
     shown = [name for name in COLUMNS if name != "machine"]
     lines = [shown] + [[str(row.get(name, "")) for name in shown] for row in rows]
     widths = [max(len(line[i]) for line in lines) for i in range(len(shown))]
@@ -114,8 +118,21 @@ def write_table(path, rows):
         print(f"the builder hides {sums['theirs']} pairs: {sums['right']} rightly, {sums['wrong']} "
               f"wrongly, {sums['undecided']} undecided; we hide {sums['hidden']}, "
               f"{sums['lost']} of {sums['sightlines']} free sightlines across one", file=stream)
-        print(f"{sums['seconds']:.2f} s of the processor; {BUILDER_SECONDS} s stated for the builder: "
-              f"{BUILDER_SECONDS / max(sums['seconds'], 1e-3):.1f} times as fast", file=stream)
+        print(times, file=stream)
+
+
+def time_all(options, folder):
+    """A line about both runs, whose copies must be the same."""
+    others = folder / "others"
+    others.mkdir()
+    one, processor = make_all(options, others, 1)
+    cores, _ = make_all(options, folder, 0)
+    same = all((folder / name).read_bytes() == (others / name).read_bytes() for name in WADS)
+    return (f"all REJECTs, from reading to written: {one:.2f} s with one thread, {processor:.2f} s of "
+            f"the processor; {cores:.2f} s with {os.cpu_count()}; the builder's {BUILDER_SECONDS} s "
+            f"are {BUILDER_SECONDS / one:.1f}, {BUILDER_SECONDS / processor:.1f} and "
+            f"{BUILDER_SECONDS / cores:.1f} times that; "
+            f"{'the same bytes' if same else 'DIFFERENT BYTES'}")
 
 
 def main():
@@ -128,6 +145,10 @@ def main():
     with open(options.output / "reject.csv", "w", newline="", encoding="utf-8") as stream, \
             open(options.output / "aimed.txt", "w", encoding="utf-8") as aimed, \
             tempfile.TemporaryDirectory(prefix="sightline-reject-") as scratch:
+        times = time_all(options, pathlib.Path(scratch))
+        print(times, flush=True)
+        if options.time:
+            return int("DIFFERENT" in times)
         writer = csv.DictWriter(stream, COLUMNS)
         writer.writeheader()
         for wad, level in levels(options):
@@ -136,9 +157,9 @@ def main():
             stream.flush()
             print(" ".join(f"{name}={rows[-1][name]}" for name in COLUMNS[2:] if name in rows[-1]),
                   flush=True)
-    write_table(options.output / "reject.txt", rows)
-    print((options.output / "reject.txt").read_text(encoding="utf-8").splitlines()[-1])
-    return int(any(row["result"] != "written" for row in rows))
+    write_table(options.output / "reject.txt", rows, times)
+    print((options.output / "reject.txt").read_text(encoding="utf-8").splitlines()[-2])
+    return int("DIFFERENT" in times or any(row["result"] != "written" for row in rows))
 
 
 if __name__ == "__main__":

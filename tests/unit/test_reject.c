@@ -9,6 +9,8 @@
 #include "oracle/sectors.h"
 #include "wad_make.h"
 
+#include <unistd.h>
+
 enum { SIDE = 5, SQUARES = SIDE * SIDE, STEP = 64 };
 enum { CORNERS = (SIDE + 1) * (SIDE + 1), LINES = 8 * SQUARES + 4 * SIDE };
 enum { SECTORS = 2 * SQUARES, REJECT_BYTES = (SECTORS * SECTORS + 7) / 8 };
@@ -271,10 +273,50 @@ static void refuses_what_it_cannot_promise(void **state) {
     sl_context_destroy(context);
 }
 
+/// Every allocation that fails is told: nothing
+/// is written and nothing left behind.
+static void survives_a_lack_of_memory(void **state) {
+    (void)state;
+    char folder[] = "/tmp/sightline-reject-XXXXXX", in[100], out[100];
+    assert_non_null(mkdtemp(folder));
+    snprintf(in, sizeof in, "%s/in.wad", folder);
+    snprintf(out, sizeof out, "%s/out.wad", folder);
+    sl_random random = {.state = 3};
+    squares_map map;
+    wad_made wad;
+    make_squares(&map, &random);
+    make_wad(&map, &wad, false);
+    write_file(in, wad.bytes, wad.size);
+    sl_reject_options options = sl_reject_options_default();
+    options.threads = 1;
+    sl_status status = SL_NO_MEMORY;
+    long calls = 0;
+    for (long fail_at = 1; status != SL_OK; fail_at += 1 + fail_at / 16) {
+        testing_memory memory = {.fail_at = fail_at + 1};
+        sl_context *context = testing_context(&memory);
+        sl_reject_report report = {0};
+        status = sl_reject_wad(context, in, &options, out, &report);
+        assert_int_equal(access(out, F_OK) != 0, status != SL_OK);
+        if (status != SL_OK) assert_int_equal(status, SL_NO_MEMORY);
+        if (status != SL_OK) assert_null(report.maps);
+        if (status == SL_OK) assert_int_equal(report.maps[0].sectors, SECTORS);
+        sl_reject_report_destroy(context, &report);
+        sl_context_destroy(context);
+        assert_int_equal(memory.live, 0);
+        calls = memory.calls;
+    }
+    assert_true(calls > 50);
+    free(wad.bytes);
+    remove(in);
+    remove(out);
+    remove(folder);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hides_nothing_that_is_seen),
         cmocka_unit_test(refuses_what_it_cannot_promise),
+        cmocka_unit_test(survives_a_lack_of_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,6 +18,7 @@
 #include "sightline/outline.h"
 #include "sightline/pvs.h"
 #include "sightline/region.h"
+#include "sightline/reject.h"
 #include "sightline/sees.h"
 #include "sightline/solvers.h"
 #include "sightline/space.h"

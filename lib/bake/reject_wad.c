@@ -1,0 +1,221 @@
+// Maps are baked beside each other, each by one thread, the largest first so that none is left to
+// one thread at the end.
+#include "bake/reject.h"
+#include "base/file.h"
+#include "base/threads.h"
+#include "import/wad_write.h"
+#include "sightline/cell_to_cell.h"
+#include "sightline/import.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+sl_reject_options sl_reject_options_default(void) {
+    const sl_see_options see = sl_see_options_default();
+    return (sl_reject_options){.sight = SL_OPEN, .row_bytes = see.row_bytes};
+}
+
+void sl_reject_report_destroy(sl_context *context, sl_reject_report *report) {
+    sl_free(context, report->maps);
+    *report = (sl_reject_report){0};
+}
+
+/// A map and what becomes of it.
+typedef struct map_work {
+    sl_wad_map map;
+    sl_reject reject;
+} map_work;
+
+typedef struct wad_job {
+    sl_context *context;
+    const sl_reject_options *options;
+    sl_bytes bytes;
+    sl_wad wad;
+    SL_ARRAY(map_work) maps;
+    size_t *order;    ///< the maps' numbers, the largest map's first
+    unsigned at_work; ///< maps at most at once
+    unsigned per_map; ///< threads
+} wad_job;
+
+// --- which maps
+
+static sl_status add_map(wad_job *job, const char *name) {
+    sl_wad_map map;
+    SL_TRY(sl_wad_find_map(job->context, &job->wad, name, &map));
+    for (size_t i = 0; i < job->maps.count; i++)
+        if (job->maps.items[i].map.header == map.header)
+            return sl_fail(job->context, SL_BAD_ARGUMENT, "map %s is asked for twice", map.name);
+    SL_TRY(SL_ARRAY_ROOM(job->context, &job->maps, 1));
+    job->maps.items[job->maps.count++] = (map_work){.map = map};
+    return SL_OK;
+}
+
+static sl_status choose_maps(wad_job *job) {
+    for (size_t i = 0; i < job->options->map_count; i++)
+        SL_TRY(add_map(job, job->options->maps[i]));
+    if (job->options->map_count) return SL_OK;
+    sl_map_list list = {0};
+    sl_status status =
+        sl_map_list_wad(job->context, job->wad.name, job->bytes.data, job->bytes.size, &list);
+    for (size_t i = 0; i < list.count && status == SL_OK; i++) status = add_map(job, list.names[i]);
+    sl_map_list_destroy(job->context, &list);
+    SL_TRY(status);
+    if (!job->maps.count) return sl_fail_at(job->context, job->wad.name, 0, "holds no map");
+    return SL_OK;
+}
+
+/// Bytes of a map's lines, or of its text.
+static size_t map_size(const wad_job *job, size_t number) {
+    const sl_wad_map *map = &job->maps.items[number].map;
+    const char *name = map->is_text ? "TEXTMAP" : "LINEDEFS";
+    const uint32_t index = sl_wad_find_lump(&job->wad, map, name);
+    if (index == job->wad.lump_count) return 0;
+    return sl_wad_u32(job->wad.bytes + job->wad.directory + (size_t)index * 16 + 4);
+}
+
+typedef struct sized_map {
+    size_t size, number;
+} sized_map;
+
+static int compare_sizes(const void *left, const void *right) {
+    const sized_map *a = left, *b = right;
+    if (a->size != b->size) return a->size > b->size ? -1 : 1;
+    return (a->number > b->number) - (a->number < b->number);
+}
+
+static sl_status order_maps(wad_job *job) {
+    const size_t count = job->maps.count;
+    sized_map *sized = sl_alloc_array(job->context, count, sizeof *sized);
+    job->order = sl_alloc_array(job->context, count, sizeof *job->order);
+    if (sized && job->order) {
+        for (size_t i = 0; i < count; i++) sized[i] = (sized_map){map_size(job, i), i};
+        qsort(sized, count, sizeof *sized, compare_sizes);
+        for (size_t i = 0; i < count; i++) job->order[i] = sized[i].number;
+    }
+    const sl_status status = sized && job->order ? SL_OK : SL_NO_MEMORY;
+    sl_free(job->context, sized);
+    return status;
+}
+
+// --- one map
+
+/// What a map is on its way to its REJECT.
+typedef struct map_state {
+    sl_map map;
+    sl_space space;
+    sl_visibility visibility;
+    sl_doom_level level;
+} map_state;
+
+static const sl_see_method *find_sweep(void) {
+    size_t count;
+    const sl_see_method *methods = sl_see_methods(&count);
+    while (strcmp(methods->name, "sweep") != 0) methods++;
+    return methods;
+}
+
+static sl_status see(sl_context *context, const wad_job *job, map_state *state) {
+    sl_see_options options = sl_see_options_default();
+    options.sight = job->options->sight;
+    options.threads = job->per_map;
+    options.row_bytes = job->options->row_bytes / job->at_work;
+    return find_sweep()->see(context, &state->space, &options, &state->visibility);
+}
+
+static sl_status make_reject(sl_context *context, const wad_job *job, map_work *work,
+                             map_state *state) {
+    sl_import_options import = sl_import_options_default();
+    import.map = work->map.name;
+    import.sectors = true;
+    const sl_subdivide_options rules = sl_subdivide_options_default();
+    SL_TRY(sl_map_read_wad(context, job->wad.name, job->bytes.data, job->bytes.size, &import,
+                           &state->map));
+    SL_TRY(sl_map_clean(context, &state->map, NULL));
+    SL_TRY(sl_subdivision_for(&state->map)->subdivide(context, &state->map, &rules, &state->space));
+    SL_TRY(see(context, job, state));
+    SL_TRY(sl_doom_read(context, &job->wad, &work->map, &state->level));
+    SL_TRY(sl_reject_make(context, &state->space, &state->visibility.pvs, &state->level,
+                          &work->reject));
+    memcpy(work->reject.account.map, work->map.name, sizeof work->map.name);
+    return SL_OK;
+}
+
+/// As it, the message led by the map's name.
+static sl_status do_map(sl_context *context, const wad_job *job, map_work *work) {
+    map_state state = {0};
+    const sl_status status = make_reject(context, job, work, &state);
+    sl_doom_level_destroy(context, &state.level);
+    sl_visibility_destroy(context, &state.visibility);
+    sl_space_destroy(context, &state.space);
+    sl_map_destroy(context, &state.map);
+    if (status != SL_BAD_INPUT && status != SL_UNSUPPORTED) return status;
+    char message[sizeof context->message];
+    memcpy(message, context->message, sizeof message);
+    return sl_fail(context, status, "map %s: %s", work->map.name, message);
+}
+
+/// Of many maps beside each other only how many are done is told.
+static sl_status do_unit(sl_context *context, void *user, void *state, size_t unit) {
+    (void)state;
+    wad_job *job = user;
+    sl_context own = *context;
+    own.hooks.note = NULL;
+    own.hooks.progress = NULL;
+    const sl_status status = do_map(&own, job, &job->maps.items[job->order[unit]]);
+    memcpy(context->message, own.message, sizeof own.message);
+    return status;
+}
+
+// --- all
+
+static sl_status make_rejects(wad_job *job) {
+    const unsigned threads = job->options->threads ? job->options->threads : sl_core_count();
+    job->at_work = threads < job->maps.count ? threads : (unsigned)job->maps.count;
+    job->per_map = threads / job->at_work;
+    if (job->maps.count == 1) return do_map(job->context, job, &job->maps.items[0]);
+    SL_TRY(order_maps(job));
+    const sl_work work = {.job = job, .unit = do_unit, .stage = "reject", .units = "maps"};
+    return sl_work_run(job->context, &work, job->maps.count, job->at_work);
+}
+
+static sl_status write_copy(const wad_job *job, const char *output) {
+    sl_wad_edit *edits = sl_alloc_array(job->context, job->maps.count, sizeof *edits);
+    if (!edits) return SL_NO_MEMORY;
+    for (size_t i = 0; i < job->maps.count; i++) {
+        const map_work *work = &job->maps.items[i];
+        edits[i] = (sl_wad_edit){
+            .map = work->map, .name = "REJECT", .lump = {work->reject.bytes, work->reject.size}};
+    }
+    const sl_status status = sl_wad_write(job->context, &job->wad, edits, job->maps.count, output);
+    sl_free(job->context, edits);
+    return status;
+}
+
+static sl_status do_wad(wad_job *job, const char *path, const char *output,
+                        sl_reject_report *report) {
+    SL_TRY(sl_wad_open(job->context, path, job->bytes.data, job->bytes.size, &job->wad));
+    SL_TRY(choose_maps(job));
+    SL_TRY(make_rejects(job));
+    sl_reject_account *accounts = sl_alloc_array(job->context, job->maps.count, sizeof *accounts);
+    if (!accounts) return SL_NO_MEMORY;
+    for (size_t i = 0; i < job->maps.count; i++) accounts[i] = job->maps.items[i].reject.account;
+    const sl_status status = write_copy(job, output);
+    if (status == SL_OK)
+        *report = (sl_reject_report){accounts, job->maps.count};
+    else
+        sl_free(job->context, accounts);
+    return status;
+}
+
+sl_status sl_reject_wad(sl_context *context, const char *path, const sl_reject_options *options,
+                        const char *output, sl_reject_report *report) {
+    wad_job job = {.context = context, .options = options};
+    SL_TRY(sl_file_read(context, path, &job.bytes));
+    const sl_status status = do_wad(&job, path, output, report);
+    for (size_t i = 0; i < job.maps.count; i++)
+        sl_reject_destroy(context, &job.maps.items[i].reject);
+    sl_free(context, job.maps.items);
+    sl_free(context, job.order);
+    sl_free(context, job.bytes.data);
+    return status;
+}

@@ -1,0 +1,218 @@
+"""reject makes the REJECT of all maps of a WAD that bake and export make of each, in one copy in
+which all else stays; an interrupted one leaves an older file.
+
+test_reject.py PROGRAM
+"""
+import json
+import signal
+import struct
+import time
+import unittest
+
+import sandbox
+
+OTHER = [("BEFORE", b"kept"), ("PLAYPAL", bytes(range(200)))]
+
+
+def lumps_of_map(name, lines, sector_count, reject=None):
+    """Lines are (x0, y0, x1, y1, sector at the right, sector at the left or None)."""
+    vertices = sorted({point for line in lines for point in (line[:2], line[2:4])})
+    number = {point: i for i, point in enumerate(vertices)}
+    sides, records = b"", b""
+    count = 0
+    for line in lines:
+        own = [0xffff, 0xffff]
+        for i, sector in enumerate(line[4:]):
+            if sector is not None:
+                sides += struct.pack("<28xH", sector)
+                own[i] = count
+                count += 1
+        records += struct.pack("<7H", number[line[:2]], number[line[2:4]],
+                               1 if own[1] == 0xffff else 4, 0, 0, *own)
+    lumps = [(name, b""), ("THINGS", struct.pack("<5h", 32, 32, 90, 1, 7)), ("LINEDEFS", records),
+             ("SIDEDEFS", sides),
+             ("VERTEXES", b"".join(struct.pack("<hh", *vertex) for vertex in vertices)),
+             ("SECTORS", sector_count * struct.pack("<hh18xhH", 0, 128, 0, 0))]
+    if reject is not None:
+        lumps.append(("REJECT", reject))
+    return lumps + [("BLOCKMAP", b"any")]
+
+
+def rooms(name, count, skew=0, reject=None):
+    """Rooms in a row, doorways between them that go up and down, each room and doorway a sector."""
+    lines = []
+    for i in range(count):
+        x, room = 80 * i, 2 * i
+        west, east = (2 if i % 2 else 44), (44 if i % 2 else 2)
+        lines.append((x, 64 + skew, x + 64, 64, room, None))
+        lines.append((x + 64, 0, x, 0, room, None))
+        if i == 0:
+            lines.append((x, 0, x, 64 + skew, room, None))
+        else:
+            lines += [(x, 0, x, west, room, None), (x, west, x, west + 16, room, room - 1),
+                      (x, west + 16, x, 64 + skew, room, None)]
+        if i + 1 == count:
+            lines.append((x + 64, 64, x + 64, 0, room, None))
+        else:
+            lines += [(x + 64, 64, x + 64, east + 16, room, None),
+                      (x + 64, east + 16, x + 64, east, room, room + 1),
+                      (x + 64, east, x + 64, 0, room, None),
+                      (x + 64, east + 16, x + 80, east + 16, room + 1, None),
+                      (x + 80, east, x + 64, east, room + 1, None)]
+    return lumps_of_map(name, lines, 2 * count - 1, reject)
+
+
+def pillars(name, count):
+    """A hall of skew pillars: a long bake."""
+    side = 64 * count
+    lines = [(0, 0, 0, side, 0, None), (0, side, side, side, 0, None),
+             (side, side, side, 0, 0, None), (side, 0, 0, 0, 0, None)]
+    for i in range(count):
+        for j in range(count):
+            x, y = 64 * i + 16 + (7 * j) % 5, 64 * j + 16 + (5 * i) % 7
+            corners = [(x, y), (x + 20, y + 3), (x + 17, y + 23), (x - 3, y + 20)]
+            for a, b in zip(corners, corners[1:] + corners[:1]):
+                lines.append((*a, *b, 0, None))
+    return lumps_of_map(name, lines, 1)
+
+
+def make_wad(*groups):
+    body, directory, count = b"", b"", 0
+    for name, lump in (pair for group in groups for pair in group):
+        directory += struct.pack("<II8s", 12 + len(body), len(lump), name.encode())
+        body += lump
+        count += 1
+    return struct.pack("<4sII", b"PWAD", count, 12 + len(body)) + body + directory
+
+
+def lumps_of_wad(content):
+    count, at = struct.unpack_from("<II", content, 4)
+    lumps = []
+    for i in range(count):
+        offset, size, name = struct.unpack_from("<II8s", content, at + 16 * i)
+        lumps.append((name.rstrip(b"\0").decode(), content[offset:offset + size]))
+    return lumps
+
+
+# One map whose REJECT has the right size, one that has none, one whose REJECT has a wrong size, and
+# one whose walls are oblique.
+MAPS = [rooms("MAP01", 6, reject=bytes((11 * 11 + 7) // 8)), rooms("MAP02", 9),
+        rooms("MAP03", 4, reject=b"old"), rooms("MAP04", 12, skew=9)]
+
+
+class Reject(unittest.TestCase):
+    def setUp(self):
+        box = sandbox.Sandbox(PROGRAM)
+        self.box = box.__enter__()
+        self.addCleanup(box.__exit__)
+        self.write("in.wad", make_wad(OTHER[:1], MAPS[0], MAPS[1], OTHER[1:], *MAPS[2:]))
+
+    def write(self, name, content):
+        self.box.path(name).write_bytes(content)
+
+    def read(self, name):
+        return self.box.path(name).read_bytes()
+
+    def run_well(self, *arguments):
+        result = self.box.run(list(arguments))
+        self.assertEqual(result.status, 0, result.stderr)
+        return result
+
+    def refuse(self, message, *arguments, status=2):
+        result = self.box.run(["reject", *arguments])
+        self.assertEqual((result.status, result.stdout), (status, ""))
+        self.assertIn(message, result.stderr)
+
+    def test_as_one_by_one(self):
+        """The lumps of bake and export, map after map; whatever the number of threads."""
+        result = self.run_well("reject", "in.wad", "-o", "all.wad", "--threads", "3")
+        self.assertEqual(result.new_files, ["all.wad"])
+        self.assertIn("a new REJECT for 4 maps", result.stdout)
+        self.run_well("reject", "in.wad", "-o", "one.wad", "--threads", "1", "-q")
+        self.assertEqual(self.read("all.wad"), self.read("one.wad"))
+        before = "in.wad"
+        for name in "MAP01", "MAP02", "MAP03", "MAP04":
+            self.run_well("bake", "in.wad", "--map", name, "-o", "map.slv", "--sectors", "--sight",
+                          "open", "-q")
+            self.run_well("export", "map.slv", "--format", "reject", "--wad", before, "--map", name,
+                          "-o", name + ".wad", "-q")
+            before = name + ".wad"
+        made = lumps_of_wad(self.read("all.wad"))
+        self.assertEqual(made, lumps_of_wad(self.read(before)))
+        old = [lump for lump in lumps_of_wad(self.read("in.wad")) if lump[0] != "REJECT"]
+        self.assertEqual([lump for lump in made if lump[0] != "REJECT"], old)
+        rejects = [lump for name, lump in made if name == "REJECT"]
+        self.assertEqual([len(lump) for lump in rejects],
+                         [(n * n + 7) // 8 for n in (11, 17, 7, 23)])
+        for lump in rejects:
+            self.assertTrue(any(lump))
+
+    def test_some_maps(self):
+        told = json.loads(self.run_well("reject", "in.wad", "-o", "some.wad", "--map", "map04",
+                                        "--map", "MAP01", "--json").stdout)
+        self.assertEqual([each["name"] for each in told["maps"]], ["MAP04", "MAP01"])
+        self.assertEqual([each["sectors"] for each in told["maps"]], [23, 11])
+        self.assertEqual([each["pairs"] for each in told["maps"]], [23 * 11, 11 * 5])
+        made, old = lumps_of_wad(self.read("some.wad")), lumps_of_wad(self.read("in.wad"))
+        self.assertEqual(len(made), len(old) + 1)
+        hidden = [sum(bin(byte).count("1") for byte in lump)
+                  for name, lump in made if name == "REJECT"]
+        self.assertEqual(hidden, [2 * told["maps"][1]["hidden"], hidden[1],
+                                  2 * told["maps"][0]["hidden"]])
+        self.assertEqual([lump for name, lump in made if name == "REJECT"][1], b"old")
+
+    def test_in_place(self):
+        """Of one map whose REJECT has its size already, these bytes alone differ."""
+        self.run_well("reject", "in.wad", "-o", "place.wad", "--map", "MAP01")
+        old, new = self.read("in.wad"), self.read("place.wad")
+        self.assertEqual(len(old), len(new))
+        differs = [i for i in range(len(old)) if old[i] != new[i]]
+        self.assertTrue(differs)
+        self.assertLess(differs[-1] - differs[0], (11 * 11 + 7) // 8)
+
+    def test_closed_hides_no_more(self):
+        def hidden(*options):
+            told = self.run_well("reject", "in.wad", "-o", "x.wad", "--json", *options).stdout
+            return [each["hidden"] for each in json.loads(told)["maps"]]
+        for closed, opened in zip(hidden("--sight", "closed"), hidden("--sight", "open")):
+            self.assertLessEqual(closed, opened)
+
+    def test_refused(self):
+        self.refuse("-o OUT.wad is needed", "in.wad")
+        self.refuse("is the input itself", "in.wad", "-o", "in.wad")
+        self.refuse("holds no map MAP09", "in.wad", "-o", "out.wad", "--map", "MAP09")
+        self.refuse("map MAP01 is asked for twice", "in.wad", "-o", "out.wad", "--map", "MAP01",
+                    "--map", "map01")
+        self.refuse("both write to stdout", "in.wad", "-o", "-", "--json")
+        self.refuse("none.wad", "none.wad", "-o", "out.wad")
+        self.write("text.wad", b"no wad")
+        self.refuse("text.wad: no WAD", "text.wad", "-o", "out.wad")
+        self.write("empty.wad", make_wad(OTHER))
+        self.refuse("empty.wad: holds no map", "empty.wad", "-o", "out.wad")
+        self.refuse("allow more memory", "in.wad", "-o", "out.wad", "--memory", "1", status=1)
+
+    def test_broken_map(self):
+        """One map without sense fails the whole, by its name."""
+        broken = [(name, b"\xff" * 14 if name == "LINEDEFS" else lump) for name, lump in MAPS[1]]
+        self.write("broken.wad", make_wad(MAPS[0], broken))
+        self.write("out.wad", b"an older file")
+        self.refuse("map MAP02: ", "broken.wad", "-o", "out.wad")
+        self.run_well("reject", "broken.wad", "-o", "out.wad", "--map", "MAP01")
+
+    def test_interrupted(self):
+        self.write("hall.wad", make_wad(MAPS[0], pillars("MAP02", 60)))
+        self.write("out.wad", b"an older file")
+        before = self.box.files()
+        process = self.box.start(["reject", "hall.wad", "-o", "out.wad"])
+        time.sleep(0.5)
+        self.assertIsNone(process.poll(), "it is over too soon to be interrupted")
+        process.send_signal(signal.SIGINT)
+        result = self.box.finish(process, before, timeout=60)
+        self.assertEqual((result.status, result.stdout), (1, ""))
+        self.assertEqual(result.stderr, "sightline: interrupted\n")
+        self.assertEqual(self.box.files(), before)
+
+
+if __name__ == "__main__":
+    PROGRAM = sandbox.program_argument()
+    unittest.main()
