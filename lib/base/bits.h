@@ -20,4 +20,8 @@ static inline void sl_bits_add(sl_bits *set, size_t i) {
     set[i / 64] |= (sl_bits)1 << (i % 64);
 }
 
+static inline void sl_bits_flip(sl_bits *set, size_t i) {
+    set[i / 64] ^= (sl_bits)1 << (i % 64);
+}
+
 #endif

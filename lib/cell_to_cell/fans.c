@@ -20,8 +20,9 @@ static bool takes_part(const sl_space *space, const sl_see_options *options, uin
     return !options->inside_only || space->cells[cell].inside;
 }
 
+/// `dark`: NULL, or a set that gets the exits whose glass is dark.
 static sl_status copy_exits(sl_context *context, const sl_space *space,
-                            const sl_see_options *options, sl_fans *fans) {
+                            const sl_see_options *options, sl_bits *dark, sl_fans *fans) {
     const uint32_t count = space->cell_count;
     fans->cell_count = count;
     fans->first_exit = sl_alloc_array(context, (size_t)count + 1, sizeof *fans->first_exit);
@@ -35,9 +36,9 @@ static sl_status copy_exits(sl_context *context, const sl_space *space,
     uint32_t at = 0;
     for (uint32_t cell = 0; cell < count; cell++) {
         fans->first_exit[cell] = at;
-        const sl_exit *exits = space->exits + space->cells[cell].first_exit;
-        for (uint32_t i = 0; i < space->cells[cell].exit_count; i++) {
-            const sl_exit *e = &exits[i];
+        const uint32_t first = space->cells[cell].first_exit;
+        for (uint32_t i = first; i < first + space->cells[cell].exit_count; i++) {
+            const sl_exit *e = &space->exits[i];
             if (!takes_part(space, options, cell) || !takes_part(space, options, e->cell)) continue;
             uint32_t *other = &of_portal[e->portal];
             fans->exits[at] =
@@ -46,6 +47,7 @@ static sl_status copy_exits(sl_context *context, const sl_space *space,
                 *other = at;
             else
                 fans->exits[*other].twin = at;
+            if (dark && sl_exit_is_dark(space, cell, i)) sl_bits_add(dark, at);
             at++;
         }
     }
@@ -58,12 +60,32 @@ static sl_status copy_exits(sl_context *context, const sl_space *space,
     return SL_OK;
 }
 
+/// Exits that glass darkens lead nowhere. Where ways are turned round, what is dark is their twins.
+static void turn_round(const sl_fans *fans, sl_bits *dark) {
+    for (uint32_t i = 0; i < fans->first_exit[fans->cell_count]; i++) {
+        const uint32_t twin = fans->exits[i].twin;
+        if (twin < i || sl_bits_has(dark, i) == sl_bits_has(dark, twin)) continue;
+        sl_bits_flip(dark, i);
+        sl_bits_flip(dark, twin);
+    }
+}
+
+static void darken(sl_fans *fans, const sl_bits *dark) {
+    for (uint32_t i = 0; i < fans->first_exit[fans->cell_count]; i++)
+        if (sl_bits_has(dark, i)) fans->exits[i].cell = SL_NO_CELL;
+}
+
 // --- walking round
 
 typedef struct walker {
     const sl_space *space;
     sl_fans *fans;
+    const sl_bits *dark; ///< exits that end a fan; NULL for none
 } walker;
+
+static bool is_dark(const walker *w, uint32_t exit) {
+    return w->dark && sl_bits_has(w->dark, exit);
+}
 
 /// The exits of a cell that come after and before one, all round.
 static uint32_t exit_after(const sl_fans *fans, uint32_t cell, uint32_t exit) {
@@ -111,25 +133,27 @@ static void measure(const sl_fan *fan, sl_fan_cell *cells) {
     cells[fan->count].past_rest = 1;
 }
 
-/// The fan that starts with the cell that `exit` leaves, its left end being the fan's point.
+/// The fan that starts with the cell that `exit` leaves, its left end being the fan's point. One of
+/// a full turn ends where it starts; where it is `cut` there, a line turns beside its first edge.
 static sl_status walk_round(sl_context *context, walker *w, uint32_t cell, uint32_t exit,
-                            bool full_turn, sl_bits *walked) {
+                            bool full_turn, bool cut, sl_bits *walked) {
     sl_fans *fans = w->fans;
     const sl_walk_exit *exits = fans->exits;
-    sl_fan fan = {
-        .at = exits[exit].left, .first = (uint32_t)fans->cells.count, .full_turn = full_turn};
+    sl_fan fan = {.at = exits[exit].left,
+                  .first = (uint32_t)fans->cells.count,
+                  .full_turn = full_turn && !cut};
     const uint32_t start = exit;
     uint32_t begin = exit_after(fans, cell, exit);
     sl_point edge = full_turn ? exits[begin].left : corner_beside(w->space, cell, fan.at, false);
     for (;;) {
-        sl_bits_add(walked, exit);
+        if (!cut) sl_bits_add(walked, exit);
         SL_TRY(add_cell(context, fans, (sl_fan_cell){.cell = cell, .begin = begin, .edge = edge}));
         cell = exits[exit].cell;
         begin = exits[exit].twin;
         edge = exits[begin].left;
         exit = exit_before(fans, cell, begin);
         if (exit == start) break;
-        if (!sl_same_point(exits[exit].left, fan.at)) {
+        if (!sl_same_point(exits[exit].left, fan.at) || is_dark(w, exit)) {
             SL_TRY(
                 add_cell(context, fans, (sl_fan_cell){.cell = cell, .begin = begin, .edge = edge}));
             edge = corner_beside(w->space, cell, fan.at, true);
@@ -140,7 +164,7 @@ static sl_status walk_round(sl_context *context, walker *w, uint32_t cell, uint3
     SL_TRY(add_cell(context, fans, (sl_fan_cell){.cell = UINT32_MAX, .edge = edge}));
     sl_fan_cell *cells = fans->cells.items + fan.first;
     measure(&fan, cells);
-    fan.wide = !full_turn && cells[fan.count].past_half > 0;
+    fan.wide = !fan.full_turn && cells[fan.count].past_half > 0;
     fan.back_to_back = fan.wide && sl_orient(fan.at, cells[0].edge, edge) == 0 &&
                        !sl_opposite(fan.at, cells[0].edge, edge);
     SL_TRY(SL_ARRAY_ROOM(context, &fans->fans, 1));
@@ -148,16 +172,29 @@ static sl_status walk_round(sl_context *context, walker *w, uint32_t cell, uint3
     return SL_OK;
 }
 
-static sl_status walk_all(sl_context *context, walker *w, sl_bits *walked) {
+/// Between walls, and glass that is dark to whoever goes round counter-clockwise.
+static sl_status walk_between(sl_context *context, walker *w, sl_bits *walked) {
     const sl_fans *fans = w->fans;
-    for (int full_turn = 0; full_turn < 2; full_turn++)
-        for (uint32_t cell = 0; cell < fans->cell_count; cell++) {
-            for (uint32_t e = fans->first_exit[cell]; e < fans->first_exit[cell + 1]; e++) {
-                const sl_point next = fans->exits[exit_after(fans, cell, e)].right;
-                const bool starts = full_turn || !sl_same_point(next, fans->exits[e].left);
-                if (starts && !sl_bits_has(walked, e))
-                    SL_TRY(walk_round(context, w, cell, e, full_turn, walked));
-            }
+    for (uint32_t cell = 0; cell < fans->cell_count; cell++)
+        for (uint32_t e = fans->first_exit[cell]; e < fans->first_exit[cell + 1]; e++) {
+            const sl_walk_exit *next = &fans->exits[exit_after(fans, cell, e)];
+            const bool starts =
+                !sl_same_point(next->right, fans->exits[e].left) || is_dark(w, next->twin);
+            if (starts && !sl_bits_has(walked, e) && !is_dark(w, e))
+                SL_TRY(walk_round(context, w, cell, e, false, false, walked));
+        }
+    return SL_OK;
+}
+
+/// What is left goes all round. Where glass ends that is dark to whoever goes round clockwise, a
+/// line that passes its end on one side cannot go on to pass it on the other.
+static sl_status walk_all_round(sl_context *context, walker *w, sl_bits *walked) {
+    const sl_fans *fans = w->fans;
+    for (uint32_t cell = 0; cell < fans->cell_count; cell++)
+        for (uint32_t e = fans->first_exit[cell]; e < fans->first_exit[cell + 1]; e++) {
+            if (sl_bits_has(walked, e) || is_dark(w, e)) continue;
+            if (!w->dark || is_dark(w, exit_after(fans, cell, e)))
+                SL_TRY(walk_round(context, w, cell, e, true, w->dark != NULL, walked));
         }
     return SL_OK;
 }
@@ -215,26 +252,43 @@ static sl_status share_out(sl_context *context, sl_fans *fans, sl_bits *served) 
     return SL_OK;
 }
 
-static void drop_idle(sl_fans *fans) {
+static void drop_idle(sl_fans *fans, sl_fan_way way) {
     size_t kept = 0;
     for (size_t i = 0; i < fans->fans.count; i++) {
         const sl_fan fan = fans->fans.items[i];
-        if (fan.wide || fan.serves) fans->fans.items[kept++] = fan;
+        const bool turns = fan.wide && way != SL_FANS_SERVING;
+        if (turns || fan.serves) fans->fans.items[kept++] = fan;
     }
     fans->fans.count = kept;
 }
 
-sl_status sl_fans_find(sl_context *context, const sl_space *space, const sl_see_options *options,
-                       sl_fans *fans) {
-    SL_TRY(copy_exits(context, space, options, fans));
-    walker w = {.space = space, .fans = fans};
+/// `dark`: of the space's exits, zeroed; NULL for SL_FANS_MUTUAL.
+static sl_status find(sl_context *context, const sl_space *space, const sl_see_options *options,
+                      sl_fan_way way, sl_bits *dark, sl_fans *fans) {
+    SL_TRY(copy_exits(context, space, options, dark, fans));
+    if (way == SL_FANS_BACK) turn_round(fans, dark);
+    walker w = {.space = space, .fans = fans, .dark = way == SL_FANS_SERVING ? NULL : dark};
     sl_bits *walked = sl_alloc_array(context, sl_bits_words(space->exit_count), sizeof *walked);
     sl_bits *served = sl_alloc_array(context, sl_bits_words(space->cell_count), sizeof *served);
     sl_status status = walked && served ? SL_OK : SL_NO_MEMORY;
-    if (status == SL_OK) status = walk_all(context, &w, walked);
-    if (status == SL_OK) status = share_out(context, fans, served);
+    if (status == SL_OK) status = walk_between(context, &w, walked);
+    if (status == SL_OK) status = walk_all_round(context, &w, walked);
+    const bool serves = way == SL_FANS_MUTUAL || way == SL_FANS_SERVING;
+    if (status == SL_OK && serves) status = share_out(context, fans, served);
     sl_free(context, walked);
     sl_free(context, served);
-    if (status == SL_OK) drop_idle(fans);
+    if (status != SL_OK) return status;
+    drop_idle(fans, way);
+    if (dark) darken(fans, dark);
+    return SL_OK;
+}
+
+sl_status sl_fans_find(sl_context *context, const sl_space *space, const sl_see_options *options,
+                       sl_fan_way way, sl_fans *fans) {
+    if (way == SL_FANS_MUTUAL) return find(context, space, options, way, NULL, fans);
+    sl_bits *dark = sl_alloc_array(context, sl_bits_words(space->exit_count), sizeof *dark);
+    if (!dark) return SL_NO_MEMORY;
+    const sl_status status = find(context, space, options, way, dark, fans);
+    sl_free(context, dark);
     return status;
 }

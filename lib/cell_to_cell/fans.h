@@ -1,4 +1,5 @@
-/// What lies round the portal ends: for each, the cells between two walls, or all round it.
+/// What lies round the portal ends: for each, the cells between two walls, or all round it. Where
+/// glass is one-way, also the cells between glass that is dark for a line going round.
 #ifndef SL_FANS_H
 #define SL_FANS_H
 
@@ -10,7 +11,7 @@
 /// them.
 typedef struct sl_walk_exit {
     sl_point left, right;
-    uint32_t cell;       ///< where it leads
+    uint32_t cell;       ///< where it leads; SL_NO_CELL where one-way glass is dark
     uint32_t twin;       ///< the exit that leads back
     uint32_t first, end; ///< of the exits there
 } sl_walk_exit;
@@ -45,11 +46,22 @@ typedef struct sl_fans {
     SL_ARRAY(sl_fan_cell) cells;
 } sl_fans;
 
-/// Finds the fans of all portal ends. Each cell that has an exit is served by one of them at least.
-/// Fans without room to turn that serve nobody are left out. `fans` is zeroed, and to be destroyed
-/// also on failure. Time: a hash table of the ends.
+/// Which fans, and in which of its two directions one-way glass is dark for whoever walks through
+/// the exits.
+typedef enum sl_fan_way {
+    SL_FANS_MUTUAL,  ///< no glass is dark
+    SL_FANS_SERVING, ///< those that serve cells alone; glass does not end them, exits are as sight
+    SL_FANS_FORTH,   ///< wide ones alone, also between glass that is dark counter-clockwise
+    SL_FANS_BACK,    ///< as if all glass were turned round: exits lead to cells from which sight
+                     ///< comes
+} sl_fan_way;
+
+/// Finds the fans of all portal ends. Each cell that has an exit is served by one of them at least,
+/// but for SL_FANS_FORTH and SL_FANS_BACK. Fans without room to turn that serve nobody are left
+/// out. Exits have the same numbers in all ways. `fans` is zeroed, and to be destroyed also on
+/// failure. Time: a hash table of the ends.
 sl_status sl_fans_find(sl_context *context, const sl_space *space, const sl_see_options *options,
-                       sl_fans *fans);
+                       sl_fan_way way, sl_fans *fans);
 void sl_fans_destroy(sl_context *context, sl_fans *fans);
 
 static inline bool sl_same_point(sl_point a, sl_point b) {

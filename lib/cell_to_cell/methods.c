@@ -63,6 +63,7 @@ const sl_see_method *sl_see_methods(size_t *count) {
          .what = "a line turned about every corner of walls, by exact predicates: the fastest",
          .keeps_rows = true,
          .guarantee = SL_EXACT,
+         .knows = SL_EFFECT_ONEWAY,
          .see = sl_see_sweep,
          .units = "corners",
          .look = sl_look_sweep,

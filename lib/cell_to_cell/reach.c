@@ -238,6 +238,7 @@ static bool take_known(sl_reached *known, piece *p, uint32_t turn) {
 /// Goes on into the cell of a piece.
 static sl_status arrive(sl_context *context, sl_reacher *r, sl_reach *reach, piece *p) {
     const uint32_t cell = r->fans->exits[p->exit].cell;
+    if (cell == SL_NO_CELL) return SL_OK;
     uint32_t turn, found = r->last[cell];
     SL_TRY(turn_of(context, r, reach, &p->low, &turn));
     sl_reached *known = found < reach->cells.count ? &reach->cells.items[found] : NULL;
@@ -338,7 +339,9 @@ static bool is_known(const sl_reacher *r, const ray *of, uint32_t cell) {
 /// As arrive, for a ray: each cell once.
 static sl_status arrive_along(sl_context *context, sl_reacher *r, const ray *of, sl_rays *rays,
                               const piece *p) {
-    const uint32_t cell = r->fans->exits[p->exit].cell, on_ray = r->on_rays[cell];
+    const uint32_t cell = r->fans->exits[p->exit].cell;
+    if (cell == SL_NO_CELL) return SL_OK;
+    const uint32_t on_ray = r->on_rays[cell];
     if (on_ray >= of->first && on_ray < rays->cells.count && rays->cells.items[on_ray] == cell)
         return SL_OK;
     if (is_known(r, of, cell)) return SL_OK;

@@ -130,7 +130,7 @@ static sl_status turn_about_all(sl_context *context, sweep *all) {
 }
 
 static sl_status sweep_all(sl_context *context, sweep *all, sl_visibility *out) {
-    SL_TRY(sl_fans_find(context, all->space, all->options, &all->fans));
+    SL_TRY(sl_fans_find(context, all->space, all->options, SL_FANS_MUTUAL, &all->fans));
     SL_TRY(turn_about_all(context, all));
     out->account.pieces = all->pieces;
     out->account.deepest = all->deepest;
@@ -145,6 +145,8 @@ static sl_status check_options(sl_context *context, const sl_see_options *option
 sl_status sl_see_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
                        sl_visibility *out) {
     SL_TRY(check_options(context, options));
+    if (options->plan && options->plan->effects & SL_EFFECT_ONEWAY)
+        return sl_see_sweep_one_way(context, space, options, out);
     sweep all = {.space = space, .options = options};
     sl_visibility visibility = {.sight = options->sight, .guarantee = SL_EXACT};
     pthread_mutex_init(&all.lock, NULL);
@@ -162,7 +164,7 @@ sl_status sl_see_sweep(sl_context *context, const sl_space *space, const sl_see_
 // --- in parts
 
 static sl_status sweep_some(sl_context *context, sweep *all, sl_findings *findings) {
-    SL_TRY(sl_fans_find(context, all->space, all->options, &all->fans));
+    SL_TRY(sl_fans_find(context, all->space, all->options, SL_FANS_MUTUAL, &all->fans));
     const uint32_t count = (uint32_t)all->fans.fans.count;
     SL_TRY(sl_findings_start(context, all->space, all->options, count, findings));
     all->before = findings;

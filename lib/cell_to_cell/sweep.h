@@ -13,8 +13,12 @@ typedef struct sl_fan_rays {
 /// Scratch of one thread.
 typedef struct sl_sweeper {
     const sl_fans *fans;
+    const sl_fans *inward, *outward; ///< whose exits the line's backward half and its forward half
+                                     ///< go through; the fans' own, but for one-way glass
     bool closed;
-    sl_bit_rows rows; ///< what it finds: a fork
+    sl_bit_rows rows;                    ///< what it finds: a fork
+    sl_bit_rows *back_rows, *ahead_rows; ///< that get what the backward half and the forward half
+                                         ///< see, of the other; `rows`, but for one-way glass
     sl_reacher reacher;
     sl_reach back, middle, ahead;
     sl_rays rays;
@@ -42,8 +46,13 @@ sl_status sl_sweep_estimate(sl_context *context, const sl_fans *fans, bool close
 /// Turns the line: adds the pairs of what is seen by both its halves.
 sl_status sl_sweep_turn(sl_context *context, sl_sweeper *sweeper, const sl_fan *fan);
 
+/// The sweep where the map has one-way glass (sweep_oneway.c).
+sl_status sl_see_sweep_one_way(sl_context *context, const sl_space *space,
+                               const sl_see_options *options, sl_visibility *out);
+
 /// Makes the result of all that was found: adds that each cell sees itself and through each of its
-/// portals the cell behind, and that pairs are mutual. Sets the PVS and its count.
+/// portals the cell behind, and that pairs are mutual where the plan is. Sets the PVS and its
+/// count.
 sl_status sl_sweep_finish(sl_context *context, const sl_space *space, const sl_see_options *options,
                           sl_bit_rows *rows, sl_visibility *out);
 

@@ -6,7 +6,12 @@
 
 sl_status sl_sweeper_create(sl_context *context, const sl_fans *fans, bool closed,
                             const sl_bit_rows *rows, sl_sweeper *s) {
-    *s = (sl_sweeper){.fans = fans, .closed = closed};
+    *s = (sl_sweeper){.fans = fans,
+                      .inward = fans,
+                      .outward = fans,
+                      .closed = closed,
+                      .back_rows = &s->rows,
+                      .ahead_rows = &s->rows};
     SL_TRY(sl_reacher_create(context, fans, closed, &s->reacher));
     SL_TRY(sl_word_set_create(context, fans->cell_count, &s->behind));
     SL_TRY(sl_word_set_create(context, fans->cell_count, &s->before));
@@ -191,8 +196,10 @@ sl_status sl_sweep_fan(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     sl_reach_clear(&s->ahead);
     if (s->closed) SL_TRY(start_rays(context, s, fan));
     if (fan->wide) {
+        s->reacher.fans = s->inward;
         SL_TRY(reach_back(context, s, fan));
         if (s->closed) SL_TRY(add_rays(context, s, fan, &s->back, 0, false));
+        s->reacher.fans = s->outward;
         SL_TRY(reach_ahead(context, s, fan));
         if (s->closed) SL_TRY(add_rays(context, s, fan, &s->ahead, first_ahead(s, fan), true));
     }

@@ -12,6 +12,7 @@
 
 sl_status sl_sweep_finish(sl_context *context, const sl_space *space, const sl_see_options *options,
                           sl_bit_rows *rows, sl_visibility *out) {
+    const bool one_way = options->plan && options->plan->effects & SL_EFFECT_ONEWAY;
     for (uint32_t c = 0; c < space->cell_count; c++) {
         const sl_cell *cell = &space->cells[c];
         if (options->inside_only && !cell->inside) continue;
@@ -19,10 +20,11 @@ sl_status sl_sweep_finish(sl_context *context, const sl_space *space, const sl_s
         for (uint32_t i = 0; i < cell->exit_count; i++) {
             const uint32_t next = space->exits[cell->first_exit + i].cell;
             if (options->inside_only && !space->cells[next].inside) continue;
+            if (one_way && sl_exit_is_dark(space, c, cell->first_exit + i)) continue;
             SL_TRY(sl_bit_rows_add_one(context, rows, c, next));
         }
     }
-    SL_TRY(sl_bit_rows_mirror(context, rows, SL_ADD_MIRRORED));
+    if (!one_way) SL_TRY(sl_bit_rows_mirror(context, rows, SL_ADD_MIRRORED));
     return sl_bit_rows_encode(context, rows, out);
 }
 
@@ -109,7 +111,7 @@ static sl_status bound_open(sl_context *context, const sl_space *space,
     sl_fans fans = {0};
     sl_pvs bound = {0};
     bool bounded = false;
-    sl_status status = sl_fans_find(context, space, options, &fans);
+    sl_status status = sl_fans_find(context, space, options, SL_FANS_MUTUAL, &fans);
     if (status == SL_OK && fans.fans.count != findings->unit_count)
         status = sl_fail(context, SL_BAD_ARGUMENT, "findings of another space or other options");
     if (status == SL_OK) status = sl_flood_bound(context, space, options, &bound, &bounded);
@@ -179,7 +181,7 @@ sl_status sl_carry_sweep(sl_context *context, const sl_space *space, const sl_se
                          const uint64_t *kept, const uint64_t *enclosed, sl_findings *findings) {
     (void)kept;
     sl_fans fans = {0};
-    sl_status status = sl_fans_find(context, space, options, &fans);
+    sl_status status = sl_fans_find(context, space, options, SL_FANS_MUTUAL, &fans);
     if (status == SL_OK)
         status = sl_findings_start(context, space, options, (uint32_t)fans.fans.count, findings);
     if (status == SL_OK) status = spare(context, &fans, enclosed, findings);

@@ -7,8 +7,9 @@
 typedef struct half {
     const sl_reach *reach;
     sl_word_set *seen;
-    uint32_t turn;   ///< the next one
-    uint32_t cursor; ///< the first cell that is entered there or later
+    sl_bit_rows *rows; ///< of what it sees, of what the other half sees
+    uint32_t turn;     ///< the next one
+    uint32_t cursor;   ///< the first cell that is entered there or later
     int8_t ray_level;
     bool touched_stay; ///< touched cells, once entered, are so to the end
 } half;
@@ -20,12 +21,11 @@ static void enter(half *h, int8_t level) {
 }
 
 /// Adds to the rows of what `h` has come to see all that the other half sees.
-static sl_status join(sl_context *context, sl_sweeper *s, const half *h, const half *other,
-                      int8_t level) {
+static sl_status join(sl_context *context, const half *h, const half *other, int8_t level) {
     const sl_reached *cells = h->reach->cells.items;
     for (uint32_t i = h->cursor; i < h->reach->cells.count && cells[i].enter == h->turn; i++)
         if (cells[i].enter_level == level)
-            SL_TRY(sl_bit_rows_add(context, &s->rows, cells[i].cell, other->seen));
+            SL_TRY(sl_bit_rows_add(context, h->rows, cells[i].cell, other->seen));
     return SL_OK;
 }
 
@@ -75,9 +75,10 @@ static sl_status at_level(sl_context *context, sl_sweeper *s, half *halves[2], i
     // At one level only one of the halves has rays.
     const int with_ray = halves[0]->ray_level == level ? 0 : 1;
     SL_TRY(pass_ray(context, s, halves[with_ray], level));
-    for (int i = 0; i < 2; i++) SL_TRY(join(context, s, halves[i], halves[!i], level));
+    for (int i = 0; i < 2; i++) SL_TRY(join(context, halves[i], halves[!i], level));
     for (size_t i = 0; i < s->passing.count; i++)
-        SL_TRY(sl_bit_rows_add(context, &s->rows, s->passing.items[i], halves[!with_ray]->seen));
+        SL_TRY(sl_bit_rows_add(context, halves[with_ray]->rows, s->passing.items[i],
+                               halves[!with_ray]->seen));
     for (size_t i = 0; i < s->passing.count; i++)
         sl_word_set_drop(halves[with_ray]->seen, s->passing.items[i]);
     for (int i = 0; i < 2; i++) leave(halves[i], level);
@@ -90,13 +91,13 @@ static sl_status at_turn(sl_context *context, sl_sweeper *s, half *h, const half
     const sl_reached *cells = h->reach->cells.items;
     for (; h->cursor < h->reach->cells.count && cells[h->cursor].enter == h->turn; h->cursor++) {
         sl_word_set_add(h->seen, cells[h->cursor].cell);
-        SL_TRY(sl_bit_rows_add(context, &s->rows, cells[h->cursor].cell, other->seen));
+        SL_TRY(sl_bit_rows_add(context, h->rows, cells[h->cursor].cell, other->seen));
     }
     const uint32_t *passing;
     uint32_t count;
     ray_of(s, h, h->ray_level, &passing, &count);
     for (uint32_t i = 0; i < count; i++)
-        SL_TRY(sl_bit_rows_add(context, &s->rows, passing[i], other->seen));
+        SL_TRY(sl_bit_rows_add(context, h->rows, passing[i], other->seen));
     for (uint32_t i = h->reach->turns.items[h->turn].leave; i != UINT32_MAX; i = cells[i].next)
         if (!(cells[i].touched && h->touched_stay)) sl_word_set_drop(h->seen, cells[i].cell);
     h->turn++;
@@ -133,9 +134,13 @@ static void touch(half *h) {
 
 sl_status sl_sweep_turn(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     const sl_point *first = &s->fans->cells.items[fan->first].edge;
-    half back = {.reach = &s->back, .seen = &s->behind, .ray_level = SL_CLOCKWISE};
-    half ahead = {
-        .reach = &s->ahead, .seen = &s->before, .ray_level = SL_COUNTER, .touched_stay = true};
+    half back = {
+        .reach = &s->back, .seen = &s->behind, .rows = s->back_rows, .ray_level = SL_CLOCKWISE};
+    half ahead = {.reach = &s->ahead,
+                  .seen = &s->before,
+                  .rows = s->ahead_rows,
+                  .ray_level = SL_COUNTER,
+                  .touched_stay = true};
     half *halves[2] = {&back, &ahead};
     link_leaving(&s->back);
     link_leaving(&s->ahead);

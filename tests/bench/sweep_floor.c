@@ -101,7 +101,7 @@ static double time_fans(sl_context *context, const sl_space *space, const sl_see
     for (int round = 0; round < ROUNDS; round++) {
         sl_fans fans = {0};
         const double start = now();
-        must(context, sl_fans_find(context, space, options, &fans));
+        must(context, sl_fans_find(context, space, options, SL_FANS_MUTUAL, &fans));
         const double took = now() - start;
         sl_fans_destroy(context, &fans);
         if (took < least) least = took;
@@ -187,7 +187,7 @@ static void measure(sl_context *context, const sl_space *space, sl_sight sight, 
     sl_sweeper sweeper;
     floors f = {0};
     int64_t sum = 0;
-    must(context, sl_fans_find(context, space, &options, &fans));
+    must(context, sl_fans_find(context, space, &options, SL_FANS_MUTUAL, &fans));
     must(context, sl_bit_rows_create(context, space->cell_count, &options, &rows));
     must(context, sl_sweeper_create(context, &fans, sight == SL_CLOSED, &rows, &sweeper));
     must(context, sweep_all(context, &fans, &sweeper, &f));

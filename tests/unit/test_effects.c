@@ -5,6 +5,7 @@
 
 #include "base/random.h"
 #include "oracle/effects.h"
+#include "oracle/random_oblique.h"
 
 #include <math.h>
 
@@ -139,9 +140,12 @@ static bool try_map(uint64_t seed, unsigned effects, sl_sight sight) {
     const uint32_t n = t.space.cell_count;
     truth *truths = calloc((size_t)n * n, sizeof *truths);
     assert_non_null(truths);
-    for (int which = 0; which < 2 && within; which++) {
+    size_t methods;
+    const sl_see_method *all = sl_see_methods(&methods);
+    for (size_t which = 0; which < methods && within; which++) {
+        if (all[which].guarantee != SL_EXACT || effects & ~all[which].knows) continue;
         sl_visibility v = {0};
-        see(t.context, &t.space, &t.plan, which ? "prune" : "dfs", sight, &v);
+        see(t.context, &t.space, &t.plan, all[which].name, sight, &v);
         assert_int_equal(v.account.door_fallbacks, 0);
         for (uint32_t shut = 0; shut < (effects & SL_EFFECT_DOOR ? 8u : 1u); shut++) {
             compare(&t, &ways, &v.pvs, &v.doors, false, shut, truths);
@@ -162,6 +166,63 @@ static void random_maps(void **state) {
     const int maps = seeds ? atoi(seeds) : MAPS;
     for (int i = 0; i < maps; i++)
         done += try_map((uint64_t)i + 1, (unsigned)i % 16, i / 16 % 2 ? SL_OPEN : SL_CLOSED);
+    for (int i = 0; i < maps; i++)
+        done += try_map((uint64_t)i + 1, SL_EFFECT_ONEWAY, i % 2 ? SL_OPEN : SL_CLOSED);
+    assert_true(done > maps);
+}
+
+// --- oblique walls
+
+static sl_point draw_place(sl_random *random, oblique_grid grid) {
+    const double x = oblique_coordinate(random, grid), y = oblique_coordinate(random, grid);
+    return (sl_point){x, y};
+}
+
+static bool begin_oblique(trial *t, uint64_t seed, oblique_grid grid) {
+    *t = (trial){.context = testing_context(NULL), .seed = seed};
+    sl_random random = {seed};
+    sl_status status = oblique_random_map(t->context, seed, grid, 12, &t->map);
+    for (int i = 0; i < 3 && status == SL_OK; i++) {
+        const sl_point a = draw_place(&random, grid), b = draw_place(&random, grid);
+        if (a.x == b.x && a.y == b.y) continue;
+        status = sl_map_add_oneway(t->context, &t->map, (sl_segment){a, b}, 0);
+    }
+    if (status == SL_OK) status = sl_map_clean(t->context, &t->map, NULL);
+    const sl_bsp_options options = sl_bsp_options_default();
+    if (status == SL_OK) status = sl_subdivide_bsp(t->context, &t->map, &options, &t->space);
+    t->plan = sl_plan_make(&t->map);
+    return status == SL_OK;
+}
+
+static void compare_methods(const trial *t, sl_sight sight) {
+    sl_visibility by_dfs = {0}, by_sweep = {0};
+    see(t->context, &t->space, &t->plan, "dfs", sight, &by_dfs);
+    see(t->context, &t->space, &t->plan, "sweep", sight, &by_sweep);
+    for (uint32_t a = 0; a < t->space.cell_count; a++)
+        for (uint32_t b = 0; b < t->space.cell_count; b++)
+            if (sl_pvs_sees(&by_dfs.pvs, a, b) != sl_pvs_sees(&by_sweep.pvs, a, b)) {
+                sl_map_write_text(t->context, &t->map, "-");
+                fail_msg("seed %llu, %s: cells %u and %u", (unsigned long long)t->seed,
+                         sight == SL_OPEN ? "open" : "closed", a, b);
+            }
+    assert_int_equal(by_dfs.account.pairs, by_sweep.account.pairs);
+    sl_visibility_destroy(t->context, &by_dfs);
+    sl_visibility_destroy(t->context, &by_sweep);
+}
+
+static void one_way_among_oblique_walls(void **state) {
+    (void)state;
+    const char *seeds = getenv("SIGHTLINE_SEEDS");
+    const int maps = seeds ? atoi(seeds) : MAPS;
+    int done = 0;
+    for (int i = 0; i < maps; i++) {
+        trial t;
+        const bool made = begin_oblique(&t, (uint64_t)i + 1, (oblique_grid)(i % OBLIQUE_SANE));
+        for (int open = 0; open < 2 && made; open++)
+            compare_methods(&t, open ? SL_OPEN : SL_CLOSED);
+        done += made;
+        end(&t);
+    }
     assert_true(done > maps / 2);
 }
 
@@ -200,6 +261,7 @@ static void shut_doors_are_walls(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_maps),
+        cmocka_unit_test(one_way_among_oblique_walls),
         cmocka_unit_test(shut_doors_are_walls),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
