@@ -1,5 +1,6 @@
 #include "app.h"
 
+#include "bake_job.h"
 #include "base/base.h"
 #include "effect_words.h"
 #include "modes.h"
@@ -97,6 +98,8 @@ static void take_document(sl_app *app, bool opened) {
     sl_quiz_forget(app);
     if (!opened || !app->document.baked) return;
     app->fitted = true;
+    app->drag = (sl_drag){0};
+    app->stale = false;
     sl_history_clear(app->context, &app->history);
     app->recorder.records = app->recorder.plays = false;
     app->recorder.frames.count = 0;
@@ -129,7 +132,15 @@ static void follow(sl_app *app) {
     if (app->present.version != before && app->quiz.answered) sl_quiz_forget(app);
 }
 
+/// While something is dragged the map is made anew as soon as the last one has its cells: one
+/// that was begun at each step would never get that far.
+static void keep_up(sl_app *app) {
+    if (!app->stale || (app->document.job && !app->document.job->taken)) return;
+    sl_app_after_edit(app);
+}
+
 static void poll(sl_app *app, bool wait) {
+    keep_up(app);
     const uint32_t before = app->document.opened, version = app->document.version;
     bool changed = false;
     const sl_status status = wait ? sl_document_wait(app->context, &app->document, &changed)
@@ -195,6 +206,7 @@ void sl_app_before_edit(sl_app *app) {
 }
 
 void sl_app_after_edit(sl_app *app) {
+    app->stale = false;
     sl_app_check(app, sl_document_rebuild(app->context, &app->document));
 }
 

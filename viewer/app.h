@@ -66,6 +66,7 @@ typedef enum sl_drag_kind {
     SL_DRAG_END,  ///< a portal end of the lesson
     SL_DRAG_NEW_WALL,
     SL_DRAG_WALL,
+    SL_DRAG_MIRROR,
 } sl_drag_kind;
 
 typedef struct sl_drag {
@@ -75,6 +76,10 @@ typedef struct sl_drag {
     sl_point at;         ///< where it began, in the map
     uint32_t index;
     bool moved;
+    // Of a mirror: what of it, where it was, and whether it has been changed.
+    int part;
+    sl_segment segment;
+    bool changed;
 } sl_drag;
 
 /// The list that is shown while `maps_open`: files at hand, or the maps of one of them.
@@ -114,6 +119,7 @@ struct sl_app {
     int width, height;
     sl_point pointer;
     sl_drag drag;
+    bool stale; ///< the map changes while something is dragged: it is to be made anew
     sl_present present;
     sl_seen seen;
     sl_lesson lesson;

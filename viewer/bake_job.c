@@ -77,6 +77,7 @@ static sl_status see_all(sl_context *context, sl_bake_job *job, const sl_plan *p
     options.solver = sl_funnel();
     snprintf(job->baked->method, sizeof job->baked->method, "%s", method->name);
     atomic_store(&job->space_ready, true);
+    SL_TRY(sl_see_check(context, method, options.solver, &job->map));
     SL_TRY(method->see(context, &job->baked->space, &options, &job->visibility));
     atomic_store(&job->seen_ready, true);
     return SL_OK;

@@ -3,6 +3,7 @@
 #include "actions.h"
 #include "doors.h"
 #include "edit.h"
+#include "mirrors.h"
 #include "panes.h"
 #include "quiz.h"
 #include "shelf.h"
@@ -107,6 +108,8 @@ static sl_drag_kind plan_drag(sl_app *app, sl_drag *drag) {
     const bool searches = app->mode == SL_MODE_LEARN && app->lesson.end_count > 0;
     if (searches && pick_end(app, drag->at, &drag->index)) return SL_DRAG_END;
     if (searches && near_line(app, drag->at)) return SL_DRAG_LINE;
+    const bool moves = app->mode == SL_MODE_EXPLORE || app->mode == SL_MODE_DRAW;
+    if (moves && sl_mirror_take(app, drag)) return SL_DRAG_MIRROR;
     if (app->mode != SL_MODE_DRAW) return SL_DRAG_PAN;
     drag->index = sl_edit_pick(app, drag->at);
     app->wall = drag->index;
@@ -202,6 +205,9 @@ void sl_input_move(sl_app *app, sl_point to) {
     case SL_DRAG_END:
         if (drag->moved) drag_end(app, drag->index, now);
         break;
+    case SL_DRAG_MIRROR:
+        if (drag->moved) sl_mirror_move(app, drag, now);
+        break;
     case SL_DRAG_NEW_WALL:
     case SL_DRAG_WALL:
     case SL_DRAG_NONE:
@@ -229,7 +235,10 @@ void sl_input_release(sl_app *app, sl_point at) {
     const sl_point now = to_map(app, drag.hit.value, at);
     if ((drag.kind == SL_DRAG_NEW_WALL || drag.kind == SL_DRAG_WALL) && drag.moved)
         finish_wall(app, &drag, now);
-    const bool puts = drag.kind == SL_DRAG_PAN && !drag.moved && app->mode != SL_MODE_QUIZ;
+    if (drag.kind == SL_DRAG_MIRROR) sl_mirror_drop(app, &drag);
+    const bool holds =
+        drag.kind == SL_DRAG_PAN || (drag.kind == SL_DRAG_MIRROR && app->mode == SL_MODE_EXPLORE);
+    const bool puts = holds && !drag.moved && app->mode != SL_MODE_QUIZ;
     const uint32_t door = puts ? sl_door_at(app, now) : UINT32_MAX;
     if (door != UINT32_MAX) {
         sl_door_toggle(app, door);

@@ -74,6 +74,8 @@ void sl_layer_pvs(sl_app *app, const sl_frame *frame, int index) {
     (void)index;
     sl_draw_cell_set(app->ui.cairo, &app->document.baked->space, frame, app->seen.pvs, NULL,
                      app->ui.palette.seen[0], 0.8);
+    sl_draw_cell_set(app->ui.cairo, &app->document.baked->space, frame, app->seen.mirrored,
+                     app->seen.pvs, app->ui.palette.door, 0.3);
 }
 
 void sl_layer_region(sl_app *app, const sl_frame *frame, int index) {

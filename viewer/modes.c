@@ -3,6 +3,7 @@
 #include "draw/sight.h"
 #include "edit.h"
 #include "layers.h"
+#include "mirrors.h"
 #include "panes.h"
 #include "quiz.h"
 #include "range.h"
@@ -46,6 +47,7 @@ void sl_modes_draw_above(sl_app *app, const sl_frame *frame) {
         sl_draw_cone(app->ui.cairo, frame, app->eye.at, app->eye.heading, app->eye.fov,
                      6 * app->ui.text, palette->start);
     if (mode->eye) sl_range_draw(app, frame);
+    if (mode->eye) sl_mirror_draw(app, frame);
     if (mode->eye)
         sl_draw_eye_mark(app->ui.cairo, palette, frame, app->eye.at, app->eye.heading,
                          0.5 * app->ui.text);

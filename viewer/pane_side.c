@@ -247,10 +247,12 @@ void sl_pane_describe(const sl_app *app, sl_point at, char *text, size_t room) {
     const bool seen = count && app->seen.methods[count - 1].known &&
                       app->seen.methods[count - 1].cells[word] >> bit & 1;
     const bool pvs = app->seen.pvs[word] >> bit & 1;
+    const bool mirrored = app->seen.mirrored[word] >> bit & 1;
     snprintf(text + length, room - (size_t)length, " %s",
              cell == app->seen.cell ? "The eye stands in it."
              : seen                 ? "The eye sees it."
              : pvs                  ? "The eye's cell sees it, the eye does not."
+             : mirrored             ? "The eye's cell sees it by mirror."
                                     : "It is not seen from the eye's cell.");
     const bool both = sl_plan_make(&app->document.map).mutual || app->seen.cell == SL_NO_CELL;
     const size_t used = strlen(text);

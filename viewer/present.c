@@ -68,15 +68,25 @@ void sl_present_drop(sl_context *context, sl_present *present) {
     *present = (sl_present){.version = present->version + 1, .backwards = present->backwards};
 }
 
+static void add_row(const sl_present *present, const sl_pvs *pvs, const sl_door_sets *doors,
+                    uint32_t cell, sl_bits *set) {
+    if (!present->has_rows || cell >= pvs->cell_count) return;
+    sl_row_add_to(pvs, cell, set);
+    if (!doors->cell_count || !present->shut) return;
+    for (sl_door_pairs p = sl_door_pairs_begin(doors, cell); sl_door_pairs_next(&p, present->shut);)
+        if (!p.open) set[p.cell / 64] &= ~((sl_bits)1 << p.cell % 64);
+}
+
 void sl_present_add_row(const sl_present *present, const sl_document *document, uint32_t cell,
                         sl_bits *set) {
     const sl_visibility *v = &document->baked->visibility;
-    if (!present->has_rows || cell >= v->pvs.cell_count) return;
-    sl_row_add_to(&v->pvs, cell, set);
-    if (!v->doors.cell_count || !present->shut) return;
-    for (sl_door_pairs p = sl_door_pairs_begin(&v->doors, cell);
-         sl_door_pairs_next(&p, present->shut);)
-        if (!p.open) set[p.cell / 64] &= ~((sl_bits)1 << p.cell % 64);
+    add_row(present, &v->pvs, &v->doors, cell, set);
+}
+
+void sl_present_add_mirrored(const sl_present *present, const sl_document *document, uint32_t cell,
+                             sl_bits *set) {
+    const sl_visibility *v = &document->baked->visibility;
+    add_row(present, &v->mirrored, &v->mirrored_doors, cell, set);
 }
 
 bool sl_present_sees(const sl_present *present, const sl_document *document, uint32_t from,

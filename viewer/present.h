@@ -34,9 +34,11 @@ void sl_present_drop(sl_context *context, sl_present *present);
 bool sl_present_sees(const sl_present *present, const sl_document *document, uint32_t from,
                      uint32_t to);
 
-/// What a cell sees, likewise, added to a set of cells.
+/// What a cell sees, likewise, added to a set of cells: directly, and by mirror.
 void sl_present_add_row(const sl_present *present, const sl_document *document, uint32_t cell,
                         sl_bits *set);
+void sl_present_add_mirrored(const sl_present *present, const sl_document *document, uint32_t cell,
+                             sl_bits *set);
 
 /// A cell's stab tree without the sequences through doors that are shut; other trees are empty. Of
 /// the document's space. `out` is untouched on failure.

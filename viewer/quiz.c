@@ -18,7 +18,9 @@ void sl_quiz_forget(sl_app *app) {
 void sl_quiz_explain(sl_app *app, uint32_t from, uint32_t to) {
     sl_quiz_forget(app);
     const sl_document *d = &app->document;
-    if (!d->baked || from >= d->baked->space.cell_count || to >= d->baked->space.cell_count) return;
+    if (!d->baked || !app->present.space || from >= d->baked->space.cell_count ||
+        to >= d->baked->space.cell_count)
+        return;
     sl_explain_options options = sl_explain_options_default();
     options.solver = sl_funnel();
     options.most_tests = TESTS_MOST;

@@ -14,7 +14,8 @@ static void free_sets(sl_context *context, sl_seen *seen) {
         seen->methods[i] = (sl_seen_method){0};
     }
     if (seen->pvs) sl_free(context, seen->pvs);
-    seen->pvs = NULL;
+    if (seen->mirrored) sl_free(context, seen->mirrored);
+    seen->pvs = seen->mirrored = NULL;
 }
 
 void sl_seen_destroy(sl_context *context, sl_seen *seen) {
@@ -29,7 +30,8 @@ static sl_status make_sets(sl_context *context, sl_seen *seen, const sl_space *s
     free_sets(context, seen);
     const size_t words = sl_eye_words(space);
     seen->pvs = sl_alloc_array(context, words, sizeof *seen->pvs);
-    if (!seen->pvs) return SL_NO_MEMORY;
+    seen->mirrored = sl_alloc_array(context, words, sizeof *seen->mirrored);
+    if (!seen->pvs || !seen->mirrored) return SL_NO_MEMORY;
     for (size_t i = 0; i < count && i < SL_SEEN_MOST; i++) {
         seen->methods[i].cells = sl_alloc_array(context, words, sizeof *seen->pvs);
         if (!seen->methods[i].cells) return SL_NO_MEMORY;
@@ -83,8 +85,11 @@ static void take_pvs(sl_seen *seen, const sl_document *document, const sl_presen
                      sl_point eye) {
     const sl_space *space = &document->baked->space;
     memset(seen->pvs, 0, sl_eye_words(space) * sizeof *seen->pvs);
+    memset(seen->mirrored, 0, sl_eye_words(space) * sizeof *seen->mirrored);
     seen->cell = sl_space_locate(space, eye);
     if (seen->cell != SL_NO_CELL) sl_present_add_row(present, document, seen->cell, seen->pvs);
+    if (seen->cell != SL_NO_CELL)
+        sl_present_add_mirrored(present, document, seen->cell, seen->mirrored);
     sum_up(document, seen->pvs, &seen->pvs_count, &seen->pvs_area);
 }
 

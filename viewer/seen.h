@@ -20,7 +20,8 @@ typedef struct sl_seen {
     sl_view view;
     bool valid;
     sl_seen_method methods[SL_SEEN_MOST];
-    uint64_t *pvs; ///< of the eye's cell; all 0 while it is not known
+    uint64_t *pvs;      ///< of the eye's cell; all 0 while it is not known
+    uint64_t *mirrored; ///< what it sees by mirror, likewise
     uint32_t cell, pvs_count;
     double pvs_area;
     sl_region region;

@@ -172,6 +172,23 @@ def check_glass(viewer, folder):
         viewer.check(share < 2 * TOLERANCE, f"glass: eye {i} sees {share:.2%} otherwise")
 
 
+def check_mirrors(viewer, folder):
+    """A mirror dragged whole, then by an end, and both undone, against maps that have it there."""
+    plan = (viewer.root / "maps/effects/mirrors.map").read_text()
+    before = SIZE + "key Tab\nkey F8\nkey V\neye 5 25 0 90\n"
+    states = {"given": ("20 12 20 28", ""), "whole": ("18 12 18 28", "drag 457 140 430 140\n"),
+              "end": ("18 12 14 26", "drag 430 63 375 90\n"),
+              "again": ("20 12 20 28", "key Ctrl+Z\n" * 2)}
+    viewer.script(folder, "effects/mirrors.map", before + "".join(
+        f"{done}move 5 5\nsave {name}.png\n" for name, (_, done) in states.items()))
+    for name, (place, _) in states.items():
+        path = folder / f"{name}.map"
+        path.write_text(plan.replace("mirror 20 12 20 28", f"mirror {place}"))
+        viewer.script(folder, path, before + f"move 5 5\nsave {name}-given.png\n")
+        share = viewer.difference(folder / f"{name}.png", folder / f"{name}-given.png")
+        viewer.check(share < TOLERANCE, f"mirrors: {name} is {share:.2%} off")
+
+
 def check_range(viewer, folder):
     """A range set, moved by its slider, undone and lifted, against maps that have it."""
     plan = (viewer.root / "maps/effects/range.map").read_text()
@@ -224,6 +241,7 @@ def main():
         check_views(viewer, folder)
         check_doors(viewer, folder)
         check_glass(viewer, folder)
+        check_mirrors(viewer, folder)
         check_range(viewer, folder)
     viewer.end()
 
