@@ -31,24 +31,30 @@ static bool is_on_line(const finder *f, const side *s, const sl_segment *mirror)
     return in_line(wall->a, wall->b, mirror->a, mirror->b);
 }
 
-/// A coordinate that grows from one point to another.
-static double along(sl_point from, sl_point to, sl_point p) {
+double sl_mirror_along(sl_point from, sl_point to, sl_point p) {
     if (fabs(to.x - from.x) >= fabs(to.y - from.y)) return to.x > from.x ? p.x : -p.x;
     return to.y > from.y ? p.y : -p.y;
 }
 
-/// Adds what of a side lies on a mirror, if the mirror reflects there: on its left, if on one side.
+bool sl_mirror_covers(const sl_glass *mirror, sl_point from, sl_point to, sl_point *right,
+                      sl_point *left) {
+    const sl_segment *at = &mirror->segment;
+    const double a = sl_mirror_along(from, to, at->a), b = sl_mirror_along(from, to, at->b);
+    const bool same_way = a < b;
+    if (mirror->one_sided && !same_way) return false;
+    const sl_point low = same_way ? at->a : at->b, high = same_way ? at->b : at->a;
+    *right = sl_mirror_along(from, to, low) > sl_mirror_along(from, to, from) ? low : from;
+    *left = sl_mirror_along(from, to, high) < sl_mirror_along(from, to, to) ? high : to;
+    return sl_mirror_along(from, to, *right) < sl_mirror_along(from, to, *left);
+}
+
+/// Adds what of a side lies on a mirror, if the mirror reflects there.
 static sl_status add(finder *f, const side *s, uint32_t number) {
     const sl_glass *mirror = &f->map->mirrors[number];
-    const sl_segment *at = &mirror->segment;
-    if (!is_on_line(f, s, at)) return SL_OK;
-    const bool same_way = along(s->from, s->to, at->a) < along(s->from, s->to, at->b);
-    if (mirror->one_sided && !same_way) return SL_OK;
-    const sl_point low = same_way ? at->a : at->b, high = same_way ? at->b : at->a;
-    const sl_point right =
-        along(s->from, s->to, low) > along(s->from, s->to, s->from) ? low : s->from;
-    const sl_point left = along(s->from, s->to, high) < along(s->from, s->to, s->to) ? high : s->to;
-    if (along(s->from, s->to, right) >= along(s->from, s->to, left)) return SL_OK;
+    sl_point right, left;
+    if (!is_on_line(f, s, &mirror->segment) ||
+        !sl_mirror_covers(mirror, s->from, s->to, &right, &left))
+        return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(f->context, &f->sides, 1));
     f->sides.items[f->sides.count++] = (sl_mirror_side){left, right, s->cell, number};
     return SL_OK;

@@ -16,6 +16,14 @@ typedef struct sl_mirror_sides {
     uint32_t *first;
 } sl_mirror_sides;
 
+/// What of a piece of a cell's boundary, counter-clockwise, on a mirror's line lies on the mirror,
+/// if that reflects there. False for nothing.
+bool sl_mirror_covers(const sl_glass *mirror, sl_point from, sl_point to, sl_point *right,
+                      sl_point *left);
+
+/// A coordinate that grows along a line from one point to another.
+double sl_mirror_along(sl_point from, sl_point to, sl_point p);
+
 /// Mirrors must be walls of the space too (sl_map_clean makes them so).
 sl_status sl_mirror_sides_find(sl_context *context, const sl_space *space, const sl_map *map,
                                sl_mirror_sides *out);

@@ -1,12 +1,33 @@
 #include "eye_to_cell/arc.h"
 
+int sl_ray_orient_fine(const sl_pivot *pivot, const sl_ray *from, const sl_ray *to) {
+    return sl_orient_fine(&(sl_fine){pivot->eye, pivot->rest}, &(sl_fine){from->point, from->rest},
+                          &(sl_fine){to->point, to->rest});
+}
+
 /// Whether `b` lies from `a` the way of its coordinates that differ: -1, 0, 1 for x, else for y.
 static int way(sl_point a, sl_point b) {
     return a.x != b.x ? (b.x > a.x) - (b.x < a.x) : (b.y > a.y) - (b.y < a.y);
 }
 
+/// Which way a sum of two lies from another, both as those of sl_fine.
+static int way_along(double from, double from_rest, double to, double to_rest) {
+    return from != to ? (to > from) - (to < from) : (to_rest > from_rest) - (to_rest < from_rest);
+}
+
+/// Which way a ray's point lies from the eye.
+static int way_to(const sl_pivot *pivot, const sl_ray *ray) {
+    const int x = way_along(pivot->eye.x, pivot->rest.x, ray->point.x, ray->rest.x);
+    return x ? x : way_along(pivot->eye.y, pivot->rest.y, ray->point.y, ray->rest.y);
+}
+
+/// Whether the eye is at a point of the map.
+static bool is_at(const sl_pivot *pivot, sl_point point) {
+    return sl_same_point(pivot->eye, point) && pivot->rest.x == 0 && pivot->rest.y == 0;
+}
+
 bool sl_ray_same_way(const sl_pivot *pivot, sl_ray a, sl_ray b) {
-    const bool points = way(pivot->eye, a.point) == way(pivot->eye, b.point);
+    const bool points = way_to(pivot, &a) == way_to(pivot, &b);
     return points == (a.away == b.away);
 }
 
@@ -55,7 +76,7 @@ unsigned sl_arc_meet(sl_pivot *pivot, const sl_arc *a, const sl_arc *b, sl_arc p
 /// Marks the border at which a portal that lies along the ray is crossed. `ray` is the arc's.
 static void mark_along(const sl_pivot *pivot, const sl_exit *exit, sl_arc *arc) {
     // Who goes from the portal's right end to its left end crosses it to the right.
-    const bool ahead = way(pivot->eye, arc->right.point) == way(exit->right, exit->left);
+    const bool ahead = way_to(pivot, &arc->right) == way(exit->right, exit->left);
     if (ahead != arc->right.away)
         arc->left.along = true;
     else
@@ -63,11 +84,10 @@ static void mark_along(const sl_pivot *pivot, const sl_exit *exit, sl_arc *arc) 
 }
 
 bool sl_arc_of_exit(sl_pivot *pivot, const sl_exit *exit, sl_arc *out) {
-    const sl_point eye = pivot->eye;
     sl_arc arc = {sl_ray_to(exit->right), sl_ray_to(exit->left), SL_SPAN_HALF};
-    if (sl_same_point(eye, exit->left)) {
+    if (is_at(pivot, exit->left)) {
         arc.left = (sl_ray){.point = exit->right, .away = true};
-    } else if (sl_same_point(eye, exit->right)) {
+    } else if (is_at(pivot, exit->right)) {
         arc.right = (sl_ray){.point = exit->left, .away = true};
     } else {
         const int turn = sl_ray_turn(pivot, arc.right, arc.left);

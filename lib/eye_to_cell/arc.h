@@ -9,10 +9,13 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/// The eye about which rays turn, and how many orientation tests have been made.
+/// The eye about which rays turn, and how many orientation tests have been made. `fine`: the eye is
+/// the image of one in mirrors; it and the points of rays may have a rest, as those of sl_fine.
 typedef struct sl_pivot {
     sl_point eye;
     uint64_t tests;
+    sl_point rest;
+    bool fine;
 } sl_pivot;
 
 /// A ray from the eye: through a point other than the eye, or straight away from that point.
@@ -21,6 +24,7 @@ typedef struct sl_pivot {
 typedef struct sl_ray {
     sl_point point;
     bool away, along;
+    sl_point rest; ///< of the point; 0 unless the pivot is fine
 } sl_ray;
 
 /// How far an arc reaches: 0 degrees, up to 180, or 180.
@@ -32,10 +36,14 @@ typedef struct sl_arc {
     sl_span span;
 } sl_arc;
 
+/// sl_orient for a fine pivot.
+int sl_ray_orient_fine(const sl_pivot *pivot, const sl_ray *from, const sl_ray *to);
+
 /// The sense of the turn from one ray to another: 1 to the left, -1 to the right, 0 in line.
 static inline int sl_ray_turn(sl_pivot *pivot, sl_ray from, sl_ray to) {
     pivot->tests++;
-    const int sign = sl_orient(pivot->eye, from.point, to.point);
+    const int sign = pivot->fine ? sl_ray_orient_fine(pivot, &from, &to)
+                                 : sl_orient(pivot->eye, from.point, to.point);
     return from.away == to.away ? sign : -sign;
 }
 

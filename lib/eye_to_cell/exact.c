@@ -28,8 +28,7 @@ static uint32_t new_ray(sl_eye_search *search) {
     return search->ray_count;
 }
 
-/// Whether a step is worth going on from: not where its ray has come to the cell before.
-static bool is_new(sl_eye_search *search, const sl_eye_step *from, sl_eye_step *to) {
+bool sl_eye_is_new(sl_eye_search *search, const sl_eye_step *from, sl_eye_step *to) {
     if (to->arcs[0].span != SL_SPAN_RAY) return true;
     to->ray = from->ray ? from->ray : new_ray(search);
     uint32_t *mark = &search->rays[SL_RAY_SIDES * (size_t)to->cell + sides_of(&to->arcs[0])];
@@ -51,7 +50,7 @@ static size_t try_exit(sl_eye_query *query, sl_eye_step *last, bool first) {
         to[count] = entered;
         to[count].arcs[0] = entered.arcs[i];
         to[count].arc_count = 1;
-        count += is_new(query->search, last, &to[count]);
+        count += sl_eye_is_new(query->search, last, &to[count]);
     }
     if (count) sl_bits_add(query->cells, exit->cell);
     return count;

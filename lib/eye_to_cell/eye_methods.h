@@ -15,4 +15,11 @@ sl_status sl_eye_incident_portals(sl_context *context, sl_eye_search *search, co
 sl_status sl_eye_exact(sl_context *context, sl_eye_search *search, const sl_view *view,
                        uint64_t *cells, sl_eye_account *account);
 
+// What is seen by mirror, of the methods that know it.
+sl_status sl_eye_cell_to_cell_mirrored(sl_context *context, sl_eye_search *search,
+                                       const sl_view *view, uint64_t *cells,
+                                       sl_eye_account *account);
+sl_status sl_eye_exact_mirrored(sl_context *context, sl_eye_search *search, const sl_view *view,
+                                uint64_t *cells, sl_eye_account *account);
+
 #endif

@@ -43,6 +43,7 @@ void sl_eye_search_destroy(sl_context *context, sl_eye_search *search) {
     sl_free(context, search->queue);
     sl_free(context, search->steps);
     sl_free(context, search->rays);
+    sl_eye_mirrors_destroy(context, search->mirrors);
     sl_free(context, search);
 }
 

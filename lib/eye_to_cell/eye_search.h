@@ -26,6 +26,7 @@ struct sl_eye_search {
     sl_eye_step *steps; ///< cell_count + 3 of them
     uint32_t *rays;     ///< SL_RAY_SIDES a cell: the last ray that has come to it
     uint32_t ray_count;
+    struct sl_eye_mirrors *mirrors; ///< NULL where it looks into none
 };
 
 enum { SL_RAY_SIDES = 3 };
@@ -73,6 +74,12 @@ sl_eye_step sl_eye_first_step(const sl_eye_query *query);
 /// nothing does, or nothing that counts.
 bool sl_eye_pass(sl_eye_query *query, const sl_eye_step *from, bool first, const sl_exit *exit,
                  sl_eye_step *to);
+
+/// Whether a step of one arc is worth going on from: not where its single ray has come to the cell
+/// before. Gives the ray a number, where it has none from the step before.
+bool sl_eye_is_new(sl_eye_search *search, const sl_eye_step *from, sl_eye_step *to);
+
+void sl_eye_mirrors_destroy(sl_context *context, struct sl_eye_mirrors *mirrors);
 
 /// The exact method down the stab tree of the eye's cell. `done` is false, with nothing done, where
 /// that is not kept or its nodes do not come in the order of a depth-first search.

@@ -3,6 +3,7 @@
 /// and a cone narrower than half a circle, so that on the way around a cell from its entry, corners
 /// pass the right ray once, and then the left ray: one predicate a side.
 #include "eye_to_cell/region_parts.h"
+#include "sightline/mirrored.h"
 
 #include <math.h>
 
@@ -17,7 +18,7 @@ static const sl_side *side(const expansion *x, uint32_t i) {
 }
 
 static sl_eye_ray to_start(const expansion *x, uint32_t i) {
-    return sl_eye_ray_through(x->region->view.eye, side(x, i)->start);
+    return sl_eye_ray_through(&x->region->memory->eye, side(x, i)->start);
 }
 
 /// Whether a side is out of range, however its distance was rounded.
@@ -48,6 +49,25 @@ static inline sl_status see_piece(expansion *x, uint32_t beyond, const sl_eye_ra
     m->piece.b = b->at;
     m->piece.left = left ? *left : *b;
     m->piece.to_end = !left;
+    return SL_OK;
+}
+
+/// Takes glimpses of the mirrors on a side, of which what is between two rays is seen.
+static sl_status glimpse(expansion *x, uint32_t at, const sl_eye_ray *right,
+                         const sl_eye_ray *left) {
+    struct sl_region_memory *m = x->region->memory;
+    const sl_room_mirrors *mirrors = m->mirrors;
+    for (uint32_t i = mirrors->first[at]; i < mirrors->first[at + 1]; i++) {
+        const sl_room_mirror *mirror = &mirrors->pieces[i];
+        sl_glimpse seen = {.side = at, .mirror = mirror->mirror};
+        seen.right = sl_eye_ray_through(&m->eye, mirror->right);
+        seen.left = sl_eye_ray_through(&m->eye, mirror->left);
+        if (sl_eye_turn(&m->eye, &seen.right, right) > 0) seen.right = *right;
+        if (sl_eye_turn(&m->eye, left, &seen.left) > 0) seen.left = *left;
+        if (sl_eye_turn(&m->eye, &seen.right, &seen.left) <= 0) continue;
+        SL_TRY(SL_ARRAY_ROOM(x->context, &m->glimpses, 1));
+        m->glimpses.items[m->glimpses.count++] = seen;
+    }
     return SL_OK;
 }
 
@@ -87,7 +107,7 @@ static inline sl_status enter(expansion *x, gaze *g, const sl_eye_ray *a, const 
 /// Goes around a cell up to a portal, through which the gaze is turned (*enters), or to its end.
 static inline sl_status sweep(expansion *x, gaze *g, bool *enters) {
     sl_region *region = x->region;
-    const sl_point eye = region->view.eye;
+    const sl_eye_place *eye = &region->memory->eye;
     const double limit = region->memory->limit;
     sl_eye_ray a = to_start(x, g->at);
     *enters = false;
@@ -101,6 +121,8 @@ static inline sl_status sweep(expansion *x, gaze *g, bool *enters) {
         }
         SL_TRY(see_piece(x, beyond < SL_SIDE_WALL ? SL_PIECE_FAR : beyond, &a, &b,
                          g->within ? &g->right : NULL, turn > 0 ? &g->left : NULL));
+        if (region->memory->mirrors && beyond >= SL_SIDE_WALL)
+            SL_TRY(glimpse(x, g->at, g->within ? &g->right : &a, turn > 0 ? &g->left : &b));
         if (turn >= 0) return SL_OK;
         g->within = false;
         g->at = next;
@@ -112,7 +134,7 @@ static inline sl_status sweep(expansion *x, gaze *g, bool *enters) {
 /// What is seen through a portal between two rays. `gaze` is at the cell's side of it.
 static sl_status look_through(expansion *x, gaze g) {
     struct sl_region_memory *m = x->region->memory;
-    const sl_point eye = x->region->view.eye;
+    const sl_eye_place *eye = &m->eye;
     const size_t floor = m->frames.count;
     uint64_t crossings = 0;
     for (bool enters = true;;) {
@@ -141,7 +163,7 @@ static sl_status see_fan(expansion *x, uint32_t k, const sl_eye_ray *right,
                          const sl_eye_ray *left) {
     const uint32_t i = x->region->memory->fan.items[k], beyond = side(x, i)->beyond;
     const sl_eye_ray a = to_start(x, i), b = to_start(x, side(x, i)->next);
-    const sl_point eye = x->region->view.eye;
+    const sl_eye_place *eye = &x->region->memory->eye;
     if (right && sl_eye_turn(eye, right, &a) == 0) right = NULL;
     if (left && sl_eye_turn(eye, left, &b) == 0) left = NULL;
     if (beyond < SL_SIDE_WALL && !is_barred(x->region, &a, &b))
@@ -149,13 +171,15 @@ static sl_status see_fan(expansion *x, uint32_t k, const sl_eye_ray *right,
                                       .within = right,
                                       .right = right ? *right : a,
                                       .left = left ? *left : b});
+    if (x->region->memory->mirrors && beyond >= SL_SIDE_WALL)
+        SL_TRY(glimpse(x, i, right ? right : &a, left ? left : &b));
     return see_piece(x, beyond < SL_SIDE_WALL ? SL_PIECE_FAR : beyond, &a, &b, right, left);
 }
 
 /// The end of the wall at the eye that lies on the ray through `toward`.
 static sl_point wall_end(const expansion *x, uint32_t beyond, sl_point toward) {
     const sl_wall *wall = &x->outline->space->walls[beyond - SL_SIDE_WALL];
-    const sl_point eye = x->region->view.eye;
+    const sl_eye_place *eye = &x->region->memory->eye;
     const sl_eye_ray to_a = sl_eye_ray_through(eye, wall->a);
     const sl_eye_ray to_side = sl_eye_ray_through(eye, toward);
     return same_direction(&to_a, &to_side) ? wall->a : wall->b;
@@ -164,7 +188,7 @@ static sl_point wall_end(const expansion *x, uint32_t beyond, sl_point toward) {
 /// The wall at the eye is seen edge-on, but it bounds what is seen: an edge from the eye to its
 /// end, or the other way.
 static sl_status see_wall_at_eye(expansion *x, uint32_t beyond, sl_point from, sl_point to) {
-    const sl_point eye = x->region->view.eye;
+    const sl_eye_place *eye = &x->region->memory->eye;
     const sl_eye_ray a = sl_eye_ray_through(eye, from), b = sl_eye_ray_through(eye, to);
     return see_piece(x, beyond, &a, &b, NULL, NULL);
 }
@@ -196,7 +220,7 @@ static sl_status see_all_round(expansion *x) {
 uint32_t sl_region_find_side(const sl_outline *o, const sl_region *region, const sl_eye_ray *ray,
                              bool onward) {
     const struct sl_region_memory *m = region->memory;
-    const sl_point eye = region->view.eye;
+    const sl_eye_place *eye = &m->eye;
     for (uint32_t k = 0; k < m->fan.count; k++) {
         const sl_side *s = &o->sides[m->fan.items[k]];
         const sl_eye_ray a = sl_eye_ray_through(eye, s->start);
@@ -214,7 +238,7 @@ static sl_status see_from_gap(expansion *x, const sl_eye_ray *left, uint32_t sto
     const sl_eye_ray start = to_start(x, side(x, m->right)->next);
     if (stop == UINT32_MAX) {
         const bool touches =
-            sl_eye_turn(view->eye, &start, left) == 0 && same_direction(&start, left);
+            sl_eye_turn(&m->eye, &start, left) == 0 && same_direction(&start, left);
         return sl_view_holds(view, start.at) && !touches ? see_all_round(x) : SL_OK;
     }
     SL_TRY(start_open(x));
@@ -225,13 +249,13 @@ static sl_status see_from_gap(expansion *x, const sl_eye_ray *left, uint32_t sto
 static sl_status see_cone(expansion *x) {
     const struct sl_region_memory *m = x->region->memory;
     const sl_view *view = &x->region->view;
-    const sl_eye_ray right = sl_eye_ray_through(view->eye, view->right);
-    const sl_eye_ray left = sl_eye_ray_through(view->eye, view->left);
+    const sl_eye_ray right = sl_eye_ray_through(&m->eye, view->right);
+    const sl_eye_ray left = sl_eye_ray_through(&m->eye, view->left);
     const uint32_t start = sl_region_find_side(x->outline, x->region, &right, true);
     const uint32_t stop = sl_region_find_side(x->outline, x->region, &left, false);
     if (start == UINT32_MAX) return see_from_gap(x, &left, stop);
     SL_TRY(sl_region_add_eye(x->context, x->region, SL_EDGE_CONE));
-    if (start == stop && sl_eye_turn(view->eye, &right, &left) > 0)
+    if (start == stop && sl_eye_turn(&m->eye, &right, &left) > 0)
         return see_fan(x, start, &right, &left);
     SL_TRY(see_fan(x, start, &right, NULL));
     const bool wraps = stop <= start;
@@ -246,16 +270,17 @@ static sl_status see_cone(expansion *x) {
 }
 
 static bool is_one_ray(const sl_view *cone) {
-    const sl_eye_ray right = sl_eye_ray_through(cone->eye, cone->right);
-    const sl_eye_ray left = sl_eye_ray_through(cone->eye, cone->left);
-    return sl_eye_turn(cone->eye, &right, &left) == 0 && same_direction(&right, &left);
+    const sl_eye_place eye = sl_eye_place_at(cone->eye);
+    const sl_eye_ray right = sl_eye_ray_through(&eye, cone->right);
+    const sl_eye_ray left = sl_eye_ray_through(&eye, cone->left);
+    return sl_eye_turn(&eye, &right, &left) == 0 && same_direction(&right, &left);
 }
 
 static bool usable(sl_point eye, sl_point border) {
     return isfinite(border.x) && isfinite(border.y) && (border.x != eye.x || border.y != eye.y);
 }
 
-static sl_status check_view(sl_context *context, const sl_view *view, double range) {
+sl_status sl_region_check_view(sl_context *context, const sl_view *view, double range) {
     if (!(range >= 0 && isfinite(range)))
         return sl_fail(context, SL_BAD_ARGUMENT, "range %g: must be finite and not negative",
                        range);
@@ -265,48 +290,75 @@ static sl_status check_view(sl_context *context, const sl_view *view, double ran
     return SL_OK;
 }
 
-static sl_status make(expansion *x) {
-    sl_region *region = x->region;
+sl_status sl_region_spread(sl_context *context, const sl_outline *outline, sl_region *region) {
+    expansion x = {context, outline, region};
     if (region->cell == SL_NO_CELL) return SL_OK;
     if (!region->view.full && is_one_ray(&region->view)) return SL_OK;
-    SL_TRY(sl_region_gather_fan(x->context, x->outline, region));
-    SL_TRY(region->view.full ? see_all_round(x) : see_cone(x));
-    SL_TRY(sl_region_close(x->context, region));
-    return region->range > 0 ? sl_region_cut_range(x->context, region) : SL_OK;
+    SL_TRY(sl_region_gather_fan(context, outline, region));
+    SL_TRY(region->view.full ? see_all_round(&x) : see_cone(&x));
+    SL_TRY(sl_region_close(context, region));
+    return region->range > 0 ? sl_region_cut_range(context, region) : SL_OK;
+}
+
+sl_status sl_region_look_in(sl_context *context, const sl_outline *outline, sl_region *region,
+                            const sl_glimpse *glimpse) {
+    expansion x = {context, outline, region};
+    const sl_side *entry = side(&x, glimpse->side);
+    const sl_eye_ray right_end = to_start(&x, entry->next);
+    const bool within = sl_eye_turn(&region->memory->eye, &glimpse->right, &right_end) < 0;
+    return look_through(&x, (gaze){.entry = glimpse->side,
+                                   .within = within,
+                                   .right = glimpse->right,
+                                   .left = glimpse->left});
+}
+
+sl_status sl_region_start(sl_context *context, const sl_outline *outline, const sl_view *view,
+                          double range, sl_region *region) {
+    region->count = 0;
+    region->crossings = 0;
+    region->cell = SL_NO_CELL;
+    if (!region->memory) {
+        region->memory = sl_alloc_array(context, 1, sizeof *region->memory);
+        if (!region->memory) return SL_NO_MEMORY;
+    }
+    struct sl_region_memory *m = region->memory;
+    m->pending = false;
+    m->first = SL_PIECE_FAR;
+    m->frames.count = m->glimpses.count = 0;
+    m->mirrors = NULL;
+    m->eye = sl_eye_place_at(view->eye);
+    m->limit = sl_eye_limit(outline->space, view);
+    region->view = *view;
+    region->range = range;
+    return SL_OK;
 }
 
 sl_status sl_region_make(sl_context *context, const sl_outline *outline, const sl_view *view,
                          double range, sl_region *region) {
     region->count = 0;
-    region->crossings = 0;
-    region->cell = SL_NO_CELL;
-    SL_TRY(check_view(context, view, range));
-    if (!region->memory) {
-        region->memory = sl_alloc_array(context, 1, sizeof *region->memory);
-        if (!region->memory) return SL_NO_MEMORY;
-    }
-    region->memory->pending = false;
-    region->memory->first = SL_PIECE_FAR;
-    region->memory->frames.count = 0;
-    region->view = *view;
-    region->range = range;
-    region->memory->limit = sl_eye_limit(outline->space, view);
+    SL_TRY(sl_region_check_view(context, view, range));
+    SL_TRY(sl_region_start(context, outline, view, range, region));
     region->cell = sl_space_locate(outline->space, view->eye);
-    expansion x = {context, outline, region};
-    const sl_status status = make(&x);
+    const sl_status status = sl_region_spread(context, outline, region);
     if (status != SL_OK) region->count = 0;
     return status;
+}
+
+void sl_region_settle(sl_context *context, sl_region *region) {
+    if (region->memory) {
+        sl_free(context, region->memory->frames.items);
+        sl_free(context, region->memory->fan.items);
+        sl_free(context, region->memory->whole.items);
+        sl_free(context, region->memory->glimpses.items);
+    }
+    sl_free(context, region->memory);
+    region->memory = NULL;
 }
 
 void sl_region_destroy(sl_context *context, sl_region *region) {
     sl_free(context, region->points);
     sl_free(context, region->offsets);
     sl_free(context, region->edges);
-    if (region->memory) {
-        sl_free(context, region->memory->frames.items);
-        sl_free(context, region->memory->fan.items);
-        sl_free(context, region->memory->whole.items);
-    }
-    sl_free(context, region->memory);
+    sl_region_settle(context, region);
     *region = (sl_region){0};
 }

@@ -53,6 +53,38 @@ sl_point sl_region_meet(sl_point eye, const sl_eye_ray *ray, sl_point a, sl_poin
     return (sl_point){d.x * share, d.y * share};
 }
 
+/// The sum of two doubles, and what it leaves out.
+static double two_sum(double a, double b, double *rest) {
+    const double sum = a + b, part = sum - a;
+    *rest = (a - (sum - part)) + (b - part);
+    return sum;
+}
+
+/// (a + a_rest) - (b + b_rest), to little more than one rounding but where nearly all cancels: what
+/// is lost then is less than 2^-104 times the largest of them.
+static double fine_difference(double a, double a_rest, double b, double b_rest) {
+    double low, lower, lowest;
+    const double high = two_sum(a, -b, &low);
+    const double rests = two_sum(a_rest, -b_rest, &lower);
+    const double middle = two_sum(low, rests, &lowest);
+    return high + (middle + (lowest + lower));
+}
+
+sl_eye_ray sl_eye_ray_fine(const sl_eye_place *eye, const sl_fine *at) {
+    const sl_fine *from = &eye->point;
+    return (sl_eye_ray){at->at,
+                        {fine_difference(at->at.x, at->rest.x, from->at.x, from->rest.x),
+                         fine_difference(at->at.y, at->rest.y, from->at.y, from->rest.y)},
+                        at->rest};
+}
+
+int sl_eye_turn_fine(const sl_eye_place *eye, const sl_eye_ray *a, const sl_eye_ray *b) {
+    const double determinant = a->offset.x * b->offset.y - a->offset.y * b->offset.x;
+    const int sign = sl_turn_filter(a->offset, b->offset);
+    if (sign && fabs(determinant) > eye->slack) return sign;
+    return sl_orient_fine(&eye->point, &(sl_fine){a->at, a->rest}, &(sl_fine){b->at, b->rest});
+}
+
 static sl_status grow(sl_context *context, sl_region *region) {
     size_t room[3] = {region->memory->room, region->memory->room, region->memory->room};
     const size_t needed = region->count + 4;
@@ -143,6 +175,16 @@ sl_status sl_region_add_eye(sl_context *context, sl_region *region, sl_edge_kind
 
 sl_status sl_region_end_at_eye(sl_context *context, sl_region *region) {
     return end_piece(context, region, NULL, SL_EDGE_BORDER);
+}
+
+sl_status sl_region_add_on_mirror(sl_context *context, sl_region *region, const sl_eye_ray *ray,
+                                  sl_point a, sl_point b, sl_region_edge edge) {
+    const bool at_end = (ray->at.x == a.x && ray->at.y == a.y && !ray->rest.x && !ray->rest.y) ||
+                        (ray->at.x == b.x && ray->at.y == b.y && !ray->rest.x && !ray->rest.y);
+    const place at = place_of(region->view.eye, ray, at_end, a, b);
+    if (region->memory->pending) SL_TRY(end_piece(context, region, &at, SL_EDGE_CONE));
+    edge.exact = at.exact;
+    return sl_region_add_point(context, region, at.point, at.offset, edge);
 }
 
 /// Whether the pending piece goes on as the first one.

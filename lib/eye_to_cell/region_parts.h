@@ -10,7 +10,17 @@
 /// A ray from the eye through a point other than it: a corner of the space, or a cone's border.
 typedef struct sl_eye_ray {
     sl_point at, offset; ///< the point, and as seen from the eye: each coordinate rounded once
+    sl_point rest;       ///< of the point, as that of sl_fine; 0 unless the eye is fine
 } sl_eye_ray;
+
+/// Where rays start. `fine`: the eye is the image of one in mirrors; it or a ray's point has a
+/// rest.
+typedef struct sl_eye_place {
+    sl_fine point;
+    bool fine;
+    double slack; ///< of a fine eye: what a x b of two offsets may be off by beside what
+                  ///< sl_turn_filter allows for
+} sl_eye_place;
 
 /// What is left to see of a cell: from where `side` starts to the ray `left`.
 typedef struct sl_region_frame {
@@ -29,12 +39,21 @@ typedef struct sl_region_piece {
 
 #define SL_PIECE_FAR UINT32_MAX
 
+/// What is seen of a mirror, of one side of a room, between two rays.
+typedef struct sl_glimpse {
+    uint32_t side, mirror;
+    sl_eye_ray right, left;
+} sl_glimpse;
+
 typedef struct sl_region_corner {
     sl_point point, offset;
     sl_region_edge edge;
 } sl_region_corner;
 
 struct sl_region_memory {
+    sl_eye_place eye;
+    const struct sl_room_mirrors *mirrors; ///< glimpses are taken of these; NULL for none
+    SL_ARRAY(sl_glimpse) glimpses;         ///< counter-clockwise
     SL_ARRAY(sl_region_frame) frames;
     SL_ARRAY(uint32_t) fan; ///< the sides seen from the eye's cells, counter-clockwise
     double limit;           ///< see sl_eye_limit
@@ -47,16 +66,26 @@ struct sl_region_memory {
     SL_ARRAY(sl_region_corner) whole; ///< the region before its range was cut
 };
 
-static inline sl_eye_ray sl_eye_ray_through(sl_point eye, sl_point at) {
-    return (sl_eye_ray){at, {at.x - eye.x, at.y - eye.y}};
+/// The same for a fine eye: the offset is good to little more than one rounding.
+sl_eye_ray sl_eye_ray_fine(const sl_eye_place *eye, const sl_fine *at);
+int sl_eye_turn_fine(const sl_eye_place *eye, const sl_eye_ray *a, const sl_eye_ray *b);
+
+static inline sl_eye_place sl_eye_place_at(sl_point eye) {
+    return (sl_eye_place){.point.at = eye};
+}
+
+static inline sl_eye_ray sl_eye_ray_through(const sl_eye_place *eye, sl_point at) {
+    if (eye->fine) return sl_eye_ray_fine(eye, &(sl_fine){.at = at});
+    return (sl_eye_ray){.at = at, .offset = {at.x - eye->point.at.x, at.y - eye->point.at.y}};
 }
 
 /// Where b lies from the ray a: 1 to its left, -1 to its right, 0 in line with it. Exact.
-static inline int sl_eye_turn(sl_point eye, const sl_eye_ray *a, const sl_eye_ray *b) {
+static inline int sl_eye_turn(const sl_eye_place *eye, const sl_eye_ray *a, const sl_eye_ray *b) {
+    if (eye->fine) return sl_eye_turn_fine(eye, a, b);
     const int sign = sl_turn_filter(a->offset, b->offset);
     if (sign) return sign;
     if (a->at.x == b->at.x && a->at.y == b->at.y) return 0;
-    return sl_orient(eye, a->at, b->at);
+    return sl_orient(eye->point.at, a->at, b->at);
 }
 
 /// Gathers the fan about the eye, given the cell that it is located in.
@@ -77,8 +106,8 @@ static inline double sl_eye_limit(const sl_space *space, const sl_view *view) {
 }
 
 /// As sl_eye_turn, given the limit of the view.
-static inline int sl_eye_turn_within(sl_point eye, const sl_eye_ray *a, const sl_eye_ray *b,
-                                     double limit) {
+static inline int sl_eye_turn_within(const sl_eye_place *eye, const sl_eye_ray *a,
+                                     const sl_eye_ray *b, double limit) {
     const int sign = sl_turn_filter_within(a->offset, b->offset, limit);
     return sign ? sign : sl_eye_turn(eye, a, b);
 }
@@ -92,7 +121,7 @@ uint32_t sl_region_find_side(const sl_outline *outline, const sl_region *region,
 /// that ends to the left of it. *within, given whether the ray passes within the entry rather than
 /// through its right end, becomes whether it passes within that side rather than through its start.
 /// False where there is none, which only rounded corners of cells can bring about.
-static inline bool sl_region_find_first(const sl_outline *o, sl_point eye, double limit,
+static inline bool sl_region_find_first(const sl_outline *o, const sl_eye_place *eye, double limit,
                                         uint32_t entry, const sl_eye_ray *ray, uint32_t *at,
                                         bool *within) {
     const sl_side *sides = o->sides;
@@ -132,5 +161,25 @@ sl_point sl_region_meet(sl_point eye, const sl_eye_ray *ray, sl_point a, sl_poin
 
 /// Cuts the region to its range.
 sl_status sl_region_cut_range(sl_context *context, sl_region *region);
+
+/// Checks the arguments of sl_region_make.
+sl_status sl_region_check_view(sl_context *context, const sl_view *view, double range);
+/// Empties a region and makes its memory ready for a view.
+sl_status sl_region_start(sl_context *context, const sl_outline *outline, const sl_view *view,
+                          double range, sl_region *region);
+/// The region of a view that sl_region_start has been called for; glimpses are taken on the way.
+sl_status sl_region_spread(sl_context *context, const sl_outline *outline, sl_region *region);
+/// Adds what is seen into a room through a piece of one of its sides, from outside: a glimpse whose
+/// rays are those of the eye beyond.
+sl_status sl_region_look_in(sl_context *context, const sl_outline *outline, sl_region *region,
+                            const sl_glimpse *glimpse);
+/// Adds the point where a ray meets the mirror from a to b, with the edge that starts there. What
+/// is pending ends with an edge that leads to it along the ray.
+sl_status sl_region_add_on_mirror(sl_context *context, sl_region *region, const sl_eye_ray *ray,
+                                  sl_point a, sl_point b, sl_region_edge edge);
+/// Cuts what is seen in a mirror to its range: `region` ends with the edge along the mirror.
+sl_status sl_region_cut_mirrored(sl_context *context, sl_region *region);
+/// Frees what a region needs while it is made, and keeps the region.
+void sl_region_settle(sl_context *context, sl_region *region);
 
 #endif

@@ -98,3 +98,58 @@ sl_status sl_region_cut_range(sl_context *context, sl_region *region) {
     if (region->count) join_first_arc(region);
     return SL_OK;
 }
+
+/// What of the segment from p to q is within the circle; false for nothing.
+static bool within_range(sl_point p, sl_point q, double range, sl_point *from, sl_point *to) {
+    const double length = hypot(q.x - p.x, q.y - p.y);
+    const sl_point along = {(q.x - p.x) / length, (q.y - p.y) / length};
+    const double distance = fabs(cross(p, along)), foot = -(p.x * along.x + p.y * along.y);
+    const double half =
+        distance < range ? sqrt((range - distance) * (range + distance)) : -INFINITY;
+    const double first = fmax(foot - half, 0), last = fmin(foot + half, length);
+    if (!(first < last)) return false;
+    *from = first > 0 ? (sl_point){p.x + first * along.x, p.y + first * along.y} : p;
+    *to = last < length ? (sl_point){p.x + last * along.x, p.y + last * along.y} : q;
+    return true;
+}
+
+/// Drops what lies to the right of the point where the circle meets the mirror: an arc.
+static void trim_start(sl_region *region, sl_point start) {
+    size_t drop = 0;
+    while (drop + 1 < region->count && cross(start, region->offsets[drop + 1]) <= 0) drop++;
+    for (size_t i = drop; i < region->count; i++) {
+        region->points[i - drop] = region->points[i];
+        region->offsets[i - drop] = region->offsets[i];
+        region->edges[i - drop] = region->edges[i];
+    }
+    region->count -= drop;
+    const sl_point eye = region->view.eye;
+    region->offsets[0] = start;
+    region->points[0] = (sl_point){eye.x + start.x, eye.y + start.y};
+    region->edges[0] = (sl_region_edge){SL_NO_WALL, SL_EDGE_ARC, false};
+}
+
+sl_status sl_region_cut_mirrored(sl_context *context, sl_region *region) {
+    const size_t last = region->count - 1;
+    const sl_region_corner near = {region->points[last], region->offsets[last],
+                                   region->edges[last]};
+    const sl_point right = region->offsets[0], eye = region->view.eye;
+    sl_point from, to;
+    if (!within_range(near.offset, right, region->range, &from, &to)) {
+        region->count = 0;
+        return SL_OK;
+    }
+    SL_TRY(sl_region_cut_range(context, region));
+    const bool cut_right = to.x != right.x || to.y != right.y;
+    const bool cut_left = from.x != near.offset.x || from.y != near.offset.y;
+    // Of the mirror, which is no wall that looks at the eye, the cut leaves at most its point.
+    while (region->count && region->edges[region->count - 1].kind == SL_EDGE_MIRROR)
+        region->count--;
+    if (cut_right && region->count) trim_start(region, to);
+    while (cut_left && region->count > 1 && cross(region->offsets[region->count - 1], from) <= 0)
+        region->count--;
+    sl_region_edge edge = near.edge;
+    edge.exact = edge.exact && !cut_left;
+    const sl_point point = cut_left ? (sl_point){eye.x + from.x, eye.y + from.y} : near.point;
+    return sl_region_add_point(context, region, point, from, edge);
+}

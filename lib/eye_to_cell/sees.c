@@ -96,9 +96,9 @@ sl_status sl_sees(sl_context *context, const sl_outline *outline, sl_point eye, 
 
 /// The wall or border side that the ray meets, from a side of the fan on; false where the boundary
 /// of a cell does not hold together, by rounding.
-static bool walk(const sl_outline *o, sl_point eye, const sl_eye_ray *ray, uint32_t *at,
+static bool walk(const sl_outline *o, const sl_eye_place *eye, const sl_eye_ray *ray, uint32_t *at,
                  bool *within) {
-    const sl_view view = {.eye = eye, .left = ray->at, .right = ray->at};
+    const sl_view view = {.eye = eye->point.at, .left = ray->at, .right = ray->at};
     const double limit = sl_eye_limit(o->space, &view);
     while (sl_side_is_portal(&o->sides[*at])) {
         const uint32_t entry = o->sides[*at].beyond;
@@ -128,7 +128,9 @@ sl_status sl_shoot(sl_context *context, const sl_outline *outline, sl_point eye,
         return sl_fail(context, SL_BAD_ARGUMENT, "the eye is outside the map");
     if (!isfinite(through.x) || !isfinite(through.y) || (through.x == eye.x && through.y == eye.y))
         return sl_fail(context, SL_BAD_ARGUMENT, "a ray needs a second point");
-    const sl_eye_ray ray = sl_eye_ray_through(eye, through);
+    const sl_eye_place place = sl_eye_place_at(eye);
+    const sl_eye_ray ray = sl_eye_ray_through(&place, through);
+    memory.eye = place;
     sl_status status = sl_region_gather_fan(context, outline, &region);
     if (status == SL_OK) {
         const uint32_t k = sl_region_find_side(outline, &region, &ray, true);
@@ -136,10 +138,10 @@ sl_status sl_shoot(sl_context *context, const sl_outline *outline, sl_point eye,
         sl_hit hit = {0};
         bool within = true;
         if (k != UINT32_MAX) {
-            const sl_eye_ray start = sl_eye_ray_through(eye, outline->sides[at].start);
-            within = sl_eye_turn(eye, &ray, &start) != 0;
+            const sl_eye_ray start = sl_eye_ray_through(&place, outline->sides[at].start);
+            within = sl_eye_turn(&place, &ray, &start) != 0;
         }
-        if (k != UINT32_MAX && !walk(outline, eye, &ray, &at, &within))
+        if (k != UINT32_MAX && !walk(outline, &place, &ray, &at, &within))
             status = sl_fail(context, SL_BAD_ARGUMENT, "the outline of a cell is not closed");
         tell(outline, eye, &ray, at, within && k != UINT32_MAX, &hit);
         if (k == UINT32_MAX) hit.point = eye;

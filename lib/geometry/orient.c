@@ -1,4 +1,4 @@
-/// The exact rest of the predicates: six or eight products of two coordinates, each an integer of
+/// The exact rest of the predicates: six to 24 products of two coordinates, each an integer of
 /// at most 106 bits times a power of two, summed in a fixed-point number wide enough for all of
 /// them. Integers only: no rounding, no overflow, nothing that a compiler's treatment of doubles
 /// could change.
@@ -36,7 +36,7 @@ static product multiply(double a, double b, bool negative) {
                      .negative = negative != (signbit(a) != signbit(b))};
 }
 
-/// Limbs for exponents from -2148 to 1942, 106 bits of a product above, and the carries of eight.
+/// Limbs for exponents from -2148 to 1942, 106 bits of a product above, and the carries of 24.
 enum { LIMBS = (2148 + 1942 + 106 + 8) / 64 + 2 };
 
 /// Adds a product, shifted to start at bit `shift`, to a number in two's complement.
@@ -124,6 +124,25 @@ int sl_orient_exact(sl_point a, sl_point b, sl_point c) {
         multiply(b.y, c.x, true),  multiply(c.x, a.y, false), multiply(c.y, a.x, true),
     };
     return sign_of_sum(products, 6);
+}
+
+/// Adds the products of p x q, sums of two each.
+static int multiply_fine(const sl_fine *p, const sl_fine *q, product *products) {
+    const double px[2] = {p->at.x, p->rest.x}, py[2] = {p->at.y, p->rest.y};
+    const double qx[2] = {q->at.x, q->rest.x}, qy[2] = {q->at.y, q->rest.y};
+    for (int i = 0; i < 4; i++) {
+        products[2 * i] = multiply(px[i / 2], qy[i % 2], false);
+        products[2 * i + 1] = multiply(py[i / 2], qx[i % 2], true);
+    }
+    return 8;
+}
+
+int sl_orient_fine(const sl_fine *a, const sl_fine *b, const sl_fine *c) {
+    product products[24];
+    int count = multiply_fine(a, b, products);
+    count += multiply_fine(b, c, products + count);
+    count += multiply_fine(c, a, products + count);
+    return sign_of_sum(products, count);
 }
 
 int sl_turn_exact(sl_point a, sl_point b, sl_point c, sl_point d) {

@@ -49,6 +49,15 @@ static inline int sl_orient(sl_point a, sl_point b, sl_point c) {
     return sign ? sign : sl_orient_exact(a, b, c);
 }
 
+/// A point finer than doubles: at + rest, by coordinate, where `rest` is at most half a unit in the
+/// last place of `at`. Places in mirrored space are such: sums of coordinates.
+typedef struct sl_fine {
+    sl_point at, rest;
+} sl_fine;
+
+/// As sl_orient, of fine points.
+int sl_orient_fine(const sl_fine *a, const sl_fine *b, const sl_fine *c);
+
 /// As sl_turn, by exact arithmetic alone.
 int sl_turn_exact(sl_point a, sl_point b, sl_point c, sl_point d);
 

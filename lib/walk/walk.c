@@ -296,7 +296,7 @@ static sl_status choose(sl_context *context, sl_walk *w, const sl_view *view) {
     sl_shadows *shadows = &w->occlusion->shadows;
     w->moved = w->frame ? sl_walk_moved(w->view.eye, view->eye) : 0;
     w->view = *view;
-    shadows->pivot = (sl_pivot){view->eye, 0};
+    shadows->pivot = (sl_pivot){.eye = view->eye};
     shadows->occluders.count = shadows->shadows.count = 0;
     w->cone = sl_walk_cone_of(&shadows->pivot, view);
     SL_TRY(w->test->clear(context, w->occlusion, view->eye));

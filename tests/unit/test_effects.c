@@ -3,13 +3,13 @@
 // needs effects
 #include "testing.h"
 
-#include "base/random.h"
 #include "oracle/effects.h"
+#include "oracle/random_effects.h"
 #include "oracle/random_oblique.h"
 
 #include <math.h>
 
-enum { SIZE = 7, MAPS = 160, STATES = 12, PUSHES = 6000 };
+enum { MAPS = 160, STATES = 12, PUSHES = 6000 };
 
 typedef struct trial {
     sl_context *context;
@@ -40,41 +40,12 @@ static void see(sl_context *context, const sl_space *space, const sl_plan *plan,
 
 // --- random maps
 
-static sl_segment draw_segment(sl_random *random) {
-    const bool upright = sl_random_below(random, 2);
-    const double at = (double)sl_random_below(random, SIZE + 1);
-    const double from = (double)sl_random_below(random, SIZE + 1);
-    double to;
-    do to = (double)sl_random_below(random, SIZE + 1);
-    while (to == from);
-    return upright ? (sl_segment){{at, from}, {at, to}} : (sl_segment){{from, at}, {to, at}};
-}
-
 /// `effects`: bits of those that the map has.
 static void begin(trial *t, uint64_t seed, unsigned effects) {
     *t = (trial){.context = testing_context(NULL), .seed = seed};
     sl_random random = {seed};
-    const sl_point corners[5] = {{0, 0}, {SIZE, 0}, {SIZE, SIZE}, {0, SIZE}, {0, 0}};
-    for (int i = 0; i < 4; i++)
-        assert_ok(t->context, sl_map_add_wall(t->context, &t->map, corners[i], corners[i + 1], 0));
-    for (uint64_t i = sl_random_below(&random, 5); i > 0; i--) {
-        const sl_segment at = draw_segment(&random);
-        assert_ok(t->context, sl_map_add_wall(t->context, &t->map, at.a, at.b, 0));
-    }
-    for (int i = 0; i < 3 && effects & SL_EFFECT_DOOR; i++) {
-        char name[] = {(char)('a' + i), 0};
-        assert_ok(t->context,
-                  sl_map_add_door(t->context, &t->map, name, draw_segment(&random), true, 0));
-    }
-    for (int i = 0; i < 2 && effects & SL_EFFECT_ONEWAY; i++)
-        assert_ok(t->context, sl_map_add_oneway(t->context, &t->map, draw_segment(&random), 0));
-    for (int i = 0; i < 2 && effects & SL_EFFECT_MIRROR; i++) {
-        assert_ok(t->context, sl_map_add_mirror(t->context, &t->map, draw_segment(&random), 0));
-        t->map.mirrors[i].one_sided = sl_random_below(&random, 2);
-    }
-    if (effects & SL_EFFECT_RANGE) t->map.range = 0.37 + (double)sl_random_below(&random, SIZE);
+    random_effects_map(t->context, &random, effects, 1, &t->map);
     t->depth = (uint32_t)sl_random_below(&random, 3);
-    assert_ok(t->context, sl_map_clean(t->context, &t->map, NULL));
     const sl_subdivide_options options = sl_subdivide_options_default();
     assert_ok(t->context, sl_subdivide_kd(t->context, &t->map, &options, &t->space));
     assert_ok(t->context, sl_space_check(t->context, &t->space));

@@ -120,7 +120,7 @@ static unsigned brute_force(scene *s) {
 static void fill(sl_context *context, const scene *s, const sl_node_test_calls *test,
                  sl_occlusion *o) {
     sl_shadows *shadows = &o->shadows;
-    shadows->pivot = (sl_pivot){s->eye, 0};
+    shadows->pivot = (sl_pivot){.eye = s->eye};
     shadows->occluders.count = shadows->shadows.count = 0;
     assert_ok(context, test->clear(context, o, s->eye));
     for (int i = 0; i < s->wall_count; i++) {

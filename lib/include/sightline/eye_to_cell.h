@@ -31,6 +31,7 @@ typedef struct sl_eye_account {
     uint64_t nodes; ///< cells looked at, kept or not; of the exact method, nodes of the stab tree
                     ///< that are seen: a cell once for each portal sequence
     uint64_t orientations; ///< orientation tests
+    uint64_t rounded;      ///< images in mirrors, of the eye or of a ray's point, that are rounded
 } sl_eye_account;
 
 /// What queries on one space work with. Serves one thread at a time.
@@ -43,6 +44,21 @@ typedef struct sl_eye_search sl_eye_search;
 SL_API sl_status sl_eye_search_create(sl_context *context, const sl_space *space,
                                       const sl_visibility *visibility, sl_eye_search **out);
 SL_API void sl_eye_search_destroy(sl_context *context, sl_eye_search *search);
+
+/// Has a search look into mirrors: those of `map`, whose walls the space was made from, with
+/// `depth` reflections of a sightline at most. The map must outlive the search.
+///
+/// A sightline is reflected where it crosses a mirror as it would cross a portal, by the same
+/// rules: that it crosses them all strictly forwards, in mirrored space. An eye on a mirror is so
+/// seen to look into it.
+///
+/// Behind axial mirrors answers are exact: the eye's image, which looks at the map itself through
+/// the mirror, is kept as sums of coordinates in two doubles each, and the predicates take these.
+/// Where two do not hold one (coordinates of more than about 30 digits apart), and behind oblique
+/// mirrors, images are rounded, which the account counts: the answer is then exact for an eye and a
+/// cone that each reflection moves by a few units in the last place of the largest coordinates.
+SL_API sl_status sl_eye_search_add_mirrors(sl_context *context, sl_eye_search *search,
+                                           const sl_map *map, uint32_t depth);
 
 /// The number of words in a set of the space's cells.
 SL_API size_t sl_eye_words(const sl_space *space);
@@ -63,6 +79,11 @@ typedef struct sl_eye_method {
     bool needs_pvs; ///< whether it needs visible sets
     sl_status (*cull)(sl_context *context, sl_eye_search *search, const sl_view *view,
                       uint64_t *cells, sl_eye_account *account);
+    /// Likewise the cells that are seen by mirror, with at least one reflection; the eye's own may
+    /// be among them. Of a method that needs visible sets, what was baked as seen by mirror. Memory
+    /// may be allocated. NULL: the method does not know mirrors.
+    sl_status (*mirrored)(sl_context *context, sl_eye_search *search, const sl_view *view,
+                          uint64_t *cells, sl_eye_account *account);
 } sl_eye_method;
 
 /// All methods, the loosest first: "cell_to_cell", "disjoint_cell", "connected_component",

@@ -15,6 +15,7 @@
 #include "sightline/geometry.h"
 #include "sightline/import.h"
 #include "sightline/map.h"
+#include "sightline/mirrored.h"
 #include "sightline/outline.h"
 #include "sightline/pvs.h"
 #include "sightline/region.h"

@@ -1,0 +1,216 @@
+/// What one viewpoint sees by mirror, cell by cell and as a region, against brute force: random
+/// axial maps with all combinations of effects, on a grid where images are doubles and on one where
+/// they are not. SIGHTLINE_SEEDS in the environment: how many maps (96 by default).
+// needs effects
+#include "testing.h"
+
+#include "oracle/mirrored.h"
+#include "oracle/random_effects.h"
+
+#include <math.h>
+
+enum { MAPS = 96, EYES = 4, CELLS_MOST = 128 };
+
+typedef struct trial {
+    sl_context *context;
+    sl_random random;
+    uint64_t seed;
+    unsigned effects;
+    double scale;
+    sl_map map;
+    sl_space whole, space; ///< as it was made; with doors shut and glass that is dark
+    uint32_t depth;
+} trial;
+
+static void begin(trial *t, uint64_t seed) {
+    *t = (trial){.context = testing_context(NULL), .random = {seed}, .seed = seed};
+    t->effects = SL_EFFECT_MIRROR | ((unsigned)seed & 1 ? SL_EFFECT_DOOR : 0) |
+                 ((unsigned)seed & 2 ? SL_EFFECT_ONEWAY : 0) |
+                 ((unsigned)seed & 4 ? SL_EFFECT_RANGE : 0);
+    t->scale = seed & 8 ? 0.1 : 1;
+    t->depth = 1 + (uint32_t)sl_random_below(&t->random, 3);
+    random_effects_map(t->context, &t->random, t->effects, t->scale, &t->map);
+    const sl_subdivide_options options = sl_subdivide_options_default();
+    assert_ok(t->context, sl_subdivide_kd(t->context, &t->map, &options, &t->whole));
+    bool shut[3];
+    for (int i = 0; i < 3; i++) shut[i] = sl_random_below(&t->random, 2);
+    const sl_passage passage = {.shut = shut, .one_way = true};
+    assert_ok(t->context, sl_passage_make(t->context, &t->whole, &passage, NULL, &t->space));
+    assert_true(t->space.cell_count <= CELLS_MOST);
+}
+
+static void end(trial *t) {
+    sl_space_destroy(t->context, &t->whole);
+    sl_space_destroy(t->context, &t->space);
+    sl_map_destroy(t->context, &t->map);
+    sl_context_destroy(t->context);
+}
+
+static void complain(const trial *t, const sl_view *view, const char *what) {
+    for (size_t i = 0; i < t->map.wall_count; i++)
+        print_error("wall %g %g %g %g\n", t->map.walls[i].a.x, t->map.walls[i].a.y,
+                    t->map.walls[i].b.x, t->map.walls[i].b.y);
+    for (size_t i = 0; i < t->map.mirror_count; i++) {
+        const sl_segment m = t->map.mirrors[i].segment;
+        print_error("mirror %g %g %g %g%s\n", m.a.x, m.a.y, m.b.x, m.b.y,
+                    t->map.mirrors[i].one_sided ? " one" : "");
+    }
+    for (uint32_t i = 0; i < t->space.exit_count; i++) {
+        const sl_exit *exit = &t->space.exits[i];
+        print_error("exit to %u: left %g %g right %g %g\n", exit->cell, exit->left.x, exit->left.y,
+                    exit->right.x, exit->right.y);
+    }
+    for (uint32_t i = 0; i < t->space.cell_count; i++) {
+        const sl_point *v = t->space.vertices + t->space.cells[i].first_vertex;
+        print_error("cell %u: %g %g to %g %g\n", i, v[0].x, v[0].y, v[2].x, v[2].y);
+    }
+    fail_msg("seed %llu, depth %u, eye %.17g,%.17g full %d right %g,%g left %g,%g: %s",
+             (unsigned long long)t->seed, t->depth, view->eye.x, view->eye.y, view->full,
+             view->right.x, view->right.y, view->left.x, view->left.y, what);
+}
+
+static void ask_cells(const trial *t, const sl_view *view, const oracle_mirrored *truth,
+                      sl_sight sight) {
+    const sl_visibility bare = {.sight = sight};
+    uint64_t cells[CELLS_MOST / 64 + 1];
+    sl_eye_search *search;
+    sl_eye_account account;
+    size_t count;
+    const sl_eye_method *exact = sl_eye_methods(&count) + count - 1;
+    assert_ok(t->context, sl_eye_search_create(t->context, &t->space, &bare, &search));
+    assert_ok(t->context, sl_eye_search_add_mirrors(t->context, search, &t->map, t->depth));
+    assert_ok(t->context, exact->mirrored(t->context, search, view, cells, &account));
+    sl_eye_search_destroy(t->context, search);
+    assert_int_equal(account.rounded, 0);
+    const bool *expected = sight == SL_OPEN ? truth->open : truth->closed;
+    for (uint32_t c = 0; c < t->space.cell_count; c++) {
+        if (sl_eye_sees(cells, c) == expected[c]) continue;
+        char text[128];
+        snprintf(text, sizeof text, "%s sight: cell %u (at %g,%g) is %s by mirror",
+                 sight == SL_OPEN ? "open" : "closed", c,
+                 t->space.vertices[t->space.cells[c].first_vertex].x,
+                 t->space.vertices[t->space.cells[c].first_vertex].y,
+                 expected[c] ? "hidden, but seen" : "seen, but hidden");
+        complain(t, view, text);
+    }
+}
+
+static size_t chain_of(const trial *t, const sl_mirrored_region *region, uint32_t part) {
+    if (part == SL_NO_PART) return 0;
+    const sl_mirror_part *p = &region->parts[part];
+    return chain_of(t, region, p->parent) * (t->map.mirror_count + 1) + p->mirror + 1;
+}
+
+static double area_of_polygon(const sl_point *points, size_t count) {
+    double sum = 0;
+    for (size_t i = 0; i < count; i++) {
+        const sl_point p = points[i], q = points[i + 1 < count ? i + 1 : 0], o = points[0];
+        sum += (p.x - o.x) * (q.y - o.y) - (p.y - o.y) * (q.x - o.x);
+    }
+    return sum / 2;
+}
+
+/// What holds of a part by itself: it goes round counter-clockwise, one edge on its mirror, and its
+/// image is the same polygon, turned over by each reflection.
+static void check_part(const trial *t, const sl_view *view, const sl_mirror_part *part) {
+    const sl_region *r = &part->region;
+    const sl_segment mirror = t->map.mirrors[part->mirror].segment;
+    size_t on_mirror = 0;
+    if (part->rounded) complain(t, view, "a part is rounded");
+    for (size_t i = 0; i < r->count; i++) {
+        const sl_point p = r->points[i], q = r->points[i + 1 < r->count ? i + 1 : 0];
+        if (r->edges[i].kind != SL_EDGE_MIRROR) continue;
+        on_mirror++;
+        const bool upright = mirror.a.x == mirror.b.x;
+        if (!(t->map.range > 0))
+            assert_true(upright ? p.x == mirror.a.x && q.x == mirror.a.x
+                                : p.y == mirror.a.y && q.y == mirror.a.y);
+    }
+    if (on_mirror != 1) complain(t, view, "a part has not one edge on its mirror");
+    const double real = area_of_polygon(r->points, r->count);
+    const double image = area_of_polygon(part->image, r->count);
+    const double sign = part->depth % 2 ? -1 : 1, slack = 1e-12 * t->scale * t->scale;
+    if (real < -slack || fabs(real - sign * image) > 1000 * slack)
+        complain(t, view, "a part and its image differ");
+}
+
+static void ask_region(const trial *t, const sl_view *view, const oracle_mirrored *truth) {
+    sl_outline outline;
+    sl_room_mirrors mirrors;
+    sl_mirrored_region region = {0};
+    const size_t chains = oracle_chains(&t->map, t->depth);
+    double *areas = calloc(chains, sizeof *areas);
+    assert_non_null(areas);
+    assert_ok(t->context, sl_outline_make(t->context, &t->space, &outline));
+    assert_ok(t->context, sl_room_mirrors_make(t->context, &outline, &t->map, &mirrors));
+    assert_ok(t->context,
+              sl_mirrored_region_make(t->context, &mirrors, view, t->map.range, t->depth, &region));
+    areas[0] = sl_region_area(&region.direct);
+    for (uint32_t i = 0; i < region.part_count; i++) {
+        areas[chain_of(t, &region, i)] += sl_region_area(&region.parts[i].region);
+        check_part(t, view, &region.parts[i]);
+    }
+    for (size_t i = 0; i < chains; i++) {
+        if (fabs(areas[i] - truth->areas[i]) <= 1e-10 * t->scale * t->scale) continue;
+        char text[128];
+        snprintf(text, sizeof text, "chain %zu: area %.15g, not %.15g (range %g)", i, areas[i],
+                 truth->areas[i], t->map.range);
+        complain(t, view, text);
+    }
+    sl_mirrored_region_destroy(t->context, &region);
+    sl_room_mirrors_destroy(t->context, &mirrors);
+    sl_outline_destroy(t->context, &outline);
+    free(areas);
+}
+
+/// Anywhere on an eighth of the grid: within cells, on walls, mirrors, portals and corners.
+static sl_point random_point(trial *t) {
+    const uint64_t steps = sl_random_below(&t->random, 2) ? 8 : 1;
+    const double step = t->scale / (double)steps;
+    return (sl_point){(double)sl_random_below(&t->random, RANDOM_EFFECTS_SIZE * steps + 1) * step,
+                      (double)sl_random_below(&t->random, RANDOM_EFFECTS_SIZE * steps + 1) * step};
+}
+
+static sl_view random_view(trial *t) {
+    sl_view view;
+    do view = sl_view_all_round(random_point(t));
+    while (sl_space_locate(&t->space, view.eye) == SL_NO_CELL);
+    view.full = sl_random_below(&t->random, 2);
+    do view.right = random_point(t);
+    while (view.right.x == view.eye.x && view.right.y == view.eye.y);
+    do view.left = random_point(t);
+    while (view.left.x == view.eye.x && view.left.y == view.eye.y);
+    return view;
+}
+
+static void random_maps(void **state) {
+    (void)state;
+    const char *seeds = getenv("SIGHTLINE_SEEDS");
+    const uint64_t maps = seeds ? strtoull(seeds, NULL, 10) : MAPS;
+    size_t seen = 0, areas = 0;
+    for (uint64_t seed = 1; seed <= maps; seed++) {
+        trial t;
+        begin(&t, seed);
+        for (int i = 0; i < EYES; i++) {
+            const sl_view view = random_view(&t);
+            oracle_mirrored truth =
+                oracle_mirrored_of(&t.space, &t.map, &view, t.map.range, t.depth);
+            ask_cells(&t, &view, &truth, SL_CLOSED);
+            ask_cells(&t, &view, &truth, SL_OPEN);
+            if (!truth.on_wall && !(t.effects & SL_EFFECT_ONEWAY)) ask_region(&t, &view, &truth);
+            for (uint32_t c = 0; c < t.space.cell_count; c++) seen += truth.open[c];
+            areas += !truth.on_wall && truth.areas[1] > 0;
+            oracle_mirrored_free(&truth);
+        }
+        end(&t);
+    }
+    assert_true(seen > maps);
+    assert_true(areas > maps / 4);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(random_maps),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
