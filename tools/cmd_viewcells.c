@@ -112,7 +112,7 @@ static sl_status plan_sampling(sl_context *context, const viewcells_texts *t,
     if (t->exact && t->evaluate)
         return sl_fail(context, SL_BAD_ARGUMENT, "--exact needs no --evaluate");
     run->exact = t->exact;
-    if (t->exact) run->evaluation = 0;
+    if (t->exact || run->method->exact) run->evaluation = 0;
     run->sampling.objects = t->exact ? SL_VIEW_CELLS : (sl_view_objects)objects;
     SL_TRY(sl_option_count(context, "--samples", t->samples, UINT32_MAX, &run->sampling.samples));
     SL_TRY(sl_option_count(context, "--evaluate", t->evaluate, UINT32_MAX, &run->evaluation));
@@ -226,7 +226,8 @@ sl_status sl_cmd_viewcells(sl_console *console, int argc, char **argv) {
          "elementary view cells to divide into first: 2000,\nor four times as many as --cells"},
         {"samples", 0, "N", NULL, &t.samples, "lines to sample visibility by, 200000 unless told"},
         {"evaluate", 0, "N", NULL, &t.evaluate,
-         "other lines to tell costs by: 400000; 0: by the same"},
+         "other lines to tell costs by: 400000; 0, as without it\nfor hybrid: by what cells were "
+         "merged by"},
         {"exact", 0, NULL, &t.exact, NULL,
          "merge by, and tell costs by, the exact sets of all\nelementary cells, in cells of the "
          "space"},

@@ -27,6 +27,26 @@ static const char *objects_name(const sl_view_report *report) {
     return report->run->scene.objects == SL_VIEW_WALLS ? "walls" : "cells";
 }
 
+static bool is_told_exactly(const sl_view_report *report) {
+    const sl_view_run_options *o = report->options;
+    return (o->exact || o->method->exact) && !report->run->evaluated.cell_count;
+}
+
+static void print_work(const sl_view_work *w) {
+    printf("looks             %" PRIu64 " from %" PRIu64 " rooms and the halves of %" PRIu64
+           " cuts: %" PRIu64 " candidates, %" PRIu64 " relations, %" PRIu64 " tests\n",
+           w->looks, w->rooms, w->cuts, w->candidates, w->relations, w->tests);
+}
+
+static void add_work(sl_json_fields *fields, const sl_view_work *work) {
+    sl_json_add_count(fields, "rooms", work->rooms);
+    sl_json_add_count(fields, "cuts", work->cuts);
+    sl_json_add_count(fields, "looks", work->looks);
+    sl_json_add_count(fields, "candidates", work->candidates);
+    sl_json_add_count(fields, "relations", work->relations);
+    sl_json_add_count(fields, "tests", work->tests);
+}
+
 sl_status sl_view_report_print(sl_context *context, const sl_view_report *report) {
     const sl_view_run *run = report->run;
     const sl_view_segments *s = &run->segments;
@@ -39,9 +59,12 @@ sl_status sl_view_report_print(sl_context *context, const sl_view_report *report
            report->options->method->name, t.cut, objects_name(report), size);
     printf("  with one cell   %.6g\n", t.whole);
     printf("  with all %-7u%.6g, sets of %s\n", run->tree.cell_count, t.finest, finest);
-    printf("segments          %u of %" PRIu64 " samples (%" PRIu64 " in empty space, %" PRIu64
-           " saw no wall, %" PRIu64 " lost)\n",
-           s->count, s->drawn, s->empty, s->unseeing, s->lost);
+    if (report->options->method->exact)
+        print_work(&run->found.work);
+    else
+        printf("segments          %u of %" PRIu64 " samples (%" PRIu64 " in empty space, %" PRIu64
+               " saw no wall, %" PRIu64 " lost)\n",
+               s->count, s->drawn, s->empty, s->unseeing, s->lost);
     if (run->has_exact) {
         char plain[SL_SIZE_TEXT], rows[SL_SIZE_TEXT], cells[SL_SIZE_TEXT];
         const sl_pvs *pulled = &run->exact.views.rows;
@@ -53,7 +76,7 @@ sl_status sl_view_report_print(sl_context *context, const sl_view_report *report
                cells, run->exact.space.cell_count, plain, rows);
         if (run->exact_cost > 0) printf("exact cost        %.6g cells\n", run->exact_cost);
     }
-    if (report->options->exact) printf("costs             by exact sets\n");
+    if (is_told_exactly(report)) printf("costs             by exact sets\n");
     if (run->evaluated.cell_count)
         printf("evaluated by      %" PRIu64 " other samples\n", report->options->evaluation);
     printf("seconds           read %.3f, subdivide %.3f, sample %.3f, divide %.3f, merge %.3f, "
@@ -93,7 +116,8 @@ sl_status sl_view_report_print_json(sl_context *context, const sl_view_report *r
     sl_json_add_count(&fields, "samples_lost", s->lost);
     sl_json_add_count(&fields, "segments", s->count);
     sl_json_add_count(&fields, "evaluation_samples", report->options->evaluation);
-    sl_json_add_flag(&fields, "exact", report->options->exact);
+    sl_json_add_flag(&fields, "exact", is_told_exactly(report));
+    if (report->options->method->exact) add_work(&fields, &run->found.work);
     sl_json_add_count(&fields, "elementary_view_cells", run->tree.cell_count);
     sl_json_add_count(&fields, "view_cells", run->cell_count);
     sl_json_add_real(&fields, "cost_of_one", t.whole);

@@ -53,9 +53,14 @@ static const sl_see_method *sweep(void) {
     return &methods[i];
 }
 
-/// Of the elementary cells.
+/// Of the elementary cells; what an exact method has found is handed over.
 static sl_status find_sets(sl_context *context, const sl_view_run_options *options,
-                           const sl_view_run *run, sl_view_sets *sets) {
+                           sl_view_run *run, sl_view_sets *sets) {
+    if (options->method->exact) {
+        *sets = run->found.sets;
+        run->found.sets = (sl_view_sets){0};
+        return SL_OK;
+    }
     if (!options->exact)
         return sl_view_sets_sample(context, &run->scene, &run->tree, &run->segments,
                                    options->sampling.threads, sets);
@@ -118,10 +123,11 @@ sl_status sl_view_run_make(sl_context *context, const sl_view_run_options *optio
     SL_TRY(find_places(context, options, run));
     run->scene = (sl_view_scene){&run->baked.space, options->sampling.objects, options->render,
                                  &run->places};
-    SL_TRY(sl_view_sample(context, &run->outline, &options->sampling, &run->segments));
+    if (!options->method->exact)
+        SL_TRY(sl_view_sample(context, &run->outline, &options->sampling, &run->segments));
     const double sampled = sl_view_clock();
     SL_TRY(options->method->divide(context, &run->scene, &run->segments, &options->subdivision,
-                                   &run->tree));
+                                   &run->tree, &run->found));
     const double divided = sl_view_clock();
     SL_TRY(join(context, options, run));
     const double joined = sl_view_clock();
@@ -183,6 +189,7 @@ void sl_view_run_destroy(sl_context *context, sl_view_run *run) {
     sl_view_hierarchy_destroy(context, &run->hierarchy);
     sl_view_hierarchy_destroy(context, &run->evaluated);
     sl_view_tree_destroy(context, &run->tree);
+    sl_view_found_destroy(context, &run->found);
     sl_view_segments_destroy(context, &run->segments);
     sl_view_places_destroy(context, &run->places);
     sl_outline_destroy(context, &run->outline);

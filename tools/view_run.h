@@ -17,7 +17,7 @@ typedef struct sl_view_run_options {
     sl_view_sampling sampling;
     sl_view_subdivision subdivision;
     sl_render_cost render;
-    bool exact;          ///< merged and told by exact sets
+    bool exact;          ///< merged and told by exact sets, whatever the method
     uint64_t evaluation; ///< samples for it; 0 for none
     bool paths;          ///< viewpoints are along the map's paths
     double step;         ///< along them
@@ -39,6 +39,7 @@ typedef struct sl_view_run {
     sl_view_scene scene;
     sl_view_segments segments;
     sl_view_tree tree;
+    sl_view_found found;         ///< what an exact method did; its sets are in the hierarchy
     sl_view_hierarchy hierarchy; ///< as the segments tell it that it was made by
     sl_view_hierarchy evaluated; ///< as others do; no cells where there were none
     uint32_t cell_count;         ///< of the cut

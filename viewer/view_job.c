@@ -85,7 +85,7 @@ static sl_status work(sl_context *context, sl_view_job *job) {
                                  &job->places};
     SL_TRY(sl_view_sample(context, &job->outline, &sampling, &job->segments));
     SL_TRY(method_that_merges()->divide(context, &scene, &job->segments, &subdivision,
-                                        &job->history.tree));
+                                        &job->history.tree, NULL));
     SL_TRY(merge(context, &scene, job));
     return tell(context, &scene, job);
 }

@@ -29,6 +29,11 @@ bool sl_view_split_middle(const sl_view_part *part, int axis, sl_view_split *out
 }
 
 void sl_view_find_seen(sl_view_divider *d, sl_view_part *part) {
+    if (d->pieces) {
+        sl_view_find_piece_extents(d, part);
+        sl_view_forget_extents(d);
+        return;
+    }
     const sl_point middle = sl_view_part_middle(part);
     const size_t step = sl_view_step(d, part);
     d->seen.count = 0;
@@ -89,6 +94,9 @@ static sl_status make_first(sl_view_divider *d, sl_view_part *part) {
     const uint32_t count = d->segments ? d->segments->count : 0;
     SL_TRY(SL_ARRAY_ROOM(d->context, &part->segments, count));
     for (uint32_t i = 0; i < count; i++) part->segments.items[part->segments.count++] = i;
+    const uint32_t pieces = d->pieces ? (uint32_t)d->pieces->items.count : 0;
+    SL_TRY(SL_ARRAY_ROOM(d->context, &part->pieces, pieces));
+    for (uint32_t i = 0; i < pieces; i++) part->pieces.items[part->pieces.count++] = i;
     return copy_share(d->context, d->scene->places, &part->share);
 }
 
@@ -163,6 +171,7 @@ static sl_status make_halves(sl_view_divider *d, const sl_view_part *part, sl_vi
     below->parent = above->parent = (int32_t)node;
     above->above = true;
     if (d->segments) SL_TRY(deal_segments(d, part, below, above));
+    if (d->pieces) SL_TRY(sl_view_deal_pieces(d, part, below, above));
     return add_node(d, part);
 }
 
@@ -191,7 +200,7 @@ static sl_status divide(sl_view_divider *d, sl_view_choose choose, bool stops_ea
     SL_TRY(make_first(d, &d->parts.items[0]));
     d->with_mass = 1;
     sl_view_part *whole = &d->parts.items[0];
-    if (d->segments) sl_view_find_seen(d, whole);
+    if (d->segments || d->pieces) sl_view_find_seen(d, whole);
     const double first_cost = whole->seen;
     SL_TRY(enqueue(d, choose, 0));
     uint32_t without_gain = 0;
@@ -288,12 +297,14 @@ static sl_status check_options(sl_context *context, const sl_view_subdivision *o
 }
 
 sl_status sl_view_divide(sl_context *context, const sl_view_scene *scene,
-                         const sl_view_segments *segments, const sl_view_subdivision *options,
-                         sl_view_choose choose, bool stops_early, sl_view_tree *out) {
+                         const sl_view_segments *segments, sl_view_pieces *pieces,
+                         const sl_view_subdivision *options, sl_view_choose choose,
+                         bool stops_early, sl_view_tree *out, sl_view_sets *sets) {
     SL_TRY(check_options(context, options));
     sl_view_divider d = {.context = context,
                          .scene = scene,
                          .segments = segments,
+                         .pieces = pieces,
                          .options = options,
                          .random = {options->seed}};
     SL_TRY(sl_view_render_make(context, scene, &d.render));
@@ -301,6 +312,7 @@ sl_status sl_view_divide(sl_context *context, const sl_view_scene *scene,
     sl_view_tree tree = {0};
     sl_status status = divide(&d, choose, stops_early);
     if (status == SL_OK) status = make_tree(&d, &tree);
+    if (status == SL_OK && sets) status = sl_view_sets_of_pieces(&d, sets);
     destroy(&d);
     if (status == SL_OK)
         *out = tree;

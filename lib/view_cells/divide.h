@@ -5,6 +5,7 @@
 
 #include "base/random.h"
 #include "view_cells/heap.h"
+#include "view_cells/pieces.h"
 #include "view_cells/render.h"
 
 #include <math.h>
@@ -17,8 +18,6 @@ typedef struct sl_view_split {
     double gain; ///< of expected cost, as the segments tell it
 } sl_view_split;
 
-typedef SL_ARRAY(sl_point) sl_view_points;
-
 /// Pieces of sl_view_places within a part.
 typedef struct sl_view_share {
     sl_view_points points;
@@ -29,8 +28,9 @@ typedef struct sl_view_share {
 /// A leaf while view space is divided.
 typedef struct sl_view_part {
     sl_view_points corners;
-    SL_ARRAY(uint32_t) edges;    ///< as in sl_view_tree
-    SL_ARRAY(uint32_t) segments; ///< those that pass it
+    SL_ARRAY(uint32_t) edges; ///< as in sl_view_tree
+    sl_view_numbers segments; ///< those that pass it
+    sl_view_numbers pieces;   ///< those that it is made up of, where there are any
     sl_view_share share;
     sl_box box;     ///< about the corners
     bool is_box;    ///< no oblique split made it
@@ -49,21 +49,11 @@ typedef struct sl_view_event {
 
 typedef SL_ARRAY(sl_view_event) sl_view_events;
 
-/// Between which places along each axis an object is seen, within a part.
-typedef struct sl_view_extent {
-    double low[2], high[2];
-} sl_view_extent;
-
-static inline sl_view_extent sl_view_no_extent(void) {
-    return (sl_view_extent){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
-}
-
-typedef SL_ARRAY(uint32_t) sl_view_numbers;
-
 typedef struct sl_view_divider {
     sl_context *context;
     const sl_view_scene *scene;
     const sl_view_segments *segments;
+    sl_view_pieces *pieces;
     const sl_view_subdivision *options;
     sl_view_render render;
     sl_random random;
@@ -77,7 +67,7 @@ typedef struct sl_view_divider {
     // Scratch of choosing.
     sl_view_extent *extents; ///< by object; low over high for those not seen
     uint8_t *sides;          ///< by object: 1: seen right of a line, 2: left of it
-    SL_ARRAY(uint32_t) seen; ///< objects that the part sees
+    sl_view_numbers seen;    ///< objects that the part sees
     sl_view_events starts, ends;
     SL_ARRAY(double) positions;
     SL_ARRAY(sl_segment) clipped; ///< the part's segments, what is within it
@@ -89,10 +79,14 @@ typedef struct sl_view_divider {
 typedef sl_status (*sl_view_choose)(sl_view_divider *d, sl_view_part *part, double *priority,
                                     bool *splits);
 
-/// `stops_early`: by least_gain and patience.
+/// `segments`, `pieces`: what tells what is seen, NULL for the one, the other, or both. Of pieces
+/// those of all rooms, as sl_view_pieces_create makes them; they are cut as parts are split.
+/// `stops_early`: by least_gain and patience. `sets`: what pieces see, by leaf with mass; NULL
+/// where nobody asks.
 sl_status sl_view_divide(sl_context *context, const sl_view_scene *scene,
-                         const sl_view_segments *segments, const sl_view_subdivision *options,
-                         sl_view_choose choose, bool stops_early, sl_view_tree *out);
+                         const sl_view_segments *segments, sl_view_pieces *pieces,
+                         const sl_view_subdivision *options, sl_view_choose choose,
+                         bool stops_early, sl_view_tree *out, sl_view_sets *sets);
 
 /// Across the longer side of a part, or across an axis, in its middle; false where doubles allow
 /// none. `gain` is 0.
@@ -104,8 +98,8 @@ static inline size_t sl_view_step(const sl_view_divider *d, const sl_view_part *
     return part->segments.count ? 1 + (part->segments.count - 1) / d->options->weighed : 1;
 }
 
-/// Finds out what a part's segments see, for part->seen and for choosing; forgotten again before
-/// the next part's turn.
+/// Finds out what a part's segments or pieces see, for part->seen and for choosing; forgotten again
+/// before the next part's turn.
 void sl_view_find_extents(sl_view_divider *d, sl_view_part *part);
 void sl_view_forget_extents(sl_view_divider *d);
 /// The same for part->seen alone.
@@ -115,6 +109,14 @@ void sl_view_find_seen(sl_view_divider *d, sl_view_part *part);
 sl_status sl_view_choose_axes(sl_view_divider *d, const sl_view_part *part, sl_view_split *best);
 /// Likewise along the lines of walls within the part (divide_walls.c).
 sl_status sl_view_choose_walls(sl_view_divider *d, const sl_view_part *part, sl_view_split *best);
+
+/// As sl_view_find_extents, of pieces (divide_pieces.c).
+void sl_view_find_piece_extents(sl_view_divider *d, sl_view_part *part);
+/// Hands the pieces of a part that is split to its halves; those on both sides are cut.
+sl_status sl_view_deal_pieces(sl_view_divider *d, const sl_view_part *part, sl_view_part *below,
+                              sl_view_part *above);
+/// What the pieces of all leaves with mass see.
+sl_status sl_view_sets_of_pieces(const sl_view_divider *d, sl_view_sets *sets);
 
 /// The split along a wall's line.
 sl_view_split sl_view_split_along(const sl_wall *wall);

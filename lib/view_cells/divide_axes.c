@@ -26,6 +26,10 @@ static int compare_positions(const void *left, const void *right) {
 
 /// Finds for each object where it is seen within the part, and what rendering all of them costs.
 void sl_view_find_extents(sl_view_divider *d, sl_view_part *part) {
+    if (d->pieces) {
+        sl_view_find_piece_extents(d, part);
+        return;
+    }
     const sl_point middle = sl_view_part_middle(part);
     const size_t step = sl_view_step(d, part);
     d->seen.count = 0;

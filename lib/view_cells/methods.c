@@ -30,8 +30,31 @@ static sl_status choose_adaptive(sl_view_divider *d, sl_view_part *part, double 
 
 static sl_status divide_adaptive(sl_context *context, const sl_view_scene *scene,
                                  const sl_view_segments *segments,
-                                 const sl_view_subdivision *options, sl_view_tree *out) {
-    return sl_view_divide(context, scene, segments, options, choose_adaptive, true, out);
+                                 const sl_view_subdivision *options, sl_view_tree *out,
+                                 sl_view_found *found) {
+    (void)found;
+    return sl_view_divide(context, scene, segments, NULL, options, choose_adaptive, true, out,
+                          NULL);
+}
+
+/// Likewise by exact sets: `found` holds them only when all has gone well.
+static sl_status divide_exactly(sl_context *context, const sl_view_scene *scene,
+                                const sl_view_segments *segments,
+                                const sl_view_subdivision *options, sl_view_tree *out,
+                                sl_view_found *found) {
+    (void)segments;
+    if (options->wall_splits)
+        return sl_fail(context, SL_UNSUPPORTED,
+                       "the method 'hybrid' splits across the axes alone, not along walls' lines");
+    sl_view_pieces pieces;
+    sl_view_sets sets = {0};
+    sl_status status = sl_view_pieces_create(context, scene, options->sight, &pieces);
+    if (status == SL_OK)
+        status = sl_view_divide(context, scene, NULL, &pieces, options, choose_adaptive, true, out,
+                                found ? &sets : NULL);
+    if (status == SL_OK && found) *found = (sl_view_found){sets, pieces.work};
+    sl_view_pieces_destroy(&pieces);
+    return status;
 }
 
 // --- kd-trees
@@ -76,28 +99,38 @@ static sl_status choose_depth_first(sl_view_divider *d, sl_view_part *part, doub
 
 static sl_status divide_cycling(sl_context *context, const sl_view_scene *scene,
                                 const sl_view_segments *segments,
-                                const sl_view_subdivision *options, sl_view_tree *out) {
+                                const sl_view_subdivision *options, sl_view_tree *out,
+                                sl_view_found *found) {
+    (void)found;
     (void)segments;
-    return sl_view_divide(context, scene, NULL, options, choose_cycling, false, out);
+    return sl_view_divide(context, scene, NULL, NULL, options, choose_cycling, false, out, NULL);
 }
 
 static sl_status divide_longest(sl_context *context, const sl_view_scene *scene,
                                 const sl_view_segments *segments,
-                                const sl_view_subdivision *options, sl_view_tree *out) {
+                                const sl_view_subdivision *options, sl_view_tree *out,
+                                sl_view_found *found) {
+    (void)found;
     (void)segments;
-    return sl_view_divide(context, scene, NULL, options, choose_longest, false, out);
+    return sl_view_divide(context, scene, NULL, NULL, options, choose_longest, false, out, NULL);
 }
 
 static sl_status divide_visible(sl_context *context, const sl_view_scene *scene,
                                 const sl_view_segments *segments,
-                                const sl_view_subdivision *options, sl_view_tree *out) {
-    return sl_view_divide(context, scene, segments, options, choose_visible, false, out);
+                                const sl_view_subdivision *options, sl_view_tree *out,
+                                sl_view_found *found) {
+    (void)found;
+    return sl_view_divide(context, scene, segments, NULL, options, choose_visible, false, out,
+                          NULL);
 }
 
 static sl_status divide_depth_first(sl_context *context, const sl_view_scene *scene,
                                     const sl_view_segments *segments,
-                                    const sl_view_subdivision *options, sl_view_tree *out) {
-    return sl_view_divide(context, scene, segments, options, choose_depth_first, false, out);
+                                    const sl_view_subdivision *options, sl_view_tree *out,
+                                    sl_view_found *found) {
+    (void)found;
+    return sl_view_divide(context, scene, segments, NULL, options, choose_depth_first, false, out,
+                          NULL);
 }
 
 // --- aligned with the walls
@@ -141,22 +174,45 @@ static sl_status choose_wall(sl_view_divider *d, sl_view_part *part, double *pri
 
 static sl_status divide_by_walls(sl_context *context, const sl_view_scene *scene,
                                  const sl_view_segments *segments,
-                                 const sl_view_subdivision *options, sl_view_tree *out) {
+                                 const sl_view_subdivision *options, sl_view_tree *out,
+                                 sl_view_found *found) {
+    (void)found;
     (void)segments;
-    return sl_view_divide(context, scene, NULL, options, choose_wall, false, out);
+    return sl_view_divide(context, scene, NULL, NULL, options, choose_wall, false, out, NULL);
 }
 
 static const sl_view_method methods[] = {
-    {"av-m", "adaptive: the split that gains most first, then merging", true, true,
-     divide_adaptive},
-    {"av-s", "adaptive, without merging", false, true, divide_adaptive},
-    {"kd-casm", "kd-tree, breadth first, in the middle across each axis in turn", false, false,
-     divide_cycling},
-    {"kd-lasm", "kd-tree, breadth first, in the middle across the longer axis", false, false,
-     divide_longest},
-    {"kd-vt", "likewise, until little is seen", false, true, divide_visible},
-    {"kd-vt-df", "likewise, depth first (KD-VT*)", false, true, divide_depth_first},
-    {"bsp", "along walls, until none is inside (Teller 1992)", false, false, divide_by_walls},
+    {.name = "av-m",
+     .what = "adaptive: the split that gains most first, then merging",
+     .merges = true,
+     .needs_segments = true,
+     .divide = divide_adaptive},
+    {.name = "av-s",
+     .what = "adaptive, without merging",
+     .needs_segments = true,
+     .divide = divide_adaptive},
+    {.name = "hybrid",
+     .what = "adaptive and merged, by exact directed sets in place of samples (Laine 2005)",
+     .merges = true,
+     .exact = true,
+     .divide = divide_exactly},
+    {.name = "kd-casm",
+     .what = "kd-tree, breadth first, in the middle across each axis in turn",
+     .divide = divide_cycling},
+    {.name = "kd-lasm",
+     .what = "kd-tree, breadth first, in the middle across the longer axis",
+     .divide = divide_longest},
+    {.name = "kd-vt",
+     .what = "likewise, until little is seen",
+     .needs_segments = true,
+     .divide = divide_visible},
+    {.name = "kd-vt-df",
+     .what = "likewise, depth first (KD-VT*)",
+     .needs_segments = true,
+     .divide = divide_depth_first},
+    {.name = "bsp",
+     .what = "along walls, until none is inside (Teller 1992)",
+     .divide = divide_by_walls},
 };
 
 const sl_view_method *sl_view_methods(size_t *count) {

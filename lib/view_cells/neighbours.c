@@ -29,12 +29,12 @@ static double along(const sl_view_tree *tree, const sl_node *node, sl_point p) {
     return fabs(l->b.x - l->a.x) >= fabs(l->b.y - l->a.y) ? p.x : p.y;
 }
 
-/// Told by the middle of the leaf, which is well off the split.
-static bool is_above(const sl_view_tree *tree, const sl_node *node, uint32_t leaf) {
-    const sl_point middle = sl_view_leaf_middle(tree, leaf);
-    if (node->axis < 2) return (node->axis ? middle.y : middle.x) >= node->position;
+/// A leaf is at the left of its sides, which go counter-clockwise: `grows` says that one goes where
+/// `along` grows.
+static bool is_above(const sl_view_tree *tree, const sl_node *node, bool grows) {
+    if (node->axis < 2) return grows == (node->axis == 1);
     const sl_segment *l = &tree->lines[node->line];
-    return (l->b.x - l->a.x) * (middle.y - l->a.y) - (l->b.y - l->a.y) * (middle.x - l->a.x) >= 0;
+    return grows == (along(tree, node, l->a) < along(tree, node, l->b));
 }
 
 static sl_status gather(sl_context *context, const sl_view_tree *tree, sides *all) {
@@ -48,7 +48,7 @@ static sl_status gather(sl_context *context, const sl_view_tree *tree, sides *al
             const sl_point p = tree->corners[i], q = tree->corners[i + 1 < end ? i + 1 : first];
             const double from = along(tree, node, p), to = along(tree, node, q);
             if (from == to) continue;
-            const bool above = is_above(tree, node, leaf);
+            const bool above = is_above(tree, node, from < to);
             all->items[all->count++] = from < to ? (side){number, leaf, above, from, to, p, q}
                                                  : (side){number, leaf, above, to, from, q, p};
         }

@@ -7,6 +7,7 @@ void sl_view_part_destroy(sl_context *context, sl_view_part *part) {
     sl_free(context, part->corners.items);
     sl_free(context, part->edges.items);
     sl_free(context, part->segments.items);
+    sl_free(context, part->pieces.items);
     sl_free(context, part->share.points.items);
     sl_free(context, part->share.ends.items);
     sl_free(context, part->share.mass.items);

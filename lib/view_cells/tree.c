@@ -37,22 +37,35 @@ uint32_t sl_view_tree_locate(const sl_view_tree *tree, sl_point point) {
 
 sl_point sl_view_leaf_middle(const sl_view_tree *tree, uint32_t leaf) {
     const uint32_t first = tree->first[leaf], end = tree->first[leaf + 1];
+    const sl_point at = tree->corners[first];
     sl_point sum = {0, 0};
     for (uint32_t i = first; i < end; i++) {
-        sum.x += tree->corners[i].x / (end - first);
-        sum.y += tree->corners[i].y / (end - first);
+        sum.x += (tree->corners[i].x - at.x) / (end - first);
+        sum.y += (tree->corners[i].y - at.y) / (end - first);
     }
-    return sum;
+    return (sl_point){at.x + sum.x, at.y + sum.y};
 }
 
 sl_point sl_view_cell_middle(const sl_space *space, uint32_t cell) {
     const sl_cell *c = &space->cells[cell];
+    const sl_point *corners = space->vertices + c->first_vertex;
     sl_point sum = {0, 0};
-    for (uint32_t i = 0; i < c->vertex_count; i++) {
-        sum.x += space->vertices[c->first_vertex + i].x / c->vertex_count;
-        sum.y += space->vertices[c->first_vertex + i].y / c->vertex_count;
+    for (uint32_t i = 1; i < c->vertex_count; i++) {
+        sum.x += (corners[i].x - corners[0].x) / c->vertex_count;
+        sum.y += (corners[i].y - corners[0].y) / c->vertex_count;
     }
-    return sum;
+    return (sl_point){corners[0].x + sum.x, corners[0].y + sum.y};
+}
+
+sl_point sl_view_cell_place(const sl_space *space, uint32_t cell) {
+    if (space->beyond) return sl_view_cell_middle(space, cell);
+    const sl_cell *c = &space->cells[cell];
+    sl_point least = space->vertices[c->first_vertex];
+    for (uint32_t i = 1; i < c->vertex_count; i++) {
+        const sl_point p = space->vertices[c->first_vertex + i];
+        least = (sl_point){fmin(least.x, p.x), fmin(least.y, p.y)};
+    }
+    return least;
 }
 
 // --- what the leaves see, by segments
@@ -84,6 +97,11 @@ enum { SEGMENTS_A_UNIT = 16384 };
 void sl_view_sets_destroy(sl_context *context, sl_view_sets *sets) {
     sl_free(context, sets->bits);
     *sets = (sl_view_sets){0};
+}
+
+void sl_view_found_destroy(sl_context *context, sl_view_found *found) {
+    sl_view_sets_destroy(context, &found->sets);
+    *found = (sl_view_found){0};
 }
 
 sl_status sl_view_sets_create(sl_context *context, uint32_t count, uint32_t object_count,

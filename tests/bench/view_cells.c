@@ -149,7 +149,7 @@ static void make(bench *b, const sl_view_method *method, const sl_view_segments 
                  const sl_view_subdivision *options, made *m) {
     *m = (made){0};
     const double start = seconds();
-    check(b, method->divide(b->context, &b->scene, by, options, &m->tree));
+    check(b, method->divide(b->context, &b->scene, by, options, &m->tree, NULL));
     m->divide = seconds() - start;
     join(b, method, by, m);
     tell(b, m);

@@ -107,7 +107,8 @@ static void threads_make_no_difference(void **state) {
     const sl_view_subdivision options = sl_view_subdivision_default();
     sl_view_tree tree;
     sl_view_sets sets[2];
-    assert_ok(context, view_method("kd-casm")->divide(context, &w.scene, NULL, &options, &tree));
+    assert_ok(context,
+              view_method("kd-casm")->divide(context, &w.scene, NULL, &options, &tree, NULL));
     for (unsigned i = 0; i < 2; i++)
         assert_ok(context,
                   sl_view_sets_sample(context, &w.scene, &tree, &other, 1 + 2 * i, &sets[i]));
@@ -197,7 +198,7 @@ static void every_method_divides_all_of_view_space(void **state) {
             sl_view_sets sets;
             assert_ok(context, methods[i].divide(context, &w.scene,
                                                  methods[i].needs_segments ? &w.segments : NULL,
-                                                 &options, &tree));
+                                                 &options, &tree, NULL));
             assert_true(tree.cell_count > 4 && tree.cell_count <= options.cells + 1);
             check_tree(&w, &tree);
             assert_ok(context,
@@ -249,7 +250,7 @@ static void the_first_split_gains_most(void **state) {
     options.cells = 2;
     sl_view_tree tree;
     assert_ok(context,
-              view_method("av-s")->divide(context, &w.scene, &w.segments, &options, &tree));
+              view_method("av-s")->divide(context, &w.scene, &w.segments, &options, &tree, NULL));
     assert_int_equal(tree.node_count, 1);
     const double gain = gain_of(&w, tree.nodes[0].axis, tree.nodes[0].position);
     assert_true(gain > 1);
@@ -286,7 +287,7 @@ static void places_give_the_mass(void **state) {
         options.cells = 2;
         sl_view_tree tree;
         assert_ok(context,
-                  view_method("kd-lasm")->divide(context, &w.scene, NULL, &options, &tree));
+                  view_method("kd-lasm")->divide(context, &w.scene, NULL, &options, &tree, NULL));
         const double west = tree.mass[sl_view_tree_locate(&tree, (sl_point){2, 2})];
         // Left of x = 10 there are 111 of 227 square units; all points of the path but those where
         // the tree has been cut on to leave none empty; and a quarter of the density.
@@ -323,7 +324,7 @@ static void options_out_of_range_are_refused(void **state) {
         if (i == 4) w.scene.cost.b = -1;
         if (i == 5) w.scene.cost = (sl_render_cost){INFINITY, 0, 0};
         assert_int_equal(
-            view_method("av-m")->divide(context, &w.scene, &w.segments, &options, &tree),
+            view_method("av-m")->divide(context, &w.scene, &w.segments, &options, &tree, NULL),
             SL_BAD_ARGUMENT);
         w.scene.cost = sl_render_cost_default();
     }

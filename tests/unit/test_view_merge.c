@@ -19,7 +19,7 @@ static void make(sl_context *context, const char *statements, bool oblique, uint
     options.cells = cells;
     options.wall_splits = oblique ? 10 : 0;
     assert_ok(context, view_method("av-m")->divide(context, &m->world.scene, &m->world.segments,
-                                                   &options, &m->tree));
+                                                   &options, &m->tree, NULL));
     assert_ok(context, sl_view_sets_sample(context, &m->world.scene, &m->tree, &m->world.segments,
                                            1, &m->sets));
     assert_ok(context, (merges ? sl_view_merge : sl_view_join_splits)(
@@ -261,8 +261,8 @@ static void no_memory_is_told(void **state) {
         memory.fail_at = fail;
         sl_status status = sl_view_sample(context, &m.world.outline, &sampling, &segments);
         if (status == SL_OK)
-            status =
-                view_method("av-m")->divide(context, &m.world.scene, &segments, &options, &m.tree);
+            status = view_method("av-m")->divide(context, &m.world.scene, &segments, &options,
+                                                 &m.tree, NULL);
         if (status == SL_OK)
             status = sl_view_sets_sample(context, &m.world.scene, &m.tree, &segments, 1, &m.sets);
         if (status == SL_OK)

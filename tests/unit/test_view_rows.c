@@ -34,7 +34,7 @@ static void see(sl_context *context, const char *statements, bool oblique, uint3
     options.cells = elementary;
     sl_view_sets sets;
     assert_ok(context, view_method("av-m")->divide(context, &s->world.scene, &s->world.segments,
-                                                   &options, &s->tree));
+                                                   &options, &s->tree, NULL));
     assert_ok(context, sl_view_sets_sample(context, &s->world.scene, &s->tree, &s->world.segments,
                                            1, &sets));
     assert_ok(context, sl_view_merge(context, &s->world.scene, &s->tree, &sets, &s->hierarchy));

@@ -43,8 +43,8 @@ static void make_cells(sl_context *context, const char *name, viewed *v) {
     assert_ok(context, sl_view_sample(context, &w->outline, &sampling, &w->segments));
     sl_view_subdivision options = sl_view_subdivision_default();
     options.cells = 100;
-    assert_ok(context,
-              view_method("av-m")->divide(context, &w->scene, &w->segments, &options, &v->tree));
+    assert_ok(context, view_method("av-m")->divide(context, &w->scene, &w->segments, &options,
+                                                   &v->tree, NULL));
     sl_view_sets sets;
     assert_ok(context, sl_view_sets_sample(context, &w->scene, &v->tree, &w->segments, 1, &sets));
     assert_ok(context, sl_view_merge(context, &w->scene, &v->tree, &sets, &v->hierarchy));

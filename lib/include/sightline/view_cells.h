@@ -135,6 +135,7 @@ typedef struct sl_view_subdivision {
     double visible_share; ///< KD-VT: cells that see no more than this share of all are not split
     uint32_t deepest;     ///< KD-VT*: cells so far down are not split
     uint64_t seed;        ///< of candidates that are drawn
+    sl_sight sight;       ///< "hybrid": which lines count
 } sl_view_subdivision;
 
 SL_API sl_view_subdivision sl_view_subdivision_default(void);
@@ -145,6 +146,25 @@ typedef struct sl_view_sets {
     size_t words;   ///< of a row
     uint64_t *bits; ///< bit o % 64 of word o / 64 of a row: object o is in the set
 } sl_view_sets;
+
+/// What a method by exact sets has done. A room is a cell of the space, or where objects are walls
+/// a convex part of it; a look goes from one piece of one room into one quadrant of directions.
+typedef struct sl_view_work {
+    uint64_t rooms;      ///< looked from by the passes that come first
+    uint64_t cuts;       ///< pieces cut in two
+    uint64_t looks;      ///< by passes and from pieces
+    uint64_t candidates; ///< rooms in the refine sets of all looks
+    uint64_t relations;  ///< rooms in directed visible sets: what all looks found
+    uint64_t tests;      ///< portal sequences held against the solver
+} sl_view_work;
+
+/// What methods by exact sets find beside a tree. Zeroed: nothing.
+typedef struct sl_view_found {
+    sl_view_sets sets; ///< of the elementary view cells
+    sl_view_work work;
+} sl_view_found;
+
+SL_API void sl_view_found_destroy(sl_context *context, sl_view_found *found);
 
 /// What each elementary view cell of a tree sees by the segments that pass it. `threads`: 0 for one
 /// a core.
@@ -177,13 +197,27 @@ SL_API void sl_view_hierarchy_destroy(sl_context *context, sl_view_hierarchy *hi
 /// A method of making view cells: reachable by name, listed everywhere from this table. Each
 /// divides view space into a tree; `merges` tells whether cells are then merged by cost (the merge
 /// history tree, section 4.3) or put together again in the reverse order of splits.
+///
+/// "hybrid" goes by no samples but by exact directed visible sets (Laine 2005, whose future work it
+/// is): view space is one view cell at first, and the one whose halves differ most in what they see
+/// is split next, wherever that gains most by the cost model. The sets of rooms come from a pass of
+/// the multipass method a quadrant; a room that is cut is looked from again, among what it saw.
+///
+/// What it finds is exact: the objects to which a sightline through portals of the space leads that
+/// passes the view cell or, with closed sight, touches it. With open sight this is what the cells
+/// together see that the view cell's borders cut out of the space; with closed sight these may miss
+/// an object seen by grazing lines alone, which would have to cross a border both ways. So in the
+/// space of a kd-tree; in others pieces of cells have rounded corners, and the sets are exact for
+/// these, and part of what the whole cell sees. SL_UNSUPPORTED with wall_splits.
 typedef struct sl_view_method {
     const char *name, *what;
     bool merges;
-    bool needs_segments; ///< it looks at what is seen; others may be given none
+    bool needs_segments; ///< it looks at what is seen by them; others may be given none
+    bool exact;          ///< it finds the exact sets of its view cells
+    /// `found`: untouched but by exact methods; NULL where nobody asks.
     sl_status (*divide)(sl_context *context, const sl_view_scene *scene,
                         const sl_view_segments *segments, const sl_view_subdivision *options,
-                        sl_view_tree *out);
+                        sl_view_tree *out, sl_view_found *found);
 } sl_view_method;
 
 SL_API const sl_view_method *sl_view_methods(size_t *count);

@@ -1,0 +1,342 @@
+/// Looking from a piece of a room within a quadrant of directions: a depth-first search over portal
+/// sequences, as in multipass, each held against a stabbing solver.
+///
+/// As long as no side of the piece has a direction between those of a sector, the lines of the
+/// sector that meet the piece are those that pass between two of its corners, the utmost left and
+/// the utmost right one. So the piece stands in the sequence as a portal between these, and no
+/// coordinate is computed. Of a box there is one such pair a quadrant.
+///
+/// Searches go on where all candidates have been seen: of each object all sequences tell from where
+/// in the piece it is seen. That is read off the solver's polygon of lines: how far a line is seen
+/// along an axis is greatest at a corner of the polygon, or where the quadrant's bounds cut it.
+#include "stab/funnel.h"
+#include "view_cells/pieces.h"
+
+#include <string.h>
+
+typedef struct step {
+    uint32_t room, next; ///< side to try next, from 0
+    sl_cone cone;        ///< directions that cross all portals so far
+} step;
+
+struct sl_view_looker {
+    void *solver;
+    SL_ARRAY(step) steps;
+    uint32_t *allowed, *entered;    ///< by room: the number of the look that says so
+    uint32_t *asked, *seen, *place; ///< by object: likewise, and where it is in the list
+    uint32_t allowing, looking;
+    uint64_t candidates;
+    SL_ARRAY(sl_line) bounds; ///< of the sectors within a quadrant
+};
+
+sl_status sl_view_looker_create(sl_view_pieces *pieces) {
+    sl_context *context = pieces->context;
+    sl_view_looker *me = sl_alloc_array(context, 1, sizeof *me);
+    if (!me) return SL_NO_MEMORY;
+    pieces->looker = me;
+    const size_t rooms = pieces->rooms.count, objects = pieces->rooms.object_count;
+    me->allowed = sl_alloc_array(context, rooms, sizeof *me->allowed);
+    me->entered = sl_alloc_array(context, rooms, sizeof *me->entered);
+    me->asked = sl_alloc_array(context, objects, sizeof *me->asked);
+    me->seen = sl_alloc_array(context, objects, sizeof *me->seen);
+    me->place = sl_alloc_array(context, objects, sizeof *me->place);
+    if (!me->allowed || !me->entered || !me->asked || !me->seen || !me->place) return SL_NO_MEMORY;
+    return sl_funnel()->create(context, pieces->rooms.bounds, &me->solver);
+}
+
+void sl_view_looker_destroy(sl_view_pieces *pieces) {
+    sl_context *context = pieces->context;
+    sl_view_looker *me = pieces->looker;
+    if (!me) return;
+    sl_funnel()->destroy(context, me->solver);
+    sl_free(context, me->steps.items);
+    sl_free(context, me->allowed);
+    sl_free(context, me->entered);
+    sl_free(context, me->asked);
+    sl_free(context, me->seen);
+    sl_free(context, me->place);
+    sl_free(context, me->bounds.items);
+    sl_free(context, me);
+    pieces->looker = NULL;
+}
+
+sl_cone sl_view_quadrant(int quadrant) {
+    static const sl_point ways[SL_VIEW_QUADRANTS] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    const sl_point zero = {0, 0};
+    return (sl_cone){{zero, ways[quadrant]}, {zero, ways[(quadrant + 1) % SL_VIEW_QUADRANTS]}};
+}
+
+// --- candidates
+
+void sl_view_look_begin(sl_view_looker *me) {
+    me->allowing++;
+    me->candidates = 0;
+}
+
+void sl_view_look_allow(sl_view_looker *me, uint32_t room) {
+    if (me->allowed[room] == me->allowing) return;
+    me->allowed[room] = me->allowing;
+    me->candidates++;
+}
+
+uint64_t sl_view_look_candidates(const sl_view_looker *me) {
+    return me->candidates;
+}
+
+// --- from where
+
+static void keep(double from, double by, double *t0, double *t1) {
+    if (by > 0)
+        *t1 = fmin(*t1, -from / by);
+    else if (by < 0)
+        *t0 = fmax(*t0, -from / by);
+}
+
+static double within(double value, double low, double high) {
+    return value < low ? low : value > high ? high : value;
+}
+
+/// Adds what of a line is within the piece: it touches it at least, but for rounding.
+static void add_line(const sl_view_piece *piece, sl_point a, sl_point b, sl_view_extent *out) {
+    double t0 = -INFINITY, t1 = INFINITY;
+    const double dx = b.x - a.x, dy = b.y - a.y;
+    sl_point p = piece->corners.items[piece->corners.count - 1];
+    for (size_t i = 0; i < piece->corners.count; i++) {
+        const sl_point q = piece->corners.items[i];
+        const double nx = q.y - p.y, ny = p.x - q.x; // outwards
+        keep(nx * (a.x - p.x) + ny * (a.y - p.y), nx * dx + ny * dy, &t0, &t1);
+        p = q;
+    }
+    const double ends[2] = {t0, t1};
+    for (int i = 0; i < 2; i++) {
+        if (!isfinite(ends[i])) continue;
+        const double at[2] = {a.x + ends[i] * dx, a.y + ends[i] * dy};
+        for (int axis = 0; axis < 2; axis++) {
+            const double v = within(at[axis], piece->box.low[axis], piece->box.high[axis]);
+            if (v < out->low[axis]) out->low[axis] = v;
+            if (v > out->high[axis]) out->high[axis] = v;
+        }
+    }
+}
+
+static double turn(sl_point a, sl_point b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+/// From where in the piece the lines of the sequence as it stands pass.
+static sl_view_extent find_extent(const sl_view_looker *me, const sl_view_piece *piece,
+                                  sl_cone sector) {
+    const uint32_t count = sl_funnel_corner_count(me->solver);
+    sl_view_extent extent = sl_view_no_extent();
+    if (!count) return piece->box;
+    const sl_point ways[2] = {
+        {sector.right.b.x - sector.right.a.x, sector.right.b.y - sector.right.a.y},
+        {sector.left.b.x - sector.left.a.x, sector.left.b.y - sector.left.a.y}};
+    sl_funnel_corner last = sl_funnel_corner_at(me->solver, count - 1);
+    sl_point from = {last.to.x - last.from.x, last.to.y - last.from.y};
+    for (uint32_t i = 0; i < count; i++) {
+        const sl_funnel_corner c = sl_funnel_corner_at(me->solver, i);
+        const sl_point to = {c.to.x - c.from.x, c.to.y - c.from.y};
+        add_line(piece, c.from, c.to, &extent);
+        for (int k = 0; k < 2; k++)
+            if (turn(ways[k], from) * turn(ways[k], to) < 0)
+                add_line(piece, last.pivot,
+                         (sl_point){last.pivot.x + ways[k].x, last.pivot.y + ways[k].y}, &extent);
+        last = c;
+        from = to;
+    }
+    return extent.low[0] <= extent.high[0] ? extent : piece->box;
+}
+
+// --- the search
+
+/// One look into a quadrant.
+typedef struct look {
+    sl_view_pieces *pieces;
+    sl_view_looker *me;
+    const sl_view_piece *piece;
+    sl_cone sector;
+    bool east, north; ///< where the quadrant's directions go
+    bool limited;     ///< to objects that are asked for
+    sl_view_directed *out;
+} look;
+
+static sl_status add_object(look *l, uint32_t object) {
+    sl_view_looker *me = l->me;
+    sl_view_directed *out = l->out;
+    if (me->seen[object] != me->looking) {
+        SL_TRY(SL_ARRAY_ROOM(l->pieces->context, &out->objects, 1));
+        me->seen[object] = me->looking;
+        me->place[object] = (uint32_t)out->objects.count;
+        out->objects.items[out->objects.count++] =
+            (sl_view_sight){.object = object, .from = sl_view_no_extent()};
+    }
+    sl_view_extent *from = &out->objects.items[me->place[object]].from;
+    if (memcmp(from, &l->piece->box, sizeof *from) == 0) return SL_OK; // it cannot grow
+    sl_view_extent more = find_extent(me, l->piece, l->sector);
+    for (int axis = 0; axis < 2; axis++) {
+        more.low[axis] = sl_view_rooms_snap(&l->pieces->rooms, axis, more.low[axis]);
+        more.high[axis] = sl_view_rooms_snap(&l->pieces->rooms, axis, more.high[axis]);
+    }
+    sl_view_extent_join(from, &more);
+    return SL_OK;
+}
+
+static sl_status add_room(look *l, uint32_t room) {
+    sl_view_looker *me = l->me;
+    if (me->entered[room] == me->looking) return SL_OK;
+    me->entered[room] = me->looking;
+    SL_TRY(SL_ARRAY_ROOM(l->pieces->context, &l->out->rooms, 1));
+    l->out->rooms.items[l->out->rooms.count++] = room;
+    return SL_OK;
+}
+
+/// Whether lines of the sequence and the sector pass a side as well; on SL_OK it is to be popped.
+static sl_status push(look *l, const sl_room_side *side, const sl_cone *cone, bool *seen) {
+    sl_context *context = l->pieces->context;
+    sl_stab_verdict verdict;
+    if (++l->pieces->work.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
+    SL_TRY(sl_funnel()->push(context, l->me->solver, side->left, side->right, &verdict));
+    if (verdict != SL_HIDDEN)
+        SL_TRY(sl_funnel()->toward(context, l->me->solver, cone->right, cone->left, &verdict));
+    *seen = verdict == SL_STABBED || (verdict == SL_GRAZING && l->pieces->sight == SL_CLOSED);
+    return SL_OK;
+}
+
+static sl_status enter(look *l, step to) {
+    SL_TRY(SL_ARRAY_ROOM(l->pieces->context, &l->me->steps, 1));
+    l->me->steps.items[l->me->steps.count++] = to;
+    return SL_OK;
+}
+
+/// Whether a portal of the piece's own room is out of reach in the quadrant: nothing of it is ahead
+/// of any place of the piece. A line along both would lead to it all the same, backwards.
+static bool is_behind(const look *l, const sl_room_side *side) {
+    const sl_view_extent *box = &l->piece->box;
+    const bool behind_x = l->east ? fmax(side->left.x, side->right.x) < box->low[0]
+                                  : fmin(side->left.x, side->right.x) > box->high[0];
+    const bool behind_y = l->north ? fmax(side->left.y, side->right.y) < box->low[1]
+                                   : fmin(side->left.y, side->right.y) > box->high[1];
+    return behind_x || behind_y;
+}
+
+static sl_status try_side(look *l, const sl_room_side *side) {
+    sl_view_looker *me = l->me;
+    step to = me->steps.items[me->steps.count - 1];
+    const sl_exit exit = {.left = side->left, .right = side->right};
+    if (me->steps.count == 1 && is_behind(l, side)) return SL_OK;
+    if (side->room != SL_NO_ROOM && me->allowed[side->room] != me->allowing) return SL_OK;
+    if (side->room == SL_NO_ROOM) {
+        // Of its own room a piece sees all walls; they are told without being looked for.
+        if (me->steps.count == 1) return SL_OK;
+        if (l->limited && me->asked[side->object] != me->looking) return SL_OK;
+    }
+    if (!sl_cone_cut(&to.cone, &exit)) return SL_OK;
+    bool seen;
+    SL_TRY(push(l, side, &to.cone, &seen));
+    if (seen && side->object != SL_NO_OBJECT) SL_TRY(add_object(l, side->object));
+    if (!seen || side->room == SL_NO_ROOM) {
+        sl_funnel()->pop(me->solver);
+        return SL_OK;
+    }
+    SL_TRY(add_room(l, side->room));
+    to.room = side->room;
+    to.next = 0;
+    return enter(l, to);
+}
+
+/// The corner that no other is farther left of (or right of), going in any direction of a sector in
+/// which that is the same one.
+static sl_point utmost(const sl_view_piece *piece, sl_cone sector, int side) {
+    sl_point best = piece->corners.items[0];
+    for (size_t i = 1; i < piece->corners.count; i++) {
+        const sl_point p = piece->corners.items[i];
+        if (sl_turn(sector.right.a, sector.right.b, best, p) == side ||
+            sl_turn(sector.left.a, sector.left.b, best, p) == side)
+            best = p;
+    }
+    return best;
+}
+
+static sl_status look_into_sector(look *l) {
+    sl_view_looker *me = l->me;
+    const sl_view_rooms *rooms = &l->pieces->rooms;
+    const sl_point left = utmost(l->piece, l->sector, 1), right = utmost(l->piece, l->sector, -1);
+    sl_stab_verdict verdict;
+    me->steps.count = 0;
+    SL_TRY(sl_funnel()->push(l->pieces->context, me->solver, left, right, &verdict));
+    SL_TRY(enter(l, (step){.room = l->piece->room, .cone = l->sector}));
+    while (me->steps.count) {
+        step *last = &me->steps.items[me->steps.count - 1];
+        const uint32_t first = rooms->first_side[last->room];
+        if (last->next < rooms->first_side[last->room + 1] - first) {
+            SL_TRY(try_side(l, &rooms->sides[first + last->next++]));
+        } else {
+            me->steps.count--;
+            sl_funnel()->pop(me->solver);
+        }
+    }
+    return SL_OK;
+}
+
+/// Adds a direction to the bounds, in order, if it lies between the first and the last.
+static sl_status add_bound(sl_context *context, sl_view_looker *me, sl_line way) {
+    SL_TRY(SL_ARRAY_ROOM(context, &me->bounds, 1));
+    sl_line *bounds = me->bounds.items;
+    const size_t count = me->bounds.count;
+    if (sl_turn(bounds[0].a, bounds[0].b, way.a, way.b) <= 0 ||
+        sl_turn(way.a, way.b, bounds[count - 1].a, bounds[count - 1].b) <= 0)
+        return SL_OK;
+    size_t at = 1;
+    while (sl_turn(bounds[at].a, bounds[at].b, way.a, way.b) > 0) at++;
+    if (sl_turn(bounds[at].a, bounds[at].b, way.a, way.b) == 0) return SL_OK;
+    memmove(bounds + at + 1, bounds + at, (count - at) * sizeof *bounds);
+    bounds[at] = way;
+    me->bounds.count++;
+    return SL_OK;
+}
+
+/// Cuts a quadrant at the directions of the piece's sides.
+static sl_status find_sectors(sl_context *context, sl_view_looker *me, const sl_view_piece *piece,
+                              int quadrant) {
+    const sl_cone all = sl_view_quadrant(quadrant);
+    me->bounds.count = 0;
+    SL_TRY(SL_ARRAY_ROOM(context, &me->bounds, 2));
+    me->bounds.items[me->bounds.count++] = all.right;
+    me->bounds.items[me->bounds.count++] = all.left;
+    sl_point p = piece->corners.items[piece->corners.count - 1];
+    for (size_t i = 0; i < piece->corners.count; i++) {
+        const sl_point q = piece->corners.items[i];
+        if (p.x != q.x && p.y != q.y) {
+            SL_TRY(add_bound(context, me, (sl_line){p, q}));
+            SL_TRY(add_bound(context, me, (sl_line){q, p}));
+        }
+        p = q;
+    }
+    return SL_OK;
+}
+
+sl_status sl_view_look(sl_view_pieces *pieces, const sl_view_piece *piece, int quadrant,
+                       const sl_view_directed *objects, sl_view_directed *out) {
+    sl_view_looker *me = pieces->looker;
+    me->looking++;
+    if (objects)
+        for (size_t i = 0; i < objects->objects.count; i++)
+            me->asked[objects->objects.items[i].object] = me->looking;
+    SL_TRY(find_sectors(pieces->context, me, piece, quadrant));
+    look l = {.pieces = pieces,
+              .me = me,
+              .piece = piece,
+              .east = quadrant == 0 || quadrant == 3,
+              .north = quadrant < 2,
+              .limited = objects != NULL,
+              .out = out};
+    for (size_t i = 0; i + 1 < me->bounds.count; i++) {
+        l.sector = (sl_cone){me->bounds.items[i], me->bounds.items[i + 1]};
+        SL_TRY(look_into_sector(&l));
+    }
+    pieces->work.looks++;
+    pieces->work.candidates += me->candidates;
+    pieces->work.relations += out->rooms.count;
+    return SL_OK;
+}
