@@ -49,6 +49,21 @@ static inline sl_context *testing_context(testing_memory *memory) {
                      sl_status_name(testing_status));                                              \
     } while (0)
 
+/// How many random inputs a test tries: as many as SIGHTLINE_SEEDS of the environment says, else as
+/// usual. Under a sanitizer each takes several times as long: there it is a fifth, and said.
+static inline uint64_t testing_seeds(uint64_t usual) {
+    const char *text = getenv("SIGHTLINE_SEEDS");
+    const uint64_t told = text ? strtoull(text, NULL, 10) : 0;
+    if (told) return told;
+#ifdef SIGHTLINE_SANITIZED
+    print_message("%llu of %llu random inputs: a sanitizer is on\n",
+                  (unsigned long long)(usual + 4) / 5, (unsigned long long)usual);
+    return (usual + 4) / 5;
+#else
+    return usual;
+#endif
+}
+
 /// A cleaned map and its space, from map text without its first line.
 static inline void testing_space(sl_context *context, const char *statements, sl_map *map,
                                  sl_space *space) {

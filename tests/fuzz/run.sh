@@ -1,5 +1,5 @@
 #!/bin/sh
-# Runs each fuzzer for SECONDS: tests/fuzz/run.sh SECONDS [BUILD [FUZZER...]]
+# Runs each fuzzer for SECONDS, one a core at once: tests/fuzz/run.sh SECONDS [BUILD [FUZZER...]]
 # BUILD is the folder of a build with -DSIGHTLINE_FUZZERS=ON (default: build/fuzz; made if it is not
 # there). Seeds come from maps/ and tests/fuzz/seeds by the ending of the name; what a fuzzer learns
 # stays in BUILD/fuzz/NAME/corpus, what it finds in BUILD/fuzz/NAME/findings.
@@ -72,8 +72,16 @@ run_one() {
 }
 
 [ $# -gt 0 ] || set -- $(cd "$root/tests/fuzz" && ls fuzz_*.c | sed 's/\.c$//')
+cores=$(getconf _NPROCESSORS_ONLN)
 status=0
-for name in "$@"; do
-    run_one "$name" || status=1
+while [ $# -gt 0 ]; do
+    running=
+    for _ in $(seq "$cores"); do
+        [ $# -gt 0 ] || break
+        run_one "$1" &
+        running="$running $!"
+        shift
+    done
+    for process in $running; do wait "$process" || status=1; done
 done
 exit $status

@@ -132,13 +132,12 @@ static bool try_map(uint64_t seed, unsigned effects, sl_sight sight) {
 
 static void random_maps(void **state) {
     (void)state;
-    int done = 0;
-    const char *seeds = getenv("SIGHTLINE_SEEDS");
-    const int maps = seeds ? atoi(seeds) : MAPS;
-    for (int i = 0; i < maps; i++)
-        done += try_map((uint64_t)i + 1, (unsigned)i % 16, i / 16 % 2 ? SL_OPEN : SL_CLOSED);
-    for (int i = 0; i < maps; i++)
-        done += try_map((uint64_t)i + 1, SL_EFFECT_ONEWAY, i % 2 ? SL_OPEN : SL_CLOSED);
+    uint64_t done = 0;
+    const uint64_t maps = testing_seeds(MAPS);
+    for (uint64_t i = 0; i < maps; i++)
+        done += try_map(i + 1, (unsigned)(i % 16), i / 16 % 2 ? SL_OPEN : SL_CLOSED);
+    for (uint64_t i = 0; i < maps; i++)
+        done += try_map(i + 1, SL_EFFECT_ONEWAY, i % 2 ? SL_OPEN : SL_CLOSED);
     assert_true(done > maps);
 }
 
@@ -183,12 +182,11 @@ static void compare_methods(const trial *t, sl_sight sight) {
 
 static void one_way_among_oblique_walls(void **state) {
     (void)state;
-    const char *seeds = getenv("SIGHTLINE_SEEDS");
-    const int maps = seeds ? atoi(seeds) : MAPS;
-    int done = 0;
-    for (int i = 0; i < maps; i++) {
+    const uint64_t maps = testing_seeds(MAPS);
+    uint64_t done = 0;
+    for (uint64_t i = 0; i < maps; i++) {
         trial t;
-        const bool made = begin_oblique(&t, (uint64_t)i + 1, (oblique_grid)(i % OBLIQUE_SANE));
+        const bool made = begin_oblique(&t, i + 1, (oblique_grid)(i % OBLIQUE_SANE));
         for (int open = 0; open < 2 && made; open++)
             compare_methods(&t, open ? SL_OPEN : SL_CLOSED);
         done += made;

@@ -129,8 +129,7 @@ static void try_random_map(sl_context *context, uint64_t seed, tally *count) {
 
 static void random_maps_are_explained(void **state) {
     (void)state;
-    const char *text = getenv("SIGHTLINE_SEEDS");
-    const uint64_t seeds = text ? strtoull(text, NULL, 10) : 300;
+    const uint64_t seeds = testing_seeds(300);
     testing_memory memory = {0};
     sl_context *context = testing_context(&memory);
     tally count = {0};

@@ -161,9 +161,7 @@ static void try_map(trial *t) {
 }
 
 static void random_maps(sl_sight sight) {
-    const char *text = getenv("SIGHTLINE_SEEDS");
-    uint64_t seeds = text ? strtoull(text, NULL, 10) : 0;
-    if (!seeds) seeds = 60;
+    const uint64_t seeds = testing_seeds(60);
     trial t = {.context = testing_context(NULL), .sight = sight};
     for (t.seed = 1; t.seed <= seeds; t.seed++) try_map(&t);
     print_message("%zu of %zu cells seen\n", t.seen, t.asked);

@@ -1,19 +1,10 @@
 // Every method, with every solver, against the oracles on random maps, pair by pair.
 // SIGHTLINE_SEEDS in the environment: how many maps (1000 by default).
+#include "testing.h"
+
 #include "oracle/oracle.h"
 #include "oracle/random_map.h"
-#include "sightline/sightline.h"
 #include "solver_table.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 /// Portals that the oracle may push for one map; maps that need more are skipped and counted.
 enum { PUSH_LIMIT = 20000 };
@@ -35,12 +26,6 @@ typedef struct trial {
     sl_space space;
     bool *closed, *open;
 } trial;
-
-static uint64_t seed_count(void) {
-    const char *text = getenv("SIGHTLINE_SEEDS");
-    uint64_t count = text ? strtoull(text, NULL, 10) : 0;
-    return count ? count : 1000;
-}
 
 static void need(sl_context *context, sl_status status, uint64_t seed) {
     if (status != SL_OK) {
@@ -163,7 +148,8 @@ static void test_methods_on_random_maps(void **state) {
     size_t method_count;
     const sl_see_method *methods = sl_see_methods(&method_count);
     assert_true(method_count > 0);
-    for (uint64_t seed = 1; seed <= seed_count(); seed++) {
+    const uint64_t seeds = testing_seeds(1000);
+    for (uint64_t seed = 1; seed <= seeds; seed++) {
         trial t;
         begin_trial(context, seed, &t);
         count.maps++;

@@ -8,7 +8,7 @@
 
 #include <stdatomic.h>
 
-enum { AXIAL_MAPS = 40, OBLIQUE_MAPS = 40, EDITS = 12, GRID = 12 };
+enum { RANDOM_MAPS = 80, EDITS = 12, GRID = 12 }; // every other map is oblique
 
 static const char *const names[] = {"sweep", "dfs", "prune"};
 enum { NAMES = sizeof names / sizeof *names };
@@ -210,12 +210,13 @@ static void parts_come_to_the_whole(void **state) {
     sl_context *context = testing_context(NULL);
     sl_random random = {5};
     int stops = 0;
-    for (uint64_t seed = 1; seed <= AXIAL_MAPS + OBLIQUE_MAPS; seed++) {
-        place p = random_map(context, seed, seed > AXIAL_MAPS);
+    const uint64_t seeds = testing_seeds(RANDOM_MAPS);
+    for (uint64_t seed = 1; seed <= seeds; seed++) {
+        place p = random_map(context, seed, seed % 2);
         stops += check_space(context, &p.space, &random);
         destroy(context, &p);
     }
-    assert_true(stops > 5 * (AXIAL_MAPS + OBLIQUE_MAPS));
+    assert_true((uint64_t)stops > 5 * seeds);
     sl_context_destroy(context);
 }
 
@@ -338,9 +339,10 @@ static void what_a_change_cannot_affect_is_kept(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
     sl_random random = {7};
-    for (uint64_t seed = 1; seed <= AXIAL_MAPS + OBLIQUE_MAPS; seed++) {
-        place p = random_map(context, seed, seed > AXIAL_MAPS);
-        check_edits(context, &p, seed > AXIAL_MAPS, 2, &random);
+    const uint64_t seeds = testing_seeds(RANDOM_MAPS);
+    for (uint64_t seed = 1; seed <= seeds; seed++) {
+        place p = random_map(context, seed, seed % 2);
+        check_edits(context, &p, seed % 2, 2, &random);
     }
     const char *const kinds[] = {"office", "city", "maze"};
     uint32_t kept = 0;

@@ -102,8 +102,7 @@ static void check_eye(sl_context *context, const sl_outline *outline, const sl_v
 static void as_the_sweep_says(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
-    const char *rounds = getenv("SL_REGION_SEEDS");
-    const uint64_t seeds = rounds ? strtoull(rounds, NULL, 10) : 60;
+    const uint64_t seeds = testing_seeds(60);
     sl_region region = {0};
     for (uint64_t seed = 1; seed <= seeds; seed++) {
         sl_map map = {0};

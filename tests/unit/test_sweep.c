@@ -92,7 +92,8 @@ static void maps_are_seen_as_by_the_search(void **state) {
 static void random_maps_are_seen_as_by_the_search(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
-    for (uint64_t seed = 1; seed <= RANDOM_MAPS; seed++) {
+    const uint64_t seeds = testing_seeds(RANDOM_MAPS);
+    for (uint64_t seed = 1; seed <= seeds; seed++) {
         sl_map map = {0};
         sl_space space;
         char name[32];
@@ -145,8 +146,7 @@ static void compare_to_oracle(sl_context *context, uint64_t seed, const sl_space
 static void oblique_spaces_are_seen_as_by_the_oracle(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
-    const char *seeds = getenv("SIGHTLINE_SEEDS");
-    const uint64_t count = seeds ? strtoull(seeds, NULL, 10) : RANDOM_SPACES;
+    const uint64_t count = testing_seeds(RANDOM_SPACES);
     size_t asked = 0, grazing = 0, hidden = 0;
     for (uint64_t seed = 1; seed <= count; seed++) {
         sl_space space;
