@@ -20,6 +20,7 @@ void sl_app_init(sl_app *app, sl_context *context) {
                     .eye = {.fov = 90},
                     .show = SL_SHOW_CELLS | SL_SHOW_PORTALS | SL_SHOW_CULL | SL_SHOW_REGION |
                             SL_SHOW_STARTS,
+                    .document = {.mirror_depth = 1},
                     .split_depth = 6,
                     .tree_depth = 64,
                     .method = count - 1,

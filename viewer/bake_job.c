@@ -100,7 +100,8 @@ static sl_status search_trees(sl_context *context, sl_bake_job *job, const sl_pl
 static sl_status bake(sl_context *context, sl_bake_job *job) {
     sl_baked *baked = job->baked;
     // Of the job's own map: from space_ready on the other one is the main thread's.
-    const sl_plan plan = sl_plan_make(&job->map);
+    sl_plan plan = sl_plan_make(&job->map);
+    plan.mirror_depth = job->mirror_depth;
     SL_TRY(sl_map_copy(context, &job->map, &baked->map));
     SL_TRY(sl_map_clean(context, &baked->map, NULL));
     SL_TRY(sl_subdivision_for(&baked->map)->subdivide(context, &baked->map, NULL, &baked->space));

@@ -53,6 +53,7 @@ sl_status sl_document_open(sl_context *context, sl_document *document,
                            const sl_document_source *source) {
     sl_bake_job *job = sl_alloc_array(context, 1, sizeof *job);
     if (!job) return SL_NO_MEMORY;
+    job->mirror_depth = document->mirror_depth;
     const sl_status status = sl_document_source_copy(context, source, &job->source);
     if (status != SL_OK) {
         sl_free(context, job);
@@ -64,6 +65,7 @@ sl_status sl_document_open(sl_context *context, sl_document *document,
 sl_status sl_document_rebuild(sl_context *context, sl_document *document) {
     sl_bake_job *job = sl_alloc_array(context, 1, sizeof *job);
     if (!job) return SL_NO_MEMORY;
+    job->mirror_depth = document->mirror_depth;
     const sl_status status = sl_map_copy(context, &document->map, &job->map);
     if (status != SL_OK) {
         sl_free(context, job);
@@ -100,11 +102,23 @@ static void drop_baked(sl_context *context, sl_document *document) {
     document->has_visibility = false;
 }
 
+sl_status sl_document_add_mirrors(sl_context *context, const sl_document *document,
+                                  sl_eye_search *search) {
+    const sl_map *map = &document->baked->map;
+    if (!map->mirror_count) return SL_OK;
+    return sl_eye_search_add_mirrors(context, search, map, document->mirror_depth);
+}
+
 static sl_status make_search(sl_context *context, sl_document *document) {
     if (document->search) sl_eye_search_destroy(context, document->search);
     document->search = NULL;
-    return sl_eye_search_create(context, &document->baked->space, &document->baked->visibility,
-                                &document->search);
+    SL_TRY(sl_eye_search_create(context, &document->baked->space, &document->baked->visibility,
+                                &document->search));
+    return sl_document_add_mirrors(context, document, document->search);
+}
+
+sl_status sl_document_renew_search(sl_context *context, sl_document *document) {
+    return document->search ? make_search(context, document) : SL_OK;
 }
 
 static sl_status measure_cells(sl_context *context, sl_document *document) {
@@ -127,6 +141,7 @@ static sl_status take_space(sl_context *context, sl_document *document) {
     sl_bake_job *job = document->job;
     drop_baked(context, document);
     document->baked = job->baked;
+    document->baked_depth = job->mirror_depth;
     job->taken = true;
     document->version++;
     if (job->source.path) {

@@ -36,9 +36,11 @@ typedef struct sl_document {
     sl_outline outline;
     sl_splits splits;
     sl_eye_search *search;
-    double *areas;    ///< of the cells
-    double area;      ///< of all cells that count
-    uint32_t counted; ///< how many there are
+    double *areas;         ///< of the cells
+    double area;           ///< of all cells that count
+    uint32_t counted;      ///< how many there are
+    uint32_t mirror_depth; ///< reflections of a sightline, at most
+    uint32_t baked_depth;  ///< that cells are seen with
     uint32_t version; ///< grows with every change but that of stab trees, for who keeps pictures
     uint32_t touched; ///< grows with every change that needs no new bake
     uint32_t opened;  ///< grows with every file that is opened
@@ -65,6 +67,13 @@ sl_status sl_document_rebuild(sl_context *context, sl_document *document);
 
 /// Whether what cells see is there, and holds all that they see with the map's range as it is now.
 bool sl_document_has_rows(const sl_document *document);
+
+/// Makes the search anew, as the mirrors' depth is another.
+sl_status sl_document_renew_search(sl_context *context, sl_document *document);
+
+/// Has a search over the document's cells look into the mirrors that were baked.
+sl_status sl_document_add_mirrors(sl_context *context, const sl_document *document,
+                                  sl_eye_search *search);
 
 /// What was changed in the map needs no new bake: shows it.
 void sl_document_touch(sl_document *document);

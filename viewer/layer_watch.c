@@ -111,7 +111,7 @@ void sl_layer_watch(sl_app *app, const sl_frame *frame, int index) {
         sl_draw_cell_set(app->ui.cairo, &app->document.baked->space, frame, app->watch->sets[k],
                          NULL, row.colour, row.opacity);
     }
-    sl_draw_region(app->ui.cairo, frame, &app->watch->region, app->ui.palette.door);
+    sl_layers_draw_region(app, frame, &app->watch->region, app->ui.palette.door);
 }
 
 void sl_layer_watch_key(sl_app *app, const sl_frame *frame) {

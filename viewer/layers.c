@@ -5,6 +5,7 @@
 #include "draw/sight.h"
 #include "panes.h"
 
+#include <math.h>
 #include <stdio.h>
 
 #define ROW(NAME, name, key, label, help, modes, calls, draw) {name, modes, calls, draw},
@@ -78,9 +79,34 @@ void sl_layer_pvs(sl_app *app, const sl_frame *frame, int index) {
                      app->seen.pvs, app->ui.palette.door, 0.3);
 }
 
+void sl_layers_draw_region(sl_app *app, const sl_frame *frame, const sl_region *region,
+                           sl_colour colour) {
+    if (!(region->range > 0)) {
+        sl_draw_region(app->ui.cairo, frame, region, colour);
+        return;
+    }
+    const double tolerance = fmax(0.2 / frame->scale, 1e-5 * region->range);
+    const size_t count = sl_region_flatten(region, tolerance, NULL, 0);
+    sl_region flat = {.points = sl_alloc_array(app->context, count, sizeof *flat.points),
+                      .count = count};
+    if (!flat.points) return;
+    sl_region_flatten(region, tolerance, flat.points, count);
+    sl_draw_region(app->ui.cairo, frame, &flat, colour);
+    sl_free(app->context, flat.points);
+}
+
 void sl_layer_region(sl_app *app, const sl_frame *frame, int index) {
+    const sl_mirrored_region *mirrors = &app->seen.in_mirrors;
     (void)index;
-    sl_draw_region(app->ui.cairo, frame, &app->seen.region, app->ui.palette.source);
+    const sl_palette *palette = &app->ui.palette;
+    // Deeper ones are paler, and below.
+    for (size_t i = mirrors->part_count; i-- > 0;) {
+        const sl_mirror_part *part = &mirrors->parts[i];
+        const double pale = 1 - pow(0.6, part->depth - 1);
+        sl_layers_draw_region(app, frame, &part->region,
+                              sl_colour_mix(palette->door, palette->page, pale));
+    }
+    sl_layers_draw_region(app, frame, &app->seen.region, app->ui.palette.source);
 }
 
 // --- culling
@@ -113,6 +139,8 @@ void sl_layer_cull(sl_app *app, const sl_frame *frame, int index) {
                          sl_pane_method_colour(app, last), 0.8);
         return;
     }
+    sl_draw_cell_set(cairo, space, frame, seen->methods[last].mirrored, seen->methods[last].cells,
+                     app->ui.palette.door, 0.3);
     for (size_t i = 0; i <= last; i++)
         if (seen->methods[i].known || i == last)
             sl_draw_cell_set(cairo, space, frame, seen->methods[i].cells,

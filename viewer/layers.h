@@ -6,6 +6,7 @@
 #include "draw/canvas.h"
 #include "draw/palette.h"
 #include "sightline/effects.h"
+#include "sightline/region.h"
 
 typedef struct sl_app sl_app;
 
@@ -85,6 +86,10 @@ typedef struct sl_key_row {
 /// A key in the lower left of the plan, with a line under its rows; NULL for none.
 void sl_layers_draw_key(sl_app *app, const sl_frame *frame, const sl_key_row *rows, int count,
                         const char *line);
+
+/// Draws a region, arcs as arcs.
+void sl_layers_draw_region(sl_app *app, const sl_frame *frame, const sl_region *region,
+                           sl_colour colour);
 
 void sl_layer_pvs(sl_app *app, const sl_frame *frame, int index);
 void sl_layer_cull(sl_app *app, const sl_frame *frame, int index);

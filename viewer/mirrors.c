@@ -10,7 +10,7 @@ static double distance(sl_point a, sl_point b) {
     return hypot(a.x - b.x, a.y - b.y);
 }
 
-uint32_t sl_mirror_at(const sl_app *app, sl_point at, sl_mirror_part *part) {
+uint32_t sl_mirror_at(const sl_app *app, sl_point at, sl_grip *part) {
     const sl_map *map = &app->document.map;
     double within = sl_edit_reach(app);
     uint32_t found = UINT32_MAX;
@@ -22,15 +22,15 @@ uint32_t sl_mirror_at(const sl_app *app, sl_point at, sl_mirror_part *part) {
         found = (uint32_t)i;
         // An end has more room around it, but no more than a quarter of the mirror.
         const double room = fmin(1.5 * sl_edit_reach(app), distance(s.a, s.b) / 4);
-        *part = distance(at, s.a) <= room   ? SL_MIRROR_A
-                : distance(at, s.b) <= room ? SL_MIRROR_B
-                                            : SL_MIRROR_WHOLE;
+        *part = distance(at, s.a) <= room   ? SL_GRIP_A
+                : distance(at, s.b) <= room ? SL_GRIP_B
+                                            : SL_GRIP_WHOLE;
     }
     return found;
 }
 
 bool sl_mirror_take(sl_app *app, sl_drag *drag) {
-    sl_mirror_part part;
+    sl_grip part;
     drag->index = sl_mirror_at(app, drag->at, &part);
     if (drag->index == UINT32_MAX) return false;
     drag->part = part;
@@ -51,9 +51,9 @@ void sl_mirror_move(sl_app *app, sl_drag *drag, sl_point now) {
     const double dx = step * round((now.x - drag->at.x) / step);
     const double dy = step * round((now.y - drag->at.y) / step);
     sl_segment to = drag->segment;
-    if (drag->part == SL_MIRROR_A) to.a = sl_edit_snap(app, now);
-    if (drag->part == SL_MIRROR_B) to.b = sl_edit_snap(app, now);
-    if (drag->part == SL_MIRROR_WHOLE) {
+    if (drag->part == SL_GRIP_A) to.a = sl_edit_snap(app, now);
+    if (drag->part == SL_GRIP_B) to.b = sl_edit_snap(app, now);
+    if (drag->part == SL_GRIP_WHOLE) {
         to.a = (sl_point){to.a.x + dx, to.a.y + dy};
         to.b = (sl_point){to.b.x + dx, to.b.y + dy};
     }
@@ -78,11 +78,23 @@ void sl_mirror_drop(sl_app *app, const sl_drag *drag) {
     sl_app_after_edit(app);
 }
 
+void sl_mirror_set_depth(sl_app *app, uint32_t depth) {
+    if (depth == app->document.mirror_depth) return;
+    app->document.mirror_depth = depth;
+    sl_app_check(app, sl_document_renew_search(app->context, &app->document));
+    sl_present_drop(app->context, &app->present);
+    sl_app_after_touch(app);
+}
+
+void sl_mirror_settle_depth(sl_app *app) {
+    if (app->document.baked_depth != app->document.mirror_depth) sl_app_after_edit(app);
+}
+
 void sl_mirror_draw(sl_app *app, const sl_frame *frame) {
     const sl_map *map = &app->document.map;
     const bool held = app->drag.kind == SL_DRAG_MIRROR;
     const sl_layout l = sl_app_layout(app);
-    sl_mirror_part part;
+    sl_grip part;
     uint32_t mirror = held ? app->drag.index : UINT32_MAX;
     if (app->drag.kind == SL_DRAG_NONE && sl_box_has(l.plan[0], app->pointer))
         mirror = sl_mirror_at(app, sl_camera_point(&app->camera, l.plan[0], app->pointer), &part);

@@ -190,6 +190,22 @@ static void draw_methods(sl_app *app, column *c) {
     }
 }
 
+/// What mirrors add to it.
+static void draw_mirrored(sl_app *app, column *c) {
+    const sl_seen *seen = &app->seen;
+    const uint32_t cells = seen->methods[app->method].mirrored_count;
+    char share[SL_COUNT_TEXT], text[160];
+    if (!app->document.map.mirror_count || !seen->valid) return;
+    sl_text_percent(app->document.area > 0 ? seen->mirrored_area / app->document.area : 0, share);
+    snprintf(text, sizeof text, "In mirrors: %u cell%s more, and %s of the area in %zu part%s.",
+             cells, cells == 1 ? "" : "s", share, seen->in_mirrors.part_count,
+             seen->in_mirrors.part_count == 1 ? "" : "s");
+    const double t = app->ui.text;
+    c->y = sl_ui_paragraph(&app->ui, c->left, c->y + t, c->right - c->left, 0.9,
+                           app->ui.palette.ink, text) -
+           t;
+}
+
 /// What the looser of the two methods compared adds.
 static void draw_difference(sl_app *app, column *c) {
     size_t count;
@@ -292,6 +308,7 @@ void sl_pane_side(sl_app *app, sl_box box) {
     static const char *const views[] = {"views_merge", "views_split", "views_largest", NULL};
     if (app->show & SL_SHOW_VIEWS && sl_view_layer_shown(app->views)) button_row(app, &c, views);
     draw_methods(app, &c);
+    draw_mirrored(app, &c);
     draw_difference(app, &c);
     draw_words(app, &c);
     static const char *const rows[][5] = {{"home", "fly", "method", "other", NULL},

@@ -8,6 +8,8 @@
 
 typedef struct sl_present_own {
     sl_space space;
+    sl_space one_way; ///< for mirrors, into which glass is dark or not by another side: without the
+                      ///< exits that glass bars; empty where the map has not both
     sl_outline outline;
     sl_visibility row; ///< of one cell
     uint32_t cell;
@@ -57,12 +59,14 @@ static void drop_own(sl_context *context, sl_present *present) {
     sl_visibility_destroy(context, &o->row);
     sl_outline_destroy(context, &o->outline);
     sl_space_destroy(context, &o->space);
+    sl_space_destroy(context, &o->one_way);
     sl_free(context, o);
     present->own = NULL;
 }
 
 void sl_present_drop(sl_context *context, sl_present *present) {
     drop_own(context, present);
+    sl_room_mirrors_destroy(context, &present->mirrors);
     sl_free(context, present->shut);
     sl_free(context, present->wanted);
     *present = (sl_present){.version = present->version + 1, .backwards = present->backwards};
@@ -97,15 +101,19 @@ bool sl_present_sees(const sl_present *present, const sl_document *document, uin
            sl_door_sets_open(&v->doors, from, to, present->shut);
 }
 
-/// The visible set of the eye's cell, as rows of which the others are empty.
+typedef void (*add_function)(const sl_present *present, const sl_document *document, uint32_t cell,
+                             sl_bits *set);
+
+/// What the eye's cell sees, as rows of which the others are empty.
 static sl_status make_row(sl_context *context, const sl_present *present,
-                          const sl_document *document, uint32_t cell, sl_pvs *out) {
+                          const sl_document *document, add_function add, uint32_t cell,
+                          sl_pvs *out) {
     const uint32_t count = document->baked->space.cell_count;
     sl_row_bytes *rows = sl_alloc_array(context, count, sizeof *rows);
     sl_bits *set = sl_alloc_array(context, sl_bits_words(count), sizeof *set);
     sl_status status = rows && set ? SL_OK : SL_NO_MEMORY;
     if (status == SL_OK && cell != SL_NO_CELL) {
-        sl_present_add_row(present, document, cell, set);
+        add(present, document, cell, set);
         status = sl_row_append(context, &rows[cell], set, count);
     }
     if (status == SL_OK)
@@ -123,20 +131,30 @@ static sl_status follow_eye(sl_context *context, sl_present *present, const sl_d
     own *o = present->own;
     const uint32_t cell = sl_space_locate(&o->space, eye);
     if (o->search && (o->cell == cell || !present->has_rows)) return SL_OK;
-    sl_pvs row = {0};
-    if (present->has_rows) SL_TRY(make_row(context, present, document, cell, &row));
-    sl_pvs_destroy(context, &o->row.pvs);
-    o->row.sight = document->baked->visibility.sight;
-    o->row.pvs = row;
+    sl_visibility row = {.sight = document->baked->visibility.sight};
+    sl_status status = SL_OK;
+    if (present->has_rows)
+        status = make_row(context, present, document, sl_present_add_row, cell, &row.pvs);
+    if (status == SL_OK && present->has_rows && document->map.mirror_count)
+        status = make_row(context, present, document, sl_present_add_mirrored, cell, &row.mirrored);
+    sl_visibility_destroy(context, &o->row);
+    o->row = row;
+    SL_TRY(status);
     o->cell = cell;
     if (o->search) return SL_OK;
-    return sl_eye_search_create(context, &o->space, &o->row, &o->search);
+    const sl_space *space = o->one_way.cell_count ? &o->one_way : &o->space;
+    SL_TRY(sl_eye_search_create(context, space, &o->row, &o->search));
+    return sl_document_add_mirrors(context, document, o->search);
 }
 
 static sl_status make_own(sl_context *context, sl_present *present, const sl_document *document) {
     own *o = present->own = sl_alloc_array(context, 1, sizeof *o);
     if (!o) return SL_NO_MEMORY;
     SL_TRY(make_space(context, present, document, &o->space));
+    if (document->map.mirror_count && document->map.oneway_count) {
+        const sl_passage passage = {.shut = present->shut, .one_way = true};
+        SL_TRY(sl_passage_make(context, &document->baked->space, &passage, NULL, &o->one_way));
+    }
     return sl_outline_make(context, &o->space, &o->outline);
 }
 
@@ -159,6 +177,8 @@ static sl_status update(sl_context *context, sl_present *present, const sl_docum
     const size_t count = present->shut_count;
     const bool has_rows = sl_document_has_rows(document);
     const bool unused = document->has_visibility && !has_rows; // its search would believe them
+    // Where both are, what is dark in a mirror is not what is dark from the eye.
+    const bool both = document->map.mirror_count && document->map.oneway_count;
     const bool any = count && find_shut(&document->map, eye, present->backwards, present->wanted);
     const bool same = !count || memcmp(present->shut, present->wanted, count) == 0;
     if (fresh || !same || has_rows != present->has_rows) {
@@ -166,14 +186,20 @@ static sl_status update(sl_context *context, sl_present *present, const sl_docum
         present->has_rows = has_rows;
         present->version++;
         drop_own(context, present);
-        if (any || unused) SL_TRY(make_own(context, present, document));
+        if (any || unused || both) SL_TRY(make_own(context, present, document));
     }
     if (present->own && !present->backwards) SL_TRY(follow_eye(context, present, document, eye));
     const own *o = present->own;
     present->space = o ? &o->space : &document->baked->space;
     present->outline = o ? &o->outline : &document->outline;
     present->search = o ? o->search : document->search;
-    return SL_OK;
+    const bool same_outline = present->mirrors.outline == present->outline &&
+                              present->mirrors_version == present->version;
+    if (!document->baked->map.mirror_count || same_outline) return SL_OK;
+    sl_room_mirrors_destroy(context, &present->mirrors);
+    present->mirrors_version = present->version;
+    return sl_room_mirrors_make(context, present->outline, &document->baked->map,
+                                &present->mirrors);
 }
 
 sl_status sl_present_update(sl_context *context, sl_present *present, const sl_document *document,

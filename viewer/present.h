@@ -6,6 +6,7 @@
 
 #include "base/bits.h"
 #include "document.h"
+#include "sightline/mirrored.h"
 
 /// Zeroed to start. The pointers are NULL while nothing is open.
 typedef struct sl_present {
@@ -15,11 +16,12 @@ typedef struct sl_present {
     /// With the eye's cell's visible set alone, where something is shut; with none, where they were
     /// baked with a shorter range.
     sl_eye_search *search;
-    bool *shut; ///< by door, then by glass; NULL where the map has neither
+    sl_room_mirrors mirrors; ///< of the outline; none where the map has none
+    bool *shut;              ///< by door, then by glass; NULL where the map has neither
     size_t shut_count;
     struct sl_present_own *own; ///< what is made for it; NULL while it is the document itself
     bool *wanted;               ///< scratch, as `shut`
-    uint32_t document_version;
+    uint32_t document_version, mirrors_version;
     bool backwards; ///< the caller's: as the eye is seen, not as it sees; there is no search then
     bool has_rows;  ///< there are visible sets, and they can be believed
 } sl_present;

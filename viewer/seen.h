@@ -7,10 +7,11 @@
 enum { SL_SEEN_MOST = 16 };
 
 typedef struct sl_seen_method {
-    uint64_t *cells; ///< words of the space's; NULL before the first look
-    bool known;      ///< the method could answer
-    uint32_t count;
-    double area, seconds; ///< seconds are smoothed
+    uint64_t *cells;    ///< words of the space's; NULL before the first look
+    uint64_t *mirrored; ///< kept for what is seen in mirrors; none by methods that do not know them
+    bool known;         ///< the method could answer
+    uint32_t count, mirrored_count; ///< the latter of cells that are not seen directly
+    double area, seconds;           ///< seconds are smoothed
     sl_eye_account account;
 } sl_seen_method;
 
@@ -25,6 +26,8 @@ typedef struct sl_seen {
     uint32_t cell, pvs_count;
     double pvs_area;
     sl_region region;
+    sl_mirrored_region in_mirrors; ///< its parts; none where the map has no mirrors
+    double mirrored_area;          ///< of all parts
     double region_area, region_seconds;
     double range;
 } sl_seen;

@@ -1,6 +1,7 @@
 #include "sliders.h"
 
 #include "layers.h"
+#include "mirrors.h"
 #include "range.h"
 #include "shelf.h"
 
@@ -126,9 +127,28 @@ static void set_range(sl_app *app, double share) {
     sl_range_set(app, share * share * sl_range_most(app));
 }
 
+// --- how often a sightline is reflected
+
+static bool has_mirrors(const sl_app *app) {
+    return app->document.baked && app->document.map.mirror_count;
+}
+
+static double depth_share(const sl_app *app) {
+    return (double)app->document.mirror_depth / SL_MIRROR_DEPTH_MOST;
+}
+
+static void depth_text(const sl_app *app, char text[SL_SLIDER_TEXT]) {
+    snprintf(text, SL_SLIDER_TEXT, "%u", app->document.mirror_depth);
+}
+
+static void set_depth(sl_app *app, double share) {
+    sl_mirror_set_depth(app, (uint32_t)round(share * SL_MIRROR_DEPTH_MOST));
+}
+
 static const sl_slider sliders[] = {
     {"View cone", always, cone_share, cone_text, set_cone, NULL, NULL},
     {"View range", has_range, range_share, range_text, set_range, sl_app_keep, sl_range_settle},
+    {"Reflections", has_mirrors, depth_share, depth_text, set_depth, NULL, sl_mirror_settle_depth},
     {"Cut at", is_model, cut_share, cut_text, set_cut, NULL, NULL},
     {"Split depth", has_splits, split_share, split_text, set_split, NULL, NULL},
     {"Tree grown", has_tree, tree_share, tree_text, set_tree, NULL, NULL},

@@ -118,6 +118,12 @@ key Right
 key Right
 key Right
 END
+shoot effects/mirrors.map mirror <<'END'
+key F8
+drag 471 200 437 200
+drag 437 76 400 76
+move 400 76
+END
 shoot effects/oneway.map watch <<'END'
 eye 5 5 0 60
 key M

@@ -34,6 +34,7 @@ PICTURES = {
     "oblique_first_person": ("oblique/rotunda.map", "key I\nkey Tab\nwait 2\n"),
     "doors": ("effects/doors.map", "key V\nkey M\n"),
     "mirrors": ("effects/mirrors.map", "key V\nkey M\nkey Tab\n"),
+    "reflections": ("effects/mirrors.map", "eye 10 5 0 40\nkey V\nkey F8\ndrag 482 249 520 249\n"),
     "oneway": ("effects/oneway.map", "eye 25 10 180 60\nkey Tab\n"),
     "watch": ("effects/oneway.map", "eye 5 5 0 60\nkey M\nkey Y\nkey F8\n"),
     "range": ("effects/range.map", "key V\nkey M\nkey Tab\n"),
