@@ -5,11 +5,12 @@
 #include "eye_run.h"
 #include "inputs.h"
 #include "options.h"
+#include "seen_parts.h"
 #include "sightline/draw.h"
 
 /// The operand and options as they are given.
 typedef struct eye_texts {
-    const char *input, *at, *look, *fov, *output, *width, *shut;
+    const char *input, *at, *look, *fov, *output, *width, *shut, *mirror_depth;
     bool json, dark;
 } eye_texts;
 
@@ -44,7 +45,13 @@ static sl_status draw(sl_context *context, const eye_texts *texts, const sl_bake
     SL_TRY(sl_option_number(context, "--width", texts->width, &options.width));
     for (size_t i = 0; i < count; i++)
         layers[i] = (sl_eye_layer){methods[i].name, run->results[i].cells};
-    return sl_draw_eye(context, baked, &run->view, layers, count, &options, texts->output);
+    sl_seen_parts parts = {0};
+    sl_status status = sl_seen_parts_add(context, &baked->space, &run->mirrored, false, &parts);
+    if (status == SL_OK)
+        status = sl_draw_eye(context, baked, &run->view, layers, count, parts.items, parts.count,
+                             &options, texts->output);
+    sl_seen_parts_destroy(context, &parts);
+    return status;
 }
 
 static sl_status look(sl_console *console, const eye_texts *texts, const sl_baked *baked) {
@@ -53,7 +60,9 @@ static sl_status look(sl_console *console, const eye_texts *texts, const sl_bake
     sl_eye_run run;
     SL_TRY(read_view(context, texts, &baked->space, &view));
     if (texts->output) SL_TRY(sl_input_refuse_output(context, texts->input, texts->output));
-    SL_TRY(sl_eye_run_make(context, baked, &view, !texts->json, &run));
+    uint64_t depth = 1;
+    SL_TRY(sl_option_count(context, "--mirror-depth", texts->mirror_depth, 16, &depth));
+    SL_TRY(sl_eye_run_make(context, baked, &view, (uint32_t)depth, !texts->json, &run));
     sl_status status = texts->output ? draw(context, texts, baked, &run) : SL_OK;
     sl_progress_line_clear(&console->line);
     if (status == SL_OK && texts->json)
@@ -80,6 +89,8 @@ sl_status sl_cmd_eye(sl_console *console, int argc, char **argv) {
         {"shut", 0, "NAME,...", NULL, &t.shut,
          "doors that are shut, the others being open; 'none':\nall open; without it as the map "
          "says"},
+        {"mirror-depth", 0, "N", NULL, &t.mirror_depth,
+         "how often mirrors reflect a sightline, 0 to 16;\n1 without it"},
         {"look", 0, "DEG", NULL, &t.look,
          "which way it looks, in degrees counter-clockwise\nfrom +x"},
         {"fov", 0, "DEG", NULL, &t.fov,
@@ -110,7 +121,8 @@ sl_status sl_cmd_eye(sl_console *console, int argc, char **argv) {
                        "--width and --dark are for the picture, which needs -o");
     sl_baked baked = {0};
     SL_TRY(sl_input_read_baked(console->context, t.input, &baked));
-    sl_status status = sl_effects_check(console->context, &baked.map, "eye", SL_EFFECT_DOOR);
+    sl_status status =
+        sl_effects_check(console->context, &baked.map, "eye", SL_EFFECT_DOOR | SL_EFFECT_MIRROR);
     if (status == SL_OK) status = sl_doors_shut(console->context, t.shut, &baked);
     if (status == SL_OK) status = look(console, &t, &baked);
     sl_baked_destroy(console->context, &baked);

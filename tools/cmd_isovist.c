@@ -3,6 +3,7 @@
 #include "isovist_run.h"
 #include "pictures.h"
 #include "pipeline.h"
+#include "seen_parts.h"
 #include "sightline/draw.h"
 
 #include <math.h>
@@ -14,7 +15,7 @@ typedef struct isovist_texts {
     sl_pipeline_texts pipeline;
     sl_option_list at;
     const char *input, *at_text, *grid, *cells, *path, *step, *csv, *look, *fov, *range, *threads;
-    const char *output, *picture, *measure, *width, *title;
+    const char *output, *picture, *measure, *width, *title, *mirror_depth;
     bool dark;
 } isovist_texts;
 
@@ -24,6 +25,7 @@ typedef struct isovist_plan {
     sl_pipeline pipeline;
     sl_eye like; ///< the heading and cone of eyes that say nothing of it
     double grid, step, range;
+    uint64_t mirror_depth;
     bool range_given;
     size_t measure;
     unsigned threads;
@@ -34,6 +36,8 @@ typedef struct isovist_plan {
 typedef struct isovist_work {
     sl_baked baked;
     sl_outline outline;
+    sl_room_mirrors mirrors;
+    sl_isovist_scene scene;
     sl_eyes eyes;
     sl_isovist *isovists;
 } isovist_work;
@@ -68,6 +72,8 @@ static sl_status plan_eyes(sl_context *context, const isovist_texts *t, isovist_
     SL_TRY(read_length(context, "--grid", t->grid, &plan->grid));
     SL_TRY(read_length(context, "--step", t->step, &plan->step));
     SL_TRY(read_length(context, "--range", t->range, &plan->range));
+    plan->mirror_depth = 1;
+    SL_TRY(sl_option_count(context, "--mirror-depth", t->mirror_depth, 16, &plan->mirror_depth));
     plan->range_given = t->range != NULL;
     return SL_OK;
 }
@@ -94,7 +100,7 @@ static sl_status make_plan(sl_context *context, const isovist_texts *t, isovist_
 // --- the work
 
 static sl_status check_effects(sl_context *context, sl_map *map) {
-    return sl_effects_check(context, map, "isovist", SL_EFFECT_RANGE);
+    return sl_effects_check(context, map, "isovist", SL_EFFECT_RANGE | SL_EFFECT_MIRROR);
 }
 
 static sl_status read_space(sl_context *context, const isovist_plan *plan, sl_baked *baked) {
@@ -188,44 +194,41 @@ static sl_status draw_grid(sl_context *context, const isovist_plan *plan, const 
     return status;
 }
 
-static sl_status flatten(sl_context *context, const sl_region *region, double tolerance,
-                         sl_drawn_region *out) {
-    out->eye = region->view.eye;
-    out->count = sl_region_flatten(region, tolerance, NULL, 0);
-    sl_point *points = sl_alloc_array(context, out->count, sizeof *points);
-    if (!points) return SL_NO_MEMORY;
-    sl_region_flatten(region, tolerance, points, out->count);
-    out->points = points;
-    return SL_OK;
+static sl_status gather_parts(sl_context *context, const isovist_work *w, sl_seen_parts *parts) {
+    sl_mirrored_region region = {0};
+    sl_status status = SL_OK;
+    for (size_t i = 0; i < w->eyes.list.count && status == SL_OK; i++) {
+        const sl_view view = sl_eye_view(&w->baked.space, &w->eyes.list.items[i]);
+        status = sl_isovist_look(context, &w->scene, &view, &region);
+        if (status == SL_OK)
+            status = sl_seen_parts_add(context, &w->baked.space, &region, true, parts);
+    }
+    sl_mirrored_region_destroy(context, &region);
+    return status;
+}
+
+static void write_caption(const isovist_work *w, char *text, size_t size) {
+    const sl_isovist *isovist = &w->isovists[0];
+    const sl_region_measures *m = &isovist->measures;
+    char mirrored[64] = "";
+    if (w->scene.mirrors)
+        snprintf(mirrored, sizeof mirrored, "  \xc2\xb7  by mirror %.6g", isovist->mirrored_area);
+    snprintf(text, size,
+             "area %.6g%s  \xc2\xb7  perimeter %.6g  \xc2\xb7  occlusivity %.6g  \xc2\xb7  drift "
+             "%.4g at %.4g\xc2\xb0",
+             m->area, mirrored, m->perimeter, m->occlusivity, m->drift_magnitude, m->drift_angle);
 }
 
 static sl_status draw_points(sl_context *context, const isovist_plan *plan, const isovist_work *w) {
-    const size_t count = w->eyes.list.count;
-    const sl_box *b = &w->baked.space.bounds;
-    const double tolerance = (b->max.x - b->min.x + b->max.y - b->min.y) * 1e-4;
-    sl_drawn_region *regions = sl_alloc_array(context, count, sizeof *regions);
-    if (!regions) return SL_NO_MEMORY;
-    sl_region region = {0};
-    sl_status status = SL_OK;
-    for (size_t i = 0; i < count && status == SL_OK; i++) {
-        const sl_view view = sl_eye_view(&w->baked.space, &w->eyes.list.items[i]);
-        status = sl_region_make(context, &w->outline, &view, plan->range, &region);
-        if (status == SL_OK) status = flatten(context, &region, tolerance, &regions[i]);
-    }
-    char caption[160];
-    const sl_region_measures *m = &w->isovists[0].measures;
-    snprintf(
-        caption, sizeof caption,
-        "area %.6g  \xc2\xb7  perimeter %.6g  \xc2\xb7  occlusivity %.6g  \xc2\xb7  drift %.4g "
-        "at %.4g\xc2\xb0",
-        m->area, m->perimeter, m->occlusivity, m->drift_magnitude, m->drift_angle);
+    sl_seen_parts parts = {0};
+    char caption[256];
+    write_caption(w, caption, sizeof caption);
+    sl_status status = gather_parts(context, w, &parts);
     if (status == SL_OK)
-        status =
-            sl_draw_regions_file(context, &w->baked, regions, count, count == 1 ? caption : NULL,
-                                 &plan->drawing, plan->texts->picture);
-    for (size_t i = 0; i < count; i++) sl_free(context, (void *)(uintptr_t)regions[i].points);
-    sl_free(context, regions);
-    sl_region_destroy(context, &region);
+        status = sl_draw_regions_file(context, &w->baked, parts.items, parts.count,
+                                      w->eyes.list.count == 1 ? caption : NULL, &plan->drawing,
+                                      plan->texts->picture);
+    sl_seen_parts_destroy(context, &parts);
     return status;
 }
 
@@ -236,14 +239,19 @@ static sl_status work(sl_console *console, isovist_plan *plan, isovist_work *w) 
     if (!plan->range_given) plan->range = w->baked.map.range;
     SL_TRY(gather_eyes(context, plan, w));
     SL_TRY(sl_outline_make(context, &w->baked.space, &w->outline));
+    w->scene = (sl_isovist_scene){&w->outline, NULL, plan->range, (uint32_t)plan->mirror_depth};
+    if (w->baked.map.mirror_count) {
+        SL_TRY(sl_room_mirrors_make(context, &w->outline, &w->baked.map, &w->mirrors));
+        w->scene.mirrors = &w->mirrors;
+    }
     w->isovists = sl_alloc_array(context, w->eyes.list.count, sizeof *w->isovists);
     if (!w->isovists) return SL_NO_MEMORY;
-    SL_TRY(sl_isovist_run(context, &w->outline, &w->eyes, plan->range, plan->threads, w->isovists));
+    SL_TRY(sl_isovist_run(context, &w->scene, &w->eyes, plan->threads, w->isovists));
     if (t->picture)
         SL_TRY(w->eyes.columns ? draw_grid(context, plan, w) : draw_points(context, plan, w));
     sl_progress_line_clear(&console->line);
     if (t->picture && !t->output) return SL_OK;
-    return sl_isovist_write(context, &w->eyes, w->isovists, t->output ? t->output : "-");
+    return sl_isovist_write(context, &w->scene, &w->eyes, w->isovists, t->output ? t->output : "-");
 }
 
 static void print_tables(void) {
@@ -266,6 +274,8 @@ sl_status sl_cmd_isovist(sl_console *console, int argc, char **argv) {
          "look from a table: x, y, and maybe angle, field of\nview, in degrees"},
         {"look", 0, "DEGREES", NULL, &t.look, "heading, counter-clockwise from +x"},
         {"fov", 0, "DEGREES", NULL, &t.fov, "width of the view cone; 360 without it"},
+        {"mirror-depth", 0, "N", NULL, &t.mirror_depth,
+         "how often mirrors reflect a sightline, 0 to 16;\n1 without it"},
         {"range", 0, "R", NULL, &t.range, "see no farther; without it the map's range, if any"},
         {"output", 'o', "FILE.csv", NULL, &t.output,
          "where the table goes; without it to stdout,\nor nowhere where there is a --picture"},
@@ -303,6 +313,7 @@ sl_status sl_cmd_isovist(sl_console *console, int argc, char **argv) {
     const sl_status status = work(console, &plan, &w);
     sl_free(console->context, w.isovists);
     sl_eyes_destroy(console->context, &w.eyes);
+    sl_room_mirrors_destroy(console->context, &w.mirrors);
     sl_outline_destroy(console->context, &w.outline);
     sl_baked_destroy(console->context, &w.baked);
     return status;

@@ -65,18 +65,34 @@ static double area_of_side(const sl_baked *baked, uint32_t cell) {
     return whole;
 }
 
-static void measure(const sl_baked *baked, uint32_t eye_cell, sl_eye_result *result) {
+static void measure(const sl_baked *baked, uint32_t eye_cell, const uint64_t *cells,
+                    uint32_t *count, double *share) {
     const sl_space *space = &baked->space;
     const bool side = sl_baked_counts(baked, eye_cell);
     const double whole = area_of_side(baked, eye_cell);
     double kept = 0;
     for (uint32_t c = 0; c < space->cell_count; c++) {
-        const bool seen = sl_eye_sees(result->cells, c);
+        const bool seen = sl_eye_sees(cells, c);
         const double area = sl_baked_counts(baked, c) == side ? sl_space_area(space, c) : 0;
         kept += seen ? area : 0;
-        result->count += seen;
+        *count += seen;
     }
-    result->share = whole > 0 ? kept / whole : 0;
+    *share = whole > 0 ? kept / whole : 0;
+}
+
+/// What a method keeps of what is seen by mirror, if it knows.
+static sl_status run_mirrored(sl_context *context, const sl_baked *baked,
+                              const sl_eye_method *method, sl_eye_search *search, sl_eye_run *run,
+                              sl_eye_result *result) {
+    if (!run->has_mirrors || !method->mirrored) return SL_OK;
+    sl_eye_account account;
+    result->mirrored =
+        sl_alloc_array(context, sl_eye_words(&baked->space), sizeof *result->mirrored);
+    if (!result->mirrored) return SL_NO_MEMORY;
+    SL_TRY(method->mirrored(context, search, &run->view, result->mirrored, &account));
+    result->rounded = account.rounded;
+    measure(baked, run->cell, result->mirrored, &result->mirrored_count, &result->mirrored_share);
+    return SL_OK;
 }
 
 static sl_status run_methods(sl_context *context, const sl_baked *baked, sl_eye_search *search,
@@ -94,7 +110,8 @@ static sl_status run_methods(sl_context *context, const sl_baked *baked, sl_eye_
                          .view = &run->view,
                          .result = result};
         SL_TRY(timed ? time_queries(&q, &result->seconds) : ask(&q));
-        measure(baked, run->cell, result);
+        measure(baked, run->cell, result->cells, &result->count, &result->share);
+        SL_TRY(run_mirrored(context, baked, &methods[i], search, run, result));
     }
     return SL_OK;
 }
@@ -105,7 +122,15 @@ static sl_status run_region(sl_context *context, const sl_baked *baked, bool tim
     SL_TRY(sl_outline_make(context, &baked->space, &outline));
     const query q = {
         .context = context, .outline = &outline, .view = &run->view, .region = &run->region};
-    const sl_status status = timed ? time_queries(&q, &run->region_seconds) : ask(&q);
+    sl_status status = timed ? time_queries(&q, &run->region_seconds) : ask(&q);
+    sl_room_mirrors mirrors = {0};
+    if (status == SL_OK && run->has_mirrors) {
+        status = sl_room_mirrors_make(context, &outline, &baked->map, &mirrors);
+        if (status == SL_OK)
+            status = sl_mirrored_region_make(context, &mirrors, &run->view, 0, run->mirror_depth,
+                                             &run->mirrored);
+        sl_room_mirrors_destroy(context, &mirrors);
+    }
     sl_outline_destroy(context, &outline);
     const double whole = area_of_side(baked, run->cell);
     run->region_share = whole > 0 ? sl_region_area(&run->region) / whole : 0;
@@ -113,11 +138,16 @@ static sl_status run_region(sl_context *context, const sl_baked *baked, bool tim
 }
 
 sl_status sl_eye_run_make(sl_context *context, const sl_baked *baked, const sl_view *view,
-                          bool timed, sl_eye_run *out) {
+                          uint32_t depth, bool timed, sl_eye_run *out) {
     sl_eye_search *search;
-    sl_eye_run run = {.view = *view, .cell = sl_space_locate(&baked->space, view->eye)};
+    sl_eye_run run = {.view = *view,
+                      .cell = sl_space_locate(&baked->space, view->eye),
+                      .has_mirrors = baked->map.mirror_count > 0,
+                      .mirror_depth = depth};
     SL_TRY(sl_eye_search_create(context, &baked->space, &baked->visibility, &search));
-    sl_status status = run_methods(context, baked, search, timed, &run);
+    sl_status status =
+        run.has_mirrors ? sl_eye_search_add_mirrors(context, search, &baked->map, depth) : SL_OK;
+    if (status == SL_OK) status = run_methods(context, baked, search, timed, &run);
     if (status == SL_OK) status = run_region(context, baked, timed, &run);
     sl_eye_search_destroy(context, search);
     if (status == SL_OK)
@@ -128,9 +158,12 @@ sl_status sl_eye_run_make(sl_context *context, const sl_baked *baked, const sl_v
 }
 
 void sl_eye_run_destroy(sl_context *context, sl_eye_run *run) {
-    for (size_t i = 0; run->results && i < run->result_count; i++)
+    for (size_t i = 0; run->results && i < run->result_count; i++) {
         sl_free(context, run->results[i].cells);
+        sl_free(context, run->results[i].mirrored);
+    }
     sl_free(context, run->results);
     sl_region_destroy(context, &run->region);
+    sl_mirrored_region_destroy(context, &run->mirrored);
     *run = (sl_eye_run){0};
 }

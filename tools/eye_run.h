@@ -4,7 +4,7 @@
 
 #include "sightline/bake.h"
 #include "sightline/eye_to_cell.h"
-#include "sightline/region.h"
+#include "sightline/mirrored.h"
 
 /// What one method says.
 typedef struct sl_eye_result {
@@ -12,7 +12,11 @@ typedef struct sl_eye_result {
     uint32_t count;  ///< of cells
     double share;    ///< of the area of the cells on the eye's side (see sl_eye_run)
     sl_eye_account account;
-    double seconds; ///< a query; 0 where it was not timed
+    double seconds;     ///< a query; 0 where it was not timed
+    uint64_t *mirrored; ///< the cells seen by mirror; NULL where the method or the map knows none
+    uint32_t mirrored_count;
+    double mirrored_share;
+    uint64_t rounded; ///< images that were rounded
 } sl_eye_result;
 
 /// Shares are of the cells that count (sl_baked_counts) where the eye's cell does, else of the
@@ -25,14 +29,18 @@ typedef struct sl_eye_run {
     sl_region region;      ///< the exact visible region
     double region_share;   ///< of the same area
     double region_seconds; ///< as above
+    bool has_mirrors;      ///< the map; else the rest is empty
+    uint32_t mirror_depth;
+    sl_mirrored_region mirrored; ///< the region with what is seen by mirror
 } sl_eye_run;
 
 /// A distance for sl_view_cone: as large as anything in the map.
 double sl_eye_reach(const sl_space *space);
 
 /// The eye must be within the bounds. `timed`: queries are repeated until their time is known.
+/// `depth`: reflections, at most.
 sl_status sl_eye_run_make(sl_context *context, const sl_baked *baked, const sl_view *view,
-                          bool timed, sl_eye_run *out);
+                          uint32_t depth, bool timed, sl_eye_run *out);
 void sl_eye_run_destroy(sl_context *context, sl_eye_run *run);
 
 #endif

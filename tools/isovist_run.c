@@ -43,41 +43,50 @@ sl_view sl_eye_view(const sl_space *space, const sl_eye *eye) {
     return sl_view_cone(eye->at, eye->look, eye->fov, reach);
 }
 
+sl_status sl_isovist_look(sl_context *context, const sl_isovist_scene *scene, const sl_view *view,
+                          sl_mirrored_region *out) {
+    if (!scene->mirrors)
+        return sl_region_make(context, scene->outline, view, scene->range, &out->direct);
+    return sl_mirrored_region_make(context, scene->mirrors, view, scene->range, scene->mirror_depth,
+                                   out);
+}
+
 typedef struct job {
-    const sl_outline *outline;
+    const sl_isovist_scene *scene;
     const sl_eyes *eyes;
-    double range;
     sl_isovist *out;
 } job;
 
 static sl_status begin(sl_context *context, void *all, void **state) {
     (void)all;
-    *state = sl_alloc_array(context, 1, sizeof(sl_region));
+    *state = sl_alloc_array(context, 1, sizeof(sl_mirrored_region));
     return *state ? SL_OK : SL_NO_MEMORY;
 }
 
 static sl_status do_unit(sl_context *context, void *all, void *state, size_t unit) {
     const job *j = all;
-    sl_region *region = state;
+    sl_mirrored_region *region = state;
+    const sl_space *space = j->scene->outline->space;
     const size_t first = unit * EYES_A_UNIT, count = j->eyes->list.count;
     for (size_t i = first; i < count && i < first + EYES_A_UNIT; i++) {
-        const sl_view view = sl_eye_view(j->outline->space, &j->eyes->list.items[i]);
-        SL_TRY(sl_region_make(context, j->outline, &view, j->range, region));
-        j->out[i].measures = sl_region_measure(region);
-        j->out[i].corners = sl_region_corners(region, j->outline->space, NULL, 0);
+        const sl_view view = sl_eye_view(space, &j->eyes->list.items[i]);
+        SL_TRY(sl_isovist_look(context, j->scene, &view, region));
+        j->out[i] = (sl_isovist){sl_region_measure(&region->direct),
+                                 sl_region_corners(&region->direct, space, NULL, 0),
+                                 sl_mirrored_area(region), region->part_count};
     }
     return SL_OK;
 }
 
 static void end(sl_context *context, void *all, void *state) {
     (void)all;
-    sl_region_destroy(context, state);
+    sl_mirrored_region_destroy(context, state);
     sl_free(context, state);
 }
 
-sl_status sl_isovist_run(sl_context *context, const sl_outline *outline, const sl_eyes *eyes,
-                         double range, unsigned threads, sl_isovist *out) {
-    job j = {outline, eyes, range, out};
+sl_status sl_isovist_run(sl_context *context, const sl_isovist_scene *scene, const sl_eyes *eyes,
+                         unsigned threads, sl_isovist *out) {
+    job j = {scene, eyes, out};
     const sl_work work = {.job = &j,
                           .begin = begin,
                           .unit = do_unit,
@@ -94,11 +103,11 @@ static void put(FILE *out, double value, char after) {
     fprintf(out, "%s%c", text, after);
 }
 
-static sl_status write_rows(sl_context *context, const sl_eyes *eyes, const sl_isovist *isovists,
-                            FILE *out) {
+static sl_status write_rows(sl_context *context, bool mirrors, const sl_eyes *eyes,
+                            const sl_isovist *isovists, FILE *out) {
     fputs("x,y,look,fov,", out);
     for (size_t k = 0; k < MEASURES; k++) fprintf(out, "%s,", measures[k].name);
-    fputs("corners\n", out);
+    fputs(mirrors ? "corners,mirrored_area,parts\n" : "corners\n", out);
     for (size_t i = 0; i < eyes->list.count; i++) {
         if (i % 4096 == 0) SL_TRY(sl_check_cancelled(context));
         const sl_eye *eye = &eyes->list.items[i];
@@ -107,14 +116,22 @@ static sl_status write_rows(sl_context *context, const sl_eyes *eyes, const sl_i
         put(out, eye->look, ',');
         put(out, eye->fov, ',');
         for (size_t k = 0; k < MEASURES; k++) put(out, sl_isovist_value(&isovists[i], k), ',');
-        fprintf(out, "%zu\n", isovists[i].corners);
+        fprintf(out, "%zu", isovists[i].corners);
+        if (mirrors) {
+            putc(',', out);
+            put(out, isovists[i].mirrored_area, ',');
+            fprintf(out, "%zu", isovists[i].parts);
+        }
+        putc('\n', out);
     }
     return SL_OK;
 }
 
-sl_status sl_isovist_write(sl_context *context, const sl_eyes *eyes, const sl_isovist *isovists,
-                           const char *path) {
+sl_status sl_isovist_write(sl_context *context, const sl_isovist_scene *scene, const sl_eyes *eyes,
+                           const sl_isovist *isovists, const char *path) {
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));
-    return sl_output_close(context, &output, write_rows(context, eyes, isovists, output.stream));
+    return sl_output_close(
+        context, &output,
+        write_rows(context, scene->mirrors != NULL, eyes, isovists, output.stream));
 }

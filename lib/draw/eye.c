@@ -3,6 +3,7 @@
 #include "draw/marks.h"
 #include "draw/paper.h"
 #include "draw/plan.h"
+#include "draw/seen.h"
 #include "draw/text.h"
 #include "sightline/draw.h"
 
@@ -21,6 +22,8 @@ typedef struct eye_picture {
     const sl_view *view;
     const sl_eye_layer *layers;
     size_t layer_count;
+    const sl_drawn_region *parts;
+    size_t part_count;
     uint32_t counts[SL_EYE_LAYERS_MOST];
     double shares[SL_EYE_LAYERS_MOST]; ///< of the area shown
 } eye_picture;
@@ -221,6 +224,8 @@ static void set_page(cairo_t *cairo, const eye_picture *p, page *out, bool paint
         out->key = y + height + 1.1 * out->text;
     }
     y = out->key + draw_key(cairo, p, out->margin, out->key, inner, out->text, paint);
+    y += sl_draw_seen_key(cairo, palette, p->parts, p->part_count, (sl_point){out->margin, y},
+                          inner, out->text, paint);
     out->height = ceil(y + 0.5 * out->margin);
 }
 
@@ -242,6 +247,9 @@ static sl_status draw_page(sl_context *context, cairo_t *cairo, const eye_pictur
     sl_set_colour(cairo, p->scene.palette.page);
     cairo_paint(cairo);
     SL_TRY(sl_draw_onto(context, cairo, &p->scene, &at->frame));
+    for (size_t i = 0; i < p->part_count; i++)
+        sl_draw_seen(cairo, &p->scene.palette, &at->frame, &p->parts[i]);
+    if (p->part_count) SL_TRY(sl_draw_walls_onto(context, cairo, &p->scene, &at->frame));
     draw_cone(cairo, p, &at->frame);
     draw_eye_mark(cairo, p, &at->frame);
     set_page(cairo, p, at, true);
@@ -261,8 +269,8 @@ static sl_status draw_picture(sl_context *context, eye_picture *p, const sl_pape
 }
 
 sl_status sl_draw_eye(sl_context *context, const sl_baked *baked, const sl_view *view,
-                      const sl_eye_layer *layers, size_t layer_count,
-                      const sl_draw_options *options, const char *path) {
+                      const sl_eye_layer *layers, size_t layer_count, const sl_drawn_region *parts,
+                      size_t part_count, const sl_draw_options *options, const char *path) {
     const sl_paper_kind *kind;
     SL_TRY(sl_paper_kind_of(context, path, &kind));
     if (layer_count > SL_EYE_LAYERS_MOST)
@@ -276,7 +284,11 @@ sl_status sl_draw_eye(sl_context *context, const sl_baked *baked, const sl_view 
     sl_draw_options plain = *options;
     plain.layers = SL_LAYER_CELLS | SL_LAYER_PORTALS | SL_LAYER_WALLS;
     plain.cell = sl_space_locate(&baked->space, view->eye);
-    eye_picture p = {.view = view, .layers = layers, .layer_count = layer_count};
+    eye_picture p = {.view = view,
+                     .layers = layers,
+                     .layer_count = layer_count,
+                     .parts = parts,
+                     .part_count = part_count};
     SL_TRY(sl_scene_make(context, baked, &plain, &p.scene));
     // Green would be lost among the ramp's colours.
     p.scene.palette.portal = sl_colour_mix(p.scene.palette.wall, p.scene.palette.page, 0.2);

@@ -4,6 +4,7 @@
 #include "draw/legend.h"
 #include "draw/paper.h"
 #include "draw/plan.h"
+#include "draw/seen.h"
 #include "draw/text.h"
 #include "sightline/draw.h"
 
@@ -95,23 +96,6 @@ static void draw_lines(cairo_t *cairo, const picture *p, const sl_frame *frame) 
     cairo_stroke(cairo);
 }
 
-static void draw_region(cairo_t *cairo, const picture *p, const sl_frame *frame,
-                        const sl_drawn_region *region) {
-    const sl_palette *palette = &p->scene.palette;
-    for (size_t i = 0; i < region->count; i++) {
-        const sl_point at = sl_frame_point(frame, region->points[i]);
-        cairo_line_to(cairo, at.x, at.y);
-    }
-    cairo_close_path(cairo);
-    cairo_set_source_rgba(cairo, palette->glass.red, palette->glass.green, palette->glass.blue,
-                          0.4);
-    cairo_fill_preserve(cairo);
-    sl_set_colour(cairo, palette->glass);
-    cairo_set_line_width(cairo, 1.5 * frame->unit);
-    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
-    cairo_stroke(cairo);
-}
-
 static void draw_eye(cairo_t *cairo, const picture *p, const sl_frame *frame, sl_point eye) {
     const sl_point at = sl_frame_point(frame, eye);
     cairo_new_sub_path(cairo);
@@ -128,7 +112,8 @@ static sl_status draw_plan(sl_context *context, cairo_t *cairo, const picture *p
     SL_TRY(sl_draw_onto(context, cairo, &p->scene, frame));
     SL_TRY(draw_values(context, cairo, p, frame));
     if (p->patches) draw_lines(cairo, p, frame);
-    for (size_t i = 0; i < p->region_count; i++) draw_region(cairo, p, frame, &p->regions[i]);
+    for (size_t i = 0; i < p->region_count; i++)
+        sl_draw_seen(cairo, &p->scene.palette, frame, &p->regions[i]);
     SL_TRY(sl_draw_walls_onto(context, cairo, &p->scene, frame));
     for (size_t i = 0; i < p->region_count; i++) draw_eye(cairo, p, frame, p->regions[i].eye);
     return SL_OK;
@@ -185,6 +170,8 @@ static void set_page(cairo_t *cairo, const picture *p, page *g, bool paint) {
     }
     y = g->key;
     if (p->scale) y += draw_scale(cairo, p, g, paint);
+    y += sl_draw_seen_key(cairo, &p->scene.palette, p->regions, p->region_count,
+                          (sl_point){g->margin, y}, inner, g->text, paint);
     if (p->caption) {
         if (paint)
             sl_text_show_within(cairo, p->scene.palette.ink, g->margin, y + 1.1 * g->text, inner,

@@ -41,6 +41,7 @@ static sl_palette light(void) {
         .door = rgb(0xa8487d),
         .glass = rgb(BLUE),
         .object = rgb(0x7a6a53),
+        .mirrored = rgb(0xb8558c),
         .ink = rgb(0x252a33),
         .faint = rgb(0x70757d),
     };
@@ -64,6 +65,7 @@ static sl_palette dark(void) {
         .door = rgb(PURPLE),
         .glass = rgb(SKY),
         .object = rgb(0xc9b896),
+        .mirrored = rgb(0xe58fc0),
         .ink = rgb(0xece9e2),
         .faint = rgb(0x9aa1ab),
         .dark = true,

@@ -19,6 +19,7 @@ typedef struct sl_palette {
     sl_colour doubtful;              ///< cells that only rounding shows or hides
     sl_colour wall, outline, portal; ///< lines
     sl_colour tree, start, path, door, glass, object;
+    sl_colour mirrored;   ///< what is seen by mirror
     sl_colour ink, faint; ///< text
     bool dark;
 } sl_palette;

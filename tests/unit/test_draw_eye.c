@@ -50,8 +50,8 @@ static const sl_eye_layer layers[3] = {
 static sl_bytes drawn(bench *b, const sl_view *view, const char *name) {
     const sl_draw_options options = sl_draw_options_default();
     sl_bytes file;
-    assert_ok(b->context,
-              sl_draw_eye(b->context, &b->baked, view, layers, 3, &options, path_of(b, name)));
+    assert_ok(b->context, sl_draw_eye(b->context, &b->baked, view, layers, 3, NULL, 0, &options,
+                                      path_of(b, name)));
     assert_ok(b->context, sl_file_read(b->context, b->path, &file));
     unlink(b->path);
     return file;
@@ -95,7 +95,7 @@ static void refused(bench *b, const sl_view *view, size_t count, double width, c
     for (size_t i = 0; i <= SL_EYE_LAYERS_MOST; i++) many[i] = layers[0];
     options.width = width;
     assert_int_equal(
-        sl_draw_eye(b->context, &b->baked, view, many, count, &options, path_of(b, name)),
+        sl_draw_eye(b->context, &b->baked, view, many, count, NULL, 0, &options, path_of(b, name)),
         SL_BAD_ARGUMENT);
     assert_int_not_equal(access(b->path, F_OK), 0);
 }

@@ -58,6 +58,15 @@ SL_API sl_status sl_draw_explanation(sl_context *context, const sl_baked *baked,
                                      const sl_explanation *explanation,
                                      const sl_draw_options *options, const char *path);
 
+/// A polygon that is seen from an eye.
+typedef struct sl_drawn_region {
+    sl_point eye;
+    const sl_point *points;
+    size_t count;
+    uint32_t depth; ///< the number of mirrors in which it is seen, where it lies in the map; 0: it
+                    ///< is seen directly
+} sl_drawn_region;
+
 /// What several methods keep of one view, for a picture.
 typedef struct sl_eye_layer {
     const char *name;      ///< of the method, for the key
@@ -68,22 +77,17 @@ typedef struct sl_eye_layer {
 
 /// Draws what an eye sees, likewise: the map, the eye and its cone, and each cell in the colour of
 /// the last layer that still keeps it; layers go from loose to tight, each within the one before.
-/// The options' width, title and dark count. SL_BAD_ARGUMENT on more layers than
-/// SL_EYE_LAYERS_MOST or a view that is not usable.
+/// Over it `parts` of the region, usually what is seen by mirror. The options' width, title and
+/// dark count. SL_BAD_ARGUMENT on more layers than SL_EYE_LAYERS_MOST or a view that is not usable.
 SL_API sl_status sl_draw_eye(sl_context *context, const sl_baked *baked, const sl_view *view,
                              const sl_eye_layer *layers, size_t layer_count,
+                             const sl_drawn_region *parts, size_t part_count,
                              const sl_draw_options *options, const char *path);
 
 // --- what is seen from places
 
-/// A polygon that is seen from an eye.
-typedef struct sl_drawn_region {
-    sl_point eye;
-    const sl_point *points;
-    size_t count;
-} sl_drawn_region;
-
-/// Draws the plan with regions over it. The options' width, title and dark count; `caption` is a
+/// Draws the plan with regions over it, what is seen by mirror in a colour of its own, the paler
+/// the more mirrors, with a key. The options' width, title and dark count; `caption` is a
 /// line below the picture, NULL for none.
 SL_API sl_status sl_draw_regions_file(sl_context *context, const sl_baked *baked,
                                       const sl_drawn_region *regions, size_t count,
