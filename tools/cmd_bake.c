@@ -125,6 +125,9 @@ static sl_status plan_seeing(sl_context *context, const bake_texts *texts, bake_
 /// "maps/office.map" gives "office.slv"; the name belongs to the caller.
 static sl_status name_output(sl_context *context, const char *input, char **name) {
     size_t length;
+    if (strcmp(input, "-") == 0)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "-o is missing: name the file, for standard input has no name to take");
     const char *base = sl_input_base_name(input, &length);
     *name = sl_alloc(context, length + sizeof ".slv");
     if (!*name) return SL_NO_MEMORY;

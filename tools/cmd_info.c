@@ -151,9 +151,11 @@ static void print_list(const char *path, const sl_map_list *list) {
         sl_console_print_line(stdout, "  ", list->names[i], strlen(list->names[i]));
 }
 
-/// Lists the maps of a file that holds several, where none is chosen; *done says whether.
+/// Lists the maps of a file that holds several, where none is chosen; *done says whether. Not for
+/// standard input, which is read only once.
 static sl_status inform_of_list(sl_console *console, const info_request *request, bool *done) {
     sl_map_list list = {0};
+    if (strcmp(request->path, "-") == 0) return SL_OK;
     SL_TRY(sl_map_list_read(console->context, request->path, &list));
     sl_progress_line_clear(&console->line);
     sl_status status = SL_OK;

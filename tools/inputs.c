@@ -142,7 +142,8 @@ void sl_input_print_formats(void) {
     size_t count;
     const sl_map_format *formats = sl_map_formats(&count);
     puts("\nmaps, by the ending of the file's name:");
-    for (size_t i = 0; i < count; i++) printf("  %-24s%s\n", formats[i].endings, formats[i].what);
+    for (size_t i = 0; i < count; i++) printf("  %-28s%s\n", formats[i].endings, formats[i].what);
+    printf("  %-28s%s\n", "-", "standard input, by its first bytes, else as the map text");
 }
 
 sl_status sl_input_fail_outside(sl_context *context, const char *name, const char *text,

@@ -37,8 +37,8 @@ static void print_help(void) {
     puts("usage: sightline COMMAND ...\n\n"
          "2D cell-and-portal visibility: which cells of a map can see which.\n\ncommands:");
     for (size_t i = 0; i < COMMAND_COUNT; i++)
-        printf("  %-10s%s\n", commands[i].name, commands[i].summary);
-    puts("\n'sightline COMMAND --help' tells what each takes.\n"
+        printf("  %-11s%s\n", commands[i].name, commands[i].summary);
+    puts("\n'sightline COMMAND --help', or 'sightline help COMMAND', tells what each takes.\n"
          "Exit status: 0 done; 1 the work failed; 2 the arguments or an input file are wrong.\n\n"
          "example:\n"
          "  sightline bake office.map -o office.slv\n"
@@ -50,7 +50,11 @@ static sl_status run(sl_console *console, int argc, char **argv) {
         return sl_fail(console->context, SL_BAD_ARGUMENT,
                        "no command is given; 'sightline --help' lists them");
     const char *name = argv[1];
-    if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0) {
+    if (strcmp(name, "help") == 0 && argc == 3) {
+        char *about[] = {argv[0], argv[2], "--help", NULL};
+        return run(console, 3, about);
+    }
+    if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0) {
         print_help();
         return SL_OK;
     }

@@ -30,6 +30,7 @@ static sl_status read_stream(sl_context *context, FILE *stream, const char *path
 }
 
 sl_status sl_file_read(sl_context *context, const char *path, sl_bytes *out) {
+    if (strcmp(path, "-") == 0) return read_stream(context, stdin, "standard input", out);
     errno = 0;
     FILE *stream = fopen(path, "rb");
     if (!stream) {

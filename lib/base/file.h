@@ -10,7 +10,8 @@ typedef struct sl_bytes {
     size_t size;
 } sl_bytes;
 
-/// Reads all of a file; sl_free(data) is the caller's. SL_IO with the system's reason on failure.
+/// Reads all of a file, or of stdin where path is "-"; sl_free(data) is the caller's. SL_IO with
+/// the system's reason on failure.
 sl_status sl_file_read(sl_context *context, const char *path, sl_bytes *out);
 
 typedef struct sl_output {

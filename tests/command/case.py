@@ -11,6 +11,7 @@ A run, and how it goes:
   run ARGUMENTS          as a shell splits them
   run-full ARGUMENTS     with a stdout to a full disk
   run-closed ARGUMENTS   with a closed stdout
+  run-fed NAME ARGUMENTS with a file as its stdin
   run-limited N ARGUMENTS  where no file may grow beyond N bytes
 What must hold after the run (all that is not named must not be there):
   status N
@@ -95,6 +96,11 @@ class Case:
 
     def do_run_closed(self, rest):
         self._run(rest, stdout=None)
+
+    def do_run_fed(self, rest):
+        name, _, rest = rest.partition(" ")
+        with open(self.box.path(name), "rb") as stdin:
+            self._run(rest, stdin=stdin)
 
     def do_run_limited(self, rest):
         limit, _, rest = rest.partition(" ")

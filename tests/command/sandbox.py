@@ -62,8 +62,8 @@ class Sandbox:
         return {str(path.relative_to(self.folder)): path.read_bytes() if path.is_file() else None
                 for path in self.folder.rglob("*")}
 
-    def start(self, arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE, file_limit=None,
-              environment=None, closed=()):
+    def start(self, arguments, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+              stderr=subprocess.PIPE, file_limit=None, environment=None, closed=()):
         """The program as a running process. file_limit: no file may grow beyond so many bytes.
         closed: standard streams, by number, that it finds closed."""
         def prepare():
@@ -79,7 +79,7 @@ class Sandbox:
             variables[name] = ":".join(filter(None, (variables.get(name), options)))
         return subprocess.Popen([self.program, *arguments], cwd=self.folder,
                                 env=dict(variables, **(environment or {})),
-                                stdin=subprocess.DEVNULL, stdout=stdout, stderr=stderr,
+                                stdin=stdin, stdout=stdout, stderr=stderr,
                                 preexec_fn=prepare)
 
     def run(self, arguments, timeout=120, **how):

@@ -79,7 +79,8 @@ typedef struct sl_map_format {
 SL_API const sl_map_format *sl_map_formats(size_t *count);
 
 /// Reads a map file, by the ending of its name; where several formats have that ending, or none,
-/// by its first bytes; else as the map text. The map must be empty; on failure it stays so.
+/// by its first bytes; else as the map text; "-" is stdin. The map must be empty; on failure it
+/// stays so.
 /// SL_BAD_INPUT with file and line on a broken file. SL_BAD_ARGUMENT, with names to choose from,
 /// where the file holds several maps and options->map names none of them (letters and capitals
 /// are the same), and where the format takes no such option.
