@@ -212,7 +212,7 @@ static void step_last(sl_app *app) {
 SWITCH(play_steps, lesson.plays)
 
 static void subject(sl_app *app) {
-    sl_lesson_change(app->context, &app->lesson, app->lesson.subject + 1);
+    sl_lesson_change(app->context, &app->lesson, &app->document);
     sl_app_tick(app, 0);
 }
 

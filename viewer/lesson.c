@@ -3,9 +3,10 @@
 #include "base/base.h"
 
 #include <math.h>
+#include <string.h>
 
 static const sl_subject *const subjects[] = {&sl_lesson_search, &sl_lesson_subdivision,
-                                             &sl_lesson_pass};
+                                             &sl_lesson_pass, &sl_lesson_effects};
 
 const sl_subject *const *sl_subjects(size_t *count) {
     *count = sizeof subjects / sizeof *subjects;
@@ -18,6 +19,8 @@ const sl_subject *sl_lesson_subject(const sl_lesson *lesson) {
 
 void sl_lesson_forget(sl_context *context, sl_lesson *lesson) {
     sl_steps_destroy(context, &lesson->steps);
+    sl_free(context, lesson->effects.items);
+    memset(&lesson->effects, 0, sizeof lesson->effects);
     for (int i = 0; i < SL_PASSES; i++) sl_pass_destroy(context, &lesson->passes[i]);
     lesson->pass_cells = 0;
     lesson->made = false;
@@ -30,8 +33,13 @@ void sl_lesson_destroy(sl_context *context, sl_lesson *lesson) {
     *lesson = (sl_lesson){0};
 }
 
+static bool fits(size_t subject, const sl_document *document) {
+    return !subjects[subject]->fits || subjects[subject]->fits(document);
+}
+
 sl_status sl_lesson_update(sl_context *context, sl_lesson *lesson, const sl_document *document,
                            uint32_t source) {
+    if (!fits(lesson->subject, document)) sl_lesson_change(context, lesson, document);
     const sl_subject *subject = sl_lesson_subject(lesson);
     const bool same_document = lesson->made && lesson->version == document->version;
     if (lesson->made && !same_document) sl_lesson_forget(context, lesson);
@@ -55,11 +63,12 @@ bool sl_lesson_shows(const sl_lesson *lesson, const sl_document *document) {
     return sl_lesson_length(lesson) && lesson->version == document->version;
 }
 
-void sl_lesson_change(sl_context *context, sl_lesson *lesson, size_t subject) {
+void sl_lesson_change(sl_context *context, sl_lesson *lesson, const sl_document *document) {
     size_t count;
     sl_subjects(&count);
     sl_lesson_forget(context, lesson);
-    lesson->subject = subject % count;
+    do lesson->subject = (lesson->subject + 1) % count;
+    while (!fits(lesson->subject, document));
     lesson->plays = false;
     lesson->at = 0;
 }

@@ -3,6 +3,7 @@
 #ifndef VIEWER_LESSON_H
 #define VIEWER_LESSON_H
 
+#include "base/base.h"
 #include "cell_to_cell/pass.h"
 #include "document.h"
 #include "draw/canvas.h"
@@ -14,11 +15,12 @@ typedef struct sl_lesson sl_lesson;
 
 enum { SL_SENTENCE = 512, SL_PASSES = 4 };
 
-/// A subject: one file (lesson_search.c, lesson_subdivision.c, lesson_pass.c) and one row of the
+/// A subject: one file (lesson_search.c, lesson_subdivision.c, ...) and one row of the
 /// table in lesson.c. Its record stands in sl_lesson. Functions behind `code` may be NULL. All but
 /// the first two are asked only while there is a step: at < length.
 typedef struct sl_subject {
     const char *title;
+    bool (*fits)(const sl_document *document); ///< whether it has a place there; NULL: always
     bool of_eye; ///< recorded anew where the eye's cell is another; needs one
     /// Records all steps. What is recorded goes with sl_lesson_forget().
     sl_status (*record)(sl_context *context, sl_lesson *lesson, const sl_document *document,
@@ -37,17 +39,36 @@ typedef struct sl_subject {
     void (*above)(sl_app *app, const sl_frame *frame); ///< and above them
 } sl_subject;
 
-extern const sl_subject sl_lesson_search, sl_lesson_subdivision, sl_lesson_pass;
+extern const sl_subject sl_lesson_search, sl_lesson_subdivision, sl_lesson_pass, sl_lesson_effects;
 
 /// All subjects.
 const sl_subject *const *sl_subjects(size_t *count);
+
+/// What there is to say of a pair of cells, as was baked.
+typedef enum sl_effect_fact {
+    SL_FACT_SEEN,    ///< past walls alone
+    SL_FACT_SEES,    ///< likewise, and not the other way
+    SL_FACT_DOORS,   ///< while some doors are open
+    SL_FACT_MIRROR,  ///< by mirror alone
+    SL_FACT_WATCHED, ///< not, but the other way
+    SL_FACT_DARK,    ///< not, for glass
+    SL_FACT_RANGE,   ///< not, for the range (or glass, where there is any)
+    SL_FACT_NONE,    ///< not, for walls
+} sl_effect_fact;
+
+typedef struct sl_effect_step {
+    uint32_t cell;
+    sl_effect_fact fact;
+    size_t entry; ///< of lesson->steps, where a search of walls alone enters it; 0 for none
+} sl_effect_step;
 
 /// Zeroed to start.
 struct sl_lesson {
     size_t subject; ///< of the table
     bool made;
-    uint32_t version, source;  ///< what was recorded: of which document, from which cell
-    sl_steps steps;            ///< of the search
+    uint32_t version, source; ///< what was recorded: of which document, from which cell
+    sl_steps steps;           ///< of the search
+    SL_ARRAY(sl_effect_step) effects;
     size_t split_count;        ///< of the subdivision
     sl_pass passes[SL_PASSES]; ///< of multipass, by quadrant
     uint32_t pass_cells;
@@ -63,8 +84,8 @@ struct sl_lesson {
 };
 
 const sl_subject *sl_lesson_subject(const sl_lesson *lesson);
-/// Another subject; it is recorded by the next update.
-void sl_lesson_change(sl_context *context, sl_lesson *lesson, size_t subject);
+/// The next subject that has a place; it is recorded by the next update.
+void sl_lesson_change(sl_context *context, sl_lesson *lesson, const sl_document *document);
 /// Whether there is a step to show of the document as it is.
 bool sl_lesson_shows(const sl_lesson *lesson, const sl_document *document);
 

@@ -13,7 +13,8 @@ static bool account_shown(const sl_app *app) {
 }
 
 static bool effects_shown(const sl_app *app) {
-    return app->effects && app->document.baked && sl_plan_make(&app->document.map).effects;
+    return app->effects && app->mode != SL_MODE_LEARN && app->document.baked &&
+           sl_plan_make(&app->document.map).effects;
 }
 
 static double effects_lines(const sl_app *app) {

@@ -7,6 +7,10 @@ view=${1:-build/release/viewer/sightline-view}
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
+again() { # count, a line of two words: it so many times
+    for i in $(seq "$1"); do echo "$2 $3"; done
+}
+
 shoot() { # map picture, the script on stdin
     { echo "size 900 600"; echo "text 0.92"; cat; } >"$scratch/script.txt"
     "$view" "maps/$1" --script "$scratch/script.txt" --screenshot "viewer/tour/$2.png"
@@ -45,78 +49,38 @@ shoot oblique/rotunda.map oblique <<'END'
 key B
 key K
 END
-shoot oblique/rotunda.map oblique-subdivision <<'END'
+shoot oblique/rotunda.map oblique-subdivision <<END
 key F2
 key U
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
+$(again 6 key Right)
 END
-shoot office.map search <<'END'
+shoot office.map search <<END
 eye 53 20 160
 key F2
-key Right
-key Right
-key Right
-key Right
+$(again 4 key Right)
 END
-shoot office.map hidden <<'END'
+shoot office.map hidden <<END
 eye 53 20 160
 key F2
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
+$(again 6 key Right)
 END
-shoot office.map pass <<'END'
+shoot office.map pass <<END
 key F2
 key U
 key U
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
+$(again 30 key Right)
 END
-shoot maze.map subdivision <<'END'
+shoot effects/doors.map effects <<END
+eye 5 5 0 90
+key F2
+$(again 3 key U)
+$(again 3 key Right)
+key N
+END
+shoot maze.map subdivision <<END
 key F2
 key U
-key Right
-key Right
-key Right
-key Right
-key Right
-key Right
+$(again 6 key Right)
 END
 shoot effects/mirrors.map mirror <<'END'
 key F8

@@ -55,6 +55,28 @@ bool sl_door_sets_open(const sl_door_sets *sets, uint32_t from, uint32_t to, con
     return true;
 }
 
+bool sl_door_sets_alternative(const sl_door_sets *sets, uint32_t from, uint32_t to, uint32_t which,
+                              bool *doors) {
+    if (!sets->cell_count) return false;
+    const uint8_t *next = sets->bytes + sets->offsets[from];
+    const uint8_t *stop = sets->bytes + sets->offsets[from + 1];
+    for (uint32_t cell = UINT32_MAX; next != stop;) {
+        cell += 1 + read_number(&next, stop);
+        if (cell > to) return false;
+        const uint32_t alternatives = read_number(&next, stop);
+        for (uint32_t i = 0; i < alternatives; i++) {
+            const uint32_t count = read_number(&next, stop);
+            uint32_t door = UINT32_MAX;
+            for (uint32_t k = 0; k < count; k++) {
+                door += 1 + read_number(&next, stop);
+                if (doors && cell == to && i == which) doors[door] = true;
+            }
+        }
+        if (cell == to) return which < alternatives;
+    }
+    return false;
+}
+
 /// As read_number, of untrusted bytes: false where there is no number of 32 bits.
 static bool take_number(const uint8_t **next, const uint8_t *stop, uint64_t *value) {
     *value = 0;

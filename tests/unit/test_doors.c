@@ -87,6 +87,27 @@ static void compare(sl_context *context, const baked_file *f, const bool *shut) 
     sl_space_destroy(context, &walled);
 }
 
+/// A pair is open as one of its alternatives is.
+static void compare_alternatives(const baked_file *f, const bool *shut) {
+    const sl_door_sets *sets = &f->baked.visibility.doors;
+    for (uint32_t a = 0; a < sets->cell_count; a++)
+        for (uint32_t b = 0; b < sets->cell_count; b++) {
+            bool open = !sl_door_sets_alternative(sets, a, b, 0, NULL);
+            bool doors[DOORS] = {false};
+            for (uint32_t i = 0; sl_door_sets_alternative(sets, a, b, i, doors); i++) {
+                bool good = true, any = false;
+                for (int k = 0; k < DOORS; k++) {
+                    good &= !doors[k] || !shut[k];
+                    any |= doors[k];
+                    doors[k] = false;
+                }
+                assert_true(any);
+                open |= good;
+            }
+            assert_int_equal(open, sl_door_sets_open(sets, a, b, shut));
+        }
+}
+
 static void states_are_as_fresh_bakes(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
@@ -98,6 +119,7 @@ static void states_are_as_fresh_bakes(void **state) {
         // From few doors shut to nearly all.
         for (int k = 0; k < DOORS; k++) shut[k] = sl_random_below(&random, 10) < (uint64_t)(i % 10);
         compare(context, &f, shut);
+        if (i < 20) compare_alternatives(&f, shut);
     }
     print_message("%u cells, %llu pairs, %.2f bytes of door sets a pair\n",
                   f.baked.space.cell_count, (unsigned long long)f.baked.visibility.account.pairs,

@@ -32,6 +32,12 @@ SL_API uint64_t sl_door_sets_bytes(const sl_door_sets *sets);
 SL_API bool sl_door_sets_open(const sl_door_sets *sets, uint32_t from, uint32_t to,
                               const bool *shut);
 
+/// One of a pair's alternatives, `which` counted from 0: sets those of `doors` (by door of the map)
+/// that it is made of, and leaves the others; NULL to ask only. False where there is none of that
+/// number. Time: the length of the row.
+SL_API bool sl_door_sets_alternative(const sl_door_sets *sets, uint32_t from, uint32_t to,
+                                     uint32_t which, bool *doors);
+
 /// A walk over a row's pairs: for (sl_door_pairs p = sl_door_pairs_begin(sets, cell);
 /// sl_door_pairs_next(&p, shut);) p.cell, p.open.
 typedef struct sl_door_pairs {
