@@ -56,6 +56,15 @@ static size_t try_exit(sl_eye_query *query, sl_eye_step *last, bool first) {
     return count;
 }
 
+/// Notes the targets of a cell that is just entered.
+static void meet_targets(sl_eye_query *query, const sl_eye_step *at, bool first) {
+    const sl_eye_targets *t = &query->search->targets;
+    sl_eye_step beyond;
+    for (uint32_t i = t->first[at->cell]; i < t->first[at->cell + 1]; i++)
+        if (!t->met[t->targets[i].portal])
+            t->met[t->targets[i].portal] = sl_eye_pass(query, at, first, &t->targets[i], &beyond);
+}
+
 static sl_status search_portals(sl_context *context, sl_eye_query *query) {
     const sl_space *space = query->space;
     sl_eye_step *steps = query->search->steps;
@@ -65,6 +74,7 @@ static sl_status search_portals(sl_context *context, sl_eye_query *query) {
     query->nodes = 1;
     while (count) {
         sl_eye_step *last = &steps[count - 1];
+        if (query->search->targets.first && last->next == 0) meet_targets(query, last, count == 1);
         if (last->next == space->cells[last->cell].exit_count) {
             count--;
             continue;
@@ -87,7 +97,7 @@ sl_status sl_eye_exact(sl_context *context, sl_eye_search *search, const sl_view
     sl_eye_query query;
     SL_TRY(sl_eye_begin(context, search, view, false, cells, &query));
     bool done = query.cell == SL_NO_CELL;
-    if (!done) SL_TRY(sl_eye_exact_tree(context, &query, &done));
+    if (!done && !search->parents) SL_TRY(sl_eye_exact_tree(context, &query, &done));
     if (!done) SL_TRY(search_portals(context, &query));
     sl_eye_end(&query, account);
     return SL_OK;

@@ -8,22 +8,27 @@ size_t sl_eye_words(const sl_space *space) {
     return sl_bits_words(space->cell_count);
 }
 
-static sl_status check_fits(sl_context *context, const sl_space *space,
-                            const sl_visibility *visibility) {
+static sl_status check_fits(sl_context *context, uint32_t cells, const sl_visibility *visibility) {
     const uint32_t rows = visibility->pvs.cell_count, trees = visibility->trees.cell_count;
-    if ((!rows || rows == space->cell_count) && (!trees || trees == space->cell_count))
-        return SL_OK;
+    if ((!rows || rows == cells) && (!trees || trees == cells)) return SL_OK;
     return sl_fail(context, SL_BAD_ARGUMENT, "the visible sets are those of another space");
 }
 
 sl_status sl_eye_search_create(sl_context *context, const sl_space *space,
                                const sl_visibility *visibility, sl_eye_search **out) {
-    SL_TRY(check_fits(context, space, visibility));
+    return sl_eye_search_create_cut(context, space, visibility, NULL, space->cell_count, out);
+}
+
+sl_status sl_eye_search_create_cut(sl_context *context, const sl_space *space,
+                                   const sl_visibility *visibility, const uint32_t *parents,
+                                   uint32_t row_cells, sl_eye_search **out) {
+    SL_TRY(check_fits(context, row_cells, visibility));
     sl_eye_search *search = sl_alloc_array(context, 1, sizeof *search);
     if (!search) return SL_NO_MEMORY;
     const size_t count = space->cell_count;
     search->space = space;
     search->visibility = visibility;
+    search->parents = parents;
     search->has_pvs = visibility->pvs.cell_count > 0;
     search->row = sl_alloc_array(context, sl_eye_words(space), sizeof *search->row);
     search->queue = sl_alloc_array(context, count, sizeof *search->queue);
@@ -63,9 +68,10 @@ sl_status sl_eye_begin(sl_context *context, sl_eye_search *search, const sl_view
                           .cells = cells};
     if (out->cell == SL_NO_CELL) return SL_OK;
     if (search->has_pvs) {
+        const uint32_t row = search->parents ? search->parents[out->cell] : out->cell;
         memset(search->row, 0, words * sizeof *search->row);
-        sl_row_add_to(&search->visibility->pvs, out->cell, search->row);
-        if (!sl_bits_has(search->row, out->cell)) out->cell = SL_NO_CELL;
+        sl_row_add_to(&search->visibility->pvs, row, search->row);
+        if (!sl_bits_has(search->row, row)) out->cell = SL_NO_CELL;
     }
     out->cone = sl_cone_of(&out->pivot, view);
     return SL_OK;

@@ -17,9 +17,18 @@ typedef struct sl_eye_step {
     sl_arc arcs[2];     ///< what is seen into the cell: within a wide cone up to two arcs
 } sl_eye_step;
 
+/// Pieces of cells' boundaries, to be told which of them a search meets.
+typedef struct sl_eye_targets {
+    const uint32_t *first;  ///< by cell: its targets are items[first[cell] .. first[cell + 1])
+    const sl_exit *targets; ///< as crossed on the way out of the cell; `portal`: of `met`
+    bool *met;
+} sl_eye_targets;
+
 struct sl_eye_search {
     const sl_space *space;
     const sl_visibility *visibility;
+    const uint32_t *parents; ///< by cell: whose row has it, and whose bit in rows; NULL: its own
+    sl_eye_targets targets;  ///< of the exact method, over portals; `first` NULL: none
     bool has_pvs;
     sl_bits *row;       ///< the visible set of the eye's cell
     uint32_t *queue;    ///< cells still to be looked at from
@@ -42,6 +51,12 @@ typedef struct sl_eye_query {
     sl_bits *cells; ///< the result
 } sl_eye_query;
 
+/// A search of a space in which cells of another one are cut: those of the visibility, which cell c
+/// is a part of by its number parents[c]. `row_cells`: how many they are.
+sl_status sl_eye_search_create_cut(sl_context *context, const sl_space *space,
+                                   const sl_visibility *visibility, const uint32_t *parents,
+                                   uint32_t row_cells, sl_eye_search **out);
+
 /// Checks the view, finds the eye's cell and its visible set, and empties the result.
 sl_status sl_eye_begin(sl_context *context, sl_eye_search *search, const sl_view *view,
                        bool needs_pvs, uint64_t *cells, sl_eye_query *out);
@@ -50,7 +65,9 @@ void sl_eye_end(const sl_eye_query *query, sl_eye_account *account);
 
 /// Whether a cell is in the visible set of the eye's, or there are no visible sets.
 static inline bool sl_eye_may_see(const sl_eye_query *query, uint32_t cell) {
-    return !query->search->has_pvs || sl_bits_has(query->search->row, cell);
+    const sl_eye_search *search = query->search;
+    return !search->has_pvs ||
+           sl_bits_has(search->row, search->parents ? search->parents[cell] : cell);
 }
 
 /// Whether a cell meets the cone.

@@ -27,6 +27,11 @@ void sl_kd_destroy(sl_context *context, sl_kd_tree *tree);
 /// Makes the space's portals and exits from its tree and cells.
 sl_status sl_make_portals(sl_context *context, const sl_kd_tree *tree, sl_space *space);
 
+/// For qsort: the order that a space's portals have.
+int sl_compare_portals(const void *left, const void *right);
+/// Gives cells, which count no exits yet, the exits of the space's portals.
+sl_status sl_make_exits(sl_context *context, sl_space *space);
+
 /// A map whose walls all lie on one line has no area: what it lacks is added on both sides.
 sl_box sl_padded(sl_box box);
 

@@ -114,7 +114,7 @@ static int compare_points(sl_point a, sl_point b) {
     return (a.y > b.y) - (a.y < b.y);
 }
 
-static int compare_portals(const void *left, const void *right) {
+int sl_compare_portals(const void *left, const void *right) {
     const sl_portal *a = left, *b = right;
     if (a->cell[0] != b->cell[0]) return a->cell[0] < b->cell[0] ? -1 : 1;
     if (a->cell[1] != b->cell[1]) return a->cell[1] < b->cell[1] ? -1 : 1;
@@ -134,7 +134,7 @@ static int compare_exits(const void *left, const void *right) {
     return edge_a < 2 ? order : -order;
 }
 
-static sl_status make_exits(sl_context *context, sl_space *space) {
+sl_status sl_make_exits(sl_context *context, sl_space *space) {
     space->exits = sl_alloc_array(context, space->exit_count, sizeof *space->exits);
     if (!space->exits) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < space->portal_count; i++)
@@ -173,12 +173,12 @@ static sl_status make_all(sl_context *context, portal_maker *maker, sl_space *sp
     if (maker->portals.count > UINT32_MAX / 2) return sl_fail_memory(context);
     if (maker->portals.count)
         qsort(maker->portals.items, maker->portals.count, sizeof *maker->portals.items,
-              compare_portals);
+              sl_compare_portals);
     space->portals = maker->portals.items;
     space->portal_count = (uint32_t)maker->portals.count;
     space->exit_count = 2 * space->portal_count;
     maker->portals.items = NULL;
-    return make_exits(context, space);
+    return sl_make_exits(context, space);
 }
 
 sl_status sl_make_portals(sl_context *context, const sl_kd_tree *tree, sl_space *space) {

@@ -16,6 +16,7 @@
 #include "sightline/import.h"
 #include "sightline/map.h"
 #include "sightline/mirrored.h"
+#include "sightline/moving.h"
 #include "sightline/outline.h"
 #include "sightline/pvs.h"
 #include "sightline/region.h"

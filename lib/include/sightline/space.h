@@ -191,6 +191,14 @@ SL_API void sl_space_destroy(sl_context *context, sl_space *space); ///< and zer
 /// point, all cells are asked; SL_NO_CELL where the cells came with the map and none holds it.
 SL_API uint32_t sl_space_locate(const sl_space *space, sl_point point);
 
+/// A box to be put into a space for the time being (sightline/moving.h), which may be without width
+/// or height. Boxes may overlap and touch walls, each other and the eye, and lie out of the bounds
+/// in part or wholly.
+typedef struct sl_moving_box {
+    sl_box box;
+    bool blocks; ///< its four sides are walls; else it is seen through
+} sl_moving_box;
+
 /// The seams that a portal lies on, *count of them; NULL for none.
 SL_API const sl_seam_portal *sl_space_seams_of(const sl_space *space, uint32_t portal,
                                                size_t *count);

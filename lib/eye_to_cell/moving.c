@@ -1,0 +1,253 @@
+/// Boxes that move: the space is cut along their sides (space/boxes.c), and the exact search tells
+/// which pieces of them it meets.
+#include "sightline/moving.h"
+
+#include "eye_to_cell/eye_methods.h"
+#include "eye_to_cell/eye_search.h"
+#include "sightline/sees.h"
+#include "space/boxes.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// A piece of a box's side on a cell's boundary.
+typedef struct target {
+    uint32_t cell;
+    sl_exit exit;
+} target;
+
+struct sl_moving {
+    sl_box_ground ground;
+    const sl_visibility *visibility;
+    sl_moving_box *boxes;
+    size_t count;
+    sl_boxed_space *boxed;
+    sl_outline outline;
+    bool outlined;
+    uint32_t *first; ///< of the targets
+    sl_exit *targets;
+    bool *met; ///< by box
+    sl_eye_search *search;
+    uint64_t *cells; ///< of the space with boxes
+};
+
+// --- what there is to be met
+
+typedef struct gatherer {
+    sl_context *context;
+    const sl_space *space;
+    SL_ARRAY(target) targets;
+    SL_ARRAY(int32_t) stack;
+    sl_piece_list free;
+} gatherer;
+
+/// Adds a piece where it lies on the boundary of a cell.
+static sl_status add_target(gatherer *g, uint32_t cell, const sl_piece *side, uint32_t box) {
+    const sl_point *corners = g->space->vertices + g->space->cells[cell].first_vertex;
+    const sl_point min = corners[0], max = corners[2];
+    const bool below = side->at == (side->axis ? max.y : max.x);
+    const bool above = side->at == (side->axis ? min.y : min.x);
+    const double lo = fmax(side->lo, side->axis ? min.x : min.y);
+    const double hi = fmin(side->hi, side->axis ? max.x : max.y);
+    if (!(below || above) || lo >= hi) return SL_OK;
+    // Going up in the line's coordinate, the left hand is at high y (axis 0) or at low x (axis 1).
+    const sl_point a = side->axis ? (sl_point){lo, side->at} : (sl_point){side->at, hi};
+    const sl_point b = side->axis ? (sl_point){hi, side->at} : (sl_point){side->at, lo};
+    const sl_exit exit = {box, SL_NO_CELL, below ? a : b, below ? b : a};
+    SL_TRY(SL_ARRAY_ROOM(g->context, &g->targets, 1));
+    g->targets.items[g->targets.count++] = (target){cell, exit};
+    return SL_OK;
+}
+
+/// Adds a piece to all cells that it lies on the boundary of.
+static sl_status add_piece(gatherer *g, const sl_piece *side, uint32_t box) {
+    g->stack.count = 0;
+    SL_TRY(SL_ARRAY_ROOM(g->context, &g->stack, 1));
+    g->stack.items[g->stack.count++] = g->space->root;
+    while (g->stack.count) {
+        const int32_t child = g->stack.items[--g->stack.count];
+        if (child < 0) {
+            SL_TRY(add_target(g, (uint32_t)~child, side, box));
+            continue;
+        }
+        const sl_node *node = &g->space->nodes[child];
+        const double lo = node->axis == side->axis ? side->at : side->lo;
+        const double hi = node->axis == side->axis ? side->at : side->hi;
+        SL_TRY(SL_ARRAY_ROOM(g->context, &g->stack, 2));
+        if (lo <= node->position) g->stack.items[g->stack.count++] = node->below;
+        if (hi >= node->position) g->stack.items[g->stack.count++] = node->above;
+    }
+    return SL_OK;
+}
+
+static int compare_targets(const void *left, const void *right) {
+    const target *a = left, *b = right;
+    return (a->cell > b->cell) - (a->cell < b->cell);
+}
+
+static sl_status write_targets(gatherer *g, sl_moving *out) {
+    const uint32_t cells = g->space->cell_count;
+    out->first = sl_alloc_array(g->context, (size_t)cells + 1, sizeof *out->first);
+    out->targets = sl_alloc_array(g->context, g->targets.count, sizeof *out->targets);
+    if (!out->first || !out->targets) return SL_NO_MEMORY;
+    if (g->targets.count > UINT32_MAX) return sl_fail_memory(g->context);
+    if (g->targets.count)
+        qsort(g->targets.items, g->targets.count, sizeof *g->targets.items, compare_targets);
+    for (size_t i = 0; i < g->targets.count; i++) {
+        out->targets[i] = g->targets.items[i].exit;
+        out->first[g->targets.items[i].cell + 1]++;
+    }
+    for (uint32_t c = 0; c < cells; c++) out->first[c + 1] += out->first[c];
+    return SL_OK;
+}
+
+static sl_status gather(gatherer *g, sl_moving *out) {
+    const sl_box_ground *ground = &out->ground;
+    for (size_t i = 0; i < out->count; i++) {
+        sl_piece sides[4];
+        const unsigned count = sl_box_sides(out->boxes[i].box, sides);
+        g->free.count = 0;
+        for (unsigned k = 0; k < count; k++)
+            SL_TRY(sl_piece_add_free(g->context, ground->walls, ground->space->wall_count, sides[k],
+                                     &g->free));
+        for (size_t k = 0; k < g->free.count; k++)
+            SL_TRY(add_piece(g, &g->free.items[k], (uint32_t)i));
+    }
+    return write_targets(g, out);
+}
+
+static sl_status make_targets(sl_context *context, sl_moving *out) {
+    gatherer g = {.context = context, .space = &out->boxed->space};
+    const sl_status status = gather(&g, out);
+    sl_free(context, g.targets.items);
+    sl_free(context, g.stack.items);
+    sl_free(context, g.free.items);
+    return status;
+}
+
+// --- placing
+
+/// All that follows from the boxes.
+static void drop(sl_context *context, sl_moving *m) {
+    sl_eye_search_destroy(context, m->search);
+    sl_outline_destroy(context, &m->outline);
+    if (m->boxed) sl_boxed_space_destroy(context, m->boxed);
+    sl_free(context, m->boxed);
+    sl_free(context, m->boxes);
+    sl_free(context, m->first);
+    sl_free(context, m->targets);
+    sl_free(context, m->met);
+    sl_free(context, m->cells);
+    *m = (sl_moving){.ground = m->ground, .visibility = m->visibility};
+}
+
+static sl_status check_boxes(sl_context *context, const sl_moving_box *boxes, size_t count) {
+    if (count >= UINT32_MAX) return sl_fail_memory(context);
+    for (size_t i = 0; i < count; i++) {
+        const sl_box b = boxes[i].box;
+        if (!(isfinite(b.min.x) && isfinite(b.min.y) && isfinite(b.max.x) && isfinite(b.max.y)) ||
+            b.min.x > b.max.x || b.min.y > b.max.y)
+            return sl_fail(context, SL_BAD_ARGUMENT,
+                           "box %zu: its lower left corner must be finite, and not beyond the "
+                           "upper right one",
+                           i + 1);
+    }
+    return SL_OK;
+}
+
+/// Fills `m`, whose boxes are there.
+static sl_status place(sl_context *context, sl_moving *m) {
+    m->boxed = sl_alloc_array(context, 1, sizeof *m->boxed);
+    if (!m->boxed) return SL_NO_MEMORY;
+    SL_TRY(sl_boxes_put(context, &m->ground, m->boxes, m->count, m->boxed));
+    SL_TRY(make_targets(context, m));
+    SL_TRY(sl_eye_search_create_cut(context, &m->boxed->space, m->visibility, m->boxed->parents,
+                                    m->ground.space->cell_count, &m->search));
+    m->met = sl_alloc_array(context, m->count, sizeof *m->met);
+    m->cells = sl_alloc_array(context, sl_eye_words(&m->boxed->space), sizeof *m->cells);
+    if (!m->met || !m->cells) return SL_NO_MEMORY;
+    m->search->targets = (sl_eye_targets){m->first, m->targets, m->met};
+    return SL_OK;
+}
+
+sl_status sl_moving_place(sl_context *context, sl_moving *moving, const sl_moving_box *boxes,
+                          size_t count) {
+    SL_TRY(check_boxes(context, boxes, count));
+    sl_moving made = {.ground = moving->ground, .visibility = moving->visibility, .count = count};
+    made.boxes = sl_alloc_array(context, count, sizeof *made.boxes);
+    if (!made.boxes) return SL_NO_MEMORY;
+    if (count) memcpy(made.boxes, boxes, count * sizeof *boxes);
+    const sl_status status = place(context, &made);
+    drop(context, status == SL_OK ? moving : &made);
+    if (status == SL_OK) *moving = made;
+    return status;
+}
+
+sl_status sl_moving_create(sl_context *context, const sl_space *space,
+                           const sl_visibility *visibility, sl_moving **out) {
+    sl_moving *moving = sl_alloc_array(context, 1, sizeof *moving);
+    if (!moving) return SL_NO_MEMORY;
+    moving->visibility = visibility;
+    sl_status status = sl_box_ground_create(context, space, &moving->ground);
+    if (status == SL_OK) status = sl_moving_place(context, moving, NULL, 0);
+    if (status == SL_OK)
+        *out = moving;
+    else
+        sl_moving_destroy(context, moving);
+    return status;
+}
+
+void sl_moving_destroy(sl_context *context, sl_moving *moving) {
+    if (!moving) return;
+    drop(context, moving);
+    sl_box_ground_destroy(context, &moving->ground);
+    sl_free(context, moving);
+}
+
+// --- asking
+
+const sl_space *sl_moving_space(const sl_moving *moving, const uint32_t **parents) {
+    if (parents) *parents = moving->boxed->parents;
+    return &moving->boxed->space;
+}
+
+sl_status sl_moving_outline(sl_context *context, sl_moving *moving, const sl_outline **out) {
+    if (!moving->outlined)
+        SL_TRY(sl_outline_make(context, &moving->boxed->space, &moving->outline));
+    moving->outlined = true;
+    *out = &moving->outline;
+    return SL_OK;
+}
+
+static bool holds(sl_box box, sl_point p) {
+    return box.min.x <= p.x && p.x <= box.max.x && box.min.y <= p.y && p.y <= box.max.y;
+}
+
+/// Whether a box that is one point is seen.
+static sl_status see_point(sl_context *context, sl_moving *moving, const sl_view *view,
+                           sl_point point, bool *seen) {
+    const sl_outline *outline;
+    *seen = false;
+    if (!sl_view_holds(view, point)) return SL_OK;
+    SL_TRY(sl_moving_outline(context, moving, &outline));
+    return sl_sees(context, outline, view->eye, point, moving->visibility->sight, seen);
+}
+
+sl_status sl_moving_look(sl_context *context, sl_moving *moving, const sl_view *view,
+                         uint64_t *cells, bool *seen, sl_eye_account *account) {
+    const sl_space *space = &moving->boxed->space;
+    if (moving->count) memset(moving->met, 0, moving->count * sizeof *moving->met);
+    SL_TRY(sl_eye_exact(context, moving->search, view, moving->cells, account));
+    const bool inside = sl_space_locate(space, view->eye) != SL_NO_CELL;
+    for (size_t i = 0; i < moving->count; i++) {
+        const sl_box box = moving->boxes[i].box;
+        seen[i] = moving->met[i] || (inside && holds(box, view->eye));
+        if (!seen[i] && inside && box.min.x == box.max.x && box.min.y == box.max.y)
+            SL_TRY(see_point(context, moving, view, box.min, &seen[i]));
+    }
+    memset(cells, 0, sl_eye_words(moving->ground.space) * sizeof *cells);
+    for (uint32_t c = 0; c < space->cell_count; c++)
+        if (sl_bits_has(moving->cells, c)) sl_bits_add(cells, moving->boxed->parents[c]);
+    return SL_OK;
+}

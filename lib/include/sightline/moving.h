@@ -1,0 +1,58 @@
+/// Things that move at run time: boxes that are culled, and boxes that block sight, in a space and
+/// with visible sets that know nothing of them. No new bake is made when they move.
+#ifndef SIGHTLINE_MOVING_H
+#define SIGHTLINE_MOVING_H
+
+#include "sightline/eye_to_cell.h"
+#include "sightline/outline.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// The cells in which a box lies, those that it only touches included: a bit a cell, sl_eye_words()
+/// words, set. Exact, in any space, for the cells' corners as they are stored. Time: all cells.
+SL_API void sl_cells_of_box(const sl_space *space, sl_box box, uint64_t *cells);
+
+/// A space with boxes in it, to look at. Serves one thread at a time.
+typedef struct sl_moving sl_moving;
+
+/// No boxes are in it yet. The space and the visible sets must outlive it; `visibility` is as
+/// sl_eye_search_create takes it, and stab trees are not looked at. SL_UNSUPPORTED for a space with
+/// oblique walls (that a BSP made) or without exits that its portals should have.
+SL_API sl_status sl_moving_create(sl_context *context, const sl_space *space,
+                                  const sl_visibility *visibility, sl_moving **out);
+SL_API void sl_moving_destroy(sl_context *context, sl_moving *moving);
+
+/// Puts these boxes in, in place of those before. Only the cells that boxes lie in are cut, but the
+/// rest of the space is copied. SL_BAD_ARGUMENT for boxes whose corners are not finite or not in
+/// order; what was there before then stays.
+SL_API sl_status sl_moving_place(sl_context *context, sl_moving *moving, const sl_moving_box *boxes,
+                                 size_t count);
+
+/// The space with the boxes: cells cut along their sides, which are walls where they block. Cell c
+/// of it is (a part of) cell parents[c] of the space without. Until boxes are next placed.
+SL_API const sl_space *sl_moving_space(const sl_moving *moving, const uint32_t **parents);
+
+/// Its outline, for sl_region_make, sl_sees and sl_shoot. Made when it is first asked for.
+SL_API sl_status sl_moving_outline(sl_context *context, sl_moving *moving, const sl_outline **out);
+
+/// What an eye sees past the boxes, by exact eye-to-cell culling within the visible set of its
+/// cell.
+///
+/// `cells`: the cells of the space without boxes, sl_eye_words() words: those of which a part is
+/// seen, as in a space whose walls the boxes' sides are.
+/// `seen`: by box, whether it is seen: whether a sightline meets one of its sides, crossing it or
+/// ending there, with closed sight also touching it or running along it; or whether it holds the
+/// eye. A side that a wall covers is not seen. A box that is one point is seen where sl_sees says
+/// so. Of several boxes that block, each is seen past the others.
+///
+/// `account` is set, in cells of the space with boxes. Fails as the method "exact" does.
+SL_API sl_status sl_moving_look(sl_context *context, sl_moving *moving, const sl_view *view,
+                                uint64_t *cells, bool *seen, sl_eye_account *account);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

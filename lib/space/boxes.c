@@ -1,0 +1,527 @@
+#include "space/boxes.h"
+
+#include "space/kd_tree.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// A side of a box that runs through a cell, and where the tree leads to that cell.
+typedef struct cut {
+    uint32_t cell;
+    sl_piece side;
+    int32_t node; ///< -1: the cell is the root
+    bool above;
+} cut;
+
+/// A part of a cell still to be cut: by sides[first .. first + count).
+typedef struct part {
+    sl_box box;
+    size_t first, count;
+    int32_t node;
+    bool above;
+} part;
+
+/// A portal, and that of the ground which it is of; UINT32_MAX: within a cell that was one.
+typedef struct made_portal {
+    sl_portal portal;
+    uint32_t of;
+} made_portal;
+
+typedef struct maker {
+    sl_context *context;
+    const sl_box_ground *ground;
+    const sl_space *from;
+    sl_boxed_space *out;
+    sl_piece_list blocking; ///< sides of boxes that block, sorted, each place once
+    sl_piece_list sides;    ///< of parts
+    SL_ARRAY(cut) cuts;
+    SL_ARRAY(part) parts;
+    SL_ARRAY(sl_box) boxes; ///< of all cells
+    SL_ARRAY(uint32_t) parents;
+    SL_ARRAY(sl_node) nodes;
+    SL_ARRAY(int32_t) stack;
+    SL_ARRAY(made_portal) portals;
+    SL_ARRAY(uint32_t) of_cut; ///< the parts of cells that are cut, cell after cell
+    uint32_t *first_part;      ///< by cell of the ground: in of_cut; UINT32_MAX: it is whole
+    uint32_t *part_count;
+    bool *touched; ///< by cell of the ground: a box lies in it or beside it
+} maker;
+
+// --- the sides of boxes
+
+unsigned sl_box_sides(sl_box box, sl_piece sides[4]) {
+    const sl_point a = box.min, b = box.max;
+    unsigned count = 0;
+    if (a.y < b.y) {
+        sides[count++] = (sl_piece){.axis = 0, .at = a.x, .lo = a.y, .hi = b.y};
+        if (a.x < b.x) sides[count++] = (sl_piece){.axis = 0, .at = b.x, .lo = a.y, .hi = b.y};
+    }
+    if (a.x < b.x) {
+        sides[count++] = (sl_piece){.axis = 1, .at = a.y, .lo = a.x, .hi = b.x};
+        if (a.y < b.y) sides[count++] = (sl_piece){.axis = 1, .at = b.y, .lo = a.x, .hi = b.x};
+    }
+    return count;
+}
+
+static int compare_pieces(const void *left, const void *right) {
+    const sl_piece *a = left, *b = right;
+    if (a->axis != b->axis) return a->axis - b->axis;
+    if (a->at != b->at) return a->at < b->at ? -1 : 1;
+    return (a->lo > b->lo) - (a->lo < b->lo);
+}
+
+static sl_status add_piece(sl_context *context, sl_piece_list *list, sl_piece piece) {
+    SL_TRY(SL_ARRAY_ROOM(context, list, 1));
+    list->items[list->count++] = piece;
+    return SL_OK;
+}
+
+sl_status sl_piece_add_free(sl_context *context, const sl_piece *walls, size_t count,
+                            sl_piece piece, sl_piece_list *out) {
+    size_t i = sl_wall_lines_find(walls, count, piece.axis, piece.at, piece.lo);
+    for (; i < count && piece.lo < piece.hi; i++) {
+        const sl_piece *wall = &walls[i];
+        if (wall->axis != piece.axis || wall->at != piece.at || wall->lo >= piece.hi) break;
+        sl_piece before = piece;
+        before.hi = wall->lo;
+        if (before.lo < before.hi) SL_TRY(add_piece(context, out, before));
+        piece.lo = fmax(piece.lo, wall->hi);
+    }
+    return piece.lo < piece.hi ? add_piece(context, out, piece) : SL_OK;
+}
+
+/// What of a side lies within the space's bounds; false for nothing.
+static bool clip(const sl_box *bounds, sl_piece *side) {
+    const double at_lo = side->axis ? bounds->min.y : bounds->min.x;
+    const double at_hi = side->axis ? bounds->max.y : bounds->max.x;
+    side->lo = fmax(side->lo, side->axis ? bounds->min.x : bounds->min.y);
+    side->hi = fmin(side->hi, side->axis ? bounds->max.x : bounds->max.y);
+    return side->at >= at_lo && side->at <= at_hi && side->lo < side->hi;
+}
+
+/// The sides that block: of those that overlap, the later goes on where the one before it ends.
+static sl_status gather_blocking(maker *m, const sl_moving_box *boxes, size_t count) {
+    sl_piece_list *all = &m->sides;
+    all->count = 0;
+    for (size_t i = 0; i < count; i++) {
+        sl_piece sides[4];
+        const unsigned n = boxes[i].blocks ? sl_box_sides(boxes[i].box, sides) : 0;
+        for (unsigned k = 0; k < n; k++)
+            if (clip(&m->from->bounds, &sides[k])) SL_TRY(add_piece(m->context, all, sides[k]));
+    }
+    if (all->count) qsort(all->items, all->count, sizeof *all->items, compare_pieces);
+    size_t kept = 0;
+    for (size_t i = 0; i < all->count; i++) {
+        sl_piece side = all->items[i];
+        const sl_piece *last = kept ? &all->items[kept - 1] : NULL;
+        if (last && last->axis == side.axis && last->at == side.at)
+            side.lo = fmax(side.lo, last->hi);
+        if (side.lo < side.hi) all->items[kept++] = side;
+    }
+    for (size_t i = 0; i < kept; i++)
+        SL_TRY(sl_piece_add_free(m->context, m->ground->walls, m->from->wall_count, all->items[i],
+                                 &m->blocking));
+    return SL_OK;
+}
+
+// --- which cells are cut
+
+/// Whether a side has a point strictly inside a box.
+static bool runs_through(const sl_piece *side, const sl_box *box) {
+    const double at_lo = side->axis ? box->min.y : box->min.x;
+    const double at_hi = side->axis ? box->max.y : box->max.x;
+    const double lo = side->axis ? box->min.x : box->min.y;
+    const double hi = side->axis ? box->max.x : box->max.y;
+    return at_lo < side->at && side->at < at_hi && side->lo < hi && side->hi > lo;
+}
+
+static sl_status push(maker *m, int32_t child) {
+    SL_TRY(SL_ARRAY_ROOM(m->context, &m->stack, 1));
+    m->stack.items[m->stack.count++] = child;
+    return SL_OK;
+}
+
+/// Notes the cells that a box touches, and those that its sides run through, with what led there.
+static sl_status find_cells(maker *m, sl_box box) {
+    sl_piece sides[4];
+    const unsigned count = sl_box_sides(box, sides);
+    const sl_space *s = m->from;
+    m->stack.count = 0;
+    int32_t node = -1;
+    bool above = false;
+    for (int32_t child = s->root;;) {
+        if (child >= 0) {
+            const sl_node *n = &s->nodes[child];
+            const double lo = n->axis ? box.min.y : box.min.x;
+            const double hi = n->axis ? box.max.y : box.max.x;
+            // The stack holds nodes, each twice where both its children are to be looked at.
+            if (lo <= n->position) SL_TRY(push(m, 2 * child));
+            if (hi >= n->position) SL_TRY(push(m, 2 * child + 1));
+        } else {
+            const uint32_t cell = (uint32_t)~child;
+            m->touched[cell] = true;
+            for (unsigned k = 0; k < count; k++) {
+                if (!runs_through(&sides[k], &m->boxes.items[cell])) continue;
+                SL_TRY(SL_ARRAY_ROOM(m->context, &m->cuts, 1));
+                m->cuts.items[m->cuts.count++] = (cut){cell, sides[k], node, above};
+            }
+        }
+        if (!m->stack.count) return SL_OK;
+        const int32_t next = m->stack.items[--m->stack.count];
+        node = next / 2;
+        above = next % 2;
+        child = above ? s->nodes[node].above : s->nodes[node].below;
+    }
+}
+
+// --- cutting
+
+static void lead_to(maker *m, int32_t node, bool above, int32_t child) {
+    if (node < 0)
+        m->out->space.root = child;
+    else if (above)
+        m->nodes.items[node].above = child;
+    else
+        m->nodes.items[node].below = child;
+}
+
+static sl_status keep_part(maker *m, const part *p, uint32_t cell) {
+    uint32_t number = cell;
+    if (m->part_count[cell]) {
+        number = (uint32_t)m->boxes.count;
+        SL_TRY(SL_ARRAY_ROOM(m->context, &m->boxes, 1));
+        SL_TRY(SL_ARRAY_ROOM(m->context, &m->parents, 1));
+        m->boxes.count++;
+        m->parents.items[m->parents.count++] = cell;
+    }
+    m->boxes.items[number] = p->box;
+    SL_TRY(SL_ARRAY_ROOM(m->context, &m->of_cut, 1));
+    m->of_cut.items[m->of_cut.count++] = number;
+    m->part_count[cell]++;
+    lead_to(m, p->node, p->above, ~(int32_t)number);
+    return SL_OK;
+}
+
+/// Cuts a part at its first side; what of the others runs through either half is left for it.
+static sl_status cut_part(maker *m, const part *p) {
+    const sl_piece by = m->sides.items[p->first];
+    const int32_t node = (int32_t)m->nodes.count;
+    SL_TRY(SL_ARRAY_ROOM(m->context, &m->nodes, 1));
+    m->nodes.items[m->nodes.count++] = (sl_node){.position = by.at, .axis = by.axis};
+    lead_to(m, p->node, p->above, node);
+    for (int above = 0; above < 2; above++) {
+        part half = {p->box, m->sides.count, 0, node, above};
+        if (by.axis)
+            *(above ? &half.box.min.y : &half.box.max.y) = by.at;
+        else
+            *(above ? &half.box.min.x : &half.box.max.x) = by.at;
+        for (size_t i = p->first + 1; i < p->first + p->count; i++) {
+            const sl_piece side = m->sides.items[i];
+            if (runs_through(&side, &half.box)) SL_TRY(add_piece(m->context, &m->sides, side));
+        }
+        half.count = m->sides.count - half.first;
+        SL_TRY(SL_ARRAY_ROOM(m->context, &m->parts, 1));
+        m->parts.items[m->parts.count++] = half;
+    }
+    return SL_OK;
+}
+
+static sl_status cut_cell(maker *m, const cut *cuts, size_t count) {
+    const uint32_t cell = cuts->cell;
+    m->sides.count = 0;
+    for (size_t i = 0; i < count; i++) SL_TRY(add_piece(m->context, &m->sides, cuts[i].side));
+    m->first_part[cell] = (uint32_t)m->of_cut.count;
+    SL_TRY(SL_ARRAY_ROOM(m->context, &m->parts, 1));
+    m->parts.items[0] = (part){m->boxes.items[cell], 0, count, cuts->node, cuts->above};
+    m->parts.count = 1;
+    while (m->parts.count) {
+        const part p = m->parts.items[--m->parts.count];
+        SL_TRY(p.count ? cut_part(m, &p) : keep_part(m, &p, cell));
+    }
+    return SL_OK;
+}
+
+static int compare_cuts(const void *left, const void *right) {
+    const cut *a = left, *b = right;
+    return (a->cell > b->cell) - (a->cell < b->cell);
+}
+
+static sl_status cut_cells(maker *m) {
+    if (m->cuts.count) qsort(m->cuts.items, m->cuts.count, sizeof *m->cuts.items, compare_cuts);
+    for (size_t i = 0, end; i < m->cuts.count; i = end) {
+        for (end = i + 1; end < m->cuts.count && m->cuts.items[end].cell == m->cuts.items[i].cell;)
+            end++;
+        SL_TRY(sl_check_cancelled(m->context));
+        SL_TRY(cut_cell(m, &m->cuts.items[i], end - i));
+    }
+    return m->boxes.count > UINT32_MAX / 4 ? sl_fail_memory(m->context) : SL_OK;
+}
+
+// --- portals
+
+/// Whether two cells share a piece of a line of positive length, which `out` becomes, the first of
+/// them below it.
+static bool share(const sl_box *below, const sl_box *above, int axis, sl_piece *out) {
+    const double at = axis ? below->max.y : below->max.x;
+    if (at != (axis ? above->min.y : above->min.x)) return false;
+    *out = (sl_piece){.axis = axis, .at = at};
+    out->lo = axis ? fmax(below->min.x, above->min.x) : fmax(below->min.y, above->min.y);
+    out->hi = axis ? fmin(below->max.x, above->max.x) : fmin(below->max.y, above->max.y);
+    return out->lo < out->hi;
+}
+
+/// Adds the portals that blocking sides leave of a piece that two cells share.
+static sl_status add_portals(maker *m, uint32_t below, uint32_t above, sl_piece piece,
+                             uint32_t of) {
+    m->sides.count = 0;
+    SL_TRY(sl_piece_add_free(m->context, m->blocking.items, m->blocking.count, piece, &m->sides));
+    for (size_t i = 0; i < m->sides.count; i++) {
+        const sl_piece *p = &m->sides.items[i];
+        // Going up in the line's coordinate, the left hand is at high y (axis 0) or at low x.
+        sl_point left = p->axis ? (sl_point){p->lo, p->at} : (sl_point){p->at, p->hi};
+        sl_point right = p->axis ? (sl_point){p->hi, p->at} : (sl_point){p->at, p->lo};
+        sl_portal portal = {{below, above}, left, right};
+        if (below > above) portal = (sl_portal){{above, below}, right, left};
+        SL_TRY(SL_ARRAY_ROOM(m->context, &m->portals, 1));
+        m->portals.items[m->portals.count++] = (made_portal){portal, of};
+    }
+    return SL_OK;
+}
+
+/// The parts of a cell, itself where it is whole.
+static const uint32_t *parts_of(const maker *m, const uint32_t *cell, uint32_t *count) {
+    const uint32_t first = m->first_part[*cell];
+    *count = first == UINT32_MAX ? 1 : m->part_count[*cell];
+    return first == UINT32_MAX ? cell : m->of_cut.items + first;
+}
+
+/// A portal of the ground, as the parts of its cells have it.
+static sl_status take_portal(maker *m, uint32_t number) {
+    const sl_portal *p = &m->from->portals[number];
+    if (!m->touched[p->cell[0]] && !m->touched[p->cell[1]]) {
+        SL_TRY(SL_ARRAY_ROOM(m->context, &m->portals, 1));
+        m->portals.items[m->portals.count++] = (made_portal){*p, number};
+        return SL_OK;
+    }
+    const int axis = p->left.x == p->right.x ? 0 : 1;
+    const double lo = axis ? fmin(p->left.x, p->right.x) : fmin(p->left.y, p->right.y);
+    const double hi = axis ? fmax(p->left.x, p->right.x) : fmax(p->left.y, p->right.y);
+    // Crossed upwards, the left hand is at high y or at low x.
+    const bool up = axis ? p->left.x < p->right.x : p->left.y > p->right.y;
+    uint32_t below_count, above_count;
+    const uint32_t *below = parts_of(m, &p->cell[up ? 0 : 1], &below_count);
+    const uint32_t *above = parts_of(m, &p->cell[up ? 1 : 0], &above_count);
+    for (uint32_t i = 0; i < below_count; i++)
+        for (uint32_t k = 0; k < above_count; k++) {
+            sl_piece piece;
+            if (!share(&m->boxes.items[below[i]], &m->boxes.items[above[k]], axis, &piece))
+                continue;
+            piece.lo = fmax(piece.lo, lo);
+            piece.hi = fmin(piece.hi, hi);
+            if (piece.lo < piece.hi) SL_TRY(add_portals(m, below[i], above[k], piece, number));
+        }
+    return SL_OK;
+}
+
+/// The portals between the parts of a cell.
+static sl_status join_parts(maker *m, uint32_t cell) {
+    uint32_t count;
+    const uint32_t *parts = parts_of(m, &cell, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        SL_TRY(sl_check_cancelled(m->context));
+        for (uint32_t k = 0; k < count; k++)
+            for (int axis = 0; axis < 2; axis++) {
+                sl_piece piece;
+                if (share(&m->boxes.items[parts[i]], &m->boxes.items[parts[k]], axis, &piece))
+                    SL_TRY(add_portals(m, parts[i], parts[k], piece, UINT32_MAX));
+            }
+    }
+    return SL_OK;
+}
+
+/// The seams that a portal of the ground lies on, for what has become of it.
+static void take_seams(maker *m, uint32_t number, const made_portal *made) {
+    sl_space *s = &m->out->space;
+    size_t count;
+    const sl_seam_portal *on = sl_space_seams_of(m->from, made->of, &count);
+    const sl_portal *was = &m->from->portals[made->of];
+    const bool turned =
+        (was->left.x > was->right.x) != (made->portal.left.x > made->portal.right.x) ||
+        (was->left.y > was->right.y) != (made->portal.left.y > made->portal.right.y);
+    for (size_t i = 0; i < count; i++) {
+        sl_seam_portal tag = on[i];
+        tag.portal = number;
+        tag.forward = turned ? !tag.forward : tag.forward;
+        s->seam_portals[s->seam_portal_count++] = tag;
+    }
+}
+
+static sl_status write_portals(maker *m) {
+    sl_space *s = &m->out->space;
+    size_t tags = 0, count;
+    if (m->portals.count > UINT32_MAX / 2) return sl_fail_memory(m->context);
+    if (m->portals.count)
+        qsort(m->portals.items, m->portals.count, sizeof *m->portals.items, sl_compare_portals);
+    for (size_t i = 0; i < m->portals.count; i++)
+        if (m->portals.items[i].of != UINT32_MAX) {
+            sl_space_seams_of(m->from, m->portals.items[i].of, &count);
+            tags += count;
+        }
+    s->portals = sl_alloc_array(m->context, m->portals.count, sizeof *s->portals);
+    s->seam_portals = sl_alloc_array(m->context, tags, sizeof *s->seam_portals);
+    if (!s->portals || !s->seam_portals) return SL_NO_MEMORY;
+    for (size_t i = 0; i < m->portals.count; i++) {
+        s->portals[i] = m->portals.items[i].portal;
+        if (m->portals.items[i].of != UINT32_MAX) take_seams(m, (uint32_t)i, &m->portals.items[i]);
+    }
+    s->portal_count = (uint32_t)m->portals.count;
+    s->exit_count = 2 * s->portal_count;
+    return sl_make_exits(m->context, s);
+}
+
+static sl_status make_portals(maker *m) {
+    for (uint32_t i = 0; i < m->from->portal_count; i++) SL_TRY(take_portal(m, i));
+    for (uint32_t i = 0; i < m->from->cell_count; i++)
+        if (m->first_part[i] != UINT32_MAX) SL_TRY(join_parts(m, i));
+    return write_portals(m);
+}
+
+// --- the space
+
+static sl_status write_cells(maker *m) {
+    const sl_space *f = m->from;
+    sl_space *s = &m->out->space;
+    s->cell_count = (uint32_t)m->boxes.count;
+    s->vertex_count = 4 * s->cell_count;
+    s->cells = sl_alloc_array(m->context, s->cell_count, sizeof *s->cells);
+    s->vertices = sl_alloc_array(m->context, s->vertex_count, sizeof *s->vertices);
+    if (!s->cells || !s->vertices) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < s->cell_count; i++) {
+        const sl_box *box = &m->boxes.items[i];
+        const sl_point corners[4] = {
+            box->min, {box->max.x, box->min.y}, box->max, {box->min.x, box->max.y}};
+        const uint32_t inside = f->cells[m->parents.items[i]].inside;
+        s->cells[i] = (sl_cell){.first_vertex = 4 * i, .vertex_count = 4, .inside = inside};
+        s->inside_count += inside;
+        memcpy(&s->vertices[(size_t)4 * i], corners, sizeof corners);
+    }
+    return SL_OK;
+}
+
+static sl_status write_walls(maker *m) {
+    const sl_space *f = m->from;
+    sl_space *s = &m->out->space;
+    const size_t count = f->wall_count + m->blocking.count;
+    if (count > INT32_MAX) return sl_fail_memory(m->context);
+    s->walls = sl_alloc_array(m->context, count, sizeof *s->walls);
+    s->seams = sl_alloc_array(m->context, f->seam_count, sizeof *s->seams);
+    if (!s->walls || !s->seams) return SL_NO_MEMORY;
+    if (f->wall_count) memcpy(s->walls, f->walls, f->wall_count * sizeof *s->walls);
+    if (f->seam_count) memcpy(s->seams, f->seams, f->seam_count * sizeof *s->seams);
+    s->seam_count = f->seam_count;
+    s->wall_count = f->wall_count;
+    for (size_t i = 0; i < m->blocking.count; i++) {
+        const sl_piece *p = &m->blocking.items[i];
+        sl_wall *wall = &s->walls[s->wall_count++];
+        wall->a = p->axis ? (sl_point){p->lo, p->at} : (sl_point){p->at, p->lo};
+        wall->b = p->axis ? (sl_point){p->hi, p->at} : (sl_point){p->at, p->hi};
+    }
+    return SL_OK;
+}
+
+/// The deepest way down; nodes come after their parents.
+static sl_status write_nodes(maker *m) {
+    sl_space *s = &m->out->space;
+    s->nodes = m->nodes.items;
+    s->node_count = (uint32_t)m->nodes.count;
+    m->nodes.items = NULL;
+    uint32_t *depth = sl_alloc_array(m->context, s->node_count, sizeof *depth);
+    if (!depth) return SL_NO_MEMORY;
+    s->tree_depth = s->node_count ? 1 : 0;
+    for (uint32_t i = 0; i < s->node_count; i++) {
+        const int32_t children[2] = {s->nodes[i].below, s->nodes[i].above};
+        if (depth[i] + 1 > s->tree_depth) s->tree_depth = depth[i] + 1;
+        for (int k = 0; k < 2; k++)
+            if (children[k] >= 0) depth[children[k]] = depth[i] + 1;
+    }
+    sl_free(m->context, depth);
+    return SL_OK;
+}
+
+static sl_status begin(maker *m) {
+    const sl_space *f = m->from;
+    m->out->space = (sl_space){.bounds = f->bounds, .root = f->root};
+    m->first_part = sl_alloc_array(m->context, f->cell_count, sizeof *m->first_part);
+    m->part_count = sl_alloc_array(m->context, f->cell_count, sizeof *m->part_count);
+    m->touched = sl_alloc_array(m->context, f->cell_count, sizeof *m->touched);
+    if (!m->first_part || !m->part_count || !m->touched) return SL_NO_MEMORY;
+    SL_TRY(SL_ARRAY_ROOM(m->context, &m->boxes, f->cell_count));
+    SL_TRY(SL_ARRAY_ROOM(m->context, &m->parents, f->cell_count));
+    SL_TRY(SL_ARRAY_ROOM(m->context, &m->nodes, (size_t)f->node_count + 1));
+    for (uint32_t i = 0; i < f->cell_count; i++) {
+        const sl_point *corners = f->vertices + f->cells[i].first_vertex;
+        m->boxes.items[i] = (sl_box){corners[0], corners[2]};
+        m->parents.items[i] = i;
+        m->first_part[i] = UINT32_MAX;
+    }
+    m->boxes.count = m->parents.count = f->cell_count;
+    if (f->node_count) memcpy(m->nodes.items, f->nodes, f->node_count * sizeof *f->nodes);
+    m->nodes.count = f->node_count;
+    return SL_OK;
+}
+
+static sl_status make(maker *m, const sl_moving_box *boxes, size_t count) {
+    SL_TRY(begin(m));
+    SL_TRY(gather_blocking(m, boxes, count));
+    for (size_t i = 0; i < count; i++) SL_TRY(find_cells(m, boxes[i].box));
+    SL_TRY(cut_cells(m));
+    SL_TRY(write_cells(m));
+    SL_TRY(write_walls(m));
+    SL_TRY(write_nodes(m));
+    SL_TRY(make_portals(m));
+    m->out->parents = m->parents.items;
+    m->parents.items = NULL;
+    return SL_OK;
+}
+
+sl_status sl_boxes_put(sl_context *context, const sl_box_ground *ground, const sl_moving_box *boxes,
+                       size_t count, sl_boxed_space *out) {
+    sl_boxed_space made = {0};
+    maker m = {.context = context, .ground = ground, .from = ground->space, .out = &made};
+    const sl_status status = make(&m, boxes, count);
+    void *const scratch[] = {m.blocking.items, m.sides.items,   m.cuts.items,  m.parts.items,
+                             m.boxes.items,    m.parents.items, m.nodes.items, m.stack.items,
+                             m.portals.items,  m.of_cut.items,  m.first_part,  m.part_count,
+                             m.touched};
+    for (size_t i = 0; i < sizeof scratch / sizeof *scratch; i++) sl_free(context, scratch[i]);
+    if (status == SL_OK)
+        *out = made;
+    else
+        sl_boxed_space_destroy(context, &made);
+    return status;
+}
+
+void sl_boxed_space_destroy(sl_context *context, sl_boxed_space *boxed) {
+    sl_space_destroy(context, &boxed->space);
+    sl_free(context, boxed->parents);
+    *boxed = (sl_boxed_space){0};
+}
+
+sl_status sl_box_ground_create(sl_context *context, const sl_space *space, sl_box_ground *out) {
+    if (space->beyond)
+        return sl_fail(context, SL_UNSUPPORTED,
+                       "boxes are put into spaces of axial walls only, and this one was cut by a "
+                       "BSP: that a box moves is told of maps without oblique walls");
+    if (space->exit_count != 2 * space->portal_count)
+        return sl_fail(context, SL_UNSUPPORTED, "boxes are put in before one-way glass is");
+    sl_piece *walls = NULL;
+    SL_TRY(sl_wall_lines(context, "the walls", space->walls, space->wall_count, &walls));
+    *out = (sl_box_ground){space, walls};
+    return SL_OK;
+}
+
+void sl_box_ground_destroy(sl_context *context, sl_box_ground *ground) {
+    sl_free(context, ground->walls);
+    *ground = (sl_box_ground){0};
+}
