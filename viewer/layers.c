@@ -2,6 +2,7 @@
 
 #include "base/base.h"
 #include "draw/plan.h"
+#include "draw/seen.h"
 #include "draw/sight.h"
 #include "panes.h"
 
@@ -76,36 +77,38 @@ void sl_layer_pvs(sl_app *app, const sl_frame *frame, int index) {
     sl_draw_cell_set(app->ui.cairo, &app->document.baked->space, frame, app->seen.pvs, NULL,
                      app->ui.palette.seen[0], 0.8);
     sl_draw_cell_set(app->ui.cairo, &app->document.baked->space, frame, app->seen.mirrored,
-                     app->seen.pvs, app->ui.palette.door, 0.3);
+                     app->seen.pvs, app->ui.palette.mirrored, 0.3);
 }
 
-void sl_layers_draw_region(sl_app *app, const sl_frame *frame, const sl_region *region,
-                           sl_colour colour) {
-    if (!(region->range > 0)) {
-        sl_draw_region(app->ui.cairo, frame, region, colour);
-        return;
-    }
+/// A region as a polygon, arcs as finely as can be seen; `depth` is 0, or that of a part which is
+/// seen in mirrors.
+static void draw_region(sl_app *app, const sl_frame *frame, const sl_region *region, uint32_t depth,
+                        sl_colour colour) {
     const double tolerance = fmax(0.2 / frame->scale, 1e-5 * region->range);
     const size_t count = sl_region_flatten(region, tolerance, NULL, 0);
     sl_region flat = {.points = sl_alloc_array(app->context, count, sizeof *flat.points),
                       .count = count};
     if (!flat.points) return;
     sl_region_flatten(region, tolerance, flat.points, count);
-    sl_draw_region(app->ui.cairo, frame, &flat, colour);
+    const sl_drawn_region part = {region->view.eye, flat.points, count, depth};
+    if (depth)
+        sl_draw_seen(app->ui.cairo, &app->ui.palette, frame, &part);
+    else
+        sl_draw_region(app->ui.cairo, frame, &flat, colour);
     sl_free(app->context, flat.points);
+}
+
+void sl_layers_draw_region(sl_app *app, const sl_frame *frame, const sl_region *region,
+                           sl_colour colour) {
+    draw_region(app, frame, region, 0, colour);
 }
 
 void sl_layer_region(sl_app *app, const sl_frame *frame, int index) {
     const sl_mirrored_region *mirrors = &app->seen.in_mirrors;
     (void)index;
-    const sl_palette *palette = &app->ui.palette;
-    // Deeper ones are paler, and below.
-    for (size_t i = mirrors->part_count; i-- > 0;) {
-        const sl_mirror_part *part = &mirrors->parts[i];
-        const double pale = 1 - pow(0.6, part->depth - 1);
-        sl_layers_draw_region(app, frame, &part->region,
-                              sl_colour_mix(palette->door, palette->page, pale));
-    }
+    for (size_t i = mirrors->part_count; i-- > 0;)
+        draw_region(app, frame, &mirrors->parts[i].region, mirrors->parts[i].depth,
+                    app->ui.palette.mirrored);
     sl_layers_draw_region(app, frame, &app->seen.region, app->ui.palette.source);
 }
 
@@ -140,7 +143,7 @@ void sl_layer_cull(sl_app *app, const sl_frame *frame, int index) {
         return;
     }
     sl_draw_cell_set(cairo, space, frame, seen->methods[last].mirrored, seen->methods[last].cells,
-                     app->ui.palette.door, 0.3);
+                     app->ui.palette.mirrored, 0.3);
     for (size_t i = 0; i <= last; i++)
         if (seen->methods[i].known || i == last)
             sl_draw_cell_set(cairo, space, frame, seen->methods[i].cells,
