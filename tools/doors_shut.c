@@ -38,6 +38,8 @@ sl_status sl_doors_shut(sl_context *context, const char *text, sl_baked *baked) 
     for (size_t i = 0; i < map->door_count && !text; i++) shut[i] = !map->doors[i].open;
     sl_status status = text ? read_names(context, text, map, shut) : SL_OK;
     if (status == SL_OK) status = sl_baked_shut(context, baked, shut);
+    for (size_t i = 0; i < map->door_count && status == SL_OK; i++)
+        baked->map.doors[i].open = !shut[i];
     sl_free(context, shut);
     return status;
 }
