@@ -57,7 +57,7 @@ static size_t default_method(const bake_texts *texts, const sl_see_method *metho
     return 0;
 }
 
-/// What else than walls a map calls for only some methods know: of those the fastest.
+/// What else than walls a map calls for only some methods know: where the default does not, prune.
 static sl_status fit_method(sl_context *context, const sl_map *map, bake_plan *plan) {
     const unsigned effects = sl_plan_make(map).effects;
     size_t count;
@@ -240,7 +240,7 @@ static sl_status bake_and_report(sl_console *console, bake_plan *plan) {
 static void print_tables(void) {
     sl_pipeline_print_subdivisions();
     sl_pipeline_print_methods("; sweep is the default, but dfs where stab trees or a solver are "
-                              "asked for,\nand prune where the map has effects",
+                              "asked for,\nand prune where the map has mirrors",
                               " (the first is the default)");
     sl_pipeline_print_effects();
     sl_input_print_formats();

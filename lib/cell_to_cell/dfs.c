@@ -242,7 +242,7 @@ static sl_status allocate(sl_context *context, sl_dfs *all) {
     return sl_tree_store_create(context, count, all->options->tree_bytes, &all->trees);
 }
 
-/// The upper bound of every exit.
+/// The upper bound of every exit: where it is known what the cell behind sees, that is enough.
 static sl_status find_bounds(sl_context *context, sl_dfs *all) {
     const sl_space *space = all->space;
     if (all->words && space->exit_count > SIZE_MAX / all->words) return sl_fail_memory(context);
@@ -250,8 +250,11 @@ static sl_status find_bounds(sl_context *context, sl_dfs *all) {
     uint32_t *stack = sl_alloc_array(context, space->cell_count, sizeof *stack);
     sl_status status = all->bounds && stack ? SL_OK : SL_NO_MEMORY;
     for (uint32_t i = 0; i < space->exit_count && status == SL_OK; i++) {
-        sl_flood_through(space, all->options, &space->exits[i], all->bounds + i * all->words,
-                         stack);
+        sl_bits *bound = all->bounds + i * all->words;
+        if (all->known)
+            sl_row_add_to(all->known->possible, space->exits[i].cell, bound);
+        else
+            sl_flood_through(space, all->options, &space->exits[i], bound, stack);
         status = sl_check_cancelled(context);
     }
     sl_free(context, stack);
@@ -361,6 +364,12 @@ sl_status sl_see_prune(sl_context *context, const sl_space *space, const sl_see_
                        sl_visibility *out) {
     sl_dfs all = {.space = space, .options = options, .prunes = true};
     SL_TRY(check_options(context, options, all.prunes));
+    return see(context, &all, out);
+}
+
+sl_status sl_dfs_see_rest(sl_context *context, const sl_space *space, const sl_see_options *options,
+                          const sl_dfs_known *known, sl_visibility *out) {
+    sl_dfs all = {.space = space, .options = options, .prunes = true, .known = known};
     return see(context, &all, out);
 }
 

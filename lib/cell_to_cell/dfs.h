@@ -20,6 +20,13 @@ typedef struct sl_dfs_step {
     bool grazing;           ///< the sequence is no more than grazed
 } sl_dfs_step;
 
+/// What is known before a search with effects begins, without mirrors. Both have each cell with
+/// itself.
+typedef struct sl_dfs_known {
+    const sl_pvs *possible; ///< no other pairs are seen
+    const sl_pvs *certain;  ///< of them those that are, through no door
+} sl_dfs_known;
+
 /// All searches together.
 typedef struct sl_dfs {
     const sl_space *space;
@@ -33,6 +40,7 @@ typedef struct sl_dfs {
     const sl_findings *before; ///< what is known; NULL: nothing, and all is to be done
     uint8_t *done;             ///< by source, where there is `before`
     bool prunes;
+    const sl_dfs_known *known;      ///< NULL: nothing; else it prunes
     size_t words;                   ///< of a set of cells
     sl_bits *bounds;                ///< where it prunes: by exit, what may be seen through it
     struct sl_dfs_effects *effects; ///< where the plan has any, all that is done for them
@@ -48,6 +56,11 @@ typedef struct sl_dfs_thread {
     sl_see_account account; ///< of the source at hand
     struct sl_dfs_effects_thread *effects;
 } sl_dfs_thread;
+
+/// The depth-first search with effects, but mirrors, for the pairs that are possible and not
+/// certain.
+sl_status sl_dfs_see_rest(sl_context *context, const sl_space *space, const sl_see_options *options,
+                          const sl_dfs_known *known, sl_visibility *out);
 
 /// Goes on from `to`; a sequence that counts as seen becomes a node of the stab tree.
 sl_status sl_dfs_enter(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, sl_dfs_step to,

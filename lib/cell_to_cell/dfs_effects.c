@@ -123,15 +123,18 @@ static sl_status want(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
     const sl_bits *bound = all->bounds + exit * words,
                   *doors = doors_at(all->effects, me->effects, depth);
     const sl_door_table *table = &me->effects->direct;
-    const sl_bits *before = depth > 1 ? beyond - words : NULL;
-    *something = false;
+    const sl_bits *before = beyond - words;
+    sl_bits unseen = 0;
     for (size_t i = 0; i < words; i++) {
-        beyond[i] = (before ? before[i] : ~(sl_bits)0) & bound[i];
+        beyond[i] = before[i] & bound[i];
+        unseen |= beyond[i] & ~table->seen[i];
+    }
+    *something = unseen != 0;
+    for (size_t i = 0; i < words && !*something; i++)
         for (sl_bits open = beyond[i] & ~table->free[i]; open && !*something; open &= open - 1) {
             const uint32_t cell = (uint32_t)(64 * i) + (uint32_t)__builtin_ctzll(open);
             *something = !sl_door_table_proves(table, cell, doors);
         }
-    }
     return SL_OK;
 }
 
@@ -200,6 +203,22 @@ static sl_status try_mirror(sl_context *context, const sl_dfs *all, sl_dfs_threa
 
 // --- one source
 
+/// What is wanted of a source: all cells, or those that it is possible to see; what it is certain
+/// to see is noted.
+static sl_status want_from(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
+                           uint32_t source) {
+    const size_t words = all->words;
+    SL_TRY(SL_ARRAY_ROOM(context, &me->wanted, words));
+    memset(me->wanted.items, all->known ? 0 : 0xff, words * sizeof *me->wanted.items);
+    if (!all->known) return SL_OK;
+    sl_door_table *table = &me->effects->direct;
+    sl_row_add_to(all->known->possible, source, me->wanted.items);
+    sl_row_add_to(all->known->certain, source, me->sure);
+    sl_row_add_to(all->known->certain, source, table->seen);
+    sl_row_add_to(all->known->certain, source, table->free);
+    return SL_OK;
+}
+
 static sl_status start(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, uint32_t source) {
     thread *e = me->effects;
     sl_door_table_clear(&e->direct);
@@ -211,6 +230,7 @@ static sl_status start(sl_context *context, const sl_dfs *all, sl_dfs_thread *me
     memset(e->doors.items, 0, all->effects->door_words * sizeof *e->doors.items);
     SL_TRY(sl_door_table_add(context, &e->direct, source, e->doors.items));
     sl_bits_add(me->sure, source);
+    if (all->prunes) SL_TRY(want_from(context, all, me, source));
     me->steps.count = 0;
     return sl_dfs_enter(context, all, me, (sl_dfs_step){.cell = source}, 0, UINT32_MAX, true);
 }

@@ -4,6 +4,7 @@
 #include "cell_to_cell/flood.h"
 
 #include "base/threads.h"
+#include "cell_to_cell/cells_apart.h"
 #include "cell_to_cell/findings.h"
 #include "cell_to_cell/methods.h"
 #include "cell_to_cell/pvs_maker.h"
@@ -47,6 +48,7 @@ typedef struct flood {
     const sl_space *space;
     const sl_see_options *options;
     bool hurries;     ///< gives up where that is enough
+    bool one_way;     ///< pairs are not mutual
     sl_bit_rows rows; ///< each is written by one thread
 } flood;
 
@@ -110,8 +112,20 @@ static sl_status flood_all(sl_context *context, flood *all, sl_visibility *out) 
                           .stage = "cell_to_cell",
                           .units = "cells"};
     SL_TRY(sl_work_run(context, &work, all->space->cell_count, all->options->threads));
-    SL_TRY(sl_bit_rows_mirror(context, &all->rows, SL_KEEP_MUTUAL));
+    if (!all->one_way) SL_TRY(sl_bit_rows_mirror(context, &all->rows, SL_KEEP_MUTUAL));
     return sl_bit_rows_encode(context, &all->rows, out);
+}
+
+/// Cells that are farther apart than the range are left out.
+static sl_status hold_against_range(sl_context *context, const flood *all, sl_visibility *out) {
+    const double range = all->options->plan ? all->options->plan->range : 0;
+    if (!(range > 0)) return SL_OK;
+    sl_pvs within;
+    SL_TRY(sl_pvs_within(context, all->space, &out->pvs, range, SL_SOME_WITHIN, &within));
+    sl_pvs_destroy(context, &out->pvs);
+    out->pvs = within;
+    out->account.pairs = sl_pvs_pairs(&within);
+    return SL_OK;
 }
 
 sl_status sl_see_flood(sl_context *context, const sl_space *space, const sl_see_options *options,
@@ -120,9 +134,21 @@ sl_status sl_see_flood(sl_context *context, const sl_space *space, const sl_see_
         return sl_fail(context, SL_UNSUPPORTED, "the method 'flood' makes no stab trees");
     flood all = {.space = space, .options = options};
     sl_visibility visibility = {.sight = options->sight, .guarantee = SL_CONSERVATIVE};
-    const sl_status status = flood_all(context, &all, &visibility);
+    sl_space open = {0};
+    if (options->plan && options->plan->effects & SL_EFFECT_ONEWAY) {
+        const sl_passage passage = {.one_way = true};
+        SL_TRY(sl_passage_make(context, space, &passage, NULL, &open));
+        all.space = &open;
+        all.one_way = true;
+    }
+    sl_status status = flood_all(context, &all, &visibility);
+    if (status == SL_OK) status = hold_against_range(context, &all, &visibility);
+    sl_space_destroy(context, &open);
     sl_bit_rows_destroy(context, &all.rows);
-    if (status == SL_OK) *out = visibility;
+    if (status == SL_OK)
+        *out = visibility;
+    else
+        sl_visibility_destroy(context, &visibility);
     return status;
 }
 

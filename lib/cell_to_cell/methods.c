@@ -63,7 +63,7 @@ const sl_see_method *sl_see_methods(size_t *count) {
          .what = "a line turned about every corner of walls, by exact predicates: the fastest",
          .keeps_rows = true,
          .guarantee = SL_EXACT,
-         .knows = SL_EFFECT_ONEWAY,
+         .knows = SL_EFFECT_DOOR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE,
          .see = sl_see_sweep,
          .units = "corners",
          .look = sl_look_sweep,
@@ -89,11 +89,13 @@ const sl_see_method *sl_see_methods(size_t *count) {
          .what = "all that portals in pairs leave possible",
          .keeps_rows = true,
          .guarantee = SL_CONSERVATIVE,
+         .knows = SL_EFFECT_ONEWAY | SL_EFFECT_RANGE,
          .see = sl_see_flood},
         {.name = "sampling",
          .what = "random lines from each cell",
          .keeps_rows = true,
          .guarantee = SL_AGGRESSIVE,
+         .knows = SL_EFFECT_ONEWAY | SL_EFFECT_RANGE,
          .see = sl_see_sampling},
     };
     *count = sizeof methods / sizeof *methods;

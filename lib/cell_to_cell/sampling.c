@@ -1,6 +1,7 @@
 /// Lines at random: from a number of points of each cell in a random direction, both ways, through
 /// whatever portals the line passes strictly between their ends. All cells on a line see each
-/// other. What no line hits is missed: narrow sightlines first.
+/// other, if they are no farther apart on it than the range. What no line hits is missed: narrow
+/// sightlines first. Where glass is one-way, lines are taken one way only.
 #include "cell_to_cell/bit_rows.h"
 #include "cell_to_cell/methods.h"
 
@@ -8,19 +9,30 @@
 #include "base/threads.h"
 #include "geometry/orient.h"
 
+#include <math.h>
 #include <pthread.h>
 
 typedef struct sampling {
     const sl_space *space;
     const sl_see_options *options;
+    bool one_way; ///< lines have a direction, and pairs are not mutual
+    double range; ///< 0 for none
     pthread_mutex_t lock;
     sl_bit_rows rows; ///< joined from the threads' forks, under the lock
 } sampling;
 
+/// A cell on a line from a to b. Where there is a range: the part of the line's length after which
+/// it is surely entered, and that before which it is surely not left.
+typedef struct stretch {
+    uint32_t cell;
+    bool back; ///< before the cell in which `a` is
+    double entered, left;
+} stretch;
+
 /// One thread's own.
 typedef struct sampler {
     sl_bit_rows rows;
-    SL_ARRAY(uint32_t) way; ///< the cells of a line
+    SL_ARRAY(stretch) way; ///< the cells of a line
 } sampler;
 
 static void end(sl_context *context, void *job, void *state) {
@@ -68,14 +80,46 @@ static const sl_exit *exit_on(const sampling *all, uint32_t cell, sl_line line) 
     return NULL;
 }
 
-/// Goes along a line. It passes every portal strictly forwards and so comes to no cell twice.
-static sl_status walk(sl_context *context, const sampling *all, sampler *me, uint32_t cell,
-                      sl_line line) {
-    for (const sl_exit *exit; (exit = exit_on(all, cell, line)); cell = exit->cell) {
+/// Where a line crosses an exit, in parts of its length, and how far rounding may be off.
+static double place_on(sl_line line, const sl_exit *exit, double *error) {
+    const double dx = line.b.x - line.a.x, dy = line.b.y - line.a.y;
+    const double ex = exit->left.x - exit->right.x, ey = exit->left.y - exit->right.y;
+    const double rx = exit->right.x - line.a.x, ry = exit->right.y - line.a.y;
+    const double across = dx * ey - dy * ex, place = (rx * ey - ry * ex) / across;
+    const double rounding = 0x1p-49 / fabs(across);
+    *error = rounding * (fabs(rx * ey) + fabs(ry * ex)) +
+             rounding * (fabs(dx * ey) + fabs(dy * ex)) * fabs(place);
+    return place;
+}
+
+/// Goes along a line, to one end or (`back`) from it. It passes every portal strictly forwards and
+/// so comes to no cell twice.
+static sl_status walk(sl_context *context, const sampling *all, sampler *me, sl_line line,
+                      bool back) {
+    const sl_line towards = back ? (sl_line){line.b, line.a} : line;
+    size_t last = 0;
+    for (const sl_exit *exit; (exit = exit_on(all, me->way.items[last].cell, towards));) {
         SL_TRY(SL_ARRAY_ROOM(context, &me->way, 1));
-        me->way.items[me->way.count++] = exit->cell;
+        stretch *from = &me->way.items[last], next = {.cell = exit->cell, .back = back};
+        if (all->range > 0) {
+            double error;
+            const double place = place_on(line, exit, &error);
+            *(back ? &from->entered : &from->left) = back ? place + error : place - error;
+            *(back ? &next.left : &next.entered) = back ? place - error : place + error;
+        }
+        last = me->way.count;
+        me->way.items[me->way.count++] = next;
     }
     return SL_OK;
+}
+
+/// Whether the piece of the line between two of its cells, `b` found after `a`, is surely within
+/// the range.
+static bool is_in_range(const sampling *all, sl_line line, const stretch *a, const stretch *b) {
+    if (!(all->range > 0) || a == b) return true;
+    const double length = hypot(line.b.x - line.a.x, line.b.y - line.a.y);
+    const double between = b->back ? a->entered - b->left : b->entered - a->left;
+    return between * length * (1 + 0x1p-50) <= all->range;
 }
 
 static sl_status sample(sl_context *context, const sampling *all, sampler *me, uint32_t cell,
@@ -88,12 +132,14 @@ static sl_status sample(sl_context *context, const sampling *all, sampler *me, u
     if (a.x == b.x && a.y == b.y) return SL_OK;
     me->way.count = 0;
     SL_TRY(SL_ARRAY_ROOM(context, &me->way, 1));
-    me->way.items[me->way.count++] = cell;
-    SL_TRY(walk(context, all, me, cell, (sl_line){a, b}));
-    SL_TRY(walk(context, all, me, cell, (sl_line){b, a}));
+    me->way.items[me->way.count++] = (stretch){.cell = cell};
+    SL_TRY(walk(context, all, me, (sl_line){a, b}, false));
+    if (!all->one_way) SL_TRY(walk(context, all, me, (sl_line){a, b}, true));
+    const stretch *way = me->way.items;
     for (size_t i = 0; i < me->way.count; i++)
         for (size_t k = i; k < me->way.count; k++)
-            SL_TRY(sl_bit_rows_add_one(context, &me->rows, me->way.items[i], me->way.items[k]));
+            if (is_in_range(all, (sl_line){a, b}, &way[i], &way[k]))
+                SL_TRY(sl_bit_rows_add_one(context, &me->rows, way[i].cell, way[k].cell));
     return SL_OK;
 }
 
@@ -124,8 +170,16 @@ static sl_status sample_all(sl_context *context, sampling *all, sl_visibility *o
                           .stage = "cell_to_cell",
                           .units = "cells"};
     SL_TRY(sl_work_run(context, &work, all->space->cell_count, all->options->threads));
-    SL_TRY(sl_bit_rows_mirror(context, &all->rows, SL_ADD_MIRRORED));
+    if (!all->one_way) SL_TRY(sl_bit_rows_mirror(context, &all->rows, SL_ADD_MIRRORED));
     return sl_bit_rows_encode(context, &all->rows, out);
+}
+
+static sl_status see(sl_context *context, sampling *all, sl_visibility *out) {
+    pthread_mutex_init(&all->lock, NULL);
+    const sl_status status = sample_all(context, all, out);
+    pthread_mutex_destroy(&all->lock);
+    sl_bit_rows_destroy(context, &all->rows);
+    return status;
 }
 
 sl_status sl_see_sampling(sl_context *context, const sl_space *space, const sl_see_options *options,
@@ -134,10 +188,16 @@ sl_status sl_see_sampling(sl_context *context, const sl_space *space, const sl_s
         return sl_fail(context, SL_UNSUPPORTED, "the method 'sampling' makes no stab trees");
     sampling all = {.space = space, .options = options};
     sl_visibility visibility = {.sight = options->sight, .guarantee = SL_AGGRESSIVE};
-    pthread_mutex_init(&all.lock, NULL);
-    const sl_status status = sample_all(context, &all, &visibility);
-    pthread_mutex_destroy(&all.lock);
-    sl_bit_rows_destroy(context, &all.rows);
+    sl_space open = {0};
+    if (options->plan && options->plan->effects & SL_EFFECT_ONEWAY) {
+        const sl_passage passage = {.one_way = true};
+        SL_TRY(sl_passage_make(context, space, &passage, NULL, &open));
+        all.space = &open;
+        all.one_way = true;
+    }
+    all.range = options->plan ? options->plan->range : 0;
+    const sl_status status = see(context, &all, &visibility);
+    sl_space_destroy(context, &open);
     if (status == SL_OK) *out = visibility;
     return status;
 }

@@ -145,6 +145,8 @@ static sl_status check_options(sl_context *context, const sl_see_options *option
 sl_status sl_see_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
                        sl_visibility *out) {
     SL_TRY(check_options(context, options));
+    if (options->plan && options->plan->effects & (SL_EFFECT_DOOR | SL_EFFECT_RANGE))
+        return sl_see_sweep_settled(context, space, options, out);
     if (options->plan && options->plan->effects & SL_EFFECT_ONEWAY)
         return sl_see_sweep_one_way(context, space, options, out);
     sweep all = {.space = space, .options = options};
@@ -183,6 +185,9 @@ static sl_status sweep_some(sl_context *context, sweep *all, sl_findings *findin
 sl_status sl_look_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
                         sl_findings *findings) {
     SL_TRY(check_options(context, options));
+    if (options->plan && options->plan->effects)
+        return sl_fail(context, SL_UNSUPPORTED,
+                       "a sweep done in parts knows no effects: bake in one go");
     sweep all = {.space = space, .options = options};
     pthread_mutex_init(&all.lock, NULL);
     const sl_status status = sweep_some(context, &all, findings);

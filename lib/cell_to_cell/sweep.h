@@ -50,6 +50,10 @@ sl_status sl_sweep_turn(sl_context *context, sl_sweeper *sweeper, const sl_fan *
 sl_status sl_see_sweep_one_way(sl_context *context, const sl_space *space,
                                const sl_see_options *options, sl_visibility *out);
 
+/// The sweep where the map has doors or a view range (sweep_effects.c).
+sl_status sl_see_sweep_settled(sl_context *context, const sl_space *space,
+                               const sl_see_options *options, sl_visibility *out);
+
 /// Makes the result of all that was found: adds that each cell sees itself and through each of its
 /// portals the cell behind, and that pairs are mutual where the plan is. Sets the PVS and its
 /// count.

@@ -1,0 +1,23 @@
+/// How far apart cells lie, as a view range asks.
+#ifndef SL_CELLS_APART_H
+#define SL_CELLS_APART_H
+
+#include "base/base.h"
+#include "sightline/cell_to_cell.h"
+
+/// Whether lines between two cells, from where they leave the one to where they enter the other,
+/// are within the range: ordered by how far apart the cells are.
+typedef enum sl_apart {
+    SL_ALL_WITHIN, ///< all are
+    SL_SOME_WITHIN,
+    SL_NONE_WITHIN, ///< none is, nor within rounding of it
+} sl_apart;
+
+/// Rounded, to the safe side: what is told of all is so.
+sl_apart sl_cells_apart(const sl_space *space, uint32_t a, uint32_t b, double range);
+
+/// The pairs of `pvs` whose cells are no farther apart than `most`.
+sl_status sl_pvs_within(sl_context *context, const sl_space *space, const sl_pvs *pvs, double range,
+                        sl_apart most, sl_pvs *out);
+
+#endif

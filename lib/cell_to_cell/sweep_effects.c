@@ -1,0 +1,68 @@
+/// The sweep where the map has doors or a view range: it settles most pairs without a search. What
+/// it sees with all doors open bounds what is seen at all; what it sees with all doors shut is seen
+/// through none; cells whose nearest points are beyond the range do not see each other, those whose
+/// farthest points are within it may. Only pairs that are seen, and not so settled, are left to the
+/// depth-first search, which goes nowhere but towards them.
+#include "cell_to_cell/cells_apart.h"
+#include "cell_to_cell/dfs.h"
+#include "cell_to_cell/methods.h"
+#include "cell_to_cell/sweep.h"
+#include "sightline/solvers.h"
+
+#include <string.h>
+
+/// With walls in all doors; cells are the same.
+static sl_status see_shut(sl_context *context, const sl_space *space, const sl_see_options *options,
+                          size_t doors, sl_visibility *out) {
+    bool *shut = sl_alloc_array(context, doors, sizeof *shut);
+    if (!shut) return SL_NO_MEMORY;
+    memset(shut, 1, doors * sizeof *shut);
+    sl_space walled = {0};
+    const sl_passage passage = {.shut = shut};
+    sl_status status = sl_passage_make(context, space, &passage, NULL, &walled);
+    sl_free(context, shut);
+    if (status == SL_OK) status = sl_see_sweep(context, &walled, options, out);
+    sl_space_destroy(context, &walled);
+    return status;
+}
+
+static sl_status narrow(sl_context *context, const sl_space *space, double range, sl_apart most,
+                        sl_visibility *visibility) {
+    sl_pvs within;
+    SL_TRY(sl_pvs_within(context, space, &visibility->pvs, range, most, &within));
+    sl_pvs_destroy(context, &visibility->pvs);
+    visibility->pvs = within;
+    return SL_OK;
+}
+
+static sl_status settle(sl_context *context, const sl_space *space, const sl_see_options *options,
+                        sl_visibility *open, sl_visibility *shut, sl_visibility *out) {
+    const sl_plan *plan = options->plan;
+    sl_plan ways = *plan;
+    ways.effects &= SL_EFFECT_ONEWAY;
+    ways.range = 0;
+    sl_see_options swept = *options, searched = *options;
+    swept.plan = &ways;
+    searched.solver = sl_funnel();
+    const size_t doors = plan->effects & SL_EFFECT_DOOR ? plan->map->door_count : 0;
+    SL_TRY(sl_see_sweep(context, space, &swept, open));
+    SL_TRY(see_shut(context, space, &swept, doors, shut));
+    if (plan->range > 0) {
+        SL_TRY(narrow(context, space, plan->range, SL_SOME_WITHIN, open));
+        SL_TRY(narrow(context, space, plan->range, SL_ALL_WITHIN, shut));
+    }
+    const sl_dfs_known known = {.possible = &open->pvs, .certain = &shut->pvs};
+    SL_TRY(sl_dfs_see_rest(context, space, &searched, &known, out));
+    out->account.glass_tests += open->account.glass_tests + shut->account.glass_tests;
+    out->account.pieces = open->account.pieces + shut->account.pieces;
+    return SL_OK;
+}
+
+sl_status sl_see_sweep_settled(sl_context *context, const sl_space *space,
+                               const sl_see_options *options, sl_visibility *out) {
+    sl_visibility open = {0}, shut = {0};
+    const sl_status status = settle(context, space, options, &open, &shut, out);
+    sl_visibility_destroy(context, &open);
+    sl_visibility_destroy(context, &shut);
+    return status;
+}
