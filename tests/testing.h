@@ -64,6 +64,31 @@ static inline uint64_t testing_seeds(uint64_t usual) {
 #endif
 }
 
+/// A method of cell-to-cell visibility by its name.
+static inline const sl_see_method *testing_method(const char *name) {
+    size_t count;
+    const sl_see_method *methods = sl_see_methods(&count);
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(methods[i].name, name) == 0) return &methods[i];
+    fail_msg("no method '%s'", name);
+    return NULL;
+}
+
+/// Whether visible sets are the same to the byte.
+static inline bool testing_same_rows(const sl_pvs *a, const sl_pvs *b) {
+    if (a->cell_count != b->cell_count) return false;
+    if (!a->cell_count) return true;
+    const size_t offsets = ((size_t)a->cell_count + 1) * sizeof *a->offsets;
+    return memcmp(a->offsets, b->offsets, offsets) == 0 &&
+           memcmp(a->bytes, b->bytes, a->offsets[a->cell_count]) == 0;
+}
+
+/// Cleans a map and cuts it as it calls for.
+static inline void testing_subdivide(sl_context *context, sl_map *map, sl_space *space) {
+    assert_ok(context, sl_map_clean(context, map, NULL));
+    assert_ok(context, sl_subdivision_for(map)->subdivide(context, map, NULL, space));
+}
+
 /// A cleaned map and its space, from map text without its first line.
 static inline void testing_space(sl_context *context, const char *statements, sl_map *map,
                                  sl_space *space) {
@@ -73,9 +98,7 @@ static inline void testing_space(sl_context *context, const char *statements, sl
     snprintf(text, length, "sightline 1\n%s", statements);
     assert_ok(context, sl_map_read_text(context, "test", text, strlen(text), map));
     free(text);
-    assert_ok(context, sl_map_clean(context, map, NULL));
-    const sl_subdivide_options options = sl_subdivide_options_default();
-    assert_ok(context, sl_subdivide_kd(context, map, &options, space));
+    testing_subdivide(context, map, space);
 }
 
 #endif

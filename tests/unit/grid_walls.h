@@ -67,18 +67,11 @@ static inline bool is_free(const drawn *d, place p, place q) {
 
 static inline void see(sl_context *context, const sl_space *space, const char *name, sl_sight sight,
                        sl_visibility *out) {
-    size_t count;
-    const sl_see_method *methods = sl_see_methods(&count);
+    const sl_see_method *method = testing_method(name);
     sl_see_options options = sl_see_options_default();
     options.sight = sight;
-    options.solver = sl_funnel();
-    for (size_t i = 0; i < count; i++) {
-        if (strcmp(methods[i].name, name) != 0) continue;
-        if (!methods[i].stabs) options.solver = NULL;
-        assert_ok(context, methods[i].see(context, space, &options, out));
-        return;
-    }
-    fail_msg("there is no method %s", name);
+    options.solver = method->stabs ? sl_funnel() : NULL;
+    assert_ok(context, method->see(context, space, &options, out));
 }
 
 /// Gives the number of free sightlines that were checked.

@@ -2,15 +2,11 @@
 #ifndef SL_RUNTIME_MAPS_H
 #define SL_RUNTIME_MAPS_H
 
-#include "testing.h"
+#include "map_files.h"
 
 #include "bake/slv.h"
 #include "runtime/sightline_runtime.h"
-#include "sightline/import.h"
 #include "sightline/solvers.h"
-
-#include <glob.h>
-#include <unistd.h>
 
 typedef struct baked_file {
     const char *name;
@@ -28,9 +24,7 @@ static inline void baked_file_open(baked_file *f) {
 /// The map of `f->baked` cut, seen, printed, opened.
 static inline void baked_file_make(sl_context *context, baked_file *f, bool inside_only) {
     sl_baked *b = &f->baked;
-    const sl_subdivide_options rules = sl_subdivide_options_default();
-    assert_ok(context, sl_map_clean(context, &b->map, NULL));
-    assert_ok(context, sl_subdivide_kd(context, &b->map, &rules, &b->space));
+    testing_subdivide(context, &b->map, &b->space);
     sl_see_options options = sl_see_options_default();
     options.solver = sl_funnel();
     options.inside_only = inside_only;
@@ -52,10 +46,9 @@ static inline baked_file baked_file_of_text(sl_context *context, const char *sta
     return f;
 }
 
-static inline baked_file baked_file_of(sl_context *context, const char *path,
-                                       const sl_import_options *options) {
+static inline baked_file baked_file_of(sl_context *context, const char *path) {
     baked_file f = {.name = path, .baked = {.method = "dfs", .solver = "funnel"}};
-    assert_ok(context, sl_map_read(context, path, options, &f.baked.map));
+    map_files_read(context, path, &f.baked.map);
     baked_file_make(context, &f, false);
     return f;
 }
@@ -65,32 +58,16 @@ static inline void baked_file_destroy(sl_context *context, baked_file *f) {
     free(f->bytes);
 }
 
-/// Does something with every map of the project, the hard ones too, and with a floor of Soda Hall
-/// where its model lies beside the project.
+/// Does something with every map file there is.
 static inline void baked_file_each(void (*visit)(const baked_file *)) {
-    static const char *const patterns[] = {"/maps/*.map", "/maps/*.txt", "/tests/cases/*.map"};
     sl_context *context = testing_context(NULL);
-    glob_t found;
-    for (size_t i = 0; i < sizeof patterns / sizeof *patterns; i++) {
-        char pattern[1024];
-        snprintf(pattern, sizeof pattern, "%s%s", SIGHTLINE_SOURCE_DIR, patterns[i]);
-        assert_int_equal(glob(pattern, i ? GLOB_APPEND : 0, NULL, &found), 0);
-    }
+    glob_t found = map_files_find(MAP_FILES_ALL);
     for (size_t i = 0; i < found.gl_pathc; i++) {
-        baked_file f = baked_file_of(context, found.gl_pathv[i], NULL);
+        baked_file f = baked_file_of(context, found.gl_pathv[i]);
         visit(&f);
         baked_file_destroy(context, &f);
     }
     globfree(&found);
-    const char *const soda = SIGHTLINE_SOURCE_DIR "/../shared/data/soda-hall-floor5.ug";
-    if (access(soda, R_OK) == 0) {
-        sl_import_options options = sl_import_options_default();
-        options.has_slice = true;
-        options.slice = 1040;
-        baked_file f = baked_file_of(context, soda, &options);
-        visit(&f);
-        baked_file_destroy(context, &f);
-    }
     sl_context_destroy(context);
 }
 

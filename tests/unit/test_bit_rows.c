@@ -132,15 +132,6 @@ static void large_rows_are_sparse(void **state) {
 
 static const char *const methods_with_rows[] = {"sweep", "flood", "sampling"};
 
-static const sl_see_method *method_of(const char *name) {
-    size_t count;
-    const sl_see_method *methods = sl_see_methods(&count);
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(methods[i].name, name) == 0) return &methods[i];
-    fail_msg("no method '%s'", name);
-    return NULL;
-}
-
 static void generate_space(sl_context *context, uint64_t walls, sl_space *space) {
     size_t count;
     const sl_map_kind *kinds = sl_map_kinds(&count);
@@ -149,10 +140,8 @@ static void generate_space(sl_context *context, uint64_t walls, sl_space *space)
     for (size_t i = 0; i < count; i++) {
         if (strcmp(kinds[i].name, "city") != 0) continue;
         sl_map map = {0};
-        const sl_subdivide_options rules = sl_subdivide_options_default();
         assert_ok(context, sl_generate(context, &kinds[i], &options, &map));
-        assert_ok(context, sl_map_clean(context, &map, NULL));
-        assert_ok(context, sl_subdivide_kd(context, &map, &rules, space));
+        testing_subdivide(context, &map, space);
         sl_map_destroy(context, &map);
         return;
     }
@@ -169,7 +158,7 @@ static void sparse_rows_give_the_same_bytes(void **state) {
         sl_visibility dense, sparse;
         options.rows = SL_ROWS_DENSE;
         options.threads = 1;
-        const sl_see_method *method = method_of(methods_with_rows[m]);
+        const sl_see_method *method = testing_method(methods_with_rows[m]);
         assert_ok(context, method->see(context, &space, &options, &dense));
         options.rows = SL_ROWS_SPARSE;
         for (options.threads = 1; options.threads <= 4; options.threads += 3) {
@@ -200,7 +189,7 @@ static void the_limit_is_kept_and_told(void **state) {
         options.rows = SL_ROWS_SPARSE;
         options.threads = 1; // the allocator that counts is one thread's
         options.row_bytes = 20000;
-        const sl_see_method *method = method_of(methods_with_rows[m]);
+        const sl_see_method *method = testing_method(methods_with_rows[m]);
         assert_int_equal(method->see(context, &space, &options, &seen), SL_NO_MEMORY);
         assert_non_null(strstr(sl_context_message(context), "allow more memory"));
         assert_int_equal(memory.live, live);
@@ -228,7 +217,7 @@ static void lack_of_memory_leaves_nothing(void **state) {
             options.rows = SL_ROWS_SPARSE;
             memory.calls = 0;
             memory.fail_at = fail_at;
-            status = method_of(methods_with_rows[m])->see(context, &space, &options, &seen);
+            status = testing_method(methods_with_rows[m])->see(context, &space, &options, &seen);
             memory.fail_at = 0;
             sl_visibility_destroy(context, &seen);
             assert_int_equal(memory.live, live);

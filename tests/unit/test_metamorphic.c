@@ -98,14 +98,6 @@ static void on_each_map(on_map *test) {
     sl_context_destroy(context);
 }
 
-static bool same_rows(const sl_pvs *a, const sl_pvs *b) {
-    if (a->cell_count != b->cell_count) return false;
-    if (!a->cell_count) return true;
-    const size_t offsets = ((size_t)a->cell_count + 1) * sizeof *a->offsets;
-    return memcmp(a->offsets, b->offsets, offsets) == 0 &&
-           memcmp(a->bytes, b->bytes, a->offsets[a->cell_count]) == 0;
-}
-
 static bool same_trees(const sl_stab_trees *a, const sl_stab_trees *b) {
     if (a->cell_count != b->cell_count) return false;
     if (!a->cell_count) return true;
@@ -157,7 +149,7 @@ static void compare_changed(sl_context *context, const char *name, const sl_spac
     for (int sight = SL_CLOSED; sight <= SL_OPEN; sight++) {
         sl_visibility before = see(context, space, method, (sl_sight)sight);
         sl_visibility after = see(context, changed, method, (sl_sight)sight);
-        if (!same_rows(&before.pvs, &after.pvs) ||
+        if (!testing_same_rows(&before.pvs, &after.pvs) ||
             before.trees.cell_count != after.trees.cell_count ||
             (same_order && !same_trees(&before.trees, &after.trees)))
             fail_msg("%s: %s makes %s see other cells", name, what, method->name);

@@ -1,6 +1,6 @@
 // The multipass method against the search and the sweep, for any number of sectors and threads; the
 // sectors and their orders themselves; and lines of a sector alone, by each solver that tells them.
-#include "testing.h"
+#include "map_files.h"
 
 #include "base/random.h"
 #include "cell_to_cell/pass.h"
@@ -8,30 +8,17 @@
 #include "oracle/random_map.h"
 #include "sightline/glpk.h"
 
-#include <glob.h>
 #include <math.h>
 
 enum { RANDOM_MAPS = 200, RANDOM_SPACES = 400, RANDOM_SEQUENCES = 6000, SEQUENCE_MOST = 5 };
 
 static sl_visibility see(sl_context *context, const sl_space *space, const char *name,
                          sl_see_options options) {
-    size_t count;
-    const sl_see_method *methods = sl_see_methods(&count);
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(methods[i].name, name) == 0) {
-            if (!options.solver) options.solver = methods[i].stabs ? sl_funnel() : NULL;
-            sl_visibility seen;
-            assert_ok(context, methods[i].see(context, space, &options, &seen));
-            return seen;
-        }
-    fail_msg("no method '%s'", name);
-    return (sl_visibility){0};
-}
-
-static bool same_rows(const sl_pvs *a, const sl_pvs *b) {
-    const size_t offsets = ((size_t)a->cell_count + 1) * sizeof *a->offsets;
-    return a->cell_count == b->cell_count && memcmp(a->offsets, b->offsets, offsets) == 0 &&
-           memcmp(a->bytes, b->bytes, a->offsets[a->cell_count]) == 0;
+    const sl_see_method *method = testing_method(name);
+    if (!options.solver) options.solver = method->stabs ? sl_funnel() : NULL;
+    sl_visibility seen;
+    assert_ok(context, method->see(context, space, &options, &seen));
+    return seen;
 }
 
 /// Multipass with several numbers of sectors and threads sees what another method does.
@@ -49,7 +36,7 @@ static void compare(sl_context *context, const char *name, const sl_space *space
                 options.sectors = sectors[i];
                 options.threads = (unsigned)(1 + i % 2);
                 sl_visibility seen = see(context, space, "multipass", options);
-                if (!same_rows(&seen.pvs, &expected.pvs))
+                if (!testing_same_rows(&seen.pvs, &expected.pvs))
                     fail_msg("%s, %s sight, %u sectors: other pairs than by '%s'", name,
                              sight == SL_CLOSED ? "closed" : "open", sectors[i], other);
                 assert_int_equal(seen.account.pairs, expected.account.pairs);
@@ -65,13 +52,7 @@ static void check_file(const char *path) {
     sl_context *context = testing_context(NULL);
     sl_map map = {0};
     sl_space space;
-    sl_import_options options = sl_import_options_default();
-    options.has_slice = strstr(path, ".ug") != NULL;
-    options.slice = 1040;
-    const sl_subdivide_options rules = sl_subdivide_options_default();
-    assert_ok(context, sl_map_read(context, path, &options, &map));
-    assert_ok(context, sl_map_clean(context, &map, NULL));
-    assert_ok(context, sl_subdivision_for(&map)->subdivide(context, &map, &rules, &space));
+    map_files_cut(context, path, &map, &space);
     compare(context, path, &space, "dfs");
     sl_map_destroy(context, &map);
     sl_space_destroy(context, &space);
@@ -80,19 +61,7 @@ static void check_file(const char *path) {
 
 static void maps_are_seen_as_by_the_search(void **state) {
     (void)state;
-    const char *patterns[] = {"/maps/*.map", "/maps/*.txt", "/maps/oblique/*.map",
-                              "/tests/cases/*.map", "/../shared/data/soda-hall-floor5.ug"};
-    for (size_t i = 0; i < sizeof patterns / sizeof *patterns; i++) {
-        char pattern[4096];
-        glob_t found;
-        snprintf(pattern, sizeof pattern, "%s%s", SIGHTLINE_SOURCE_DIR, patterns[i]);
-        if (glob(pattern, 0, NULL, &found) != 0) {
-            print_message("skipped: %s is not there\n", pattern);
-            continue;
-        }
-        for (size_t k = 0; k < found.gl_pathc; k++) check_file(found.gl_pathv[k]);
-        globfree(&found);
-    }
+    map_files_each(MAP_FILES_ALL, check_file);
 }
 
 static void random_maps_are_seen_as_by_the_search(void **state) {
@@ -104,9 +73,7 @@ static void random_maps_are_seen_as_by_the_search(void **state) {
         char name[32];
         snprintf(name, sizeof name, "seed %d", (int)seed);
         assert_ok(context, oracle_random_map(context, 8800 + seed, (oracle_grid)(seed % 3), &map));
-        assert_ok(context, sl_map_clean(context, &map, NULL));
-        const sl_subdivide_options rules = sl_subdivide_options_default();
-        assert_ok(context, sl_subdivide_kd(context, &map, &rules, &space));
+        testing_subdivide(context, &map, &space);
         compare(context, name, &space, "dfs");
         sl_map_destroy(context, &map);
         sl_space_destroy(context, &space);
@@ -335,10 +302,7 @@ static void solvers_are_exchangeable(void **state) {
                                   sl_glpk_simplex()};
     sl_map map = {0};
     sl_space space;
-    const sl_subdivide_options rules = sl_subdivide_options_default();
-    assert_ok(context, sl_map_read(context, SIGHTLINE_SOURCE_DIR "/maps/grazing.map", NULL, &map));
-    assert_ok(context, sl_map_clean(context, &map, NULL));
-    assert_ok(context, sl_subdivide_kd(context, &map, &rules, &space));
+    map_files_cut(context, SIGHTLINE_SOURCE_DIR "/maps/grazing.map", &map, &space);
     for (int sight = SL_CLOSED; sight <= SL_OPEN; sight++) {
         sl_see_options options = sl_see_options_default();
         options.sight = (sl_sight)sight;
@@ -347,7 +311,7 @@ static void solvers_are_exchangeable(void **state) {
             options.solver = solvers[s];
             sl_visibility seen = see(context, &space, "multipass", options);
             const bool exact = solvers[s]->guarantee == SL_EXACT;
-            if (exact) assert_true(same_rows(&seen.pvs, &expected.pvs));
+            if (exact) assert_true(testing_same_rows(&seen.pvs, &expected.pvs));
             assert_int_equal(seen.guarantee, solvers[s]->guarantee);
             for (uint32_t a = 0; a < space.cell_count && !exact; a++)
                 for (uint32_t b = 0; b < space.cell_count; b++)

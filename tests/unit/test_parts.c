@@ -13,15 +13,6 @@ enum { RANDOM_MAPS = 80, EDITS = 12, GRID = 12 }; // every other map is oblique
 static const char *const names[] = {"sweep", "dfs", "prune"};
 enum { NAMES = sizeof names / sizeof *names };
 
-static const sl_see_method *method_of(const char *name) {
-    size_t count;
-    const sl_see_method *methods = sl_see_methods(&count);
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(methods[i].name, name) == 0) return &methods[i];
-    fail_msg("no method '%s'", name);
-    return NULL;
-}
-
 static sl_see_options options_for(const sl_see_method *method, sl_sight sight, bool inside_only,
                                   unsigned threads) {
     sl_see_options options = sl_see_options_default();
@@ -32,14 +23,8 @@ static sl_see_options options_for(const sl_see_method *method, sl_sight sight, b
     return options;
 }
 
-static bool same_rows(const sl_pvs *a, const sl_pvs *b) {
-    const size_t offsets = ((size_t)a->cell_count + 1) * sizeof *a->offsets;
-    return a->cell_count == b->cell_count && memcmp(a->offsets, b->offsets, offsets) == 0 &&
-           memcmp(a->bytes, b->bytes, a->offsets[a->cell_count]) == 0;
-}
-
 static void assert_same(const sl_visibility *a, const sl_visibility *b) {
-    assert_true(same_rows(&a->pvs, &b->pvs));
+    assert_true(testing_same_rows(&a->pvs, &b->pvs));
     assert_int_equal(a->account.pairs, b->account.pairs);
     assert_int_equal(a->sight, b->sight);
     assert_int_equal(a->guarantee, b->guarantee);
@@ -192,7 +177,7 @@ static int check_space(sl_context *context, const sl_space *space, sl_random *ra
     for (size_t m = 0; m < NAMES; m++)
         for (int sight = SL_CLOSED; sight <= SL_OPEN; sight++)
             for (unsigned threads = 1; threads <= 2; threads++) {
-                const sl_see_method *method = method_of(names[m]);
+                const sl_see_method *method = testing_method(names[m]);
                 const bool inside = sl_random_below(random, 3) == 0;
                 sl_see_options options = options_for(method, (sl_sight)sight, inside, threads);
                 options.rows = sl_random_below(random, 2) ? SL_ROWS_SPARSE : SL_ROWS_DENSE;
@@ -237,7 +222,7 @@ static void decided_pairs_are_told_from_others(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
     place p = generated(context, "tunnels", 1000, 0);
-    const sl_see_method *method = method_of("sweep"), *flood = method_of("flood");
+    const sl_see_method *method = testing_method("sweep"), *flood = testing_method("flood");
     sl_see_options options = options_for(method, SL_CLOSED, false, 1);
     sl_visibility plain, bound, half;
     assert_ok(context, method->see(context, &p.space, &options, &plain));
@@ -295,7 +280,7 @@ static uint32_t check_edit(sl_context *context, const place *before, const place
     uint32_t kept = 0;
     for (size_t m = 0; m < NAMES; m++)
         for (int sight = SL_CLOSED; sight <= SL_OPEN; sight++) {
-            const sl_see_method *method = method_of(names[m]);
+            const sl_see_method *method = testing_method(names[m]);
             const bool inside = sl_random_below(random, 4) == 0;
             const unsigned threads = 1 + (unsigned)sl_random_below(random, 2);
             const sl_see_options options = options_for(method, (sl_sight)sight, inside, threads);
@@ -363,7 +348,7 @@ static void other_questions_take_nothing_over(void **state) {
     place p = {0};
     testing_space(context, "walls 0 0 8 0 8 8 0 8 0 0\nwalls 2 2 4 2 4 4 2 4 2 2\nstart 1 1 0\n",
                   &p.map, &p.space);
-    const sl_see_method *sweep = method_of("sweep"), *flood = method_of("flood");
+    const sl_see_method *sweep = testing_method("sweep"), *flood = testing_method("flood");
     const sl_see_options closed = options_for(sweep, SL_CLOSED, false, 1);
     const sl_see_options open = options_for(sweep, SL_OPEN, false, 1);
     const sl_see_options inside = options_for(sweep, SL_CLOSED, true, 1);
@@ -406,7 +391,7 @@ static void what_does_not_belong_together_is_refused(void **state) {
     sl_context *context = testing_context(NULL);
     place p = generated(context, "office", 100, 0), q = generated(context, "office", 200, 0);
     for (size_t m = 0; m < NAMES; m++) {
-        const sl_see_method *method = method_of(names[m]);
+        const sl_see_method *method = testing_method(names[m]);
         sl_see_options options = options_for(method, SL_CLOSED, false, 1);
         sl_findings one = {0}, other = {0};
         options.shard = 3, options.shard_count = 2;
@@ -455,7 +440,7 @@ static void lack_of_memory_is_told_and_leaves_nothing(void **state) {
     for (size_t m = 0; m < NAMES; m++) {
         testing_memory memory = {0};
         sl_context *context = testing_context(&memory);
-        const sl_see_method *method = method_of(names[m]);
+        const sl_see_method *method = testing_method(names[m]);
         sl_random random = {8};
         place p = random_map(context, 5, false), q = edited(context, &p, false, &random);
         const long live = memory.live;

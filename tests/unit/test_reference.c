@@ -1,27 +1,12 @@
 // The exact solvers against the rational reference on real maps: every map of maps/, and the fifth
 // floor of Soda Hall where its model lies beside the project.
-#include "testing.h"
+#include "map_files.h"
 
 #include "oracle/oracle.h"
 #include "solver_table.h"
 
-#include <glob.h>
-#include <unistd.h>
-
 /// Portals that the reference may push for one map.
 enum { PUSH_LIMIT = 10000000 };
-
-static void read_space(sl_context *context, const char *path, sl_space *space) {
-    sl_map map = {0};
-    sl_import_options options = sl_import_options_default();
-    options.has_slice = strcmp(path + strlen(path) - 3, ".ug") == 0;
-    options.slice = 1040;
-    assert_ok(context, sl_map_read(context, path, &options, &map));
-    assert_ok(context, sl_map_clean(context, &map, NULL));
-    const sl_subdivide_options rules = sl_subdivide_options_default();
-    assert_ok(context, sl_subdivide_kd(context, &map, &rules, space));
-    sl_map_destroy(context, &map);
-}
 
 static void check_solver(sl_context *context, const char *path, const sl_space *space,
                          const sl_solver *solver, sl_sight sight, const bool *sees) {
@@ -30,7 +15,12 @@ static void check_solver(sl_context *context, const char *path, const sl_space *
     sl_see_options options = sl_see_options_default();
     options.solver = solver;
     options.sight = sight;
-    assert_ok(context, sl_see_methods(&methods)->see(context, space, &options, &visibility));
+    const sl_status status = sl_see_methods(&methods)->see(context, space, &options, &visibility);
+    if (status == SL_UNSUPPORTED && solver != sl_funnel()) {
+        print_message("refused: %s\n", sl_context_message(context));
+        return;
+    }
+    assert_ok(context, status);
     for (uint32_t a = 0; a < space->cell_count; a++)
         for (uint32_t b = 0; b < space->cell_count; b++)
             if (sl_pvs_sees(&visibility.pvs, a, b) != sees[(size_t)a * space->cell_count + b])
@@ -41,8 +31,9 @@ static void check_solver(sl_context *context, const char *path, const sl_space *
 
 static void check_map(const char *path) {
     sl_context *context = testing_context(NULL);
+    sl_map map = {0};
     sl_space space;
-    read_space(context, path, &space);
+    map_files_cut(context, path, &map, &space);
     const size_t pairs = (size_t)space.cell_count * space.cell_count;
     bool *closed = calloc(pairs, sizeof *closed), *open = calloc(pairs, sizeof *open);
     assert_true(closed && open);
@@ -55,29 +46,18 @@ static void check_map(const char *path) {
     free(closed);
     free(open);
     sl_space_destroy(context, &space);
+    sl_map_destroy(context, &map);
     sl_context_destroy(context);
 }
 
 static void own_maps_are_seen_as_the_reference_sees_them(void **state) {
     (void)state;
-    const char *patterns[] = {SIGHTLINE_SOURCE_DIR "/maps/*.map",
-                              SIGHTLINE_SOURCE_DIR "/maps/*.txt"};
-    for (int i = 0; i < 2; i++) {
-        glob_t found;
-        assert_int_equal(glob(patterns[i], 0, NULL, &found), 0);
-        for (size_t k = 0; k < found.gl_pathc; k++) check_map(found.gl_pathv[k]);
-        globfree(&found);
-    }
+    map_files_each(MAP_FILES_OWN, check_map);
 }
 
 static void soda_hall_is_seen_as_the_reference_sees_it(void **state) {
     (void)state;
-    const char *path = SIGHTLINE_SOURCE_DIR "/../shared/data/soda-hall-floor5.ug";
-    if (access(path, R_OK) != 0) {
-        print_message("skipped: %s is not there\n", path);
-        skip();
-    }
-    check_map(path);
+    map_files_each(MAP_FILES_SODA_HALL, check_map);
 }
 
 int main(void) {

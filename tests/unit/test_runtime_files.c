@@ -217,7 +217,7 @@ static void make_tangle(baked_file *f) {
 static void a_search_without_end_is_given_up(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
-    baked_file f = baked_file_of(context, SIGHTLINE_SOURCE_DIR "/maps/pillars.map", NULL);
+    baked_file f = baked_file_of(context, SIGHTLINE_SOURCE_DIR "/maps/pillars.map");
     make_tangle(&f);
     const uint32_t n = f.runtime.cell_count;
     uint32_t *scratch = malloc(sl_runtime_scratch_count(&f.runtime) * sizeof *scratch);
@@ -284,7 +284,7 @@ static void lines_split_as_coordinates_do(void **state) {
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         char path[1024];
         snprintf(path, sizeof path, "%s/%s", SIGHTLINE_SOURCE_DIR, names[k]);
-        baked_file f = baked_file_of(context, path, NULL);
+        baked_file f = baked_file_of(context, path);
         size_t size;
         char *bytes = with_lines(&f, 0, &size);
         sl_runtime oblique;

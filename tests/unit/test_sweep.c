@@ -1,29 +1,19 @@
 // The sweep against other ways to the same answer: the depth-first search with the funnel on every
 // map, the rational oracle on random spaces with oblique walls; and what it promises beside.
-#include "testing.h"
+#include "map_files.h"
 
 #include "base/random.h"
 #include "oracle/convex_space.h"
 #include "oracle/oracle.h"
 #include "oracle/random_map.h"
 
-#include <glob.h>
-#include <unistd.h>
+static const char OFFICE[] = SIGHTLINE_SOURCE_DIR "/maps/office.map";
 
 enum { RANDOM_MAPS = 400, RANDOM_SPACES = 1500, PUSH_LIMIT = 30000 };
 
-static const sl_see_method *method_of(const char *name) {
-    size_t count;
-    const sl_see_method *methods = sl_see_methods(&count);
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(methods[i].name, name) == 0) return &methods[i];
-    fail_msg("no method '%s'", name);
-    return NULL;
-}
-
 static sl_visibility see(sl_context *context, const sl_space *space, const char *name,
                          sl_sight sight, unsigned threads, bool inside_only) {
-    const sl_see_method *method = method_of(name);
+    const sl_see_method *method = testing_method(name);
     sl_see_options options = sl_see_options_default();
     options.sight = sight;
     options.threads = threads;
@@ -34,18 +24,12 @@ static sl_visibility see(sl_context *context, const sl_space *space, const char 
     return seen;
 }
 
-static bool same_rows(const sl_pvs *a, const sl_pvs *b) {
-    const size_t offsets = ((size_t)a->cell_count + 1) * sizeof *a->offsets;
-    return a->cell_count == b->cell_count && memcmp(a->offsets, b->offsets, offsets) == 0 &&
-           memcmp(a->bytes, b->bytes, a->offsets[a->cell_count]) == 0;
-}
-
 static void compare_to_search(sl_context *context, const char *name, const sl_space *space) {
     for (int sight = SL_CLOSED; sight <= SL_OPEN; sight++)
         for (int inside = 0; inside < 2; inside++) {
             sl_visibility dfs = see(context, space, "dfs", (sl_sight)sight, 1, inside);
             sl_visibility sweep = see(context, space, "sweep", (sl_sight)sight, 1, inside);
-            if (!same_rows(&dfs.pvs, &sweep.pvs))
+            if (!testing_same_rows(&dfs.pvs, &sweep.pvs))
                 fail_msg("%s, %s sight: the sweep sees other pairs than the search", name,
                          sight == SL_CLOSED ? "closed" : "open");
             assert_int_equal(dfs.account.pairs, sweep.account.pairs);
@@ -59,13 +43,7 @@ static void check_file(const char *path) {
     sl_context *context = testing_context(NULL);
     sl_map map = {0};
     sl_space space;
-    sl_import_options options = sl_import_options_default();
-    options.has_slice = strstr(path, ".ug") != NULL;
-    options.slice = 1040;
-    const sl_subdivide_options rules = sl_subdivide_options_default();
-    assert_ok(context, sl_map_read(context, path, &options, &map));
-    assert_ok(context, sl_map_clean(context, &map, NULL));
-    assert_ok(context, sl_subdivide_kd(context, &map, &rules, &space));
+    map_files_cut(context, path, &map, &space);
     compare_to_search(context, path, &space);
     sl_map_destroy(context, &map);
     sl_space_destroy(context, &space);
@@ -74,19 +52,7 @@ static void check_file(const char *path) {
 
 static void maps_are_seen_as_by_the_search(void **state) {
     (void)state;
-    const char *patterns[] = {"/maps/*.map", "/maps/*.txt", "/tests/cases/*.map",
-                              "/../shared/data/soda-hall-floor5.ug"};
-    for (size_t i = 0; i < sizeof patterns / sizeof *patterns; i++) {
-        char pattern[4096];
-        glob_t found;
-        snprintf(pattern, sizeof pattern, "%s%s", SIGHTLINE_SOURCE_DIR, patterns[i]);
-        if (glob(pattern, 0, NULL, &found) != 0) {
-            print_message("skipped: %s is not there\n", pattern);
-            continue;
-        }
-        for (size_t k = 0; k < found.gl_pathc; k++) check_file(found.gl_pathv[k]);
-        globfree(&found);
-    }
+    map_files_each(MAP_FILES_ALL, check_file);
 }
 
 static void random_maps_are_seen_as_by_the_search(void **state) {
@@ -99,9 +65,7 @@ static void random_maps_are_seen_as_by_the_search(void **state) {
         char name[32];
         snprintf(name, sizeof name, "seed %d", (int)seed);
         assert_ok(context, oracle_random_map(context, 77777 + seed, (oracle_grid)(seed % 3), &map));
-        assert_ok(context, sl_map_clean(context, &map, NULL));
-        const sl_subdivide_options rules = sl_subdivide_options_default();
-        assert_ok(context, sl_subdivide_kd(context, &map, &rules, &space));
+        testing_subdivide(context, &map, &space);
         compare_to_search(context, name, &space);
         sl_map_destroy(context, &map);
         sl_space_destroy(context, &space);
@@ -175,25 +139,18 @@ static void oblique_spaces_are_seen_as_by_the_oracle(void **state) {
 
 // --- what is promised beside
 
-static void read_office(sl_context *context, sl_map *map, sl_space *space) {
-    const sl_subdivide_options rules = sl_subdivide_options_default();
-    assert_ok(context, sl_map_read(context, SIGHTLINE_SOURCE_DIR "/maps/office.map", NULL, map));
-    assert_ok(context, sl_map_clean(context, map, NULL));
-    assert_ok(context, sl_subdivide_kd(context, map, &rules, space));
-}
-
 static void threads_make_no_difference(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
     sl_map map = {0};
     sl_space space;
     const char *names[] = {"sweep", "prune", "multipass", "flood", "sampling"};
-    read_office(context, &map, &space);
+    map_files_cut(context, OFFICE, &map, &space);
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         sl_visibility one = see(context, &space, names[i], SL_CLOSED, 1, false);
         for (unsigned threads = 2; threads <= 7; threads += 5) {
             sl_visibility many = see(context, &space, names[i], SL_CLOSED, threads, false);
-            assert_true(same_rows(&one.pvs, &many.pvs));
+            assert_true(testing_same_rows(&one.pvs, &many.pvs));
             assert_int_equal(one.account.pairs, many.account.pairs);
             assert_int_equal(one.account.pieces, many.account.pieces);
             sl_visibility_destroy(context, &many);
@@ -213,7 +170,7 @@ static void lack_of_memory_is_told_and_leaves_nothing(void **state) {
     sl_space space;
     size_t count;
     const sl_see_method *methods = sl_see_methods(&count);
-    read_office(context, &map, &space);
+    map_files_cut(context, OFFICE, &map, &space);
     for (size_t m = 1; m < count; m++) {
         sl_see_options options = sl_see_options_default();
         options.threads = 1;
@@ -253,7 +210,7 @@ static void what_cannot_be_done_is_refused(void **state) {
     sl_space space;
     size_t count;
     const sl_see_method *methods = sl_see_methods(&count);
-    read_office(context, &map, &space);
+    map_files_cut(context, OFFICE, &map, &space);
     for (size_t m = 1; m < count; m++) {
         sl_visibility seen;
         sl_see_options options = sl_see_options_default();
