@@ -1,6 +1,7 @@
 #include "base/base.h"
 #include "commands.h"
 #include "doors_shut.h"
+#include "eye_objects.h"
 #include "eye_report.h"
 #include "eye_run.h"
 #include "inputs.h"
@@ -12,6 +13,7 @@
 typedef struct eye_texts {
     const char *input, *at, *look, *fov, *output, *width, *shut, *mirror_depth;
     bool json, dark;
+    sl_option_list objects;
 } eye_texts;
 
 static sl_status read_view(sl_context *context, const eye_texts *texts, const sl_space *space,
@@ -35,8 +37,21 @@ static sl_status read_view(sl_context *context, const eye_texts *texts, const sl
     return SL_OK;
 }
 
+/// What is to be drawn of the objects: the region past them, and themselves.
+static sl_status add_objects(sl_context *context, const sl_space *space,
+                             const sl_eye_objects *objects, sl_seen_parts *parts,
+                             sl_drawn_box *boxes, sl_draw_options *options) {
+    for (size_t i = 0; i < objects->count; i++)
+        boxes[i] =
+            (sl_drawn_box){objects->boxes[i].box, objects->boxes[i].blocks, objects->seen[i]};
+    options->boxes = boxes;
+    options->box_count = objects->count;
+    if (!objects->count) return SL_OK;
+    return sl_seen_parts_add_region(context, space, &objects->region, parts);
+}
+
 static sl_status draw(sl_context *context, const eye_texts *texts, const sl_baked *baked,
-                      const sl_eye_run *run) {
+                      const sl_eye_run *run, const sl_eye_objects *objects) {
     sl_draw_options options = sl_draw_options_default();
     sl_eye_layer layers[SL_EYE_LAYERS_MOST];
     size_t count;
@@ -45,13 +60,31 @@ static sl_status draw(sl_context *context, const eye_texts *texts, const sl_bake
     SL_TRY(sl_option_number(context, "--width", texts->width, &options.width));
     for (size_t i = 0; i < count; i++)
         layers[i] = (sl_eye_layer){methods[i].name, run->results[i].cells};
+    if (objects->count) layers[count++] = (sl_eye_layer){"past_objects", objects->cells};
     sl_seen_parts parts = {0};
-    sl_status status = sl_seen_parts_add(context, &baked->space, &run->mirrored, false, &parts);
+    sl_drawn_box *boxes = sl_alloc_array(context, objects->count, sizeof *boxes);
+    sl_status status = boxes ? SL_OK : SL_NO_MEMORY;
+    if (status == SL_OK)
+        status = sl_seen_parts_add(context, &baked->space, &run->mirrored, false, &parts);
+    if (status == SL_OK)
+        status = add_objects(context, &baked->space, objects, &parts, boxes, &options);
     if (status == SL_OK)
         status = sl_draw_eye(context, baked, &run->view, layers, count, parts.items, parts.count,
                              &options, texts->output);
     sl_seen_parts_destroy(context, &parts);
+    sl_free(context, boxes);
     return status;
+}
+
+static sl_status tell(sl_console *console, const eye_texts *texts, const sl_baked *baked,
+                      const sl_eye_run *run, const sl_eye_objects *objects) {
+    if (texts->output) SL_TRY(draw(console->context, texts, baked, run, objects));
+    sl_progress_line_clear(&console->line);
+    if (texts->json) return sl_eye_print_json(console->context, baked, run, objects);
+    if (console->quiet && texts->output) return SL_OK;
+    sl_eye_print(baked, run);
+    sl_eye_objects_print(objects);
+    return SL_OK;
 }
 
 static sl_status look(sl_console *console, const eye_texts *texts, const sl_baked *baked) {
@@ -63,12 +96,11 @@ static sl_status look(sl_console *console, const eye_texts *texts, const sl_bake
     uint64_t depth = 1;
     SL_TRY(sl_option_count(context, "--mirror-depth", texts->mirror_depth, 16, &depth));
     SL_TRY(sl_eye_run_make(context, baked, &view, (uint32_t)depth, !texts->json, &run));
-    sl_status status = texts->output ? draw(context, texts, baked, &run) : SL_OK;
-    sl_progress_line_clear(&console->line);
-    if (status == SL_OK && texts->json)
-        status = sl_eye_print_json(context, baked, &run);
-    else if (status == SL_OK && !(console->quiet && texts->output))
-        sl_eye_print(baked, &run);
+    sl_eye_objects objects = {0};
+    sl_status status = sl_eye_objects_read(context, &texts->objects, &baked->map, &objects);
+    if (status == SL_OK) status = sl_eye_objects_run(context, baked, &run, !texts->json, &objects);
+    if (status == SL_OK) status = tell(console, texts, baked, &run, &objects);
+    sl_eye_objects_destroy(context, &objects);
     sl_eye_run_destroy(context, &run);
     return status;
 }
@@ -91,6 +123,10 @@ sl_status sl_cmd_eye(sl_console *console, int argc, char **argv) {
          "says"},
         {"mirror-depth", 0, "N", NULL, &t.mirror_depth,
          "how often mirrors reflect a sightline, 0 to 16;\n1 without it"},
+        {"object", 0, "BOX", NULL, NULL,
+         "X0,Y0,X1,Y1 or the name of the map's object: something\nthat stands or moves where the "
+         "bake knows nothing of\nit: is it seen? With ',block' behind it, it blocks sight;\nmay "
+         "be given several times"},
         {"look", 0, "DEG", NULL, &t.look,
          "which way it looks, in degrees counter-clockwise\nfrom +x"},
         {"fov", 0, "DEG", NULL, &t.fov,
@@ -109,9 +145,12 @@ sl_status sl_cmd_eye(sl_console *console, int argc, char **argv) {
                 "share of\nthe area, and what it costs.",
         .tables = print_methods,
         .examples = "  sightline eye office.slv --at 53,20\n"
-                    "  sightline eye office.slv --at 53,20 --look 180 --fov 60 -o eye.png",
+                    "  sightline eye office.slv --at 53,20 --look 180 --fov 60 -o eye.png\n"
+                    "  sightline eye office.slv --at 53,20 --object 40,18,41,21,block -o eye.png",
         .options = options,
         .option_count = sizeof options / sizeof *options,
+        .repeats = "object",
+        .repeated = &t.objects,
     };
     bool helped;
     SL_TRY(sl_option_parse(console, &usage, argc, argv, &t.input, &helped));

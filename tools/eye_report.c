@@ -124,7 +124,8 @@ static sl_status add_mirrored(sl_context *context, sl_json_fields *fields, const
     return add_parts(context, fields, &run->mirrored);
 }
 
-sl_status sl_eye_print_json(sl_context *context, const sl_baked *baked, const sl_eye_run *run) {
+sl_status sl_eye_print_json(sl_context *context, const sl_baked *baked, const sl_eye_run *run,
+                            const sl_eye_objects *objects) {
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
     sl_json_fields fields = sl_json_begin(), sets = sl_json_begin();
@@ -135,5 +136,6 @@ sl_status sl_eye_print_json(sl_context *context, const sl_baked *baked, const sl
     sl_json_add_fields(&fields, "methods", &sets);
     add_region(&fields, &run->region);
     if (run->has_mirrors) SL_TRY(add_mirrored(context, &fields, baked, run));
+    sl_eye_objects_add_json(&fields, baked, objects);
     return sl_json_print(context, &fields);
 }

@@ -65,7 +65,7 @@ static double area_of_side(const sl_baked *baked, uint32_t cell) {
     return whole;
 }
 
-static void measure(const sl_baked *baked, uint32_t eye_cell, const uint64_t *cells,
+void sl_eye_measure(const sl_baked *baked, uint32_t eye_cell, const uint64_t *cells,
                     uint32_t *count, double *share) {
     const sl_space *space = &baked->space;
     const bool side = sl_baked_counts(baked, eye_cell);
@@ -91,7 +91,8 @@ static sl_status run_mirrored(sl_context *context, const sl_baked *baked,
     if (!result->mirrored) return SL_NO_MEMORY;
     SL_TRY(method->mirrored(context, search, &run->view, result->mirrored, &account));
     result->rounded = account.rounded;
-    measure(baked, run->cell, result->mirrored, &result->mirrored_count, &result->mirrored_share);
+    sl_eye_measure(baked, run->cell, result->mirrored, &result->mirrored_count,
+                   &result->mirrored_share);
     return SL_OK;
 }
 
@@ -110,7 +111,7 @@ static sl_status run_methods(sl_context *context, const sl_baked *baked, sl_eye_
                          .view = &run->view,
                          .result = result};
         SL_TRY(timed ? time_queries(&q, &result->seconds) : ask(&q));
-        measure(baked, run->cell, result->cells, &result->count, &result->share);
+        sl_eye_measure(baked, run->cell, result->cells, &result->count, &result->share);
         SL_TRY(run_mirrored(context, baked, &methods[i], search, run, result));
     }
     return SL_OK;

@@ -37,6 +37,10 @@ typedef struct sl_eye_run {
 /// A distance for sl_view_cone: as large as anything in the map.
 double sl_eye_reach(const sl_space *space);
 
+/// How many cells a set has, and their share as above; *count is added to.
+void sl_eye_measure(const sl_baked *baked, uint32_t eye_cell, const uint64_t *cells,
+                    uint32_t *count, double *share);
+
 /// The eye must be within the bounds. `timed`: queries are repeated until their time is known.
 /// `depth`: reflections, at most.
 sl_status sl_eye_run_make(sl_context *context, const sl_baked *baked, const sl_view *view,

@@ -28,6 +28,11 @@ sl_status sl_seen_parts_add(sl_context *context, const sl_space *space,
     return SL_OK;
 }
 
+sl_status sl_seen_parts_add_region(sl_context *context, const sl_space *space,
+                                   const sl_region *region, sl_seen_parts *parts) {
+    return add(context, space, region, region->view.eye, 0, parts);
+}
+
 void sl_seen_parts_destroy(sl_context *context, sl_seen_parts *parts) {
     for (size_t i = 0; i < parts->count; i++)
         sl_free(context, (void *)(uintptr_t)parts->items[i].points);

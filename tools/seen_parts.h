@@ -14,6 +14,9 @@ typedef struct sl_seen_parts {
 
 sl_status sl_seen_parts_add(sl_context *context, const sl_space *space,
                             const sl_mirrored_region *region, bool direct, sl_seen_parts *parts);
+/// Adds one region that is seen directly.
+sl_status sl_seen_parts_add_region(sl_context *context, const sl_space *space,
+                                   const sl_region *region, sl_seen_parts *parts);
 void sl_seen_parts_destroy(sl_context *context, sl_seen_parts *parts);
 
 #endif

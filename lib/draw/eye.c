@@ -1,5 +1,6 @@
 /// The page of what an eye sees: a heading, the plan with the cells that each method keeps, the eye
 /// and its cone over it, and a key with the methods' counts.
+#include "draw/boxes.h"
 #include "draw/marks.h"
 #include "draw/paper.h"
 #include "draw/plan.h"
@@ -158,7 +159,8 @@ static void draw_swatch(cairo_t *cairo, const eye_picture *p, size_t entry, doub
 /// "exact: 12 cells, 1.8 % of the area", the last entry for the eye.
 static void write_entry(const eye_picture *p, size_t entry, char text[KEY_TEXT]) {
     if (entry == p->layer_count) {
-        snprintf(text, KEY_TEXT, "the eye%s", p->view->full ? "" : " and its cone");
+        snprintf(text, KEY_TEXT, "the eye%s%s", p->view->full ? "" : " and its cone",
+                 p->scene.options.box_count ? "; pale: what it sees past objects" : "");
         return;
     }
     char name[64], cells[SL_COUNT_TEXT], share[SL_COUNT_TEXT];
@@ -226,6 +228,8 @@ static void set_page(cairo_t *cairo, const eye_picture *p, page *out, bool paint
     y = out->key + draw_key(cairo, p, out->margin, out->key, inner, out->text, paint);
     y += sl_draw_seen_key(cairo, palette, p->parts, p->part_count, (sl_point){out->margin, y},
                           inner, out->text, paint);
+    y += sl_draw_boxes_key(cairo, palette, p->scene.options.box_count, (sl_point){out->margin, y},
+                           out->text, paint);
     out->height = ceil(y + 0.5 * out->margin);
 }
 
@@ -248,8 +252,11 @@ static sl_status draw_page(sl_context *context, cairo_t *cairo, const eye_pictur
     cairo_paint(cairo);
     SL_TRY(sl_draw_onto(context, cairo, &p->scene, &at->frame));
     for (size_t i = 0; i < p->part_count; i++)
-        sl_draw_seen(cairo, &p->scene.palette, &at->frame, &p->parts[i]);
+        (p->scene.options.box_count ? sl_draw_lit : sl_draw_seen)(cairo, &p->scene.palette,
+                                                                  &at->frame, &p->parts[i]);
     if (p->part_count) SL_TRY(sl_draw_walls_onto(context, cairo, &p->scene, &at->frame));
+    sl_draw_boxes(cairo, &p->scene.palette, &at->frame, p->scene.options.boxes,
+                  p->scene.options.box_count);
     draw_cone(cairo, p, &at->frame);
     draw_eye_mark(cairo, p, &at->frame);
     set_page(cairo, p, at, true);

@@ -27,15 +27,23 @@ typedef enum sl_layer {
 #define SL_DRAW_WIDTH_MIN 64
 #define SL_DRAW_WIDTH_MAX 20000
 
+/// A box that moves.
+typedef struct sl_drawn_box {
+    sl_box box;
+    bool blocks, seen;
+} sl_drawn_box;
+
 /// Start from sl_draw_options_default().
 typedef struct sl_draw_options {
     unsigned layers; ///< of sl_layer, or-ed; usually all but the stab tree
     uint32_t cell;   ///< the chosen cell; usually SL_NO_CELL, for none
     double width; ///< of the picture, pixels (PDF: points), SL_DRAW_WIDTH_MIN to ..._MAX; usually
                   ///< 1200. Lines and text grow with it; the height follows the map
-    const char *title;       ///< UTF-8; NULL for none
-    bool dark;               ///< light lines on a dark page
-    const sl_faults *faults; ///< marked over all else; NULL for none
+    const char *title;         ///< UTF-8; NULL for none
+    bool dark;                 ///< light lines on a dark page
+    const sl_faults *faults;   ///< marked over all else; NULL for none
+    const sl_drawn_box *boxes; ///< for sl_draw_eye
+    size_t box_count;
 } sl_draw_options;
 
 SL_API sl_draw_options sl_draw_options_default(void);

@@ -1,0 +1,176 @@
+#include "eye_objects.h"
+
+#include "base/base.h"
+#include "base/bits.h"
+#include "base/number.h"
+#include "compare_report.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+// --- reading
+
+static sl_status refuse(sl_context *context, const char *text, const sl_map *map) {
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "--object %s: X0,Y0,X1,Y1 is needed, or the name of one of the map's %zu "
+                   "objects; with ',block' behind it, it blocks sight",
+                   text, map->object_count);
+}
+
+static bool read_box(const char *text, size_t length, sl_box *out) {
+    double values[4];
+    const char *at = text, *end = text + length;
+    for (int i = 0; i < 4; i++) {
+        const char *stop = i < 3 ? memchr(at, ',', (size_t)(end - at)) : end;
+        if (!stop || !sl_number_read(at, (size_t)(stop - at), &values[i]) || !isfinite(values[i]))
+            return false;
+        at = stop + 1;
+    }
+    *out = (sl_box){{fmin(values[0], values[2]), fmin(values[1], values[3])},
+                    {fmax(values[0], values[2]), fmax(values[1], values[3])}};
+    return true;
+}
+
+static bool find_box(const char *text, size_t length, const sl_map *map, sl_box *out) {
+    for (size_t i = 0; i < map->object_count; i++) {
+        const char *name = map->objects[i].name;
+        if (strlen(name) != length || memcmp(name, text, length) != 0) continue;
+        *out = map->objects[i].box;
+        return true;
+    }
+    return false;
+}
+
+static sl_status read_object(sl_context *context, const char *text, const sl_map *map,
+                             sl_moving_box *out) {
+    static const char block[] = ",block";
+    size_t length = strlen(text);
+    const size_t tail = sizeof block - 1;
+    out->blocks = length > tail && strcmp(text + length - tail, block) == 0;
+    if (out->blocks) length -= tail;
+    if (read_box(text, length, &out->box) || find_box(text, length, map, &out->box)) return SL_OK;
+    return refuse(context, text, map);
+}
+
+sl_status sl_eye_objects_read(sl_context *context, const sl_option_list *texts, const sl_map *map,
+                              sl_eye_objects *out) {
+    out->count = texts->count;
+    out->boxes = sl_alloc_array(context, texts->count, sizeof *out->boxes);
+    out->objects = sl_alloc_array(context, texts->count, sizeof *out->objects);
+    out->seen = sl_alloc_array(context, texts->count, sizeof *out->seen);
+    if (!out->boxes || !out->objects || !out->seen) return SL_NO_MEMORY;
+    for (size_t i = 0; i < texts->count; i++) {
+        out->objects[i].text = texts->items[i];
+        SL_TRY(read_object(context, texts->items[i], map, &out->boxes[i]));
+    }
+    return SL_OK;
+}
+
+void sl_eye_objects_destroy(sl_context *context, sl_eye_objects *objects) {
+    sl_free(context, objects->boxes);
+    sl_free(context, objects->objects);
+    sl_free(context, objects->seen);
+    sl_free(context, objects->cells);
+    sl_region_destroy(context, &objects->region);
+    *objects = (sl_eye_objects){0};
+}
+
+// --- looking
+
+static bool meet(const uint64_t *a, const uint64_t *b, size_t words) {
+    for (size_t i = 0; i < words; i++)
+        if (a[i] & b[i]) return true;
+    return false;
+}
+
+/// The loosest of the methods keeps the whole visible set, the last one what is seen.
+static sl_status find_cells(sl_context *context, const sl_baked *baked, const sl_eye_run *run,
+                            sl_eye_objects *o) {
+    const size_t words = sl_eye_words(&baked->space);
+    uint64_t *cells = sl_alloc_array(context, words, sizeof *cells);
+    if (!cells) return SL_NO_MEMORY;
+    for (size_t i = 0; i < o->count; i++) {
+        sl_cells_of_box(&baked->space, o->boxes[i].box, cells);
+        for (uint32_t c = 0; c < baked->space.cell_count; c++)
+            o->objects[i].cells += sl_eye_sees(cells, c);
+        o->objects[i].possible = meet(cells, run->results[0].cells, words);
+        o->objects[i].in_exact = meet(cells, run->results[run->result_count - 1].cells, words);
+    }
+    sl_free(context, cells);
+    return SL_OK;
+}
+
+static sl_status look(sl_context *context, const sl_baked *baked, const sl_eye_run *run,
+                      sl_moving *moving, bool timed, sl_eye_objects *o) {
+    const sl_outline *outline;
+    sl_eye_account account;
+    const double start = sl_now();
+    SL_TRY(sl_moving_place(context, moving, o->boxes, o->count));
+    SL_TRY(sl_moving_outline(context, moving, &outline));
+    if (timed) o->seconds = sl_now() - start;
+    SL_TRY(sl_moving_look(context, moving, &run->view, o->cells, o->seen, &account));
+    sl_eye_measure(baked, run->cell, o->cells, &o->cell_count, &o->share);
+    SL_TRY(sl_region_make(context, outline, &run->view, 0, &o->region));
+    const double direct = sl_region_area(&run->region);
+    o->region_share = direct > 0 ? run->region_share * sl_region_area(&o->region) / direct : 0;
+    return SL_OK;
+}
+
+sl_status sl_eye_objects_run(sl_context *context, const sl_baked *baked, const sl_eye_run *run,
+                             bool timed, sl_eye_objects *objects) {
+    sl_moving *moving;
+    if (!objects->count) return SL_OK;
+    if (run->has_mirrors)
+        return sl_fail(context, SL_UNSUPPORTED,
+                       "objects are not looked for in mirrors: bake the map --without mirror");
+    objects->cells = sl_alloc_array(context, sl_eye_words(&baked->space), sizeof *objects->cells);
+    if (!objects->cells) return SL_NO_MEMORY;
+    SL_TRY(find_cells(context, baked, run, objects));
+    SL_TRY(sl_moving_create(context, &baked->space, &baked->visibility, &moving));
+    const sl_status status = look(context, baked, run, moving, timed, objects);
+    sl_moving_destroy(context, moving);
+    return status;
+}
+
+// --- telling
+
+static const char *say(const sl_eye_objects *o, size_t i) {
+    if (o->seen[i]) return "seen";
+    if (!o->objects[i].possible) return "hidden: not in the visible set of the eye's cell";
+    return o->objects[i].in_exact ? "hidden, in a cell that is seen"
+                                  : "hidden: its cells are not seen from here";
+}
+
+void sl_eye_objects_print(const sl_eye_objects *objects) {
+    char seconds[SL_SECONDS_TEXT];
+    if (!objects->count) return;
+    printf("\nobjects, put in without a new bake");
+    if (objects->seconds > 0) {
+        sl_seconds_write(objects->seconds, "u", seconds);
+        printf(" in %s", seconds);
+    }
+    puts(":");
+    for (size_t i = 0; i < objects->count; i++)
+        printf("  %-24s in %" PRIu32 " cell%s; %s\n", objects->objects[i].text,
+               objects->objects[i].cells, objects->objects[i].cells == 1 ? "" : "s",
+               say(objects, i));
+    printf("past them %" PRIu32 " cells are seen, %.2f %%; visible area %.2f %%\n",
+           objects->cell_count, 100 * objects->share, 100 * objects->region_share);
+}
+
+void sl_eye_objects_add_json(sl_json_fields *fields, const sl_baked *baked,
+                             const sl_eye_objects *objects) {
+    if (!objects->count) return;
+    sl_json_fields sets = sl_json_begin(), seen = sl_json_begin(), region = sl_json_begin();
+    for (size_t i = 0; i < objects->count; i++)
+        sl_json_add_flag(&seen, objects->objects[i].text, objects->seen[i]);
+    sl_json_add_fields(fields, "objects_seen", &seen);
+    sl_json_add_members(&sets, "cells", objects->cells, baked->space.cell_count);
+    const sl_region_measures measures = sl_region_measure(&objects->region);
+    sl_json_add_real(&region, "area", measures.area);
+    sl_json_add_real(&region, "perimeter", measures.perimeter);
+    sl_json_add_points(&region, "polygon", objects->region.points, objects->region.count);
+    sl_json_add_fields(&sets, "region", &region);
+    sl_json_add_fields(fields, "past_objects", &sets);
+}
