@@ -64,7 +64,7 @@ static sl_status ask_region(comparing *all, const contender *me, const sl_view *
     SL_TRY(sl_region_make(all->context, &all->outline, view, 0, &all->region));
     out->has_area = true;
     out->area = sl_region_area(&all->region);
-    out->account = (sl_eye_account){.nodes = all->region.crossings};
+    out->account = (sl_eye_account){.nodes = all->region.portals_passed};
     return SL_OK;
 }
 

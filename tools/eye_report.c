@@ -61,7 +61,7 @@ void sl_eye_print(const sl_baked *baked, const sl_eye_run *run) {
     }
     sl_seconds_write(run->region_seconds, "u", seconds);
     printf("  %-20s %-13s %7s %6.2f %% %9" PRIu64 " %13s %8s\n", "visible_area",
-           sl_guarantee_name(SL_EXACT), "", 100 * run->region_share, run->region.crossings, "",
+           sl_guarantee_name(SL_EXACT), "", 100 * run->region_share, run->region.portals_passed, "",
            seconds);
     const sl_region_measures m = sl_region_measure(&run->region);
     printf("\nvisible region: area %.6g, perimeter %.6g, %zu corners\n", m.area, m.perimeter,

@@ -57,7 +57,7 @@ static size_t add_methods(const sl_app *app, account *a) {
 
 static void add_region(const sl_app *app, account *a, size_t i) {
     char cost[32];
-    const double spent = cost_of(app, app->seen.region_seconds, app->seen.region.crossings);
+    const double spent = cost_of(app, app->seen.region_seconds, app->seen.region.portals_passed);
     const double share = app->document.area > 0 ? app->seen.region_area / app->document.area : 0;
     write_cost(app, spent, cost);
     snprintf(a->labels[i], sizeof a->labels[i], "visible region");

@@ -175,8 +175,8 @@ static void draw_methods(sl_app *app, column *c) {
         app->document.area > 0 && app->seen.valid ? app->seen.region_area / app->document.area : 0,
         text);
     sl_ui_text_right(ui, c->left + 16.3 * unit, base, 0.95, ui->palette.ink, text);
-    cells_text(c->left + 18.9 * unit, ui, base, app->seen.valid ? app->seen.region.crossings : 0,
-               ui->palette.ink);
+    cells_text(c->left + 18.9 * unit, ui, base,
+               app->seen.valid ? app->seen.region.portals_passed : 0, ui->palette.ink);
     write_seconds(app, app->seen.region_seconds, text);
     sl_ui_text_right(ui, c->right, base, 0.95, ui->palette.faint, text);
     c->y += 1.6 * t;

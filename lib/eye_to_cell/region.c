@@ -1,6 +1,6 @@
-/// The expansion: the view is spread over the sides of the eye's cells; through a portal it goes on
-/// as a cone of two rays, over the sides of the cell beyond that lie between them. A cell is convex
-/// and a cone narrower than half a circle, so that on the way around a cell from its entry, corners
+/// The expansion: the view is spread over the sides of the eye's rooms; through a portal it goes on
+/// as a cone of two rays, over the sides of the room beyond that lie between them. A room is convex
+/// and a cone narrower than half a circle, so that on the way around a room from its entry, corners
 /// pass the right ray once, and then the left ray: one predicate a side.
 #include "eye_to_cell/region_parts.h"
 #include "sightline/mirrored.h"
@@ -76,7 +76,7 @@ static bool is_barred(const sl_region *region, const sl_eye_ray *a, const sl_eye
     return region->range > 0 && is_far(region, a, b);
 }
 
-/// Where a cell is being looked at: from the ray `right` on, which passes within the side `at` or
+/// Where a room is being looked at: from the ray `right` on, which passes within the side `at` or
 /// goes through its start, to the ray `left`.
 typedef struct gaze {
     uint32_t entry, at;
@@ -89,7 +89,7 @@ static sl_status grow_frames(expansion *x) {
 }
 
 /// Turns the gaze through the portal that it is at, whose ends are a and b; `turn` tells where the
-/// left ray leaves b. What is left to see of the cell waits.
+/// left ray leaves b. What is left to see of the room waits.
 static inline sl_status enter(expansion *x, gaze *g, const sl_eye_ray *a, const sl_eye_ray *b,
                               int turn) {
     struct sl_region_memory *m = x->region->memory;
@@ -104,7 +104,7 @@ static inline sl_status enter(expansion *x, gaze *g, const sl_eye_ray *a, const 
     return SL_OK;
 }
 
-/// Goes around a cell up to a portal, through which the gaze is turned (*enters), or to its end.
+/// Goes around a room up to a portal, through which the gaze is turned (*enters), or to its end.
 static inline sl_status sweep(expansion *x, gaze *g, bool *enters) {
     sl_region *region = x->region;
     const sl_eye_place *eye = &region->memory->eye;
@@ -131,15 +131,15 @@ static inline sl_status sweep(expansion *x, gaze *g, bool *enters) {
     return SL_OK;
 }
 
-/// What is seen through a portal between two rays. `gaze` is at the cell's side of it.
+/// What is seen through a portal between two rays. `gaze` is at the room's side of it.
 static sl_status look_through(expansion *x, gaze g) {
     struct sl_region_memory *m = x->region->memory;
     const sl_eye_place *eye = &m->eye;
     const size_t floor = m->frames.count;
-    uint64_t crossings = 0;
+    uint64_t passed = 0;
     for (bool enters = true;;) {
         while (enters) {
-            crossings++;
+            passed++;
             if (!sl_region_find_first(x->outline, eye, m->limit, g.entry, &g.right, &g.at,
                                       &g.within))
                 break;
@@ -153,7 +153,7 @@ static sl_status look_through(expansion *x, gaze g) {
         g.within = false;
         SL_TRY(sweep(x, &g, &enters));
     }
-    x->region->crossings += crossings;
+    x->region->portals_passed += passed;
     return SL_OK;
 }
 
@@ -315,7 +315,7 @@ sl_status sl_region_look_in(sl_context *context, const sl_outline *outline, sl_r
 sl_status sl_region_start(sl_context *context, const sl_outline *outline, const sl_view *view,
                           double range, sl_region *region) {
     region->count = 0;
-    region->crossings = 0;
+    region->portals_passed = 0;
     region->cell = SL_NO_CELL;
     if (!region->memory) {
         region->memory = sl_alloc_array(context, 1, sizeof *region->memory);

@@ -1,8 +1,8 @@
-/// Where the eye stands: within a cell, on a side or on a corner. The cells that touch it, joined
+/// Where the eye stands: within a room, on a side or on a corner. The rooms that touch it, joined
 /// by portals that touch it, are gone round counter-clockwise; what they show it is the fan.
 #include "eye_to_cell/region_parts.h"
 
-/// The sides of a cell that meet at the eye, or that it is on: the cell lies counter-clockwise from
+/// The sides of a room that meet at the eye, or that it is on: the room lies counter-clockwise from
 /// `right` to `left`. They are one where the eye is between a side's ends.
 typedef struct corner {
     uint32_t right, left;
@@ -56,7 +56,7 @@ static sl_status gather_room(sl_context *context, const sl_outline *o, uint32_t 
     return SL_OK;
 }
 
-/// The corner at the eye of the cell beyond a portal there, which is that cell's `side`.
+/// The corner at the eye of the room beyond a portal there, which is that room's `side`.
 static corner beyond_right(const sl_outline *o, uint32_t portal, sl_point eye) {
     const uint32_t other = side(o, portal)->beyond;
     return (corner){same(end_of(o, other), eye) ? side(o, other)->next : other, other};

@@ -22,10 +22,10 @@ typedef struct sl_eye_place {
                   ///< sl_turn_filter allows for
 } sl_eye_place;
 
-/// What is left to see of a cell: from where `side` starts to the ray `left`.
+/// What is left to see of a room: from where `side` starts to the ray `left`.
 typedef struct sl_region_frame {
     uint32_t side;
-    uint32_t entry; ///< the portal that the cell is seen through, as a side of it
+    uint32_t entry; ///< the portal that the room is seen through, as a side of it
     sl_eye_ray left;
 } sl_region_frame;
 
@@ -55,7 +55,7 @@ struct sl_region_memory {
     const struct sl_room_mirrors *mirrors; ///< glimpses are taken of these; NULL for none
     SL_ARRAY(sl_glimpse) glimpses;         ///< counter-clockwise
     SL_ARRAY(sl_region_frame) frames;
-    SL_ARRAY(uint32_t) fan; ///< the sides seen from the eye's cells, counter-clockwise
+    SL_ARRAY(uint32_t) fan; ///< the sides seen from the eye's rooms, counter-clockwise
     double limit;           ///< see sl_eye_limit
     bool open;              ///< the fan is not all round: it ends at walls
     uint32_t right, left;   ///< where it is open: the walls at the eye that it starts and ends at
@@ -117,7 +117,7 @@ static inline int sl_eye_turn_within(const sl_eye_place *eye, const sl_eye_ray *
 uint32_t sl_region_find_side(const sl_outline *outline, const sl_region *region,
                              const sl_eye_ray *ray, bool onward);
 
-/// Finds the side by which a ray leaves a cell that it enters through `entry`: the first one around
+/// Finds the side by which a ray leaves a room that it enters through `entry`: the first one around
 /// that ends to the left of it. *within, given whether the ray passes within the entry rather than
 /// through its right end, becomes whether it passes within that side rather than through its start.
 /// False where there is none, which only rounded corners of cells can bring about.

@@ -1,4 +1,4 @@
-/// One line of sight. A segment is followed from cell to cell; where it touches a corner of cells
+/// One line of sight. A segment is followed from room to room; where it touches a corner of rooms
 /// it may go on in several, and all are tried.
 #include "sightline/sees.h"
 
@@ -12,7 +12,7 @@ typedef struct seer {
     sl_point eye, point;
     bool touches; ///< a wall, somewhere
     SL_ARRAY(uint32_t) waiting;
-    sl_bits *entered; ///< by side: the cells entered are marked by their first side
+    sl_bits *entered; ///< by room
 } seer;
 
 /// Whether two segments in one line have a point in common.
@@ -56,7 +56,7 @@ static sl_status enter(sl_context *context, seer *s, uint32_t room) {
     return SL_OK;
 }
 
-/// Enters all cells that the segment leads to; notes whether one of them holds the point.
+/// Enters all rooms that the segment leads to; notes whether one of them holds the point.
 static sl_status follow(sl_context *context, seer *s, bool *arrives) {
     const sl_outline *o = s->outline;
     while (s->waiting.count) {
@@ -95,7 +95,7 @@ sl_status sl_sees(sl_context *context, const sl_outline *outline, sl_point eye, 
 }
 
 /// The wall or border side that the ray meets, from a side of the fan on; false where the boundary
-/// of a cell does not hold together, by rounding.
+/// of a room does not hold together, by rounding.
 static bool walk(const sl_outline *o, const sl_eye_place *eye, const sl_eye_ray *ray, uint32_t *at,
                  bool *within) {
     const sl_view view = {.eye = eye->point.at, .left = ray->at, .right = ray->at};
@@ -142,7 +142,7 @@ sl_status sl_shoot(sl_context *context, const sl_outline *outline, sl_point eye,
             within = sl_eye_turn(&place, &ray, &start) != 0;
         }
         if (k != UINT32_MAX && !walk(outline, &place, &ray, &at, &within))
-            status = sl_fail(context, SL_BAD_ARGUMENT, "the outline of a cell is not closed");
+            status = sl_fail(context, SL_BAD_ARGUMENT, "the outline of a room is not closed");
         tell(outline, eye, &ray, at, within && k != UINT32_MAX, &hit);
         if (k == UINT32_MAX) hit.point = eye;
         if (status == SL_OK) *out = hit;

@@ -54,18 +54,18 @@ static void measure(sl_context *context, const char *machine, int crosses) {
     uint64_t sum = 0;
     for (int i = 0; i < QUERIES; i++) sum += sl_space_locate(&space, eyes[i]);
     const double locate = now() - start;
-    uint64_t points = 0, crossings = 0;
+    uint64_t points = 0, passed = 0;
     start = now();
     for (int i = 0; i < QUERIES; i++) {
         const sl_view view = sl_view_all_round(eyes[i]);
         must(context, sl_region_make(context, &outline, &view, 0, &region));
         points += region.count;
-        crossings += region.crossings;
+        passed += region.portals_passed;
     }
     const double whole = now() - start;
     printf("%s,%zu,%u,%d,%.0f,%.0f,%.1f,%.1f\n", machine, corners, space.cell_count, QUERIES,
            1e9 * whole / QUERIES, sum ? 1e9 * locate / QUERIES : 0, (double)points / QUERIES,
-           (double)crossings / QUERIES);
+           (double)passed / QUERIES);
     sl_region_destroy(context, &region);
     sl_outline_destroy(context, &outline);
     sl_space_destroy(context, &space);

@@ -43,7 +43,7 @@ typedef struct sl_region {
     sl_point *points;
     sl_point *offsets; ///< the points as seen from the eye: more precise far from the origin
     sl_region_edge *edges;
-    uint64_t crossings; ///< portals of the outline passed to find it
+    uint64_t portals_passed; ///< of the outline, to find it: the measure of the work
     struct sl_region_memory *memory;
 } sl_region;
 
