@@ -45,6 +45,7 @@ static void add_work(sl_json_fields *fields, const sl_view_work *work) {
     sl_json_add_count(fields, "candidates", work->candidates);
     sl_json_add_count(fields, "relations", work->relations);
     sl_json_add_count(fields, "tests", work->tests);
+    sl_json_add_count(fields, "weighed", work->weighed);
 }
 
 sl_status sl_view_report_print(sl_context *context, const sl_view_report *report) {

@@ -25,11 +25,13 @@ void sl_view_find_piece_extents(sl_view_divider *d, sl_view_part *part) {
         for (uint32_t k = rooms->first_side[room]; k < rooms->first_side[room + 1]; k++)
             if (rooms->sides[k].room == SL_NO_ROOM)
                 add_extent(d, part, middle, rooms->sides[k].object, &piece->box);
-        for (int q = 0; q < SL_VIEW_QUADRANTS; q++)
+        for (int q = 0; q < SL_VIEW_QUADRANTS; q++) {
+            d->pieces->work.weighed += piece->directed[q].objects.count;
             for (size_t k = 0; k < piece->directed[q].objects.count; k++) {
                 const sl_view_sight *sight = &piece->directed[q].objects.items[k];
                 add_extent(d, part, middle, sight->object, &sight->from);
             }
+        }
     }
 }
 

@@ -156,6 +156,7 @@ typedef struct sl_view_work {
     uint64_t candidates; ///< rooms in the refine sets of all looks
     uint64_t relations;  ///< rooms in directed visible sets: what all looks found
     uint64_t tests;      ///< portal sequences held against the solver
+    uint64_t weighed;    ///< objects in the directed visible sets that splits were chosen by
 } sl_view_work;
 
 /// What methods by exact sets find beside a tree. Zeroed: nothing.
