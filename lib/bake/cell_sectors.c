@@ -87,8 +87,6 @@ static sl_status ask_line(finder *find, const cell_view *view, const sl_doom_lin
     double left, right;
     measure_depths(view, line, &left, &right);
     find->is_thin |= left <= find->slack && right <= find->slack;
-    // A cell that was cut along the line is beyond it by rounding alone.
-    if ((left > 0 && left <= find->slack) || (right > 0 && right <= find->slack)) return SL_OK;
     bool at_left = false, at_right = false, runs_along = false;
     int before = sl_orient(line->from, line->to, view->corners[view->count - 1]);
     for (uint32_t i = 0; i < view->count; i++) {
@@ -100,44 +98,52 @@ static sl_status ask_line(finder *find, const cell_view *view, const sl_doom_lin
                 overlaps(line, view->corners[i], view->corners[i ? i - 1 : view->count - 1]);
         before = side;
     }
+    // A cell that was cut along the line is beyond it by rounding alone: by so little that the
+    // depth may come out as 0.
+    if (at_left && at_right && fmin(left, right) <= find->slack) return SL_OK;
     const bool passes = at_left && at_right && !is_parted_by_an_edge(view, line);
     if (!passes && !runs_along) return SL_OK;
     if (at_left) SL_TRY(add(find, line->left));
     return at_right ? add(find, line->right) : SL_OK;
 }
 
-/// What a line to the right of a point says of it.
+/// A line to the right of a point, at its height.
 typedef struct hit {
-    double x;     ///< where it is met
-    double slope; ///< how x grows with y
-    uint32_t sector;
+    sl_point low, high; ///< its ends
+    double x;           ///< where it is met, rounded
+    uint32_t sector;    ///< at this side
 } hit;
 
-/// Whether a line is met before another. Where both are met in one place, the ray is taken to run a
-/// little higher; of lines that lie on each other, as walls back to back do, one that has a sector
-/// at this side is wanted.
+/// Whether a line is met before another by a ray at the height of both. What rounding cannot tell
+/// is told by the ends, of which both have one at the ray or below and one above it: lines that
+/// meet in a point do so as just above it. Of lines that lie on each other, as walls back to back
+/// do, one that has a sector at this side is wanted.
 static bool is_before(const hit *a, const hit *b, double point_x) {
-    // Rounding parts what lies together by less than this.
     const double close = 1e-9 * (fabs(a->x) + fabs(point_x));
     if (fabs(a->x - b->x) > close) return a->x < b->x;
-    if (fabs(a->slope - b->slope) > 1e-9 * (1 + fabs(a->slope))) return a->slope < b->slope;
-    return b->sector == SL_NO_SECTOR;
+    int side = a->low.y >= b->low.y ? sl_orient(b->low, b->high, a->low)
+                                    : -sl_orient(a->low, a->high, b->low);
+    if (side == 0)
+        side = a->high.y <= b->high.y ? sl_orient(b->low, b->high, a->high)
+                                      : -sl_orient(a->low, a->high, b->high);
+    return side ? side > 0 : b->sector == SL_NO_SECTOR;
 }
 
 /// The sector that the nearest line to the right of a point says that the point is in.
 static sl_status find_left_of_nearest(finder *find, sl_point point, uint32_t *sector) {
-    const sl_box ray = {{point.x - find->slack, point.y}, {HUGE_VAL, point.y}};
+    const sl_box ray = {point, {HUGE_VAL, point.y}};
     SL_TRY(sl_box_tree_find(find->context, &find->tree, &ray, &find->nearby));
     hit nearest = {.x = HUGE_VAL, .sector = SL_NO_SECTOR};
     for (size_t i = 0; i < find->nearby.count; i++) {
         const sl_doom_line *line = &find->level->lines[find->nearby.items[i]];
         if ((line->from.y <= point.y) == (line->to.y <= point.y)) continue;
-        const double slope = (line->to.x - line->from.x) / (line->to.y - line->from.y);
-        const double x = line->from.x + (point.y - line->from.y) * slope;
-        if (x < point.x) continue;
-        const int side = sl_orient(line->from, line->to, point);
-        const hit met = {x, slope, side > 0 ? line->left : line->right};
-        if (side != 0 && is_before(&met, &nearest, point.x)) nearest = met;
+        const bool up = line->from.y <= point.y;
+        hit met = {up ? line->from : line->to, up ? line->to : line->from, 0,
+                   up ? line->left : line->right};
+        if (sl_orient(met.low, met.high, point) <= 0) continue;
+        const double slope = (met.high.x - met.low.x) / (met.high.y - met.low.y);
+        met.x = met.low.x + (point.y - met.low.y) * slope;
+        if (nearest.x == HUGE_VAL || is_before(&met, &nearest, point.x)) nearest = met;
     }
     *sector = nearest.sector;
     return SL_OK;
