@@ -67,6 +67,7 @@ typedef enum sl_drag_kind {
     SL_DRAG_NEW_WALL,
     SL_DRAG_WALL,
     SL_DRAG_MIRROR,
+    SL_DRAG_OBJECT,
 } sl_drag_kind;
 
 typedef struct sl_drag {
@@ -76,7 +77,7 @@ typedef struct sl_drag {
     sl_point at;         ///< where it began, in the map
     uint32_t index;
     bool moved;
-    // Of a mirror: what of it, where it was, and whether it has been changed.
+    // Of a mirror or an object: what of it, where it was, and whether it has been changed.
     int part;
     sl_segment segment;
     bool changed;

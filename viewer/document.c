@@ -85,6 +85,20 @@ void sl_document_touch(sl_document *document) {
     if (!document->baked || document->baked->map.door_count != map->door_count) return;
     for (size_t i = 0; i < map->door_count; i++)
         document->baked->map.doors[i].open = map->doors[i].open;
+    if (document->baked->map.object_count != map->object_count) return;
+    for (size_t i = 0; i < map->object_count; i++)
+        document->baked->map.objects[i].box = map->objects[i].box;
+}
+
+/// Of a map that was just opened: no object blocks sight.
+static sl_status take_objects(sl_context *context, sl_document *document) {
+    const size_t count = document->map.object_count;
+    sl_free(context, document->blocks);
+    document->object_count = 0;
+    document->blocks = sl_alloc_array(context, count, sizeof *document->blocks);
+    if (!document->blocks) return SL_NO_MEMORY;
+    if (count <= SL_OBJECTS_MOST) document->object_count = count;
+    return SL_OK;
 }
 
 static void drop_baked(sl_context *context, sl_document *document) {
@@ -147,6 +161,7 @@ static sl_status take_space(sl_context *context, sl_document *document) {
     if (job->source.path) {
         sl_map_destroy(context, &document->map);
         SL_TRY(sl_map_copy(context, &job->map, &document->map));
+        SL_TRY(take_objects(context, document));
         sl_document_source_destroy(context, &document->source);
         document->source = job->source;
         job->source = (sl_document_source){0};
@@ -244,6 +259,7 @@ void sl_document_close(sl_context *context, sl_document *document) {
     drop_baked(context, document);
     sl_map_destroy(context, &document->map);
     sl_document_source_destroy(context, &document->source);
+    sl_free(context, document->blocks);
     *document = (sl_document){
         .version = document->version + 1, .touched = document->touched, .opened = document->opened};
 }

@@ -27,6 +27,8 @@ void sl_document_source_destroy(sl_context *context, sl_document_source *source)
 
 typedef struct sl_bake_job sl_bake_job;
 
+enum { SL_OBJECTS_MOST = 256 };
+
 /// A document, zeroed to start. All but the pointers marked so stay empty while nothing is open.
 typedef struct sl_document {
     sl_document_source source;
@@ -41,6 +43,10 @@ typedef struct sl_document {
     uint32_t counted;      ///< how many there are
     uint32_t mirror_depth; ///< reflections of a sightline, at most
     uint32_t baked_depth;  ///< that cells are seen with
+    /// The map's objects that can be moved, and which of them block sight: all of them, but for
+    /// maps with very many, of which none can.
+    size_t object_count;
+    bool *blocks;
     uint32_t version; ///< grows with every change but that of stab trees, for who keeps pictures
     uint32_t touched; ///< grows with every change that needs no new bake
     uint32_t opened;  ///< grows with every file that is opened

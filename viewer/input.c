@@ -4,6 +4,7 @@
 #include "doors.h"
 #include "edit.h"
 #include "mirrors.h"
+#include "objects.h"
 #include "panes.h"
 #include "quiz.h"
 #include "shelf.h"
@@ -110,6 +111,7 @@ static sl_drag_kind plan_drag(sl_app *app, sl_drag *drag) {
     if (searches && near_line(app, drag->at)) return SL_DRAG_LINE;
     const bool moves = app->mode == SL_MODE_EXPLORE || app->mode == SL_MODE_DRAW;
     if (moves && sl_mirror_take(app, drag)) return SL_DRAG_MIRROR;
+    if (app->mode == SL_MODE_EXPLORE && sl_object_take(app, drag)) return SL_DRAG_OBJECT;
     if (app->mode != SL_MODE_DRAW) return SL_DRAG_PAN;
     drag->index = sl_edit_pick(app, drag->at);
     app->wall = drag->index;
@@ -208,6 +210,9 @@ void sl_input_move(sl_app *app, sl_point to) {
     case SL_DRAG_MIRROR:
         if (drag->moved) sl_mirror_move(app, drag, now);
         break;
+    case SL_DRAG_OBJECT:
+        if (drag->moved) sl_object_move(app, drag, now);
+        break;
     case SL_DRAG_NEW_WALL:
     case SL_DRAG_WALL:
     case SL_DRAG_NONE:
@@ -236,6 +241,7 @@ void sl_input_release(sl_app *app, sl_point at) {
     if ((drag.kind == SL_DRAG_NEW_WALL || drag.kind == SL_DRAG_WALL) && drag.moved)
         finish_wall(app, &drag, now);
     if (drag.kind == SL_DRAG_MIRROR) sl_mirror_drop(app, &drag);
+    if (drag.kind == SL_DRAG_OBJECT && !drag.moved) sl_object_toggle(app, drag.index);
     const bool holds =
         drag.kind == SL_DRAG_PAN || (drag.kind == SL_DRAG_MIRROR && app->mode == SL_MODE_EXPLORE);
     const bool puts = holds && !drag.moved && app->mode != SL_MODE_QUIZ;

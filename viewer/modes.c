@@ -4,6 +4,7 @@
 #include "edit.h"
 #include "layers.h"
 #include "mirrors.h"
+#include "objects.h"
 #include "panes.h"
 #include "quiz.h"
 #include "range.h"
@@ -48,6 +49,7 @@ void sl_modes_draw_above(sl_app *app, const sl_frame *frame) {
                      6 * app->ui.text, palette->start);
     if (mode->eye) sl_range_draw(app, frame);
     if (mode->eye) sl_mirror_draw(app, frame);
+    if (app->mode == SL_MODE_EXPLORE) sl_object_draw(app, frame);
     if (mode->eye)
         sl_draw_eye_mark(app->ui.cairo, palette, frame, app->eye.at, app->eye.heading,
                          0.5 * app->ui.text);

@@ -76,8 +76,9 @@ static void add_cells(const sl_app *app, viewer *v, double near) {
     const sl_seen_method *method = &app->seen.methods[app->method];
     bool *added = calloc(outline->room_count, sizeof *added);
     if (!added) return;
-    for (uint32_t cell = 0; cell < app->document.baked->space.cell_count; cell++) {
-        if (!(method->cells[cell / 64] >> (cell % 64) & 1)) continue;
+    for (uint32_t cell = 0; cell < outline->space->cell_count; cell++) {
+        if (!sl_eye_sees(method->cells, app->present.parents ? app->present.parents[cell] : cell))
+            continue;
         for (uint32_t i = outline->first_part[cell]; i < outline->first_part[cell + 1]; i++) {
             const uint32_t room = outline->parts[i];
             if (added[room]) continue;

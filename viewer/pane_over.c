@@ -25,6 +25,8 @@ static sl_box begin_sheet(sl_app *app, double width, double height, const char *
     return sheet;
 }
 
+enum { MOUSE = 4 };
+
 void sl_pane_help(sl_app *app) {
     sl_ui *ui = &app->ui;
     const double t = ui->text;
@@ -34,28 +36,29 @@ void sl_pane_help(sl_app *app) {
     const sl_box sheet =
         begin_sheet(app, 74 * t, 44 * t, "Keys and mouse; a click on a line does it");
     const int columns = 2;
-    const size_t rows = (shown + 3 + columns - 1) / columns;
+    const size_t rows = (shown + MOUSE + columns - 1) / columns;
     const double top = sheet.min.y + 3.4 * t, column = (sl_box_width(sheet) - 2 * t) / columns;
     const double high = fmin(1.55 * t, (sheet.max.y - top - 1.2 * t) / (double)rows);
     const double size = fmin(1, high / (1.3 * t));
-    static const char *const mouse[3][2] = {
+    static const char *const mouse[MOUSE][2] = {
         {"Drag", "pan; middle button: look"},
         {"Wheel", "zoom to the pointer"},
         {"Click", "puts the eye; right: why is a cell seen or not?"},
+        {"On things", "drag a mirror, an object; click on a door, an object"},
     };
     size_t at = 0;
-    for (size_t i = 0; i < count + 3; i++) {
-        const char *key = i < 3 ? mouse[i][0] : actions[i - 3].key;
-        const char *help = i < 3 ? mouse[i][1] : actions[i - 3].help;
+    for (size_t i = 0; i < count + MOUSE; i++) {
+        const char *key = i < MOUSE ? mouse[i][0] : actions[i - MOUSE].key;
+        const char *help = i < MOUSE ? mouse[i][1] : actions[i - MOUSE].help;
         if (!key) continue;
         const double x = sheet.min.x + 1.5 * t + column * (double)(at / rows);
         const double y = top + high * ((double)(at % rows) + 0.7);
         const sl_box row = {{x - 0.4 * t, y - 0.75 * high}, {x + column - t, y + 0.25 * high}};
-        if (i >= 3 && actions[i - 3].run) {
+        if (i >= MOUSE && actions[i - MOUSE].run) {
             if (sl_box_has(row, ui->pointer))
                 sl_ui_fill_round(ui, row, 0.25 * t,
                                  sl_colour_mix(ui->palette.page, ui->palette.glass, 0.2));
-            sl_ui_hit(ui, SL_HIT_ACTION, (int)i - 3, row);
+            sl_ui_hit(ui, SL_HIT_ACTION, (int)i - MOUSE, row);
         }
         sl_ui_text(ui, x, y, size, true, ui->palette.glass, key);
         sl_text_show_within(ui->cairo, ui->palette.ink, x + 7.2 * t * size, y,

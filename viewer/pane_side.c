@@ -4,6 +4,7 @@
 #include "actions.h"
 #include "doors.h"
 #include "draw/text.h"
+#include "objects.h"
 #include "quiz.h"
 #include "sliders.h"
 
@@ -285,12 +286,16 @@ static void draw_words(sl_app *app, column *c) {
     sl_point at = app->eye.at;
     const bool over = sl_box_has(l.plan[0], app->pointer);
     if (over) at = sl_camera_point(&app->camera, l.plan[0], app->pointer);
+    const bool explores = over && app->mode == SL_MODE_EXPLORE;
+    const uint32_t object = explores ? sl_object_at(app, at) : UINT32_MAX;
     const uint32_t door = over ? sl_door_at(app, at) : UINT32_MAX;
     if (door != UINT32_MAX)
         snprintf(text, sizeof text, "Door %s, which is %s: a click %s it.",
                  app->document.map.doors[door].name,
                  app->document.map.doors[door].open ? "open" : "shut",
                  app->document.map.doors[door].open ? "shuts" : "opens");
+    else if (object != UINT32_MAX)
+        sl_object_describe(app, object, text, sizeof text);
     else
         sl_pane_describe(app, at, text, sizeof text);
     heading(app, c, over ? "Under the pointer" : "Under the eye", NULL);

@@ -54,6 +54,10 @@ static sl_status make_space(sl_context *context, const sl_present *present,
 
 static void drop_own(sl_context *context, sl_present *present) {
     own *o = present->own;
+    sl_moving_destroy(context, present->moving);
+    present->moving = NULL;
+    present->parents = NULL;
+    present->still = false;
     if (!o) return;
     sl_eye_search_destroy(context, o->search);
     sl_visibility_destroy(context, &o->row);
@@ -170,6 +174,42 @@ static sl_status begin(sl_context *context, sl_present *present, const sl_docume
     return present->shut && present->wanted ? SL_OK : SL_NO_MEMORY;
 }
 
+/// Puts the map's objects into the space.
+static sl_status place(sl_context *context, sl_present *present, const sl_document *document) {
+    sl_moving_box boxes[SL_OBJECTS_MOST] = {0};
+    const uint32_t *parents;
+    bool any = false;
+    for (size_t i = 0; i < document->object_count; i++) {
+        boxes[i] = (sl_moving_box){document->map.objects[i].box, document->blocks[i]};
+        any |= boxes[i].blocks;
+    }
+    SL_TRY(sl_moving_place(context, present->moving, boxes, document->object_count));
+    sl_moving_space(present->moving, &parents);
+    present->parents = any ? parents : NULL;
+    return SL_OK;
+}
+
+/// Objects are put in again where they have moved, or the space is another.
+static sl_status follow_objects(sl_context *context, sl_present *present,
+                                const sl_document *document) {
+    if (!document->object_count || present->backwards || present->still) return SL_OK;
+    if (!present->moving) {
+        const own *o = present->own;
+        const sl_status status = sl_moving_create(
+            context, present->space, o ? &o->row : &document->baked->visibility, &present->moving);
+        present->still = status == SL_UNSUPPORTED;
+        if (status != SL_OK) return present->still ? SL_OK : status;
+        present->touched = document->touched + 1; // whatever it was
+    }
+    if (present->touched != document->touched) {
+        SL_TRY(place(context, present, document));
+        present->touched = document->touched;
+        present->version++;
+    }
+    return present->parents ? sl_moving_outline(context, present->moving, &present->outline)
+                            : SL_OK;
+}
+
 static sl_status update(sl_context *context, sl_present *present, const sl_document *document,
                         sl_point eye) {
     const bool fresh = !present->space || present->document_version != document->version;
@@ -193,6 +233,7 @@ static sl_status update(sl_context *context, sl_present *present, const sl_docum
     present->space = o ? &o->space : &document->baked->space;
     present->outline = o ? &o->outline : &document->outline;
     present->search = o ? o->search : document->search;
+    SL_TRY(follow_objects(context, present, document));
     const bool same_outline = present->mirrors.outline == present->outline &&
                               present->mirrors_version == present->version;
     if (!document->baked->map.mirror_count || same_outline) return SL_OK;

@@ -7,6 +7,7 @@
 #include "base/bits.h"
 #include "document.h"
 #include "sightline/mirrored.h"
+#include "sightline/moving.h"
 
 /// Zeroed to start. The pointers are NULL while nothing is open.
 typedef struct sl_present {
@@ -16,12 +17,18 @@ typedef struct sl_present {
     /// With the eye's cell's visible set alone, where something is shut; with none, where they were
     /// baked with a shorter range.
     sl_eye_search *search;
+    /// The space with the map's objects in it; NULL where it has none, or walls are oblique. Where
+    /// any of them blocks sight the outline is that of this space, whose cell c is a part of cell
+    /// parents[c]; else `parents` is NULL.
+    sl_moving *moving;
+    bool still; ///< objects cannot be put into this space
+    const uint32_t *parents;
     sl_room_mirrors mirrors; ///< of the outline; none where the map has none
     bool *shut;              ///< by door, then by glass; NULL where the map has neither
     size_t shut_count;
     struct sl_present_own *own; ///< what is made for it; NULL while it is the document itself
     bool *wanted;               ///< scratch, as `shut`
-    uint32_t document_version, mirrors_version;
+    uint32_t document_version, mirrors_version, touched;
     bool backwards; ///< the caller's: as the eye is seen, not as it sees; there is no search then
     bool has_rows;  ///< there are visible sets, and they can be believed
 } sl_present;

@@ -14,6 +14,9 @@ static void free_sets(sl_context *context, sl_seen *seen) {
         if (seen->methods[i].mirrored) sl_free(context, seen->methods[i].mirrored);
         seen->methods[i] = (sl_seen_method){0};
     }
+    sl_free(context, seen->objects);
+    seen->objects = NULL;
+    seen->object_count = 0;
     if (seen->pvs) sl_free(context, seen->pvs);
     if (seen->mirrored) sl_free(context, seen->mirrored);
     seen->pvs = seen->mirrored = NULL;
@@ -26,14 +29,17 @@ void sl_seen_destroy(sl_context *context, sl_seen *seen) {
     *seen = (sl_seen){0};
 }
 
-static sl_status make_sets(sl_context *context, sl_seen *seen, const sl_space *space) {
+static sl_status make_sets(sl_context *context, sl_seen *seen, const sl_document *document) {
+    const sl_space *space = &document->baked->space;
     size_t count;
     sl_eye_methods(&count);
     free_sets(context, seen);
     const size_t words = sl_eye_words(space);
     seen->pvs = sl_alloc_array(context, words, sizeof *seen->pvs);
     seen->mirrored = sl_alloc_array(context, words, sizeof *seen->mirrored);
-    if (!seen->pvs || !seen->mirrored) return SL_NO_MEMORY;
+    seen->objects = sl_alloc_array(context, document->object_count, sizeof *seen->objects);
+    if (!seen->pvs || !seen->mirrored || !seen->objects) return SL_NO_MEMORY;
+    seen->object_count = document->object_count;
     for (size_t i = 0; i < count && i < SL_SEEN_MOST; i++) {
         seen->methods[i].cells = sl_alloc_array(context, words, sizeof *seen->pvs);
         seen->methods[i].mirrored = sl_alloc_array(context, words, sizeof *seen->pvs);
@@ -99,6 +105,42 @@ static void look_into_mirrors(sl_context *context, sl_seen_method *m, const sl_e
         m->mirrored_count += (uint32_t)__builtin_popcountll(m->mirrored[w] & ~m->cells[w]);
 }
 
+static bool have_common(const uint64_t *a, const uint64_t *b, size_t words) {
+    for (size_t w = 0; w < words; w++)
+        if (a[w] & b[w]) return true;
+    return false;
+}
+
+/// Which objects are seen; and the exact method again, where some of them block sight. Where they
+/// cannot be put into the space, those in cells that are seen count as seen.
+static sl_status look_at_objects(sl_context *context, sl_seen *seen, const sl_document *document,
+                                 const sl_present *present) {
+    const size_t words = sl_eye_words(&document->baked->space);
+    size_t count;
+    sl_eye_methods(&count);
+    sl_seen_method *exact = &seen->methods[count - 1];
+    if (!seen->object_count || !exact->known) return SL_OK;
+    uint64_t *cells = sl_alloc_array(context, words, sizeof *cells);
+    if (!cells) return SL_NO_MEMORY;
+    sl_status status = SL_OK;
+    sl_eye_account account;
+    for (size_t i = 0; !present->moving && i < seen->object_count; i++) {
+        sl_cells_of_box(present->space, document->map.objects[i].box, cells);
+        seen->objects[i] = have_common(cells, exact->cells, words);
+    }
+    if (present->moving)
+        status =
+            sl_moving_look(context, present->moving, &seen->view, cells, seen->objects, &account);
+    if (present->moving && present->parents && status == SL_OK) {
+        memcpy(exact->cells, cells, words * sizeof *cells);
+        exact->account = account;
+        keep_in_range(seen, &document->baked->space, exact->cells);
+        sum_up(document, exact->cells, &exact->count, &exact->area);
+    }
+    sl_free(context, cells);
+    return status;
+}
+
 /// The parts of the region that are seen in mirrors. Where there is one-way glass too they are left
 /// out: a region knows what is dark from the eye, and not from its images.
 static sl_status make_parts(sl_context *context, sl_seen *seen, const sl_document *document,
@@ -142,7 +184,7 @@ sl_status sl_seen_update(sl_context *context, sl_seen *seen, const sl_document *
     }
     if (seen->version != present->version || !seen->pvs) {
         seen->valid = false;
-        SL_TRY(make_sets(context, seen, &document->baked->space));
+        SL_TRY(make_sets(context, seen, document));
     }
     if (seen->valid && seen->range == range && sl_seen_same_view(&seen->view, view)) return SL_OK;
     seen->version = present->version;
@@ -156,6 +198,7 @@ sl_status sl_seen_update(sl_context *context, sl_seen *seen, const sl_document *
         look(context, seen, &seen->methods[i], &methods[i], document, present->search, view);
         look_into_mirrors(context, &seen->methods[i], &methods[i], document, present->search, view);
     }
+    SL_TRY(look_at_objects(context, seen, document, present));
     const double before = sl_clock_seconds();
     const sl_status status = sl_region_make(context, present->outline, view, range, &seen->region);
     const double seconds = sl_clock_seconds() - before;

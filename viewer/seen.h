@@ -25,6 +25,8 @@ typedef struct sl_seen {
     uint64_t *mirrored; ///< what it sees by mirror, likewise
     uint32_t cell, pvs_count;
     double pvs_area;
+    bool *objects; ///< of the document's object_count, whether each is seen
+    size_t object_count;
     sl_region region;
     sl_mirrored_region in_mirrors; ///< its parts; none where the map has no mirrors
     double mirrored_area;          ///< of all parts

@@ -88,6 +88,11 @@ drag 471 200 437 200
 drag 437 76 400 76
 move 400 76
 END
+shoot office.map object <<'END'
+eye 53 20 160 360
+drag 491 152 448 282
+click 448 282
+END
 shoot effects/oneway.map watch <<'END'
 eye 5 5 0 60
 key M

@@ -193,6 +193,29 @@ def check_mirrors(viewer, folder):
         viewer.check(share < TOLERANCE, f"mirrors: {name} is {share:.2%} off")
 
 
+def check_objects(viewer, folder):
+    """A box dragged, and one that blocks, against maps that have it there, or walls in its place."""
+    plan = (viewer.root / "maps/office.map").read_text()
+    sofa = "object sofa 53.5 37.5 56 38.5"
+    box = "walls 48.5 22.5 51 22.5 51 23.5 48.5 23.5 48.5 22.5"
+    (folder / "moved.map").write_text(plan.replace(sofa, "object sofa 48.5 22.5 51 23.5"))
+    (folder / "blocks.map").write_text(plan.replace(sofa, box))
+    before = "size 1200 760\nkey Tab\nkey C\nkey P\nkey M\neye 53 20 160 360\n"
+    after = "move 5 5\nsave {0}.png\n"
+    viewer.script(folder, "office.map", before + "save given.png\ndrag 977 92 894 341\n" +
+                  after.format("moved") + "click 894 341\nkey J\n" + after.format("blocks") +
+                  "key J\nclick 894 341\nkey Ctrl+Z\n" + after.format("again"))
+    for name, before_too in [("moved", ""), ("blocks", "key J\n")]:
+        viewer.script(folder, folder / f"{name}.map",
+                      before + before_too + after.format(f"{name}-given"))
+        share = viewer.difference(folder / f"{name}.png", folder / f"{name}-given.png")
+        viewer.check(share < TOLERANCE / 2, f"objects: {name} is {share:.2%} off")
+    share = viewer.difference(folder / "moved.png", folder / "blocks.png")
+    viewer.check(share > TOLERANCE, f"objects: one that blocks changes only {share:.2%}")
+    share = viewer.difference(folder / "given.png", folder / "again.png")
+    viewer.check(share < TOLERANCE / 4, f"objects: not back where it was: {share:.2%}")
+
+
 def check_range(viewer, folder):
     """A range set, moved by its slider, undone and lifted, against maps that have it."""
     plan = (viewer.root / "maps/effects/range.map").read_text()
@@ -246,6 +269,7 @@ def main():
         check_doors(viewer, folder)
         check_glass(viewer, folder)
         check_mirrors(viewer, folder)
+        check_objects(viewer, folder)
         check_range(viewer, folder)
     viewer.end()
 
