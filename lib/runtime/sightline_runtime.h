@@ -64,6 +64,7 @@ typedef struct sl_runtime {
     uint32_t view_node_count; ///< rows of view cells, and of groups of them
     uint32_t door_count;      ///< doors are numbered as the map names them
     const unsigned char *nodes, *lines, *cells, *vertices, *exits, *row_offsets, *row_bytes;
+    const unsigned char *walls, *beyond;            ///< NULL where all walls are axial
     const unsigned char *door_offsets, *door_bytes; ///< NULL where no pair depends on doors
     const unsigned char *views, *view_parents, *view_offsets, *view_bytes;
 } sl_runtime;
@@ -77,8 +78,8 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status);
 /// The cell that holds a point; SL_RUNTIME_NO_CELL outside the bounds, for NaN, and where cells
 /// that came with the map leave a gap. On a split line the cell above (right of or over) it, on an
 /// oblique one the cell at its left; on the upper or right border the cell inside. Where walls are
-/// oblique, cells reach over them by the size of rounding: a point so near behind a wall may be
-/// held by the cell before it. Time: the tree's depth.
+/// oblique, cells reach over them by the size of rounding; a point there is in a cell behind the
+/// wall. The same as the library's sl_space_locate. Time: the tree's depth.
 SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, double y);
 
 /// Whether anything in cell `to` can be seen from anywhere in cell `from`. False where either is no
@@ -237,8 +238,14 @@ enum {
     SLRT_CELL_BYTES = 24,
     SLRT_VERTEX_BYTES = 16,
     SLRT_EXIT_BYTES = 40,
-    SLRT_LINE_BYTES = 32
+    SLRT_LINE_BYTES = 32,
+    SLRT_WALL_BYTES = 32
 };
+
+/// What the section BEYO says of a cell's side that no wall is on: an exit or the map's border.
+/// Else it is the wall's number, with a bit where the cell is at the wall's right.
+#define SLRT_BEYOND_BORDER 0xfffffffeu
+#define SLRT_BEYOND_RIGHT  0x80000000u
 
 enum slrt_tag {
     SLRT_INFO,
@@ -259,6 +266,8 @@ enum slrt_tag {
     SLRT_SEAM,
     SLRT_DORO,
     SLRT_DORB,
+    SLRT_WALL,
+    SLRT_BEYO,
     SLRT_TAGS
 };
 
@@ -306,9 +315,9 @@ static sl_runtime_status slrt_check_header(const unsigned char *bytes, size_t si
 /// Finds the sections that the runtime knows; what else there is it passes over.
 static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t size,
                                             slrt_section *found) {
-    static const char tags[SLRT_TAGS][5] = {"INFO", "NODE", "CELL", "VERT", "PORT", "EXIT",
-                                            "PVSO", "PVSB", "LINE", "PART", "VCIN", "VCEL",
-                                            "VCPA", "VCRO", "VCRB", "SEAM", "DORO", "DORB"};
+    static const char tags[SLRT_TAGS][5] = {"INFO", "NODE", "CELL", "VERT", "PORT", "EXIT", "PVSO",
+                                            "PVSB", "LINE", "PART", "VCIN", "VCEL", "VCPA", "VCRO",
+                                            "VCRB", "SEAM", "DORO", "DORB", "WALL", "BEYO"};
     static const uint32_t item_bytes[SLRT_TAGS] = {128,
                                                    SLRT_NODE_BYTES,
                                                    SLRT_CELL_BYTES,
@@ -326,7 +335,9 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                                                    1,
                                                    40,
                                                    8,
-                                                   1};
+                                                   1,
+                                                   SLRT_WALL_BYTES,
+                                                   4};
     const uint32_t count = slrt_u32(bytes + 24);
     uint32_t i;
     int tag;
@@ -443,6 +454,24 @@ static bool slrt_cells_are_sound(const sl_runtime *rt) {
             !slrt_usable(exit + 8, 4))
             return false;
     }
+    return true;
+}
+
+/// What stands on the sides of cells of oblique walls: all or nothing of it.
+static bool slrt_take_walls(sl_runtime *rt, const slrt_section *found) {
+    uint64_t i;
+    rt->walls = rt->beyond = NULL;
+    if (!found[SLRT_BEYO].items) return true;
+    if (!found[SLRT_WALL].items || found[SLRT_BEYO].count != rt->vertex_count) return false;
+    for (i = 0; i < found[SLRT_WALL].count; i++)
+        if (!slrt_usable(found[SLRT_WALL].items + i * SLRT_WALL_BYTES, 4)) return false;
+    for (i = 0; i < found[SLRT_BEYO].count; i++) {
+        const uint32_t beyond = slrt_u32(found[SLRT_BEYO].items + i * 4);
+        if (beyond < SLRT_BEYOND_BORDER && (beyond & ~SLRT_BEYOND_RIGHT) >= found[SLRT_WALL].count)
+            return false;
+    }
+    rt->walls = found[SLRT_WALL].items;
+    rt->beyond = found[SLRT_BEYO].items;
     return true;
 }
 
@@ -630,7 +659,8 @@ SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size,
     status = slrt_find_sections(file, size, found);
     if (status == SL_RUNTIME_OK) status = slrt_check_sizes(found, &rt);
     if (status != SL_RUNTIME_OK) return status;
-    if (!slrt_tree_is_sound(&rt) || !slrt_cells_are_sound(&rt)) return SL_RUNTIME_SPACE;
+    if (!slrt_tree_is_sound(&rt) || !slrt_cells_are_sound(&rt) || !slrt_take_walls(&rt, found))
+        return SL_RUNTIME_SPACE;
     if (!slrt_take_doors(&rt, found)) return SL_RUNTIME_ROW;
     if (!slrt_rows_are_sound(&rt, found[SLRT_PVSB].count, true)) return SL_RUNTIME_ROW;
     if (!slrt_open_views(found, &rt)) return SL_RUNTIME_ROW;
@@ -950,6 +980,22 @@ static const unsigned char *slrt_exit_before(const sl_runtime *rt, uint32_t cell
     return chosen;
 }
 
+/// Whether the walls on the sides of a cell have a point on the cell's side of them: by rounding
+/// the cell reaches over them.
+static bool slrt_is_before_walls(const sl_runtime *rt, const sl_runtime_cell *cell, double x,
+                                 double y) {
+    uint32_t i;
+    for (i = 0; rt->beyond && i < cell->vertex_count; i++) {
+        const uint32_t beyond = slrt_u32(rt->beyond + (size_t)(cell->first_vertex + i) * 4);
+        const size_t wall = beyond & ~SLRT_BEYOND_RIGHT;
+        int side;
+        if (beyond >= SLRT_BEYOND_BORDER) continue;
+        side = slrt_side_of_line(rt->walls + wall * SLRT_WALL_BYTES, x, y);
+        if (beyond & SLRT_BEYOND_RIGHT ? side > 0 : side < 0) return false;
+    }
+    return true;
+}
+
 static bool slrt_holds(const sl_runtime *rt, uint32_t cell, double x, double y) {
     const sl_runtime_cell c = sl_runtime_get_cell(rt, cell);
     const unsigned char *corners = rt->vertices + (size_t)c.first_vertex * 16;
@@ -960,7 +1006,7 @@ static bool slrt_holds(const sl_runtime *rt, uint32_t cell, double x, double y) 
         if (slrt_side_of_line(corners + (size_t)i * 16, x, y) < 0) return false;
     memcpy(closing, corners + (size_t)i * 16, 16);
     memcpy(closing + 16, corners, 16);
-    return slrt_side_of_line(closing, x, y) >= 0;
+    return slrt_side_of_line(closing, x, y) >= 0 && slrt_is_before_walls(rt, &c, x, y);
 }
 
 /// The descent by oblique lines. The corners of their cells are rounded, so the cell that the tree
@@ -994,7 +1040,8 @@ SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, d
     int32_t at = runtime->root;
     if (!(x >= runtime->min_x && x <= runtime->max_x && y >= runtime->min_y && y <= runtime->max_y))
         return SL_RUNTIME_NO_CELL;
-    if (runtime->line_count || runtime->partial) return slrt_locate_oblique(runtime, x, y);
+    if (runtime->line_count || runtime->partial || runtime->beyond)
+        return slrt_locate_oblique(runtime, x, y);
     while (at >= 0) {
         const unsigned char *node = runtime->nodes + (size_t)at * SLRT_NODE_BYTES;
         at = slrt_i32(node + ((slrt_i32(node + 8) ? y : x) >= slrt_f64(node) ? 16 : 12));

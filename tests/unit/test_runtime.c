@@ -4,6 +4,7 @@
 #include "runtime_maps.h"
 
 #include "base/random.h"
+#include "oracle/random_oblique.h"
 
 #include <math.h>
 
@@ -56,6 +57,43 @@ static void points_are_in_the_same_cells(const baked_file *f) {
 static void every_point_is_in_the_same_cell(void **state) {
     (void)state;
     baked_file_each(points_are_in_the_same_cells);
+}
+
+/// Places on walls as doubles have them, and a few steps beside.
+static void points_by_walls_are_in_the_same_cells(const baked_file *f, uint64_t points) {
+    const sl_space *s = &f->baked.space;
+    sl_random random = {7};
+    for (uint64_t i = 0; i < points; i++) {
+        const sl_wall *w = &s->walls[sl_random_below(&random, s->wall_count)];
+        const double along = sl_random_unit(&random);
+        double x = w->a.x + along * (w->b.x - w->a.x), y = w->a.y + along * (w->b.y - w->a.y);
+        for (uint64_t k = sl_random_below(&random, 4); k > 0; k--) {
+            x = nextafter(x, sl_random_below(&random, 2) ? INFINITY : -INFINITY);
+            y = nextafter(y, sl_random_below(&random, 2) ? INFINITY : -INFINITY);
+        }
+        same_cell(f, x, y);
+    }
+}
+
+static void every_point_by_an_oblique_wall_is_in_the_same_cell(void **state) {
+    (void)state;
+    const uint64_t maps = testing_seeds(200);
+    uint64_t over = 0;
+    for (uint64_t seed = 1; seed <= maps; seed++) {
+        sl_context *context = testing_context(NULL);
+        baked_file f = {.name = "random", .baked = {.method = "dfs", .solver = "funnel"}};
+        sl_map *map = &f.baked.map;
+        assert_ok(context,
+                  oblique_random_map(context, seed, (oblique_grid)(seed % OBLIQUE_GRIDS), 12, map));
+        if (sl_map_clean(context, map, NULL) == SL_OK && map->wall_count) {
+            baked_file_make(context, &f, false);
+            points_by_walls_are_in_the_same_cells(&f, 400);
+            over += f.runtime.beyond != NULL;
+        }
+        baked_file_destroy(context, &f);
+        sl_context_destroy(context);
+    }
+    assert_true(over > maps / 2);
 }
 
 static void rows_are_the_same(const baked_file *f) {
@@ -185,6 +223,7 @@ static void any_alignment_will_do(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_point_is_in_the_same_cell),
+        cmocka_unit_test(every_point_by_an_oblique_wall_is_in_the_same_cell),
         cmocka_unit_test(every_pair_is_seen_the_same),
         cmocka_unit_test(what_is_no_cell_sees_nothing),
         cmocka_unit_test(cells_exits_and_corners_are_the_same),

@@ -374,6 +374,49 @@ static void lines_that_are_none_are_refused(void **state) {
     sl_context_destroy(context);
 }
 
+/// What is said of the walls on the sides of oblique cells.
+static void sides_on_no_wall_are_refused(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    baked_file f = baked_file_of_text(context, "walls 0 0 9 0 9 9 0 9 0 0\nwall 2 2 6 5\n");
+    assert_non_null(f.runtime.beyond);
+    const double nan = NAN;
+    const uint32_t walls = f.baked.space.wall_count;
+    const uint32_t lies[] = {walls, walls | SL_BEYOND_RIGHT, SL_BEYOND_BORDER - 1};
+    const uint32_t truths[] = {walls - 1, (walls - 1) | SL_BEYOND_RIGHT, SL_BEYOND_BORDER,
+                               SL_BEYOND_EXIT};
+    char *bytes = malloc(f.size);
+    assert_non_null(bytes);
+    memcpy(bytes, f.bytes, f.size);
+    for (size_t i = 0; i < sizeof lies / sizeof *lies; i++) {
+        memcpy(slv_items(bytes, "BEYO") + 4, &lies[i], 4);
+        slv_seal(bytes, f.size);
+        assert_int_equal(open_bytes(bytes, f.size), SL_RUNTIME_SPACE);
+    }
+    for (size_t i = 0; i < sizeof truths / sizeof *truths; i++) {
+        memcpy(slv_items(bytes, "BEYO") + 4, &truths[i], 4);
+        slv_seal(bytes, f.size);
+        assert_int_equal(open_bytes(bytes, f.size), SL_RUNTIME_OK);
+    }
+    memcpy(slv_items(bytes, "WALL"), &nan, 8);
+    slv_seal(bytes, f.size);
+    assert_int_equal(open_bytes(bytes, f.size), SL_RUNTIME_SPACE);
+    memcpy(bytes, f.bytes, f.size);
+    memcpy(slv_entry(bytes, "WALL"), "????", 4);
+    slv_seal(bytes, f.size);
+    assert_int_equal(open_bytes(bytes, f.size), SL_RUNTIME_SPACE);
+    memcpy(bytes, f.bytes, f.size);
+    sl_slv_section few;
+    memcpy(&few, slv_entry(bytes, "BEYO"), sizeof few);
+    few.count--;
+    memcpy(slv_entry(bytes, "BEYO"), &few, sizeof few);
+    slv_seal(bytes, f.size);
+    assert_int_equal(open_bytes(bytes, f.size), SL_RUNTIME_SPACE);
+    free(bytes);
+    baked_file_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_length_and_every_bit_counts),
@@ -386,6 +429,7 @@ int main(void) {
         cmocka_unit_test(lines_split_as_coordinates_do),
         cmocka_unit_test(the_way_goes_on_to_the_neighbour),
         cmocka_unit_test(lines_that_are_none_are_refused),
+        cmocka_unit_test(sides_on_no_wall_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
