@@ -162,6 +162,18 @@ static sl_status push(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
                         from.node, exit, true);
 }
 
+/// Whether the sequence has been in a cell since the last mirror. Where places are exact no line
+/// can enter a cell twice, and the directions of portals tell; those of rounded places do not, for
+/// portals of the size of rounding may be turned any way.
+static bool has_been_in(const sl_dfs_thread *me, uint32_t cell) {
+    const thread *e = me->effects;
+    for (size_t i = e->places.count; i-- > 0;) {
+        if (me->steps.items[i].cell == cell) return true;
+        if (e->places.items[i].mirror != UINT32_MAX) return false;
+    }
+    return false;
+}
+
 static sl_status try_exit(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
                           uint32_t number) {
     thread *e = me->effects;
@@ -173,6 +185,7 @@ static sl_status try_exit(sl_context *context, const sl_dfs *all, sl_dfs_thread 
         e->glass_tests++;
         if (sl_exit_is_dark(all->space, cell, number)) return SL_OK;
     }
+    if (from->frame.depth && has_been_in(me, exit->cell)) return SL_OK;
     place to = {.ends = unfold(e, &from->frame, exit->left, exit->right),
                 .frame = from->frame,
                 .mirror = UINT32_MAX};

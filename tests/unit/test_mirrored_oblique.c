@@ -1,0 +1,237 @@
+/// What is promised behind oblique mirrors, where images are rounded: a sightline that keeps clear
+/// of all ends of walls and mirrors is found, by the bake, by the cells of an eye and by its
+/// region; and what the region shows is where the sightline to it ends. Against single rays in
+/// rationals, on random maps with walls and mirrors in any direction. SIGHTLINE_SEEDS in the
+/// environment: how many maps (60 by default).
+// needs effects
+#include "testing.h"
+
+#include "oracle/mirror_ray.h"
+#include "oracle/random_oblique.h"
+
+#include <math.h>
+
+enum { MAPS = 60, MIRRORS = 3, EYES = 4, RAYS = 24, DEPTH = 3 };
+
+/// Of the map's size: what rounding moves is far less.
+#define CLEAR 1e-9
+
+typedef struct trial {
+    sl_context *context;
+    sl_random random;
+    uint64_t seed;
+    sl_map map;
+    sl_space space;
+    sl_outline outline;
+    sl_room_mirrors mirrors;
+    sl_visibility baked;
+    double size;
+    size_t rays, points, rounded; ///< reflected legs and walls of regions checked; bakes rounded
+} trial;
+
+static void add_walls(trial *t, oblique_grid grid) {
+    for (uint64_t i = 2 + sl_random_below(&t->random, 5); i > 0; i--) {
+        sl_segment s;
+        do {
+            s.a.x = oblique_coordinate(&t->random, grid),
+            s.a.y = oblique_coordinate(&t->random, grid);
+            s.b.x = oblique_coordinate(&t->random, grid),
+            s.b.y = oblique_coordinate(&t->random, grid);
+        } while (s.a.x == s.b.x && s.a.y == s.b.y);
+        if (i <= MIRRORS) {
+            assert_ok(t->context, sl_map_add_mirror(t->context, &t->map, s, 0));
+            t->map.mirrors[t->map.mirror_count - 1].one_sided = sl_random_below(&t->random, 2);
+        } else {
+            assert_ok(t->context, sl_map_add_wall(t->context, &t->map, s.a, s.b, 0));
+        }
+    }
+}
+
+static void bake(trial *t) {
+    sl_plan plan = sl_plan_make(&t->map);
+    plan.mirror_depth = DEPTH;
+    sl_see_options options = sl_see_options_default();
+    options.solver = sl_funnel();
+    options.threads = 1;
+    options.plan = &plan;
+    size_t count;
+    const sl_see_method *methods = sl_see_methods(&count);
+    while (strcmp(methods->name, "dfs") != 0) methods++;
+    assert_ok(t->context, methods->see(t->context, &t->space, &options, &t->baked));
+    t->rounded += t->baked.account.rounded_places > 0;
+}
+
+static void begin(trial *t, uint64_t seed) {
+    static const oblique_grid grids[] = {OBLIQUE_SQUARES, OBLIQUE_ANYWHERE, OBLIQUE_TENTHS};
+    static const double highs[] = {9, 100, 10};
+    t->random = (sl_random){seed};
+    t->seed = seed;
+    t->map = (sl_map){0};
+    t->context = testing_context(NULL);
+    const double high = highs[seed % 3] + 1;
+    const sl_point corners[5] = {{-1, -1}, {high, -1}, {high, high}, {-1, high}, {-1, -1}};
+    t->size = high + 1;
+    for (int i = 0; i < 4; i++)
+        assert_ok(t->context, sl_map_add_wall(t->context, &t->map, corners[i], corners[i + 1], 0));
+    add_walls(t, grids[seed % 3]);
+    assert_ok(t->context, sl_map_clean(t->context, &t->map, NULL));
+    const sl_bsp_options options = sl_bsp_options_default();
+    assert_ok(t->context, sl_subdivide_bsp(t->context, &t->map, &options, &t->space));
+    assert_ok(t->context, sl_outline_make(t->context, &t->space, &t->outline));
+    assert_ok(t->context, sl_room_mirrors_make(t->context, &t->outline, &t->map, &t->mirrors));
+    bake(t);
+}
+
+static void end(trial *t) {
+    sl_visibility_destroy(t->context, &t->baked);
+    sl_room_mirrors_destroy(t->context, &t->mirrors);
+    sl_outline_destroy(t->context, &t->outline);
+    sl_space_destroy(t->context, &t->space);
+    sl_map_destroy(t->context, &t->map);
+    sl_context_destroy(t->context);
+}
+
+static double cross(sl_point a, sl_point b, sl_point p) {
+    return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+}
+
+/// How far a point is inside a cell, under 0 where it is outside.
+static double depth_in(const sl_space *space, uint32_t cell, sl_point p) {
+    const sl_cell *c = &space->cells[cell];
+    const sl_point *v = space->vertices + c->first_vertex;
+    double least = INFINITY;
+    for (uint32_t i = 0; i < c->vertex_count; i++) {
+        const sl_point a = v[i], b = v[(i + 1) % c->vertex_count];
+        least = fmin(least, cross(a, b, p) / hypot(b.x - a.x, b.y - a.y));
+    }
+    return least;
+}
+
+static bool polygon_holds(const sl_region *region, sl_point p) {
+    bool in = false;
+    for (size_t i = 0; i < region->count; i++) {
+        const sl_point a = region->points[i], b = region->points[(i + 1) % region->count];
+        if ((a.y > p.y) != (b.y > p.y) && (cross(a, b, p) > 0) == (b.y > a.y)) in = !in;
+    }
+    return in;
+}
+
+/// Whether a part was come to by the mirrors of a ray's first legs.
+static bool has_chain(const sl_mirrored_region *region, uint32_t part, const oracle_ray *ray,
+                      uint32_t leg) {
+    for (; leg > 0 && part != SL_NO_PART; leg--, part = region->parts[part].parent)
+        if (region->parts[part].mirror != ray->legs[leg].mirror) return false;
+    return leg == 0 && part == SL_NO_PART;
+}
+
+static bool is_shown(const sl_mirrored_region *region, const oracle_ray *ray, uint32_t leg,
+                     sl_point p) {
+    for (uint32_t i = 0; i < region->part_count; i++)
+        if (has_chain(region, i, ray, leg) && polygon_holds(&region->parts[i].region, p))
+            return true;
+    return false;
+}
+
+/// Rays that keep clear of all ends are found.
+static void check_rays(trial *t, sl_point eye, const uint64_t *cells,
+                       const sl_mirrored_region *region) {
+    const uint32_t from = sl_space_locate(&t->space, eye);
+    if (depth_in(&t->space, from, eye) < CLEAR * t->size) return;
+    for (int i = 0; i < RAYS; i++) {
+        const double angle = sl_random_unit(&t->random) * 6.283185307179586;
+        const oracle_ray ray =
+            oracle_ray_of(&t->map, eye, (sl_point){cos(angle), sin(angle)}, DEPTH);
+        if (ray.margin < CLEAR * t->size) continue;
+        for (uint32_t leg = 1; leg < ray.count; leg++) {
+            const sl_point a = ray.legs[leg].from, b = ray.legs[leg].to;
+            const double share = sl_random_unit(&t->random);
+            const sl_point p = {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
+            const uint32_t cell = sl_space_locate(&t->space, p);
+            if (depth_in(&t->space, cell, p) < CLEAR * t->size) continue;
+            t->rays++;
+            const bool baked = sl_pvs_sees(&t->baked.mirrored, from, cell);
+            const bool culled = sl_eye_sees(cells, cell), shown = is_shown(region, &ray, leg, p);
+            if (!baked || !culled || !shown)
+                fail_msg("seed %llu, eye %.17g,%.17g, angle %.17g: reflection %u shows %.17g,%.17g "
+                         "in cell %u; bake %d, eye %d, region %d",
+                         (unsigned long long)t->seed, eye.x, eye.y, angle, leg, p.x, p.y, cell,
+                         baked, culled, shown);
+        }
+    }
+}
+
+/// A ray to where a wall is seen to be ends on that wall, by the same mirrors.
+static void check_part(trial *t, sl_point eye, const sl_mirrored_region *region, uint32_t number) {
+    const sl_mirror_part *part = &region->parts[number];
+    const sl_region *r = &part->region;
+    for (size_t i = 0; i < r->count; i++) {
+        const size_t next = (i + 1) % r->count;
+        if (r->edges[i].kind != SL_EDGE_WALL) continue;
+        const sl_point image = {(part->image[i].x + part->image[next].x) / 2,
+                                (part->image[i].y + part->image[next].y) / 2};
+        const sl_point place = {(r->points[i].x + r->points[next].x) / 2,
+                                (r->points[i].y + r->points[next].y) / 2};
+        const oracle_ray ray =
+            oracle_ray_of(&t->map, eye, (sl_point){image.x - eye.x, image.y - eye.y}, part->depth);
+        // Of a wall that is seen all but edge-on the ray may end anywhere.
+        const double aside =
+            fabs(cross(eye, image, part->image[i])) / hypot(image.x - eye.x, image.y - eye.y);
+        if (ray.margin < 1e-7 * t->size || aside < 1e-6 * t->size) continue;
+        t->points++;
+        const sl_point to = ray.count ? ray.legs[ray.count - 1].to : eye;
+        if (ray.count != part->depth + 1 || !has_chain(region, number, &ray, part->depth) ||
+            hypot(to.x - place.x, to.y - place.y) > 1e-7 * t->size)
+            fail_msg("seed %llu, eye %.17g,%.17g, part %u: the wall at %.17g,%.17g, whose image is "
+                     "at %.17g,%.17g: the ray there ends at %.17g,%.17g",
+                     (unsigned long long)t->seed, eye.x, eye.y, number, place.x, place.y, image.x,
+                     image.y, to.x, to.y);
+    }
+}
+
+static void check_eye(trial *t, sl_point eye) {
+    const sl_visibility bare = {.sight = SL_OPEN};
+    const sl_view view = sl_view_all_round(eye);
+    uint64_t *cells = calloc(sl_eye_words(&t->space), sizeof *cells);
+    assert_non_null(cells);
+    sl_eye_search *search;
+    sl_eye_account account;
+    sl_mirrored_region region = {0};
+    size_t count;
+    const sl_eye_method *exact = sl_eye_methods(&count) + count - 1;
+    assert_ok(t->context, sl_eye_search_create(t->context, &t->space, &bare, &search));
+    assert_ok(t->context, sl_eye_search_add_mirrors(t->context, search, &t->map, DEPTH));
+    assert_ok(t->context, exact->mirrored(t->context, search, &view, cells, &account));
+    assert_ok(t->context,
+              sl_mirrored_region_make(t->context, &t->mirrors, &view, 0, DEPTH, &region));
+    check_rays(t, eye, cells, &region);
+    for (uint32_t i = 0; i < region.part_count; i++) check_part(t, eye, &region, i);
+    sl_mirrored_region_destroy(t->context, &region);
+    sl_eye_search_destroy(t->context, search);
+    free(cells);
+}
+
+static void random_maps(void **state) {
+    (void)state;
+    const char *seeds = getenv("SIGHTLINE_SEEDS");
+    const uint64_t maps = seeds ? strtoull(seeds, NULL, 10) : MAPS;
+    trial t = {0};
+    for (uint64_t seed = 1; seed <= maps; seed++) {
+        begin(&t, seed);
+        for (int i = 0; i < EYES; i++) {
+            const sl_point eye = {sl_random_unit(&t.random) * t.size - 1,
+                                  sl_random_unit(&t.random) * t.size - 1};
+            check_eye(&t, eye);
+        }
+        end(&t);
+    }
+    assert_true(t.rounded > maps / 2);
+    assert_true(t.rays > 10 * maps);
+    assert_true(t.points > maps);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(random_maps),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
