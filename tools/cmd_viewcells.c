@@ -115,6 +115,9 @@ static sl_status plan_sampling(sl_context *context, const viewcells_texts *t,
     if (t->exact || run->method->exact) run->evaluation = 0;
     run->sampling.objects = t->exact ? SL_VIEW_CELLS : (sl_view_objects)objects;
     SL_TRY(sl_option_count(context, "--samples", t->samples, UINT32_MAX, &run->sampling.samples));
+    if (!run->sampling.samples &&
+        (run->method->needs_segments || !(t->exact || run->method->exact)))
+        return sl_fail(context, SL_BAD_ARGUMENT, "--samples 0: at least 1 is needed");
     SL_TRY(sl_option_count(context, "--evaluate", t->evaluate, UINT32_MAX, &run->evaluation));
     SL_TRY(sl_option_count(context, "--seed", t->seed, UINT64_MAX, &run->sampling.seed));
     run->subdivision.seed = run->sampling.seed;

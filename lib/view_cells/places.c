@@ -5,6 +5,9 @@
 
 #include <math.h>
 
+/// Of viewpoints along paths.
+#define MOST_VIEWPOINTS 1e7
+
 /// Places while they are gathered.
 typedef struct gathered {
     SL_ARRAY(sl_point) points;
@@ -66,8 +69,9 @@ sl_status sl_view_places_inside(sl_context *context, const sl_space *space, sl_v
                   out);
 }
 
-static bool within(const sl_box *b, sl_point p) {
-    return p.x >= b->min.x && p.x <= b->max.x && p.y >= b->min.y && p.y <= b->max.y;
+static bool is_inside(const sl_space *space, sl_point p) {
+    const uint32_t cell = sl_space_locate(space, p);
+    return cell != SL_NO_CELL && space->cells[cell].inside;
 }
 
 /// The points of a path; *before is how far the last one lies behind.
@@ -79,7 +83,7 @@ static sl_status add_piece(sl_context *context, gathered *g, const sl_space *spa
         if (i % 4096 == 0) SL_TRY(sl_check_cancelled(context));
         const double t = length > 0 ? at / length : 0;
         const sl_point p = {from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)};
-        if (within(&space->bounds, p)) SL_TRY(add(context, g, &p, 1, 1));
+        if (is_inside(space, p)) SL_TRY(add(context, g, &p, 1, 1));
     }
     *before = length - (at - step);
     return SL_OK;
@@ -97,15 +101,31 @@ static sl_status add_path(sl_context *context, gathered *g, const sl_space *spac
     return SL_OK;
 }
 
+static double length_of(const sl_map *map) {
+    double length = 0;
+    for (size_t i = 0; i < map->path_count; i++)
+        for (size_t k = 1; k < map->paths[i].count; k++) {
+            const sl_point a = map->paths[i].points[k - 1], b = map->paths[i].points[k];
+            length += hypot(b.x - a.x, b.y - a.y);
+        }
+    return length;
+}
+
 sl_status sl_view_places_paths(sl_context *context, const sl_map *map, const sl_space *space,
                                double step, sl_view_places *out) {
     if (!(step > 0 && isfinite(step)))
         return sl_fail(context, SL_BAD_ARGUMENT, "a step of %g: must be over 0", step);
+    const double length = length_of(map);
+    if (!(length / step < MOST_VIEWPOINTS))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "a step of %g: paths %g long would have more than %g viewpoints", step,
+                       length, MOST_VIEWPOINTS);
     gathered g = {0};
     sl_status status = SL_OK;
     for (size_t i = 0; i < map->path_count && status == SL_OK; i++)
         status = add_path(context, &g, space, &map->paths[i], step);
-    return finish(context, &g, status, "no path of the map is within its bounds", out);
+    return finish(context, &g, status,
+                  "no path of the map goes where it is inside: no place for viewpoints", out);
 }
 
 sl_status sl_view_places_density(sl_context *context, const sl_space *space, const double *values,

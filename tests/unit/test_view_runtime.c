@@ -18,6 +18,7 @@ typedef struct viewed {
     view_world world;
     sl_view_tree tree;
     sl_view_hierarchy hierarchy;
+    uint32_t *cut; ///< by elementary cell: its view cell
     sl_baked baked;
     char *bytes;
     size_t size;
@@ -53,12 +54,11 @@ static void make_cells(sl_context *context, const char *name, viewed *v) {
 
 static void bake(sl_context *context, const char *name, uint32_t cells, viewed *v) {
     sl_baked *b = &v->baked;
-    uint32_t *view_cells = calloc(v->hierarchy.cell_count, sizeof *view_cells);
+    v->cut = calloc(v->hierarchy.cell_count, sizeof *v->cut);
     uint32_t *numbers = calloc(cells, sizeof *numbers);
-    assert_ok(context, sl_view_cut(context, &v->hierarchy, cells, view_cells, numbers));
+    assert_ok(context, sl_view_cut(context, &v->hierarchy, cells, v->cut, numbers));
     read_map(context, name, &b->map);
-    assert_ok(context, sl_view_add_seams(context, &v->tree, view_cells, NULL, &b->map));
-    free(view_cells);
+    assert_ok(context, sl_view_add_seams(context, &v->tree, v->cut, NULL, &b->map));
     free(numbers);
     assert_ok(context, sl_subdivision_for(&b->map)->subdivide(context, &b->map, NULL, &b->space));
     sl_see_options seeing = sl_see_options_default();
@@ -79,10 +79,51 @@ static void bake(sl_context *context, const char *name, uint32_t cells, viewed *
 
 static void drop(sl_context *context, viewed *v) {
     free(v->bytes);
+    free(v->cut);
     sl_baked_destroy(context, &v->baked);
     sl_view_hierarchy_destroy(context, &v->hierarchy);
     sl_view_tree_destroy(context, &v->tree);
     drop_world(context, &v->world);
+}
+
+/// The leaf whose polygon a point is in, by all of them; SL_NO_VIEW_CELL for one on a border.
+static uint32_t leaf_about(const sl_view_tree *tree, sl_point p) {
+    for (uint32_t leaf = 0; leaf < tree->leaf_count; leaf++) {
+        const uint32_t first = tree->first[leaf], count = tree->first[leaf + 1] - first;
+        const sl_point *corners = tree->corners + first;
+        bool within = true;
+        for (uint32_t k = 0; k < count && within; k++)
+            within = cross_of(corners[k], corners[(k + 1) % count], p) > 1e-9;
+        if (within) return leaf;
+    }
+    return SL_NO_VIEW_CELL;
+}
+
+/// Whether no wall comes near a segment.
+static bool is_free(const sl_space *space, sl_point p, sl_point q) {
+    for (uint32_t i = 0; i < space->wall_count; i++) {
+        const sl_wall *w = &space->walls[i];
+        const double a = cross_of(p, q, w->a), b = cross_of(p, q, w->b);
+        const double c = cross_of(w->a, w->b, p), d = cross_of(w->a, w->b, q);
+        const bool apart = (a > 1e-9 && b > 1e-9) || (a < -1e-9 && b < -1e-9) ||
+                           (c > 1e-9 && d > 1e-9) || (c < -1e-9 && d < -1e-9);
+        if (!apart) return false;
+    }
+    return true;
+}
+
+/// Told by nothing that the library has computed of cells: the view cell of a point is that of the
+/// polygon about it, and it sees the cell of every place that no wall hides from the point. Returns
+/// whether there was such a place.
+static bool check_alone(const viewed *v, const sl_runtime *rt, sl_point p, sl_point q,
+                        uint32_t view) {
+    const uint32_t leaf = leaf_about(&v->tree, p);
+    if (leaf < v->tree.cell_count && view != SL_NO_VIEW_CELL) assert_int_equal(view, v->cut[leaf]);
+    if (leaf != SL_NO_VIEW_CELL && leaf >= v->tree.cell_count)
+        assert_int_equal(view, SL_NO_VIEW_CELL);
+    if (view == SL_NO_VIEW_CELL || !is_free(&v->world.space, p, q)) return false;
+    assert_true(sl_runtime_view_can_see(rt, view, sl_runtime_locate(rt, q.x, q.y)));
+    return true;
 }
 
 /// What a point's view cell sees holds all that its cell sees; the runtime says what the library
@@ -101,7 +142,7 @@ static void check_points(const viewed *v, const sl_runtime *rt) {
             assert_int_equal(unpacked[c / 8] >> c % 8 & 1, sl_bits_has(rows + i * words, c));
     }
     sl_random random = {17};
-    uint64_t found = 0;
+    uint64_t found = 0, free_ways = 0;
     for (uint64_t i = 0; i < points; i++) {
         sl_point p = {box.min.x + (box.max.x - box.min.x) * sl_random_unit(&random),
                       box.min.y + (box.max.y - box.min.y) * sl_random_unit(&random)};
@@ -109,6 +150,9 @@ static void check_points(const viewed *v, const sl_runtime *rt) {
         const uint32_t cell = sl_runtime_locate(rt, p.x, p.y);
         const uint32_t view = sl_runtime_view_cell(rt, cell);
         assert_int_equal(view, sl_view_rows_locate(&b->views, &b->space, p));
+        const sl_point q = {box.min.x + (box.max.x - box.min.x) * sl_random_unit(&random),
+                            box.min.y + (box.max.y - box.min.y) * sl_random_unit(&random)};
+        free_ways += check_alone(v, rt, p, q, view);
         if (view == SL_NO_VIEW_CELL) continue;
         found++;
         memset(own, 0, words * sizeof *own);
@@ -118,7 +162,7 @@ static void check_points(const viewed *v, const sl_runtime *rt) {
         assert_int_equal(sl_runtime_view_can_see(rt, view, to),
                          sl_bits_has(rows + view * words, to));
     }
-    assert_true(found > points / 4);
+    assert_true(found > points / 4 && free_ways > points / 100);
     assert_int_equal(sl_runtime_view_cell(rt, SL_RUNTIME_NO_CELL), SL_RUNTIME_NO_CELL);
     assert_false(sl_runtime_view_can_see(rt, SL_RUNTIME_NO_CELL, 0));
     free(rows);

@@ -80,8 +80,8 @@ typedef struct sl_view_places {
 /// Viewpoints spread evenly over the inside of a space. SL_BAD_ARGUMENT where it has none.
 SL_API sl_status sl_view_places_inside(sl_context *context, const sl_space *space,
                                        sl_view_places *out);
-/// Viewpoints along a map's paths, as walked at an even speed: points `step` apart. SL_BAD_ARGUMENT
-/// where there is no path within the bounds, or for a step that is not positive.
+/// Viewpoints along a map's paths, as walked at an even speed: points `step` apart, those inside.
+/// SL_BAD_ARGUMENT where there are none, or over ten million, and for a step that is not positive.
 SL_API sl_status sl_view_places_paths(sl_context *context, const sl_map *map, const sl_space *space,
                                       double step, sl_view_places *out);
 /// Viewpoints by a density: values over a grid that covers the bounds of the space, row after row
