@@ -58,16 +58,19 @@ sl_status sl_effects_check(sl_context *context, const sl_map *map, const char *m
         append(names, sizeof names, ",", table[i]->name);
         if (table[i]->line(map) < first) first = table[i]->line(map);
     }
-    if (first) snprintf(line, sizeof line, "%u:", (unsigned)first);
-    const char *source = map->source ? map->source : "the map";
+    // A map out of a baked file has no lines that anyone could look up.
+    if (first && map->source) snprintf(line, sizeof line, "%u:", (unsigned)first);
+    const char *source = map->source ? map->source : "", *colon = map->source ? ":" : "";
+    const char *space = map->source ? " " : "", *bake = map->source ? "" : "bake ";
     const char *them = unknown == SL_EFFECT_RANGE ? "it" : "them";
     if (!SIGHTLINE_EFFECTS)
-        return sl_fail(context, SL_UNSUPPORTED,
-                       "%s:%s the map calls for %s, and this build is without effects: --without "
-                       "%s leaves %s out, a build with -DSIGHTLINE_EFFECTS=ON knows %s",
-                       source, line, several, names, them, them);
+        return sl_fail(
+            context, SL_UNSUPPORTED,
+            "%s%s%s%sthe map calls for %s, and this build is without effects: %s--without "
+            "%s leaves %s out, a build with -DSIGHTLINE_EFFECTS=ON knows %s",
+            source, colon, line, space, several, bake, names, them, them);
     return sl_fail(context, SL_UNSUPPORTED,
-                   "%s:%s the map calls for %s, which the method '%s' does not know; "
-                   "--without %s leaves %s out",
-                   source, line, several, method, names, them);
+                   "%s%s%s%sthe map calls for %s, which the method '%s' does not know; "
+                   "%s--without %s leaves %s out",
+                   source, colon, line, space, several, method, bake, names, them);
 }
