@@ -140,10 +140,6 @@ static sl_status read_option(sl_context *context, int option, arguments *a) {
     case 'v':
         a->version = true;
         return SL_OK;
-    case '?':
-    case ':':
-        return sl_fail(context, SL_BAD_ARGUMENT,
-                       "wrong arguments; 'sightline-view --help' tells the right ones");
     default:
         return read_map_option(context, option, a);
     }
@@ -158,6 +154,7 @@ static sl_status read_arguments(sl_context *context, int argc, char **argv, argu
         {"unit", required_argument, NULL, 'u'},
         {"threshold", required_argument, NULL, 'd'},
         {"doors", no_argument, NULL, 'r'},
+        {"cells", no_argument, NULL, 'c'},
         {"start", required_argument, NULL, 'p'},
         {"script", required_argument, NULL, 's'},
         {"screenshot", required_argument, NULL, 'o'},
@@ -171,8 +168,16 @@ static sl_status read_arguments(sl_context *context, int argc, char **argv, argu
     };
     *a = (arguments){.frames = 300, .seed = 1, .options = sl_import_options_default()};
     opterr = 0;
-    for (int option; (option = getopt_long(argc, argv, "h", options, NULL)) != -1;)
+    for (int option; (option = getopt_long(argc, argv, ":h", options, NULL)) != -1;) {
+        const char *given = argv[optind - 1];
+        if (option == '?' || option == ':')
+            return sl_fail(context, SL_BAD_ARGUMENT,
+                           "%s: %s; 'sightline-view --help' lists the options", given,
+                           option == ':'                  ? "an argument is missing"
+                           : optopt && strchr(given, '=') ? "takes no argument"
+                                                          : "no such option");
         SL_TRY(read_option(context, option, a));
+    }
     if (argc - optind > 1)
         return sl_fail(context, SL_BAD_ARGUMENT, "one map at a time, not also '%s'",
                        argv[optind + 1]);

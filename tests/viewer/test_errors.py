@@ -1,5 +1,6 @@
 """What goes wrong is told in one clear line, with status 1 or 2: VIEW SAME ROOT."""
 import pathlib
+import re
 import sys
 import tempfile
 
@@ -31,7 +32,9 @@ def main():
         fails(2, "broken.map:2", broken, "--screenshot", out)
         fails(2, "broken.map:2", broken, env=nowhere)
         fails(2, "cut.slv", cut, "--screenshot", out)
-        fails(2, "wrong arguments", "--nonsense")
+        fails(2, "--nonsense: no such option", "--nonsense")
+        fails(2, "--doors=1: takes no argument", office, "--doors=1")
+        fails(2, "--slice: an argument is missing", office, "--slice")
         fails(2, "one map at a time", office, office)
         fails(2, "--slice tall", office, "--slice", "tall")
         fails(2, "--start 3", office, "--start", "3")
@@ -56,6 +59,9 @@ def main():
         viewer.check(not out.exists(), "a picture of a failure")
         told = viewer.run("--help")
         viewer.check(told.returncode == 0 and "--screenshot" in told.stdout, "--help")
+        for option, argument in re.findall(r"--([a-z]+)(?: ([A-Z]\S*?))?[],\s]", told.stdout):
+            taken = viewer.run(f"--{option}", *(["1"] if argument else []), "--help")
+            viewer.check("no such option" not in taken.stderr, f"--{option} is not taken")
         told = viewer.run("--version")
         viewer.check(told.returncode == 0 and told.stdout.startswith("sightline-view "), "--version")
     viewer.end()
