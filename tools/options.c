@@ -169,10 +169,11 @@ sl_status sl_option_parse(sl_console *console, const sl_command_usage *usage, in
     assert(count + 2 <= MAX_OPTIONS);
     *helped = false;
     memcpy(options, usage->options, count * sizeof *options);
-    options[count++] = (sl_option_spec){.name = "quiet",
-                                        .letter = 'q',
-                                        .flag = &console->quiet,
-                                        .help = "no notes, no progress, no report"};
+    options[count++] =
+        (sl_option_spec){.name = "quiet",
+                         .letter = 'q',
+                         .flag = &console->quiet,
+                         .help = "no notes, no progress, no report of what is written"};
     options[count++] =
         (sl_option_spec){.name = "help", .letter = 'h', .flag = helped, .help = "this text"};
     SL_TRY(parse_options(console->context, usage, options, count, argc, argv));

@@ -11,6 +11,7 @@
 #include "sightline/explain.h"
 #include "sightline/eye_to_cell.h"
 #include "sightline/faults.h"
+#include "sightline/from_region.h"
 #include "sightline/generate.h"
 #include "sightline/geometry.h"
 #include "sightline/import.h"
