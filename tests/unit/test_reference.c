@@ -8,6 +8,19 @@
 /// Portals that the reference may push for one map.
 enum { PUSH_LIMIT = 10000000 };
 
+/// Under a sanitizer GLPK's rational simplex, which takes most of the time, is asked of small maps
+/// alone.
+static bool has_patience(const sl_solver *solver, const char *path, const sl_space *space) {
+#ifdef SIGHTLINE_SANITIZED
+    if (solver_patience(solver) < SIZE_MAX && space->portal_count > 50) {
+        print_message("not by %s, as a sanitizer is on: %s\n", solver->name, path);
+        return false;
+    }
+#endif
+    (void)solver, (void)path, (void)space;
+    return true;
+}
+
 static void check_solver(sl_context *context, const char *path, const sl_space *space,
                          const sl_solver *solver, sl_sight sight, const bool *sees) {
     size_t methods;
@@ -39,7 +52,8 @@ static void check_map(const char *path) {
     assert_true(closed && open);
     assert_true(oracle_by_sequences(&space, PUSH_LIMIT, closed, open));
     for (size_t i = 0; solver_at(i); i++) {
-        if (solver_at(i)->guarantee != SL_EXACT) continue;
+        if (solver_at(i)->guarantee != SL_EXACT || !has_patience(solver_at(i), path, &space))
+            continue;
         check_solver(context, path, &space, solver_at(i), SL_CLOSED, closed);
         check_solver(context, path, &space, solver_at(i), SL_OPEN, open);
     }
