@@ -1,9 +1,11 @@
-// What a visible region costs, whole: location, region and polygon. On generated floors, each query
-// once, over a shuffled set of random eyes that are not inside a wall.
-//   bench_region      CSV: machine, corners, cells, queries, nanoseconds a query, of them for the
-//                     location, points of a region, portals passed
-#include "office_maps.h"
+// What a visible region costs, whole: location, region and polygon. Each query once, over a
+// shuffled set of random eyes in cells that are inside.
+//   bench_region MAP [Z]   CSV: machine, map, walls, cells, rooms of the outline, queries,
+//   nanoseconds
+//                          a query, of them for the location, points of a region, portals passed
+#include "read_space.h"
 
+#include "base/random.h"
 #include "sightline/sightline.h"
 
 #include <stdio.h>
@@ -21,7 +23,7 @@ static void must(sl_context *context, sl_status status) {
 
 static double now(void) {
     struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
@@ -36,23 +38,15 @@ static void fill_eyes(const sl_space *space, sl_point *eyes) {
     }
 }
 
-static void measure(sl_context *context, const char *machine, int crosses) {
+static void measure(sl_context *context, const char *path, const sl_space *space) {
     static sl_point eyes[QUERIES];
-    sl_map map = {0};
-    sl_space space = {0};
     sl_outline outline = {0};
     sl_region region = {0};
-    const sl_subdivide_options rules = sl_subdivide_options_default();
-    must(context, bench_office_map(context, crosses, 1, &map));
-    must(context, sl_map_add_start(context, &map, (sl_point){0.5, 0.5}, 0, 0));
-    const size_t corners = map.wall_count;
-    must(context, sl_map_clean(context, &map, NULL));
-    must(context, sl_subdivide_kd(context, &map, &rules, &space));
-    must(context, sl_outline_make(context, &space, &outline));
-    fill_eyes(&space, eyes);
+    must(context, sl_outline_make(context, space, &outline));
+    fill_eyes(space, eyes);
     double start = now();
     uint64_t sum = 0;
-    for (int i = 0; i < QUERIES; i++) sum += sl_space_locate(&space, eyes[i]);
+    for (int i = 0; i < QUERIES; i++) sum += sl_space_locate(space, eyes[i]);
     const double locate = now() - start;
     uint64_t points = 0, passed = 0;
     start = now();
@@ -63,23 +57,31 @@ static void measure(sl_context *context, const char *machine, int crosses) {
         passed += region.portals_passed;
     }
     const double whole = now() - start;
-    printf("%s,%zu,%u,%d,%.0f,%.0f,%.1f,%.1f\n", machine, corners, space.cell_count, QUERIES,
-           1e9 * whole / QUERIES, sum ? 1e9 * locate / QUERIES : 0, (double)points / QUERIES,
-           (double)passed / QUERIES);
+    struct utsname machine;
+    uname(&machine);
+    puts("machine,map,walls,cells,rooms,queries,ns_a_query,ns_to_locate,points,portals");
+    printf("%s %s,%s,%u,%u,%u,%d,%.0f,%.0f,%.1f,%.1f\n", machine.sysname, machine.machine, path,
+           space->wall_count, space->cell_count, outline.room_count, QUERIES, 1e9 * whole / QUERIES,
+           sum ? 1e9 * locate / QUERIES : 0, (double)points / QUERIES, (double)passed / QUERIES);
     sl_region_destroy(context, &region);
     sl_outline_destroy(context, &outline);
-    sl_space_destroy(context, &space);
-    sl_map_destroy(context, &map);
 }
 
-int main(void) {
-    static const int sizes[4] = {3, 11, 19, 25};
-    struct utsname name;
-    const char *machine = uname(&name) == 0 ? name.nodename : "?";
+int main(int argc, char **argv) {
+    if (argc < 2) {
+        fputs("usage: bench_region MAP [Z]\n", stderr);
+        return 2;
+    }
+    sl_space space = {0};
     sl_context *context = sl_context_create(NULL);
     if (!context) return 1;
-    puts("machine,corners,cells,queries,ns_a_query,ns_to_locate,points,portals");
-    for (int i = 0; i < 4; i++) measure(context, machine, sizes[i]);
+    must(context, bench_read_space(context, argv[1], argc > 2 ? argv[2] : NULL, &space));
+    if (!space.inside_count) {
+        fprintf(stderr, "bench_region: %s: nothing in it is inside\n", argv[1]);
+        return 1;
+    }
+    measure(context, argv[1], &space);
+    sl_space_destroy(context, &space);
     sl_context_destroy(context);
     return 0;
 }

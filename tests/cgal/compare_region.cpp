@@ -1,12 +1,13 @@
 // The visible region beside that of CGAL's exact triangular expansion: area for area, and time for
 // time in one run.
-//   compare_region [MAP ...]    on generated floors, and on map files with axial walls
+//   compare_region MAP...    on map files with axial walls, as `sightline generate office` makes
+//   them
 // CSV: machine, map, corners, queries, of them on corners, on walls and in line with walls, those
 // that CGAL has no answer to (free ends of walls), the largest relative difference of areas, how
 // many are over 1e-12; then, for 2000 random eyes, each once: microseconds a query here and there,
 // and their ratio. Exit status 1 on any difference over 1e-12.
 // Timed is, here, location, region and polygon; there, with the location given, the region.
-#include "bench/office_maps.h"
+#include "base/random.h"
 #include "sightline/sightline.h"
 
 #include <CGAL/Arr_naive_point_location.h>
@@ -276,6 +277,10 @@ int compare(const char *machine, const std::string &name, Floor &floor) {
 } // namespace
 
 int main(int argc, char **argv) {
+    if (argc < 2) {
+        std::fputs("usage: compare_region MAP...\n", stderr);
+        return 2;
+    }
     struct utsname name;
     const char *machine = uname(&name) == 0 ? name.nodename : "?";
     sl_context *context = sl_context_create(nullptr);
@@ -283,12 +288,6 @@ int main(int argc, char **argv) {
               "failures,"
               "us_here,us_cgal,ratio");
     int failures = 0;
-    for (const int crosses : {3, 11, 19, 25}) {
-        Floor floor(context);
-        floor.must(bench_office_map(context, crosses, 1, &floor.map));
-        floor.finish();
-        failures += compare(machine, "floor_" + std::to_string(crosses), floor);
-    }
     for (int i = 1; i < argc; i++) {
         Floor floor(context);
         const sl_import_options options = sl_import_options_default();
