@@ -16,7 +16,6 @@
 
 #include "base/threads.h"
 #include "cell_to_cell/bit_rows.h"
-#include "cell_to_cell/flood.h"
 #include "cell_to_cell/methods.h"
 
 #include <string.h>
@@ -41,29 +40,14 @@ static sl_status want(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
                       bool *something) {
     *something = true;
     if (!all->prunes) return SL_OK;
-    const size_t words = all->words, depth = me->steps.count;
-    SL_TRY(SL_ARRAY_ROOM(context, &me->wanted, (depth + 1) * words));
-    const sl_bits *before = me->wanted.items + (depth - 1) * words;
-    const sl_bits *bound = all->bounds + exit * words;
-    sl_bits *beyond = me->wanted.items + depth * words, any = 0;
-    for (size_t i = 0; i < words; i++) {
-        beyond[i] = before[i] & bound[i];
-        any |= beyond[i] & ~me->sure[i];
+    const size_t step = me->steps.count;
+    SL_TRY(sl_prune_step(context, &all->bounds, &me->wanted, step, exit));
+    const sl_prune_set *set = &me->wanted.sets.items[step];
+    *something = set->all;
+    for (size_t i = set->begin; i < set->end && !*something; i++) {
+        const sl_prune_word *at = &me->wanted.words.items[i];
+        *something = (at->bits & ~me->sure[at->word]) != 0;
     }
-    *something = any != 0;
-    return SL_OK;
-}
-
-/// What is wanted of a source to begin with: all cells, or where pairs are found from either cell
-/// alike those from itself on.
-static sl_status want_from(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
-                           uint32_t source) {
-    if (!all->prunes) return SL_OK;
-    SL_TRY(SL_ARRAY_ROOM(context, &me->wanted, all->words));
-    memset(me->wanted.items, 0xff, all->words * sizeof *me->wanted.items);
-    if (all->options->solver->guarantee != SL_EXACT) return SL_OK;
-    memset(me->wanted.items, 0, source / 64 * sizeof *me->wanted.items);
-    me->wanted.items[source / 64] = ~(sl_bits)0 << (source % 64);
     return SL_OK;
 }
 
@@ -105,7 +89,9 @@ static sl_status search_from(sl_context *context, const sl_dfs *all, sl_dfs_thre
                              uint32_t source) {
     const sl_space *space = all->space;
     sl_bits_add(me->sure, source);
-    SL_TRY(want_from(context, all, me, source));
+    // Where pairs are found from either cell alike, those from the source on are wanted of it.
+    const bool from_either = all->prunes && all->options->solver->guarantee == SL_EXACT;
+    SL_TRY(sl_prune_start(context, &me->wanted, from_either ? source : 0));
     me->steps.count = 0;
     SL_TRY(sl_dfs_enter(context, all, me,
                         (sl_dfs_step){.cell = source, .crossings = SL_CROSSINGS_NONE}, 0,
@@ -168,7 +154,7 @@ static void end(sl_context *context, void *job, void *state) {
     sl_free(context, me->steps.items);
     sl_free(context, me->sure);
     sl_free(context, me->doubtful);
-    sl_free(context, me->wanted.items);
+    sl_prune_wanted_destroy(context, &me->wanted);
     sl_dfs_effects_end(context, me);
     sl_free(context, me->tree.nodes.items);
     sl_free(context, me);
@@ -242,29 +228,12 @@ static sl_status allocate(sl_context *context, sl_dfs *all) {
     return sl_tree_store_create(context, count, all->options->tree_bytes, &all->trees);
 }
 
-/// The upper bound of every exit: where it is known what the cell behind sees, that is enough.
-static sl_status find_bounds(sl_context *context, sl_dfs *all) {
-    const sl_space *space = all->space;
-    if (all->words && space->exit_count > SIZE_MAX / all->words) return sl_fail_memory(context);
-    all->bounds = sl_alloc_array(context, space->exit_count * all->words, sizeof *all->bounds);
-    uint32_t *stack = sl_alloc_array(context, space->cell_count, sizeof *stack);
-    sl_status status = all->bounds && stack ? SL_OK : SL_NO_MEMORY;
-    for (uint32_t i = 0; i < space->exit_count && status == SL_OK; i++) {
-        sl_bits *bound = all->bounds + i * all->words;
-        if (all->known)
-            sl_row_add_to(all->known->possible, space->exits[i].cell, bound);
-        else
-            sl_flood_through(space, all->options, &space->exits[i], bound, stack);
-        status = sl_check_cancelled(context);
-    }
-    sl_free(context, stack);
-    return status;
-}
-
 static sl_status prepare(sl_context *context, sl_dfs *all) {
     all->words = sl_bits_words(all->space->cell_count);
     pthread_mutex_init(&all->lock, NULL);
-    if (all->prunes) SL_TRY(find_bounds(context, all));
+    const sl_pvs *possible = all->known ? all->known->possible : NULL;
+    if (all->prunes)
+        SL_TRY(sl_prune_bounds_find(context, all->space, all->options, possible, &all->bounds));
     return allocate(context, all);
 }
 
@@ -276,7 +245,7 @@ static void tidy_up(sl_context *context, sl_dfs *all) {
     sl_free(context, all->sure);
     sl_free(context, all->doubtful);
     sl_free(context, all->accounts);
-    sl_free(context, all->bounds);
+    sl_prune_bounds_destroy(context, &all->bounds);
     sl_dfs_effects_destroy(context, all);
     sl_free(context, all->done);
     sl_tree_store_destroy(context, &all->trees);

@@ -5,6 +5,7 @@
 #include "base/bits.h"
 #include "cell_to_cell/crossing.h"
 #include "cell_to_cell/findings.h"
+#include "cell_to_cell/prune.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "cell_to_cell/tree_store.h"
 #include "sightline/cell_to_cell.h"
@@ -42,7 +43,7 @@ typedef struct sl_dfs {
     bool prunes;
     const sl_dfs_known *known;      ///< NULL: nothing; else it prunes
     size_t words;                   ///< of a set of cells
-    sl_bits *bounds;                ///< where it prunes: by exit, what may be seen through it
+    sl_prune_bounds bounds;         ///< where it prunes
     struct sl_dfs_effects *effects; ///< where the plan has any, all that is done for them
 } sl_dfs;
 
@@ -51,7 +52,7 @@ typedef struct sl_dfs_thread {
     void *solver;
     SL_ARRAY(sl_dfs_step) steps;
     sl_bits *sure, *doubtful;
-    SL_ARRAY(sl_bits) wanted; ///< where it prunes: a set for each step, what may be seen beyond it
+    sl_prune_wanted wanted; ///< where it prunes: what may be seen beyond each step
     sl_growing_tree tree;
     sl_see_account account; ///< of the source at hand
     struct sl_dfs_effects_thread *effects;

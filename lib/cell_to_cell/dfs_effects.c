@@ -117,24 +117,24 @@ static sl_status want(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
                       bool *something) {
     *something = true;
     if (!all->prunes || all->effects->mirrors) return SL_OK;
-    const size_t words = all->words, depth = me->steps.count;
-    SL_TRY(SL_ARRAY_ROOM(context, &me->wanted, (depth + 1) * words));
-    sl_bits *beyond = me->wanted.items + depth * words;
-    const sl_bits *bound = all->bounds + exit * words,
-                  *doors = doors_at(all->effects, me->effects, depth);
+    const size_t step = me->steps.count;
+    SL_TRY(sl_prune_step(context, &all->bounds, &me->wanted, step, exit));
+    const sl_prune_set *set = &me->wanted.sets.items[step];
+    const sl_bits *doors = doors_at(all->effects, me->effects, step);
     const sl_door_table *table = &me->effects->direct;
-    const sl_bits *before = beyond - words;
-    sl_bits unseen = 0;
-    for (size_t i = 0; i < words; i++) {
-        beyond[i] = before[i] & bound[i];
-        unseen |= beyond[i] & ~table->seen[i];
+    *something = set->all;
+    for (size_t i = set->begin; i < set->end && !*something; i++) {
+        const sl_prune_word *at = &me->wanted.words.items[i];
+        *something = (at->bits & ~table->seen[at->word]) != 0;
     }
-    *something = unseen != 0;
-    for (size_t i = 0; i < words && !*something; i++)
-        for (sl_bits open = beyond[i] & ~table->free[i]; open && !*something; open &= open - 1) {
-            const uint32_t cell = (uint32_t)(64 * i) + (uint32_t)__builtin_ctzll(open);
+    for (size_t i = set->begin; i < set->end && !*something; i++) {
+        const sl_prune_word *at = &me->wanted.words.items[i];
+        for (sl_bits open = at->bits & ~table->free[at->word]; open && !*something;
+             open &= open - 1) {
+            const uint32_t cell = 64 * at->word + (uint32_t)__builtin_ctzll(open);
             *something = !sl_door_table_proves(table, cell, doors);
         }
+    }
     return SL_OK;
 }
 
@@ -220,12 +220,9 @@ static sl_status try_mirror(sl_context *context, const sl_dfs *all, sl_dfs_threa
 /// to see is noted.
 static sl_status want_from(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
                            uint32_t source) {
-    const size_t words = all->words;
-    SL_TRY(SL_ARRAY_ROOM(context, &me->wanted, words));
-    memset(me->wanted.items, all->known ? 0 : 0xff, words * sizeof *me->wanted.items);
-    if (!all->known) return SL_OK;
+    if (!all->known) return sl_prune_start(context, &me->wanted, 0);
+    SL_TRY(sl_prune_start_with(context, &me->wanted, all->known->possible, source));
     sl_door_table *table = &me->effects->direct;
-    sl_row_add_to(all->known->possible, source, me->wanted.items);
     sl_row_add_to(all->known->certain, source, me->sure);
     sl_row_add_to(all->known->certain, source, table->seen);
     sl_row_add_to(all->known->certain, source, table->free);

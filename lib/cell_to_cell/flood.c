@@ -21,13 +21,13 @@ static bool reaches(const sl_exit *exit, sl_point left, sl_point right, int sign
 }
 
 uint32_t sl_flood_through(const sl_space *space, const sl_see_options *options, const sl_exit *exit,
-                          sl_bits *set, uint32_t *found) {
+                          uint32_t most, sl_bits *set, uint32_t *found) {
     const bool closed = options->sight == SL_CLOSED;
     uint32_t count = 0;
     if (options->inside_only && !space->cells[exit->cell].inside) return 0;
     sl_bits_add(set, exit->cell);
     found[count++] = exit->cell;
-    for (uint32_t done = 0; done < count; done++) {
+    for (uint32_t done = 0; done < count && count <= most; done++) {
         const sl_cell *cell = &space->cells[found[done]];
         for (uint32_t i = 0; i < cell->exit_count; i++) {
             const sl_exit *next = &space->exits[cell->first_exit + i];
@@ -91,8 +91,9 @@ static sl_status flood_unit(sl_context *context, void *job, void *state, size_t 
     if (all->hurries && sl_is_enough(all->options)) return SL_CANCELLED;
     sl_word_set_add(&me->row, (uint32_t)unit);
     for (uint32_t i = 0; i < cell->exit_count; i++) {
-        const uint32_t count = sl_flood_through(
-            all->space, all->options, &all->space->exits[cell->first_exit + i], me->set, me->found);
+        const uint32_t count =
+            sl_flood_through(all->space, all->options, &all->space->exits[cell->first_exit + i],
+                             all->space->cell_count, me->set, me->found);
         for (uint32_t k = 0; k < count; k++) {
             sl_word_set_add(&me->row, me->found[k]);
             me->set[me->found[k] / 64] = 0;

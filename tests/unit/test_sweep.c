@@ -226,6 +226,35 @@ static void what_cannot_be_done_is_refused(void **state) {
     sl_context_destroy(context);
 }
 
+/// A map so large that "prune" leaves bounds out.
+static void large_maps_are_pruned_alike(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_map map = {0};
+    sl_space space;
+    size_t count;
+    const sl_map_kind *kind = sl_map_kinds(&count);
+    while (strcmp(kind->name, "city") != 0) kind++;
+    sl_generate_options city = sl_generate_options_default();
+    city.walls = 31623;
+    assert_ok(context, sl_generate(context, kind, &city, &map));
+    assert_ok(context, sl_map_clean(context, &map, NULL));
+    const sl_subdivide_options rules = sl_subdivide_options_default();
+    assert_ok(context, sl_subdivide_kd(context, &map, &rules, &space));
+    assert_true((uint64_t)space.exit_count * space.cell_count / 8 > (uint64_t)64 << 20);
+    sl_see_options options = sl_see_options_default();
+    options.solver = sl_funnel();
+    sl_visibility swept, pruned;
+    assert_ok(context, testing_method("sweep")->see(context, &space, &options, &swept));
+    assert_ok(context, testing_method("prune")->see(context, &space, &options, &pruned));
+    assert_true(testing_same_rows(&swept.pvs, &pruned.pvs));
+    sl_visibility_destroy(context, &swept);
+    sl_visibility_destroy(context, &pruned);
+    sl_space_destroy(context, &space);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
 /// No walls at all, and cells without portals.
 static void cells_alone_see_themselves(void **state) {
     (void)state;
@@ -253,6 +282,7 @@ int main(void) {
         cmocka_unit_test(threads_make_no_difference),
         cmocka_unit_test(lack_of_memory_is_told_and_leaves_nothing),
         cmocka_unit_test(what_cannot_be_done_is_refused),
+        cmocka_unit_test(large_maps_are_pruned_alike),
         cmocka_unit_test(cells_alone_see_themselves),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,60 @@
+/// What a search has left to find: the sets that the method "prune" keeps on its way. Beyond each
+/// exit only what its upper bound (flood.h) and those of all exits before leave possible is wanted.
+#ifndef SL_PRUNE_H
+#define SL_PRUNE_H
+
+#include "base/base.h"
+#include "base/bits.h"
+#include "sightline/cell_to_cell.h"
+
+/// A word of a set of cells that has some: cells 64 * word on.
+typedef struct sl_prune_word {
+    sl_bits bits;
+    uint32_t word;
+} sl_prune_word;
+
+/// Upper bounds: that of an exit is words[offsets[exit] .. offsets[exit + 1]), ascending; none
+/// where that is empty, and all may be seen through it. Zeroed, it is empty.
+typedef struct sl_prune_bounds {
+    size_t *offsets;
+    SL_ARRAY(sl_prune_word) words;
+} sl_prune_bounds;
+
+/// Finds the bounds of all exits: what the cell behind may see by `possible`; where that is NULL
+/// those of sl_flood_through, but where space and sets are large not those of exits through which
+/// much may be seen, so that memory grows with the number of exits. `out` is to be destroyed also
+/// on failure.
+sl_status sl_prune_bounds_find(sl_context *context, const sl_space *space,
+                               const sl_see_options *options, const sl_pvs *possible,
+                               sl_prune_bounds *out);
+void sl_prune_bounds_destroy(sl_context *context, sl_prune_bounds *bounds);
+
+/// What is wanted at a step.
+typedef struct sl_prune_set {
+    size_t begin, end; ///< of the words
+    size_t top;        ///< words behind here are free
+    bool all;          ///< all cells from the first one on, and no words
+} sl_prune_set;
+
+/// What is wanted at each step of a search, one thread's own. Zeroed, it is empty.
+typedef struct sl_prune_wanted {
+    uint32_t first; ///< cells below it are not wanted
+    SL_ARRAY(sl_prune_set) sets;
+    SL_ARRAY(sl_prune_word) words;
+} sl_prune_wanted;
+
+/// Begins with all cells from the first one on, at step 0.
+sl_status sl_prune_start(sl_context *context, sl_prune_wanted *wanted, uint32_t first);
+
+/// Begins with the members of a row.
+sl_status sl_prune_start_with(sl_context *context, sl_prune_wanted *wanted, const sl_pvs *pvs,
+                              uint32_t cell);
+
+/// Makes the set of a step: what is wanted at the step before it and within an exit's bound. Later
+/// steps are forgotten.
+sl_status sl_prune_step(sl_context *context, const sl_prune_bounds *bounds, sl_prune_wanted *wanted,
+                        size_t step, uint32_t exit);
+
+void sl_prune_wanted_destroy(sl_context *context, sl_prune_wanted *wanted); ///< and zeroes it
+
+#endif
