@@ -162,6 +162,7 @@ sl_document_progress sl_app_progress(const sl_app *app) {
 static void look(sl_app *app) {
     if (!app->document.baked) return;
     follow(app);
+    app->seen.patient = app->steady;
     const sl_view view = eye_view(app);
     sl_app_check(app,
                  sl_seen_update(app->context, &app->seen, &app->document, &app->present, &view));

@@ -198,9 +198,16 @@ static void draw_mirrored(sl_app *app, column *c) {
     char share[SL_COUNT_TEXT], text[160];
     if (!app->document.map.mirror_count || !seen->valid) return;
     sl_text_percent(app->document.area > 0 ? seen->mirrored_area / app->document.area : 0, share);
-    snprintf(text, sizeof text, "In mirrors: %u cell%s more, and %s of the area in %zu part%s.",
-             cells, cells == 1 ? "" : "s", share, seen->in_mirrors.part_count,
-             seen->in_mirrors.part_count == 1 ? "" : "s");
+    const size_t parts = seen->in_mirrors.part_count;
+    const int length =
+        snprintf(text, sizeof text, "In mirrors: %u cell%s more, and %s of the area in %zu part%s.",
+                 cells, cells == 1 ? "" : "s", share, parts, parts == 1 ? "" : "s");
+    if (app->document.map.oneway_count)
+        snprintf(text + length, sizeof text - (size_t)length, " Parts are not told past glass.");
+    else if (seen->depth < app->document.mirror_depth)
+        snprintf(text + length, sizeof text - (size_t)length,
+                 " Parts to %u reflection%s: more take too long.", seen->depth,
+                 seen->depth == 1 ? "" : "s");
     const double t = app->ui.text;
     c->y = sl_ui_paragraph(&app->ui, c->left, c->y + t, c->right - c->left, 0.9,
                            app->ui.palette.ink, text) -

@@ -4,6 +4,7 @@
 #include "base/bits.h"
 #include "clock.h"
 #include "edit.h"
+#include "seen_mirrors.h"
 
 #include <math.h>
 #include <string.h>
@@ -25,7 +26,8 @@ static void free_sets(sl_context *context, sl_seen *seen) {
 void sl_seen_destroy(sl_context *context, sl_seen *seen) {
     free_sets(context, seen);
     sl_region_destroy(context, &seen->region);
-    sl_mirrored_region_destroy(context, &seen->in_mirrors);
+    sl_seen_forget_mirrors(context, seen);
+    if (seen->hurried) sl_context_destroy(seen->hurried);
     *seen = (sl_seen){0};
 }
 
@@ -90,21 +92,6 @@ static void look(sl_context *context, const sl_seen *seen, sl_seen_method *m,
     sum_up(document, m->cells, &m->count, &m->area);
 }
 
-/// What a method keeps for what is seen in mirrors.
-static void look_into_mirrors(sl_context *context, sl_seen_method *m, const sl_eye_method *method,
-                              const sl_document *document, sl_eye_search *search,
-                              const sl_view *view) {
-    const size_t words = sl_eye_words(&document->baked->space);
-    sl_eye_account account;
-    m->mirrored_count = 0;
-    if (!document->baked->map.mirror_count) return;
-    if (!method->mirrored ||
-        method->mirrored(context, search, view, m->mirrored, &account) != SL_OK)
-        memset(m->mirrored, 0, words * sizeof *m->mirrored);
-    for (size_t w = 0; w < words; w++)
-        m->mirrored_count += (uint32_t)__builtin_popcountll(m->mirrored[w] & ~m->cells[w]);
-}
-
 static bool have_common(const uint64_t *a, const uint64_t *b, size_t words) {
     for (size_t w = 0; w < words; w++)
         if (a[w] & b[w]) return true;
@@ -139,22 +126,6 @@ static sl_status look_at_objects(sl_context *context, sl_seen *seen, const sl_do
     }
     sl_free(context, cells);
     return status;
-}
-
-/// The parts of the region that are seen in mirrors. Where there is one-way glass too they are left
-/// out: a region knows what is dark from the eye, and not from its images.
-static sl_status make_parts(sl_context *context, sl_seen *seen, const sl_document *document,
-                            const sl_present *present) {
-    seen->mirrored_area = 0;
-    const bool both = document->map.mirror_count && document->map.oneway_count;
-    if (!present->mirrors.outline || both) {
-        sl_mirrored_region_destroy(context, &seen->in_mirrors);
-        return SL_OK;
-    }
-    SL_TRY(sl_mirrored_region_make(context, &present->mirrors, &seen->view, seen->range,
-                                   document->mirror_depth, &seen->in_mirrors));
-    seen->mirrored_area = sl_mirrored_area(&seen->in_mirrors);
-    return SL_OK;
 }
 
 static void take_pvs(sl_seen *seen, const sl_document *document, const sl_present *present,
@@ -194,10 +165,8 @@ sl_status sl_seen_update(sl_context *context, sl_seen *seen, const sl_document *
     take_pvs(seen, document, present, view->eye);
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
-    for (size_t i = 0; i < count && i < SL_SEEN_MOST; i++) {
+    for (size_t i = 0; i < count && i < SL_SEEN_MOST; i++)
         look(context, seen, &seen->methods[i], &methods[i], document, present->search, view);
-        look_into_mirrors(context, &seen->methods[i], &methods[i], document, present->search, view);
-    }
     SL_TRY(look_at_objects(context, seen, document, present));
     const double before = sl_clock_seconds();
     const sl_status status = sl_region_make(context, present->outline, view, range, &seen->region);
@@ -205,5 +174,6 @@ sl_status sl_seen_update(sl_context *context, sl_seen *seen, const sl_document *
     seen->region_seconds =
         seen->region_seconds > 0 ? 0.9 * seen->region_seconds + 0.1 * seconds : seconds;
     seen->region_area = sl_region_area(&seen->region);
-    return status == SL_OK ? make_parts(context, seen, document, present) : status;
+    SL_TRY(status);
+    return sl_seen_look_into_mirrors(context, seen, document, present);
 }

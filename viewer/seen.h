@@ -30,6 +30,12 @@ typedef struct sl_seen {
     sl_region region;
     sl_mirrored_region in_mirrors; ///< its parts; none where the map has no mirrors
     double mirrored_area;          ///< of all parts
+    uint32_t depth;                ///< reflections of the parts, fewer than asked for where they
+                                   ///< would take longer than a frame has
+    sl_mirrored_region deeper;     ///< scratch
+    bool patient;                  ///< the caller's: there is no hurry
+    sl_context *hurried;           ///< of work that ends at `until`, by the clock
+    double until;
     double region_area, region_seconds;
     double range;
 } sl_seen;

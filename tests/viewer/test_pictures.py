@@ -40,6 +40,7 @@ PICTURES = {
     "reflections": ("effects/mirrors.map", "eye 10 5 0 40\nkey V\nkey F8\ndrag 482 249 520 249\n"),
     "oneway": ("effects/oneway.map", "eye 25 10 180 60\nkey Tab\n"),
     "watch": ("effects/oneway.map", "eye 5 5 0 60\nkey M\nkey Y\nkey F8\n"),
+    "objects": ("effects/objects.map", "key Tab\neye 3 10 0 360\nclick 320 262\nmove 5 5\n"),
     "range": ("effects/range.map", "key V\nkey M\nkey Tab\n"),
     "first_person": ("pillars.map", "key I\nkey Tab\nwait 2\n"),
 }
