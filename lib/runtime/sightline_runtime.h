@@ -66,6 +66,8 @@ typedef struct sl_runtime {
     const unsigned char *nodes, *lines, *cells, *vertices, *exits, *row_offsets, *row_bytes;
     const unsigned char *walls, *beyond;            ///< NULL where all walls are axial
     const unsigned char *door_offsets, *door_bytes; ///< NULL where no pair depends on doors
+    const unsigned char *seams, *seam_portals;      ///< NULL for none
+    uint32_t seam_portal_count;
     const unsigned char *views, *view_parents, *view_offsets, *view_bytes;
 } sl_runtime;
 
@@ -170,6 +172,19 @@ SL_RUNTIME_API size_t sl_runtime_scratch_count(const sl_runtime *runtime);
 SL_RUNTIME_API uint32_t sl_runtime_look(const sl_runtime *runtime, const sl_runtime_view *view,
                                         uint32_t *scratch, uint32_t *cells, uint32_t room);
 
+/// As sl_runtime_look, past doors that are shut, and no farther than a range: `shut` as for
+/// sl_runtime_can_see_past, or NULL for none; `range` above 0, or 0 for no limit.
+///
+/// Doors are exact: what is seen is what a line gets to through portals that are on no shut door.
+/// Of a cell it counts how far the nearest place is that the eye sees of it (not how far the cell
+/// is): none is missed that is within the range, and none added that is out of it by more than
+/// 2e-12 of the range and 1e-13 of the distance to the ends of the portal that it is seen through,
+/// but where the border of what is seen of that portal runs along it to within 1e-3 of a turn. The
+/// eye's own cell is seen always.
+SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl_runtime_view *view,
+                                             const unsigned char *shut, double range,
+                                             uint32_t *scratch, uint32_t *cells, uint32_t room);
+
 /// A cell: its corners, counter-clockwise, are the vertices first_vertex .., its exits first_exit
 /// ..
 typedef struct sl_runtime_cell {
@@ -268,6 +283,7 @@ enum slrt_tag {
     SLRT_DORB,
     SLRT_WALL,
     SLRT_BEYO,
+    SLRT_SEPO,
     SLRT_TAGS
 };
 
@@ -317,7 +333,7 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                                             slrt_section *found) {
     static const char tags[SLRT_TAGS][5] = {"INFO", "NODE", "CELL", "VERT", "PORT", "EXIT", "PVSO",
                                             "PVSB", "LINE", "PART", "VCIN", "VCEL", "VCPA", "VCRO",
-                                            "VCRB", "SEAM", "DORO", "DORB", "WALL", "BEYO"};
+                                            "VCRB", "SEAM", "DORO", "DORB", "WALL", "BEYO", "SEPO"};
     static const uint32_t item_bytes[SLRT_TAGS] = {128,
                                                    SLRT_NODE_BYTES,
                                                    SLRT_CELL_BYTES,
@@ -337,7 +353,8 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                                                    8,
                                                    1,
                                                    SLRT_WALL_BYTES,
-                                                   4};
+                                                   4,
+                                                   12};
     const uint32_t count = slrt_u32(bytes + 24);
     uint32_t i;
     int tag;
@@ -623,6 +640,25 @@ static bool slrt_door_row_is_sound(const sl_runtime *rt, uint32_t row) {
     return true;
 }
 
+/// Which portals lie on which seams: by portal, so that they can be searched.
+static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
+    const uint64_t count = found[SLRT_SEPO].items ? found[SLRT_SEPO].count : 0;
+    uint64_t i;
+    uint32_t before = 0;
+    rt->seams = found[SLRT_SEAM].items;
+    rt->seam_portals = found[SLRT_SEPO].items;
+    if (count > UINT32_MAX || (count && !rt->seams)) return false;
+    rt->seam_portal_count = (uint32_t)count;
+    for (i = 0; i < count; i++) {
+        const unsigned char *on = rt->seam_portals + i * 12;
+        const uint32_t portal = slrt_u32(on);
+        if (portal < before || portal >= rt->portal_count) return false;
+        if (slrt_u32(on + 4) >= found[SLRT_SEAM].count) return false;
+        before = portal;
+    }
+    return true;
+}
+
 static bool slrt_take_doors(sl_runtime *rt, const slrt_section *found) {
     uint64_t i, before = 0;
     rt->door_count = 0;
@@ -661,6 +697,7 @@ SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size,
     if (status != SL_RUNTIME_OK) return status;
     if (!slrt_tree_is_sound(&rt) || !slrt_cells_are_sound(&rt) || !slrt_take_walls(&rt, found))
         return SL_RUNTIME_SPACE;
+    if (!slrt_take_seams(&rt, found)) return SL_RUNTIME_SPACE;
     if (!slrt_take_doors(&rt, found)) return SL_RUNTIME_ROW;
     if (!slrt_rows_are_sound(&rt, found[SLRT_PVSB].count, true)) return SL_RUNTIME_ROW;
     if (!slrt_open_views(found, &rt)) return SL_RUNTIME_ROW;
@@ -1091,7 +1128,9 @@ enum { SLRT_SEEN = 1, SLRT_ENTERED = 2, SLRT_ON_PATH = 4, SLRT_IN_ROW = 8 };
 typedef struct slrt_search {
     const sl_runtime *rt;
     const sl_runtime_view *view;
-    double x, y; ///< the eye
+    const unsigned char *shut; ///< NULL for none
+    double range;              ///< 0 for no limit
+    double x, y;               ///< the eye
     slrt_arm cone[SLRT_MOST_ARMS];
     uint32_t *path, depth;
     uint32_t *sectors; ///< by cell: borders of the sector that it was last entered with
@@ -1152,6 +1191,69 @@ static bool slrt_narrow(const slrt_search *s, uint32_t exit, uint32_t *right, ui
     if (slrt_within(&q, &a, &b, a_q, slrt_side(&q, &b))) *left = exit_left;
     if (right_within) *right = exit_right;
     return true;
+}
+
+/// Whether an exit is on a door that is shut.
+static bool slrt_is_shut(const slrt_search *s, uint32_t exit) {
+    const sl_runtime *rt = s->rt;
+    const uint32_t portal = slrt_u32(rt->exits + (size_t)exit * SLRT_EXIT_BYTES);
+    uint32_t low = 0, high = rt->seam_portal_count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (slrt_u32(rt->seam_portals + (size_t)middle * 12) < portal)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    for (; low < rt->seam_portal_count; low++) {
+        const unsigned char *on = rt->seam_portals + (size_t)low * 12, *seam;
+        if (slrt_u32(on) != portal) return false;
+        seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
+        if (slrt_u32(seam + 32) == 1 && s->shut[slrt_u32(seam + 36)]) return true;
+    }
+    return false;
+}
+
+static double slrt_size(double x, double y) {
+    return (x < 0 ? -x : x) + (y < 0 ? -y : y);
+}
+
+/// Where on the way from p to q, 0 to 1, a ray from the eye meets it, given as seen from there,
+/// with what rounding may have done to that; false where it may be anywhere.
+static bool slrt_meet(const slrt_arm *ray, const slrt_arm *p, const slrt_arm *q, double *at,
+                      double *error) {
+    const double size = slrt_size(ray->x, ray->y);
+    const double at_p = ray->x * p->y - ray->y * p->x, at_q = ray->x * q->y - ray->y * q->x;
+    const double error_p = 1e-15 * size * slrt_size(p->x, p->y);
+    const double error_q = 1e-15 * size * slrt_size(q->x, q->y);
+    const double width = at_q - at_p;
+    if (!(width > 4 * (error_p + error_q))) return false;
+    *at = -at_p / width;
+    *error = 2 * (error_p + (*at < 0 ? -*at : *at) * (error_p + error_q)) / width + 1e-15;
+    return true;
+}
+
+/// Whether what is seen of an exit between two borders of a sector, or all of it, is within range.
+static bool slrt_in_range(const slrt_search *s, uint32_t exit, uint32_t right, uint32_t left) {
+    const slrt_arm p = slrt_border(s, 2 * exit + 1), q = slrt_border(s, 2 * exit);
+    const double x = q.x - p.x, y = q.y - p.y, square = x * x + y * y;
+    const double ends = slrt_size(p.x, p.y) + slrt_size(q.x, q.y);
+    const double limit = s->range * (1 + 1e-12) + 1e-14 * ends;
+    double from = 0, to = 1, at, error, near_x, near_y;
+    if (right / 2 != exit) {
+        const slrt_arm ray = slrt_border(s, right);
+        if (slrt_meet(&ray, &p, &q, &at, &error) && at - error > from) from = at - error;
+    }
+    if (left / 2 != exit) {
+        const slrt_arm ray = slrt_border(s, left);
+        if (slrt_meet(&ray, &p, &q, &at, &error) && at + error < to) to = at + error;
+    }
+    at = square > 0 ? -(p.x * x + p.y * y) / square : 0;
+    if (at > to) at = to;
+    if (!(at >= from)) at = from;
+    near_x = p.x + at * x;
+    near_y = p.y + at * y;
+    return !(near_x * near_x + near_y * near_y > limit * limit);
 }
 
 /// Whether the sector that a cell was last entered with holds another.
@@ -1215,7 +1317,9 @@ static void slrt_search_from(slrt_search *s, uint32_t cell, uint32_t right, uint
             s->patience--;
             right = top[2];
             left = top[3];
-            if (slrt_narrow(s, exit, &right, &left))
+            if (s->shut && slrt_is_shut(s, exit)) continue;
+            if (slrt_narrow(s, exit, &right, &left) &&
+                (!(s->range > 0) || slrt_in_range(s, exit, right, left)))
                 slrt_enter(s, slrt_u32(s->rt->exits + (size_t)exit * SLRT_EXIT_BYTES + 4), right,
                            left);
         }
@@ -1283,6 +1387,12 @@ static void slrt_search_cone(slrt_search *s, uint32_t cell) {
 
 SL_RUNTIME_API uint32_t sl_runtime_look(const sl_runtime *runtime, const sl_runtime_view *view,
                                         uint32_t *scratch, uint32_t *cells, uint32_t room) {
+    return sl_runtime_look_past(runtime, view, NULL, 0, scratch, cells, room);
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl_runtime_view *view,
+                                             const unsigned char *shut, double range,
+                                             uint32_t *scratch, uint32_t *cells, uint32_t room) {
     const double x = slrt_no_dust(view->x), y = slrt_no_dust(view->y);
     const uint32_t cell = sl_runtime_locate(runtime, x, y);
     const size_t count = runtime->cell_count;
@@ -1292,6 +1402,8 @@ SL_RUNTIME_API uint32_t sl_runtime_look(const sl_runtime *runtime, const sl_runt
     memset(&s, 0, sizeof s);
     s.rt = runtime;
     s.view = view;
+    s.shut = shut;
+    s.range = range;
     s.x = x;
     s.y = y;
     s.path = scratch;

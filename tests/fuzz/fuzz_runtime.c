@@ -49,6 +49,18 @@ static void check_look(const sl_runtime *r, const sl_runtime_view *view, const b
     }
 }
 
+/// Past doors and within a range no more is seen; `seen` is what check_look has left.
+static void check_look_past(const sl_runtime *r, const sl_runtime_view *view, double range,
+                            const buffers *b) {
+    unsigned char shut[64];
+    for (size_t i = 0; i < sizeof shut; i++) shut[i] = i % 3 == 0;
+    const bool few = r->door_count <= sizeof shut;
+    const uint32_t count = sl_runtime_look_past(r, view, few ? shut : NULL, range, b->scratch,
+                                                b->cells, r->cell_count);
+    for (uint32_t i = 0; i < count; i++)
+        FUZZ_CHECK(b->cells[i] < r->cell_count && b->seen[b->cells[i]]);
+}
+
 static void check_place(const sl_runtime *r, double x, double y, sl_random *random,
                         const buffers *b) {
     const uint32_t cell = sl_runtime_locate(r, x, y);
@@ -58,6 +70,7 @@ static void check_place(const sl_runtime *r, double x, double y, sl_random *rand
     FUZZ_CHECK(within ? found || r->partial : !found);
     const sl_runtime_view round = sl_runtime_view_all_round(x, y);
     check_look(r, &round, b);
+    check_look_past(r, &round, sl_random_unit(random) * (r->max_x - r->min_x), b);
     sl_runtime_view cone = round;
     cone.all_round = false;
     for (int i = 0; i < 2; i++) {
