@@ -5,35 +5,9 @@
 #include "runtime_maps.h"
 
 #include "base/random.h"
+#include "doors_plan.h"
 
-enum { COLUMNS = 6, ROWS = 4, DOORS = 30, STATES = 1000, SIZE = 10 };
-
-/// Rooms in a grid, a gap of 2 in the middle of each wall between two of them, doors in the first
-/// 30 gaps.
-static void draw_plan(sl_context *context, sl_map *map) {
-    const double width = COLUMNS * SIZE, height = ROWS * SIZE;
-    const sl_point box[5] = {{0, 0}, {width, 0}, {width, height}, {0, height}, {0, 0}};
-    for (int i = 0; i < 4; i++)
-        assert_ok(context, sl_map_add_wall(context, map, box[i], box[i + 1], 0));
-    for (int i = 0; i < COLUMNS; i++)
-        for (int k = 0; k < ROWS; k++)
-            for (int upright = 0; upright < 2; upright++) {
-                if (upright ? i == 0 : k == 0) continue;
-                const double x = i * SIZE, y = k * SIZE;
-                const double along[4] = {0, 3.0 + (i + 2 * k) % 3, 5.0 + (i + 2 * k) % 3, SIZE};
-                sl_point p[4];
-                for (int j = 0; j < 4; j++)
-                    p[j] = upright ? (sl_point){x, y + along[j]} : (sl_point){x + along[j], y};
-                assert_ok(context, sl_map_add_wall(context, map, p[0], p[1], 0));
-                assert_ok(context, sl_map_add_wall(context, map, p[2], p[3], 0));
-                if (map->door_count == DOORS) continue;
-                char name[16];
-                snprintf(name, sizeof name, "d%zu", map->door_count);
-                assert_ok(context,
-                          sl_map_add_door(context, map, name, (sl_segment){p[1], p[2]}, true, 0));
-            }
-    assert_int_equal(map->door_count, DOORS);
-}
+enum { STATES = 1000 };
 
 static const sl_see_method *method(const char *name) {
     size_t count;
@@ -46,7 +20,8 @@ static const sl_see_method *method(const char *name) {
 static void bake(sl_context *context, baked_file *f) {
     sl_baked *b = &f->baked;
     *f = (baked_file){.name = "doors", .baked = {.method = "prune", .solver = "funnel"}};
-    draw_plan(context, &b->map);
+    assert_ok(context, doors_plan(context, &b->map));
+    assert_int_equal(b->map.door_count, DOORS);
     const sl_subdivide_options rules = sl_subdivide_options_default();
     assert_ok(context, sl_map_clean(context, &b->map, NULL));
     assert_ok(context, sl_subdivide_kd(context, &b->map, &rules, &b->space));
