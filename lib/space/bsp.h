@@ -220,5 +220,9 @@ sl_status sl_bsp_make_space(sl_bsp *bsp, const sl_seam_parts *seams, sl_space *o
 
 /// The check of a space that tells its sides, of which counts and bounds are checked (check_bsp.c).
 sl_status sl_check_bsp(sl_context *context, const sl_space *space);
+/// The check of an exit against its portal, of any space (check.c). `exits_found`, by portal: 1 for
+/// the exit of cell[0], 2 for that of cell[1]; each may be there once.
+sl_status sl_check_exit(sl_context *context, const sl_space *space, uint32_t cell,
+                        const sl_exit *exit, uint8_t *exits_found);
 
 #endif

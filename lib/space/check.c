@@ -73,10 +73,6 @@ static sl_status fail_cell(const checker *c, uint32_t cell, const char *what) {
     return sl_fail(c->context, SL_BAD_INPUT, "cell %u %s", cell, what);
 }
 
-static bool same_point(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
 /// The corners must be those of the tree's region: a box, counter-clockwise, of positive area.
 static sl_status check_cells(const checker *c) {
     const sl_space *s = c->space;
@@ -90,8 +86,8 @@ static sl_status check_cells(const checker *c) {
         const sl_box *r = &c->regions[s->node_count + i];
         const sl_point *v = &s->vertices[cell->first_vertex];
         const sl_point lower_right = {r->max.x, r->min.y}, upper_left = {r->min.x, r->max.y};
-        if (!same_point(v[0], r->min) || !same_point(v[1], lower_right) ||
-            !same_point(v[2], r->max) || !same_point(v[3], upper_left))
+        if (!sl_same_point(v[0], r->min) || !sl_same_point(v[1], lower_right) ||
+            !sl_same_point(v[2], r->max) || !sl_same_point(v[3], upper_left))
             return fail_cell(c, i, "is not the region that the tree gives it");
         if (cell->first_exit != exits || cell->exit_count > s->exit_count - exits)
             return fail_cell(c, i, "has exits out of range");
@@ -252,19 +248,20 @@ static bool exit_on_edge(const sl_exit *exit, const edge *e, double *from, doubl
     return on && (e->from < e->to ? *from < *to : *from > *to);
 }
 
-static sl_status check_exit(checker *c, uint32_t cell, const sl_exit *exit) {
-    const sl_space *s = c->space;
-    if (exit->portal >= s->portal_count) return fail_cell(c, cell, "has an exit to no portal");
+sl_status sl_check_exit(sl_context *context, const sl_space *s, uint32_t cell, const sl_exit *exit,
+                        uint8_t *exits_found) {
+    if (exit->portal >= s->portal_count)
+        return sl_fail(context, SL_BAD_INPUT, "cell %u has an exit to no portal", cell);
     const sl_portal *p = &s->portals[exit->portal];
     if (p->cell[0] >= p->cell[1] || p->cell[1] >= s->cell_count)
-        return sl_fail(c->context, SL_BAD_INPUT, "portal %u joins no two cells", exit->portal);
+        return sl_fail(context, SL_BAD_INPUT, "portal %u joins no two cells", exit->portal);
     const int side = p->cell[0] == cell ? 0 : 1;
     if (p->cell[side] != cell || exit->cell != p->cell[!side] ||
-        !same_point(exit->left, side ? p->right : p->left) ||
-        !same_point(exit->right, side ? p->left : p->right) ||
-        c->exits_found[exit->portal] & (1 << side))
-        return fail_cell(c, cell, "has an exit unlike its portal");
-    c->exits_found[exit->portal] |= (uint8_t)(1 << side);
+        !sl_same_point(exit->left, side ? p->right : p->left) ||
+        !sl_same_point(exit->right, side ? p->left : p->right) ||
+        exits_found[exit->portal] & (1 << side))
+        return sl_fail(context, SL_BAD_INPUT, "cell %u has an exit unlike its portal", cell);
+    exits_found[exit->portal] |= (uint8_t)(1 << side);
     return SL_OK;
 }
 
@@ -277,7 +274,7 @@ static sl_status check_boundary(checker *c, uint32_t cell) {
         const edge e = edge_of(&c->regions[s->node_count + cell], &s->bounds, number);
         double at = e.from, from, to;
         for (; exit < end && exit_on_edge(exit, &e, &from, &to); exit++) {
-            SL_TRY(check_exit(c, cell, exit));
+            SL_TRY(sl_check_exit(c->context, s, cell, exit, c->exits_found));
             const bool forward =
                 e.from < e.to ? from >= at && to <= e.to : from <= at && to >= e.to;
             if (!forward || e.on_border) return fail_cell(c, cell, "has an exit out of place");

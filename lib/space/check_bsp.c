@@ -127,21 +127,9 @@ static sl_status check_cells(const checker *c) {
 
 static sl_status check_exit(const checker *c, uint32_t cell, const sl_exit *exit, sl_point from,
                             sl_point to) {
-    const sl_space *s = c->space;
-    if (exit->portal >= s->portal_count) return fail_cell(c, cell, "has an exit to no portal");
-    const sl_portal *p = &s->portals[exit->portal];
-    if (p->cell[0] >= p->cell[1] || p->cell[1] >= s->cell_count)
-        return sl_fail(c->context, SL_BAD_INPUT, "portal %u joins no two cells", exit->portal);
-    const int side = p->cell[0] == cell ? 0 : 1;
-    if (p->cell[side] != cell || exit->cell != p->cell[!side] ||
-        !sl_same_point(exit->left, side ? p->right : p->left) ||
-        !sl_same_point(exit->right, side ? p->left : p->right) ||
-        c->exits_found[exit->portal] & (1 << side))
-        return fail_cell(c, cell, "has an exit unlike its portal");
     if (!sl_same_point(exit->right, from) || !sl_same_point(exit->left, to))
         return fail_cell(c, cell, "has an exit that is not on its boundary");
-    c->exits_found[exit->portal] |= (uint8_t)(1 << side);
-    return SL_OK;
+    return sl_check_exit(c->context, c->space, cell, exit, c->exits_found);
 }
 
 static bool is_on_border(const sl_box *b, sl_point p, sl_point q) {
