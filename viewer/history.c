@@ -26,6 +26,10 @@ sl_status sl_history_keep(sl_context *context, sl_history *history, const sl_map
     return push(context, history->done, &history->done_count, map);
 }
 
+void sl_history_forget_last(sl_context *context, sl_history *history) {
+    if (history->done_count) sl_map_destroy(context, &history->done[--history->done_count]);
+}
+
 bool sl_history_undo(sl_context *context, sl_history *history, sl_map *map, bool redo, bool *bake,
                      sl_status *status) {
     sl_map *from = redo ? history->undone : history->done;

@@ -15,6 +15,9 @@ typedef struct sl_history {
 /// Keeps the map as it is, before a change.
 sl_status sl_history_keep(sl_context *context, sl_history *history, const sl_map *map);
 
+/// The last change kept was none.
+void sl_history_forget_last(sl_context *context, sl_history *history);
+
 /// Goes one change back (or forward again); false where there is none. *bake tells whether what
 /// changed asks for a new bake.
 bool sl_history_undo(sl_context *context, sl_history *history, sl_map *map, bool redo, bool *bake,

@@ -21,6 +21,10 @@ void sl_range_set(sl_app *app, double range) {
 }
 
 void sl_range_settle(sl_app *app) {
+    const sl_history *history = &app->history;
+    const size_t kept = history->done_count;
+    if (kept && history->done[kept - 1].range == app->document.map.range)
+        sl_history_forget_last(app->context, &app->history);
     if (app->document.baked->map.range != app->document.map.range) sl_app_after_edit(app);
 }
 

@@ -222,9 +222,10 @@ def check_range(viewer, folder):
     plan = (viewer.root / "maps/effects/range.map").read_text()
     before = SIZE + "eye 5 5 0 90\nkey V\nkey F8\n"
     after = "action side_panel\nmove 5 5\nsave {0}.png\naction side_panel\n"
-    # The slider dragged to its end, and back; undone; no range; the one that is set first.
+    # The slider dragged to its end, and back; clicked where it stands, which is no change to undo, and
+    # undone; no range; the one that is set first.
     states = {"given": ("20", ""), "farther": ("60.8", "drag 566 249 600 249\n"),
-              "nearer": ("9.69", "drag 588 249 511 249\n"), "undone": ("60.8", "key Ctrl+Z\n"),
+              "nearer": ("9.69", "drag 588 249 511 249\n"), "undone": ("60.8", "click 511 249\nkey Ctrl+Z\n"),
               "lifted": (None, "key Ctrl+R\n"), "set": ("18.2", "key Ctrl+R\n")}
     viewer.script(folder, "effects/range.map", before + "".join(
         done + after.format(name) for name, (_, done) in states.items()))
