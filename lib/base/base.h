@@ -54,6 +54,9 @@ char *sl_copy_text(sl_context *context, const char *text, size_t length);
 sl_status sl_reserve(sl_context *context, void *items, size_t *capacity, size_t needed,
                      size_t item_size);
 
+/// Gives back the room behind `count` items, one or more, where the system takes it.
+void sl_shrink(sl_context *context, void *items, size_t *capacity, size_t count, size_t item_size);
+
 /// A growing array of T: zero it to start, sl_free its items to end.
 #define SL_ARRAY(T)                                                                                \
     struct {                                                                                       \

@@ -139,3 +139,13 @@ sl_status sl_reserve(sl_context *context, void *items, size_t *capacity, size_t 
     *capacity = grown;
     return SL_OK;
 }
+
+void sl_shrink(sl_context *context, void *items, size_t *capacity, size_t count, size_t item_size) {
+    if (!count || count >= *capacity) return;
+    void *block;
+    memcpy(&block, items, sizeof block);
+    block = resize(&context->hooks, block, count * item_size);
+    if (!block) return;
+    memcpy(items, &block, sizeof block);
+    *capacity = count;
+}

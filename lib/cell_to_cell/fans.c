@@ -14,6 +14,13 @@ void sl_fans_destroy(sl_context *context, sl_fans *fans) {
     *fans = (sl_fans){0};
 }
 
+uint64_t sl_fans_bytes(const sl_fans *fans) {
+    const uint64_t exits = fans->first_exit[fans->cell_count];
+    return ((uint64_t)fans->cell_count + 1) * sizeof *fans->first_exit +
+           exits * sizeof *fans->exits + fans->fans.capacity * sizeof *fans->fans.items +
+           fans->cells.capacity * sizeof *fans->cells.items;
+}
+
 // --- exits
 
 static bool takes_part(const sl_space *space, const sl_see_options *options, uint32_t cell) {
@@ -252,14 +259,24 @@ static sl_status share_out(sl_context *context, sl_fans *fans, sl_bits *served) 
     return SL_OK;
 }
 
-static void drop_idle(sl_fans *fans, sl_fan_way way) {
-    size_t kept = 0;
+/// Takes out fans that nothing is looked at from, and their cells, which follow one another as the
+/// fans do.
+static void drop_idle(sl_context *context, sl_fans *fans, sl_fan_way way) {
+    sl_fan_cell *cells = fans->cells.items;
+    size_t kept = 0, kept_cells = 0;
     for (size_t i = 0; i < fans->fans.count; i++) {
-        const sl_fan fan = fans->fans.items[i];
+        sl_fan fan = fans->fans.items[i];
         const bool turns = fan.wide && way != SL_FANS_SERVING;
-        if (turns || fan.serves) fans->fans.items[kept++] = fan;
+        if (!turns && !fan.serves) continue;
+        memmove(cells + kept_cells, cells + fan.first, ((size_t)fan.count + 1) * sizeof *cells);
+        fan.first = (uint32_t)kept_cells;
+        kept_cells += (size_t)fan.count + 1;
+        fans->fans.items[kept++] = fan;
     }
     fans->fans.count = kept;
+    fans->cells.count = kept_cells;
+    sl_shrink(context, &fans->fans.items, &fans->fans.capacity, kept, sizeof *fans->fans.items);
+    sl_shrink(context, &fans->cells.items, &fans->cells.capacity, kept_cells, sizeof *cells);
 }
 
 /// `dark`: of the space's exits, zeroed; NULL for SL_FANS_MUTUAL.
@@ -278,7 +295,7 @@ static sl_status find(sl_context *context, const sl_space *space, const sl_see_o
     sl_free(context, walked);
     sl_free(context, served);
     if (status != SL_OK) return status;
-    drop_idle(fans, way);
+    drop_idle(context, fans, way);
     if (dark) darken(fans, dark);
     return SL_OK;
 }

@@ -62,7 +62,9 @@ typedef enum sl_fan_way {
 /// failure. Time: a hash table of the ends.
 sl_status sl_fans_find(sl_context *context, const sl_space *space, const sl_see_options *options,
                        sl_fan_way way, sl_fans *fans);
-void sl_fans_destroy(sl_context *context, sl_fans *fans);
+void sl_fans_destroy(sl_context *context, sl_fans *fans); ///< and zeroes it
+/// What they take of memory.
+uint64_t sl_fans_bytes(const sl_fans *fans);
 
 static inline bool sl_same_point(sl_point a, sl_point b) {
     return a.x == b.x && a.y == b.y;

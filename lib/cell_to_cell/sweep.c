@@ -111,8 +111,11 @@ static sl_status tell_memory(sl_context *context, sweep *all) {
                        "the visible sets would take about %.1f MiB, and may take %.1f MiB: allow "
                        "more memory, or bake in parts",
                        (double)bytes / mib, limit / mib);
-    sl_note(context, "the visible sets of %u cells will take about %.0f MiB of memory",
-            all->rows.count, (double)bytes / mib);
+    sl_note(
+        context,
+        "the visible sets of %u cells will take about %.0f MiB of memory, the corners that lines "
+        "turn about %.0f MiB",
+        all->rows.count, (double)bytes / mib, (double)sl_fans_bytes(&all->fans) / mib);
     return SL_OK;
 }
 
@@ -134,6 +137,7 @@ static sl_status sweep_all(sl_context *context, sweep *all, sl_visibility *out) 
     SL_TRY(turn_about_all(context, all));
     out->account.pieces = all->pieces;
     out->account.deepest = all->deepest;
+    sl_fans_destroy(context, &all->fans);
     return sl_sweep_finish(context, all->space, all->options, &all->rows, out);
 }
 
@@ -173,6 +177,7 @@ static sl_status sweep_some(sl_context *context, sweep *all, sl_findings *findin
     all->done = sl_alloc_array(context, count, sizeof *all->done);
     if (!all->done) return SL_NO_MEMORY;
     SL_TRY(turn_about_all(context, all));
+    sl_fans_destroy(context, &all->fans);
     SL_TRY(sl_bit_rows_add_pvs(context, &all->rows, &findings->sure));
     sl_visibility found = {0};
     SL_TRY(sl_bit_rows_encode(context, &all->rows, &found));
