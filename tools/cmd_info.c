@@ -211,7 +211,7 @@ static void list_parts(const sl_baked *baked, baked_part parts[BAKED_PARTS]) {
         {"portals", space->portal_count, space->portal_count * sizeof *space->portals},
         {"exits", space->exit_count, space->exit_count * sizeof *space->exits},
         {"nodes", space->node_count, space->node_count * sizeof *space->nodes},
-        {"pairs", visibility->account.pairs, pvs_bytes(&visibility->pvs)},
+        {"pairs", visibility->account.pairs, baked->by_views ? 0 : pvs_bytes(&visibility->pvs)},
         {"doubtful_pairs", visibility->account.doubtful_pairs, pvs_bytes(&visibility->doubtful)},
         {"stab_tree_nodes", tree_nodes, tree_bytes},
         {"view_cells", baked->views.view_cell_count, pvs_bytes(&baked->views.rows)},

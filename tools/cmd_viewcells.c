@@ -12,7 +12,7 @@ typedef struct viewcells_texts {
     const char *input, *cells, *memory, *tolerance, *method, *objects, *elementary, *samples;
     const char *evaluate, *render, *step, *density, *candidates, *wall_splits, *seed, *threads;
     const char *output, *picture, *width, *title, *slv, *see;
-    bool paths, exact, dark, json;
+    bool paths, exact, by_views, dark, json;
 } viewcells_texts;
 
 /// The options as they are meant.
@@ -149,6 +149,8 @@ static sl_status plan_seeing(sl_context *context, const viewcells_texts *t, view
     SL_TRY(sl_option_choice(context, "--see", t->see ? t->see : "sweep", &names, &method));
     if (t->see && !t->slv)
         return sl_fail(context, SL_BAD_ARGUMENT, "--see is for --slv, which is not given");
+    if (t->by_views && !t->slv)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--by-views is for --slv, which is not given");
     plan->see = &methods[method];
     return t->slv ? sl_input_refuse_output(context, t->input, t->slv) : SL_OK;
 }
@@ -197,7 +199,7 @@ static sl_status work(sl_console *console, viewcells_plan *plan, sl_view_run *ru
     if (t->output) SL_TRY(sl_view_report_write_csv(context, run, t->output));
     if (t->picture) SL_TRY(sl_view_report_draw(context, &report, &plan->drawing, t->picture));
     if (t->slv) {
-        SL_TRY(sl_view_run_see(context, &plan->run, plan->see, run));
+        SL_TRY(sl_view_run_see(context, &plan->run, plan->see, t->by_views, run));
         SL_TRY(sl_baked_write(context, &run->exact, t->slv));
     }
     sl_progress_line_clear(&console->line);
@@ -253,6 +255,9 @@ sl_status sl_cmd_viewcells(sl_console *console, int argc, char **argv) {
          "draw the cells by their cost: .png, .svg or .pdf"},
         {"slv", 0, "FILE.slv", NULL, &t.slv,
          "bake the map with these view cells: exact sets, for\nthe tools and for games"},
+        {"by-views", 0, NULL, &t.by_views, NULL,
+         "leave out of it what single cells see: each then sees\nwhat its view cell does, and the "
+         "file is smaller"},
         {"see", 0, "NAME", NULL, &t.see, "the method of bake for that; sweep without it"},
         {"width", 0, "PX", NULL, &t.width, "of the picture, 64 to 20000 pixels or points"},
         {"dark", 0, NULL, &t.dark, NULL, "light on dark"},

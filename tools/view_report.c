@@ -72,9 +72,10 @@ sl_status sl_view_report_print(sl_context *context, const sl_view_report *report
         sl_size_write(run->plain_bytes, plain);
         sl_size_write(pulled->offsets[pulled->cell_count], rows);
         sl_size_write(run->cell_bytes, cells);
-        printf("exact sets        %s in rows of the %u cells, %s in those of view cells, %s pulled "
-               "up\n",
-               cells, run->exact.space.cell_count, plain, rows);
+        printf("exact sets        %s in rows of the %u cells, %s in those of view cells", cells,
+               run->exact.space.cell_count, plain);
+        if (run->exact.views.node_count > run->cell_count) printf(", %s pulled up", rows);
+        putchar('\n');
         if (run->exact_cost > 0) printf("exact cost        %.6g cells\n", run->exact_cost);
     }
     if (is_told_exactly(report)) printf("costs             by exact sets\n");

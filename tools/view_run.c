@@ -139,7 +139,7 @@ sl_status sl_view_run_make(sl_context *context, const sl_view_run_options *optio
     return cut(context, options, run);
 }
 
-static sl_status make_rows(sl_context *context, sl_view_run *run) {
+static sl_status make_rows(sl_context *context, bool by_views, sl_view_run *run) {
     sl_baked *exact = &run->exact;
     const sl_view_hierarchy *h = sl_view_run_told(run);
     sl_view_rows *rows = &exact->views;
@@ -150,7 +150,7 @@ static sl_status make_rows(sl_context *context, sl_view_run *run) {
                              &plain));
     run->plain_bytes = plain.rows.offsets[plain.rows.cell_count];
     // Rows for groups of view cells pay where there is room for them.
-    if (2 * run->cell_count - 1 > exact->space.cell_count) {
+    if (by_views || 2 * run->cell_count - 1 > exact->space.cell_count) {
         *rows = plain;
     } else {
         sl_view_rows_destroy(context, &plain);
@@ -162,8 +162,22 @@ static sl_status make_rows(sl_context *context, sl_view_run *run) {
                              &run->exact_cost);
 }
 
+/// Lets go of what cells see: from here on that is what their view cells see.
+static sl_status forget_cells(sl_context *context, sl_baked *exact) {
+    sl_visibility *v = &exact->visibility;
+    sl_pvs expanded;
+    SL_TRY(sl_view_rows_expand(context, &exact->views, &expanded, &v->account.pairs));
+    sl_pvs_destroy(context, &v->pvs);
+    sl_pvs_destroy(context, &v->doubtful);
+    v->account.doubtful_pairs = 0;
+    v->pvs = expanded;
+    if (v->guarantee == SL_EXACT) v->guarantee = SL_CONSERVATIVE;
+    exact->by_views = true;
+    return SL_OK;
+}
+
 sl_status sl_view_run_see(sl_context *context, const sl_view_run_options *options,
-                          const sl_see_method *method, sl_view_run *run) {
+                          const sl_see_method *method, bool by_views, sl_view_run *run) {
     const double start = sl_view_clock();
     sl_baked *exact = &run->exact;
     sl_see_options seeing = sl_see_options_default();
@@ -179,7 +193,8 @@ sl_status sl_view_run_see(sl_context *context, const sl_view_run_options *option
     SL_TRY(method->see(context, &exact->space, &seeing, &exact->visibility));
     snprintf(exact->method, sizeof exact->method, "%s", method->name);
     if (method->stabs) snprintf(exact->solver, sizeof exact->solver, "%s", seeing.solver->name);
-    SL_TRY(make_rows(context, run));
+    SL_TRY(make_rows(context, by_views, run));
+    if (by_views) SL_TRY(forget_cells(context, exact));
     run->seconds.see = sl_view_clock() - start;
     run->has_exact = true;
     return SL_OK;

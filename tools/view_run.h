@@ -57,8 +57,9 @@ typedef struct sl_view_run {
 sl_status sl_view_run_make(sl_context *context, const sl_view_run_options *options,
                            sl_view_run *run);
 /// Bakes the map with the view cells of the cut: exact sets by a method of sl_see_methods().
+/// `by_views`: of the sets those of view cells alone are kept.
 sl_status sl_view_run_see(sl_context *context, const sl_view_run_options *options,
-                          const sl_see_method *method, sl_view_run *run);
+                          const sl_see_method *method, bool by_views, sl_view_run *run);
 void sl_view_run_destroy(sl_context *context, sl_view_run *run);
 
 /// What costs are told by: other samples than those that cells were made by, where there are some.

@@ -67,7 +67,8 @@ typedef struct sl_slv_part {
 /// of each cell (32 bits, all set for none), VCPA the parent of each node (likewise), VCRO and VCRB
 /// offsets and bytes of the nodes' rows, as PVSO and PVSB, with empty ones behind the last node so
 /// that there are as many as cells. A view cell is the node of its number, and sees what its row
-/// and those of the nodes above it hold.
+/// and those of the nodes above it hold. Where PVSO and PVSB are left out each cell sees what its
+/// view cell does, and no node has one above; INFO then counts these pairs, and says conservative.
 typedef struct sl_slv_views {
     uint32_t view_cell_count, node_count;
 } sl_slv_views;

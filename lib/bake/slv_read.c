@@ -375,6 +375,17 @@ static sl_status load_findings(const reader *r) {
     return load_pvs(r, "FNRO", "FNRB", false, &findings->doubtful);
 }
 
+/// The visible sets of cells from those of their view cells, where the file has only these.
+static sl_status load_by_views(const reader *r) {
+    sl_baked *out = r->out;
+    uint64_t pairs;
+    for (uint32_t i = 0; i < out->views.node_count; i++)
+        if (out->views.parents[i] != SL_NO_VIEW_CELL)
+            return fail_file(r, "damaged: cells have no visible sets, and view cells none alone");
+    out->by_views = true;
+    return sl_view_rows_expand(r->context, &out->views, &out->visibility.pvs, &pairs);
+}
+
 /// The visible sets, which a shard has none of.
 static sl_status load_seen(const reader *r) {
     sl_visibility *visibility = &r->out->visibility;
@@ -384,7 +395,8 @@ static sl_status load_seen(const reader *r) {
                           "one shard of a bake, %u of %u: put them together with sightline merge",
                           r->out->findings.shard, r->out->findings.shard_count);
     }
-    SL_TRY(load_pvs(r, "PVSO", "PVSB", false, &visibility->pvs));
+    SL_TRY(load_pvs(r, "PVSO", "PVSB", r->out->views.view_cell_count > 0, &visibility->pvs));
+    if (!visibility->pvs.cell_count) SL_TRY(load_by_views(r));
     SL_TRY(check_rows(r, &visibility->pvs));
     SL_TRY(load_pvs(r, "DBTO", "DBTB", true, &visibility->doubtful));
     if (sl_pvs_pairs(&visibility->pvs) != visibility->account.pairs ||
@@ -398,10 +410,10 @@ static sl_status load_all(reader *r) {
     SL_TRY(load_info(r));
     SL_TRY(load_space(r));
     SL_TRY(load_findings(r));
+    SL_TRY(load_views(r));
     SL_TRY(load_seen(r));
     SL_TRY(load_effects(r));
     SL_TRY(load_trees(r));
-    SL_TRY(load_views(r));
     SL_TRY(load_map(r));
     const sl_visibility *visibility = &r->out->visibility;
     const size_t doors = r->out->map.door_count;

@@ -138,7 +138,8 @@ static void add_sections(plan *p, const sl_baked *baked, const sl_slv_info *info
     if (space->seam_portal_count)
         add_section(p, "SEPO", space->seam_portals, sizeof *space->seam_portals,
                     space->seam_portal_count);
-    if (!sl_baked_is_shard(baked)) add_pvs(p, "PVSO", "PVSB", &baked->visibility.pvs);
+    if (!sl_baked_is_shard(baked) && !baked->by_views)
+        add_pvs(p, "PVSO", "PVSB", &baked->visibility.pvs);
     if (baked->visibility.account.doubtful_pairs)
         add_pvs(p, "DBTO", "DBTB", &baked->visibility.doubtful);
     add_effects(p, &baked->visibility);
@@ -209,6 +210,8 @@ static sl_status make_plan(sl_context *context, const sl_baked *baked, const sl_
     const sl_pvs *rows = sl_baked_is_shard(baked) ? &baked->findings.sure : &baked->visibility.pvs;
     if (!cells || rows->cell_count != cells)
         return sl_fail(context, SL_BAD_ARGUMENT, "nothing baked: no visible set for each cell");
+    if (baked->by_views && !baked->views.view_cell_count)
+        return sl_fail(context, SL_BAD_ARGUMENT, "no view cells to stand for the cells");
     if (baked->views.view_cell_count && baked->views.rows.cell_count != cells)
         return sl_fail(context, SL_BAD_ARGUMENT, "the view cells are of another space");
     if (!sl_slv_is_name(info->method) || !sl_slv_is_name(info->solver))

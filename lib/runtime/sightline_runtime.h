@@ -108,7 +108,8 @@ typedef struct sl_runtime_run {
     const unsigned char *next, *stop; ///< the iteration's own
 } sl_runtime_run;
 
-/// Iterates the cells seen from one, ascending:
+/// Iterates the cells seen from one, or from its view cell where the file tells what these see
+/// alone, ascending:
 ///
 ///     sl_runtime_run run = sl_runtime_row(&runtime, cell);
 ///     while (sl_runtime_next(&run))
@@ -372,7 +373,11 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
     }
     if (found[SLRT_PART].items && found[SLRT_PART].count != 1) return SL_RUNTIME_SECTION;
     if (found[SLRT_PART].items && slrt_u32(found[SLRT_PART].items + 4)) return SL_RUNTIME_SHARD;
-    for (tag = 0; tag < SLRT_LINE; tag++)
+    if (found[SLRT_VCIN].items && !found[SLRT_PVSO].items && !found[SLRT_PVSB].items)
+        found[SLRT_PVSO].count = found[SLRT_CELL].count + 1; // rows are the view cells'
+    else if (!found[SLRT_PVSO].items || !found[SLRT_PVSB].items)
+        return SL_RUNTIME_SECTION;
+    for (tag = 0; tag < SLRT_PVSO; tag++)
         if (!found[tag].items) return SL_RUNTIME_SECTION;
     return SL_RUNTIME_OK;
 }
@@ -581,6 +586,19 @@ static bool slrt_view_nodes_are_sound(const sl_runtime *rt) {
     return true;
 }
 
+/// Where cells have no rows of their own, each view cell has all it sees in one row, the cells that
+/// it is made up of among that.
+static bool slrt_stands_for_cells(const sl_runtime *rt) {
+    uint32_t i;
+    for (i = 0; i < rt->view_node_count; i++)
+        if (slrt_u32(rt->view_parents + (size_t)i * 4) != SL_RUNTIME_NO_CELL) return false;
+    for (i = 0; i < rt->cell_count; i++)
+        if (slrt_u32(rt->views + (size_t)i * 4) != SL_RUNTIME_NO_CELL &&
+            !sl_runtime_can_see(rt, i, i))
+            return false;
+    return true;
+}
+
 /// View cells, where the file has any.
 static bool slrt_open_views(const slrt_section *found, sl_runtime *rt) {
     sl_runtime rows;
@@ -603,7 +621,8 @@ static bool slrt_open_views(const slrt_section *found, sl_runtime *rt) {
     rt->view_bytes = found[SLRT_VCRB].items;
     rows = slrt_view_rows(rt);
     return slrt_view_nodes_are_sound(rt) &&
-           slrt_rows_are_sound(&rows, found[SLRT_VCRB].count, false);
+           slrt_rows_are_sound(&rows, found[SLRT_VCRB].count, false) &&
+           (rt->row_offsets || slrt_stands_for_cells(rt));
 }
 
 /// An alternative of a pair: doors in ascending order.
@@ -699,7 +718,8 @@ SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size,
         return SL_RUNTIME_SPACE;
     if (!slrt_take_seams(&rt, found)) return SL_RUNTIME_SPACE;
     if (!slrt_take_doors(&rt, found)) return SL_RUNTIME_ROW;
-    if (!slrt_rows_are_sound(&rt, found[SLRT_PVSB].count, true)) return SL_RUNTIME_ROW;
+    if (rt.row_offsets && !slrt_rows_are_sound(&rt, found[SLRT_PVSB].count, true))
+        return SL_RUNTIME_ROW;
     if (!slrt_open_views(found, &rt)) return SL_RUNTIME_ROW;
     *out = rt;
     return SL_RUNTIME_OK;
@@ -757,9 +777,13 @@ SL_RUNTIME_API sl_runtime_run sl_runtime_row(const sl_runtime *runtime, uint32_t
     run.first = run.end = 0;
     run.next = run.stop = NULL;
     if (cell < runtime->cell_count) {
-        const unsigned char *offsets = runtime->row_offsets + (size_t)cell * 8;
-        run.next = runtime->row_bytes + slrt_u64(offsets);
-        run.stop = runtime->row_bytes + slrt_u64(offsets + 8);
+        const bool own = runtime->row_offsets != NULL;
+        const unsigned char *offsets = own ? runtime->row_offsets : runtime->view_offsets;
+        const unsigned char *bytes = own ? runtime->row_bytes : runtime->view_bytes;
+        const uint32_t row = own ? cell : slrt_u32(runtime->views + (size_t)cell * 4);
+        if (row == SL_RUNTIME_NO_CELL) return run;
+        run.next = bytes + slrt_u64(offsets + (size_t)row * 8);
+        run.stop = bytes + slrt_u64(offsets + (size_t)row * 8 + 8);
     }
     return run;
 }

@@ -1,6 +1,7 @@
 /// What view cells see, in use: location, lookup, the check of what a file says.
 #include "base/base.h"
 #include "base/bits.h"
+#include "cell_to_cell/pvs_maker.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "sightline/view_cells.h"
 
@@ -42,4 +43,22 @@ sl_status sl_view_rows_check(sl_context *context, const sl_view_rows *rows) {
             return sl_fail(context, SL_BAD_INPUT, "node %u of the view cells' rows hangs nowhere",
                            i);
     return sl_pvs_check(context, &rows->rows);
+}
+
+sl_status sl_view_rows_expand(sl_context *context, const sl_view_rows *rows, sl_pvs *out,
+                              uint64_t *pairs) {
+    const uint32_t cells = rows->rows.cell_count;
+    sl_pvs_maker maker;
+    sl_status status = sl_pvs_maker_create(context, cells, cells, &maker);
+    for (uint32_t i = 0; i < cells && status == SL_OK; i++) {
+        for (uint32_t node = rows->view_cells[i]; node != SL_NO_VIEW_CELL;
+             node = rows->parents[node])
+            sl_pvs_maker_add(&maker, &rows->rows, node);
+        status = sl_pvs_maker_end_row(context, &maker);
+        if (status == SL_OK && i % 256 == 0) status = sl_check_cancelled(context);
+    }
+    if (status == SL_OK) status = sl_pvs_maker_finish(context, &maker, out);
+    if (status == SL_OK) *pairs = maker.pairs;
+    sl_pvs_maker_destroy(context, &maker);
+    return status;
 }

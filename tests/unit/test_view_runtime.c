@@ -199,6 +199,84 @@ static void view_cells_are_found_and_looked_up(void **state) {
     sl_context_destroy(context);
 }
 
+static void print_again(sl_context *context, viewed *v) {
+    free(v->bytes);
+    FILE *stream = open_memstream(&v->bytes, &v->size);
+    assert_non_null(stream);
+    assert_ok(context, sl_slv_print(context, &v->baked, stream));
+    fclose(stream);
+}
+
+/// As `bake`, without what cells see.
+static void bake_by_views(sl_context *context, const char *name, uint32_t cells, viewed *v) {
+    bake(context, name, cells, v);
+    sl_visibility *seen = &v->baked.visibility;
+    sl_pvs exact = seen->pvs;
+    sl_view_rows_destroy(context, &v->baked.views);
+    assert_ok(context, sl_view_rows_make(context, &v->baked.space, &exact, &v->tree, &v->hierarchy,
+                                         cells, false, &v->baked.views));
+    assert_ok(context,
+              sl_view_rows_expand(context, &v->baked.views, &seen->pvs, &seen->account.pairs));
+    for (uint32_t a = 0; a < exact.cell_count; a++)
+        for (uint32_t b = 0; b < exact.cell_count; b++) {
+            const uint32_t view = v->baked.views.view_cells[a];
+            if (sl_pvs_sees(&exact, a, b)) assert_true(sl_pvs_sees(&seen->pvs, a, b));
+            assert_int_equal(sl_pvs_sees(&seen->pvs, a, b),
+                             view != SL_NO_VIEW_CELL &&
+                                 sl_view_rows_sees(&v->baked.views, view, b));
+        }
+    sl_pvs_destroy(context, &exact);
+    seen->guarantee = SL_CONSERVATIVE;
+    v->baked.by_views = true;
+    const size_t before = v->size;
+    print_again(context, v);
+    assert_true(v->size < before);
+}
+
+/// A file may leave out what cells see: each sees what its view cell does, for both readers.
+static void view_cells_stand_for_their_cells(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    viewed v = {0};
+    make_cells(context, "dungeon.txt", &v);
+    bake_by_views(context, "dungeon.txt", 15, &v);
+    const sl_pvs *pvs = &v.baked.visibility.pvs;
+    sl_runtime rt;
+    assert_int_equal(sl_runtime_open(v.bytes, v.size, &rt), SL_RUNTIME_OK);
+    for (uint32_t a = 0; a < rt.cell_count; a++) {
+        assert_int_equal(sl_runtime_row_count(&rt, a), sl_pvs_count(pvs, a));
+        assert_int_equal(sl_runtime_has_row(&rt, a), sl_pvs_count(pvs, a) > 0);
+        for (uint32_t b = 0; b < rt.cell_count; b++)
+            assert_int_equal(sl_runtime_can_see(&rt, a, b), sl_pvs_sees(pvs, a, b));
+    }
+    check_points(&v, &rt);
+    sl_baked again = {0};
+    assert_ok(context, sl_baked_parse(context, "memory", v.bytes, v.size, &again));
+    assert_true(again.by_views && again.visibility.pvs.cell_count == pvs->cell_count);
+    assert_memory_equal(again.visibility.pvs.bytes, pvs->bytes, pvs->offsets[pvs->cell_count]);
+    sl_baked_destroy(context, &again);
+    // A cell in a view cell that does not see it, and a row that is not all of what is seen.
+    uint32_t *view_cells = v.baked.views.view_cells, first = 0;
+    for (int fault = 0; fault < 2; fault++) {
+        const uint32_t kept = fault ? v.baked.views.parents[0] : 0;
+        while (!fault && (view_cells[first] == SL_NO_VIEW_CELL ||
+                          sl_view_rows_sees(&v.baked.views, 0, first)))
+            first++;
+        const uint32_t own = view_cells[first];
+        if (fault)
+            v.baked.views.parents[0] = 1;
+        else
+            view_cells[first] = 0;
+        print_again(context, &v);
+        assert_int_equal(sl_runtime_open(v.bytes, v.size, &rt), SL_RUNTIME_ROW);
+        assert_int_equal(sl_baked_parse(context, "memory", v.bytes, v.size, &again), SL_BAD_INPUT);
+        view_cells[first] = own;
+        if (fault) v.baked.views.parents[0] = kept;
+    }
+    drop(context, &v);
+    sl_context_destroy(context);
+}
+
 /// Every word of the sections of view cells, made large: both readers refuse or stay in bounds.
 static void damaged_view_cells_are_refused(void **state) {
     (void)state;
@@ -234,6 +312,7 @@ int main(int argc, char **argv) {
     if (argc > 1) points = strtoull(argv[1], NULL, 10);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(view_cells_are_found_and_looked_up),
+        cmocka_unit_test(view_cells_stand_for_their_cells),
         cmocka_unit_test(damaged_view_cells_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

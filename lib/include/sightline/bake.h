@@ -18,6 +18,9 @@ typedef struct sl_baked {
     /// By name: letters, digits and dashes, zeros behind; solver "" for none.
     char method[16], solver[16];
     sl_view_rows views; ///< over the cells; none where the map was baked without view cells
+    /// The file keeps what view cells see and not what cells do: the visible sets are those of
+    /// their view cells (sl_view_rows_expand), each of which has one row and no parent.
+    bool by_views;
     /// Of a bake that is not finished: what it has found. The visible sets then count as seen what
     /// is not decided; a shard has none. Zeroed where the bake is finished.
     sl_findings findings;

@@ -300,6 +300,10 @@ typedef struct sl_view_rows {
 SL_API sl_status sl_view_rows_make(sl_context *context, const sl_space *space, const sl_pvs *pvs,
                                    const sl_view_tree *tree, const sl_view_hierarchy *hierarchy,
                                    uint32_t cells, bool compressed, sl_view_rows *out);
+/// What cells see where nothing is told but what their view cells do: each that. `pairs` is how
+/// many there are. For untrusted rows that were checked.
+SL_API sl_status sl_view_rows_expand(sl_context *context, const sl_view_rows *rows, sl_pvs *out,
+                                     uint64_t *pairs);
 SL_API void sl_view_rows_destroy(sl_context *context, sl_view_rows *rows); ///< and zeroes it
 
 /// The view cell of a point: that of its cell in the space. SL_NO_VIEW_CELL for none.
