@@ -9,7 +9,7 @@
 
 /// The operands and options as they are given.
 typedef struct explain_texts {
-    const char *operands[3], *output, *sight, *misses, *tests;
+    const char *operands[3], *output, *sight, *misses, *tests, *mirror_depth;
     bool json;
 } explain_texts;
 
@@ -53,9 +53,14 @@ static sl_status explain(sl_console *console, const explain_texts *texts, const 
     SL_TRY(choose_cell(context, "A", texts->operands[FROM_OPERAND], space, &from));
     SL_TRY(choose_cell(context, "B", texts->operands[TO_OPERAND], space, &to));
     sl_explanation explanation;
+    uint64_t depth = 1;
+    SL_TRY(sl_option_count(context, "--mirror-depth", texts->mirror_depth, 16, &depth));
     SL_TRY(sl_explain(context, space, &options, from, to, &explanation));
     sl_status status = SL_OK;
-    if (texts->output) {
+    if (baked->map.mirror_count)
+        status = sl_explain_by_mirror(context, space, &baked->map, &options, (uint32_t)depth,
+                                      &explanation);
+    if (status == SL_OK && texts->output) {
         const sl_draw_options drawing = sl_draw_options_default();
         status = sl_draw_explanation(context, baked, &explanation, &drawing, texts->output);
     }
@@ -76,6 +81,8 @@ sl_status sl_cmd_explain(sl_console *console, int argc, char **argv) {
         {"misses", 0, "N", NULL, &t.misses,
          "of a hidden pair, how many sequences to tell of\nthat came far; 3 without it"},
         {"tests", 0, "N", NULL, &t.tests, "give up after N stabbing tests, and tell what is known"},
+        {"mirror-depth", 0, "N", NULL, &t.mirror_depth,
+         "how often mirrors reflect a sightline, 0 to 16;\n1 without it"},
         {"output", 'o', "PICTURE", NULL, &t.output,
          "draw it too: .png, .svg or .pdf, by the ending"},
         {"json", 0, NULL, &t.json, NULL, "print JSON"},
@@ -98,7 +105,7 @@ sl_status sl_cmd_explain(sl_console *console, int argc, char **argv) {
     if (helped) return SL_OK;
     sl_baked baked = {0};
     SL_TRY(sl_input_read_baked(console->context, t.operands[FILE_OPERAND], &baked));
-    sl_status status = sl_effects_check(console->context, &baked.map, "explain", 0);
+    sl_status status = sl_effects_check(console->context, &baked.map, "explain", SL_EFFECT_MIRROR);
     if (status == SL_OK) status = explain(console, &t, &baked);
     sl_baked_destroy(console->context, &baked);
     return status;

@@ -183,6 +183,44 @@ static void print_file(const sl_baked *baked, const sl_explanation *e) {
         puts(is_doubtful(baked, e) ? " too, but rounding decided that." : " too.");
 }
 
+/// By mirror, step by step.
+static void print_bent(const sl_baked *baked, const sl_explanation *e) {
+    const sl_bent_sightline *bent = &e->bent;
+    if (bent->verdict == SL_HIDDEN) {
+        printf("By mirror it is not seen%s.\n",
+               bent->complete ? "" : ", as far as the tests went that --tests allows");
+        return;
+    }
+    printf("By mirror cell %" PRIu32 " sees cell %" PRIu32 "%s, with %" PRIu32 " reflection%s:\n",
+           e->from, e->to, bent->verdict == SL_GRAZING ? ", though lines only graze" : "",
+           bent->mirrors, plural(bent->mirrors));
+    for (uint32_t i = 0; i < bent->step_count; i++) {
+        const sl_bent_step *step = &bent->steps[i];
+        printf("  %2" PRIu32 "  ", i + 1);
+        if (step->mirror == UINT32_MAX) {
+            printf("portal %" PRIu32 " into cell %" PRIu32 "\n",
+                   baked->space.exits[step->exit].portal, step->cell);
+            continue;
+        }
+        const sl_segment at = baked->map.mirrors[step->mirror].segment;
+        printf("mirror %" PRIu32 " from ", step->mirror);
+        print_point(at.a);
+        printf(" to ");
+        print_point(at.b);
+        printf(", back into cell %" PRIu32 "\n", step->cell);
+    }
+    printf("The line starts about ");
+    for (uint32_t i = 0; i < bent->mirrors + 2; i++) {
+        const sl_point p = bent->bends[i];
+        printf("%s(%.6g,%.6g)",
+               !i                   ? ""
+               : i <= bent->mirrors ? ", bends at "
+                                    : " and ends about ",
+               p.x, p.y);
+    }
+    puts(bent->rounded ? "; places in mirrors are rounded." : ".");
+}
+
 void sl_explanation_print(const sl_baked *baked, const sl_explanation *e) {
     const sl_space *space = &baked->space;
     if (e->from == e->to)
@@ -201,6 +239,7 @@ void sl_explanation_print(const sl_baked *baked, const sl_explanation *e) {
     else
         print_hidden(space, e);
     print_file(baked, e);
+    if (e->bent.asked) print_bent(baked, e);
 }
 
 // --- JSON
@@ -270,6 +309,28 @@ static void add_found(sl_json_fields *fields, const sl_space *space, const sl_ex
     if (e->verdict == SL_GRAZING) set(fields, "ends", json_of_ends(space, &e->sequence));
 }
 
+static void add_bent(sl_json_fields *fields, const sl_space *space, const sl_bent_sightline *bent,
+                     const char *verdict) {
+    json_t *steps = json_array();
+    for (uint32_t i = 0; i < bent->step_count; i++) {
+        const sl_bent_step *step = &bent->steps[i];
+        const bool portal = step->mirror == UINT32_MAX;
+        json_array_append_new(
+            steps, json_pack("{s: I, s: I}", portal ? "portal" : "mirror",
+                             (json_int_t)(portal ? space->exits[step->exit].portal : step->mirror),
+                             "cell", (json_int_t)step->cell));
+    }
+    sl_json_fields inner = sl_json_begin();
+    sl_json_add_text(&inner, "verdict", verdict);
+    sl_json_add_flag(&inner, "complete", bent->complete);
+    sl_json_add_count(&inner, "tests", bent->tests);
+    sl_json_add_flag(&inner, "rounded", bent->rounded);
+    sl_json_add_count(&inner, "mirrors", bent->mirrors);
+    if (json_object_set_new(inner.object, "steps", steps) != 0) inner.failed = true;
+    sl_json_add_points(&inner, "line", bent->bends, bent->bends ? bent->mirrors + 2 : 0);
+    sl_json_add_fields(fields, "by_mirror", &inner);
+}
+
 sl_status sl_explanation_print_json(sl_context *context, const sl_baked *baked,
                                     const sl_explanation *e) {
     static const char *const verdicts[] = {
@@ -292,5 +353,6 @@ sl_status sl_explanation_print_json(sl_context *context, const sl_baked *baked,
         json_array_append_new(misses, json_of_miss(&baked->space, &e->misses[i]));
     set(&fields, "misses", misses);
     set(&fields, "file", json_of_file(baked, e));
+    if (e->bent.asked) add_bent(&fields, &baked->space, &e->bent, verdicts[e->bent.verdict]);
     return sl_json_print(context, &fields);
 }

@@ -14,19 +14,14 @@
 
 #include "cell_to_cell/door_table.h"
 #include "cell_to_cell/methods.h"
-#include "effects/frame.h"
+#include "cell_to_cell/unfolded.h"
 #include "effects/mirror_sides.h"
 #include "stab/funnel.h"
 
 #include <string.h>
 
 /// Beside a step of the search, at the same place of its array.
-typedef struct place {
-    sl_exit ends;         ///< of the portal crossed last, where mirrored space has it
-    uint32_t least, most; ///< places that bound the directions of all portals; 0 for none yet
-    sl_frame frame;
-    uint32_t mirror; ///< crossed last; UINT32_MAX for a portal
-} place;
+typedef sl_unfolded place;
 
 struct sl_dfs_effects {
     const sl_plan *plan;
@@ -76,29 +71,17 @@ static const sl_bits *doors_at(const effects *all, const thread *me, size_t dept
 
 /// Where a portal lies in the frame of the last place.
 static sl_exit unfold(thread *me, const sl_frame *frame, sl_point left, sl_point right) {
-    bool rounded = frame->rounded;
-    if (!frame->depth) return (sl_exit){.left = left, .right = right};
-    const sl_point l = sl_frame_place(frame, left, &rounded);
-    const sl_point r = sl_frame_place(frame, right, &rounded);
+    bool rounded = false;
+    const sl_exit ends = sl_unfold(frame, left, right, &rounded);
     me->rounded_places += rounded;
-    return frame->depth % 2 ? (sl_exit){.left = r, .right = l} : (sl_exit){.left = l, .right = r};
+    return ends;
 }
 
 /// Whether some direction crosses all portals up to a new place; sets its bounds.
 static bool may_cross(const thread *me, const place *from, place *to) {
-    const uint32_t here = (uint32_t)me->places.count;
-    to->least = from->least;
-    to->most = from->most;
-    if (!from->least) {
-        to->least = to->most = here;
-        return true;
-    }
     const place *places = me->places.items;
-    const sl_crossing crossing = sl_crossing_of(&places[from->least].ends, &places[from->most].ends,
-                                                from->least == from->most, &to->ends);
-    if (crossing == SL_CROSSES_LEAST) to->least = here;
-    if (crossing == SL_CROSSES_MOST) to->most = here;
-    return crossing != SL_CROSSES_NEVER;
+    return sl_unfolded_may_cross(&places[from->least].ends, &places[from->most].ends, from,
+                                 (uint32_t)me->places.count, to);
 }
 
 /// Whether the sequence has a sightline of which no more than the range lies between the cells.

@@ -46,31 +46,34 @@ void sl_explanation_destroy(sl_context *context, sl_explanation *explanation) {
     for (uint32_t i = 0; i < explanation->miss_count; i++)
         sl_free(context, explanation->misses[i].sequence.exits);
     sl_free(context, explanation->misses);
+    sl_free(context, explanation->bent.steps);
+    sl_free(context, explanation->bent.bends);
     *explanation = (sl_explanation){0};
 }
 
 // --- distances
 
 /// Breadth first from the target. Portals lead both ways, so that the ways there are the ways back.
-static sl_status find_distances(sl_context *context, search *s) {
-    const sl_space *space = s->space;
+sl_status sl_find_distances(sl_context *context, const sl_space *space, uint32_t to,
+                            uint32_t **out) {
     const uint32_t count = space->cell_count;
-    s->distance = sl_alloc_array(context, count, sizeof *s->distance);
+    uint32_t *distance = sl_alloc_array(context, count, sizeof *distance);
     uint32_t *queue = sl_alloc_array(context, count, sizeof *queue);
-    if (!s->distance || !queue) {
+    *out = distance;
+    if (!distance || !queue) {
         sl_free(context, queue);
         return SL_NO_MEMORY;
     }
-    for (uint32_t i = 0; i < count; i++) s->distance[i] = SL_NO_WAY;
+    for (uint32_t i = 0; i < count; i++) distance[i] = SL_NO_WAY;
     uint32_t end = 0;
-    queue[end++] = s->out.to;
-    s->distance[s->out.to] = 0;
+    queue[end++] = to;
+    distance[to] = 0;
     for (uint32_t begin = 0; begin < end; begin++) {
         const sl_cell *cell = &space->cells[queue[begin]];
         for (uint32_t i = 0; i < cell->exit_count; i++) {
             const uint32_t next = space->exits[cell->first_exit + i].cell;
-            if (s->distance[next] != SL_NO_WAY) continue;
-            s->distance[next] = s->distance[queue[begin]] + 1;
+            if (distance[next] != SL_NO_WAY) continue;
+            distance[next] = distance[queue[begin]] + 1;
             queue[end++] = next;
         }
     }
@@ -298,7 +301,7 @@ static void drop_misses(sl_context *context, sl_explanation *out) {
 static sl_status explain(sl_context *context, search *s) {
     const sl_solver *solver = s->options->solver;
     sl_explanation *out = &s->out;
-    SL_TRY(find_distances(context, s));
+    SL_TRY(sl_find_distances(context, s->space, out->to, &s->distance));
     out->distance = s->distance[out->from];
     out->complete = true;
     out->verdict = out->distance == 0 ? SL_STABBED : SL_HIDDEN;

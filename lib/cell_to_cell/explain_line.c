@@ -16,8 +16,7 @@ static bool is_strict(const sl_space *space, const sl_sequence *sequence, sl_lin
     return true;
 }
 
-/// At what share of the portal the line crosses it, from its left end.
-static double share_of(const sl_exit *exit, sl_line line) {
+double sl_share_of_exit(const sl_exit *exit, sl_line line) {
     const double x = line.b.x - line.a.x, y = line.b.y - line.a.y;
     const double left = x * (exit->left.y - line.a.y) - y * (exit->left.x - line.a.x);
     const double right = x * (exit->right.y - line.a.y) - y * (exit->right.x - line.a.x);
@@ -29,7 +28,7 @@ static bool is_near(const sl_space *space, const sl_sequence *sequence, sl_line 
                     sl_line other) {
     for (uint32_t i = 0; i < sequence->exit_count; i++) {
         const sl_exit *exit = &space->exits[sequence->exits[i]];
-        const double share = share_of(exit, line), wanted = share_of(exit, other);
+        const double share = sl_share_of_exit(exit, line), wanted = sl_share_of_exit(exit, other);
         if (share < wanted / 2 || 1 - share < (1 - wanted) / 2) return false;
     }
     return true;
@@ -58,13 +57,12 @@ bool sl_simplify_line(const sl_space *space, const sl_sequence *sequence, sl_lin
 
 /// Where the line crosses a portal; an end of it where it lies along.
 static sl_point crossing_point(const sl_exit *exit, sl_line line) {
-    const double share = share_of(exit, line);
+    const double share = sl_share_of_exit(exit, line);
     return (sl_point){exit->left.x + share * (exit->right.x - exit->left.x),
                       exit->left.y + share * (exit->right.y - exit->left.y)};
 }
 
-/// From a point on the cell's boundary half the way through it.
-static sl_point into(const sl_space *space, uint32_t cell, sl_point at, sl_point direction) {
+sl_point sl_halfway_into(const sl_space *space, uint32_t cell, sl_point at, sl_point direction) {
     const double half = sl_ray_length(space, cell, at, direction) / 2;
     return (sl_point){at.x + half * direction.x, at.y + half * direction.y};
 }
@@ -75,6 +73,6 @@ sl_segment sl_shown_segment(const sl_space *space, const sl_sequence *sequence, 
     const sl_exit *last = &space->exits[sequence->exits[sequence->exit_count - 1]];
     const double x = line.b.x - line.a.x, y = line.b.y - line.a.y, length = hypot(x, y);
     const sl_point forward = {x / length, y / length}, back = {-x / length, -y / length};
-    return (sl_segment){into(space, from, crossing_point(first, line), back),
-                        into(space, last->cell, crossing_point(last, line), forward)};
+    return (sl_segment){sl_halfway_into(space, from, crossing_point(first, line), back),
+                        sl_halfway_into(space, last->cell, crossing_point(last, line), forward)};
 }

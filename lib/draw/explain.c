@@ -77,6 +77,8 @@ static void choose_frame(sl_told *told) {
         include(&box, space->exits[told->sequence->exits[i]].left);
         include(&box, space->exits[told->sequence->exits[i]].right);
     }
+    const sl_bent_sightline *bent = &told->explanation->bent;
+    for (uint32_t i = 0; bent->bends && i < bent->mirrors + 2; i++) include(&box, bent->bends[i]);
     const double wide = box.max.x - box.min.x, high = box.max.y - box.min.y;
     const double margin = 0.12 * fmax(wide, high);
     const double wanted_x = fmax(wide + 2 * margin, 0.95 * (high + 2 * margin));
@@ -139,8 +141,9 @@ static const char *title_of(const sl_told *told, char text[CAPTION_TEXT]) {
     else if (!e->complete && e->verdict == SL_HIDDEN)
         snprintf(text, CAPTION_TEXT, "Whether cell %u sees cell %u is not known", e->from, e->to);
     else
-        snprintf(text, CAPTION_TEXT, "Why cell %u %s cell %u", e->from,
-                 e->seen ? "sees" : "does not see", e->to);
+        snprintf(text, CAPTION_TEXT, "Why cell %u %s cell %u%s", e->from,
+                 e->seen ? "sees" : "does not see", e->to,
+                 e->bent.bends && !e->seen ? " but by mirror" : "");
     return text;
 }
 
@@ -184,9 +187,10 @@ static double set_lines(cairo_t *cairo, sl_colour colour, double left, double to
 
 // --- the key
 
-typedef enum swatch { LEFT_END, RIGHT_END, CROSSED, STOP, SIGHTLINE, WAY, SWATCHES } swatch;
+typedef enum swatch { LEFT_END, RIGHT_END, CROSSED, STOP, SIGHTLINE, WAY, BENT, SWATCHES } swatch;
 
 static bool has_swatch(const sl_told *told, swatch what) {
+    if (what == BENT) return told->explanation->bent.bends != NULL;
     if (!told->sequence) return false;
     if (what == STOP || what == WAY) return told->miss != NULL;
     return what != SIGHTLINE || told->miss == NULL;
@@ -204,6 +208,7 @@ static void draw_swatch(cairo_t *cairo, const sl_told *told, swatch what, double
     cairo_line_to(cairo, right, middle);
     if (what == SIGHTLINE) sl_pen_sightline(cairo, told, unit);
     if (what == WAY) sl_pen_way(cairo, told, unit);
+    if (what == BENT) sl_pen_bent(cairo, told, unit);
     if (what == CROSSED) sl_pen_crossed(cairo, told, unit);
     if (what == STOP) sl_pen_stop(cairo, told, unit);
     if (what == CROSSED || what == STOP)
@@ -214,8 +219,9 @@ static void draw_swatch(cairo_t *cairo, const sl_told *told, swatch what, double
 static double draw_key(cairo_t *cairo, const sl_told *told, double left, double top, double width,
                        double size, bool paint) {
     static const char *const words[SWATCHES] = {
-        [LEFT_END] = "left end",      [RIGHT_END] = "right end", [CROSSED] = "portal crossed",
-        [STOP] = "portal that stops", [SIGHTLINE] = "sightline", [WAY] = "way of the sequence"};
+        [LEFT_END] = "left end",       [RIGHT_END] = "right end", [CROSSED] = "portal crossed",
+        [STOP] = "portal that stops",  [SIGHTLINE] = "sightline", [WAY] = "way of the sequence",
+        [BENT] = "sightline by mirror"};
     double x = left, y = top;
     bool any = false;
     sl_text_font(cairo, size, false);

@@ -29,9 +29,10 @@ void sl_mark_end(cairo_t *cairo, const sl_told *told, sl_point at, bool left, do
 void sl_mark_badge(cairo_t *cairo, const sl_told *told, sl_point at, double radius,
                    unsigned number);
 
-/// Strokes the path as the line that sees, as the way of a sequence that does not, as a portal of
-/// the sequence or as the one that stops it.
+/// Strokes the path as the line that sees, as one that sees by mirror, as the way of a sequence
+/// that does not, as a portal of the sequence or as the one that stops it.
 void sl_pen_sightline(cairo_t *cairo, const sl_told *told, double unit);
+void sl_pen_bent(cairo_t *cairo, const sl_told *told, double unit);
 void sl_pen_way(cairo_t *cairo, const sl_told *told, double unit);
 void sl_pen_crossed(cairo_t *cairo, const sl_told *told, double unit);
 void sl_pen_stop(cairo_t *cairo, const sl_told *told, double unit);

@@ -52,6 +52,12 @@ void sl_pen_sightline(cairo_t *cairo, const sl_told *told, double unit) {
     stroke_cased(cairo, palette->page, 3 * unit, palette->ink, 2.4 * unit);
 }
 
+void sl_pen_bent(cairo_t *cairo, const sl_told *told, double unit) {
+    const sl_palette *palette = &told->scene.palette;
+    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_BUTT);
+    stroke_cased(cairo, palette->page, 3 * unit, palette->mirrored, 2.4 * unit);
+}
+
 void sl_pen_way(cairo_t *cairo, const sl_told *told, double unit) {
     const double dashes[2] = {0, 4.6 * unit};
     cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
@@ -240,6 +246,18 @@ static void draw_line(overlay *o) {
     cairo_line_to(o->cairo, to.x, to.y);
     sl_pen_sightline(o->cairo, o->told, o->unit);
     draw_head(o, from, to);
+}
+
+/// The line that sees by mirror, from bend to bend.
+static void draw_bent(const overlay *o) {
+    const sl_bent_sightline *bent = &o->told->explanation->bent;
+    if (!bent->bends) return;
+    for (uint32_t i = 0; i < bent->mirrors + 2; i++) {
+        const sl_point at = place(o, bent->bends[i]);
+        cairo_line_to(o->cairo, at.x, at.y);
+    }
+    sl_pen_bent(o->cairo, o->told, o->unit);
+    draw_head(o, place(o, bent->bends[bent->mirrors]), place(o, bent->bends[bent->mirrors + 1]));
 }
 
 /// Which way a portal is crossed: an arrow through its middle.
@@ -439,6 +457,7 @@ sl_status sl_draw_told(sl_context *context, cairo_t *cairo, const sl_told *told,
     const sl_status status = sl_draw_onto(context, cairo, &told->scene, frame);
     if (status == SL_OK) {
         if (sequence) draw_told_sequence(&o);
+        draw_bent(&o);
         draw_name(&o, e->from, told->scene.palette.source_edge);
         if (e->from != e->to) draw_name(&o, e->to, told->target);
         for (uint32_t i = 0; sequence && i < sequence->exit_count; i++) draw_badge(&o, i);

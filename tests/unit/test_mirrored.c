@@ -208,9 +208,69 @@ static void random_maps(void **state) {
     assert_true(areas > maps / 4);
 }
 
+// --- told
+
+/// Each bend lies on its mirror, and the line leaves it as it came.
+static void check_bends(const trial *t, const sl_bent_sightline *bent) {
+    uint32_t bend = 0;
+    for (uint32_t i = 0; i < bent->step_count; i++) {
+        if (bent->steps[i].mirror == UINT32_MAX) continue;
+        const sl_segment mirror = t->map.mirrors[bent->steps[i].mirror].segment;
+        const bool upright = mirror.a.x == mirror.b.x;
+        const sl_point p = bent->bends[bend], q = bent->bends[bend + 1], r = bent->bends[bend + 2];
+        const double in = hypot(q.x - p.x, q.y - p.y), on = hypot(r.x - q.x, r.y - q.y);
+        assert_true(fabs(upright ? q.x - mirror.a.x : q.y - mirror.a.y) < 1e-12);
+        if (in > 1e-3 && on > 1e-3) {
+            const double sign = upright ? -1 : 1;
+            assert_true(fabs((q.x - p.x) / in * sign - (r.x - q.x) / on) < 1e-9);
+            assert_true(fabs((q.y - p.y) / in * -sign - (r.y - q.y) / on) < 1e-9);
+        }
+        bend++;
+    }
+    assert_int_equal(bend, bent->mirrors);
+}
+
+/// What explaining finds is what the bake finds.
+static void explained_as_baked(void **state) {
+    (void)state;
+    size_t found = 0, twice = 0;
+    for (uint64_t seed = 8; seed <= 8 * (uint64_t)MAPS; seed += 8) {
+        trial t;
+        begin(&t, seed);
+        sl_plan plan = sl_plan_make(&t.map);
+        plan.mirror_depth = t.depth;
+        size_t count;
+        const sl_see_method *methods = sl_see_methods(&count);
+        while (strcmp(methods->name, "dfs") != 0) methods++;
+        sl_see_options options = sl_see_options_default();
+        sl_explain_options how = sl_explain_options_default();
+        options.solver = sl_funnel();
+        options.plan = &plan;
+        options.sight = how.sight = seed / 8 % 2 ? SL_CLOSED : SL_OPEN;
+        sl_visibility baked = {0};
+        assert_ok(t.context, methods->see(t.context, &t.whole, &options, &baked));
+        for (uint32_t a = 0; a < t.whole.cell_count; a++)
+            for (uint32_t b = 0; b < t.whole.cell_count; b++) {
+                sl_explanation e = {.from = a, .to = b, .sight = how.sight};
+                assert_ok(t.context,
+                          sl_explain_by_mirror(t.context, &t.whole, &t.map, &how, t.depth, &e));
+                if ((e.bent.verdict != SL_HIDDEN) != sl_pvs_sees(&baked.mirrored, a, b))
+                    fail_msg("seed %llu: cells %u and %u", (unsigned long long)seed, a, b);
+                if (e.bent.bends) check_bends(&t, &e.bent);
+                found += e.bent.mirrors > 0;
+                twice += e.bent.mirrors > 1;
+                sl_explanation_destroy(t.context, &e);
+            }
+        sl_visibility_destroy(t.context, &baked);
+        end(&t);
+    }
+    assert_true(found > 100 && twice > 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_maps),
+        cmocka_unit_test(explained_as_baked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
 #ifndef SIGHTLINE_EXPLAIN_H
 #define SIGHTLINE_EXPLAIN_H
 
+#include "sightline/map.h"
 #include "sightline/space.h"
 #include "sightline/stab.h"
 
@@ -41,6 +42,28 @@ typedef struct sl_miss {
     bool turns;
 } sl_miss;
 
+/// What a sequence with mirrors crosses: a portal or a mirror.
+typedef struct sl_bent_step {
+    uint32_t exit;   ///< of the space; UINT32_MAX for a mirror
+    uint32_t mirror; ///< of the map; UINT32_MAX for a portal
+    uint32_t cell;   ///< behind the portal, or before the mirror
+} sl_bent_step;
+
+/// A sightline that mirrors bend. Zeroed, it was not looked for.
+typedef struct sl_bent_sightline {
+    bool asked;              ///< it was looked for
+    bool complete;           ///< false: most_tests ended the search
+    sl_stab_verdict verdict; ///< SL_HIDDEN: there is none
+    uint32_t mirrors;        ///< reflections: of all that there are, the fewest; then portals
+    uint32_t step_count;
+    sl_bent_step *steps;
+    /// From the middle of its way through the first cell to that through the last, by a bend at
+    /// each mirror: mirrors + 2 points. Rounded: to be shown.
+    sl_point *bends;
+    bool rounded;   ///< a portal's place in a mirror is rounded, and so is the verdict
+    uint64_t tests; ///< stabbing tests
+} sl_bent_sightline;
+
 /// The answer. Zeroed, it is empty.
 typedef struct sl_explanation {
     uint32_t from, to;
@@ -65,7 +88,8 @@ typedef struct sl_explanation {
     /// turn, and the shortest sequence first.
     sl_miss *misses;
     uint32_t miss_count;
-    uint64_t tests; ///< stabbing tests
+    uint64_t tests;         ///< stabbing tests
+    sl_bent_sightline bent; ///< by sl_explain_by_mirror alone
 } sl_explanation;
 
 /// Searches for sightlines from cell `from` to cell `to`. Exact. The fewest portals first, by ever
@@ -75,6 +99,13 @@ typedef struct sl_explanation {
 SL_API sl_status sl_explain(sl_context *context, const sl_space *space,
                             const sl_explain_options *options, uint32_t from, uint32_t to,
                             sl_explanation *out);
+
+/// Adds to an explanation whether its pair is seen by mirror as well, with `depth` reflections at
+/// most, and how. `map`: whose walls the space was made from. Exact behind axial mirrors as long as
+/// sums of coordinates are, else rounded, which is told.
+SL_API sl_status sl_explain_by_mirror(sl_context *context, const sl_space *space, const sl_map *map,
+                                      const sl_explain_options *options, uint32_t depth,
+                                      sl_explanation *explanation);
 
 SL_API void sl_explanation_destroy(sl_context *context,
                                    sl_explanation *explanation); ///< and zeroes it
