@@ -4,11 +4,14 @@
 #include "base/bits.h"
 #include "geometry/orient.h"
 
+#include <math.h>
 #include <string.h>
 
 void sl_fans_destroy(sl_context *context, sl_fans *fans) {
     sl_free(context, fans->first_exit);
     sl_free(context, fans->exits);
+    sl_free(context, fans->middles);
+    sl_free(context, fans->ends.items);
     sl_free(context, fans->fans.items);
     sl_free(context, fans->cells.items);
     *fans = (sl_fans){0};
@@ -17,7 +20,9 @@ void sl_fans_destroy(sl_context *context, sl_fans *fans) {
 uint64_t sl_fans_bytes(const sl_fans *fans) {
     const uint64_t exits = fans->first_exit[fans->cell_count];
     return ((uint64_t)fans->cell_count + 1) * sizeof *fans->first_exit +
-           exits * sizeof *fans->exits + fans->fans.capacity * sizeof *fans->fans.items +
+           fans->cell_count * sizeof *fans->middles +
+           fans->ends.capacity * sizeof *fans->ends.items + exits * sizeof *fans->exits +
+           fans->fans.capacity * sizeof *fans->fans.items +
            fans->cells.capacity * sizeof *fans->cells.items;
 }
 
@@ -27,15 +32,25 @@ static bool takes_part(const sl_space *space, const sl_see_options *options, uin
     return !options->inside_only || space->cells[cell].inside;
 }
 
+typedef struct walker {
+    const sl_space *space;
+    sl_fans *fans;
+    uint32_t *of_space;  ///< by exit: its number in the space
+    const sl_bits *dark; ///< exits that end a fan; NULL for none
+} walker;
+
 /// `dark`: NULL, or a set that gets the exits whose glass is dark.
-static sl_status copy_exits(sl_context *context, const sl_space *space,
-                            const sl_see_options *options, sl_bits *dark, sl_fans *fans) {
+static sl_status copy_exits(sl_context *context, walker *w, const sl_see_options *options,
+                            sl_bits *dark) {
+    const sl_space *space = w->space;
+    sl_fans *fans = w->fans;
     const uint32_t count = space->cell_count;
     fans->cell_count = count;
     fans->first_exit = sl_alloc_array(context, (size_t)count + 1, sizeof *fans->first_exit);
     fans->exits = sl_alloc_array(context, space->exit_count, sizeof *fans->exits);
+    w->of_space = sl_alloc_array(context, space->exit_count, sizeof *w->of_space);
     uint32_t *of_portal = sl_alloc_array(context, space->portal_count, sizeof *of_portal);
-    if (!fans->first_exit || !fans->exits || !of_portal) {
+    if (!fans->first_exit || !fans->exits || !w->of_space || !of_portal) {
         sl_free(context, of_portal);
         return SL_NO_MEMORY;
     }
@@ -48,8 +63,8 @@ static sl_status copy_exits(sl_context *context, const sl_space *space,
             const sl_exit *e = &space->exits[i];
             if (!takes_part(space, options, cell) || !takes_part(space, options, e->cell)) continue;
             uint32_t *other = &of_portal[e->portal];
-            fans->exits[at] =
-                (sl_walk_exit){.left = e->left, .right = e->right, .cell = e->cell, .twin = *other};
+            fans->exits[at] = (sl_walk_exit){.left = UINT32_MAX, .cell = e->cell, .twin = *other};
+            w->of_space[at] = i;
             if (*other == UINT32_MAX)
                 *other = at;
             else
@@ -59,10 +74,6 @@ static sl_status copy_exits(sl_context *context, const sl_space *space,
         }
     }
     fans->first_exit[count] = at;
-    for (uint32_t i = 0; i < at; i++) {
-        fans->exits[i].first = fans->first_exit[fans->exits[i].cell];
-        fans->exits[i].end = fans->first_exit[fans->exits[i].cell + 1];
-    }
     sl_free(context, of_portal);
     return SL_OK;
 }
@@ -84,14 +95,16 @@ static void darken(sl_fans *fans, const sl_bits *dark) {
 
 // --- walking round
 
-typedef struct walker {
-    const sl_space *space;
-    sl_fans *fans;
-    const sl_bits *dark; ///< exits that end a fan; NULL for none
-} walker;
-
 static bool is_dark(const walker *w, uint32_t exit) {
     return w->dark && sl_bits_has(w->dark, exit);
+}
+
+static sl_point left_of(const walker *w, uint32_t exit) {
+    return w->space->exits[w->of_space[exit]].left;
+}
+
+static sl_point right_of(const walker *w, uint32_t exit) {
+    return w->space->exits[w->of_space[exit]].right;
 }
 
 /// The exits of a cell that come after and before one, all round.
@@ -117,27 +130,134 @@ static sl_point corner_beside(const sl_space *space, uint32_t cell, sl_point at,
     return at; // no point of the boundary: not in a space that keeps its promises
 }
 
+// --- ends
+
+static uint32_t add_end(sl_fans *fans, sl_point end) {
+    sl_box *box = &fans->bounds;
+    if (!fans->ends.count) *box = (sl_box){end, end};
+    if (end.x < box->min.x) box->min.x = end.x;
+    if (end.y < box->min.y) box->min.y = end.y;
+    if (end.x > box->max.x) box->max.x = end.x;
+    if (end.y > box->max.y) box->max.y = end.y;
+    fans->ends.items[fans->ends.count] = end;
+    return (uint32_t)fans->ends.count++;
+}
+
+/// Gives the left ends of all exits round a point one number.
+static void number_round(const walker *w, uint32_t exit, uint32_t number) {
+    const sl_fans *fans = w->fans;
+    const sl_point at = left_of(w, exit);
+    uint32_t i = exit;
+    do {
+        fans->exits[i].left = number;
+        i = exit_before(fans, fans->exits[i].cell, fans->exits[i].twin);
+        if (i == exit) return;
+    } while (sl_same_point(left_of(w, i), at));
+    for (i = exit;;) {
+        const uint32_t cell = fans->exits[fans->exits[i].twin].cell;
+        const uint32_t next = exit_after(fans, cell, i);
+        if (!sl_same_point(right_of(w, next), at)) return;
+        i = fans->exits[next].twin;
+        fans->exits[i].left = number;
+    }
+}
+
+static sl_status number_ends(sl_context *context, const walker *w) {
+    sl_fans *fans = w->fans;
+    const uint32_t count = fans->first_exit[fans->cell_count];
+    SL_TRY(SL_ARRAY_ROOM(context, &fans->ends, count));
+    for (uint32_t i = 0; i < count; i++)
+        if (fans->exits[i].left == UINT32_MAX) number_round(w, i, add_end(fans, left_of(w, i)));
+    for (uint32_t i = 0; i < count; i++)
+        fans->exits[i].right = fans->exits[fans->exits[i].twin].left;
+    return SL_OK;
+}
+
+/// Points from which all ends are seen between a little less and a little more than half a turn:
+/// far to the right and to the left of all, and below.
+static sl_status add_horizon(sl_context *context, sl_fans *fans) {
+    enum { FAR = 64 };
+    const sl_box box = fans->bounds;
+    const double width = box.max.x - box.min.x, height = box.max.y - box.min.y;
+    const double size = width > height ? width : height;
+    const double below = box.min.y - size / FAR;
+    const sl_point right = {box.max.x + FAR * size, below}, left = {box.min.x - FAR * size, below};
+    fans->has_horizon = isfinite(right.x) && isfinite(left.x) && isfinite(below) &&
+                        right.x > box.max.x && left.x < box.min.x && below < box.min.y;
+    if (!fans->has_horizon) return SL_OK;
+    SL_TRY(SL_ARRAY_ROOM(context, &fans->ends, 2));
+    add_end(fans, right);
+    add_end(fans, left);
+    return SL_OK;
+}
+
+static sl_status find_middles(sl_context *context, sl_fans *fans) {
+    fans->middles = sl_alloc_array(context, fans->cell_count, sizeof *fans->middles);
+    if (!fans->middles) return SL_NO_MEMORY;
+    for (uint32_t cell = 0; cell < fans->cell_count; cell++) {
+        const uint32_t first = fans->first_exit[cell], end = fans->first_exit[cell + 1];
+        sl_point sum = {0, 0};
+        for (uint32_t i = first; i < end; i++) {
+            const sl_point left = fans->ends.items[fans->exits[i].left];
+            const sl_point right = fans->ends.items[fans->exits[i].right];
+            sum.x += left.x + right.x;
+            sum.y += left.y + right.y;
+        }
+        const double share = end > first ? 0.5 / (end - first) : 0;
+        fans->middles[cell] = (sl_point){share * sum.x, share * sum.y};
+    }
+    return SL_OK;
+}
+
+// --- fans
+
 static sl_status add_cell(sl_context *context, sl_fans *fans, sl_fan_cell cell) {
     SL_TRY(SL_ARRAY_ROOM(context, &fans->cells, 1));
     fans->cells.items[fans->cells.count++] = cell;
     return SL_OK;
 }
 
+/// The edge of a fan that a wall makes, or glass that ends it.
+static sl_status end_beside(sl_context *context, const walker *w, uint32_t cell, sl_point at,
+                            bool back, uint32_t *edge) {
+    SL_TRY(SL_ARRAY_ROOM(context, &w->fans->ends, 1));
+    *edge = add_end(w->fans, corner_beside(w->space, cell, at, back));
+    return SL_OK;
+}
+
 /// How the edges lie to half a turn from the first and from the last. Angles only grow, and a
 /// sector is half a turn at most, so that one orientation test tells on which side of it.
-static void measure(const sl_fan *fan, sl_fan_cell *cells) {
+static void measure(const sl_fan *fan, const sl_point *ends, sl_fan_cell *cells) {
+    const sl_point first = ends[cells[0].edge], last = ends[cells[fan->count].edge];
     int past = -1;
     for (uint32_t i = 1; i <= fan->count; i++) {
-        past = past >= 0 ? 1 : -sl_orient(fan->at, cells[0].edge, cells[i].edge);
+        past = past >= 0 ? 1 : -sl_orient(fan->at, first, ends[cells[i].edge]);
         cells[i].past_half = (int8_t)past;
     }
     cells[0].past_half = -1;
     past = 1;
     for (uint32_t i = fan->count; i-- > 0;) {
-        past = past <= 0 ? -1 : sl_orient(fan->at, cells[i].edge, cells[fan->count].edge);
+        past = past <= 0 ? -1 : sl_orient(fan->at, ends[cells[i].edge], last);
         cells[i].past_rest = (int8_t)past;
     }
     cells[fan->count].past_rest = 1;
+}
+
+/// Adds the fan of the cells from its first one on, the last edge being there too.
+static sl_status add_fan(sl_context *context, sl_fans *fans, sl_fan fan) {
+    const sl_point *ends = fans->ends.items;
+    sl_fan_cell *cells = fans->cells.items + fan.first;
+    fan.count = (uint32_t)fans->cells.count - fan.first - 1;
+    measure(&fan, ends, cells);
+    const sl_point first = ends[cells[0].edge], last = ends[cells[fan.count].edge];
+    const int beyond = sl_orient(fan.at, first, last);
+    const bool same = beyond == 0 && !sl_opposite(fan.at, first, last);
+    fan.wide = !fan.full_turn && cells[fan.count].past_half > 0;
+    fan.back_to_back = fan.wide && same;
+    fan.overlaps = fan.wide && beyond >= 0 && !same;
+    SL_TRY(SL_ARRAY_ROOM(context, &fans->fans, 1));
+    fans->fans.items[fans->fans.count++] = fan;
+    return SL_OK;
 }
 
 /// The fan that starts with the cell that `exit` leaves, its left end being the fan's point. One of
@@ -146,12 +266,12 @@ static sl_status walk_round(sl_context *context, walker *w, uint32_t cell, uint3
                             bool full_turn, bool cut, sl_bits *walked) {
     sl_fans *fans = w->fans;
     const sl_walk_exit *exits = fans->exits;
-    sl_fan fan = {.at = exits[exit].left,
-                  .first = (uint32_t)fans->cells.count,
-                  .full_turn = full_turn && !cut};
+    const sl_fan fan = {.at = left_of(w, exit),
+                        .first = (uint32_t)fans->cells.count,
+                        .full_turn = full_turn && !cut};
     const uint32_t start = exit;
-    uint32_t begin = exit_after(fans, cell, exit);
-    sl_point edge = full_turn ? exits[begin].left : corner_beside(w->space, cell, fan.at, false);
+    uint32_t begin = exit_after(fans, cell, exit), edge = exits[begin].left;
+    if (!full_turn) SL_TRY(end_beside(context, w, cell, fan.at, false, &edge));
     for (;;) {
         if (!cut) sl_bits_add(walked, exit);
         SL_TRY(add_cell(context, fans, (sl_fan_cell){.cell = cell, .begin = begin, .edge = edge}));
@@ -160,23 +280,15 @@ static sl_status walk_round(sl_context *context, walker *w, uint32_t cell, uint3
         edge = exits[begin].left;
         exit = exit_before(fans, cell, begin);
         if (exit == start) break;
-        if (!sl_same_point(exits[exit].left, fan.at) || is_dark(w, exit)) {
+        if (!sl_same_point(left_of(w, exit), fan.at) || is_dark(w, exit)) {
             SL_TRY(
                 add_cell(context, fans, (sl_fan_cell){.cell = cell, .begin = begin, .edge = edge}));
-            edge = corner_beside(w->space, cell, fan.at, true);
+            SL_TRY(end_beside(context, w, cell, fan.at, true, &edge));
             break;
         }
     }
-    fan.count = (uint32_t)fans->cells.count - fan.first;
     SL_TRY(add_cell(context, fans, (sl_fan_cell){.cell = UINT32_MAX, .edge = edge}));
-    sl_fan_cell *cells = fans->cells.items + fan.first;
-    measure(&fan, cells);
-    fan.wide = !fan.full_turn && cells[fan.count].past_half > 0;
-    fan.back_to_back = fan.wide && sl_orient(fan.at, cells[0].edge, edge) == 0 &&
-                       !sl_opposite(fan.at, cells[0].edge, edge);
-    SL_TRY(SL_ARRAY_ROOM(context, &fans->fans, 1));
-    fans->fans.items[fans->fans.count++] = fan;
-    return SL_OK;
+    return add_fan(context, fans, fan);
 }
 
 /// Between walls, and glass that is dark to whoever goes round counter-clockwise.
@@ -184,9 +296,9 @@ static sl_status walk_between(sl_context *context, walker *w, sl_bits *walked) {
     const sl_fans *fans = w->fans;
     for (uint32_t cell = 0; cell < fans->cell_count; cell++)
         for (uint32_t e = fans->first_exit[cell]; e < fans->first_exit[cell + 1]; e++) {
-            const sl_walk_exit *next = &fans->exits[exit_after(fans, cell, e)];
-            const bool starts =
-                !sl_same_point(next->right, fans->exits[e].left) || is_dark(w, next->twin);
+            const uint32_t next = exit_after(fans, cell, e);
+            const bool starts = !sl_same_point(right_of(w, next), left_of(w, e)) ||
+                                is_dark(w, fans->exits[next].twin);
             if (starts && !sl_bits_has(walked, e) && !is_dark(w, e))
                 SL_TRY(walk_round(context, w, cell, e, false, false, walked));
         }
@@ -231,10 +343,8 @@ static void serve(sl_fans *fans, sl_fan *fan, sl_bits *served) {
 
 /// Greedily, those of most worth first. Worth only falls, so that a fan found to be worth less than
 /// where it stands moves on to a later round.
-static sl_status share_out(sl_context *context, sl_fans *fans, sl_bits *served) {
+static void share_out_by(sl_fans *fans, uint32_t *worth, sl_bits *served) {
     const size_t count = fans->fans.count;
-    uint32_t *worth = sl_alloc_array(context, count, sizeof *worth);
-    if (!worth) return SL_NO_MEMORY;
     uint32_t most = 0;
     for (size_t i = 0; i < count; i++) {
         sl_fan *fan = &fans->fans.items[i];
@@ -255,8 +365,16 @@ static sl_status share_out(sl_context *context, sl_fans *fans, sl_bits *served) 
         }
         now = next < now ? next : now - 1;
     }
+}
+
+static sl_status share_out(sl_context *context, sl_fans *fans) {
+    uint32_t *worth = sl_alloc_array(context, fans->fans.count, sizeof *worth);
+    sl_bits *served = sl_alloc_array(context, sl_bits_words(fans->cell_count), sizeof *served);
+    const bool room = worth && served;
+    if (room) share_out_by(fans, worth, served);
     sl_free(context, worth);
-    return SL_OK;
+    sl_free(context, served);
+    return room ? SL_OK : SL_NO_MEMORY;
 }
 
 /// Takes out fans that nothing is looked at from, and their cells, which follow one another as the
@@ -280,21 +398,18 @@ static void drop_idle(sl_context *context, sl_fans *fans, sl_fan_way way) {
 }
 
 /// `dark`: of the space's exits, zeroed; NULL for SL_FANS_MUTUAL.
-static sl_status find(sl_context *context, const sl_space *space, const sl_see_options *options,
-                      sl_fan_way way, sl_bits *dark, sl_fans *fans) {
-    SL_TRY(copy_exits(context, space, options, dark, fans));
+static sl_status find(sl_context *context, walker *w, const sl_see_options *options, sl_fan_way way,
+                      sl_bits *dark, sl_bits *walked) {
+    sl_fans *fans = w->fans;
+    SL_TRY(copy_exits(context, w, options, dark));
     if (way == SL_FANS_BACK) turn_round(fans, dark);
-    walker w = {.space = space, .fans = fans, .dark = way == SL_FANS_SERVING ? NULL : dark};
-    sl_bits *walked = sl_alloc_array(context, sl_bits_words(space->exit_count), sizeof *walked);
-    sl_bits *served = sl_alloc_array(context, sl_bits_words(space->cell_count), sizeof *served);
-    sl_status status = walked && served ? SL_OK : SL_NO_MEMORY;
-    if (status == SL_OK) status = walk_between(context, &w, walked);
-    if (status == SL_OK) status = walk_all_round(context, &w, walked);
-    const bool serves = way == SL_FANS_MUTUAL || way == SL_FANS_SERVING;
-    if (status == SL_OK && serves) status = share_out(context, fans, served);
-    sl_free(context, walked);
-    sl_free(context, served);
-    if (status != SL_OK) return status;
+    w->dark = way == SL_FANS_SERVING ? NULL : dark;
+    SL_TRY(number_ends(context, w));
+    SL_TRY(find_middles(context, fans));
+    SL_TRY(walk_between(context, w, walked));
+    SL_TRY(walk_all_round(context, w, walked));
+    if (fans->ends.count) SL_TRY(add_horizon(context, fans));
+    if (way == SL_FANS_MUTUAL || way == SL_FANS_SERVING) SL_TRY(share_out(context, fans));
     drop_idle(context, fans, way);
     if (dark) darken(fans, dark);
     return SL_OK;
@@ -302,10 +417,15 @@ static sl_status find(sl_context *context, const sl_space *space, const sl_see_o
 
 sl_status sl_fans_find(sl_context *context, const sl_space *space, const sl_see_options *options,
                        sl_fan_way way, sl_fans *fans) {
-    if (way == SL_FANS_MUTUAL) return find(context, space, options, way, NULL, fans);
-    sl_bits *dark = sl_alloc_array(context, sl_bits_words(space->exit_count), sizeof *dark);
-    if (!dark) return SL_NO_MEMORY;
-    const sl_status status = find(context, space, options, way, dark, fans);
+    walker w = {.space = space, .fans = fans};
+    const bool has_dark = way != SL_FANS_MUTUAL;
+    const size_t words = sl_bits_words(space->exit_count);
+    sl_bits *dark = has_dark ? sl_alloc_array(context, words, sizeof *dark) : NULL;
+    sl_bits *walked = sl_alloc_array(context, words, sizeof *walked);
+    sl_status status = walked && (dark || !has_dark) ? SL_OK : SL_NO_MEMORY;
+    if (status == SL_OK) status = find(context, &w, options, way, dark, walked);
+    sl_free(context, w.of_space);
     sl_free(context, dark);
+    sl_free(context, walked);
     return status;
 }

@@ -6,21 +6,20 @@
 #include "base/base.h"
 #include "sightline/cell_to_cell.h"
 
-/// An exit as the sweep walks through it. The exits of a cell are exits[first[cell] ..
-/// first[cell + 1]), counter-clockwise; cells left out of the search have none, and none leads to
-/// them.
+/// An exit as the sweep walks through it; its ends are numbers of sl_fans.ends. The exits of a cell
+/// are exits[first[cell] .. first[cell + 1]), counter-clockwise; cells left out of the search have
+/// none, and none leads to them.
 typedef struct sl_walk_exit {
-    sl_point left, right;
-    uint32_t cell;       ///< where it leads; SL_NO_CELL where one-way glass is dark
-    uint32_t twin;       ///< the exit that leads back
-    uint32_t first, end; ///< of the exits there
+    uint32_t left, right;
+    uint32_t cell; ///< where it leads; SL_NO_CELL where one-way glass is dark
+    uint32_t twin; ///< the exit that leads back
 } sl_walk_exit;
 
 /// A cell of a fan: the sector between two of its edges, seen from the fan's point.
 typedef struct sl_fan_cell {
     uint32_t cell;
     uint32_t begin; ///< its exits counter-clockwise from the fan's point start with this one
-    sl_point edge;  ///< the other end of its first edge, clockwise of it
+    uint32_t edge;  ///< the other end of its first edge, clockwise of it: of sl_fans.ends
     /// Sign of the edge's angle beyond the fan's first edge, less pi; and of the angle by which the
     /// fan's last edge is beyond the edge, taken from pi.
     int8_t past_half, past_rest;
@@ -34,6 +33,7 @@ typedef struct sl_fan {
     uint32_t first, count; ///< of cells
     bool full_turn;        ///< no wall stops it
     bool wide;             ///< it leaves a line room to turn beside the corner of its walls
+    bool overlaps;         ///< it is wide, and rounded corners make of it more than a full turn
     bool back_to_back;     ///< it goes all round one wall: first and last edge are the same
     bool serves;           ///< some of its cells are served
 } sl_fan;
@@ -42,6 +42,12 @@ typedef struct sl_fans {
     uint32_t cell_count;
     uint32_t *first_exit; ///< cell_count + 1
     sl_walk_exit *exits;
+    sl_point *middles; ///< of cells, about
+    /// What directions lead to: ends of portals; then ends of walls that fans start and end with;
+    /// and with `has_horizon` two points more, far right and far left of all and below them.
+    SL_ARRAY(sl_point) ends;
+    sl_box bounds; ///< of the ends
+    bool has_horizon;
     SL_ARRAY(sl_fan) fans;
     SL_ARRAY(sl_fan_cell) cells;
 } sl_fans;
@@ -58,8 +64,8 @@ typedef enum sl_fan_way {
 
 /// Finds the fans of all portal ends. Each cell that has an exit is served by one of them at least,
 /// but for SL_FANS_FORTH and SL_FANS_BACK. Fans without room to turn that serve nobody are left
-/// out. Exits have the same numbers in all ways. `fans` is zeroed, and to be destroyed also on
-/// failure. Time: a hash table of the ends.
+/// out. Exits and ends of portals have the same numbers in all ways. `fans` is zeroed, and to be
+/// destroyed also on failure. Time: a hash table of the ends.
 sl_status sl_fans_find(sl_context *context, const sl_space *space, const sl_see_options *options,
                        sl_fan_way way, sl_fans *fans);
 void sl_fans_destroy(sl_context *context, sl_fans *fans); ///< and zeroes it

@@ -1,4 +1,4 @@
-/// What is seen from a point, sorted by direction: cells, each over one or more intervals of angle.
+/// What is seen from a point: cells, each over one or more intervals of angle.
 ///
 /// Closed sight needs two directions for each angle: the line there, about to turn clockwise, and
 /// the same about to turn counter-clockwise (sweep.c says why). Together with "before both" and
@@ -10,61 +10,76 @@
 
 enum { SL_BEFORE = -2, SL_CLOCKWISE = -1, SL_COUNTER = 1, SL_AFTER = 2 };
 
-/// An end of an interval of directions: from the point towards `at`, which is the fans' or the
-/// caller's to keep, or away from it.
+/// An end of an interval of directions: from the point towards an end of the fans, or away from it.
 typedef struct sl_bound {
-    const sl_point *at;
+    uint32_t end;
     int8_t level;
     bool away;
 } sl_bound;
 
-/// A cell that is seen from turns[enter] to turns[leave], both at their levels included.
+/// A cell that is seen from `low` counter-clockwise to `high`, both included.
 typedef struct sl_reached {
-    uint32_t cell, enter, leave;
-    uint32_t next; ///< that leaves at the same turn; UINT32_MAX for none
-    int8_t enter_level, leave_level;
+    uint32_t cell;
+    uint32_t other; ///< interval of the same cell, found before; UINT32_MAX for none
+    sl_bound low, high;
+    sl_bound from, to;     ///< of it, what waits for its turn, and then is looked at
+    uint32_t next_waiting; ///< UINT32_MAX for none
+    uint32_t depth;        ///< portals crossed
+    /// Once sorted: turns, and the next interval that is entered or left there, or UINT32_MAX.
+    uint32_t enter, leave, next_enter, next_leave;
+    bool waiting;
+    bool joined;  ///< with an earlier one of the same cell: to be passed over
     bool start;   ///< the point is a corner of the cell
     bool touched; ///< for its user: it counts where the line touches it in the point alone
 } sl_reached;
 
 /// A direction in which cells are entered or left.
 typedef struct sl_reach_turn {
-    const sl_point *at;
+    uint32_t end;
     bool away;
-    uint32_t ray;   ///< of sl_reach.rays; UINT32_MAX for none
-    uint32_t leave; ///< the first cell that is left here; UINT32_MAX for none
+    uint32_t ray;          ///< of sl_rays; UINT32_MAX for none
+    uint32_t enter, leave; ///< the first cells that are entered and left here; UINT32_MAX for none
 } sl_reach_turn;
 
-/// Cells seen along one edge of the fan alone: ray r has cells[rays[r] .. rays[r + 1]).
+/// Cells in no order, but those of a fan in theirs; and, once they are asked for, turns
+/// counter-clockwise.
+typedef struct sl_reach {
+    SL_ARRAY(sl_reached) cells;
+    uint32_t sorted; ///< of the cells, from the first on
+    SL_ARRAY(sl_reach_turn) turns;
+} sl_reach;
+
+/// Cells seen along one edge of the fan alone: ray r has cells[starts[r] .. starts[r + 1]).
 typedef struct sl_rays {
     SL_ARRAY(uint32_t) starts;
     SL_ARRAY(uint32_t) cells;
 } sl_rays;
 
-/// Counter-clockwise: turns in their order, cells in the order in which they are entered.
-typedef struct sl_reach {
-    SL_ARRAY(sl_reach_turn) turns;
-    SL_ARRAY(sl_reached) cells;
-} sl_reach;
+/// A direction at which intervals start or end, while they are sorted.
+typedef struct sl_reach_slot {
+    uint32_t end, turn;
+    bool away;
+} sl_reach_slot;
 
-/// A piece of the search: the rest of the exits of a cell, seen between two directions.
-typedef struct sl_reach_step {
-    uint32_t next, left; ///< exit to look at next, and how many are left
-    uint32_t first, end; ///< the cell's exits
-    uint32_t found;      ///< of sl_reach.cells
-    sl_bound low, high;
-    bool thin;    ///< low and high are the same angle
-    bool crossed; ///< an exit has been crossed beyond `low`
-} sl_reach_step;
+enum { SL_NEAR_RINGS = 1024 };
 
 /// Scratch of one thread, for one point at a time.
 typedef struct sl_reacher {
-    const sl_fans *fans;
+    const sl_fans *fans; ///< whose exits it goes through
+    const sl_fans *ends; ///< whose ends bounds have; the same, but for one-way glass
     bool closed;
     sl_point from;
-    uint32_t *last;    ///< by cell: where it may stand in what is being found
-    uint32_t *on_rays; ///< by cell: where it may stand among the cells of rays
-    SL_ARRAY(sl_reach_step) steps;
+    double limit;               ///< a cross product of directions beyond it has its sign
+    double ring_scale;          ///< of squared distances
+    uint32_t *last;             ///< by cell: where it may stand in what is being found
+    SL_ARRAY(uint32_t) slot_of; ///< by end, twice: scratch of sorting
+    uint32_t *on_rays;          ///< by cell: where it may stand among the cells of rays
+    /// What waits, by its distance: the first interval of each ring, and which rings have any.
+    uint32_t rings[SL_NEAR_RINGS];
+    uint64_t ringed[SL_NEAR_RINGS / 64], some_ringed;
+    SL_ARRAY(uint32_t) split; ///< cells with more intervals than one
+    SL_ARRAY(uint64_t) keys;  ///< scratch of sorting
+    SL_ARRAY(sl_reach_slot) slots;
     uint64_t pieces; ///< done so far
     uint32_t deepest;
 } sl_reacher;
@@ -73,33 +88,53 @@ sl_status sl_reacher_create(sl_context *context, const sl_fans *fans, bool close
                             sl_reacher *reacher);
 void sl_reacher_destroy(sl_context *context, sl_reacher *reacher);
 
-/// Adds what is seen of the world through a cell of a fan between two directions within its sector,
-/// the cell included. Cells of a fan must be added in their order. `begin`: the cell's exits in
-/// their order from the point start there. The bounds are no edges' directions but for those that
-/// the levels of open intervals exclude.
-sl_status sl_reach_add(sl_context *context, sl_reacher *reacher, const sl_fan_cell *cell,
-                       sl_bound low, sl_bound high, bool thin, sl_reach *reach);
+/// Sets the point, of a fan of `ends`.
+sl_status sl_reacher_stand(sl_context *context, sl_reacher *reacher, const sl_fans *ends,
+                           sl_point from);
+void sl_reach_clear(sl_reach *reach);
+
+/// Adds a cell of a fan, seen between two directions within its sector. Cells of a fan must be
+/// added in their order.
+sl_status sl_reach_add(sl_context *context, sl_reacher *reacher, uint32_t cell, sl_bound low,
+                       sl_bound high, sl_reach *reach);
+
+/// Lets what is seen through a cell of a fan, between two directions within its sector, wait. The
+/// bounds are no edges' directions but for those that the levels of open intervals exclude. `thin`:
+/// they are the same angle.
+sl_status sl_reach_through(sl_context *context, sl_reacher *reacher, uint32_t cell, sl_bound low,
+                           sl_bound high, bool thin, sl_reach *reach);
+
+/// Finds all that is seen through what waits.
+sl_status sl_reach_run(sl_context *context, sl_reacher *reacher, sl_reach *reach);
+
+/// Makes turns of what was found since the last sorting, at most half a turn from `first` on; after
+/// those that are there.
+sl_status sl_reach_sort(sl_context *context, sl_reacher *reacher, sl_bound first, sl_reach *reach);
+
+/// When all is sorted: makes each cell's intervals such that no two touch, and links them to the
+/// turns.
+void sl_reach_link(sl_reacher *reacher, sl_reach *reach);
 
 /// An edge of a fan's cell: the first, about which the line turns clockwise, or the last,
 /// counter-clockwise.
 typedef struct sl_fan_edge {
-    const sl_fan_cell *cell;
-    const sl_point *edge;
+    uint32_t cell;
+    uint32_t end;
     bool last;
 } sl_fan_edge;
 
-/// Adds one ray: what is seen from a cell of a fan along an edge. `known`: what was found last, in
-/// which the edge is a turn's direction, or NULL; what it has at that moment is left out.
+/// Adds one ray: what is seen from a cell of a fan along an edge. `known`: what was found last,
+/// sorted, in which the edge is a turn's direction, or NULL; what it has at that moment is left
+/// out.
 sl_status sl_rays_add(sl_context *context, sl_reacher *reacher, sl_fan_edge along,
                       const sl_reach *known, uint32_t turn, sl_rays *rays);
 
-void sl_reach_clear(sl_reach *reach);
 void sl_reach_destroy(sl_context *context, sl_reach *reach);
 void sl_rays_destroy(sl_context *context, sl_rays *rays);
 
 /// Compares the directions of two turns seen from a point, the second turned by half a turn, both
-/// within half a turn from `first` on: -1, 0, 1.
-int sl_turns_compare(sl_point from, const sl_point *first, const sl_reach_turn *a,
+/// within half a turn from the direction to `first` on: -1, 0, 1.
+int sl_turns_compare(const sl_reacher *reacher, uint32_t first, const sl_reach_turn *a,
                      const sl_reach_turn *b);
 
 #endif

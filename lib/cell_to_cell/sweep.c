@@ -30,6 +30,14 @@
 /// between A and that direction are portals which the line crosses forwards: they are within half a
 /// turn of it (fans.h, sweep_fan.c).
 ///
+/// Why half a turn is enough to look at from there. Stop p in A close by c, where it is no portal's
+/// end, and move q within B to B's chosen corner d in the same way. Either the line comes to pass
+/// beside a wall, or A and B are joined by lines as near to the one through c and d as one likes.
+/// Then c sees B near the direction to d, and d sees A near the opposite one, by the argument
+/// above. One of the two directions is above the horizon, or both lie along it: all directions from
+/// a little below it on the right to a little below it on the left are looked at. Where c is d,
+/// both are cells of one fan, which count as seen by each other.
+///
 /// About w the line's backward half starts at the first edge of the free fan, its forward half
 /// there plus half a turn. Going round w counter-clockwise, the line crosses the edges between
 /// strictly; along the edge at the backward half's own angle it starts in the cell counter-

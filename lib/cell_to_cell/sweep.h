@@ -10,6 +10,13 @@ typedef struct sl_fan_rays {
     uint32_t first, last; ///< of the rays; UINT32_MAX for none
 } sl_fan_rays;
 
+/// A cell of a fan, and what of its sector is looked through.
+typedef struct sl_sector {
+    uint32_t cell;
+    sl_bound low, high;
+    bool thin; ///< the bounds are the same angle
+} sl_sector;
+
 /// Scratch of one thread.
 typedef struct sl_sweeper {
     const sl_fans *fans;
@@ -24,6 +31,7 @@ typedef struct sl_sweeper {
     sl_rays rays;
     SL_ARRAY(sl_fan_rays) rays_of; ///< by cell of the fan
     SL_ARRAY(uint32_t) passing;    ///< scratch: cells that are seen along one ray only
+    SL_ARRAY(sl_sector) sectors;
     sl_word_set behind, before;
 } sl_sweeper;
 

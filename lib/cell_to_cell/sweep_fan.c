@@ -1,8 +1,7 @@
 /// One fan of the sweep: what is seen from its point, cut into what a turning line has behind
 /// itself, before itself, and what lies between and counts only for cells that the point serves.
+#include "cell_to_cell/reach_bound.h"
 #include "cell_to_cell/sweep.h"
-
-#include "geometry/orient.h"
 
 sl_status sl_sweeper_create(sl_context *context, const sl_fans *fans, bool closed,
                             const sl_bit_rows *rows, sl_sweeper *s) {
@@ -26,6 +25,7 @@ void sl_sweeper_destroy(sl_context *context, sl_sweeper *s) {
     sl_rays_destroy(context, &s->rays);
     sl_free(context, s->rays_of.items);
     sl_free(context, s->passing.items);
+    sl_free(context, s->sectors.items);
     sl_word_set_destroy(context, &s->behind);
     sl_word_set_destroy(context, &s->before);
     *s = (sl_sweeper){0};
@@ -34,27 +34,65 @@ void sl_sweeper_destroy(sl_context *context, sl_sweeper *s) {
 // --- three parts of a fan
 
 /// The levels at which sectors start and end: edges that the line passes along belong to rays.
-static sl_bound after_edge(const sl_sweeper *s, const sl_point *at) {
-    return (sl_bound){.at = at, .level = s->closed ? SL_COUNTER : SL_AFTER};
+static sl_bound after_edge(const sl_sweeper *s, uint32_t end) {
+    return (sl_bound){.end = end, .level = s->closed ? SL_COUNTER : SL_AFTER};
 }
 
-static sl_bound before_edge(const sl_sweeper *s, const sl_point *at) {
-    return (sl_bound){.at = at, .level = s->closed ? SL_CLOCKWISE : SL_BEFORE};
+static sl_bound before_edge(const sl_sweeper *s, uint32_t end) {
+    return (sl_bound){.end = end, .level = s->closed ? SL_CLOCKWISE : SL_BEFORE};
+}
+
+/// Finds what is seen through the sectors that were added.
+static sl_status look(sl_context *context, sl_sweeper *s, sl_reach *reach) {
+    for (size_t i = 0; i < s->sectors.count; i++) {
+        const sl_sector *from = &s->sectors.items[i];
+        SL_TRY(sl_reach_through(context, &s->reacher, from->cell, from->low, from->high, from->thin,
+                                reach));
+    }
+    s->sectors.count = 0;
+    return sl_reach_run(context, &s->reacher, reach);
+}
+
+/// As look, and sorts what was found.
+static sl_status look_sorted(sl_context *context, sl_sweeper *s, sl_reach *reach) {
+    if (!s->sectors.count) return SL_OK;
+    const sl_bound first = s->sectors.items[0].low;
+    SL_TRY(look(context, s, reach));
+    return sl_reach_sort(context, &s->reacher, first, reach);
+}
+
+/// Where the fan overlaps itself, directions have an order in each of its sectors alone.
+static sl_status add_sector(sl_context *context, sl_sweeper *s, const sl_fan *fan, sl_sector sector,
+                            bool touched, sl_reach *reach) {
+    if (fan->overlaps) SL_TRY(look_sorted(context, s, reach));
+    SL_TRY(SL_ARRAY_ROOM(context, &s->sectors, 1));
+    s->sectors.items[s->sectors.count++] = sector;
+    SL_TRY(sl_reach_add(context, &s->reacher, sector.cell, sector.low, sector.high, reach));
+    reach->cells.items[reach->cells.count - 1].touched = touched;
+    return SL_OK;
+}
+
+/// The directions between which each fan's point looks for the cells that it serves, a little more
+/// than half a turn.
+static sl_bound horizon(const sl_sweeper *s, bool left) {
+    const uint32_t count = (uint32_t)s->fans->ends.count;
+    return (sl_bound){.end = left ? count - 1 : count - 2, .level = left ? SL_BEFORE : SL_AFTER};
 }
 
 static sl_status reach_back(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     const sl_fan_cell *cells = s->fans->cells.items + fan->first;
     const sl_bound end = {
-        .at = &cells[fan->count].edge, .away = true, .level = s->closed ? SL_COUNTER : SL_BEFORE};
+        .end = cells[fan->count].edge, .away = true, .level = s->closed ? SL_COUNTER : SL_BEFORE};
     for (uint32_t k = 0; k < fan->count && cells[k].past_rest <= (s->closed ? 0 : -1); k++) {
-        const sl_bound low = after_edge(s, &cells[k].edge);
         const bool whole = cells[k + 1].past_rest <= 0;
-        const sl_bound high = whole ? before_edge(s, &cells[k + 1].edge) : end;
-        const size_t found = s->back.cells.count;
-        SL_TRY(sl_reach_add(context, &s->reacher, &cells[k], low, high, cells[k].past_rest == 0,
-                            &s->back));
-        s->back.cells.items[found].touched = cells[k + 1].past_rest < 0;
+        const sl_sector sector = {.cell = cells[k].cell,
+                                  .low = after_edge(s, cells[k].edge),
+                                  .high = whole ? before_edge(s, cells[k + 1].edge) : end,
+                                  .thin = cells[k].past_rest == 0};
+        SL_TRY(add_sector(context, s, fan, sector, cells[k + 1].past_rest < 0, &s->back));
     }
+    SL_TRY(look_sorted(context, s, &s->back));
+    sl_reach_link(&s->reacher, &s->back);
     return SL_OK;
 }
 
@@ -69,31 +107,72 @@ static uint32_t first_ahead(const sl_sweeper *s, const sl_fan *fan) {
 static sl_status reach_ahead(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     const sl_fan_cell *cells = s->fans->cells.items + fan->first;
     const sl_bound start = {
-        .at = &cells[0].edge, .away = true, .level = s->closed ? SL_CLOCKWISE : SL_AFTER};
+        .end = cells[0].edge, .away = true, .level = s->closed ? SL_CLOCKWISE : SL_AFTER};
     for (uint32_t k = first_ahead(s, fan); k < fan->count; k++) {
-        const size_t found = s->ahead.cells.count;
-        const sl_bound low = cells[k].past_half >= 0 ? after_edge(s, &cells[k].edge) : start;
-        const sl_bound high = before_edge(s, &cells[k + 1].edge);
-        SL_TRY(sl_reach_add(context, &s->reacher, &cells[k], low, high, cells[k + 1].past_half == 0,
-                            &s->ahead));
-        s->ahead.cells.items[found].touched = cells[k].past_half > 0;
+        const sl_sector sector = {.cell = cells[k].cell,
+                                  .low = cells[k].past_half >= 0 ? after_edge(s, cells[k].edge)
+                                                                 : start,
+                                  .high = before_edge(s, cells[k + 1].edge),
+                                  .thin = cells[k + 1].past_half == 0};
+        SL_TRY(add_sector(context, s, fan, sector, cells[k].past_half > 0, &s->ahead));
+    }
+    SL_TRY(look_sorted(context, s, &s->ahead));
+    sl_reach_link(&s->reacher, &s->ahead);
+    return SL_OK;
+}
+
+/// Whether a direction is one of those below the horizon, less than half a turn.
+static bool is_below(const sl_sweeper *s, sl_bound bound) {
+    const sl_reacher *r = &s->reacher;
+    return sl_bounds_turn(r, horizon(s, false), bound) < 0 &&
+           sl_bounds_turn(r, horizon(s, true), bound) > 0;
+}
+
+/// Adds of a sector, half a turn at most, what is above the horizon: one part, or two.
+static sl_status add_above(sl_context *context, sl_sweeper *s, sl_sector sector) {
+    const sl_reacher *r = &s->reacher;
+    SL_TRY(SL_ARRAY_ROOM(context, &s->sectors, 2));
+    sl_sector *out = s->sectors.items + s->sectors.count;
+    if (!s->fans->has_horizon) {
+        *out = sector;
+        s->sectors.count++;
+        return SL_OK;
+    }
+    const sl_bound right = horizon(s, false), left = horizon(s, true);
+    const bool low_below = is_below(s, sector.low), high_below = is_below(s, sector.high);
+    if (low_below && high_below) return SL_OK;
+    out[0] = out[1] = sector;
+    s->sectors.count++;
+    if (low_below) {
+        out->low = right;
+    } else if (high_below) {
+        out->high = left;
+    } else if (sl_bounds_turn(r, sector.low, left) > 0 &&
+               sl_bounds_turn(r, left, sector.high) > 0) {
+        out[0].high = left;
+        out[1].low = right;
+        s->sectors.count++;
     }
     return SL_OK;
 }
 
-/// Between the two; all of a fan that is not wide.
+/// Between the two; all of a fan that is not wide. Its cells count as seen wherever they lie.
 static sl_status reach_middle(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     const sl_fan_cell *cells = s->fans->cells.items + fan->first;
-    const sl_bound start = {.at = &cells[fan->count].edge, .away = true, .level = SL_AFTER};
-    const sl_bound end = {.at = &cells[0].edge, .away = true, .level = SL_BEFORE};
+    const sl_bound start = {.end = cells[fan->count].edge, .away = true, .level = SL_AFTER};
+    const sl_bound end = {.end = cells[0].edge, .away = true, .level = SL_BEFORE};
     for (uint32_t k = 0; k < fan->count; k++) {
-        sl_bound low = after_edge(s, &cells[k].edge), high = before_edge(s, &cells[k + 1].edge);
+        sl_sector sector = {.cell = cells[k].cell,
+                            .low = after_edge(s, cells[k].edge),
+                            .high = before_edge(s, cells[k + 1].edge)};
         if (fan->wide && (cells[k + 1].past_rest <= 0 || cells[k].past_half >= 0)) continue;
-        if (fan->wide && cells[k].past_rest < 0) low = start;
-        if (fan->wide && cells[k + 1].past_half > 0) high = end;
-        SL_TRY(sl_reach_add(context, &s->reacher, &cells[k], low, high, false, &s->middle));
+        if (fan->wide && cells[k].past_rest < 0) sector.low = start;
+        if (fan->wide && cells[k + 1].past_half > 0) sector.high = end;
+        SL_TRY(
+            sl_reach_add(context, &s->reacher, sector.cell, sector.low, sector.high, &s->middle));
+        SL_TRY(add_above(context, s, sector));
     }
-    return SL_OK;
+    return look(context, s, &s->middle);
 }
 
 // --- rays along the edges
@@ -113,7 +192,7 @@ static sl_status add_ray(sl_context *context, sl_sweeper *s, const sl_fan *fan, 
     uint32_t *ray = last ? &of->last : &of->first;
     if (*ray != UINT32_MAX) return SL_OK;
     *ray = s->rays.starts.count ? (uint32_t)s->rays.starts.count - 1 : 0;
-    const sl_fan_edge along = {.cell = &cells[k], .edge = &cells[k + last].edge, .last = last};
+    const sl_fan_edge along = {.cell = cells[k].cell, .end = cells[k + last].edge, .last = last};
     return sl_rays_add(context, &s->reacher, along, known, turn, &s->rays);
 }
 
@@ -159,14 +238,14 @@ static void add_ray_cells(const sl_sweeper *s, uint32_t ray, sl_word_set *set) {
 static void add_rays_beside(const sl_sweeper *s, const sl_fan *fan, uint32_t k, sl_word_set *set) {
     const sl_fan_cell *cells = s->fans->cells.items + fan->first;
     for (uint32_t j = k, left = fan->count; left; left--) {
-        if (j != k && sl_orient(fan->at, cells[k + 1].edge, cells[j + 1].edge) <= 0) break;
+        if (j != k && sl_ends_turn(&s->reacher, cells[k + 1].edge, cells[j + 1].edge) <= 0) break;
         add_ray_cells(s, s->rays_of.items[j].last, set);
         if (++j < fan->count) continue;
         if (!fan->full_turn) break;
         j = 0;
     }
     for (uint32_t j = k, left = fan->count; left; left--) {
-        if (j != k && sl_orient(fan->at, cells[k].edge, cells[j].edge) >= 0) break;
+        if (j != k && sl_ends_turn(&s->reacher, cells[k].edge, cells[j].edge) >= 0) break;
         add_ray_cells(s, s->rays_of.items[j].first, set);
         if (j == 0 && !fan->full_turn) break;
         j = j ? j - 1 : fan->count - 1;
@@ -190,7 +269,7 @@ static sl_status serve(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
 }
 
 sl_status sl_sweep_fan(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
-    s->reacher.from = fan->at;
+    SL_TRY(sl_reacher_stand(context, &s->reacher, s->fans, fan->at));
     sl_reach_clear(&s->back);
     sl_reach_clear(&s->middle);
     sl_reach_clear(&s->ahead);

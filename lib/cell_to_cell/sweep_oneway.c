@@ -14,10 +14,10 @@
 #include "cell_to_cell/findings.h"
 #include "cell_to_cell/methods.h"
 #include "cell_to_cell/pvs_rows.h"
+#include "cell_to_cell/reach_bound.h"
 #include "cell_to_cell/sweep.h"
 
 #include "base/threads.h"
-#include "geometry/orient.h"
 
 #include <pthread.h>
 
@@ -48,24 +48,26 @@ static sl_status look_along_edges(sl_context *context, sl_sweeper *s, const sl_f
     s->rays.starts.count = s->rays.cells.count = 0;
     for (uint32_t k = 0; k < fan->count && s->closed; k++)
         for (int last = 0; last < 2; last++) {
-            const sl_fan_edge along = {&cells[k], &cells[k + (uint32_t)last].edge, last};
+            const sl_fan_edge along = {cells[k].cell, cells[k + (uint32_t)last].edge, last};
             SL_TRY(sl_rays_add(context, &s->reacher, along, NULL, 0, &s->rays));
         }
     return SL_OK;
 }
 
 static sl_bound first_bound(const sl_sweeper *s, const sl_fan_cell *cell) {
-    return (sl_bound){.at = &cell->edge, .level = s->closed ? SL_COUNTER : SL_AFTER};
+    return (sl_bound){.end = cell->edge, .level = s->closed ? SL_COUNTER : SL_AFTER};
 }
 
 static sl_bound last_bound(const sl_sweeper *s, const sl_fan_cell *cell) {
-    return (sl_bound){.at = &cell[1].edge, .level = s->closed ? SL_CLOCKWISE : SL_BEFORE};
+    return (sl_bound){.end = cell[1].edge, .level = s->closed ? SL_CLOCKWISE : SL_BEFORE};
 }
 
 static sl_status look_through(sl_context *context, sl_sweeper *s, const sl_fan_cell *cell,
                               sl_bound low, sl_bound high) {
     sl_reach_clear(&s->middle);
-    return sl_reach_add(context, &s->reacher, cell, low, high, false, &s->middle);
+    SL_TRY(sl_reach_add(context, &s->reacher, cell->cell, low, high, &s->middle));
+    SL_TRY(sl_reach_through(context, &s->reacher, cell->cell, low, high, false, &s->middle));
+    return sl_reach_run(context, &s->reacher, &s->middle);
 }
 
 /// What is seen through each cell of a fan, all of it.
@@ -122,11 +124,11 @@ static sl_status turn_counter(sl_context *context, one_way *me, const sl_fan *fa
     sl_sweeper *s = &me->turning;
     const sl_fan_cell *cells = s->fans->cells.items + fan->first;
     const sl_bound end = {
-        .at = &cells[k + 1].edge, .away = true, .level = s->closed ? SL_CLOCKWISE : SL_BEFORE};
+        .end = cells[k + 1].edge, .away = true, .level = s->closed ? SL_CLOCKWISE : SL_BEFORE};
     add_ray(s, k, true, set);
     uint32_t j = k;
     for (uint32_t left = fan->count - 1; left && step(s->fans, fan, true, &j); left--) {
-        const int within = sl_orient(fan->at, cells[k + 1].edge, cells[j + 1].edge);
+        const int within = sl_ends_turn(&s->reacher, cells[k + 1].edge, cells[j + 1].edge);
         if (within < 0) return add_part(context, s, &cells[j], first_bound(s, &cells[j]), end, set);
         add_listed(&me->sectors, j, set);
         if (within == 0) break;
@@ -141,11 +143,11 @@ static sl_status turn_clockwise(sl_context *context, one_way *me, const sl_fan *
     sl_sweeper *s = &me->turning;
     const sl_fan_cell *cells = s->fans->cells.items + fan->first;
     const sl_bound start = {
-        .at = &cells[k].edge, .away = true, .level = s->closed ? SL_COUNTER : SL_AFTER};
+        .end = cells[k].edge, .away = true, .level = s->closed ? SL_COUNTER : SL_AFTER};
     add_ray(s, k, false, set);
     uint32_t j = k;
     for (uint32_t left = fan->count - 1; left && step(s->fans, fan, false, &j); left--) {
-        const int within = sl_orient(fan->at, cells[j].edge, cells[k].edge);
+        const int within = sl_ends_turn(&s->reacher, cells[j].edge, cells[k].edge);
         if (within < 0)
             return add_part(context, s, &cells[j], start, last_bound(s, &cells[j]), set);
         add_listed(&me->sectors, j, set);
@@ -158,7 +160,7 @@ static sl_status turn_clockwise(sl_context *context, one_way *me, const sl_fan *
 static sl_status serve(sl_context *context, one_way *me, const sl_fan *fan) {
     sl_sweeper *s = &me->turning;
     const sl_fan_cell *cells = s->fans->cells.items + fan->first;
-    s->reacher.from = fan->at;
+    SL_TRY(sl_reacher_stand(context, &s->reacher, s->fans, fan->at));
     s->reacher.fans = s->fans;
     SL_TRY(look_along_edges(context, s, fan));
     SL_TRY(look_through_all(context, me, fan));

@@ -9,37 +9,33 @@ typedef struct half {
     sl_word_set *seen;
     sl_bit_rows *rows; ///< of what it sees, of what the other half sees
     uint32_t turn;     ///< the next one
-    uint32_t cursor;   ///< the first cell that is entered there or later
     int8_t ray_level;
     bool touched_stay; ///< touched cells, once entered, are so to the end
 } half;
 
 static void enter(half *h, int8_t level) {
     const sl_reached *cells = h->reach->cells.items;
-    for (uint32_t i = h->cursor; i < h->reach->cells.count && cells[i].enter == h->turn; i++)
-        if (cells[i].enter_level == level) sl_word_set_add(h->seen, cells[i].cell);
+    for (uint32_t i = h->reach->turns.items[h->turn].enter; i != UINT32_MAX;
+         i = cells[i].next_enter)
+        if (cells[i].low.level == level) sl_word_set_add(h->seen, cells[i].cell);
 }
 
 /// Adds to the rows of what `h` has come to see all that the other half sees.
 static sl_status join(sl_context *context, const half *h, const half *other, int8_t level) {
     const sl_reached *cells = h->reach->cells.items;
-    for (uint32_t i = h->cursor; i < h->reach->cells.count && cells[i].enter == h->turn; i++)
-        if (cells[i].enter_level == level)
+    for (uint32_t i = h->reach->turns.items[h->turn].enter; i != UINT32_MAX;
+         i = cells[i].next_enter)
+        if (cells[i].low.level == level)
             SL_TRY(sl_bit_rows_add(context, h->rows, cells[i].cell, other->seen));
     return SL_OK;
 }
 
 static void leave(half *h, int8_t level) {
     const sl_reached *cells = h->reach->cells.items;
-    for (uint32_t i = h->reach->turns.items[h->turn].leave; i != UINT32_MAX; i = cells[i].next)
-        if (cells[i].leave_level == level && !(cells[i].touched && h->touched_stay))
+    for (uint32_t i = h->reach->turns.items[h->turn].leave; i != UINT32_MAX;
+         i = cells[i].next_leave)
+        if (cells[i].high.level == level && !(cells[i].touched && h->touched_stay))
             sl_word_set_drop(h->seen, cells[i].cell);
-}
-
-static void advance(half *h) {
-    const sl_reached *cells = h->reach->cells.items;
-    while (h->cursor < h->reach->cells.count && cells[h->cursor].enter == h->turn) h->cursor++;
-    h->turn++;
 }
 
 /// The cells of the ray at a half's turn, of level `level`.
@@ -89,16 +85,17 @@ static sl_status at_level(sl_context *context, sl_sweeper *s, half *halves[2], i
 /// no difference.
 static sl_status at_turn(sl_context *context, sl_sweeper *s, half *h, const half *other) {
     const sl_reached *cells = h->reach->cells.items;
-    for (; h->cursor < h->reach->cells.count && cells[h->cursor].enter == h->turn; h->cursor++) {
-        sl_word_set_add(h->seen, cells[h->cursor].cell);
-        SL_TRY(sl_bit_rows_add(context, h->rows, cells[h->cursor].cell, other->seen));
+    const sl_reach_turn *turn = &h->reach->turns.items[h->turn];
+    for (uint32_t i = turn->enter; i != UINT32_MAX; i = cells[i].next_enter) {
+        sl_word_set_add(h->seen, cells[i].cell);
+        SL_TRY(sl_bit_rows_add(context, h->rows, cells[i].cell, other->seen));
     }
     const uint32_t *passing;
     uint32_t count;
     ray_of(s, h, h->ray_level, &passing, &count);
     for (uint32_t i = 0; i < count; i++)
         SL_TRY(sl_bit_rows_add(context, h->rows, passing[i], other->seen));
-    for (uint32_t i = h->reach->turns.items[h->turn].leave; i != UINT32_MAX; i = cells[i].next)
+    for (uint32_t i = turn->leave; i != UINT32_MAX; i = cells[i].next_leave)
         if (!(cells[i].touched && h->touched_stay)) sl_word_set_drop(h->seen, cells[i].cell);
     h->turn++;
     return SL_OK;
@@ -111,18 +108,9 @@ static sl_status at_both_turns(sl_context *context, sl_sweeper *s, half *halves[
                         s->closed ? i ? SL_COUNTER : SL_CLOCKWISE
                         : i       ? SL_AFTER
                                   : SL_BEFORE));
-    advance(halves[0]);
-    advance(halves[1]);
+    halves[0]->turn++;
+    halves[1]->turn++;
     return SL_OK;
-}
-
-static void link_leaving(sl_reach *reach) {
-    for (uint32_t i = 0; i < reach->cells.count; i++) {
-        sl_reached *c = &reach->cells.items[i];
-        uint32_t *first = &reach->turns.items[c->leave].leave;
-        c->next = *first;
-        *first = i;
-    }
 }
 
 /// The cells of the fan that the backward half will see are touched by the line from its start.
@@ -133,7 +121,7 @@ static void touch(half *h) {
 }
 
 sl_status sl_sweep_turn(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
-    const sl_point *first = &s->fans->cells.items[fan->first].edge;
+    const uint32_t first = s->fans->cells.items[fan->first].edge;
     half back = {
         .reach = &s->back, .seen = &s->behind, .rows = s->back_rows, .ray_level = SL_CLOCKWISE};
     half ahead = {.reach = &s->ahead,
@@ -142,19 +130,17 @@ sl_status sl_sweep_turn(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
                   .ray_level = SL_COUNTER,
                   .touched_stay = true};
     half *halves[2] = {&back, &ahead};
-    link_leaving(&s->back);
-    link_leaving(&s->ahead);
     touch(&back);
     sl_status status = SL_OK;
     while (status == SL_OK) {
         const bool more_back = back.turn < s->back.turns.count;
         const bool more_ahead = ahead.turn < s->ahead.turns.count;
         if (!more_back && !more_ahead) break;
-        const int order = !more_ahead ? -1
-                          : !more_back
-                              ? 1
-                              : sl_turns_compare(fan->at, first, &s->back.turns.items[back.turn],
-                                                 &s->ahead.turns.items[ahead.turn]);
+        const int order =
+            !more_ahead  ? -1
+            : !more_back ? 1
+                         : sl_turns_compare(&s->reacher, first, &s->back.turns.items[back.turn],
+                                            &s->ahead.turns.items[ahead.turn]);
         if (order < 0)
             status = at_turn(context, s, &back, &ahead);
         else if (order > 0)

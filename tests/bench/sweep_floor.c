@@ -150,7 +150,8 @@ static double time_tests(const sl_fans *fans, uint64_t count, int64_t *sum) {
     for (int round = 0; round < ROUNDS && exits; round++) {
         const double start = now();
         for (uint64_t i = 0, e = 0; i < count; i++, e = e + 1 < exits ? e + 1 : 0)
-            *sum += sl_orient(fans->exits[e].left, fans->exits[e].right, fans->exits[0].left);
+            *sum += sl_orient(fans->ends.items[fans->exits[e].left],
+                              fans->ends.items[fans->exits[e].right], fans->ends.items[0]);
         const double took = now() - start;
         if (took < least) least = took;
     }

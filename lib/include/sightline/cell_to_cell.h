@@ -38,7 +38,7 @@ typedef struct sl_see_account {
     uint64_t relations;      ///< and those of them that were seen
     uint64_t on_cycles;      ///< cells without an order, over all sectors
     uint32_t sectors;        ///< that directions were cut into; 0 by all other methods
-    uint32_t deepest;        ///< portals in the longest sequence
+    uint32_t deepest;        ///< portals in the longest sequence; of the sweep: that it followed
     sl_stab_account stab;    ///< of the solvers
     // Of effects; all 0 where the plan has none.
     uint64_t door_steps;     ///< sequences of which the doors that they pass were noted

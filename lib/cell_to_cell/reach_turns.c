@@ -1,0 +1,212 @@
+/// What was found in no order, sorted by direction: roughly by numbers that grow with the angle,
+/// and then exactly, neighbour by neighbour.
+#include "cell_to_cell/reach_bound.h"
+
+#include <math.h>
+#include <string.h>
+
+// --- intervals that have grown together
+
+static bool touch(const sl_reacher *r, const sl_reached *a, const sl_reached *b) {
+    return !sl_is_gap(r, a->high, b->low) && !sl_is_gap(r, b->high, a->low);
+}
+
+static void join_touching(const sl_reacher *r, sl_reached *a, const sl_reached *gone) {
+    if (sl_is_before(r, gone->low, a->low)) a->low = gone->low;
+    if (sl_is_before(r, a->high, gone->high)) a->high = gone->high;
+}
+
+/// Whether `b` was sorted later than `a`, and goes on where that ends.
+static bool goes_on(const sl_reacher *r, const sl_reached *a, const sl_reached *b) {
+    return a->leave == b->enter && (!r->closed || b->low.level - a->high.level <= 2);
+}
+
+/// Joins one pair of a cell's intervals, the later one into the earlier; false where there is none.
+/// Those that were found since the last sorting, or all where all are sorted.
+static bool join_two(const sl_reacher *r, sl_reach *reach, uint32_t cell) {
+    sl_reached *all = reach->cells.items;
+    const bool sorted = reach->sorted == reach->cells.count;
+    const uint32_t first = sorted ? 0 : reach->sorted;
+    for (uint32_t *late = &r->last[cell]; *late != UINT32_MAX && *late >= first;
+         late = &all[*late].other) {
+        sl_reached *gone = &all[*late];
+        for (uint32_t i = gone->other; i != UINT32_MAX && i >= first; i = all[i].other) {
+            if (sorted ? !goes_on(r, &all[i], gone) : !touch(r, &all[i], gone)) continue;
+            if (sorted) {
+                all[i].high = gone->high;
+                all[i].leave = gone->leave;
+            } else {
+                join_touching(r, &all[i], gone);
+            }
+            gone->joined = true;
+            *late = gone->other;
+            return true;
+        }
+    }
+    return false;
+}
+
+static void join_split(const sl_reacher *r, sl_reach *reach) {
+    for (size_t i = 0; i < r->split.count; i++)
+        while (join_two(r, reach, r->split.items[i])) {
+        }
+}
+
+// --- turns
+
+static uint32_t slot_of(sl_reacher *r, sl_bound bound) {
+    uint32_t *at = &r->slot_of.items[2 * bound.end + bound.away];
+    if (*at < r->slots.count && r->slots.items[*at].end == bound.end &&
+        r->slots.items[*at].away == bound.away)
+        return *at;
+    *at = (uint32_t)r->slots.count;
+    r->slots.items[r->slots.count++] = (sl_reach_slot){.end = bound.end, .away = bound.away};
+    return *at;
+}
+
+static sl_status make_slots(sl_context *context, sl_reacher *r, sl_reach *reach) {
+    r->slots.count = 0;
+    SL_TRY(SL_ARRAY_ROOM(context, &r->slots, 2 * (reach->cells.count - reach->sorted)));
+    for (size_t i = reach->sorted; i < reach->cells.count; i++) {
+        sl_reached *c = &reach->cells.items[i];
+        if (c->joined) continue;
+        c->enter = slot_of(r, c->low);
+        c->leave = slot_of(r, c->high);
+    }
+    return SL_OK;
+}
+
+/// Grows with the angle from `first`, up to half a turn; about.
+static uint32_t rough_angle(const sl_reacher *r, sl_point first, const sl_reach_slot *slot) {
+    sl_point to = sl_towards(r, slot->end);
+    if (slot->away) to = (sl_point){-to.x, -to.y};
+    const double sine = fabs(sl_cross(first, to)), cosine = first.x * to.x + first.y * to.y;
+    const double sum = sine + fabs(cosine);
+    const double angle = cosine >= 0 ? sine / sum : 2 - sine / sum;
+    return angle >= 0 ? (uint32_t)(angle * 0x7fffffff) : 0; // or it is no number
+}
+
+static bool same_direction(const sl_reacher *r, const sl_reach_slot *a, const sl_reach_slot *b) {
+    if (a->end == b->end) return a->away == b->away;
+    return sl_ends_turn(r, a->end, b->end) == 0 &&
+           sl_opposite(r->from, sl_end_of(r, a->end), sl_end_of(r, b->end)) == (a->away != b->away);
+}
+
+/// Whether `b` comes before `a`, exactly.
+static bool out_of_order(const sl_reacher *r, uint64_t a, uint64_t b) {
+    const sl_reach_slot *p = &r->slots.items[(uint32_t)a], *q = &r->slots.items[(uint32_t)b];
+    const int sign = sl_ends_turn(r, p->end, q->end);
+    if (sign != 0) return p->away != q->away ? sign > 0 : sign < 0;
+    // Half a turn apart, or the same direction.
+    return a >> 32 > b >> 32 && !same_direction(r, p, q);
+}
+
+static void insert_sorted(const sl_reacher *r, uint64_t *keys, size_t count) {
+    for (size_t i = 1; i < count; i++) {
+        const uint64_t key = keys[i];
+        size_t at = i;
+        for (; at > 0 && out_of_order(r, keys[at - 1], key); at--) keys[at] = keys[at - 1];
+        keys[at] = key;
+    }
+}
+
+enum { RUN = 12 };
+
+/// Bottom-up mergesort of runs that were sorted by insertion; `other` has as much room. Where the
+/// result stands is returned.
+static uint64_t *sort_keys(uint64_t *keys, uint64_t *other, size_t count) {
+    for (size_t first = 0; first < count; first += RUN) {
+        const size_t end = first + RUN < count ? first + RUN : count;
+        for (size_t i = first + 1; i < end; i++) {
+            const uint64_t key = keys[i];
+            size_t at = i;
+            for (; at > first && keys[at - 1] > key; at--) keys[at] = keys[at - 1];
+            keys[at] = key;
+        }
+    }
+    for (size_t run = RUN; run < count; run *= 2) {
+        for (size_t first = 0; first < count; first += 2 * run) {
+            const size_t middle = first + run < count ? first + run : count;
+            const size_t end = middle + run < count ? middle + run : count;
+            size_t a = first, b = middle;
+            for (size_t i = first; i < end; i++) {
+                const bool of_a = b >= end || (a < middle && keys[a] <= keys[b]);
+                other[i] = of_a ? keys[a] : keys[b];
+                a += of_a;
+                b += !of_a;
+            }
+        }
+        uint64_t *swap = keys;
+        keys = other;
+        other = swap;
+    }
+    return keys;
+}
+
+/// The turn of the next slot: the last one, or a new one.
+static void add_turn(const sl_reacher *r, sl_reach_slot *slot, sl_reach *reach) {
+    const size_t count = reach->turns.count;
+    const sl_reach_turn *last = &reach->turns.items[count - 1];
+    if (!count ||
+        !same_direction(r, &(sl_reach_slot){.end = last->end, .away = last->away}, slot)) {
+        reach->turns.items[count] = (sl_reach_turn){.end = slot->end,
+                                                    .away = slot->away,
+                                                    .ray = UINT32_MAX,
+                                                    .enter = UINT32_MAX,
+                                                    .leave = UINT32_MAX};
+        reach->turns.count++;
+    }
+    slot->turn = (uint32_t)reach->turns.count - 1;
+}
+
+static sl_status sort_slots(sl_context *context, sl_reacher *r, sl_bound first, sl_reach *reach) {
+    const size_t count = r->slots.count;
+    sl_point along = sl_towards(r, first.end);
+    if (first.away) along = (sl_point){-along.x, -along.y};
+    SL_TRY(SL_ARRAY_ROOM(context, &r->keys, 2 * count));
+    SL_TRY(SL_ARRAY_ROOM(context, &reach->turns, count));
+    uint64_t *keys = r->keys.items;
+    for (uint32_t i = 0; i < count; i++)
+        keys[i] = (uint64_t)rough_angle(r, along, &r->slots.items[i]) << 32 | i;
+    keys = sort_keys(keys, keys + count, count);
+    insert_sorted(r, keys, count);
+    for (size_t i = 0; i < count; i++) add_turn(r, &r->slots.items[(uint32_t)keys[i]], reach);
+    return SL_OK;
+}
+
+sl_status sl_reach_sort(sl_context *context, sl_reacher *r, sl_bound first, sl_reach *reach) {
+    join_split(r, reach);
+    SL_TRY(make_slots(context, r, reach));
+    SL_TRY(sort_slots(context, r, first, reach));
+    for (uint32_t i = reach->sorted; i < reach->cells.count; i++) {
+        sl_reached *c = &reach->cells.items[i];
+        if (c->joined) continue;
+        c->enter = r->slots.items[c->enter].turn;
+        c->leave = r->slots.items[c->leave].turn;
+    }
+    reach->sorted = (uint32_t)reach->cells.count;
+    return SL_OK;
+}
+
+void sl_reach_link(sl_reacher *r, sl_reach *reach) {
+    join_split(r, reach);
+    for (uint32_t i = 0; i < reach->cells.count; i++) {
+        sl_reached *c = &reach->cells.items[i];
+        if (c->joined) continue;
+        c->next_enter = reach->turns.items[c->enter].enter;
+        c->next_leave = reach->turns.items[c->leave].leave;
+        reach->turns.items[c->enter].enter = reach->turns.items[c->leave].leave = i;
+    }
+}
+
+int sl_turns_compare(const sl_reacher *r, uint32_t first, const sl_reach_turn *a,
+                     const sl_reach_turn *b) {
+    const bool turned = !b->away;
+    const int sign = sl_ends_turn(r, a->end, b->end);
+    if (sign != 0) return (a->away != turned) ? sign : -sign;
+    const sl_reach_slot of_a = {.end = a->end, .away = a->away};
+    const sl_reach_slot of_b = {.end = b->end, .away = turned};
+    if (same_direction(r, &of_a, &of_b)) return 0;
+    // Half a turn apart: the one in the first direction comes first.
+    return same_direction(r, &(sl_reach_slot){.end = first}, &of_a) ? -1 : 1;
+}
