@@ -173,6 +173,26 @@ static sl_status number_ends(sl_context *context, const walker *w) {
     return SL_OK;
 }
 
+/// Whether all coordinates are whole numbers below 2^50 once they are multiplied.
+static bool is_grid(const sl_fans *fans, double scale) {
+    const double most = 0x1p50;
+    for (size_t i = 0; i < fans->ends.count; i++) {
+        const double x = fans->ends.items[i].x * scale, y = fans->ends.items[i].y * scale;
+        if (!(fabs(x) < most && fabs(y) < most)) return false;
+        if (x != (double)(int64_t)x || y != (double)(int64_t)y) return false;
+    }
+    return true;
+}
+
+/// What most maps are drawn on: whole numbers, or binary fractions of as many digits as a node
+/// builder has, and some more for the horizon.
+static double find_grid(const sl_fans *fans) {
+    const double scales[] = {1, 0x1p6, 0x1p22};
+    for (size_t i = 0; i < sizeof scales / sizeof *scales; i++)
+        if (is_grid(fans, scales[i])) return scales[i];
+    return 0;
+}
+
 /// Points from which all ends are seen between a little less and a little more than half a turn:
 /// far to the right and to the left of all, and below.
 static sl_status add_horizon(sl_context *context, sl_fans *fans) {
@@ -409,6 +429,7 @@ static sl_status find(sl_context *context, walker *w, const sl_see_options *opti
     SL_TRY(walk_between(context, w, walked));
     SL_TRY(walk_all_round(context, w, walked));
     if (fans->ends.count) SL_TRY(add_horizon(context, fans));
+    fans->grid = find_grid(fans);
     if (way == SL_FANS_MUTUAL || way == SL_FANS_SERVING) SL_TRY(share_out(context, fans));
     drop_idle(context, fans, way);
     if (dark) darken(fans, dark);

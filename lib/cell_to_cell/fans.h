@@ -48,6 +48,8 @@ typedef struct sl_fans {
     SL_ARRAY(sl_point) ends;
     sl_box bounds; ///< of the ends
     bool has_horizon;
+    double
+        grid; ///< times which all coordinates are whole numbers below 2^50; 0 where none is known
     SL_ARRAY(sl_fan) fans;
     SL_ARRAY(sl_fan_cell) cells;
 } sl_fans;

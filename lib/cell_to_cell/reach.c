@@ -24,6 +24,7 @@ void sl_reacher_destroy(sl_context *context, sl_reacher *reacher) {
     sl_free(context, reacher->slot_of.items);
     sl_free(context, reacher->split.items);
     sl_free(context, reacher->keys.items);
+    sl_free(context, reacher->same.items);
     sl_free(context, reacher->slots.items);
     *reacher = (sl_reacher){0};
 }
@@ -59,7 +60,11 @@ void sl_reach_destroy(sl_context *context, sl_reach *reach) {
 }
 
 int sl_ends_turn_exact(const sl_reacher *r, uint32_t a, uint32_t b) {
-    return sl_orient(sl_end_of(r, a), sl_end_of(r, b), r->from);
+    const sl_point p = sl_end_of(r, a), q = sl_end_of(r, b), from = r->from;
+    if ((p.x == from.x && q.x == from.x) || (p.y == from.y && q.y == from.y)) return 0;
+    const double scale = r->ends->grid;
+    if (scale > 0) return sl_turn_grid(sl_towards(r, a), sl_towards(r, b), scale);
+    return sl_orient(p, q, from);
 }
 
 // --- what waits
@@ -324,6 +329,8 @@ static int side_in_sector(const sl_reacher *r, sl_bound bound, uint32_t end, int
 /// What is seen through an exit on the far side of a cell that the point is a corner of.
 static bool first_piece(const sl_reacher *r, const sl_walk_exit *e, sl_bound low, sl_bound high,
                         bool thin, piece *out) {
+    const sl_point left = sl_end_of(r, e->left), right = sl_end_of(r, e->right);
+    if (sl_same_point(left, r->from) || sl_same_point(right, r->from)) return false;
     if (sl_ends_turn(r, e->right, e->left) <= 0) return false;
     // What faces the point lies past the sector's first edge, and not past its last.
     const int low_to_left = side_in_sector(r, low, e->left, 1);

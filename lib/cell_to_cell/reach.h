@@ -79,6 +79,7 @@ typedef struct sl_reacher {
     uint64_t ringed[SL_NEAR_RINGS / 64], some_ringed;
     SL_ARRAY(uint32_t) split; ///< cells with more intervals than one
     SL_ARRAY(uint64_t) keys;  ///< scratch of sorting
+    SL_ARRAY(bool) same;
     SL_ARRAY(sl_reach_slot) slots;
     uint64_t pieces; ///< done so far
     uint32_t deepest;

@@ -92,21 +92,33 @@ static bool same_direction(const sl_reacher *r, const sl_reach_slot *a, const sl
            sl_opposite(r->from, sl_end_of(r, a->end), sl_end_of(r, b->end)) == (a->away != b->away);
 }
 
-/// Whether `b` comes before `a`, exactly.
-static bool out_of_order(const sl_reacher *r, uint64_t a, uint64_t b) {
+/// Compares two slots exactly: -1 where `a` comes first, 0 for the same direction, 1.
+static int compare(const sl_reacher *r, uint64_t a, uint64_t b) {
     const sl_reach_slot *p = &r->slots.items[(uint32_t)a], *q = &r->slots.items[(uint32_t)b];
     const int sign = sl_ends_turn(r, p->end, q->end);
-    if (sign != 0) return p->away != q->away ? sign > 0 : sign < 0;
-    // Half a turn apart, or the same direction.
-    return a >> 32 > b >> 32 && !same_direction(r, p, q);
+    if (sign != 0) return p->away != q->away ? sign : -sign;
+    if (same_direction(r, p, q)) return 0;
+    return a < b ? -1 : 1; // half a turn apart
 }
 
-static void insert_sorted(const sl_reacher *r, uint64_t *keys, size_t count) {
+/// Sorts what is nearly sorted; of each it then says whether it has the direction of the one
+/// before.
+static void insert_sorted(const sl_reacher *r, uint64_t *keys, bool *same, size_t count) {
     for (size_t i = 1; i < count; i++) {
+        int order = compare(r, keys[i - 1], keys[i]);
+        same[i] = order == 0;
         const uint64_t key = keys[i];
         size_t at = i;
-        for (; at > 0 && out_of_order(r, keys[at - 1], key); at--) keys[at] = keys[at - 1];
+        while (order > 0) {
+            keys[at] = keys[at - 1];
+            at--;
+            order = at ? compare(r, keys[at - 1], key) : -1;
+        }
+        if (at == i) continue;
         keys[at] = key;
+        // It stands between two that have other neighbours now; behind them all are the same still.
+        same[at] = at && order == 0;
+        for (size_t k = at + 1; k <= i; k++) same[k] = compare(r, keys[k - 1], keys[k]) == 0;
     }
 }
 
@@ -143,20 +155,22 @@ static uint64_t *sort_keys(uint64_t *keys, uint64_t *other, size_t count) {
     return keys;
 }
 
-/// The turn of the next slot: the last one, or a new one.
-static void add_turn(const sl_reacher *r, sl_reach_slot *slot, sl_reach *reach) {
-    const size_t count = reach->turns.count;
-    const sl_reach_turn *last = &reach->turns.items[count - 1];
-    if (!count ||
-        !same_direction(r, &(sl_reach_slot){.end = last->end, .away = last->away}, slot)) {
-        reach->turns.items[count] = (sl_reach_turn){.end = slot->end,
-                                                    .away = slot->away,
-                                                    .ray = UINT32_MAX,
-                                                    .enter = UINT32_MAX,
-                                                    .leave = UINT32_MAX};
-        reach->turns.count++;
-    }
+/// The turn of the next slot: the last one where that has the same direction, or a new one.
+static void add_turn(sl_reach_slot *slot, bool same, sl_reach *reach) {
+    if (!same)
+        reach->turns.items[reach->turns.count++] = (sl_reach_turn){.end = slot->end,
+                                                                   .away = slot->away,
+                                                                   .ray = UINT32_MAX,
+                                                                   .enter = UINT32_MAX,
+                                                                   .leave = UINT32_MAX};
     slot->turn = (uint32_t)reach->turns.count - 1;
+}
+
+/// Whether the turns that are there end in the direction of a slot.
+static bool is_last(const sl_reacher *r, const sl_reach *reach, const sl_reach_slot *slot) {
+    if (!reach->turns.count) return false;
+    const sl_reach_turn *last = &reach->turns.items[reach->turns.count - 1];
+    return same_direction(r, &(sl_reach_slot){.end = last->end, .away = last->away}, slot);
 }
 
 static sl_status sort_slots(sl_context *context, sl_reacher *r, sl_bound first, sl_reach *reach) {
@@ -164,13 +178,16 @@ static sl_status sort_slots(sl_context *context, sl_reacher *r, sl_bound first, 
     sl_point along = sl_towards(r, first.end);
     if (first.away) along = (sl_point){-along.x, -along.y};
     SL_TRY(SL_ARRAY_ROOM(context, &r->keys, 2 * count));
+    SL_TRY(SL_ARRAY_ROOM(context, &r->same, count));
     SL_TRY(SL_ARRAY_ROOM(context, &reach->turns, count));
+    bool *same = r->same.items;
     uint64_t *keys = r->keys.items;
     for (uint32_t i = 0; i < count; i++)
         keys[i] = (uint64_t)rough_angle(r, along, &r->slots.items[i]) << 32 | i;
     keys = sort_keys(keys, keys + count, count);
-    insert_sorted(r, keys, count);
-    for (size_t i = 0; i < count; i++) add_turn(r, &r->slots.items[(uint32_t)keys[i]], reach);
+    insert_sorted(r, keys, same, count);
+    if (count) same[0] = is_last(r, reach, &r->slots.items[(uint32_t)keys[0]]);
+    for (size_t i = 0; i < count; i++) add_turn(&r->slots.items[(uint32_t)keys[i]], same[i], reach);
     return SL_OK;
 }
 

@@ -5,6 +5,7 @@
 #include "sightline/geometry.h"
 
 #include <math.h>
+#include <stdint.h>
 
 /// As sl_orient, by exact arithmetic alone.
 int sl_orient_exact(sl_point a, sl_point b, sl_point c);
@@ -57,6 +58,15 @@ typedef struct sl_fine {
 
 /// As sl_orient, of fine points.
 int sl_orient_fine(const sl_fine *a, const sl_fine *b, const sl_fine *c);
+
+/// The sign of a x b, exact, for two vectors whose coordinates are whole numbers below 2^62 once
+/// they are multiplied by `scale`, a power of two.
+static inline int sl_turn_grid(sl_point a, sl_point b, double scale) {
+    __extension__ typedef __int128 wide;
+    const wide left = (wide)(int64_t)(a.x * scale) * (int64_t)(b.y * scale);
+    const wide right = (wide)(int64_t)(a.y * scale) * (int64_t)(b.x * scale);
+    return (left > right) - (left < right);
+}
 
 /// As sl_turn, by exact arithmetic alone.
 int sl_turn_exact(sl_point a, sl_point b, sl_point c, sl_point d);
