@@ -319,10 +319,48 @@ static void sets_are_those_of_the_search_on_random_maps(void **state) {
     sl_context_destroy(context);
 }
 
+/// Walls as objects: closed sight sees all that lines drawn at random do, and open sight little
+/// that very many of them miss.
+static void walls_are_seen_as_by_samples(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    for (int oblique = 0; oblique < 2; oblique++) {
+        view_world w;
+        make_world(context, oblique ? OBLIQUE_ROOMS : TWO_ROOMS, oblique, SL_VIEW_WALLS, 100000,
+                   &w);
+        for (int sight = SL_CLOSED; sight <= SL_OPEN; sight++) {
+            sl_view_subdivision options = sl_view_subdivision_default();
+            options.cells = 40;
+            options.sight = (sl_sight)sight;
+            sl_view_tree tree;
+            sl_view_found found;
+            sl_view_sets sampled;
+            assert_ok(context, view_method("hybrid")->divide(context, &w.scene, NULL, &options,
+                                                             &tree, &found));
+            assert_ok(context,
+                      sl_view_sets_sample(context, &w.scene, &tree, &w.segments, 1, &sampled));
+            if (sight == SL_CLOSED) check_same("walls", &sampled, &found.sets, false);
+            uint32_t pairs = 0, missed = 0;
+            for (uint32_t i = 0; i < tree.cell_count; i++)
+                for (uint32_t o = 0; o < w.space.wall_count; o++) {
+                    pairs += set_has(&found.sets, i, o);
+                    missed += set_has(&found.sets, i, o) && !set_has(&sampled, i, o);
+                }
+            if (sight == SL_OPEN) assert_true(pairs > 100 && 15 * missed < pairs);
+            sl_view_sets_destroy(context, &sampled);
+            sl_view_found_destroy(context, &found);
+            sl_view_tree_destroy(context, &tree);
+        }
+        drop_world(context, &w);
+    }
+    sl_context_destroy(context);
+}
+
 int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sets_are_those_of_the_search),
         cmocka_unit_test(sets_are_those_of_the_search_on_random_maps),
+        cmocka_unit_test(walls_are_seen_as_by_samples),
     };
     for (int i = 1; i < argc; i++) check_file(argv[i], 2000);
     return argc > 1 ? 0 : cmocka_run_group_tests(tests, NULL, NULL);
