@@ -199,12 +199,18 @@ static sl_status try_mirror(sl_context *context, const sl_dfs *all, sl_dfs_threa
 
 // --- one source
 
+/// Whether pairs are found from the lower of their cells alone.
+static bool is_halved(const sl_dfs *all) {
+    return all->known && all->effects->plan->mutual;
+}
+
 /// What is wanted of a source: all cells, or those that it is possible to see; what it is certain
 /// to see is noted.
 static sl_status want_from(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
                            uint32_t source) {
     if (!all->known) return sl_prune_start(context, &me->wanted, 0);
-    SL_TRY(sl_prune_start_with(context, &me->wanted, all->known->possible, source));
+    const uint32_t first = is_halved(all) ? source : 0;
+    SL_TRY(sl_prune_start_with(context, &me->wanted, all->known->possible, source, first));
     sl_door_table *table = &me->effects->direct;
     sl_row_add_to(all->known->certain, source, me->sure);
     sl_row_add_to(all->known->certain, source, table->seen);
@@ -231,13 +237,14 @@ static sl_status start(sl_context *context, const sl_dfs *all, sl_dfs_thread *me
 static sl_status keep(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, uint32_t source) {
     effects *shared = all->effects;
     thread *e = me->effects;
+    const uint32_t first = is_halved(all) ? source : 0;
     if (shared->doors)
-        SL_TRY(sl_door_table_append(context, &e->direct, &shared->door_rows[source]));
+        SL_TRY(sl_door_table_append(context, &e->direct, first, &shared->door_rows[source]));
     if (!shared->mirrors) return SL_OK;
     SL_TRY(sl_row_append(context, &shared->mirrored_rows[source], e->mirrored.seen,
                          all->space->cell_count));
     if (!shared->doors) return SL_OK;
-    return sl_door_table_append(context, &e->mirrored, &shared->mirrored_door_rows[source]);
+    return sl_door_table_append(context, &e->mirrored, 0, &shared->mirrored_door_rows[source]);
 }
 
 sl_status sl_dfs_effects_search(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
@@ -349,6 +356,7 @@ sl_status sl_dfs_effects_finish(sl_context *context, sl_dfs *all, sl_visibility 
     out->account.range_tests = e->range_tests;
     out->account.close_calls = e->close_calls;
     out->account.rounded_places = e->rounded_places;
+    if (e->doors && is_halved(all)) SL_TRY(sl_door_rows_mirror(context, e->door_rows, cells));
     if (e->doors) SL_TRY(join_doors(context, e->door_rows, cells, &out->doors));
     if (!e->mirrors) return SL_OK;
     SL_TRY(sl_pvs_join(context, e->mirrored_rows, cells, &out->mirrored));

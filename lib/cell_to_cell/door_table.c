@@ -21,6 +21,7 @@ void sl_door_table_destroy(sl_context *context, sl_door_table *table) {
     sl_free(context, table->free);
     sl_free(context, table->alternatives.items);
     sl_free(context, table->sets.items);
+    sl_free(context, table->sorted.items);
     *table = (sl_door_table){0};
 }
 
@@ -109,17 +110,115 @@ static sl_status append_set(sl_context *context, const sl_bits *set, size_t word
     return SL_OK;
 }
 
-sl_status sl_door_table_append(sl_context *context, const sl_door_table *table, sl_row_bytes *row) {
+/// Fewer doors first, then the lowest door that the other has not: the order does not tell how the
+/// sets were found.
+static bool comes_before(const sl_bits *a, const sl_bits *b, size_t words) {
+    int more = 0;
+    for (size_t i = 0; i < words; i++)
+        more += __builtin_popcountll(a[i]) - __builtin_popcountll(b[i]);
+    if (more) return more < 0;
+    for (size_t i = 0; i < words; i++) {
+        const sl_bits differ = a[i] ^ b[i];
+        if (differ) return a[i] & (differ & (~differ + 1));
+    }
+    return false;
+}
+
+/// The alternatives of a cell that stand, in order.
+static sl_status sort_sets(sl_context *context, sl_door_table *table, uint32_t cell) {
+    table->sorted.count = 0;
+    SL_TRY(SL_ARRAY_ROOM(context, &table->sorted, table->count[cell]));
+    uint32_t *sorted = table->sorted.items;
+    for (uint32_t i = table->first[cell]; i != UINT32_MAX; i = table->alternatives.items[i].next) {
+        if (table->alternatives.items[i].dropped) continue;
+        size_t at = table->sorted.count++;
+        for (; at && comes_before(set_of(table, i), set_of(table, sorted[at - 1]), table->words);
+             at--)
+            sorted[at] = sorted[at - 1];
+        sorted[at] = i;
+    }
+    return SL_OK;
+}
+
+sl_status sl_door_table_append(sl_context *context, sl_door_table *table, uint32_t first,
+                               sl_row_bytes *row) {
     uint32_t last = UINT32_MAX;
-    for (uint32_t cell = 0; cell < table->cell_count; cell++) {
+    for (uint32_t cell = first; cell < table->cell_count; cell++) {
         if (!table->count[cell] || sl_bits_has(table->free, cell)) continue;
         SL_TRY(append_number(context, row, cell - last - 1));
         SL_TRY(append_number(context, row, table->count[cell]));
         last = cell;
-        for (uint32_t i = table->first[cell]; i != UINT32_MAX;
-             i = table->alternatives.items[i].next)
-            if (!table->alternatives.items[i].dropped)
-                SL_TRY(append_set(context, set_of(table, i), table->words, row));
+        SL_TRY(sort_sets(context, table, cell));
+        for (size_t i = 0; i < table->sorted.count; i++)
+            SL_TRY(append_set(context, set_of(table, table->sorted.items[i]), table->words, row));
     }
     return SL_OK;
+}
+
+// --- both directions
+
+/// A pair of a row: the other cell, and its bytes behind that.
+typedef struct entry {
+    uint32_t cell;
+    const uint8_t *bytes;
+    size_t size;
+} entry;
+
+static uint32_t read_number(const uint8_t **next) {
+    uint32_t value = 0;
+    for (unsigned shift = 0;; shift += 7) {
+        const uint8_t byte = *(*next)++;
+        value |= (uint32_t)(byte & 127) << shift;
+        if (byte < 128) return value;
+    }
+}
+
+static bool next_entry(const uint8_t **next, const uint8_t *stop, entry *e) {
+    if (*next == stop) return false;
+    e->cell += 1 + read_number(next);
+    e->bytes = *next;
+    for (uint32_t sets = read_number(next); sets > 0; sets--)
+        for (uint32_t doors = read_number(next); doors > 0; doors--) read_number(next);
+    e->size = (size_t)(*next - e->bytes);
+    return true;
+}
+
+static sl_status append_entry(sl_context *context, const entry *e, uint32_t *last,
+                              sl_row_bytes *row) {
+    SL_TRY(append_number(context, row, e->cell - *last - 1));
+    *last = e->cell;
+    SL_TRY(SL_ARRAY_ROOM(context, row, e->size));
+    memcpy(row->items + row->count, e->bytes, e->size);
+    row->count += e->size;
+    return SL_OK;
+}
+
+static sl_status mirror_rows(sl_context *context, const sl_row_bytes *rows, uint32_t count,
+                             uint32_t *last, sl_row_bytes *out) {
+    memset(last, 0xff, count * sizeof *last);
+    for (uint32_t cell = 0; cell < count; cell++) {
+        const uint8_t *next = rows[cell].items, *stop = next + rows[cell].count;
+        for (entry e = {.cell = UINT32_MAX}; next && next_entry(&next, stop, &e);) {
+            const entry back = {cell, e.bytes, e.size};
+            SL_TRY(append_entry(context, &e, &last[cell], &out[cell]));
+            SL_TRY(append_entry(context, &back, &last[e.cell], &out[e.cell]));
+        }
+    }
+    return SL_OK;
+}
+
+sl_status sl_door_rows_mirror(sl_context *context, sl_row_bytes *rows, uint32_t count) {
+    uint32_t *last = sl_alloc_array(context, count, sizeof *last);
+    sl_row_bytes *out = sl_alloc_array(context, count, sizeof *out);
+    const sl_status status =
+        last && out ? mirror_rows(context, rows, count, last, out) : SL_NO_MEMORY;
+    for (uint32_t cell = 0; cell < count; cell++) {
+        if (status != SL_OK && out) sl_free(context, out[cell].items);
+        if (status != SL_OK) continue;
+        sl_free(context, rows[cell].items);
+        rows[cell] = out[cell];
+    }
+    sl_free(context, last);
+    sl_free(context, out);
+    return status;
 }

@@ -20,7 +20,8 @@ typedef struct sl_door_table {
     sl_bits *free;   ///< cells that no door, or more alternatives than the limit, lead to
     SL_ARRAY(sl_door_alternative) alternatives;
     SL_ARRAY(sl_bits) sets;
-    uint64_t fallbacks; ///< since it was made: pairs beyond the limit
+    SL_ARRAY(uint32_t) sorted; ///< scratch: alternatives of one cell
+    uint64_t fallbacks;        ///< since it was made: pairs beyond the limit
 } sl_door_table;
 
 sl_status sl_door_table_create(sl_context *context, uint32_t cells, size_t doors, uint32_t limit,
@@ -35,7 +36,12 @@ bool sl_door_table_proves(const sl_door_table *table, uint32_t cell, const sl_bi
 sl_status sl_door_table_add(sl_context *context, sl_door_table *table, uint32_t cell,
                             const sl_bits *doors);
 
-/// Appends the row of sl_door_sets.
-sl_status sl_door_table_append(sl_context *context, const sl_door_table *table, sl_row_bytes *row);
+/// Appends the row of sl_door_sets, of the cells from `first` on.
+sl_status sl_door_table_append(sl_context *context, sl_door_table *table, uint32_t first,
+                               sl_row_bytes *row);
+
+/// From rows that have each pair in the row of its lower cell alone, makes rows that have it in
+/// both.
+sl_status sl_door_rows_mirror(sl_context *context, sl_row_bytes *rows, uint32_t count);
 
 #endif

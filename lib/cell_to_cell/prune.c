@@ -93,12 +93,12 @@ sl_status sl_prune_start(sl_context *context, sl_prune_wanted *wanted, uint32_t 
 }
 
 sl_status sl_prune_start_with(sl_context *context, sl_prune_wanted *wanted, const sl_pvs *pvs,
-                              uint32_t cell) {
-    SL_TRY(sl_prune_start(context, wanted, 0));
+                              uint32_t cell, uint32_t first) {
+    SL_TRY(sl_prune_start(context, wanted, first));
     sl_prune_set *set = &wanted->sets.items[0];
     *set = (sl_prune_set){0};
     for (sl_pvs_run run = sl_pvs_begin(pvs, cell); sl_pvs_next(&run);)
-        for (uint32_t member = run.first; member < run.end; member++) {
+        for (uint32_t member = run.first > first ? run.first : first; member < run.end; member++) {
             const uint32_t word = member / 64;
             if (!set->end || wanted->words.items[set->end - 1].word != word) {
                 wanted->words.count = set->end;

@@ -46,9 +46,9 @@ typedef struct sl_prune_wanted {
 /// Begins with all cells from the first one on, at step 0.
 sl_status sl_prune_start(sl_context *context, sl_prune_wanted *wanted, uint32_t first);
 
-/// Begins with the members of a row.
+/// Begins with the members of a row from the first cell on.
 sl_status sl_prune_start_with(sl_context *context, sl_prune_wanted *wanted, const sl_pvs *pvs,
-                              uint32_t cell);
+                              uint32_t cell, uint32_t first);
 
 /// Makes the set of a step: what is wanted at the step before it and within an exit's bound. Later
 /// steps are forgotten.

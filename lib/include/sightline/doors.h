@@ -12,6 +12,7 @@ extern "C" {
 /// sightline passes. The pair is seen exactly if of one of them no door is shut. Pairs that some
 /// sightline joins without a door are not there, nor those that needed more alternatives than the
 /// limit: they count as seen whatever is shut (counted by sl_see_account.door_fallbacks).
+/// Alternatives of fewer doors come first, of as many those with lower doors.
 ///
 /// A row is bytes[offsets[cell] .. offsets[cell + 1]): numbers in LEB128, for each pair in turn the
 /// cells passed over since the last one, how many alternatives, and for each of them how many
