@@ -11,7 +11,7 @@
 
 /// The operand and options as they are given.
 typedef struct eye_texts {
-    const char *input, *at, *look, *fov, *output, *width, *shut, *mirror_depth;
+    const char *input, *at, *look, *fov, *output, *width, *shut, *mirror_depth, *range;
     bool json, dark;
     sl_option_list objects;
 } eye_texts;
@@ -95,7 +95,14 @@ static sl_status look(sl_console *console, const eye_texts *texts, const sl_bake
     if (texts->output) SL_TRY(sl_input_refuse_output(context, texts->input, texts->output));
     uint64_t depth = 1;
     SL_TRY(sl_option_count(context, "--mirror-depth", texts->mirror_depth, 16, &depth));
-    SL_TRY(sl_eye_run_make(context, baked, &view, (uint32_t)depth, !texts->json, &run));
+    double range = baked->map.range;
+    SL_TRY(sl_option_number(context, "--range", texts->range, &range));
+    if (range < 0)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--range %s: must not be negative", texts->range);
+    if (range > 0 && baked->map.mirror_count)
+        return sl_fail(context, SL_UNSUPPORTED,
+                       "what is seen by mirror knows no range: --range 0 leaves it out");
+    SL_TRY(sl_eye_run_make(context, baked, &view, (uint32_t)depth, range, !texts->json, &run));
     sl_eye_objects objects = {0};
     sl_status status = sl_eye_objects_read(context, &texts->objects, &baked->map, &objects);
     if (status == SL_OK) status = sl_eye_objects_run(context, baked, &run, !texts->json, &objects);
@@ -123,6 +130,9 @@ sl_status sl_cmd_eye(sl_console *console, int argc, char **argv) {
          "says"},
         {"mirror-depth", 0, "N", NULL, &t.mirror_depth,
          "how often mirrors reflect a sightline, 0 to 16;\n1 without it"},
+        {"range", 0, "R", NULL, &t.range,
+         "how far the exact method and the region see, 0 for no\nlimit; without it as far as the "
+         "map says"},
         {"object", 0, "BOX", NULL, NULL,
          "X0,Y0,X1,Y1 or the name of the map's object: something\nthat stands or moves where the "
          "bake knows nothing of\nit: is it seen? With ',block' behind it, it blocks sight;\nmay "
@@ -160,8 +170,8 @@ sl_status sl_cmd_eye(sl_console *console, int argc, char **argv) {
                        "--width and --dark are for the picture, which needs -o");
     sl_baked baked = {0};
     SL_TRY(sl_input_read_baked(console->context, t.input, &baked));
-    sl_status status =
-        sl_effects_check(console->context, &baked.map, "eye", SL_EFFECT_DOOR | SL_EFFECT_MIRROR);
+    sl_status status = sl_effects_check(console->context, &baked.map, "eye",
+                                        SL_EFFECT_DOOR | SL_EFFECT_MIRROR | SL_EFFECT_RANGE);
     if (status == SL_OK) status = sl_doors_shut(console->context, t.shut, &baked);
     if (status == SL_OK) status = look(console, &t, &baked);
     sl_baked_destroy(console->context, &baked);

@@ -109,9 +109,10 @@ static sl_status look(sl_context *context, const sl_baked *baked, const sl_eye_r
     SL_TRY(sl_moving_place(context, moving, o->boxes, o->count));
     SL_TRY(sl_moving_outline(context, moving, &outline));
     if (timed) o->seconds = sl_now() - start;
+    sl_moving_limit(moving, run->range);
     SL_TRY(sl_moving_look(context, moving, &run->view, o->cells, o->seen, &account));
     sl_eye_measure(baked, run->cell, o->cells, &o->cell_count, &o->share);
-    SL_TRY(sl_region_make(context, outline, &run->view, 0, &o->region));
+    SL_TRY(sl_region_make(context, outline, &run->view, run->range, &o->region));
     const double direct = sl_region_area(&run->region);
     o->region_share = direct > 0 ? run->region_share * sl_region_area(&o->region) / direct : 0;
     return SL_OK;

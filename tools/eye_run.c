@@ -30,10 +30,11 @@ typedef struct query {
     const sl_view *view;
     sl_eye_result *result;
     sl_region *region;
+    double range;
 } query;
 
 static sl_status ask(const query *q) {
-    if (!q->method) return sl_region_make(q->context, q->outline, q->view, 0, q->region);
+    if (!q->method) return sl_region_make(q->context, q->outline, q->view, q->range, q->region);
     return q->method->cull(q->context, q->search, q->view, q->result->cells, &q->result->account);
 }
 
@@ -121,8 +122,11 @@ static sl_status run_region(sl_context *context, const sl_baked *baked, bool tim
                             sl_eye_run *run) {
     sl_outline outline;
     SL_TRY(sl_outline_make(context, &baked->space, &outline));
-    const query q = {
-        .context = context, .outline = &outline, .view = &run->view, .region = &run->region};
+    const query q = {.context = context,
+                     .outline = &outline,
+                     .view = &run->view,
+                     .range = run->range,
+                     .region = &run->region};
     sl_status status = timed ? time_queries(&q, &run->region_seconds) : ask(&q);
     sl_room_mirrors mirrors = {0};
     if (status == SL_OK && run->has_mirrors) {
@@ -139,13 +143,15 @@ static sl_status run_region(sl_context *context, const sl_baked *baked, bool tim
 }
 
 sl_status sl_eye_run_make(sl_context *context, const sl_baked *baked, const sl_view *view,
-                          uint32_t depth, bool timed, sl_eye_run *out) {
+                          uint32_t depth, double range, bool timed, sl_eye_run *out) {
     sl_eye_search *search;
     sl_eye_run run = {.view = *view,
                       .cell = sl_space_locate(&baked->space, view->eye),
                       .has_mirrors = baked->map.mirror_count > 0,
-                      .mirror_depth = depth};
+                      .mirror_depth = depth,
+                      .range = range};
     SL_TRY(sl_eye_search_create(context, &baked->space, &baked->visibility, &search));
+    sl_eye_search_limit(search, range);
     sl_status status =
         run.has_mirrors ? sl_eye_search_add_mirrors(context, search, &baked->map, depth) : SL_OK;
     if (status == SL_OK) status = run_methods(context, baked, search, timed, &run);

@@ -31,6 +31,7 @@ typedef struct sl_eye_run {
     double region_seconds; ///< as above
     bool has_mirrors;      ///< the map; else the rest is empty
     uint32_t mirror_depth;
+    double range;                ///< of the exact method and the region; 0 for no limit
     sl_mirrored_region mirrored; ///< the region with what is seen by mirror
 } sl_eye_run;
 
@@ -42,9 +43,9 @@ void sl_eye_measure(const sl_baked *baked, uint32_t eye_cell, const uint64_t *ce
                     uint32_t *count, double *share);
 
 /// The eye must be within the bounds. `timed`: queries are repeated until their time is known.
-/// `depth`: reflections, at most.
+/// `depth`: reflections, at most. `range`: how far is seen, 0 for no limit; not by mirror.
 sl_status sl_eye_run_make(sl_context *context, const sl_baked *baked, const sl_view *view,
-                          uint32_t depth, bool timed, sl_eye_run *out);
+                          uint32_t depth, double range, bool timed, sl_eye_run *out);
 void sl_eye_run_destroy(sl_context *context, sl_eye_run *run);
 
 #endif

@@ -44,7 +44,8 @@ static size_t try_exit(sl_eye_query *query, sl_eye_step *last, bool first) {
     const sl_exit *exit = &query->space->exits[cell->first_exit + last->next++];
     sl_eye_step *to = last + 1, entered;
     size_t count = 0;
-    if (!sl_eye_may_see(query, exit->cell) || !sl_eye_pass(query, last, first, exit, &entered))
+    if (!sl_eye_may_see(query, exit->cell) ||
+        !sl_eye_pass_in_range(query, last, first, exit, &entered))
         return 0;
     for (unsigned i = 0; i < entered.arc_count; i++) {
         to[count] = entered;
@@ -62,7 +63,8 @@ static void meet_targets(sl_eye_query *query, const sl_eye_step *at, bool first)
     sl_eye_step beyond;
     for (uint32_t i = t->first[at->cell]; i < t->first[at->cell + 1]; i++)
         if (!t->met[t->targets[i].portal])
-            t->met[t->targets[i].portal] = sl_eye_pass(query, at, first, &t->targets[i], &beyond);
+            t->met[t->targets[i].portal] =
+                sl_eye_pass_in_range(query, at, first, &t->targets[i], &beyond);
 }
 
 static sl_status search_portals(sl_context *context, sl_eye_query *query) {

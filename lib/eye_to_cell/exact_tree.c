@@ -18,8 +18,8 @@ static void go_down(sl_eye_query *query, const sl_eye_step *from, const sl_stab_
                     uint32_t number, sl_eye_step *to) {
     const sl_exit *exit = &query->space->exits[node->exit];
     const bool first = from->next == 0, dead = !first && !from->arc_count;
-    const bool passes =
-        !dead && sl_eye_may_see(query, node->cell) && sl_eye_pass(query, from, first, exit, to);
+    const bool passes = !dead && sl_eye_may_see(query, node->cell) &&
+                        sl_eye_pass_in_range(query, from, first, exit, to);
     if (passes) {
         query->nodes++;
         sl_bits_add(query->cells, node->cell);

@@ -25,6 +25,7 @@ typedef struct sl_eye_targets {
 } sl_eye_targets;
 
 struct sl_eye_search {
+    double range; ///< of the exact method; 0 for no limit
     const sl_space *space;
     const sl_visibility *visibility;
     const uint32_t *parents; ///< by cell: whose row has it, and whose bit in rows; NULL: its own
@@ -97,6 +98,14 @@ bool sl_eye_pass(sl_eye_query *query, const sl_eye_step *from, bool first, const
 bool sl_eye_is_new(sl_eye_search *search, const sl_eye_step *from, sl_eye_step *to);
 
 void sl_eye_mirrors_destroy(sl_context *context, struct sl_eye_mirrors *mirrors);
+
+/// Whether what an arc has of an exit's portal is within range of the eye: true where that is so
+/// but for rounding.
+bool sl_arc_reaches(const sl_pivot *pivot, const sl_arc *arc, const sl_exit *exit, double range);
+
+/// As sl_eye_pass, but that arcs are left out in which the portal is out of the search's range.
+bool sl_eye_pass_in_range(sl_eye_query *query, const sl_eye_step *from, bool first,
+                          const sl_exit *exit, sl_eye_step *to);
 
 /// The exact method down the stab tree of the eye's cell. `done` is false, with nothing done, where
 /// that is not kept or its nodes do not come in the order of a depth-first search.

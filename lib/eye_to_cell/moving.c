@@ -20,6 +20,7 @@ typedef struct target {
 struct sl_moving {
     sl_box_ground ground;
     const sl_visibility *visibility;
+    double range;
     sl_moving_box *boxes;
     size_t count;
     sl_boxed_space *boxed;
@@ -139,7 +140,7 @@ static void drop(sl_context *context, sl_moving *m) {
     sl_free(context, m->targets);
     sl_free(context, m->met);
     sl_free(context, m->cells);
-    *m = (sl_moving){.ground = m->ground, .visibility = m->visibility};
+    *m = (sl_moving){.ground = m->ground, .visibility = m->visibility, .range = m->range};
 }
 
 static sl_status check_boxes(sl_context *context, const sl_moving_box *boxes, size_t count) {
@@ -167,6 +168,7 @@ static sl_status place(sl_context *context, sl_moving *m) {
     m->met = sl_alloc_array(context, m->count, sizeof *m->met);
     m->cells = sl_alloc_array(context, sl_eye_words(&m->boxed->space), sizeof *m->cells);
     if (!m->met || !m->cells) return SL_NO_MEMORY;
+    sl_eye_search_limit(m->search, m->range);
     m->search->targets = (sl_eye_targets){m->first, m->targets, m->met};
     return SL_OK;
 }
@@ -174,7 +176,10 @@ static sl_status place(sl_context *context, sl_moving *m) {
 sl_status sl_moving_place(sl_context *context, sl_moving *moving, const sl_moving_box *boxes,
                           size_t count) {
     SL_TRY(check_boxes(context, boxes, count));
-    sl_moving made = {.ground = moving->ground, .visibility = moving->visibility, .count = count};
+    sl_moving made = {.ground = moving->ground,
+                      .visibility = moving->visibility,
+                      .range = moving->range,
+                      .count = count};
     made.boxes = sl_alloc_array(context, count, sizeof *made.boxes);
     if (!made.boxes) return SL_NO_MEMORY;
     if (count) memcpy(made.boxes, boxes, count * sizeof *boxes);
@@ -220,6 +225,11 @@ sl_status sl_moving_outline(sl_context *context, sl_moving *moving, const sl_out
     return SL_OK;
 }
 
+void sl_moving_limit(sl_moving *moving, double range) {
+    moving->range = range;
+    sl_eye_search_limit(moving->search, range);
+}
+
 static bool holds(sl_box box, sl_point p) {
     return box.min.x <= p.x && p.x <= box.max.x && box.min.y <= p.y && p.y <= box.max.y;
 }
@@ -230,6 +240,8 @@ static sl_status see_point(sl_context *context, sl_moving *moving, const sl_view
     const sl_outline *outline;
     *seen = false;
     if (!sl_view_holds(view, point)) return SL_OK;
+    const double distance = hypot(point.x - view->eye.x, point.y - view->eye.y);
+    if (moving->range > 0 && distance > moving->range * (1 + 1e-12)) return SL_OK;
     SL_TRY(sl_moving_outline(context, moving, &outline));
     return sl_sees(context, outline, view->eye, point, moving->visibility->sight, seen);
 }

@@ -121,9 +121,21 @@ static uint32_t look(const trial *t, const sl_view *view, double range, bool *sa
     return count;
 }
 
+/// What the library sees within a range.
+static void see(const trial *t, const sl_view *view, double range, uint64_t *seen) {
+    const sl_visibility bare = {.sight = SL_CLOSED};
+    sl_eye_search *search;
+    sl_eye_account account;
+    size_t methods;
+    const sl_eye_method *exact = sl_eye_methods(&methods) + methods - 1;
+    assert_ok(t->context, sl_eye_search_create(t->context, &t->walled, &bare, &search));
+    sl_eye_search_limit(search, range);
+    assert_ok(t->context, exact->cull(t->context, search, view, seen, &account));
+    sl_eye_search_destroy(t->context, search);
+}
+
 static void try_eye(trial *t) {
     const uint32_t count = t->walled.cell_count;
-    const sl_visibility bare = {.sight = SL_CLOSED};
     // Within cells, on a grid where lines pass several corners; or where none passes two, so that
     // no cell is seen by touching alone.
     const bool on_grid = sl_random_below(&t->random, 2);
@@ -137,15 +149,9 @@ static void try_eye(trial *t) {
         view = (sl_view){eye, false, {eye.x + 3, eye.y + 1}, {eye.x + 1, eye.y - 2}};
         if (sl_random_below(&t->random, 2)) view.left = (sl_point){eye.x + 1, eye.y + 4};
     }
-    uint64_t seen[CELLS_MOST / 64];
+    uint64_t seen[CELLS_MOST / 64], near[CELLS_MOST / 64];
     bool said[CELLS_MOST];
-    sl_eye_search *search;
-    sl_eye_account account;
-    size_t methods;
-    const sl_eye_method *exact = sl_eye_methods(&methods) + methods - 1;
-    assert_ok(t->context, sl_eye_search_create(t->context, &t->walled, &bare, &search));
-    assert_ok(t->context, exact->cull(t->context, search, &view, seen, &account));
-    sl_eye_search_destroy(t->context, search);
+    see(t, &view, 0, seen);
     look(t, &view, 0, said);
     for (uint32_t c = 0; c < count; c++) {
         if (said[c] != sl_eye_sees(seen, c))
@@ -160,8 +166,10 @@ static void try_eye(trial *t) {
     for (int i = 0; i < 3 && region.count; i++) {
         const double range = 0.25 + below(t, 10 * SIZE) / 16;
         look(t, &view, range, said);
+        see(t, &view, range, near);
         for (uint32_t c = 0; c < count; c++) {
             if (!sl_eye_sees(seen, c)) assert_false(said[c]);
+            assert_int_equal(sl_eye_sees(near, c), said[c]);
             const double nearest = nearest_seen(t, &region, c);
             if (!isfinite(nearest) || c == region.cell) continue;
             t->asked++;

@@ -30,6 +30,9 @@ SL_API void sl_moving_destroy(sl_context *context, sl_moving *moving);
 SL_API sl_status sl_moving_place(sl_context *context, sl_moving *moving, const sl_moving_box *boxes,
                                  size_t count);
 
+/// How far is seen, as sl_eye_search_limit tells; it stays until it is set anew.
+SL_API void sl_moving_limit(sl_moving *moving, double range);
+
 /// The space with the boxes: cells cut along their sides, which are walls where they block. Cell c
 /// of it is (a part of) cell parents[c] of the space without. Until boxes are next placed.
 SL_API const sl_space *sl_moving_space(const sl_moving *moving, const uint32_t **parents);
