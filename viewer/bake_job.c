@@ -83,9 +83,8 @@ static sl_status see_all(sl_context *context, sl_bake_job *job, const sl_plan *p
     return SL_OK;
 }
 
-/// The search knows the stab trees too, but for mirrors. Where it takes too long there are none.
+/// The search knows the stab trees too. Where it takes too long there are none.
 static sl_status search_trees(sl_context *context, sl_bake_job *job, const sl_plan *plan) {
-    if (plan->effects & SL_EFFECT_MIRROR) return SL_OK;
     sl_see_options options = sl_see_options_default();
     options.plan = plan;
     options.solver = sl_funnel();

@@ -52,15 +52,15 @@ static const char *const *code(const sl_lesson *lesson, const sl_document *docum
 }
 
 static void say(const sl_lesson *lesson, const sl_document *document, char text[SL_SENTENCE]) {
-    (void)document;
+    const char *aside = document->map.mirror_count ? " Mirrors are walls to it." : "";
     const sl_step *s = &lesson->steps.steps[lesson->at];
     const uint32_t here = lesson->steps.steps[s->parent].cell;
     const char *plural = s->depth == 1 ? "" : "s";
     switch (s->kind) {
     case SL_STEP_ENTER:
         if (!lesson->at)
-            snprintf(text, SL_SENTENCE, "The search starts in cell %u, which sees itself.",
-                     s->cell);
+            snprintf(text, SL_SENTENCE, "The search starts in cell %u, which sees itself.%s",
+                     s->cell, aside);
         else
             snprintf(text, SL_SENTENCE, "A line %s the %u portal%s: enter cell %u, %s.",
                      s->grazing ? "only grazes" : "stabs", s->depth, plural, s->cell,

@@ -274,9 +274,9 @@ static uint32_t keep_nodes(const sl_present *present, const sl_space *space,
     for (uint32_t i = 0; i < count; i++) {
         numbers[i] = UINT32_MAX;
         const bool root = from[i].exit == UINT32_MAX;
-        if (!root &&
-            (numbers[from[i].parent] == UINT32_MAX || passes_shut(present, space, from[i].exit)))
-            continue;
+        const bool portal = !root && !sl_stab_is_mirror(&from[i]);
+        if (!root && numbers[from[i].parent] == UINT32_MAX) continue;
+        if (portal && passes_shut(present, space, from[i].exit)) continue;
         to[kept] = from[i];
         to[kept].parent = root ? kept : numbers[from[i].parent];
         numbers[i] = kept++;

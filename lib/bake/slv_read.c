@@ -2,6 +2,7 @@
 #include "bake/slv.h"
 #include "base/bits.h"
 #include "base/file.h"
+#include "effects/mirror_sides.h"
 
 #include <math.h>
 #include <string.h>
@@ -269,16 +270,31 @@ static sl_status check_rows(const reader *r, const sl_pvs *pvs) {
     return SL_OK;
 }
 
+/// Whether a mirror that stands in a tree is one that the cell ends at.
+static bool mirror_is_sound(const sl_baked *baked, const sl_stab_node *node, uint32_t cell) {
+    const uint32_t mirror = node->exit - SL_STAB_MIRROR;
+    sl_mirror_side side;
+    return node->cell == cell && mirror < baked->map.mirror_count &&
+           sl_mirror_side_of(&baked->space, &baked->map, cell, mirror, &side);
+}
+
 /// A tree's nodes: parents first, each exit one of the parent's cell and leading to the node's.
-static bool tree_is_sound(const sl_space *space, const sl_stab_node *nodes, uint64_t count,
+static bool tree_is_sound(const sl_baked *baked, const sl_stab_node *nodes, uint64_t count,
                           uint32_t source) {
+    const sl_space *space = &baked->space;
     if (!count) return true;
     if (nodes[0].parent != 0 || nodes[0].cell != source || nodes[0].exit != UINT32_MAX)
         return false;
     for (uint64_t i = 1; i < count; i++) {
         const sl_stab_node *node = &nodes[i];
-        if (node->parent >= i || node->exit >= space->exit_count) return false;
-        const sl_cell *from = &space->cells[nodes[node->parent].cell];
+        if (node->parent >= i) return false;
+        const uint32_t before = nodes[node->parent].cell;
+        if (sl_stab_is_mirror(node)) {
+            if (!mirror_is_sound(baked, node, before)) return false;
+            continue;
+        }
+        if (node->exit >= space->exit_count) return false;
+        const sl_cell *from = &space->cells[before];
         if (node->exit < from->first_exit || node->exit - from->first_exit >= from->exit_count ||
             space->exits[node->exit].cell != node->cell)
             return false;
@@ -287,9 +303,8 @@ static bool tree_is_sound(const sl_space *space, const sl_stab_node *nodes, uint
 }
 
 static sl_status load_trees(const reader *r) {
-    const sl_space *space = &r->out->space;
     sl_stab_trees *trees = &r->out->visibility.trees;
-    const uint32_t cells = space->cell_count;
+    const uint32_t cells = r->out->space.cell_count;
     uint64_t offsets, nodes;
     SL_TRY(load(r, "TREO", sizeof *trees->offsets, true, (void **)&trees->offsets, &offsets));
     if (!offsets) return SL_OK;
@@ -300,7 +315,7 @@ static sl_status load_trees(const reader *r) {
         if (trees->offsets[i] > trees->offsets[i + 1] || trees->offsets[i + 1] > nodes)
             return fail_file(r, "damaged: a stab tree ends before it starts");
     for (uint32_t i = 0; i < cells; i++)
-        if (!tree_is_sound(space, trees->nodes + trees->offsets[i],
+        if (!tree_is_sound(r->out, trees->nodes + trees->offsets[i],
                            trees->offsets[i + 1] - trees->offsets[i], i))
             return sl_fail_at(r->context, r->name, 0, "damaged: stab tree %u is no tree", i);
     trees->cell_count = cells;
@@ -413,8 +428,8 @@ static sl_status load_all(reader *r) {
     SL_TRY(load_views(r));
     SL_TRY(load_seen(r));
     SL_TRY(load_effects(r));
-    SL_TRY(load_trees(r));
     SL_TRY(load_map(r));
+    SL_TRY(load_trees(r));
     const sl_visibility *visibility = &r->out->visibility;
     const size_t doors = r->out->map.door_count;
     SL_TRY(in_file(r, sl_door_sets_check(r->context, &visibility->doors, doors)));

@@ -63,7 +63,8 @@ typedef struct sl_dfs_thread {
 sl_status sl_dfs_see_rest(sl_context *context, const sl_space *space, const sl_see_options *options,
                           const sl_dfs_known *known, sl_visibility *out);
 
-/// Goes on from `to`; a sequence that counts as seen becomes a node of the stab tree.
+/// Goes on from `to`; a sequence that counts as seen becomes a node of the stab tree,
+/// of which `exit` is as in sl_stab_node.
 sl_status sl_dfs_enter(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, sl_dfs_step to,
                        uint32_t parent, uint32_t exit, bool counts);
 

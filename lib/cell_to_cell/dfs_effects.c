@@ -121,7 +121,7 @@ static sl_status want(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
     return SL_OK;
 }
 
-/// Tests the sequence with one portal more, and enters the cell behind.
+/// Tests the sequence with one portal more, and enters the cell behind. `exit`: as in a stab tree.
 static sl_status push(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, place to,
                       uint32_t cell, uint32_t exit) {
     thread *e = me->effects;
@@ -194,7 +194,7 @@ static sl_status try_mirror(sl_context *context, const sl_dfs *all, sl_dfs_threa
                 .mirror = side->mirror};
     if (!may_cross(e, from, &to)) return SL_OK;
     SL_TRY(pass_doors(context, all->space, all->effects, e, UINT32_MAX, e->places.count));
-    return push(context, all, me, to, side->cell, UINT32_MAX);
+    return push(context, all, me, to, side->cell, SL_STAB_MIRROR + side->mirror);
 }
 
 // --- one source
@@ -306,8 +306,6 @@ sl_status sl_dfs_effects_create(sl_context *context, sl_dfs *all) {
     const sl_plan *plan = all->options->plan;
     const uint32_t cells = all->space->cell_count;
     SL_TRY(sl_plan_check_solver(context, plan, all->options->solver));
-    if (all->options->trees && plan->effects & SL_EFFECT_MIRROR)
-        return sl_fail(context, SL_UNSUPPORTED, "stab trees do not know mirrors");
     effects *e = all->effects = sl_alloc_array(context, 1, sizeof *e);
     if (!e) return SL_NO_MEMORY;
     e->plan = plan;

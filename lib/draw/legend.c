@@ -131,13 +131,22 @@ static void swatch_path(cairo_t *cairo, const sl_scene *scene, const sl_pens *pe
 }
 
 /// Strokes that fade from left to right, as they do with depth.
-static void swatch_tree(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens, sl_box box) {
+static void fade(cairo_t *cairo, sl_colour colour, const sl_pens *pens, sl_box box) {
     const double step = (box.max.x - box.min.x) / 6, y = left_middle(box).y;
     for (uint32_t i = 0; i < 6; i++) {
         cairo_move_to(cairo, box.min.x + i * step, y);
         cairo_line_to(cairo, box.min.x + (i + 1) * step, y);
-        sl_pen_tree(cairo, &scene->palette, pens, 2 * i);
+        sl_pen_tree(cairo, colour, pens, 2 * i);
     }
+}
+
+static void swatch_tree(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens, sl_box box) {
+    fade(cairo, scene->palette.tree, pens, box);
+}
+
+static void swatch_mirrored(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens,
+                            sl_box box) {
+    fade(cairo, scene->palette.mirrored, pens, box);
 }
 
 static void swatch_start(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens, sl_box box) {
@@ -213,6 +222,10 @@ static void add_tree(key *k, const sl_scene *scene) {
     sl_text_count(scene->tree_nodes, "node", nodes);
     snprintf(text, sizeof text, "stab tree: %s, %u deep", nodes, scene->tree_depth);
     add(k, swatch_tree, scene->tree_nodes ? text : "stab tree: not kept");
+    if (!scene->mirrored_nodes) return;
+    sl_text_count(scene->mirrored_nodes, "node", nodes);
+    snprintf(text, sizeof text, "%s of it by mirror", nodes);
+    add(k, swatch_mirrored, text);
 }
 
 static void add_heat(key *k, const sl_scene *scene) {

@@ -73,8 +73,7 @@ void sl_pen_object(cairo_t *cairo, const sl_palette *palette, const sl_pens *pen
     stroke(cairo, c, pens->portal, CAIRO_LINE_CAP_BUTT);
 }
 
-static void set_tree_colour(cairo_t *cairo, const sl_palette *palette, uint32_t depth) {
-    const sl_colour c = palette->tree;
+static void set_tree_colour(cairo_t *cairo, sl_colour c, uint32_t depth) {
     cairo_set_source_rgba(cairo, c.red, c.green, c.blue, 0.15 + 0.8 * pow(0.84, depth));
 }
 
@@ -82,13 +81,13 @@ double sl_tree_width(const sl_pens *pens, uint32_t depth) {
     return pens->tree * (0.3 + 0.7 * pow(0.84, depth));
 }
 
-void sl_pen_tree_dots(cairo_t *cairo, const sl_palette *palette, uint32_t depth) {
-    set_tree_colour(cairo, palette, depth);
+void sl_pen_tree_dots(cairo_t *cairo, sl_colour colour, uint32_t depth) {
+    set_tree_colour(cairo, colour, depth);
     cairo_fill(cairo);
 }
 
-void sl_pen_tree(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens, uint32_t depth) {
-    set_tree_colour(cairo, palette, depth);
+void sl_pen_tree(cairo_t *cairo, sl_colour colour, const sl_pens *pens, uint32_t depth) {
+    set_tree_colour(cairo, colour, depth);
     cairo_set_line_width(cairo, sl_tree_width(pens, depth));
     cairo_set_line_cap(cairo, CAIRO_LINE_CAP_BUTT);
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);

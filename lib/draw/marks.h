@@ -24,9 +24,8 @@ void sl_pen_source_edge(cairo_t *cairo, const sl_palette *palette, const sl_pens
 void sl_pen_path(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens);
 void sl_pen_object(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens);
 /// `depth` portals from the source cell: fainter and thinner the farther.
-void sl_pen_tree(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens, uint32_t depth);
-void sl_pen_tree_dots(cairo_t *cairo, const sl_palette *palette,
-                      uint32_t depth); ///< fills the path
+void sl_pen_tree(cairo_t *cairo, sl_colour colour, const sl_pens *pens, uint32_t depth);
+void sl_pen_tree_dots(cairo_t *cairo, sl_colour colour, uint32_t depth); ///< fills the path
 double sl_tree_width(const sl_pens *pens, uint32_t depth);
 
 /// Slanting lines over a box, `phase` telling where they run.

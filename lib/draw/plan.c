@@ -3,6 +3,7 @@
 #include "base/base.h"
 #include "draw/faults.h"
 #include "draw/marks.h"
+#include "effects/mirror_sides.h"
 #include "space/ray.h"
 
 #include <math.h>
@@ -96,41 +97,61 @@ static void draw_walls(const plan *p) {
             sl_mark_oneway(p->cairo, p->palette, &p->pens, a, b);
 }
 
-static sl_point exit_middle(const sl_exit *exit) {
-    return (sl_point){exit->left.x + (exit->right.x - exit->left.x) / 2,
-                      exit->left.y + (exit->right.y - exit->left.y) / 2};
+/// Where a stroke of the stab tree begins or ends: a portal or a mirror, in the cell that the
+/// stroke is in.
+typedef struct joint {
+    sl_exit ends;   ///< as crossed on the way out of the cell
+    sl_point place; ///< on it
+} joint;
+
+/// Reflected sequences keep to one side of portals: what comes back does not hide what went.
+static sl_point place_on(const sl_exit *ends, double share) {
+    return (sl_point){ends->left.x + share * (ends->right.x - ends->left.x),
+                      ends->left.y + share * (ends->right.y - ends->left.y)};
 }
 
-/// Where a stroke that crosses a portal at right angles may bend: into the cell from the portal's
-/// middle, along its normal. `sign` is 1 to go the exit's way. Both such points and both middles
-/// lie in the convex cell, and so does the curve between them.
-static sl_point bend(const sl_space *space, uint32_t cell, const sl_exit *exit, double sign,
-                     double reach) {
-    const sl_point middle = exit_middle(exit);
-    const double along_x = exit->left.x - exit->right.x, along_y = exit->left.y - exit->right.y;
+static joint joint_at(const plan *p, const sl_stroke *stroke, uint32_t exit, bool entered) {
+    if (exit >= SL_STAB_MIRROR) {
+        sl_mirror_side side = {0};
+        sl_mirror_side_of(p->space, p->map, stroke->cell, exit - SL_STAB_MIRROR, &side);
+        const sl_exit ends = {.left = side.left, .right = side.right};
+        return (joint){ends, place_on(&ends, 0.5)};
+    }
+    const sl_exit *at = &p->space->exits[exit];
+    const sl_point place = place_on(at, stroke->mirrored ? 0.3 : 0.5);
+    if (entered) return (joint){{.left = at->right, .right = at->left}, place};
+    return (joint){*at, place};
+}
+
+/// Where a stroke that crosses a portal at right angles may bend: into the cell from its place on
+/// the portal, along the portal's normal. Both such points and both places lie in the convex cell,
+/// and so does the curve between them.
+static sl_point bend(const sl_space *space, uint32_t cell, const joint *at, double reach) {
+    const sl_point left = at->ends.left, right = at->ends.right, place = at->place;
+    const double along_x = left.x - right.x, along_y = left.y - right.y;
     const double width = hypot(along_x, along_y);
-    const sl_point forward = {sign * along_y / width, -sign * along_x / width};
-    const double length = fmin(reach, 0.9 * sl_ray_length(space, cell, middle, forward));
-    return (sl_point){middle.x + forward.x * length, middle.y + forward.y * length};
+    const sl_point inwards = {-along_y / width, along_x / width};
+    const double length = fmin(reach, 0.9 * sl_ray_length(space, cell, place, inwards));
+    return (sl_point){place.x + inwards.x * length, place.y + inwards.y * length};
 }
 
 static void add_stroke(const plan *p, const sl_stroke *stroke) {
-    const sl_exit *exits = p->space->exits;
-    const sl_exit *from = stroke->from == UINT32_MAX ? NULL : &exits[stroke->from];
-    const sl_exit *to = &exits[stroke->to];
-    const uint32_t cell = from ? from->cell : p->scene->options.cell;
-    const sl_point start = from ? exit_middle(from) : p->scene->eye, end = exit_middle(to);
+    const joint to = joint_at(p, stroke, stroke->to, false);
+    joint from = {.place = p->scene->eye};
+    if (stroke->from != UINT32_MAX) from = joint_at(p, stroke, stroke->from, true);
+    const sl_point start = from.place, end = to.place;
     const double reach = 0.4 * hypot(end.x - start.x, end.y - start.y);
-    const sl_point controls[4] = {start, from ? bend(p->space, cell, from, 1, reach) : start,
-                                  bend(p->space, cell, to, -1, reach), end};
+    const sl_point leaving =
+        stroke->from == UINT32_MAX ? start : bend(p->space, stroke->cell, &from, reach);
+    const sl_point controls[4] = {start, leaving, bend(p->space, stroke->cell, &to, reach), end};
     sl_path_curve(p->cairo, p->frame, controls);
 }
 
-/// Where the stroke crosses its portal.
+/// Where the stroke crosses its portal or meets its mirror.
 static void add_dot(const plan *p, const sl_stroke *stroke) {
     const double radius = 0.75 * sl_tree_width(&p->pens, stroke->depth - 1);
     sl_point place;
-    if (!sl_frame_holds(p->frame, exit_middle(&p->space->exits[stroke->to]), &place)) return;
+    if (!sl_frame_holds(p->frame, joint_at(p, stroke, stroke->to, false).place, &place)) return;
     cairo_new_sub_path(p->cairo);
     cairo_arc(p->cairo, place.x, place.y, radius, 0, 6.283185307179586);
 }
@@ -139,11 +160,15 @@ static void draw_tree(const plan *p) {
     const sl_stroke *strokes = p->scene->strokes;
     for (size_t first = 0, end; first < p->scene->stroke_count; first = end) {
         const uint32_t depth = strokes[first].depth;
-        for (end = first; end < p->scene->stroke_count && strokes[end].depth == depth; end++)
+        const bool mirrored = strokes[first].mirrored;
+        const sl_colour colour = mirrored ? p->palette->mirrored : p->palette->tree;
+        for (end = first; end < p->scene->stroke_count && strokes[end].depth == depth &&
+                          strokes[end].mirrored == mirrored;
+             end++)
             add_stroke(p, &strokes[end]);
-        sl_pen_tree(p->cairo, p->palette, &p->pens, depth - 1);
+        sl_pen_tree(p->cairo, colour, &p->pens, depth - 1);
         for (size_t i = first; i < end; i++) add_dot(p, &strokes[i]);
-        sl_pen_tree_dots(p->cairo, p->palette, depth - 1);
+        sl_pen_tree_dots(p->cairo, colour, depth - 1);
     }
 }
 

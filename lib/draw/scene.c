@@ -150,15 +150,41 @@ void sl_scene_set_paint(sl_scene *scene, const uint8_t *paint) {
 static int by_depth(const void *a, const void *b) {
     const sl_stroke *x = a, *y = b;
     if (x->depth != y->depth) return x->depth < y->depth ? 1 : -1;
+    if (x->mirrored != y->mirrored) return x->mirrored ? -1 : 1;
     if (x->from != y->from) return x->from < y->from ? -1 : 1;
-    return x->to < y->to ? -1 : x->to > y->to;
+    if (x->to != y->to) return x->to < y->to ? -1 : 1;
+    return x->cell < y->cell ? -1 : x->cell > y->cell;
 }
 
 static int by_place(const void *a, const void *b) {
     const sl_stroke *x = a, *y = b;
     if (x->from != y->from) return x->from < y->from ? -1 : 1;
     if (x->to != y->to) return x->to < y->to ? -1 : 1;
+    if (x->mirrored != y->mirrored) return x->mirrored ? 1 : -1;
+    if (x->cell != y->cell) return x->cell < y->cell ? -1 : 1;
     return x->depth < y->depth ? -1 : x->depth > y->depth;
+}
+
+static bool is_same_stroke(const sl_stroke *x, const sl_stroke *y) {
+    return x->from == y->from && x->to == y->to && x->mirrored == y->mirrored && x->cell == y->cell;
+}
+
+/// The stroke to each node, the root's too, which is dropped later; its depth is where its children
+/// look.
+static void find_strokes(const sl_stab_node *nodes, size_t count, sl_scene *scene) {
+    sl_stroke *strokes = scene->strokes;
+    strokes[0] = (sl_stroke){.from = UINT32_MAX, .to = UINT32_MAX};
+    for (size_t i = 1; i < count; i++) {
+        const sl_stab_node *from = &nodes[nodes[i].parent];
+        const sl_stroke *parent = &strokes[nodes[i].parent];
+        strokes[i] = (sl_stroke){.from = parent->to,
+                                 .to = nodes[i].exit,
+                                 .depth = parent->depth + 1,
+                                 .cell = from->cell,
+                                 .mirrored = parent->mirrored || sl_stab_is_mirror(from)};
+        scene->mirrored_nodes += strokes[i].mirrored || sl_stab_is_mirror(&nodes[i]);
+        if (strokes[i].depth > scene->tree_depth) scene->tree_depth = strokes[i].depth;
+    }
 }
 
 static sl_status make_strokes(sl_context *context, sl_scene *scene) {
@@ -169,24 +195,16 @@ static sl_status make_strokes(sl_context *context, sl_scene *scene) {
     const size_t count = (size_t)(trees->offsets[source + 1] - trees->offsets[source]);
     if (count == 0) return SL_OK;
     scene->tree_nodes = count;
-    // One a node, the root's too, which is dropped below; its depth is where its children look.
-    sl_stroke *strokes = sl_alloc_array(context, count, sizeof *strokes);
+    sl_stroke *strokes = scene->strokes = sl_alloc_array(context, count, sizeof *strokes);
     if (!strokes) return SL_NO_MEMORY;
-    strokes[0] = (sl_stroke){.from = UINT32_MAX, .to = UINT32_MAX, .depth = 0};
-    for (size_t i = 1; i < count; i++) {
-        const sl_stroke *parent = &strokes[nodes[i].parent];
-        strokes[i] = (sl_stroke){parent->to, nodes[i].exit, parent->depth + 1};
-        if (strokes[i].depth > scene->tree_depth) scene->tree_depth = strokes[i].depth;
-    }
+    find_strokes(nodes, count, scene);
     qsort(strokes, count, sizeof *strokes, by_place);
     size_t kept = 0;
     for (size_t i = 0; i < count; i++) {
-        const bool again = kept && strokes[kept - 1].from == strokes[i].from &&
-                           strokes[kept - 1].to == strokes[i].to;
+        const bool again = kept && is_same_stroke(&strokes[kept - 1], &strokes[i]);
         if (!again && strokes[i].to != UINT32_MAX) strokes[kept++] = strokes[i];
     }
     qsort(strokes, kept, sizeof *strokes, by_depth);
-    scene->strokes = strokes;
     scene->stroke_count = kept;
     return SL_OK;
 }

@@ -21,10 +21,12 @@ typedef enum sl_paint {
 #define SL_HEAT_STEPS  64
 #define SL_PAINT_COUNT (SL_PAINT_HEAT + SL_HEAT_STEPS)
 
-/// A stroke of the stab tree, between places where sequences cross portals: exits of the space,
-/// UINT32_MAX for the root. Sequences that share it are drawn once, at their least depth.
+/// A stroke of the stab tree, within a cell, between places where sequences cross portals or turn
+/// back at mirrors: exits of nodes (sl_stab_node). Sequences that share it are drawn once, at their
+/// least depth.
 typedef struct sl_stroke {
-    uint32_t from, to, depth;
+    uint32_t from, to, depth, cell;
+    bool mirrored; ///< the sequence has been reflected before
 } sl_stroke;
 
 typedef struct sl_scene {
@@ -48,9 +50,9 @@ typedef struct sl_scene {
     double least, most, mean; ///< of all shares, where heat
     sl_stroke *strokes;       ///< deepest first
     size_t stroke_count;
-    uint64_t tree_nodes;
-    uint32_t tree_depth; ///< portals in the longest sequence
-    sl_point eye;        ///< where the stab tree starts: a start in the chosen cell, or its middle
+    uint64_t tree_nodes, mirrored_nodes; ///< all; those of sequences that are reflected
+    uint32_t tree_depth;                 ///< portals in the longest sequence
+    sl_point eye; ///< where the stab tree starts: a start in the chosen cell, or its middle
 } sl_scene;
 
 /// No portal joins cells that count (sl_baked_counts) with the others, so that one of the two is

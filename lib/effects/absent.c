@@ -1,7 +1,6 @@
 /// What stands for the work on effects where a build leaves it out: it is refused. Whoever asks
 /// sl_effects_check first never comes here.
 #include "effects/effects.h"
-#include "effects/mirror_sides.h"
 
 sl_status sl_effects_refuse(sl_context *context) {
     return sl_fail(context, SL_UNSUPPORTED,
@@ -12,14 +11,4 @@ sl_status sl_passage_make(sl_context *context, const sl_space *space, const sl_p
                           uint32_t *portals, sl_space *out) {
     (void)space, (void)passage, (void)portals, (void)out;
     return sl_effects_refuse(context);
-}
-
-sl_status sl_mirror_sides_find(sl_context *context, const sl_space *space, const sl_map *map,
-                               sl_mirror_sides *out) {
-    (void)space, (void)map, (void)out;
-    return sl_effects_refuse(context);
-}
-
-void sl_mirror_sides_destroy(sl_context *context, sl_mirror_sides *sides) {
-    (void)context, (void)sides;
 }

@@ -5,13 +5,6 @@
 
 #include <math.h>
 
-typedef struct finder {
-    sl_context *context;
-    const sl_space *space;
-    const sl_map *map;
-    SL_ARRAY(sl_mirror_side) sides;
-} finder;
-
 /// A side of a cell, counter-clockwise.
 typedef struct side {
     uint32_t cell, vertex; ///< of the space's
@@ -23,11 +16,11 @@ static bool in_line(sl_point a, sl_point b, sl_point p, sl_point q) {
 }
 
 /// Whether the side is on the mirror's line: itself, or what the space tells of its wall.
-static bool is_on_line(const finder *f, const side *s, const sl_segment *mirror) {
-    if (!f->space->beyond) return in_line(mirror->a, mirror->b, s->from, s->to);
-    const uint32_t what = f->space->beyond[s->vertex];
+static bool is_on_line(const sl_space *space, const side *s, const sl_segment *mirror) {
+    if (!space->beyond) return in_line(mirror->a, mirror->b, s->from, s->to);
+    const uint32_t what = space->beyond[s->vertex];
     if (what >= SL_BEYOND_BORDER) return false;
-    const sl_wall *wall = &f->space->walls[what & ~SL_BEYOND_RIGHT];
+    const sl_wall *wall = &space->walls[what & ~SL_BEYOND_RIGHT];
     return in_line(wall->a, wall->b, mirror->a, mirror->b);
 }
 
@@ -48,26 +41,51 @@ bool sl_mirror_covers(const sl_glass *mirror, sl_point from, sl_point to, sl_poi
     return sl_mirror_along(from, to, *right) < sl_mirror_along(from, to, *left);
 }
 
-/// Adds what of a side lies on a mirror, if the mirror reflects there.
+static side side_of(const sl_space *space, uint32_t cell, uint32_t number) {
+    const sl_cell *c = &space->cells[cell];
+    const sl_point *v = space->vertices + c->first_vertex;
+    return (side){cell, c->first_vertex + number, v[number],
+                  v[number + 1 == c->vertex_count ? 0 : number + 1]};
+}
+
+/// What of a side lies on a mirror, if the mirror reflects there.
+static bool reflects(const sl_space *space, const sl_map *map, const side *s, uint32_t mirror,
+                     sl_mirror_side *out) {
+    const sl_glass *glass = &map->mirrors[mirror];
+    *out = (sl_mirror_side){.cell = s->cell, .mirror = mirror};
+    return is_on_line(space, s, &glass->segment) &&
+           sl_mirror_covers(glass, s->from, s->to, &out->right, &out->left);
+}
+
+bool sl_mirror_side_of(const sl_space *space, const sl_map *map, uint32_t cell, uint32_t mirror,
+                       sl_mirror_side *out) {
+    for (uint32_t k = 0; k < space->cells[cell].vertex_count; k++) {
+        const side s = side_of(space, cell, k);
+        if (reflects(space, map, &s, mirror, out)) return true;
+    }
+    return false;
+}
+
+typedef struct finder {
+    sl_context *context;
+    const sl_space *space;
+    const sl_map *map;
+    SL_ARRAY(sl_mirror_side) sides;
+} finder;
+
 static sl_status add(finder *f, const side *s, uint32_t number) {
-    const sl_glass *mirror = &f->map->mirrors[number];
-    sl_point right, left;
-    if (!is_on_line(f, s, &mirror->segment) ||
-        !sl_mirror_covers(mirror, s->from, s->to, &right, &left))
-        return SL_OK;
+    sl_mirror_side found;
+    if (!reflects(f->space, f->map, s, number, &found)) return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(f->context, &f->sides, 1));
-    f->sides.items[f->sides.count++] = (sl_mirror_side){left, right, s->cell, number};
+    f->sides.items[f->sides.count++] = found;
     return SL_OK;
 }
 
 static sl_status find(finder *f, uint32_t *first) {
     for (uint32_t i = 0; i < f->space->cell_count; i++) {
-        const sl_cell *cell = &f->space->cells[i];
-        const sl_point *v = f->space->vertices + cell->first_vertex;
         first[i] = (uint32_t)f->sides.count;
-        for (uint32_t k = 0; k < cell->vertex_count; k++) {
-            const side s = {i, cell->first_vertex + k, v[k],
-                            v[k + 1 == cell->vertex_count ? 0 : k + 1]};
+        for (uint32_t k = 0; k < f->space->cells[i].vertex_count; k++) {
+            const side s = side_of(f->space, i, k);
             for (uint32_t m = 0; m < f->map->mirror_count; m++) SL_TRY(add(f, &s, m));
         }
     }

@@ -24,6 +24,10 @@ bool sl_mirror_covers(const sl_glass *mirror, sl_point from, sl_point to, sl_poi
 /// A coordinate that grows along a line from one point to another.
 double sl_mirror_along(sl_point from, sl_point to, sl_point p);
 
+/// The first side of a cell on a mirror; false where there is none.
+bool sl_mirror_side_of(const sl_space *space, const sl_map *map, uint32_t cell, uint32_t mirror,
+                       sl_mirror_side *out);
+
 /// Mirrors must be walls of the space too (sl_map_clean makes them so).
 sl_status sl_mirror_sides_find(sl_context *context, const sl_space *space, const sl_map *map,
                                sl_mirror_sides *out);

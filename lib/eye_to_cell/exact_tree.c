@@ -13,13 +13,14 @@ static const sl_stab_node *tree_of(const sl_eye_query *query, uint64_t *count) {
     return *count ? trees->nodes + trees->offsets[query->cell] : NULL;
 }
 
-/// Goes down to a node; nodes that nothing is seen of stay on the way, without arcs.
+/// Goes down to a node; nodes that nothing is seen of stay on the way, without arcs, and so do
+/// mirrors: what is seen by them is searched for by itself.
 static void go_down(sl_eye_query *query, const sl_eye_step *from, const sl_stab_node *node,
                     uint32_t number, sl_eye_step *to) {
-    const sl_exit *exit = &query->space->exits[node->exit];
     const bool first = from->next == 0, dead = !first && !from->arc_count;
-    const bool passes = !dead && sl_eye_may_see(query, node->cell) &&
-                        sl_eye_pass_in_range(query, from, first, exit, to);
+    const bool passes =
+        !dead && !sl_stab_is_mirror(node) && sl_eye_may_see(query, node->cell) &&
+        sl_eye_pass_in_range(query, from, first, &query->space->exits[node->exit], to);
     if (passes) {
         query->nodes++;
         sl_bits_add(query->cells, node->cell);

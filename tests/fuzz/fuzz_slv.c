@@ -1,13 +1,19 @@
 // The baked file: whatever is read is sound, and is written and read back the same.
 #include "slv_mutator.h"
 
-static void check_trees(const sl_space *space, const sl_stab_trees *trees) {
+static void check_trees(const sl_baked *baked) {
+    const sl_space *space = &baked->space;
+    const sl_stab_trees *trees = &baked->visibility.trees;
     for (uint32_t cell = 0; cell < trees->cell_count; cell++) {
         const sl_stab_node *nodes = trees->nodes + trees->offsets[cell];
         const uint64_t count = trees->offsets[cell + 1] - trees->offsets[cell];
         for (uint64_t i = 0; i < count; i++) {
             FUZZ_CHECK(nodes[i].cell < space->cell_count && nodes[i].parent <= i);
-            FUZZ_CHECK(i == 0 || space->exits[nodes[i].exit].cell == nodes[i].cell);
+            if (sl_stab_is_mirror(&nodes[i])) {
+                FUZZ_CHECK(nodes[i].exit - SL_STAB_MIRROR < baked->map.mirror_count);
+                FUZZ_CHECK(nodes[nodes[i].parent].cell == nodes[i].cell);
+            } else
+                FUZZ_CHECK(i == 0 || space->exits[nodes[i].exit].cell == nodes[i].cell);
         }
     }
 }
@@ -28,7 +34,7 @@ static void check_baked(sl_context *context, const sl_baked *baked) {
         // Several cells of a BSP hold their common corner, or rounding has put it out of bounds.
         if (!space->beyond) FUZZ_CHECK(sl_space_locate(space, corner) == cell);
     }
-    check_trees(space, &baked->visibility.trees);
+    check_trees(baked);
     size_t formats;
     const sl_export_options none = {0};
     FUZZ_CHECK(sl_export_formats(&formats)->write(context, baked, &none, "/dev/null") == SL_OK);

@@ -124,6 +124,8 @@ static sl_status bake(sl_context *context, const uint8_t *text, size_t size, sl_
     options.tree_bytes = size & 4 ? 400 : 4000;
     options.inside_only = size & 8;
     options.threads = 1;
+    const sl_plan plan = sl_plan_make(&out->map);
+    if (size & 32) options.plan = &plan;
     size_t count;
     SL_TRY(sl_see_methods(&count)->see(context, &out->space, &options, &out->visibility));
     snprintf(out->method, sizeof out->method, "%s", sl_see_methods(&count)->name);

@@ -122,6 +122,55 @@ static int count_on(const picture *p, double x0, double y0, double x1, double y1
     return count;
 }
 
+/// Lets the tree go on: from the right cell's far wall, a mirror, back into the left one.
+static void add_mirrored_nodes(sl_context *context, draw_map *map) {
+    sl_space *space = &map->baked.space;
+    sl_stab_trees *trees = &map->baked.visibility.trees;
+    const uint32_t left = map->cells[LEFT_BELOW], right = map->cells[RIGHT_BELOW];
+    assert_ok(context,
+              sl_map_add_mirror(context, &map->baked.map, (sl_segment){{40, 2}, {40, 8}}, 0));
+    sl_stab_node *nodes = sl_alloc_array(context, 4, sizeof *nodes);
+    assert_non_null(nodes);
+    memcpy(nodes, trees->nodes, 2 * sizeof *nodes);
+    nodes[2] = (sl_stab_node){1, right, SL_STAB_MIRROR};
+    nodes[3] = (sl_stab_node){2, left, space->cells[right].first_exit};
+    sl_free(context, trees->nodes);
+    trees->nodes = nodes;
+    for (uint32_t i = left + 1; i <= space->cell_count; i++) trees->offsets[i] = 4;
+}
+
+/// How many pixels on a line across the tree, right of the portal, are more red than green.
+static int count_reddish(const picture *p) {
+    int count = 0;
+    for (int i = 0; i <= 100; i++) {
+        const sl_colour colour = colour_at(p, 22, 1 + 0.08 * i);
+        count += colour.red - colour.green > 0.1;
+    }
+    return count;
+}
+
+static void what_a_mirror_sends_back_has_its_hue(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    draw_map map = draw_map_make(context, DRAW_PLAIN);
+    const sl_draw_options options = options_for(SL_LAYER_STAB_TREE, map.cells[LEFT_BELOW], false);
+    const picture direct = draw(&map, options);
+    assert_int_equal(count_reddish(&direct), 0);
+    add_mirrored_nodes(context, &map);
+    const picture mirrored = draw(&map, options);
+    assert_true(count_reddish(&mirrored) > 0);
+    sl_scene scene;
+    assert_ok(context, sl_scene_make(context, &map.baked, &options, &scene));
+    assert_int_equal(scene.stroke_count, 3);
+    assert_int_equal(scene.mirrored_nodes, 2);
+    assert_true(scene.strokes[0].mirrored && !scene.strokes[1].mirrored);
+    sl_scene_destroy(context, &scene);
+    cairo_surface_destroy(direct.surface);
+    cairo_surface_destroy(mirrored.surface);
+    sl_baked_destroy(context, &map.baked);
+    sl_context_destroy(context);
+}
+
 static void layers_draw_their_lines(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
@@ -348,6 +397,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_kind_of_cell_has_its_colour),
         cmocka_unit_test(neighbours_have_different_tones),
+        cmocka_unit_test(what_a_mirror_sends_back_has_its_hue),
         cmocka_unit_test(layers_draw_their_lines),
         cmocka_unit_test(stab_tree_runs_from_the_start_to_the_portal),
         cmocka_unit_test(heat_runs_over_the_whole_ramp),

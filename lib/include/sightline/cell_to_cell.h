@@ -12,12 +12,22 @@
 extern "C" {
 #endif
 
-/// A node of a stab tree: the portal sequence from the source cell down to here has a sightline.
+/// What stands before the number of a mirror in a stab tree; spaces have fewer exits.
+#define SL_STAB_MIRROR 0x80000000u
+
+/// A node of a stab tree: the portal sequence from the source cell down to here has a sightline,
+/// reflected in each mirror that it names.
 typedef struct sl_stab_node {
     uint32_t parent; ///< a node of the same tree, before this one; its own number for the root
-    uint32_t cell;   ///< where the sequence ends
-    uint32_t exit;   ///< the exit crossed last, an index of space.exits; UINT32_MAX for the root
+    uint32_t cell;   ///< where the sequence ends; of a mirror the parent's
+    uint32_t exit;   ///< the exit crossed last, an index of space.exits; UINT32_MAX for the root;
+                     ///< or SL_STAB_MIRROR + the mirror reached last, an index of map.mirrors
 } sl_stab_node;
+
+/// Whether the last step is into a mirror.
+static inline bool sl_stab_is_mirror(const sl_stab_node *node) {
+    return node->exit >= SL_STAB_MIRROR && node->exit != UINT32_MAX;
+}
 
 /// The stab trees of all source cells: tree c is nodes[offsets[c] .. offsets[c + 1]), parents
 /// first, numbered from 0 in each tree. A tree that the memory limit left out is empty.
