@@ -110,8 +110,8 @@ sl_status sl_wad_find_map(sl_context *context, const sl_wad *wad, const char *na
         found = true;
     }
     if (found) return SL_OK;
-    return sl_fail_at(context, wad->name, 0, "holds no map%s%.64s", name ? " " : "",
-                      name ? name : "");
+    if (!name) return sl_fail_at(context, wad->name, 0, "holds no map");
+    return sl_fail_at(context, wad->name, 0, "there is no map '%.64s' for --map", name);
 }
 
 uint32_t sl_wad_find_lump(const sl_wad *wad, const sl_wad_map *map, const char *name) {

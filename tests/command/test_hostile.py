@@ -15,11 +15,13 @@ import unittest
 
 import sandbox
 from case import MAPS
+from wad import make_wad, rooms
 
 VALUES = {"MAP": "flat.map", "IN": "flat.map", "MAP|FILE.slv": "flat.map", "FILE.slv": "flat.slv",
-          "PART.slv": "part.slv", "A": "0", "B": "0", "X,Y": "1,1", "KIND": "tunnels"}
+          "PART.slv": "part.slv", "A": "0", "B": "0", "X,Y": "1,1", "KIND": "tunnels",
+          "IN.wad": "rooms.wad"}
 OUTPUTS = {"FILE.slv": "out.slv", "PICTURE": "out.png", "OUT.map|OUT.txt": "out.map",
-           "OUT.map": "out.map",
+           "OUT.map": "out.map", "OUT.wad": "out.wad",
            "FILE": "out.json", "FILE.csv": "out.csv", "DIR": "out"}
 # What makes a command that computes for long short, where nothing else is said.
 SHORT = {"viewcells": {"--samples": "1000", "--evaluate": "1000"}, "walk": {"--steps": "20"}}
@@ -40,7 +42,8 @@ class Command:
         self.operands = [word for word in words if not word.startswith("-")]
         self.many = "...] -o" in usage  # operands
         self.options = re.findall(r"^  (?:-\w, )?--([\w-]+)(?: (\S+))?", text, re.MULTILINE)
-        self.repeat = re.findall(r"^  --([\w-]+) .* may be given several times$", text, re.MULTILINE)
+        self.repeat = [each.split()[0] for each in re.split(r"^  (?:-\w, )?--", text, flags=re.MULTILINE)
+                       if "may be given several times" in each]
         self.output = dict(self.options).get("output")
         if "-o" in words:  # what follows it is no operand
             self.operands.remove(words[words.index("-o") + 1])
@@ -85,6 +88,7 @@ class Hostile(unittest.TestCase):
         self.box = box.__enter__()
         self.addCleanup(box.__exit__)
         self.box.path("flat.map").write_bytes((MAPS / "flat.map").read_bytes())
+        self.box.path("rooms.wad").write_bytes(make_wad(rooms("MAP01", 3), rooms("MAP02", 2)))
         self.done("bake", "flat.map", "-o", "flat.slv", "--quiet")
         self.done("bake", "flat.map", "-o", "part.slv", "--quiet", "--shard", "1/1")
 
@@ -115,9 +119,11 @@ class Hostile(unittest.TestCase):
         numbers = random.Random(7)
         noise = bytes(numbers.randrange(256) for _ in range(4000))
         contents = {"empty": b"", "noise": noise, "nul": content[:40] + bytes(400),
-                    "tail": content + b"\0\1\2", "wide": content.decode("latin-1").encode("utf-16"),
+                    "wide": content.decode("latin-1").encode("utf-16"),
                     "line": content[:12] + b"wall " + b"1" * 100000, "cut7": content[:7],
                     "escape": content[:12] + b"\033[2J\033]0;x\007 1 2\n"}
+        if ending != ".wad":  # where the directory says what counts
+            contents["tail"] = content + b"\0\1\2"
         if ending == ".slv":
             for size in (8, 32, 200, len(content) - 1):
                 contents[f"cut{size}"] = content[:size]
