@@ -252,15 +252,65 @@ static void add_rays_beside(const sl_sweeper *s, const sl_fan *fan, uint32_t k, 
     }
 }
 
+/// The sectors of a fan that cell k can turn to about the point, by less than half a turn from its
+/// own edges, in part at least: from `first` to `last`.
+typedef struct turned_to {
+    uint32_t k, first, last;
+} turned_to;
+
+static turned_to find_turned_to(const sl_sweeper *s, const sl_fan *fan, uint32_t k) {
+    const sl_fan_cell *cells = s->fans->cells.items + fan->first;
+    turned_to to = {k, k, k};
+    while (to.last + 1 < fan->count && (to.last == k || sl_ends_turn(&s->reacher, cells[k + 1].edge,
+                                                                     cells[to.last + 1].edge) > 0))
+        to.last++;
+    while (to.first > 0 &&
+           (to.first == k || sl_ends_turn(&s->reacher, cells[k].edge, cells[to.first].edge) < 0))
+        to.first--;
+    return to;
+}
+
+/// Whether some direction of an interval of a sector is among them.
+static bool can_turn_to(const sl_sweeper *s, const sl_fan_cell *cells, const turned_to *to,
+                        uint32_t sector, const sl_reached *c) {
+    if (sector == to->k) return true;
+    if (sector < to->first || sector > to->last) return false;
+    const sl_reacher *r = &s->reacher;
+    const bool onwards = sector > to->k;
+    const uint32_t own = cells[onwards ? to->k + 1 : to->k].edge;
+    const sl_bound near = onwards ? c->low : c->high;
+    const int sign = sl_bound_side(r, near, own) * (onwards ? -1 : 1);
+    if (sign != 0) return sign > 0;
+    return sl_opposite(r->from, sl_end_of(r, near.end), sl_end_of(r, own)) == near.away;
+}
+
+/// Adds what cell k can turn to. Where the fan overlaps itself, sectors were looked at one by one,
+/// and what was found stands in their order from `sector` on.
+static void add_turned_to(const sl_sweeper *s, const sl_fan *fan, const turned_to *to,
+                          const sl_reach *reach, uint32_t sector, sl_word_set *set) {
+    const sl_fan_cell *cells = s->fans->cells.items + fan->first;
+    for (size_t i = 0; i < reach->cells.count; i++) {
+        const sl_reached *c = &reach->cells.items[i];
+        sector += i && c->start;
+        if (can_turn_to(s, cells, to, sector, c)) sl_word_set_add(set, c->cell);
+    }
+}
+
 /// What the turning line does not join with a cell of the fan anyway: see sl_sweep_turn.
 static sl_status serve(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     const sl_fan_cell *cells = s->fans->cells.items + fan->first;
     for (uint32_t k = 0; k < fan->count; k++) {
         if (!cells[k].served) continue;
         sl_word_set *set = &s->behind;
-        add_reach(set, &s->middle);
-        if (fan->wide && cells[k].past_half <= 0) add_reach(set, &s->back);
-        if (fan->wide && cells[k + 1].past_rest >= 0) add_reach(set, &s->ahead);
+        if (fan->overlaps) {
+            const turned_to to = find_turned_to(s, fan, k);
+            add_turned_to(s, fan, &to, &s->back, 0, set);
+            add_turned_to(s, fan, &to, &s->ahead, first_ahead(s, fan), set);
+        } else {
+            add_reach(set, &s->middle);
+            if (fan->wide && cells[k].past_half <= 0) add_reach(set, &s->back);
+            if (fan->wide && cells[k + 1].past_rest >= 0) add_reach(set, &s->ahead);
+        }
         if (s->closed) add_rays_beside(s, fan, k, set);
         SL_TRY(sl_bit_rows_add(context, &s->rows, cells[k].cell, set));
         sl_word_set_clear(set);
@@ -282,7 +332,8 @@ sl_status sl_sweep_fan(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
         SL_TRY(reach_ahead(context, s, fan));
         if (s->closed) SL_TRY(add_rays(context, s, fan, &s->ahead, first_ahead(s, fan), true));
     }
-    if (fan->serves && !fan->back_to_back) SL_TRY(reach_middle(context, s, fan));
+    const bool has_middle = !fan->back_to_back && !fan->overlaps;
+    if (fan->serves && has_middle) SL_TRY(reach_middle(context, s, fan));
     if (s->closed && fan->serves) SL_TRY(add_other_rays(context, s, fan));
     if (fan->serves) SL_TRY(serve(context, s, fan));
     return fan->wide ? sl_sweep_turn(context, s, fan) : SL_OK;

@@ -124,6 +124,10 @@ typedef struct sl_bsp {
     bool failed_left;
 } sl_bsp;
 
+/// How far beside a seam's line one of its corners may be placed for no face to be bent: a part of
+/// the length of the side that the seam passes.
+#define SL_BSP_SEAM_OFF 0x1p-20
+
 /// After so many failures, corners within a wall are left out.
 #define SL_BSP_PATIENCE 4
 

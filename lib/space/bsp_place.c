@@ -166,7 +166,7 @@ static bool place_seam(const gate *g, uint32_t try, sl_point *at) {
     choice best = {g->guess, INFINITY, INFINITY};
     for (int k = (int)try; best.faults >= 2 && k < 40; k++) {
         const double off = k ? ldexp(step, k + 1) : 0;
-        if (off > 0x1p-20 * length) break;
+        if (off > SL_BSP_SEAM_OFF * length) break;
         for (int sign = -1; sign <= 1; sign += 2)
             for (int i = g->step_x ? -AROUND : 0; i <= (g->step_x ? AROUND : 0); i++)
                 for (int j = g->step_y ? -AROUND : 0; j <= (g->step_y ? AROUND : 0); j++)

@@ -206,7 +206,7 @@ static void effects_among_oblique_walls(void **state) {
     uint64_t done = 0;
     for (uint64_t i = 0; i < maps; i++) {
         trial t;
-        const bool made = begin_oblique(&t, i + 1, (oblique_grid)(i % OBLIQUE_SANE));
+        const bool made = begin_oblique(&t, i + 1, (oblique_grid)(i % OBLIQUE_GRIDS));
         for (int open = 0; open < 2 && made; open++)
             compare_methods(&t, open ? SL_OPEN : SL_CLOSED);
         done += made;

@@ -141,8 +141,9 @@ SL_API sl_bsp_options sl_bsp_options_default(void);
 /// names the cell.
 ///
 /// Seams are put in after the walls, and seen through: where a portal on one has to end in a point
-/// that is computed, it lies beside the seam's line by the size of rounding. A cell that rounding
-/// leaves no room in for such a point goes without the seam, and a note says so.
+/// that is computed, it lies beside the seam's line by the size of rounding, or, where cells are
+/// needles, by up to 2^-20 of the side that the seam passes. A cell that leaves no room for such a
+/// point goes without the seam, and a note says so.
 ///
 /// Time about O(n log n) for n walls with few long ones; reports stage "subdivide".
 /// SL_BAD_INPUT where there is no wall, SL_BAD_ARGUMENT for options out of range.
