@@ -2,7 +2,8 @@
 
 #include "names.h"
 
-const char *sl_outcome_name(sl_run_outcome outcome) {
+/// "done", "not done", "refused"
+static const char *outcome_name(sl_run_outcome outcome) {
     static const char *const names[] = {
         [SL_RUN_REFUSED] = "refused", [SL_RUN_NOT_DONE] = "not done", [SL_RUN_DONE] = "done"};
     return names[outcome];
@@ -39,7 +40,7 @@ COLUMN(method, of_text(run->method->name))
 COLUMN(solver, of_text(run->solver ? run->solver->name : NULL))
 COLUMN(sight, of_text(sl_sight_name(comparison->sight)))
 COLUMN(guarantee, of_text(sl_guarantee_name(run->guarantee)))
-COLUMN(outcome, of_text(sl_outcome_name(run->outcome)))
+COLUMN(outcome, of_text(outcome_name(run->outcome)))
 COLUMN(timings, count_if(done(run), run->timings))
 COLUMN(seconds, real_if(done(run), run->seconds))
 COLUMN(seconds_low, real_if(done(run), run->low))

@@ -25,7 +25,4 @@ typedef struct sl_compare_column {
 
 const sl_compare_column *sl_compare_columns(size_t *count);
 
-/// "done", "not done", "refused"
-const char *sl_outcome_name(sl_run_outcome outcome);
-
 #endif

@@ -14,10 +14,6 @@ typedef struct sl_walk_row {
 
 typedef SL_ARRAY(sl_walk_row) sl_walk_rows;
 
-/// The share of node visibility tests that a walk saves beside the classical method with the same
-/// test, the same speed and the same way; 0 where there is no such row, or none to save.
-double sl_walk_saving(const sl_walk_rows *rows, size_t row);
-
 /// Prints the rows.
 void sl_walk_print(const sl_walk_rows *rows);
 

@@ -61,7 +61,8 @@ static double farthest(const polygon *p, const polygon *q) {
     return most;
 }
 
-sl_apart sl_cells_apart(const sl_space *space, uint32_t a, uint32_t b, double range) {
+/// Rounded, to the safe side: what is told of all is so.
+static sl_apart cells_apart(const sl_space *space, uint32_t a, uint32_t b, double range) {
     const polygon p = polygon_of(space, a), q = polygon_of(space, b);
     const double width = fmax(p.box.max.x, q.box.max.x) - fmin(p.box.min.x, q.box.min.x);
     const double height = fmax(p.box.max.y, q.box.max.y) - fmin(p.box.min.y, q.box.min.y);
@@ -81,7 +82,7 @@ static sl_status make_rows(sl_context *context, const sl_space *space, const sl_
     for (uint32_t cell = 0; cell < pvs->cell_count; cell++) {
         for (sl_pvs_run run = sl_pvs_begin(pvs, cell); sl_pvs_next(&run);)
             for (uint32_t i = run.first; i < run.end; i++)
-                if (i == cell || sl_cells_apart(space, cell, i, range) <= most)
+                if (i == cell || cells_apart(space, cell, i, range) <= most)
                     sl_word_set_add(&maker->row, i);
         SL_TRY(sl_pvs_maker_end_row(context, maker));
         SL_TRY(sl_check_cancelled(context));

@@ -13,9 +13,6 @@ typedef enum sl_apart {
     SL_NONE_WITHIN, ///< none is, nor within rounding of it
 } sl_apart;
 
-/// Rounded, to the safe side: what is told of all is so.
-sl_apart sl_cells_apart(const sl_space *space, uint32_t a, uint32_t b, double range);
-
 /// The pairs of `pvs` whose cells are no farther apart than `most`.
 sl_status sl_pvs_within(sl_context *context, const sl_space *space, const sl_pvs *pvs, double range,
                         sl_apart most, sl_pvs *out);

@@ -33,7 +33,7 @@ sl_dual_frame sl_dual_frame_fit(const sl_dual *before, double left, double top, 
                            .high = {high.slope + wide, high.height + tall}};
 }
 
-sl_point sl_dual_frame_point(const sl_dual_frame *f, sl_dual_line line) {
+static sl_point frame_point(const sl_dual_frame *f, sl_dual_line line) {
     const double x = (line.slope - f->low.slope) / (f->high.slope - f->low.slope);
     const double y = (line.height - f->low.height) / (f->high.height - f->low.height);
     return (sl_point){fmin(fmax(f->left + x * f->width, -1e5), 1e5),
@@ -49,8 +49,8 @@ sl_dual_line sl_dual_frame_line(const sl_dual_frame *f, sl_point page) {
 /// The border of an end's half-plane, from one side of the frame to the other.
 static void add_border(cairo_t *cairo, const sl_dual_frame *f, sl_point end) {
     const double a = f->low.slope, b = f->high.slope;
-    const sl_point from = sl_dual_frame_point(f, (sl_dual_line){a, end.y - a * end.x});
-    const sl_point to = sl_dual_frame_point(f, (sl_dual_line){b, end.y - b * end.x});
+    const sl_point from = frame_point(f, (sl_dual_line){a, end.y - a * end.x});
+    const sl_point to = frame_point(f, (sl_dual_line){b, end.y - b * end.x});
     cairo_move_to(cairo, from.x, from.y);
     cairo_line_to(cairo, to.x, to.y);
 }
@@ -59,7 +59,7 @@ static void add_border(cairo_t *cairo, const sl_dual_frame *f, sl_point end) {
 static void add_teeth(cairo_t *cairo, const sl_dual_frame *f, sl_point end, bool left) {
     for (int i = 1; i < 14; i++) {
         const double a = f->low.slope + (f->high.slope - f->low.slope) * i / 14;
-        const sl_point at = sl_dual_frame_point(f, (sl_dual_line){a, end.y - a * end.x});
+        const sl_point at = frame_point(f, (sl_dual_line){a, end.y - a * end.x});
         cairo_move_to(cairo, at.x, at.y);
         cairo_line_to(cairo, at.x + 3 * f->unit, at.y + (left ? -6 : 6) * f->unit);
     }
@@ -90,7 +90,7 @@ static void draw_polygon(cairo_t *cairo, const sl_palette *palette, const sl_dua
     if (!dual->corner_count) return;
     cairo_new_path(cairo);
     for (uint32_t i = 0; i < dual->corner_count; i++) {
-        const sl_point at = sl_dual_frame_point(f, dual->corners[i]);
+        const sl_point at = frame_point(f, dual->corners[i]);
         cairo_line_to(cairo, at.x, at.y);
     }
     cairo_close_path(cairo);
@@ -106,11 +106,9 @@ static void draw_polygon(cairo_t *cairo, const sl_palette *palette, const sl_dua
 static void draw_best(cairo_t *cairo, const sl_palette *palette, const sl_dual_frame *f,
                       const sl_dual *dual) {
     const double m = fmax(dual->margin, 0);
-    const sl_point at = sl_dual_frame_point(f, dual->best);
-    const sl_point over =
-        sl_dual_frame_point(f, (sl_dual_line){dual->best.slope, dual->best.height + m});
-    const sl_point under =
-        sl_dual_frame_point(f, (sl_dual_line){dual->best.slope, dual->best.height - m});
+    const sl_point at = frame_point(f, dual->best);
+    const sl_point over = frame_point(f, (sl_dual_line){dual->best.slope, dual->best.height + m});
+    const sl_point under = frame_point(f, (sl_dual_line){dual->best.slope, dual->best.height - m});
     sl_set_colour(cairo, palette->ink);
     cairo_set_line_width(cairo, 1.2 * f->unit);
     cairo_move_to(cairo, over.x, over.y);
@@ -131,7 +129,7 @@ void sl_draw_dual(cairo_t *cairo, const sl_palette *palette, const sl_dual_frame
     draw_polygon(cairo, palette, f, dual);
     draw_borders(cairo, palette, f, dual, portals, count);
     draw_best(cairo, palette, f, dual);
-    const sl_point at = sl_dual_frame_point(f, chosen);
+    const sl_point at = frame_point(f, chosen);
     cairo_arc(cairo, at.x, at.y, 5.5 * f->unit, 0, 6.283185307179586);
     sl_set_colour(cairo, palette->page);
     cairo_set_line_width(cairo, 3 * f->unit);

@@ -17,7 +17,6 @@ typedef struct sl_dual_frame {
 sl_dual_frame sl_dual_frame_fit(const sl_dual *before, double left, double top, double width,
                                 double height, double unit);
 
-sl_point sl_dual_frame_point(const sl_dual_frame *frame, sl_dual_line line);
 sl_dual_line sl_dual_frame_line(const sl_dual_frame *frame, sl_point page);
 
 /// One line an end (its half-plane's border, with the side that is allowed shaded by all together),

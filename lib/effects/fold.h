@@ -14,9 +14,4 @@
 /// larger of their distances from the origin and from the mirror's first end; *rounded is set.
 sl_fine sl_fold(sl_segment mirror, const sl_fine *point, bool *rounded);
 
-static inline bool sl_fine_same(const sl_fine *a, const sl_fine *b) {
-    return a->at.x == b->at.x && a->at.y == b->at.y && a->rest.x == b->rest.x &&
-           a->rest.y == b->rest.y;
-}
-
 #endif

@@ -99,10 +99,6 @@ bool sl_eye_is_new(sl_eye_search *search, const sl_eye_step *from, sl_eye_step *
 
 void sl_eye_mirrors_destroy(sl_context *context, struct sl_eye_mirrors *mirrors);
 
-/// Whether what an arc has of an exit's portal is within range of the eye: true where that is so
-/// but for rounding.
-bool sl_arc_reaches(const sl_pivot *pivot, const sl_arc *arc, const sl_exit *exit, double range);
-
 /// As sl_eye_pass, but that arcs are left out in which the portal is out of the search's range.
 bool sl_eye_pass_in_range(sl_eye_query *query, const sl_eye_step *from, bool first,
                           const sl_exit *exit, sl_eye_step *to);

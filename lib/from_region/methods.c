@@ -80,7 +80,7 @@ static sl_status brute_unit(sl_context *context, sl_from_region_work *work,
     return SL_OK;
 }
 
-sl_status sl_from_region_brute(sl_context *context, sl_from_region_work *work) {
+static sl_status brute(sl_context *context, sl_from_region_work *work) {
     work->unit = brute_unit;
     return sl_from_region_run(context, work, work->scene->counts.view_cells, NULL);
 }
@@ -182,7 +182,7 @@ static sl_status see(sl_context *context, const sl_regions *scene,
 
 static sl_status see_brute(sl_context *context, const sl_regions *scene,
                            const sl_from_region_options *options, sl_from_region_result *out) {
-    return see(context, scene, options, sl_from_region_brute, out);
+    return see(context, scene, options, brute, out);
 }
 
 static sl_status see_hierarchy(sl_context *context, const sl_regions *scene,

@@ -56,7 +56,6 @@ static inline uint64_t sl_row_count(const sl_bits *row, size_t words) {
 }
 
 /// Each fills work->seen, which is zeroed.
-sl_status sl_from_region_brute(sl_context *context, sl_from_region_work *work);
 sl_status sl_from_region_hierarchy(sl_context *context, sl_from_region_work *work);
 sl_status sl_from_region_multipass(sl_context *context, sl_from_region_work *work);
 

@@ -99,7 +99,7 @@ static uint32_t most_dependents(const sl_dependence *graph, uint32_t *last, uint
     return most;
 }
 
-sl_status sl_regions_find_orders(sl_context *context, sl_regions *scene) {
+static sl_status find_orders(sl_context *context, sl_regions *scene) {
     const size_t count = scene->counts.view_cells;
     uint32_t *first = sl_alloc_array(context, count + 1, 3 * sizeof *first);
     uint32_t *to = sl_alloc_array(context, scene->faces.count, sizeof *to);
@@ -150,7 +150,7 @@ static sl_status make_passes(sl_context *context, sl_regions *scene) {
                               &scene->passes[q].leaves));
         SL_TRY(place_leaves(context, &scene->space, q, &scene->passes[q].place));
     }
-    return sl_regions_find_orders(context, scene);
+    return find_orders(context, scene);
 }
 
 // --- the whole
@@ -192,7 +192,7 @@ static sl_status make(sl_context *context, const sl_map *map, const sl_regions_o
         SL_TRY(sl_regions_check_cycles(context, options, scene, &cut));
         if (!cut) break;
         SL_TRY(sl_regions_find_faces(context, scene));
-        SL_TRY(sl_regions_find_orders(context, scene));
+        SL_TRY(find_orders(context, scene));
     }
     SL_TRY(sl_regions_find_objects(context, options, scene));
     return mark_inside(context, scene);

@@ -76,7 +76,6 @@ double sl_grid_line(const sl_box *bounds, int axis, uint32_t line, uint32_t grid
 
 /// The faces, and the orders of view cells, of the view cells that leaves are of.
 sl_status sl_regions_find_faces(sl_context *context, sl_regions *scene);
-sl_status sl_regions_find_orders(sl_context *context, sl_regions *scene);
 
 /// Parts of making a scene.
 sl_status sl_regions_find_view_cells(sl_context *context, const sl_regions_options *options,

@@ -72,7 +72,8 @@ sl_dxf_range sl_dxf_entity(const sl_dxf *dxf, size_t begin, size_t end) {
     return (sl_dxf_range){begin, stop};
 }
 
-sl_status sl_dxf_read_number(sl_dxf *dxf, const sl_dxf_pair *pair, double *value) {
+/// The value of a pair.
+static sl_status read_number(sl_dxf *dxf, const sl_dxf_pair *pair, double *value) {
     double number;
     if (!sl_number_read(pair->value.at, pair->value.length, &number) ||
         !(number <= SL_COORDINATE_MAX && number >= -SL_COORDINATE_MAX))
@@ -91,14 +92,14 @@ static const sl_dxf_pair *find(const sl_dxf *dxf, sl_dxf_range entity, int code)
 
 sl_status sl_dxf_number(sl_dxf *dxf, sl_dxf_range entity, int code, double *value) {
     const sl_dxf_pair *pair = find(dxf, entity, code);
-    return pair ? sl_dxf_read_number(dxf, pair, value) : SL_OK;
+    return pair ? read_number(dxf, pair, value) : SL_OK;
 }
 
 sl_status sl_dxf_integer(sl_dxf *dxf, sl_dxf_range entity, int code, int *value) {
     const sl_dxf_pair *pair = find(dxf, entity, code);
     if (!pair) return SL_OK;
     double number = 0;
-    SL_TRY(sl_dxf_read_number(dxf, pair, &number));
+    SL_TRY(read_number(dxf, pair, &number));
     if (!(number >= -32768 && number <= 65535) || number != (int)number)
         return sl_fail_at(dxf->context, dxf->name, pair->line,
                           "expected a whole number of 16 bits for group %d, found '%s'", code,

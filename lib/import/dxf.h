@@ -55,8 +55,6 @@ sl_dxf_range sl_dxf_entity(const sl_dxf *dxf, size_t begin, size_t end);
 sl_status sl_dxf_number(sl_dxf *dxf, sl_dxf_range entity, int code, double *value);
 sl_status sl_dxf_integer(sl_dxf *dxf, sl_dxf_range entity, int code, int *value);
 sl_word sl_dxf_text(const sl_dxf *dxf, sl_dxf_range entity, int code);
-/// The value of a pair.
-sl_status sl_dxf_read_number(sl_dxf *dxf, const sl_dxf_pair *pair, double *value);
 
 /// Whether entities of the layer are taken. Names are the same in small letters and capitals.
 bool sl_dxf_takes_layer(const sl_dxf *dxf, sl_word name);

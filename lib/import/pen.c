@@ -20,7 +20,7 @@ sl_affine sl_affine_after(sl_affine outer, sl_affine inner) {
                        .y0 = outer.yx * inner.x0 + outer.yy * inner.y0 + outer.y0};
 }
 
-sl_point sl_affine_apply(const sl_affine *affine, sl_point point) {
+static sl_point apply(const sl_affine *affine, sl_point point) {
     return (sl_point){affine->xx * point.x + affine->xy * point.y + affine->x0,
                       affine->yx * point.x + affine->yy * point.y + affine->y0};
 }
@@ -37,7 +37,7 @@ sl_affine sl_affine_turn(double degrees) {
 
 /// A place in the map; what is too small to be used is 0.
 static bool place(const sl_pen *pen, sl_point point, sl_point *out) {
-    const sl_point at = sl_affine_apply(&pen->affine, point);
+    const sl_point at = apply(&pen->affine, point);
     out->x = fabs(at.x) < SL_COORDINATE_MIN ? 0 : at.x;
     out->y = fabs(at.y) < SL_COORDINATE_MIN ? 0 : at.y;
     return sl_coordinate_usable(out->x) && sl_coordinate_usable(out->y);

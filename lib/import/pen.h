@@ -17,7 +17,6 @@ typedef struct sl_affine {
 
 /// The map that does `inner` first, then `outer`.
 sl_affine sl_affine_after(sl_affine outer, sl_affine inner);
-sl_point sl_affine_apply(const sl_affine *affine, sl_point point);
 /// About the origin; multiples of a quarter turn are exact.
 sl_affine sl_affine_turn(double degrees);
 

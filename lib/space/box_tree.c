@@ -114,6 +114,11 @@ void sl_box_tree_destroy(sl_context *context, sl_box_tree *tree) {
 
 // --- finding
 
+static bool boxes_meet(const sl_box *a, const sl_box *b) {
+    return a->min.x <= b->max.x && a->max.x >= b->min.x && a->min.y <= b->max.y &&
+           a->max.y >= b->min.y;
+}
+
 static int compare_items(const void *left, const void *right) {
     const uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
     return (a > b) - (a < b);
@@ -126,7 +131,7 @@ static sl_status find_below(sl_context *context, const sl_box_tree *tree, uint32
     const size_t end = count - begin < FAN ? count : begin + FAN;
     if (level == 0) SL_TRY(SL_ARRAY_ROOM(context, found, FAN));
     for (size_t i = begin; i < end; i++) {
-        if (!sl_boxes_meet(&tree->boxes[first + i], box)) continue;
+        if (!boxes_meet(&tree->boxes[first + i], box)) continue;
         if (level)
             SL_TRY(find_below(context, tree, level - 1, i * FAN, box, found));
         else

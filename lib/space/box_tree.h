@@ -27,20 +27,14 @@ sl_box sl_box_around(sl_point a, sl_point b);
 /// The box around a box and a point.
 sl_box sl_box_with(sl_box box, sl_point point);
 
-/// Borders count: boxes that touch meet.
-static inline bool sl_boxes_meet(const sl_box *a, const sl_box *b) {
-    return a->min.x <= b->max.x && a->max.x >= b->min.x && a->min.y <= b->max.y &&
-           a->max.y >= b->min.y;
-}
-
 /// Fewer than 2^32 boxes, of coordinates that are no NaN; they are copied. `out` is to be
 /// destroyed whatever comes.
 sl_status sl_box_tree_create(sl_context *context, const sl_box *boxes, size_t count,
                              sl_box_tree *out);
 void sl_box_tree_destroy(sl_context *context, sl_box_tree *tree); ///< and zeroes it
 
-/// The numbers of the boxes that meet a box, ascending, in the place of what was found before. The
-/// list begins zeroed; sl_free(items) ends it.
+/// The numbers of the boxes that meet a box, be it at a border, ascending, in the place of what was
+/// found before. The list begins zeroed; sl_free(items) ends it.
 sl_status sl_box_tree_find(sl_context *context, const sl_box_tree *tree, const sl_box *box,
                            sl_box_list *found);
 

@@ -79,10 +79,6 @@ void sl_view_look_allow(sl_view_looker *me, uint32_t room) {
     me->candidates++;
 }
 
-uint64_t sl_view_look_candidates(const sl_view_looker *me) {
-    return me->candidates;
-}
-
 // --- from where
 
 static void keep(double from, double by, double *t0, double *t1) {

@@ -3,7 +3,7 @@
 #include "base/bits.h"
 #include "cell_to_cell/dependence.h"
 
-void sl_view_piece_destroy(sl_context *context, sl_view_piece *piece) {
+static void piece_destroy(sl_context *context, sl_view_piece *piece) {
     sl_free(context, piece->corners.items);
     for (int q = 0; q < SL_VIEW_QUADRANTS; q++) {
         sl_free(context, piece->directed[q].rooms.items);
@@ -14,7 +14,7 @@ void sl_view_piece_destroy(sl_context *context, sl_view_piece *piece) {
 
 void sl_view_pieces_destroy(sl_view_pieces *pieces) {
     for (size_t i = 0; i < pieces->items.count; i++)
-        sl_view_piece_destroy(pieces->context, &pieces->items.items[i]);
+        piece_destroy(pieces->context, &pieces->items.items[i]);
     sl_free(pieces->context, pieces->items.items);
     sl_view_looker_destroy(pieces);
     sl_view_rooms_destroy(pieces->context, &pieces->rooms);
@@ -161,11 +161,11 @@ sl_status sl_view_pieces_cut(sl_view_pieces *pieces, uint32_t number, int axis, 
     if (status == SL_OK && asks_below) status = look_all(pieces, whole, &halves[0]);
     if (status == SL_OK && asks_above) status = look_all(pieces, whole, &halves[1]);
     if (status != SL_OK) {
-        sl_view_piece_destroy(context, &halves[0]);
-        sl_view_piece_destroy(context, &halves[1]);
+        piece_destroy(context, &halves[0]);
+        piece_destroy(context, &halves[1]);
         return status;
     }
-    sl_view_piece_destroy(context, whole);
+    piece_destroy(context, whole);
     *whole = halves[0];
     *above = (uint32_t)pieces->items.count;
     pieces->items.items[pieces->items.count++] = halves[1];

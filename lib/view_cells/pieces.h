@@ -53,8 +53,6 @@ typedef struct sl_view_piece {
     sl_view_directed directed[SL_VIEW_QUADRANTS];
 } sl_view_piece;
 
-void sl_view_piece_destroy(sl_context *context, sl_view_piece *piece);
-
 /// What looks from pieces: the solver and its scratch.
 typedef struct sl_view_looker sl_view_looker;
 
@@ -92,8 +90,6 @@ sl_cone sl_view_quadrant(int quadrant);
 void sl_view_look_begin(sl_view_looker *looker);
 /// Makes a room a candidate.
 void sl_view_look_allow(sl_view_looker *looker, uint32_t room);
-/// The candidates' number.
-uint64_t sl_view_look_candidates(const sl_view_looker *looker);
 
 /// What a piece sees in a quadrant among the candidate rooms; and among `objects` alone where these
 /// are not NULL. `out` is to be empty.

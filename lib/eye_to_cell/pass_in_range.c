@@ -25,7 +25,10 @@ static bool meet(sl_point eye, sl_ray ray, sl_point p, sl_point q, double *at, d
     return true;
 }
 
-bool sl_arc_reaches(const sl_pivot *pivot, const sl_arc *arc, const sl_exit *exit, double range) {
+/// Whether what an arc has of an exit's portal is within range of the eye: true where that is so
+/// but for rounding.
+static bool arc_reaches(const sl_pivot *pivot, const sl_arc *arc, const sl_exit *exit,
+                        double range) {
     const sl_point p = from_eye(pivot->eye, exit->right), q = from_eye(pivot->eye, exit->left);
     const sl_point d = {q.x - p.x, q.y - p.y};
     const double square = d.x * d.x + d.y * d.y;
@@ -51,8 +54,7 @@ bool sl_eye_pass_in_range(sl_eye_query *query, const sl_eye_step *from, bool fir
     if (!(range > 0)) return true;
     unsigned kept = 0;
     for (unsigned i = 0; i < to->arc_count; i++)
-        if (sl_arc_reaches(&query->pivot, &to->arcs[i], exit, range))
-            to->arcs[kept++] = to->arcs[i];
+        if (arc_reaches(&query->pivot, &to->arcs[i], exit, range)) to->arcs[kept++] = to->arcs[i];
     to->arc_count = kept;
     return kept > 0;
 }
