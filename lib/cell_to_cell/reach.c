@@ -50,7 +50,7 @@ sl_status sl_reacher_stand(sl_context *context, sl_reacher *r, const sl_fans *en
 }
 
 void sl_reach_clear(sl_reach *reach) {
-    reach->turns.count = reach->cells.count = reach->sorted = 0;
+    reach->turns.count = reach->cells.count = 0;
 }
 
 void sl_reach_destroy(sl_context *context, sl_reach *reach) {
@@ -143,9 +143,7 @@ static sl_status arrive(sl_context *context, sl_reacher *r, sl_reach *reach, uin
     if (cell == SL_NO_CELL) return SL_OK;
     const uint32_t last = r->last[cell], count = (uint32_t)reach->cells.count;
     const bool known = last < count && reach->cells.items[last].cell == cell;
-    // What is sorted lies elsewhere.
-    for (uint32_t i = known ? last : UINT32_MAX; i != UINT32_MAX && i >= reach->sorted;
-         i = reach->cells.items[i].other) {
+    for (uint32_t i = known ? last : UINT32_MAX; i != UINT32_MAX; i = reach->cells.items[i].other) {
         bool more;
         if (!join(r, &reach->cells.items[i], p->low, p->high, &more)) continue;
         if (more) wait(r, &reach->cells.items[i], i);

@@ -45,7 +45,6 @@ typedef struct sl_reach_turn {
 /// counter-clockwise.
 typedef struct sl_reach {
     SL_ARRAY(sl_reached) cells;
-    uint32_t sorted; ///< of the cells, from the first on
     SL_ARRAY(sl_reach_turn) turns;
 } sl_reach;
 
@@ -108,13 +107,9 @@ sl_status sl_reach_through(sl_context *context, sl_reacher *reacher, uint32_t ce
 /// Finds all that is seen through what waits.
 sl_status sl_reach_run(sl_context *context, sl_reacher *reacher, sl_reach *reach);
 
-/// Makes turns of what was found since the last sorting, at most half a turn from `first` on; after
-/// those that are there.
+/// Makes each cell's intervals such that no two touch, and turns of where they start and end, at
+/// most half a turn from `first` on.
 sl_status sl_reach_sort(sl_context *context, sl_reacher *reacher, sl_bound first, sl_reach *reach);
-
-/// When all is sorted: makes each cell's intervals such that no two touch, and links them to the
-/// turns.
-void sl_reach_link(sl_reacher *reacher, sl_reach *reach);
 
 /// An edge of a fan's cell: the first, about which the line turns clockwise, or the last,
 /// counter-clockwise.

@@ -16,28 +16,14 @@ static void join_touching(const sl_reacher *r, sl_reached *a, const sl_reached *
     if (sl_is_before(r, a->high, gone->high)) a->high = gone->high;
 }
 
-/// Whether `b` was sorted later than `a`, and goes on where that ends.
-static bool goes_on(const sl_reacher *r, const sl_reached *a, const sl_reached *b) {
-    return a->leave == b->enter && (!r->closed || b->low.level - a->high.level <= 2);
-}
-
 /// Joins one pair of a cell's intervals, the later one into the earlier; false where there is none.
-/// Those that were found since the last sorting, or all where all are sorted.
 static bool join_two(const sl_reacher *r, sl_reach *reach, uint32_t cell) {
     sl_reached *all = reach->cells.items;
-    const bool sorted = reach->sorted == reach->cells.count;
-    const uint32_t first = sorted ? 0 : reach->sorted;
-    for (uint32_t *late = &r->last[cell]; *late != UINT32_MAX && *late >= first;
-         late = &all[*late].other) {
+    for (uint32_t *late = &r->last[cell]; *late != UINT32_MAX; late = &all[*late].other) {
         sl_reached *gone = &all[*late];
-        for (uint32_t i = gone->other; i != UINT32_MAX && i >= first; i = all[i].other) {
-            if (sorted ? !goes_on(r, &all[i], gone) : !touch(r, &all[i], gone)) continue;
-            if (sorted) {
-                all[i].high = gone->high;
-                all[i].leave = gone->leave;
-            } else {
-                join_touching(r, &all[i], gone);
-            }
+        for (uint32_t i = gone->other; i != UINT32_MAX; i = all[i].other) {
+            if (!touch(r, &all[i], gone)) continue;
+            join_touching(r, &all[i], gone);
             gone->joined = true;
             *late = gone->other;
             return true;
@@ -66,8 +52,8 @@ static uint32_t slot_of(sl_reacher *r, sl_bound bound) {
 
 static sl_status make_slots(sl_context *context, sl_reacher *r, sl_reach *reach) {
     r->slots.count = 0;
-    SL_TRY(SL_ARRAY_ROOM(context, &r->slots, 2 * (reach->cells.count - reach->sorted)));
-    for (size_t i = reach->sorted; i < reach->cells.count; i++) {
+    SL_TRY(SL_ARRAY_ROOM(context, &r->slots, 2 * reach->cells.count));
+    for (size_t i = 0; i < reach->cells.count; i++) {
         sl_reached *c = &reach->cells.items[i];
         if (c->joined) continue;
         c->enter = slot_of(r, c->low);
@@ -166,13 +152,6 @@ static void add_turn(sl_reach_slot *slot, bool same, sl_reach *reach) {
     slot->turn = (uint32_t)reach->turns.count - 1;
 }
 
-/// Whether the turns that are there end in the direction of a slot.
-static bool is_last(const sl_reacher *r, const sl_reach *reach, const sl_reach_slot *slot) {
-    if (!reach->turns.count) return false;
-    const sl_reach_turn *last = &reach->turns.items[reach->turns.count - 1];
-    return same_direction(r, &(sl_reach_slot){.end = last->end, .away = last->away}, slot);
-}
-
 static sl_status sort_slots(sl_context *context, sl_reacher *r, sl_bound first, sl_reach *reach) {
     const size_t count = r->slots.count;
     sl_point along = sl_towards(r, first.end);
@@ -186,7 +165,7 @@ static sl_status sort_slots(sl_context *context, sl_reacher *r, sl_bound first, 
         keys[i] = (uint64_t)rough_angle(r, along, &r->slots.items[i]) << 32 | i;
     keys = sort_keys(keys, keys + count, count);
     insert_sorted(r, keys, same, count);
-    if (count) same[0] = is_last(r, reach, &r->slots.items[(uint32_t)keys[0]]);
+    if (count) same[0] = false;
     for (size_t i = 0; i < count; i++) add_turn(&r->slots.items[(uint32_t)keys[i]], same[i], reach);
     return SL_OK;
 }
@@ -195,25 +174,16 @@ sl_status sl_reach_sort(sl_context *context, sl_reacher *r, sl_bound first, sl_r
     join_split(r, reach);
     SL_TRY(make_slots(context, r, reach));
     SL_TRY(sort_slots(context, r, first, reach));
-    for (uint32_t i = reach->sorted; i < reach->cells.count; i++) {
+    for (uint32_t i = 0; i < reach->cells.count; i++) {
         sl_reached *c = &reach->cells.items[i];
         if (c->joined) continue;
         c->enter = r->slots.items[c->enter].turn;
         c->leave = r->slots.items[c->leave].turn;
-    }
-    reach->sorted = (uint32_t)reach->cells.count;
-    return SL_OK;
-}
-
-void sl_reach_link(sl_reacher *r, sl_reach *reach) {
-    join_split(r, reach);
-    for (uint32_t i = 0; i < reach->cells.count; i++) {
-        sl_reached *c = &reach->cells.items[i];
-        if (c->joined) continue;
         c->next_enter = reach->turns.items[c->enter].enter;
         c->next_leave = reach->turns.items[c->leave].leave;
         reach->turns.items[c->enter].enter = reach->turns.items[c->leave].leave = i;
     }
+    return SL_OK;
 }
 
 int sl_turns_compare(const sl_reacher *r, uint32_t first, const sl_reach_turn *a,

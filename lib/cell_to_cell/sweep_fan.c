@@ -28,6 +28,7 @@ void sl_sweeper_destroy(sl_context *context, sl_sweeper *s) {
     sl_free(context, s->sectors.items);
     sl_word_set_destroy(context, &s->behind);
     sl_word_set_destroy(context, &s->before);
+    sl_overlap_destroy(context, &s->overlap);
     *s = (sl_sweeper){0};
 }
 
@@ -61,10 +62,8 @@ static sl_status look_sorted(sl_context *context, sl_sweeper *s, sl_reach *reach
     return sl_reach_sort(context, &s->reacher, first, reach);
 }
 
-/// Where the fan overlaps itself, directions have an order in each of its sectors alone.
-static sl_status add_sector(sl_context *context, sl_sweeper *s, const sl_fan *fan, sl_sector sector,
-                            bool touched, sl_reach *reach) {
-    if (fan->overlaps) SL_TRY(look_sorted(context, s, reach));
+static sl_status add_sector(sl_context *context, sl_sweeper *s, sl_sector sector, bool touched,
+                            sl_reach *reach) {
     SL_TRY(SL_ARRAY_ROOM(context, &s->sectors, 1));
     s->sectors.items[s->sectors.count++] = sector;
     SL_TRY(sl_reach_add(context, &s->reacher, sector.cell, sector.low, sector.high, reach));
@@ -89,11 +88,9 @@ static sl_status reach_back(sl_context *context, sl_sweeper *s, const sl_fan *fa
                                   .low = after_edge(s, cells[k].edge),
                                   .high = whole ? before_edge(s, cells[k + 1].edge) : end,
                                   .thin = cells[k].past_rest == 0};
-        SL_TRY(add_sector(context, s, fan, sector, cells[k + 1].past_rest < 0, &s->back));
+        SL_TRY(add_sector(context, s, sector, cells[k + 1].past_rest < 0, &s->back));
     }
-    SL_TRY(look_sorted(context, s, &s->back));
-    sl_reach_link(&s->reacher, &s->back);
-    return SL_OK;
+    return look_sorted(context, s, &s->back);
 }
 
 /// The first cell of the fan that lies, in part or with its last edge, half a turn on.
@@ -114,11 +111,9 @@ static sl_status reach_ahead(sl_context *context, sl_sweeper *s, const sl_fan *f
                                                                  : start,
                                   .high = before_edge(s, cells[k + 1].edge),
                                   .thin = cells[k + 1].past_half == 0};
-        SL_TRY(add_sector(context, s, fan, sector, cells[k].past_half > 0, &s->ahead));
+        SL_TRY(add_sector(context, s, sector, cells[k].past_half > 0, &s->ahead));
     }
-    SL_TRY(look_sorted(context, s, &s->ahead));
-    sl_reach_link(&s->reacher, &s->ahead);
-    return SL_OK;
+    return look_sorted(context, s, &s->ahead);
 }
 
 /// Whether a direction is one of those below the horizon, less than half a turn.
@@ -252,65 +247,15 @@ static void add_rays_beside(const sl_sweeper *s, const sl_fan *fan, uint32_t k, 
     }
 }
 
-/// The sectors of a fan that cell k can turn to about the point, by less than half a turn from its
-/// own edges, in part at least: from `first` to `last`.
-typedef struct turned_to {
-    uint32_t k, first, last;
-} turned_to;
-
-static turned_to find_turned_to(const sl_sweeper *s, const sl_fan *fan, uint32_t k) {
-    const sl_fan_cell *cells = s->fans->cells.items + fan->first;
-    turned_to to = {k, k, k};
-    while (to.last + 1 < fan->count && (to.last == k || sl_ends_turn(&s->reacher, cells[k + 1].edge,
-                                                                     cells[to.last + 1].edge) > 0))
-        to.last++;
-    while (to.first > 0 &&
-           (to.first == k || sl_ends_turn(&s->reacher, cells[k].edge, cells[to.first].edge) < 0))
-        to.first--;
-    return to;
-}
-
-/// Whether some direction of an interval of a sector is among them.
-static bool can_turn_to(const sl_sweeper *s, const sl_fan_cell *cells, const turned_to *to,
-                        uint32_t sector, const sl_reached *c) {
-    if (sector == to->k) return true;
-    if (sector < to->first || sector > to->last) return false;
-    const sl_reacher *r = &s->reacher;
-    const bool onwards = sector > to->k;
-    const uint32_t own = cells[onwards ? to->k + 1 : to->k].edge;
-    const sl_bound near = onwards ? c->low : c->high;
-    const int sign = sl_bound_side(r, near, own) * (onwards ? -1 : 1);
-    if (sign != 0) return sign > 0;
-    return sl_opposite(r->from, sl_end_of(r, near.end), sl_end_of(r, own)) == near.away;
-}
-
-/// Adds what cell k can turn to. Where the fan overlaps itself, sectors were looked at one by one,
-/// and what was found stands in their order from `sector` on.
-static void add_turned_to(const sl_sweeper *s, const sl_fan *fan, const turned_to *to,
-                          const sl_reach *reach, uint32_t sector, sl_word_set *set) {
-    const sl_fan_cell *cells = s->fans->cells.items + fan->first;
-    for (size_t i = 0; i < reach->cells.count; i++) {
-        const sl_reached *c = &reach->cells.items[i];
-        sector += i && c->start;
-        if (can_turn_to(s, cells, to, sector, c)) sl_word_set_add(set, c->cell);
-    }
-}
-
 /// What the turning line does not join with a cell of the fan anyway: see sl_sweep_turn.
 static sl_status serve(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     const sl_fan_cell *cells = s->fans->cells.items + fan->first;
     for (uint32_t k = 0; k < fan->count; k++) {
         if (!cells[k].served) continue;
         sl_word_set *set = &s->behind;
-        if (fan->overlaps) {
-            const turned_to to = find_turned_to(s, fan, k);
-            add_turned_to(s, fan, &to, &s->back, 0, set);
-            add_turned_to(s, fan, &to, &s->ahead, first_ahead(s, fan), set);
-        } else {
-            add_reach(set, &s->middle);
-            if (fan->wide && cells[k].past_half <= 0) add_reach(set, &s->back);
-            if (fan->wide && cells[k + 1].past_rest >= 0) add_reach(set, &s->ahead);
-        }
+        add_reach(set, &s->middle);
+        if (fan->wide && cells[k].past_half <= 0) add_reach(set, &s->back);
+        if (fan->wide && cells[k + 1].past_rest >= 0) add_reach(set, &s->ahead);
         if (s->closed) add_rays_beside(s, fan, k, set);
         SL_TRY(sl_bit_rows_add(context, &s->rows, cells[k].cell, set));
         sl_word_set_clear(set);
@@ -323,6 +268,7 @@ sl_status sl_sweep_fan(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     sl_reach_clear(&s->back);
     sl_reach_clear(&s->middle);
     sl_reach_clear(&s->ahead);
+    if (fan->overlaps) return sl_sweep_overlap(context, s, fan);
     if (s->closed) SL_TRY(start_rays(context, s, fan));
     if (fan->wide) {
         s->reacher.fans = s->inward;
@@ -332,8 +278,7 @@ sl_status sl_sweep_fan(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
         SL_TRY(reach_ahead(context, s, fan));
         if (s->closed) SL_TRY(add_rays(context, s, fan, &s->ahead, first_ahead(s, fan), true));
     }
-    const bool has_middle = !fan->back_to_back && !fan->overlaps;
-    if (fan->serves && has_middle) SL_TRY(reach_middle(context, s, fan));
+    if (fan->serves && !fan->back_to_back) SL_TRY(reach_middle(context, s, fan));
     if (s->closed && fan->serves) SL_TRY(add_other_rays(context, s, fan));
     if (fan->serves) SL_TRY(serve(context, s, fan));
     return fan->wide ? sl_sweep_turn(context, s, fan) : SL_OK;
