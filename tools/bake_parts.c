@@ -101,6 +101,16 @@ const char *sl_bake_difference(const sl_baked *a, const sl_baked *b) {
     return NULL;
 }
 
+static sl_status fail_other(sl_context *context, const char *path, const char *difference,
+                            const sl_baked *before) {
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "--resume %s: was baked %s than asked for; it was begun with --method %s%s%s "
+                   "--sight %s%s",
+                   path, difference, before->method, before->solver[0] ? " --solver " : "",
+                   before->solver, sl_sight_name(before->visibility.sight),
+                   before->findings.inside_only ? " --inside" : "");
+}
+
 static sl_status take_begun(sl_context *context, const char *path, const sl_see_options *see,
                             const sl_baked *baked, sl_baked *before, sl_findings *findings) {
     SL_TRY(sl_baked_read_part(context, path, before));
@@ -111,9 +121,7 @@ static sl_status take_begun(sl_context *context, const char *path, const sl_see_
     asked.visibility.sight = see->sight;
     asked.findings.inside_only = see->inside_only;
     const char *other = sl_bake_difference(before, &asked);
-    if (other)
-        return sl_fail(context, SL_BAD_ARGUMENT, "--resume %s: was baked %s than asked for", path,
-                       other);
+    if (other) return fail_other(context, path, other, before);
     if (before->findings.shard != see->shard || before->findings.shard_count != see->shard_count)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        before->findings.shard_count ? "--resume %s: is shard %u of %u; ask for it"

@@ -106,7 +106,7 @@ static sl_status plan_seeing(sl_context *context, const bake_texts *texts, bake_
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--memory: the method '%s' keeps no more than it writes",
                        methods[method].name);
-    see.row_bytes = sl_size_of_machine_memory() / 2;
+    see.row_bytes = sl_machine_memory() / 2;
     SL_TRY(sl_option_size(context, "--memory", texts->memory, &see.row_bytes));
     plan->method = &methods[method];
     plan->any_method = !texts->method && !texts->solver && !texts->stab_trees;
@@ -138,10 +138,7 @@ static sl_status name_output(sl_context *context, const char *input, char **name
 
 static sl_status make_plan(sl_context *context, const char *input, const bake_texts *texts,
                            bake_plan *plan) {
-    if (texts->output && !sl_input_ends_with(texts->output, ".slv"))
-        return sl_fail(context, SL_BAD_ARGUMENT,
-                       "-o %s: the name of a baked file ends in .slv, by which it is known",
-                       texts->output);
+    SL_TRY(sl_output_check_baked(context, input, "-o", texts->output));
     SL_TRY(sl_pipeline_plan(context, input, &texts->pipeline, &plan->pipeline));
     SL_TRY(plan_seeing(context, texts, plan));
     plan->output = texts->output;

@@ -1,6 +1,7 @@
 #include "base/base.h"
 #include "commands.h"
 #include "faults_report.h"
+#include "pictures.h"
 #include "pipeline.h"
 #include "sightline/draw.h"
 
@@ -114,14 +115,12 @@ static sl_status make_plan(sl_context *context, const char *input, const check_t
     SL_TRY(read_size(context, "--thin", t->thin, &plan->faults.thin));
     plan->most = 10;
     SL_TRY(sl_option_count(context, "--most", t->most, UINT32_MAX, &plan->most));
-    plan->drawing = sl_draw_options_default();
-    plan->drawing.dark = t->dark;
-    SL_TRY(sl_option_number(context, "--width", t->width, &plan->drawing.width));
+    SL_TRY(sl_picture_plan(context, t->width, NULL, t->dark, &plan->drawing));
     plan->output = t->output;
     plan->snap = t->snap;
     plan->json = t->json;
-    if (t->snap) SL_TRY(sl_input_refuse_output(context, input, t->snap));
-    return SL_OK;
+    SL_TRY(sl_picture_check(context, input, "-o", t->output));
+    return sl_output_check(context, input, "--snap", t->snap);
 }
 
 static void print_tables(void) {

@@ -49,7 +49,7 @@ static sl_status read_options(sl_context *context, const draw_texts *texts,
     if (!texts->output)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "-o is missing: name the picture, ending in .png, .svg or .pdf");
-    SL_TRY(sl_picture_check_name(context, "-o", texts->output));
+    SL_TRY(sl_picture_check(context, texts->input, "-o", texts->output));
     if (texts->cell && texts->at)
         return sl_fail(context, SL_BAD_ARGUMENT, "--cell and --at both choose a cell; give one");
     SL_TRY(sl_picture_plan(context, texts->width, texts->title, texts->dark, options));

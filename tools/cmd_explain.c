@@ -3,14 +3,15 @@
 #include "explain_report.h"
 #include "inputs.h"
 #include "options.h"
+#include "pictures.h"
 #include "sightline/draw.h"
 
 #include <string.h>
 
 /// The operands and options as they are given.
 typedef struct explain_texts {
-    const char *operands[3], *output, *sight, *misses, *tests, *mirror_depth;
-    bool json;
+    const char *operands[3], *output, *width, *sight, *misses, *tests, *mirror_depth;
+    bool dark, json;
 } explain_texts;
 
 enum { FILE_OPERAND, FROM_OPERAND, TO_OPERAND };
@@ -20,7 +21,10 @@ static sl_status choose_cell(sl_context *context, const char *name, const char *
                              const sl_space *space, uint32_t *cell) {
     if (!strchr(text, ',')) {
         uint64_t number = 0;
-        SL_TRY(sl_option_count(context, name, text, space->cell_count - 1, &number));
+        if (sl_option_count(context, name, text, space->cell_count - 1, &number) != SL_OK)
+            return sl_fail(context, SL_BAD_ARGUMENT,
+                           "%s %s: a cell from 0 to %u, or a point X,Y, is needed", name, text,
+                           (unsigned)space->cell_count - 1);
         *cell = (uint32_t)number;
         return SL_OK;
     }
@@ -44,7 +48,8 @@ static sl_status read_options(sl_context *context, const explain_texts *texts,
     return SL_OK;
 }
 
-static sl_status explain(sl_console *console, const explain_texts *texts, const sl_baked *baked) {
+static sl_status explain(sl_console *console, const explain_texts *texts, const sl_baked *baked,
+                         const sl_draw_options *drawing) {
     sl_context *context = console->context;
     const sl_space *space = &baked->space;
     sl_explain_options options;
@@ -60,10 +65,8 @@ static sl_status explain(sl_console *console, const explain_texts *texts, const 
     if (baked->map.mirror_count)
         status = sl_explain_by_mirror(context, space, &baked->map, &options, (uint32_t)depth,
                                       &explanation);
-    if (status == SL_OK && texts->output) {
-        const sl_draw_options drawing = sl_draw_options_default();
-        status = sl_draw_explanation(context, baked, &explanation, &drawing, texts->output);
-    }
+    if (status == SL_OK && texts->output)
+        status = sl_draw_explanation(context, baked, &explanation, drawing, texts->output);
     sl_progress_line_clear(&console->line);
     if (status == SL_OK && texts->json)
         status = sl_explanation_print_json(context, baked, &explanation);
@@ -85,6 +88,8 @@ sl_status sl_cmd_explain(sl_console *console, int argc, char **argv) {
          "how often mirrors reflect a sightline, 0 to 16;\n1 without it"},
         {"output", 'o', "PICTURE", NULL, &t.output,
          "draw it too: .png, .svg or .pdf, by the ending"},
+        {"width", 0, "PX", NULL, &t.width, "of the picture, 64 to 20000 pixels or points"},
+        {"dark", 0, NULL, &t.dark, NULL, "the picture light on dark"},
         {"json", 0, NULL, &t.json, NULL, "print JSON"},
     };
     const sl_command_usage usage = {
@@ -103,10 +108,14 @@ sl_status sl_cmd_explain(sl_console *console, int argc, char **argv) {
     bool helped;
     SL_TRY(sl_option_parse(console, &usage, argc, argv, t.operands, &helped));
     if (helped) return SL_OK;
+    const char *input = t.operands[FILE_OPERAND];
+    sl_draw_options drawing;
+    SL_TRY(sl_picture_plan(console->context, t.width, NULL, t.dark, &drawing));
+    SL_TRY(sl_picture_check(console->context, input, "-o", t.output));
     sl_baked baked = {0};
-    SL_TRY(sl_input_read_baked(console->context, t.operands[FILE_OPERAND], &baked));
+    SL_TRY(sl_input_read_baked(console->context, input, &baked));
     sl_status status = sl_effects_check(console->context, &baked.map, "explain", SL_EFFECT_MIRROR);
-    if (status == SL_OK) status = explain(console, &t, &baked);
+    if (status == SL_OK) status = explain(console, &t, &baked, &drawing);
     sl_baked_destroy(console->context, &baked);
     return status;
 }

@@ -26,7 +26,7 @@ static sl_status check_wad(sl_context *context, const sl_export_format *format,
     if (!format->takes_wad && (given->wad || given->map))
         return sl_fail(context, SL_BAD_ARGUMENT, "--%s: the format %s has no use for it",
                        given->wad ? "wad" : "map", format->name);
-    return given->wad ? sl_input_refuse_output(context, given->wad, output) : SL_OK;
+    return given->wad ? sl_output_check(context, given->wad, "-o", output) : SL_OK;
 }
 
 sl_status sl_cmd_export(sl_console *console, int argc, char **argv) {
@@ -58,7 +58,7 @@ sl_status sl_cmd_export(sl_console *console, int argc, char **argv) {
     SL_TRY(sl_option_choice(console->context, "--format", format, &names, &chosen));
 
     if (!output) output = "-";
-    SL_TRY(sl_input_refuse_output(console->context, path, output));
+    SL_TRY(sl_output_check(console->context, path, "-o", output));
     SL_TRY(check_wad(console->context, &sl_export_formats(&count)[chosen], &given, output));
     sl_baked baked = {0};
     SL_TRY(sl_input_read_baked(console->context, path, &baked));

@@ -6,6 +6,7 @@
 #include "eye_run.h"
 #include "inputs.h"
 #include "options.h"
+#include "pictures.h"
 #include "seen_parts.h"
 #include "sightline/draw.h"
 
@@ -52,12 +53,11 @@ static sl_status add_objects(sl_context *context, const sl_space *space,
 
 static sl_status draw(sl_context *context, const eye_texts *texts, const sl_baked *baked,
                       const sl_eye_run *run, const sl_eye_objects *objects) {
-    sl_draw_options options = sl_draw_options_default();
+    sl_draw_options options;
     sl_eye_layer layers[SL_EYE_LAYERS_MOST];
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
-    options.dark = texts->dark;
-    SL_TRY(sl_option_number(context, "--width", texts->width, &options.width));
+    SL_TRY(sl_picture_plan(context, texts->width, NULL, texts->dark, &options));
     for (size_t i = 0; i < count; i++)
         layers[i] = (sl_eye_layer){methods[i].name, run->results[i].cells};
     if (objects->count) layers[count++] = (sl_eye_layer){"past_objects", objects->cells};
@@ -92,7 +92,7 @@ static sl_status look(sl_console *console, const eye_texts *texts, const sl_bake
     sl_view view;
     sl_eye_run run;
     SL_TRY(read_view(context, texts, &baked->space, &view));
-    if (texts->output) SL_TRY(sl_input_refuse_output(context, texts->input, texts->output));
+    SL_TRY(sl_picture_check(context, texts->input, "-o", texts->output));
     uint64_t depth = 1;
     SL_TRY(sl_option_count(context, "--mirror-depth", texts->mirror_depth, 16, &depth));
     double range = baked->map.range;

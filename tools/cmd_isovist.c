@@ -82,7 +82,7 @@ static sl_status plan_drawing(sl_context *context, const isovist_texts *t, isovi
     const sl_name_table measures = sl_isovist_measures();
     SL_TRY(sl_option_choice(context, "--measure", t->measure, &measures, &plan->measure));
     SL_TRY(sl_picture_plan(context, t->width, t->title, t->dark, &plan->drawing));
-    return sl_picture_check_name(context, "--picture", t->picture);
+    return sl_picture_check(context, t->input, "--picture", t->picture);
 }
 
 static sl_status make_plan(sl_context *context, const isovist_texts *t, isovist_plan *plan) {
@@ -92,8 +92,7 @@ static sl_status make_plan(sl_context *context, const isovist_texts *t, isovist_
     SL_TRY(plan_drawing(context, t, plan));
     SL_TRY(sl_option_count(context, "--threads", t->threads, 1024, &threads));
     plan->threads = (unsigned)threads;
-    if (t->output) SL_TRY(sl_input_refuse_output(context, t->input, t->output));
-    if (t->picture) SL_TRY(sl_input_refuse_output(context, t->input, t->picture));
+    SL_TRY(sl_output_check(context, t->input, "-o", t->output));
     return sl_pipeline_plan(context, t->input, &t->pipeline, &plan->pipeline);
 }
 

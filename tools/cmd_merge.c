@@ -174,6 +174,6 @@ sl_status sl_cmd_merge(sl_console *console, int argc, char **argv) {
         return sl_fail(console->context, SL_BAD_ARGUMENT,
                        "-o FILE.slv is needed: where to write what the shards make");
     for (uint32_t i = 0; i < part_count(&plan); i++)
-        SL_TRY(sl_input_refuse_output(console->context, part_name(&plan, i), plan.output));
+        SL_TRY(sl_output_check(console->context, part_name(&plan, i), "-o", plan.output));
     return merge_and_report(console, &plan);
 }

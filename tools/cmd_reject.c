@@ -22,7 +22,7 @@ static sl_status plan(sl_context *context, const reject_texts *texts, sl_reject_
     if (!texts->output)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "-o OUT.wad is needed: where to write the copy with its REJECTs");
-    SL_TRY(sl_input_refuse_output(context, texts->input, texts->output));
+    SL_TRY(sl_output_check(context, texts->input, "-o", texts->output));
     if (texts->json && strcmp(texts->output, "-") == 0)
         return sl_fail(context, SL_BAD_ARGUMENT, "--json and -o - both write to stdout");
     size_t sight = options->sight;
@@ -30,7 +30,7 @@ static sl_status plan(sl_context *context, const reject_texts *texts, sl_reject_
     const sl_name_table sights = sl_sight_table();
     SL_TRY(sl_option_choice(context, "--sight", texts->sight, &sights, &sight));
     SL_TRY(sl_option_count(context, "--threads", texts->threads, MAX_THREADS, &threads));
-    options->row_bytes = sl_size_of_machine_memory() / 2;
+    options->row_bytes = sl_machine_memory() / 2;
     SL_TRY(sl_option_size(context, "--memory", texts->memory, &options->row_bytes));
     options->sight = (sl_sight)sight;
     options->threads = (unsigned)threads;

@@ -139,7 +139,7 @@ static sl_status plan_sampling(sl_context *context, const viewcells_texts *t,
 static sl_status plan_drawing(sl_context *context, const viewcells_texts *t,
                               sl_draw_options *drawing) {
     SL_TRY(sl_picture_plan(context, t->width, t->title, t->dark, drawing));
-    return sl_picture_check_name(context, "--picture", t->picture);
+    return sl_picture_check(context, t->input, "--picture", t->picture);
 }
 
 static sl_status plan_seeing(sl_context *context, const viewcells_texts *t, viewcells_plan *plan) {
@@ -152,7 +152,7 @@ static sl_status plan_seeing(sl_context *context, const viewcells_texts *t, view
     if (t->by_views && !t->slv)
         return sl_fail(context, SL_BAD_ARGUMENT, "--by-views is for --slv, which is not given");
     plan->see = &methods[method];
-    return t->slv ? sl_input_refuse_output(context, t->input, t->slv) : SL_OK;
+    return sl_output_check_baked(context, t->input, "--slv", t->slv);
 }
 
 static sl_status make_plan(sl_context *context, const viewcells_texts *t, viewcells_plan *plan) {
@@ -162,8 +162,7 @@ static sl_status make_plan(sl_context *context, const viewcells_texts *t, viewce
     SL_TRY(plan_subdivision(context, t, &plan->run));
     SL_TRY(plan_sampling(context, t, &plan->run));
     SL_TRY(plan_drawing(context, t, &plan->drawing));
-    if (t->output) SL_TRY(sl_input_refuse_output(context, t->input, t->output));
-    if (t->picture) SL_TRY(sl_input_refuse_output(context, t->input, t->picture));
+    SL_TRY(sl_output_check(context, t->input, "-o", t->output));
     return sl_pipeline_plan(context, t->input, &t->pipeline, &plan->pipeline);
 }
 

@@ -1,6 +1,7 @@
 #include "base/base.h"
 #include "commands.h"
 #include "folder.h"
+#include "names.h"
 #include "pipeline.h"
 #include "walk_path.h"
 #include "walk_report.h"
@@ -8,6 +9,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 /// The options as they are given.
 typedef struct walk_texts {
@@ -123,8 +125,8 @@ static sl_status make_plan(sl_context *context, const walk_texts *t, walk_plan *
     SL_TRY(sl_option_count(context, "--repeat", t->repeat, MOST_REPEATS, &repeat));
     if (!repeat) return sl_fail(context, SL_BAD_ARGUMENT, "--repeat 0: at least 1 is needed");
     plan->repeat = (unsigned)repeat;
-    if (t->csv) SL_TRY(sl_input_refuse_output(context, t->input, t->csv));
-    if (t->frames) SL_TRY(sl_input_refuse_output(context, t->input, t->frames));
+    SL_TRY(sl_output_check(context, t->input, "--csv", t->csv));
+    SL_TRY(sl_output_check(context, t->input, "--frames", t->frames));
     return sl_pipeline_plan(context, t->input, &t->pipeline, &plan->pipeline);
 }
 
@@ -144,6 +146,15 @@ static sl_status read_space(sl_context *context, const walk_plan *plan, sl_baked
     return sl_pipeline_check(context, &plan->pipeline, &baked->space);
 }
 
+static sl_status fail_path(sl_context *context, const sl_map *map, const char *name) {
+    const sl_name_table paths = {"path", map->paths, sizeof *map->paths, map->path_count};
+    const char *near = map->path_count ? sl_nearest_name(&paths, name) : NULL;
+    if (!near && map->path_count) near = map->paths[0].name;
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "--path %s: the map has no path of that name, and there is no such file%s%s%s",
+                   name, near ? "; the map has '" : "", near ? near : "", near ? "'" : "");
+}
+
 /// A path of the map by its name, or else of a file; without either a tour from the map's start.
 static sl_status lay_way(sl_context *context, const walk_plan *plan, walk_work *w) {
     const char *name = plan->texts->path;
@@ -158,7 +169,10 @@ static sl_status lay_way(sl_context *context, const walk_plan *plan, walk_work *
         memcpy(w->way.items, p->points, p->count * sizeof *p->points);
         w->way.count = p->count;
     }
-    if (name && !w->way.count) SL_TRY(sl_way_read(context, name, space, &w->way));
+    if (name && !w->way.count) {
+        if (access(name, F_OK) != 0) return fail_path(context, map, name);
+        SL_TRY(sl_way_read(context, name, space, &w->way));
+    }
     if (name) {
         const double length = sl_way_length(&w->way);
         if (w->way.count < 2 || !(length > 0))

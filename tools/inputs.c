@@ -1,6 +1,6 @@
 #include "inputs.h"
 
-#include "base/base.h"
+#include "base/file.h"
 #include "base/number.h"
 #include "options.h"
 
@@ -104,13 +104,29 @@ sl_status sl_input_read_baked(sl_context *context, const char *path, sl_baked *b
     return SL_OK;
 }
 
-sl_status sl_input_refuse_output(sl_context *context, const char *path, const char *output) {
-    if (!*output) return sl_fail(context, SL_BAD_ARGUMENT, "-o is empty; name a file");
-    struct stat in, out;
-    if (stat(path, &in) != 0 || stat(output, &out) != 0) return SL_OK;
-    if (in.st_dev != out.st_dev || in.st_ino != out.st_ino || !S_ISREG(in.st_mode)) return SL_OK;
+static bool is_same_file(const char *path, const char *other) {
+    struct stat a, b;
+    return stat(path, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev &&
+           a.st_ino == b.st_ino && S_ISREG(a.st_mode);
+}
+
+sl_status sl_output_check(sl_context *context, const char *path, const char *option,
+                          const char *output) {
+    if (!output) return SL_OK;
+    if (!*output) return sl_fail(context, SL_BAD_ARGUMENT, "%s is empty; name a file", option);
+    if (!is_same_file(path, output)) return sl_output_try(context, output);
     return sl_fail(context, SL_BAD_ARGUMENT,
-                   "-o %s: is the input itself, which would be lost; give another name", output);
+                   "%s %s: is the input itself, which would be lost; give another name", option,
+                   output);
+}
+
+sl_status sl_output_check_baked(sl_context *context, const char *path, const char *option,
+                                const char *output) {
+    if (output && !is_baked_name(output))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "%s %s: the name of a baked file ends in .slv, by which it is known", option,
+                       output);
+    return sl_output_check(context, path, option, output);
 }
 
 /// The map that a baked file was made from: what it kept of it, and the walls of its space.

@@ -57,8 +57,15 @@ sl_status sl_input_read_baked(sl_context *context, const char *path, sl_baked *b
 /// SL_BAD_ARGUMENT where one of these options is given with a baked file.
 sl_status sl_input_refuse_texts(sl_context *context, const char *path, const sl_input_texts *texts);
 
-/// SL_BAD_ARGUMENT where the output is no name, or the input itself, which it would replace.
-sl_status sl_input_refuse_output(sl_context *context, const char *path, const char *output);
+/// Before the work is done: SL_BAD_ARGUMENT where what `option` names to be written is no name, or
+/// the input `path` itself, which it would replace; SL_IO where nothing can be written there. A
+/// NULL output is none.
+sl_status sl_output_check(sl_context *context, const char *path, const char *option,
+                          const char *output);
+
+/// Likewise for what is to be a baked file, which is known by its ending.
+sl_status sl_output_check_baked(sl_context *context, const char *path, const char *option,
+                                const char *output);
 
 /// Reads a map file, or what map a baked file was made from.
 sl_status sl_input_read_either(sl_context *context, const char *path, const sl_input_texts *texts,

@@ -15,10 +15,11 @@ sl_status sl_picture_plan(sl_context *context, const char *width, const char *ti
                    SL_DRAW_WIDTH_MIN, SL_DRAW_WIDTH_MAX);
 }
 
-sl_status sl_picture_check_name(sl_context *context, const char *option, const char *path) {
-    if (!path || sl_input_ends_with(path, ".png") || sl_input_ends_with(path, ".svg") ||
-        sl_input_ends_with(path, ".pdf"))
-        return SL_OK;
+sl_status sl_picture_check(sl_context *context, const char *path, const char *option,
+                           const char *output) {
+    if (!output || sl_input_ends_with(output, ".png") || sl_input_ends_with(output, ".svg") ||
+        sl_input_ends_with(output, ".pdf"))
+        return sl_output_check(context, path, option, output);
     return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: end the name in .png, .svg or .pdf", option,
-                   path);
+                   output);
 }

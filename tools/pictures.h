@@ -8,8 +8,9 @@
 sl_status sl_picture_plan(sl_context *context, const char *width, const char *title, bool dark,
                           sl_draw_options *out);
 
-/// SL_BAD_ARGUMENT where an option names a picture of no kind that can be written; a NULL path is
-/// no picture.
-sl_status sl_picture_check_name(sl_context *context, const char *option, const char *path);
+/// As sl_output_check() of inputs.h, and SL_BAD_ARGUMENT where the name is that of no kind of
+/// picture that can be written.
+sl_status sl_picture_check(sl_context *context, const char *path, const char *option,
+                           const char *output);
 
 #endif

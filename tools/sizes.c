@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 void sl_size_write(uint64_t bytes, char text[SL_SIZE_TEXT]) {
     static const char *const units[] = {"KiB", "MiB", "GiB", "TiB"};
@@ -30,9 +29,4 @@ uint64_t sl_size_of_peak_memory(void) {
 #else
     return (uint64_t)usage.ru_maxrss * 1024; // Linux and the BSDs count KiB
 #endif
-}
-
-uint64_t sl_size_of_machine_memory(void) {
-    const long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGESIZE);
-    return pages > 0 && bytes > 0 ? (uint64_t)pages * (uint64_t)bytes : UINT64_MAX;
 }

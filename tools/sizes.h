@@ -15,7 +15,4 @@ uint64_t sl_size_of_file(const char *path);
 /// The most memory that this process has had, 0 where the system does not tell.
 uint64_t sl_size_of_peak_memory(void);
 
-/// That the machine has, UINT64_MAX where the system does not tell.
-uint64_t sl_size_of_machine_memory(void);
-
 #endif

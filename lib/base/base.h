@@ -46,6 +46,8 @@ void *sl_alloc(sl_context *context, size_t bytes);
 /// Zeroed; safe under overflow of count * size. A count of 0 gives a block that can be freed.
 void *sl_alloc_array(sl_context *context, size_t count, size_t size);
 void sl_free(sl_context *context, void *block);
+/// Bytes that the machine has, UINT64_MAX where the system does not tell.
+uint64_t sl_machine_memory(void);
 /// A copy of `length` bytes with a 0 behind them.
 char *sl_copy_text(sl_context *context, const char *text, size_t length);
 

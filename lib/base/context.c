@@ -2,6 +2,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static void *resize(const sl_hooks *hooks, void *block, size_t bytes) {
     if (hooks->resize) return hooks->resize(hooks->user, block, bytes);
@@ -114,6 +115,11 @@ void *sl_alloc_array(sl_context *context, size_t count, size_t size) {
 
 void sl_free(sl_context *context, void *block) {
     if (block) resize(&context->hooks, block, 0);
+}
+
+uint64_t sl_machine_memory(void) {
+    const long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGESIZE);
+    return pages > 0 && bytes > 0 ? (uint64_t)pages * (uint64_t)bytes : UINT64_MAX;
 }
 
 char *sl_copy_text(sl_context *context, const char *text, size_t length) {

@@ -7,26 +7,48 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static sl_status read_stream(sl_context *context, FILE *stream, const char *path, sl_bytes *out) {
-    SL_ARRAY(char) data = {0};
+typedef SL_ARRAY(char) characters;
+
+/// A device may never end: it would take all memory there is.
+static const uint64_t most_of_stream = (uint64_t)1 << 30;
+
+static sl_status fail_size(sl_context *context, const char *path, uint64_t most) {
+    return sl_fail(context, SL_BAD_INPUT, "%s: has more than the %llu MiB that can be read", path,
+                   (unsigned long long)(most >> 20));
+}
+
+static sl_status read_to_end(sl_context *context, FILE *stream, const char *path, uint64_t most,
+                             characters *data) {
     for (;;) {
-        const size_t more = data.count < 65536 ? 65536 : data.count;
-        if (SL_ARRAY_ROOM(context, &data, more + 1) != SL_OK) break;
-        const size_t got = fread(data.items + data.count, 1, more, stream);
-        data.count += got;
+        const size_t more = data->count < 65536 ? 65536 : data->count;
+        SL_TRY(sl_check_cancelled(context));
+        SL_TRY(SL_ARRAY_ROOM(context, data, more + 1));
+        const size_t got = fread(data->items + data->count, 1, more, stream);
+        data->count += got;
         if (ferror(stream)) {
-            sl_free(context, data.items);
             const sl_status status = errno == EISDIR ? SL_BAD_ARGUMENT : SL_IO;
             return sl_fail(context, status, "%s: cannot read: %s", path, strerror(errno));
         }
-        if (got < more) {
-            data.items[data.count] = '\0';
-            *out = (sl_bytes){.data = data.items, .size = data.count};
-            return SL_OK;
-        }
+        if (data->count > most) return fail_size(context, path, most);
+        if (got < more) break;
     }
-    sl_free(context, data.items);
-    return SL_NO_MEMORY;
+    data->items[data->count] = '\0';
+    return SL_OK;
+}
+
+static sl_status read_stream(sl_context *context, FILE *stream, const char *path, sl_bytes *out) {
+    characters data = {0};
+    struct stat file;
+    const bool whole = fstat(fileno(stream), &file) == 0 && S_ISREG(file.st_mode);
+    const uint64_t most = whole ? sl_machine_memory() / 4 : most_of_stream;
+    sl_status status = SL_OK;
+    if (whole && (uint64_t)file.st_size > most) status = fail_size(context, path, most);
+    if (status == SL_OK) status = read_to_end(context, stream, path, most, &data);
+    if (status == SL_OK)
+        *out = (sl_bytes){.data = data.items, .size = data.count};
+    else
+        sl_free(context, data.items);
+    return status;
 }
 
 sl_status sl_file_read(sl_context *context, const char *path, sl_bytes *out) {
@@ -104,6 +126,17 @@ sl_status sl_output_open(sl_context *context, const char *path, sl_output *out) 
         status = open_beside(context, path, out);
     if (status != SL_OK) sl_output_abandon(context, out);
     return status;
+}
+
+sl_status sl_output_try(sl_context *context, const char *path) {
+    struct stat target;
+    const bool exists = stat(path, &target) == 0;
+    if (strcmp(path, "-") == 0 || (exists && !S_ISREG(target.st_mode) && !S_ISDIR(target.st_mode)))
+        return SL_OK;
+    sl_output output;
+    SL_TRY(sl_output_open(context, path, &output));
+    sl_output_abandon(context, &output);
+    return SL_OK;
 }
 
 /// Whether a stream's descriptor can be brought to the disk: pipes and devices cannot.

@@ -9,6 +9,7 @@
 
 #include <math.h>
 #include <stdatomic.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static void numbers_read_back_to_the_same_double(void **state) {
@@ -75,6 +76,42 @@ static void a_failed_write_leaves_the_old_file(void **state) {
     sl_context_destroy(context);
 }
 
+static void a_file_larger_than_memory_is_refused_unread(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    char path[] = "/tmp/sightline-test-XXXXXX";
+    const int descriptor = mkstemp(path);
+    assert_true(descriptor >= 0);
+    const bool large = ftruncate(descriptor, (off_t)(sl_machine_memory() / 4) + 1) == 0;
+    assert_int_equal(close(descriptor), 0);
+    sl_bytes bytes;
+    const sl_status status = large ? sl_file_read(context, path, &bytes) : SL_BAD_INPUT;
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(status, SL_BAD_INPUT);
+    if (large) assert_non_null(strstr(sl_context_message(context), "has more than the "));
+    sl_context_destroy(context);
+    if (!large) skip(); // the disk's files cannot be as large
+}
+
+static void trying_an_output_leaves_nothing(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    char folder[] = "/tmp/sightline-test-XXXXXX";
+    assert_non_null(mkdtemp(folder));
+    char path[64];
+    snprintf(path, sizeof path, "%s/none/file", folder);
+    assert_int_equal(sl_output_try(context, path), SL_IO);
+    snprintf(path, sizeof path, "%s/file", folder);
+    assert_ok(context, sl_output_try(context, path));
+    assert_int_equal(sl_output_try(context, folder), SL_BAD_ARGUMENT);
+    // Opening a pipe that nobody reads would wait, and closing it would end who does.
+    assert_int_equal(mkfifo(path, 0600), 0);
+    assert_ok(context, sl_output_try(context, path));
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(rmdir(folder), 0); // nothing was left there
+    sl_context_destroy(context);
+}
+
 enum { UNITS = 1000 };
 
 typedef struct counting_job {
@@ -138,6 +175,8 @@ int main(void) {
         cmocka_unit_test(numbers_are_short),
         cmocka_unit_test(only_decimals_are_numbers),
         cmocka_unit_test(a_failed_write_leaves_the_old_file),
+        cmocka_unit_test(a_file_larger_than_memory_is_refused_unread),
+        cmocka_unit_test(trying_an_output_leaves_nothing),
         cmocka_unit_test(every_unit_of_work_is_done_once),
         cmocka_unit_test(the_first_failure_of_work_is_told),
     };
