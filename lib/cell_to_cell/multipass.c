@@ -19,17 +19,16 @@
 #include "cell_to_cell/bit_rows.h"
 #include "cell_to_cell/methods.h"
 #include "cell_to_cell/pass.h"
+#include "cell_to_cell/prune.h"
+#include "cell_to_cell/pvs_rows.h"
 
 #include <pthread.h>
 #include <string.h>
 
-/// Passes run at the same time as far as their sets need no more memory than this.
-#define MOST_BYTES ((size_t)256 << 20)
-
-/// A pass on its way, and what its faces see: a row of cells each.
+/// A pass on its way, and what its faces see: a row of cells each, empty until it is known.
 typedef struct running_pass {
     sl_pass pass;
-    sl_bits *seen;
+    sl_sparse_row *seen;
 } running_pass;
 
 /// A component of a pass's order: what one thread does in one go.
@@ -45,8 +44,10 @@ typedef struct multipass {
     SL_ARRAY(running_pass) passes;
     SL_ARRAY(unit) units; ///< by level, so that all that a unit depends on has been handed out
     size_t *after;        ///< by unit: how many of the first are of lower levels
+    sl_row_budget budget; ///< of what faces see
+    bool rounded;         ///< so is the solver: some pairs may be doubtful
     pthread_mutex_t lock;
-    sl_bit_rows sure, doubtful; ///< under the lock; no doubtful ones of exact solvers
+    sl_bit_rows sure, doubtful; ///< joined under the lock
     sl_see_account account;     ///< under the lock
 } multipass;
 
@@ -61,25 +62,19 @@ typedef struct step {
 typedef struct searcher {
     void *solver;
     SL_ARRAY(step) steps;
-    SL_ARRAY(sl_bits) wanted;                             ///< a set for each step
-    sl_bits *sure, *doubtful, *cell_sure, *cell_doubtful; ///< of the face and of the cell at hand
-    sl_bits *cycle; ///< candidates of a component with a cycle
+    sl_prune_wanted wanted;                               ///< at each step
+    sl_word_set sure, doubtful, cell_sure, cell_doubtful; ///< of the face and of the cell at hand
+    sl_word_set candidates;                               ///< of the face, or of its cycle
+    sl_bit_rows rows, doubtful_rows;
     sl_see_account account;
 } searcher;
 
-static sl_bits *row_of(const multipass *all, const running_pass *p, uint32_t face) {
-    return p->seen + face * all->words;
-}
-
-static void add_all(const multipass *all, sl_bits *to, const sl_bits *from) {
-    for (size_t i = 0; i < all->words; i++) to[i] |= from[i];
-}
-
 /// Adds a cell's directed visible set.
-static void add_directed(const multipass *all, const running_pass *p, uint32_t cell, sl_bits *set) {
-    sl_bits_add(set, cell);
+static void add_directed(const multipass *all, const running_pass *p, uint32_t cell,
+                         sl_word_set *set) {
+    sl_word_set_add(set, cell);
     for (uint32_t face = p->pass.first[cell]; face < p->pass.first[cell + 1]; face++)
-        add_all(all, set, row_of(all, p, face));
+        sl_sparse_row_add_to(&p->seen[face], all->words, set);
 }
 
 static sl_status enter(sl_context *context, searcher *me, step to) {
@@ -105,19 +100,19 @@ static sl_status push(sl_context *context, const multipass *all, searcher *me, c
     return SL_OK;
 }
 
-/// Whether candidates that are not seen yet are left beyond an exit of the last step, or of the
-/// face itself; makes the set of all that are wanted there.
-static sl_status want(sl_context *context, const multipass *all, searcher *me,
-                      const sl_bits *behind, bool *something) {
-    const size_t words = all->words, depth = me->steps.count;
-    SL_TRY(SL_ARRAY_ROOM(context, &me->wanted, (depth + 1) * words));
-    const sl_bits *before = me->wanted.items + (depth - 1) * words;
-    sl_bits *beyond = me->wanted.items + depth * words, any = 0;
-    for (size_t i = 0; i < words; i++) {
-        beyond[i] = before[i] & behind[i];
-        any |= beyond[i] & ~me->sure[i];
+/// Whether candidates that are not seen yet are left beyond an exit of the last step; makes the set
+/// of all that are wanted there. What is behind an exit of the cycle at hand may not be known yet:
+/// then it bounds nothing.
+static sl_status want(sl_context *context, searcher *me, const sl_sparse_row *behind,
+                      bool *something) {
+    const size_t depth = me->steps.count;
+    SL_TRY(sl_prune_step_within(context, behind, &me->wanted, depth));
+    const sl_prune_set *set = &me->wanted.sets.items[depth];
+    *something = false;
+    for (size_t i = set->begin; i < set->end && !*something; i++) {
+        const sl_prune_word *at = &me->wanted.words.items[i];
+        *something = (at->bits & ~me->sure.bits[at->word]) != 0;
     }
-    *something = any != 0;
     return SL_OK;
 }
 
@@ -129,22 +124,21 @@ static sl_status try_exit(sl_context *context, const multipass *all, const runni
     sl_cone cone = from.cone;
     if (p->pass.faces[number] == SL_NO_FACE || !sl_cone_cut(&cone, exit)) return SL_OK;
     bool something;
-    SL_TRY(want(context, all, me, row_of(all, p, p->pass.faces[number]), &something));
+    SL_TRY(want(context, me, &p->seen[p->pass.faces[number]], &something));
     if (!something) return SL_OK;
 
     sl_stab_verdict verdict;
     SL_TRY(push(context, all, me, exit, &cone, &verdict));
-    const bool rounded = solver->guarantee == SL_ROUNDED;
     const bool grazing = verdict == SL_GRAZING || from.grazing;
-    if (verdict == SL_HIDDEN || (grazing && all->options->sight == SL_OPEN && !rounded)) {
+    if (verdict == SL_HIDDEN || (grazing && all->options->sight == SL_OPEN && !all->rounded)) {
         solver->pop(me->solver);
         return SL_OK;
     }
-    sl_bits_add(grazing && rounded ? me->doubtful : me->sure, exit->cell);
+    sl_word_set_add(grazing && all->rounded ? &me->doubtful : &me->sure, exit->cell);
     return enter(context, me, (step){.cell = exit->cell, .cone = cone, .grazing = grazing});
 }
 
-/// Finds what a face sees, among what the first set of `wanted` holds, into `sure` and `doubtful`.
+/// Finds what a face sees among the candidates, into `sure` and `doubtful`.
 static sl_status search_face(sl_context *context, const multipass *all, const running_pass *p,
                              searcher *me, uint32_t number) {
     const sl_space *space = all->space;
@@ -153,7 +147,8 @@ static sl_status search_face(sl_context *context, const multipass *all, const ru
     (void)sl_cone_cut(&cone, exit); // it has some: else the exit were no face
     sl_stab_verdict verdict;
     SL_TRY(push(context, all, me, exit, &cone, &verdict));
-    sl_bits_add(me->sure, exit->cell);
+    sl_word_set_add(&me->sure, exit->cell);
+    SL_TRY(sl_prune_start_among(context, &me->wanted, &me->candidates));
     me->steps.count = 0;
     SL_TRY(enter(context, me, (step){.cell = exit->cell, .cone = cone}));
     while (me->steps.count) {
@@ -169,63 +164,71 @@ static sl_status search_face(sl_context *context, const multipass *all, const ru
     return SL_OK;
 }
 
-static uint64_t count_bits(const sl_bits *set, size_t words) {
+static uint64_t count_bits(const sl_word_set *set) {
     uint64_t count = 0;
-    for (size_t i = 0; i < words; i++) count += (uint64_t)__builtin_popcountll(set[i]);
+    for (size_t word = sl_word_set_next(set, set->low); word < set->high;
+         word = sl_word_set_next(set, word + 1))
+        count += (uint64_t)__builtin_popcountll(set->bits[word]);
     return count;
 }
 
-/// What all faces of a cell see in the sector. `cycle`: the candidates where those behind a face
-/// need not be done yet; NULL where they are.
-static sl_status search_cell(sl_context *context, const multipass *all, const running_pass *p,
-                             searcher *me, uint32_t cell, const sl_bits *cycle) {
-    const size_t bytes = all->words * sizeof(sl_bits);
+static void add_set(sl_word_set *to, const sl_word_set *from) {
+    for (size_t word = sl_word_set_next(from, from->low); word < from->high;
+         word = sl_word_set_next(from, word + 1))
+        sl_word_set_join(to, word, from->bits[word]);
+}
+
+/// What a face sees in the sector, among the candidates: kept as its row, added to its cell's sets.
+static sl_status search_whole_face(sl_context *context, multipass *all, const running_pass *p,
+                                   searcher *me, uint32_t exit) {
+    sl_sparse_row *row = &p->seen[p->pass.faces[exit]];
+    sl_word_set_clear(&me->sure);
+    sl_word_set_clear(&me->doubtful);
+    me->account.candidates += count_bits(&me->candidates);
+    SL_TRY(search_face(context, all, p, me, exit));
+    add_set(&me->cell_sure, &me->sure);
+    add_set(&me->cell_doubtful, &me->doubtful);
+    add_set(&me->sure, &me->doubtful);
+    me->account.relations += count_bits(&me->sure);
+    return sl_sparse_row_add(context, row, all->words, &me->sure, &all->budget);
+}
+
+/// What all faces of a cell see in the sector. `cyclic`: the candidates are those of the cycle, as
+/// what is behind a face need not be done yet.
+static sl_status search_cell(sl_context *context, multipass *all, const running_pass *p,
+                             searcher *me, uint32_t cell, bool cyclic) {
     const sl_cell *c = &all->space->cells[cell];
-    memset(me->cell_sure, 0, bytes);
-    memset(me->cell_doubtful, 0, bytes);
-    sl_bits_add(me->cell_sure, cell);
-    SL_TRY(SL_ARRAY_ROOM(context, &me->wanted, all->words));
+    sl_word_set_clear(&me->cell_sure);
+    sl_word_set_clear(&me->cell_doubtful);
+    sl_word_set_add(&me->cell_sure, cell);
     for (uint32_t e = c->first_exit; e < c->first_exit + c->exit_count; e++) {
-        const uint32_t face = p->pass.faces[e];
-        if (face == SL_NO_FACE) continue;
-        memset(me->sure, 0, bytes);
-        memset(me->doubtful, 0, bytes);
-        if (cycle) {
-            memcpy(me->wanted.items, cycle, bytes);
-        } else {
-            memset(me->wanted.items, 0, bytes);
-            add_directed(all, p, all->space->exits[e].cell, me->wanted.items);
+        if (p->pass.faces[e] == SL_NO_FACE) continue;
+        if (!cyclic) {
+            sl_word_set_clear(&me->candidates);
+            add_directed(all, p, all->space->exits[e].cell, &me->candidates);
         }
-        me->account.candidates += count_bits(me->wanted.items, all->words);
-        SL_TRY(search_face(context, all, p, me, e));
-        sl_bits *row = row_of(all, p, face);
-        memcpy(row, me->sure, bytes);
-        add_all(all, row, me->doubtful);
-        me->account.relations += count_bits(row, all->words);
-        add_all(all, me->cell_sure, me->sure);
-        add_all(all, me->cell_doubtful, me->doubtful);
+        SL_TRY(search_whole_face(context, all, p, me, e));
     }
+    SL_TRY(sl_bit_rows_add(context, &me->rows, cell, &me->cell_sure));
+    if (all->rounded)
+        SL_TRY(sl_bit_rows_add(context, &me->doubtful_rows, cell, &me->cell_doubtful));
     return SL_OK;
 }
 
-/// Candidates of a component with a cycle: its cells, and all that they see beyond it. Until better
-/// is known that is what its faces see.
+/// Candidates of a component with a cycle: its cells, and all that they see beyond it.
 static void bound_cycle(const multipass *all, const running_pass *p, searcher *me,
                         uint32_t component) {
     const sl_order *order = &p->pass.order;
-    memset(me->cycle, 0, all->words * sizeof *me->cycle);
-    for (int round = 0; round < 2; round++)
-        for (uint32_t i = order->starts[component]; i < order->starts[component + 1]; i++) {
-            const uint32_t cell = order->nodes[i];
-            sl_bits_add(me->cycle, cell);
-            for (uint32_t face = p->pass.first[cell]; face < p->pass.first[cell + 1]; face++) {
-                const uint32_t behind = p->pass.to[face];
-                if (round)
-                    memcpy(row_of(all, p, face), me->cycle, all->words * sizeof *me->cycle);
-                else if (order->component[behind] != component)
-                    add_directed(all, p, behind, me->cycle);
-            }
+    sl_word_set_clear(&me->candidates);
+    for (uint32_t i = order->starts[component]; i < order->starts[component + 1]; i++) {
+        const uint32_t cell = order->nodes[i];
+        sl_word_set_add(&me->candidates, cell);
+        for (uint32_t face = p->pass.first[cell]; face < p->pass.first[cell + 1]; face++) {
+            const uint32_t behind = p->pass.to[face];
+            if (order->component[behind] != component)
+                add_directed(all, p, behind, &me->candidates);
         }
+    }
 }
 
 static sl_status search_unit(sl_context *context, void *job, void *state, size_t number) {
@@ -243,14 +246,15 @@ static sl_status search_unit(sl_context *context, void *job, void *state, size_t
     for (uint32_t i = first; i < end; i++) {
         const uint32_t cell = order->nodes[i];
         if (all->options->inside_only && !all->space->cells[cell].inside) continue;
-        SL_TRY(search_cell(context, all, p, me, cell, cyclic ? me->cycle : NULL));
-        pthread_mutex_lock(&all->lock);
-        add_all(all, sl_bit_rows_dense(&all->sure, cell), me->cell_sure);
-        if (all->doubtful.bits)
-            add_all(all, sl_bit_rows_dense(&all->doubtful, cell), me->cell_doubtful);
-        pthread_mutex_unlock(&all->lock);
+        SL_TRY(search_cell(context, all, p, me, cell, cyclic));
     }
     return SL_OK;
+}
+
+static void free_sets(sl_context *context, searcher *me) {
+    sl_word_set *sets[] = {&me->sure, &me->doubtful, &me->cell_sure, &me->cell_doubtful,
+                           &me->candidates};
+    for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) sl_word_set_destroy(context, sets[i]);
 }
 
 static void end(sl_context *context, void *job, void *state) {
@@ -265,27 +269,33 @@ static void end(sl_context *context, void *job, void *state) {
     all->account.relations += me->account.relations;
     all->account.on_cycles += me->account.on_cycles;
     if (me->account.deepest > all->account.deepest) all->account.deepest = me->account.deepest;
+    sl_bit_rows_join(context, &all->sure, &me->rows);
+    sl_bit_rows_join(context, &all->doubtful, &me->doubtful_rows);
     pthread_mutex_unlock(&all->lock);
     solver->destroy(context, me->solver);
     sl_free(context, me->steps.items);
-    sl_free(context, me->wanted.items);
-    sl_free(context, me->sure);
+    sl_prune_wanted_destroy(context, &me->wanted);
+    free_sets(context, me);
     sl_free(context, me);
+}
+
+static sl_status make_sets(sl_context *context, const multipass *all, searcher *me) {
+    const uint32_t count = all->space->cell_count;
+    SL_TRY(sl_word_set_create(context, count, &me->sure));
+    SL_TRY(sl_word_set_create(context, count, &me->doubtful));
+    SL_TRY(sl_word_set_create(context, count, &me->cell_sure));
+    SL_TRY(sl_word_set_create(context, count, &me->cell_doubtful));
+    SL_TRY(sl_word_set_create(context, count, &me->candidates));
+    SL_TRY(sl_bit_rows_fork(context, &all->sure, &me->rows));
+    if (all->rounded) SL_TRY(sl_bit_rows_fork(context, &all->doubtful, &me->doubtful_rows));
+    return all->options->solver->create(context, all->space->bounds, &me->solver);
 }
 
 static sl_status begin(sl_context *context, void *job, void **state) {
     multipass *all = job;
     searcher *me = sl_alloc_array(context, 1, sizeof *me);
     if (!me) return SL_NO_MEMORY;
-    me->sure = sl_alloc_array(context, all->words, 5 * sizeof *me->sure);
-    sl_status status = me->sure ? SL_OK : SL_NO_MEMORY;
-    if (status == SL_OK) {
-        me->doubtful = me->sure + all->words;
-        me->cell_sure = me->doubtful + all->words;
-        me->cell_doubtful = me->cell_sure + all->words;
-        me->cycle = me->cell_doubtful + all->words;
-        status = all->options->solver->create(context, all->space->bounds, &me->solver);
-    }
+    const sl_status status = make_sets(context, all, me);
     if (status == SL_OK)
         *state = me;
     else
@@ -295,20 +305,6 @@ static sl_status begin(sl_context *context, void *job, void **state) {
 
 // --- passes at the same time
 
-static size_t bytes_of(const multipass *all, const running_pass *p) {
-    return p->pass.face_count * all->words * sizeof(sl_bits);
-}
-
-/// Rows here are dense: a pass alone may take more than it may.
-static sl_status check_memory(sl_context *context, const multipass *all, size_t bytes) {
-    if (bytes <= all->options->row_bytes) return SL_OK;
-    return sl_fail(
-        context, SL_NO_MEMORY,
-        "a pass over all cells takes %.1f MiB, more than the %.1f MiB that it may: allow "
-        "more memory, or take the method 'sweep'",
-        (double)bytes / 0x1p20, (double)all->options->row_bytes / 0x1p20);
-}
-
 static sl_status add_pass(sl_context *context, multipass *all, uint32_t sector) {
     SL_TRY(SL_ARRAY_ROOM(context, &all->passes, 1));
     running_pass *p = &all->passes.items[all->passes.count];
@@ -316,17 +312,20 @@ static sl_status add_pass(sl_context *context, multipass *all, uint32_t sector) 
     SL_TRY(sl_pass_create(context, all->space, all->options->inside_only,
                           sl_sector_cone(&all->sectors, sector), &p->pass));
     all->passes.count++;
-    SL_TRY(check_memory(context, all, bytes_of(all, p)));
-    p->seen = sl_alloc_array(context, p->pass.face_count, all->words * sizeof *p->seen);
+    p->seen = sl_alloc_array(context, p->pass.face_count, sizeof *p->seen);
     return p->seen ? SL_OK : SL_NO_MEMORY;
 }
 
 static void drop_passes(sl_context *context, multipass *all) {
     for (size_t i = 0; i < all->passes.count; i++) {
-        sl_pass_destroy(context, &all->passes.items[i].pass);
-        sl_free(context, all->passes.items[i].seen);
+        running_pass *p = &all->passes.items[i];
+        for (uint32_t face = 0; p->seen && face < p->pass.face_count; face++)
+            sl_sparse_row_destroy(context, &p->seen[face]);
+        sl_free(context, p->seen);
+        sl_pass_destroy(context, &p->pass);
     }
     all->passes.count = 0;
+    atomic_store(&all->budget.used, 0);
 }
 
 /// Lists the components of all passes by level.
@@ -378,17 +377,18 @@ static sl_status run_passes(sl_context *context, multipass *all) {
     return sl_work_run(context, &work, all->units.count, all->options->threads);
 }
 
+/// As many passes at the same time as there are threads: one of them alone often has no more work
+/// that is ready.
 static sl_status pass_all(sl_context *context, multipass *all) {
-    size_t bytes = 0;
-    for (uint32_t sector = 0; sector < all->sectors.count / 2; sector++) {
+    const size_t together = all->options->threads ? all->options->threads : sl_core_count();
+    const uint32_t count = all->sectors.count / 2;
+    for (uint32_t sector = 0; sector < count; sector++) {
         SL_TRY(add_pass(context, all, sector));
-        bytes += bytes_of(all, &all->passes.items[all->passes.count - 1]);
-        if (bytes < MOST_BYTES && sector + 1 < all->sectors.count / 2) continue;
+        if (all->passes.count < together && sector + 1 < count) continue;
         SL_TRY(run_passes(context, all));
         drop_passes(context, all);
         sl_free(context, all->after);
         all->after = NULL;
-        bytes = 0;
     }
     return SL_OK;
 }
@@ -397,18 +397,20 @@ static sl_status pass_all(sl_context *context, multipass *all) {
 
 /// Of rounded solvers: what is sure is not doubtful, and with closed sight what is doubtful is
 /// seen.
+static sl_status settle_rounded(sl_context *context, multipass *all, sl_visibility *out) {
+    sl_visibility sure = {0}, doubtful = {0};
+    sl_status status = sl_bit_rows_encode(context, &all->sure, &sure);
+    if (status == SL_OK) status = sl_bit_rows_encode(context, &all->doubtful, &doubtful);
+    if (status == SL_OK)
+        status = sl_visibility_settle(context, &sure.pvs, &doubtful.pvs, true, out);
+    sl_visibility_destroy(context, &sure);
+    sl_visibility_destroy(context, &doubtful);
+    return status;
+}
+
 static sl_status settle(sl_context *context, multipass *all, sl_visibility *out) {
+    if (all->rounded) return settle_rounded(context, all, out);
     SL_TRY(sl_bit_rows_mirror(context, &all->sure, SL_ADD_MIRRORED));
-    if (!all->doubtful.bits) return sl_bit_rows_encode(context, &all->sure, out);
-    SL_TRY(sl_bit_rows_mirror(context, &all->doubtful, SL_ADD_MIRRORED));
-    for (size_t i = 0; i < all->sure.count * all->words; i++) {
-        all->doubtful.bits[i] &= ~all->sure.bits[i];
-        if (out->sight == SL_CLOSED) all->sure.bits[i] |= all->doubtful.bits[i];
-    }
-    sl_visibility doubtful = {0};
-    SL_TRY(sl_bit_rows_encode(context, &all->doubtful, &doubtful));
-    out->doubtful = doubtful.pvs;
-    out->account.doubtful_pairs = doubtful.account.pairs;
     return sl_bit_rows_encode(context, &all->sure, out);
 }
 
@@ -416,12 +418,8 @@ static sl_status see(sl_context *context, multipass *all, sl_visibility *out) {
     const uint32_t count = all->space->cell_count;
     SL_TRY(sl_sectors_create(context, all->space, all->options->sectors, &all->sectors));
     all->account.sectors = all->sectors.count;
-    // Faces have dense rows, of which there are more than cells.
-    sl_see_options dense = *all->options;
-    dense.rows = SL_ROWS_DENSE;
-    SL_TRY(sl_bit_rows_create(context, count, &dense, &all->sure));
-    if (all->options->solver->guarantee == SL_ROUNDED)
-        SL_TRY(sl_bit_rows_create(context, count, &dense, &all->doubtful));
+    SL_TRY(sl_bit_rows_create(context, count, all->options, &all->sure));
+    if (all->rounded) SL_TRY(sl_bit_rows_create(context, count, all->options, &all->doubtful));
     SL_TRY(pass_all(context, all));
     out->account = all->account;
     return settle(context, all, out);
@@ -438,7 +436,11 @@ sl_status sl_see_multipass(sl_context *context, const sl_space *space,
                        options->solver->name);
     if (options->trees)
         return sl_fail(context, SL_UNSUPPORTED, "the method 'multipass' makes no stab trees");
-    multipass all = {.space = space, .options = options, .words = sl_bits_words(space->cell_count)};
+    multipass all = {.space = space,
+                     .options = options,
+                     .words = sl_bits_words(space->cell_count),
+                     .budget = {.most = options->row_bytes},
+                     .rounded = options->solver->guarantee == SL_ROUNDED};
     sl_visibility visibility = {.sight = options->sight, .guarantee = options->solver->guarantee};
     pthread_mutex_init(&all.lock, NULL);
     const sl_status status = see(context, &all, &visibility);

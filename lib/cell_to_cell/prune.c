@@ -111,6 +111,20 @@ sl_status sl_prune_start_with(sl_context *context, sl_prune_wanted *wanted, cons
     return SL_OK;
 }
 
+sl_status sl_prune_start_among(sl_context *context, sl_prune_wanted *wanted,
+                               const sl_word_set *set) {
+    SL_TRY(sl_prune_start(context, wanted, 0));
+    wanted->words.count = 0;
+    for (size_t word = sl_word_set_next(set, set->low); word < set->high;
+         word = sl_word_set_next(set, word + 1)) {
+        SL_TRY(SL_ARRAY_ROOM(context, &wanted->words, 1));
+        wanted->words.items[wanted->words.count++] =
+            (sl_prune_word){set->bits[word], (uint32_t)word};
+    }
+    wanted->sets.items[0] = (sl_prune_set){.end = wanted->words.count, .top = wanted->words.count};
+    return SL_OK;
+}
+
 /// A bound's words without cells below the first that is wanted.
 static void take_from_first(const sl_prune_word *bound, size_t count, sl_prune_wanted *wanted,
                             sl_prune_set *set) {
@@ -157,6 +171,37 @@ sl_status sl_prune_step(sl_context *context, const sl_prune_bounds *bounds, sl_p
         take_from_first(bound, count, wanted, set);
     else
         take_common(bound, count, &before, wanted, set);
+    set->top = set->end;
+    return SL_OK;
+}
+
+/// Takes the words of the set before that the row has too.
+static void take_from_row(const sl_sparse_row *row, const sl_prune_set *before,
+                          sl_prune_wanted *wanted, sl_prune_set *set) {
+    const uint32_t *index = row->count == SL_ALL_WORDS ? NULL : sl_sparse_index(row);
+    sl_prune_word *words = wanted->words.items;
+    for (size_t i = 0, k = before->begin; k < before->end; k++) {
+        const uint32_t word = words[k].word;
+        while (index && i < row->count && index[i] < word) i++;
+        if (index && i == row->count) break;
+        if (index && index[i] != word) continue;
+        const sl_bits bits = words[k].bits & row->words[index ? i : word];
+        if (bits) words[set->end++] = (sl_prune_word){bits, word};
+    }
+}
+
+sl_status sl_prune_step_within(sl_context *context, const sl_sparse_row *row,
+                               sl_prune_wanted *wanted, size_t step) {
+    wanted->sets.count = step;
+    SL_TRY(SL_ARRAY_ROOM(context, &wanted->sets, 1));
+    const sl_prune_set before = wanted->sets.items[step - 1];
+    sl_prune_set *set = &wanted->sets.items[wanted->sets.count++];
+    *set = before;
+    if (!row->count) return SL_OK;
+    wanted->words.count = before.top;
+    SL_TRY(SL_ARRAY_ROOM(context, &wanted->words, before.end - before.begin));
+    *set = (sl_prune_set){.begin = before.top, .end = before.top};
+    take_from_row(row, &before, wanted, set);
     set->top = set->end;
     return SL_OK;
 }

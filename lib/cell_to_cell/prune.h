@@ -1,10 +1,12 @@
-/// What a search has left to find: the sets that the method "prune" keeps on its way. Beyond each
-/// exit only what its upper bound (flood.h) and those of all exits before leave possible is wanted.
+/// What a search has left to find: the sets that the methods "prune" and "multipass" keep on their
+/// way. Beyond each exit only what its upper bound and those of all exits before leave possible is
+/// wanted.
 #ifndef SL_PRUNE_H
 #define SL_PRUNE_H
 
 #include "base/base.h"
 #include "base/bits.h"
+#include "cell_to_cell/sparse_row.h"
 #include "sightline/cell_to_cell.h"
 
 /// A word of a set of cells that has some: cells 64 * word on.
@@ -50,10 +52,18 @@ sl_status sl_prune_start(sl_context *context, sl_prune_wanted *wanted, uint32_t 
 sl_status sl_prune_start_with(sl_context *context, sl_prune_wanted *wanted, const sl_pvs *pvs,
                               uint32_t cell, uint32_t first);
 
+/// Begins with the members of a set.
+sl_status sl_prune_start_among(sl_context *context, sl_prune_wanted *wanted,
+                               const sl_word_set *set);
+
 /// Makes the set of a step: what is wanted at the step before it and within an exit's bound. Later
 /// steps are forgotten.
 sl_status sl_prune_step(sl_context *context, const sl_prune_bounds *bounds, sl_prune_wanted *wanted,
                         size_t step, uint32_t exit);
+
+/// Likewise within a row, which bounds nothing where it is empty; after sl_prune_start_among only.
+sl_status sl_prune_step_within(sl_context *context, const sl_sparse_row *row,
+                               sl_prune_wanted *wanted, size_t step);
 
 void sl_prune_wanted_destroy(sl_context *context, sl_prune_wanted *wanted); ///< and zeroes it
 

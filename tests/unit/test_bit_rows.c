@@ -130,7 +130,7 @@ static void large_rows_are_sparse(void **state) {
 
 // --- under the methods
 
-static const char *const methods_with_rows[] = {"sweep", "flood", "sampling"};
+static const char *const methods_with_rows[] = {"sweep", "flood", "sampling", "multipass"};
 
 static void generate_space(sl_context *context, uint64_t walls, sl_space *space) {
     size_t count;
@@ -159,6 +159,7 @@ static void sparse_rows_give_the_same_bytes(void **state) {
         options.rows = SL_ROWS_DENSE;
         options.threads = 1;
         const sl_see_method *method = testing_method(methods_with_rows[m]);
+        options.solver = method->stabs ? sl_funnel() : NULL;
         assert_ok(context, method->see(context, &space, &options, &dense));
         options.rows = SL_ROWS_SPARSE;
         for (options.threads = 1; options.threads <= 4; options.threads += 3) {
@@ -190,6 +191,7 @@ static void the_limit_is_kept_and_told(void **state) {
         options.threads = 1; // the allocator that counts is one thread's
         options.row_bytes = 20000;
         const sl_see_method *method = testing_method(methods_with_rows[m]);
+        options.solver = method->stabs ? sl_funnel() : NULL;
         assert_int_equal(method->see(context, &space, &options, &seen), SL_NO_MEMORY);
         assert_non_null(strstr(sl_context_message(context), "allow more memory"));
         assert_int_equal(memory.live, live);
@@ -213,11 +215,13 @@ static void lack_of_memory_leaves_nothing(void **state) {
         for (long fail_at = 1; status == SL_NO_MEMORY; fail_at++, calls++) {
             sl_see_options options = sl_see_options_default();
             sl_visibility seen = {0};
+            const sl_see_method *method = testing_method(methods_with_rows[m]);
+            options.solver = method->stabs ? sl_funnel() : NULL;
             options.threads = 1;
             options.rows = SL_ROWS_SPARSE;
             memory.calls = 0;
             memory.fail_at = fail_at;
-            status = testing_method(methods_with_rows[m])->see(context, &space, &options, &seen);
+            status = method->see(context, &space, &options, &seen);
             memory.fail_at = 0;
             sl_visibility_destroy(context, &seen);
             assert_int_equal(memory.live, live);
