@@ -13,6 +13,7 @@
 #include "base/file.h"
 #include "base/random.h"
 #include "sightline/sightline.h"
+#include "space/box_tree.h"
 
 #include <getopt.h>
 #include <math.h>
@@ -31,6 +32,8 @@ typedef struct check {
     double longest; ///< of a sightline: beyond the map
 
     sl_baked baked;
+    sl_box_tree boxes; ///< of the cells
+    sl_box_list met;   ///< scratch
     sl_bytes map_bytes, reject_bytes;
     sl_doom_level level;
     sector_finder *sectors;
@@ -119,12 +122,21 @@ static void tell_lost(check *run, sl_segment s, const char *what, uint32_t a, ui
             s.b.y, what, (unsigned long)a, (unsigned long)b);
 }
 
+/// Given cells need not cover the map. Asking for a point that is in none asks all of them, which
+/// is spared where it is in no cell's box.
+static uint32_t cell_at(check *run, sl_point at) {
+    if (!run->baked.space.partial) return sl_space_locate(&run->baked.space, at);
+    must(run, sl_box_tree_find(run->context, &run->boxes, &(sl_box){at, at}, &run->met));
+    return run->met.count ? sl_space_locate(&run->baked.space, at) : SL_NO_CELL;
+}
+
 static void check_cells(check *run, sl_segment s) {
     const sl_baked *baked = &run->baked;
-    const uint32_t a = sl_space_locate(&baked->space, s.a);
-    const uint32_t b = sl_space_locate(&baked->space, s.b);
+    const uint32_t a = cell_at(run, s.a);
     // Outside the space, and where the bake did not look, nothing is said.
-    if (a == SL_NO_CELL || b == SL_NO_CELL) return;
+    if (a == SL_NO_CELL) return;
+    const uint32_t b = cell_at(run, s.b);
+    if (b == SL_NO_CELL) return;
     if (!sl_pvs_count(&baked->visibility.pvs, a) || !sl_pvs_count(&baked->visibility.pvs, b))
         return;
     run->checked++;
@@ -203,6 +215,20 @@ static void read_sectors(check *run) {
     must(run, sl_wad_lump(run->context, &wad, lump, &run->reject));
 }
 
+static void box_cells(check *run) {
+    const sl_space *space = &run->baked.space;
+    sl_box *boxes = calloc(space->cell_count + (size_t)1, sizeof *boxes);
+    if (!boxes) abort();
+    for (uint32_t i = 0; i < space->cell_count; i++) {
+        const sl_point *corners = space->vertices + space->cells[i].first_vertex;
+        boxes[i] = (sl_box){corners[0], corners[0]};
+        for (uint32_t k = 1; k < space->cells[i].vertex_count; k++)
+            boxes[i] = sl_box_with(boxes[i], corners[k]);
+    }
+    must(run, sl_box_tree_create(run->context, boxes, space->cell_count, &run->boxes));
+    free(boxes);
+}
+
 /// Ordered pairs of different sectors that the REJECT hides.
 static uint64_t count_hidden(const check *run) {
     const size_t count = run->level.sector_count;
@@ -261,10 +287,12 @@ int main(int argc, char **argv) {
     if (!run.context) abort();
     read_arguments(&run, argc, argv);
     read_walls(&run);
-    if (run.slv_path)
+    if (run.slv_path) {
         must(&run, sl_baked_read(run.context, run.slv_path, &run.baked));
-    else
+        box_cells(&run);
+    } else {
         read_sectors(&run);
+    }
     check_all(&run);
     print_result(&run);
     if (run.sectors) sector_finder_destroy(run.sectors);
@@ -273,6 +301,8 @@ int main(int argc, char **argv) {
     sl_free(run.context, run.reject_bytes.data);
     free(run.lost_sectors);
     sl_doom_level_destroy(run.context, &run.level);
+    sl_box_tree_destroy(run.context, &run.boxes);
+    sl_free(run.context, run.met.items);
     sl_baked_destroy(run.context, &run.baked);
     sl_map_destroy(run.context, &run.map);
     sl_context_destroy(run.context);
