@@ -3,7 +3,7 @@
 #include "draw/chart_page.h"
 
 #include "base/base.h"
-#include "draw/paper.h"
+#include "draw/page.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -42,9 +42,7 @@ static sl_status check_mark(sl_context *context, const sl_chart *chart, const sl
 }
 
 static sl_status check_chart(sl_context *context, const sl_chart *chart) {
-    if (!(chart->width >= SL_DRAW_WIDTH_MIN && chart->width <= SL_DRAW_WIDTH_MAX))
-        return sl_fail(context, SL_BAD_ARGUMENT, "width %g: must be %d to %d", chart->width,
-                       SL_DRAW_WIDTH_MIN, SL_DRAW_WIDTH_MAX);
+    SL_TRY(sl_page_check_width(context, chart->width));
     for (size_t i = 0; i < chart->series_count; i++) {
         const sl_chart_series *series = &chart->series[i];
         if (series->colour >= SL_CHART_COLOURS)
@@ -302,29 +300,19 @@ static double below_frame(const sl_chart_page *page) {
     return (page->chart->x.label ? 3.6 : 2.1) * page->text;
 }
 
-static sl_status lay_out(sl_context *context, cairo_t *cairo, sl_chart_page *page) {
+static sl_status lay_out(sl_context *context, cairo_t *cairo, void *what) {
+    sl_chart_page *page = what;
+    const sl_page blank = sl_page_of_width(page->chart->width);
     double top;
-    page->width = round(page->chart->width);
-    page->margin = 0.04 * page->width;
-    page->text = 16.5 * pow(page->width / 1200, 0.75); // as plans have it
+    page->width = blank.width;
+    page->margin = blank.margin;
+    page->text = blank.text;
     SL_TRY(begin_page(context, cairo, page, &top));
     SL_TRY(lay_out_frame(context, cairo, page, top));
     const double y = page->frame.max.y + below_frame(page);
     page->key_top = y;
     page->height = ceil(y + sl_chart_key(cairo, page, false) + 0.8 * page->margin);
     return SL_OK;
-}
-
-/// Measuring text needs a surface, and the file's needs the page's height.
-static sl_status measure(sl_context *context, sl_chart_page *page, const char *path) {
-    cairo_surface_t *scratch = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
-    cairo_t *cairo = cairo_create(scratch);
-    sl_status status = lay_out(context, cairo, page);
-    const cairo_status_t drawn = cairo_status(cairo);
-    cairo_destroy(cairo);
-    cairo_surface_destroy(scratch);
-    if (status == SL_OK && drawn) status = sl_fail_cairo(context, path, drawn);
-    return status;
 }
 
 static sl_status draw(sl_context *context, const sl_chart_page *page, const sl_paper_kind *kind,
@@ -343,7 +331,7 @@ sl_status sl_draw_chart_file(sl_context *context, const sl_chart *chart, const c
     sl_chart_page *page = sl_alloc_array(context, 1, sizeof *page);
     if (!page) return SL_NO_MEMORY;
     page->chart = chart;
-    sl_status status = measure(context, page, path);
+    sl_status status = sl_page_measure(context, path, lay_out, page);
     if (status == SL_OK) status = draw(context, page, kind, path);
     sl_free(context, page->spots);
     sl_free(context, page->labels);

@@ -2,7 +2,7 @@
 
 #include "base/base.h"
 #include "draw/legend.h"
-#include "draw/paper.h"
+#include "draw/page.h"
 #include "draw/plan.h"
 
 #include <math.h>
@@ -18,9 +18,7 @@ sl_draw_options sl_draw_options_default(void) {
 
 static sl_status check_options(sl_context *context, const sl_baked *baked,
                                const sl_draw_options *options) {
-    if (!(options->width >= SL_DRAW_WIDTH_MIN && options->width <= SL_DRAW_WIDTH_MAX))
-        return sl_fail(context, SL_BAD_ARGUMENT, "width %g: must be %d to %d", options->width,
-                       SL_DRAW_WIDTH_MIN, SL_DRAW_WIDTH_MAX);
+    SL_TRY(sl_page_check_width(context, options->width));
     if (options->layers & ~(unsigned)ALL_LAYERS)
         return sl_fail(context, SL_BAD_ARGUMENT, "layers 0x%x: only 0x%x are known",
                        options->layers, ALL_LAYERS);
@@ -30,70 +28,39 @@ static sl_status check_options(sl_context *context, const sl_baked *baked,
     return SL_OK;
 }
 
-/// Where everything stands on the page.
-typedef struct page {
-    double width, height;
-    sl_strip heading, legend;
-    sl_frame frame;
-} page;
-
-/// The frame for the map is as wide as the margins leave and as high as the map then is, but never
-/// lower than a sixth or higher than 1.4 of its width: a long thin map gets free paper beside it
-/// and is not stretched, and the page stays within cairo's 32,767 pixels for every width allowed.
-static page lay_out(cairo_t *cairo, const sl_scene *scene) {
-    const double width = round(scene->options.width), margin = 0.04 * width;
-    const double inner = width - 2 * margin;
-    // Text shrinks less than the picture does, to stay readable in small ones.
-    const double text = 16.5 * pow(width / 1200, 0.75);
-    const sl_box bounds = scene->baked->space.bounds;
-    const double wide = bounds.max.x - bounds.min.x, high = bounds.max.y - bounds.min.y;
-    const double ratio = wide > 0 ? high / wide : high > 0 ? INFINITY : 1;
-    const double map_height = inner * fmin(fmax(ratio, 1.0 / 6), 1.4);
-
-    page p = {.width = width, .heading = {margin, margin, inner, text, false}};
-    double y = margin + sl_draw_heading(cairo, scene, &p.heading);
-    if (y > margin) y += 0.6 * margin;
-    p.frame = sl_frame_fit(bounds, margin, y, inner, map_height, width / 1200);
-    y += map_height;
-    p.legend = (sl_strip){margin, y + 0.55 * margin, inner, text, false};
-    if (scene->options.layers & SL_LAYER_LEGEND)
-        y = p.legend.top + sl_draw_legend(cairo, scene, NULL, NULL, &p.legend) - 0.3 * margin;
-    p.height = ceil(y + margin);
-    p.heading.paint = p.legend.paint = true;
-    return p;
+static sl_strip strip_at(const sl_page *page, double top, bool paint) {
+    return (sl_strip){page->margin, top, page->inner, page->text, paint};
 }
 
-/// Measuring text needs a surface, and the file's needs the page's height.
-static sl_status measure(sl_context *context, const sl_scene *scene, const char *path, page *out) {
-    cairo_surface_t *scratch = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
-    cairo_t *cairo = cairo_create(scratch);
-    *out = lay_out(cairo, scene);
-    const cairo_status_t status = cairo_status(cairo);
-    cairo_destroy(cairo);
-    cairo_surface_destroy(scratch);
-    return status ? sl_fail_cairo(context, path, status) : SL_OK;
+static void set_page(cairo_t *cairo, const void *what, sl_page *page, bool paint) {
+    const sl_scene *scene = what;
+    const sl_strip heading = strip_at(page, page->margin, paint);
+    double y = page->margin + sl_draw_heading(cairo, scene, &heading);
+    if (y > page->margin) y += 0.6 * page->margin;
+    if (!paint) sl_page_place_plan(page, scene->baked->space.bounds, y, SL_PAGE_TALLEST);
+    y = page->bottom;
+    if (scene->options.layers & SL_LAYER_LEGEND) {
+        const sl_strip legend = strip_at(page, y + 0.55 * page->margin, paint);
+        const sl_pens pens = sl_pens_for(scene, &page->frame);
+        y = legend.top + sl_draw_legend(cairo, scene, &page->frame, &pens, &legend) -
+            0.3 * page->margin;
+    }
+    page->height = ceil(y + page->margin);
 }
 
-static sl_status draw_page(sl_context *context, cairo_t *cairo, const sl_scene *scene,
-                           const page *p) {
-    const sl_pens pens = sl_pens_for(scene, &p->frame);
-    sl_set_colour(cairo, scene->palette.page);
-    cairo_paint(cairo);
-    sl_draw_heading(cairo, scene, &p->heading);
-    SL_TRY(sl_draw_onto(context, cairo, scene, &p->frame));
-    if (scene->options.layers & SL_LAYER_LEGEND)
-        sl_draw_legend(cairo, scene, &p->frame, &pens, &p->legend);
-    return SL_OK;
+static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what,
+                           const sl_frame *frame) {
+    return sl_draw_onto(context, cairo, what, frame);
 }
 
 static sl_status draw_scene(sl_context *context, const sl_scene *scene, const sl_paper_kind *kind,
                             const char *path) {
-    sl_paper paper;
-    page p;
-    SL_TRY(measure(context, scene, path, &p));
-    SL_TRY(sl_paper_open(context, kind, path, (int)p.width, (int)p.height, scene->options.title,
-                         &paper));
-    return sl_paper_close(context, &paper, draw_page(context, paper.cairo, scene, &p));
+    const sl_page_parts parts = {.set = set_page,
+                                 .draw_plan = draw_plan,
+                                 .what = scene,
+                                 .ground = scene->palette.page,
+                                 .title = scene->options.title};
+    return sl_page_write(context, &parts, scene->options.width, kind, path);
 }
 
 sl_status sl_draw_file(sl_context *context, const sl_baked *baked, const sl_draw_options *options,

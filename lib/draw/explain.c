@@ -1,7 +1,7 @@
 /// The page of an explanation: a heading, the plan with what is told, a key, and a caption.
 #include "draw/explain.h"
 
-#include "draw/paper.h"
+#include "draw/page.h"
 #include "draw/text.h"
 #include "sightline/draw.h"
 
@@ -11,6 +11,7 @@
 
 #define CAPTION_TEXT 512
 #define LINE_HEIGHT  1.5
+#define TALLEST      1.1 ///< of the plan, in its width: the caption should not be far
 
 // --- what is shown
 
@@ -247,86 +248,51 @@ static double draw_key(cairo_t *cairo, const sl_told *told, double left, double 
 
 // --- the page
 
-typedef struct page {
-    double width, height, margin, text;
-    double key, caption; ///< their tops
-    sl_frame frame;
-} page;
-
-/// Measures where `paint` is false, and draws all but the plan where it is true.
-static void set_page(cairo_t *cairo, const sl_told *told, page *p, bool paint) {
+static void set_page(cairo_t *cairo, const void *what, sl_page *page, bool paint) {
+    const sl_told *told = what;
     const sl_palette *palette = &told->scene.palette;
-    const double inner = p->width - 2 * p->margin;
-    char text[CAPTION_TEXT];
-    double y = p->margin;
-    y += 1.7 * p->text;
-    if (paint)
-        sl_text_show_within(cairo, palette->ink, p->margin, y, inner, 1.9 * p->text, true,
-                            title_of(told, text));
+    char title[CAPTION_TEXT], text[CAPTION_TEXT];
     write_subtitle(told, text);
-    y += 1.7 * p->text;
-    if (paint)
-        sl_text_show_within(cairo, palette->faint, p->margin, y, inner, p->text, false, text);
-    y += 1.3 * p->text;
-    if (!paint) {
-        const double wide = told->frame.max.x - told->frame.min.x;
-        const double high = told->frame.max.y - told->frame.min.y;
-        const double height = inner * fmin(fmax(high / wide, 1.0 / 6), 1.1);
-        p->frame = sl_frame_fit(told->frame, p->margin, y, inner, height, p->width / 1200);
-        p->key = y + height + 1.1 * p->text;
-    }
-    y = p->key + draw_key(cairo, told, p->margin, p->key, inner, p->text, paint);
+    const double top = sl_page_heading(cairo, page, palette, title_of(told, title), text, paint);
+    if (!paint) sl_page_place_plan(page, told->frame, top, TALLEST);
+    double y = page->key;
+    y += draw_key(cairo, told, page->margin, y, page->inner, page->text, paint);
     write_caption(told, text);
-    y += 0.4 * p->text;
-    y += set_lines(cairo, palette->ink, p->margin, y, inner, 1.05 * p->text, text, paint);
-    p->height = ceil(y + 0.7 * p->margin);
-}
-
-/// Measuring text needs a surface, and the file's needs the page's height.
-static sl_status measure(sl_context *context, const sl_told *told, const char *path, page *out) {
-    const double width = round(told->scene.options.width);
-    cairo_surface_t *scratch = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
-    cairo_t *cairo = cairo_create(scratch);
-    // Text shrinks less than the picture does, to stay readable in small ones.
-    *out = (page){.width = width, .margin = 0.04 * width, .text = 16.5 * pow(width / 1200, 0.75)};
-    set_page(cairo, told, out, false);
-    const cairo_status_t status = cairo_status(cairo);
-    cairo_destroy(cairo);
-    cairo_surface_destroy(scratch);
-    return status ? sl_fail_cairo(context, path, status) : SL_OK;
+    y += 0.4 * page->text;
+    y += set_lines(cairo, palette->ink, page->margin, y, page->inner, 1.05 * page->text, text,
+                   paint);
+    page->height = ceil(y + 0.7 * page->margin);
 }
 
 /// Where only a part of the map is shown a thin line says where it ends.
-static void draw_frame(cairo_t *cairo, const sl_told *told, const page *p) {
+static void draw_frame(cairo_t *cairo, const sl_told *told, const sl_frame *frame) {
     if (!told->part) return;
-    const sl_frame *v = &p->frame;
-    cairo_rectangle(cairo, v->left, v->top, v->width, v->height);
+    cairo_rectangle(cairo, frame->left, frame->top, frame->width, frame->height);
     sl_set_colour(cairo, told->scene.palette.faint);
-    cairo_set_line_width(cairo, v->unit);
+    cairo_set_line_width(cairo, frame->unit);
     cairo_stroke(cairo);
 }
 
-static sl_status draw_page(sl_context *context, cairo_t *cairo, const sl_told *told, page *p) {
-    sl_set_colour(cairo, told->scene.palette.page);
-    cairo_paint(cairo);
-    SL_TRY(sl_draw_told(context, cairo, told, &p->frame));
-    draw_frame(cairo, told, p);
-    set_page(cairo, told, p, true);
+static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what,
+                           const sl_frame *frame) {
+    const sl_told *told = what;
+    SL_TRY(sl_draw_told(context, cairo, told, frame));
+    draw_frame(cairo, told, frame);
     return SL_OK;
 }
 
 static sl_status draw_told_file(sl_context *context, sl_told *told, const sl_paper_kind *kind,
                                 const char *path) {
-    sl_paper paper;
-    page p;
-    char text[CAPTION_TEXT];
+    char title[CAPTION_TEXT];
     SL_TRY(paint_cells(context, told));
     choose_colours(told);
     choose_frame(told);
-    SL_TRY(measure(context, told, path, &p));
-    SL_TRY(sl_paper_open(context, kind, path, (int)p.width, (int)p.height, title_of(told, text),
-                         &paper));
-    return sl_paper_close(context, &paper, draw_page(context, paper.cairo, told, &p));
+    const sl_page_parts parts = {.set = set_page,
+                                 .draw_plan = draw_plan,
+                                 .what = told,
+                                 .ground = told->scene.palette.page,
+                                 .title = title_of(told, title)};
+    return sl_page_write(context, &parts, told->scene.options.width, kind, path);
 }
 
 sl_status sl_draw_explanation(sl_context *context, const sl_baked *baked,
@@ -334,9 +300,7 @@ sl_status sl_draw_explanation(sl_context *context, const sl_baked *baked,
                               const char *path) {
     const sl_paper_kind *kind;
     SL_TRY(sl_paper_kind_of(context, path, &kind));
-    if (!(options->width >= SL_DRAW_WIDTH_MIN && options->width <= SL_DRAW_WIDTH_MAX))
-        return sl_fail(context, SL_BAD_ARGUMENT, "width %g: must be %d to %d", options->width,
-                       SL_DRAW_WIDTH_MIN, SL_DRAW_WIDTH_MAX);
+    SL_TRY(sl_page_check_width(context, options->width));
     sl_draw_options plain = *options;
     plain.layers = SL_LAYER_CELLS | SL_LAYER_PORTALS | SL_LAYER_WALLS;
     plain.cell = explanation->from;

@@ -2,7 +2,7 @@
 /// and its cone over it, and a key with the methods' counts.
 #include "draw/boxes.h"
 #include "draw/marks.h"
-#include "draw/paper.h"
+#include "draw/page.h"
 #include "draw/plan.h"
 #include "draw/seen.h"
 #include "draw/text.h"
@@ -197,82 +197,51 @@ static double draw_key(cairo_t *cairo, const eye_picture *p, double left, double
 
 // --- the page
 
-typedef struct page {
-    double width, height, margin, text, key;
-    sl_frame frame;
-} page;
-
-/// Measures where `paint` is false, and draws all but the plan where it is true.
-static void set_page(cairo_t *cairo, const eye_picture *p, page *out, bool paint) {
+static void set_page(cairo_t *cairo, const void *what, sl_page *page, bool paint) {
+    const eye_picture *p = what;
     const sl_palette *palette = &p->scene.palette;
-    const double inner = out->width - 2 * out->margin;
-    char text[KEY_TEXT];
-    double y = out->margin + 1.7 * out->text;
-    write_title(p, text);
-    const char *title = p->scene.options.title ? p->scene.options.title : text;
-    if (paint)
-        sl_text_show_within(cairo, palette->ink, out->margin, y, inner, 1.9 * out->text, true,
-                            title);
-    y += 1.7 * out->text;
-    write_subtitle(p, text);
-    if (paint)
-        sl_text_show_within(cairo, palette->faint, out->margin, y, inner, out->text, false, text);
-    y += 1.3 * out->text;
-    if (!paint) {
-        const sl_box bounds = p->scene.baked->space.bounds;
-        const double wide = bounds.max.x - bounds.min.x, high = bounds.max.y - bounds.min.y;
-        const double height = inner * fmin(fmax(high / wide, 1.0 / 6), 1.4);
-        out->frame = sl_frame_fit(bounds, out->margin, y, inner, height, out->width / 1200);
-        out->key = y + height + 1.1 * out->text;
-    }
-    y = out->key + draw_key(cairo, p, out->margin, out->key, inner, out->text, paint);
-    y += sl_draw_seen_key(cairo, palette, p->parts, p->part_count, (sl_point){out->margin, y},
-                          inner, out->text, paint);
-    y += sl_draw_boxes_key(cairo, palette, p->scene.options.box_count, (sl_point){out->margin, y},
-                           out->text, paint);
-    out->height = ceil(y + 0.5 * out->margin);
+    const size_t box_count = p->scene.options.box_count;
+    char title[KEY_TEXT], subtitle[KEY_TEXT];
+    write_title(p, title);
+    write_subtitle(p, subtitle);
+    const char *own = p->scene.options.title;
+    const double top = sl_page_heading(cairo, page, palette, own ? own : title, subtitle, paint);
+    if (!paint) sl_page_place_plan(page, p->scene.baked->space.bounds, top, SL_PAGE_TALLEST);
+    double y = page->key;
+    y += draw_key(cairo, p, page->margin, y, page->inner, page->text, paint);
+    y += sl_draw_seen_key(cairo, palette, p->parts, p->part_count, (sl_point){page->margin, y},
+                          page->inner, page->text, paint);
+    y += sl_draw_boxes_key(cairo, palette, box_count, (sl_point){page->margin, y}, page->text,
+                           paint);
+    page->height = ceil(y + 0.5 * page->margin);
 }
 
-/// Measuring text needs a surface, and the file's needs the page's height.
-static sl_status measure(sl_context *context, const eye_picture *p, const char *path, page *out) {
-    const double width = round(p->scene.options.width);
-    cairo_surface_t *scratch = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
-    cairo_t *cairo = cairo_create(scratch);
-    // Text shrinks less than the picture does, to stay readable in small ones.
-    *out = (page){.width = width, .margin = 0.04 * width, .text = 16.5 * pow(width / 1200, 0.75)};
-    set_page(cairo, p, out, false);
-    const cairo_status_t status = cairo_status(cairo);
-    cairo_destroy(cairo);
-    cairo_surface_destroy(scratch);
-    return status ? sl_fail_cairo(context, path, status) : SL_OK;
-}
-
-static sl_status draw_page(sl_context *context, cairo_t *cairo, const eye_picture *p, page *at) {
-    sl_set_colour(cairo, p->scene.palette.page);
-    cairo_paint(cairo);
-    SL_TRY(sl_draw_onto(context, cairo, &p->scene, &at->frame));
+static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what,
+                           const sl_frame *frame) {
+    const eye_picture *p = what;
+    const sl_draw_options *options = &p->scene.options;
+    SL_TRY(sl_draw_onto(context, cairo, &p->scene, frame));
     for (size_t i = 0; i < p->part_count; i++)
-        (p->scene.options.box_count ? sl_draw_lit : sl_draw_seen)(cairo, &p->scene.palette,
-                                                                  &at->frame, &p->parts[i]);
-    if (p->part_count) SL_TRY(sl_draw_walls_onto(context, cairo, &p->scene, &at->frame));
-    sl_draw_boxes(cairo, &p->scene.palette, &at->frame, p->scene.options.boxes,
-                  p->scene.options.box_count);
-    draw_cone(cairo, p, &at->frame);
-    draw_eye_mark(cairo, p, &at->frame);
-    set_page(cairo, p, at, true);
+        (options->box_count ? sl_draw_lit : sl_draw_seen)(cairo, &p->scene.palette, frame,
+                                                          &p->parts[i]);
+    if (p->part_count) SL_TRY(sl_draw_walls_onto(context, cairo, &p->scene, frame));
+    sl_draw_boxes(cairo, &p->scene.palette, frame, options->boxes, options->box_count);
+    draw_cone(cairo, p, frame);
+    draw_eye_mark(cairo, p, frame);
     return SL_OK;
 }
 
 static sl_status draw_picture(sl_context *context, eye_picture *p, const sl_paper_kind *kind,
                               const char *path) {
-    sl_paper paper;
-    page at;
     char title[KEY_TEXT];
     write_title(p, title);
     SL_TRY(paint_cells(context, p));
-    SL_TRY(measure(context, p, path, &at));
-    SL_TRY(sl_paper_open(context, kind, path, (int)at.width, (int)at.height, title, &paper));
-    return sl_paper_close(context, &paper, draw_page(context, paper.cairo, p, &at));
+    const sl_page_parts parts = {.set = set_page,
+                                 .draw_plan = draw_plan,
+                                 .what = p,
+                                 .ground = p->scene.palette.page,
+                                 .title = title};
+    return sl_page_write(context, &parts, p->scene.options.width, kind, path);
 }
 
 sl_status sl_draw_eye(sl_context *context, const sl_baked *baked, const sl_view *view,
@@ -285,9 +254,7 @@ sl_status sl_draw_eye(sl_context *context, const sl_baked *baked, const sl_view 
                        layer_count, SL_EYE_LAYERS_MOST);
     if (!sl_view_usable(view))
         return sl_fail(context, SL_BAD_ARGUMENT, "the view to be drawn is none");
-    if (!(options->width >= SL_DRAW_WIDTH_MIN && options->width <= SL_DRAW_WIDTH_MAX))
-        return sl_fail(context, SL_BAD_ARGUMENT, "width %g: must be %d to %d", options->width,
-                       SL_DRAW_WIDTH_MIN, SL_DRAW_WIDTH_MAX);
+    SL_TRY(sl_page_check_width(context, options->width));
     sl_draw_options plain = *options;
     plain.layers = SL_LAYER_CELLS | SL_LAYER_PORTALS | SL_LAYER_WALLS;
     plain.cell = sl_space_locate(&baked->space, view->eye);

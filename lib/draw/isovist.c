@@ -2,7 +2,7 @@
 /// patches coloured by what they cost.
 #include "base/base.h"
 #include "draw/legend.h"
-#include "draw/paper.h"
+#include "draw/page.h"
 #include "draw/plan.h"
 #include "draw/seen.h"
 #include "draw/text.h"
@@ -25,11 +25,6 @@ typedef struct picture {
     size_t value_count;
     double least, most; ///< of the values
 } picture;
-
-typedef struct page {
-    double width, height, margin, text, key; ///< `key`: the top of what is below the plan
-    sl_frame frame;
-} page;
 
 static void find_range(picture *p) {
     p->least = INFINITY;
@@ -107,8 +102,9 @@ static void draw_eye(cairo_t *cairo, const picture *p, const sl_frame *frame, sl
     cairo_stroke(cairo);
 }
 
-static sl_status draw_plan(sl_context *context, cairo_t *cairo, const picture *p,
+static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what,
                            const sl_frame *frame) {
+    const picture *p = what;
     SL_TRY(sl_draw_onto(context, cairo, &p->scene, frame));
     SL_TRY(draw_values(context, cairo, p, frame));
     if (p->patches) draw_lines(cairo, p, frame);
@@ -120,8 +116,8 @@ static sl_status draw_plan(sl_context *context, cairo_t *cairo, const picture *p
 }
 
 /// The ramp with numbers under it. Returns its height.
-static double draw_scale(cairo_t *cairo, const picture *p, const page *g, bool paint) {
-    const double width = fmin(30 * g->text, g->width - 2 * g->margin), high = 1.2 * g->text;
+static double draw_scale(cairo_t *cairo, const picture *p, const sl_page *g, bool paint) {
+    const double width = fmin(30 * g->text, g->inner), high = 1.2 * g->text;
     if (!paint || !(p->least <= p->most)) return 3.2 * g->text;
     for (int i = 0; i < RAMP_STEPS; i++) {
         cairo_rectangle(cairo, g->margin + width * i / RAMP_STEPS, g->key,
@@ -149,78 +145,39 @@ static double draw_scale(cairo_t *cairo, const picture *p, const page *g, bool p
     return 3.2 * g->text;
 }
 
-/// Measures where `paint` is false, and draws all but the plan where it is true.
-static void set_page(cairo_t *cairo, const picture *p, page *g, bool paint) {
-    const double inner = g->width - 2 * g->margin;
-    const char *title = p->scene.options.title;
-    double y = g->margin;
-    if (title) {
-        y += 1.7 * g->text;
-        if (paint)
-            sl_text_show_within(cairo, p->scene.palette.ink, g->margin, y, inner, 1.9 * g->text,
-                                true, title);
-        y += 1.3 * g->text;
-    }
-    if (!paint) {
-        const sl_box b = p->scene.baked->space.bounds;
-        const double ratio = (b.max.y - b.min.y) / (b.max.x - b.min.x);
-        const double height = inner * fmin(fmax(ratio, 1.0 / 6), 1.4);
-        g->frame = sl_frame_fit(b, g->margin, y, inner, height, g->width / 1200);
-        g->key = y + height + 1.1 * g->text;
-    }
-    y = g->key;
-    if (p->scale) y += draw_scale(cairo, p, g, paint);
-    y += sl_draw_seen_key(cairo, &p->scene.palette, p->regions, p->region_count,
-                          (sl_point){g->margin, y}, inner, g->text, paint);
+static void set_page(cairo_t *cairo, const void *what, sl_page *page, bool paint) {
+    const picture *p = what;
+    const sl_palette *palette = &p->scene.palette;
+    const double top = sl_page_heading(cairo, page, palette, p->scene.options.title, NULL, paint);
+    if (!paint) sl_page_place_plan(page, p->scene.baked->space.bounds, top, SL_PAGE_TALLEST);
+    double y = page->key;
+    if (p->scale) y += draw_scale(cairo, p, page, paint);
+    y += sl_draw_seen_key(cairo, palette, p->regions, p->region_count, (sl_point){page->margin, y},
+                          page->inner, page->text, paint);
     if (p->caption) {
         if (paint)
-            sl_text_show_within(cairo, p->scene.palette.ink, g->margin, y + 1.1 * g->text, inner,
-                                g->text, false, p->caption);
-        y += 1.6 * g->text;
+            sl_text_show_within(cairo, palette->ink, page->margin, y + 1.1 * page->text,
+                                page->inner, page->text, false, p->caption);
+        y += 1.6 * page->text;
     }
-    g->height = ceil(y + 0.7 * g->margin);
-}
-
-/// Measuring text needs a surface, and the file's needs the page's height.
-static sl_status measure(sl_context *context, const picture *p, const char *path, page *out) {
-    const double width = round(p->scene.options.width);
-    cairo_surface_t *scratch = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
-    cairo_t *cairo = cairo_create(scratch);
-    *out = (page){.width = width, .margin = 0.04 * width, .text = 16.5 * pow(width / 1200, 0.75)};
-    set_page(cairo, p, out, false);
-    const cairo_status_t status = cairo_status(cairo);
-    cairo_destroy(cairo);
-    cairo_surface_destroy(scratch);
-    return status ? sl_fail_cairo(context, path, status) : SL_OK;
-}
-
-static sl_status draw_page(sl_context *context, cairo_t *cairo, const picture *p, page *g) {
-    sl_set_colour(cairo, p->scene.palette.page);
-    cairo_paint(cairo);
-    SL_TRY(draw_plan(context, cairo, p, &g->frame));
-    set_page(cairo, p, g, true);
-    return SL_OK;
+    page->height = ceil(y + 0.7 * page->margin);
 }
 
 static sl_status draw_picture(sl_context *context, const sl_baked *baked,
                               const sl_draw_options *options, picture *p, const char *path) {
     const sl_paper_kind *kind;
-    sl_paper paper;
-    page g;
     SL_TRY(sl_paper_kind_of(context, path, &kind));
-    if (!(options->width >= SL_DRAW_WIDTH_MIN && options->width <= SL_DRAW_WIDTH_MAX))
-        return sl_fail(context, SL_BAD_ARGUMENT, "width %g: must be %d to %d", options->width,
-                       SL_DRAW_WIDTH_MIN, SL_DRAW_WIDTH_MAX);
+    SL_TRY(sl_page_check_width(context, options->width));
     sl_draw_options plain = *options;
     plain.layers = SL_LAYER_WALLS | (p->scale ? 0 : (unsigned)SL_LAYER_STARTS);
     plain.cell = SL_NO_CELL;
     SL_TRY(sl_scene_make(context, baked, &plain, &p->scene));
-    sl_status status = measure(context, p, path, &g);
-    if (status == SL_OK)
-        status =
-            sl_paper_open(context, kind, path, (int)g.width, (int)g.height, options->title, &paper);
-    if (status == SL_OK)
-        status = sl_paper_close(context, &paper, draw_page(context, paper.cairo, p, &g));
+    const sl_page_parts parts = {.set = set_page,
+                                 .draw_plan = draw_plan,
+                                 .what = p,
+                                 .ground = p->scene.palette.page,
+                                 .title = options->title};
+    const sl_status status = sl_page_write(context, &parts, options->width, kind, path);
     sl_scene_destroy(context, &p->scene);
     return status;
 }

@@ -1,0 +1,63 @@
+/// The page of a picture in a file: measured first, for the file's size must be known before
+/// anything is drawn, then drawn the same way.
+#ifndef SL_DRAW_PAGE_H
+#define SL_DRAW_PAGE_H
+
+#include "draw/canvas.h"
+#include "draw/palette.h"
+#include "draw/paper.h"
+
+/// Lengths in pixels (PDF: points).
+typedef struct sl_page {
+    double width, height;
+    double margin; ///< left, right and above
+    double inner;  ///< the width between the margins
+    double text; ///< size of the text, which shrinks less than a page does: small ones are readable
+    sl_frame frame; ///< of the plan
+    double bottom;  ///< of the place of the plan, which may be lower than its frame
+    double key;     ///< the top of what stands below the plan
+} sl_page;
+
+/// SL_BAD_ARGUMENT where no page can be so wide.
+sl_status sl_page_check_width(sl_context *context, double width);
+
+/// A page of that width, rounded, with nothing on it yet.
+sl_page sl_page_of_width(double width);
+
+/// Places the plan from `top` on: as wide as the margins leave and as high as `bounds` then are,
+/// but never lower than a sixth or higher than `tallest` of its width, so that a long thin map gets
+/// free paper beside it, is not stretched, and stays within cairo's 32,767 pixels.
+void sl_page_place_plan(sl_page *page, sl_box bounds, double top, double tallest);
+
+/// The usual `tallest`.
+#define SL_PAGE_TALLEST 1.4
+
+/// A title and a fainter line below it, each NULL for none, from the margin down. Returns where
+/// they end; without `paint` nothing is drawn.
+double sl_page_heading(cairo_t *cairo, const sl_page *page, const sl_palette *palette,
+                       const char *title, const char *subtitle, bool paint);
+
+/// Lays something out, for which text is measured, on a surface that is then thrown away. `path` is
+/// named where cairo fails.
+sl_status sl_page_measure(sl_context *context, const char *path,
+                          sl_status (*lay_out)(sl_context *context, cairo_t *cairo, void *what),
+                          void *what);
+
+/// What stands on a page. `what` is the picture's own.
+typedef struct sl_page_parts {
+    /// Measures where `paint` is false: places the plan and sets the height. Else draws all but the
+    /// plan, in the same places.
+    void (*set)(cairo_t *cairo, const void *what, sl_page *page, bool paint);
+    /// Draws the plan, before the rest.
+    sl_status (*draw_plan)(sl_context *context, cairo_t *cairo, const void *what,
+                           const sl_frame *frame);
+    const void *what;
+    sl_colour ground;
+    const char *title; ///< in the file's description, NULL for none
+} sl_page_parts;
+
+/// Measures, draws and writes a page of that width.
+sl_status sl_page_write(sl_context *context, const sl_page_parts *parts, double width,
+                        const sl_paper_kind *kind, const char *path);
+
+#endif
