@@ -72,6 +72,10 @@ sl_status sl_eye_begin(sl_context *context, sl_eye_search *search, const sl_view
         memset(search->row, 0, words * sizeof *search->row);
         sl_row_add_to(&search->visibility->pvs, row, search->row);
         if (!sl_bits_has(search->row, row)) out->cell = SL_NO_CELL;
+        // Parts of a BSP's cells reach into each other's by rounding, which is not to hide
+        // anything.
+        if (search->parents && search->space->beyond)
+            memset(search->row, 0xff, words * sizeof *search->row);
     }
     out->cone = sl_cone_of(&out->pivot, view);
     return SL_OK;

@@ -1,21 +1,14 @@
-/// Boxes that move: the space is cut along their sides (space/boxes.c), and the exact search tells
-/// which pieces of them it meets.
+/// Boxes that move: the space is cut along their sides (space/boxes.h), and the exact search tells
+/// which pieces of them it meets (box_targets.h).
 #include "sightline/moving.h"
 
+#include "eye_to_cell/box_targets.h"
 #include "eye_to_cell/eye_methods.h"
 #include "eye_to_cell/eye_search.h"
 #include "sightline/sees.h"
-#include "space/boxes.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
-
-/// A piece of a box's side on a cell's boundary.
-typedef struct target {
-    uint32_t cell;
-    sl_exit exit;
-} target;
 
 struct sl_moving {
     sl_box_ground ground;
@@ -26,106 +19,11 @@ struct sl_moving {
     sl_boxed_space *boxed;
     sl_outline outline;
     bool outlined;
-    uint32_t *first; ///< of the targets
-    sl_exit *targets;
+    sl_box_targets targets;
     bool *met; ///< by box
     sl_eye_search *search;
     uint64_t *cells; ///< of the space with boxes
 };
-
-// --- what there is to be met
-
-typedef struct gatherer {
-    sl_context *context;
-    const sl_space *space;
-    SL_ARRAY(target) targets;
-    SL_ARRAY(int32_t) stack;
-    sl_piece_list free;
-} gatherer;
-
-/// Adds a piece where it lies on the boundary of a cell.
-static sl_status add_target(gatherer *g, uint32_t cell, const sl_piece *side, uint32_t box) {
-    const sl_point *corners = g->space->vertices + g->space->cells[cell].first_vertex;
-    const sl_point min = corners[0], max = corners[2];
-    const bool below = side->at == (side->axis ? max.y : max.x);
-    const bool above = side->at == (side->axis ? min.y : min.x);
-    const double lo = fmax(side->lo, side->axis ? min.x : min.y);
-    const double hi = fmin(side->hi, side->axis ? max.x : max.y);
-    if (!(below || above) || lo >= hi) return SL_OK;
-    // Going up in the line's coordinate, the left hand is at high y (axis 0) or at low x (axis 1).
-    const sl_point a = side->axis ? (sl_point){lo, side->at} : (sl_point){side->at, hi};
-    const sl_point b = side->axis ? (sl_point){hi, side->at} : (sl_point){side->at, lo};
-    const sl_exit exit = {box, SL_NO_CELL, below ? a : b, below ? b : a};
-    SL_TRY(SL_ARRAY_ROOM(g->context, &g->targets, 1));
-    g->targets.items[g->targets.count++] = (target){cell, exit};
-    return SL_OK;
-}
-
-/// Adds a piece to all cells that it lies on the boundary of.
-static sl_status add_piece(gatherer *g, const sl_piece *side, uint32_t box) {
-    g->stack.count = 0;
-    SL_TRY(SL_ARRAY_ROOM(g->context, &g->stack, 1));
-    g->stack.items[g->stack.count++] = g->space->root;
-    while (g->stack.count) {
-        const int32_t child = g->stack.items[--g->stack.count];
-        if (child < 0) {
-            SL_TRY(add_target(g, (uint32_t)~child, side, box));
-            continue;
-        }
-        const sl_node *node = &g->space->nodes[child];
-        const double lo = node->axis == side->axis ? side->at : side->lo;
-        const double hi = node->axis == side->axis ? side->at : side->hi;
-        SL_TRY(SL_ARRAY_ROOM(g->context, &g->stack, 2));
-        if (lo <= node->position) g->stack.items[g->stack.count++] = node->below;
-        if (hi >= node->position) g->stack.items[g->stack.count++] = node->above;
-    }
-    return SL_OK;
-}
-
-static int compare_targets(const void *left, const void *right) {
-    const target *a = left, *b = right;
-    return (a->cell > b->cell) - (a->cell < b->cell);
-}
-
-static sl_status write_targets(gatherer *g, sl_moving *out) {
-    const uint32_t cells = g->space->cell_count;
-    out->first = sl_alloc_array(g->context, (size_t)cells + 1, sizeof *out->first);
-    out->targets = sl_alloc_array(g->context, g->targets.count, sizeof *out->targets);
-    if (!out->first || !out->targets) return SL_NO_MEMORY;
-    if (g->targets.count > UINT32_MAX) return sl_fail_memory(g->context);
-    if (g->targets.count)
-        qsort(g->targets.items, g->targets.count, sizeof *g->targets.items, compare_targets);
-    for (size_t i = 0; i < g->targets.count; i++) {
-        out->targets[i] = g->targets.items[i].exit;
-        out->first[g->targets.items[i].cell + 1]++;
-    }
-    for (uint32_t c = 0; c < cells; c++) out->first[c + 1] += out->first[c];
-    return SL_OK;
-}
-
-static sl_status gather(gatherer *g, sl_moving *out) {
-    const sl_box_ground *ground = &out->ground;
-    for (size_t i = 0; i < out->count; i++) {
-        sl_piece sides[4];
-        const unsigned count = sl_box_sides(out->boxes[i].box, sides);
-        g->free.count = 0;
-        for (unsigned k = 0; k < count; k++)
-            SL_TRY(sl_piece_add_free(g->context, ground->walls, ground->space->wall_count, sides[k],
-                                     &g->free));
-        for (size_t k = 0; k < g->free.count; k++)
-            SL_TRY(add_piece(g, &g->free.items[k], (uint32_t)i));
-    }
-    return write_targets(g, out);
-}
-
-static sl_status make_targets(sl_context *context, sl_moving *out) {
-    gatherer g = {.context = context, .space = &out->boxed->space};
-    const sl_status status = gather(&g, out);
-    sl_free(context, g.targets.items);
-    sl_free(context, g.stack.items);
-    sl_free(context, g.free.items);
-    return status;
-}
 
 // --- placing
 
@@ -136,8 +34,7 @@ static void drop(sl_context *context, sl_moving *m) {
     if (m->boxed) sl_boxed_space_destroy(context, m->boxed);
     sl_free(context, m->boxed);
     sl_free(context, m->boxes);
-    sl_free(context, m->first);
-    sl_free(context, m->targets);
+    sl_box_targets_destroy(context, &m->targets);
     sl_free(context, m->met);
     sl_free(context, m->cells);
     *m = (sl_moving){.ground = m->ground, .visibility = m->visibility, .range = m->range};
@@ -162,14 +59,15 @@ static sl_status place(sl_context *context, sl_moving *m) {
     m->boxed = sl_alloc_array(context, 1, sizeof *m->boxed);
     if (!m->boxed) return SL_NO_MEMORY;
     SL_TRY(sl_boxes_put(context, &m->ground, m->boxes, m->count, m->boxed));
-    SL_TRY(make_targets(context, m));
+    SL_TRY(sl_box_targets_find(context, &m->ground, &m->boxed->space, m->boxes, m->count,
+                               &m->targets));
     SL_TRY(sl_eye_search_create_cut(context, &m->boxed->space, m->visibility, m->boxed->parents,
                                     m->ground.space->cell_count, &m->search));
     m->met = sl_alloc_array(context, m->count, sizeof *m->met);
     m->cells = sl_alloc_array(context, sl_eye_words(&m->boxed->space), sizeof *m->cells);
     if (!m->met || !m->cells) return SL_NO_MEMORY;
     sl_eye_search_limit(m->search, m->range);
-    m->search->targets = (sl_eye_targets){m->first, m->targets, m->met};
+    m->search->targets = (sl_eye_targets){m->targets.first, m->targets.items, m->met};
     return SL_OK;
 }
 
@@ -261,5 +159,9 @@ sl_status sl_moving_look(sl_context *context, sl_moving *moving, const sl_view *
     memset(cells, 0, sl_eye_words(moving->ground.space) * sizeof *cells);
     for (uint32_t c = 0; c < space->cell_count; c++)
         if (sl_bits_has(moving->cells, c)) sl_bits_add(cells, moving->boxed->parents[c]);
+    for (size_t i = 0; i < moving->boxed->shares.count; i++) {
+        const sl_box_share *share = &moving->boxed->shares.items[i];
+        if (sl_bits_has(moving->cells, share->cell)) sl_bits_add(cells, share->parent);
+    }
     return SL_OK;
 }

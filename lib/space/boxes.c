@@ -1,3 +1,5 @@
+/// Boxes put into a kd-tree's space: cells are cut at the lines of the boxes' sides. No coordinate
+/// is computed.
 #include "space/boxes.h"
 
 #include "space/kd_tree.h"
@@ -33,7 +35,7 @@ typedef struct maker {
     const sl_box_ground *ground;
     const sl_space *from;
     sl_boxed_space *out;
-    sl_piece_list blocking; ///< sides of boxes that block, sorted, each place once
+    sl_piece_list blocking; ///< as sl_box_sides_blocking gives them
     sl_piece_list sides;    ///< of parts
     SL_ARRAY(cut) cuts;
     SL_ARRAY(part) parts;
@@ -47,83 +49,6 @@ typedef struct maker {
     uint32_t *part_count;
     bool *touched; ///< by cell of the ground: a box lies in it or beside it
 } maker;
-
-// --- the sides of boxes
-
-unsigned sl_box_sides(sl_box box, sl_piece sides[4]) {
-    const sl_point a = box.min, b = box.max;
-    unsigned count = 0;
-    if (a.y < b.y) {
-        sides[count++] = (sl_piece){.axis = 0, .at = a.x, .lo = a.y, .hi = b.y};
-        if (a.x < b.x) sides[count++] = (sl_piece){.axis = 0, .at = b.x, .lo = a.y, .hi = b.y};
-    }
-    if (a.x < b.x) {
-        sides[count++] = (sl_piece){.axis = 1, .at = a.y, .lo = a.x, .hi = b.x};
-        if (a.y < b.y) sides[count++] = (sl_piece){.axis = 1, .at = b.y, .lo = a.x, .hi = b.x};
-    }
-    return count;
-}
-
-static int compare_pieces(const void *left, const void *right) {
-    const sl_piece *a = left, *b = right;
-    if (a->axis != b->axis) return a->axis - b->axis;
-    if (a->at != b->at) return a->at < b->at ? -1 : 1;
-    return (a->lo > b->lo) - (a->lo < b->lo);
-}
-
-static sl_status add_piece(sl_context *context, sl_piece_list *list, sl_piece piece) {
-    SL_TRY(SL_ARRAY_ROOM(context, list, 1));
-    list->items[list->count++] = piece;
-    return SL_OK;
-}
-
-sl_status sl_piece_add_free(sl_context *context, const sl_piece *walls, size_t count,
-                            sl_piece piece, sl_piece_list *out) {
-    size_t i = sl_wall_lines_find(walls, count, piece.axis, piece.at, piece.lo);
-    for (; i < count && piece.lo < piece.hi; i++) {
-        const sl_piece *wall = &walls[i];
-        if (wall->axis != piece.axis || wall->at != piece.at || wall->lo >= piece.hi) break;
-        sl_piece before = piece;
-        before.hi = wall->lo;
-        if (before.lo < before.hi) SL_TRY(add_piece(context, out, before));
-        piece.lo = fmax(piece.lo, wall->hi);
-    }
-    return piece.lo < piece.hi ? add_piece(context, out, piece) : SL_OK;
-}
-
-/// What of a side lies within the space's bounds; false for nothing.
-static bool clip(const sl_box *bounds, sl_piece *side) {
-    const double at_lo = side->axis ? bounds->min.y : bounds->min.x;
-    const double at_hi = side->axis ? bounds->max.y : bounds->max.x;
-    side->lo = fmax(side->lo, side->axis ? bounds->min.x : bounds->min.y);
-    side->hi = fmin(side->hi, side->axis ? bounds->max.x : bounds->max.y);
-    return side->at >= at_lo && side->at <= at_hi && side->lo < side->hi;
-}
-
-/// The sides that block: of those that overlap, the later goes on where the one before it ends.
-static sl_status gather_blocking(maker *m, const sl_moving_box *boxes, size_t count) {
-    sl_piece_list *all = &m->sides;
-    all->count = 0;
-    for (size_t i = 0; i < count; i++) {
-        sl_piece sides[4];
-        const unsigned n = boxes[i].blocks ? sl_box_sides(boxes[i].box, sides) : 0;
-        for (unsigned k = 0; k < n; k++)
-            if (clip(&m->from->bounds, &sides[k])) SL_TRY(add_piece(m->context, all, sides[k]));
-    }
-    if (all->count) qsort(all->items, all->count, sizeof *all->items, compare_pieces);
-    size_t kept = 0;
-    for (size_t i = 0; i < all->count; i++) {
-        sl_piece side = all->items[i];
-        const sl_piece *last = kept ? &all->items[kept - 1] : NULL;
-        if (last && last->axis == side.axis && last->at == side.at)
-            side.lo = fmax(side.lo, last->hi);
-        if (side.lo < side.hi) all->items[kept++] = side;
-    }
-    for (size_t i = 0; i < kept; i++)
-        SL_TRY(sl_piece_add_free(m->context, m->ground->walls, m->from->wall_count, all->items[i],
-                                 &m->blocking));
-    return SL_OK;
-}
 
 // --- which cells are cut
 
@@ -218,7 +143,7 @@ static sl_status cut_part(maker *m, const part *p) {
             *(above ? &half.box.min.x : &half.box.max.x) = by.at;
         for (size_t i = p->first + 1; i < p->first + p->count; i++) {
             const sl_piece side = m->sides.items[i];
-            if (runs_through(&side, &half.box)) SL_TRY(add_piece(m->context, &m->sides, side));
+            if (runs_through(&side, &half.box)) SL_TRY(sl_piece_add(m->context, &m->sides, side));
         }
         half.count = m->sides.count - half.first;
         SL_TRY(SL_ARRAY_ROOM(m->context, &m->parts, 1));
@@ -230,7 +155,7 @@ static sl_status cut_part(maker *m, const part *p) {
 static sl_status cut_cell(maker *m, const cut *cuts, size_t count) {
     const uint32_t cell = cuts->cell;
     m->sides.count = 0;
-    for (size_t i = 0; i < count; i++) SL_TRY(add_piece(m->context, &m->sides, cuts[i].side));
+    for (size_t i = 0; i < count; i++) SL_TRY(sl_piece_add(m->context, &m->sides, cuts[i].side));
     m->first_part[cell] = (uint32_t)m->of_cut.count;
     SL_TRY(SL_ARRAY_ROOM(m->context, &m->parts, 1));
     m->parts.items[0] = (part){m->boxes.items[cell], 0, count, cuts->node, cuts->above};
@@ -421,12 +346,8 @@ static sl_status write_walls(maker *m) {
     if (f->seam_count) memcpy(s->seams, f->seams, f->seam_count * sizeof *s->seams);
     s->seam_count = f->seam_count;
     s->wall_count = f->wall_count;
-    for (size_t i = 0; i < m->blocking.count; i++) {
-        const sl_piece *p = &m->blocking.items[i];
-        sl_wall *wall = &s->walls[s->wall_count++];
-        wall->a = p->axis ? (sl_point){p->lo, p->at} : (sl_point){p->at, p->lo};
-        wall->b = p->axis ? (sl_point){p->hi, p->at} : (sl_point){p->at, p->hi};
-    }
+    for (size_t i = 0; i < m->blocking.count; i++)
+        s->walls[s->wall_count++] = sl_piece_wall(&m->blocking.items[i]);
     return SL_OK;
 }
 
@@ -473,7 +394,7 @@ static sl_status begin(maker *m) {
 
 static sl_status make(maker *m, const sl_moving_box *boxes, size_t count) {
     SL_TRY(begin(m));
-    SL_TRY(gather_blocking(m, boxes, count));
+    SL_TRY(sl_box_sides_blocking(m->context, m->ground, boxes, count, &m->blocking));
     for (size_t i = 0; i < count; i++) SL_TRY(find_cells(m, boxes[i].box));
     SL_TRY(cut_cells(m));
     SL_TRY(write_cells(m));
@@ -485,43 +406,14 @@ static sl_status make(maker *m, const sl_moving_box *boxes, size_t count) {
     return SL_OK;
 }
 
-sl_status sl_boxes_put(sl_context *context, const sl_box_ground *ground, const sl_moving_box *boxes,
-                       size_t count, sl_boxed_space *out) {
-    sl_boxed_space made = {0};
-    maker m = {.context = context, .ground = ground, .from = ground->space, .out = &made};
+sl_status sl_boxes_put_axial(sl_context *context, const sl_box_ground *ground,
+                             const sl_moving_box *boxes, size_t count, sl_boxed_space *out) {
+    maker m = {.context = context, .ground = ground, .from = ground->space, .out = out};
     const sl_status status = make(&m, boxes, count);
     void *const scratch[] = {m.blocking.items, m.sides.items,   m.cuts.items,  m.parts.items,
                              m.boxes.items,    m.parents.items, m.nodes.items, m.stack.items,
                              m.portals.items,  m.of_cut.items,  m.first_part,  m.part_count,
                              m.touched};
     for (size_t i = 0; i < sizeof scratch / sizeof *scratch; i++) sl_free(context, scratch[i]);
-    if (status == SL_OK)
-        *out = made;
-    else
-        sl_boxed_space_destroy(context, &made);
     return status;
-}
-
-void sl_boxed_space_destroy(sl_context *context, sl_boxed_space *boxed) {
-    sl_space_destroy(context, &boxed->space);
-    sl_free(context, boxed->parents);
-    *boxed = (sl_boxed_space){0};
-}
-
-sl_status sl_box_ground_create(sl_context *context, const sl_space *space, sl_box_ground *out) {
-    if (space->beyond)
-        return sl_fail(context, SL_UNSUPPORTED,
-                       "boxes are put into spaces of axial walls only, and this one was cut by a "
-                       "BSP: that a box moves is told of maps without oblique walls");
-    if (space->exit_count != 2 * space->portal_count)
-        return sl_fail(context, SL_UNSUPPORTED, "boxes are put in before one-way glass is");
-    sl_piece *walls = NULL;
-    SL_TRY(sl_wall_lines(context, "the walls", space->walls, space->wall_count, &walls));
-    *out = (sl_box_ground){space, walls};
-    return SL_OK;
-}
-
-void sl_box_ground_destroy(sl_context *context, sl_box_ground *ground) {
-    sl_free(context, ground->walls);
-    *ground = (sl_box_ground){0};
 }

@@ -1,5 +1,4 @@
-/// Boxes put into a space whose walls are axial, without subdividing it anew: only the cells that
-/// they lie in are cut, at the lines of their sides. No coordinate is computed.
+/// Boxes put into a space, without subdividing it anew: only the cells that they lie in are cut.
 #ifndef SL_BOXES_H
 #define SL_BOXES_H
 
@@ -9,27 +8,52 @@
 /// A space to put boxes into. Zeroed, it is empty.
 typedef struct sl_box_ground {
     const sl_space *space;
-    sl_piece *walls; ///< its walls by line
+    sl_piece *walls; ///< its axial walls by line, each place once
+    size_t wall_count;
 } sl_box_ground;
 
-/// SL_UNSUPPORTED for a space that is no kd-tree's, or has exits missing.
+/// SL_UNSUPPORTED for a space that has exits missing.
 sl_status sl_box_ground_create(sl_context *context, const sl_space *space, sl_box_ground *out);
 void sl_box_ground_destroy(sl_context *context, sl_box_ground *ground);
 
+/// A cell of a space with boxes that has a part of another cell of the ground than its parent.
+typedef struct sl_box_share {
+    uint32_t cell, parent;
+} sl_box_share;
+
 /// A space with boxes in it. The sides of those that block are walls, behind those of the ground;
-/// where a wall stands already there is no second one. Cells keep their numbers: of one that is
-/// cut, the first part does, and the others come behind all cells. No open cell reaches over a
-/// side of a box.
+/// where an axial wall stands already there is no second one. Cells keep their numbers: of one that
+/// is cut, the first part does, and the others come behind all cells.
+///
+/// In a kd-tree's space cells are cut along the sides of all boxes, and no coordinate is computed.
+/// In a BSP's they are cut along those that block, by the rules of the BSP (sl_subdivide_bsp): no
+/// place sees less than the walls and the boxes let it. As there, a part of a cell may reach into
+/// the cell's neighbours, by the size of rounding, or by more where doubles leave a needle no room.
+/// Seams are not told of: their portals may be moved with the others.
 typedef struct sl_boxed_space {
     sl_space space;
-    uint32_t *parents; ///< by cell: that of the ground which it is (a part of)
+    uint32_t *parents;             ///< by cell: that of the ground which it is (a part of)
+    SL_ARRAY(sl_box_share) shares; ///< what reaches farther than by rounding
 } sl_boxed_space;
 
 sl_status sl_boxes_put(sl_context *context, const sl_box_ground *ground, const sl_moving_box *boxes,
                        size_t count, sl_boxed_space *out);
 void sl_boxed_space_destroy(sl_context *context, sl_boxed_space *boxed); ///< and zeroes it
 
+// --- what sl_boxes_put is made of; `out` is zeroed, and to be destroyed whatever comes
+
+/// In a kd-tree's space (boxes.c).
+sl_status sl_boxes_put_axial(sl_context *context, const sl_box_ground *ground,
+                             const sl_moving_box *boxes, size_t count, sl_boxed_space *out);
+/// In a BSP's (boxes_bsp.c).
+sl_status sl_boxes_put_bsp(sl_context *context, const sl_box_ground *ground,
+                           const sl_moving_box *boxes, size_t count, sl_boxed_space *out);
+
+// --- the sides of boxes (box_sides.c)
+
 typedef SL_ARRAY(sl_piece) sl_piece_list;
+
+sl_status sl_piece_add(sl_context *context, sl_piece_list *list, sl_piece piece);
 
 /// Adds to a list what sorted pieces, as sl_wall_lines gives them, leave free of one.
 sl_status sl_piece_add_free(sl_context *context, const sl_piece *walls, size_t count,
@@ -37,5 +61,13 @@ sl_status sl_piece_add_free(sl_context *context, const sl_piece *walls, size_t c
 
 /// The sides of a box: those of positive length.
 unsigned sl_box_sides(sl_box box, sl_piece sides[4]);
+
+/// Adds the sides of boxes that block to an empty list: sorted, each place once, what of them lies
+/// within the space's bounds and is free of its axial walls.
+sl_status sl_box_sides_blocking(sl_context *context, const sl_box_ground *ground,
+                                const sl_moving_box *boxes, size_t count, sl_piece_list *out);
+
+/// A piece as a wall, from lo to hi.
+sl_wall sl_piece_wall(const sl_piece *piece);
 
 #endif

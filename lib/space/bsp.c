@@ -165,7 +165,7 @@ static sl_status split_waiting(sl_bsp *bsp) {
         if (face->walls.count == face->set_aside) continue;
         SL_TRY(sl_check_cancelled(bsp->context));
         SL_TRY(put_in(bsp, number, sl_bsp_choose(bsp, face)));
-        sl_report(bsp->context, "subdivide", "cells", bsp->faces.count, 0);
+        if (!bsp->of_space) sl_report(bsp->context, "subdivide", "cells", bsp->faces.count, 0);
         face = &bsp->faces.items[number];
         if (face->walls.count > face->set_aside) SL_TRY(wait_for(bsp, number));
     }
@@ -183,7 +183,7 @@ static sl_status wait_for_set_aside(sl_bsp *bsp) {
 
 /// Tries again what was set aside or lost as long as any face is split. What is left then are walls
 /// in faces of the size of rounding, which do without: sight may be added there.
-static sl_status settle(sl_bsp *bsp) {
+sl_status sl_bsp_settle(sl_bsp *bsp) {
     SL_TRY(split_waiting(bsp));
     for (size_t before = 0; before < bsp->faces.count;) {
         before = bsp->faces.count;
@@ -205,15 +205,15 @@ static size_t count_seams_left(const sl_bsp *bsp) {
 static sl_status split_all(sl_bsp *bsp, size_t seam_count) {
     SL_TRY(make_first_face(bsp));
     SL_TRY(wait_for(bsp, 0));
-    SL_TRY(settle(bsp));
+    SL_TRY(sl_bsp_settle(bsp));
     if (!seam_count) return SL_OK;
     SL_TRY(sl_bsp_deal_seams(bsp, seam_count));
-    SL_TRY(settle(bsp));
+    SL_TRY(sl_bsp_settle(bsp));
     bsp->seams_left_out = count_seams_left(bsp);
     return SL_OK;
 }
 
-static void destroy(sl_bsp *bsp) {
+void sl_bsp_destroy(sl_bsp *bsp) {
     forget_passages(bsp);
     sl_bsp_drop_pieces(bsp);
     for (size_t i = 0; i < bsp->faces.count; i++) {
@@ -264,7 +264,7 @@ static sl_status subdivide(sl_context *context, const sl_map *map, const sl_bsp_
     if (status == SL_OK && bsp.seams_left_out)
         sl_note(context, "rounding left no room for a seam in %zu cells: they are seen across",
                 bsp.seams_left_out);
-    destroy(&bsp);
+    sl_bsp_destroy(&bsp);
     sl_free(context, walls);
     return status;
 }

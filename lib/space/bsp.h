@@ -38,6 +38,7 @@ typedef struct sl_bsp_face {
     sl_bsp_sides sides;
     sl_bsp_walls walls;           ///< those inside it
     size_t set_aside;             ///< the last so many of them could not be put in
+    uint32_t of;                  ///< the face that it is a part of, of those at first
     SL_ARRAY(sl_bsp_spot) places; ///< all that lead here
 } sl_bsp_face;
 
@@ -108,6 +109,7 @@ typedef struct sl_bsp {
     SL_ARRAY(sl_segment) lines;
     SL_ARRAY(uint32_t) waiting; ///< faces that have walls inside
     int32_t root;
+    bool of_space; ///< the faces at first are a space's cells: they keep their numbers
     // The line being put in, and scratch for it.
     sl_point a, b;
     SL_ARRAY(sl_bsp_passage) passages; ///< in order along the line
@@ -167,6 +169,13 @@ bool sl_bsp_behind(const sl_wall *wall, bool reversed, sl_point point);
 bool sl_bsp_diagonal(const sl_bsp_sides *sides, size_t *from, size_t *to);
 sl_status sl_bsp_add_side(sl_context *context, sl_bsp_sides *sides, sl_bsp_side side);
 
+// --- putting walls in (bsp.c)
+
+/// Splits the faces that wait, until no wall is inside one that it could be put into.
+sl_status sl_bsp_settle(sl_bsp *bsp);
+/// Frees what it owns: not the walls.
+void sl_bsp_destroy(sl_bsp *bsp);
+
 // --- putting a line in
 
 /// Follows a wall from a face both ways: fills passages and stops (bsp_trace.c).
@@ -219,7 +228,8 @@ static inline double sl_bsp_key(const sl_bsp *bsp, sl_point p) {
 /// are set aside (bsp_choose.c).
 size_t sl_bsp_choose(const sl_bsp *bsp, const sl_bsp_face *face);
 
-/// Makes a space of the faces, the seams told of its portals (bsp_space.c).
+/// Makes a space of the faces, the seams told of its portals (bsp_space.c). Cells are numbered as
+/// the tree leads to them, or as the faces are where those are a space's cells.
 sl_status sl_bsp_make_space(sl_bsp *bsp, const sl_seam_parts *seams, sl_space *out);
 
 /// The check of a space that tells its sides, of which counts and bounds are checked (check_bsp.c).

@@ -72,7 +72,8 @@ static sl_status number_pieces(sl_bsp *bsp) {
             sl_bsp_piece *piece = &bsp->pieces.items[k];
             if (piece->passage != i) continue;
             piece->face = first ? bsp->passages.items[i].face : (uint32_t)bsp->faces.count;
-            if (!first) bsp->faces.items[bsp->faces.count++] = (sl_bsp_face){0};
+            const uint32_t of = bsp->faces.items[bsp->passages.items[i].face].of;
+            if (!first) bsp->faces.items[bsp->faces.count++] = (sl_bsp_face){.of = of};
             first = false;
         }
     }
@@ -107,7 +108,7 @@ static void take_faces_away(sl_bsp *bsp) {
         passage->walls = face->walls;
         sl_free(bsp->context, face->places.items);
         sl_free(bsp->context, face->sides.items);
-        *face = (sl_bsp_face){0};
+        *face = (sl_bsp_face){.of = face->of};
     }
     for (size_t i = 0; i < bsp->pieces.count; i++)
         bsp->faces.items[bsp->pieces.items[i].face].sides = bsp->pieces.items[i].sides;

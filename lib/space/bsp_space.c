@@ -47,6 +47,10 @@ static size_t first_corner(const sl_bsp_sides *sides) {
     return first;
 }
 
+static void keep_numbers(maker *m) {
+    for (uint32_t i = 0; i < m->space->cell_count; i++) m->cell_of[i] = m->face_of[i] = i;
+}
+
 /// Numbers the cells as the tree leads to them first, what is below before what is above.
 static void number_cells(maker *m, int32_t *stack) {
     sl_space *s = m->space;
@@ -98,7 +102,10 @@ static sl_status make_tree(maker *m) {
     m->seen = sl_alloc_array(context, count, sizeof *m->seen);
     const bool done = stack && depths && m->seen;
     if (done) {
-        number_cells(m, stack);
+        if (m->bsp->of_space)
+            keep_numbers(m);
+        else
+            number_cells(m, stack);
         finish_tree(m, depths);
     }
     sl_free(context, stack);

@@ -92,16 +92,18 @@ static sl_status join_round(sl_context *context, joiner *j, bool *any) {
     return SL_OK;
 }
 
-/// A cell that has a point of the room of a side; SL_NO_CELL where none is found, as of a sliver.
-static uint32_t cell_within(const joiner *j, uint32_t first) {
-    const sl_point a = side(j, first)->start, b = sl_mesh_end(&j->mesh, first);
-    uint32_t apex = side(j, side(j, first)->next)->next;
-    while (apex != first && sl_orient(a, b, side(j, apex)->start) <= 0) apex = side(j, apex)->next;
-    const sl_point c = side(j, apex)->start;
-    const sl_point middle = {a.x / 3 + b.x / 3 + c.x / 3, a.y / 3 + b.y / 3 + c.y / 3};
-    uint32_t i = first;
+/// The cell in the middle of the room of a side; where the room is a sliver, rounding may make it
+/// another one.
+static uint32_t middle_cell(const joiner *j, uint32_t first) {
+    sl_point middle = {0, 0};
+    uint32_t count = 0, i = first;
     do {
-        if (sl_orient(side(j, i)->start, sl_mesh_end(&j->mesh, i), middle) <= 0) return SL_NO_CELL;
+        count++;
+        i = side(j, i)->next;
+    } while (i != first);
+    do {
+        middle.x += side(j, i)->start.x / count;
+        middle.y += side(j, i)->start.y / count;
         i = side(j, i)->next;
     } while (i != first);
     return sl_space_locate(j->space, middle);
@@ -115,7 +117,7 @@ static sl_status number_rooms(sl_context *context, joiner *j, uint32_t *count) {
     for (uint32_t first = 0; first < m->sides.count; first++) {
         if (m->previous.items[first] == SL_SIDE_GONE || j->number[first]) continue;
         SL_TRY(SL_ARRAY_ROOM(context, &j->starts, 1));
-        j->starts.items[j->starts.count++] = (start){cell_within(j, first), first};
+        j->starts.items[j->starts.count++] = (start){middle_cell(j, first), first};
         for (uint32_t i = first; !j->number[i]; i = side(j, i)->next) j->number[i] = 1;
     }
     if (j->starts.count)
@@ -193,9 +195,11 @@ static sl_status share_cell(sl_context *context, joiner *j, const sl_outline *o,
 /// in a room.
 static sl_status share_room(sl_context *context, joiner *j, const sl_outline *o, uint32_t room) {
     const uint32_t cell = j->starts.items[room].cell;
-    for (uint32_t i = 0; cell == SL_NO_CELL && i < o->space->cell_count; i++)
-        SL_TRY(share_cell(context, j, o, i, room));
+    const size_t before = j->shares.count;
     if (cell != SL_NO_CELL) SL_TRY(share_cell(context, j, o, cell, room));
+    const bool found = j->shares.count > before;
+    for (uint32_t i = 0; !found && i < o->space->cell_count; i++)
+        SL_TRY(share_cell(context, j, o, i, room));
     while (j->waiting.count) {
         const sl_cell *c = &o->space->cells[j->waiting.items[--j->waiting.count]];
         for (uint32_t i = 0; i < c->exit_count; i++)

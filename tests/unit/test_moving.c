@@ -458,10 +458,6 @@ static void cells_that_a_box_lies_in(void **state) {
     assert_int_equal(cells[0], 3);
     sl_cells_of_box(&space, (sl_box){{nextafter(3, 4), 1}, {4, 3}}, cells);
     assert_int_equal(cells[0], 1 << under);
-    // Boxes are not put into such a space.
-    sl_moving *moving;
-    const sl_visibility bare = {.sight = SL_CLOSED};
-    assert_int_equal(sl_moving_create(context, &space, &bare, &moving), SL_UNSUPPORTED);
     sl_space_destroy(context, &space);
     sl_map_destroy(context, &oblique);
     sl_context_destroy(context);

@@ -18,8 +18,8 @@ SL_API void sl_cells_of_box(const sl_space *space, sl_box box, uint64_t *cells);
 typedef struct sl_moving sl_moving;
 
 /// No boxes are in it yet. The space and the visible sets must outlive it; `visibility` is as
-/// sl_eye_search_create takes it, and stab trees are not looked at. SL_UNSUPPORTED for a space with
-/// oblique walls (that a BSP made) or without exits that its portals should have.
+/// sl_eye_search_create takes it, and stab trees are not looked at. SL_UNSUPPORTED for a space
+/// without exits that its portals should have (one-way glass).
 SL_API sl_status sl_moving_create(sl_context *context, const sl_space *space,
                                   const sl_visibility *visibility, sl_moving **out);
 SL_API void sl_moving_destroy(sl_context *context, sl_moving *moving);
@@ -27,21 +27,28 @@ SL_API void sl_moving_destroy(sl_context *context, sl_moving *moving);
 /// Puts these boxes in, in place of those before. Only the cells that boxes lie in are cut, but the
 /// rest of the space is copied. SL_BAD_ARGUMENT for boxes whose corners are not finite or not in
 /// order; what was there before then stays.
+///
+/// In a space of axial walls no coordinate is computed, and what is told of boxes is exact. In a
+/// BSP's, sides that block are put in as its walls were: what sl_subdivide_bsp promises holds of
+/// walls and boxes together. So no place sees less than they leave it to see; more is seen only by
+/// the size of rounding, where sides cross the borders of cells. Where doubles leave a needle no
+/// room a part of one cell may be made part of its neighbour: it then counts as part of both.
 SL_API sl_status sl_moving_place(sl_context *context, sl_moving *moving, const sl_moving_box *boxes,
                                  size_t count);
 
 /// How far is seen, as sl_eye_search_limit tells; it stays until it is set anew.
 SL_API void sl_moving_limit(sl_moving *moving, double range);
 
-/// The space with the boxes: cells cut along their sides, which are walls where they block. Cell c
-/// of it is (a part of) cell parents[c] of the space without. Until boxes are next placed.
+/// The space with the boxes: cells cut along their sides, which are walls where they block; in a
+/// BSP's space, along these alone. Cell c of it is (a part of) cell parents[c] of the space
+/// without. Until boxes are next placed.
 SL_API const sl_space *sl_moving_space(const sl_moving *moving, const uint32_t **parents);
 
 /// Its outline, for sl_region_make, sl_sees and sl_shoot. Made when it is first asked for.
 SL_API sl_status sl_moving_outline(sl_context *context, sl_moving *moving, const sl_outline **out);
 
 /// What an eye sees past the boxes, by exact eye-to-cell culling within the visible set of its
-/// cell.
+/// cell; in a BSP's space that set is only asked whether it is empty.
 ///
 /// `cells`: the cells of the space without boxes, sl_eye_words() words: those of which a part is
 /// seen, as in a space whose walls the boxes' sides are.
