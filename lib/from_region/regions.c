@@ -185,6 +185,7 @@ static sl_status check_options(sl_context *context, const sl_map *map,
 static sl_status make(sl_context *context, const sl_map *map, const sl_regions_options *options,
                       sl_regions *scene) {
     SL_TRY(check_options(context, map, options));
+    SL_TRY(sl_check_has_walls(context, map));
     SL_TRY(subdivide(context, map, options, scene));
     SL_TRY(sl_regions_find_view_cells(context, options, scene));
     SL_TRY(make_passes(context, scene));

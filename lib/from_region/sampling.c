@@ -81,9 +81,12 @@ static double shift_of(const sampler *s, image i, uint32_t pixel) {
 }
 
 /// The other coordinate of a point, less what the slope makes of its own: of all points of a line
-/// of the pixel the same.
-static double offset_of(image i, double slope, sl_point p) {
-    return i.steep ? p.x - slope * p.y : p.y - slope * p.x;
+/// of the pixel the same. From the map's corner, not from the origin: far from that, lines' numbers
+/// would be too large for a double to count.
+static double offset_of(const sampler *s, image i, double slope, sl_point p) {
+    const sl_point corner = s->scene->space.bounds.min;
+    const double x = p.x - corner.x, y = p.y - corner.y;
+    return i.steep ? x - slope * y : y - slope * x;
 }
 
 /// The line of a number, in the quadrant's direction, from one edge of the map to the other.
@@ -91,9 +94,11 @@ static sl_line line_of(const sampler *s, image i, double slope, double offset) {
     const sl_box b = s->scene->space.bounds;
     const bool onwards = i.steep ? sl_goes_up(i.quadrant) : sl_goes_right(i.quadrant);
     const double low = i.steep ? b.min.y : b.min.x, high = i.steep ? b.max.y : b.max.x;
-    const double from = onwards ? low : high, to = onwards ? high : low;
-    const double f = slope * from + offset, t = slope * to + offset;
-    return i.steep ? (sl_line){{f, from}, {t, to}} : (sl_line){{from, f}, {to, t}};
+    const double at_low = (i.steep ? b.min.x : b.min.y) + offset;
+    const double at_high = at_low + slope * (high - low);
+    const sl_point first = i.steep ? (sl_point){at_low, low} : (sl_point){low, at_low};
+    const sl_point last = i.steep ? (sl_point){at_high, high} : (sl_point){high, at_high};
+    return onwards ? (sl_line){first, last} : (sl_line){last, first};
 }
 
 static bool passes(sl_line line, sl_point left, sl_point right) {
@@ -106,7 +111,7 @@ static sl_status add_rays(sl_context *context, sampler *s, image i, uint32_t pix
     // Rising and falling lines: x and y grow together in quadrants 0 and 2 alone.
     const double slope = (i.quadrant % 2 ? -1 : 1) * slope_of(s, pixel);
     const double shift = shift_of(s, i, pixel);
-    const double p = offset_of(i, slope, exit->left), q = offset_of(i, slope, exit->right);
+    const double p = offset_of(s, i, slope, exit->left), q = offset_of(s, i, slope, exit->right);
     const double low = floor(fmin(p, q) / s->step - shift) - 1;
     const double high = ceil(fmax(p, q) / s->step - shift) + 1;
     for (double number = low; number <= high; number++) {

@@ -280,9 +280,7 @@ sl_status sl_subdivide_bsp(sl_context *context, const sl_map *map, const sl_bsp_
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "the weights of a split must be finite and not negative, and one candidate "
                        "at least be tried");
-    const char *source = map->source ? map->source : "the map";
-    if (!map->wall_count)
-        return sl_fail_at(context, source, 0, "the map has no walls: nothing to subdivide");
+    SL_TRY(sl_check_has_walls(context, map));
     if (map->wall_count >= INT32_MAX - 1) return sl_fail_memory(context);
     sl_space space = {.bounds = sl_padded(sl_map_bounds(map))};
     sl_seam_parts seams = {0};

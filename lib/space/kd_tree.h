@@ -32,6 +32,9 @@ int sl_compare_portals(const void *left, const void *right);
 /// Gives cells, which count no exits yet, the exits of the space's portals.
 sl_status sl_make_exits(sl_context *context, sl_space *space);
 
+/// SL_BAD_INPUT for a map without walls: it has no size.
+sl_status sl_check_has_walls(sl_context *context, const sl_map *map);
+
 /// A map whose walls all lie on one line has no area: what it lacks is added on both sides.
 sl_box sl_padded(sl_box box);
 

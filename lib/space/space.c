@@ -27,6 +27,12 @@ void sl_space_destroy(sl_context *context, sl_space *space) {
     *space = (sl_space){0};
 }
 
+sl_status sl_check_has_walls(sl_context *context, const sl_map *map) {
+    if (map->wall_count) return SL_OK;
+    return sl_fail_at(context, map->source ? map->source : "the map", 0,
+                      "the map has no walls: nothing to subdivide");
+}
+
 sl_box sl_padded(sl_box box) {
     const double width = box.max.x - box.min.x, height = box.max.y - box.min.y;
     const double wider = width > height ? width : height;
@@ -99,8 +105,7 @@ sl_status sl_subdivide_kd(sl_context *context, const sl_map *map,
     if (!(options->obscured >= 0 && options->obscured <= 1))
         return sl_fail(context, SL_BAD_ARGUMENT, "the obscured share must lie between 0 and 1");
     const char *source = map->source ? map->source : "the map";
-    if (!map->wall_count)
-        return sl_fail_at(context, source, 0, "the map has no walls: nothing to subdivide");
+    SL_TRY(sl_check_has_walls(context, map));
     if (map->wall_count > INT32_MAX) return sl_fail_memory(context);
     sl_space space = {.bounds = sl_padded(sl_map_bounds(map))};
     sl_kd_tree tree = {0};

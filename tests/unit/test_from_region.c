@@ -367,6 +367,51 @@ static void what_makes_no_sense_is_refused(void **state) {
     sl_context_destroy(context);
 }
 
+/// Far from the origin, where neighbouring doubles are farther apart than a sample's lines.
+static void far_maps_are_sampled(void **state) {
+    (void)state;
+    const double far[] = {0, 0x1p40, 0x1p52, -0x1p52};
+    sl_context *context = testing_context(NULL);
+    for (size_t i = 0; i < sizeof far / sizeof *far; i++) {
+        const sl_point corner = {far[i], -far[i]};
+        const sl_point at[] = {corner,
+                               {corner.x + 8, corner.y},
+                               {corner.x + 8, corner.y + 8},
+                               {corner.x, corner.y + 8},
+                               corner};
+        sl_map map = {0};
+        sl_regions *scene;
+        for (int k = 0; k < 4; k++)
+            assert_ok(context, sl_map_add_wall(context, &map, at[k], at[k + 1], 0));
+        sl_regions_options what = sl_regions_options_default();
+        what.grid = 2;
+        what.objects = SL_OBJECTS_WALLS;
+        assert_ok(context, sl_regions_create(context, &map, &what, &scene));
+        sl_from_region_options options = sl_from_region_options_default();
+        options.solver = solver_of("sampling");
+        options.points = 64;
+        options.pixels = 16;
+        sl_from_region_result seen = compare_methods(context, "a far room", scene, options);
+        assert_int_equal(sl_from_region_pairs(&seen), 4 * 4);
+        sl_from_region_result_destroy(context, &seen);
+        sl_regions_destroy(context, scene);
+        sl_map_destroy(context, &map);
+    }
+    sl_context_destroy(context);
+}
+
+static void a_map_without_walls_is_refused(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    const sl_map map = {0};
+    const sl_regions_options what = sl_regions_options_default();
+    sl_regions *scene = NULL;
+    assert_int_equal(sl_regions_create(context, &map, &what, &scene), SL_BAD_INPUT);
+    assert_non_null(strstr(sl_context_message(context), "no walls"));
+    assert_null(scene);
+    sl_context_destroy(context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(leaves_see_what_cells_see),
@@ -376,6 +421,8 @@ int main(void) {
         cmocka_unit_test(work_is_bounded_by_output),
         cmocka_unit_test(lack_of_memory_is_told_and_leaves_nothing),
         cmocka_unit_test(what_makes_no_sense_is_refused),
+        cmocka_unit_test(far_maps_are_sampled),
+        cmocka_unit_test(a_map_without_walls_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
