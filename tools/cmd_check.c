@@ -36,19 +36,6 @@ static void destroy(sl_context *context, checked *c) {
     sl_faults_destroy(context, &c->faults);
 }
 
-/// Walls and starts.
-static sl_status copy_map(sl_context *context, const sl_map *from, sl_map *to) {
-    for (size_t i = 0; i < from->wall_count; i++) {
-        const sl_wall *wall = &from->walls[i];
-        SL_TRY(sl_map_add_wall(context, to, wall->a, wall->b, wall->line));
-    }
-    for (size_t i = 0; i < from->start_count; i++) {
-        const sl_start *start = &from->starts[i];
-        SL_TRY(sl_map_add_start(context, to, start->at, start->heading, start->line));
-    }
-    return SL_OK;
-}
-
 /// Subdivides and looks for faults; c->map is there, and c->baked.map is a copy to be cleaned.
 static sl_status examine(sl_context *context, const check_plan *plan, checked *c) {
     SL_TRY(sl_map_clean(context, &c->baked.map, NULL));
@@ -61,13 +48,13 @@ static sl_status examine(sl_context *context, const check_plan *plan, checked *c
 static sl_status mend(sl_context *context, const check_plan *plan, const checked *before,
                       sl_faults_report *report) {
     checked after = {0};
-    sl_status status = copy_map(context, &before->map, &after.map);
+    sl_status status = sl_map_copy(context, &before->map, &after.map);
     if (status == SL_OK) status = sl_map_snap(context, &after.map, report->gap, &report->snap);
     if (status == SL_OK && !after.map.wall_count)
         status = sl_fail(context, SL_BAD_ARGUMENT,
                          "--snap %s: closing gaps up to %g (--gap) leaves no wall", plan->snap,
                          report->gap);
-    if (status == SL_OK) status = copy_map(context, &after.map, &after.baked.map);
+    if (status == SL_OK) status = sl_map_copy(context, &after.map, &after.baked.map);
     if (status == SL_OK) status = examine(context, plan, &after);
     if (status == SL_OK) status = sl_map_write_text(context, &after.map, plan->snap);
     for (int kind = 0; kind < SL_FAULT_KINDS; kind++)
@@ -80,7 +67,7 @@ static sl_status mend(sl_context *context, const check_plan *plan, const checked
 static sl_status check(sl_console *console, const check_plan *plan, checked *c) {
     sl_context *context = console->context;
     SL_TRY(sl_pipeline_read(context, &plan->pipeline, &c->map));
-    SL_TRY(copy_map(context, &c->map, &c->baked.map));
+    SL_TRY(sl_map_copy(context, &c->map, &c->baked.map));
     SL_TRY(examine(context, plan, c));
     const sl_box box = sl_map_bounds(&c->map);
     const double usual = hypot(box.max.x - box.min.x, box.max.y - box.min.y) / 1000;

@@ -2,7 +2,6 @@
 
 #include "base/base.h"
 #include "clock.h"
-#include "map_copy.h"
 #include "sightline/solvers.h"
 
 #include <string.h>
@@ -25,12 +24,19 @@ static void take_progress(void *user, const sl_progress *progress) {
     atomic_store(&job->total, progress->total);
 }
 
+/// Puts other walls in place of a map's own.
+static sl_status set_walls(sl_context *context, sl_map *map, const sl_wall *walls, size_t count) {
+    map->wall_count = 0;
+    for (size_t i = 0; i < count; i++)
+        SL_TRY(sl_map_add_wall(context, map, walls[i].a, walls[i].b, walls[i].line));
+    return SL_OK;
+}
+
 /// A baked file has everything but the map as drawn, which its space's walls stand for.
 static sl_status read_baked(sl_context *context, sl_bake_job *job) {
     SL_TRY(sl_baked_read(context, job->source.path, job->baked));
     SL_TRY(sl_map_copy(context, &job->baked->map, &job->map));
-    SL_TRY(sl_map_set_walls(context, &job->map, job->baked->space.walls,
-                            job->baked->space.wall_count));
+    SL_TRY(set_walls(context, &job->map, job->baked->space.walls, job->baked->space.wall_count));
     job->visibility = job->baked->visibility;
     job->baked->visibility = (sl_visibility){0};
     atomic_store(&job->space_ready, true);

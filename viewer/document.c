@@ -2,7 +2,6 @@
 
 #include "bake_job.h"
 #include "base/base.h"
-#include "map_copy.h"
 
 #include <string.h>
 #include <strings.h>

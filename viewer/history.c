@@ -1,7 +1,5 @@
 #include "history.h"
 
-#include "map_copy.h"
-
 #include <string.h>
 
 static void clear(sl_context *context, sl_map *list, size_t *count) {
@@ -30,6 +28,31 @@ void sl_history_forget_last(sl_context *context, sl_history *history) {
     if (history->done_count) sl_map_destroy(context, &history->done[--history->done_count]);
 }
 
+static bool same_segment(sl_segment a, sl_segment b) {
+    return a.a.x == b.a.x && a.a.y == b.a.y && a.b.x == b.b.x && a.b.y == b.b.y;
+}
+
+static bool same_glass(const sl_glass *a, size_t a_count, const sl_glass *b, size_t b_count) {
+    bool same = a_count == b_count;
+    for (size_t i = 0; i < a_count && same; i++)
+        same = same_segment(a[i].segment, b[i].segment) && a[i].one_sided == b[i].one_sided;
+    return same;
+}
+
+/// Whether two maps differ in nothing that a bake looks at: doors may be open or shut.
+static bool same_bake(const sl_map *a, const sl_map *b) {
+    bool same = a->wall_count == b->wall_count && a->door_count == b->door_count &&
+                a->cell_count == b->cell_count && a->range == b->range;
+    for (size_t i = 0; i < a->wall_count && same; i++)
+        same = same_segment((sl_segment){a->walls[i].a, a->walls[i].b},
+                            (sl_segment){b->walls[i].a, b->walls[i].b});
+    for (size_t i = 0; i < a->door_count && same; i++)
+        same = same_segment(a->doors[i].segment, b->doors[i].segment);
+    return same && same_glass(a->mirrors, a->mirror_count, b->mirrors, b->mirror_count) &&
+           same_glass(a->oneways, a->oneway_count, b->oneways, b->oneway_count) &&
+           same_glass(a->seams, a->seam_count, b->seams, b->seam_count);
+}
+
 bool sl_history_undo(sl_context *context, sl_history *history, sl_map *map, bool redo, bool *bake,
                      sl_status *status) {
     sl_map *from = redo ? history->undone : history->done;
@@ -40,7 +63,7 @@ bool sl_history_undo(sl_context *context, sl_history *history, sl_map *map, bool
     *status = push(context, to, to_count, map);
     if (*status != SL_OK) return true;
     const sl_map last = from[--*from_count];
-    *bake = !sl_map_same_bake(map, &last);
+    *bake = !same_bake(map, &last);
     sl_map_destroy(context, map);
     *map = last;
     return true;

@@ -1,7 +1,6 @@
 #include "view_job.h"
 
 #include "base/base.h"
-#include "map_copy.h"
 
 #include <pthread.h>
 #include <stdatomic.h>

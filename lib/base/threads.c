@@ -1,5 +1,6 @@
 #include "base/threads.h"
 
+#include <assert.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <string.h>
@@ -31,13 +32,15 @@ static void tell(crew *c) {
     pthread_mutex_unlock(&c->lock);
 }
 
-/// Waits until a unit may start; false where another one has failed. Units are handed out in order,
-/// so that all that this one waits for are in some thread's hands; and as none of its own kind
-/// starts before these are done, their number tells that they are.
+/// Waits until a unit's wave may start; false where another unit has failed. Units are handed out
+/// in order, so that all that this one waits for are in some thread's hands; and as none of its
+/// wave starts before these are done, their number tells that they are.
 static bool is_ready(crew *c, size_t unit) {
-    if (!c->work->after) return true;
+    const size_t *after = c->work->after;
+    if (!after) return true;
+    assert(after[unit] == unit || after[unit] == after[unit - 1]);
     pthread_mutex_lock(&c->lock);
-    while (atomic_load(&c->done) < c->work->after[unit] && !atomic_load(&c->failed))
+    while (atomic_load(&c->done) < after[unit] && !atomic_load(&c->failed))
         pthread_cond_wait(&c->moved, &c->lock);
     pthread_mutex_unlock(&c->lock);
     return !atomic_load(&c->failed);

@@ -7,8 +7,8 @@
 /// What a thread does. `begin` makes what the thread needs for itself (out into *state), `unit`
 /// does one unit, `end` frees the state; begin, units and end of a state run in one thread. Units
 /// are handed out in ascending order, any thread may get any unit. `begin` and `end` may be NULL.
-/// `after`: NULL, or for each unit how many of the first units must be done before it starts; never
-/// descending, and no more than the unit's own number.
+/// `after`: NULL, or for each unit the number of the first unit of its wave: waves are runs of
+/// units, and one starts when all before it are done.
 typedef struct sl_work {
     void *job;
     sl_status (*begin)(sl_context *context, void *job, void **state);

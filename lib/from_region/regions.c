@@ -12,18 +12,9 @@ sl_regions_options sl_regions_options_default(void) {
 // --- the map with the view cells' borders
 
 static sl_status copy_map(sl_context *context, const sl_map *map, sl_map *to) {
-    const char *source = map->source ? map->source : "the map";
-    to->source = sl_copy_text(context, source, strlen(source));
-    if (!to->source) return SL_NO_MEMORY;
-    for (size_t i = 0; i < map->wall_count; i++)
-        SL_TRY(sl_map_add_wall(context, to, map->walls[i].a, map->walls[i].b, map->walls[i].line));
-    for (size_t i = 0; i < map->start_count; i++)
-        SL_TRY(sl_map_add_start(context, to, map->starts[i].at, map->starts[i].heading,
-                                map->starts[i].line));
-    for (size_t i = 0; i < map->object_count; i++)
-        SL_TRY(sl_map_add_object(context, to, map->objects[i].name, map->objects[i].box,
-                                 map->objects[i].line));
-    return SL_OK;
+    SL_TRY(sl_map_copy(context, map, to));
+    if (!to->source) to->source = sl_copy_text(context, "the map", strlen("the map"));
+    return to->source ? SL_OK : SL_NO_MEMORY;
 }
 
 static sl_status add_grid(sl_context *context, sl_map *map, uint32_t grid) {

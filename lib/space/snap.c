@@ -182,6 +182,7 @@ sl_status sl_map_snap(sl_context *context, sl_map *map, double gap, sl_snap_acco
     sl_status status = snap_to_ends(&s);
     if (status == SL_OK) status = snap_to_walls(&s);
     if (status == SL_OK) drop_points(&s);
+    if (status == SL_OK) sl_map_drop_cells(context, map);
     sl_free(context, s.ends);
     if (status == SL_OK && account) *account = s.account;
     return status;

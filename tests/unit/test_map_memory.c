@@ -8,9 +8,10 @@ static const char text[] =
     "sightline 1\n#! note\n#! and more\nwalls 0 0 9 0 9 9 0 9 0 0\n"
     "wall 0 0 9 0\nwall 3 0 3 9\nwall 0 3 9 3\nwall 0 0 4 4\n"
     "wall 0 1 1 1\nwall 0 2 1 2\nwall 0 4 1 4\nwall 0 5 1 5\n"
-    "door a 0 0 0 1 open\ndoor b 1 0 1 1 shut\nmirror 0 0 1 0\n"
+    "door a 0 0 0 1 open\ndoor b 1 0 1 1 shut\nmirror 0 0 1 0\nmirror 2 0 3 0 one\n"
     "oneway 0 0 1 0\nseam 0 0 1 0\nrange 5\nstart 1 1 0\npath p 1 1 2 2 3 3\n"
     "path q 1 1\nobject o 1 1 2 2\nobject r 1 1 2 2\n";
+static const char cells[] = "sightline 1\nwall 0 0 1 0\nsnap 0.5\ncell 0 0 1 0 1 1\n";
 static const char plan[] = "#########\n#...#...#\n#.#.+.#.#\n#...#.@.#\n##+###+##\n#.......#\n"
                            "#########\n";
 static const char model[] = "{ note }\nv a 0 0 0;v b 2 0 0;v c 2 3 0;v d 0 3 0;v A 0 0 4;"
@@ -23,6 +24,10 @@ typedef sl_status work(sl_context *context, sl_map *map);
 
 static sl_status read_text(sl_context *context, sl_map *map) {
     return sl_map_read_text(context, "t", text, sizeof text - 1, map);
+}
+
+static sl_status read_cells(sl_context *context, sl_map *map) {
+    return sl_map_read_text(context, "t", cells, sizeof cells - 1, map);
 }
 
 static sl_status read_plan(sl_context *context, sl_map *map) {
@@ -139,8 +144,21 @@ static sl_status add_path(sl_context *context, sl_map *map) {
     return sl_map_add_path(context, map, "one_more", &(sl_point){1, 2}, 1, 0);
 }
 
+static sl_status copy(sl_context *context, sl_map *map) {
+    sl_map other = {0};
+    const sl_status status = sl_map_copy(context, map, &other);
+    if (status == SL_OK)
+        assert_true(map_same(map, &other));
+    else
+        assert_true(map_is_empty(&other));
+    sl_map_destroy(context, &other);
+    return status;
+}
+
 static void test_others(void **state) {
     (void)state;
+    fail_on_map(read_text, copy);
+    fail_on_map(read_cells, copy);
     fail_on_map(read_text, clean);
     fail_on_map(read_plan, clean);
     fail_on_map(read_plan, print_plan);

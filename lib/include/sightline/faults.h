@@ -73,7 +73,8 @@ typedef struct sl_snap_account {
 /// most walls have, else the first), and then an end so near to a wall is put onto it: where both
 /// are axial along their own lines, and else at the nearest point, rounded. An end that touches a
 /// wall already is left alone. In neither step
-/// does an end move farther than `gap`. Walls only.
+/// does an end move farther than `gap`. Walls only; cells of the map's own, which no longer go with
+/// them, are dropped.
 SL_API sl_status sl_map_snap(sl_context *context, sl_map *map, double gap,
                              sl_snap_account *account);
 

@@ -94,6 +94,9 @@ typedef struct sl_map {
 
 SL_API void sl_map_destroy(sl_context *context, sl_map *map); ///< and zeroes it
 
+/// A deep copy of all that a map holds, into an empty one, which stays empty on failure.
+SL_API sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to);
+
 /// Each adds one thing and copies what it is given. Coordinates must be usable (below):
 /// SL_BAD_ARGUMENT otherwise.
 SL_API sl_status sl_map_add_wall(sl_context *context, sl_map *map, sl_point a, sl_point b,

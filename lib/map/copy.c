@@ -1,8 +1,14 @@
-#include "map_copy.h"
-
 #include "base/base.h"
+#include "sightline/map.h"
 
 #include <string.h>
+
+static sl_status copy_walls(sl_context *context, const sl_map *from, sl_map *to) {
+    for (size_t i = 0; i < from->wall_count; i++)
+        SL_TRY(
+            sl_map_add_wall(context, to, from->walls[i].a, from->walls[i].b, from->walls[i].line));
+    return SL_OK;
+}
 
 static sl_status copy_effects(sl_context *context, const sl_map *from, sl_map *to) {
     for (size_t i = 0; i < from->door_count; i++) {
@@ -45,16 +51,9 @@ static sl_status copy_things(sl_context *context, const sl_map *from, sl_map *to
     return SL_OK;
 }
 
-sl_status sl_map_set_walls(sl_context *context, sl_map *map, const sl_wall *walls, size_t count) {
-    map->wall_count = 0;
-    for (size_t i = 0; i < count; i++)
-        SL_TRY(sl_map_add_wall(context, map, walls[i].a, walls[i].b, walls[i].line));
-    return SL_OK;
-}
-
 sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to) {
     sl_map map = {.range = from->range, .range_line = from->range_line};
-    sl_status status = sl_map_set_walls(context, &map, from->walls, from->wall_count);
+    sl_status status = copy_walls(context, from, &map);
     if (status == SL_OK) status = copy_effects(context, from, &map);
     if (status == SL_OK) status = copy_cells(context, from, &map);
     if (status == SL_OK) status = copy_things(context, from, &map);
@@ -71,28 +70,4 @@ sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to) {
     else
         sl_map_destroy(context, &map);
     return status;
-}
-
-static bool same_segment(sl_segment a, sl_segment b) {
-    return a.a.x == b.a.x && a.a.y == b.a.y && a.b.x == b.b.x && a.b.y == b.b.y;
-}
-
-static bool same_glass(const sl_glass *a, size_t a_count, const sl_glass *b, size_t b_count) {
-    bool same = a_count == b_count;
-    for (size_t i = 0; i < a_count && same; i++)
-        same = same_segment(a[i].segment, b[i].segment) && a[i].one_sided == b[i].one_sided;
-    return same;
-}
-
-bool sl_map_same_bake(const sl_map *a, const sl_map *b) {
-    bool same = a->wall_count == b->wall_count && a->door_count == b->door_count &&
-                a->cell_count == b->cell_count && a->range == b->range;
-    for (size_t i = 0; i < a->wall_count && same; i++)
-        same = same_segment((sl_segment){a->walls[i].a, a->walls[i].b},
-                            (sl_segment){b->walls[i].a, b->walls[i].b});
-    for (size_t i = 0; i < a->door_count && same; i++)
-        same = same_segment(a->doors[i].segment, b->doors[i].segment);
-    return same && same_glass(a->mirrors, a->mirror_count, b->mirrors, b->mirror_count) &&
-           same_glass(a->oneways, a->oneway_count, b->oneways, b->oneway_count) &&
-           same_glass(a->seams, a->seam_count, b->seams, b->seam_count);
 }
