@@ -36,7 +36,9 @@
 /// Then c sees B near the direction to d, and d sees A near the opposite one, by the argument
 /// above. One of the two directions is above the horizon, or both lie along it: all directions from
 /// a little below it on the right to a little below it on the left are looked at. Where c is d,
-/// both are cells of one fan, which count as seen by each other.
+/// both are cells of one fan, which count as seen by each other. As all of A near c and all of B
+/// near d are joined, an open set of directions does: what lies along an edge of c's fan alone
+/// needs no look from c.
 ///
 /// About w the line's backward half starts at the first edge of the free fan, its forward half
 /// there plus half a turn. Going round w counter-clockwise, the line crosses the edges between

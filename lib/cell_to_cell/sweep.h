@@ -5,11 +5,6 @@
 #include "cell_to_cell/bit_rows.h"
 #include "cell_to_cell/reach.h"
 
-/// A start of reach.cells, and the rays along the first and the last edge of the cell of the fan.
-typedef struct sl_fan_rays {
-    uint32_t first, last; ///< of the rays; UINT32_MAX for none
-} sl_fan_rays;
-
 /// A cell of a fan, and what of its sector is looked through.
 typedef struct sl_sector {
     uint32_t cell;
@@ -47,8 +42,7 @@ typedef struct sl_sweeper {
     sl_reacher reacher;
     sl_reach back, middle, ahead;
     sl_rays rays;
-    SL_ARRAY(sl_fan_rays) rays_of; ///< by cell of the fan
-    SL_ARRAY(uint32_t) passing;    ///< scratch: cells that are seen along one ray only
+    SL_ARRAY(uint32_t) passing; ///< scratch: cells that are seen along one ray only
     SL_ARRAY(sl_sector) sectors;
     sl_word_set behind, before;
     sl_overlap overlap;

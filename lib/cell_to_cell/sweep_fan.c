@@ -23,7 +23,6 @@ void sl_sweeper_destroy(sl_context *context, sl_sweeper *s) {
     sl_reach_destroy(context, &s->middle);
     sl_reach_destroy(context, &s->ahead);
     sl_rays_destroy(context, &s->rays);
-    sl_free(context, s->rays_of.items);
     sl_free(context, s->passing.items);
     sl_free(context, s->sectors.items);
     sl_word_set_destroy(context, &s->behind);
@@ -172,46 +171,20 @@ static sl_status reach_middle(sl_context *context, sl_sweeper *s, const sl_fan *
 
 // --- rays along the edges
 
-static sl_status start_rays(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
-    s->rays.starts.count = s->rays.cells.count = 0;
-    SL_TRY(SL_ARRAY_ROOM(context, &s->rays_of, fan->count));
-    for (uint32_t k = 0; k < fan->count; k++)
-        s->rays_of.items[k] = (sl_fan_rays){UINT32_MAX, UINT32_MAX};
-    return SL_OK;
-}
-
-static sl_status add_ray(sl_context *context, sl_sweeper *s, const sl_fan *fan, uint32_t k,
-                         bool last, const sl_reach *known, uint32_t turn) {
-    const sl_fan_cell *cells = s->fans->cells.items + fan->first;
-    sl_fan_rays *of = &s->rays_of.items[k];
-    uint32_t *ray = last ? &of->last : &of->first;
-    if (*ray != UINT32_MAX) return SL_OK;
-    *ray = s->rays.starts.count ? (uint32_t)s->rays.starts.count - 1 : 0;
-    const sl_fan_edge along = {.cell = cells[k].cell, .end = cells[k + last].edge, .last = last};
-    return sl_rays_add(context, &s->reacher, along, known, turn, &s->rays);
-}
-
 /// Gives the turns at the edges of one part, which was found last, their rays. `first`: its first
 /// cell of the fan.
 static sl_status add_rays(sl_context *context, sl_sweeper *s, const sl_fan *fan, sl_reach *reach,
                           uint32_t first, bool last) {
-    uint32_t k = first;
+    const sl_fan_cell *cell = s->fans->cells.items + fan->first + first;
     for (size_t i = 0; i < reach->cells.count; i++) {
         const sl_reached *c = &reach->cells.items[i];
         if (!c->start) continue;
         const uint32_t turn = last ? c->leave : c->enter;
-        SL_TRY(add_ray(context, s, fan, k, last, reach, turn));
-        const sl_fan_rays *of = &s->rays_of.items[k++];
-        reach->turns.items[turn].ray = last ? of->last : of->first;
-    }
-    return SL_OK;
-}
-
-/// Those that only served cells need.
-static sl_status add_other_rays(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
-    for (uint32_t k = 0; k < fan->count; k++) {
-        SL_TRY(add_ray(context, s, fan, k, false, NULL, 0));
-        SL_TRY(add_ray(context, s, fan, k, true, NULL, 0));
+        const sl_fan_edge along = {.cell = cell->cell, .end = cell[last].edge, .last = last};
+        reach->turns.items[turn].ray =
+            s->rays.starts.count ? (uint32_t)s->rays.starts.count - 1 : 0;
+        SL_TRY(sl_rays_add(context, &s->reacher, along, reach, turn, &s->rays));
+        cell++;
     }
     return SL_OK;
 }
@@ -223,30 +196,6 @@ static void add_reach(sl_word_set *set, const sl_reach *reach) {
         sl_word_set_add(set, reach->cells.items[i].cell);
 }
 
-static void add_ray_cells(const sl_sweeper *s, uint32_t ray, sl_word_set *set) {
-    for (uint32_t i = s->rays.starts.items[ray]; i < s->rays.starts.items[ray + 1]; i++)
-        sl_word_set_add(set, s->rays.cells.items[i]);
-}
-
-/// The rays that a cell of the fan can turn to about the point, by less than half a turn from its
-/// own edges: counter-clockwise those along last edges, clockwise those along first ones.
-static void add_rays_beside(const sl_sweeper *s, const sl_fan *fan, uint32_t k, sl_word_set *set) {
-    const sl_fan_cell *cells = s->fans->cells.items + fan->first;
-    for (uint32_t j = k, left = fan->count; left; left--) {
-        if (j != k && sl_ends_turn(&s->reacher, cells[k + 1].edge, cells[j + 1].edge) <= 0) break;
-        add_ray_cells(s, s->rays_of.items[j].last, set);
-        if (++j < fan->count) continue;
-        if (!fan->full_turn) break;
-        j = 0;
-    }
-    for (uint32_t j = k, left = fan->count; left; left--) {
-        if (j != k && sl_ends_turn(&s->reacher, cells[k].edge, cells[j].edge) >= 0) break;
-        add_ray_cells(s, s->rays_of.items[j].first, set);
-        if (j == 0 && !fan->full_turn) break;
-        j = j ? j - 1 : fan->count - 1;
-    }
-}
-
 /// What the turning line does not join with a cell of the fan anyway: see sl_sweep_turn.
 static sl_status serve(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     const sl_fan_cell *cells = s->fans->cells.items + fan->first;
@@ -256,7 +205,6 @@ static sl_status serve(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
         add_reach(set, &s->middle);
         if (fan->wide && cells[k].past_half <= 0) add_reach(set, &s->back);
         if (fan->wide && cells[k + 1].past_rest >= 0) add_reach(set, &s->ahead);
-        if (s->closed) add_rays_beside(s, fan, k, set);
         SL_TRY(sl_bit_rows_add(context, &s->rows, cells[k].cell, set));
         sl_word_set_clear(set);
     }
@@ -269,7 +217,7 @@ sl_status sl_sweep_fan(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     sl_reach_clear(&s->middle);
     sl_reach_clear(&s->ahead);
     if (fan->overlaps) return sl_sweep_overlap(context, s, fan);
-    if (s->closed) SL_TRY(start_rays(context, s, fan));
+    s->rays.starts.count = s->rays.cells.count = 0;
     if (fan->wide) {
         s->reacher.fans = s->inward;
         SL_TRY(reach_back(context, s, fan));
@@ -279,7 +227,6 @@ sl_status sl_sweep_fan(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
         if (s->closed) SL_TRY(add_rays(context, s, fan, &s->ahead, first_ahead(s, fan), true));
     }
     if (fan->serves && !fan->back_to_back) SL_TRY(reach_middle(context, s, fan));
-    if (s->closed && fan->serves) SL_TRY(add_other_rays(context, s, fan));
     if (fan->serves) SL_TRY(serve(context, s, fan));
     return fan->wide ? sl_sweep_turn(context, s, fan) : SL_OK;
 }
