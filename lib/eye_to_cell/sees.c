@@ -25,7 +25,7 @@ static bool overlap(sl_point a, sl_point b, sl_point c, sl_point d) {
 static bool meets(const seer *s, sl_point a, sl_point b) {
     const int ea = sl_orient(s->eye, s->point, a), eb = sl_orient(s->eye, s->point, b);
     const int from = sl_orient(a, b, s->eye), to = sl_orient(a, b, s->point);
-    if (ea == 0 && eb == 0) return overlap(s->eye, s->point, a, b);
+    if (ea == 0 && eb == 0) return from == 0 && overlap(s->eye, s->point, a, b);
     return ea * eb <= 0 && from * to <= 0;
 }
 
@@ -64,11 +64,14 @@ static sl_status follow(sl_context *context, seer *s, bool *arrives) {
         *arrives = *arrives || room_holds(s, room, s->point);
         for (uint32_t i = o->first[room]; i < o->first[room + 1]; i++) {
             const sl_side *side = &o->sides[i];
-            if (!meets(s, side->start, o->sides[side->next].start)) continue;
-            if (sl_side_is_portal(side))
-                SL_TRY(enter(context, s, room_of(o, side->beyond)));
-            else if (side->beyond < SL_SIDE_BORDER)
-                s->touches = true;
+            if (sl_side_is_portal(side)) {
+                if (meets(s, side->start, o->sides[side->next].start))
+                    SL_TRY(enter(context, s, room_of(o, side->beyond)));
+            } else if (side->beyond < SL_SIDE_BORDER && !s->touches) {
+                // The side itself may lie behind the wall, by rounding.
+                const sl_wall *wall = &o->space->walls[side->beyond - SL_SIDE_WALL];
+                s->touches = meets(s, wall->a, wall->b);
+            }
         }
     }
     return SL_OK;

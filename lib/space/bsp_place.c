@@ -157,16 +157,45 @@ static void weigh_seam(const gate *g, sl_point p, choice *best) {
         *best = new;
 }
 
+/// A vector made as short as whole multiples of powers of two allow: both parts are whole, without
+/// a common factor.
+static sl_point shorten(double dx, double dy) {
+    double factor = fabs(dx), rest = fabs(dy);
+    while (rest > 0) {
+        const double left = fmod(factor, rest);
+        factor = rest;
+        rest = left;
+    }
+    return (sl_point){dx / factor, dy / factor};
+}
+
+/// Places on the line of the side itself, no nearer than `least` and no farther than `most`: where
+/// faces go on along it beyond both of the side's ends, only those bend none. Doubles hold some
+/// where its slope is simple.
+static void weigh_on_side(const gate *g, double least, double most, choice *best) {
+    const sl_point a = g->wall ? g->wall->a : g->right, b = g->wall ? g->wall->b : g->left;
+    const sl_point d = shorten(b.x - a.x, b.y - a.y);
+    const double t = fabs(d.x) >= fabs(d.y) ? (g->guess.x - a.x) / d.x : (g->guess.y - a.y) / d.y;
+    double step = fmax(g->step_x, g->step_y);
+    for (int i = 0; i < 8 && best->faults >= 2; i++, step *= 8)
+        for (int k = -1; k <= 2; k++) {
+            const double part = (floor(t / step) + k) * step;
+            const sl_point p = {a.x + part * d.x, a.y + part * d.y};
+            const double away = distance(p, g->guess);
+            if (away >= least && away <= most) weigh_seam(g, p, best);
+        }
+}
+
 /// The nearest place that bends no face, on the seam's line if there is one. At higher tries what
 /// is near is passed over. False where there is none nearer than rounding explains.
 static bool place_seam(const gate *g, uint32_t try, sl_point *at) {
-    const double length = distance(g->left, g->right);
+    const double length = distance(g->left, g->right), most = SL_BSP_SEAM_OFF * length;
     const double step = fmax(g->step_x, g->step_y);
     const double ux = (g->left.x - g->right.x) / length, uy = (g->left.y - g->right.y) / length;
     choice best = {g->guess, INFINITY, INFINITY};
     for (int k = (int)try; best.faults >= 2 && k < 40; k++) {
         const double off = k ? ldexp(step, k + 1) : 0;
-        if (off > SL_BSP_SEAM_OFF * length) break;
+        if (off > most) break;
         for (int sign = -1; sign <= 1; sign += 2)
             for (int i = g->step_x ? -AROUND : 0; i <= (g->step_x ? AROUND : 0); i++)
                 for (int j = g->step_y ? -AROUND : 0; j <= (g->step_y ? AROUND : 0); j++)
@@ -174,6 +203,7 @@ static bool place_seam(const gate *g, uint32_t try, sl_point *at) {
                                (sl_point){g->guess.x + sign * off * ux + i * g->step_x,
                                           g->guess.y + sign * off * uy + j * g->step_y},
                                &best);
+        if (k == (int)try) weigh_on_side(g, off, most, &best);
     }
     *at = best.at;
     return best.faults < INFINITY;

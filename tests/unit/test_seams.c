@@ -2,6 +2,7 @@
 #include "testing.h"
 
 #include "base/random.h"
+#include "oracle/random_oblique.h"
 
 #include <math.h>
 
@@ -188,6 +189,65 @@ static void oblique_seams(void **state) {
     assert_true(left_out * 1000 <= MAPS);
 }
 
+static double distance_to_line(const sl_segment *s, sl_point p) {
+    return fabs(cross(s->a, s->b, p)) / hypot(s->b.x - s->a.x, s->b.y - s->a.y);
+}
+
+/// The farthest that a portal's end is from its seam's line, as a share of the map's size.
+static double most_moved(const sl_space *space) {
+    const sl_box *b = &space->bounds;
+    double most = 0;
+    for (uint32_t i = 0; i < space->seam_portal_count; i++) {
+        const sl_portal *p = &space->portals[space->seam_portals[i].portal];
+        const sl_segment *at = &space->seams[space->seam_portals[i].seam].at;
+        most = fmax(most, fmax(distance_to_line(at, p->left), distance_to_line(at, p->right)));
+    }
+    return most / fmax(b->max.x - b->min.x, b->max.y - b->min.y);
+}
+
+/// Where cells go on along a wall beyond both of its ends, a seam that crosses it has its corner on
+/// the wall's line exactly, and that near the crossing.
+static void seams_stay_where_walls_go_on(void **state) {
+    (void)state;
+    const char *const texts[] = {
+        "wall -385 -87 226 807\nwall 12 440 687 -283\ndoor c -504 -689 686 686\n",
+        "wall -1429 -1477 -163 911\nwall -718 -165 45 749\nseam -608 674 809 -464\n",
+        "wall -258 -103 -89 1079\nwall -381 -165 135 -8\noneway 434 377 -890 283\n",
+        // And along portals.
+        "wall -870 -578 371 -188\nwall -192 -805 237 -379\ndoor a -860 384 822 -522\n"
+        "wall -930 243 -192 -805\nwall -849 -158 -762 -958\n",
+    };
+    sl_context *context = testing_context(NULL);
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        sl_map map = {0};
+        sl_space space;
+        testing_space(context, texts[i], &map, &space);
+        assert_ok(context, sl_space_check(context, &space));
+        assert_true(most_moved(&space) < 0x1p-36);
+        sl_space_destroy(context, &space);
+        sl_map_destroy(context, &map);
+    }
+    const sl_bsp_options options = sl_bsp_options_default();
+    const uint64_t seeds = testing_seeds(600);
+    for (uint64_t seed = 1; seed <= seeds; seed++) {
+        sl_map map = {0};
+        sl_space space;
+        sl_random random = {seed};
+        assert_ok(context, oblique_random_map(context, seed, OBLIQUE_DOOM, 6, &map));
+        for (int kind = 0; kind < 3; kind++) {
+            double at[4];
+            for (int k = 0; k < 4; k++) at[k] = oblique_coordinate(&random, OBLIQUE_DOOM);
+            if (at[0] != at[2] || at[1] != at[3])
+                add_seam(context, &map, kind, (sl_segment){{at[0], at[1]}, {at[2], at[3]}});
+        }
+        assert_ok(context, sl_subdivide_bsp(context, &map, &options, &space));
+        assert_ok(context, sl_space_check(context, &space));
+        sl_space_destroy(context, &space);
+        sl_map_destroy(context, &map);
+    }
+    sl_context_destroy(context);
+}
+
 static void a_door_between_rooms_is_one_portal(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
@@ -276,6 +336,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(axial_seams),
         cmocka_unit_test(oblique_seams),
+        cmocka_unit_test(seams_stay_where_walls_go_on),
         cmocka_unit_test(a_door_between_rooms_is_one_portal),
         cmocka_unit_test(the_kd_tree_names_an_oblique_door),
         cmocka_unit_test(wrong_seams_are_found),

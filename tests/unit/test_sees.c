@@ -2,6 +2,7 @@
 #include "testing.h"
 
 #include "oracle/random_map.h"
+#include "oracle/random_oblique.h"
 #include "sightline/sees.h"
 
 #include <math.h>
@@ -117,6 +118,97 @@ static void as_every_wall_says(void **state) {
     sl_context_destroy(context);
 }
 
+/// A point on a wall, if doubles hold it and what crosses the wall there, or anywhere.
+static sl_point oblique_point(sl_random *random, oblique_grid grid, const sl_map *map,
+                              const sl_space *space) {
+    const sl_wall *w = &map->walls[sl_random_below(random, map->wall_count)];
+    const double t = (double)sl_random_below(random, 5) / 4;
+    const sl_point p = {w->a.x + t * (w->b.x - w->a.x), w->a.y + t * (w->b.y - w->a.y)};
+    if (sl_random_below(random, 3) || grid != OBLIQUE_SQUARES)
+        return oblique_random_point(random, map, space->bounds);
+    return p;
+}
+
+/// By exact signs alone.
+static bool is_free(const sl_map *map, sl_point p, sl_point q) {
+    for (size_t i = 0; i < map->wall_count; i++) {
+        const sl_point a = map->walls[i].a, b = map->walls[i].b;
+        const int from = sl_orient_exact(a, b, p), to = sl_orient_exact(a, b, q);
+        if (from * to > 0) continue;
+        const bool near = fmin(p.x, q.x) <= fmax(a.x, b.x) && fmin(a.x, b.x) <= fmax(p.x, q.x) &&
+                          fmin(p.y, q.y) <= fmax(a.y, b.y) && fmin(a.y, b.y) <= fmax(p.y, q.y);
+        if (from == 0 && to == 0 ? near
+                                 : sl_orient_exact(p, q, a) * sl_orient_exact(p, q, b) <= 0 && near)
+            return false;
+    }
+    return true;
+}
+
+static void among_oblique_walls(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    const sl_bsp_options options = sl_bsp_options_default();
+    const uint64_t seeds = testing_seeds(200);
+    size_t counts[2] = {0};
+    for (uint64_t seed = 1; seed <= seeds; seed++) {
+        sl_map map = {0};
+        sl_space space = {0};
+        sl_outline outline = {0};
+        sl_random random = {seed};
+        const oblique_grid grid = (oblique_grid)(seed % OBLIQUE_SANE);
+        assert_ok(context, oblique_random_map(context, seed, grid, 12, &map));
+        assert_ok(context, sl_map_clean(context, &map, NULL));
+        const bool made = sl_subdivide_bsp(context, &map, &options, &space) == SL_OK;
+        if (made) assert_ok(context, sl_outline_make(context, &space, &outline));
+        for (int i = 0; i < 100 && made; i++) {
+            const sl_point p = oblique_point(&random, grid, &map, &space);
+            const sl_point q = i % 9 ? oblique_point(&random, grid, &map, &space) : p;
+            if (sl_space_locate(&space, p) == SL_NO_CELL ||
+                sl_space_locate(&space, q) == SL_NO_CELL)
+                continue;
+            bool seen;
+            assert_ok(context, sl_sees(context, &outline, p, q, SL_OPEN, &seen));
+            if (seen != is_free(&map, p, q))
+                fail_msg("seed %d: %.17g %.17g to %.17g %.17g: %d", (int)seed, p.x, p.y, q.x, q.y,
+                         seen);
+            counts[seen]++;
+        }
+        sl_outline_destroy(context, &outline);
+        sl_space_destroy(context, &space);
+        sl_map_destroy(context, &map);
+    }
+    assert_true(counts[0] > seeds && counts[1] > seeds);
+    sl_context_destroy(context);
+}
+
+/// A point a rounding away from where three walls cross: rooms on all sides reach to it.
+static void beside_a_crossing(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_map map = {0};
+    sl_space space;
+    sl_outline outline;
+    testing_space(context,
+                  "wall 6.596019314557644 8.141465400346082 68.17049733805885 88.43245635397898\n"
+                  "wall 28.550868439696664 79.39966056623055 87.73486867641729 52.30671798509814\n"
+                  "wall 37.30095052412456 81.20179809802582 51.551989641147046 71.37708028432638\n"
+                  "wall 39.26494500635116 140.267989688547 49.58799515892044 12.310888693805211\n"
+                  "wall 40.41421690502257 60.54203689753292 48.438723260249034 92.03684148481929\n"
+                  "wall 43.59653998247251 16.703498914055103 45.2564001827991 135.8753794682971\n",
+                  &map, &space);
+    assert_ok(context, sl_outline_make(context, &space, &outline));
+    const sl_point eye = {44.426470082635802, 76.289439191176129};
+    const sl_point point = {41.888425542764288, 109.38618019456719};
+    assert_true(is_free(&map, eye, point));
+    bool seen;
+    assert_ok(context, sl_sees(context, &outline, eye, point, SL_OPEN, &seen));
+    assert_true(seen);
+    sl_outline_destroy(context, &outline);
+    sl_space_destroy(context, &space);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
 static void corners_and_slits(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
@@ -161,6 +253,8 @@ static void corners_and_slits(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(as_every_wall_says),
+        cmocka_unit_test(among_oblique_walls),
+        cmocka_unit_test(beside_a_crossing),
         cmocka_unit_test(corners_and_slits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
