@@ -51,11 +51,36 @@ static const char *const *code(const sl_lesson *lesson, const sl_document *docum
     return search_code;
 }
 
+/// How many cells the search does not come to, as they are seen by mirror alone.
+static uint32_t count_by_mirror(const sl_document *document, uint32_t source) {
+    const sl_visibility *v = &document->baked->visibility;
+    if (!sl_document_has_rows(document) || !v->mirrored.cell_count) return 0;
+    uint32_t count = 0;
+    for (uint32_t cell = 0; cell < v->mirrored.cell_count; cell++)
+        count += sl_pvs_sees(&v->mirrored, source, cell) && !sl_pvs_sees(&v->pvs, source, cell);
+    return count;
+}
+
+static const char *ending(uint32_t count) {
+    return count == 1 ? "" : "s";
+}
+
+static void say_end(const sl_step *s, const sl_document *document, uint32_t source,
+                    char text[SL_SENTENCE]) {
+    char aside[128] = "";
+    const uint32_t by_mirror = count_by_mirror(document, source);
+    if (by_mirror)
+        snprintf(aside, sizeof aside, " %u more %s seen by mirror alone: U, \"%s\", tells which.",
+                 by_mirror, by_mirror == 1 ? "is" : "are", sl_lesson_effects.title);
+    snprintf(text, SL_SENTENCE, "All portals of cell %u are tried: it sees %u cell%s.%s", s->cell,
+             s->seen, ending(s->seen), aside);
+}
+
 static void say(const sl_lesson *lesson, const sl_document *document, char text[SL_SENTENCE]) {
-    const char *aside = document->map.mirror_count ? " Mirrors are walls to it." : "";
+    const char *aside = document->map.mirror_count ? " Mirrors are walls to this search." : "";
     const sl_step *s = &lesson->steps.steps[lesson->at];
     const uint32_t here = lesson->steps.steps[s->parent].cell;
-    const char *plural = s->depth == 1 ? "" : "s";
+    const char *plural = ending(s->depth);
     switch (s->kind) {
     case SL_STEP_ENTER:
         if (!lesson->at)
@@ -81,16 +106,16 @@ static void say(const sl_lesson *lesson, const sl_document *document, char text[
             snprintf(text, SL_SENTENCE, "All portals of cell %u are tried: back one portal.",
                      s->cell);
         else
-            snprintf(text, SL_SENTENCE, "All portals of cell %u are tried: it sees %u cells.",
-                     s->cell, s->seen);
+            say_end(s, document, lesson->source, text);
         return;
     }
 }
 
 static void account(const sl_lesson *lesson, char text[SL_SENTENCE]) {
     const sl_step *s = &lesson->steps.steps[lesson->at];
-    snprintf(text, SL_SENTENCE, "%u cells seen, %u nodes in the stab tree, %u portals in sequence.",
-             s->seen, s->node, s->depth);
+    snprintf(text, SL_SENTENCE,
+             "%u cell%s seen, %u node%s in the stab tree, %u portal%s in sequence.", s->seen,
+             ending(s->seen), s->node, ending(s->node), s->depth, ending(s->depth));
 }
 
 static uint32_t sequence(const sl_lesson *lesson, const sl_space *space, sl_portal_ends *ends) {
