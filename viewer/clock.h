@@ -10,10 +10,11 @@ static inline double sl_clock_seconds(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/// Of the processor's time that this program has had: what a busy machine does not change.
+/// Of the processor's time that the calling thread has had: what a busy machine hardly changes, and
+/// work in the background does not.
 static inline double sl_clock_processor(void) {
     struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
