@@ -99,9 +99,6 @@ static sl_status look(sl_console *console, const eye_texts *texts, const sl_bake
     SL_TRY(sl_option_number(context, "--range", texts->range, &range));
     if (range < 0)
         return sl_fail(context, SL_BAD_ARGUMENT, "--range %s: must not be negative", texts->range);
-    if (range > 0 && baked->map.mirror_count)
-        return sl_fail(context, SL_UNSUPPORTED,
-                       "what is seen by mirror knows no range: --range 0 leaves it out");
     SL_TRY(sl_eye_run_make(context, baked, &view, (uint32_t)depth, range, !texts->json, &run));
     sl_eye_objects objects = {0};
     sl_status status = sl_eye_objects_read(context, &texts->objects, &baked->map, &objects);

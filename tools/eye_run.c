@@ -132,8 +132,8 @@ static sl_status run_region(sl_context *context, const sl_baked *baked, bool tim
     if (status == SL_OK && run->has_mirrors) {
         status = sl_room_mirrors_make(context, &outline, &baked->map, &mirrors);
         if (status == SL_OK)
-            status = sl_mirrored_region_make(context, &mirrors, &run->view, 0, run->mirror_depth,
-                                             &run->mirrored);
+            status = sl_mirrored_region_make(context, &mirrors, &run->view, run->range,
+                                             run->mirror_depth, &run->mirrored);
         sl_room_mirrors_destroy(context, &mirrors);
     }
     sl_outline_destroy(context, &outline);

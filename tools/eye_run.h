@@ -43,7 +43,7 @@ void sl_eye_measure(const sl_baked *baked, uint32_t eye_cell, const uint64_t *ce
                     uint32_t *count, double *share);
 
 /// The eye must be within the bounds. `timed`: queries are repeated until their time is known.
-/// `depth`: reflections, at most. `range`: how far is seen, 0 for no limit; not by mirror.
+/// `depth`: reflections, at most. `range`: how far is seen, reflected or not; 0 for no limit.
 sl_status sl_eye_run_make(sl_context *context, const sl_baked *baked, const sl_view *view,
                           uint32_t depth, double range, bool timed, sl_eye_run *out);
 void sl_eye_run_destroy(sl_context *context, sl_eye_run *run);

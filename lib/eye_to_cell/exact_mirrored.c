@@ -80,7 +80,7 @@ static sl_status try_exit(sl_context *context, sl_eye_query *query, const step *
     const sl_exit *exit = &query->space->exits[number];
     step to = {.depth = last->depth, .mirror = UINT32_MAX};
     if (!last->depth && !sl_eye_may_see(query, exit->cell)) return SL_OK;
-    if (!sl_eye_pass(query, &last->at, first, exit, &to.at)) return SL_OK;
+    if (!sl_eye_pass_in_range(query, &last->at, first, exit, &to.at)) return SL_OK;
     return enter(context, query, &last->at, &to);
 }
 
@@ -103,7 +103,7 @@ static sl_status try_mirror(sl_context *context, sl_eye_query *query, const step
     const sl_exit exit = {.left = side->left, .right = side->right, .cell = side->cell};
     step to = {.depth = last->depth + 1, .mirror = side->mirror};
     sl_eye_step seen;
-    if (!sl_eye_pass(query, &last->at, first, &exit, &seen)) return SL_OK;
+    if (!sl_eye_pass_in_range(query, &last->at, first, &exit, &seen)) return SL_OK;
     bool rounded = false;
     m->images[to.depth] = sl_fold(mirror, &m->images[last->depth], &rounded);
     m->rounded += rounded;

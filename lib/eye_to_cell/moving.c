@@ -5,6 +5,7 @@
 #include "eye_to_cell/box_targets.h"
 #include "eye_to_cell/eye_methods.h"
 #include "eye_to_cell/eye_search.h"
+#include "geometry/distance.h"
 #include "sightline/sees.h"
 
 #include <math.h>
@@ -138,8 +139,7 @@ static sl_status see_point(sl_context *context, sl_moving *moving, const sl_view
     const sl_outline *outline;
     *seen = false;
     if (!sl_view_holds(view, point)) return SL_OK;
-    const double distance = hypot(point.x - view->eye.x, point.y - view->eye.y);
-    if (moving->range > 0 && distance > moving->range * (1 + 1e-12)) return SL_OK;
+    if (moving->range > 0 && sl_distance_compare(view->eye, point, moving->range) > 0) return SL_OK;
     SL_TRY(sl_moving_outline(context, moving, &outline));
     return sl_sees(context, outline, view->eye, point, moving->visibility->sight, seen);
 }

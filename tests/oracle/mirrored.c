@@ -159,6 +159,18 @@ static void add_directions(looker *l, const vector *eye, uint32_t *chain, uint32
     }
 }
 
+/// Towards the nearest place of all lines: those of portals are axial, and so are mirrors.
+static void add_axes(looker *l, const vector *eye) {
+    vector beside;
+    init(&beside);
+    for (int axis = 0; axis < 2; axis++) {
+        copy(&beside, eye);
+        mpz_add_ui(axis ? beside.y : beside.x, axis ? beside.y : beside.x, 1);
+        add_direction(l, eye, &beside);
+    }
+    clear(&beside);
+}
+
 static void sort_directions(looker *l) {
     qsort(l->directions, l->direction_count, sizeof *l->directions, by_direction);
     size_t kept = 0;
@@ -173,6 +185,84 @@ static void sort_directions(looker *l) {
 
 // --- over portals
 
+/// A direction along which cells are entered, and those between which the nearest place counts that
+/// is seen of a portal: for closed sight the direction itself.
+typedef struct beam {
+    vector eye, to, borders[2];
+    bool open;
+} beam;
+
+static void init_beam(beam *b, const vector *eye, const vector *to, const vector *right,
+                      const vector *left) {
+    init(&b->eye), init(&b->to), init(&b->borders[0]), init(&b->borders[1]);
+    copy(&b->eye, eye), copy(&b->to, to);
+    copy(&b->borders[0], right), copy(&b->borders[1], left);
+    b->open = right != left;
+}
+
+static void clear_beam(beam *b) {
+    clear(&b->eye), clear(&b->to), clear(&b->borders[0]), clear(&b->borders[1]);
+}
+
+/// Of two squares, top / under and the range's.
+static bool is_within(const looker *l, const mpz_t top, const mpz_t under, bool open) {
+    mpq_t square, range;
+    mpq_inits(square, range, NULL);
+    mpz_set(mpq_numref(square), top);
+    mpz_set(mpq_denref(square), under);
+    mpq_canonicalize(square);
+    mpq_set_d(range, l->range);
+    mpq_mul(range, range, range);
+    if (l->exponent < 0)
+        mpq_mul_2exp(range, range, (mp_bitcnt_t)(-2 * l->exponent));
+    else
+        mpq_div_2exp(range, range, (mp_bitcnt_t)(2 * l->exponent));
+    const int order = mpq_cmp(square, range);
+    mpq_clears(square, range, NULL);
+    return open ? order < 0 : order <= 0;
+}
+
+/// Whether a border meets a portal's line within the range.
+static bool border_reaches(looker *l, const beam *b, int border, const piece *way) {
+    mpz_t top, under;
+    mpz_inits(top, under, NULL);
+    subtract(&l->s, &way->left, &way->right);
+    subtract(&l->t, &way->right, &b->eye);
+    turn(l, &l->t, &l->s);
+    mpz_mul(top, l->p, l->p);
+    forward(l, &b->borders[border], &b->borders[border]);
+    mpz_mul(top, top, l->p);
+    turn(l, &b->borders[border], &l->s);
+    mpz_mul(under, l->p, l->p);
+    const bool reaches = mpz_sgn(under) && is_within(l, top, under, b->open);
+    mpz_clears(top, under, NULL);
+    return reaches;
+}
+
+/// Whether an end of a portal is at the eye or within the range.
+static bool end_reaches(looker *l, const beam *b, const vector *end) {
+    mpz_t top, under;
+    mpz_inits(top, under, NULL);
+    mpz_set_ui(under, 1);
+    subtract(&l->s, end, &b->eye);
+    forward(l, &l->s, &l->s);
+    mpz_set(top, l->p);
+    const bool reaches = is_within(l, top, under, b->open);
+    mpz_clears(top, under, NULL);
+    return reaches;
+}
+
+/// Whether what is seen of a portal, which the beam meets, is within the range.
+static bool reaches(looker *l, const beam *b, const piece *way) {
+    if (!(l->range > 0)) return true;
+    subtract(&l->s, &way->left, &b->eye);
+    subtract(&l->t, &way->right, &b->eye);
+    if (turn(l, &l->t, &l->s) == 0)
+        return forward(l, &l->t, &l->s) <= 0 || end_reaches(l, b, &way->left) ||
+               end_reaches(l, b, &way->right);
+    return border_reaches(l, b, 0, way) || border_reaches(l, b, 1, way);
+}
+
 static bool meets(looker *l, const vector *eye, const vector *to, const piece *way, int *side) {
     subtract(&l->s, &way->left, eye);
     subtract(&l->t, &way->right, eye);
@@ -184,33 +274,32 @@ static bool meets(looker *l, const vector *eye, const vector *to, const piece *w
     return forward(l, to, &l->s) >= 0 || forward(l, to, &l->t) >= 0;
 }
 
-static void walk(looker *l, const vector *eye, const vector *to, uint32_t cell, int side,
-                 uint32_t depth, uint32_t last, bool *seen, bool *cells) {
+/// `cells`: those seen directly, and those seen by mirror.
+static void walk(looker *l, const beam *b, uint32_t cell, int side, uint32_t depth, uint32_t last,
+                 bool *seen, bool *const cells[2]) {
     if (seen[3 * cell + (uint32_t)side]) return;
     seen[3 * cell + (uint32_t)side] = true;
-    if (depth) cells[cell] = true;
+    cells[depth > 0][cell] = true;
     for (size_t i = 0; i < l->way_count; i++) {
         const piece *way = &l->ways[i];
         const bool is_mirror = way->mirror != UINT32_MAX;
         int crossed;
-        if (way->cell != cell || !meets(l, eye, to, way, &crossed)) continue;
-        if (side && crossed && side != crossed) continue;
+        if (way->cell != cell || !meets(l, &b->eye, &b->to, way, &crossed)) continue;
+        if ((side && crossed && side != crossed) || !reaches(l, b, way)) continue;
         const int now = side ? side : crossed;
         if (!is_mirror) {
-            walk(l, eye, to, way->to, now, depth, UINT32_MAX, seen, cells);
+            walk(l, b, way->to, now, depth, UINT32_MAX, seen, cells);
         } else if (depth < l->depth && last != way->mirror) {
-            vector image, on;
-            init(&image);
-            init(&on);
-            copy(&image, eye);
-            copy(&on, to);
-            reflect(l, way->mirror, false, &image);
-            reflect(l, way->mirror, true, &on);
+            beam on;
+            init_beam(&on, &b->eye, &b->to, &b->borders[0], &b->borders[1]);
+            on.open = b->open;
+            reflect(l, way->mirror, false, &on.eye);
+            reflect(l, way->mirror, true, &on.to);
+            for (int k = 0; k < 2; k++) reflect(l, way->mirror, true, &on.borders[k]);
             bool *fresh = must(calloc(3 * (size_t)l->space->cell_count, sizeof *fresh));
-            walk(l, &image, &on, cell, now ? 3 - now : 0, depth + 1, way->mirror, fresh, cells);
+            walk(l, &on, cell, now ? 3 - now : 0, depth + 1, way->mirror, fresh, cells);
             free(fresh);
-            clear(&image);
-            clear(&on);
+            clear_beam(&on);
         }
     }
 }
@@ -419,9 +508,9 @@ static bool in_view(looker *l, const sl_view *view, const vector *eye, const vec
     return in;
 }
 
-static void look_along(looker *l, const vector *eye, const vector *to, bool *cells) {
+static void look_along(looker *l, const beam *b, bool *direct, bool *mirrored) {
     bool *seen = must(calloc(3 * (size_t)l->space->cell_count, sizeof *seen));
-    walk(l, eye, to, l->source, 0, 0, UINT32_MAX, seen, cells);
+    walk(l, b, l->source, 0, 0, UINT32_MAX, seen, (bool *const[]){direct, mirrored});
     free(seen);
 }
 
@@ -435,7 +524,10 @@ static void look_between(looker *l, const sl_view *view, const vector *eye, size
     mpz_add(w.middle.x, a->x, b->x);
     mpz_add(w.middle.y, a->y, b->y);
     if (in_view(l, view, eye, &w.middle)) {
-        look_along(l, eye, &w.middle, l->out.open);
+        beam between;
+        init_beam(&between, eye, &w.middle, a, b);
+        look_along(l, &between, l->out.direct_open, l->out.open);
+        clear_beam(&between);
         if (!l->out.on_wall) trace(l, &w, traced);
     }
     clear(&w.eye), clear(&w.middle), clear(&w.right), clear(&w.left);
@@ -445,16 +537,20 @@ static void look(looker *l, const sl_view *view, const vector *eye) {
     const uint32_t cells = l->space->cell_count;
     bool *traced = must(calloc(cells, sizeof *traced));
     for (size_t i = 0; i < l->direction_count; i++) {
-        if (in_view(l, view, eye, &l->directions[i]))
-            look_along(l, eye, &l->directions[i], l->out.closed);
+        const vector *to = &l->directions[i];
+        beam along;
+        init_beam(&along, eye, to, to, to);
+        if (in_view(l, view, eye, to)) look_along(l, &along, l->out.direct_closed, l->out.closed);
+        clear_beam(&along);
         look_between(l, view, eye, i, traced);
     }
-    bool dark = false; // the walls alone know nothing of glass
+    bool dark = l->range > 0; // the walls alone know nothing of glass, nor of the range
     for (uint32_t i = 0; i < l->space->seam_count; i++)
         dark |= l->space->seams[i].kind == SL_SEAM_ONEWAY;
     for (uint32_t c = 0; c < cells; c++) {
         assert(dark || l->out.on_wall || traced[c] == l->out.open[c]);
         l->out.closed[c] |= l->out.open[c];
+        l->out.direct_closed[c] |= l->out.direct_open[c];
     }
     free(traced);
 }
@@ -589,9 +685,12 @@ oracle_mirrored oracle_mirrored_of(const sl_space *space, const sl_map *map, con
     l.source = sl_space_locate(space, view->eye);
     l.out.closed = must(calloc(space->cell_count, sizeof(bool)));
     l.out.open = must(calloc(space->cell_count, sizeof(bool)));
+    l.out.direct_closed = must(calloc(space->cell_count, sizeof(bool)));
+    l.out.direct_open = must(calloc(space->cell_count, sizeof(bool)));
     l.out.areas = must(calloc(oracle_chains(map, depth), sizeof(double)));
     find_exponent(&l, view);
     set_point(&l, &eye, view->eye);
+    l.out.direct_closed[l.source] = l.out.direct_open[l.source] = true;
     gather(&l);
     uint32_t chain[16];
     assert(depth < 16);
@@ -603,6 +702,7 @@ oracle_mirrored oracle_mirrored_of(const sl_space *space, const sl_map *map, con
         add_direction(&l, &eye, &border);
         clear(&border);
     }
+    add_axes(&l, &eye);
     sort_directions(&l);
     for (uint32_t i = 0; i < space->wall_count; i++)
         l.out.on_wall |= touches(&l, &eye, &l.walls[2 * i], &l.walls[2 * i + 1]);
@@ -615,5 +715,7 @@ oracle_mirrored oracle_mirrored_of(const sl_space *space, const sl_map *map, con
 void oracle_mirrored_free(oracle_mirrored *o) {
     free(o->closed);
     free(o->open);
+    free(o->direct_closed);
+    free(o->direct_open);
     free(o->areas);
 }

@@ -1,6 +1,6 @@
-/// What an eye sees by mirror, by brute force in integers of any size: along a ray in each of the
-/// directions at which anything may change, and between every two of them. Mirrors are axial. Slow;
-/// lack of memory aborts.
+/// What an eye sees, directly and by mirror, within a range, by brute force in integers of any
+/// size: along a ray in each of the directions at which anything may change, and between every two
+/// of them. Mirrors are axial. Slow; lack of memory aborts.
 #ifndef SL_TESTS_MIRRORED_H
 #define SL_TESTS_MIRRORED_H
 
@@ -13,7 +13,9 @@
 size_t oracle_chains(const sl_map *map, uint32_t depth);
 
 typedef struct oracle_mirrored {
-    bool *closed, *open; ///< by cell: whether it is seen by mirror
+    bool *closed, *open; ///< by cell: whether it is seen by mirror, at most as far as the range;
+                         ///< with open sight, nearer
+    bool *direct_closed, *direct_open; ///< likewise, whether it is seen directly
     double *areas; ///< by chain: what is seen by it, within the range (0: any); of an eye on a
                    ///< wall none are told
     bool on_wall;

@@ -30,6 +30,9 @@ static void begin(trial *t, uint64_t seed) {
     t->scale = seed & 8 ? 0.1 : 1;
     t->depth = 1 + (uint32_t)sl_random_below(&t->random, 3);
     random_effects_map(t->context, &t->random, t->effects, t->scale, &t->map);
+    // Distances that are the range, to the last bit.
+    if (t->map.range > 0 && sl_random_below(&t->random, 2))
+        t->map.range = (double)(1 + sl_random_below(&t->random, 20)) * t->scale / 2;
     const sl_subdivide_options options = sl_subdivide_options_default();
     assert_ok(t->context, sl_subdivide_kd(t->context, &t->map, &options, &t->whole));
     bool shut[3];
@@ -69,6 +72,20 @@ static void complain(const trial *t, const sl_view *view, const char *what) {
              view->right.x, view->right.y, view->left.x, view->left.y, what);
 }
 
+static void compare_cells(const trial *t, const sl_view *view, const uint64_t *cells,
+                          const bool *expected, sl_sight sight, const char *how) {
+    for (uint32_t c = 0; c < t->space.cell_count; c++) {
+        if (sl_eye_sees(cells, c) == expected[c]) continue;
+        char text[160];
+        snprintf(text, sizeof text, "%s sight, range %.17g: cell %u (at %g,%g) is %s %s",
+                 sight == SL_OPEN ? "open" : "closed", t->map.range, c,
+                 t->space.vertices[t->space.cells[c].first_vertex].x,
+                 t->space.vertices[t->space.cells[c].first_vertex].y,
+                 expected[c] ? "hidden, but seen" : "seen, but hidden", how);
+        complain(t, view, text);
+    }
+}
+
 static void ask_cells(const trial *t, const sl_view *view, const oracle_mirrored *truth,
                       sl_sight sight) {
     const sl_visibility bare = {.sight = sight};
@@ -79,20 +96,15 @@ static void ask_cells(const trial *t, const sl_view *view, const oracle_mirrored
     const sl_eye_method *exact = sl_eye_methods(&count) + count - 1;
     assert_ok(t->context, sl_eye_search_create(t->context, &t->space, &bare, &search));
     assert_ok(t->context, sl_eye_search_add_mirrors(t->context, search, &t->map, t->depth));
+    sl_eye_search_limit(search, t->map.range);
     assert_ok(t->context, exact->mirrored(t->context, search, view, cells, &account));
-    sl_eye_search_destroy(t->context, search);
     assert_int_equal(account.rounded, 0);
-    const bool *expected = sight == SL_OPEN ? truth->open : truth->closed;
-    for (uint32_t c = 0; c < t->space.cell_count; c++) {
-        if (sl_eye_sees(cells, c) == expected[c]) continue;
-        char text[128];
-        snprintf(text, sizeof text, "%s sight: cell %u (at %g,%g) is %s by mirror",
-                 sight == SL_OPEN ? "open" : "closed", c,
-                 t->space.vertices[t->space.cells[c].first_vertex].x,
-                 t->space.vertices[t->space.cells[c].first_vertex].y,
-                 expected[c] ? "hidden, but seen" : "seen, but hidden");
-        complain(t, view, text);
-    }
+    compare_cells(t, view, cells, sight == SL_OPEN ? truth->open : truth->closed, sight,
+                  "by mirror");
+    assert_ok(t->context, exact->cull(t->context, search, view, cells, &account));
+    compare_cells(t, view, cells, sight == SL_OPEN ? truth->direct_open : truth->direct_closed,
+                  sight, "directly");
+    sl_eye_search_destroy(t->context, search);
 }
 
 static size_t chain_of(const trial *t, const sl_mirrored_region *region, uint32_t part) {

@@ -60,12 +60,11 @@ SL_API void sl_eye_search_destroy(sl_context *context, sl_eye_search *search);
 SL_API sl_status sl_eye_search_add_mirrors(sl_context *context, sl_eye_search *search,
                                            const sl_map *map, uint32_t depth);
 
-/// How far the method "exact" sees, in the queries that follow; 0, as at first, for no limit. Of a
-/// cell it counts how far the nearest place is that the eye sees of it: none is missed that is
-/// within the range, and none added that is out of it by more than 2e-12 of the range and 1e-13 of
-/// the distance to the ends of the portal that it is seen through, but where the border of what is
-/// seen of that portal runs along it to within 1e-3 of a turn. The other methods know no range, and
-/// so does what is seen by mirror.
+/// How far the method "exact" sees, directly and by mirror, in the queries that follow; 0, as at
+/// first, for no limit. Of a cell it counts how far the nearest place is that the eye sees of it,
+/// along the sightline with its reflections: exactly (of images that are rounded, from where they
+/// are), so that one at just that distance is seen with closed sight and not with open sight. The
+/// other methods know no range.
 SL_API void sl_eye_search_limit(sl_eye_search *search, double range);
 
 /// The number of words in a set of the space's cells.
