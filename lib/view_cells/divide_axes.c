@@ -94,9 +94,12 @@ static sl_status gather_events(sl_view_divider *d, const sl_view_part *part, int
 static sl_status add_positions(sl_context *context, sl_view_divider *d,
                                const sl_view_events *events, double low, double high) {
     SL_TRY(SL_ARRAY_ROOM(context, &d->positions, events->count));
-    for (size_t i = 0; i < events->count; i++)
-        if (events->items[i].at > low && events->items[i].at < high)
-            d->positions.items[d->positions.count++] = events->items[i].at;
+    for (size_t i = 0; i < events->count; i++) {
+        // Just above 0 there is none that a map can have.
+        const double at = events->items[i].at;
+        if (at > low && at < high && sl_coordinate_usable(at))
+            d->positions.items[d->positions.count++] = at;
+    }
     return SL_OK;
 }
 

@@ -356,11 +356,35 @@ static void walls_are_seen_as_by_samples(void **state) {
     sl_context_destroy(context);
 }
 
+/// A view cell may be split just above where something is seen; just above 0 is no place on a map.
+static void splits_are_places_of_a_map(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    view_world w;
+    make_world(context, "wall 0 4 0 7\nwall 7 4 7 9\nwall 5 9 7 9\nwall -1 10 10 10\n", false,
+               SL_VIEW_CELLS, 100, &w);
+    for (uint32_t cells = 2; cells < 12; cells++) {
+        sl_view_subdivision options = sl_view_subdivision_default();
+        options.cells = cells;
+        sl_view_tree tree;
+        sl_view_found found;
+        assert_ok(context,
+                  view_method("hybrid")->divide(context, &w.scene, NULL, &options, &tree, &found));
+        for (uint32_t i = 0; i < tree.node_count; i++)
+            assert_true(sl_coordinate_usable(tree.nodes[i].position));
+        sl_view_found_destroy(context, &found);
+        sl_view_tree_destroy(context, &tree);
+    }
+    drop_world(context, &w);
+    sl_context_destroy(context);
+}
+
 int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sets_are_those_of_the_search),
         cmocka_unit_test(sets_are_those_of_the_search_on_random_maps),
         cmocka_unit_test(walls_are_seen_as_by_samples),
+        cmocka_unit_test(splits_are_places_of_a_map),
     };
     for (int i = 1; i < argc; i++) check_file(argv[i], 2000);
     return argc > 1 ? 0 : cmocka_run_group_tests(tests, NULL, NULL);
