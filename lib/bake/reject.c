@@ -77,7 +77,8 @@ static sl_status make_lump(const reject_maker *make, sl_reject *out) {
     out->size = (count * count + 7) / 8;
     out->bytes = sl_alloc_array(make->context, out->size, 1);
     if (!out->bytes) return SL_NO_MEMORY;
-    for (size_t a = 0; a < count; a++)
+    for (size_t a = 0; a < count; a++) {
+        SL_TRY(sl_check_cancelled(make->context));
         for (size_t b = 0; b < count; b++) {
             if (a == b || sl_bits_has(row_of(make, a), b) || sl_bits_has(row_of(make, b), a))
                 continue;
@@ -85,6 +86,7 @@ static sl_status make_lump(const reject_maker *make, sl_reject *out) {
             out->bytes[bit / 8] |= (unsigned char)(1u << bit % 8);
             out->account.hidden += a < b;
         }
+    }
     return SL_OK;
 }
 
@@ -99,7 +101,10 @@ sl_status sl_reject_make(sl_context *context, const sl_space *space, const sl_pv
     made.account.unknown = (uint32_t)make.unknown;
     sl_cell_sectors_destroy(context, &make.cells);
     sl_free(context, make.seen);
-    if (status == SL_OK) *out = made;
+    if (status == SL_OK)
+        *out = made;
+    else
+        sl_reject_destroy(context, &made);
     return status;
 }
 

@@ -8,6 +8,7 @@
 #include "base/threads.h"
 
 #include <math.h>
+#include <sched.h>
 #include <stdatomic.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -169,6 +170,29 @@ static void the_first_failure_of_work_is_told(void **state) {
     }
 }
 
+enum { TOGETHER = 3 };
+
+/// Fails once all threads have a unit.
+static sl_status fail_together(sl_context *context, void *job, void *state, size_t unit) {
+    atomic_int *arrived = job;
+    (void)state;
+    atomic_fetch_add(arrived, 1);
+    while (atomic_load(arrived) < TOGETHER) sched_yield();
+    return sl_fail(context, SL_BAD_INPUT, "unit %zu", unit);
+}
+
+static void of_failures_that_of_the_lowest_unit_is_told(void **state) {
+    (void)state;
+    for (int round = 0; round < 100; round++) {
+        sl_context *context = testing_context(NULL);
+        atomic_int arrived = 0;
+        const sl_work work = {.job = &arrived, .unit = fail_together};
+        assert_int_equal(sl_work_run(context, &work, UNITS, TOGETHER), SL_BAD_INPUT);
+        assert_string_equal(sl_context_message(context), "unit 0");
+        sl_context_destroy(context);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(numbers_read_back_to_the_same_double),
@@ -179,6 +203,7 @@ int main(void) {
         cmocka_unit_test(trying_an_output_leaves_nothing),
         cmocka_unit_test(every_unit_of_work_is_done_once),
         cmocka_unit_test(the_first_failure_of_work_is_told),
+        cmocka_unit_test(of_failures_that_of_the_lowest_unit_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

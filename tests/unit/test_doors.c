@@ -5,6 +5,7 @@
 #include "runtime_maps.h"
 
 #include "base/random.h"
+#include "cell_to_cell/door_table.h"
 #include "doors_plan.h"
 
 enum { STATES = 1000 };
@@ -131,6 +132,56 @@ static void what_is_beyond_the_limit_counts_as_seen(void **state) {
     sl_context_destroy(context);
 }
 
+/// Two doors and a seam in one place: each door shuts it.
+static void doors_in_one_place_shut_it_each(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_map map = {0};
+    sl_space space;
+    testing_space(context,
+                  "walls 0 0 8 0 8 4 0 4 0 0\nwall 4 0 4 1\nwall 4 3 4 4\n"
+                  "door one 4 1 4 3 open\nseam 4 1 4 3\ndoor other 4 1 4 3 open\n",
+                  &map, &space);
+    assert_int_equal(map.door_count, 2);
+    for (int shut = 0; shut < 4; shut++) {
+        const bool doors[2] = {shut & 1, shut & 2};
+        const sl_passage passage = {.shut = doors};
+        sl_space walled;
+        assert_ok(context, sl_passage_make(context, &space, &passage, NULL, &walled));
+        assert_int_equal(space.portal_count - walled.portal_count, shut ? 1 : 0);
+        sl_space_destroy(context, &walled);
+    }
+    sl_space_destroy(context, &space);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
+/// Sets of doors that do not fit into one word: the smallest ones are kept.
+static void sets_of_many_doors_are_told_apart(void **state) {
+    (void)state;
+    enum { MANY = 150, LIMIT = 3 };
+    sl_context *context = testing_context(NULL);
+    sl_door_table table;
+    assert_ok(context, sl_door_table_create(context, 1, MANY, LIMIT, &table));
+    sl_bits low[3] = {0}, both[3] = {0}, high[3] = {0};
+    sl_bits_add(low, 1);
+    sl_bits_add(both, 1);
+    sl_bits_add(both, 149);
+    sl_bits_add(high, 100);
+    assert_ok(context, sl_door_table_add(context, &table, 0, both));
+    assert_true(sl_door_table_proves(&table, 0, both));
+    assert_false(sl_door_table_proves(&table, 0, low));
+    assert_ok(context, sl_door_table_add(context, &table, 0, high));
+    assert_int_equal(table.count[0], 2);
+    assert_false(sl_door_table_proves(&table, 0, low));
+    assert_ok(context, sl_door_table_add(context, &table, 0, low)); // in the place of both
+    assert_int_equal(table.count[0], 2);
+    assert_true(sl_door_table_proves(&table, 0, low) && sl_door_table_proves(&table, 0, high));
+    assert_int_equal(table.fallbacks, 0);
+    sl_door_table_destroy(context, &table);
+    sl_context_destroy(context);
+}
+
 static void damaged_sets_are_refused(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
@@ -163,6 +214,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(states_are_as_fresh_bakes),
         cmocka_unit_test(what_is_beyond_the_limit_counts_as_seen),
+        cmocka_unit_test(doors_in_one_place_shut_it_each),
+        cmocka_unit_test(sets_of_many_doors_are_told_apart),
         cmocka_unit_test(damaged_sets_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -201,6 +201,19 @@ static void test_snap(void **state) {
 }
 
 /// Whatever allocation fails, nothing is lost.
+/// Cells of a map's own do not go with walls that were moved.
+static void test_snap_drops_cells(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_map map = {0};
+    read_into(context, ROOM "wall 5 0.25 5 6\ncell 0 0 10 0 10 10 0 10\n", &map);
+    assert_int_equal(map.cell_count, 1);
+    assert_ok(context, sl_map_snap(context, &map, 0.5, NULL));
+    assert_int_equal(map.cell_count, 0);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
 static void test_memory(void **state) {
     (void)state;
     for (long fail_at = 1;; fail_at++) {
@@ -234,9 +247,11 @@ static void test_memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_nothing), cmocka_unit_test(test_leak),   cmocka_unit_test(test_gaps),
-        cmocka_unit_test(test_pairs),   cmocka_unit_test(test_cells),  cmocka_unit_test(test_order),
-        cmocka_unit_test(test_snap),    cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_nothing), cmocka_unit_test(test_leak),
+        cmocka_unit_test(test_gaps),    cmocka_unit_test(test_pairs),
+        cmocka_unit_test(test_cells),   cmocka_unit_test(test_order),
+        cmocka_unit_test(test_snap),    cmocka_unit_test(test_snap_drops_cells),
+        cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

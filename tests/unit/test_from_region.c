@@ -367,6 +367,27 @@ static void what_makes_no_sense_is_refused(void **state) {
     sl_context_destroy(context);
 }
 
+/// Walls without a side inside are not objects.
+static void what_lies_outside_is_no_object(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_map map = {0};
+    sl_space space;
+    sl_regions *scene;
+    testing_space(context,
+                  "walls 0 0 8 0 8 8 0 8 0 0\nwalls 10 0 12 0 12 2 10 2 10 0\n"
+                  "wall 3 3 5 3\nstart 1 1 0\n",
+                  &map, &space);
+    sl_regions_options what = sl_regions_options_default();
+    what.objects = SL_OBJECTS_WALLS;
+    assert_ok(context, sl_regions_create(context, &map, &what, &scene));
+    assert_int_equal(sl_regions_count(scene).objects, 5);
+    sl_regions_destroy(context, scene);
+    sl_space_destroy(context, &space);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
 /// Far from the origin, where neighbouring doubles are farther apart than a sample's lines.
 static void far_maps_are_sampled(void **state) {
     (void)state;
@@ -421,6 +442,7 @@ int main(void) {
         cmocka_unit_test(work_is_bounded_by_output),
         cmocka_unit_test(lack_of_memory_is_told_and_leaves_nothing),
         cmocka_unit_test(what_makes_no_sense_is_refused),
+        cmocka_unit_test(what_lies_outside_is_no_object),
         cmocka_unit_test(far_maps_are_sampled),
         cmocka_unit_test(a_map_without_walls_is_refused),
     };

@@ -6,6 +6,10 @@
 #include "base/random.h"
 #include "oracle/random_map.h"
 
+#ifdef SIGHTLINE_TESTS_GLPK
+#include "sightline/glpk.h"
+#endif
+
 #include <stdatomic.h>
 
 enum { RANDOM_MAPS = 80, EDITS = 12, GRID = 12 }; // every other map is oblique
@@ -25,6 +29,8 @@ static sl_see_options options_for(const sl_see_method *method, sl_sight sight, b
 
 static void assert_same(const sl_visibility *a, const sl_visibility *b) {
     assert_true(testing_same_rows(&a->pvs, &b->pvs));
+    assert_int_equal(a->account.doubtful_pairs, b->account.doubtful_pairs);
+    if (a->account.doubtful_pairs) assert_true(testing_same_rows(&a->doubtful, &b->doubtful));
     assert_int_equal(a->account.pairs, b->account.pairs);
     assert_int_equal(a->sight, b->sight);
     assert_int_equal(a->guarantee, b->guarantee);
@@ -216,6 +222,28 @@ static void larger_maps_come_to_the_whole(void **state) {
     destroy(context, &city);
     sl_context_destroy(context);
 }
+
+#ifdef SIGHTLINE_TESTS_GLPK
+/// What a solver that rounds cannot tell is kept apart by every part.
+static void doubtful_pairs_come_together(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    place p = {0};
+    assert_ok(context,
+              sl_map_read(context, SIGHTLINE_SOURCE_DIR "/maps/grazing.map", NULL, &p.map));
+    subdivide(context, false, &p);
+    const sl_see_method *method = testing_method("dfs");
+    sl_see_options options = options_for(method, SL_CLOSED, false, 1);
+    options.solver = sl_glpk_simplex();
+    sl_visibility plain;
+    assert_ok(context, method->see(context, &p.space, &options, &plain));
+    assert_true(plain.account.doubtful_pairs > 0);
+    check_shards(context, method, &p.space, options, &plain);
+    sl_visibility_destroy(context, &plain);
+    destroy(context, &p);
+    sl_context_destroy(context);
+}
+#endif
 
 /// A set that half of the work made is nearer to the truth than the bound alone.
 static void decided_pairs_are_told_from_others(void **state) {
@@ -469,6 +497,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(parts_come_to_the_whole),
         cmocka_unit_test(larger_maps_come_to_the_whole),
+#ifdef SIGHTLINE_TESTS_GLPK
+        cmocka_unit_test(doubtful_pairs_come_together),
+#endif
         cmocka_unit_test(decided_pairs_are_told_from_others),
         cmocka_unit_test(what_a_change_cannot_affect_is_kept),
         cmocka_unit_test(other_questions_take_nothing_over),

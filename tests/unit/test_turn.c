@@ -1,5 +1,5 @@
-/// The sign of a turn between two directions, against GMP's rationals; and the rule of crossings,
-/// against all directions there are to try.
+/// The sign of a turn between two directions, and that of points finer than doubles, against GMP's
+/// rationals; and the rule of crossings, against all directions there are to try.
 #include "testing.h"
 
 #include "base/random.h"
@@ -70,6 +70,58 @@ static void any_directions_are_told(void **state) {
         }
 }
 
+/// b - a of fine numbers as rationals.
+static void fine_difference(mpq_t out, double a, double a_rest, double b, double b_rest) {
+    mpq_t rest;
+    mpq_init(rest);
+    difference(out, a, b);
+    difference(rest, a_rest, b_rest);
+    mpq_add(out, out, rest);
+    mpq_clear(rest);
+}
+
+static int rational_orient(const sl_fine *a, const sl_fine *b, const sl_fine *c) {
+    mpq_t ux, uy, vx, vy;
+    mpq_inits(ux, uy, vx, vy, NULL);
+    fine_difference(ux, a->at.x, a->rest.x, b->at.x, b->rest.x);
+    fine_difference(uy, a->at.y, a->rest.y, b->at.y, b->rest.y);
+    fine_difference(vx, a->at.x, a->rest.x, c->at.x, c->rest.x);
+    fine_difference(vy, a->at.y, a->rest.y, c->at.y, c->rest.y);
+    mpq_mul(ux, ux, vy);
+    mpq_mul(uy, uy, vx);
+    const int result = sign(mpq_cmp(ux, uy));
+    mpq_clears(ux, uy, vx, vy, NULL);
+    return result;
+}
+
+/// A rest of few bits, so that two of them can make up for each other.
+static double random_rest(sl_random *random, double at) {
+    return ldexp((double)sl_random_below(random, 9) - 4, ilogb(at) - 56);
+}
+
+static void fine_points_are_told(void **state) {
+    (void)state;
+    sl_random random = {13};
+    int on_line = 0;
+    for (int i = 0; i < 20000; i++) {
+        // Points of the diagonal, or of a line a little off it: only the rests, and then only
+        // their products, tell.
+        sl_fine p[3];
+        for (int k = 0; k < 3; k++) {
+            const double at = 1 + (double)sl_random_below(&random, 4) / 4;
+            p[k].at = (sl_point){at, at};
+            p[k].rest = (sl_point){random_rest(&random, at), random_rest(&random, at)};
+            if (i % 4 == 0) p[k].rest.y = p[k].rest.x;
+            if (i % 4 == 1) p[k].at = (sl_point){1, 1};
+        }
+        const int expected = rational_orient(&p[0], &p[1], &p[2]);
+        on_line += expected == 0;
+        assert_int_equal(sl_orient_fine(&p[0], &p[1], &p[2]), expected);
+        assert_int_equal(sl_orient_fine(&p[1], &p[0], &p[2]), -expected);
+    }
+    assert_true(on_line > 5000 && on_line < 10000);
+}
+
 enum { DIRECTIONS = 720 };
 
 /// Whether one of many directions crosses all portals strictly forwards. Portals turn by whole
@@ -120,6 +172,7 @@ static void crossings_are_those_of_some_direction(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_directions_are_told),
+        cmocka_unit_test(fine_points_are_told),
         cmocka_unit_test(crossings_are_those_of_some_direction),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
