@@ -43,8 +43,8 @@ static sl_status add_objects(sl_context *context, const sl_space *space,
                              const sl_eye_objects *objects, sl_seen_parts *parts,
                              sl_drawn_box *boxes, sl_draw_options *options) {
     for (size_t i = 0; i < objects->count; i++)
-        boxes[i] =
-            (sl_drawn_box){objects->boxes[i].box, objects->boxes[i].blocks, objects->seen[i]};
+        boxes[i] = (sl_drawn_box){objects->boxes[i].box, objects->boxes[i].blocks,
+                                  objects->seen[i] || objects->mirrored[i]};
     options->boxes = boxes;
     options->box_count = objects->count;
     if (!objects->count) return SL_OK;
@@ -65,9 +65,11 @@ static sl_status draw(sl_context *context, const eye_texts *texts, const sl_bake
     sl_drawn_box *boxes = sl_alloc_array(context, objects->count, sizeof *boxes);
     sl_status status = boxes ? SL_OK : SL_NO_MEMORY;
     if (status == SL_OK)
-        status = sl_seen_parts_add(context, &baked->space, &run->mirrored, false, &parts);
-    if (status == SL_OK)
         status = add_objects(context, &baked->space, objects, &parts, boxes, &options);
+    if (status == SL_OK)
+        status = sl_seen_parts_add(context, &baked->space,
+                                   objects->count ? &objects->mirrored_region : &run->mirrored,
+                                   false, &parts);
     if (status == SL_OK)
         status = sl_draw_eye(context, baked, &run->view, layers, count, parts.items, parts.count,
                              &options, texts->output);

@@ -59,7 +59,8 @@ sl_status sl_eye_objects_read(sl_context *context, const sl_option_list *texts, 
     out->boxes = sl_alloc_array(context, texts->count, sizeof *out->boxes);
     out->objects = sl_alloc_array(context, texts->count, sizeof *out->objects);
     out->seen = sl_alloc_array(context, texts->count, sizeof *out->seen);
-    if (!out->boxes || !out->objects || !out->seen) return SL_NO_MEMORY;
+    out->mirrored = sl_alloc_array(context, texts->count, sizeof *out->mirrored);
+    if (!out->boxes || !out->objects || !out->seen || !out->mirrored) return SL_NO_MEMORY;
     for (size_t i = 0; i < texts->count; i++) {
         out->objects[i].text = texts->items[i];
         SL_TRY(read_object(context, texts->items[i], map, &out->boxes[i]));
@@ -71,7 +72,10 @@ void sl_eye_objects_destroy(sl_context *context, sl_eye_objects *objects) {
     sl_free(context, objects->boxes);
     sl_free(context, objects->objects);
     sl_free(context, objects->seen);
+    sl_free(context, objects->mirrored);
     sl_free(context, objects->cells);
+    sl_free(context, objects->mirrored_cells);
+    sl_mirrored_region_destroy(context, &objects->mirrored_region);
     sl_region_destroy(context, &objects->region);
     *objects = (sl_eye_objects){0};
 }
@@ -101,6 +105,28 @@ static sl_status find_cells(sl_context *context, const sl_baked *baked, const sl
     return SL_OK;
 }
 
+/// What is seen in mirrors, before which the objects stand and in which they are seen.
+static sl_status look_in_mirrors(sl_context *context, const sl_baked *baked, const sl_eye_run *run,
+                                 sl_moving *moving, const sl_outline *outline, sl_eye_objects *o) {
+    sl_eye_account account;
+    sl_room_mirrors mirrors = {0};
+    o->has_mirrors = run->has_mirrors;
+    if (!run->has_mirrors) return SL_OK;
+    o->mirrored_cells =
+        sl_alloc_array(context, sl_eye_words(&baked->space), sizeof *o->mirrored_cells);
+    if (!o->mirrored_cells) return SL_NO_MEMORY;
+    SL_TRY(sl_moving_add_mirrors(context, moving, &baked->map, run->mirror_depth));
+    SL_TRY(sl_moving_look_mirrored(context, moving, &run->view, o->mirrored_cells, o->mirrored,
+                                   &account));
+    sl_eye_measure(baked, run->cell, o->mirrored_cells, &o->mirrored_count, &o->mirrored_share);
+    sl_status status = sl_room_mirrors_make(context, outline, &baked->map, &mirrors);
+    if (status == SL_OK)
+        status = sl_mirrored_region_make(context, &mirrors, &run->view, run->range,
+                                         run->mirror_depth, &o->mirrored_region);
+    sl_room_mirrors_destroy(context, &mirrors);
+    return status;
+}
+
 static sl_status look(sl_context *context, const sl_baked *baked, const sl_eye_run *run,
                       sl_moving *moving, bool timed, sl_eye_objects *o) {
     const sl_outline *outline;
@@ -115,16 +141,13 @@ static sl_status look(sl_context *context, const sl_baked *baked, const sl_eye_r
     SL_TRY(sl_region_make(context, outline, &run->view, run->range, &o->region));
     const double direct = sl_region_area(&run->region);
     o->region_share = direct > 0 ? run->region_share * sl_region_area(&o->region) / direct : 0;
-    return SL_OK;
+    return look_in_mirrors(context, baked, run, moving, outline, o);
 }
 
 sl_status sl_eye_objects_run(sl_context *context, const sl_baked *baked, const sl_eye_run *run,
                              bool timed, sl_eye_objects *objects) {
     sl_moving *moving;
     if (!objects->count) return SL_OK;
-    if (run->has_mirrors)
-        return sl_fail(context, SL_UNSUPPORTED,
-                       "objects are not looked for in mirrors: bake the map --without mirror");
     objects->cells = sl_alloc_array(context, sl_eye_words(&baked->space), sizeof *objects->cells);
     if (!objects->cells) return SL_NO_MEMORY;
     SL_TRY(find_cells(context, baked, run, objects));
@@ -137,7 +160,8 @@ sl_status sl_eye_objects_run(sl_context *context, const sl_baked *baked, const s
 // --- telling
 
 static const char *say(const sl_eye_objects *o, size_t i) {
-    if (o->seen[i]) return "seen";
+    if (o->seen[i]) return o->mirrored[i] ? "seen, by mirror too" : "seen";
+    if (o->mirrored[i]) return "seen by mirror";
     if (!o->objects[i].possible) return "hidden: not in the visible set of the eye's cell";
     return o->objects[i].in_exact ? "hidden, in a cell that is seen"
                                   : "hidden: its cells are not seen from here";
@@ -158,6 +182,10 @@ void sl_eye_objects_print(const sl_eye_objects *objects) {
                say(objects, i));
     printf("past them %" PRIu32 " cells are seen, %.2f %%; visible area %.2f %%\n",
            objects->cell_count, 100 * objects->share, 100 * objects->region_share);
+    if (objects->has_mirrors)
+        printf("by mirror past them %" PRIu32 " cells, %.2f %%; area in mirrors %.6g\n",
+               objects->mirrored_count, 100 * objects->mirrored_share,
+               sl_mirrored_area(&objects->mirrored_region));
 }
 
 void sl_eye_objects_add_json(sl_json_fields *fields, const sl_baked *baked,
@@ -167,6 +195,14 @@ void sl_eye_objects_add_json(sl_json_fields *fields, const sl_baked *baked,
     for (size_t i = 0; i < objects->count; i++)
         sl_json_add_flag(&seen, objects->objects[i].text, objects->seen[i]);
     sl_json_add_fields(fields, "objects_seen", &seen);
+    if (objects->has_mirrors) {
+        sl_json_fields mirrored = sl_json_begin();
+        for (size_t i = 0; i < objects->count; i++)
+            sl_json_add_flag(&mirrored, objects->objects[i].text, objects->mirrored[i]);
+        sl_json_add_fields(fields, "objects_mirrored", &mirrored);
+        sl_json_add_members(&sets, "mirrored_cells", objects->mirrored_cells,
+                            baked->space.cell_count);
+    }
     sl_json_add_members(&sets, "cells", objects->cells, baked->space.cell_count);
     const sl_region_measures measures = sl_region_measure(&objects->region);
     sl_json_add_real(&region, "area", measures.area);

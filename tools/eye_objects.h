@@ -20,11 +20,17 @@ typedef struct sl_eye_objects {
     sl_moving_box *boxes;
     sl_eye_object *objects;
     bool *seen;          ///< by object
+    bool *mirrored;      ///< by object: whether it is seen by mirror
     uint64_t *cells;     ///< seen past those that block
     uint32_t cell_count; ///< of them
     double share;        ///< of the area, as in sl_eye_run
     sl_region region;    ///< past those that block
     double region_share;
+    bool has_mirrors;         ///< the map; else the rest of this is empty
+    uint64_t *mirrored_cells; ///< seen by mirror past those that block
+    uint32_t mirrored_count;  ///< of them
+    double mirrored_share;
+    sl_mirrored_region mirrored_region;
     double seconds; ///< to put the boxes in; 0 where it was not timed
 } sl_eye_objects;
 

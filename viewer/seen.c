@@ -71,7 +71,7 @@ static double distance_to_cell(const sl_space *space, uint32_t number, sl_point 
     return nearest;
 }
 
-/// Drops cells that are out of range as a whole.
+/// Drops cells that are out of range as a whole, which methods keep that know no range.
 static void keep_in_range(const sl_seen *seen, const sl_space *space, uint64_t *cells) {
     if (!(seen->range > 0)) return;
     for (uint32_t cell = 0; cell < space->cell_count; cell++)
@@ -121,7 +121,6 @@ static sl_status look_at_objects(sl_context *context, sl_seen *seen, const sl_do
     if (present->moving && present->parents && status == SL_OK) {
         memcpy(exact->cells, cells, words * sizeof *cells);
         exact->account = account;
-        keep_in_range(seen, &document->baked->space, exact->cells);
         sum_up(document, exact->cells, &exact->count, &exact->area);
     }
     sl_free(context, cells);
@@ -165,6 +164,8 @@ sl_status sl_seen_update(sl_context *context, sl_seen *seen, const sl_document *
     take_pvs(seen, document, present, view->eye);
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
+    sl_eye_search_limit(present->search, range);
+    if (present->moving) sl_moving_limit(present->moving, range);
     for (size_t i = 0; i < count && i < SL_SEEN_MOST; i++)
         look(context, seen, &seen->methods[i], &methods[i], document, present->search, view);
     SL_TRY(look_at_objects(context, seen, document, present));

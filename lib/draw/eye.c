@@ -221,9 +221,10 @@ static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what
     const eye_picture *p = what;
     const sl_draw_options *options = &p->scene.options;
     SL_TRY(sl_draw_onto(context, cairo, &p->scene, frame));
-    for (size_t i = 0; i < p->part_count; i++)
-        (options->box_count ? sl_draw_lit : sl_draw_seen)(cairo, &p->scene.palette, frame,
-                                                          &p->parts[i]);
+    for (size_t i = 0; i < p->part_count; i++) {
+        const bool pale = options->box_count && !p->parts[i].depth;
+        (pale ? sl_draw_lit : sl_draw_seen)(cairo, &p->scene.palette, frame, &p->parts[i]);
+    }
     if (p->part_count) SL_TRY(sl_draw_walls_onto(context, cairo, &p->scene, frame));
     sl_draw_boxes(cairo, &p->scene.palette, frame, options->boxes, options->box_count);
     draw_cone(cairo, p, frame);

@@ -57,8 +57,7 @@ static size_t try_exit(sl_eye_query *query, sl_eye_step *last, bool first) {
     return count;
 }
 
-/// Notes the targets of a cell that is just entered.
-static void meet_targets(sl_eye_query *query, const sl_eye_step *at, bool first) {
+void sl_eye_meet_targets(sl_eye_query *query, const sl_eye_step *at, bool first) {
     const sl_eye_targets *t = &query->search->targets;
     sl_eye_step beyond;
     for (uint32_t i = t->first[at->cell]; i < t->first[at->cell + 1]; i++)
@@ -76,7 +75,8 @@ static sl_status search_portals(sl_context *context, sl_eye_query *query) {
     query->nodes = 1;
     while (count) {
         sl_eye_step *last = &steps[count - 1];
-        if (query->search->targets.first && last->next == 0) meet_targets(query, last, count == 1);
+        if (query->search->targets.first && last->next == 0)
+            sl_eye_meet_targets(query, last, count == 1);
         if (last->next == space->cells[last->cell].exit_count) {
             count--;
             continue;

@@ -134,6 +134,8 @@ static sl_status search(sl_context *context, sl_eye_query *query) {
         const bool first = m->steps.count == 1;
         const step last = *top;
         look_from(query, last.depth);
+        if (next == 0 && last.depth && query->search->targets.first)
+            sl_eye_meet_targets(query, &last.at, false);
         if (next < cell->exit_count)
             SL_TRY(try_exit(context, query, &last, first, cell->first_exit + next));
         else if (next < cell->exit_count + sides)

@@ -29,7 +29,7 @@ struct sl_eye_search {
     const sl_space *space;
     const sl_visibility *visibility;
     const uint32_t *parents; ///< by cell: whose row has it, and whose bit in rows; NULL: its own
-    sl_eye_targets targets;  ///< of the exact method, over portals; `first` NULL: none
+    sl_eye_targets targets; ///< of the exact method, over portals and by mirror; `first` NULL: none
     bool has_pvs;
     sl_bits *row;       ///< the visible set of the eye's cell
     uint32_t *queue;    ///< cells still to be looked at from
@@ -96,6 +96,9 @@ bool sl_eye_pass(sl_eye_query *query, const sl_eye_step *from, bool first, const
 /// Whether a step of one arc is worth going on from: not where its single ray has come to the cell
 /// before. Gives the ray a number, where it has none from the step before.
 bool sl_eye_is_new(sl_eye_search *search, const sl_eye_step *from, sl_eye_step *to);
+
+/// Notes the targets of a cell that is just entered; `first` for the eye's own.
+void sl_eye_meet_targets(sl_eye_query *query, const sl_eye_step *at, bool first);
 
 void sl_eye_mirrors_destroy(sl_context *context, struct sl_eye_mirrors *mirrors);
 

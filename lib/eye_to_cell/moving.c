@@ -15,6 +15,8 @@ struct sl_moving {
     sl_box_ground ground;
     const sl_visibility *visibility;
     double range;
+    const sl_map *mirrors; ///< the map that has them, NULL for none
+    uint32_t depth;        ///< of reflections
     sl_moving_box *boxes;
     size_t count;
     sl_boxed_space *boxed;
@@ -38,7 +40,11 @@ static void drop(sl_context *context, sl_moving *m) {
     sl_box_targets_destroy(context, &m->targets);
     sl_free(context, m->met);
     sl_free(context, m->cells);
-    *m = (sl_moving){.ground = m->ground, .visibility = m->visibility, .range = m->range};
+    *m = (sl_moving){.ground = m->ground,
+                     .visibility = m->visibility,
+                     .range = m->range,
+                     .mirrors = m->mirrors,
+                     .depth = m->depth};
 }
 
 static sl_status check_boxes(sl_context *context, const sl_moving_box *boxes, size_t count) {
@@ -68,6 +74,7 @@ static sl_status place(sl_context *context, sl_moving *m) {
     m->cells = sl_alloc_array(context, sl_eye_words(&m->boxed->space), sizeof *m->cells);
     if (!m->met || !m->cells) return SL_NO_MEMORY;
     sl_eye_search_limit(m->search, m->range);
+    if (m->mirrors) SL_TRY(sl_eye_search_add_mirrors(context, m->search, m->mirrors, m->depth));
     m->search->targets = (sl_eye_targets){m->targets.first, m->targets.items, m->met};
     return SL_OK;
 }
@@ -78,6 +85,8 @@ sl_status sl_moving_place(sl_context *context, sl_moving *moving, const sl_movin
     sl_moving made = {.ground = moving->ground,
                       .visibility = moving->visibility,
                       .range = moving->range,
+                      .mirrors = moving->mirrors,
+                      .depth = moving->depth,
                       .count = count};
     made.boxes = sl_alloc_array(context, count, sizeof *made.boxes);
     if (!made.boxes) return SL_NO_MEMORY;
@@ -144,6 +153,17 @@ static sl_status see_point(sl_context *context, sl_moving *moving, const sl_view
     return sl_sees(context, outline, view->eye, point, moving->visibility->sight, seen);
 }
 
+/// The cells without boxes, of those with them.
+static void tell_cells(const sl_moving *moving, uint64_t *cells) {
+    const sl_boxed_space *boxed = moving->boxed;
+    memset(cells, 0, sl_eye_words(moving->ground.space) * sizeof *cells);
+    for (uint32_t c = 0; c < boxed->space.cell_count; c++)
+        if (sl_bits_has(moving->cells, c)) sl_bits_add(cells, boxed->parents[c]);
+    for (size_t i = 0; i < boxed->shares.count; i++)
+        if (sl_bits_has(moving->cells, boxed->shares.items[i].cell))
+            sl_bits_add(cells, boxed->shares.items[i].parent);
+}
+
 sl_status sl_moving_look(sl_context *context, sl_moving *moving, const sl_view *view,
                          uint64_t *cells, bool *seen, sl_eye_account *account) {
     const sl_space *space = &moving->boxed->space;
@@ -156,12 +176,23 @@ sl_status sl_moving_look(sl_context *context, sl_moving *moving, const sl_view *
         if (!seen[i] && inside && box.min.x == box.max.x && box.min.y == box.max.y)
             SL_TRY(see_point(context, moving, view, box.min, &seen[i]));
     }
-    memset(cells, 0, sl_eye_words(moving->ground.space) * sizeof *cells);
-    for (uint32_t c = 0; c < space->cell_count; c++)
-        if (sl_bits_has(moving->cells, c)) sl_bits_add(cells, moving->boxed->parents[c]);
-    for (size_t i = 0; i < moving->boxed->shares.count; i++) {
-        const sl_box_share *share = &moving->boxed->shares.items[i];
-        if (sl_bits_has(moving->cells, share->cell)) sl_bits_add(cells, share->parent);
-    }
+    tell_cells(moving, cells);
+    return SL_OK;
+}
+
+sl_status sl_moving_add_mirrors(sl_context *context, sl_moving *moving, const sl_map *map,
+                                uint32_t depth) {
+    SL_TRY(sl_eye_search_add_mirrors(context, moving->search, map, depth));
+    moving->mirrors = map;
+    moving->depth = depth;
+    return SL_OK;
+}
+
+sl_status sl_moving_look_mirrored(sl_context *context, sl_moving *moving, const sl_view *view,
+                                  uint64_t *cells, bool *seen, sl_eye_account *account) {
+    if (moving->count) memset(moving->met, 0, moving->count * sizeof *moving->met);
+    SL_TRY(sl_eye_exact_mirrored(context, moving->search, view, moving->cells, account));
+    if (moving->count) memcpy(seen, moving->met, moving->count * sizeof *seen);
+    tell_cells(moving, cells);
     return SL_OK;
 }

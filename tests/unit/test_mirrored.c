@@ -220,6 +220,110 @@ static void random_maps(void **state) {
     assert_true(areas > maps / 4);
 }
 
+// --- past boxes that move
+
+enum { BOXES = 3 };
+
+static double grid_place(trial *t) {
+    return (double)sl_random_below(&t->random, 2 * RANDOM_EFFECTS_SIZE + 1) * t->scale / 2;
+}
+
+static sl_moving_box random_box(trial *t) {
+    const double x0 = grid_place(t), y0 = grid_place(t);
+    const double x1 = x0 + t->scale * (double)(1 + sl_random_below(&t->random, 4)) / 2;
+    const double y1 = y0 + t->scale * (double)(1 + sl_random_below(&t->random, 4)) / 2;
+    return (sl_moving_box){{{x0, y0}, {x1, y1}}, sl_random_below(&t->random, 3) > 0};
+}
+
+static bool touch(sl_box a, sl_box b) {
+    return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y;
+}
+
+/// Whether a box is seen just where one gets into it: it holds neither the eye nor a mirror.
+static bool is_plain(const trial *t, sl_box box, sl_point eye) {
+    if (touch(box, (sl_box){eye, eye})) return false;
+    for (size_t i = 0; i < t->map.mirror_count; i++) {
+        const sl_segment m = t->map.mirrors[i].segment;
+        if (touch(box, (sl_box){{fmin(m.a.x, m.b.x), fmin(m.a.y, m.b.y)},
+                                {fmax(m.a.x, m.b.x), fmax(m.a.y, m.b.y)}}))
+            return false;
+    }
+    return true;
+}
+
+/// The oracle's word on a space with boxes, in cells of the space without them.
+static void compare_past(const trial *t, sl_moving *moving, const sl_view *view, sl_sight sight,
+                         const oracle_mirrored *truth, const uint64_t *cells) {
+    const uint32_t *parents;
+    const sl_space *boxed = sl_moving_space(moving, &parents);
+    bool expected[CELLS_MOST] = {false};
+    for (uint32_t c = 0; c < boxed->cell_count; c++)
+        expected[parents[c]] |= sight == SL_OPEN ? truth->open[c] : truth->closed[c];
+    compare_cells(t, view, cells, expected, sight, "by mirror past boxes");
+}
+
+/// Whether a cell within a box is seen by mirror, with nothing of the box in the way.
+static bool is_entered(const trial *t, sl_moving *moving, sl_box box, const sl_view *view) {
+    const sl_moving_box glass = {box, false};
+    assert_ok(t->context, sl_moving_place(t->context, moving, &glass, 1));
+    const sl_space *boxed = sl_moving_space(moving, NULL);
+    oracle_mirrored truth = oracle_mirrored_of(boxed, &t->map, view, t->map.range, t->depth);
+    bool entered = false;
+    for (uint32_t c = 0; c < boxed->cell_count; c++) {
+        const sl_point *v = boxed->vertices + boxed->cells[c].first_vertex;
+        entered |= truth.open[c] && v[0].x >= box.min.x && v[0].y >= box.min.y &&
+                   v[2].x <= box.max.x && v[2].y <= box.max.y;
+    }
+    oracle_mirrored_free(&truth);
+    return entered;
+}
+
+static void try_boxes(trial *t, sl_sight sight, size_t *seen, size_t *hidden) {
+    const sl_visibility bare = {.sight = sight};
+    const sl_view view = random_view(t);
+    sl_moving_box boxes[BOXES];
+    sl_moving *moving;
+    uint64_t cells[CELLS_MOST / 64 + 1];
+    bool met[BOXES];
+    sl_eye_account account;
+    const size_t count = sight == SL_OPEN ? 1 : 1 + sl_random_below(&t->random, BOXES);
+    for (size_t i = 0; i < count; i++) boxes[i] = random_box(t);
+    assert_ok(t->context, sl_moving_create(t->context, &t->space, &bare, &moving));
+    assert_ok(t->context, sl_moving_add_mirrors(t->context, moving, &t->map, t->depth));
+    sl_moving_limit(moving, t->map.range);
+    assert_ok(t->context, sl_moving_place(t->context, moving, boxes, count));
+    const sl_space *boxed = sl_moving_space(moving, NULL);
+    oracle_mirrored truth = oracle_mirrored_of(boxed, &t->map, &view, t->map.range, t->depth);
+    assert_ok(t->context, sl_moving_look_mirrored(t->context, moving, &view, cells, met, &account));
+    compare_past(t, moving, &view, sight, &truth, cells);
+    trial past = *t;
+    past.space = *boxed;
+    if (!truth.on_wall) ask_region(&past, &view, &truth);
+    oracle_mirrored_free(&truth);
+    if (count == 1 && sight == SL_OPEN && is_plain(t, boxes[0].box, view.eye)) {
+        // One that blocks may stand between itself and a mirror.
+        const bool entered = is_entered(t, moving, boxes[0].box, &view);
+        if (met[0] ? !entered : entered && !boxes[0].blocks)
+            complain(t, &view, met[0] ? "a box is seen by mirror, but hidden" : "a box is hidden");
+        *(met[0] ? seen : hidden) += 1;
+    }
+    sl_moving_destroy(t->context, moving);
+}
+
+static void past_boxes(void **state) {
+    (void)state;
+    const uint64_t maps = testing_seeds(MAPS);
+    size_t seen = 0, hidden = 0;
+    for (uint64_t seed = 1; seed <= maps; seed++) {
+        trial t;
+        begin(&t, seed);
+        for (int i = 0; i < 5 && !(t.effects & SL_EFFECT_ONEWAY); i++)
+            try_boxes(&t, i < 2 ? SL_CLOSED : SL_OPEN, &seen, &hidden);
+        end(&t);
+    }
+    assert_true(seen > maps / 30 && hidden > maps / 30);
+}
+
 // --- told
 
 /// Each bend lies on its mirror, and the line leaves it as it came.
@@ -282,6 +386,7 @@ static void explained_as_baked(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_maps),
+        cmocka_unit_test(past_boxes),
         cmocka_unit_test(explained_as_baked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -39,12 +39,18 @@ SL_API sl_status sl_moving_place(sl_context *context, sl_moving *moving, const s
 /// How far is seen, as sl_eye_search_limit tells; it stays until it is set anew.
 SL_API void sl_moving_limit(sl_moving *moving, double range);
 
+/// Has looks go into mirrors, with boxes and without them, as sl_eye_search_add_mirrors tells. The
+/// map must outlive it.
+SL_API sl_status sl_moving_add_mirrors(sl_context *context, sl_moving *moving, const sl_map *map,
+                                       uint32_t depth);
+
 /// The space with the boxes: cells cut along their sides, which are walls where they block; in a
 /// BSP's space, along these alone. Cell c of it is (a part of) cell parents[c] of the space
 /// without. Until boxes are next placed.
 SL_API const sl_space *sl_moving_space(const sl_moving *moving, const uint32_t **parents);
 
-/// Its outline, for sl_region_make, sl_sees and sl_shoot. Made when it is first asked for.
+/// Its outline, for sl_region_make, sl_sees, sl_shoot and sl_room_mirrors_make. Made when it is
+/// first asked for.
 SL_API sl_status sl_moving_outline(sl_context *context, sl_moving *moving, const sl_outline **out);
 
 /// What an eye sees past the boxes, by exact eye-to-cell culling within the visible set of its
@@ -60,6 +66,13 @@ SL_API sl_status sl_moving_outline(sl_context *context, sl_moving *moving, const
 /// `account` is set, in cells of the space with boxes. Fails as the method "exact" does.
 SL_API sl_status sl_moving_look(sl_context *context, sl_moving *moving, const sl_view *view,
                                 uint64_t *cells, bool *seen, sl_eye_account *account);
+
+/// Likewise what is seen by mirror, with at least one reflection: boxes block sightlines before and
+/// behind mirrors, and are seen in them. The box that holds the eye is seen so where a sightline
+/// comes back to it; one that is a point is not. SL_BAD_ARGUMENT where no mirrors were added.
+SL_API sl_status sl_moving_look_mirrored(sl_context *context, sl_moving *moving,
+                                         const sl_view *view, uint64_t *cells, bool *seen,
+                                         sl_eye_account *account);
 
 #ifdef __cplusplus
 }
