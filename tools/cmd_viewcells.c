@@ -123,6 +123,7 @@ static sl_status plan_sampling(sl_context *context, const viewcells_texts *t,
     run->subdivision.seed = run->sampling.seed;
     SL_TRY(sl_option_count(context, "--threads", t->threads, 1024, &threads));
     run->sampling.threads = (unsigned)threads;
+    run->subdivision.threads = (unsigned)threads;
     if (t->paths && t->density)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "give one of --paths and --density: each says where viewpoints are");

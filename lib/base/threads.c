@@ -100,11 +100,11 @@ sl_status sl_work_run(sl_context *context, const sl_work *work, size_t count, un
     worker *workers = sl_alloc_array(context, wanted, sizeof *workers);
     if (!workers) return SL_NO_MEMORY;
     for (size_t i = 0; i < wanted; i++)
-        workers[i] = (worker){.crew = &c, .context = *context, .reports = i == 0};
+        workers[i] = (worker){.crew = &c, .context = *context, .reports = i == 0 && work->stage};
 
     pthread_mutex_init(&c.lock, NULL);
     pthread_cond_init(&c.moved, NULL);
-    sl_report(context, work->stage, work->units, 0, count);
+    if (work->stage) sl_report(context, work->stage, work->units, 0, count);
     // A thread that the system refuses is work for the others, not a failure.
     size_t started = 1;
     while (started < wanted &&
@@ -115,7 +115,7 @@ sl_status sl_work_run(sl_context *context, const sl_work *work, size_t count, un
     pthread_cond_destroy(&c.moved);
     pthread_mutex_destroy(&c.lock);
     const sl_status status = first_failure(context, workers, started);
-    if (status == SL_OK) sl_report(context, work->stage, work->units, count, count);
+    if (status == SL_OK && work->stage) sl_report(context, work->stage, work->units, count, count);
     sl_free(context, workers);
     return status;
 }

@@ -15,7 +15,7 @@ typedef struct sl_work {
     sl_status (*unit)(sl_context *context, void *job, void *state, size_t unit);
     void (*end)(sl_context *context, void *job, void *state);
     void (*leave_thread)(void);
-    const char *stage, *units; ///< for the progress report
+    const char *stage, *units; ///< for the progress report; NULL: none
     const size_t *after;
 } sl_work;
 

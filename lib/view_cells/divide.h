@@ -40,7 +40,17 @@ typedef struct sl_view_part {
     int32_t parent; ///< node that leads here, -1 for none
     bool above;     ///< which child of it
     sl_view_split split;
+    struct sl_view_part_halves *cut; ///< what splitting it gives, where that was found out ahead
 } sl_view_part;
+
+/// A part split in two, and the halves of its pieces that lie on both sides, in their order. The
+/// node is not made yet: sides that it makes have the edge SL_VIEW_EDGE_NEW.
+typedef struct sl_view_part_halves {
+    sl_view_part below, above;
+    SL_ARRAY(sl_view_halves) pieces;
+} sl_view_part_halves;
+
+#define SL_VIEW_EDGE_NEW (UINT32_MAX - 1)
 
 /// Where an object starts or ends to be seen along an axis, and its cost.
 typedef struct sl_view_event {
@@ -80,7 +90,8 @@ typedef sl_status (*sl_view_choose)(sl_view_divider *d, sl_view_part *part, doub
                                     bool *splits);
 
 /// `segments`, `pieces`: what tells what is seen, NULL for the one, the other, or both. Of pieces
-/// those of all rooms, as sl_view_pieces_create makes them; they are cut as parts are split.
+/// those of all rooms, as sl_view_pieces_create makes them; they are cut as parts are split, by
+/// options->threads threads: while no part has been split, what splitting a part gives is its own.
 /// `stops_early`: by least_gain and patience. `sets`: what pieces see, by leaf with mass; NULL
 /// where nobody asks.
 sl_status sl_view_divide(sl_context *context, const sl_view_scene *scene,
@@ -112,9 +123,13 @@ sl_status sl_view_choose_walls(sl_view_divider *d, const sl_view_part *part, sl_
 
 /// As sl_view_find_extents, of pieces (divide_pieces.c).
 void sl_view_find_piece_extents(sl_view_divider *d, sl_view_part *part);
+/// Finds the halves of the pieces that lie on both sides of a part's split, when its own are there.
+sl_status sl_view_halve_pieces(sl_context *context, const sl_view_pieces *pieces,
+                               sl_view_looker *looker, const sl_view_part *part,
+                               sl_view_part_halves *cut);
 /// Hands the pieces of a part that is split to its halves; those on both sides are cut.
-sl_status sl_view_deal_pieces(sl_view_divider *d, const sl_view_part *part, sl_view_part *below,
-                              sl_view_part *above);
+sl_status sl_view_deal_pieces(sl_view_divider *d, const sl_view_part *part,
+                              sl_view_part_halves *cut);
 /// What the pieces of all leaves with mass see.
 sl_status sl_view_sets_of_pieces(const sl_view_divider *d, sl_view_sets *sets);
 

@@ -41,25 +41,41 @@ static sl_status add_piece(sl_context *context, sl_view_part *part, uint32_t num
     return SL_OK;
 }
 
-sl_status sl_view_deal_pieces(sl_view_divider *d, const sl_view_part *part, sl_view_part *below,
-                              sl_view_part *above) {
-    const int axis = part->split.axis;
-    const double position = part->split.position;
+/// On which sides of a split a piece lies: 1 below, 2 above, 3 both.
+static int sides_of(const sl_view_pieces *pieces, uint32_t number, const sl_view_split *split) {
+    const sl_view_extent *box = &pieces->items.items[number].box;
+    if (box->high[split->axis] <= split->position) return 1;
+    return box->low[split->axis] >= split->position ? 2 : 3;
+}
+
+sl_status sl_view_halve_pieces(sl_context *context, const sl_view_pieces *pieces,
+                               sl_view_looker *looker, const sl_view_part *part,
+                               sl_view_part_halves *cut) {
+    const sl_view_split *split = &part->split;
     for (size_t i = 0; i < part->pieces.count; i++) {
         const uint32_t number = part->pieces.items[i];
-        const sl_view_extent *box = &d->pieces->items.items[number].box;
-        if (box->high[axis] <= position) {
-            SL_TRY(add_piece(d->context, below, number));
-        } else if (box->low[axis] >= position) {
-            SL_TRY(add_piece(d->context, above, number));
-        } else {
-            // Where no viewpoint is, nobody asks what is seen.
-            uint32_t other;
-            SL_TRY(sl_view_pieces_cut(d->pieces, number, axis, position, below->mass > 0,
-                                      above->mass > 0, &other));
-            SL_TRY(add_piece(d->context, below, number));
-            SL_TRY(add_piece(d->context, above, other));
-        }
+        if (sides_of(pieces, number, split) != 3) continue;
+        SL_TRY(SL_ARRAY_ROOM(context, &cut->pieces, 1));
+        sl_view_halves *halves = &cut->pieces.items[cut->pieces.count++];
+        *halves = (sl_view_halves){0};
+        // Where no viewpoint is, nobody asks what is seen.
+        SL_TRY(sl_view_pieces_halve(context, pieces, looker, number, split->axis, split->position,
+                                    cut->below.mass > 0, cut->above.mass > 0, halves));
+    }
+    return SL_OK;
+}
+
+sl_status sl_view_deal_pieces(sl_view_divider *d, const sl_view_part *part,
+                              sl_view_part_halves *cut) {
+    size_t next = 0;
+    for (size_t i = 0; i < part->pieces.count; i++) {
+        const uint32_t number = part->pieces.items[i];
+        const int sides = sides_of(d->pieces, number, &part->split);
+        uint32_t above = number;
+        if (sides == 3)
+            SL_TRY(sl_view_pieces_cut(d->pieces, number, &cut->pieces.items[next++], &above));
+        if (sides & 1) SL_TRY(add_piece(d->context, &cut->below, number));
+        if (sides & 2) SL_TRY(add_piece(d->context, &cut->above, above));
     }
     return SL_OK;
 }

@@ -48,7 +48,8 @@ static sl_status divide_exactly(sl_context *context, const sl_view_scene *scene,
                        "the method 'hybrid' splits across the axes alone, not along walls' lines");
     sl_view_pieces pieces;
     sl_view_sets sets = {0};
-    sl_status status = sl_view_pieces_create(context, scene, options->sight, &pieces);
+    sl_status status =
+        sl_view_pieces_create(context, scene, options->sight, options->threads, &pieces);
     if (status == SL_OK)
         status = sl_view_divide(context, scene, NULL, &pieces, options, choose_adaptive, true, out,
                                 found ? &sets : NULL);

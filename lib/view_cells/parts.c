@@ -11,6 +11,15 @@ void sl_view_part_destroy(sl_context *context, sl_view_part *part) {
     sl_free(context, part->share.points.items);
     sl_free(context, part->share.ends.items);
     sl_free(context, part->share.mass.items);
+    sl_view_part_halves *cut = part->cut;
+    if (cut) {
+        sl_view_part_destroy(context, &cut->below);
+        sl_view_part_destroy(context, &cut->above);
+        for (size_t i = 0; i < cut->pieces.count; i++)
+            sl_view_halves_destroy(context, &cut->pieces.items[i]);
+        sl_free(context, cut->pieces.items);
+        sl_free(context, cut);
+    }
     *part = (sl_view_part){0};
 }
 

@@ -20,6 +20,10 @@ typedef struct step {
 } step;
 
 struct sl_view_looker {
+    const sl_view_pieces *pieces;
+    sl_context *context;  ///< the thread's
+    sl_view_looker *next; ///< of those that are idle
+    sl_view_work work;
     void *solver;
     SL_ARRAY(step) steps;
     uint32_t *allowed, *entered;    ///< by room: the number of the look that says so
@@ -29,11 +33,19 @@ struct sl_view_looker {
     SL_ARRAY(sl_line) bounds; ///< of the sectors within a quadrant
 };
 
-sl_status sl_view_looker_create(sl_view_pieces *pieces) {
-    sl_context *context = pieces->context;
-    sl_view_looker *me = sl_alloc_array(context, 1, sizeof *me);
-    if (!me) return SL_NO_MEMORY;
-    pieces->looker = me;
+static void destroy(sl_context *context, sl_view_looker *me) {
+    sl_funnel()->destroy(context, me->solver);
+    sl_free(context, me->steps.items);
+    sl_free(context, me->allowed);
+    sl_free(context, me->entered);
+    sl_free(context, me->asked);
+    sl_free(context, me->seen);
+    sl_free(context, me->place);
+    sl_free(context, me->bounds.items);
+    sl_free(context, me);
+}
+
+static sl_status create(sl_context *context, const sl_view_pieces *pieces, sl_view_looker *me) {
     const size_t rooms = pieces->rooms.count, objects = pieces->rooms.object_count;
     me->allowed = sl_alloc_array(context, rooms, sizeof *me->allowed);
     me->entered = sl_alloc_array(context, rooms, sizeof *me->entered);
@@ -44,20 +56,45 @@ sl_status sl_view_looker_create(sl_view_pieces *pieces) {
     return sl_funnel()->create(context, pieces->rooms.bounds, &me->solver);
 }
 
-void sl_view_looker_destroy(sl_view_pieces *pieces) {
-    sl_context *context = pieces->context;
-    sl_view_looker *me = pieces->looker;
-    if (!me) return;
-    sl_funnel()->destroy(context, me->solver);
-    sl_free(context, me->steps.items);
-    sl_free(context, me->allowed);
-    sl_free(context, me->entered);
-    sl_free(context, me->asked);
-    sl_free(context, me->seen);
-    sl_free(context, me->place);
-    sl_free(context, me->bounds.items);
-    sl_free(context, me);
-    pieces->looker = NULL;
+sl_status sl_view_looker_take(sl_context *context, sl_view_pieces *pieces, sl_view_looker **out) {
+    pthread_mutex_lock(&pieces->lock);
+    sl_view_looker *me = pieces->idle;
+    if (me) pieces->idle = me->next;
+    pthread_mutex_unlock(&pieces->lock);
+    if (!me) {
+        me = sl_alloc_array(context, 1, sizeof *me);
+        if (!me) return SL_NO_MEMORY;
+        const sl_status status = create(context, pieces, me);
+        if (status != SL_OK) {
+            destroy(context, me);
+            return status;
+        }
+    }
+    me->pieces = pieces;
+    me->context = context;
+    *out = me;
+    return SL_OK;
+}
+
+void sl_view_looker_give(sl_view_pieces *pieces, sl_view_looker *me) {
+    pthread_mutex_lock(&pieces->lock);
+    me->next = pieces->idle;
+    pieces->idle = me;
+    pthread_mutex_unlock(&pieces->lock);
+}
+
+void sl_view_lookers_destroy(sl_context *context, sl_view_pieces *pieces) {
+    while (pieces->idle) {
+        sl_view_looker *me = pieces->idle;
+        pieces->idle = me->next;
+        destroy(context, me);
+    }
+}
+
+sl_view_work sl_view_looker_work(sl_view_looker *me) {
+    const sl_view_work work = me->work;
+    me->work = (sl_view_work){0};
+    return work;
 }
 
 sl_cone sl_view_quadrant(int quadrant) {
@@ -148,7 +185,7 @@ static sl_view_extent find_extent(const sl_view_looker *me, const sl_view_piece 
 
 /// One look into a quadrant.
 typedef struct look {
-    sl_view_pieces *pieces;
+    const sl_view_pieces *pieces;
     sl_view_looker *me;
     const sl_view_piece *piece;
     sl_cone sector;
@@ -161,7 +198,7 @@ static sl_status add_object(look *l, uint32_t object) {
     sl_view_looker *me = l->me;
     sl_view_directed *out = l->out;
     if (me->seen[object] != me->looking) {
-        SL_TRY(SL_ARRAY_ROOM(l->pieces->context, &out->objects, 1));
+        SL_TRY(SL_ARRAY_ROOM(l->me->context, &out->objects, 1));
         me->seen[object] = me->looking;
         me->place[object] = (uint32_t)out->objects.count;
         out->objects.items[out->objects.count++] =
@@ -182,16 +219,16 @@ static sl_status add_room(look *l, uint32_t room) {
     sl_view_looker *me = l->me;
     if (me->entered[room] == me->looking) return SL_OK;
     me->entered[room] = me->looking;
-    SL_TRY(SL_ARRAY_ROOM(l->pieces->context, &l->out->rooms, 1));
+    SL_TRY(SL_ARRAY_ROOM(l->me->context, &l->out->rooms, 1));
     l->out->rooms.items[l->out->rooms.count++] = room;
     return SL_OK;
 }
 
 /// Whether lines of the sequence and the sector pass a side as well; on SL_OK it is to be popped.
 static sl_status push(look *l, const sl_room_side *side, const sl_cone *cone, bool *seen) {
-    sl_context *context = l->pieces->context;
+    sl_context *context = l->me->context;
     sl_stab_verdict verdict;
-    if (++l->pieces->work.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
+    if (++l->me->work.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
     SL_TRY(sl_funnel()->push(context, l->me->solver, side->left, side->right, &verdict));
     if (verdict != SL_HIDDEN)
         SL_TRY(sl_funnel()->toward(context, l->me->solver, cone->right, cone->left, &verdict));
@@ -200,7 +237,7 @@ static sl_status push(look *l, const sl_room_side *side, const sl_cone *cone, bo
 }
 
 static sl_status enter(look *l, step to) {
-    SL_TRY(SL_ARRAY_ROOM(l->pieces->context, &l->me->steps, 1));
+    SL_TRY(SL_ARRAY_ROOM(l->me->context, &l->me->steps, 1));
     l->me->steps.items[l->me->steps.count++] = to;
     return SL_OK;
 }
@@ -260,7 +297,7 @@ static sl_status look_into_sector(look *l) {
     const sl_point left = utmost(l->piece, l->sector, 1), right = utmost(l->piece, l->sector, -1);
     sl_stab_verdict verdict;
     me->steps.count = 0;
-    SL_TRY(sl_funnel()->push(l->pieces->context, me->solver, left, right, &verdict));
+    SL_TRY(sl_funnel()->push(l->me->context, me->solver, left, right, &verdict));
     SL_TRY(enter(l, (step){.room = l->piece->room, .cone = l->sector}));
     while (me->steps.count) {
         step *last = &me->steps.items[me->steps.count - 1];
@@ -312,15 +349,14 @@ static sl_status find_sectors(sl_context *context, sl_view_looker *me, const sl_
     return SL_OK;
 }
 
-sl_status sl_view_look(sl_view_pieces *pieces, const sl_view_piece *piece, int quadrant,
+sl_status sl_view_look(sl_view_looker *me, const sl_view_piece *piece, int quadrant,
                        const sl_view_directed *objects, sl_view_directed *out) {
-    sl_view_looker *me = pieces->looker;
     me->looking++;
     if (objects)
         for (size_t i = 0; i < objects->objects.count; i++)
             me->asked[objects->objects.items[i].object] = me->looking;
-    SL_TRY(find_sectors(pieces->context, me, piece, quadrant));
-    look l = {.pieces = pieces,
+    SL_TRY(find_sectors(me->context, me, piece, quadrant));
+    look l = {.pieces = me->pieces,
               .me = me,
               .piece = piece,
               .east = quadrant == 0 || quadrant == 3,
@@ -331,8 +367,8 @@ sl_status sl_view_look(sl_view_pieces *pieces, const sl_view_piece *piece, int q
         l.sector = (sl_cone){me->bounds.items[i], me->bounds.items[i + 1]};
         SL_TRY(look_into_sector(&l));
     }
-    pieces->work.looks++;
-    pieces->work.candidates += me->candidates;
-    pieces->work.relations += out->rooms.count;
+    me->work.looks++;
+    me->work.candidates += me->candidates;
+    me->work.relations += out->rooms.count;
     return SL_OK;
 }

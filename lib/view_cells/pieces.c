@@ -1,6 +1,7 @@
 #include "view_cells/pieces.h"
 
 #include "base/bits.h"
+#include "base/threads.h"
 #include "cell_to_cell/dependence.h"
 
 static void piece_destroy(sl_context *context, sl_view_piece *piece) {
@@ -16,8 +17,9 @@ void sl_view_pieces_destroy(sl_view_pieces *pieces) {
     for (size_t i = 0; i < pieces->items.count; i++)
         piece_destroy(pieces->context, &pieces->items.items[i]);
     sl_free(pieces->context, pieces->items.items);
-    sl_view_looker_destroy(pieces);
+    sl_view_lookers_destroy(pieces->context, pieces);
     sl_view_rooms_destroy(pieces->context, &pieces->rooms);
+    pthread_mutex_destroy(&pieces->lock);
 }
 
 static sl_status add_corner(sl_context *context, sl_view_piece *piece, sl_point at) {
@@ -57,9 +59,8 @@ static uint32_t fill_graph(const sl_view_rooms *rooms, int quadrant, uint32_t *f
 }
 
 /// A component's candidates: its own rooms, those behind them, and what these see.
-static void allow_component(sl_view_pieces *pieces, int quadrant, const sl_dependence *graph,
-                            const sl_order *order, uint32_t component) {
-    sl_view_looker *looker = pieces->looker;
+static void allow_component(const sl_view_pieces *pieces, sl_view_looker *looker, int quadrant,
+                            const sl_dependence *graph, const sl_order *order, uint32_t component) {
     sl_view_look_begin(looker);
     for (uint32_t i = order->starts[component]; i < order->starts[component + 1]; i++) {
         const uint32_t room = order->nodes[i];
@@ -76,44 +77,69 @@ static void allow_component(sl_view_pieces *pieces, int quadrant, const sl_depen
 }
 
 /// Room by room, those behind first (Laine 2005, algorithm 1).
-static sl_status pass(sl_view_pieces *pieces, int quadrant, const sl_dependence *graph) {
+static sl_status pass(sl_context *context, sl_view_pieces *pieces, sl_view_looker *looker,
+                      int quadrant, const sl_dependence *graph) {
     sl_order order;
-    SL_TRY(sl_order_create(pieces->context, graph, &order));
+    SL_TRY(sl_order_create(context, graph, &order));
     sl_status status = SL_OK;
     for (uint32_t k = 0; k < order.component_count && status == SL_OK; k++) {
-        allow_component(pieces, quadrant, graph, &order, k);
+        allow_component(pieces, looker, quadrant, graph, &order, k);
         for (uint32_t i = order.starts[k]; i < order.starts[k + 1] && status == SL_OK; i++) {
             sl_view_piece *piece = &pieces->items.items[order.nodes[i]];
-            status = sl_view_look(pieces, piece, quadrant, NULL, &piece->directed[quadrant]);
-            sl_report(pieces->context, "look", "rooms", i, order.count);
+            status = sl_view_look(looker, piece, quadrant, NULL, &piece->directed[quadrant]);
         }
     }
-    sl_order_destroy(pieces->context, &order);
+    sl_order_destroy(context, &order);
     return status;
 }
 
-static sl_status pass_all(sl_view_pieces *pieces) {
+static sl_status begin(sl_context *context, void *job, void **state) {
+    sl_view_looker *looker;
+    SL_TRY(sl_view_looker_take(context, job, &looker));
+    *state = looker;
+    return SL_OK;
+}
+
+static void end(sl_context *context, void *job, void *state) {
+    (void)context;
+    sl_view_pieces *pieces = job;
+    const sl_view_work work = sl_view_looker_work(state);
+    sl_view_looker_give(pieces, state);
+    pthread_mutex_lock(&pieces->lock);
+    sl_view_work_add(&pieces->work, &work);
+    pthread_mutex_unlock(&pieces->lock);
+}
+
+static sl_status pass_quadrant(sl_context *context, void *job, void *state, size_t quadrant) {
+    sl_view_pieces *pieces = job;
     const sl_view_rooms *rooms = &pieces->rooms;
-    uint32_t *first = sl_alloc_array(pieces->context, (size_t)rooms->count + 1, sizeof *first);
-    uint32_t *to = sl_alloc_array(pieces->context, rooms->first_side[rooms->count], sizeof *to);
+    uint32_t *first = sl_alloc_array(context, (size_t)rooms->count + 1, sizeof *first);
+    uint32_t *to = sl_alloc_array(context, rooms->first_side[rooms->count], sizeof *to);
     sl_status status = first && to ? SL_OK : SL_NO_MEMORY;
-    for (int q = 0; q < SL_VIEW_QUADRANTS && status == SL_OK; q++) {
-        fill_graph(rooms, q, first, to);
-        status = pass(pieces, q, &(sl_dependence){rooms->count, first, to});
+    if (status == SL_OK) {
+        fill_graph(rooms, (int)quadrant, first, to);
+        status =
+            pass(context, pieces, state, (int)quadrant, &(sl_dependence){rooms->count, first, to});
     }
-    sl_free(pieces->context, first);
-    sl_free(pieces->context, to);
+    sl_free(context, first);
+    sl_free(context, to);
     return status;
 }
 
 sl_status sl_view_pieces_create(sl_context *context, const sl_view_scene *scene, sl_sight sight,
-                                sl_view_pieces *pieces) {
+                                unsigned threads, sl_view_pieces *pieces) {
     *pieces = (sl_view_pieces){.context = context, .sight = sight};
+    pthread_mutex_init(&pieces->lock, NULL);
     SL_TRY(sl_view_rooms_make(context, scene->space, scene->objects, &pieces->rooms));
-    SL_TRY(sl_view_looker_create(pieces));
     for (uint32_t i = 0; i < pieces->rooms.count; i++) SL_TRY(take_room(pieces, i));
     pieces->work.rooms = pieces->rooms.count;
-    return pass_all(pieces);
+    const sl_work work = {.job = pieces,
+                          .begin = begin,
+                          .unit = pass_quadrant,
+                          .end = end,
+                          .stage = "look",
+                          .units = "quadrants"};
+    return sl_work_run(context, &work, SL_VIEW_QUADRANTS, threads);
 }
 
 // --- cutting
@@ -138,38 +164,46 @@ static sl_status cut_polygon(sl_context *context, const sl_view_piece *piece, in
     return SL_OK;
 }
 
-static sl_status look_all(sl_view_pieces *pieces, const sl_view_piece *whole, sl_view_piece *half) {
+static sl_status look_all(sl_view_looker *looker, const sl_view_piece *whole, sl_view_piece *half) {
     for (int q = 0; q < SL_VIEW_QUADRANTS; q++) {
         const sl_view_directed *known = &whole->directed[q];
-        sl_view_look_begin(pieces->looker);
+        sl_view_look_begin(looker);
         for (size_t i = 0; i < known->rooms.count; i++)
-            sl_view_look_allow(pieces->looker, known->rooms.items[i]);
-        SL_TRY(sl_view_look(pieces, half, q, known, &half->directed[q]));
+            sl_view_look_allow(looker, known->rooms.items[i]);
+        SL_TRY(sl_view_look(looker, half, q, known, &half->directed[q]));
     }
     return SL_OK;
 }
 
-sl_status sl_view_pieces_cut(sl_view_pieces *pieces, uint32_t number, int axis, double position,
-                             bool asks_below, bool asks_above, uint32_t *above) {
+sl_status sl_view_pieces_halve(sl_context *context, const sl_view_pieces *pieces,
+                               sl_view_looker *looker, uint32_t number, int axis, double position,
+                               bool asks_below, bool asks_above, sl_view_halves *out) {
+    const sl_view_piece *whole = &pieces->items.items[number];
+    out->below = out->above = (sl_view_piece){.room = whole->room, .box = sl_view_no_extent()};
+    SL_TRY(cut_polygon(context, whole, axis, position, &out->below, &out->above));
+    if (asks_below) SL_TRY(look_all(looker, whole, &out->below));
+    if (asks_above) SL_TRY(look_all(looker, whole, &out->above));
+    out->work = sl_view_looker_work(looker);
+    return SL_OK;
+}
+
+void sl_view_halves_destroy(sl_context *context, sl_view_halves *halves) {
+    piece_destroy(context, &halves->below);
+    piece_destroy(context, &halves->above);
+}
+
+sl_status sl_view_pieces_cut(sl_view_pieces *pieces, uint32_t number, sl_view_halves *halves,
+                             uint32_t *above) {
     sl_context *context = pieces->context;
     SL_TRY(SL_ARRAY_ROOM(context, &pieces->items, 1));
     sl_view_piece *whole = &pieces->items.items[number];
-    sl_view_piece halves[2];
-    for (int i = 0; i < 2; i++)
-        halves[i] = (sl_view_piece){.room = whole->room, .box = sl_view_no_extent()};
-    sl_status status = cut_polygon(context, whole, axis, position, &halves[0], &halves[1]);
-    if (status == SL_OK && asks_below) status = look_all(pieces, whole, &halves[0]);
-    if (status == SL_OK && asks_above) status = look_all(pieces, whole, &halves[1]);
-    if (status != SL_OK) {
-        piece_destroy(context, &halves[0]);
-        piece_destroy(context, &halves[1]);
-        return status;
-    }
     piece_destroy(context, whole);
-    *whole = halves[0];
+    *whole = halves->below;
     *above = (uint32_t)pieces->items.count;
-    pieces->items.items[pieces->items.count++] = halves[1];
+    pieces->items.items[pieces->items.count++] = halves->above;
     pieces->work.cuts++;
+    sl_view_work_add(&pieces->work, &halves->work);
+    *halves = (sl_view_halves){0};
     return SL_OK;
 }
 

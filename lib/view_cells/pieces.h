@@ -11,6 +11,7 @@
 #include "view_cells/rooms.h"
 
 #include <math.h>
+#include <pthread.h>
 
 enum { SL_VIEW_QUADRANTS = 4 };
 
@@ -53,7 +54,7 @@ typedef struct sl_view_piece {
     sl_view_directed directed[SL_VIEW_QUADRANTS];
 } sl_view_piece;
 
-/// What looks from pieces: the solver and its scratch.
+/// What looks from pieces, one thread's own: the solver and its scratch.
 typedef struct sl_view_looker sl_view_looker;
 
 typedef struct sl_view_pieces {
@@ -61,27 +62,55 @@ typedef struct sl_view_pieces {
     sl_sight sight;
     sl_view_rooms rooms;
     SL_ARRAY(sl_view_piece) items; ///< the rooms themselves at first
-    sl_view_looker *looker;
+    pthread_mutex_t lock;
+    sl_view_looker *idle; ///< under the lock: those that no thread has
     sl_view_work work;
 } sl_view_pieces;
 
-/// What rooms see, by passes over all of them. `scene` must stay. To be destroyed also on failure.
+/// What rooms see, by passes over all of them, a quadrant a thread. `scene` must stay. To be
+/// destroyed also on failure.
 sl_status sl_view_pieces_create(sl_context *context, const sl_view_scene *scene, sl_sight sight,
-                                sl_view_pieces *pieces);
+                                unsigned threads, sl_view_pieces *pieces);
 void sl_view_pieces_destroy(sl_view_pieces *pieces);
 
-/// Cuts a piece that lies on both sides of a line across an axis: the half below takes its number,
-/// *above is the number of the other. Halves for which nobody asks see nothing.
-sl_status sl_view_pieces_cut(sl_view_pieces *pieces, uint32_t number, int axis, double position,
-                             bool asks_below, bool asks_above, uint32_t *above);
+/// The halves of a piece that stays whole until it is cut. Zeroed: none.
+typedef struct sl_view_halves {
+    sl_view_piece below, above;
+    sl_view_work work; ///< what finding them took
+} sl_view_halves;
+
+/// Finds the halves of a piece that lies on both sides of a line across an axis. Halves for which
+/// nobody asks see nothing. Threads may do so at the same time, each with a looker, as long as
+/// nothing is cut. To be destroyed, or handed to sl_view_pieces_cut, also on failure.
+sl_status sl_view_pieces_halve(sl_context *context, const sl_view_pieces *pieces,
+                               sl_view_looker *looker, uint32_t number, int axis, double position,
+                               bool asks_below, bool asks_above, sl_view_halves *out);
+void sl_view_halves_destroy(sl_context *context, sl_view_halves *halves); ///< and zeroes them
+
+/// Cuts a piece into its halves, which are then empty: the one below takes its number, *above is
+/// the number of the other.
+sl_status sl_view_pieces_cut(sl_view_pieces *pieces, uint32_t number, sl_view_halves *halves,
+                             uint32_t *above);
 
 /// Adds what a piece sees, its own room's objects among it, to a row of bits.
 void sl_view_piece_add_to(const sl_view_pieces *pieces, const sl_view_piece *piece, uint64_t *row);
 
 // --- looking (piece_look.c)
 
-sl_status sl_view_looker_create(sl_view_pieces *pieces);
-void sl_view_looker_destroy(sl_view_pieces *pieces);
+/// A looker for the caller's thread, whose context it takes, until it is given back.
+sl_status sl_view_looker_take(sl_context *context, sl_view_pieces *pieces, sl_view_looker **out);
+void sl_view_looker_give(sl_view_pieces *pieces, sl_view_looker *looker);
+void sl_view_lookers_destroy(sl_context *context, sl_view_pieces *pieces);
+
+/// What it has done since it was asked last.
+sl_view_work sl_view_looker_work(sl_view_looker *looker);
+
+static inline void sl_view_work_add(sl_view_work *work, const sl_view_work *more) {
+    work->looks += more->looks;
+    work->candidates += more->candidates;
+    work->relations += more->relations;
+    work->tests += more->tests;
+}
 
 /// The directions of a quadrant: 0 from east to north, and on round.
 sl_cone sl_view_quadrant(int quadrant);
@@ -93,7 +122,7 @@ void sl_view_look_allow(sl_view_looker *looker, uint32_t room);
 
 /// What a piece sees in a quadrant among the candidate rooms; and among `objects` alone where these
 /// are not NULL. `out` is to be empty.
-sl_status sl_view_look(sl_view_pieces *pieces, const sl_view_piece *piece, int quadrant,
+sl_status sl_view_look(sl_view_looker *looker, const sl_view_piece *piece, int quadrant,
                        const sl_view_directed *objects, sl_view_directed *out);
 
 #endif

@@ -291,7 +291,7 @@ static void histogram(bench *b) {
         check(b, sl_view_cut(b->context, &m.others, cells, of, numbers));
         double bins[BINS] = {0}, most = 0;
         for (uint32_t v = 0; v < cells; v++) most = fmax(most, m.others.cost[numbers[v]]);
-        if (i == 0) top = 3 * most / BINS;
+        if (i == 0) top = 1.5 * most / BINS;
         for (uint32_t v = 0; v < cells; v++) {
             const double bin = m.others.cost[numbers[v]] / top;
             bins[bin < BINS ? (int)bin : BINS - 1] += m.others.mass[numbers[v]];

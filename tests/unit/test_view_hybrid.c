@@ -182,8 +182,14 @@ static void cut_at_random(sl_context *context, sl_view_pieces *pieces, const sl_
         double at = axis ? end.y : end.x;
         if (!(at > low && at < high)) at = low + (high - low) * (i % 3 ? 0.5 : 0.3);
         if (!(at > low && at < high)) continue;
+        sl_view_looker *looker;
+        sl_view_halves halves = {0};
         uint32_t above;
-        assert_ok(context, sl_view_pieces_cut(pieces, number, axis, at, true, true, &above));
+        assert_ok(context, sl_view_looker_take(context, pieces, &looker));
+        assert_ok(context, sl_view_pieces_halve(context, pieces, looker, number, axis, at, true,
+                                                true, &halves));
+        sl_view_looker_give(pieces, looker);
+        assert_ok(context, sl_view_pieces_cut(pieces, number, &halves, &above));
         assert_int_equal(above, pieces->items.count - 1);
     }
 }
@@ -193,7 +199,7 @@ static void check_cuts(sl_context *context, const char *name, const sl_map *map,
                        const sl_space *space, int cuts, bool axial) {
     const sl_view_scene scene = {space, SL_VIEW_CELLS, sl_render_cost_default(), NULL};
     sl_view_pieces pieces;
-    assert_ok(context, sl_view_pieces_create(context, &scene, SL_CLOSED, &pieces));
+    assert_ok(context, sl_view_pieces_create(context, &scene, SL_CLOSED, 2, &pieces));
     if (pieces.items.count) cut_at_random(context, &pieces, map, cuts);
     check_pieces(name, space, &pieces, axial);
     check_work(&pieces.work);
@@ -379,12 +385,76 @@ static void splits_are_places_of_a_map(void **state) {
     sl_context_destroy(context);
 }
 
+/// The same tree, sets and work.
+static void threads_make_no_difference(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    view_world w;
+    make_world(context, OBLIQUE_ROOMS, true, SL_VIEW_WALLS, 1000, &w);
+    sl_view_tree trees[3];
+    sl_view_found found[3];
+    for (unsigned i = 0; i < 3; i++) {
+        sl_view_subdivision options = sl_view_subdivision_default();
+        options.cells = 300;
+        options.threads = i ? 3 * i - 1 : 1;
+        assert_ok(context, view_method("hybrid")->divide(context, &w.scene, NULL, &options,
+                                                         &trees[i], &found[i]));
+        const sl_view_tree *a = &trees[0], *b = &trees[i];
+        assert_int_equal(a->node_count, b->node_count);
+        assert_int_equal(a->leaf_count, b->leaf_count);
+        assert_memory_equal(a->nodes, b->nodes, a->node_count * sizeof *a->nodes);
+        assert_memory_equal(a->first, b->first, (a->leaf_count + 1) * sizeof *a->first);
+        assert_memory_equal(a->edges, b->edges, a->first[a->leaf_count] * sizeof *a->edges);
+        assert_memory_equal(a->corners, b->corners, a->first[a->leaf_count] * sizeof *a->corners);
+        const sl_view_sets *one = &found[0].sets, *other = &found[i].sets;
+        assert_memory_equal(one->bits, other->bits, one->count * one->words * sizeof *one->bits);
+        assert_memory_equal(&found[0].work, &found[i].work, sizeof found[0].work);
+    }
+    assert_int_equal(trees[0].cell_count, 300);
+    for (int i = 0; i < 3; i++) {
+        sl_view_tree_destroy(context, &trees[i]);
+        sl_view_found_destroy(context, &found[i]);
+    }
+    drop_world(context, &w);
+    sl_context_destroy(context);
+}
+
+static void lack_of_memory_leaves_nothing(void **state) {
+    (void)state;
+    testing_memory memory = {0};
+    sl_context *context = testing_context(&memory);
+    view_world w;
+    make_world(context, TWO_ROOMS, false, SL_VIEW_WALLS, 1000, &w);
+    sl_view_subdivision options = sl_view_subdivision_default();
+    options.cells = 12;
+    options.threads = 1; // the allocator that counts is one thread's
+    const long live = memory.live;
+    sl_status status = SL_NO_MEMORY;
+    for (long fail_at = 1; status == SL_NO_MEMORY; fail_at++) {
+        sl_view_tree tree = {0};
+        sl_view_found found = {0};
+        memory.calls = 0;
+        memory.fail_at = fail_at;
+        status = view_method("hybrid")->divide(context, &w.scene, NULL, &options, &tree, &found);
+        memory.fail_at = 0;
+        assert_true(status == SL_OK || (!tree.nodes && !found.sets.bits));
+        sl_view_tree_destroy(context, &tree);
+        sl_view_found_destroy(context, &found);
+        assert_int_equal(memory.live, live);
+    }
+    assert_int_equal(status, SL_OK);
+    drop_world(context, &w);
+    sl_context_destroy(context);
+}
+
 int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sets_are_those_of_the_search),
         cmocka_unit_test(sets_are_those_of_the_search_on_random_maps),
         cmocka_unit_test(walls_are_seen_as_by_samples),
         cmocka_unit_test(splits_are_places_of_a_map),
+        cmocka_unit_test(threads_make_no_difference),
+        cmocka_unit_test(lack_of_memory_leaves_nothing),
     };
     for (int i = 1; i < argc; i++) check_file(argv[i], 2000);
     return argc > 1 ? 0 : cmocka_run_group_tests(tests, NULL, NULL);

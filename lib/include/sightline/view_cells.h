@@ -136,6 +136,7 @@ typedef struct sl_view_subdivision {
     uint32_t deepest;     ///< KD-VT*: cells so far down are not split
     uint64_t seed;        ///< of candidates that are drawn
     sl_sight sight;       ///< "hybrid": which lines count
+    unsigned threads;     ///< of "hybrid", 0: one a core; the result does not depend on it
 } sl_view_subdivision;
 
 SL_API sl_view_subdivision sl_view_subdivision_default(void);
