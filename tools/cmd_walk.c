@@ -1,5 +1,6 @@
 #include "base/base.h"
 #include "commands.h"
+#include "doors_shut.h"
 #include "folder.h"
 #include "names.h"
 #include "pipeline.h"
@@ -15,7 +16,7 @@
 typedef struct walk_texts {
     sl_pipeline_texts pipeline;
     const char *input, *path, *steps, *step, *speed, *fov, *ahead, *methods, *tests, *occluders;
-    const char *cheap, *p_vp, *p_skip, *seed, *repeat, *wall_cost, *csv, *frames, *output;
+    const char *cheap, *p_vp, *p_skip, *seed, *repeat, *wall_cost, *csv, *frames, *output, *shut;
 } walk_texts;
 
 /// The options as they are meant.
@@ -137,13 +138,15 @@ static sl_status read_space(sl_context *context, const walk_plan *plan, sl_baked
     if (sl_input_ends_with(t->input, ".slv")) {
         SL_TRY(sl_input_refuse_texts(context, t->input, &t->pipeline.input));
         SL_TRY(sl_input_read_baked(context, t->input, baked));
-        return sl_effects_check(context, &baked->map, "walk", 0);
+        SL_TRY(sl_effects_check(context, &baked->map, "walk", SL_EFFECT_DOOR));
+        return sl_doors_shut(context, t->shut, baked);
     }
     SL_TRY(sl_pipeline_read(context, &plan->pipeline, &baked->map));
-    SL_TRY(sl_effects_check(context, &baked->map, "walk", 0));
+    SL_TRY(sl_effects_check(context, &baked->map, "walk", SL_EFFECT_DOOR));
     SL_TRY(sl_map_clean(context, &baked->map, NULL));
     SL_TRY(sl_pipeline_subdivide(context, &plan->pipeline, &baked->map, &baked->space));
-    return sl_pipeline_check(context, &plan->pipeline, &baked->space);
+    SL_TRY(sl_pipeline_check(context, &plan->pipeline, &baked->space));
+    return sl_doors_shut(context, t->shut, baked);
 }
 
 static sl_status fail_path(sl_context *context, const sl_map *map, const char *name) {
@@ -376,6 +379,9 @@ sl_status sl_cmd_walk(sl_console *console, int argc, char **argv) {
         {"path", 0, "P.txt|NAME", NULL, &t.path,
          "a path of the map by its name, or a file with a line\n'x y' a point; without it a tour "
          "from the map's start"},
+        {"shut", 0, "NAME,...", NULL, &t.shut,
+         "doors that are shut, the others being open; 'none':\nall open; without it as the map "
+         "says"},
         {"steps", 0, "N", NULL, &t.steps, "frames of the whole way at speed 1; 980 without it"},
         {"step", 0, "LENGTH", NULL, &t.step, "instead: how far a frame goes at speed 1"},
         {"speed", 0, "S", NULL, &t.speed, "relative speed; 1 without it"},

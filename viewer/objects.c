@@ -60,7 +60,7 @@ void sl_object_toggle(sl_app *app, uint32_t object) {
     sl_document *document = &app->document;
     if (object >= document->object_count) return;
     if (!app->present.moving) {
-        sl_app_say(app, true, "boxes block sight on maps without one-way glass alone");
+        sl_app_say(app, true, "boxes block what the eye sees, not whence it is seen");
         return;
     }
     document->blocks[object] = !document->blocks[object];
