@@ -46,7 +46,8 @@ static sl_point cross_at(const gate *g) {
     const long double left = dx * (g->left.y - ay) - dy * (g->left.x - ax);
     const long double right = dx * (g->right.y - ay) - dy * (g->right.x - ax);
     long double t = right / (right - left);
-    if (!(t >= 0 && t <= 1)) t = 0.5L;
+    // The ends' signs are exact, their distances not: the one that has lost its sign is the nearer.
+    if (!(t >= 0 && t <= 1)) t = fabsl(left) < fabsl(right) ? 1 : 0;
     sl_point p = {(double)(g->right.x + t * ((long double)g->left.x - g->right.x)),
                   (double)(g->right.y + t * ((long double)g->left.y - g->right.y))};
     if (g->bsp->a.x == g->bsp->b.x) p.x = g->bsp->a.x;
