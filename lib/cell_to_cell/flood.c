@@ -8,6 +8,7 @@
 #include "cell_to_cell/findings.h"
 #include "cell_to_cell/methods.h"
 #include "cell_to_cell/pvs_maker.h"
+#include "effects/effects.h"
 #include "geometry/orient.h"
 
 #include <string.h>
@@ -133,15 +134,11 @@ sl_status sl_see_flood(sl_context *context, const sl_space *space, const sl_see_
                        sl_visibility *out) {
     if (options->trees)
         return sl_fail(context, SL_UNSUPPORTED, "the method 'flood' makes no stab trees");
-    flood all = {.space = space, .options = options};
+    flood all = {.options = options};
     sl_visibility visibility = {.sight = options->sight, .guarantee = SL_CONSERVATIVE};
     sl_space open = {0};
-    if (options->plan && options->plan->effects & SL_EFFECT_ONEWAY) {
-        const sl_passage passage = {.one_way = true};
-        SL_TRY(sl_passage_make(context, space, &passage, NULL, &open));
-        all.space = &open;
-        all.one_way = true;
-    }
+    SL_TRY(sl_oneway_passage(context, space, options->plan, &open, &all.space));
+    all.one_way = all.space != space;
     sl_status status = flood_all(context, &all, &visibility);
     if (status == SL_OK) status = hold_against_range(context, &all, &visibility);
     sl_space_destroy(context, &open);

@@ -7,6 +7,7 @@
 
 #include "base/random.h"
 #include "base/threads.h"
+#include "effects/effects.h"
 #include "geometry/orient.h"
 
 #include <math.h>
@@ -186,15 +187,11 @@ sl_status sl_see_sampling(sl_context *context, const sl_space *space, const sl_s
                           sl_visibility *out) {
     if (options->trees)
         return sl_fail(context, SL_UNSUPPORTED, "the method 'sampling' makes no stab trees");
-    sampling all = {.space = space, .options = options};
+    sampling all = {.options = options};
     sl_visibility visibility = {.sight = options->sight, .guarantee = SL_AGGRESSIVE};
     sl_space open = {0};
-    if (options->plan && options->plan->effects & SL_EFFECT_ONEWAY) {
-        const sl_passage passage = {.one_way = true};
-        SL_TRY(sl_passage_make(context, space, &passage, NULL, &open));
-        all.space = &open;
-        all.one_way = true;
-    }
+    SL_TRY(sl_oneway_passage(context, space, options->plan, &open, &all.space));
+    all.one_way = all.space != space;
     all.range = options->plan ? options->plan->range : 0;
     const sl_status status = see(context, &all, &visibility);
     sl_space_destroy(context, &open);

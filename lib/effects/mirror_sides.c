@@ -84,6 +84,7 @@ static sl_status add(finder *f, const side *s, uint32_t number) {
 static sl_status find(finder *f, uint32_t *first) {
     for (uint32_t i = 0; i < f->space->cell_count; i++) {
         first[i] = (uint32_t)f->sides.count;
+        if (i % 256 == 0) SL_TRY(sl_check_cancelled(f->context));
         for (uint32_t k = 0; k < f->space->cells[i].vertex_count; k++) {
             const side s = side_of(f->space, i, k);
             for (uint32_t m = 0; m < f->map->mirror_count; m++) SL_TRY(add(f, &s, m));

@@ -34,3 +34,12 @@ bool sl_exit_is_dark(const sl_space *space, uint32_t cell, uint32_t exit) {
             return true;
     return false;
 }
+
+sl_status sl_oneway_passage(sl_context *context, const sl_space *space, const sl_plan *plan,
+                            sl_space *made, const sl_space **through) {
+    const sl_passage passage = {.one_way = true};
+    const bool called_for = plan && plan->effects & SL_EFFECT_ONEWAY;
+    if (called_for) SL_TRY(sl_passage_make(context, space, &passage, NULL, made));
+    *through = called_for ? made : space;
+    return SL_OK;
+}
