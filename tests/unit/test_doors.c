@@ -10,14 +10,6 @@
 
 enum { STATES = 1000 };
 
-static const sl_see_method *method(const char *name) {
-    size_t count;
-    const sl_see_method *methods = sl_see_methods(&count);
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(methods[i].name, name) == 0) return &methods[i];
-    return NULL;
-}
-
 static void bake(sl_context *context, baked_file *f) {
     sl_baked *b = &f->baked;
     *f = (baked_file){.name = "doors", .baked = {.method = "prune", .solver = "funnel"}};
@@ -31,7 +23,7 @@ static void bake(sl_context *context, baked_file *f) {
     sl_see_options options = sl_see_options_default();
     options.solver = sl_funnel();
     options.plan = &plan;
-    assert_ok(context, method("prune")->see(context, &b->space, &options, &b->visibility));
+    assert_ok(context, testing_method("prune")->see(context, &b->space, &options, &b->visibility));
     assert_int_equal(b->visibility.account.door_fallbacks, 0);
     FILE *stream = open_memstream(&f->bytes, &f->size);
     assert_non_null(stream);
@@ -51,7 +43,7 @@ static void compare(sl_context *context, const baked_file *f, const bool *shut) 
     unsigned char bytes[DOORS];
     for (int i = 0; i < DOORS; i++) bytes[i] = shut[i];
     assert_ok(context, sl_passage_make(context, space, &passage, NULL, &walled));
-    assert_ok(context, method("sweep")->see(context, &walled, &options, &fresh));
+    assert_ok(context, testing_method("sweep")->see(context, &walled, &options, &fresh));
     for (uint32_t a = 0; a < space->cell_count; a++)
         for (uint32_t b = 0; b < space->cell_count; b++) {
             const bool sees = sl_pvs_sees(&fresh.pvs, a, b);
@@ -118,7 +110,7 @@ static void what_is_beyond_the_limit_counts_as_seen(void **state) {
     options.solver = sl_funnel();
     options.plan = &plan;
     sl_visibility few = {0};
-    assert_ok(context, method("dfs")->see(context, &f.baked.space, &options, &few));
+    assert_ok(context, testing_method("dfs")->see(context, &f.baked.space, &options, &few));
     assert_true(few.account.door_fallbacks > 0);
     bool shut[DOORS] = {false};
     for (int i = 0; i < DOORS; i += 2) shut[i] = true;

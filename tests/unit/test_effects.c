@@ -20,22 +20,13 @@ typedef struct trial {
     uint32_t depth;
 } trial;
 
-static const sl_see_method *method(const char *name) {
-    size_t count;
-    const sl_see_method *methods = sl_see_methods(&count);
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(methods[i].name, name) == 0) return &methods[i];
-    fail_msg("there is no method %s", name);
-    return NULL;
-}
-
 static void see(sl_context *context, const sl_space *space, const sl_plan *plan, const char *name,
                 sl_sight sight, sl_visibility *out) {
     sl_see_options options = sl_see_options_default();
     options.sight = sight;
-    options.solver = method(name)->stabs ? sl_funnel() : NULL;
+    options.solver = testing_method(name)->stabs ? sl_funnel() : NULL;
     options.plan = plan;
-    assert_ok(context, method(name)->see(context, space, &options, out));
+    assert_ok(context, testing_method(name)->see(context, space, &options, out));
 }
 
 // --- random maps

@@ -7,23 +7,13 @@
 #include "base/bits.h"
 #include "base/random.h"
 #include "cell_to_cell/crossing.h"
+#include "map_files.h"
 #include "oracle/random_map.h"
 #include "sightline/bake.h"
 #include "sightline/solvers.h"
 #include "view_cells/pieces.h"
 
-#include <glob.h>
-
 enum { RANDOM_MAPS = 40, DEEPEST = 64 };
-
-static const sl_see_method *see_method(const char *name) {
-    size_t count;
-    const sl_see_method *methods = sl_see_methods(&count);
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(methods[i].name, name) == 0) return &methods[i];
-    fail_msg("no method '%s'", name);
-    return NULL;
-}
 
 static void check_work(const sl_view_work *work) {
     assert_true(work->candidates >= work->relations);
@@ -225,7 +215,7 @@ static bool see_exactly(sl_context *context, const sl_map *map, const sl_view_sc
     seeing.solver = sl_funnel();
     seeing.sight = sight;
     const sl_status status =
-        sl_view_sets_exact(context, map, scene, tree, see_method("dfs"), &seeing, sets);
+        sl_view_sets_exact(context, map, scene, tree, testing_method("dfs"), &seeing, sets);
     if (status != SL_OK) assert_non_null(strstr(sl_context_message(context), "magnitudes from"));
     return status == SL_OK;
 }
@@ -263,19 +253,14 @@ static bool is_axial(const sl_map *map) {
     return true;
 }
 
-static void check_file(const char *path, uint32_t cells) {
+static void check_file_with(const char *path, uint32_t cells) {
     sl_context *context = testing_context(NULL);
     sl_map map = {0};
     sl_space space;
-    sl_import_options options = sl_import_options_default();
-    const bool soda = strstr(path, ".ug") != NULL;
-    options.has_slice = soda;
-    options.slice = 1040;
-    assert_ok(context, sl_map_read(context, path, &options, &map));
-    if (soda) assert_ok(context, sl_map_add_start(context, &map, (sl_point){1398, 1630}, 0, 0));
-    assert_ok(context, sl_map_clean(context, &map, NULL));
-    const sl_subdivision *subdivision = sl_subdivision_for(&map);
-    assert_ok(context, subdivision->subdivide(context, &map, NULL, &space));
+    map_files_read(context, path, &map);
+    if (strstr(path, ".ug"))
+        assert_ok(context, sl_map_add_start(context, &map, (sl_point){1398, 1630}, 0, 0));
+    testing_subdivide(context, &map, &space);
     if (is_axial(&map))
         check_sets(context, path, &map, &space, cells);
     else
@@ -285,24 +270,14 @@ static void check_file(const char *path, uint32_t cells) {
     sl_context_destroy(context);
 }
 
+static void check_file(const char *path) {
+    check_file_with(path, 1);
+    check_file_with(path, 70);
+}
+
 static void sets_are_those_of_the_search(void **state) {
     (void)state;
-    const char *patterns[] = {"/maps/*.map", "/maps/*.txt", "/maps/oblique/*.map",
-                              "/tests/cases/*.map", "/../shared/data/soda-hall-floor5.ug"};
-    for (size_t i = 0; i < sizeof patterns / sizeof *patterns; i++) {
-        char pattern[4096];
-        glob_t found;
-        snprintf(pattern, sizeof pattern, "%s%s", SIGHTLINE_SOURCE_DIR, patterns[i]);
-        if (glob(pattern, 0, NULL, &found) != 0) {
-            print_message("skipped: %s is not there\n", pattern);
-            continue;
-        }
-        for (size_t k = 0; k < found.gl_pathc; k++) {
-            check_file(found.gl_pathv[k], 1);
-            check_file(found.gl_pathv[k], 70);
-        }
-        globfree(&found);
-    }
+    map_files_each(MAP_FILES_ALL, check_file);
 }
 
 static void sets_are_those_of_the_search_on_random_maps(void **state) {
@@ -456,6 +431,6 @@ int main(int argc, char **argv) {
         cmocka_unit_test(threads_make_no_difference),
         cmocka_unit_test(lack_of_memory_leaves_nothing),
     };
-    for (int i = 1; i < argc; i++) check_file(argv[i], 2000);
+    for (int i = 1; i < argc; i++) check_file_with(argv[i], 2000);
     return argc > 1 ? 0 : cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,14 +18,6 @@ typedef struct seen {
     sl_visibility visibility;
 } seen;
 
-static const sl_see_method *sweep(void) {
-    size_t count;
-    const sl_see_method *methods = sl_see_methods(&count);
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(methods[i].name, "sweep") == 0) return &methods[i];
-    return NULL;
-}
-
 static void see(sl_context *context, const char *statements, bool oblique, uint32_t elementary,
                 uint32_t cells, sl_sight sight, seen *s) {
     *s = (seen){.cells = cells};
@@ -51,7 +43,7 @@ static void see(sl_context *context, const char *statements, bool oblique, uint3
     assert_ok(context, sl_subdivision_for(&s->map)->subdivide(context, &s->map, NULL, &s->space));
     sl_see_options seeing = sl_see_options_default();
     seeing.sight = sight;
-    assert_ok(context, sweep()->see(context, &s->space, &seeing, &s->visibility));
+    assert_ok(context, testing_method("sweep")->see(context, &s->space, &seeing, &s->visibility));
 }
 
 static void drop(sl_context *context, seen *s) {
@@ -149,8 +141,8 @@ static void samples_see_no_more_than_there_is(void **state) {
     sl_see_options seeing = sl_see_options_default();
     seeing.sight = SL_OPEN;
     double curve[64];
-    assert_ok(context, sl_view_sets_exact(context, &s.world.map, &s.world.scene, &s.tree, sweep(),
-                                          &seeing, &sets));
+    assert_ok(context, sl_view_sets_exact(context, &s.world.map, &s.world.scene, &s.tree,
+                                          testing_method("sweep"), &seeing, &sets));
     assert_ok(context,
               sl_view_evaluate(context, &s.world.scene, &s.tree, &s.hierarchy, &sets, &told));
     sl_view_curve(&told, curve, NULL);
@@ -159,9 +151,9 @@ static void samples_see_no_more_than_there_is(void **state) {
     sl_view_hierarchy_destroy(context, &told);
     sl_view_sets_destroy(context, &sets);
     s.world.scene.objects = SL_VIEW_WALLS;
-    assert_int_equal(
-        sl_view_sets_exact(context, &s.world.map, &s.world.scene, &s.tree, sweep(), &seeing, &sets),
-        SL_BAD_ARGUMENT);
+    assert_int_equal(sl_view_sets_exact(context, &s.world.map, &s.world.scene, &s.tree,
+                                        testing_method("sweep"), &seeing, &sets),
+                     SL_BAD_ARGUMENT);
     assert_int_equal(
         sl_view_rows_cost(context, &s.world.scene, &s.space, &rows, &s.hierarchy, s.cells, &exact),
         SL_BAD_ARGUMENT);
@@ -207,8 +199,8 @@ static void no_memory_is_told(void **state) {
             status = sl_view_rows_cost(context, &s.world.scene, &s.space, &rows, &s.hierarchy,
                                        s.cells, &cost);
         if (status == SL_OK)
-            status = sl_view_sets_exact(context, &s.world.map, &s.world.scene, &s.tree, sweep(),
-                                        &seeing, &sets);
+            status = sl_view_sets_exact(context, &s.world.map, &s.world.scene, &s.tree,
+                                        testing_method("sweep"), &seeing, &sets);
         assert_true(status == SL_OK || status == SL_NO_MEMORY);
         done = status == SL_OK;
         memory.fail_at = 0;
