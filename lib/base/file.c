@@ -106,6 +106,15 @@ static sl_status open_beside(sl_context *context, const char *path, sl_output *o
     return fail_write(context, path, reason);
 }
 
+/// Gives up: removes what was written.
+static void abandon(sl_context *context, sl_output *output) {
+    if (output->stream && output->stream != stdout) fclose(output->stream);
+    if (output->temporary && output->temporary[0]) unlink(output->temporary);
+    sl_free(context, output->temporary);
+    sl_free(context, output->path);
+    *output = (sl_output){0};
+}
+
 sl_status sl_output_open(sl_context *context, const char *path, sl_output *out) {
     *out = (sl_output){0};
     if (strcmp(path, "-") == 0) {
@@ -124,7 +133,7 @@ sl_status sl_output_open(sl_context *context, const char *path, sl_output *out) 
         if (!out->stream) status = fail_write(context, path, errno);
     } else if (status == SL_OK)
         status = open_beside(context, path, out);
-    if (status != SL_OK) sl_output_abandon(context, out);
+    if (status != SL_OK) abandon(context, out);
     return status;
 }
 
@@ -135,7 +144,7 @@ sl_status sl_output_try(sl_context *context, const char *path) {
         return SL_OK;
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));
-    sl_output_abandon(context, &output);
+    abandon(context, &output);
     return SL_OK;
 }
 
@@ -166,20 +175,12 @@ sl_status sl_output_commit(sl_context *context, sl_output *output) {
             output->temporary[0] = '\0';
     }
     const sl_status status = reason ? fail_write(context, name, reason < 0 ? 0 : reason) : SL_OK;
-    sl_output_abandon(context, output);
+    abandon(context, output);
     return status;
-}
-
-void sl_output_abandon(sl_context *context, sl_output *output) {
-    if (output->stream && output->stream != stdout) fclose(output->stream);
-    if (output->temporary && output->temporary[0]) unlink(output->temporary);
-    sl_free(context, output->temporary);
-    sl_free(context, output->path);
-    *output = (sl_output){0};
 }
 
 sl_status sl_output_close(sl_context *context, sl_output *output, sl_status status) {
     if (status == SL_OK) return sl_output_commit(context, output);
-    sl_output_abandon(context, output);
+    abandon(context, output);
     return status;
 }

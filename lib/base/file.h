@@ -28,9 +28,8 @@ sl_status sl_output_open(sl_context *context, const char *path, sl_output *out);
 sl_status sl_output_try(sl_context *context, const char *path);
 /// Flushes to the disk and takes the target's place; on failure the target is left as it was.
 sl_status sl_output_commit(sl_context *context, sl_output *output);
-/// Gives up: removes what was written. Does nothing after a commit.
-void sl_output_abandon(sl_context *context, sl_output *output);
-/// Commits where `status` is SL_OK, else abandons; returns what came of it.
+/// Commits where `status` is SL_OK, else gives up and removes what was written; returns what came
+/// of it.
 sl_status sl_output_close(sl_context *context, sl_output *output, sl_status status);
 
 #endif

@@ -4,6 +4,7 @@ layers   a folder of lib/ includes only from itself and from folders before it, 
          has a line for each
 sources  lib/CMakeLists.txt names every source of lib/
 headers  every public header compiles alone, as C11 and as C++
+used     what a private header declares serves more than the one source that has it
 silent   the library prints nothing of its own accord, and reads nothing from the environment
 format   every source is laid out as .clang-format says
 
@@ -132,6 +133,25 @@ def check_sources(root):
         yield f"lib/CMakeLists.txt: names {name}, which is not there"
 
 
+COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+DECLARATION = re.compile(r"^(?!static|typedef)[\w ]+[ *](sl_\w+)\([^;{]*\);", re.MULTILINE)
+
+
+def check_used(root):
+    texts = {path: COMMENT.sub("", path.read_text(encoding="utf-8"))
+             for path in sources(root, ["lib", "tools", "viewer", "tests"], {".c", ".h"})}
+    users = {}
+    for path, text in texts.items():
+        for name in re.findall(r"\bsl_\w+", text):
+            users.setdefault(name, []).append(path)
+    for path in sorted((root / "lib").glob("*/*.h")):
+        for declared in DECLARATION.finditer(texts[path]):
+            where = users[declared[1]]
+            if where.count(path) == 1 and len(set(where)) <= 2:
+                yield (f"{path.relative_to(root)}: {declared[1]} is used by one source alone: "
+                       "make it static there")
+
+
 PRINTS = re.compile(r"\b(?:v?printf|puts|putchar|perror|getenv)\s*\(")
 
 
@@ -183,7 +203,7 @@ def check_format(root):
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("subject", choices=["layers", "sources", "silent", "headers", "format"])
+    parser.add_argument("subject", choices=["layers", "sources", "used", "silent", "headers", "format"])
     parser.add_argument("root", type=pathlib.Path)
     parser.add_argument("--cc", help="C compiler, for headers")
     parser.add_argument("--cxx", help="C++ compiler, for headers")
@@ -196,8 +216,8 @@ def main():
         found = check_headers(options.root, compilers)
     else:
         missing = []
-        check = {"layers": check_layers, "sources": check_sources, "silent": check_silent,
-                 "format": check_format}
+        check = {"layers": check_layers, "sources": check_sources, "used": check_used,
+                 "silent": check_silent, "format": check_format}
         found = check[options.subject](options.root)
     try:
         faults = list(found)

@@ -72,6 +72,14 @@ class CheckTest(unittest.TestCase):
         self.assert_one(self.layers(public + "space.h", '#include "base/a.h"\n'), "not installed")
         self.assert_one(self.layers(public + "cake.h", ""), "whose header")
 
+    def test_declared_for_one_source(self):
+        header = "int sl_one(int a,\n           int b);\n/// Not sl_two.\nvoid sl_two(void);\n"
+        used = {"lib/map/m.h": header, "lib/map/m.c": "int sl_one(int a, int b) {}",
+                "lib/map/n.c": "sl_one(1, 2); sl_two();", "lib/space/s.c": "void sl_two(void) {}"}
+        self.assertEqual(self.faults(check.check_used, used), [])
+        self.assert_one(self.faults(check.check_used, {**used, "lib/map/n.c": "// sl_one\nsl_two();"}),
+                        "lib/map/m.h", "sl_one")
+
     def test_runtime_stands_alone(self):
         readme = {"lib/README.md": GOOD["lib/README.md"] + "| `runtime/` | four |\n"}
         source = '#include "runtime/r.h"\n#include "sightline/runtime.h"\n'
