@@ -135,9 +135,10 @@ static sl_status add_path(sl_context *context, const isovist_plan *plan, isovist
         if (strcmp(map->paths[i].name, name) == 0)
             return sl_eyes_add_path(context, &map->paths[i], plan->step, plan->like, &w->eyes);
     const sl_name_table paths = {"path", map->paths, sizeof *map->paths, map->path_count};
-    const char *near = map->path_count ? sl_nearest_name(&paths, name) : NULL;
-    return sl_fail(context, SL_BAD_ARGUMENT, "--path %s: the map has no path of that name%s%s%s",
-                   name, near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
+    char names[SL_NAME_LIST];
+    sl_name_list(&paths, names);
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "--path %s: the map has no path of that name; its paths: %s", name, names);
 }
 
 /// Without a word on where to look from: from the map's starts, with their headings.

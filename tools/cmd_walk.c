@@ -151,11 +151,12 @@ static sl_status read_space(sl_context *context, const walk_plan *plan, sl_baked
 
 static sl_status fail_path(sl_context *context, const sl_map *map, const char *name) {
     const sl_name_table paths = {"path", map->paths, sizeof *map->paths, map->path_count};
-    const char *near = map->path_count ? sl_nearest_name(&paths, name) : NULL;
-    if (!near && map->path_count) near = map->paths[0].name;
+    char names[SL_NAME_LIST];
+    sl_name_list(&paths, names);
     return sl_fail(context, SL_BAD_ARGUMENT,
-                   "--path %s: the map has no path of that name, and there is no such file%s%s%s",
-                   name, near ? "; the map has '" : "", near ? near : "", near ? "'" : "");
+                   "--path %s: the map has no path of that name, and there is no such file; the "
+                   "map's paths: %s",
+                   name, names);
 }
 
 /// A path of the map by its name, or else of a file; without either a tour from the map's start.

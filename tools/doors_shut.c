@@ -1,6 +1,7 @@
 #include "doors_shut.h"
 
 #include "base/base.h"
+#include "names.h"
 
 #include <string.h>
 
@@ -15,15 +16,22 @@ static bool shut_named(const sl_map *map, const char *name, size_t length, bool 
     return found;
 }
 
+static sl_status fail_door(sl_context *context, const sl_map *map, const char *name,
+                           size_t length) {
+    const sl_name_table doors = {"door", map->doors, sizeof *map->doors, map->door_count};
+    char names[SL_NAME_LIST];
+    sl_name_list(&doors, names);
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "--shut: there is no door '%.*s'; the map's doors: %s%s",
+                   (int)(length < 64 ? length : 64), name, names,
+                   map->door_count ? "; 'none' leaves all open" : "");
+}
+
 static sl_status read_names(sl_context *context, const char *text, const sl_map *map, bool *shut) {
     if (strcmp(text, "none") == 0) return SL_OK;
     while (*text) {
         const size_t length = strcspn(text, ",");
-        if (!shut_named(map, text, length, shut))
-            return sl_fail(context, SL_BAD_ARGUMENT,
-                           "--shut: there is no door '%.*s'; sightline draw FILE.slv -o doors.png "
-                           "shows them, 'none' leaves all open",
-                           (int)(length < 64 ? length : 64), text);
+        if (!shut_named(map, text, length, shut)) return fail_door(context, map, text, length);
         text += length;
         if (*text) text++;
     }

@@ -4,6 +4,7 @@
 #include "base/bits.h"
 #include "base/number.h"
 #include "compare_report.h"
+#include "names.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -12,10 +13,13 @@
 // --- reading
 
 static sl_status refuse(sl_context *context, const char *text, const sl_map *map) {
+    const sl_name_table objects = {"object", map->objects, sizeof *map->objects, map->object_count};
+    char names[SL_NAME_LIST];
+    sl_name_list(&objects, names);
     return sl_fail(context, SL_BAD_ARGUMENT,
-                   "--object %s: X0,Y0,X1,Y1 is needed, or the name of one of the map's %zu "
-                   "objects; with ',block' behind it, it blocks sight",
-                   text, map->object_count);
+                   "--object %s: X0,Y0,X1,Y1 is needed, or one of the map's objects: %s; with "
+                   "',block' behind it, it blocks sight",
+                   text, names);
 }
 
 static bool read_box(const char *text, size_t length, sl_box *out) {

@@ -1,5 +1,6 @@
 #include "names.h"
 
+#include <stdio.h>
 #include <string.h>
 
 const char *sl_name_table_at(const sl_name_table *table, size_t index) {
@@ -7,6 +8,25 @@ const char *sl_name_table_at(const sl_name_table *table, size_t index) {
     const char *name;
     memcpy(&name, item, sizeof name);
     return name;
+}
+
+void sl_name_list(const sl_name_table *table, char text[SL_NAME_LIST]) {
+    static const char more[] = ", ...";
+    const size_t room = SL_NAME_LIST - sizeof more;
+    size_t used = 0;
+    text[0] = '\0';
+    for (size_t i = 0; i < table->count; i++) {
+        const char *name = sl_name_table_at(table, i);
+        if (i && strcmp(name, sl_name_table_at(table, i - 1)) == 0) continue;
+        const size_t length = strlen(name) + (used ? 2 : 0);
+        if (used + length > room) {
+            strcpy(text + used, used ? more : more + 2);
+            return;
+        }
+        snprintf(text + used, SL_NAME_LIST - used, "%s%s", used ? ", " : "", name);
+        used += length;
+    }
+    if (!used) strcpy(text, "none");
 }
 
 /// Letters to insert, drop or change to make one word of the other (Levenshtein 1966), for words of

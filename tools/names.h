@@ -13,6 +13,12 @@ typedef struct sl_name_table {
 
 const char *sl_name_table_at(const sl_name_table *table, size_t index);
 
+enum { SL_NAME_LIST = 256 };
+
+/// All names with commas between, for messages: those that there is room for, "..." for the others,
+/// "none" where there are none. A name that is there twice, one behind the other, is told once.
+void sl_name_list(const sl_name_table *table, char text[SL_NAME_LIST]);
+
 /// The name of the table that a word was most likely meant to be; NULL where none is near.
 const char *sl_nearest_name(const sl_name_table *table, const char *word);
 

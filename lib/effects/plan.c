@@ -70,7 +70,7 @@ sl_status sl_effects_check(sl_context *context, const sl_map *map, const char *m
             "%s leaves %s out, a build with -DSIGHTLINE_EFFECTS=ON knows %s",
             source, colon, line, space, several, bake, names, them, them);
     return sl_fail(context, SL_UNSUPPORTED,
-                   "%s%s%s%sthe map calls for %s, which the method '%s' does not know; "
+                   "%s%s%s%sthe map calls for %s, which '%s' does not know; "
                    "%s--without %s leaves %s out",
                    source, colon, line, space, several, method, bake, names, them);
 }
