@@ -89,12 +89,13 @@ static sl_status tell(sl_console *console, const eye_texts *texts, const sl_bake
     return SL_OK;
 }
 
-static sl_status look(sl_console *console, const eye_texts *texts, const sl_baked *baked) {
+static sl_status look(sl_console *console, const eye_texts *texts, sl_baked *baked) {
     sl_context *context = console->context;
     sl_view view;
     sl_eye_run run;
     SL_TRY(read_view(context, texts, &baked->space, &view));
     SL_TRY(sl_picture_check(context, texts->input, "-o", texts->output));
+    if (baked->map.oneway_count) SL_TRY(sl_baked_darken(context, baked, view.eye));
     uint64_t depth = 1;
     SL_TRY(sl_option_count(context, "--mirror-depth", texts->mirror_depth, 16, &depth));
     double range = baked->map.range;
@@ -169,8 +170,9 @@ sl_status sl_cmd_eye(sl_console *console, int argc, char **argv) {
                        "--width and --dark are for the picture, which needs -o");
     sl_baked baked = {0};
     SL_TRY(sl_input_read_baked(console->context, t.input, &baked));
-    sl_status status = sl_effects_check(console->context, &baked.map, "eye",
-                                        SL_EFFECT_DOOR | SL_EFFECT_MIRROR | SL_EFFECT_RANGE);
+    sl_status status =
+        sl_effects_check(console->context, &baked.map, "eye",
+                         SL_EFFECT_DOOR | SL_EFFECT_MIRROR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE);
     if (status == SL_OK) status = sl_doors_shut(console->context, t.shut, &baked);
     if (status == SL_OK) status = look(console, &t, &baked);
     sl_baked_destroy(console->context, &baked);

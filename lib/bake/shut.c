@@ -33,6 +33,23 @@ static sl_status keep_rows(sl_context *context, const sl_visibility *v, const bo
     return status;
 }
 
+sl_status sl_baked_darken(sl_context *context, sl_baked *baked, sl_point eye) {
+    const sl_passage passage = {.eye = &eye};
+    sl_visibility *v = &baked->visibility;
+    sl_space walled;
+    if (v->mirrored.cell_count)
+        return sl_fail(context, SL_UNSUPPORTED,
+                       "glass that is dark from an eye may not be so in a mirror: bake the map "
+                       "--without mirror or --without oneway");
+    SL_TRY(sl_passage_make(context, &baked->space, &passage, NULL, &walled));
+    sl_space_destroy(context, &baked->space);
+    baked->space = walled;
+    sl_visibility trees = {.trees = v->trees};
+    v->trees = (sl_stab_trees){0};
+    sl_visibility_destroy(context, &trees);
+    return SL_OK;
+}
+
 sl_status sl_baked_shut(sl_context *context, sl_baked *baked, const bool *shut) {
     const sl_passage passage = {.shut = shut};
     sl_visibility *v = &baked->visibility;

@@ -1,15 +1,29 @@
 /// The space for the time being: doors shut become walls, one-way glass loses exits.
 #include "effects/effects.h"
+#include "geometry/orient.h"
 
 #include <string.h>
 
 typedef struct maker {
     const sl_space *from;
+    uint32_t eye_cell;
     const sl_passage *passage;
     uint32_t *portals; ///< new numbers; UINT32_MAX for walls
     bool *barred;      ///< exits that are left out, walls' ones among them
     sl_space *out;
 } maker;
+
+/// Going from its a to its b, glass is seen through from its right to its left. A straight line
+/// that crosses it comes from the side that the eye is on; an eye on its line is where its cell is.
+static bool is_dark(const maker *m, const sl_segment *glass) {
+    const int side = sl_orient(glass->a, glass->b, *m->passage->eye);
+    if (side || m->eye_cell == SL_NO_CELL) return side > 0;
+    const sl_cell *cell = &m->from->cells[m->eye_cell];
+    for (uint32_t i = 0; i < cell->vertex_count; i++)
+        if (sl_orient(glass->a, glass->b, m->from->vertices[cell->first_vertex + i]) > 0)
+            return true;
+    return false;
+}
 
 static bool is_shut(const maker *m, uint32_t portal) {
     size_t count;
@@ -18,6 +32,7 @@ static bool is_shut(const maker *m, uint32_t portal) {
         const sl_seam *seam = &m->from->seams[on[i].seam];
         if (seam->kind == SL_SEAM_DOOR && m->passage->shut && m->passage->shut[seam->number])
             return true;
+        if (seam->kind == SL_SEAM_ONEWAY && m->passage->eye && is_dark(m, &seam->at)) return true;
     }
     return false;
 }
@@ -140,6 +155,7 @@ sl_status sl_passage_make(sl_context *context, const sl_space *space, const sl_p
                           uint32_t *portals, sl_space *out) {
     sl_space made = {0};
     maker m = {.from = space, .passage = passage, .portals = portals, .out = &made};
+    if (passage->eye) m.eye_cell = sl_space_locate(space, *passage->eye);
     uint32_t *own = NULL;
     if (!portals) m.portals = own = sl_alloc_array(context, space->portal_count, sizeof *own);
     m.barred = sl_alloc_array(context, space->exit_count, sizeof *m.barred);

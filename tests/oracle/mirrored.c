@@ -31,6 +31,8 @@ typedef struct looker {
     int exponent;
     piece *ways; ///< portals and mirrors, by cell
     size_t way_count;
+    vector *dark; ///< two a piece of glass, left and right as crossed from where it is dark
+    size_t dark_count;
     vector *walls, *corners; ///< two a wall; corners by vertex
     vector *mirrors;         ///< two a mirror
     vector *directions;      ///< sorted
@@ -140,6 +142,7 @@ static void add_directions(looker *l, const vector *eye, uint32_t *chain, uint32
     for (uint32_t i = 0; i < l->space->vertex_count; i++) add_direction(l, eye, &l->corners[i]);
     for (uint32_t i = 0; i < 2 * l->space->wall_count; i++) add_direction(l, eye, &l->walls[i]);
     for (uint32_t i = 0; i < 2 * l->map->mirror_count; i++) add_direction(l, eye, &l->mirrors[i]);
+    for (size_t i = 0; i < 2 * l->dark_count; i++) add_direction(l, eye, &l->dark[i]);
     for (size_t i = 0; i < l->way_count; i++) {
         add_direction(l, eye, &l->ways[i].left);
         add_direction(l, eye, &l->ways[i].right);
@@ -333,14 +336,17 @@ static bool middle_meets(looker *l, const wedge *w, const vector *a, const vecto
     return turn(l, &w->middle, &l->s) * turn(l, &w->middle, &l->t) < 0;
 }
 
-/// The first wall beyond a place on the middle: its number, UINT32_MAX for the bounds' own.
+/// The first wall or dark glass beyond a place on the middle: its ends.
 static bool first_wall(looker *l, const wedge *w, const mpz_t from_num, const mpz_t from_den,
-                       mpz_t num, mpz_t den, uint32_t *wall) {
+                       mpz_t num, mpz_t den, const vector **wall) {
     mpz_t n, d, x, y;
     mpz_inits(n, d, x, y, NULL);
     bool found = false;
-    for (uint32_t i = 0; i < l->space->wall_count; i++) {
-        const vector *at = &l->walls[2 * i];
+    const size_t walls = l->space->wall_count;
+    for (size_t i = 0; i < walls + l->dark_count; i++) {
+        const vector *at = i < walls ? &l->walls[2 * i] : &l->dark[2 * (i - walls)];
+        subtract(&l->s, &at[0], &at[1]);
+        if (i >= walls && turn(l, &w->middle, &l->s) <= 0) continue; // from where glass is clear
         if (!middle_meets(l, w, &at[0], &at[1]) || !meet_line(l, w, &at[0], &at[1], n, d)) continue;
         mpz_mul(x, n, from_den);
         mpz_mul(y, from_num, d);
@@ -351,15 +357,14 @@ static bool first_wall(looker *l, const wedge *w, const mpz_t from_num, const mp
         found = true;
         mpz_set(num, n);
         mpz_set(den, d);
-        *wall = i;
+        *wall = at;
     }
     mpz_clears(n, d, x, y, NULL);
     return found;
 }
 
 /// The mirror that reflects the middle where it meets a wall; UINT32_MAX for none.
-static uint32_t mirror_there(looker *l, const wedge *w, uint32_t wall) {
-    const vector *at = &l->walls[2 * wall];
+static uint32_t mirror_there(looker *l, const wedge *w, const vector *at) {
     for (uint32_t i = 0; i < l->map->mirror_count; i++) {
         const vector *m = &l->mirrors[2 * i];
         subtract(&l->s, &m[1], &m[0]);
@@ -450,8 +455,7 @@ static double area_within(sl_point p, sl_point q, double range) {
     return inside + (far < range ? angle : fabs(atan2(to, far) - atan2(from, far))) * range * range;
 }
 
-static void add_area(looker *l, const wedge *w, uint32_t wall, uint32_t mirror, size_t chain) {
-    const vector *far = &l->walls[2 * wall];
+static void add_area(looker *l, const wedge *w, const vector *far, uint32_t mirror, size_t chain) {
     double area =
         area_within(place_on(l, w, &w->right, far), place_on(l, w, &w->left, far), l->range);
     if (mirror != UINT32_MAX) {
@@ -468,7 +472,8 @@ static void trace(looker *l, wedge *w, bool *cells) {
     mpz_inits(from_num, from_den, num, den, NULL);
     mpz_set_ui(from_den, 1);
     size_t chain = 0;
-    uint32_t mirror = UINT32_MAX, wall = 0;
+    uint32_t mirror = UINT32_MAX;
+    const vector *wall = NULL;
     for (uint32_t depth = 0; first_wall(l, w, from_num, from_den, num, den, &wall); depth++) {
         if (depth) cross_cells(l, w, from_num, from_den, num, den, cells);
         add_area(l, w, wall, mirror, chain);
@@ -544,11 +549,9 @@ static void look(looker *l, const sl_view *view, const vector *eye) {
         clear_beam(&along);
         look_between(l, view, eye, i, traced);
     }
-    bool dark = l->range > 0; // the walls alone know nothing of glass, nor of the range
-    for (uint32_t i = 0; i < l->space->seam_count; i++)
-        dark |= l->space->seams[i].kind == SL_SEAM_ONEWAY;
     for (uint32_t c = 0; c < cells; c++) {
-        assert(dark || l->out.on_wall || traced[c] == l->out.open[c]);
+        // The walls alone know nothing of the range.
+        assert(l->range > 0 || l->out.on_wall || traced[c] == l->out.open[c]);
         l->out.closed[c] |= l->out.open[c];
         l->out.direct_closed[c] |= l->out.direct_open[c];
     }
@@ -621,6 +624,25 @@ static void add_mirror(looker *l, uint32_t cell, sl_point from, sl_point to, uin
     add_way(l, left, right, cell, cell, mirror);
 }
 
+/// The portals that a cell has no exit to: as crossed from there, had it one.
+static void gather_dark(looker *l) {
+    const sl_space *s = l->space;
+    l->dark = must(calloc(4 * (size_t)s->portal_count + 1, sizeof *l->dark));
+    for (uint32_t i = 0; i < s->portal_count; i++)
+        for (int side = 0; side < 2; side++) {
+            const sl_portal *p = &s->portals[i];
+            const sl_cell *cell = &s->cells[p->cell[side]];
+            bool exits = false;
+            for (uint32_t k = cell->first_exit; k < cell->first_exit + cell->exit_count; k++)
+                exits |= s->exits[k].portal == i;
+            if (exits) continue;
+            vector *ends = &l->dark[2 * l->dark_count++];
+            init(&ends[0]), init(&ends[1]);
+            set_point(l, &ends[0], side ? p->right : p->left);
+            set_point(l, &ends[1], side ? p->left : p->right);
+        }
+}
+
 static void gather(looker *l) {
     const sl_space *s = l->space;
     l->walls = must(calloc(2 * (size_t)s->wall_count + 1, sizeof *l->walls));
@@ -665,6 +687,8 @@ static void release(looker *l) {
         clear(&l->ways[i].right);
     }
     for (size_t i = 0; i < l->direction_count; i++) clear(&l->directions[i]);
+    for (size_t i = 0; i < 2 * l->dark_count; i++) clear(&l->dark[i]);
+    free(l->dark);
     free(l->walls), free(l->corners), free(l->mirrors), free(l->ways), free(l->directions);
     clear(&l->s), clear(&l->t), clear(&l->u);
     mpz_clears(l->p, l->q, NULL);
@@ -692,6 +716,7 @@ oracle_mirrored oracle_mirrored_of(const sl_space *space, const sl_map *map, con
     set_point(&l, &eye, view->eye);
     l.out.direct_closed[l.source] = l.out.direct_open[l.source] = true;
     gather(&l);
+    gather_dark(&l);
     uint32_t chain[16];
     assert(depth < 16);
     add_directions(&l, &eye, chain, 0);
@@ -706,6 +731,8 @@ oracle_mirrored oracle_mirrored_of(const sl_space *space, const sl_map *map, con
     sort_directions(&l);
     for (uint32_t i = 0; i < space->wall_count; i++)
         l.out.on_wall |= touches(&l, &eye, &l.walls[2 * i], &l.walls[2 * i + 1]);
+    for (size_t i = 0; i < l.dark_count; i++)
+        l.out.on_wall |= touches(&l, &eye, &l.dark[2 * i], &l.dark[2 * i + 1]);
     look(&l, view, &eye);
     release(&l);
     clear(&eye);

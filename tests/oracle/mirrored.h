@@ -17,7 +17,7 @@ typedef struct oracle_mirrored {
                          ///< with open sight, nearer
     bool *direct_closed, *direct_open; ///< likewise, whether it is seen directly
     double *areas; ///< by chain: what is seen by it, within the range (0: any); of an eye on a
-                   ///< wall none are told
+                   ///< wall or dark glass none are told
     bool on_wall;
 } oracle_mirrored;
 

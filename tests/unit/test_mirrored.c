@@ -220,6 +220,48 @@ static void random_maps(void **state) {
     assert_true(areas > maps / 4);
 }
 
+// --- past glass
+
+/// The region of an eye, and the cells that it sees, where glass that is dark for it is a wall.
+static void past_glass(void **state) {
+    (void)state;
+    const uint64_t maps = testing_seeds(MAPS);
+    size_t count, darkened = 0;
+    const sl_eye_method *exact = sl_eye_methods(&count) + count - 1;
+    for (uint64_t seed = 2; seed <= 4 * maps; seed += 4) {
+        trial t;
+        begin(&t, seed);
+        t.depth = 0;
+        for (int i = 0; i < EYES; i++) {
+            const sl_view view = random_view(&t);
+            const sl_passage passage = {.eye = &view.eye};
+            const sl_visibility bare = {.sight = SL_OPEN};
+            uint64_t cells[CELLS_MOST / 64 + 1];
+            sl_eye_account account;
+            sl_eye_search *search;
+            trial past = t, all = t;
+            // Of what the glass itself says, and of its being a wall.
+            const sl_passage one_way = {.one_way = true};
+            assert_ok(t.context, sl_passage_make(t.context, &t.whole, &one_way, NULL, &all.space));
+            assert_ok(t.context, sl_passage_make(t.context, &t.whole, &passage, NULL, &past.space));
+            assert_ok(t.context, sl_space_check(t.context, &past.space));
+            oracle_mirrored truth = oracle_mirrored_of(&all.space, &t.map, &view, t.map.range, 0);
+            if (!truth.on_wall) ask_region(&past, &view, &truth);
+            assert_ok(t.context, sl_eye_search_create(t.context, &past.space, &bare, &search));
+            sl_eye_search_limit(search, t.map.range);
+            assert_ok(t.context, exact->cull(t.context, search, &view, cells, &account));
+            compare_cells(&all, &view, cells, truth.direct_open, SL_OPEN, "past glass");
+            sl_eye_search_destroy(t.context, search);
+            darkened += past.space.wall_count > t.whole.wall_count;
+            oracle_mirrored_free(&truth);
+            sl_space_destroy(t.context, &past.space);
+            sl_space_destroy(t.context, &all.space);
+        }
+        end(&t);
+    }
+    assert_true(darkened > maps / 2);
+}
+
 // --- past boxes that move
 
 enum { BOXES = 3 };
@@ -386,6 +428,7 @@ static void explained_as_baked(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_maps),
+        cmocka_unit_test(past_glass),
         cmocka_unit_test(past_boxes),
         cmocka_unit_test(explained_as_baked),
     };

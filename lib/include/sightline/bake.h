@@ -51,6 +51,11 @@ SL_API bool sl_baked_same_space(const sl_space *a, const sl_space *b);
 /// are mirrors. On failure `baked` stays as it was.
 SL_API sl_status sl_baked_shut(sl_context *context, sl_baked *baked, const bool *shut);
 
+/// Makes walls of the one-way glass that is dark for an eye: the space then serves for what that
+/// eye sees, and the visible sets of its own cell are right for it. Stab trees are let go.
+/// SL_UNSUPPORTED where there are mirrors. On failure `baked` stays as it was.
+SL_API sl_status sl_baked_darken(sl_context *context, sl_baked *baked, sl_point eye);
+
 /// Writes beside the target and takes its place when all is written: SL_IO leaves the old file
 /// intact. The bytes depend on the contents alone. SL_BAD_ARGUMENT where there is no visible set
 /// for each cell, or a name that is none. Reports stage "write".

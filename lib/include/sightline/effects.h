@@ -58,10 +58,14 @@ SL_API sl_status sl_effects_check(sl_context *context, const sl_map *map, const 
 
 /// The space as sight finds it for the time being, with what holds it back made part of the space:
 /// portals on doors that are shut become walls, and one-way glass has no exit on the side from
-/// which it is not seen through. Cells, vertices and the numbers of portals stay.
+/// which it is not seen through, or is a wall where one eye is there. Cells, vertices and the
+/// numbers of portals stay.
 typedef struct sl_passage {
     const bool *shut; ///< by door of the map; NULL: all are open
     bool one_way;     ///< with its glass; else that is open both ways
+    /// Glass that is dark for this eye is a wall, all other is open both ways: what one eye sees
+    /// straight on, without mirrors, is then what it sees past walls. NULL for none.
+    const sl_point *eye;
 } sl_passage;
 
 /// A copy of a space for a passage. It is as sl_space_check wants it where the passage is not
