@@ -84,6 +84,15 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status);
 /// wall. The same as the library's sl_space_locate. Time: the tree's depth.
 SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, double y);
 
+/// The cells in which a box lies, those that it only touches included, ascending: gives how many
+/// there are, and the first `room` of them in `cells`. What moves is drawn where one of them is
+/// seen, and can be seen from where their rows say. Exact for the coordinates in the file, which as
+/// those of the box are below 1e150. None where the box's least coordinates are not the least.
+/// Time: all cells; ask again when it has moved.
+SL_RUNTIME_API uint32_t sl_runtime_box_cells(const sl_runtime *runtime, double min_x, double min_y,
+                                             double max_x, double max_y, uint32_t *cells,
+                                             uint32_t room);
+
 /// Whether anything in cell `to` can be seen from anywhere in cell `from`. False where either is no
 /// cell (SL_RUNTIME_NO_CELL) and for a cell without a row. Time: the row's length. To ask for many
 /// cells from one, unpack its row (sl_runtime_row_bits).
@@ -1111,6 +1120,58 @@ SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, d
 }
 
 // --- eye-to-cell
+
+// --- from box to cells
+
+/// Whether a cell's corners are all on one side of a box, beside it.
+static bool slrt_is_beside_box(const sl_runtime *rt, const sl_runtime_cell *cell,
+                               const double box[4]) {
+    bool left = true, right = true, under = true, over = true;
+    uint32_t i;
+    for (i = 0; i < cell->vertex_count; i++) {
+        double x, y;
+        sl_runtime_get_vertex(rt, cell->first_vertex + i, &x, &y);
+        left = left && x < box[0];
+        under = under && y < box[1];
+        right = right && x > box[2];
+        over = over && y > box[3];
+    }
+    return left || right || under || over;
+}
+
+/// Convex both, a cell and a box are apart where a side of either parts them.
+static bool slrt_meets_box(const sl_runtime *rt, uint32_t number, const double box[4]) {
+    const sl_runtime_cell cell = sl_runtime_get_cell(rt, number);
+    const unsigned char *corners = rt->vertices + (size_t)cell.first_vertex * 16;
+    uint32_t i;
+    if (slrt_is_beside_box(rt, &cell, box)) return false;
+    for (i = 0; i < cell.vertex_count; i++) {
+        unsigned char side[32];
+        bool outside = true;
+        int k;
+        memcpy(side, corners + (size_t)i * 16, 16);
+        memcpy(side + 16, corners + (size_t)(i + 1 < cell.vertex_count ? i + 1 : 0) * 16, 16);
+        for (k = 0; k < 4 && outside; k++)
+            outside = slrt_side_of_line(side, box[k & 1 ? 2 : 0], box[k & 2 ? 3 : 1]) < 0;
+        if (outside) return false;
+    }
+    return true;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_box_cells(const sl_runtime *runtime, double min_x, double min_y,
+                                             double max_x, double max_y, uint32_t *cells,
+                                             uint32_t room) {
+    double box[4];
+    uint32_t cell, count = 0;
+    if (!(min_x <= max_x && min_y <= max_y)) return 0;
+    box[0] = min_x, box[1] = min_y, box[2] = max_x, box[3] = max_y;
+    for (cell = 0; cell < runtime->cell_count; cell++) {
+        if (!slrt_meets_box(runtime, cell, box)) continue;
+        if (count < room) cells[count] = cell;
+        count++;
+    }
+    return count;
+}
 
 SL_RUNTIME_API sl_runtime_view sl_runtime_view_all_round(double x, double y) {
     sl_runtime_view view;

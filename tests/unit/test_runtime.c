@@ -54,6 +54,60 @@ static void points_are_in_the_same_cells(const baked_file *f) {
     }
 }
 
+static void same_box(const baked_file *f, sl_box box) {
+    const uint32_t count = f->baked.space.cell_count;
+    uint64_t *is = calloc(sl_eye_words(&f->baked.space), sizeof *is);
+    uint32_t *said = calloc(count, sizeof *said);
+    assert_true(is && said);
+    sl_cells_of_box(&f->baked.space, box, is);
+    const uint32_t found =
+        sl_runtime_box_cells(&f->runtime, box.min.x, box.min.y, box.max.x, box.max.y, said, count);
+    uint32_t at = 0;
+    for (uint32_t c = 0; c < count; c++) {
+        if (!sl_eye_sees(is, c)) continue;
+        if (at == found || said[at++] != c)
+            fail_msg("%s: box %.17g %.17g %.17g %.17g: cell %u is not told", f->name, box.min.x,
+                     box.min.y, box.max.x, box.max.y, c);
+    }
+    assert_int_equal(at, found);
+    const uint32_t first = said[0];
+    said[0] = said[count - 1] = UINT32_MAX;
+    assert_int_equal(sl_runtime_box_cells(&f->runtime, box.min.x, box.min.y, box.max.x, box.max.y,
+                                          said, count > 1),
+                     found);
+    if (count > 1) assert_int_equal(said[0], found ? first : UINT32_MAX);
+    if (count > 2) assert_int_equal(said[count - 1], UINT32_MAX);
+    free(is);
+    free(said);
+}
+
+/// Boxes anywhere, of all sizes, and such that end at corners of cells, or a step of rounding off.
+static void boxes_are_in_the_same_cells(const baked_file *f) {
+    const sl_space *s = &f->baked.space;
+    const double width = s->bounds.max.x - s->bounds.min.x;
+    sl_random random = {5};
+    for (int i = 0; i < 400; i++) {
+        const sl_point v = s->vertices[sl_random_below(&random, s->vertex_count)];
+        const double size = ldexp(width, -(int)sl_random_below(&random, 12));
+        const double x = v.x + (double)(sl_random_below(&random, 3)) * size / 2 - size / 2;
+        const double y = v.y + (double)(sl_random_below(&random, 3)) * size / 2 - size / 2;
+        const bool step = sl_random_below(&random, 2);
+        const double from = step ? nextafter(x, INFINITY) : x;
+        same_box(f,
+                 (sl_box){{from, y}, {fmax(from, x + size), y + size * sl_random_unit(&random)}});
+    }
+    same_box(f, s->bounds);
+    same_box(f, (sl_box){s->bounds.max, s->bounds.max});
+    uint32_t none;
+    assert_int_equal(sl_runtime_box_cells(&f->runtime, 1, 0, 0, 1, &none, 1), 0);
+    assert_int_equal(sl_runtime_box_cells(&f->runtime, NAN, 0, 1, 1, &none, 1), 0);
+}
+
+static void every_box_is_in_the_same_cells(void **state) {
+    (void)state;
+    baked_file_each(boxes_are_in_the_same_cells);
+}
+
 static void every_point_is_in_the_same_cell(void **state) {
     (void)state;
     baked_file_each(points_are_in_the_same_cells);
@@ -223,6 +277,7 @@ static void any_alignment_will_do(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_point_is_in_the_same_cell),
+        cmocka_unit_test(every_box_is_in_the_same_cells),
         cmocka_unit_test(every_point_by_an_oblique_wall_is_in_the_same_cell),
         cmocka_unit_test(every_pair_is_seen_the_same),
         cmocka_unit_test(what_is_no_cell_sees_nothing),
