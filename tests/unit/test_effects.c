@@ -168,27 +168,51 @@ static bool begin_oblique(trial *t, uint64_t seed, oblique_grid grid) {
     return status == SL_OK;
 }
 
-static void compare_methods(const trial *t, sl_sight sight) {
-    sl_visibility by_dfs = {0}, by_sweep = {0};
-    see(t->context, &t->space, &t->plan, "dfs", sight, &by_dfs);
-    see(t->context, &t->space, &t->plan, "sweep", sight, &by_sweep);
+static void assert_same_doors(const sl_door_sets *doors, const sl_door_sets *same) {
+    const uint32_t n = doors->cell_count;
+    assert_int_equal(n, same->cell_count);
+    if (!n) return;
+    assert_memory_equal(doors->offsets, same->offsets, (n + 1) * sizeof *doors->offsets);
+    if (doors->offsets[n]) assert_memory_equal(doors->bytes, same->bytes, doors->offsets[n]);
+}
+
+static void compare_methods(const trial *t, const sl_visibility *by_dfs) {
+    const char *const names[] = {"sweep", "prune"};
     const uint32_t n = t->space.cell_count;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        sl_visibility other = {0};
+        see(t->context, &t->space, &t->plan, names[i], by_dfs->sight, &other);
+        for (uint32_t a = 0; a < n; a++)
+            for (uint32_t b = 0; b < n; b++)
+                if (sl_pvs_sees(&by_dfs->pvs, a, b) != sl_pvs_sees(&other.pvs, a, b)) {
+                    sl_map_write_text(t->context, &t->map, "-");
+                    fail_msg("seed %llu, %s, %s: cells %u and %u", (unsigned long long)t->seed,
+                             names[i], by_dfs->sight == SL_OPEN ? "open" : "closed", a, b);
+                }
+        assert_int_equal(by_dfs->account.pairs, other.account.pairs);
+        assert_same_doors(&by_dfs->doors, &other.doors);
+        sl_visibility_destroy(t->context, &other);
+    }
+}
+
+/// With some doors shut the sets say what a search past walls in their places finds.
+static void compare_shut(const trial *t, const sl_visibility *by_dfs, const bool *shut) {
+    const uint32_t n = t->space.cell_count;
+    const sl_passage passage = {.shut = shut, .one_way = t->map.oneway_count > 0};
+    sl_plan plan = t->plan;
+    sl_space past;
+    sl_visibility fresh = {0};
+    assert_ok(t->context, sl_passage_make(t->context, &t->space, &passage, NULL, &past));
+    plan.effects &= ~(unsigned)SL_EFFECT_DOOR;
+    see(t->context, &past, &plan, "dfs", by_dfs->sight, &fresh);
     for (uint32_t a = 0; a < n; a++)
         for (uint32_t b = 0; b < n; b++)
-            if (sl_pvs_sees(&by_dfs.pvs, a, b) != sl_pvs_sees(&by_sweep.pvs, a, b)) {
-                sl_map_write_text(t->context, &t->map, "-");
-                fail_msg("seed %llu, %s: cells %u and %u", (unsigned long long)t->seed,
-                         sight == SL_OPEN ? "open" : "closed", a, b);
-            }
-    assert_int_equal(by_dfs.account.pairs, by_sweep.account.pairs);
-    const sl_door_sets *doors = &by_dfs.doors, *same = &by_sweep.doors;
-    assert_int_equal(doors->cell_count, same->cell_count);
-    if (doors->cell_count) {
-        assert_memory_equal(doors->offsets, same->offsets, (n + 1) * sizeof *doors->offsets);
-        if (doors->offsets[n]) assert_memory_equal(doors->bytes, same->bytes, doors->offsets[n]);
-    }
-    sl_visibility_destroy(t->context, &by_dfs);
-    sl_visibility_destroy(t->context, &by_sweep);
+            if (sl_pvs_sees(&fresh.pvs, a, b) !=
+                (sl_pvs_sees(&by_dfs->pvs, a, b) && sl_door_sets_open(&by_dfs->doors, a, b, shut)))
+                fail_msg("seed %llu: cells %u and %u with doors shut", (unsigned long long)t->seed,
+                         a, b);
+    sl_visibility_destroy(t->context, &fresh);
+    sl_space_destroy(t->context, &past);
 }
 
 static void effects_among_oblique_walls(void **state) {
@@ -198,8 +222,15 @@ static void effects_among_oblique_walls(void **state) {
     for (uint64_t i = 0; i < maps; i++) {
         trial t;
         const bool made = begin_oblique(&t, i + 1, (oblique_grid)(i % OBLIQUE_GRIDS));
-        for (int open = 0; open < 2 && made; open++)
-            compare_methods(&t, open ? SL_OPEN : SL_CLOSED);
+        for (int open = 0; open < 2 && made; open++) {
+            sl_visibility by_dfs = {0};
+            see(t.context, &t.space, &t.plan, "dfs", open ? SL_OPEN : SL_CLOSED, &by_dfs);
+            compare_methods(&t, &by_dfs);
+            const unsigned doors = 1 + (unsigned)(i / OBLIQUE_GRIDS) % 15;
+            const bool shut[4] = {doors & 1, doors & 2, doors & 4, doors & 8};
+            if (t.map.door_count && !by_dfs.account.door_fallbacks) compare_shut(&t, &by_dfs, shut);
+            sl_visibility_destroy(t.context, &by_dfs);
+        }
         done += made;
         end(&t);
     }
