@@ -1,12 +1,12 @@
 // How time, memory and file size grow with a map of which a cell inside always sees about as much:
 // cities, towers, mazes of 1,000 to 1,000,000 walls. Each size in a process of its own.
 //   bench_growth FOLDER [KIND ...]   CSV on stdout, charts into FOLDER; all three kinds unless told
-// CSV: machine, kind, walls, cells, pairs, seconds of each stage, bytes of memory at most and of
-// the file; then for each kind the exponents of all that, fitted over the maps from 10,000 walls
-// on. Seconds are the processor's, but for cell to cell on one thread and on two beside each other
-// (*_wall_s), which mean something on an idle machine only. shards_s is cell to cell in four shards
-// and the joining of what they find, longest_s one machine's part of it: the longest shard and the
-// joining. Their set must be that of one run.
+// CSV: machine, kind, walls, cells, pairs, seconds of each stage, bytes of memory at most until the
+// file is written, by one thread, and of the file; then for each kind the exponents of all that,
+// fitted over the maps from 10,000 walls on. Seconds are the processor's, but for cell to cell on
+// one thread and on two beside each other (*_wall_s), which mean something on an idle machine only.
+// shards_s is cell to cell in four shards and the joining of what they find, longest_s one
+// machine's part of it: the longest shard and the joining. Their set must be that of one run.
 #include "sightline/draw.h"
 #include "sightline/sightline.h"
 
@@ -183,9 +183,6 @@ static void measure(const char *map_path, const char *path, double *walls, doubl
     sl_context *context = sl_context_create(NULL);
     sl_baked baked = {.method = "sweep"}, loaded = {0};
     make_space(context, map_path, &baked, walls, of);
-    sl_visibility two;
-    of[TWO_WALL_SECONDS] = see(context, &baked.space, 2, &two);
-    sl_visibility_destroy(context, &two);
     double time = time_of(CLOCK_PROCESS_CPUTIME_ID);
     of[ONE_WALL_SECONDS] = see(context, &baked.space, 1, &baked.visibility);
     of[SEE_SECONDS] = lap(&time);
@@ -195,6 +192,9 @@ static void measure(const char *map_path, const char *path, double *walls, doubl
     struct rusage usage;
     getrusage(RUSAGE_SELF, &usage);
     of[MEMORY_BYTES] = (double)usage.ru_maxrss * 1024;
+    sl_visibility two;
+    of[TWO_WALL_SECONDS] = see(context, &baked.space, 2, &two);
+    sl_visibility_destroy(context, &two);
     struct stat file;
     see_in_shards(context, &baked.space, &baked.visibility, of);
     of[FILE_BYTES] = stat(path, &file) == 0 ? (double)file.st_size : 0;
