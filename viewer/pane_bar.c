@@ -114,8 +114,12 @@ void sl_pane_time(sl_app *app, sl_box box) {
     }
     const size_t length = sl_lesson_length(lesson);
     snprintf(text, sizeof text, "%zu of %zu", length ? lesson->at + 1 : 0, length);
-    const double wide = sl_ui_text_width(ui, 0.95, false, text);
+    // A narrow window has room for the buttons, then for the count, then for the line.
+    const double left = box.max.x - 0.9 * t - sl_ui_text_width(ui, 0.95, false, text);
+    if (left < x) return;
     sl_ui_text_right(ui, box.max.x - 0.9 * t, y + 1.15 * t, 0.95, ui->palette.faint, text);
-    sl_ui_slider(ui, (sl_box){{x + t, y}, {box.max.x - wide - 2 * t, y + 1.6 * t}},
-                 length > 1 ? (double)lesson->at / (double)(length - 1) : 0, SL_HIT_TIME, 0);
+    const sl_box line = {{x + t, y}, {left - 1.1 * t, y + 1.6 * t}};
+    if (sl_box_width(line) < 3 * t) return;
+    sl_ui_slider(ui, line, length > 1 ? (double)lesson->at / (double)(length - 1) : 0, SL_HIT_TIME,
+                 0);
 }

@@ -97,10 +97,15 @@ static void write_seconds(const sl_app *app, double seconds, char text[32]) {
         snprintf(text, 32, "%.1f ms", 1e3 * seconds);
 }
 
-static void cells_text(double x, sl_ui *ui, double y, uint64_t count, sl_colour colour) {
+static void cells_text(double x, sl_ui *ui, double y, double size, uint64_t count) {
     char text[SL_COUNT_TEXT];
     sl_text_count(count, "", text);
-    sl_ui_text_right(ui, x, y, 0.95, colour, text);
+    sl_ui_text_right(ui, x, y, size, ui->palette.ink, text);
+}
+
+/// Columns of figures are set in parts of the panel's width; in a narrow one they are smaller.
+static double figure_size(const sl_ui *ui, double unit) {
+    return 0.95 * fmin(1, unit / (0.9 * ui->text));
 }
 
 typedef struct method_row {
@@ -127,16 +132,17 @@ static void draw_method(sl_app *app, column *c, const method_row *row, int numbe
     snprintf(words, sizeof words, "%s", row->name);
     for (char *at = words; *at; at++)
         if (*at == '_') *at = ' ';
-    sl_text_show_within(ui->cairo, ui->palette.ink, c->left + 1.3 * t, base, 9.4 * t, 0.95 * t,
-                        false, words);
+    const double unit = (c->right - c->left) / 22, size = figure_size(ui, unit);
+    const double room = fmin(9.4 * t, 12.3 * unit - (1.3 + 2.2 * size) * t);
+    sl_text_show_within(ui->cairo, ui->palette.ink, c->left + 1.3 * t, base, room, 0.95 * t, false,
+                        words);
     if (row->known) {
-        const double unit = (c->right - c->left) / 22;
-        cells_text(c->left + 12.3 * unit, ui, base, row->cells, ui->palette.ink);
+        cells_text(c->left + 12.3 * unit, ui, base, size, row->cells);
         sl_text_percent(app->document.area > 0 ? row->area / app->document.area : 0, text);
-        sl_ui_text_right(ui, c->left + 16.3 * unit, base, 0.95, ui->palette.ink, text);
-        cells_text(c->left + 18.9 * unit, ui, base, row->tests, ui->palette.ink);
+        sl_ui_text_right(ui, c->left + 16.3 * unit, base, size, ui->palette.ink, text);
+        cells_text(c->left + 18.9 * unit, ui, base, size, row->tests);
         write_seconds(app, row->seconds, text);
-        sl_ui_text_right(ui, c->right, base, 0.95, ui->palette.faint, text);
+        sl_ui_text_right(ui, c->right, base, size, ui->palette.faint, text);
     }
     if (number >= 0) sl_ui_hit(ui, SL_HIT_METHOD, number, box);
     c->y += height;
@@ -146,13 +152,13 @@ static void draw_methods(sl_app *app, column *c) {
     sl_ui *ui = &app->ui;
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
-    const double unit = (c->right - c->left) / 22, t = ui->text;
+    const double unit = (c->right - c->left) / 22, t = ui->text, size = figure_size(ui, unit);
     heading(app, c, "What is kept", NULL);
     c->y -= 0.55 * t;
-    sl_ui_text_right(ui, c->left + 12.3 * unit, c->y, 0.85, ui->palette.faint, "cells");
-    sl_ui_text_right(ui, c->left + 16.3 * unit, c->y, 0.85, ui->palette.faint, "area");
-    sl_ui_text_right(ui, c->left + 18.9 * unit, c->y, 0.85, ui->palette.faint, "tests");
-    sl_ui_text_right(ui, c->right, c->y, 0.85, ui->palette.faint, "time");
+    sl_ui_text_right(ui, c->left + 12.3 * unit, c->y, 0.9 * size, ui->palette.faint, "cells");
+    sl_ui_text_right(ui, c->left + 16.3 * unit, c->y, 0.9 * size, ui->palette.faint, "area");
+    sl_ui_text_right(ui, c->left + 18.9 * unit, c->y, 0.9 * size, ui->palette.faint, "tests");
+    sl_ui_text_right(ui, c->right, c->y, 0.9 * size, ui->palette.faint, "time");
     c->y += 0.4 * t;
     for (size_t i = 0; i < count && i < SL_SEEN_MOST; i++) {
         const sl_seen_method *m = &app->seen.methods[i];
@@ -175,11 +181,11 @@ static void draw_methods(sl_app *app, column *c) {
     sl_text_percent(
         app->document.area > 0 && app->seen.valid ? app->seen.region_area / app->document.area : 0,
         text);
-    sl_ui_text_right(ui, c->left + 16.3 * unit, base, 0.95, ui->palette.ink, text);
-    cells_text(c->left + 18.9 * unit, ui, base,
-               app->seen.valid ? app->seen.region.portals_passed : 0, ui->palette.ink);
+    sl_ui_text_right(ui, c->left + 16.3 * unit, base, size, ui->palette.ink, text);
+    cells_text(c->left + 18.9 * unit, ui, base, size,
+               app->seen.valid ? app->seen.region.portals_passed : 0);
     write_seconds(app, app->seen.region_seconds, text);
-    sl_ui_text_right(ui, c->right, base, 0.95, ui->palette.faint, text);
+    sl_ui_text_right(ui, c->right, base, size, ui->palette.faint, text);
     c->y += 1.6 * t;
     const bool told = app->seen.valid && app->seen.methods[app->method].known;
     if (told && !app->compare && app->seen.region_area > 0) {
