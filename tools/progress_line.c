@@ -4,7 +4,9 @@
 
 #include <inttypes.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <time.h>
+#include <unistd.h>
 
 double sl_now(void) {
     struct timespec now;
@@ -39,6 +41,14 @@ static void append_time(char *text, size_t size, double seconds) {
         append(text, size, ", %.1f h", seconds / 3600);
 }
 
+/// Characters that a line of the terminal has room for, at most `most`: a longer one would go on in
+/// the next, and only that one would be cleared.
+static int room_of_terminal(int most) {
+    struct winsize size;
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return most;
+    return size.ws_col - 1 < most ? size.ws_col - 1 : most;
+}
+
 /// "cell to cell: 120/2000 cells, 6 %, 34/s, 55 s left"; before there is a rate, the time so far.
 static void write_line(const sl_progress_line *line, double elapsed) {
     char text[80] = "";
@@ -59,7 +69,7 @@ static void write_line(const sl_progress_line *line, double elapsed) {
         append_time(text, sizeof text, elapsed);
     }
     for (char *at = strchr(text, '_'); at; at = strchr(at, '_')) *at = ' ';
-    fprintf(stderr, "\r\033[K%s", text);
+    fprintf(stderr, "\r\033[K%.*s", room_of_terminal(sizeof text), text);
     fflush(stderr);
 }
 

@@ -2,8 +2,11 @@
 
 test_terminal.py PROGRAM
 """
+import fcntl
 import os
 import signal
+import struct
+import termios
 import time
 import unittest
 
@@ -12,11 +15,12 @@ from test_interrupt import pillars
 
 
 class Terminal(unittest.TestCase):
-    def talk(self, *options, environment=None, seconds=1.5):
+    def talk(self, *options, environment=None, seconds=1.5, columns=0):
         """What a bake that is interrupted says to a terminal, and its status."""
         with sandbox.Sandbox(PROGRAM) as box:
             box.path("hall.map").write_text(pillars(24))
             master, slave = os.openpty()
+            fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
             process = box.start(["bake", "hall.map", "--method", "dfs", *options], stderr=slave,
                                 environment=environment)
             os.close(slave)
@@ -47,6 +51,13 @@ class Terminal(unittest.TestCase):
         # At most ten times a second, and the last thing before the message is to clear the line.
         self.assertLess(len(lines), 1.5 * 10 + 5)
         self.assertEqual(shown[-1], "sightline: interrupted\r\n")
+
+    def test_narrow_terminal(self):
+        text, _ = self.talk(columns=24)
+        lines = [line for line in text.split("\r\x1b[K") if line.startswith("cell to cell: ")]
+        self.assertTrue(lines, text)
+        for line in lines:
+            self.assertEqual(len(line), 23)
 
     def test_quiet(self):
         self.assertEqual(self.talk("--quiet")[0], "sightline: interrupted\r\n")
