@@ -63,6 +63,7 @@ static void measure(sl_context *context, const sl_map_kind *kind, uint64_t walls
     check(context, sl_view_places_inside(context, &space, &places));
     const sl_view_scene scene = {&space, SL_VIEW_CELLS, sl_render_cost_default(), &places};
     sl_view_subdivision options = sl_view_subdivision_default();
+    options.threads = 1;
     options.cells = (uint32_t)(walls / 2);
     options.least_gain = 0;
     options.patience = UINT32_MAX;
