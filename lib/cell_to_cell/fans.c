@@ -356,16 +356,47 @@ static sl_status walk_all_round(sl_context *context, walker *w, sl_bits *walked)
 
 // --- who serves whom
 
-/// What one cell more is worth at a fan: a point with walls is expanded anyway, or most of the way.
-enum { WORTH_OF_WIDE = 4, WORTH_OF_NARROW = 2, WORTH_OF_FULL_TURN = 1 };
+/// A fan, as one that may serve cells.
+typedef struct offer {
+    uint32_t each;  ///< what one cell more is worth
+    uint32_t worth; ///< what all are that wait
+} offer;
 
-static uint32_t worth_of(const sl_fans *fans, const sl_fan *fan, const sl_bits *served) {
+/// Grows with a direction's angle, from 0 to 4: by 1 a quarter turn.
+static double quarters(sl_point at, sl_point to) {
+    const double x = to.x - at.x, y = to.y - at.y, size = fabs(x) + fabs(y);
+    if (y >= 0) return x >= 0 ? y / size : 1 - x / size;
+    return x < 0 ? 2 - y / size : 3 + x / size;
+}
+
+/// How much of a half turn a fan's point looks at for cells that it serves: what lies above the
+/// horizon, and is not looked at for a turning line anyway.
+static double share_above(const sl_fans *fans, const sl_fan *fan) {
+    const sl_fan_cell *cells = fans->cells.items + fan->first;
+    if (fan->full_turn) return 1;
+    double first = quarters(fan->at, fans->ends.items[cells[0].edge]);
+    double last = quarters(fan->at, fans->ends.items[cells[fan->count].edge]);
+    if (last <= first) last += 4;
+    if (fan->wide) {
+        const double rest = first + 2;
+        first = last > 6 ? last - 6 : last - 2;
+        last = last > 6 ? rest - 4 : rest;
+    }
+    const double above = fmax(fmin(last, 2) - first, 0), above_again = fmax(fmin(last, 6) - 4, 0);
+    return (above + above_again) / 2;
+}
+
+static uint32_t worth_of_each(const sl_fans *fans, const sl_fan *fan) {
+    enum { MOST = 4 };
+    return (uint32_t)(MOST / (1 + share_above(fans, fan)));
+}
+
+static uint32_t worth_of(const sl_fans *fans, const sl_fan *fan, uint32_t each,
+                         const sl_bits *served) {
     uint32_t waiting = 0;
     for (uint32_t i = 0; i < fan->count; i++)
         waiting += !sl_bits_has(served, fans->cells.items[fan->first + i].cell);
-    return waiting * (fan->wide        ? WORTH_OF_WIDE
-                      : fan->full_turn ? WORTH_OF_FULL_TURN
-                                       : WORTH_OF_NARROW);
+    return waiting * each;
 }
 
 static void serve(sl_fans *fans, sl_fan *fan, sl_bits *served) {
@@ -379,36 +410,39 @@ static void serve(sl_fans *fans, sl_fan *fan, sl_bits *served) {
 
 /// Greedily, those of most worth first. Worth only falls, so that a fan found to be worth less than
 /// where it stands moves on to a later round.
-static void share_out_by(sl_fans *fans, uint32_t *worth, sl_bits *served) {
+static void share_out_by(sl_fans *fans, offer *offers, sl_bits *served) {
     const size_t count = fans->fans.count;
     uint32_t most = 0;
     for (size_t i = 0; i < count; i++) {
         sl_fan *fan = &fans->fans.items[i];
         // Round one wall nothing is left to expand but what the turning line needs.
         if (fan->back_to_back) serve(fans, fan, served);
-        worth[i] = worth_of(fans, fan, served);
-        if (worth[i] > most) most = worth[i];
+        offers[i].each = worth_of_each(fans, fan);
+        offers[i].worth = worth_of(fans, fan, offers[i].each, served);
+        if (offers[i].worth > most) most = offers[i].worth;
     }
     for (uint32_t now = most; now > 0;) {
         uint32_t next = 0;
         for (size_t i = 0; i < count; i++) {
-            if (worth[i] >= now) worth[i] = worth_of(fans, &fans->fans.items[i], served);
-            if (worth[i] >= now) {
-                serve(fans, &fans->fans.items[i], served);
-                worth[i] = 0;
+            offer *o = &offers[i];
+            sl_fan *fan = &fans->fans.items[i];
+            if (o->worth >= now) o->worth = worth_of(fans, fan, o->each, served);
+            if (o->worth >= now) {
+                serve(fans, fan, served);
+                o->worth = 0;
             }
-            if (worth[i] > next) next = worth[i];
+            if (o->worth > next) next = o->worth;
         }
         now = next < now ? next : now - 1;
     }
 }
 
 static sl_status share_out(sl_context *context, sl_fans *fans) {
-    uint32_t *worth = sl_alloc_array(context, fans->fans.count, sizeof *worth);
+    offer *offers = sl_alloc_array(context, fans->fans.count, sizeof *offers);
     sl_bits *served = sl_alloc_array(context, sl_bits_words(fans->cell_count), sizeof *served);
-    const bool room = worth && served;
-    if (room) share_out_by(fans, worth, served);
-    sl_free(context, worth);
+    const bool room = offers && served;
+    if (room) share_out_by(fans, offers, served);
+    sl_free(context, offers);
     sl_free(context, served);
     return room ? SL_OK : SL_NO_MEMORY;
 }
