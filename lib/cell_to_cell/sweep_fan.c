@@ -196,18 +196,27 @@ static void add_reach(sl_word_set *set, const sl_reach *reach) {
         sl_word_set_add(set, reach->cells.items[i].cell);
 }
 
-/// What the turning line does not join with a cell of the fan anyway: see sl_sweep_turn.
+/// What the turning line does not join with a cell of the fan anyway: see sl_sweep_turn. Cells
+/// beside each other mostly get the same.
 static sl_status serve(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
+    enum { NOTHING, MIDDLE = 1, BACK = 2, AHEAD = 4 };
     const sl_fan_cell *cells = s->fans->cells.items + fan->first;
-    for (uint32_t k = 0; k < fan->count; k++) {
+    sl_word_set *set = &s->behind;
+    for (uint32_t k = 0, has = NOTHING; k < fan->count; k++) {
         if (!cells[k].served) continue;
-        sl_word_set *set = &s->behind;
-        add_reach(set, &s->middle);
-        if (fan->wide && cells[k].past_half <= 0) add_reach(set, &s->back);
-        if (fan->wide && cells[k + 1].past_rest >= 0) add_reach(set, &s->ahead);
+        const uint32_t gets = MIDDLE | (fan->wide && cells[k].past_half <= 0 ? BACK : 0) |
+                              (fan->wide && cells[k + 1].past_rest >= 0 ? AHEAD : 0);
+        if (has & ~gets) {
+            sl_word_set_clear(set);
+            has = NOTHING;
+        }
+        if (gets & ~has & MIDDLE) add_reach(set, &s->middle);
+        if (gets & ~has & BACK) add_reach(set, &s->back);
+        if (gets & ~has & AHEAD) add_reach(set, &s->ahead);
+        has = gets;
         SL_TRY(sl_bit_rows_add(context, &s->rows, cells[k].cell, set));
-        sl_word_set_clear(set);
     }
+    sl_word_set_clear(set);
     return SL_OK;
 }
 
