@@ -181,6 +181,7 @@ static sl_status make(sl_context *context, const sl_map *map, const sl_regions_o
     SL_TRY(sl_regions_find_view_cells(context, options, scene));
     SL_TRY(make_passes(context, scene));
     for (bool cut = true; cut;) {
+        SL_TRY(sl_check_cancelled(context));
         SL_TRY(sl_regions_check_cycles(context, options, scene, &cut));
         if (!cut) break;
         SL_TRY(sl_regions_find_faces(context, scene));
