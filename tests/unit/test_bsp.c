@@ -412,6 +412,28 @@ static void what_cannot_be_is_refused(void **state) {
     sl_context_destroy(context);
 }
 
+/// Without a start what is reached from the border is outside, among oblique walls too.
+static void the_border_tells_the_outside(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_map map = {0};
+    sl_space space;
+    testing_space(context, "walls 5 0 10 5 5 10 0 5 5 0\n", &map, &space);
+    const struct {
+        sl_point at;
+        bool inside;
+    } places[] = {
+        {{5, 5}, true}, {{1, 1}, false}, {{9, 1}, false}, {{1, 9}, false}, {{9, 9}, false}};
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        const uint32_t cell = sl_space_locate(&space, places[i].at);
+        assert_true(cell != SL_NO_CELL);
+        assert_int_equal(space.cells[cell].inside, places[i].inside);
+    }
+    sl_space_destroy(context, &space);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
 static void memory_may_fail_at_any_call(void **state) {
     (void)state;
     testing_memory memory = {0};
@@ -450,6 +472,7 @@ int main(void) {
         cmocka_unit_test(a_baked_space_reads_back),
         cmocka_unit_test(the_check_finds_damage),
         cmocka_unit_test(what_cannot_be_is_refused),
+        cmocka_unit_test(the_border_tells_the_outside),
         cmocka_unit_test(memory_may_fail_at_any_call),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -148,6 +148,39 @@ static void doors_in_one_place_shut_it_each(void **state) {
     sl_context_destroy(context);
 }
 
+/// Among oblique walls the sides of cells tell what is beyond them: shut doors are walls there too.
+static void shut_doors_are_walls_of_sides(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_map map = {0};
+    sl_space space, walled;
+    testing_space(context,
+                  "walls 0 0 8 0 8 4 0 4 0 0\nwall 3 0 3.5 1\nwall 4.5 3 5 4\n"
+                  "door d 3.5 1 4.5 3 open\n",
+                  &map, &space);
+    assert_non_null(space.beyond);
+    const bool shut = true;
+    const sl_passage passage = {.shut = &shut};
+    assert_ok(context, sl_passage_make(context, &space, &passage, NULL, &walled));
+    assert_ok(context, sl_space_check(context, &walled));
+    uint32_t left = 0, right = 0;
+    for (uint32_t i = 0; i < space.vertex_count; i++) {
+        if (space.beyond[i] == walled.beyond[i]) continue;
+        assert_int_equal(space.beyond[i], SL_BEYOND_EXIT);
+        assert_true((walled.beyond[i] & ~SL_BEYOND_RIGHT) >= space.wall_count);
+        assert_true((walled.beyond[i] & ~SL_BEYOND_RIGHT) < walled.wall_count);
+        if (walled.beyond[i] & SL_BEYOND_RIGHT)
+            right++;
+        else
+            left++;
+    }
+    assert_true(left > 0 && left == right);
+    sl_space_destroy(context, &walled);
+    sl_space_destroy(context, &space);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
 /// Sets of doors that do not fit into one word: the smallest ones are kept.
 static void sets_of_many_doors_are_told_apart(void **state) {
     (void)state;
@@ -207,6 +240,7 @@ int main(void) {
         cmocka_unit_test(states_are_as_fresh_bakes),
         cmocka_unit_test(what_is_beyond_the_limit_counts_as_seen),
         cmocka_unit_test(doors_in_one_place_shut_it_each),
+        cmocka_unit_test(shut_doors_are_walls_of_sides),
         cmocka_unit_test(sets_of_many_doors_are_told_apart),
         cmocka_unit_test(damaged_sets_are_refused),
     };
