@@ -166,13 +166,15 @@ static void shut_doors_are_walls_of_sides(void **state) {
     uint32_t left = 0, right = 0;
     for (uint32_t i = 0; i < space.vertex_count; i++) {
         if (space.beyond[i] == walled.beyond[i]) continue;
+        const uint32_t wall = walled.beyond[i] & ~SL_BEYOND_RIGHT;
+        const bool at_right = walled.beyond[i] & SL_BEYOND_RIGHT;
         assert_int_equal(space.beyond[i], SL_BEYOND_EXIT);
-        assert_true((walled.beyond[i] & ~SL_BEYOND_RIGHT) >= space.wall_count);
-        assert_true((walled.beyond[i] & ~SL_BEYOND_RIGHT) < walled.wall_count);
-        if (walled.beyond[i] & SL_BEYOND_RIGHT)
-            right++;
-        else
-            left++;
+        assert_true(wall >= space.wall_count && wall < walled.wall_count);
+        // Cells are at the left of their sides: at the right of a wall that runs against these.
+        const sl_point a = walled.walls[wall].a, from = walled.vertices[i];
+        assert_int_equal(at_right, a.x != from.x || a.y != from.y);
+        left += !at_right;
+        right += at_right;
     }
     assert_true(left > 0 && left == right);
     sl_space_destroy(context, &walled);
