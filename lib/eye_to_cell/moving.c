@@ -6,9 +6,9 @@
 #include "eye_to_cell/eye_methods.h"
 #include "eye_to_cell/eye_search.h"
 #include "geometry/distance.h"
+#include "sightline/map.h"
 #include "sightline/sees.h"
 
-#include <math.h>
 #include <string.h>
 
 struct sl_moving {
@@ -51,11 +51,12 @@ static sl_status check_boxes(sl_context *context, const sl_moving_box *boxes, si
     if (count >= UINT32_MAX) return sl_fail_memory(context);
     for (size_t i = 0; i < count; i++) {
         const sl_box b = boxes[i].box;
-        if (!(isfinite(b.min.x) && isfinite(b.min.y) && isfinite(b.max.x) && isfinite(b.max.y)) ||
-            b.min.x > b.max.x || b.min.y > b.max.y)
+        if (!sl_coordinate_usable(b.min.x) || !sl_coordinate_usable(b.min.y) ||
+            !sl_coordinate_usable(b.max.x) || !sl_coordinate_usable(b.max.y) || b.min.x > b.max.x ||
+            b.min.y > b.max.y)
             return sl_fail(context, SL_BAD_ARGUMENT,
-                           "box %zu: its lower left corner must be finite, and not beyond the "
-                           "upper right one",
+                           "box %zu: coordinates must be as a map's, and the lower left corner not "
+                           "beyond the upper right one",
                            i + 1);
     }
     return SL_OK;

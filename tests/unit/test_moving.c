@@ -468,10 +468,13 @@ static void wrong_boxes(void **state) {
     room r;
     enter(&r, two_rooms);
     const sl_moving_box good = {{{1, 1}, {2, 2}}, true};
-    const sl_moving_box bad[] = {{{{2, 1}, {1, 2}}, true}, {{{1, 1}, {2, (double)NAN}}, true}};
+    const sl_moving_box bad[] = {{{{2, 1}, {1, 2}}, true},
+                                 {{{1, 1}, {2, (double)NAN}}, true},
+                                 {{{1e-200, 1}, {2, 2}}, true},
+                                 {{{1, 1}, {1e200, 2}}, true}};
     assert_int_equal(look(&r, (sl_point){5, 5}, &good, 1), 1);
     const uint32_t cells = sl_moving_space(r.moving, NULL)->cell_count;
-    for (int i = 0; i < 2; i++)
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         assert_int_equal(sl_moving_place(r.context, r.moving, &bad[i], 1), SL_BAD_ARGUMENT);
     assert_int_equal(sl_moving_space(r.moving, NULL)->cell_count, cells);
     leave(&r);

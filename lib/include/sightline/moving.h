@@ -25,8 +25,8 @@ SL_API sl_status sl_moving_create(sl_context *context, const sl_space *space,
 SL_API void sl_moving_destroy(sl_context *context, sl_moving *moving);
 
 /// Puts these boxes in, in place of those before. Only the cells that boxes lie in are cut, but the
-/// rest of the space is copied. SL_BAD_ARGUMENT for boxes whose corners are not finite or not in
-/// order; what was there before then stays.
+/// rest of the space is copied. SL_BAD_ARGUMENT for boxes whose corners are not in order or
+/// have coordinates that sl_coordinate_usable does not take; what was there before then stays.
 ///
 /// In a space of axial walls no coordinate is computed, and what is told of boxes is exact. In a
 /// BSP's, sides that block are put in as its walls were: what sl_subdivide_bsp promises holds of
