@@ -18,7 +18,8 @@ sl_portal_ends sl_funnel_portal(const void *state, bool last); ///< the first or
 
 /// The length of the shortest piece, between the first portal and the last one, of the lines
 /// through the sequence as it stands, which must not be hidden or empty. 0 for one portal. Rounded:
-/// to within SL_SHORTEST_ERROR of itself.
+/// to within SL_SHORTEST_ERROR of itself, unless portals are a thousand times as long or more,
+/// whose own rounding then counts.
 ///
 /// The lines make up a convex polygon in the plane of lines, whose edges are turns about one portal
 /// end each. Along a turn the length is the sum of two secants of the angle, which is convex; and
