@@ -197,8 +197,9 @@ static sl_status mirror_rows(sl_context *context, const sl_row_bytes *rows, uint
                              uint32_t *last, sl_row_bytes *out) {
     memset(last, 0xff, count * sizeof *last);
     for (uint32_t cell = 0; cell < count; cell++) {
+        if (!rows[cell].count) continue;
         const uint8_t *next = rows[cell].items, *stop = next + rows[cell].count;
-        for (entry e = {.cell = UINT32_MAX}; next && next_entry(&next, stop, &e);) {
+        for (entry e = {.cell = UINT32_MAX}; next_entry(&next, stop, &e);) {
             const entry back = {cell, e.bytes, e.size};
             SL_TRY(append_entry(context, &e, &last[cell], &out[cell]));
             SL_TRY(append_entry(context, &back, &last[e.cell], &out[e.cell]));
