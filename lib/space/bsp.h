@@ -126,10 +126,6 @@ typedef struct sl_bsp {
     bool failed_left;
 } sl_bsp;
 
-/// How far beside a seam's line one of its corners may be placed for no face to be bent: a part of
-/// the length of the side that the seam passes.
-#define SL_BSP_SEAM_OFF 0x1p-20
-
 /// After so many failures, corners within a wall are left out.
 #define SL_BSP_PATIENCE 4
 
@@ -203,6 +199,8 @@ sl_status sl_bsp_find_lost(sl_bsp *bsp);
 double sl_wall_depth(const void *first, size_t stride, size_t count, const sl_wall *wall);
 /// What rounding may have done to a place, at most.
 double sl_bsp_slack(const sl_box *bounds);
+/// How far beside a seam's line its portals may lie: more, as no face must be bent.
+double sl_bsp_seam_slack(const sl_box *bounds);
 
 /// Makes walls of what a wall covers of the portals of a face that it is in line with; a part of a
 /// seam marks them (bsp_walls.c).

@@ -42,6 +42,10 @@ double sl_bsp_slack(const sl_box *b) {
     return 0x1p-30 * size + 0x1p-49 * farthest;
 }
 
+double sl_bsp_seam_slack(const sl_box *b) {
+    return 64 * sl_bsp_slack(b);
+}
+
 /// Follows a wall down the tree.
 static sl_status find_wall(sl_bsp *bsp, uint32_t number, double slack, int32_t *stack) {
     const sl_wall *wall = &bsp->walls[number];

@@ -190,7 +190,9 @@ static void weigh_on_side(const gate *g, double least, double most, choice *best
 /// The nearest place that bends no face, on the seam's line if there is one. At higher tries what
 /// is near is passed over. False where there is none nearer than rounding explains.
 static bool place_seam(const gate *g, uint32_t try, sl_point *at) {
-    const double length = distance(g->left, g->right), most = SL_BSP_SEAM_OFF * length;
+    const double length = distance(g->left, g->right);
+    // What rounding adds to it stays below the other half.
+    const double most = fmin(0x1p-20 * length, sl_bsp_seam_slack(&g->bsp->bounds) / 2);
     const double step = fmax(g->step_x, g->step_y);
     const double ux = (g->left.x - g->right.x) / length, uy = (g->left.y - g->right.y) / length;
     choice best = {g->guess, INFINITY, INFINITY};

@@ -240,13 +240,10 @@ static double distance_to(const sl_segment *s, sl_point p) {
     return hypot(p.x - s->a.x - t * dx, p.y - s->a.y - t * dy);
 }
 
-/// Portals told to be on a seam are, as near as the BSP places their corners: no side is longer
-/// than the diagonal.
+/// Portals told to be on a seam are, as near as the BSP places their corners.
 static sl_status check_seams(const checker *c) {
     const sl_space *s = c->space;
-    const sl_box *b = &s->bounds;
-    const double slack =
-        c->slack + SL_BSP_SEAM_OFF * hypot(b->max.x - b->min.x, b->max.y - b->min.y);
+    const double slack = sl_bsp_seam_slack(&s->bounds);
     SL_TRY(sl_seams_check(c->context, s, false));
     for (uint32_t i = 0; i < s->seam_portal_count; i++) {
         const sl_seam_portal *at = &s->seam_portals[i];

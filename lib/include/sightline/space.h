@@ -142,8 +142,8 @@ SL_API sl_bsp_options sl_bsp_options_default(void);
 ///
 /// Seams are put in after the walls, and seen through: where a portal on one has to end in a point
 /// that is computed, it lies beside the seam's line by the size of rounding, or, where cells are
-/// needles, by up to 2^-20 of the side that the seam passes. A cell that leaves no room for such a
-/// point goes without the seam, and a note says so.
+/// needles, by up to 2^-25 of the map's size. A cell that leaves no room for such a point goes
+/// without the seam, and a note says so.
 ///
 /// Time about O(n log n) for n walls with few long ones; reports stage "subdivide".
 /// SL_BAD_INPUT where there is no wall, SL_BAD_ARGUMENT for options out of range.
