@@ -170,7 +170,7 @@ static sl_status read_and_clean(sl_context *context, bake_plan *plan, sl_map *ma
     SL_TRY(sl_pipeline_read(context, &plan->pipeline, map));
     SL_TRY(fit_method(context, map, plan));
     SL_TRY(sl_see_check(context, plan->method, plan->see.solver, map));
-    return sl_map_clean(context, map, &report->cleaning);
+    return sl_map_clean(context, map, NULL, &report->cleaning);
 }
 
 static sl_status subdivide(sl_context *context, const bake_plan *plan, const sl_map *map,

@@ -9,7 +9,7 @@ static sl_status convert(sl_context *context, const char *input, const sl_input_
                          bool clean, const char *output) {
     sl_map map = {0};
     SL_TRY(sl_input_read_either(context, input, texts, &map));
-    sl_status status = clean ? sl_map_clean(context, &map, NULL) : SL_OK;
+    sl_status status = clean ? sl_map_clean(context, &map, NULL, NULL) : SL_OK;
     if (status == SL_OK)
         status = sl_input_ends_with(output, ".txt") ? sl_map_write_plan(context, &map, output)
                                                     : sl_map_write_text(context, &map, output);

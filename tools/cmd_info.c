@@ -173,7 +173,7 @@ static sl_status inform_of_map(sl_console *console, const info_request *request)
     sl_clean_account cleaning;
     SL_TRY(sl_input_read_map(console->context, request->path, &request->texts, &map));
     const size_t oblique = sl_map_count_oblique(&map);
-    sl_status status = sl_map_clean(console->context, &map, &cleaning);
+    sl_status status = sl_map_clean(console->context, &map, NULL, &cleaning);
     sl_progress_line_clear(&console->line);
     if (status == SL_OK && request->json)
         status = print_map_json(console->context, request, &map, oblique, &cleaning);

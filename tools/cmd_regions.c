@@ -145,7 +145,7 @@ static sl_status measure_map(sl_context *context, const regions_plan *plan, cons
         sl_effects_leave_out(context, &map, plan->without);
         status = sl_effects_check(context, &map, "regions", 0);
     }
-    if (status == SL_OK) status = sl_map_clean(context, &map, NULL);
+    if (status == SL_OK) status = sl_map_clean(context, &map, NULL, NULL);
     if (status == SL_OK) status = sl_regions_measure(context, &map, name, &what, &plan->how, rows);
     sl_map_destroy(context, &map);
     return status;

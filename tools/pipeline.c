@@ -111,17 +111,14 @@ sl_name_table sl_pipeline_solver_names(sl_solver solvers[SL_SOLVERS_MOST]) {
 }
 
 void sl_pipeline_print_subdivisions(void) {
-    puts("\nsubdivisions (given where a map text brings cells; kd where all walls\nare axial, else "
-         "bsp):");
+    puts("\nsubdivisions (default: given where a map text brings cells, kd where all\nwalls are "
+         "axial, else mesh):");
     size_t count;
     const sl_subdivision *subdivisions = sl_subdivisions(&count);
     for (size_t i = 0; i < count; i++)
         printf("  %-12s%s\n", subdivisions[i].name, subdivisions[i].what);
-    const sl_bsp_options bsp = sl_bsp_options_default();
-    printf(
-        "              (kd's rules: spanning, obscured at a share of %g, cleaving, median;\n"
-        "              bsp's cost of a split: %g x walls cut + %g x imbalance - %g x obscured)\n",
-        sl_subdivide_options_default().obscured, bsp.cuts, bsp.imbalance, bsp.obscured);
+    printf("              (kd's rules: spanning, obscured at a share of %g, cleaving, median)\n",
+           sl_subdivide_options_default().obscured);
 }
 
 void sl_pipeline_print_effects(void) {

@@ -108,7 +108,7 @@ static sl_status bake(sl_context *context, sl_bake_job *job) {
     sl_plan plan = sl_plan_make(&job->map);
     plan.mirror_depth = job->mirror_depth;
     SL_TRY(sl_map_copy(context, &job->map, &baked->map));
-    SL_TRY(sl_map_clean(context, &baked->map, NULL));
+    SL_TRY(sl_map_clean(context, &baked->map, NULL, NULL));
     SL_TRY(sl_subdivision_for(&baked->map)->subdivide(context, &baked->map, NULL, &baked->space));
     drop_walls(&baked->map);
     SL_TRY(see_all(context, job, &plan));

@@ -29,7 +29,7 @@ static bool has_walls(const sl_space *space, const sl_map *map) {
 /// cells of the map's own leave them, or cleaned.
 static sl_status check_walls(const reject_export *export, sl_map *map) {
     if (has_walls(&export->baked->space, map)) return SL_OK;
-    SL_TRY(sl_map_clean(export->context, map, NULL));
+    SL_TRY(sl_map_clean(export->context, map, NULL, NULL));
     if (has_walls(&export->baked->space, map)) return SL_OK;
     return sl_fail_at(export->context, export->wad.name, 0,
                       "map %s has other walls than the baked file, which was made from another map",

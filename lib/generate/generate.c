@@ -52,7 +52,7 @@ static sl_status lay_out(sl_context *context, const sl_map_kind *kind,
                     .count = (int)count,
                     .open = options->open < 0 ? USUAL_OPEN : options->open};
     sl_status status = kind->lay(&plot);
-    if (status == SL_OK) status = sl_map_clean(context, map, NULL);
+    if (status == SL_OK) status = sl_map_clean(context, map, NULL, NULL);
     if (status != SL_OK) sl_map_destroy(context, map);
     return status;
 }

@@ -1,7 +1,8 @@
 #include "base/base.h"
 #include "base/bits.h"
-#include "sightline/map.h"
+#include "map/planar.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -338,11 +339,8 @@ static sl_status hand_over(cleaning *work, sl_map *map) {
     return SL_OK;
 }
 
-static sl_status clean(cleaning *work, sl_map *map) {
-    SL_TRY(sort_out(work, map));
-    merge(&work->uprights, &work->account);
-    merge(&work->levels, &work->account);
-    drop_duplicates(&work->others, &work->account);
+/// Where all is axial and ends are where they are: no coordinate is computed.
+static sl_status clean_axial(cleaning *work, sl_map *map) {
     sweeper sweep = {0};
     const sl_status status = sweep_over(work, &sweep);
     destroy_sweep(work->context, &sweep);
@@ -350,15 +348,203 @@ static sl_status clean(cleaning *work, sl_map *map) {
     return hand_over(work, map);
 }
 
-sl_status sl_map_clean(sl_context *context, sl_map *map, sl_clean_account *account) {
+// --- oblique walls: all of the map's segments become one planar graph
+
+/// All segments of a map in one list: walls first, then what else stands in it.
+typedef struct segment_list {
+    SL_ARRAY(sl_segment) items;
+    size_t mirrors, oneways, seams, doors; ///< the first of each; walls before them
+} segment_list;
+
+static sl_status add_segment(sl_context *context, segment_list *list, sl_point a, sl_point b) {
+    SL_TRY(SL_ARRAY_ROOM(context, &list->items, 1));
+    list->items.items[list->items.count++] = (sl_segment){a, b};
+    return SL_OK;
+}
+
+static sl_status add_glass(sl_context *context, segment_list *list, const sl_glass *glass,
+                           size_t count) {
+    for (size_t i = 0; i < count; i++)
+        SL_TRY(add_segment(context, list, glass[i].segment.a, glass[i].segment.b));
+    return SL_OK;
+}
+
+static sl_status list_segments(const cleaning *work, const sl_map *map, segment_list *list) {
+    sl_context *context = work->context;
+    for (size_t i = 0; i < work->uprights.count; i++) {
+        const piece *at = &work->uprights.items[i];
+        SL_TRY(add_segment(context, list, (sl_point){at->at, at->low}, (sl_point){at->at, at->high}));
+    }
+    for (size_t i = 0; i < work->levels.count; i++) {
+        const piece *at = &work->levels.items[i];
+        SL_TRY(add_segment(context, list, (sl_point){at->low, at->at}, (sl_point){at->high, at->at}));
+    }
+    for (size_t i = 0; i < work->others.count; i++)
+        SL_TRY(add_segment(context, list, work->others.items[i].a, work->others.items[i].b));
+    list->mirrors = list->items.count;
+    SL_TRY(add_glass(context, list, map->mirrors, map->mirror_count));
+    list->oneways = list->items.count;
+    SL_TRY(add_glass(context, list, map->oneways, map->oneway_count));
+    list->seams = list->items.count;
+    SL_TRY(add_glass(context, list, map->seams, map->seam_count));
+    list->doors = list->items.count;
+    for (size_t i = 0; i < map->door_count; i++)
+        SL_TRY(add_segment(context, list, map->doors[i].segment.a, map->doors[i].segment.b));
+    return SL_OK;
+}
+
+static uint32_t line_of(const cleaning *work, size_t segment) {
+    const size_t uprights = work->uprights.count, levels = work->levels.count;
+    if (segment < uprights) return work->uprights.items[segment].line;
+    if (segment < uprights + levels) return work->levels.items[segment - uprights].line;
+    return work->others.items[segment - uprights - levels].line;
+}
+
+/// Makes a wall of each edge that is part of one.
+static sl_status take_walls(cleaning *work, const segment_list *list, const sl_planar *graph,
+                            sl_map *map) {
+    uint32_t *lines = sl_alloc_array(work->context, graph->edge_count, sizeof *lines);
+    bool *walled = sl_alloc_array(work->context, graph->edge_count, sizeof *walled);
+    sl_wall *walls = sl_alloc_array(work->context, graph->edge_count, sizeof *walls);
+    size_t count = 0;
+    for (size_t i = 0; i < list->mirrors && lines && walled && walls; i++) {
+        const size_t parts = graph->first[i + 1] - graph->first[i];
+        work->account.split += parts > 1;
+        work->account.zero_length += parts == 0;
+        for (size_t k = graph->first[i]; k < graph->first[i + 1]; k++) {
+            const size_t edge = graph->links[k] / 2;
+            const uint32_t line = line_of(work, i);
+            lines[edge] = walled[edge] ? lower_line(lines[edge], line) : line;
+            work->account.merged += walled[edge];
+            walled[edge] = true;
+        }
+    }
+    for (size_t i = 0; i < graph->edge_count && lines && walled && walls; i++)
+        if (walled[i])
+            walls[count++] = (sl_wall){graph->points[graph->edges[i].a],
+                                       graph->points[graph->edges[i].b], lines[i]};
+    const bool done = lines && walled && walls;
+    sl_free(work->context, lines);
+    sl_free(work->context, walled);
+    if (!done) {
+        sl_free(work->context, walls);
+        return SL_NO_MEMORY;
+    }
+    if (count) qsort(walls, count, sizeof *walls, compare_walls);
+    sl_free(work->context, map->walls);
+    map->walls = walls;
+    map->wall_count = map->wall_room = work->account.after = count;
+    return SL_OK;
+}
+
+/// Replaces mirrors, glass or seams by the parts that they have become.
+static sl_status take_glass(cleaning *work, const sl_planar *graph, size_t first, sl_glass **glass,
+                            size_t *count, size_t *room) {
+    const size_t parts = graph->first[first + *count] - graph->first[first];
+    sl_glass *made = sl_alloc_array(work->context, parts, sizeof *made);
+    if (!made) return SL_NO_MEMORY;
+    size_t next = 0;
+    for (size_t i = 0; i < *count; i++)
+        for (size_t k = graph->first[first + i]; k < graph->first[first + i + 1]; k++) {
+            made[next] = (*glass)[i];
+            made[next++].segment = sl_planar_at(graph, graph->links[k]);
+        }
+    sl_free(work->context, *glass);
+    *glass = made;
+    *count = *room = parts;
+    return SL_OK;
+}
+
+/// A door keeps its name and number, whatever it is cut into.
+static sl_status take_door(cleaning *work, const sl_planar *graph, size_t segment, sl_door *door) {
+    const size_t first = graph->first[segment], count = graph->first[segment + 1] - first;
+    sl_free(work->context, door->parts);
+    door->parts = NULL;
+    door->part_count = 0;
+    if (!count) {
+        door->segment.b = door->segment.a;
+        return SL_OK;
+    }
+    door->segment = (sl_segment){sl_planar_at(graph, graph->links[first]).a,
+                                 sl_planar_at(graph, graph->links[first + count - 1]).b};
+    if (count == 1) return SL_OK;
+    door->parts = sl_alloc_array(work->context, count, sizeof *door->parts);
+    if (!door->parts) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++) door->parts[i] = sl_planar_at(graph, graph->links[first + i]);
+    door->part_count = count;
+    return SL_OK;
+}
+
+static sl_status take_graph(cleaning *work, const segment_list *list, const sl_planar *graph,
+                            sl_map *map) {
+    work->account.welded = graph->welded;
+    work->account.crossings = graph->crossings;
+    work->account.largest_move = graph->largest_move;
+    SL_TRY(take_walls(work, list, graph, map));
+    SL_TRY(take_glass(work, graph, list->mirrors, &map->mirrors, &map->mirror_count,
+                      &map->mirror_room));
+    SL_TRY(take_glass(work, graph, list->oneways, &map->oneways, &map->oneway_count,
+                      &map->oneway_room));
+    SL_TRY(take_glass(work, graph, list->seams, &map->seams, &map->seam_count, &map->seam_room));
+    for (size_t i = 0; i < map->door_count; i++)
+        SL_TRY(take_door(work, graph, list->doors + i, &map->doors[i]));
+    return SL_OK;
+}
+
+static sl_status clean_oblique(cleaning *work, sl_map *map, double weld) {
+    const sl_box bounds = sl_map_bounds(map);
+    segment_list list = {0};
+    sl_planar graph = {0};
+    sl_status status = list_segments(work, map, &list);
+    if (status == SL_OK)
+        status = sl_planar_make(work->context, map->source ? map->source : "the map",
+                                list.items.items, list.items.count,
+                                weld < 0 ? sl_planar_tolerance(&bounds) : weld, &graph);
+    if (status == SL_OK) status = take_graph(work, &list, &graph, map);
+    sl_planar_destroy(work->context, &graph);
+    sl_free(work->context, list.items.items);
+    return status;
+}
+
+static bool is_axial(sl_segment at) {
+    return at.a.x == at.b.x || at.a.y == at.b.y;
+}
+
+bool sl_map_is_axial(const sl_map *map) {
+    bool axial = sl_map_count_oblique(map) == 0;
+    for (size_t i = 0; i < map->mirror_count; i++) axial &= is_axial(map->mirrors[i].segment);
+    for (size_t i = 0; i < map->door_count; i++) axial &= is_axial(map->doors[i].segment);
+    for (size_t i = 0; i < map->oneway_count; i++) axial &= is_axial(map->oneways[i].segment);
+    for (size_t i = 0; i < map->seam_count; i++) axial &= is_axial(map->seams[i].segment);
+    return axial;
+}
+
+static sl_status clean(cleaning *work, sl_map *map, double weld) {
+    const bool axial = sl_map_is_axial(map) && !(weld > 0);
+    SL_TRY(sort_out(work, map));
+    merge(&work->uprights, &work->account);
+    merge(&work->levels, &work->account);
+    drop_duplicates(&work->others, &work->account);
+    return axial ? clean_axial(work, map) : clean_oblique(work, map, weld);
+}
+
+sl_clean_options sl_clean_options_default(void) {
+    return (sl_clean_options){.weld = -1};
+}
+
+sl_status sl_map_clean(sl_context *context, sl_map *map, const sl_clean_options *options,
+                       sl_clean_account *account) {
     cleaning work = {.context = context, .account.before = map->wall_count};
+    const double weld = options ? options->weld : sl_clean_options_default().weld;
+    if (!isfinite(weld) || weld > SL_COORDINATE_MAX)
+        return sl_fail(context, SL_BAD_ARGUMENT, "the welding tolerance must be a number");
     if (map->cell_count) {
         // Its cells' sides tell walls by their numbers.
         if (account)
             *account = (sl_clean_account){.before = map->wall_count, .after = map->wall_count};
         return SL_OK;
     }
-    const sl_status status = clean(&work, map);
+    const sl_status status = clean(&work, map, weld);
     sl_free(context, work.uprights.items);
     sl_free(context, work.levels.items);
     sl_free(context, work.others.items);

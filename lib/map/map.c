@@ -35,7 +35,10 @@ bool sl_name_usable(const char *name, size_t length) {
 }
 
 void sl_map_destroy(sl_context *context, sl_map *map) {
-    for (size_t i = 0; i < map->door_count; i++) sl_free(context, map->doors[i].name);
+    for (size_t i = 0; i < map->door_count; i++) {
+        sl_free(context, map->doors[i].name);
+        sl_free(context, map->doors[i].parts);
+    }
     for (size_t i = 0; i < map->object_count; i++) sl_free(context, map->objects[i].name);
     for (size_t i = 0; i < map->path_count; i++) {
         sl_free(context, map->paths[i].name);

@@ -140,7 +140,7 @@ sl_status sl_boxes_put(sl_context *context, const sl_box_ground *ground, const s
                        size_t count, sl_boxed_space *out) {
     sl_boxed_space made = {0};
     const sl_status status = ground->space->beyond
-                                 ? sl_boxes_put_bsp(context, ground, boxes, count, &made)
+                                 ? sl_boxes_put_mesh(context, ground, boxes, count, &made)
                                  : sl_boxes_put_axial(context, ground, boxes, count, &made);
     if (status == SL_OK)
         *out = made;

@@ -45,8 +45,8 @@ void sl_boxed_space_destroy(sl_context *context, sl_boxed_space *boxed); ///< an
 /// In a kd-tree's space (boxes.c).
 sl_status sl_boxes_put_axial(sl_context *context, const sl_box_ground *ground,
                              const sl_moving_box *boxes, size_t count, sl_boxed_space *out);
-/// In a BSP's (boxes_bsp.c).
-sl_status sl_boxes_put_bsp(sl_context *context, const sl_box_ground *ground,
+/// In a mesh (boxes_mesh.c).
+sl_status sl_boxes_put_mesh(sl_context *context, const sl_box_ground *ground,
                            const sl_moving_box *boxes, size_t count, sl_boxed_space *out);
 
 // --- the sides of boxes (box_sides.c)

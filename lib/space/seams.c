@@ -24,15 +24,25 @@ static sl_status add_seam(sl_context *context, const sl_map *map, bool axial, sl
     return SL_OK;
 }
 
+static sl_status add_door(sl_context *context, const sl_map *map, bool axial, uint32_t number,
+                          sl_space *space) {
+    const sl_door *door = &map->doors[number];
+    const sl_seam seam = {.kind = SL_SEAM_DOOR, .number = number};
+    for (size_t i = 0; i < door->part_count; i++)
+        SL_TRY(add_seam(context, map, axial, door->parts[i], door->line, seam, space));
+    return door->parts ? SL_OK
+                       : add_seam(context, map, axial, door->segment, door->line, seam, space);
+}
+
 sl_status sl_seams_of_map(sl_context *context, const sl_map *map, bool axial, sl_space *space) {
-    const size_t count = map->door_count + map->oneway_count + map->seam_count;
+    size_t count = map->door_count + map->oneway_count + map->seam_count;
+    for (size_t i = 0; i < map->door_count; i++) count += map->doors[i].part_count;
     if (!count) return SL_OK;
     if (count > INT32_MAX) return sl_fail_memory(context);
     space->seams = sl_alloc_array(context, count, sizeof *space->seams);
     if (!space->seams) return SL_NO_MEMORY;
     for (size_t i = 0; i < map->door_count; i++)
-        SL_TRY(add_seam(context, map, axial, map->doors[i].segment, map->doors[i].line,
-                        (sl_seam){.kind = SL_SEAM_DOOR, .number = (uint32_t)i}, space));
+        SL_TRY(add_door(context, map, axial, (uint32_t)i, space));
     for (size_t i = 0; i < map->oneway_count; i++)
         SL_TRY(add_seam(context, map, axial, map->oneways[i].segment, map->oneways[i].line,
                         (sl_seam){.kind = SL_SEAM_ONEWAY, .number = (uint32_t)i}, space));

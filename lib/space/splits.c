@@ -1,7 +1,5 @@
 #include "space/splits.h"
 
-#include "geometry/orient.h"
-
 #include <math.h>
 #include <stdlib.h>
 
@@ -13,26 +11,17 @@ void sl_splits_destroy(sl_context *context, sl_splits *splits) {
 }
 
 /// Positive above the node's line, negative below it.
-static int side_of(const sl_space *space, const sl_node *node, sl_point p) {
-    if (node->axis == 2) {
-        const sl_segment *line = &space->lines[node->line];
-        return sl_orient(line->a, line->b, p);
-    }
-    const double place = node->axis == 0 ? p.x : p.y;
-    return (place > node->position) - (place < node->position);
+static double distance(const sl_node *node, sl_point p) {
+    return (node->axis == 0 ? p.x : p.y) - node->position;
 }
 
-static double distance(const sl_space *space, const sl_node *node, sl_point p) {
-    if (node->axis == 0) return p.x - node->position;
-    if (node->axis == 1) return p.y - node->position;
-    const sl_segment *line = &space->lines[node->line];
-    return (line->b.x - line->a.x) * (p.y - line->a.y) -
-           (line->b.y - line->a.y) * (p.x - line->a.x);
+static int side_of(const sl_node *node, sl_point p) {
+    return (distance(node, p) > 0) - (distance(node, p) < 0);
 }
 
 /// Where the line crosses from p to q, which lie on different sides of it.
-static sl_point crossing(const sl_space *space, const sl_node *node, sl_point p, sl_point q) {
-    const double from = fabs(distance(space, node, p)), to = fabs(distance(space, node, q));
+static sl_point crossing(const sl_node *node, sl_point p, sl_point q) {
+    const double from = fabs(distance(node, p)), to = fabs(distance(node, q));
     const double share = from + to > 0 ? from / (from + to) : 0.5;
     sl_point at = {p.x + (q.x - p.x) * share, p.y + (q.y - p.y) * share};
     if (node->axis == 0) at.x = node->position;
@@ -45,19 +34,18 @@ static sl_point corner(const sl_splits *splits, sl_split_region region, size_t i
 }
 
 /// The part of a region on one side of a node's line, and where the line enters and leaves it.
-static sl_status cut(sl_context *context, sl_splits *splits, const sl_space *space,
-                     const sl_node *node, sl_split_region from, int sign, sl_split_region *part,
-                     sl_segment *along) {
+static sl_status cut(sl_context *context, sl_splits *splits, const sl_node *node,
+                     sl_split_region from, int sign, sl_split_region *part, sl_segment *along) {
     *part = (sl_split_region){splits->corners.count, 0};
     SL_TRY(SL_ARRAY_ROOM(context, &splits->corners, 2 * from.count));
     size_t met = 0;
     for (size_t i = 0; i < from.count; i++) {
         const sl_point p = corner(splits, from, i), q = corner(splits, from, i + 1);
-        const int here = side_of(space, node, p), next = side_of(space, node, q);
+        const int here = side_of(node, p), next = side_of(node, q);
         sl_point at = p;
         if (here * sign >= 0) splits->corners.items[splits->corners.count++] = p;
         if (here * next < 0) {
-            at = crossing(space, node, p, q);
+            at = crossing(node, p, q);
             splits->corners.items[splits->corners.count++] = at;
         }
         if (here * next < 0 || here == 0) *(met++ ? &along->b : &along->a) = at;
@@ -88,8 +76,8 @@ static sl_status split(sl_context *context, const sl_space *space, sl_splits *sp
                        visits *waiting) {
     const sl_node *node = &space->nodes[now.child];
     sl_split s = {.node = (uint32_t)now.child, .depth = now.depth};
-    SL_TRY(cut(context, splits, space, node, now.region, -1, &s.below, &s.along));
-    SL_TRY(cut(context, splits, space, node, now.region, 1, &s.above, &s.along));
+    SL_TRY(cut(context, splits, node, now.region, -1, &s.below, &s.along));
+    SL_TRY(cut(context, splits, node, now.region, 1, &s.above, &s.along));
     SL_TRY(SL_ARRAY_ROOM(context, &splits->splits, 1));
     splits->splits.items[splits->splits.count++] = s;
     SL_TRY(push(context, waiting, (visit){node->above, now.depth + 1, s.above}));
@@ -120,7 +108,7 @@ static sl_status make(sl_context *context, const sl_space *space, sl_splits *spl
     const sl_box b = space->bounds;
     const sl_point box[4] = {b.min, {b.max.x, b.min.y}, b.max, {b.min.x, b.max.y}};
     for (int i = 0; i < 4; i++) splits->corners.items[splits->corners.count++] = box[i];
-    SL_TRY(push(context, waiting, (visit){space->root, 0, {0, 4}}));
+    if (space->node_count) SL_TRY(push(context, waiting, (visit){space->root, 0, {0, 4}}));
     while (waiting->count) {
         SL_TRY(sl_check_cancelled(context));
         SL_TRY(split(context, space, splits, waiting->items[--waiting->count], waiting));
@@ -150,7 +138,7 @@ static void measure(const sl_space *space, const sl_split *split, double *length
     double sum = 0;
     for (uint32_t i = 0; i < space->wall_count; i++) {
         const sl_wall *w = &space->walls[i];
-        if (side_of(space, node, w->a) || side_of(space, node, w->b)) continue;
+        if (side_of(node, w->a) || side_of(node, w->b)) continue;
         const double a = ((w->a.x - along.a.x) * dx + (w->a.y - along.a.y) * dy) / square;
         const double b = ((w->b.x - along.a.x) * dx + (w->b.y - along.a.y) * dy) / square;
         sum += fmax(0, fmin(fmax(a, b), 1) - fmax(fmin(a, b), 0));

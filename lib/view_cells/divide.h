@@ -69,7 +69,7 @@ typedef struct sl_view_divider {
     sl_random random;
     double all_seen;              ///< cost of rendering all objects
     SL_ARRAY(sl_view_part) parts; ///< the leaves
-    SL_ARRAY(sl_node) nodes;
+    SL_ARRAY(sl_view_node) nodes;
     SL_ARRAY(sl_segment) lines;
     uint32_t with_mass; ///< parts that are not empty space
     uint64_t made;      ///< parts that a method has put in line

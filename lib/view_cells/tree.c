@@ -22,7 +22,7 @@ uint32_t sl_view_tree_locate(const sl_view_tree *tree, sl_point point) {
         return SL_NO_VIEW_CELL;
     int32_t at = tree->root;
     while (at >= 0) {
-        const sl_node *node = &tree->nodes[at];
+        const sl_view_node *node = &tree->nodes[at];
         bool below;
         if (node->axis < 2) {
             below = (node->axis ? point.y : point.x) < node->position;
@@ -144,7 +144,7 @@ static void end(sl_context *context, void *job, void *state) {
 }
 
 /// Where a point of a segment lies: below a node's split, on it or above it.
-static double side_of(const sl_view_tree *tree, const sl_node *node, sl_point p) {
+static double side_of(const sl_view_tree *tree, const sl_view_node *node, sl_point p) {
     if (node->axis < 2) return (node->axis ? p.y : p.x) - node->position;
     const sl_segment *l = &tree->lines[node->line];
     return (l->b.x - l->a.x) * (p.y - l->a.y) - (l->b.y - l->a.y) * (p.x - l->a.x);
@@ -158,7 +158,7 @@ static sl_status wait(sl_context *context, gatherer *me, int32_t at, double t0, 
 
 static sl_status pass_node(sl_context *context, const gathering *g, gatherer *me, descent d,
                            const sl_segment *s) {
-    const sl_node *node = &g->tree->nodes[d.at];
+    const sl_view_node *node = &g->tree->nodes[d.at];
     const double a = side_of(g->tree, node, s->a), b = side_of(g->tree, node, s->b);
     const double from = a + d.t0 * (b - a), to = a + d.t1 * (b - a);
     if (from < 0 && to < 0) return wait(context, me, node->below, d.t0, d.t1);

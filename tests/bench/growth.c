@@ -122,7 +122,7 @@ static void make_space(sl_context *context, const char *path, sl_baked *baked, d
     must(context, sl_map_read(context, path, NULL, &baked->map));
     of[READ_SECONDS] = lap(&time);
     *walls = (double)baked->map.wall_count;
-    must(context, sl_map_clean(context, &baked->map, NULL));
+    must(context, sl_map_clean(context, &baked->map, NULL, NULL));
     of[CLEAN_SECONDS] = lap(&time);
     must(context, sl_subdivide_kd(context, &baked->map, &rules, &baked->space));
     of[SUBDIVIDE_SECONDS] = lap(&time);

@@ -44,7 +44,7 @@ static void read_map(sl_context *context, const char *name, const char *slice, s
     const char *colon = strchr(name, ':');
     const sl_status status =
         colon ? generate(context, name, colon, map) : sl_map_read(context, name, &options, map);
-    if (status != SL_OK || sl_map_clean(context, map, NULL) != SL_OK)
+    if (status != SL_OK || sl_map_clean(context, map, NULL, NULL) != SL_OK)
         fail(sl_context_message(context));
 }
 

@@ -27,7 +27,7 @@ cmake --build "$build" --target fuzzers >&2 || exit 2
 # The endings of the files that a fuzzer starts from.
 seeds_of() {
     case $1 in
-    fuzz_map_text | fuzz_bsp | fuzz_slv | fuzz_runtime) echo map ;;
+    fuzz_map_text | fuzz_mesh | fuzz_slv | fuzz_runtime) echo map ;;
     fuzz_map_plan) echo txt ;;
     fuzz_unigrafix) echo ug ;;
     fuzz_dxf) echo dxf ;;

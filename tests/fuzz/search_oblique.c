@@ -75,9 +75,8 @@ static sl_status compare(search *s, const sl_map *map, const sl_space *space, sl
 }
 
 static bool fails(search *s, const sl_map *map, bool sane) {
-    const sl_bsp_options options = sl_bsp_options_default();
     sl_space space = {0};
-    sl_status status = sl_subdivide_bsp(s->context, map, &options, &space);
+    sl_status status = sl_subdivide_mesh(s->context, map, &space);
     if (status == SL_OK) status = sl_space_check(s->context, &space);
     bool wrong = false;
     if (status == SL_OK) status = compare(s, map, &space, SL_CLOSED, sane, &wrong);

@@ -110,11 +110,10 @@ static bool is_enough(void *user) {
 
 static sl_status bake(sl_context *context, const uint8_t *text, size_t size, sl_baked *out) {
     SL_TRY(sl_map_read_text(context, "input", (const char *)text, size, &out->map));
-    SL_TRY(sl_map_clean(context, &out->map, NULL));
+    SL_TRY(sl_map_clean(context, &out->map, NULL, NULL));
     const sl_subdivide_options rules = sl_subdivide_options_default();
-    const sl_bsp_options weights = sl_bsp_options_default();
     if (size & 16 || sl_subdivide_kd(context, &out->map, &rules, &out->space) == SL_BAD_INPUT)
-        SL_TRY(sl_subdivide_bsp(context, &out->map, &weights, &out->space));
+        SL_TRY(sl_subdivide_mesh(context, &out->map, &out->space));
     if (!out->space.cell_count) return SL_CANCELLED;
     out->map.wall_count = 0;
     sl_see_options options = sl_see_options_default();

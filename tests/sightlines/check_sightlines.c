@@ -122,20 +122,12 @@ static void tell_lost(check *run, sl_segment s, const char *what, uint32_t a, ui
             s.b.y, what, (unsigned long)a, (unsigned long)b);
 }
 
-/// Given cells need not cover the map. Asking for a point that is in none asks all of them, which
-/// is spared where it is in no cell's box.
-static uint32_t cell_at(check *run, sl_point at) {
-    if (!run->baked.space.partial) return sl_space_locate(&run->baked.space, at);
-    must(run, sl_box_tree_find(run->context, &run->boxes, &(sl_box){at, at}, &run->met));
-    return run->met.count ? sl_space_locate(&run->baked.space, at) : SL_NO_CELL;
-}
-
 static void check_cells(check *run, sl_segment s) {
     const sl_baked *baked = &run->baked;
-    const uint32_t a = cell_at(run, s.a);
+    const uint32_t a = sl_space_locate(&baked->space, s.a);
     // Outside the space, and where the bake did not look, nothing is said.
     if (a == SL_NO_CELL) return;
-    const uint32_t b = cell_at(run, s.b);
+    const uint32_t b = sl_space_locate(&baked->space, s.b);
     if (b == SL_NO_CELL) return;
     if (!sl_pvs_count(&baked->visibility.pvs, a) || !sl_pvs_count(&baked->visibility.pvs, b))
         return;

@@ -29,10 +29,9 @@ static bool begin(trial *t) {
             assert_ok(t->context,
                       sl_map_add_seam(t->context, &t->map, (sl_segment){from->a, to->b}, 0));
     }
-    assert_ok(t->context, sl_map_clean(t->context, &t->map, NULL));
+    assert_ok(t->context, sl_map_clean(t->context, &t->map, NULL, NULL));
     if (!t->map.wall_count) return false;
-    const sl_bsp_options bsp = sl_bsp_options_default();
-    assert_ok(t->context, sl_subdivide_bsp(t->context, &t->map, &bsp, &t->space));
+    assert_ok(t->context, sl_subdivide_mesh(t->context, &t->map, &t->space));
     assert_ok(t->context, sl_outline_make(t->context, &t->space, &t->outline));
     sl_see_options options = sl_see_options_default();
     options.sight = t->sight;

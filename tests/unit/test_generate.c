@@ -123,7 +123,7 @@ static void test_whole(void **state) {
             for (size_t k = 0; k < map.wall_count; k++)
                 assert_ok(context, sl_map_add_wall(context, &cleaned, map.walls[k].a,
                                                    map.walls[k].b, map.walls[k].line));
-            assert_ok(context, sl_map_clean(context, &cleaned, NULL));
+            assert_ok(context, sl_map_clean(context, &cleaned, NULL, NULL));
             assert_true(same_walls(&map, &cleaned));
             sl_faults_destroy(context, &faults);
             sl_space_destroy(context, &space);

@@ -165,8 +165,7 @@ static void test_random_walls(void **state) {
         for (int k = 0; k < d.count; k++)
             assert_ok(context, sl_map_add_wall(context, &map, scaled(d.a[k], 1, 0),
                                                scaled(d.b[k], 1, 0), 0));
-        const sl_bsp_options options = sl_bsp_options_default();
-        assert_ok(context, sl_subdivide_bsp(context, &map, &options, &space));
+        assert_ok(context, sl_subdivide_mesh(context, &options, &space));
         bring_cells(context, &space, i % 2 ? 0x1p-16 : 0.001, &map);
         checked += check_given(&d, context, &map, &random, &refused);
         sl_space_destroy(context, &space);

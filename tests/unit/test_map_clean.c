@@ -169,16 +169,16 @@ static void test_random(void **state) {
         }
         copy_walls(context, &map, &clean);
         sl_clean_account account;
-        assert_ok(context, sl_map_clean(context, &clean, &account));
+        assert_ok(context, sl_map_clean(context, &clean, NULL, &account));
         const unit_edges edges = edges_of(&map);
         check_against(&edges, &clean);
         check_order(&clean);
         check_account(&map, &account, clean.wall_count);
         shuffle(&random, &map);
-        assert_ok(context, sl_map_clean(context, &map, NULL));
+        assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
         assert_same_walls(&map, &clean);
         copy_walls(context, &clean, &other);
-        assert_ok(context, sl_map_clean(context, &other, NULL));
+        assert_ok(context, sl_map_clean(context, &other, NULL, NULL));
         assert_same_walls(&other, &clean);
         sl_map_destroy(context, &map);
         sl_map_destroy(context, &clean);
@@ -193,7 +193,7 @@ static void assert_cleaned(sl_context *context, const char *walls, const char *e
     snprintf(text, sizeof text, "sightline 1\n%s", walls);
     sl_map map = {0};
     assert_ok(context, sl_map_read_text(context, "t", text, strlen(text), &map));
-    assert_ok(context, sl_map_clean(context, &map, NULL));
+    assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
     char *clean = map_text(&map);
     assert_string_equal(clean + strlen("sightline 1\n"), expected);
     free(clean);
@@ -246,7 +246,7 @@ static void test_many_ranks(void **state) {
     }
     add(context, &map, 0, -1, 0, rungs, 0);
     sl_clean_account account;
-    assert_ok(context, sl_map_clean(context, &map, &account));
+    assert_ok(context, sl_map_clean(context, &map, NULL, &account));
     assert_int_equal(account.split, met + 1);
     assert_int_equal(account.after, (size_t)rungs + 1 + 2 * met);
     sl_map_destroy(context, &map);
@@ -264,7 +264,7 @@ static void test_cancelled(void **state) {
     sl_context *context = sl_context_create(&hooks);
     sl_map map = {0};
     add(context, &map, 1, 2, 1, 0, 4);
-    assert_int_equal(sl_map_clean(context, &map, NULL), SL_CANCELLED);
+    assert_int_equal(sl_map_clean(context, &map, NULL, NULL), SL_CANCELLED);
     assert_true(map.wall_count == 1 && map.walls[0].a.y == 2);
     sl_map_destroy(context, &map);
     sl_context_destroy(context);

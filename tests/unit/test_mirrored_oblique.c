@@ -74,9 +74,8 @@ static void begin(trial *t, uint64_t seed) {
     for (int i = 0; i < 4; i++)
         assert_ok(t->context, sl_map_add_wall(t->context, &t->map, corners[i], corners[i + 1], 0));
     add_walls(t, grids[seed % 3]);
-    assert_ok(t->context, sl_map_clean(t->context, &t->map, NULL));
-    const sl_bsp_options options = sl_bsp_options_default();
-    assert_ok(t->context, sl_subdivide_bsp(t->context, &t->map, &options, &t->space));
+    assert_ok(t->context, sl_map_clean(t->context, &t->map, NULL, NULL));
+    assert_ok(t->context, sl_subdivide_mesh(t->context, &t->map, &t->space));
     assert_ok(t->context, sl_outline_make(t->context, &t->space, &t->outline));
     assert_ok(t->context, sl_room_mirrors_make(t->context, &t->outline, &t->map, &t->mirrors));
     bake(t);

@@ -313,12 +313,11 @@ static void bake(trial *t, sl_sight sight) {
 
 static void try_map(trial *t, sl_sight sight) {
     const oblique_grid grid = (oblique_grid)(t->seed % OBLIQUE_GRIDS);
-    const sl_bsp_options options = sl_bsp_options_default();
     assert_ok(t->context, oblique_random_map(t->context, t->seed, grid, WALLS, &t->map));
     t->random = (sl_random){t->seed ^ 0xb0e5};
     for (uint64_t i = below(t, 3); i > 0; i--)
         assert_ok(t->context, sl_map_add_seam(t->context, &t->map, random_segment(t, grid), 0));
-    assert_ok(t->context, sl_subdivide_bsp(t->context, &t->map, &options, &t->space));
+    assert_ok(t->context, sl_subdivide_mesh(t->context, &t->map, &t->space));
     const sl_box b = t->space.bounds;
     t->size = fmax(b.max.x - b.min.x, b.max.y - b.min.y);
     t->coarse = grid >= OBLIQUE_SCALES;
@@ -380,8 +379,7 @@ static void enter(room *r, testing_memory *memory) {
     assert_ok(r->context,
               sl_map_add_wall(r->context, &r->map, (sl_point){0, 0}, (sl_point){4, 4}, 0));
     assert_ok(r->context, sl_map_add_seam(r->context, &r->map, (sl_segment){{4, 4}, {8, 8}}, 0));
-    const sl_bsp_options options = sl_bsp_options_default();
-    assert_ok(r->context, sl_subdivide_bsp(r->context, &r->map, &options, &r->space));
+    assert_ok(r->context, sl_subdivide_mesh(r->context, &r->map, &r->space));
 }
 
 static void leave(room *r) {

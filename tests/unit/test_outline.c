@@ -76,7 +76,7 @@ static void rooms_of_random_maps(void **state) {
         sl_space space = {0};
         sl_outline outline = {0};
         assert_ok(context, oracle_random_map(context, seed, (oracle_grid)(seed % 3), &map));
-        assert_ok(context, sl_map_clean(context, &map, NULL));
+        assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
         if (map.wall_count) {
             const sl_subdivide_options options = sl_subdivide_options_default();
             assert_ok(context, sl_subdivide_kd(context, &map, &options, &space));
@@ -110,9 +110,8 @@ static void rooms_of_turned_maps(void **state) {
         how.walls = 300;
         how.turned = 17;
         assert_ok(context, sl_generate(context, &kinds[k], &how, &map));
-        assert_ok(context, sl_map_clean(context, &map, NULL));
-        const sl_bsp_options options = sl_bsp_options_default();
-        assert_ok(context, sl_subdivide_bsp(context, &map, &options, &space));
+        assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
+        assert_ok(context, sl_subdivide_mesh(context, &options, &space));
         assert_ok(context, sl_outline_make(context, &space, &outline));
         sl_random random = {k + 1};
         const sl_box *b = &space.bounds;

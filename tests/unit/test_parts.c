@@ -49,11 +49,10 @@ static void destroy(sl_context *context, place *p) {
 }
 
 static void subdivide(sl_context *context, bool oblique, place *p) {
-    assert_ok(context, sl_map_clean(context, &p->map, NULL));
+    assert_ok(context, sl_map_clean(context, &p->map, NULL, NULL));
     const sl_subdivide_options kd = sl_subdivide_options_default();
-    const sl_bsp_options bsp = sl_bsp_options_default();
     if (oblique)
-        assert_ok(context, sl_subdivide_bsp(context, &p->map, &bsp, &p->space));
+        assert_ok(context, sl_subdivide_mesh(context, &p->map, &p->space));
     else
         assert_ok(context, sl_subdivide_kd(context, &p->map, &kd, &p->space));
 }

@@ -109,7 +109,7 @@ static void as_the_sweep_says(void **state) {
         sl_space space = {0};
         sl_outline outline = {0};
         assert_ok(context, oracle_random_map(context, seed, (oracle_grid)(seed % 3), &map));
-        assert_ok(context, sl_map_clean(context, &map, NULL));
+        assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
         if (map.wall_count) {
             const sl_subdivide_options options = sl_subdivide_options_default();
             assert_ok(context, sl_subdivide_kd(context, &map, &options, &space));

@@ -139,7 +139,7 @@ static void every_point_by_an_oblique_wall_is_in_the_same_cell(void **state) {
         sl_map *map = &f.baked.map;
         assert_ok(context,
                   oblique_random_map(context, seed, (oblique_grid)(seed % OBLIQUE_GRIDS), 12, map));
-        if (sl_map_clean(context, map, NULL) == SL_OK && map->wall_count) {
+        if (sl_map_clean(context, map, NULL, NULL) == SL_OK && map->wall_count) {
             baked_file_make(context, &f, false);
             points_by_walls_are_in_the_same_cells(&f, 400);
             over += f.runtime.beyond != NULL;

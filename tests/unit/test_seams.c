@@ -45,7 +45,7 @@ static void draw_map(sl_context *context, sl_random *random, bool axial, sl_map 
     }
     for (uint32_t i = 1 + (uint32_t)sl_random_below(random, 7); i > 0; i--)
         add_seam(context, map, (int)sl_random_below(random, 3), draw_segment(random, axial));
-    assert_ok(context, sl_map_clean(context, map, NULL));
+    assert_ok(context, sl_map_clean(context, map, NULL, NULL));
 }
 
 static double cross(sl_point a, sl_point b, sl_point p) {
@@ -119,11 +119,10 @@ static void axial_seams(void **state) {
         sl_map map = {0};
         draw_map(context, &random, true, &map);
         const sl_subdivide_options kd = sl_subdivide_options_default();
-        const sl_bsp_options bsp = sl_bsp_options_default();
         for (int which = 0; which < 2; which++) {
             sl_space space = {0};
             if (which)
-                assert_ok(context, sl_subdivide_bsp(context, &map, &bsp, &space));
+                assert_ok(context, sl_subdivide_mesh(context, &bsp, &space));
             else
                 assert_ok(context, sl_subdivide_kd(context, &map, &kd, &space));
             assert_ok(context, sl_space_check(context, &space));
@@ -167,8 +166,7 @@ static void oblique_seams(void **state) {
         sl_map map = {0};
         sl_space space = {0};
         draw_map(context, &random, false, &map);
-        const sl_bsp_options options = sl_bsp_options_default();
-        assert_ok(context, sl_subdivide_bsp(context, &map, &options, &space));
+        assert_ok(context, sl_subdivide_mesh(context, &options, &space));
         assert_ok(context, sl_space_check(context, &space));
         double lengths[16] = {0};
         for (uint32_t k = 0; k < space.seam_portal_count; k++) {
@@ -231,7 +229,6 @@ static void seams_stay_where_walls_go_on(void **state) {
         sl_space_destroy(context, &space);
         sl_map_destroy(context, &map);
     }
-    const sl_bsp_options options = sl_bsp_options_default();
     const uint64_t seeds = testing_seeds(600);
     for (uint64_t seed = 1; seed <= seeds; seed++) {
         sl_map map = {0};
@@ -244,7 +241,7 @@ static void seams_stay_where_walls_go_on(void **state) {
             if (at[0] != at[2] || at[1] != at[3])
                 add_seam(context, &map, kind, (sl_segment){{at[0], at[1]}, {at[2], at[3]}});
         }
-        assert_ok(context, sl_subdivide_bsp(context, &map, &options, &space));
+        assert_ok(context, sl_subdivide_mesh(context, &options, &space));
         assert_ok(context, sl_space_check(context, &space));
         sl_space_destroy(context, &space);
         sl_map_destroy(context, &map);
@@ -294,7 +291,6 @@ static void wrong_seams_are_found(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
     const sl_subdivide_options kd = sl_subdivide_options_default();
-    const sl_bsp_options bsp = sl_bsp_options_default();
     for (int fault = 0; fault < 12; fault++) {
         sl_map map = {0};
         sl_space space;
@@ -304,7 +300,7 @@ static void wrong_seams_are_found(void **state) {
                       &map, &space);
         if (fault % 2) {
             sl_space_destroy(context, &space);
-            assert_ok(context, sl_subdivide_bsp(context, &map, &bsp, &space));
+            assert_ok(context, sl_subdivide_mesh(context, &bsp, &space));
         } else {
             sl_space_destroy(context, &space);
             assert_ok(context, sl_subdivide_kd(context, &map, &kd, &space));

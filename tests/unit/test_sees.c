@@ -100,7 +100,7 @@ static void as_every_wall_says(void **state) {
         sl_space space = {0};
         sl_outline outline = {0};
         assert_ok(context, oracle_random_map(context, seed, ORACLE_GRID_INTEGER, &map));
-        assert_ok(context, sl_map_clean(context, &map, NULL));
+        assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
         const sl_subdivide_options options = sl_subdivide_options_default();
         if (map.wall_count && sl_subdivide_kd(context, &map, &options, &space) == SL_OK) {
             assert_ok(context, sl_outline_make(context, &space, &outline));
@@ -138,7 +138,6 @@ static bool is_free(const sl_map *map, sl_point p, sl_point q) {
 static void among_oblique_walls(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
-    const sl_bsp_options options = sl_bsp_options_default();
     const uint64_t seeds = testing_seeds(200);
     size_t counts[2] = {0};
     for (uint64_t seed = 1; seed <= seeds; seed++) {
@@ -148,8 +147,8 @@ static void among_oblique_walls(void **state) {
         sl_random random = {seed};
         const oblique_grid grid = (oblique_grid)(seed % OBLIQUE_SCALES);
         assert_ok(context, oblique_random_map(context, seed, grid, 12, &map));
-        assert_ok(context, sl_map_clean(context, &map, NULL));
-        const bool made = sl_subdivide_bsp(context, &map, &options, &space) == SL_OK;
+        assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
+        const bool made = sl_subdivide_mesh(context, &options, &space) == SL_OK;
         if (made) assert_ok(context, sl_outline_make(context, &space, &outline));
         for (int i = 0; i < 100 && made; i++) {
             const sl_point p = oblique_random_point(&random, &map, space.bounds);

@@ -31,7 +31,7 @@ static void walls_choose_the_subdivision(void **state) {
     assert_string_equal(sl_subdivision_for(&map)->name, "kd");
     assert_ok(context, sl_map_add_wall(context, &map, (sl_point){4, 3}, (sl_point){0, 0}, 0));
     assert_int_equal(sl_map_count_oblique(&map), 1);
-    assert_string_equal(sl_subdivision_for(&map)->name, "bsp");
+    assert_string_equal(sl_subdivision_for(&map)->name, "mesh");
     size_t count;
     const sl_subdivision *all = sl_subdivisions(&count);
     assert_true(count >= 2);
@@ -76,7 +76,7 @@ static void regions_fill_the_bounds(void **state) {
         sl_splits splits;
         snprintf(path, sizeof path, "%s%s", SIGHTLINE_SOURCE_DIR, paths[i]);
         assert_ok(context, sl_map_read(context, path, NULL, &map));
-        assert_ok(context, sl_map_clean(context, &map, NULL));
+        assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
         assert_ok(context, sl_subdivision_for(&map)->subdivide(context, &map, NULL, &space));
         assert_int_equal(space.beyond != NULL, strstr(path, "oblique") != NULL);
         assert_ok(context, sl_splits_make(context, &space, &splits));

@@ -37,7 +37,7 @@ static void see(sl_context *context, const char *statements, bool oblique, uint3
     char text[1024];
     snprintf(text, sizeof text, "sightline 1\n%s", statements);
     assert_ok(context, sl_map_read_text(context, "test", text, strlen(text), &s->map));
-    assert_ok(context, sl_map_clean(context, &s->map, NULL));
+    assert_ok(context, sl_map_clean(context, &s->map, NULL, NULL));
     assert_ok(context,
               sl_view_add_seams(context, &s->tree, s->view_cells, &s->world.space, &s->map));
     assert_ok(context, sl_subdivision_for(&s->map)->subdivide(context, &s->map, NULL, &s->space));

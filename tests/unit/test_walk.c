@@ -247,7 +247,7 @@ static void kd_world(sl_context *context, uint64_t seed, const sl_walk_options *
                      tally *count) {
     world w = {.context = context};
     assert_ok(context, oracle_random_map(context, seed, (oracle_grid)(seed % 3), &w.map));
-    assert_ok(context, sl_map_clean(context, &w.map, NULL));
+    assert_ok(context, sl_map_clean(context, &w.map, NULL, NULL));
     const sl_subdivide_options options = sl_subdivide_options_default();
     if (w.map.wall_count && sl_subdivide_kd(context, &w.map, &options, &w.space) == SL_OK) {
         open_world(&w, like);
@@ -343,7 +343,7 @@ static void bounds_decide_as_tests_do(void **state) {
     for (uint64_t seed = 1; seed <= 60; seed++) {
         world w = {.context = context};
         assert_ok(context, oracle_random_map(context, seed, (oracle_grid)(seed % 3), &w.map));
-        assert_ok(context, sl_map_clean(context, &w.map, NULL));
+        assert_ok(context, sl_map_clean(context, &w.map, NULL, NULL));
         const sl_subdivide_options options = sl_subdivide_options_default();
         if (w.map.wall_count && sl_subdivide_kd(context, &w.map, &options, &w.space) == SL_OK) {
             assert_ok(context, sl_hierarchy_make(context, &w.space, &w.hierarchy));
@@ -369,9 +369,8 @@ static void turned_world(sl_context *context, const char *name, tally *count) {
         if (strcmp(kinds[i].name, name) == 0)
             assert_ok(context, sl_generate(context, &kinds[i], &how, &w.map));
     assert_true(w.map.wall_count > 0);
-    assert_ok(context, sl_map_clean(context, &w.map, NULL));
-    const sl_bsp_options options = sl_bsp_options_default();
-    assert_ok(context, sl_subdivide_bsp(context, &w.map, &options, &w.space));
+    assert_ok(context, sl_map_clean(context, &w.map, NULL, NULL));
+    assert_ok(context, sl_subdivide_mesh(context, &w.map, &w.space));
     const sl_walk_options like = sl_walk_options_default();
     open_world(&w, &like);
     walk_about(&w, 1, 200, count);
@@ -397,7 +396,7 @@ static void ropes_hold_faces(void **state) {
     for (uint64_t seed = 1; seed <= 60; seed++) {
         world w = {.context = context};
         assert_ok(context, oracle_random_map(context, seed, ORACLE_GRID_INTEGER, &w.map));
-        assert_ok(context, sl_map_clean(context, &w.map, NULL));
+        assert_ok(context, sl_map_clean(context, &w.map, NULL, NULL));
         const sl_subdivide_options options = sl_subdivide_options_default();
         if (w.map.wall_count && sl_subdivide_kd(context, &w.map, &options, &w.space) == SL_OK)
             assert_ok(context, sl_hierarchy_make(context, &w.space, &w.hierarchy));

@@ -33,10 +33,9 @@ static inline void make_world(sl_context *context, const char *statements, bool 
     char text[1024];
     snprintf(text, sizeof text, "sightline 1\n%s", statements);
     assert_ok(context, sl_map_read_text(context, "test", text, strlen(text), &w->map));
-    assert_ok(context, sl_map_clean(context, &w->map, NULL));
+    assert_ok(context, sl_map_clean(context, &w->map, NULL, NULL));
     const sl_subdivide_options kd = sl_subdivide_options_default();
-    const sl_bsp_options bsp = sl_bsp_options_default();
-    assert_ok(context, oblique ? sl_subdivide_bsp(context, &w->map, &bsp, &w->space)
+    assert_ok(context, oblique ? sl_subdivide_mesh(context, &w->map, &w->space)
                                : sl_subdivide_kd(context, &w->map, &kd, &w->space));
     assert_ok(context, sl_outline_make(context, &w->space, &w->outline));
     assert_ok(context, sl_view_places_inside(context, &w->space, &w->places));

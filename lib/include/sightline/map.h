@@ -22,6 +22,8 @@ typedef struct sl_door {
     sl_segment segment;
     bool open;
     uint32_t line;
+    sl_segment *parts; ///< what cleaning made of the segment, in order; NULL where it is whole
+    size_t part_count;
 } sl_door;
 
 /// A mirror, glass that is seen through from its right to its left, going from a to b, or a seam: a
@@ -130,22 +132,47 @@ SL_API sl_box sl_map_bounds(const sl_map *map);
 /// How many walls are parallel to neither axis.
 SL_API size_t sl_map_count_oblique(const sl_map *map);
 
-/// What cleaning did, in walls.
+/// Whether all walls, mirrors, doors, one-way glass and seams are parallel to an axis.
+SL_API bool sl_map_is_axial(const sl_map *map);
+
+/// What cleaning did, in walls where nothing else is said.
 typedef struct sl_clean_account {
     size_t before, after;
-    size_t zero_length; ///< dropped
-    size_t duplicate;   ///< dropped: the same two ends as another wall
-    size_t merged;      ///< swallowed by a collinear wall that they overlap or touch
-    size_t split;       ///< cut where another wall crosses or touches them
+    size_t zero_length;  ///< dropped
+    size_t duplicate;    ///< dropped: the same two ends as another wall
+    size_t merged;       ///< swallowed by a collinear wall that they overlap or touch
+    size_t split;        ///< cut where another wall crosses or touches them
+    size_t welded;       ///< ends of walls, doors, glass and seams that were moved to another end
+    size_t crossings;    ///< points where walls cross that had to be computed
+    double largest_move; ///< no clean wall is farther than this from the walls that it comes from
 } sl_clean_account;
 
-/// Adds a wall for each mirror, which hides what is behind it, and makes the walls a planar set:
-/// zero-length walls dropped, duplicates and overlapping collinear axial walls merged, axial walls
-/// split where they cross or touch. No coordinate is computed: every end is an end, or made of two
-/// coordinates, of the input. The order is by place, whatever the input's was. Walls that are not
-/// axial are only freed of zero length and duplicates. `account` may be NULL. Time O((n + k) log n)
-/// for k meeting points. A map with cells of its own is left as it is.
-SL_API sl_status sl_map_clean(sl_context *context, sl_map *map, sl_clean_account *account);
+typedef struct sl_clean_options {
+    /// Ends no farther apart than this become one, and walls that come nearer to an end than half
+    /// of it are led through it. 0: only ends that are equal, and only ends exactly on a wall.
+    /// Negative, the default: 2^-46 of the largest coordinate, where something is oblique, which
+    /// closes what turning and moving a map in doubles opens; 0 where all is axial.
+    double weld;
+} sl_clean_options;
+
+SL_API sl_clean_options sl_clean_options_default(void);
+
+/// Makes the walls a planar set: no two of them cross, overlap or touch but in common ends, by
+/// exact predicates. Each mirror becomes a wall too, which hides what is behind it. The order of
+/// walls is by place, whatever the input's was. All later stages are exact for the clean map.
+///
+/// Where all is axial and nothing is to be welded, overlapping and touching walls in line become
+/// one, walls are split where they cross or touch, and no coordinate is computed. Else doors, glass
+/// and seams are made planar together with the walls: ends are welded, and walls that cross are
+/// split at the nearest representable point. A door that is cut has `parts`; mirrors, glass and
+/// seams that are cut become several. A sightline that stays farther than `largest_move` from every
+/// wall as read is never lost.
+///
+/// NULL options are the default ones; `account` may be NULL. SL_UNSUPPORTED where walls cross anew
+/// each time that a crossing is rounded, which tolerances below the rounding of doubles may cause.
+/// Time O((n + k) log n) for k meeting points. A map with cells of its own is left as it is.
+SL_API sl_status sl_map_clean(sl_context *context, sl_map *map, const sl_clean_options *options,
+                              sl_clean_account *account);
 
 /// Reads the map text: SL_BAD_INPUT with file and line on anything it does not know.
 /// `name` is what messages call the text. The map must be empty; on failure it stays so.

@@ -102,14 +102,23 @@ typedef struct sl_view_scene {
 
 // --- elementary view cells
 
+/// A split of view space. A child c >= 0 is node c, a child c < 0 is leaf ~c.
+typedef struct sl_view_node {
+    double position; ///< x = position (axis 0) or y = position (axis 1)
+    int32_t axis;    ///< 2: along the line through lines[line], from its a to its b
+    int32_t below;   ///< where the coordinate is less than the position; strictly right of the line
+    int32_t above;   ///< where it is not
+    int32_t line;    ///< 0 but for axis 2
+} sl_view_node;
+
 /// A binary space partition of the bounds. Nodes are in the order of splitting, so that the first
-/// k of them make k + 1 leaves. A child c >= 0 is node c, a child c < 0 is leaf ~c. Leaves below
-/// cell_count are elementary view cells; those from there on are empty space.
+/// k of them make k + 1 leaves. Leaves below cell_count are elementary view cells; those from there
+/// on are empty space.
 typedef struct sl_view_tree {
     sl_box bounds;
     int32_t root; ///< as a child of a node
     uint32_t node_count, leaf_count, cell_count, line_count;
-    sl_node *nodes; ///< axis 2: along lines[line]
+    sl_view_node *nodes;
     sl_segment *lines;
     sl_point *corners; ///< of the leaves' polygons, counter-clockwise
     uint32_t *edges;   ///< by corner: the node that made the side from there; UINT32_MAX: border

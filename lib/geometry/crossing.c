@@ -1,0 +1,122 @@
+/// The crossing of a-b and c-d is a + (b - a) n / m, with the cross products n = (c - a) x (d - c)
+/// and m = (b - a) x (d - c). An estimate in doubles is corrected step by step: each step compares,
+/// in whole numbers, the place with the middle between two neighbouring doubles.
+#include "geometry/crossing.h"
+
+#include "geometry/whole.h"
+
+#include <math.h>
+
+/// What the two coordinates of the place are quotients of.
+typedef struct quotient {
+    sl_whole x, y, divisor; ///< the divisor is positive
+    int exponent;           ///< of the unit of the whole numbers that coordinates are
+} quotient;
+
+static int lowest_exponent(const sl_segment *s, const sl_segment *t) {
+    const double values[] = {s->a.x, s->a.y, s->b.x, s->b.y, t->a.x, t->a.y, t->b.x, t->b.y};
+    int lowest = 1024;
+    for (int i = 0; i < 8; i++) {
+        const int exponent = values[i] != 0 ? sl_whole_exponent(values[i]) : lowest;
+        if (exponent < lowest) lowest = exponent;
+    }
+    return lowest;
+}
+
+static void subtract(double a, double b, int exponent, sl_whole *out) {
+    sl_whole left, right;
+    sl_whole_set(a, exponent, &left);
+    sl_whole_set(b, exponent, &right);
+    sl_whole_subtract(&left, &right, out);
+}
+
+static void cross(const sl_whole *ax, const sl_whole *ay, const sl_whole *bx, const sl_whole *by,
+                  sl_whole *out) {
+    sl_whole left, right;
+    sl_whole_multiply(ax, by, &left);
+    sl_whole_multiply(ay, bx, &right);
+    sl_whole_subtract(&left, &right, out);
+}
+
+/// from * divisor + step * share
+static void along(double from, int exponent, const sl_whole *divisor, const sl_whole *step,
+                  const sl_whole *share, sl_whole *out) {
+    sl_whole start, left, right;
+    sl_whole_set(from, exponent, &start);
+    sl_whole_multiply(&start, divisor, &left);
+    sl_whole_multiply(step, share, &right);
+    sl_whole_add(&left, &right, out);
+}
+
+static void divide(const sl_segment *s, const sl_segment *t, quotient *q) {
+    sl_whole sx, sy, tx, ty, gap_x, gap_y, share;
+    q->exponent = lowest_exponent(s, t);
+    subtract(s->b.x, s->a.x, q->exponent, &sx);
+    subtract(s->b.y, s->a.y, q->exponent, &sy);
+    subtract(t->b.x, t->a.x, q->exponent, &tx);
+    subtract(t->b.y, t->a.y, q->exponent, &ty);
+    subtract(t->a.x, s->a.x, q->exponent, &gap_x);
+    subtract(t->a.y, s->a.y, q->exponent, &gap_y);
+    cross(&sx, &sy, &tx, &ty, &q->divisor);
+    cross(&gap_x, &gap_y, &tx, &ty, &share);
+    if (q->divisor.sign < 0) {
+        q->divisor.sign = 1;
+        share.sign = -share.sign;
+    }
+    along(s->a.x, q->exponent, &q->divisor, &sx, &share, &q->x);
+    along(s->a.y, q->exponent, &q->divisor, &sy, &share, &q->y);
+}
+
+/// The sign of a coordinate of the place less the middle of two doubles.
+static int compare_to_middle(const quotient *q, const sl_whole *coordinate, double a, double b) {
+    int exponent = q->exponent;
+    if (a != 0 && sl_whole_exponent(a) < exponent) exponent = sl_whole_exponent(a);
+    if (b != 0 && sl_whole_exponent(b) < exponent) exponent = sl_whole_exponent(b);
+    sl_whole left, right, sum, twice, unit;
+    sl_whole_set(a, exponent, &left);
+    sl_whole_set(b, exponent, &right);
+    sl_whole_add(&left, &right, &sum);
+    sl_whole_multiply(&sum, &q->divisor, &right);
+    sl_whole_set(ldexp(1, q->exponent - exponent + 1), 0, &unit);
+    sl_whole_multiply(coordinate, &unit, &twice);
+    return sl_whole_compare(&twice, &right);
+}
+
+/// The next coordinate that a map may have (sl_coordinate_usable), up or down.
+static double next_to(double value, double toward) {
+    const double next = nextafter(value, toward);
+    if (next == 0 || fabs(next) >= SL_COORDINATE_MIN) return next;
+    return value != 0 ? 0 : toward > 0 ? SL_COORDINATE_MIN : -SL_COORDINATE_MIN;
+}
+
+/// The double nearest to a coordinate that lies between two.
+static double nearest(const quotient *q, const sl_whole *coordinate, double guess, double a,
+                      double b) {
+    const double low = fmin(a, b), high = fmax(a, b);
+    double value = guess >= low && guess <= high ? guess : low;
+    if (fabs(value) < SL_COORDINATE_MIN) value = 0;
+    double from = low, to = high;
+    for (;;) {
+        const double up = next_to(value, HUGE_VAL), down = next_to(value, -HUGE_VAL);
+        if (value < high && compare_to_middle(q, coordinate, value, up) > 0)
+            from = up;
+        else if (value > low && compare_to_middle(q, coordinate, down, value) < 0)
+            to = down;
+        else
+            return value;
+        // The guess is seldom off by more than a neighbour or two; else halve what is left.
+        const double next = from > value ? up : down;
+        value = fabs(guess - next) <= 4 * fabs(up - down) ? next : from / 2 + to / 2;
+        if (fabs(value) < SL_COORDINATE_MIN) value = 0;
+        value = fmin(fmax(value, from), to);
+    }
+}
+
+sl_point sl_crossing(sl_segment s, sl_segment t) {
+    quotient q;
+    divide(&s, &t, &q);
+    const double sx = s.b.x - s.a.x, sy = s.b.y - s.a.y, tx = t.b.x - t.a.x, ty = t.b.y - t.a.y;
+    const double share = ((t.a.x - s.a.x) * ty - (t.a.y - s.a.y) * tx) / (sx * ty - sy * tx);
+    return (sl_point){nearest(&q, &q.x, s.a.x + share * sx, s.a.x, s.b.x),
+                      nearest(&q, &q.y, s.a.y + share * sy, s.a.y, s.b.y)};
+}

@@ -1,0 +1,11 @@
+/// Where two segments cross.
+#ifndef SL_CROSSING_H
+#define SL_CROSSING_H
+
+#include "sightline/geometry.h"
+
+/// The place where two segments cross, each coordinate the double that is nearest to it. They must
+/// cross properly: the ends of each lie strictly on different sides of the other (sl_orient).
+sl_point sl_crossing(sl_segment s, sl_segment t);
+
+#endif

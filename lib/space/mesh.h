@@ -1,0 +1,25 @@
+/// A space made of a planar graph: what both a map's mesh and its own cells come to.
+#ifndef SL_SPACE_MESH_H
+#define SL_SPACE_MESH_H
+
+#include "sightline/space.h"
+#include "space/triangulation.h"
+
+/// The segments of a map, as they go into its graph: walls first, then the parts of seams as
+/// sl_space.seams has them, then what else ends cells.
+typedef struct sl_mesh_lines {
+    SL_ARRAY(sl_segment) items;
+    size_t wall_count, seam_count;
+} sl_mesh_lines;
+
+sl_status sl_mesh_add_line(sl_context *context, sl_mesh_lines *lines, sl_segment at);
+/// Lists walls and seams of a map, and gives the space its bounds and seams.
+sl_status sl_mesh_lines_of_map(sl_context *context, const sl_map *map, sl_mesh_lines *lines,
+                               sl_space *space);
+
+/// Makes the cells, portals, walls and grid of a space whose bounds and seams are there, of the
+/// graph of lines and its triangles, which are used up. Merges none across an edge of the graph.
+sl_status sl_mesh_make(sl_context *context, const sl_map *map, const sl_mesh_lines *lines,
+                       const sl_planar *graph, sl_triangulation *triangles, sl_space *space);
+
+#endif
