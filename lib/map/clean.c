@@ -373,11 +373,13 @@ static sl_status list_segments(const cleaning *work, const sl_map *map, segment_
     sl_context *context = work->context;
     for (size_t i = 0; i < work->uprights.count; i++) {
         const piece *at = &work->uprights.items[i];
-        SL_TRY(add_segment(context, list, (sl_point){at->at, at->low}, (sl_point){at->at, at->high}));
+        SL_TRY(
+            add_segment(context, list, (sl_point){at->at, at->low}, (sl_point){at->at, at->high}));
     }
     for (size_t i = 0; i < work->levels.count; i++) {
         const piece *at = &work->levels.items[i];
-        SL_TRY(add_segment(context, list, (sl_point){at->low, at->at}, (sl_point){at->high, at->at}));
+        SL_TRY(
+            add_segment(context, list, (sl_point){at->low, at->at}, (sl_point){at->high, at->at}));
     }
     for (size_t i = 0; i < work->others.count; i++)
         SL_TRY(add_segment(context, list, work->others.items[i].a, work->others.items[i].b));
@@ -470,7 +472,8 @@ static sl_status take_door(cleaning *work, const sl_planar *graph, size_t segmen
     if (count == 1) return SL_OK;
     door->parts = sl_alloc_array(work->context, count, sizeof *door->parts);
     if (!door->parts) return SL_NO_MEMORY;
-    for (size_t i = 0; i < count; i++) door->parts[i] = sl_planar_at(graph, graph->links[first + i]);
+    for (size_t i = 0; i < count; i++)
+        door->parts[i] = sl_planar_at(graph, graph->links[first + i]);
     door->part_count = count;
     return SL_OK;
 }

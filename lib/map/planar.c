@@ -310,9 +310,8 @@ static bool clip(const planer *p, piece *s, int axis, double at, bool above) {
     if (from_in && to_in) return true;
     if (!from_in && !to_in) return false;
     const double share = (border - from) / (to - from);
-    const sl_point cut =
-        axis ? (sl_point){s->p.x + share * (s->q.x - s->p.x), border}
-             : (sl_point){border, s->p.y + share * (s->q.y - s->p.y)};
+    const sl_point cut = axis ? (sl_point){s->p.x + share * (s->q.x - s->p.x), border}
+                              : (sl_point){border, s->p.y + share * (s->q.y - s->p.y)};
     *(from_in ? &s->q : &s->p) = cut;
     return true;
 }
@@ -385,9 +384,8 @@ static sl_status find_meetings(planer *p) {
         SL_TRY(SL_ARRAY_ROOM(p->context, &p->pieces, 1));
         const sl_point a = p->points.items[p->edges.items[i].a];
         const sl_point b = p->points.items[p->edges.items[i].b];
-        p->pieces.items[p->pieces.count++] = (piece){{a.x * p->scale, a.y * p->scale},
-                                                     {b.x * p->scale, b.y * p->scale},
-                                                     .edge = i};
+        p->pieces.items[p->pieces.count++] =
+            (piece){{a.x * p->scale, a.y * p->scale}, {b.x * p->scale, b.y * p->scale}, .edge = i};
     }
     SL_TRY(halve(p, 0, p->pieces.count, 0));
     p->old = (uint32_t)p->edges.count;
@@ -521,7 +519,8 @@ static sl_status take_ends(planer *p, const sl_segment *segments, size_t count) 
     if (count) qsort(ends, 2 * count, sizeof *ends, compare_for_qsort);
     sl_status status = SL_OK;
     uint32_t point;
-    for (size_t i = 0; i < 2 * count && status == SL_OK; i++) status = take_point(p, ends[i], &point);
+    for (size_t i = 0; i < 2 * count && status == SL_OK; i++)
+        status = take_point(p, ends[i], &point);
     sl_free(p->context, ends);
     return status;
 }
@@ -572,8 +571,7 @@ static sl_status add_links(writer *w, sl_planar_link link) {
         }
         SL_TRY(SL_ARRAY_ROOM(w->p->context, &w->waiting, e->count));
         sl_planar_link *top = w->waiting.items + w->waiting.count;
-        for (uint32_t i = 0; i < e->count; i++)
-            top[i] = w->p->parts.items[e->first + i] ^ (at % 2);
+        for (uint32_t i = 0; i < e->count; i++) top[i] = w->p->parts.items[e->first + i] ^ (at % 2);
         // The first to be passed must be the last on the stack.
         if (at % 2 == 0) turn_round(top, e->count);
         w->waiting.count += e->count;
@@ -676,8 +674,7 @@ static sl_status write_edges(writer *w) {
 static sl_status write(planer *p, const sl_segment *segments, const sl_planar_link *roots,
                        size_t count, sl_planar *out) {
     writer w = {.p = p, .segments = segments, .out = out};
-    w.number =
-        sl_alloc_array(p->context, p->points.count + p->edges.count, sizeof *w.number);
+    w.number = sl_alloc_array(p->context, p->points.count + p->edges.count, sizeof *w.number);
     out->first = sl_alloc_array(p->context, count + 1, sizeof *out->first);
     sl_status status = w.number && out->first ? write_chains(&w, roots, count) : SL_NO_MEMORY;
     if (status == SL_OK) status = write_points(&w);

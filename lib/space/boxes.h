@@ -47,7 +47,7 @@ sl_status sl_boxes_put_axial(sl_context *context, const sl_box_ground *ground,
                              const sl_moving_box *boxes, size_t count, sl_boxed_space *out);
 /// In a mesh (boxes_mesh.c).
 sl_status sl_boxes_put_mesh(sl_context *context, const sl_box_ground *ground,
-                           const sl_moving_box *boxes, size_t count, sl_boxed_space *out);
+                            const sl_moving_box *boxes, size_t count, sl_boxed_space *out);
 
 // --- the sides of boxes (box_sides.c)
 

@@ -1,7 +1,7 @@
 /// The whole-graph check: what the later stages take for granted, proven for one space. Safe on any
 /// bytes: every index is checked before it is used.
-#include "base/bits.h"
 #include "space/check.h"
+#include "base/bits.h"
 #include "space/seams.h"
 #include "space/wall_lines.h"
 
@@ -22,7 +22,8 @@ static bool same(sl_point a, sl_point b) {
 
 static sl_status check_ranges(const checker *c) {
     const sl_space *s = c->space;
-    const bool has_nodes = s->loose || s->beyond ? !s->node_count : s->node_count == s->cell_count - 1;
+    const bool has_nodes =
+        s->loose || s->beyond ? !s->node_count : s->node_count == s->cell_count - 1;
     if (!s->cell_count || !has_nodes)
         return sl_fail(c->context, SL_BAD_INPUT, "%u nodes cannot lead to %u cells", s->node_count,
                        s->cell_count);
@@ -90,8 +91,8 @@ static sl_status check_cells(const checker *c) {
         const sl_box *r = &c->regions[s->node_count + i];
         const sl_point *v = &s->vertices[cell->first_vertex];
         const sl_point lower_right = {r->max.x, r->min.y}, upper_left = {r->min.x, r->max.y};
-        if (!same(v[0], r->min) || !same(v[1], lower_right) ||
-            !same(v[2], r->max) || !same(v[3], upper_left))
+        if (!same(v[0], r->min) || !same(v[1], lower_right) || !same(v[2], r->max) ||
+            !same(v[3], upper_left))
             return fail_cell(c, i, "is not the region that the tree gives it");
         if (cell->first_exit != exits || cell->exit_count > s->exit_count - exits)
             return fail_cell(c, i, "has exits out of range");
@@ -262,8 +263,7 @@ sl_status sl_check_exit(sl_context *context, const sl_space *s, uint32_t cell, c
     const int side = p->cell[0] == cell ? 0 : 1;
     if (p->cell[side] != cell || exit->cell != p->cell[!side] ||
         !same(exit->left, side ? p->right : p->left) ||
-        !same(exit->right, side ? p->left : p->right) ||
-        exits_found[exit->portal] & (1 << side))
+        !same(exit->right, side ? p->left : p->right) || exits_found[exit->portal] & (1 << side))
         return sl_fail(context, SL_BAD_INPUT, "cell %u has an exit unlike its portal", cell);
     exits_found[exit->portal] |= (uint8_t)(1 << side);
     return SL_OK;

@@ -238,7 +238,8 @@ static sl_status check_grid(const checker *c) {
             return sl_fail(c->context, SL_BAD_INPUT, "a bucket ends before it starts");
         for (uint32_t k = first; k < end; k++)
             if (g->cells[k] >= s->cell_count || (k > first && g->cells[k - 1] >= g->cells[k]))
-                return sl_fail(c->context, SL_BAD_INPUT, "a bucket has cells out of range or order");
+                return sl_fail(c->context, SL_BAD_INPUT,
+                               "a bucket has cells out of range or order");
     }
     return SL_OK;
 }
@@ -264,26 +265,67 @@ static sl_status check_buckets(const checker *c) {
 
 // --- seams
 
-/// Portals said to be on a seam join two places that are on it.
-static sl_status check_seams(const checker *c) {
+static int compare_points(sl_point a, sl_point b) {
+    if (a.x != b.x) return a.x < b.x ? -1 : 1;
+    return (a.y > b.y) - (a.y < b.y);
+}
+
+/// A segment with its lower end first.
+static sl_segment in_order(sl_point a, sl_point b) {
+    return compare_points(a, b) < 0 ? (sl_segment){a, b} : (sl_segment){b, a};
+}
+
+static int compare_segments(const void *left, const void *right) {
+    const sl_segment *s = left, *t = right;
+    const int order = compare_points(s->a, t->a);
+    return order ? order : compare_points(s->b, t->b);
+}
+
+/// A portal that is said to be on a seam has the seam's ends.
+static sl_status check_seam_portals(const checker *c, bool *passed) {
     const sl_space *s = c->space;
-    SL_TRY(sl_seams_check(c->context, s, false));
-    for (uint32_t i = 0; !s->loose && i < s->seam_portal_count; i++) {
+    for (uint32_t i = 0; i < s->seam_portal_count; i++) {
         const sl_seam_portal *at = &s->seam_portals[i];
         const sl_segment *seam = &s->seams[at->seam].at;
         const sl_portal *p = &s->portals[at->portal];
-        // By the coordinate that the seam changes; each is monotone along it, rounded or not.
-        const bool by_x = fabs(seam->b.x - seam->a.x) >= fabs(seam->b.y - seam->a.y);
-        const double step = by_x ? seam->b.x - seam->a.x : seam->b.y - seam->a.y;
-        const double way = by_x ? p->right.x - p->left.x : p->right.y - p->left.y;
-        if (sl_orient(seam->a, seam->b, p->left) != 0 || sl_orient(seam->a, seam->b, p->right) != 0)
+        const bool forward = same(seam->a, p->left) && same(seam->b, p->right);
+        const bool backward = same(seam->a, p->right) && same(seam->b, p->left);
+        if (!forward && !backward)
             return sl_fail(c->context, SL_BAD_INPUT, "portal %u is not on seam %u", at->portal,
                            at->seam);
-        if ((way > 0) == (step > 0) ? !at->forward : at->forward)
+        if (forward != at->forward)
             return sl_fail(c->context, SL_BAD_INPUT, "portal %u is said the wrong way on seam %u",
                            at->portal, at->seam);
+        passed[at->seam] = true;
     }
     return SL_OK;
+}
+
+/// A seam without a portal is covered by a wall, or on the border.
+static sl_status check_covered(const checker *c, const bool *passed, sl_segment *walls) {
+    const sl_space *s = c->space;
+    for (uint32_t i = 0; i < s->wall_count; i++) walls[i] = in_order(s->walls[i].a, s->walls[i].b);
+    if (s->wall_count) qsort(walls, s->wall_count, sizeof *walls, compare_segments);
+    for (uint32_t i = 0; i < s->seam_count; i++) {
+        const sl_segment at = in_order(s->seams[i].at.a, s->seams[i].at.b);
+        if (!passed[i] && !border_of(&s->bounds, at.a, at.b) &&
+            !(s->wall_count && bsearch(&at, walls, s->wall_count, sizeof *walls, compare_segments)))
+            return sl_fail(c->context, SL_BAD_INPUT, "seam %u is neither portal nor wall", i);
+    }
+    return SL_OK;
+}
+
+static sl_status check_seams(const checker *c) {
+    const sl_space *s = c->space;
+    SL_TRY(sl_seams_check(c->context, s, false));
+    if (s->loose || !s->seam_count) return SL_OK;
+    bool *passed = sl_alloc_array(c->context, s->seam_count, sizeof *passed);
+    sl_segment *walls = sl_alloc_array(c->context, s->wall_count, sizeof *walls);
+    sl_status status = passed && walls ? check_seam_portals(c, passed) : SL_NO_MEMORY;
+    if (status == SL_OK) status = check_covered(c, passed, walls);
+    sl_free(c->context, passed);
+    sl_free(c->context, walls);
+    return status;
 }
 
 static sl_status check_all(const checker *c) {

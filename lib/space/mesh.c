@@ -367,8 +367,7 @@ sl_status sl_subdivide_mesh(sl_context *context, const sl_map *map, sl_space *ou
         status = sl_planar_make(context, map->source ? map->source : "the map", lines.items.items,
                                 lines.items.count, 0, &graph);
     if (status == SL_OK) status = sl_triangulate(context, &graph, &space.bounds, &triangles);
-    if (status == SL_OK)
-        status = sl_mesh_make(context, map, &lines, &graph, &triangles, &space);
+    if (status == SL_OK) status = sl_mesh_make(context, map, &lines, &graph, &triangles, &space);
     sl_triangulation_destroy(context, &triangles);
     sl_planar_destroy(context, &graph);
     sl_free(context, lines.items.items);

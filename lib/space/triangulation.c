@@ -29,8 +29,8 @@ typedef SL_ARRAY(uint32_t) half_list;
 typedef struct maker {
     sl_context *context;
     sl_triangulation *t;
-    double scale;    ///< distances in the box, times scale, are at most 1
-    uint32_t last;   ///< a half-edge at the point put in last
+    double scale;  ///< distances in the box, times scale, are at most 1
+    uint32_t last; ///< a half-edge at the point put in last
     sl_random random;
     half_list doubtful; ///< half-edges that may have to be turned
     half_list crossing, turned;
@@ -88,8 +88,8 @@ static bool in_circle(const maker *m, sl_point a, sl_point b, sl_point c, sl_poi
     const double bc = bx * cy, cb = cx * by, ca = cx * ay, ac = ax * cy, ab = ax * by, ba = bx * ay;
     const double a2 = ax * ax + ay * ay, b2 = bx * bx + by * by, c2 = cx * cx + cy * cy;
     const double determinant = a2 * (bc - cb) + b2 * (ca - ac) + c2 * (ab - ba);
-    const double sum = (fabs(bc) + fabs(cb)) * a2 + (fabs(ca) + fabs(ac)) * b2 +
-                       (fabs(ab) + fabs(ba)) * c2;
+    const double sum =
+        (fabs(bc) + fabs(cb)) * a2 + (fabs(ca) + fabs(ac)) * b2 + (fabs(ab) + fabs(ba)) * c2;
     return determinant > 12 * 0x1p-53 * sum + 0x1p-1000;
 }
 

@@ -41,10 +41,8 @@ static int32_t add_node(making *m, const waiting *w, uint32_t cell) {
     sl_hierarchy *h = m->h;
     const int32_t id = (int32_t)h->node_count++;
     sl_walk_node *node = &h->nodes[id];
-    *node = (sl_walk_node){.parent = w->parent,
-                           .child = {-1, -1},
-                           .cell = cell,
-                           .first_leaf = h->leaf_count};
+    *node = (sl_walk_node){
+        .parent = w->parent, .child = {-1, -1}, .cell = cell, .first_leaf = h->leaf_count};
     if (w->parent >= 0) h->nodes[w->parent].child[w->side] = id;
     if (cell != SL_NO_CELL) {
         node->box = m->boxes[cell];
@@ -140,10 +138,8 @@ static sl_status take_cells(making *m, const waiting *w) {
     part_at(m, axis, cells, w->count, half);
     m->h->nodes[id].axis = axis;
     m->h->nodes[id].position = middle(&m->boxes[cells[half]], axis);
-    SL_TRY(push(m, (waiting){.parent = id,
-                             .side = 1,
-                             .first = w->first + half,
-                             .count = w->count - half}));
+    SL_TRY(push(
+        m, (waiting){.parent = id, .side = 1, .first = w->first + half, .count = w->count - half}));
     return push(m, (waiting){.parent = id, .side = 0, .first = w->first, .count = half});
 }
 
