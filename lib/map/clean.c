@@ -402,14 +402,22 @@ static uint32_t line_of(const cleaning *work, size_t segment) {
     return work->others.items[segment - uprights - levels].line;
 }
 
+/// What a map is given in the place of its own, made ready so that nothing can fail halfway.
+typedef struct replacement {
+    sl_wall *walls;
+    sl_glass *mirrors, *oneways, *seams;
+    sl_segment **doors; ///< by door: its parts
+    size_t wall_count;
+} replacement;
+
 /// Makes a wall of each edge that is part of one.
-static sl_status take_walls(cleaning *work, const segment_list *list, const sl_planar *graph,
-                            sl_map *map) {
+static sl_status make_walls(cleaning *work, const segment_list *list, const sl_planar *graph,
+                            replacement *out) {
     uint32_t *lines = sl_alloc_array(work->context, graph->edge_count, sizeof *lines);
     bool *walled = sl_alloc_array(work->context, graph->edge_count, sizeof *walled);
-    sl_wall *walls = sl_alloc_array(work->context, graph->edge_count, sizeof *walls);
-    size_t count = 0;
-    for (size_t i = 0; i < list->mirrors && lines && walled && walls; i++) {
+    out->walls = sl_alloc_array(work->context, graph->edge_count, sizeof *out->walls);
+    const bool done = lines && walled && out->walls;
+    for (size_t i = 0; i < list->mirrors && done; i++) {
         const size_t parts = graph->first[i + 1] - graph->first[i];
         work->account.split += parts > 1;
         work->account.zero_length += parts == 0;
@@ -421,77 +429,112 @@ static sl_status take_walls(cleaning *work, const segment_list *list, const sl_p
             walled[edge] = true;
         }
     }
-    for (size_t i = 0; i < graph->edge_count && lines && walled && walls; i++)
+    for (size_t i = 0; i < graph->edge_count && done; i++)
         if (walled[i])
-            walls[count++] = (sl_wall){graph->points[graph->edges[i].a],
-                                       graph->points[graph->edges[i].b], lines[i]};
-    const bool done = lines && walled && walls;
+            out->walls[out->wall_count++] = (sl_wall){graph->points[graph->edges[i].a],
+                                                      graph->points[graph->edges[i].b], lines[i]};
+    if (out->wall_count) qsort(out->walls, out->wall_count, sizeof *out->walls, compare_walls);
     sl_free(work->context, lines);
     sl_free(work->context, walled);
-    if (!done) {
-        sl_free(work->context, walls);
-        return SL_NO_MEMORY;
-    }
-    if (count) qsort(walls, count, sizeof *walls, compare_walls);
-    sl_free(work->context, map->walls);
-    map->walls = walls;
-    map->wall_count = map->wall_room = work->account.after = count;
+    return done ? SL_OK : SL_NO_MEMORY;
+}
+
+/// The parts that mirrors, glass or seams have become.
+static sl_status make_glass(sl_context *context, const sl_planar *graph, size_t first,
+                            const sl_glass *glass, size_t count, sl_glass **out) {
+    size_t next = 0;
+    *out = sl_alloc_array(context, graph->first[first + count] - graph->first[first], sizeof **out);
+    if (!*out) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = graph->first[first + i]; k < graph->first[first + i + 1]; k++) {
+            (*out)[next] = glass[i];
+            (*out)[next++].segment = sl_planar_at(graph, graph->links[k]);
+        }
     return SL_OK;
 }
 
-/// Replaces mirrors, glass or seams by the parts that they have become.
-static sl_status take_glass(cleaning *work, const sl_planar *graph, size_t first, sl_glass **glass,
-                            size_t *count, size_t *room) {
-    const size_t parts = graph->first[first + *count] - graph->first[first];
-    sl_glass *made = sl_alloc_array(work->context, parts, sizeof *made);
-    if (!made) return SL_NO_MEMORY;
-    size_t next = 0;
-    for (size_t i = 0; i < *count; i++)
-        for (size_t k = graph->first[first + i]; k < graph->first[first + i + 1]; k++) {
-            made[next] = (*glass)[i];
-            made[next++].segment = sl_planar_at(graph, graph->links[k]);
-        }
-    sl_free(work->context, *glass);
-    *glass = made;
-    *count = *room = parts;
+static sl_status make_doors(sl_context *context, const sl_planar *graph, size_t first, size_t count,
+                            sl_segment ***out) {
+    *out = sl_alloc_array(context, count, sizeof **out);
+    if (!*out) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++) {
+        const sl_planar_link *links = graph->links + graph->first[first + i];
+        const size_t parts = graph->first[first + i + 1] - graph->first[first + i];
+        (*out)[i] = sl_alloc_array(context, parts, sizeof ***out);
+        if (!(*out)[i]) return SL_NO_MEMORY;
+        for (size_t k = 0; k < parts; k++) (*out)[i][k] = sl_planar_at(graph, links[k]);
+    }
     return SL_OK;
+}
+
+static sl_status make_replacement(cleaning *work, const segment_list *list, const sl_planar *graph,
+                                  const sl_map *map, replacement *out) {
+    sl_context *context = work->context;
+    SL_TRY(make_walls(work, list, graph, out));
+    SL_TRY(
+        make_glass(context, graph, list->mirrors, map->mirrors, map->mirror_count, &out->mirrors));
+    SL_TRY(
+        make_glass(context, graph, list->oneways, map->oneways, map->oneway_count, &out->oneways));
+    SL_TRY(make_glass(context, graph, list->seams, map->seams, map->seam_count, &out->seams));
+    return make_doors(context, graph, list->doors, map->door_count, &out->doors);
+}
+
+static void replace_glass(sl_context *context, sl_glass **glass, size_t *count, size_t *room,
+                          sl_glass **with, size_t with_count) {
+    sl_free(context, *glass);
+    *glass = *with;
+    *with = NULL;
+    *count = *room = with_count;
 }
 
 /// A door keeps its name and number, whatever it is cut into.
-static sl_status take_door(cleaning *work, const sl_planar *graph, size_t segment, sl_door *door) {
-    const size_t first = graph->first[segment], count = graph->first[segment + 1] - first;
-    sl_free(work->context, door->parts);
+static void replace_door(sl_context *context, sl_door *door, sl_segment **parts, size_t count) {
+    sl_free(context, door->parts);
     door->parts = NULL;
     door->part_count = 0;
-    if (!count) {
-        door->segment.b = door->segment.a;
-        return SL_OK;
-    }
-    door->segment = (sl_segment){sl_planar_at(graph, graph->links[first]).a,
-                                 sl_planar_at(graph, graph->links[first + count - 1]).b};
-    if (count == 1) return SL_OK;
-    door->parts = sl_alloc_array(work->context, count, sizeof *door->parts);
-    if (!door->parts) return SL_NO_MEMORY;
-    for (size_t i = 0; i < count; i++)
-        door->parts[i] = sl_planar_at(graph, graph->links[first + i]);
+    door->segment.b = count ? (*parts)[count - 1].b : door->segment.a;
+    if (count) door->segment.a = (*parts)[0].a;
+    if (count < 2) return;
+    door->parts = *parts;
     door->part_count = count;
-    return SL_OK;
+    *parts = NULL;
+}
+
+static void replace(cleaning *work, const segment_list *list, const sl_planar *graph,
+                    replacement *with, sl_map *map) {
+    sl_context *context = work->context;
+    const size_t *first = graph->first;
+    sl_free(context, map->walls);
+    map->walls = with->walls;
+    with->walls = NULL;
+    map->wall_count = map->wall_room = work->account.after = with->wall_count;
+    replace_glass(context, &map->mirrors, &map->mirror_count, &map->mirror_room, &with->mirrors,
+                  first[list->oneways] - first[list->mirrors]);
+    replace_glass(context, &map->oneways, &map->oneway_count, &map->oneway_room, &with->oneways,
+                  first[list->seams] - first[list->oneways]);
+    replace_glass(context, &map->seams, &map->seam_count, &map->seam_room, &with->seams,
+                  first[list->doors] - first[list->seams]);
+    for (size_t i = 0; i < map->door_count; i++)
+        replace_door(context, &map->doors[i], &with->doors[i],
+                     first[list->doors + i + 1] - first[list->doors + i]);
+    work->account.welded = graph->welded;
+    work->account.crossings = graph->crossings;
+    work->account.largest_move = graph->largest_move;
 }
 
 static sl_status take_graph(cleaning *work, const segment_list *list, const sl_planar *graph,
                             sl_map *map) {
-    work->account.welded = graph->welded;
-    work->account.crossings = graph->crossings;
-    work->account.largest_move = graph->largest_move;
-    SL_TRY(take_walls(work, list, graph, map));
-    SL_TRY(take_glass(work, graph, list->mirrors, &map->mirrors, &map->mirror_count,
-                      &map->mirror_room));
-    SL_TRY(take_glass(work, graph, list->oneways, &map->oneways, &map->oneway_count,
-                      &map->oneway_room));
-    SL_TRY(take_glass(work, graph, list->seams, &map->seams, &map->seam_count, &map->seam_room));
-    for (size_t i = 0; i < map->door_count; i++)
-        SL_TRY(take_door(work, graph, list->doors + i, &map->doors[i]));
-    return SL_OK;
+    replacement with = {0};
+    const sl_status status = make_replacement(work, list, graph, map, &with);
+    if (status == SL_OK) replace(work, list, graph, &with, map);
+    for (size_t i = 0; with.doors && i < map->door_count; i++)
+        sl_free(work->context, with.doors[i]);
+    sl_free(work->context, with.doors);
+    sl_free(work->context, with.walls);
+    sl_free(work->context, with.mirrors);
+    sl_free(work->context, with.oneways);
+    sl_free(work->context, with.seams);
+    return status;
 }
 
 static sl_status clean_oblique(cleaning *work, sl_map *map, double weld) {
