@@ -96,7 +96,7 @@ static void number_walls(const maker *m, uint32_t *walls) {
         walls[i] = m->portals[i] == UINT32_MAX ? next++ : UINT32_MAX;
 }
 
-/// Tells the sides of a BSP's cell which of them are walls now. The new walls run from the right
+/// Marks the sides of a mesh's cells that are walls now. The new walls run from the right
 /// end to the left one as crossed from cell[0], which is on their left.
 static void tell_sides(const maker *m, const uint32_t *walls) {
     const sl_space *f = m->from;
