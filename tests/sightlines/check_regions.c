@@ -93,8 +93,7 @@ static double area_between(const sweep *s, sl_point from, sl_point to) {
         }
     }
     if (nearest == UINT32_MAX) return 0;
-    const double area =
-        (u.x * v.y - u.y * v.x) * reach(s, nearest, u) * reach(s, nearest, v) / 2;
+    const double area = (u.x * v.y - u.y * v.x) * reach(s, nearest, u) * reach(s, nearest, v) / 2;
     return isfinite(area) ? area : 0;
 }
 
@@ -166,7 +165,8 @@ static void prepare(check *c) {
     const sl_box b = space->bounds;
     const sl_point corners[4] = {b.min, {b.max.x, b.min.y}, b.max, {b.min.x, b.max.y}};
     for (int i = 0; i < 4; i++)
-        s->segments[space->wall_count + (uint32_t)i] = (sl_segment){corners[i], corners[(i + 1) % 4]};
+        s->segments[space->wall_count + (uint32_t)i] =
+            (sl_segment){corners[i], corners[(i + 1) % 4]};
 }
 
 static void compare(check *c) {
@@ -187,9 +187,8 @@ static void compare(check *c) {
 
 int main(int argc, char **argv) {
     check c = {.count = 1000, .random = {1}};
-    const struct option options[] = {{"count", required_argument, NULL, 'n'},
-                                     {"seed", required_argument, NULL, 's'},
-                                     {0}};
+    const struct option options[] = {
+        {"count", required_argument, NULL, 'n'}, {"seed", required_argument, NULL, 's'}, {0}};
     for (int option; (option = getopt_long(argc, argv, "", options, NULL)) != -1;) {
         if (option == 'n')
             c.count = strtoull(optarg, NULL, 10);
