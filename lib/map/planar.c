@@ -53,6 +53,7 @@ typedef struct planer {
     sl_context *context;
     const char *source;
     double weld;
+    double side;         ///< of a square of the point table
     double scale, slack; ///< of working coordinates: places times scale are at most 1
     SL_ARRAY(sl_point) points;
     SL_ARRAY(working_edge) edges;
@@ -85,14 +86,15 @@ static uint64_t mix(uint64_t z) {
     return z ^ z >> 31;
 }
 
-// --- points: those within the tolerance are found by squares of its size
+// --- points: those within the tolerance are found by squares, much larger than it
 
 typedef struct square {
     double x, y;
 } square;
 
+/// Where no tolerance is, a square is a place.
 static square square_of(const planer *p, sl_point at) {
-    if (p->weld > 0) return (square){floor(at.x / p->weld), floor(at.y / p->weld)};
+    if (p->weld > 0) return (square){floor(at.x / p->side), floor(at.y / p->side)};
     return (square){at.x, at.y};
 }
 
@@ -137,27 +139,33 @@ static double distance(sl_point a, sl_point b) {
     return hypot(a.x - b.x, a.y - b.y);
 }
 
+/// A point within the tolerance, and how far off it is.
+typedef struct found_point {
+    uint32_t point;
+    double distance;
+} found_point;
+
+static void find_in_square(const planer *p, sl_point at, square s, found_point *found) {
+    for (uint32_t n = p->point_table[find_square(p, s)]; n; n = p->next_near.items[n - 1]) {
+        const sl_point other = p->points.items[n - 1];
+        const double d = same(at, other) ? 0 : p->weld > 0 ? distance(at, other) : HUGE_VAL;
+        if (d > p->weld || d > found->distance ||
+            (d == found->distance && compare_points(other, p->points.items[found->point]) > 0))
+            continue;
+        *found = (found_point){n - 1, d};
+    }
+}
+
 /// The nearest point within the tolerance; NONE for none.
 static uint32_t find_point(const planer *p, sl_point at) {
-    const square middle = square_of(p, at);
-    const int reach = p->weld > 0 ? 1 : 0;
-    uint32_t found = NONE;
-    double least = HUGE_VAL;
+    found_point found = {NONE, HUGE_VAL};
     if (!p->point_slots) return NONE;
-    for (int i = -reach; i <= reach; i++)
-        for (int k = -reach; k <= reach; k++) {
-            const square s = {middle.x + i, middle.y + k};
-            for (uint32_t n = p->point_table[find_square(p, s)]; n; n = p->next_near.items[n - 1]) {
-                const sl_point other = p->points.items[n - 1];
-                const double d = p->weld > 0 ? distance(at, other) : 0;
-                if (p->weld > 0 ? d > p->weld : !same(at, other)) continue;
-                if (d > least || (d == least && compare_points(other, p->points.items[found]) > 0))
-                    continue;
-                least = d;
-                found = n - 1;
-            }
-        }
-    return found;
+    const square low = square_of(p, (sl_point){at.x - p->weld, at.y - p->weld});
+    const square high = square_of(p, (sl_point){at.x + p->weld, at.y + p->weld});
+    for (int i = 0; i <= (high.x > low.x); i++)
+        for (int k = 0; k <= (high.y > low.y); k++)
+            find_in_square(p, at, (square){i ? high.x : low.x, k ? high.y : low.y}, &found);
+    return found.point;
 }
 
 /// The point that stands for a place: one within the tolerance, or a new one.
@@ -720,8 +728,9 @@ sl_status sl_planar_make(sl_context *context, const char *source, const sl_segme
     int exponent = 0;
     frexp(magnitude(segments, count), &exponent);
     planer p = {.context = context, .source = source, .weld = weld, .scale = ldexp(1, -exponent)};
-    // Squares are told apart by whole numbers, up to those that doubles hold.
+    // What is far below rounding is none; and squares have whole numbers, as doubles hold them.
     if (!(weld * p.scale >= 0x1p-50)) p.weld = 0;
+    p.side = 64 * p.weld;
     p.slack = 4 * p.weld * p.scale + 0x1p-46;
     sl_planar made = {0};
     const sl_status status = make(&p, segments, count, &made);
