@@ -44,6 +44,7 @@ typedef struct split {
     uint32_t edge, point;
 } split;
 
+/// That two edges cross, and where, about: the same for any order of the input.
 typedef struct meeting {
     sl_point at;
     uint32_t edges[2];
@@ -268,6 +269,27 @@ static sl_status lead_near(planer *p, uint32_t edge, uint32_t other) {
     return SL_OK;
 }
 
+static sl_segment segment_of(const planer *p, uint32_t edge) {
+    const working_edge *e = &p->edges.items[edge];
+    return (sl_segment){p->points.items[e->a], p->points.items[e->b]};
+}
+
+static sl_status add_meeting(planer *p, uint32_t edge, uint32_t other) {
+    const working_edge *e = &p->edges.items[edge], *o = &p->edges.items[other];
+    const bool ordered = e->a < o->a || (e->a == o->a && e->b < o->b);
+    const uint32_t first = ordered ? edge : other, second = ordered ? other : edge;
+    const sl_segment s = segment_of(p, first), t = segment_of(p, second);
+    const double sx = (s.b.x - s.a.x) * p->scale, sy = (s.b.y - s.a.y) * p->scale;
+    const double tx = (t.b.x - t.a.x) * p->scale, ty = (t.b.y - t.a.y) * p->scale;
+    const double gx = (t.a.x - s.a.x) * p->scale, gy = (t.a.y - s.a.y) * p->scale;
+    const double share = (gx * ty - gy * tx) / (sx * ty - sy * tx);
+    const double along = share > 0 ? share < 1 ? share : 1 : 0;
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->meetings, 1));
+    p->meetings.items[p->meetings.count++] = (meeting){
+        {s.a.x + along * (s.b.x - s.a.x), s.a.y + along * (s.b.y - s.a.y)}, {first, second}};
+    return SL_OK;
+}
+
 static sl_status hold(planer *p, uint32_t edge, uint32_t other) {
     const size_t before = p->splits.count;
     SL_TRY(lead_near(p, edge, other));
@@ -280,12 +302,7 @@ static sl_status hold(planer *p, uint32_t edge, uint32_t other) {
     if (sl_orient(a, b, c) * sl_orient(a, b, d) >= 0 ||
         sl_orient(c, d, a) * sl_orient(c, d, b) >= 0)
         return SL_OK;
-    SL_TRY(SL_ARRAY_ROOM(p->context, &p->meetings, 1));
-    // The same for both orders: the place is what counts, and who meets there.
-    const sl_point at = sl_crossing((sl_segment){a, b}, (sl_segment){c, d});
-    p->meetings.items[p->meetings.count++] =
-        (meeting){at, {edge < other ? edge : other, edge < other ? other : edge}};
-    return SL_OK;
+    return add_meeting(p, edge, other);
 }
 
 // --- halving
@@ -299,13 +316,15 @@ static bool apart(const planer *p, const piece *s, const piece *t) {
 }
 
 static sl_status hold_all(planer *p, size_t first, size_t count) {
-    for (size_t i = first; i < first + count; i++)
+    for (size_t i = first; i < first + count; i++) {
+        if (count > 256) SL_TRY(sl_check_cancelled(p->context));
         for (size_t k = i + 1; k < first + count; k++) {
             const piece *s = &p->pieces.items[i], *t = &p->pieces.items[k];
             if ((s->edge < p->old && t->edge < p->old) || s->edge == t->edge || apart(p, s, t))
                 continue;
             SL_TRY(hold(p, s->edge, t->edge));
         }
+    }
     return SL_OK;
 }
 
@@ -407,6 +426,13 @@ static int compare_meetings(const void *left, const void *right) {
     return compare_points(a->at, b->at);
 }
 
+/// The point where two edges cross: one within the tolerance, or the nearest representable one.
+static sl_status take_meeting(planer *p, const meeting *m, uint32_t *out) {
+    *out = p->weld > 0 ? find_point(p, m->at) : NONE;
+    if (*out != NONE) return SL_OK;
+    return take_point(p, sl_crossing(segment_of(p, m->edges[0]), segment_of(p, m->edges[1])), out);
+}
+
 /// Gives the crossings their points, in an order that the input has no part in.
 static sl_status take_meetings(planer *p) {
     if (p->meetings.count)
@@ -414,7 +440,8 @@ static sl_status take_meetings(planer *p) {
     for (size_t i = 0; i < p->meetings.count; i++) {
         const meeting m = p->meetings.items[i];
         uint32_t point;
-        SL_TRY(take_point(p, m.at, &point));
+        if (i % 1024 == 0) SL_TRY(sl_check_cancelled(p->context));
+        SL_TRY(take_meeting(p, &m, &point));
         for (int k = 0; k < 2; k++) {
             const working_edge *e = &p->edges.items[m.edges[k]];
             if (e->a != point && e->b != point) SL_TRY(add_split(p, m.edges[k], point));
