@@ -248,7 +248,9 @@ static sl_status load_space(const reader *r) {
     SL_TRY(load_seams(r));
     if (s->beyond && sides != s->vertex_count)
         return fail_file(r, "damaged: section BEYO does not tell of each side");
-    if (s->beyond) SL_TRY(r->header.version == SL_SLV_VERSION_AXIAL ? loosen(r) : load_grid(r));
+    const bool is_mesh = r->header.version != SL_SLV_VERSION_AXIAL;
+    if (is_mesh && !s->beyond) return fail_file(r, "damaged: section BEYO is missing");
+    if (s->beyond) SL_TRY(is_mesh ? load_grid(r) : loosen(r));
     return in_file(r, sl_space_check(r->context, s));
 }
 

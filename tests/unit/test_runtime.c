@@ -142,7 +142,7 @@ static void every_point_by_an_oblique_wall_is_in_the_same_cell(void **state) {
         if (sl_map_clean(context, map, NULL, NULL) == SL_OK && map->wall_count) {
             baked_file_make(context, &f, false);
             points_by_walls_are_in_the_same_cells(&f, 400);
-            over += f.runtime.beyond != NULL;
+            over += f.runtime.grid_cells != NULL;
         }
         baked_file_destroy(context, &f);
         sl_context_destroy(context);
@@ -209,7 +209,9 @@ static void the_space_is_the_same(const baked_file *f) {
     assert_int_equal(r->portal_count, s->portal_count);
     assert_int_equal(r->exit_count, s->exit_count);
     assert_int_equal(r->vertex_count, s->vertex_count);
-    assert_int_equal(r->line_count, s->line_count);
+    assert_int_equal(r->node_count, s->node_count);
+    assert_int_equal(r->grid_columns, s->grid.columns);
+    assert_int_equal(r->grid_rows, s->grid.rows);
     assert_true(r->min_x == s->bounds.min.x && r->max_x == s->bounds.max.x);
     assert_true(r->min_y == s->bounds.min.y && r->max_y == s->bounds.max.y);
     for (uint32_t i = 0; i < r->cell_count; i++) {
