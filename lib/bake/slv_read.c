@@ -216,19 +216,28 @@ static sl_status load_grid(const reader *r) {
     return SL_OK;
 }
 
+/// Whether a cell has corners that a grid can be made of.
+static bool has_corners(const sl_space *s, const sl_cell *cell) {
+    if (!cell->vertex_count || cell->first_vertex > s->vertex_count ||
+        cell->vertex_count > s->vertex_count - cell->first_vertex)
+        return false;
+    for (uint32_t i = 0; i < cell->vertex_count; i++) {
+        const sl_point p = s->vertices[cell->first_vertex + i];
+        if (!is_bound(p.x) || !is_bound(p.y)) return false;
+    }
+    return true;
+}
+
 /// A BSP's file of version 1: its tree is dropped, and points are located by a grid.
 static sl_status loosen(const reader *r) {
     sl_space *s = &r->out->space;
     s->loose = 1;
     s->node_count = s->tree_depth = 0;
     s->root = 0;
-    for (uint32_t i = 0; i < s->cell_count; i++) {
-        const sl_cell *cell = &s->cells[i];
-        if (cell->first_vertex > s->vertex_count ||
-            cell->vertex_count > s->vertex_count - cell->first_vertex)
+    for (uint32_t i = 0; i < s->cell_count; i++)
+        if (!has_corners(s, &s->cells[i]))
             return sl_fail_at(r->context, r->name, 0, "damaged: cell %u has corners out of range",
                               i);
-    }
     const sl_box *b = &s->bounds;
     if (!s->cell_count || !(b->min.x < b->max.x) || !(b->min.y < b->max.y))
         return fail_file(r, "damaged: the bounds enclose no area");

@@ -1059,6 +1059,7 @@ static uint32_t slrt_step(double value, double low, double high, uint32_t count)
 }
 
 /// The first cell that holds a point, of those in its bucket, or of all where there is no grid.
+/// Cells that tile the bounds leave no choice but the last where no other does.
 static uint32_t slrt_locate_by_grid(const sl_runtime *rt, double x, double y) {
     uint32_t at = 0, end = rt->cell_count;
     if (rt->grid_cells) {
@@ -1070,7 +1071,7 @@ static uint32_t slrt_locate_by_grid(const sl_runtime *rt, double x, double y) {
     }
     for (; at < end; at++) {
         const uint32_t cell = rt->grid_cells ? slrt_u32(rt->grid_cells + (size_t)at * 4) : at;
-        if (slrt_holds(rt, cell, x, y)) return cell;
+        if ((at + 1 == end && !rt->loose) || slrt_holds(rt, cell, x, y)) return cell;
     }
     return SL_RUNTIME_NO_CELL;
 }

@@ -4,9 +4,14 @@
 
 #include "sightline/space.h"
 
-/// Makes the grid of a space whose cells, vertices and bounds are there: about as many buckets as
-/// cells.
+/// Makes the grid of a space whose cells, vertices and bounds are there: four buckets for each cell
+/// or fewer, and 32 entries at most.
 sl_status sl_cell_grid_make(sl_context *context, sl_space *space);
+
+/// Checks that each cell is in all buckets that it reaches into, given a grid that can be read and
+/// cells within the bounds. SL_BAD_INPUT names one that is not.
+sl_status sl_cell_grid_check(sl_context *context, const sl_space *space);
+
 void sl_cell_grid_destroy(sl_context *context, sl_cell_grid *grid); ///< and zeroes it
 
 /// The column or row of a coordinate: count of them from low to high. It never falls as the

@@ -136,11 +136,13 @@ static bool holds(const sl_space *space, uint32_t number, sl_point point) {
     return true;
 }
 
+/// The first cell of a bucket that holds a point. Cells that tile the bounds leave no choice but
+/// the last where no other does.
 static uint32_t locate_in_bucket(const sl_space *space, sl_point point) {
     const uint32_t bucket = sl_cell_grid_bucket(space, point);
     const uint32_t *cells = space->grid.cells, end = space->grid.first[bucket + 1];
     for (uint32_t i = space->grid.first[bucket]; i < end; i++)
-        if (holds(space, cells[i], point)) return cells[i];
+        if ((i + 1 == end && !space->loose) || holds(space, cells[i], point)) return cells[i];
     return SL_NO_CELL;
 }
 
