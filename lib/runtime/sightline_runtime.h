@@ -276,7 +276,6 @@ enum slrt_tag {
     SLRT_EXIT,
     SLRT_PVSO,
     SLRT_PVSB,
-    SLRT_LINE,
     SLRT_PART,
     SLRT_VCIN,
     SLRT_VCEL,
@@ -288,7 +287,7 @@ enum slrt_tag {
     SLRT_DORB,
     SLRT_BEYO,
     SLRT_SEPO,
-    SLRT_GRIO,
+    SLRT_GRIO, ///< of version 2, as what follows
     SLRT_GRIC,
     SLRT_TAGS
 };
@@ -348,7 +347,6 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                           {"EXIT", SLRT_EXIT_BYTES},
                           {"PVSO", 8},
                           {"PVSB", 1},
-                          {"LINE", 32},
                           {"PART", 16},
                           {"VCIN", 8},
                           {"VCEL", 4},
@@ -364,13 +362,14 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                           {"GRIC", 4}};
     const uint32_t count = slrt_u32(bytes + 24);
     uint32_t i;
+    const int tags = slrt_u32(bytes + 8) == 1 ? SLRT_GRIO : SLRT_TAGS;
     int tag;
     for (i = 0; i < count; i++) {
         const unsigned char *entry =
             bytes + SLRT_HEADER_BYTES + (size_t)i * (size_t)SLRT_ENTRY_BYTES;
         const uint64_t offset = slrt_u64(entry + 8), items = slrt_u64(entry + 16);
-        for (tag = 0; tag < SLRT_TAGS && memcmp(entry, known[tag].tag, 4) != 0;) tag++;
-        if (tag == SLRT_TAGS) continue;
+        for (tag = 0; tag < tags && memcmp(entry, known[tag].tag, 4) != 0;) tag++;
+        if (tag == tags) continue;
         if (found[tag].items || slrt_u32(entry + 4) != known[tag].item_bytes || offset > size ||
             items > (size - offset) / known[tag].item_bytes)
             return SL_RUNTIME_SECTION;
@@ -491,7 +490,7 @@ static bool slrt_take_location(sl_runtime *rt, const slrt_section *found, uint32
     rt->root = 0;
     rt->node_count = rt->grid_columns = rt->grid_rows = 0;
     rt->nodes = rt->grid_offsets = rt->grid_cells = NULL;
-    rt->loose = version == 1 && (found[SLRT_BEYO].items || found[SLRT_LINE].items);
+    rt->loose = version == 1 && found[SLRT_BEYO].items;
     if (version != 1) return slrt_take_grid(rt, found);
     return rt->loose || slrt_take_tree(rt, found);
 }
