@@ -13,9 +13,10 @@ typedef struct quotient {
     int exponent;           ///< of the unit of the whole numbers that coordinates are
 } quotient;
 
+/// At most 0, so that what the least coordinate takes on top of it is a double yet.
 static int lowest_exponent(const sl_segment *s, const sl_segment *t) {
     const double values[] = {s->a.x, s->a.y, s->b.x, s->b.y, t->a.x, t->a.y, t->b.x, t->b.y};
-    int lowest = 1024;
+    int lowest = 0;
     for (int i = 0; i < 8; i++) {
         const int exponent = values[i] != 0 ? sl_whole_exponent(values[i]) : lowest;
         if (exponent < lowest) lowest = exponent;
@@ -89,7 +90,7 @@ static double next_to(double value, double toward) {
     return value != 0 ? 0 : toward > 0 ? SL_COORDINATE_MIN : -SL_COORDINATE_MIN;
 }
 
-/// The double nearest to a coordinate that lies between two.
+/// The double nearest to a coordinate that lies between two; of two that are as near the lower one.
 static double nearest(const quotient *q, const sl_whole *coordinate, double guess, double a,
                       double b) {
     const double low = fmin(a, b), high = fmax(a, b);
@@ -100,7 +101,7 @@ static double nearest(const quotient *q, const sl_whole *coordinate, double gues
         const double up = next_to(value, HUGE_VAL), down = next_to(value, -HUGE_VAL);
         if (value < high && compare_to_middle(q, coordinate, value, up) > 0)
             from = up;
-        else if (value > low && compare_to_middle(q, coordinate, down, value) < 0)
+        else if (value > low && compare_to_middle(q, coordinate, down, value) <= 0)
             to = down;
         else
             return value;

@@ -111,7 +111,7 @@ static void rooms_of_turned_maps(void **state) {
         how.turned = 17;
         assert_ok(context, sl_generate(context, &kinds[k], &how, &map));
         assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
-        assert_ok(context, sl_subdivide_mesh(context, &options, &space));
+        assert_ok(context, sl_subdivide_mesh(context, &map, &space));
         assert_ok(context, sl_outline_make(context, &space, &outline));
         sl_random random = {k + 1};
         const sl_box *b = &space.bounds;

@@ -148,7 +148,7 @@ static void among_oblique_walls(void **state) {
         const oblique_grid grid = (oblique_grid)(seed % OBLIQUE_SCALES);
         assert_ok(context, oblique_random_map(context, seed, grid, 12, &map));
         assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
-        const bool made = sl_subdivide_mesh(context, &options, &space) == SL_OK;
+        const bool made = sl_subdivide_mesh(context, &map, &space) == SL_OK;
         if (made) assert_ok(context, sl_outline_make(context, &space, &outline));
         for (int i = 0; i < 100 && made; i++) {
             const sl_point p = oblique_random_point(&random, &map, space.bounds);
