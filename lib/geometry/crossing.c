@@ -1,6 +1,7 @@
 /// The crossing of a-b and c-d is a + (b - a) n / m, with the cross products n = (c - a) x (d - c)
-/// and m = (b - a) x (d - c). An estimate in doubles is corrected step by step: each step compares,
-/// in whole numbers, the place with the middle between two neighbouring doubles.
+/// and m = (b - a) x (d - c), in whole numbers. The quotient of their highest digits is corrected
+/// step by step, of which there are few: each compares, in whole numbers, the place with the middle
+/// between two neighbouring doubles.
 #include "geometry/crossing.h"
 
 #include "geometry/whole.h"
@@ -90,34 +91,34 @@ static double next_to(double value, double toward) {
     return value != 0 ? 0 : toward > 0 ? SL_COORDINATE_MIN : -SL_COORDINATE_MIN;
 }
 
-/// The double nearest to a coordinate that lies between two; of two that are as near the lower one.
-static double nearest(const quotient *q, const sl_whole *coordinate, double guess, double a,
-                      double b) {
-    const double low = fmin(a, b), high = fmax(a, b);
-    double value = guess >= low && guess <= high ? guess : low;
+/// The highest digits of a whole number, to be multiplied by 2^*exponent.
+static double leading(const sl_whole *whole, int *exponent) {
+    const uint32_t first = whole->count > 3 ? whole->count - 3 : 0;
+    double value = 0;
+    for (uint32_t i = whole->count; i-- > first;) value = value * 0x1p32 + whole->digits[i];
+    *exponent = 32 * (int)first;
+    return value;
+}
+
+/// The usable double nearest to a coordinate; of two that are as near the lower one.
+static double nearest(const quotient *q, const sl_whole *coordinate) {
+    int above, below;
+    const double share = leading(coordinate, &above) / leading(&q->divisor, &below);
+    double value = coordinate->sign * ldexp(share, above - below + q->exponent);
     if (fabs(value) < SL_COORDINATE_MIN) value = 0;
-    double from = low, to = high;
     for (;;) {
         const double up = next_to(value, HUGE_VAL), down = next_to(value, -HUGE_VAL);
-        if (value < high && compare_to_middle(q, coordinate, value, up) > 0)
-            from = up;
-        else if (value > low && compare_to_middle(q, coordinate, down, value) <= 0)
-            to = down;
+        if (compare_to_middle(q, coordinate, value, up) > 0)
+            value = up;
+        else if (compare_to_middle(q, coordinate, down, value) <= 0)
+            value = down;
         else
             return value;
-        // The guess is seldom off by more than a neighbour or two; else halve what is left.
-        const double next = from > value ? up : down;
-        value = fabs(guess - next) <= 4 * fabs(up - down) ? next : from / 2 + to / 2;
-        if (fabs(value) < SL_COORDINATE_MIN) value = 0;
-        value = fmin(fmax(value, from), to);
     }
 }
 
 sl_point sl_crossing(sl_segment s, sl_segment t) {
     quotient q;
     divide(&s, &t, &q);
-    const double sx = s.b.x - s.a.x, sy = s.b.y - s.a.y, tx = t.b.x - t.a.x, ty = t.b.y - t.a.y;
-    const double share = ((t.a.x - s.a.x) * ty - (t.a.y - s.a.y) * tx) / (sx * ty - sy * tx);
-    return (sl_point){nearest(&q, &q.x, s.a.x + share * sx, s.a.x, s.b.x),
-                      nearest(&q, &q.y, s.a.y + share * sy, s.a.y, s.b.y)};
+    return (sl_point){nearest(&q, &q.x), nearest(&q, &q.y)};
 }

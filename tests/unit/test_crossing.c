@@ -171,9 +171,9 @@ static void of_all_magnitudes(void **state) {
     for (size_t d = 0; d < sizeof draws / sizeof *draws; d++) {
         sl_random random = {d + 1};
         uint64_t crossed = 0;
-        for (int i = 0; i < 6000; i++)
+        for (int i = 0; i < 1500; i++)
             crossed += check(any_segment(&random, draws[d]), any_segment(&random, draws[d]));
-        assert_true(crossed > 300);
+        assert_true(crossed > 40);
     }
 }
 
@@ -182,7 +182,7 @@ static void of_mixed_magnitudes(void **state) {
     draw *const draws[] = {anywhere, any_scale, tiny, huge, far_off};
     sl_random random = {7};
     uint64_t crossed = 0;
-    for (int i = 0; i < 60000; i++) {
+    for (int i = 0; i < 15000; i++) {
         draw *const x = draws[sl_random_below(&random, 5)], *const y =
                                                                 draws[sl_random_below(&random, 5)];
         const sl_segment sx = any_segment(&random, x), sy = any_segment(&random, y);
@@ -190,7 +190,7 @@ static void of_mixed_magnitudes(void **state) {
         crossed += check((sl_segment){{sx.a.x, sy.a.y}, {sx.b.x, sy.b.y}},
                          (sl_segment){{tx.a.x, ty.a.y}, {tx.b.x, ty.b.y}});
     }
-    assert_true(crossed > 1000);
+    assert_true(crossed > 300);
 }
 
 /// Up to some steps of doubles away.
@@ -215,7 +215,7 @@ static void nearly_parallel(void **state) {
     for (size_t d = 0; d < sizeof draws / sizeof *draws; d++) {
         sl_random random = {d + 20};
         uint64_t crossed = 0;
-        for (int i = 0; i < 6000; i++) {
+        for (int i = 0; i < 1500; i++) {
             const sl_segment s = any_segment(&random, draws[d]);
             sl_segment t = s;
             if (i % 2) t.a = along(s, sl_random_unit(&random));
@@ -223,7 +223,7 @@ static void nearly_parallel(void **state) {
             t = (sl_segment){point_beside(&random, t.a), point_beside(&random, t.b)};
             crossed += check(s, t);
         }
-        assert_true(crossed > 100);
+        assert_true(crossed > 40);
     }
 }
 
@@ -234,13 +234,13 @@ static void near_an_end(void **state) {
     for (size_t d = 0; d < sizeof draws / sizeof *draws; d++) {
         sl_random random = {d + 40};
         uint64_t crossed = 0;
-        for (int i = 0; i < 6000; i++) {
+        for (int i = 0; i < 1500; i++) {
             const sl_segment s = any_segment(&random, draws[d]);
             sl_segment t = any_segment(&random, draws[d]);
             t.a = point_beside(&random, i % 2 ? s.a : along(s, sl_random_unit(&random)));
             crossed += check(s, t);
         }
-        assert_true(crossed > 100);
+        assert_true(crossed > 40);
     }
 }
 
@@ -249,7 +249,7 @@ static void near_an_end(void **state) {
 static void where_zero_is_near(void **state) {
     (void)state;
     const double low = SL_COORDINATE_MIN;
-    for (int exponent = -498; exponent <= 498; exponent++) {
+    for (int exponent = -498; exponent <= 498; exponent += 12) {
         const double h = fmax(low, ldexp(1, exponent));
         // Through the origin, and past it by less than the least coordinate.
         assert_true(check((sl_segment){{-h, -h}, {h, h}}, (sl_segment){{-h, h}, {h, -h}}));
