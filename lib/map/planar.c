@@ -21,7 +21,8 @@
 enum {
     FEW = 12,         ///< edges in a box that are held against each other
     MOST_HALVES = 96, ///< boxes within boxes
-    MOST_ROUNDS = 64
+    MOST_ROUNDS = 64,
+    MOST_GROWTH = 16, ///< points, of those that ends and the first round's crossings are
 };
 
 /// Halving goes on only while it parts edges more than it cuts them.
@@ -520,16 +521,19 @@ static sl_status fail_endless(const planer *p) {
         at = p->meetings.items[0].at;
     else if (p->splits.count)
         at = p->points.items[p->splits.items[0].point];
-    return sl_fail_at(p->context, p->source, 0,
-                      "walls near %.17g %.17g cross again each time that their crossing is "
-                      "rounded; weld ends with a larger tolerance than %g (--weld)",
-                      at.x, at.y, p->weld);
+    return sl_fail(p->context, SL_UNSUPPORTED,
+                   "%s: walls near %.17g %.17g cross again each time that their crossing is "
+                   "rounded; weld ends with a larger tolerance than %g (--weld)",
+                   p->source, at.x, at.y, p->weld);
 }
 
+/// Without a tolerance each round may find more to do than the one before it.
 static sl_status settle(planer *p) {
-    for (int round = 0; round < MOST_ROUNDS; round++) {
+    size_t most = SIZE_MAX;
+    for (int round = 0; round < MOST_ROUNDS && p->points.count <= most; round++) {
         SL_TRY(find_meetings(p));
         if (!p->splits.count && !p->meetings.count) return SL_OK;
+        if (round == 0) most = MOST_GROWTH * (p->points.count + p->meetings.count);
         SL_TRY(take_meetings(p));
         if (!p->splits.count) break;
         SL_TRY(split_all(p));
@@ -614,25 +618,27 @@ static sl_status add_links(writer *w, sl_planar_link link) {
     return SL_OK;
 }
 
-/// How far a point is from a segment.
-static double distance_to(const sl_segment *s, sl_point v, double scale) {
-    const double dx = (s->b.x - s->a.x) * scale, dy = (s->b.y - s->a.y) * scale;
-    const double vx = (v.x - s->a.x) * scale, vy = (v.y - s->a.y) * scale;
-    const double length = hypot(dx, dy);
-    if (length == 0) return hypot(vx, vy) / scale;
-    const double along = (vx * dx + vy * dy) / length;
-    if (along <= 0) return hypot(vx, vy) / scale;
-    if (along >= length) return hypot(vx - dx, vy - dy) / scale;
-    return fabs(dx * vy - dy * vx) / length / scale;
+/// How far a point is from a segment whose ends are in order, with rounding added: no less than it
+/// is.
+static double distance_to(const sl_segment *s, sl_point v) {
+    const double dx = s->b.x - s->a.x, dy = s->b.y - s->a.y, length = hypot(dx, dy);
+    const double vx = v.x - s->a.x, vy = v.y - s->a.y, error = 0x1p-50 * (fabs(vx) + fabs(vy));
+    if (same(v, s->a) || same(v, s->b)) return 0;
+    if (length == 0) return distance(v, s->a) + error;
+    const double along = vx * (dx / length) + vy * (dy / length);
+    if (along <= 0) return distance(v, s->a) + error;
+    if (along >= length) return distance(v, s->b) + error;
+    if (sl_orient(s->a, s->b, v) == 0) return 0;
+    return fabs(dx / length * vy - dy / length * vx) + error;
 }
 
-static void measure(writer *w, size_t segment, size_t from) {
+static void measure(writer *w, sl_segment s, size_t from) {
+    if (compare_points(s.a, s.b) > 0) s = (sl_segment){s.b, s.a};
     for (size_t i = from; i < w->links.count; i++) {
         const working_edge *e = &w->p->edges.items[w->links.items[i] / 2];
         const uint32_t ends[2] = {e->a, e->b};
         for (int k = 0; k < 2; k++) {
-            const double move =
-                distance_to(&w->segments[segment], w->p->points.items[ends[k]], w->p->scale);
+            const double move = distance_to(&s, w->p->points.items[ends[k]]);
             if (move > w->out->largest_move) w->out->largest_move = move;
         }
     }
@@ -643,7 +649,7 @@ static sl_status write_chains(writer *w, const sl_planar_link *roots, size_t cou
         w->out->first[i] = w->links.count;
         if (roots[i] == NONE) continue;
         SL_TRY(add_links(w, roots[i]));
-        measure(w, i, w->out->first[i]);
+        measure(w, w->segments[i], w->out->first[i]);
     }
     w->out->first[count] = w->links.count;
     return SL_OK;
