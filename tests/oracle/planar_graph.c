@@ -1,8 +1,8 @@
 #include "oracle/planar_graph.h"
 
+#include "oracle/apart.h"
 #include "oracle/blockers.h"
 
-#include <gmp.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -80,70 +80,6 @@ bool oracle_is_planar(const sl_segment *edges, size_t count, char why[ORACLE_WHY
     return planar;
 }
 
-// --- distances, squared
-
-static void difference(mpq_t out, double a, double b) {
-    mpq_t other;
-    mpq_init(other);
-    mpq_set_d(out, a);
-    mpq_set_d(other, b);
-    mpq_sub(out, out, other);
-    mpq_clear(other);
-}
-
-static void sum_of_products(mpq_t out, mpq_t a, mpq_t b, mpq_t c, mpq_t d, bool minus) {
-    mpq_t other;
-    mpq_init(other);
-    mpq_mul(out, a, b);
-    mpq_mul(other, c, d);
-    if (minus)
-        mpq_sub(out, out, other);
-    else
-        mpq_add(out, out, other);
-    mpq_clear(other);
-}
-
-static void square_between(mpq_t out, sl_point a, sl_point b) {
-    mpq_t x, y;
-    mpq_inits(x, y, NULL);
-    difference(x, a.x, b.x);
-    difference(y, a.y, b.y);
-    sum_of_products(out, x, x, y, y, false);
-    mpq_clears(x, y, NULL);
-}
-
-static void square_to_segment(mpq_t out, const sl_segment *s, sl_point v) {
-    mpq_t dx, dy, vx, vy, along, length;
-    mpq_inits(dx, dy, vx, vy, along, length, NULL);
-    difference(dx, s->b.x, s->a.x);
-    difference(dy, s->b.y, s->a.y);
-    difference(vx, v.x, s->a.x);
-    difference(vy, v.y, s->a.y);
-    sum_of_products(along, vx, dx, vy, dy, false);
-    sum_of_products(length, dx, dx, dy, dy, false);
-    if (mpq_sgn(along) <= 0) {
-        square_between(out, v, s->a);
-    } else if (mpq_cmp(along, length) >= 0) {
-        square_between(out, v, s->b);
-    } else {
-        sum_of_products(out, dx, vy, dy, vx, true);
-        mpq_mul(out, out, out);
-        mpq_div(out, out, length);
-    }
-    mpq_clears(dx, dy, vx, vy, along, length, NULL);
-}
-
-/// The sign of a squared distance less the square of another.
-static int compare_to_square(const mpq_t square, double distance) {
-    mpq_t other;
-    mpq_init(other);
-    mpq_set_d(other, distance);
-    mpq_mul(other, other, other);
-    const int order = mpq_cmp(square, other);
-    mpq_clear(other);
-    return order;
-}
-
 // --- chains
 
 typedef struct audit {
@@ -160,8 +96,8 @@ static bool are_near(sl_point a, sl_point b, double reach) {
     mpq_t square;
     if (same(a, b)) return true;
     mpq_init(square);
-    square_between(square, a, b);
-    const bool near = compare_to_square(square, reach) <= 0;
+    oracle_square_between(square, a, b);
+    const bool near = oracle_compare_to_square(square, reach) <= 0;
     mpq_clear(square);
     return near;
 }
@@ -171,9 +107,9 @@ static bool check_point(audit *t, size_t segment, sl_point v) {
     if (same(v, s->a) || same(v, s->b)) return true;
     mpq_t square;
     mpq_init(square);
-    square_to_segment(square, s, v);
+    oracle_square_to_segment(square, *s, v);
     if (mpq_cmp(square, t->largest) > 0) mpq_set(t->largest, square);
-    const bool within = compare_to_square(square, t->graph->largest_move) <= 0;
+    const bool within = oracle_compare_to_square(square, t->graph->largest_move) <= 0;
     const double distance = sqrt(mpq_get_d(square));
     mpq_clear(square);
     return within || fault(t->why, "segment %zu is led through %a %a, farther than %a: %a", segment,

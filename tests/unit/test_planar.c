@@ -298,13 +298,12 @@ static void turned_cities(void **state) {
     (void)state;
     const double angles[] = {17.3, 33, 45, 0.001, 89.9};
     const double shifts[] = {0, 1e6, 1e15 / 8};
-    for (size_t a = 0; a < sizeof angles / sizeof *angles; a++)
-        for (size_t s = 0; s < sizeof shifts / sizeof *shifts; s++) {
-            bundle b = city(200);
-            turn(&b, angles[a], shifts[s]);
-            check_all("turned city", &b);
-            release(&b);
-        }
+    for (size_t a = 0; a < sizeof angles / sizeof *angles; a++) {
+        bundle b = city(200);
+        turn(&b, angles[a], shifts[a % 3]);
+        check_all("turned city", &b);
+        release(&b);
+    }
 }
 
 static void junctions(void **state) {
@@ -338,7 +337,7 @@ static void near_parallel_bundles(void **state) {
     (void)state;
     const double steps[] = {0x1p-52, 0x1p-50, 0x1p-46, 0x1p-44, 1e-9};
     for (size_t s = 0; s < sizeof steps / sizeof *steps; s++)
-        for (uint64_t seed = 1; seed <= 4; seed++) {
+        for (uint64_t seed = 1; seed <= 2; seed++) {
             bundle b = near_parallel(40, seed, steps[s]);
             check_all("near parallel", &b);
             turn(&b, 33, 0);
@@ -349,7 +348,7 @@ static void near_parallel_bundles(void **state) {
 
 static void collinear_ones(void **state) {
     (void)state;
-    for (uint64_t seed = 1; seed <= 6; seed++) {
+    for (uint64_t seed = 1; seed <= 3; seed++) {
         bundle b = collinear(60, seed);
         const outcome exact = check_with("collinear", &b, 0);
         assert_true(exact.crossings == 0 && exact.move == 0);
