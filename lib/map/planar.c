@@ -45,7 +45,7 @@ typedef struct split {
     uint32_t edge, point;
 } split;
 
-/// That two edges cross, and where, about: the same for any order of the input.
+/// That two edges cross, and where, about.
 typedef struct meeting {
     sl_point at;
     uint32_t edges[2];
@@ -276,9 +276,7 @@ static sl_segment segment_of(const planer *p, uint32_t edge) {
 }
 
 static sl_status add_meeting(planer *p, uint32_t edge, uint32_t other) {
-    const working_edge *e = &p->edges.items[edge], *o = &p->edges.items[other];
-    const bool ordered = e->a < o->a || (e->a == o->a && e->b < o->b);
-    const uint32_t first = ordered ? edge : other, second = ordered ? other : edge;
+    const uint32_t first = edge < other ? edge : other, second = edge < other ? other : edge;
     const sl_segment s = segment_of(p, first), t = segment_of(p, second);
     const double sx = (s.b.x - s.a.x) * p->scale, sy = (s.b.y - s.a.y) * p->scale;
     const double tx = (t.b.x - t.a.x) * p->scale, ty = (t.b.y - t.a.y) * p->scale;
@@ -424,7 +422,10 @@ static sl_status find_meetings(planer *p) {
 
 static int compare_meetings(const void *left, const void *right) {
     const meeting *a = left, *b = right;
-    return compare_points(a->at, b->at);
+    const int order = compare_points(a->at, b->at);
+    if (order) return order;
+    const int i = a->edges[0] == b->edges[0];
+    return (a->edges[i] > b->edges[i]) - (a->edges[i] < b->edges[i]);
 }
 
 /// The point where two edges cross: one within the tolerance, or the nearest representable one.
@@ -434,7 +435,7 @@ static sl_status take_meeting(planer *p, const meeting *m, uint32_t *out) {
     return take_point(p, sl_crossing(segment_of(p, m->edges[0]), segment_of(p, m->edges[1])), out);
 }
 
-/// Gives the crossings their points, in an order that the input has no part in.
+/// Gives the crossings their points, by place.
 static sl_status take_meetings(planer *p) {
     if (p->meetings.count)
         qsort(p->meetings.items, p->meetings.count, sizeof *p->meetings.items, compare_meetings);
@@ -564,17 +565,47 @@ static sl_status take_ends(planer *p, const sl_segment *segments, size_t count) 
     return status;
 }
 
+static int compare_edges(const void *left, const void *right) {
+    const sl_planar_edge *a = left, *b = right;
+    if (a->a != b->a) return a->a < b->a ? -1 : 1;
+    return (a->b > b->b) - (a->b < b->b);
+}
+
+/// Takes the edges between the segments' points, by place: the order of the input has no part in
+/// the numbers of points and edges, and so in nothing that comes of them.
+static sl_status take_edges(planer *p, const sl_planar_edge *ends, size_t count) {
+    sl_planar_edge *sorted = sl_alloc_array(p->context, count, sizeof *sorted);
+    if (!sorted) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t a = ends[i].a, b = ends[i].b;
+        sorted[i] = a < b ? ends[i] : (sl_planar_edge){b, a};
+    }
+    if (count) qsort(sorted, count, sizeof *sorted, compare_edges);
+    sl_status status = SL_OK;
+    sl_planar_link link;
+    for (size_t i = 0; i < count && status == SL_OK; i++)
+        if (sorted[i].a != sorted[i].b) status = take_edge(p, sorted[i].a, sorted[i].b, &link);
+    sl_free(p->context, sorted);
+    return status;
+}
+
 /// The links of the segments, one each at first; NONE for one of no length.
 static sl_status take_segments(planer *p, const sl_segment *segments, size_t count,
                                sl_planar_link *roots, size_t *welded) {
+    sl_planar_edge *ends = sl_alloc_array(p->context, count, sizeof *ends);
+    if (!ends) return SL_NO_MEMORY;
     for (size_t i = 0; i < count; i++) {
-        const uint32_t a = find_point(p, segments[i].a), b = find_point(p, segments[i].b);
-        *welded += !same(p->points.items[a], segments[i].a);
-        *welded += !same(p->points.items[b], segments[i].b);
-        roots[i] = NONE;
-        if (a != b) SL_TRY(take_edge(p, a, b, &roots[i]));
+        ends[i] = (sl_planar_edge){find_point(p, segments[i].a), find_point(p, segments[i].b)};
+        *welded += !same(p->points.items[ends[i].a], segments[i].a);
+        *welded += !same(p->points.items[ends[i].b], segments[i].b);
     }
-    return SL_OK;
+    sl_status status = take_edges(p, ends, count);
+    for (size_t i = 0; i < count && status == SL_OK; i++) {
+        roots[i] = NONE;
+        if (ends[i].a != ends[i].b) status = take_edge(p, ends[i].a, ends[i].b, &roots[i]);
+    }
+    sl_free(p->context, ends);
+    return status;
 }
 
 /// The graph as it is handed over, and where its points and edges were while it was made.

@@ -7,8 +7,7 @@
 
 #include "sightline/map.h"
 
-/// An edge of the graph, from points[a] to points[b]; a < b, and points are by x, then y, but for
-/// those that are crossings.
+/// An edge of the graph, from points[a] to points[b]; a < b, and points are by x, then y.
 typedef struct sl_planar_edge {
     uint32_t a, b;
 } sl_planar_edge;
@@ -41,8 +40,8 @@ typedef struct sl_planar {
 /// segment is led through a point, its parts are shorter than it was. SL_UNSUPPORTED where it does
 /// not come to an end nevertheless, as may be with tolerances that are smaller.
 ///
-/// The graph is the same for all orders of the segments, but for the numbers of edges. Time
-/// O((n + k) log n) for k crossings, where few segments come near to each other in one place.
+/// The graph is the same for all orders of the segments. Time O((n + k) log n) for k crossings,
+/// where few segments come near to each other in one place.
 sl_status sl_planar_make(sl_context *context, const char *source, const sl_segment *segments,
                          size_t count, double weld, sl_planar *out);
 void sl_planar_destroy(sl_context *context, sl_planar *planar); ///< and zeroes it
