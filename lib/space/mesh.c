@@ -39,9 +39,11 @@ typedef struct merger {
     sl_triangulation *t;
     const sl_planar *graph;
     sl_space *space;
-    uint32_t *previous; ///< by half-edge
-    uint32_t *cell;     ///< by half-edge; NONE for one that is gone or outside
-    uint32_t *exit;     ///< by half-edge of a portal: its place in space.exits
+    uint32_t *previous;   ///< by half-edge
+    uint32_t *cell;       ///< by half-edge; NONE for one that is gone or outside
+    uint32_t *exit;       ///< by half-edge of a portal: its place in space.exits
+    sl_mesh_watch *watch; ///< NULL for none
+    void *user;
     graph_edge *edges;
     SL_ARRAY(seam_link) seam_links;
 } merger;
@@ -102,6 +104,18 @@ static sl_status list_candidates(merger *m, candidate **out, size_t *count) {
     return SL_OK;
 }
 
+/// Takes a side out where both of its ends stay convex.
+static sl_status try_side(merger *m, uint32_t half) {
+    const uint32_t twin = half ^ 1;
+    const uint32_t stuck = !leaves_convex(m, half) ? half : leaves_convex(m, twin) ? NONE : twin;
+    if (m->watch) SL_TRY(m->watch(m->user, half, stuck));
+    if (stuck != NONE) return SL_OK;
+    join(m, m->previous[half], next(m, twin));
+    join(m, m->previous[twin], next(m, half));
+    m->cell[half] = m->cell[twin] = NONE;
+    return SL_OK;
+}
+
 static sl_status merge(merger *m) {
     const size_t halves = m->t->halves.count;
     candidate *list = NULL;
@@ -112,15 +126,19 @@ static sl_status merge(merger *m) {
     for (uint32_t half = 0; half < halves; half++)
         if (!sl_half_is_outside(m->t, half)) m->previous[next(m, half)] = half;
     SL_TRY(list_candidates(m, &list, &count));
-    for (size_t i = 0; i < count; i++) {
-        const uint32_t half = list[i].half, twin = half ^ 1;
-        if (!leaves_convex(m, half) || !leaves_convex(m, twin)) continue;
-        join(m, m->previous[half], next(m, twin));
-        join(m, m->previous[twin], next(m, half));
-        m->cell[half] = m->cell[twin] = NONE;
-    }
+    sl_status status = SL_OK;
+    for (size_t i = 0; i < count && status == SL_OK; i++) status = try_side(m, list[i].half);
     sl_free(m->context, list);
-    return SL_OK;
+    return status;
+}
+
+sl_status sl_mesh_merge(sl_context *context, sl_triangulation *triangles, sl_mesh_watch *watch,
+                        void *user) {
+    merger m = {.context = context, .t = triangles, .watch = watch, .user = user};
+    const sl_status status = merge(&m);
+    sl_free(context, m.previous);
+    sl_free(context, m.cell);
+    return status;
 }
 
 // --- cells

@@ -17,6 +17,15 @@ sl_status sl_mesh_add_line(sl_context *context, sl_mesh_lines *lines, sl_segment
 sl_status sl_mesh_lines_of_map(sl_context *context, const sl_map *map, sl_mesh_lines *lines,
                                sl_space *space);
 
+/// Sees each side of a triangle that may be taken out, the longest first. Without the side the
+/// corner where `stuck` (half or its twin) starts would turn right, and the side has to stay; with
+/// SL_OUTSIDE both ends stay convex, and it is taken out.
+typedef sl_status sl_mesh_watch(void *user, uint32_t half, uint32_t stuck);
+
+/// Merges triangles to convex cells, across no edge of the graph. Triangles lose their form.
+sl_status sl_mesh_merge(sl_context *context, sl_triangulation *triangles, sl_mesh_watch *watch,
+                        void *user);
+
 /// Makes the cells, portals, walls and grid of a space whose bounds and seams are there, of the
 /// graph of lines and its triangles, which are used up. Merges none across an edge of the graph.
 sl_status sl_mesh_make(sl_context *context, const sl_map *map, const sl_mesh_lines *lines,
