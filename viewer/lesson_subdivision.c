@@ -3,6 +3,7 @@
 #include "app.h"
 #include "draw/marks.h"
 #include "draw/subdivision.h"
+#include "geometry/orient.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -120,8 +121,8 @@ static void say_side(const sl_mesh_steps *mesh, size_t place, char text[SL_SENTE
     sl_point corner[3];
     sl_mesh_steps_corner(mesh, place, corner);
     snprintf(text + length, SL_SENTENCE - (size_t)length,
-             " stays: without it the corner at %.5g, %.5g would turn right.", corner[1].x,
-             corner[1].y);
+             " stays: without it the corner at %.5g, %.5g would turn %s.", corner[1].x, corner[1].y,
+             sl_orient(corner[0], corner[1], corner[2]) ? "right" : "back");
 }
 
 static void say_cells(const sl_mesh_steps *mesh, const sl_document *document,
