@@ -4,6 +4,7 @@
 /// between two neighbouring doubles.
 #include "geometry/crossing.h"
 
+#include "geometry/orient.h"
 #include "geometry/whole.h"
 
 #include <math.h>
@@ -121,4 +122,60 @@ sl_point sl_crossing(sl_segment s, sl_segment t) {
     quotient q;
     divide(&s, &t, &q);
     return (sl_point){nearest(&q, &q.x), nearest(&q, &q.y)};
+}
+
+// --- the side of a line
+
+/// (b - a) x (c - a), rounded, and by how much it may be off.
+typedef struct rounded {
+    double value, error;
+} rounded;
+
+static rounded determinant(sl_point a, sl_point b, sl_point c) {
+    const double left = (b.x - a.x) * (c.y - a.y), right = (b.y - a.y) * (c.x - a.x);
+    return (rounded){left - right, 8 * 0x1p-53 * (fabs(left) + fabs(right)) + 0x1p-900};
+}
+
+static void determinant_exact(sl_point a, sl_point b, sl_point c, int exponent, sl_whole *out) {
+    sl_whole bx, by, cx, cy;
+    subtract(b.x, a.x, exponent, &bx);
+    subtract(b.y, a.y, exponent, &by);
+    subtract(c.x, a.x, exponent, &cx);
+    subtract(c.y, a.y, exponent, &cy);
+    cross(&bx, &by, &cx, &cy, out);
+}
+
+/// The sign of |along b| * |across a| - |along a| * |across b|, where `across` is a determinant of
+/// an end of s with the line, and `along` one with t.
+static int compare_shares(sl_point from, sl_point to, const sl_segment *s, const sl_segment *t) {
+    const rounded across_a = determinant(from, to, s->a), across_b = determinant(from, to, s->b);
+    const rounded along_a = determinant(t->a, t->b, s->a), along_b = determinant(t->a, t->b, s->b);
+    const double left = fabs(along_b.value * across_a.value);
+    const double right = fabs(along_a.value * across_b.value);
+    const double error = (fabs(along_b.value) + along_b.error) * across_a.error +
+                         along_b.error * fabs(across_a.value) +
+                         (fabs(along_a.value) + along_a.error) * across_b.error +
+                         along_a.error * fabs(across_b.value);
+    const double bound = 2 * error + 8 * 0x1p-53 * (left + right) + 0x1p-900;
+    if (left - right > bound) return 1;
+    if (right - left > bound) return -1;
+    const sl_segment line = {from, to};
+    const int first = lowest_exponent(s, t), second = lowest_exponent(s, &line);
+    const int exponent = first < second ? first : second;
+    sl_whole one, other, left_exact, right_exact;
+    determinant_exact(t->a, t->b, s->b, exponent, &one);
+    determinant_exact(from, to, s->a, exponent, &other);
+    sl_whole_multiply(&one, &other, &left_exact);
+    determinant_exact(t->a, t->b, s->a, exponent, &one);
+    determinant_exact(from, to, s->b, exponent, &other);
+    sl_whole_multiply(&one, &other, &right_exact);
+    left_exact.sign = left_exact.sign != 0;
+    right_exact.sign = right_exact.sign != 0;
+    return sl_whole_compare(&left_exact, &right_exact);
+}
+
+int sl_crossing_side(sl_point from, sl_point to, sl_segment s, sl_segment t) {
+    const int a = sl_orient(from, to, s.a), b = sl_orient(from, to, s.b);
+    if (a * b >= 0) return a ? a : b;
+    return a * compare_shares(from, to, &s, &t);
 }

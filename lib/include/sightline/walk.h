@@ -56,9 +56,8 @@ typedef enum sl_node_state {
 } sl_node_state;
 
 /// A node visibility test: how the occluders' shadows are merged and a node is looked up in them.
-/// For the nodes of a kd-tree's space all tests give the same answer, which is exact for the chosen
-/// occluders. Elsewhere a node that a wall's line cuts counts as partly before and partly behind
-/// it: conservative. A node's answer is always that of a box that holds it, or of itself.
+/// All tests give the same answer. It is exact for the chosen occluders and the node: its box, or
+/// of a leaf its cell.
 typedef struct sl_node_test {
     const char *name, *what;
     const struct sl_node_test_calls *calls; ///< the library's own
