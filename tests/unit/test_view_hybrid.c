@@ -305,10 +305,9 @@ static void sets_are_those_of_the_search_on_random_maps(void **state) {
 static void walls_are_seen_as_by_samples(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
-    for (int oblique = 0; oblique < 2; oblique++) {
+    for (int i = 0; i < ROOMS; i++) {
         view_world w;
-        make_world(context, oblique ? OBLIQUE_ROOMS : TWO_ROOMS, oblique, SL_VIEW_WALLS, 100000,
-                   &w);
+        make_world(context, rooms_map(i), i > 0, SL_VIEW_WALLS, 100000, &w);
         for (int sight = SL_CLOSED; sight <= SL_OPEN; sight++) {
             sl_view_subdivision options = sl_view_subdivision_default();
             options.cells = 40;
@@ -322,10 +321,10 @@ static void walls_are_seen_as_by_samples(void **state) {
                       sl_view_sets_sample(context, &w.scene, &tree, &w.segments, 1, &sampled));
             if (sight == SL_CLOSED) check_same("walls", &sampled, &found.sets, false);
             uint32_t pairs = 0, missed = 0;
-            for (uint32_t i = 0; i < tree.cell_count; i++)
+            for (uint32_t cell = 0; cell < tree.cell_count; cell++)
                 for (uint32_t o = 0; o < w.space.wall_count; o++) {
-                    pairs += set_has(&found.sets, i, o);
-                    missed += set_has(&found.sets, i, o) && !set_has(&sampled, i, o);
+                    pairs += set_has(&found.sets, cell, o);
+                    missed += set_has(&found.sets, cell, o) && !set_has(&sampled, cell, o);
                 }
             if (sight == SL_OPEN) assert_true(pairs > 100 && 15 * missed < pairs);
             sl_view_sets_destroy(context, &sampled);

@@ -47,7 +47,7 @@ typedef struct sl_view_segments {
     uint64_t drawn;    ///< points
     uint64_t empty;    ///< of them: in empty space
     uint64_t unseeing; ///< of them: the line there ends at no wall, only at the map's border
-    uint64_t lost;     ///< of them: on a corner or an edge, or where rounding broke the walk
+    uint64_t lost;     ///< of them: on a corner or an edge, so that the line only touches the room
 } sl_view_segments;
 
 /// Draws points evenly over the map's bounds and directions evenly over the circle, and follows the
@@ -218,8 +218,9 @@ SL_API void sl_view_hierarchy_destroy(sl_context *context, sl_view_hierarchy *hi
 /// passes the view cell or, with closed sight, touches it. With open sight this is what the cells
 /// together see that the view cell's borders cut out of the space; with closed sight these may miss
 /// an object seen by grazing lines alone, which would have to cross a border both ways. So in the
-/// space of a kd-tree; in others pieces of cells have rounded corners, and the sets are exact for
-/// these, and part of what the whole cell sees. SL_UNSUPPORTED with wall_splits.
+/// space of a kd-tree. Where a split crosses an oblique side of a cell, the crossing is rounded:
+/// the sets are exact for pieces with this corner, and part of what the whole cell sees.
+/// SL_UNSUPPORTED with wall_splits.
 typedef struct sl_view_method {
     const char *name, *what;
     bool merges;
@@ -278,9 +279,10 @@ SL_API void sl_view_borders_free(sl_context *context, sl_segment *borders);
 // --- exact sets, for use
 
 /// Adds the borders of view cells to a map as seams: no cell of a space that is made of it then
-/// lies in two view cells (in a BSP's space, but for rounding), and what a view cell sees is what
-/// its cells see, by any method. With `objects`, a space of the map, its portals become seams too:
-/// then no cell lies in two of its cells either, which sl_view_rows_cost asks for; NULL for none.
+/// lies in two view cells (but for rounding where walls are oblique), and what a view cell sees is
+/// what its cells see, by any method. With `objects`, a space of the map, its portals become seams
+/// too: then no cell lies in two of its cells either, which sl_view_rows_cost asks for; NULL for
+/// none.
 SL_API sl_status sl_view_add_seams(sl_context *context, const sl_view_tree *tree,
                                    const uint32_t *view_cells, const sl_space *objects,
                                    sl_map *map);

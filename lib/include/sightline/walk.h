@@ -29,8 +29,8 @@ typedef struct sl_walk_node {
     int32_t rope[4];
 } sl_walk_node;
 
-/// The hierarchy of a space, with the walls of its cells: a kd-tree's nodes, or, over the cells of a
-/// mesh, boxes within boxes, which may overlap. Zeroed, it is empty.
+/// The hierarchy of a space, with the walls of its cells: a kd-tree's nodes, or, over the cells of
+/// a mesh, boxes within boxes, which may overlap. Zeroed, it is empty.
 typedef struct sl_hierarchy {
     const sl_space *space; ///< the caller's; it must stay as long as the hierarchy
     bool tiles;            ///< a kd-tree's: children make up their parent, leaves are their boxes
