@@ -134,7 +134,8 @@ static sl_view_piece inner(const sl_view_piece *piece) {
 }
 
 /// Holds each piece against it. Of a piece with oblique sides a line along a portal of its room may
-/// count though the portal is behind, and one that touches a rounded corner alone need not.
+/// count though the portal is behind. One that only touches a corner where a cut crosses such a
+/// side need not count, as that corner is rounded.
 static void check_pieces(const char *name, const sl_space *space, const sl_view_pieces *pieces,
                          bool axial) {
     const size_t words = sl_bits_words(space->cell_count);
