@@ -353,7 +353,7 @@ static sl_status clean_axial(cleaning *work, sl_map *map) {
 /// All segments of a map in one list: walls first, then what else stands in it.
 typedef struct segment_list {
     SL_ARRAY(sl_segment) items;
-    size_t mirrors, oneways, seams, doors; ///< the first of each; walls before them
+    size_t mirrors, oneways, seams, doors, cells; ///< the first of each; walls before them
 } segment_list;
 
 static sl_status add_segment(sl_context *context, segment_list *list, sl_point a, sl_point b) {
@@ -392,6 +392,13 @@ static sl_status list_segments(const cleaning *work, const sl_map *map, segment_
     list->doors = list->items.count;
     for (size_t i = 0; i < map->door_count; i++)
         SL_TRY(add_segment(context, list, map->doors[i].segment.a, map->doors[i].segment.b));
+    list->cells = list->items.count;
+    for (size_t i = 0; i < map->cell_count; i++) {
+        const sl_map_cell *cell = &map->cells[i];
+        const sl_point *corners = map->corners + cell->first;
+        for (size_t k = 0; k < cell->count; k++)
+            SL_TRY(add_segment(context, list, corners[k], corners[(k + 1) % cell->count]));
+    }
     return SL_OK;
 }
 
@@ -407,6 +414,7 @@ typedef struct replacement {
     sl_wall *walls;
     sl_glass *mirrors, *oneways, *seams;
     sl_segment **doors; ///< by door: its parts
+    sl_point *corners;  ///< of cells
     size_t wall_count;
 } replacement;
 
@@ -476,7 +484,10 @@ static sl_status make_replacement(cleaning *work, const segment_list *list, cons
     SL_TRY(
         make_glass(context, graph, list->oneways, map->oneways, map->oneway_count, &out->oneways));
     SL_TRY(make_glass(context, graph, list->seams, map->seams, map->seam_count, &out->seams));
-    return make_doors(context, graph, list->doors, map->door_count, &out->doors);
+    SL_TRY(make_doors(context, graph, list->doors, map->door_count, &out->doors));
+    const size_t sides = graph->first[list->items.count] - graph->first[list->cells];
+    out->corners = sl_alloc_array(context, sides, sizeof *out->corners);
+    return out->corners ? SL_OK : SL_NO_MEMORY;
 }
 
 static void replace_glass(sl_context *context, sl_glass **glass, size_t *count, size_t *room,
@@ -500,6 +511,29 @@ static void replace_door(sl_context *context, sl_door *door, sl_segment **parts,
     *parts = NULL;
 }
 
+/// The corners of cells are where the edges start that their sides have become.
+static void replace_cells(sl_context *context, const sl_planar *graph, size_t first, sl_map *map,
+                          sl_point **corners) {
+    size_t cells = 0, count = 0;
+    for (size_t i = 0; i < map->cell_count; i++) {
+        sl_map_cell cell = map->cells[i];
+        const size_t *sides = graph->first + first + cell.first;
+        cell.first = count;
+        for (size_t k = sides[0]; k < sides[cell.count]; k++)
+            (*corners)[count++] = sl_planar_at(graph, graph->links[k]).a;
+        cell.count = (uint32_t)(count - cell.first);
+        if (cell.count < 3)
+            count = cell.first;
+        else
+            map->cells[cells++] = cell;
+    }
+    sl_free(context, map->corners);
+    map->corners = *corners;
+    *corners = NULL;
+    map->corner_count = map->corner_room = count;
+    map->cell_count = cells;
+}
+
 static void replace(cleaning *work, const segment_list *list, const sl_planar *graph,
                     replacement *with, sl_map *map) {
     sl_context *context = work->context;
@@ -517,6 +551,7 @@ static void replace(cleaning *work, const segment_list *list, const sl_planar *g
     for (size_t i = 0; i < map->door_count; i++)
         replace_door(context, &map->doors[i], &with->doors[i],
                      first[list->doors + i + 1] - first[list->doors + i]);
+    if (map->cell_count) replace_cells(context, graph, list->cells, map, &with->corners);
     work->account.welded = graph->welded;
     work->account.crossings = graph->crossings;
     work->account.largest_move = graph->largest_move;
@@ -534,18 +569,20 @@ static sl_status take_graph(cleaning *work, const segment_list *list, const sl_p
     sl_free(work->context, with.mirrors);
     sl_free(work->context, with.oneways);
     sl_free(work->context, with.seams);
+    sl_free(work->context, with.corners);
     return status;
 }
 
 static sl_status clean_oblique(cleaning *work, sl_map *map, double weld) {
     const sl_box bounds = sl_map_bounds(map);
+    const double own = weld < 0 ? sl_planar_tolerance(&bounds) : weld;
     segment_list list = {0};
     sl_planar graph = {0};
     sl_status status = list_segments(work, map, &list);
     if (status == SL_OK)
-        status = sl_planar_make(work->context, map->source ? map->source : "the map",
-                                list.items.items, list.items.count,
-                                weld < 0 ? sl_planar_tolerance(&bounds) : weld, &graph);
+        status =
+            sl_planar_make(work->context, map->source ? map->source : "the map", list.items.items,
+                           list.items.count, fmax(own, 2 * map->snap), &graph);
     if (status == SL_OK) status = take_graph(work, &list, &graph, map);
     sl_planar_destroy(work->context, &graph);
     sl_free(work->context, list.items.items);
@@ -566,7 +603,7 @@ bool sl_map_is_axial(const sl_map *map) {
 }
 
 static sl_status clean(cleaning *work, sl_map *map, double weld) {
-    const bool axial = sl_map_is_axial(map) && !(weld > 0);
+    const bool axial = sl_map_is_axial(map) && !(weld > 0) && !map->cell_count;
     SL_TRY(sort_out(work, map));
     merge(&work->uprights, &work->account);
     merge(&work->levels, &work->account);
@@ -584,12 +621,6 @@ sl_status sl_map_clean(sl_context *context, sl_map *map, const sl_clean_options 
     const double weld = options ? options->weld : sl_clean_options_default().weld;
     if (!isfinite(weld) || weld > SL_COORDINATE_MAX)
         return sl_fail(context, SL_BAD_ARGUMENT, "the welding tolerance must be a number");
-    if (map->cell_count) {
-        // Its cells' sides tell walls by their numbers.
-        if (account)
-            *account = (sl_clean_account){.before = map->wall_count, .after = map->wall_count};
-        return SL_OK;
-    }
     const sl_status status = clean(&work, map, weld);
     sl_free(context, work.uprights.items);
     sl_free(context, work.levels.items);

@@ -36,9 +36,7 @@ static sl_status copy_cells(sl_context *context, const sl_map *from, sl_map *to)
     to->snap_line = from->snap_line;
     for (size_t i = 0; i < from->cell_count; i++) {
         const sl_map_cell *cell = &from->cells[i];
-        SL_TRY(sl_map_add_cell(context, to, from->corners + cell->first,
-                               from->corner_walls ? from->corner_walls + cell->first : NULL,
-                               cell->count, cell->line));
+        SL_TRY(sl_map_add_cell(context, to, from->corners + cell->first, cell->count, cell->line));
     }
     return SL_OK;
 }

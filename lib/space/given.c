@@ -2,22 +2,13 @@
 ///
 /// Such cells have been rounded: corners that should lie on a straight side bend it, cells meet in
 /// T-junctions, corners stand off their walls. So their sides are taken for lines that end cells,
-/// welded together with the walls by the map's own tolerance, and a mesh is made over all of them.
-/// Cells that are still bent come out in several convex parts.
+/// welded together with the walls by the map's own tolerance (sl_map_clean does the same, and then
+/// nothing is left to weld), and a mesh is made over all of them. Cells that are still bent come
+/// out in several convex parts.
 ///
 /// Which of the map's cells a triangle is in is counted from outside: the way into a triangle
 /// crosses a side of each cell that it enters or leaves.
 #include "space/mesh.h"
-
-#include <math.h>
-
-#define NONE UINT32_MAX
-
-/// A side of a cell of the map, by its line behind walls and seams.
-typedef struct cell_side {
-    uint32_t cell;
-    bool clockwise; ///< the cell is at the right of the line
-} cell_side;
 
 /// How many of the map's cells cover a triangle, and the sum of their numbers, each plus one.
 typedef struct cover {
@@ -29,8 +20,7 @@ typedef struct given {
     const sl_map *map;
     const char *source; ///< for messages
     sl_mesh_lines lines;
-    SL_ARRAY(cell_side) sides;
-    sl_planar graph;
+    sl_planar graph; ///< sides of cells are behind walls and seams, by corner of the map
     sl_triangulation triangles;
     cover *steps;  ///< by edge of the graph: what is at the left of it, a to b, less what is not
     cover *covers; ///< by half-edge
@@ -39,62 +29,55 @@ typedef struct given {
     size_t without_area;
 } given;
 
-static sl_status fail(const given *g, uint32_t cell, const char *what) {
-    return sl_fail_at(g->context, g->source, g->map->cells[cell].line, "cell %lu %s",
-                      (unsigned long)cell, what);
-}
-
-static double twice_area(const sl_point *corners, size_t count) {
-    double sum = 0;
-    for (size_t i = 2; i < count; i++)
-        sum += (corners[i - 1].x - corners[0].x) * (corners[i].y - corners[0].y) -
-               (corners[i].x - corners[0].x) * (corners[i - 1].y - corners[0].y);
-    return sum;
-}
-
-static sl_status add_cell(given *g, uint32_t number) {
-    const sl_map_cell *cell = &g->map->cells[number];
-    const sl_point *corners = g->map->corners + cell->first;
-    const double area = twice_area(corners, cell->count);
-    if (!(area > 0) && !(area < 0)) {
-        g->without_area++;
-        return SL_OK;
-    }
-    for (size_t i = 0; i < cell->count; i++) {
-        const sl_segment at = {corners[i], corners[i + 1 < cell->count ? i + 1 : 0]};
-        SL_TRY(sl_mesh_add_line(g->context, &g->lines, at));
-        SL_TRY(SL_ARRAY_ROOM(g->context, &g->sides, 1));
-        g->sides.items[g->sides.count++] = (cell_side){number, area < 0};
-    }
-    return SL_OK;
-}
-
 static sl_status make_graph(given *g, sl_space *space) {
     SL_TRY(sl_mesh_lines_of_map(g->context, g->map, &g->lines, space));
     for (size_t i = 0; i < g->map->cell_count; i++) {
+        const sl_map_cell *cell = &g->map->cells[i];
+        const sl_point *corners = g->map->corners + cell->first;
         if (i % 1024 == 0) SL_TRY(sl_check_cancelled(g->context));
-        SL_TRY(add_cell(g, (uint32_t)i));
+        for (size_t k = 0; k < cell->count; k++)
+            SL_TRY(sl_mesh_add_line(g->context, &g->lines,
+                                    (sl_segment){corners[k], corners[(k + 1) % cell->count]}));
     }
-    if (!g->sides.count)
-        return sl_fail_at(g->context, g->source, 0, "the map's cells enclose no area");
-    const double weld = fmax(g->map->snap, sl_planar_tolerance(&space->bounds));
-    SL_TRY(sl_planar_make(g->context, g->source, g->lines.items.items, g->lines.items.count, weld,
-                          &g->graph));
+    SL_TRY(sl_planar_make(g->context, g->source, g->lines.items.items, g->lines.items.count,
+                          2 * g->map->snap, &g->graph));
     return sl_triangulate(g->context, &g->graph, &space->bounds, &g->triangles);
 }
 
 // --- which cell a triangle is in
 
+/// The edges around a cell, *count of them.
+static const sl_planar_link *links_of(const given *g, uint32_t cell, size_t *count) {
+    const sl_map_cell *c = &g->map->cells[cell];
+    const size_t *first = g->graph.first + g->lines.wall_count + g->lines.seam_count + c->first;
+    *count = first[c->count] - first[0];
+    return g->graph.links + first[0];
+}
+
+/// Twice the area of a cell as welded; negative where it is clockwise.
+static double area_of(const given *g, uint32_t cell) {
+    size_t count;
+    const sl_planar_link *links = links_of(g, cell, &count);
+    double sum = 0;
+    for (size_t k = 1; k < count; k++) {
+        const sl_point o = sl_planar_at(&g->graph, links[0]).a;
+        const sl_segment at = sl_planar_at(&g->graph, links[k]);
+        sum += (at.a.x - o.x) * (at.b.y - o.y) - (at.b.x - o.x) * (at.a.y - o.y);
+    }
+    return sum;
+}
+
 /// What crossing each edge of the graph, from its right to its left, adds to the cover.
 static void count_steps(given *g) {
-    const size_t first = g->lines.wall_count + g->lines.seam_count;
-    for (size_t i = 0; i < g->sides.count; i++) {
-        const cell_side *side = &g->sides.items[i];
-        for (size_t k = g->graph.first[first + i]; k < g->graph.first[first + i + 1]; k++) {
-            const sl_planar_link link = g->graph.links[k];
-            const int sign = (link % 2 == 1) == side->clockwise ? 1 : -1;
-            g->steps[link / 2].count += sign;
-            g->steps[link / 2].sum += sign * ((int64_t)side->cell + 1);
+    for (uint32_t i = 0; i < g->map->cell_count; i++) {
+        const double area = area_of(g, i);
+        size_t count;
+        const sl_planar_link *links = links_of(g, i, &count);
+        g->without_area += area == 0;
+        for (size_t k = 0; k < count; k++) {
+            const int sign = (links[k] % 2 == 1) == (area < 0) ? 1 : -1;
+            g->steps[links[k] / 2].count += sign;
+            g->steps[links[k] / 2].sum += sign * ((int64_t)i + 1);
         }
     }
 }
@@ -135,20 +118,25 @@ static sl_status cover_all(given *g) {
     return SL_OK;
 }
 
-/// A cell that has a side at an edge where others overlap it.
-static sl_status fail_overlap(const given *g, uint32_t half) {
-    const sl_point at = g->triangles.points.items[g->triangles.halves.items[half].from];
-    const size_t first = g->lines.wall_count + g->lines.seam_count;
-    const uint32_t label = g->triangles.labels[half / 2];
-    for (size_t i = 0; i < g->sides.count; i++)
-        for (size_t k = g->graph.first[first + i]; k < g->graph.first[first + i + 1]; k++)
-            if (g->graph.links[k] / 2 + 1 == label) {
-                char what[128];
-                snprintf(what, sizeof what, "overlaps another cell near %.9g %.9g", at.x, at.y);
-                return fail(g, g->sides.items[i].cell, what);
-            }
-    return sl_fail_at(g->context, g->source, 0, "the map's cells overlap near %.9g %.9g", at.x,
-                      at.y);
+/// Fails for the triangle of a half-edge, which is covered wrongly, naming a cell whose side the
+/// half-edge is and which is entered there, or left, where the cover is too low. SL_OK for none.
+static sl_status fail_at(const given *g, uint32_t half) {
+    const uint32_t from = g->triangles.halves.items[half].from;
+    const sl_point at = g->triangles.points.items[from];
+    for (uint32_t i = 0; i < g->map->cell_count; i++) {
+        size_t count;
+        const sl_planar_link *links = links_of(g, i, &count);
+        for (size_t k = 0; k < count; k++) {
+            if (links[k] / 2 + 1 != g->triangles.labels[half / 2]) continue;
+            const bool along = (from == g->graph.edges[links[k] / 2].a) == (links[k] % 2 == 0);
+            const bool entered = along == (area_of(g, i) >= 0);
+            if (entered == (g->covers[half].count > 1))
+                return sl_fail_at(g->context, g->source, g->map->cells[i].line,
+                                  "cell %lu overlaps another one or itself near %.9g %.9g",
+                                  (unsigned long)i, at.x, at.y);
+        }
+    }
+    return SL_OK;
 }
 
 /// Cells may not overlap, nor wind around a place more than once.
@@ -159,12 +147,12 @@ static sl_status check_cover(given *g) {
     g->known = sl_alloc_array(g->context, halves, sizeof *g->known);
     if (!g->steps || !g->covers || !g->known) return SL_NO_MEMORY;
     count_steps(g);
+    if (g->without_area == g->map->cell_count)
+        return sl_fail_at(g->context, g->source, 0, "the map's cells enclose no area");
     SL_TRY(cover_all(g));
     for (uint32_t half = 0; half < halves; half++) {
         const cover c = g->covers[half];
-        if (!g->known[half] || !g->triangles.labels[half / 2]) continue;
-        if (c.count < 0 || c.count > 1 || (c.count == 0 && c.sum != 0))
-            return fail_overlap(g, half);
+        if (c.count > 1 || c.count < 0 || (c.count == 0 && c.sum != 0)) SL_TRY(fail_at(g, half));
     }
     return SL_OK;
 }
@@ -173,7 +161,6 @@ static sl_status check_cover(given *g) {
 
 static void destroy(given *g) {
     sl_free(g->context, g->lines.items.items);
-    sl_free(g->context, g->sides.items);
     sl_planar_destroy(g->context, &g->graph);
     sl_triangulation_destroy(g->context, &g->triangles);
     sl_free(g->context, g->steps);

@@ -55,9 +55,6 @@ typedef struct sl_object {
     uint32_t line;
 } sl_object;
 
-/// What sl_map.corner_walls says of a side that is along no wall.
-#define SL_NO_WALL UINT32_MAX
-
 /// A cell that the map brings along: corners[first .. first + count), either way round.
 typedef struct sl_map_cell {
     size_t first;
@@ -84,11 +81,9 @@ typedef struct sl_map {
     /// Cells of the map's own, for sl_subdivide_given; cell_count is 0 for most maps.
     sl_map_cell *cells;
     sl_point *corners;
-    /// By corner: the wall that the side from there to the cell's next corner is along, or
-    /// SL_NO_WALL. NULL where the cells do not tell, and the walls' places do.
-    uint32_t *corner_walls;
-    size_t cell_count, corner_count, cell_room, corner_room, corner_wall_room;
-    double snap; ///< corners and walls of cells that are no farther apart are one place
+    size_t cell_count, corner_count, cell_room, corner_room;
+    double snap; ///< corners of cells, and walls' ends, no farther than this from one another, or
+                 ///< from a side or wall, are one place with it
     uint32_t snap_line;
     double range; ///< nothing farther than this is seen; 0 for no limit
     uint32_t range_line;
@@ -114,10 +109,8 @@ SL_API sl_status sl_map_add_path(sl_context *context, sl_map *map, const char *n
                                  const sl_point *points, size_t count, uint32_t line);
 SL_API sl_status sl_map_add_object(sl_context *context, sl_map *map, const char *name, sl_box box,
                                    uint32_t line);
-/// Adds a cell of the map's own. `walls` has a number of a wall or SL_NO_WALL for each corner, or
-/// is NULL, for all cells alike.
 SL_API sl_status sl_map_add_cell(sl_context *context, sl_map *map, const sl_point *corners,
-                                 const uint32_t *walls, size_t count, uint32_t line);
+                                 size_t count, uint32_t line);
 /// Drops the map's own cells.
 SL_API void sl_map_drop_cells(sl_context *context, sl_map *map);
 /// Adds a line to the notes.
@@ -168,9 +161,12 @@ SL_API sl_clean_options sl_clean_options_default(void);
 /// seams that are cut become several. A sightline that stays farther than `largest_move` from every
 /// wall as read is never lost.
 ///
+/// Sides of the map's own cells take part in it, as seams do, with a tolerance of twice the map's
+/// `snap` where that is larger. Cells of which nothing is left are dropped.
+///
 /// NULL options are the default ones; `account` may be NULL. SL_UNSUPPORTED where walls cross anew
 /// each time that a crossing is rounded, which tolerances below the rounding of doubles may cause.
-/// Time O((n + k) log n) for k meeting points. A map with cells of its own is left as it is.
+/// Time O((n + k) log n) for k meeting points.
 SL_API sl_status sl_map_clean(sl_context *context, sl_map *map, const sl_clean_options *options,
                               sl_clean_account *account);
 
