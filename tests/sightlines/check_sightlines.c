@@ -15,7 +15,6 @@
 #include "base/file.h"
 #include "base/random.h"
 #include "sightline/sightline.h"
-#include "space/box_tree.h"
 
 #include <getopt.h>
 #include <math.h>
@@ -34,8 +33,6 @@ typedef struct check {
     double longest; ///< of a sightline: beyond the map
 
     sl_baked baked;
-    sl_box_tree boxes; ///< of the cells
-    sl_box_list met;   ///< scratch
     sl_bytes map_bytes, reject_bytes;
     sl_doom_level level;
     sector_finder *sectors;
@@ -249,20 +246,6 @@ static void read_sectors(check *run) {
     must(run, sl_wad_lump(run->context, &wad, lump, &run->reject));
 }
 
-static void box_cells(check *run) {
-    const sl_space *space = &run->baked.space;
-    sl_box *boxes = calloc(space->cell_count + (size_t)1, sizeof *boxes);
-    if (!boxes) abort();
-    for (uint32_t i = 0; i < space->cell_count; i++) {
-        const sl_point *corners = space->vertices + space->cells[i].first_vertex;
-        boxes[i] = (sl_box){corners[0], corners[0]};
-        for (uint32_t k = 1; k < space->cells[i].vertex_count; k++)
-            boxes[i] = sl_box_with(boxes[i], corners[k]);
-    }
-    must(run, sl_box_tree_create(run->context, boxes, space->cell_count, &run->boxes));
-    free(boxes);
-}
-
 /// Ordered pairs of different sectors that the REJECT hides.
 static uint64_t count_hidden(const check *run) {
     const size_t count = run->level.sector_count;
@@ -325,7 +308,6 @@ int main(int argc, char **argv) {
     if (run.apart < 0) find_apart(&run);
     if (run.slv_path) {
         must(&run, sl_baked_read(run.context, run.slv_path, &run.baked));
-        box_cells(&run);
     } else {
         read_sectors(&run);
     }
@@ -337,8 +319,6 @@ int main(int argc, char **argv) {
     sl_free(run.context, run.reject_bytes.data);
     free(run.lost_sectors);
     sl_doom_level_destroy(run.context, &run.level);
-    sl_box_tree_destroy(run.context, &run.boxes);
-    sl_free(run.context, run.met.items);
     sl_baked_destroy(run.context, &run.baked);
     sl_map_destroy(run.context, &run.map);
     sl_context_destroy(run.context);
