@@ -138,11 +138,13 @@ SL_API sl_status sl_subdivide_kd(sl_context *context, const sl_map *map,
 SL_API sl_status sl_subdivide_mesh(sl_context *context, const sl_map *map, sl_space *out);
 
 /// Subdivides by a mesh that keeps to the cells that the map brings along (sl_map.cells): their
-/// sides are seams that end cells, so that each cell lies in one of the map's cells, or in none.
-/// Cells may be as rounded as node builders leave them: places within the map's `snap` of each
-/// other are welded, walls among them. What the map's cells leave open is filled with cells too.
+/// sides end cells, so that each cell lies in one of the map's cells, or in none. Cells that are
+/// bent are cut. What the map's cells leave open is filled with cells too.
 ///
-/// SL_BAD_INPUT, naming the cell, for cells that overlap or have a wall inside.
+/// Cells may be as rounded as node builders leave them: where the map is not clean (sl_map_clean),
+/// places within twice its `snap` of each other are welded first, walls among them.
+///
+/// SL_BAD_INPUT, naming the cell, for cells that overlap.
 SL_API sl_status sl_subdivide_given(sl_context *context, const sl_map *map, sl_space *out);
 
 /// A way to subdivide: reachable by name, listed everywhere from this table.
