@@ -167,10 +167,9 @@ static void keep_rest_of_map(sl_context *context, sl_map *map, sl_baked *baked) 
 
 static sl_status read_and_clean(sl_context *context, bake_plan *plan, sl_map *map,
                                 sl_bake_report *report) {
-    SL_TRY(sl_pipeline_read(context, &plan->pipeline, map));
+    SL_TRY(sl_pipeline_read_clean(context, &plan->pipeline, map, &report->cleaning));
     SL_TRY(fit_method(context, map, plan));
-    SL_TRY(sl_see_check(context, plan->method, plan->see.solver, map));
-    return sl_map_clean(context, map, NULL, &report->cleaning);
+    return sl_see_check(context, plan->method, plan->see.solver, map);
 }
 
 static sl_status subdivide(sl_context *context, const bake_plan *plan, const sl_map *map,
@@ -180,7 +179,7 @@ static sl_status subdivide(sl_context *context, const bake_plan *plan, const sl_
     report->seconds.subdivide = lap(time);
     SL_TRY(sl_pipeline_check(context, &plan->pipeline, space));
     report->seconds.check = lap(time);
-    report->checked = plan->pipeline.check;
+    report->checked = sl_pipeline_checks(&plan->pipeline, space);
     return SL_OK;
 }
 

@@ -211,10 +211,9 @@ static sl_status write_files(sl_context *context, const compare_plan *plan, cons
 static sl_status prepare(sl_context *context, comparing *all) {
     const sl_pipeline *pipeline = &all->plan->pipeline;
     SL_TRY(list_runs(context, all));
-    SL_TRY(sl_pipeline_read(context, pipeline, &all->map));
+    SL_TRY(sl_pipeline_read_clean(context, pipeline, &all->map, NULL));
     refuse_effects(context, all);
     SL_TRY(fail_if_all_refuse(context, all));
-    SL_TRY(sl_map_clean(context, &all->map, NULL, NULL));
     SL_TRY(sl_pipeline_subdivide(context, pipeline, &all->map, &all->space));
     return sl_pipeline_check(context, pipeline, &all->space);
 }
@@ -281,9 +280,8 @@ static sl_status compare_eye(sl_console *console, comparing *all, const sl_folde
                              sl_compare_eye *out) {
     sl_context *context = console->context;
     const sl_pipeline *pipeline = &all->plan->pipeline;
-    SL_TRY(sl_pipeline_read(context, pipeline, &all->map));
+    SL_TRY(sl_pipeline_read_clean(context, pipeline, &all->map, NULL));
     SL_TRY(sl_effects_check(context, &all->map, "compare --eye", 0));
-    SL_TRY(sl_map_clean(context, &all->map, NULL, NULL));
     SL_TRY(sl_pipeline_subdivide(context, pipeline, &all->map, &all->space));
     SL_TRY(sl_pipeline_check(context, pipeline, &all->space));
     SL_TRY(sl_compare_eye_run(console, &all->plan->eye, &all->space, all->plan->see.sight, out));
