@@ -82,9 +82,6 @@ sl_status sl_input_clean(sl_context *context, const sl_input_texts *texts, sl_ma
     if (texts->weld && options.weld < 0)
         return sl_fail(context, SL_BAD_ARGUMENT, "--weld %s: 0 or a number over 0 is needed",
                        texts->weld);
-    if (texts->weld && map->cell_count)
-        return sl_fail(context, SL_BAD_ARGUMENT,
-                       "--weld: the map brings cells of its own, which its 'snap' welds");
     return sl_map_clean(context, map, &options, account);
 }
 
