@@ -193,6 +193,15 @@ static sl_status see(sl_context *context, const bake_plan *plan, sl_baked *baked
     return sl_bake_parts_see(context, &plan->parts, plan->method, &options, baked, &report->parts);
 }
 
+/// With --check, that what was written can be read.
+static sl_status check_file(sl_context *context, const bake_plan *plan) {
+    sl_baked again = {0};
+    if (!plan->pipeline.check) return SL_OK;
+    SL_TRY(sl_baked_read(context, plan->output, &again));
+    sl_baked_destroy(context, &again);
+    return SL_OK;
+}
+
 static sl_status bake(sl_context *context, bake_plan *plan, sl_map *map, sl_baked *baked,
                       sl_bake_report *report) {
     double time = sl_now();
@@ -209,7 +218,7 @@ static sl_status bake(sl_context *context, bake_plan *plan, sl_map *map, sl_bake
     if (plan->named_by_map) sl_note(context, "writing %s, as no -o is given", plan->output);
     SL_TRY(sl_baked_write(context, baked, plan->output));
     report->seconds.write = lap(&time);
-    return SL_OK;
+    return check_file(context, plan);
 }
 
 static sl_status bake_and_report(sl_console *console, bake_plan *plan) {

@@ -18,10 +18,11 @@ typedef struct sl_pipeline_texts {
 #define SL_PIPELINE_OPTIONS(texts)                                                                 \
     {"subdivide",                                                                                  \
      0,                                                                                            \
-     "NAME",                                                                                       \
+     "kd|mesh|given",                                                                              \
      NULL,                                                                                         \
      &(texts).subdivide,                                                                           \
-     "how to cut the map into cells, if not as its walls\ncall for"},                              \
+     "how to cut the map into cells (default: given where\nthe map brings cells, kd on axial "     \
+     "maps, else mesh)"},                                                                          \
         {"kd-rules",                                                                               \
          0,                                                                                        \
          "RULE,...",                                                                               \
@@ -41,7 +42,8 @@ typedef struct sl_pipeline_texts {
          &(texts).start, "a start beside the map's own: starts tell inside\nfrom outside"},        \
         {"without", 0, "EFFECT,...", NULL, &(texts).without, "leave out what the map calls for"},  \
     {                                                                                              \
-        "check", 0, NULL, &(texts).check, NULL, "check the whole graph of cells and portals"       \
+        "check", 0, NULL, &(texts).check, NULL,                                                    \
+            "check the whole graph of cells and portals (for a\nmesh: always)"                     \
     }
 
 /// The options as they are meant.
