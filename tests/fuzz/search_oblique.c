@@ -1,4 +1,4 @@
-// Random maps of oblique walls, half of them with seams, each cut by the BSP: the space must be
+// Random maps of oblique walls, half of them with seams, each made a mesh: the space must be
 // sound, no sightline that the walls leave free be lost, and the sweep see what the depth-first
 // search does, closed and open. In maps of a few steps of doubles a wall may be left out of a cell,
 // as space.h tells; these are counted: search_oblique [--seed N] [--count N] [--sightlines N]
