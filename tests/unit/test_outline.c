@@ -102,13 +102,15 @@ static void rooms_of_turned_maps(void **state) {
     sl_context *context = testing_context(NULL);
     size_t kind_count;
     const sl_map_kind *kinds = sl_map_kinds(&kind_count);
-    for (size_t k = 0; k < kind_count; k++) {
+    for (size_t n = 0; n < 2 * kind_count; n++) {
+        const size_t k = n / 2;
         sl_map map = {0};
         sl_space space = {0};
         sl_outline outline = {0};
         sl_generate_options how = sl_generate_options_default();
         how.walls = 300;
         how.turned = 17;
+        how.in_line = n % 2;
         assert_ok(context, sl_generate(context, &kinds[k], &how, &map));
         assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
         assert_ok(context, sl_subdivide_mesh(context, &map, &space));
