@@ -82,6 +82,36 @@ static inline sl_status oblique_random_map(sl_context *context, uint64_t seed, o
     return SL_OK;
 }
 
+/// A place turned about the origin and moved along both axes, as a program without much care does.
+static inline sl_point oblique_turned(sl_point p, double degrees, double move) {
+    const double angle = degrees * acos(-1) / 180, c = cos(angle), s = sin(angle);
+    const sl_point at = {p.x * c - p.y * s + move, p.x * s + p.y * c + move};
+    return (sl_point){fabs(at.x) < SL_COORDINATE_MIN ? 0 : at.x,
+                      fabs(at.y) < SL_COORDINATE_MIN ? 0 : at.y};
+}
+
+static inline void oblique_turn_segment(sl_segment *s, double degrees, double move) {
+    *s = (sl_segment){oblique_turned(s->a, degrees, move), oblique_turned(s->b, degrees, move)};
+}
+
+/// Turns and moves walls, what is set in them, and starts.
+static inline void oblique_turn_map(sl_map *map, double degrees, double move) {
+    for (size_t i = 0; i < map->wall_count; i++) {
+        map->walls[i].a = oblique_turned(map->walls[i].a, degrees, move);
+        map->walls[i].b = oblique_turned(map->walls[i].b, degrees, move);
+    }
+    for (size_t i = 0; i < map->door_count; i++)
+        oblique_turn_segment(&map->doors[i].segment, degrees, move);
+    for (size_t i = 0; i < map->mirror_count; i++)
+        oblique_turn_segment(&map->mirrors[i].segment, degrees, move);
+    for (size_t i = 0; i < map->oneway_count; i++)
+        oblique_turn_segment(&map->oneways[i].segment, degrees, move);
+    for (size_t i = 0; i < map->seam_count; i++)
+        oblique_turn_segment(&map->seams[i].segment, degrees, move);
+    for (size_t i = 0; i < map->start_count; i++)
+        map->starts[i].at = oblique_turned(map->starts[i].at, degrees, move);
+}
+
 /// Whether a segment touches no wall: by exact signs alone.
 static inline bool oblique_is_free(const sl_map *map, sl_point p, sl_point q) {
     for (size_t i = 0; i < map->wall_count; i++) {

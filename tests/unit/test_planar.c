@@ -22,20 +22,12 @@ static void add(bundle *b, sl_point from, sl_point to) {
     b->items[b->count++] = (sl_segment){from, to};
 }
 
+static void turn(bundle *b, double degrees, double move) {
+    for (size_t i = 0; i < b->count; i++) oblique_turn_segment(&b->items[i], degrees, move);
+}
+
 static double usable(double value) {
     return fabs(value) < SL_COORDINATE_MIN ? 0 : value;
-}
-
-/// As a program without much care turns and moves a map.
-static sl_point turned(sl_point p, double degrees, double shift) {
-    const double angle = degrees * acos(-1) / 180, c = cos(angle), s = sin(angle);
-    return (sl_point){usable(p.x * c - p.y * s + shift), usable(p.x * s + p.y * c + shift)};
-}
-
-static void turn(bundle *b, double degrees, double shift) {
-    for (size_t i = 0; i < b->count; i++)
-        b->items[i] = (sl_segment){turned(b->items[i].a, degrees, shift),
-                                   turned(b->items[i].b, degrees, shift)};
 }
 
 static sl_point noisy(sl_random *random, sl_point p, double noise) {
