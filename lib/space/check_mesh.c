@@ -112,7 +112,7 @@ static sl_status check_wall(const checker *c, uint32_t cell, uint32_t what, sl_p
                             sl_point to) {
     const uint32_t number = what & ~SL_BEYOND_RIGHT;
     if (number >= c->space->wall_count) return fail_cell(c, cell, "has a side on no known wall");
-    if (c->space->loose) return SL_OK;
+    if (c->space->loose || c->space->cut_walls) return SL_OK;
     const sl_wall *wall = &c->space->walls[number];
     const bool right = what & SL_BEYOND_RIGHT;
     if (!same(right ? wall->b : wall->a, from) || !same(right ? wall->a : wall->b, to))
@@ -156,6 +156,64 @@ static sl_status check_walls(const checker *c) {
             return sl_fail(c->context, SL_BAD_INPUT, "wall %u has not one cell on either side", i);
     }
     return SL_OK;
+}
+
+// --- walls that are cut
+
+/// A side of a cell that is a wall or part of one: from where to where on the way from a to b.
+typedef struct wall_side {
+    uint32_t wall;
+    sl_point from, to;
+    bool right; ///< the cell is at the wall's right
+} wall_side;
+
+static int compare_sides(const void *left, const void *right) {
+    const wall_side *s = left, *t = right;
+    const double of_s[4] = {s->from.x, s->from.y, s->to.x, s->to.y};
+    const double of_t[4] = {t->from.x, t->from.y, t->to.x, t->to.y};
+    if (s->wall != t->wall) return s->wall < t->wall ? -1 : 1;
+    for (int i = 0; i < 4; i++)
+        if (of_s[i] != of_t[i]) return of_s[i] < of_t[i] ? -1 : 1;
+    return s->right - t->right;
+}
+
+static size_t gather_sides(const checker *c, wall_side *sides) {
+    const sl_space *s = c->space;
+    size_t count = 0;
+    for (uint32_t i = 0; i < s->cell_count; i++) {
+        const sl_cell *cell = &s->cells[i];
+        const sl_point *v = s->vertices + cell->first_vertex;
+        for (uint32_t k = 0; k < cell->vertex_count; k++) {
+            const uint32_t what = s->beyond[cell->first_vertex + k];
+            const sl_point at = v[k], next = v[k + 1 < cell->vertex_count ? k + 1 : 0];
+            const bool right = what & SL_BEYOND_RIGHT;
+            if (what < SL_BEYOND_BORDER)
+                sides[count++] = (wall_side){what & ~SL_BEYOND_RIGHT, right ? next : at,
+                                             right ? at : next, right};
+        }
+    }
+    if (count) qsort(sides, count, sizeof *sides, compare_sides);
+    return count;
+}
+
+/// Each part of a wall has one cell on either side, but for those on the border.
+static sl_status check_cut_walls(const checker *c) {
+    wall_side *sides = sl_alloc_array(c->context, c->space->vertex_count, sizeof *sides);
+    if (!sides) return SL_NO_MEMORY;
+    const size_t count = gather_sides(c, sides);
+    size_t i = 0;
+    while (i < count) {
+        const wall_side *s = &sides[i], *t = i + 1 < count ? s + 1 : s;
+        const bool pair = s->wall == t->wall && same(s->from, t->from) && same(s->to, t->to) &&
+                          !s->right && t->right;
+        if (!pair && !border_of(&c->space->bounds, s->from, s->to)) break;
+        i += pair ? 2 : 1;
+    }
+    const uint32_t wall = i < count ? sides[i].wall : 0;
+    sl_free(c->context, sides);
+    if (i == count) return SL_OK;
+    return sl_fail(c->context, SL_BAD_INPUT, "a part of wall %u has not one cell on either side",
+                   wall);
 }
 
 // --- the border
@@ -316,7 +374,7 @@ static sl_status check_all(const checker *c) {
     SL_TRY(check_grid(c));
     SL_TRY(check_seams(c));
     if (s->loose) return SL_OK;
-    SL_TRY(check_walls(c));
+    SL_TRY(s->cut_walls ? check_cut_walls(c) : check_walls(c));
     SL_TRY(check_border(c));
     return sl_cell_grid_check(c->context, s);
 }

@@ -133,11 +133,14 @@ static sl_status merge(merger *m) {
 }
 
 sl_status sl_mesh_merge(sl_context *context, sl_triangulation *triangles, sl_mesh_watch *watch,
-                        void *user) {
+                        void *user, uint32_t **cell) {
     merger m = {.context = context, .t = triangles, .watch = watch, .user = user};
     const sl_status status = merge(&m);
     sl_free(context, m.previous);
-    sl_free(context, m.cell);
+    if (status == SL_OK && cell)
+        *cell = m.cell;
+    else
+        sl_free(context, m.cell);
     return status;
 }
 
@@ -218,19 +221,29 @@ static sl_status write_cells(merger *m, const uint32_t *firsts) {
 
 // --- portals
 
-typedef struct joint {
-    sl_portal portal;
-    uint32_t half; ///< the side of cell[0]
-} joint;
-
 static int compare_joints(const void *left, const void *right) {
     const int order = sl_compare_portals(left, right);
     if (order) return order;
-    const joint *a = left, *b = right;
+    const sl_mesh_joint *a = left, *b = right;
     return (a->half > b->half) - (a->half < b->half);
 }
 
-static sl_status add_seams(merger *m, const joint *at, uint32_t portal, size_t *room) {
+sl_status sl_mesh_join(sl_context *context, sl_mesh_joint *joints, size_t count, sl_space *s) {
+    s->portal_count = (uint32_t)count;
+    s->exit_count = 2 * s->portal_count;
+    s->portals = sl_alloc_array(context, count, sizeof *s->portals);
+    s->exits = sl_alloc_array(context, 2 * count, sizeof *s->exits);
+    if (!s->portals || !s->exits) return SL_NO_MEMORY;
+    if (count) qsort(joints, count, sizeof *joints, compare_joints);
+    for (uint32_t i = 0; i < count; i++) {
+        const sl_portal p = s->portals[i] = joints[i].portal;
+        s->exits[joints[i].exits[0]] = (sl_exit){i, p.cell[1], p.left, p.right};
+        s->exits[joints[i].exits[1]] = (sl_exit){i, p.cell[0], p.right, p.left};
+    }
+    return SL_OK;
+}
+
+static sl_status add_seams(merger *m, const sl_mesh_joint *at, uint32_t portal, size_t *room) {
     sl_space *s = m->space;
     const uint32_t label = m->t->labels[at->half / 2];
     if (!label) return SL_OK;
@@ -250,29 +263,22 @@ static sl_status add_seams(merger *m, const joint *at, uint32_t portal, size_t *
 
 static sl_status write_portals(merger *m) {
     sl_space *s = m->space;
-    joint *joints = sl_alloc_array(m->context, s->portal_count, sizeof *joints);
-    s->portals = sl_alloc_array(m->context, s->portal_count, sizeof *s->portals);
-    s->exits = sl_alloc_array(m->context, s->exit_count, sizeof *s->exits);
+    sl_mesh_joint *joints = sl_alloc_array(m->context, s->portal_count, sizeof *joints);
     size_t count = 0, room = 0;
-    const bool done = joints && s->portals && s->exits;
-    for (uint32_t half = 0; done && half < m->t->halves.count; half++) {
-        if (is_gone(m, half) || is_gone(m, half ^ 1) || m->cell[half] > m->cell[half ^ 1] ||
+    for (uint32_t half = 0; joints && half < m->t->halves.count; half++) {
+        const uint32_t twin = half ^ 1;
+        if (is_gone(m, half) || is_gone(m, twin) || m->cell[half] > m->cell[twin] ||
             beyond_of(m, half) != SL_BEYOND_EXIT)
             continue;
-        joints[count++] = (joint){{.cell = {m->cell[half], m->cell[half ^ 1]},
-                                   .left = end_of(m, half),
-                                   .right = start_of(m, half)},
-                                  half};
+        joints[count++] = (sl_mesh_joint){{.cell = {m->cell[half], m->cell[twin]},
+                                           .left = end_of(m, half),
+                                           .right = start_of(m, half)},
+                                          {m->exit[half], m->exit[twin]},
+                                          half};
     }
-    if (count) qsort(joints, count, sizeof *joints, compare_joints);
-    sl_status status = done ? SL_OK : SL_NO_MEMORY;
-    for (uint32_t i = 0; i < count && status == SL_OK; i++) {
-        const sl_portal *p = &joints[i].portal;
-        s->portals[i] = *p;
-        s->exits[m->exit[joints[i].half]] = (sl_exit){i, p->cell[1], p->left, p->right};
-        s->exits[m->exit[joints[i].half ^ 1]] = (sl_exit){i, p->cell[0], p->right, p->left};
+    sl_status status = joints ? sl_mesh_join(m->context, joints, count, s) : SL_NO_MEMORY;
+    for (uint32_t i = 0; i < count && status == SL_OK; i++)
         status = add_seams(m, &joints[i], i, &room);
-    }
     sl_free(m->context, joints);
     return status;
 }

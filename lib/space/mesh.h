@@ -22,9 +22,21 @@ sl_status sl_mesh_lines_of_map(sl_context *context, const sl_map *map, sl_mesh_l
 /// SL_OUTSIDE both ends stay convex, and it is taken out.
 typedef sl_status sl_mesh_watch(void *user, uint32_t half, uint32_t stuck);
 
-/// Merges triangles to convex cells, across no edge of the graph. Triangles lose their form.
+/// Merges triangles to convex cells, across no edge of the graph. Triangles lose their form: `next`
+/// goes round cells. `cell` becomes the caller's, by half-edge: SL_OUTSIDE for one that is gone,
+/// else 0; NULL where nobody asks.
 sl_status sl_mesh_merge(sl_context *context, sl_triangulation *triangles, sl_mesh_watch *watch,
-                        void *user);
+                        void *user, uint32_t **cell);
+
+/// A portal, and the places of its two exits in sl_space.exits.
+typedef struct sl_mesh_joint {
+    sl_portal portal;
+    uint32_t exits[2]; ///< that of portal.cell[0], then that of portal.cell[1]
+    uint32_t half;     ///< of several between the same cells at one place, the least comes first
+} sl_mesh_joint;
+
+/// Sorts the joints and makes the portals and exits of them.
+sl_status sl_mesh_join(sl_context *context, sl_mesh_joint *joints, size_t count, sl_space *space);
 
 /// Makes the cells, portals, walls and grid of a space whose bounds and seams are there, of the
 /// graph of lines and its triangles, which are used up. Merges none across an edge of the graph.

@@ -62,7 +62,7 @@ static sl_status record_sides(sl_context *context, const sl_planar *graph, const
     sl_triangulation merged = {0};
     recorder r = {context, s};
     SL_TRY(sl_triangulate(context, graph, box, &merged));
-    const sl_status status = sl_mesh_merge(context, &merged, watch, &r);
+    const sl_status status = sl_mesh_merge(context, &merged, watch, &r, NULL);
     sl_triangulation_destroy(context, &merged);
     return status;
 }

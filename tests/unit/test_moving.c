@@ -450,7 +450,7 @@ static void cells_that_a_box_lies_in(void **state) {
         assert_ok(context, sl_map_add_wall(context, &oblique, c[i], c[i + 1], 0));
     assert_ok(context, sl_map_add_wall(context, &oblique, c[0], c[2], 0));
     assert_ok(context, sl_map_clean(context, &oblique, NULL, NULL));
-    assert_ok(context, sl_subdivide_mesh(context, &options, &space));
+    assert_ok(context, sl_subdivide_mesh(context, &oblique, &space));
     assert_int_equal(space.cell_count, 2);
     const uint32_t under = sl_space_locate(&space, (sl_point){7, 1});
     sl_cells_of_box(&space, (sl_box){{3, 1}, {4, 3}}, cells);

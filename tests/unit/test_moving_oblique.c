@@ -1,14 +1,28 @@
-/// Boxes that move among oblique walls: on random maps, with what is free and what is hidden told
-/// by the walls' and the boxes' own segments in rationals; and by hand.
+/// Boxes that move among oblique walls, on random maps, on axial ones that are turned, and on one
+/// that was once a fault.
+///
+/// The space with boxes in it is held against what is promised of its walls: those of the map and
+/// the sides of boxes, some of them bent by steps of doubles where they cross. What is seen in it is
+/// held against brute force in integers. And where walls as they are and walls as bent agree on what
+/// is free or hidden between two points, by rationals, so must the space.
 /// SIGHTLINE_SEEDS in the environment: how many maps (150 by default).
 #include "testing.h"
 
 #include "oracle/blockers.h"
+#include "oracle/eye.h"
+#include "oracle/random_map.h"
 #include "oracle/random_oblique.h"
 
 #include <math.h>
 
-enum { BOXES = 4, EYES = 4, POINTS = 40, WALLS = 9 };
+enum { BOXES = 4, EYES = 4, POINTS = 40, WALLS = 9, CELLS_MOST = 2048, ORACLE_CELLS = 48 };
+
+/// Segments, and the answers about them.
+typedef struct segments {
+    sl_segment items[CELLS_MOST];
+    size_t count;
+    blockers *blockers;
+} segments;
 
 typedef struct trial {
     sl_context *context;
@@ -20,12 +34,13 @@ typedef struct trial {
     sl_moving_box boxes[BOXES];
     size_t count;
     sl_moving *moving;
-    blockers *walls; ///< the map's, and the sides of boxes that block
-    sl_segment segments[WALLS + 4 * BOXES];
-    size_t segment_count;
+    segments straight; ///< the map's walls, and the sides of boxes that block
+    segments bent;     ///< the same as the space with boxes has them
     double size;
-    bool coarse; ///< cells may overlap so much that places and areas tell nothing
+    double step;   ///< of doubles, at the largest coordinate
+    bool coarse;   ///< places are steps of doubles apart: only the space is checked
     size_t free, hidden, cells_seen, cells_asked, marginal, boxes_seen, boxes_asked;
+    size_t bends, exact_seen, exact_asked;
 } trial;
 
 static uint64_t below(trial *t, uint64_t bound) {

@@ -79,7 +79,7 @@ typedef struct sl_seam_portal {
 /// The cells tile the bounds: they leave nothing out and do not overlap. A kd-tree's space has
 /// `nodes`. The space of a mesh has `beyond` and `grid`: each side of a cell is one exit, one wall
 /// from end to end, or border, so that corners may be flat; every corner is the end of a wall or a
-/// seam, or a corner of the bounds.
+/// seam, or a corner of the bounds. With boxes in it (`cut_walls`) also where their sides cross.
 ///
 /// Cells do not run over seams: each portal lies on a seam wholly or not at all. Where a wall
 /// covers a seam there is no portal.
@@ -91,6 +91,8 @@ typedef struct sl_space {
     uint32_t tree_depth; ///< nodes on the longest way down
     uint32_t loose;      ///< 1 for a space read from a file of version 1 that had oblique walls:
                          ///< cells may overlap by rounding, or leave gaps
+    uint32_t cut_walls;  ///< 1 for a mesh with boxes (sightline/moving.h): a wall may be several
+                         ///< sides of cells, end to end, bent by rounding where they meet
     uint32_t seam_count, seam_portal_count;
     sl_node *nodes; ///< a parent before its children; none for a mesh
     sl_cell *cells;
