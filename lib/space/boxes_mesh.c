@@ -322,34 +322,31 @@ static bool add_corner(maker *m, sl_point corner, uint32_t beyond) {
     return beyond == SL_BEYOND_EXIT;
 }
 
-/// Notes where a portal of the ground has its exit now, on one of its sides.
-static void keep_end(maker *m, uint32_t portal, uint32_t was, uint32_t cell, uint32_t exit) {
-    m->ends[2 * portal + (m->from->portals[portal].cell[0] == was ? 0 : 1)] =
-        (portal_end){cell, exit};
-}
-
 static void copy_cell(maker *m, uint32_t number, uint32_t was) {
     const sl_space *f = m->from;
     const sl_cell *cell = &f->cells[was];
-    uint32_t exit = cell->first_exit;
+    uint32_t next = cell->first_exit;
     for (uint32_t i = 0; i < cell->vertex_count; i++) {
-        const uint32_t at = cell->first_vertex + i;
-        if (add_corner(m, f->vertices[at], f->beyond[at]))
-            keep_end(m, f->exits[exit++].portal, was, number, m->out->space.exit_count - 1);
+        const uint32_t at = cell->first_vertex + i, exit = m->out->space.exit_count;
+        if (!add_corner(m, f->vertices[at], f->beyond[at])) continue;
+        const uint32_t portal = f->exits[next++].portal;
+        m->ends[2 * portal + (f->portals[portal].cell[0] == was ? 0 : 1)] =
+            (portal_end){number, exit};
     }
 }
 
 static void cut_cell(maker *m, uint32_t number, uint32_t first) {
     uint32_t half = first;
     do {
-        bool along;
         const sl_point corner = m->t.points.items[m->t.halves.items[half].from];
-        if (add_corner(m, corner, beyond_of(m, half))) {
-            m->exit[half] = m->out->space.exit_count - 1;
-            if (m->cell[half ^ 1] == NONE)
-                keep_end(m, m->lines.items[edge_of(m, half, &along)->line].portal, m->parent[half],
-                         number, m->exit[half]);
-        }
+        const uint32_t exit = m->out->space.exit_count;
+        if (!add_corner(m, corner, beyond_of(m, half))) continue;
+        m->exit[half] = exit;
+        if (m->cell[half ^ 1] != NONE) continue;
+        bool along;
+        const graph_edge *e = edge_of(m, half, &along);
+        m->ends[2 * m->lines.items[e->line].portal + (along == e->along ? 0 : 1)] =
+            (portal_end){number, exit};
     } while ((half = m->t.halves.items[half].next) != first);
 }
 
