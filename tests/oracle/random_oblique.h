@@ -117,6 +117,9 @@ static inline bool oblique_is_free(const sl_map *map, sl_point p, sl_point q) {
     for (size_t i = 0; i < map->wall_count; i++) {
         const sl_wall *w = &map->walls[i];
         if (w->a.x == w->b.x && w->a.y == w->b.y) continue;
+        if (fmax(p.x, q.x) < fmin(w->a.x, w->b.x) || fmin(p.x, q.x) > fmax(w->a.x, w->b.x) ||
+            fmax(p.y, q.y) < fmin(w->a.y, w->b.y) || fmin(p.y, q.y) > fmax(w->a.y, w->b.y))
+            continue;
         const int p_side = sl_orient_exact(w->a, w->b, p), q_side = sl_orient_exact(w->a, w->b, q);
         if (p_side * q_side > 0) continue;
         const int a_side = sl_orient_exact(p, q, w->a), b_side = sl_orient_exact(p, q, w->b);
