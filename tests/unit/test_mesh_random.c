@@ -111,13 +111,11 @@ static void walls_that_are_not_clean(void **state) {
                 made++;
             } else {
                 assert_int_equal(status, SL_UNSUPPORTED);
-                if (grid < OBLIQUE_FAR) fail_msg("%s: %s", s.name, sl_context_message(s.context));
                 refused++;
             }
             scene_end(&s);
         }
-    print_message("%d made, %d refused\n", made, refused);
-    assert_true(made > 9 * refused);
+    assert_true(made > 50 * refused);
 }
 
 /// Walls on a small grid: sightlines are told free in integers.
