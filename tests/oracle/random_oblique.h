@@ -19,10 +19,9 @@ typedef enum oblique_grid {
     OBLIQUE_TINY,     ///< about 1e-148
     OBLIQUE_HUGE,     ///< about 1e149
     OBLIQUE_SCALES,   ///< magnitudes from 1e-13 to 1e13, of both signs
-    OBLIQUE_SANE,     ///< how many those are: walls that cross do not run along each other
-    OBLIQUE_FAR = OBLIQUE_SANE, ///< from 1e15 on, all within forty steps of doubles
-    OBLIQUE_ULPS,               ///< from 1 on, all within twenty steps of doubles
-    OBLIQUE_NEARLY,             ///< integers 0 .. 4, some a few steps of doubles off
+    OBLIQUE_FAR,      ///< from 1e15 on, all within forty steps of doubles
+    OBLIQUE_ULPS,     ///< from 1 on, all within twenty steps of doubles
+    OBLIQUE_NEARLY,   ///< integers 0 .. 4, some a few steps of doubles off
     OBLIQUE_GRIDS,
 } oblique_grid;
 

@@ -350,7 +350,7 @@ static sl_point turn(sl_point p) {
 static void random_mesh(sl_context *context, uint64_t seed, const sl_walk_options *like, world *w) {
     if (seed % 2) {
         assert_ok(context,
-                  oblique_random_map(context, seed, (oblique_grid)(seed / 2 % OBLIQUE_SANE), 20,
+                  oblique_random_map(context, seed, (oblique_grid)(seed / 2 % OBLIQUE_GRIDS), 20,
                                      &w->map));
     } else {
         assert_ok(context, oracle_random_map(context, seed, (oracle_grid)(seed / 2 % 3), &w->map));
