@@ -1,9 +1,12 @@
 // GL nodes of a WAD as cells: each version, and each way in which they can be broken.
 #include "testing.h"
 
+#include "bake/exports.h"
 #include "sightline/import.h"
 #include "sightline/space.h"
 #include "wad_make.h"
+
+#include <unistd.h>
 
 enum { SEGS = 17 };
 
@@ -118,6 +121,40 @@ static void test_versions(void **state) {
     sl_context_destroy(context);
 }
 
+/// Walls that welding has cut at the corners of cells are known as the WAD's.
+static void test_reject(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    char folder[] = "/tmp/sightline-cells-XXXXXX", in[100];
+    assert_non_null(mkdtemp(folder));
+    snprintf(in, sizeof in, "%s/in.wad", folder);
+    for (int with_cells = 1; with_cells >= 0; with_cells--) {
+        const spoil none = {.header = with_cells ? NULL : "OTHER"};
+        const sl_export_options options = {.wad = in, .map = "MAP01"};
+        wad_made wad;
+        make(&wad, 5, &none);
+        FILE *file = fopen(in, "wb");
+        assert_non_null(file);
+        assert_int_equal(fwrite(wad.bytes, 1, wad.size, file), wad.size);
+        assert_int_equal(fclose(file), 0);
+        free(wad.bytes);
+        sl_map map = {0};
+        sl_baked baked = {0};
+        assert_ok(context, read_cells(context, 5, &(spoil){0}, &map));
+        testing_subdivide(context, &map, &baked.space);
+        sl_see_options see = sl_see_options_default();
+        assert_ok(context,
+                  testing_method("sweep")->see(context, &baked.space, &see, &baked.visibility));
+        const sl_status status = sl_export_reject(context, &baked, &options, "/dev/null");
+        assert_int_equal(status, with_cells ? SL_OK : SL_BAD_INPUT);
+        sl_baked_destroy(context, &baked);
+        sl_map_destroy(context, &map);
+    }
+    remove(in);
+    remove(folder);
+    sl_context_destroy(context);
+}
+
 static void test_refused(void **state) {
     (void)state;
     const struct {
@@ -152,6 +189,7 @@ static void test_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_versions),
+        cmocka_unit_test(test_reject),
         cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
