@@ -215,16 +215,15 @@ sl_status sl_seam_lines(sl_context *context, const sl_piece *walls, size_t wall_
 
 // --- telling portals
 
-/// Whether the way from a portal's left end to its right one goes as a part does, from a to b. Told
-/// by the coordinate that changes more: a portal's ends may be rounded.
+/// Whether the way from a portal's left end to its right one goes as a part does, from a to b.
 static bool goes_along(const sl_seam_part *part, const sl_portal *portal) {
-    const double dx = part->b.x - part->a.x, dy = part->b.y - part->a.y;
-    return fabs(dx) >= fabs(dy) ? (portal->left.x < portal->right.x) == (dx > 0)
-                                : (portal->left.y < portal->right.y) == (dy > 0);
+    return (part->b.x > part->a.x) == (portal->left.x < portal->right.x) &&
+           (part->b.y > part->a.y) == (portal->left.y < portal->right.y);
 }
 
-sl_status sl_seams_tag(sl_context *context, const sl_seam_parts *parts, const uint32_t *on,
-                       sl_space *space) {
+/// `on`: by portal, 1 + the part that it is on, 0 for none.
+static sl_status tag(sl_context *context, const sl_seam_parts *parts, const uint32_t *on,
+                     sl_space *space) {
     size_t count = 0;
     for (uint32_t i = 0; i < space->portal_count; i++)
         if (on[i]) count += parts->parts.items[on[i] - 1].count;
@@ -266,7 +265,7 @@ sl_status sl_seams_tag_axial(sl_context *context, const sl_seam_parts *parts, sl
     sl_status status = on ? SL_OK : SL_NO_MEMORY;
     for (uint32_t i = 0; on && i < space->portal_count; i++)
         on[i] = part_of(pieces, parts->parts.count, &space->portals[i]);
-    if (status == SL_OK) status = sl_seams_tag(context, parts, on, space);
+    if (status == SL_OK) status = tag(context, parts, on, space);
     sl_free(context, pieces);
     sl_free(context, on);
     return status;

@@ -6,8 +6,8 @@ static sl_status by_kd(sl_context *context, const sl_map *map, const sl_subdivid
     return sl_subdivide_kd(context, map, rules ? rules : &usual, out);
 }
 
-static sl_status by_mesh(sl_context *context, const sl_map *map,
-                         const sl_subdivide_options *rules, sl_space *out) {
+static sl_status by_mesh(sl_context *context, const sl_map *map, const sl_subdivide_options *rules,
+                         sl_space *out) {
     (void)rules;
     return sl_subdivide_mesh(context, map, out);
 }

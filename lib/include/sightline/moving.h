@@ -44,10 +44,10 @@ SL_API sl_status sl_moving_add_mirrors(sl_context *context, sl_moving *moving, c
                                        uint32_t depth);
 
 /// The space with the boxes: cells cut along their sides, which are walls where they block. Cell c
-/// of it is (a part of) cell parents[c] of the space without. Cells and walls of that one keep their
-/// numbers, but that a cell as narrow as a step of doubles may vanish: the last one then takes its
-/// number. In a mesh, a wall that is crossed is several sides of cells (sl_space.cut_walls), and
-/// there are no seams. Until boxes are next placed.
+/// of it is (a part of) cell parents[c] of the space without. Cells and walls of that one keep
+/// their numbers, but that a cell as narrow as a step of doubles may vanish: the last one then
+/// takes its number. In a mesh, a wall that is crossed is several sides of cells
+/// (sl_space.cut_walls), and there are no seams. Until boxes are next placed.
 SL_API const sl_space *sl_moving_space(const sl_moving *moving, const uint32_t **parents);
 
 /// Its outline, for sl_region_make, sl_sees, sl_shoot and sl_room_mirrors_make. Made when it is
