@@ -466,11 +466,11 @@ static sl_status make_doors(sl_context *context, const sl_planar *graph, size_t 
     *out = sl_alloc_array(context, count, sizeof **out);
     if (!*out) return SL_NO_MEMORY;
     for (size_t i = 0; i < count; i++) {
-        const sl_planar_link *links = graph->links + graph->first[first + i];
-        const size_t parts = graph->first[first + i + 1] - graph->first[first + i];
+        const size_t links = graph->first[first + i], parts = graph->first[first + i + 1] - links;
         (*out)[i] = sl_alloc_array(context, parts, sizeof ***out);
         if (!(*out)[i]) return SL_NO_MEMORY;
-        for (size_t k = 0; k < parts; k++) (*out)[i][k] = sl_planar_at(graph, links[k]);
+        for (size_t k = 0; k < parts; k++)
+            (*out)[i][k] = sl_planar_at(graph, graph->links[links + k]);
     }
     return SL_OK;
 }

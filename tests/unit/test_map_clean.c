@@ -271,6 +271,10 @@ static void test_doors(void **state) {
     map.wall_count = 0;
     assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
     assert_true(!map.doors[0].parts && !map.doors[0].part_count);
+    // Nothing but what has no length.
+    map.doors[0].segment = map.doors[1].segment = (sl_segment){{1, 2}, {1, 2}};
+    assert_ok(context, sl_map_clean(context, &map, &(sl_clean_options){1}, NULL));
+    assert_true(!map.doors[0].parts && map.door_count == 2);
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
 }

@@ -379,7 +379,7 @@ static bool damage(sl_space *s, int number) {
         s->grid.first[1]++;
         return true;
     case 38:
-        s->grid.columns++;
+        s->grid.columns--;
         return true;
     case 39:
         s->grid.first[s->grid.columns * s->grid.rows] = 1;
