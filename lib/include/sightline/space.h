@@ -79,7 +79,8 @@ typedef struct sl_seam_portal {
 /// The cells tile the bounds: they leave nothing out and do not overlap. A kd-tree's space has
 /// `nodes`. The space of a mesh has `beyond` and `grid`: each side of a cell is one exit, one wall
 /// from end to end, or border, so that corners may be flat; every corner is the end of a wall or a
-/// seam, or a corner of the bounds. With boxes in it (`cut_walls`) also where their sides cross.
+/// seam, a corner of the bounds, or of one of the map's own cells. With boxes in it (`cut_walls`)
+/// also where their sides cross.
 ///
 /// Cells do not run over seams: each portal lies on a seam wholly or not at all. Where a wall
 /// covers a seam there is no portal.
