@@ -134,7 +134,8 @@ SL_API sl_status sl_subdivide_kd(sl_context *context, const sl_map *map,
 /// No coordinate is computed for a clean map (sl_map_clean): each corner of a cell is the end of a
 /// wall or seam, or a corner of the bounds, and both sides of a portal have the same ends. So the
 /// cells tile the bounds, all predicates on them are exact, and a door that is shut is as tight as
-/// a wall. A map that is not clean is made planar first, without a tolerance.
+/// a wall. A map that is not clean is made planar first, without a tolerance, which few maps do not
+/// allow (SL_UNSUPPORTED): cleaning does.
 ///
 /// SL_BAD_INPUT where there is no wall. Linear space, time about O(n log n); reports stage
 /// "subdivide".
