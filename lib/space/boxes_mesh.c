@@ -43,6 +43,11 @@ typedef struct new_cell {
     uint32_t half; ///< one of its half-edges; NONE for a cell that is not cut
 } new_cell;
 
+typedef struct polygon {
+    const sl_point *corners;
+    uint32_t count; ///< two for a segment
+} polygon;
+
 typedef struct maker {
     sl_context *context;
     const sl_box_ground *ground;
@@ -56,15 +61,57 @@ typedef struct maker {
     sl_planar graph;
     sl_triangulation t;
     graph_edge *edges;
-    uint32_t *parent;         ///< by half-edge: the cell of the ground that it is in, NONE for none
+    bool *in;                 ///< by half-edge: it is in a cell that is cut
     uint32_t *cell;           ///< by half-edge: the new cell, NONE for none
     SL_ARRAY(uint32_t) stack; ///< half-edges to go on from
     SL_ARRAY(new_cell) cells;
-    uint32_t *exit;   ///< by half-edge
-    portal_end *ends; ///< two by portal of the ground
+    SL_ARRAY(sl_point) corners; ///< of the cell at hand
+    uint32_t *exit;             ///< by half-edge
+    portal_end *ends;           ///< two by portal of the ground
     SL_ARRAY(sl_mesh_joint) joints;
     SL_ARRAY(uint32_t) shares;
 } maker;
+
+// --- polygons
+
+static polygon polygon_of(const sl_space *space, uint32_t cell) {
+    return (polygon){space->vertices + space->cells[cell].first_vertex,
+                     space->cells[cell].vertex_count};
+}
+
+static sl_point corner_after(const polygon *p, uint32_t i) {
+    return p->corners[i + 1 < p->count ? i + 1 : 0];
+}
+
+static sl_box box_of(const polygon *p) {
+    sl_box box = sl_box_around(p->corners[0], p->corners[1]);
+    for (uint32_t i = 2; i < p->count; i++) box = sl_box_with(box, p->corners[i]);
+    return box;
+}
+
+/// Whether all corners are at the left of a line or on it.
+static bool is_left_of(const polygon *p, sl_point a, sl_point b) {
+    for (uint32_t i = 0; i < p->count; i++)
+        if (sl_orient(a, b, p->corners[i]) < 0) return false;
+    return true;
+}
+
+static bool is_within(const polygon *p, const polygon *outer) {
+    for (uint32_t i = 0; i < outer->count; i++)
+        if (!is_left_of(p, outer->corners[i], corner_after(outer, i))) return false;
+    return true;
+}
+
+static bool is_beside(const polygon *p, const polygon *other) {
+    for (uint32_t i = 0; i < p->count; i++)
+        if (is_left_of(other, corner_after(p, i), p->corners[i])) return true;
+    return false;
+}
+
+/// Whether the insides of two polygons have points in common, or of one and a segment.
+static bool overlap(const polygon *p, const polygon *q) {
+    return !is_beside(p, q) && !is_beside(q, p);
+}
 
 // --- the cells to be cut
 
@@ -185,28 +232,12 @@ static bool grow(maker *m) {
 static sl_box region_box(const maker *m) {
     sl_box box = sl_box_around(m->segments.items[0].a, m->segments.items[0].b);
     for (uint32_t i = 0; i < m->from->cell_count; i++) {
-        const sl_cell *cell = &m->from->cells[i];
-        for (uint32_t k = 0; k < cell->vertex_count && m->touched[i]; k++)
-            box = sl_box_with(box, m->from->vertices[cell->first_vertex + k]);
+        const polygon cell = polygon_of(m->from, i);
+        for (uint32_t k = 0; k < cell.count && m->touched[i]; k++)
+            box = sl_box_with(box, cell.corners[k]);
     }
     return box;
 }
-
-static sl_status make_triangles(maker *m) {
-    do {
-        SL_TRY(sl_check_cancelled(m->context));
-        SL_TRY(gather_segments(m));
-        if (!m->segments.count) return SL_OK;
-        sl_planar_destroy(m->context, &m->graph);
-        SL_TRY(sl_planar_make(m->context, "the space with boxes", m->segments.items,
-                              m->segments.count, 0, &m->graph));
-        SL_TRY(take_edges(m));
-    } while (grow(m));
-    const sl_box box = region_box(m);
-    return sl_triangulate(m->context, &m->graph, &box, &m->t);
-}
-
-// --- parents
 
 static const graph_edge *edge_of(const maker *m, uint32_t half, bool *along) {
     const uint32_t label = m->t.labels[half / 2];
@@ -215,52 +246,124 @@ static const graph_edge *edge_of(const maker *m, uint32_t half, bool *along) {
     return &m->edges[label - 1];
 }
 
-/// The cell that a line has at the left of a half-edge, if that is cut; NONE where it is not, or
-/// where there is no line.
-static uint32_t cell_at(const maker *m, uint32_t half, bool *is_line) {
+/// The cell at the left of a half-edge, where its line parts a cell that is cut from one that is
+/// not; else NONE.
+static uint32_t cell_at_border(const maker *m, uint32_t half) {
     bool along = false;
     const graph_edge *e = edge_of(m, half, &along);
-    *is_line = e && e->line != NONE;
-    if (!*is_line) return NONE;
-    const uint32_t cell = m->lines.items[e->line].cells[along == e->along ? 0 : 1];
-    return is_cut(m, cell) ? cell : NONE;
+    if (!e || e->line == NONE || !leads_out(m, &m->lines.items[e->line])) return NONE;
+    return m->lines.items[e->line].cells[along == e->along ? 0 : 1];
 }
 
-/// Gives the triangle of a half-edge its parent.
-static sl_status label_triangle(maker *m, uint32_t half, uint32_t parent) {
+static sl_status enter_triangle(maker *m, uint32_t half) {
     SL_TRY(SL_ARRAY_ROOM(m->context, &m->stack, 3));
     for (int i = 0; i < 3; i++, half = m->t.halves.items[half].next) {
-        m->parent[half] = parent;
+        m->in[half] = true;
         m->stack.items[m->stack.count++] = half;
     }
     return SL_OK;
 }
 
-static sl_status spread_parent(maker *m, uint32_t half) {
-    const uint32_t twin = half ^ 1;
-    bool is_line;
-    if (sl_half_is_outside(&m->t, twin) || m->parent[twin] != NONE) return SL_OK;
-    const uint32_t cell = cell_at(m, twin, &is_line), parent = is_line ? cell : m->parent[half];
-    return parent == NONE ? SL_OK : label_triangle(m, twin, parent);
+/// Finds the triangles of the cells that are cut: from their borders on; all where there are none.
+static sl_status find_inside(maker *m) {
+    const size_t halves = m->t.halves.count;
+    bool bordered = false;
+    sl_free(m->context, m->in);
+    m->in = sl_alloc_array(m->context, halves, sizeof *m->in);
+    if (!m->in) return SL_NO_MEMORY;
+    for (uint32_t half = 0; half < halves; half++) {
+        const uint32_t cell = cell_at_border(m, half);
+        bordered |= cell != NONE;
+        if (!m->in[half] && is_cut(m, cell)) SL_TRY(enter_triangle(m, half));
+    }
+    while (m->stack.count) {
+        const uint32_t twin = m->stack.items[--m->stack.count] ^ 1;
+        if (!sl_half_is_outside(&m->t, twin) && !m->in[twin] && cell_at_border(m, twin) == NONE)
+            SL_TRY(enter_triangle(m, twin));
+    }
+    for (uint32_t half = 0; half < halves && !bordered; half++)
+        m->in[half] = !sl_half_is_outside(&m->t, half);
+    return SL_OK;
 }
 
-/// From the lines on, each triangle is in the cell that its neighbour is in.
-static sl_status find_parents(maker *m) {
-    const size_t halves = m->t.halves.count;
-    m->parent = sl_alloc_array(m->context, halves, sizeof *m->parent);
-    if (!m->parent) return SL_NO_MEMORY;
-    for (size_t i = 0; i < halves; i++) m->parent[i] = NONE;
-    for (uint32_t half = 0; half < halves; half++) {
-        bool is_line;
-        if (sl_half_is_outside(&m->t, half) || m->parent[half] != NONE) continue;
-        const uint32_t cell = cell_at(m, half, &is_line);
-        if (cell != NONE) SL_TRY(label_triangle(m, half, cell));
-        while (m->stack.count) SL_TRY(spread_parent(m, m->stack.items[--m->stack.count]));
+/// Takes in the cells that bent lines have come into; false for none.
+static bool take_strays(maker *m) {
+    bool grown = false;
+    for (uint32_t half = 0; half < m->t.halves.count; half++) {
+        const sl_point ends[2] = {m->t.points.items[m->t.halves.items[half].from],
+                                  m->t.points.items[sl_half_end(&m->t, half)]};
+        const polygon edge = {ends, 2};
+        if (!m->t.labels[half / 2] || sl_half_is_outside(&m->t, half) || m->in[half] ||
+            cell_at_border(m, half) != NONE)
+            continue;
+        sl_cell_grid_range r = sl_cell_grid_range_of(m->from, box_of(&edge));
+        for (uint32_t at; sl_cell_grid_next(&m->from->grid, &r, &at);) {
+            const polygon cell = polygon_of(m->from, at);
+            if (!m->touched[at] && overlap(&edge, &cell)) m->touched[at] = grown = true;
+        }
     }
+    return grown;
+}
+
+static sl_status make_graph(maker *m) {
+    SL_TRY(sl_check_cancelled(m->context));
+    SL_TRY(gather_segments(m));
+    sl_planar_destroy(m->context, &m->graph);
+    SL_TRY(sl_planar_make(m->context, "the space with boxes", m->segments.items, m->segments.count,
+                          0, &m->graph));
+    return take_edges(m);
+}
+
+static sl_status make_triangles(maker *m) {
+    if (!m->blocking.count && !m->open.count) return SL_OK;
+    do {
+        do SL_TRY(make_graph(m));
+        while (grow(m));
+        const sl_box box = region_box(m);
+        sl_triangulation_destroy(m->context, &m->t);
+        SL_TRY(sl_triangulate(m->context, &m->graph, &box, &m->t));
+        SL_TRY(find_inside(m));
+    } while (take_strays(m));
     return SL_OK;
 }
 
 // --- the cells
+
+/// Gathers the corners of the cell that a half-edge is a side of.
+static sl_status gather_corners(maker *m, uint32_t half) {
+    const uint32_t first = half;
+    m->corners.count = 0;
+    do {
+        SL_TRY(SL_ARRAY_ROOM(m->context, &m->corners, 1));
+        m->corners.items[m->corners.count++] = m->t.points.items[m->t.halves.items[half].from];
+        half = m->t.halves.items[half].next;
+    } while (half != first);
+    return SL_OK;
+}
+
+/// The cell of the ground that a new one is part of: the one that it is within. Where bent lines
+/// leave no such cell, that at its middle, or any that it reaches into.
+static uint32_t parent_of(const maker *m, const polygon *p) {
+    sl_point middle = {0, 0};
+    for (uint32_t i = 0; i < p->count; i++) {
+        middle.x += p->corners[i].x / p->count;
+        middle.y += p->corners[i].y / p->count;
+    }
+    uint32_t found = sl_space_locate(m->from, middle);
+    if (!is_cut(m, found)) found = NONE;
+    if (found != NONE) {
+        const polygon cell = polygon_of(m->from, found);
+        if (is_within(p, &cell)) return found;
+    }
+    sl_cell_grid_range r = sl_cell_grid_range_of(m->from, box_of(p));
+    for (uint32_t at; sl_cell_grid_next(&m->from->grid, &r, &at);) {
+        const polygon cell = polygon_of(m->from, at);
+        if (!m->touched[at]) continue;
+        if (is_within(p, &cell)) return at;
+        if (found == NONE && overlap(p, &cell)) found = at;
+    }
+    return found;
+}
 
 /// Adds a cell, by its parent's number if that is free.
 static sl_status add_cell(maker *m, uint32_t parent, uint32_t half) {
@@ -289,9 +392,11 @@ static sl_status make_cells(maker *m) {
     for (uint32_t i = 0; i < m->from->cell_count; i++)
         m->cells.items[m->cells.count++] = (new_cell){i, NONE};
     for (uint32_t half = 0; half < halves; half++) {
-        if (m->parent[half] == NONE) m->cell[half] = NONE;
+        if (!m->in[half]) m->cell[half] = NONE;
         if (m->cell[half]) continue; // not there, or noted
-        SL_TRY(add_cell(m, m->parent[half], half));
+        SL_TRY(gather_corners(m, half));
+        const polygon p = {m->corners.items, (uint32_t)m->corners.count};
+        SL_TRY(add_cell(m, parent_of(m, &p), half));
         for (uint32_t at = half; !m->cell[at]; at = m->t.halves.items[at].next) m->cell[at] = 1;
     }
     close_gaps(m);
@@ -428,44 +533,16 @@ static sl_status write_walls(maker *m) {
 
 // --- what bent lines leave in other cells
 
-/// Whether all corners of a cell are on the left of a line or on it.
-static bool is_left_of(const sl_space *space, const sl_cell *cell, sl_point a, sl_point b) {
-    for (uint32_t i = 0; i < cell->vertex_count; i++)
-        if (sl_orient(a, b, space->vertices[cell->first_vertex + i]) < 0) return false;
-    return true;
-}
-
-/// Whether some side of a cell has no corner of another cell strictly on its left.
-static bool is_parted(const sl_space *space, const sl_cell *cell, const sl_space *others,
-                      const sl_cell *other) {
-    const sl_point *v = space->vertices + cell->first_vertex;
-    for (uint32_t i = 0; i < cell->vertex_count; i++)
-        if (is_left_of(others, other, v[i + 1 < cell->vertex_count ? i + 1 : 0], v[i])) return true;
-    return false;
-}
-
-static bool is_within(const sl_space *space, const sl_cell *cell, const sl_space *others,
-                      const sl_cell *other) {
-    const sl_point *v = others->vertices + other->first_vertex;
-    for (uint32_t i = 0; i < other->vertex_count; i++)
-        if (!is_left_of(space, cell, v[i], v[i + 1 < other->vertex_count ? i + 1 : 0]))
-            return false;
-    return true;
-}
-
 static sl_status find_shares(maker *m, uint32_t number) {
-    const sl_space *s = &m->out->space, *f = m->from;
-    const sl_cell *cell = &s->cells[number];
+    const polygon p = polygon_of(&m->out->space, number);
     const uint32_t parent = m->out->parents[number];
-    const sl_point *v = s->vertices + cell->first_vertex;
-    if (is_within(s, cell, f, &f->cells[parent])) return SL_OK;
-    sl_box box = sl_box_around(v[0], v[1]);
-    for (uint32_t i = 2; i < cell->vertex_count; i++) box = sl_box_with(box, v[i]);
+    const polygon whole = polygon_of(m->from, parent);
+    if (is_within(&p, &whole)) return SL_OK;
     const size_t before = m->shares.count;
-    sl_cell_grid_range r = sl_cell_grid_range_of(f, box);
-    for (uint32_t at; sl_cell_grid_next(&f->grid, &r, &at);) {
-        bool known = at == parent || is_parted(s, cell, f, &f->cells[at]) ||
-                     is_parted(f, &f->cells[at], s, cell);
+    sl_cell_grid_range r = sl_cell_grid_range_of(m->from, box_of(&p));
+    for (uint32_t at; sl_cell_grid_next(&m->from->grid, &r, &at);) {
+        const polygon cell = polygon_of(m->from, at);
+        bool known = at == parent || !overlap(&p, &cell);
         for (size_t i = before; i < m->shares.count && !known; i++)
             known = m->shares.items[i] == at;
         if (known) continue;
@@ -502,7 +579,6 @@ static sl_status make(maker *m, const sl_moving_box *boxes, size_t count) {
     touch_along(m, &m->open);
     SL_TRY(find_wall_cells(m));
     SL_TRY(make_triangles(m));
-    SL_TRY(find_parents(m));
     SL_TRY(make_cells(m));
     SL_TRY(write_cells(m));
     SL_TRY(write_portals(m));
@@ -515,10 +591,10 @@ sl_status sl_boxes_put_mesh(sl_context *context, const sl_box_ground *ground,
                             const sl_moving_box *boxes, size_t count, sl_boxed_space *out) {
     maker m = {.context = context, .ground = ground, .from = ground->space, .out = out};
     const sl_status status = make(&m, boxes, count);
-    void *const scratch[] = {m.touched,     m.wall_cells,   m.blocking.items, m.open.items,
-                             m.lines.items, m.edges,        m.segments.items, m.parent,
-                             m.cell,        m.stack.items,  m.cells.items,    m.exit,
-                             m.ends,        m.joints.items, m.shares.items};
+    void *const scratch[] = {m.touched,     m.wall_cells,  m.blocking.items, m.open.items,
+                             m.lines.items, m.edges,       m.segments.items, m.in,
+                             m.cell,        m.stack.items, m.cells.items,    m.corners.items,
+                             m.exit,        m.ends,        m.joints.items,   m.shares.items};
     for (size_t i = 0; i < sizeof scratch / sizeof *scratch; i++) sl_free(context, scratch[i]);
     sl_planar_destroy(context, &m.graph);
     sl_triangulation_destroy(context, &m.t);

@@ -12,6 +12,7 @@
 #include "oracle/eye.h"
 #include "oracle/random_map.h"
 #include "oracle/random_oblique.h"
+#include "space/boxes.h"
 
 #include <math.h>
 
@@ -38,7 +39,7 @@ typedef struct trial {
     sl_map map;
     sl_space space;
     sl_visibility baked;
-    sl_moving_box boxes[BOXES];
+    sl_moving_box boxes[4 * BOXES];
     size_t count;
     sl_moving *moving;
     segments straight; ///< the map's walls, and the sides of boxes that block
@@ -402,14 +403,18 @@ static void bake(trial *t, sl_sight sight) {
                   testing_method("dfs")->see(t->context, &t->space, &options, &t->baked));
 }
 
-static void try_map(trial *t, sl_sight sight) {
-    t->random = (sl_random){t->seed ^ 0xb0e5};
-    assert_ok(t->context, sl_subdivide_mesh(t->context, &t->map, &t->space));
+static void measure(trial *t) {
     const sl_box b = t->space.bounds;
     const double most =
         fmax(fmax(fabs(b.min.x), fabs(b.min.y)), fmax(fabs(b.max.x), fabs(b.max.y)));
     t->size = fmax(b.max.x - b.min.x, b.max.y - b.min.y);
     t->step = nextafter(most, HUGE_VAL) - most;
+}
+
+static void try_map(trial *t, sl_sight sight) {
+    t->random = (sl_random){t->seed ^ 0xb0e5};
+    assert_ok(t->context, sl_subdivide_mesh(t->context, &t->map, &t->space));
+    measure(t);
     assert_true(t->space.cell_count <= CELLS_MOST);
     bake(t, sight);
     assert_ok(t->context, sl_moving_create(t->context, &t->space, &t->baked, &t->moving));
@@ -507,6 +512,91 @@ static void map_that_failed(void **state) {
     random_maps(SL_OPEN, make_fault, testing_seeds(40));
 }
 
+/// Dozens of walls that cross each other within steps of doubles, and boxes among them: bent lines
+/// come into cells that no box touches. The space holds together all the same.
+static void crowds(void **state) {
+    (void)state;
+    const uint64_t seeds = testing_seeds(50);
+    trial t = {.context = testing_context(NULL)};
+    size_t placed = 0;
+    for (t.seed = 1; t.seed <= seeds; t.seed++) {
+        const oblique_grid grid = (oblique_grid)(t.seed % OBLIQUE_GRIDS);
+        t.random = (sl_random){t.seed ^ 0xc0d};
+        assert_ok(t.context, oblique_random_map(t.context, t.seed, grid, 6 * WALLS, &t.map));
+        const sl_status status = sl_subdivide_mesh(t.context, &t.map, &t.space);
+        assert_true(status == SL_OK || status == SL_UNSUPPORTED); // for lack of a tolerance
+        measure(&t);
+        if (status == SL_OK)
+            assert_ok(t.context, sl_moving_create(t.context, &t.space, &t.baked, &t.moving));
+        for (int k = 0; k < 4 && status == SL_OK; k++) {
+            t.count = 4 * BOXES;
+            for (size_t i = 0; i < t.count; i++)
+                t.boxes[i] = (sl_moving_box){random_box(&t), below(&t, 3) > 0};
+            assert_ok(t.context, sl_moving_place(t.context, t.moving, t.boxes, t.count));
+            assert_ok(t.context, sl_space_check(t.context, sl_moving_space(t.moving, NULL)));
+            if (grid < OBLIQUE_SCALES) check_walls(&t);
+            placed++;
+        }
+        if (status == SL_OK) sl_moving_destroy(t.context, t.moving);
+        sl_space_destroy(t.context, &t.space);
+        sl_map_destroy(t.context, &t.map);
+    }
+    assert_true(placed > 3 * seeds);
+    sl_context_destroy(t.context);
+}
+
+/// Whether a point is strictly within a cell.
+static bool is_in(const sl_space *space, uint32_t number, sl_point p) {
+    const sl_cell *cell = &space->cells[number];
+    const sl_point *v = space->vertices + cell->first_vertex;
+    for (uint32_t i = 0; i < cell->vertex_count; i++)
+        if (blockers_turn(v[i], v[(i + 1) % cell->vertex_count], p) <= 0) return false;
+    return true;
+}
+
+static bool has_share(const sl_boxed_space *boxed, uint32_t cell, uint32_t ground) {
+    if (boxed->parents[cell] == ground) return true;
+    for (uint32_t i = boxed->first_share[cell]; i < boxed->first_share[cell + 1]; i++)
+        if (boxed->shares[i] == ground) return true;
+    return false;
+}
+
+/// A cell with a corner in a cell of the ground knows that it reaches into that.
+static void check_shares(trial *t, const sl_boxed_space *boxed) {
+    const sl_space *s = &boxed->space;
+    for (uint32_t c = 0; c < s->cell_count; c++)
+        for (uint32_t g = 0; g < t->space.cell_count; g++) {
+            const sl_point *v = s->vertices + s->cells[c].first_vertex;
+            for (uint32_t i = 0; i < s->cells[c].vertex_count; i++)
+                if (is_in(&t->space, g, v[i]) && !has_share(boxed, c, g))
+                    complain(t, v[i], v[i], "unknown to its cell: cell", g);
+        }
+}
+
+static void shares(void **state) {
+    (void)state;
+    trial t = {.context = testing_context(NULL)};
+    size_t found = 0;
+    for (t.seed = 1; t.seed <= testing_seeds(60); t.seed++) {
+        sl_box_ground ground = {0};
+        sl_boxed_space boxed = {0};
+        t.random = (sl_random){t.seed ^ 0x5a};
+        make_turned(&t);
+        assert_ok(t.context, sl_subdivide_mesh(t.context, &t.map, &t.space));
+        assert_ok(t.context, sl_box_ground_create(t.context, &t.space, &ground));
+        for (int i = 0; i < BOXES; i++) t.boxes[i] = (sl_moving_box){random_box(&t), i % 2};
+        assert_ok(t.context, sl_boxes_put(t.context, &ground, t.boxes, BOXES, &boxed));
+        check_shares(&t, &boxed);
+        found += boxed.first_share[boxed.space.cell_count];
+        sl_boxed_space_destroy(t.context, &boxed);
+        sl_box_ground_destroy(t.context, &ground);
+        sl_space_destroy(t.context, &t.space);
+        sl_map_destroy(t.context, &t.map);
+    }
+    assert_true(found > 60);
+    sl_context_destroy(t.context);
+}
+
 // --- by hand
 
 typedef struct room {
@@ -584,6 +674,8 @@ int main(void) {
         cmocka_unit_test(open_sight),
         cmocka_unit_test(turned_maps),
         cmocka_unit_test(map_that_failed),
+        cmocka_unit_test(crowds),
+        cmocka_unit_test(shares),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
