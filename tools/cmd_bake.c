@@ -197,7 +197,7 @@ static sl_status see(sl_context *context, const bake_plan *plan, sl_baked *baked
 static sl_status check_file(sl_context *context, const bake_plan *plan) {
     sl_baked again = {0};
     if (!plan->pipeline.check) return SL_OK;
-    SL_TRY(sl_baked_read(context, plan->output, &again));
+    SL_TRY(sl_baked_read_part(context, plan->output, &again));
     sl_baked_destroy(context, &again);
     return SL_OK;
 }
