@@ -26,7 +26,9 @@ SL_API void sl_moving_destroy(sl_context *context, sl_moving *moving);
 
 /// Puts these boxes in, in place of those before. Only the cells that sides of boxes touch are cut,
 /// but the rest of the space is copied. SL_BAD_ARGUMENT for boxes whose corners are not in order or
-/// have coordinates that sl_coordinate_usable does not take; what was there before then stays.
+/// have coordinates that sl_coordinate_usable does not take, SL_UNSUPPORTED where walls run along
+/// each other within steps of doubles and bend each other without end; what was there before then
+/// stays.
 ///
 /// Where a side of a box crosses an oblique wall, the wall is led through the nearest representable
 /// point on that side; everything else is exact. In a space of axial walls no coordinate is
