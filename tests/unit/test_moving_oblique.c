@@ -518,31 +518,31 @@ static void random_maps(sl_sight sight, void (*make)(trial *t), uint64_t seeds) 
 
 static void closed_sight(void **state) {
     (void)state;
-    random_maps(SL_CLOSED, make_oblique, testing_seeds(150));
+    random_maps(SL_CLOSED, make_oblique, testing_seeds(50));
 }
 
 static void open_sight(void **state) {
     (void)state;
-    random_maps(SL_OPEN, make_oblique, testing_seeds(150));
+    random_maps(SL_OPEN, make_oblique, testing_seeds(50));
 }
 
 static void turned_maps(void **state) {
     (void)state;
-    random_maps(SL_CLOSED, make_turned, testing_seeds(60));
-    random_maps(SL_OPEN, make_turned, testing_seeds(60));
+    random_maps(SL_CLOSED, make_turned, testing_seeds(20));
+    random_maps(SL_OPEN, make_turned, testing_seeds(20));
 }
 
 static void map_that_failed(void **state) {
     (void)state;
-    random_maps(SL_CLOSED, make_fault, testing_seeds(40));
-    random_maps(SL_OPEN, make_fault, testing_seeds(40));
+    random_maps(SL_CLOSED, make_fault, testing_seeds(15));
+    random_maps(SL_OPEN, make_fault, testing_seeds(15));
 }
 
 /// Dozens of walls that cross each other within steps of doubles, and boxes among them: bent lines
 /// come into cells that no box touches. The space holds together all the same.
 static void crowds(void **state) {
     (void)state;
-    const uint64_t seeds = testing_seeds(50);
+    const uint64_t seeds = testing_seeds(20);
     trial t = {.context = testing_context(NULL)};
     size_t placed = 0;
     for (t.seed = 1; t.seed <= seeds; t.seed++) {
@@ -604,7 +604,7 @@ static void shares(void **state) {
     (void)state;
     trial t = {.context = testing_context(NULL)};
     size_t found = 0;
-    for (t.seed = 1; t.seed <= testing_seeds(60); t.seed++) {
+    for (t.seed = 1; t.seed <= testing_seeds(20); t.seed++) {
         sl_box_ground ground = {0};
         sl_boxed_space boxed = {0};
         t.random = (sl_random){t.seed ^ 0x5a};
