@@ -11,10 +11,6 @@ All of it in integers: coordinates are doubles, so one power of two makes intege
      meets a corner or a wall's end exactly is let go there, so no rounding decides anything.
   3. Straight segments between cells, tried against every wall one by one, as a check on 2.
 
-Where cells are oblique their corners are rounded: cells may then overlap along walls by the size of
-rounding, and do not fill the bounds exactly; portals are whole sides that two cells share end by
-end. Convexity stays exact, and so do the sightlines: they follow the cells as they are.
-
 Exit status: 0 nothing found, 1 faults found, 2 the file cannot be read.
 """
 import argparse
@@ -23,7 +19,7 @@ import random
 import sys
 import time
 from fractions import Fraction
-from math import gcd, hypot
+from math import gcd
 
 # Random points are sums of a cell's corners with integer weights that add up to this.
 SCALE = 1 << 20
@@ -69,11 +65,6 @@ class Export:
         self.cells = [[tuple(self.integers(p)) for p in cell["polygon"]] for cell in data["cells"]]
         self.portals = [(tuple(p["cells"]), self.segment(p["segment"])) for p in data["portals"]]
         self.pvs = data["pvs"]
-        self.rounded = any(a[0] != b[0] and a[1] != b[1]
-                           for polygon in self.cells for a, b in edges(polygon))
-        x0, y0, x1, y1 = self.bounds
-        # What rounding may have done to a place.
-        self.slack = max(x1 - x0, y1 - y0) / 2**30 if self.rounded else 0
 
     def integers(self, values):
         return [int(Fraction(v) * self.unit) for v in values]
@@ -120,33 +111,9 @@ def overlapping(boxes, others):
         live[kind].append(index)
 
 
-def length(a, b):
-    return hypot(b[0] - a[0], b[1] - a[1])
-
-
-def separated(polygon, other, slack):
-    """Whether an edge of the first has all of the second on its outer side, but for the slack."""
-    return any(all(side(a, b, p) <= slack * length(a, b) for p in other)
-               for a, b in edges(polygon))
-
-
-def depth(polygon, segment):
-    """How deep what a segment has inside of a convex polygon lies there, about: 0 for nothing."""
-    low, high = Fraction(0), Fraction(1)
-    for a, b in edges(polygon):
-        start, end = side(a, b, segment[0]), side(a, b, segment[1])
-        if start <= 0 and end <= 0:
-            return 0
-        if start < 0:
-            low = max(low, Fraction(-start, end - start))
-        elif end < 0:
-            high = min(high, Fraction(start, start - end))
-    if low >= high:
-        return 0
-    middle = (low + high) / 2
-    (px, py), (qx, qy) = segment
-    at = px + middle * (qx - px), py + middle * (qy - py)
-    return min(float(side(a, b, at)) / length(a, b) for a, b in edges(polygon))
+def separated(polygon, other):
+    """Whether an edge of the first has all of the second on its outer side."""
+    return any(all(side(a, b, p) <= 0 for p in other) for a, b in edges(polygon))
 
 
 def enters(polygon, segment):
@@ -177,21 +144,18 @@ def check_cells(export, faults):
             faults.add("convex", f"cell {c} repeats a corner")
         elif any(side(a, b, p) < 0 for a, b in edges(polygon) for p in polygon):
             faults.add("convex", f"cell {c} is not convex and counter-clockwise")
-        slack = export.slack
-        if any(not (x0 - slack <= x <= x1 + slack and y0 - slack <= y <= y1 + slack)
-               for x, y in polygon):
+        if any(not (x0 <= x <= x1 and y0 <= y <= y1) for x, y in polygon):
             faults.add("bounds", f"cell {c} leaves the bounds")
     whole = 2 * (x1 - x0) * (y1 - y0)
-    if abs(total - whole) > (whole // 2**24 if export.rounded else 0):
+    if total != whole:
         faults.add("area", "cells' areas do not add up to the bounds'")
     boxes = [box(polygon) for polygon in export.cells]
     for i, k in overlapping(boxes, boxes):
-        if i < k and not (separated(export.cells[i], export.cells[k], export.slack) or
-                          separated(export.cells[k], export.cells[i], export.slack)):
+        if i < k and not (separated(export.cells[i], export.cells[k]) or
+                          separated(export.cells[k], export.cells[i])):
             faults.add("overlap", f"cells {i} and {k}")
     for c, w in overlapping(boxes, [box(wall) for wall in export.walls]):
-        if (depth(export.cells[c], export.walls[w]) > export.slack if export.rounded
-                else enters(export.cells[c], export.walls[w])):
+        if enters(export.cells[c], export.walls[w]):
             faults.add("wall inside", f"wall {w} passes through cell {c}")
 
 
@@ -236,40 +200,6 @@ def boundary(export, faults):
                 ring += [(q[0], q[1], n) for p, q, n in pieces]
             else:
                 ring += [(p[0], p[1], n) for p, q, n in reversed(pieces)]
-        rings.append(ring)
-    return rings, free
-
-
-def near(wall, p, slack):
-    """Whether a point is on a wall but for the slack."""
-    a, b = wall
-    long = length(a, b)
-    if long == 0:
-        return False
-    along = ((p[0] - a[0]) * (b[0] - a[0]) + (p[1] - a[1]) * (b[1] - a[1])) / long
-    return -slack <= along <= long + slack and abs(side(a, b, p)) <= slack * long
-
-
-def boundary_rounded(export, faults):
-    """As boundary, for rounded corners: each side of a cell is as a whole portal, wall or border."""
-    beyond = {}
-    for c, polygon in enumerate(export.cells):
-        for a, b in edges(polygon):
-            beyond.setdefault((a, b), []).append(c)
-    listed = {(min(p), max(p)) + tuple(sorted(cells)) for cells, p in export.portals}
-    rings, free = [], set()
-    for c, polygon in enumerate(export.cells):
-        ring = []
-        for a, b in edges(polygon):
-            others = [n for n in beyond.get((b, a), ())
-                      if (min(a, b), max(a, b), min(c, n), max(c, n)) in listed]
-            if others:
-                free.add((min(c, others[0]), max(c, others[0]), min(a, b), max(a, b)))
-            elif not on_border(export.bounds, a, b) and not any(
-                    near(w, a, export.slack) and near(w, b, export.slack) for w in export.walls):
-                faults.add("gap", f"cell {c} ends from {export.text(a)} to {export.text(b)}, "
-                                  f"where no wall is")
-            ring.append((b[0], b[1], others[0] if others else -1))
         rings.append(ring)
     return rings, free
 
@@ -482,10 +412,10 @@ def check_segments(export, rings, rows, count, sampler, faults):
         follow(rings, a, p, (q[0] - p[0], q[1] - p[1]), way)
         clear = not any(meets(p, q, *wall) for wall in walls)
         free += clear
-        if b in way and not clear and not export.rounded:
+        if b in way and not clear:
             faults.add("checker", f"followed from {export.text(p, SCALE)} to "
                                   f"{export.text(q, SCALE)} past a wall")
-        if clear and b not in way and not export.rounded and not touches_corner(export, p, q):
+        if clear and b not in way and not touches_corner(export, p, q):
             faults.add("checker", f"lost the way from {export.text(p, SCALE)} to "
                                   f"{export.text(q, SCALE)}")
         if clear and rows[a] and rows[b] and not rows[a] >> b & 1:
@@ -541,7 +471,7 @@ def check(data, sightlines, segments=0, tight=0, seed=1, inside_only=False):
     check_cells(export, faults)
     rings, free = [], set()
     if not faults:
-        rings, free = (boundary_rounded if export.rounded else boundary)(export, faults)
+        rings, free = boundary(export, faults)
         check_portals(export, free, faults)
     rows = check_pvs(export, inside_only, faults)
     done = (f"{len(export.cells)} cells, {len(export.portals)} portals, {len(export.walls)} walls, "

@@ -85,7 +85,7 @@ static inline bool testing_same_rows(const sl_pvs *a, const sl_pvs *b) {
 
 /// Cleans a map and cuts it as it calls for.
 static inline void testing_subdivide(sl_context *context, sl_map *map, sl_space *space) {
-    assert_ok(context, sl_map_clean(context, map, NULL));
+    assert_ok(context, sl_map_clean(context, map, NULL, NULL));
     assert_ok(context, sl_subdivision_for(map)->subdivide(context, map, NULL, space));
 }
 

@@ -91,6 +91,7 @@ sl_status sl_bake_report_print_json(sl_context *context, const sl_bake_report *r
     add_seconds(&fields, report);
     sl_json_add_cleaning(&fields, "cleaning", &report->cleaning);
     sl_json_add_count(&fields, "walls", space->wall_count);
+    sl_json_add_count(&fields, "welded", report->cleaning.welded);
     sl_json_add_count(&fields, "cells", space->cell_count);
     sl_json_add_count(&fields, "inside_cells", space->inside_count);
     sl_json_add_count(&fields, "portals", space->portal_count);
@@ -104,12 +105,38 @@ sl_status sl_bake_report_print_json(sl_context *context, const sl_bake_report *r
 
 // --- text
 
-void sl_cleaning_print(const sl_clean_account *account) {
-    if (account->zero_length || account->duplicate || account->merged || account->split)
-        printf(", from %zu read: %zu of zero length, %zu duplicate, %zu merged, %zu split",
-               account->before, account->zero_length, account->duplicate, account->merged,
-               account->split);
+static void print_welding(const sl_clean_account *account) {
+    const char *between = "";
+    printf("  welded    ");
+    if (account->welded) {
+        printf("%zu end%s", account->welded, account->welded == 1 ? "" : "s");
+        between = ", ";
+    }
+    if (account->crossings)
+        printf("%s%zu crossing%s computed", between, account->crossings,
+               account->crossings == 1 ? "" : "s");
+    if (account->largest_move > 0)
+        printf("; no wall moved by more than %.2g", account->largest_move);
     putchar('\n');
+}
+
+void sl_cleaning_print(const sl_clean_account *account) {
+    const struct {
+        size_t count;
+        const char *what;
+    } done[] = {{account->zero_length, "of zero length"},
+                {account->duplicate, "duplicate"},
+                {account->merged, "merged"},
+                {account->split, "split"}};
+    bool any = false;
+    for (size_t i = 0; i < sizeof done / sizeof *done; i++) {
+        if (!done[i].count) continue;
+        if (!any) printf(", from %zu read", account->before);
+        printf("%s %zu %s", any ? "," : ":", done[i].count, done[i].what);
+        any = true;
+    }
+    putchar('\n');
+    if (account->welded || account->crossings) print_welding(account);
 }
 
 static void print_parts(const sl_bake_report *report) {
@@ -189,8 +216,10 @@ sl_status sl_bake_report_print(sl_context *context, const sl_bake_report *report
     printf("%s: %s, baked from %s\n", report->output, file, report->input);
     printf("  walls     %" PRIu32, space->wall_count);
     sl_cleaning_print(&report->cleaning);
-    printf("  cells     %" PRIu32 ", %" PRIu32 " of them inside; tree depth %" PRIu32 "\n",
-           space->cell_count, space->inside_count, space->tree_depth);
+    printf("  cells     %" PRIu32 ", %" PRIu32 " of them inside", space->cell_count,
+           space->inside_count);
+    if (space->node_count) printf("; tree depth %" PRIu32, space->tree_depth);
+    putchar('\n');
     printf("  portals   %" PRIu32 "\n", space->portal_count);
     sl_plan_print(&report->baked->map);
     print_parts(report);

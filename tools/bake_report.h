@@ -16,7 +16,7 @@ typedef struct sl_bake_report {
     } seconds;
 } sl_bake_report;
 
-/// What cleaning did, if anything, and the end of the line.
+/// What cleaning did, if anything: the rest of a line, and a line on welding.
 void sl_cleaning_print(const sl_clean_account *account);
 
 sl_status sl_bake_report_print(sl_context *context, const sl_bake_report *report);

@@ -167,10 +167,9 @@ static void keep_rest_of_map(sl_context *context, sl_map *map, sl_baked *baked) 
 
 static sl_status read_and_clean(sl_context *context, bake_plan *plan, sl_map *map,
                                 sl_bake_report *report) {
-    SL_TRY(sl_pipeline_read(context, &plan->pipeline, map));
+    SL_TRY(sl_pipeline_read_clean(context, &plan->pipeline, map, &report->cleaning));
     SL_TRY(fit_method(context, map, plan));
-    SL_TRY(sl_see_check(context, plan->method, plan->see.solver, map));
-    return sl_map_clean(context, map, &report->cleaning);
+    return sl_see_check(context, plan->method, plan->see.solver, map);
 }
 
 static sl_status subdivide(sl_context *context, const bake_plan *plan, const sl_map *map,
@@ -180,7 +179,7 @@ static sl_status subdivide(sl_context *context, const bake_plan *plan, const sl_
     report->seconds.subdivide = lap(time);
     SL_TRY(sl_pipeline_check(context, &plan->pipeline, space));
     report->seconds.check = lap(time);
-    report->checked = plan->pipeline.check;
+    report->checked = sl_pipeline_checks(&plan->pipeline, space);
     return SL_OK;
 }
 
@@ -192,6 +191,15 @@ static sl_status see(sl_context *context, const bake_plan *plan, sl_baked *baked
     sl_see_options options = plan->see;
     options.plan = &effects;
     return sl_bake_parts_see(context, &plan->parts, plan->method, &options, baked, &report->parts);
+}
+
+/// With --check, that what was written can be read.
+static sl_status check_file(sl_context *context, const bake_plan *plan) {
+    sl_baked again = {0};
+    if (!plan->pipeline.check) return SL_OK;
+    SL_TRY(sl_baked_read_part(context, plan->output, &again));
+    sl_baked_destroy(context, &again);
+    return SL_OK;
 }
 
 static sl_status bake(sl_context *context, bake_plan *plan, sl_map *map, sl_baked *baked,
@@ -210,7 +218,7 @@ static sl_status bake(sl_context *context, bake_plan *plan, sl_map *map, sl_bake
     if (plan->named_by_map) sl_note(context, "writing %s, as no -o is given", plan->output);
     SL_TRY(sl_baked_write(context, baked, plan->output));
     report->seconds.write = lap(&time);
-    return SL_OK;
+    return check_file(context, plan);
 }
 
 static sl_status bake_and_report(sl_console *console, bake_plan *plan) {

@@ -38,7 +38,7 @@ static void destroy(sl_context *context, checked *c) {
 
 /// Subdivides and looks for faults; c->map is there, and c->baked.map is a copy to be cleaned.
 static sl_status examine(sl_context *context, const check_plan *plan, checked *c) {
-    SL_TRY(sl_map_clean(context, &c->baked.map, NULL));
+    SL_TRY(sl_input_clean(context, &plan->pipeline.texts, &c->baked.map, NULL));
     SL_TRY(sl_pipeline_subdivide(context, &plan->pipeline, &c->baked.map, &c->baked.space));
     SL_TRY(sl_pipeline_check(context, &plan->pipeline, &c->baked.space));
     return sl_find_faults(context, &c->map, &c->baked.space, &plan->faults, &c->faults);

@@ -211,12 +211,28 @@ static sl_status write_files(sl_context *context, const compare_plan *plan, cons
 static sl_status prepare(sl_context *context, comparing *all) {
     const sl_pipeline *pipeline = &all->plan->pipeline;
     SL_TRY(list_runs(context, all));
-    SL_TRY(sl_pipeline_read(context, pipeline, &all->map));
+    SL_TRY(sl_pipeline_read_clean(context, pipeline, &all->map, NULL));
     refuse_effects(context, all);
     SL_TRY(fail_if_all_refuse(context, all));
-    SL_TRY(sl_map_clean(context, &all->map, NULL));
     SL_TRY(sl_pipeline_subdivide(context, pipeline, &all->map, &all->space));
     return sl_pipeline_check(context, pipeline, &all->space);
+}
+
+/// Where the map leaves the choice, what each subdivision makes of it.
+static sl_status time_subdivisions(sl_console *console, const comparing *all,
+                                   sl_comparison *comparison) {
+    const compare_plan *plan = all->plan;
+    const sl_compare_run *like = &all->runs.items[all->order[0]];
+    if (plan->pipeline.subdivision || all->map.cell_count || !sl_map_is_axial(&all->map))
+        return SL_OK;
+    for (size_t i = 1; i < all->runs.count && like->guarantee != SL_EXACT; i++)
+        like = &all->runs.items[all->order[i]];
+    if (like->guarantee != SL_EXACT || like->outcome != SL_RUN_DONE) return SL_OK;
+    sl_see_options see = plan->see;
+    const sl_plan effects = sl_plan_make(&all->map);
+    see.plan = &effects;
+    return sl_compare_subdivisions_time(console, &all->map, &see, &plan->timing, like,
+                                        &comparison->subdivisions);
 }
 
 /// `folder` is NULL without -o.
@@ -236,6 +252,7 @@ static sl_status compare(sl_console *console, comparing *all, const sl_folder *f
                            .order = all->order,
                            .reference = sl_compare_reference(all->runs.items, all->runs.count),
                            .limit = all->plan->timing.limit};
+    SL_TRY(time_subdivisions(console, all, out));
     return folder ? write_files(context, all->plan, folder, out) : SL_OK;
 }
 
@@ -281,9 +298,8 @@ static sl_status compare_eye(sl_console *console, comparing *all, const sl_folde
                              sl_compare_eye *out) {
     sl_context *context = console->context;
     const sl_pipeline *pipeline = &all->plan->pipeline;
-    SL_TRY(sl_pipeline_read(context, pipeline, &all->map));
+    SL_TRY(sl_pipeline_read_clean(context, pipeline, &all->map, NULL));
     SL_TRY(sl_effects_check(context, &all->map, "compare --eye", 0));
-    SL_TRY(sl_map_clean(context, &all->map, NULL));
     SL_TRY(sl_pipeline_subdivide(context, pipeline, &all->map, &all->space));
     SL_TRY(sl_pipeline_check(context, pipeline, &all->space));
     SL_TRY(sl_compare_eye_run(console, &all->plan->eye, &all->space, all->plan->see.sight, out));

@@ -9,7 +9,7 @@ static sl_status convert(sl_context *context, const char *input, const sl_input_
                          bool clean, const char *output) {
     sl_map map = {0};
     SL_TRY(sl_input_read_either(context, input, texts, &map));
-    sl_status status = clean ? sl_map_clean(context, &map, NULL) : SL_OK;
+    sl_status status = clean ? sl_input_clean(context, texts, &map, NULL) : SL_OK;
     if (status == SL_OK)
         status = sl_input_ends_with(output, ".txt") ? sl_map_write_plan(context, &map, output)
                                                     : sl_map_write_text(context, &map, output);
@@ -26,7 +26,8 @@ sl_status sl_cmd_convert(sl_console *console, int argc, char **argv) {
          "map text or an ASCII plan, by the ending;\nwithout it, or for -, map text on stdout"},
         SL_INPUT_OPTIONS(texts),
         {"clean", 0, NULL, &clean, NULL,
-         "merge and split walls as bake does before it\nsubdivides; without it they stay as read"},
+         "weld, merge and split walls as bake does before it\nsubdivides (default: they stay as "
+         "read)"},
     };
     const sl_command_usage usage = {
         .name = "convert",
@@ -44,6 +45,9 @@ sl_status sl_cmd_convert(sl_console *console, int argc, char **argv) {
     bool helped;
     SL_TRY(sl_option_parse(console, &usage, argc, argv, &input, &helped));
     if (helped) return SL_OK;
+    if (texts.weld && !clean)
+        return sl_fail(console->context, SL_BAD_ARGUMENT,
+                       "--weld is for --clean, which is not given");
     if (!output) output = "-";
     const bool to_stdout = output[0] == '-' && !output[1];
     if (!to_stdout && !sl_input_ends_with(output, ".map") && !sl_input_ends_with(output, ".txt"))

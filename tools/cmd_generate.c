@@ -8,7 +8,7 @@
 
 /// The options as they are given.
 typedef struct generate_texts {
-    const char *output, *seed, *size, *walls, *open, *turned;
+    const char *output, *seed, *size, *walls, *open, *turned, *exact;
 } generate_texts;
 
 static sl_name_table kind_table(void) {
@@ -32,7 +32,11 @@ static sl_status read_options(sl_context *context, const generate_texts *t,
     SL_TRY(sl_option_count(context, "--size", t->size, UINT32_MAX, &options->size));
     SL_TRY(sl_option_count(context, "--walls", t->walls, SL_GENERATE_WALLS_MOST, &options->walls));
     SL_TRY(sl_option_number(context, "--open", t->open, &options->open));
+    if (t->turned && t->exact)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--turned and --turned-exact: give one of them");
     SL_TRY(sl_option_number(context, "--turned", t->turned, &options->turned));
+    SL_TRY(sl_option_number(context, "--turned-exact", t->exact, &options->turned));
+    options->in_line = t->exact != NULL;
     // In the library these stand for what is not asked for.
     if (t->size && !options->size)
         return sl_fail(context, SL_BAD_ARGUMENT, "--size 0: at least 1 is needed");
@@ -70,7 +74,10 @@ sl_status sl_cmd_generate(sl_console *console, int argc, char **argv) {
         {"open", 0, "PERCENT", NULL, &t.open,
          "tunnels: the share that is open, 40 unless told; of one\nseed the same network"},
         {"turned", 0, "DEG", NULL, &t.turned,
-         "turn the plan counter-clockwise: walls are then oblique"},
+         "turn the plan counter-clockwise, in doubles: walls are\nthen oblique, and in line but "
+         "for rounding"},
+        {"turned-exact", 0, "DEG", NULL, &t.exact,
+         "turn it so that walls in line stay in line to the\nlast bit"},
     };
     const sl_command_usage usage = {
         .name = "generate",

@@ -173,7 +173,7 @@ static sl_status inform_of_map(sl_console *console, const info_request *request)
     sl_clean_account cleaning;
     SL_TRY(sl_input_read_map(console->context, request->path, &request->texts, &map));
     const size_t oblique = sl_map_count_oblique(&map);
-    sl_status status = sl_map_clean(console->context, &map, &cleaning);
+    sl_status status = sl_input_clean(console->context, &request->texts, &map, &cleaning);
     sl_progress_line_clear(&console->line);
     if (status == SL_OK && request->json)
         status = print_map_json(console->context, request, &map, oblique, &cleaning);
@@ -191,11 +191,16 @@ typedef struct baked_part {
     uint64_t count, bytes;
 } baked_part;
 
-enum { BAKED_PARTS = 10 };
+enum { BAKED_PARTS = 11 };
 
 static uint64_t pvs_bytes(const sl_pvs *pvs) {
     if (!pvs->cell_count) return 0;
     return ((uint64_t)pvs->cell_count + 1) * sizeof *pvs->offsets + pvs->offsets[pvs->cell_count];
+}
+
+static uint64_t grid_bytes(const sl_cell_grid *grid) {
+    const uint64_t buckets = (uint64_t)grid->columns * grid->rows;
+    return buckets ? (buckets + 1 + grid->entry_count) * sizeof *grid->cells : 0;
 }
 
 static void list_parts(const sl_baked *baked, baked_part parts[BAKED_PARTS]) {
@@ -211,6 +216,7 @@ static void list_parts(const sl_baked *baked, baked_part parts[BAKED_PARTS]) {
         {"portals", space->portal_count, space->portal_count * sizeof *space->portals},
         {"exits", space->exit_count, space->exit_count * sizeof *space->exits},
         {"nodes", space->node_count, space->node_count * sizeof *space->nodes},
+        {"buckets", (uint64_t)space->grid.columns * space->grid.rows, grid_bytes(&space->grid)},
         {"pairs", visibility->account.pairs, baked->by_views ? 0 : pvs_bytes(&visibility->pvs)},
         {"doubtful_pairs", visibility->account.doubtful_pairs, pvs_bytes(&visibility->doubtful)},
         {"stab_tree_nodes", tree_nodes, tree_bytes},
@@ -261,14 +267,16 @@ static void print_baked(const info_request *request, const sl_baked *baked,
     char partial[SL_PARTIAL_TEXT];
     sl_baked_say_partial(baked, partial);
     if (partial[0]) printf("  %s\n", partial);
-    printf("  inside    %" PRIu32 " of %" PRIu32 " cells; tree depth %" PRIu32 "\n",
-           space->inside_count, space->cell_count, space->tree_depth);
+    printf("  inside    %" PRIu32 " of %" PRIu32 " cells", space->inside_count, space->cell_count);
+    if (space->node_count) printf("; tree depth %" PRIu32, space->tree_depth);
+    putchar('\n');
     sl_mean_pvs_print(mean);
     if (trees->cell_count)
         printf("  trees     %" PRIu32 " of %" PRIu32 " stab trees left out\n", trees->left_out,
                trees->cell_count);
     printf("  %-16s %12s %12s\n", "part", "count", "in memory");
     for (int i = 0; i < BAKED_PARTS; i++) {
+        if (!parts[i].count) continue;
         sl_size_write(parts[i].bytes, size);
         printf("  %-16s %12" PRIu64 " %12s\n", parts[i].name, parts[i].count, size);
     }

@@ -109,9 +109,8 @@ static sl_status read_space(sl_context *context, const isovist_plan *plan, sl_ba
         SL_TRY(sl_input_read_baked(context, t->input, baked));
         return check_effects(context, &baked->map);
     }
-    SL_TRY(sl_pipeline_read(context, &plan->pipeline, &baked->map));
+    SL_TRY(sl_pipeline_read_clean(context, &plan->pipeline, &baked->map, NULL));
     SL_TRY(check_effects(context, &baked->map));
-    SL_TRY(sl_map_clean(context, &baked->map, NULL));
     SL_TRY(sl_pipeline_subdivide(context, &plan->pipeline, &baked->map, &baked->space));
     return sl_pipeline_check(context, &plan->pipeline, &baked->space);
 }

@@ -14,22 +14,21 @@ enum { GRIDS_MOST = 8 };
 
 /// The options as they are given.
 typedef struct regions_texts {
-    sl_input_texts input;
+    sl_pipeline_texts pipeline; ///< its input, and what to leave out
     sl_option_list also;
     const char *also_text, *output, *grid, *view_cells, *objects, *groups, *solver, *stab, *sight;
-    const char *points, *pixels, *seed, *threads, *without;
+    const char *points, *pixels, *seed, *threads;
     bool cut, dark;
 } regions_texts;
 
 /// The options as they are meant.
 typedef struct regions_plan {
     const regions_texts *texts;
-    const char *input;
+    sl_pipeline pipeline;
     sl_regions_options what;
     sl_from_region_options how;
     uint32_t grids[GRIDS_MOST];
     size_t grid_count;
-    unsigned without;
 } regions_plan;
 
 static const char *const file_names[] = {"regions.csv", "refine.png", "refine.svg",
@@ -121,10 +120,8 @@ static sl_status plan_how(sl_context *context, const regions_texts *t, regions_p
 
 static sl_status make_plan(sl_context *context, const char *input, const regions_texts *t,
                            regions_plan *plan) {
-    sl_effect_names list;
-    const sl_name_table effects = sl_effect_table(&list);
-    *plan = (regions_plan){.texts = t, .input = input};
-    SL_TRY(sl_option_choices(context, "--without", t->without, &effects, &plan->without));
+    *plan = (regions_plan){.texts = t};
+    SL_TRY(sl_pipeline_plan(context, input, &t->pipeline, &plan->pipeline));
     SL_TRY(plan_what(context, t, plan));
     return plan_how(context, t, plan);
 }
@@ -134,18 +131,16 @@ static sl_status make_plan(sl_context *context, const char *input, const regions
 static sl_status measure_map(sl_context *context, const regions_plan *plan, const char *path,
                              uint32_t grid, sl_regions_rows *rows) {
     sl_map map = {0};
+    sl_pipeline pipeline = plan->pipeline;
+    pipeline.input = path;
     sl_regions_options what = plan->what;
     what.grid = grid;
     char name[48];
     size_t length;
     const char *base = sl_input_base_name(path, &length);
     snprintf(name, sizeof name, "%.*s", (int)length, base);
-    sl_status status = sl_input_read_map(context, path, &plan->texts->input, &map);
-    if (status == SL_OK) {
-        sl_effects_leave_out(context, &map, plan->without);
-        status = sl_effects_check(context, &map, "regions", 0);
-    }
-    if (status == SL_OK) status = sl_map_clean(context, &map, NULL);
+    sl_status status = sl_pipeline_read_clean(context, &pipeline, &map, NULL);
+    if (status == SL_OK) status = sl_effects_check(context, &map, "regions", 0);
     if (status == SL_OK) status = sl_regions_measure(context, &map, name, &what, &plan->how, rows);
     sl_map_destroy(context, &map);
     return status;
@@ -153,7 +148,7 @@ static sl_status measure_map(sl_context *context, const regions_plan *plan, cons
 
 static sl_status measure_all(sl_context *context, const regions_plan *plan, sl_regions_rows *rows) {
     for (size_t i = 0; i < plan->grid_count; i++) {
-        SL_TRY(measure_map(context, plan, plan->input, plan->grids[i], rows));
+        SL_TRY(measure_map(context, plan, plan->pipeline.input, plan->grids[i], rows));
         for (size_t k = 0; k < plan->texts->also.count; k++)
             SL_TRY(measure_map(context, plan, plan->texts->also.items[k], plan->grids[i], rows));
     }
@@ -224,8 +219,8 @@ sl_status sl_cmd_regions(sl_console *console, int argc, char **argv) {
         {"sight", 0, "closed|open", NULL, &t.sight, "stabs: whether grazing lines count; closed"},
         {"threads", 0, "N", NULL, &t.threads, "0, the default, for one a core"},
         {"dark", 0, NULL, &t.dark, NULL, "charts light on dark"},
-        SL_INPUT_OPTIONS(t.input),
-        {"without", 0, "EFFECT,...", NULL, &t.without, "leave out what the map calls for"},
+        SL_INPUT_OPTIONS(t.pipeline.input),
+        {"without", 0, "EFFECT,...", NULL, &t.pipeline.without, "leave out what the map calls for"},
     };
     const sl_command_usage usage = {
         .name = "regions",

@@ -172,9 +172,8 @@ static sl_status make_plan(sl_context *context, const viewcells_texts *t, viewce
 static sl_status read_space(sl_context *context, viewcells_plan *plan, sl_view_run *run) {
     sl_baked *baked = &run->baked;
     const double start = sl_view_clock();
-    SL_TRY(sl_pipeline_read(context, &plan->pipeline, &baked->map));
+    SL_TRY(sl_pipeline_read_clean(context, &plan->pipeline, &baked->map, NULL));
     SL_TRY(sl_effects_check(context, &baked->map, "viewcells", 0));
-    SL_TRY(sl_map_clean(context, &baked->map, NULL));
     const double read = sl_view_clock();
     SL_TRY(sl_pipeline_subdivide(context, &plan->pipeline, &baked->map, &baked->space));
     run->seconds.read = read - start;

@@ -141,9 +141,8 @@ static sl_status read_space(sl_context *context, const walk_plan *plan, sl_baked
         SL_TRY(sl_effects_check(context, &baked->map, "walk", SL_EFFECT_DOOR));
         return sl_doors_shut(context, t->shut, baked);
     }
-    SL_TRY(sl_pipeline_read(context, &plan->pipeline, &baked->map));
+    SL_TRY(sl_pipeline_read_clean(context, &plan->pipeline, &baked->map, NULL));
     SL_TRY(sl_effects_check(context, &baked->map, "walk", SL_EFFECT_DOOR));
-    SL_TRY(sl_map_clean(context, &baked->map, NULL));
     SL_TRY(sl_pipeline_subdivide(context, &plan->pipeline, &baked->map, &baked->space));
     SL_TRY(sl_pipeline_check(context, &plan->pipeline, &baked->space));
     return sl_doors_shut(context, t->shut, baked);

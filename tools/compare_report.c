@@ -122,6 +122,7 @@ void sl_compare_print(const sl_comparison *comparison) {
         print_run(comparison, &comparison->runs[comparison->order[i]]);
     print_all_stabbing(comparison);
     print_verdict(comparison);
+    sl_compare_subdivisions_print(&comparison->subdivisions);
 }
 
 // --- JSON
@@ -171,6 +172,7 @@ sl_status sl_compare_print_json(sl_context *context, const sl_comparison *compar
     sl_json_add_real(&fields, "time_limit", comparison->limit);
     sl_json_add_text(&fields, "reference", reference[0] ? reference : NULL);
     sl_json_add_list(&fields, "runs", runs, comparison->run_count);
+    sl_compare_subdivisions_add_json(&fields, &comparison->subdivisions);
     sl_free(context, runs);
     return sl_json_print(context, &fields);
 }

@@ -3,6 +3,7 @@
 #define COMPARE_REPORT_H
 
 #include "compare_judge.h"
+#include "compare_subdivisions.h"
 
 typedef struct sl_comparison {
     const char *input; ///< the map's file
@@ -13,6 +14,7 @@ typedef struct sl_comparison {
     const size_t *order; ///< of the runs: see sl_compare_order
     size_t reference;    ///< see sl_compare_reference
     double limit;        ///< seconds that a run was given
+    sl_compare_subdivisions subdivisions;
 } sl_comparison;
 
 enum { SL_RUN_NAME = 64 };

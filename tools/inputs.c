@@ -75,6 +75,16 @@ sl_status sl_input_read_map(sl_context *context, const char *path, const sl_inpu
     return sl_map_read(context, path, &options, map);
 }
 
+sl_status sl_input_clean(sl_context *context, const sl_input_texts *texts, sl_map *map,
+                         sl_clean_account *account) {
+    sl_clean_options options = sl_clean_options_default();
+    SL_TRY(sl_option_number(context, "--weld", texts->weld, &options.weld));
+    if (texts->weld && options.weld < 0)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--weld %s: 0 or a number over 0 is needed",
+                       texts->weld);
+    return sl_map_clean(context, map, &options, account);
+}
+
 sl_status sl_input_refuse_texts(sl_context *context, const char *path,
                                 const sl_input_texts *texts) {
     const char *given = texts->map         ? "map"
@@ -83,6 +93,7 @@ sl_status sl_input_refuse_texts(sl_context *context, const char *path,
                         : texts->tolerance ? "tolerance"
                         : texts->unit      ? "unit"
                         : texts->threshold ? "threshold"
+                        : texts->weld      ? "weld"
                         : texts->doors     ? "doors"
                         : texts->sectors   ? "sectors"
                                            : NULL;

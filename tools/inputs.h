@@ -14,7 +14,7 @@ const char *sl_input_base_name(const char *path, size_t *length);
 
 /// The options of reading a map, as they are given.
 typedef struct sl_input_texts {
-    const char *map, *slice, *layers, *tolerance, *unit, *threshold;
+    const char *map, *slice, *layers, *tolerance, *unit, *threshold, *weld;
     bool doors, sectors;
     bool cells; ///< the file's own cells are asked for
 } sl_input_texts;
@@ -30,6 +30,13 @@ typedef struct sl_input_texts {
         {"unit",        0,                                                                         \
          "UNIT",        NULL,                                                                      \
          &(texts).unit, "of a drawing, turned into this: mm cm m km in ft yd"},                    \
+        {"weld",                                                                                   \
+         0,                                                                                        \
+         "T",                                                                                      \
+         NULL,                                                                                     \
+         &(texts).weld,                                                                            \
+         "join wall ends up to this far apart, in map units;\n0: none (default: on oblique maps, " \
+         "2^-46 of the\nlargest coordinate)"},                                                     \
         {"threshold",                                                                              \
          0,                                                                                        \
          "T",                                                                                      \
@@ -50,6 +57,10 @@ typedef struct sl_input_texts {
 /// Reads a map file. A baked file is refused.
 sl_status sl_input_read_map(sl_context *context, const char *path, const sl_input_texts *texts,
                             sl_map *map);
+
+/// Cleans a map as --weld asks for. `account` may be NULL.
+sl_status sl_input_clean(sl_context *context, const sl_input_texts *texts, sl_map *map,
+                         sl_clean_account *account);
 
 /// Reads a baked file. A map file, which is known by its ending, is refused with how to bake it.
 sl_status sl_input_read_baked(sl_context *context, const char *path, sl_baked *baked);

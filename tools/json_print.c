@@ -94,6 +94,9 @@ void sl_json_add_cleaning(sl_json_fields *fields, const char *key,
     sl_json_add_count(&cleaning, "duplicate", account->duplicate);
     sl_json_add_count(&cleaning, "merged", account->merged);
     sl_json_add_count(&cleaning, "split", account->split);
+    sl_json_add_count(&cleaning, "welded", account->welded);
+    sl_json_add_count(&cleaning, "crossings", account->crossings);
+    sl_json_add_real(&cleaning, "largest_move", account->largest_move);
     sl_json_add_fields(fields, key, &cleaning);
 }
 

@@ -86,6 +86,12 @@ sl_status sl_pipeline_read(sl_context *context, const sl_pipeline *pipeline, sl_
     return SL_OK;
 }
 
+sl_status sl_pipeline_read_clean(sl_context *context, const sl_pipeline *pipeline, sl_map *map,
+                                 sl_clean_account *account) {
+    SL_TRY(sl_pipeline_read(context, pipeline, map));
+    return sl_input_clean(context, &pipeline->texts, map, account);
+}
+
 const sl_subdivision *sl_pipeline_subdivision(const sl_pipeline *pipeline, const sl_map *map) {
     return pipeline->subdivision ? pipeline->subdivision : sl_subdivision_for(map);
 }
@@ -96,9 +102,13 @@ sl_status sl_pipeline_subdivide(sl_context *context, const sl_pipeline *pipeline
     return subdivision->subdivide(context, map, &pipeline->options, space);
 }
 
+bool sl_pipeline_checks(const sl_pipeline *pipeline, const sl_space *space) {
+    return pipeline->check || space->beyond;
+}
+
 sl_status sl_pipeline_check(sl_context *context, const sl_pipeline *pipeline,
                             const sl_space *space) {
-    return pipeline->check ? sl_space_check(context, space) : SL_OK;
+    return sl_pipeline_checks(pipeline, space) ? sl_space_check(context, space) : SL_OK;
 }
 
 sl_name_table sl_pipeline_solver_names(sl_solver solvers[SL_SOLVERS_MOST]) {
@@ -111,17 +121,14 @@ sl_name_table sl_pipeline_solver_names(sl_solver solvers[SL_SOLVERS_MOST]) {
 }
 
 void sl_pipeline_print_subdivisions(void) {
-    puts("\nsubdivisions (given where a map text brings cells; kd where all walls\nare axial, else "
-         "bsp):");
+    puts("\nsubdivisions (default: given where a map text brings cells, kd where all\nwalls are "
+         "axial, else mesh):");
     size_t count;
     const sl_subdivision *subdivisions = sl_subdivisions(&count);
     for (size_t i = 0; i < count; i++)
         printf("  %-12s%s\n", subdivisions[i].name, subdivisions[i].what);
-    const sl_bsp_options bsp = sl_bsp_options_default();
-    printf(
-        "              (kd's rules: spanning, obscured at a share of %g, cleaving, median;\n"
-        "              bsp's cost of a split: %g x walls cut + %g x imbalance - %g x obscured)\n",
-        sl_subdivide_options_default().obscured, bsp.cuts, bsp.imbalance, bsp.obscured);
+    printf("              (kd's rules: spanning, obscured at a share of %g, cleaving, median)\n",
+           sl_subdivide_options_default().obscured);
 }
 
 void sl_pipeline_print_effects(void) {

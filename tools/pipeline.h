@@ -18,10 +18,11 @@ typedef struct sl_pipeline_texts {
 #define SL_PIPELINE_OPTIONS(texts)                                                                 \
     {"subdivide",                                                                                  \
      0,                                                                                            \
-     "NAME",                                                                                       \
+     "kd|mesh|given",                                                                              \
      NULL,                                                                                         \
      &(texts).subdivide,                                                                           \
-     "how to cut the map into cells, if not as its walls\ncall for"},                              \
+     "how to cut the map into cells (default: given where\nthe map brings cells, kd on axial "     \
+     "maps, else mesh)"},                                                                          \
         {"kd-rules",                                                                               \
          0,                                                                                        \
          "RULE,...",                                                                               \
@@ -41,7 +42,8 @@ typedef struct sl_pipeline_texts {
          &(texts).start, "a start beside the map's own: starts tell inside\nfrom outside"},        \
         {"without", 0, "EFFECT,...", NULL, &(texts).without, "leave out what the map calls for"},  \
     {                                                                                              \
-        "check", 0, NULL, &(texts).check, NULL, "check the whole graph of cells and portals"       \
+        "check", 0, NULL, &(texts).check, NULL,                                                    \
+            "check the whole graph of cells and portals (for a\nmesh: always)"                     \
     }
 
 /// The options as they are meant.
@@ -60,6 +62,10 @@ sl_status sl_pipeline_plan(sl_context *context, const char *input, const sl_pipe
 /// Reads the map, adds the start asked for and leaves out the effects named.
 sl_status sl_pipeline_read(sl_context *context, const sl_pipeline *pipeline, sl_map *map);
 
+/// The same, and cleans the map. `account` may be NULL.
+sl_status sl_pipeline_read_clean(sl_context *context, const sl_pipeline *pipeline, sl_map *map,
+                                 sl_clean_account *account);
+
 /// The subdivision: the one asked for, or what the map's walls call for.
 const sl_subdivision *sl_pipeline_subdivision(const sl_pipeline *pipeline, const sl_map *map);
 
@@ -67,7 +73,11 @@ const sl_subdivision *sl_pipeline_subdivision(const sl_pipeline *pipeline, const
 sl_status sl_pipeline_subdivide(sl_context *context, const sl_pipeline *pipeline, const sl_map *map,
                                 sl_space *space);
 
-/// Checks the space where that is asked for.
+/// Whether the space is to be checked: where that is asked for, and each mesh, for which it costs
+/// little. What is baked is then never refused by those who read it.
+bool sl_pipeline_checks(const sl_pipeline *pipeline, const sl_space *space);
+
+/// Checks the space if it is to be.
 sl_status sl_pipeline_check(sl_context *context, const sl_pipeline *pipeline,
                             const sl_space *space);
 

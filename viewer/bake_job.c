@@ -83,7 +83,7 @@ static sl_status see_all(sl_context *context, sl_bake_job *job, const sl_plan *p
     options.solver = sl_funnel();
     snprintf(job->baked->method, sizeof job->baked->method, "%s", method->name);
     atomic_store(&job->space_ready, true);
-    SL_TRY(sl_see_check(context, method, options.solver, &job->map));
+    SL_TRY(sl_see_check(context, method, options.solver, &job->clean));
     SL_TRY(method->see(context, &job->baked->space, &options, &job->visibility));
     atomic_store(&job->seen_ready, true);
     return SL_OK;
@@ -104,13 +104,14 @@ static sl_status search_trees(sl_context *context, sl_bake_job *job, const sl_pl
 
 static sl_status bake(sl_context *context, sl_bake_job *job) {
     sl_baked *baked = job->baked;
-    // Of the job's own map: from space_ready on the other one is the main thread's.
-    sl_plan plan = sl_plan_make(&job->map);
+    SL_TRY(sl_map_copy(context, &job->map, &job->clean));
+    SL_TRY(sl_map_clean(context, &job->clean, NULL, NULL));
+    SL_TRY(sl_subdivision_for(&job->clean)->subdivide(context, &job->clean, NULL, &baked->space));
+    drop_walls(&job->clean);
+    SL_TRY(sl_map_copy(context, &job->clean, &baked->map));
+    // Not of the copy: from space_ready on that is the main thread's.
+    sl_plan plan = sl_plan_make(&job->clean);
     plan.mirror_depth = job->mirror_depth;
-    SL_TRY(sl_map_copy(context, &job->map, &baked->map));
-    SL_TRY(sl_map_clean(context, &baked->map, NULL));
-    SL_TRY(sl_subdivision_for(&baked->map)->subdivide(context, &baked->map, NULL, &baked->space));
-    drop_walls(&baked->map);
     SL_TRY(see_all(context, job, &plan));
     return search_trees(context, job, &plan);
 }
@@ -141,6 +142,7 @@ static void free_job(sl_context *context, sl_bake_job *job) {
     sl_visibility_destroy(context, &job->visibility);
     sl_visibility_destroy(context, &job->with_trees);
     sl_map_destroy(context, &job->map);
+    sl_map_destroy(context, &job->clean);
     sl_document_source_destroy(context, &job->source);
     sl_free(context, job);
 }

@@ -12,6 +12,7 @@ struct sl_bake_job {
     sl_document_source source; ///< what to read; no path: `map` is what to bake
     uint32_t mirror_depth;
     sl_map map;               ///< as drawn; filled by the job where it reads
+    sl_map clean;             ///< the job's, to the end
     sl_baked *baked;          ///< the job's until space_ready, then only its visibility is
     sl_visibility visibility; ///< the job's until seen_ready
     sl_visibility with_trees; ///< the same with stab trees, when `done`; empty where there are none

@@ -104,8 +104,9 @@ static void drop_baked(sl_context *context, sl_document *document) {
     if (document->search) sl_eye_search_destroy(context, document->search);
     document->search = NULL;
     sl_outline_destroy(context, &document->outline);
-    sl_splits_destroy(context, &document->splits);
-    if (document->areas) sl_free(context, document->areas);
+    sl_free(context, document->splits);
+    sl_free(context, document->areas);
+    document->splits = NULL;
     document->areas = NULL;
     if (document->baked) {
         sl_baked_destroy(context, document->baked);

@@ -36,7 +36,7 @@ typedef struct sl_document {
     sl_baked *baked;     ///< its space may be there before its visibility; NULL while nothing is
     bool has_visibility; ///< what cells see; stab trees come later, or not
     sl_outline outline;
-    sl_splits splits;
+    sl_split *splits; ///< of the kd-tree, by node
     sl_eye_search *search;
     double *areas;         ///< of the cells
     double area;           ///< of all cells that count

@@ -19,6 +19,8 @@ const sl_layer_row *sl_layer_rows(void) {
 
 bool sl_layers_lists(const sl_app *app, unsigned layer) {
     const unsigned calls = rows[layer].calls;
+    const sl_baked *baked = app->document.baked;
+    if (layer == SL_LAYER_NUMBER_SPLITS && baked && !baked->space.node_count) return false;
     return rows[layer].modes >> app->mode & 1 &&
            (!calls || calls & sl_plan_make(&app->document.map).effects);
 }

@@ -63,7 +63,8 @@ typedef struct sl_layer_row {
 /// SL_LAYER_COUNT of them.
 const sl_layer_row *sl_layer_rows(void);
 
-/// Whether a layer, by SL_LAYER_NUMBER_..., has its place in the present mode and map.
+/// Whether a layer, by SL_LAYER_NUMBER_..., has its place in the present mode and map. Splits are
+/// those of a kd-tree: a mesh has none.
 bool sl_layers_lists(const sl_app *app, unsigned layer);
 
 /// Whether it is on, too.

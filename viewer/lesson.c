@@ -19,6 +19,7 @@ const sl_subject *sl_lesson_subject(const sl_lesson *lesson) {
 
 void sl_lesson_forget(sl_context *context, sl_lesson *lesson) {
     sl_steps_destroy(context, &lesson->steps);
+    sl_mesh_steps_destroy(context, &lesson->mesh);
     sl_free(context, lesson->effects.items);
     memset(&lesson->effects, 0, sizeof lesson->effects);
     for (int i = 0; i < SL_PASSES; i++) sl_pass_destroy(context, &lesson->passes[i]);

@@ -9,6 +9,7 @@
 #include "draw/canvas.h"
 #include "sightline/dual.h"
 #include "sightline/steps.h"
+#include "space/mesh_steps.h"
 
 typedef struct sl_app sl_app;
 typedef struct sl_lesson sl_lesson;
@@ -69,7 +70,8 @@ struct sl_lesson {
     uint32_t version, source; ///< what was recorded: of which document, from which cell
     sl_steps steps;           ///< of the search
     SL_ARRAY(sl_effect_step) effects;
-    size_t split_count;        ///< of the subdivision
+    size_t subdivision_steps;
+    sl_mesh_steps mesh;        ///< of the subdivision, where it is a mesh
     sl_pass passes[SL_PASSES]; ///< of multipass, by quadrant
     uint32_t pass_cells;
     size_t at; ///< the step shown

@@ -1,21 +1,23 @@
-/// The lesson of the subdivision: the splits in the order in which they are made, by the kd-tree's
-/// rules or by the BSP's cost.
+/// The lesson of the subdivision: the splits of a kd-tree in the order in which they are made; or
+/// of a mesh the triangulation, and its sides as they are taken out or have to stay.
 #include "app.h"
-#include "draw/sight.h"
+#include "draw/marks.h"
+#include "draw/subdivision.h"
+#include "geometry/orient.h"
 
+#include <math.h>
 #include <stdio.h>
 
-static sl_status record(sl_context *context, sl_lesson *lesson, const sl_document *document,
-                        uint32_t source) {
-    (void)context;
-    (void)source;
-    lesson->split_count = document->splits.node_count;
-    return SL_OK;
+static bool is_mesh(const sl_document *document) {
+    return document->baked->space.beyond != NULL;
 }
 
-static size_t length(const sl_lesson *lesson) {
-    return lesson->split_count;
+/// Old files among oblique walls have neither splits nor a mesh.
+static bool fits(const sl_document *document) {
+    return !document->baked || !document->baked->space.loose;
 }
+
+// --- a kd-tree
 
 static const char *const kd_code[] = {
     "subdivide(box):",
@@ -27,63 +29,206 @@ static const char *const kd_code[] = {
     "    subdivide(below), subdivide(above)",
 };
 
-static const char *const bsp_code[] = {
-    "subdivide(cell):",
-    "    if no wall is inside cell: it is done",
-    "    for the lines of walls inside:",
-    "        cost = walls that it cuts + imbalance",
-    "            - share of it that walls cover",
-    "    split along the cheapest; where its wall goes on,",
-    "        split the cells there too",
-    "    subdivide(right of it), subdivide(left of it)",
-};
-
-static const char *const *code(const sl_lesson *lesson, const sl_document *document, size_t *count,
-                               size_t *lit) {
-    const bool is_bsp = document->baked->space.beyond != NULL;
-    (void)lesson;
-    *lit = 5; // every step is a split
-    *count = is_bsp ? sizeof bsp_code / sizeof *bsp_code : sizeof kd_code / sizeof *kd_code;
-    return is_bsp ? bsp_code : kd_code;
-}
-
-static void name_line(const sl_space *space, const sl_node *node, char text[160]) {
-    if (node->axis == 2) {
-        const sl_segment *line = &space->lines[node->line];
-        snprintf(text, 160, "from %.6g, %.6g to %.6g, %.6g", line->a.x, line->a.y, line->b.x,
-                 line->b.y);
-    } else {
-        snprintf(text, 160, "%s = %.6g", node->axis == 0 ? "x" : "y", node->position);
-    }
-}
-
-static void say(const sl_lesson *lesson, const sl_document *document, char text[SL_SENTENCE]) {
+static void say_split(const sl_document *document, uint32_t at, char text[SL_SENTENCE]) {
     const sl_space *space = &document->baked->space;
-    const uint32_t at = (uint32_t)lesson->at;
     const sl_node *node = &space->nodes[at];
-    const sl_splits *splits = &document->splits;
-    const bool shown = splits->first[at] < splits->first[at + 1];
-    const uint32_t depth = shown ? splits->splits.items[splits->first[at]].depth : 0;
-    char line[160];
-    name_line(space, node, line);
     snprintf(text, SL_SENTENCE,
-             "Split %u of %u, %u deep: the line %s, of which walls cover %.0f %% here; %s.", at + 1,
-             space->node_count, depth + 1, line, 100 * sl_splits_covered(splits, space, at),
+             "Split %u of %u, %u deep: the line %s = %.6g, of which walls cover %.0f %% here; %s.",
+             at + 1, space->node_count, document->splits[at].depth + 1, node->axis == 0 ? "x" : "y",
+             node->position, 100 * sl_splits_covered(document->splits, space, at),
              node->below < 0 && node->above < 0   ? "both sides are cells"
              : node->below < 0 || node->above < 0 ? "one side is a cell, the other goes on"
                                                   : "both sides go on");
 }
 
+// --- a mesh
+
+/// Steps before the sides, each of which is one; the cells as they are at last are one more.
+enum { WALLS, POINTS, DELAUNAY, TRIANGLES, FIRST_SIDE };
+
+static const char *const mesh_code[] = {
+    "subdivide(walls, seams):",
+    "    points = their ends, corners of the bounds",
+    "    triangles = Delaunay triangulation of points",
+    "    for each wall or seam that is no side:",
+    "        turn the sides that cross it",
+    "    for all other sides, the longest first:",
+    "        if a corner would turn right: it stays",
+    "        else: take it out",
+    "    cells = what triangles have become",
+};
+
+static size_t mesh_line(const sl_lesson *lesson) {
+    static const size_t lines[] = {[WALLS] = 0, [POINTS] = 1, [DELAUNAY] = 2, [TRIANGLES] = 4};
+    if (lesson->at < FIRST_SIDE) return lines[lesson->at];
+    const size_t place = lesson->at - FIRST_SIDE;
+    if (place == lesson->mesh.sides.count) return 8;
+    return lesson->mesh.sides.items[place].stuck == SL_OUTSIDE ? 7 : 6;
+}
+
+static const char *ending(size_t count) {
+    return count == 1 ? "" : "s";
+}
+
+/// Walls and seams that the triangulation of the points alone does not have.
+static size_t count_missing(const sl_mesh_steps *mesh) {
+    size_t count = 0;
+    for (size_t i = 0; i < mesh->triangles.halves.count / 2; i++)
+        count += mesh->fresh[i] && mesh->triangles.labels[i];
+    return count;
+}
+
+static void say_stage(const sl_lesson *lesson, const sl_space *space, char text[SL_SENTENCE]) {
+    const sl_mesh_steps *mesh = &lesson->mesh;
+    const size_t missing = count_missing(mesh), points = mesh->triangles.points.count;
+    if (lesson->at == WALLS)
+        snprintf(text, SL_SENTENCE, "%u wall%s and %u seam%s: cells must not run over them.",
+                 space->wall_count, ending(space->wall_count), space->seam_count,
+                 ending(space->seam_count));
+    else if (lesson->at == POINTS)
+        snprintf(text, SL_SENTENCE,
+                 "%zu points: all corners of cells will be among them, so no coordinate is ever "
+                 "computed.",
+                 points);
+    else if (lesson->at == DELAUNAY && missing)
+        snprintf(text, SL_SENTENCE,
+                 "No circle around a triangle has a point inside. %zu wall%s or seam%s (marked) "
+                 "cross%s sides.",
+                 missing, ending(missing), ending(missing), missing == 1 ? "es" : "");
+    else if (lesson->at == DELAUNAY)
+        snprintf(text, SL_SENTENCE,
+                 "No circle around a triangle has a point inside. All walls and seams are sides.");
+    else if (missing)
+        snprintf(text, SL_SENTENCE,
+                 "Sides that crossed a wall or seam are turned (blue): now all walls and seams are "
+                 "sides.");
+    else
+        snprintf(text, SL_SENTENCE, "No side has to be turned.");
+}
+
+static void say_side(const sl_mesh_steps *mesh, size_t place, char text[SL_SENTENCE]) {
+    const sl_mesh_side *side = &mesh->sides.items[place];
+    const sl_triangulation *t = &mesh->triangles;
+    const sl_point a = t->points.items[t->halves.items[side->half].from];
+    const sl_point b = t->points.items[sl_half_end(t, side->half)];
+    const int length = snprintf(text, SL_SENTENCE, "Side %zu of %zu, %.3g long", place + 1,
+                                mesh->sides.count, hypot(b.x - a.x, b.y - a.y));
+    if (side->stuck == SL_OUTSIDE) {
+        snprintf(text + length, SL_SENTENCE - (size_t)length,
+                 ": it is taken out, as the two cells make a convex one.");
+        return;
+    }
+    sl_point corner[3];
+    sl_mesh_steps_corner(mesh, place, corner);
+    snprintf(text + length, SL_SENTENCE - (size_t)length,
+             " stays: without it the corner at %.5g, %.5g would turn %s.", corner[1].x, corner[1].y,
+             sl_orient(corner[0], corner[1], corner[2]) ? "right" : "back");
+}
+
+static void say_cells(const sl_mesh_steps *mesh, const sl_document *document,
+                      char text[SL_SENTENCE]) {
+    const sl_space *space = &document->baked->space;
+    size_t stay = 0;
+    for (size_t i = 0; i < mesh->sides.count; i++) stay += mesh->sides.items[i].stuck != SL_OUTSIDE;
+    const int length = snprintf(text, SL_SENTENCE, "%zu sides are taken out, %zu stay as portals.",
+                                mesh->sides.count - stay, stay);
+    if (document->map.cell_count)
+        snprintf(text + length, SL_SENTENCE - (size_t)length,
+                 " The map has cells of its own too: with their sides as seams there are %u cells.",
+                 space->cell_count);
+    else
+        snprintf(text + length, SL_SENTENCE - (size_t)length, " %u cells are left.",
+                 space->cell_count);
+}
+
+/// Covers what the plan shows of the cells as they are at last.
+static void draw_ground(sl_app *app, const sl_frame *frame) {
+    const sl_box b = app->document.baked->space.bounds;
+    const sl_point corners[4] = {b.min, {b.max.x, b.min.y}, b.max, {b.min.x, b.max.y}};
+    sl_path_polygon(app->ui.cairo, frame, corners, 4);
+    sl_set_colour(app->ui.cairo, app->ui.palette.floor[0]);
+    cairo_fill(app->ui.cairo);
+}
+
+static void draw_mesh(sl_app *app, const sl_frame *frame) {
+    const sl_palette *palette = &app->ui.palette;
+    const sl_mesh_steps *mesh = &app->lesson.mesh;
+    cairo_t *cairo = app->ui.cairo;
+    const size_t at = app->lesson.at;
+    if (at == FIRST_SIDE + mesh->sides.count) return;
+    draw_ground(app, frame);
+    if (at == DELAUNAY) sl_draw_mesh_delaunay(cairo, palette, frame, mesh);
+    if (at == TRIANGLES) sl_draw_mesh_triangles(cairo, palette, frame, mesh);
+    if (at >= FIRST_SIDE)
+        sl_app_check(app,
+                     sl_draw_mesh_side(app->context, cairo, palette, frame, mesh, at - FIRST_SIDE));
+}
+
+// --- all of it
+
+static sl_status record(sl_context *context, sl_lesson *lesson, const sl_document *document,
+                        uint32_t source) {
+    (void)source;
+    lesson->subdivision_steps = document->baked->space.node_count;
+    if (!is_mesh(document)) return SL_OK;
+    SL_TRY(sl_mesh_steps_record(context, &document->baked->space, &lesson->mesh));
+    lesson->subdivision_steps = FIRST_SIDE + lesson->mesh.sides.count + 1;
+    return SL_OK;
+}
+
+static size_t length(const sl_lesson *lesson) {
+    return lesson->subdivision_steps;
+}
+
+static const char *const *code(const sl_lesson *lesson, const sl_document *document, size_t *count,
+                               size_t *lit) {
+    if (is_mesh(document)) {
+        *lit = mesh_line(lesson);
+        *count = sizeof mesh_code / sizeof *mesh_code;
+        return mesh_code;
+    }
+    *lit = 5; // every step is a split
+    *count = sizeof kd_code / sizeof *kd_code;
+    return kd_code;
+}
+
+static void say(const sl_lesson *lesson, const sl_document *document, char text[SL_SENTENCE]) {
+    const size_t place = lesson->at - FIRST_SIDE;
+    if (!is_mesh(document))
+        say_split(document, (uint32_t)lesson->at, text);
+    else if (lesson->at < FIRST_SIDE)
+        say_stage(lesson, &document->baked->space, text);
+    else if (place < lesson->mesh.sides.count)
+        say_side(&lesson->mesh, place, text);
+    else
+        say_cells(&lesson->mesh, document, text);
+}
+
 static void below(sl_app *app, const sl_frame *frame) {
-    sl_draw_split(app->ui.cairo, &app->ui.palette, &app->document.splits, frame,
-                  (uint32_t)app->lesson.at);
+    if (is_mesh(&app->document))
+        draw_mesh(app, frame);
+    else
+        sl_draw_split(app->ui.cairo, &app->ui.palette, frame, app->document.splits,
+                      (uint32_t)app->lesson.at);
+}
+
+static void above(sl_app *app, const sl_frame *frame) {
+    const sl_lesson *lesson = &app->lesson;
+    if (!is_mesh(&app->document)) return;
+    if (lesson->at == POINTS)
+        sl_draw_mesh_points(app->ui.cairo, &app->ui.palette, frame, &lesson->mesh);
+    if (lesson->at >= FIRST_SIDE)
+        sl_draw_mesh_corner(app->ui.cairo, &app->ui.palette, frame, &lesson->mesh,
+                            lesson->at - FIRST_SIDE);
 }
 
 const sl_subject sl_lesson_subdivision = {
     .title = "Subdivision",
+    .fits = fits,
     .record = record,
     .length = length,
     .sentence = say,
     .code = code,
     .below = below,
+    .above = above,
 };

@@ -59,8 +59,8 @@ void sl_object_move(sl_app *app, sl_drag *drag, sl_point now) {
 void sl_object_toggle(sl_app *app, uint32_t object) {
     sl_document *document = &app->document;
     if (object >= document->object_count) return;
-    if (!app->present.moving) {
-        sl_app_say(app, true, "boxes block what the eye sees, not whence it is seen");
+    if (!app->present.moving && !document->blocks[object]) {
+        sl_app_say(app, true, "objects cannot block sight from here");
         return;
     }
     document->blocks[object] = !document->blocks[object];

@@ -4,7 +4,7 @@
 #include "clock.h"
 #include "draw/marks.h"
 #include "draw/plan.h"
-#include "draw/sight.h"
+#include "draw/subdivision.h"
 #include "draw/text.h"
 #include "modes.h"
 
@@ -51,7 +51,8 @@ static void draw_under(sl_app *app, cairo_t *cairo, const sl_frame *frame) {
     sl_app_check(app, sl_draw_onto(app->context, cairo, &under, frame));
     if (sl_layers_shows(app, SL_LAYER_NUMBER_VIEWS)) sl_view_layer_draw(app, cairo, frame);
     if (app->show & SL_SHOW_SPLITS)
-        sl_draw_splits(cairo, &app->ui.palette, &app->document.splits, frame, app->split_depth);
+        sl_draw_splits(cairo, &app->ui.palette, frame, app->document.splits,
+                       app->document.baked->space.node_count, app->split_depth);
 }
 
 /// What is over it: walls and what else the map has.

@@ -410,8 +410,9 @@ void sl_pane_draw(sl_app *app, sl_box box) {
     c.y += 0.7 * app->ui.text;
     rule(app, &c, "Drag on free ground: a new wall, in any direction, its ends on the grid.");
     rule(app, &c, "Drag a wall: moves it. Click: chooses it. Delete: deletes it.");
-    snprintf(text, sizeof text, "%zu walls; %zu steps to undo, %zu to redo.",
-             app->document.map.wall_count, app->history.done_count, app->history.undone_count);
+    snprintf(text, sizeof text, "%zu walls; %zu step%s to undo, %zu to redo.",
+             app->document.map.wall_count, app->history.done_count,
+             app->history.done_count == 1 ? "" : "s", app->history.undone_count);
     rule(app, &c, text);
     layer_rows(app, &c);
     draw_methods(app, &c);

@@ -41,7 +41,7 @@ static sl_status make_space(sl_context *context, const sl_present *present,
     for (uint32_t i = 0; i < from.seam_count; i++) {
         if (seams[i].kind != SL_SEAM_ONEWAY) continue;
         seams[i].kind = SL_SEAM_DOOR;
-        seams[i].number += (uint32_t)document->map.door_count;
+        seams[i].number += (uint32_t)document->baked->map.door_count;
     }
     from.seams = seams;
     const sl_passage passage = {.shut = present->shut};
@@ -165,7 +165,9 @@ static sl_status make_own(sl_context *context, sl_present *present, const sl_doc
 /// Begins anew with a document, or one that has changed.
 static sl_status begin(sl_context *context, sl_present *present, const sl_document *document) {
     sl_present_drop(context, present);
-    const size_t count = document->map.door_count + document->map.oneway_count;
+    // The clean map: in it, glass that something crosses is several.
+    const sl_map *map = &document->baked->map;
+    const size_t count = map->door_count + map->oneway_count;
     present->document_version = document->version;
     present->shut_count = count;
     if (!count) return SL_OK;
@@ -190,15 +192,12 @@ static sl_status place(sl_context *context, sl_present *present, const sl_docume
 }
 
 /// Objects are put in again where they have moved, or the space is another.
-static sl_status follow_objects(sl_context *context, sl_present *present,
-                                const sl_document *document) {
-    if (!document->object_count || present->backwards || present->still) return SL_OK;
+static sl_status put_objects(sl_context *context, sl_present *present,
+                             const sl_document *document) {
     if (!present->moving) {
         const own *o = present->own;
-        const sl_status status = sl_moving_create(
-            context, present->space, o ? &o->row : &document->baked->visibility, &present->moving);
-        present->still = status == SL_UNSUPPORTED;
-        if (status != SL_OK) return present->still ? SL_OK : status;
+        SL_TRY(sl_moving_create(context, present->space, o ? &o->row : &document->baked->visibility,
+                                &present->moving));
         present->touched = document->touched + 1; // whatever it was
     }
     if (present->touched != document->touched) {
@@ -210,6 +209,22 @@ static sl_status follow_objects(sl_context *context, sl_present *present,
                             : SL_OK;
 }
 
+/// Where objects cannot be put in as they are now, sight goes past them.
+static sl_status follow_objects(sl_context *context, sl_present *present,
+                                const sl_document *document) {
+    if (!document->object_count || present->backwards) return SL_OK;
+    if (present->still && present->touched == document->touched) return SL_OK;
+    const sl_status status = put_objects(context, present, document);
+    present->still = status == SL_UNSUPPORTED;
+    if (!present->still) return status;
+    sl_moving_destroy(context, present->moving);
+    present->moving = NULL;
+    present->parents = NULL;
+    present->touched = document->touched;
+    present->version++;
+    return SL_OK;
+}
+
 static sl_status update(sl_context *context, sl_present *present, const sl_document *document,
                         sl_point eye) {
     const bool fresh = !present->space || present->document_version != document->version;
@@ -219,7 +234,8 @@ static sl_status update(sl_context *context, sl_present *present, const sl_docum
     const bool unused = document->has_visibility && !has_rows; // its search would believe them
     // Where both are, what is dark in a mirror is not what is dark from the eye.
     const bool both = document->map.mirror_count && document->map.oneway_count;
-    const bool any = count && find_shut(&document->map, eye, present->backwards, present->wanted);
+    const bool any =
+        count && find_shut(&document->baked->map, eye, present->backwards, present->wanted);
     const bool same = !count || memcmp(present->shut, present->wanted, count) == 0;
     if (fresh || !same || has_rows != present->has_rows) {
         if (count) memcpy(present->shut, present->wanted, count);

@@ -17,11 +17,11 @@ typedef struct sl_present {
     /// With the eye's cell's visible set alone, where something is shut; with none, where they were
     /// baked with a shorter range.
     sl_eye_search *search;
-    /// The space with the map's objects in it; NULL where it has none, or walls are oblique. Where
-    /// any of them blocks sight the outline is that of this space, whose cell c is a part of cell
-    /// parents[c]; else `parents` is NULL.
+    /// The space with the map's objects in it; NULL where it has none, or they cannot be put in.
+    /// Where any of them blocks sight the outline is that of this space, whose cell c is a part of
+    /// cell parents[c]; else `parents` is NULL.
     sl_moving *moving;
-    bool still; ///< objects cannot be put into this space
+    bool still; ///< objects cannot be put in as they are now
     const uint32_t *parents;
     sl_room_mirrors mirrors; ///< of the outline; none where the map has none
     bool *shut;              ///< by door, then by glass; NULL where the map has neither
@@ -33,7 +33,7 @@ typedef struct sl_present {
     bool has_rows;  ///< there are visible sets, and they can be believed
 } sl_present;
 
-/// Follows the document and the eye. Doors are as the document's map has them.
+/// Follows the document and the eye.
 sl_status sl_present_update(sl_context *context, sl_present *present, const sl_document *document,
                             sl_point eye);
 /// Forgets all but its version.

@@ -52,7 +52,7 @@ static void set_cut(sl_app *app, double share) {
 // --- how deep splits are shown
 
 static bool has_splits(const sl_app *app) {
-    return app->show & SL_SHOW_SPLITS && app->document.baked;
+    return app->document.baked && sl_layers_shows(app, SL_LAYER_NUMBER_SPLITS);
 }
 
 static double deepest_split(const sl_app *app) {

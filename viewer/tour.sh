@@ -47,12 +47,11 @@ key L
 END
 shoot oblique/rotunda.map oblique <<'END'
 key B
-key K
 END
-shoot oblique/rotunda.map oblique-subdivision <<END
+shoot oblique/chapel.map oblique-subdivision <<END
 key F2
 key U
-$(again 6 key Right)
+$(again 20 key Right)
 END
 shoot office.map search <<END
 eye 53 20 160

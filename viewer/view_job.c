@@ -76,7 +76,7 @@ static sl_status work(sl_context *context, sl_view_job *job) {
     const sl_view_sampling sampling = sl_view_sampling_default();
     sl_view_subdivision subdivision = sl_view_subdivision_default();
     subdivision.seed = sampling.seed;
-    SL_TRY(sl_map_clean(context, &job->map, NULL));
+    SL_TRY(sl_map_clean(context, &job->map, NULL, NULL));
     SL_TRY(sl_subdivision_for(&job->map)->subdivide(context, &job->map, NULL, &job->space));
     SL_TRY(sl_outline_make(context, &job->space, &job->outline));
     SL_TRY(sl_view_places_inside(context, &job->space, &job->places));

@@ -53,10 +53,10 @@ static bool same_walls(const sl_space *a, const sl_space *b) {
 }
 
 bool sl_baked_same_space(const sl_space *a, const sl_space *b) {
-    return a->root == b->root && a->partial == b->partial && SAME_ITEMS(a, b, nodes, node_count) &&
+    return a->root == b->root && a->loose == b->loose && SAME_ITEMS(a, b, nodes, node_count) &&
            SAME_ITEMS(a, b, cells, cell_count) && SAME_ITEMS(a, b, vertices, vertex_count) &&
            SAME_ITEMS(a, b, portals, portal_count) && SAME_ITEMS(a, b, exits, exit_count) &&
-           SAME_ITEMS(a, b, lines, line_count) && SAME_ITEMS(a, b, seams, seam_count) &&
+           SAME_ITEMS(a, b, seams, seam_count) &&
            SAME_ITEMS(a, b, seam_portals, seam_portal_count) && same_walls(a, b) &&
            !a->beyond == !b->beyond &&
            (!a->beyond || memcmp(a->beyond, b->beyond, a->vertex_count * sizeof *a->beyond) == 0);

@@ -19,8 +19,6 @@ typedef struct finder {
     const sl_doom_level *level;
     sl_box_tree tree;         ///< of the lines
     sl_box_list nearby;       ///< lines, of the current question
-    double slack;             ///< what rounding may have moved a corner by
-    bool is_thin;             ///< the current cell lies on a line: it has no sector of its own
     SL_ARRAY(uint32_t) found; ///< of all cells so far
     size_t begin;             ///< of the current cell
 } finder;
@@ -68,25 +66,8 @@ static bool overlaps(const sl_doom_line *line, sl_point a, sl_point b) {
     return fmin(c, d) < fmax(e, f) && fmin(e, f) < fmax(c, d);
 }
 
-/// How far the cell reaches beyond a line on its left and on its right.
-static void measure_depths(const cell_view *view, const sl_doom_line *line, double *left,
-                           double *right) {
-    const double dx = line->to.x - line->from.x, dy = line->to.y - line->from.y;
-    const double length = hypot(dx, dy);
-    *left = *right = 0;
-    for (uint32_t i = 0; i < view->count; i++) {
-        const sl_point at = view->corners[i];
-        const double off = (dx * (at.y - line->from.y) - dy * (at.x - line->from.x)) / length;
-        *left = fmax(*left, off);
-        *right = fmax(*right, -off);
-    }
-}
-
 /// Adds what a line tells of the sectors within the cell.
 static sl_status ask_line(finder *find, const cell_view *view, const sl_doom_line *line) {
-    double left, right;
-    measure_depths(view, line, &left, &right);
-    find->is_thin |= left <= find->slack && right <= find->slack;
     bool at_left = false, at_right = false, runs_along = false;
     int before = sl_orient(line->from, line->to, view->corners[view->count - 1]);
     for (uint32_t i = 0; i < view->count; i++) {
@@ -98,9 +79,6 @@ static sl_status ask_line(finder *find, const cell_view *view, const sl_doom_lin
                 overlaps(line, view->corners[i], view->corners[i ? i - 1 : view->count - 1]);
         before = side;
     }
-    // A cell that was cut along the line is beyond it by rounding alone: by so little that the
-    // depth may come out as 0.
-    if (at_left && at_right && fmin(left, right) <= find->slack) return SL_OK;
     const bool passes = at_left && at_right && !is_parted_by_an_edge(view, line);
     if (!passes && !runs_along) return SL_OK;
     if (at_left) SL_TRY(add(find, line->left));
@@ -157,17 +135,12 @@ static int compare_sectors(const void *left, const void *right) {
 static sl_status find_cell(finder *find, const sl_space *space, uint32_t cell) {
     const cell_view view = view_of(space, cell);
     find->begin = find->found.count;
-    find->is_thin = false;
     SL_TRY(sl_box_tree_find(find->context, &find->tree, &view.box, &find->nearby));
     for (size_t i = 0; i < find->nearby.count; i++)
         SL_TRY(ask_line(find, &view, &find->level->lines[find->nearby.items[i]]));
-    if (find->is_thin) {
-        find->found.count = find->begin;
-    } else {
-        uint32_t sector;
-        SL_TRY(find_left_of_nearest(find, view.middle, &sector));
-        SL_TRY(add(find, sector));
-    }
+    uint32_t sector;
+    SL_TRY(find_left_of_nearest(find, view.middle, &sector));
+    SL_TRY(add(find, sector));
     if (find->found.count > UINT32_MAX)
         return sl_fail(find->context, SL_UNSUPPORTED,
                        "more cells with sectors than can be counted");
@@ -190,10 +163,7 @@ static sl_status make_tree(finder *find) {
 
 sl_status sl_cell_sectors_find(sl_context *context, const sl_space *space,
                                const sl_doom_level *level, sl_cell_sectors *out) {
-    const sl_box *b = &space->bounds;
-    finder find = {.context = context,
-                   .level = level,
-                   .slack = 0x1p-24 * fmax(b->max.x - b->min.x, b->max.y - b->min.y)};
+    finder find = {.context = context, .level = level};
     uint32_t *first = sl_alloc_array(context, (size_t)space->cell_count + 1, sizeof *first);
     if (!first) return SL_NO_MEMORY;
     sl_status status = make_tree(&find);

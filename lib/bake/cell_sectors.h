@@ -13,11 +13,10 @@ typedef struct sl_cell_sectors {
 } sl_cell_sectors;
 
 /// Every sector that has a part within a cell's polygon is among the cell's, for each map whose
-/// lines tell the sectors at both their sides rightly: a sector is found by the lines that pass
+/// lines say the sectors at both their sides rightly: a sector is found by the lines that pass
 /// through the cell's interior (exactly decided), by those that run along its border, and by the
-/// line to the right of its middle. Left out are lines beyond which the cell reaches by no more
-/// than rounding, 2^-24 of the map's size: what is that near to a line between sectors may count
-/// for the sector across it. Reports stage "sectors", unit "cells".
+/// line to the right of its middle. Where cleaning rounded or welded lines, a cell may reach beyond
+/// a line as read, and then counts for the sector there too. Reports stage "sectors", unit "cells".
 sl_status sl_cell_sectors_find(sl_context *context, const sl_space *space,
                                const sl_doom_level *level, sl_cell_sectors *out);
 void sl_cell_sectors_destroy(sl_context *context, sl_cell_sectors *sectors); ///< and zeroes it

@@ -130,7 +130,7 @@ static sl_status make_reject(sl_context *context, const wad_job *job, map_work *
     const sl_subdivide_options rules = sl_subdivide_options_default();
     SL_TRY(sl_map_read_wad(context, job->wad.name, job->bytes.data, job->bytes.size, &import,
                            &state->map));
-    SL_TRY(sl_map_clean(context, &state->map, NULL));
+    SL_TRY(sl_map_clean(context, &state->map, NULL, NULL));
     SL_TRY(sl_subdivision_for(&state->map)->subdivide(context, &state->map, &rules, &state->space));
     SL_TRY(see(context, job, state));
     SL_TRY(sl_doom_read(context, &job->wad, &work->map, &state->level));

@@ -11,9 +11,13 @@
 
 #include <stdio.h>
 
-#define SL_SLV_MAGIC      "\x89SLV\r\n\x1a\n"
-#define SL_SLV_VERSION    1u
-#define SL_SLV_BYTE_ORDER 0x01020304u
+#define SL_SLV_MAGIC "\x89SLV\r\n\x1a\n"
+/// Files of meshes; and those of kd-trees, which have stayed as they were. Files of version 1 that
+/// have a section BEYO were made by a BSP, whose cells may overlap by rounding: they are read, and
+/// a grid is made for them.
+#define SL_SLV_VERSION       2u
+#define SL_SLV_VERSION_AXIAL 1u
+#define SL_SLV_BYTE_ORDER    0x01020304u
 
 typedef struct sl_slv_header {
     char magic[8];
@@ -37,8 +41,9 @@ typedef struct sl_slv_info {
     uint32_t sight, guarantee; ///< of sl_sight, sl_guarantee
     uint32_t unused;           ///< 0
     uint32_t trees_left_out;
-    uint32_t partial;          ///< 1 where the cells need not fill the bounds
-    uint64_t unused_counts[2]; ///< 0
+    uint32_t loose;                   ///< as in sl_space
+    uint32_t grid_columns, grid_rows; ///< 0 for a kd-tree
+    uint64_t unused_count;            ///< 0
     uint64_t pairs, doubtful_pairs;
     char method[16], solver[16]; ///< as sl_slv_is_name
 } sl_slv_info;
@@ -52,18 +57,18 @@ typedef struct sl_slv_part {
 } sl_slv_part;
 
 /// The other sections: NODE, CELL, VERT, PORT, EXIT hold the arrays of sl_space item by item, WALL
-/// its walls as segments, LINE the lines of oblique splits (only if there are any), BEYO what is
-/// beyond the cells' sides (only for a BSP), SEAM the seams and SEPO the portals on them (only if
-/// there are any); PVSO and PVSB are the offsets and bytes of the visible sets, DBTO and DBTB those
-/// of the doubtful pairs (only if there are any), MIRO and MIRB those of what is seen by mirror,
-/// DORO and DORB the offsets and bytes of the sets of doors, MDOO and MDOB those of pairs seen by
-/// mirror (each only if there are any), TREO and TREN the offsets and nodes of the stab trees (only
-/// if asked for; a node that names a mirror of the map, SL_STAB_MIRROR, is refused as no tree by
-/// readers that do not know of these); MAPT is what the map holds beside its walls, as map text.
-/// Beside PART there are DONE, a bit for each unit of the work that is done, in words of 64, and
-/// the offsets and bytes of the pairs found by them: FNDO and FNDB, doubtful ones in FNRO and FNRB.
-/// A shard has no PVSO and PVSB. What the work took (tests, nodes ...) is in no file: it would
-/// depend on the way.
+/// its walls as segments. Files of meshes alone have BEYO, what is beyond the cells' sides, and
+/// GRIO and GRIC, the offsets and cells of the grid's buckets; their NODE is empty. SEAM has the
+/// seams and SEPO the portals on them (only if there are any); PVSO and PVSB are the offsets and
+/// bytes of the visible sets, DBTO and DBTB those of the doubtful pairs (only if there are any),
+/// MIRO and MIRB those of what is seen by mirror, DORO and DORB the offsets and bytes of the sets
+/// of doors, MDOO and MDOB those of pairs seen by mirror (each only if there are any), TREO and
+/// TREN the offsets and nodes of the stab trees (only if asked for; a node that names a mirror of
+/// the map, SL_STAB_MIRROR, is refused as no tree by readers that do not know of these); MAPT is
+/// what the map holds beside its walls, as map text. Beside PART there are DONE, a bit for each
+/// unit of the work that is done, in words of 64, and the offsets and bytes of the pairs found by
+/// them: FNDO and FNDB, doubtful ones in FNRO and FNRB. A shard has no PVSO and PVSB. What the work
+/// took (tests, nodes ...) is in no file: it would depend on the way.
 ///
 /// View cells (only with sightline viewcells --slv): VCIN has one sl_slv_views, VCEL the view cell
 /// of each cell (32 bits, all set for none), VCPA the parent of each node (likewise), VCRO and VCRB

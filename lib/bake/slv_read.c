@@ -3,6 +3,7 @@
 #include "base/bits.h"
 #include "base/file.h"
 #include "effects/mirror_sides.h"
+#include "space/cell_grid.h"
 
 #include <math.h>
 #include <string.h>
@@ -52,10 +53,10 @@ static sl_status check_header(reader *r) {
     const sl_slv_header *h = &r->header;
     if (h->byte_order != SL_SLV_BYTE_ORDER)
         return fail_file(r, "baked on a machine of other byte order: bake it again here");
-    if (h->version != SL_SLV_VERSION)
+    if (h->version != SL_SLV_VERSION && h->version != SL_SLV_VERSION_AXIAL)
         return sl_fail_at(r->context, r->name, 0,
-                          "version %u of the baked format; this program knows version %u: bake "
-                          "the map again",
+                          "version %u of the baked format; this program knows versions up to %u: "
+                          "bake the map again",
                           h->version, SL_SLV_VERSION);
     if (h->file_bytes != r->size)
         return sl_fail_at(r->context, r->name, 0,
@@ -138,7 +139,9 @@ static sl_status load_info(const reader *r) {
     out->space.root = info.root;
     out->space.tree_depth = info.tree_depth;
     out->space.inside_count = info.inside_count;
-    out->space.partial = info.partial;
+    out->space.loose = info.loose != 0;
+    out->space.grid.columns = info.grid_columns;
+    out->space.grid.rows = info.grid_rows;
     out->visibility.sight = (sl_sight)info.sight;
     out->visibility.guarantee = (sl_guarantee)info.guarantee;
     out->visibility.trees.left_out = info.trees_left_out;
@@ -202,6 +205,45 @@ static sl_status check_seams(const reader *r) {
     return SL_OK;
 }
 
+static sl_status load_grid(const reader *r) {
+    sl_cell_grid *g = &r->out->space.grid;
+    uint64_t buckets, entries;
+    SL_TRY(load(r, "GRIO", sizeof *g->first, false, (void **)&g->first, &buckets));
+    SL_TRY(load(r, "GRIC", sizeof *g->cells, false, (void **)&g->cells, &entries));
+    if (buckets != (uint64_t)g->columns * g->rows + 1 || entries > UINT32_MAX)
+        return fail_file(r, "damaged: sections GRIO and GRIC make no grid");
+    g->entry_count = (uint32_t)entries;
+    return SL_OK;
+}
+
+/// Whether a cell has corners that a grid can be made of.
+static bool has_corners(const sl_space *s, const sl_cell *cell) {
+    if (!cell->vertex_count || cell->first_vertex > s->vertex_count ||
+        cell->vertex_count > s->vertex_count - cell->first_vertex)
+        return false;
+    for (uint32_t i = 0; i < cell->vertex_count; i++) {
+        const sl_point p = s->vertices[cell->first_vertex + i];
+        if (!is_bound(p.x) || !is_bound(p.y)) return false;
+    }
+    return true;
+}
+
+/// A BSP's file of version 1: its tree is dropped, and points are located by a grid.
+static sl_status loosen(const reader *r) {
+    sl_space *s = &r->out->space;
+    s->loose = 1;
+    s->node_count = s->tree_depth = 0;
+    s->root = 0;
+    for (uint32_t i = 0; i < s->cell_count; i++)
+        if (!has_corners(s, &s->cells[i]))
+            return sl_fail_at(r->context, r->name, 0, "damaged: cell %u has corners out of range",
+                              i);
+    const sl_box *b = &s->bounds;
+    if (!s->cell_count || !(b->min.x < b->max.x) || !(b->min.y < b->max.y))
+        return fail_file(r, "damaged: the bounds enclose no area");
+    return sl_cell_grid_make(r->context, s);
+}
+
 static sl_status load_space(const reader *r) {
     sl_space *s = &r->out->space;
     SL_TRY(load_counted(r, "NODE", sizeof *s->nodes, (void **)&s->nodes, &s->node_count));
@@ -210,14 +252,14 @@ static sl_status load_space(const reader *r) {
     SL_TRY(load_counted(r, "PORT", sizeof *s->portals, (void **)&s->portals, &s->portal_count));
     SL_TRY(load_counted(r, "EXIT", sizeof *s->exits, (void **)&s->exits, &s->exit_count));
     SL_TRY(load_walls(r));
-    uint64_t lines, sides;
-    SL_TRY(load(r, "LINE", sizeof *s->lines, true, (void **)&s->lines, &lines));
+    uint64_t sides;
     SL_TRY(load(r, "BEYO", sizeof *s->beyond, true, (void **)&s->beyond, &sides));
     SL_TRY(load_seams(r));
-    if (lines > INT32_MAX) return fail_file(r, "damaged: section LINE is too long");
     if (s->beyond && sides != s->vertex_count)
         return fail_file(r, "damaged: section BEYO does not tell of each side");
-    s->line_count = (uint32_t)lines;
+    const bool is_mesh = r->header.version != SL_SLV_VERSION_AXIAL;
+    if (is_mesh && !s->beyond) return fail_file(r, "damaged: section BEYO is missing");
+    if (s->beyond) SL_TRY(is_mesh ? load_grid(r) : loosen(r));
     return in_file(r, sl_space_check(r->context, s));
 }
 

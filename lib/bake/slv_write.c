@@ -18,6 +18,7 @@ typedef struct plan {
     char *map_text;
     sl_slv_views views;
     sl_slv_part part;
+    uint32_t version;
 } plan;
 
 static void add_section(plan *p, const char *tag, const void *items, size_t item_bytes,
@@ -46,7 +47,9 @@ static sl_slv_info make_info(const sl_baked *baked) {
         .root = space->root,
         .tree_depth = space->tree_depth,
         .inside_count = space->inside_count,
-        .partial = space->partial,
+        .loose = space->loose,
+        .grid_columns = space->grid.columns,
+        .grid_rows = space->grid.rows,
         .sight = baked->visibility.sight,
         .guarantee = baked->visibility.guarantee,
         .trees_left_out = baked->visibility.trees.left_out,
@@ -122,6 +125,7 @@ static void add_sections(plan *p, const sl_baked *baked, const sl_slv_info *info
                          size_t map_bytes) {
     const sl_space *space = &baked->space;
     const sl_stab_trees *trees = &baked->visibility.trees;
+    p->version = space->beyond ? SL_SLV_VERSION : SL_SLV_VERSION_AXIAL;
     add_section(p, "INFO", info, sizeof *info, 1);
     add_section(p, "NODE", space->nodes, sizeof *space->nodes, space->node_count);
     add_section(p, "CELL", space->cells, sizeof *space->cells, space->cell_count);
@@ -129,10 +133,12 @@ static void add_sections(plan *p, const sl_baked *baked, const sl_slv_info *info
     add_section(p, "PORT", space->portals, sizeof *space->portals, space->portal_count);
     add_section(p, "EXIT", space->exits, sizeof *space->exits, space->exit_count);
     add_section(p, "WALL", p->walls, sizeof *p->walls, space->wall_count);
-    if (space->line_count)
-        add_section(p, "LINE", space->lines, sizeof *space->lines, space->line_count);
-    if (space->beyond)
+    if (space->beyond) {
+        const sl_cell_grid *g = &space->grid;
         add_section(p, "BEYO", space->beyond, sizeof *space->beyond, space->vertex_count);
+        add_section(p, "GRIO", g->first, sizeof *g->first, (uint64_t)g->columns * g->rows + 1);
+        add_section(p, "GRIC", g->cells, sizeof *g->cells, g->entry_count);
+    }
     if (space->seam_count)
         add_section(p, "SEAM", space->seams, sizeof *space->seams, space->seam_count);
     if (space->seam_portal_count)
@@ -170,7 +176,7 @@ static void lay_out(plan *p) {
     static const char zeros[8] = {0};
     sl_slv_header *header = &p->header;
     memcpy(header->magic, SL_SLV_MAGIC, sizeof header->magic);
-    header->version = SL_SLV_VERSION;
+    header->version = p->version;
     header->byte_order = SL_SLV_BYTE_ORDER;
     uint64_t at = sizeof *header + header->section_count * sizeof *p->sections;
     for (uint32_t i = 0; i < header->section_count; i++) {

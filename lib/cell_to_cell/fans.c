@@ -263,22 +263,6 @@ static void measure(const sl_fan *fan, const sl_point *ends, sl_fan_cell *cells)
     cells[fan->count].past_rest = 1;
 }
 
-/// Whether going round from the first edge to the last is more than a full turn: past half a turn,
-/// some edge is on the near side of the first one's line again.
-static bool overlaps(const sl_fan *fan, const sl_point *ends, const sl_fan_cell *cells) {
-    const sl_point first = ends[cells[0].edge];
-    bool far = false, full = false;
-    for (uint32_t i = 1; i <= fan->count; i++) {
-        const sl_point edge = ends[cells[i].edge];
-        const int side = sl_orient(fan->at, first, edge);
-        if (full || (far && side > 0)) return true;
-        const bool opposite = side == 0 && sl_opposite(fan->at, first, edge);
-        full = far && side == 0 && !opposite;
-        far |= side < 0 || opposite;
-    }
-    return false;
-}
-
 /// Adds the fan of the cells from its first one on, the last edge being there too.
 static sl_status add_fan(sl_context *context, sl_fans *fans, sl_fan fan) {
     const sl_point *ends = fans->ends.items;
@@ -289,8 +273,7 @@ static sl_status add_fan(sl_context *context, sl_fans *fans, sl_fan fan) {
     const int beyond = sl_orient(fan.at, first, last);
     const bool same = beyond == 0 && !sl_opposite(fan.at, first, last);
     fan.wide = !fan.full_turn && cells[fan.count].past_half > 0;
-    fan.overlaps = fan.wide && overlaps(&fan, ends, cells);
-    fan.back_to_back = fan.wide && same && !fan.overlaps;
+    fan.back_to_back = fan.wide && same;
     SL_TRY(SL_ARRAY_ROOM(context, &fans->fans, 1));
     fans->fans.items[fans->fans.count++] = fan;
     return SL_OK;

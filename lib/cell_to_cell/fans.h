@@ -33,7 +33,6 @@ typedef struct sl_fan {
     uint32_t first, count; ///< of cells
     bool full_turn;        ///< no wall stops it
     bool wide;             ///< it leaves a line room to turn beside the corner of its walls
-    bool overlaps;         ///< it is wide, and rounded corners make of it more than a full turn
     bool back_to_back;     ///< it goes all round one wall: first and last edge are the same
     bool serves;           ///< some of its cells are served
 } sl_fan;

@@ -12,24 +12,6 @@ typedef struct sl_sector {
     bool thin; ///< the bounds are the same angle
 } sl_sector;
 
-/// A cell that is seen through a sector of a fan that overlaps itself.
-typedef struct sl_overlap_seen {
-    uint32_t cell;
-    sl_bound low, high;
-    bool touched; ///< it is the sector's own
-} sl_overlap_seen;
-
-/// What one half of the line sees: through sector k seen[starts[k] .. starts[k + 1]).
-typedef struct sl_overlap_half {
-    SL_ARRAY(uint32_t) starts;
-    SL_ARRAY(sl_overlap_seen) seen;
-} sl_overlap_half;
-
-/// Scratch of fans that overlap themselves: backward and forward half.
-typedef struct sl_overlap {
-    sl_overlap_half halves[2];
-} sl_overlap;
-
 /// Scratch of one thread.
 typedef struct sl_sweeper {
     const sl_fans *fans;
@@ -45,7 +27,6 @@ typedef struct sl_sweeper {
     SL_ARRAY(uint32_t) passing; ///< scratch: cells that are seen along one ray only
     SL_ARRAY(sl_sector) sectors;
     sl_word_set behind, before;
-    sl_overlap overlap;
 } sl_sweeper;
 
 /// `rows`: empty, or shared with other threads. To be destroyed also on failure.
@@ -66,11 +47,6 @@ sl_status sl_sweep_estimate(sl_context *context, const sl_fans *fans, bool close
 
 /// Turns the line: adds the pairs of what is seen by both its halves.
 sl_status sl_sweep_turn(sl_context *context, sl_sweeper *sweeper, const sl_fan *fan);
-
-/// All that sl_sweep_fan does, for a fan that overlaps itself; each pair one way only. The point is
-/// set.
-sl_status sl_sweep_overlap(sl_context *context, sl_sweeper *sweeper, const sl_fan *fan);
-void sl_overlap_destroy(sl_context *context, sl_overlap *overlap);
 
 /// The sweep where the map has one-way glass (sweep_oneway.c).
 sl_status sl_see_sweep_one_way(sl_context *context, const sl_space *space,

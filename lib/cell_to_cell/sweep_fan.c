@@ -27,7 +27,6 @@ void sl_sweeper_destroy(sl_context *context, sl_sweeper *s) {
     sl_free(context, s->sectors.items);
     sl_word_set_destroy(context, &s->behind);
     sl_word_set_destroy(context, &s->before);
-    sl_overlap_destroy(context, &s->overlap);
     *s = (sl_sweeper){0};
 }
 
@@ -225,7 +224,6 @@ sl_status sl_sweep_fan(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     sl_reach_clear(&s->back);
     sl_reach_clear(&s->middle);
     sl_reach_clear(&s->ahead);
-    if (fan->overlaps) return sl_sweep_overlap(context, s, fan);
     s->rays.starts.count = s->rays.cells.count = 0;
     if (fan->wide) {
         s->reacher.fans = s->inward;

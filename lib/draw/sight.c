@@ -41,53 +41,6 @@ void sl_draw_cell(cairo_t *cairo, const sl_space *space, const sl_frame *frame, 
     cairo_stroke(cairo);
 }
 
-void sl_draw_splits(cairo_t *cairo, const sl_palette *palette, const sl_splits *splits,
-                    const sl_frame *frame, uint32_t depth) {
-    uint32_t deepest = 0;
-    for (size_t i = 0; i < splits->splits.count; i++)
-        if (splits->splits.items[i].depth >= deepest) deepest = splits->splits.items[i].depth + 1;
-    if (depth < deepest) deepest = depth;
-    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_BUTT);
-    for (uint32_t level = deepest; level-- > 0;) {
-        const double share = deepest > 1 ? (double)level / (deepest - 1) : 0;
-        for (size_t i = 0; i < splits->splits.count; i++) {
-            const sl_split *split = &splits->splits.items[i];
-            if (split->depth == level)
-                sl_path_segment(cairo, frame, split->along.a, split->along.b);
-        }
-        sl_set_colour(cairo, sl_palette_ramp(palette->dark, 1 - 0.75 * share));
-        cairo_set_line_width(cairo, (3.2 - 2.2 * share) * frame->unit);
-        cairo_stroke(cairo);
-    }
-}
-
-static void fill_side(cairo_t *cairo, const sl_frame *frame, const sl_splits *splits,
-                      sl_split_region side, sl_colour colour, double opacity) {
-    if (!side.count) return;
-    sl_path_polygon(cairo, frame, splits->corners.items + side.first, side.count);
-    set_faded(cairo, colour, opacity);
-    cairo_fill(cairo);
-}
-
-void sl_draw_split(cairo_t *cairo, const sl_palette *palette, const sl_splits *splits,
-                   const sl_frame *frame, uint32_t node) {
-    const sl_split *items = splits->splits.items;
-    const uint32_t first = splits->first[node], end = splits->first[node + 1];
-    for (uint32_t i = 0; i < first; i++)
-        sl_path_segment(cairo, frame, items[i].along.a, items[i].along.b);
-    sl_set_colour(cairo, palette->portal);
-    cairo_set_line_width(cairo, 1.2 * frame->unit);
-    cairo_stroke(cairo);
-    for (uint32_t i = first; i < end; i++) {
-        fill_side(cairo, frame, splits, items[i].below, palette->glass, 0.22);
-        fill_side(cairo, frame, splits, items[i].above, palette->source, 0.30);
-        sl_path_segment(cairo, frame, items[i].along.a, items[i].along.b);
-        sl_set_colour(cairo, palette->start);
-        cairo_set_line_width(cairo, 4 * frame->unit);
-        cairo_stroke(cairo);
-    }
-}
-
 void sl_draw_region(cairo_t *cairo, const sl_frame *frame, const sl_region *region,
                     sl_colour colour) {
     if (region->count < 3) return;

@@ -1,6 +1,5 @@
-/// What is drawn over the plan while one looks: sets of cells, splits of the tree, the visible
-/// region, the cone, a stab tree as it grows, a portal sequence with its lines. Files and windows
-/// share it.
+/// What is drawn over the plan while one looks: sets of cells, the visible region, the cone, a stab
+/// tree as it grows, a portal sequence with its lines. Files and windows share it.
 #ifndef SL_DRAW_SIGHT_H
 #define SL_DRAW_SIGHT_H
 
@@ -9,7 +8,6 @@
 #include "sightline/region.h"
 #include "sightline/space.h"
 #include "sightline/stab.h"
-#include "space/splits.h"
 
 /// Fills the cells of a set (bit c % 64 of word c / 64) that are not in `without` (NULL: none).
 void sl_draw_cell_set(cairo_t *cairo, const sl_space *space, const sl_frame *frame,
@@ -19,16 +17,6 @@ void sl_draw_cell_set(cairo_t *cairo, const sl_space *space, const sl_frame *fra
 /// Outlines one cell, and fills it where `opacity` is not 0.
 void sl_draw_cell(cairo_t *cairo, const sl_space *space, const sl_frame *frame, uint32_t cell,
                   sl_colour colour, double opacity, double width);
-
-/// The tree's splits down to a depth (1: the first alone), each within its node's region: the
-/// deeper the thinner, in the steps of the heat map's ramp.
-void sl_draw_splits(cairo_t *cairo, const sl_palette *palette, const sl_splits *splits,
-                    const sl_frame *frame, uint32_t depth);
-
-/// A node's split with both its sides, and the splits made before it: the subdivision as it goes
-/// on.
-void sl_draw_split(cairo_t *cairo, const sl_palette *palette, const sl_splits *splits,
-                   const sl_frame *frame, uint32_t node);
 
 void sl_draw_region(cairo_t *cairo, const sl_frame *frame, const sl_region *region,
                     sl_colour colour);

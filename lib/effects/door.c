@@ -9,7 +9,10 @@ static uint32_t line(const sl_map *map) {
 }
 
 static void leave_out(sl_context *context, sl_map *map) {
-    for (size_t i = 0; i < map->door_count; i++) sl_free(context, map->doors[i].name);
+    for (size_t i = 0; i < map->door_count; i++) {
+        sl_free(context, map->doors[i].name);
+        sl_free(context, map->doors[i].parts);
+    }
     map->door_count = 0;
 }
 

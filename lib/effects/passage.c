@@ -55,15 +55,17 @@ static sl_status copy_space(sl_context *context, maker *m, size_t walls) {
     sl_space *s = m->out;
     *s = *f;
     s->nodes = NULL, s->cells = NULL, s->vertices = NULL, s->portals = NULL, s->exits = NULL;
-    s->walls = NULL, s->lines = NULL, s->beyond = NULL, s->seams = NULL, s->seam_portals = NULL;
+    s->walls = NULL, s->beyond = NULL, s->seams = NULL, s->seam_portals = NULL;
+    s->grid.first = s->grid.cells = NULL;
     COPY(nodes, node_count, 0);
     COPY(cells, cell_count, 0);
     COPY(vertices, vertex_count, 0);
     COPY(portals, portal_count, 0);
     COPY(exits, exit_count, 0);
     COPY(walls, wall_count, walls);
-    COPY(lines, line_count, 0);
     COPY(beyond, vertex_count, 0);
+    COPY(grid.first, grid.columns * (size_t)f->grid.rows + 1, 0);
+    COPY(grid.cells, grid.entry_count, 0);
     COPY(seams, seam_count, 0);
     COPY(seam_portals, seam_portal_count, 0);
     return SL_OK;
@@ -94,7 +96,7 @@ static void number_walls(const maker *m, uint32_t *walls) {
         walls[i] = m->portals[i] == UINT32_MAX ? next++ : UINT32_MAX;
 }
 
-/// Tells the sides of a BSP's cell which of them are walls now. The new walls run from the right
+/// Marks the sides of a mesh's cells that are walls now. The new walls run from the right
 /// end to the left one as crossed from cell[0], which is on their left.
 static void tell_sides(const maker *m, const uint32_t *walls) {
     const sl_space *f = m->from;

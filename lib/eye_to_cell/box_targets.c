@@ -1,7 +1,6 @@
 #include "eye_to_cell/box_targets.h"
 
-#include "geometry/orient.h"
-#include "space/box_tree.h"
+#include "space/cell_grid.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,7 +14,8 @@ typedef struct target {
 typedef struct gatherer {
     sl_context *context;
     const sl_space *space;
-    sl_box *around; ///< by cell; NULL for a kd-tree's space
+    size_t pieces; ///< so far
+    size_t *done;  ///< by cell: the last piece, by its count, that was held against it
     SL_ARRAY(target) targets;
     SL_ARRAY(int32_t) stack;
     sl_piece_list free;
@@ -79,39 +79,6 @@ static sl_point on(const sl_piece *side, double at) {
     return side->axis ? (sl_point){at, side->at} : (sl_point){side->at, at};
 }
 
-/// Where a piece's line crosses a side of a cell, moved by what rounding may have done to that:
-/// down (-1) or up (1), but not past the side's ends.
-static double crossing(const sl_piece *side, sl_point p, sl_point q, int way) {
-    const double from = along(side, p), to = along(side, q);
-    const double share = (side->at - across(side, p)) / (across(side, q) - across(side, p));
-    const double at = from + share * (to - from) + way * 0x1p-50 * (fabs(from) + fabs(to));
-    return fmax(fmin(at, fmax(from, to)), fmin(from, to));
-}
-
-/// What a cell has of a piece strictly inside. Whether that is anything is exact; its ends are,
-/// where they are the piece's own.
-static bool clip(const sl_space *space, uint32_t number, const sl_piece *piece, double *lo,
-                 double *hi) {
-    const sl_cell *cell = &space->cells[number];
-    const sl_point *v = space->vertices + cell->first_vertex;
-    const sl_point a = on(piece, piece->lo), b = on(piece, piece->hi);
-    bool under = false, over = false;
-    *lo = piece->lo, *hi = piece->hi;
-    for (uint32_t i = 0; i < cell->vertex_count; i++) {
-        const sl_point p = v[i], q = v[i + 1 == cell->vertex_count ? 0 : i + 1];
-        const int at_a = sl_orient(p, q, a), at_b = sl_orient(p, q, b);
-        under |= across(piece, p) < piece->at;
-        over |= across(piece, p) > piece->at;
-        if (at_a <= 0 && at_b <= 0) return false;
-        // The line of a side may be crossed beyond the side, where another one ends the piece.
-        const double at_p = across(piece, p), at_q = across(piece, q);
-        const bool meets = fmin(at_p, at_q) <= piece->at && piece->at <= fmax(at_p, at_q);
-        if (meets && at_a < 0) *lo = fmax(*lo, crossing(piece, p, q, -1));
-        if (meets && at_b < 0) *hi = fmin(*hi, crossing(piece, p, q, 1));
-    }
-    return under && over && *lo < *hi;
-}
-
 /// Adds what lies of a piece along a side of a cell, on whose left hand the cell is.
 static sl_status add_along(gatherer *g, uint32_t number, const sl_piece *piece, uint32_t box,
                            sl_point p, sl_point q) {
@@ -121,38 +88,19 @@ static sl_status add_along(gatherer *g, uint32_t number, const sl_piece *piece, 
     return add(g, number, box, on(piece, from < to ? hi : lo), on(piece, from < to ? lo : hi));
 }
 
-static sl_status add_to_cell(gatherer *g, uint32_t number, const sl_piece *piece, uint32_t box) {
-    const sl_cell *cell = &g->space->cells[number];
-    const sl_point *v = g->space->vertices + cell->first_vertex;
-    double lo, hi;
-    for (uint32_t i = 0; i < cell->vertex_count; i++)
-        SL_TRY(add_along(g, number, piece, box, v[i], v[i + 1 == cell->vertex_count ? 0 : i + 1]));
-    if (!clip(g->space, number, piece, &lo, &hi)) return SL_OK;
-    SL_TRY(add(g, number, box, on(piece, lo), on(piece, hi)));
-    return add(g, number, box, on(piece, hi), on(piece, lo));
-}
-
+/// Adds a piece to all cells that it lies on the boundary of.
 static sl_status add_to_cells(gatherer *g, const sl_piece *piece, uint32_t box) {
-    const sl_point a = on(piece, piece->lo), b = on(piece, piece->hi);
-    const sl_box side = sl_box_around(a, b);
-    for (uint32_t i = 0; i < g->space->cell_count; i++) {
-        const sl_box *cell = &g->around[i];
-        if (cell->min.x <= side.max.x && side.min.x <= cell->max.x && cell->min.y <= side.max.y &&
-            side.min.y <= cell->max.y)
-            SL_TRY(add_to_cell(g, i, piece, box));
-    }
-    return SL_OK;
-}
-
-static sl_status put_boxes_around(gatherer *g) {
-    g->around = sl_alloc_array(g->context, g->space->cell_count, sizeof *g->around);
-    if (!g->around) return SL_NO_MEMORY;
-    for (uint32_t i = 0; i < g->space->cell_count; i++) {
-        const sl_cell *cell = &g->space->cells[i];
-        const sl_point *v = g->space->vertices + cell->first_vertex;
-        g->around[i] = (sl_box){v[0], v[0]};
-        for (uint32_t k = 1; k < cell->vertex_count; k++)
-            g->around[i] = sl_box_with(g->around[i], v[k]);
+    const sl_space *s = g->space;
+    const sl_box around = {on(piece, piece->lo), on(piece, piece->hi)};
+    sl_cell_grid_range r = sl_cell_grid_range_of(s, around);
+    g->pieces++;
+    for (uint32_t at; sl_cell_grid_next(&s->grid, &r, &at);) {
+        const sl_point *v = s->vertices + s->cells[at].first_vertex;
+        const uint32_t count = s->cells[at].vertex_count;
+        if (g->done[at] == g->pieces) continue;
+        g->done[at] = g->pieces;
+        for (uint32_t i = 0; i < count; i++)
+            SL_TRY(add_along(g, at, piece, box, v[i], v[i + 1 == count ? 0 : i + 1]));
     }
     return SL_OK;
 }
@@ -182,7 +130,8 @@ static sl_status write_targets(gatherer *g, sl_box_targets *out) {
 
 static sl_status gather(gatherer *g, const sl_box_ground *ground, const sl_moving_box *boxes,
                         size_t count) {
-    if (g->space->beyond && count) SL_TRY(put_boxes_around(g));
+    g->done = sl_alloc_array(g->context, g->space->cell_count, sizeof *g->done);
+    if (!g->done) return SL_NO_MEMORY;
     for (size_t i = 0; i < count; i++) {
         sl_piece sides[4];
         const unsigned n = sl_box_sides(boxes[i].box, sides);
@@ -205,7 +154,7 @@ sl_status sl_box_targets_find(sl_context *context, const sl_box_ground *ground,
     gatherer g = {.context = context, .space = space};
     sl_status status = gather(&g, ground, boxes, count);
     if (status == SL_OK) status = write_targets(&g, out);
-    sl_free(context, g.around);
+    sl_free(context, g.done);
     sl_free(context, g.targets.items);
     sl_free(context, g.stack.items);
     sl_free(context, g.free.items);

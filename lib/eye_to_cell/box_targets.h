@@ -9,10 +9,8 @@ typedef struct sl_box_targets {
     sl_exit *items;  ///< as crossed on the way out of the cell; `portal`: the box's number
 } sl_box_targets;
 
-/// The pieces that no axial wall of the ground covers, in a space with the boxes in it. In a
-/// kd-tree's space they lie on the boundaries of cells. In a BSP's also within cells, crossed
-/// either way: exact but for where they cross the sides of cells, and there no shorter than they
-/// are. `out` is zeroed, and to be destroyed whatever comes.
+/// The pieces that no axial wall of the ground covers, in a space with the boxes in it: all lie on
+/// the boundaries of cells. `out` is zeroed, and to be destroyed whatever comes.
 sl_status sl_box_targets_find(sl_context *context, const sl_box_ground *ground,
                               const sl_space *space, const sl_moving_box *boxes, size_t count,
                               sl_box_targets *out);

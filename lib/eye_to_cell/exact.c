@@ -99,7 +99,7 @@ sl_status sl_eye_exact(sl_context *context, sl_eye_search *search, const sl_view
     sl_eye_query query;
     SL_TRY(sl_eye_begin(context, search, view, false, cells, &query));
     bool done = query.cell == SL_NO_CELL;
-    if (!done && !search->parents) SL_TRY(sl_eye_exact_tree(context, &query, &done));
+    if (!done && !search->boxed) SL_TRY(sl_eye_exact_tree(context, &query, &done));
     if (!done) SL_TRY(search_portals(context, &query));
     sl_eye_end(&query, account);
     return SL_OK;

@@ -14,23 +14,17 @@ static sl_status check_fits(sl_context *context, uint32_t cells, const sl_visibi
     return sl_fail(context, SL_BAD_ARGUMENT, "the visible sets are those of another space");
 }
 
-sl_status sl_eye_search_create(sl_context *context, const sl_space *space,
-                               const sl_visibility *visibility, sl_eye_search **out) {
-    return sl_eye_search_create_cut(context, space, visibility, NULL, space->cell_count, out);
-}
-
-sl_status sl_eye_search_create_cut(sl_context *context, const sl_space *space,
-                                   const sl_visibility *visibility, const uint32_t *parents,
-                                   uint32_t row_cells, sl_eye_search **out) {
+static sl_status create(sl_context *context, const sl_space *space, const sl_boxed_space *boxed,
+                        const sl_visibility *visibility, uint32_t row_cells, sl_eye_search **out) {
     SL_TRY(check_fits(context, row_cells, visibility));
     sl_eye_search *search = sl_alloc_array(context, 1, sizeof *search);
     if (!search) return SL_NO_MEMORY;
     const size_t count = space->cell_count;
     search->space = space;
     search->visibility = visibility;
-    search->parents = parents;
+    search->boxed = boxed;
     search->has_pvs = visibility->pvs.cell_count > 0;
-    search->row = sl_alloc_array(context, sl_eye_words(space), sizeof *search->row);
+    search->row = sl_alloc_array(context, sl_bits_words(row_cells), sizeof *search->row);
     search->queue = sl_alloc_array(context, count, sizeof *search->queue);
     search->steps = sl_alloc_array(context, count + 3, sizeof *search->steps);
     search->rays = sl_alloc_array(context, SL_RAY_SIDES * count, sizeof *search->rays);
@@ -42,6 +36,17 @@ sl_status sl_eye_search_create_cut(sl_context *context, const sl_space *space,
     return SL_OK;
 }
 
+sl_status sl_eye_search_create(sl_context *context, const sl_space *space,
+                               const sl_visibility *visibility, sl_eye_search **out) {
+    return create(context, space, NULL, visibility, space->cell_count, out);
+}
+
+sl_status sl_eye_search_create_cut(sl_context *context, const sl_boxed_space *boxed,
+                                   const sl_visibility *visibility, uint32_t row_cells,
+                                   sl_eye_search **out) {
+    return create(context, &boxed->space, boxed, visibility, row_cells, out);
+}
+
 void sl_eye_search_destroy(sl_context *context, sl_eye_search *search) {
     if (!search) return;
     sl_free(context, search->row);
@@ -50,6 +55,25 @@ void sl_eye_search_destroy(sl_context *context, sl_eye_search *search) {
     sl_free(context, search->rays);
     sl_eye_mirrors_destroy(context, search->mirrors);
     sl_free(context, search);
+}
+
+/// Adds a cell's visible set to the row; false where it has none, not even itself.
+static bool add_row(sl_eye_search *search, uint32_t cell) {
+    sl_row_add_to(&search->visibility->pvs, cell, search->row);
+    return sl_bits_has(search->row, cell);
+}
+
+/// Finds the visible set of the eye's cell: those of all cells of the ground that it has a part of.
+/// Where there is none, nothing is to be seen.
+static void find_row(sl_eye_search *search, uint32_t *cell) {
+    const sl_boxed_space *boxed = search->boxed;
+    const uint32_t row_cells = search->visibility->pvs.cell_count;
+    memset(search->row, 0, sl_bits_words(row_cells) * sizeof *search->row);
+    bool found = add_row(search, boxed ? boxed->parents[*cell] : *cell);
+    if (boxed && boxed->first_share)
+        for (uint32_t i = boxed->first_share[*cell]; i < boxed->first_share[*cell + 1]; i++)
+            found |= add_row(search, boxed->shares[i]);
+    if (!found) *cell = SL_NO_CELL;
 }
 
 sl_status sl_eye_begin(sl_context *context, sl_eye_search *search, const sl_view *view,
@@ -67,16 +91,7 @@ sl_status sl_eye_begin(sl_context *context, sl_eye_search *search, const sl_view
                           .cell = sl_space_locate(search->space, view->eye),
                           .cells = cells};
     if (out->cell == SL_NO_CELL) return SL_OK;
-    if (search->has_pvs) {
-        const uint32_t row = search->parents ? search->parents[out->cell] : out->cell;
-        memset(search->row, 0, words * sizeof *search->row);
-        sl_row_add_to(&search->visibility->pvs, row, search->row);
-        if (!sl_bits_has(search->row, row)) out->cell = SL_NO_CELL;
-        // Parts of a BSP's cells reach into each other's by rounding, which is not to hide
-        // anything.
-        if (search->parents && search->space->beyond)
-            memset(search->row, 0xff, words * sizeof *search->row);
-    }
+    if (search->has_pvs) find_row(search, &out->cell);
     out->cone = sl_cone_of(&out->pivot, view);
     return SL_OK;
 }

@@ -6,6 +6,7 @@
 #include "base/bits.h"
 #include "eye_to_cell/cone.h"
 #include "sightline/eye_to_cell.h"
+#include "space/boxes.h"
 
 /// A cell on the way of the exact method, or a node of the stab tree with all above it.
 typedef struct sl_eye_step {
@@ -28,7 +29,8 @@ struct sl_eye_search {
     double range; ///< of the exact method; 0 for no limit
     const sl_space *space;
     const sl_visibility *visibility;
-    const uint32_t *parents; ///< by cell: whose row has it, and whose bit in rows; NULL: its own
+    const sl_boxed_space *boxed; ///< what `space` is of: tells whose rows and bits a cell has; or
+                                 ///< NULL: its own
     sl_eye_targets targets; ///< of the exact method, over portals and by mirror; `first` NULL: none
     bool has_pvs;
     sl_bits *row;       ///< the visible set of the eye's cell
@@ -52,11 +54,10 @@ typedef struct sl_eye_query {
     sl_bits *cells; ///< the result
 } sl_eye_query;
 
-/// A search of a space in which cells of another one are cut: those of the visibility, which cell c
-/// is a part of by its number parents[c]. `row_cells`: how many they are.
-sl_status sl_eye_search_create_cut(sl_context *context, const sl_space *space,
-                                   const sl_visibility *visibility, const uint32_t *parents,
-                                   uint32_t row_cells, sl_eye_search **out);
+/// A search of a space with boxes. The visibility is that of the ground, of `row_cells` cells.
+sl_status sl_eye_search_create_cut(sl_context *context, const sl_boxed_space *boxed,
+                                   const sl_visibility *visibility, uint32_t row_cells,
+                                   sl_eye_search **out);
 
 /// Checks the view, finds the eye's cell and its visible set, and empties the result.
 sl_status sl_eye_begin(sl_context *context, sl_eye_search *search, const sl_view *view,
@@ -64,11 +65,17 @@ sl_status sl_eye_begin(sl_context *context, sl_eye_search *search, const sl_view
 
 void sl_eye_end(const sl_eye_query *query, sl_eye_account *account);
 
-/// Whether a cell is in the visible set of the eye's, or there are no visible sets.
+/// Whether a cell has a part in the visible set of the eye's, or there are no visible sets.
 static inline bool sl_eye_may_see(const sl_eye_query *query, uint32_t cell) {
     const sl_eye_search *search = query->search;
-    return !search->has_pvs ||
-           sl_bits_has(search->row, search->parents ? search->parents[cell] : cell);
+    const sl_boxed_space *boxed = search->boxed;
+    if (!search->has_pvs) return true;
+    if (!boxed) return sl_bits_has(search->row, cell);
+    if (sl_bits_has(search->row, boxed->parents[cell])) return true;
+    if (boxed->first_share)
+        for (uint32_t i = boxed->first_share[cell]; i < boxed->first_share[cell + 1]; i++)
+            if (sl_bits_has(search->row, boxed->shares[i])) return true;
+    return false;
 }
 
 /// Whether a cell meets the cone.

@@ -69,8 +69,8 @@ static sl_status place(sl_context *context, sl_moving *m) {
     SL_TRY(sl_boxes_put(context, &m->ground, m->boxes, m->count, m->boxed));
     SL_TRY(sl_box_targets_find(context, &m->ground, &m->boxed->space, m->boxes, m->count,
                                &m->targets));
-    SL_TRY(sl_eye_search_create_cut(context, &m->boxed->space, m->visibility, m->boxed->parents,
-                                    m->ground.space->cell_count, &m->search));
+    SL_TRY(sl_eye_search_create_cut(context, m->boxed, m->visibility, m->ground.space->cell_count,
+                                    &m->search));
     m->met = sl_alloc_array(context, m->count, sizeof *m->met);
     m->cells = sl_alloc_array(context, sl_eye_words(&m->boxed->space), sizeof *m->cells);
     if (!m->met || !m->cells) return SL_NO_MEMORY;
@@ -160,9 +160,6 @@ static void tell_cells(const sl_moving *moving, uint64_t *cells) {
     memset(cells, 0, sl_eye_words(moving->ground.space) * sizeof *cells);
     for (uint32_t c = 0; c < boxed->space.cell_count; c++)
         if (sl_bits_has(moving->cells, c)) sl_bits_add(cells, boxed->parents[c]);
-    for (size_t i = 0; i < boxed->shares.count; i++)
-        if (sl_bits_has(moving->cells, boxed->shares.items[i].cell))
-            sl_bits_add(cells, boxed->shares.items[i].parent);
 }
 
 sl_status sl_moving_look(sl_context *context, sl_moving *moving, const sl_view *view,

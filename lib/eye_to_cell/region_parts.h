@@ -120,7 +120,7 @@ uint32_t sl_region_find_side(const sl_outline *outline, const sl_region *region,
 /// Finds the side by which a ray leaves a room that it enters through `entry`: the first one around
 /// that ends to the left of it. *within, given whether the ray passes within the entry rather than
 /// through its right end, becomes whether it passes within that side rather than through its start.
-/// False where there is none, which only rounded corners of cells can bring about.
+/// False where there is none, which only a loose space can bring about.
 static inline bool sl_region_find_first(const sl_outline *o, const sl_eye_place *eye, double limit,
                                         uint32_t entry, const sl_eye_ray *ray, uint32_t *at,
                                         bool *within) {

@@ -68,9 +68,7 @@ static sl_status follow(sl_context *context, seer *s, bool *arrives) {
                 if (meets(s, side->start, o->sides[side->next].start))
                     SL_TRY(enter(context, s, room_of(o, side->beyond)));
             } else if (side->beyond < SL_SIDE_BORDER && !s->touches) {
-                // The side itself may lie behind the wall, by rounding.
-                const sl_wall *wall = &o->space->walls[side->beyond - SL_SIDE_WALL];
-                s->touches = meets(s, wall->a, wall->b);
+                s->touches = meets(s, side->start, o->sides[side->next].start);
             }
         }
     }

@@ -52,7 +52,7 @@ static sl_status lay_out(sl_context *context, const sl_map_kind *kind,
                     .count = (int)count,
                     .open = options->open < 0 ? USUAL_OPEN : options->open};
     sl_status status = kind->lay(&plot);
-    if (status == SL_OK) status = sl_map_clean(context, map, NULL);
+    if (status == SL_OK) status = sl_map_clean(context, map, NULL, NULL);
     if (status != SL_OK) sl_map_destroy(context, map);
     return status;
 }
@@ -148,17 +148,35 @@ static sl_status check_options(sl_context *context, const sl_map_kind *kind,
 
 // --- turning
 
-/// Cosine and sine in units of 1 / SCALE: products with them, and their sums, are exact.
-#define SCALE 0x1p16
+/// With cosine and sine in units of 2^-16, products with whole numbers, and their sums, are exact.
+/// Else they have all the bits but for some that mathematical libraries may differ in, so that the
+/// map is the same on every machine.
+#define EXACT_SCALE   0x1p16
+#define ROUNDED_SCALE 0x1p48
 
 typedef struct turn {
     double cosine, sine, degrees;
+    sl_point middle; // stays where it is
 } turn;
 
+static turn turn_by(const sl_generate_options *options, const sl_map *map) {
+    const double radians = options->turned * 3.14159265358979323846 / 180;
+    const double scale = options->in_line ? EXACT_SCALE : ROUNDED_SCALE;
+    turn t = {rint(scale * cos(radians)) / scale,
+              rint(scale * sin(radians)) / scale,
+              options->turned,
+              {0, 0}};
+    if (options->in_line) return t;
+    const sl_box b = sl_map_bounds(map);
+    t.middle = (sl_point){(b.min.x + b.max.x) / 2, (b.min.y + b.max.y) / 2};
+    return t;
+}
+
 static sl_point turn_point(turn t, sl_point p) {
+    const double x = p.x - t.middle.x, y = p.y - t.middle.y;
     // Without a minus before a zero.
-    return (sl_point){(t.cosine * p.x - t.sine * p.y) / SCALE + 0.0,
-                      (t.sine * p.x + t.cosine * p.y) / SCALE + 0.0};
+    return (sl_point){t.middle.x + (t.cosine * x - t.sine * y) + 0.0,
+                      t.middle.y + (t.sine * x + t.cosine * y) + 0.0};
 }
 
 static sl_box turn_box(turn t, sl_box box) {
@@ -173,9 +191,7 @@ static sl_box turn_box(turn t, sl_box box) {
     return turned;
 }
 
-static void turn_map(double degrees, sl_map *map) {
-    const double radians = degrees * 3.14159265358979323846 / 180;
-    const turn t = {rint(SCALE * cos(radians)), rint(SCALE * sin(radians)), degrees};
+static void turn_map(turn t, sl_map *map) {
     for (size_t i = 0; i < map->wall_count; i++) {
         map->walls[i].a = turn_point(t, map->walls[i].a);
         map->walls[i].b = turn_point(t, map->walls[i].b);
@@ -200,7 +216,11 @@ static sl_status add_note(sl_context *context, const sl_map_kind *kind,
     snprintf(text, sizeof text, "made by: sightline generate %s --seed %llu --%s %llu%s%s%s%s",
              kind->name, (unsigned long long)options->seed, options->walls ? "walls" : "size",
              (unsigned long long)(options->walls ? options->walls : size), *open ? " --open " : "",
-             open, *turned ? " --turned " : "", turned);
+             open,
+             !*turned           ? ""
+             : options->in_line ? " --turned-exact "
+                                : " --turned ",
+             turned);
     return sl_map_add_note(context, map, text);
 }
 
@@ -209,7 +229,7 @@ sl_status sl_generate(sl_context *context, const sl_map_kind *kind,
     SL_TRY(check_options(context, kind, options));
     SL_TRY(options->walls ? lay_out_walls(context, kind, options, map)
                           : lay_out_size(context, kind, options, map));
-    if (options->turned != 0) turn_map(options->turned, map);
+    if (options->turned != 0) turn_map(turn_by(options, map), map);
     const sl_status status = add_note(context, kind, options, map);
     if (status != SL_OK) sl_map_destroy(context, map);
     return status;

@@ -14,7 +14,6 @@ typedef struct doom_import {
     const sl_doom_level *level;
     const bool *is_door; ///< NULL where doors are seen through
     bool seams;          ///< lines between sectors are to cut cells
-    uint32_t *walls;     ///< by line: its wall, or SL_NO_WALL; NULL where nobody asks
     sl_map *map;
     line_account lines;
 } doom_import;
@@ -55,8 +54,6 @@ static sl_status add_line(doom_import *import, const sl_doom_line *line) {
         return import->is_door ? add_door(import, line) : SL_OK;
     }
     lines->walls++;
-    if (import->walls)
-        import->walls[line - import->level->lines] = (uint32_t)import->map->wall_count;
     return sl_map_add_wall(import->context, import->map, line->from, line->to, line->line);
 }
 
@@ -96,22 +93,6 @@ static void tell_doors_left_out(sl_context *context, const char *name, const sl_
                 name, level->name, doors);
 }
 
-/// The lines, and the cells that a node builder made of them.
-static sl_status add_cells(doom_import *import, const sl_wad *wad, const sl_wad_map *chosen) {
-    const size_t count = import->level->line_count;
-    import->walls = sl_alloc_array(import->context, count, sizeof *import->walls);
-    if (!import->walls) return SL_NO_MEMORY;
-    memset(import->walls, 0xff, count * sizeof *import->walls);
-    sl_status status = SL_OK;
-    for (size_t i = 0; i < count && status == SL_OK; i++)
-        status = add_line(import, &import->level->lines[i]);
-    if (status == SL_OK)
-        status = sl_doom_add_cells(import->context, wad, chosen, import->level, import->walls,
-                                   import->map);
-    sl_free(import->context, import->walls);
-    return status;
-}
-
 static sl_status add_lines(doom_import *import) {
     for (size_t i = 0; i < import->level->line_count; i++)
         SL_TRY(add_line(import, &import->level->lines[i]));
@@ -130,7 +111,8 @@ static sl_status make_map(sl_context *context, const sl_wad *wad, const sl_wad_m
                           .is_door = options->doors ? is_door : NULL,
                           .seams = options->sectors,
                           .map = map};
-    sl_status status = options->cells ? add_cells(&import, wad, chosen) : add_lines(&import);
+    sl_status status = add_lines(&import);
+    if (status == SL_OK && options->cells) status = sl_doom_add_cells(context, wad, chosen, map);
     if (status == SL_OK) status = add_start(&import);
     if (status == SL_OK) tell(&import, name);
     if (status == SL_OK && !options->doors) tell_doors_left_out(context, name, level, is_door);

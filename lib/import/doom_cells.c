@@ -14,14 +14,11 @@ typedef struct gl_nodes {
     sl_context *context;
     const sl_wad *wad;
     const sl_wad_map *map;
-    const sl_doom_level *level;
-    const uint32_t *walls;
     bool is_wide;      ///< numbers of segs and vertices have 32 bits: versions 3 and 5
     bool is_fixed;     ///< new vertices have 16 bits behind the point: all but version 1
     uint32_t new_flag; ///< of a vertex of GL_VERT
     gl_lump old_vertices, vertices, segs, subsectors;
     SL_ARRAY(sl_point) corners; ///< of the subsector at hand
-    SL_ARRAY(uint32_t) corner_walls;
 } gl_nodes;
 
 static sl_status fail_lump(const gl_nodes *gl, const char *lump, const char *what) {
@@ -136,22 +133,12 @@ static sl_status find_vertex(const gl_nodes *gl, size_t seg, uint32_t number, sl
     return SL_OK;
 }
 
-/// The seg's start, its wall if it is along one.
+/// The seg's start.
 static sl_status add_corner(gl_nodes *gl, size_t seg) {
-    enum { NO_LINE = 0xffff };
-    const unsigned char *record = record_at(&gl->segs, seg);
-    const unsigned line = sl_wad_u16(record + (gl->is_wide ? 8 : 4));
-    if (line != NO_LINE && line >= gl->level->line_count)
-        return sl_fail_at(gl->context, gl->wad->name, 0,
-                          "map %s, lump GL_SEGS, seg %zu: linedef %u, but there are %zu",
-                          gl->map->name, seg, line, gl->level->line_count);
     sl_point at;
-    SL_TRY(find_vertex(gl, seg, number_at(gl, record, 0), &at));
+    SL_TRY(find_vertex(gl, seg, number_at(gl, record_at(&gl->segs, seg), 0), &at));
     SL_TRY(SL_ARRAY_ROOM(gl->context, &gl->corners, 1));
-    SL_TRY(SL_ARRAY_ROOM(gl->context, &gl->corner_walls, 1));
     gl->corners.items[gl->corners.count++] = at;
-    gl->corner_walls.items[gl->corner_walls.count++] =
-        line == NO_LINE ? SL_NO_WALL : gl->walls[line];
     return SL_OK;
 }
 
@@ -166,9 +153,9 @@ static sl_status add_subsector(gl_nodes *gl, size_t index, sl_map *out) {
             gl->segs.count);
     // Rounding to whole numbers, as version 1 does, leaves some no area.
     if (count < 3) return SL_OK;
-    gl->corners.count = gl->corner_walls.count = 0;
+    gl->corners.count = 0;
     for (uint32_t i = 0; i < count; i++) SL_TRY(add_corner(gl, first + i));
-    return sl_map_add_cell(gl->context, out, gl->corners.items, gl->corner_walls.items, count, 0);
+    return sl_map_add_cell(gl->context, out, gl->corners.items, count, 0);
 }
 
 static sl_status add_all(gl_nodes *gl, sl_map *out) {
@@ -177,16 +164,15 @@ static sl_status add_all(gl_nodes *gl, sl_map *out) {
         if (i % 1024 == 0) SL_TRY(sl_check_cancelled(gl->context));
         SL_TRY(add_subsector(gl, i, out));
     }
-    // Where segs do not tell a side's wall, it may be off it by what vertices are rounded to.
-    out->snap = gl->is_fixed ? 0x1p-10 : 1;
+    // What vertices are rounded to, with room to spare: whole numbers stay apart.
+    out->snap = gl->is_fixed ? 0x1p-11 : 0.49;
     return SL_OK;
 }
 
 sl_status sl_doom_add_cells(sl_context *context, const sl_wad *wad, const sl_wad_map *map,
-                            const sl_doom_level *level, const uint32_t *walls, sl_map *out) {
-    gl_nodes gl = {.context = context, .wad = wad, .map = map, .level = level, .walls = walls};
+                            sl_map *out) {
+    gl_nodes gl = {.context = context, .wad = wad, .map = map};
     const sl_status status = add_all(&gl, out);
     sl_free(context, gl.corners.items);
-    sl_free(context, gl.corner_walls.items);
     return status;
 }

@@ -7,10 +7,9 @@
 
 #include "import/doom.h"
 
-/// Adds each subsector that the WAD has for the map to `out` as a cell. `walls`: by line, the
-/// number of its wall in `out`, or SL_NO_WALL. SL_BAD_INPUT, naming the lump, where there are none
-/// or they are damaged.
+/// Adds each subsector that the WAD has for the map to `out` as a cell. SL_BAD_INPUT, naming the
+/// lump, where there are none or they are damaged.
 sl_status sl_doom_add_cells(sl_context *context, const sl_wad *wad, const sl_wad_map *map,
-                            const sl_doom_level *level, const uint32_t *walls, sl_map *out);
+                            sl_map *out);
 
 #endif

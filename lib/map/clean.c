@@ -1,7 +1,8 @@
 #include "base/base.h"
 #include "base/bits.h"
-#include "sightline/map.h"
+#include "map/planar.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -338,11 +339,8 @@ static sl_status hand_over(cleaning *work, sl_map *map) {
     return SL_OK;
 }
 
-static sl_status clean(cleaning *work, sl_map *map) {
-    SL_TRY(sort_out(work, map));
-    merge(&work->uprights, &work->account);
-    merge(&work->levels, &work->account);
-    drop_duplicates(&work->others, &work->account);
+/// Where all is axial and ends are where they are: no coordinate is computed.
+static sl_status clean_axial(cleaning *work, sl_map *map) {
     sweeper sweep = {0};
     const sl_status status = sweep_over(work, &sweep);
     destroy_sweep(work->context, &sweep);
@@ -350,15 +348,280 @@ static sl_status clean(cleaning *work, sl_map *map) {
     return hand_over(work, map);
 }
 
-sl_status sl_map_clean(sl_context *context, sl_map *map, sl_clean_account *account) {
-    cleaning work = {.context = context, .account.before = map->wall_count};
-    if (map->cell_count) {
-        // Its cells' sides tell walls by their numbers.
-        if (account)
-            *account = (sl_clean_account){.before = map->wall_count, .after = map->wall_count};
-        return SL_OK;
+// --- oblique walls: all of the map's segments become one planar graph
+
+/// All segments of a map in one list: walls first, then what else stands in it.
+typedef struct segment_list {
+    SL_ARRAY(sl_segment) items;
+    size_t mirrors, oneways, seams, doors, cells; ///< the first of each; walls before them
+} segment_list;
+
+static sl_status add_segment(sl_context *context, segment_list *list, sl_point a, sl_point b) {
+    SL_TRY(SL_ARRAY_ROOM(context, &list->items, 1));
+    list->items.items[list->items.count++] = (sl_segment){a, b};
+    return SL_OK;
+}
+
+static sl_status add_glass(sl_context *context, segment_list *list, const sl_glass *glass,
+                           size_t count) {
+    for (size_t i = 0; i < count; i++)
+        SL_TRY(add_segment(context, list, glass[i].segment.a, glass[i].segment.b));
+    return SL_OK;
+}
+
+static sl_status list_segments(const cleaning *work, const sl_map *map, segment_list *list) {
+    sl_context *context = work->context;
+    for (size_t i = 0; i < work->uprights.count; i++) {
+        const piece *at = &work->uprights.items[i];
+        SL_TRY(
+            add_segment(context, list, (sl_point){at->at, at->low}, (sl_point){at->at, at->high}));
     }
-    const sl_status status = clean(&work, map);
+    for (size_t i = 0; i < work->levels.count; i++) {
+        const piece *at = &work->levels.items[i];
+        SL_TRY(
+            add_segment(context, list, (sl_point){at->low, at->at}, (sl_point){at->high, at->at}));
+    }
+    for (size_t i = 0; i < work->others.count; i++)
+        SL_TRY(add_segment(context, list, work->others.items[i].a, work->others.items[i].b));
+    list->mirrors = list->items.count;
+    SL_TRY(add_glass(context, list, map->mirrors, map->mirror_count));
+    list->oneways = list->items.count;
+    SL_TRY(add_glass(context, list, map->oneways, map->oneway_count));
+    list->seams = list->items.count;
+    SL_TRY(add_glass(context, list, map->seams, map->seam_count));
+    list->doors = list->items.count;
+    for (size_t i = 0; i < map->door_count; i++)
+        SL_TRY(add_segment(context, list, map->doors[i].segment.a, map->doors[i].segment.b));
+    list->cells = list->items.count;
+    for (size_t i = 0; i < map->cell_count; i++) {
+        const sl_map_cell *cell = &map->cells[i];
+        const sl_point *corners = map->corners + cell->first;
+        for (size_t k = 0; k < cell->count; k++)
+            SL_TRY(add_segment(context, list, corners[k], corners[(k + 1) % cell->count]));
+    }
+    return SL_OK;
+}
+
+static uint32_t line_of(const cleaning *work, size_t segment) {
+    const size_t uprights = work->uprights.count, levels = work->levels.count;
+    if (segment < uprights) return work->uprights.items[segment].line;
+    if (segment < uprights + levels) return work->levels.items[segment - uprights].line;
+    return work->others.items[segment - uprights - levels].line;
+}
+
+/// What a map is given in the place of its own, made ready so that nothing can fail halfway.
+typedef struct replacement {
+    sl_wall *walls;
+    sl_glass *mirrors, *oneways, *seams;
+    sl_segment **doors; ///< by door: its parts
+    sl_point *corners;  ///< of cells
+    size_t wall_count;
+} replacement;
+
+/// Makes a wall of each edge that is part of one.
+static sl_status make_walls(cleaning *work, const segment_list *list, const sl_planar *graph,
+                            replacement *out) {
+    uint32_t *lines = sl_alloc_array(work->context, graph->edge_count, sizeof *lines);
+    bool *walled = sl_alloc_array(work->context, graph->edge_count, sizeof *walled);
+    out->walls = sl_alloc_array(work->context, graph->edge_count, sizeof *out->walls);
+    const bool done = lines && walled && out->walls;
+    for (size_t i = 0; i < list->mirrors && done; i++) {
+        const size_t parts = graph->first[i + 1] - graph->first[i];
+        work->account.split += parts > 1;
+        work->account.zero_length += parts == 0;
+        for (size_t k = graph->first[i]; k < graph->first[i + 1]; k++) {
+            const size_t edge = graph->links[k] / 2;
+            const uint32_t line = line_of(work, i);
+            lines[edge] = walled[edge] ? lower_line(lines[edge], line) : line;
+            work->account.merged += walled[edge];
+            walled[edge] = true;
+        }
+    }
+    for (size_t i = 0; i < graph->edge_count && done; i++)
+        if (walled[i])
+            out->walls[out->wall_count++] = (sl_wall){graph->points[graph->edges[i].a],
+                                                      graph->points[graph->edges[i].b], lines[i]};
+    if (out->wall_count) qsort(out->walls, out->wall_count, sizeof *out->walls, compare_walls);
+    sl_free(work->context, lines);
+    sl_free(work->context, walled);
+    return done ? SL_OK : SL_NO_MEMORY;
+}
+
+/// The parts that mirrors, glass or seams have become.
+static sl_status make_glass(sl_context *context, const sl_planar *graph, size_t first,
+                            const sl_glass *glass, size_t count, sl_glass **out) {
+    size_t next = 0;
+    *out = sl_alloc_array(context, graph->first[first + count] - graph->first[first], sizeof **out);
+    if (!*out) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = graph->first[first + i]; k < graph->first[first + i + 1]; k++) {
+            (*out)[next] = glass[i];
+            (*out)[next++].segment = sl_planar_at(graph, graph->links[k]);
+        }
+    return SL_OK;
+}
+
+static sl_status make_doors(sl_context *context, const sl_planar *graph, size_t first, size_t count,
+                            sl_segment ***out) {
+    *out = sl_alloc_array(context, count, sizeof **out);
+    if (!*out) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++) {
+        const size_t links = graph->first[first + i], parts = graph->first[first + i + 1] - links;
+        (*out)[i] = sl_alloc_array(context, parts, sizeof ***out);
+        if (!(*out)[i]) return SL_NO_MEMORY;
+        for (size_t k = 0; k < parts; k++)
+            (*out)[i][k] = sl_planar_at(graph, graph->links[links + k]);
+    }
+    return SL_OK;
+}
+
+static sl_status make_replacement(cleaning *work, const segment_list *list, const sl_planar *graph,
+                                  const sl_map *map, replacement *out) {
+    sl_context *context = work->context;
+    SL_TRY(make_walls(work, list, graph, out));
+    SL_TRY(
+        make_glass(context, graph, list->mirrors, map->mirrors, map->mirror_count, &out->mirrors));
+    SL_TRY(
+        make_glass(context, graph, list->oneways, map->oneways, map->oneway_count, &out->oneways));
+    SL_TRY(make_glass(context, graph, list->seams, map->seams, map->seam_count, &out->seams));
+    SL_TRY(make_doors(context, graph, list->doors, map->door_count, &out->doors));
+    const size_t sides = graph->first[list->items.count] - graph->first[list->cells];
+    out->corners = sl_alloc_array(context, sides, sizeof *out->corners);
+    return out->corners ? SL_OK : SL_NO_MEMORY;
+}
+
+static void replace_glass(sl_context *context, sl_glass **glass, size_t *count, size_t *room,
+                          sl_glass **with, size_t with_count) {
+    sl_free(context, *glass);
+    *glass = *with;
+    *with = NULL;
+    *count = *room = with_count;
+}
+
+/// A door keeps its name and number, whatever it is cut into.
+static void replace_door(sl_context *context, sl_door *door, sl_segment **parts, size_t count) {
+    sl_free(context, door->parts);
+    door->parts = NULL;
+    door->part_count = 0;
+    door->segment.b = count ? (*parts)[count - 1].b : door->segment.a;
+    if (count) door->segment.a = (*parts)[0].a;
+    if (count < 2) return;
+    door->parts = *parts;
+    door->part_count = count;
+    *parts = NULL;
+}
+
+/// The corners of cells are where the edges start that their sides have become.
+static void replace_cells(sl_context *context, const sl_planar *graph, size_t first, sl_map *map,
+                          sl_point **corners) {
+    size_t cells = 0, count = 0;
+    for (size_t i = 0; i < map->cell_count; i++) {
+        sl_map_cell cell = map->cells[i];
+        const size_t *sides = graph->first + first + cell.first;
+        cell.first = count;
+        for (size_t k = sides[0]; k < sides[cell.count]; k++)
+            (*corners)[count++] = sl_planar_at(graph, graph->links[k]).a;
+        cell.count = (uint32_t)(count - cell.first);
+        if (cell.count < 3)
+            count = cell.first;
+        else
+            map->cells[cells++] = cell;
+    }
+    sl_free(context, map->corners);
+    map->corners = *corners;
+    *corners = NULL;
+    map->corner_count = map->corner_room = count;
+    map->cell_count = cells;
+}
+
+static void replace(cleaning *work, const segment_list *list, const sl_planar *graph,
+                    replacement *with, sl_map *map) {
+    sl_context *context = work->context;
+    const size_t *first = graph->first;
+    sl_free(context, map->walls);
+    map->walls = with->walls;
+    with->walls = NULL;
+    map->wall_count = map->wall_room = work->account.after = with->wall_count;
+    replace_glass(context, &map->mirrors, &map->mirror_count, &map->mirror_room, &with->mirrors,
+                  first[list->oneways] - first[list->mirrors]);
+    replace_glass(context, &map->oneways, &map->oneway_count, &map->oneway_room, &with->oneways,
+                  first[list->seams] - first[list->oneways]);
+    replace_glass(context, &map->seams, &map->seam_count, &map->seam_room, &with->seams,
+                  first[list->doors] - first[list->seams]);
+    for (size_t i = 0; i < map->door_count; i++)
+        replace_door(context, &map->doors[i], &with->doors[i],
+                     first[list->doors + i + 1] - first[list->doors + i]);
+    if (map->cell_count) replace_cells(context, graph, list->cells, map, &with->corners);
+    work->account.welded = graph->welded;
+    work->account.crossings = graph->crossings;
+    work->account.largest_move = graph->largest_move;
+}
+
+static sl_status take_graph(cleaning *work, const segment_list *list, const sl_planar *graph,
+                            sl_map *map) {
+    replacement with = {0};
+    const sl_status status = make_replacement(work, list, graph, map, &with);
+    if (status == SL_OK) replace(work, list, graph, &with, map);
+    for (size_t i = 0; with.doors && i < map->door_count; i++)
+        sl_free(work->context, with.doors[i]);
+    sl_free(work->context, with.doors);
+    sl_free(work->context, with.walls);
+    sl_free(work->context, with.mirrors);
+    sl_free(work->context, with.oneways);
+    sl_free(work->context, with.seams);
+    sl_free(work->context, with.corners);
+    return status;
+}
+
+static sl_status clean_oblique(cleaning *work, sl_map *map, double weld) {
+    const sl_box bounds = sl_map_bounds(map);
+    const double own = weld < 0 ? sl_planar_tolerance(&bounds) : weld;
+    segment_list list = {0};
+    sl_planar graph = {0};
+    sl_status status = list_segments(work, map, &list);
+    if (status == SL_OK)
+        status =
+            sl_planar_make(work->context, map->source ? map->source : "the map", list.items.items,
+                           list.items.count, fmax(own, 2 * map->snap), &graph);
+    if (status == SL_OK) status = take_graph(work, &list, &graph, map);
+    sl_planar_destroy(work->context, &graph);
+    sl_free(work->context, list.items.items);
+    return status;
+}
+
+static bool is_axial(sl_segment at) {
+    return at.a.x == at.b.x || at.a.y == at.b.y;
+}
+
+bool sl_map_is_axial(const sl_map *map) {
+    bool axial = sl_map_count_oblique(map) == 0;
+    for (size_t i = 0; i < map->mirror_count; i++) axial &= is_axial(map->mirrors[i].segment);
+    for (size_t i = 0; i < map->door_count; i++) axial &= is_axial(map->doors[i].segment);
+    for (size_t i = 0; i < map->oneway_count; i++) axial &= is_axial(map->oneways[i].segment);
+    for (size_t i = 0; i < map->seam_count; i++) axial &= is_axial(map->seams[i].segment);
+    return axial;
+}
+
+static sl_status clean(cleaning *work, sl_map *map, double weld) {
+    const bool axial = sl_map_is_axial(map) && !(weld > 0) && !map->cell_count;
+    SL_TRY(sort_out(work, map));
+    merge(&work->uprights, &work->account);
+    merge(&work->levels, &work->account);
+    drop_duplicates(&work->others, &work->account);
+    return axial ? clean_axial(work, map) : clean_oblique(work, map, weld);
+}
+
+sl_clean_options sl_clean_options_default(void) {
+    return (sl_clean_options){.weld = -1};
+}
+
+sl_status sl_map_clean(sl_context *context, sl_map *map, const sl_clean_options *options,
+                       sl_clean_account *account) {
+    cleaning work = {.context = context, .account.before = map->wall_count};
+    const double weld = options ? options->weld : sl_clean_options_default().weld;
+    if (!isfinite(weld) || weld > SL_COORDINATE_MAX)
+        return sl_fail(context, SL_BAD_ARGUMENT, "the welding tolerance must be a number");
+    const sl_status status = clean(&work, map, weld);
     sl_free(context, work.uprights.items);
     sl_free(context, work.levels.items);
     sl_free(context, work.others.items);

@@ -14,6 +14,11 @@ static sl_status copy_effects(sl_context *context, const sl_map *from, sl_map *t
     for (size_t i = 0; i < from->door_count; i++) {
         const sl_door *d = &from->doors[i];
         SL_TRY(sl_map_add_door(context, to, d->name, d->segment, d->open, d->line));
+        if (!d->parts) continue;
+        to->doors[i].parts = sl_alloc_array(context, d->part_count, sizeof *d->parts);
+        if (!to->doors[i].parts) return SL_NO_MEMORY;
+        memcpy(to->doors[i].parts, d->parts, d->part_count * sizeof *d->parts);
+        to->doors[i].part_count = d->part_count;
     }
     for (size_t i = 0; i < from->mirror_count; i++) {
         SL_TRY(sl_map_add_mirror(context, to, from->mirrors[i].segment, from->mirrors[i].line));
@@ -31,9 +36,7 @@ static sl_status copy_cells(sl_context *context, const sl_map *from, sl_map *to)
     to->snap_line = from->snap_line;
     for (size_t i = 0; i < from->cell_count; i++) {
         const sl_map_cell *cell = &from->cells[i];
-        SL_TRY(sl_map_add_cell(context, to, from->corners + cell->first,
-                               from->corner_walls ? from->corner_walls + cell->first : NULL,
-                               cell->count, cell->line));
+        SL_TRY(sl_map_add_cell(context, to, from->corners + cell->first, cell->count, cell->line));
     }
     return SL_OK;
 }

@@ -35,7 +35,10 @@ bool sl_name_usable(const char *name, size_t length) {
 }
 
 void sl_map_destroy(sl_context *context, sl_map *map) {
-    for (size_t i = 0; i < map->door_count; i++) sl_free(context, map->doors[i].name);
+    for (size_t i = 0; i < map->door_count; i++) {
+        sl_free(context, map->doors[i].name);
+        sl_free(context, map->doors[i].parts);
+    }
     for (size_t i = 0; i < map->object_count; i++) sl_free(context, map->objects[i].name);
     for (size_t i = 0; i < map->path_count; i++) {
         sl_free(context, map->paths[i].name);
@@ -58,12 +61,10 @@ void sl_map_destroy(sl_context *context, sl_map *map) {
 void sl_map_drop_cells(sl_context *context, sl_map *map) {
     sl_free(context, map->cells);
     sl_free(context, map->corners);
-    sl_free(context, map->corner_walls);
     map->cells = NULL;
     map->corners = NULL;
-    map->corner_walls = NULL;
     map->cell_count = map->corner_count = 0;
-    map->cell_room = map->corner_room = map->corner_wall_room = 0;
+    map->cell_room = map->corner_room = 0;
     map->snap = 0;
     map->snap_line = 0;
 }
@@ -174,22 +175,16 @@ sl_status sl_map_add_object(sl_context *context, sl_map *map, const char *name, 
     return SL_OK;
 }
 
-sl_status sl_map_add_cell(sl_context *context, sl_map *map, const sl_point *corners,
-                          const uint32_t *walls, size_t count, uint32_t line) {
+sl_status sl_map_add_cell(sl_context *context, sl_map *map, const sl_point *corners, size_t count,
+                          uint32_t line) {
     if (count < 3 || count > UINT32_MAX)
         return sl_fail(context, SL_BAD_ARGUMENT, "cell: expected at least three corners");
-    if (map->cell_count && !walls != !map->corner_walls)
-        return sl_fail(context, SL_BAD_ARGUMENT, "cell: either all cells tell their walls or none");
     for (size_t i = 0; i < count; i++) SL_TRY(check_point(context, "cell", corners[i]));
     const size_t total = map->corner_count + count;
     SL_TRY(MAP_ROOM(context, map, cells, cell));
     SL_TRY(sl_reserve(context, (void **)&map->corners, &map->corner_room, total,
                       sizeof *map->corners));
-    if (walls)
-        SL_TRY(sl_reserve(context, (void **)&map->corner_walls, &map->corner_wall_room, total,
-                          sizeof *map->corner_walls));
     memcpy(map->corners + map->corner_count, corners, count * sizeof *corners);
-    if (walls) memcpy(map->corner_walls + map->corner_count, walls, count * sizeof *walls);
     map->cells[map->cell_count++] =
         (sl_map_cell){.first = map->corner_count, .count = (uint32_t)count, .line = line};
     map->corner_count = total;

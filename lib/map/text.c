@@ -140,7 +140,7 @@ static sl_status read_cell(text_reader *reader) {
     sl_point *points = copy_points(reader, &count);
     if (!points) return SL_NO_MEMORY;
     const sl_status status =
-        sl_map_add_cell(reader->context, reader->map, points, NULL, count, reader->line);
+        sl_map_add_cell(reader->context, reader->map, points, count, reader->line);
     sl_free(reader->context, points);
     return status;
 }

@@ -40,7 +40,7 @@ typedef enum sl_runtime_status {
     SL_RUNTIME_SIZE,       ///< cut short, or longer than it says
     SL_RUNTIME_CHECKSUM,   ///< changed since it was written
     SL_RUNTIME_SECTION,    ///< a section is missing, there twice, or does not fit
-    SL_RUNTIME_SPACE,      ///< the bounds, the tree, cells, exits: a number is out of range
+    SL_RUNTIME_SPACE,      ///< bounds, tree, grid, cells, exits: a number is out of range
     SL_RUNTIME_ROW,        ///< the rows: one is damaged
     SL_RUNTIME_SHARD       ///< one shard of a bake, which has no rows yet
 } sl_runtime_status;
@@ -55,16 +55,17 @@ typedef struct sl_runtime {
     uint32_t portal_count; ///< portals are numbered too, for a game that keeps doors by them
     uint32_t exit_count;   ///< of all cells: two a portal
     uint32_t vertex_count;
-    uint32_t node_count;
-    uint32_t line_count;
-    bool partial; // the cells need not fill the bounds
-    int32_t root;
+    uint32_t node_count;              ///< of the tree that locates points where all walls are axial
+    int32_t root;                     ///< as a child of a node
+    uint32_t grid_columns, grid_rows; ///< of the grid that locates points in other maps
+    bool loose;      ///< a file of format version 1 with oblique walls, or made from one: cells may
+                     ///< overlap by rounding, or leave gaps
     bool unfinished; ///< the bake was stopped: rows miss nothing, but hold what was not decided
     uint32_t view_cell_count; ///< 0 where the map was baked without view cells
     uint32_t view_node_count; ///< rows of view cells, and of groups of them
     uint32_t door_count;      ///< doors are numbered as the map names them
-    const unsigned char *nodes, *lines, *cells, *vertices, *exits, *row_offsets, *row_bytes;
-    const unsigned char *walls, *beyond;            ///< NULL where all walls are axial
+    const unsigned char *nodes, *cells, *vertices, *exits, *row_offsets, *row_bytes;
+    const unsigned char *grid_offsets, *grid_cells; ///< NULL for no grid
     const unsigned char *door_offsets, *door_bytes; ///< NULL where no pair depends on doors
     const unsigned char *seams, *seam_portals;      ///< NULL for none
     uint32_t seam_portal_count;
@@ -77,11 +78,12 @@ SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size,
 /// A status in words, for a log.
 SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status);
 
-/// The cell that holds a point; SL_RUNTIME_NO_CELL outside the bounds, for NaN, and where cells
-/// that came with the map leave a gap. On a split line the cell above (right of or over) it, on an
-/// oblique one the cell at its left; on the upper or right border the cell inside. Where walls are
-/// oblique, cells reach over them by the size of rounding; a point there is in a cell behind the
-/// wall. The same as the library's sl_space_locate. Time: the tree's depth.
+/// The cell that holds a point; SL_RUNTIME_NO_CELL outside the bounds and for NaN. Exact, the same
+/// as the library's sl_space_locate. Where all walls are axial: on a split line the cell above
+/// (right of or over) it, on the upper or right border the cell inside; time: the tree's depth.
+/// Elsewhere: on a border between cells the cell of the lowest number; time: the few cells in one
+/// bucket of the grid. In a loose file SL_RUNTIME_NO_CELL in gaps too; time: all cells where it is
+/// of version 1.
 SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, double y);
 
 /// The cells in which a box lies, those that it only touches included, ascending: gives how many
@@ -262,15 +264,8 @@ enum {
     SLRT_NODE_BYTES = 24,
     SLRT_CELL_BYTES = 24,
     SLRT_VERTEX_BYTES = 16,
-    SLRT_EXIT_BYTES = 40,
-    SLRT_LINE_BYTES = 32,
-    SLRT_WALL_BYTES = 32
+    SLRT_EXIT_BYTES = 40
 };
-
-/// What the section BEYO says of a cell's side that no wall is on: an exit or the map's border.
-/// Else it is the wall's number, with a bit where the cell is at the wall's right.
-#define SLRT_BEYOND_BORDER 0xfffffffeu
-#define SLRT_BEYOND_RIGHT  0x80000000u
 
 enum slrt_tag {
     SLRT_INFO,
@@ -281,7 +276,6 @@ enum slrt_tag {
     SLRT_EXIT,
     SLRT_PVSO,
     SLRT_PVSB,
-    SLRT_LINE,
     SLRT_PART,
     SLRT_VCIN,
     SLRT_VCEL,
@@ -291,9 +285,10 @@ enum slrt_tag {
     SLRT_SEAM,
     SLRT_DORO,
     SLRT_DORB,
-    SLRT_WALL,
     SLRT_BEYO,
     SLRT_SEPO,
+    SLRT_GRIO, ///< of version 2, as what follows
+    SLRT_GRIC,
     SLRT_TAGS
 };
 
@@ -330,7 +325,7 @@ static sl_runtime_status slrt_check_header(const unsigned char *bytes, size_t si
     if (!bytes || size < 8 || memcmp(bytes, magic, 8) != 0) return SL_RUNTIME_NOT_BAKED;
     if (size < SLRT_HEADER_BYTES) return SL_RUNTIME_SIZE;
     if (slrt_u32(bytes + 12) != 0x01020304u) return SL_RUNTIME_BYTE_ORDER;
-    if (slrt_u32(bytes + 8) != 1) return SL_RUNTIME_VERSION;
+    if (slrt_u32(bytes + 8) != 1 && slrt_u32(bytes + 8) != 2) return SL_RUNTIME_VERSION;
     if (slrt_u64(bytes + 16) != size) return SL_RUNTIME_SIZE;
     if (slrt_checksum(bytes, size) != slrt_u32(bytes + 28)) return SL_RUNTIME_CHECKSUM;
     if (slrt_u32(bytes + 24) > (size - SLRT_HEADER_BYTES) / SLRT_ENTRY_BYTES)
@@ -341,41 +336,42 @@ static sl_runtime_status slrt_check_header(const unsigned char *bytes, size_t si
 /// Finds the sections that the runtime knows; what else there is it passes over.
 static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t size,
                                             slrt_section *found) {
-    static const char tags[SLRT_TAGS][5] = {"INFO", "NODE", "CELL", "VERT", "PORT", "EXIT", "PVSO",
-                                            "PVSB", "LINE", "PART", "VCIN", "VCEL", "VCPA", "VCRO",
-                                            "VCRB", "SEAM", "DORO", "DORB", "WALL", "BEYO", "SEPO"};
-    static const uint32_t item_bytes[SLRT_TAGS] = {128,
-                                                   SLRT_NODE_BYTES,
-                                                   SLRT_CELL_BYTES,
-                                                   SLRT_VERTEX_BYTES,
-                                                   40,
-                                                   SLRT_EXIT_BYTES,
-                                                   8,
-                                                   1,
-                                                   SLRT_LINE_BYTES,
-                                                   16,
-                                                   8,
-                                                   4,
-                                                   4,
-                                                   8,
-                                                   1,
-                                                   40,
-                                                   8,
-                                                   1,
-                                                   SLRT_WALL_BYTES,
-                                                   4,
-                                                   12};
+    static const struct {
+        char tag[5];
+        uint32_t item_bytes;
+    } known[SLRT_TAGS] = {{"INFO", 128},
+                          {"NODE", SLRT_NODE_BYTES},
+                          {"CELL", SLRT_CELL_BYTES},
+                          {"VERT", SLRT_VERTEX_BYTES},
+                          {"PORT", 40},
+                          {"EXIT", SLRT_EXIT_BYTES},
+                          {"PVSO", 8},
+                          {"PVSB", 1},
+                          {"PART", 16},
+                          {"VCIN", 8},
+                          {"VCEL", 4},
+                          {"VCPA", 4},
+                          {"VCRO", 8},
+                          {"VCRB", 1},
+                          {"SEAM", 40},
+                          {"DORO", 8},
+                          {"DORB", 1},
+                          {"BEYO", 4},
+                          {"SEPO", 12},
+                          {"GRIO", 4},
+                          {"GRIC", 4}};
     const uint32_t count = slrt_u32(bytes + 24);
     uint32_t i;
+    const int tags = slrt_u32(bytes + 8) == 1 ? SLRT_GRIO : SLRT_TAGS;
     int tag;
     for (i = 0; i < count; i++) {
         const unsigned char *entry =
             bytes + SLRT_HEADER_BYTES + (size_t)i * (size_t)SLRT_ENTRY_BYTES;
         const uint64_t offset = slrt_u64(entry + 8), items = slrt_u64(entry + 16);
-        for (tag = 0; tag < SLRT_TAGS && memcmp(entry, tags[tag], 4) != 0;) tag++;
-        if (tag == SLRT_TAGS) continue;
-        if (found[tag].items || slrt_u32(entry + 4) != item_bytes[tag] || offset > size ||
-            items > (size - offset) / item_bytes[tag])
+        for (tag = 0; tag < tags && memcmp(entry, known[tag].tag, 4) != 0;) tag++;
+        if (tag == tags) continue;
+        if (found[tag].items || slrt_u32(entry + 4) != known[tag].item_bytes || offset > size ||
+            items > (size - offset) / known[tag].item_bytes)
             return SL_RUNTIME_SECTION;
         found[tag].items = bytes + offset;
         found[tag].count = items;
@@ -409,18 +405,13 @@ static sl_runtime_status slrt_check_sizes(const slrt_section *found, sl_runtime 
         return SL_RUNTIME_SECTION;
     // Cells are told as ~cell in 32 bits with sign; the search numbers the ends of exits.
     if (!found[SLRT_CELL].count || found[SLRT_CELL].count > INT32_MAX ||
-        found[SLRT_NODE].count > INT32_MAX || found[SLRT_LINE].count > INT32_MAX ||
-        found[SLRT_EXIT].count > INT32_MAX / 2 - 4 || found[SLRT_VERT].count > UINT32_MAX ||
-        found[SLRT_PORT].count > UINT32_MAX)
+        found[SLRT_NODE].count > INT32_MAX || found[SLRT_EXIT].count > INT32_MAX / 2 - 4 ||
+        found[SLRT_VERT].count > UINT32_MAX || found[SLRT_PORT].count > UINT32_MAX)
         return SL_RUNTIME_SPACE;
     rt->cell_count = (uint32_t)found[SLRT_CELL].count;
-    rt->node_count = (uint32_t)found[SLRT_NODE].count;
-    rt->line_count = (uint32_t)found[SLRT_LINE].count;
     rt->exit_count = (uint32_t)found[SLRT_EXIT].count;
     rt->vertex_count = (uint32_t)found[SLRT_VERT].count;
     rt->portal_count = (uint32_t)found[SLRT_PORT].count;
-    rt->nodes = found[SLRT_NODE].items;
-    rt->lines = found[SLRT_LINE].items;
     rt->cells = found[SLRT_CELL].items;
     rt->vertices = found[SLRT_VERT].items;
     rt->exits = found[SLRT_EXIT].items;
@@ -432,8 +423,6 @@ static sl_runtime_status slrt_check_sizes(const slrt_section *found, sl_runtime 
     rt->min_y = slrt_f64(info + 8);
     rt->max_x = slrt_f64(info + 16);
     rt->max_y = slrt_f64(info + 24);
-    rt->root = slrt_i32(info + 32);
-    rt->partial = slrt_u32(info + 60) != 0;
     return rt->min_x < rt->max_x && rt->min_y < rt->max_y ? SL_RUNTIME_OK : SL_RUNTIME_SPACE;
 }
 
@@ -443,27 +432,67 @@ static bool slrt_child_is_sound(const sl_runtime *rt, int64_t parent, int32_t ch
                      : child > parent && (uint32_t)child < rt->node_count;
 }
 
-/// A node splits at x (axis 0) or y (axis 1) = its position, or along a line of the section LINE
-/// (axis 2): below is what lies strictly to the right of the line from its a to its b.
-static bool slrt_tree_is_sound(const sl_runtime *rt) {
+/// A node splits at x (axis 0) or y (axis 1) = its position.
+static bool slrt_take_tree(sl_runtime *rt, const slrt_section *found) {
     uint32_t i;
+    rt->root = slrt_i32(found[SLRT_INFO].items + 32);
+    rt->nodes = found[SLRT_NODE].items;
+    rt->node_count = (uint32_t)found[SLRT_NODE].count;
     if (!slrt_child_is_sound(rt, -1, rt->root)) return false;
     for (i = 0; i < rt->node_count; i++) {
         const unsigned char *node = rt->nodes + (size_t)i * SLRT_NODE_BYTES;
         const int32_t axis = slrt_i32(node + 8);
-        if (!slrt_usable(node, 1) || !slrt_child_is_sound(rt, i, slrt_i32(node + 12)) ||
+        if (!slrt_usable(node, 1) || axis < 0 || axis > 1 ||
+            !slrt_child_is_sound(rt, i, slrt_i32(node + 12)) ||
             !slrt_child_is_sound(rt, i, slrt_i32(node + 16)))
-            return false;
-        if (axis < 0 || axis > 2 || (axis == 2 && slrt_u32(node + 20) >= rt->line_count))
-            return false;
-    }
-    for (i = 0; i < rt->line_count; i++) {
-        const unsigned char *line = rt->lines + (size_t)i * SLRT_LINE_BYTES;
-        if (!slrt_usable(line, 4) ||
-            (slrt_f64(line) == slrt_f64(line + 16) && slrt_f64(line + 8) == slrt_f64(line + 24)))
             return false;
     }
     return true;
+}
+
+/// A bucket has cells in ascending order.
+static bool slrt_bucket_is_sound(const sl_runtime *rt, uint32_t first, uint32_t end) {
+    uint32_t i, before = 0;
+    for (i = first; i < end; i++) {
+        const uint32_t cell = slrt_u32(rt->grid_cells + (size_t)i * 4);
+        if (cell >= rt->cell_count || (i > first && cell <= before)) return false;
+        before = cell;
+    }
+    return true;
+}
+
+static bool slrt_take_grid(sl_runtime *rt, const slrt_section *found) {
+    const unsigned char *info = found[SLRT_INFO].items;
+    const uint64_t entries = found[SLRT_GRIC].count;
+    uint64_t buckets, i;
+    uint32_t before = 0;
+    rt->loose = slrt_u32(info + 60) != 0;
+    rt->grid_columns = slrt_u32(info + 64);
+    rt->grid_rows = slrt_u32(info + 68);
+    rt->grid_offsets = found[SLRT_GRIO].items;
+    rt->grid_cells = found[SLRT_GRIC].items;
+    buckets = (uint64_t)rt->grid_columns * rt->grid_rows;
+    if (!found[SLRT_BEYO].items || !rt->grid_offsets || !rt->grid_cells || !buckets ||
+        found[SLRT_GRIO].count != buckets + 1 || entries > UINT32_MAX ||
+        slrt_u32(rt->grid_offsets) != 0)
+        return false;
+    for (i = 1; i <= buckets; i++) {
+        const uint32_t end = slrt_u32(rt->grid_offsets + (size_t)i * 4);
+        if (end < before || end > entries || !slrt_bucket_is_sound(rt, before, end)) return false;
+        before = end;
+    }
+    return before == entries;
+}
+
+/// What locates points: a tree where all walls are axial, else a grid. Files of version 1 with
+/// oblique walls have a tree along oblique lines, which is passed over: all their cells are asked.
+static bool slrt_take_location(sl_runtime *rt, const slrt_section *found, uint32_t version) {
+    rt->root = 0;
+    rt->node_count = rt->grid_columns = rt->grid_rows = 0;
+    rt->nodes = rt->grid_offsets = rt->grid_cells = NULL;
+    rt->loose = version == 1 && found[SLRT_BEYO].items;
+    if (version != 1) return slrt_take_grid(rt, found);
+    return rt->loose || slrt_take_tree(rt, found);
 }
 
 static bool slrt_cells_are_sound(const sl_runtime *rt) {
@@ -485,24 +514,6 @@ static bool slrt_cells_are_sound(const sl_runtime *rt) {
             !slrt_usable(exit + 8, 4))
             return false;
     }
-    return true;
-}
-
-/// What stands on the sides of cells of oblique walls: all or nothing of it.
-static bool slrt_take_walls(sl_runtime *rt, const slrt_section *found) {
-    uint64_t i;
-    rt->walls = rt->beyond = NULL;
-    if (!found[SLRT_BEYO].items) return true;
-    if (!found[SLRT_WALL].items || found[SLRT_BEYO].count != rt->vertex_count) return false;
-    for (i = 0; i < found[SLRT_WALL].count; i++)
-        if (!slrt_usable(found[SLRT_WALL].items + i * SLRT_WALL_BYTES, 4)) return false;
-    for (i = 0; i < found[SLRT_BEYO].count; i++) {
-        const uint32_t beyond = slrt_u32(found[SLRT_BEYO].items + i * 4);
-        if (beyond < SLRT_BEYOND_BORDER && (beyond & ~SLRT_BEYOND_RIGHT) >= found[SLRT_WALL].count)
-            return false;
-    }
-    rt->walls = found[SLRT_WALL].items;
-    rt->beyond = found[SLRT_BEYO].items;
     return true;
 }
 
@@ -723,7 +734,7 @@ SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size,
     status = slrt_find_sections(file, size, found);
     if (status == SL_RUNTIME_OK) status = slrt_check_sizes(found, &rt);
     if (status != SL_RUNTIME_OK) return status;
-    if (!slrt_tree_is_sound(&rt) || !slrt_cells_are_sound(&rt) || !slrt_take_walls(&rt, found))
+    if (!slrt_take_location(&rt, found, slrt_u32(file + 8)) || !slrt_cells_are_sound(&rt))
         return SL_RUNTIME_SPACE;
     if (!slrt_take_seams(&rt, found)) return SL_RUNTIME_SPACE;
     if (!slrt_take_doors(&rt, found)) return SL_RUNTIME_ROW;
@@ -751,7 +762,7 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status) {
     case SL_RUNTIME_SECTION:
         return "damaged: a section is missing, there twice, or does not fit";
     case SL_RUNTIME_SPACE:
-        return "damaged: a number of the bounds, tree, cells or exits is out of range";
+        return "damaged: a number of the bounds, tree, grid, cells or exits is out of range";
     case SL_RUNTIME_ROW:
         return "damaged: a row of the visible sets";
     case SL_RUNTIME_SHARD:
@@ -1019,107 +1030,62 @@ static bool slrt_same_way(const slrt_arm *u, const slrt_arm *v) {
 
 // --- from point to cell
 
-static int slrt_side_of_line(const unsigned char *line, double x, double y) {
-    const double a_x = slrt_f64(line), a_y = slrt_f64(line + 8);
-    const slrt_arm along = slrt_make_arm(a_x, a_y, slrt_f64(line + 16), slrt_f64(line + 24));
+/// As slrt_side, of the way from a to b and that from a to (x, y).
+static int slrt_side_of_line(const unsigned char *a, const unsigned char *b, double x, double y) {
+    const double a_x = slrt_f64(a), a_y = slrt_f64(a + 8);
+    const slrt_arm along = slrt_make_arm(a_x, a_y, slrt_f64(b), slrt_f64(b + 8));
     const slrt_arm to = slrt_make_arm(a_x, a_y, x, y);
     return slrt_side(&along, &to);
 }
 
-/// Whether a point is beside an exit, not past its ends. Rounded: it says where to look first.
-static bool slrt_beside(const unsigned char *exit, double x, double y) {
-    const double left_x = slrt_f64(exit + 8), left_y = slrt_f64(exit + 16);
-    const double right_x = slrt_f64(exit + 24), right_y = slrt_f64(exit + 32);
-    const double dx = left_x - right_x, dy = left_y - right_y;
-    return dx * (x - right_x) + dy * (y - right_y) >= 0 &&
-           dx * (left_x - x) + dy * (left_y - y) >= 0;
-}
-
-/// The exit of a cell that a point lies strictly beyond, one beside it first; NULL for none.
-static const unsigned char *slrt_exit_before(const sl_runtime *rt, uint32_t cell, double x,
-                                             double y) {
-    const sl_runtime_cell c = sl_runtime_get_cell(rt, cell);
-    const unsigned char *chosen = NULL;
-    uint32_t i;
-    for (i = 0; i < c.exit_count && !(chosen && slrt_beside(chosen, x, y)); i++) {
-        const unsigned char *exit = rt->exits + (size_t)(c.first_exit + i) * SLRT_EXIT_BYTES;
-        // Left to right: what is beyond lies at the left hand.
-        if (slrt_side_of_line(exit + 8, x, y) > 0 && (!chosen || slrt_beside(exit, x, y)))
-            chosen = exit;
-    }
-    return chosen;
-}
-
-/// Whether the walls on the sides of a cell have a point on the cell's side of them: by rounding
-/// the cell reaches over them.
-static bool slrt_is_before_walls(const sl_runtime *rt, const sl_runtime_cell *cell, double x,
-                                 double y) {
-    uint32_t i;
-    for (i = 0; rt->beyond && i < cell->vertex_count; i++) {
-        const uint32_t beyond = slrt_u32(rt->beyond + (size_t)(cell->first_vertex + i) * 4);
-        const size_t wall = beyond & ~SLRT_BEYOND_RIGHT;
-        int side;
-        if (beyond >= SLRT_BEYOND_BORDER) continue;
-        side = slrt_side_of_line(rt->walls + wall * SLRT_WALL_BYTES, x, y);
-        if (beyond & SLRT_BEYOND_RIGHT ? side > 0 : side < 0) return false;
-    }
+/// Whether a point is in a cell or on its border.
+static bool slrt_holds(const sl_runtime *rt, uint32_t number, double x, double y) {
+    const sl_runtime_cell cell = sl_runtime_get_cell(rt, number);
+    const unsigned char *corner = rt->vertices + (size_t)cell.first_vertex * SLRT_VERTEX_BYTES;
+    const unsigned char *stop = corner + (size_t)cell.vertex_count * SLRT_VERTEX_BYTES;
+    const unsigned char *before = stop - SLRT_VERTEX_BYTES;
+    for (; corner < stop; before = corner, corner += SLRT_VERTEX_BYTES)
+        if (slrt_side_of_line(before, corner, x, y) < 0) return false;
     return true;
 }
 
-static bool slrt_holds(const sl_runtime *rt, uint32_t cell, double x, double y) {
-    const sl_runtime_cell c = sl_runtime_get_cell(rt, cell);
-    const unsigned char *corners = rt->vertices + (size_t)c.first_vertex * 16;
-    unsigned char closing[32];
-    uint32_t i;
-    // Corners stand one behind the other: two of them are a line.
-    for (i = 0; i + 1 < c.vertex_count; i++)
-        if (slrt_side_of_line(corners + (size_t)i * 16, x, y) < 0) return false;
-    memcpy(closing, corners + (size_t)i * 16, 16);
-    memcpy(closing + 16, corners, 16);
-    return slrt_side_of_line(closing, x, y) >= 0 && slrt_is_before_walls(rt, &c, x, y);
+/// The column or row of a coordinate within the bounds, as in lib/space/cell_grid.h. Cells are
+/// entered in buckets that they only come near, too, so that rounding changes no answer.
+static uint32_t slrt_step(double value, double low, double high, uint32_t count) {
+    const double step = (value - low) / (high - low) * count;
+    const uint32_t whole = step < count ? (uint32_t)step : count - 1;
+    return whole < count ? whole : count - 1; // whatever -ffast-math makes of the line above
 }
 
-/// The descent by oblique lines. The corners of their cells are rounded, so the cell that the tree
-/// leads to may be next to the one that holds the point; where walls stand between the two, all
-/// cells are asked.
-static uint32_t slrt_locate_oblique(const sl_runtime *rt, double x, double y) {
-    int32_t at = rt->root;
-    uint32_t cell, steps;
-    while (at >= 0) {
-        const unsigned char *node = rt->nodes + (size_t)at * SLRT_NODE_BYTES;
-        const int32_t axis = slrt_i32(node + 8);
-        const bool below =
-            axis == 2 ? slrt_side_of_line(rt->lines + (size_t)slrt_u32(node + 20) * SLRT_LINE_BYTES,
-                                          x, y) < 0
-                      : (axis ? y : x) < slrt_f64(node);
-        at = slrt_i32(node + (below ? 12 : 16));
+/// The first cell that holds a point, of those in its bucket, or of all where there is no grid.
+/// Cells that tile the bounds leave no choice but the last where no other does.
+static uint32_t slrt_locate_by_grid(const sl_runtime *rt, double x, double y) {
+    uint32_t at = 0, end = rt->cell_count;
+    if (rt->grid_cells) {
+        const size_t bucket =
+            (size_t)slrt_step(y, rt->min_y, rt->max_y, rt->grid_rows) * rt->grid_columns +
+            slrt_step(x, rt->min_x, rt->max_x, rt->grid_columns);
+        at = slrt_u32(rt->grid_offsets + bucket * 4);
+        end = slrt_u32(rt->grid_offsets + bucket * 4 + 4);
     }
-    cell = (uint32_t)~at;
-    for (steps = 0; steps < 16; steps++) {
-        const unsigned char *exit = slrt_exit_before(rt, cell, x, y);
-        if (!exit) break;
-        cell = slrt_u32(exit + 4);
+    for (; at < end; at++) {
+        const uint32_t cell = rt->grid_cells ? slrt_u32(rt->grid_cells + (size_t)at * 4) : at;
+        if ((at + 1 == end && !rt->loose) || slrt_holds(rt, cell, x, y)) return cell;
     }
-    if (slrt_holds(rt, cell, x, y)) return cell;
-    for (steps = 0; steps < rt->cell_count; steps++)
-        if (slrt_holds(rt, steps, x, y)) return steps;
-    return rt->partial ? SL_RUNTIME_NO_CELL : cell;
+    return SL_RUNTIME_NO_CELL;
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, double y) {
     int32_t at = runtime->root;
     if (!(x >= runtime->min_x && x <= runtime->max_x && y >= runtime->min_y && y <= runtime->max_y))
         return SL_RUNTIME_NO_CELL;
-    if (runtime->line_count || runtime->partial || runtime->beyond)
-        return slrt_locate_oblique(runtime, x, y);
+    if (!runtime->nodes) return slrt_locate_by_grid(runtime, x, y);
     while (at >= 0) {
         const unsigned char *node = runtime->nodes + (size_t)at * SLRT_NODE_BYTES;
         at = slrt_i32(node + ((slrt_i32(node + 8) ? y : x) >= slrt_f64(node) ? 16 : 12));
     }
     return (uint32_t)~at;
 }
-
-// --- eye-to-cell
 
 // --- from box to cells
 
@@ -1142,17 +1108,15 @@ static bool slrt_is_beside_box(const sl_runtime *rt, const sl_runtime_cell *cell
 /// Convex both, a cell and a box are apart where a side of either parts them.
 static bool slrt_meets_box(const sl_runtime *rt, uint32_t number, const double box[4]) {
     const sl_runtime_cell cell = sl_runtime_get_cell(rt, number);
-    const unsigned char *corners = rt->vertices + (size_t)cell.first_vertex * 16;
-    uint32_t i;
+    const unsigned char *corner = rt->vertices + (size_t)cell.first_vertex * SLRT_VERTEX_BYTES;
+    const unsigned char *stop = corner + (size_t)cell.vertex_count * SLRT_VERTEX_BYTES;
+    const unsigned char *before = stop - SLRT_VERTEX_BYTES;
     if (slrt_is_beside_box(rt, &cell, box)) return false;
-    for (i = 0; i < cell.vertex_count; i++) {
-        unsigned char side[32];
+    for (; corner < stop; before = corner, corner += SLRT_VERTEX_BYTES) {
         bool outside = true;
         int k;
-        memcpy(side, corners + (size_t)i * 16, 16);
-        memcpy(side + 16, corners + (size_t)(i + 1 < cell.vertex_count ? i + 1 : 0) * 16, 16);
         for (k = 0; k < 4 && outside; k++)
-            outside = slrt_side_of_line(side, box[k & 1 ? 2 : 0], box[k & 2 ? 3 : 1]) < 0;
+            outside = slrt_side_of_line(before, corner, box[k & 1 ? 2 : 0], box[k & 2 ? 3 : 1]) < 0;
         if (outside) return false;
     }
     return true;
@@ -1172,6 +1136,8 @@ SL_RUNTIME_API uint32_t sl_runtime_box_cells(const sl_runtime *runtime, double m
     }
     return count;
 }
+
+// --- eye-to-cell
 
 SL_RUNTIME_API sl_runtime_view sl_runtime_view_all_round(double x, double y) {
     sl_runtime_view view;

@@ -1,6 +1,8 @@
 /// The sides of boxes, and the ground that boxes are put into.
 #include "space/boxes.h"
 
+#include "geometry/orient.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -74,12 +76,12 @@ static bool clip(const sl_box *bounds, sl_piece *side) {
     return side->at >= at_lo && side->at <= at_hi && side->lo < side->hi;
 }
 
-static sl_status add_blocking(sl_context *context, const sl_box_ground *ground,
-                              const sl_moving_box *boxes, size_t count, sl_piece_list *all,
-                              sl_piece_list *out) {
+static sl_status add_sides(sl_context *context, const sl_box_ground *ground,
+                           const sl_moving_box *boxes, size_t count, bool blocking,
+                           sl_piece_list *all, sl_piece_list *out) {
     for (size_t i = 0; i < count; i++) {
         sl_piece sides[4];
-        const unsigned n = boxes[i].blocks ? sl_box_sides(boxes[i].box, sides) : 0;
+        const unsigned n = boxes[i].blocks == blocking ? sl_box_sides(boxes[i].box, sides) : 0;
         for (unsigned k = 0; k < n; k++)
             if (clip(&ground->space->bounds, &sides[k]))
                 SL_TRY(sl_piece_add(context, all, sides[k]));
@@ -90,17 +92,39 @@ static sl_status add_blocking(sl_context *context, const sl_box_ground *ground,
     return SL_OK;
 }
 
-sl_status sl_box_sides_blocking(sl_context *context, const sl_box_ground *ground,
-                                const sl_moving_box *boxes, size_t count, sl_piece_list *out) {
+sl_status sl_box_sides_put(sl_context *context, const sl_box_ground *ground,
+                           const sl_moving_box *boxes, size_t count, bool blocking,
+                           sl_piece_list *out) {
     sl_piece_list all = {0};
-    const sl_status status = add_blocking(context, ground, boxes, count, &all, out);
+    const sl_status status = add_sides(context, ground, boxes, count, blocking, &all, out);
     sl_free(context, all.items);
     return status;
 }
 
+// --- cells
+
+/// By separating lines, the box's own and those of the cell's sides.
+bool sl_cell_meets_box(const sl_space *space, uint32_t number, sl_box box) {
+    const sl_point corners[4] = {box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}};
+    const sl_cell *cell = &space->cells[number];
+    const sl_point *v = space->vertices + cell->first_vertex;
+    bool left = true, right = true, under = true, over = true;
+    for (uint32_t i = 0; i < cell->vertex_count; i++) {
+        const sl_point next = v[i + 1 == cell->vertex_count ? 0 : i + 1];
+        bool outside = true;
+        for (int k = 0; k < 4 && outside; k++) outside = sl_orient(v[i], next, corners[k]) < 0;
+        if (outside) return false;
+        left &= v[i].x < box.min.x;
+        right &= v[i].x > box.max.x;
+        under &= v[i].y < box.min.y;
+        over &= v[i].y > box.max.y;
+    }
+    return !left && !right && !under && !over;
+}
+
 // --- the ground
 
-/// The axial ones of a BSP's walls, which may overlap.
+/// The axial ones of a mesh's walls.
 static sl_status gather_axial(sl_context *context, const sl_space *space, sl_box_ground *out) {
     sl_piece *pieces = sl_alloc_array(context, space->wall_count, sizeof *pieces);
     size_t count = 0;
@@ -122,6 +146,10 @@ static sl_status gather_axial(sl_context *context, const sl_space *space, sl_box
 sl_status sl_box_ground_create(sl_context *context, const sl_space *space, sl_box_ground *out) {
     if (space->exit_count != 2 * space->portal_count)
         return sl_fail(context, SL_UNSUPPORTED, "boxes are put in before one-way glass is");
+    if (space->loose)
+        return sl_fail(context, SL_UNSUPPORTED,
+                       "boxes need cells that fit together, which a file of version 1 does not "
+                       "have: bake the map anew");
     if (space->beyond) return gather_axial(context, space, out);
     sl_piece *walls = NULL;
     SL_TRY(sl_wall_lines(context, "the walls", space->walls, space->wall_count, &walls));
@@ -140,7 +168,7 @@ sl_status sl_boxes_put(sl_context *context, const sl_box_ground *ground, const s
                        size_t count, sl_boxed_space *out) {
     sl_boxed_space made = {0};
     const sl_status status = ground->space->beyond
-                                 ? sl_boxes_put_bsp(context, ground, boxes, count, &made)
+                                 ? sl_boxes_put_mesh(context, ground, boxes, count, &made)
                                  : sl_boxes_put_axial(context, ground, boxes, count, &made);
     if (status == SL_OK)
         *out = made;
@@ -152,6 +180,7 @@ sl_status sl_boxes_put(sl_context *context, const sl_box_ground *ground, const s
 void sl_boxed_space_destroy(sl_context *context, sl_boxed_space *boxed) {
     sl_space_destroy(context, &boxed->space);
     sl_free(context, boxed->parents);
-    sl_free(context, boxed->shares.items);
+    sl_free(context, boxed->first_share);
+    sl_free(context, boxed->shares);
     *boxed = (sl_boxed_space){0};
 }

@@ -394,7 +394,7 @@ static sl_status begin(maker *m) {
 
 static sl_status make(maker *m, const sl_moving_box *boxes, size_t count) {
     SL_TRY(begin(m));
-    SL_TRY(sl_box_sides_blocking(m->context, m->ground, boxes, count, &m->blocking));
+    SL_TRY(sl_box_sides_put(m->context, m->ground, boxes, count, true, &m->blocking));
     for (size_t i = 0; i < count; i++) SL_TRY(find_cells(m, boxes[i].box));
     SL_TRY(cut_cells(m));
     SL_TRY(write_cells(m));

@@ -12,28 +12,25 @@ typedef struct sl_box_ground {
     size_t wall_count;
 } sl_box_ground;
 
-/// SL_UNSUPPORTED for a space that has exits missing.
+/// SL_UNSUPPORTED for a space that has exits missing, or is loose.
 sl_status sl_box_ground_create(sl_context *context, const sl_space *space, sl_box_ground *out);
 void sl_box_ground_destroy(sl_context *context, sl_box_ground *ground);
 
-/// A cell of a space with boxes that has a part of another cell of the ground than its parent.
-typedef struct sl_box_share {
-    uint32_t cell, parent;
-} sl_box_share;
-
 /// A space with boxes in it. The sides of those that block are walls, behind those of the ground;
-/// where an axial wall stands already there is no second one. Cells keep their numbers: of one that
-/// is cut, the first part does, and the others come behind all cells.
+/// where an axial wall stands already there is no second one. Cells that are cut are cut along the
+/// sides of all boxes. Cells keep their numbers: of one that is cut, the first part does, and the
+/// others come behind all cells.
 ///
-/// In a kd-tree's space cells are cut along the sides of all boxes, and no coordinate is computed.
-/// In a BSP's they are cut along those that block, by the rules of the BSP (sl_subdivide_bsp): no
-/// place sees less than the walls and the boxes let it. As there, a part of a cell may reach into
-/// the cell's neighbours, by the size of rounding, or by more where doubles leave a needle no room.
-/// Seams are not told of: their portals may be moved with the others.
+/// In a kd-tree's space no coordinate is computed. In a mesh, walls and borders of cells that a
+/// box's side crosses are led through the nearest representable point of that side. So cells may
+/// reach into neighbours of their parents, by the size of rounding: `shares` has these neighbours,
+/// exactly. The space has no seams then.
 typedef struct sl_boxed_space {
     sl_space space;
-    uint32_t *parents;             ///< by cell: that of the ground which it is (a part of)
-    SL_ARRAY(sl_box_share) shares; ///< what reaches farther than by rounding
+    uint32_t *parents;     ///< by cell: that of the ground which it is (a part of)
+    uint32_t *first_share; ///< by cell, and one more; NULL: no cell has a share
+    uint32_t *shares;      ///< cells of the ground beside the parent with which cell c has inner
+                           ///< points in common: from first_share[c] to first_share[c + 1]
 } sl_boxed_space;
 
 sl_status sl_boxes_put(sl_context *context, const sl_box_ground *ground, const sl_moving_box *boxes,
@@ -45,9 +42,12 @@ void sl_boxed_space_destroy(sl_context *context, sl_boxed_space *boxed); ///< an
 /// In a kd-tree's space (boxes.c).
 sl_status sl_boxes_put_axial(sl_context *context, const sl_box_ground *ground,
                              const sl_moving_box *boxes, size_t count, sl_boxed_space *out);
-/// In a BSP's (boxes_bsp.c).
-sl_status sl_boxes_put_bsp(sl_context *context, const sl_box_ground *ground,
-                           const sl_moving_box *boxes, size_t count, sl_boxed_space *out);
+/// In a mesh (boxes_mesh.c).
+sl_status sl_boxes_put_mesh(sl_context *context, const sl_box_ground *ground,
+                            const sl_moving_box *boxes, size_t count, sl_boxed_space *out);
+
+/// Whether a box and a cell have a point in common, be it on their borders. Exact.
+bool sl_cell_meets_box(const sl_space *space, uint32_t cell, sl_box box);
 
 // --- the sides of boxes (box_sides.c)
 
@@ -62,10 +62,11 @@ sl_status sl_piece_add_free(sl_context *context, const sl_piece *walls, size_t c
 /// The sides of a box: those of positive length.
 unsigned sl_box_sides(sl_box box, sl_piece sides[4]);
 
-/// Adds the sides of boxes that block to an empty list: sorted, each place once, what of them lies
-/// within the space's bounds and is free of its axial walls.
-sl_status sl_box_sides_blocking(sl_context *context, const sl_box_ground *ground,
-                                const sl_moving_box *boxes, size_t count, sl_piece_list *out);
+/// Adds the sides of those boxes that block, or of those that do not, to an empty list: sorted,
+/// each place once, what of them lies within the space's bounds and is free of its axial walls.
+sl_status sl_box_sides_put(sl_context *context, const sl_box_ground *ground,
+                           const sl_moving_box *boxes, size_t count, bool blocking,
+                           sl_piece_list *out);
 
 /// A piece as a wall, from lo to hi.
 sl_wall sl_piece_wall(const sl_piece *piece);

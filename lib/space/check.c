@@ -1,7 +1,7 @@
 /// The whole-graph check: what the later stages take for granted, proven for one space. Safe on any
 /// bytes: every index is checked before it is used.
+#include "space/check.h"
 #include "base/bits.h"
-#include "space/bsp.h"
 #include "space/seams.h"
 #include "space/wall_lines.h"
 
@@ -16,10 +16,15 @@ typedef struct checker {
     uint8_t *exits_found; ///< by portal: 1 for the exit of cell[0], 2 for that of cell[1]
 } checker;
 
+static bool same(sl_point a, sl_point b) {
+    return a.x == b.x && a.y == b.y;
+}
+
 static sl_status check_ranges(const checker *c) {
     const sl_space *s = c->space;
-    if (!s->cell_count ||
-        (s->beyond ? s->node_count < s->cell_count - 1 : s->node_count != s->cell_count - 1))
+    const bool has_nodes =
+        s->loose || s->beyond ? !s->node_count : s->node_count == s->cell_count - 1;
+    if (!s->cell_count || !has_nodes)
         return sl_fail(c->context, SL_BAD_INPUT, "%u nodes cannot lead to %u cells", s->node_count,
                        s->cell_count);
     if (s->exit_count != 2 * (uint64_t)s->portal_count)
@@ -86,8 +91,8 @@ static sl_status check_cells(const checker *c) {
         const sl_box *r = &c->regions[s->node_count + i];
         const sl_point *v = &s->vertices[cell->first_vertex];
         const sl_point lower_right = {r->max.x, r->min.y}, upper_left = {r->min.x, r->max.y};
-        if (!sl_same_point(v[0], r->min) || !sl_same_point(v[1], lower_right) ||
-            !sl_same_point(v[2], r->max) || !sl_same_point(v[3], upper_left))
+        if (!same(v[0], r->min) || !same(v[1], lower_right) || !same(v[2], r->max) ||
+            !same(v[3], upper_left))
             return fail_cell(c, i, "is not the region that the tree gives it");
         if (cell->first_exit != exits || cell->exit_count > s->exit_count - exits)
             return fail_cell(c, i, "has exits out of range");
@@ -257,9 +262,8 @@ sl_status sl_check_exit(sl_context *context, const sl_space *s, uint32_t cell, c
         return sl_fail(context, SL_BAD_INPUT, "portal %u joins no two cells", exit->portal);
     const int side = p->cell[0] == cell ? 0 : 1;
     if (p->cell[side] != cell || exit->cell != p->cell[!side] ||
-        !sl_same_point(exit->left, side ? p->right : p->left) ||
-        !sl_same_point(exit->right, side ? p->left : p->right) ||
-        exits_found[exit->portal] & (1 << side))
+        !same(exit->left, side ? p->right : p->left) ||
+        !same(exit->right, side ? p->left : p->right) || exits_found[exit->portal] & (1 << side))
         return sl_fail(context, SL_BAD_INPUT, "cell %u has an exit unlike its portal", cell);
     exits_found[exit->portal] |= (uint8_t)(1 << side);
     return SL_OK;
@@ -307,11 +311,9 @@ static sl_status check_all(checker *c) {
 sl_status sl_space_check(sl_context *context, const sl_space *space) {
     checker c = {.context = context, .space = space};
     SL_TRY(check_ranges(&c));
-    if (space->partial > 1) return sl_fail(context, SL_BAD_INPUT, "the space is of no known kind");
-    if (space->beyond) return sl_check_bsp(context, space);
-    if (space->line_count || space->partial)
-        return sl_fail(context, SL_BAD_INPUT, "%s without what is beyond the cells' sides",
-                       space->line_count ? "the lines of a BSP" : "cells of the map's own");
+    if (space->beyond) return sl_check_mesh(context, space);
+    if (space->loose)
+        return sl_fail(context, SL_BAD_INPUT, "a loose space that does not know its sides");
     const size_t places = (size_t)space->node_count + space->cell_count;
     c.regions = sl_alloc_array(context, places, sizeof *c.regions);
     c.led_to = sl_alloc_array(context, sl_bits_words(places), sizeof *c.led_to);

@@ -1,6 +1,6 @@
-/// The outline: each cell's exits in order, and between them what walls and the border there are.
-/// Which wall lies on a piece of the boundary is found through a grid over the walls and decided by
-/// the exact predicate.
+/// The outline: each cell's exits in order, and between them what walls and the border there are. A
+/// mesh knows what each side is. In a kd-tree's space the wall on a piece of the boundary is found
+/// through a grid over the walls, and decided by the exact predicate.
 #include "sightline/outline.h"
 
 #include "base/base.h"
@@ -116,8 +116,8 @@ static bool on_edge(sl_point a, sl_point b, sl_point p) {
            along(a, b, p) <= along(a, b, b);
 }
 
-/// The sides of a cell of which the space tells them.
-static sl_status outline_told(sl_context *context, outliner *o, uint32_t cell) {
+/// The sides of a mesh's cell.
+static sl_status outline_known(sl_context *context, outliner *o, uint32_t cell) {
     const sl_space *s = o->space;
     const sl_cell *c = &s->cells[cell];
     const uint32_t first = (uint32_t)o->sides.count;
@@ -140,7 +140,7 @@ static sl_status outline_told(sl_context *context, outliner *o, uint32_t cell) {
 }
 
 static sl_status outline_cell(sl_context *context, outliner *o, uint32_t cell) {
-    if (o->space->beyond) return outline_told(context, o, cell);
+    if (o->space->beyond) return outline_known(context, o, cell);
     const sl_cell *c = &o->space->cells[cell];
     const sl_point *corners = o->space->vertices + c->first_vertex;
     const uint32_t first = (uint32_t)o->sides.count;
@@ -185,12 +185,17 @@ static sl_status join_portals(sl_context *context, outliner *o) {
     return SL_OK;
 }
 
-static sl_status outline_all(sl_context *context, outliner *o, uint32_t *first) {
+static sl_status make_grid(sl_context *context, outliner *o) {
     const sl_space *s = o->space;
     const sl_map map = {.walls = s->walls, .wall_count = s->wall_count};
     const double size = fmax(s->bounds.max.x - s->bounds.min.x, s->bounds.max.y - s->bounds.min.y);
     o->reach = size / (4 * sqrt((double)s->wall_count) + 4);
-    SL_TRY(sl_wall_grid_create(context, &map, o->reach, &o->grid));
+    return sl_wall_grid_create(context, &map, o->reach, &o->grid);
+}
+
+static sl_status outline_all(sl_context *context, outliner *o, uint32_t *first) {
+    const sl_space *s = o->space;
+    if (!s->beyond) SL_TRY(make_grid(context, o));
     o->of_exit = sl_alloc_array(context, s->exit_count, sizeof *o->of_exit);
     if (!o->of_exit) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < s->cell_count; i++) {
@@ -210,6 +215,17 @@ static sl_status start_rooms(sl_context *context, const sl_space *space, sl_outl
     return out->first ? SL_OK : SL_NO_MEMORY;
 }
 
+/// The cells of a mesh are its rooms.
+static sl_status keep_cells(sl_context *context, sl_outline *o) {
+    const uint32_t count = o->space->cell_count;
+    o->first_part = sl_alloc_array(context, (size_t)count + 1, sizeof *o->first_part);
+    o->parts = sl_alloc_array(context, count, sizeof *o->parts);
+    if (!o->first_part || !o->parts) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < count; i++) o->first_part[i] = o->parts[i] = i;
+    o->first_part[count] = count;
+    return SL_OK;
+}
+
 sl_status sl_outline_make(sl_context *context, const sl_space *space, sl_outline *out) {
     outliner o = {.space = space};
     sl_outline made = {0};
@@ -217,7 +233,8 @@ sl_status sl_outline_make(sl_context *context, const sl_space *space, sl_outline
     if (status == SL_OK) status = outline_all(context, &o, made.first);
     made.sides = o.sides.items;
     made.side_count = (uint32_t)o.sides.count;
-    if (status == SL_OK) status = sl_rooms_make(context, &made);
+    if (status == SL_OK)
+        status = space->beyond ? keep_cells(context, &made) : sl_rooms_make(context, &made);
     if (status == SL_OK)
         *out = made;
     else

@@ -267,33 +267,10 @@ static bool holds(const sl_outline *o, uint32_t room, sl_point point) {
     return true;
 }
 
-/// Whether a point is behind none of the walls that a room ends at, as they are and not as rounded
-/// corners have them.
-static bool is_before_walls(const sl_outline *o, uint32_t room, sl_point point) {
-    for (uint32_t i = o->first[room]; i < o->first[room + 1]; i++) {
-        const sl_side *s = &o->sides[i];
-        if (s->beyond < SL_SIDE_WALL || s->beyond >= SL_SIDE_BORDER) continue;
-        const sl_wall *w = &o->space->walls[s->beyond - SL_SIDE_WALL];
-        const sl_point a = s->start, b = o->sides[s->next].start;
-        const double along = (b.x - a.x) * (w->b.x - w->a.x) + (b.y - a.y) * (w->b.y - w->a.y);
-        if (along < 0 ? sl_orient(w->b, w->a, point) < 0 : sl_orient(w->a, w->b, point) < 0)
-            return false;
-    }
-    return true;
-}
-
 uint32_t sl_outline_room(const sl_outline *o, uint32_t cell, sl_point point) {
     const uint32_t *parts = o->parts + o->first_part[cell];
     const uint32_t count = o->first_part[cell + 1] - o->first_part[cell];
-    uint32_t found = UINT32_MAX;
-    // Rooms reach over walls by the size of rounding, so that several may hold a point.
-    for (uint32_t i = 0; i < count; i++) {
-        if (!holds(o, parts[i], point)) continue;
-        if (is_before_walls(o, parts[i], point)) return parts[i];
-        if (found == UINT32_MAX) found = parts[i];
-    }
-    // Rounded corners may part the cells of a room, so that one of them is not known to have it.
-    for (uint32_t room = 0; found == UINT32_MAX && room < o->room_count; room++)
-        if (holds(o, room, point)) found = room;
-    return found == UINT32_MAX ? parts[count - 1] : found;
+    uint32_t i = 0;
+    while (i + 1 < count && !holds(o, parts[i], point)) i++;
+    return parts[i];
 }

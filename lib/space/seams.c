@@ -24,15 +24,25 @@ static sl_status add_seam(sl_context *context, const sl_map *map, bool axial, sl
     return SL_OK;
 }
 
+static sl_status add_door(sl_context *context, const sl_map *map, bool axial, uint32_t number,
+                          sl_space *space) {
+    const sl_door *door = &map->doors[number];
+    const sl_seam seam = {.kind = SL_SEAM_DOOR, .number = number};
+    for (size_t i = 0; i < door->part_count; i++)
+        SL_TRY(add_seam(context, map, axial, door->parts[i], door->line, seam, space));
+    return door->parts ? SL_OK
+                       : add_seam(context, map, axial, door->segment, door->line, seam, space);
+}
+
 sl_status sl_seams_of_map(sl_context *context, const sl_map *map, bool axial, sl_space *space) {
-    const size_t count = map->door_count + map->oneway_count + map->seam_count;
+    size_t count = map->door_count + map->oneway_count + map->seam_count;
+    for (size_t i = 0; i < map->door_count; i++) count += map->doors[i].part_count;
     if (!count) return SL_OK;
     if (count > INT32_MAX) return sl_fail_memory(context);
     space->seams = sl_alloc_array(context, count, sizeof *space->seams);
     if (!space->seams) return SL_NO_MEMORY;
     for (size_t i = 0; i < map->door_count; i++)
-        SL_TRY(add_seam(context, map, axial, map->doors[i].segment, map->doors[i].line,
-                        (sl_seam){.kind = SL_SEAM_DOOR, .number = (uint32_t)i}, space));
+        SL_TRY(add_door(context, map, axial, (uint32_t)i, space));
     for (size_t i = 0; i < map->oneway_count; i++)
         SL_TRY(add_seam(context, map, axial, map->oneways[i].segment, map->oneways[i].line,
                         (sl_seam){.kind = SL_SEAM_ONEWAY, .number = (uint32_t)i}, space));
@@ -205,16 +215,15 @@ sl_status sl_seam_lines(sl_context *context, const sl_piece *walls, size_t wall_
 
 // --- telling portals
 
-/// Whether the way from a portal's left end to its right one goes as a part does, from a to b. Told
-/// by the coordinate that changes more: a portal's ends may be rounded.
+/// Whether the way from a portal's left end to its right one goes as a part does, from a to b.
 static bool goes_along(const sl_seam_part *part, const sl_portal *portal) {
-    const double dx = part->b.x - part->a.x, dy = part->b.y - part->a.y;
-    return fabs(dx) >= fabs(dy) ? (portal->left.x < portal->right.x) == (dx > 0)
-                                : (portal->left.y < portal->right.y) == (dy > 0);
+    return (part->b.x > part->a.x) == (portal->left.x < portal->right.x) &&
+           (part->b.y > part->a.y) == (portal->left.y < portal->right.y);
 }
 
-sl_status sl_seams_tag(sl_context *context, const sl_seam_parts *parts, const uint32_t *on,
-                       sl_space *space) {
+/// `on`: by portal, 1 + the part that it is on, 0 for none.
+static sl_status tag(sl_context *context, const sl_seam_parts *parts, const uint32_t *on,
+                     sl_space *space) {
     size_t count = 0;
     for (uint32_t i = 0; i < space->portal_count; i++)
         if (on[i]) count += parts->parts.items[on[i] - 1].count;
@@ -256,7 +265,7 @@ sl_status sl_seams_tag_axial(sl_context *context, const sl_seam_parts *parts, sl
     sl_status status = on ? SL_OK : SL_NO_MEMORY;
     for (uint32_t i = 0; on && i < space->portal_count; i++)
         on[i] = part_of(pieces, parts->parts.count, &space->portals[i]);
-    if (status == SL_OK) status = sl_seams_tag(context, parts, on, space);
+    if (status == SL_OK) status = tag(context, parts, on, space);
     sl_free(context, pieces);
     sl_free(context, on);
     return status;

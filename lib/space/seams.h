@@ -36,12 +36,7 @@ void sl_seam_parts_destroy(sl_context *context, sl_seam_parts *parts);
 sl_status sl_seam_lines(sl_context *context, const sl_piece *walls, size_t wall_count,
                         const sl_seam_parts *parts, sl_piece **out);
 
-/// Tells the space which portals lie on which seams, by the part that each is on: 1 + its number, 0
-/// for none.
-sl_status sl_seams_tag(sl_context *context, const sl_seam_parts *parts, const uint32_t *on,
-                       sl_space *space);
-
-/// As sl_seams_tag where all is axial: the parts are found by comparing coordinates.
+/// Gives the space the portals on its seams, where all is axial.
 sl_status sl_seams_tag_axial(sl_context *context, const sl_seam_parts *parts, sl_space *space);
 
 /// Checks the numbers of a space's seams and of the portals on them: in range, in order, within the

@@ -2,6 +2,7 @@
 
 #include "base/base.h"
 #include "geometry/orient.h"
+#include "space/cell_grid.h"
 #include "space/kd_tree.h"
 #include "space/seams.h"
 
@@ -20,8 +21,8 @@ void sl_space_destroy(sl_context *context, sl_space *space) {
     sl_free(context, space->portals);
     sl_free(context, space->exits);
     sl_free(context, space->walls);
-    sl_free(context, space->lines);
     sl_free(context, space->beyond);
+    sl_cell_grid_destroy(context, &space->grid);
     sl_free(context, space->seams);
     sl_free(context, space->seam_portals);
     *space = (sl_space){0};
@@ -125,68 +126,24 @@ sl_status sl_subdivide_kd(sl_context *context, const sl_map *map,
     return status;
 }
 
-/// Whether a point is on the lower side of a split.
-static bool is_below(const sl_space *space, const sl_node *node, sl_point point) {
-    if (node->axis < 2) return (node->axis ? point.y : point.x) < node->position;
-    const sl_segment *line = &space->lines[node->line];
-    return sl_orient(line->a, line->b, point) < 0;
-}
-
-/// Whether a point is beside a portal, not past its ends. Rounded: it says where to look first.
-static bool is_beside(const sl_exit *exit, sl_point p) {
-    const double dx = exit->left.x - exit->right.x, dy = exit->left.y - exit->right.y;
-    return dx * (p.x - exit->right.x) + dy * (p.y - exit->right.y) >= 0 &&
-           dx * (exit->left.x - p.x) + dy * (exit->left.y - p.y) >= 0;
-}
-
-/// Portals are rounded: the point may be strictly beyond one of the cell that the tree leads to. It
-/// is then just beyond; portals nearly in line with that one are for later.
-static uint32_t walk_to(const sl_space *space, uint32_t cell, sl_point point) {
-    enum { MOST_STEPS = 16 };
-    for (int step = 0; step < MOST_STEPS; step++) {
-        const sl_exit *exit = space->exits + space->cells[cell].first_exit, *chosen = NULL;
-        const sl_exit *end = exit + space->cells[cell].exit_count;
-        for (; exit < end && !(chosen && is_beside(chosen, point)); exit++)
-            if (sl_orient(exit->left, exit->right, point) > 0 &&
-                (!chosen || is_beside(exit, point)))
-                chosen = exit;
-        if (!chosen) break;
-        cell = chosen->cell;
-    }
-    return cell;
-}
-
-/// Whether a wall that stands on a side of a cell has the point on the cell's side of it: cells
-/// reach over their walls by rounding, and what is there belongs to those behind.
-static bool is_before_wall(const sl_space *space, uint32_t beyond, sl_point point) {
-    if (beyond == SL_BEYOND_EXIT || beyond == SL_BEYOND_BORDER) return true;
-    const sl_wall *wall = &space->walls[beyond & ~SL_BEYOND_RIGHT];
-    const int side = sl_orient(wall->a, wall->b, point);
-    return beyond & SL_BEYOND_RIGHT ? side <= 0 : side >= 0;
-}
-
-static bool cell_holds(const sl_space *space, uint32_t number, sl_point point) {
+/// Whether a point is in a cell or on its border.
+static bool holds(const sl_space *space, uint32_t number, sl_point point) {
     const sl_cell *cell = &space->cells[number];
     const sl_point *corners = space->vertices + cell->first_vertex;
-    const uint32_t *beyond = space->beyond + cell->first_vertex;
     for (uint32_t i = 0; i < cell->vertex_count; i++)
-        if (sl_orient(corners[i], corners[i + 1 < cell->vertex_count ? i + 1 : 0], point) < 0 ||
-            !is_before_wall(space, beyond[i], point))
+        if (sl_orient(corners[i], corners[i + 1 < cell->vertex_count ? i + 1 : 0], point) < 0)
             return false;
     return true;
 }
 
-/// Where a wall's end is joined to corners beside its line, the lines of the tree do not tell the
-/// cells there apart, and walls may stand in the way of walking: then all cells are asked.
-static uint32_t ask_all(const sl_space *space, uint32_t cell, sl_point point) {
-    for (uint32_t i = 0; i < space->cell_count; i++)
-        if (cell_holds(space, i, point)) return i;
-    return space->partial ? SL_NO_CELL : cell;
-}
-
-static uint32_t mend(const sl_space *space, uint32_t cell, sl_point point) {
-    cell = walk_to(space, cell, point);
-    return cell_holds(space, cell, point) ? cell : ask_all(space, cell, point);
+/// The first cell of a bucket that holds a point. Cells that tile the bounds leave no choice but
+/// the last where no other does.
+static uint32_t locate_in_bucket(const sl_space *space, sl_point point) {
+    const uint32_t bucket = sl_cell_grid_bucket(space, point);
+    const uint32_t *cells = space->grid.cells, end = space->grid.first[bucket + 1];
+    for (uint32_t i = space->grid.first[bucket]; i < end; i++)
+        if ((i + 1 == end && !space->loose) || holds(space, cells[i], point)) return cells[i];
+    return SL_NO_CELL;
 }
 
 uint32_t sl_space_locate(const sl_space *space, sl_point point) {
@@ -194,12 +151,13 @@ uint32_t sl_space_locate(const sl_space *space, sl_point point) {
     if (!space->cell_count || !(point.x >= b->min.x && point.x <= b->max.x) ||
         !(point.y >= b->min.y && point.y <= b->max.y))
         return SL_NO_CELL;
+    if (space->beyond) return locate_in_bucket(space, point);
     int32_t at = space->root;
     while (at >= 0) {
         const sl_node *node = &space->nodes[at];
-        at = is_below(space, node, point) ? node->below : node->above;
+        at = (node->axis ? point.y : point.x) < node->position ? node->below : node->above;
     }
-    return space->beyond ? mend(space, (uint32_t)~at, point) : (uint32_t)~at;
+    return (uint32_t)~at;
 }
 
 double sl_space_area(const sl_space *space, uint32_t cell) {

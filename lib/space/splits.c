@@ -1,167 +1,47 @@
 #include "space/splits.h"
 
-#include "geometry/orient.h"
+#include "base/base.h"
 
 #include <math.h>
-#include <stdlib.h>
 
-void sl_splits_destroy(sl_context *context, sl_splits *splits) {
-    sl_free(context, splits->splits.items);
-    sl_free(context, splits->first);
-    sl_free(context, splits->corners.items);
-    *splits = (sl_splits){0};
-}
-
-/// Positive above the node's line, negative below it.
-static int side_of(const sl_space *space, const sl_node *node, sl_point p) {
-    if (node->axis == 2) {
-        const sl_segment *line = &space->lines[node->line];
-        return sl_orient(line->a, line->b, p);
-    }
-    const double place = node->axis == 0 ? p.x : p.y;
-    return (place > node->position) - (place < node->position);
-}
-
-static double distance(const sl_space *space, const sl_node *node, sl_point p) {
-    if (node->axis == 0) return p.x - node->position;
-    if (node->axis == 1) return p.y - node->position;
-    const sl_segment *line = &space->lines[node->line];
-    return (line->b.x - line->a.x) * (p.y - line->a.y) -
-           (line->b.y - line->a.y) * (p.x - line->a.x);
-}
-
-/// Where the line crosses from p to q, which lie on different sides of it.
-static sl_point crossing(const sl_space *space, const sl_node *node, sl_point p, sl_point q) {
-    const double from = fabs(distance(space, node, p)), to = fabs(distance(space, node, q));
-    const double share = from + to > 0 ? from / (from + to) : 0.5;
-    sl_point at = {p.x + (q.x - p.x) * share, p.y + (q.y - p.y) * share};
-    if (node->axis == 0) at.x = node->position;
-    if (node->axis == 1) at.y = node->position;
-    return at;
-}
-
-static sl_point corner(const sl_splits *splits, sl_split_region region, size_t i) {
-    return splits->corners.items[region.first + i % region.count];
-}
-
-/// The part of a region on one side of a node's line, and where the line enters and leaves it.
-static sl_status cut(sl_context *context, sl_splits *splits, const sl_space *space,
-                     const sl_node *node, sl_split_region from, int sign, sl_split_region *part,
-                     sl_segment *along) {
-    *part = (sl_split_region){splits->corners.count, 0};
-    SL_TRY(SL_ARRAY_ROOM(context, &splits->corners, 2 * from.count));
-    size_t met = 0;
-    for (size_t i = 0; i < from.count; i++) {
-        const sl_point p = corner(splits, from, i), q = corner(splits, from, i + 1);
-        const int here = side_of(space, node, p), next = side_of(space, node, q);
-        sl_point at = p;
-        if (here * sign >= 0) splits->corners.items[splits->corners.count++] = p;
-        if (here * next < 0) {
-            at = crossing(space, node, p, q);
-            splits->corners.items[splits->corners.count++] = at;
-        }
-        if (here * next < 0 || here == 0) *(met++ ? &along->b : &along->a) = at;
-    }
-    if (met < 2) along->b = along->a;
-    part->count = splits->corners.count - part->first;
-    if (part->count < 3) part->count = 0;
-    return SL_OK;
-}
-
-/// A child and what of it is left to be split.
-typedef struct visit {
-    int32_t child;
-    uint32_t depth;
-    sl_split_region region;
-} visit;
-
-typedef SL_ARRAY(visit) visits;
-
-static sl_status push(sl_context *context, visits *waiting, visit next) {
-    if (next.child < 0 || !next.region.count) return SL_OK;
-    SL_TRY(SL_ARRAY_ROOM(context, waiting, 1));
-    waiting->items[waiting->count++] = next;
-    return SL_OK;
-}
-
-static sl_status split(sl_context *context, const sl_space *space, sl_splits *splits, visit now,
-                       visits *waiting) {
-    const sl_node *node = &space->nodes[now.child];
-    sl_split s = {.node = (uint32_t)now.child, .depth = now.depth};
-    SL_TRY(cut(context, splits, space, node, now.region, -1, &s.below, &s.along));
-    SL_TRY(cut(context, splits, space, node, now.region, 1, &s.above, &s.along));
-    SL_TRY(SL_ARRAY_ROOM(context, &splits->splits, 1));
-    splits->splits.items[splits->splits.count++] = s;
-    SL_TRY(push(context, waiting, (visit){node->above, now.depth + 1, s.above}));
-    return push(context, waiting, (visit){node->below, now.depth + 1, s.below});
-}
-
-static int by_node(const void *a, const void *b) {
-    const sl_split *s = a, *t = b;
-    if (s->node != t->node) return s->node < t->node ? -1 : 1;
-    return s->below.first < t->below.first ? -1 : s->below.first > t->below.first;
-}
-
-static sl_status sort(sl_context *context, sl_splits *splits) {
-    splits->first = sl_alloc_array(context, (size_t)splits->node_count + 1, sizeof *splits->first);
-    if (!splits->first) return SL_NO_MEMORY;
-    if (splits->splits.count)
-        qsort(splits->splits.items, splits->splits.count, sizeof *splits->splits.items, by_node);
-    for (size_t i = 0; i < splits->splits.count; i++)
-        splits->first[splits->splits.items[i].node + 1]++;
-    for (uint32_t i = 0; i < splits->node_count; i++) splits->first[i + 1] += splits->first[i];
-    return SL_OK;
-}
-
-static sl_status make(sl_context *context, const sl_space *space, sl_splits *splits,
-                      visits *waiting) {
-    splits->node_count = space->node_count;
-    SL_TRY(SL_ARRAY_ROOM(context, &splits->corners, 4));
-    const sl_box b = space->bounds;
-    const sl_point box[4] = {b.min, {b.max.x, b.min.y}, b.max, {b.min.x, b.max.y}};
-    for (int i = 0; i < 4; i++) splits->corners.items[splits->corners.count++] = box[i];
-    SL_TRY(push(context, waiting, (visit){space->root, 0, {0, 4}}));
-    while (waiting->count) {
-        SL_TRY(sl_check_cancelled(context));
-        SL_TRY(split(context, space, splits, waiting->items[--waiting->count], waiting));
-    }
-    return sort(context, splits);
-}
-
-sl_status sl_splits_make(sl_context *context, const sl_space *space, sl_splits *out) {
-    sl_splits splits = {0};
-    visits waiting = {0};
-    const sl_status status = make(context, space, &splits, &waiting);
-    sl_free(context, waiting.items);
-    if (status == SL_OK)
-        *out = splits;
+static sl_split split(const sl_node *node, sl_box box, uint32_t depth) {
+    sl_split s = {depth, box, box, {box.min, box.max}};
+    if (node->axis == 0)
+        s.below.max.x = s.above.min.x = s.along.a.x = s.along.b.x = node->position;
     else
-        sl_splits_destroy(context, &splits);
-    return status;
+        s.below.max.y = s.above.min.y = s.along.a.y = s.along.b.y = node->position;
+    return s;
 }
 
-/// How long a piece of a split is, and how much of that walls cover.
-static void measure(const sl_space *space, const sl_split *split, double *length, double *covered) {
-    const sl_node *node = &space->nodes[split->node];
-    const sl_segment along = split->along;
-    const double dx = along.b.x - along.a.x, dy = along.b.y - along.a.y;
-    const double square = dx * dx + dy * dy;
-    if (!(square > 0)) return;
+sl_status sl_splits_make(sl_context *context, const sl_space *space, sl_split **out) {
+    sl_split *splits = sl_alloc_array(context, space->node_count, sizeof *splits);
+    if (!splits) return SL_NO_MEMORY;
+    // A node stands before its children: each finds its box and depth in its own place.
+    if (space->node_count) splits[space->root].below = space->bounds;
+    for (uint32_t i = 0; i < space->node_count; i++) {
+        const sl_node *node = &space->nodes[i];
+        splits[i] = split(node, splits[i].below, splits[i].depth);
+        if (node->below >= 0)
+            splits[node->below] = (sl_split){splits[i].depth + 1, .below = splits[i].below};
+        if (node->above >= 0)
+            splits[node->above] = (sl_split){splits[i].depth + 1, .below = splits[i].above};
+    }
+    *out = splits;
+    return SL_OK;
+}
+
+double sl_splits_covered(const sl_split *splits, const sl_space *space, uint32_t node) {
+    const bool upright = space->nodes[node].axis == 0;
+    const double position = space->nodes[node].position;
+    const sl_segment along = splits[node].along;
+    const double low = upright ? along.a.y : along.a.x, high = upright ? along.b.y : along.b.x;
     double sum = 0;
     for (uint32_t i = 0; i < space->wall_count; i++) {
         const sl_wall *w = &space->walls[i];
-        if (side_of(space, node, w->a) || side_of(space, node, w->b)) continue;
-        const double a = ((w->a.x - along.a.x) * dx + (w->a.y - along.a.y) * dy) / square;
-        const double b = ((w->b.x - along.a.x) * dx + (w->b.y - along.a.y) * dy) / square;
-        sum += fmax(0, fmin(fmax(a, b), 1) - fmax(fmin(a, b), 0));
+        if ((upright ? w->a.x : w->a.y) != position || (upright ? w->b.x : w->b.y) != position)
+            continue;
+        const double a = upright ? w->a.y : w->a.x, b = upright ? w->b.y : w->b.x;
+        sum += fmax(0, fmin(fmax(a, b), high) - fmax(fmin(a, b), low));
     }
-    *length += sqrt(square);
-    *covered += fmin(sum, 1) * sqrt(square);
-}
-
-double sl_splits_covered(const sl_splits *splits, const sl_space *space, uint32_t node) {
-    double length = 0, covered = 0;
-    for (uint32_t i = splits->first[node]; i < splits->first[node + 1]; i++)
-        measure(space, &splits->splits.items[i], &length, &covered);
-    return length > 0 ? covered / length : 0;
+    return high > low ? fmin(sum / (high - low), 1) : 0;
 }

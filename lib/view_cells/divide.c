@@ -150,7 +150,7 @@ static sl_status add_node(sl_view_divider *d, const sl_view_part *part) {
     const sl_view_split *split = &part->split;
     if (d->nodes.count == INT32_MAX - 1) return sl_fail_memory(d->context);
     SL_TRY(SL_ARRAY_ROOM(d->context, &d->nodes, 1));
-    sl_node node = {.position = split->position, .axis = split->axis};
+    sl_view_node node = {.position = split->position, .axis = split->axis};
     if (split->axis == 2) {
         SL_TRY(SL_ARRAY_ROOM(d->context, &d->lines, 1));
         node.line = (int32_t)d->lines.count;
@@ -158,7 +158,7 @@ static sl_status add_node(sl_view_divider *d, const sl_view_part *part) {
         d->lines.items[d->lines.count++] = split->line;
     }
     if (part->parent >= 0) {
-        sl_node *parent = &d->nodes.items[part->parent];
+        sl_view_node *parent = &d->nodes.items[part->parent];
         *(part->above ? &parent->above : &parent->below) = (int32_t)d->nodes.count;
     }
     d->nodes.items[d->nodes.count++] = node;

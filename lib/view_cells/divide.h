@@ -7,6 +7,7 @@
 #include "view_cells/heap.h"
 #include "view_cells/pieces.h"
 #include "view_cells/render.h"
+#include "view_cells/tree.h"
 
 #include <math.h>
 
@@ -69,7 +70,7 @@ typedef struct sl_view_divider {
     sl_random random;
     double all_seen;              ///< cost of rendering all objects
     SL_ARRAY(sl_view_part) parts; ///< the leaves
-    SL_ARRAY(sl_node) nodes;
+    SL_ARRAY(sl_view_node) nodes;
     SL_ARRAY(sl_segment) lines;
     uint32_t with_mass; ///< parts that are not empty space
     uint64_t made;      ///< parts that a method has put in line
@@ -145,11 +146,10 @@ static inline double sl_along(sl_point p, int axis) {
     return axis ? p.y : p.x;
 }
 
-/// Where a point lies: below a split (negative), on it or above it. Rounded for oblique ones.
+/// Where a point lies: below a split (negative), on it or above it.
 static inline double sl_view_side(const sl_view_split *split, sl_point p) {
-    if (split->axis < 2) return sl_along(p, split->axis) - split->position;
-    const sl_point a = split->line.a, b = split->line.b;
-    return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+    return split->axis < 2 ? sl_along(p, split->axis) - split->position
+                           : sl_view_line_side(&split->line, p);
 }
 
 sl_point sl_view_part_middle(const sl_view_part *part);

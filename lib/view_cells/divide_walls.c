@@ -12,7 +12,7 @@
 static bool is_on_border(const sl_view_divider *d, const sl_view_part *part, const sl_wall *wall) {
     for (size_t i = 0; i < part->edges.count; i++) {
         if (part->edges.items[i] == UINT32_MAX) continue;
-        const sl_node *node = &d->nodes.items[part->edges.items[i]];
+        const sl_view_node *node = &d->nodes.items[part->edges.items[i]];
         if (node->axis < 2) continue;
         const sl_segment *l = &d->lines.items[node->line];
         if (sl_orient(l->a, l->b, wall->a) == 0 && sl_orient(l->a, l->b, wall->b) == 0) return true;

@@ -32,9 +32,8 @@ static sl_status find_places(sl_context *context, exact *e) {
     e->homes = sl_alloc_array(context, count, sizeof *e->homes);
     if (!e->leaves || !e->homes) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < count; i++) {
-        const sl_point middle = sl_view_cell_place(&e->space, i);
-        e->leaves[i] = sl_view_tree_locate(e->tree, middle);
-        e->homes[i] = sl_space_locate(e->scene->space, middle);
+        e->leaves[i] = sl_view_cell_leaf(e->tree, &e->space, i);
+        e->homes[i] = sl_view_cell_home(e->scene->space, &e->space, i);
     }
     return SL_OK;
 }

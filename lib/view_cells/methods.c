@@ -139,7 +139,7 @@ static sl_status divide_depth_first(sl_context *context, const sl_view_scene *sc
 /// Walls weighed and lines tried for one split, at most.
 enum { MOST_WEIGHED = 512, MOST_TRIED = 24 };
 
-/// What a line costs: walls cut, and sides uneven, as shares of all (sl_bsp_options).
+/// The cost of a line: walls cut, and sides uneven, as shares of all.
 static double line_cost(const sl_view_divider *d, const sl_segment *line) {
     const size_t step = (d->walls.count + MOST_WEIGHED - 1) / MOST_WEIGHED;
     double cut = 0, left = 0, right = 0, all = 0;

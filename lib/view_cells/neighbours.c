@@ -23,7 +23,7 @@ static int compare_sides(const void *left, const void *right) {
 }
 
 /// A coordinate that grows along a split.
-static double along(const sl_view_tree *tree, const sl_node *node, sl_point p) {
+static double along(const sl_view_tree *tree, const sl_view_node *node, sl_point p) {
     if (node->axis < 2) return node->axis ? p.x : p.y;
     const sl_segment *l = &tree->lines[node->line];
     return fabs(l->b.x - l->a.x) >= fabs(l->b.y - l->a.y) ? p.x : p.y;
@@ -31,7 +31,7 @@ static double along(const sl_view_tree *tree, const sl_node *node, sl_point p) {
 
 /// A leaf is at the left of its sides, which go counter-clockwise: `grows` says that one goes where
 /// `along` grows.
-static bool is_above(const sl_view_tree *tree, const sl_node *node, bool grows) {
+static bool is_above(const sl_view_tree *tree, const sl_view_node *node, bool grows) {
     if (node->axis < 2) return grows == (node->axis == 1);
     const sl_segment *l = &tree->lines[node->line];
     return grows == (along(tree, node, l->a) < along(tree, node, l->b));
@@ -44,7 +44,7 @@ static sl_status gather(sl_context *context, const sl_view_tree *tree, sides *al
         for (uint32_t i = first; i < end; i++) {
             const uint32_t number = tree->edges[i];
             if (number == UINT32_MAX) continue;
-            const sl_node *node = &tree->nodes[number];
+            const sl_view_node *node = &tree->nodes[number];
             const sl_point p = tree->corners[i], q = tree->corners[i + 1 < end ? i + 1 : first];
             const double from = along(tree, node, p), to = along(tree, node, q);
             if (from == to) continue;

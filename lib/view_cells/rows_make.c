@@ -19,7 +19,7 @@ sl_status sl_view_add_seams(sl_context *context, const sl_view_tree *tree,
         const sl_segment portal = {objects->portals[i].right, objects->portals[i].left};
         status = sl_map_add_seam(context, map, portal, 0);
     }
-    return status;
+    return status == SL_OK ? sl_map_clean(context, map, NULL, NULL) : status;
 }
 
 typedef struct maker {
@@ -49,7 +49,7 @@ static sl_status deal_cells(sl_context *context, maker *m) {
     m->out->view_cells = sl_alloc_array(context, space->cell_count, sizeof *m->out->view_cells);
     if (!m->out->view_cells) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < space->cell_count; i++) {
-        const uint32_t leaf = sl_view_tree_locate(m->tree, sl_view_cell_place(space, i));
+        const uint32_t leaf = sl_view_cell_leaf(m->tree, space, i);
         const bool in = space->cells[i].inside && leaf < m->tree->cell_count;
         m->out->view_cells[i] = in ? m->cut[leaf] : SL_NO_VIEW_CELL;
     }
@@ -152,8 +152,7 @@ static sl_status find_homes(sl_context *context, const sl_space *home, const sl_
                             uint32_t **out) {
     uint32_t *homes = sl_alloc_array(context, space->cell_count, sizeof *homes);
     if (!homes) return SL_NO_MEMORY;
-    for (uint32_t i = 0; i < space->cell_count; i++)
-        homes[i] = sl_space_locate(home, sl_view_cell_place(space, i));
+    for (uint32_t i = 0; i < space->cell_count; i++) homes[i] = sl_view_cell_home(home, space, i);
     *out = homes;
     return SL_OK;
 }

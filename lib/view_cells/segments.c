@@ -57,7 +57,7 @@ static sl_point meet(sl_point p, sl_point q, sl_point a, sl_point b) {
 
 /// Follows the directed line through p and q, from a side of a room on. A line leaves a convex room
 /// where the boundary, counter-clockwise, comes from not left of it to left of it. False where
-/// there is no such side, or no end to it: by rounding, or along an edge.
+/// there is no such side: the line only touches the room.
 static bool follow(const sl_outline *outline, uint32_t side, sl_point p, sl_point q,
                    line_end *out) {
     for (uint32_t rooms = 0; rooms <= outline->room_count; rooms++) {
@@ -99,17 +99,6 @@ static sl_status pass_cells(sl_context *context, const sl_space *space, uint32_t
     return SL_OK;
 }
 
-/// A line may come back to a cell by rounding alone; sets want each object once.
-static void drop_repeated(batch *b, size_t first) {
-    size_t kept = first;
-    for (size_t i = first; i < b->objects.count; i++) {
-        size_t k = first;
-        while (k < kept && b->objects.items[k] != b->objects.items[i]) k++;
-        if (k == kept) b->objects.items[kept++] = b->objects.items[i];
-    }
-    b->objects.count = kept;
-}
-
 static sl_status add_objects(sl_context *context, const sampler *s, uint32_t cell, sl_point p,
                              sl_point q, const line_end ends[2], batch *b) {
     const size_t before = b->objects.count;
@@ -122,7 +111,6 @@ static sl_status add_objects(sl_context *context, const sampler *s, uint32_t cel
         SL_TRY(pass_cells(context, s->outline->space, cell, p, q, b));
         SL_TRY(pass_cells(context, s->outline->space, cell, q, p, b));
     }
-    drop_repeated(b, before);
     SL_TRY(SL_ARRAY_ROOM(context, &b->counts, 1));
     b->counts.items[b->counts.count++] = (uint32_t)(b->objects.count - before);
     return SL_OK;

@@ -22,7 +22,7 @@ uint32_t sl_view_tree_locate(const sl_view_tree *tree, sl_point point) {
         return SL_NO_VIEW_CELL;
     int32_t at = tree->root;
     while (at >= 0) {
-        const sl_node *node = &tree->nodes[at];
+        const sl_view_node *node = &tree->nodes[at];
         bool below;
         if (node->axis < 2) {
             below = (node->axis ? point.y : point.x) < node->position;
@@ -57,15 +57,37 @@ sl_point sl_view_cell_middle(const sl_space *space, uint32_t cell) {
     return (sl_point){corners[0].x + sum.x, corners[0].y + sum.y};
 }
 
-sl_point sl_view_cell_place(const sl_space *space, uint32_t cell) {
-    if (space->beyond) return sl_view_cell_middle(space, cell);
+uint32_t sl_view_cell_home(const sl_space *homes, const sl_space *space, uint32_t cell) {
+    if (homes->beyond) return sl_space_locate(homes, sl_view_cell_middle(space, cell));
     const sl_cell *c = &space->cells[cell];
     sl_point least = space->vertices[c->first_vertex];
     for (uint32_t i = 1; i < c->vertex_count; i++) {
         const sl_point p = space->vertices[c->first_vertex + i];
         least = (sl_point){fmin(least.x, p.x), fmin(least.y, p.y)};
     }
-    return least;
+    return sl_space_locate(homes, least);
+}
+
+/// Where a point lies: below a node's split (negative), on it or above it.
+static double side_of(const sl_view_tree *tree, const sl_view_node *node, sl_point p) {
+    if (node->axis < 2) return (node->axis ? p.y : p.x) - node->position;
+    return sl_view_line_side(&tree->lines[node->line], p);
+}
+
+uint32_t sl_view_cell_leaf(const sl_view_tree *tree, const sl_space *space, uint32_t cell) {
+    const sl_cell *c = &space->cells[cell];
+    int32_t at = tree->root;
+    while (at >= 0) {
+        const sl_view_node *node = &tree->nodes[at];
+        double least = 0, most = 0;
+        for (uint32_t i = 0; i < c->vertex_count; i++) {
+            const double side = side_of(tree, node, space->vertices[c->first_vertex + i]);
+            least = fmin(least, side);
+            most = fmax(most, side);
+        }
+        at = -least > most ? node->below : node->above;
+    }
+    return (uint32_t)~at;
 }
 
 // --- what the leaves see, by segments
@@ -143,13 +165,6 @@ static void end(sl_context *context, void *job, void *state) {
     sl_free(context, me);
 }
 
-/// Where a point of a segment lies: below a node's split, on it or above it.
-static double side_of(const sl_view_tree *tree, const sl_node *node, sl_point p) {
-    if (node->axis < 2) return (node->axis ? p.y : p.x) - node->position;
-    const sl_segment *l = &tree->lines[node->line];
-    return (l->b.x - l->a.x) * (p.y - l->a.y) - (l->b.y - l->a.y) * (p.x - l->a.x);
-}
-
 static sl_status wait(sl_context *context, gatherer *me, int32_t at, double t0, double t1) {
     SL_TRY(SL_ARRAY_ROOM(context, &me->waiting, 1));
     me->waiting.items[me->waiting.count++] = (descent){at, t0, t1};
@@ -158,7 +173,7 @@ static sl_status wait(sl_context *context, gatherer *me, int32_t at, double t0, 
 
 static sl_status pass_node(sl_context *context, const gathering *g, gatherer *me, descent d,
                            const sl_segment *s) {
-    const sl_node *node = &g->tree->nodes[d.at];
+    const sl_view_node *node = &g->tree->nodes[d.at];
     const double a = side_of(g->tree, node, s->a), b = side_of(g->tree, node, s->b);
     const double from = a + d.t0 * (b - a), to = a + d.t1 * (b - a);
     if (from < 0 && to < 0) return wait(context, me, node->below, d.t0, d.t1);

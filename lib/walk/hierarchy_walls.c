@@ -144,18 +144,16 @@ static bool is_within(const sl_segment *s, const sl_box *b) {
            left < b->max.x && right > b->min.x && low < b->max.y && high > b->min.y;
 }
 
-/// The least node that a wall lies within.
+/// The least node that a wall lies within; never a leaf, as no wall is inside a cell.
 static uint32_t node_of(const sl_hierarchy *h, const sl_segment *wall) {
     uint32_t at = 0;
-    while (h->nodes[at].cell == SL_NO_CELL) {
-        const uint32_t below = (uint32_t)h->nodes[at].child[0];
-        const uint32_t above = (uint32_t)h->nodes[at].child[1];
-        if (is_within(wall, &h->nodes[below].box))
-            at = below;
-        else if (is_within(wall, &h->nodes[above].box))
-            at = above;
-        else
-            break;
+    for (int side = 0; side < 2;) {
+        const int32_t child = h->nodes[at].child[side++];
+        if (child < 0 || h->nodes[child].cell != SL_NO_CELL ||
+            !is_within(wall, &h->nodes[child].box))
+            continue;
+        at = (uint32_t)child;
+        side = 0;
     }
     return at;
 }

@@ -1,7 +1,7 @@
-/// The occlusion tree: shadows merged into a BSP (Bittner, Havran & Slavik 1998, Hierarchical
-/// visibility culling with occlusion trees; in the plane). A node splits directions by the line of
-/// a ray to an occluder's end. A part of an occluder sinks to the leaves that its directions reach,
-/// and cuts those where it hides something; a shape is looked up the same way.
+/// The occlusion tree: shadows merged into a binary tree (Bittner, Havran & Slavik 1998,
+/// Hierarchical visibility culling with occlusion trees; in the plane). A node splits directions by
+/// the line of a ray to an occluder's end. A part of an occluder sinks to the leaves that its
+/// directions reach, and cuts those where it hides something; a shape is looked up the same way.
 #include "walk/occlusion.h"
 
 /// A child c >= 0 is node c; a child c < 0 is leaf ~c.

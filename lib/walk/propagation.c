@@ -22,8 +22,7 @@ static bool uniform(const sl_walk *w, int32_t id, const sl_box *box, int face,
     }
     if (n->cell != SL_NO_CELL) return false;
     const int axis = face / 2;
-    if (h->space->nodes[n->split].axis == axis)
-        return uniform(w, n->child[face % 2 == 0], box, face, state);
+    if (n->axis == axis) return uniform(w, n->child[face % 2 == 0], box, face, state);
     bool first = true;
     for (int side = 0; side < 2; side++) {
         sl_node_state part;

@@ -1,11 +1,6 @@
 #include "walk/shape.h"
 
-bool sl_sector_clip(sl_pivot *pivot, sl_sector *sector, sl_ray ray) {
-    const sl_split split = sl_sector_split(pivot, sector, ray);
-    if (!sl_has_left(split)) return false;
-    *sector = sl_left_part(sector, split, ray);
-    return true;
-}
+#include "geometry/crossing.h"
 
 /// The corners of a box that is seen from outside, rightmost and leftmost, by where the eye is:
 /// left of it, over or under it, right of it; and likewise below, beside, above.
@@ -96,18 +91,20 @@ unsigned sl_sector_in_cone(sl_pivot *pivot, const sl_walk_cone *cone, const sl_s
     return sl_has_right(second);
 }
 
-/// Whether a box has directions in common with a sector.
+// --- about an occluder
+
+/// Whether a box that the eye is not behind has directions within a sector. Its borders lie within
+/// half a turn of the sector's.
 static bool box_meets(sl_pivot *pivot, const sl_box *box, const sl_sector *sector) {
     const sl_point corners[4] = {
         box->min, {box->max.x, box->min.y}, box->max, {box->min.x, box->max.y}};
-    sl_sector sectors[4];
-    const uint32_t count = sl_shape_sectors(pivot, &(sl_shape){corners, 4, *box, true}, sectors);
-    for (uint32_t i = 0; i < count; i++)
-        if (sl_sector_meet(pivot, &sectors[i], sector)) return true;
-    return false;
+    sl_sector own;
+    if (!box_sector(&(sl_shape){corners, 4, *box, true}, pivot->eye, &own)) return true;
+    return sl_ray_turn(pivot, sector->right, own.left) > 0 &&
+           sl_ray_turn(pivot, sector->left, own.right) < 0;
 }
 
-/// The line of an axial occluder cuts the box into two, of the same coordinates.
+/// The line of an axial occluder cuts a box into two, of the same coordinates.
 static unsigned box_about(sl_pivot *pivot, const sl_box *box, const sl_sector *sector,
                           const sl_occluder *o) {
     sl_box lower = *box, upper = *box;
@@ -124,19 +121,86 @@ static unsigned box_about(sl_pivot *pivot, const sl_box *box, const sl_sector *s
     return before | behind;
 }
 
+/// Of the parts of a shape before an occluder's line and behind it, those of which a place is known
+/// left of the sector's right border, and right of its left border. Those of both have directions
+/// within the sector: from where they are, they lie within half a turn of it.
+typedef struct reach {
+    unsigned from_right, from_left;
+} reach;
+
+enum { BOTH = SL_BEFORE | SL_BEHIND };
+
+/// On which sides of an occluder's line a point is.
+static unsigned sides_of(const sl_occluder *o, sl_point p) {
+    const int side = sl_orient(o->a, o->b, p);
+    return side > 0 ? SL_BEFORE : side < 0 ? SL_BEHIND : BOTH;
+}
+
+static void reach_corner(sl_pivot *pivot, const sl_sector *sector, sl_point p, unsigned sides,
+                         reach *r) {
+    const sl_ray ray = sl_ray_to(p);
+    if (sides & ~r->from_right && sl_ray_turn(pivot, sector->right, ray) > 0)
+        r->from_right |= sides;
+    if (sides & ~r->from_left && sl_ray_turn(pivot, sector->left, ray) < 0) r->from_left |= sides;
+}
+
+/// The turn from a ray to where a side of the shape crosses the occluder's line.
+static int turn_to_crossing(sl_pivot *pivot, sl_ray ray, sl_segment side, const sl_occluder *o) {
+    pivot->tests++;
+    const int turn = sl_crossing_side(pivot->eye, ray.point, side, (sl_segment){o->a, o->b});
+    return ray.away ? -turn : turn;
+}
+
+/// Both parts reach to where the line cuts the shape's sides.
+static void reach_crossings(sl_pivot *pivot, const sl_shape *shape, const sl_sector *sector,
+                            const sl_occluder *o, reach *r) {
+    sl_point p = shape->corners[shape->count - 1];
+    unsigned before = sides_of(o, p);
+    for (uint32_t k = 0; k < shape->count; k++) {
+        const sl_segment side = {p, shape->corners[k]};
+        const unsigned sides = sides_of(o, side.b);
+        if (!(before & sides)) {
+            if (r->from_right != BOTH && turn_to_crossing(pivot, sector->right, side, o) > 0)
+                r->from_right = BOTH;
+            if (r->from_left != BOTH && turn_to_crossing(pivot, sector->left, side, o) < 0)
+                r->from_left = BOTH;
+        }
+        p = side.b;
+        before = sides;
+    }
+}
+
+static bool holds_eye(sl_pivot *pivot, const sl_shape *shape) {
+    const sl_point eye = pivot->eye;
+    const sl_box *b = &shape->box;
+    if (eye.x < b->min.x || eye.x > b->max.x || eye.y < b->min.y || eye.y > b->max.y) return false;
+    for (uint32_t k = 0; k < shape->count && !shape->is_box; k++) {
+        pivot->tests++;
+        if (sl_orient(shape->corners[k], shape->corners[k + 1 < shape->count ? k + 1 : 0], eye) < 0)
+            return false;
+    }
+    return true;
+}
+
 unsigned sl_shape_about(sl_pivot *pivot, const sl_shape *shape, const sl_sector *sector,
                         const sl_occluder *occluder) {
     bool before = false, behind = false;
     for (uint32_t k = 0; k < shape->count && !(before && behind); k++) {
-        const int side = sl_orient(occluder->a, occluder->b, shape->corners[k]);
+        const unsigned sides = sides_of(occluder, shape->corners[k]);
         pivot->tests++;
-        before = before || side > 0;
-        behind = behind || side < 0;
+        before = before || sides == SL_BEFORE;
+        behind = behind || sides == SL_BEHIND;
     }
     if (!behind) return SL_BEFORE;
     if (!before) return SL_BEHIND;
-    const bool axial = occluder->a.x == occluder->b.x || occluder->a.y == occluder->b.y;
-    return axial ? box_about(pivot, &shape->box, sector, occluder) : SL_BEFORE | SL_BEHIND;
+    if (shape->is_box && (occluder->a.x == occluder->b.x || occluder->a.y == occluder->b.y))
+        return box_about(pivot, &shape->box, sector, occluder);
+    reach r = {0};
+    if (holds_eye(pivot, shape)) r.from_right = r.from_left = SL_BEFORE;
+    for (uint32_t k = 0; k < shape->count; k++)
+        reach_corner(pivot, sector, shape->corners[k], sides_of(occluder, shape->corners[k]), &r);
+    if ((r.from_right & r.from_left) != BOTH) reach_crossings(pivot, shape, sector, occluder, &r);
+    return r.from_right & r.from_left;
 }
 
 bool sl_occluder_is_behind(const sl_occluder *one, const sl_occluder *other) {

@@ -1,5 +1,5 @@
 /// Shapes about an eye: which directions a node lies in, and on which side of a wall. Decided by
-/// orientation tests on given points alone.
+/// exact predicates alone.
 #ifndef SL_SHAPE_H
 #define SL_SHAPE_H
 
@@ -28,15 +28,6 @@ typedef struct sl_occluder {
 static inline sl_ray sl_ray_back(sl_ray ray) {
     ray.away = !ray.away;
     return ray;
-}
-
-/// Narrows a sector to what lies left of a ray's line; false where nothing does.
-bool sl_sector_clip(sl_pivot *pivot, sl_sector *sector, sl_ray ray);
-
-/// Narrows a sector to another; false where they have no direction in common.
-static inline bool sl_sector_meet(sl_pivot *pivot, sl_sector *sector, const sl_sector *other) {
-    return sl_sector_clip(pivot, sector, other->right) &&
-           sl_sector_clip(pivot, sector, sl_ray_back(other->left));
 }
 
 /// How a ray's line lies to a sector: the turns from the ray to its borders. It cuts the sector
@@ -93,9 +84,8 @@ unsigned sl_sector_in_cone(sl_pivot *pivot, const sl_walk_cone *cone, const sl_s
                            sl_sector parts[2], bool *cut);
 
 /// Where a shape's inside lies, within a sector, about an occluder that spans the sector: bits. At
-/// least one is set. Exact for a box and an axial occluder, else too many bits may be set; what is
-/// set for a shape is set for every shape that holds it. The sector must be part of one of the
-/// shape's.
+/// least one is set. Exact: what is set for a shape is set for every shape that holds it. The
+/// sector must be part of one of the shape's.
 enum { SL_BEFORE = 1, SL_BEHIND = 2 };
 unsigned sl_shape_about(sl_pivot *pivot, const sl_shape *shape, const sl_sector *sector,
                         const sl_occluder *occluder);

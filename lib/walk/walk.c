@@ -237,14 +237,9 @@ static void pull_up(sl_walk *w, uint32_t id) {
     m->reason = a->reason == b->reason ? a->reason : (uint8_t)SL_WALK_PULLED_UP;
 }
 
-/// Which child of an opened node lies before the other.
+/// Which child of an opened node lies before the other; among the boxes of a mesh, mostly.
 static int nearer_child(const sl_walk *w, const sl_walk_node *n) {
-    const sl_space *space = w->hierarchy->space;
-    const sl_node *split = &space->nodes[n->split];
-    const sl_point eye = w->view.eye;
-    if (split->axis < 2) return (split->axis ? eye.y : eye.x) >= split->position;
-    const sl_segment *line = &space->lines[split->line];
-    return sl_orient(line->a, line->b, eye) >= 0;
+    return (n->axis ? w->view.eye.y : w->view.eye.x) >= n->position;
 }
 
 /// Visits a node; true where its children are to be visited.

@@ -1,7 +1,7 @@
 #include "walk/walk_parts.h"
 
 static const sl_node_test tests[] = {
-    {"tree", "shadows merged into a BSP of directions", &sl_occlusion_tree},
+    {"tree", "shadows merged into a binary tree of directions", &sl_occlusion_tree},
     {"intervals", "shadows merged into an array of angular intervals", &sl_occlusion_intervals},
 };
 

@@ -64,7 +64,7 @@ static void bake(bench *b) {
     const sl_subdivide_options rules = sl_subdivide_options_default();
     b->baked = (sl_baked){.method = "prune", .solver = "funnel"};
     check(b, doors_plan(b->context, &b->baked.map));
-    check(b, sl_map_clean(b->context, &b->baked.map, NULL));
+    check(b, sl_map_clean(b->context, &b->baked.map, NULL, NULL));
     check(b, sl_subdivide_kd(b->context, &b->baked.map, &rules, &b->baked.space));
     sl_plan plan = sl_plan_make(&b->baked.map);
     plan.door_limit = b->limit;

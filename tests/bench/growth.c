@@ -1,12 +1,14 @@
 // How time, memory and file size grow with a map of which a cell inside always sees about as much:
 // cities, towers, mazes of 1,000 to 1,000,000 walls. Each size in a process of its own.
-//   bench_growth FOLDER [KIND ...]   CSV on stdout, charts into FOLDER; all three kinds unless told
-// CSV: machine, kind, walls, cells, pairs, seconds of each stage, bytes of memory at most until the
-// file is written, by one thread, and of the file; then for each kind the exponents of all that,
-// fitted over the maps from 10,000 walls on. Seconds are the processor's, but for cell to cell on
-// one thread and on two beside each other (*_wall_s), which mean something on an idle machine only.
-// shards_s is cell to cell in four shards and the joining of what they find, longest_s one
-// machine's part of it: the longest shard and the joining. Their set must be that of one run.
+//   bench_growth FOLDER [KIND[:DEG|=DEG] ...]   CSV on stdout, charts into FOLDER; default: these
+// three kinds. city:5 is turned by 5 degrees in doubles, city=5 so that walls in line stay so to
+// the last bit; both become a mesh. CSV: machine, kind, walls, cells, pairs, seconds of each stage,
+// bytes of memory at most until the file is written, by one thread, and of the file; then for each
+// kind the exponents of all that, fitted over the maps from 10,000 walls on. Seconds are the
+// processor's, but for cell to cell on one thread and on two beside each other (*_wall_s), which
+// mean something on an idle machine only. shards_s is cell to cell in four shards and the joining
+// of what they find, longest_s one machine's part of it: the longest shard and the joining. Their
+// set must be that of one run.
 #include "sightline/draw.h"
 #include "sightline/sightline.h"
 
@@ -62,7 +64,10 @@ static const char *const names[MEASURES] = {"cells",
                                             "file_bytes"};
 
 typedef struct growth {
-    const char *kind;
+    const char *kind; ///< as it is asked for
+    const sl_map_kind *made;
+    double turned;
+    bool in_line;
     double walls[SIZES], of[SIZES][MEASURES], exponents[MEASURES];
 } growth;
 
@@ -85,12 +90,19 @@ static double lap(double *last) {
     return *last - before;
 }
 
-static const sl_map_kind *kind_of(const char *name) {
+/// "city", "city:5" or "city=5"
+static void read_kind(const char *text, growth *g) {
+    const size_t length = strcspn(text, ":=");
     size_t count;
     const sl_map_kind *kinds = sl_map_kinds(&count);
+    g->kind = text;
+    g->turned = text[length] ? strtod(text + length + 1, NULL) : 0;
+    g->in_line = text[length] == '=';
     for (size_t i = 0; i < count; i++)
-        if (strcmp(kinds[i].name, name) == 0) return &kinds[i];
-    fprintf(stderr, "bench_growth: there is no kind of map '%s'\n", name);
+        if (strlen(kinds[i].name) == length && memcmp(kinds[i].name, text, length) == 0)
+            g->made = &kinds[i];
+    if (g->made) return;
+    fprintf(stderr, "bench_growth: there is no kind of map '%s'\n", text);
     exit(2);
 }
 
@@ -104,12 +116,14 @@ static const sl_see_method *sweep(void) {
 
 // --- one map, in a process of its own
 
-static void write_map(const char *kind, uint64_t walls, const char *path) {
+static void write_map(const growth *g, uint64_t walls, const char *path) {
     sl_context *context = sl_context_create(NULL);
     sl_map map = {0};
     sl_generate_options options = sl_generate_options_default();
     options.walls = walls;
-    must(context, sl_generate(context, kind_of(kind), &options, &map));
+    options.turned = g->turned;
+    options.in_line = g->in_line;
+    must(context, sl_generate(context, g->made, &options, &map));
     must(context, sl_map_write_text(context, &map, path));
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
@@ -117,14 +131,14 @@ static void write_map(const char *kind, uint64_t walls, const char *path) {
 
 static void make_space(sl_context *context, const char *path, sl_baked *baked, double *walls,
                        double *of) {
-    const sl_subdivide_options rules = sl_subdivide_options_default();
     double time = time_of(CLOCK_PROCESS_CPUTIME_ID);
     must(context, sl_map_read(context, path, NULL, &baked->map));
     of[READ_SECONDS] = lap(&time);
     *walls = (double)baked->map.wall_count;
-    must(context, sl_map_clean(context, &baked->map, NULL));
+    must(context, sl_map_clean(context, &baked->map, NULL, NULL));
     of[CLEAN_SECONDS] = lap(&time);
-    must(context, sl_subdivide_kd(context, &baked->map, &rules, &baked->space));
+    const sl_subdivision *way = sl_subdivision_for(&baked->map);
+    must(context, way->subdivide(context, &baked->map, NULL, &baked->space));
     of[SUBDIVIDE_SECONDS] = lap(&time);
     must(context, sl_space_check(context, &baked->space));
     of[CHECK_SECONDS] = lap(&time);
@@ -207,8 +221,7 @@ static void measure(const char *map_path, const char *path, double *walls, doubl
 }
 
 /// Runs in a process of its own, so that memory counts from nothing.
-static void measure_apart(const char *folder, const char *kind, uint64_t size, double *walls,
-                          double *of) {
+static void measure_apart(const char *folder, growth *g, int size) {
     char map_path[4096], path[4096];
     snprintf(map_path, sizeof map_path, "%s/growth.map", folder);
     snprintf(path, sizeof path, "%s/growth.slv", folder);
@@ -221,7 +234,7 @@ static void measure_apart(const char *folder, const char *kind, uint64_t size, d
             if (measures)
                 measure(map_path, path, told, told + 1);
             else
-                write_map(kind, size, map_path);
+                write_map(g, sizes[size], map_path);
             _exit(write(ends[1], told, sizeof told) == (ssize_t)sizeof told ? 0 : 1);
         }
         close(ends[1]);
@@ -230,8 +243,8 @@ static void measure_apart(const char *folder, const char *kind, uint64_t size, d
         if (child < 0 || waitpid(child, &status, 0) != child || status != 0 || !got)
             must(NULL, SL_IO);
     }
-    *walls = told[0];
-    memcpy(of, told + 1, MEASURES * sizeof *of);
+    g->walls[size] = told[0];
+    memcpy(g->of[size], told + 1, sizeof g->of[size]);
     remove(map_path);
     remove(path);
 }
@@ -348,7 +361,7 @@ int main(int argc, char **argv) {
     static const char *const usual[] = {"city", "tower", "maze"};
     static growth all[MOST_KINDS];
     if (argc < 2 || argc > 2 + MOST_KINDS) {
-        fputs("usage: bench_growth FOLDER [KIND ...]\n", stderr);
+        fputs("usage: bench_growth FOLDER [KIND[:DEG|=DEG] ...]\n", stderr);
         return 2;
     }
     const size_t count = argc > 2 ? (size_t)argc - 2 : 3;
@@ -362,10 +375,9 @@ int main(int argc, char **argv) {
     fflush(stdout);
     for (size_t i = 0; i < count; i++) {
         growth *g = &all[i];
-        g->kind = argc > 2 ? argv[2 + i] : usual[i];
-        kind_of(g->kind);
+        read_kind(argc > 2 ? argv[2 + i] : usual[i], g);
         for (int size = 0; size < SIZES; size++) {
-            measure_apart(argv[1], g->kind, sizes[size], &g->walls[size], g->of[size]);
+            measure_apart(argv[1], g, size);
             print_row(machine, g, size);
         }
         print_exponents(machine, g);

@@ -48,7 +48,7 @@ static double now(void) {
 static void read_scene(scene *s, const char *path) {
     const sl_import_options options = sl_import_options_default();
     must(s->context, sl_map_read(s->context, path, &options, &s->map));
-    must(s->context, sl_map_clean(s->context, &s->map, NULL));
+    must(s->context, sl_map_clean(s->context, &s->map, NULL, NULL));
     must(s->context, sl_subdivision_for(&s->map)->subdivide(s->context, &s->map, NULL, &s->space));
     must(s->context, sl_outline_make(s->context, &s->space, &s->outline));
     must(s->context, sl_room_mirrors_make(s->context, &s->outline, &s->map, &s->mirrors));

@@ -19,7 +19,7 @@ static inline sl_status bench_read_space(sl_context *context, const char *path, 
     options.slice = options.has_slice ? strtod(which, NULL) : 0;
     sl_map map = {0};
     sl_status status = sl_map_read(context, path, &options, &map);
-    if (status == SL_OK) status = sl_map_clean(context, &map, NULL);
+    if (status == SL_OK) status = sl_map_clean(context, &map, NULL, NULL);
     if (status == SL_OK) status = sl_subdivision_for(&map)->subdivide(context, &map, NULL, space);
     sl_map_destroy(context, &map);
     return status;

@@ -6,8 +6,8 @@ First `sightline reject` makes the REJECTs of each WAD, from reading it to the c
 timed by the clock: once with one thread, once with one a core. Then each level's REJECT is held
 against its own, pair by pair, and against free sightlines of the level's walls. Pairs are unordered.
 `right` is what both hide, `wrong` what the builder hides and a sightline that was found joins,
-`rounding` what it hides and we do not, as rounding opens slivers or leaves no room to cut a cell
-between sectors; `undecided` the rest of what the builder hides and we do not. Sightlines are looked
+`ambiguous` what it hides and we do not, as lines of the map disagree about the sector that a cell is
+in; `undecided` the rest of what the builder hides and we do not. Sightlines are looked
 for by cells: those of the same bake (--sectors and open sight).
 
 Writes DIR/reject.csv, DIR/reject.txt (the same as a table, with sums, and the ratio to the 12.3 s
@@ -29,7 +29,7 @@ import time
 
 WADS = ["freedoom1.wad", "freedoom2.wad"]
 BUILDER_SECONDS = 12.3
-COLUMNS = ["machine", "wad", "map", "sectors", "cells", "theirs", "right", "wrong", "rounding",
+COLUMNS = ["machine", "wad", "map", "sectors", "cells", "theirs", "right", "wrong", "ambiguous",
            "undecided", "hidden", "sightlines", "lost", "result"]
 
 
@@ -117,7 +117,7 @@ def write_table(path, rows, times):
         for line in lines:
             print("  ".join(text.rjust(width) for text, width in zip(line, widths)), file=stream)
         print(f"the builder hides {sums['theirs']} pairs: {sums['right']} rightly, {sums['wrong']} "
-              f"wrongly, {sums['rounding']} of rounding, {sums['undecided']} undecided; "
+              f"wrongly, {sums['ambiguous']} where lines disagree, {sums['undecided']} undecided; "
               f"we hide {sums['hidden']}, "
               f"{sums['lost']} of {sums['sightlines']} free sightlines across one", file=stream)
         print(times, file=stream)

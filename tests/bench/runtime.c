@@ -2,6 +2,7 @@
 // itself.
 //   bench_runtime MAP [Z]       a map file, and the height of its slice
 //   bench_runtime KIND:N        a generated map: office:20
+//   bench_runtime FILE.slv      a baked file, an older program's too
 // CSV: machine, map, cells, what was asked, bytes that it reads, nanoseconds, times the first's.
 #include "bake/slv.h"
 #include "base/random.h"
@@ -44,19 +45,19 @@ static void read_map(sl_context *context, const char *name, const char *slice, s
     const char *colon = strchr(name, ':');
     const sl_status status =
         colon ? generate(context, name, colon, map) : sl_map_read(context, name, &options, map);
-    if (status != SL_OK || sl_map_clean(context, map, NULL) != SL_OK)
+    if (status != SL_OK || sl_map_clean(context, map, NULL, NULL) != SL_OK)
         fail(sl_context_message(context));
 }
 
 /// The baked file's bytes, for free().
 static char *bake(sl_context *context, const char *name, const char *slice, size_t *size) {
     sl_baked baked = {.method = "dfs", .solver = "funnel"};
-    const sl_subdivide_options rules = sl_subdivide_options_default();
     sl_see_options options = sl_see_options_default();
     options.solver = sl_funnel();
     size_t count;
     read_map(context, name, slice, &baked.map);
-    if (sl_subdivide_kd(context, &baked.map, &rules, &baked.space) != SL_OK ||
+    if (sl_subdivision_for(&baked.map)->subdivide(context, &baked.map, NULL, &baked.space) !=
+            SL_OK ||
         sl_see_methods(&count)->see(context, &baked.space, &options, &baked.visibility) != SL_OK)
         fail(sl_context_message(context));
     char *bytes = NULL;
@@ -64,6 +65,18 @@ static char *bake(sl_context *context, const char *name, const char *slice, size
     if (!stream || sl_slv_print(context, &baked, stream) != SL_OK || fclose(stream) != 0)
         fail("out of memory");
     sl_baked_destroy(context, &baked);
+    return bytes;
+}
+
+/// A baked file's bytes, for free().
+static char *read_baked(const char *name, size_t *size) {
+    FILE *file = fopen(name, "rb");
+    if (!file || fseek(file, 0, SEEK_END) != 0) fail("cannot read the file");
+    *size = (size_t)ftell(file);
+    rewind(file);
+    char *bytes = malloc(*size + 1);
+    if (!bytes || fread(bytes, 1, *size, file) != *size) fail("cannot read the file");
+    fclose(file);
     return bytes;
 }
 
@@ -222,7 +235,9 @@ static void print_table(const bench *b, const char *name) {
     const size_t matrix = b->stride * r->cell_count;
     const size_t rows =
         8 * ((size_t)r->cell_count + 1) + slrt_u64(r->row_offsets + 8 * (size_t)r->cell_count);
-    const size_t tree = (size_t)r->node_count * SLRT_NODE_BYTES;
+    const size_t buckets = (size_t)r->grid_columns * r->grid_rows;
+    const size_t place = r->grid_cells ? 4 * (buckets + 1 + slrt_u32(r->grid_offsets + 4 * buckets))
+                                       : (size_t)r->node_count * SLRT_NODE_BYTES;
     const struct {
         const char *what;
         question *ask;
@@ -233,8 +248,8 @@ static void print_table(const bench *b, const char *name) {
         {"can see: any two cells", ask_can_see, ASKED, rows},
         {"can see: one in view", ask_can_see_seen, ASKED, rows},
         {"can see: from the longest row", ask_can_see_longest, ASKED, row_bytes(r, b->longest)},
-        {"locate: anywhere", ask_locate, ASKED, tree},
-        {"locate: near the last", ask_locate_near, ASKED, tree},
+        {"locate: anywhere", ask_locate, ASKED, place},
+        {"locate: near the last", ask_locate_near, ASKED, place},
         {"iterate a row: matrix of bits", ask_row_of_matrix, LOOKS, matrix},
         {"iterate a row", ask_row, ASKED, rows},
         {"count a row", ask_row_count, ASKED, rows},
@@ -258,11 +273,14 @@ static void print_table(const bench *b, const char *name) {
 }
 
 int main(int argc, char **argv) {
-    if (argc < 2) fail("usage: bench_runtime MAP [Z] | KIND:N");
+    if (argc < 2) fail("usage: bench_runtime MAP [Z] | KIND:N | FILE.slv");
     sl_context *context = sl_context_create(NULL);
     bench *b = room(sizeof *b);
     if (!context) fail("out of memory");
-    char *bytes = bake(context, argv[1], argc > 2 ? argv[2] : NULL, &b->size);
+    const size_t length = strlen(argv[1]);
+    char *bytes = length > 4 && strcmp(argv[1] + length - 4, ".slv") == 0
+                      ? read_baked(argv[1], &b->size)
+                      : bake(context, argv[1], argc > 2 ? argv[2] : NULL, &b->size);
     b->bytes = bytes;
     const sl_runtime_status status = sl_runtime_open(bytes, b->size, &b->runtime);
     if (status != SL_RUNTIME_OK) fail(sl_runtime_status_text(status));

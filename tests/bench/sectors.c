@@ -28,7 +28,7 @@ static void read_space(sl_context *context, const char *path, sl_space *space) {
     const sl_subdivide_options rules = sl_subdivide_options_default();
     sl_map map = {0};
     if (sl_map_read(context, path, NULL, &map) != SL_OK ||
-        sl_map_clean(context, &map, NULL) != SL_OK ||
+        sl_map_clean(context, &map, NULL, NULL) != SL_OK ||
         sl_subdivision_for(&map)->subdivide(context, &map, &rules, space) != SL_OK)
         fail(sl_context_message(context));
     sl_map_destroy(context, &map);

@@ -127,7 +127,7 @@ static void read_space(sl_context *context, const char *path, const char *slice,
     const sl_subdivide_options rules = sl_subdivide_options_default();
     sl_map map = {0};
     if (sl_map_read(context, path, &options, &map) != SL_OK ||
-        sl_map_clean(context, &map, NULL) != SL_OK ||
+        sl_map_clean(context, &map, NULL, NULL) != SL_OK ||
         sl_subdivide_kd(context, &map, &rules, space) != SL_OK)
         fail(sl_context_message(context));
     sl_map_destroy(context, &map);

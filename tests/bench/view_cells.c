@@ -91,7 +91,7 @@ static void turn_map(bench *b) {
 static void read_map(bench *b, const sl_import_options *options, const sl_point *start) {
     check(b, sl_map_read(b->context, b->path, options, &b->map));
     if (start) check(b, sl_map_add_start(b->context, &b->map, *start, 0, 0));
-    check(b, sl_map_clean(b->context, &b->map, NULL));
+    check(b, sl_map_clean(b->context, &b->map, NULL, NULL));
     if (b->turn != 0) turn_map(b);
     check(b, sl_subdivision_for(&b->map)->subdivide(b->context, &b->map, NULL, &b->space));
     check(b, sl_outline_make(b->context, &b->space, &b->outline));

@@ -3,6 +3,7 @@
 A case is lines; # starts a comment. What is there before the runs:
   file NAME              with the lines that follow it, each led by "| "
   map NAME               a copy of a map of the project's maps/ or of a folder in it
+  old NAME               a copy of a file of tests/old_files
   noise NAME COUNT       bytes without sense, the same each time
   folder NAME
   cut NAME COUNT         the file's first COUNT bytes are kept
@@ -30,7 +31,8 @@ import sys
 
 import sandbox
 
-MAPS = pathlib.Path(__file__).resolve().parents[2] / "maps"
+TESTS = pathlib.Path(__file__).resolve().parents[1]
+MAPS = TESTS.parent / "maps"
 
 
 class Malformed(Exception):
@@ -67,6 +69,9 @@ class Case:
 
     def do_map(self, name):
         shutil.copyfile(MAPS / name, self.box.path(pathlib.Path(name).name))
+
+    def do_old(self, name):
+        shutil.copyfile(TESTS / "old_files" / name, self.box.path(name))
 
     def do_noise(self, rest):
         name, count = rest.split()

@@ -10,7 +10,8 @@ import tempfile
 import unittest
 
 PROGRAM, SHARED = (os.path.abspath(sys.argv.pop(1)) for _ in range(2))
-MAPS = [["office", "--walls", "1000"], ["city", "--walls", "600", "--turned", "20"]]
+MAPS = [["office", "--walls", "1000"], ["city", "--walls", "600", "--turned", "20"],
+        ["city", "--walls", "600", "--turned-exact", "20"]]
 
 
 class Shared(unittest.TestCase):

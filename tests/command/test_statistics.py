@@ -40,6 +40,7 @@ class Statistics(unittest.TestCase):
         self.assertEqual(statistics["pairs"], sum(map(len, pvs)))
         self.assertEqual(statistics["sight"], export["sight"])
         self.assertEqual(statistics["cleaning"]["after"], statistics["walls"])
+        self.assertEqual(statistics["cleaning"]["welded"], statistics["welded"])
         self.assertEqual(statistics["file_bytes"], self.box.path("out.slv").stat().st_size)
         self.assertGreater(statistics["peak_memory_bytes"], 100000)
         for stage in ("read", "subdivide", "cell_to_cell", "write"):
@@ -52,7 +53,8 @@ class Statistics(unittest.TestCase):
         self.assertEqual(info["bounds"], export["bounds"])
 
     def test_maps(self):
-        maps = sorted(path for path in MAPS.iterdir() if path.suffix in (".map", ".txt"))
+        maps = sorted(path for folder in (MAPS, MAPS / "oblique") for path in folder.iterdir()
+                      if path.suffix in (".map", ".txt"))
         self.assertTrue(maps)
         for path in maps:
             for sight in ("closed", "open"):

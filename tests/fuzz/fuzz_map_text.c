@@ -9,9 +9,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     if (status == SL_OK) {
         free(fuzz_round_trip(context, &map));
         if (map.cell_count) fuzz_cells(context, &map);
-        FUZZ_CHECK(sl_map_clean(context, &map, NULL) == SL_OK);
+        FUZZ_CHECK(sl_map_clean(context, &map, NULL, NULL) == SL_OK);
         char *clean = map_text(&map);
-        FUZZ_CHECK(sl_map_clean(context, &map, NULL) == SL_OK);
+        FUZZ_CHECK(sl_map_clean(context, &map, NULL, NULL) == SL_OK);
         char *again = map_text(&map);
         FUZZ_CHECK(same_text(clean, again));
         free(clean);

@@ -67,7 +67,7 @@ static void check_place(const sl_runtime *r, double x, double y, sl_random *rand
     const bool within = x >= r->min_x && x <= r->max_x && y >= r->min_y && y <= r->max_y;
     const bool found = cell < r->cell_count;
     FUZZ_CHECK(found || cell == SL_RUNTIME_NO_CELL);
-    FUZZ_CHECK(within ? found || r->partial : !found);
+    FUZZ_CHECK(within ? found || r->grid_cells || r->loose : !found);
     const sl_runtime_view round = sl_runtime_view_all_round(x, y);
     check_look(r, &round, b);
     check_look_past(r, &round, sl_random_unit(random) * (r->max_x - r->min_x), b);
@@ -117,27 +117,16 @@ static void check_open(const sl_runtime *r, sl_random *random) {
     free(b.cells);
 }
 
-/// Whether there is a section LINE, given a file whose header and table are sound.
-static bool has_lines(const uint8_t *bytes) {
-    sl_slv_header header;
-    memcpy(&header, bytes, sizeof header);
-    for (uint32_t i = 0; i < header.section_count; i++)
-        if (memcmp(bytes + sizeof header + i * sizeof(sl_slv_section), "LINE", 4) == 0) return true;
-    return false;
-}
-
 static void check_located(const sl_runtime *r, const sl_space *s, sl_point p) {
     FUZZ_CHECK(sl_runtime_locate(r, p.x, p.y) == sl_space_locate(s, p));
 }
 
-/// The runtime opens whatever the library reads, and finds the same in it; but for lines that no
-/// node splits along, which only the runtime looks at.
+/// The runtime opens whatever the library reads, and finds the same in it.
 static void check_same(const uint8_t *bytes, size_t size, sl_runtime_status status,
                        const sl_runtime *r, sl_random *random) {
     sl_context *context = fuzz_context();
     sl_baked baked = {0};
-    if (sl_baked_parse(context, "input", bytes, size, &baked) == SL_OK &&
-        (status == SL_RUNTIME_OK || !has_lines(bytes))) {
+    if (sl_baked_parse(context, "input", bytes, size, &baked) == SL_OK) {
         const sl_space *s = &baked.space;
         FUZZ_CHECK(status == SL_RUNTIME_OK && r->cell_count == s->cell_count);
         for (uint32_t from = 0; from < s->cell_count; from++)

@@ -27,7 +27,7 @@ cmake --build "$build" --target fuzzers >&2 || exit 2
 # The endings of the files that a fuzzer starts from.
 seeds_of() {
     case $1 in
-    fuzz_map_text | fuzz_bsp | fuzz_slv | fuzz_runtime) echo map ;;
+    fuzz_map_text | fuzz_mesh | fuzz_slv | fuzz_runtime) echo map ;;
     fuzz_map_plan) echo txt ;;
     fuzz_unigrafix) echo ug ;;
     fuzz_dxf) echo dxf ;;
@@ -52,10 +52,11 @@ run_one() {
     # A baked file is longer than the map that it was made from.
     length=4096
     baked=no
-    case $name in fuzz_slv | fuzz_runtime) baked=yes length=8192 ;; esac
+    case $name in fuzz_slv | fuzz_runtime) baked=yes length=12288 ;; esac
     for seed in "$root"/maps/*."$ending" "$root"/tests/fuzz/seeds/*."$ending"; do
         [ ! -f "$seed" ] || cp "$seed" "$work/seeds/"
     done
+    [ $baked = no ] || cp "$root"/tests/old_files/*.slv "$work/seeds/"
     dictionary=$root/tests/fuzz/${name#fuzz_}.dict
     [ $baked = no ] || dictionary=$root/tests/fuzz/map_text.dict
     set -- -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -max_len=$length \

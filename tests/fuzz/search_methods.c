@@ -97,7 +97,7 @@ static bool map_fails(sl_context *context, const sl_map *map, char why[WHY_SIZE]
     sl_map clean = {0};
     for (size_t i = 0; i < map->wall_count; i++)
         need(context, sl_map_add_wall(context, &clean, map->walls[i].a, map->walls[i].b, 0));
-    need(context, sl_map_clean(context, &clean, NULL));
+    need(context, sl_map_clean(context, &clean, NULL, NULL));
     bool fails = false;
     if (clean.wall_count) {
         sl_space space;

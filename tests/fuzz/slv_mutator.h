@@ -26,7 +26,7 @@ static bool is_baked(const uint8_t *data, size_t size) {
 
 // --- a file and its parts
 
-enum { MOST_PARTS = 16, MOST_BYTES = 1 << 14 };
+enum { MOST_PARTS = 24, MOST_BYTES = 1 << 14 };
 
 typedef struct part {
     char tag[4];
@@ -36,7 +36,7 @@ typedef struct part {
 } part;
 
 typedef struct parts {
-    uint32_t count;
+    uint32_t version, count;
     part part[MOST_PARTS];
 } parts;
 
@@ -44,6 +44,7 @@ static bool take_apart(const uint8_t *data, size_t size, parts *out) {
     sl_slv_header header;
     if (!is_baked(data, size)) return false;
     memcpy(&header, data, sizeof header);
+    out->version = header.version;
     out->count = header.section_count;
     if (out->count > MOST_PARTS || out->count > (size - sizeof header) / sizeof(sl_slv_section))
         return false;
@@ -63,8 +64,8 @@ static bool take_apart(const uint8_t *data, size_t size, parts *out) {
 }
 
 /// Makes the header right for the bytes behind it.
-static void seal(uint8_t *data, size_t size, uint32_t section_count) {
-    sl_slv_header header = {.version = SL_SLV_VERSION,
+static void seal(uint8_t *data, size_t size, uint32_t version, uint32_t section_count) {
+    sl_slv_header header = {.version = version,
                             .byte_order = SL_SLV_BYTE_ORDER,
                             .file_bytes = size,
                             .section_count = section_count};
@@ -90,7 +91,7 @@ static size_t put_together(const parts *in, uint8_t *data, size_t max_size) {
         memcpy(data + at, p->bytes, p->size);
         at += (p->size + 7) / 8 * 8;
     }
-    seal(data, size, in->count);
+    seal(data, size, in->version, in->count);
     return size;
 }
 
@@ -110,11 +111,10 @@ static bool is_enough(void *user) {
 
 static sl_status bake(sl_context *context, const uint8_t *text, size_t size, sl_baked *out) {
     SL_TRY(sl_map_read_text(context, "input", (const char *)text, size, &out->map));
-    SL_TRY(sl_map_clean(context, &out->map, NULL));
+    SL_TRY(sl_map_clean(context, &out->map, NULL, NULL));
     const sl_subdivide_options rules = sl_subdivide_options_default();
-    const sl_bsp_options weights = sl_bsp_options_default();
     if (size & 16 || sl_subdivide_kd(context, &out->map, &rules, &out->space) == SL_BAD_INPUT)
-        SL_TRY(sl_subdivide_bsp(context, &out->map, &weights, &out->space));
+        SL_TRY(sl_subdivide_mesh(context, &out->map, &out->space));
     if (!out->space.cell_count) return SL_CANCELLED;
     out->map.wall_count = 0;
     sl_see_options options = sl_see_options_default();
@@ -234,24 +234,20 @@ static void change_sections(parts *all, sl_random *random) {
         *chosen = all->part[--all->count];
 }
 
-/// Makes a split oblique: along another line, or along its own.
-static void tilt_split(parts *all, sl_random *random) {
-    part *nodes = find_part(all, "NODE"), *lines = find_part(all, "LINE");
-    if (!nodes || !nodes->size || nodes->size % sizeof(sl_node)) return;
-    if (!lines && all->count < MOST_PARTS) {
-        lines = &all->part[all->count++];
-        *lines = (part){.tag = {'L', 'I', 'N', 'E'}, .item_bytes = sizeof(sl_segment)};
-    }
-    if (!lines || lines->size + sizeof(sl_segment) > MOST_BYTES) return;
-    sl_node *node =
-        (sl_node *)nodes->bytes + sl_random_below(random, nodes->size / sizeof(sl_node));
-    const double at = node->position, by = sl_random_below(random, 2) ? 0 : odd_real(random);
-    const sl_segment line =
-        node->axis ? (sl_segment){{0, at}, {1, at + by}} : (sl_segment){{at, 1}, {at + by, 0}};
-    node->axis = 2;
-    node->line = (int32_t)(lines->size / sizeof line);
-    memcpy((uint8_t *)lines->bytes + lines->size, &line, sizeof line);
-    lines->size += sizeof line;
+/// Of the other version: a mesh's file becomes a loose one without a grid.
+static void change_version(parts *all) {
+    all->version = all->version == SL_SLV_VERSION ? SL_SLV_VERSION_AXIAL : SL_SLV_VERSION;
+}
+
+/// Says that cells may overlap and leave gaps, so that corners can be moved and the file stays
+/// sound.
+static void make_loose(parts *all) {
+    part *p = find_part(all, "INFO");
+    if (!p || p->size != sizeof(sl_slv_info)) return;
+    sl_slv_info info;
+    memcpy(&info, p->bytes, sizeof info);
+    info.loose = !info.loose;
+    memcpy(p->bytes, &info, sizeof info);
 }
 
 static uint64_t count_pairs(parts *all, const char *offsets_tag, const char *bytes_tag) {
@@ -294,7 +290,10 @@ static void mutate_parts(parts *all, sl_random *random) {
         copy_item(chosen, random);
         break;
     case 3:
-        tilt_split(all, random);
+        if (sl_random_below(random, 2))
+            change_version(all);
+        else
+            make_loose(all);
         break;
     case 4:
     case 5:
@@ -331,7 +330,7 @@ size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsi
     if (blindly && is_baked(data, size) && sl_random_below(&random, 8)) {
         sl_slv_header header;
         memcpy(&header, data, sizeof header);
-        seal(data, size, header.section_count);
+        seal(data, size, header.version, header.section_count);
     }
     free(all);
     return size;

@@ -309,9 +309,12 @@ static bool enters(const oracle_eye *o, const vector *from, const vector *to, co
     return inside;
 }
 
+/// A cell with flat corners has several edges in one line.
+enum { WAYS_MOST = 64 };
+
 /// Where to move the eye along its cell's border: towards the ends of the edges that it is on;
 /// where it is on none, anywhere. Returns how many ways, which are initialised.
-static size_t find_ways(const oracle_eye *o, vector ways[4]) {
+static size_t find_ways(const oracle_eye *o, vector ways[WAYS_MOST]) {
     const sl_cell *cell = &o->space->cells[o->source];
     const vector *corners = o->corners + cell->first_vertex;
     size_t count = 0;
@@ -326,7 +329,7 @@ static size_t find_ways(const oracle_eye *o, vector ways[4]) {
         for (int k = 0; on_edge && k < 2; k++) {
             subtract(&to, ends[k], &o->eye);
             if (!mpz_sgn(to.x) && !mpz_sgn(to.y)) continue;
-            assert(count < 4);
+            assert(count < WAYS_MOST);
             init(&ways[count]);
             subtract(&ways[count++], ends[k], &o->eye);
         }
@@ -370,7 +373,7 @@ static void look_between(const oracle_eye *o, const vector *from, ray *r) {
 }
 
 static void look_all_round(oracle_eye *o) {
-    vector ways[4], from;
+    vector ways[WAYS_MOST], from;
     const size_t way_count = find_ways(o, ways);
     init(&from);
     for (size_t i = 0; i < o->ray_count; i++) {

@@ -48,7 +48,7 @@ static inline void random_effects_map(sl_context *context, sl_random *random, un
     }
     if (effects & SL_EFFECT_RANGE)
         map->range = scale * (0.37 + (double)sl_random_below(random, RANDOM_EFFECTS_SIZE));
-    assert_ok(context, sl_map_clean(context, map, NULL));
+    assert_ok(context, sl_map_clean(context, map, NULL, NULL));
 }
 
 #endif

@@ -19,10 +19,9 @@ typedef enum oblique_grid {
     OBLIQUE_TINY,     ///< about 1e-148
     OBLIQUE_HUGE,     ///< about 1e149
     OBLIQUE_SCALES,   ///< magnitudes from 1e-13 to 1e13, of both signs
-    OBLIQUE_SANE,     ///< how many those are: walls that cross do not run along each other
-    OBLIQUE_FAR = OBLIQUE_SANE, ///< from 1e15 on, all within forty steps of doubles
-    OBLIQUE_ULPS,               ///< from 1 on, all within twenty steps of doubles
-    OBLIQUE_NEARLY,             ///< integers 0 .. 4, some a few steps of doubles off
+    OBLIQUE_FAR,      ///< from 1e15 on, all within forty steps of doubles
+    OBLIQUE_ULPS,     ///< from 1 on, all within twenty steps of doubles
+    OBLIQUE_NEARLY,   ///< integers 0 .. 4, some a few steps of doubles off
     OBLIQUE_GRIDS,
 } oblique_grid;
 
@@ -82,11 +81,44 @@ static inline sl_status oblique_random_map(sl_context *context, uint64_t seed, o
     return SL_OK;
 }
 
+/// A place turned about the origin and moved along both axes, as a program without much care does.
+static inline sl_point oblique_turned(sl_point p, double degrees, double move) {
+    const double angle = degrees * acos(-1) / 180, c = cos(angle), s = sin(angle);
+    const sl_point at = {p.x * c - p.y * s + move, p.x * s + p.y * c + move};
+    return (sl_point){fabs(at.x) < SL_COORDINATE_MIN ? 0 : at.x,
+                      fabs(at.y) < SL_COORDINATE_MIN ? 0 : at.y};
+}
+
+static inline void oblique_turn_segment(sl_segment *s, double degrees, double move) {
+    *s = (sl_segment){oblique_turned(s->a, degrees, move), oblique_turned(s->b, degrees, move)};
+}
+
+/// Turns and moves walls, what is set in them, and starts.
+static inline void oblique_turn_map(sl_map *map, double degrees, double move) {
+    for (size_t i = 0; i < map->wall_count; i++) {
+        map->walls[i].a = oblique_turned(map->walls[i].a, degrees, move);
+        map->walls[i].b = oblique_turned(map->walls[i].b, degrees, move);
+    }
+    for (size_t i = 0; i < map->door_count; i++)
+        oblique_turn_segment(&map->doors[i].segment, degrees, move);
+    for (size_t i = 0; i < map->mirror_count; i++)
+        oblique_turn_segment(&map->mirrors[i].segment, degrees, move);
+    for (size_t i = 0; i < map->oneway_count; i++)
+        oblique_turn_segment(&map->oneways[i].segment, degrees, move);
+    for (size_t i = 0; i < map->seam_count; i++)
+        oblique_turn_segment(&map->seams[i].segment, degrees, move);
+    for (size_t i = 0; i < map->start_count; i++)
+        map->starts[i].at = oblique_turned(map->starts[i].at, degrees, move);
+}
+
 /// Whether a segment touches no wall: by exact signs alone.
 static inline bool oblique_is_free(const sl_map *map, sl_point p, sl_point q) {
     for (size_t i = 0; i < map->wall_count; i++) {
         const sl_wall *w = &map->walls[i];
         if (w->a.x == w->b.x && w->a.y == w->b.y) continue;
+        if (fmax(p.x, q.x) < fmin(w->a.x, w->b.x) || fmin(p.x, q.x) > fmax(w->a.x, w->b.x) ||
+            fmax(p.y, q.y) < fmin(w->a.y, w->b.y) || fmin(p.y, q.y) > fmax(w->a.y, w->b.y))
+            continue;
         const int p_side = sl_orient_exact(w->a, w->b, p), q_side = sl_orient_exact(w->a, w->b, q);
         if (p_side * q_side > 0) continue;
         const int a_side = sl_orient_exact(p, q, w->a), b_side = sl_orient_exact(p, q, w->b);

@@ -4,10 +4,8 @@
 // A pair that the first hides and the second does not is wrong where a sightline is found that
 // joins the two sectors and meets no wall of the map, exactly decided apart from the library: it is
 // aimed from cell to cell of FILE.slv, from which OURS.wad was made. Right are those that both
-// hide. Ours, not the map's, is a pair that comes of rounding: each of its pairs of cells has one
-// that counts for two sectors, as there was no room to cut it, or is joined by no more than lines
-// within 1e-7 of the end of a wall, of which none, moved to the side by 1e-6 or up to 10, is a
-// sightline. Undecided is the rest.
+// hide. Ambiguous is a pair of which each two cells that see each other have one that counts for
+// two sectors, as lines of the map disagree. Undecided is the rest.
 //
 // Prints a line of CSV with its heading, all pairs unordered and of different sectors; with --aimed
 // behind it a sightline for each pair found wrong. Exit status: 0,
@@ -37,7 +35,7 @@ typedef struct check {
     sl_doom_level level;
     sector_finder *sectors;
     sl_lump theirs, ours;
-    size_t their_hidden, our_hidden, right, wrong, rounding, undecided;
+    size_t their_hidden, our_hidden, right, wrong, ambiguous, undecided;
 } check;
 
 /// Cells of two sectors that see each other.
@@ -109,20 +107,6 @@ static bool find_sightline(check *run, const cell_pair *cells, size_t count, uin
     return false;
 }
 
-/// How near a line comes to the end of a wall beside it. Rounded.
-static double clearance(const check *run, sl_segment s) {
-    const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y, length = hypot(dx, dy);
-    double nearest = HUGE_VAL;
-    for (size_t i = 0; i < 2 * run->map.wall_count; i++) {
-        const sl_wall *wall = &run->map.walls[i / 2];
-        const sl_point p = i % 2 ? wall->b : wall->a;
-        const double along = ((p.x - s.a.x) * dx + (p.y - s.a.y) * dy) / length;
-        const double off = fabs((p.y - s.a.y) * dx - (p.x - s.a.x) * dy) / length;
-        if (along >= 0 && along <= length && off < nearest) nearest = off;
-    }
-    return nearest;
-}
-
 /// Tries a line, and others beside it.
 static bool try_shifted(check *run, sl_segment line, uint32_t a, uint32_t b, sl_segment *out) {
     const double dx = line.b.x - line.a.x, dy = line.b.y - line.a.y, length = hypot(dx, dy);
@@ -166,19 +150,18 @@ static bool is_in_one_sector(const check *run, uint32_t cell) {
     return run->cells.first[cell + 1] - run->cells.first[cell] == 1;
 }
 
-typedef enum verdict { WRONG, ROUNDING, UNDECIDED } verdict;
+typedef enum verdict { WRONG, AMBIGUOUS, UNDECIDED } verdict;
 
 static verdict judge_cells(check *run, cell_pair cells, uint32_t a, uint32_t b, sl_segment *out) {
     sl_segment line;
-    if (!is_in_one_sector(run, cells.a) || !is_in_one_sector(run, cells.b)) return ROUNDING;
+    if (!is_in_one_sector(run, cells.a) || !is_in_one_sector(run, cells.b)) return AMBIGUOUS;
     if (!aim(run, cells, &line)) return UNDECIDED;
-    if (try_shifted(run, line, a, b, out)) return WRONG;
-    return clearance(run, line) < 1e-7 ? ROUNDING : UNDECIDED;
+    return try_shifted(run, line, a, b, out) ? WRONG : UNDECIDED;
 }
 
 /// Goes through all pairs of cells of two sectors, and all that their own lines tell.
 static verdict judge(check *run, uint32_t a, uint32_t b, sl_segment *out) {
-    verdict all = ROUNDING;
+    verdict all = AMBIGUOUS;
     for (uint32_t i = 0; i < run->baked.space.cell_count; i++) {
         if (!reaches(run, i, a)) continue;
         for (sl_pvs_run r = sl_pvs_begin(&run->baked.visibility.pvs, i); sl_pvs_next(&r);)
@@ -211,7 +194,7 @@ static void do_pair(check *run, uint32_t a, uint32_t b) {
     const verdict told =
         find_sightline(run, cells, found, a, b, &line) ? WRONG : judge(run, a, b, &line);
     run->wrong += told == WRONG;
-    run->rounding += told == ROUNDING;
+    run->ambiguous += told == AMBIGUOUS;
     run->undecided += told == UNDECIDED;
     if (run->aimed && told == WRONG)
         printf("sectors %lu %lu: %.17g,%.17g sees %.17g,%.17g\n", (unsigned long)a,
@@ -283,9 +266,9 @@ int main(int argc, char **argv) {
     const uint32_t count = (uint32_t)run.level.sector_count;
     for (uint32_t a = 0; a < count; a++)
         for (uint32_t b = a + 1; b < count; b++) do_pair(&run, a, b);
-    puts("sectors,hidden,theirs,right,wrong,rounding,undecided");
+    puts("sectors,hidden,theirs,right,wrong,ambiguous,undecided");
     printf("%lu,%zu,%zu,%zu,%zu,%zu,%zu\n", (unsigned long)count, run.our_hidden, run.their_hidden,
-           run.right, run.wrong, run.rounding, run.undecided);
+           run.right, run.wrong, run.ambiguous, run.undecided);
     sector_finder_destroy(run.sectors);
     blockers_destroy(run.walls);
     sl_cell_sectors_destroy(run.context, &run.cells);

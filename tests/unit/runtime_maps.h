@@ -8,6 +8,8 @@
 #include "runtime/sightline_runtime.h"
 #include "sightline/solvers.h"
 
+#include <math.h>
+
 typedef struct baked_file {
     const char *name;
     sl_baked baked;
@@ -49,6 +51,24 @@ static inline baked_file baked_file_of_text(sl_context *context, const char *sta
 static inline baked_file baked_file_of(sl_context *context, const char *path) {
     baked_file f = {.name = path, .baked = {.method = "dfs", .solver = "funnel"}};
     map_files_read(context, path, &f.baked.map);
+    baked_file_make(context, &f, false);
+    return f;
+}
+
+/// The walls of a map of maps/, turned and moved away from the origin.
+static inline baked_file baked_file_turned(sl_context *context, const char *name, double degrees,
+                                           double offset) {
+    char path[1024];
+    baked_file f = {.name = name, .baked = {.method = "dfs", .solver = "funnel"}};
+    sl_map *map = &f.baked.map;
+    const double angle = degrees * 0.017453292519943295, sine = sin(angle), cosine = cos(angle);
+    snprintf(path, sizeof path, "%s/maps/%s.map", SIGHTLINE_SOURCE_DIR, name);
+    map_files_read(context, path, map);
+    for (size_t i = 0; i < 2 * map->wall_count; i++) {
+        sl_point *p = i % 2 ? &map->walls[i / 2].a : &map->walls[i / 2].b;
+        *p = (sl_point){offset + cosine * p->x - sine * p->y, offset + sine * p->x + cosine * p->y};
+    }
+    map->start_count = 0;
     baked_file_make(context, &f, false);
     return f;
 }

@@ -48,7 +48,7 @@ static void ask_funnel(sl_context *context, const trial *t, sl_sight sight, bool
 static void begin(sl_context *context, const char *path, trial *t) {
     *t = (trial){.path = path};
     assert_ok(context, sl_map_read(context, path, NULL, &t->map));
-    assert_ok(context, sl_map_clean(context, &t->map, NULL));
+    assert_ok(context, sl_map_clean(context, &t->map, NULL, NULL));
     const sl_subdivide_options options = sl_subdivide_options_default();
     assert_ok(context, sl_subdivide_kd(context, &t->map, &options, &t->space));
     assert_ok(context, sl_space_check(context, &t->space));

@@ -57,21 +57,8 @@ static void test_middle_just_below_a_vertex(void **state) {
     assert_int_equal(found[0], 7);
 }
 
-/// Two corners are rounded to be beyond the line that the cell was cut along by so little that it
-/// is lost where their distance is rounded.
-static void test_beyond_a_line_by_a_bit(void **state) {
-    (void)state;
-    sl_doom_line lines[] = {
-        {.from = {0, 0}, .to = {3, 1}, .right = 8, .left = 7},
-        {.from = {5, -1}, .to = {5, 3}, .right = SL_NO_SECTOR, .left = 7},
-    };
-    sl_point corners[] = {{1, 1. / 3}, {2, 2. / 3}, {2, 2}, {1, 2}};
-    uint32_t found[4];
-    assert_int_equal(find_in(lines, 2, corners, found), 1);
-    assert_int_equal(found[0], 7);
-}
-
-/// A cell that was cut along a line reaches beyond it by rounding; one that was not, by more.
+/// A cell counts for the sector beyond a line as soon as a corner is beyond it, by however little;
+/// not where a side lies on the line.
 static void test_beyond_a_line(void **state) {
     (void)state;
     sl_doom_line lines[] = {
@@ -79,11 +66,14 @@ static void test_beyond_a_line(void **state) {
         {.from = {5, -1}, .to = {5, 3}, .right = SL_NO_SECTOR, .left = 8},
     };
     uint32_t found[4];
-    assert_int_equal(find(lines, 2, 2 + 1e-7, found), 1);
+    const double rights[] = {2 + 0x1p-51, 2 + 1e-7, 3};
+    for (size_t i = 0; i < sizeof rights / sizeof *rights; i++) {
+        assert_int_equal(find(lines, 2, rights[i], found), 2);
+        assert_int_equal(found[0], 7);
+        assert_int_equal(found[1], 8);
+    }
+    assert_int_equal(find(lines, 2, 2, found), 1);
     assert_int_equal(found[0], 7);
-    assert_int_equal(find(lines, 2, 3, found), 2);
-    assert_int_equal(found[0], 7);
-    assert_int_equal(found[1], 8);
 }
 
 /// Walls back to back: the one that has a sector on this side tells.
@@ -98,12 +88,13 @@ static void test_walls_back_to_back(void **state) {
     assert_int_equal(found[0], 7);
 }
 
-/// Between two lines nearer to each other than what rounding may do, a cell has no sector.
+/// However thin a cell is, it has the sector between the lines about it.
 static void test_thin_cell(void **state) {
     (void)state;
     sl_doom_line lines[] = {{.from = {0, -1}, .to = {0, 3}, .right = 8, .left = 7}};
     uint32_t found[4];
-    assert_int_equal(find(lines, 1, 1e-7, found), 0);
+    assert_int_equal(find(lines, 1, 1e-7, found), 1);
+    assert_int_equal(found[0], 8);
 }
 
 int main(void) {
@@ -111,7 +102,6 @@ int main(void) {
         cmocka_unit_test(test_middle_level_with_a_vertex),
         cmocka_unit_test(test_middle_just_below_a_vertex),
         cmocka_unit_test(test_beyond_a_line),
-        cmocka_unit_test(test_beyond_a_line_by_a_bit),
         cmocka_unit_test(test_walls_back_to_back),
         cmocka_unit_test(test_thin_cell),
     };

@@ -16,7 +16,7 @@ static void bake(sl_context *context, baked_file *f) {
     assert_ok(context, doors_plan(context, &b->map));
     assert_int_equal(b->map.door_count, DOORS);
     const sl_subdivide_options rules = sl_subdivide_options_default();
-    assert_ok(context, sl_map_clean(context, &b->map, NULL));
+    assert_ok(context, sl_map_clean(context, &b->map, NULL, NULL));
     assert_ok(context, sl_subdivide_kd(context, &b->map, &rules, &b->space));
     sl_plan plan = sl_plan_make(&b->map);
     plan.door_limit = 200;

@@ -71,7 +71,7 @@ static inline draw_map draw_map_make(sl_context *context, draw_place place) {
     draw_map map = {.baked = {.method = "made", .solver = "hand"}};
     sl_baked *baked = &map.baked;
     draw_add_walls(context, &baked->map, place);
-    assert_ok(context, sl_map_clean(context, &baked->map, NULL));
+    assert_ok(context, sl_map_clean(context, &baked->map, NULL, NULL));
     const sl_subdivide_options options = sl_subdivide_options_default();
     assert_ok(context, sl_subdivide_kd(context, &baked->map, &options, &baked->space));
     static const double middles[5][2] = {{10, 5}, {30, 5}, {10, 15}, {30, 15}, {20, 25}};

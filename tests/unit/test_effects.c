@@ -161,9 +161,8 @@ static bool begin_oblique(trial *t, uint64_t seed, oblique_grid grid) {
             status = sl_map_add_door(t->context, &t->map, name, (sl_segment){a, b}, true, 0);
     }
     if (seed % 3 == 0) t->map.range = fabs(oblique_coordinate(&random, grid));
-    if (status == SL_OK) status = sl_map_clean(t->context, &t->map, NULL);
-    const sl_bsp_options options = sl_bsp_options_default();
-    if (status == SL_OK) status = sl_subdivide_bsp(t->context, &t->map, &options, &t->space);
+    if (status == SL_OK) status = sl_map_clean(t->context, &t->map, NULL, NULL);
+    if (status == SL_OK) status = sl_subdivide_mesh(t->context, &t->map, &t->space);
     t->plan = sl_plan_make(&t->map);
     return status == SL_OK;
 }

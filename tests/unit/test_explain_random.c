@@ -113,7 +113,7 @@ static void try_random_map(sl_context *context, uint64_t seed, tally *count) {
     trial t = {0};
     const sl_subdivide_options options = sl_subdivide_options_default();
     assert_ok(context, oracle_random_map(context, seed, (oracle_grid)(seed % 3), &t.map));
-    assert_ok(context, sl_map_clean(context, &t.map, NULL));
+    assert_ok(context, sl_map_clean(context, &t.map, NULL, NULL));
     assert_ok(context, sl_subdivide_kd(context, &t.map, &options, &t.space));
     see(context, &t);
     if (t.closed.account.tests > MOST_TESTS) {

@@ -4,7 +4,7 @@
 
 #include "oracle/random_oblique.h"
 
-enum { MAPS = 150, WALLS = 10, EYES = 8, POINTS = 20 };
+enum { MAPS = 600, WALLS = 10, EYES = 8, POINTS = 20 };
 
 typedef struct trial {
     sl_context *context;
@@ -19,7 +19,7 @@ typedef struct trial {
 } trial;
 
 static bool begin(trial *t) {
-    const oblique_grid grid = (oblique_grid)(t->seed % OBLIQUE_SANE);
+    const oblique_grid grid = (oblique_grid)(t->seed % OBLIQUE_GRIDS);
     assert_ok(t->context, oblique_random_map(t->context, t->seed, grid, WALLS, &t->map));
     // Seams make more cells, and hide nothing.
     for (int i = 0; i < 2; i++) {
@@ -29,10 +29,9 @@ static bool begin(trial *t) {
             assert_ok(t->context,
                       sl_map_add_seam(t->context, &t->map, (sl_segment){from->a, to->b}, 0));
     }
-    assert_ok(t->context, sl_map_clean(t->context, &t->map, NULL));
+    assert_ok(t->context, sl_map_clean(t->context, &t->map, NULL, NULL));
     if (!t->map.wall_count) return false;
-    const sl_bsp_options bsp = sl_bsp_options_default();
-    assert_ok(t->context, sl_subdivide_bsp(t->context, &t->map, &bsp, &t->space));
+    assert_ok(t->context, sl_subdivide_mesh(t->context, &t->map, &t->space));
     assert_ok(t->context, sl_outline_make(t->context, &t->space, &t->outline));
     sl_see_options options = sl_see_options_default();
     options.sight = t->sight;
@@ -81,10 +80,11 @@ static void cull(trial *t, const sl_view *view, uint64_t *cells) {
     free(before);
 }
 
-/// The ray through the end of a free sightline goes no less far.
+/// The ray through the end of a free sightline goes no less far, where no walls run along each
+/// other: a place on a wall that the ray all but runs along is rounded by more than a few steps.
 static void check_ray(const trial *t, sl_point eye, sl_point point) {
     sl_hit hit;
-    if (eye.x == point.x && eye.y == point.y) return;
+    if (t->seed % OBLIQUE_GRIDS >= OBLIQUE_FAR || (eye.x == point.x && eye.y == point.y)) return;
     assert_ok(t->context, sl_shoot(t->context, &t->outline, eye, point, &hit));
     const double there = hypot(point.x - eye.x, point.y - eye.y);
     const double scale = fmax(fmax(fabs(eye.x), fabs(eye.y)), fmax(fabs(point.x), fabs(point.y)));
@@ -127,7 +127,7 @@ static void no_sightline_is_lost(void **state) {
     const uint64_t maps = testing_seeds(MAPS);
     for (uint64_t seed = 1; seed <= maps; seed++) {
         trial t = {.context = testing_context(NULL), .seed = seed, .random = {seed}};
-        t.sight = seed / OBLIQUE_SANE % 2 ? SL_OPEN : SL_CLOSED;
+        t.sight = seed / OBLIQUE_GRIDS % 2 ? SL_OPEN : SL_CLOSED;
         if (begin(&t)) {
             uint64_t *cells = calloc(sl_eye_words(&t.space), sizeof *cells);
             assert_non_null(cells);

@@ -145,7 +145,7 @@ static void bake(trial *t) {
 static void try_map(trial *t) {
     const oracle_grid grid = (oracle_grid)(t->seed % 3);
     assert_ok(t->context, oracle_random_map(t->context, t->seed, grid, &t->map));
-    assert_ok(t->context, sl_map_clean(t->context, &t->map, NULL));
+    assert_ok(t->context, sl_map_clean(t->context, &t->map, NULL, NULL));
     const sl_subdivide_options options = sl_subdivide_options_default();
     if (t->map.wall_count)
         assert_ok(t->context, sl_subdivide_kd(t->context, &t->map, &options, &t->space));

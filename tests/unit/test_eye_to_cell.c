@@ -184,7 +184,7 @@ static void chain_on_every_map(void **state) {
         const sl_import_options import = sl_import_options_default();
         const sl_subdivide_options options = sl_subdivide_options_default();
         assert_ok(w.context, sl_map_read(w.context, path, &import, &w.map));
-        assert_ok(w.context, sl_map_clean(w.context, &w.map, NULL));
+        assert_ok(w.context, sl_map_clean(w.context, &w.map, NULL, NULL));
         if (sl_subdivide_kd(w.context, &w.map, &options, &w.space) == SL_OK) {
             check_world(&w, maps, 6, e->d_name);
             maps++;
@@ -203,7 +203,7 @@ static void chain_on_random_maps(void **state) {
         snprintf(where, sizeof where, "seed %u", (unsigned)seed);
         const sl_subdivide_options options = sl_subdivide_options_default();
         assert_ok(w.context, oracle_random_map(w.context, seed, (oracle_grid)(seed % 3), &w.map));
-        assert_ok(w.context, sl_map_clean(w.context, &w.map, NULL));
+        assert_ok(w.context, sl_map_clean(w.context, &w.map, NULL, NULL));
         assert_ok(w.context, sl_subdivide_kd(w.context, &w.map, &options, &w.space));
         check_world(&w, seed, 4, where);
         close_world(&w);

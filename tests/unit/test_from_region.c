@@ -64,7 +64,7 @@ static void read_map(sl_context *context, const char *path, sl_map *map) {
     char full[4096];
     snprintf(full, sizeof full, "%s/%s", SIGHTLINE_SOURCE_DIR, path);
     assert_ok(context, sl_map_read(context, full, NULL, map));
-    assert_ok(context, sl_map_clean(context, map, NULL));
+    assert_ok(context, sl_map_clean(context, map, NULL, NULL));
 }
 
 /// Leaves as view cells and as objects: what cells see of each other.
@@ -159,7 +159,7 @@ static void methods_find_the_same(void **state) {
         sl_map map = {0};
         char name[64];
         assert_ok(context, oracle_random_map(context, 1900 + seed, (oracle_grid)(seed % 3), &map));
-        assert_ok(context, sl_map_clean(context, &map, NULL));
+        assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
         const sl_box b = sl_map_bounds(&map);
         const sl_box lower = {b.min, {(b.min.x + b.max.x) / 2, (b.min.y + b.max.y) / 2}};
         const sl_box upper = {{b.min.x, lower.max.y}, {lower.max.x, b.max.y}};

@@ -1,9 +1,12 @@
 // GL nodes of a WAD as cells: each version, and each way in which they can be broken.
 #include "testing.h"
 
+#include "bake/exports.h"
 #include "sightline/import.h"
 #include "sightline/space.h"
 #include "wad_make.h"
+
+#include <unistd.h>
 
 enum { SEGS = 17 };
 
@@ -19,7 +22,7 @@ static const int subsectors[3][2] = {{7, 0}, {4, 7}, {6, 11}};
 /// What to spoil in the lumps.
 typedef struct spoil {
     const char *left_out; ///< a lump
-    int vertex, line, first_seg, cut;
+    int vertex, first_seg, cut;
     const char *mark; ///< of GL_VERT
     const char *header;
 } spoil;
@@ -39,7 +42,7 @@ static void add_segs(wad_made *wad, int version, const spoil *wrong) {
             else
                 wad_u16(at + 2 * k, (int)vertex);
         }
-        wad_u16(at + (version >= 3 ? 8 : 4), i == 0 && wrong->line ? wrong->line : segs[i][2]);
+        wad_u16(at + (version >= 3 ? 8 : 4), segs[i][2]);
     }
     wad_lump(wad, "GL_SEGS", bytes, skip + SEGS * record - (size_t)wrong->cut);
 }
@@ -106,15 +109,49 @@ static void test_versions(void **state) {
         assert_ok(context, read_cells(context, versions[i], &none, &map));
         assert_int_equal(map.cell_count, 3);
         assert_int_equal(map.corner_count, SEGS);
-        assert_int_equal(map.corner_walls[0], 0);
-        assert_int_equal(map.corner_walls[4], SL_NO_WALL);
         assert_true(map.corners[2].x == (versions[i] == 1 ? 32 : 32.25) && map.corners[2].y == 64);
         assert_ok(context, sl_subdivide_given(context, &map, &space));
-        assert_int_equal(space.cell_count, 3);
+        // Two are above and below the door, where no subsector is.
+        assert_int_equal(space.cell_count, 5);
         assert_int_equal(space.portal_count, 2);
+        assert_ok(context, sl_space_check(context, &space));
         sl_space_destroy(context, &space);
         sl_map_destroy(context, &map);
     }
+    sl_context_destroy(context);
+}
+
+/// Walls that welding has cut at the corners of cells are known as the WAD's.
+static void test_reject(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    char folder[] = "/tmp/sightline-cells-XXXXXX", in[100];
+    assert_non_null(mkdtemp(folder));
+    snprintf(in, sizeof in, "%s/in.wad", folder);
+    for (int with_cells = 1; with_cells >= 0; with_cells--) {
+        const spoil none = {.header = with_cells ? NULL : "OTHER"};
+        const sl_export_options options = {.wad = in, .map = "MAP01"};
+        wad_made wad;
+        make(&wad, 5, &none);
+        FILE *file = fopen(in, "wb");
+        assert_non_null(file);
+        assert_int_equal(fwrite(wad.bytes, 1, wad.size, file), wad.size);
+        assert_int_equal(fclose(file), 0);
+        free(wad.bytes);
+        sl_map map = {0};
+        sl_baked baked = {0};
+        assert_ok(context, read_cells(context, 5, &(spoil){0}, &map));
+        testing_subdivide(context, &map, &baked.space);
+        sl_see_options see = sl_see_options_default();
+        assert_ok(context,
+                  testing_method("sweep")->see(context, &baked.space, &see, &baked.visibility));
+        const sl_status status = sl_export_reject(context, &baked, &options, "/dev/null");
+        assert_int_equal(status, with_cells ? SL_OK : SL_BAD_INPUT);
+        sl_baked_destroy(context, &baked);
+        sl_map_destroy(context, &map);
+    }
+    remove(in);
+    remove(folder);
     sl_context_destroy(context);
 }
 
@@ -135,7 +172,6 @@ static void test_refused(void **state) {
         {{.first_seg = 3}, 2, "subsector 2: segs 14 to 20, but there are 17"},
         {{.vertex = 12}, 2, "seg 0: vertex 12 of VERTEXES, but there are 12"},
         {{.vertex = 101}, 3, "seg 0: vertex 1 of GL_VERT, but there are 1"},
-        {{.line = 14}, 5, "seg 0: linedef 14, but there are 14"},
     };
     sl_context *context = testing_context(NULL);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -153,6 +189,7 @@ static void test_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_versions),
+        cmocka_unit_test(test_reject),
         cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,6 +3,7 @@
 
 #include "base/random.h"
 #include "map_same.h"
+#include "oracle/random_oblique.h"
 
 #define SIZE 10
 
@@ -169,16 +170,16 @@ static void test_random(void **state) {
         }
         copy_walls(context, &map, &clean);
         sl_clean_account account;
-        assert_ok(context, sl_map_clean(context, &clean, &account));
+        assert_ok(context, sl_map_clean(context, &clean, NULL, &account));
         const unit_edges edges = edges_of(&map);
         check_against(&edges, &clean);
         check_order(&clean);
         check_account(&map, &account, clean.wall_count);
         shuffle(&random, &map);
-        assert_ok(context, sl_map_clean(context, &map, NULL));
+        assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
         assert_same_walls(&map, &clean);
         copy_walls(context, &clean, &other);
-        assert_ok(context, sl_map_clean(context, &other, NULL));
+        assert_ok(context, sl_map_clean(context, &other, NULL, NULL));
         assert_same_walls(&other, &clean);
         sl_map_destroy(context, &map);
         sl_map_destroy(context, &clean);
@@ -188,12 +189,16 @@ static void test_random(void **state) {
     assert_int_equal(memory.live, 0);
 }
 
-static void assert_cleaned(sl_context *context, const char *walls, const char *expected) {
+static void read_walls(sl_context *context, const char *walls, sl_map *map) {
     char text[1000];
     snprintf(text, sizeof text, "sightline 1\n%s", walls);
+    assert_ok(context, sl_map_read_text(context, "t", text, strlen(text), map));
+}
+
+static void assert_cleaned(sl_context *context, const char *walls, const char *expected) {
     sl_map map = {0};
-    assert_ok(context, sl_map_read_text(context, "t", text, strlen(text), &map));
-    assert_ok(context, sl_map_clean(context, &map, NULL));
+    read_walls(context, walls, &map);
+    assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
     char *clean = map_text(&map);
     assert_string_equal(clean + strlen("sightline 1\n"), expected);
     free(clean);
@@ -218,9 +223,16 @@ static void test_cases(void **state) {
     // One zero.
     assert_cleaned(context, "wall -0 -0 -0 1\nwall 0 0 0 1\nwall -0 0 1 1\nwall 0 -0 1 1\n",
                    "wall 0 0 0 1\nwall 0 0 1 1\n");
-    // Oblique walls cut nothing and are cut by nothing; the same one twice goes, either way round.
+    // Oblique walls are cut and cut others, and what overlaps is there once, either way round.
     assert_cleaned(context, "wall 2 2 0 0\nwall 0 0 2 2\nwall 1 0 1 2\nwall 0 0 1 1\n",
-                   "wall 1 0 1 2\nwall 0 0 1 1\nwall 0 0 2 2\n");
+                   "wall 0 0 1 1\nwall 1 0 1 1\nwall 1 1 1 2\nwall 1 1 2 2\n");
+    assert_cleaned(context, "wall 0 0 3 6\nwall 2 4 4 8\nwall 1 2 5 0\n",
+                   "wall 0 0 1 2\nwall 1 2 2 4\nwall 1 2 5 0\nwall 2 4 3 6\nwall 3 6 4 8\n");
+    // Glass and seams that are cut become several; mirrors are walls as well.
+    assert_cleaned(context, "wall 0 0 4 4\nseam 4 0 0 4\noneway 1 0 1 2\nmirror 0 2 4 2\n",
+                   "wall 0 0 1 1\nwall 0 2 1 2\nwall 1 1 2 2\nwall 1 2 2 2\nwall 2 2 4 2\n"
+                   "wall 2 2 4 4\nmirror 0 2 1 2\nmirror 1 2 2 2\nmirror 2 2 4 2\noneway 1 0 1 1\n"
+                   "oneway 1 1 1 2\nseam 4 0 2 2\nseam 2 2 0 4\n");
     // Coordinates next to each other are two coordinates.
     assert_cleaned(context, "wall 0 0 0.1 0\nwall 0.10000000000000002 0 1 0\n",
                    "wall 0 0 0.1 0\nwall 0.10000000000000002 0 1 0\n");
@@ -229,6 +241,117 @@ static void test_cases(void **state) {
         context, "wall 1 1 0 1\ndoor d 1 0 0 0 shut\nmirror 1 0 0 0\nstart -0 0 1\n",
         "wall 0 0 1 0\nwall 0 1 1 1\ndoor d 1 0 0 0 shut\nmirror 1 0 0 0\nstart -0 0 1\n");
     sl_context_destroy(context);
+}
+
+static bool same_place(sl_point a, sl_point b) {
+    return a.x == b.x && a.y == b.y;
+}
+
+/// A door stays one, in parts; what is left of it is whole again.
+static void test_doors(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_map map = {0};
+    read_walls(context, "wall 0 0 4 4\nwall 1 2 1 4\ndoor d 4 0 0 4 open\ndoor e 9 9 8 7 shut\n",
+               &map);
+    for (int again = 0; again < 2; again++) {
+        assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
+        assert_int_equal(map.door_count, 2);
+        const sl_door *door = &map.doors[0];
+        const sl_point places[] = {{4, 0}, {2, 2}, {1, 3}, {0, 4}};
+        assert_int_equal(door->part_count, 3);
+        assert_true(same_place(door->segment.a, places[0]) &&
+                    same_place(door->segment.b, places[3]));
+        for (int i = 0; i < 3; i++)
+            assert_true(same_place(door->parts[i].a, places[i]) &&
+                        same_place(door->parts[i].b, places[i + 1]));
+        assert_true(!map.doors[1].parts && !map.doors[1].part_count && !map.doors[1].open);
+    }
+    // Without what has cut it.
+    map.wall_count = 0;
+    assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
+    assert_true(!map.doors[0].parts && !map.doors[0].part_count);
+    // Nothing but what has no length.
+    map.doors[0].segment = map.doors[1].segment = (sl_segment){{1, 2}, {1, 2}};
+    assert_ok(context, sl_map_clean(context, &map, &(sl_clean_options){1}, NULL));
+    assert_true(!map.doors[0].parts && map.door_count == 2);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
+static sl_clean_account account_of(sl_context *context, const char *walls, double weld) {
+    sl_map map = {0};
+    sl_clean_account account;
+    read_walls(context, walls, &map);
+    assert_ok(context, sl_map_clean(context, &map, &(sl_clean_options){weld}, &account));
+    sl_map_destroy(context, &map);
+    return account;
+}
+
+static void test_oblique_account(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    // A crossing that is a double moves nothing.
+    sl_clean_account a = account_of(context, "wall 0 0 4 4\nwall 0 4 4 0\n", -1);
+    assert_true(a.before == 2 && a.after == 4 && a.split == 2 && a.crossings == 1);
+    assert_true(a.welded == 0 && a.largest_move == 0);
+    // One at thirds does, by less than a step.
+    a = account_of(context, "wall 0 0 1 3\nwall 0 1 3 0\n", -1);
+    assert_true(a.crossings == 1 && a.largest_move > 0 && a.largest_move < 0x1p-49);
+    // An end by a wall: it is led through the end where that is nearer than half of the tolerance.
+    const char *beside = "wall 0 0 8 6\nwall 4.03 2.96 9 0\n";
+    a = account_of(context, beside, 0.2);
+    assert_true(a.after == 3 && a.crossings == 0 && a.welded == 0);
+    assert_true(a.largest_move > 0.049 && a.largest_move < 0.051);
+    a = account_of(context, beside, 0.05);
+    assert_true(a.after == 2 && a.largest_move == 0);
+    // Two ends.
+    const char *ends = "wall 0 0 8 6\nwall 8.03 6.04 9 0\n";
+    a = account_of(context, ends, 0.06);
+    assert_true(a.welded == 1 && a.largest_move > 0.035 && a.largest_move < 0.037);
+    assert_true(account_of(context, ends, 0.04).welded == 0);
+    // With a tolerance of its own what is axial is welded too; without one it is not.
+    const char *axial = "wall 0 0 8 0\nwall 8 0.01 8 6\n";
+    assert_true(account_of(context, axial, 0.02).welded == 1);
+    assert_true(account_of(context, axial, -1).welded == 0);
+    sl_map map = {0};
+    add(context, &map, 0, 0, 1, 1, 0);
+    const double none[] = {NAN, HUGE_VAL, 2e150};
+    for (size_t i = 0; i < sizeof none / sizeof *none; i++)
+        assert_int_equal(sl_map_clean(context, &map, &(sl_clean_options){none[i]}, NULL),
+                         SL_BAD_ARGUMENT);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
+/// What is clean stays as it is, and the order of walls does not count.
+static void test_random_oblique(void **state) {
+    (void)state;
+    testing_memory memory = {0};
+    sl_context *context = testing_context(&memory);
+    sl_random random = {8};
+    for (int grid = 0; grid < OBLIQUE_GRIDS; grid++)
+        for (uint64_t seed = 1; seed <= 60; seed++) {
+            sl_map map = {0}, clean = {0}, other = {0};
+            sl_clean_account account;
+            assert_ok(context, oblique_random_map(context, seed, (oblique_grid)grid, 20, &map));
+            copy_walls(context, &map, &clean);
+            assert_ok(context, sl_map_clean(context, &clean, NULL, NULL));
+            copy_walls(context, &clean, &other);
+            shuffle(&random, &other);
+            assert_ok(context, sl_map_clean(context, &other, NULL, &account));
+            assert_true(account.welded == 0 && account.largest_move == 0);
+            // Walls that welding has made axial, and in line, become one.
+            if (grid != OBLIQUE_NEARLY) assert_same_walls(&other, &clean);
+            shuffle(&random, &map);
+            assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
+            assert_same_walls(&map, &clean);
+            sl_map_destroy(context, &map);
+            sl_map_destroy(context, &clean);
+            sl_map_destroy(context, &other);
+        }
+    sl_context_destroy(context);
+    assert_int_equal(memory.live, 0);
 }
 
 /// More ranks than two floors of the sweep's set have, with gaps: a ladder and one long pole. Some
@@ -246,7 +369,7 @@ static void test_many_ranks(void **state) {
     }
     add(context, &map, 0, -1, 0, rungs, 0);
     sl_clean_account account;
-    assert_ok(context, sl_map_clean(context, &map, &account));
+    assert_ok(context, sl_map_clean(context, &map, NULL, &account));
     assert_int_equal(account.split, met + 1);
     assert_int_equal(account.after, (size_t)rungs + 1 + 2 * met);
     sl_map_destroy(context, &map);
@@ -264,7 +387,7 @@ static void test_cancelled(void **state) {
     sl_context *context = sl_context_create(&hooks);
     sl_map map = {0};
     add(context, &map, 1, 2, 1, 0, 4);
-    assert_int_equal(sl_map_clean(context, &map, NULL), SL_CANCELLED);
+    assert_int_equal(sl_map_clean(context, &map, NULL, NULL), SL_CANCELLED);
     assert_true(map.wall_count == 1 && map.walls[0].a.y == 2);
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
@@ -272,9 +395,9 @@ static void test_cancelled(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_random),
-        cmocka_unit_test(test_cases),
-        cmocka_unit_test(test_many_ranks),
+        cmocka_unit_test(test_random),         cmocka_unit_test(test_cases),
+        cmocka_unit_test(test_doors),          cmocka_unit_test(test_oblique_account),
+        cmocka_unit_test(test_random_oblique), cmocka_unit_test(test_many_ranks),
         cmocka_unit_test(test_cancelled),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -111,7 +111,7 @@ static void fail_on_map(work *read, work *run) {
 }
 
 static sl_status clean(sl_context *context, sl_map *map) {
-    return sl_map_clean(context, map, NULL);
+    return sl_map_clean(context, map, NULL, NULL);
 }
 
 static sl_status print_plan(sl_context *context, sl_map *map) {

@@ -183,14 +183,14 @@ static void test_random_plans(void **state) {
         assert_string_equal(text, plan);
         sl_map map = {0}, back = {0};
         assert_ok(context, read(context, plan, &map));
-        assert_ok(context, sl_map_clean(context, &map, NULL));
+        assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
         // Cleaned walls are the same walls.
         sl_status status;
         char *again = map_plan_text(context, &map, &status);
         assert_ok(context, status);
         assert_string_equal(again, plan);
         assert_ok(context, read(context, again, &back));
-        assert_ok(context, sl_map_clean(context, &back, NULL));
+        assert_ok(context, sl_map_clean(context, &back, NULL, NULL));
         assert_true(map_same(&map, &back));
         sl_map_destroy(context, &map);
         sl_map_destroy(context, &back);

@@ -48,7 +48,7 @@ static bool is_exact(const change *c, sl_point p) {
 
 static void subdivide(sl_context *context, sl_map *map, sl_space *out) {
     const sl_subdivide_options options = sl_subdivide_options_default();
-    assert_ok(context, sl_map_clean(context, map, NULL));
+    assert_ok(context, sl_map_clean(context, map, NULL, NULL));
     assert_ok(context, sl_subdivide_kd(context, map, &options, out));
 }
 

@@ -1,8 +1,9 @@
 /// What is promised behind oblique mirrors, where images are rounded: a sightline that keeps clear
 /// of all ends of walls and mirrors is found, by the bake, by the cells of an eye and by its
-/// region; and what the region shows is where the sightline to it ends. Against single rays in
-/// rationals, on random maps with walls and mirrors in any direction. SIGHTLINE_SEEDS in the
-/// environment: how many maps (60 by default).
+/// region; and what the region shows is where the sightline to it ends. Likewise past boxes that
+/// move, and boxes on the way are found. Against single rays in rationals, on random maps with
+/// walls and mirrors in any direction. SIGHTLINE_SEEDS in the environment: how many maps (60 by
+/// default).
 // needs effects
 #include "testing.h"
 
@@ -11,7 +12,7 @@
 
 #include <math.h>
 
-enum { MAPS = 60, MIRRORS = 3, EYES = 4, RAYS = 24, DEPTH = 3 };
+enum { MAPS = 60, MIRRORS = 3, EYES = 4, RAYS = 24, DEPTH = 3, BOXES = 3 };
 
 /// Of the map's size: what rounding moves is far less.
 #define CLEAR 1e-9
@@ -26,7 +27,11 @@ typedef struct trial {
     sl_room_mirrors mirrors;
     sl_visibility baked;
     double size;
+    sl_moving_box boxes[BOXES];
+    size_t box_count;
+    bool seen[BOXES];             ///< by mirror
     size_t rays, points, rounded; ///< reflected legs and walls of regions checked; bakes rounded
+    size_t boxes_met, boxes_hidden;
 } trial;
 
 static void add_walls(trial *t, oblique_grid grid) {
@@ -74,9 +79,8 @@ static void begin(trial *t, uint64_t seed) {
     for (int i = 0; i < 4; i++)
         assert_ok(t->context, sl_map_add_wall(t->context, &t->map, corners[i], corners[i + 1], 0));
     add_walls(t, grids[seed % 3]);
-    assert_ok(t->context, sl_map_clean(t->context, &t->map, NULL));
-    const sl_bsp_options options = sl_bsp_options_default();
-    assert_ok(t->context, sl_subdivide_bsp(t->context, &t->map, &options, &t->space));
+    assert_ok(t->context, sl_map_clean(t->context, &t->map, NULL, NULL));
+    assert_ok(t->context, sl_subdivide_mesh(t->context, &t->map, &t->space));
     assert_ok(t->context, sl_outline_make(t->context, &t->space, &t->outline));
     assert_ok(t->context, sl_room_mirrors_make(t->context, &t->outline, &t->map, &t->mirrors));
     bake(t);
@@ -132,6 +136,43 @@ static bool is_shown(const sl_mirrored_region *region, const oracle_ray *ray, ui
     return false;
 }
 
+/// Whether a leg has a point well within a box, or on it.
+static bool meets_box(const oracle_leg *leg, sl_box box) {
+    double from = 0, to = 1;
+    const double at[2] = {leg->from.x, leg->from.y}, low[2] = {box.min.x, box.min.y};
+    const double step[2] = {leg->to.x - leg->from.x, leg->to.y - leg->from.y};
+    const double high[2] = {box.max.x, box.max.y};
+    for (int i = 0; i < 2; i++) {
+        const double a = (low[i] - at[i]) / step[i], b = (high[i] - at[i]) / step[i];
+        from = fmax(from, fmin(a, b));
+        to = fmin(to, fmax(a, b));
+    }
+    return from + 1e-6 < to;
+}
+
+/// The boxes that a reflected leg passes or ends at are seen.
+static void check_boxes_met(const trial *t, sl_point eye, const oracle_ray *ray) {
+    for (uint32_t leg = 1; leg < ray->count; leg++)
+        for (size_t i = 0; i < t->box_count; i++) {
+            oracle_leg way = ray->legs[leg];
+            // A little farther: one that blocks is not entered.
+            const sl_point d = {way.to.x - way.from.x, way.to.y - way.from.y};
+            const double length = hypot(d.x, d.y), more = 1e-4 * t->size / length;
+            if (leg + 1 == ray->count && t->boxes[i].blocks) {
+                const sl_point on = {way.to.x + more * d.x, way.to.y + more * d.y};
+                const sl_box b = t->boxes[i].box;
+                if (!(b.min.x < on.x && on.x < b.max.x && b.min.y < on.y && on.y < b.max.y))
+                    continue;
+                way.to = on;
+            }
+            if (!t->seen[i] && meets_box(&way, t->boxes[i].box))
+                fail_msg("seed %llu, eye %.17g,%.17g: box %zu is met on the way from %.17g,%.17g "
+                         "to %.17g,%.17g",
+                         (unsigned long long)t->seed, eye.x, eye.y, i, way.from.x, way.from.y,
+                         way.to.x, way.to.y);
+        }
+}
+
 /// Rays that keep clear of all ends are found.
 static void check_rays(trial *t, sl_point eye, const uint64_t *cells,
                        const sl_mirrored_region *region) {
@@ -142,6 +183,7 @@ static void check_rays(trial *t, sl_point eye, const uint64_t *cells,
         const oracle_ray ray =
             oracle_ray_of(&t->map, eye, (sl_point){cos(angle), sin(angle)}, DEPTH);
         if (ray.margin < CLEAR * t->size) continue;
+        check_boxes_met(t, eye, &ray);
         for (uint32_t leg = 1; leg < ray.count; leg++) {
             const sl_point a = ray.legs[leg].from, b = ray.legs[leg].to;
             const double share = sl_random_unit(&t->random);
@@ -210,6 +252,109 @@ static void check_eye(trial *t, sl_point eye) {
     free(cells);
 }
 
+// --- past boxes
+
+static sl_box random_box(trial *t) {
+    const sl_box b = t->space.bounds;
+    const double width = b.max.x - b.min.x, height = b.max.y - b.min.y;
+    const double x = b.min.x + width * sl_random_unit(&t->random);
+    const double y = b.min.y + height * sl_random_unit(&t->random);
+    return (sl_box){
+        {x, y},
+        {x + width / 4 * sl_random_unit(&t->random), y + height / 4 * sl_random_unit(&t->random)}};
+}
+
+/// The map with the sides of boxes that block, for the oracle alone.
+static void add_box_walls(trial *t, const sl_map *from) {
+    t->map.walls = malloc((from->wall_count + 4 * BOXES) * sizeof *t->map.walls);
+    assert_non_null(t->map.walls);
+    memcpy(t->map.walls, from->walls, from->wall_count * sizeof *t->map.walls);
+    for (size_t i = 0; i < t->box_count; i++) {
+        const sl_box b = t->boxes[i].box;
+        const sl_point c[4] = {b.min, {b.max.x, b.min.y}, b.max, {b.min.x, b.max.y}};
+        for (int k = 0; k < 4 && t->boxes[i].blocks; k++)
+            t->map.walls[t->map.wall_count++] = (sl_wall){c[k], c[(k + 1) % 4], 0};
+    }
+}
+
+/// What of a region lies in a box.
+static double area_in(const sl_region *region, sl_box box) {
+    sl_point in[256], out[256];
+    size_t count = region->count;
+    assert_true(count < 100);
+    memcpy(in, region->points, count * sizeof *in);
+    const sl_point c[4] = {box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}};
+    for (int k = 0; k < 4; k++) {
+        size_t kept = 0;
+        for (size_t i = 0; i < count; i++) {
+            const sl_point p = in[i], q = in[(i + 1) % count];
+            const double at_p = cross(c[k], c[(k + 1) % 4], p),
+                         at_q = cross(c[k], c[(k + 1) % 4], q);
+            if (at_p >= 0) out[kept++] = p;
+            if ((at_p >= 0) != (at_q >= 0)) {
+                const double s = at_p / (at_p - at_q);
+                out[kept++] = (sl_point){p.x + s * (q.x - p.x), p.y + s * (q.y - p.y)};
+            }
+            assert_true(kept < 255);
+        }
+        count = kept;
+        memcpy(in, out, count * sizeof *in);
+    }
+    double sum = 0;
+    for (size_t i = 1; i + 1 < count; i++) sum += cross(in[0], in[i], in[i + 1]) / 2;
+    return fabs(sum);
+}
+
+/// A box that is seen through is seen where some of the region is in it.
+static void check_boxes_shown(trial *t, sl_point eye, const sl_mirrored_region *region) {
+    for (size_t i = 0; i < t->box_count; i++) {
+        double area = 0;
+        if (t->boxes[i].blocks) continue;
+        for (uint32_t k = 0; k < region->part_count; k++)
+            area += area_in(&region->parts[k].region, t->boxes[i].box) / (t->size * t->size);
+        if (t->seen[i] ? area < 1e-13 : area > 1e-9)
+            fail_msg("seed %llu, eye %.17g,%.17g: box %zu is said to be %s, area %g",
+                     (unsigned long long)t->seed, eye.x, eye.y, i, t->seen[i] ? "seen" : "hidden",
+                     area);
+        *(t->seen[i] ? &t->boxes_met : &t->boxes_hidden) += 1;
+    }
+}
+
+static void check_boxes(trial *t, sl_point eye) {
+    const sl_visibility bare = {.sight = SL_OPEN};
+    const sl_view view = sl_view_all_round(eye);
+    const sl_map map = t->map;
+    uint64_t *cells = calloc(sl_eye_words(&t->space), sizeof *cells);
+    assert_non_null(cells);
+    sl_moving *moving;
+    sl_eye_account account;
+    const sl_outline *outline;
+    sl_room_mirrors mirrors = {0};
+    sl_mirrored_region region = {0};
+    t->box_count = BOXES;
+    for (size_t i = 0; i < BOXES; i++)
+        t->boxes[i] = (sl_moving_box){random_box(t), sl_random_below(&t->random, 2)};
+    assert_ok(t->context, sl_moving_create(t->context, &t->space, &bare, &moving));
+    assert_ok(t->context, sl_moving_add_mirrors(t->context, moving, &map, DEPTH));
+    assert_ok(t->context, sl_moving_place(t->context, moving, t->boxes, BOXES));
+    assert_ok(t->context,
+              sl_moving_look_mirrored(t->context, moving, &view, cells, t->seen, &account));
+    assert_ok(t->context, sl_moving_outline(t->context, moving, &outline));
+    assert_ok(t->context, sl_room_mirrors_make(t->context, outline, &map, &mirrors));
+    assert_ok(t->context, sl_mirrored_region_make(t->context, &mirrors, &view, 0, DEPTH, &region));
+    add_box_walls(t, &map);
+    check_rays(t, eye, cells, &region);
+    for (uint32_t i = 0; i < region.part_count; i++) check_part(t, eye, &region, i);
+    check_boxes_shown(t, eye, &region);
+    free(t->map.walls);
+    t->map = map;
+    t->box_count = 0;
+    sl_mirrored_region_destroy(t->context, &region);
+    sl_room_mirrors_destroy(t->context, &mirrors);
+    sl_moving_destroy(t->context, moving);
+    free(cells);
+}
+
 static void random_maps(void **state) {
     (void)state;
     const char *seeds = getenv("SIGHTLINE_SEEDS");
@@ -221,12 +366,14 @@ static void random_maps(void **state) {
             const sl_point eye = {sl_random_unit(&t.random) * t.size - 1,
                                   sl_random_unit(&t.random) * t.size - 1};
             check_eye(&t, eye);
+            check_boxes(&t, eye);
         }
         end(&t);
     }
     assert_true(t.rounded > maps / 2);
     assert_true(t.rays > 10 * maps);
     assert_true(t.points > maps);
+    assert_true(t.boxes_met > maps && t.boxes_hidden > maps);
 }
 
 int main(void) {

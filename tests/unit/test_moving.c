@@ -95,7 +95,7 @@ static void subdivide_anew(trial *t, size_t without, sl_space *out) {
                   sl_map_add_seam(context, &map,
                                   (sl_segment){t->space.portals[i].left, t->space.portals[i].right},
                                   0));
-    assert_ok(context, sl_map_clean(context, &map, NULL));
+    assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
     const sl_subdivide_options options = sl_subdivide_options_default();
     assert_ok(context, sl_subdivide_kd(context, &map, &options, out));
     sl_map_destroy(context, &map);
@@ -287,7 +287,7 @@ static void try_boxes(trial *t) {
 static void try_map(trial *t, sl_sight sight) {
     const oracle_grid grid = (oracle_grid)(t->seed % 3);
     assert_ok(t->context, oracle_random_map(t->context, t->seed, grid, &t->map));
-    assert_ok(t->context, sl_map_clean(t->context, &t->map, NULL));
+    assert_ok(t->context, sl_map_clean(t->context, &t->map, NULL, NULL));
     const sl_subdivide_options options = sl_subdivide_options_default();
     t->random = (sl_random){t->seed ^ 0xb0e5};
     if (t->map.wall_count)
@@ -449,9 +449,8 @@ static void cells_that_a_box_lies_in(void **state) {
     for (int i = 0; i < 4; i++)
         assert_ok(context, sl_map_add_wall(context, &oblique, c[i], c[i + 1], 0));
     assert_ok(context, sl_map_add_wall(context, &oblique, c[0], c[2], 0));
-    assert_ok(context, sl_map_clean(context, &oblique, NULL));
-    const sl_bsp_options options = sl_bsp_options_default();
-    assert_ok(context, sl_subdivide_bsp(context, &oblique, &options, &space));
+    assert_ok(context, sl_map_clean(context, &oblique, NULL, NULL));
+    assert_ok(context, sl_subdivide_mesh(context, &oblique, &space));
     assert_int_equal(space.cell_count, 2);
     const uint32_t under = sl_space_locate(&space, (sl_point){7, 1});
     sl_cells_of_box(&space, (sl_box){{3, 1}, {4, 3}}, cells);

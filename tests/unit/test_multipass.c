@@ -186,8 +186,7 @@ static void oblique_maps_are_seen_as_by_the_sweep(void **state) {
                                 a.y + 40 * sl_random_unit(&random) - 20};
             assert_ok(context, sl_map_add_wall(context, &map, a, b, 0));
         }
-        const sl_bsp_options options = sl_bsp_options_default();
-        assert_ok(context, sl_subdivide_bsp(context, &map, &options, &space));
+        assert_ok(context, sl_subdivide_mesh(context, &map, &space));
         compare(context, name, &space, "sweep");
         assert_int_equal(check_passes(context, &space, 0), 0);
         sl_map_destroy(context, &map);

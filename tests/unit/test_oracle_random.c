@@ -48,7 +48,7 @@ static void begin_trial(sl_context *context, uint64_t seed, trial *t) {
     oracle_grid grid = (oracle_grid)(seed % 3);
     need(context, oracle_random_map(context, seed, grid, &t->raw), seed);
     need(context, oracle_random_map(context, seed, grid, &t->map), seed);
-    need(context, sl_map_clean(context, &t->map, NULL), seed);
+    need(context, sl_map_clean(context, &t->map, NULL, NULL), seed);
     sl_subdivide_options options = sl_subdivide_options_default();
     need(context, sl_subdivide_kd(context, &t->map, &options, &t->space), seed);
     need(context, sl_space_check(context, &t->space), seed);

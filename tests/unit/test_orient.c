@@ -3,6 +3,7 @@
 
 #include "base/random.h"
 #include "contraction/expansion.h"
+#include "geometry/crossing.h"
 #include "geometry/orient.h"
 
 #include <gmp.h>
@@ -165,12 +166,65 @@ static void nearly_collinear_points_are_decided(void **state) {
     }
 }
 
+/// (b - a) x (c - a)
+static void rational_determinant(sl_point a, sl_point b, sl_point c, mpq_t out) {
+    rational_orient(a, b, c);
+    mpq_sub(out, left_product, right_product);
+}
+
+/// The crossing lies between the ends of s, in the shares of their distances from t.
+static int rational_crossing_side(sl_point from, sl_point to, sl_segment s, sl_segment t) {
+    mpq_t along_a, along_b, across_a, across_b;
+    mpq_inits(along_a, along_b, across_a, across_b, NULL);
+    rational_determinant(t.a, t.b, s.a, along_a);
+    rational_determinant(t.a, t.b, s.b, along_b);
+    rational_determinant(from, to, s.a, across_a);
+    rational_determinant(from, to, s.b, across_b);
+    mpq_abs(along_a, along_a);
+    mpq_abs(along_b, along_b);
+    mpq_mul(across_a, across_a, along_b);
+    mpq_mul(across_b, across_b, along_a);
+    mpq_add(across_a, across_a, across_b);
+    const int side = mpq_sgn(across_a);
+    mpq_clears(along_a, along_b, across_a, across_b, NULL);
+    return side;
+}
+
+/// Lines past crossings: anywhere, and through the crossing but for its last bits.
+static void sides_of_crossings_are_decided(void **state) {
+    (void)state;
+    sl_random random = {7};
+    int tried = 0, signs[3] = {0};
+    const int ranges[][2] = {{-3, 3}, {-30, 30}, {-480, 480}};
+    for (int i = 0; i < 40000; i++) {
+        const int *range = ranges[i % 3];
+        double v[12];
+        for (int k = 0; k < 12; k++)
+            v[k] = i % 2 ? (double)sl_random_below(&random, 12)
+                         : random_double(&random, range[0], range[1]);
+        const sl_segment s = {{v[0], v[1]}, {v[2], v[3]}}, t = {{v[4], v[5]}, {v[6], v[7]}};
+        const sl_point from = {v[8], v[9]};
+        if (sl_orient(t.a, t.b, s.a) * sl_orient(t.a, t.b, s.b) >= 0) continue;
+        sl_point to = {v[10], v[11]};
+        if (i % 5 && sl_orient(s.a, s.b, t.a) * sl_orient(s.a, s.b, t.b) < 0) {
+            to = sl_crossing(s, t);
+            to.x = steps(to.x, (int)sl_random_below(&random, 3) - 1);
+        }
+        const int expected = rational_crossing_side(from, to, s, t);
+        assert_int_equal(sl_crossing_side(from, to, s, t), expected);
+        tried++;
+        signs[expected + 1]++;
+    }
+    assert_true(tried > 10000 && signs[0] > 1000 && signs[1] > 200 && signs[2] > 1000);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(near_collinear_grids_are_decided),
         cmocka_unit_test(the_grid_finds_contraction),
         cmocka_unit_test(any_finite_doubles_are_decided),
         cmocka_unit_test(nearly_collinear_points_are_decided),
+        cmocka_unit_test(sides_of_crossings_are_decided),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -49,11 +49,10 @@ static void destroy(sl_context *context, place *p) {
 }
 
 static void subdivide(sl_context *context, bool oblique, place *p) {
-    assert_ok(context, sl_map_clean(context, &p->map, NULL));
+    assert_ok(context, sl_map_clean(context, &p->map, NULL, NULL));
     const sl_subdivide_options kd = sl_subdivide_options_default();
-    const sl_bsp_options bsp = sl_bsp_options_default();
     if (oblique)
-        assert_ok(context, sl_subdivide_bsp(context, &p->map, &bsp, &p->space));
+        assert_ok(context, sl_subdivide_mesh(context, &p->map, &p->space));
     else
         assert_ok(context, sl_subdivide_kd(context, &p->map, &kd, &p->space));
 }
@@ -82,12 +81,14 @@ static place random_map(sl_context *context, uint64_t seed, bool oblique) {
     return p;
 }
 
-static place generated(sl_context *context, const char *kind, uint64_t walls, double turned) {
+static place generated(sl_context *context, const char *kind, uint64_t walls, double turned,
+                       bool in_line) {
     size_t count;
     const sl_map_kind *kinds = sl_map_kinds(&count);
     sl_generate_options options = sl_generate_options_default();
     options.walls = walls;
     options.turned = turned;
+    options.in_line = in_line;
     place p = {0};
     for (size_t i = 0; i < count; i++)
         if (strcmp(kinds[i].name, kind) == 0)
@@ -215,7 +216,8 @@ static void larger_maps_come_to_the_whole(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
     sl_random random = {6};
-    place office = generated(context, "office", 300, 0), city = generated(context, "city", 200, 20);
+    place office = generated(context, "office", 300, 0, false),
+          city = generated(context, "city", 200, 20, false);
     assert_true(check_space(context, &office.space, &random) > 20);
     assert_true(check_space(context, &city.space, &random) > 20);
     destroy(context, &office);
@@ -249,7 +251,7 @@ static void doubtful_pairs_come_together(void **state) {
 static void decided_pairs_are_told_from_others(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
-    place p = generated(context, "tunnels", 1000, 0);
+    place p = generated(context, "tunnels", 1000, 0, false);
     const sl_see_method *method = testing_method("sweep"), *flood = testing_method("flood");
     sl_see_options options = options_for(method, SL_CLOSED, false, 1);
     sl_visibility plain, bound, half;
@@ -360,10 +362,12 @@ static void what_a_change_cannot_affect_is_kept(void **state) {
     const char *const kinds[] = {"office", "city", "maze"};
     uint32_t kept = 0;
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
-        place axial = generated(context, kinds[i], 300, 0);
+        place axial = generated(context, kinds[i], 300, 0, false);
         kept += check_edits(context, &axial, false, EDITS, &random);
-        place turned = generated(context, kinds[i], 150, 30);
-        kept += check_edits(context, &turned, true, EDITS, &random);
+        for (int in_line = 0; in_line < 2; in_line++) {
+            place turned = generated(context, kinds[i], 150, 30, in_line);
+            kept += check_edits(context, &turned, true, EDITS, &random);
+        }
     }
     print_message("%u units were taken over\n", kept);
     assert_true(kept > 1000);
@@ -417,7 +421,8 @@ static void other_questions_take_nothing_over(void **state) {
 static void what_does_not_belong_together_is_refused(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
-    place p = generated(context, "office", 100, 0), q = generated(context, "office", 200, 0);
+    place p = generated(context, "office", 100, 0, false),
+          q = generated(context, "office", 200, 0, false);
     for (size_t m = 0; m < NAMES; m++) {
         const sl_see_method *method = testing_method(names[m]);
         sl_see_options options = options_for(method, SL_CLOSED, false, 1);

@@ -5,6 +5,7 @@
 
 #include "oracle/isovist.h"
 #include "oracle/random_map.h"
+#include "oracle/random_oblique.h"
 
 #include <math.h>
 
@@ -53,9 +54,9 @@ static sl_view random_view(const sl_space *space, sl_random *random, sl_point ey
     return view;
 }
 
-static void assert_near(const char *what, double found, double expected, double scale,
+static void assert_near(const char *what, double found, double expected, double reach,
                         uint64_t seed, const sl_view *view) {
-    if (fabs(found - expected) <= 1e-12 * scale) return;
+    if (fabs(found - expected) <= reach) return;
     fail_msg("seed %llu: %s %.17g, not %.17g; eye %.17g %.17g, full %d, right %.17g %.17g, left "
              "%.17g %.17g",
              (unsigned long long)seed, what, found, expected, view->eye.x, view->eye.y, view->full,
@@ -81,8 +82,9 @@ static void check_shape(const sl_region *region, const sl_space *space, uint64_t
     }
 }
 
+/// `accuracy`: relative, of what is measured.
 static void check_eye(sl_context *context, const sl_outline *outline, const sl_view *view,
-                      uint64_t seed, sl_region *region) {
+                      double accuracy, uint64_t seed, sl_region *region) {
     assert_ok(context, sl_region_make(context, outline, view, 0, region));
     if (sl_space_locate(outline->space, view->eye) == SL_NO_CELL) {
         assert_int_equal(region->count, 0); // mixed from two points and rounded, out of the bounds
@@ -92,10 +94,11 @@ static void check_eye(sl_context *context, const sl_outline *outline, const sl_v
     const sl_region_measures found = sl_region_measure(region);
     // Of a sliver, the places of its corners say less than of the square on its length.
     const double square = found.max_radial * found.max_radial;
-    assert_near("area", found.area, expected.area, fmax(expected.area, 1e-3 * square), seed, view);
-    assert_near("perimeter", found.perimeter, expected.perimeter, expected.perimeter, seed, view);
-    assert_near("occlusivity", found.occlusivity, expected.occlusivity, expected.perimeter, seed,
-                view);
+    assert_near("area", found.area, expected.area, accuracy * fmax(expected.area, 1e-3 * square),
+                seed, view);
+    const double length = accuracy * expected.perimeter;
+    assert_near("perimeter", found.perimeter, expected.perimeter, length, seed, view);
+    assert_near("occlusivity", found.occlusivity, expected.occlusivity, length, seed, view);
     check_shape(region, outline->space, seed);
 }
 
@@ -109,7 +112,7 @@ static void as_the_sweep_says(void **state) {
         sl_space space = {0};
         sl_outline outline = {0};
         assert_ok(context, oracle_random_map(context, seed, (oracle_grid)(seed % 3), &map));
-        assert_ok(context, sl_map_clean(context, &map, NULL));
+        assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
         if (map.wall_count) {
             const sl_subdivide_options options = sl_subdivide_options_default();
             assert_ok(context, sl_subdivide_kd(context, &map, &options, &space));
@@ -118,7 +121,39 @@ static void as_the_sweep_says(void **state) {
             for (uint64_t i = 0; i < 12; i++) {
                 const sl_point eye = place_eye(&space, &random, i);
                 const sl_view view = random_view(&space, &random, eye);
-                check_eye(context, &outline, &view, seed, &region);
+                check_eye(context, &outline, &view, 1e-12, seed, &region);
+            }
+        }
+        sl_outline_destroy(context, &outline);
+        sl_space_destroy(context, &space);
+        sl_map_destroy(context, &map);
+    }
+    sl_region_destroy(context, &region);
+    sl_context_destroy(context);
+}
+
+/// Turned and moved, where places on walls are rounded. The eye is on no wall.
+static void among_turned_walls(void **state) {
+    (void)state;
+    static const double angles[] = {17.3, 33, 45, 0.001};
+    sl_context *context = testing_context(NULL);
+    const uint64_t seeds = testing_seeds(60);
+    sl_region region = {0};
+    for (uint64_t seed = 1; seed <= seeds; seed++) {
+        sl_map map = {0};
+        sl_space space = {0};
+        sl_outline outline = {0};
+        sl_random random = {seed};
+        const double move = seed / 4 % 2 ? 1e6 : 0;
+        assert_ok(context, oracle_random_map(context, seed, ORACLE_GRID_INTEGER, &map));
+        oblique_turn_map(&map, angles[seed % 4], move);
+        assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
+        if (map.wall_count) {
+            assert_ok(context, sl_subdivide_mesh(context, &map, &space));
+            assert_ok(context, sl_outline_make(context, &space, &outline));
+            for (uint64_t i = 0; i < 12; i++) {
+                const sl_view view = random_view(&space, &random, place_eye(&space, &random, 0));
+                check_eye(context, &outline, &view, move > 0 ? 1e-6 : 1e-11, seed, &region);
             }
         }
         sl_outline_destroy(context, &outline);
@@ -130,6 +165,9 @@ static void as_the_sweep_says(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(as_the_sweep_says)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(as_the_sweep_says),
+        cmocka_unit_test(among_turned_walls),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

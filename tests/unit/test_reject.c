@@ -121,7 +121,7 @@ static void bake_map(sl_context *context, const wad_made *wad, sl_baked *baked) 
     sl_map map = {0};
     assert_ok(context,
               sl_map_read_wad(context, "in.wad", (char *)wad->bytes, wad->size, &options, &map));
-    assert_ok(context, sl_map_clean(context, &map, NULL));
+    assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
     assert_ok(context, sl_subdivide_kd(context, &map, &rules, &baked->space));
     sl_map_destroy(context, &map);
     size_t methods;

@@ -4,6 +4,7 @@
 #include "runtime_maps.h"
 
 #include "base/random.h"
+#include "geometry/orient.h"
 #include "oracle/random_oblique.h"
 
 #include <math.h>
@@ -139,15 +140,87 @@ static void every_point_by_an_oblique_wall_is_in_the_same_cell(void **state) {
         sl_map *map = &f.baked.map;
         assert_ok(context,
                   oblique_random_map(context, seed, (oblique_grid)(seed % OBLIQUE_GRIDS), 12, map));
-        if (sl_map_clean(context, map, NULL) == SL_OK && map->wall_count) {
+        if (sl_map_clean(context, map, NULL, NULL) == SL_OK && map->wall_count) {
             baked_file_make(context, &f, false);
             points_by_walls_are_in_the_same_cells(&f, 400);
-            over += f.runtime.beyond != NULL;
+            over += f.runtime.grid_cells != NULL;
         }
         baked_file_destroy(context, &f);
         sl_context_destroy(context);
     }
     assert_true(over > maps / 2);
+}
+
+// --- turned maps, near and far
+
+/// The first cell that holds a point, of all.
+static uint32_t first_that_holds(const sl_space *s, sl_point p) {
+    for (uint32_t i = 0; i < s->cell_count; i++) {
+        const sl_cell *c = &s->cells[i];
+        const sl_point *v = s->vertices + c->first_vertex;
+        uint32_t k = 0;
+        while (k < c->vertex_count && sl_orient(v[k], v[(k + 1) % c->vertex_count], p) >= 0) k++;
+        if (k == c->vertex_count) return i;
+    }
+    return SL_NO_CELL;
+}
+
+/// A corner, a place on a side, a place where buckets meet, or any.
+static sl_point some_place(const sl_space *s, sl_random *random) {
+    const sl_cell *c = &s->cells[sl_random_below(random, s->cell_count)];
+    const sl_point *v = s->vertices + c->first_vertex;
+    const uint32_t k = (uint32_t)sl_random_below(random, c->vertex_count);
+    const sl_point a = v[k], b = v[(k + 1) % c->vertex_count], low = s->bounds.min;
+    const double width = s->bounds.max.x - low.x, height = s->bounds.max.y - low.y;
+    const double along = sl_random_below(random, 2) ? 0.5 : sl_random_unit(random);
+    const double column = (double)sl_random_below(random, s->grid.columns + 1);
+    const double row = (double)sl_random_below(random, s->grid.rows + 1);
+    switch (sl_random_below(random, 4)) {
+    case 0:
+        return a;
+    case 1:
+        return (sl_point){a.x + along * (b.x - a.x), a.y + along * (b.y - a.y)};
+    case 2:
+        return (sl_point){low.x + width * (column / s->grid.columns),
+                          low.y + height * (row / s->grid.rows)};
+    default:
+        return (sl_point){low.x + width * sl_random_unit(random),
+                          low.y + height * sl_random_unit(random)};
+    }
+}
+
+static void places_are_in_the_same_cells(const baked_file *f, uint64_t count) {
+    const sl_space *s = &f->baked.space;
+    sl_random random = {9};
+    assert_non_null(f->runtime.grid_cells);
+    for (uint64_t i = 0; i < count; i++) {
+        sl_point p = some_place(s, &random);
+        for (uint64_t k = sl_random_below(&random, 3); k > 0; k--) {
+            p.x = nextafter(p.x, sl_random_below(&random, 2) ? INFINITY : -INFINITY);
+            p.y = nextafter(p.y, sl_random_below(&random, 2) ? INFINITY : -INFINITY);
+        }
+        same_cell(f, p.x, p.y);
+        const bool within = p.x >= s->bounds.min.x && p.x <= s->bounds.max.x &&
+                            p.y >= s->bounds.min.y && p.y <= s->bounds.max.y;
+        if (i % 16 == 0 && within) assert_int_equal(sl_space_locate(s, p), first_that_holds(s, p));
+    }
+}
+
+static void every_place_of_a_turned_map_is_in_the_same_cell(void **state) {
+    (void)state;
+    static const char *const names[] = {"office", "gallery", "oblique/chapel", "oblique/rotunda",
+                                        "oblique/star"};
+    static const struct {
+        double degrees, offset;
+    } turns[] = {{17.3, 0}, {17.3, 1e6}, {44.9, -1e12}, {0.001, 0x1p40}};
+    sl_context *context = testing_context(NULL);
+    for (size_t i = 0; i < 20; i++) {
+        baked_file f =
+            baked_file_turned(context, names[i / 4], turns[i % 4].degrees, turns[i % 4].offset);
+        places_are_in_the_same_cells(&f, testing_seeds(50000));
+        baked_file_destroy(context, &f);
+    }
+    sl_context_destroy(context);
 }
 
 static void rows_are_the_same(const baked_file *f) {
@@ -209,7 +282,9 @@ static void the_space_is_the_same(const baked_file *f) {
     assert_int_equal(r->portal_count, s->portal_count);
     assert_int_equal(r->exit_count, s->exit_count);
     assert_int_equal(r->vertex_count, s->vertex_count);
-    assert_int_equal(r->line_count, s->line_count);
+    assert_int_equal(r->node_count, s->node_count);
+    assert_int_equal(r->grid_columns, s->grid.columns);
+    assert_int_equal(r->grid_rows, s->grid.rows);
     assert_true(r->min_x == s->bounds.min.x && r->max_x == s->bounds.max.x);
     assert_true(r->min_y == s->bounds.min.y && r->max_y == s->bounds.max.y);
     for (uint32_t i = 0; i < r->cell_count; i++) {
@@ -279,6 +354,7 @@ int main(void) {
         cmocka_unit_test(every_point_is_in_the_same_cell),
         cmocka_unit_test(every_box_is_in_the_same_cells),
         cmocka_unit_test(every_point_by_an_oblique_wall_is_in_the_same_cell),
+        cmocka_unit_test(every_place_of_a_turned_map_is_in_the_same_cell),
         cmocka_unit_test(every_pair_is_seen_the_same),
         cmocka_unit_test(what_is_no_cell_sees_nothing),
         cmocka_unit_test(cells_exits_and_corners_are_the_same),

@@ -1,5 +1,4 @@
-// What the runtime does with files that are cut, damaged, foreign, hostile; and with splits along
-// oblique lines.
+// What the runtime does with files that are cut, damaged, foreign, hostile.
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 // So little that a search is given up at all: files on which the usual patience ends are not known.
 #define SLRT_PATIENCE 1
@@ -11,6 +10,7 @@
 #include <math.h>
 
 static const char *const rooms = "walls 0 0 9 0 9 9 0 9 0 0\nwall 4 0 4 5\nwall 4 6 9 6\n";
+static const char *const oblique = "walls 0 0 9 0 9 9 0 9 0 0\nwall 2 2 6 5\n";
 
 static sl_runtime_status open_bytes(const char *bytes, size_t size) {
     sl_runtime empty, runtime;
@@ -26,10 +26,9 @@ static sl_runtime_status open_bytes(const char *bytes, size_t size) {
     return status;
 }
 
-static void every_length_and_every_bit_counts(void **state) {
-    (void)state;
+static void check_lengths_and_bits(const char *statements) {
     sl_context *context = testing_context(NULL);
-    baked_file f = baked_file_of_text(context, rooms);
+    baked_file f = baked_file_of_text(context, statements);
     for (size_t size = 0; size < f.size; size++)
         assert_int_equal(open_bytes(f.bytes, size),
                          size < 8 ? SL_RUNTIME_NOT_BAKED : SL_RUNTIME_SIZE);
@@ -51,6 +50,12 @@ static void every_length_and_every_bit_counts(void **state) {
     sl_context_destroy(context);
 }
 
+static void every_length_and_every_bit_counts(void **state) {
+    (void)state;
+    check_lengths_and_bits(rooms);
+    check_lengths_and_bits(oblique);
+}
+
 static void the_other_byte_order_is_named(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
@@ -70,17 +75,37 @@ static void every_status_has_words(void **state) {
                                     sl_runtime_status_text((sl_runtime_status)j));
 }
 
+typedef struct lie {
+    const char *tag;
+    size_t offset, size;
+    const void *bytes;
+    sl_runtime_status status;
+} lie;
+
+static void check_lies(const char *statements, const lie *lies, size_t count) {
+    sl_context *context = testing_context(NULL);
+    baked_file f = baked_file_of_text(context, statements);
+    char *bytes = malloc(f.size);
+    assert_non_null(bytes);
+    for (size_t i = 0; i < count; i++) {
+        memcpy(bytes, f.bytes, f.size);
+        memcpy(slv_items(bytes, lies[i].tag) + lies[i].offset, lies[i].bytes, lies[i].size);
+        slv_seal(bytes, f.size);
+        if (open_bytes(bytes, f.size) != lies[i].status)
+            fail_msg("lie %zu in %s + %zu: %s", i, lies[i].tag, lies[i].offset,
+                     sl_runtime_status_text(open_bytes(bytes, f.size)));
+    }
+    free(bytes);
+    baked_file_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
 static void a_lie_under_a_seal_is_refused(void **state) {
     (void)state;
     const double nan = NAN, far = 2.1e150, infinite = -INFINITY;
     const uint32_t one = 1, three = 3, most = UINT32_MAX, half = 0x80000000;
     const uint64_t much = UINT64_MAX;
-    const struct {
-        const char *tag;
-        size_t offset, size;
-        const void *bytes;
-        sl_runtime_status status;
-    } lies[] = {
+    const lie lies[] = {
         {"INFO", 0, 8, &nan, SL_RUNTIME_SPACE},
         {"INFO", 8, 8, &infinite, SL_RUNTIME_SPACE},
         {"INFO", 16, 8, &far, SL_RUNTIME_SPACE},
@@ -115,32 +140,56 @@ static void a_lie_under_a_seal_is_refused(void **state) {
         {"PVSB", 1, 1, "\177", SL_RUNTIME_ROW},     // more than there are
         {"PVSB", 0, 2, "\200\200", SL_RUNTIME_ROW}, // a number that does not end
     };
+    check_lies(rooms, lies, sizeof lies / sizeof *lies);
+}
+
+static void a_lie_about_the_grid_is_refused(void **state) {
+    (void)state;
+    const uint32_t none = 0, one = 1, thousand = 1000, most = UINT32_MAX;
+    const size_t columns = offsetof(sl_slv_info, grid_columns);
+    const size_t rows = offsetof(sl_slv_info, grid_rows);
+    const lie lies[] = {
+        {"INFO", columns, 4, &none, SL_RUNTIME_SPACE},
+        {"INFO", columns, 4, &thousand, SL_RUNTIME_SPACE},
+        {"INFO", rows, 4, &none, SL_RUNTIME_SPACE},
+        {"INFO", rows, 4, &most, SL_RUNTIME_SPACE},
+        {"INFO", offsetof(sl_slv_info, loose), 4, &one, SL_RUNTIME_OK},
+        {"GRIO", 0, 4, &one, SL_RUNTIME_SPACE},
+        {"GRIO", 4, 4, &most, SL_RUNTIME_SPACE},
+        {"GRIO", 4, 4, &thousand, SL_RUNTIME_SPACE},
+        {"GRIO", 8, 4, &none, SL_RUNTIME_SPACE}, // ends before it starts
+        {"GRIC", 0, 4, &most, SL_RUNTIME_SPACE},
+        {"GRIC", 0, 4, &thousand, SL_RUNTIME_SPACE},
+    };
+    check_lies(oblique, lies, sizeof lies / sizeof *lies);
+}
+
+/// Cells in a bucket ascend.
+static void a_bucket_without_order_is_refused(void **state) {
+    (void)state;
     sl_context *context = testing_context(NULL);
-    baked_file f = baked_file_of_text(context, rooms);
-    char *bytes = malloc(f.size);
-    assert_non_null(bytes);
-    for (size_t i = 0; i < sizeof lies / sizeof *lies; i++) {
-        memcpy(bytes, f.bytes, f.size);
-        memcpy(slv_items(bytes, lies[i].tag) + lies[i].offset, lies[i].bytes, lies[i].size);
-        slv_seal(bytes, f.size);
-        if (open_bytes(bytes, f.size) != lies[i].status)
-            fail_msg("lie %zu in %s + %zu: %s", i, lies[i].tag, lies[i].offset,
-                     sl_runtime_status_text(open_bytes(bytes, f.size)));
+    baked_file f = baked_file_of_text(context, oblique);
+    const sl_cell_grid *g = &f.baked.space.grid;
+    uint32_t bucket = 0;
+    while (g->first[bucket + 1] < g->first[bucket] + 2) bucket++;
+    const uint32_t a = g->cells[g->first[bucket]], b = g->cells[g->first[bucket] + 1];
+    const uint32_t pairs[][2] = {{b, a}, {a, a}, {a, b}};
+    for (int i = 0; i < 3; i++) {
+        memcpy(slv_items(f.bytes, "GRIC") + (size_t)g->first[bucket] * 4, pairs[i], 8);
+        slv_seal(f.bytes, f.size);
+        assert_int_equal(open_bytes(f.bytes, f.size), i == 2 ? SL_RUNTIME_OK : SL_RUNTIME_SPACE);
     }
-    free(bytes);
     baked_file_destroy(context, &f);
     sl_context_destroy(context);
 }
 
-static void a_table_that_lies_is_refused(void **state) {
-    (void)state;
-    static const char *const tags[] = {"INFO", "NODE", "CELL", "VERT",
-                                       "PORT", "EXIT", "PVSO", "PVSB"};
+static void check_table(const char *statements, const char *const *tags, size_t count,
+                        sl_runtime_status missing) {
     sl_context *context = testing_context(NULL);
-    baked_file f = baked_file_of_text(context, rooms);
+    baked_file f = baked_file_of_text(context, statements);
     char *bytes = malloc(f.size);
     assert_non_null(bytes);
-    for (size_t i = 0; i < sizeof tags / sizeof *tags; i++) {
+    for (size_t i = 0; i < count; i++) {
         sl_slv_section s;
         memcpy(&s, slv_entry(f.bytes, tags[i]), sizeof s);
         const struct {
@@ -158,18 +207,18 @@ static void a_table_that_lies_is_refused(void **state) {
         };
         for (size_t k = 0; k < sizeof lies / sizeof *lies; k++) {
             memcpy(bytes, f.bytes, f.size);
-            sl_slv_section lie = s;
-            lie.item_bytes = lies[k].item_bytes;
-            lie.offset = lies[k].offset;
-            lie.count = lies[k].count;
-            memcpy(slv_entry(bytes, tags[i]), &lie, sizeof lie);
+            sl_slv_section entry = s;
+            entry.item_bytes = lies[k].item_bytes;
+            entry.offset = lies[k].offset;
+            entry.count = lies[k].count;
+            memcpy(slv_entry(bytes, tags[i]), &entry, sizeof entry);
             slv_seal(bytes, f.size);
             assert_int_equal(open_bytes(bytes, f.size), SL_RUNTIME_SECTION);
         }
         memcpy(bytes, f.bytes, f.size);
         memcpy(slv_entry(bytes, tags[i]), "????", 4);
         slv_seal(bytes, f.size);
-        assert_int_equal(open_bytes(bytes, f.size), SL_RUNTIME_SECTION);
+        assert_int_equal(open_bytes(bytes, f.size), missing);
     }
     memcpy(bytes, f.bytes, f.size);
     memset(bytes + offsetof(sl_slv_header, section_count), 0xff, 4);
@@ -177,6 +226,42 @@ static void a_table_that_lies_is_refused(void **state) {
     assert_int_equal(open_bytes(bytes, f.size), SL_RUNTIME_SECTION);
     free(bytes);
     baked_file_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
+static void a_table_that_lies_is_refused(void **state) {
+    (void)state;
+    static const char *const tags[] = {"INFO", "NODE", "CELL", "VERT",
+                                       "PORT", "EXIT", "PVSO", "PVSB"};
+    static const char *const grid[] = {"BEYO", "GRIO", "GRIC"};
+    check_table(rooms, tags, 8, SL_RUNTIME_SECTION);
+    check_table(oblique, grid, 3, SL_RUNTIME_SPACE);
+}
+
+/// A file of a tree is no file of a mesh, and the other way round it is a loose one.
+static void the_version_says_what_locates_points(void **state) {
+    (void)state;
+    const uint32_t one = 1, two = 2;
+    sl_context *context = testing_context(NULL);
+    baked_file axial = baked_file_of_text(context, rooms);
+    baked_file mesh = baked_file_of_text(context, oblique);
+    memcpy(axial.bytes + offsetof(sl_slv_header, version), &two, 4);
+    slv_seal(axial.bytes, axial.size);
+    assert_int_equal(open_bytes(axial.bytes, axial.size), SL_RUNTIME_SPACE);
+    memcpy(mesh.bytes + offsetof(sl_slv_header, version), &one, 4);
+    slv_seal(mesh.bytes, mesh.size);
+    assert_false(mesh.runtime.loose);
+    baked_file_open(&mesh);
+    assert_true(mesh.runtime.loose);
+    assert_null(mesh.runtime.grid_cells);
+    sl_random random = {3};
+    for (int i = 0; i < 1000; i++) {
+        const sl_point p = {-1 + 11 * sl_random_unit(&random), -1 + 11 * sl_random_unit(&random)};
+        assert_int_equal(sl_runtime_locate(&mesh.runtime, p.x, p.y),
+                         sl_space_locate(&mesh.baked.space, p));
+    }
+    baked_file_destroy(context, &mesh);
+    baked_file_destroy(context, &axial);
     sl_context_destroy(context);
 }
 
@@ -244,192 +329,18 @@ static void a_search_without_end_is_given_up(void **state) {
     sl_context_destroy(context);
 }
 
-// --- oblique lines
-
-/// The file with every split told by a line, moved by `tilt` at one end; for free().
-static char *with_lines(const baked_file *f, double tilt, size_t *size) {
-    const uint32_t count = f->runtime.node_count;
-    sl_segment *lines = calloc(count, sizeof *lines);
-    char *bytes = malloc(f->size);
-    assert_true(lines && bytes);
-    memcpy(bytes, f->bytes, f->size);
-    char *nodes = slv_items(bytes, "NODE");
-    for (uint32_t i = 0; i < count; i++) {
-        sl_node node;
-        memcpy(&node, nodes + i * sizeof node, sizeof node);
-        const double at = node.position;
-        const sl_box *b = &f->baked.space.bounds;
-        // What is below lies at the right hand.
-        lines[i] = node.axis ? (sl_segment){{b->min.x, at}, {b->max.x, at + tilt}}
-                             : (sl_segment){{at, b->max.y}, {at + tilt, b->min.y}};
-        node.axis = 2;
-        node.line = (int32_t)i;
-        memcpy(nodes + i * sizeof node, &node, sizeof node);
-    }
-    *size = f->size;
-    slv_seal(bytes, f->size);
-    assert_int_equal(open_bytes(bytes, f->size), SL_RUNTIME_SPACE); // axis 2 without lines
-    char *out = slv_with(bytes, size, "LINE", lines, sizeof *lines, count);
-    free(bytes);
-    free(lines);
-    return out;
-}
-
-static void lines_split_as_coordinates_do(void **state) {
-    (void)state;
-    static const char *const names[] = {"maps/office.map", "maps/spiral.map",
-                                        "tests/cases/far_1e15.map", "tests/cases/scale_small.map",
-                                        "tests/cases/slits_of_an_ulp.map"};
-    sl_context *context = testing_context(NULL);
-    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
-        char path[1024];
-        snprintf(path, sizeof path, "%s/%s", SIGHTLINE_SOURCE_DIR, names[k]);
-        baked_file f = baked_file_of(context, path);
-        size_t size;
-        char *bytes = with_lines(&f, 0, &size);
-        sl_runtime oblique;
-        assert_int_equal(sl_runtime_open(bytes, size, &oblique), SL_RUNTIME_OK);
-        assert_int_equal(oblique.line_count, f.runtime.node_count);
-        sl_random random = {2};
-        for (int i = 0; i < 5000; i++) {
-            const sl_point *v = f.baked.space.vertices;
-            const uint32_t count = f.baked.space.vertex_count;
-            const double x = v[sl_random_below(&random, count)].x;
-            const double y = v[sl_random_below(&random, count)].y;
-            // On lines and where they cross; a step of rounding beside them; outside.
-            for (int j = 0; j < 4; j++) {
-                const double u = j & 1 ? nextafter(x, -INFINITY) : x;
-                const double w = j & 2 ? nextafter(y, INFINITY) : y;
-                assert_int_equal(sl_runtime_locate(&oblique, u, w),
-                                 sl_runtime_locate(&f.runtime, u, w));
-            }
-        }
-        free(bytes);
-        baked_file_destroy(context, &f);
-    }
-    sl_context_destroy(context);
-}
-
-/// Splits that are off a little lead to a neighbour: from there the way goes on through exits.
-static void the_way_goes_on_to_the_neighbour(void **state) {
-    (void)state;
-    sl_context *context = testing_context(NULL);
-    baked_file f = baked_file_of_text(context, "walls 0 0 30 0 30 10 0 10 0 0\nwall 10 0 10 4\n"
-                                               "wall 20 6 20 10\n");
-    size_t size;
-    char *bytes = with_lines(&f, 1e-3, &size);
-    sl_runtime oblique;
-    assert_int_equal(sl_runtime_open(bytes, size, &oblique), SL_RUNTIME_OK);
-    uint32_t off = 0;
-    for (int i = 0; i < 2000; i++) {
-        // Beside the lines through x = 10 and x = 20, on either side, away from the walls.
-        const double x = (i & 1 ? 10 : 20) + 1e-6 * (i - 1000), y = 5;
-        const uint32_t is = sl_runtime_locate(&f.runtime, x, y);
-        const uint32_t said = sl_runtime_locate(&oblique, x, y);
-        // On the portal either cell will do.
-        if (x != 10 && x != 20) assert_int_equal(said, is);
-        int32_t at = oblique.root;
-        while (at >= 0) {
-            const unsigned char *node = oblique.nodes + (size_t)at * SLRT_NODE_BYTES;
-            const unsigned char *line =
-                oblique.lines + (size_t)slrt_u32(node + 20) * SLRT_LINE_BYTES;
-            at = slrt_i32(node + (slrt_side_of_line(line, x, y) < 0 ? 12 : 16));
-        }
-        off += (uint32_t)~at != is;
-    }
-    assert_true(off > 100);
-    free(bytes);
-    baked_file_destroy(context, &f);
-    sl_context_destroy(context);
-}
-
-static void lines_that_are_none_are_refused(void **state) {
-    (void)state;
-    sl_context *context = testing_context(NULL);
-    baked_file f = baked_file_of_text(context, rooms);
-    const double nan = NAN;
-    size_t size;
-    char *bytes = with_lines(&f, 0, &size);
-    char *line = slv_items(bytes, "LINE"), *node = slv_items(bytes, "NODE");
-    char kept[32];
-    memcpy(kept, line, 32);
-    memcpy(line + 16, line, 16); // a point
-    slv_seal(bytes, size);
-    assert_int_equal(open_bytes(bytes, size), SL_RUNTIME_SPACE);
-    memcpy(line, kept, 32);
-    memcpy(line + 8, &nan, 8);
-    slv_seal(bytes, size);
-    assert_int_equal(open_bytes(bytes, size), SL_RUNTIME_SPACE);
-    memcpy(line, kept, 32);
-    slv_seal(bytes, size);
-    assert_int_equal(open_bytes(bytes, size), SL_RUNTIME_OK);
-    const uint32_t numbers[] = {f.runtime.node_count, UINT32_MAX, 0x80000000};
-    for (size_t i = 0; i < 3; i++) {
-        memcpy(node + offsetof(sl_node, line), &numbers[i], 4);
-        slv_seal(bytes, size);
-        assert_int_equal(open_bytes(bytes, size), SL_RUNTIME_SPACE);
-    }
-    free(bytes);
-    baked_file_destroy(context, &f);
-    sl_context_destroy(context);
-}
-
-/// What is said of the walls on the sides of oblique cells.
-static void sides_on_no_wall_are_refused(void **state) {
-    (void)state;
-    sl_context *context = testing_context(NULL);
-    baked_file f = baked_file_of_text(context, "walls 0 0 9 0 9 9 0 9 0 0\nwall 2 2 6 5\n");
-    assert_non_null(f.runtime.beyond);
-    const double nan = NAN;
-    const uint32_t walls = f.baked.space.wall_count;
-    const uint32_t lies[] = {walls, walls | SL_BEYOND_RIGHT, SL_BEYOND_BORDER - 1};
-    const uint32_t truths[] = {walls - 1, (walls - 1) | SL_BEYOND_RIGHT, SL_BEYOND_BORDER,
-                               SL_BEYOND_EXIT};
-    char *bytes = malloc(f.size);
-    assert_non_null(bytes);
-    memcpy(bytes, f.bytes, f.size);
-    for (size_t i = 0; i < sizeof lies / sizeof *lies; i++) {
-        memcpy(slv_items(bytes, "BEYO") + 4, &lies[i], 4);
-        slv_seal(bytes, f.size);
-        assert_int_equal(open_bytes(bytes, f.size), SL_RUNTIME_SPACE);
-    }
-    for (size_t i = 0; i < sizeof truths / sizeof *truths; i++) {
-        memcpy(slv_items(bytes, "BEYO") + 4, &truths[i], 4);
-        slv_seal(bytes, f.size);
-        assert_int_equal(open_bytes(bytes, f.size), SL_RUNTIME_OK);
-    }
-    memcpy(slv_items(bytes, "WALL"), &nan, 8);
-    slv_seal(bytes, f.size);
-    assert_int_equal(open_bytes(bytes, f.size), SL_RUNTIME_SPACE);
-    memcpy(bytes, f.bytes, f.size);
-    memcpy(slv_entry(bytes, "WALL"), "????", 4);
-    slv_seal(bytes, f.size);
-    assert_int_equal(open_bytes(bytes, f.size), SL_RUNTIME_SPACE);
-    memcpy(bytes, f.bytes, f.size);
-    sl_slv_section few;
-    memcpy(&few, slv_entry(bytes, "BEYO"), sizeof few);
-    few.count--;
-    memcpy(slv_entry(bytes, "BEYO"), &few, sizeof few);
-    slv_seal(bytes, f.size);
-    assert_int_equal(open_bytes(bytes, f.size), SL_RUNTIME_SPACE);
-    free(bytes);
-    baked_file_destroy(context, &f);
-    sl_context_destroy(context);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_length_and_every_bit_counts),
         cmocka_unit_test(the_other_byte_order_is_named),
         cmocka_unit_test(every_status_has_words),
         cmocka_unit_test(a_lie_under_a_seal_is_refused),
+        cmocka_unit_test(a_lie_about_the_grid_is_refused),
+        cmocka_unit_test(a_bucket_without_order_is_refused),
         cmocka_unit_test(a_table_that_lies_is_refused),
+        cmocka_unit_test(the_version_says_what_locates_points),
         cmocka_unit_test(unknown_sections_are_passed_over),
         cmocka_unit_test(a_search_without_end_is_given_up),
-        cmocka_unit_test(lines_split_as_coordinates_do),
-        cmocka_unit_test(the_way_goes_on_to_the_neighbour),
-        cmocka_unit_test(lines_that_are_none_are_refused),
-        cmocka_unit_test(sides_on_no_wall_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -165,6 +165,19 @@ static void what_an_eye_sees_is_exact(void **state) {
     baked_file_each(looks_are_exact);
 }
 
+static void what_an_eye_sees_of_a_turned_map_is_exact(void **state) {
+    (void)state;
+    static const char *const names[] = {"office", "gallery", "oblique/star"};
+    sl_context *context = testing_context(NULL);
+    for (int i = 0; i < 6; i++) {
+        baked_file f = baked_file_turned(context, names[i / 2], 17.3, i % 2 ? 1e9 : 0);
+        assert_non_null(f.runtime.grid_cells);
+        looks_are_exact(&f);
+        baked_file_destroy(context, &f);
+    }
+    sl_context_destroy(context);
+}
+
 /// Two rooms, a door of 2 between them.
 static const char *const two_rooms = "walls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 4\n"
                                      "wall 10 6 10 10\n";
@@ -244,6 +257,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(signs_are_exact),
         cmocka_unit_test(what_an_eye_sees_is_exact),
+        cmocka_unit_test(what_an_eye_sees_of_a_turned_map_is_exact),
         cmocka_unit_test(an_odd_direction_looks_all_round),
         cmocka_unit_test(no_more_is_written_than_there_is_room),
     };

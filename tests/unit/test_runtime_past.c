@@ -43,7 +43,7 @@ static void random_map(trial *t, sl_map *map) {
         const char name[2] = {(char)('a' + i), 0};
         assert_ok(t->context, sl_map_add_door(t->context, map, name, random_segment(t), true, 0));
     }
-    assert_ok(t->context, sl_map_clean(t->context, map, NULL));
+    assert_ok(t->context, sl_map_clean(t->context, map, NULL, NULL));
 }
 
 // --- how far what is seen of a cell is

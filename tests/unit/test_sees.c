@@ -100,7 +100,7 @@ static void as_every_wall_says(void **state) {
         sl_space space = {0};
         sl_outline outline = {0};
         assert_ok(context, oracle_random_map(context, seed, ORACLE_GRID_INTEGER, &map));
-        assert_ok(context, sl_map_clean(context, &map, NULL));
+        assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
         const sl_subdivide_options options = sl_subdivide_options_default();
         if (map.wall_count && sl_subdivide_kd(context, &map, &options, &space) == SL_OK) {
             assert_ok(context, sl_outline_make(context, &space, &outline));
@@ -118,38 +118,21 @@ static void as_every_wall_says(void **state) {
     sl_context_destroy(context);
 }
 
-/// By exact signs alone.
-static bool is_free(const sl_map *map, sl_point p, sl_point q) {
-    for (size_t i = 0; i < map->wall_count; i++) {
-        const sl_point a = map->walls[i].a, b = map->walls[i].b;
-        const int from = sl_orient_exact(a, b, p), to = sl_orient_exact(a, b, q);
-        if (from * to > 0) continue;
-        const bool near = fmin(p.x, q.x) <= fmax(a.x, b.x) && fmin(a.x, b.x) <= fmax(p.x, q.x) &&
-                          fmin(p.y, q.y) <= fmax(a.y, b.y) && fmin(a.y, b.y) <= fmax(p.y, q.y);
-        if (from == 0 && to == 0 ? near
-                                 : sl_orient_exact(p, q, a) * sl_orient_exact(p, q, b) <= 0 && near)
-            return false;
-    }
-    return true;
-}
-
-/// Places on a wall are left out, as are coordinates of all magnitudes: where rounding puts a
-/// corner behind a wall, the wall may be that of another room than the one that holds the place.
+/// Walls of all magnitudes, and some steps of doubles apart.
 static void among_oblique_walls(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
-    const sl_bsp_options options = sl_bsp_options_default();
-    const uint64_t seeds = testing_seeds(200);
+    const uint64_t seeds = testing_seeds(1000);
     size_t counts[2] = {0};
     for (uint64_t seed = 1; seed <= seeds; seed++) {
         sl_map map = {0};
         sl_space space = {0};
         sl_outline outline = {0};
         sl_random random = {seed};
-        const oblique_grid grid = (oblique_grid)(seed % OBLIQUE_SCALES);
+        const oblique_grid grid = (oblique_grid)(seed % OBLIQUE_GRIDS);
         assert_ok(context, oblique_random_map(context, seed, grid, 12, &map));
-        assert_ok(context, sl_map_clean(context, &map, NULL));
-        const bool made = sl_subdivide_bsp(context, &map, &options, &space) == SL_OK;
+        assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
+        const bool made = sl_subdivide_mesh(context, &map, &space) == SL_OK;
         if (made) assert_ok(context, sl_outline_make(context, &space, &outline));
         for (int i = 0; i < 100 && made; i++) {
             const sl_point p = oblique_random_point(&random, &map, space.bounds);
@@ -159,7 +142,7 @@ static void among_oblique_walls(void **state) {
                 continue;
             bool seen;
             assert_ok(context, sl_sees(context, &outline, p, q, SL_OPEN, &seen));
-            if (seen != is_free(&map, p, q))
+            if (seen != oblique_is_free(&map, p, q))
                 fail_msg("seed %d: %.17g %.17g to %.17g %.17g: %d", (int)seed, p.x, p.y, q.x, q.y,
                          seen);
             counts[seen]++;
@@ -190,7 +173,7 @@ static void beside_a_crossing(void **state) {
     assert_ok(context, sl_outline_make(context, &space, &outline));
     const sl_point eye = {44.426470082635802, 76.289439191176129};
     const sl_point point = {41.888425542764288, 109.38618019456719};
-    assert_true(is_free(&map, eye, point));
+    assert_true(oblique_is_free(&map, eye, point));
     bool seen;
     assert_ok(context, sl_sees(context, &outline, eye, point, SL_OPEN, &seen));
     assert_true(seen);

@@ -4,14 +4,17 @@
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime/sightline_runtime.h"
 #include "sightline/solvers.h"
+#include "space/cell_grid.h"
 
 #include <math.h>
 
-/// Two rooms and a start, looked from with trees.
-static void bake(sl_context *context, sl_baked *baked) {
+static const char *const rooms =
+    "walls 0 0 9 0 9 9 0 9 0 0\nwall 4 0 4 5\nseam 4 5 4 9\nstart 1 1 45\n";
+
+/// Looked from with trees.
+static void bake(sl_context *context, const char *statements, sl_baked *baked) {
     *baked = (sl_baked){.method = "dfs", .solver = "funnel"};
-    testing_space(context, "walls 0 0 9 0 9 9 0 9 0 0\nwall 4 0 4 5\nseam 4 5 4 9\nstart 1 1 45\n",
-                  &baked->map, &baked->space);
+    testing_space(context, statements, &baked->map, &baked->space);
     sl_see_options options = sl_see_options_default();
     options.solver = sl_funnel();
     options.trees = true;
@@ -37,18 +40,38 @@ static file print(sl_context *context, const sl_baked *baked) {
 
 #define INFO_FIELD(field) offsetof(sl_slv_info, field), sizeof(((sl_slv_info *)0)->field)
 
+typedef struct lie {
+    const char *tag;
+    size_t offset, size;
+    const void *bytes;
+    const char *message;
+} lie;
+
+static void check_lies(sl_context *context, const sl_baked *baked, const lie *lies, size_t count) {
+    sl_baked back = {0};
+    for (size_t i = 0; i < count; i++) {
+        const file f = print(context, baked);
+        assert_ok(context, sl_baked_parse(context, "cell", f.bytes, f.size, &back));
+        sl_baked_destroy(context, &back);
+        memcpy(slv_items(f.bytes, lies[i].tag) + lies[i].offset, lies[i].bytes, lies[i].size);
+        slv_seal(f.bytes, f.size);
+        // The name is how a message of the graph's check starts: it must stand before it all the
+        // same.
+        assert_int_equal(sl_baked_parse(context, "cell", f.bytes, f.size, &back), SL_BAD_INPUT);
+        assert_int_equal(strncmp(sl_context_message(context), "cell: ", 6), 0);
+        if (!strstr(sl_context_message(context), lies[i].message))
+            fail_msg("%s, where it should say %s", sl_context_message(context), lies[i].message);
+        free(f.bytes);
+    }
+}
+
 static void a_lie_under_a_seal_is_refused(void **state) {
     (void)state;
     const double nan = NAN, far = 1e200;
     const uint64_t pairs = 2;
     const uint32_t one = 1, most = UINT32_MAX;
     const char escape[16] = "d\033[2Js", hidden[16] = "glpk\0hidden";
-    const struct {
-        const char *tag;
-        size_t offset, size;
-        const void *bytes;
-        const char *message;
-    } lies[] = {
+    const lie lies[] = {
         {"INFO", offsetof(sl_slv_info, bounds), sizeof far, &far, "INFO makes no sense"},
         {"INFO", offsetof(sl_slv_info, bounds), sizeof nan, &nan, "INFO makes no sense"},
         {"INFO", INFO_FIELD(sight), &most, "INFO makes no sense"},
@@ -68,20 +91,61 @@ static void a_lie_under_a_seal_is_refused(void **state) {
         {"MAPT", 12, 12, "wall 0 0 1 1", "section MAPT holds walls"},
     };
     sl_context *context = testing_context(NULL);
+    sl_baked baked;
+    bake(context, rooms, &baked);
+    check_lies(context, &baked, lies, sizeof lies / sizeof *lies);
+    sl_baked_destroy(context, &baked);
+    sl_context_destroy(context);
+}
+
+/// A bucket in the midst of a cell, without a corner of any.
+static uint32_t lonely_bucket(const sl_space *s) {
+    for (uint32_t bucket = 0; bucket < s->grid.columns * s->grid.rows; bucket++) {
+        uint32_t i = 0;
+        while (i < s->vertex_count && sl_cell_grid_bucket(s, s->vertices[i]) != bucket) i++;
+        if (i == s->vertex_count && s->grid.first[bucket + 1] == s->grid.first[bucket] + 1)
+            return bucket;
+    }
+    fail_msg("each bucket has a corner");
+    return 0;
+}
+
+static void a_lie_about_the_grid_is_refused(void **state) {
+    (void)state;
+    const uint32_t none = 0, one = 1, most = UINT32_MAX;
+    sl_context *context = testing_context(NULL);
+    sl_baked baked;
+    bake(context, "walls 0 0 9 0 9 9 0 9 0 0\nwall 2 2 6 5\n", &baked);
+    const sl_cell_grid *g = &baked.space.grid;
+    const uint32_t lonely = lonely_bucket(&baked.space), at = g->first[lonely];
+    const uint32_t other = g->cells[at] ? 0 : 1;
+    const lie lies[] = {
+        {"INFO", INFO_FIELD(grid_columns), &none, "GRIO and GRIC make no grid"},
+        {"INFO", INFO_FIELD(grid_rows), &most, "GRIO and GRIC make no grid"},
+        {"GRIO", 0, 4, &one, "the grid of buckets is none"},
+        {"GRIO", 4, 4, &most, "a bucket ends before it starts"},
+        {"GRIC", 0, 4, &most, "cells out of range or order"},
+        {"GRIC", 4 * at, 4, &other, "is not in a bucket that it reaches into"},
+        {"BEYO", 0, 4, &none, "has a side that is not the wall it is said to be"},
+    };
+    check_lies(context, &baked, lies, sizeof lies / sizeof *lies);
+    sl_baked_destroy(context, &baked);
+    sl_context_destroy(context);
+}
+
+/// A file of version 2 is one of a mesh.
+static void a_mesh_without_its_sections_is_refused(void **state) {
+    (void)state;
+    static const char *const tags[] = {"BEYO", "GRIO", "GRIC"};
+    sl_context *context = testing_context(NULL);
     sl_baked baked, back = {0};
-    bake(context, &baked);
-    for (size_t i = 0; i < sizeof lies / sizeof *lies; i++) {
+    bake(context, "walls 0 0 9 0 9 9 0 9 0 0\nwall 2 2 6 5\n", &baked);
+    for (int i = 0; i < 3; i++) {
         const file f = print(context, &baked);
-        assert_ok(context, sl_baked_parse(context, "cell", f.bytes, f.size, &back));
-        sl_baked_destroy(context, &back);
-        memcpy(slv_items(f.bytes, lies[i].tag) + lies[i].offset, lies[i].bytes, lies[i].size);
+        memcpy(slv_entry(f.bytes, tags[i]), "????", 4);
         slv_seal(f.bytes, f.size);
-        // The name is how a message of the graph's check starts: it must stand before it all the
-        // same.
-        assert_int_equal(sl_baked_parse(context, "cell", f.bytes, f.size, &back), SL_BAD_INPUT);
-        assert_int_equal(strncmp(sl_context_message(context), "cell: ", 6), 0);
-        if (!strstr(sl_context_message(context), lies[i].message))
-            fail_msg("%s, where it should say %s", sl_context_message(context), lies[i].message);
+        assert_int_equal(sl_baked_parse(context, "mesh", f.bytes, f.size, &back), SL_BAD_INPUT);
+        assert_non_null(strstr(sl_context_message(context), tags[i]));
         free(f.bytes);
     }
     sl_baked_destroy(context, &baked);
@@ -93,7 +157,7 @@ static void what_cannot_be_read_back_is_not_written(void **state) {
     sl_context *context = testing_context(NULL);
     sl_baked baked, nothing = {0};
     assert_int_equal(sl_baked_write(context, &nothing, "/dev/null"), SL_BAD_ARGUMENT);
-    bake(context, &baked);
+    bake(context, rooms, &baked);
     assert_ok(context, sl_baked_write(context, &baked, "/dev/null"));
     memcpy(baked.method, "two words", 10);
     assert_int_equal(sl_baked_write(context, &baked, "/dev/null"), SL_BAD_ARGUMENT);
@@ -115,7 +179,7 @@ static void an_export_can_be_interrupted(void **state) {
     sl_context *context = sl_context_create(&hooks);
     assert_non_null(context);
     sl_baked baked;
-    bake(context, &baked);
+    bake(context, rooms, &baked);
     size_t count;
     const sl_export_format *formats = sl_export_formats(&count);
     const sl_export_options none = {0};
@@ -138,7 +202,7 @@ static bool after_one_source(void *user) {
 
 /// The same bake, stopped after a source, or one shard of it.
 static void bake_part(sl_context *context, uint32_t shard_count, sl_baked *baked) {
-    bake(context, baked);
+    bake(context, rooms, baked);
     sl_visibility_destroy(context, &baked->visibility);
     int asked = 0;
     size_t count;
@@ -199,12 +263,7 @@ static void a_shard_is_no_baked_file(void **state) {
 static void a_lie_about_what_is_done_is_refused(void **state) {
     (void)state;
     const uint32_t two = 2, most = UINT32_MAX;
-    const struct {
-        const char *tag;
-        size_t offset, size;
-        const void *bytes;
-        const char *message;
-    } lies[] = {
+    const lie lies[] = {
         {"PART", offsetof(sl_slv_part, shard), 4, &two, "PART makes no sense"},
         {"PART", offsetof(sl_slv_part, inside_only), 4, &two, "PART makes no sense"},
         {"PART", offsetof(sl_slv_part, unit_count), 4, &most, "DONE does not tell of each unit"},
@@ -234,6 +293,8 @@ static void a_lie_about_what_is_done_is_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_lie_under_a_seal_is_refused),
+        cmocka_unit_test(a_lie_about_the_grid_is_refused),
+        cmocka_unit_test(a_mesh_without_its_sections_is_refused),
         cmocka_unit_test(what_cannot_be_read_back_is_not_written),
         cmocka_unit_test(an_export_can_be_interrupted),
         cmocka_unit_test(a_partial_file_says_what_it_is),

@@ -148,7 +148,7 @@ static void random_maps_pass_the_check_by_any_rules(void **state) {
         sl_context *context = testing_context(NULL);
         sl_map map = {0};
         random_walls(context, &random, scales[round % 5], shifts[round % 5], &map);
-        assert_ok(context, sl_map_clean(context, &map, NULL));
+        assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
         const sl_subdivide_options options = options_of(round / 5 % 16);
         sl_space space = {0};
         const sl_status status = sl_subdivide_kd(context, &map, &options, &space);
@@ -265,7 +265,7 @@ static void memory_may_fail_at_any_call(void **state) {
     sl_random random = {3};
     sl_map map = {0};
     random_walls(context, &random, 1, 0, &map);
-    assert_ok(context, sl_map_clean(context, &map, NULL));
+    assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
     const sl_subdivide_options options = sl_subdivide_options_default();
     const long before = memory.live;
     sl_status status = SL_NO_MEMORY;

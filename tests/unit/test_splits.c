@@ -1,20 +1,17 @@
-/// The choice of a subdivision, and where the splits of a tree lie.
+/// The choice of a subdivision, where the splits of a kd-tree lie, and how a mesh comes about.
 #include "testing.h"
 
+#include "base/base.h"
+#include "geometry/orient.h"
 #include "sightline/import.h"
+#include "space/mesh_steps.h"
 #include "space/splits.h"
 
 #include <math.h>
 #include <string.h>
 
-static double area_of(const sl_splits *splits, sl_split_region region) {
-    const sl_point *p = splits->corners.items + region.first;
-    double sum = 0;
-    for (size_t i = 0; i < region.count; i++) {
-        const sl_point a = p[i], b = p[(i + 1) % region.count];
-        sum += (a.x * b.y - a.y * b.x) / 2;
-    }
-    return sum;
+static double area_of(sl_box box) {
+    return (box.max.x - box.min.x) * (box.max.y - box.min.y);
 }
 
 static bool near(double a, double b) {
@@ -31,7 +28,7 @@ static void walls_choose_the_subdivision(void **state) {
     assert_string_equal(sl_subdivision_for(&map)->name, "kd");
     assert_ok(context, sl_map_add_wall(context, &map, (sl_point){4, 3}, (sl_point){0, 0}, 0));
     assert_int_equal(sl_map_count_oblique(&map), 1);
-    assert_string_equal(sl_subdivision_for(&map)->name, "bsp");
+    assert_string_equal(sl_subdivision_for(&map)->name, "mesh");
     size_t count;
     const sl_subdivision *all = sl_subdivisions(&count);
     assert_true(count >= 2);
@@ -44,44 +41,51 @@ static void walls_choose_the_subdivision(void **state) {
     sl_context_destroy(context);
 }
 
-/// The sides of splits that are cells fill the bounds; in a kd-tree each node has one split.
-static void check_splits(const sl_space *space, const sl_splits *splits) {
-    double cells = 0;
-    assert_int_equal(splits->node_count, space->node_count);
-    assert_int_equal(splits->first[space->node_count], splits->splits.count);
-    for (uint32_t n = 0; n < space->node_count; n++) {
-        if (!space->beyond) assert_int_equal(splits->first[n + 1], splits->first[n] + 1);
-        for (uint32_t i = splits->first[n]; i < splits->first[n + 1]; i++) {
-            const sl_split *s = &splits->splits.items[i];
-            assert_int_equal(s->node, n);
-            assert_true(s->depth < space->tree_depth);
-            assert_true(area_of(splits, s->below) >= 0 && area_of(splits, s->above) >= 0);
-            if (space->nodes[n].below < 0) cells += area_of(splits, s->below);
-            if (space->nodes[n].above < 0) cells += area_of(splits, s->above);
-        }
-    }
-    const sl_box b = space->bounds;
-    assert_true(near(cells, (b.max.x - b.min.x) * (b.max.y - b.min.y)));
+/// A cleaned map of the repository, and its space by a subdivision; NULL: as the map calls for.
+static void read_space(sl_context *context, const char *path, const char *subdivision, sl_map *map,
+                       sl_space *space) {
+    char full[4096];
+    size_t count, i = 0;
+    const sl_subdivision *all = sl_subdivisions(&count);
+    *map = (sl_map){0};
+    snprintf(full, sizeof full, "%s/maps/%s", SIGHTLINE_SOURCE_DIR, path);
+    assert_ok(context, sl_map_read(context, full, NULL, map));
+    assert_ok(context, sl_map_clean(context, map, NULL, NULL));
+    while (subdivision && strcmp(all[i].name, subdivision) != 0) i++;
+    const sl_subdivision *use = subdivision ? &all[i] : sl_subdivision_for(map);
+    assert_ok(context, use->subdivide(context, map, NULL, space));
 }
 
-static void regions_fill_the_bounds(void **state) {
+/// The sides of splits that are cells fill the bounds, and each split lies between its sides.
+static void check_splits(const sl_space *space, const sl_split *splits) {
+    double cells = 0;
+    for (uint32_t n = 0; n < space->node_count; n++) {
+        const sl_node *node = &space->nodes[n];
+        const sl_split *s = &splits[n];
+        assert_true(s->depth < space->tree_depth);
+        assert_true(area_of(s->below) > 0 && area_of(s->above) > 0);
+        assert_true(memcmp(&s->along.a, &s->above.min, sizeof s->along.a) == 0);
+        assert_true(memcmp(&s->along.b, &s->below.max, sizeof s->along.b) == 0);
+        if (node->below < 0) cells += area_of(s->below);
+        if (node->above < 0) cells += area_of(s->above);
+        if (node->below >= 0) assert_int_equal(splits[node->below].depth, s->depth + 1);
+        if (node->above >= 0) assert_int_equal(splits[node->above].depth, s->depth + 1);
+    }
+    assert_true(near(cells, area_of(space->bounds)));
+}
+
+static void boxes_fill_the_bounds(void **state) {
     (void)state;
-    const char *const paths[] = {"/maps/office.map", "/maps/spiral.map", "/maps/grazing.map",
-                                 "/maps/oblique/rotunda.map"};
+    const char *const paths[] = {"office.map", "spiral.map", "grazing.map"};
     sl_context *context = testing_context(NULL);
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
-        char path[4096];
-        sl_map map = {0};
+        sl_map map;
         sl_space space;
-        sl_splits splits;
-        snprintf(path, sizeof path, "%s%s", SIGHTLINE_SOURCE_DIR, paths[i]);
-        assert_ok(context, sl_map_read(context, path, NULL, &map));
-        assert_ok(context, sl_map_clean(context, &map, NULL));
-        assert_ok(context, sl_subdivision_for(&map)->subdivide(context, &map, NULL, &space));
-        assert_int_equal(space.beyond != NULL, strstr(path, "oblique") != NULL);
+        sl_split *splits;
+        read_space(context, paths[i], NULL, &map, &space);
         assert_ok(context, sl_splits_make(context, &space, &splits));
-        check_splits(&space, &splits);
-        sl_splits_destroy(context, &splits);
+        check_splits(&space, splits);
+        sl_free(context, splits);
         sl_space_destroy(context, &space);
         sl_map_destroy(context, &map);
     }
@@ -93,23 +97,156 @@ static void walls_cover_splits(void **state) {
     sl_context *context = testing_context(NULL);
     sl_map map = {0};
     sl_space space;
-    sl_splits splits;
+    sl_split *splits;
     // The one split is x = 2, of which a wall covers a quarter.
     testing_space(context, "walls 0 0 4 0 4 4 0 4 0 0\nwall 2 1 2 2\n", &map, &space);
     assert_ok(context, sl_splits_make(context, &space, &splits));
-    assert_int_equal(splits.splits.count, 1);
-    assert_true(sl_splits_covered(&splits, &space, 0) == 0.25);
-    const sl_segment along = splits.splits.items[0].along;
-    assert_true(along.a.x == 2 && along.b.x == 2 && fabs(along.a.y - along.b.y) == 4);
-    sl_splits_destroy(context, &splits);
+    assert_int_equal(space.node_count, 1);
+    assert_true(sl_splits_covered(splits, &space, 0) == 0.25);
+    assert_true(splits->along.a.x == 2 && splits->along.b.x == 2);
+    assert_true(splits->along.a.y == 0 && splits->along.b.y == 4);
+    sl_free(context, splits);
     sl_space_destroy(context, &space);
     sl_map_destroy(context, &map);
-    // Without a wall inside there is no split.
-    map = (sl_map){0};
-    testing_space(context, "walls 0 0 4 0 4 4 0 4 0 0\n", &map, &space);
-    assert_ok(context, sl_splits_make(context, &space, &splits));
-    assert_int_equal(splits.splits.count, 0);
-    sl_splits_destroy(context, &splits);
+    sl_context_destroy(context);
+}
+
+// --- a mesh
+
+static sl_point start_of(const sl_mesh_steps *steps, uint32_t half) {
+    return steps->triangles.points.items[steps->triangles.halves.items[half].from];
+}
+
+static bool is_portal(const sl_space *space, sl_point a, sl_point b) {
+    for (uint32_t i = 0; i < space->portal_count; i++) {
+        const sl_portal *p = &space->portals[i];
+        if ((p->left.x == a.x && p->left.y == a.y && p->right.x == b.x && p->right.y == b.y) ||
+            (p->left.x == b.x && p->left.y == b.y && p->right.x == a.x && p->right.y == a.y))
+            return true;
+    }
+    return false;
+}
+
+/// Corners of the cell at the left of a half-edge, of which none turns right.
+static uint32_t count_corners(const sl_mesh_steps *steps, size_t place, uint32_t half) {
+    uint32_t count = 0, at = half;
+    do {
+        const uint32_t next = sl_mesh_steps_next(steps, place, at);
+        const uint32_t after = sl_mesh_steps_next(steps, place, next);
+        assert_true(sl_orient(start_of(steps, at), start_of(steps, next), start_of(steps, after)) >=
+                    0);
+        at = next;
+        count++;
+    } while (at != half);
+    return count;
+}
+
+/// Sides are tried the longest first; one that stays is a portal, and its corner is not convex
+/// without it; one that is taken out leaves a convex cell.
+static void check_sides(const sl_space *space, const sl_mesh_steps *steps) {
+    double last = INFINITY;
+    for (size_t i = 0; i < steps->sides.count; i++) {
+        const sl_mesh_side *side = &steps->sides.items[i];
+        const sl_point a = start_of(steps, side->half), b = start_of(steps, side->half ^ 1);
+        const double length = hypot(b.x - a.x, b.y - a.y);
+        assert_true(length <= last);
+        last = length;
+        if (side->stuck == SL_OUTSIDE) {
+            const uint32_t next = sl_mesh_steps_next(steps, i, side->half);
+            const uint32_t both =
+                count_corners(steps, i, side->half) + count_corners(steps, i, side->half ^ 1);
+            assert_int_equal(count_corners(steps, i + 1, next), both - 2);
+            assert_int_equal(steps->taken[side->half / 2], i);
+            continue;
+        }
+        sl_point corner[3];
+        sl_mesh_steps_corner(steps, i, corner);
+        assert_true(sl_orient(corner[0], corner[1], corner[2]) <= 0);
+        assert_true((corner[1].x == a.x && corner[1].y == a.y) ||
+                    (corner[1].x == b.x && corner[1].y == b.y));
+        assert_int_equal(steps->taken[side->half / 2], SL_MESH_STAYS);
+        assert_true(is_portal(space, a, b));
+    }
+}
+
+/// At last the cells are those of the space.
+static void check_cells(const sl_space *space, const sl_mesh_steps *steps) {
+    const size_t halves = steps->triangles.halves.count;
+    uint32_t cells = 0, corners = 0;
+    bool *known = calloc(halves, sizeof *known);
+    assert_non_null(known);
+    for (uint32_t half = 0; half < halves; half++) {
+        if (known[half] || sl_half_is_outside(&steps->triangles, half) ||
+            steps->taken[half / 2] != SL_MESH_STAYS)
+            continue;
+        corners += count_corners(steps, steps->sides.count, half);
+        cells++;
+        for (uint32_t at = half; !known[at]; at = sl_mesh_steps_next(steps, steps->sides.count, at))
+            known[at] = true;
+    }
+    free(known);
+    assert_int_equal(cells, space->cell_count);
+    assert_int_equal(corners, space->vertex_count);
+}
+
+/// Both triangulations have the same points and as many edges, and new ones for those that are
+/// gone.
+static void check_fresh(const sl_mesh_steps *steps) {
+    const sl_triangulation *t = &steps->triangles, *before = &steps->delaunay;
+    assert_int_equal(t->points.count, before->points.count);
+    assert_int_equal(t->halves.count, before->halves.count);
+    for (size_t i = 0; i < t->halves.count / 2; i++) {
+        const uint32_t a = t->halves.items[2 * i].from, b = t->halves.items[2 * i + 1].from;
+        bool found = false;
+        for (size_t k = 0; k < before->halves.count && !found; k++)
+            found = before->halves.items[k].from == a && before->halves.items[k ^ 1].from == b;
+        assert_int_equal(steps->fresh[i], !found);
+    }
+}
+
+static void steps_lead_to_the_mesh(void **state) {
+    (void)state;
+    const char *const paths[] = {"oblique/rotunda.map", "oblique/chapel.map", "oblique/star.map",
+                                 "effects/doors.map",   "effects/oneway.map", "office.map"};
+    sl_context *context = testing_context(NULL);
+    size_t fresh = 0;
+    for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
+        sl_map map;
+        sl_space space;
+        sl_mesh_steps steps;
+        read_space(context, paths[i], "mesh", &map, &space);
+        assert_ok(context, sl_mesh_steps_record(context, &space, &steps));
+        check_sides(&space, &steps);
+        check_cells(&space, &steps);
+        check_fresh(&steps);
+        for (size_t k = 0; k < steps.triangles.halves.count / 2; k++) fresh += steps.fresh[k];
+        sl_mesh_steps_destroy(context, &steps);
+        sl_space_destroy(context, &space);
+        sl_map_destroy(context, &map);
+    }
+    assert_true(fresh > 0);
+    sl_context_destroy(context);
+}
+
+static void steps_come_to_an_end_without_memory(void **state) {
+    (void)state;
+    testing_memory memory = {0};
+    sl_context *context = testing_context(&memory);
+    sl_map map = {0};
+    sl_space space;
+    testing_space(context, "walls 0 0 4 0 4 4 1 5 0 0\nwall 2 1 2.5 2\nseam 0 0 2 1\n", &map,
+                  &space);
+    const long live = memory.live;
+    sl_status status = SL_NO_MEMORY;
+    for (long i = 1; status != SL_OK; i++) {
+        sl_mesh_steps steps = {0};
+        memory.fail_at = memory.calls + i;
+        status = sl_mesh_steps_record(context, &space, &steps);
+        memory.fail_at = 0;
+        assert_true(status == SL_OK ? i > 10 : status == SL_NO_MEMORY && i < 1000);
+        sl_mesh_steps_destroy(context, &steps);
+        assert_int_equal(memory.live, live);
+    }
     sl_space_destroy(context, &space);
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
@@ -118,8 +255,10 @@ static void walls_cover_splits(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(walls_choose_the_subdivision),
-        cmocka_unit_test(regions_fill_the_bounds),
+        cmocka_unit_test(boxes_fill_the_bounds),
         cmocka_unit_test(walls_cover_splits),
+        cmocka_unit_test(steps_lead_to_the_mesh),
+        cmocka_unit_test(steps_come_to_an_end_without_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -238,7 +238,7 @@ static void large_maps_are_seen_alike(void **state) {
     sl_generate_options city = sl_generate_options_default();
     city.walls = 31623;
     assert_ok(context, sl_generate(context, kind, &city, &map));
-    assert_ok(context, sl_map_clean(context, &map, NULL));
+    assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
     const sl_subdivide_options rules = sl_subdivide_options_default();
     assert_ok(context, sl_subdivide_kd(context, &map, &rules, &space));
     assert_true((uint64_t)space.exit_count * space.cell_count / 8 > (uint64_t)64 << 20);

@@ -64,14 +64,15 @@ static void segments_end_at_the_first_wall(void **state) {
     (void)state;
     check_segments(TWO_ROOMS, false);
     check_segments(OBLIQUE_ROOMS, true);
+    check_segments(TURNED_ROOMS, true);
 }
 
 static void segments_see_the_cells_they_pass(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
-    for (int oblique = 0; oblique < 2; oblique++) {
+    for (int map = 0; map < ROOMS; map++) {
         view_world w;
-        make_world(context, oblique ? OBLIQUE_ROOMS : TWO_ROOMS, oblique, SL_VIEW_CELLS, 2000, &w);
+        make_world(context, rooms_map(map), map > 0, SL_VIEW_CELLS, 2000, &w);
         for (uint32_t i = 0; i < w.segments.count; i++)
             for (uint32_t c = 0; c < w.space.cell_count; c++) {
                 const sl_cell *cell = &w.space.cells[c];
@@ -187,9 +188,9 @@ static void every_method_divides_all_of_view_space(void **state) {
     sl_context *context = testing_context(NULL);
     size_t count;
     const sl_view_method *methods = sl_view_methods(&count);
-    for (int oblique = 0; oblique < 2; oblique++) {
+    for (int map = 0; map < ROOMS; map++) {
         view_world w;
-        make_world(context, oblique ? OBLIQUE_ROOMS : TWO_ROOMS, oblique, SL_VIEW_WALLS, 2000, &w);
+        make_world(context, rooms_map(map), map > 0, SL_VIEW_WALLS, 2000, &w);
         for (size_t i = 0; i < count; i++) {
             sl_view_subdivision options = sl_view_subdivision_default();
             options.cells = 60;

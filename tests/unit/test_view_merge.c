@@ -152,9 +152,9 @@ static void check_cuts(sl_context *context, const made *m) {
 static void cuts_cost_what_their_cells_do(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 2 * ROOMS; i++) {
         made m;
-        make(context, i & 1 ? OBLIQUE_ROOMS : TWO_ROOMS, i & 1, 40, i & 2, &m);
+        make(context, rooms_map(i / 2), i / 2 > 0, 40, i % 2, &m);
         check_cuts(context, &m);
         drop(context, &m);
     }

@@ -29,7 +29,7 @@ static void read_map(sl_context *context, const char *name, sl_map *map) {
     snprintf(path, sizeof path, "%s/maps/%s", SIGHTLINE_SOURCE_DIR, name);
     const sl_import_options options = sl_import_options_default();
     assert_ok(context, sl_map_read(context, path, &options, map));
-    assert_ok(context, sl_map_clean(context, map, NULL));
+    assert_ok(context, sl_map_clean(context, map, NULL, NULL));
 }
 
 static void make_cells(sl_context *context, const char *name, viewed *v) {

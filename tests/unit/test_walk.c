@@ -4,6 +4,7 @@
 
 #include "geometry/orient.h"
 #include "oracle/random_map.h"
+#include "oracle/random_oblique.h"
 
 #include <math.h>
 
@@ -87,14 +88,15 @@ static bool crosses_wall(const world *w, sl_point from, sl_point to) {
 }
 
 /// By exact culling, of an eye that is free in its cell: one on a border has cells count that it
-/// only touches. A BSP's space may have slivers of rounding to see through: not of those.
-static void look_exactly(world *w, const sl_view *view) {
-    if (w->space.beyond || !stands_free(w, view->eye, sl_space_locate(&w->space, view->eye)))
-        return;
+/// only touches. False for other eyes.
+static bool look_exactly(world *w, const sl_view *view) {
+    memset(w->seen, 0, sl_eye_words(&w->space) * sizeof *w->seen);
+    if (!stands_free(w, view->eye, sl_space_locate(&w->space, view->eye))) return false;
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
     sl_eye_account account;
     assert_ok(w->context, methods[count - 1].cull(w->context, w->search, view, w->seen, &account));
+    return true;
 }
 
 /// By points of the visible region, for every eye.
@@ -119,30 +121,9 @@ static void look_at_region(world *w, const sl_view *view) {
     }
 }
 
-/// By the middles of cells and points about them, beside the walls alone.
-static void look_past_walls(world *w, const sl_view *view) {
-    for (uint32_t c = 0; c < w->space.cell_count; c++) {
-        const sl_cell *cell = &w->space.cells[c];
-        const sl_point *corners = w->space.vertices + cell->first_vertex;
-        sl_point middle = {0, 0};
-        for (uint32_t i = 0; i < cell->vertex_count; i++) {
-            middle.x += corners[i].x / cell->vertex_count;
-            middle.y += corners[i].y / cell->vertex_count;
-        }
-        for (uint32_t i = 0; i < cell->vertex_count && !sl_eye_sees(w->seen, c); i++) {
-            const sl_point at = {corners[i].x + 0.9 * (middle.x - corners[i].x),
-                                 corners[i].y + 0.9 * (middle.y - corners[i].y)};
-            if (stands_free(w, at, c) && sl_view_holds(view, at) && !crosses_wall(w, view->eye, at))
-                see(w, c);
-        }
-    }
-}
-
 static void look(world *w, const sl_view *view) {
-    memset(w->seen, 0, sl_eye_words(&w->space) * sizeof *w->seen);
     look_exactly(w, view);
     look_at_region(w, view);
-    if (w->space.beyond) look_past_walls(w, view);
 }
 
 typedef struct tally {
@@ -163,7 +144,7 @@ static void check_leaves(const world *w, const sl_walk *walk) {
 }
 
 /// Beside the classical method: every leaf as there, or no leaf less. In a kd-tree's space, where
-/// tests are exact, all nodes are as there.
+/// children make up their parent, all nodes are as there.
 static void check_beside_classical(const world *w, size_t i, bool cheap) {
     const bool exact = w->hierarchy.tiles && !cheap;
     for (uint32_t n = 0; n < w->hierarchy.node_count; n++) {
@@ -247,7 +228,7 @@ static void kd_world(sl_context *context, uint64_t seed, const sl_walk_options *
                      tally *count) {
     world w = {.context = context};
     assert_ok(context, oracle_random_map(context, seed, (oracle_grid)(seed % 3), &w.map));
-    assert_ok(context, sl_map_clean(context, &w.map, NULL));
+    assert_ok(context, sl_map_clean(context, &w.map, NULL, NULL));
     const sl_subdivide_options options = sl_subdivide_options_default();
     if (w.map.wall_count && sl_subdivide_kd(context, &w.map, &options, &w.space) == SL_OK) {
         open_world(&w, like);
@@ -282,15 +263,16 @@ typedef struct bound_tally {
 } bound_tally;
 
 /// With all walls for occluders, what a bound decides is what a test gives. Where the cone turns, a
-/// wall may come into it unlooked at: what is seen may then be more, what is hidden is hidden.
+/// wall may come into it unlooked at: what is seen may then be more, what is hidden is hidden. The
+/// boxes of a mesh are more than their children, by whose states they may be hidden: leaves alone.
 static void check_bounds(const world *w, const sl_walk *bounded, const sl_walk *tested, bool turns,
                          bound_tally *count) {
     for (uint32_t n = 0; n < w->hierarchy.node_count; n++) {
         sl_walk_reason reason, ignored;
         const sl_node_state found = sl_walk_state(bounded, n, &reason);
-        if (reason != SL_WALK_BOUNDED) continue;
-        const sl_node_state due = sl_walk_state(tested, n, &ignored);
         const bool leaf = w->hierarchy.nodes[n].cell != SL_NO_CELL;
+        if (reason != SL_WALK_BOUNDED || !(leaf || w->hierarchy.tiles)) continue;
+        const sl_node_state due = sl_walk_state(tested, n, &ignored);
         const bool in_part = leaf && found == SL_NODE_PARTIAL && due == SL_NODE_VISIBLE;
         const bool may_be_more = turns && found > due;
         if (found != due && !in_part && !may_be_more)
@@ -336,56 +318,148 @@ static void walk_by_bounds(world *w, uint64_t seed, bool turns, bound_tally *cou
     sl_walk_destroy(w->context, bounded);
 }
 
-static void bounds_decide_as_tests_do(void **state) {
-    (void)state;
-    sl_context *context = testing_context(NULL);
-    bound_tally count = {0};
-    for (uint64_t seed = 1; seed <= 60; seed++) {
-        world w = {.context = context};
-        assert_ok(context, oracle_random_map(context, seed, (oracle_grid)(seed % 3), &w.map));
-        assert_ok(context, sl_map_clean(context, &w.map, NULL));
-        const sl_subdivide_options options = sl_subdivide_options_default();
-        if (w.map.wall_count && sl_subdivide_kd(context, &w.map, &options, &w.space) == SL_OK) {
-            assert_ok(context, sl_hierarchy_make(context, &w.space, &w.hierarchy));
-            walk_by_bounds(&w, seed, false, &count);
-            walk_by_bounds(&w, seed, true, &count);
-        }
-        close_world(&w);
-    }
-    assert_true(count.hidden > 1000 && count.seen > 1000);
-    assert_true(count.whole > 1000 && count.turned > 1000);
-    sl_context_destroy(context);
+static void mesh_world(sl_context *context, const sl_walk_options *like, world *w) {
+    assert_ok(context, sl_map_clean(context, &w->map, NULL, NULL));
+    assert_ok(context, sl_subdivide_mesh(context, &w->map, &w->space));
+    assert_ok(context, sl_space_check(context, &w->space));
+    open_world(w, like);
 }
 
-/// Oblique walls: a generated map, turned.
-static void turned_world(sl_context *context, const char *name, tally *count) {
-    world w = {.context = context};
+/// Oblique walls: a generated map.
+static void generated_world(sl_context *context, const char *name, double turned,
+                            const sl_walk_options *like, world *w) {
     sl_generate_options how = sl_generate_options_default();
     how.walls = 300;
-    how.turned = 17;
+    how.turned = turned;
     size_t kinds_count;
     const sl_map_kind *kinds = sl_map_kinds(&kinds_count);
     for (size_t i = 0; i < kinds_count; i++)
         if (strcmp(kinds[i].name, name) == 0)
-            assert_ok(context, sl_generate(context, &kinds[i], &how, &w.map));
-    assert_true(w.map.wall_count > 0);
-    assert_ok(context, sl_map_clean(context, &w.map, NULL));
-    const sl_bsp_options options = sl_bsp_options_default();
-    assert_ok(context, sl_subdivide_bsp(context, &w.map, &options, &w.space));
-    const sl_walk_options like = sl_walk_options_default();
-    open_world(&w, &like);
-    walk_about(&w, 1, 200, count);
+            assert_ok(context, sl_generate(context, &kinds[i], &how, &w->map));
+    assert_true(w->map.wall_count > 0);
+    mesh_world(context, like, w);
+}
+
+static sl_point turn(sl_point p) {
+    const double angle = 17.3 * 0.017453292519943295;
+    return (sl_point){p.x * cos(angle) - p.y * sin(angle), p.x * sin(angle) + p.y * cos(angle)};
+}
+
+/// Random walls: oblique, or axial ones turned in doubles, so that what was in line is so but for
+/// rounding.
+static void random_mesh(sl_context *context, uint64_t seed, const sl_walk_options *like, world *w) {
+    if (seed % 2) {
+        assert_ok(context,
+                  oblique_random_map(context, seed, (oblique_grid)(seed / 2 % OBLIQUE_GRIDS), 20,
+                                     &w->map));
+    } else {
+        assert_ok(context, oracle_random_map(context, seed, (oracle_grid)(seed / 2 % 3), &w->map));
+        for (size_t i = 0; i < w->map.wall_count; i++) {
+            w->map.walls[i].a = turn(w->map.walls[i].a);
+            w->map.walls[i].b = turn(w->map.walls[i].b);
+        }
+    }
+    assert_ok(context, sl_map_clean(context, &w->map, NULL, NULL));
+    if (w->map.wall_count) mesh_world(context, like, w);
+}
+
+static void kd_bounds(sl_context *context, uint64_t seed, bound_tally *count) {
+    world w = {.context = context};
+    assert_ok(context, oracle_random_map(context, seed, (oracle_grid)(seed % 3), &w.map));
+    assert_ok(context, sl_map_clean(context, &w.map, NULL, NULL));
+    const sl_subdivide_options options = sl_subdivide_options_default();
+    if (w.map.wall_count && sl_subdivide_kd(context, &w.map, &options, &w.space) == SL_OK) {
+        assert_ok(context, sl_hierarchy_make(context, &w.space, &w.hierarchy));
+        walk_by_bounds(&w, seed, false, count);
+        walk_by_bounds(&w, seed, true, count);
+    }
     close_world(&w);
 }
 
-static void bsp_walks_miss_nothing(void **state) {
+static void mesh_bounds(sl_context *context, uint64_t seed, bound_tally *count) {
+    world w = {.context = context};
+    const sl_walk_options like = sl_walk_options_default();
+    random_mesh(context, seed, &like, &w);
+    if (w.walk_count) {
+        walk_by_bounds(&w, seed, false, count);
+        walk_by_bounds(&w, seed, true, count);
+    }
+    close_world(&w);
+}
+
+static void bounds_decide_as_tests_do(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    for (int mesh = 0; mesh < 2; mesh++) {
+        bound_tally count = {0};
+        for (uint64_t seed = 1; seed <= 60; seed++)
+            (mesh ? mesh_bounds : kd_bounds)(context, seed, &count);
+        assert_true(count.hidden > 1000 && count.seen > 1000);
+        assert_true(count.whole > 1000 && count.turned > 1000);
+    }
+    sl_context_destroy(context);
+}
+
+static void oblique_walks_miss_nothing(void **state) {
+    (void)state;
+    static const char *const names[] = {"tunnels", "pillars", "city"};
+    sl_context *context = testing_context(NULL);
+    tally count = {0};
+    for (int i = 0; i < 3; i++) {
+        world w = {.context = context};
+        const sl_walk_options like = sl_walk_options_default();
+        generated_world(context, names[i], 17, &like, &w);
+        walk_about(&w, 1, 200, &count);
+        close_world(&w);
+    }
+    assert_true(count.drawn < 3 * count.seen);
+    sl_context_destroy(context);
+}
+
+static void walks_on_random_meshes_miss_nothing(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
     tally count = {0};
-    turned_world(context, "tunnels", &count);
-    turned_world(context, "pillars", &count);
-    turned_world(context, "city", &count);
-    assert_true(count.drawn < 5 * count.seen);
+    for (uint64_t seed = 1; seed <= testing_seeds(120); seed++) {
+        world w = {.context = context};
+        sl_walk_options like = sl_walk_options_default();
+        like.occluders = seed % 5 ? (uint32_t)(seed % 5 * 4) : SL_WALK_OCCLUDERS_MOST;
+        like.cheap = seed % 4 == 3 ? 2 : 0;
+        random_mesh(context, seed, &like, &w);
+        if (w.walk_count) walk_about(&w, seed, 60, &count);
+        close_world(&w);
+    }
+    assert_true(count.drawn < 2 * count.seen && count.frames > 40 * (long)testing_seeds(120));
+    sl_context_destroy(context);
+}
+
+/// With all walls for occluders the classical method draws just what exact culling finds, of eyes
+/// that are in line with nothing.
+static void all_occluders_hide_all_that_is_hidden(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_walk_options like = sl_walk_options_default();
+    like.occluders = SL_WALK_OCCLUDERS_MOST;
+    long frames = 0;
+    for (uint64_t seed = 1; seed <= testing_seeds(60); seed++) {
+        world w = {.context = context};
+        random_mesh(context, seed, &like, &w);
+        sl_random random = {seed};
+        const sl_box b = w.space.bounds;
+        for (int i = 0; i < 40 && w.walk_count; i++) {
+            const sl_point eye = {b.min.x + sl_random_unit(&random) * (b.max.x - b.min.x),
+                                  b.min.y + sl_random_unit(&random) * (b.max.y - b.min.y)};
+            const sl_view view = sl_view_cone(eye, 11 * i, i % 2 ? 360 : 75, b.max.x - b.min.x);
+            sl_walk_frame frame;
+            if (!look_exactly(&w, &view)) continue;
+            assert_ok(context, sl_walk_step(context, w.walks[0], &view, &frame));
+            assert_memory_equal(sl_walk_cells(w.walks[0]), w.seen,
+                                sl_eye_words(&w.space) * sizeof *w.seen);
+            frames++;
+        }
+        close_world(&w);
+    }
+    assert_true(frames > 20 * (long)testing_seeds(60));
     sl_context_destroy(context);
 }
 
@@ -397,7 +471,7 @@ static void ropes_hold_faces(void **state) {
     for (uint64_t seed = 1; seed <= 60; seed++) {
         world w = {.context = context};
         assert_ok(context, oracle_random_map(context, seed, ORACLE_GRID_INTEGER, &w.map));
-        assert_ok(context, sl_map_clean(context, &w.map, NULL));
+        assert_ok(context, sl_map_clean(context, &w.map, NULL, NULL));
         const sl_subdivide_options options = sl_subdivide_options_default();
         if (w.map.wall_count && sl_subdivide_kd(context, &w.map, &options, &w.space) == SL_OK)
             assert_ok(context, sl_hierarchy_make(context, &w.space, &w.hierarchy));
@@ -504,9 +578,14 @@ static void memory_runs_out(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_walks_miss_nothing), cmocka_unit_test(bsp_walks_miss_nothing),
-        cmocka_unit_test(bounds_decide_as_tests_do), cmocka_unit_test(ropes_hold_faces),
-        cmocka_unit_test(bad_arguments_are_refused), cmocka_unit_test(memory_runs_out),
+        cmocka_unit_test(random_walks_miss_nothing),
+        cmocka_unit_test(oblique_walks_miss_nothing),
+        cmocka_unit_test(walks_on_random_meshes_miss_nothing),
+        cmocka_unit_test(all_occluders_hide_all_that_is_hidden),
+        cmocka_unit_test(bounds_decide_as_tests_do),
+        cmocka_unit_test(ropes_hold_faces),
+        cmocka_unit_test(bad_arguments_are_refused),
+        cmocka_unit_test(memory_runs_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -40,7 +40,7 @@ STEPS = [
     ("undone", ["ctrl+z"], "key Ctrl+Z\n"),
     ("dropped", ["F1", ("drop", "oblique/rotunda.map")], "key F1\nopen {maps}/oblique/rotunda.map\n"),
     ("oblique_tree", ["b"], "key B\n"),
-    ("oblique_splits", ["k"], "key K\n"),
+    ("oblique_nodes", ["q"], "key Q\n"),
     ("oblique_cells", ["c"], "key C\n"),
     ("oblique_learn", ["F2", "u", "Right", "Right"], "key F2\nkey U\nkey Right\nkey Right\n"),
     ("oblique_wall", ["F3", ("drag", 330, 440, 420, 470)], "key F3\ndrag 330 440 420 470\n"),

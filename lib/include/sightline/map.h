@@ -22,6 +22,8 @@ typedef struct sl_door {
     sl_segment segment;
     bool open;
     uint32_t line;
+    sl_segment *parts; ///< what cleaning made of the segment, in order; NULL where it is whole
+    size_t part_count;
 } sl_door;
 
 /// A mirror, glass that is seen through from its right to its left, going from a to b, or a seam: a
@@ -53,9 +55,6 @@ typedef struct sl_object {
     uint32_t line;
 } sl_object;
 
-/// What sl_map.corner_walls says of a side that is along no wall.
-#define SL_NO_WALL UINT32_MAX
-
 /// A cell that the map brings along: corners[first .. first + count), either way round.
 typedef struct sl_map_cell {
     size_t first;
@@ -82,11 +81,9 @@ typedef struct sl_map {
     /// Cells of the map's own, for sl_subdivide_given; cell_count is 0 for most maps.
     sl_map_cell *cells;
     sl_point *corners;
-    /// By corner: the wall that the side from there to the cell's next corner is along, or
-    /// SL_NO_WALL. NULL where the cells do not tell, and the walls' places do.
-    uint32_t *corner_walls;
-    size_t cell_count, corner_count, cell_room, corner_room, corner_wall_room;
-    double snap; ///< corners and walls of cells that are no farther apart are one place
+    size_t cell_count, corner_count, cell_room, corner_room;
+    double snap; ///< corners of cells, and walls' ends, no farther than this from one another, or
+                 ///< from a side or wall, are one place with it
     uint32_t snap_line;
     double range; ///< nothing farther than this is seen; 0 for no limit
     uint32_t range_line;
@@ -112,10 +109,8 @@ SL_API sl_status sl_map_add_path(sl_context *context, sl_map *map, const char *n
                                  const sl_point *points, size_t count, uint32_t line);
 SL_API sl_status sl_map_add_object(sl_context *context, sl_map *map, const char *name, sl_box box,
                                    uint32_t line);
-/// Adds a cell of the map's own. `walls` has a number of a wall or SL_NO_WALL for each corner, or
-/// is NULL, for all cells alike.
 SL_API sl_status sl_map_add_cell(sl_context *context, sl_map *map, const sl_point *corners,
-                                 const uint32_t *walls, size_t count, uint32_t line);
+                                 size_t count, uint32_t line);
 /// Drops the map's own cells.
 SL_API void sl_map_drop_cells(sl_context *context, sl_map *map);
 /// Adds a line to the notes.
@@ -130,22 +125,50 @@ SL_API sl_box sl_map_bounds(const sl_map *map);
 /// How many walls are parallel to neither axis.
 SL_API size_t sl_map_count_oblique(const sl_map *map);
 
-/// What cleaning did, in walls.
+/// Whether all walls, mirrors, doors, one-way glass and seams are parallel to an axis.
+SL_API bool sl_map_is_axial(const sl_map *map);
+
+/// What cleaning did, in walls where nothing else is said.
 typedef struct sl_clean_account {
     size_t before, after;
-    size_t zero_length; ///< dropped
-    size_t duplicate;   ///< dropped: the same two ends as another wall
-    size_t merged;      ///< swallowed by a collinear wall that they overlap or touch
-    size_t split;       ///< cut where another wall crosses or touches them
+    size_t zero_length;  ///< dropped
+    size_t duplicate;    ///< dropped: the same two ends as another wall
+    size_t merged;       ///< swallowed by a collinear wall that they overlap or touch
+    size_t split;        ///< cut where another wall crosses or touches them
+    size_t welded;       ///< ends of walls, doors, glass and seams that were moved to another end
+    size_t crossings;    ///< points where walls cross that had to be computed
+    double largest_move; ///< no clean wall is farther than this from the walls that it comes from
 } sl_clean_account;
 
-/// Adds a wall for each mirror, which hides what is behind it, and makes the walls a planar set:
-/// zero-length walls dropped, duplicates and overlapping collinear axial walls merged, axial walls
-/// split where they cross or touch. No coordinate is computed: every end is an end, or made of two
-/// coordinates, of the input. The order is by place, whatever the input's was. Walls that are not
-/// axial are only freed of zero length and duplicates. `account` may be NULL. Time O((n + k) log n)
-/// for k meeting points. A map with cells of its own is left as it is.
-SL_API sl_status sl_map_clean(sl_context *context, sl_map *map, sl_clean_account *account);
+typedef struct sl_clean_options {
+    /// Ends no farther apart than this become one, and walls that come nearer to an end than half
+    /// of it are led through it. 0: only ends that are equal, and only ends exactly on a wall.
+    /// Negative, the default: 2^-46 of the largest coordinate, where something is oblique, which
+    /// closes what turning and moving a map in doubles opens; 0 where all is axial.
+    double weld;
+} sl_clean_options;
+
+SL_API sl_clean_options sl_clean_options_default(void);
+
+/// Makes the walls a planar set: no two of them cross, overlap or touch but in common ends, by
+/// exact predicates. Each mirror becomes a wall too, which hides what is behind it. The order of
+/// walls is by place, whatever the input's was. All later stages are exact for the clean map.
+///
+/// Where all is axial and nothing is to be welded, overlapping and touching walls in line become
+/// one, walls are split where they cross or touch, and no coordinate is computed. Else doors, glass
+/// and seams are made planar together with the walls: ends are welded, and walls that cross are
+/// split at the nearest representable point. A door that is cut has `parts`; mirrors, glass and
+/// seams that are cut become several. A sightline that stays farther than `largest_move` from every
+/// wall as read is never lost.
+///
+/// Sides of the map's own cells take part in it, as seams do, with a tolerance of twice the map's
+/// `snap` where that is larger. Cells of which nothing is left are dropped.
+///
+/// NULL options are the default ones; `account` may be NULL. SL_UNSUPPORTED where walls cross anew
+/// each time that a crossing is rounded, which tolerances below the rounding of doubles may cause.
+/// Time O((n + k) log n) for k meeting points.
+SL_API sl_status sl_map_clean(sl_context *context, sl_map *map, const sl_clean_options *options,
+                              sl_clean_account *account);
 
 /// Reads the map text: SL_BAD_INPUT with file and line on anything it does not know.
 /// `name` is what messages call the text. The map must be empty; on failure it stays so.

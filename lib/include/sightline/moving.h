@@ -11,7 +11,7 @@ extern "C" {
 #endif
 
 /// The cells in which a box lies, those that it only touches included: a bit a cell, sl_eye_words()
-/// words, set. Exact, in any space, for the cells' corners as they are stored. Time: all cells.
+/// words, set. Exact. Time: in a kd-tree's space all cells, in a mesh those in the buckets near it.
 SL_API void sl_cells_of_box(const sl_space *space, sl_box box, uint64_t *cells);
 
 /// A space with boxes in it, to look at. Serves one thread at a time.
@@ -19,20 +19,21 @@ typedef struct sl_moving sl_moving;
 
 /// No boxes are in it yet. The space and the visible sets must outlive it; `visibility` is as
 /// sl_eye_search_create takes it, and stab trees are not looked at. SL_UNSUPPORTED for a space
-/// without exits that its portals should have (one-way glass).
+/// without exits that its portals should have (one-way glass), and for a loose one.
 SL_API sl_status sl_moving_create(sl_context *context, const sl_space *space,
                                   const sl_visibility *visibility, sl_moving **out);
 SL_API void sl_moving_destroy(sl_context *context, sl_moving *moving);
 
-/// Puts these boxes in, in place of those before. Only the cells that boxes lie in are cut, but the
-/// rest of the space is copied. SL_BAD_ARGUMENT for boxes whose corners are not in order or
-/// have coordinates that sl_coordinate_usable does not take; what was there before then stays.
+/// Puts these boxes in, in place of those before. Only the cells that sides of boxes touch are cut,
+/// but the rest of the space is copied. SL_BAD_ARGUMENT for boxes whose corners are not in order or
+/// have coordinates that sl_coordinate_usable does not take, SL_UNSUPPORTED where walls run along
+/// each other within steps of doubles and bend each other without end; what was there before then
+/// stays.
 ///
-/// In a space of axial walls no coordinate is computed, and what is told of boxes is exact. In a
-/// BSP's, sides that block are put in as its walls were: what sl_subdivide_bsp promises holds of
-/// walls and boxes together. So no place sees less than they leave it to see; more is seen only by
-/// the size of rounding, where sides cross the borders of cells. Where doubles leave a needle no
-/// room a part of one cell may be made part of its neighbour: it then counts as part of both.
+/// Where a side of a box crosses an oblique wall, the wall is led through the nearest representable
+/// point on that side; everything else is exact. In a space of axial walls no coordinate is
+/// computed at all. (Borders between cells are led through such points too; nothing is hidden or
+/// seen by that.)
 SL_API sl_status sl_moving_place(sl_context *context, sl_moving *moving, const sl_moving_box *boxes,
                                  size_t count);
 
@@ -44,9 +45,11 @@ SL_API void sl_moving_limit(sl_moving *moving, double range);
 SL_API sl_status sl_moving_add_mirrors(sl_context *context, sl_moving *moving, const sl_map *map,
                                        uint32_t depth);
 
-/// The space with the boxes: cells cut along their sides, which are walls where they block; in a
-/// BSP's space, along these alone. Cell c of it is (a part of) cell parents[c] of the space
-/// without. Until boxes are next placed.
+/// The space with the boxes: cells cut along their sides, which are walls where they block. Cell c
+/// of it is (a part of) cell parents[c] of the space without. Cells and walls of that one keep
+/// their numbers, but that a cell as narrow as a step of doubles may vanish: the last one then
+/// takes its number. In a mesh, a wall that is crossed is several sides of cells
+/// (sl_space.cut_walls), and there are no seams. Until boxes are next placed.
 SL_API const sl_space *sl_moving_space(const sl_moving *moving, const uint32_t **parents);
 
 /// Its outline, for sl_region_make, sl_sees, sl_shoot and sl_room_mirrors_make. Made when it is
@@ -54,7 +57,7 @@ SL_API const sl_space *sl_moving_space(const sl_moving *moving, const uint32_t *
 SL_API sl_status sl_moving_outline(sl_context *context, sl_moving *moving, const sl_outline **out);
 
 /// What an eye sees past the boxes, by exact eye-to-cell culling within the visible set of its
-/// cell; in a BSP's space that set is only asked whether it is empty.
+/// cell.
 ///
 /// `cells`: the cells of the space without boxes, sl_eye_words() words: those of which a part is
 /// seen, as in a space whose walls the boxes' sides are.

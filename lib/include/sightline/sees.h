@@ -12,8 +12,7 @@ extern "C" {
 /// Whether a point is seen. Exact. SL_CLOSED: portals lead from the cell that sl_space_locate gives
 /// for the eye to one that touches the point, and the segment between them touches every one; so it
 /// may graze walls, but crosses none. SL_OPEN: that, and the segment has no point in common with a
-/// wall. False where either point is outside the bounds. In the space of a BSP, whose corners are
-/// rounded, points on a wall may count as beside it, by the size of rounding.
+/// wall. False where either point is outside the bounds.
 SL_API sl_status sl_sees(sl_context *context, const sl_outline *outline, sl_point eye,
                          sl_point point, sl_sight sight, bool *out);
 

@@ -1,4 +1,4 @@
-/// The space: convex cells, the portals between them, and the tree that locates a point.
+/// The space: convex cells, the portals between them, and what locates a point.
 #ifndef SIGHTLINE_SPACE_H
 #define SIGHTLINE_SPACE_H
 
@@ -11,15 +11,23 @@ extern "C" {
 /// What sl_space_locate says of a point outside the bounds.
 #define SL_NO_CELL UINT32_MAX
 
-/// A node of the subdivision tree. A child c >= 0 is node c, a child c < 0 is cell ~c. In a BSP
-/// several nodes may have one child.
+/// A node of a kd-tree. A child c >= 0 is node c, a child c < 0 is cell ~c.
 typedef struct sl_node {
     double position; ///< the split line: x = position (axis 0) or y = position (axis 1)
-    int32_t axis;    ///< 2: the line through space.lines[line], from its a to its b; position is 0
-    int32_t below;   ///< where the coordinate is less than the position; strictly right of the line
-    int32_t above;   ///< where it is not
-    int32_t line;    ///< 0 but for axis 2
+    int32_t axis;
+    int32_t below;    ///< where the coordinate is less than the position
+    int32_t above;    ///< where it is not
+    int32_t reserved; ///< 0
 } sl_node;
+
+/// A grid of buckets over the bounds: bucket (column, row) has the cells that reach into it, and
+/// maybe some that only come near, ascending: cells[first[b]] .. cells[first[b + 1] - 1] with
+/// b = row * columns + column. Zeroed, there is none.
+typedef struct sl_cell_grid {
+    uint32_t columns, rows, entry_count;
+    uint32_t *first;
+    uint32_t *cells;
+} sl_cell_grid;
 
 /// A portal: a longest wall-free piece of the boundary that two cells share, of positive length.
 /// Crossed from cell[0] to cell[1], `left` is at the left hand and `right` at the right.
@@ -68,8 +76,11 @@ typedef struct sl_seam_portal {
 
 /// Zeroed, a space is empty.
 ///
-/// A space made by a BSP has `beyond`. Its cells' corners may then be flat: there is one wherever a
-/// portal ends, so that each side is one exit, a piece of one wall, or border.
+/// The cells tile the bounds: they leave nothing out and do not overlap. A kd-tree's space has
+/// `nodes`. The space of a mesh has `beyond` and `grid`: each side of a cell is one exit, one wall
+/// from end to end, or border, so that corners may be flat; every corner is the end of a wall or a
+/// seam, a corner of the bounds, or of one of the map's own cells. With boxes in it (`cut_walls`)
+/// also where their sides cross.
 ///
 /// Cells do not run over seams: each portal lies on a seam wholly or not at all. Where a wall
 /// covers a seam there is no portal.
@@ -79,18 +90,20 @@ typedef struct sl_space {
     uint32_t node_count, cell_count, vertex_count, portal_count, exit_count, wall_count;
     uint32_t inside_count;
     uint32_t tree_depth; ///< nodes on the longest way down
-    uint32_t line_count; ///< 0 for a kd-tree
-    uint32_t partial;    ///< 1 where cells need not fill the bounds: they came with the map
+    uint32_t loose;      ///< 1 for a space read from a file of version 1 that had oblique walls:
+                         ///< cells may overlap by rounding, or leave gaps
+    uint32_t cut_walls;  ///< 1 for a mesh with boxes (sightline/moving.h): a wall may be several
+                         ///< sides of cells, end to end, bent by rounding where they meet
     uint32_t seam_count, seam_portal_count;
-    sl_node *nodes; ///< a parent before its children
+    sl_node *nodes; ///< a parent before its children; none for a mesh
     sl_cell *cells;
     sl_point *vertices;
     sl_portal *portals; ///< by cell[0], then cell[1], then place
     sl_exit *exits;     ///< grouped by cell
     sl_wall *walls;     ///< those of the map it was made from
-    sl_segment *lines;  ///< of two different ends; what nodes of axis 2 split along
     uint32_t *beyond;   ///< by vertex: the wall on the side from there to the cell's next corner,
                         ///< SL_BEYOND_EXIT or SL_BEYOND_BORDER; NULL for a kd-tree
+    sl_cell_grid grid;  ///< none for a kd-tree
     sl_seam *seams;     ///< the map's doors, one-way glass and seams; NULL for none
     sl_seam_portal *seam_portals; ///< by portal, then seam; NULL for none
 } sl_space;
@@ -114,56 +127,28 @@ SL_API sl_subdivide_options sl_subdivide_options_default(void);
 SL_API sl_status sl_subdivide_kd(sl_context *context, const sl_map *map,
                                  const sl_subdivide_options *options, sl_space *out);
 
-/// The BSP's cost of a split, the least of which is taken: cuts * (share of the walls that it cuts)
-/// + imbalance * (difference between the shares left on either side) - obscured * (share of its
-/// length that walls cover). Start from sl_bsp_options_default().
-typedef struct sl_bsp_options {
-    double cuts, imbalance, obscured; ///< finite, not negative
-    uint32_t candidates;              ///< walls tried for each split, at least 1
-} sl_bsp_options;
+/// Subdivides by a constrained triangulation of walls and seams, of which triangles are merged to
+/// convex cells: portals are taken out, the longest first, where both of their ends stay convex
+/// corners (Hertel & Mehlhorn 1983). Walls may be oblique.
+///
+/// No coordinate is computed for a clean map (sl_map_clean): each corner of a cell is the end of a
+/// wall or seam, or a corner of the bounds, and both sides of a portal have the same ends. So the
+/// cells tile the bounds, all predicates on them are exact, and a door that is shut is as tight as
+/// a wall. A map that is not clean is made planar first, without a tolerance, which few maps do not
+/// allow (SL_UNSUPPORTED): cleaning does.
+///
+/// SL_BAD_INPUT where there is no wall. Linear space, time about O(n log n); reports stage
+/// "subdivide".
+SL_API sl_status sl_subdivide_mesh(sl_context *context, const sl_map *map, sl_space *out);
 
-SL_API sl_bsp_options sl_bsp_options_default(void);
-
-/// Subdivides by a BSP on the walls' own lines (auto-partition: Teller 1992) until no wall is
-/// inside a cell. Walls may be oblique and may cross, touch, overlap and repeat; those of no length
-/// count for nothing.
+/// Subdivides by a mesh that keeps to the cells that the map brings along (sl_map.cells): their
+/// sides end cells, so that each cell lies in one of the map's cells, or in none. Cells that are
+/// bent are cut. What the map's cells leave open is filled with cells too.
 ///
-/// Cells are convex by exact predicates on the corners as they are stored, both sides of a portal
-/// have the same ends, and a wall's ends stay exact: all later stages are exact for the space as it
-/// stands. No place sees less than in the map: whatever two points a segment joins that touches no
-/// wall, the cells that sl_space_locate names for them see each other. For that, corners that have
-/// to be computed (where walls cross each other or a portal) lie on their wall's line or behind it,
-/// as seen from the cell: neighbouring cells may overlap along walls, and sight be added through
-/// slivers, by the size of rounding. A portal runs along a wall's line only as far as doubles can
-/// tell a point exactly on it; where there is none, a wall that ends in the open is joined to two
-/// corners instead, a triangle between them. Where walls are a few steps of doubles apart, one may
-/// be left out of a cell that has no room for its corners: sight is added there, and sl_space_check
-/// names the cell.
+/// Cells may be as rounded as node builders leave them: where the map is not clean (sl_map_clean),
+/// places within twice its `snap` of each other are welded first, walls among them.
 ///
-/// Seams are put in after the walls, and seen through: where a portal on one has to end in a point
-/// that is computed, it lies beside the seam's line by the size of rounding, or, where cells are
-/// needles, by up to 2^-25 of the map's size. A cell that leaves no room for such a point goes
-/// without the seam, and a note says so.
-///
-/// Time about O(n log n) for n walls with few long ones; reports stage "subdivide".
-/// SL_BAD_INPUT where there is no wall, SL_BAD_ARGUMENT for options out of range.
-SL_API sl_status sl_subdivide_bsp(sl_context *context, const sl_map *map,
-                                  const sl_bsp_options *options, sl_space *out);
-
-/// Takes the cells that the map brings along (sl_map.cells) for a space of the BSP's kind. They may
-/// be as rounded as node builders leave them: cells bent by rounding, T-junctions, corners off
-/// their walls; places within the map's `snap` of each other are one. Corners on walls are moved
-/// onto the wall's line or behind it, and cells that are bent are cut by diagonals: a cell becomes
-/// several then, and none is joined; those without area are left out.
-///
-/// What a BSP's space promises holds here within the cells: whatever two points of cells a segment
-/// joins that touches no wall, the cells that sl_space_locate names for them see each other. So the
-/// cells may leave gaps only where nobody sees: behind walls, and beyond sides that have all cells
-/// on one hand. Points in no cell have none (SL_NO_CELL).
-///
-/// SL_BAD_INPUT, naming the cell and the place, for cells that cannot be taken: a side that is
-/// neither along a wall nor shared with another cell, cells that overlap or are bent beyond repair,
-/// a wall within a cell. The whole graph is checked (sl_space_check).
+/// SL_BAD_INPUT, naming the cell, for cells that overlap.
 SL_API sl_status sl_subdivide_given(sl_context *context, const sl_map *map, sl_space *out);
 
 /// A way to subdivide: reachable by name, listed everywhere from this table.
@@ -176,20 +161,19 @@ typedef struct sl_subdivision {
                            const sl_subdivide_options *rules, sl_space *out);
 } sl_subdivision;
 
-/// All of them: "kd", "bsp", "given".
+/// All of them: "kd", "mesh", "given".
 SL_API const sl_subdivision *sl_subdivisions(size_t *count);
 
 /// What a map calls for: its own cells where it has any, the kd-tree where all walls and seams are
-/// axial, else the BSP.
+/// axial, else the mesh.
 SL_API const sl_subdivision *sl_subdivision_for(const sl_map *map);
 
 SL_API void sl_space_destroy(sl_context *context, sl_space *space); ///< and zeroes it
 
-/// The cell that holds a point. On a split line the cell above (right of or over) it, left of an
-/// oblique one; on the upper or right border the cell inside; SL_NO_CELL outside the bounds and for
-/// NaN. Time: the tree's depth. In a BSP's space what the tree finds is left through exits that
-/// have the point strictly beyond them, 16 at most; where that leads to no cell that holds the
-/// point, all cells are asked; SL_NO_CELL where the cells came with the map and none holds it.
+/// The cell that holds a point; SL_NO_CELL outside the bounds and for NaN. Exact. In a kd-tree's
+/// space, on a split line the cell above (right of or over) it, on the upper or right border the
+/// cell inside; time: the tree's depth. In a mesh's, on a border between cells that of the lowest
+/// number; time: the cells in one bucket of the grid. SL_NO_CELL too in gaps of a loose space.
 SL_API uint32_t sl_space_locate(const sl_space *space, sl_point point);
 
 /// A box to be put into a space for the time being (sightline/moving.h), which may be without width
@@ -207,16 +191,11 @@ SL_API const sl_seam_portal *sl_space_seams_of(const sl_space *space, uint32_t p
 /// Area of a cell.
 SL_API double sl_space_area(const sl_space *space, uint32_t cell);
 
-/// Checks the whole graph: cells convex and of positive area, areas adding up to the bounds', no
-/// wall inside a cell, portals on both their cells and on no wall, every piece of a cell's boundary
-/// wall, portal or border, exits and portals telling the same, the tree leading to each cell once.
-/// Portals on seams are told as such; in a kd-tree's
-/// space no seam runs through a cell.
-/// All but the sum of areas (relative 1e-9) by comparison of exact coordinates. For a BSP: corners
-/// convex by exact predicates, walls' sides on their wall's line or behind it; that areas add up
-/// and walls are covered is told within rounding. For cells that came with a map: that, but for the
-/// sum of areas, and sides of the border must have all cells on one hand.
-/// SL_BAD_INPUT with the first fault found.
+/// Checks the whole graph, exactly: cells convex and of positive area; cells that tile the bounds;
+/// no wall inside a cell; portals on both their cells and on no wall; every piece of a cell's
+/// boundary wall, portal or border; exits and portals that say the same; nodes or buckets that lead
+/// to the cells; portals on seams known as such. Of a loose space only what memory safety and
+/// convexity ask for. SL_BAD_INPUT with the first fault found.
 SL_API sl_status sl_space_check(sl_context *context, const sl_space *space);
 
 #ifdef __cplusplus

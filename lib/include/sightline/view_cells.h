@@ -47,7 +47,7 @@ typedef struct sl_view_segments {
     uint64_t drawn;    ///< points
     uint64_t empty;    ///< of them: in empty space
     uint64_t unseeing; ///< of them: the line there ends at no wall, only at the map's border
-    uint64_t lost;     ///< of them: on a corner or an edge, or where rounding broke the walk
+    uint64_t lost;     ///< of them: on a corner or an edge, so that the line only touches the room
 } sl_view_segments;
 
 /// Draws points evenly over the map's bounds and directions evenly over the circle, and follows the
@@ -102,14 +102,23 @@ typedef struct sl_view_scene {
 
 // --- elementary view cells
 
+/// A split of view space. A child c >= 0 is node c, a child c < 0 is leaf ~c.
+typedef struct sl_view_node {
+    double position; ///< x = position (axis 0) or y = position (axis 1)
+    int32_t axis;    ///< 2: along the line through lines[line], from its a to its b
+    int32_t below;   ///< where the coordinate is less than the position; strictly right of the line
+    int32_t above;   ///< where it is not
+    int32_t line;    ///< 0 but for axis 2
+} sl_view_node;
+
 /// A binary space partition of the bounds. Nodes are in the order of splitting, so that the first
-/// k of them make k + 1 leaves. A child c >= 0 is node c, a child c < 0 is leaf ~c. Leaves below
-/// cell_count are elementary view cells; those from there on are empty space.
+/// k of them make k + 1 leaves. Leaves below cell_count are elementary view cells; those from there
+/// on are empty space.
 typedef struct sl_view_tree {
     sl_box bounds;
     int32_t root; ///< as a child of a node
     uint32_t node_count, leaf_count, cell_count, line_count;
-    sl_node *nodes; ///< axis 2: along lines[line]
+    sl_view_node *nodes;
     sl_segment *lines;
     sl_point *corners; ///< of the leaves' polygons, counter-clockwise
     uint32_t *edges;   ///< by corner: the node that made the side from there; UINT32_MAX: border
@@ -209,8 +218,9 @@ SL_API void sl_view_hierarchy_destroy(sl_context *context, sl_view_hierarchy *hi
 /// passes the view cell or, with closed sight, touches it. With open sight this is what the cells
 /// together see that the view cell's borders cut out of the space; with closed sight these may miss
 /// an object seen by grazing lines alone, which would have to cross a border both ways. So in the
-/// space of a kd-tree; in others pieces of cells have rounded corners, and the sets are exact for
-/// these, and part of what the whole cell sees. SL_UNSUPPORTED with wall_splits.
+/// space of a kd-tree. Where a split crosses an oblique side of a cell, the crossing is rounded:
+/// the sets are exact for pieces with this corner, and part of what the whole cell sees.
+/// SL_UNSUPPORTED with wall_splits.
 typedef struct sl_view_method {
     const char *name, *what;
     bool merges;
@@ -269,9 +279,10 @@ SL_API void sl_view_borders_free(sl_context *context, sl_segment *borders);
 // --- exact sets, for use
 
 /// Adds the borders of view cells to a map as seams: no cell of a space that is made of it then
-/// lies in two view cells (in a BSP's space, but for rounding), and what a view cell sees is what
-/// its cells see, by any method. With `objects`, a space of the map, its portals become seams too:
-/// then no cell lies in two of its cells either, which sl_view_rows_cost asks for; NULL for none.
+/// lies in two view cells (but for rounding where walls are oblique), and what a view cell sees is
+/// what its cells see, by any method. With `objects`, a space of the map, its portals become seams
+/// too: then no cell lies in two of its cells either, which sl_view_rows_cost asks for; NULL for
+/// none.
 SL_API sl_status sl_view_add_seams(sl_context *context, const sl_view_tree *tree,
                                    const uint32_t *view_cells, const sl_space *objects,
                                    sl_map *map);

@@ -20,7 +20,8 @@ typedef struct sl_walk_node {
     sl_box box;       ///< in a kd-tree's space the node itself; else it holds the node's cells
     int32_t parent;   ///< -1 for the root
     int32_t child[2]; ///< below the split and above it; -1, -1 for a leaf
-    uint32_t split;   ///< of the space's nodes; not used in leaves
+    int32_t axis;     ///< of the split; 0: at x = position, 1: at y = position
+    double position;  ///< what lies before it is child 0's; not used in leaves
     uint32_t cell;    ///< of a leaf; else SL_NO_CELL
     uint32_t first_leaf, leaf_count; ///< of sl_hierarchy.leaves: those of the node
     /// Ropes (Havran, Bittner & Zara 1998): by face (left, right, lower, upper) the least node
@@ -28,9 +29,8 @@ typedef struct sl_walk_node {
     int32_t rope[4];
 } sl_walk_node;
 
-/// The hierarchy of a space: its tree with boxes, and with the walls of its cells. In a BSP's
-/// space, where several nodes may have one child, the first of them has it alone. Zeroed, it is
-/// empty.
+/// The hierarchy of a space, with the walls of its cells: a kd-tree's nodes, or, over the cells of
+/// a mesh, boxes within boxes, which may overlap. Zeroed, it is empty.
 typedef struct sl_hierarchy {
     const sl_space *space; ///< the caller's; it must stay as long as the hierarchy
     bool tiles;            ///< a kd-tree's: children make up their parent, leaves are their boxes
@@ -56,9 +56,8 @@ typedef enum sl_node_state {
 } sl_node_state;
 
 /// A node visibility test: how the occluders' shadows are merged and a node is looked up in them.
-/// For the nodes of a kd-tree's space all tests give the same answer, which is exact for the chosen
-/// occluders. Elsewhere a node that a wall's line cuts counts as partly before and partly behind
-/// it: conservative. A node's answer is always that of a box that holds it, or of itself.
+/// All tests give the same answer. It is exact for the chosen occluders and the node: its box, or
+/// of a leaf its cell.
 typedef struct sl_node_test {
     const char *name, *what;
     const struct sl_node_test_calls *calls; ///< the library's own

@@ -14,7 +14,7 @@ static sl_status cut(sl_context *context, sl_map *map, sl_space *space) {
         sl_status status = sl_map_add_wall(context, map, a, b, 0);
         if (status != SL_OK) return status;
     }
-    sl_status status = sl_map_clean(context, map, NULL);
+    sl_status status = sl_map_clean(context, map, NULL, NULL);
     if (status != SL_OK) return status;
     sl_subdivide_options options = sl_subdivide_options_default();
     status = sl_subdivide_kd(context, map, &options, space);

@@ -1,0 +1,823 @@
+/// Rounds of two steps, until a round finds nothing: find the pairs of edges that come too near to
+/// each other or cross, and lead edges through the points found.
+///
+/// Pairs are found by halving: a box is split in the middle of what lies in it, edges that run
+/// across are split with it, until few are left, and these are held against each other. A pair is
+/// looked at once: edges never change, they only give way to their parts.
+///
+/// This is iterated snap rounding (Guibas & Marimont 1998; Halperin & Packer 2002) without the
+/// grid: in place of pixels there are the ends themselves, with a tolerance about each.
+#include "map/planar.h"
+
+#include "base/base.h"
+#include "geometry/crossing.h"
+#include "geometry/orient.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define NONE UINT32_MAX
+
+enum {
+    FEW = 12,         ///< edges in a box that are held against each other
+    MOST_HALVES = 96, ///< boxes within boxes
+    MOST_ROUNDS = 64,
+    MOST_GROWTH = 16, ///< points, of those that ends and the first round's crossings are
+};
+
+/// Halving goes on only while it parts edges more than it cuts them.
+static const double MOST_CUTS = 1.6;
+
+/// An edge while the graph is made. One that gave way has parts: parts[first .. first + count).
+typedef struct working_edge {
+    uint32_t a, b;
+    uint32_t first, count;
+} working_edge;
+
+/// A piece of an edge within a box, in doubles.
+typedef struct piece {
+    sl_point p, q;
+    uint32_t edge;
+} piece;
+
+/// That an edge is to be led through a point.
+typedef struct split {
+    uint32_t edge, point;
+} split;
+
+/// That two edges cross, and where, about.
+typedef struct meeting {
+    sl_point at;
+    uint32_t edges[2];
+} meeting;
+
+typedef struct planer {
+    sl_context *context;
+    const char *source;
+    double weld;
+    double side;         ///< of a square of the point table
+    double scale, slack; ///< of working coordinates: places times scale are at most 1
+    SL_ARRAY(sl_point) points;
+    SL_ARRAY(working_edge) edges;
+    SL_ARRAY(sl_planar_link) parts;
+    uint32_t *point_table, *edge_table; ///< open addressing: 1 + number
+    size_t point_slots, edge_slots;
+    SL_ARRAY(uint32_t) next_near; ///< by point: the next one in its square of the point table
+    SL_ARRAY(piece) pieces;
+    SL_ARRAY(split) splits;
+    SL_ARRAY(meeting) meetings;
+    uint32_t old; ///< edges below have been held against each other
+} planer;
+
+static int compare(double a, double b) {
+    return (a > b) - (a < b);
+}
+
+static int compare_points(sl_point a, sl_point b) {
+    const int order = compare(a.x, b.x);
+    return order ? order : compare(a.y, b.y);
+}
+
+static bool same(sl_point a, sl_point b) {
+    return a.x == b.x && a.y == b.y;
+}
+
+static uint64_t mix(uint64_t z) {
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+    return z ^ z >> 31;
+}
+
+// --- points: those within the tolerance are found by squares, much larger than it
+
+typedef struct square {
+    double x, y;
+} square;
+
+/// Where no tolerance is, a square is a place.
+static square square_of(const planer *p, sl_point at) {
+    if (p->weld > 0) return (square){floor(at.x / p->side), floor(at.y / p->side)};
+    return (square){at.x, at.y};
+}
+
+static size_t hash_square(square s) {
+    // Squares hold whole numbers or coordinates, of which -0 is none.
+    union {
+        double value;
+        uint64_t bits;
+    } x = {s.x + 0.0}, y = {s.y + 0.0};
+    return (size_t)mix(x.bits + 0x9e3779b97f4a7c15u * mix(y.bits + 1));
+}
+
+/// The slot of a square, which is empty where no point is in it.
+static size_t find_square(const planer *p, square s) {
+    size_t slot = hash_square(s) & (p->point_slots - 1);
+    while (p->point_table[slot]) {
+        const square other = square_of(p, p->points.items[p->point_table[slot] - 1]);
+        if (other.x == s.x && other.y == s.y) break;
+        slot = (slot + 1) & (p->point_slots - 1);
+    }
+    return slot;
+}
+
+static void enter_point(planer *p, uint32_t point) {
+    const size_t slot = find_square(p, square_of(p, p->points.items[point]));
+    p->next_near.items[point] = p->point_table[slot];
+    p->point_table[slot] = point + 1;
+}
+
+static sl_status grow_points(planer *p) {
+    const size_t slots = p->point_slots ? 2 * p->point_slots : 1024;
+    uint32_t *table = sl_alloc_array(p->context, slots, sizeof *table);
+    if (!table) return SL_NO_MEMORY;
+    sl_free(p->context, p->point_table);
+    p->point_table = table;
+    p->point_slots = slots;
+    for (uint32_t i = 0; i < p->points.count; i++) enter_point(p, i);
+    return SL_OK;
+}
+
+static double distance(sl_point a, sl_point b) {
+    return hypot(a.x - b.x, a.y - b.y);
+}
+
+/// A point within the tolerance, and how far off it is.
+typedef struct found_point {
+    uint32_t point;
+    double distance;
+} found_point;
+
+static void find_in_square(const planer *p, sl_point at, square s, found_point *found) {
+    for (uint32_t n = p->point_table[find_square(p, s)]; n; n = p->next_near.items[n - 1]) {
+        const sl_point other = p->points.items[n - 1];
+        const double d = same(at, other) ? 0 : p->weld > 0 ? distance(at, other) : HUGE_VAL;
+        if (d > p->weld || d > found->distance ||
+            (d == found->distance && compare_points(other, p->points.items[found->point]) > 0))
+            continue;
+        *found = (found_point){n - 1, d};
+    }
+}
+
+/// The nearest point within the tolerance; NONE for none.
+static uint32_t find_point(const planer *p, sl_point at) {
+    found_point found = {NONE, HUGE_VAL};
+    if (!p->point_slots) return NONE;
+    const square low = square_of(p, (sl_point){at.x - p->weld, at.y - p->weld});
+    const square high = square_of(p, (sl_point){at.x + p->weld, at.y + p->weld});
+    for (int i = 0; i <= (high.x > low.x); i++)
+        for (int k = 0; k <= (high.y > low.y); k++)
+            find_in_square(p, at, (square){i ? high.x : low.x, k ? high.y : low.y}, &found);
+    return found.point;
+}
+
+/// The point that stands for a place: one within the tolerance, or a new one.
+static sl_status take_point(planer *p, sl_point at, uint32_t *out) {
+    at = (sl_point){at.x + 0.0, at.y + 0.0}; // one zero
+    *out = find_point(p, at);
+    if (*out != NONE) return SL_OK;
+    if (p->points.count >= INT32_MAX) return sl_fail_memory(p->context);
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->points, 1));
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->next_near, 1));
+    *out = (uint32_t)p->points.count++;
+    p->next_near.count++;
+    p->points.items[*out] = at;
+    if (2 * p->points.count > p->point_slots) return grow_points(p);
+    enter_point(p, *out);
+    return SL_OK;
+}
+
+// --- edges
+
+static size_t find_edge(const planer *p, uint32_t a, uint32_t b) {
+    size_t slot = (size_t)mix((uint64_t)a << 32 | b) & (p->edge_slots - 1);
+    while (p->edge_table[slot]) {
+        const working_edge *e = &p->edges.items[p->edge_table[slot] - 1];
+        if (e->a == a && e->b == b) break;
+        slot = (slot + 1) & (p->edge_slots - 1);
+    }
+    return slot;
+}
+
+static sl_status grow_edges(planer *p) {
+    const size_t slots = p->edge_slots ? 2 * p->edge_slots : 1024;
+    uint32_t *table = sl_alloc_array(p->context, slots, sizeof *table);
+    if (!table) return SL_NO_MEMORY;
+    sl_free(p->context, p->edge_table);
+    p->edge_table = table;
+    p->edge_slots = slots;
+    for (uint32_t i = 0; i < p->edges.count; i++) {
+        const working_edge *e = &p->edges.items[i];
+        p->edge_table[find_edge(p, e->a, e->b)] = i + 1;
+    }
+    return SL_OK;
+}
+
+/// The edge between two different points, there already or new.
+static sl_status take_edge(planer *p, uint32_t from, uint32_t to, sl_planar_link *out) {
+    const uint32_t a = from < to ? from : to, b = from < to ? to : from;
+    if (2 * (p->edges.count + 1) > p->edge_slots) SL_TRY(grow_edges(p));
+    const size_t slot = find_edge(p, a, b);
+    if (!p->edge_table[slot]) {
+        if (p->edges.count >= INT32_MAX) return sl_fail_memory(p->context);
+        SL_TRY(SL_ARRAY_ROOM(p->context, &p->edges, 1));
+        p->edges.items[p->edges.count++] = (working_edge){.a = a, .b = b};
+        p->edge_table[slot] = (uint32_t)p->edges.count;
+    }
+    *out = 2 * (p->edge_table[slot] - 1) + (from > to);
+    return SL_OK;
+}
+
+static bool is_whole(const planer *p, uint32_t edge) {
+    return p->edges.items[edge].count == 0;
+}
+
+// --- two edges
+
+static bool strictly_between(sl_point a, sl_point b, sl_point v) {
+    return a.x != b.x ? (a.x < v.x) == (v.x < b.x) && v.x != a.x && v.x != b.x
+                      : (a.y < v.y) == (v.y < b.y) && v.y != a.y && v.y != b.y;
+}
+
+/// Whether an edge is to be led through a point that is none of its ends.
+static bool is_near(const planer *p, sl_point a, sl_point b, sl_point v) {
+    const double reach = p->weld / 2;
+    if (v.x < fmin(a.x, b.x) - reach || v.x > fmax(a.x, b.x) + reach ||
+        v.y < fmin(a.y, b.y) - reach || v.y > fmax(a.y, b.y) + reach)
+        return false;
+    const double dx = (b.x - a.x) * p->scale, dy = (b.y - a.y) * p->scale;
+    const double vx = (v.x - a.x) * p->scale, vy = (v.y - a.y) * p->scale;
+    const double length = hypot(dx, dy);
+    const double along = (vx * dx + vy * dy) / length, off = fabs(dx * vy - dy * vx) / length;
+    if (off <= reach * p->scale && along > 0 && along < length) return true;
+    return off <= 0x1p-48 * (fabs(vx) + fabs(vy)) + 0x1p-1000 && sl_orient(a, b, v) == 0 &&
+           strictly_between(a, b, v);
+}
+
+static sl_status add_split(planer *p, uint32_t edge, uint32_t point) {
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->splits, 1));
+    p->splits.items[p->splits.count++] = (split){edge, point};
+    return SL_OK;
+}
+
+/// Leads an edge through those ends of another one that it is near to.
+static sl_status lead_near(planer *p, uint32_t edge, uint32_t other) {
+    const working_edge *e = &p->edges.items[edge], *o = &p->edges.items[other];
+    const sl_point a = p->points.items[e->a], b = p->points.items[e->b];
+    const uint32_t ends[2] = {o->a, o->b};
+    for (int i = 0; i < 2; i++)
+        if (ends[i] != e->a && ends[i] != e->b && is_near(p, a, b, p->points.items[ends[i]]))
+            SL_TRY(add_split(p, edge, ends[i]));
+    return SL_OK;
+}
+
+static sl_segment segment_of(const planer *p, uint32_t edge) {
+    const working_edge *e = &p->edges.items[edge];
+    return (sl_segment){p->points.items[e->a], p->points.items[e->b]};
+}
+
+static sl_status add_meeting(planer *p, uint32_t edge, uint32_t other) {
+    const uint32_t first = edge < other ? edge : other, second = edge < other ? other : edge;
+    const sl_segment s = segment_of(p, first), t = segment_of(p, second);
+    const double sx = (s.b.x - s.a.x) * p->scale, sy = (s.b.y - s.a.y) * p->scale;
+    const double tx = (t.b.x - t.a.x) * p->scale, ty = (t.b.y - t.a.y) * p->scale;
+    const double gx = (t.a.x - s.a.x) * p->scale, gy = (t.a.y - s.a.y) * p->scale;
+    const double share = (gx * ty - gy * tx) / (sx * ty - sy * tx);
+    const double along = share > 0 ? share < 1 ? share : 1 : 0;
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->meetings, 1));
+    p->meetings.items[p->meetings.count++] = (meeting){
+        {s.a.x + along * (s.b.x - s.a.x), s.a.y + along * (s.b.y - s.a.y)}, {first, second}};
+    return SL_OK;
+}
+
+static sl_status hold(planer *p, uint32_t edge, uint32_t other) {
+    const size_t before = p->splits.count;
+    SL_TRY(lead_near(p, edge, other));
+    SL_TRY(lead_near(p, other, edge));
+    const working_edge *e = &p->edges.items[edge], *o = &p->edges.items[other];
+    if (p->splits.count != before || e->a == o->a || e->a == o->b || e->b == o->a || e->b == o->b)
+        return SL_OK;
+    const sl_point a = p->points.items[e->a], b = p->points.items[e->b];
+    const sl_point c = p->points.items[o->a], d = p->points.items[o->b];
+    if (sl_orient(a, b, c) * sl_orient(a, b, d) >= 0 ||
+        sl_orient(c, d, a) * sl_orient(c, d, b) >= 0)
+        return SL_OK;
+    return add_meeting(p, edge, other);
+}
+
+// --- halving
+
+static bool apart(const planer *p, const piece *s, const piece *t) {
+    const double slack = p->slack;
+    return fmax(s->p.x, s->q.x) + slack < fmin(t->p.x, t->q.x) ||
+           fmax(t->p.x, t->q.x) + slack < fmin(s->p.x, s->q.x) ||
+           fmax(s->p.y, s->q.y) + slack < fmin(t->p.y, t->q.y) ||
+           fmax(t->p.y, t->q.y) + slack < fmin(s->p.y, s->q.y);
+}
+
+static sl_status hold_all(planer *p, size_t first, size_t count) {
+    for (size_t i = first; i < first + count; i++) {
+        if (count > 256) SL_TRY(sl_check_cancelled(p->context));
+        for (size_t k = i + 1; k < first + count; k++) {
+            const piece *s = &p->pieces.items[i], *t = &p->pieces.items[k];
+            if ((s->edge < p->old && t->edge < p->old) || s->edge == t->edge || apart(p, s, t))
+                continue;
+            SL_TRY(hold(p, s->edge, t->edge));
+        }
+    }
+    return SL_OK;
+}
+
+/// What of a piece lies up to a place on an axis (or from there on), with some slack.
+static bool clip(const planer *p, piece *s, int axis, double at, bool above) {
+    const double from = axis ? s->p.y : s->p.x, to = axis ? s->q.y : s->q.x;
+    const double border = above ? at - p->slack : at + p->slack;
+    const bool from_in = above ? from >= border : from <= border;
+    const bool to_in = above ? to >= border : to <= border;
+    if (from_in && to_in) return true;
+    if (!from_in && !to_in) return false;
+    const double share = (border - from) / (to - from);
+    const sl_point cut = axis ? (sl_point){s->p.x + share * (s->q.x - s->p.x), border}
+                              : (sl_point){border, s->p.y + share * (s->q.y - s->p.y)};
+    *(from_in ? &s->q : &s->p) = cut;
+    return true;
+}
+
+/// Puts what of the pieces lies on either side behind all pieces: first below, then above.
+static sl_status part(planer *p, size_t first, size_t count, int axis, double at, size_t *below) {
+    const size_t start = p->pieces.count;
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->pieces, 2 * count));
+    for (int above = 0; above < 2; above++) {
+        for (size_t i = first; i < first + count; i++) {
+            piece s = p->pieces.items[i];
+            if (clip(p, &s, axis, at, above)) p->pieces.items[p->pieces.count++] = s;
+        }
+        if (!above) *below = p->pieces.count - start;
+    }
+    return SL_OK;
+}
+
+typedef struct spread {
+    double low, high, middle;
+} spread;
+
+static spread spread_of(const planer *p, size_t first, size_t count, int axis) {
+    spread s = {HUGE_VAL, -HUGE_VAL, 0};
+    for (size_t i = first; i < first + count; i++) {
+        const piece *at = &p->pieces.items[i];
+        const double from = axis ? at->p.y : at->p.x, to = axis ? at->q.y : at->q.x;
+        s.low = fmin(s.low, fmin(from, to));
+        s.high = fmax(s.high, fmax(from, to));
+        s.middle += (from + to) / 2 / (double)count;
+    }
+    return s;
+}
+
+static bool any_new(const planer *p, size_t first, size_t count) {
+    for (size_t i = first; i < first + count; i++)
+        if (p->pieces.items[i].edge >= p->old) return true;
+    return false;
+}
+
+static sl_status halve(planer *p, size_t first, size_t count, int depth) {
+    if (count < 2 || !any_new(p, first, count)) return SL_OK;
+    if (count <= FEW || depth == MOST_HALVES) return hold_all(p, first, count);
+    if (count > 4096) SL_TRY(sl_check_cancelled(p->context));
+    const spread x = spread_of(p, first, count, 0), y = spread_of(p, first, count, 1);
+    const int wider = y.high - y.low > x.high - x.low;
+    const size_t start = p->pieces.count;
+    for (int attempt = 0; attempt < 2; attempt++) {
+        const int axis = attempt ? !wider : wider;
+        size_t below = 0;
+        SL_TRY(part(p, first, count, axis, axis ? y.middle : x.middle, &below));
+        const size_t above = p->pieces.count - start - below;
+        if ((double)(below + above) <= MOST_CUTS * (double)count && below < count &&
+            above < count) {
+            SL_TRY(halve(p, start, below, depth + 1));
+            SL_TRY(halve(p, start + below, above, depth + 1));
+            p->pieces.count = start;
+            return SL_OK;
+        }
+        p->pieces.count = start;
+    }
+    return hold_all(p, first, count);
+}
+
+/// Finds what edges have to do with each other, but for what has been found before.
+static sl_status find_meetings(planer *p) {
+    p->pieces.count = p->splits.count = p->meetings.count = 0;
+    for (uint32_t i = 0; i < p->edges.count; i++) {
+        if (!is_whole(p, i)) continue;
+        SL_TRY(SL_ARRAY_ROOM(p->context, &p->pieces, 1));
+        const sl_point a = p->points.items[p->edges.items[i].a];
+        const sl_point b = p->points.items[p->edges.items[i].b];
+        p->pieces.items[p->pieces.count++] =
+            (piece){{a.x * p->scale, a.y * p->scale}, {b.x * p->scale, b.y * p->scale}, .edge = i};
+    }
+    SL_TRY(halve(p, 0, p->pieces.count, 0));
+    p->old = (uint32_t)p->edges.count;
+    return SL_OK;
+}
+
+// --- leading edges through points
+
+static int compare_meetings(const void *left, const void *right) {
+    const meeting *a = left, *b = right;
+    const int order = compare_points(a->at, b->at);
+    if (order) return order;
+    const int i = a->edges[0] == b->edges[0];
+    return (a->edges[i] > b->edges[i]) - (a->edges[i] < b->edges[i]);
+}
+
+/// The point where two edges cross: one within the tolerance, or the nearest representable one.
+static sl_status take_meeting(planer *p, const meeting *m, uint32_t *out) {
+    *out = p->weld > 0 ? find_point(p, m->at) : NONE;
+    if (*out != NONE) return SL_OK;
+    return take_point(p, sl_crossing(segment_of(p, m->edges[0]), segment_of(p, m->edges[1])), out);
+}
+
+/// Gives the crossings their points, by place.
+static sl_status take_meetings(planer *p) {
+    if (p->meetings.count)
+        qsort(p->meetings.items, p->meetings.count, sizeof *p->meetings.items, compare_meetings);
+    for (size_t i = 0; i < p->meetings.count; i++) {
+        const meeting m = p->meetings.items[i];
+        uint32_t point;
+        if (i % 1024 == 0) SL_TRY(sl_check_cancelled(p->context));
+        SL_TRY(take_meeting(p, &m, &point));
+        for (int k = 0; k < 2; k++) {
+            const working_edge *e = &p->edges.items[m.edges[k]];
+            if (e->a != point && e->b != point) SL_TRY(add_split(p, m.edges[k], point));
+        }
+    }
+    return SL_OK;
+}
+
+static int compare_splits(const void *left, const void *right) {
+    const split *a = left, *b = right;
+    if (a->edge != b->edge) return a->edge < b->edge ? -1 : 1;
+    return (a->point > b->point) - (a->point < b->point);
+}
+
+/// How far a point is on the way along an edge.
+static double progress(const planer *p, const working_edge *e, uint32_t point) {
+    const sl_point a = p->points.items[e->a], b = p->points.items[e->b];
+    const sl_point at = p->points.items[point];
+    const double dx = b.x - a.x, dy = b.y - a.y;
+    return fabs(dx) >= fabs(dy) ? (dx > 0 ? at.x - a.x : a.x - at.x)
+                                : (dy > 0 ? at.y - a.y : a.y - at.y);
+}
+
+/// Sorts the points of one edge along it: there are few.
+static void sort_along(const planer *p, split *splits, size_t count) {
+    const working_edge *e = &p->edges.items[splits->edge];
+    for (size_t i = 1; i < count; i++) {
+        const split moved = splits[i];
+        const double at = progress(p, e, moved.point);
+        size_t k = i;
+        for (; k && progress(p, e, splits[k - 1].point) > at; k--) splits[k] = splits[k - 1];
+        splits[k] = moved;
+    }
+}
+
+static sl_status split_edge(planer *p, const split *splits, size_t count) {
+    const uint32_t edge = splits->edge, last = p->edges.items[edge].b;
+    const size_t first = p->parts.count;
+    uint32_t from = p->edges.items[edge].a;
+    for (size_t i = 0; i <= count; i++) {
+        const uint32_t to = i < count ? splits[i].point : last;
+        if (to == from) continue;
+        sl_planar_link link;
+        SL_TRY(take_edge(p, from, to, &link));
+        SL_TRY(SL_ARRAY_ROOM(p->context, &p->parts, 1));
+        p->parts.items[p->parts.count++] = link;
+        from = to;
+    }
+    if (p->parts.count > UINT32_MAX) return sl_fail_memory(p->context);
+    p->edges.items[edge].first = (uint32_t)first;
+    p->edges.items[edge].count = (uint32_t)(p->parts.count - first);
+    return SL_OK;
+}
+
+static sl_status split_all(planer *p) {
+    if (p->splits.count)
+        qsort(p->splits.items, p->splits.count, sizeof *p->splits.items, compare_splits);
+    size_t kept = 0; // each once
+    for (size_t i = 0; i < p->splits.count; i++)
+        if (!kept || compare_splits(&p->splits.items[kept - 1], &p->splits.items[i]) != 0)
+            p->splits.items[kept++] = p->splits.items[i];
+    p->splits.count = kept;
+    for (size_t i = 0; i < kept;) {
+        size_t end = i;
+        while (end < kept && p->splits.items[end].edge == p->splits.items[i].edge) end++;
+        sort_along(p, &p->splits.items[i], end - i);
+        SL_TRY(split_edge(p, &p->splits.items[i], end - i));
+        i = end;
+    }
+    return SL_OK;
+}
+
+static sl_status fail_endless(const planer *p) {
+    sl_point at = {0, 0};
+    if (p->meetings.count)
+        at = p->meetings.items[0].at;
+    else if (p->splits.count)
+        at = p->points.items[p->splits.items[0].point];
+    return sl_fail(p->context, SL_UNSUPPORTED,
+                   "%s: walls near %.17g %.17g cross again each time that their crossing is "
+                   "rounded; weld ends with a larger tolerance than %g (--weld)",
+                   p->source, at.x, at.y, p->weld);
+}
+
+/// Without a tolerance each round may find more to do than the one before it.
+static sl_status settle(planer *p) {
+    size_t most = SIZE_MAX;
+    for (int round = 0; round < MOST_ROUNDS && p->points.count <= most; round++) {
+        SL_TRY(find_meetings(p));
+        if (!p->splits.count && !p->meetings.count) return SL_OK;
+        if (round == 0) most = MOST_GROWTH * (p->points.count + p->meetings.count);
+        SL_TRY(take_meetings(p));
+        if (!p->splits.count) break;
+        SL_TRY(split_all(p));
+    }
+    return fail_endless(p);
+}
+
+// --- from segments, to chains
+
+static int compare_for_qsort(const void *left, const void *right) {
+    return compare_points(*(const sl_point *)left, *(const sl_point *)right);
+}
+
+/// Takes all ends, in an order that the input has no part in.
+static sl_status take_ends(planer *p, const sl_segment *segments, size_t count) {
+    sl_point *ends = sl_alloc_array(p->context, 2 * count, sizeof *ends);
+    if (!ends) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++) {
+        ends[2 * i] = segments[i].a;
+        ends[2 * i + 1] = segments[i].b;
+    }
+    if (count) qsort(ends, 2 * count, sizeof *ends, compare_for_qsort);
+    sl_status status = SL_OK;
+    uint32_t point;
+    for (size_t i = 0; i < 2 * count && status == SL_OK; i++)
+        status = take_point(p, ends[i], &point);
+    sl_free(p->context, ends);
+    return status;
+}
+
+static int compare_edges(const void *left, const void *right) {
+    const sl_planar_edge *a = left, *b = right;
+    if (a->a != b->a) return a->a < b->a ? -1 : 1;
+    return (a->b > b->b) - (a->b < b->b);
+}
+
+/// Takes the edges between the segments' points, by place: the order of the input has no part in
+/// the numbers of points and edges, and so in nothing that comes of them.
+static sl_status take_edges(planer *p, const sl_planar_edge *ends, size_t count) {
+    sl_planar_edge *sorted = sl_alloc_array(p->context, count, sizeof *sorted);
+    if (!sorted) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t a = ends[i].a, b = ends[i].b;
+        sorted[i] = a < b ? ends[i] : (sl_planar_edge){b, a};
+    }
+    if (count) qsort(sorted, count, sizeof *sorted, compare_edges);
+    sl_status status = SL_OK;
+    sl_planar_link link;
+    for (size_t i = 0; i < count && status == SL_OK; i++)
+        if (sorted[i].a != sorted[i].b) status = take_edge(p, sorted[i].a, sorted[i].b, &link);
+    sl_free(p->context, sorted);
+    return status;
+}
+
+/// The links of the segments, one each at first; NONE for one of no length.
+static sl_status take_segments(planer *p, const sl_segment *segments, size_t count,
+                               sl_planar_link *roots, size_t *welded) {
+    sl_planar_edge *ends = sl_alloc_array(p->context, count, sizeof *ends);
+    if (!ends) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++) {
+        ends[i] = (sl_planar_edge){find_point(p, segments[i].a), find_point(p, segments[i].b)};
+        *welded += !same(p->points.items[ends[i].a], segments[i].a);
+        *welded += !same(p->points.items[ends[i].b], segments[i].b);
+    }
+    sl_status status = take_edges(p, ends, count);
+    for (size_t i = 0; i < count && status == SL_OK; i++) {
+        roots[i] = NONE;
+        if (ends[i].a != ends[i].b) status = take_edge(p, ends[i].a, ends[i].b, &roots[i]);
+    }
+    sl_free(p->context, ends);
+    return status;
+}
+
+/// The graph as it is handed over, and where its points and edges were while it was made.
+typedef struct writer {
+    planer *p;
+    const sl_segment *segments;
+    sl_planar *out;
+    uint32_t *number; ///< by point, then by edge
+    SL_ARRAY(sl_planar_link) links;
+    SL_ARRAY(sl_planar_link) waiting;
+} writer;
+
+static void turn_round(sl_planar_link *links, size_t count) {
+    for (size_t i = 0; i < count / 2; i++) {
+        const sl_planar_link link = links[i];
+        links[i] = links[count - 1 - i];
+        links[count - 1 - i] = link;
+    }
+}
+
+/// Adds the whole edges that a link has become.
+static sl_status add_links(writer *w, sl_planar_link link) {
+    w->waiting.count = 0;
+    SL_TRY(SL_ARRAY_ROOM(w->p->context, &w->waiting, 1));
+    w->waiting.items[w->waiting.count++] = link;
+    while (w->waiting.count) {
+        const sl_planar_link at = w->waiting.items[--w->waiting.count];
+        const working_edge *e = &w->p->edges.items[at / 2];
+        if (!e->count) {
+            SL_TRY(SL_ARRAY_ROOM(w->p->context, &w->links, 1));
+            w->links.items[w->links.count++] = at;
+            continue;
+        }
+        SL_TRY(SL_ARRAY_ROOM(w->p->context, &w->waiting, e->count));
+        sl_planar_link *top = w->waiting.items + w->waiting.count;
+        for (uint32_t i = 0; i < e->count; i++) top[i] = w->p->parts.items[e->first + i] ^ (at % 2);
+        // The first to be passed must be the last on the stack.
+        if (at % 2 == 0) turn_round(top, e->count);
+        w->waiting.count += e->count;
+    }
+    return SL_OK;
+}
+
+/// How far a point is from a segment whose ends are in order, with rounding added: no less than it
+/// is.
+static double distance_to(const sl_segment *s, sl_point v) {
+    const double dx = s->b.x - s->a.x, dy = s->b.y - s->a.y, length = hypot(dx, dy);
+    const double vx = v.x - s->a.x, vy = v.y - s->a.y, error = 0x1p-50 * (fabs(vx) + fabs(vy));
+    if (same(v, s->a) || same(v, s->b)) return 0;
+    if (length == 0) return distance(v, s->a) + error;
+    const double along = vx * (dx / length) + vy * (dy / length);
+    if (along <= 0) return distance(v, s->a) + error;
+    if (along >= length) return distance(v, s->b) + error;
+    if (sl_orient(s->a, s->b, v) == 0) return 0;
+    return fabs(dx / length * vy - dy / length * vx) + error;
+}
+
+static void measure(writer *w, sl_segment s, size_t from) {
+    if (compare_points(s.a, s.b) > 0) s = (sl_segment){s.b, s.a};
+    for (size_t i = from; i < w->links.count; i++) {
+        const working_edge *e = &w->p->edges.items[w->links.items[i] / 2];
+        const uint32_t ends[2] = {e->a, e->b};
+        for (int k = 0; k < 2; k++) {
+            const double move = distance_to(&s, w->p->points.items[ends[k]]);
+            if (move > w->out->largest_move) w->out->largest_move = move;
+        }
+    }
+}
+
+static sl_status write_chains(writer *w, const sl_planar_link *roots, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        w->out->first[i] = w->links.count;
+        if (roots[i] == NONE) continue;
+        SL_TRY(add_links(w, roots[i]));
+        measure(w, w->segments[i], w->out->first[i]);
+    }
+    w->out->first[count] = w->links.count;
+    return SL_OK;
+}
+
+typedef struct numbered {
+    sl_point at;
+    uint32_t was;
+} numbered;
+
+static int compare_numbered(const void *left, const void *right) {
+    const numbered *a = left, *b = right;
+    return compare_points(a->at, b->at);
+}
+
+/// Hands the points over that some edge ends in, sorted.
+static sl_status write_points(writer *w) {
+    planer *p = w->p;
+    numbered *used = sl_alloc_array(p->context, p->points.count, sizeof *used);
+    if (!used) return SL_NO_MEMORY;
+    size_t count = 0;
+    for (size_t i = 0; i < p->points.count; i++) w->number[i] = NONE;
+    for (size_t i = 0; i < p->edges.count; i++) {
+        const uint32_t ends[2] = {p->edges.items[i].a, p->edges.items[i].b};
+        for (int k = 0; k < 2 && is_whole(p, (uint32_t)i); k++) {
+            if (w->number[ends[k]] != NONE) continue;
+            w->number[ends[k]] = 0;
+            used[count++] = (numbered){p->points.items[ends[k]], ends[k]};
+        }
+    }
+    if (count) qsort(used, count, sizeof *used, compare_numbered);
+    w->out->points = sl_alloc_array(p->context, count, sizeof *w->out->points);
+    for (size_t i = 0; i < count && w->out->points; i++) {
+        w->out->points[i] = used[i].at;
+        w->number[used[i].was] = (uint32_t)i;
+    }
+    w->out->point_count = count;
+    sl_free(p->context, used);
+    return w->out->points ? SL_OK : SL_NO_MEMORY;
+}
+
+/// Hands the whole edges over, with the points' new numbers: of a and b the lower one first.
+static sl_status write_edges(writer *w) {
+    planer *p = w->p;
+    uint32_t *number = w->number + p->points.count;
+    size_t count = 0;
+    w->out->edges = sl_alloc_array(p->context, p->edges.count, sizeof *w->out->edges);
+    if (!w->out->edges) return SL_NO_MEMORY;
+    for (size_t i = 0; i < p->edges.count; i++) {
+        if (!is_whole(p, (uint32_t)i)) continue;
+        const uint32_t a = w->number[p->edges.items[i].a], b = w->number[p->edges.items[i].b];
+        number[i] = (uint32_t)(2 * count + (a > b));
+        w->out->edges[count++] = (sl_planar_edge){a < b ? a : b, a < b ? b : a};
+    }
+    w->out->edge_count = count;
+    for (size_t i = 0; i < w->links.count; i++)
+        w->links.items[i] = number[w->links.items[i] / 2] ^ (w->links.items[i] % 2);
+    w->out->links = w->links.items;
+    w->links.items = NULL;
+    return SL_OK;
+}
+
+static sl_status write(planer *p, const sl_segment *segments, const sl_planar_link *roots,
+                       size_t count, sl_planar *out) {
+    writer w = {.p = p, .segments = segments, .out = out};
+    w.number = sl_alloc_array(p->context, p->points.count + p->edges.count, sizeof *w.number);
+    out->first = sl_alloc_array(p->context, count + 1, sizeof *out->first);
+    sl_status status = w.number && out->first ? write_chains(&w, roots, count) : SL_NO_MEMORY;
+    if (status == SL_OK) status = write_points(&w);
+    if (status == SL_OK) status = write_edges(&w);
+    sl_free(p->context, w.number);
+    sl_free(p->context, w.links.items);
+    sl_free(p->context, w.waiting.items);
+    return status;
+}
+
+// --- all of it
+
+static double magnitude(const sl_segment *segments, size_t count) {
+    double most = 0;
+    for (size_t i = 0; i < count; i++) {
+        most = fmax(most, fmax(fabs(segments[i].a.x), fabs(segments[i].a.y)));
+        most = fmax(most, fmax(fabs(segments[i].b.x), fabs(segments[i].b.y)));
+    }
+    return most;
+}
+
+double sl_planar_tolerance(const sl_box *b) {
+    const double most =
+        fmax(fmax(fabs(b->min.x), fabs(b->min.y)), fmax(fabs(b->max.x), fabs(b->max.y)));
+    return 0x1p-46 * most;
+}
+
+static sl_status make(planer *p, const sl_segment *segments, size_t count, sl_planar *out) {
+    sl_planar_link *roots = sl_alloc_array(p->context, count, sizeof *roots);
+    if (!roots) return SL_NO_MEMORY;
+    sl_status status = take_ends(p, segments, count);
+    if (status == SL_OK) status = take_segments(p, segments, count, roots, &out->welded);
+    const size_t ends = p->points.count;
+    if (status == SL_OK) status = settle(p);
+    out->crossings = p->points.count - ends;
+    if (status == SL_OK) status = write(p, segments, roots, count, out);
+    sl_free(p->context, roots);
+    return status;
+}
+
+sl_status sl_planar_make(sl_context *context, const char *source, const sl_segment *segments,
+                         size_t count, double weld, sl_planar *out) {
+    int exponent = 0;
+    frexp(magnitude(segments, count), &exponent);
+    planer p = {.context = context, .source = source, .weld = weld, .scale = ldexp(1, -exponent)};
+    // What is far below rounding is none; and squares have whole numbers, as doubles hold them.
+    if (!(weld * p.scale >= 0x1p-50)) p.weld = 0;
+    p.side = 64 * p.weld;
+    p.slack = 4 * p.weld * p.scale + 0x1p-46;
+    sl_planar made = {0};
+    const sl_status status = make(&p, segments, count, &made);
+    sl_free(context, p.points.items);
+    sl_free(context, p.edges.items);
+    sl_free(context, p.parts.items);
+    sl_free(context, p.point_table);
+    sl_free(context, p.edge_table);
+    sl_free(context, p.next_near.items);
+    sl_free(context, p.pieces.items);
+    sl_free(context, p.splits.items);
+    sl_free(context, p.meetings.items);
+    if (status == SL_OK)
+        *out = made;
+    else
+        sl_planar_destroy(context, &made);
+    return status;
+}
+
+void sl_planar_destroy(sl_context *context, sl_planar *planar) {
+    sl_free(context, planar->points);
+    sl_free(context, planar->edges);
+    sl_free(context, planar->links);
+    sl_free(context, planar->first);
+    *planar = (sl_planar){0};
+}

@@ -1,0 +1,405 @@
+/// Cells of a mesh: triangles, merged where they make up a convex polygon.
+///
+/// The sides of all triangles that are no edge of the graph are taken out, the longest first, where
+/// that leaves both of their ends convex (Hertel & Mehlhorn 1983, Fast triangulation of simple
+/// polygons). One round is enough: taking a side out only widens the corners at its ends, so one
+/// that had to stay has to stay for good.
+#include "space/mesh.h"
+
+#include "geometry/orient.h"
+#include "space/cell_grid.h"
+#include "space/kd_tree.h"
+#include "space/seams.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define NONE UINT32_MAX
+
+typedef struct candidate {
+    double length;
+    uint32_t half;
+} candidate;
+
+/// What an edge of the graph is to the space.
+typedef struct graph_edge {
+    uint32_t wall;       ///< 1 + its number, 0 for none
+    uint32_t first_seam; ///< 1 + its place in seam_links, 0 for none
+} graph_edge;
+
+/// That an edge is part of a seam, and the next such link of that edge.
+typedef struct seam_link {
+    uint32_t seam, next;
+    bool reversed; ///< the edge runs from b to a along the seam
+} seam_link;
+
+typedef struct merger {
+    sl_context *context;
+    sl_triangulation *t;
+    const sl_planar *graph;
+    sl_space *space;
+    uint32_t *previous;   ///< by half-edge
+    uint32_t *cell;       ///< by half-edge; NONE for one that is gone or outside
+    uint32_t *exit;       ///< by half-edge of a portal: its place in space.exits
+    sl_mesh_watch *watch; ///< NULL for none
+    void *user;
+    graph_edge *edges;
+    SL_ARRAY(seam_link) seam_links;
+} merger;
+
+static sl_point start_of(const merger *m, uint32_t half) {
+    return m->t->points.items[m->t->halves.items[half].from];
+}
+
+static sl_point end_of(const merger *m, uint32_t half) {
+    return start_of(m, half ^ 1);
+}
+
+static uint32_t next(const merger *m, uint32_t half) {
+    return m->t->halves.items[half].next;
+}
+
+// --- merging
+
+/// Whether the way from a through p to b goes straight on or to the left, and not back.
+static bool is_convex(sl_point a, sl_point p, sl_point b) {
+    const int turn = sl_orient(a, p, b);
+    if (turn) return turn > 0;
+    return (a.x < p.x) == (p.x < b.x) && (a.x > p.x) == (p.x > b.x) && (a.y < p.y) == (p.y < b.y) &&
+           (a.y > p.y) == (p.y > b.y);
+}
+
+/// Whether the corner where a half-edge starts is convex once its edge is gone.
+static bool leaves_convex(const merger *m, uint32_t half) {
+    return is_convex(start_of(m, m->previous[half]), start_of(m, half),
+                     end_of(m, next(m, half ^ 1)));
+}
+
+static void join(merger *m, uint32_t before, uint32_t after) {
+    m->t->halves.items[before].next = after;
+    m->previous[after] = before;
+}
+
+static int compare_candidates(const void *left, const void *right) {
+    const candidate *a = left, *b = right;
+    if (a->length != b->length) return a->length > b->length ? -1 : 1;
+    return (a->half > b->half) - (a->half < b->half);
+}
+
+static sl_status list_candidates(merger *m, candidate **out, size_t *count) {
+    const size_t halves = m->t->halves.count;
+    candidate *list = sl_alloc_array(m->context, halves / 2, sizeof *list);
+    if (!list) return SL_NO_MEMORY;
+    *count = 0;
+    for (uint32_t half = 0; half < halves; half += 2) {
+        if (m->t->labels[half / 2] || sl_half_is_outside(m->t, half) ||
+            sl_half_is_outside(m->t, half + 1))
+            continue;
+        const sl_point a = start_of(m, half), b = end_of(m, half);
+        list[(*count)++] = (candidate){hypot(b.x - a.x, b.y - a.y), half};
+    }
+    if (*count) qsort(list, *count, sizeof *list, compare_candidates);
+    *out = list;
+    return SL_OK;
+}
+
+/// Takes a side out where both of its ends stay convex.
+static sl_status try_side(merger *m, uint32_t half) {
+    const uint32_t twin = half ^ 1;
+    const uint32_t stuck = !leaves_convex(m, half) ? half : leaves_convex(m, twin) ? NONE : twin;
+    if (m->watch) SL_TRY(m->watch(m->user, half, stuck));
+    if (stuck != NONE) return SL_OK;
+    join(m, m->previous[half], next(m, twin));
+    join(m, m->previous[twin], next(m, half));
+    m->cell[half] = m->cell[twin] = NONE;
+    return SL_OK;
+}
+
+static sl_status merge(merger *m) {
+    const size_t halves = m->t->halves.count;
+    candidate *list = NULL;
+    size_t count;
+    m->previous = sl_alloc_array(m->context, halves, sizeof *m->previous);
+    m->cell = sl_alloc_array(m->context, halves, sizeof *m->cell);
+    if (!m->previous || !m->cell) return SL_NO_MEMORY;
+    for (uint32_t half = 0; half < halves; half++)
+        if (!sl_half_is_outside(m->t, half)) m->previous[next(m, half)] = half;
+    SL_TRY(list_candidates(m, &list, &count));
+    sl_status status = SL_OK;
+    for (size_t i = 0; i < count && status == SL_OK; i++) status = try_side(m, list[i].half);
+    sl_free(m->context, list);
+    return status;
+}
+
+sl_status sl_mesh_merge(sl_context *context, sl_triangulation *triangles, sl_mesh_watch *watch,
+                        void *user, uint32_t **cell) {
+    merger m = {.context = context, .t = triangles, .watch = watch, .user = user};
+    const sl_status status = merge(&m);
+    sl_free(context, m.previous);
+    if (status == SL_OK && cell)
+        *cell = m.cell;
+    else
+        sl_free(context, m.cell);
+    return status;
+}
+
+// --- cells
+
+static bool is_gone(const merger *m, uint32_t half) {
+    return m->cell[half] == NONE;
+}
+
+static bool is_before(sl_point a, sl_point b) {
+    return a.x < b.x || (a.x == b.x && a.y < b.y);
+}
+
+/// Numbers the cells by their first half-edges, which follow the order of points, and gives them
+/// their first corner: the leftmost, of those the lowest.
+static sl_status number_cells(merger *m, uint32_t **firsts) {
+    const size_t halves = m->t->halves.count;
+    uint32_t cells = 0;
+    uint64_t corners = 0;
+    *firsts = sl_alloc_array(m->context, halves / 3 + 1, sizeof **firsts);
+    if (!*firsts) return SL_NO_MEMORY;
+    for (uint32_t half = 0; half < halves; half++) {
+        if (sl_half_is_outside(m->t, half)) m->cell[half] = NONE;
+        if (m->cell[half]) continue; // gone, or 1 + its cell
+        uint32_t first = half, at = half;
+        do {
+            m->cell[at] = cells + 1;
+            corners++;
+            if (is_before(start_of(m, at), start_of(m, first))) first = at;
+            at = next(m, at);
+        } while (at != half);
+        (*firsts)[cells++] = first;
+    }
+    for (uint32_t half = 0; half < halves; half++)
+        if (!is_gone(m, half)) m->cell[half]--;
+    if (corners > UINT32_MAX / 4) return sl_fail_memory(m->context);
+    m->space->cell_count = cells;
+    m->space->vertex_count = (uint32_t)corners;
+    return SL_OK;
+}
+
+/// What is beyond a half-edge's side, as sl_space.beyond has it.
+static uint32_t beyond_of(const merger *m, uint32_t half) {
+    const uint32_t label = m->t->labels[half / 2];
+    const uint32_t wall = label ? m->edges[label - 1].wall : 0;
+    if (wall) {
+        const sl_wall *w = &m->space->walls[wall - 1];
+        const sl_point a = start_of(m, half);
+        return (wall - 1) | (w->a.x == a.x && w->a.y == a.y ? 0 : SL_BEYOND_RIGHT);
+    }
+    return sl_half_is_outside(m->t, half ^ 1) ? SL_BEYOND_BORDER : SL_BEYOND_EXIT;
+}
+
+static sl_status write_cells(merger *m, const uint32_t *firsts) {
+    sl_space *s = m->space;
+    s->cells = sl_alloc_array(m->context, s->cell_count, sizeof *s->cells);
+    s->vertices = sl_alloc_array(m->context, s->vertex_count, sizeof *s->vertices);
+    s->beyond = sl_alloc_array(m->context, s->vertex_count, sizeof *s->beyond);
+    m->exit = sl_alloc_array(m->context, m->t->halves.count, sizeof *m->exit);
+    if (!s->cells || !s->vertices || !s->beyond || !m->exit) return SL_NO_MEMORY;
+    uint32_t vertices = 0, exits = 0;
+    for (uint32_t i = 0; i < s->cell_count; i++) {
+        s->cells[i] = (sl_cell){.first_vertex = vertices, .first_exit = exits};
+        uint32_t half = firsts[i];
+        do {
+            s->vertices[vertices] = start_of(m, half);
+            s->beyond[vertices] = beyond_of(m, half);
+            if (s->beyond[vertices++] == SL_BEYOND_EXIT) m->exit[half] = exits++;
+            half = next(m, half);
+        } while (half != firsts[i]);
+        s->cells[i].vertex_count = vertices - s->cells[i].first_vertex;
+        s->cells[i].exit_count = exits - s->cells[i].first_exit;
+    }
+    s->exit_count = exits;
+    s->portal_count = exits / 2;
+    return SL_OK;
+}
+
+// --- portals
+
+static int compare_joints(const void *left, const void *right) {
+    const int order = sl_compare_portals(left, right);
+    if (order) return order;
+    const sl_mesh_joint *a = left, *b = right;
+    return (a->half > b->half) - (a->half < b->half);
+}
+
+sl_status sl_mesh_join(sl_context *context, sl_mesh_joint *joints, size_t count, sl_space *s) {
+    s->portal_count = (uint32_t)count;
+    s->exit_count = 2 * s->portal_count;
+    s->portals = sl_alloc_array(context, count, sizeof *s->portals);
+    s->exits = sl_alloc_array(context, 2 * count, sizeof *s->exits);
+    if (!s->portals || !s->exits) return SL_NO_MEMORY;
+    if (count) qsort(joints, count, sizeof *joints, compare_joints);
+    for (uint32_t i = 0; i < count; i++) {
+        const sl_portal p = s->portals[i] = joints[i].portal;
+        s->exits[joints[i].exits[0]] = (sl_exit){i, p.cell[1], p.left, p.right};
+        s->exits[joints[i].exits[1]] = (sl_exit){i, p.cell[0], p.right, p.left};
+    }
+    return SL_OK;
+}
+
+static sl_status add_seams(merger *m, const sl_mesh_joint *at, uint32_t portal, size_t *room) {
+    sl_space *s = m->space;
+    const uint32_t label = m->t->labels[at->half / 2];
+    if (!label) return SL_OK;
+    const sl_planar_edge *e = &m->graph->edges[label - 1];
+    // The edge runs from the portal's right to its left where it starts as its half-edge does.
+    const bool along = m->t->halves.items[at->half].from != e->a;
+    for (uint32_t i = m->edges[label - 1].first_seam; i; i = m->seam_links.items[i - 1].next) {
+        const seam_link *l = &m->seam_links.items[i - 1];
+        if (s->seam_portal_count == UINT32_MAX) return sl_fail_memory(m->context);
+        SL_TRY(sl_reserve(m->context, &s->seam_portals, room, (size_t)s->seam_portal_count + 1,
+                          sizeof *s->seam_portals));
+        s->seam_portals[s->seam_portal_count++] =
+            (sl_seam_portal){portal, l->seam, along != l->reversed};
+    }
+    return SL_OK;
+}
+
+static sl_status write_portals(merger *m) {
+    sl_space *s = m->space;
+    sl_mesh_joint *joints = sl_alloc_array(m->context, s->portal_count, sizeof *joints);
+    size_t count = 0, room = 0;
+    for (uint32_t half = 0; joints && half < m->t->halves.count; half++) {
+        const uint32_t twin = half ^ 1;
+        if (is_gone(m, half) || is_gone(m, twin) || m->cell[half] > m->cell[twin] ||
+            beyond_of(m, half) != SL_BEYOND_EXIT)
+            continue;
+        joints[count++] = (sl_mesh_joint){{.cell = {m->cell[half], m->cell[twin]},
+                                           .left = end_of(m, half),
+                                           .right = start_of(m, half)},
+                                          {m->exit[half], m->exit[twin]},
+                                          half};
+    }
+    sl_status status = joints ? sl_mesh_join(m->context, joints, count, s) : SL_NO_MEMORY;
+    for (uint32_t i = 0; i < count && status == SL_OK; i++)
+        status = add_seams(m, &joints[i], i, &room);
+    sl_free(m->context, joints);
+    return status;
+}
+
+// --- the graph's edges
+
+/// Walls are numbered as their segments come, so that those of a clean map keep their numbers.
+static sl_status take_walls(merger *m, const sl_map *map, const sl_mesh_lines *lines) {
+    sl_space *s = m->space;
+    const sl_planar *g = m->graph;
+    m->edges = sl_alloc_array(m->context, g->edge_count, sizeof *m->edges);
+    s->walls = sl_alloc_array(m->context, g->edge_count, sizeof *s->walls);
+    if (!m->edges || !s->walls) return SL_NO_MEMORY;
+    for (size_t i = 0; i < lines->wall_count; i++)
+        for (size_t k = g->first[i]; k < g->first[i + 1]; k++) {
+            graph_edge *e = &m->edges[g->links[k] / 2];
+            if (e->wall) continue;
+            const sl_segment at = sl_planar_at(g, g->links[k]);
+            s->walls[s->wall_count++] = (sl_wall){at.a, at.b, map->walls[i].line};
+            e->wall = s->wall_count;
+        }
+    return SL_OK;
+}
+
+/// Replaces the seams by their parts, one an edge, in order.
+static sl_status take_seams(merger *m, const sl_mesh_lines *lines) {
+    const sl_planar *g = m->graph;
+    const size_t *first = g->first + lines->wall_count;
+    const size_t count = first[lines->seam_count] - first[0];
+    if (!lines->seam_count) return SL_OK;
+    if (count > INT32_MAX) return sl_fail_memory(m->context);
+    sl_seam *parts = sl_alloc_array(m->context, count, sizeof *parts);
+    if (!parts) return SL_NO_MEMORY;
+    uint32_t next_part = 0;
+    for (size_t i = 0; i < lines->seam_count; i++)
+        for (size_t k = first[i]; k < first[i + 1]; k++) {
+            parts[next_part] = m->space->seams[i];
+            parts[next_part++].at = sl_planar_at(g, g->links[k]);
+        }
+    sl_free(m->context, m->space->seams);
+    m->space->seams = parts;
+    m->space->seam_count = next_part;
+    SL_TRY(SL_ARRAY_ROOM(m->context, &m->seam_links, count));
+    // From the last one on, so that each edge has its seams in their order.
+    for (size_t k = first[lines->seam_count]; k-- > first[0];) {
+        graph_edge *e = &m->edges[g->links[k] / 2];
+        m->seam_links.items[m->seam_links.count++] =
+            (seam_link){(uint32_t)(k - first[0]), e->first_seam, g->links[k] % 2};
+        e->first_seam = (uint32_t)m->seam_links.count;
+    }
+    return SL_OK;
+}
+
+// --- all of it
+
+static sl_status make(merger *m, const sl_map *map, const sl_mesh_lines *lines) {
+    uint32_t *firsts = NULL;
+    SL_TRY(take_walls(m, map, lines));
+    SL_TRY(take_seams(m, lines));
+    SL_TRY(merge(m));
+    sl_status status = number_cells(m, &firsts);
+    if (status == SL_OK) status = write_cells(m, firsts);
+    sl_free(m->context, firsts);
+    SL_TRY(status);
+    SL_TRY(write_portals(m));
+    SL_TRY(sl_cell_grid_make(m->context, m->space));
+    return sl_mark_inside(m->context, map, NULL, m->space);
+}
+
+sl_status sl_mesh_make(sl_context *context, const sl_map *map, const sl_mesh_lines *lines,
+                       const sl_planar *graph, sl_triangulation *triangles, sl_space *space) {
+    merger m = {.context = context, .t = triangles, .graph = graph, .space = space};
+    const sl_status status = make(&m, map, lines);
+    sl_free(context, m.previous);
+    sl_free(context, m.cell);
+    sl_free(context, m.exit);
+    sl_free(context, m.edges);
+    sl_free(context, m.seam_links.items);
+    return status;
+}
+
+sl_status sl_mesh_add_line(sl_context *context, sl_mesh_lines *lines, sl_segment at) {
+    SL_TRY(SL_ARRAY_ROOM(context, &lines->items, 1));
+    lines->items.items[lines->items.count++] = at;
+    return SL_OK;
+}
+
+sl_status sl_mesh_lines_of_map(sl_context *context, const sl_map *map, sl_mesh_lines *lines,
+                               sl_space *space) {
+    SL_TRY(sl_check_has_walls(context, map));
+    if (map->wall_count > INT32_MAX / 2) return sl_fail_memory(context);
+    space->bounds = sl_padded(sl_map_bounds(map));
+    SL_TRY(sl_seams_of_map(context, map, false, space));
+    for (size_t i = 0; i < map->wall_count; i++)
+        SL_TRY(sl_mesh_add_line(context, lines, (sl_segment){map->walls[i].a, map->walls[i].b}));
+    for (uint32_t i = 0; i < space->seam_count; i++)
+        SL_TRY(sl_mesh_add_line(context, lines, space->seams[i].at));
+    lines->wall_count = map->wall_count;
+    lines->seam_count = space->seam_count;
+    return SL_OK;
+}
+
+sl_status sl_subdivide_mesh(sl_context *context, const sl_map *map, sl_space *out) {
+    sl_space space = {0};
+    sl_mesh_lines lines = {0};
+    sl_planar graph = {0};
+    sl_triangulation triangles = {0};
+    sl_status status = sl_mesh_lines_of_map(context, map, &lines, &space);
+    if (status == SL_OK)
+        status = sl_planar_make(context, map->source ? map->source : "the map", lines.items.items,
+                                lines.items.count, 0, &graph);
+    if (status == SL_OK) status = sl_triangulate(context, &graph, &space.bounds, &triangles);
+    if (status == SL_OK) status = sl_mesh_make(context, map, &lines, &graph, &triangles, &space);
+    sl_triangulation_destroy(context, &triangles);
+    sl_planar_destroy(context, &graph);
+    sl_free(context, lines.items.items);
+    if (status != SL_OK) {
+        sl_space_destroy(context, &space);
+        return status;
+    }
+    sl_report(context, "subdivide", "cells", space.cell_count, space.cell_count);
+    *out = space;
+    return SL_OK;
+}

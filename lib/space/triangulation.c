@@ -1,0 +1,453 @@
+/// Points are put in one by one, in the order of a curve that fills the plane, so that each is near
+/// to the one before it. The triangle that holds the point is found by walking, and cut into three:
+///
+///          c                  c
+///         / \                /|\   .
+///        /   \     ->       / p \        then edges are turned until every circle
+///       /  p  \            / / \ \       through three corners is empty (Lawson 1977)
+///      a-------b          a-------b
+///
+/// Then each edge of the graph that is not there yet is put in: the edges that it crosses are
+/// turned, where the two triangles beside them make a convex quadrilateral, until none crosses it
+/// (Sloan 1993).
+///
+/// Only the signs of sl_orient decide what is a triangle, and they are exact. Whether a point lies
+/// in a circle is told within rounding: where that leaves doubt nothing is turned, so that the
+/// turning ends, and all that may suffer is the shape of the triangles.
+#include "space/triangulation.h"
+
+#include "base/random.h"
+#include "geometry/orient.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define NONE UINT32_MAX
+
+typedef SL_ARRAY(uint32_t) half_list;
+
+typedef struct maker {
+    sl_context *context;
+    sl_triangulation *t;
+    double scale;  ///< distances in the box, times scale, are at most 1
+    uint32_t last; ///< a half-edge at the point put in last
+    sl_random random;
+    half_list doubtful; ///< half-edges that may have to be turned
+    half_list crossing, turned;
+} maker;
+
+static sl_point at(const maker *m, uint32_t point) {
+    return m->t->points.items[point];
+}
+
+static uint32_t from(const maker *m, uint32_t half) {
+    return m->t->halves.items[half].from;
+}
+
+static uint32_t to(const maker *m, uint32_t half) {
+    return m->t->halves.items[half ^ 1].from;
+}
+
+static uint32_t next(const maker *m, uint32_t half) {
+    return m->t->halves.items[half].next;
+}
+
+static void link(maker *m, uint32_t a, uint32_t b, uint32_t c) {
+    m->t->halves.items[a].next = b;
+    m->t->halves.items[b].next = c;
+    m->t->halves.items[c].next = a;
+}
+
+static int side(const maker *m, uint32_t a, uint32_t b, uint32_t c) {
+    return sl_orient(at(m, a), at(m, b), at(m, c));
+}
+
+/// A new edge between two points; its half-edge from a to b.
+static sl_status add_edge(maker *m, uint32_t a, uint32_t b, uint32_t *out) {
+    sl_triangulation *t = m->t;
+    if (t->halves.count >= INT32_MAX) return sl_fail_memory(m->context);
+    SL_TRY(SL_ARRAY_ROOM(m->context, &t->halves, 2));
+    SL_TRY(sl_reserve(m->context, &t->labels, &t->label_room, t->halves.count / 2 + 1,
+                      sizeof *t->labels));
+    *out = (uint32_t)t->halves.count;
+    t->labels[*out / 2] = 0;
+    t->halves.items[t->halves.count++] = (sl_half_edge){a, SL_OUTSIDE};
+    t->halves.items[t->halves.count++] = (sl_half_edge){b, SL_OUTSIDE};
+    return SL_OK;
+}
+
+// --- turning edges
+
+/// Whether the corner beyond an edge lies within the circle around the triangle at its left, by
+/// more than rounding (the bound of Shewchuk 1997, section 4.3).
+static bool in_circle(const maker *m, sl_point a, sl_point b, sl_point c, sl_point d) {
+    const double s = m->scale;
+    const double ax = (a.x - d.x) * s, ay = (a.y - d.y) * s;
+    const double bx = (b.x - d.x) * s, by = (b.y - d.y) * s;
+    const double cx = (c.x - d.x) * s, cy = (c.y - d.y) * s;
+    const double bc = bx * cy, cb = cx * by, ca = cx * ay, ac = ax * cy, ab = ax * by, ba = bx * ay;
+    const double a2 = ax * ax + ay * ay, b2 = bx * bx + by * by, c2 = cx * cx + cy * cy;
+    const double determinant = a2 * (bc - cb) + b2 * (ca - ac) + c2 * (ab - ba);
+    const double sum =
+        (fabs(bc) + fabs(cb)) * a2 + (fabs(ca) + fabs(ac)) * b2 + (fabs(ab) + fabs(ba)) * c2;
+    return determinant > 12 * 0x1p-53 * sum + 0x1p-1000;
+}
+
+/// Whether the two triangles at an edge make a strictly convex quadrilateral.
+static bool can_turn(const maker *m, uint32_t half) {
+    const uint32_t x = to(m, next(m, half)), y = to(m, next(m, half ^ 1));
+    return side(m, y, x, from(m, half)) > 0 && side(m, x, y, to(m, half)) > 0;
+}
+
+/// Turns an edge to the other two corners of the quadrilateral.
+static void turn(maker *m, uint32_t half) {
+    sl_half_edge *halves = m->t->halves.items;
+    const uint32_t twin = half ^ 1;
+    const uint32_t a = next(m, half), b = next(m, a), c = next(m, twin), d = next(m, c);
+    m->t->out[halves[half].from] = c;
+    m->t->out[halves[twin].from] = a;
+    halves[half].from = halves[d].from;
+    halves[twin].from = halves[b].from;
+    link(m, half, b, c);
+    link(m, twin, d, a);
+}
+
+static bool should_turn(const maker *m, uint32_t half) {
+    if (m->t->labels[half / 2] || sl_half_is_outside(m->t, half) ||
+        sl_half_is_outside(m->t, half ^ 1))
+        return false;
+    const uint32_t x = to(m, next(m, half)), y = to(m, next(m, half ^ 1));
+    return in_circle(m, at(m, from(m, half)), at(m, to(m, half)), at(m, x), at(m, y)) &&
+           can_turn(m, half);
+}
+
+static sl_status doubt(maker *m, uint32_t half) {
+    SL_TRY(SL_ARRAY_ROOM(m->context, &m->doubtful, 1));
+    m->doubtful.items[m->doubtful.count++] = half;
+    return SL_OK;
+}
+
+/// Turns edges until none of those that are doubtful should be.
+static sl_status settle(maker *m) {
+    while (m->doubtful.count) {
+        const uint32_t half = m->doubtful.items[--m->doubtful.count];
+        if (!should_turn(m, half)) continue;
+        const uint32_t sides[4] = {next(m, half), next(m, next(m, half)), next(m, half ^ 1),
+                                   next(m, next(m, half ^ 1))};
+        turn(m, half);
+        for (int i = 0; i < 4; i++) SL_TRY(doubt(m, sides[i]));
+    }
+    return SL_OK;
+}
+
+// --- putting points in
+
+/// The half-edge of the triangle that holds a point, which is one of its own where the point is on
+/// an edge; *on tells so. Steps begin at an edge by chance, so that no walk goes round for ever.
+static uint32_t walk_to(maker *m, sl_point p, bool *on) {
+    uint32_t half = m->last;
+    for (;;) {
+        const uint64_t chance = sl_random_next(&m->random) % 3;
+        for (uint64_t i = 0; i < chance; i++) half = next(m, half);
+        uint32_t zero = NONE;
+        int i = 0;
+        for (; i < 3; i++, half = next(m, half)) {
+            const int sign = sl_orient(at(m, from(m, half)), at(m, to(m, half)), p);
+            if (sign < 0) break;
+            if (sign == 0) zero = half;
+        }
+        if (i == 3) {
+            *on = zero != NONE;
+            return *on ? zero : half;
+        }
+        half ^= 1;
+    }
+}
+
+static sl_status split_triangle(maker *m, uint32_t half, uint32_t p) {
+    const uint32_t h[3] = {half, next(m, half), next(m, next(m, half))};
+    uint32_t in[3];
+    for (int i = 0; i < 3; i++) SL_TRY(add_edge(m, from(m, h[i]), p, &in[i]));
+    for (int i = 0; i < 3; i++) {
+        link(m, h[i], in[(i + 1) % 3], in[i] ^ 1);
+        SL_TRY(doubt(m, h[i]));
+    }
+    m->t->out[p] = in[0] ^ 1;
+    return settle(m);
+}
+
+/// Cuts the triangles beside an edge, whose other half is outside or not.
+static sl_status split_edge(maker *m, uint32_t half, uint32_t p) {
+    if (sl_half_is_outside(m->t, half)) half ^= 1;
+    const uint32_t twin = half ^ 1, b = to(m, half);
+    const uint32_t h1 = next(m, half), h2 = next(m, h1);
+    const bool outer = sl_half_is_outside(m->t, twin);
+    uint32_t rest, inward, across;
+    SL_TRY(add_edge(m, p, b, &rest));
+    SL_TRY(add_edge(m, p, from(m, h2), &inward));
+    m->t->halves.items[twin].from = p;
+    link(m, half, inward, h2);
+    link(m, rest, h1, inward ^ 1);
+    m->t->out[b] = h1;
+    m->t->out[p] = rest;
+    SL_TRY(doubt(m, h1));
+    SL_TRY(doubt(m, h2));
+    if (!outer) {
+        const uint32_t t1 = next(m, twin), t2 = next(m, t1);
+        SL_TRY(add_edge(m, p, from(m, t2), &across));
+        link(m, twin, t1, across ^ 1);
+        link(m, rest ^ 1, across, t2);
+        SL_TRY(doubt(m, t1));
+        SL_TRY(doubt(m, t2));
+    }
+    return settle(m);
+}
+
+static sl_status put_point(maker *m, uint32_t p) {
+    bool on = false;
+    const uint32_t half = walk_to(m, at(m, p), &on);
+    SL_TRY(on ? split_edge(m, half, p) : split_triangle(m, half, p));
+    m->last = m->t->out[p];
+    return SL_OK;
+}
+
+// --- the box
+
+/// The number of a corner: a point of the graph where there is one.
+static sl_status take_corner(maker *m, const sl_planar *graph, sl_point corner, uint32_t *out) {
+    size_t low = 0, high = graph->point_count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        const sl_point p = graph->points[middle];
+        if (p.x < corner.x || (p.x == corner.x && p.y < corner.y))
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    if (low < graph->point_count && graph->points[low].x == corner.x &&
+        graph->points[low].y == corner.y) {
+        *out = (uint32_t)low;
+        return SL_OK;
+    }
+    SL_TRY(SL_ARRAY_ROOM(m->context, &m->t->points, 1));
+    *out = (uint32_t)m->t->points.count;
+    m->t->points.items[m->t->points.count++] = corner;
+    return SL_OK;
+}
+
+static sl_status start(maker *m, const sl_planar *graph, const sl_box *box) {
+    sl_triangulation *t = m->t;
+    const sl_point corners[4] = {
+        box->min, {box->max.x, box->min.y}, box->max, {box->min.x, box->max.y}};
+    uint32_t c[4], h[4], diagonal;
+    SL_TRY(SL_ARRAY_ROOM(m->context, &t->points, graph->point_count + 4));
+    for (size_t i = 0; i < graph->point_count; i++) t->points.items[i] = graph->points[i];
+    t->points.count = graph->point_count;
+    for (int i = 0; i < 4; i++) SL_TRY(take_corner(m, graph, corners[i], &c[i]));
+    t->out = sl_alloc_array(m->context, t->points.count, sizeof *t->out);
+    if (!t->out) return SL_NO_MEMORY;
+    for (size_t i = 0; i < t->points.count; i++) t->out[i] = NONE;
+    for (int i = 0; i < 4; i++) {
+        SL_TRY(add_edge(m, c[i], c[(i + 1) % 4], &h[i]));
+        t->out[c[i]] = h[i];
+    }
+    SL_TRY(add_edge(m, c[0], c[2], &diagonal));
+    link(m, h[0], h[1], diagonal ^ 1);
+    link(m, diagonal, h[2], h[3]);
+    m->last = diagonal;
+    return SL_OK;
+}
+
+// --- the order of points
+
+typedef struct place {
+    uint64_t key;
+    uint32_t point;
+} place;
+
+static int compare_places(const void *left, const void *right) {
+    const place *a = left, *b = right;
+    if (a->key != b->key) return a->key < b->key ? -1 : 1;
+    return (a->point > b->point) - (a->point < b->point);
+}
+
+/// How far along Hilbert's curve a square of a grid of 2^16 x 2^16 is.
+static uint64_t along_curve(uint32_t x, uint32_t y) {
+    uint64_t key = 0;
+    for (uint32_t s = 1u << 15; s; s >>= 1) {
+        const uint32_t right = (x & s) != 0, upper = (y & s) != 0;
+        key = key * 4 + ((3 * right) ^ upper);
+        if (upper) continue;
+        if (right) {
+            x = (s - 1) - (x & (s - 1));
+            y = (s - 1) - (y & (s - 1));
+        }
+        const uint32_t swap = x;
+        x = y;
+        y = swap;
+    }
+    return key;
+}
+
+static uint32_t square_of(double value, double low, double high) {
+    const double share = (value - low) / (high - low);
+    return share < 1 ? (uint32_t)(share * 65536) : 65535;
+}
+
+static sl_status put_points(maker *m, const sl_box *box) {
+    sl_triangulation *t = m->t;
+    place *places = sl_alloc_array(m->context, t->points.count, sizeof *places);
+    if (!places) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < t->points.count; i++) {
+        const sl_point p = t->points.items[i];
+        places[i] = (place){along_curve(square_of(p.x, box->min.x, box->max.x),
+                                        square_of(p.y, box->min.y, box->max.y)),
+                            i};
+    }
+    qsort(places, t->points.count, sizeof *places, compare_places);
+    sl_status status = SL_OK;
+    for (size_t i = 0; i < t->points.count && status == SL_OK; i++) {
+        if (i % 4096 == 0) status = sl_check_cancelled(m->context);
+        if (status == SL_OK && t->out[places[i].point] == NONE)
+            status = put_point(m, places[i].point);
+    }
+    sl_free(m->context, places);
+    return status;
+}
+
+// --- putting edges in
+
+static sl_status fail_at(const maker *m, uint32_t a, uint32_t b) {
+    return sl_fail(m->context, SL_BAD_INPUT,
+                   "the segment from %.17g %.17g to %.17g %.17g crosses or touches another one: "
+                   "clean the map first",
+                   at(m, a).x, at(m, a).y, at(m, b).x, at(m, b).y);
+}
+
+/// The next half-edge that starts in the same point, counter-clockwise; SL_OUTSIDE behind the last.
+static uint32_t around(const maker *m, uint32_t half) {
+    return next(m, next(m, half)) ^ 1;
+}
+
+/// The first half-edge, clockwise, that starts in a point of the box's border; any other point has
+/// no first one.
+static uint32_t first_around(const maker *m, uint32_t half) {
+    const uint32_t stop = half;
+    for (;;) {
+        const uint32_t before = half ^ 1;
+        if (sl_half_is_outside(m->t, before)) return half;
+        half = next(m, before);
+        if (half == stop) return half;
+    }
+}
+
+/// Finds the edge from a to b (*there), or the first edge that it crosses.
+static sl_status find_way(const maker *m, uint32_t a, uint32_t b, bool *there, uint32_t *out) {
+    const uint32_t first = first_around(m, m->t->out[a]);
+    uint32_t half = first;
+    *there = true;
+    do {
+        *out = half;
+        if (to(m, half) == b) return SL_OK;
+        if (sl_half_is_outside(m->t, half)) return fail_at(m, a, b);
+        if (side(m, a, b, to(m, half)) < 0 && side(m, a, b, to(m, next(m, half))) > 0) {
+            *there = false;
+            *out = next(m, half);
+            return SL_OK;
+        }
+        half = around(m, half);
+    } while (half != first);
+    return fail_at(m, a, b);
+}
+
+/// Gathers the edges that the way from a to b crosses, each from its right to its left.
+static sl_status find_crossing(maker *m, uint32_t a, uint32_t b, uint32_t half) {
+    m->crossing.count = 0;
+    for (;;) {
+        if (m->t->labels[half / 2]) return fail_at(m, a, b);
+        SL_TRY(SL_ARRAY_ROOM(m->context, &m->crossing, 1));
+        m->crossing.items[m->crossing.count++] = half;
+        const uint32_t beyond = next(m, half ^ 1), apex = to(m, beyond);
+        if (apex == b) return SL_OK;
+        const int sign = side(m, a, b, apex);
+        if (sign == 0) return fail_at(m, a, b);
+        half = sign > 0 ? beyond : next(m, beyond);
+    }
+}
+
+/// Turns the edges that cross the way from a to b until one of them is that way.
+static sl_status clear_way(maker *m, uint32_t a, uint32_t b, uint32_t label) {
+    m->turned.count = 0;
+    while (m->crossing.count) {
+        const size_t count = m->crossing.count;
+        m->crossing.count = 0;
+        for (size_t i = 0; i < count; i++) {
+            const uint32_t half = m->crossing.items[i];
+            const bool turns = can_turn(m, half);
+            if (turns) turn(m, half);
+            const uint32_t p = from(m, half), q = to(m, half);
+            if ((p == a && q == b) || (p == b && q == a)) {
+                m->t->labels[half / 2] = label;
+            } else if (!turns || (p != a && p != b && q != a && q != b &&
+                                  side(m, a, b, p) * side(m, a, b, q) < 0)) {
+                m->crossing.items[m->crossing.count++] = half; // later: others are turned before
+            } else {
+                SL_TRY(SL_ARRAY_ROOM(m->context, &m->turned, 1));
+                m->turned.items[m->turned.count++] = half;
+            }
+        }
+        SL_TRY(sl_check_cancelled(m->context));
+    }
+    for (size_t i = 0; i < m->turned.count; i++) SL_TRY(doubt(m, m->turned.items[i]));
+    return settle(m);
+}
+
+static sl_status put_edges(maker *m, const sl_planar *graph) {
+    for (uint32_t i = 0; i < graph->edge_count; i++) {
+        const uint32_t a = graph->edges[i].a, b = graph->edges[i].b;
+        bool there;
+        uint32_t half;
+        if (i % 4096 == 0) SL_TRY(sl_check_cancelled(m->context));
+        SL_TRY(find_way(m, a, b, &there, &half));
+        if (there) {
+            m->t->labels[half / 2] = i + 1;
+            continue;
+        }
+        SL_TRY(find_crossing(m, a, b, half));
+        SL_TRY(clear_way(m, a, b, i + 1));
+    }
+    return SL_OK;
+}
+
+// --- all of it
+
+static double scale_of(const sl_box *box) {
+    int exponent = 0;
+    frexp(fmax(box->max.x - box->min.x, box->max.y - box->min.y), &exponent);
+    return ldexp(1, -exponent);
+}
+
+sl_status sl_triangulate(sl_context *context, const sl_planar *graph, const sl_box *box,
+                         sl_triangulation *out) {
+    sl_triangulation made = {0};
+    maker m = {.context = context, .t = &made, .scale = scale_of(box)};
+    sl_status status = start(&m, graph, box);
+    if (status == SL_OK) status = put_points(&m, box);
+    if (status == SL_OK) status = put_edges(&m, graph);
+    sl_free(context, m.doubtful.items);
+    sl_free(context, m.crossing.items);
+    sl_free(context, m.turned.items);
+    if (status == SL_OK)
+        *out = made;
+    else
+        sl_triangulation_destroy(context, &made);
+    return status;
+}
+
+void sl_triangulation_destroy(sl_context *context, sl_triangulation *t) {
+    sl_free(context, t->points.items);
+    sl_free(context, t->halves.items);
+    sl_free(context, t->labels);
+    sl_free(context, t->out);
+    *t = (sl_triangulation){0};
+}

@@ -1,0 +1,146 @@
+/// Files of format version 1 with oblique walls, as an older program made them: the library and the
+/// runtime read them, and say the same of them.
+#define SIGHTLINE_RUNTIME_IMPLEMENTATION
+#include "runtime_maps.h"
+
+#include "base/file.h"
+#include "base/random.h"
+#include "geometry/orient.h"
+
+#include <math.h>
+
+static baked_file read_old(sl_context *context, const char *name) {
+    char path[1024];
+    baked_file f = {.name = name};
+    sl_bytes bytes;
+    snprintf(path, sizeof path, "%s/tests/old_files/%s", SIGHTLINE_SOURCE_DIR, name);
+    assert_ok(context, sl_file_read(context, path, &bytes));
+    assert_ok(context, sl_baked_parse(context, name, bytes.data, bytes.size, &f.baked));
+    f.bytes = malloc(bytes.size);
+    assert_non_null(f.bytes);
+    f.size = bytes.size;
+    memcpy(f.bytes, bytes.data, bytes.size);
+    sl_free(context, bytes.data);
+    baked_file_open(&f);
+    return f;
+}
+
+/// The same, written as this program does it, and read again.
+static baked_file written_anew(sl_context *context, const baked_file *old) {
+    baked_file f = {.name = old->name};
+    FILE *stream = open_memstream(&f.bytes, &f.size);
+    assert_non_null(stream);
+    assert_ok(context, sl_slv_print(context, &old->baked, stream));
+    assert_int_equal(fclose(stream), 0);
+    assert_ok(context, sl_baked_parse(context, f.name, f.bytes, f.size, &f.baked));
+    baked_file_open(&f);
+    return f;
+}
+
+static uint32_t version_of(const baked_file *f) {
+    sl_slv_header header;
+    memcpy(&header, f->bytes, sizeof header);
+    return header.version;
+}
+
+/// Whether a point is in a cell or on its border, by the library's predicate.
+static bool holds(const sl_space *s, uint32_t cell, sl_point p) {
+    const sl_cell *c = &s->cells[cell];
+    const sl_point *v = s->vertices + c->first_vertex;
+    for (uint32_t i = 0; i < c->vertex_count; i++)
+        if (sl_orient(v[i], v[(i + 1) % c->vertex_count], p) < 0) return false;
+    return true;
+}
+
+static void check_place(const baked_file *f, double x, double y) {
+    const sl_space *s = &f->baked.space;
+    const uint32_t cell = sl_runtime_locate(&f->runtime, x, y);
+    const bool within = x >= s->bounds.min.x && x <= s->bounds.max.x && y >= s->bounds.min.y &&
+                        y <= s->bounds.max.y;
+    assert_int_equal(cell, sl_space_locate(s, (sl_point){x, y}));
+    uint32_t first = within ? 0 : s->cell_count;
+    while (first < s->cell_count && !holds(s, first, (sl_point){x, y})) first++;
+    assert_int_equal(cell, first < s->cell_count ? first : SL_NO_CELL);
+}
+
+/// Corners, a step of rounding about them, and anywhere.
+static void check_places(const baked_file *f) {
+    const sl_space *s = &f->baked.space;
+    sl_random random = {4};
+    for (uint32_t i = 0; i < s->vertex_count; i++)
+        for (int k = 0; k < 9; k++) {
+            const sl_point v = s->vertices[i];
+            check_place(f, k % 3 ? nextafter(v.x, (k % 3 - 1.5) * INFINITY) : v.x,
+                        k / 3 ? nextafter(v.y, (k / 3 - 1.5) * INFINITY) : v.y);
+        }
+    for (int i = 0; i < 20000; i++)
+        check_place(
+            f, s->bounds.min.x + (s->bounds.max.x - s->bounds.min.x) * sl_random_unit(&random),
+            s->bounds.min.y + (s->bounds.max.y - s->bounds.min.y) * sl_random_unit(&random));
+}
+
+static void check_rows(const baked_file *f) {
+    const sl_pvs *pvs = &f->baked.visibility.pvs;
+    for (uint32_t from = 0; from < pvs->cell_count; from++)
+        for (uint32_t to = 0; to < pvs->cell_count; to++)
+            assert_int_equal(sl_runtime_can_see(&f->runtime, from, to), sl_pvs_sees(pvs, from, to));
+}
+
+static void check_file(const char *name) {
+    sl_context *context = testing_context(NULL);
+    baked_file old = read_old(context, name);
+    baked_file now = written_anew(context, &old), again = written_anew(context, &now);
+    assert_int_equal(version_of(&old), 1);
+    assert_int_equal(version_of(&now), 2);
+    assert_int_equal(again.size, now.size);
+    assert_memory_equal(again.bytes, now.bytes, now.size);
+    assert_true(sl_baked_same_space(&old.baked.space, &now.baked.space));
+    assert_null(old.runtime.grid_cells);
+    assert_non_null(now.runtime.grid_cells);
+    const baked_file *each[] = {&old, &now};
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(each[i]->baked.space.loose, 1);
+        assert_true(each[i]->runtime.loose);
+        check_places(each[i]);
+        check_rows(each[i]);
+    }
+    baked_file_destroy(context, &again);
+    baked_file_destroy(context, &now);
+    baked_file_destroy(context, &old);
+    sl_context_destroy(context);
+}
+
+static void ten_walls_through_a_point(void **state) {
+    (void)state;
+    check_file("star.slv");
+}
+
+static void a_door_among_oblique_walls(void **state) {
+    (void)state;
+    check_file("askew.slv");
+    sl_context *context = testing_context(NULL);
+    baked_file f = read_old(context, "askew.slv");
+    const sl_runtime *r = &f.runtime;
+    uint32_t scratch[128], cells[16];
+    assert_true(r->cell_count <= 16 && sl_runtime_scratch_count(r) <= 128);
+    assert_int_equal(r->door_count, 1);
+    const uint32_t here = sl_runtime_locate(r, 3, 4), there = sl_runtime_locate(r, 9, 5);
+    const sl_runtime_view view = sl_runtime_view_all_round(3, 4);
+    for (unsigned char shut = 0; shut < 2; shut++) {
+        bool seen = false;
+        const uint32_t count = sl_runtime_look_past(r, &view, &shut, 0, scratch, cells, 16);
+        for (uint32_t i = 0; i < count; i++) seen = seen || cells[i] == there;
+        assert_int_equal(seen, !shut);
+        assert_int_equal(sl_runtime_can_see_past(r, here, there, &shut), !shut);
+    }
+    baked_file_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ten_walls_through_a_point),
+        cmocka_unit_test(a_door_among_oblique_walls),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
