@@ -5,7 +5,7 @@
 /// the sides of boxes, some of them bent by steps of doubles where they cross. What is seen in it
 /// is held against brute force in integers. And where walls as they are and walls as bent agree on
 /// what is free or hidden between two points, by rationals, so must the space. SIGHTLINE_SEEDS in
-/// the environment: how many maps (150 by default).
+/// the environment: how many maps (50 by default).
 #include "testing.h"
 
 #include "oracle/blockers.h"
