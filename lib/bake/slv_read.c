@@ -286,8 +286,12 @@ static sl_status load_doors(const reader *r, const char *offsets_tag, const char
                             sl_door_sets *sets) {
     const uint32_t cells = r->out->space.cell_count;
     uint64_t offsets, bytes;
-    SL_TRY(load(r, offsets_tag, sizeof *sets->offsets, true, (void **)&sets->offsets, &offsets));
-    if (!offsets) return SL_OK;
+    sl_slv_section section;
+    bool has_offsets, has_bytes;
+    SL_TRY(find_section(r, offsets_tag, sizeof *sets->offsets, &section, &has_offsets));
+    SL_TRY(find_section(r, bytes_tag, 1, &section, &has_bytes));
+    if (!has_offsets && !has_bytes) return SL_OK;
+    SL_TRY(load(r, offsets_tag, sizeof *sets->offsets, false, (void **)&sets->offsets, &offsets));
     SL_TRY(load(r, bytes_tag, 1, false, (void **)&sets->bytes, &bytes));
     if (offsets != (uint64_t)cells + 1 || sets->offsets[cells] != bytes)
         return fail_file(r, "damaged: not one row of door sets a cell");

@@ -2,6 +2,7 @@
 /// runtime read them, and say the same of them.
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime_maps.h"
+#include "slv_file.h"
 
 #include "base/file.h"
 #include "base/random.h"
@@ -137,10 +138,29 @@ static void a_door_among_oblique_walls(void **state) {
     sl_context_destroy(context);
 }
 
+/// Found by a fuzzer: the library read a file that the runtime refused.
+static void half_of_the_door_sets(void **state) {
+    (void)state;
+    const char *const tags[] = {"DORO", "DORB"};
+    sl_context *context = testing_context(NULL);
+    for (int i = 0; i < 2; i++) {
+        baked_file f = read_old(context, "askew.slv");
+        sl_baked baked = {0};
+        sl_runtime runtime;
+        memcpy(slv_entry(f.bytes, tags[i]), "XXXX", 4);
+        slv_seal(f.bytes, f.size);
+        assert_int_equal(sl_baked_parse(context, "askew", f.bytes, f.size, &baked), SL_BAD_INPUT);
+        assert_int_equal(sl_runtime_open(f.bytes, f.size, &runtime), SL_RUNTIME_ROW);
+        baked_file_destroy(context, &f);
+    }
+    sl_context_destroy(context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ten_walls_through_a_point),
         cmocka_unit_test(a_door_among_oblique_walls),
+        cmocka_unit_test(half_of_the_door_sets),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

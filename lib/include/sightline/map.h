@@ -164,6 +164,9 @@ SL_API sl_clean_options sl_clean_options_default(void);
 /// Sides of the map's own cells take part in it, as seams do, with a tolerance of twice the map's
 /// `snap` where that is larger. Cells of which nothing is left are dropped.
 ///
+/// Cleaning a clean map again moves nothing: it may join walls in line that welding has left
+/// without a reason to be apart.
+///
 /// NULL options are the default ones; `account` may be NULL. SL_UNSUPPORTED where walls cross anew
 /// each time that a crossing is rounded, which tolerances below the rounding of doubles may cause.
 /// Time O((n + k) log n) for k meeting points.
