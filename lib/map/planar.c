@@ -676,6 +676,7 @@ static void measure(writer *w, sl_segment s, size_t from) {
 }
 
 static sl_status write_chains(writer *w, const sl_planar_link *roots, size_t count) {
+    SL_TRY(SL_ARRAY_ROOM(w->p->context, &w->links, 1)); // a place to point to, without a link too
     for (size_t i = 0; i < count; i++) {
         w->out->first[i] = w->links.count;
         if (roots[i] == NONE) continue;

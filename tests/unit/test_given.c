@@ -303,6 +303,20 @@ static void test_not_cleaned(void **state) {
     sl_context_destroy(context);
 }
 
+/// Found by a fuzzer: all is one place, so that no edge is left.
+static void test_welded_to_a_point(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_map map = {0};
+    sl_space space = {0};
+    read_map(context, BOX "snap 5201\ncell 0 0 10 0 10 10\n", &map);
+    assert_int_not_equal(sl_subdivide_given(context, &map, &space), SL_OK);
+    assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
+    assert_true(map.wall_count == 0 && map.cell_count == 0);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
 /// Every allocation that fails is reported, and nothing is left behind.
 static void test_lack_of_memory(void **state) {
     (void)state;
@@ -334,7 +348,7 @@ int main(void) {
         cmocka_unit_test(test_taken),          cmocka_unit_test(test_beside_cells),
         cmocka_unit_test(test_clean_stays),    cmocka_unit_test(test_refused),
         cmocka_unit_test(test_random_walls),   cmocka_unit_test(test_not_cleaned),
-        cmocka_unit_test(test_lack_of_memory),
+        cmocka_unit_test(test_lack_of_memory), cmocka_unit_test(test_welded_to_a_point),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
