@@ -63,7 +63,7 @@ sl_status sl_bake_parts_plan(sl_context *context, const sl_bake_part_texts *text
                        "one of them");
     if (sl_crew_size() > 1 && parts.shard_count)
         return sl_fail(context, SL_BAD_ARGUMENT, "--shard: the processes of mpirun share the work");
-    if (in_parts(&parts) && !method->look)
+    if (in_parts(&parts) && !method->run)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "%s: the method '%s' is done in one go; sweep, dfs and prune can be done in "
                        "parts",
@@ -94,8 +94,8 @@ const char *sl_bake_difference(const sl_baked *a, const sl_baked *b) {
     if (strcmp(a->method, b->method) != 0) return "by another method";
     if (strcmp(a->solver, b->solver) != 0) return "with another solver";
     if (a->visibility.sight != b->visibility.sight) return "with other sight";
-    if (a->findings.inside_only != b->findings.inside_only)
-        return a->findings.inside_only ? "with --inside" : "without --inside";
+    if (a->partial.inside_only != b->partial.inside_only)
+        return a->partial.inside_only ? "with --inside" : "without --inside";
     if (!sl_baked_same_space(&a->space, &b->space))
         return "from another map, or cut into other cells,";
     return NULL;
@@ -108,41 +108,41 @@ static sl_status fail_other(sl_context *context, const char *path, const char *d
                    "--sight %s%s",
                    path, difference, before->method, before->solver[0] ? " --solver " : "",
                    before->solver, sl_sight_name(before->visibility.sight),
-                   before->findings.inside_only ? " --inside" : "");
+                   before->partial.inside_only ? " --inside" : "");
 }
 
 static sl_status take_begun(sl_context *context, const char *path, const sl_see_options *see,
-                            const sl_baked *baked, sl_baked *before, sl_findings *findings) {
+                            const sl_baked *baked, sl_baked *before, sl_partial *partial) {
     SL_TRY(sl_baked_read_part(context, path, before));
-    if (!sl_findings_begun(&before->findings))
+    if (!sl_partial_begun(&before->partial))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--resume %s: is finished; there is nothing to go on with", path);
     sl_baked asked = *baked;
     asked.visibility.sight = see->sight;
-    asked.findings.inside_only = see->inside_only;
+    asked.partial.inside_only = see->inside_only;
     const char *other = sl_bake_difference(before, &asked);
     if (other) return fail_other(context, path, other, before);
-    if (before->findings.shard != see->shard || before->findings.shard_count != see->shard_count)
+    if (before->partial.shard != see->shard || before->partial.shard_count != see->shard_count)
         return sl_fail(context, SL_BAD_ARGUMENT,
-                       before->findings.shard_count ? "--resume %s: is shard %u of %u; ask for it"
-                                                    : "--resume %s: is no shard",
-                       path, before->findings.shard, before->findings.shard_count);
-    *findings = before->findings;
-    before->findings = (sl_findings){0};
+                       before->partial.shard_count ? "--resume %s: is shard %u of %u; ask for it"
+                                                   : "--resume %s: is no shard",
+                       path, before->partial.shard, before->partial.shard_count);
+    *partial = before->partial;
+    before->partial = (sl_partial){0};
     return SL_OK;
 }
 
 /// Nothing that can be taken over is no failure: all is looked for.
 static sl_status take_over(sl_context *context, const char *path, const sl_see_method *method,
                            const sl_see_options *see, const sl_baked *baked, sl_baked *before,
-                           sl_findings *findings) {
+                           sl_partial *partial) {
     SL_TRY(sl_baked_read(context, path, before));
     if (sl_plan_make(&before->map).effects) {
         sl_note(context, "nothing is taken over from %s: it has effects", path);
         return SL_OK;
     }
-    const sl_status status = sl_findings_carry(context, &before->space, &before->visibility,
-                                               &baked->space, method, see, findings);
+    const sl_status status = sl_partial_reuse(context, &before->space, &before->visibility,
+                                              &baked->space, method, see, partial);
     if (status != SL_BAD_ARGUMENT) return status;
     sl_note(context, "nothing is taken over from %s: %s", path, sl_context_message(context));
     return SL_OK;
@@ -150,36 +150,36 @@ static sl_status take_over(sl_context *context, const char *path, const sl_see_m
 
 static sl_status take_known(sl_context *context, const sl_bake_parts *parts,
                             const sl_see_method *method, const sl_see_options *see,
-                            const sl_baked *baked, sl_findings *findings) {
+                            const sl_baked *baked, sl_partial *partial) {
     sl_baked before = {0};
     sl_status status = SL_OK;
     if (parts->resume)
-        status = take_begun(context, parts->resume, see, baked, &before, findings);
+        status = take_begun(context, parts->resume, see, baked, &before, partial);
     else if (parts->previous)
-        status = take_over(context, parts->previous, method, see, baked, &before, findings);
+        status = take_over(context, parts->previous, method, see, baked, &before, partial);
     sl_baked_destroy(context, &before);
     return status;
 }
 
 // --- the work
 
-/// Looks, each process of the crew at its share; findings of all of them come together in the first
-/// one.
+/// Looks, each process of the crew at its share; partial results of all of them come together in
+/// the first one.
 static sl_status look(sl_context *context, const sl_see_method *method, const sl_space *space,
-                      sl_see_options see, sl_findings *findings) {
+                      sl_see_options see, sl_partial *partial) {
     if (sl_crew_size() > 1) {
         see.shard = sl_crew_rank() + 1;
         see.shard_count = sl_crew_size();
     }
-    SL_TRY(sl_crew_agree(context, method->look(context, space, &see, findings)));
+    SL_TRY(sl_crew_agree(context, method->run(context, space, &see, partial)));
     if (sl_crew_size() == 1) return SL_OK;
-    findings->shard = findings->shard_count = 0;
-    return sl_crew_join(context, findings);
+    partial->shard = partial->shard_count = 0;
+    return sl_crew_join(context, partial);
 }
 
 static sl_status see_parts(sl_context *context, const sl_bake_parts *parts,
                            const sl_see_method *method, const sl_see_options *options,
-                           sl_baked *baked, sl_findings *findings, sl_bake_parts_account *account) {
+                           sl_baked *baked, sl_partial *partial, sl_bake_parts_account *account) {
     sl_see_options see = *options;
     patience p = {.end = parts->time_limit > 0 ? parts->start + parts->time_limit : 0,
                   .asked = parts->keep_partial};
@@ -187,16 +187,16 @@ static sl_status see_parts(sl_context *context, const sl_bake_parts *parts,
     see.shard_count = parts->shard_count;
     see.enough = is_over;
     see.enough_user = &p;
-    SL_TRY(sl_crew_agree(context, take_known(context, parts, method, &see, baked, findings)));
-    account->known = findings->done_count;
-    SL_TRY(look(context, method, &baked->space, see, findings));
+    SL_TRY(sl_crew_agree(context, take_known(context, parts, method, &see, baked, partial)));
+    account->known = partial->done_count;
+    SL_TRY(look(context, method, &baked->space, see, partial));
     account->units = method->units;
-    account->unit_count = findings->unit_count;
-    account->done = findings->done_count;
+    account->unit_count = partial->unit_count;
+    account->done = partial->done_count;
     if (sl_crew_rank() != 0 || parts->shard_count) return SL_OK;
     // Ctrl-C has been heard. A quarter of the time goes into the bound.
     p = (patience){.end = parts->time_limit > 0 ? sl_now() + parts->time_limit / 4 : 0};
-    return method->settle(context, &baked->space, &see, findings, &baked->visibility);
+    return method->finish(context, &baked->space, &see, partial, &baked->visibility);
 }
 
 sl_status sl_bake_parts_see(sl_context *context, const sl_bake_parts *parts,
@@ -204,10 +204,10 @@ sl_status sl_bake_parts_see(sl_context *context, const sl_bake_parts *parts,
                             sl_bake_parts_account *account) {
     if (!in_parts(parts)) return method->see(context, &baked->space, see, &baked->visibility);
     if (parts->keep_partial) sl_console_ask_first();
-    sl_findings findings = {0};
-    sl_status status = see_parts(context, parts, method, see, baked, &findings, account);
-    if (status == SL_OK && (parts->shard_count || !sl_findings_complete(&findings))) {
-        baked->findings = findings;
+    sl_partial partial = {0};
+    sl_status status = see_parts(context, parts, method, see, baked, &partial, account);
+    if (status == SL_OK && (parts->shard_count || !sl_partial_complete(&partial))) {
+        baked->partial = partial;
         if (parts->shard_count) {
             baked->visibility.sight = see->sight;
             baked->visibility.guarantee =
@@ -215,6 +215,6 @@ sl_status sl_bake_parts_see(sl_context *context, const sl_bake_parts *parts,
         }
         return SL_OK;
     }
-    sl_findings_destroy(context, &findings);
+    sl_partial_destroy(context, &partial);
     return status;
 }

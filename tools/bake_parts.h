@@ -72,7 +72,7 @@ typedef struct sl_bake_parts_account {
 } sl_bake_parts_account;
 
 /// The stage "cell_to_cell" of a baked file that has a space, method and solver: sets its visible
-/// sets, or the findings of its shard.
+/// sets, or the partial results of its shard.
 sl_status sl_bake_parts_see(sl_context *context, const sl_bake_parts *parts,
                             const sl_see_method *method, const sl_see_options *see, sl_baked *baked,
                             sl_bake_parts_account *account);

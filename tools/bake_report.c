@@ -24,18 +24,18 @@ static void add_seconds(sl_json_fields *fields, const sl_bake_report *report) {
 /// What was done of the work, where it was not all in one go.
 static void add_parts(sl_json_fields *fields, const sl_bake_report *report) {
     const sl_bake_parts_account *parts = &report->parts;
-    const sl_findings *findings = &report->baked->findings;
-    sl_json_add_flag(fields, "finished", !sl_findings_begun(findings));
+    const sl_partial *partial = &report->baked->partial;
+    sl_json_add_flag(fields, "finished", !sl_partial_begun(partial));
     if (!parts->units) return;
     sl_json_fields inner = sl_json_begin();
     sl_json_add_text(&inner, "units", parts->units);
     sl_json_add_count(&inner, "count", parts->unit_count);
     sl_json_add_count(&inner, "known_before", parts->known);
     sl_json_add_count(&inner, "done", parts->done);
-    if (findings->shard_count) {
-        sl_json_add_count(&inner, "shard", findings->shard);
-        sl_json_add_count(&inner, "shards", findings->shard_count);
-        sl_json_add_count(&inner, "left", sl_findings_left(findings));
+    if (partial->shard_count) {
+        sl_json_add_count(&inner, "shard", partial->shard);
+        sl_json_add_count(&inner, "shards", partial->shard_count);
+        sl_json_add_count(&inner, "left", sl_partial_left(partial));
     }
     sl_json_add_fields(fields, "work", &inner);
 }
@@ -141,18 +141,18 @@ void sl_cleaning_print(const sl_clean_account *account) {
 
 static void print_parts(const sl_bake_report *report) {
     const sl_bake_parts_account *parts = &report->parts;
-    const sl_findings *findings = &report->baked->findings;
-    char partial[SL_PARTIAL_TEXT];
+    const sl_partial *partial = &report->baked->partial;
+    char text[SL_PARTIAL_TEXT];
     if (!parts->units) return;
     printf("  %-9s %" PRIu32 ", %" PRIu32 " of them done, %" PRIu32 " known before\n", parts->units,
            parts->unit_count, parts->done, parts->known);
-    if (findings->shard_count) {
-        printf("  shard     %" PRIu32 " of %" PRIu32 ", %" PRIu32 " %s left\n", findings->shard,
-               findings->shard_count, sl_findings_left(findings), parts->units);
+    if (partial->shard_count) {
+        printf("  shard     %" PRIu32 " of %" PRIu32 ", %" PRIu32 " %s left\n", partial->shard,
+               partial->shard_count, sl_partial_left(partial), parts->units);
         return;
     }
-    sl_baked_say_partial(report->baked, partial);
-    if (partial[0]) printf("  %s\n", partial);
+    sl_baked_say_partial(report->baked, text);
+    if (text[0]) printf("  %s\n", text);
 }
 
 static void print_effect_work(const sl_visibility *visibility) {

@@ -214,7 +214,7 @@ static void list_parts(const sl_baked *baked, baked_part parts[BAKED_PARTS]) {
         {"cells", space->cell_count, space->cell_count * sizeof *space->cells},
         {"vertices", space->vertex_count, space->vertex_count * sizeof *space->vertices},
         {"portals", space->portal_count, space->portal_count * sizeof *space->portals},
-        {"exits", space->exit_count, space->exit_count * sizeof *space->exits},
+        {"exits", space->directed_count, space->directed_count * sizeof *space->directed},
         {"nodes", space->node_count, space->node_count * sizeof *space->nodes},
         {"buckets", (uint64_t)space->grid.columns * space->grid.rows, grid_bytes(&space->grid)},
         {"pairs", visibility->account.pairs, baked->by_views ? 0 : pvs_bytes(&visibility->pvs)},
@@ -237,7 +237,7 @@ static sl_status print_baked_json(sl_context *context, const info_request *reque
     sl_json_add_text(&fields, "method", baked->method);
     sl_json_add_text(&fields, "solver", baked->solver[0] ? baked->solver : NULL);
     sl_json_add_text(&fields, "guarantee", sl_guarantee_name(baked->visibility.guarantee));
-    sl_json_add_flag(&fields, "finished", !sl_findings_begun(&baked->findings));
+    sl_json_add_flag(&fields, "finished", !sl_partial_begun(&baked->partial));
     sl_json_add_count(&fields, "inside_cells", baked->space.inside_count);
     sl_json_add_count(&fields, "tree_depth", baked->space.tree_depth);
     sl_json_add_count(&fields, "stab_trees_left_out", baked->visibility.trees.left_out);

@@ -28,23 +28,23 @@ static const char *part_name(const merge_plan *plan, uint32_t part) {
 static sl_status check_part(sl_context *context, const merge_plan *plan, uint32_t part,
                             const sl_baked *baked, const sl_baked *first) {
     const char *name = part_name(plan, part);
-    const sl_findings *f = &baked->findings;
+    const sl_partial *f = &baked->partial;
     if (!sl_baked_is_shard(baked))
         return sl_fail_at(context, name, 0, "is no shard: sightline bake --shard K/N writes them");
-    if (f->shard_count != first->findings.shard_count)
+    if (f->shard_count != first->partial.shard_count)
         return sl_fail_at(context, name, 0, "is shard %u of %u, but %s is one of %u", f->shard,
-                          f->shard_count, plan->first, first->findings.shard_count);
+                          f->shard_count, plan->first, first->partial.shard_count);
     const char *other = part ? sl_bake_difference(baked, first) : NULL;
     if (other) return sl_fail_at(context, name, 0, "was baked %s than %s", other, plan->first);
     for (uint32_t i = 0; i < part; i++)
         if (plan->shards[i] == f->shard)
             return sl_fail_at(context, name, 0, "is shard %u of %u, as is %s", f->shard,
                               f->shard_count, part_name(plan, i));
-    if (sl_findings_left(f))
+    if (sl_partial_left(f))
         return sl_fail_at(context, name, 0,
                           "shard %u of %u is not finished, %u units are left: go on with it, bake "
                           "--shard %u/%u --resume %s",
-                          f->shard, f->shard_count, sl_findings_left(f), f->shard, f->shard_count,
+                          f->shard, f->shard_count, sl_partial_left(f), f->shard, f->shard_count,
                           name);
     plan->shards[part] = f->shard;
     return SL_OK;
@@ -76,8 +76,7 @@ static sl_status take_part(sl_context *context, const merge_plan *plan, uint32_t
     sl_baked baked = {0};
     SL_TRY(sl_baked_read_part(context, part_name(plan, part), &baked));
     sl_status status = check_part(context, plan, part, &baked, part ? all : &baked);
-    if (status == SL_OK && part)
-        status = sl_findings_join(context, &all->findings, &baked.findings);
+    if (status == SL_OK && part) status = sl_partial_merge(context, &all->partial, &baked.partial);
     if (status == SL_OK && !part) {
         *all = baked;
         return SL_OK;
@@ -90,7 +89,7 @@ static const sl_see_method *find_method(const char *name) {
     size_t count;
     const sl_see_method *methods = sl_see_methods(&count);
     for (size_t i = 0; i < count; i++)
-        if (strcmp(methods[i].name, name) == 0 && methods[i].settle) return &methods[i];
+        if (strcmp(methods[i].name, name) == 0 && methods[i].finish) return &methods[i];
     return NULL;
 }
 
@@ -104,16 +103,16 @@ static sl_status settle(sl_context *context, const merge_plan *plan, sl_baked *a
     const sl_see_method *method = find_method(all->method);
     sl_see_options see = sl_see_options_default();
     see.sight = all->visibility.sight;
-    see.inside_only = all->findings.inside_only;
+    see.inside_only = all->partial.inside_only;
     see.solver = find_solver(all->solver);
     if (!method || (method->stabs && !see.solver))
         return sl_fail_at(context, plan->first, 0,
                           "was baked by a method or a solver that this program has not");
     sl_visibility seen;
-    SL_TRY(method->settle(context, &all->space, &see, &all->findings, &seen));
+    SL_TRY(method->finish(context, &all->space, &see, &all->partial, &seen));
     sl_visibility_destroy(context, &all->visibility);
     all->visibility = seen;
-    sl_findings_destroy(context, &all->findings);
+    sl_partial_destroy(context, &all->partial);
     return SL_OK;
 }
 
@@ -122,7 +121,7 @@ static sl_status merge(sl_context *context, const merge_plan *plan, sl_baked *al
         sl_report(context, "read", "shards", i, part_count(plan));
         SL_TRY(take_part(context, plan, i, all));
     }
-    SL_TRY(check_all_there(context, plan, all->findings.shard_count));
+    SL_TRY(check_all_there(context, plan, all->partial.shard_count));
     SL_TRY(settle(context, plan, all));
     return sl_baked_write(context, all, plan->output);
 }

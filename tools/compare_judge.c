@@ -17,10 +17,10 @@ static uint64_t count_common(const sl_pvs *a, const sl_pvs *b, uint32_t cell) {
 }
 
 uint64_t sl_pvs_pairs_beyond(const sl_pvs *a, const sl_pvs *b) {
-    uint64_t beyond = 0;
+    uint64_t neighbour = 0;
     for (uint32_t cell = 0; cell < a->cell_count; cell++)
-        beyond += sl_pvs_count(a, cell) - count_common(a, b, cell);
-    return beyond;
+        neighbour += sl_pvs_count(a, cell) - count_common(a, b, cell);
+    return neighbour;
 }
 
 static bool is_exact(const sl_compare_run *run) {

@@ -15,7 +15,8 @@ uint32_t sl_crew_size(void);
 /// What came of a step in all processes: SL_OK where it went well everywhere. To be called by all.
 sl_status sl_crew_agree(sl_context *context, sl_status mine);
 
-/// Joins the findings of all processes, by OR, into those of the first one. To be called by all.
-sl_status sl_crew_join(sl_context *context, sl_findings *findings);
+/// Joins the partial results of all processes, by OR, into those of the first one. To be called by
+/// all.
+sl_status sl_crew_join(sl_context *context, sl_partial *partial);
 
 #endif

@@ -21,8 +21,8 @@ sl_status sl_crew_agree(sl_context *context, sl_status mine) {
     return mine;
 }
 
-sl_status sl_crew_join(sl_context *context, sl_findings *findings) {
+sl_status sl_crew_join(sl_context *context, sl_partial *partial) {
     (void)context;
-    (void)findings;
+    (void)partial;
     return SL_OK;
 }

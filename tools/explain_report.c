@@ -22,18 +22,18 @@ static const char *plural(uint64_t count) {
 /// A line for each of the first portals of a sequence.
 static void print_portals(const sl_space *space, const sl_sequence *sequence, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
-        const sl_exit *exit = &space->exits[sequence->exits[i]];
+        const sl_directed_portal *directed = &space->directed[sequence->directed[i]];
         printf("  %2" PRIu32 "  portal %" PRIu32 " into cell %" PRIu32 ", left end ", i + 1,
-               exit->portal, exit->cell);
-        print_point(exit->left);
+               directed->portal, directed->cell);
+        print_point(directed->left);
         printf(", right end ");
-        print_point(exit->right);
+        print_point(directed->right);
         putchar('\n');
     }
 }
 
 static uint32_t portal_of(const sl_space *space, const sl_sequence *sequence, uint32_t number) {
-    return space->exits[sequence->exits[number]].portal;
+    return space->directed[sequence->directed[number]].portal;
 }
 
 /// "the left ends (0,1) of portal 3 and (4,1) of portal 9"
@@ -59,7 +59,7 @@ static void print_line(sl_line line) {
 }
 
 static void print_stabbed(const sl_space *space, const sl_explanation *e) {
-    const uint32_t count = e->sequence.exit_count;
+    const uint32_t count = e->sequence.directed_count;
     printf("Cell %" PRIu32 " sees cell %" PRIu32 " through %" PRIu32 " portal%s%s:\n", e->from,
            e->to, count, plural(count), e->complete ? "; no sightline there crosses fewer" : "");
     print_portals(space, &e->sequence, count);
@@ -71,7 +71,7 @@ static void print_stabbed(const sl_space *space, const sl_explanation *e) {
 }
 
 static void print_grazing(const sl_space *space, const sl_explanation *e) {
-    const uint32_t count = e->sequence.exit_count;
+    const uint32_t count = e->sequence.directed_count;
     printf("Cell %" PRIu32 " %s cell %" PRIu32 " with %s sight: %s line there only grazes, through "
            "%" PRIu32 " portal%s:\n",
            e->from, e->seen ? "sees" : "does not see", e->to, sl_sight_name(e->sight),
@@ -90,16 +90,16 @@ static void print_grazing(const sl_space *space, const sl_explanation *e) {
 static void print_miss(const sl_space *space, const sl_explanation *e, const sl_miss *miss,
                        bool first) {
     const sl_sequence *sequence = &miss->sequence;
-    const uint32_t last = sequence->exit_count - 1;
-    const sl_exit *exit = &space->exits[sequence->exits[last]];
+    const uint32_t last = sequence->directed_count - 1;
+    const sl_directed_portal *directed = &space->directed[sequence->directed[last]];
     printf("%s through %" PRIu32 " portal%s into cell %" PRIu32 ", %" PRIu32
            " portal%s short of cell %" PRIu32 ":\n",
            first ? "The sequence that came farthest leads" : "Another came", last, plural(last),
-           space->exits[sequence->exits[last - 1]].cell, miss->missing, plural(miss->missing),
+           space->directed[sequence->directed[last - 1]].cell, miss->missing, plural(miss->missing),
            e->to);
     print_portals(space, sequence, last);
     printf("Portal %" PRIu32 ", which would come next, into cell %" PRIu32 ", stops it: ",
-           exit->portal, exit->cell);
+           directed->portal, directed->cell);
     if (miss->turns) {
         printf("it turns back, and no straight line crosses it and portal %" PRIu32,
                portal_of(space, sequence, sequence->ends[0].portal));
@@ -199,7 +199,7 @@ static void print_bent(const sl_baked *baked, const sl_explanation *e) {
         printf("  %2" PRIu32 "  ", i + 1);
         if (step->mirror == UINT32_MAX) {
             printf("portal %" PRIu32 " into cell %" PRIu32 "\n",
-                   baked->space.exits[step->exit].portal, step->cell);
+                   baked->space.directed[step->directed].portal, step->cell);
             continue;
         }
         const sl_segment at = baked->map.mirrors[step->mirror].segment;
@@ -229,7 +229,7 @@ void sl_explanation_print(const sl_baked *baked, const sl_explanation *e) {
         printf("Cell %" PRIu32 " does not see cell %" PRIu32
                ": no portals lead from one to the other.\n",
                e->from, e->to);
-    else if (e->sequence.exit_count == 1)
+    else if (e->sequence.directed_count == 1)
         printf("Cell %" PRIu32 " sees cell %" PRIu32 ": they share portal %" PRIu32 ".\n", e->from,
                e->to, portal_of(space, &e->sequence, 0));
     else if (e->verdict == SL_STABBED)
@@ -252,16 +252,16 @@ static json_t *json_of_two(sl_point a, sl_point b) {
     return json_pack("[f, f, f, f]", a.x, a.y, b.x, b.y);
 }
 
-static json_t *json_of_exit(const sl_exit *exit) {
-    return json_pack("{s:I, s:I, s:o, s:o}", "portal", (json_int_t)exit->portal, "cell",
-                     (json_int_t)exit->cell, "left", json_of_point(exit->left), "right",
-                     json_of_point(exit->right));
+static json_t *json_of_portal(const sl_directed_portal *directed) {
+    return json_pack("{s:I, s:I, s:o, s:o}", "portal", (json_int_t)directed->portal, "cell",
+                     (json_int_t)directed->cell, "left", json_of_point(directed->left), "right",
+                     json_of_point(directed->right));
 }
 
 static json_t *json_of_portals(const sl_space *space, const sl_sequence *sequence, uint32_t count) {
     json_t *array = json_array();
     for (uint32_t i = 0; i < count; i++)
-        json_array_append_new(array, json_of_exit(&space->exits[sequence->exits[i]]));
+        json_array_append_new(array, json_of_portal(&space->directed[sequence->directed[i]]));
     return array;
 }
 
@@ -279,10 +279,10 @@ static json_t *json_of_ends(const sl_space *space, const sl_sequence *sequence) 
 }
 
 static json_t *json_of_miss(const sl_space *space, const sl_miss *miss) {
-    const uint32_t last = miss->sequence.exit_count - 1;
+    const uint32_t last = miss->sequence.directed_count - 1;
     return json_pack("{s:o, s:o, s:s, s:I, s:o}", "sequence",
                      json_of_portals(space, &miss->sequence, last), "stopped_by",
-                     json_of_exit(&space->exits[miss->sequence.exits[last]]), "reason",
+                     json_of_portal(&space->directed[miss->sequence.directed[last]]), "reason",
                      miss->turns ? "turn" : "conflict", "missing", (json_int_t)miss->missing,
                      "ends", json_of_ends(space, &miss->sequence));
 }
@@ -301,8 +301,8 @@ static void set(sl_json_fields *fields, const char *key, json_t *value) {
 }
 
 static void add_found(sl_json_fields *fields, const sl_space *space, const sl_explanation *e) {
-    if (!e->sequence.exit_count) return;
-    set(fields, "sequence", json_of_portals(space, &e->sequence, e->sequence.exit_count));
+    if (!e->sequence.directed_count) return;
+    set(fields, "sequence", json_of_portals(space, &e->sequence, e->sequence.directed_count));
     set(fields, "line", json_of_two(e->witness.a, e->witness.b));
     sl_json_add_flag(fields, "touches", e->touches);
     set(fields, "shown", json_of_two(e->shown.a, e->shown.b));
@@ -316,9 +316,10 @@ static void add_bent(sl_json_fields *fields, const sl_space *space, const sl_ben
         const sl_bent_step *step = &bent->steps[i];
         const bool portal = step->mirror == UINT32_MAX;
         json_array_append_new(
-            steps, json_pack("{s: I, s: I}", portal ? "portal" : "mirror",
-                             (json_int_t)(portal ? space->exits[step->exit].portal : step->mirror),
-                             "cell", (json_int_t)step->cell));
+            steps,
+            json_pack("{s: I, s: I}", portal ? "portal" : "mirror",
+                      (json_int_t)(portal ? space->directed[step->directed].portal : step->mirror),
+                      "cell", (json_int_t)step->cell));
     }
     sl_json_fields inner = sl_json_begin();
     sl_json_add_text(&inner, "verdict", verdict);

@@ -130,7 +130,7 @@ sl_status sl_eye_print_json(sl_context *context, const sl_baked *baked, const sl
     const sl_eye_method *methods = sl_eye_methods(&count);
     sl_json_fields fields = sl_json_begin(), sets = sl_json_begin();
     sl_json_add_count(&fields, "cell", run->cell);
-    if (sl_findings_begun(&baked->findings)) sl_json_add_flag(&fields, "finished", false);
+    if (sl_partial_begun(&baked->partial)) sl_json_add_flag(&fields, "finished", false);
     for (size_t i = 0; i < count; i++)
         sl_json_add_members(&sets, methods[i].name, run->results[i].cells, baked->space.cell_count);
     sl_json_add_fields(&fields, "methods", &sets);

@@ -103,7 +103,7 @@ sl_status sl_pipeline_subdivide(sl_context *context, const sl_pipeline *pipeline
 }
 
 bool sl_pipeline_checks(const sl_pipeline *pipeline, const sl_space *space) {
-    return pipeline->check || space->beyond;
+    return pipeline->check || space->neighbour;
 }
 
 sl_status sl_pipeline_check(sl_context *context, const sl_pipeline *pipeline,

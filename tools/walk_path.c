@@ -68,7 +68,7 @@ sl_status sl_way_read(sl_context *context, const char *path, const sl_space *spa
 /// What a tour is made with.
 typedef struct tour {
     const sl_space *space;
-    uint32_t *came_by; ///< by cell: the exit by which the search left the cell before it
+    uint32_t *came_by; ///< by cell: the directed portal by which the search left the cell before it
     uint32_t *came_from, *queue;
 } tour;
 
@@ -81,8 +81,9 @@ static uint32_t search(tour *t, uint32_t from) {
     t->queue[count++] = from;
     for (uint32_t i = 0; i < count; i++) {
         const sl_cell *cell = &space->cells[t->queue[i]];
-        for (uint32_t e = cell->first_exit; e < cell->first_exit + cell->exit_count; e++) {
-            const uint32_t next = space->exits[e].cell;
+        for (uint32_t e = cell->first_directed; e < cell->first_directed + cell->directed_count;
+             e++) {
+            const uint32_t next = space->directed[e].cell;
             if (t->came_from[next] != UINT32_MAX || !space->cells[next].inside) continue;
             t->came_from[next] = t->queue[i];
             t->came_by[next] = e;
@@ -96,7 +97,7 @@ static uint32_t search(tour *t, uint32_t from) {
 static sl_status go_to(sl_context *context, const tour *t, uint32_t cell, sl_way *way) {
     const size_t first = way->count;
     for (uint32_t c = cell; t->came_from[c] != c; c = t->came_from[c]) {
-        const sl_exit *e = &t->space->exits[t->came_by[c]];
+        const sl_directed_portal *e = &t->space->directed[t->came_by[c]];
         SL_TRY(add_point(context, way,
                          (sl_point){(e->left.x + e->right.x) / 2, (e->left.y + e->right.y) / 2}));
     }

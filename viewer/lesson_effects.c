@@ -242,14 +242,15 @@ static void draw_doors(sl_app *app, const sl_frame *frame, uint32_t cell) {
 /// The line of a search of walls alone.
 static void draw_line(sl_app *app, const sl_frame *frame, const sl_effect_step *s) {
     const sl_space *space = &app->document.baked->space;
-    uint32_t exits[SL_DUAL_PORTALS_MOST];
+    uint32_t directed[SL_DUAL_PORTALS_MOST];
     sl_portal_ends ends[SL_DUAL_PORTALS_MOST];
     sl_dual dual;
     const uint32_t count =
-        sl_steps_sequence(&app->lesson.steps, s->entry, exits, SL_DUAL_PORTALS_MOST);
+        sl_steps_sequence(&app->lesson.steps, s->entry, directed, SL_DUAL_PORTALS_MOST);
     if (!count || count > SL_DUAL_PORTALS_MOST) return;
     for (uint32_t i = 0; i < count; i++)
-        ends[i] = (sl_portal_ends){space->exits[exits[i]].left, space->exits[exits[i]].right};
+        ends[i] =
+            (sl_portal_ends){space->directed[directed[i]].left, space->directed[directed[i]].right};
     const bool stops = !sl_present_sees(&app->present, &app->document, app->lesson.source, s->cell);
     sl_draw_portal_ends(app->ui.cairo, &app->ui.palette, frame, ends, count, stops);
     sl_dual_make(ends, count, count, &dual);

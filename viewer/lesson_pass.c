@@ -126,13 +126,14 @@ static void draw_dependences(sl_app *app, const sl_frame *frame, uint32_t cell, 
     const sl_pass *pass = pass_of(&app->lesson);
     const sl_cell *c = &space->cells[cell];
     const sl_point from = middle_of(space, cell);
-    for (uint32_t i = c->first_exit; i < c->first_exit + c->exit_count; i++) {
+    for (uint32_t i = c->first_directed; i < c->first_directed + c->directed_count; i++) {
         if (pass->faces[i] == SL_NO_FACE) continue;
-        const sl_exit *exit = &space->exits[i];
-        const sl_point through = {(exit->left.x + exit->right.x) / 2,
-                                  (exit->left.y + exit->right.y) / 2};
+        const sl_directed_portal *directed = &space->directed[i];
+        const sl_point through = {(directed->left.x + directed->right.x) / 2,
+                                  (directed->left.y + directed->right.y) / 2};
         sl_draw_line(app->ui.cairo, frame, from, through, colour, width);
-        sl_draw_line(app->ui.cairo, frame, through, middle_of(space, exit->cell), colour, width);
+        sl_draw_line(app->ui.cairo, frame, through, middle_of(space, directed->cell), colour,
+                     width);
     }
 }
 

@@ -119,11 +119,12 @@ static void account(const sl_lesson *lesson, char text[SL_SENTENCE]) {
 }
 
 static uint32_t sequence(const sl_lesson *lesson, const sl_space *space, sl_portal_ends *ends) {
-    uint32_t exits[SL_DUAL_PORTALS_MOST];
-    uint32_t count = sl_steps_sequence(&lesson->steps, lesson->at, exits, SL_DUAL_PORTALS_MOST);
+    uint32_t directed[SL_DUAL_PORTALS_MOST];
+    uint32_t count = sl_steps_sequence(&lesson->steps, lesson->at, directed, SL_DUAL_PORTALS_MOST);
     if (count > SL_DUAL_PORTALS_MOST) count = SL_DUAL_PORTALS_MOST;
     for (uint32_t i = 0; i < count; i++)
-        ends[i] = (sl_portal_ends){space->exits[exits[i]].left, space->exits[exits[i]].right};
+        ends[i] =
+            (sl_portal_ends){space->directed[directed[i]].left, space->directed[directed[i]].right};
     return count;
 }
 
@@ -145,9 +146,9 @@ static void draw_entered(sl_app *app, const sl_frame *frame) {
     cairo_fill(cairo);
 }
 
-static sl_point exit_middle(const sl_space *space, uint32_t exit, sl_point none) {
-    if (exit == UINT32_MAX) return none;
-    const sl_exit *e = &space->exits[exit];
+static sl_point portal_middle(const sl_space *space, uint32_t directed, sl_point none) {
+    if (directed == UINT32_MAX) return none;
+    const sl_directed_portal *e = &space->directed[directed];
     return (sl_point){(e->left.x + e->right.x) / 2, (e->left.y + e->right.y) / 2};
 }
 
@@ -160,8 +161,8 @@ static void draw_branches(sl_app *app, const sl_frame *frame) {
         const sl_step *s = &lesson->steps.steps[i];
         if (s->kind != SL_STEP_ENTER) continue;
         const sl_step *from = &lesson->steps.steps[s->parent];
-        sl_path_segment(cairo, frame, exit_middle(space, from->exit, app->eye.at),
-                        exit_middle(space, s->exit, app->eye.at));
+        sl_path_segment(cairo, frame, portal_middle(space, from->directed, app->eye.at),
+                        portal_middle(space, s->directed, app->eye.at));
     }
     cairo_set_source_rgba(cairo, palette->tree.red, palette->tree.green, palette->tree.blue, 0.45);
     cairo_set_line_width(cairo, 1.5 * frame->unit);

@@ -9,7 +9,7 @@
 #include <stdio.h>
 
 static bool is_mesh(const sl_document *document) {
-    return document->baked->space.beyond != NULL;
+    return document->baked->space.neighbour != NULL;
 }
 
 /// Old files among oblique walls have neither splits nor a mesh.

@@ -75,7 +75,7 @@ void sl_pane_status(sl_app *app, sl_box box) {
         draw_progress(app, box);
     } else {
         const sl_baked *baked = app->document.baked;
-        const bool partial = baked && sl_findings_begun(&baked->findings);
+        const bool partial = baked && sl_partial_begun(&baked->partial);
         const char *doing = app->recorder.records ? "recording"
                             : app->recorder.plays ? "playing"
                             : partial             ? "a partial bake"

@@ -65,8 +65,8 @@ static void add_room(viewer *v, const sl_outline *outline, uint32_t room, double
     for (uint32_t i = first; i < end; i++) {
         if (sl_side_is_portal(&outline->sides[i])) continue;
         const uint32_t next = i + 1 < end ? i + 1 : first;
-        add_wall(v, outline->sides[i].start, outline->sides[next].start, outline->sides[i].beyond,
-                 near);
+        add_wall(v, outline->sides[i].start, outline->sides[next].start,
+                 outline->sides[i].neighbour, near);
     }
 }
 

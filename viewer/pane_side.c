@@ -268,9 +268,9 @@ void sl_pane_describe(const sl_app *app, sl_point at, char *text, size_t room) {
     const bool counts = sl_baked_counts(app->document.baked, cell);
     char area[SL_COUNT_TEXT];
     write_area(app->document.areas[cell], area);
-    int length =
-        snprintf(text, room, "Cell %u at %.4g, %.4g: %u portal%s, area %s%s.", cell, at.x, at.y,
-                 c->exit_count, c->exit_count == 1 ? "" : "s", area, counts ? "" : ", not inside");
+    int length = snprintf(text, room, "Cell %u at %.4g, %.4g: %u portal%s, area %s%s.", cell, at.x,
+                          at.y, c->directed_count, c->directed_count == 1 ? "" : "s", area,
+                          counts ? "" : ", not inside");
     if (!app->seen.valid || !app->seen.pvs || length < 0 || (size_t)length >= room) return;
     size_t count;
     sl_eye_methods(&count);

@@ -9,7 +9,7 @@
 typedef struct sl_present_own {
     sl_space space;
     sl_space one_way; ///< for mirrors, into which glass is dark or not by another side: without the
-                      ///< exits that glass bars; empty where the map has not both
+                      ///< directed portals that glass bars; empty where the map has not both
     sl_outline outline;
     sl_visibility row; ///< of one cell
     uint32_t cell;
@@ -44,8 +44,8 @@ static sl_status make_space(sl_context *context, const sl_present *present,
         seams[i].number += (uint32_t)document->baked->map.door_count;
     }
     from.seams = seams;
-    const sl_passage passage = {.shut = present->shut};
-    const sl_status status = sl_passage_make(context, &from, &passage, NULL, out);
+    const sl_filtered_space filtered = {.shut = present->shut};
+    const sl_status status = sl_filtered_space_make(context, &from, &filtered, NULL, out);
     sl_free(context, seams);
     return status;
 }
@@ -156,8 +156,9 @@ static sl_status make_own(sl_context *context, sl_present *present, const sl_doc
     if (!o) return SL_NO_MEMORY;
     SL_TRY(make_space(context, present, document, &o->space));
     if (document->map.mirror_count && document->map.oneway_count) {
-        const sl_passage passage = {.shut = present->shut, .one_way = true};
-        SL_TRY(sl_passage_make(context, &document->baked->space, &passage, NULL, &o->one_way));
+        const sl_filtered_space filtered = {.shut = present->shut, .one_way = true};
+        SL_TRY(
+            sl_filtered_space_make(context, &document->baked->space, &filtered, NULL, &o->one_way));
     }
     return sl_outline_make(context, &o->space, &o->outline);
 }
@@ -272,9 +273,9 @@ sl_status sl_present_update(sl_context *context, sl_present *present, const sl_d
 
 // --- the stab tree
 
-static bool passes_shut(const sl_present *present, const sl_space *space, uint32_t exit) {
+static bool passes_shut(const sl_present *present, const sl_space *space, uint32_t directed) {
     size_t count;
-    const sl_seam_portal *on = sl_space_seams_of(space, space->exits[exit].portal, &count);
+    const sl_seam_portal *on = sl_space_seams_of(space, space->directed[directed].portal, &count);
     for (size_t i = 0; i < count; i++) {
         const sl_seam *seam = &space->seams[on[i].seam];
         if (seam->kind == SL_SEAM_DOOR && present->shut[seam->number]) return true;
@@ -289,10 +290,10 @@ static uint32_t keep_nodes(const sl_present *present, const sl_space *space,
     uint32_t kept = 0;
     for (uint32_t i = 0; i < count; i++) {
         numbers[i] = UINT32_MAX;
-        const bool root = from[i].exit == UINT32_MAX;
+        const bool root = from[i].directed == UINT32_MAX;
         const bool portal = !root && !sl_stab_is_mirror(&from[i]);
         if (!root && numbers[from[i].parent] == UINT32_MAX) continue;
-        if (portal && passes_shut(present, space, from[i].exit)) continue;
+        if (portal && passes_shut(present, space, from[i].directed)) continue;
         to[kept] = from[i];
         to[kept].parent = root ? kept : numbers[from[i].parent];
         numbers[i] = kept++;

@@ -12,7 +12,8 @@
 /// Zeroed to start. The pointers are NULL while nothing is open.
 typedef struct sl_present {
     uint32_t version;      ///< grows with every change, the document's among them
-    const sl_space *space; ///< its cells and exits' cells are the document's; exits are not
+    const sl_space *space; ///< its cells and directed portals' cells are the document's; directed
+                           ///< portals are not
     const sl_outline *outline;
     /// With the eye's cell's visible set alone, where something is shut; with none, where they were
     /// baked with a shorter range.

@@ -49,8 +49,8 @@ void sl_quiz_ask(sl_app *app) {
         if (from == to || !sl_baked_counts(d->baked, from) || !sl_baked_counts(d->baked, to))
             continue;
         bool neighbours = false;
-        for (uint32_t i = 0; i < space->cells[from].exit_count; i++)
-            neighbours |= space->exits[space->cells[from].first_exit + i].cell == to;
+        for (uint32_t i = 0; i < space->cells[from].directed_count; i++)
+            neighbours |= space->directed[space->cells[from].first_directed + i].cell == to;
         if (neighbours && attempt < 3000) continue;
         if (sl_present_sees(&app->present, d, from, to) == wanted || attempt > 2000) break;
     }
@@ -97,7 +97,7 @@ static void write_words(const sl_app *app, char *text, size_t room) {
         snprintf(text, room,
                  "Seen: the line passes %u portal%s, left ends at its left and right ends at its "
                  "right.",
-                 e->sequence.exit_count, e->sequence.exit_count == 1 ? "" : "s");
+                 e->sequence.directed_count, e->sequence.directed_count == 1 ? "" : "s");
     else if (e->verdict == SL_GRAZING)
         snprintf(text, room, "Only grazed: the line touches portal ends, for %s.",
                  sl_sequence_reason(space, sequence));
@@ -139,11 +139,11 @@ void sl_quiz_draw_above(sl_app *app, const sl_frame *frame) {
     if (!q->asked || !q->answered) return;
     sl_portal_ends ends[SL_DUAL_PORTALS_MOST] = {0};
     const sl_sequence *sequence = sequence_of(&q->explanation);
-    const sl_exit *exits = app->present.space->exits;
+    const sl_directed_portal *directed = app->present.space->directed;
     uint32_t count = 0;
-    for (; sequence && count < sequence->exit_count && count < SL_DUAL_PORTALS_MOST; count++) {
-        const sl_exit *exit = &exits[sequence->exits[count]];
-        ends[count] = (sl_portal_ends){exit->left, exit->right};
+    for (; sequence && count < sequence->directed_count && count < SL_DUAL_PORTALS_MOST; count++) {
+        const sl_directed_portal *step = &directed[sequence->directed[count]];
+        ends[count] = (sl_portal_ends){step->left, step->right};
     }
     const bool seen = q->explanation.verdict != SL_HIDDEN;
     sl_draw_portal_ends(app->ui.cairo, &app->ui.palette, frame, ends, count, !seen);

@@ -83,7 +83,7 @@ static sl_status print_baked(const printer *out, const sl_baked *baked) {
     const sl_visibility *visibility = &baked->visibility;
     fprintf(out->stream, "{\"format\": \"sightline\", \"version\": 1, \"sight\": \"%s\"",
             visibility->sight == SL_CLOSED ? "closed" : "open");
-    if (sl_findings_begun(&baked->findings)) fputs(", \"finished\": false", out->stream);
+    if (sl_partial_begun(&baked->partial)) fputs(", \"finished\": false", out->stream);
     SL_TRY(print_space(out, &baked->space));
     fputs(",\n\"pvs\": [", out->stream);
     for (uint32_t i = 0; goes_on(out, i, visibility->pvs.cell_count); i++)

@@ -34,14 +34,14 @@ static sl_status keep_rows(sl_context *context, const sl_visibility *v, const bo
 }
 
 sl_status sl_baked_darken(sl_context *context, sl_baked *baked, sl_point eye) {
-    const sl_passage passage = {.eye = &eye};
+    const sl_filtered_space filtered = {.eye = &eye};
     sl_visibility *v = &baked->visibility;
     sl_space walled;
     if (v->mirrored.cell_count)
         return sl_fail(context, SL_UNSUPPORTED,
                        "glass that is dark from an eye may not be so in a mirror: bake the map "
                        "--without mirror or --without oneway");
-    SL_TRY(sl_passage_make(context, &baked->space, &passage, NULL, &walled));
+    SL_TRY(sl_filtered_space_make(context, &baked->space, &filtered, NULL, &walled));
     sl_space_destroy(context, &baked->space);
     baked->space = walled;
     sl_visibility trees = {.trees = v->trees};
@@ -51,13 +51,13 @@ sl_status sl_baked_darken(sl_context *context, sl_baked *baked, sl_point eye) {
 }
 
 sl_status sl_baked_shut(sl_context *context, sl_baked *baked, const bool *shut) {
-    const sl_passage passage = {.shut = shut};
+    const sl_filtered_space filtered = {.shut = shut};
     sl_visibility *v = &baked->visibility;
     sl_space walled;
     sl_visibility kept = {.sight = v->sight, .guarantee = v->guarantee, .account = v->account};
     if (v->mirrored.cell_count)
         return sl_fail(context, SL_UNSUPPORTED, "doors are not shut where there are mirrors");
-    SL_TRY(sl_passage_make(context, &baked->space, &passage, NULL, &walled));
+    SL_TRY(sl_filtered_space_make(context, &baked->space, &filtered, NULL, &walled));
     const sl_status status = keep_rows(context, v, shut, &kept.pvs);
     if (status != SL_OK) {
         sl_space_destroy(context, &walled);

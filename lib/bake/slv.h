@@ -84,9 +84,9 @@ _Static_assert(sizeof(sl_slv_header) == 32 && sizeof(sl_slv_section) == 24 &&
                    sizeof(sl_slv_info) == 128 && sizeof(sl_slv_part) == 16,
                "no padding in the file");
 _Static_assert(sizeof(sl_node) == 24 && sizeof(sl_cell) == 24 && sizeof(sl_point) == 16 &&
-                   sizeof(sl_portal) == 40 && sizeof(sl_exit) == 40 && sizeof(sl_segment) == 32 &&
-                   sizeof(sl_stab_node) == 12 && sizeof(sl_seam) == 40 &&
-                   sizeof(sl_seam_portal) == 12,
+                   sizeof(sl_portal) == 40 && sizeof(sl_directed_portal) == 40 &&
+                   sizeof(sl_segment) == 32 && sizeof(sl_stab_node) == 12 &&
+                   sizeof(sl_seam) == 40 && sizeof(sl_seam_portal) == 12,
                "no padding in the file");
 
 /// Whether it is letters, digits and dashes, zeros behind: nothing that plays tricks on a terminal.

@@ -250,16 +250,16 @@ static sl_status load_space(const reader *r) {
     SL_TRY(load_counted(r, "CELL", sizeof *s->cells, (void **)&s->cells, &s->cell_count));
     SL_TRY(load_counted(r, "VERT", sizeof *s->vertices, (void **)&s->vertices, &s->vertex_count));
     SL_TRY(load_counted(r, "PORT", sizeof *s->portals, (void **)&s->portals, &s->portal_count));
-    SL_TRY(load_counted(r, "EXIT", sizeof *s->exits, (void **)&s->exits, &s->exit_count));
+    SL_TRY(load_counted(r, "EXIT", sizeof *s->directed, (void **)&s->directed, &s->directed_count));
     SL_TRY(load_walls(r));
     uint64_t sides;
-    SL_TRY(load(r, "BEYO", sizeof *s->beyond, true, (void **)&s->beyond, &sides));
+    SL_TRY(load(r, "BEYO", sizeof *s->neighbour, true, (void **)&s->neighbour, &sides));
     SL_TRY(load_seams(r));
-    if (s->beyond && sides != s->vertex_count)
+    if (s->neighbour && sides != s->vertex_count)
         return fail_file(r, "damaged: section BEYO does not tell of each side");
     const bool is_mesh = r->header.version != SL_SLV_VERSION_AXIAL;
-    if (is_mesh && !s->beyond) return fail_file(r, "damaged: section BEYO is missing");
-    if (s->beyond) SL_TRY(is_mesh ? load_grid(r) : loosen(r));
+    if (is_mesh && !s->neighbour) return fail_file(r, "damaged: section BEYO is missing");
+    if (s->neighbour) SL_TRY(is_mesh ? load_grid(r) : loosen(r));
     return in_file(r, sl_space_check(r->context, s));
 }
 
@@ -318,18 +318,19 @@ static sl_status check_rows(const reader *r, const sl_pvs *pvs) {
 
 /// Whether a mirror that stands in a tree is one that the cell ends at.
 static bool mirror_is_sound(const sl_baked *baked, const sl_stab_node *node, uint32_t cell) {
-    const uint32_t mirror = node->exit - SL_STAB_MIRROR;
+    const uint32_t mirror = node->directed - SL_STAB_MIRROR;
     sl_mirror_side side;
     return node->cell == cell && mirror < baked->map.mirror_count &&
            sl_mirror_side_of(&baked->space, &baked->map, cell, mirror, &side);
 }
 
-/// A tree's nodes: parents first, each exit one of the parent's cell and leading to the node's.
+/// A tree's nodes: parents first, each directed portal one of the parent's cell and leading to the
+/// node's.
 static bool tree_is_sound(const sl_baked *baked, const sl_stab_node *nodes, uint64_t count,
                           uint32_t source) {
     const sl_space *space = &baked->space;
     if (!count) return true;
-    if (nodes[0].parent != 0 || nodes[0].cell != source || nodes[0].exit != UINT32_MAX)
+    if (nodes[0].parent != 0 || nodes[0].cell != source || nodes[0].directed != UINT32_MAX)
         return false;
     for (uint64_t i = 1; i < count; i++) {
         const sl_stab_node *node = &nodes[i];
@@ -339,10 +340,11 @@ static bool tree_is_sound(const sl_baked *baked, const sl_stab_node *nodes, uint
             if (!mirror_is_sound(baked, node, before)) return false;
             continue;
         }
-        if (node->exit >= space->exit_count) return false;
+        if (node->directed >= space->directed_count) return false;
         const sl_cell *from = &space->cells[before];
-        if (node->exit < from->first_exit || node->exit - from->first_exit >= from->exit_count ||
-            space->exits[node->exit].cell != node->cell)
+        if (node->directed < from->first_directed ||
+            node->directed - from->first_directed >= from->directed_count ||
+            space->directed[node->directed].cell != node->cell)
             return false;
     }
     return true;
@@ -401,23 +403,23 @@ static sl_status load_map(const reader *r) {
 
 // --- what is not finished
 
-static bool bits_beyond_are_clear(const sl_findings *findings) {
-    const uint32_t last = findings->unit_count % 64;
-    return !last || !(findings->done[findings->unit_count / 64] >> last);
+static bool bits_beyond_are_clear(const sl_partial *partial) {
+    const uint32_t last = partial->unit_count % 64;
+    return !last || !(partial->done[partial->unit_count / 64] >> last);
 }
 
-static sl_status load_done(const reader *r, sl_findings *findings) {
+static sl_status load_done(const reader *r, sl_partial *partial) {
     uint64_t words;
-    SL_TRY(load(r, "DONE", sizeof *findings->done, false, (void **)&findings->done, &words));
-    if (words != sl_bits_words(findings->unit_count) || !bits_beyond_are_clear(findings))
+    SL_TRY(load(r, "DONE", sizeof *partial->done, false, (void **)&partial->done, &words));
+    if (words != sl_bits_words(partial->unit_count) || !bits_beyond_are_clear(partial))
         return fail_file(r, "damaged: section DONE does not tell of each unit");
     for (uint64_t i = 0; i < words; i++)
-        findings->done_count += (uint32_t)__builtin_popcountll(findings->done[i]);
+        partial->done_count += (uint32_t)__builtin_popcountll(partial->done[i]);
     return SL_OK;
 }
 
-static sl_status load_findings(const reader *r) {
-    sl_findings *findings = &r->out->findings;
+static sl_status load_partial(const reader *r) {
+    sl_partial *partial = &r->out->partial;
     sl_slv_section s;
     sl_slv_part part;
     bool found;
@@ -427,13 +429,13 @@ static sl_status load_findings(const reader *r) {
     memcpy(&part, r->bytes + s.offset, sizeof part);
     if (part.inside_only > 1 || part.shard > part.shard_count || (part.shard_count && !part.shard))
         return fail_file(r, "damaged: section PART makes no sense");
-    findings->shard = part.shard;
-    findings->shard_count = part.shard_count;
-    findings->unit_count = part.unit_count;
-    findings->inside_only = part.inside_only;
-    SL_TRY(load_done(r, findings));
-    SL_TRY(load_pvs(r, "FNDO", "FNDB", false, &findings->sure));
-    return load_pvs(r, "FNRO", "FNRB", false, &findings->doubtful);
+    partial->shard = part.shard;
+    partial->shard_count = part.shard_count;
+    partial->unit_count = part.unit_count;
+    partial->inside_only = part.inside_only;
+    SL_TRY(load_done(r, partial));
+    SL_TRY(load_pvs(r, "FNDO", "FNDB", false, &partial->sure));
+    return load_pvs(r, "FNRO", "FNRB", false, &partial->doubtful);
 }
 
 /// The visible sets of cells from those of their view cells, where the file has only these.
@@ -450,11 +452,11 @@ static sl_status load_by_views(const reader *r) {
 /// The visible sets, which a shard has none of.
 static sl_status load_seen(const reader *r) {
     sl_visibility *visibility = &r->out->visibility;
-    if (r->out->findings.shard_count) {
+    if (r->out->partial.shard_count) {
         if (r->takes_shards) return SL_OK;
         return sl_fail_at(r->context, r->name, 0,
                           "one shard of a bake, %u of %u: put them together with sightline merge",
-                          r->out->findings.shard, r->out->findings.shard_count);
+                          r->out->partial.shard, r->out->partial.shard_count);
     }
     SL_TRY(load_pvs(r, "PVSO", "PVSB", r->out->views.view_cell_count > 0, &visibility->pvs));
     if (!visibility->pvs.cell_count) SL_TRY(load_by_views(r));
@@ -470,7 +472,7 @@ static sl_status load_all(reader *r) {
     SL_TRY(check_header(r));
     SL_TRY(load_info(r));
     SL_TRY(load_space(r));
-    SL_TRY(load_findings(r));
+    SL_TRY(load_partial(r));
     SL_TRY(load_views(r));
     SL_TRY(load_seen(r));
     SL_TRY(load_effects(r));

@@ -87,16 +87,16 @@ static void add_pvs(plan *p, const char *offsets_tag, const char *bytes_tag, con
     add_section(p, bytes_tag, pvs->bytes, 1, pvs->offsets[pvs->cell_count]);
 }
 
-static void add_findings(plan *p, const sl_findings *findings) {
-    p->part = (sl_slv_part){.shard = findings->shard,
-                            .shard_count = findings->shard_count,
-                            .unit_count = findings->unit_count,
-                            .inside_only = findings->inside_only};
+static void add_partial(plan *p, const sl_partial *partial) {
+    p->part = (sl_slv_part){.shard = partial->shard,
+                            .shard_count = partial->shard_count,
+                            .unit_count = partial->unit_count,
+                            .inside_only = partial->inside_only};
     add_section(p, "PART", &p->part, sizeof p->part, 1);
-    add_section(p, "DONE", findings->done, sizeof *findings->done,
-                sl_bits_words(findings->unit_count));
-    add_pvs(p, "FNDO", "FNDB", &findings->sure);
-    add_pvs(p, "FNRO", "FNRB", &findings->doubtful);
+    add_section(p, "DONE", partial->done, sizeof *partial->done,
+                sl_bits_words(partial->unit_count));
+    add_pvs(p, "FNDO", "FNDB", &partial->sure);
+    add_pvs(p, "FNRO", "FNRB", &partial->doubtful);
 }
 
 static void add_doors(plan *p, const char *offsets_tag, const char *bytes_tag,
@@ -125,17 +125,17 @@ static void add_sections(plan *p, const sl_baked *baked, const sl_slv_info *info
                          size_t map_bytes) {
     const sl_space *space = &baked->space;
     const sl_stab_trees *trees = &baked->visibility.trees;
-    p->version = space->beyond ? SL_SLV_VERSION : SL_SLV_VERSION_AXIAL;
+    p->version = space->neighbour ? SL_SLV_VERSION : SL_SLV_VERSION_AXIAL;
     add_section(p, "INFO", info, sizeof *info, 1);
     add_section(p, "NODE", space->nodes, sizeof *space->nodes, space->node_count);
     add_section(p, "CELL", space->cells, sizeof *space->cells, space->cell_count);
     add_section(p, "VERT", space->vertices, sizeof *space->vertices, space->vertex_count);
     add_section(p, "PORT", space->portals, sizeof *space->portals, space->portal_count);
-    add_section(p, "EXIT", space->exits, sizeof *space->exits, space->exit_count);
+    add_section(p, "EXIT", space->directed, sizeof *space->directed, space->directed_count);
     add_section(p, "WALL", p->walls, sizeof *p->walls, space->wall_count);
-    if (space->beyond) {
+    if (space->neighbour) {
         const sl_cell_grid *g = &space->grid;
-        add_section(p, "BEYO", space->beyond, sizeof *space->beyond, space->vertex_count);
+        add_section(p, "BEYO", space->neighbour, sizeof *space->neighbour, space->vertex_count);
         add_section(p, "GRIO", g->first, sizeof *g->first, (uint64_t)g->columns * g->rows + 1);
         add_section(p, "GRIC", g->cells, sizeof *g->cells, g->entry_count);
     }
@@ -155,7 +155,7 @@ static void add_sections(plan *p, const sl_baked *baked, const sl_slv_info *info
         add_section(p, "TREN", trees->nodes, sizeof *trees->nodes,
                     trees->offsets[trees->cell_count]);
     }
-    if (sl_findings_begun(&baked->findings)) add_findings(p, &baked->findings);
+    if (sl_partial_begun(&baked->partial)) add_partial(p, &baked->partial);
     if (baked->views.view_cell_count) add_views(p, &baked->views);
     add_section(p, "MAPT", p->map_text, 1, map_bytes);
 }
@@ -213,7 +213,7 @@ static sl_status write_plan(sl_context *context, const plan *p, FILE *stream) {
 static sl_status make_plan(sl_context *context, const sl_baked *baked, const sl_slv_info *info,
                            plan *p) {
     const uint32_t cells = baked->space.cell_count;
-    const sl_pvs *rows = sl_baked_is_shard(baked) ? &baked->findings.sure : &baked->visibility.pvs;
+    const sl_pvs *rows = sl_baked_is_shard(baked) ? &baked->partial.sure : &baked->visibility.pvs;
     if (!cells || rows->cell_count != cells)
         return sl_fail(context, SL_BAD_ARGUMENT, "nothing baked: no visible set for each cell");
     if (baked->by_views && !baked->views.view_cell_count)

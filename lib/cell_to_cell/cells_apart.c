@@ -68,12 +68,12 @@ static sl_apart cells_apart(const sl_space *space, uint32_t a, uint32_t b, doubl
     const double height = fmax(p.box.max.y, q.box.max.y) - fmin(p.box.min.y, q.box.min.y);
     const double size = hypot(width, height), error = size * ERROR;
     if (size + error <= range) return SL_ALL_WITHIN;
-    const double beyond = range * (1 + RANGE_ERROR) + error;
+    const double neighbour = range * (1 + RANGE_ERROR) + error;
     const double x = fmax(p.box.min.x, q.box.min.x) - fmin(p.box.max.x, q.box.max.x);
     const double y = fmax(p.box.min.y, q.box.min.y) - fmin(p.box.max.y, q.box.max.y);
-    if (hypot(fmax(x, 0), fmax(y, 0)) > beyond) return SL_NONE_WITHIN;
+    if (hypot(fmax(x, 0), fmax(y, 0)) > neighbour) return SL_NONE_WITHIN;
     if (farthest(&p, &q) + error <= range) return SL_ALL_WITHIN;
-    return fmin(nearest(&p, &q), nearest(&q, &p)) > beyond ? SL_NONE_WITHIN : SL_SOME_WITHIN;
+    return fmin(nearest(&p, &q), nearest(&q, &p)) > neighbour ? SL_NONE_WITHIN : SL_SOME_WITHIN;
 }
 
 static sl_status make_rows(sl_context *context, const sl_space *space, const sl_pvs *pvs,

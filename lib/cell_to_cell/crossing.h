@@ -7,24 +7,24 @@
 #include "geometry/orient.h"
 #include "sightline/space.h"
 
-#define SL_NO_EXIT UINT32_MAX
+#define SL_NO_PORTAL UINT32_MAX
 
 /// The directions of a sequence's portals, from right end to left end, span less than half a turn:
-/// from that of exit `least` counter-clockwise to that of exit `most`. SL_NO_EXIT for both: none
-/// yet.
+/// from that of directed portal `least` counter-clockwise to that of directed portal `most`.
+/// SL_NO_PORTAL for both: none yet.
 typedef struct sl_crossings {
     uint32_t least, most;
 } sl_crossings;
 
-#define SL_CROSSINGS_NONE ((sl_crossings){SL_NO_EXIT, SL_NO_EXIT})
+#define SL_CROSSINGS_NONE ((sl_crossings){SL_NO_PORTAL, SL_NO_PORTAL})
 
 /// Whether two directions along one line are the same.
-static inline bool sl_same_way(const sl_exit *a, const sl_exit *b) {
+static inline bool sl_same_way(const sl_directed_portal *a, const sl_directed_portal *b) {
     return a->left.x != a->right.x ? (a->left.x > a->right.x) == (b->left.x > b->right.x)
                                    : (a->left.y > a->right.y) == (b->left.y > b->right.y);
 }
 
-/// What one more exit does to the directions of those so far.
+/// What one more directed portal does to the directions of those so far.
 typedef enum sl_crossing {
     SL_CROSSES_NEVER,  ///< no direction is left
     SL_CROSSES_WITHIN, ///< it is among them
@@ -32,29 +32,30 @@ typedef enum sl_crossing {
     SL_CROSSES_MOST,   ///< it is the most now
 } sl_crossing;
 
-/// `alone`: least and most are one exit.
-static inline sl_crossing sl_crossing_of(const sl_exit *least, const sl_exit *most, bool alone,
-                                         const sl_exit *exit) {
-    const int from_least = sl_turn(least->right, least->left, exit->right, exit->left);
+/// `alone`: least and most are one directed portal.
+static inline sl_crossing sl_crossing_of(const sl_directed_portal *least,
+                                         const sl_directed_portal *most, bool alone,
+                                         const sl_directed_portal *directed) {
+    const int from_least = sl_turn(least->right, least->left, directed->right, directed->left);
     const int from_most =
-        alone ? from_least : sl_turn(most->right, most->left, exit->right, exit->left);
+        alone ? from_least : sl_turn(most->right, most->left, directed->right, directed->left);
     if (from_least == 0 && from_most == 0)
-        return sl_same_way(least, exit) ? SL_CROSSES_WITHIN : SL_CROSSES_NEVER;
+        return sl_same_way(least, directed) ? SL_CROSSES_WITHIN : SL_CROSSES_NEVER;
     if (from_least >= 0 && from_most <= 0) return SL_CROSSES_WITHIN;
     if (from_least <= 0 && from_most >= 0) return SL_CROSSES_NEVER;
     return from_most > 0 ? SL_CROSSES_MOST : SL_CROSSES_LEAST;
 }
 
-/// Adds an exit, by its number; false, and nothing added, where no direction is left.
+/// Adds a directed portal, by its number; false, and nothing added, where no direction is left.
 static inline bool sl_crossings_add(const sl_space *space, sl_crossings *crossings,
                                     uint32_t number) {
-    if (crossings->least == SL_NO_EXIT) {
+    if (crossings->least == SL_NO_PORTAL) {
         *crossings = (sl_crossings){number, number};
         return true;
     }
     const sl_crossing crossing =
-        sl_crossing_of(&space->exits[crossings->least], &space->exits[crossings->most],
-                       crossings->least == crossings->most, &space->exits[number]);
+        sl_crossing_of(&space->directed[crossings->least], &space->directed[crossings->most],
+                       crossings->least == crossings->most, &space->directed[number]);
     if (crossing == SL_CROSSES_MOST) crossings->most = number;
     if (crossing == SL_CROSSES_LEAST) crossings->least = number;
     return crossing != SL_CROSSES_NEVER;

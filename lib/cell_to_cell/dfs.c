@@ -7,11 +7,11 @@
 /// A rounded solver marks answers near zero. They are followed with either sight, so that all pairs
 /// of which rounding decided are known: they count as seen with closed sight, not with open.
 ///
-/// The method "prune" is the same search, but goes through an exit only while something is left to
-/// be found there: cells not seen yet that the exit's upper bound (flood.c) and those of all exits
-/// before leave possible, as Quake's vis does. The bound misses nothing, so that a cell that is
-/// seen stays possible all along a sequence that leads to it. Exact solvers need find each pair
-/// from one of its cells only.
+/// The method "prune" is the same search, but goes through a directed portal only while something
+/// is left to be found there: cells not seen yet that the directed portal's upper bound (flood.c)
+/// and those of all directed portals before leave possible, as Quake's vis does. The bound misses
+/// nothing, so that a cell that is seen stays possible all along a sequence that leads to it. Exact
+/// solvers need find each pair from one of its cells only.
 #include "cell_to_cell/dfs.h"
 
 #include "base/threads.h"
@@ -21,10 +21,10 @@
 #include <string.h>
 
 sl_status sl_dfs_enter(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, sl_dfs_step to,
-                       uint32_t parent, uint32_t exit, bool counts) {
+                       uint32_t parent, uint32_t directed, bool counts) {
     if (counts) {
         to.node = (uint32_t)me->account.nodes++;
-        const sl_stab_node node = {.parent = parent, .cell = to.cell, .exit = exit};
+        const sl_stab_node node = {.parent = parent, .cell = to.cell, .directed = directed};
         if (all->options->trees) SL_TRY(sl_tree_grow(context, &all->trees, &me->tree, node));
     }
     SL_TRY(SL_ARRAY_ROOM(context, &me->steps, 1));
@@ -34,14 +34,14 @@ sl_status sl_dfs_enter(sl_context *context, const sl_dfs *all, sl_dfs_thread *me
     return SL_OK;
 }
 
-/// Where the search prunes: makes the set of what is wanted beyond an exit of the last step. False
-/// where nothing is.
-static sl_status want(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, uint32_t exit,
+/// Where the search prunes: makes the set of what is wanted beyond a directed portal of the last
+/// step. False where nothing is.
+static sl_status want(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, uint32_t directed,
                       bool *something) {
     *something = true;
     if (!all->prunes) return SL_OK;
     const size_t step = me->steps.count;
-    SL_TRY(sl_prune_step(context, &all->bounds, &me->wanted, step, exit));
+    SL_TRY(sl_prune_step(context, &all->bounds, &me->wanted, step, directed));
     const sl_prune_set *set = &me->wanted.sets.items[step];
     *something = set->all;
     for (size_t i = set->begin; i < set->end && !*something; i++) {
@@ -57,22 +57,23 @@ static sl_status check_going_on(sl_context *context, const sl_dfs *all) {
     return all->before && sl_is_enough(all->options) ? SL_CANCELLED : SL_OK;
 }
 
-/// Tries one exit of the last step: tests the sequence with it, and enters the cell behind.
-static sl_status try_exit(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
-                          uint32_t number) {
+/// Tries one directed portal of the last step: tests the sequence with it, and enters the cell
+/// behind.
+static sl_status try_portal(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
+                            uint32_t number) {
     const sl_solver *solver = all->options->solver;
-    const sl_exit *exit = &all->space->exits[number];
+    const sl_directed_portal *directed = &all->space->directed[number];
     const sl_dfs_step from = me->steps.items[me->steps.count - 1];
     sl_crossings crossings = from.crossings;
     if (!sl_crossings_add(all->space, &crossings, number)) return SL_OK;
-    if (all->options->inside_only && !all->space->cells[exit->cell].inside) return SL_OK;
+    if (all->options->inside_only && !all->space->cells[directed->cell].inside) return SL_OK;
     bool something;
     SL_TRY(want(context, all, me, number, &something));
     if (!something) return SL_OK;
     if (++me->account.tests % 64 == 0) SL_TRY(check_going_on(context, all));
 
     sl_stab_verdict verdict;
-    SL_TRY(solver->push(context, me->solver, exit->left, exit->right, &verdict));
+    SL_TRY(solver->push(context, me->solver, directed->left, directed->right, &verdict));
     const bool closed = all->options->sight == SL_CLOSED;
     const bool rounded = solver->guarantee == SL_ROUNDED;
     const bool grazing = verdict == SL_GRAZING || from.grazing;
@@ -80,8 +81,8 @@ static sl_status try_exit(sl_context *context, const sl_dfs *all, sl_dfs_thread 
         solver->pop(me->solver);
         return SL_OK;
     }
-    sl_bits_add(grazing && rounded ? me->doubtful : me->sure, exit->cell);
-    const sl_dfs_step to = {.cell = exit->cell, .crossings = crossings, .grazing = grazing};
+    sl_bits_add(grazing && rounded ? me->doubtful : me->sure, directed->cell);
+    const sl_dfs_step to = {.cell = directed->cell, .crossings = crossings, .grazing = grazing};
     return sl_dfs_enter(context, all, me, to, from.node, number, closed || !grazing);
 }
 
@@ -99,8 +100,8 @@ static sl_status search_from(sl_context *context, const sl_dfs *all, sl_dfs_thre
     while (me->steps.count) {
         sl_dfs_step *last = &me->steps.items[me->steps.count - 1];
         const sl_cell *cell = &space->cells[last->cell];
-        if (last->next < cell->exit_count) {
-            SL_TRY(try_exit(context, all, me, cell->first_exit + last->next++));
+        if (last->next < cell->directed_count) {
+            SL_TRY(try_portal(context, all, me, cell->first_directed + last->next++));
         } else if (--me->steps.count)
             all->options->solver->pop(me->solver);
     }
@@ -207,7 +208,7 @@ static sl_status search_all(sl_context *context, sl_dfs *all, sl_visibility *out
     sl_status status = sl_pvs_join(context, all->sure, count, &sure);
     if (status == SL_OK) status = sl_pvs_join(context, all->doubtful, count, &doubtful);
     const bool mutual = !all->effects || all->options->plan->mutual;
-    if (status == SL_OK) status = sl_visibility_settle(context, &sure, &doubtful, mutual, out);
+    if (status == SL_OK) status = sl_visibility_finish(context, &sure, &doubtful, mutual, out);
     sl_pvs_destroy(context, &sure);
     sl_pvs_destroy(context, &doubtful);
     if (status == SL_OK && all->effects) status = sl_dfs_effects_finish(context, all, out);
@@ -268,38 +269,38 @@ static sl_status see(sl_context *context, sl_dfs *all, sl_visibility *out) {
 // --- in parts
 
 /// Adds what the search has found to what was known.
-static sl_status hand_over(sl_context *context, sl_dfs *all, sl_findings *findings) {
+static sl_status hand_over(sl_context *context, sl_dfs *all, sl_partial *partial) {
     const uint32_t count = all->space->cell_count;
-    sl_findings found = {.unit_count = count, .inside_only = all->options->inside_only};
+    sl_partial found = {.unit_count = count, .inside_only = all->options->inside_only};
     found.done = sl_alloc_array(context, sl_bits_words(count), sizeof *found.done);
     sl_status status = found.done ? SL_OK : SL_NO_MEMORY;
     if (status == SL_OK) status = sl_pvs_join(context, all->sure, count, &found.sure);
     if (status == SL_OK) status = sl_pvs_join(context, all->doubtful, count, &found.doubtful);
     if (status == SL_OK) {
-        sl_findings_note_bytes(&found, all->done);
-        status = sl_findings_join(context, findings, &found);
+        sl_partial_note_bytes(&found, all->done);
+        status = sl_partial_merge(context, partial, &found);
     }
-    sl_findings_destroy(context, &found);
+    sl_partial_destroy(context, &found);
     return status;
 }
 
-static sl_status search_some(sl_context *context, sl_dfs *all, sl_findings *findings) {
+static sl_status search_some(sl_context *context, sl_dfs *all, sl_partial *partial) {
     const uint32_t count = all->space->cell_count;
     SL_TRY(prepare(context, all));
-    SL_TRY(sl_findings_start(context, all->space, all->options, count, findings));
-    all->before = findings;
+    SL_TRY(sl_partial_begin(context, all->space, all->options, count, partial));
+    all->before = partial;
     all->done = sl_alloc_array(context, count, sizeof *all->done);
     if (!all->done) return SL_NO_MEMORY;
     SL_TRY(run_search(context, all));
-    return hand_over(context, all, findings);
+    return hand_over(context, all, partial);
 }
 
-static sl_status look(sl_context *context, sl_dfs *all, sl_findings *findings) {
+static sl_status look(sl_context *context, sl_dfs *all, sl_partial *partial) {
     if (all->options->trees)
         return sl_fail(context, SL_UNSUPPORTED, "a search done in parts makes no stab trees");
     if (all->options->plan && all->options->plan->effects)
         return sl_fail(context, SL_UNSUPPORTED, "a search done in parts knows no effects");
-    const sl_status status = search_some(context, all, findings);
+    const sl_status status = search_some(context, all, partial);
     tidy_up(context, all);
     return status;
 }
@@ -322,11 +323,11 @@ sl_status sl_see_dfs(sl_context *context, const sl_space *space, const sl_see_op
     return see(context, &all, out);
 }
 
-sl_status sl_look_dfs(sl_context *context, const sl_space *space, const sl_see_options *options,
-                      sl_findings *findings) {
+sl_status sl_run_dfs(sl_context *context, const sl_space *space, const sl_see_options *options,
+                     sl_partial *partial) {
     sl_dfs all = {.space = space, .options = options};
     SL_TRY(check_options(context, options, all.prunes));
-    return look(context, &all, findings);
+    return look(context, &all, partial);
 }
 
 sl_status sl_see_prune(sl_context *context, const sl_space *space, const sl_see_options *options,
@@ -342,9 +343,9 @@ sl_status sl_dfs_see_rest(sl_context *context, const sl_space *space, const sl_s
     return see(context, &all, out);
 }
 
-sl_status sl_look_prune(sl_context *context, const sl_space *space, const sl_see_options *options,
-                        sl_findings *findings) {
+sl_status sl_run_prune(sl_context *context, const sl_space *space, const sl_see_options *options,
+                       sl_partial *partial) {
     sl_dfs all = {.space = space, .options = options, .prunes = true};
     SL_TRY(check_options(context, options, all.prunes));
-    return look(context, &all, findings);
+    return look(context, &all, partial);
 }

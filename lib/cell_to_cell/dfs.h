@@ -4,7 +4,7 @@
 
 #include "base/bits.h"
 #include "cell_to_cell/crossing.h"
-#include "cell_to_cell/findings.h"
+#include "cell_to_cell/partial.h"
 #include "cell_to_cell/prune.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "cell_to_cell/tree_store.h"
@@ -15,7 +15,7 @@
 /// A cell on the way from the source.
 typedef struct sl_dfs_step {
     uint32_t cell;
-    uint32_t next;          ///< exit to try next, from 0
+    uint32_t next;          ///< directed portal to try next, from 0
     uint32_t node;          ///< in the stab tree
     sl_crossings crossings; ///< of the portals so far
     bool grazing;           ///< the sequence is no more than grazed
@@ -37,9 +37,9 @@ typedef struct sl_dfs {
     sl_row_bytes *doubtful; ///< by source: seen unless rounding erred
     sl_see_account *accounts;
     pthread_mutex_t lock;
-    sl_stab_account stab;      ///< of all solvers, under the lock
-    const sl_findings *before; ///< what is known; NULL: nothing, and all is to be done
-    uint8_t *done;             ///< by source, where there is `before`
+    sl_stab_account stab;     ///< of all solvers, under the lock
+    const sl_partial *before; ///< what is known; NULL: nothing, and all is to be done
+    uint8_t *done;            ///< by source, where there is `before`
     bool prunes;
     const sl_dfs_known *known;      ///< NULL: nothing; else it prunes
     size_t words;                   ///< of a set of cells
@@ -64,9 +64,9 @@ sl_status sl_dfs_see_rest(sl_context *context, const sl_space *space, const sl_s
                           const sl_dfs_known *known, sl_visibility *out);
 
 /// Goes on from `to`; a sequence that counts as seen becomes a node of the stab tree,
-/// of which `exit` is as in sl_stab_node.
+/// of which `directed portal` is as in sl_stab_node.
 sl_status sl_dfs_enter(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, sl_dfs_step to,
-                       uint32_t parent, uint32_t exit, bool counts);
+                       uint32_t parent, uint32_t directed, bool counts);
 
 /// The search with effects (dfs_effects.c). What it finds beside the sets of cells seen goes to the
 /// visibility at the end.

@@ -70,9 +70,9 @@ static const sl_bits *doors_at(const effects *all, const thread *me, size_t dept
 }
 
 /// Where a portal lies in the frame of the last place.
-static sl_exit unfold(thread *me, const sl_frame *frame, sl_point left, sl_point right) {
+static sl_directed_portal unfold(thread *me, const sl_frame *frame, sl_point left, sl_point right) {
     bool rounded = false;
-    const sl_exit ends = sl_unfold(frame, left, right, &rounded);
+    const sl_directed_portal ends = sl_unfold(frame, left, right, &rounded);
     me->rounded_places += rounded;
     return ends;
 }
@@ -94,14 +94,15 @@ static bool is_in_range(const effects *all, thread *me, const void *solver) {
     return shortest <= range + error;
 }
 
-/// Whether anything is left to be found beyond an exit: of what the bounds of all exits so far
-/// leave possible, a cell that no subset of the doors passed is known to join to the source.
-static sl_status want(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, uint32_t exit,
+/// Whether anything is left to be found beyond a directed portal: of what the bounds of all
+/// directed portals so far leave possible, a cell that no subset of the doors passed is known to
+/// join to the source.
+static sl_status want(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, uint32_t directed,
                       bool *something) {
     *something = true;
     if (!all->prunes || all->effects->mirrors) return SL_OK;
     const size_t step = me->steps.count;
-    SL_TRY(sl_prune_step(context, &all->bounds, &me->wanted, step, exit));
+    SL_TRY(sl_prune_step(context, &all->bounds, &me->wanted, step, directed));
     const sl_prune_set *set = &me->wanted.sets.items[step];
     const sl_bits *doors = doors_at(all->effects, me->effects, step);
     const sl_door_table *table = &me->effects->direct;
@@ -121,9 +122,10 @@ static sl_status want(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
     return SL_OK;
 }
 
-/// Tests the sequence with one portal more, and enters the cell behind. `exit`: as in a stab tree.
+/// Tests the sequence with one portal more, and enters the cell behind. `directed portal`: as in a
+/// stab tree.
 static sl_status push(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, place to,
-                      uint32_t cell, uint32_t exit) {
+                      uint32_t cell, uint32_t directed) {
     thread *e = me->effects;
     const sl_solver *solver = all->options->solver;
     const sl_dfs_step from = me->steps.items[me->steps.count - 1];
@@ -142,7 +144,7 @@ static sl_status push(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
     SL_TRY(SL_ARRAY_ROOM(context, &e->places, 1));
     e->places.items[e->places.count++] = to;
     return sl_dfs_enter(context, all, me, (sl_dfs_step){.cell = cell, .grazing = grazing},
-                        from.node, exit, true);
+                        from.node, directed, true);
 }
 
 /// Whether the sequence has been in a cell since the last mirror. Where places are exact no line
@@ -157,26 +159,26 @@ static bool has_been_in(const sl_dfs_thread *me, uint32_t cell) {
     return false;
 }
 
-static sl_status try_exit(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
-                          uint32_t number) {
+static sl_status try_portal(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
+                            uint32_t number) {
     thread *e = me->effects;
-    const sl_exit *exit = &all->space->exits[number];
+    const sl_directed_portal *directed = &all->space->directed[number];
     const place *from = &e->places.items[e->places.count - 1];
     const uint32_t cell = me->steps.items[me->steps.count - 1].cell;
-    if (all->options->inside_only && !all->space->cells[exit->cell].inside) return SL_OK;
+    if (all->options->inside_only && !all->space->cells[directed->cell].inside) return SL_OK;
     if (all->effects->oneway) {
         e->glass_tests++;
-        if (sl_exit_is_dark(all->space, cell, number)) return SL_OK;
+        if (sl_portal_is_blocked(all->space, cell, number)) return SL_OK;
     }
-    if (from->frame.depth && has_been_in(me, exit->cell)) return SL_OK;
-    place to = {.ends = unfold(e, &from->frame, exit->left, exit->right),
+    if (from->frame.depth && has_been_in(me, directed->cell)) return SL_OK;
+    place to = {.ends = unfold(e, &from->frame, directed->left, directed->right),
                 .frame = from->frame,
                 .mirror = UINT32_MAX};
     if (!may_cross(e, from, &to)) return SL_OK;
-    SL_TRY(pass_doors(context, all->space, all->effects, e, exit->portal, e->places.count));
+    SL_TRY(pass_doors(context, all->space, all->effects, e, directed->portal, e->places.count));
     bool something;
     SL_TRY(want(context, all, me, number, &something));
-    return something ? push(context, all, me, to, exit->cell, number) : SL_OK;
+    return something ? push(context, all, me, to, directed->cell, number) : SL_OK;
 }
 
 static sl_status try_mirror(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
@@ -257,10 +259,10 @@ sl_status sl_dfs_effects_search(sl_context *context, const sl_dfs *all, sl_dfs_t
         const sl_cell *cell = &space->cells[last->cell];
         const uint32_t mirrors = first ? first[last->cell + 1] - first[last->cell] : 0;
         const uint32_t next = last->next++;
-        if (next < cell->exit_count) {
-            SL_TRY(try_exit(context, all, me, cell->first_exit + next));
-        } else if (next < cell->exit_count + mirrors) {
-            SL_TRY(try_mirror(context, all, me, first[last->cell] + next - cell->exit_count));
+        if (next < cell->directed_count) {
+            SL_TRY(try_portal(context, all, me, cell->first_directed + next));
+        } else if (next < cell->directed_count + mirrors) {
+            SL_TRY(try_mirror(context, all, me, first[last->cell] + next - cell->directed_count));
         } else {
             me->effects->places.count--;
             if (--me->steps.count) all->options->solver->pop(me->solver);

@@ -17,7 +17,7 @@
 /// A cell on the way from the first.
 typedef struct step {
     uint32_t cell;
-    uint32_t next;          ///< exit to try next, from 0
+    uint32_t next;          ///< directed portal to try next, from 0
     sl_crossings crossings; ///< of the portals so far
     bool grazing;           ///< the sequence is no more than grazed
 } step;
@@ -28,11 +28,11 @@ typedef struct search {
     void *solver;
     uint32_t *distance; ///< by cell: portals to the target, SL_NO_WAY for no way
     SL_ARRAY(step) steps;
-    SL_ARRAY(uint32_t) exits; ///< the sequence, with room for one more
-    uint32_t bound;           ///< sequences of more portals are left for later
-    bool cut;                 ///< some were
-    bool stopped;             ///< most_tests is reached
-    uint32_t stabbed, grazed; ///< portals of the shortest sequences found; UINT32_MAX for none
+    SL_ARRAY(uint32_t) directed; ///< the sequence, with room for one more
+    uint32_t bound;              ///< sequences of more portals are left for later
+    bool cut;                    ///< some were
+    bool stopped;                ///< most_tests is reached
+    uint32_t stabbed, grazed;    ///< portals of the shortest sequences found; UINT32_MAX for none
     uint32_t most_misses;
     sl_explanation out;
 } search;
@@ -42,9 +42,9 @@ sl_explain_options sl_explain_options_default(void) {
 }
 
 void sl_explanation_destroy(sl_context *context, sl_explanation *explanation) {
-    sl_free(context, explanation->sequence.exits);
+    sl_free(context, explanation->sequence.directed);
     for (uint32_t i = 0; i < explanation->miss_count; i++)
-        sl_free(context, explanation->misses[i].sequence.exits);
+        sl_free(context, explanation->misses[i].sequence.directed);
     sl_free(context, explanation->misses);
     sl_free(context, explanation->bent.steps);
     sl_free(context, explanation->bent.bends);
@@ -70,8 +70,8 @@ sl_status sl_find_distances(sl_context *context, const sl_space *space, uint32_t
     distance[to] = 0;
     for (uint32_t begin = 0; begin < end; begin++) {
         const sl_cell *cell = &space->cells[queue[begin]];
-        for (uint32_t i = 0; i < cell->exit_count; i++) {
-            const uint32_t next = space->exits[cell->first_exit + i].cell;
+        for (uint32_t i = 0; i < cell->directed_count; i++) {
+            const uint32_t next = space->directed[cell->first_directed + i].cell;
             if (distance[next] != SL_NO_WAY) continue;
             distance[next] = distance[queue[begin]] + 1;
             queue[end++] = next;
@@ -83,20 +83,20 @@ sl_status sl_find_distances(sl_context *context, const sl_space *space, uint32_t
 
 // --- sequences to be told
 
-/// A copy of the sequence as it stands with one more exit, without ends.
+/// A copy of the sequence as it stands with one more directed portal, without ends.
 static sl_status copy_sequence(sl_context *context, const search *s, uint32_t last,
                                sl_sequence *out) {
-    const uint32_t before = (uint32_t)s->exits.count;
-    uint32_t *exits = sl_alloc_array(context, (size_t)before + 1, sizeof *exits);
-    if (!exits) return SL_NO_MEMORY;
-    if (before) memcpy(exits, s->exits.items, before * sizeof *exits);
-    exits[before] = last;
-    sl_free(context, out->exits);
-    *out = (sl_sequence){.exits = exits, .exit_count = before + 1};
+    const uint32_t before = (uint32_t)s->directed.count;
+    uint32_t *directed = sl_alloc_array(context, (size_t)before + 1, sizeof *directed);
+    if (!directed) return SL_NO_MEMORY;
+    if (before) memcpy(directed, s->directed.items, before * sizeof *directed);
+    directed[before] = last;
+    sl_free(context, out->directed);
+    *out = (sl_sequence){.directed = directed, .directed_count = before + 1};
     return SL_OK;
 }
 
-/// The target is reached by the sequence with one more exit, which the solver holds.
+/// The target is reached by the sequence with one more directed portal, which the solver holds.
 static sl_status note_found(sl_context *context, search *s, uint32_t last, bool grazing) {
     const sl_solver *solver = s->options->solver;
     sl_explanation *out = &s->out;
@@ -104,24 +104,24 @@ static sl_status note_found(sl_context *context, search *s, uint32_t last, bool 
     out->verdict = grazing ? SL_GRAZING : SL_STABBED;
     out->witness = solver->witness(s->solver);
     if (grazing) {
-        s->grazed = out->sequence.exit_count;
+        s->grazed = out->sequence.directed_count;
         return solver->conflict(context, s->solver, out->sequence.ends, &out->sequence.end_count);
     }
-    s->stabbed = out->sequence.exit_count;
+    s->stabbed = out->sequence.directed_count;
     s->grazed = 0;
     return SL_OK;
 }
 
 /// The last cell before the sequence's last portal.
 static uint32_t last_cell(const sl_space *space, uint32_t from, const sl_sequence *sequence) {
-    const uint32_t count = sequence->exit_count;
-    return count > 1 ? space->exits[sequence->exits[count - 2]].cell : from;
+    const uint32_t count = sequence->directed_count;
+    return count > 1 ? space->directed[sequence->directed[count - 2]].cell : from;
 }
 
 static bool is_farther(const sl_miss *a, const sl_miss *b) {
     if (a->missing != b->missing) return a->missing < b->missing;
     if (a->turns != b->turns) return b->turns;
-    return a->sequence.exit_count < b->sequence.exit_count;
+    return a->sequence.directed_count < b->sequence.directed_count;
 }
 
 /// Where the miss belongs in the list, farthest first: the place of the one from the same last
@@ -137,24 +137,24 @@ static uint32_t place_of_miss(const search *s, const sl_miss *miss) {
     return s->most_misses && is_farther(miss, &out->misses[last]) ? last : UINT32_MAX;
 }
 
-static uint32_t place_of_exit(const sl_sequence *sequence, uint32_t exit) {
+static uint32_t place_of_portal(const sl_sequence *sequence, uint32_t directed) {
     uint32_t at = 0;
-    while (sequence->exits[at] != exit) at++;
+    while (sequence->directed[at] != directed) at++;
     return at;
 }
 
 /// The ends of the last portal and of the one or two before it that leave no direction for it: one
 /// that it is crossed backwards to, or the two that bound the directions there were.
 static void tell_turn(const search *s, sl_sequence *sequence) {
-    const uint32_t last = sequence->exit_count - 1;
-    const uint32_t stop = sequence->exits[last];
+    const uint32_t last = sequence->directed_count - 1;
+    const uint32_t stop = sequence->directed[last];
     const sl_crossings before = s->steps.items[s->steps.count - 1].crossings;
-    uint32_t portals[3] = {place_of_exit(sequence, before.least),
-                           place_of_exit(sequence, before.most), last};
+    uint32_t portals[3] = {place_of_portal(sequence, before.least),
+                           place_of_portal(sequence, before.most), last};
     uint32_t first = 0;
     for (uint32_t i = last; i-- > 0 && !first;) {
         sl_crossings pair = {stop, stop};
-        if (sl_crossings_add(s->space, &pair, sequence->exits[i])) continue;
+        if (sl_crossings_add(s->space, &pair, sequence->directed[i])) continue;
         portals[1] = i;
         first = 1;
     }
@@ -170,33 +170,34 @@ static bool is_visited(const search *s, uint32_t cell) {
     return false;
 }
 
-/// The exit stops the sequence: by ends, and the solver then holds it, or since it turns back. Only
-/// exits that lead nearer to the target are told of, what stands in the way there; and none that
-/// lead back to where the sequence has been.
-static sl_status note_miss(sl_context *context, search *s, uint32_t exit, bool turns) {
+/// The directed portal stops the sequence: by ends, and the solver then holds it, or since it turns
+/// back. Only directed portals that lead nearer to the target are told of, what stands in the way
+/// there; and none that lead back to where the sequence has been.
+static sl_status note_miss(sl_context *context, search *s, uint32_t directed, bool turns) {
     sl_explanation *out = &s->out;
     const uint32_t missing = s->distance[s->steps.items[s->steps.count - 1].cell];
-    if (out->verdict != SL_HIDDEN || s->distance[s->space->exits[exit].cell] >= missing)
+    if (out->verdict != SL_HIDDEN || s->distance[s->space->directed[directed].cell] >= missing)
         return SL_OK;
-    sl_miss miss = {
-        .sequence.exit_count = (uint32_t)s->exits.count + 1, .missing = missing, .turns = turns};
+    sl_miss miss = {.sequence.directed_count = (uint32_t)s->directed.count + 1,
+                    .missing = missing,
+                    .turns = turns};
     uint32_t at = place_of_miss(s, &miss);
-    if (at == UINT32_MAX || is_visited(s, s->space->exits[exit].cell)) return SL_OK;
-    SL_TRY(copy_sequence(context, s, exit, &miss.sequence));
+    if (at == UINT32_MAX || is_visited(s, s->space->directed[directed].cell)) return SL_OK;
+    SL_TRY(copy_sequence(context, s, directed, &miss.sequence));
     if (turns) {
         tell_turn(s, &miss.sequence);
     } else {
         const sl_status status = s->options->solver->conflict(
             context, s->solver, miss.sequence.ends, &miss.sequence.end_count);
         if (status != SL_OK) {
-            sl_free(context, miss.sequence.exits);
+            sl_free(context, miss.sequence.directed);
             return status;
         }
     }
     if (at == out->miss_count)
         out->miss_count++;
     else
-        sl_free(context, out->misses[at].sequence.exits);
+        sl_free(context, out->misses[at].sequence.directed);
     for (; at > 0 && is_farther(&miss, &out->misses[at - 1]); at--)
         out->misses[at] = out->misses[at - 1];
     out->misses[at] = miss;
@@ -207,7 +208,7 @@ static sl_status note_miss(sl_context *context, search *s, uint32_t exit, bool t
 
 /// Whether a sequence that takes at least so many portals in all is not to be followed: another one
 /// is as short, or it goes beyond the bound.
-static bool is_beyond(search *s, bool grazing, uint32_t portals) {
+static bool is_neighbour(search *s, bool grazing, uint32_t portals) {
     if (portals >= s->stabbed || (grazing && portals >= s->grazed)) return true;
     if (portals > s->bound) s->cut = true;
     return portals > s->bound;
@@ -221,40 +222,40 @@ static sl_status count_test(sl_context *context, search *s) {
     return SL_OK;
 }
 
-/// What comes of the sequence with one more exit, which the solver holds. `enters`: it is followed
-/// into the next cell, and the solver keeps it.
+/// What comes of the sequence with one more directed portal, which the solver holds. `enters`: it
+/// is followed into the next cell, and the solver keeps it.
 static sl_status judge(sl_context *context, search *s, uint32_t number, sl_stab_verdict verdict,
                        bool *enters) {
-    const sl_exit *exit = &s->space->exits[number];
+    const sl_directed_portal *directed = &s->space->directed[number];
     const step from = s->steps.items[s->steps.count - 1];
-    const uint32_t portals = (uint32_t)s->exits.count + 1;
+    const uint32_t portals = (uint32_t)s->directed.count + 1;
     const bool grazing = verdict == SL_GRAZING;
     *enters = false;
     if (verdict == SL_HIDDEN) return note_miss(context, s, number, false);
-    if (is_beyond(s, grazing, portals + s->distance[exit->cell])) return SL_OK;
-    if (exit->cell == s->out.to) return note_found(context, s, number, grazing);
+    if (is_neighbour(s, grazing, portals + s->distance[directed->cell])) return SL_OK;
+    if (directed->cell == s->out.to) return note_found(context, s, number, grazing);
     SL_TRY(SL_ARRAY_ROOM(context, &s->steps, 1));
-    SL_TRY(SL_ARRAY_ROOM(context, &s->exits, 1));
-    s->exits.items[s->exits.count++] = number;
+    SL_TRY(SL_ARRAY_ROOM(context, &s->directed, 1));
+    s->directed.items[s->directed.count++] = number;
     s->steps.items[s->steps.count++] =
-        (step){.cell = exit->cell, .crossings = from.crossings, .grazing = grazing};
+        (step){.cell = directed->cell, .crossings = from.crossings, .grazing = grazing};
     sl_crossings_add(s->space, &s->steps.items[s->steps.count - 1].crossings, number);
     *enters = true;
     return SL_OK;
 }
 
-static sl_status try_exit(sl_context *context, search *s, uint32_t number) {
+static sl_status try_portal(sl_context *context, search *s, uint32_t number) {
     const sl_solver *solver = s->options->solver;
-    const sl_exit *exit = &s->space->exits[number];
+    const sl_directed_portal *directed = &s->space->directed[number];
     const step from = s->steps.items[s->steps.count - 1];
-    const uint32_t portals = (uint32_t)s->exits.count + 1 + s->distance[exit->cell];
+    const uint32_t portals = (uint32_t)s->directed.count + 1 + s->distance[directed->cell];
     sl_crossings crossings = from.crossings;
     if (!sl_crossings_add(s->space, &crossings, number)) return note_miss(context, s, number, true);
-    if (is_beyond(s, from.grazing, portals)) return SL_OK;
+    if (is_neighbour(s, from.grazing, portals)) return SL_OK;
     SL_TRY(count_test(context, s));
     sl_stab_verdict verdict;
     bool enters;
-    SL_TRY(solver->push(context, s->solver, exit->left, exit->right, &verdict));
+    SL_TRY(solver->push(context, s->solver, directed->left, directed->right, &verdict));
     SL_TRY(judge(context, s, number, verdict, &enters));
     if (!enters) solver->pop(s->solver);
     return SL_OK;
@@ -268,10 +269,10 @@ static sl_status search_within(sl_context *context, search *s) {
     while (s->steps.count && !s->stopped) {
         step *last = &s->steps.items[s->steps.count - 1];
         const sl_cell *cell = &space->cells[last->cell];
-        if (last->next < cell->exit_count) {
-            SL_TRY(try_exit(context, s, cell->first_exit + last->next++));
+        if (last->next < cell->directed_count) {
+            SL_TRY(try_portal(context, s, cell->first_directed + last->next++));
         } else if (--s->steps.count) {
-            s->exits.count--;
+            s->directed.count--;
             s->options->solver->pop(s->solver);
         }
     }
@@ -294,7 +295,8 @@ static sl_status search_all(sl_context *context, search *s) {
 }
 
 static void drop_misses(sl_context *context, sl_explanation *out) {
-    for (uint32_t i = 0; i < out->miss_count; i++) sl_free(context, out->misses[i].sequence.exits);
+    for (uint32_t i = 0; i < out->miss_count; i++)
+        sl_free(context, out->misses[i].sequence.directed);
     out->miss_count = 0;
 }
 
@@ -314,7 +316,7 @@ static sl_status explain(sl_context *context, search *s) {
     out->seen =
         out->verdict == SL_STABBED || (out->verdict == SL_GRAZING && out->sight == SL_CLOSED);
     if (out->verdict != SL_HIDDEN) drop_misses(context, out);
-    if (!out->sequence.exit_count) return SL_OK;
+    if (!out->sequence.directed_count) return SL_OK;
     out->touches =
         out->verdict == SL_GRAZING || !sl_simplify_line(s->space, &out->sequence, &out->witness);
     out->shown = sl_shown_segment(s->space, &out->sequence, out->from, out->witness);
@@ -344,7 +346,7 @@ sl_status sl_explain(sl_context *context, const sl_space *space, const sl_explai
     const sl_status status = explain(context, &s);
     sl_free(context, s.distance);
     sl_free(context, s.steps.items);
-    sl_free(context, s.exits.items);
+    sl_free(context, s.directed.items);
     if (status == SL_OK)
         *out = s.out;
     else

@@ -7,28 +7,29 @@
 #define MOST_DIGITS 15
 
 static bool is_strict(const sl_space *space, const sl_sequence *sequence, sl_line line) {
-    for (uint32_t i = 0; i < sequence->exit_count; i++) {
-        const sl_exit *exit = &space->exits[sequence->exits[i]];
-        if (sl_orient(line.a, line.b, exit->left) <= 0 ||
-            sl_orient(line.a, line.b, exit->right) >= 0)
+    for (uint32_t i = 0; i < sequence->directed_count; i++) {
+        const sl_directed_portal *directed = &space->directed[sequence->directed[i]];
+        if (sl_orient(line.a, line.b, directed->left) <= 0 ||
+            sl_orient(line.a, line.b, directed->right) >= 0)
             return false;
     }
     return true;
 }
 
-double sl_share_of_exit(const sl_exit *exit, sl_line line) {
+double sl_share_of_portal(const sl_directed_portal *directed, sl_line line) {
     const double x = line.b.x - line.a.x, y = line.b.y - line.a.y;
-    const double left = x * (exit->left.y - line.a.y) - y * (exit->left.x - line.a.x);
-    const double right = x * (exit->right.y - line.a.y) - y * (exit->right.x - line.a.x);
+    const double left = x * (directed->left.y - line.a.y) - y * (directed->left.x - line.a.x);
+    const double right = x * (directed->right.y - line.a.y) - y * (directed->right.x - line.a.x);
     return left > right ? fmin(fmax(left / (left - right), 0), 1) : 0;
 }
 
 /// Whether a line keeps half of what distance another one keeps from the portals' ends.
 static bool is_near(const sl_space *space, const sl_sequence *sequence, sl_line line,
                     sl_line other) {
-    for (uint32_t i = 0; i < sequence->exit_count; i++) {
-        const sl_exit *exit = &space->exits[sequence->exits[i]];
-        const double share = sl_share_of_exit(exit, line), wanted = sl_share_of_exit(exit, other);
+    for (uint32_t i = 0; i < sequence->directed_count; i++) {
+        const sl_directed_portal *directed = &space->directed[sequence->directed[i]];
+        const double share = sl_share_of_portal(directed, line),
+                     wanted = sl_share_of_portal(directed, other);
         if (share < wanted / 2 || 1 - share < (1 - wanted) / 2) return false;
     }
     return true;
@@ -56,10 +57,10 @@ bool sl_simplify_line(const sl_space *space, const sl_sequence *sequence, sl_lin
 }
 
 /// Where the line crosses a portal; an end of it where it lies along.
-static sl_point crossing_point(const sl_exit *exit, sl_line line) {
-    const double share = sl_share_of_exit(exit, line);
-    return (sl_point){exit->left.x + share * (exit->right.x - exit->left.x),
-                      exit->left.y + share * (exit->right.y - exit->left.y)};
+static sl_point crossing_point(const sl_directed_portal *directed, sl_line line) {
+    const double share = sl_share_of_portal(directed, line);
+    return (sl_point){directed->left.x + share * (directed->right.x - directed->left.x),
+                      directed->left.y + share * (directed->right.y - directed->left.y)};
 }
 
 sl_point sl_halfway_into(const sl_space *space, uint32_t cell, sl_point at, sl_point direction) {
@@ -69,8 +70,9 @@ sl_point sl_halfway_into(const sl_space *space, uint32_t cell, sl_point at, sl_p
 
 sl_segment sl_shown_segment(const sl_space *space, const sl_sequence *sequence, uint32_t from,
                             sl_line line) {
-    const sl_exit *first = &space->exits[sequence->exits[0]];
-    const sl_exit *last = &space->exits[sequence->exits[sequence->exit_count - 1]];
+    const sl_directed_portal *first = &space->directed[sequence->directed[0]];
+    const sl_directed_portal *last =
+        &space->directed[sequence->directed[sequence->directed_count - 1]];
     const double x = line.b.x - line.a.x, y = line.b.y - line.a.y, length = hypot(x, y);
     const sl_point forward = {x / length, y / length}, back = {-x / length, -y / length};
     return (sl_segment){sl_halfway_into(space, from, crossing_point(first, line), back),

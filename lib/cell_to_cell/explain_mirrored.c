@@ -11,8 +11,9 @@
 
 typedef struct step {
     sl_unfolded at;
-    sl_exit place; ///< what was crossed last, where the map has it; ends named as those unfolded
-    uint32_t cell, exit, next;
+    sl_directed_portal
+        place; ///< what was crossed last, where the map has it; ends named as those unfolded
+    uint32_t cell, directed, next;
     bool grazing;
 } step;
 
@@ -36,9 +37,9 @@ static const step *last_step(const search *s) {
 
 // --- what is found
 
-static sl_point between(const sl_exit *exit, double share) {
-    return (sl_point){exit->left.x + share * (exit->right.x - exit->left.x),
-                      exit->left.y + share * (exit->right.y - exit->left.y)};
+static sl_point between(const sl_directed_portal *directed, double share) {
+    return (sl_point){directed->left.x + share * (directed->right.x - directed->left.x),
+                      directed->left.y + share * (directed->right.y - directed->left.y)};
 }
 
 /// Where the line turns, in the map: a mirror is crossed at the same share of it as its image.
@@ -52,7 +53,7 @@ static void place_bends(const search *s, const step *last, sl_line line) {
     uint32_t count = 1;
     for (size_t i = 1; i <= s->steps.count; i++) {
         const step *at = i < s->steps.count ? &s->steps.items[i] : last;
-        const sl_point crossed = between(&at->place, sl_share_of_exit(&at->at.ends, line));
+        const sl_point crossed = between(&at->place, sl_share_of_portal(&at->at.ends, line));
         if (i == 1) bends[0] = sl_halfway_into(s->space, s->from, crossed, back);
         if (at->at.mirror != UINT32_MAX) bends[count++] = crossed;
         if (at == last) bends[count] = sl_halfway_into(s->space, s->to, crossed, on);
@@ -71,7 +72,7 @@ static sl_status note_found(sl_context *context, search *s, const step *last, bo
     if (!out->steps || !out->bends) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < out->step_count; i++) {
         const step *at = i + 1 < s->steps.count ? &s->steps.items[i + 1] : last;
-        out->steps[i] = (sl_bent_step){at->exit, at->at.mirror, at->cell};
+        out->steps[i] = (sl_bent_step){at->directed, at->at.mirror, at->cell};
     }
     out->verdict = grazing ? SL_GRAZING : SL_STABBED;
     s->best = out->step_count;
@@ -126,18 +127,18 @@ static sl_status try_step(sl_context *context, search *s, step *to) {
     return SL_OK;
 }
 
-static sl_status try_exit(sl_context *context, search *s, uint32_t number) {
-    const sl_exit *exit = &s->space->exits[number];
+static sl_status try_portal(sl_context *context, search *s, uint32_t number) {
+    const sl_directed_portal *directed = &s->space->directed[number];
     const sl_frame frame = last_step(s)->at.frame;
-    if (has_been_in(s, exit->cell)) return SL_OK;
+    if (has_been_in(s, directed->cell)) return SL_OK;
     const bool swaps = frame.depth % 2;
-    step to = {.at = {.ends = sl_unfold(&frame, exit->left, exit->right, &s->out.rounded),
+    step to = {.at = {.ends = sl_unfold(&frame, directed->left, directed->right, &s->out.rounded),
                       .frame = frame,
                       .mirror = UINT32_MAX},
-               .place = {.left = swaps ? exit->right : exit->left,
-                         .right = swaps ? exit->left : exit->right},
-               .cell = exit->cell,
-               .exit = number};
+               .place = {.left = swaps ? directed->right : directed->left,
+                         .right = swaps ? directed->left : directed->right},
+               .cell = directed->cell,
+               .directed = number};
     return try_step(context, s, &to);
 }
 
@@ -152,7 +153,7 @@ static sl_status try_mirror(sl_context *context, search *s, uint32_t number) {
                .place = {.left = swaps ? side->right : side->left,
                          .right = swaps ? side->left : side->right},
                .cell = side->cell,
-               .exit = UINT32_MAX};
+               .directed = UINT32_MAX};
     return try_step(context, s, &to);
 }
 
@@ -167,10 +168,10 @@ static sl_status search_within(sl_context *context, search *s) {
         const sl_cell *cell = &s->space->cells[last->cell];
         const uint32_t first = s->sides.first[last->cell];
         const uint32_t mirrors = s->sides.first[last->cell + 1] - first, next = last->next++;
-        if (next < cell->exit_count)
-            SL_TRY(try_exit(context, s, cell->first_exit + next));
-        else if (next < cell->exit_count + mirrors)
-            SL_TRY(try_mirror(context, s, first + next - cell->exit_count));
+        if (next < cell->directed_count)
+            SL_TRY(try_portal(context, s, cell->first_directed + next));
+        else if (next < cell->directed_count + mirrors)
+            SL_TRY(try_mirror(context, s, first + next - cell->directed_count));
         else if (--s->steps.count)
             s->options->solver->pop(s->solver);
     }

@@ -8,8 +8,8 @@
 #include <string.h>
 
 void sl_fans_destroy(sl_context *context, sl_fans *fans) {
-    sl_free(context, fans->first_exit);
-    sl_free(context, fans->exits);
+    sl_free(context, fans->first_directed);
+    sl_free(context, fans->directed);
     sl_free(context, fans->middles);
     sl_free(context, fans->ends.items);
     sl_free(context, fans->fans.items);
@@ -18,15 +18,15 @@ void sl_fans_destroy(sl_context *context, sl_fans *fans) {
 }
 
 uint64_t sl_fans_bytes(const sl_fans *fans) {
-    const uint64_t exits = fans->first_exit[fans->cell_count];
-    return ((uint64_t)fans->cell_count + 1) * sizeof *fans->first_exit +
+    const uint64_t directed = fans->first_directed[fans->cell_count];
+    return ((uint64_t)fans->cell_count + 1) * sizeof *fans->first_directed +
            fans->cell_count * sizeof *fans->middles +
-           fans->ends.capacity * sizeof *fans->ends.items + exits * sizeof *fans->exits +
+           fans->ends.capacity * sizeof *fans->ends.items + directed * sizeof *fans->directed +
            fans->fans.capacity * sizeof *fans->fans.items +
            fans->cells.capacity * sizeof *fans->cells.items;
 }
 
-// --- exits
+// --- directed portals
 
 static bool takes_part(const sl_space *space, const sl_see_options *options, uint32_t cell) {
     return !options->inside_only || space->cells[cell].inside;
@@ -35,85 +35,88 @@ static bool takes_part(const sl_space *space, const sl_see_options *options, uin
 typedef struct walker {
     const sl_space *space;
     sl_fans *fans;
-    uint32_t *of_space;  ///< by exit: its number in the space
-    const sl_bits *dark; ///< exits that end a fan; NULL for none
+    uint32_t *of_space;     ///< by directed portal: its number in the space
+    const sl_bits *blocked; ///< directed portals that end a fan; NULL for none
 } walker;
 
-/// `dark`: NULL, or a set that gets the exits whose glass is dark.
-static sl_status copy_exits(sl_context *context, walker *w, const sl_see_options *options,
-                            sl_bits *dark) {
+/// `blocked`: NULL, or a set that gets the directed portals whose glass is blocked.
+static sl_status copy_directed(sl_context *context, walker *w, const sl_see_options *options,
+                               sl_bits *blocked) {
     const sl_space *space = w->space;
     sl_fans *fans = w->fans;
     const uint32_t count = space->cell_count;
     fans->cell_count = count;
-    fans->first_exit = sl_alloc_array(context, (size_t)count + 1, sizeof *fans->first_exit);
-    fans->exits = sl_alloc_array(context, space->exit_count, sizeof *fans->exits);
-    w->of_space = sl_alloc_array(context, space->exit_count, sizeof *w->of_space);
+    fans->first_directed = sl_alloc_array(context, (size_t)count + 1, sizeof *fans->first_directed);
+    fans->directed = sl_alloc_array(context, space->directed_count, sizeof *fans->directed);
+    w->of_space = sl_alloc_array(context, space->directed_count, sizeof *w->of_space);
     uint32_t *of_portal = sl_alloc_array(context, space->portal_count, sizeof *of_portal);
-    if (!fans->first_exit || !fans->exits || !w->of_space || !of_portal) {
+    if (!fans->first_directed || !fans->directed || !w->of_space || !of_portal) {
         sl_free(context, of_portal);
         return SL_NO_MEMORY;
     }
     memset(of_portal, 0xff, space->portal_count * sizeof *of_portal);
     uint32_t at = 0;
     for (uint32_t cell = 0; cell < count; cell++) {
-        fans->first_exit[cell] = at;
-        const uint32_t first = space->cells[cell].first_exit;
-        for (uint32_t i = first; i < first + space->cells[cell].exit_count; i++) {
-            const sl_exit *e = &space->exits[i];
+        fans->first_directed[cell] = at;
+        const uint32_t first = space->cells[cell].first_directed;
+        for (uint32_t i = first; i < first + space->cells[cell].directed_count; i++) {
+            const sl_directed_portal *e = &space->directed[i];
             if (!takes_part(space, options, cell) || !takes_part(space, options, e->cell)) continue;
             uint32_t *other = &of_portal[e->portal];
-            fans->exits[at] = (sl_walk_exit){.left = UINT32_MAX, .cell = e->cell, .twin = *other};
+            fans->directed[at] =
+                (sl_walk_portal){.left = UINT32_MAX, .cell = e->cell, .twin = *other};
             w->of_space[at] = i;
             if (*other == UINT32_MAX)
                 *other = at;
             else
-                fans->exits[*other].twin = at;
-            if (dark && sl_exit_is_dark(space, cell, i)) sl_bits_add(dark, at);
+                fans->directed[*other].twin = at;
+            if (blocked && sl_portal_is_blocked(space, cell, i)) sl_bits_add(blocked, at);
             at++;
         }
     }
-    fans->first_exit[count] = at;
+    fans->first_directed[count] = at;
     sl_free(context, of_portal);
     return SL_OK;
 }
 
-/// Exits that glass darkens lead nowhere. Where ways are turned round, what is dark is their twins.
-static void turn_round(const sl_fans *fans, sl_bits *dark) {
-    for (uint32_t i = 0; i < fans->first_exit[fans->cell_count]; i++) {
-        const uint32_t twin = fans->exits[i].twin;
-        if (twin < i || sl_bits_has(dark, i) == sl_bits_has(dark, twin)) continue;
-        sl_bits_flip(dark, i);
-        sl_bits_flip(dark, twin);
+/// Directed portals that one-way glass blocks lead nowhere. Where ways are turned round, what is
+/// blocked is their twins.
+static void turn_round(const sl_fans *fans, sl_bits *blocked) {
+    for (uint32_t i = 0; i < fans->first_directed[fans->cell_count]; i++) {
+        const uint32_t twin = fans->directed[i].twin;
+        if (twin < i || sl_bits_has(blocked, i) == sl_bits_has(blocked, twin)) continue;
+        sl_bits_flip(blocked, i);
+        sl_bits_flip(blocked, twin);
     }
 }
 
-static void darken(sl_fans *fans, const sl_bits *dark) {
-    for (uint32_t i = 0; i < fans->first_exit[fans->cell_count]; i++)
-        if (sl_bits_has(dark, i)) fans->exits[i].cell = SL_NO_CELL;
+static void block_directed(sl_fans *fans, const sl_bits *blocked) {
+    for (uint32_t i = 0; i < fans->first_directed[fans->cell_count]; i++)
+        if (sl_bits_has(blocked, i)) fans->directed[i].cell = SL_NO_CELL;
 }
 
 // --- walking round
 
-static bool is_dark(const walker *w, uint32_t exit) {
-    return w->dark && sl_bits_has(w->dark, exit);
+static bool is_blocked(const walker *w, uint32_t directed) {
+    return w->blocked && sl_bits_has(w->blocked, directed);
 }
 
-static sl_point left_of(const walker *w, uint32_t exit) {
-    return w->space->exits[w->of_space[exit]].left;
+static sl_point left_of(const walker *w, uint32_t directed) {
+    return w->space->directed[w->of_space[directed]].left;
 }
 
-static sl_point right_of(const walker *w, uint32_t exit) {
-    return w->space->exits[w->of_space[exit]].right;
+static sl_point right_of(const walker *w, uint32_t directed) {
+    return w->space->directed[w->of_space[directed]].right;
 }
 
-/// The exits of a cell that come after and before one, all round.
-static uint32_t exit_after(const sl_fans *fans, uint32_t cell, uint32_t exit) {
-    return exit + 1 < fans->first_exit[cell + 1] ? exit + 1 : fans->first_exit[cell];
+/// The directed portals of a cell that come after and before one, all round.
+static uint32_t portal_after(const sl_fans *fans, uint32_t cell, uint32_t directed) {
+    return directed + 1 < fans->first_directed[cell + 1] ? directed + 1
+                                                         : fans->first_directed[cell];
 }
 
-static uint32_t exit_before(const sl_fans *fans, uint32_t cell, uint32_t exit) {
-    return (exit > fans->first_exit[cell] ? exit : fans->first_exit[cell + 1]) - 1;
+static uint32_t portal_before(const sl_fans *fans, uint32_t cell, uint32_t directed) {
+    return (directed > fans->first_directed[cell] ? directed : fans->first_directed[cell + 1]) - 1;
 }
 
 /// The corner of a cell that follows a point of its boundary, counter-clockwise or (`back`)
@@ -143,33 +146,33 @@ static uint32_t add_end(sl_fans *fans, sl_point end) {
     return (uint32_t)fans->ends.count++;
 }
 
-/// Gives the left ends of all exits round a point one number.
-static void number_round(const walker *w, uint32_t exit, uint32_t number) {
+/// Gives the left ends of all directed portals round a point one number.
+static void number_round(const walker *w, uint32_t directed, uint32_t number) {
     const sl_fans *fans = w->fans;
-    const sl_point at = left_of(w, exit);
-    uint32_t i = exit;
+    const sl_point at = left_of(w, directed);
+    uint32_t i = directed;
     do {
-        fans->exits[i].left = number;
-        i = exit_before(fans, fans->exits[i].cell, fans->exits[i].twin);
-        if (i == exit) return;
+        fans->directed[i].left = number;
+        i = portal_before(fans, fans->directed[i].cell, fans->directed[i].twin);
+        if (i == directed) return;
     } while (sl_same_point(left_of(w, i), at));
-    for (i = exit;;) {
-        const uint32_t cell = fans->exits[fans->exits[i].twin].cell;
-        const uint32_t next = exit_after(fans, cell, i);
+    for (i = directed;;) {
+        const uint32_t cell = fans->directed[fans->directed[i].twin].cell;
+        const uint32_t next = portal_after(fans, cell, i);
         if (!sl_same_point(right_of(w, next), at)) return;
-        i = fans->exits[next].twin;
-        fans->exits[i].left = number;
+        i = fans->directed[next].twin;
+        fans->directed[i].left = number;
     }
 }
 
 static sl_status number_ends(sl_context *context, const walker *w) {
     sl_fans *fans = w->fans;
-    const uint32_t count = fans->first_exit[fans->cell_count];
+    const uint32_t count = fans->first_directed[fans->cell_count];
     SL_TRY(SL_ARRAY_ROOM(context, &fans->ends, count));
     for (uint32_t i = 0; i < count; i++)
-        if (fans->exits[i].left == UINT32_MAX) number_round(w, i, add_end(fans, left_of(w, i)));
+        if (fans->directed[i].left == UINT32_MAX) number_round(w, i, add_end(fans, left_of(w, i)));
     for (uint32_t i = 0; i < count; i++)
-        fans->exits[i].right = fans->exits[fans->exits[i].twin].left;
+        fans->directed[i].right = fans->directed[fans->directed[i].twin].left;
     return SL_OK;
 }
 
@@ -215,11 +218,11 @@ static sl_status find_middles(sl_context *context, sl_fans *fans) {
     fans->middles = sl_alloc_array(context, fans->cell_count, sizeof *fans->middles);
     if (!fans->middles) return SL_NO_MEMORY;
     for (uint32_t cell = 0; cell < fans->cell_count; cell++) {
-        const uint32_t first = fans->first_exit[cell], end = fans->first_exit[cell + 1];
+        const uint32_t first = fans->first_directed[cell], end = fans->first_directed[cell + 1];
         sl_point sum = {0, 0};
         for (uint32_t i = first; i < end; i++) {
-            const sl_point left = fans->ends.items[fans->exits[i].left];
-            const sl_point right = fans->ends.items[fans->exits[i].right];
+            const sl_point left = fans->ends.items[fans->directed[i].left];
+            const sl_point right = fans->ends.items[fans->directed[i].right];
             sum.x += left.x + right.x;
             sum.y += left.y + right.y;
         }
@@ -270,8 +273,8 @@ static sl_status add_fan(sl_context *context, sl_fans *fans, sl_fan fan) {
     fan.count = (uint32_t)fans->cells.count - fan.first - 1;
     measure(&fan, ends, cells);
     const sl_point first = ends[cells[0].edge], last = ends[cells[fan.count].edge];
-    const int beyond = sl_orient(fan.at, first, last);
-    const bool same = beyond == 0 && !sl_opposite(fan.at, first, last);
+    const int neighbour = sl_orient(fan.at, first, last);
+    const bool same = neighbour == 0 && !sl_opposite(fan.at, first, last);
     fan.wide = !fan.full_turn && cells[fan.count].past_half > 0;
     fan.back_to_back = fan.wide && same;
     SL_TRY(SL_ARRAY_ROOM(context, &fans->fans, 1));
@@ -279,27 +282,27 @@ static sl_status add_fan(sl_context *context, sl_fans *fans, sl_fan fan) {
     return SL_OK;
 }
 
-/// The fan that starts with the cell that `exit` leaves, its left end being the fan's point. One of
-/// a full turn ends where it starts; where it is `cut` there, a line turns beside its first edge.
-static sl_status walk_round(sl_context *context, walker *w, uint32_t cell, uint32_t exit,
+/// The fan that starts with the cell that `directed portal` leaves, its left end being the fan's
+/// point. One of a full turn ends where it starts; where it is `cut` there, a line turns beside its
+/// first edge.
+static sl_status walk_round(sl_context *context, walker *w, uint32_t cell, uint32_t at,
                             bool full_turn, bool cut, sl_bits *walked) {
     sl_fans *fans = w->fans;
-    const sl_walk_exit *exits = fans->exits;
-    const sl_fan fan = {.at = left_of(w, exit),
-                        .first = (uint32_t)fans->cells.count,
-                        .full_turn = full_turn && !cut};
-    const uint32_t start = exit;
-    uint32_t begin = exit_after(fans, cell, exit), edge = exits[begin].left;
+    const sl_walk_portal *directed = fans->directed;
+    const sl_fan fan = {
+        .at = left_of(w, at), .first = (uint32_t)fans->cells.count, .full_turn = full_turn && !cut};
+    const uint32_t start = at;
+    uint32_t begin = portal_after(fans, cell, at), edge = directed[begin].left;
     if (!full_turn) SL_TRY(end_beside(context, w, cell, fan.at, false, &edge));
     for (;;) {
-        if (!cut) sl_bits_add(walked, exit);
+        if (!cut) sl_bits_add(walked, at);
         SL_TRY(add_cell(context, fans, (sl_fan_cell){.cell = cell, .begin = begin, .edge = edge}));
-        cell = exits[exit].cell;
-        begin = exits[exit].twin;
-        edge = exits[begin].left;
-        exit = exit_before(fans, cell, begin);
-        if (exit == start) break;
-        if (!sl_same_point(left_of(w, exit), fan.at) || is_dark(w, exit)) {
+        cell = directed[at].cell;
+        begin = directed[at].twin;
+        edge = directed[begin].left;
+        at = portal_before(fans, cell, begin);
+        if (at == start) break;
+        if (!sl_same_point(left_of(w, at), fan.at) || is_blocked(w, at)) {
             SL_TRY(
                 add_cell(context, fans, (sl_fan_cell){.cell = cell, .begin = begin, .edge = edge}));
             SL_TRY(end_beside(context, w, cell, fan.at, true, &edge));
@@ -310,29 +313,29 @@ static sl_status walk_round(sl_context *context, walker *w, uint32_t cell, uint3
     return add_fan(context, fans, fan);
 }
 
-/// Between walls, and glass that is dark to whoever goes round counter-clockwise.
+/// Between walls, and glass that is blocked to whoever goes round counter-clockwise.
 static sl_status walk_between(sl_context *context, walker *w, sl_bits *walked) {
     const sl_fans *fans = w->fans;
     for (uint32_t cell = 0; cell < fans->cell_count; cell++)
-        for (uint32_t e = fans->first_exit[cell]; e < fans->first_exit[cell + 1]; e++) {
-            const uint32_t next = exit_after(fans, cell, e);
+        for (uint32_t e = fans->first_directed[cell]; e < fans->first_directed[cell + 1]; e++) {
+            const uint32_t next = portal_after(fans, cell, e);
             const bool starts = !sl_same_point(right_of(w, next), left_of(w, e)) ||
-                                is_dark(w, fans->exits[next].twin);
-            if (starts && !sl_bits_has(walked, e) && !is_dark(w, e))
+                                is_blocked(w, fans->directed[next].twin);
+            if (starts && !sl_bits_has(walked, e) && !is_blocked(w, e))
                 SL_TRY(walk_round(context, w, cell, e, false, false, walked));
         }
     return SL_OK;
 }
 
-/// What is left goes all round. Where glass ends that is dark to whoever goes round clockwise, a
+/// What is left goes all round. Where glass ends that is blocked to whoever goes round clockwise, a
 /// line that passes its end on one side cannot go on to pass it on the other.
 static sl_status walk_all_round(sl_context *context, walker *w, sl_bits *walked) {
     const sl_fans *fans = w->fans;
     for (uint32_t cell = 0; cell < fans->cell_count; cell++)
-        for (uint32_t e = fans->first_exit[cell]; e < fans->first_exit[cell + 1]; e++) {
-            if (sl_bits_has(walked, e) || is_dark(w, e)) continue;
-            if (!w->dark || is_dark(w, exit_after(fans, cell, e)))
-                SL_TRY(walk_round(context, w, cell, e, true, w->dark != NULL, walked));
+        for (uint32_t e = fans->first_directed[cell]; e < fans->first_directed[cell + 1]; e++) {
+            if (sl_bits_has(walked, e) || is_blocked(w, e)) continue;
+            if (!w->blocked || is_blocked(w, portal_after(fans, cell, e)))
+                SL_TRY(walk_round(context, w, cell, e, true, w->blocked != NULL, walked));
         }
     return SL_OK;
 }
@@ -450,13 +453,13 @@ static void drop_idle(sl_context *context, sl_fans *fans, sl_fan_way way) {
     sl_shrink(context, &fans->cells.items, &fans->cells.capacity, kept_cells, sizeof *cells);
 }
 
-/// `dark`: of the space's exits, zeroed; NULL for SL_FANS_MUTUAL.
+/// `blocked`: of the space's directed portals, zeroed; NULL for SL_FANS_MUTUAL.
 static sl_status find(sl_context *context, walker *w, const sl_see_options *options, sl_fan_way way,
-                      sl_bits *dark, sl_bits *walked) {
+                      sl_bits *blocked, sl_bits *walked) {
     sl_fans *fans = w->fans;
-    SL_TRY(copy_exits(context, w, options, dark));
-    if (way == SL_FANS_BACK) turn_round(fans, dark);
-    w->dark = way == SL_FANS_SERVING ? NULL : dark;
+    SL_TRY(copy_directed(context, w, options, blocked));
+    if (way == SL_FANS_BACK) turn_round(fans, blocked);
+    w->blocked = way == SL_FANS_SERVING ? NULL : blocked;
     SL_TRY(number_ends(context, w));
     SL_TRY(find_middles(context, fans));
     SL_TRY(walk_between(context, w, walked));
@@ -465,21 +468,21 @@ static sl_status find(sl_context *context, walker *w, const sl_see_options *opti
     fans->grid = find_grid(fans);
     if (way == SL_FANS_MUTUAL || way == SL_FANS_SERVING) SL_TRY(share_out(context, fans));
     drop_idle(context, fans, way);
-    if (dark) darken(fans, dark);
+    if (blocked) block_directed(fans, blocked);
     return SL_OK;
 }
 
 sl_status sl_fans_find(sl_context *context, const sl_space *space, const sl_see_options *options,
                        sl_fan_way way, sl_fans *fans) {
     walker w = {.space = space, .fans = fans};
-    const bool has_dark = way != SL_FANS_MUTUAL;
-    const size_t words = sl_bits_words(space->exit_count);
-    sl_bits *dark = has_dark ? sl_alloc_array(context, words, sizeof *dark) : NULL;
+    const bool has_blocked = way != SL_FANS_MUTUAL;
+    const size_t words = sl_bits_words(space->directed_count);
+    sl_bits *blocked = has_blocked ? sl_alloc_array(context, words, sizeof *blocked) : NULL;
     sl_bits *walked = sl_alloc_array(context, words, sizeof *walked);
-    sl_status status = walked && (dark || !has_dark) ? SL_OK : SL_NO_MEMORY;
-    if (status == SL_OK) status = find(context, &w, options, way, dark, walked);
+    sl_status status = walked && (blocked || !has_blocked) ? SL_OK : SL_NO_MEMORY;
+    if (status == SL_OK) status = find(context, &w, options, way, blocked, walked);
     sl_free(context, w.of_space);
-    sl_free(context, dark);
+    sl_free(context, blocked);
     sl_free(context, walked);
     return status;
 }

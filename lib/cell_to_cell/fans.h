@@ -1,25 +1,26 @@
 /// What lies round the portal ends: for each, the cells between two walls, or all round it. Where
-/// glass is one-way, also the cells between glass that is dark for a line going round.
+/// glass is one-way, also the cells between glass that is blocked for a line going round.
 #ifndef SL_FANS_H
 #define SL_FANS_H
 
 #include "base/base.h"
 #include "sightline/cell_to_cell.h"
 
-/// An exit as the sweep walks through it; its ends are numbers of sl_fans.ends. The exits of a cell
-/// are exits[first[cell] .. first[cell + 1]), counter-clockwise; cells left out of the search have
-/// none, and none leads to them.
-typedef struct sl_walk_exit {
+/// A directed portal as the sweep walks through it; its ends are numbers of sl_fans.ends. The
+/// directed portals of a cell are directed portals[first[cell] .. first[cell + 1]),
+/// counter-clockwise; cells left out of the search have none, and none leads to them.
+typedef struct sl_walk_portal {
     uint32_t left, right;
-    uint32_t cell; ///< where it leads; SL_NO_CELL where one-way glass is dark
-    uint32_t twin; ///< the exit that leads back
-} sl_walk_exit;
+    uint32_t cell; ///< where it leads; SL_NO_CELL where one-way glass is blocked
+    uint32_t twin; ///< the directed portal that leads back
+} sl_walk_portal;
 
 /// A cell of a fan: the sector between two of its edges, seen from the fan's point.
 typedef struct sl_fan_cell {
     uint32_t cell;
-    uint32_t begin; ///< its exits counter-clockwise from the fan's point start with this one
-    uint32_t edge;  ///< the other end of its first edge, clockwise of it: of sl_fans.ends
+    uint32_t
+        begin; ///< its directed portals counter-clockwise from the fan's point start with this one
+    uint32_t edge; ///< the other end of its first edge, clockwise of it: of sl_fans.ends
     /// Sign of the edge's angle beyond the fan's first edge, less pi; and of the angle by which the
     /// fan's last edge is beyond the edge, taken from pi.
     int8_t past_half, past_rest;
@@ -39,8 +40,8 @@ typedef struct sl_fan {
 
 typedef struct sl_fans {
     uint32_t cell_count;
-    uint32_t *first_exit; ///< cell_count + 1
-    sl_walk_exit *exits;
+    uint32_t *first_directed; ///< cell_count + 1
+    sl_walk_portal *directed;
     sl_point *middles; ///< of cells, about
     /// What directions lead to: ends of portals; then ends of walls that fans start and end with;
     /// and with `has_horizon` two points more, far right and far left of all and below them.
@@ -53,20 +54,21 @@ typedef struct sl_fans {
     SL_ARRAY(sl_fan_cell) cells;
 } sl_fans;
 
-/// Which fans, and in which of its two directions one-way glass is dark for whoever walks through
-/// the exits.
+/// Which fans, and in which of its two directions one-way glass is blocked for whoever walks
+/// through the directed portals.
 typedef enum sl_fan_way {
-    SL_FANS_MUTUAL,  ///< no glass is dark
-    SL_FANS_SERVING, ///< those that serve cells alone; glass does not end them, exits are as sight
-    SL_FANS_FORTH,   ///< wide ones alone, also between glass that is dark counter-clockwise
-    SL_FANS_BACK,    ///< as if all glass were turned round: exits lead to cells from which sight
-                     ///< comes
+    SL_FANS_MUTUAL,  ///< no glass is blocked
+    SL_FANS_SERVING, ///< those that serve cells alone; glass does not end them, directed portals
+                     ///< are as sight
+    SL_FANS_FORTH,   ///< wide ones alone, also between glass that is blocked counter-clockwise
+    SL_FANS_BACK, ///< as if all glass were turned round: directed portals lead to cells from which
+                  ///< sight comes
 } sl_fan_way;
 
-/// Finds the fans of all portal ends. Each cell that has an exit is served by one of them at least,
-/// but for SL_FANS_FORTH and SL_FANS_BACK. Fans without room to turn that serve nobody are left
-/// out. Exits and ends of portals have the same numbers in all ways. `fans` is zeroed, and to be
-/// destroyed also on failure. Time: a hash table of the ends.
+/// Finds the fans of all portal ends. Each cell that has a directed portal is served by one of them
+/// at least, but for SL_FANS_FORTH and SL_FANS_BACK. Fans without room to turn that serve nobody
+/// are left out. Directed portals and ends of portals have the same numbers in all ways. `fans` is
+/// zeroed, and to be destroyed also on failure. Time: a hash table of the ends.
 sl_status sl_fans_find(sl_context *context, const sl_space *space, const sl_see_options *options,
                        sl_fan_way way, sl_fans *fans);
 void sl_fans_destroy(sl_context *context, sl_fans *fans); ///< and zeroes it

@@ -1,41 +1,43 @@
-/// The upper bound alone, as Quake's vis makes it before it looks closer: from each exit on through
-/// all portals that lie ahead of it, at least in part, and have some of it behind them. Signs are
-/// exact, so that nothing is missed.
+/// The upper bound alone, as Quake's vis makes it before it looks closer: from each directed portal
+/// on through all portals that lie ahead of it, at least in part, and have some of it behind them.
+/// Signs are exact, so that nothing is missed.
 #include "cell_to_cell/flood.h"
 
 #include "base/threads.h"
 #include "cell_to_cell/cells_apart.h"
-#include "cell_to_cell/findings.h"
 #include "cell_to_cell/methods.h"
+#include "cell_to_cell/partial.h"
 #include "cell_to_cell/pvs_maker.h"
 #include "effects/effects.h"
 #include "geometry/orient.h"
 
 #include <string.h>
 
-/// Whether some of a portal lies ahead of (`sign` -1) or behind (1) an exit; for closed sight its
-/// line is enough.
-static bool reaches(const sl_exit *exit, sl_point left, sl_point right, int sign, bool closed) {
+/// Whether some of a portal lies ahead of (`sign` -1) or behind (1) a directed portal; for closed
+/// sight its line is enough.
+static bool reaches(const sl_directed_portal *directed, sl_point left, sl_point right, int sign,
+                    bool closed) {
     const int least = closed ? 0 : 1;
-    return sign * sl_orient(exit->right, exit->left, left) >= least ||
-           sign * sl_orient(exit->right, exit->left, right) >= least;
+    return sign * sl_orient(directed->right, directed->left, left) >= least ||
+           sign * sl_orient(directed->right, directed->left, right) >= least;
 }
 
-uint32_t sl_flood_through(const sl_space *space, const sl_see_options *options, const sl_exit *exit,
-                          uint32_t most, sl_bits *set, uint32_t *found) {
+uint32_t sl_flood_through(const sl_space *space, const sl_see_options *options,
+                          const sl_directed_portal *directed, uint32_t most, sl_bits *set,
+                          uint32_t *found) {
     const bool closed = options->sight == SL_CLOSED;
     uint32_t count = 0;
-    if (options->inside_only && !space->cells[exit->cell].inside) return 0;
-    sl_bits_add(set, exit->cell);
-    found[count++] = exit->cell;
+    if (options->inside_only && !space->cells[directed->cell].inside) return 0;
+    sl_bits_add(set, directed->cell);
+    found[count++] = directed->cell;
     for (uint32_t done = 0; done < count && count <= most; done++) {
         const sl_cell *cell = &space->cells[found[done]];
-        for (uint32_t i = 0; i < cell->exit_count; i++) {
-            const sl_exit *next = &space->exits[cell->first_exit + i];
+        for (uint32_t i = 0; i < cell->directed_count; i++) {
+            const sl_directed_portal *next = &space->directed[cell->first_directed + i];
             if (sl_bits_has(set, next->cell)) continue;
             if (options->inside_only && !space->cells[next->cell].inside) continue;
-            if (!reaches(exit, next->left, next->right, -1, closed)) continue;
-            if (!reaches(next, exit->left, exit->right, 1, closed)) continue;
+            if (!reaches(directed, next->left, next->right, -1, closed)) continue;
+            if (!reaches(next, directed->left, directed->right, 1, closed)) continue;
             sl_bits_add(set, next->cell);
             found[count++] = next->cell;
         }
@@ -55,9 +57,9 @@ typedef struct flood {
 
 /// One thread's own.
 typedef struct flooder {
-    uint32_t *found; ///< through one exit
+    uint32_t *found; ///< through one directed portal
     sl_bits *set;    ///< of them
-    sl_word_set row; ///< of them through all exits
+    sl_word_set row; ///< of them through all directed portals
 } flooder;
 
 static void end(sl_context *context, void *job, void *state) {
@@ -91,10 +93,10 @@ static sl_status flood_unit(sl_context *context, void *job, void *state, size_t 
     if (all->options->inside_only && !cell->inside) return SL_OK;
     if (all->hurries && sl_is_enough(all->options)) return SL_CANCELLED;
     sl_word_set_add(&me->row, (uint32_t)unit);
-    for (uint32_t i = 0; i < cell->exit_count; i++) {
-        const uint32_t count =
-            sl_flood_through(all->space, all->options, &all->space->exits[cell->first_exit + i],
-                             all->space->cell_count, me->set, me->found);
+    for (uint32_t i = 0; i < cell->directed_count; i++) {
+        const uint32_t count = sl_flood_through(all->space, all->options,
+                                                &all->space->directed[cell->first_directed + i],
+                                                all->space->cell_count, me->set, me->found);
         for (uint32_t k = 0; k < count; k++) {
             sl_word_set_add(&me->row, me->found[k]);
             me->set[me->found[k] / 64] = 0;
@@ -137,7 +139,7 @@ sl_status sl_see_flood(sl_context *context, const sl_space *space, const sl_see_
     flood all = {.options = options};
     sl_visibility visibility = {.sight = options->sight, .guarantee = SL_CONSERVATIVE};
     sl_space open = {0};
-    SL_TRY(sl_oneway_passage(context, space, options->plan, &open, &all.space));
+    SL_TRY(sl_oneway_filtered(context, space, options->plan, &open, &all.space));
     all.one_way = all.space != space;
     sl_status status = flood_all(context, &all, &visibility);
     if (status == SL_OK) status = hold_against_range(context, &all, &visibility);
@@ -170,10 +172,10 @@ static void gather_component(const sl_space *space, const sl_see_options *option
     c->stack[count++] = from;
     while (count) {
         const uint32_t cell = c->stack[--count];
-        const sl_exit *exits = space->exits + space->cells[cell].first_exit;
+        const sl_directed_portal *directed = space->directed + space->cells[cell].first_directed;
         sl_word_set_add(&c->rows.row, cell);
-        for (uint32_t i = 0; i < space->cells[cell].exit_count; i++) {
-            const uint32_t next = exits[i].cell;
+        for (uint32_t i = 0; i < space->cells[cell].directed_count; i++) {
+            const uint32_t next = directed[i].cell;
             if (c->of[next] != UINT32_MAX || !takes_part(space, options, next)) continue;
             c->of[next] = c->rows.made;
             c->stack[count++] = next;

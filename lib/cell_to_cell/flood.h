@@ -6,11 +6,12 @@
 #include "base/bits.h"
 #include "sightline/cell_to_cell.h"
 
-/// Adds to an empty set all cells that a sightline through the exit may reach: never misses one,
-/// but gives up where they are more than `most`. They are listed in `found`, which has room for all
-/// cells, and counted.
-uint32_t sl_flood_through(const sl_space *space, const sl_see_options *options, const sl_exit *exit,
-                          uint32_t most, sl_bits *set, uint32_t *found);
+/// Adds to an empty set all cells that a sightline through the directed portal may reach: never
+/// misses one, but gives up where they are more than `most`. They are listed in `found`, which has
+/// room for all cells, and counted.
+uint32_t sl_flood_through(const sl_space *space, const sl_see_options *options,
+                          const sl_directed_portal *directed, uint32_t most, sl_bits *set,
+                          uint32_t *found);
 
 /// The bound on what all cells see, symmetric. Once options.enough says so there is none but
 /// what portals join: *bounded is then false.

@@ -9,8 +9,8 @@
 ///
 /// A face's candidates are decided on by a depth-first search over portal sequences, as in dfs.c,
 /// within the sector alone: the solver is asked for lines of its directions. The search goes
-/// through an exit only while a candidate that is not seen yet is left behind it, and what is
-/// behind it is known, by the faces that are done.
+/// through a directed portal only while a candidate that is not seen yet is left behind it, and
+/// what is behind it is known, by the faces that are done.
 ///
 /// Pairs are symmetric, and what a cell sees in one sector sees it in the opposite one: half of the
 /// sectors tell all.
@@ -53,7 +53,7 @@ typedef struct multipass {
 
 /// A cell on the way from a face.
 typedef struct step {
-    uint32_t cell, next; ///< exit to try next, from 0
+    uint32_t cell, next; ///< directed portal to try next, from 0
     sl_cone cone;        ///< directions that cross all portals so far
     bool grazing;        ///< the sequence is no more than grazed
 } step;
@@ -87,11 +87,12 @@ static sl_status enter(sl_context *context, searcher *me, step to) {
 
 /// The verdict on the sequence with one more portal, for lines of the sector. SL_HIDDEN: it must
 /// be popped.
-static sl_status push(sl_context *context, const multipass *all, searcher *me, const sl_exit *exit,
-                      const sl_cone *cone, sl_stab_verdict *verdict) {
+static sl_status push(sl_context *context, const multipass *all, searcher *me,
+                      const sl_directed_portal *directed, const sl_cone *cone,
+                      sl_stab_verdict *verdict) {
     const sl_solver *solver = all->options->solver;
     if (++me->account.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
-    SL_TRY(solver->push(context, me->solver, exit->left, exit->right, verdict));
+    SL_TRY(solver->push(context, me->solver, directed->left, directed->right, verdict));
     if (*verdict == SL_HIDDEN) return SL_OK;
     const bool near = *verdict == SL_GRAZING && solver->guarantee == SL_ROUNDED;
     SL_TRY(solver->toward(context, me->solver, cone->right, cone->left, verdict));
@@ -100,9 +101,9 @@ static sl_status push(sl_context *context, const multipass *all, searcher *me, c
     return SL_OK;
 }
 
-/// Whether candidates that are not seen yet are left beyond an exit of the last step; makes the set
-/// of all that are wanted there. What is behind an exit of the cycle at hand may not be known yet:
-/// then it bounds nothing.
+/// Whether candidates that are not seen yet are left beyond a directed portal of the last step;
+/// makes the set of all that are wanted there. What is behind a directed portal of the cycle at
+/// hand may not be known yet: then it bounds nothing.
 static sl_status want(sl_context *context, searcher *me, const sl_sparse_row *behind,
                       bool *something) {
     const size_t depth = me->steps.count;
@@ -116,46 +117,46 @@ static sl_status want(sl_context *context, searcher *me, const sl_sparse_row *be
     return SL_OK;
 }
 
-static sl_status try_exit(sl_context *context, const multipass *all, const running_pass *p,
-                          searcher *me, uint32_t number) {
+static sl_status try_portal(sl_context *context, const multipass *all, const running_pass *p,
+                            searcher *me, uint32_t number) {
     const sl_solver *solver = all->options->solver;
-    const sl_exit *exit = &all->space->exits[number];
+    const sl_directed_portal *directed = &all->space->directed[number];
     const step from = me->steps.items[me->steps.count - 1];
     sl_cone cone = from.cone;
-    if (p->pass.faces[number] == SL_NO_FACE || !sl_cone_cut(&cone, exit)) return SL_OK;
+    if (p->pass.faces[number] == SL_NO_FACE || !sl_cone_cut(&cone, directed)) return SL_OK;
     bool something;
     SL_TRY(want(context, me, &p->seen[p->pass.faces[number]], &something));
     if (!something) return SL_OK;
 
     sl_stab_verdict verdict;
-    SL_TRY(push(context, all, me, exit, &cone, &verdict));
+    SL_TRY(push(context, all, me, directed, &cone, &verdict));
     const bool grazing = verdict == SL_GRAZING || from.grazing;
     if (verdict == SL_HIDDEN || (grazing && all->options->sight == SL_OPEN && !all->rounded)) {
         solver->pop(me->solver);
         return SL_OK;
     }
-    sl_word_set_add(grazing && all->rounded ? &me->doubtful : &me->sure, exit->cell);
-    return enter(context, me, (step){.cell = exit->cell, .cone = cone, .grazing = grazing});
+    sl_word_set_add(grazing && all->rounded ? &me->doubtful : &me->sure, directed->cell);
+    return enter(context, me, (step){.cell = directed->cell, .cone = cone, .grazing = grazing});
 }
 
 /// Finds what a face sees among the candidates, into `sure` and `doubtful`.
 static sl_status search_face(sl_context *context, const multipass *all, const running_pass *p,
                              searcher *me, uint32_t number) {
     const sl_space *space = all->space;
-    const sl_exit *exit = &space->exits[number];
+    const sl_directed_portal *directed = &space->directed[number];
     sl_cone cone = p->pass.cone;
-    (void)sl_cone_cut(&cone, exit); // it has some: else the exit were no face
+    (void)sl_cone_cut(&cone, directed); // it has some: else the directed portal were no face
     sl_stab_verdict verdict;
-    SL_TRY(push(context, all, me, exit, &cone, &verdict));
-    sl_word_set_add(&me->sure, exit->cell);
+    SL_TRY(push(context, all, me, directed, &cone, &verdict));
+    sl_word_set_add(&me->sure, directed->cell);
     SL_TRY(sl_prune_start_among(context, &me->wanted, &me->candidates));
     me->steps.count = 0;
-    SL_TRY(enter(context, me, (step){.cell = exit->cell, .cone = cone}));
+    SL_TRY(enter(context, me, (step){.cell = directed->cell, .cone = cone}));
     while (me->steps.count) {
         step *last = &me->steps.items[me->steps.count - 1];
         const sl_cell *cell = &space->cells[last->cell];
-        if (last->next < cell->exit_count) {
-            SL_TRY(try_exit(context, all, p, me, cell->first_exit + last->next++));
+        if (last->next < cell->directed_count) {
+            SL_TRY(try_portal(context, all, p, me, cell->first_directed + last->next++));
         } else {
             me->steps.count--;
             all->options->solver->pop(me->solver);
@@ -180,12 +181,12 @@ static void add_set(sl_word_set *to, const sl_word_set *from) {
 
 /// What a face sees in the sector, among the candidates: kept as its row, added to its cell's sets.
 static sl_status search_whole_face(sl_context *context, multipass *all, const running_pass *p,
-                                   searcher *me, uint32_t exit) {
-    sl_sparse_row *row = &p->seen[p->pass.faces[exit]];
+                                   searcher *me, uint32_t directed) {
+    sl_sparse_row *row = &p->seen[p->pass.faces[directed]];
     sl_word_set_clear(&me->sure);
     sl_word_set_clear(&me->doubtful);
     me->account.candidates += count_bits(&me->candidates);
-    SL_TRY(search_face(context, all, p, me, exit));
+    SL_TRY(search_face(context, all, p, me, directed));
     add_set(&me->cell_sure, &me->sure);
     add_set(&me->cell_doubtful, &me->doubtful);
     add_set(&me->sure, &me->doubtful);
@@ -201,11 +202,11 @@ static sl_status search_cell(sl_context *context, multipass *all, const running_
     sl_word_set_clear(&me->cell_sure);
     sl_word_set_clear(&me->cell_doubtful);
     sl_word_set_add(&me->cell_sure, cell);
-    for (uint32_t e = c->first_exit; e < c->first_exit + c->exit_count; e++) {
+    for (uint32_t e = c->first_directed; e < c->first_directed + c->directed_count; e++) {
         if (p->pass.faces[e] == SL_NO_FACE) continue;
         if (!cyclic) {
             sl_word_set_clear(&me->candidates);
-            add_directed(all, p, all->space->exits[e].cell, &me->candidates);
+            add_directed(all, p, all->space->directed[e].cell, &me->candidates);
         }
         SL_TRY(search_whole_face(context, all, p, me, e));
     }
@@ -402,7 +403,7 @@ static sl_status settle_rounded(sl_context *context, multipass *all, sl_visibili
     sl_status status = sl_bit_rows_encode(context, &all->sure, &sure);
     if (status == SL_OK) status = sl_bit_rows_encode(context, &all->doubtful, &doubtful);
     if (status == SL_OK)
-        status = sl_visibility_settle(context, &sure.pvs, &doubtful.pvs, true, out);
+        status = sl_visibility_finish(context, &sure.pvs, &doubtful.pvs, true, out);
     sl_visibility_destroy(context, &sure);
     sl_visibility_destroy(context, &doubtful);
     return status;

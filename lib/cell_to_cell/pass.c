@@ -2,20 +2,20 @@
 
 #include "base/base.h"
 
-static bool faces(const sl_space *space, bool inside_only, uint32_t cell, const sl_exit *exit,
-                  sl_cone cone) {
-    if (inside_only && !(space->cells[cell].inside && space->cells[exit->cell].inside))
+static bool faces(const sl_space *space, bool inside_only, uint32_t cell,
+                  const sl_directed_portal *directed, sl_cone cone) {
+    if (inside_only && !(space->cells[cell].inside && space->cells[directed->cell].inside))
         return false;
-    return sl_cone_cut(&cone, exit);
+    return sl_cone_cut(&cone, directed);
 }
 
 static sl_status fill(sl_context *context, const sl_space *space, bool inside_only, sl_pass *pass) {
     for (uint32_t cell = 0; cell < space->cell_count; cell++) {
         const sl_cell *c = &space->cells[cell];
-        for (uint32_t e = c->first_exit; e < c->first_exit + c->exit_count; e++) {
+        for (uint32_t e = c->first_directed; e < c->first_directed + c->directed_count; e++) {
             pass->faces[e] = SL_NO_FACE;
-            if (!faces(space, inside_only, cell, &space->exits[e], pass->cone)) continue;
-            pass->to[pass->face_count] = space->exits[e].cell;
+            if (!faces(space, inside_only, cell, &space->directed[e], pass->cone)) continue;
+            pass->to[pass->face_count] = space->directed[e].cell;
             pass->faces[e] = pass->face_count++;
         }
         pass->first[cell + 1] = pass->face_count;
@@ -27,10 +27,10 @@ static sl_status fill(sl_context *context, const sl_space *space, bool inside_on
 sl_status sl_pass_create(sl_context *context, const sl_space *space, bool inside_only, sl_cone cone,
                          sl_pass *out) {
     sl_pass pass = {.cone = cone,
-                    .faces = sl_alloc_array(context, space->exit_count, sizeof *pass.faces),
+                    .faces = sl_alloc_array(context, space->directed_count, sizeof *pass.faces),
                     .first =
                         sl_alloc_array(context, (size_t)space->cell_count + 1, sizeof *pass.first),
-                    .to = sl_alloc_array(context, space->exit_count, sizeof *pass.to)};
+                    .to = sl_alloc_array(context, space->directed_count, sizeof *pass.to)};
     sl_status status = pass.faces && pass.first && pass.to ? SL_OK : SL_NO_MEMORY;
     if (status == SL_OK) status = fill(context, space, inside_only, &pass);
     if (status == SL_OK)

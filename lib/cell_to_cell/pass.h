@@ -6,12 +6,12 @@
 #include "cell_to_cell/dependence.h"
 #include "cell_to_cell/sectors.h"
 
-/// What sl_pass.faces says of an exit that no sightline of the sector leaves by.
+/// What sl_pass.faces says of a directed portal that no sightline of the sector leaves by.
 #define SL_NO_FACE UINT32_MAX
 
 typedef struct sl_pass {
     sl_cone cone;
-    uint32_t *faces; ///< by exit: its number among those that face the sector
+    uint32_t *faces; ///< by directed portal: its number among those that face the sector
     uint32_t face_count;
     uint32_t *first, *to; ///< the graph: a cell depends on those behind its faces
     sl_order order;

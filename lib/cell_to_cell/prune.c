@@ -16,41 +16,42 @@ typedef struct bound_finder {
     const sl_see_options *options;
     const sl_pvs *possible; ///< by cell; NULL: not known
     uint32_t most;          ///< cells of a bound
-    sl_bits *set;           ///< of those found through an exit
+    sl_bits *set;           ///< of those found through a directed portal
     uint32_t *found;        ///< they
     sl_word_set row;
 } bound_finder;
 
 static uint32_t most_cells(const sl_space *space) {
     const size_t bytes = sl_bits_words(space->cell_count) * sizeof(sl_bits);
-    if (!bytes || space->exit_count <= MOST_ROW_BYTES / bytes) return space->cell_count;
+    if (!bytes || space->directed_count <= MOST_ROW_BYTES / bytes) return space->cell_count;
     return MOST_CELLS;
 }
 
-/// Adds to the row what may be seen through an exit, or nothing where that is too much.
-static void flood_exit(bound_finder *find, uint32_t exit) {
-    const uint32_t count = sl_flood_through(find->space, find->options, &find->space->exits[exit],
-                                            find->most, find->set, find->found);
+/// Adds to the row what may be seen through a directed portal, or nothing where that is too much.
+static void flood_portal(bound_finder *find, uint32_t directed) {
+    const uint32_t count =
+        sl_flood_through(find->space, find->options, &find->space->directed[directed], find->most,
+                         find->set, find->found);
     for (uint32_t i = 0; i < count; i++) {
         find->set[find->found[i] / 64] = 0;
         if (count <= find->most) sl_word_set_add(&find->row, find->found[i]);
     }
 }
 
-static sl_status find_bound(sl_context *context, bound_finder *find, uint32_t exit,
+static sl_status find_bound(sl_context *context, bound_finder *find, uint32_t directed,
                             sl_prune_bounds *out) {
     sl_word_set *row = &find->row;
     if (find->possible)
-        sl_word_set_add_row(row, find->possible, find->space->exits[exit].cell);
+        sl_word_set_add_row(row, find->possible, find->space->directed[directed].cell);
     else
-        flood_exit(find, exit);
+        flood_portal(find, directed);
     for (size_t word = sl_word_set_next(row, row->low); word < row->high;
          word = sl_word_set_next(row, word + 1)) {
         SL_TRY(SL_ARRAY_ROOM(context, &out->words, 1));
         out->words.items[out->words.count++] = (sl_prune_word){row->bits[word], (uint32_t)word};
     }
     sl_word_set_clear(row);
-    out->offsets[exit + 1] = out->words.count;
+    out->offsets[directed + 1] = out->words.count;
     return SL_OK;
 }
 
@@ -61,12 +62,12 @@ sl_status sl_prune_bounds_find(sl_context *context, const sl_space *space,
     bound_finder find = {
         .space = space, .options = options, .possible = possible, .most = most_cells(space)};
     *out = (sl_prune_bounds){0};
-    out->offsets = sl_alloc_array(context, (size_t)space->exit_count + 1, sizeof *out->offsets);
+    out->offsets = sl_alloc_array(context, (size_t)space->directed_count + 1, sizeof *out->offsets);
     find.set = sl_alloc_array(context, sl_bits_words(count), sizeof *find.set);
     find.found = sl_alloc_array(context, count, sizeof *find.found);
     sl_status status = sl_word_set_create(context, count, &find.row);
     if (!out->offsets || !find.set || !find.found) status = SL_NO_MEMORY;
-    for (uint32_t i = 0; i < space->exit_count && status == SL_OK; i++) {
+    for (uint32_t i = 0; i < space->directed_count && status == SL_OK; i++) {
         status = find_bound(context, &find, i, out);
         if (status == SL_OK) status = sl_check_cancelled(context);
     }
@@ -155,15 +156,15 @@ static void take_common(const sl_prune_word *bound, size_t count, const sl_prune
 }
 
 sl_status sl_prune_step(sl_context *context, const sl_prune_bounds *bounds, sl_prune_wanted *wanted,
-                        size_t step, uint32_t exit) {
-    const size_t count = bounds->offsets[exit + 1] - bounds->offsets[exit];
+                        size_t step, uint32_t directed) {
+    const size_t count = bounds->offsets[directed + 1] - bounds->offsets[directed];
     wanted->sets.count = step;
     SL_TRY(SL_ARRAY_ROOM(context, &wanted->sets, 1));
     const sl_prune_set before = wanted->sets.items[step - 1];
     sl_prune_set *set = &wanted->sets.items[wanted->sets.count++];
     *set = before;
     if (!count) return SL_OK;
-    const sl_prune_word *bound = bounds->words.items + bounds->offsets[exit];
+    const sl_prune_word *bound = bounds->words.items + bounds->offsets[directed];
     wanted->words.count = before.top;
     SL_TRY(SL_ARRAY_ROOM(context, &wanted->words, count));
     *set = (sl_prune_set){.begin = before.top, .end = before.top};

@@ -1,6 +1,6 @@
 /// What a search has left to find: the sets that the methods "prune" and "multipass" keep on their
-/// way. Beyond each exit only what its upper bound and those of all exits before leave possible is
-/// wanted.
+/// way. Beyond each directed portal only what its upper bound and those of all directed portals
+/// before leave possible is wanted.
 #ifndef SL_PRUNE_H
 #define SL_PRUNE_H
 
@@ -15,17 +15,18 @@ typedef struct sl_prune_word {
     uint32_t word;
 } sl_prune_word;
 
-/// Upper bounds: that of an exit is words[offsets[exit] .. offsets[exit + 1]), ascending; none
-/// where that is empty, and all may be seen through it. Zeroed, it is empty.
+/// Upper bounds: that of a directed portal is words[offsets[directed portal] .. offsets[directed
+/// portal + 1]), ascending; none where that is empty, and all may be seen through it. Zeroed, it is
+/// empty.
 typedef struct sl_prune_bounds {
     size_t *offsets;
     SL_ARRAY(sl_prune_word) words;
 } sl_prune_bounds;
 
-/// Finds the bounds of all exits: what the cell behind may see by `possible`; where that is NULL
-/// those of sl_flood_through, but where space and sets are large not those of exits through which
-/// much may be seen, so that memory grows with the number of exits. `out` is to be destroyed also
-/// on failure.
+/// Finds the bounds of all directed portals: what the cell behind may see by `possible`; where that
+/// is NULL those of sl_flood_through, but where space and sets are large not those of directed
+/// portals through which much may be seen, so that memory grows with the number of directed
+/// portals. `out` is to be destroyed also on failure.
 sl_status sl_prune_bounds_find(sl_context *context, const sl_space *space,
                                const sl_see_options *options, const sl_pvs *possible,
                                sl_prune_bounds *out);
@@ -56,10 +57,10 @@ sl_status sl_prune_start_with(sl_context *context, sl_prune_wanted *wanted, cons
 sl_status sl_prune_start_among(sl_context *context, sl_prune_wanted *wanted,
                                const sl_word_set *set);
 
-/// Makes the set of a step: what is wanted at the step before it and within an exit's bound. Later
-/// steps are forgotten.
+/// Makes the set of a step: what is wanted at the step before it and within a directed portal's
+/// bound. Later steps are forgotten.
 sl_status sl_prune_step(sl_context *context, const sl_prune_bounds *bounds, sl_prune_wanted *wanted,
-                        size_t step, uint32_t exit);
+                        size_t step, uint32_t directed);
 
 /// Likewise within a row, which bounds nothing where it is empty; after sl_prune_start_among only.
 sl_status sl_prune_step_within(sl_context *context, const sl_sparse_row *row,

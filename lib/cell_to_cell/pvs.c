@@ -103,8 +103,8 @@ sl_status sl_row_append_words(sl_context *context, sl_row_bytes *bytes, const sl
         const uint64_t base = 64 * (uint64_t)(index ? index[i] : i);
         for (sl_bits left = words[i]; left;) {
             const unsigned start = (unsigned)__builtin_ctzll(left);
-            const sl_bits beyond = ~(left >> start); // 0 where all 64 are there
-            const unsigned length = beyond ? (unsigned)__builtin_ctzll(beyond) : 64;
+            const sl_bits neighbour = ~(left >> start); // 0 where all 64 are there
+            const unsigned length = neighbour ? (unsigned)__builtin_ctzll(neighbour) : 64;
             left = start + length < 64 ? left >> (start + length) << (start + length) : 0;
             if (base + start != end && end > first) {
                 SL_TRY(append_run(context, bytes, (uint32_t)(first - before),

@@ -42,7 +42,7 @@ sl_status sl_pvs_transpose(sl_context *context, const sl_pvs *pvs, sl_pvs *out);
 /// Makes the result of a method from what it saw for sure and what it saw unless rounding erred (no
 /// pairs for exact ones). `mutual`: a pair found in either direction holds in both. Sets the PVS,
 /// the doubtful pairs and the counts of both.
-sl_status sl_visibility_settle(sl_context *context, const sl_pvs *sure, const sl_pvs *doubtful,
+sl_status sl_visibility_finish(sl_context *context, const sl_pvs *sure, const sl_pvs *doubtful,
                                bool mutual, sl_visibility *out);
 
 #endif

@@ -135,7 +135,7 @@ static bool join(const sl_reacher *r, sl_reached *c, sl_bound low, sl_bound high
     return true;
 }
 
-/// What is seen of the cell behind an exit.
+/// What is seen of the cell behind a directed portal.
 typedef struct piece {
     sl_bound low, high;
 } piece;
@@ -167,7 +167,7 @@ static sl_status arrive(sl_context *context, sl_reacher *r, sl_reach *reach, uin
     return SL_OK;
 }
 
-// --- one exit
+// --- one directed portal
 
 static inline int8_t larger(int8_t a, int8_t b) {
     return a > b ? a : b;
@@ -178,16 +178,16 @@ static inline int8_t smaller(int8_t a, int8_t b) {
 }
 
 /// The two bounds that a portal's ends make.
-static inline sl_bound from_right(const sl_reacher *r, const sl_walk_exit *e) {
+static inline sl_bound from_right(const sl_reacher *r, const sl_walk_portal *e) {
     return (sl_bound){.end = e->right, .level = r->closed ? SL_CLOCKWISE : SL_AFTER};
 }
 
-static inline sl_bound to_left(const sl_reacher *r, const sl_walk_exit *e) {
+static inline sl_bound to_left(const sl_reacher *r, const sl_walk_portal *e) {
     return (sl_bound){.end = e->left, .level = r->closed ? SL_COUNTER : SL_BEFORE};
 }
 
 // A line that turns counter-clockwise about the point crosses from the right to the left of it.
-int8_t sl_level_along(const sl_reacher *r, const sl_walk_exit *e) {
+int8_t sl_level_along(const sl_reacher *r, const sl_walk_portal *e) {
     const sl_point v = r->from, left = sl_end_of(r, e->left), right = sl_end_of(r, e->right);
     bool right_first;
     if (left.x != right.x) {
@@ -204,8 +204,9 @@ static bool is_direction(const sl_reacher *r, sl_bound bound, uint32_t end) {
     return sl_ends_turn(r, bound.end, end) == 0 && sl_bound_has(r, bound, end);
 }
 
-/// Of an exit on a line with the point: it is at one of the bounds, as an edge of a convex cell.
-static bool clip_along(const sl_reacher *r, const sl_walk_exit *e, sl_bound low, sl_bound high,
+/// Of a directed portal on a line with the point: it is at one of the bounds, as an edge of a
+/// convex cell.
+static bool clip_along(const sl_reacher *r, const sl_walk_portal *e, sl_bound low, sl_bound high,
                        piece *out) {
     const uint32_t far = sl_same_point(sl_end_of(r, e->left), r->from) ? e->right : e->left;
     const bool is_low = is_direction(r, low, far), is_high = is_direction(r, high, far);
@@ -217,8 +218,9 @@ static bool clip_along(const sl_reacher *r, const sl_walk_exit *e, sl_bound low,
     return out->low.level <= out->high.level;
 }
 
-/// Which of the directions between two cross an exit, where a direction may lead to its end.
-static bool clip(const sl_reacher *r, const sl_walk_exit *e, sl_bound low, sl_bound high,
+/// Which of the directions between two cross a directed portal, where a direction may lead to its
+/// end.
+static bool clip(const sl_reacher *r, const sl_walk_portal *e, sl_bound low, sl_bound high,
                  piece *out) {
     const int facing = sl_ends_turn(r, e->right, e->left);
     if (facing <= 0) return facing == 0 && r->closed && clip_along(r, e, low, high, out);
@@ -244,9 +246,9 @@ typedef struct view {
     sl_point of_low, of_high;
 } view;
 
-/// An exit that may be crossed, and its ends from the point.
+/// A directed portal that may be crossed, and its ends from the point.
 typedef struct sight {
-    uint32_t exit;
+    uint32_t directed;
     bool
         sure; ///< it faces the point, and its left end lies past `low`, its right one before `high`
     sl_point right, left;
@@ -265,7 +267,7 @@ static inline sl_bound pick(bool first, sl_bound a, sl_bound b) {
 
 /// As clip: nearly all that is asked, and cheap.
 static inline bool clip_fast(const sl_reacher *r, const view *v, const sight *s, piece *out) {
-    const sl_walk_exit *e = &r->fans->exits[s->exit];
+    const sl_walk_portal *e = &r->fans->directed[s->directed];
     const double past_right = sl_cross(v->of_low, s->right);
     const double before_left = sl_cross(s->left, v->of_high);
     const bool sure_right = (fabs(past_right) > r->limit) | (v->low.end == e->right);
@@ -276,20 +278,20 @@ static inline bool clip_fast(const sl_reacher *r, const view *v, const sight *s,
     return true;
 }
 
-/// The exits that may be crossed, of some of a cell: without a branch for each, as which ones is
-/// hard to predict.
-static inline uint32_t see_exits(const sl_reacher *r, const view *v, uint32_t first, uint32_t end,
-                                 sight *out) {
+/// The directed portals that may be crossed, of some of a cell: without a branch for each, as which
+/// ones is hard to predict.
+static inline uint32_t see_directed(const sl_reacher *r, const view *v, uint32_t first,
+                                    uint32_t end, sight *out) {
     uint32_t count = 0;
     for (uint32_t i = first; i < end; i++) {
-        const sl_walk_exit *e = &r->fans->exits[i];
+        const sl_walk_portal *e = &r->fans->directed[i];
         const sl_point right = sl_towards(r, e->right), left = sl_towards(r, e->left);
         const double facing = sl_cross(right, left);
         const double past_low = sl_cross(v->of_low, left),
                      before_high = sl_cross(right, v->of_high);
         const double of_both = past_low < before_high ? past_low : before_high;
         const double least = facing < of_both ? facing : of_both;
-        out[count] = (sight){.exit = i, .sure = least > r->limit, .right = right, .left = left};
+        out[count] = (sight){.directed = i, .sure = least > r->limit, .right = right, .left = left};
         count += !(least < -r->limit); // also where it is no number
     }
     return count;
@@ -309,13 +311,14 @@ static sl_status look_through(sl_context *context, sl_reacher *r, sl_reach *reac
                     .high = c->to,
                     .of_low = direction(r, c->from),
                     .of_high = direction(r, c->to)};
-    const uint32_t end = r->fans->first_exit[c->cell + 1];
-    for (uint32_t i = r->fans->first_exit[c->cell]; i < end; i += AT_ONCE) {
-        const uint32_t count = see_exits(r, &v, i, end - i < AT_ONCE ? end : i + AT_ONCE, seen);
+    const uint32_t end = r->fans->first_directed[c->cell + 1];
+    for (uint32_t i = r->fans->first_directed[c->cell]; i < end; i += AT_ONCE) {
+        const uint32_t count = see_directed(r, &v, i, end - i < AT_ONCE ? end : i + AT_ONCE, seen);
         for (uint32_t k = 0; k < count; k++) {
             piece p;
             if (clip_fast(r, &v, &seen[k], &p))
-                SL_TRY(arrive(context, r, reach, r->fans->exits[seen[k].exit].cell, &p, depth));
+                SL_TRY(
+                    arrive(context, r, reach, r->fans->directed[seen[k].directed].cell, &p, depth));
         }
     }
     return ++r->pieces % 4096 ? SL_OK : sl_check_cancelled(context);
@@ -335,8 +338,8 @@ static int side_in_sector(const sl_reacher *r, sl_bound bound, uint32_t end, int
     return sign == 0 && !sl_bound_has(r, bound, end) ? answer : sign;
 }
 
-/// What is seen through an exit on the far side of a cell that the point is a corner of.
-static bool first_piece(const sl_reacher *r, const sl_walk_exit *e, sl_bound low, sl_bound high,
+/// What is seen through a directed portal on the far side of a cell that the point is a corner of.
+static bool first_piece(const sl_reacher *r, const sl_walk_portal *e, sl_bound low, sl_bound high,
                         bool thin, piece *out) {
     const sl_point left = sl_end_of(r, e->left), right = sl_end_of(r, e->right);
     if (sl_same_point(left, r->from) || sl_same_point(right, r->from)) return false;
@@ -367,8 +370,8 @@ sl_status sl_reach_add(sl_context *context, sl_reacher *r, uint32_t cell, sl_bou
 
 sl_status sl_reach_through(sl_context *context, sl_reacher *r, uint32_t cell, sl_bound low,
                            sl_bound high, bool thin, sl_reach *reach) {
-    for (uint32_t i = r->fans->first_exit[cell]; i < r->fans->first_exit[cell + 1]; i++) {
-        const sl_walk_exit *e = &r->fans->exits[i];
+    for (uint32_t i = r->fans->first_directed[cell]; i < r->fans->first_directed[cell + 1]; i++) {
+        const sl_walk_portal *e = &r->fans->directed[i];
         piece p;
         if (first_piece(r, e, low, high, thin, &p))
             SL_TRY(arrive(context, r, reach, e->cell, &p, 1));

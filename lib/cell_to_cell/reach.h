@@ -64,7 +64,7 @@ enum { SL_NEAR_RINGS = 1024 };
 
 /// Scratch of one thread, for one point at a time.
 typedef struct sl_reacher {
-    const sl_fans *fans; ///< whose exits it goes through
+    const sl_fans *fans; ///< whose directed portals it goes through
     const sl_fans *ends; ///< whose ends bounds have; the same, but for one-way glass
     bool closed;
     sl_point from;

@@ -64,6 +64,6 @@ static inline bool sl_is_before(const sl_reacher *r, sl_bound a, sl_bound b) {
 }
 
 /// Which level of its direction crosses a portal that lies on a ray from the point.
-int8_t sl_level_along(const sl_reacher *r, const sl_walk_exit *e);
+int8_t sl_level_along(const sl_reacher *r, const sl_walk_portal *e);
 
 #endif

@@ -48,20 +48,20 @@ static bool is_along(const sl_reacher *r, const ray *of, uint32_t end) {
     return sl_ends_turn(r, of->along.end, end) == 0 && sl_bound_has(r, of->along, end);
 }
 
-/// Whether the ray crosses an exit on a line with the point.
-static bool lies_along(const sl_reacher *r, const ray *of, const sl_walk_exit *e) {
+/// Whether the ray crosses a directed portal on a line with the point.
+static bool lies_along(const sl_reacher *r, const ray *of, const sl_walk_portal *e) {
     const uint32_t far = sl_same_point(sl_end_of(r, e->left), r->from) ? e->right : e->left;
     return is_along(r, of, far) && sl_level_along(r, e) == of->along.level;
 }
 
-/// Whether the ray crosses an exit of its first cell, of which the point is a corner.
-static bool first_crosses(const sl_reacher *r, const ray *of, const sl_walk_exit *e) {
+/// Whether the ray crosses a directed portal of its first cell, of which the point is a corner.
+static bool first_crosses(const sl_reacher *r, const ray *of, const sl_walk_portal *e) {
     const int facing = sl_ends_turn(r, e->right, e->left);
     if (facing <= 0) return facing == 0 && lies_along(r, of, e);
     return is_along(r, of, of->along.level == SL_CLOCKWISE ? e->right : e->left);
 }
 
-static bool crosses(const sl_reacher *r, const ray *of, const sl_walk_exit *e) {
+static bool crosses(const sl_reacher *r, const ray *of, const sl_walk_portal *e) {
     const int to_left = sl_ends_turn(r, of->along.end, e->left);
     if (to_left < 0) return false;
     const int to_right = sl_ends_turn(r, of->along.end, e->right);
@@ -86,8 +86,8 @@ sl_status sl_rays_add(sl_context *context, sl_reacher *r, sl_fan_edge edge, cons
     rays->cells.items[rays->cells.count++] = edge.cell;
     for (uint32_t i = of.first; i < rays->cells.count; i++) {
         const uint32_t cell = rays->cells.items[i];
-        for (uint32_t k = fans->first_exit[cell]; k < fans->first_exit[cell + 1]; k++) {
-            const sl_walk_exit *e = &fans->exits[k];
+        for (uint32_t k = fans->first_directed[cell]; k < fans->first_directed[cell + 1]; k++) {
+            const sl_walk_portal *e = &fans->directed[k];
             if (i == of.first ? first_crosses(r, &of, e) : crosses(r, &of, e))
                 SL_TRY(arrive(context, r, &of, rays, e->cell));
         }

@@ -69,23 +69,25 @@ static sl_point random_point(const sl_space *space, const sl_cell *cell, sl_rand
     return (sl_point){c.x + t * (on.x - c.x), c.y + t * (on.y - c.y)};
 }
 
-/// The exit that a line passes strictly; NULL for none.
-static const sl_exit *exit_on(const sampling *all, uint32_t cell, sl_line line) {
+/// The directed portal that a line passes strictly; NULL for none.
+static const sl_directed_portal *portal_on(const sampling *all, uint32_t cell, sl_line line) {
     const sl_cell *c = &all->space->cells[cell];
-    for (uint32_t i = 0; i < c->exit_count; i++) {
-        const sl_exit *exit = &all->space->exits[c->first_exit + i];
-        if (all->options->inside_only && !all->space->cells[exit->cell].inside) continue;
-        if (sl_orient(line.a, line.b, exit->left) > 0 && sl_orient(line.a, line.b, exit->right) < 0)
-            return exit;
+    for (uint32_t i = 0; i < c->directed_count; i++) {
+        const sl_directed_portal *directed = &all->space->directed[c->first_directed + i];
+        if (all->options->inside_only && !all->space->cells[directed->cell].inside) continue;
+        if (sl_orient(line.a, line.b, directed->left) > 0 &&
+            sl_orient(line.a, line.b, directed->right) < 0)
+            return directed;
     }
     return NULL;
 }
 
-/// Where a line crosses an exit, in parts of its length, and how far rounding may be off.
-static double place_on(sl_line line, const sl_exit *exit, double *error) {
+/// Where a line crosses a directed portal, in parts of its length, and how far rounding may be off.
+static double place_on(sl_line line, const sl_directed_portal *directed, double *error) {
     const double dx = line.b.x - line.a.x, dy = line.b.y - line.a.y;
-    const double ex = exit->left.x - exit->right.x, ey = exit->left.y - exit->right.y;
-    const double rx = exit->right.x - line.a.x, ry = exit->right.y - line.a.y;
+    const double ex = directed->left.x - directed->right.x,
+                 ey = directed->left.y - directed->right.y;
+    const double rx = directed->right.x - line.a.x, ry = directed->right.y - line.a.y;
     const double across = dx * ey - dy * ex, place = (rx * ey - ry * ex) / across;
     const double rounding = 0x1p-49 / fabs(across);
     *error = rounding * (fabs(rx * ey) + fabs(ry * ex)) +
@@ -99,12 +101,13 @@ static sl_status walk(sl_context *context, const sampling *all, sampler *me, sl_
                       bool back) {
     const sl_line towards = back ? (sl_line){line.b, line.a} : line;
     size_t last = 0;
-    for (const sl_exit *exit; (exit = exit_on(all, me->way.items[last].cell, towards));) {
+    for (const sl_directed_portal *directed;
+         (directed = portal_on(all, me->way.items[last].cell, towards));) {
         SL_TRY(SL_ARRAY_ROOM(context, &me->way, 1));
-        stretch *from = &me->way.items[last], next = {.cell = exit->cell, .back = back};
+        stretch *from = &me->way.items[last], next = {.cell = directed->cell, .back = back};
         if (all->range > 0) {
             double error;
-            const double place = place_on(line, exit, &error);
+            const double place = place_on(line, directed, &error);
             *(back ? &from->entered : &from->left) = back ? place + error : place - error;
             *(back ? &next.left : &next.entered) = back ? place - error : place + error;
         }
@@ -150,8 +153,8 @@ static sl_status sample_unit(sl_context *context, void *job, void *state, size_t
     const sl_cell *cell = &all->space->cells[unit];
     if (all->options->inside_only && !cell->inside) return SL_OK;
     SL_TRY(sl_bit_rows_add_one(context, &me->rows, (uint32_t)unit, (uint32_t)unit));
-    for (uint32_t i = 0; i < cell->exit_count; i++) {
-        const uint32_t next = all->space->exits[cell->first_exit + i].cell;
+    for (uint32_t i = 0; i < cell->directed_count; i++) {
+        const uint32_t next = all->space->directed[cell->first_directed + i].cell;
         if (!all->options->inside_only || all->space->cells[next].inside)
             SL_TRY(sl_bit_rows_add_one(context, &me->rows, (uint32_t)unit, next));
     }
@@ -190,7 +193,7 @@ sl_status sl_see_sampling(sl_context *context, const sl_space *space, const sl_s
     sampling all = {.options = options};
     sl_visibility visibility = {.sight = options->sight, .guarantee = SL_AGGRESSIVE};
     sl_space open = {0};
-    SL_TRY(sl_oneway_passage(context, space, options->plan, &open, &all.space));
+    SL_TRY(sl_oneway_filtered(context, space, options->plan, &open, &all.space));
     all.one_way = all.space != space;
     all.range = options->plan ? options->plan->range : 0;
     const sl_status status = see(context, &all, &visibility);

@@ -3,21 +3,21 @@
 /// Which pairs the missing sources leave open. An exact search finds a pair from either of its
 /// cells, "prune" from the lower one; a rounded one may find it from one and not from the other,
 /// so that it takes both.
-#include "cell_to_cell/findings.h"
 #include "cell_to_cell/flood.h"
 #include "cell_to_cell/methods.h"
+#include "cell_to_cell/partial.h"
 #include "cell_to_cell/pvs_maker.h"
 
 /// From which of its cells a pair is decided.
 typedef enum deciding { FROM_EITHER, FROM_LOWER, FROM_BOTH } deciding;
 
 typedef struct missing {
-    const sl_findings *findings;
+    const sl_partial *partial;
     deciding deciding;
 } missing;
 
 static bool is_open(const missing *m, uint32_t a, uint32_t b) {
-    const bool has_a = sl_bits_has(m->findings->done, a), has_b = sl_bits_has(m->findings->done, b);
+    const bool has_a = sl_bits_has(m->partial->done, a), has_b = sl_bits_has(m->partial->done, b);
     switch (m->deciding) {
     case FROM_EITHER:
         return !has_a && !has_b;
@@ -62,19 +62,19 @@ static sl_status add_open(sl_context *context, const sl_space *space, const sl_s
 }
 
 static sl_status settle(sl_context *context, const sl_space *space, const sl_see_options *options,
-                        const sl_findings *findings, bool prunes, sl_visibility *out) {
+                        const sl_partial *partial, bool prunes, sl_visibility *out) {
     if (!options->solver) return sl_fail(context, SL_BAD_ARGUMENT, "the searches need a solver");
     const sl_guarantee guarantee = options->solver->guarantee;
-    if (findings->unit_count != space->cell_count || findings->sure.cell_count != space->cell_count)
+    if (partial->unit_count != space->cell_count || partial->sure.cell_count != space->cell_count)
         return sl_fail(context, SL_BAD_ARGUMENT, "findings of another space or other options");
     sl_visibility visibility = {.sight = options->sight, .guarantee = guarantee};
-    const missing m = {.findings = findings,
+    const missing m = {.partial = partial,
                        .deciding = guarantee != SL_EXACT ? FROM_BOTH
                                    : prunes              ? FROM_LOWER
                                                          : FROM_EITHER};
     sl_status status =
-        sl_visibility_settle(context, &findings->sure, &findings->doubtful, true, &visibility);
-    if (status == SL_OK && !sl_findings_complete(findings)) {
+        sl_visibility_finish(context, &partial->sure, &partial->doubtful, true, &visibility);
+    if (status == SL_OK && !sl_partial_complete(partial)) {
         if (guarantee == SL_EXACT) visibility.guarantee = SL_CONSERVATIVE;
         status = add_open(context, space, options, &m, &visibility);
     }
@@ -85,20 +85,20 @@ static sl_status settle(sl_context *context, const sl_space *space, const sl_see
     return status;
 }
 
-sl_status sl_settle_dfs(sl_context *context, const sl_space *space, const sl_see_options *options,
-                        const sl_findings *findings, sl_visibility *out) {
-    return settle(context, space, options, findings, false, out);
+sl_status sl_finish_dfs(sl_context *context, const sl_space *space, const sl_see_options *options,
+                        const sl_partial *partial, sl_visibility *out) {
+    return settle(context, space, options, partial, false, out);
 }
 
-sl_status sl_settle_prune(sl_context *context, const sl_space *space, const sl_see_options *options,
-                          const sl_findings *findings, sl_visibility *out) {
-    return settle(context, space, options, findings, true, out);
+sl_status sl_finish_prune(sl_context *context, const sl_space *space, const sl_see_options *options,
+                          const sl_partial *partial, sl_visibility *out) {
+    return settle(context, space, options, partial, true, out);
 }
 
-sl_status sl_carry_search(sl_context *context, const sl_space *space, const sl_see_options *options,
-                          const uint64_t *kept, const uint64_t *enclosed, sl_findings *findings) {
+sl_status sl_reuse_search(sl_context *context, const sl_space *space, const sl_see_options *options,
+                          const uint64_t *kept, const uint64_t *enclosed, sl_partial *partial) {
     (void)enclosed;
-    SL_TRY(sl_findings_start(context, space, options, space->cell_count, findings));
-    sl_findings_note(findings, kept);
+    SL_TRY(sl_partial_begin(context, space, options, space->cell_count, partial));
+    sl_partial_note(partial, kept);
     return SL_OK;
 }

@@ -30,16 +30,16 @@ static inline sl_cone sl_sector_cone(const sl_sectors *sectors, uint32_t sector)
     return (sl_cone){sectors->bounds[sector], sectors->bounds[(sector + 1) % sectors->count]};
 }
 
-/// Keeps those that cross an exit strictly forwards; false where there are none.
-static inline bool sl_cone_cut(sl_cone *cone, const sl_exit *exit) {
-    const int of_right = sl_turn(cone->right.a, cone->right.b, exit->right, exit->left);
-    const int of_left = sl_turn(cone->left.a, cone->left.b, exit->right, exit->left);
+/// Keeps those that cross a directed portal strictly forwards; false where there are none.
+static inline bool sl_cone_cut(sl_cone *cone, const sl_directed_portal *directed) {
+    const int of_right = sl_turn(cone->right.a, cone->right.b, directed->right, directed->left);
+    const int of_left = sl_turn(cone->left.a, cone->left.b, directed->right, directed->left);
     if (of_right >= 0 && of_left >= 0) return true;
     if (of_right <= 0 && of_left <= 0) return false;
     if (of_right > 0)
-        cone->left = (sl_line){exit->right, exit->left};
+        cone->left = (sl_line){directed->right, directed->left};
     else
-        cone->right = (sl_line){exit->left, exit->right};
+        cone->right = (sl_line){directed->left, directed->right};
     return true;
 }
 

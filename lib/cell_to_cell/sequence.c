@@ -5,8 +5,8 @@
 #include "geometry/orient.h"
 
 sl_point sl_sequence_end(const sl_space *space, const sl_sequence *sequence, sl_stab_end end) {
-    const sl_exit *exit = &space->exits[sequence->exits[end.portal]];
-    return end.left ? exit->left : exit->right;
+    const sl_directed_portal *directed = &space->directed[sequence->directed[end.portal]];
+    return end.left ? directed->left : directed->right;
 }
 
 /// The places of the ends of one side, each once. Returns how many.

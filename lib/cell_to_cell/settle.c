@@ -4,10 +4,10 @@
 #include <string.h>
 
 /// The rows that go in, each with its transposed.
-typedef struct findings {
+typedef struct partial {
     const sl_pvs *sure, *doubtful;
     sl_pvs sure_back, doubtful_back;
-} findings;
+} partial;
 
 typedef struct result_rows {
     sl_row_bytes *seen, *doubtful;
@@ -20,7 +20,7 @@ static uint64_t count_bits(const sl_bits *set, size_t words) {
     return count;
 }
 
-static sl_status settle_row(sl_context *context, const findings *in, result_rows *rows,
+static sl_status settle_row(sl_context *context, const partial *in, result_rows *rows,
                             uint32_t cell, sl_visibility *out) {
     const uint32_t count = in->sure->cell_count;
     const size_t words = sl_bits_words(count);
@@ -39,7 +39,7 @@ static sl_status settle_row(sl_context *context, const findings *in, result_rows
     return sl_row_append(context, &rows->seen[cell], rows->set, count);
 }
 
-static sl_status settle_rows(sl_context *context, const findings *in, result_rows *rows,
+static sl_status settle_rows(sl_context *context, const partial *in, result_rows *rows,
                              sl_visibility *out) {
     const uint32_t count = in->sure->cell_count;
     rows->seen = sl_alloc_array(context, count, sizeof *rows->seen);
@@ -52,9 +52,9 @@ static sl_status settle_rows(sl_context *context, const findings *in, result_row
     return sl_pvs_join(context, rows->doubtful, count, &out->doubtful);
 }
 
-sl_status sl_visibility_settle(sl_context *context, const sl_pvs *sure, const sl_pvs *doubtful,
+sl_status sl_visibility_finish(sl_context *context, const sl_pvs *sure, const sl_pvs *doubtful,
                                bool mutual, sl_visibility *out) {
-    findings in = {.sure = sure, .doubtful = doubtful};
+    partial in = {.sure = sure, .doubtful = doubtful};
     result_rows rows = {0};
     sl_status status = SL_OK;
     if (mutual) status = sl_pvs_transpose(context, sure, &in.sure_back);

@@ -7,8 +7,8 @@
 
 /// A cell on the way from the source.
 typedef struct place {
-    uint32_t cell, exit;
-    uint32_t next;          ///< exit to try next, from 0
+    uint32_t cell, directed;
+    uint32_t next;          ///< directed portal to try next, from 0
     uint32_t step;          ///< that entered it
     sl_crossings crossings; ///< of the portals so far
 } place;
@@ -47,28 +47,30 @@ static sl_status enter(sl_context *context, recorder *r, place to, sl_step step)
     return SL_OK;
 }
 
-static sl_status try_exit(sl_context *context, recorder *r, uint32_t number) {
-    const sl_exit *exit = &r->space->exits[number];
+static sl_status try_portal(sl_context *context, recorder *r, uint32_t number) {
+    const sl_directed_portal *directed = &r->space->directed[number];
     const place from = r->way.items[r->way.count - 1];
     sl_crossings crossings = from.crossings;
-    sl_step step = {
-        .exit = number, .cell = exit->cell, .parent = from.step, .depth = (uint32_t)r->way.count};
-    if (r->options->inside_only && !r->space->cells[exit->cell].inside) return SL_OK;
+    sl_step step = {.directed = number,
+                    .cell = directed->cell,
+                    .parent = from.step,
+                    .depth = (uint32_t)r->way.count};
+    if (r->options->inside_only && !r->space->cells[directed->cell].inside) return SL_OK;
     if (!sl_crossings_add(r->space, &crossings, number)) {
         step.kind = SL_STEP_BACKWARDS;
         return add(context, r, step);
     }
     const sl_solver *solver = r->options->solver;
     sl_stab_verdict verdict;
-    SL_TRY(solver->push(context, r->solver, exit->left, exit->right, &verdict));
+    SL_TRY(solver->push(context, r->solver, directed->left, directed->right, &verdict));
     step.grazing = verdict == SL_GRAZING;
     if (verdict == SL_HIDDEN || (verdict == SL_GRAZING && r->options->sight == SL_OPEN)) {
         solver->pop(r->solver);
         step.kind = SL_STEP_HIDDEN;
         return add(context, r, step);
     }
-    return enter(context, r, (place){.cell = exit->cell, .exit = number, .crossings = crossings},
-                 step);
+    return enter(context, r,
+                 (place){.cell = directed->cell, .directed = number, .crossings = crossings}, step);
 }
 
 static sl_status leave(sl_context *context, recorder *r) {
@@ -76,7 +78,7 @@ static sl_status leave(sl_context *context, recorder *r) {
     if (r->way.count) r->options->solver->pop(r->solver);
     return add(context, r,
                (sl_step){.kind = SL_STEP_LEAVE,
-                         .exit = last.exit,
+                         .directed = last.directed,
                          .cell = last.cell,
                          .parent = last.step,
                          .depth = (uint32_t)r->way.count});
@@ -84,14 +86,14 @@ static sl_status leave(sl_context *context, recorder *r) {
 
 static sl_status record(sl_context *context, recorder *r, uint32_t source) {
     SL_TRY(enter(context, r,
-                 (place){.cell = source, .exit = UINT32_MAX, .crossings = SL_CROSSINGS_NONE},
-                 (sl_step){.exit = UINT32_MAX, .cell = source}));
+                 (place){.cell = source, .directed = UINT32_MAX, .crossings = SL_CROSSINGS_NONE},
+                 (sl_step){.directed = UINT32_MAX, .cell = source}));
     while (r->way.count && r->steps.count < r->options->most) {
         SL_TRY(sl_check_cancelled(context));
         place *last = &r->way.items[r->way.count - 1];
         const sl_cell *cell = &r->space->cells[last->cell];
-        if (last->next < cell->exit_count)
-            SL_TRY(try_exit(context, r, cell->first_exit + last->next++));
+        if (last->next < cell->directed_count)
+            SL_TRY(try_portal(context, r, cell->first_directed + last->next++));
         else
             SL_TRY(leave(context, r));
     }
@@ -128,11 +130,11 @@ void sl_steps_destroy(sl_context *context, sl_steps *steps) {
     *steps = (sl_steps){0};
 }
 
-uint32_t sl_steps_sequence(const sl_steps *steps, size_t step, uint32_t *exits, uint32_t room) {
+uint32_t sl_steps_sequence(const sl_steps *steps, size_t step, uint32_t *directed, uint32_t room) {
     const sl_step *s = &steps->steps[step];
     const uint32_t count = s->depth;
     if (s->kind == SL_STEP_LEAVE) s = &steps->steps[s->parent];
     for (uint32_t i = count; i-- > 0; s = &steps->steps[s->parent])
-        if (i < room) exits[i] = s->exit;
+        if (i < room) directed[i] = s->directed;
     return count;
 }

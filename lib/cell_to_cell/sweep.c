@@ -48,8 +48,8 @@
 /// counter-clockwise. That is why the edges' angles themselves are left out of the sectors, on one
 /// side each, and looked at as rays of their own.
 #include "cell_to_cell/sweep.h"
-#include "cell_to_cell/findings.h"
 #include "cell_to_cell/methods.h"
+#include "cell_to_cell/partial.h"
 
 #include "base/threads.h"
 
@@ -62,8 +62,8 @@ typedef struct sweep {
     const sl_space *space;
     const sl_see_options *options;
     sl_fans fans;
-    const sl_findings *before; ///< what is known; NULL: nothing, and all is to be done
-    uint8_t *done;             ///< by fan, where there is `before`; each is written by one thread
+    const sl_partial *before; ///< what is known; NULL: nothing, and all is to be done
+    uint8_t *done;            ///< by fan, where there is `before`; each is written by one thread
     pthread_mutex_t lock;
     sl_bit_rows rows; ///< joined from the threads' forks, under the lock
     uint64_t pieces;
@@ -160,7 +160,7 @@ sl_status sl_see_sweep(sl_context *context, const sl_space *space, const sl_see_
                        sl_visibility *out) {
     SL_TRY(check_options(context, options));
     if (options->plan && options->plan->effects & (SL_EFFECT_DOOR | SL_EFFECT_RANGE))
-        return sl_see_sweep_settled(context, space, options, out);
+        return sl_see_sweep_finished(context, space, options, out);
     if (options->plan && options->plan->effects & SL_EFFECT_ONEWAY)
         return sl_see_sweep_one_way(context, space, options, out);
     sweep all = {.space = space, .options = options};
@@ -179,33 +179,33 @@ sl_status sl_see_sweep(sl_context *context, const sl_space *space, const sl_see_
 
 // --- in parts
 
-static sl_status sweep_some(sl_context *context, sweep *all, sl_findings *findings) {
+static sl_status sweep_some(sl_context *context, sweep *all, sl_partial *partial) {
     SL_TRY(sl_fans_find(context, all->space, all->options, SL_FANS_MUTUAL, &all->fans));
     const uint32_t count = (uint32_t)all->fans.fans.count;
-    SL_TRY(sl_findings_start(context, all->space, all->options, count, findings));
-    all->before = findings;
+    SL_TRY(sl_partial_begin(context, all->space, all->options, count, partial));
+    all->before = partial;
     all->done = sl_alloc_array(context, count, sizeof *all->done);
     if (!all->done) return SL_NO_MEMORY;
     SL_TRY(turn_about_all(context, all));
     sl_fans_destroy(context, &all->fans);
-    SL_TRY(sl_bit_rows_add_pvs(context, &all->rows, &findings->sure));
+    SL_TRY(sl_bit_rows_add_pvs(context, &all->rows, &partial->sure));
     sl_visibility found = {0};
     SL_TRY(sl_bit_rows_encode(context, &all->rows, &found));
-    sl_pvs_destroy(context, &findings->sure);
-    findings->sure = found.pvs;
-    sl_findings_note_bytes(findings, all->done);
+    sl_pvs_destroy(context, &partial->sure);
+    partial->sure = found.pvs;
+    sl_partial_note_bytes(partial, all->done);
     return SL_OK;
 }
 
-sl_status sl_look_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
-                        sl_findings *findings) {
+sl_status sl_run_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
+                       sl_partial *partial) {
     SL_TRY(check_options(context, options));
     if (options->plan && options->plan->effects)
         return sl_fail(context, SL_UNSUPPORTED,
                        "a sweep done in parts knows no effects: bake in one go");
     sweep all = {.space = space, .options = options};
     pthread_mutex_init(&all.lock, NULL);
-    const sl_status status = sweep_some(context, &all, findings);
+    const sl_status status = sweep_some(context, &all, partial);
     pthread_mutex_destroy(&all.lock);
     sl_fans_destroy(context, &all.fans);
     sl_bit_rows_destroy(context, &all.rows);

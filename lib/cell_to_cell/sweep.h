@@ -15,8 +15,9 @@ typedef struct sl_sector {
 /// Scratch of one thread.
 typedef struct sl_sweeper {
     const sl_fans *fans;
-    const sl_fans *inward, *outward; ///< whose exits the line's backward half and its forward half
-                                     ///< go through; the fans' own, but for one-way glass
+    const sl_fans *inward,
+        *outward; ///< whose directed portals the line's backward half and its forward half
+                  ///< go through; the fans' own, but for one-way glass
     bool closed;
     sl_bit_rows rows;                    ///< what it finds: a fork
     sl_bit_rows *back_rows, *ahead_rows; ///< that get what the backward half and the forward half
@@ -53,8 +54,8 @@ sl_status sl_see_sweep_one_way(sl_context *context, const sl_space *space,
                                const sl_see_options *options, sl_visibility *out);
 
 /// The sweep where the map has doors or a view range (sweep_effects.c).
-sl_status sl_see_sweep_settled(sl_context *context, const sl_space *space,
-                               const sl_see_options *options, sl_visibility *out);
+sl_status sl_see_sweep_finished(sl_context *context, const sl_space *space,
+                                const sl_see_options *options, sl_visibility *out);
 
 /// Makes the result of all that was found: adds that each cell sees itself and through each of its
 /// portals the cell behind, and that pairs are mutual where the plan is. Sets the PVS and its

@@ -18,8 +18,8 @@ static sl_status see_shut(sl_context *context, const sl_space *space, const sl_s
     if (!shut) return SL_NO_MEMORY;
     memset(shut, 1, doors * sizeof *shut);
     sl_space walled = {0};
-    const sl_passage passage = {.shut = shut};
-    sl_status status = sl_passage_make(context, space, &passage, NULL, &walled);
+    const sl_filtered_space filtered = {.shut = shut};
+    sl_status status = sl_filtered_space_make(context, space, &filtered, NULL, &walled);
     sl_free(context, shut);
     if (status == SL_OK) status = sl_see_sweep(context, &walled, options, out);
     sl_space_destroy(context, &walled);
@@ -58,8 +58,8 @@ static sl_status settle(sl_context *context, const sl_space *space, const sl_see
     return SL_OK;
 }
 
-sl_status sl_see_sweep_settled(sl_context *context, const sl_space *space,
-                               const sl_see_options *options, sl_visibility *out) {
+sl_status sl_see_sweep_finished(sl_context *context, const sl_space *space,
+                                const sl_see_options *options, sl_visibility *out) {
     sl_visibility open = {0}, shut = {0};
     const sl_status status = settle(context, space, options, &open, &shut, out);
     sl_visibility_destroy(context, &open);

@@ -8,8 +8,8 @@ sl_status sl_see_sweep_one_way(sl_context *context, const sl_space *space,
     return sl_effects_refuse(context);
 }
 
-sl_status sl_see_sweep_settled(sl_context *context, const sl_space *space,
-                               const sl_see_options *options, sl_visibility *out) {
+sl_status sl_see_sweep_finished(sl_context *context, const sl_space *space,
+                                const sl_see_options *options, sl_visibility *out) {
     (void)space, (void)options, (void)out;
     return sl_effects_refuse(context);
 }

@@ -4,15 +4,15 @@
 /// counter-clockwise, one with the end at its right clockwise: glass that ends there is a wall to
 /// one of them alone. So the proof of sweep.c holds for either, each with fans of its own, cut
 /// where its way is barred. About such a fan the backward half of the line sees cells from which
-/// sight comes to the point, the forward half those to which sight goes on: both by exits, taken
-/// the one way and the other. Lines that go clockwise are those that go counter-clockwise if all
-/// glass is turned round, backwards: what their halves see changes places.
+/// sight comes to the point, the forward half those to which sight goes on: both by directed
+/// portals, taken the one way and the other. Lines that go clockwise are those that go
+/// counter-clockwise if all glass is turned round, backwards: what their halves see changes places.
 ///
 /// The proof moves one end of a line only, that in the cell that sees. So what a cell's corner sees
 /// is needed for the cell as the one that sees, not as the one that is seen; but there it needs all
 /// that can be turned to from the cell, both ways round.
-#include "cell_to_cell/findings.h"
 #include "cell_to_cell/methods.h"
+#include "cell_to_cell/partial.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "cell_to_cell/reach_bound.h"
 #include "cell_to_cell/sweep.h"
@@ -106,15 +106,15 @@ static sl_status add_part(sl_context *context, sl_sweeper *s, const sl_fan_cell 
     return SL_OK;
 }
 
-/// The next cell of a fan, one way or the other. False where there is none, or glass is dark.
+/// The next cell of a fan, one way or the other. False where there is none, or glass is blocked.
 static bool step(const sl_fans *fans, const sl_fan *fan, bool counter, uint32_t *k) {
     const sl_fan_cell *cells = fans->cells.items + fan->first;
     if (*k == (counter ? fan->count - 1 : 0) && !fan->full_turn) return false;
     const uint32_t from = *k;
     *k = counter ? (from + 1) % fan->count : (from + fan->count - 1) % fan->count;
-    // The exit that a cell begins with leads clockwise round the point.
+    // The directed portal that a cell begins with leads clockwise round the point.
     const uint32_t back = cells[counter ? *k : from].begin;
-    return fans->exits[counter ? fans->exits[back].twin : back].cell != SL_NO_CELL;
+    return fans->directed[counter ? fans->directed[back].twin : back].cell != SL_NO_CELL;
 }
 
 /// All that a line sees that turns counter-clockwise from a cell of the fan, by less than half a
@@ -268,7 +268,7 @@ static sl_status sweep_all(sl_context *context, sweep *all, sl_visibility *out) 
     out->account.pieces = all->pieces;
     out->account.deepest = all->deepest;
     // By each of the three that found fans.
-    out->account.glass_tests = 3 * (uint64_t)all->forth.first_exit[space->cell_count];
+    out->account.glass_tests = 3 * (uint64_t)all->forth.first_directed[space->cell_count];
     return sl_sweep_finish(context, space, options, &all->sees, out);
 }
 

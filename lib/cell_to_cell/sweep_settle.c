@@ -4,9 +4,9 @@
 /// leaves the point through a cell of the fan: so both cells of such a pair are seen from cells of
 /// the fan, and are within the bound of "flood" from there. Pairs of which no missing fan has both
 /// cells within its bound are decided: what was not found is hidden.
-#include "cell_to_cell/findings.h"
 #include "cell_to_cell/flood.h"
 #include "cell_to_cell/methods.h"
+#include "cell_to_cell/partial.h"
 #include "cell_to_cell/pvs_maker.h"
 #include "cell_to_cell/sweep.h"
 
@@ -17,10 +17,10 @@ sl_status sl_sweep_finish(sl_context *context, const sl_space *space, const sl_s
         const sl_cell *cell = &space->cells[c];
         if (options->inside_only && !cell->inside) continue;
         SL_TRY(sl_bit_rows_add_one(context, rows, c, c));
-        for (uint32_t i = 0; i < cell->exit_count; i++) {
-            const uint32_t next = space->exits[cell->first_exit + i].cell;
+        for (uint32_t i = 0; i < cell->directed_count; i++) {
+            const uint32_t next = space->directed[cell->first_directed + i].cell;
             if (options->inside_only && !space->cells[next].inside) continue;
-            if (one_way && sl_exit_is_dark(space, c, cell->first_exit + i)) continue;
+            if (one_way && sl_portal_is_blocked(space, c, cell->first_directed + i)) continue;
             SL_TRY(sl_bit_rows_add_one(context, rows, c, next));
         }
     }
@@ -41,23 +41,23 @@ typedef struct reaches {
 } reaches;
 
 /// Adds to a set what the missing fans of a group may see.
-static void reach_group(const sl_fans *fans, const sl_findings *findings, const sl_pvs *bound,
+static void reach_group(const sl_fans *fans, const sl_partial *partial, const sl_pvs *bound,
                         uint32_t group, sl_word_set *set) {
     const uint32_t first = group * FANS_OF_A_GROUP;
     for (uint32_t i = first; i < first + FANS_OF_A_GROUP && i < fans->fans.count; i++) {
-        if (sl_bits_has(findings->done, i)) continue;
+        if (sl_bits_has(partial->done, i)) continue;
         const sl_fan *fan = &fans->fans.items[i];
         for (uint32_t k = 0; k < fan->count; k++)
             sl_word_set_add_row(set, bound, fans->cells.items[fan->first + k].cell);
     }
 }
 
-static sl_status find_groups(sl_context *context, const sl_fans *fans, const sl_findings *findings,
+static sl_status find_groups(sl_context *context, const sl_fans *fans, const sl_partial *partial,
                              const sl_pvs *bound, sl_pvs_maker *maker, reaches *out) {
     const uint32_t count = (uint32_t)((fans->fans.count + FANS_OF_A_GROUP - 1) / FANS_OF_A_GROUP);
     SL_TRY(sl_pvs_maker_create(context, fans->cell_count, count, maker));
     for (uint32_t group = 0; group < count; group++) {
-        reach_group(fans, findings, bound, group, &maker->row);
+        reach_group(fans, partial, bound, group, &maker->row);
         SL_TRY(sl_pvs_maker_end_row(context, maker));
         SL_TRY(sl_check_cancelled(context));
     }
@@ -84,13 +84,13 @@ static sl_status make_rows(sl_context *context, const reaches *r, const sl_pvs *
 }
 
 /// Adds to what is seen the open pairs within the bound.
-static sl_status add_open(sl_context *context, const sl_fans *fans, const sl_findings *findings,
+static sl_status add_open(sl_context *context, const sl_fans *fans, const sl_partial *partial,
                           const sl_pvs *bound, sl_visibility *out) {
     reaches all = {0};
     sl_word_set open = {0};
     sl_pvs_maker groups = {0}, maker = {0};
     sl_pvs rows = {0};
-    sl_status status = find_groups(context, fans, findings, bound, &groups, &all);
+    sl_status status = find_groups(context, fans, partial, bound, &groups, &all);
     if (status == SL_OK) status = make_rows(context, &all, &out->pvs, bound, &open, &maker, &rows);
     if (status == SL_OK) {
         sl_pvs_destroy(context, &out->pvs);
@@ -106,16 +106,16 @@ static sl_status add_open(sl_context *context, const sl_fans *fans, const sl_fin
 }
 
 static sl_status bound_open(sl_context *context, const sl_space *space,
-                            const sl_see_options *options, const sl_findings *findings,
+                            const sl_see_options *options, const sl_partial *partial,
                             sl_visibility *out) {
     sl_fans fans = {0};
     sl_pvs bound = {0};
     bool bounded = false;
     sl_status status = sl_fans_find(context, space, options, SL_FANS_MUTUAL, &fans);
-    if (status == SL_OK && fans.fans.count != findings->unit_count)
+    if (status == SL_OK && fans.fans.count != partial->unit_count)
         status = sl_fail(context, SL_BAD_ARGUMENT, "findings of another space or other options");
     if (status == SL_OK) status = sl_flood_bound(context, space, options, &bound, &bounded);
-    if (status == SL_OK && bounded) status = add_open(context, &fans, findings, &bound, out);
+    if (status == SL_OK && bounded) status = add_open(context, &fans, partial, &bound, out);
     if (status == SL_OK && !bounded) {
         // Any missing fan may see all.
         sl_pvs_destroy(context, &out->pvs);
@@ -131,23 +131,23 @@ static sl_status bound_open(sl_context *context, const sl_space *space,
 // --- the result
 
 static sl_status settle_rows(sl_context *context, const sl_space *space,
-                             const sl_see_options *options, const sl_findings *findings,
+                             const sl_see_options *options, const sl_partial *partial,
                              sl_bit_rows *rows, sl_visibility *out) {
     SL_TRY(sl_bit_rows_create(context, space->cell_count, options, rows));
-    SL_TRY(sl_bit_rows_add_pvs(context, rows, &findings->sure));
+    SL_TRY(sl_bit_rows_add_pvs(context, rows, &partial->sure));
     SL_TRY(sl_sweep_finish(context, space, options, rows, out));
-    if (sl_findings_complete(findings)) return SL_OK;
+    if (sl_partial_complete(partial)) return SL_OK;
     out->guarantee = SL_CONSERVATIVE;
-    return bound_open(context, space, options, findings, out);
+    return bound_open(context, space, options, partial, out);
 }
 
-sl_status sl_settle_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
-                          const sl_findings *findings, sl_visibility *out) {
+sl_status sl_finish_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
+                          const sl_partial *partial, sl_visibility *out) {
     sl_bit_rows rows = {0};
     sl_visibility visibility = {.sight = options->sight, .guarantee = SL_EXACT};
-    if (findings->sure.cell_count != space->cell_count)
+    if (partial->sure.cell_count != space->cell_count)
         return sl_fail(context, SL_BAD_ARGUMENT, "findings of another space or other options");
-    const sl_status status = settle_rows(context, space, options, findings, &rows, &visibility);
+    const sl_status status = settle_rows(context, space, options, partial, &rows, &visibility);
     sl_bit_rows_destroy(context, &rows);
     if (status == SL_OK)
         *out = visibility;
@@ -167,24 +167,24 @@ static bool is_spared(const sl_fans *fans, const sl_fan *fan, const uint64_t *en
 /// A fan joins cells that its own cells see: where these see no cell but such whose rows are known,
 /// it has nothing to add.
 static sl_status spare(sl_context *context, const sl_fans *fans, const uint64_t *enclosed,
-                       sl_findings *findings) {
+                       sl_partial *partial) {
     uint8_t *done = sl_alloc_array(context, fans->fans.count, sizeof *done);
     if (!done) return SL_NO_MEMORY;
     for (size_t i = 0; i < fans->fans.count; i++)
         done[i] = is_spared(fans, &fans->fans.items[i], enclosed);
-    sl_findings_note_bytes(findings, done);
+    sl_partial_note_bytes(partial, done);
     sl_free(context, done);
     return SL_OK;
 }
 
-sl_status sl_carry_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
-                         const uint64_t *kept, const uint64_t *enclosed, sl_findings *findings) {
+sl_status sl_reuse_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
+                         const uint64_t *kept, const uint64_t *enclosed, sl_partial *partial) {
     (void)kept;
     sl_fans fans = {0};
     sl_status status = sl_fans_find(context, space, options, SL_FANS_MUTUAL, &fans);
     if (status == SL_OK)
-        status = sl_findings_start(context, space, options, (uint32_t)fans.fans.count, findings);
-    if (status == SL_OK) status = spare(context, &fans, enclosed, findings);
+        status = sl_partial_begin(context, space, options, (uint32_t)fans.fans.count, partial);
+    if (status == SL_OK) status = spare(context, &fans, enclosed, partial);
     sl_fans_destroy(context, &fans);
     return status;
 }

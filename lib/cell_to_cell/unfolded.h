@@ -7,26 +7,28 @@
 #include "effects/frame.h"
 
 typedef struct sl_unfolded {
-    sl_exit ends;         ///< of what was crossed last, where mirrored space has it
-    uint32_t least, most; ///< places that bound the directions of all portals; 0 for none yet
-    sl_frame frame;       ///< beyond it
-    uint32_t mirror;      ///< crossed last; UINT32_MAX for a portal
+    sl_directed_portal ends; ///< of what was crossed last, where mirrored space has it
+    uint32_t least, most;    ///< places that bound the directions of all portals; 0 for none yet
+    sl_frame frame;          ///< beyond it
+    uint32_t mirror;         ///< crossed last; UINT32_MAX for a portal
 } sl_unfolded;
 
 /// Where a portal of the map lies in a frame; *rounded is set where that is not exact.
-static inline sl_exit sl_unfold(const sl_frame *frame, sl_point left, sl_point right,
-                                bool *rounded) {
-    if (!frame->depth) return (sl_exit){.left = left, .right = right};
+static inline sl_directed_portal sl_unfold(const sl_frame *frame, sl_point left, sl_point right,
+                                           bool *rounded) {
+    if (!frame->depth) return (sl_directed_portal){.left = left, .right = right};
     *rounded |= frame->rounded;
     const sl_point l = sl_frame_place(frame, left, rounded);
     const sl_point r = sl_frame_place(frame, right, rounded);
-    return frame->depth % 2 ? (sl_exit){.left = r, .right = l} : (sl_exit){.left = l, .right = r};
+    return frame->depth % 2 ? (sl_directed_portal){.left = r, .right = l}
+                            : (sl_directed_portal){.left = l, .right = r};
 }
 
 /// Whether some direction crosses all portals up to a new place, the last one of which is `from`;
 /// sets its bounds. `here`: its number.
-static inline bool sl_unfolded_may_cross(const sl_exit *least, const sl_exit *most,
-                                         const sl_unfolded *from, uint32_t here, sl_unfolded *to) {
+static inline bool sl_unfolded_may_cross(const sl_directed_portal *least,
+                                         const sl_directed_portal *most, const sl_unfolded *from,
+                                         uint32_t here, sl_unfolded *to) {
     to->least = from->least;
     to->most = from->most;
     if (!from->least) {

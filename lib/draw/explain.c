@@ -22,9 +22,9 @@ static sl_status paint_cells(sl_context *context, sl_told *told) {
     uint8_t *paint = sl_alloc_array(context, space->cell_count, sizeof *paint);
     if (!paint) return SL_NO_MEMORY;
     sl_scene_get_paint(scene, paint);
-    const uint32_t inner = told->sequence ? told->sequence->exit_count - 1 : 0;
+    const uint32_t inner = told->sequence ? told->sequence->directed_count - 1 : 0;
     for (uint32_t i = 0; i < inner; i++) {
-        uint8_t *p = &paint[space->exits[told->sequence->exits[i]].cell];
+        uint8_t *p = &paint[space->directed[told->sequence->directed[i]].cell];
         if (*p >= SL_PAINT_FLOOR && *p < SL_PAINT_SEEN) *p += SL_PAINT_SEEN - SL_PAINT_FLOOR;
     }
     if (told->explanation->from != told->explanation->to)
@@ -74,9 +74,9 @@ static void choose_frame(sl_told *told) {
     sl_box box = {space->vertices[from->first_vertex], space->vertices[from->first_vertex]};
     include_cell(&box, space, told->explanation->from);
     include_cell(&box, space, told->explanation->to);
-    for (uint32_t i = 0; told->sequence && i < told->sequence->exit_count; i++) {
-        include(&box, space->exits[told->sequence->exits[i]].left);
-        include(&box, space->exits[told->sequence->exits[i]].right);
+    for (uint32_t i = 0; told->sequence && i < told->sequence->directed_count; i++) {
+        include(&box, space->directed[told->sequence->directed[i]].left);
+        include(&box, space->directed[told->sequence->directed[i]].right);
     }
     const sl_bent_sightline *bent = &told->explanation->bent;
     for (uint32_t i = 0; bent->bends && i < bent->mirrors + 2; i++) include(&box, bent->bends[i]);
@@ -98,7 +98,7 @@ static void write_caption(const sl_told *told, char text[CAPTION_TEXT]) {
     const sl_explanation *e = told->explanation;
     const sl_space *space = &told->scene.baked->space;
     const sl_sequence *sequence = told->sequence;
-    const uint32_t count = sequence ? sequence->exit_count : 0;
+    const uint32_t count = sequence ? sequence->directed_count : 0;
     if (e->from == e->to) {
         snprintf(text, CAPTION_TEXT, "A cell sees itself: it is convex, and no wall is inside it.");
     } else if (e->distance == SL_NO_WAY) {
@@ -152,7 +152,8 @@ static const char *title_of(const sl_told *told, char text[CAPTION_TEXT]) {
 static void write_subtitle(const sl_told *told, char text[CAPTION_TEXT]) {
     const sl_explanation *e = told->explanation;
     char portals[SL_COUNT_TEXT] = "", missing[SL_COUNT_TEXT + 40] = "";
-    if (told->sequence && !told->miss) sl_text_count(told->sequence->exit_count, "portal", portals);
+    if (told->sequence && !told->miss)
+        sl_text_count(told->sequence->directed_count, "portal", portals);
     if (told->miss) {
         sl_text_count(told->miss->missing, "portal", portals);
         snprintf(missing, sizeof missing, "the nearest sequence is %s short", portals);
@@ -305,7 +306,7 @@ sl_status sl_draw_explanation(sl_context *context, const sl_baked *baked,
     plain.layers = SL_LAYER_CELLS | SL_LAYER_PORTALS | SL_LAYER_WALLS;
     plain.cell = explanation->from;
     sl_told told = {.explanation = explanation};
-    if (explanation->sequence.exit_count) told.sequence = &explanation->sequence;
+    if (explanation->sequence.directed_count) told.sequence = &explanation->sequence;
     if (explanation->miss_count) {
         told.miss = &explanation->misses[0];
         told.sequence = &told.miss->sequence;

@@ -143,8 +143,8 @@ static sl_point place(const overlay *o, sl_point p) {
     return sl_frame_point(o->frame, p);
 }
 
-static const sl_exit *exit_at(const overlay *o, uint32_t number) {
-    return &o->space->exits[o->told->sequence->exits[number]];
+static const sl_directed_portal *directed_at(const overlay *o, uint32_t number) {
+    return &o->space->directed[o->told->sequence->directed[number]];
 }
 
 static sl_point middle(sl_point a, sl_point b) {
@@ -195,9 +195,9 @@ static double crowding(const overlay *o, sl_point at, double radius) {
 
 static void draw_sequence(const overlay *o) {
     const sl_sequence *sequence = o->told->sequence;
-    const uint32_t last = sequence->exit_count - 1;
+    const uint32_t last = sequence->directed_count - 1;
     for (uint32_t i = 0; i <= last; i++) {
-        sl_path_segment(o->cairo, o->frame, exit_at(o, i)->left, exit_at(o, i)->right);
+        sl_path_segment(o->cairo, o->frame, directed_at(o, i)->left, directed_at(o, i)->right);
         if (o->told->miss && i == last)
             sl_pen_stop(o->cairo, o->told, o->unit);
         else
@@ -205,16 +205,17 @@ static void draw_sequence(const overlay *o) {
     }
 }
 
-static sl_point exit_middle(const sl_exit *exit) {
-    return middle(exit->left, exit->right);
+static sl_point portal_middle(const sl_directed_portal *directed) {
+    return middle(directed->left, directed->right);
 }
 
 /// Where a stroke that crosses a portal at right angles may bend: into the cell from the portal's
-/// middle, along its normal. `sign` is 1 to go the exit's way.
-static sl_point bend(const overlay *o, uint32_t cell, const sl_exit *exit, double sign,
-                     double reach) {
-    const sl_point at = exit_middle(exit);
-    const double along_x = exit->left.x - exit->right.x, along_y = exit->left.y - exit->right.y;
+/// middle, along its normal. `sign` is 1 to go the directed portal's way.
+static sl_point bend(const overlay *o, uint32_t cell, const sl_directed_portal *directed,
+                     double sign, double reach) {
+    const sl_point at = portal_middle(directed);
+    const double along_x = directed->left.x - directed->right.x,
+                 along_y = directed->left.y - directed->right.y;
     const double width = hypot(along_x, along_y);
     const sl_point forward = {sign * along_y / width, -sign * along_x / width};
     const double length = fmin(reach, 0.9 * sl_ray_length(o->space, cell, at, forward));
@@ -225,15 +226,15 @@ static sl_point bend(const overlay *o, uint32_t cell, const sl_exit *exit, doubl
 static void draw_way(const overlay *o) {
     uint32_t cell = o->told->explanation->from;
     sl_point start = cell_middle(o, cell), leave = start;
-    for (uint32_t i = 0; i < o->told->sequence->exit_count; i++) {
-        const sl_exit *exit = exit_at(o, i);
-        const sl_point end = exit_middle(exit);
+    for (uint32_t i = 0; i < o->told->sequence->directed_count; i++) {
+        const sl_directed_portal *directed = directed_at(o, i);
+        const sl_point end = portal_middle(directed);
         const double reach = 0.4 * hypot(end.x - start.x, end.y - start.y);
-        if (i > 0) leave = bend(o, cell, exit_at(o, i - 1), 1, reach);
-        const sl_point controls[4] = {start, leave, bend(o, cell, exit, -1, reach), end};
+        if (i > 0) leave = bend(o, cell, directed_at(o, i - 1), 1, reach);
+        const sl_point controls[4] = {start, leave, bend(o, cell, directed, -1, reach), end};
         sl_path_curve(o->cairo, o->frame, controls);
         start = end;
-        cell = exit->cell;
+        cell = directed->cell;
     }
     sl_pen_way(o->cairo, o->told, o->unit);
 }
@@ -262,8 +263,8 @@ static void draw_bent(const overlay *o) {
 
 /// Which way a portal is crossed: an arrow through its middle.
 static void draw_crossing(const overlay *o, uint32_t number) {
-    const sl_exit *exit = exit_at(o, number);
-    const sl_point left = place(o, exit->left), right = place(o, exit->right);
+    const sl_directed_portal *directed = directed_at(o, number);
+    const sl_point left = place(o, directed->left), right = place(o, directed->right);
     const sl_point at = middle(left, right);
     const double length = hypot(left.x - right.x, left.y - right.y), reach = 30 * o->unit;
     // On the page y runs down: forwards is from left to right, turned counter-clockwise as seen.
@@ -330,8 +331,9 @@ static void draw_meeting(overlay *o) {
 
 static void draw_ends(overlay *o) {
     const sl_sequence *sequence = o->told->sequence;
-    for (uint32_t i = 0; i < sequence->exit_count; i++) {
-        const sl_point left = place(o, exit_at(o, i)->left), right = place(o, exit_at(o, i)->right);
+    for (uint32_t i = 0; i < sequence->directed_count; i++) {
+        const sl_point left = place(o, directed_at(o, i)->left),
+                       right = place(o, directed_at(o, i)->right);
         sl_mark_end(o->cairo, o->told, left, true, MINOR_END * o->unit);
         sl_mark_end(o->cairo, o->told, right, false, MINOR_END * o->unit);
         take_spot(o, left, MINOR_END * o->unit);
@@ -356,8 +358,8 @@ static void draw_ends(overlay *o) {
 
 /// Beside its portal, where the least is covered.
 static void draw_badge(overlay *o, uint32_t number) {
-    const sl_exit *exit = exit_at(o, number);
-    const sl_point left = place(o, exit->left), right = place(o, exit->right);
+    const sl_directed_portal *directed = directed_at(o, number);
+    const sl_point left = place(o, directed->left), right = place(o, directed->right);
     const sl_point at = middle(left, right);
     const double radius = BADGE * o->unit, half = hypot(left.x - right.x, left.y - right.y) / 2;
     const double ux = (left.x - at.x) / half, uy = (left.y - at.y) / half;
@@ -385,7 +387,7 @@ static void draw_badge(overlay *o, uint32_t number) {
         cairo_set_line_width(o->cairo, o->unit);
         cairo_stroke(o->cairo);
     }
-    const bool stops = o->told->miss && number + 1 == o->told->sequence->exit_count;
+    const bool stops = o->told->miss && number + 1 == o->told->sequence->directed_count;
     sl_mark_badge(o->cairo, o->told, best, radius, stops ? 0 : number + 1);
     take_spot(o, best, radius);
 }
@@ -429,7 +431,7 @@ static void draw_told_sequence(overlay *o) {
         draw_line(o);
     if (told->miss && told->miss->turns) {
         draw_crossing(o, sequence->ends[0].portal);
-        draw_crossing(o, sequence->exit_count - 1);
+        draw_crossing(o, sequence->directed_count - 1);
     } else if (told->miss) {
         draw_hull(o, true);
         draw_hull(o, false);
@@ -448,7 +450,8 @@ sl_status sl_draw_told(sl_context *context, cairo_t *cairo, const sl_told *told,
     const sl_explanation *e = told->explanation;
     const sl_sequence *sequence = told->sequence;
     // Two names, a ring, and of each portal two ends, which may be marked twice, and a badge.
-    const size_t spots = 3 + (sequence ? 3 * (size_t)sequence->exit_count + SL_CONFLICT_MOST : 0);
+    const size_t spots =
+        3 + (sequence ? 3 * (size_t)sequence->directed_count + SL_CONFLICT_MOST : 0);
     SL_TRY(SL_ARRAY_ROOM(context, &o.spots, spots));
     cairo_save(cairo);
     cairo_rectangle(cairo, frame->left, frame->top, frame->width, frame->height);
@@ -460,7 +463,7 @@ sl_status sl_draw_told(sl_context *context, cairo_t *cairo, const sl_told *told,
         draw_bent(&o);
         draw_name(&o, e->from, told->scene.palette.source_edge);
         if (e->from != e->to) draw_name(&o, e->to, told->target);
-        for (uint32_t i = 0; sequence && i < sequence->exit_count; i++) draw_badge(&o, i);
+        for (uint32_t i = 0; sequence && i < sequence->directed_count; i++) draw_badge(&o, i);
     }
     cairo_restore(cairo);
     sl_free(context, o.spots.items);

@@ -386,7 +386,7 @@ static void describe(const sl_scene *scene, char *text, size_t room) {
         snprintf(text, room, "%s%s  \xc2\xb7  %s sight, %s%s", what, how,
                  baked->visibility.sight == SL_OPEN ? "open" : "closed",
                  sl_guarantee_name(baked->visibility.guarantee),
-                 sl_findings_begun(&baked->findings) ? " (partial)" : "");
+                 sl_partial_begun(&baked->partial) ? " (partial)" : "");
     else
         snprintf(text, room, "%s", what);
 }

@@ -100,24 +100,24 @@ static void draw_walls(const plan *p) {
 /// Where a stroke of the stab tree begins or ends: a portal or a mirror, in the cell that the
 /// stroke is in.
 typedef struct joint {
-    sl_exit ends;   ///< as crossed on the way out of the cell
-    sl_point place; ///< on it
+    sl_directed_portal ends; ///< as crossed on the way out of the cell
+    sl_point place;          ///< on it
 } joint;
 
 /// Reflected sequences keep to one side of portals: what comes back does not hide what went.
-static sl_point place_on(const sl_exit *ends, double share) {
+static sl_point place_on(const sl_directed_portal *ends, double share) {
     return (sl_point){ends->left.x + share * (ends->right.x - ends->left.x),
                       ends->left.y + share * (ends->right.y - ends->left.y)};
 }
 
-static joint joint_at(const plan *p, const sl_stroke *stroke, uint32_t exit, bool entered) {
-    if (exit >= SL_STAB_MIRROR) {
+static joint joint_at(const plan *p, const sl_stroke *stroke, uint32_t directed, bool entered) {
+    if (directed >= SL_STAB_MIRROR) {
         sl_mirror_side side = {0};
-        sl_mirror_side_of(p->space, p->map, stroke->cell, exit - SL_STAB_MIRROR, &side);
-        const sl_exit ends = {.left = side.left, .right = side.right};
+        sl_mirror_side_of(p->space, p->map, stroke->cell, directed - SL_STAB_MIRROR, &side);
+        const sl_directed_portal ends = {.left = side.left, .right = side.right};
         return (joint){ends, place_on(&ends, 0.5)};
     }
-    const sl_exit *at = &p->space->exits[exit];
+    const sl_directed_portal *at = &p->space->directed[directed];
     const sl_point place = place_on(at, stroke->mirrored ? 0.3 : 0.5);
     if (entered) return (joint){{.left = at->right, .right = at->left}, place};
     return (joint){*at, place};

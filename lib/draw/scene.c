@@ -69,8 +69,8 @@ static void choose_tones(maker *m, const sl_scene *scene) {
         const sl_cell *c = &space->cells[cell];
         if (!sl_scene_shows(scene, cell)) continue;
         unsigned taken = 0, tone = 0;
-        for (uint32_t i = 0; i < c->exit_count && !plain; i++) {
-            const uint32_t next = space->exits[c->first_exit + i].cell;
+        for (uint32_t i = 0; i < c->directed_count && !plain; i++) {
+            const uint32_t next = space->directed[c->first_directed + i].cell;
             if (next < cell && m->paint[next] != SL_PAINT_NONE)
                 taken |= 1u << (m->paint[next] - SL_PAINT_FLOOR);
         }
@@ -178,7 +178,7 @@ static void find_strokes(const sl_stab_node *nodes, size_t count, sl_scene *scen
         const sl_stab_node *from = &nodes[nodes[i].parent];
         const sl_stroke *parent = &strokes[nodes[i].parent];
         strokes[i] = (sl_stroke){.from = parent->to,
-                                 .to = nodes[i].exit,
+                                 .to = nodes[i].directed,
                                  .depth = parent->depth + 1,
                                  .cell = from->cell,
                                  .mirrored = parent->mirrored || sl_stab_is_mirror(from)};

@@ -22,8 +22,8 @@ typedef enum sl_paint {
 #define SL_PAINT_COUNT (SL_PAINT_HEAT + SL_HEAT_STEPS)
 
 /// A stroke of the stab tree, within a cell, between places where sequences cross portals or turn
-/// back at mirrors: exits of nodes (sl_stab_node). Sequences that share it are drawn once, at their
-/// least depth.
+/// back at mirrors: directed portals of nodes (sl_stab_node). Sequences that share it are drawn
+/// once, at their least depth.
 typedef struct sl_stroke {
     uint32_t from, to, depth, cell;
     bool mirrored; ///< the sequence has been reflected before

@@ -7,8 +7,9 @@ sl_status sl_effects_refuse(sl_context *context) {
                    "this build is without effects: -DSIGHTLINE_EFFECTS=ON builds with them");
 }
 
-sl_status sl_passage_make(sl_context *context, const sl_space *space, const sl_passage *passage,
-                          uint32_t *portals, sl_space *out) {
-    (void)space, (void)passage, (void)portals, (void)out;
+sl_status sl_filtered_space_make(sl_context *context, const sl_space *space,
+                                 const sl_filtered_space *filtered, uint32_t *portals,
+                                 sl_space *out) {
+    (void)space, (void)filtered, (void)portals, (void)out;
     return sl_effects_refuse(context);
 }

@@ -11,10 +11,10 @@ extern const sl_effect sl_effect_oneway;
 extern const sl_effect sl_effect_range;
 
 /// The space to look through under a plan, or NULL for none: `space` itself, or where one-way glass
-/// is called for `made`, without the exits that it keeps sight from. `made` is zeroed, and to be
-/// destroyed when done.
-sl_status sl_oneway_passage(sl_context *context, const sl_space *space, const sl_plan *plan,
-                            sl_space *made, const sl_space **through);
+/// is called for `made`, without the directed portals that it keeps sight from. `made` is zeroed,
+/// and to be destroyed when done.
+sl_status sl_oneway_filtered(sl_context *context, const sl_space *space, const sl_plan *plan,
+                             sl_space *made, const sl_space **through);
 
 /// SL_UNSUPPORTED: what functions of effects say in a build without them.
 sl_status sl_effects_refuse(sl_context *context);

@@ -17,10 +17,10 @@ static bool in_line(sl_point a, sl_point b, sl_point p, sl_point q) {
 
 /// Whether the side is on the mirror's line: itself, or what the space tells of its wall.
 static bool is_on_line(const sl_space *space, const side *s, const sl_segment *mirror) {
-    if (!space->beyond) return in_line(mirror->a, mirror->b, s->from, s->to);
-    const uint32_t what = space->beyond[s->vertex];
-    if (what >= SL_BEYOND_BORDER) return false;
-    const sl_wall *wall = &space->walls[what & ~SL_BEYOND_RIGHT];
+    if (!space->neighbour) return in_line(mirror->a, mirror->b, s->from, s->to);
+    const uint32_t what = space->neighbour[s->vertex];
+    if (what >= SL_NEIGHBOUR_BORDER) return false;
+    const sl_wall *wall = &space->walls[what & ~SL_NEIGHBOUR_RIGHT];
     return in_line(wall->a, wall->b, mirror->a, mirror->b);
 }
 

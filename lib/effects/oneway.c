@@ -24,8 +24,8 @@ const sl_effect sl_effect_oneway = {
     .leave_out = leave_out,
 };
 
-bool sl_exit_is_dark(const sl_space *space, uint32_t cell, uint32_t exit) {
-    const uint32_t portal = space->exits[exit].portal;
+bool sl_portal_is_blocked(const sl_space *space, uint32_t cell, uint32_t directed) {
+    const uint32_t portal = space->directed[directed].portal;
     const bool forward = space->portals[portal].cell[0] == cell;
     size_t count;
     const sl_seam_portal *on = sl_space_seams_of(space, portal, &count);
@@ -35,11 +35,11 @@ bool sl_exit_is_dark(const sl_space *space, uint32_t cell, uint32_t exit) {
     return false;
 }
 
-sl_status sl_oneway_passage(sl_context *context, const sl_space *space, const sl_plan *plan,
-                            sl_space *made, const sl_space **through) {
-    const sl_passage passage = {.one_way = true};
+sl_status sl_oneway_filtered(sl_context *context, const sl_space *space, const sl_plan *plan,
+                             sl_space *made, const sl_space **through) {
+    const sl_filtered_space filtered = {.one_way = true};
     const bool called_for = plan && plan->effects & SL_EFFECT_ONEWAY;
-    if (called_for) SL_TRY(sl_passage_make(context, space, &passage, NULL, made));
+    if (called_for) SL_TRY(sl_filtered_space_make(context, space, &filtered, NULL, made));
     *through = called_for ? made : space;
     return SL_OK;
 }

@@ -70,12 +70,14 @@ bool sl_arc_has(sl_pivot *pivot, const sl_arc *arc, sl_ray ray);
 unsigned sl_arc_meet(sl_pivot *pivot, const sl_arc *a, const sl_arc *b, sl_arc pieces[2]);
 
 /// The directions in which a line through the eye crosses a portal, for an eye in the cell that the
-/// exit leads out of: a half where the eye is on the portal, a single ray where it is elsewhere on
-/// the portal's line. False where there is none.
-bool sl_arc_of_exit(sl_pivot *pivot, const sl_exit *exit, sl_arc *out);
+/// directed portal leads out of: a half where the eye is on the portal, a single ray where it is
+/// elsewhere on the portal's line. False where there is none.
+bool sl_arc_of_portal(sl_pivot *pivot, const sl_directed_portal *directed, sl_arc *out);
 
-/// What of an arc passes an exit of a cell beyond a portal that the eye is not on: so all of the
-/// cell that the arc can reach is ahead, within less than 180 degrees. False where nothing does.
-bool sl_arc_narrow(sl_pivot *pivot, const sl_arc *arc, const sl_exit *exit, sl_arc *out);
+/// What of an arc passes a directed portal of a cell beyond a portal that the eye is not on: so all
+/// of the cell that the arc can reach is ahead, within less than 180 degrees. False where nothing
+/// does.
+bool sl_arc_narrow(sl_pivot *pivot, const sl_arc *arc, const sl_directed_portal *directed,
+                   sl_arc *out);
 
 #endif

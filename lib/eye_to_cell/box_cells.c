@@ -9,7 +9,7 @@
 
 void sl_cells_of_box(const sl_space *space, sl_box box, uint64_t *cells) {
     memset(cells, 0, sl_eye_words(space) * sizeof *cells);
-    if (!space->beyond) {
+    if (!space->neighbour) {
         for (uint32_t i = 0; i < space->cell_count; i++)
             if (sl_cell_meets_box(space, i, box)) sl_bits_add(cells, i);
         return;

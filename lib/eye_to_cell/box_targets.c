@@ -8,7 +8,7 @@
 /// A piece of a box's side in a cell.
 typedef struct target {
     uint32_t cell;
-    sl_exit exit;
+    sl_directed_portal directed;
 } target;
 
 typedef struct gatherer {
@@ -121,7 +121,7 @@ static sl_status write_targets(gatherer *g, sl_box_targets *out) {
     if (g->targets.count)
         qsort(g->targets.items, g->targets.count, sizeof *g->targets.items, compare_targets);
     for (size_t i = 0; i < g->targets.count; i++) {
-        out->items[i] = g->targets.items[i].exit;
+        out->items[i] = g->targets.items[i].directed;
         out->first[g->targets.items[i].cell + 1]++;
     }
     for (uint32_t c = 0; c < cells; c++) out->first[c + 1] += out->first[c];
@@ -141,8 +141,8 @@ static sl_status gather(gatherer *g, const sl_box_ground *ground, const sl_movin
                                      &g->free));
         for (size_t k = 0; k < g->free.count; k++) {
             const sl_piece *piece = &g->free.items[k];
-            SL_TRY(g->space->beyond ? add_to_cells(g, piece, (uint32_t)i)
-                                    : add_down_tree(g, piece, (uint32_t)i));
+            SL_TRY(g->space->neighbour ? add_to_cells(g, piece, (uint32_t)i)
+                                       : add_down_tree(g, piece, (uint32_t)i));
         }
     }
     return SL_OK;

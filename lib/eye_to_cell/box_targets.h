@@ -6,7 +6,8 @@
 
 typedef struct sl_box_targets {
     uint32_t *first; ///< by cell, and one more: its targets are items[first[c] .. first[c + 1])
-    sl_exit *items;  ///< as crossed on the way out of the cell; `portal`: the box's number
+    sl_directed_portal
+        *items; ///< as crossed on the way out of the cell; `portal`: the box's number
 } sl_box_targets;
 
 /// The pieces that no axial wall of the ground covers, in a space with the boxes in it: all lie on

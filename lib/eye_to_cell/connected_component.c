@@ -4,8 +4,8 @@
 #include "eye_to_cell/eye_methods.h"
 #include "eye_to_cell/spread.h"
 
-static bool meets_cell(sl_eye_query *query, const sl_exit *exit) {
-    return sl_eye_meets_cell(query, exit->cell);
+static bool meets_cell(sl_eye_query *query, const sl_directed_portal *directed) {
+    return sl_eye_meets_cell(query, directed->cell);
 }
 
 sl_status sl_eye_connected_component(sl_context *context, sl_eye_search *search,

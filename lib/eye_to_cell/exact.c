@@ -37,15 +37,16 @@ bool sl_eye_is_new(sl_eye_search *search, const sl_eye_step *from, sl_eye_step *
     return fresh;
 }
 
-/// Tries the next exit of a step; what is entered, a step for each arc, goes behind it. Returns how
-/// many steps that are.
-static size_t try_exit(sl_eye_query *query, sl_eye_step *last, bool first) {
+/// Tries the next directed portal of a step; what is entered, a step for each arc, goes behind it.
+/// Returns how many steps that are.
+static size_t try_portal(sl_eye_query *query, sl_eye_step *last, bool first) {
     const sl_cell *cell = &query->space->cells[last->cell];
-    const sl_exit *exit = &query->space->exits[cell->first_exit + last->next++];
+    const sl_directed_portal *directed =
+        &query->space->directed[cell->first_directed + last->next++];
     sl_eye_step *to = last + 1, entered;
     size_t count = 0;
-    if (!sl_eye_may_see(query, exit->cell) ||
-        !sl_eye_pass_in_range(query, last, first, exit, &entered))
+    if (!sl_eye_may_see(query, directed->cell) ||
+        !sl_eye_pass_in_range(query, last, first, directed, &entered))
         return 0;
     for (unsigned i = 0; i < entered.arc_count; i++) {
         to[count] = entered;
@@ -53,17 +54,17 @@ static size_t try_exit(sl_eye_query *query, sl_eye_step *last, bool first) {
         to[count].arc_count = 1;
         count += sl_eye_is_new(query->search, last, &to[count]);
     }
-    if (count) sl_bits_add(query->cells, exit->cell);
+    if (count) sl_bits_add(query->cells, directed->cell);
     return count;
 }
 
 void sl_eye_meet_targets(sl_eye_query *query, const sl_eye_step *at, bool first) {
     const sl_eye_targets *t = &query->search->targets;
-    sl_eye_step beyond;
+    sl_eye_step neighbour;
     for (uint32_t i = t->first[at->cell]; i < t->first[at->cell + 1]; i++)
         if (!t->met[t->targets[i].portal])
             t->met[t->targets[i].portal] =
-                sl_eye_pass_in_range(query, at, first, &t->targets[i], &beyond);
+                sl_eye_pass_in_range(query, at, first, &t->targets[i], &neighbour);
 }
 
 static sl_status search_portals(sl_context *context, sl_eye_query *query) {
@@ -77,16 +78,16 @@ static sl_status search_portals(sl_context *context, sl_eye_query *query) {
         sl_eye_step *last = &steps[count - 1];
         if (query->search->targets.first && last->next == 0)
             sl_eye_meet_targets(query, last, count == 1);
-        if (last->next == space->cells[last->cell].exit_count) {
+        if (last->next == space->cells[last->cell].directed_count) {
             count--;
             continue;
         }
-        // No cell comes twice on the way; a first exit may have given two steps.
+        // No cell comes twice on the way; a first directed portal may have given two steps.
         if (count > (size_t)space->cell_count + 1)
             return sl_fail(context, SL_BAD_INPUT,
                            "a line enters cell %u twice: cells and portals do not fit together",
                            (unsigned)last->cell);
-        const size_t entered = try_exit(query, last, count == 1);
+        const size_t entered = try_portal(query, last, count == 1);
         count += entered;
         query->nodes += entered;
         if (entered && query->nodes % 1024 == 0) SL_TRY(sl_check_cancelled(context));

@@ -75,12 +75,12 @@ static sl_status enter(sl_context *context, sl_eye_query *query, const sl_eye_st
     return SL_OK;
 }
 
-static sl_status try_exit(sl_context *context, sl_eye_query *query, const step *last, bool first,
-                          uint32_t number) {
-    const sl_exit *exit = &query->space->exits[number];
+static sl_status try_portal(sl_context *context, sl_eye_query *query, const step *last, bool first,
+                            uint32_t number) {
+    const sl_directed_portal *directed = &query->space->directed[number];
     step to = {.depth = last->depth, .mirror = UINT32_MAX};
-    if (!last->depth && !sl_eye_may_see(query, exit->cell)) return SL_OK;
-    if (!sl_eye_pass_in_range(query, &last->at, first, exit, &to.at)) return SL_OK;
+    if (!last->depth && !sl_eye_may_see(query, directed->cell)) return SL_OK;
+    if (!sl_eye_pass_in_range(query, &last->at, first, directed, &to.at)) return SL_OK;
     return enter(context, query, &last->at, &to);
 }
 
@@ -100,10 +100,11 @@ static sl_status try_mirror(sl_context *context, sl_eye_query *query, const step
     const sl_segment mirror = m->map->mirrors[side->mirror].segment;
     // Behind a mirror its own side is behind the line of sight, but for rounding.
     if (last->mirror == side->mirror || last->depth == m->depth) return SL_OK;
-    const sl_exit exit = {.left = side->left, .right = side->right, .cell = side->cell};
+    const sl_directed_portal directed = {
+        .left = side->left, .right = side->right, .cell = side->cell};
     step to = {.depth = last->depth + 1, .mirror = side->mirror};
     sl_eye_step seen;
-    if (!sl_eye_pass_in_range(query, &last->at, first, &exit, &seen)) return SL_OK;
+    if (!sl_eye_pass_in_range(query, &last->at, first, &directed, &seen)) return SL_OK;
     bool rounded = false;
     m->images[to.depth] = sl_fold(mirror, &m->images[last->depth], &rounded);
     m->rounded += rounded;
@@ -136,10 +137,11 @@ static sl_status search(sl_context *context, sl_eye_query *query) {
         look_from(query, last.depth);
         if (next == 0 && last.depth && query->search->targets.first)
             sl_eye_meet_targets(query, &last.at, false);
-        if (next < cell->exit_count)
-            SL_TRY(try_exit(context, query, &last, first, cell->first_exit + next));
-        else if (next < cell->exit_count + sides)
-            SL_TRY(try_mirror(context, query, &last, first, first_side + next - cell->exit_count));
+        if (next < cell->directed_count)
+            SL_TRY(try_portal(context, query, &last, first, cell->first_directed + next));
+        else if (next < cell->directed_count + sides)
+            SL_TRY(
+                try_mirror(context, query, &last, first, first_side + next - cell->directed_count));
         else
             m->steps.count--;
         if (m->steps.count > most)

@@ -20,7 +20,7 @@ static void go_down(sl_eye_query *query, const sl_eye_step *from, const sl_stab_
     const bool first = from->next == 0, dead = !first && !from->arc_count;
     const bool passes =
         !dead && !sl_stab_is_mirror(node) && sl_eye_may_see(query, node->cell) &&
-        sl_eye_pass_in_range(query, from, first, &query->space->exits[node->exit], to);
+        sl_eye_pass_in_range(query, from, first, &query->space->directed[node->directed], to);
     if (passes) {
         query->nodes++;
         sl_bits_add(query->cells, node->cell);

@@ -104,13 +104,13 @@ sl_eye_step sl_eye_first_step(const sl_eye_query *query) {
     return (sl_eye_step){.cell = query->cell, .near = true};
 }
 
-bool sl_eye_pass(sl_eye_query *query, const sl_eye_step *from, bool first, const sl_exit *exit,
-                 sl_eye_step *to) {
+bool sl_eye_pass(sl_eye_query *query, const sl_eye_step *from, bool first,
+                 const sl_directed_portal *directed, sl_eye_step *to) {
     sl_pivot *pivot = &query->pivot;
-    *to = (sl_eye_step){.cell = exit->cell};
+    *to = (sl_eye_step){.cell = directed->cell};
     if (from->near) {
         sl_arc through;
-        if (!sl_arc_of_exit(pivot, exit, &through)) return false;
+        if (!sl_arc_of_portal(pivot, directed, &through)) return false;
         to->near = through.span == SL_SPAN_HALF;
         if (first) to->arc_count = sl_cone_clip(pivot, &query->cone, &through, to->arcs);
         // Each arc meets the portal's half in one arc at most: along a half opposite to it there
@@ -122,7 +122,8 @@ bool sl_eye_pass(sl_eye_query *query, const sl_eye_step *from, bool first, const
         }
     } else {
         for (unsigned i = 0; i < from->arc_count; i++)
-            to->arc_count += sl_arc_narrow(pivot, &from->arcs[i], exit, &to->arcs[to->arc_count]);
+            to->arc_count +=
+                sl_arc_narrow(pivot, &from->arcs[i], directed, &to->arcs[to->arc_count]);
     }
     if (query->search->visibility->sight == SL_CLOSED) return to->arc_count > 0;
     unsigned kept = 0;

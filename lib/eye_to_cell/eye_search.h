@@ -11,7 +11,7 @@
 /// A cell on the way of the exact method, or a node of the stab tree with all above it.
 typedef struct sl_eye_step {
     uint32_t cell;
-    uint32_t next;      ///< exit to try next, from 0; in a stab tree the node's number
+    uint32_t next;      ///< directed portal to try next, from 0; in a stab tree the node's number
     uint32_t ray;       ///< over portals: of the ray that is left, where a single one is
     bool near;          ///< the eye is on the portal crossed last, or in the cell of the source
     unsigned arc_count; ///< over portals, 1 but for the eye's cell
@@ -20,8 +20,9 @@ typedef struct sl_eye_step {
 
 /// Pieces of cells' boundaries, to be told which of them a search meets.
 typedef struct sl_eye_targets {
-    const uint32_t *first;  ///< by cell: its targets are items[first[cell] .. first[cell + 1])
-    const sl_exit *targets; ///< as crossed on the way out of the cell; `portal`: of `met`
+    const uint32_t *first; ///< by cell: its targets are items[first[cell] .. first[cell + 1])
+    const sl_directed_portal
+        *targets; ///< as crossed on the way out of the cell; `portal`: of `met`
     bool *met;
 } sl_eye_targets;
 
@@ -87,18 +88,18 @@ static inline bool sl_eye_meets_cell(sl_eye_query *query, uint32_t number) {
 }
 
 /// Whether a portal meets the cone.
-static inline bool sl_eye_meets_exit(sl_eye_query *query, const sl_exit *exit) {
+static inline bool sl_eye_meets_portal(sl_eye_query *query, const sl_directed_portal *directed) {
     return query->cone.full ||
-           sl_cone_meets_segment(&query->pivot, &query->cone, exit->left, exit->right);
+           sl_cone_meets_segment(&query->pivot, &query->cone, directed->left, directed->right);
 }
 
 /// The first step of the exact method: the eye's cell, with all of the cone.
 sl_eye_step sl_eye_first_step(const sl_eye_query *query);
 
-/// What of a step's arcs passes an exit of its cell; `first` for the eye's own cell. False where
-/// nothing does, or nothing that counts.
-bool sl_eye_pass(sl_eye_query *query, const sl_eye_step *from, bool first, const sl_exit *exit,
-                 sl_eye_step *to);
+/// What of a step's arcs passes a directed portal of its cell; `first` for the eye's own cell.
+/// False where nothing does, or nothing that counts.
+bool sl_eye_pass(sl_eye_query *query, const sl_eye_step *from, bool first,
+                 const sl_directed_portal *directed, sl_eye_step *to);
 
 /// Whether a step of one arc is worth going on from: not where its single ray has come to the cell
 /// before. Gives the ray a number, where it has none from the step before.
@@ -111,7 +112,7 @@ void sl_eye_mirrors_destroy(sl_context *context, struct sl_eye_mirrors *mirrors)
 
 /// As sl_eye_pass, but that arcs are left out in which the portal is out of the search's range.
 bool sl_eye_pass_in_range(sl_eye_query *query, const sl_eye_step *from, bool first,
-                          const sl_exit *exit, sl_eye_step *to);
+                          const sl_directed_portal *directed, sl_eye_step *to);
 
 /// The exact method down the stab tree of the eye's cell. `done` is false, with nothing done, where
 /// that is not kept or its nodes do not come in the order of a depth-first search.

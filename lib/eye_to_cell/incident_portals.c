@@ -8,7 +8,7 @@ sl_status sl_eye_incident_portals(sl_context *context, sl_eye_search *search, co
                                   uint64_t *cells, sl_eye_account *account) {
     sl_eye_query query;
     SL_TRY(sl_eye_begin(context, search, view, true, cells, &query));
-    SL_TRY(sl_eye_spread(context, &query, sl_eye_meets_exit));
+    SL_TRY(sl_eye_spread(context, &query, sl_eye_meets_portal));
     sl_eye_end(&query, account);
     return SL_OK;
 }

@@ -25,25 +25,27 @@ typedef struct parent {
     bool rounded;
 } parent;
 
-static sl_segment mirror_at(const maker *m, const sl_glimpse *glimpse) {
-    return m->mirrors->map->mirrors[glimpse->mirror].segment;
+static sl_segment mirror_at(const maker *m, const sl_reflected_view *reflected) {
+    return m->mirrors->map->mirrors[reflected->mirror].segment;
 }
 
-/// A glimpse as its mirror shows it: what was its left ray is its right one.
-static sl_glimpse fold(const maker *m, const sl_glimpse *seen, const sl_eye_place *eye,
-                       bool *rounded) {
+/// A reflected view as its mirror shows it: what was its left ray is its right one.
+static sl_reflected_view fold(const maker *m, const sl_reflected_view *seen,
+                              const sl_eye_place *eye, bool *rounded) {
     const sl_segment mirror = mirror_at(m, seen);
     const sl_fine right = sl_fold(mirror, &(sl_fine){seen->left.at, seen->left.rest}, rounded);
     const sl_fine left = sl_fold(mirror, &(sl_fine){seen->right.at, seen->right.rest}, rounded);
-    return (sl_glimpse){seen->side, seen->mirror, sl_eye_ray_fine(eye, &right),
-                        sl_eye_ray_fine(eye, &left)};
+    return (sl_reflected_view){seen->side, seen->mirror, sl_eye_ray_fine(eye, &right),
+                               sl_eye_ray_fine(eye, &left)};
 }
 
-/// How many glimpses, from one on, join into one of a single mirror.
+/// How many reflected views, from one on, join into one of a single mirror.
 static size_t run_of(const struct sl_region_memory *m, size_t from) {
     size_t i = from + 1;
-    while (i < m->glimpses.count && m->glimpses.items[i].mirror == m->glimpses.items[from].mirror &&
-           sl_eye_turn(&m->eye, &m->glimpses.items[i - 1].left, &m->glimpses.items[i].right) == 0)
+    while (i < m->reflected_views.count &&
+           m->reflected_views.items[i].mirror == m->reflected_views.items[from].mirror &&
+           sl_eye_turn(&m->eye, &m->reflected_views.items[i - 1].left,
+                       &m->reflected_views.items[i].right) == 0)
         i++;
     return i - from;
 }
@@ -66,18 +68,20 @@ static bool has_rest(const sl_eye_ray *ray) {
     return ray->rest.x != 0 || ray->rest.y != 0;
 }
 
-/// Makes the polygon of what `count` glimpses show, which are folded, from left to right.
-static sl_status look_in(maker *m, sl_region *region, const sl_glimpse *glimpses, size_t count) {
+/// Makes the polygon of what `count` reflected views show, which are folded, from left to right.
+static sl_status look_in(maker *m, sl_region *region, const sl_reflected_view *reflected_views,
+                         size_t count) {
     sl_context *context = m->context;
     const sl_outline *outline = m->mirrors->outline;
-    const sl_glimpse *rightmost = &glimpses[count - 1], *leftmost = &glimpses[0];
+    const sl_reflected_view *rightmost = &reflected_views[count - 1],
+                            *leftmost = &reflected_views[0];
     const sl_segment mirror = mirror_at(m, rightmost);
     const sl_region_edge radial = {SL_NO_WALL, SL_EDGE_CONE, false};
-    const sl_region_edge near = {outline->sides[leftmost->side].beyond - SL_SIDE_WALL,
+    const sl_region_edge near = {outline->sides[leftmost->side].neighbour - SL_SIDE_WALL,
                                  SL_EDGE_MIRROR, false};
     SL_TRY(sl_region_add_on_mirror(context, region, &rightmost->right, mirror.a, mirror.b, radial));
     for (size_t i = count; i-- > 0;)
-        SL_TRY(sl_region_look_in(context, outline, region, &glimpses[i]));
+        SL_TRY(sl_region_look_in(context, outline, region, &reflected_views[i]));
     SL_TRY(sl_region_add_on_mirror(context, region, &leftmost->left, mirror.a, mirror.b, near));
     if (region->count < 3) region->count = 0;
     return region->count && region->range > 0 ? sl_region_cut_mirrored(context, region) : SL_OK;
@@ -117,9 +121,9 @@ static void drop(sl_context *context, sl_mirror_part *part) {
     sl_free(context, part->image);
 }
 
-/// Looks into a mirror through glimpses of it that lie side by side.
-static sl_status look_into(maker *m, const parent *from, const sl_glimpse *seen, sl_glimpse *folded,
-                           size_t count) {
+/// Looks into a mirror through reflected views of it that lie side by side.
+static sl_status look_into(maker *m, const parent *from, const sl_reflected_view *seen,
+                           sl_reflected_view *folded, size_t count) {
     const sl_outline *outline = m->mirrors->outline;
     sl_mirror_part part = {.mirror = seen->mirror,
                            .parent = from->number,
@@ -149,13 +153,14 @@ static sl_status look_into(maker *m, const parent *from, const sl_glimpse *seen,
 static sl_status look_into_all(maker *m, const parent *from) {
     const struct sl_region_memory *memory = from->memory;
     SL_TRY(sl_check_cancelled(m->context));
-    if (!memory->glimpses.count) return SL_OK;
-    sl_glimpse *folded = sl_alloc_array(m->context, memory->glimpses.count, sizeof *folded);
+    if (!memory->reflected_views.count) return SL_OK;
+    sl_reflected_view *folded =
+        sl_alloc_array(m->context, memory->reflected_views.count, sizeof *folded);
     if (!folded) return SL_NO_MEMORY;
     sl_status status = SL_OK;
-    for (size_t i = 0, run; i < memory->glimpses.count && status == SL_OK; i += run) {
+    for (size_t i = 0, run; i < memory->reflected_views.count && status == SL_OK; i += run) {
         run = run_of(memory, i);
-        status = look_into(m, from, &memory->glimpses.items[i], folded, run);
+        status = look_into(m, from, &memory->reflected_views.items[i], folded, run);
     }
     sl_free(m->context, folded);
     return status;

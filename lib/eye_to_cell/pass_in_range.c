@@ -4,17 +4,17 @@
 
 #include "geometry/distance.h"
 
-/// Whether what an arc has of an exit's portal, which the eye is not on, is within range of the
-/// eye, with open sight more of it than one place. Exact.
-static bool reaches(const sl_pivot *pivot, const sl_arc *arc, const sl_exit *exit, double range,
-                    sl_sight sight) {
+/// Whether what an arc has of a directed portal's portal, which the eye is not on, is within range
+/// of the eye, with open sight more of it than one place. Exact.
+static bool reaches(const sl_pivot *pivot, const sl_arc *arc, const sl_directed_portal *directed,
+                    double range, sl_sight sight) {
     const sl_glance glance = {.eye = {pivot->eye, pivot->rest},
                               .from = {arc->right.point, arc->right.rest},
                               .to = {arc->left.point, arc->left.rest},
                               .from_away = arc->right.away,
                               .to_away = arc->left.away,
-                              .right = exit->right,
-                              .left = exit->left};
+                              .right = directed->right,
+                              .left = directed->left};
     const int sign = sl_nearest_compare(&glance, range);
     return sight == SL_OPEN ? sign < 0 : sign <= 0;
 }
@@ -24,13 +24,13 @@ void sl_eye_search_limit(sl_eye_search *search, double range) {
 }
 
 bool sl_eye_pass_in_range(sl_eye_query *query, const sl_eye_step *from, bool first,
-                          const sl_exit *exit, sl_eye_step *to) {
+                          const sl_directed_portal *directed, sl_eye_step *to) {
     const double range = query->search->range;
-    if (!sl_eye_pass(query, from, first, exit, to)) return false;
+    if (!sl_eye_pass(query, from, first, directed, to)) return false;
     if (!(range > 0) || to->near) return true;
     unsigned kept = 0;
     for (unsigned i = 0; i < to->arc_count; i++)
-        if (reaches(&query->pivot, &to->arcs[i], exit, range, query->search->visibility->sight))
+        if (reaches(&query->pivot, &to->arcs[i], directed, range, query->search->visibility->sight))
             to->arcs[kept++] = to->arcs[i];
     to->arc_count = kept;
     return kept > 0;

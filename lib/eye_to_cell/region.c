@@ -39,12 +39,12 @@ static bool same_direction(const sl_eye_ray *a, const sl_eye_ray *b) {
 }
 
 /// What is seen of a side that is no portal (or of one out of range, SL_PIECE_FAR) from ray to ray.
-static inline sl_status see_piece(expansion *x, uint32_t beyond, const sl_eye_ray *a,
+static inline sl_status see_piece(expansion *x, uint32_t neighbour, const sl_eye_ray *a,
                                   const sl_eye_ray *b, const sl_eye_ray *right,
                                   const sl_eye_ray *left) {
     struct sl_region_memory *m = x->region->memory;
-    if (!m->pending || m->piece.beyond != beyond || beyond == SL_PIECE_FAR)
-        SL_TRY(sl_region_start_piece(x->context, x->region, beyond, a, b, right));
+    if (!m->pending || m->piece.neighbour != neighbour || neighbour == SL_PIECE_FAR)
+        SL_TRY(sl_region_start_piece(x->context, x->region, neighbour, a, b, right));
     m->piece.a = a->at;
     m->piece.b = b->at;
     m->piece.left = left ? *left : *b;
@@ -52,21 +52,21 @@ static inline sl_status see_piece(expansion *x, uint32_t beyond, const sl_eye_ra
     return SL_OK;
 }
 
-/// Takes glimpses of the mirrors on a side, of which what is between two rays is seen.
-static sl_status glimpse(expansion *x, uint32_t at, const sl_eye_ray *right,
-                         const sl_eye_ray *left) {
+/// Takes reflected views of the mirrors on a side, of which what is between two rays is seen.
+static sl_status reflected(expansion *x, uint32_t at, const sl_eye_ray *right,
+                           const sl_eye_ray *left) {
     struct sl_region_memory *m = x->region->memory;
     const sl_room_mirrors *mirrors = m->mirrors;
     for (uint32_t i = mirrors->first[at]; i < mirrors->first[at + 1]; i++) {
         const sl_room_mirror *mirror = &mirrors->pieces[i];
-        sl_glimpse seen = {.side = at, .mirror = mirror->mirror};
+        sl_reflected_view seen = {.side = at, .mirror = mirror->mirror};
         seen.right = sl_eye_ray_through(&m->eye, mirror->right);
         seen.left = sl_eye_ray_through(&m->eye, mirror->left);
         if (sl_eye_turn(&m->eye, &seen.right, right) > 0) seen.right = *right;
         if (sl_eye_turn(&m->eye, left, &seen.left) > 0) seen.left = *left;
         if (sl_eye_turn(&m->eye, &seen.right, &seen.left) <= 0) continue;
-        SL_TRY(SL_ARRAY_ROOM(x->context, &m->glimpses, 1));
-        m->glimpses.items[m->glimpses.count++] = seen;
+        SL_TRY(SL_ARRAY_ROOM(x->context, &m->reflected_views, 1));
+        m->reflected_views.items[m->reflected_views.count++] = seen;
     }
     return SL_OK;
 }
@@ -78,11 +78,11 @@ static bool is_barred(const sl_region *region, const sl_eye_ray *a, const sl_eye
 
 /// Where a room is being looked at: from the ray `right` on, which passes within the side `at` or
 /// goes through its start, to the ray `left`.
-typedef struct gaze {
+typedef struct view_cone {
     uint32_t entry, at;
     bool within;
     sl_eye_ray right, left;
-} gaze;
+} view_cone;
 
 static sl_status grow_frames(expansion *x) {
     return SL_ARRAY_ROOM(x->context, &x->region->memory->frames, 1);
@@ -90,7 +90,7 @@ static sl_status grow_frames(expansion *x) {
 
 /// Turns the gaze through the portal that it is at, whose ends are a and b; `turn` tells where the
 /// left ray leaves b. What is left to see of the room waits.
-static inline sl_status enter(expansion *x, gaze *g, const sl_eye_ray *a, const sl_eye_ray *b,
+static inline sl_status enter(expansion *x, view_cone *g, const sl_eye_ray *a, const sl_eye_ray *b,
                               int turn) {
     struct sl_region_memory *m = x->region->memory;
     const sl_side *portal = side(x, g->at);
@@ -100,29 +100,29 @@ static inline sl_status enter(expansion *x, gaze *g, const sl_eye_ray *a, const 
     }
     if (turn <= 0) g->left = *b;
     if (!g->within) g->right = *a;
-    g->entry = portal->beyond;
+    g->entry = portal->neighbour;
     return SL_OK;
 }
 
 /// Goes around a room up to a portal, through which the gaze is turned (*enters), or to its end.
-static inline sl_status sweep(expansion *x, gaze *g, bool *enters) {
+static inline sl_status sweep(expansion *x, view_cone *g, bool *enters) {
     sl_region *region = x->region;
     const sl_eye_place *eye = &region->memory->eye;
     const double limit = region->memory->limit;
     sl_eye_ray a = to_start(x, g->at);
     *enters = false;
     while (g->at != g->entry) {
-        const uint32_t next = side(x, g->at)->next, beyond = side(x, g->at)->beyond;
+        const uint32_t next = side(x, g->at)->next, neighbour = side(x, g->at)->neighbour;
         const sl_eye_ray b = to_start(x, next);
         const int turn = sl_eye_turn_within(eye, &g->left, &b, limit);
-        if (beyond < SL_SIDE_WALL && !is_barred(region, &a, &b)) {
+        if (neighbour < SL_SIDE_WALL && !is_barred(region, &a, &b)) {
             *enters = true;
             return enter(x, g, &a, &b, turn);
         }
-        SL_TRY(see_piece(x, beyond < SL_SIDE_WALL ? SL_PIECE_FAR : beyond, &a, &b,
+        SL_TRY(see_piece(x, neighbour < SL_SIDE_WALL ? SL_PIECE_FAR : neighbour, &a, &b,
                          g->within ? &g->right : NULL, turn > 0 ? &g->left : NULL));
-        if (region->memory->mirrors && beyond >= SL_SIDE_WALL)
-            SL_TRY(glimpse(x, g->at, g->within ? &g->right : &a, turn > 0 ? &g->left : &b));
+        if (region->memory->mirrors && neighbour >= SL_SIDE_WALL)
+            SL_TRY(reflected(x, g->at, g->within ? &g->right : &a, turn > 0 ? &g->left : &b));
         if (turn >= 0) return SL_OK;
         g->within = false;
         g->at = next;
@@ -132,7 +132,7 @@ static inline sl_status sweep(expansion *x, gaze *g, bool *enters) {
 }
 
 /// What is seen through a portal between two rays. `gaze` is at the room's side of it.
-static sl_status look_through(expansion *x, gaze g) {
+static sl_status look_through(expansion *x, view_cone g) {
     struct sl_region_memory *m = x->region->memory;
     const sl_eye_place *eye = &m->eye;
     const size_t floor = m->frames.count;
@@ -161,24 +161,24 @@ static sl_status look_through(expansion *x, gaze g) {
 /// and to its ends; with all that lies behind it.
 static sl_status see_fan(expansion *x, uint32_t k, const sl_eye_ray *right,
                          const sl_eye_ray *left) {
-    const uint32_t i = x->region->memory->fan.items[k], beyond = side(x, i)->beyond;
+    const uint32_t i = x->region->memory->fan.items[k], neighbour = side(x, i)->neighbour;
     const sl_eye_ray a = to_start(x, i), b = to_start(x, side(x, i)->next);
     const sl_eye_place *eye = &x->region->memory->eye;
     if (right && sl_eye_turn(eye, right, &a) == 0) right = NULL;
     if (left && sl_eye_turn(eye, left, &b) == 0) left = NULL;
-    if (beyond < SL_SIDE_WALL && !is_barred(x->region, &a, &b))
-        return look_through(x, (gaze){.entry = beyond,
-                                      .within = right,
-                                      .right = right ? *right : a,
-                                      .left = left ? *left : b});
-    if (x->region->memory->mirrors && beyond >= SL_SIDE_WALL)
-        SL_TRY(glimpse(x, i, right ? right : &a, left ? left : &b));
-    return see_piece(x, beyond < SL_SIDE_WALL ? SL_PIECE_FAR : beyond, &a, &b, right, left);
+    if (neighbour < SL_SIDE_WALL && !is_barred(x->region, &a, &b))
+        return look_through(x, (view_cone){.entry = neighbour,
+                                           .within = right,
+                                           .right = right ? *right : a,
+                                           .left = left ? *left : b});
+    if (x->region->memory->mirrors && neighbour >= SL_SIDE_WALL)
+        SL_TRY(reflected(x, i, right ? right : &a, left ? left : &b));
+    return see_piece(x, neighbour < SL_SIDE_WALL ? SL_PIECE_FAR : neighbour, &a, &b, right, left);
 }
 
 /// The end of the wall at the eye that lies on the ray through `toward`.
-static sl_point wall_end(const expansion *x, uint32_t beyond, sl_point toward) {
-    const sl_wall *wall = &x->outline->space->walls[beyond - SL_SIDE_WALL];
+static sl_point wall_end(const expansion *x, uint32_t neighbour, sl_point toward) {
+    const sl_wall *wall = &x->outline->space->walls[neighbour - SL_SIDE_WALL];
     const sl_eye_place *eye = &x->region->memory->eye;
     const sl_eye_ray to_a = sl_eye_ray_through(eye, wall->a);
     const sl_eye_ray to_side = sl_eye_ray_through(eye, toward);
@@ -187,26 +187,27 @@ static sl_point wall_end(const expansion *x, uint32_t beyond, sl_point toward) {
 
 /// The wall at the eye is seen edge-on, but it bounds what is seen: an edge from the eye to its
 /// end, or the other way.
-static sl_status see_wall_at_eye(expansion *x, uint32_t beyond, sl_point from, sl_point to) {
+static sl_status see_wall_at_eye(expansion *x, uint32_t neighbour, sl_point from, sl_point to) {
     const sl_eye_place *eye = &x->region->memory->eye;
     const sl_eye_ray a = sl_eye_ray_through(eye, from), b = sl_eye_ray_through(eye, to);
-    return see_piece(x, beyond, &a, &b, NULL, NULL);
+    return see_piece(x, neighbour, &a, &b, NULL, NULL);
 }
 
 /// From the eye along the wall or border where an open fan starts.
 static sl_status start_open(expansion *x) {
-    const uint32_t right = x->region->memory->right, beyond = side(x, right)->beyond;
-    if (beyond >= SL_SIDE_BORDER) return sl_region_add_eye(x->context, x->region, SL_EDGE_BORDER);
-    const sl_point end = wall_end(x, beyond, side(x, side(x, right)->next)->start);
-    return see_wall_at_eye(x, beyond, x->region->view.eye, end);
+    const uint32_t right = x->region->memory->right, neighbour = side(x, right)->neighbour;
+    if (neighbour >= SL_SIDE_BORDER)
+        return sl_region_add_eye(x->context, x->region, SL_EDGE_BORDER);
+    const sl_point end = wall_end(x, neighbour, side(x, side(x, right)->next)->start);
+    return see_wall_at_eye(x, neighbour, x->region->view.eye, end);
 }
 
 /// Along the wall or border where an open fan ends, to the eye.
 static sl_status end_open(expansion *x) {
     const sl_side *left = side(x, x->region->memory->left);
-    if (left->beyond >= SL_SIDE_BORDER) return sl_region_end_at_eye(x->context, x->region);
-    const sl_point end = wall_end(x, left->beyond, left->start);
-    return see_wall_at_eye(x, left->beyond, end, x->region->view.eye);
+    if (left->neighbour >= SL_SIDE_BORDER) return sl_region_end_at_eye(x->context, x->region);
+    const sl_point end = wall_end(x, left->neighbour, left->start);
+    return see_wall_at_eye(x, left->neighbour, end, x->region->view.eye);
 }
 
 static sl_status see_all_round(expansion *x) {
@@ -301,15 +302,15 @@ sl_status sl_region_spread(sl_context *context, const sl_outline *outline, sl_re
 }
 
 sl_status sl_region_look_in(sl_context *context, const sl_outline *outline, sl_region *region,
-                            const sl_glimpse *glimpse) {
+                            const sl_reflected_view *reflected) {
     expansion x = {context, outline, region};
-    const sl_side *entry = side(&x, glimpse->side);
+    const sl_side *entry = side(&x, reflected->side);
     const sl_eye_ray right_end = to_start(&x, entry->next);
-    const bool within = sl_eye_turn(&region->memory->eye, &glimpse->right, &right_end) < 0;
-    return look_through(&x, (gaze){.entry = glimpse->side,
-                                   .within = within,
-                                   .right = glimpse->right,
-                                   .left = glimpse->left});
+    const bool within = sl_eye_turn(&region->memory->eye, &reflected->right, &right_end) < 0;
+    return look_through(&x, (view_cone){.entry = reflected->side,
+                                        .within = within,
+                                        .right = reflected->right,
+                                        .left = reflected->left});
 }
 
 sl_status sl_region_start(sl_context *context, const sl_outline *outline, const sl_view *view,
@@ -324,7 +325,7 @@ sl_status sl_region_start(sl_context *context, const sl_outline *outline, const 
     struct sl_region_memory *m = region->memory;
     m->pending = false;
     m->first = SL_PIECE_FAR;
-    m->frames.count = m->glimpses.count = 0;
+    m->frames.count = m->reflected_views.count = 0;
     m->mirrors = NULL;
     m->eye = sl_eye_place_at(view->eye);
     m->limit = sl_eye_limit(outline->space, view);
@@ -349,7 +350,7 @@ void sl_region_settle(sl_context *context, sl_region *region) {
         sl_free(context, region->memory->frames.items);
         sl_free(context, region->memory->fan.items);
         sl_free(context, region->memory->whole.items);
-        sl_free(context, region->memory->glimpses.items);
+        sl_free(context, region->memory->reflected_views.items);
     }
     sl_free(context, region->memory);
     region->memory = NULL;

@@ -134,10 +134,10 @@ static place left_of(const sl_region *region, const sl_region_piece *p) {
     return place_of(region->view.eye, &p->left, p->to_end, p->a, p->b);
 }
 
-static sl_region_edge edge_along(uint32_t beyond, bool exact) {
-    if (beyond == SL_PIECE_FAR) return (sl_region_edge){SL_NO_WALL, SL_EDGE_ARC, exact};
-    if (beyond >= SL_SIDE_BORDER) return (sl_region_edge){SL_NO_WALL, SL_EDGE_BORDER, exact};
-    return (sl_region_edge){beyond - SL_SIDE_WALL, SL_EDGE_WALL, exact};
+static sl_region_edge edge_along(uint32_t neighbour, bool exact) {
+    if (neighbour == SL_PIECE_FAR) return (sl_region_edge){SL_NO_WALL, SL_EDGE_ARC, exact};
+    if (neighbour >= SL_SIDE_BORDER) return (sl_region_edge){SL_NO_WALL, SL_EDGE_BORDER, exact};
+    return (sl_region_edge){neighbour - SL_SIDE_WALL, SL_EDGE_WALL, exact};
 }
 
 static bool same(const place *a, const place *b) {
@@ -154,16 +154,16 @@ static sl_status end_piece(sl_context *context, sl_region *region, const place *
     return sl_region_add_point(context, region, end.point, end.offset, edge);
 }
 
-sl_status sl_region_start_piece(sl_context *context, sl_region *region, uint32_t beyond,
+sl_status sl_region_start_piece(sl_context *context, sl_region *region, uint32_t neighbour,
                                 const sl_eye_ray *a, const sl_eye_ray *b, const sl_eye_ray *right) {
     struct sl_region_memory *m = region->memory;
     const place start = place_of(region->view.eye, right ? right : a, !right, a->at, b->at);
-    if (region->count == 0) m->first = beyond;
+    if (region->count == 0) m->first = neighbour;
     if (m->pending) SL_TRY(end_piece(context, region, &start, SL_EDGE_OCCLUDING));
-    m->piece.beyond = beyond;
+    m->piece.neighbour = neighbour;
     m->pending = true;
     return sl_region_add_point(context, region, start.point, start.offset,
-                               edge_along(beyond, start.exact));
+                               edge_along(neighbour, start.exact));
 }
 
 sl_status sl_region_add_eye(sl_context *context, sl_region *region, sl_edge_kind kind) {
@@ -190,7 +190,7 @@ sl_status sl_region_add_on_mirror(sl_context *context, sl_region *region, const 
 /// Whether the pending piece goes on as the first one.
 static bool goes_around(const sl_region *region) {
     const struct sl_region_memory *m = region->memory;
-    return region->count > 1 && m->piece.beyond == m->first && m->first != SL_PIECE_FAR &&
+    return region->count > 1 && m->piece.neighbour == m->first && m->first != SL_PIECE_FAR &&
            region->edges[0].kind != SL_EDGE_CONE;
 }
 

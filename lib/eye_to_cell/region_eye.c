@@ -58,12 +58,12 @@ static sl_status gather_room(sl_context *context, const sl_outline *o, uint32_t 
 
 /// The corner at the eye of the room beyond a portal there, which is that room's `side`.
 static corner beyond_right(const sl_outline *o, uint32_t portal, sl_point eye) {
-    const uint32_t other = side(o, portal)->beyond;
+    const uint32_t other = side(o, portal)->neighbour;
     return (corner){same(end_of(o, other), eye) ? side(o, other)->next : other, other};
 }
 
 static corner beyond_left(const sl_outline *o, uint32_t portal, sl_point eye) {
-    const uint32_t other = side(o, portal)->beyond;
+    const uint32_t other = side(o, portal)->neighbour;
     return (corner){other, same(side(o, other)->start, eye) ? previous(o, other) : other};
 }
 
@@ -85,7 +85,7 @@ static sl_status add_sides(sl_context *context, const sl_outline *o, sl_point ey
 /// edge-on from there, it hides nothing.
 static bool ends_at_eye(const sl_outline *o, sl_point eye, corner at) {
     const sl_point a = end_of(o, at.right), b = side(o, at.left)->start;
-    return side(o, at.right)->beyond == side(o, at.left)->beyond &&
+    return side(o, at.right)->neighbour == side(o, at.left)->neighbour &&
            (a.x > eye.x) == (b.x > eye.x) && (a.x < eye.x) == (b.x < eye.x) &&
            (a.y > eye.y) == (b.y > eye.y) && (a.y < eye.y) == (b.y < eye.y);
 }

@@ -31,8 +31,8 @@ typedef struct sl_region_frame {
 
 /// What is seen of a side that is no portal, up to the ray `left`.
 typedef struct sl_region_piece {
-    uint32_t beyond; ///< as that of sl_side; SL_PIECE_FAR: all of it is out of range
-    sl_point a, b;   ///< the side
+    uint32_t neighbour; ///< as that of sl_side; SL_PIECE_FAR: all of it is out of range
+    sl_point a, b;      ///< the side
     sl_eye_ray left;
     bool to_end; ///< the side's own end is seen and lies on `left`; else that passes within it
 } sl_region_piece;
@@ -40,10 +40,10 @@ typedef struct sl_region_piece {
 #define SL_PIECE_FAR UINT32_MAX
 
 /// What is seen of a mirror, of one side of a room, between two rays.
-typedef struct sl_glimpse {
+typedef struct sl_reflected_view {
     uint32_t side, mirror;
     sl_eye_ray right, left;
-} sl_glimpse;
+} sl_reflected_view;
 
 typedef struct sl_region_corner {
     sl_point point, offset;
@@ -52,8 +52,8 @@ typedef struct sl_region_corner {
 
 struct sl_region_memory {
     sl_eye_place eye;
-    const struct sl_room_mirrors *mirrors; ///< glimpses are taken of these; NULL for none
-    SL_ARRAY(sl_glimpse) glimpses;         ///< counter-clockwise
+    const struct sl_room_mirrors *mirrors; ///< reflected views are taken of these; NULL for none
+    SL_ARRAY(sl_reflected_view) reflected_views; ///< counter-clockwise
     SL_ARRAY(sl_region_frame) frames;
     SL_ARRAY(uint32_t) fan; ///< the sides seen from the eye's rooms, counter-clockwise
     double limit;           ///< see sl_eye_limit
@@ -141,7 +141,7 @@ static inline bool sl_region_find_first(const sl_outline *o, const sl_eye_place 
 
 /// Starts what is seen next, counter-clockwise, at the ray `right` or, where that is NULL, at the
 /// start of the side from a to b. The caller fills in the rest of the piece, which is pending then.
-sl_status sl_region_start_piece(sl_context *context, sl_region *region, uint32_t beyond,
+sl_status sl_region_start_piece(sl_context *context, sl_region *region, uint32_t neighbour,
                                 const sl_eye_ray *a, const sl_eye_ray *b, const sl_eye_ray *right);
 /// Adds the eye as a point, with the kind of the edge that starts there.
 sl_status sl_region_add_eye(sl_context *context, sl_region *region, sl_edge_kind kind);
@@ -167,12 +167,13 @@ sl_status sl_region_check_view(sl_context *context, const sl_view *view, double 
 /// Empties a region and makes its memory ready for a view.
 sl_status sl_region_start(sl_context *context, const sl_outline *outline, const sl_view *view,
                           double range, sl_region *region);
-/// The region of a view that sl_region_start has been called for; glimpses are taken on the way.
+/// The region of a view that sl_region_start has been called for; reflected views are taken on the
+/// way.
 sl_status sl_region_spread(sl_context *context, const sl_outline *outline, sl_region *region);
-/// Adds what is seen into a room through a piece of one of its sides, from outside: a glimpse whose
-/// rays are those of the eye beyond.
+/// Adds what is seen into a room through a piece of one of its sides, from outside: a reflected
+/// view whose rays are those of the eye beyond.
 sl_status sl_region_look_in(sl_context *context, const sl_outline *outline, sl_region *region,
-                            const sl_glimpse *glimpse);
+                            const sl_reflected_view *reflected);
 /// Adds the point where a ray meets the mirror from a to b, with the edge that starts there. What
 /// is pending ends with an edge that leads to it along the ray.
 sl_status sl_region_add_on_mirror(sl_context *context, sl_region *region, const sl_eye_ray *ray,

@@ -33,7 +33,7 @@ static sl_status add_new(finder *f, size_t at, sl_room_mirror piece) {
 
 /// Adds the mirrors on a side that is a wall.
 static sl_status add_side(finder *f, const sl_side *side) {
-    const sl_wall *wall = &f->outline->space->walls[side->beyond - SL_SIDE_WALL];
+    const sl_wall *wall = &f->outline->space->walls[side->neighbour - SL_SIDE_WALL];
     const size_t first = f->pieces.count;
     for (uint32_t i = 0; i < f->map->mirror_count; i++) {
         const sl_glass *mirror = &f->map->mirrors[i];
@@ -53,7 +53,7 @@ static sl_status find(finder *f, uint32_t *first) {
         const sl_side *side = &f->outline->sides[i];
         first[i] = (uint32_t)f->pieces.count;
         if (i % 4096 == 0) SL_TRY(sl_check_cancelled(f->context));
-        if (side->beyond >= SL_SIDE_WALL && side->beyond < SL_SIDE_BORDER)
+        if (side->neighbour >= SL_SIDE_WALL && side->neighbour < SL_SIDE_BORDER)
             SL_TRY(add_side(f, side));
     }
     first[f->outline->side_count] = (uint32_t)f->pieces.count;

@@ -66,8 +66,8 @@ static sl_status follow(sl_context *context, seer *s, bool *arrives) {
             const sl_side *side = &o->sides[i];
             if (sl_side_is_portal(side)) {
                 if (meets(s, side->start, o->sides[side->next].start))
-                    SL_TRY(enter(context, s, room_of(o, side->beyond)));
-            } else if (side->beyond < SL_SIDE_BORDER && !s->touches) {
+                    SL_TRY(enter(context, s, room_of(o, side->neighbour)));
+            } else if (side->neighbour < SL_SIDE_BORDER && !s->touches) {
                 s->touches = meets(s, side->start, o->sides[side->next].start);
             }
         }
@@ -102,7 +102,7 @@ static bool walk(const sl_outline *o, const sl_eye_place *eye, const sl_eye_ray 
     const sl_view view = {.eye = eye->point.at, .left = ray->at, .right = ray->at};
     const double limit = sl_eye_limit(o->space, &view);
     while (sl_side_is_portal(&o->sides[*at])) {
-        const uint32_t entry = o->sides[*at].beyond;
+        const uint32_t entry = o->sides[*at].neighbour;
         if (!sl_region_find_first(o, eye, limit, entry, ray, at, within)) return false;
     }
     return true;
@@ -111,7 +111,7 @@ static bool walk(const sl_outline *o, const sl_eye_place *eye, const sl_eye_ray 
 static void tell(const sl_outline *o, sl_point eye, const sl_eye_ray *ray, uint32_t at, bool within,
                  sl_hit *out) {
     const sl_side *side = &o->sides[at];
-    out->wall = side->beyond >= SL_SIDE_BORDER ? UINT32_MAX : side->beyond - SL_SIDE_WALL;
+    out->wall = side->neighbour >= SL_SIDE_BORDER ? UINT32_MAX : side->neighbour - SL_SIDE_WALL;
     out->point = side->start;
     if (!within) return;
     const sl_point a = side->start, b = o->sides[side->next].start;
@@ -120,8 +120,8 @@ static void tell(const sl_outline *o, sl_point eye, const sl_eye_ray *ray, uint3
     out->point.y = fmin(fmax(eye.y + offset.y, fmin(a.y, b.y)), fmax(a.y, b.y));
 }
 
-sl_status sl_shoot(sl_context *context, const sl_outline *outline, sl_point eye, sl_point through,
-                   sl_hit *out) {
+sl_status sl_ray_cast(sl_context *context, const sl_outline *outline, sl_point eye,
+                      sl_point through, sl_hit *out) {
     struct sl_region_memory memory = {0};
     sl_region region = {.view = sl_view_all_round(eye), .memory = &memory};
     region.cell = sl_space_locate(outline->space, eye);

@@ -4,13 +4,14 @@
 static size_t look_around(sl_eye_query *query, sl_spread_test *test, uint32_t from, uint32_t *queue,
                           size_t queued) {
     const sl_cell *cell = &query->space->cells[from];
-    for (uint32_t i = 0; i < cell->exit_count; i++) {
-        const sl_exit *exit = &query->space->exits[cell->first_exit + i];
-        if (sl_bits_has(query->cells, exit->cell) || !sl_eye_may_see(query, exit->cell)) continue;
+    for (uint32_t i = 0; i < cell->directed_count; i++) {
+        const sl_directed_portal *directed = &query->space->directed[cell->first_directed + i];
+        if (sl_bits_has(query->cells, directed->cell) || !sl_eye_may_see(query, directed->cell))
+            continue;
         query->nodes++;
-        if (!test(query, exit)) continue;
-        sl_bits_add(query->cells, exit->cell);
-        queue[queued++] = exit->cell;
+        if (!test(query, directed)) continue;
+        sl_bits_add(query->cells, directed->cell);
+        queue[queued++] = directed->cell;
     }
     return queued;
 }

@@ -12,7 +12,7 @@ static uint32_t face_within(const sl_regions *scene, const sl_regions_pass *pass
     const sl_order *order = &pass->view_cells;
     for (uint32_t f = scene->first_face[cell]; f < scene->first_face[cell + 1]; f++) {
         const sl_face *face = &scene->faces.items[f];
-        if (face->to != SL_NO_VIEW_CELL && pass->leaves.faces[face->exit] != SL_NO_FACE &&
+        if (face->to != SL_NO_VIEW_CELL && pass->leaves.faces[face->directed] != SL_NO_FACE &&
             order->component[face->to] == order->component[cell])
             return f;
     }

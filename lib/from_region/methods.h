@@ -42,7 +42,7 @@ sl_status sl_from_region_run(sl_context *context, sl_from_region_work *work, siz
                              const size_t *after);
 
 static inline bool sl_face_faces(const sl_regions *scene, uint32_t face, int quadrant) {
-    return scene->passes[quadrant].leaves.faces[scene->faces.items[face].exit] != SL_NO_FACE;
+    return scene->passes[quadrant].leaves.faces[scene->faces.items[face].directed] != SL_NO_FACE;
 }
 
 static inline void sl_row_or(sl_bits *to, const sl_bits *from, size_t words) {

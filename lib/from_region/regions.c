@@ -66,7 +66,7 @@ static void link_view_cells(const sl_regions *scene, const sl_pass *pass, uint32
         first[cell] = count;
         for (uint32_t f = scene->first_face[cell]; f < scene->first_face[cell + 1]; f++) {
             const sl_face *face = &scene->faces.items[f];
-            if (face->to != SL_NO_VIEW_CELL && pass->faces[face->exit] != SL_NO_FACE)
+            if (face->to != SL_NO_VIEW_CELL && pass->faces[face->directed] != SL_NO_FACE)
                 to[count++] = face->to;
         }
     }

@@ -24,7 +24,7 @@ static inline bool sl_goes_up(int quadrant) {
 /// A face: an open piece of a view cell's border, as it is crossed on the way out.
 typedef struct sl_face {
     uint32_t from, to; ///< view cells; `to` SL_NO_VIEW_CELL at the boundary of the compound
-    uint32_t exit;     ///< of the space
+    uint32_t directed; ///< of the space
 } sl_face;
 
 /// A piece of an object within one leaf. Of walls: a side of the leaf as it is crossed outwards.
@@ -58,7 +58,7 @@ struct sl_regions {
     char **names;        ///< of view cells that have one; NULL for none
     SL_ARRAY(sl_face) faces;
     uint32_t *first_face; ///< by view cell, and one more: its faces
-    uint32_t *face_of;    ///< by exit: UINT32_MAX for none
+    uint32_t *face_of;    ///< by directed portal: UINT32_MAX for none
     SL_ARRAY(sl_item) items;
     uint32_t *first_item;                   ///< by object, and one more: its items
     uint32_t *leaf_items, *first_leaf_item; ///< by leaf, and one more: items of the leaf

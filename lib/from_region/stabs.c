@@ -10,7 +10,7 @@
 #include <string.h>
 
 typedef struct step {
-    uint32_t leaf, next; ///< exit to try next, from 0
+    uint32_t leaf, next; ///< directed portal to try next, from 0
     sl_cone cone;
     bool grazing;
 } step;
@@ -75,10 +75,10 @@ static sl_status try_items(sl_context *context, searcher *s, int quadrant, sl_bi
         const sl_item *item = &scene->items.items[scene->leaf_items[i]];
         if (!sl_bits_has(s->left, item->object)) continue;
         const sl_portal_ends ends = sl_item_ends(item, quadrant);
-        const sl_exit as_exit = {.left = ends.left, .right = ends.right};
+        const sl_directed_portal as_portal = {.left = ends.left, .right = ends.right};
         sl_cone cone = at.cone;
         if (ends.left.x == ends.right.x && ends.left.y == ends.right.y) continue;
-        if (!sl_cone_cut(&cone, &as_exit)) continue;
+        if (!sl_cone_cut(&cone, &as_portal)) continue;
         bool stabbed, grazing;
         account->rays++;
         SL_TRY(push(context, s, ends, &cone, at.grazing, &stabbed, &grazing));
@@ -91,21 +91,21 @@ static sl_status try_items(sl_context *context, searcher *s, int quadrant, sl_bi
     return SL_OK;
 }
 
-/// Goes through an exit where the sequence with it is seen.
-static sl_status try_exit(sl_context *context, searcher *s, const sl_from_region_query *query,
-                          uint32_t number, sl_bits *seen, sl_from_region_account *account) {
+/// Goes through a directed portal where the sequence with it is seen.
+static sl_status try_portal(sl_context *context, searcher *s, const sl_from_region_query *query,
+                            uint32_t number, sl_bits *seen, sl_from_region_account *account) {
     const sl_regions *scene = s->scene;
-    const sl_exit *exit = &scene->space.exits[number];
+    const sl_directed_portal *directed = &scene->space.directed[number];
     if (scene->passes[query->quadrant].leaves.faces[number] == SL_NO_FACE) return SL_OK;
     const bool first = !s->steps.count;
     const step from = first ? (step){.cone = scene->passes[query->quadrant].leaves.cone}
                             : s->steps.items[s->steps.count - 1];
-    step to = {.leaf = exit->cell, .cone = from.cone};
+    step to = {.leaf = directed->cell, .cone = from.cone};
     bool stabbed;
-    if (!sl_cone_cut(&to.cone, exit)) return SL_OK;
+    if (!sl_cone_cut(&to.cone, directed)) return SL_OK;
     if (++account->rays % 64 == 0) SL_TRY(sl_check_cancelled(context));
-    SL_TRY(push(context, s, (sl_portal_ends){exit->left, exit->right}, &to.cone, from.grazing,
-                &stabbed, &to.grazing));
+    SL_TRY(push(context, s, (sl_portal_ends){directed->left, directed->right}, &to.cone,
+                from.grazing, &stabbed, &to.grazing));
     if (!stabbed) return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(context, &s->steps, 1));
     s->steps.items[s->steps.count++] = to;
@@ -123,12 +123,13 @@ static sl_status look(sl_context *context, void *state, const sl_from_region_que
     account->images++;
     account->refined += s->left_count;
     s->steps.count = 0;
-    SL_TRY(try_exit(context, s, query, query->face->exit, seen, account));
+    SL_TRY(try_portal(context, s, query, query->face->directed, seen, account));
     while (s->steps.count) {
         step *last = &s->steps.items[s->steps.count - 1];
         const sl_cell *leaf = &space->cells[last->leaf];
-        if (s->left_count && last->next < leaf->exit_count) {
-            SL_TRY(try_exit(context, s, query, leaf->first_exit + last->next++, seen, account));
+        if (s->left_count && last->next < leaf->directed_count) {
+            SL_TRY(
+                try_portal(context, s, query, leaf->first_directed + last->next++, seen, account));
         } else {
             s->steps.count--;
             s->options->stab->pop(s->solver);

@@ -110,7 +110,7 @@ static sl_status assign(sl_context *context, const sl_regions_options *options, 
 static int compare_faces(const void *left, const void *right) {
     const sl_face *a = left, *b = right;
     if (a->from != b->from) return a->from < b->from ? -1 : 1;
-    return (a->exit > b->exit) - (a->exit < b->exit);
+    return (a->directed > b->directed) - (a->directed < b->directed);
 }
 
 sl_status sl_regions_find_faces(sl_context *context, sl_regions *scene) {
@@ -119,12 +119,12 @@ sl_status sl_regions_find_faces(sl_context *context, sl_regions *scene) {
     scene->counts.boundary_faces = 0;
     for (uint32_t leaf = 0; leaf < space->cell_count; leaf++) {
         const sl_cell *c = &space->cells[leaf];
-        for (uint32_t e = c->first_exit; e < c->first_exit + c->exit_count; e++) {
-            const sl_face face = {scene->view_cell[leaf], scene->view_cell[space->exits[e].cell],
+        for (uint32_t e = c->first_directed; e < c->first_directed + c->directed_count; e++) {
+            const sl_face face = {scene->view_cell[leaf], scene->view_cell[space->directed[e].cell],
                                   e};
             scene->face_of[e] = UINT32_MAX;
             if (face.from == SL_NO_VIEW_CELL || face.from == face.to) continue;
-            if (!space->cells[space->exits[e].cell].inside) continue;
+            if (!space->cells[space->directed[e].cell].inside) continue;
             SL_TRY(SL_ARRAY_ROOM(context, &scene->faces, 1));
             scene->faces.items[scene->faces.count++] = face;
             scene->counts.boundary_faces += face.to == SL_NO_VIEW_CELL;
@@ -139,7 +139,7 @@ sl_status sl_regions_find_faces(sl_context *context, sl_regions *scene) {
     if (!scene->first_face) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < count; i++) {
         scene->first_face[faces[i].from + 1]++;
-        scene->face_of[faces[i].exit] = i;
+        scene->face_of[faces[i].directed] = i;
     }
     for (uint32_t i = 0; i < scene->counts.view_cells; i++)
         scene->first_face[i + 1] += scene->first_face[i];
@@ -149,7 +149,7 @@ sl_status sl_regions_find_faces(sl_context *context, sl_regions *scene) {
 sl_status sl_regions_find_view_cells(sl_context *context, const sl_regions_options *options,
                                      sl_regions *scene) {
     SL_TRY(assign(context, options, scene));
-    scene->face_of = sl_alloc_array(context, scene->space.exit_count, sizeof *scene->face_of);
+    scene->face_of = sl_alloc_array(context, scene->space.directed_count, sizeof *scene->face_of);
     if (!scene->face_of) return SL_NO_MEMORY;
     return sl_regions_find_faces(context, scene);
 }

@@ -1,7 +1,7 @@
 /// A maze: between any two of its squares there is just one way.
 #include "generate/plot.h"
 
-enum { SQUARE = 2 }; // how wide a passage is
+enum { SQUARE = 2 }; // how wide a filtered space is
 
 /// Of a square: whether a way leads on to the right, up; and whether the maze has come to it.
 enum { TO_RIGHT = 1, UP = 2, REACHED = 4 };
@@ -63,9 +63,9 @@ static sl_status add_line(const maze *m, bool upright, int at) {
     int low = 0;
     for (int i = 0; i <= length; i++) {
         const size_t x = (size_t)(upright ? at - 1 : i), y = (size_t)(upright ? i : at - 1);
-        const bool passage =
+        const bool filtered =
             i < length && m->squares[y * (size_t)m->plot->columns + x] & (upright ? TO_RIGHT : UP);
-        if (i < length && !passage) continue;
+        if (i < length && !filtered) continue;
         SL_TRY(sl_plot_wall(m->plot, (sl_run){upright, SQUARE * at, SQUARE * low, SQUARE * i}));
         low = i + 1;
     }

@@ -9,14 +9,14 @@
 #define SL_GRID_MOST ((size_t)1 << 28)
 
 /// Rows of squares from the top down, of any lengths; a character a square, '#' solid, all others
-/// open. What is not there is solid, or open where `open_beyond` says so.
+/// open. What is not there is solid, or open where `open_neighbour` says so.
 typedef struct sl_grid {
     sl_word *rows;
     size_t count;        ///< of the rows
     sl_point origin;     ///< the lower left corner of the last row's first square
     sl_point step;       ///< the size of a square, over 0
     uint32_t first_line; ///< the line that the first row has in its file; 0 where rows are no lines
-    bool open_beyond;
+    bool open_neighbour;
     char *squares; ///< of sl_grid_create: row after row, each `rows[0].length` long; else NULL
 } sl_grid;
 
@@ -30,7 +30,7 @@ void sl_grid_destroy(sl_context *context, sl_grid *grid);
 /// `row` and `column` may be one less than 0, as SIZE_MAX, or beyond the last.
 static inline char sl_grid_square(const sl_grid *grid, size_t row, size_t column) {
     if (row < grid->count && column < grid->rows[row].length) return grid->rows[row].at[column];
-    return grid->open_beyond ? '.' : '#';
+    return grid->open_neighbour ? '.' : '#';
 }
 
 static inline bool sl_grid_solid(const sl_grid *grid, size_t row, size_t column) {

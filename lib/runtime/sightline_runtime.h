@@ -40,9 +40,9 @@ typedef enum sl_runtime_status {
     SL_RUNTIME_SIZE,       ///< cut short, or longer than it says
     SL_RUNTIME_CHECKSUM,   ///< changed since it was written
     SL_RUNTIME_SECTION,    ///< a section is missing, there twice, or does not fit
-    SL_RUNTIME_SPACE,      ///< bounds, tree, grid, cells, exits: a number is out of range
-    SL_RUNTIME_ROW,        ///< the rows: one is damaged
-    SL_RUNTIME_SHARD       ///< one shard of a bake, which has no rows yet
+    SL_RUNTIME_SPACE, ///< bounds, tree, grid, cells, directed portals: a number is out of range
+    SL_RUNTIME_ROW,   ///< the rows: one is damaged
+    SL_RUNTIME_SHARD  ///< one shard of a bake, which has no rows yet
 } sl_runtime_status;
 
 /// The cell of a point outside the map.
@@ -52,8 +52,8 @@ typedef enum sl_runtime_status {
 typedef struct sl_runtime {
     double min_x, min_y, max_x, max_y; ///< bounds of the map
     uint32_t cell_count;
-    uint32_t portal_count; ///< portals are numbered too, for a game that keeps doors by them
-    uint32_t exit_count;   ///< of all cells: two a portal
+    uint32_t portal_count;   ///< portals are numbered too, for a game that keeps doors by them
+    uint32_t directed_count; ///< of all cells: two a portal
     uint32_t vertex_count;
     uint32_t node_count;              ///< of the tree that locates points where all walls are axial
     int32_t root;                     ///< as a child of a node
@@ -64,7 +64,7 @@ typedef struct sl_runtime {
     uint32_t view_cell_count; ///< 0 where the map was baked without view cells
     uint32_t view_node_count; ///< rows of view cells, and of groups of them
     uint32_t door_count;      ///< doors are numbered as the map names them
-    const unsigned char *nodes, *cells, *vertices, *exits, *row_offsets, *row_bytes;
+    const unsigned char *nodes, *cells, *vertices, *directed, *row_offsets, *row_bytes;
     const unsigned char *grid_offsets, *grid_cells; ///< NULL for no grid
     const unsigned char *door_offsets, *door_bytes; ///< NULL where no pair depends on doors
     const unsigned char *seams, *seam_portals;      ///< NULL for none
@@ -197,21 +197,23 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
                                              const unsigned char *shut, double range,
                                              uint32_t *scratch, uint32_t *cells, uint32_t room);
 
-/// A cell: its corners, counter-clockwise, are the vertices first_vertex .., its exits first_exit
+/// A cell: its corners, counter-clockwise, are the vertices first_vertex .., its directed portals
+/// first_directed
 /// ..
 typedef struct sl_runtime_cell {
-    uint32_t first_vertex, vertex_count, first_exit, exit_count;
+    uint32_t first_vertex, vertex_count, first_directed, directed_count;
 } sl_runtime_cell;
 
 /// A portal as a cell has it: which cell it leads to, and its ends as crossed on the way out.
-typedef struct sl_runtime_exit {
+typedef struct sl_runtime_directed_portal {
     uint32_t portal, cell;
     double left[2], right[2];
-} sl_runtime_exit;
+} sl_runtime_directed_portal;
 
 /// For drawing, finding ways, doors. The number must be less than the count of its kind.
 SL_RUNTIME_API sl_runtime_cell sl_runtime_get_cell(const sl_runtime *runtime, uint32_t cell);
-SL_RUNTIME_API sl_runtime_exit sl_runtime_get_exit(const sl_runtime *runtime, uint32_t exit);
+SL_RUNTIME_API sl_runtime_directed_portal sl_runtime_get_directed_portal(const sl_runtime *runtime,
+                                                                         uint32_t directed);
 SL_RUNTIME_API void sl_runtime_get_vertex(const sl_runtime *runtime, uint32_t vertex, double *x,
                                           double *y);
 
@@ -264,7 +266,7 @@ enum {
     SLRT_NODE_BYTES = 24,
     SLRT_CELL_BYTES = 24,
     SLRT_VERTEX_BYTES = 16,
-    SLRT_EXIT_BYTES = 40
+    SLRT_DIRECTED_BYTES = 40
 };
 
 enum slrt_tag {
@@ -273,7 +275,7 @@ enum slrt_tag {
     SLRT_CELL,
     SLRT_VERT,
     SLRT_PORT,
-    SLRT_EXIT,
+    SLRT_PORTAL,
     SLRT_PVSO,
     SLRT_PVSB,
     SLRT_PART,
@@ -344,7 +346,7 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                           {"CELL", SLRT_CELL_BYTES},
                           {"VERT", SLRT_VERTEX_BYTES},
                           {"PORT", 40},
-                          {"EXIT", SLRT_EXIT_BYTES},
+                          {"EXIT", SLRT_DIRECTED_BYTES},
                           {"PVSO", 8},
                           {"PVSB", 1},
                           {"PART", 16},
@@ -403,18 +405,19 @@ static sl_runtime_status slrt_check_sizes(const slrt_section *found, sl_runtime 
     const unsigned char *info = found[SLRT_INFO].items;
     if (found[SLRT_INFO].count != 1 || found[SLRT_PVSO].count != found[SLRT_CELL].count + 1)
         return SL_RUNTIME_SECTION;
-    // Cells are told as ~cell in 32 bits with sign; the search numbers the ends of exits.
+    // Cells are told as ~cell in 32 bits with sign; the search numbers the ends of directed
+    // portals.
     if (!found[SLRT_CELL].count || found[SLRT_CELL].count > INT32_MAX ||
-        found[SLRT_NODE].count > INT32_MAX || found[SLRT_EXIT].count > INT32_MAX / 2 - 4 ||
+        found[SLRT_NODE].count > INT32_MAX || found[SLRT_PORTAL].count > INT32_MAX / 2 - 4 ||
         found[SLRT_VERT].count > UINT32_MAX || found[SLRT_PORT].count > UINT32_MAX)
         return SL_RUNTIME_SPACE;
     rt->cell_count = (uint32_t)found[SLRT_CELL].count;
-    rt->exit_count = (uint32_t)found[SLRT_EXIT].count;
+    rt->directed_count = (uint32_t)found[SLRT_PORTAL].count;
     rt->vertex_count = (uint32_t)found[SLRT_VERT].count;
     rt->portal_count = (uint32_t)found[SLRT_PORT].count;
     rt->cells = found[SLRT_CELL].items;
     rt->vertices = found[SLRT_VERT].items;
-    rt->exits = found[SLRT_EXIT].items;
+    rt->directed = found[SLRT_PORTAL].items;
     rt->row_offsets = found[SLRT_PVSO].items;
     rt->row_bytes = found[SLRT_PVSB].items;
     rt->unfinished = found[SLRT_PART].items != NULL;
@@ -496,22 +499,22 @@ static bool slrt_take_location(sl_runtime *rt, const slrt_section *found, uint32
 }
 
 static bool slrt_cells_are_sound(const sl_runtime *rt) {
-    uint32_t i, exits = 0;
+    uint32_t i, directed = 0;
     for (i = 0; i < rt->cell_count; i++) {
         const sl_runtime_cell cell = sl_runtime_get_cell(rt, i);
         if (cell.vertex_count < 3 || cell.first_vertex > rt->vertex_count ||
-            cell.vertex_count > rt->vertex_count - cell.first_vertex || cell.first_exit != exits ||
-            cell.exit_count > rt->exit_count - exits)
+            cell.vertex_count > rt->vertex_count - cell.first_vertex ||
+            cell.first_directed != directed || cell.directed_count > rt->directed_count - directed)
             return false;
-        exits += cell.exit_count;
+        directed += cell.directed_count;
     }
-    if (exits != rt->exit_count) return false;
+    if (directed != rt->directed_count) return false;
     for (i = 0; i < rt->vertex_count; i++)
         if (!slrt_usable(rt->vertices + (size_t)i * SLRT_VERTEX_BYTES, 2)) return false;
-    for (i = 0; i < rt->exit_count; i++) {
-        const unsigned char *exit = rt->exits + (size_t)i * SLRT_EXIT_BYTES;
-        if (slrt_u32(exit) >= rt->portal_count || slrt_u32(exit + 4) >= rt->cell_count ||
-            !slrt_usable(exit + 8, 4))
+    for (i = 0; i < rt->directed_count; i++) {
+        const unsigned char *at = rt->directed + (size_t)i * SLRT_DIRECTED_BYTES;
+        if (slrt_u32(at) >= rt->portal_count || slrt_u32(at + 4) >= rt->cell_count ||
+            !slrt_usable(at + 8, 4))
             return false;
     }
     return true;
@@ -777,9 +780,10 @@ SL_RUNTIME_API sl_runtime_cell sl_runtime_get_cell(const sl_runtime *runtime, ui
     return out;
 }
 
-SL_RUNTIME_API sl_runtime_exit sl_runtime_get_exit(const sl_runtime *runtime, uint32_t exit) {
-    sl_runtime_exit out;
-    memcpy(&out, runtime->exits + (size_t)exit * SLRT_EXIT_BYTES, sizeof out);
+SL_RUNTIME_API sl_runtime_directed_portal sl_runtime_get_directed_portal(const sl_runtime *runtime,
+                                                                         uint32_t directed) {
+    sl_runtime_directed_portal out;
+    memcpy(&out, runtime->directed + (size_t)directed * SLRT_DIRECTED_BYTES, sizeof out);
     return out;
 }
 
@@ -1159,15 +1163,15 @@ SL_RUNTIME_API sl_runtime_view sl_runtime_view_toward(double x, double y, double
     return view;
 }
 
-/// A border of a sector is told by a number: end 0 (left) or 1 (right) of exit e as 2e or 2e + 1,
-/// SLRT_REVERSED more for the opposite direction; or one of the cone's arms.
+/// A border of a sector is told by a number: end 0 (left) or 1 (right) of directed portal e as 2e
+/// or 2e + 1, SLRT_REVERSED more for the opposite direction; or one of the cone's arms.
 #define SLRT_REVERSED  0x80000000u
 #define SLRT_ARM       (UINT32_MAX - 4)
 #define SLRT_ALL_ROUND UINT32_MAX ///< no borders, but in the eye's cell
 enum { SLRT_MOST_ARMS = 4 };
 
-/// Steps that a search may take for each exit of the map. (In sound ones few need more than one;
-/// four is the most seen.)
+/// Steps that a search may take for each directed portal of the map. (In sound ones few need more
+/// than one; four is the most seen.)
 #ifndef SLRT_PATIENCE
 #define SLRT_PATIENCE 256
 #endif
@@ -1175,7 +1179,8 @@ enum { SLRT_MOST_ARMS = 4 };
 enum { SLRT_SEEN = 1, SLRT_ENTERED = 2, SLRT_ON_PATH = 4, SLRT_IN_ROW = 8 };
 
 /// A search, depth first. The path is a stack of four numbers a cell: the cell, how many of its
-/// exits are done, the right and left border of the sector that it is seen in from the eye.
+/// directed portals are done, the right and left border of the sector that it is seen in from the
+/// eye.
 typedef struct slrt_search {
     const sl_runtime *rt;
     const sl_runtime_view *view;
@@ -1196,7 +1201,7 @@ static slrt_arm slrt_border(const slrt_search *s, uint32_t border) {
     const uint32_t number = border & ~SLRT_REVERSED;
     const unsigned char *end;
     if (border >= SLRT_ARM) return s->cone[border - SLRT_ARM];
-    end = s->rt->exits + (size_t)(number / 2) * SLRT_EXIT_BYTES + 8 + 16 * (number % 2);
+    end = s->rt->directed + (size_t)(number / 2) * SLRT_DIRECTED_BYTES + 8 + 16 * (number % 2);
     return border == number ? slrt_make_arm(x, y, slrt_f64(end), slrt_f64(end + 8))
                             : slrt_make_arm(slrt_f64(end), slrt_f64(end + 8), x, y);
 }
@@ -1213,25 +1218,25 @@ static bool slrt_within(const slrt_arm *v, const slrt_arm *a, const slrt_arm *b,
     return (from_a && to_b) || slrt_same_way(a, v) || slrt_same_way(b, v);
 }
 
-/// Narrows a sector of less than 180 degrees to what of it leaves through an exit; false for
-/// nothing. From an eye on the exit everything in front of it does.
-static bool slrt_narrow(const slrt_search *s, uint32_t exit, uint32_t *right, uint32_t *left) {
-    uint32_t exit_right = 2 * exit + 1, exit_left = 2 * exit;
-    slrt_arm p = slrt_border(s, exit_right), q = slrt_border(s, exit_left), a, b;
+/// Narrows a sector of less than 180 degrees to what of it leaves through a directed portal; false
+/// for nothing. From an eye on the directed portal everything in front of it does.
+static bool slrt_narrow(const slrt_search *s, uint32_t directed, uint32_t *right, uint32_t *left) {
+    uint32_t portal_right = 2 * directed + 1, portal_left = 2 * directed;
+    slrt_arm p = slrt_border(s, portal_right), q = slrt_border(s, portal_left), a, b;
     int a_p, a_q;
     bool right_within;
     if (slrt_side(&p, &q) < 0) return false;
     if (*right == SLRT_ALL_ROUND) {
-        *right = exit_right;
-        *left = exit_left;
+        *right = portal_right;
+        *left = portal_left;
         return true;
     }
     if (slrt_is_zero(&p)) {
-        exit_right = exit_left | SLRT_REVERSED;
-        p = slrt_border(s, exit_right);
+        portal_right = portal_left | SLRT_REVERSED;
+        p = slrt_border(s, portal_right);
     } else if (slrt_is_zero(&q)) {
-        exit_left = exit_right | SLRT_REVERSED;
-        q = slrt_border(s, exit_left);
+        portal_left = portal_right | SLRT_REVERSED;
+        q = slrt_border(s, portal_left);
     }
     a = slrt_border(s, *right);
     b = slrt_border(s, *left);
@@ -1239,15 +1244,15 @@ static bool slrt_narrow(const slrt_search *s, uint32_t exit, uint32_t *right, ui
     a_q = slrt_side(&a, &q);
     right_within = slrt_within(&p, &a, &b, a_p, slrt_side(&p, &b));
     if (!right_within && !slrt_within(&a, &p, &q, -a_p, a_q)) return false;
-    if (slrt_within(&q, &a, &b, a_q, slrt_side(&q, &b))) *left = exit_left;
-    if (right_within) *right = exit_right;
+    if (slrt_within(&q, &a, &b, a_q, slrt_side(&q, &b))) *left = portal_left;
+    if (right_within) *right = portal_right;
     return true;
 }
 
-/// Whether an exit is on a door that is shut.
-static bool slrt_is_shut(const slrt_search *s, uint32_t exit) {
+/// Whether a directed portal is on a door that is shut.
+static bool slrt_is_shut(const slrt_search *s, uint32_t directed) {
     const sl_runtime *rt = s->rt;
-    const uint32_t portal = slrt_u32(rt->exits + (size_t)exit * SLRT_EXIT_BYTES);
+    const uint32_t portal = slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES);
     uint32_t low = 0, high = rt->seam_portal_count;
     while (low < high) {
         const uint32_t middle = low + (high - low) / 2;
@@ -1284,18 +1289,19 @@ static bool slrt_meet(const slrt_arm *ray, const slrt_arm *p, const slrt_arm *q,
     return true;
 }
 
-/// Whether what is seen of an exit between two borders of a sector, or all of it, is within range.
-static bool slrt_in_range(const slrt_search *s, uint32_t exit, uint32_t right, uint32_t left) {
-    const slrt_arm p = slrt_border(s, 2 * exit + 1), q = slrt_border(s, 2 * exit);
+/// Whether what is seen of a directed portal between two borders of a sector, or all of it, is
+/// within range.
+static bool slrt_in_range(const slrt_search *s, uint32_t directed, uint32_t right, uint32_t left) {
+    const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
     const double x = q.x - p.x, y = q.y - p.y, square = x * x + y * y;
     const double ends = slrt_size(p.x, p.y) + slrt_size(q.x, q.y);
     const double limit = s->range * (1 + 1e-12) + 1e-14 * ends;
     double from = 0, to = 1, at, error, near_x, near_y;
-    if (right / 2 != exit) {
+    if (right / 2 != directed) {
         const slrt_arm ray = slrt_border(s, right);
         if (slrt_meet(&ray, &p, &q, &at, &error) && at - error > from) from = at - error;
     }
-    if (left / 2 != exit) {
+    if (left / 2 != directed) {
         const slrt_arm ray = slrt_border(s, left);
         if (slrt_meet(&ray, &p, &q, &at, &error) && at + error < to) to = at + error;
     }
@@ -1357,22 +1363,23 @@ static void slrt_search_from(slrt_search *s, uint32_t cell, uint32_t right, uint
     while (s->depth) {
         uint32_t *top = s->path + 4 * (size_t)(s->depth - 1);
         const sl_runtime_cell c = sl_runtime_get_cell(s->rt, top[0]);
-        if (top[1] == c.exit_count) {
+        if (top[1] == c.directed_count) {
             s->marks[top[0]] &= (unsigned char)~SLRT_ON_PATH;
             s->depth--;
         } else if (!s->patience) {
             slrt_see_row(s);
             s->depth = 0;
         } else {
-            const uint32_t exit = c.first_exit + top[1]++;
+            const uint32_t directed = c.first_directed + top[1]++;
             s->patience--;
             right = top[2];
             left = top[3];
-            if (s->shut && slrt_is_shut(s, exit)) continue;
-            if (slrt_narrow(s, exit, &right, &left) &&
-                (!(s->range > 0) || slrt_in_range(s, exit, right, left)))
-                slrt_enter(s, slrt_u32(s->rt->exits + (size_t)exit * SLRT_EXIT_BYTES + 4), right,
-                           left);
+            if (s->shut && slrt_is_shut(s, directed)) continue;
+            if (slrt_narrow(s, directed, &right, &left) &&
+                (!(s->range > 0) || slrt_in_range(s, directed, right, left)))
+                slrt_enter(s,
+                           slrt_u32(s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4),
+                           right, left);
         }
     }
 }
@@ -1395,11 +1402,11 @@ SL_RUNTIME_API size_t sl_runtime_scratch_count(const sl_runtime *runtime) {
     return (size_t)runtime->cell_count * 6 + ((size_t)runtime->cell_count + 3) / 4;
 }
 
-/// Whether the eye is on an exit of its cell.
-static bool slrt_is_on_exit(const slrt_search *s, uint32_t cell) {
+/// Whether the eye is on a directed portal of its cell.
+static bool slrt_is_on_portal(const slrt_search *s, uint32_t cell) {
     const sl_runtime_cell c = sl_runtime_get_cell(s->rt, cell);
     uint32_t i;
-    for (i = c.first_exit; i < c.first_exit + c.exit_count; i++) {
+    for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
         const slrt_arm p = slrt_border(s, 2 * i + 1), q = slrt_border(s, 2 * i);
         if (!slrt_side(&p, &q) && !slrt_same_way(&p, &q)) return true;
     }
@@ -1411,12 +1418,13 @@ static bool slrt_same_ray(const slrt_arm *u, const slrt_arm *v) {
 }
 
 /// Looks within the view's cone: in pieces of less than 180 degrees, what is left of which by an
-/// exit is one sector. All round from within a cell, each exit is such a piece.
+/// directed portal is one sector. All round from within a cell, each directed portal is such a
+/// piece.
 static void slrt_search_cone(slrt_search *s, uint32_t cell) {
     const double *right = s->view->right, *left = s->view->left;
     uint32_t i, pieces = 3, last = 3;
     if (s->view->all_round || !slrt_is_direction(right) || !slrt_is_direction(left)) {
-        if (!slrt_is_on_exit(s, cell)) {
+        if (!slrt_is_on_portal(s, cell)) {
             slrt_search_from(s, cell, SLRT_ALL_ROUND, SLRT_ALL_ROUND);
             return;
         }
@@ -1462,7 +1470,7 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
     s.marks = (unsigned char *)(scratch + 6 * count);
     s.cells = cells;
     s.room = room;
-    s.patience = SLRT_PATIENCE * ((uint64_t)runtime->exit_count + 16);
+    s.patience = SLRT_PATIENCE * ((uint64_t)runtime->directed_count + 16);
     memset(s.marks, 0, count);
     run = sl_runtime_row(runtime, cell);
     s.has_row = run.next != run.stop;

@@ -144,13 +144,13 @@ static sl_status gather_axial(sl_context *context, const sl_space *space, sl_box
 }
 
 sl_status sl_box_ground_create(sl_context *context, const sl_space *space, sl_box_ground *out) {
-    if (space->exit_count != 2 * space->portal_count)
+    if (space->directed_count != 2 * space->portal_count)
         return sl_fail(context, SL_UNSUPPORTED, "boxes are put in before one-way glass is");
     if (space->loose)
         return sl_fail(context, SL_UNSUPPORTED,
                        "boxes need cells that fit together, which a file of version 1 does not "
                        "have: bake the map anew");
-    if (space->beyond) return gather_axial(context, space, out);
+    if (space->neighbour) return gather_axial(context, space, out);
     sl_piece *walls = NULL;
     SL_TRY(sl_wall_lines(context, "the walls", space->walls, space->wall_count, &walls));
     *out = (sl_box_ground){space, walls, space->wall_count};
@@ -167,7 +167,7 @@ void sl_box_ground_destroy(sl_context *context, sl_box_ground *ground) {
 sl_status sl_boxes_put(sl_context *context, const sl_box_ground *ground, const sl_moving_box *boxes,
                        size_t count, sl_boxed_space *out) {
     sl_boxed_space made = {0};
-    const sl_status status = ground->space->beyond
+    const sl_status status = ground->space->neighbour
                                  ? sl_boxes_put_mesh(context, ground, boxes, count, &made)
                                  : sl_boxes_put_axial(context, ground, boxes, count, &made);
     if (status == SL_OK)

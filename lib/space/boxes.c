@@ -301,8 +301,8 @@ static sl_status write_portals(maker *m) {
         if (m->portals.items[i].of != UINT32_MAX) take_seams(m, (uint32_t)i, &m->portals.items[i]);
     }
     s->portal_count = (uint32_t)m->portals.count;
-    s->exit_count = 2 * s->portal_count;
-    return sl_make_exits(m->context, s);
+    s->directed_count = 2 * s->portal_count;
+    return sl_make_directed(m->context, s);
 }
 
 static sl_status make_portals(maker *m) {

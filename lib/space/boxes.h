@@ -12,7 +12,7 @@ typedef struct sl_box_ground {
     size_t wall_count;
 } sl_box_ground;
 
-/// SL_UNSUPPORTED for a space that has exits missing, or is loose.
+/// SL_UNSUPPORTED for a space that has directed portals missing, or is loose.
 sl_status sl_box_ground_create(sl_context *context, const sl_space *space, sl_box_ground *out);
 void sl_box_ground_destroy(sl_context *context, sl_box_ground *ground);
 

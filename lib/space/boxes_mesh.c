@@ -27,15 +27,15 @@ typedef struct line {
 
 /// What an edge of the graph is part of.
 typedef struct graph_edge {
-    uint32_t beyond; ///< what a cell at its left has beyond it, as sl_space.beyond has it
-    uint32_t line;   ///< NONE for none
-    bool along;      ///< it runs as the line does
-    bool shared;     ///< by several lines
+    uint32_t neighbour; ///< what a cell at its left has beyond it, as sl_space.neighbour has it
+    uint32_t line;      ///< NONE for none
+    bool along;         ///< it runs as the line does
+    bool shared;        ///< by several lines
 } graph_edge;
 
-/// Where a portal of the ground ends up: its cells, and the places of their exits.
+/// Where a portal of the ground ends up: its cells, and the places of their directed portals.
 typedef struct portal_end {
-    uint32_t cell, exit;
+    uint32_t cell, directed;
 } portal_end;
 
 typedef struct new_cell {
@@ -66,7 +66,7 @@ typedef struct maker {
     SL_ARRAY(uint32_t) stack; ///< half-edges to go on from
     SL_ARRAY(new_cell) cells;
     SL_ARRAY(sl_point) corners; ///< of the cell at hand
-    uint32_t *exit;             ///< by half-edge
+    uint32_t *directed;         ///< by half-edge
     portal_end *ends;           ///< two by portal of the ground
     SL_ARRAY(sl_mesh_joint) joints;
     SL_ARRAY(uint32_t) shares;
@@ -132,9 +132,10 @@ static sl_status find_wall_cells(maker *m) {
     for (size_t i = 0; i < 2 * (size_t)f->wall_count; i++) m->wall_cells[i] = NONE;
     for (uint32_t i = 0; i < f->cell_count; i++)
         for (uint32_t k = 0; k < f->cells[i].vertex_count; k++) {
-            const uint32_t what = f->beyond[f->cells[i].first_vertex + k];
-            if (what < SL_BEYOND_BORDER)
-                m->wall_cells[2 * (what & ~SL_BEYOND_RIGHT) + (what & SL_BEYOND_RIGHT ? 1 : 0)] = i;
+            const uint32_t what = f->neighbour[f->cells[i].first_vertex + k];
+            if (what < SL_NEIGHBOUR_BORDER)
+                m->wall_cells[2 * (what & ~SL_NEIGHBOUR_RIGHT) +
+                              (what & SL_NEIGHBOUR_RIGHT ? 1 : 0)] = i;
         }
     return SL_OK;
 }
@@ -183,7 +184,7 @@ static sl_status gather_segments(maker *m) {
 // --- the graph
 
 static uint32_t seen_from_left(uint32_t wall, bool along) {
-    return wall | (along ? 0 : SL_BEYOND_RIGHT);
+    return wall | (along ? 0 : SL_NEIGHBOUR_RIGHT);
 }
 
 static sl_status take_edges(maker *m) {
@@ -192,7 +193,7 @@ static sl_status take_edges(maker *m) {
     m->edges = sl_alloc_array(m->context, g->edge_count, sizeof *m->edges);
     if (!m->edges) return SL_NO_MEMORY;
     for (size_t i = 0; i < g->edge_count; i++)
-        m->edges[i] = (graph_edge){.beyond = SL_BEYOND_EXIT, .line = NONE};
+        m->edges[i] = (graph_edge){.neighbour = SL_NEIGHBOUR_PORTAL, .line = NONE};
     for (size_t i = 0; i < m->lines.count + m->blocking.count; i++)
         for (size_t k = g->first[i]; k < g->first[i + 1]; k++) {
             graph_edge *e = &m->edges[g->links[k] / 2];
@@ -200,8 +201,8 @@ static sl_status take_edges(maker *m) {
             const uint32_t wall = i < m->lines.count
                                       ? m->lines.items[i].wall
                                       : (uint32_t)(m->from->wall_count + i - m->lines.count);
-            if (wall != NONE && e->beyond == SL_BEYOND_EXIT)
-                e->beyond = seen_from_left(wall, along);
+            if (wall != NONE && e->neighbour == SL_NEIGHBOUR_PORTAL)
+                e->neighbour = seen_from_left(wall, along);
             if (i >= m->lines.count) continue;
             e->shared = e->line != NONE;
             if (!e->shared) e->line = (uint32_t)i, e->along = along;
@@ -410,33 +411,34 @@ static sl_status make_cells(maker *m) {
     return SL_OK;
 }
 
-static uint32_t beyond_of(const maker *m, uint32_t half) {
+static uint32_t neighbour_of(const maker *m, uint32_t half) {
     bool along = false;
     const graph_edge *e = edge_of(m, half, &along);
-    if (e && e->beyond != SL_BEYOND_EXIT) return along ? e->beyond : e->beyond ^ SL_BEYOND_RIGHT;
-    if (e && e->line != NONE && leads_out(m, &m->lines.items[e->line])) return SL_BEYOND_EXIT;
-    return sl_half_is_outside(&m->t, half ^ 1) ? SL_BEYOND_BORDER : SL_BEYOND_EXIT;
+    if (e && e->neighbour != SL_NEIGHBOUR_PORTAL)
+        return along ? e->neighbour : e->neighbour ^ SL_NEIGHBOUR_RIGHT;
+    if (e && e->line != NONE && leads_out(m, &m->lines.items[e->line])) return SL_NEIGHBOUR_PORTAL;
+    return sl_half_is_outside(&m->t, half ^ 1) ? SL_NEIGHBOUR_BORDER : SL_NEIGHBOUR_PORTAL;
 }
 
-/// Adds a corner and what is beyond its side; says whether that is an exit.
-static bool add_corner(maker *m, sl_point corner, uint32_t beyond) {
+/// Adds a corner and what is beyond its side; says whether that is a directed portal.
+static bool add_corner(maker *m, sl_point corner, uint32_t neighbour) {
     sl_space *s = &m->out->space;
     s->vertices[s->vertex_count] = corner;
-    s->beyond[s->vertex_count++] = beyond;
-    s->exit_count += beyond == SL_BEYOND_EXIT;
-    return beyond == SL_BEYOND_EXIT;
+    s->neighbour[s->vertex_count++] = neighbour;
+    s->directed_count += neighbour == SL_NEIGHBOUR_PORTAL;
+    return neighbour == SL_NEIGHBOUR_PORTAL;
 }
 
 static void copy_cell(maker *m, uint32_t number, uint32_t was) {
     const sl_space *f = m->from;
     const sl_cell *cell = &f->cells[was];
-    uint32_t next = cell->first_exit;
+    uint32_t next = cell->first_directed;
     for (uint32_t i = 0; i < cell->vertex_count; i++) {
-        const uint32_t at = cell->first_vertex + i, exit = m->out->space.exit_count;
-        if (!add_corner(m, f->vertices[at], f->beyond[at])) continue;
-        const uint32_t portal = f->exits[next++].portal;
+        const uint32_t at = cell->first_vertex + i, directed = m->out->space.directed_count;
+        if (!add_corner(m, f->vertices[at], f->neighbour[at])) continue;
+        const uint32_t portal = f->directed[next++].portal;
         m->ends[2 * portal + (f->portals[portal].cell[0] == was ? 0 : 1)] =
-            (portal_end){number, exit};
+            (portal_end){number, directed};
     }
 }
 
@@ -444,14 +446,14 @@ static void cut_cell(maker *m, uint32_t number, uint32_t first) {
     uint32_t half = first;
     do {
         const sl_point corner = m->t.points.items[m->t.halves.items[half].from];
-        const uint32_t exit = m->out->space.exit_count;
-        if (!add_corner(m, corner, beyond_of(m, half))) continue;
-        m->exit[half] = exit;
+        const uint32_t directed = m->out->space.directed_count;
+        if (!add_corner(m, corner, neighbour_of(m, half))) continue;
+        m->directed[half] = directed;
         if (m->cell[half ^ 1] != NONE) continue;
         bool along;
         const graph_edge *e = edge_of(m, half, &along);
         m->ends[2 * m->lines.items[e->line].portal + (along == e->along ? 0 : 1)] =
-            (portal_end){number, exit};
+            (portal_end){number, directed};
     } while ((half = m->t.halves.items[half].next) != first);
 }
 
@@ -462,17 +464,17 @@ static sl_status write_cells(maker *m) {
     s->cell_count = (uint32_t)m->cells.count;
     s->cells = sl_alloc_array(m->context, s->cell_count, sizeof *s->cells);
     s->vertices = sl_alloc_array(m->context, corners, sizeof *s->vertices);
-    s->beyond = sl_alloc_array(m->context, corners, sizeof *s->beyond);
+    s->neighbour = sl_alloc_array(m->context, corners, sizeof *s->neighbour);
     m->out->parents = sl_alloc_array(m->context, s->cell_count, sizeof *m->out->parents);
-    m->exit = sl_alloc_array(m->context, m->t.halves.count, sizeof *m->exit);
+    m->directed = sl_alloc_array(m->context, m->t.halves.count, sizeof *m->directed);
     m->ends = sl_alloc_array(m->context, 2 * (size_t)f->portal_count, sizeof *m->ends);
-    if (!s->cells || !s->vertices || !s->beyond || !m->out->parents || !m->exit || !m->ends)
+    if (!s->cells || !s->vertices || !s->neighbour || !m->out->parents || !m->directed || !m->ends)
         return SL_NO_MEMORY;
     for (size_t i = 0; i < 2 * (size_t)f->portal_count; i++) m->ends[i].cell = NONE;
     if (corners > UINT32_MAX / 4) return sl_fail_memory(m->context);
     for (uint32_t i = 0; i < s->cell_count; i++) {
         const new_cell made = m->cells.items[i];
-        sl_cell cell = {.first_vertex = s->vertex_count, .first_exit = s->exit_count};
+        sl_cell cell = {.first_vertex = s->vertex_count, .first_directed = s->directed_count};
         cell.inside = f->cells[made.parent].inside;
         s->inside_count += cell.inside;
         m->out->parents[i] = made.parent;
@@ -481,7 +483,7 @@ static sl_status write_cells(maker *m) {
         else
             cut_cell(m, i, made.half);
         cell.vertex_count = s->vertex_count - cell.first_vertex;
-        cell.exit_count = s->exit_count - cell.first_exit;
+        cell.directed_count = s->directed_count - cell.first_directed;
         s->cells[i] = cell;
     }
     return SL_OK;
@@ -493,8 +495,10 @@ static sl_status write_cells(maker *m) {
 static sl_status add_joint(maker *m, portal_end from, portal_end to, sl_point right,
                            sl_point left) {
     const bool up = from.cell < to.cell;
-    sl_mesh_joint joint = {{{from.cell, to.cell}, left, right}, {from.exit, to.exit}, 0};
-    if (!up) joint = (sl_mesh_joint){{{to.cell, from.cell}, right, left}, {to.exit, from.exit}, 0};
+    sl_mesh_joint joint = {{{from.cell, to.cell}, left, right}, {from.directed, to.directed}, 0};
+    if (!up)
+        joint =
+            (sl_mesh_joint){{{to.cell, from.cell}, right, left}, {to.directed, from.directed}, 0};
     SL_TRY(SL_ARRAY_ROOM(m->context, &m->joints, 1));
     m->joints.items[m->joints.count++] = joint;
     return SL_OK;
@@ -509,8 +513,8 @@ static sl_status write_portals(maker *m) {
     }
     for (uint32_t half = 0; half < m->t.halves.count; half += 2) {
         const uint32_t twin = half + 1, a = m->cell[half], b = m->cell[twin];
-        if (a == NONE || b == NONE || beyond_of(m, half) != SL_BEYOND_EXIT) continue;
-        SL_TRY(add_joint(m, (portal_end){a, m->exit[half]}, (portal_end){b, m->exit[twin]},
+        if (a == NONE || b == NONE || neighbour_of(m, half) != SL_NEIGHBOUR_PORTAL) continue;
+        SL_TRY(add_joint(m, (portal_end){a, m->directed[half]}, (portal_end){b, m->directed[twin]},
                          m->t.points.items[m->t.halves.items[half].from],
                          m->t.points.items[m->t.halves.items[twin].from]));
     }
@@ -594,7 +598,7 @@ sl_status sl_boxes_put_mesh(sl_context *context, const sl_box_ground *ground,
     void *const scratch[] = {m.touched,     m.wall_cells,  m.blocking.items, m.open.items,
                              m.lines.items, m.edges,       m.segments.items, m.in,
                              m.cell,        m.stack.items, m.cells.items,    m.corners.items,
-                             m.exit,        m.ends,        m.joints.items,   m.shares.items};
+                             m.directed,    m.ends,        m.joints.items,   m.shares.items};
     for (size_t i = 0; i < sizeof scratch / sizeof *scratch; i++) sl_free(context, scratch[i]);
     sl_planar_destroy(context, &m.graph);
     sl_triangulation_destroy(context, &m.t);

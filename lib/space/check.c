@@ -11,9 +11,10 @@ typedef struct checker {
     sl_context *context;
     const sl_space *space;
     sl_piece *walls;
-    sl_box *regions;      ///< of the nodes, then of the cells, as the tree has them
-    sl_bits *led_to;      ///< nodes, then cells, that some node leads to
-    uint8_t *exits_found; ///< by portal: 1 for the exit of cell[0], 2 for that of cell[1]
+    sl_box *regions; ///< of the nodes, then of the cells, as the tree has them
+    sl_bits *led_to; ///< nodes, then cells, that some node leads to
+    uint8_t
+        *directed_found; ///< by portal: 1 for the directed portal of cell[0], 2 for that of cell[1]
 } checker;
 
 static bool same(sl_point a, sl_point b) {
@@ -23,13 +24,13 @@ static bool same(sl_point a, sl_point b) {
 static sl_status check_ranges(const checker *c) {
     const sl_space *s = c->space;
     const bool has_nodes =
-        s->loose || s->beyond ? !s->node_count : s->node_count == s->cell_count - 1;
+        s->loose || s->neighbour ? !s->node_count : s->node_count == s->cell_count - 1;
     if (!s->cell_count || !has_nodes)
         return sl_fail(c->context, SL_BAD_INPUT, "%u nodes cannot lead to %u cells", s->node_count,
                        s->cell_count);
-    if (s->exit_count != 2 * (uint64_t)s->portal_count)
+    if (s->directed_count != 2 * (uint64_t)s->portal_count)
         return sl_fail(c->context, SL_BAD_INPUT, "%u portals cannot have %u exits", s->portal_count,
-                       s->exit_count);
+                       s->directed_count);
     const sl_box *b = &s->bounds;
     if (!isfinite(b->max.x - b->min.x) || !isfinite(b->max.y - b->min.y) ||
         !(b->min.x < b->max.x) || !(b->min.y < b->max.y))
@@ -82,7 +83,7 @@ static sl_status fail_cell(const checker *c, uint32_t cell, const char *what) {
 /// splits lie within regions, and each cell is led to once, the cells tile the bounds.
 static sl_status check_cells(const checker *c) {
     const sl_space *s = c->space;
-    uint64_t exits = 0;
+    uint64_t directed = 0;
     uint32_t inside = 0;
     for (uint32_t i = 0; i < s->cell_count; i++) {
         const sl_cell *cell = &s->cells[i];
@@ -95,13 +96,13 @@ static sl_status check_cells(const checker *c) {
         if (!same(v[0], r->min) || !same(v[1], lower_right) || !same(v[2], r->max) ||
             !same(v[3], upper_left))
             return fail_cell(c, i, "is not the region that the tree gives it");
-        if (cell->first_exit != exits || cell->exit_count > s->exit_count - exits)
+        if (cell->first_directed != directed || cell->directed_count > s->directed_count - directed)
             return fail_cell(c, i, "has exits out of range");
         if (cell->inside > 1) return fail_cell(c, i, "is neither inside nor outside");
-        exits += cell->exit_count;
+        directed += cell->directed_count;
         inside += cell->inside;
     }
-    if (inside != s->inside_count || exits != s->exit_count)
+    if (inside != s->inside_count || directed != s->directed_count)
         return sl_fail(c->context, SL_BAD_INPUT, "the counts of cells or exits do not add up");
     return SL_OK;
 }
@@ -230,57 +231,59 @@ static bool free_between(const checker *c, const edge *e, double from, double to
            c->walls[i].lo >= hi;
 }
 
-/// Whether an exit lies on an edge; its ends along the edge as walked.
-static bool exit_on_edge(const sl_exit *exit, const edge *e, double *from, double *to) {
-    const bool on = e->axis ? exit->right.y == e->at && exit->left.y == e->at
-                            : exit->right.x == e->at && exit->left.x == e->at;
-    *from = e->axis ? exit->right.x : exit->right.y;
-    *to = e->axis ? exit->left.x : exit->left.y;
+/// Whether a directed portal lies on an edge; its ends along the edge as walked.
+static bool portal_on_edge(const sl_directed_portal *directed, const edge *e, double *from,
+                           double *to) {
+    const bool on = e->axis ? directed->right.y == e->at && directed->left.y == e->at
+                            : directed->right.x == e->at && directed->left.x == e->at;
+    *from = e->axis ? directed->right.x : directed->right.y;
+    *to = e->axis ? directed->left.x : directed->left.y;
     return on && (e->from < e->to ? *from < *to : *from > *to);
 }
 
-sl_status sl_check_exit(sl_context *context, const sl_space *s, uint32_t cell, const sl_exit *exit,
-                        uint8_t *exits_found) {
-    if (exit->portal >= s->portal_count)
+sl_status sl_check_directed(sl_context *context, const sl_space *s, uint32_t cell,
+                            const sl_directed_portal *directed, uint8_t *directed_found) {
+    if (directed->portal >= s->portal_count)
         return sl_fail(context, SL_BAD_INPUT, "cell %u has an exit to no portal", cell);
-    const sl_portal *p = &s->portals[exit->portal];
+    const sl_portal *p = &s->portals[directed->portal];
     if (p->cell[0] >= p->cell[1] || p->cell[1] >= s->cell_count)
-        return sl_fail(context, SL_BAD_INPUT, "portal %u joins no two cells", exit->portal);
+        return sl_fail(context, SL_BAD_INPUT, "portal %u joins no two cells", directed->portal);
     const int side = p->cell[0] == cell ? 0 : 1;
-    if (p->cell[side] != cell || exit->cell != p->cell[!side] ||
-        !same(exit->left, side ? p->right : p->left) ||
-        !same(exit->right, side ? p->left : p->right) || exits_found[exit->portal] & (1 << side))
+    if (p->cell[side] != cell || directed->cell != p->cell[!side] ||
+        !same(directed->left, side ? p->right : p->left) ||
+        !same(directed->right, side ? p->left : p->right) ||
+        directed_found[directed->portal] & (1 << side))
         return sl_fail(context, SL_BAD_INPUT, "cell %u has an exit unlike its portal", cell);
-    exits_found[exit->portal] |= (uint8_t)(1 << side);
+    directed_found[directed->portal] |= (uint8_t)(1 << side);
     return SL_OK;
 }
 
-/// Walks round a cell: each exit must start where the last one ended, or after a wall.
+/// Walks round a cell: each directed portal must start where the last one ended, or after a wall.
 static sl_status check_boundary(checker *c, uint32_t cell) {
     const sl_space *s = c->space;
-    const sl_exit *exit = s->exits + s->cells[cell].first_exit;
-    const sl_exit *end = exit + s->cells[cell].exit_count;
+    const sl_directed_portal *directed = s->directed + s->cells[cell].first_directed;
+    const sl_directed_portal *end = directed + s->cells[cell].directed_count;
     for (int number = 0; number < 4; number++) {
         const edge e = edge_of(&c->regions[s->node_count + cell], &s->bounds, number);
         double at = e.from, from, to;
-        for (; exit < end && exit_on_edge(exit, &e, &from, &to); exit++) {
-            SL_TRY(sl_check_exit(c->context, s, cell, exit, c->exits_found));
+        for (; directed < end && portal_on_edge(directed, &e, &from, &to); directed++) {
+            SL_TRY(sl_check_directed(c->context, s, cell, directed, c->directed_found));
             const bool forward =
                 e.from < e.to ? from >= at && to <= e.to : from <= at && to >= e.to;
             if (!forward || e.on_border) return fail_cell(c, cell, "has an exit out of place");
             if (!free_between(c, &e, from, to)) return fail_cell(c, cell, "has an exit on a wall");
             if (from != at && !wall_between(c, &e, at, from))
                 return fail_cell(c, cell, "has a boundary that is neither wall nor portal");
-            if (from == at && at != e.from && exit[-1].cell == exit->cell &&
-                sl_seams_same(s, exit[-1].portal, exit->portal))
+            if (from == at && at != e.from && directed[-1].cell == directed->cell &&
+                sl_seams_same(s, directed[-1].portal, directed->portal))
                 return fail_cell(c, cell, "has a portal that is not a longest piece");
             at = to;
         }
         if (at != e.to && !e.on_border && !wall_between(c, &e, at, e.to))
             return fail_cell(c, cell, "has a boundary that is neither wall nor portal");
     }
-    // With as many exits as twice the portals and none told twice, each portal has both.
-    return exit == end ? SL_OK : fail_cell(c, cell, "has an exit that is not on its boundary");
+    // With as many directed portals as twice the portals and none told twice, each portal has both.
+    return directed == end ? SL_OK : fail_cell(c, cell, "has an exit that is not on its boundary");
 }
 
 static sl_status check_all(checker *c) {
@@ -296,17 +299,18 @@ static sl_status check_all(checker *c) {
 sl_status sl_space_check(sl_context *context, const sl_space *space) {
     checker c = {.context = context, .space = space};
     SL_TRY(check_ranges(&c));
-    if (space->beyond) return sl_check_mesh(context, space);
+    if (space->neighbour) return sl_check_mesh(context, space);
     if (space->loose)
         return sl_fail(context, SL_BAD_INPUT, "a loose space that does not know its sides");
     const size_t places = (size_t)space->node_count + space->cell_count;
     c.regions = sl_alloc_array(context, places, sizeof *c.regions);
     c.led_to = sl_alloc_array(context, sl_bits_words(places), sizeof *c.led_to);
-    c.exits_found = sl_alloc_array(context, space->portal_count, sizeof *c.exits_found);
-    const sl_status status = c.regions && c.led_to && c.exits_found ? check_all(&c) : SL_NO_MEMORY;
+    c.directed_found = sl_alloc_array(context, space->portal_count, sizeof *c.directed_found);
+    const sl_status status =
+        c.regions && c.led_to && c.directed_found ? check_all(&c) : SL_NO_MEMORY;
     sl_free(context, c.walls);
     sl_free(context, c.regions);
     sl_free(context, c.led_to);
-    sl_free(context, c.exits_found);
+    sl_free(context, c.directed_found);
     return status;
 }

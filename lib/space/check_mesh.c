@@ -17,9 +17,9 @@
 typedef struct checker {
     sl_context *context;
     const sl_space *space;
-    uint8_t *exits_found; ///< by portal, as sl_check_exit has it
-    uint8_t *sides_found; ///< by wall: 1 for a cell at its left, 2 for one at its right
-    uint8_t *on_border;   ///< by wall
+    uint8_t *directed_found; ///< by portal, as sl_check_directed has it
+    uint8_t *sides_found;    ///< by wall: 1 for a cell at its left, 2 for one at its right
+    uint8_t *on_border;      ///< by wall
 } checker;
 
 static sl_status fail_cell(const checker *c, uint32_t cell, const char *what) {
@@ -67,12 +67,13 @@ static bool is_within(const sl_box *b, sl_point p) {
     return p.x >= b->min.x && p.x <= b->max.x && p.y >= b->min.y && p.y <= b->max.y;
 }
 
-static sl_status check_cell(const checker *c, uint32_t number, uint64_t vertices, uint64_t exits) {
+static sl_status check_cell(const checker *c, uint32_t number, uint64_t vertices,
+                            uint64_t directed) {
     const sl_space *s = c->space;
     const sl_cell *cell = &s->cells[number];
     if (cell->first_vertex != vertices || cell->vertex_count > s->vertex_count - vertices)
         return fail_cell(c, number, "has corners out of range");
-    if (cell->first_exit != exits || cell->exit_count > s->exit_count - exits)
+    if (cell->first_directed != directed || cell->directed_count > s->directed_count - directed)
         return fail_cell(c, number, "has exits out of range");
     if (cell->inside > 1) return fail_cell(c, number, "is neither inside nor outside");
     const sl_point *corners = s->vertices + cell->first_vertex;
@@ -85,15 +86,15 @@ static sl_status check_cell(const checker *c, uint32_t number, uint64_t vertices
 
 static sl_status check_cells(const checker *c) {
     const sl_space *s = c->space;
-    uint64_t vertices = 0, exits = 0;
+    uint64_t vertices = 0, directed = 0;
     uint32_t inside = 0;
     for (uint32_t i = 0; i < s->cell_count; i++) {
-        SL_TRY(check_cell(c, i, vertices, exits));
+        SL_TRY(check_cell(c, i, vertices, directed));
         vertices += s->cells[i].vertex_count;
-        exits += s->cells[i].exit_count;
+        directed += s->cells[i].directed_count;
         inside += s->cells[i].inside;
     }
-    if (inside == s->inside_count && exits == s->exit_count && vertices == s->vertex_count)
+    if (inside == s->inside_count && directed == s->directed_count && vertices == s->vertex_count)
         return SL_OK;
     return sl_fail(c->context, SL_BAD_INPUT, "the counts of cells, corners or exits do not add up");
 }
@@ -110,11 +111,11 @@ static int border_of(const sl_box *b, sl_point p, sl_point q) {
 
 static sl_status check_wall(const checker *c, uint32_t cell, uint32_t what, sl_point from,
                             sl_point to) {
-    const uint32_t number = what & ~SL_BEYOND_RIGHT;
+    const uint32_t number = what & ~SL_NEIGHBOUR_RIGHT;
     if (number >= c->space->wall_count) return fail_cell(c, cell, "has a side on no known wall");
     if (c->space->loose || c->space->cut_walls) return SL_OK;
     const sl_wall *wall = &c->space->walls[number];
-    const bool right = what & SL_BEYOND_RIGHT;
+    const bool right = what & SL_NEIGHBOUR_RIGHT;
     if (!same(right ? wall->b : wall->a, from) || !same(right ? wall->a : wall->b, to))
         return fail_cell(c, cell, "has a side that is not the wall it is said to be");
     const uint8_t bit = right ? 2 : 1;
@@ -129,23 +130,23 @@ static sl_status check_sides(const checker *c, uint32_t number) {
     const sl_space *s = c->space;
     const sl_cell *cell = &s->cells[number];
     const sl_point *corners = s->vertices + cell->first_vertex;
-    uint32_t exits = 0;
+    uint32_t passed = 0;
     for (uint32_t i = 0; i < cell->vertex_count; i++) {
-        const uint32_t what = s->beyond[cell->first_vertex + i];
+        const uint32_t what = s->neighbour[cell->first_vertex + i];
         const sl_point from = corners[i], to = corners[i + 1 < cell->vertex_count ? i + 1 : 0];
-        if (what == SL_BEYOND_EXIT) {
-            if (exits == cell->exit_count) return fail_cell(c, number, "has too few exits");
-            const sl_exit *exit = &s->exits[cell->first_exit + exits++];
-            if (!same(exit->right, from) || !same(exit->left, to))
+        if (what == SL_NEIGHBOUR_PORTAL) {
+            if (passed == cell->directed_count) return fail_cell(c, number, "has too few exits");
+            const sl_directed_portal *portal = &s->directed[cell->first_directed + passed++];
+            if (!same(portal->right, from) || !same(portal->left, to))
                 return fail_cell(c, number, "has an exit that is not on its boundary");
-            SL_TRY(sl_check_exit(c->context, s, number, exit, c->exits_found));
-        } else if (what != SL_BEYOND_BORDER) {
+            SL_TRY(sl_check_directed(c->context, s, number, portal, c->directed_found));
+        } else if (what != SL_NEIGHBOUR_BORDER) {
             SL_TRY(check_wall(c, number, what, from, to));
         } else if (!s->loose && !border_of(&s->bounds, from, to)) {
             return fail_cell(c, number, "has a border within the bounds");
         }
     }
-    return exits == cell->exit_count ? SL_OK : fail_cell(c, number, "has too many exits");
+    return passed == cell->directed_count ? SL_OK : fail_cell(c, number, "has too many exits");
 }
 
 /// Each wall is seen from both sides, but for those on the border.
@@ -184,11 +185,11 @@ static size_t gather_sides(const checker *c, wall_side *sides) {
         const sl_cell *cell = &s->cells[i];
         const sl_point *v = s->vertices + cell->first_vertex;
         for (uint32_t k = 0; k < cell->vertex_count; k++) {
-            const uint32_t what = s->beyond[cell->first_vertex + k];
+            const uint32_t what = s->neighbour[cell->first_vertex + k];
             const sl_point at = v[k], next = v[k + 1 < cell->vertex_count ? k + 1 : 0];
-            const bool right = what & SL_BEYOND_RIGHT;
-            if (what < SL_BEYOND_BORDER)
-                sides[count++] = (wall_side){what & ~SL_BEYOND_RIGHT, right ? next : at,
+            const bool right = what & SL_NEIGHBOUR_RIGHT;
+            if (what < SL_NEIGHBOUR_BORDER)
+                sides[count++] = (wall_side){what & ~SL_NEIGHBOUR_RIGHT, right ? next : at,
                                              right ? at : next, right};
         }
     }
@@ -381,12 +382,12 @@ static sl_status check_all(const checker *c) {
 
 sl_status sl_check_mesh(sl_context *context, const sl_space *space) {
     checker c = {.context = context, .space = space};
-    c.exits_found = sl_alloc_array(context, space->portal_count, sizeof *c.exits_found);
+    c.directed_found = sl_alloc_array(context, space->portal_count, sizeof *c.directed_found);
     c.sides_found = sl_alloc_array(context, space->wall_count, sizeof *c.sides_found);
     c.on_border = sl_alloc_array(context, space->wall_count, sizeof *c.on_border);
     const sl_status status =
-        c.exits_found && c.sides_found && c.on_border ? check_all(&c) : SL_NO_MEMORY;
-    sl_free(context, c.exits_found);
+        c.directed_found && c.sides_found && c.on_border ? check_all(&c) : SL_NO_MEMORY;
+    sl_free(context, c.directed_found);
     sl_free(context, c.sides_found);
     sl_free(context, c.on_border);
     return status;

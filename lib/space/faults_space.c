@@ -204,13 +204,13 @@ static uint32_t find_way(const sl_space *space, rooms *r, uint32_t start, double
         const uint32_t number = r->queue[begin];
         if (sl_bits_has(r->open, number)) return number;
         const sl_cell *cell = &space->cells[number];
-        for (uint32_t i = 0; i < cell->exit_count; i++) {
-            const sl_exit *exit = &space->exits[cell->first_exit + i];
-            if (exit->cell == start || r->from[exit->cell] != UINT32_MAX ||
-                width_of(&space->portals[exit->portal]) < width)
+        for (uint32_t i = 0; i < cell->directed_count; i++) {
+            const sl_directed_portal *directed = &space->directed[cell->first_directed + i];
+            if (directed->cell == start || r->from[directed->cell] != UINT32_MAX ||
+                width_of(&space->portals[directed->portal]) < width)
                 continue;
-            r->from[exit->cell] = exit->portal;
-            r->queue[end++] = exit->cell;
+            r->from[directed->cell] = directed->portal;
+            r->queue[end++] = directed->cell;
         }
     }
     return SL_NO_CELL;
@@ -267,8 +267,8 @@ static bool reach(const sl_space *space, rooms *r, sl_bits *reached, uint32_t st
     r->queue[end++] = start;
     while (end) {
         const sl_cell *cell = &space->cells[r->queue[--end]];
-        for (uint32_t i = 0; i < cell->exit_count; i++) {
-            const uint32_t next = space->exits[cell->first_exit + i].cell;
+        for (uint32_t i = 0; i < cell->directed_count; i++) {
+            const uint32_t next = space->directed[cell->first_directed + i].cell;
             if (sl_bits_has(reached, next)) continue;
             sl_bits_add(reached, next);
             open |= sl_bits_has(r->open, next);
@@ -324,8 +324,8 @@ static sl_fault measure_room(const sl_space *space, rooms *r, sl_bits *reached, 
             largest = area;
             room.cell = number;
         }
-        for (uint32_t i = 0; i < cell->exit_count; i++) {
-            const uint32_t next = space->exits[cell->first_exit + i].cell;
+        for (uint32_t i = 0; i < cell->directed_count; i++) {
+            const uint32_t next = space->directed[cell->first_directed + i].cell;
             if (sl_bits_has(reached, next)) continue;
             sl_bits_add(reached, next);
             r->queue[end++] = next;

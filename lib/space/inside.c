@@ -6,8 +6,8 @@
 static void flood(const sl_space *space, sl_bits *reached, uint32_t *stack, size_t count) {
     while (count) {
         const sl_cell *cell = &space->cells[stack[--count]];
-        for (uint32_t i = 0; i < cell->exit_count; i++) {
-            const uint32_t next = space->exits[cell->first_exit + i].cell;
+        for (uint32_t i = 0; i < cell->directed_count; i++) {
+            const uint32_t next = space->directed[cell->first_directed + i].cell;
             if (sl_bits_has(reached, next)) continue;
             sl_bits_add(reached, next);
             stack[count++] = next;
@@ -17,9 +17,9 @@ static void flood(const sl_space *space, sl_bits *reached, uint32_t *stack, size
 
 /// Whether some of the map's border that the cell touches is free of walls.
 static bool open_to_border(const sl_space *space, const sl_cell *cell, const sl_piece *walls) {
-    if (space->beyond) {
+    if (space->neighbour) {
         for (uint32_t i = 0; i < cell->vertex_count; i++)
-            if (space->beyond[cell->first_vertex + i] == SL_BEYOND_BORDER) return true;
+            if (space->neighbour[cell->first_vertex + i] == SL_NEIGHBOUR_BORDER) return true;
         return false;
     }
     const sl_point min = space->vertices[cell->first_vertex];

@@ -24,13 +24,13 @@ sl_status sl_kd_build(sl_context *context, const sl_piece *walls, size_t count, 
                       const sl_subdivide_options *options, sl_kd_tree *tree);
 void sl_kd_destroy(sl_context *context, sl_kd_tree *tree);
 
-/// Makes the space's portals and exits from its tree and cells.
+/// Makes the space's portals and directed portals from its tree and cells.
 sl_status sl_make_portals(sl_context *context, const sl_kd_tree *tree, sl_space *space);
 
 /// For qsort: the order that a space's portals have.
 int sl_compare_portals(const void *left, const void *right);
-/// Gives cells, which count no exits yet, the exits of the space's portals.
-sl_status sl_make_exits(sl_context *context, sl_space *space);
+/// Gives cells, which count no directed portals yet, the directed portals of the space's portals.
+sl_status sl_make_directed(sl_context *context, sl_space *space);
 
 /// SL_BAD_INPUT for a map without walls: it has no size.
 sl_status sl_check_has_walls(sl_context *context, const sl_map *map);

@@ -41,7 +41,7 @@ typedef struct merger {
     sl_space *space;
     uint32_t *previous;   ///< by half-edge
     uint32_t *cell;       ///< by half-edge; NONE for one that is gone or outside
-    uint32_t *exit;       ///< by half-edge of a portal: its place in space.exits
+    uint32_t *directed;   ///< by half-edge of a portal: its place in space.directed portals
     sl_mesh_watch *watch; ///< NULL for none
     void *user;
     graph_edge *edges;
@@ -182,40 +182,40 @@ static sl_status number_cells(merger *m, uint32_t **firsts) {
     return SL_OK;
 }
 
-/// What is beyond a half-edge's side, as sl_space.beyond has it.
-static uint32_t beyond_of(const merger *m, uint32_t half) {
+/// What is beyond a half-edge's side, as sl_space.neighbour has it.
+static uint32_t neighbour_of(const merger *m, uint32_t half) {
     const uint32_t label = m->t->labels[half / 2];
     const uint32_t wall = label ? m->edges[label - 1].wall : 0;
     if (wall) {
         const sl_wall *w = &m->space->walls[wall - 1];
         const sl_point a = start_of(m, half);
-        return (wall - 1) | (w->a.x == a.x && w->a.y == a.y ? 0 : SL_BEYOND_RIGHT);
+        return (wall - 1) | (w->a.x == a.x && w->a.y == a.y ? 0 : SL_NEIGHBOUR_RIGHT);
     }
-    return sl_half_is_outside(m->t, half ^ 1) ? SL_BEYOND_BORDER : SL_BEYOND_EXIT;
+    return sl_half_is_outside(m->t, half ^ 1) ? SL_NEIGHBOUR_BORDER : SL_NEIGHBOUR_PORTAL;
 }
 
 static sl_status write_cells(merger *m, const uint32_t *firsts) {
     sl_space *s = m->space;
     s->cells = sl_alloc_array(m->context, s->cell_count, sizeof *s->cells);
     s->vertices = sl_alloc_array(m->context, s->vertex_count, sizeof *s->vertices);
-    s->beyond = sl_alloc_array(m->context, s->vertex_count, sizeof *s->beyond);
-    m->exit = sl_alloc_array(m->context, m->t->halves.count, sizeof *m->exit);
-    if (!s->cells || !s->vertices || !s->beyond || !m->exit) return SL_NO_MEMORY;
-    uint32_t vertices = 0, exits = 0;
+    s->neighbour = sl_alloc_array(m->context, s->vertex_count, sizeof *s->neighbour);
+    m->directed = sl_alloc_array(m->context, m->t->halves.count, sizeof *m->directed);
+    if (!s->cells || !s->vertices || !s->neighbour || !m->directed) return SL_NO_MEMORY;
+    uint32_t vertices = 0, directed = 0;
     for (uint32_t i = 0; i < s->cell_count; i++) {
-        s->cells[i] = (sl_cell){.first_vertex = vertices, .first_exit = exits};
+        s->cells[i] = (sl_cell){.first_vertex = vertices, .first_directed = directed};
         uint32_t half = firsts[i];
         do {
             s->vertices[vertices] = start_of(m, half);
-            s->beyond[vertices] = beyond_of(m, half);
-            if (s->beyond[vertices++] == SL_BEYOND_EXIT) m->exit[half] = exits++;
+            s->neighbour[vertices] = neighbour_of(m, half);
+            if (s->neighbour[vertices++] == SL_NEIGHBOUR_PORTAL) m->directed[half] = directed++;
             half = next(m, half);
         } while (half != firsts[i]);
         s->cells[i].vertex_count = vertices - s->cells[i].first_vertex;
-        s->cells[i].exit_count = exits - s->cells[i].first_exit;
+        s->cells[i].directed_count = directed - s->cells[i].first_directed;
     }
-    s->exit_count = exits;
-    s->portal_count = exits / 2;
+    s->directed_count = directed;
+    s->portal_count = directed / 2;
     return SL_OK;
 }
 
@@ -230,15 +230,15 @@ static int compare_joints(const void *left, const void *right) {
 
 sl_status sl_mesh_join(sl_context *context, sl_mesh_joint *joints, size_t count, sl_space *s) {
     s->portal_count = (uint32_t)count;
-    s->exit_count = 2 * s->portal_count;
+    s->directed_count = 2 * s->portal_count;
     s->portals = sl_alloc_array(context, count, sizeof *s->portals);
-    s->exits = sl_alloc_array(context, 2 * count, sizeof *s->exits);
-    if (!s->portals || !s->exits) return SL_NO_MEMORY;
+    s->directed = sl_alloc_array(context, 2 * count, sizeof *s->directed);
+    if (!s->portals || !s->directed) return SL_NO_MEMORY;
     if (count) qsort(joints, count, sizeof *joints, compare_joints);
     for (uint32_t i = 0; i < count; i++) {
         const sl_portal p = s->portals[i] = joints[i].portal;
-        s->exits[joints[i].exits[0]] = (sl_exit){i, p.cell[1], p.left, p.right};
-        s->exits[joints[i].exits[1]] = (sl_exit){i, p.cell[0], p.right, p.left};
+        s->directed[joints[i].directed[0]] = (sl_directed_portal){i, p.cell[1], p.left, p.right};
+        s->directed[joints[i].directed[1]] = (sl_directed_portal){i, p.cell[0], p.right, p.left};
     }
     return SL_OK;
 }
@@ -268,12 +268,12 @@ static sl_status write_portals(merger *m) {
     for (uint32_t half = 0; joints && half < m->t->halves.count; half++) {
         const uint32_t twin = half ^ 1;
         if (is_gone(m, half) || is_gone(m, twin) || m->cell[half] > m->cell[twin] ||
-            beyond_of(m, half) != SL_BEYOND_EXIT)
+            neighbour_of(m, half) != SL_NEIGHBOUR_PORTAL)
             continue;
         joints[count++] = (sl_mesh_joint){{.cell = {m->cell[half], m->cell[twin]},
                                            .left = end_of(m, half),
                                            .right = start_of(m, half)},
-                                          {m->exit[half], m->exit[twin]},
+                                          {m->directed[half], m->directed[twin]},
                                           half};
     }
     sl_status status = joints ? sl_mesh_join(m->context, joints, count, s) : SL_NO_MEMORY;
@@ -354,7 +354,7 @@ sl_status sl_mesh_make(sl_context *context, const sl_map *map, const sl_mesh_lin
     const sl_status status = make(&m, map, lines);
     sl_free(context, m.previous);
     sl_free(context, m.cell);
-    sl_free(context, m.exit);
+    sl_free(context, m.directed);
     sl_free(context, m.edges);
     sl_free(context, m.seam_links.items);
     return status;

@@ -28,14 +28,14 @@ typedef sl_status sl_mesh_watch(void *user, uint32_t half, uint32_t stuck);
 sl_status sl_mesh_merge(sl_context *context, sl_triangulation *triangles, sl_mesh_watch *watch,
                         void *user, uint32_t **cell);
 
-/// A portal, and the places of its two exits in sl_space.exits.
+/// A portal, and the places of its two directed portals in sl_space.directed portals.
 typedef struct sl_mesh_joint {
     sl_portal portal;
-    uint32_t exits[2]; ///< that of portal.cell[0], then that of portal.cell[1]
-    uint32_t half;     ///< of several between the same cells at one place, the least comes first
+    uint32_t directed[2]; ///< that of portal.cell[0], then that of portal.cell[1]
+    uint32_t half;        ///< of several between the same cells at one place, the least comes first
 } sl_mesh_joint;
 
-/// Sorts the joints and makes the portals and exits of them.
+/// Sorts the joints and makes the portals and directed portals of them.
 sl_status sl_mesh_join(sl_context *context, sl_mesh_joint *joints, size_t count, sl_space *space);
 
 /// Makes the cells, portals, walls and grid of a space whose bounds and seams are there, of the

@@ -1,6 +1,6 @@
-/// The outline: each cell's exits in order, and between them what walls and the border there are. A
-/// mesh knows what each side is. In a kd-tree's space the wall on a piece of the boundary is found
-/// through a grid over the walls, and decided by the exact predicate.
+/// The outline: each cell's directed portals in order, and between them what walls and the border
+/// there are. A mesh knows what each side is. In a kd-tree's space the wall on a piece of the
+/// boundary is found through a grid over the walls, and decided by the exact predicate.
 #include "sightline/outline.h"
 
 #include "base/base.h"
@@ -24,7 +24,7 @@ typedef struct outliner {
     double reach; ///< of the grid
     SL_ARRAY(cover) covers;
     SL_ARRAY(sl_side) sides;
-    uint32_t *of_exit; ///< the side of each exit
+    uint32_t *of_portal; ///< the side of each directed portal
 } outliner;
 
 static bool same(sl_point a, sl_point b) {
@@ -73,10 +73,10 @@ static sl_status gather_covers(sl_context *context, outliner *o, sl_point from, 
     return SL_OK;
 }
 
-static sl_status add_side(sl_context *context, outliner *o, sl_point start, uint32_t beyond) {
+static sl_status add_side(sl_context *context, outliner *o, sl_point start, uint32_t neighbour) {
     SL_TRY(SL_ARRAY_ROOM(context, &o->sides, 1));
     const uint32_t next = (uint32_t)o->sides.count + 1;
-    o->sides.items[o->sides.count++] = (sl_side){start, next, beyond};
+    o->sides.items[o->sides.count++] = (sl_side){start, next, neighbour};
     return SL_OK;
 }
 
@@ -121,16 +121,16 @@ static sl_status outline_known(sl_context *context, outliner *o, uint32_t cell) 
     const sl_space *s = o->space;
     const sl_cell *c = &s->cells[cell];
     const uint32_t first = (uint32_t)o->sides.count;
-    uint32_t exit = c->first_exit;
+    uint32_t directed = c->first_directed;
     for (uint32_t i = 0; i < c->vertex_count; i++) {
         const sl_point *corners = s->vertices + c->first_vertex;
-        const uint32_t edge = s->beyond[c->first_vertex + i];
-        if (edge == SL_BEYOND_BORDER) {
+        const uint32_t edge = s->neighbour[c->first_vertex + i];
+        if (edge == SL_NEIGHBOUR_BORDER) {
             SL_TRY(add_border(context, o, cell, corners[i], corners[(i + 1) % c->vertex_count]));
-        } else if (edge != SL_BEYOND_EXIT) {
-            SL_TRY(add_side(context, o, corners[i], SL_SIDE_WALL + (edge & ~SL_BEYOND_RIGHT)));
+        } else if (edge != SL_NEIGHBOUR_PORTAL) {
+            SL_TRY(add_side(context, o, corners[i], SL_SIDE_WALL + (edge & ~SL_NEIGHBOUR_RIGHT)));
         } else {
-            o->of_exit[exit++] = (uint32_t)o->sides.count;
+            o->of_portal[directed++] = (uint32_t)o->sides.count;
             SL_TRY(add_side(context, o, corners[i], 0));
         }
     }
@@ -140,27 +140,27 @@ static sl_status outline_known(sl_context *context, outliner *o, uint32_t cell) 
 }
 
 static sl_status outline_cell(sl_context *context, outliner *o, uint32_t cell) {
-    if (o->space->beyond) return outline_known(context, o, cell);
+    if (o->space->neighbour) return outline_known(context, o, cell);
     const sl_cell *c = &o->space->cells[cell];
     const sl_point *corners = o->space->vertices + c->first_vertex;
     const uint32_t first = (uint32_t)o->sides.count;
-    uint32_t exit = c->first_exit;
+    uint32_t directed = c->first_directed;
     for (uint32_t i = 0; i < c->vertex_count; i++) {
         sl_point at = corners[i];
         const sl_point end = corners[(i + 1) % c->vertex_count];
-        for (; exit < c->first_exit + c->exit_count; exit++) {
-            const sl_exit *e = &o->space->exits[exit];
+        for (; directed < c->first_directed + c->directed_count; directed++) {
+            const sl_directed_portal *e = &o->space->directed[directed];
             if (!on_edge(corners[i], end, e->right) || !on_edge(corners[i], end, e->left)) break;
             if (!same(at, e->right)) SL_TRY(add_gap(context, o, cell, at, e->right));
-            o->of_exit[exit] = (uint32_t)o->sides.count;
+            o->of_portal[directed] = (uint32_t)o->sides.count;
             SL_TRY(add_side(context, o, e->right, 0));
             at = e->left;
         }
         if (!same(at, end)) SL_TRY(add_gap(context, o, cell, at, end));
     }
-    if (exit != c->first_exit + c->exit_count)
+    if (directed != c->first_directed + c->directed_count)
         return sl_fail(context, SL_BAD_ARGUMENT, "cell %u: exit %u is not on its boundary", cell,
-                       exit - c->first_exit);
+                       directed - c->first_directed);
     if (o->sides.count > INT32_MAX) return sl_fail_memory(context);
     o->sides.items[o->sides.count - 1].next = first;
     return SL_OK;
@@ -172,14 +172,14 @@ static sl_status join_portals(sl_context *context, outliner *o) {
     uint32_t *one = sl_alloc_array(context, s->portal_count, sizeof *one);
     if (!one) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < s->portal_count; i++) one[i] = UINT32_MAX;
-    for (uint32_t i = 0; i < s->exit_count; i++) {
-        const uint32_t portal = s->exits[i].portal, side = o->of_exit[i];
+    for (uint32_t i = 0; i < s->directed_count; i++) {
+        const uint32_t portal = s->directed[i].portal, side = o->of_portal[i];
         if (one[portal] == UINT32_MAX) {
             one[portal] = side;
             continue;
         }
-        o->sides.items[side].beyond = one[portal];
-        o->sides.items[one[portal]].beyond = side;
+        o->sides.items[side].neighbour = one[portal];
+        o->sides.items[one[portal]].neighbour = side;
     }
     sl_free(context, one);
     return SL_OK;
@@ -195,9 +195,9 @@ static sl_status make_grid(sl_context *context, outliner *o) {
 
 static sl_status outline_all(sl_context *context, outliner *o, uint32_t *first) {
     const sl_space *s = o->space;
-    if (!s->beyond) SL_TRY(make_grid(context, o));
-    o->of_exit = sl_alloc_array(context, s->exit_count, sizeof *o->of_exit);
-    if (!o->of_exit) return SL_NO_MEMORY;
+    if (!s->neighbour) SL_TRY(make_grid(context, o));
+    o->of_portal = sl_alloc_array(context, s->directed_count, sizeof *o->of_portal);
+    if (!o->of_portal) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < s->cell_count; i++) {
         first[i] = (uint32_t)o->sides.count;
         if (i % 1024 == 0) SL_TRY(sl_check_cancelled(context));
@@ -234,14 +234,14 @@ sl_status sl_outline_make(sl_context *context, const sl_space *space, sl_outline
     made.sides = o.sides.items;
     made.side_count = (uint32_t)o.sides.count;
     if (status == SL_OK)
-        status = space->beyond ? keep_cells(context, &made) : sl_rooms_make(context, &made);
+        status = space->neighbour ? keep_cells(context, &made) : sl_rooms_make(context, &made);
     if (status == SL_OK)
         *out = made;
     else
         sl_outline_destroy(context, &made);
     sl_wall_grid_destroy(context, &o.grid);
     sl_free(context, o.covers.items);
-    sl_free(context, o.of_exit);
+    sl_free(context, o.of_portal);
     return status;
 }
 

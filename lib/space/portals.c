@@ -1,5 +1,5 @@
 /// Portals: along each split line the cells on its two sides are merged and the walls on it left
-/// out. Exits: each cell's portals, as it crosses them on the way out.
+/// out. Directed portals: each cell's portals, as it crosses them on the way out.
 #include "space/kd_tree.h"
 
 #include <stdlib.h>
@@ -121,10 +121,10 @@ int sl_compare_portals(const void *left, const void *right) {
     return compare_points(a->right, b->right);
 }
 
-/// Compares two exits of one cell by their place on its boundary, counter-clockwise from the corner
-/// at the lower left. That way round, an exit's right end comes first.
-static int compare_exits(const void *left, const void *right) {
-    const sl_exit *a = left, *b = right;
+/// Compares two directed portals of one cell by their place on its boundary, counter-clockwise from
+/// the corner at the lower left. That way round, a directed portal's right end comes first.
+static int compare_directed(const void *left, const void *right) {
+    const sl_directed_portal *a = left, *b = right;
     const sl_point u = {a->left.x - a->right.x, a->left.y - a->right.y};
     const sl_point v = {b->left.x - b->right.x, b->left.y - b->right.y};
     const int edge_a = u.x > 0 ? 0 : u.y > 0 ? 1 : u.x < 0 ? 2 : 3;
@@ -134,33 +134,33 @@ static int compare_exits(const void *left, const void *right) {
     return edge_a < 2 ? order : -order;
 }
 
-sl_status sl_make_exits(sl_context *context, sl_space *space) {
-    space->exits = sl_alloc_array(context, space->exit_count, sizeof *space->exits);
-    if (!space->exits) return SL_NO_MEMORY;
+sl_status sl_make_directed(sl_context *context, sl_space *space) {
+    space->directed = sl_alloc_array(context, space->directed_count, sizeof *space->directed);
+    if (!space->directed) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < space->portal_count; i++)
         for (int side = 0; side < 2; side++)
-            space->cells[space->portals[i].cell[side]].exit_count++;
+            space->cells[space->portals[i].cell[side]].directed_count++;
     uint32_t first = 0;
     for (uint32_t i = 0; i < space->cell_count; i++) {
-        space->cells[i].first_exit = first;
-        first += space->cells[i].exit_count;
-        space->cells[i].exit_count = 0;
+        space->cells[i].first_directed = first;
+        first += space->cells[i].directed_count;
+        space->cells[i].directed_count = 0;
     }
     for (uint32_t i = 0; i < space->portal_count; i++) {
         const sl_portal *p = &space->portals[i];
         for (int side = 0; side < 2; side++) {
             sl_cell *cell = &space->cells[p->cell[side]];
-            space->exits[cell->first_exit + cell->exit_count++] =
-                (sl_exit){.portal = i,
-                          .cell = p->cell[!side],
-                          .left = side ? p->right : p->left,
-                          .right = side ? p->left : p->right};
+            space->directed[cell->first_directed + cell->directed_count++] =
+                (sl_directed_portal){.portal = i,
+                                     .cell = p->cell[!side],
+                                     .left = side ? p->right : p->left,
+                                     .right = side ? p->left : p->right};
         }
     }
     for (uint32_t i = 0; i < space->cell_count; i++) {
         const sl_cell *cell = &space->cells[i];
-        qsort(space->exits + cell->first_exit, cell->exit_count, sizeof *space->exits,
-              compare_exits);
+        qsort(space->directed + cell->first_directed, cell->directed_count, sizeof *space->directed,
+              compare_directed);
     }
     return SL_OK;
 }
@@ -176,9 +176,9 @@ static sl_status make_all(sl_context *context, portal_maker *maker, sl_space *sp
               sl_compare_portals);
     space->portals = maker->portals.items;
     space->portal_count = (uint32_t)maker->portals.count;
-    space->exit_count = 2 * space->portal_count;
+    space->directed_count = 2 * space->portal_count;
     maker->portals.items = NULL;
-    return sl_make_exits(context, space);
+    return sl_make_directed(context, space);
 }
 
 sl_status sl_make_portals(sl_context *context, const sl_kd_tree *tree, sl_space *space) {

@@ -61,7 +61,7 @@ static bool is_convex(sl_point a, sl_point p, sl_point b) {
 
 /// Whether the corner where a portal starts is convex once the portal is gone.
 static bool leaves_convex(const joiner *j, uint32_t portal) {
-    const uint32_t after = side(j, side(j, portal)->beyond)->next;
+    const uint32_t after = side(j, side(j, portal)->neighbour)->next;
     return is_convex(side(j, j->mesh.previous.items[portal])->start, side(j, portal)->start,
                      sl_mesh_end(&j->mesh, after));
 }
@@ -72,7 +72,7 @@ static sl_status join_round(sl_context *context, joiner *j, bool *any) {
     j->candidates.count = 0;
     for (uint32_t i = 0; i < m->sides.count; i++) {
         if (m->previous.items[i] == SL_SIDE_GONE || !sl_side_is_portal(side(j, i)) ||
-            side(j, i)->beyond < i)
+            side(j, i)->neighbour < i)
             continue;
         const sl_point a = side(j, i)->start, b = sl_mesh_end(m, i);
         SL_TRY(SL_ARRAY_ROOM(context, &j->candidates, 1));
@@ -85,7 +85,7 @@ static sl_status join_round(sl_context *context, joiner *j, bool *any) {
     for (size_t i = 0; i < j->candidates.count; i++) {
         if (i % 1024 == 0) SL_TRY(sl_check_cancelled(context));
         const uint32_t portal = j->candidates.items[i].side;
-        if (!leaves_convex(j, portal) || !leaves_convex(j, side(j, portal)->beyond)) continue;
+        if (!leaves_convex(j, portal) || !leaves_convex(j, side(j, portal)->neighbour)) continue;
         SL_TRY(sl_mesh_drop(context, m, portal));
         *any = true;
     }
@@ -150,8 +150,8 @@ static sl_status pack(sl_context *context, joiner *j, sl_outline *o) {
     for (uint32_t i = 0; i < j->mesh.sides.count; i++) {
         if (j->mesh.previous.items[i] == SL_SIDE_GONE) continue;
         const sl_side *s = side(j, i);
-        const uint32_t beyond = sl_side_is_portal(s) ? j->number[s->beyond] : s->beyond;
-        sides[j->number[i]] = (sl_side){s->start, j->number[s->next], beyond};
+        const uint32_t neighbour = sl_side_is_portal(s) ? j->number[s->neighbour] : s->neighbour;
+        sides[j->number[i]] = (sl_side){s->start, j->number[s->next], neighbour};
     }
     o->side_count = count;
     o->room_count = (uint32_t)j->starts.count;
@@ -202,8 +202,8 @@ static sl_status share_room(sl_context *context, joiner *j, const sl_outline *o,
         SL_TRY(share_cell(context, j, o, i, room));
     while (j->waiting.count) {
         const sl_cell *c = &o->space->cells[j->waiting.items[--j->waiting.count]];
-        for (uint32_t i = 0; i < c->exit_count; i++)
-            SL_TRY(share_cell(context, j, o, o->space->exits[c->first_exit + i].cell, room));
+        for (uint32_t i = 0; i < c->directed_count; i++)
+            SL_TRY(share_cell(context, j, o, o->space->directed[c->first_directed + i].cell, room));
     }
     return SL_OK;
 }

@@ -50,7 +50,7 @@ static sl_status remove_side(sl_context *context, sl_mesh *m, uint32_t i) {
 }
 
 sl_status sl_mesh_drop(sl_context *context, sl_mesh *m, uint32_t portal) {
-    const uint32_t other = side(m, portal)->beyond;
+    const uint32_t other = side(m, portal)->neighbour;
     sl_mesh_link(m, m->previous.items[portal], side(m, other)->next);
     sl_mesh_link(m, m->previous.items[other], side(m, portal)->next);
     SL_TRY(remove_side(context, m, portal));
@@ -167,7 +167,7 @@ static sl_status cut_cells(cutter *c) {
 static uint32_t first_spoke(const sl_mesh *m, uint32_t from) {
     uint32_t i = from;
     while (sl_side_is_portal(side(m, i))) {
-        i = side(m, side(m, i)->beyond)->next;
+        i = side(m, side(m, i)->neighbour)->next;
         if (i == from) return from;
     }
     return i;
@@ -192,7 +192,7 @@ static sl_status gather_star(cutter *c, uint32_t first, uint32_t *last) {
             SL_TRY(add_corner(c, stop));
             break;
         }
-        spoke = side(m, stop)->beyond;
+        spoke = side(m, stop)->neighbour;
         if (spoke == first) break;
     }
     return SL_ARRAY_ROOM(c->context, &c->ears, c->ring.count);
@@ -201,7 +201,7 @@ static sl_status gather_star(cutter *c, uint32_t first, uint32_t *last) {
 /// Whether two sides go on in one line along the same wall or border.
 static bool goes_on(const sl_mesh *m, uint32_t before, uint32_t after) {
     const sl_point a = side(m, before)->start, p = side(m, after)->start, b = sl_mesh_end(m, after);
-    return side(m, before)->beyond == side(m, after)->beyond && sl_orient(a, p, b) == 0 &&
+    return side(m, before)->neighbour == side(m, after)->neighbour && sl_orient(a, p, b) == 0 &&
            (a.x < p.x) == (p.x < b.x) && (a.y < p.y) == (p.y < b.y) && !same(a, b);
 }
 
@@ -230,7 +230,7 @@ static double length(sl_point a, sl_point b) {
 /// there.
 static sl_status flip(cutter *c, uint32_t portal, bool *any) {
     sl_mesh *m = c->mesh;
-    const uint32_t other = side(m, portal)->beyond;
+    const uint32_t other = side(m, portal)->neighbour;
     const uint32_t after = side(m, portal)->next, across = side(m, other)->next;
     const uint32_t to = m->previous.items[portal], from = m->previous.items[other];
     if (side(m, after)->next != to || side(m, across)->next != from) return SL_OK;

@@ -19,9 +19,9 @@ void sl_space_destroy(sl_context *context, sl_space *space) {
     sl_free(context, space->cells);
     sl_free(context, space->vertices);
     sl_free(context, space->portals);
-    sl_free(context, space->exits);
+    sl_free(context, space->directed);
     sl_free(context, space->walls);
-    sl_free(context, space->beyond);
+    sl_free(context, space->neighbour);
     sl_cell_grid_destroy(context, &space->grid);
     sl_free(context, space->seams);
     sl_free(context, space->seam_portals);
@@ -151,7 +151,7 @@ uint32_t sl_space_locate(const sl_space *space, sl_point point) {
     if (!space->cell_count || !(point.x >= b->min.x && point.x <= b->max.x) ||
         !(point.y >= b->min.y && point.y <= b->max.y))
         return SL_NO_CELL;
-    if (space->beyond) return locate_in_bucket(space, point);
+    if (space->neighbour) return locate_in_bucket(space, point);
     int32_t at = space->root;
     while (at >= 0) {
         const sl_node *node = &space->nodes[at];

@@ -367,11 +367,11 @@ static sl_status find_crossing(maker *m, uint32_t a, uint32_t b, uint32_t half) 
         if (m->t->labels[half / 2]) return fail_at(m, a, b);
         SL_TRY(SL_ARRAY_ROOM(m->context, &m->crossing, 1));
         m->crossing.items[m->crossing.count++] = half;
-        const uint32_t beyond = next(m, half ^ 1), apex = to(m, beyond);
+        const uint32_t neighbour = next(m, half ^ 1), apex = to(m, neighbour);
         if (apex == b) return SL_OK;
         const int sign = side(m, a, b, apex);
         if (sign == 0) return fail_at(m, a, b);
-        half = sign > 0 ? beyond : next(m, beyond);
+        half = sign > 0 ? neighbour : next(m, neighbour);
     }
 }
 

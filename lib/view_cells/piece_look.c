@@ -256,7 +256,7 @@ static bool is_behind(const look *l, const sl_room_side *side) {
 static sl_status try_side(look *l, const sl_room_side *side) {
     sl_view_looker *me = l->me;
     step to = me->steps.items[me->steps.count - 1];
-    const sl_exit exit = {.left = side->left, .right = side->right};
+    const sl_directed_portal directed = {.left = side->left, .right = side->right};
     if (me->steps.count == 1 && is_behind(l, side)) return SL_OK;
     if (side->room != SL_NO_ROOM && me->allowed[side->room] != me->allowing) return SL_OK;
     if (side->room == SL_NO_ROOM) {
@@ -264,7 +264,7 @@ static sl_status try_side(look *l, const sl_room_side *side) {
         if (me->steps.count == 1) return SL_OK;
         if (l->limited && me->asked[side->object] != me->looking) return SL_OK;
     }
-    if (!sl_cone_cut(&to.cone, &exit)) return SL_OK;
+    if (!sl_cone_cut(&to.cone, &directed)) return SL_OK;
     bool seen;
     SL_TRY(push(l, side, &to.cone, &seen));
     if (seen && side->object != SL_NO_OBJECT) SL_TRY(add_object(l, side->object));

@@ -16,12 +16,12 @@ static bool is_between(sl_point a, sl_point b, sl_point p) {
 /// How many pieces of a cell's boundary are no portal: what is rendered of it.
 static uint32_t count_walls(const sl_space *space, const sl_cell *cell) {
     const sl_point *corners = space->vertices + cell->first_vertex;
-    uint32_t exit = cell->first_exit, count = 0;
+    uint32_t directed = cell->first_directed, count = 0;
     for (uint32_t i = 0; i < cell->vertex_count; i++) {
         sl_point at = corners[i];
         const sl_point end = corners[i + 1 < cell->vertex_count ? i + 1 : 0];
-        for (; exit < cell->first_exit + cell->exit_count; exit++) {
-            const sl_exit *e = &space->exits[exit];
+        for (; directed < cell->first_directed + cell->directed_count; directed++) {
+            const sl_directed_portal *e = &space->directed[directed];
             if (!is_between(at, end, e->right) || !is_between(at, end, e->left)) break;
             count += at.x != e->right.x || at.y != e->right.y;
             at = e->left;

@@ -40,11 +40,11 @@ static void add_cell(const sl_space *space, const uint32_t *number, uint32_t cel
     uint32_t corner = rooms->first_corner[room], side = rooms->first_side[room];
     for (uint32_t i = 0; i < c->vertex_count; i++)
         rooms->corners[corner++] = space->vertices[c->first_vertex + i];
-    for (uint32_t e = c->first_exit; e < c->first_exit + c->exit_count; e++) {
-        const sl_exit *exit = &space->exits[e];
-        if (number[exit->cell] == SL_NO_ROOM) continue;
+    for (uint32_t e = c->first_directed; e < c->first_directed + c->directed_count; e++) {
+        const sl_directed_portal *directed = &space->directed[e];
+        if (number[directed->cell] == SL_NO_ROOM) continue;
         rooms->sides[side++] =
-            (sl_room_side){exit->left, exit->right, number[exit->cell], exit->cell};
+            (sl_room_side){directed->left, directed->right, number[directed->cell], directed->cell};
     }
     rooms->object[room] = cell;
     rooms->first_corner[room + 1] = corner;
@@ -58,7 +58,7 @@ static sl_status take_cells(sl_context *context, const sl_space *space, sl_view_
     for (uint32_t i = 0; i < space->cell_count; i++)
         number[i] = space->cells[i].inside ? next++ : SL_NO_ROOM;
     const sl_status status =
-        make_arrays(context, next, space->vertex_count, space->exit_count, rooms);
+        make_arrays(context, next, space->vertex_count, space->directed_count, rooms);
     for (uint32_t i = 0; i < space->cell_count && status == SL_OK; i++)
         if (number[i] != SL_NO_ROOM) add_cell(space, number, i, rooms);
     rooms->object_count = space->cell_count;
@@ -93,9 +93,9 @@ static void add_room(const sl_outline *outline, const uint32_t *room_of, const u
                              SL_NO_OBJECT};
         rooms->corners[corner++] = side->start;
         if (sl_side_is_portal(side))
-            made.room = number[room_of[side->beyond]];
-        else if (side->beyond < SL_SIDE_BORDER)
-            made.object = side->beyond - SL_SIDE_WALL;
+            made.room = number[room_of[side->neighbour]];
+        else if (side->neighbour < SL_SIDE_BORDER)
+            made.object = side->neighbour - SL_SIDE_WALL;
         if (made.room != SL_NO_ROOM || made.object != SL_NO_OBJECT) rooms->sides[at++] = made;
     }
     rooms->object[room] = SL_NO_OBJECT;

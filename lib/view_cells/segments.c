@@ -75,10 +75,10 @@ static bool follow(const sl_outline *outline, uint32_t side, sl_point p, sl_poin
         const sl_side *s = &outline->sides[side];
         if (!sl_side_is_portal(s)) {
             out->at = meet(p, q, s->start, outline->sides[s->next].start);
-            out->wall = s->beyond >= SL_SIDE_BORDER ? UINT32_MAX : s->beyond - SL_SIDE_WALL;
+            out->wall = s->neighbour >= SL_SIDE_BORDER ? UINT32_MAX : s->neighbour - SL_SIDE_WALL;
             return true;
         }
-        side = s->beyond;
+        side = s->neighbour;
     }
     return false;
 }
@@ -87,12 +87,13 @@ static bool follow(const sl_outline *outline, uint32_t side, sl_point p, sl_poin
 static sl_status pass_cells(sl_context *context, const sl_space *space, uint32_t cell, sl_point p,
                             sl_point q, batch *b) {
     for (uint32_t passed = 0; passed <= space->cell_count; passed++) {
-        const sl_exit *exit = space->exits + space->cells[cell].first_exit;
-        const sl_exit *end = exit + space->cells[cell].exit_count;
-        while (exit < end && (sl_orient(p, q, exit->right) > 0 || sl_orient(p, q, exit->left) <= 0))
-            exit++;
-        if (exit == end) return SL_OK;
-        cell = exit->cell;
+        const sl_directed_portal *directed = space->directed + space->cells[cell].first_directed;
+        const sl_directed_portal *end = directed + space->cells[cell].directed_count;
+        while (directed < end &&
+               (sl_orient(p, q, directed->right) > 0 || sl_orient(p, q, directed->left) <= 0))
+            directed++;
+        if (directed == end) return SL_OK;
+        cell = directed->cell;
         SL_TRY(SL_ARRAY_ROOM(context, &b->objects, 1));
         b->objects.items[b->objects.count++] = cell;
     }

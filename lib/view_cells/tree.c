@@ -58,7 +58,7 @@ sl_point sl_view_cell_middle(const sl_space *space, uint32_t cell) {
 }
 
 uint32_t sl_view_cell_home(const sl_space *homes, const sl_space *space, uint32_t cell) {
-    if (homes->beyond) return sl_space_locate(homes, sl_view_cell_middle(space, cell));
+    if (homes->neighbour) return sl_space_locate(homes, sl_view_cell_middle(space, cell));
     const sl_cell *c = &space->cells[cell];
     sl_point least = space->vertices[c->first_vertex];
     for (uint32_t i = 1; i < c->vertex_count; i++) {

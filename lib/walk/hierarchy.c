@@ -208,7 +208,7 @@ static void tie_ropes(sl_hierarchy *h) {
 }
 
 sl_status sl_hierarchy_make(sl_context *context, const sl_space *space, sl_hierarchy *out) {
-    sl_hierarchy h = {.space = space, .tiles = !space->beyond, .corner_most = 4};
+    sl_hierarchy h = {.space = space, .tiles = !space->neighbour, .corner_most = 4};
     making m = {.context = context, .h = &h};
     for (uint32_t c = 0; c < space->cell_count; c++)
         if (space->cells[c].vertex_count > h.corner_most)

@@ -89,9 +89,9 @@ static sl_status add_cell(sl_context *context, const sl_space *space, const run 
     for (uint32_t i = 0; i < c->vertex_count; i++) {
         const uint32_t at = c->first_vertex + i;
         const uint32_t next = c->first_vertex + (i + 1) % c->vertex_count;
-        if (space->beyond) {
-            if (space->beyond[at] < SL_BEYOND_BORDER)
-                SL_TRY(add_wall(context, list, space->beyond[at] & ~SL_BEYOND_RIGHT));
+        if (space->neighbour) {
+            if (space->neighbour[at] < SL_NEIGHBOUR_BORDER)
+                SL_TRY(add_wall(context, list, space->neighbour[at] & ~SL_NEIGHBOUR_RIGHT));
             continue;
         }
         const run side = run_of(space->vertices[at], space->vertices[next], 0);

@@ -162,23 +162,23 @@ static void see_in_shards(sl_context *context, const sl_space *space, const sl_v
     sl_see_options options = sl_see_options_default();
     options.threads = 1;
     options.inside_only = true;
-    sl_findings all = {0};
+    sl_partial all = {0};
     sl_visibility seen;
     double longest = 0, sum = 0, time = time_of(CLOCK_PROCESS_CPUTIME_ID);
     options.shard_count = SHARDS;
     for (options.shard = 1; options.shard <= SHARDS; options.shard++) {
-        sl_findings part = {0};
+        sl_partial part = {0};
         must(context, sweep()->look(context, space, &options, &part));
         const double took = lap(&time);
         sum += took;
         if (took > longest) longest = took;
-        if (sl_findings_begun(&all))
-            must(context, sl_findings_join(context, &all, &part));
+        if (sl_partial_begun(&all))
+            must(context, sl_partial_merge(context, &all, &part));
         else {
             all = part;
-            part = (sl_findings){0};
+            part = (sl_partial){0};
         }
-        sl_findings_destroy(context, &part);
+        sl_partial_destroy(context, &part);
         of[LONGEST_SECONDS] += lap(&time);
     }
     must(context, sweep()->settle(context, space, &options, &all, &seen));
@@ -190,7 +190,7 @@ static void see_in_shards(sl_context *context, const sl_space *space, const sl_v
         memcmp(seen.pvs.bytes, whole->pvs.bytes, bytes) != 0)
         must(NULL, SL_BAD_INPUT);
     sl_visibility_destroy(context, &seen);
-    sl_findings_destroy(context, &all);
+    sl_partial_destroy(context, &all);
 }
 
 static void measure(const char *map_path, const char *path, double *walls, double *of) {

@@ -145,13 +145,13 @@ static double time_rows(sl_bit_rows *rows, const floors *f, const sl_bits *set) 
 
 /// What `count` orientation tests of points of the map take; `sum` keeps them from being left out.
 static double time_tests(const sl_fans *fans, uint64_t count, int64_t *sum) {
-    const uint32_t exits = fans->first_exit[fans->cell_count];
+    const uint32_t directed = fans->first_directed[fans->cell_count];
     double least = 1e300;
-    for (int round = 0; round < ROUNDS && exits; round++) {
+    for (int round = 0; round < ROUNDS && directed; round++) {
         const double start = now();
-        for (uint64_t i = 0, e = 0; i < count; i++, e = e + 1 < exits ? e + 1 : 0)
-            *sum += sl_orient(fans->ends.items[fans->exits[e].left],
-                              fans->ends.items[fans->exits[e].right], fans->ends.items[0]);
+        for (uint64_t i = 0, e = 0; i < count; i++, e = e + 1 < directed ? e + 1 : 0)
+            *sum += sl_orient(fans->ends.items[fans->directed[e].left],
+                              fans->ends.items[fans->directed[e].right], fans->ends.items[0]);
         const double took = now() - start;
         if (took < least) least = took;
     }

@@ -56,14 +56,15 @@ static inline void draw_add_sets(sl_context *context, draw_map *map) {
 static inline void draw_add_tree(sl_context *context, draw_map *map) {
     sl_space *space = &map->baked.space;
     const uint32_t source = map->cells[LEFT_BELOW];
-    assert_int_equal(space->cells[source].exit_count, 1);
+    assert_int_equal(space->cells[source].directed_count, 1);
     sl_stab_trees trees = {.cell_count = space->cell_count};
     trees.offsets = sl_alloc_array(context, space->cell_count + 1, sizeof *trees.offsets);
     trees.nodes = sl_alloc_array(context, 2, sizeof *trees.nodes);
     assert_true(trees.offsets && trees.nodes);
     for (uint32_t i = source + 1; i <= space->cell_count; i++) trees.offsets[i] = 2;
     trees.nodes[0] = (sl_stab_node){0, source, UINT32_MAX};
-    trees.nodes[1] = (sl_stab_node){0, map->cells[RIGHT_BELOW], space->cells[source].first_exit};
+    trees.nodes[1] =
+        (sl_stab_node){0, map->cells[RIGHT_BELOW], space->cells[source].first_directed};
     map->baked.visibility.trees = trees;
 }
 

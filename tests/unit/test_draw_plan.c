@@ -133,7 +133,7 @@ static void add_mirrored_nodes(sl_context *context, draw_map *map) {
     assert_non_null(nodes);
     memcpy(nodes, trees->nodes, 2 * sizeof *nodes);
     nodes[2] = (sl_stab_node){1, right, SL_STAB_MIRROR};
-    nodes[3] = (sl_stab_node){2, left, space->cells[right].first_exit};
+    nodes[3] = (sl_stab_node){2, left, space->cells[right].first_directed};
     sl_free(context, trees->nodes);
     trees->nodes = nodes;
     for (uint32_t i = left + 1; i <= space->cell_count; i++) trees->offsets[i] = 4;

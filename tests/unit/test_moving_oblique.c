@@ -103,7 +103,7 @@ static void gather_segments(trial *t) {
         const sl_cell *cell = &boxed->cells[i];
         const sl_point *v = boxed->vertices + cell->first_vertex;
         for (uint32_t k = 0; k < cell->vertex_count; k++)
-            if (boxed->beyond[cell->first_vertex + k] < SL_BEYOND_BORDER)
+            if (boxed->neighbour[cell->first_vertex + k] < SL_NEIGHBOUR_BORDER)
                 add_segment(&t->bent, v[k], v[(k + 1) % cell->vertex_count]);
     }
 }
@@ -205,10 +205,10 @@ static void check_walls(trial *t) {
         const sl_cell *cell = &boxed->cells[i];
         const sl_point *v = boxed->vertices + cell->first_vertex;
         for (uint32_t k = 0; k < cell->vertex_count; k++) {
-            const uint32_t what = boxed->beyond[cell->first_vertex + k];
-            const uint32_t wall = what & ~SL_BEYOND_RIGHT;
+            const uint32_t what = boxed->neighbour[cell->first_vertex + k];
+            const uint32_t wall = what & ~SL_NEIGHBOUR_RIGHT;
             const sl_point ends[2] = {v[k], v[(k + 1) % cell->vertex_count]};
-            if (what >= SL_BEYOND_BORDER) continue;
+            if (what >= SL_NEIGHBOUR_BORDER) continue;
             const sl_wall *w = &boxed->walls[wall];
             for (int e = 0; e < 2; e++) {
                 if (same(ends[e], w->a) || same(ends[e], w->b)) continue;

@@ -242,8 +242,8 @@ static bool make_sequence(sl_random *random, sl_portal_ends *portals, size_t cou
         const sl_point a = grid_point(random), b = grid_point(random);
         if (a.x == b.x && a.y == b.y) return false;
         portals[i] = (sl_portal_ends){a, b};
-        const sl_exit exit = {.left = a, .right = b};
-        if (!sl_cone_cut(cone, &exit)) return false;
+        const sl_directed_portal directed = {.left = a, .right = b};
+        if (!sl_cone_cut(cone, &directed)) return false;
     }
     return true;
 }

@@ -34,8 +34,8 @@ static double check_room(const sl_outline *o, uint32_t room, uint64_t seed) {
             fail_msg("seed %llu: a corner of room %u at %g %g is no wall's end",
                      (unsigned long long)seed, room, a.x, a.y);
         if (sl_side_is_portal(s)) {
-            const sl_side *other = &o->sides[s->beyond];
-            assert_int_equal(other->beyond, i);
+            const sl_side *other = &o->sides[s->neighbour];
+            assert_int_equal(other->neighbour, i);
             assert_true(same(other->start, b) && same(o->sides[other->next].start, a));
         }
         twice += (a.x - origin.x) * (b.y - origin.y) - (a.y - origin.y) * (b.x - origin.x);

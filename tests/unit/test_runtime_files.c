@@ -125,14 +125,14 @@ static void a_lie_under_a_seal_is_refused(void **state) {
         {"CELL", offsetof(sl_cell, first_vertex), 4, &most, SL_RUNTIME_SPACE},
         {"CELL", offsetof(sl_cell, vertex_count), 4, &most, SL_RUNTIME_SPACE},
         {"CELL", offsetof(sl_cell, vertex_count), 4, "\2\0\0\0", SL_RUNTIME_SPACE},
-        {"CELL", offsetof(sl_cell, first_exit), 4, &one, SL_RUNTIME_SPACE},
-        {"CELL", offsetof(sl_cell, exit_count), 4, &most, SL_RUNTIME_SPACE},
-        {"CELL", offsetof(sl_cell, exit_count), 4, "\0\0\0\0", SL_RUNTIME_SPACE},
+        {"CELL", offsetof(sl_cell, first_directed), 4, &one, SL_RUNTIME_SPACE},
+        {"CELL", offsetof(sl_cell, directed_count), 4, &most, SL_RUNTIME_SPACE},
+        {"CELL", offsetof(sl_cell, directed_count), 4, "\0\0\0\0", SL_RUNTIME_SPACE},
         {"VERT", 8, 8, &infinite, SL_RUNTIME_SPACE},
-        {"EXIT", offsetof(sl_exit, portal), 4, &most, SL_RUNTIME_SPACE},
-        {"EXIT", offsetof(sl_exit, cell), 4, &most, SL_RUNTIME_SPACE},
-        {"EXIT", offsetof(sl_exit, left), 8, &nan, SL_RUNTIME_SPACE},
-        {"EXIT", offsetof(sl_exit, right) + 8, 8, &far, SL_RUNTIME_SPACE},
+        {"EXIT", offsetof(sl_directed_portal, portal), 4, &most, SL_RUNTIME_SPACE},
+        {"EXIT", offsetof(sl_directed_portal, cell), 4, &most, SL_RUNTIME_SPACE},
+        {"EXIT", offsetof(sl_directed_portal, left), 8, &nan, SL_RUNTIME_SPACE},
+        {"EXIT", offsetof(sl_directed_portal, right) + 8, 8, &far, SL_RUNTIME_SPACE},
         {"PVSO", 0, 4, &one, SL_RUNTIME_ROW},
         {"PVSO", 8, 8, &much, SL_RUNTIME_ROW},
         {"PVSB", 0, 1, "\1", SL_RUNTIME_ROW},       // not its own cell
@@ -284,16 +284,16 @@ static void unknown_sections_are_passed_over(void **state) {
 /// are more ways through them than can be tried.
 static void make_tangle(baked_file *f) {
     const sl_runtime *r = &f->runtime;
-    char *exits = slv_items(f->bytes, "EXIT");
+    char *directed = slv_items(f->bytes, "EXIT");
     const double middle = r->min_y / 2 + r->max_y / 2, half = r->max_y - middle;
     sl_random random = {1};
-    for (uint32_t i = 0; i < r->exit_count; i++) {
-        const sl_exit exit = {
+    for (uint32_t i = 0; i < r->directed_count; i++) {
+        const sl_directed_portal portal = {
             .cell = (uint32_t)sl_random_below(&random, r->cell_count),
             .left = {r->max_x, middle + half * sl_random_unit(&random)},
             .right = {r->max_x, middle - half * sl_random_unit(&random)},
         };
-        memcpy(exits + i * sizeof exit, &exit, sizeof exit);
+        memcpy(directed + i * sizeof portal, &portal, sizeof portal);
     }
     slv_seal(f->bytes, f->size);
     baked_file_open(f);

@@ -197,9 +197,9 @@ static void as_walls_in_the_doors(void **state) {
             bool shut[DOORS];
             for (int k = 0; k < DOORS; k++)
                 t.shut[k] = shut[k] = sl_random_below(&t.random, STATES) < (uint64_t)i;
-            const sl_passage passage = {.shut = shut};
-            assert_ok(t.context,
-                      sl_passage_make(t.context, &t.file.baked.space, &passage, NULL, &t.walled));
+            const sl_filtered_space filtered = {.shut = shut};
+            assert_ok(t.context, sl_filtered_space_make(t.context, &t.file.baked.space, &filtered,
+                                                        NULL, &t.walled));
             for (int k = 0; k < 6; k++) try_eye(&t);
             sl_space_destroy(t.context, &t.walled);
         }

@@ -81,7 +81,7 @@ static void a_lie_under_a_seal_is_refused(void **state) {
         {"INFO", INFO_FIELD(pairs), &pairs, "do not hold as many pairs"},
         {"WALL", 0, sizeof nan, &nan, "wall 0 lies out of range"},
         {"WALL", 24, sizeof far, &far, "wall 0 lies out of range"},
-        {"CELL", offsetof(sl_cell, first_exit), sizeof most, &most, "cell 0 has exits out of"},
+        {"CELL", offsetof(sl_cell, first_directed), sizeof most, &most, "cell 0 has exits out of"},
         {"PVSB", 0, 2, "\1\1", "visible set 0 lacks its own cell"},
         {"PVSB", 0, 1, "\3", "visible set 0 is damaged"},
         {"TREN", offsetof(sl_stab_node, parent), sizeof one, &one, "stab tree 0 is no tree"},
@@ -213,10 +213,10 @@ static void bake_part(sl_context *context, uint32_t shard_count, sl_baked *baked
     options.shard = options.shard_count = shard_count;
     options.enough = after_one_source;
     options.enough_user = &asked;
-    assert_ok(context, dfs->look(context, &baked->space, &options, &baked->findings));
-    assert_true(sl_findings_left(&baked->findings) > 0 || shard_count);
+    assert_ok(context, dfs->run(context, &baked->space, &options, &baked->partial));
+    assert_true(sl_partial_left(&baked->partial) > 0 || shard_count);
     if (!shard_count)
-        assert_ok(context, dfs->settle(context, &baked->space, &options, &baked->findings,
+        assert_ok(context, dfs->finish(context, &baked->space, &options, &baked->partial,
                                        &baked->visibility));
 }
 
@@ -229,7 +229,7 @@ static void a_partial_file_says_what_it_is(void **state) {
     const file f = print(context, &baked);
     assert_ok(context, sl_baked_parse(context, "part", f.bytes, f.size, &back));
     assert_int_equal(back.visibility.guarantee, SL_CONSERVATIVE);
-    assert_int_equal(back.findings.done_count, baked.findings.done_count);
+    assert_int_equal(back.partial.done_count, baked.partial.done_count);
     sl_baked_say_partial(&back, text);
     assert_non_null(strstr(text, "cells looked at; what is not decided counts as seen"));
     const file again = print(context, &back);

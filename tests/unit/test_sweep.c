@@ -241,7 +241,7 @@ static void large_maps_are_seen_alike(void **state) {
     assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
     const sl_subdivide_options rules = sl_subdivide_options_default();
     assert_ok(context, sl_subdivide_kd(context, &map, &rules, &space));
-    assert_true((uint64_t)space.exit_count * space.cell_count / 8 > (uint64_t)64 << 20);
+    assert_true((uint64_t)space.directed_count * space.cell_count / 8 > (uint64_t)64 << 20);
     sl_see_options options = sl_see_options_default();
     options.solver = sl_funnel();
     sl_visibility swept, pruned, passed;

@@ -148,8 +148,8 @@ static void crossings_are_those_of_some_direction(void **state) {
         double x, y;
     } ways[] = {{0, 1, 0},  {90, 0, 1},   {180, -1, 0},  {270, 0, -1},
                 {45, 1, 1}, {135, -1, 1}, {225, -1, -1}, {315, 1, -1}};
-    sl_exit exits[5];
-    const sl_space space = {.exits = exits};
+    sl_directed_portal directed[5];
+    const sl_space space = {.directed = directed};
     for (int i = 0; i < 20000; i++) {
         int degrees[5];
         sl_crossings crossings = SL_CROSSINGS_NONE;
@@ -158,10 +158,10 @@ static void crossings_are_those_of_some_direction(void **state) {
             const sl_point at = {random_double(&random, 0, 0), random_double(&random, 0, 0)};
             const double size = ldexp(1, (int)(sl_random_next(&random) % 3));
             degrees[k] = ways[way].degrees;
-            exits[k].right =
+            directed[k].right =
                 (sl_point){ldexp(round(ldexp(at.x, 8)), -8), ldexp(round(ldexp(at.y, 8)), -8)};
-            exits[k].left = (sl_point){exits[k].right.x + size * ways[way].x,
-                                       exits[k].right.y + size * ways[way].y};
+            directed[k].left = (sl_point){directed[k].right.x + size * ways[way].x,
+                                          directed[k].right.y + size * ways[way].y};
             const bool some = some_direction_crosses(degrees, k + 1);
             assert_int_equal(sl_crossings_add(&space, &crossings, (uint32_t)k), some);
             if (!some) break;

@@ -24,17 +24,17 @@ static void check_work(const sl_view_work *work) {
 
 // --- pieces
 
-/// A search of its own, over the space's exits, that asks for no more than the definition: of all
-/// lines through two of the points at hand, or through one along an axis, one that passes all exits
-/// so far and the piece. (The lines of a quadrant are a polygon in the plane of lines: where there
-/// are any, one of these is among them; lines strictly between are there where the middle of some
-/// three of them is one.)
+/// A search of its own, over the space's directed portals, that asks for no more than the
+/// definition: of all lines through two of the points at hand, or through one along an axis, one
+/// that passes all directed portals so far and the piece. (The lines of a quadrant are a polygon in
+/// the plane of lines: where there are any, one of these is among them; lines strictly between are
+/// there where the middle of some three of them is one.)
 typedef struct oracle {
     const sl_space *space;
     const sl_view_piece *piece;
     sl_portal_ends ends[DEEPEST];
     size_t depth;
-    bool anyhow; ///< lines along the first exit count wherever that is
+    bool anyhow; ///< lines along the first directed portal count wherever that is
     sl_bits *seen;
 } oracle;
 
@@ -52,9 +52,9 @@ static bool line_passes(const oracle *o, sl_line line) {
     return left && right;
 }
 
-/// Whether going along a line some place of the first exit that it meets is not before all places
-/// of the piece that it meets: a question only of lines along the exit, for the piece is on its
-/// near side.
+/// Whether going along a line some place of the first directed portal that it meets is not before
+/// all places of the piece that it meets: a question only of lines along the directed portal, for
+/// the piece is on its near side.
 static bool is_ahead(const oracle *o, sl_line line) {
     const sl_portal_ends *first = &o->ends[0];
     if (sl_orient(line.a, line.b, first->left) || sl_orient(line.a, line.b, first->right))
@@ -69,8 +69,8 @@ static bool is_ahead(const oracle *o, sl_line line) {
                 dx * first->right.x + dy * first->right.y) >= least;
 }
 
-/// Whether all exits so far are crossed forwards by some direction, and by that of a line as far as
-/// a limit of such directions may.
+/// Whether all directed portals so far are crossed forwards by some direction, and by that of a
+/// line as far as a limit of such directions may.
 static bool is_forwards(const oracle *o, sl_line line) {
     for (size_t i = 0; i < o->depth; i++)
         if (sl_turn(line.a, line.b, o->ends[i].right, o->ends[i].left) < 0) return false;
@@ -105,12 +105,12 @@ static void search(oracle *o, uint32_t cell, sl_crossings crossings) {
     const sl_cell *c = &o->space->cells[cell];
     sl_bits_add(o->seen, cell);
     assert_true(o->depth < DEEPEST);
-    for (uint32_t e = c->first_exit; e < c->first_exit + c->exit_count; e++) {
-        const sl_exit *exit = &o->space->exits[e];
+    for (uint32_t e = c->first_directed; e < c->first_directed + c->directed_count; e++) {
+        const sl_directed_portal *directed = &o->space->directed[e];
         sl_crossings with = crossings;
         if (!sl_crossings_add(o->space, &with, e)) continue;
-        o->ends[o->depth++] = (sl_portal_ends){exit->left, exit->right};
-        if (any_line(o)) search(o, exit->cell, with);
+        o->ends[o->depth++] = (sl_portal_ends){directed->left, directed->right};
+        if (any_line(o)) search(o, directed->cell, with);
         o->depth--;
     }
 }

@@ -23,7 +23,7 @@ typedef struct sl_baked {
     bool by_views;
     /// Of a bake that is not finished: what it has found. The visible sets then count as seen what
     /// is not decided; a shard has none. Zeroed where the bake is finished.
-    sl_findings findings;
+    sl_partial partial;
 } sl_baked;
 
 SL_API void sl_baked_destroy(sl_context *context, sl_baked *baked); ///< and zeroes it
@@ -32,7 +32,7 @@ SL_API void sl_baked_destroy(sl_context *context, sl_baked *baked); ///< and zer
 /// map's starts say what inside is.
 SL_API bool sl_baked_counts(const sl_baked *baked, uint32_t cell);
 
-/// Whether it is one shard of a bake: it has findings and no visible sets.
+/// Whether it is one shard of a bake: it has partial results and no visible sets.
 SL_API bool sl_baked_is_shard(const sl_baked *baked);
 
 /// The longest text of sl_baked_say_partial, its 0 included.

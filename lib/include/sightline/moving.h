@@ -19,7 +19,7 @@ typedef struct sl_moving sl_moving;
 
 /// No boxes are in it yet. The space and the visible sets must outlive it; `visibility` is as
 /// sl_eye_search_create takes it, and stab trees are not looked at. SL_UNSUPPORTED for a space
-/// without exits that its portals should have (one-way glass), and for a loose one.
+/// without directed portals that its portals should have (one-way glass), and for a loose one.
 SL_API sl_status sl_moving_create(sl_context *context, const sl_space *space,
                                   const sl_visibility *visibility, sl_moving **out);
 SL_API void sl_moving_destroy(sl_context *context, sl_moving *moving);
@@ -52,7 +52,7 @@ SL_API sl_status sl_moving_add_mirrors(sl_context *context, sl_moving *moving, c
 /// (sl_space.cut_walls), and there are no seams. Until boxes are next placed.
 SL_API const sl_space *sl_moving_space(const sl_moving *moving, const uint32_t **parents);
 
-/// Its outline, for sl_region_make, sl_sees, sl_shoot and sl_room_mirrors_make. Made when it is
+/// Its outline, for sl_region_make, sl_sees, sl_ray_cast and sl_room_mirrors_make. Made when it is
 /// first asked for.
 SL_API sl_status sl_moving_outline(sl_context *context, sl_moving *moving, const sl_outline **out);
 

@@ -20,7 +20,7 @@ extern "C" {
 /// starts, counter-clockwise around the room.
 typedef struct sl_side {
     sl_point start;
-    uint32_t next, beyond;
+    uint32_t next, neighbour;
 } sl_side;
 
 /// Zeroed, an outline is empty.
@@ -46,7 +46,7 @@ SL_API void sl_outline_destroy(sl_context *context, sl_outline *outline); ///< a
 SL_API uint32_t sl_outline_room(const sl_outline *outline, uint32_t cell, sl_point point);
 
 static inline bool sl_side_is_portal(const sl_side *side) {
-    return side->beyond < SL_SIDE_WALL;
+    return side->neighbour < SL_SIDE_WALL;
 }
 
 #ifdef __cplusplus

@@ -27,8 +27,8 @@ typedef struct sl_hit {
 /// the ray does not lead away into what the eye sees (region.h), that wall, at the eye. Which wall
 /// it is, is exact. SL_BAD_ARGUMENT where the eye is outside the bounds, the points are one, or not
 /// finite.
-SL_API sl_status sl_shoot(sl_context *context, const sl_outline *outline, sl_point eye,
-                          sl_point through, sl_hit *out);
+SL_API sl_status sl_ray_cast(sl_context *context, const sl_outline *outline, sl_point eye,
+                             sl_point through, sl_hit *out);
 
 #ifdef __cplusplus
 }

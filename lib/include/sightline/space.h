@@ -37,16 +37,17 @@ typedef struct sl_portal {
 } sl_portal;
 
 /// A portal as a cell has it: where it leads, and its ends as crossed on the way out.
-typedef struct sl_exit {
+typedef struct sl_directed_portal {
     uint32_t portal, cell;
     sl_point left, right;
-} sl_exit;
+} sl_directed_portal;
 
 /// A cell: a convex polygon, free of walls inside. Its corners are vertices[first_vertex ...],
-/// counter-clockwise; its exits are exits[first_exit ...], counter-clockwise from the first corner.
+/// counter-clockwise; its directed portals are directed portals[first_directed ...],
+/// counter-clockwise from the first corner.
 typedef struct sl_cell {
     uint32_t first_vertex, vertex_count;
-    uint32_t first_exit, exit_count;
+    uint32_t first_directed, directed_count;
     uint32_t inside;   ///< 1 where a start, or no way from the map's border, leads to it
     uint32_t reserved; ///< 0
 } sl_cell;
@@ -67,27 +68,27 @@ typedef struct sl_seam_portal {
                       ///< its left, going from its a to its b; else 0
 } sl_seam_portal;
 
-/// What sl_space.beyond says of a side that is no wall: the cell's next exit, or the map's border.
-/// Else it is the wall's number, with SL_BEYOND_RIGHT or-ed where the cell is at the wall's right,
-/// going from its a to its b.
-#define SL_BEYOND_EXIT   UINT32_MAX
-#define SL_BEYOND_BORDER (UINT32_MAX - 1)
-#define SL_BEYOND_RIGHT  0x80000000u
+/// What sl_space.neighbour says of a side that is no wall: the cell's next directed portal, or the
+/// map's border. Else it is the wall's number, with SL_NEIGHBOUR_RIGHT or-ed where the cell is at
+/// the wall's right, going from its a to its b.
+#define SL_NEIGHBOUR_PORTAL UINT32_MAX
+#define SL_NEIGHBOUR_BORDER (UINT32_MAX - 1)
+#define SL_NEIGHBOUR_RIGHT  0x80000000u
 
 /// Zeroed, a space is empty.
 ///
 /// The cells tile the bounds: they leave nothing out and do not overlap. A kd-tree's space has
-/// `nodes`. The space of a mesh has `beyond` and `grid`: each side of a cell is one exit, one wall
-/// from end to end, or border, so that corners may be flat; every corner is the end of a wall or a
-/// seam, a corner of the bounds, or of one of the map's own cells. With boxes in it (`cut_walls`)
-/// also where their sides cross.
+/// `nodes`. The space of a mesh has `neighbour` and `grid`: each side of a cell is one directed
+/// portal, one wall from end to end, or border, so that corners may be flat; every corner is the
+/// end of a wall or a seam, a corner of the bounds, or of one of the map's own cells. With boxes in
+/// it (`cut_walls`) also where their sides cross.
 ///
 /// Cells do not run over seams: each portal lies on a seam wholly or not at all. Where a wall
 /// covers a seam there is no portal.
 typedef struct sl_space {
     sl_box bounds;
     int32_t root; ///< as a child of a node
-    uint32_t node_count, cell_count, vertex_count, portal_count, exit_count, wall_count;
+    uint32_t node_count, cell_count, vertex_count, portal_count, directed_count, wall_count;
     uint32_t inside_count;
     uint32_t tree_depth; ///< nodes on the longest way down
     uint32_t loose;      ///< 1 for a space read from a file of version 1 that had oblique walls:
@@ -98,13 +99,13 @@ typedef struct sl_space {
     sl_node *nodes; ///< a parent before its children; none for a mesh
     sl_cell *cells;
     sl_point *vertices;
-    sl_portal *portals; ///< by cell[0], then cell[1], then place
-    sl_exit *exits;     ///< grouped by cell
-    sl_wall *walls;     ///< those of the map it was made from
-    uint32_t *beyond;   ///< by vertex: the wall on the side from there to the cell's next corner,
-                        ///< SL_BEYOND_EXIT or SL_BEYOND_BORDER; NULL for a kd-tree
-    sl_cell_grid grid;  ///< none for a kd-tree
-    sl_seam *seams;     ///< the map's doors, one-way glass and seams; NULL for none
+    sl_portal *portals;           ///< by cell[0], then cell[1], then place
+    sl_directed_portal *directed; ///< grouped by cell
+    sl_wall *walls;               ///< those of the map it was made from
+    uint32_t *neighbour; ///< by vertex: the wall on the side from there to the cell's next corner,
+                         ///< SL_NEIGHBOUR_PORTAL or SL_NEIGHBOUR_BORDER; NULL for a kd-tree
+    sl_cell_grid grid;   ///< none for a kd-tree
+    sl_seam *seams;      ///< the map's doors, one-way glass and seams; NULL for none
     sl_seam_portal *seam_portals; ///< by portal, then seam; NULL for none
 } sl_space;
 
@@ -193,9 +194,9 @@ SL_API double sl_space_area(const sl_space *space, uint32_t cell);
 
 /// Checks the whole graph, exactly: cells convex and of positive area; cells that tile the bounds;
 /// no wall inside a cell; portals on both their cells and on no wall; every piece of a cell's
-/// boundary wall, portal or border; exits and portals that say the same; nodes or buckets that lead
-/// to the cells; portals on seams known as such. Of a loose space only what memory safety and
-/// convexity ask for. SL_BAD_INPUT with the first fault found.
+/// boundary wall, portal or border; directed portals and portals that say the same; nodes or
+/// buckets that lead to the cells; portals on seams known as such. Of a loose space only what
+/// memory safety and convexity ask for. SL_BAD_INPUT with the first fault found.
 SL_API sl_status sl_space_check(sl_context *context, const sl_space *space);
 
 #ifdef __cplusplus

@@ -1,24 +1,24 @@
 /// What units of the work have found, joined.
-#include "cell_to_cell/findings.h"
+#include "cell_to_cell/partial.h"
 
 #include "cell_to_cell/pvs_maker.h"
 
-void sl_findings_destroy(sl_context *context, sl_findings *findings) {
-    sl_free(context, findings->done);
-    sl_pvs_destroy(context, &findings->sure);
-    sl_pvs_destroy(context, &findings->doubtful);
-    *findings = (sl_findings){0};
+void sl_partial_destroy(sl_context *context, sl_partial *partial) {
+    sl_free(context, partial->done);
+    sl_pvs_destroy(context, &partial->sure);
+    sl_pvs_destroy(context, &partial->doubtful);
+    *partial = (sl_partial){0};
 }
 
-bool sl_findings_begun(const sl_findings *findings) {
-    return findings->sure.cell_count != 0;
+bool sl_partial_begun(const sl_partial *partial) {
+    return partial->sure.cell_count != 0;
 }
 
-bool sl_findings_complete(const sl_findings *findings) {
-    return sl_findings_begun(findings) && findings->done_count == findings->unit_count;
+bool sl_partial_complete(const sl_partial *partial) {
+    return sl_partial_begun(partial) && partial->done_count == partial->unit_count;
 }
 
-uint32_t sl_findings_left(const sl_findings *f) {
+uint32_t sl_partial_left(const sl_partial *f) {
     uint32_t left = 0;
     for (uint32_t i = 0; i < f->unit_count; i++)
         left += sl_unit_is_of(f->shard, f->shard_count, i) && !sl_bits_has(f->done, i);
@@ -32,17 +32,17 @@ static sl_status make_empty_rows(sl_context *context, uint32_t count, sl_pvs *pv
     return pvs->offsets && pvs->bytes ? SL_OK : SL_NO_MEMORY;
 }
 
-static sl_status make_empty(sl_context *context, uint32_t cell_count, sl_findings *findings) {
-    SL_TRY(make_empty_rows(context, cell_count, &findings->sure));
-    SL_TRY(make_empty_rows(context, cell_count, &findings->doubtful));
-    findings->done =
-        sl_alloc_array(context, sl_bits_words(findings->unit_count), sizeof *findings->done);
-    return findings->done ? SL_OK : SL_NO_MEMORY;
+static sl_status make_empty(sl_context *context, uint32_t cell_count, sl_partial *partial) {
+    SL_TRY(make_empty_rows(context, cell_count, &partial->sure));
+    SL_TRY(make_empty_rows(context, cell_count, &partial->doubtful));
+    partial->done =
+        sl_alloc_array(context, sl_bits_words(partial->unit_count), sizeof *partial->done);
+    return partial->done ? SL_OK : SL_NO_MEMORY;
 }
 
-sl_status sl_findings_start(sl_context *context, const sl_space *space,
-                            const sl_see_options *options, uint32_t unit_count,
-                            sl_findings *findings) {
+sl_status sl_partial_begin(sl_context *context, const sl_space *space,
+                           const sl_see_options *options, uint32_t unit_count,
+                           sl_partial *partial) {
     if (options->shard_count ? !options->shard || options->shard > options->shard_count
                              : options->shard)
         return sl_fail(context, SL_BAD_ARGUMENT, "there is no shard %u of %u", options->shard,
@@ -51,39 +51,39 @@ sl_status sl_findings_start(sl_context *context, const sl_space *space,
         return sl_fail(context, SL_UNSUPPORTED,
                        "a map with effects is baked in one go: leave them out, --without, or do "
                        "without parts");
-    if (sl_findings_begun(findings)) {
-        if (findings->sure.cell_count != space->cell_count || findings->unit_count != unit_count ||
-            findings->inside_only != options->inside_only)
+    if (sl_partial_begun(partial)) {
+        if (partial->sure.cell_count != space->cell_count || partial->unit_count != unit_count ||
+            partial->inside_only != options->inside_only)
             return sl_fail(context, SL_BAD_ARGUMENT, "findings of another space or other options");
     } else {
-        sl_findings empty = {.unit_count = unit_count, .inside_only = options->inside_only};
+        sl_partial empty = {.unit_count = unit_count, .inside_only = options->inside_only};
         const sl_status status = make_empty(context, space->cell_count, &empty);
         if (status != SL_OK) {
-            sl_findings_destroy(context, &empty);
+            sl_partial_destroy(context, &empty);
             return status;
         }
-        *findings = empty;
+        *partial = empty;
     }
-    findings->shard = options->shard;
-    findings->shard_count = options->shard_count;
+    partial->shard = options->shard;
+    partial->shard_count = options->shard_count;
     return SL_OK;
 }
 
-static void count_done(sl_findings *findings) {
-    findings->done_count = 0;
-    for (size_t i = 0; i < sl_bits_words(findings->unit_count); i++)
-        findings->done_count += (uint32_t)__builtin_popcountll(findings->done[i]);
+static void count_done(sl_partial *partial) {
+    partial->done_count = 0;
+    for (size_t i = 0; i < sl_bits_words(partial->unit_count); i++)
+        partial->done_count += (uint32_t)__builtin_popcountll(partial->done[i]);
 }
 
-void sl_findings_note(sl_findings *findings, const sl_bits *done) {
-    for (size_t i = 0; i < sl_bits_words(findings->unit_count); i++) findings->done[i] |= done[i];
-    count_done(findings);
+void sl_partial_note(sl_partial *partial, const sl_bits *done) {
+    for (size_t i = 0; i < sl_bits_words(partial->unit_count); i++) partial->done[i] |= done[i];
+    count_done(partial);
 }
 
-void sl_findings_note_bytes(sl_findings *findings, const uint8_t *done) {
-    for (uint32_t i = 0; i < findings->unit_count; i++)
-        if (done[i]) sl_bits_add(findings->done, i);
-    count_done(findings);
+void sl_partial_note_bytes(sl_partial *partial, const uint8_t *done) {
+    for (uint32_t i = 0; i < partial->unit_count; i++)
+        if (done[i]) sl_bits_add(partial->done, i);
+    count_done(partial);
 }
 
 // --- joining
@@ -106,23 +106,23 @@ static sl_status join_rows(sl_context *context, const sl_pvs *a, const sl_pvs *b
     return status;
 }
 
-sl_status sl_findings_join(sl_context *context, sl_findings *findings, const sl_findings *other) {
-    if (findings->sure.cell_count != other->sure.cell_count ||
-        findings->unit_count != other->unit_count || findings->inside_only != other->inside_only)
+sl_status sl_partial_merge(sl_context *context, sl_partial *partial, const sl_partial *other) {
+    if (partial->sure.cell_count != other->sure.cell_count ||
+        partial->unit_count != other->unit_count || partial->inside_only != other->inside_only)
         return sl_fail(context, SL_BAD_ARGUMENT, "findings of another space or other options");
     sl_pvs sure = {0}, doubtful = {0};
-    sl_status status = join_rows(context, &findings->sure, &other->sure, &sure);
+    sl_status status = join_rows(context, &partial->sure, &other->sure, &sure);
     if (status == SL_OK)
-        status = join_rows(context, &findings->doubtful, &other->doubtful, &doubtful);
+        status = join_rows(context, &partial->doubtful, &other->doubtful, &doubtful);
     if (status != SL_OK) {
         sl_pvs_destroy(context, &sure);
         return status;
     }
-    sl_pvs_destroy(context, &findings->sure);
-    sl_pvs_destroy(context, &findings->doubtful);
-    findings->sure = sure;
-    findings->doubtful = doubtful;
-    sl_findings_note(findings, other->done);
+    sl_pvs_destroy(context, &partial->sure);
+    sl_pvs_destroy(context, &partial->doubtful);
+    partial->sure = sure;
+    partial->doubtful = doubtful;
+    sl_partial_note(partial, other->done);
     return SL_OK;
 }
 

@@ -1,4 +1,4 @@
-/// The space for the time being: doors shut become walls, one-way glass loses exits.
+/// The space for the time being: doors shut become walls, one-way glass loses directed portals.
 #include "effects/effects.h"
 #include "geometry/orient.h"
 
@@ -7,16 +7,16 @@
 typedef struct maker {
     const sl_space *from;
     uint32_t eye_cell;
-    const sl_passage *passage;
+    const sl_filtered_space *filtered;
     uint32_t *portals; ///< new numbers; UINT32_MAX for walls
-    bool *barred;      ///< exits that are left out, walls' ones among them
+    bool *barred;      ///< directed portals that are left out, walls' ones among them
     sl_space *out;
 } maker;
 
 /// Going from its a to its b, glass is seen through from its right to its left. A straight line
 /// that crosses it comes from the side that the eye is on; an eye on its line is where its cell is.
 static bool is_dark(const maker *m, const sl_segment *glass) {
-    const int side = sl_orient(glass->a, glass->b, *m->passage->eye);
+    const int side = sl_orient(glass->a, glass->b, *m->filtered->eye);
     if (side || m->eye_cell == SL_NO_CELL) return side > 0;
     const sl_cell *cell = &m->from->cells[m->eye_cell];
     for (uint32_t i = 0; i < cell->vertex_count; i++)
@@ -30,9 +30,9 @@ static bool is_shut(const maker *m, uint32_t portal) {
     const sl_seam_portal *on = sl_space_seams_of(m->from, portal, &count);
     for (size_t i = 0; i < count; i++) {
         const sl_seam *seam = &m->from->seams[on[i].seam];
-        if (seam->kind == SL_SEAM_DOOR && m->passage->shut && m->passage->shut[seam->number])
+        if (seam->kind == SL_SEAM_DOOR && m->filtered->shut && m->filtered->shut[seam->number])
             return true;
-        if (seam->kind == SL_SEAM_ONEWAY && m->passage->eye && is_dark(m, &seam->at)) return true;
+        if (seam->kind == SL_SEAM_ONEWAY && m->filtered->eye && is_dark(m, &seam->at)) return true;
     }
     return false;
 }
@@ -54,16 +54,16 @@ static sl_status copy_space(sl_context *context, maker *m, size_t walls) {
     const sl_space *f = m->from;
     sl_space *s = m->out;
     *s = *f;
-    s->nodes = NULL, s->cells = NULL, s->vertices = NULL, s->portals = NULL, s->exits = NULL;
-    s->walls = NULL, s->beyond = NULL, s->seams = NULL, s->seam_portals = NULL;
+    s->nodes = NULL, s->cells = NULL, s->vertices = NULL, s->portals = NULL, s->directed = NULL;
+    s->walls = NULL, s->neighbour = NULL, s->seams = NULL, s->seam_portals = NULL;
     s->grid.first = s->grid.cells = NULL;
     COPY(nodes, node_count, 0);
     COPY(cells, cell_count, 0);
     COPY(vertices, vertex_count, 0);
     COPY(portals, portal_count, 0);
-    COPY(exits, exit_count, 0);
+    COPY(directed, directed_count, 0);
     COPY(walls, wall_count, walls);
-    COPY(beyond, vertex_count, 0);
+    COPY(neighbour, vertex_count, 0);
     COPY(grid.first, grid.columns * (size_t)f->grid.rows + 1, 0);
     COPY(grid.cells, grid.entry_count, 0);
     COPY(seams, seam_count, 0);
@@ -102,30 +102,31 @@ static void tell_sides(const maker *m, const uint32_t *walls) {
     const sl_space *f = m->from;
     for (uint32_t i = 0; i < f->cell_count; i++) {
         const sl_cell *cell = &f->cells[i];
-        uint32_t exit = cell->first_exit;
+        uint32_t directed = cell->first_directed;
         for (uint32_t k = 0; k < cell->vertex_count; k++) {
-            uint32_t *what = &m->out->beyond[cell->first_vertex + k];
-            if (*what != SL_BEYOND_EXIT) continue;
-            const uint32_t portal = f->exits[exit++].portal;
+            uint32_t *what = &m->out->neighbour[cell->first_vertex + k];
+            if (*what != SL_NEIGHBOUR_PORTAL) continue;
+            const uint32_t portal = f->directed[directed++].portal;
             if (walls[portal] != UINT32_MAX)
-                *what = walls[portal] | (f->portals[portal].cell[0] == i ? 0 : SL_BEYOND_RIGHT);
+                *what = walls[portal] | (f->portals[portal].cell[0] == i ? 0 : SL_NEIGHBOUR_RIGHT);
         }
     }
 }
 
-static void drop_exits(maker *m) {
+static void drop_directed(maker *m) {
     sl_space *s = m->out;
-    s->exit_count = 0;
+    s->directed_count = 0;
     for (uint32_t i = 0; i < s->cell_count; i++) {
         const sl_cell *from = &m->from->cells[i];
-        s->cells[i].first_exit = s->exit_count;
-        for (uint32_t k = from->first_exit; k < from->first_exit + from->exit_count; k++) {
+        s->cells[i].first_directed = s->directed_count;
+        for (uint32_t k = from->first_directed; k < from->first_directed + from->directed_count;
+             k++) {
             if (m->barred[k]) continue;
-            sl_exit exit = m->from->exits[k];
-            exit.portal = m->portals[exit.portal];
-            s->exits[s->exit_count++] = exit;
+            sl_directed_portal directed = m->from->directed[k];
+            directed.portal = m->portals[directed.portal];
+            s->directed[s->directed_count++] = directed;
         }
-        s->cells[i].exit_count = s->exit_count - s->cells[i].first_exit;
+        s->cells[i].directed_count = s->directed_count - s->cells[i].first_directed;
     }
 }
 
@@ -135,16 +136,16 @@ static sl_status make(sl_context *context, maker *m) {
     for (uint32_t i = 0; i < f->portal_count; i++)
         m->portals[i] = is_shut(m, i) ? UINT32_MAX : kept++;
     for (uint32_t i = 0; i < f->cell_count; i++)
-        for (uint32_t k = f->cells[i].first_exit;
-             k < f->cells[i].first_exit + f->cells[i].exit_count; k++) {
-            const uint32_t portal = f->exits[k].portal;
+        for (uint32_t k = f->cells[i].first_directed;
+             k < f->cells[i].first_directed + f->cells[i].directed_count; k++) {
+            const uint32_t portal = f->directed[k].portal;
             m->barred[k] = m->portals[portal] == UINT32_MAX ||
-                           (m->passage->one_way && sl_exit_is_dark(f, i, k));
+                           (m->filtered->one_way && sl_portal_is_blocked(f, i, k));
         }
     SL_TRY(copy_space(context, m, f->portal_count - kept));
     shut_portals(m);
-    drop_exits(m);
-    if (!f->beyond) return SL_OK;
+    drop_directed(m);
+    if (!f->neighbour) return SL_OK;
     uint32_t *walls = sl_alloc_array(context, f->portal_count, sizeof *walls);
     if (!walls) return SL_NO_MEMORY;
     number_walls(m, walls);
@@ -153,14 +154,15 @@ static sl_status make(sl_context *context, maker *m) {
     return SL_OK;
 }
 
-sl_status sl_passage_make(sl_context *context, const sl_space *space, const sl_passage *passage,
-                          uint32_t *portals, sl_space *out) {
+sl_status sl_filtered_space_make(sl_context *context, const sl_space *space,
+                                 const sl_filtered_space *filtered, uint32_t *portals,
+                                 sl_space *out) {
     sl_space made = {0};
-    maker m = {.from = space, .passage = passage, .portals = portals, .out = &made};
-    if (passage->eye) m.eye_cell = sl_space_locate(space, *passage->eye);
+    maker m = {.from = space, .filtered = filtered, .portals = portals, .out = &made};
+    if (filtered->eye) m.eye_cell = sl_space_locate(space, *filtered->eye);
     uint32_t *own = NULL;
     if (!portals) m.portals = own = sl_alloc_array(context, space->portal_count, sizeof *own);
-    m.barred = sl_alloc_array(context, space->exit_count, sizeof *m.barred);
+    m.barred = sl_alloc_array(context, space->directed_count, sizeof *m.barred);
     const sl_status status = m.portals && m.barred ? make(context, &m) : SL_NO_MEMORY;
     sl_free(context, own);
     sl_free(context, m.barred);

@@ -1,16 +1,19 @@
 /// What of a space's visible sets still holds when some walls have changed.
 ///
-/// A cell is unchanged where the new space has one of the same corners and the same exits, and each
-/// exit leads to the same cell as before, or to a changed one. Let A be unchanged, and let all that
-/// it saw be unchanged too. Then it sees the same cells as before, for a sightline's sequence of
-/// portals is made of exits, and each beginning of it has a sightline as well:
+/// A cell is unchanged where the new space has one of the same corners and the same directed
+/// portals, and each directed portal leads to the same cell as before, or to a changed one. Let A
+/// be unchanged, and let all that it saw be unchanged too. Then it sees the same cells as before,
+/// for a sightline's sequence of portals is made of directed portals, and each beginning of it has
+/// a sightline as well:
 ///
 /// - Each sequence from A that had a sightline goes through unchanged cells only, since A saw all
-///   of them. The new space has the same one, exit for exit, and the same line.
-/// - Take a sequence from A that has a sightline in the new space, and the first of its exits that
+///   of them. The new space has the same one, directed portal for directed portal, and the same
+///   line.
+/// - Take a sequence from A that has a sightline in the new space, and the first of its directed
+/// portals that
 ///   does not lead to the same cell as before. Up to there the old space had the same sequence,
-///   with the same line, which went on through that exit: A saw the cell that it led to, and so
-///   that cell is unchanged. But then the exit would lead to it now.
+///   with the same line, which went on through that directed portal: A saw the cell that it led to,
+///   and so that cell is unchanged. But then the directed portal would lead to it now.
 ///
 /// So A's row is the old one. With exact sets it does not matter by which method they were found.
 ///
@@ -22,7 +25,7 @@
 ///
 /// Nothing of it depends on how the cells are numbered, nor on the subdivision being the same: a
 /// split line that moves only makes more cells count as changed.
-#include "cell_to_cell/findings.h"
+#include "cell_to_cell/partial.h"
 #include "cell_to_cell/pvs_maker.h"
 
 #include <stdlib.h>
@@ -71,12 +74,12 @@ static bool is_alone(const shape *shapes, uint32_t count, uint32_t i) {
            (i + 1 == count || compare_shapes(&shapes[i], &shapes[i + 1]) != 0);
 }
 
-static bool same_exits(const carrying *c, uint32_t then, uint32_t now) {
+static bool same_directed(const carrying *c, uint32_t then, uint32_t now) {
     const sl_cell *a = &c->before->cells[then], *b = &c->space->cells[now];
-    if (a->exit_count != b->exit_count || a->inside != b->inside) return false;
-    for (uint32_t i = 0; i < a->exit_count; i++) {
-        const sl_exit *e = &c->before->exits[a->first_exit + i];
-        const sl_exit *f = &c->space->exits[b->first_exit + i];
+    if (a->directed_count != b->directed_count || a->inside != b->inside) return false;
+    for (uint32_t i = 0; i < a->directed_count; i++) {
+        const sl_directed_portal *e = &c->before->directed[a->first_directed + i];
+        const sl_directed_portal *f = &c->space->directed[b->first_directed + i];
         if (e->left.x != f->left.x || e->left.y != f->left.y || e->right.x != f->right.x ||
             e->right.y != f->right.y)
             return false;
@@ -89,7 +92,7 @@ static void match(const carrying *c, const shape *old, const shape *new) {
     for (uint32_t i = 0, k = 0; i < old_count && k < new_count;) {
         const int order = compare_shapes(&old[i], &new[k]);
         if (order == 0 && is_alone(old, old_count, i) && is_alone(new, new_count, k) &&
-            same_exits(c, old[i].cell, new[k].cell)) {
+            same_directed(c, old[i].cell, new[k].cell)) {
             c->now[old[i].cell] = new[k].cell;
             c->then[new[k].cell] = old[i].cell;
         }
@@ -98,12 +101,13 @@ static void match(const carrying *c, const shape *old, const shape *new) {
     }
 }
 
-/// Whether each exit leads to the same cell as before, or to one that is none of the same now.
+/// Whether each directed portal leads to the same cell as before, or to one that is none of the
+/// same now.
 static bool leads_the_same_way(const carrying *c, uint32_t then, uint32_t now) {
     const sl_cell *a = &c->before->cells[then], *b = &c->space->cells[now];
-    for (uint32_t i = 0; i < a->exit_count; i++) {
-        const uint32_t to = c->now[c->before->exits[a->first_exit + i].cell];
-        if (to != NO_CELL && to != c->space->exits[b->first_exit + i].cell) return false;
+    for (uint32_t i = 0; i < a->directed_count; i++) {
+        const uint32_t to = c->now[c->before->directed[a->first_directed + i].cell];
+        if (to != NO_CELL && to != c->space->directed[b->first_directed + i].cell) return false;
     }
     return true;
 }
@@ -165,14 +169,14 @@ static sl_status make_rows(sl_context *context, const carrying *c, sl_pvs_maker 
     return sl_pvs_maker_finish(context, maker, out);
 }
 
-static sl_status take_rows(sl_context *context, const carrying *c, sl_findings *findings) {
+static sl_status take_rows(sl_context *context, const carrying *c, sl_partial *partial) {
     sl_pvs_maker maker;
     sl_pvs rows = {0};
     const sl_status status = make_rows(context, c, &maker, &rows);
     sl_pvs_maker_destroy(context, &maker);
     if (status != SL_OK) return status;
-    sl_pvs_destroy(context, &findings->sure);
-    findings->sure = rows;
+    sl_pvs_destroy(context, &partial->sure);
+    partial->sure = rows;
     return SL_OK;
 }
 
@@ -192,7 +196,7 @@ static sl_status check_same_question(sl_context *context, const sl_space *before
                                      const sl_see_options *options) {
     const sl_guarantee wanted =
         method->stabs && options->solver ? options->solver->guarantee : method->guarantee;
-    if (!method->carry || wanted != SL_EXACT)
+    if (!method->reuse || wanted != SL_EXACT)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "only what an exact method looks for can be taken over");
     if (seen->guarantee != SL_EXACT)
@@ -218,29 +222,29 @@ static sl_status allocate(sl_context *context, carrying *c) {
 }
 
 static sl_status carry(sl_context *context, carrying *c, const sl_see_method *method,
-                       const sl_see_options *options, sl_findings *findings) {
+                       const sl_see_options *options, sl_partial *partial) {
     SL_TRY(allocate(context, c));
     SL_TRY(find_same_cells(context, c));
     SL_TRY(sl_check_cancelled(context));
     find_kept(c);
-    SL_TRY(method->carry(context, c->space, options, c->kept, c->enclosed, findings));
-    return take_rows(context, c, findings);
+    SL_TRY(method->reuse(context, c->space, options, c->kept, c->enclosed, partial));
+    return take_rows(context, c, partial);
 }
 
-sl_status sl_findings_carry(sl_context *context, const sl_space *before, const sl_visibility *seen,
-                            const sl_space *space, const sl_see_method *method,
-                            const sl_see_options *options, sl_findings *findings) {
+sl_status sl_partial_reuse(sl_context *context, const sl_space *before, const sl_visibility *seen,
+                           const sl_space *space, const sl_see_method *method,
+                           const sl_see_options *options, sl_partial *partial) {
     SL_TRY(check_same_question(context, before, seen, method, options));
     carrying c = {.before = before, .space = space, .seen = &seen->pvs};
-    sl_findings carried = {0};
+    sl_partial carried = {0};
     const sl_status status = carry(context, &c, method, options, &carried);
     sl_free(context, c.now);
     sl_free(context, c.then);
     sl_free(context, c.kept);
     sl_free(context, c.enclosed);
     if (status == SL_OK)
-        *findings = carried;
+        *partial = carried;
     else
-        sl_findings_destroy(context, &carried);
+        sl_partial_destroy(context, &carried);
     return status;
 }

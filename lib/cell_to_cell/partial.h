@@ -1,17 +1,16 @@
-/// Work in parts: which units a call is to do, and what becomes of their findings.
-#ifndef SL_FINDINGS_H
-#define SL_FINDINGS_H
+/// Work in parts: which units a call is to do, and what becomes of what they find.
+#ifndef SL_PARTIAL_H
+#define SL_PARTIAL_H
 
 #include "base/base.h"
 #include "base/bits.h"
 #include "cell_to_cell/bit_rows.h"
 #include "sightline/cell_to_cell.h"
 
-/// Makes empty findings of a method with so many units; findings that are begun already must be
-/// its: SL_BAD_ARGUMENT.
-sl_status sl_findings_start(sl_context *context, const sl_space *space,
-                            const sl_see_options *options, uint32_t unit_count,
-                            sl_findings *findings);
+/// Makes empty partial results of a method with so many units; partial results that are begun
+/// already must be its: SL_BAD_ARGUMENT.
+sl_status sl_partial_begin(sl_context *context, const sl_space *space,
+                           const sl_see_options *options, uint32_t unit_count, sl_partial *partial);
 
 /// Whether a unit is of a shard; 0, 0 for all. Shards have turns at runs of a few units.
 static inline bool sl_unit_is_of(uint32_t shard, uint32_t shard_count, uint32_t unit) {
@@ -19,9 +18,9 @@ static inline bool sl_unit_is_of(uint32_t shard, uint32_t shard_count, uint32_t 
 }
 
 /// Whether a unit is of the shard and not done yet.
-static inline bool sl_unit_is_wanted(const sl_see_options *options, const sl_findings *findings,
+static inline bool sl_unit_is_wanted(const sl_see_options *options, const sl_partial *partial,
                                      uint32_t unit) {
-    return !sl_bits_has(findings->done, unit) &&
+    return !sl_bits_has(partial->done, unit) &&
            sl_unit_is_of(options->shard, options->shard_count, unit);
 }
 
@@ -30,9 +29,9 @@ static inline bool sl_is_enough(const sl_see_options *options) {
 }
 
 /// Notes units as done.
-void sl_findings_note(sl_findings *findings, const sl_bits *done);
-/// As sl_findings_note, those whose byte is not 0: threads can write bytes side by side.
-void sl_findings_note_bytes(sl_findings *findings, const uint8_t *done);
+void sl_partial_note(sl_partial *partial, const sl_bits *done);
+/// As sl_partial_note, those whose byte is not 0: threads can write bytes side by side.
+void sl_partial_note_bytes(sl_partial *partial, const uint8_t *done);
 
 /// Adds all pairs of a PVS.
 sl_status sl_bit_rows_add_pvs(sl_context *context, sl_bit_rows *rows, const sl_pvs *pvs);
