@@ -1,7 +1,7 @@
 #include "bake_parts.h"
 
-#include "base/base.h"
 #include "crew.h"
+#include "sightline/support.h"
 
 #include <stdatomic.h>
 #include <stdlib.h>

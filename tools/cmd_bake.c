@@ -1,10 +1,10 @@
 #include "bake_parts.h"
 #include "bake_report.h"
-#include "base/base.h"
 #include "commands.h"
 #include "crew.h"
 #include "inputs.h"
 #include "pipeline.h"
+#include "sightline/support.h"
 #include "sizes.h"
 #include "solvers.h"
 

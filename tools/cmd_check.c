@@ -1,9 +1,9 @@
-#include "base/base.h"
 #include "commands.h"
 #include "faults_report.h"
 #include "pictures.h"
 #include "pipeline.h"
 #include "sightline/draw.h"
+#include "sightline/support.h"
 
 #include <math.h>
 

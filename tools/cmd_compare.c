@@ -1,4 +1,3 @@
-#include "base/base.h"
 #include "commands.h"
 #include "compare_eye.h"
 #include "compare_report.h"
@@ -6,6 +5,7 @@
 #include "folder.h"
 #include "inputs.h"
 #include "pipeline.h"
+#include "sightline/support.h"
 #include "solvers.h"
 
 #include <string.h>

@@ -1,9 +1,9 @@
-#include "base/base.h"
 #include "commands.h"
 #include "inputs.h"
 #include "options.h"
 #include "pictures.h"
 #include "sightline/draw.h"
+#include "sightline/support.h"
 
 #include <stdio.h>
 #include <string.h>

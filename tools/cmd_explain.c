@@ -1,10 +1,10 @@
-#include "base/base.h"
 #include "commands.h"
 #include "explain_report.h"
 #include "inputs.h"
 #include "options.h"
 #include "pictures.h"
 #include "sightline/draw.h"
+#include "sightline/support.h"
 
 #include <string.h>
 

@@ -1,4 +1,3 @@
-#include "base/base.h"
 #include "commands.h"
 #include "doors_shut.h"
 #include "eye_objects.h"
@@ -9,6 +8,7 @@
 #include "pictures.h"
 #include "seen_parts.h"
 #include "sightline/draw.h"
+#include "sightline/support.h"
 
 /// The operand and options as they are given.
 typedef struct eye_texts {

@@ -1,8 +1,8 @@
-#include "base/base.h"
 #include "commands.h"
 #include "inputs.h"
 #include "options.h"
 #include "sightline/generate.h"
+#include "sightline/support.h"
 
 #include <stdio.h>
 

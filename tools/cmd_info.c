@@ -1,6 +1,4 @@
 #include "bake_report.h"
-#include "base/base.h"
-#include "base/number.h"
 #include "commands.h"
 #include "doors_shut.h"
 #include "inputs.h"
@@ -9,6 +7,7 @@
 #include "names.h"
 #include "options.h"
 #include "plan_report.h"
+#include "sightline/support.h"
 #include "sizes.h"
 
 #include <inttypes.h>

@@ -1,10 +1,10 @@
-#include "base/base.h"
 #include "commands.h"
 #include "isovist_run.h"
 #include "pictures.h"
 #include "pipeline.h"
 #include "seen_parts.h"
 #include "sightline/draw.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,8 +1,8 @@
 #include "bake_parts.h"
-#include "base/base.h"
 #include "commands.h"
 #include "inputs.h"
 #include "pipeline.h"
+#include "sightline/support.h"
 #include "sizes.h"
 #include "solvers.h"
 

@@ -1,10 +1,10 @@
-#include "base/base.h"
 #include "commands.h"
 #include "folder.h"
 #include "inputs.h"
 #include "pipeline.h"
 #include "plan_report.h"
 #include "regions_run.h"
+#include "sightline/support.h"
 #include "solvers.h"
 
 #include <stdlib.h>

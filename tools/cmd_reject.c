@@ -1,9 +1,9 @@
-#include "base/base.h"
 #include "commands.h"
 #include "inputs.h"
 #include "json_print.h"
 #include "options.h"
 #include "sightline/reject.h"
+#include "sightline/support.h"
 #include "sizes.h"
 
 #include <inttypes.h>

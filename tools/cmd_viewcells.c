@@ -1,7 +1,7 @@
-#include "base/base.h"
 #include "commands.h"
 #include "pictures.h"
 #include "pipeline.h"
+#include "sightline/support.h"
 #include "view_report.h"
 
 #include <string.h>

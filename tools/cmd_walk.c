@@ -1,9 +1,9 @@
-#include "base/base.h"
 #include "commands.h"
 #include "doors_shut.h"
 #include "folder.h"
 #include "names.h"
 #include "pipeline.h"
+#include "sightline/support.h"
 #include "walk_path.h"
 #include "walk_report.h"
 

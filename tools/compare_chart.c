@@ -1,10 +1,10 @@
 /// The comparison as a chart: time across, pairs too many up and pairs too few down.
-#include "base/base.h"
 #include "compare_report.h"
 #include "inputs.h"
 #include "json_print.h"
 #include "names.h"
 #include "sightline/draw.h"
+#include "sightline/support.h"
 
 #include <inttypes.h>
 #include <string.h>

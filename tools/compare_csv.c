@@ -1,8 +1,6 @@
-#include "base/bits.h"
-#include "base/file.h"
-#include "base/number.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "compare_columns.h"
+#include "sightline/support.h"
 
 #include <inttypes.h>
 #include <string.h>

@@ -1,12 +1,9 @@
 #include "compare_eye.h"
 
-#include "base/base.h"
-#include "base/bits.h"
-#include "base/number.h"
-#include "base/random.h"
 #include "eye_run.h"
 #include "sightline/region.h"
 #include "sightline/solvers.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,11 +1,11 @@
 /// The comparison of culling methods as a chart: the time of a query across, the area kept up.
-#include "base/base.h"
 #include "compare_eye.h"
 #include "compare_report.h"
 #include "inputs.h"
 #include "json_print.h"
 #include "names.h"
 #include "sightline/draw.h"
+#include "sightline/support.h"
 
 #include <inttypes.h>
 

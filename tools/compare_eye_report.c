@@ -1,9 +1,8 @@
-#include "base/file.h"
-#include "base/number.h"
 #include "compare_eye.h"
 #include "compare_report.h"
 #include "json_print.h"
 #include "names.h"
+#include "sightline/support.h"
 
 #include <inttypes.h>
 #include <stdio.h>

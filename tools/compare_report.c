@@ -1,9 +1,9 @@
 #include "compare_report.h"
 
-#include "base/base.h"
 #include "compare_columns.h"
 #include "json_print.h"
 #include "names.h"
+#include "sightline/support.h"
 
 #include <inttypes.h>
 

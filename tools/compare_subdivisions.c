@@ -1,7 +1,7 @@
 #include "compare_subdivisions.h"
 
-#include "base/base.h"
 #include "compare_report.h"
+#include "sightline/support.h"
 
 #include <inttypes.h>
 

@@ -1,6 +1,6 @@
 #include "compare_time.h"
 
-#include "base/base.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -83,7 +83,7 @@ static void summarise(const durations *taken, sl_compare_run *run) {
 
 sl_status sl_compare_time(sl_console *console, const sl_space *space, const sl_see_options *options,
                           const sl_timing *timing, const char *label, sl_compare_run *run) {
-    watch w = {.console = &console->context->hooks, .label = label};
+    watch w = {.console = sl_context_hooks(console->context), .label = label};
     const sl_hooks hooks = {
         .user = &w, .progress = show_progress, .note = show_note, .cancelled = is_cancelled};
     sl_context *context = sl_context_create(&hooks);

@@ -1,7 +1,6 @@
 #include "console.h"
 
-#include "base/base.h"
-#include "base/file.h"
+#include "sightline/support.h"
 
 #include <fcntl.h>
 #include <signal.h>

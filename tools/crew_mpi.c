@@ -1,7 +1,6 @@
 #include "crew.h"
 
-#include "base/base.h"
-#include "base/bits.h"
+#include "sightline/support.h"
 
 #include <mpi.h>
 

@@ -1,7 +1,7 @@
 #include "doors_shut.h"
 
-#include "base/base.h"
 #include "names.h"
+#include "sightline/support.h"
 
 #include <string.h>
 

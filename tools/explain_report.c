@@ -1,8 +1,8 @@
 #include "explain_report.h"
 
-#include "base/number.h"
 #include "json_print.h"
 #include "names.h"
+#include "sightline/support.h"
 
 #include <inttypes.h>
 

@@ -1,10 +1,8 @@
 #include "eye_objects.h"
 
-#include "base/base.h"
-#include "base/bits.h"
-#include "base/number.h"
 #include "compare_report.h"
 #include "names.h"
+#include "sightline/support.h"
 
 #include <inttypes.h>
 #include <math.h>

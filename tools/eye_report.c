@@ -1,10 +1,9 @@
 #include "eye_report.h"
 
-#include "base/base.h"
-#include "base/number.h"
 #include "compare_report.h"
 #include "json_print.h"
 #include "names.h"
+#include "sightline/support.h"
 
 #include <inttypes.h>
 #include <stdio.h>

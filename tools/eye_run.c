@@ -1,7 +1,7 @@
 #include "eye_run.h"
 
-#include "base/base.h"
 #include "progress_line.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,8 +1,7 @@
 #include "faults_report.h"
 
-#include "base/base.h"
-#include "base/number.h"
 #include "json_print.h"
+#include "sightline/support.h"
 
 #include <string.h>
 

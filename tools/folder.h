@@ -3,7 +3,7 @@
 #ifndef FOLDER_H
 #define FOLDER_H
 
-#include "base/base.h"
+#include "sightline/support.h"
 
 typedef struct sl_folder {
     char *path, *temporary;

@@ -1,8 +1,7 @@
 #include "inputs.h"
 
-#include "base/file.h"
-#include "base/number.h"
 #include "options.h"
+#include "sightline/support.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,7 +1,6 @@
 #include "isovist_eyes.h"
 
-#include "base/file.h"
-#include "base/number.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <string.h>

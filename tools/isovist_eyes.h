@@ -2,8 +2,8 @@
 #ifndef ISOVIST_EYES_H
 #define ISOVIST_EYES_H
 
-#include "base/base.h"
 #include "sightline/bake.h"
+#include "sightline/support.h"
 
 /// A place to look from, with its heading and view cone in degrees.
 typedef struct sl_eye {

@@ -1,8 +1,7 @@
 #include "isovist_run.h"
 
-#include "base/file.h"
-#include "base/number.h"
 #include "base/threads.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stddef.h>

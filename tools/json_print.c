@@ -1,7 +1,6 @@
 #include "json_print.h"
 
-#include "base/base.h"
-#include "base/bits.h"
+#include "sightline/support.h"
 
 #include <string.h>
 

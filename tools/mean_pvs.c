@@ -1,6 +1,6 @@
 #include "mean_pvs.h"
 
-#include "base/base.h"
+#include "sightline/support.h"
 
 #include <inttypes.h>
 

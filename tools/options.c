@@ -1,7 +1,6 @@
 #include "options.h"
 
-#include "base/base.h"
-#include "base/number.h"
+#include "sightline/support.h"
 
 #include <assert.h>
 #include <getopt.h>

@@ -1,8 +1,8 @@
 #include "pictures.h"
 
-#include "base/base.h"
 #include "inputs.h"
 #include "options.h"
+#include "sightline/support.h"
 
 sl_status sl_picture_plan(sl_context *context, const char *width, const char *title, bool dark,
                           sl_draw_options *out) {

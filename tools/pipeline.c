@@ -1,8 +1,8 @@
 #include "pipeline.h"
 
-#include "base/base.h"
 #include "inputs.h"
 #include "plan_report.h"
+#include "sightline/support.h"
 #include "solvers.h"
 
 #include <string.h>

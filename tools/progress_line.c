@@ -1,6 +1,6 @@
 #include "progress_line.h"
 
-#include "base/base.h"
+#include "sightline/support.h"
 
 #include <inttypes.h>
 #include <string.h>

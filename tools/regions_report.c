@@ -1,7 +1,6 @@
 /// What "regions" tells: the table on stdout, and the same as CSV.
-#include "base/file.h"
-#include "base/number.h"
 #include "regions_run.h"
+#include "sightline/support.h"
 
 #include <inttypes.h>
 #include <string.h>

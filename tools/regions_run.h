@@ -2,8 +2,8 @@
 #ifndef REGIONS_RUN_H
 #define REGIONS_RUN_H
 
-#include "base/base.h"
 #include "sightline/from_region.h"
+#include "sightline/support.h"
 
 enum { SL_REGIONS_METHODS_MOST = 4 };
 

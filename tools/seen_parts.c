@@ -1,6 +1,6 @@
 #include "seen_parts.h"
 
-#include "base/base.h"
+#include "sightline/support.h"
 
 /// Of the map's width and height together: no one sees it in a picture.
 #define TOLERANCE 1e-4

@@ -1,7 +1,7 @@
-#include "base/base.h"
 #include "commands.h"
 #include "crew.h"
 #include "options.h"
+#include "sightline/support.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,9 +1,7 @@
 #include "view_report.h"
 
-#include "base/base.h"
-#include "base/file.h"
-#include "base/number.h"
 #include "json_print.h"
+#include "sightline/support.h"
 #include "sizes.h"
 
 #include <inttypes.h>

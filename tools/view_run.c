@@ -1,8 +1,7 @@
 #include "view_run.h"
 
-#include "base/base.h"
-#include "base/file.h"
 #include "import/image.h"
+#include "sightline/support.h"
 #include "solvers.h"
 
 #include <string.h>

@@ -1,8 +1,6 @@
 #include "walk_path.h"
 
-#include "base/file.h"
-#include "base/number.h"
-#include "base/random.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,8 +1,7 @@
 #include "walk_report.h"
 
-#include "base/file.h"
-#include "base/number.h"
 #include "sightline/draw.h"
+#include "sightline/support.h"
 
 #include <string.h>
 

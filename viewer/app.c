@@ -1,12 +1,12 @@
 #include "app.h"
 
 #include "bake_job.h"
-#include "base/base.h"
 #include "effect_words.h"
 #include "modes.h"
 #include "panes.h"
 #include "quiz.h"
 #include "shelf.h"
+#include "sightline/support.h"
 #include "walk.h"
 
 #include <math.h>

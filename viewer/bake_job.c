@@ -1,8 +1,8 @@
 #include "bake_job.h"
 
-#include "base/base.h"
 #include "clock.h"
 #include "sightline/solvers.h"
+#include "sightline/support.h"
 
 #include <string.h>
 

@@ -1,9 +1,9 @@
 #include "bench.h"
 
-#include "base/base.h"
 #include "clock.h"
 #include "input.h"
 #include "meter.h"
+#include "sightline/support.h"
 #include "window.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 #include "document.h"
 
 #include "bake_job.h"
-#include "base/base.h"
+#include "sightline/support.h"
 
 #include <string.h>
 #include <strings.h>

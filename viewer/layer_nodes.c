@@ -3,9 +3,8 @@
 #include "layer_nodes.h"
 
 #include "app.h"
-#include "base/base.h"
-#include "base/bits.h"
 #include "draw/sight.h"
+#include "sightline/support.h"
 #include "sightline/walk.h"
 
 #include <stdio.h>

@@ -1,9 +1,9 @@
 #include "layer_views.h"
 
 #include "app.h"
-#include "base/base.h"
 #include "draw/marks.h"
 #include "draw/text.h"
+#include "sightline/support.h"
 #include "view_job.h"
 
 #include <inttypes.h>

@@ -4,8 +4,8 @@
 #include "layer_watch.h"
 
 #include "app.h"
-#include "base/base.h"
 #include "draw/sight.h"
+#include "sightline/support.h"
 
 #include <string.h>
 

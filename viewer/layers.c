@@ -1,10 +1,10 @@
 #include "layers.h"
 
-#include "base/base.h"
 #include "draw/plan.h"
 #include "draw/seen.h"
 #include "draw/sight.h"
 #include "panes.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdio.h>

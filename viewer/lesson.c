@@ -1,6 +1,6 @@
 #include "lesson.h"
 
-#include "base/base.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <string.h>

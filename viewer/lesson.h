@@ -3,12 +3,12 @@
 #ifndef VIEWER_LESSON_H
 #define VIEWER_LESSON_H
 
-#include "base/base.h"
 #include "cell_to_cell/pass.h"
 #include "document.h"
 #include "draw/canvas.h"
 #include "sightline/dual.h"
 #include "sightline/steps.h"
+#include "sightline/support.h"
 #include "space/mesh_steps.h"
 
 typedef struct sl_app sl_app;

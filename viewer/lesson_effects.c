@@ -1,9 +1,9 @@
 /// The lesson of effects: cell by cell what the eye's cell sees, and which doors, mirrors and glass
 /// that is a matter of.
 #include "app.h"
-#include "base/base.h"
 #include "draw/marks.h"
 #include "draw/sight.h"
+#include "sightline/support.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,8 +1,8 @@
 /// The lesson of the multipass method: quadrant by quadrant of directions, the cells in the order
 /// in which they are done, with what depends on what.
 #include "app.h"
-#include "base/base.h"
 #include "draw/sight.h"
+#include "sightline/support.h"
 
 #include <stdio.h>
 

@@ -1,8 +1,8 @@
 #include "present.h"
 
-#include "base/base.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "geometry/orient.h"
+#include "sightline/support.h"
 
 #include <string.h>
 

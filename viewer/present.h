@@ -4,10 +4,10 @@
 #ifndef VIEWER_PRESENT_H
 #define VIEWER_PRESENT_H
 
-#include "base/bits.h"
 #include "document.h"
 #include "sightline/mirrored.h"
 #include "sightline/moving.h"
+#include "sightline/support.h"
 
 /// Zeroed to start. The pointers are NULL while nothing is open.
 typedef struct sl_present {

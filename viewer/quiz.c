@@ -1,8 +1,8 @@
 #include "quiz.h"
 
-#include "base/random.h"
 #include "draw/sight.h"
 #include "sightline/solvers.h"
+#include "sightline/support.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -2,8 +2,8 @@
 #ifndef VIEWER_RECORD_H
 #define VIEWER_RECORD_H
 
-#include "base/base.h"
 #include "sightline/map.h"
+#include "sightline/support.h"
 
 /// Where the eye was, sixty times a second.
 typedef struct sl_record_frame {

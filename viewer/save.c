@@ -1,9 +1,9 @@
 #include "save.h"
 
 #include "account.h"
-#include "base/base.h"
 #include "draw/paper.h"
 #include "panes.h"
+#include "sightline/support.h"
 
 #include <errno.h>
 #include <string.h>

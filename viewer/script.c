@@ -2,10 +2,10 @@
 
 #include "account.h"
 #include "actions.h"
-#include "base/file.h"
 #include "input.h"
 #include "save.h"
 #include "shelf.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,10 +1,9 @@
 #include "seen.h"
 
-#include "base/base.h"
-#include "base/bits.h"
 #include "clock.h"
 #include "edit.h"
 #include "seen_mirrors.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <string.h>

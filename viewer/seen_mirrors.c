@@ -1,7 +1,7 @@
 #include "seen_mirrors.h"
 
-#include "base/base.h"
 #include "clock.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <string.h>

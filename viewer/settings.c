@@ -1,6 +1,6 @@
 #include "settings.h"
 
-#include "base/file.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdio.h>

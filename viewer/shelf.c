@@ -1,7 +1,7 @@
 #include "shelf.h"
 
-#include "base/base.h"
 #include "sightline/import.h"
+#include "sightline/support.h"
 
 #include <dirent.h>
 #include <stdlib.h>

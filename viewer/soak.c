@@ -1,12 +1,11 @@
 #include "soak.h"
 
 #include "actions.h"
-#include "base/base.h"
-#include "base/random.h"
 #include "clock.h"
 #include "input.h"
 #include "script.h"
 #include "shelf.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 #include "view_job.h"
 
-#include "base/base.h"
+#include "sightline/support.h"
 
 #include <pthread.h>
 #include <stdatomic.h>

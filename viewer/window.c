@@ -1,9 +1,9 @@
 #include "window.h"
 
-#include "base/base.h"
 #include "clock.h"
 #include "input.h"
 #include "shelf.h"
+#include "sightline/support.h"
 
 #include <SDL.h>
 #include <ctype.h>

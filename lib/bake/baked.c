@@ -1,7 +1,7 @@
 #include "sightline/bake.h"
 
 #include "bake/slv.h"
-#include "base/base.h"
+#include "sightline/support.h"
 
 #include <inttypes.h>
 #include <string.h>

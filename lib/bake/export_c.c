@@ -1,7 +1,7 @@
 /// Export as C source: the matrix of visible sets, a bit a pair, for programs that want to read no
 /// file.
 #include "bake/exports.h"
-#include "base/file.h"
+#include "sightline/support.h"
 
 #include <inttypes.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /// Export as CSV: a line for each ordered pair of cells of which the first sees the second.
 #include "bake/exports.h"
-#include "base/file.h"
+#include "sightline/support.h"
 
 #include <inttypes.h>
 

@@ -1,6 +1,6 @@
 /// Export as one JSON object, printed piece by piece so that a large map needs no tree in memory.
 #include "bake/exports.h"
-#include "base/file.h"
+#include "sightline/support.h"
 
 #include <jansson.h>
 

@@ -1,6 +1,6 @@
 /// Export as a PNG of one bit a pixel: row a, column b is black where cell a sees cell b.
 #include "bake/exports.h"
-#include "base/file.h"
+#include "sightline/support.h"
 
 #include <png.h>
 #include <setjmp.h>

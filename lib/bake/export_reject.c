@@ -1,9 +1,9 @@
 // A copy of a WAD with the REJECT of the map that was baked.
 #include "bake/exports.h"
 #include "bake/reject.h"
-#include "base/file.h"
 #include "import/wad_write.h"
 #include "sightline/import.h"
+#include "sightline/support.h"
 
 typedef struct reject_export {
     sl_context *context;

@@ -1,7 +1,7 @@
 #include "bake/reject.h"
 
 #include "bake/cell_sectors.h"
-#include "base/bits.h"
+#include "sightline/support.h"
 
 #include <string.h>
 

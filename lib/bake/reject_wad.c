@@ -1,11 +1,11 @@
 // Maps are baked beside each other, each by one thread, the largest first so that none is left to
 // one thread at the end.
 #include "bake/reject.h"
-#include "base/file.h"
 #include "base/threads.h"
 #include "import/wad_write.h"
 #include "sightline/cell_to_cell.h"
 #include "sightline/import.h"
+#include "sightline/support.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,9 +1,8 @@
 /// A baked file with doors shut: what is left to see, without a new bake.
 #include "sightline/bake.h"
 
-#include "base/base.h"
-#include "base/bits.h"
 #include "cell_to_cell/pvs_rows.h"
+#include "sightline/support.h"
 
 #include <string.h>
 

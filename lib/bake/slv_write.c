@@ -1,7 +1,6 @@
 #include "bake/slv.h"
-#include "base/bits.h"
-#include "base/file.h"
 #include "map/print.h"
+#include "sightline/support.h"
 
 #include <stdlib.h>
 #include <string.h>

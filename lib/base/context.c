@@ -26,6 +26,10 @@ void sl_context_destroy(sl_context *context) {
     resize(&hooks, context, 0);
 }
 
+const sl_hooks *sl_context_hooks(const sl_context *context) {
+    return &context->hooks;
+}
+
 const char *sl_context_message(const sl_context *context) {
     return context->message;
 }

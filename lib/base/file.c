@@ -1,4 +1,4 @@
-#include "base/file.h"
+#include "sightline/support.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-#include "base/number.h"
+#include "sightline/support.h"
 
 #include <locale.h>
 #include <stdio.h>

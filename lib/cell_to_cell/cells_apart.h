@@ -2,8 +2,8 @@
 #ifndef SL_CELLS_APART_H
 #define SL_CELLS_APART_H
 
-#include "base/base.h"
 #include "sightline/cell_to_cell.h"
+#include "sightline/support.h"
 
 /// Whether lines between two cells, from where they leave the one to where they enter the other,
 /// are within the range: ordered by how far apart the cells are.

@@ -1,6 +1,6 @@
 #include "cell_to_cell/dependence.h"
 
-#include "base/base.h"
+#include "sightline/support.h"
 
 #define UNSEEN UINT32_MAX
 

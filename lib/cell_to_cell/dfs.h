@@ -2,13 +2,13 @@
 #ifndef SL_DFS_H
 #define SL_DFS_H
 
-#include "base/bits.h"
 #include "cell_to_cell/crossing.h"
 #include "cell_to_cell/partial.h"
 #include "cell_to_cell/prune.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "cell_to_cell/tree_store.h"
 #include "sightline/cell_to_cell.h"
+#include "sightline/support.h"
 
 #include <pthread.h>
 

@@ -2,8 +2,8 @@
 #ifndef SL_DOOR_TABLE_H
 #define SL_DOOR_TABLE_H
 
-#include "base/bits.h"
 #include "cell_to_cell/pvs_rows.h"
+#include "sightline/support.h"
 
 /// A set of doors, `words` words in sl_door_table.sets.
 typedef struct sl_door_alternative {

@@ -1,7 +1,7 @@
 /// Rows of door sets: reading them.
 #include "sightline/doors.h"
 
-#include "base/base.h"
+#include "sightline/support.h"
 
 void sl_door_sets_destroy(sl_context *context, sl_door_sets *sets) {
     sl_free(context, sets->offsets);

@@ -7,10 +7,10 @@
 /// grazed are followed as well.
 #include "sightline/explain.h"
 
-#include "base/base.h"
 #include "cell_to_cell/crossing.h"
 #include "cell_to_cell/explain_line.h"
 #include "sightline/solvers.h"
+#include "sightline/support.h"
 
 #include <string.h>
 

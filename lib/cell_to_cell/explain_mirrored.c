@@ -1,11 +1,11 @@
 /// A sightline by mirror, to be told: depth first over sequences of portals and mirrors, with one
 /// reflection more each time, and as in explain.c with a bound on what is crossed that is doubled
 /// until a line is found or nothing is left beyond it.
-#include "base/base.h"
 #include "cell_to_cell/explain_line.h"
 #include "cell_to_cell/unfolded.h"
 #include "effects/mirror_sides.h"
 #include "sightline/explain.h"
+#include "sightline/support.h"
 
 #include <math.h>
 

@@ -1,8 +1,8 @@
 /// Walks round every portal end, from portal to portal, and chooses which fans serve which cells.
 #include "cell_to_cell/fans.h"
 
-#include "base/bits.h"
 #include "geometry/orient.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,8 +3,8 @@
 #ifndef SL_FANS_H
 #define SL_FANS_H
 
-#include "base/base.h"
 #include "sightline/cell_to_cell.h"
+#include "sightline/support.h"
 
 /// A directed portal as the sweep walks through it; its ends are numbers of sl_fans.ends. The
 /// directed portals of a cell are directed portals[first[cell] .. first[cell + 1]),

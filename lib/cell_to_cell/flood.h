@@ -2,9 +2,8 @@
 #ifndef SL_FLOOD_H
 #define SL_FLOOD_H
 
-#include "base/base.h"
-#include "base/bits.h"
 #include "sightline/cell_to_cell.h"
+#include "sightline/support.h"
 
 /// Adds to an empty set all cells that a sightline through the directed portal may reach: never
 /// misses one, but gives up where they are more than `most`. They are listed in `found`, which has

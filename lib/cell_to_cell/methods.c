@@ -1,8 +1,8 @@
 /// The table of cell-to-cell methods, and what they share.
 #include "cell_to_cell/methods.h"
 
-#include "base/base.h"
 #include "sightline/solvers.h"
+#include "sightline/support.h"
 
 #include <string.h>
 

@@ -14,13 +14,13 @@
 ///
 /// Pairs are symmetric, and what a cell sees in one sector sees it in the opposite one: half of the
 /// sectors tell all.
-#include "base/bits.h"
 #include "base/threads.h"
 #include "cell_to_cell/bit_rows.h"
 #include "cell_to_cell/methods.h"
 #include "cell_to_cell/pass.h"
 #include "cell_to_cell/prune.h"
 #include "cell_to_cell/pvs_rows.h"
+#include "sightline/support.h"
 
 #include <pthread.h>
 #include <string.h>

@@ -2,10 +2,9 @@
 #ifndef SL_PARTIAL_H
 #define SL_PARTIAL_H
 
-#include "base/base.h"
-#include "base/bits.h"
 #include "cell_to_cell/bit_rows.h"
 #include "sightline/cell_to_cell.h"
+#include "sightline/support.h"
 
 /// Makes empty partial results of a method with so many units; partial results that are begun
 /// already must be its: SL_BAD_ARGUMENT.

@@ -1,6 +1,6 @@
 #include "cell_to_cell/pass.h"
 
-#include "base/base.h"
+#include "sightline/support.h"
 
 static bool faces(const sl_space *space, bool inside_only, uint32_t cell,
                   const sl_directed_portal *directed, sl_cone cone) {

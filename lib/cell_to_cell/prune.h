@@ -4,10 +4,9 @@
 #ifndef SL_PRUNE_H
 #define SL_PRUNE_H
 
-#include "base/base.h"
-#include "base/bits.h"
 #include "cell_to_cell/sparse_row.h"
 #include "sightline/cell_to_cell.h"
+#include "sightline/support.h"
 
 /// A word of a set of cells that has some: cells 64 * word on.
 typedef struct sl_prune_word {

@@ -2,9 +2,8 @@
 #ifndef SL_PVS_ROWS_H
 #define SL_PVS_ROWS_H
 
-#include "base/base.h"
-#include "base/bits.h"
 #include "sightline/cell_to_cell.h"
+#include "sightline/support.h"
 
 /// Bytes of one or more encoded rows, growing.
 typedef SL_ARRAY(uint8_t) sl_row_bytes;

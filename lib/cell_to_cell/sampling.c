@@ -5,10 +5,10 @@
 #include "cell_to_cell/bit_rows.h"
 #include "cell_to_cell/methods.h"
 
-#include "base/random.h"
 #include "base/threads.h"
 #include "effects/effects.h"
 #include "geometry/orient.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <pthread.h>

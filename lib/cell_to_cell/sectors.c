@@ -1,6 +1,6 @@
 #include "cell_to_cell/sectors.h"
 
-#include "base/base.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdlib.h>

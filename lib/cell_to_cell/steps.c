@@ -1,9 +1,8 @@
 #include "sightline/steps.h"
 
-#include "base/base.h"
-#include "base/bits.h"
 #include "cell_to_cell/crossing.h"
 #include "sightline/solvers.h"
+#include "sightline/support.h"
 
 /// A cell on the way from the source.
 typedef struct place {

@@ -3,8 +3,8 @@
 #ifndef SL_TREE_STORE_H
 #define SL_TREE_STORE_H
 
-#include "base/base.h"
 #include "sightline/cell_to_cell.h"
+#include "sightline/support.h"
 
 #include <pthread.h>
 

@@ -3,8 +3,7 @@
 #ifndef SL_WORD_SET_H
 #define SL_WORD_SET_H
 
-#include "base/base.h"
-#include "base/bits.h"
+#include "sightline/support.h"
 
 /// To be made with sl_word_set_create and freed with sl_word_set_destroy.
 typedef struct sl_word_set {

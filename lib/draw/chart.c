@@ -2,8 +2,8 @@
 
 #include "draw/chart_page.h"
 
-#include "base/base.h"
 #include "draw/page.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdlib.h>

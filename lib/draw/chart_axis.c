@@ -1,6 +1,6 @@
 #include "draw/chart_axis.h"
 
-#include "base/number.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdio.h>

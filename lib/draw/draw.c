@@ -1,9 +1,9 @@
 #include "sightline/draw.h"
 
-#include "base/base.h"
 #include "draw/legend.h"
 #include "draw/page.h"
 #include "draw/plan.h"
+#include "sightline/support.h"
 
 #include <math.h>
 

@@ -2,10 +2,10 @@
 #ifndef SL_DRAW_EXPLAIN_H
 #define SL_DRAW_EXPLAIN_H
 
-#include "base/base.h"
 #include "draw/canvas.h"
 #include "draw/marks.h"
 #include "draw/scene.h"
+#include "sightline/support.h"
 
 typedef struct sl_told {
     sl_scene scene; ///< the plan, its cells painted as the explanation asks

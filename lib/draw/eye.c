@@ -8,8 +8,7 @@
 #include "draw/text.h"
 #include "sightline/draw.h"
 
-#include "base/bits.h"
-#include "base/number.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,12 +1,12 @@
 /// Pictures of what is seen from places: regions over the plan, heat maps of their measures, and
 /// patches coloured by what they cost.
-#include "base/base.h"
 #include "draw/legend.h"
 #include "draw/page.h"
 #include "draw/plan.h"
 #include "draw/seen.h"
 #include "draw/text.h"
 #include "sightline/draw.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,8 +1,8 @@
 #include "draw/legend.h"
 
-#include "base/number.h"
 #include "draw/faults.h"
 #include "draw/text.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 #ifndef SL_DRAW_PAPER_H
 #define SL_DRAW_PAPER_H
 
-#include "base/file.h"
+#include "sightline/support.h"
 
 #include <cairo.h>
 

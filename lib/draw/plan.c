@@ -1,9 +1,9 @@
 #include "draw/plan.h"
 
-#include "base/base.h"
 #include "draw/faults.h"
 #include "draw/marks.h"
 #include "effects/mirror_sides.h"
+#include "sightline/support.h"
 #include "space/ray.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 #include "draw/scene.h"
 
-#include "base/base.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdlib.h>

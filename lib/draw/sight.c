@@ -1,7 +1,7 @@
 #include "draw/sight.h"
 
-#include "base/bits.h"
 #include "draw/marks.h"
+#include "sightline/support.h"
 
 #include <math.h>
 

@@ -1,7 +1,7 @@
 #include "draw/subdivision.h"
 
-#include "base/base.h"
 #include "draw/marks.h"
+#include "sightline/support.h"
 
 #define FULL_TURN 6.283185307179586
 

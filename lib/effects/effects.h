@@ -2,8 +2,8 @@
 #ifndef SL_EFFECTS_EFFECTS_H
 #define SL_EFFECTS_EFFECTS_H
 
-#include "base/base.h"
 #include "sightline/effects.h"
+#include "sightline/support.h"
 
 extern const sl_effect sl_effect_door;
 extern const sl_effect sl_effect_mirror;

@@ -1,7 +1,7 @@
 #include "effects/mirror_sides.h"
 
-#include "base/base.h"
 #include "geometry/orient.h"
+#include "sightline/support.h"
 
 #include <math.h>
 

@@ -1,7 +1,7 @@
 /// The cells in which a box lies.
 #include "sightline/moving.h"
 
-#include "base/bits.h"
+#include "sightline/support.h"
 #include "space/boxes.h"
 #include "space/cell_grid.h"
 

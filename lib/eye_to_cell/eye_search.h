@@ -2,10 +2,9 @@
 #ifndef SL_EYE_SEARCH_H
 #define SL_EYE_SEARCH_H
 
-#include "base/base.h"
-#include "base/bits.h"
 #include "eye_to_cell/cone.h"
 #include "sightline/eye_to_cell.h"
+#include "sightline/support.h"
 #include "space/boxes.h"
 
 /// A cell on the way of the exact method, or a node of the stab tree with all above it.

@@ -3,9 +3,9 @@
 #ifndef SL_REGION_PARTS_H
 #define SL_REGION_PARTS_H
 
-#include "base/base.h"
 #include "geometry/orient.h"
 #include "sightline/region.h"
+#include "sightline/support.h"
 
 /// A ray from the eye through a point other than it: a corner of the space, or a cone's border.
 typedef struct sl_eye_ray {

@@ -1,8 +1,8 @@
 #include "sightline/mirrored.h"
 
-#include "base/base.h"
 #include "effects/mirror_sides.h"
 #include "geometry/orient.h"
+#include "sightline/support.h"
 
 typedef struct finder {
     sl_context *context;

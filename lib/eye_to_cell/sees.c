@@ -2,8 +2,8 @@
 /// it may go on in several, and all are tried.
 #include "sightline/sees.h"
 
-#include "base/bits.h"
 #include "eye_to_cell/region_parts.h"
+#include "sightline/support.h"
 
 #include <math.h>
 

@@ -2,11 +2,10 @@
 #ifndef SL_REGIONS_H
 #define SL_REGIONS_H
 
-#include "base/base.h"
-#include "base/bits.h"
 #include "cell_to_cell/pass.h"
 #include "sightline/from_region.h"
 #include "sightline/space.h"
+#include "sightline/support.h"
 
 #define SL_NO_VIEW_CELL UINT32_MAX
 

@@ -14,8 +14,8 @@
 /// passing at its right.
 #include "from_region/solver.h"
 
-#include "base/random.h"
 #include "geometry/orient.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /// The table of kinds, how large a plan becomes, and turning it.
-#include "base/number.h"
 #include "generate/plot.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdio.h>

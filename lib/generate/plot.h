@@ -2,9 +2,8 @@
 #ifndef SL_GENERATE_PLOT_H
 #define SL_GENERATE_PLOT_H
 
-#include "base/base.h"
-#include "base/random.h"
 #include "sightline/generate.h"
+#include "sightline/support.h"
 
 typedef struct sl_plot {
     sl_context *context;

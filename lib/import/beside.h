@@ -2,7 +2,7 @@
 #ifndef SL_IMPORT_BESIDE_H
 #define SL_IMPORT_BESIDE_H
 
-#include "base/file.h"
+#include "sightline/support.h"
 
 /// The path of the file `relative`, as the file `name` calls it: from where that one lies, unless
 /// it is a whole path; `\` is as good as `/`. sl_free is the caller's; NULL for lack of memory.

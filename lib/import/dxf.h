@@ -2,10 +2,10 @@
 #ifndef SL_IMPORT_DXF_H
 #define SL_IMPORT_DXF_H
 
-#include "base/base.h"
 #include "import/pen.h"
 #include "map/scan.h"
 #include "sightline/import.h"
+#include "sightline/support.h"
 
 typedef struct sl_dxf_pair {
     int code;

@@ -1,6 +1,6 @@
-#include "base/file.h"
 #include "import/wad.h"
 #include "sightline/import.h"
+#include "sightline/support.h"
 
 #include <string.h>
 #include <strings.h>

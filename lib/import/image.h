@@ -2,8 +2,8 @@
 #ifndef SL_IMPORT_IMAGE_H
 #define SL_IMPORT_IMAGE_H
 
-#include "base/base.h"
 #include "sightline/import.h"
+#include "sightline/support.h"
 
 /// Rows from the top down, a byte a pixel: 0 black, 255 white. Zeroed, there is none.
 typedef struct sl_image {

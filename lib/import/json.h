@@ -3,7 +3,7 @@
 #ifndef SL_IMPORT_JSON_H
 #define SL_IMPORT_JSON_H
 
-#include "base/base.h"
+#include "sightline/support.h"
 
 #include <jansson.h>
 

@@ -1,6 +1,6 @@
 #include "import/pen.h"
 
-#include "base/base.h"
+#include "sightline/support.h"
 
 #include <math.h>
 

@@ -1,9 +1,9 @@
 // The map.yaml of ROS' map_server: a picture's name, the size of its pixels, where it lies, and
 // from which occupancy a pixel is an obstacle.
-#include "base/number.h"
 #include "import/beside.h"
 #include "import/image.h"
 #include "map/scan.h"
+#include "sightline/support.h"
 
 #include <yaml.h>
 

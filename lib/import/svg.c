@@ -2,12 +2,11 @@
 // is walls, through the transforms of its groups.
 #include "import/svg.h"
 
-#include "base/base.h"
-#include "base/number.h"
 #include "import/layers.h"
 #include "import/xml.h"
 #include "map/scan.h"
 #include "sightline/import.h"
+#include "sightline/support.h"
 
 #include <math.h>
 

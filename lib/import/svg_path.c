@@ -1,8 +1,8 @@
 // What SVG writes in attributes: numbers, transforms, and the commands of a path.
 #include "import/svg.h"
 
-#include "base/base.h"
 #include "map/scan.h"
+#include "sightline/support.h"
 
 #include <math.h>
 

@@ -4,7 +4,7 @@
 #ifndef SL_WAD_H
 #define SL_WAD_H
 
-#include "base/base.h"
+#include "sightline/support.h"
 
 enum { SL_LUMP_NAME = 9 }; ///< eight characters and a 0
 

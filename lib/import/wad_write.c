@@ -1,6 +1,6 @@
 #include "import/wad_write.h"
 
-#include "base/file.h"
+#include "sightline/support.h"
 
 #include <stdlib.h>
 #include <string.h>

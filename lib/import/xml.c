@@ -1,6 +1,6 @@
 #include "import/xml.h"
 
-#include "base/base.h"
+#include "sightline/support.h"
 
 #include <libxml/parser.h>
 #include <limits.h>

@@ -1,6 +1,5 @@
-#include "base/base.h"
-#include "base/bits.h"
 #include "map/planar.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-#include "base/base.h"
 #include "sightline/map.h"
+#include "sightline/support.h"
 
 #include <string.h>
 

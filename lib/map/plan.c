@@ -1,6 +1,6 @@
-#include "base/file.h"
 #include "map/grid.h"
 #include "map/print.h"
+#include "sightline/support.h"
 
 #include <math.h>
 

@@ -9,9 +9,9 @@
 /// grid: in place of pixels there are the ends themselves, with a tolerance about each.
 #include "map/planar.h"
 
-#include "base/base.h"
 #include "geometry/crossing.h"
 #include "geometry/orient.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,8 +3,8 @@
 #ifndef SL_MAP_PRINT_H
 #define SL_MAP_PRINT_H
 
-#include "base/base.h"
 #include "sightline/map.h"
+#include "sightline/support.h"
 
 void sl_map_print_text(const sl_map *map, FILE *stream);
 

@@ -2,9 +2,8 @@
 #ifndef SL_MAP_SCAN_H
 #define SL_MAP_SCAN_H
 
-#include "base/base.h"
-#include "base/number.h"
 #include "sightline/map.h"
+#include "sightline/support.h"
 
 #include <string.h>
 

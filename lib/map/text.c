@@ -1,6 +1,6 @@
-#include "base/file.h"
 #include "map/print.h"
 #include "map/scan.h"
+#include "sightline/support.h"
 
 #include <math.h>
 

@@ -3,8 +3,8 @@
 #ifndef SL_SPACE_BOX_TREE_H
 #define SL_SPACE_BOX_TREE_H
 
-#include "base/base.h"
 #include "sightline/geometry.h"
+#include "sightline/support.h"
 
 /// Deep enough for 2^32 boxes.
 enum { SL_BOX_TREE_LEVELS = 12 };

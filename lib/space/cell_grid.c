@@ -9,7 +9,7 @@
 /// askew there would be too many entries: such a grid has fewer buckets.
 #include "space/cell_grid.h"
 
-#include "base/base.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <string.h>

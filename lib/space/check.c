@@ -1,7 +1,7 @@
 /// The whole-graph check: what the later stages take for granted, proven for one space. Safe on any
 /// bytes: every index is checked before it is used.
 #include "space/check.h"
-#include "base/bits.h"
+#include "sightline/support.h"
 #include "space/seams.h"
 #include "space/wall_lines.h"
 

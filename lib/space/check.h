@@ -2,8 +2,8 @@
 #ifndef SL_SPACE_CHECK_H
 #define SL_SPACE_CHECK_H
 
-#include "base/base.h"
 #include "sightline/space.h"
+#include "sightline/support.h"
 
 /// The check of a space that knows its sides, of which counts and bounds are checked.
 sl_status sl_check_mesh(sl_context *context, const sl_space *space);

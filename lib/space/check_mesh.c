@@ -5,8 +5,8 @@
 /// bounds has one side of another cell that runs the other way, between the same two ends: the two
 /// cancel. The sides on the border make up the border, once. So the sum of all cells winds around
 /// each point of the bounds as often as the border does: once.
-#include "base/bits.h"
 #include "geometry/orient.h"
+#include "sightline/support.h"
 #include "space/cell_grid.h"
 #include "space/check.h"
 #include "space/seams.h"

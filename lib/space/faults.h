@@ -2,8 +2,8 @@
 #ifndef SL_SPACE_FAULTS_H
 #define SL_SPACE_FAULTS_H
 
-#include "base/base.h"
 #include "sightline/faults.h"
+#include "sightline/support.h"
 #include "space/wall_grid.h"
 
 #include <math.h>

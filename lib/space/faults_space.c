@@ -1,5 +1,5 @@
 /// Faults of the space: leaks to the outside, thin cells, rooms that nothing leads to.
-#include "base/bits.h"
+#include "sightline/support.h"
 #include "space/faults.h"
 
 #include <assert.h>

@@ -1,5 +1,5 @@
 /// Inside and outside, told by reachability.
-#include "base/bits.h"
+#include "sightline/support.h"
 #include "space/kd_tree.h"
 
 /// Marks all that can be reached through portals from what is marked and on the stack.

@@ -3,8 +3,8 @@
 /// boundary is found through a grid over the walls, and decided by the exact predicate.
 #include "sightline/outline.h"
 
-#include "base/base.h"
 #include "geometry/orient.h"
+#include "sightline/support.h"
 #include "space/rooms.h"
 #include "space/wall_grid.h"
 

@@ -3,8 +3,8 @@
 #ifndef SL_ROOMS_H
 #define SL_ROOMS_H
 
-#include "base/base.h"
 #include "sightline/outline.h"
+#include "sightline/support.h"
 
 /// The boundaries as they are worked on: sides in no order, those of a face linked both ways.
 typedef struct sl_mesh {

@@ -1,7 +1,7 @@
 #include "sightline/space.h"
 
-#include "base/base.h"
 #include "geometry/orient.h"
+#include "sightline/support.h"
 #include "space/cell_grid.h"
 #include "space/kd_tree.h"
 #include "space/seams.h"

@@ -1,6 +1,6 @@
 #include "space/splits.h"
 
-#include "base/base.h"
+#include "sightline/support.h"
 
 #include <math.h>
 

@@ -16,8 +16,8 @@
 /// turning ends, and all that may suffer is the shape of the triangles.
 #include "space/triangulation.h"
 
-#include "base/random.h"
 #include "geometry/orient.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdlib.h>

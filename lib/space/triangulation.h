@@ -3,8 +3,8 @@
 #ifndef SL_SPACE_TRIANGULATION_H
 #define SL_SPACE_TRIANGULATION_H
 
-#include "base/base.h"
 #include "map/planar.h"
+#include "sightline/support.h"
 
 /// Beyond the box: what a half-edge on the outside has next.
 #define SL_OUTSIDE UINT32_MAX

@@ -2,8 +2,8 @@
 #ifndef SL_SPACE_WALL_GRID_H
 #define SL_SPACE_WALL_GRID_H
 
-#include "base/base.h"
 #include "sightline/map.h"
+#include "sightline/support.h"
 
 typedef struct sl_wall_grid {
     sl_box bounds;

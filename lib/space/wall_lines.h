@@ -2,8 +2,8 @@
 #ifndef SL_WALL_LINES_H
 #define SL_WALL_LINES_H
 
-#include "base/base.h"
 #include "sightline/map.h"
+#include "sightline/support.h"
 
 /// A wall, or what a region leaves of one: on the line x = at (axis 0) or y = at (axis 1), from lo
 /// to hi in the other coordinate, lo < hi.

@@ -2,8 +2,8 @@
 #ifndef SL_CONFLICT_H
 #define SL_CONFLICT_H
 
-#include "base/base.h"
 #include "sightline/stab.h"
+#include "sightline/support.h"
 
 /// Finds ends of the portals that no line keeps on their sides: strictly, or (strict false) not
 /// even touching them. None of the ends found can be spared. The portals must have such ends. Time:

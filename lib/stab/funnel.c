@@ -21,8 +21,8 @@
 /// cut, so that a pop restores the old one.
 #include "sightline/solvers.h"
 
-#include "base/base.h"
 #include "geometry/orient.h"
+#include "sightline/support.h"
 #include "stab/conflict.h"
 #include "stab/funnel.h"
 

@@ -6,8 +6,8 @@
 /// the first end in steps of the coarsest power of two that all of them are multiples of.
 #include "sightline/glpk.h"
 
-#include "base/base.h"
 #include "geometry/orient.h"
+#include "sightline/support.h"
 #include "stab/glpk_guard.h"
 
 #include <math.h>

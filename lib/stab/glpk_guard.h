@@ -10,7 +10,7 @@
 #ifndef SL_GLPK_GUARD_H
 #define SL_GLPK_GUARD_H
 
-#include "base/base.h"
+#include "sightline/support.h"
 
 #include <glpk.h>
 #include <setjmp.h>

@@ -10,7 +10,7 @@
 #include "sightline/glpk.h"
 #include "sightline/solvers.h"
 
-#include "base/base.h"
+#include "sightline/support.h"
 #include "stab/conflict.h"
 #include "stab/counted.h"
 #include "stab/glpk_simplex.h"

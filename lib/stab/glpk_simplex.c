@@ -9,7 +9,7 @@
 /// u.
 #include "stab/glpk_simplex.h"
 
-#include "base/base.h"
+#include "sightline/support.h"
 #include "stab/glpk_guard.h"
 
 #include <math.h>

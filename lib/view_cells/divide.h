@@ -3,7 +3,7 @@
 #ifndef SL_VIEW_DIVIDE_H
 #define SL_VIEW_DIVIDE_H
 
-#include "base/random.h"
+#include "sightline/support.h"
 #include "view_cells/heap.h"
 #include "view_cells/pieces.h"
 #include "view_cells/render.h"

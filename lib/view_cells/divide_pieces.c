@@ -1,5 +1,5 @@
 /// Dividing view space by what pieces of its rooms see, exactly (pieces.h).
-#include "base/bits.h"
+#include "sightline/support.h"
 #include "view_cells/divide.h"
 #include "view_cells/tree.h"
 

@@ -2,7 +2,7 @@
 #ifndef SL_VIEW_HEAP_H
 #define SL_VIEW_HEAP_H
 
-#include "base/base.h"
+#include "sightline/support.h"
 
 typedef struct sl_heap_item {
     double key;

@@ -2,7 +2,7 @@
 #ifndef SL_VIEW_NEIGHBOURS_H
 #define SL_VIEW_NEIGHBOURS_H
 
-#include "base/base.h"
+#include "sightline/support.h"
 #include "sightline/view_cells.h"
 
 typedef struct sl_view_pair {

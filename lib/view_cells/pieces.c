@@ -1,8 +1,8 @@
 #include "view_cells/pieces.h"
 
-#include "base/bits.h"
 #include "base/threads.h"
 #include "cell_to_cell/dependence.h"
+#include "sightline/support.h"
 
 static void piece_destroy(sl_context *context, sl_view_piece *piece) {
     sl_free(context, piece->corners.items);

@@ -1,7 +1,7 @@
 /// Where viewpoints are: evenly over the inside, along paths, or by a density.
 #include "sightline/view_cells.h"
 
-#include "base/base.h"
+#include "sightline/support.h"
 
 #include <math.h>
 

@@ -2,8 +2,7 @@
 #ifndef SL_VIEW_RENDER_H
 #define SL_VIEW_RENDER_H
 
-#include "base/base.h"
-#include "base/bits.h"
+#include "sightline/support.h"
 #include "sightline/view_cells.h"
 
 typedef struct sl_view_render {

@@ -4,7 +4,7 @@
 #ifndef SL_VIEW_ROOMS_H
 #define SL_VIEW_ROOMS_H
 
-#include "base/base.h"
+#include "sightline/support.h"
 #include "sightline/view_cells.h"
 
 #define SL_NO_ROOM   UINT32_MAX

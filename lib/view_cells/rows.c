@@ -1,8 +1,7 @@
 /// What view cells see, in use: location, lookup, the check of what a file says.
-#include "base/base.h"
-#include "base/bits.h"
 #include "cell_to_cell/pvs_maker.h"
 #include "cell_to_cell/pvs_rows.h"
+#include "sightline/support.h"
 #include "sightline/view_cells.h"
 
 void sl_view_rows_destroy(sl_context *context, sl_view_rows *rows) {

@@ -2,10 +2,9 @@
 /// ways, room by room, to the walls at its ends.
 #include "sightline/view_cells.h"
 
-#include "base/base.h"
-#include "base/random.h"
 #include "base/threads.h"
 #include "geometry/orient.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,8 +2,7 @@
 #ifndef SL_VIEW_TREE_H
 #define SL_VIEW_TREE_H
 
-#include "base/base.h"
-#include "base/bits.h"
+#include "sightline/support.h"
 #include "sightline/view_cells.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
 #ifndef SL_HIERARCHY_H
 #define SL_HIERARCHY_H
 
-#include "base/base.h"
+#include "sightline/support.h"
 #include "sightline/walk.h"
 
 /// The walls on each cell's boundary.

@@ -6,7 +6,7 @@
 #ifndef SL_OCCLUSION_H
 #define SL_OCCLUSION_H
 
-#include "base/base.h"
+#include "sightline/support.h"
 #include "walk/shape.h"
 
 /// An occluder of a leaf, and the next one, -1 for none.

@@ -2,8 +2,7 @@
 #ifndef SL_WALK_PARTS_H
 #define SL_WALK_PARTS_H
 
-#include "base/bits.h"
-#include "base/random.h"
+#include "sightline/support.h"
 #include "sightline/walk.h"
 #include "walk/occlusion.h"
 

@@ -3,8 +3,8 @@
 // CSV: machine, sets of doors kept of a pair at most, what was measured, its value, and times the
 // value of the line that it is held against (the one before, where the last column names none).
 #include "bake/slv.h"
-#include "base/random.h"
 #include "sightline/sightline.h"
+#include "sightline/support.h"
 
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "doors_plan.h"

@@ -4,11 +4,11 @@
 //   much
 //                                    of that it shows which DEEPEST reflections show, images
 //                                    rounded
-#include "base/random.h"
 #include "sightline/draw.h"
 #include "sightline/import.h"
 #include "sightline/mirrored.h"
 #include "sightline/sightline.h"
+#include "sightline/support.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -5,8 +5,8 @@
 //   bench_runtime FILE.slv      a baked file, an older program's too
 // CSV: machine, map, cells, what was asked, bytes that it reads, nanoseconds, times the first's.
 #include "bake/slv.h"
-#include "base/random.h"
 #include "sightline/sightline.h"
+#include "sightline/support.h"
 
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime/sightline_runtime.h"

@@ -12,9 +12,9 @@
 //          samples=N evaluate=N cells=N, lines to make by, lines to tell costs by, cells at most
 //          chart=FILE.png, drawn beside the table
 // CSV on stdout. Seconds are of this process's processor time.
-#include "base/base.h"
 #include "sightline/draw.h"
 #include "sightline/sightline.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdio.h>

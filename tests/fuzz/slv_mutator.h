@@ -9,8 +9,8 @@
 #include "fuzz.h"
 
 #include "bake/slv.h"
-#include "base/random.h"
 #include "sightline/solvers.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <zlib.h>

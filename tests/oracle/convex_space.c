@@ -1,7 +1,6 @@
 #include "oracle/convex_space.h"
 
-#include "base/base.h"
-#include "base/random.h"
+#include "sightline/support.h"
 
 #include <assert.h>
 #include <stdlib.h>

@@ -4,9 +4,9 @@
 #ifndef SL_TESTS_RANDOM_OBLIQUE_H
 #define SL_TESTS_RANDOM_OBLIQUE_H
 
-#include "base/random.h"
 #include "geometry/orient.h"
 #include "sightline/map.h"
+#include "sightline/support.h"
 
 #include <math.h>
 

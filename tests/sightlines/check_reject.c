@@ -13,9 +13,8 @@
 #include "oracle/sectors.h"
 
 #include "bake/cell_sectors.h"
-#include "base/file.h"
-#include "base/random.h"
 #include "sightline/sightline.h"
+#include "sightline/support.h"
 
 #include <getopt.h>
 #include <math.h>

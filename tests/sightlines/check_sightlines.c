@@ -12,9 +12,8 @@
 // few are told on stderr), 2 wrong arguments or files.
 #include "oracle/sectors.h"
 
-#include "base/file.h"
-#include "base/random.h"
 #include "sightline/sightline.h"
+#include "sightline/support.h"
 
 #include <getopt.h>
 #include <math.h>

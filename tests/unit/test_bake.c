@@ -1,11 +1,9 @@
 /// Visible sets, the depth-first search, the baked file: written, read back, damaged.
 #include "testing.h"
 
-#include "base/bits.h"
-#include "base/file.h"
-#include "base/random.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "sightline/glpk.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdatomic.h>

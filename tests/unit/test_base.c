@@ -1,11 +1,8 @@
 /// Numbers as text, files, threads.
 #include "testing.h"
 
-#include "base/bits.h"
-#include "base/file.h"
-#include "base/number.h"
-#include "base/random.h"
 #include "base/threads.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <sched.h>

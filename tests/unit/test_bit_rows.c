@@ -2,8 +2,8 @@
 // under the methods that keep them.
 #include "testing.h"
 
-#include "base/random.h"
 #include "cell_to_cell/bit_rows.h"
+#include "sightline/support.h"
 
 enum { MOST_CELLS = 700 };
 

@@ -2,7 +2,7 @@
 // points and lines, tiny, huge and without end.
 #include "testing.h"
 
-#include "base/random.h"
+#include "sightline/support.h"
 #include "space/box_tree.h"
 
 #include <math.h>

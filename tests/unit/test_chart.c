@@ -3,10 +3,9 @@
 
 #include "test_draw_map.h"
 
-#include "base/file.h"
-#include "base/random.h"
 #include "draw/chart_axis.h"
 #include "draw/chart_labels.h"
+#include "sightline/support.h"
 
 #include <cairo.h>
 #include <math.h>

@@ -1,9 +1,9 @@
 /// Where two segments cross, against rationals: no representable coordinate is nearer.
 #include "testing.h"
 
-#include "base/random.h"
 #include "geometry/crossing.h"
 #include "oracle/blockers.h"
+#include "sightline/support.h"
 
 #include <float.h>
 #include <gmp.h>

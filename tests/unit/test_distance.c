@@ -2,9 +2,9 @@
 /// distance, huge, tiny and far from the origin.
 #include "testing.h"
 
-#include "base/random.h"
 #include "geometry/distance.h"
 #include "geometry/whole.h"
+#include "sightline/support.h"
 
 #include <gmp.h>
 

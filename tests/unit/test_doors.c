@@ -4,9 +4,9 @@
 // needs effects
 #include "runtime_maps.h"
 
-#include "base/random.h"
 #include "cell_to_cell/door_table.h"
 #include "doors_plan.h"
+#include "sightline/support.h"
 
 enum { STATES = 1000 };
 

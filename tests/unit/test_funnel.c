@@ -3,11 +3,11 @@
 // conflicts by exact tests of their own.
 #include "testing.h"
 
-#include "base/base.h"
 #include "geometry/orient.h"
 #include "oracle/margin.h"
 #include "oracle/random_sequence.h"
 #include "sightline/solvers.h"
+#include "sightline/support.h"
 #include "solver_table.h"
 
 enum { WALKS = 50, STEPS = 24, DEEPEST = 10 };

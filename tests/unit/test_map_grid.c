@@ -1,8 +1,8 @@
 // Grids of squares: their walls, where they stand and how few they are.
 #include "testing.h"
 
-#include "base/random.h"
 #include "map/grid.h"
+#include "sightline/support.h"
 #include "unit/map_same.h"
 
 static void fill(sl_grid *grid, const char *squares) {

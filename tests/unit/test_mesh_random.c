@@ -4,10 +4,10 @@
 #include "unit/grid_walls.h"
 #include "unit/mesh_scene.h"
 
-#include "base/random.h"
 #include "oracle/blockers.h"
 #include "oracle/oracle.h"
 #include "oracle/random_map.h"
+#include "sightline/support.h"
 
 // --- what every scene must pass
 

@@ -2,11 +2,11 @@
 // sectors and their orders themselves; and lines of a sector alone, by each solver that tells them.
 #include "map_files.h"
 
-#include "base/random.h"
 #include "cell_to_cell/pass.h"
 #include "oracle/convex_space.h"
 #include "oracle/random_map.h"
 #include "sightline/glpk.h"
+#include "sightline/support.h"
 
 #include <math.h>
 

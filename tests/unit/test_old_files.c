@@ -4,9 +4,8 @@
 #include "runtime_maps.h"
 #include "slv_file.h"
 
-#include "base/file.h"
-#include "base/random.h"
 #include "geometry/orient.h"
+#include "sightline/support.h"
 
 #include <math.h>
 

@@ -1,7 +1,7 @@
 // The oracles themselves, on spaces laid out by hand: what is plainly visible, plainly hidden, and
 // what only grazes must come out as such, and the two oracles must agree where both answer.
-#include "base/random.h"
 #include "oracle/oracle.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,10 +1,10 @@
 /// The exact predicate against GMP's rationals, and against what plain doubles would say.
 #include "testing.h"
 
-#include "base/random.h"
 #include "contraction/expansion.h"
 #include "geometry/crossing.h"
 #include "geometry/orient.h"
+#include "sightline/support.h"
 
 #include <gmp.h>
 #include <math.h>

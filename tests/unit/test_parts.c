@@ -2,9 +2,8 @@
 /// before it was changed all come to what is found in one go; what is stopped never misses a pair.
 #include "testing.h"
 
-#include "base/bits.h"
-#include "base/random.h"
 #include "oracle/random_map.h"
+#include "sightline/support.h"
 
 #ifdef SIGHTLINE_TESTS_GLPK
 #include "sightline/glpk.h"

@@ -4,9 +4,8 @@
 #include "testing.h"
 
 #include "bake/exports.h"
-#include "base/file.h"
-#include "base/random.h"
 #include "oracle/sectors.h"
+#include "sightline/support.h"
 #include "wad_make.h"
 
 #include <unistd.h>

@@ -3,9 +3,9 @@
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime_maps.h"
 
-#include "base/random.h"
 #include "geometry/orient.h"
 #include "oracle/random_oblique.h"
+#include "sightline/support.h"
 
 #include <math.h>
 

@@ -5,7 +5,7 @@
 #include "runtime_maps.h"
 #include "slv_file.h"
 
-#include "base/random.h"
+#include "sightline/support.h"
 
 #include <math.h>
 

@@ -3,8 +3,8 @@
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime_maps.h"
 
-#include "base/random.h"
 #include "geometry/orient.h"
+#include "sightline/support.h"
 #include "sightline/view.h"
 
 #include <math.h>

@@ -4,7 +4,7 @@
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime_maps.h"
 
-#include "base/random.h"
+#include "sightline/support.h"
 
 #include <math.h>
 

@@ -1,8 +1,8 @@
 /// Seams: cells do not run over them, portals know them, walls win, and files keep them.
 #include "testing.h"
 
-#include "base/random.h"
 #include "oracle/random_oblique.h"
+#include "sightline/support.h"
 
 #include <math.h>
 

@@ -1,7 +1,7 @@
 /// The kd-tree, portals, point location, inside and outside, the whole-graph check.
 #include "testing.h"
 
-#include "base/random.h"
+#include "sightline/support.h"
 
 #include <math.h>
 

@@ -1,9 +1,9 @@
 /// The choice of a subdivision, where the splits of a kd-tree lie, and how a mesh comes about.
 #include "testing.h"
 
-#include "base/base.h"
 #include "geometry/orient.h"
 #include "sightline/import.h"
+#include "sightline/support.h"
 #include "space/mesh_steps.h"
 #include "space/splits.h"
 

@@ -2,10 +2,10 @@
 // map, the rational oracle on random spaces with oblique walls; and what it promises beside.
 #include "map_files.h"
 
-#include "base/random.h"
 #include "oracle/convex_space.h"
 #include "oracle/oracle.h"
 #include "oracle/random_map.h"
+#include "sightline/support.h"
 
 static const char OFFICE[] = SIGHTLINE_SOURCE_DIR "/maps/office.map";
 

@@ -2,8 +2,8 @@
 /// rationals; and the rule of crossings, against all directions there are to try.
 #include "testing.h"
 
-#include "base/random.h"
 #include "cell_to_cell/crossing.h"
+#include "sightline/support.h"
 
 #include <gmp.h>
 #include <math.h>

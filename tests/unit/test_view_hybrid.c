@@ -4,13 +4,12 @@
 ///   test_view_hybrid [FILE ...]    these maps instead, and more of each
 #include "view_cells_maps.h"
 
-#include "base/bits.h"
-#include "base/random.h"
 #include "cell_to_cell/crossing.h"
 #include "map_files.h"
 #include "oracle/random_map.h"
 #include "sightline/bake.h"
 #include "sightline/solvers.h"
+#include "sightline/support.h"
 #include "view_cells/pieces.h"
 
 enum { RANDOM_MAPS = 40, DEEPEST = 64 };

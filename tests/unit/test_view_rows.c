@@ -2,10 +2,9 @@
 /// cells see, compressed and not.
 #include "view_cells_maps.h"
 
-#include "base/bits.h"
-#include "base/random.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "sightline/cell_to_cell.h"
+#include "sightline/support.h"
 
 typedef struct seen {
     view_world world;

@@ -4,12 +4,11 @@
 #include "view_cells_maps.h"
 
 #include "bake/slv.h"
-#include "base/bits.h"
-#include "base/random.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "runtime/sightline_runtime.h"
 #include "sightline/bake.h"
 #include "sightline/import.h"
+#include "sightline/support.h"
 
 static uint64_t points = 4000;
 

@@ -57,6 +57,9 @@ typedef struct sl_context sl_context;
 SL_API sl_context *sl_context_create(const sl_hooks *hooks);
 SL_API void sl_context_destroy(sl_context *context);
 
+/// The hooks it was made with: for a context beside it that passes them on.
+SL_API const sl_hooks *sl_context_hooks(const sl_context *context);
+
 /// What the last failed call said: one line, no line end, "" when none failed.
 SL_API const char *sl_context_message(const sl_context *context);
 
