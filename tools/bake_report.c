@@ -1,11 +1,10 @@
 #include "bake_report.h"
 
 #include "json_print.h"
-#include "mean_pvs.h"
 #include "names.h"
-#include "plan_report.h"
+#include "outputs.h"
+#include "report.h"
 #include "sightline/support.h"
-#include "sizes.h"
 
 #include <inttypes.h>
 

@@ -3,9 +3,9 @@
 #include "commands.h"
 #include "crew.h"
 #include "inputs.h"
+#include "outputs.h"
 #include "pipeline.h"
 #include "sightline/support.h"
-#include "sizes.h"
 #include "solvers.h"
 
 #include <string.h>

@@ -1,7 +1,7 @@
 #include "commands.h"
 #include "inputs.h"
 #include "options.h"
-#include "pictures.h"
+#include "outputs.h"
 #include "sightline/draw.h"
 #include "sightline/support.h"
 

@@ -1,14 +1,12 @@
 #include "bake_report.h"
 #include "commands.h"
-#include "doors_shut.h"
 #include "inputs.h"
 #include "json_print.h"
-#include "mean_pvs.h"
 #include "names.h"
 #include "options.h"
-#include "plan_report.h"
+#include "outputs.h"
+#include "report.h"
 #include "sightline/support.h"
-#include "sizes.h"
 
 #include <inttypes.h>
 #include <string.h>

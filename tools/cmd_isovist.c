@@ -1,8 +1,8 @@
 #include "commands.h"
-#include "isovist_run.h"
-#include "pictures.h"
+#include "eye_run.h"
+#include "isovist.h"
+#include "outputs.h"
 #include "pipeline.h"
-#include "seen_parts.h"
 #include "sightline/draw.h"
 #include "sightline/support.h"
 

@@ -1,9 +1,9 @@
 #include "bake_parts.h"
 #include "commands.h"
 #include "inputs.h"
+#include "outputs.h"
 #include "pipeline.h"
 #include "sightline/support.h"
-#include "sizes.h"
 #include "solvers.h"
 
 #include <inttypes.h>

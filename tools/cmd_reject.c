@@ -2,9 +2,9 @@
 #include "inputs.h"
 #include "json_print.h"
 #include "options.h"
+#include "outputs.h"
 #include "sightline/reject.h"
 #include "sightline/support.h"
-#include "sizes.h"
 
 #include <inttypes.h>
 #include <string.h>

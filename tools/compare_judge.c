@@ -1,4 +1,4 @@
-#include "compare_judge.h"
+#include "compare.h"
 
 #include <math.h>
 

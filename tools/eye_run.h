@@ -1,10 +1,15 @@
-/// One view put to every culling method.
+/// One view put to every culling method, past objects that stand or move where the bake knows
+/// nothing of them, and what is seen as polygons to be drawn.
 #ifndef EYE_RUN_H
 #define EYE_RUN_H
 
+#include "json_print.h"
+#include "options.h"
 #include "sightline/bake.h"
+#include "sightline/draw.h"
 #include "sightline/eye_to_cell.h"
 #include "sightline/mirrored.h"
+#include "sightline/moving.h"
 
 /// What one method says.
 typedef struct sl_eye_result {
@@ -47,5 +52,58 @@ void sl_eye_measure(const sl_baked *baked, uint32_t eye_cell, const uint64_t *ce
 sl_status sl_eye_run_make(sl_context *context, const sl_baked *baked, const sl_view *view,
                           uint32_t depth, double range, bool timed, sl_eye_run *out);
 void sl_eye_run_destroy(sl_context *context, sl_eye_run *run);
+
+typedef struct sl_eye_object {
+    const char *text; ///< as it was given
+    uint32_t cells;   ///< that it lies in or touches
+    bool possible;    ///< one of them is in the visible set of the eye's cell
+    bool in_exact;    ///< one of them is seen, by exact culling without objects
+} sl_eye_object;
+
+/// Zeroed: none.
+typedef struct sl_eye_objects {
+    size_t count;
+    sl_moving_box *boxes;
+    sl_eye_object *objects;
+    bool *seen;          ///< by object
+    bool *mirrored;      ///< by object: whether it is seen by mirror
+    uint64_t *cells;     ///< seen past those that block
+    uint32_t cell_count; ///< of them
+    double share;        ///< of the area, as in sl_eye_run
+    sl_region region;    ///< past those that block
+    double region_share;
+    bool has_mirrors;         ///< the map; else the rest of this is empty
+    uint64_t *mirrored_cells; ///< seen by mirror past those that block
+    uint32_t mirrored_count;  ///< of them
+    double mirrored_share;
+    sl_mirrored_region mirrored_region;
+    double seconds; ///< to put the boxes in; 0 where it was not timed
+} sl_eye_objects;
+
+/// Reads X0,Y0,X1,Y1 or the name of the map's object, each with ',block' behind it or not.
+sl_status sl_eye_objects_read(sl_context *context, const sl_option_list *texts, const sl_map *map,
+                              sl_eye_objects *out);
+/// What the view makes of them.
+sl_status sl_eye_objects_run(sl_context *context, const sl_baked *baked, const sl_eye_run *run,
+                             bool timed, sl_eye_objects *objects);
+void sl_eye_objects_print(const sl_eye_objects *objects);
+/// "objects", "past_objects": nothing where there are none.
+void sl_eye_objects_add_json(sl_json_fields *fields, const sl_baked *baked,
+                             const sl_eye_objects *objects);
+void sl_eye_objects_destroy(sl_context *context, sl_eye_objects *objects);
+
+/// Adds the direct region, where `direct`, and all parts seen by mirror: arcs as chords.
+/// What is added before a failure is left for sl_seen_parts_destroy.
+typedef struct sl_seen_parts {
+    sl_drawn_region *items;
+    size_t count, capacity;
+} sl_seen_parts;
+
+sl_status sl_seen_parts_add(sl_context *context, const sl_space *space,
+                            const sl_mirrored_region *region, bool direct, sl_seen_parts *parts);
+/// Adds one region that is seen directly.
+sl_status sl_seen_parts_add_region(sl_context *context, const sl_space *space,
+                                   const sl_region *region, sl_seen_parts *parts);
+void sl_seen_parts_destroy(sl_context *context, sl_seen_parts *parts);
 
 #endif

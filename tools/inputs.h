@@ -1,4 +1,4 @@
-/// Reading what commands are given: map files and baked files.
+/// Reading what commands are given: map files and baked files, and which doors are shut.
 #ifndef INPUTS_H
 #define INPUTS_H
 
@@ -88,5 +88,10 @@ void sl_input_print_formats(void);
 /// SL_BAD_ARGUMENT: the point that an option or operand gives lies outside the map's bounds.
 sl_status sl_input_fail_outside(sl_context *context, const char *name, const char *text,
                                 sl_box bounds);
+
+/// Shuts the doors of a baked file that --shut names: "a,b", or "none"; without it (NULL) those
+/// that the map says are shut. The map's doors are then as that says, for pictures. SL_BAD_ARGUMENT
+/// for a name that is no door's.
+sl_status sl_doors_shut(sl_context *context, const char *text, sl_baked *baked);
 
 #endif

@@ -1,7 +1,7 @@
 #include "pipeline.h"
 
 #include "inputs.h"
-#include "plan_report.h"
+#include "report.h"
 #include "sightline/support.h"
 #include "solvers.h"
 

@@ -1,12 +1,30 @@
-/// Running methods of walking along a way, and what that comes to.
+/// The way of a walk, and walking it by each method: counts and times, frame by frame.
 #ifndef WALK_RUN_H
 #define WALK_RUN_H
 
 #include "console.h"
-#include "isovist_eyes.h"
+#include "isovist.h"
 #include "sightline/bake.h"
 #include "sightline/eye_to_cell.h"
 #include "sightline/walk.h"
+
+typedef SL_ARRAY(sl_point) sl_way;
+
+/// Lines of x and y, with blanks or a comma between; # begins a comment. SL_BAD_INPUT with
+/// FILE:LINE on anything else, on points outside the map, and where there are fewer than two.
+sl_status sl_way_read(sl_context *context, const char *path, const sl_space *space, sl_way *way);
+
+/// A tour: from cell to cell through the middles of portals, to cells chosen at random of those
+/// that can be walked to, until it is `length` long. It begins at `start`, which must lie inside
+/// the bounds.
+sl_status sl_way_tour(sl_context *context, const sl_space *space, sl_point start, uint64_t seed,
+                      double length, sl_way *way);
+
+double sl_way_length(const sl_way *way);
+
+/// Eyes every `step` along the way, each looking at the point of the way that is `ahead` on.
+sl_status sl_way_frames(sl_context *context, const sl_way *way, double step, double ahead,
+                        double fov, sl_eyes *eyes);
 
 /// What is counted and timed of each frame, and averaged over a walk.
 typedef enum sl_walk_figure {

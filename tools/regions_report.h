@@ -1,6 +1,6 @@
 /// From-region methods on maps, view cells after view cells: what "regions" measures and tells.
-#ifndef REGIONS_RUN_H
-#define REGIONS_RUN_H
+#ifndef REGIONS_REPORT_H
+#define REGIONS_REPORT_H
 
 #include "sightline/from_region.h"
 #include "sightline/support.h"

@@ -1,8 +1,51 @@
-#include "mean_pvs.h"
+#include "report.h"
 
 #include "sightline/support.h"
 
 #include <inttypes.h>
+#include <stdio.h>
+
+// --- the plan
+
+sl_name_table sl_effect_table(sl_effect_names *names) {
+    size_t count;
+    const sl_effect *const *effects = sl_effects(&count);
+    for (size_t i = 0; i < count; i++) names->names[i] = effects[i]->name;
+    return (sl_name_table){"effect", names->names, sizeof *names->names, count};
+}
+
+void sl_plan_print(const sl_map *map) {
+    size_t count;
+    const sl_effect *const *effects = sl_effects(&count);
+    const unsigned called_for = sl_plan_make(map).effects;
+    const char *lead = "  plan      ";
+    for (size_t i = 0; i < count; i++) {
+        if (!(called_for >> i & 1)) continue;
+        printf("%s%s (%zu): %s\n", lead, effects[i]->several, effects[i]->count(map),
+               effects[i]->adds);
+        lead = "            ";
+    }
+    const char *between = called_for ? "nothing calls for " : "walls alone; nothing calls for ";
+    for (size_t i = 0; i < count; i++) {
+        if (called_for >> i & 1) continue;
+        printf("%s%s%s", lead, between, effects[i]->several);
+        lead = "";
+        between = ", ";
+    }
+    if (!*lead) putchar('\n');
+}
+
+void sl_plan_add_json(sl_json_fields *fields, const sl_map *map) {
+    size_t count;
+    const sl_effect *const *effects = sl_effects(&count);
+    const unsigned called_for = sl_plan_make(map).effects;
+    sl_json_fields calls = sl_json_begin();
+    for (size_t i = 0; i < count; i++)
+        sl_json_add_flag(&calls, effects[i]->name, called_for >> i & 1);
+    sl_json_add_fields(fields, "effects", &calls);
+}
+
+// --- how much a cell sees
 
 /// What lies before a cell, of the cells that are looked at: a run of cells is one difference.
 /// Where all areas are too small for a double, cells count in their place.

@@ -1,9 +1,24 @@
-/// How much a cell sees, in the mean.
-#ifndef MEAN_PVS_H
-#define MEAN_PVS_H
+/// Parts of reports that several commands print: the plan of a map, how much a cell sees.
+#ifndef REPORT_H
+#define REPORT_H
 
 #include "json_print.h"
+#include "names.h"
 #include "sightline/bake.h"
+#include "sightline/effects.h"
+
+/// The names of all effects; what the table points to is the caller's.
+typedef struct sl_effect_names {
+    const char *names[32];
+} sl_effect_names;
+
+sl_name_table sl_effect_table(sl_effect_names *names);
+
+/// What a map calls for, what each adds to the work, and what is left out as nothing calls for it.
+void sl_plan_print(const sl_map *map);
+
+/// "effects": a flag for each.
+void sl_plan_add_json(sl_json_fields *fields, const sl_map *map);
 
 /// Means over the cells that count (sl_baked_counts), each weighted equally, as sources and as what
 /// is seen.

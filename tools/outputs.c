@@ -1,10 +1,40 @@
-#include "folder.h"
+#include "outputs.h"
+
+#include "inputs.h"
+#include "options.h"
+#include "sightline/support.h"
 
 #include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+// --- names
+
+sl_status sl_picture_plan(sl_context *context, const char *width, const char *title, bool dark,
+                          sl_draw_options *out) {
+    *out = sl_draw_options_default();
+    out->dark = dark;
+    out->title = title;
+    SL_TRY(sl_option_number(context, "--width", width, &out->width));
+    if (out->width >= SL_DRAW_WIDTH_MIN && out->width <= SL_DRAW_WIDTH_MAX) return SL_OK;
+    return sl_fail(context, SL_BAD_ARGUMENT, "--width %s: a number from %d to %d is needed", width,
+                   SL_DRAW_WIDTH_MIN, SL_DRAW_WIDTH_MAX);
+}
+
+sl_status sl_picture_check(sl_context *context, const char *path, const char *option,
+                           const char *output) {
+    if (!output || sl_input_ends_with(output, ".png") || sl_input_ends_with(output, ".svg") ||
+        sl_input_ends_with(output, ".pdf"))
+        return sl_output_check(context, path, option, output);
+    return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: end the name in .png, .svg or .pdf", option,
+                   output);
+}
+
+// --- folders
 
 static char *join(sl_context *context, const char *folder, const char *name) {
     const size_t length = strlen(folder) + strlen(name) + 2;
@@ -98,4 +128,33 @@ sl_status sl_folder_close(sl_context *context, sl_folder *folder, sl_status stat
     sl_free(context, folder->temporary);
     *folder = (sl_folder){0};
     return status;
+}
+
+// --- sizes
+
+void sl_size_write(uint64_t bytes, char text[SL_SIZE_TEXT]) {
+    static const char *const units[] = {"KiB", "MiB", "GiB", "TiB"};
+    if (bytes < 1024) {
+        snprintf(text, SL_SIZE_TEXT, "%u bytes", (unsigned)bytes);
+        return;
+    }
+    double size = (double)bytes / 1024;
+    unsigned unit = 0;
+    for (; size >= 1000 && unit < 3; unit++) size /= 1024;
+    snprintf(text, SL_SIZE_TEXT, "%.*f %s", size < 100 ? 1 : 0, size, units[unit]);
+}
+
+uint64_t sl_size_of_file(const char *path) {
+    struct stat status;
+    return stat(path, &status) == 0 ? (uint64_t)status.st_size : 0;
+}
+
+uint64_t sl_size_of_peak_memory(void) {
+    struct rusage usage;
+    if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+#ifdef __APPLE__
+    return (uint64_t)usage.ru_maxrss;
+#else
+    return (uint64_t)usage.ru_maxrss * 1024; // Linux and the BSDs count KiB
+#endif
 }

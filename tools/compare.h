@@ -1,0 +1,188 @@
+/// Comparing methods on one map: of cell-to-cell visibility, and of culling for an eye.
+#ifndef COMPARE_H
+#define COMPARE_H
+
+#include "console.h"
+#include "json_print.h"
+#include "pipeline.h"
+#include "sightline/cell_to_cell.h"
+#include "sightline/eye_to_cell.h"
+#include "sightline/space.h"
+
+typedef enum sl_run_outcome {
+    SL_RUN_REFUSED,  ///< the map calls for what the method does not know
+    SL_RUN_NOT_DONE, ///< it took longer than it was given
+    SL_RUN_DONE,
+} sl_run_outcome;
+
+/// One method, with one solver where it needs any. The lower part stands where it is done, and zero
+/// where not.
+typedef struct sl_compare_run {
+    const sl_see_method *method;
+    const sl_solver *solver; ///< NULL for none
+    sl_guarantee guarantee;
+    sl_run_outcome outcome;
+    char refusal[1024]; ///< why, where it is refused
+
+    unsigned timings;
+    double seconds;   ///< the median of the timings
+    double low, high; ///< their quartiles
+    sl_visibility visibility;
+
+    bool judged; ///< against an exact answer; else these are 0:
+    uint64_t too_many, too_few;
+    double ratio;  ///< to the fastest exact run's seconds
+    bool frontier; ///< no other run is as fast and as right, and better in one of the two
+} sl_compare_run;
+
+#define SL_NO_RUN SIZE_MAX
+
+/// How many pairs are in `a` and not in `b`, which are of the same cells.
+uint64_t sl_pvs_pairs_beyond(const sl_pvs *a, const sl_pvs *b);
+
+/// The first exact run that is done, SL_NO_RUN for none: the others are held against it.
+size_t sl_compare_reference(const sl_compare_run *runs, size_t count);
+
+/// Fills in what the runs that are done are beside the reference; nothing where there is none.
+void sl_compare_judge(sl_compare_run *runs, size_t count);
+
+/// The numbers of the runs: those that are done, fastest first, then the others; ties as they are.
+void sl_compare_order(const sl_compare_run *runs, size_t count, size_t *order);
+
+typedef struct sl_timing {
+    unsigned repeat; ///< how often; 0 for as often as the time needs to be known well
+    double limit;    ///< seconds that one run may take
+} sl_timing;
+
+/// Fills in the run's outcome, times and visibility. A run that reaches the limit, or is refused by
+/// its method, is no failure. `label` leads the progress line.
+sl_status sl_compare_time(sl_console *console, const sl_space *space, const sl_see_options *options,
+                          const sl_timing *timing, const char *label, sl_compare_run *run);
+
+enum { SL_SUBDIVISIONS_MOST = 8 };
+
+typedef struct sl_compare_subdivision {
+    const sl_subdivision *subdivision;
+    uint32_t cells, portals;
+    double subdivide_seconds;
+    bool done;      ///< the run; else these are 0:
+    double seconds; ///< the median of its timings
+    uint64_t pairs;
+} sl_compare_subdivision;
+
+typedef struct sl_compare_subdivisions {
+    sl_compare_subdivision items[SL_SUBDIVISIONS_MOST];
+    size_t count; ///< 0 where only one can be
+    const sl_see_method *method;
+    const sl_solver *solver; ///< NULL for none
+} sl_compare_subdivisions;
+
+/// Subdivides a clean axial map by the kd-tree and as a mesh, and times `like` on both.
+sl_status sl_compare_subdivisions_time(sl_console *console, const sl_map *map,
+                                       const sl_see_options *options, const sl_timing *timing,
+                                       const sl_compare_run *like, sl_compare_subdivisions *out);
+
+void sl_compare_subdivisions_print(const sl_compare_subdivisions *all);
+/// A list "subdivisions".
+void sl_compare_subdivisions_add_json(sl_json_fields *fields, const sl_compare_subdivisions *all);
+
+typedef struct sl_comparison {
+    const char *input; ///< the map's file
+    const sl_space *space;
+    sl_sight sight;
+    sl_compare_run *runs;
+    size_t run_count;
+    const size_t *order; ///< of the runs: see sl_compare_order
+    size_t reference;    ///< see sl_compare_reference
+    double limit;        ///< seconds that a run was given
+    sl_compare_subdivisions subdivisions;
+} sl_comparison;
+
+enum { SL_RUN_NAME = 64 };
+
+/// "dfs with funnel"
+void sl_run_name(const sl_compare_run *run, char name[SL_RUN_NAME]);
+
+enum { SL_SECONDS_TEXT = 32 };
+
+/// "412 us", "53.4 ms", "61 s"; `micro` is how a millionth is written.
+void sl_seconds_write(double seconds, const char *micro, char text[SL_SECONDS_TEXT]);
+
+/// Whether no run that is judged has pairs too many or too few.
+bool sl_compare_all_agree(const sl_comparison *comparison);
+
+void sl_compare_print(const sl_comparison *comparison);
+sl_status sl_compare_print_json(sl_context *context, const sl_comparison *comparison);
+
+/// A line a run.
+sl_status sl_compare_write_csv(sl_context *context, const sl_comparison *comparison,
+                               const char *path);
+/// For --help: what its columns are.
+void sl_compare_print_columns(void);
+
+/// A line for each ordered pair of cells on which two runs disagree.
+sl_status sl_compare_write_pairs(sl_context *context, const sl_comparison *comparison,
+                                 const char *path);
+
+/// Accuracy against time; .png, .svg or .pdf by the ending of the path.
+sl_status sl_compare_draw(sl_context *context, const sl_comparison *comparison, bool dark,
+                          const char *path);
+
+enum { SL_FOVS_MOST = 8 };
+
+/// The options as they are given.
+typedef struct sl_compare_eye_texts {
+    const char *viewpoints, *seed, *fov;
+} sl_compare_eye_texts;
+
+/// What is asked for.
+typedef struct sl_compare_eye_plan {
+    uint64_t viewpoints, seed;
+    double fovs[SL_FOVS_MOST]; ///< widths of view cones in degrees
+    size_t fov_count;
+} sl_compare_eye_plan;
+
+sl_status sl_compare_eye_plan_make(sl_context *context, const sl_compare_eye_texts *texts,
+                                   sl_compare_eye_plan *out);
+
+/// One way to say what is seen, with one cone: means over all viewpoints but
+/// for the time.
+typedef struct sl_compare_eye_row {
+    const char *name; ///< of the method, as in the library's table
+    sl_guarantee guarantee;
+    double fov;
+    double share;               ///< of the map's area that is kept
+    double cells;               ///< that are kept
+    double nodes, orientations; ///< see sl_eye_account
+    double seconds;             ///< a query: the median over batches of some
+} sl_compare_eye_row;
+
+typedef struct sl_compare_eye {
+    const char *input;
+    const sl_space *space;
+    sl_sight sight;
+    const sl_compare_eye_plan *plan;
+    double pvs_seconds;       ///< that the visible sets took
+    sl_compare_eye_row *rows; ///< cone by cone, the loosest method first
+    size_t row_count;
+} sl_compare_eye;
+
+/// Viewpoints are spread evenly over the area of the inside cells, and look any way; shares are of
+/// that area. `out` refers to the plan and the space; sl_free(out->rows) is the caller's.
+sl_status sl_compare_eye_run(sl_console *console, const sl_compare_eye_plan *plan,
+                             const sl_space *space, sl_sight sight, sl_compare_eye *out);
+
+/// What the paper tells of a method; false where it does not.
+bool sl_compare_eye_paper(const char *name, double fov, double *share, double *reduction);
+
+void sl_compare_eye_print(const sl_compare_eye *comparison);
+sl_status sl_compare_eye_print_json(sl_context *context, const sl_compare_eye *comparison);
+sl_status sl_compare_eye_write_csv(sl_context *context, const sl_compare_eye *comparison,
+                                   const char *path);
+/// Accuracy against time; .png, .svg or .pdf by the ending of the path.
+sl_status sl_compare_eye_draw(sl_context *context, const sl_compare_eye *comparison, bool dark,
+                              const char *path);
+/// For --help: what the columns of the CSV are.
+void sl_compare_eye_print_columns(void);
+
+#endif
