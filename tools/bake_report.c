@@ -10,7 +10,7 @@
 
 // --- JSON
 
-static void add_seconds(sl_json_fields *fields, const sl_bake_report *report) {
+static void add_seconds(sl_json_fields *fields, const bake_report *report) {
     sl_json_fields seconds = sl_json_begin();
     sl_json_add_real(&seconds, "read", report->seconds.read);
     sl_json_add_real(&seconds, "subdivide", report->seconds.subdivide);
@@ -21,8 +21,8 @@ static void add_seconds(sl_json_fields *fields, const sl_bake_report *report) {
 }
 
 /// What was done of the work, where it was not all in one go.
-static void add_parts(sl_json_fields *fields, const sl_bake_report *report) {
-    const sl_bake_parts_account *parts = &report->parts;
+static void add_parts(sl_json_fields *fields, const bake_report *report) {
+    const bake_parts_account *parts = &report->parts;
     const sl_partial *partial = &report->baked->partial;
     sl_json_add_flag(fields, "finished", !sl_partial_begun(partial));
     if (!parts->units) return;
@@ -70,12 +70,12 @@ static void add_visibility(sl_json_fields *fields, const sl_visibility *visibili
     sl_json_add_count(fields, "trees_left_out", trees->left_out);
 }
 
-sl_status sl_bake_report_print_json(sl_context *context, const sl_bake_report *report) {
+sl_status bake_report_print_json(sl_context *context, const bake_report *report) {
     const sl_baked *baked = report->baked;
     const sl_space *space = &baked->space;
     const bool has_sets = !sl_baked_is_shard(baked);
-    sl_mean_pvs mean;
-    if (has_sets) SL_TRY(sl_mean_pvs_of(context, baked, &mean));
+    pvs_means mean;
+    if (has_sets) SL_TRY(mean_pvs_of(context, baked, &mean));
 
     sl_json_fields fields = sl_json_begin();
     sl_json_add_text(&fields, "map", report->input);
@@ -83,9 +83,9 @@ sl_status sl_bake_report_print_json(sl_context *context, const sl_bake_report *r
     sl_json_add_text(&fields, "subdivide", report->subdivide);
     sl_json_add_text(&fields, "method", baked->method);
     sl_json_add_text(&fields, "solver", baked->solver[0] ? baked->solver : NULL);
-    sl_json_add_text(&fields, "sight", sl_sight_name(baked->visibility.sight));
+    sl_json_add_text(&fields, "sight", sight_name(baked->visibility.sight));
     sl_json_add_text(&fields, "guarantee", sl_guarantee_name(baked->visibility.guarantee));
-    sl_plan_add_json(&fields, &baked->map);
+    plan_add_json(&fields, &baked->map);
     add_parts(&fields, report);
     add_seconds(&fields, report);
     sl_json_add_cleaning(&fields, "cleaning", &report->cleaning);
@@ -96,9 +96,9 @@ sl_status sl_bake_report_print_json(sl_context *context, const sl_bake_report *r
     sl_json_add_count(&fields, "portals", space->portal_count);
     sl_json_add_count(&fields, "tree_depth", space->tree_depth);
     if (has_sets) add_visibility(&fields, &baked->visibility);
-    if (has_sets) sl_mean_pvs_add_json(&fields, &mean);
-    sl_json_add_count(&fields, "peak_memory_bytes", sl_size_of_peak_memory());
-    sl_json_add_count(&fields, "file_bytes", sl_size_of_file(report->output));
+    if (has_sets) mean_pvs_add_json(&fields, &mean);
+    sl_json_add_count(&fields, "peak_memory_bytes", size_of_peak_memory());
+    sl_json_add_count(&fields, "file_bytes", size_of_file(report->output));
     return sl_json_print(context, &fields);
 }
 
@@ -119,7 +119,7 @@ static void print_welding(const sl_clean_account *account) {
     putchar('\n');
 }
 
-void sl_cleaning_print(const sl_clean_account *account) {
+void cleaning_print(const sl_clean_account *account) {
     const struct {
         size_t count;
         const char *what;
@@ -138,8 +138,8 @@ void sl_cleaning_print(const sl_clean_account *account) {
     if (account->welded || account->crossings) print_welding(account);
 }
 
-static void print_parts(const sl_bake_report *report) {
-    const sl_bake_parts_account *parts = &report->parts;
+static void print_parts(const bake_report *report) {
+    const bake_parts_account *parts = &report->parts;
     const sl_partial *partial = &report->baked->partial;
     char text[SL_PARTIAL_TEXT];
     if (!parts->units) return;
@@ -176,7 +176,7 @@ static void print_visibility(const sl_baked *baked) {
     const sl_visibility *visibility = &baked->visibility;
     const sl_see_account *account = &visibility->account;
     printf("  pairs     %" PRIu64 " seen, %s sight, by %s%s%s (%s)\n", account->pairs,
-           sl_sight_name(visibility->sight), baked->method, baked->solver[0] ? " with " : "",
+           sight_name(visibility->sight), baked->method, baked->solver[0] ? " with " : "",
            baked->solver, sl_guarantee_name(visibility->guarantee));
     if (account->doubtful_pairs)
         printf("  doubtful  %" PRIu64 " of them, of which rounding decided\n",
@@ -196,7 +196,7 @@ static void print_visibility(const sl_baked *baked) {
                trees->offsets[trees->cell_count], trees->left_out, trees->cell_count);
 }
 
-static void print_seconds(const sl_bake_report *report) {
+static void print_seconds(const bake_report *report) {
     printf("  seconds   read %.3f, subdivide %.3f", report->seconds.read,
            report->seconds.subdivide);
     if (report->checked) printf(", check %.3f", report->seconds.check);
@@ -204,27 +204,27 @@ static void print_seconds(const sl_bake_report *report) {
            report->seconds.write);
 }
 
-sl_status sl_bake_report_print(sl_context *context, const sl_bake_report *report) {
+sl_status bake_report_print(sl_context *context, const bake_report *report) {
     const sl_space *space = &report->baked->space;
     const bool has_sets = !sl_baked_is_shard(report->baked);
-    sl_mean_pvs mean;
-    if (has_sets) SL_TRY(sl_mean_pvs_of(context, report->baked, &mean));
-    char file[SL_SIZE_TEXT], memory[SL_SIZE_TEXT];
-    sl_size_write(sl_size_of_file(report->output), file);
-    sl_size_write(sl_size_of_peak_memory(), memory);
+    pvs_means mean;
+    if (has_sets) SL_TRY(mean_pvs_of(context, report->baked, &mean));
+    char file[SIZE_TEXT], memory[SIZE_TEXT];
+    size_write(size_of_file(report->output), file);
+    size_write(size_of_peak_memory(), memory);
     printf("%s: %s, baked from %s\n", report->output, file, report->input);
     printf("  walls     %" PRIu32, space->wall_count);
-    sl_cleaning_print(&report->cleaning);
+    cleaning_print(&report->cleaning);
     printf("  cells     %" PRIu32 ", %" PRIu32 " of them inside", space->cell_count,
            space->inside_count);
     if (space->node_count) printf("; tree depth %" PRIu32, space->tree_depth);
     putchar('\n');
     printf("  portals   %" PRIu32 "\n", space->portal_count);
-    sl_plan_print(&report->baked->map);
+    plan_print(&report->baked->map);
     print_parts(report);
     if (has_sets) {
         print_visibility(report->baked);
-        sl_mean_pvs_print(&mean);
+        mean_pvs_print(&mean);
     }
     print_seconds(report);
     printf("  memory    %s at most\n", memory);

@@ -4,22 +4,22 @@
 
 #include "bake_parts.h"
 
-typedef struct sl_bake_report {
+typedef struct bake_report {
     const char *input, *output, *subdivide;
     const sl_baked *baked;
     sl_clean_account cleaning;
-    sl_bake_parts_account parts;
+    bake_parts_account parts;
     bool checked; ///< whether sl_space_check was run
     struct {
         double read; ///< cleaning included
         double subdivide, check, cell_to_cell, write;
     } seconds;
-} sl_bake_report;
+} bake_report;
 
 /// What cleaning did, if anything: the rest of a line, and a line on welding.
-void sl_cleaning_print(const sl_clean_account *account);
+void cleaning_print(const sl_clean_account *account);
 
-sl_status sl_bake_report_print(sl_context *context, const sl_bake_report *report);
-sl_status sl_bake_report_print_json(sl_context *context, const sl_bake_report *report);
+sl_status bake_report_print(sl_context *context, const bake_report *report);
+sl_status bake_report_print_json(sl_context *context, const bake_report *report);
 
 #endif

@@ -80,7 +80,7 @@ static void print_grazing(const sl_space *space, const sl_explanation *e) {
     const uint32_t count = e->sequence.directed_count;
     printf("Cell %" PRIu32 " %s cell %" PRIu32 " with %s sight: %s line there only grazes, through "
            "%" PRIu32 " portal%s:\n",
-           e->from, e->seen ? "sees" : "does not see", e->to, sl_sight_name(e->sight),
+           e->from, e->seen ? "sees" : "does not see", e->to, sight_name(e->sight),
            e->complete ? "every" : "so far every", count, plural(count));
     print_portals(space, &e->sequence, count);
     print_line(e->witness);
@@ -178,7 +178,7 @@ static void print_file(const sl_baked *baked, const sl_explanation *e) {
     const char *word = what == SAID_SEEN ? "seen" : "hidden";
     const sl_sight sight = baked->visibility.sight;
     if (sight != e->sight)
-        printf("The file, baked with %s sight, says %s", sl_sight_name(sight), word);
+        printf("The file, baked with %s sight, says %s", sight_name(sight), word);
     else
         printf("The file says %s", word);
     if (sight != e->sight || (!e->complete && !e->seen))
@@ -227,7 +227,7 @@ static void print_bent(const sl_baked *baked, const sl_explanation *e) {
     puts(bent->rounded ? "; places in mirrors are rounded." : ".");
 }
 
-static void sl_explanation_print(const sl_baked *baked, const sl_explanation *e) {
+static void explanation_print(const sl_baked *baked, const sl_explanation *e) {
     const sl_space *space = &baked->space;
     if (e->from == e->to)
         printf("Cell %" PRIu32 " sees itself: it is convex, and no wall is inside it.\n", e->from);
@@ -295,7 +295,7 @@ static json_t *json_of_miss(const sl_space *space, const sl_miss *miss) {
 
 static json_t *json_of_file(const sl_baked *baked, const sl_explanation *e) {
     const said what = said_by(baked, e);
-    return json_pack("{s:s, s:s, s:s, s:o, s:b}", "sight", sl_sight_name(baked->visibility.sight),
+    return json_pack("{s:s, s:s, s:s, s:o, s:b}", "sight", sight_name(baked->visibility.sight),
                      "method", baked->method, "guarantee",
                      sl_guarantee_name(baked->visibility.guarantee), "seen",
                      what == SAID_NOTHING ? json_null() : json_boolean(what == SAID_SEEN),
@@ -338,14 +338,14 @@ static void add_bent(sl_json_fields *fields, const sl_space *space, const sl_ben
     sl_json_add_fields(fields, "by_mirror", &inner);
 }
 
-static sl_status sl_explanation_print_json(sl_context *context, const sl_baked *baked,
-                                           const sl_explanation *e) {
+static sl_status explanation_print_json(sl_context *context, const sl_baked *baked,
+                                        const sl_explanation *e) {
     static const char *const verdicts[] = {
         [SL_HIDDEN] = "hidden", [SL_GRAZING] = "grazing", [SL_STABBED] = "stabbed"};
     sl_json_fields fields = sl_json_begin();
     sl_json_add_count(&fields, "from", e->from);
     sl_json_add_count(&fields, "to", e->to);
-    sl_json_add_text(&fields, "sight", sl_sight_name(e->sight));
+    sl_json_add_text(&fields, "sight", sight_name(e->sight));
     sl_json_add_flag(&fields, "seen", e->seen);
     sl_json_add_text(&fields, "verdict", verdicts[e->verdict]);
     sl_json_add_flag(&fields, "complete", e->complete);
@@ -366,11 +366,14 @@ static sl_status sl_explanation_print_json(sl_context *context, const sl_baked *
 
 // --- the command
 
-/// The operands and options as they are given.
-typedef struct explain_texts {
-    const char *operands[3], *output, *width, *sight, *misses, *tests, *mirror_depth;
-    bool dark, json;
-} explain_texts;
+typedef struct explain_plan {
+    const char *operands[3], *output;
+    sl_explain_options options;
+    const char *sight_given; ///< else sight is as the file was baked
+    uint32_t mirror_depth;
+    sl_draw_options drawing;
+    bool json;
+} explain_plan;
 
 enum { FILE_OPERAND, FROM_OPERAND, TO_OPERAND };
 
@@ -379,7 +382,7 @@ static sl_status choose_cell(sl_context *context, const char *name, const char *
                              const sl_space *space, uint32_t *cell) {
     if (!strchr(text, ',')) {
         uint64_t number = 0;
-        if (sl_option_count(context, name, text, space->cell_count - 1, &number) != SL_OK)
+        if (read_count(context, name, text, space->cell_count - 1, &number) != SL_OK)
             return sl_fail(context, SL_BAD_ARGUMENT,
                            "%s %s: a cell from 0 to %u, or a point X,Y, is needed", name, text,
                            (unsigned)space->cell_count - 1);
@@ -387,70 +390,59 @@ static sl_status choose_cell(sl_context *context, const char *name, const char *
         return SL_OK;
     }
     sl_point at = {0};
-    SL_TRY(sl_option_point(context, name, text, &at));
+    SL_TRY(read_point(context, name, text, &at));
     *cell = sl_space_locate(space, at);
-    return *cell == SL_NO_CELL ? sl_input_fail_outside(context, name, text, space->bounds) : SL_OK;
+    return *cell == SL_NO_CELL ? input_fail_outside(context, name, text, space->bounds) : SL_OK;
 }
 
-static sl_status read_options(sl_context *context, const explain_texts *texts,
-                              const sl_baked *baked, sl_explain_options *options) {
-    const sl_name_table sights = sl_sight_table();
-    *options = sl_explain_options_default();
-    size_t sight = baked->visibility.sight;
-    uint64_t misses = options->most_misses;
-    SL_TRY(sl_option_choice(context, "--sight", texts->sight, &sights, &sight));
-    SL_TRY(sl_option_count(context, "--misses", texts->misses, UINT32_MAX, &misses));
-    SL_TRY(sl_option_count(context, "--tests", texts->tests, UINT64_MAX, &options->most_tests));
-    options->sight = (sl_sight)sight;
-    options->most_misses = (uint32_t)misses;
-    return SL_OK;
-}
-
-static sl_status explain(sl_console *console, const explain_texts *texts, const sl_baked *baked,
-                         const sl_draw_options *drawing) {
+static sl_status explain(command_console *console, const explain_plan *plan,
+                         const sl_baked *baked) {
     sl_context *context = console->context;
     const sl_space *space = &baked->space;
-    sl_explain_options options;
+    sl_explain_options options = plan->options;
     uint32_t from, to;
-    SL_TRY(read_options(context, texts, baked, &options));
-    SL_TRY(choose_cell(context, "A", texts->operands[FROM_OPERAND], space, &from));
-    SL_TRY(choose_cell(context, "B", texts->operands[TO_OPERAND], space, &to));
+    if (!plan->sight_given) options.sight = baked->visibility.sight;
+    SL_TRY(choose_cell(context, "A", plan->operands[FROM_OPERAND], space, &from));
+    SL_TRY(choose_cell(context, "B", plan->operands[TO_OPERAND], space, &to));
     sl_explanation explanation;
-    uint64_t depth = 1;
-    SL_TRY(sl_option_count(context, "--mirror-depth", texts->mirror_depth, 16, &depth));
     SL_TRY(sl_explain(context, space, &options, from, to, &explanation));
     sl_status status = SL_OK;
     if (baked->map.mirror_count)
-        status = sl_explain_by_mirror(context, space, &baked->map, &options, (uint32_t)depth,
+        status = sl_explain_by_mirror(context, space, &baked->map, &options, plan->mirror_depth,
                                       &explanation);
-    if (status == SL_OK && texts->output)
-        status = sl_draw_explanation(context, baked, &explanation, drawing, texts->output);
-    sl_progress_line_clear(&console->line);
-    if (status == SL_OK && texts->json)
-        status = sl_explanation_print_json(context, baked, &explanation);
+    if (status == SL_OK && plan->output)
+        status = sl_draw_explanation(context, baked, &explanation, &plan->drawing, plan->output);
+    progress_line_clear(&console->line);
+    if (status == SL_OK && plan->json)
+        status = explanation_print_json(context, baked, &explanation);
     else if (status == SL_OK)
-        sl_explanation_print(baked, &explanation);
+        explanation_print(baked, &explanation);
     sl_explanation_destroy(context, &explanation);
     return status;
 }
 
-sl_status sl_cmd_explain(sl_console *console, int argc, char **argv) {
-    explain_texts t = {0};
-    const sl_option_spec options[] = {
-        {"sight", 0, "closed|open", NULL, &t.sight,
-         "whether lines count that touch portal ends;\nwithout it, as the file was baked"},
-        {"misses", 0, "N", NULL, &t.misses,
-         "of a hidden pair, how many sequences to tell of\nthat came far; 3 without it"},
-        {"tests", 0, "N", NULL, &t.tests, "give up after N stabbing tests, and tell what is known"},
-        {"mirror-depth", 0, "N", NULL, &t.mirror_depth,
-         "how often mirrors reflect a sightline, 0 to 16;\n1 without it"},
-        {"output", 'o', "PICTURE", NULL, &t.output,
-         "draw it too: .png, .svg or .pdf, by the ending"},
-        {"width", 0, "PX", NULL, &t.width, "of the picture, 64 to 20000 pixels or points"},
-        {"dark", 0, NULL, &t.dark, NULL, "the picture light on dark"},
-        {"json", 0, NULL, &t.json, NULL, "print JSON"},
+sl_status cmd_explain(command_console *console, int argc, char **argv) {
+    explain_plan plan = {.options = sl_explain_options_default(),
+                         .mirror_depth = 1,
+                         .drawing = sl_draw_options_default()};
+    const option_table picture = picture_option_table(&plan.drawing, false);
+    const option_spec options[] = {
+        {"sight", 0, "closed|open",
+         "whether lines count that touch portal ends;\nwithout it, as the file was baked",
+         .sight = &plan.options.sight, .given = &plan.sight_given},
+        {"misses", 0, "N",
+         "of a hidden pair, how many sequences to tell of\nthat came far; 3 without it",
+         .count32 = &plan.options.most_misses},
+        {"tests", 0, "N", "give up after N stabbing tests, and tell what is known",
+         .count = &plan.options.most_tests},
+        {"mirror-depth", 0, "N", "how often mirrors reflect a sightline, 0 to 16;\n1 without it",
+         .count32 = &plan.mirror_depth, .most = 16},
+        {"output", 'o', "PICTURE", "draw it too: .png, .svg or .pdf, by the ending",
+         .text = &plan.output, .check = CHECK_PICTURE},
+        {.group = &picture},
+        {"json", 0, NULL, "print JSON", .flag = &plan.json},
     };
-    const sl_command_usage usage = {
+    const command_usage usage = {
         .name = "explain",
         .synopsis = "FILE.slv A B [options]",
         .operands = {"FILE.slv", "A", "B"},
@@ -464,16 +456,12 @@ sl_status sl_cmd_explain(sl_console *console, int argc, char **argv) {
         .option_count = sizeof options / sizeof *options,
     };
     bool helped;
-    SL_TRY(sl_option_parse(console, &usage, argc, argv, t.operands, &helped));
+    SL_TRY(options_parse(console, &usage, argc, argv, plan.operands, &helped));
     if (helped) return SL_OK;
-    const char *input = t.operands[FILE_OPERAND];
-    sl_draw_options drawing;
-    SL_TRY(sl_picture_plan(console->context, t.width, NULL, t.dark, &drawing));
-    SL_TRY(sl_picture_check(console->context, input, "-o", t.output));
     sl_baked baked = {0};
-    SL_TRY(sl_input_read_baked(console->context, input, &baked));
+    SL_TRY(input_read_baked(console->context, plan.operands[FILE_OPERAND], &baked));
     sl_status status = sl_effects_check(console->context, &baked.map, "explain", SL_EFFECT_MIRROR);
-    if (status == SL_OK) status = explain(console, &t, &baked, &drawing);
+    if (status == SL_OK) status = explain(console, &plan, &baked);
     sl_baked_destroy(console->context, &baked);
     return status;
 }

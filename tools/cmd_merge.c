@@ -11,7 +11,7 @@
 
 typedef struct merge_plan {
     const char *first, *output;
-    sl_option_list more;
+    option_list more;
     uint32_t *shards; ///< by part in the order given: its number
 } merge_plan;
 
@@ -34,7 +34,7 @@ static sl_status check_part(sl_context *context, const merge_plan *plan, uint32_
     if (f->shard_count != first->partial.shard_count)
         return sl_fail_at(context, name, 0, "is shard %u of %u, but %s is one of %u", f->shard,
                           f->shard_count, plan->first, first->partial.shard_count);
-    const char *other = part ? sl_bake_difference(baked, first) : NULL;
+    const char *other = part ? bake_difference(baked, first) : NULL;
     if (other) return sl_fail_at(context, name, 0, "was baked %s than %s", other, plan->first);
     for (uint32_t i = 0; i < part; i++)
         if (plan->shards[i] == f->shard)
@@ -94,8 +94,8 @@ static const sl_see_method *find_method(const char *name) {
 }
 
 static const sl_solver *find_solver(const char *name) {
-    for (size_t i = 0; sl_solver_at(i); i++)
-        if (strcmp(sl_solver_at(i)->name, name) == 0) return sl_solver_at(i);
+    for (size_t i = 0; solver_at(i); i++)
+        if (strcmp(solver_at(i)->name, name) == 0) return solver_at(i);
     return NULL;
 }
 
@@ -126,19 +126,19 @@ static sl_status merge(sl_context *context, const merge_plan *plan, sl_baked *al
     return sl_baked_write(context, all, plan->output);
 }
 
-static sl_status merge_and_report(sl_console *console, merge_plan *plan) {
+static sl_status merge_and_report(command_console *console, merge_plan *plan) {
     sl_context *context = console->context;
     plan->shards = sl_alloc_array(context, part_count(plan), sizeof *plan->shards);
     if (!plan->shards) return SL_NO_MEMORY;
     sl_baked all = {0};
     const sl_status status = merge(context, plan, &all);
-    sl_progress_line_clear(&console->line);
+    progress_line_clear(&console->line);
     if (status == SL_OK && !console->quiet) {
-        char size[SL_SIZE_TEXT];
-        sl_size_write(sl_size_of_file(plan->output), size);
+        char size[SIZE_TEXT];
+        size_write(size_of_file(plan->output), size);
         printf("%s: %s, merged from %u shards\n", plan->output, size, part_count(plan));
         printf("  pairs     %" PRIu64 " seen, %s sight, by %s%s%s (%s)\n",
-               all.visibility.account.pairs, sl_sight_name(all.visibility.sight), all.method,
+               all.visibility.account.pairs, sight_name(all.visibility.sight), all.method,
                all.solver[0] ? " with " : "", all.solver,
                sl_guarantee_name(all.visibility.guarantee));
     }
@@ -147,12 +147,12 @@ static sl_status merge_and_report(sl_console *console, merge_plan *plan) {
     return status;
 }
 
-sl_status sl_cmd_merge(sl_console *console, int argc, char **argv) {
+sl_status cmd_merge(command_console *console, int argc, char **argv) {
     merge_plan plan = {0};
-    const sl_option_spec options[] = {
-        {"output", 'o', "FILE.slv", NULL, &plan.output, "where to write"},
+    const option_spec options[] = {
+        {"output", 'o', "FILE.slv", "where to write", .text = &plan.output},
     };
-    const sl_command_usage usage = {
+    const command_usage usage = {
         .name = "merge",
         .synopsis = "PART.slv [PART.slv ...] -o FILE.slv",
         .operands = {"PART.slv"},
@@ -167,12 +167,12 @@ sl_status sl_cmd_merge(sl_console *console, int argc, char **argv) {
         .more = &plan.more,
     };
     bool helped;
-    SL_TRY(sl_option_parse(console, &usage, argc, argv, &plan.first, &helped));
+    SL_TRY(options_parse(console, &usage, argc, argv, &plan.first, &helped));
     if (helped) return SL_OK;
-    if (!plan.output || !sl_input_ends_with(plan.output, ".slv"))
+    if (!plan.output || !input_ends_with(plan.output, ".slv"))
         return sl_fail(console->context, SL_BAD_ARGUMENT,
                        "-o FILE.slv is needed: where to write what the shards make");
     for (uint32_t i = 0; i < part_count(&plan); i++)
-        SL_TRY(sl_output_check(console->context, part_name(&plan, i), "-o", plan.output));
+        SL_TRY(output_check_file(console->context, part_name(&plan, i), "-o", plan.output));
     return merge_and_report(console, &plan);
 }

@@ -9,19 +9,19 @@
 #include "sightline/eye_to_cell.h"
 #include "sightline/space.h"
 
-typedef enum sl_run_outcome {
-    SL_RUN_REFUSED,  ///< the map calls for what the method does not know
-    SL_RUN_NOT_DONE, ///< it took longer than it was given
-    SL_RUN_DONE,
-} sl_run_outcome;
+typedef enum run_outcome {
+    RUN_REFUSED,  ///< the map calls for what the method does not know
+    RUN_NOT_DONE, ///< it took longer than it was given
+    RUN_DONE,
+} run_outcome;
 
 /// One method, with one solver where it needs any. The lower part stands where it is done, and zero
 /// where not.
-typedef struct sl_compare_run {
+typedef struct compare_run {
     const sl_see_method *method;
     const sl_solver *solver; ///< NULL for none
     sl_guarantee guarantee;
-    sl_run_outcome outcome;
+    run_outcome outcome;
     char refusal[1024]; ///< why, where it is refused
 
     unsigned timings;
@@ -33,121 +33,118 @@ typedef struct sl_compare_run {
     uint64_t too_many, too_few;
     double ratio;  ///< to the fastest exact run's seconds
     bool frontier; ///< no other run is as fast and as right, and better in one of the two
-} sl_compare_run;
+} compare_run;
 
-#define SL_NO_RUN SIZE_MAX
+#define NO_RUN SIZE_MAX
 
 /// How many pairs are in `a` and not in `b`, which are of the same cells.
-uint64_t sl_pvs_pairs_beyond(const sl_pvs *a, const sl_pvs *b);
+uint64_t pvs_pairs_beyond(const sl_pvs *a, const sl_pvs *b);
 
-/// The first exact run that is done, SL_NO_RUN for none: the others are held against it.
-size_t sl_compare_reference(const sl_compare_run *runs, size_t count);
+/// The first exact run that is done, NO_RUN for none: the others are held against it.
+size_t compare_reference(const compare_run *runs, size_t count);
 
 /// Fills in what the runs that are done are beside the reference; nothing where there is none.
-void sl_compare_judge(sl_compare_run *runs, size_t count);
+void compare_judge(compare_run *runs, size_t count);
 
 /// The numbers of the runs: those that are done, fastest first, then the others; ties as they are.
-void sl_compare_order(const sl_compare_run *runs, size_t count, size_t *order);
+void compare_order(const compare_run *runs, size_t count, size_t *order);
 
-typedef struct sl_timing {
+typedef struct run_timing {
     unsigned repeat; ///< how often; 0 for as often as the time needs to be known well
     double limit;    ///< seconds that one run may take
-} sl_timing;
+} run_timing;
 
 /// Fills in the run's outcome, times and visibility. A run that reaches the limit, or is refused by
 /// its method, is no failure. `label` leads the progress line.
-sl_status sl_compare_time(sl_console *console, const sl_space *space, const sl_see_options *options,
-                          const sl_timing *timing, const char *label, sl_compare_run *run);
+sl_status compare_time(command_console *console, const sl_space *space,
+                       const sl_see_options *options, const run_timing *timing, const char *label,
+                       compare_run *run);
 
-enum { SL_SUBDIVISIONS_MOST = 8 };
+enum { SUBDIVISIONS_MOST = 8 };
 
-typedef struct sl_compare_subdivision {
+typedef struct compare_subdivision {
     const sl_subdivision *subdivision;
     uint32_t cells, portals;
     double subdivide_seconds;
     bool done;      ///< the run; else these are 0:
     double seconds; ///< the median of its timings
     uint64_t pairs;
-} sl_compare_subdivision;
+} compare_subdivision;
 
-typedef struct sl_compare_subdivisions {
-    sl_compare_subdivision items[SL_SUBDIVISIONS_MOST];
+typedef struct compare_subdivisions {
+    compare_subdivision items[SUBDIVISIONS_MOST];
     size_t count; ///< 0 where only one can be
     const sl_see_method *method;
     const sl_solver *solver; ///< NULL for none
-} sl_compare_subdivisions;
+} compare_subdivisions;
 
 /// Subdivides a clean axial map by the kd-tree and as a mesh, and times `like` on both.
-sl_status sl_compare_subdivisions_time(sl_console *console, const sl_map *map,
-                                       const sl_see_options *options, const sl_timing *timing,
-                                       const sl_compare_run *like, sl_compare_subdivisions *out);
+sl_status compare_subdivisions_time(command_console *console, const sl_map *map,
+                                    const sl_see_options *options, const run_timing *timing,
+                                    const compare_run *like, compare_subdivisions *out);
 
-void sl_compare_subdivisions_print(const sl_compare_subdivisions *all);
+void compare_subdivisions_print(const compare_subdivisions *all);
 /// A list "subdivisions".
-void sl_compare_subdivisions_add_json(sl_json_fields *fields, const sl_compare_subdivisions *all);
+void compare_subdivisions_add_json(sl_json_fields *fields, const compare_subdivisions *all);
 
-typedef struct sl_comparison {
+typedef struct compare_result {
     const char *input; ///< the map's file
     const sl_space *space;
     sl_sight sight;
-    sl_compare_run *runs;
+    compare_run *runs;
     size_t run_count;
-    const size_t *order; ///< of the runs: see sl_compare_order
-    size_t reference;    ///< see sl_compare_reference
+    const size_t *order; ///< of the runs: see compare_order
+    size_t reference;    ///< see compare_reference
     double limit;        ///< seconds that a run was given
-    sl_compare_subdivisions subdivisions;
-} sl_comparison;
+    compare_subdivisions subdivisions;
+} compare_result;
 
-enum { SL_RUN_NAME = 64 };
+enum { RUN_NAME = 64 };
 
 /// "dfs with funnel"
-void sl_run_name(const sl_compare_run *run, char name[SL_RUN_NAME]);
+void run_name(const compare_run *run, char name[RUN_NAME]);
 
-enum { SL_SECONDS_TEXT = 32 };
+enum { SECONDS_TEXT = 32 };
 
 /// "412 us", "53.4 ms", "61 s"; `micro` is how a millionth is written.
-void sl_seconds_write(double seconds, const char *micro, char text[SL_SECONDS_TEXT]);
+void seconds_write(double seconds, const char *micro, char text[SECONDS_TEXT]);
 
 /// Whether no run that is judged has pairs too many or too few.
-bool sl_compare_all_agree(const sl_comparison *comparison);
+bool compare_all_agree(const compare_result *comparison);
 
-void sl_compare_print(const sl_comparison *comparison);
-sl_status sl_compare_print_json(sl_context *context, const sl_comparison *comparison);
+void compare_print(const compare_result *comparison);
+sl_status compare_print_json(sl_context *context, const compare_result *comparison);
 
 /// A line a run.
-sl_status sl_compare_write_csv(sl_context *context, const sl_comparison *comparison,
-                               const char *path);
+sl_status compare_write_csv(sl_context *context, const compare_result *comparison,
+                            const char *path);
 /// For --help: what its columns are.
-void sl_compare_print_columns(void);
+void compare_print_columns(void);
 
 /// A line for each ordered pair of cells on which two runs disagree.
-sl_status sl_compare_write_pairs(sl_context *context, const sl_comparison *comparison,
-                                 const char *path);
+sl_status compare_write_pairs(sl_context *context, const compare_result *comparison,
+                              const char *path);
 
 /// Accuracy against time; .png, .svg or .pdf by the ending of the path.
-sl_status sl_compare_draw(sl_context *context, const sl_comparison *comparison, bool dark,
-                          const char *path);
+sl_status compare_draw(sl_context *context, const compare_result *comparison, bool dark,
+                       const char *path);
 
-enum { SL_FOVS_MOST = 8 };
-
-/// The options as they are given.
-typedef struct sl_compare_eye_texts {
-    const char *viewpoints, *seed, *fov;
-} sl_compare_eye_texts;
+enum { FOVS_MOST = 8 };
 
 /// What is asked for.
-typedef struct sl_compare_eye_plan {
+typedef struct compare_eye_plan {
     uint64_t viewpoints, seed;
-    double fovs[SL_FOVS_MOST]; ///< widths of view cones in degrees
+    double fovs[FOVS_MOST]; ///< widths of view cones in degrees
     size_t fov_count;
-} sl_compare_eye_plan;
+} compare_eye_plan;
 
-sl_status sl_compare_eye_plan_make(sl_context *context, const sl_compare_eye_texts *texts,
-                                   sl_compare_eye_plan *out);
+compare_eye_plan compare_eye_plan_default(void);
+/// Reads view cones, degrees with commas between: "360,60".
+sl_status compare_eye_read_fovs(sl_context *context, const char *text, compare_eye_plan *plan);
 
 /// One way to say what is seen, with one cone: means over all viewpoints but
 /// for the time.
-typedef struct sl_compare_eye_row {
+typedef struct compare_eye_row {
     const char *name; ///< of the method, as in the library's table
     sl_guarantee guarantee;
     double fov;
@@ -155,34 +152,34 @@ typedef struct sl_compare_eye_row {
     double cells;               ///< that are kept
     double nodes, orientations; ///< see sl_eye_account
     double seconds;             ///< a query: the median over batches of some
-} sl_compare_eye_row;
+} compare_eye_row;
 
-typedef struct sl_compare_eye {
+typedef struct eye_comparison {
     const char *input;
     const sl_space *space;
     sl_sight sight;
-    const sl_compare_eye_plan *plan;
-    double pvs_seconds;       ///< that the visible sets took
-    sl_compare_eye_row *rows; ///< cone by cone, the loosest method first
+    const compare_eye_plan *plan;
+    double pvs_seconds;    ///< that the visible sets took
+    compare_eye_row *rows; ///< cone by cone, the loosest method first
     size_t row_count;
-} sl_compare_eye;
+} eye_comparison;
 
 /// Viewpoints are spread evenly over the area of the inside cells, and look any way; shares are of
 /// that area. `out` refers to the plan and the space; sl_free(out->rows) is the caller's.
-sl_status sl_compare_eye_run(sl_console *console, const sl_compare_eye_plan *plan,
-                             const sl_space *space, sl_sight sight, sl_compare_eye *out);
+sl_status compare_eye_run(command_console *console, const compare_eye_plan *plan,
+                          const sl_space *space, sl_sight sight, eye_comparison *out);
 
 /// What the paper tells of a method; false where it does not.
-bool sl_compare_eye_paper(const char *name, double fov, double *share, double *reduction);
+bool compare_eye_paper(const char *name, double fov, double *share, double *reduction);
 
-void sl_compare_eye_print(const sl_compare_eye *comparison);
-sl_status sl_compare_eye_print_json(sl_context *context, const sl_compare_eye *comparison);
-sl_status sl_compare_eye_write_csv(sl_context *context, const sl_compare_eye *comparison,
-                                   const char *path);
+void compare_eye_print(const eye_comparison *comparison);
+sl_status compare_eye_print_json(sl_context *context, const eye_comparison *comparison);
+sl_status compare_eye_write_csv(sl_context *context, const eye_comparison *comparison,
+                                const char *path);
 /// Accuracy against time; .png, .svg or .pdf by the ending of the path.
-sl_status sl_compare_eye_draw(sl_context *context, const sl_compare_eye *comparison, bool dark,
-                              const char *path);
+sl_status compare_eye_draw(sl_context *context, const eye_comparison *comparison, bool dark,
+                           const char *path);
 /// For --help: what the columns of the CSV are.
-void sl_compare_eye_print_columns(void);
+void compare_eye_print_columns(void);
 
 #endif

@@ -35,11 +35,11 @@ static void show_note(void *user, const char *message) {
 static bool is_cancelled(void *user) {
     watch *w = user;
     if (w->console->cancelled && w->console->cancelled(w->console->user)) return true;
-    w->late = sl_now() >= w->deadline;
+    w->late = seconds_now() >= w->deadline;
     return w->late;
 }
 
-static bool is_enough(const sl_timing *timing, size_t count, double sum) {
+static bool is_enough(const run_timing *timing, size_t count, double sum) {
     if (timing->repeat) return count >= timing->repeat;
     return (count >= LEAST_TIMINGS && sum >= ENOUGH_SECONDS) || sum >= MOST_SECONDS;
 }
@@ -53,16 +53,16 @@ typedef SL_ARRAY(double) durations;
 
 /// Runs until it is enough; the first answer is kept, the others are the same.
 static sl_status run_often(sl_context *context, watch *w, const sl_space *space,
-                           const sl_see_options *options, const sl_timing *timing, durations *taken,
-                           sl_compare_run *run) {
+                           const sl_see_options *options, const run_timing *timing,
+                           durations *taken, compare_run *run) {
     double sum = 0;
     while (!is_enough(timing, taken->count, sum)) {
         SL_TRY(SL_ARRAY_ROOM(context, taken, 1));
         sl_visibility visibility = {0};
-        const double start = sl_now();
+        const double start = seconds_now();
         w->deadline = start + timing->limit;
         SL_TRY(run->method->see(context, space, options, &visibility));
-        const double seconds = sl_now() - start;
+        const double seconds = seconds_now() - start;
         if (taken->count)
             sl_visibility_destroy(context, &visibility);
         else
@@ -73,7 +73,7 @@ static sl_status run_often(sl_context *context, watch *w, const sl_space *space,
     return SL_OK;
 }
 
-static void summarise(const durations *taken, sl_compare_run *run) {
+static void summarise(const durations *taken, compare_run *run) {
     const size_t n = taken->count;
     qsort(taken->items, n, sizeof *taken->items, compare_doubles);
     run->timings = (unsigned)n;
@@ -82,8 +82,9 @@ static void summarise(const durations *taken, sl_compare_run *run) {
     run->seconds = (taken->items[(n - 1) / 2] + taken->items[n / 2]) / 2;
 }
 
-sl_status sl_compare_time(sl_console *console, const sl_space *space, const sl_see_options *options,
-                          const sl_timing *timing, const char *label, sl_compare_run *run) {
+sl_status compare_time(command_console *console, const sl_space *space,
+                       const sl_see_options *options, const run_timing *timing, const char *label,
+                       compare_run *run) {
     watch w = {.console = sl_context_hooks(console->context), .label = label};
     const sl_hooks hooks = {
         .user = &w, .progress = show_progress, .note = show_note, .cancelled = is_cancelled};
@@ -91,15 +92,15 @@ sl_status sl_compare_time(sl_console *console, const sl_space *space, const sl_s
     if (!context) return sl_fail_memory(console->context);
     durations taken = {0};
     sl_status status = run_often(context, &w, space, options, timing, &taken, run);
-    run->outcome = SL_RUN_DONE;
+    run->outcome = RUN_DONE;
     if (status == SL_UNSUPPORTED)
         snprintf(run->refusal, sizeof run->refusal, "%s", sl_context_message(context));
     if (status == SL_UNSUPPORTED || (status == SL_CANCELLED && w.late)) {
-        run->outcome = status == SL_UNSUPPORTED ? SL_RUN_REFUSED : SL_RUN_NOT_DONE;
+        run->outcome = status == SL_UNSUPPORTED ? RUN_REFUSED : RUN_NOT_DONE;
         status = SL_OK;
     }
     if (taken.count && status == SL_OK) {
-        run->outcome = SL_RUN_DONE; // a later run that was late, or none
+        run->outcome = RUN_DONE; // a later run that was late, or none
         summarise(&taken, run);
     }
     if (status != SL_OK) sl_fail(console->context, status, "%s", sl_context_message(context));
@@ -110,21 +111,21 @@ sl_status sl_compare_time(sl_console *console, const sl_space *space, const sl_s
 
 // --- subdivisions
 
-static sl_status time_one(sl_console *console, const sl_map *map, const sl_see_options *options,
-                          const sl_timing *timing, const sl_compare_run *like,
-                          sl_compare_subdivision *one) {
+static sl_status time_one(command_console *console, const sl_map *map,
+                          const sl_see_options *options, const run_timing *timing,
+                          const compare_run *like, compare_subdivision *one) {
     sl_context *context = console->context;
     sl_space space = {0};
-    sl_compare_run run = {.method = like->method, .solver = like->solver};
+    compare_run run = {.method = like->method, .solver = like->solver};
     char label[64];
-    const double start = sl_now();
+    const double start = seconds_now();
     SL_TRY(one->subdivision->subdivide(context, map, NULL, &space));
-    one->subdivide_seconds = sl_now() - start;
+    one->subdivide_seconds = seconds_now() - start;
     one->cells = space.cell_count;
     one->portals = space.portal_count;
     snprintf(label, sizeof label, "%s, %s", one->subdivision->name, like->method->name);
-    const sl_status status = sl_compare_time(console, &space, options, timing, label, &run);
-    one->done = run.outcome == SL_RUN_DONE;
+    const sl_status status = compare_time(console, &space, options, timing, label, &run);
+    one->done = run.outcome == RUN_DONE;
     one->seconds = run.seconds;
     one->pairs = run.visibility.account.pairs;
     sl_visibility_destroy(context, &run.visibility);
@@ -132,27 +133,27 @@ static sl_status time_one(sl_console *console, const sl_map *map, const sl_see_o
     return status;
 }
 
-sl_status sl_compare_subdivisions_time(sl_console *console, const sl_map *map,
-                                       const sl_see_options *options, const sl_timing *timing,
-                                       const sl_compare_run *like, sl_compare_subdivisions *out) {
+sl_status compare_subdivisions_time(command_console *console, const sl_map *map,
+                                    const sl_see_options *options, const run_timing *timing,
+                                    const compare_run *like, compare_subdivisions *out) {
     size_t count;
     const sl_subdivision *ways = sl_subdivisions(&count);
     sl_see_options see = *options;
     see.solver = out->solver = like->solver;
     out->method = like->method;
-    for (size_t i = 0; i < count && out->count < SL_SUBDIVISIONS_MOST; i++) {
+    for (size_t i = 0; i < count && out->count < SUBDIVISIONS_MOST; i++) {
         if (ways[i].takes_cells) continue;
-        sl_compare_subdivision *one = &out->items[out->count++];
-        *one = (sl_compare_subdivision){.subdivision = &ways[i]};
+        compare_subdivision *one = &out->items[out->count++];
+        *one = (compare_subdivision){.subdivision = &ways[i]};
         SL_TRY(time_one(console, map, &see, timing, like, one));
     }
     return SL_OK;
 }
 
-static void print_one(const sl_compare_subdivision *one) {
-    char subdivide[SL_SECONDS_TEXT], seconds[SL_SECONDS_TEXT];
-    sl_seconds_write(one->subdivide_seconds, "u", subdivide);
-    sl_seconds_write(one->seconds, "u", seconds);
+static void print_one(const compare_subdivision *one) {
+    char subdivide[SECONDS_TEXT], seconds[SECONDS_TEXT];
+    seconds_write(one->subdivide_seconds, "u", subdivide);
+    seconds_write(one->seconds, "u", seconds);
     printf("  %-12s %8" PRIu32 " %9" PRIu32 " %10s ", one->subdivision->name, one->cells,
            one->portals, subdivide);
     if (one->done)
@@ -161,7 +162,7 @@ static void print_one(const sl_compare_subdivision *one) {
         puts(" not done");
 }
 
-void sl_compare_subdivisions_print(const sl_compare_subdivisions *all) {
+void compare_subdivisions_print(const compare_subdivisions *all) {
     if (!all->count) return;
     puts("\n  subdivision     cells   portals  subdivide   seconds       pairs");
     for (size_t i = 0; i < all->count; i++) print_one(&all->items[i]);
@@ -169,10 +170,10 @@ void sl_compare_subdivisions_print(const sl_compare_subdivisions *all) {
            all->method->name, all->solver ? " with " : "", all->solver ? all->solver->name : "");
 }
 
-void sl_compare_subdivisions_add_json(sl_json_fields *fields, const sl_compare_subdivisions *all) {
-    sl_json_fields list[SL_SUBDIVISIONS_MOST];
+void compare_subdivisions_add_json(sl_json_fields *fields, const compare_subdivisions *all) {
+    sl_json_fields list[SUBDIVISIONS_MOST];
     for (size_t i = 0; i < all->count; i++) {
-        const sl_compare_subdivision *one = &all->items[i];
+        const compare_subdivision *one = &all->items[i];
         list[i] = sl_json_begin();
         sl_json_add_text(&list[i], "name", one->subdivision->name);
         sl_json_add_count(&list[i], "cells", one->cells);

@@ -14,13 +14,13 @@
 
 // --- the progress line
 
-double sl_now(void) {
+double seconds_now(void) {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
 }
 
-void sl_progress_line_clear(sl_progress_line *line) {
+void progress_line_clear(progress_line *line) {
     if (!line->visible) return;
     fputs("\r\033[K", stderr);
     fflush(stderr);
@@ -56,7 +56,7 @@ static int room_of_terminal(int most) {
 }
 
 /// "cell to cell: 120/2000 cells, 6 %, 34/s, 55 s left"; before there is a rate, the time so far.
-static void write_line(const sl_progress_line *line, double elapsed) {
+static void write_line(const progress_line *line, double elapsed) {
     char text[80] = "";
     const uint64_t more = line->done - line->first;
     append(text, sizeof text, "%s: %" PRIu64, line->stage, line->done);
@@ -79,21 +79,21 @@ static void write_line(const sl_progress_line *line, double elapsed) {
     fflush(stderr);
 }
 
-static void show(sl_progress_line *line) {
-    const double now = sl_now();
+static void show(progress_line *line) {
+    const double now = seconds_now();
     if (now - line->last_shown < 0.1) return;
     write_line(line, now - line->start);
     line->last_shown = now;
     line->visible = true;
 }
 
-void sl_progress_line_report(sl_progress_line *line, const sl_progress *progress) {
+void progress_line_report(progress_line *line, const sl_progress *progress) {
     if (!line->shows) return;
     if (strcmp(line->stage, progress->stage) != 0 || progress->done < line->done) {
         snprintf(line->stage, sizeof line->stage, "%s", progress->stage);
         snprintf(line->unit, sizeof line->unit, "%s", progress->unit);
         line->first = progress->done;
-        line->start = sl_now();
+        line->start = seconds_now();
         // What takes less than a tenth of a second needs no line.
         if (!line->visible) line->last_shown = line->start;
     }
@@ -102,7 +102,7 @@ void sl_progress_line_report(sl_progress_line *line, const sl_progress *progress
     show(line);
 }
 
-void sl_progress_line_tick(sl_progress_line *line) {
+void progress_line_tick(progress_line *line) {
     const bool running = line->shows && line->stage[0] && line->done != line->total;
     if (running && ++line->ticks % 64 == 0) show(line);
 }
@@ -147,15 +147,15 @@ static void hold_standard_streams(void) {
             (void)!open("/dev/null", descriptor == 0 ? O_WRONLY : O_RDONLY);
 }
 
-void sl_console_ask_first(void) {
+void console_ask_first(void) {
     atomic_store(&asks_first, true);
 }
 
-bool sl_console_is_asked(void) {
+bool console_is_asked(void) {
     return atomic_load(&asked);
 }
 
-void sl_console_print_line(FILE *stream, const char *before, const char *text, size_t length) {
+void console_print_line(FILE *stream, const char *before, const char *text, size_t length) {
     fputs(before, stream);
     for (size_t i = 0; i < length; i++) {
         const unsigned char c = (unsigned char)text[i];
@@ -169,26 +169,26 @@ void sl_console_print_line(FILE *stream, const char *before, const char *text, s
 }
 
 static void show_note(void *user, const char *message) {
-    sl_console *console = user;
+    command_console *console = user;
     if (console->quiet) return;
-    sl_progress_line_clear(&console->line);
-    sl_console_print_line(stderr, "note: ", message, strlen(message));
+    progress_line_clear(&console->line);
+    console_print_line(stderr, "note: ", message, strlen(message));
 }
 
 static void show_progress(void *user, const sl_progress *progress) {
-    sl_console *console = user;
-    if (!console->quiet) sl_progress_line_report(&console->line, progress);
+    command_console *console = user;
+    if (!console->quiet) progress_line_report(&console->line, progress);
 }
 
 /// Asked far more often than progress is reported, so that the line lives through long units of
 /// work.
 static bool is_cancelled(void *user) {
-    sl_console *console = user;
-    if (pthread_equal(pthread_self(), console->main_thread)) sl_progress_line_tick(&console->line);
+    command_console *console = user;
+    if (pthread_equal(pthread_self(), console->main_thread)) progress_line_tick(&console->line);
     return atomic_load(&interrupted);
 }
 
-bool sl_console_open(sl_console *console) {
+bool console_open(command_console *console) {
     hold_standard_streams();
     // A reader that goes away and a file that grows beyond its limit are then failed writes.
     set_handler(SIGPIPE, SIG_IGN);
@@ -196,7 +196,7 @@ bool sl_console_open(sl_console *console) {
     catch_signal(SIGINT);
     catch_signal(SIGTERM);
     const char *kind = getenv("TERM");
-    *console = (sl_console){
+    *console = (command_console){
         .main_thread = pthread_self(),
         .line.shows = isatty(STDERR_FILENO) && !(kind && strcmp(kind, "dumb") == 0),
     };
@@ -223,8 +223,8 @@ static int exit_status(sl_status status) {
     return 2;
 }
 
-int sl_console_close(sl_console *console, sl_status status) {
-    sl_progress_line_clear(&console->line);
+int console_close(command_console *console, sl_status status) {
+    progress_line_clear(&console->line);
     if (status == SL_OK) {
         sl_output output;
         status = sl_output_open(console->context, "-", &output);
@@ -235,7 +235,7 @@ int sl_console_close(sl_console *console, sl_status status) {
         status = sl_fail(console->context, SL_CANCELLED, "%s", sl_status_name(SL_CANCELLED));
     const char *message = sl_context_message(console->context);
     if (status != SL_OK && message[0])
-        sl_console_print_line(stderr, "sightline: ", message, strlen(message));
+        console_print_line(stderr, "sightline: ", message, strlen(message));
     sl_context_destroy(console->context);
     return exit_status(status);
 }

@@ -6,17 +6,17 @@
 
 #include "sightline/cell_to_cell.h"
 
-void sl_crew_begin(int *argc, char ***argv);
-void sl_crew_end(void);
+void crew_begin(int *argc, char ***argv);
+void crew_end(void);
 
-uint32_t sl_crew_rank(void); ///< from 0
-uint32_t sl_crew_size(void);
+uint32_t crew_rank(void); ///< from 0
+uint32_t crew_size(void);
 
 /// What came of a step in all processes: SL_OK where it went well everywhere. To be called by all.
-sl_status sl_crew_agree(sl_context *context, sl_status mine);
+sl_status crew_agree(sl_context *context, sl_status mine);
 
 /// Joins the partial results of all processes, by OR, into those of the first one. To be called by
 /// all.
-sl_status sl_crew_join(sl_context *context, sl_partial *partial);
+sl_status crew_join(sl_context *context, sl_partial *partial);
 
 #endif

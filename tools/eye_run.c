@@ -14,7 +14,7 @@
 enum { ROUNDS = 5, QUERIES_MOST = 1 << 20 };
 #define ROUND_SECONDS 0.002
 
-double sl_eye_reach(const sl_space *space) {
+double eye_reach(const sl_space *space) {
     const sl_box b = space->bounds;
     const double x = fmax(fabs(b.min.x), fabs(b.max.x)), y = fmax(fabs(b.min.y), fabs(b.max.y));
     return fmax(fmax(x, y), fmax(b.max.x - b.min.x, b.max.y - b.min.y));
@@ -32,7 +32,7 @@ typedef struct query {
     sl_eye_search *search;
     const sl_outline *outline;
     const sl_view *view;
-    sl_eye_result *result;
+    eye_result *result;
     sl_region *region;
     double range;
 } query;
@@ -46,9 +46,9 @@ static sl_status time_queries(const query *q, double *out) {
     double seconds[ROUNDS];
     size_t queries = 1;
     for (int round = 0; round < ROUNDS;) {
-        const double start = sl_now();
+        const double start = seconds_now();
         for (size_t i = 0; i < queries; i++) SL_TRY(ask(q));
-        const double taken = sl_now() - start;
+        const double taken = seconds_now() - start;
         if (taken < ROUND_SECONDS && queries < QUERIES_MOST) {
             queries *= 2;
             continue;
@@ -70,8 +70,8 @@ static double area_of_side(const sl_baked *baked, uint32_t cell) {
     return whole;
 }
 
-void sl_eye_measure(const sl_baked *baked, uint32_t eye_cell, const uint64_t *cells,
-                    uint32_t *count, double *share) {
+void eye_measure(const sl_baked *baked, uint32_t eye_cell, const uint64_t *cells, uint32_t *count,
+                 double *share) {
     const sl_space *space = &baked->space;
     const bool side = sl_baked_counts(baked, eye_cell);
     const double whole = area_of_side(baked, eye_cell);
@@ -87,8 +87,8 @@ void sl_eye_measure(const sl_baked *baked, uint32_t eye_cell, const uint64_t *ce
 
 /// What a method keeps of what is seen by mirror, if it knows.
 static sl_status run_mirrored(sl_context *context, const sl_baked *baked,
-                              const sl_eye_method *method, sl_eye_search *search, sl_eye_run *run,
-                              sl_eye_result *result) {
+                              const sl_eye_method *method, sl_eye_search *search, eye_run *run,
+                              eye_result *result) {
     if (!run->has_mirrors || !method->mirrored) return SL_OK;
     sl_eye_account account;
     result->mirrored =
@@ -96,18 +96,18 @@ static sl_status run_mirrored(sl_context *context, const sl_baked *baked,
     if (!result->mirrored) return SL_NO_MEMORY;
     SL_TRY(method->mirrored(context, search, &run->view, result->mirrored, &account));
     result->rounded = account.rounded;
-    sl_eye_measure(baked, run->cell, result->mirrored, &result->mirrored_count,
-                   &result->mirrored_share);
+    eye_measure(baked, run->cell, result->mirrored, &result->mirrored_count,
+                &result->mirrored_share);
     return SL_OK;
 }
 
 static sl_status run_methods(sl_context *context, const sl_baked *baked, sl_eye_search *search,
-                             bool timed, sl_eye_run *run) {
+                             bool timed, eye_run *run) {
     const sl_eye_method *methods = sl_eye_methods(&run->result_count);
     run->results = sl_alloc_array(context, run->result_count, sizeof *run->results);
     if (!run->results) return SL_NO_MEMORY;
     for (size_t i = 0; i < run->result_count; i++) {
-        sl_eye_result *result = &run->results[i];
+        eye_result *result = &run->results[i];
         result->cells = sl_alloc_array(context, sl_eye_words(&baked->space), sizeof *result->cells);
         if (!result->cells) return SL_NO_MEMORY;
         const query q = {.context = context,
@@ -116,14 +116,13 @@ static sl_status run_methods(sl_context *context, const sl_baked *baked, sl_eye_
                          .view = &run->view,
                          .result = result};
         SL_TRY(timed ? time_queries(&q, &result->seconds) : ask(&q));
-        sl_eye_measure(baked, run->cell, result->cells, &result->count, &result->share);
+        eye_measure(baked, run->cell, result->cells, &result->count, &result->share);
         SL_TRY(run_mirrored(context, baked, &methods[i], search, run, result));
     }
     return SL_OK;
 }
 
-static sl_status run_region(sl_context *context, const sl_baked *baked, bool timed,
-                            sl_eye_run *run) {
+static sl_status run_region(sl_context *context, const sl_baked *baked, bool timed, eye_run *run) {
     sl_outline outline;
     SL_TRY(sl_outline_make(context, &baked->space, &outline));
     const query q = {.context = context,
@@ -146,14 +145,14 @@ static sl_status run_region(sl_context *context, const sl_baked *baked, bool tim
     return status;
 }
 
-sl_status sl_eye_run_make(sl_context *context, const sl_baked *baked, const sl_view *view,
-                          uint32_t depth, double range, bool timed, sl_eye_run *out) {
+sl_status eye_run_make(sl_context *context, const sl_baked *baked, const sl_view *view,
+                       uint32_t depth, double range, bool timed, eye_run *out) {
     sl_eye_search *search;
-    sl_eye_run run = {.view = *view,
-                      .cell = sl_space_locate(&baked->space, view->eye),
-                      .has_mirrors = baked->map.mirror_count > 0,
-                      .mirror_depth = depth,
-                      .range = range};
+    eye_run run = {.view = *view,
+                   .cell = sl_space_locate(&baked->space, view->eye),
+                   .has_mirrors = baked->map.mirror_count > 0,
+                   .mirror_depth = depth,
+                   .range = range};
     SL_TRY(sl_eye_search_create(context, &baked->space, &baked->visibility, &search));
     sl_eye_search_limit(search, range);
     sl_status status =
@@ -164,11 +163,11 @@ sl_status sl_eye_run_make(sl_context *context, const sl_baked *baked, const sl_v
     if (status == SL_OK)
         *out = run;
     else
-        sl_eye_run_destroy(context, &run);
+        eye_run_destroy(context, &run);
     return status;
 }
 
-void sl_eye_run_destroy(sl_context *context, sl_eye_run *run) {
+void eye_run_destroy(sl_context *context, eye_run *run) {
     for (size_t i = 0; run->results && i < run->result_count; i++) {
         sl_free(context, run->results[i].cells);
         sl_free(context, run->results[i].mirrored);
@@ -176,7 +175,7 @@ void sl_eye_run_destroy(sl_context *context, sl_eye_run *run) {
     sl_free(context, run->results);
     sl_region_destroy(context, &run->region);
     sl_mirrored_region_destroy(context, &run->mirrored);
-    *run = (sl_eye_run){0};
+    *run = (eye_run){0};
 }
 
 // --- objects
@@ -184,9 +183,10 @@ void sl_eye_run_destroy(sl_context *context, sl_eye_run *run) {
 // --- reading
 
 static sl_status refuse(sl_context *context, const char *text, const sl_map *map) {
-    const sl_name_table objects = {"object", map->objects, sizeof *map->objects, map->object_count};
-    char names[SL_NAME_LIST];
-    sl_name_list(&objects, names);
+    const name_table objects = {"object", map->objects, sizeof *map->objects, map->object_count,
+                                NULL};
+    char names[NAME_LIST];
+    name_list(&objects, names);
     return sl_fail(context, SL_BAD_ARGUMENT,
                    "--object %s: X0,Y0,X1,Y1 is needed, or one of the map's objects: %s; with "
                    "',block' behind it, it blocks sight",
@@ -228,8 +228,8 @@ static sl_status read_object(sl_context *context, const char *text, const sl_map
     return refuse(context, text, map);
 }
 
-sl_status sl_eye_objects_read(sl_context *context, const sl_option_list *texts, const sl_map *map,
-                              sl_eye_objects *out) {
+sl_status eye_objects_read(sl_context *context, const option_list *texts, const sl_map *map,
+                           eye_objects *out) {
     out->count = texts->count;
     out->boxes = sl_alloc_array(context, texts->count, sizeof *out->boxes);
     out->objects = sl_alloc_array(context, texts->count, sizeof *out->objects);
@@ -243,7 +243,7 @@ sl_status sl_eye_objects_read(sl_context *context, const sl_option_list *texts, 
     return SL_OK;
 }
 
-void sl_eye_objects_destroy(sl_context *context, sl_eye_objects *objects) {
+void eye_objects_destroy(sl_context *context, eye_objects *objects) {
     sl_free(context, objects->boxes);
     sl_free(context, objects->objects);
     sl_free(context, objects->seen);
@@ -252,7 +252,7 @@ void sl_eye_objects_destroy(sl_context *context, sl_eye_objects *objects) {
     sl_free(context, objects->mirrored_cells);
     sl_mirrored_region_destroy(context, &objects->mirrored_region);
     sl_region_destroy(context, &objects->region);
-    *objects = (sl_eye_objects){0};
+    *objects = (eye_objects){0};
 }
 
 // --- looking
@@ -264,8 +264,8 @@ static bool meet(const uint64_t *a, const uint64_t *b, size_t words) {
 }
 
 /// The loosest of the methods keeps the whole visible set, the last one what is seen.
-static sl_status find_cells(sl_context *context, const sl_baked *baked, const sl_eye_run *run,
-                            sl_eye_objects *o) {
+static sl_status find_cells(sl_context *context, const sl_baked *baked, const eye_run *run,
+                            eye_objects *o) {
     const size_t words = sl_eye_words(&baked->space);
     uint64_t *cells = sl_alloc_array(context, words, sizeof *cells);
     if (!cells) return SL_NO_MEMORY;
@@ -281,8 +281,8 @@ static sl_status find_cells(sl_context *context, const sl_baked *baked, const sl
 }
 
 /// What is seen in mirrors, before which the objects stand and in which they are seen.
-static sl_status look_in_mirrors(sl_context *context, const sl_baked *baked, const sl_eye_run *run,
-                                 sl_moving *moving, const sl_outline *outline, sl_eye_objects *o) {
+static sl_status look_in_mirrors(sl_context *context, const sl_baked *baked, const eye_run *run,
+                                 sl_moving *moving, const sl_outline *outline, eye_objects *o) {
     sl_eye_account account;
     sl_room_mirrors mirrors = {0};
     o->has_mirrors = run->has_mirrors;
@@ -293,7 +293,7 @@ static sl_status look_in_mirrors(sl_context *context, const sl_baked *baked, con
     SL_TRY(sl_moving_add_mirrors(context, moving, &baked->map, run->mirror_depth));
     SL_TRY(sl_moving_look_mirrored(context, moving, &run->view, o->mirrored_cells, o->mirrored,
                                    &account));
-    sl_eye_measure(baked, run->cell, o->mirrored_cells, &o->mirrored_count, &o->mirrored_share);
+    eye_measure(baked, run->cell, o->mirrored_cells, &o->mirrored_count, &o->mirrored_share);
     sl_status status = sl_room_mirrors_make(context, outline, &baked->map, &mirrors);
     if (status == SL_OK)
         status = sl_mirrored_region_make(context, &mirrors, &run->view, run->range,
@@ -302,25 +302,25 @@ static sl_status look_in_mirrors(sl_context *context, const sl_baked *baked, con
     return status;
 }
 
-static sl_status look(sl_context *context, const sl_baked *baked, const sl_eye_run *run,
-                      sl_moving *moving, bool timed, sl_eye_objects *o) {
+static sl_status look(sl_context *context, const sl_baked *baked, const eye_run *run,
+                      sl_moving *moving, bool timed, eye_objects *o) {
     const sl_outline *outline;
     sl_eye_account account;
-    const double start = sl_now();
+    const double start = seconds_now();
     SL_TRY(sl_moving_place(context, moving, o->boxes, o->count));
     SL_TRY(sl_moving_outline(context, moving, &outline));
-    if (timed) o->seconds = sl_now() - start;
+    if (timed) o->seconds = seconds_now() - start;
     sl_moving_limit(moving, run->range);
     SL_TRY(sl_moving_look(context, moving, &run->view, o->cells, o->seen, &account));
-    sl_eye_measure(baked, run->cell, o->cells, &o->cell_count, &o->share);
+    eye_measure(baked, run->cell, o->cells, &o->cell_count, &o->share);
     SL_TRY(sl_region_make(context, outline, &run->view, run->range, &o->region));
     const double direct = sl_region_area(&run->region);
     o->region_share = direct > 0 ? run->region_share * sl_region_area(&o->region) / direct : 0;
     return look_in_mirrors(context, baked, run, moving, outline, o);
 }
 
-sl_status sl_eye_objects_run(sl_context *context, const sl_baked *baked, const sl_eye_run *run,
-                             bool timed, sl_eye_objects *objects) {
+sl_status eye_objects_run(sl_context *context, const sl_baked *baked, const eye_run *run,
+                          bool timed, eye_objects *objects) {
     sl_moving *moving;
     if (!objects->count) return SL_OK;
     objects->cells = sl_alloc_array(context, sl_eye_words(&baked->space), sizeof *objects->cells);
@@ -334,7 +334,7 @@ sl_status sl_eye_objects_run(sl_context *context, const sl_baked *baked, const s
 
 // --- telling
 
-static const char *say(const sl_eye_objects *o, size_t i) {
+static const char *say(const eye_objects *o, size_t i) {
     if (o->seen[i]) return o->mirrored[i] ? "seen, by mirror too" : "seen";
     if (o->mirrored[i]) return "seen by mirror";
     if (!o->objects[i].possible) return "hidden: not in the visible set of the eye's cell";
@@ -342,12 +342,12 @@ static const char *say(const sl_eye_objects *o, size_t i) {
                                   : "hidden: its cells are not seen from here";
 }
 
-void sl_eye_objects_print(const sl_eye_objects *objects) {
-    char seconds[SL_SECONDS_TEXT];
+void eye_objects_print(const eye_objects *objects) {
+    char seconds[SECONDS_TEXT];
     if (!objects->count) return;
     printf("\nobjects, put in without a new bake");
     if (objects->seconds > 0) {
-        sl_seconds_write(objects->seconds, "u", seconds);
+        seconds_write(objects->seconds, "u", seconds);
         printf(" in %s", seconds);
     }
     puts(":");
@@ -363,8 +363,8 @@ void sl_eye_objects_print(const sl_eye_objects *objects) {
                sl_mirrored_area(&objects->mirrored_region));
 }
 
-void sl_eye_objects_add_json(sl_json_fields *fields, const sl_baked *baked,
-                             const sl_eye_objects *objects) {
+void eye_objects_add_json(sl_json_fields *fields, const sl_baked *baked,
+                          const eye_objects *objects) {
     if (!objects->count) return;
     sl_json_fields sets = sl_json_begin(), seen = sl_json_begin(), region = sl_json_begin();
     for (size_t i = 0; i < objects->count; i++)
@@ -393,7 +393,7 @@ void sl_eye_objects_add_json(sl_json_fields *fields, const sl_baked *baked,
 #define TOLERANCE 1e-4
 
 static sl_status add(sl_context *context, const sl_space *space, const sl_region *region,
-                     sl_point eye, uint32_t depth, sl_seen_parts *parts) {
+                     sl_point eye, uint32_t depth, seen_parts *parts) {
     const sl_box *b = &space->bounds;
     const double tolerance = (b->max.x - b->min.x + b->max.y - b->min.y) * TOLERANCE;
     const size_t count = sl_region_flatten(region, tolerance, NULL, 0);
@@ -406,8 +406,8 @@ static sl_status add(sl_context *context, const sl_space *space, const sl_region
     return SL_OK;
 }
 
-sl_status sl_seen_parts_add(sl_context *context, const sl_space *space,
-                            const sl_mirrored_region *region, bool direct, sl_seen_parts *parts) {
+sl_status seen_parts_add(sl_context *context, const sl_space *space,
+                         const sl_mirrored_region *region, bool direct, seen_parts *parts) {
     const sl_point eye = region->direct.view.eye;
     if (direct) SL_TRY(add(context, space, &region->direct, eye, 0, parts));
     for (size_t i = 0; i < region->part_count; i++)
@@ -415,14 +415,14 @@ sl_status sl_seen_parts_add(sl_context *context, const sl_space *space,
     return SL_OK;
 }
 
-sl_status sl_seen_parts_add_region(sl_context *context, const sl_space *space,
-                                   const sl_region *region, sl_seen_parts *parts) {
+sl_status seen_parts_add_region(sl_context *context, const sl_space *space, const sl_region *region,
+                                seen_parts *parts) {
     return add(context, space, region, region->view.eye, 0, parts);
 }
 
-void sl_seen_parts_destroy(sl_context *context, sl_seen_parts *parts) {
+void seen_parts_destroy(sl_context *context, seen_parts *parts) {
     for (size_t i = 0; i < parts->count; i++)
         sl_free(context, (void *)(uintptr_t)parts->items[i].points);
     sl_free(context, parts->items);
-    *parts = (sl_seen_parts){0};
+    *parts = (seen_parts){0};
 }

@@ -11,20 +11,20 @@
 
 enum { MOST_SQUARES = 1 << 26 };
 
-void sl_eyes_destroy(sl_context *context, sl_eyes *eyes) {
+void eyes_destroy(sl_context *context, eye_places *eyes) {
     sl_free(context, eyes->list.items);
     sl_free(context, eyes->squares.items);
-    *eyes = (sl_eyes){0};
+    *eyes = (eye_places){0};
 }
 
-sl_status sl_eyes_add(sl_context *context, sl_eyes *eyes, sl_eye eye) {
+sl_status eyes_add(sl_context *context, eye_places *eyes, eye_place eye) {
     SL_TRY(SL_ARRAY_ROOM(context, &eyes->list, 1));
     eyes->list.items[eyes->list.count++] = eye;
     return SL_OK;
 }
 
-sl_status sl_eyes_add_grid(sl_context *context, const sl_space *space, double step, sl_eye like,
-                           sl_eyes *eyes) {
+sl_status eyes_add_grid(sl_context *context, const sl_space *space, double step, eye_place like,
+                        eye_places *eyes) {
     const sl_box *b = &space->bounds;
     const double columns = ceil((b->max.x - b->min.x) / step);
     const double rows = ceil((b->max.y - b->min.y) / step);
@@ -44,19 +44,19 @@ sl_status sl_eyes_add_grid(sl_context *context, const sl_space *space, double st
         if (cell == SL_NO_CELL || !space->cells[cell].inside) continue;
         SL_TRY(SL_ARRAY_ROOM(context, &eyes->squares, 1));
         eyes->squares.items[eyes->squares.count++] = i;
-        SL_TRY(sl_eyes_add(context, eyes, like));
+        SL_TRY(eyes_add(context, eyes, like));
     }
     return SL_OK;
 }
 
-sl_status sl_eyes_add_path(sl_context *context, const sl_path *path, double step, sl_eye like,
-                           sl_eyes *eyes) {
+sl_status eyes_add_path(sl_context *context, const sl_path *path, double step, eye_place like,
+                        eye_places *eyes) {
     double over = 0; // from the last eye to the point reached
     for (size_t i = 0; i < path->count; i++) {
         const sl_point to = path->points[i];
         if (i == 0 || step == 0) {
             like.at = to;
-            SL_TRY(sl_eyes_add(context, eyes, like));
+            SL_TRY(eyes_add(context, eyes, like));
             continue;
         }
         const sl_point from = path->points[i - 1];
@@ -68,7 +68,7 @@ sl_status sl_eyes_add_path(sl_context *context, const sl_path *path, double step
         for (; along <= length; along += step) {
             like.at = (sl_point){from.x + along / length * (to.x - from.x),
                                  from.y + along / length * (to.y - from.y)};
-            SL_TRY(sl_eyes_add(context, eyes, like));
+            SL_TRY(eyes_add(context, eyes, like));
         }
         over = length - (along - step);
     }
@@ -105,22 +105,22 @@ static bool is_header(const char *line, size_t length) {
 }
 
 static sl_status read_line(sl_context *context, const char *path, unsigned number, const char *line,
-                           size_t length, const sl_space *space, sl_eye like, sl_eyes *eyes) {
+                           size_t length, const sl_space *space, eye_place like, eye_places *eyes) {
     double fields[4] = {0, 0, like.look, like.fov};
     const int count = read_fields(line, length, fields);
     if (count < 2)
         return sl_fail_at(context, path, number,
                           "two to four finite numbers are needed: x, y, angle, field of view");
-    const sl_eye eye = {{fields[0], fields[1]}, fields[2], fields[3]};
+    const eye_place eye = {{fields[0], fields[1]}, fields[2], fields[3]};
     if (!(eye.fov >= 0 && eye.fov <= 360))
         return sl_fail_at(context, path, number, "the field of view must be 0 to 360 degrees");
     if (sl_space_locate(space, eye.at) == SL_NO_CELL)
         return sl_fail_at(context, path, number, "the point lies outside the map");
-    return sl_eyes_add(context, eyes, eye);
+    return eyes_add(context, eyes, eye);
 }
 
-sl_status sl_eyes_read_csv(sl_context *context, const char *path, const sl_space *space,
-                           sl_eye like, sl_eyes *eyes) {
+sl_status eyes_read_csv(sl_context *context, const char *path, const sl_space *space,
+                        eye_place like, eye_places *eyes) {
     sl_bytes text;
     SL_TRY(sl_file_read(context, path, &text));
     sl_status status = SL_OK;
@@ -162,22 +162,22 @@ static const measure measures[] = {
 };
 enum { MEASURES = sizeof measures / sizeof *measures, EYES_A_UNIT = 64 };
 
-sl_name_table sl_isovist_measures(void) {
-    return (sl_name_table){"measure", measures, sizeof *measures, MEASURES};
+name_table isovist_measures(void) {
+    return (name_table){"measure", measures, sizeof *measures, MEASURES, NULL};
 }
 
-double sl_isovist_value(const sl_isovist *isovist, size_t which) {
+double isovist_value(const isovist_result *isovist, size_t which) {
     return *(const double *)((const char *)&isovist->measures + measures[which].offset);
 }
 
-sl_view sl_eye_view(const sl_space *space, const sl_eye *eye) {
+sl_view eye_view(const sl_space *space, const eye_place *eye) {
     const sl_box *b = &space->bounds;
     const double reach = fmax(b->max.x - b->min.x, b->max.y - b->min.y);
     return sl_view_cone(eye->at, eye->look, eye->fov, reach);
 }
 
-sl_status sl_isovist_look(sl_context *context, const sl_isovist_scene *scene, const sl_view *view,
-                          sl_mirrored_region *out) {
+sl_status isovist_look(sl_context *context, const isovist_scene *scene, const sl_view *view,
+                       sl_mirrored_region *out) {
     if (!scene->mirrors)
         return sl_region_make(context, scene->outline, view, scene->range, &out->direct);
     return sl_mirrored_region_make(context, scene->mirrors, view, scene->range, scene->mirror_depth,
@@ -185,9 +185,9 @@ sl_status sl_isovist_look(sl_context *context, const sl_isovist_scene *scene, co
 }
 
 typedef struct job {
-    const sl_isovist_scene *scene;
-    const sl_eyes *eyes;
-    sl_isovist *out;
+    const isovist_scene *scene;
+    const eye_places *eyes;
+    isovist_result *out;
 } job;
 
 static sl_status begin(sl_context *context, void *all, void **state) {
@@ -202,11 +202,11 @@ static sl_status do_unit(sl_context *context, void *all, void *state, size_t uni
     const sl_space *space = j->scene->outline->space;
     const size_t first = unit * EYES_A_UNIT, count = j->eyes->list.count;
     for (size_t i = first; i < count && i < first + EYES_A_UNIT; i++) {
-        const sl_view view = sl_eye_view(space, &j->eyes->list.items[i]);
-        SL_TRY(sl_isovist_look(context, j->scene, &view, region));
-        j->out[i] = (sl_isovist){sl_region_measure(&region->direct),
-                                 sl_region_corners(&region->direct, space, NULL, 0),
-                                 sl_mirrored_area(region), region->part_count};
+        const sl_view view = eye_view(space, &j->eyes->list.items[i]);
+        SL_TRY(isovist_look(context, j->scene, &view, region));
+        j->out[i] = (isovist_result){sl_region_measure(&region->direct),
+                                     sl_region_corners(&region->direct, space, NULL, 0),
+                                     sl_mirrored_area(region), region->part_count};
     }
     return SL_OK;
 }
@@ -217,8 +217,8 @@ static void end(sl_context *context, void *all, void *state) {
     sl_free(context, state);
 }
 
-sl_status sl_isovist_run(sl_context *context, const sl_isovist_scene *scene, const sl_eyes *eyes,
-                         unsigned threads, sl_isovist *out) {
+sl_status isovist_run(sl_context *context, const isovist_scene *scene, const eye_places *eyes,
+                      unsigned threads, isovist_result *out) {
     job j = {scene, eyes, out};
     const sl_work work = {.job = &j,
                           .begin = begin,
@@ -236,19 +236,19 @@ static void put(FILE *out, double value, char after) {
     fprintf(out, "%s%c", text, after);
 }
 
-static sl_status write_rows(sl_context *context, bool mirrors, const sl_eyes *eyes,
-                            const sl_isovist *isovists, FILE *out) {
+static sl_status write_rows(sl_context *context, bool mirrors, const eye_places *eyes,
+                            const isovist_result *isovists, FILE *out) {
     fputs("x,y,look,fov,", out);
     for (size_t k = 0; k < MEASURES; k++) fprintf(out, "%s,", measures[k].name);
     fputs(mirrors ? "corners,mirrored_area,parts\n" : "corners\n", out);
     for (size_t i = 0; i < eyes->list.count; i++) {
         if (i % 4096 == 0) SL_TRY(sl_check_cancelled(context));
-        const sl_eye *eye = &eyes->list.items[i];
+        const eye_place *eye = &eyes->list.items[i];
         put(out, eye->at.x, ',');
         put(out, eye->at.y, ',');
         put(out, eye->look, ',');
         put(out, eye->fov, ',');
-        for (size_t k = 0; k < MEASURES; k++) put(out, sl_isovist_value(&isovists[i], k), ',');
+        for (size_t k = 0; k < MEASURES; k++) put(out, isovist_value(&isovists[i], k), ',');
         fprintf(out, "%zu", isovists[i].corners);
         if (mirrors) {
             putc(',', out);
@@ -260,8 +260,8 @@ static sl_status write_rows(sl_context *context, bool mirrors, const sl_eyes *ey
     return SL_OK;
 }
 
-sl_status sl_isovist_write(sl_context *context, const sl_isovist_scene *scene, const sl_eyes *eyes,
-                           const sl_isovist *isovists, const char *path) {
+sl_status isovist_write(sl_context *context, const isovist_scene *scene, const eye_places *eyes,
+                        const isovist_result *isovists, const char *path) {
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));
     return sl_output_close(

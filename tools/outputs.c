@@ -1,7 +1,6 @@
 #include "outputs.h"
 
 #include "inputs.h"
-#include "options.h"
 #include "sightline/support.h"
 
 #include <errno.h>
@@ -14,24 +13,50 @@
 
 // --- names
 
-sl_status sl_picture_plan(sl_context *context, const char *width, const char *title, bool dark,
-                          sl_draw_options *out) {
-    *out = sl_draw_options_default();
-    out->dark = dark;
-    out->title = title;
-    SL_TRY(sl_option_number(context, "--width", width, &out->width));
-    if (out->width >= SL_DRAW_WIDTH_MIN && out->width <= SL_DRAW_WIDTH_MAX) return SL_OK;
-    return sl_fail(context, SL_BAD_ARGUMENT, "--width %s: a number from %d to %d is needed", width,
-                   SL_DRAW_WIDTH_MIN, SL_DRAW_WIDTH_MAX);
+static bool is_same_file(const char *path, const char *other) {
+    struct stat a, b;
+    return stat(path, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev &&
+           a.st_ino == b.st_ino && S_ISREG(a.st_mode);
 }
 
-sl_status sl_picture_check(sl_context *context, const char *path, const char *option,
-                           const char *output) {
-    if (!output || sl_input_ends_with(output, ".png") || sl_input_ends_with(output, ".svg") ||
-        sl_input_ends_with(output, ".pdf"))
-        return sl_output_check(context, path, option, output);
+sl_status output_check_file(sl_context *context, const char *path, const char *option,
+                            const char *output) {
+    if (!*output) return sl_fail(context, SL_BAD_ARGUMENT, "%s is empty; name a file", option);
+    if (!is_same_file(path, output)) return sl_output_try(context, output);
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "%s %s: is the input itself, which would be lost; give another name", option,
+                   output);
+}
+
+sl_status output_check_baked(sl_context *context, const char *path, const char *option,
+                             const char *output) {
+    if (!input_ends_with(output, ".slv"))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "%s %s: the name of a baked file ends in .slv, by which it is known", option,
+                       output);
+    return output_check_file(context, path, option, output);
+}
+
+sl_status output_check_picture(sl_context *context, const char *path, const char *option,
+                               const char *output) {
+    if (input_ends_with(output, ".png") || input_ends_with(output, ".svg") ||
+        input_ends_with(output, ".pdf"))
+        return output_check_file(context, path, option, output);
     return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: end the name in .png, .svg or .pdf", option,
                    output);
+}
+
+option_table picture_option_table(sl_draw_options *drawing, bool titled) {
+    const option_spec options[] = {
+        {"width", 0, "PX", "of the picture, 64 to 20000 pixels or points",
+         .number = &drawing->width, .least = SL_DRAW_WIDTH_MIN, .most = SL_DRAW_WIDTH_MAX},
+        {"dark", 0, NULL, titled ? "light on dark" : "the picture light on dark",
+         .flag = &drawing->dark},
+        {"title", 0, "TEXT", "a line over the picture", .text = &drawing->title},
+    };
+    option_table table = {0};
+    option_table_add(&table, options, titled ? 3 : 2);
+    return table;
 }
 
 // --- folders
@@ -43,7 +68,7 @@ static char *join(sl_context *context, const char *folder, const char *name) {
     return path;
 }
 
-char *sl_folder_file(sl_context *context, const sl_folder *folder, const char *name) {
+char *folder_file(sl_context *context, const output_folder *folder, const char *name) {
     return join(context, folder->temporary, name);
 }
 
@@ -52,7 +77,7 @@ static sl_status fail_write(sl_context *context, const char *path) {
 }
 
 /// What stands where the folder or its files are to be.
-static sl_status look(sl_context *context, sl_folder *folder) {
+static sl_status look(sl_context *context, output_folder *folder) {
     struct stat there;
     folder->exists = stat(folder->path, &there) == 0;
     if (!folder->exists) return SL_OK;
@@ -72,7 +97,7 @@ static sl_status look(sl_context *context, sl_folder *folder) {
 
 /// Within a folder that is there, so that moving never leaves the file system; beside one that is
 /// not, as which it is renamed.
-static sl_status make_temporary(sl_context *context, sl_folder *folder) {
+static sl_status make_temporary(sl_context *context, output_folder *folder) {
     const size_t length = strlen(folder->path) + sizeof "/.XXXXXX";
     folder->temporary = sl_alloc(context, length);
     if (!folder->temporary) return SL_NO_MEMORY;
@@ -88,18 +113,18 @@ static sl_status make_temporary(sl_context *context, sl_folder *folder) {
     return SL_OK;
 }
 
-sl_status sl_folder_open(sl_context *context, const char *path, const char *const *names,
-                         sl_folder *out) {
+sl_status folder_open(sl_context *context, const char *path, const char *const *names,
+                      output_folder *out) {
     size_t length = strlen(path);
     while (length > 1 && path[length - 1] == '/') length--;
     if (!length) return sl_fail(context, SL_BAD_ARGUMENT, "a folder without a name");
-    *out = (sl_folder){.names = names, .path = sl_copy_text(context, path, length)};
+    *out = (output_folder){.names = names, .path = sl_copy_text(context, path, length)};
     sl_status status = out->path ? look(context, out) : SL_NO_MEMORY;
     if (status == SL_OK) status = make_temporary(context, out);
-    return status == SL_OK ? SL_OK : sl_folder_close(context, out, status);
+    return status == SL_OK ? SL_OK : folder_close(context, out, status);
 }
 
-static sl_status move_file(sl_context *context, const sl_folder *folder, const char *name) {
+static sl_status move_file(sl_context *context, const output_folder *folder, const char *name) {
     char *from = join(context, folder->temporary, name), *to = join(context, folder->path, name);
     sl_status status = from && to ? SL_OK : SL_NO_MEMORY;
     if (status == SL_OK && rename(from, to) != 0) status = fail_write(context, to);
@@ -108,13 +133,13 @@ static sl_status move_file(sl_context *context, const sl_folder *folder, const c
     return status;
 }
 
-static void remove_file(sl_context *context, const sl_folder *folder, const char *name) {
+static void remove_file(sl_context *context, const output_folder *folder, const char *name) {
     char *path = join(context, folder->temporary, name);
     if (path) unlink(path);
     sl_free(context, path);
 }
 
-sl_status sl_folder_close(sl_context *context, sl_folder *folder, sl_status status) {
+sl_status folder_close(sl_context *context, output_folder *folder, sl_status status) {
     const bool made = folder->temporary && folder->temporary[0];
     if (status == SL_OK && !folder->exists && rename(folder->temporary, folder->path) != 0)
         status = fail_write(context, folder->path);
@@ -126,30 +151,30 @@ sl_status sl_folder_close(sl_context *context, sl_folder *folder, sl_status stat
     }
     sl_free(context, folder->path);
     sl_free(context, folder->temporary);
-    *folder = (sl_folder){0};
+    *folder = (output_folder){0};
     return status;
 }
 
 // --- sizes
 
-void sl_size_write(uint64_t bytes, char text[SL_SIZE_TEXT]) {
+void size_write(uint64_t bytes, char text[SIZE_TEXT]) {
     static const char *const units[] = {"KiB", "MiB", "GiB", "TiB"};
     if (bytes < 1024) {
-        snprintf(text, SL_SIZE_TEXT, "%u bytes", (unsigned)bytes);
+        snprintf(text, SIZE_TEXT, "%u bytes", (unsigned)bytes);
         return;
     }
     double size = (double)bytes / 1024;
     unsigned unit = 0;
     for (; size >= 1000 && unit < 3; unit++) size /= 1024;
-    snprintf(text, SL_SIZE_TEXT, "%.*f %s", size < 100 ? 1 : 0, size, units[unit]);
+    snprintf(text, SIZE_TEXT, "%.*f %s", size < 100 ? 1 : 0, size, units[unit]);
 }
 
-uint64_t sl_size_of_file(const char *path) {
+uint64_t size_of_file(const char *path) {
     struct stat status;
     return stat(path, &status) == 0 ? (uint64_t)status.st_size : 0;
 }
 
-uint64_t sl_size_of_peak_memory(void) {
+uint64_t size_of_peak_memory(void) {
     struct rusage usage;
     if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
 #ifdef __APPLE__

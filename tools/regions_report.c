@@ -8,7 +8,7 @@
 
 // --- the table
 
-const sl_regions_cost *sl_regions_cost_of(const sl_regions_row *row, const char *method) {
+const regions_cost *regions_cost_of(const regions_row *row, const char *method) {
     for (size_t i = 0; i < row->cost_count; i++)
         if (strcmp(row->costs[i].method, method) == 0) return &row->costs[i];
     return NULL;
@@ -16,7 +16,7 @@ const sl_regions_cost *sl_regions_cost_of(const sl_regions_row *row, const char 
 
 /// What "regions" tells: the table on stdout, and the same as CSV.
 
-static void print_heading(const sl_regions_row *row) {
+static void print_heading(const regions_row *row) {
     printf("\nview cells: %s\n", row->view_cells);
     printf("  %-20s%10s%9s", "map", "cells", "objects");
     for (size_t i = 0; i < row->cost_count; i++) printf("%11s %%", row->costs[i].method);
@@ -24,12 +24,12 @@ static void print_heading(const sl_regions_row *row) {
     printf("%8s%11s\n", "PVS %", "work/seen");
 }
 
-static void print_row(const sl_regions_row *row) {
+static void print_row(const regions_row *row) {
     printf("  %-20s%10" PRIu32 "%9" PRIu32, row->map, row->counts.view_cells, row->counts.objects);
     for (size_t i = 0; i < row->cost_count; i++) printf("%13.3f", 100 * row->costs[i].refined);
     for (size_t i = 0; i < row->cost_count; i++) printf("%13.3f", row->costs[i].seconds);
-    printf("%8.2f", 100 * sl_regions_mean_pvs(row));
-    const sl_regions_cost *multipass = sl_regions_cost_of(row, "multipass");
+    printf("%8.2f", 100 * regions_mean_pvs(row));
+    const regions_cost *multipass = regions_cost_of(row, "multipass");
     if (multipass && multipass->relations)
         printf("%11.3f", (double)multipass->candidates / (double)multipass->relations);
     putchar('\n');
@@ -38,7 +38,7 @@ static void print_row(const sl_regions_row *row) {
                row->counts.boundary_faces, row->counts.faces);
 }
 
-void sl_regions_print(const sl_regions_rows *rows) {
+void regions_print(const regions_rows *rows) {
     puts(
         "METHOD %: objects given to the solver, an image's mean share of all, after view-frustum\n"
         "culling; METHOD s: seconds of processor time; PVS %: a view cell's mean share of the "
@@ -53,9 +53,9 @@ void sl_regions_print(const sl_regions_rows *rows) {
     }
 }
 
-static void write_row(FILE *stream, const sl_regions_row *row, const sl_regions_cost *cost) {
+static void write_row(FILE *stream, const regions_row *row, const regions_cost *cost) {
     char pvs[SL_NUMBER_TEXT], refined[SL_NUMBER_TEXT], seconds[SL_NUMBER_TEXT];
-    sl_number_write(sl_regions_mean_pvs(row), pvs);
+    sl_number_write(regions_mean_pvs(row), pvs);
     sl_number_write(cost->refined, refined);
     sl_number_write(cost->seconds, seconds);
     const sl_regions_counts *c = &row->counts;
@@ -71,7 +71,7 @@ static void write_row(FILE *stream, const sl_regions_row *row, const sl_regions_
         fputs(",\n", stream);
 }
 
-sl_status sl_regions_write_csv(sl_context *context, const sl_regions_rows *rows, const char *path) {
+sl_status regions_write_csv(sl_context *context, const regions_rows *rows, const char *path) {
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));
     fputs("map,view_cells,cells,objects,leaves,faces,boundary_faces,dependents,images,rays,pairs,"
@@ -96,7 +96,7 @@ typedef struct points {
     sl_chart_mark bound[2];
 } points;
 
-static size_t same_view_cells(const sl_regions_rows *rows, size_t first) {
+static size_t same_view_cells(const regions_rows *rows, size_t first) {
     size_t end = first + 1;
     while (end < rows->count &&
            strcmp(rows->items[end].view_cells, rows->items[first].view_cells) == 0)
@@ -105,12 +105,12 @@ static size_t same_view_cells(const sl_regions_rows *rows, size_t first) {
 }
 
 /// A mark for each row: its mean visible set across, `value` up.
-static sl_status make_points(sl_context *context, const sl_regions_rows *rows,
-                             double (*value)(const sl_regions_row *), points *p) {
+static sl_status make_points(sl_context *context, const regions_rows *rows,
+                             double (*value)(const regions_row *), points *p) {
     p->marks = sl_alloc_array(context, rows->count, sizeof *p->marks);
     if (!p->marks) return SL_NO_MEMORY;
     for (size_t i = 0; i < rows->count; i++)
-        p->marks[i] = (sl_chart_mark){.x = 100 * sl_regions_mean_pvs(&rows->items[i]),
+        p->marks[i] = (sl_chart_mark){.x = 100 * regions_mean_pvs(&rows->items[i]),
                                       .y = value(&rows->items[i]),
                                       .label = rows->items[i].map};
     for (size_t first = 0, end; first < rows->count && p->series_count < SERIES_MOST; first = end) {
@@ -126,25 +126,25 @@ static sl_status make_points(sl_context *context, const sl_regions_rows *rows,
     return SL_OK;
 }
 
-static double hierarchy_over_multipass(const sl_regions_row *row) {
-    const sl_regions_cost *hierarchy = sl_regions_cost_of(row, "hierarchy");
-    const sl_regions_cost *multipass = sl_regions_cost_of(row, "multipass");
+static double hierarchy_over_multipass(const regions_row *row) {
+    const regions_cost *hierarchy = regions_cost_of(row, "hierarchy");
+    const regions_cost *multipass = regions_cost_of(row, "multipass");
     return hierarchy && multipass && multipass->refined > 0
                ? hierarchy->refined / multipass->refined
                : 1;
 }
 
-static double work_over_output(const sl_regions_row *row) {
-    const sl_regions_cost *cost = sl_regions_cost_of(row, "multipass");
+static double work_over_output(const regions_row *row) {
+    const regions_cost *cost = regions_cost_of(row, "multipass");
     return cost && cost->relations ? (double)cost->candidates / (double)cost->relations : 0;
 }
 
 /// The paper's K over the whole width.
-static void add_bound(const sl_regions_rows *rows, points *p) {
+static void add_bound(const regions_rows *rows, points *p) {
     uint32_t most = 0;
     double low = 100, high = 0;
     for (size_t i = 0; i < rows->count; i++) {
-        const double x = 100 * sl_regions_mean_pvs(&rows->items[i]);
+        const double x = 100 * regions_mean_pvs(&rows->items[i]);
         if (rows->items[i].counts.dependents > most) most = rows->items[i].counts.dependents;
         if (x < low) low = x;
         if (x > high) high = x;
@@ -159,8 +159,8 @@ static void add_bound(const sl_regions_rows *rows, points *p) {
                           .mark_count = 2};
 }
 
-sl_status sl_regions_draw_refine(sl_context *context, const sl_regions_rows *rows, bool dark,
-                                 const char *path) {
+sl_status regions_draw_refine(sl_context *context, const regions_rows *rows, bool dark,
+                              const char *path) {
     points p = {0};
     sl_status status = make_points(context, rows, hierarchy_over_multipass, &p);
     if (status == SL_OK) {
@@ -181,8 +181,8 @@ sl_status sl_regions_draw_refine(sl_context *context, const sl_regions_rows *row
     return status;
 }
 
-sl_status sl_regions_draw_work(sl_context *context, const sl_regions_rows *rows, bool dark,
-                               const char *path) {
+sl_status regions_draw_work(sl_context *context, const regions_rows *rows, bool dark,
+                            const char *path) {
     points p = {0};
     sl_status status = make_points(context, rows, work_over_output, &p);
     if (status == SL_OK) {

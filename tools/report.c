@@ -7,14 +7,7 @@
 
 // --- the plan
 
-sl_name_table sl_effect_table(sl_effect_names *names) {
-    size_t count;
-    const sl_effect *const *effects = sl_effects(&count);
-    for (size_t i = 0; i < count; i++) names->names[i] = effects[i]->name;
-    return (sl_name_table){"effect", names->names, sizeof *names->names, count};
-}
-
-void sl_plan_print(const sl_map *map) {
+void plan_print(const sl_map *map) {
     size_t count;
     const sl_effect *const *effects = sl_effects(&count);
     const unsigned called_for = sl_plan_make(map).effects;
@@ -35,7 +28,7 @@ void sl_plan_print(const sl_map *map) {
     if (!*lead) putchar('\n');
 }
 
-void sl_plan_add_json(sl_json_fields *fields, const sl_map *map) {
+void plan_add_json(sl_json_fields *fields, const sl_map *map) {
     size_t count;
     const sl_effect *const *effects = sl_effects(&count);
     const unsigned called_for = sl_plan_make(map).effects;
@@ -67,9 +60,9 @@ static void sum_before(const sl_baked *baked, before *sums) {
     for (uint32_t c = 0; c <= space->cell_count; c++) sums[c].area = sums[c].cells;
 }
 
-sl_status sl_mean_pvs_of(sl_context *context, const sl_baked *baked, sl_mean_pvs *out) {
+sl_status mean_pvs_of(sl_context *context, const sl_baked *baked, pvs_means *out) {
     const sl_space *space = &baked->space;
-    sl_mean_pvs mean = {0};
+    pvs_means mean = {0};
     before *sums = sl_alloc_array(context, (size_t)space->cell_count + 1, sizeof *sums);
     if (!sums) return SL_NO_MEMORY;
     sum_before(baked, sums);
@@ -96,14 +89,14 @@ sl_status sl_mean_pvs_of(sl_context *context, const sl_baked *baked, sl_mean_pvs
     return SL_OK;
 }
 
-void sl_mean_pvs_print(const sl_mean_pvs *mean) {
+void mean_pvs_print(const pvs_means *mean) {
     printf("  a cell    sees %.1f of %" PRIu32 " %scells (%.1f %%), %.1f %% of their area;\n"
            "            means over those cells, each of the same weight\n",
            mean->cells, mean->cell_count, mean->inside_only ? "inside " : "",
            100 * mean->share_of_cells, 100 * mean->share_of_area);
 }
 
-void sl_mean_pvs_add_json(sl_json_fields *fields, const sl_mean_pvs *mean) {
+void mean_pvs_add_json(sl_json_fields *fields, const pvs_means *mean) {
     sl_json_add_text(fields, "mean_pvs_over", mean->inside_only ? "inside cells" : "all cells");
     sl_json_add_real(fields, "mean_pvs_cells", mean->cells);
     sl_json_add_real(fields, "mean_pvs_share_of_cells", mean->share_of_cells);

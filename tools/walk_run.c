@@ -7,21 +7,21 @@
 #include <math.h>
 #include <string.h>
 
-enum { SL_WALK_COLUMNS = 640 };
+enum { WALK_COLUMNS = 640 };
 
-typedef struct sl_walk_canvas {
+typedef struct walk_canvas {
     const sl_hierarchy *hierarchy;
     uint64_t *drawn; ///< by wall, the frame in which it was drawn last
     uint64_t frame;
-    float nearness[SL_WALK_COLUMNS]; ///< one over the depth; 0 for nothing
-    uint32_t wall[SL_WALK_COLUMNS];
-} sl_walk_canvas;
+    float nearness[WALK_COLUMNS]; ///< one over the depth; 0 for nothing
+    uint32_t wall[WALK_COLUMNS];
+} walk_canvas;
 
 // --- the way
 
 enum { MOST_FRAMES = 10000000 };
 
-static sl_status add_point(sl_context *context, sl_way *way, sl_point point) {
+static sl_status add_point(sl_context *context, walk_way *way, sl_point point) {
     SL_TRY(SL_ARRAY_ROOM(context, way, 1));
     way->items[way->count++] = point;
     return SL_OK;
@@ -34,7 +34,7 @@ static bool is_gap(char c) {
 }
 
 static sl_status read_line(sl_context *context, const char *path, unsigned number, const char *line,
-                           size_t length, const sl_space *space, sl_way *way) {
+                           size_t length, const sl_space *space, walk_way *way) {
     const char *comment = memchr(line, '#', length);
     if (comment) length = (size_t)(comment - line);
     double values[2] = {0};
@@ -58,7 +58,7 @@ static sl_status read_line(sl_context *context, const char *path, unsigned numbe
     return add_point(context, way, point);
 }
 
-sl_status sl_way_read(sl_context *context, const char *path, const sl_space *space, sl_way *way) {
+sl_status way_read(sl_context *context, const char *path, const sl_space *space, walk_way *way) {
     sl_bytes text;
     SL_TRY(sl_file_read(context, path, &text));
     sl_status status = SL_OK;
@@ -106,7 +106,7 @@ static uint32_t search(tour *t, uint32_t from) {
 }
 
 /// Adds the middles of the portals on the way to a cell, in order.
-static sl_status go_to(sl_context *context, const tour *t, uint32_t cell, sl_way *way) {
+static sl_status go_to(sl_context *context, const tour *t, uint32_t cell, walk_way *way) {
     const size_t first = way->count;
     for (uint32_t c = cell; t->came_from[c] != c; c = t->came_from[c]) {
         const sl_directed_portal *e = &t->space->directed[t->came_by[c]];
@@ -127,7 +127,7 @@ static sl_status go_to(sl_context *context, const tour *t, uint32_t cell, sl_way
     return add_point(context, way, middle);
 }
 
-double sl_way_length(const sl_way *way) {
+double way_length(const walk_way *way) {
     double length = 0;
     for (size_t i = 1; i < way->count; i++)
         length +=
@@ -136,11 +136,11 @@ double sl_way_length(const sl_way *way) {
 }
 
 static sl_status lay_tour(sl_context *context, tour *t, sl_point start, uint64_t seed,
-                          double length, sl_way *way) {
+                          double length, walk_way *way) {
     sl_random random = {seed};
     uint32_t cell = sl_space_locate(t->space, start);
     SL_TRY(add_point(context, way, start));
-    while (sl_way_length(way) < length) {
+    while (way_length(way) < length) {
         SL_TRY(sl_check_cancelled(context));
         const uint32_t count = search(t, cell);
         if (count < 2)
@@ -152,7 +152,7 @@ static sl_status lay_tour(sl_context *context, tour *t, sl_point start, uint64_t
         SL_TRY(go_to(context, t, cell, way));
     }
     // What is too long of it is taken off.
-    double over = sl_way_length(way) - length;
+    double over = way_length(way) - length;
     sl_point *last = &way->items[way->count - 1];
     while (way->count > 2 && hypot(last->x - last[-1].x, last->y - last[-1].y) < over) {
         over -= hypot(last->x - last[-1].x, last->y - last[-1].y);
@@ -166,8 +166,8 @@ static sl_status lay_tour(sl_context *context, tour *t, sl_point start, uint64_t
     return SL_OK;
 }
 
-sl_status sl_way_tour(sl_context *context, const sl_space *space, sl_point start, uint64_t seed,
-                      double length, sl_way *way) {
+sl_status way_tour(sl_context *context, const sl_space *space, sl_point start, uint64_t seed,
+                   double length, walk_way *way) {
     tour t = {.space = space};
     t.came_by = sl_alloc_array(context, space->cell_count, sizeof *t.came_by);
     t.came_from = sl_alloc_array(context, space->cell_count, sizeof *t.came_from);
@@ -185,7 +185,7 @@ sl_status sl_way_tour(sl_context *context, const sl_space *space, sl_point start
 
 /// A place that moves along a way.
 typedef struct walker {
-    const sl_way *way;
+    const walk_way *way;
     size_t leg;   ///< from point leg to the next
     double along; ///< what of the leg is done
 } walker;
@@ -204,9 +204,9 @@ static sl_point advance(walker *w, double distance) {
     }
 }
 
-sl_status sl_way_frames(sl_context *context, const sl_way *way, double step, double ahead,
-                        double fov, sl_eyes *eyes) {
-    const double steps = sl_way_length(way) / step;
+sl_status way_frames(sl_context *context, const walk_way *way, double step, double ahead,
+                     double fov, eye_places *eyes) {
+    const double steps = way_length(way) / step;
     if (!(steps <= MOST_FRAMES))
         return sl_fail(context, SL_BAD_ARGUMENT, "%.0f steps: at most %d can be", steps,
                        MOST_FRAMES);
@@ -219,16 +219,16 @@ sl_status sl_way_frames(sl_context *context, const sl_way *way, double step, dou
         toward = i ? advance(&seen, step) : toward;
         if (at.x != toward.x || at.y != toward.y)
             look = atan2(toward.y - at.y, toward.x - at.x) * (180 / acos(-1));
-        SL_TRY(sl_eyes_add(context, eyes, (sl_eye){at, look, fov}));
+        SL_TRY(eyes_add(context, eyes, (eye_place){at, look, fov}));
     }
     return SL_OK;
 }
 
 // --- drawing walls
 
-static sl_status sl_walk_canvas_create(sl_context *context, const sl_hierarchy *hierarchy,
-                                       sl_walk_canvas **out) {
-    sl_walk_canvas *c = sl_alloc_array(context, 1, sizeof *c);
+static sl_status walk_canvas_create(sl_context *context, const sl_hierarchy *hierarchy,
+                                    walk_canvas **out) {
+    walk_canvas *c = sl_alloc_array(context, 1, sizeof *c);
     uint64_t *drawn = sl_alloc_array(context, hierarchy->space->wall_count, sizeof *drawn);
     if (!c || !drawn) {
         sl_free(context, c);
@@ -241,7 +241,7 @@ static sl_status sl_walk_canvas_create(sl_context *context, const sl_hierarchy *
     return SL_OK;
 }
 
-static void sl_walk_canvas_destroy(sl_context *context, sl_walk_canvas *canvas) {
+static void walk_canvas_destroy(sl_context *context, walk_canvas *canvas) {
     if (canvas) sl_free(context, canvas->drawn);
     sl_free(context, canvas);
 }
@@ -254,7 +254,7 @@ typedef struct camera {
 } camera;
 
 /// A wall's columns, nearer than what is there already. One over the depth is linear across.
-static void draw_wall(sl_walk_canvas *c, const camera *cam, uint32_t number) {
+static void draw_wall(walk_canvas *c, const camera *cam, uint32_t number) {
     const sl_wall *w = &c->hierarchy->space->walls[number];
     double depth[2], across[2];
     for (int i = 0; i < 2; i++) {
@@ -290,7 +290,7 @@ static void draw_wall(sl_walk_canvas *c, const camera *cam, uint32_t number) {
     }
 }
 
-static void draw_cell(sl_walk_canvas *c, const camera *cameras, int camera_count, uint32_t cell,
+static void draw_cell(walk_canvas *c, const camera *cameras, int camera_count, uint32_t cell,
                       uint32_t *walls) {
     const sl_hierarchy *h = c->hierarchy;
     for (uint32_t i = h->first_wall[cell]; i < h->first_wall[cell + 1]; i++) {
@@ -304,7 +304,7 @@ static void draw_cell(sl_walk_canvas *c, const camera *cameras, int camera_count
 
 /// Draws the walls of a set of cells, each once; returns how many walls that were. A view of more
 /// than 120 degrees is drawn in several parts side by side.
-static uint32_t sl_walk_draw(sl_walk_canvas *c, const sl_eye *eye, const uint64_t *cells) {
+static uint32_t walk_draw(walk_canvas *c, const eye_place *eye, const uint64_t *cells) {
     const double degree = acos(-1) / 180;
     const int parts = eye->fov > 240 ? 4 : eye->fov > 120 ? 2 : 1;
     const double width = eye->fov / parts;
@@ -315,8 +315,8 @@ static uint32_t sl_walk_draw(sl_walk_canvas *c, const sl_eye *eye, const uint64_
                               .ahead = {cos(look), sin(look)},
                               .left = {-sin(look), cos(look)},
                               .half_width = tan(fmax(width, 0.01) / 2 * degree),
-                              .first = SL_WALK_COLUMNS / parts * i,
-                              .count = SL_WALK_COLUMNS / parts};
+                              .first = WALK_COLUMNS / parts * i,
+                              .count = WALK_COLUMNS / parts};
     }
     uint32_t walls = 0;
     c->frame++;
@@ -330,32 +330,32 @@ static uint32_t sl_walk_draw(sl_walk_canvas *c, const sl_eye *eye, const uint64_
 
 // --- walking
 
-static const char *const names[SL_FIGURES] = {
+static const char *const names[FIGURES] = {
     "tests",        "frustum_tests", "opened", "propagations", "propagated", "skipped", "bounded",
     "cheap",        "visited",       "out",    "invisible",    "partial",    "visible", "occluders",
     "orientations", "cells",         "walls",  "visibility_s", "drawing_s",  "frame_s",
 };
 
-const char *sl_walk_figure_name(sl_walk_figure figure) {
+const char *walk_figure_name(walk_figure figure) {
     return names[figure];
 }
 
-const char *sl_walk_choice_name(const sl_walk_choice *choice) {
+const char *walk_choice_name(const walk_choice *choice) {
     return choice->method ? choice->method->name : choice->baked->name;
 }
 
-const char *sl_walk_choice_test(const sl_walk_choice *choice) {
+const char *walk_choice_test(const walk_choice *choice) {
     return choice->method ? choice->options.test->name : "baked";
 }
 
 /// What one walk needs.
 typedef struct running {
-    const sl_walk_scene *scene;
-    const sl_walk_choice *choice;
+    const walk_scene *scene;
+    const walk_choice *choice;
     sl_walk *walk;
     sl_eye_search *search;
     uint64_t *cells;
-    sl_walk_canvas *canvas;
+    walk_canvas *canvas;
 } running;
 
 static sl_status start(sl_context *context, running *r) {
@@ -382,7 +382,7 @@ static void put_counts(const sl_walk_frame *f, double *out) {
         f->tests,     f->frustum_tests, f->opened,  f->propagations, f->propagated,
         f->skipped,   f->bounded,       f->cheap,   f->visited,      f->out,
         f->invisible, f->partial,       f->visible, f->occluders,    (double)f->orientations};
-    for (int i = 0; i <= SL_FIGURE_ORIENTATIONS; i++) out[i] = values[i];
+    for (int i = 0; i <= FIGURE_ORIENTATIONS; i++) out[i] = values[i];
 }
 
 static uint32_t count_cells(const uint64_t *cells, size_t words) {
@@ -392,12 +392,12 @@ static uint32_t count_cells(const uint64_t *cells, size_t words) {
 }
 
 /// One frame; times already there are kept where they are less.
-static sl_status do_frame(sl_context *context, running *r, const sl_eye *eye, bool first,
+static sl_status do_frame(sl_context *context, running *r, const eye_place *eye, bool first,
                           double *out) {
     const sl_space *space = &r->scene->baked->space;
-    const sl_view view = sl_eye_view(space, eye);
+    const sl_view view = eye_view(space, eye);
     const uint64_t *cells = r->cells;
-    const double began = sl_now();
+    const double began = seconds_now();
     if (r->walk) {
         sl_walk_frame frame;
         SL_TRY(sl_walk_step(context, r->walk, &view, &frame));
@@ -406,28 +406,27 @@ static sl_status do_frame(sl_context *context, running *r, const sl_eye *eye, bo
     } else {
         sl_eye_account account;
         SL_TRY(r->choice->baked->cull(context, r->search, &view, r->cells, &account));
-        out[SL_FIGURE_ORIENTATIONS] = (double)account.orientations;
+        out[FIGURE_ORIENTATIONS] = (double)account.orientations;
     }
-    const double seen = sl_now();
-    out[SL_FIGURE_WALLS] = sl_walk_draw(r->canvas, eye, cells);
-    const double drawn = sl_now();
-    out[SL_FIGURE_CELLS] = count_cells(cells, sl_eye_words(space));
-    out[SL_FIGURE_VISIBILITY] =
-        first ? seen - began : fmin(out[SL_FIGURE_VISIBILITY], seen - began);
-    out[SL_FIGURE_DRAWING] = first ? drawn - seen : fmin(out[SL_FIGURE_DRAWING], drawn - seen);
+    const double seen = seconds_now();
+    out[FIGURE_WALLS] = walk_draw(r->canvas, eye, cells);
+    const double drawn = seconds_now();
+    out[FIGURE_CELLS] = count_cells(cells, sl_eye_words(space));
+    out[FIGURE_VISIBILITY] = first ? seen - began : fmin(out[FIGURE_VISIBILITY], seen - began);
+    out[FIGURE_DRAWING] = first ? drawn - seen : fmin(out[FIGURE_DRAWING], drawn - seen);
     if (r->scene->wall_seconds > 0)
-        out[SL_FIGURE_DRAWING] = r->scene->wall_seconds * out[SL_FIGURE_WALLS];
-    out[SL_FIGURE_FRAME] = out[SL_FIGURE_VISIBILITY] + out[SL_FIGURE_DRAWING];
+        out[FIGURE_DRAWING] = r->scene->wall_seconds * out[FIGURE_WALLS];
+    out[FIGURE_FRAME] = out[FIGURE_VISIBILITY] + out[FIGURE_DRAWING];
     return SL_OK;
 }
 
-static sl_status run_all(sl_context *context, running *r, const sl_eyes *eyes, double *frames) {
+static sl_status run_all(sl_context *context, running *r, const eye_places *eyes, double *frames) {
     const size_t count = eyes->list.count;
     for (unsigned k = 0; k < r->scene->repeat; k++) {
         SL_TRY(start(context, r));
         for (size_t i = 0; i < count; i++) {
             if (i % 1024 == 0) SL_TRY(sl_check_cancelled(context));
-            SL_TRY(do_frame(context, r, &eyes->list.items[i], k == 0, frames + i * SL_FIGURES));
+            SL_TRY(do_frame(context, r, &eyes->list.items[i], k == 0, frames + i * FIGURES));
         }
         stop(context, r);
         sl_report(context, "walk", "walks", k + 1, r->scene->repeat);
@@ -435,21 +434,21 @@ static sl_status run_all(sl_context *context, running *r, const sl_eyes *eyes, d
     return SL_OK;
 }
 
-sl_status sl_walk_run(sl_console *console, const sl_walk_scene *scene, const sl_walk_choice *choice,
-                      const sl_eyes *eyes, double means[SL_FIGURES], double *frames) {
+sl_status walk_run(command_console *console, const walk_scene *scene, const walk_choice *choice,
+                   const eye_places *eyes, double means[FIGURES], double *frames) {
     sl_context *context = console->context;
     const size_t count = eyes->list.count;
     running r = {.scene = scene, .choice = choice};
-    double *own = frames ? NULL : sl_alloc_array(context, count * SL_FIGURES, sizeof *own);
+    double *own = frames ? NULL : sl_alloc_array(context, count * FIGURES, sizeof *own);
     if (!frames && !own) return SL_NO_MEMORY;
     double *all = frames ? frames : own;
-    sl_status status = sl_walk_canvas_create(context, scene->hierarchy, &r.canvas);
+    sl_status status = walk_canvas_create(context, scene->hierarchy, &r.canvas);
     if (status == SL_OK) status = run_all(context, &r, eyes, all);
     stop(context, &r);
-    sl_walk_canvas_destroy(context, r.canvas);
-    for (int f = 0; f < SL_FIGURES && status == SL_OK; f++) {
+    walk_canvas_destroy(context, r.canvas);
+    for (int f = 0; f < FIGURES && status == SL_OK; f++) {
         double sum = 0;
-        for (size_t i = 0; i < count; i++) sum += all[i * SL_FIGURES + (size_t)f];
+        for (size_t i = 0; i < count; i++) sum += all[i * FIGURES + (size_t)f];
         means[f] = sum / (double)count;
     }
     sl_free(context, own);
