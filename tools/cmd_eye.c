@@ -221,12 +221,30 @@ static sl_status tell(command_console *console, const eye_plan *plan, const sl_b
     return SL_OK;
 }
 
+/// Glass that is dark for the eye becomes walls.
+static sl_status darken(sl_context *context, sl_baked *baked, sl_point eye) {
+    const sl_filtered_space filtered = {.eye = &eye};
+    sl_space walled;
+    if (!baked->map.oneway_count) return SL_OK;
+    if (baked->visibility.mirrored.cell_count)
+        return sl_fail(context, SL_UNSUPPORTED,
+                       "glass that is dark from an eye may not be so in a mirror: bake the map "
+                       "--without mirror or --without oneway");
+    SL_TRY(sl_filtered_space_make(context, &baked->space, &filtered, NULL, &walled));
+    sl_space_destroy(context, &baked->space);
+    baked->space = walled;
+    sl_visibility trees = {.trees = baked->visibility.trees};
+    baked->visibility.trees = (sl_stab_trees){0};
+    sl_visibility_destroy(context, &trees);
+    return SL_OK;
+}
+
 static sl_status look(command_console *console, const eye_plan *plan, sl_baked *baked) {
     sl_context *context = console->context;
     sl_view view;
     eye_run run;
     SL_TRY(make_view(context, plan, &baked->space, &view));
-    if (baked->map.oneway_count) SL_TRY(sl_baked_darken(context, baked, view.eye));
+    SL_TRY(darken(context, baked, view.eye));
     const double range = plan->range_given ? plan->range : baked->map.range;
     SL_TRY(eye_run_make(context, baked, &view, plan->mirror_depth, range, !plan->json, &run));
     eye_objects objects = {0};
