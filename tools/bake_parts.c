@@ -75,7 +75,7 @@ option_table bake_parts_option_table(bake_parts *parts) {
 
 sl_status bake_parts_plan(sl_context *context, const sl_see_method *method,
                           const sl_see_options *see, bake_parts *parts) {
-    parts->start = seconds_now();
+    parts->start = sl_seconds();
     SL_TRY(plan_shard(context, parts));
     if (parts->resume && parts->previous)
         return sl_fail(context, SL_BAD_ARGUMENT,
@@ -97,13 +97,13 @@ sl_status bake_parts_plan(sl_context *context, const sl_see_method *method,
 // --- when to stop
 
 typedef struct patience {
-    double end; ///< by seconds_now(); 0 for none
+    double end; ///< by sl_seconds(); 0 for none
     bool asked; ///< whether Ctrl-C ends it
 } patience;
 
 static bool is_over(void *user) {
     const patience *p = user;
-    return (p->asked && console_is_asked()) || (p->end > 0 && seconds_now() >= p->end);
+    return (p->asked && console_is_asked()) || (p->end > 0 && sl_seconds() >= p->end);
 }
 
 // --- what is known before
@@ -213,22 +213,26 @@ static sl_status see_parts(sl_context *context, const bake_parts *parts,
     account->done = partial->done_count;
     if (crew_rank() != 0 || parts->shard_count) return SL_OK;
     // Ctrl-C has been heard. A quarter of the time goes into the bound.
-    p = (patience){.end = parts->time_limit > 0 ? seconds_now() + parts->time_limit / 4 : 0};
+    p = (patience){.end = parts->time_limit > 0 ? sl_seconds() + parts->time_limit / 4 : 0};
     return method->finish(context, &baked->space, &see, partial, &baked->visibility);
 }
 
-sl_status bake_parts_see(sl_context *context, const bake_parts *parts, const sl_see_method *method,
-                         const sl_see_options *see, sl_baked *baked, bake_parts_account *account) {
-    if (!in_parts(parts)) return method->see(context, &baked->space, see, &baked->visibility);
+sl_status bake_parts_see(sl_context *context, const bake_parts *parts,
+                         const sl_bake_options *options, sl_baked *baked,
+                         bake_parts_account *account) {
+    if (!in_parts(parts)) return sl_bake_see(context, options, baked, NULL);
     if (parts->keep_partial) console_ask_first();
+    const sl_see_method *method = options->method;
+    const sl_plan plan = sl_bake_plan(options, baked);
+    sl_see_options see = options->see;
+    see.plan = &plan;
     sl_partial partial = {0};
-    sl_status status = see_parts(context, parts, method, see, baked, &partial, account);
+    sl_status status = see_parts(context, parts, method, &see, baked, &partial, account);
     if (status == SL_OK && (parts->shard_count || !sl_partial_complete(&partial))) {
         baked->partial = partial;
         if (parts->shard_count) {
-            baked->visibility.sight = see->sight;
-            baked->visibility.guarantee =
-                method->stabs ? see->solver->guarantee : method->guarantee;
+            baked->visibility.sight = see.sight;
+            baked->visibility.guarantee = method->stabs ? see.solver->guarantee : method->guarantee;
         }
         return SL_OK;
     }

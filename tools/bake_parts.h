@@ -9,7 +9,7 @@
 
 /// Zeroed, the bake is done in one go.
 typedef struct bake_parts {
-    double start;      ///< of the program, by seconds_now()
+    double start;      ///< of the program, by sl_seconds()
     double time_limit; ///< seconds; 0 for none
     bool keep_partial;
     uint32_t shard, shard_count; ///< 0, 0 for all
@@ -35,9 +35,10 @@ typedef struct bake_parts_account {
     uint32_t known; ///< of `done`: before this run
 } bake_parts_account;
 
-/// The stage "cell_to_cell" of a baked file that has a space, method and solver: sets its visible
-/// sets, or the partial results of its shard.
-sl_status bake_parts_see(sl_context *context, const bake_parts *parts, const sl_see_method *method,
-                         const sl_see_options *see, sl_baked *baked, bake_parts_account *account);
+/// After sl_bake_space(): sets the visible sets of a baked file, or the partial results of its
+/// shard.
+sl_status bake_parts_see(sl_context *context, const bake_parts *parts,
+                         const sl_bake_options *options, sl_baked *baked,
+                         bake_parts_account *account);
 
 #endif

@@ -13,9 +13,9 @@
 static void add_seconds(sl_json_fields *fields, const bake_report *report) {
     sl_json_fields seconds = sl_json_begin();
     sl_json_add_real(&seconds, "read", report->seconds.read);
-    sl_json_add_real(&seconds, "subdivide", report->seconds.subdivide);
-    if (report->checked) sl_json_add_real(&seconds, "check", report->seconds.check);
-    sl_json_add_real(&seconds, "cell_to_cell", report->seconds.cell_to_cell);
+    sl_json_add_real(&seconds, "subdivide", report->account.seconds.subdivide);
+    if (report->account.checked) sl_json_add_real(&seconds, "check", report->account.seconds.check);
+    sl_json_add_real(&seconds, "cell_to_cell", report->seconds.see);
     sl_json_add_real(&seconds, "write", report->seconds.write);
     sl_json_add_fields(fields, "seconds", &seconds);
 }
@@ -80,7 +80,7 @@ sl_status bake_report_print_json(sl_context *context, const bake_report *report)
     sl_json_fields fields = sl_json_begin();
     sl_json_add_text(&fields, "map", report->input);
     sl_json_add_text(&fields, "output", report->output);
-    sl_json_add_text(&fields, "subdivide", report->subdivide);
+    sl_json_add_text(&fields, "subdivide", report->account.subdivision->name);
     sl_json_add_text(&fields, "method", baked->method);
     sl_json_add_text(&fields, "solver", baked->solver[0] ? baked->solver : NULL);
     sl_json_add_text(&fields, "sight", sight_name(baked->visibility.sight));
@@ -88,9 +88,9 @@ sl_status bake_report_print_json(sl_context *context, const bake_report *report)
     plan_add_json(&fields, &baked->map);
     add_parts(&fields, report);
     add_seconds(&fields, report);
-    sl_json_add_cleaning(&fields, "cleaning", &report->cleaning);
+    sl_json_add_cleaning(&fields, "cleaning", &report->account.cleaning);
     sl_json_add_count(&fields, "walls", space->wall_count);
-    sl_json_add_count(&fields, "welded", report->cleaning.welded);
+    sl_json_add_count(&fields, "welded", report->account.cleaning.welded);
     sl_json_add_count(&fields, "cells", space->cell_count);
     sl_json_add_count(&fields, "inside_cells", space->inside_count);
     sl_json_add_count(&fields, "portals", space->portal_count);
@@ -198,10 +198,9 @@ static void print_visibility(const sl_baked *baked) {
 
 static void print_seconds(const bake_report *report) {
     printf("  seconds   read %.3f, subdivide %.3f", report->seconds.read,
-           report->seconds.subdivide);
-    if (report->checked) printf(", check %.3f", report->seconds.check);
-    printf(", cell to cell %.3f, write %.3f\n", report->seconds.cell_to_cell,
-           report->seconds.write);
+           report->account.seconds.subdivide);
+    if (report->account.checked) printf(", check %.3f", report->account.seconds.check);
+    printf(", cell to cell %.3f, write %.3f\n", report->seconds.see, report->seconds.write);
 }
 
 sl_status bake_report_print(sl_context *context, const bake_report *report) {
@@ -214,7 +213,7 @@ sl_status bake_report_print(sl_context *context, const bake_report *report) {
     size_write(size_of_peak_memory(), memory);
     printf("%s: %s, baked from %s\n", report->output, file, report->input);
     printf("  walls     %" PRIu32, space->wall_count);
-    cleaning_print(&report->cleaning);
+    cleaning_print(&report->account.cleaning);
     printf("  cells     %" PRIu32 ", %" PRIu32 " of them inside", space->cell_count,
            space->inside_count);
     if (space->node_count) printf("; tree depth %" PRIu32, space->tree_depth);

@@ -5,14 +5,13 @@
 #include "bake_parts.h"
 
 typedef struct bake_report {
-    const char *input, *output, *subdivide;
+    const char *input, *output;
     const sl_baked *baked;
-    sl_clean_account cleaning;
+    sl_bake_account account;
     bake_parts_account parts;
-    bool checked; ///< whether sl_space_check was run
     struct {
         double read; ///< cleaning included
-        double subdivide, check, cell_to_cell, write;
+        double see, write;
     } seconds;
 } bake_report;
 

@@ -15,71 +15,50 @@ enum { MAX_THREADS = 4096 };
 typedef struct bake_plan {
     const char *input, *output;
     map_pipeline pipeline;
-    size_t method_number, solver_number;
+    size_t method, solver; ///< in their tables
     const char *method_given, *solver_given;
     const char *memory_given, *tree_memory_given, *samples_given, *seed_given, *passes_given;
-    const sl_see_method *method;
-    sl_see_options see;
     bake_parts parts;
-    uint32_t mirror_depth, door_sets;
     bool json;
-    bool any_method;   // none was asked for, nor what only one gives
     bool named_by_map; // no -o was given
 } bake_plan;
 
 // --- reading the options
 
-/// The solver by name, or the first.
-static sl_status plan_solver(sl_context *context, bake_plan *plan) {
-    if (plan->solver_given && !plan->method->stabs)
-        return sl_fail(context, SL_BAD_ARGUMENT, "--solver: the method '%s' uses none",
-                       plan->method->name);
-    if (plan->method->stabs) plan->see.solver = solver_at(plan->solver_number);
-    return SL_OK;
-}
-
-/// What else than walls a map calls for only some methods know: where the default does not, prune.
-static sl_status fit_method(sl_context *context, const sl_map *map, bake_plan *plan) {
-    const unsigned effects = sl_plan_make(map).effects;
-    size_t count;
-    const sl_see_method *methods = sl_see_methods(&count);
-    for (size_t i = 0; i < count && plan->any_method && effects & ~plan->method->knows; i++)
-        if (strcmp(methods[i].name, "prune") == 0) plan->method = &methods[i];
-    return plan->see.solver ? SL_OK : plan_solver(context, plan);
-}
-
-/// The fastest exact method; what only a search can give asks for the first, which is one.
-static void choose_method(bake_plan *plan) {
-    plan->any_method = !plan->method_given && !plan->solver_given && !plan->see.trees;
-    if (plan->any_method) plan->method_number = method_number("sweep");
-    plan->method = &sl_see_methods(&(size_t){0})[plan->method_number];
-}
-
 /// Options of a method that the chosen one has no use for.
-static sl_status check_method(sl_context *context, const bake_plan *plan) {
-    const char *method = plan->method->name;
+static sl_status check_method(sl_context *context, const bake_plan *plan,
+                              const sl_see_method *chosen) {
+    const sl_see_options *see = &plan->pipeline.bake.see;
+    const char *method = chosen->name;
     const char *random = plan->samples_given ? plan->samples_given : plan->seed_given;
-    if (random && plan->method->guarantee != SL_AGGRESSIVE)
+    if (random && chosen->guarantee != SL_AGGRESSIVE)
         return sl_fail(context, SL_BAD_ARGUMENT, "--%s: the method '%s' draws nothing at random",
                        random, method);
     if (plan->passes_given && strcmp(method, "multipass") != 0)
         return sl_fail(context, SL_BAD_ARGUMENT, "--passes: the method '%s' makes none", method);
-    if (plan->passes_given && plan->see.sectors && plan->see.sectors < 4)
+    if (plan->passes_given && see->sectors && see->sectors < 4)
         return sl_fail(context, SL_BAD_ARGUMENT, "--passes: at least 4, or 0 for all");
-    if (plan->tree_memory_given && !plan->see.trees)
+    if (plan->tree_memory_given && !see->trees)
         return sl_fail(context, SL_BAD_ARGUMENT, "--tree-memory needs --stab-trees");
-    if (plan->memory_given && !plan->method->keeps_rows)
+    if (plan->memory_given && !chosen->keeps_rows)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--memory: the method '%s' keeps no more than it writes", method);
+    if (plan->solver_given && !chosen->stabs)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--solver: the method '%s' uses none", method);
     return SL_OK;
 }
 
+/// The method stays open where none is named: then the map decides. Until it is read, that of a map
+/// of walls alone stands for it.
 static sl_status make_plan(sl_context *context, bake_plan *plan) {
+    sl_bake_options *bake = &plan->pipeline.bake;
     SL_TRY(pipeline_plan(context, plan->input, &plan->pipeline));
-    choose_method(plan);
-    SL_TRY(check_method(context, plan));
-    SL_TRY(plan_solver(context, plan));
-    return bake_parts_plan(context, plan->method, &plan->see, &plan->parts);
+    if (plan->solver_given) bake->see.solver = solver_at(plan->solver);
+    if (plan->method_given) bake->method = &sl_see_methods(&(size_t){0})[plan->method];
+    const sl_see_method *method =
+        bake->method ? bake->method : sl_see_method_for(&(sl_map){0}, &bake->see);
+    SL_TRY(check_method(context, plan, method));
+    return bake_parts_plan(context, method, &bake->see, &plan->parts);
 }
 
 /// "maps/office.map" gives "office.slv"; the name belongs to the caller.
@@ -101,52 +80,14 @@ static sl_status name_output(sl_context *context, const char *input, char **name
 /// Seconds since *last, which is set to now.
 static double lap(double *last) {
     const double before = *last;
-    *last = seconds_now();
+    *last = sl_seconds();
     return *last - before;
-}
-
-/// What a baked file keeps of the map: all but the walls and cells, which the space has.
-static void keep_rest_of_map(sl_context *context, sl_map *map, sl_baked *baked) {
-    sl_free(context, map->walls);
-    map->walls = NULL;
-    map->wall_count = map->wall_room = 0;
-    sl_map_drop_cells(context, map);
-    baked->map = *map;
-    *map = (sl_map){0};
-}
-
-static sl_status read_and_clean(sl_context *context, bake_plan *plan, sl_map *map,
-                                bake_report *report) {
-    SL_TRY(pipeline_read_clean(context, &plan->pipeline, map, &report->cleaning));
-    SL_TRY(fit_method(context, map, plan));
-    return sl_see_check(context, plan->method, plan->see.solver, map);
-}
-
-static sl_status subdivide(sl_context *context, const bake_plan *plan, const sl_map *map,
-                           bake_report *report, sl_space *space, double *time) {
-    SL_TRY(pipeline_subdivide(context, &plan->pipeline, map, space));
-    report->subdivide = pipeline_subdivision(&plan->pipeline, map)->name;
-    report->seconds.subdivide = lap(time);
-    SL_TRY(pipeline_check(context, &plan->pipeline, space));
-    report->seconds.check = lap(time);
-    report->checked = pipeline_checks(&plan->pipeline, space);
-    return SL_OK;
-}
-
-static sl_status see(sl_context *context, const bake_plan *plan, sl_baked *baked,
-                     bake_report *report) {
-    sl_plan effects = sl_plan_make(&baked->map);
-    effects.mirror_depth = plan->mirror_depth;
-    effects.door_limit = plan->door_sets;
-    sl_see_options options = plan->see;
-    options.plan = &effects;
-    return bake_parts_see(context, &plan->parts, plan->method, &options, baked, &report->parts);
 }
 
 /// With --check, that what was written can be read.
 static sl_status check_file(sl_context *context, const bake_plan *plan) {
     sl_baked again = {0};
-    if (!plan->pipeline.check) return SL_OK;
+    if (!plan->pipeline.bake.check) return SL_OK;
     SL_TRY(sl_baked_read_part(context, plan->output, &again));
     sl_baked_destroy(context, &again);
     return SL_OK;
@@ -154,16 +95,15 @@ static sl_status check_file(sl_context *context, const bake_plan *plan) {
 
 static sl_status bake(sl_context *context, bake_plan *plan, sl_map *map, sl_baked *baked,
                       bake_report *report) {
-    double time = seconds_now();
-    SL_TRY(read_and_clean(context, plan, map, report));
+    sl_bake_options *options = &plan->pipeline.bake;
+    double time = sl_seconds();
+    SL_TRY(pipeline_read(context, &plan->pipeline, map));
     report->seconds.read = lap(&time);
-    SL_TRY(subdivide(context, plan, map, report, &baked->space, &time));
-    keep_rest_of_map(context, map, baked);
-    snprintf(baked->method, sizeof baked->method, "%s", plan->method->name);
-    if (plan->see.solver)
-        snprintf(baked->solver, sizeof baked->solver, "%s", plan->see.solver->name);
-    SL_TRY(see(context, plan, baked, report));
-    report->seconds.cell_to_cell = lap(&time);
+    SL_TRY(sl_bake_space(context, map, options, baked, &report->account));
+    report->seconds.read += report->account.seconds.clean;
+    lap(&time);
+    SL_TRY(bake_parts_see(context, &plan->parts, options, baked, &report->parts));
+    report->seconds.see = lap(&time);
     if (crew_rank() != 0) return SL_OK;
     if (plan->named_by_map) sl_note(context, "writing %s, as no -o is given", plan->output);
     SL_TRY(sl_baked_write(context, baked, plan->output));
@@ -201,12 +141,9 @@ static void print_tables(void) {
 }
 
 sl_status cmd_bake(command_console *console, int argc, char **argv) {
-    bake_plan plan = {.pipeline = pipeline_default(),
-                      .see = sl_see_options_default(),
-                      .mirror_depth = 1,
-                      .door_sets = 16};
-    plan.see.row_bytes = sl_machine_memory() / 2;
-    plan.see.tree_bytes = (uint64_t)256 << 20;
+    bake_plan plan = {.pipeline = pipeline_default()};
+    sl_bake_options *bake_options = &plan.pipeline.bake;
+    sl_see_options *see = &bake_options->see;
     const option_table pipeline = pipeline_option_table(&plan.pipeline);
     const option_table parts = bake_parts_option_table(&plan.parts);
     const option_spec options[] = {
@@ -214,40 +151,40 @@ sl_status cmd_bake(command_console *console, int argc, char **argv) {
          "where to write; without it in the current folder,\nby the map's name",
          .text = &plan.output, .check = CHECK_BAKED},
         {.group = &pipeline},
-        {"method", 0, "NAME", "how to find what a cell sees", .choice = &plan.method_number,
+        {"method", 0, "NAME", "how to find what a cell sees", .choice = &plan.method,
          .names = method_table(), .given = &plan.method_given},
-        {"solver", 0, "NAME", "what stabs portal sequences", .choice = &plan.solver_number,
+        {"solver", 0, "NAME", "what stabs portal sequences", .choice = &plan.solver,
          .names = solver_table(), .given = &plan.solver_given},
         {"sight", 0, "closed|open",
          "closed (the default): lines that only touch\nwall ends count; open: they do not",
-         .sight = &plan.see.sight},
+         .sight = &see->sight},
         {"threads", 0, "N",
          "0, the default, for one a core;\nthe result is the same for any number",
-         .count32 = &plan.see.threads, .most = MAX_THREADS},
-        {"samples", 0, "N", "lines from each cell, for sampling", .count32 = &plan.see.samples,
+         .count32 = &see->threads, .most = MAX_THREADS},
+        {"samples", 0, "N", "lines from each cell, for sampling", .count32 = &see->samples,
          .given = &plan.samples_given},
-        {"seed", 0, "N", "of random numbers, for sampling", .count = &plan.see.seed,
+        {"seed", 0, "N", "of random numbers, for sampling", .count = &see->seed,
          .given = &plan.seed_given},
         {"memory", 0, "SIZE",
          "for the visible sets in the making at most, as 64M,\n2G; half of the machine's unless "
          "told",
-         .bytes = &plan.see.row_bytes, .given = &plan.memory_given},
+         .bytes = &see->row_bytes, .given = &plan.memory_given},
         {"passes", 0, "N",
          "sectors that multipass cuts directions into, at most;\n8 unless told; 0: at all portals' "
          "own",
-         .count32 = &plan.see.sectors, .given = &plan.passes_given},
-        {"stab-trees", 0, NULL, "keep the trees of portal sequences", .flag = &plan.see.trees},
+         .count32 = &see->sectors, .given = &plan.passes_given},
+        {"stab-trees", 0, NULL, "keep the trees of portal sequences", .flag = &see->trees},
         {"tree-memory", 0, "SIZE", "for them at most, as 64K, 256M (the default), 2G",
-         .bytes = &plan.see.tree_bytes, .given = &plan.tree_memory_given},
+         .bytes = &see->tree_bytes, .given = &plan.tree_memory_given},
         {"inside", 0, NULL,
          "look from and at inside cells only: those that a\nstart leads to or that walls enclose",
-         .flag = &plan.see.inside_only},
+         .flag = &see->inside_only},
         {"mirror-depth", 0, "N",
          "reflections of a sightline, at most (1 without it, up\nto 16; 0: mirrors are walls)",
-         .count32 = &plan.mirror_depth, .most = 16},
+         .count32 = &bake_options->mirror_depth, .most = 16},
         {"door-sets", 0, "N",
          "sets of doors kept of a pair, at most (16 without\nit); a pair with more counts as seen",
-         .count32 = &plan.door_sets, .most = 65535},
+         .count32 = &bake_options->door_limit, .most = 65535},
         {"json", 0, NULL, "print the statistics as one JSON object", .flag = &plan.json},
         {.group = &parts},
     };

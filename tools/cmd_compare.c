@@ -154,8 +154,7 @@ static sl_status prepare(sl_context *context, comparing *all) {
     SL_TRY(pipeline_read_clean(context, pipeline, &all->map, NULL));
     refuse_effects(context, all);
     SL_TRY(fail_if_all_refuse(context, all));
-    SL_TRY(pipeline_subdivide(context, pipeline, &all->map, &all->space));
-    return pipeline_check(context, pipeline, &all->space);
+    return pipeline_subdivide(context, pipeline, &all->map, &all->space);
 }
 
 /// Where the map leaves the choice, what each subdivision makes of it.
@@ -163,7 +162,7 @@ static sl_status time_subdivisions(command_console *console, const comparing *al
                                    compare_result *comparison) {
     const compare_plan *plan = all->plan;
     const compare_run *like = &all->runs.items[all->order[0]];
-    if (plan->pipeline.subdivision || all->map.cell_count || !sl_map_is_axial(&all->map))
+    if (plan->pipeline.bake.subdivision || all->map.cell_count || !sl_map_is_axial(&all->map))
         return SL_OK;
     for (size_t i = 1; i < all->runs.count && like->guarantee != SL_EXACT; i++)
         like = &all->runs.items[all->order[i]];
@@ -241,7 +240,6 @@ static sl_status compare_eye(command_console *console, comparing *all, const out
     SL_TRY(pipeline_read_clean(context, pipeline, &all->map, NULL));
     SL_TRY(sl_effects_check(context, &all->map, "compare --eye", 0));
     SL_TRY(pipeline_subdivide(context, pipeline, &all->map, &all->space));
-    SL_TRY(pipeline_check(context, pipeline, &all->space));
     SL_TRY(compare_eye_run(console, &all->plan->eye_plan, &all->space, all->plan->see.sight, out));
     out->input = pipeline->path;
     return folder ? write_eye_files(context, out, all->plan->dark, folder) : SL_OK;

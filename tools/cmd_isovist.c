@@ -53,22 +53,6 @@ static sl_status make_plan(sl_context *context, isovist_plan *p) {
 
 // --- the work
 
-static sl_status check_effects(sl_context *context, sl_map *map) {
-    return sl_effects_check(context, map, "isovist", SL_EFFECT_RANGE | SL_EFFECT_MIRROR);
-}
-
-static sl_status read_space(sl_context *context, const isovist_plan *plan, sl_baked *baked) {
-    if (input_ends_with(plan->input, ".slv")) {
-        SL_TRY(input_refuse_options(context, plan->input, &plan->pipeline.input));
-        SL_TRY(input_read_baked(context, plan->input, baked));
-        return check_effects(context, &baked->map);
-    }
-    SL_TRY(pipeline_read_clean(context, &plan->pipeline, &baked->map, NULL));
-    SL_TRY(check_effects(context, &baked->map));
-    SL_TRY(pipeline_subdivide(context, &plan->pipeline, &baked->map, &baked->space));
-    return pipeline_check(context, &plan->pipeline, &baked->space);
-}
-
 static sl_status add_points(sl_context *context, const isovist_plan *plan, isovist_work *w) {
     for (size_t i = 0; i < plan->at.count; i++) {
         const char *text = plan->at.items[i];
@@ -183,7 +167,8 @@ static sl_status draw_points(sl_context *context, const isovist_plan *plan, cons
 
 static sl_status work(command_console *console, isovist_plan *plan, isovist_work *w) {
     sl_context *context = console->context;
-    SL_TRY(read_space(context, plan, &w->baked));
+    SL_TRY(pipeline_read_space(context, &plan->pipeline, "isovist",
+                               SL_EFFECT_RANGE | SL_EFFECT_MIRROR, &w->baked));
     if (!plan->range_given) plan->range = w->baked.map.range;
     SL_TRY(gather_eyes(context, plan, w));
     SL_TRY(sl_outline_make(context, &w->baked.space, &w->outline));

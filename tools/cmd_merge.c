@@ -85,14 +85,6 @@ static sl_status take_part(sl_context *context, const merge_plan *plan, uint32_t
     return status;
 }
 
-static const sl_see_method *find_method(const char *name) {
-    size_t count;
-    const sl_see_method *methods = sl_see_methods(&count);
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(methods[i].name, name) == 0 && methods[i].finish) return &methods[i];
-    return NULL;
-}
-
 static const sl_solver *find_solver(const char *name) {
     for (size_t i = 0; solver_at(i); i++)
         if (strcmp(solver_at(i)->name, name) == 0) return solver_at(i);
@@ -100,12 +92,12 @@ static const sl_solver *find_solver(const char *name) {
 }
 
 static sl_status settle(sl_context *context, const merge_plan *plan, sl_baked *all) {
-    const sl_see_method *method = find_method(all->method);
+    const sl_see_method *method = sl_see_method_named(all->method);
     sl_see_options see = sl_see_options_default();
     see.sight = all->visibility.sight;
     see.inside_only = all->partial.inside_only;
     see.solver = find_solver(all->solver);
-    if (!method || (method->stabs && !see.solver))
+    if (!method || !method->finish || (method->stabs && !see.solver))
         return sl_fail_at(context, plan->first, 0,
                           "was baked by a method or a solver that this program has not");
     sl_visibility seen;

@@ -86,10 +86,10 @@ static sl_status run(command_console *console, reject_plan *plan) {
         return sl_fail(context, SL_BAD_ARGUMENT, "--json and -o - both write to stdout");
     plan->options.maps = plan->maps.items;
     plan->options.map_count = plan->maps.count;
-    const double began = seconds_now();
+    const double began = sl_seconds();
     sl_reject_report report = {0};
     SL_TRY(sl_reject_wad(context, plan->input, &plan->options, plan->output, &report));
-    const double seconds = seconds_now() - began;
+    const double seconds = sl_seconds() - began;
     progress_line_clear(&console->line);
     sl_status status = SL_OK;
     if (plan->json)

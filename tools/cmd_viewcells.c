@@ -334,33 +334,33 @@ static sl_status make_plan(sl_context *context, viewcells_plan *p) {
 
 static sl_status read_space(sl_context *context, viewcells_plan *plan, view_run *run) {
     sl_baked *baked = &run->baked;
-    const double start = view_clock();
+    const double start = sl_seconds();
     SL_TRY(pipeline_read_clean(context, &plan->pipeline, &baked->map, NULL));
     SL_TRY(sl_effects_check(context, &baked->map, "viewcells", 0));
-    const double read = view_clock();
+    const double read = sl_seconds();
     SL_TRY(pipeline_subdivide(context, &plan->pipeline, &baked->map, &baked->space));
     run->seconds.read = read - start;
-    run->seconds.subdivide = view_clock() - read;
+    run->seconds.subdivide = sl_seconds() - read;
     if (!plan->step_given) {
         const sl_box *b = &baked->space.bounds;
         plan->run.step = (b->max.x - b->min.x + b->max.y - b->min.y) / 4000;
     }
-    return pipeline_check(context, &plan->pipeline, &baked->space);
+    return SL_OK;
 }
 
 static sl_status work(command_console *console, viewcells_plan *plan, view_run *run) {
     sl_context *context = console->context;
     SL_TRY(read_space(context, plan, run));
     SL_TRY(view_run_make(context, &plan->run, run));
-    const view_report report = {.input = plan->input,
-                                .subdivide =
-                                    pipeline_subdivision(&plan->pipeline, &run->baked.map)->name,
-                                .options = &plan->run,
-                                .run = run};
+    const sl_subdivision *asked = plan->pipeline.bake.subdivision;
+    const sl_subdivision *way = asked ? asked : sl_subdivision_for(&run->baked.map);
+    const view_report report = {
+        .input = plan->input, .subdivide = way->name, .options = &plan->run, .run = run};
     if (plan->output) SL_TRY(view_report_write_csv(context, run, plan->output));
     if (plan->picture) SL_TRY(view_report_draw(context, &report, &plan->drawing, plan->picture));
     if (plan->slv) {
-        SL_TRY(view_run_see(context, &plan->run, &sl_see_methods(&(size_t){0})[plan->see],
+        SL_TRY(view_run_see(context, &plan->run,
+                            plan->see_given ? &sl_see_methods(&(size_t){0})[plan->see] : NULL,
                             plan->by_views, run));
         SL_TRY(sl_baked_write(context, &run->exact, plan->slv));
     }
@@ -381,13 +381,14 @@ static void print_tables(void) {
 }
 
 sl_status cmd_viewcells(command_console *console, int argc, char **argv) {
-    viewcells_plan plan = {.pipeline = pipeline_default(),
-                           .drawing = sl_draw_options_default(),
-                           .run = {.sampling = sl_view_sampling_default(),
-                                   .subdivision = sl_view_subdivision_default(),
-                                   .tolerance = 0.1},
-                           .objects = SL_VIEW_WALLS,
-                           .see = method_number("sweep")};
+    viewcells_plan plan = {
+        .pipeline = pipeline_default(),
+        .drawing = sl_draw_options_default(),
+        .run = {.sampling = sl_view_sampling_default(),
+                .subdivision = sl_view_subdivision_default(),
+                .tolerance = 0.1},
+        .objects = SL_VIEW_WALLS,
+    };
     view_run_options *run = &plan.run;
     run->evaluation = 2 * run->sampling.samples;
     size_t count;

@@ -253,20 +253,6 @@ static sl_status make_plan(sl_context *context, walk_plan *plan) {
 
 // --- the work
 
-static sl_status read_space(sl_context *context, const walk_plan *plan, sl_baked *baked) {
-    if (input_ends_with(plan->input, ".slv")) {
-        SL_TRY(input_refuse_options(context, plan->input, &plan->pipeline.input));
-        SL_TRY(input_read_baked(context, plan->input, baked));
-        SL_TRY(sl_effects_check(context, &baked->map, "walk", SL_EFFECT_DOOR));
-        return doors_shut(context, plan->shut, baked);
-    }
-    SL_TRY(pipeline_read_clean(context, &plan->pipeline, &baked->map, NULL));
-    SL_TRY(sl_effects_check(context, &baked->map, "walk", SL_EFFECT_DOOR));
-    SL_TRY(pipeline_subdivide(context, &plan->pipeline, &baked->map, &baked->space));
-    SL_TRY(pipeline_check(context, &plan->pipeline, &baked->space));
-    return doors_shut(context, plan->shut, baked);
-}
-
 static sl_status fail_path(sl_context *context, const sl_map *map, const char *name) {
     const name_table paths = {"path", map->paths, sizeof *map->paths, map->path_count, NULL};
     char names[NAME_LIST];
@@ -470,7 +456,9 @@ static sl_status study(command_console *console, const walk_plan *plan, walk_wor
 }
 
 static sl_status work(command_console *console, const walk_plan *plan, walk_work *w) {
-    SL_TRY(read_space(console->context, plan, &w->baked));
+    SL_TRY(
+        pipeline_read_space(console->context, &plan->pipeline, "walk", SL_EFFECT_DOOR, &w->baked));
+    SL_TRY(doors_shut(console->context, plan->shut, &w->baked));
     SL_TRY(sl_hierarchy_make(console->context, &w->baked.space, &w->hierarchy));
     SL_TRY(lay_way(console->context, plan, w));
     return plan->output ? study(console, plan, w) : walk_once(console, plan, w);

@@ -194,12 +194,12 @@ static sl_status run_batch(comparing *all, const contender *who, const sl_view *
                            compare_eye_row *row, double *seconds) {
     double least = INFINITY;
     for (int run = 0; run < RUNS; run++) {
-        const double start = seconds_now();
+        const double start = sl_seconds();
         for (size_t i = 0; i < count; i++) {
             all->answers[i].has_area = false;
             SL_TRY(who->ask(all, who, &views[i], &all->answers[i]));
         }
-        least = fmin(least, seconds_now() - start);
+        least = fmin(least, sl_seconds() - start);
     }
     *seconds = least / (double)count;
     for (size_t i = 0; i < count; i++) add_answer(all, &all->answers[i], row);
@@ -275,9 +275,9 @@ static sl_status see(comparing *all, sl_sight sight, double *seconds) {
     options.solver = sl_funnel();
     options.sight = sight;
     options.inside_only = true;
-    const double start = seconds_now();
+    const double start = sl_seconds();
     SL_TRY(sl_see_methods(&count)->see(all->context, all->space, &options, &all->visibility));
-    *seconds = seconds_now() - start;
+    *seconds = sl_seconds() - start;
     return sl_eye_search_create(all->context, all->space, &all->visibility, &all->search);
 }
 

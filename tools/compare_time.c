@@ -35,7 +35,7 @@ static void show_note(void *user, const char *message) {
 static bool is_cancelled(void *user) {
     watch *w = user;
     if (w->console->cancelled && w->console->cancelled(w->console->user)) return true;
-    w->late = seconds_now() >= w->deadline;
+    w->late = sl_seconds() >= w->deadline;
     return w->late;
 }
 
@@ -59,10 +59,10 @@ static sl_status run_often(sl_context *context, watch *w, const sl_space *space,
     while (!is_enough(timing, taken->count, sum)) {
         SL_TRY(SL_ARRAY_ROOM(context, taken, 1));
         sl_visibility visibility = {0};
-        const double start = seconds_now();
+        const double start = sl_seconds();
         w->deadline = start + timing->limit;
         SL_TRY(run->method->see(context, space, options, &visibility));
-        const double seconds = seconds_now() - start;
+        const double seconds = sl_seconds() - start;
         if (taken->count)
             sl_visibility_destroy(context, &visibility);
         else
@@ -118,9 +118,9 @@ static sl_status time_one(command_console *console, const sl_map *map,
     sl_space space = {0};
     compare_run run = {.method = like->method, .solver = like->solver};
     char label[64];
-    const double start = seconds_now();
+    const double start = sl_seconds();
     SL_TRY(one->subdivision->subdivide(context, map, NULL, &space));
-    one->subdivide_seconds = seconds_now() - start;
+    one->subdivide_seconds = sl_seconds() - start;
     one->cells = space.cell_count;
     one->portals = space.portal_count;
     snprintf(label, sizeof label, "%s, %s", one->subdivision->name, like->method->name);

@@ -14,12 +14,6 @@
 
 // --- the progress line
 
-double seconds_now(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
-}
-
 void progress_line_clear(progress_line *line) {
     if (!line->visible) return;
     fputs("\r\033[K", stderr);
@@ -80,7 +74,7 @@ static void write_line(const progress_line *line, double elapsed) {
 }
 
 static void show(progress_line *line) {
-    const double now = seconds_now();
+    const double now = sl_seconds();
     if (now - line->last_shown < 0.1) return;
     write_line(line, now - line->start);
     line->last_shown = now;
@@ -93,7 +87,7 @@ void progress_line_report(progress_line *line, const sl_progress *progress) {
         snprintf(line->stage, sizeof line->stage, "%s", progress->stage);
         snprintf(line->unit, sizeof line->unit, "%s", progress->unit);
         line->first = progress->done;
-        line->start = seconds_now();
+        line->start = sl_seconds();
         // What takes less than a tenth of a second needs no line.
         if (!line->visible) line->last_shown = line->start;
     }

@@ -15,7 +15,7 @@ typedef struct progress_line {
     char stage[32], unit[32]; ///< of the last report, as are:
     uint64_t done, total;
     uint64_t first;    ///< how far the stage was when it was first heard of,
-    double start;      ///< and when that was, in seconds of seconds_now()
+    double start;      ///< and when that was, in seconds of sl_seconds()
     double last_shown; ///< the same clock
     unsigned ticks;
 } progress_line;
@@ -26,9 +26,6 @@ void progress_line_report(progress_line *line, const sl_progress *progress);
 void progress_line_tick(progress_line *line);
 
 void progress_line_clear(progress_line *line);
-
-/// Seconds of a clock that only goes forward.
-double seconds_now(void);
 
 typedef struct command_console {
     sl_context *context;

@@ -46,9 +46,9 @@ static sl_status time_queries(const query *q, double *out) {
     double seconds[ROUNDS];
     size_t queries = 1;
     for (int round = 0; round < ROUNDS;) {
-        const double start = seconds_now();
+        const double start = sl_seconds();
         for (size_t i = 0; i < queries; i++) SL_TRY(ask(q));
-        const double taken = seconds_now() - start;
+        const double taken = sl_seconds() - start;
         if (taken < ROUND_SECONDS && queries < QUERIES_MOST) {
             queries *= 2;
             continue;
@@ -306,10 +306,10 @@ static sl_status look(sl_context *context, const sl_baked *baked, const eye_run 
                       sl_moving *moving, bool timed, eye_objects *o) {
     const sl_outline *outline;
     sl_eye_account account;
-    const double start = seconds_now();
+    const double start = sl_seconds();
     SL_TRY(sl_moving_place(context, moving, o->boxes, o->count));
     SL_TRY(sl_moving_outline(context, moving, &outline));
-    if (timed) o->seconds = seconds_now() - start;
+    if (timed) o->seconds = sl_seconds() - start;
     sl_moving_limit(moving, run->range);
     SL_TRY(sl_moving_look(context, moving, &run->view, o->cells, o->seen, &account));
     eye_measure(baked, run->cell, o->cells, &o->cell_count, &o->share);

@@ -5,7 +5,6 @@
 #include "sightline/space.h"
 #include "solvers.h"
 
-#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -91,14 +90,6 @@ name_table method_table(void) {
     size_t count;
     const sl_see_method *methods = sl_see_methods(&count);
     return (name_table){"method", methods, sizeof *methods, count, NULL};
-}
-
-size_t method_number(const char *name) {
-    size_t count, i = 0;
-    const sl_see_method *methods = sl_see_methods(&count);
-    while (i < count && strcmp(methods[i].name, name) != 0) i++;
-    assert(i < count);
-    return i;
 }
 
 static const char *effect_name(size_t index) {

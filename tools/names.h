@@ -28,8 +28,6 @@ const char *nearest_name(const name_table *table, const char *word);
 name_table sight_table(void);
 /// As they are numbered in the library's tables.
 name_table method_table(void);
-/// The number of a method in it, which must be there.
-size_t method_number(const char *name);
 name_table effect_table(void);
 name_table subdivision_table(void);
 /// As solver_at() numbers them.

@@ -14,9 +14,8 @@ static const name_table kd_rule_names = {"rule", kd_rules, sizeof *kd_rules, 4, 
 // --- options
 
 map_pipeline pipeline_default(void) {
-    return (map_pipeline){.input = input_options_default(),
-                          .options = sl_subdivide_options_default(),
-                          .kd_rules = ALL_RULES};
+    return (map_pipeline){
+        .input = input_options_default(), .bake = sl_bake_options_default(), .kd_rules = ALL_RULES};
 }
 
 option_table pipeline_without_table(map_pipeline *p) {
@@ -42,7 +41,7 @@ option_table pipeline_option_table(map_pipeline *p) {
          "none)",
          .choices = &p->kd_rules, .names = kd_rule_names, .given = &p->kd_rules_given},
         {"kd-obscured", 0, "SHARE", "prefer lines of which walls cover this share, 0 to 1",
-         .number = &p->options.obscured, .most = 1, .needs = "a share from 0 to 1 is needed",
+         .number = &p->bake.rules.obscured, .most = 1, .needs = "a share from 0 to 1 is needed",
          .given = &p->kd_obscured_given},
     };
     const option_spec rest[] = {
@@ -51,7 +50,7 @@ option_table pipeline_option_table(map_pipeline *p) {
     };
     const option_spec check = {"check", 0, NULL,
                                "check the whole graph of cells and portals (for a\nmesh: always)",
-                               .flag = &p->check};
+                               .flag = &p->bake.check};
     const option_table input = input_option_table(&p->input), without = pipeline_without_table(p);
     option_table table = {0};
     option_table_add(&table, cutting, sizeof cutting / sizeof *cutting);
@@ -66,22 +65,24 @@ sl_status pipeline_plan(sl_context *context, const char *path, map_pipeline *p) 
     size_t count;
     const sl_subdivision *chosen = &sl_subdivisions(&count)[p->subdivide];
     const bool kd_wanted = p->kd_rules_given || p->kd_obscured_given;
+    sl_subdivide_options *rules = &p->bake.rules;
     p->path = path;
+    p->bake.clean = p->input.clean;
     if (p->kd_obscured_given && !(p->kd_rules & OBSCURED))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--kd-obscured needs the rule 'obscured', which --kd-rules leaves out");
-    p->options.spanning = p->options.spanning && p->kd_rules & SPANNING;
-    if (!(p->kd_rules & OBSCURED)) p->options.obscured = 0;
-    p->options.cleaving = p->options.cleaving && p->kd_rules & CLEAVING;
-    p->options.median = p->options.median && p->kd_rules & MEDIAN;
+    if (!(p->kd_rules & SPANNING)) rules->spanning = false;
+    if (!(p->kd_rules & OBSCURED)) rules->obscured = 0;
+    if (!(p->kd_rules & CLEAVING)) rules->cleaving = false;
+    if (!(p->kd_rules & MEDIAN)) rules->median = false;
     if (!chosen->takes_rules && kd_wanted)
         return sl_fail(context, SL_BAD_ARGUMENT, "--%s is for --subdivide kd, not %s",
                        p->kd_rules_given ? p->kd_rules_given : p->kd_obscured_given,
                        p->subdivide_text);
-    if (p->subdivide_text || kd_wanted) p->subdivision = chosen;
+    if (p->subdivide_text || kd_wanted) p->bake.subdivision = chosen;
     p->input.import.cells = p->subdivide_text && chosen->takes_cells;
 #ifndef NDEBUG
-    p->check = true;
+    p->bake.check = true;
 #endif
     return SL_OK;
 }
@@ -101,7 +102,7 @@ static sl_status add_start(sl_context *context, const map_pipeline *pipeline, sl
 
 sl_status pipeline_read(sl_context *context, const map_pipeline *pipeline, sl_map *map) {
     SL_TRY(input_read_map(context, pipeline->path, &pipeline->input, map));
-    if (pipeline->subdivision && !pipeline->subdivision->takes_cells)
+    if (pipeline->bake.subdivision && !pipeline->bake.subdivision->takes_cells)
         sl_map_drop_cells(context, map);
     SL_TRY(add_start(context, pipeline, map));
     sl_effects_leave_out(context, map, pipeline->without);
@@ -114,23 +115,33 @@ sl_status pipeline_read_clean(sl_context *context, const map_pipeline *pipeline,
     return input_clean(context, &pipeline->input, map, account);
 }
 
-const sl_subdivision *pipeline_subdivision(const map_pipeline *pipeline, const sl_map *map) {
-    return pipeline->subdivision ? pipeline->subdivision : sl_subdivision_for(map);
-}
-
 sl_status pipeline_subdivide(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                              sl_space *space) {
-    const sl_subdivision *subdivision = pipeline_subdivision(pipeline, map);
-    return subdivision->subdivide(context, map, &pipeline->options, space);
+    const sl_bake_options *bake = &pipeline->bake;
+    const sl_subdivision *way = bake->subdivision ? bake->subdivision : sl_subdivision_for(map);
+    SL_TRY(way->subdivide(context, map, &bake->rules, space));
+    return bake->check || space->neighbour ? sl_space_check(context, space) : SL_OK;
 }
 
-bool pipeline_checks(const map_pipeline *pipeline, const sl_space *space) {
-    return pipeline->check || space->neighbour;
+sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline, const char *user,
+                              unsigned effects, sl_baked *baked) {
+    const char *path = pipeline->path;
+    if (input_ends_with(path, ".slv")) {
+        SL_TRY(input_refuse_options(context, path, &pipeline->input));
+        SL_TRY(input_read_baked(context, path, baked));
+        return sl_effects_check(context, &baked->map, user, effects);
+    }
+    sl_map map = {0};
+    sl_bake_options options = pipeline->bake;
+    sl_bake_account account = {0};
+    sl_status status = pipeline_read(context, pipeline, &map);
+    if (status == SL_OK) status = sl_effects_check(context, &map, user, effects);
+    if (status == SL_OK) status = sl_bake_space(context, &map, &options, baked, &account);
+    sl_map_destroy(context, &map);
+    return status;
 }
 
-sl_status pipeline_check(sl_context *context, const map_pipeline *pipeline, const sl_space *space) {
-    return pipeline_checks(pipeline, space) ? sl_space_check(context, space) : SL_OK;
-}
+// --- help
 
 void pipeline_print_subdivisions(void) {
     puts("\nsubdivisions (default: given where a map text brings cells, kd where all\nwalls are "

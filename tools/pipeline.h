@@ -4,18 +4,15 @@
 #define PIPELINE_H
 
 #include "inputs.h"
-#include "sightline/cell_to_cell.h"
 
 /// What is done to a map, from its file to its space.
 typedef struct map_pipeline {
     const char *path; ///< the map's file
     input_options input;
-    const sl_subdivision *subdivision; ///< NULL where the map decides
-    sl_subdivide_options options;
+    sl_bake_options bake;   ///< the method is the command's
     sl_point start;         ///< beside the map's own, where `start_text` is not NULL
     const char *start_text; ///< as it is given
     unsigned without;       ///< effects to leave out: bits of sl_effects()
-    bool check;
 
     // What the options of the subdivision come to; pipeline_plan() sees to them.
     size_t subdivide;           ///< of sl_subdivisions()
@@ -41,19 +38,14 @@ sl_status pipeline_read(sl_context *context, const map_pipeline *pipeline, sl_ma
 sl_status pipeline_read_clean(sl_context *context, const map_pipeline *pipeline, sl_map *map,
                               sl_clean_account *account);
 
-/// The subdivision: the one asked for, or what the map's walls call for.
-const sl_subdivision *pipeline_subdivision(const map_pipeline *pipeline, const sl_map *map);
-
-/// Subdivides a map that is clean.
+/// Subdivides a clean map, and checks the space if it is to be.
 sl_status pipeline_subdivide(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                              sl_space *space);
 
-/// Whether the space is to be checked: where that is asked for, and each mesh, for which it costs
-/// little. What is baked is then never refused by those who read it.
-bool pipeline_checks(const map_pipeline *pipeline, const sl_space *space);
-
-/// Checks the space if it is to be.
-sl_status pipeline_check(sl_context *context, const map_pipeline *pipeline, const sl_space *space);
+/// The space of a map, or of a baked file, whose name ends in .slv. Fails where the map has other
+/// effects than `effects`, which `user` knows.
+sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline, const char *user,
+                              unsigned effects, sl_baked *baked);
 
 /// For --help: what the options choose from.
 void pipeline_print_subdivisions(void);

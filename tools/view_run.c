@@ -1,17 +1,11 @@
 #include "view_run.h"
 
 #include "import/image.h"
+#include "sightline/solvers.h"
 #include "sightline/support.h"
-#include "solvers.h"
 
 #include <string.h>
 #include <time.h>
-
-double view_clock(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
-}
 
 /// Light pixels are where viewpoints are: the picture covers the map's bounds.
 static sl_status places_by_picture(sl_context *context, const char *path, view_run *run) {
@@ -44,13 +38,6 @@ static sl_status find_places(sl_context *context, const view_run_options *option
     return sl_view_places_inside(context, space, &run->places);
 }
 
-static const sl_see_method *sweep(void) {
-    size_t count, i = 0;
-    const sl_see_method *methods = sl_see_methods(&count);
-    while (i + 1 < count && strcmp(methods[i].name, "sweep") != 0) i++;
-    return &methods[i];
-}
-
 /// Of the elementary cells; what an exact method has found is handed over.
 static sl_status find_sets(sl_context *context, const view_run_options *options, view_run *run,
                            sl_view_sets *sets) {
@@ -65,7 +52,8 @@ static sl_status find_sets(sl_context *context, const view_run_options *options,
     sl_see_options seeing = sl_see_options_default();
     seeing.threads = options->sampling.threads;
     seeing.inside_only = true;
-    return sl_view_sets_exact(context, &run->baked.map, &run->scene, &run->tree, sweep(), &seeing,
+    const sl_see_method *method = sl_see_method_for(&run->baked.map, &seeing);
+    return sl_view_sets_exact(context, &run->baked.map, &run->scene, &run->tree, method, &seeing,
                               sets);
 }
 
@@ -114,24 +102,24 @@ static sl_status cut(sl_context *context, const view_run_options *options, view_
 }
 
 sl_status view_run_make(sl_context *context, const view_run_options *options, view_run *run) {
-    const double start = view_clock();
+    const double start = sl_seconds();
     SL_TRY(sl_outline_make(context, &run->baked.space, &run->outline));
     SL_TRY(find_places(context, options, run));
     run->scene = (sl_view_scene){&run->baked.space, options->sampling.objects, options->render,
                                  &run->places};
     if (!options->method->exact)
         SL_TRY(sl_view_sample(context, &run->outline, &options->sampling, &run->segments));
-    const double sampled = view_clock();
+    const double sampled = sl_seconds();
     SL_TRY(options->method->divide(context, &run->scene, &run->segments, &options->subdivision,
                                    &run->tree, &run->found));
-    const double divided = view_clock();
+    const double divided = sl_seconds();
     SL_TRY(join(context, options, run));
-    const double joined = view_clock();
+    const double joined = sl_seconds();
     SL_TRY(evaluate(context, options, run));
     run->seconds.sample = sampled - start;
     run->seconds.divide = divided - sampled;
     run->seconds.merge = joined - divided;
-    run->seconds.evaluate = view_clock() - joined;
+    run->seconds.evaluate = sl_seconds() - joined;
     return cut(context, options, run);
 }
 
@@ -174,12 +162,13 @@ static sl_status forget_cells(sl_context *context, sl_baked *exact) {
 
 sl_status view_run_see(sl_context *context, const view_run_options *options,
                        const sl_see_method *method, bool by_views, view_run *run) {
-    const double start = view_clock();
+    const double start = sl_seconds();
     sl_baked *exact = &run->exact;
     sl_see_options seeing = sl_see_options_default();
     seeing.threads = options->sampling.threads;
     seeing.inside_only = true;
-    if (method->stabs) seeing.solver = solver_at(0);
+    if (!method) method = sl_see_method_for(&run->baked.map, &seeing);
+    if (method->stabs) seeing.solver = sl_funnel();
     // The map has done its work for the samples; from here on it is that of the baked file.
     exact->map = run->baked.map;
     run->baked.map = (sl_map){0};
@@ -191,7 +180,7 @@ sl_status view_run_see(sl_context *context, const view_run_options *options,
     if (method->stabs) snprintf(exact->solver, sizeof exact->solver, "%s", seeing.solver->name);
     SL_TRY(make_rows(context, by_views, run));
     if (by_views) SL_TRY(forget_cells(context, exact));
-    run->seconds.see = view_clock() - start;
+    run->seconds.see = sl_seconds() - start;
     run->has_exact = true;
     return SL_OK;
 }

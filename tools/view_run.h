@@ -51,7 +51,8 @@ typedef struct view_run {
 
 /// From run->baked, whose map and space are there, on. `run` is to be destroyed also on failure.
 sl_status view_run_make(sl_context *context, const view_run_options *options, view_run *run);
-/// Bakes the map with the view cells of the cut: exact sets by a method of sl_see_methods().
+/// Bakes the map with the view cells of the cut: exact sets by a method of sl_see_methods(),
+/// NULL for the fastest exact one.
 /// `by_views`: of the sets those of view cells alone are kept.
 sl_status view_run_see(sl_context *context, const view_run_options *options,
                        const sl_see_method *method, bool by_views, view_run *run);
@@ -65,7 +66,5 @@ static inline const sl_view_hierarchy *view_run_told(const view_run *run) {
 /// Expected cost with n view cells: all of the hierarchy's sum of mass times cost.
 sl_status view_run_cost(sl_context *context, const sl_view_hierarchy *hierarchy, uint32_t cells,
                         double *cost, uint64_t *bytes);
-
-double view_clock(void);
 
 #endif

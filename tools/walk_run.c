@@ -397,7 +397,7 @@ static sl_status do_frame(sl_context *context, running *r, const eye_place *eye,
     const sl_space *space = &r->scene->baked->space;
     const sl_view view = eye_view(space, eye);
     const uint64_t *cells = r->cells;
-    const double began = seconds_now();
+    const double began = sl_seconds();
     if (r->walk) {
         sl_walk_frame frame;
         SL_TRY(sl_walk_step(context, r->walk, &view, &frame));
@@ -408,9 +408,9 @@ static sl_status do_frame(sl_context *context, running *r, const eye_place *eye,
         SL_TRY(r->choice->baked->cull(context, r->search, &view, r->cells, &account));
         out[FIGURE_ORIENTATIONS] = (double)account.orientations;
     }
-    const double seen = seconds_now();
+    const double seen = sl_seconds();
     out[FIGURE_WALLS] = walk_draw(r->canvas, eye, cells);
-    const double drawn = seconds_now();
+    const double drawn = sl_seconds();
     out[FIGURE_CELLS] = count_cells(cells, sl_eye_words(space));
     out[FIGURE_VISIBILITY] = first ? seen - began : fmin(out[FIGURE_VISIBILITY], seen - began);
     out[FIGURE_DRAWING] = first ? drawn - seen : fmin(out[FIGURE_DRAWING], drawn - seen);
