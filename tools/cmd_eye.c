@@ -158,8 +158,7 @@ typedef struct eye_plan {
     bool json;
 } eye_plan;
 
-static sl_status make_view(sl_context *context, const eye_plan *plan, const sl_space *space,
-                           sl_view *view) {
+static sl_status check_view(sl_context *context, const eye_plan *plan, const sl_space *space) {
     if (!plan->at_text)
         return sl_fail(context, SL_BAD_ARGUMENT, "--at is missing: where the eye is");
     if (!plan->look_given != !plan->fov_given)
@@ -168,7 +167,6 @@ static sl_status make_view(sl_context *context, const eye_plan *plan, const sl_s
                        "all round");
     if (sl_space_locate(space, plan->at) == SL_NO_CELL)
         return input_fail_outside(context, "--at", plan->at_text, space->bounds);
-    *view = sl_view_cone(plan->at, plan->look, plan->fov, eye_reach(space));
     return SL_OK;
 }
 
@@ -239,20 +237,34 @@ static sl_status darken(sl_context *context, sl_baked *baked, sl_point eye) {
     return SL_OK;
 }
 
-static sl_status look(command_console *console, const eye_plan *plan, sl_baked *baked) {
+/// Doors and glass are walls by now, so that the pictures show them.
+static sl_status ask(command_console *console, const eye_plan *plan, const sl_view *view,
+                     sl_query *query) {
     sl_context *context = console->context;
-    sl_view view;
+    const sl_baked *baked = sl_query_baked(query);
     eye_run run;
-    SL_TRY(make_view(context, plan, &baked->space, &view));
-    SL_TRY(darken(context, baked, view.eye));
-    const double range = plan->range_given ? plan->range : baked->map.range;
-    SL_TRY(eye_run_make(context, baked, &view, plan->mirror_depth, range, !plan->json, &run));
+    sl_query_set_doors(context, query, true);
+    SL_TRY(sl_query_set_mirror_depth(context, query, plan->mirror_depth));
+    if (plan->range_given) SL_TRY(sl_query_set_range(context, query, plan->range));
+    SL_TRY(eye_run_make(context, query, view, plan->mirror_depth, !plan->json, &run));
     eye_objects objects = {0};
     sl_status status = eye_objects_read(context, &plan->objects, &baked->map, &objects);
-    if (status == SL_OK) status = eye_objects_run(context, baked, &run, !plan->json, &objects);
+    if (status == SL_OK) status = eye_objects_run(context, query, &run, !plan->json, &objects);
     if (status == SL_OK) status = tell(console, plan, baked, &run, &objects);
     eye_objects_destroy(context, &objects);
     eye_run_destroy(context, &run);
+    return status;
+}
+
+static sl_status look(command_console *console, const eye_plan *plan, sl_baked *baked) {
+    sl_context *context = console->context;
+    sl_query *query;
+    SL_TRY(check_view(context, plan, &baked->space));
+    SL_TRY(darken(context, baked, plan->at));
+    SL_TRY(sl_query_create(context, baked, &query));
+    const sl_view view = sl_query_view(query, plan->at, plan->look, plan->fov);
+    const sl_status status = ask(console, plan, &view, query);
+    sl_query_destroy(context, query);
     return status;
 }
 

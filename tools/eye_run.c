@@ -25,24 +25,23 @@ static int compare_doubles(const void *left, const void *right) {
     return (a > b) - (a < b);
 }
 
-/// A query of one kind, to be asked again and again.
-typedef struct query {
+/// A question of one kind, to be asked again and again.
+typedef struct question {
     sl_context *context;
-    const sl_eye_method *method; ///< NULL for the region
-    sl_eye_search *search;
-    const sl_outline *outline;
+    sl_query *query;
     const sl_view *view;
+    const sl_eye_method *method; ///< NULL for the region
     eye_result *result;
     sl_region *region;
-    double range;
-} query;
+} question;
 
-static sl_status ask(const query *q) {
-    if (!q->method) return sl_region_make(q->context, q->outline, q->view, q->range, q->region);
-    return q->method->cull(q->context, q->search, q->view, q->result->cells, &q->result->account);
+static sl_status ask(const question *q) {
+    if (!q->method) return sl_query_region(q->context, q->query, q->view, q->region);
+    return sl_query_look(q->context, q->query, q->view, q->method, q->result->cells,
+                         &q->result->account);
 }
 
-static sl_status time_queries(const query *q, double *out) {
+static sl_status time_question(const question *q, double *out) {
     double seconds[ROUNDS];
     size_t queries = 1;
     for (int round = 0; round < ROUNDS;) {
@@ -86,23 +85,23 @@ void eye_measure(const sl_baked *baked, uint32_t eye_cell, const uint64_t *cells
 }
 
 /// What a method keeps of what is seen by mirror, if it knows.
-static sl_status run_mirrored(sl_context *context, const sl_baked *baked,
-                              const sl_eye_method *method, sl_eye_search *search, eye_run *run,
-                              eye_result *result) {
-    if (!run->has_mirrors || !method->mirrored) return SL_OK;
+static sl_status run_mirrored(sl_context *context, const sl_eye_method *method, sl_query *query,
+                              eye_run *run, eye_result *result) {
+    const sl_baked *baked = sl_query_baked(query);
     sl_eye_account account;
+    if (!run->has_mirrors || !method->mirrored) return SL_OK;
     result->mirrored =
         sl_alloc_array(context, sl_eye_words(&baked->space), sizeof *result->mirrored);
     if (!result->mirrored) return SL_NO_MEMORY;
-    SL_TRY(method->mirrored(context, search, &run->view, result->mirrored, &account));
+    SL_TRY(sl_query_look_mirrored(context, query, &run->view, method, result->mirrored, &account));
     result->rounded = account.rounded;
     eye_measure(baked, run->cell, result->mirrored, &result->mirrored_count,
                 &result->mirrored_share);
     return SL_OK;
 }
 
-static sl_status run_methods(sl_context *context, const sl_baked *baked, sl_eye_search *search,
-                             bool timed, eye_run *run) {
+static sl_status run_methods(sl_context *context, sl_query *query, bool timed, eye_run *run) {
+    const sl_baked *baked = sl_query_baked(query);
     const sl_eye_method *methods = sl_eye_methods(&run->result_count);
     run->results = sl_alloc_array(context, run->result_count, sizeof *run->results);
     if (!run->results) return SL_NO_MEMORY;
@@ -110,56 +109,31 @@ static sl_status run_methods(sl_context *context, const sl_baked *baked, sl_eye_
         eye_result *result = &run->results[i];
         result->cells = sl_alloc_array(context, sl_eye_words(&baked->space), sizeof *result->cells);
         if (!result->cells) return SL_NO_MEMORY;
-        const query q = {.context = context,
-                         .method = &methods[i],
-                         .search = search,
-                         .view = &run->view,
-                         .result = result};
-        SL_TRY(timed ? time_queries(&q, &result->seconds) : ask(&q));
+        const question q = {context, query, &run->view, &methods[i], .result = result};
+        SL_TRY(timed ? time_question(&q, &result->seconds) : ask(&q));
         eye_measure(baked, run->cell, result->cells, &result->count, &result->share);
-        SL_TRY(run_mirrored(context, baked, &methods[i], search, run, result));
+        SL_TRY(run_mirrored(context, &methods[i], query, run, result));
     }
     return SL_OK;
 }
 
-static sl_status run_region(sl_context *context, const sl_baked *baked, bool timed, eye_run *run) {
-    sl_outline outline;
-    SL_TRY(sl_outline_make(context, &baked->space, &outline));
-    const query q = {.context = context,
-                     .outline = &outline,
-                     .view = &run->view,
-                     .range = run->range,
-                     .region = &run->region};
-    sl_status status = timed ? time_queries(&q, &run->region_seconds) : ask(&q);
-    sl_room_mirrors mirrors = {0};
-    if (status == SL_OK && run->has_mirrors) {
-        status = sl_room_mirrors_make(context, &outline, &baked->map, &mirrors);
-        if (status == SL_OK)
-            status = sl_mirrored_region_make(context, &mirrors, &run->view, run->range,
-                                             run->mirror_depth, &run->mirrored);
-        sl_room_mirrors_destroy(context, &mirrors);
-    }
-    sl_outline_destroy(context, &outline);
-    const double whole = area_of_side(baked, run->cell);
+static sl_status run_region(sl_context *context, sl_query *query, bool timed, eye_run *run) {
+    const question q = {context, query, &run->view, .region = &run->region};
+    SL_TRY(timed ? time_question(&q, &run->region_seconds) : ask(&q));
+    const double whole = area_of_side(sl_query_baked(query), run->cell);
     run->region_share = whole > 0 ? sl_region_area(&run->region) / whole : 0;
-    return status;
+    if (!run->has_mirrors) return SL_OK;
+    return sl_query_mirrored_region(context, query, &run->view, &run->mirrored);
 }
 
-sl_status eye_run_make(sl_context *context, const sl_baked *baked, const sl_view *view,
-                       uint32_t depth, double range, bool timed, eye_run *out) {
-    sl_eye_search *search;
+sl_status eye_run_make(sl_context *context, sl_query *query, const sl_view *view,
+                       uint32_t mirror_depth, bool timed, eye_run *out) {
     eye_run run = {.view = *view,
-                   .cell = sl_space_locate(&baked->space, view->eye),
-                   .has_mirrors = baked->map.mirror_count > 0,
-                   .mirror_depth = depth,
-                   .range = range};
-    SL_TRY(sl_eye_search_create(context, &baked->space, &baked->visibility, &search));
-    sl_eye_search_limit(search, range);
-    sl_status status =
-        run.has_mirrors ? sl_eye_search_add_mirrors(context, search, &baked->map, depth) : SL_OK;
-    if (status == SL_OK) status = run_methods(context, baked, search, timed, &run);
-    if (status == SL_OK) status = run_region(context, baked, timed, &run);
-    sl_eye_search_destroy(context, search);
+                   .cell = sl_query_locate(query, view->eye),
+                   .has_mirrors = sl_query_baked(query)->map.mirror_count > 0,
+                   .mirror_depth = mirror_depth};
+    sl_status status = run_methods(context, query, timed, &run);
+    if (status == SL_OK) status = run_region(context, query, timed, &run);
     if (status == SL_OK)
         *out = run;
     else
@@ -281,55 +255,47 @@ static sl_status find_cells(sl_context *context, const sl_baked *baked, const ey
 }
 
 /// What is seen in mirrors, before which the objects stand and in which they are seen.
-static sl_status look_in_mirrors(sl_context *context, const sl_baked *baked, const eye_run *run,
-                                 sl_moving *moving, const sl_outline *outline, eye_objects *o) {
-    sl_eye_account account;
-    sl_room_mirrors mirrors = {0};
+static sl_status look_in_mirrors(sl_context *context, sl_query *query, const eye_run *run,
+                                 eye_objects *o) {
+    const sl_baked *baked = sl_query_baked(query);
     o->has_mirrors = run->has_mirrors;
     if (!run->has_mirrors) return SL_OK;
     o->mirrored_cells =
         sl_alloc_array(context, sl_eye_words(&baked->space), sizeof *o->mirrored_cells);
     if (!o->mirrored_cells) return SL_NO_MEMORY;
-    SL_TRY(sl_moving_add_mirrors(context, moving, &baked->map, run->mirror_depth));
-    SL_TRY(sl_moving_look_mirrored(context, moving, &run->view, o->mirrored_cells, o->mirrored,
-                                   &account));
+    SL_TRY(sl_query_look_mirrored(context, query, &run->view, NULL, o->mirrored_cells, NULL));
     eye_measure(baked, run->cell, o->mirrored_cells, &o->mirrored_count, &o->mirrored_share);
-    sl_status status = sl_room_mirrors_make(context, outline, &baked->map, &mirrors);
-    if (status == SL_OK)
-        status = sl_mirrored_region_make(context, &mirrors, &run->view, run->range,
-                                         run->mirror_depth, &o->mirrored_region);
-    sl_room_mirrors_destroy(context, &mirrors);
-    return status;
+    return sl_query_mirrored_region(context, query, &run->view, &o->mirrored_region);
 }
 
-static sl_status look(sl_context *context, const sl_baked *baked, const eye_run *run,
-                      sl_moving *moving, bool timed, eye_objects *o) {
-    const sl_outline *outline;
-    sl_eye_account account;
-    const double start = sl_seconds();
-    SL_TRY(sl_moving_place(context, moving, o->boxes, o->count));
-    SL_TRY(sl_moving_outline(context, moving, &outline));
-    if (timed) o->seconds = sl_seconds() - start;
-    sl_moving_limit(moving, run->range);
-    SL_TRY(sl_moving_look(context, moving, &run->view, o->cells, o->seen, &account));
-    eye_measure(baked, run->cell, o->cells, &o->cell_count, &o->share);
-    SL_TRY(sl_region_make(context, outline, &run->view, run->range, &o->region));
+/// Puts the objects in and finds the region past them. What the first time makes serves again, so
+/// that the second one is timed.
+static sl_status place(sl_context *context, sl_query *query, const eye_run *run, bool timed,
+                       eye_objects *o) {
+    for (int time = 0; time < (timed ? 2 : 1); time++) {
+        const double start = sl_seconds();
+        SL_TRY(sl_query_set_boxes(context, query, o->boxes, o->count));
+        SL_TRY(sl_query_region(context, query, &run->view, &o->region));
+        if (timed) o->seconds = sl_seconds() - start;
+    }
+    return SL_OK;
+}
+
+sl_status eye_objects_run(sl_context *context, sl_query *query, const eye_run *run, bool timed,
+                          eye_objects *o) {
+    const sl_baked *baked = sl_query_baked(query);
+    if (!o->count) return SL_OK;
+    o->cells = sl_alloc_array(context, sl_eye_words(&baked->space), sizeof *o->cells);
+    if (!o->cells) return SL_NO_MEMORY;
+    SL_TRY(find_cells(context, baked, run, o));
+    SL_TRY(place(context, query, run, timed, o));
     const double direct = sl_region_area(&run->region);
     o->region_share = direct > 0 ? run->region_share * sl_region_area(&o->region) / direct : 0;
-    return look_in_mirrors(context, baked, run, moving, outline, o);
-}
-
-sl_status eye_objects_run(sl_context *context, const sl_baked *baked, const eye_run *run,
-                          bool timed, eye_objects *objects) {
-    sl_moving *moving;
-    if (!objects->count) return SL_OK;
-    objects->cells = sl_alloc_array(context, sl_eye_words(&baked->space), sizeof *objects->cells);
-    if (!objects->cells) return SL_NO_MEMORY;
-    SL_TRY(find_cells(context, baked, run, objects));
-    SL_TRY(sl_moving_create(context, &baked->space, &baked->visibility, &moving));
-    const sl_status status = look(context, baked, run, moving, timed, objects);
-    sl_moving_destroy(context, moving);
-    return status;
+    SL_TRY(sl_query_look(context, query, &run->view, NULL, o->cells, NULL));
+    SL_TRY(sl_query_boxes_seen(context, query, &run->view, o->seen,
+                               run->has_mirrors ? o->mirrored : NULL));
+    eye_measure(baked, run->cell, o->cells, &o->cell_count, &o->share);
+    return look_in_mirrors(context, query, run, o);
 }
 
 // --- telling

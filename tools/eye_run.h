@@ -5,11 +5,9 @@
 
 #include "json_print.h"
 #include "options.h"
-#include "sightline/bake.h"
 #include "sightline/draw.h"
-#include "sightline/eye_to_cell.h"
-#include "sightline/mirrored.h"
 #include "sightline/moving.h"
+#include "sightline/query.h"
 
 /// What one method says.
 typedef struct eye_result {
@@ -31,12 +29,11 @@ typedef struct eye_run {
     uint32_t cell;       ///< the eye's
     eye_result *results; ///< one a method of sl_eye_methods()
     size_t result_count;
-    sl_region region;      ///< the exact visible region
-    double region_share;   ///< of the same area
-    double region_seconds; ///< as above
-    bool has_mirrors;      ///< the map; else the rest is empty
-    uint32_t mirror_depth;
-    double range;                ///< of the exact method and the region; 0 for no limit
+    sl_region region;            ///< the exact visible region
+    double region_share;         ///< of the same area
+    double region_seconds;       ///< as above
+    bool has_mirrors;            ///< the map; else the rest is empty
+    uint32_t mirror_depth;       ///< reflections at most
     sl_mirrored_region mirrored; ///< the region with what is seen by mirror
 } eye_run;
 
@@ -47,10 +44,10 @@ double eye_reach(const sl_space *space);
 void eye_measure(const sl_baked *baked, uint32_t eye_cell, const uint64_t *cells, uint32_t *count,
                  double *share);
 
-/// The eye must be within the bounds. `timed`: queries are repeated until their time is known.
-/// `depth`: reflections, at most. `range`: how far is seen, reflected or not; 0 for no limit.
-sl_status eye_run_make(sl_context *context, const sl_baked *baked, const sl_view *view,
-                       uint32_t depth, double range, bool timed, eye_run *out);
+/// The eye must be within the bounds. `mirror_depth` is that of the query. `timed`: questions are
+/// repeated until their time is known.
+sl_status eye_run_make(sl_context *context, sl_query *query, const sl_view *view,
+                       uint32_t mirror_depth, bool timed, eye_run *out);
 void eye_run_destroy(sl_context *context, eye_run *run);
 
 typedef struct eye_object {
@@ -77,15 +74,15 @@ typedef struct eye_objects {
     uint32_t mirrored_count;  ///< of them
     double mirrored_share;
     sl_mirrored_region mirrored_region;
-    double seconds; ///< to put the boxes in; 0 where it was not timed
+    double seconds; ///< to put the boxes in and find the region; 0 where it was not timed
 } eye_objects;
 
 /// Reads X0,Y0,X1,Y1 or the name of the map's object, each with ',block' behind it or not.
 sl_status eye_objects_read(sl_context *context, const option_list *texts, const sl_map *map,
                            eye_objects *out);
 /// What the view makes of them.
-sl_status eye_objects_run(sl_context *context, const sl_baked *baked, const eye_run *run,
-                          bool timed, eye_objects *objects);
+sl_status eye_objects_run(sl_context *context, sl_query *query, const eye_run *run, bool timed,
+                          eye_objects *objects);
 void eye_objects_print(const eye_objects *objects);
 /// "objects", "past_objects": nothing where there are none.
 void eye_objects_add_json(sl_json_fields *fields, const sl_baked *baked,
