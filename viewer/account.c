@@ -1,6 +1,6 @@
 #include "account.h"
 
-#include "draw/chart.h"
+#include "sightline/canvas.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -100,7 +100,7 @@ static void split_more(sl_app *app) {
 
 /// From the whole tree the first step down is that of its deepest nodes.
 static void tree_less(sl_app *app) {
-    const uint32_t deepest = app->tree.baked ? app->tree.tree_depth : 64;
+    const uint32_t deepest = app->tree ? sl_scene_tree_depth(app->tree) : 64;
     if (app->tree_depth > deepest) app->tree_depth = deepest;
     if (app->tree_depth > 0) app->tree_depth--;
 }

@@ -37,13 +37,14 @@ void sl_app_init(sl_app *app, sl_context *context) {
                     .quiz = {.random = 1}};
 }
 
-static void drop_scene(sl_app *app, sl_scene *scene) {
-    if (scene->baked) sl_scene_destroy(app->context, scene);
+static void drop_scenes(sl_app *app) {
+    sl_scene_free(app->context, app->scene);
+    sl_scene_free(app->context, app->tree);
+    app->scene = app->tree = NULL;
 }
 
 void sl_app_destroy(sl_app *app) {
-    drop_scene(app, &app->scene);
-    drop_scene(app, &app->tree);
+    drop_scenes(app);
     if (app->under.surface) cairo_surface_destroy(app->under.surface);
     if (app->over.surface) cairo_surface_destroy(app->over.surface);
     if (app->account.surface) cairo_surface_destroy(app->account.surface);
@@ -87,8 +88,7 @@ static sl_view eye_view(const sl_app *app) {
 
 /// What was made of the document before its last change.
 static void drop_made(sl_app *app) {
-    drop_scene(app, &app->scene);
-    drop_scene(app, &app->tree);
+    drop_scenes(app);
     app->seen.valid = false;
 }
 

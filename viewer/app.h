@@ -5,7 +5,6 @@
 
 #include "camera.h"
 #include "document.h"
-#include "draw/scene.h"
 #include "history.h"
 #include "layer_nodes.h"
 #include "layer_views.h"
@@ -15,6 +14,7 @@
 #include "present.h"
 #include "record.h"
 #include "seen.h"
+#include "sightline/canvas.h"
 #include "sightline/explain.h"
 #include "ui.h"
 
@@ -130,12 +130,14 @@ struct sl_app {
     sl_ui ui;
     sl_kept under, over; ///< below and above what changes from frame to frame
     sl_account_picture account;
-    sl_scene scene;        ///< that they are drawn of; baked NULL: none yet
-    sl_scene tree;         ///< the stab tree of the eye's cell, likewise
-    sl_node_layer *nodes;  ///< NULL: none yet
-    sl_view_layer *views;  ///< likewise
-    sl_watch_layer *watch; ///< likewise
-    uint32_t scene_version, scene_show, tree_version;
+    sl_scene *scene;                    ///< that they are drawn of; NULL: none yet
+    sl_scene *tree;                     ///< the stab tree of the eye's cell, likewise
+    sl_node_layer *nodes;               ///< NULL: none yet
+    sl_view_layer *views;               ///< likewise
+    sl_watch_layer *watch;              ///< likewise
+    uint32_t scene_version, scene_show; ///< of what the scene was made
+    uint32_t tree_version, tree_cell;   ///< of what the tree was made
+    bool tree_dark;
     double motion;     ///< seconds for which a moving plan may be drawn by moving the kept picture
     char message[512]; ///< the last thing to say
     bool message_is_error;

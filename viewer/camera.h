@@ -2,7 +2,7 @@
 #ifndef VIEWER_CAMERA_H
 #define VIEWER_CAMERA_H
 
-#include "draw/canvas.h"
+#include "sightline/canvas.h"
 
 typedef struct sl_camera {
     sl_point middle;    ///< of the map, in the pane's middle

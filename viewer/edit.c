@@ -1,7 +1,6 @@
 #include "edit.h"
 
-#include "draw/marks.h"
-#include "draw/sight.h"
+#include "sightline/canvas.h"
 
 #include <math.h>
 

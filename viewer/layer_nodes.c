@@ -3,7 +3,7 @@
 #include "layer_nodes.h"
 
 #include "app.h"
-#include "draw/sight.h"
+#include "sightline/canvas.h"
 #include "sightline/support.h"
 #include "sightline/walk.h"
 

@@ -1,8 +1,7 @@
 #include "layer_views.h"
 
 #include "app.h"
-#include "draw/marks.h"
-#include "draw/text.h"
+#include "sightline/canvas.h"
 #include "sightline/support.h"
 #include "view_job.h"
 

@@ -4,7 +4,7 @@
 #define VIEWER_LAYER_VIEWS_H
 
 #include "document.h"
-#include "draw/canvas.h"
+#include "sightline/canvas.h"
 
 typedef struct sl_app sl_app;
 typedef struct sl_view_layer sl_view_layer;

@@ -4,7 +4,7 @@
 #include "layer_watch.h"
 
 #include "app.h"
-#include "draw/sight.h"
+#include "sightline/canvas.h"
 #include "sightline/support.h"
 
 #include <string.h>

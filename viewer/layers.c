@@ -1,9 +1,7 @@
 #include "layers.h"
 
-#include "draw/plan.h"
-#include "draw/seen.h"
-#include "draw/sight.h"
 #include "panes.h"
+#include "sightline/canvas.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -155,27 +153,28 @@ void sl_layer_cull(sl_app *app, const sl_frame *frame, int index) {
 
 // --- the stab tree
 
-/// Where doors are shut, of the tree that is left.
+/// Where doors are shut: of the tree without the sequences through them.
 static sl_status make_tree_scene(sl_app *app, const sl_draw_options *options) {
     const sl_document *document = &app->document;
-    if (!app->present.own) return sl_scene_make(app->context, document->baked, options, &app->tree);
-    sl_baked left = *document->baked;
-    SL_TRY(sl_present_tree(app->context, &app->present, document, options->cell,
-                           &left.visibility.trees));
-    const sl_status status = sl_scene_make(app->context, &left, options, &app->tree);
-    sl_free(app->context, left.visibility.trees.offsets);
-    sl_free(app->context, left.visibility.trees.nodes);
-    if (status == SL_OK) app->tree.baked = document->baked;
+    sl_stab_trees trees;
+    if (!app->present.own)
+        return sl_scene_create(app->context, document->baked, options, NULL, &app->tree);
+    SL_TRY(sl_present_tree(app->context, &app->present, document, options->cell, &trees));
+    const sl_status status =
+        sl_scene_create(app->context, document->baked, options, &trees, &app->tree);
+    sl_free(app->context, trees.offsets);
+    sl_free(app->context, trees.nodes);
     return status;
 }
 
 static bool make_tree(sl_app *app) {
     const uint32_t cell = app->seen.cell;
     if (cell == SL_NO_CELL || !sl_document_has_rows(&app->document)) return false;
-    if (app->tree.baked && app->tree_version == app->present.version &&
-        app->tree.options.cell == cell && app->tree.options.dark == app->dark)
+    if (app->tree && app->tree_version == app->present.version && app->tree_cell == cell &&
+        app->tree_dark == app->dark)
         return true;
-    if (app->tree.baked) sl_scene_destroy(app->context, &app->tree);
+    sl_scene_free(app->context, app->tree);
+    app->tree = NULL;
     sl_draw_options options = sl_draw_options_default();
     options.layers = SL_LAYER_STAB_TREE;
     options.cell = cell;
@@ -183,18 +182,12 @@ static bool make_tree(sl_app *app) {
     const sl_status status = make_tree_scene(app, &options);
     sl_app_check(app, status);
     app->tree_version = app->present.version;
+    app->tree_cell = cell;
+    app->tree_dark = app->dark;
     return status == SL_OK;
 }
 
-/// The strokes stand deepest first: those too deep are left out at the front.
 void sl_layer_tree(sl_app *app, const sl_frame *frame, int index) {
     (void)index;
-    if (!make_tree(app)) return;
-    sl_scene grown = app->tree;
-    grown.eye = app->eye.at;
-    while (grown.stroke_count && grown.strokes->depth > app->tree_depth) {
-        grown.strokes++;
-        grown.stroke_count--;
-    }
-    sl_draw_tree_onto(app->ui.cairo, &grown, frame);
+    if (make_tree(app)) sl_draw_tree(app->ui.cairo, app->tree, app->eye.at, app->tree_depth, frame);
 }

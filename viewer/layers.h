@@ -3,8 +3,7 @@
 #ifndef VIEWER_LAYERS_H
 #define VIEWER_LAYERS_H
 
-#include "draw/canvas.h"
-#include "draw/palette.h"
+#include "sightline/canvas.h"
 #include "sightline/effects.h"
 #include "sightline/region.h"
 

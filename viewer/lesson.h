@@ -5,7 +5,7 @@
 
 #include "cell_to_cell/pass.h"
 #include "document.h"
-#include "draw/canvas.h"
+#include "sightline/canvas.h"
 #include "sightline/dual.h"
 #include "sightline/steps.h"
 #include "sightline/support.h"

@@ -1,8 +1,7 @@
 /// The lesson of effects: cell by cell what the eye's cell sees, and which doors, mirrors and glass
 /// that is a matter of.
 #include "app.h"
-#include "draw/marks.h"
-#include "draw/sight.h"
+#include "sightline/canvas.h"
 #include "sightline/support.h"
 
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /// The lesson of the multipass method: quadrant by quadrant of directions, the cells in the order
 /// in which they are done, with what depends on what.
 #include "app.h"
-#include "draw/sight.h"
+#include "sightline/canvas.h"
 #include "sightline/support.h"
 
 #include <stdio.h>

@@ -1,8 +1,7 @@
 /// The lesson of the depth-first search from the eye's cell: which portals it tries, and why it
 /// goes on or back.
 #include "app.h"
-#include "draw/marks.h"
-#include "draw/sight.h"
+#include "sightline/canvas.h"
 
 #include <stdio.h>
 

@@ -1,9 +1,9 @@
 /// The lesson of the subdivision: the splits of a kd-tree in the order in which they are made; or
 /// of a mesh the triangulation, and its sides as they are taken out or have to stay.
 #include "app.h"
-#include "draw/marks.h"
-#include "draw/subdivision.h"
+#include "draw/lesson.h"
 #include "geometry/orient.h"
+#include "sightline/canvas.h"
 
 #include <math.h>
 #include <stdio.h>

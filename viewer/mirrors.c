@@ -1,8 +1,7 @@
 #include "mirrors.h"
 
-#include "draw/marks.h"
-#include "draw/sight.h"
 #include "edit.h"
+#include "sightline/canvas.h"
 
 #include <math.h>
 

@@ -1,6 +1,5 @@
 #include "modes.h"
 
-#include "draw/sight.h"
 #include "edit.h"
 #include "layers.h"
 #include "mirrors.h"
@@ -8,6 +7,7 @@
 #include "panes.h"
 #include "quiz.h"
 #include "range.h"
+#include "sightline/canvas.h"
 
 static void lesson_below(sl_app *app, const sl_frame *frame) {
     const sl_subject *subject = sl_lesson_subject(&app->lesson);

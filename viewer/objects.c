@@ -1,7 +1,7 @@
 #include "objects.h"
 
-#include "draw/marks.h"
 #include "edit.h"
+#include "sightline/canvas.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 #include "panes.h"
 
 #include "actions.h"
-#include "draw/text.h"
+#include "sightline/canvas.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,9 +1,7 @@
 /// Lines as points: the dual plane of the portal sequence, linked with the plan.
 #include "panes.h"
 
-#include "draw/dual_plane.h"
-#include "draw/marks.h"
-#include "draw/text.h"
+#include "sightline/canvas.h"
 
 #include <math.h>
 #include <stdio.h>

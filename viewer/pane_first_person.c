@@ -2,8 +2,7 @@
 /// nearest of them in each column of pixels.
 #include "panes.h"
 
-#include "draw/marks.h"
-#include "draw/text.h"
+#include "sightline/canvas.h"
 
 #include <math.h>
 #include <stdio.h>

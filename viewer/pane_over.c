@@ -2,8 +2,8 @@
 #include "panes.h"
 
 #include "actions.h"
-#include "draw/text.h"
 #include "shelf.h"
+#include "sightline/canvas.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,11 +2,9 @@
 #include "panes.h"
 
 #include "clock.h"
-#include "draw/marks.h"
-#include "draw/plan.h"
-#include "draw/subdivision.h"
-#include "draw/text.h"
+#include "draw/lesson.h"
 #include "modes.h"
+#include "sightline/canvas.h"
 
 #include <math.h>
 #include <string.h>
@@ -25,15 +23,16 @@ static unsigned scene_layers(const sl_app *app) {
 static bool make_scene(sl_app *app) {
     const unsigned layers = scene_layers(app);
     const uint32_t key = layers | (app->dark ? 1024u : 0u);
-    if (app->scene.baked && app->scene_version == app->document.version && app->scene_show == key)
+    if (app->scene && app->scene_version == app->document.version && app->scene_show == key)
         return true;
-    if (app->scene.baked) sl_scene_destroy(app->context, &app->scene);
+    sl_scene_free(app->context, app->scene);
+    app->scene = NULL;
     sl_draw_options options = sl_draw_options_default();
     options.layers = layers;
     options.cell = SL_NO_CELL;
     options.dark = app->dark;
     const sl_status status =
-        sl_scene_make(app->context, app->document.baked, &options, &app->scene);
+        sl_scene_create(app->context, app->document.baked, &options, NULL, &app->scene);
     sl_app_check(app, status);
     app->scene_version = app->document.version;
     app->scene_show = key;
@@ -44,11 +43,10 @@ static bool make_scene(sl_app *app) {
 
 /// What is below all that changes: cells, portals, view cells, splits.
 static void draw_under(sl_app *app, cairo_t *cairo, const sl_frame *frame) {
-    sl_scene under = app->scene;
-    under.options.layers &= ~(unsigned)(SL_LAYER_WALLS | SL_LAYER_STARTS);
+    const unsigned layers = scene_layers(app) & ~(unsigned)(SL_LAYER_WALLS | SL_LAYER_STARTS);
     sl_set_colour(cairo, app->ui.palette.page);
     cairo_paint(cairo);
-    sl_app_check(app, sl_draw_onto(app->context, cairo, &under, frame));
+    sl_app_check(app, sl_draw_plan(app->context, cairo, app->scene, layers, frame));
     if (sl_layers_shows(app, SL_LAYER_NUMBER_VIEWS)) sl_view_layer_draw(app, cairo, frame);
     if (app->show & SL_SHOW_SPLITS)
         sl_draw_splits(cairo, &app->ui.palette, frame, app->document.splits,
@@ -57,7 +55,7 @@ static void draw_under(sl_app *app, cairo_t *cairo, const sl_frame *frame) {
 
 /// What is over it: walls and what else the map has.
 static void draw_over(sl_app *app, cairo_t *cairo, const sl_frame *frame) {
-    sl_app_check(app, sl_draw_walls_onto(app->context, cairo, &app->scene, frame));
+    sl_app_check(app, sl_draw_walls(app->context, cairo, app->scene, frame));
 }
 
 /// A pane's frame with its upper left at the origin.

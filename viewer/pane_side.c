@@ -3,9 +3,9 @@
 
 #include "actions.h"
 #include "doors.h"
-#include "draw/text.h"
 #include "objects.h"
 #include "quiz.h"
+#include "sightline/canvas.h"
 #include "sliders.h"
 
 #include <math.h>

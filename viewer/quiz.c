@@ -1,6 +1,6 @@
 #include "quiz.h"
 
-#include "draw/sight.h"
+#include "sightline/canvas.h"
 #include "sightline/solvers.h"
 #include "sightline/support.h"
 

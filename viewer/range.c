@@ -1,6 +1,6 @@
 #include "range.h"
 
-#include "draw/marks.h"
+#include "sightline/canvas.h"
 
 #include <math.h>
 

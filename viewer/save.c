@@ -1,8 +1,8 @@
 #include "save.h"
 
 #include "account.h"
-#include "draw/paper.h"
 #include "panes.h"
+#include "sightline/canvas.h"
 #include "sightline/support.h"
 
 #include <errno.h>
@@ -10,35 +10,31 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static sl_status save(sl_app *app, const char *path, bool window) {
-    const sl_paper_kind *kind;
-    sl_paper paper;
-    sl_context *context = app->context;
-    SL_TRY(sl_paper_kind_of(context, path, &kind));
-    const sl_layout l = sl_app_layout(app);
-    const double w = window ? app->width : sl_box_width(l.plan[0]);
-    const double h = window ? app->height : sl_box_height(l.plan[0]);
-    SL_TRY(sl_paper_open(context, kind, path, (int)w, (int)h, "Sightline", &paper));
-    if (window) {
-        sl_app_draw(app, paper.cairo);
-    } else {
-        const sl_ui before = app->ui;
-        app->ui.cairo = paper.cairo;
-        app->ui.palette = sl_palette_make(app->dark);
-        app->ui.text = sl_app_text(app);
-        sl_app_fit(app, l.plan[0]);
-        sl_pane_plan(app, (sl_box){{0, 0}, {w, h}}, 0, true);
-        app->ui = before;
-    }
-    return sl_paper_close(context, &paper, SL_OK);
+static void draw_window(void *user, cairo_t *cairo) {
+    sl_app_draw(user, cairo);
+}
+
+static void draw_plan(void *user, cairo_t *cairo) {
+    sl_app *app = user;
+    const sl_box plan = sl_app_layout(app).plan[0];
+    const sl_ui before = app->ui;
+    app->ui.cairo = cairo;
+    app->ui.palette = sl_palette_make(app->dark);
+    app->ui.text = sl_app_text(app);
+    sl_app_fit(app, plan);
+    sl_pane_plan(app, (sl_box){{0, 0}, {sl_box_width(plan), sl_box_height(plan)}}, 0, true);
+    app->ui = before;
 }
 
 sl_status sl_save_window(sl_app *app, const char *path) {
-    return save(app, path, true);
+    return sl_draw_page_file(app->context, path, app->width, app->height, "Sightline", draw_window,
+                             app);
 }
 
 sl_status sl_save_plan(sl_app *app, const char *path) {
-    return save(app, path, false);
+    const sl_box plan = sl_app_layout(app).plan[0];
+    return sl_draw_page_file(app->context, path, (int)sl_box_width(plan), (int)sl_box_height(plan),
+                             "Sightline", draw_plan, app);
 }
 
 void sl_save_numbered(sl_app *app, const char *ending) {

@@ -74,19 +74,19 @@ static void set_split(sl_app *app, double share) {
 // --- how far the stab tree is grown
 
 static bool has_tree(const sl_app *app) {
-    return app->show & SL_SHOW_TREE && app->tree.baked;
+    return app->show & SL_SHOW_TREE && app->tree;
 }
 
 static double tree_share(const sl_app *app) {
-    return app->tree_depth / fmax(app->tree.tree_depth, 1);
+    return app->tree_depth / fmax(sl_scene_tree_depth(app->tree), 1);
 }
 
 static void tree_text(const sl_app *app, char text[SL_SLIDER_TEXT]) {
-    snprintf(text, SL_SLIDER_TEXT, "%.0f", fmin(app->tree_depth, app->tree.tree_depth));
+    snprintf(text, SL_SLIDER_TEXT, "%.0f", fmin(app->tree_depth, sl_scene_tree_depth(app->tree)));
 }
 
 static void set_tree(sl_app *app, double share) {
-    app->tree_depth = (uint32_t)round(share * app->tree.tree_depth);
+    app->tree_depth = (uint32_t)round(share * sl_scene_tree_depth(app->tree));
 }
 
 // --- the walk through the merge history: from one view cell to all elementary ones, finer where

@@ -1,7 +1,6 @@
 #include "ui.h"
 
-#include "draw/marks.h"
-#include "draw/text.h"
+#include "sightline/canvas.h"
 
 #include <math.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #ifndef VIEWER_UI_H
 #define VIEWER_UI_H
 
-#include "draw/palette.h"
+#include "sightline/canvas.h"
 #include "sightline/geometry.h"
 
 #include <cairo.h>
