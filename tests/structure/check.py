@@ -24,7 +24,7 @@ FOLDERS = ["base", "geometry", "map", "import", "generate", "space", "effects", 
 # Used by games with no other part of the library beside it.
 ALONE = {"runtime"}
 # Public headers that are not named after their folder.
-HEADERS = {"context": "base", "support": "base", "glpk": "stab", "solvers": "stab", "pvs": "cell_to_cell",
+HEADERS = {"canvas": "draw", "context": "base", "support": "base", "glpk": "stab", "solvers": "stab", "pvs": "cell_to_cell",
            "explain": "cell_to_cell", "doors": "cell_to_cell", "dual": "stab", "steps": "cell_to_cell", "faults": "space", "reject": "bake", "view": "eye_to_cell", "outline": "space",
            "region": "eye_to_cell", "sees": "eye_to_cell", "mirrored": "eye_to_cell", "moving": "eye_to_cell"}
 # For users: it includes the others, and no part of the library includes it.
