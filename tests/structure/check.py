@@ -7,6 +7,7 @@ headers  every public header compiles alone, as C11 and as C++
 used     what a private header declares serves more than the one source that has it
 silent   the library prints nothing of its own accord, and reads nothing from the environment
 format   every source is laid out as .clang-format says
+doxygen  the API reference (lib/Doxyfile) has a text for every public function, type and macro
 
 Prints each fault as FILE:LINE: what; exits 0 without faults, 1 with, 77 when it cannot tell.
 """
@@ -24,7 +25,7 @@ FOLDERS = ["base", "geometry", "map", "import", "generate", "space", "effects", 
 # Used by games with no other part of the library beside it.
 ALONE = {"runtime"}
 # Public headers that are not named after their folder.
-HEADERS = {"context": "base", "support": "base", "glpk": "stab", "solvers": "stab", "pvs": "cell_to_cell",
+HEADERS = {"context": "base", "version": "base", "support": "base", "glpk": "stab", "solvers": "stab", "pvs": "cell_to_cell",
            "explain": "cell_to_cell", "doors": "cell_to_cell", "dual": "stab", "steps": "cell_to_cell", "faults": "space", "reject": "bake", "view": "eye_to_cell", "outline": "space",
            "region": "eye_to_cell", "sees": "eye_to_cell", "mirrored": "eye_to_cell", "moving": "eye_to_cell"}
 # For users: it includes the others, and no part of the library includes it.
@@ -200,10 +201,37 @@ def check_format(root):
         yield done.stderr
 
 
+# What may go without a text of its own: fields, and values of enums.
+NEEDS_NO_TEXT = re.compile(r"Member .+ \((?:variable|enumvalue|enumeration value)\) of ")
+
+
+def check_doxygen(root):
+    program = shutil.which("doxygen")
+    if not program:
+        raise CannotTell("doxygen is not here")
+    with tempfile.TemporaryDirectory() as scratch:
+        text = (root / "lib/Doxyfile").read_text(encoding="utf-8")
+        text += f"\nOUTPUT_DIRECTORY = {scratch}\nWARN_IF_UNDOCUMENTED = YES\n"
+        done = subprocess.run([program, "-"], input=text, cwd=root, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE, text=True)
+    seen = set()
+    for line in done.stderr.splitlines():
+        found = re.match(r"(/.*?):(\d+): (?:warning|error): (.*)", line)
+        if not found or NEEDS_NO_TEXT.match(found[3]) or line in seen:
+            continue
+        seen.add(line)
+        # The filter of the Doxyfile puts a line before the others.
+        path = pathlib.Path(found[1]).resolve().relative_to(root.resolve())
+        yield f"{path}:{int(found[2]) - 1}: {found[3]}"
+    if done.returncode:
+        yield f"doxygen ended with {done.returncode}:\n{done.stderr}"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("subject", choices=["layers", "sources", "used", "silent", "headers", "format"])
+    parser.add_argument("subject", choices=["layers", "sources", "used", "silent", "headers", "format",
+                                            "doxygen"])
     parser.add_argument("root", type=pathlib.Path)
     parser.add_argument("--cc", help="C compiler, for headers")
     parser.add_argument("--cxx", help="C++ compiler, for headers")
@@ -217,7 +245,8 @@ def main():
     else:
         missing = []
         check = {"layers": check_layers, "sources": check_sources, "used": check_used,
-                 "silent": check_silent, "format": check_format}
+                 "silent": check_silent, "format": check_format,
+                 "doxygen": check_doxygen}
         found = check[options.subject](options.root)
     try:
         faults = list(found)
