@@ -135,6 +135,7 @@ typedef struct sl_export_format {
                        const char *path);
 } sl_export_format;
 
+/// All formats of export, *count of them.
 SL_API const sl_export_format *sl_export_formats(size_t *count);
 
 #ifdef __cplusplus
