@@ -1,6 +1,5 @@
 #include "compare.h"
 
-#include "cell_to_cell/pvs_rows.h"
 #include "json_print.h"
 #include "names.h"
 #include "sightline/support.h"
@@ -214,12 +213,18 @@ static void write_pair(FILE *stream, const disagreement *d, uint32_t a, uint32_t
     fputc('\n', stream);
 }
 
+/// Sets the bits of the cells of a row.
+static void add_row(const sl_pvs *pvs, uint32_t cell, sl_bits *set) {
+    for (sl_pvs_run run = sl_pvs_begin(pvs, cell); sl_pvs_next(&run);)
+        for (uint32_t c = run.first; c < run.end; c++) sl_bits_add(set, c);
+}
+
 static void write_pairs_of(FILE *stream, const disagreement *d, uint32_t a) {
     const compare_result *comparison = d->comparison;
     memset(d->rows, 0, comparison->run_count * d->words * sizeof *d->rows);
     for (size_t k = 0; k < comparison->run_count; k++)
         if (comparison->runs[k].outcome == RUN_DONE)
-            sl_row_add_to(&comparison->runs[k].visibility.pvs, a, d->rows + k * d->words);
+            add_row(&comparison->runs[k].visibility.pvs, a, d->rows + k * d->words);
     for (size_t word = 0; word < d->words; word++) {
         sl_bits some = 0, all = ~(sl_bits)0;
         for (size_t k = 0; k < comparison->run_count; k++) {
