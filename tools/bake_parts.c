@@ -3,8 +3,6 @@
 #include "crew.h"
 #include "sightline/support.h"
 
-#include <stdatomic.h>
-#include <stdlib.h>
 #include <string.h>
 
 // --- the options

@@ -3,7 +3,6 @@
 #ifndef BAKE_PARTS_H
 #define BAKE_PARTS_H
 
-#include "console.h"
 #include "options.h"
 #include "sightline/bake.h"
 

@@ -1,13 +1,11 @@
 #include "commands.h"
 #include "json_print.h"
-#include "outputs.h"
 #include "pipeline.h"
 #include "sightline/draw.h"
 #include "sightline/faults.h"
 #include "sightline/support.h"
 
 #include <math.h>
-#include <string.h>
 
 typedef struct faults_report {
     const char *input;

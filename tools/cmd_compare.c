@@ -6,8 +6,6 @@
 #include "sightline/support.h"
 #include "solvers.h"
 
-#include <string.h>
-
 enum { MAX_REPEAT = 100000 };
 #define MAX_LIMIT      1e9
 #define MAX_VIEWPOINTS 1000000000

@@ -3,8 +3,6 @@
 #include "options.h"
 #include "sightline/support.h"
 
-#include <stdio.h>
-
 static sl_status convert(sl_context *context, const char *input, const input_options *reading,
                          bool clean, const char *output) {
     sl_map map = {0};

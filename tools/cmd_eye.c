@@ -1,11 +1,11 @@
 #include "commands.h"
-#include "compare.h"
 #include "eye_run.h"
 #include "inputs.h"
 #include "json_print.h"
 #include "names.h"
 #include "options.h"
 #include "outputs.h"
+#include "report.h"
 #include "sightline/draw.h"
 #include "sightline/support.h"
 

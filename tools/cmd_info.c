@@ -1,4 +1,3 @@
-#include "bake_report.h"
 #include "commands.h"
 #include "inputs.h"
 #include "json_print.h"

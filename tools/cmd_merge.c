@@ -2,7 +2,6 @@
 #include "commands.h"
 #include "inputs.h"
 #include "outputs.h"
-#include "pipeline.h"
 #include "sightline/support.h"
 #include "solvers.h"
 

@@ -3,7 +3,6 @@
 #include "outputs.h"
 #include "pipeline.h"
 #include "regions_report.h"
-#include "report.h"
 #include "sightline/support.h"
 #include "solvers.h"
 

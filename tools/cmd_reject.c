@@ -1,5 +1,4 @@
 #include "commands.h"
-#include "inputs.h"
 #include "json_print.h"
 #include "options.h"
 #include "outputs.h"

@@ -4,7 +4,6 @@
 
 #include "console.h"
 #include "json_print.h"
-#include "pipeline.h"
 #include "sightline/cell_to_cell.h"
 #include "sightline/eye_to_cell.h"
 #include "sightline/space.h"
@@ -103,11 +102,6 @@ enum { RUN_NAME = 64 };
 
 /// "dfs with funnel"
 void run_name(const compare_run *run, char name[RUN_NAME]);
-
-enum { SECONDS_TEXT = 32 };
-
-/// "412 us", "53.4 ms", "61 s"; `micro` is how a millionth is written.
-void seconds_write(double seconds, const char *micro, char text[SECONDS_TEXT]);
 
 /// Whether no run that is judged has pairs too many or too few.
 bool compare_all_agree(const compare_result *comparison);

@@ -3,6 +3,7 @@
 #include "inputs.h"
 #include "json_print.h"
 #include "names.h"
+#include "report.h"
 #include "sightline/draw.h"
 #include "sightline/support.h"
 

@@ -3,6 +3,7 @@
 #include "eye_run.h"
 #include "json_print.h"
 #include "names.h"
+#include "report.h"
 #include "sightline/region.h"
 #include "sightline/solvers.h"
 #include "sightline/support.h"

@@ -2,6 +2,7 @@
 
 #include "json_print.h"
 #include "names.h"
+#include "report.h"
 #include "sightline/support.h"
 
 #include <inttypes.h>
@@ -267,15 +268,6 @@ sl_status compare_write_pairs(sl_context *context, const compare_result *compari
 void run_name(const compare_run *run, char name[RUN_NAME]) {
     snprintf(name, RUN_NAME, "%s%s%s", run->method->name, run->solver ? " with " : "",
              run->solver ? run->solver->name : "");
-}
-
-void seconds_write(double seconds, const char *micro, char text[SECONDS_TEXT]) {
-    const char *const units[] = {"s", "ms", micro, "ns"};
-    int unit = 0;
-    // What would round up to 1000 of a unit belongs to the next larger.
-    for (; unit < 3 && seconds < 0.9995; unit++) seconds *= 1000;
-    const int decimals = seconds < 9.995 ? 2 : seconds < 99.95 ? 1 : 0;
-    snprintf(text, SECONDS_TEXT, "%.*f %s%s", decimals, seconds, units[unit], unit == 2 ? "s" : "");
 }
 
 // --- the table

@@ -1,9 +1,9 @@
 #include "compare.h"
 
+#include "report.h"
 #include "sightline/support.h"
 
 #include <inttypes.h>
-#include <math.h>
 #include <stdlib.h>
 
 /// Without --repeat: at least three runs and a fifth of a second, but no more once a few seconds

@@ -1,8 +1,7 @@
 #include "eye_run.h"
 
-#include "compare.h"
-#include "console.h"
 #include "names.h"
+#include "report.h"
 #include "sightline/support.h"
 
 #include <inttypes.h>

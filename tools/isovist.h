@@ -4,7 +4,6 @@
 #define ISOVIST_H
 
 #include "names.h"
-#include "sightline/bake.h"
 #include "sightline/mirrored.h"
 #include "sightline/support.h"
 

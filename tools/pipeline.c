@@ -1,11 +1,8 @@
 #include "pipeline.h"
 
 #include "inputs.h"
-#include "report.h"
 #include "sightline/support.h"
 #include "solvers.h"
-
-#include <string.h>
 
 static const char *const kd_rules[] = {"spanning", "obscured", "cleaving", "median"};
 enum { SPANNING = 1, OBSCURED = 2, CLEAVING = 4, MEDIAN = 8, ALL_RULES = 15 };

@@ -38,6 +38,42 @@ void plan_add_json(sl_json_fields *fields, const sl_map *map) {
     sl_json_add_fields(fields, "effects", &calls);
 }
 
+// --- cleaning
+
+static void print_welding(const sl_clean_account *account) {
+    const char *between = "";
+    printf("  welded    ");
+    if (account->welded) {
+        printf("%zu end%s", account->welded, account->welded == 1 ? "" : "s");
+        between = ", ";
+    }
+    if (account->crossings)
+        printf("%s%zu crossing%s computed", between, account->crossings,
+               account->crossings == 1 ? "" : "s");
+    if (account->largest_move > 0)
+        printf("; no wall moved by more than %.2g", account->largest_move);
+    putchar('\n');
+}
+
+void cleaning_print(const sl_clean_account *account) {
+    const struct {
+        size_t count;
+        const char *what;
+    } done[] = {{account->zero_length, "of zero length"},
+                {account->duplicate, "duplicate"},
+                {account->merged, "merged"},
+                {account->split, "split"}};
+    bool any = false;
+    for (size_t i = 0; i < sizeof done / sizeof *done; i++) {
+        if (!done[i].count) continue;
+        if (!any) printf(", from %zu read", account->before);
+        printf("%s %zu %s", any ? "," : ":", done[i].count, done[i].what);
+        any = true;
+    }
+    putchar('\n');
+    if (account->welded || account->crossings) print_welding(account);
+}
+
 // --- how much a cell sees
 
 /// What lies before a cell, of the cells that are looked at: a run of cells is one difference.
@@ -101,4 +137,15 @@ void mean_pvs_add_json(sl_json_fields *fields, const pvs_means *mean) {
     sl_json_add_real(fields, "mean_pvs_cells", mean->cells);
     sl_json_add_real(fields, "mean_pvs_share_of_cells", mean->share_of_cells);
     sl_json_add_real(fields, "mean_pvs_share_of_area", mean->share_of_area);
+}
+
+// --- times
+
+void seconds_write(double seconds, const char *micro, char text[SECONDS_TEXT]) {
+    const char *const units[] = {"s", "ms", micro, "ns"};
+    int unit = 0;
+    // What would round up to 1000 of a unit belongs to the next larger.
+    for (; unit < 3 && seconds < 0.9995; unit++) seconds *= 1000;
+    const int decimals = seconds < 9.995 ? 2 : seconds < 99.95 ? 1 : 0;
+    snprintf(text, SECONDS_TEXT, "%.*f %s%s", decimals, seconds, units[unit], unit == 2 ? "s" : "");
 }

@@ -1,16 +1,19 @@
-/// Parts of reports that several commands print: the plan of a map, how much a cell sees.
+/// Parts of reports that several commands print: the plan of a map, what cleaning did, how much a
+/// cell sees, times.
 #ifndef REPORT_H
 #define REPORT_H
 
 #include "json_print.h"
 #include "sightline/bake.h"
-#include "sightline/effects.h"
 
 /// What a map calls for, what each adds to the work, and what is left out as nothing calls for it.
 void plan_print(const sl_map *map);
 
 /// "effects": a flag for each.
 void plan_add_json(sl_json_fields *fields, const sl_map *map);
+
+/// What cleaning did, if anything: the rest of a line, and a line on welding.
+void cleaning_print(const sl_clean_account *account);
 
 /// Means over the cells that count (sl_baked_counts), each weighted equally, as sources and as what
 /// is seen.
@@ -28,5 +31,10 @@ sl_status mean_pvs_of(sl_context *context, const sl_baked *baked, pvs_means *out
 void mean_pvs_print(const pvs_means *mean);
 /// As fields "mean_pvs_...".
 void mean_pvs_add_json(sl_json_fields *fields, const pvs_means *mean);
+
+enum { SECONDS_TEXT = 32 };
+
+/// "412 us", "53.4 ms", "61 s"; `micro` is how a millionth is written.
+void seconds_write(double seconds, const char *micro, char text[SECONDS_TEXT]);
 
 #endif

@@ -1,6 +1,6 @@
 #include "commands.h"
 #include "crew.h"
-#include "options.h"
+#include "names.h"
 #include "sightline/support.h"
 
 #include <stdio.h>

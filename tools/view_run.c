@@ -4,9 +4,6 @@
 #include "sightline/solvers.h"
 #include "sightline/support.h"
 
-#include <string.h>
-#include <time.h>
-
 /// Light pixels are where viewpoints are: the picture covers the map's bounds.
 static sl_status places_by_picture(sl_context *context, const char *path, view_run *run) {
     sl_bytes bytes;
