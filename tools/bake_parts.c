@@ -34,7 +34,7 @@ static sl_status plan_shard(sl_context *context, bake_parts *parts) {
     return SL_OK;
 }
 
-/// The option for which the bake is done in parts.
+/// The option that asks for a bake in parts.
 static const char *reason(const bake_parts *parts) {
     return parts->time_limit > 0 ? "--time-limit"
            : parts->keep_partial ? "--keep-partial"
@@ -148,7 +148,7 @@ static sl_status take_begun(sl_context *context, const char *path, const sl_see_
     return SL_OK;
 }
 
-/// Nothing that can be taken over is no failure: all is looked for.
+/// It is no failure when nothing can be reused: then everything is computed.
 static sl_status take_over(sl_context *context, const char *path, const sl_see_method *method,
                            const sl_see_options *see, const sl_baked *baked, sl_baked *before,
                            sl_partial *partial) {
@@ -179,8 +179,7 @@ static sl_status take_known(sl_context *context, const bake_parts *parts,
 
 // --- the work
 
-/// Looks, each process of the crew at its share; partial results of all of them come together in
-/// the first one.
+/// Each process of the crew computes its share. The first process gathers all partial results.
 static sl_status look(sl_context *context, const sl_see_method *method, const sl_space *space,
                       sl_see_options see, sl_partial *partial) {
     if (crew_size() > 1) {
@@ -210,7 +209,7 @@ static sl_status see_parts(sl_context *context, const bake_parts *parts,
     account->unit_count = partial->unit_count;
     account->done = partial->done_count;
     if (crew_rank() != 0 || parts->shard_count) return SL_OK;
-    // Ctrl-C has been heard. A quarter of the time goes into the bound.
+    // Ctrl-C has had its effect. The bound may take a quarter of the time limit.
     p = (patience){.end = parts->time_limit > 0 ? sl_seconds() + parts->time_limit / 4 : 0};
     return method->finish(context, &baked->space, &see, partial, &baked->visibility);
 }

@@ -1,12 +1,13 @@
-/// Bakes that are not done in one go: within a time limit, stopped by Ctrl-C, gone on with, one
-/// shard of several, from an older bake of the same map, or by several processes.
+/// Bakes that are not done in one go. A bake may stop at a time limit or at Ctrl-C and be resumed
+/// later. It may do one shard of several, start from an older bake of the map, or be shared by
+/// several processes.
 #ifndef BAKE_PARTS_H
 #define BAKE_PARTS_H
 
 #include "options.h"
 #include "sightline/bake.h"
 
-/// Zeroed, the bake is done in one go.
+/// Zeroed: the bake is done in one go.
 typedef struct bake_parts {
     double start;      ///< of the program, by sl_seconds()
     double time_limit; ///< seconds; 0 for none
@@ -16,26 +17,25 @@ typedef struct bake_parts {
     const char *resume, *previous;
 } bake_parts;
 
-/// The options of the command line that fill it.
+/// The command-line options that fill it.
 option_table bake_parts_option_table(bake_parts *parts);
 
-/// To be called when the options have been read. Refuses what the method or the other options do
-/// not go with.
+/// Call it after the options are read. Refuses options that do not fit the method or each other.
 sl_status bake_parts_plan(sl_context *context, const sl_see_method *method,
                           const sl_see_options *see, bake_parts *parts);
 
-/// How two baked files come from different bakes, to go behind "was baked"; NULL where they do not.
+/// How the bakes of two files differ, as words that follow "was baked". NULL: they are alike.
 const char *bake_difference(const sl_baked *a, const sl_baked *b);
 
-/// What the parts came to, for the report.
+/// How much of the work is done, for the report.
 typedef struct bake_parts_account {
     const char *units; ///< NULL where the bake was done in one go
     uint32_t unit_count, done;
     uint32_t known; ///< of `done`: before this run
 } bake_parts_account;
 
-/// After sl_bake_space(): sets the visible sets of a baked file, or the partial results of its
-/// shard.
+/// Call it after sl_bake_space(). Sets the visible sets of a baked file, or the partial results of
+/// its shard.
 sl_status bake_parts_see(sl_context *context, const bake_parts *parts,
                          const sl_bake_options *options, sl_baked *baked,
                          bake_parts_account *account);

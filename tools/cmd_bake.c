@@ -1,3 +1,4 @@
+/// `sightline bake`: cells, portals and cell-to-cell visibility of a map, into a file.
 #include "bake_parts.h"
 #include "commands.h"
 #include "crew.h"
@@ -41,7 +42,7 @@ static void add_seconds(sl_json_fields *fields, const bake_report *report) {
     sl_json_add_fields(fields, "seconds", &seconds);
 }
 
-/// What was done of the work, where it was not all in one go.
+/// How much of the work was done, if the bake was not done in one go.
 static void add_parts(sl_json_fields *fields, const bake_report *report) {
     const bake_parts_account *parts = &report->parts;
     const sl_partial *partial = &report->baked->partial;
@@ -234,7 +235,7 @@ typedef struct bake_plan {
 
 // --- reading the options
 
-/// Options of a method that the chosen one has no use for.
+/// Refuses options that the chosen method has no use for.
 static sl_status check_method(sl_context *context, const bake_plan *plan,
                               const sl_see_method *chosen) {
     const sl_see_options *see = &plan->pipeline.bake.see;
@@ -257,8 +258,8 @@ static sl_status check_method(sl_context *context, const bake_plan *plan,
     return SL_OK;
 }
 
-/// The method stays open where none is named: then the map decides. Until it is read, that of a map
-/// of walls alone stands for it.
+/// Where no method is named, the map decides later. Options are checked against the method for a
+/// map of walls alone.
 static sl_status make_plan(sl_context *context, bake_plan *plan) {
     sl_bake_options *bake = &plan->pipeline.bake;
     SL_TRY(pipeline_plan(context, plan->input, &plan->pipeline));
@@ -293,7 +294,7 @@ static double lap(double *last) {
     return *last - before;
 }
 
-/// With --check, that what was written can be read.
+/// With --check: reads the file again that was written.
 static sl_status check_file(sl_context *context, const bake_plan *plan) {
     sl_baked again = {0};
     if (!plan->pipeline.bake.check) return SL_OK;

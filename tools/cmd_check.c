@@ -1,3 +1,4 @@
+/// `sightline check`: leaks, gaps, overlaps and thin cells of a map; closes gaps with --snap.
 #include "commands.h"
 #include "json_print.h"
 #include "pipeline.h"
@@ -189,7 +190,7 @@ typedef struct check_plan {
     bool json;
 } check_plan;
 
-/// A map with its space, for as long as both are looked at.
+/// A map with its space and its faults.
 typedef struct checked {
     sl_map map;     ///< as read: walls with their lines
     sl_baked baked; ///< its space, and the rest of the map for the picture
@@ -202,7 +203,7 @@ static void destroy(sl_context *context, checked *c) {
     sl_faults_destroy(context, &c->faults);
 }
 
-/// Subdivides and looks for faults; c->map is there, and c->baked.map is a copy to be cleaned.
+/// Subdivides and finds faults. c->map is as it was read; c->baked.map is a copy, which is cleaned.
 static sl_status examine(sl_context *context, const check_plan *plan, checked *c) {
     SL_TRY(input_clean(context, &plan->pipeline.input, &c->baked.map, NULL));
     SL_TRY(pipeline_subdivide(context, &plan->pipeline, &c->baked.map, &c->baked.space));

@@ -1,3 +1,4 @@
+/// `sightline compare`: every method on one map, accuracy against time, as table and chart.
 #include "commands.h"
 #include "compare.h"
 #include "inputs.h"
@@ -22,12 +23,12 @@ typedef struct compare_plan {
     const char *for_cells, *for_eye; ///< options that only one of the two comparisons has
 } compare_plan;
 
-/// In the order of a reader's interest.
+/// The most interesting file first.
 static const char *const file_names[] = {"compare.csv", "compare.png", "compare.svg", "pairs.csv",
                                          NULL};
 static const char *const eye_file_names[] = {"eye.csv", "eye.png", "eye.svg", NULL};
 
-/// What is worked with, from the map to the runs.
+/// The map, its space, and the runs.
 typedef struct comparing {
     const compare_plan *plan;
     sl_map map;
@@ -80,7 +81,7 @@ static sl_status list_runs(sl_context *context, comparing *all) {
                                      "--methods and --solvers leave nothing to compare");
 }
 
-/// Where every run refuses the map there is nothing to compare: that is a failure.
+/// Fails where every run refuses the map: then there is nothing to compare.
 static sl_status fail_if_all_refuse(sl_context *context, const comparing *all) {
     for (size_t i = 0; i < all->runs.count; i++)
         if (all->runs.items[i].outcome != RUN_REFUSED) return SL_OK;
@@ -155,7 +156,7 @@ static sl_status prepare(sl_context *context, comparing *all) {
     return pipeline_subdivide(context, pipeline, &all->map, &all->space);
 }
 
-/// Where the map leaves the choice, what each subdivision makes of it.
+/// Times each subdivision, where the map leaves the choice.
 static sl_status time_subdivisions(command_console *console, const comparing *all,
                                    compare_result *comparison) {
     const compare_plan *plan = all->plan;

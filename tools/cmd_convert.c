@@ -1,3 +1,4 @@
+/// `sightline convert`: any map that can be read, as map text or ASCII plan.
 #include "commands.h"
 #include "inputs.h"
 #include "options.h"

@@ -1,3 +1,4 @@
+/// `sightline draw`: a picture of a baked file.
 #include "commands.h"
 #include "inputs.h"
 #include "options.h"
@@ -47,7 +48,7 @@ static sl_status make_plan(sl_context *context, draw_plan *plan) {
     return SL_OK;
 }
 
-/// By number, by a point, or by the map's first start; "none" for an overview.
+/// Chooses a cell by number, by a point, or by the map's first start. "none": an overview.
 static sl_status choose_cell(sl_context *context, const draw_plan *plan, const sl_baked *baked,
                              uint32_t *cell) {
     const sl_space *space = &baked->space;

@@ -1,3 +1,4 @@
+/// `sightline explain`: why a cell does or does not see another.
 #include "commands.h"
 #include "inputs.h"
 #include "json_print.h"
@@ -25,7 +26,7 @@ static const char *plural(uint64_t count) {
     return count == 1 ? "" : "s";
 }
 
-/// A line for each of the first portals of a sequence.
+/// Prints a line for each of the first `count` portals of a sequence.
 static void print_portals(const sl_space *space, const sl_sequence *sequence, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
         const sl_directed_portal *directed = &space->directed[sequence->directed[i]];
@@ -138,7 +139,7 @@ static void print_hidden(const sl_space *space, const sl_explanation *e) {
 
 typedef enum said { SAID_NOTHING, SAID_HIDDEN, SAID_SEEN } said;
 
-/// What the file says of the pair: nothing where the bake did not look from the cell.
+/// What the file says about the pair. Nothing where the bake did not look from the cell.
 static said said_by(const sl_baked *baked, const sl_explanation *e) {
     const sl_pvs *pvs = &baked->visibility.pvs;
     if (!sl_pvs_count(pvs, e->from)) return SAID_NOTHING;
@@ -150,7 +151,7 @@ static bool is_doubtful(const sl_baked *baked, const sl_explanation *e) {
     return doubtful->cell_count && sl_pvs_sees(doubtful, e->from, e->to);
 }
 
-/// How it came that the file says something else.
+/// Why the file says something else.
 static void print_difference(const sl_baked *baked, const sl_explanation *e) {
     const char *truth = e->seen ? "seen" : "hidden";
     switch (baked->visibility.guarantee) {

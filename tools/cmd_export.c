@@ -1,3 +1,4 @@
+/// `sightline export`: a baked file for other programs.
 #include "commands.h"
 #include "inputs.h"
 #include "outputs.h"
@@ -20,7 +21,7 @@ static void print_formats(void) {
     for (size_t i = 0; i < count; i++) printf("  %-10s%s\n", formats[i].name, formats[i].what);
 }
 
-/// --wad and --map are for the formats that take them, and the WAD is not written over.
+/// Refuses --wad and --map for formats that do not take them, and an output that is the WAD itself.
 static sl_status check_wad(sl_context *context, const sl_export_format *format,
                            const sl_export_options *given, const char *output) {
     if (!format->takes_wad && (given->wad || given->map))
@@ -61,7 +62,7 @@ sl_status cmd_export(command_console *console, int argc, char **argv) {
     SL_TRY(input_read_baked(console->context, path, &baked));
     progress_line_clear(&console->line);
     if (strcmp(output, "-") == 0 && isatty(STDOUT_FILENO)) console->line.shows = false;
-    // Exports hold what is seen with all doors open; what is seen by mirror they have no place for.
+    // Exports hold what is seen with all doors open. They have no place for what mirrors show.
     sl_status status = sl_effects_check(console->context, &baked.map, "export",
                                         SL_EFFECT_DOOR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE);
     if (status == SL_OK)

@@ -1,3 +1,4 @@
+/// `sightline eye`: what one viewpoint sees, by every culling method.
 #include "commands.h"
 #include "eye_run.h"
 #include "inputs.h"
@@ -14,7 +15,8 @@
 
 // --- the report
 
-/// What is seen by mirror, method by method, and the region's parts by how many mirrors they took.
+/// Prints what is seen by mirror: the cells of each method, and the parts of the region by the
+/// number of reflections.
 static void print_mirrored(const eye_run *run) {
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
@@ -170,7 +172,7 @@ static sl_status check_view(sl_context *context, const eye_plan *plan, const sl_
     return SL_OK;
 }
 
-/// What is to be drawn of the objects: the region past them, and themselves.
+/// Adds the objects to the picture, and the region past them.
 static sl_status add_objects(sl_context *context, const sl_space *space, const eye_objects *objects,
                              seen_parts *parts, sl_drawn_box *boxes, sl_draw_options *options) {
     for (size_t i = 0; i < objects->count; i++)
@@ -219,7 +221,7 @@ static sl_status tell(command_console *console, const eye_plan *plan, const sl_b
     return SL_OK;
 }
 
-/// Glass that is dark for the eye becomes walls.
+/// Makes walls of the one-way glass that blocks the eye, so that the picture shows it.
 static sl_status darken(sl_context *context, sl_baked *baked, sl_point eye) {
     const sl_filtered_space filtered = {.eye = &eye};
     sl_space walled;
@@ -237,7 +239,7 @@ static sl_status darken(sl_context *context, sl_baked *baked, sl_point eye) {
     return SL_OK;
 }
 
-/// Doors and glass are walls by now, so that the pictures show them.
+/// Shut doors and blocking glass are walls of `baked` by now.
 static sl_status ask(command_console *console, const eye_plan *plan, const sl_view *view,
                      sl_query *query) {
     sl_context *context = console->context;

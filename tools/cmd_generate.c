@@ -1,3 +1,4 @@
+/// `sightline generate`: procedural maps.
 #include "commands.h"
 #include "inputs.h"
 #include "options.h"

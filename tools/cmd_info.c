@@ -1,3 +1,4 @@
+/// `sightline info`: the contents of a map or of a baked file.
 #include "commands.h"
 #include "inputs.h"
 #include "json_print.h"
@@ -30,7 +31,7 @@ static void print_bounds(sl_box box) {
 
 // --- maps
 
-/// What is counted of a map, in the order it is shown.
+/// A number of things in a map.
 typedef struct map_count {
     const char *key;
     size_t count;
@@ -146,8 +147,8 @@ static void print_list(const char *path, const sl_map_list *list) {
         console_print_line(stdout, "  ", list->names[i], strlen(list->names[i]));
 }
 
-/// Lists the maps of a file that holds several, where none is chosen; *done says whether. Not for
-/// standard input, which is read only once.
+/// Lists the maps of a file that holds several; *done says whether it does. Not for standard input,
+/// which can be read only once.
 static sl_status inform_of_list(command_console *console, const info_request *request, bool *done) {
     sl_map_list list = {0};
     if (strcmp(request->path, "-") == 0) return SL_OK;
@@ -180,7 +181,7 @@ static sl_status inform_of_map(command_console *console, const info_request *req
 
 // --- baked files
 
-/// A part of what a baked file holds, as it lies in memory.
+/// A part of a baked file, with its size in memory.
 typedef struct baked_part {
     const char *name;
     uint64_t count, bytes;

@@ -1,3 +1,4 @@
+/// `sightline isovist`: visible regions of many points, their measures, heat maps.
 #include "commands.h"
 #include "eye_run.h"
 #include "isovist.h"
@@ -23,7 +24,7 @@ typedef struct isovist_plan {
     sl_draw_options drawing;
 } isovist_plan;
 
-/// What is worked with.
+/// The space, and what its eyes see.
 typedef struct isovist_work {
     sl_baked baked;
     sl_outline outline;
@@ -78,7 +79,7 @@ static sl_status add_path(sl_context *context, const isovist_plan *plan, isovist
                    "--path %s: the map has no path of that name; its paths: %s", name, names);
 }
 
-/// Without a word on where to look from: from the map's starts, with their headings.
+/// The default viewpoints: the map's starts with their headings.
 static sl_status add_starts(sl_context *context, const isovist_plan *plan, isovist_work *w) {
     const sl_map *map = &w->baked.map;
     if (!map->start_count)

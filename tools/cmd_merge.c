@@ -1,3 +1,4 @@
+/// `sightline merge`: puts the shards of a bake together.
 #include "bake_parts.h"
 #include "commands.h"
 #include "inputs.h"
@@ -55,7 +56,7 @@ static bool is_there(const merge_plan *plan, uint32_t shard) {
     return false;
 }
 
-/// There are no more parts than shards, as no two of them are the same.
+/// No two parts are the same shard, so there are never too many.
 static sl_status check_all_there(sl_context *context, const merge_plan *plan, uint32_t count) {
     if (part_count(plan) == count) return SL_OK;
     char missing[64] = "";

@@ -1,3 +1,4 @@
+/// `sightline regions`: what view cells see, by every from-region method (Laine 2005).
 #include "commands.h"
 #include "inputs.h"
 #include "outputs.h"
@@ -12,7 +13,7 @@
 
 // --- measuring
 
-/// Of all threads: other programs on the machine make no difference to it.
+/// Processor time of all threads: other programs on the machine do not change it.
 static double processor_seconds(void) {
     struct timespec time;
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);

@@ -1,3 +1,4 @@
+/// `sightline reject`: new REJECT lumps for all maps of a Doom WAD.
 #include "commands.h"
 #include "json_print.h"
 #include "options.h"

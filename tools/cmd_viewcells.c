@@ -1,3 +1,4 @@
+/// `sightline viewcells`: view cells that adapt to what is seen (Mattausch et al. 2006).
 #include "commands.h"
 #include "json_print.h"
 #include "outputs.h"
@@ -17,7 +18,7 @@ typedef struct view_report {
 
 // --- the report
 
-/// Costs of the whole and of the cut, as the report tells them.
+/// Costs of one view cell, of the cut and of all elementary cells.
 typedef struct totals {
     double whole, cut, finest;
     uint64_t cut_bytes, finest_bytes;
@@ -165,7 +166,7 @@ static sl_point middle_of(const sl_view_tree *tree, uint32_t leaf) {
     return sum;
 }
 
-/// What the elementary cells of a view cell come to.
+/// The elementary cells of a view cell: their number, and the one with the largest mass.
 typedef struct members {
     uint32_t count, largest;
 } members;
@@ -193,15 +194,15 @@ static sl_status write_rows(sl_context *context, const view_run *run, FILE *out)
     return SL_OK;
 }
 
-/// A row a view cell: its number, probability, cost, objects, bytes, elementary cells, and a point
-/// in the largest of those.
+/// Writes one row for each view cell: number, probability, cost, objects, bytes, number of
+/// elementary cells, and a point in the largest of them.
 static sl_status view_report_write_csv(sl_context *context, const view_run *run, const char *path) {
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));
     return sl_output_close(context, &output, write_rows(context, run, output.stream));
 }
 
-/// The view cells by their cost.
+/// Draws the view cells, coloured by cost.
 static sl_status view_report_draw(sl_context *context, const view_report *report,
                                   const sl_draw_options *options, const char *path) {
     const view_run *run = report->run;
@@ -268,7 +269,7 @@ static void plan_subdivision(viewcells_plan *p) {
     view_run_options *run = &p->run;
     size_t count;
     run->method = &sl_view_methods(&count)[p->method];
-    // Merging has something to choose from where there are several times as many.
+    // Merging needs a choice: start from four times as many cells.
     if (run->budget == BUDGET_CELLS && 4 * run->cells > run->subdivision.cells)
         run->subdivision.cells = (uint32_t)(4 * run->cells);
     if (run->budget == BUDGET_CELLS && !run->method->merges)

@@ -1,3 +1,4 @@
+/// `sightline walk`: culling frame by frame without visible sets (Bittner and Havran 2002).
 #include "commands.h"
 #include "inputs.h"
 #include "names.h"
@@ -12,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/// A walk that was made: what it was made with, and its means.
+/// The results of a walk: how it was made, and its means.
 typedef struct walk_row {
     walk_choice choice;
     double speed; ///< relative
@@ -217,7 +218,7 @@ typedef struct walk_plan {
     const char *steps_given, *step_given;
 } walk_plan;
 
-/// What is worked with.
+/// The space, the way through it, and the results.
 typedef struct walk_work {
     sl_baked baked;
     sl_hierarchy hierarchy;
@@ -263,7 +264,8 @@ static sl_status fail_path(sl_context *context, const sl_map *map, const char *n
                    name, names);
 }
 
-/// A path of the map by its name, or else of a file; without either a tour from the map's start.
+/// Takes the path of the map that has the name, or the path of a file. Default: a tour from the
+/// map's start.
 static sl_status lay_way(sl_context *context, const walk_plan *plan, walk_work *w) {
     const char *name = plan->path;
     const sl_map *map = &w->baked.map;
@@ -343,7 +345,7 @@ static size_t gather_choices(const walk_plan *plan, const walk_work *w,
     return count;
 }
 
-/// The walk at the speed asked for: the table, and the files of it.
+/// One walk at the given speed: the table, and the files.
 static sl_status walk_once(command_console *console, const walk_plan *plan, walk_work *w) {
     sl_context *context = console->context;
     walk_choice choices[MOST_CHOICES];
@@ -370,8 +372,8 @@ static sl_status walk_once(command_console *console, const walk_plan *plan, walk
 
 // --- the study: over speeds and chances
 
-/// The charts over speed: the paper's methods, A to D, by its Figures 8 to 10; then A and B beside
-/// those beyond it.
+/// The charts over speed. First the paper's methods A to D, as in its figures 8 to 10. Then A and B
+/// beside the methods that go beyond the paper.
 enum { IN_PAPER = 0x0f, BEYOND = 0xf3 };
 static const walk_chart charts[] = {
     {"Node visibility tests over the speed of the walk", FIGURE_TESTS, IN_PAPER},
@@ -382,7 +384,7 @@ static const walk_chart charts[] = {
 };
 enum { CHARTS = sizeof charts / sizeof *charts };
 
-/// The charts, in that order; then the others.
+/// The charts in that order, then the other files.
 static const char *const study_files[] = {"tests.png",        "visibility.png",    "frames.png",
                                           "beyond_tests.png", "beyond_frames.png", "chances.png",
                                           "speeds.csv",       "chances.csv",       NULL};
@@ -402,7 +404,7 @@ static sl_status run_speeds(command_console *console, const walk_plan *plan, wal
     return status;
 }
 
-/// Each method that skips by the chance that is given, at each tenth of it.
+/// Each method that skips tests at random, at chances of 0, 0.1, ... 0.9.
 static sl_status run_chances(command_console *console, const walk_plan *plan, walk_work *w) {
     sl_context *context = console->context;
     size_t method_count, test_count;

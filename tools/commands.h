@@ -4,7 +4,7 @@
 
 #include "console.h"
 
-/// Each is given its own name as argv[0]. A failure's message is in the console's context.
+/// argv[0] is the name of the command. The message of a failure is in the console's context.
 sl_status cmd_bake(command_console *console, int argc, char **argv);
 sl_status cmd_check(command_console *console, int argc, char **argv);
 sl_status cmd_compare(command_console *console, int argc, char **argv);

@@ -1,4 +1,4 @@
-/// Comparing methods on one map: of cell-to-cell visibility, and of culling for an eye.
+/// Compares methods on one map: those of cell-to-cell visibility, or those that cull for an eye.
 #ifndef COMPARE_H
 #define COMPARE_H
 
@@ -14,8 +14,7 @@ typedef enum run_outcome {
     RUN_DONE,
 } run_outcome;
 
-/// One method, with one solver where it needs any. The lower part stands where it is done, and zero
-/// where not.
+/// One method, with a solver if it needs one. The lower part is zero unless the run is done.
 typedef struct compare_run {
     const sl_see_method *method;
     const sl_solver *solver; ///< NULL for none
@@ -36,16 +35,17 @@ typedef struct compare_run {
 
 #define NO_RUN SIZE_MAX
 
-/// How many pairs are in `a` and not in `b`, which are of the same cells.
+/// The number of pairs that are in `a` but not in `b`. Both are of the same cells.
 uint64_t pvs_pairs_beyond(const sl_pvs *a, const sl_pvs *b);
 
-/// The first exact run that is done, NO_RUN for none: the others are held against it.
+/// The first exact run that is done; NO_RUN for none. All other runs are compared with it.
 size_t compare_reference(const compare_run *runs, size_t count);
 
-/// Fills in what the runs that are done are beside the reference; nothing where there is none.
+/// Compares the finished runs with the reference. Does nothing where there is no reference.
 void compare_judge(compare_run *runs, size_t count);
 
-/// The numbers of the runs: those that are done, fastest first, then the others; ties as they are.
+/// Sorts the numbers of the runs: finished runs first, the fastest at the front. Ties keep their
+/// order.
 void compare_order(const compare_run *runs, size_t count, size_t *order);
 
 typedef struct run_timing {
@@ -53,8 +53,9 @@ typedef struct run_timing {
     double limit;    ///< seconds that one run may take
 } run_timing;
 
-/// Fills in the run's outcome, times and visibility. A run that reaches the limit, or is refused by
-/// its method, is no failure. `label` leads the progress line.
+/// Runs a method until its time is known well, and fills in outcome, times and visibility. A run
+/// that reaches the time limit is no failure, nor is one that the method refuses. `label` leads the
+/// progress line.
 sl_status compare_time(command_console *console, const sl_space *space,
                        const sl_see_options *options, const run_timing *timing, const char *label,
                        compare_run *run);
@@ -136,8 +137,7 @@ compare_eye_plan compare_eye_plan_default(void);
 /// Reads view cones, degrees with commas between: "360,60".
 sl_status compare_eye_read_fovs(sl_context *context, const char *text, compare_eye_plan *plan);
 
-/// One way to say what is seen, with one cone: means over all viewpoints but
-/// for the time.
+/// One method with one view cone: means over all viewpoints, except for the time.
 typedef struct compare_eye_row {
     const char *name; ///< of the method, as in the library's table
     sl_guarantee guarantee;
@@ -158,12 +158,12 @@ typedef struct eye_comparison {
     size_t row_count;
 } eye_comparison;
 
-/// Viewpoints are spread evenly over the area of the inside cells, and look any way; shares are of
-/// that area. `out` refers to the plan and the space; sl_free(out->rows) is the caller's.
+/// Viewpoints are spread evenly over the area of the inside cells, with random headings. Shares are
+/// of that area. `out` refers to the plan and the space. The caller frees out->rows (sl_free).
 sl_status compare_eye_run(command_console *console, const compare_eye_plan *plan,
                           const sl_space *space, sl_sight sight, eye_comparison *out);
 
-/// What the paper tells of a method; false where it does not.
+/// The paper's figures for a method. False where it has none.
 bool compare_eye_paper(const char *name, double fov, double *share, double *reduction);
 
 void compare_eye_print(const eye_comparison *comparison);

@@ -1,3 +1,4 @@
+/// The results of a comparison as charts: accuracy against time.
 #include "compare.h"
 
 #include "inputs.h"
@@ -18,7 +19,7 @@
 
 enum { GUARANTEES = 4, NOTE_TEXT = 256, NOTES_TEXT = 1024 };
 
-/// What a run's mark says.
+/// The text at the mark of a run.
 typedef struct mark_text {
     char label[RUN_NAME], note[NOTE_TEXT];
 } mark_text;
@@ -101,8 +102,8 @@ static void add_guarantee(chart_parts *parts, sl_guarantee guarantee, size_t *us
     if (series->mark_count) parts->chart.series_count++;
 }
 
-/// Runs that never miss make the frontier over 0, those that never add the one under it; exact runs
-/// belong to both.
+/// Runs that miss no pair make the frontier over 0. Runs that add no pair make the one under it.
+/// Exact runs belong to both.
 static void add_frontier(chart_parts *parts, bool over) {
     const compare_result *comparison = parts->comparison;
     sl_chart_mark *marks = over ? parts->over : parts->under;
@@ -266,7 +267,7 @@ static void fill_series(eye_chart_parts *parts) {
     }
 }
 
-/// Logarithmic, as methods differ by factors, but for areas that are nothing.
+/// Logarithmic, since methods differ by factors. Linear where an area is 0.
 static sl_chart_scale scale_of(const eye_comparison *comparison) {
     for (size_t i = 0; i < comparison->row_count; i++)
         if (!(comparison->rows[i].share > 0)) return SL_CHART_LINEAR;

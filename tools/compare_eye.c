@@ -1,3 +1,4 @@
+/// Culling methods on many viewpoints: Teller and Séquin 1991, Results.
 #include "compare.h"
 
 #include "eye_run.h"
@@ -14,11 +15,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Queries between two looks at the clock, and how often they are run: the shortest time counts,
-/// since other work of the machine only adds to it. What they keep is summed up apart.
+/// The number of queries that are timed together, and how often. The shortest time counts, since
+/// other work of the machine only adds to it. The cells that they keep are summed up separately.
 enum { BATCH = 64, RUNS = 3 };
 
-/// What one query says: cells, or an area by itself.
+/// The answer of one query: cells, or an area.
 typedef struct answer {
     uint64_t *cells;
     sl_eye_account account;
@@ -45,7 +46,7 @@ typedef struct comparing {
     answer answers[BATCH];
 } comparing;
 
-/// A way to say what is seen: a row of the table for each cone.
+/// A method under comparison. It has a row of the table for each cone.
 typedef struct contender {
     const char *name;
     sl_guarantee guarantee;
@@ -103,7 +104,8 @@ compare_eye_plan compare_eye_plan_default(void) {
 
 // --- viewpoints
 
-/// A point of a cell, all alike: of a triangle of its fan, chosen by area, any point.
+/// A random point of a cell, evenly over its area: choose a triangle of its fan by area, then a
+/// point of it.
 static sl_point point_in(const sl_space *space, uint32_t number, sl_random *random) {
     const sl_cell *cell = &space->cells[number];
     const sl_point *v = space->vertices + cell->first_vertex;
@@ -124,7 +126,7 @@ static sl_point point_in(const sl_space *space, uint32_t number, sl_random *rand
                       v[0].y + s * (v[i].y - v[0].y) + t * (v[i + 1].y - v[0].y)};
 }
 
-/// The cell in which an area, counted from the first cell on, ends; found by halving.
+/// The cell where the running sum of areas passes `area`; binary search.
 static uint32_t cell_at(const double *before, uint32_t count, double area) {
     uint32_t low = 0, high = count;
     while (high - low > 1) {
@@ -137,8 +139,8 @@ static uint32_t cell_at(const double *before, uint32_t count, double area) {
     return low;
 }
 
-/// Rounding may put a point on the far side of its cell's border: there another one is drawn, and
-/// where that never ends, as in cells too thin for doubles, the corner does.
+/// Rounding may put a point beyond its cell's border. Then another point is drawn; after many
+/// tries, as in cells too thin for doubles, a corner is taken.
 static void draw_viewpoint(const comparing *all, const double *before, sl_random *random,
                            viewpoint *out) {
     const sl_space *space = all->space;
@@ -190,7 +192,7 @@ static void add_answer(const comparing *all, const answer *a, compare_eye_row *r
     row->orientations += (double)a->account.orientations;
 }
 
-/// Asks a batch of views, and tells the time of a query.
+/// Asks a batch of views, and gives the time of one query.
 static sl_status run_batch(comparing *all, const contender *who, const sl_view *views, size_t count,
                            compare_eye_row *row, double *seconds) {
     double least = INFINITY;
@@ -212,7 +214,7 @@ static int compare_doubles(const void *left, const void *right) {
     return (a > b) - (a < b);
 }
 
-/// From sums to means; `seconds` are those of all batches, the median of which is told.
+/// Turns sums into means. `seconds` has the times of all batches; their median is the result.
 static void finish_row(const comparing *all, double *seconds, size_t batches,
                        compare_eye_row *row) {
     const double n = (double)all->plan->viewpoints;
@@ -224,8 +226,8 @@ static void finish_row(const comparing *all, double *seconds, size_t batches,
     row->seconds = (seconds[(batches - 1) / 2] + seconds[batches / 2]) / 2;
 }
 
-/// All contenders take turns, batch by batch, so that what else the machine does in the meantime
-/// slows none more than another.
+/// All methods take turns, batch by batch, so that other work of the machine slows all of them
+/// alike.
 static sl_status run_cone(comparing *all, const contender *contenders, size_t count, double fov,
                           double *seconds, compare_eye_row *rows) {
     const uint64_t total = all->plan->viewpoints;

@@ -1,8 +1,9 @@
+/// Compares the visible sets of several runs with an exact one, and finds the best runs.
 #include "compare.h"
 
 #include <math.h>
 
-/// Both rows are ascending runs of cells: what they share is found by going along both at once.
+/// Both rows are ascending runs of cells. Walk both at once, and add up what overlaps.
 static uint64_t count_common(const sl_pvs *a, const sl_pvs *b, uint32_t cell) {
     uint64_t common = 0;
     sl_pvs_run in_a = sl_pvs_begin(a, cell), in_b = sl_pvs_begin(b, cell);
@@ -33,8 +34,8 @@ size_t compare_reference(const compare_run *runs, size_t count) {
     return NO_RUN;
 }
 
-/// Pairs too many and pairs too few are two different faults: who culls can live with the one, who
-/// collects what is surely seen with the other. Neither makes up for the other.
+/// Pairs too many and pairs too few are different faults: culling tolerates the first, collecting
+/// what is surely seen tolerates the second. Neither makes up for the other.
 static bool beats(const compare_run *a, const compare_run *b) {
     return a->judged && a->seconds <= b->seconds && a->too_many <= b->too_many &&
            a->too_few <= b->too_few &&

@@ -1,3 +1,4 @@
+/// The results of a comparison as a table, as CSV and as JSON.
 #include "compare.h"
 
 #include "json_print.h"

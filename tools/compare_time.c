@@ -1,3 +1,4 @@
+/// Times runs: again and again until the time is known, within a limit.
 #include "compare.h"
 
 #include "report.h"
@@ -6,8 +7,7 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
-/// Without --repeat: at least three runs and a fifth of a second, but no more once a few seconds
-/// have gone.
+/// Default of --repeat: at least three runs and 0.2 seconds, but none after 5 seconds.
 enum { LEAST_TIMINGS = 3 };
 #define ENOUGH_SECONDS 0.2
 #define MOST_SECONDS   5.0
@@ -51,7 +51,7 @@ static int compare_doubles(const void *left, const void *right) {
 
 typedef SL_ARRAY(double) durations;
 
-/// Runs until it is enough; the first answer is kept, the others are the same.
+/// Runs until the time is known well enough. Keeps the first answer; the others are the same.
 static sl_status run_often(sl_context *context, watch *w, const sl_space *space,
                            const sl_see_options *options, const run_timing *timing,
                            durations *taken, compare_run *run) {

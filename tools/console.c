@@ -41,8 +41,8 @@ static void append_time(char *text, size_t size, double seconds) {
         append(text, size, ", %.1f h", seconds / 3600);
 }
 
-/// Characters that a line of the terminal has room for, at most `most`: a longer one would go on in
-/// the next, and only that one would be cleared.
+/// The width of the terminal in characters, at most `most`. A longer text would continue on the
+/// next line, and only that line would be cleared.
 static int room_of_terminal(int most) {
     struct winsize size;
     if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return most;
@@ -107,7 +107,7 @@ void progress_line_tick(progress_line *line) {
 /// the signal's number; lock-free and atomic because worker threads read it.
 static atomic_bool interrupted;
 
-/// As it: whether the first signal is to ask only, and whether it did.
+/// The same for: whether the first signal is only noted, and whether it came.
 static atomic_bool asks_first, asked;
 
 static void set_handler(int number, void (*handler)(int)) {
@@ -117,7 +117,7 @@ static void set_handler(int number, void (*handler)(int)) {
 }
 
 /// The first signal makes the running call stop and tidy up; the next one ends the program. Where
-/// the first one is to ask only, it is the second and the third that do.
+/// the first one is only noted, the second and the third do this.
 static void on_signal(int number) {
     (void)number;
     if (atomic_load(&asks_first) && !atomic_exchange(&asked, true)) return;
@@ -126,7 +126,7 @@ static void on_signal(int number) {
     set_handler(SIGTERM, SIG_DFL);
 }
 
-/// A signal that whoever started the program has it ignore (nohup) stays ignored.
+/// A signal that is ignored from the start (nohup) stays ignored.
 static void catch_signal(int number) {
     struct sigaction now;
     if (sigaction(number, NULL, &now) == 0 && now.sa_handler != SIG_IGN)
@@ -174,8 +174,8 @@ static void show_progress(void *user, const sl_progress *progress) {
     if (!console->quiet) progress_line_report(&console->line, progress);
 }
 
-/// Asked far more often than progress is reported, so that the line lives through long units of
-/// work.
+/// This is asked far more often than progress is reported. It keeps the line alive during long
+/// units of work.
 static bool is_cancelled(void *user) {
     command_console *console = user;
     if (pthread_equal(pthread_self(), console->main_thread)) progress_line_tick(&console->line);
@@ -184,7 +184,7 @@ static bool is_cancelled(void *user) {
 
 bool console_open(command_console *console) {
     hold_standard_streams();
-    // A reader that goes away and a file that grows beyond its limit are then failed writes.
+    // If a reader goes away, or a file grows beyond its limit, writes then fail instead.
     set_handler(SIGPIPE, SIG_IGN);
     set_handler(SIGXFSZ, SIG_IGN);
     catch_signal(SIGINT);

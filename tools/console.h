@@ -1,5 +1,5 @@
-/// What a command has of the terminal and the system: the library's context with its hooks (notes,
-/// progress, Ctrl-C), the progress line, and how the program ends.
+/// What a command needs of the terminal and the system: the library's context with its hooks
+/// (notes, progress, Ctrl-C), the progress line, and the end of the program.
 #ifndef CONSOLE_H
 #define CONSOLE_H
 
@@ -8,7 +8,7 @@
 #include <pthread.h>
 #include <stdio.h>
 
-/// Zeroed but for `shows`, it is ready.
+/// Ready when all but `shows` is zero.
 typedef struct progress_line {
     bool shows;               ///< false: nothing is written
     bool visible;             ///< it stands there and must be cleared before anything else
@@ -22,7 +22,7 @@ typedef struct progress_line {
 
 void progress_line_report(progress_line *line, const sl_progress *progress);
 
-/// To be called often while a stage runs: keeps the line alive between reports.
+/// Call it often while a stage runs: it keeps the line alive between reports.
 void progress_line_tick(progress_line *line);
 
 void progress_line_clear(progress_line *line);
@@ -34,21 +34,20 @@ typedef struct command_console {
     bool quiet;            ///< --quiet: neither notes nor progress
 } command_console;
 
-/// False, after a message, where there is no memory.
+/// False where there is no memory; a message has been printed.
 bool console_open(command_console *console);
 
-/// From now on the first Ctrl-C (or SIGTERM) only asks, and the second one makes running calls
-/// stop.
+/// From now on the first Ctrl-C (or SIGTERM) is only noted. The second one stops running calls.
 void console_ask_first(void);
 /// Whether there was one.
 bool console_is_asked(void);
 
-/// Prints a line; control characters of a text that others wrote come out as '?', for they could
-/// play tricks on a terminal.
+/// Prints a line of text from a file. Control characters become '?', since they could play tricks
+/// on the terminal.
 void console_print_line(FILE *stream, const char *before, const char *text, size_t length);
 
-/// Checks that all of stdout was written, tells of a failure, and gives the program's exit status:
-/// 0 done, 1 the work failed, 2 the arguments or an input are wrong.
+/// Checks that all of stdout was written, prints the message of a failure, and gives the exit
+/// status of the program: 0 done, 1 the work failed, 2 the arguments or an input file are wrong.
 int console_close(command_console *console, sl_status status);
 
 #endif

@@ -9,7 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// A query is timed in rounds of at least ROUND_SECONDS; the median of ROUNDS is told.
+/// A question is timed in rounds of at least ROUND_SECONDS each. The result is the median of
+/// ROUNDS.
 enum { ROUNDS = 5, QUERIES_MOST = 1 << 20 };
 #define ROUND_SECONDS 0.002
 
@@ -59,7 +60,7 @@ static sl_status time_question(const question *q, double *out) {
     return SL_OK;
 }
 
-/// The area of the cells on a cell's side of sl_baked_counts.
+/// The area of all cells that count, or of all that do not, as the given cell does.
 static double area_of_side(const sl_baked *baked, uint32_t cell) {
     const bool side = sl_baked_counts(baked, cell);
     double whole = 0;
@@ -83,7 +84,7 @@ void eye_measure(const sl_baked *baked, uint32_t eye_cell, const uint64_t *cells
     *share = whole > 0 ? kept / whole : 0;
 }
 
-/// What a method keeps of what is seen by mirror, if it knows.
+/// The cells that a method sees by mirror, if it knows mirrors.
 static sl_status run_mirrored(sl_context *context, const sl_eye_method *method, sl_query *query,
                               eye_run *run, eye_result *result) {
     const sl_baked *baked = sl_query_baked(query);
@@ -236,7 +237,7 @@ static bool meet(const uint64_t *a, const uint64_t *b, size_t words) {
     return false;
 }
 
-/// The loosest of the methods keeps the whole visible set, the last one what is seen.
+/// The first method keeps the whole visible set. The last one is exact.
 static sl_status find_cells(sl_context *context, const sl_baked *baked, const eye_run *run,
                             eye_objects *o) {
     const size_t words = sl_eye_words(&baked->space);
@@ -253,7 +254,7 @@ static sl_status find_cells(sl_context *context, const sl_baked *baked, const ey
     return SL_OK;
 }
 
-/// What is seen in mirrors, before which the objects stand and in which they are seen.
+/// What mirrors show: objects stand before them, and are seen in them.
 static sl_status look_in_mirrors(sl_context *context, sl_query *query, const eye_run *run,
                                  eye_objects *o) {
     const sl_baked *baked = sl_query_baked(query);
@@ -267,8 +268,8 @@ static sl_status look_in_mirrors(sl_context *context, sl_query *query, const eye
     return sl_query_mirrored_region(context, query, &run->view, &o->mirrored_region);
 }
 
-/// Puts the objects in and finds the region past them. What the first time makes serves again, so
-/// that the second one is timed.
+/// Puts the objects in and finds the region past them. The first time also makes what serves all
+/// later questions, so the second time is measured.
 static sl_status place(sl_context *context, sl_query *query, const eye_run *run, bool timed,
                        eye_objects *o) {
     for (int time = 0; time < (timed ? 2 : 1); time++) {
@@ -354,7 +355,7 @@ void eye_objects_add_json(sl_json_fields *fields, const sl_baked *baked,
 
 // --- polygons to be drawn
 
-/// Of the map's width and height together: no one sees it in a picture.
+/// A share of the map's width plus height. It is too small to see in a picture.
 #define TOLERANCE 1e-4
 
 static sl_status add(sl_context *context, const sl_space *space, const sl_region *region,

@@ -1,5 +1,5 @@
-/// One view put to every culling method, past objects that stand or move where the bake knows
-/// nothing of them, and what is seen as polygons to be drawn.
+/// One view, asked of every culling method: the cells that each keeps, the visible region, and the
+/// same past objects that the bake does not know. Also the regions as polygons, for pictures.
 #ifndef EYE_RUN_H
 #define EYE_RUN_H
 
@@ -9,7 +9,7 @@
 #include "sightline/moving.h"
 #include "sightline/query.h"
 
-/// What one method says.
+/// The answer of one method.
 typedef struct eye_result {
     uint64_t *cells; ///< sl_eye_words() words
     uint32_t count;  ///< of cells
@@ -22,8 +22,8 @@ typedef struct eye_result {
     uint64_t rounded; ///< images that were rounded
 } eye_result;
 
-/// Shares are of the cells that count (sl_baked_counts) where the eye's cell does, else of the
-/// others.
+/// Shares are of the area of the cells that count (sl_baked_counts). If the eye's cell does not
+/// count, they are of the other cells.
 typedef struct eye_run {
     sl_view view;
     uint32_t cell;       ///< the eye's
@@ -40,12 +40,12 @@ typedef struct eye_run {
 /// A distance for sl_view_cone: as large as anything in the map.
 double eye_reach(const sl_space *space);
 
-/// How many cells a set has, and their share as above; *count is added to.
+/// Counts the cells of a set, and finds their share as above. Adds to *count.
 void eye_measure(const sl_baked *baked, uint32_t eye_cell, const uint64_t *cells, uint32_t *count,
                  double *share);
 
-/// The eye must be within the bounds. `mirror_depth` is that of the query. `timed`: questions are
-/// repeated until their time is known.
+/// The eye must be within the bounds. `mirror_depth` is that of the query. `timed`: repeats each
+/// question until its time is known.
 sl_status eye_run_make(sl_context *context, sl_query *query, const sl_view *view,
                        uint32_t mirror_depth, bool timed, eye_run *out);
 void eye_run_destroy(sl_context *context, eye_run *run);
@@ -80,17 +80,17 @@ typedef struct eye_objects {
 /// Reads X0,Y0,X1,Y1 or the name of the map's object, each with ',block' behind it or not.
 sl_status eye_objects_read(sl_context *context, const option_list *texts, const sl_map *map,
                            eye_objects *out);
-/// What the view makes of them.
+/// Finds out which objects the view sees, and what it sees past them.
 sl_status eye_objects_run(sl_context *context, sl_query *query, const eye_run *run, bool timed,
                           eye_objects *objects);
 void eye_objects_print(const eye_objects *objects);
-/// "objects", "past_objects": nothing where there are none.
+/// Adds "objects_seen" and "past_objects"; nothing where there are no objects.
 void eye_objects_add_json(sl_json_fields *fields, const sl_baked *baked,
                           const eye_objects *objects);
 void eye_objects_destroy(sl_context *context, eye_objects *objects);
 
-/// Adds the direct region, where `direct`, and all parts seen by mirror: arcs as chords.
-/// What is added before a failure is left for seen_parts_destroy.
+/// Adds the direct region (if `direct`) and all parts that are seen by mirror. Arcs become chords.
+/// After a failure, seen_parts_destroy frees what was added.
 typedef struct seen_parts {
     sl_drawn_region *items;
     size_t count, capacity;

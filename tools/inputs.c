@@ -24,7 +24,7 @@ static bool is_baked_name(const char *path) {
     return input_ends_with(path, ".slv");
 }
 
-/// Whether the name ends as that of a map does, of any format.
+/// Whether the name has the ending of a map format.
 static bool is_map_name(const char *path) {
     size_t count;
     const sl_map_format *formats = sl_map_formats(&count);
@@ -114,7 +114,8 @@ sl_status input_read_baked(sl_context *context, const char *path, sl_baked *bake
     return SL_OK;
 }
 
-/// The map that a baked file was made from: what it kept of it, and the walls of its space.
+/// The map that a baked file was made from: the rest of the map that it kept, and the walls of its
+/// space.
 static sl_status read_map_of_baked(sl_context *context, const char *path, sl_map *map) {
     sl_baked baked = {0};
     SL_TRY(sl_baked_read(context, path, &baked));
@@ -191,7 +192,7 @@ static sl_status read_names(sl_context *context, const char *text, const sl_map 
     return SL_OK;
 }
 
-/// Puts what is left to see in place of what was baked.
+/// Replaces the space and the visible sets by those with the doors shut.
 static sl_status shut_doors(sl_context *context, sl_baked *baked, const bool *shut) {
     sl_space space;
     sl_visibility visibility;

@@ -1,4 +1,4 @@
-/// Reading what commands are given: map files and baked files, and which doors are shut.
+/// Reads the input of commands: map files, baked files, and the names of doors to shut.
 #ifndef INPUTS_H
 #define INPUTS_H
 
@@ -6,11 +6,11 @@
 #include "sightline/bake.h"
 #include "sightline/import.h"
 
-/// Whether the name ends with `ending`, in either case of letters: ".slv".
+/// Whether a name ends with `ending` (".slv"), in upper or lower case.
 bool input_ends_with(const char *path, const char *ending);
 
-/// A file's name without its folders and its ending: "maps/office.map" gives "office", as a place
-/// in the path and a length.
+/// A file's name without folders and ending: "maps/office.map" gives "office". The result is a
+/// place in the path, and a length.
 const char *input_base_name(const char *path, size_t *length);
 
 /// How a map is read, and how its walls are cleaned.
@@ -22,7 +22,7 @@ typedef struct input_options {
 
 input_options input_options_default(void);
 
-/// The options of the command line that fill it.
+/// The command-line options that fill it.
 option_table input_option_table(input_options *input);
 
 /// Reads a map file. A baked file is refused.
@@ -33,26 +33,26 @@ sl_status input_read_map(sl_context *context, const char *path, const input_opti
 sl_status input_clean(sl_context *context, const input_options *input, sl_map *map,
                       sl_clean_account *account);
 
-/// Reads a baked file. A map file, which is known by its ending, is refused with how to bake it.
+/// Reads a baked file. Refuses a map file, which it knows by its ending, and says how to bake it.
 sl_status input_read_baked(sl_context *context, const char *path, sl_baked *baked);
 
-/// SL_BAD_ARGUMENT where one of these options is given with a baked file.
+/// SL_BAD_ARGUMENT where one of these options is given together with a baked file.
 sl_status input_refuse_options(sl_context *context, const char *path, const input_options *input);
 
-/// Reads a map file, or what map a baked file was made from.
+/// Reads a map file, or the map that a baked file was made from.
 sl_status input_read_either(sl_context *context, const char *path, const input_options *input,
                             sl_map *map);
 
 /// Prints the formats of maps that can be read.
 void input_print_formats(void);
 
-/// SL_BAD_ARGUMENT: the point that an option or operand gives lies outside the map's bounds.
+/// SL_BAD_ARGUMENT: the point of an option or operand lies outside the map's bounds.
 sl_status input_fail_outside(sl_context *context, const char *name, const char *text,
                              sl_box bounds);
 
-/// Shuts the doors of a baked file that --shut names: "a,b", or "none"; without it (NULL) those
-/// that the map says are shut. The map's doors are then as that says, for pictures. SL_BAD_ARGUMENT
-/// for a name that is no door's.
+/// Shuts the doors of a baked file that --shut names: "a,b", or "none". NULL: those that the map
+/// says are shut. Sets the state of the map's doors too, for pictures. SL_BAD_ARGUMENT for a name
+/// that no door has.
 sl_status doors_shut(sl_context *context, const char *text, sl_baked *baked);
 
 #endif

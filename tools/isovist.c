@@ -77,7 +77,7 @@ sl_status eyes_add_path(sl_context *context, const sl_path *path, double step, e
     return SL_OK;
 }
 
-/// The fields of a line as numbers; how many, or -1 where one is none.
+/// Reads the fields of a line as numbers. Gives their count; -1 where a field is no number.
 static int read_fields(const char *line, size_t length, double fields[4]) {
     int count = 0;
     for (size_t at = 0; at <= length; count++) {
@@ -99,7 +99,7 @@ static bool is_blank(const char *line, size_t length) {
     return true;
 }
 
-/// A line without a digit, which no numbers can be in.
+/// A line without a digit: it cannot hold numbers.
 static bool is_header(const char *line, size_t length) {
     for (size_t i = 0; i < length; i++)
         if (line[i] >= '0' && line[i] <= '9') return false;
@@ -186,7 +186,7 @@ sl_status isovist_look(sl_context *context, const isovist_scene *scene, const sl
                                    out);
 }
 
-/// Threads take bundles of eyes, one after the other, until none is left or one has failed.
+/// Each thread takes the next bundle of eyes until none is left, or one has failed.
 typedef struct job {
     const isovist_scene *scene;
     const eye_places *eyes;
@@ -235,7 +235,8 @@ static void *run_worker(void *argument) {
     return NULL;
 }
 
-/// The caller's thread is the first. A thread that the system refuses leaves more to the others.
+/// The caller's thread is the first worker. If the system refuses a thread, the others do its
+/// share.
 static sl_status run_workers(sl_context *context, job *j, worker *workers, size_t count) {
     size_t started = 0;
     sl_status status = SL_OK;

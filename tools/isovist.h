@@ -1,5 +1,5 @@
 /// The eyes of `sightline isovist` (points, a grid, a path, a table from a file), and the measures
-/// of what they see.
+/// of the regions that they see.
 #ifndef ISOVIST_H
 #define ISOVIST_H
 
@@ -26,17 +26,17 @@ void eyes_destroy(sl_context *context, eye_places *eyes);
 
 sl_status eyes_add(sl_context *context, eye_places *eyes, eye_place eye);
 
-/// The middles of squares that lie inside, over the whole map. `like` has their heading and cone.
+/// A grid of squares over the whole map: the middles of those that lie inside. `like` has the
+/// heading and the view cone.
 sl_status eyes_add_grid(sl_context *context, const sl_space *space, double step, eye_place like,
                         eye_places *eyes);
 
-/// The points of a path, and, where `step` is not 0, points every `step` along it instead.
+/// The points of a path. Where `step` is not 0: points every `step` along it instead.
 sl_status eyes_add_path(sl_context *context, const sl_path *path, double step, eye_place like,
                         eye_places *eyes);
 
-/// Lines of x, y and, where they are given, angle and field of view, with commas between; a first
-/// line of words is passed over. SL_BAD_INPUT with FILE:LINE on anything else, and on points
-/// outside the map.
+/// A table: lines of x,y or x,y,angle or x,y,angle,fov. A first line of words is skipped.
+/// SL_BAD_INPUT with FILE:LINE on anything else, and on points outside the map.
 sl_status eyes_read_csv(sl_context *context, const char *path, const sl_space *space,
                         eye_place like, eye_places *eyes);
 
@@ -54,7 +54,7 @@ double isovist_value(const isovist_result *isovist, size_t measure);
 /// The view of an eye.
 sl_view eye_view(const sl_space *space, const eye_place *eye);
 
-/// What there is to be seen, and how far.
+/// What can be seen, and how far.
 typedef struct isovist_scene {
     const sl_outline *outline;
     const sl_room_mirrors *mirrors; ///< NULL where the map has none
@@ -62,7 +62,7 @@ typedef struct isovist_scene {
     uint32_t mirror_depth;
 } isovist_scene;
 
-/// The region of a view, with what is seen by mirror where there are any.
+/// The visible region of a view, with the parts that are seen by mirror.
 sl_status isovist_look(sl_context *context, const isovist_scene *scene, const sl_view *view,
                        sl_mirrored_region *out);
 
@@ -70,7 +70,7 @@ sl_status isovist_look(sl_context *context, const isovist_scene *scene, const sl
 sl_status isovist_run(sl_context *context, const isovist_scene *scene, const eye_places *eyes,
                       unsigned threads, isovist_result *out);
 
-/// Writes the table to a file, "-" for stdout; with columns for mirrors where there are any.
+/// Writes the table to a file, "-" for stdout. A map with mirrors adds columns for them.
 sl_status isovist_write(sl_context *context, const isovist_scene *scene, const eye_places *eyes,
                         const isovist_result *isovists, const char *path);
 

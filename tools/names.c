@@ -35,8 +35,8 @@ void name_list(const name_table *table, char text[NAME_LIST]) {
     if (!used) strcpy(text, "none");
 }
 
-/// Letters to insert, drop or change to make one word of the other (Levenshtein 1966), for words of
-/// less than `NEAR_LENGTH` letters.
+/// Edit distance (Levenshtein 1966): the fewest letters to insert, drop or change that make one
+/// word of the other. Words have less than `NEAR_LENGTH` letters.
 enum { NEAR_LENGTH = 32 };
 
 static size_t word_distance(const char *a, const char *b) {

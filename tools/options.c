@@ -10,8 +10,9 @@
 
 enum { MAX_OPTIONS = 64, HELP_COLUMN = 26 };
 
-/// All options of a command, the groups' among them, and the argument of each as it is given: NULL
-/// where it is not, "" for a flag.
+/// All options of a command, with those of its groups, and the argument of each: NULL where the
+/// option is not given, "" for a flag. Arguments are gathered first and read afterwards, so that
+/// --help works beside a wrong argument.
 typedef struct parsing {
     sl_context *context;
     const command_usage *usage;
@@ -95,7 +96,7 @@ static sl_status fail_unknown(const parsing *p, const char *word) {
                    near ? " (did you mean --" : "", near ? near : "", near ? "?)" : "", command);
 }
 
-/// What getopt_long is told: the long options, by their place in the table, and the letters.
+/// The input of getopt_long: the long options, coded by their place in the table, and the letters.
 static void fill_getopt(const parsing *p, struct option *longs, char *letters) {
     *letters++ = ':'; // tell a missing argument from an unknown option
     for (size_t i = 0; i < p->count; i++) {
@@ -110,7 +111,7 @@ static void fill_getopt(const parsing *p, struct option *longs, char *letters) {
     *letters = '\0';
 }
 
-/// By what getopt_long returned; p->count for none.
+/// The place of an option by the code that getopt_long returned; p->count for none.
 static size_t find_option(const parsing *p, int code) {
     size_t i = 0;
     while (i < p->count && code != 256 + (int)i &&
@@ -199,7 +200,7 @@ sl_status read_number(sl_context *context, const char *label, const char *text, 
     return SL_OK;
 }
 
-/// Digits, all of text[0 .. length), of a value up to `most`.
+/// Reads text[0 .. length), all digits, as a value up to `most`.
 static bool parse_count(const char *text, size_t length, uint64_t most, uint64_t *value) {
     uint64_t number = 0;
     for (size_t i = 0; i < length; i++) {
@@ -250,7 +251,7 @@ sl_status read_point(sl_context *context, const char *label, const char *text, s
     return SL_OK;
 }
 
-/// Of a number that was read: whether the option allows it.
+/// Checks that a number is in the range of its option.
 static sl_status check_range(sl_context *context, const char *label, const char *text,
                              const option_spec *option, double value) {
     const bool fits = value >= option->least && !(option->over_0 && value <= 0) &&
@@ -270,7 +271,7 @@ static sl_status check_range(sl_context *context, const char *label, const char 
 
 // --- names
 
-/// "dfs, sweep": as many as fit.
+/// "dfs, sweep": as many names as fit.
 static void write_names(const name_table *table, char *text, size_t size) {
     text[0] = '\0';
     for (size_t i = 0; i < table->count; i++) {

@@ -1,5 +1,5 @@
-/// Command-line options. A command has one typed table that says what it takes; parsing, checking
-/// and --help all follow it.
+/// Command-line options. A command has one typed table of what it takes. Parsing, checking and
+/// --help all follow the table.
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
@@ -15,14 +15,14 @@ typedef struct option_list {
     size_t count;
 } option_list;
 
-/// What the name of a file to be written is checked for before the work begins (outputs.h).
+/// How the name of an output file is checked before the work begins (outputs.h).
 typedef enum output_check { CHECK_NONE, CHECK_FILE, CHECK_PICTURE, CHECK_BAKED } output_check;
 
 typedef struct option_table option_table;
 
-/// An option. It has one of the targets from `number` on, or none of them; the type of the target
-/// says how the argument is read. An option that is not given leaves its targets as they are. Given
-/// twice it is an error, except where the target is a list.
+/// An option. It has at most one of the targets from `number` to `list`; the type of the target
+/// says how the argument is read. An option that is not given leaves its targets as they are. To
+/// give an option twice is an error, unless its target is a list.
 typedef struct option_spec {
     const char *name;     ///< without its dashes
     char letter;          ///< its short form, 0 for none
@@ -52,7 +52,7 @@ typedef struct option_spec {
     const option_table *group; ///< instead of all this: a group's options stand here
 } option_spec;
 
-/// Options that several commands share, with the targets of one of them.
+/// A group of options that several commands share. Its targets belong to one command.
 struct option_table {
     option_spec items[24];
     size_t count;
@@ -60,7 +60,7 @@ struct option_table {
 
 void option_table_add(option_table *table, const option_spec *items, size_t count);
 
-/// What a command is called with, for --help and for messages.
+/// How a command is used: for parsing, --help and messages.
 typedef struct command_usage {
     const char *name;
     const char *synopsis;    ///< what follows the name: "MAP [-o FILE.slv] [options]"
@@ -73,20 +73,20 @@ typedef struct command_usage {
     option_list *more; ///< where what follows the operands goes; NULL where nothing may
 } command_usage;
 
-/// Reads the arguments after the command's name, argv[0], and fills the targets; adds --help and
-/// --quiet to the options. `operands` has a place for each operand of the usage; files to be
-/// written are checked against the first of them. After --help, *helped is true and nothing else is
+/// Reads the arguments after the command's name, argv[0], and fills the targets. Adds --help and
+/// --quiet to the options. `operands` has a place for each operand of the usage. The first of them
+/// is the input, which no output file may be. After --help, *helped is true and nothing else is
 /// done. SL_BAD_ARGUMENT, with a message that names the option.
 sl_status options_parse(command_console *console, const command_usage *usage, int argc, char **argv,
                         const char **operands, bool *helped);
 
-/// For arguments that are not of one kind. Each reads all of the text; `label` is for the message:
-/// "--slice", or the name of an operand.
+/// For arguments that the table cannot describe. Each reads all of the text. `label` is for the
+/// message: "--slice", or the name of an operand.
 sl_status read_count(sl_context *context, const char *label, const char *text, uint64_t most,
                      uint64_t *value);
 sl_status read_number(sl_context *context, const char *label, const char *text, double *value);
 sl_status read_point(sl_context *context, const char *label, const char *text, sl_point *point);
-/// One of the table by name.
+/// Finds a name in a table.
 sl_status read_choice(sl_context *context, const char *label, const char *text,
                       const name_table *table, size_t *index);
 

@@ -76,7 +76,7 @@ static sl_status fail_write(sl_context *context, const char *path) {
     return sl_fail(context, SL_IO, "%s: cannot write: %s", path, strerror(errno));
 }
 
-/// What stands where the folder or its files are to be.
+/// Checks that nothing else has the names of the folder and its files.
 static sl_status look(sl_context *context, output_folder *folder) {
     struct stat there;
     folder->exists = stat(folder->path, &there) == 0;
@@ -95,8 +95,8 @@ static sl_status look(sl_context *context, output_folder *folder) {
     return SL_OK;
 }
 
-/// Within a folder that is there, so that moving never leaves the file system; beside one that is
-/// not, as which it is renamed.
+/// The temporary folder is in the folder if that exists, so that files never move between file
+/// systems. Else it is beside it, and is renamed to it at the end.
 static sl_status make_temporary(sl_context *context, output_folder *folder) {
     const size_t length = strlen(folder->path) + sizeof "/.XXXXXX";
     folder->temporary = sl_alloc(context, length);
@@ -106,7 +106,7 @@ static sl_status make_temporary(sl_context *context, output_folder *folder) {
         folder->temporary[0] = '\0';
         return fail_write(context, folder->path);
     }
-    // mkdtemp makes folders private; this one is to be as any that the user makes.
+    // mkdtemp makes folders private. Give this one the usual permissions.
     const mode_t mask = umask(0);
     umask(mask);
     (void)!chmod(folder->temporary, 0777 & ~mask);

@@ -1,5 +1,5 @@
-/// Files that commands write: their names are checked before the work begins, several in one folder
-/// come all or none; and sizes in bytes.
+/// Files that commands write. Names are checked before the work begins. Several files in one folder
+/// are written all or none. Also sizes in bytes.
 #ifndef OUTPUTS_H
 #define OUTPUTS_H
 
@@ -9,38 +9,39 @@
 
 #include <stdint.h>
 
-/// Before the work is done: SL_BAD_ARGUMENT where what `option` names to be written is no name, or
-/// the input `path` itself, which it would replace; SL_IO where nothing can be written there.
+/// Checks the argument of `option`, a file to be written, before the work is done. SL_BAD_ARGUMENT
+/// where it is empty, or the input `path` itself, which it would replace. SL_IO where nothing can
+/// be written there.
 sl_status output_check_file(sl_context *context, const char *path, const char *option,
                             const char *output);
-/// Likewise for what is to be a baked file, which is known by its ending.
+/// The same for a baked file, whose name must end in .slv.
 sl_status output_check_baked(sl_context *context, const char *path, const char *option,
                              const char *output);
-/// Likewise for a picture, whose ending says its kind.
+/// The same for a picture, whose name must end in .png, .svg or .pdf.
 sl_status output_check_picture(sl_context *context, const char *path, const char *option,
                                const char *output);
 
-/// --width, --dark and, where `titled`, --title.
+/// The options --width, --dark and, if `titled`, --title.
 option_table picture_option_table(sl_draw_options *drawing, bool titled);
 
-/// Several files in one folder, all or none: they are written into a folder for the time being,
-/// beside their places, and moved there when all is well.
+/// Several files in one folder, all or none. They are written into a temporary folder and moved to
+/// their places at the end.
 typedef struct output_folder {
     char *path, *temporary;
     const char *const *names; ///< of the files, NULL behind the last
     bool exists;              ///< `path` was there before
 } output_folder;
 
-/// `path` is the folder, which is made if missing (in a folder that is there). SL_BAD_ARGUMENT
-/// where it, or a file's place in it, is taken by something else.
+/// Makes the folder `path` if it is missing; its parent must exist. SL_BAD_ARGUMENT where something
+/// else has the name of the folder or of a file in it.
 sl_status folder_open(sl_context *context, const char *path, const char *const *names,
                       output_folder *out);
 
-/// Where a file is to be written; sl_free is the caller's. NULL where there is no memory.
+/// The path to write a file to, which the caller frees (sl_free). NULL where there is no memory.
 char *folder_file(sl_context *context, const output_folder *folder, const char *name);
 
-/// Where `status` is SL_OK, moves the files, all of which must be there, to their places; else
-/// removes them. Returns what came of it.
+/// Moves the files to their places if `status` is SL_OK; all must be there. Else removes them.
+/// Returns the outcome.
 sl_status folder_close(sl_context *context, output_folder *folder, sl_status status);
 
 enum { SIZE_TEXT = 32 };
@@ -48,10 +49,10 @@ enum { SIZE_TEXT = 32 };
 /// "812 bytes", "3.4 MiB"
 void size_write(uint64_t bytes, char text[SIZE_TEXT]);
 
-/// Of a file, 0 where the system does not tell.
+/// The size of a file; 0 where it is unknown.
 uint64_t size_of_file(const char *path);
 
-/// The most memory that this process has had, 0 where the system does not tell.
+/// The most memory that this process has had; 0 where it is unknown.
 uint64_t size_of_peak_memory(void);
 
 #endif

@@ -1,11 +1,11 @@
-/// The way from a map's file to its space, and the options that say how it is gone: shared by all
-/// commands that subdivide a map.
+/// From a map's file to its space, and the options for it. All commands that subdivide a map share
+/// them.
 #ifndef PIPELINE_H
 #define PIPELINE_H
 
 #include "inputs.h"
 
-/// What is done to a map, from its file to its space.
+/// How a map is read, cleaned and subdivided.
 typedef struct map_pipeline {
     const char *path; ///< the map's file
     input_options input;
@@ -14,7 +14,7 @@ typedef struct map_pipeline {
     const char *start_text; ///< as it is given
     unsigned without;       ///< effects to leave out: bits of sl_effects()
 
-    // What the options of the subdivision come to; pipeline_plan() sees to them.
+    // What the options of the subdivision say. pipeline_plan() puts it into `bake`.
     size_t subdivide;           ///< of sl_subdivisions()
     const char *subdivide_text; ///< NULL where it is not given
     unsigned kd_rules;          ///< bits
@@ -23,34 +23,34 @@ typedef struct map_pipeline {
 
 map_pipeline pipeline_default(void);
 
-/// The options of the command line that fill it, those of its input among them.
+/// The command-line options that fill it, with those of its input.
 option_table pipeline_option_table(map_pipeline *pipeline);
-/// Of them --without alone.
+/// The option --without alone.
 option_table pipeline_without_table(map_pipeline *pipeline);
 
-/// To be called when the options have been read, before the rest.
+/// Call it after the options are read and before anything else.
 sl_status pipeline_plan(sl_context *context, const char *path, map_pipeline *pipeline);
 
-/// Reads the map, adds the start asked for and leaves out the effects named.
+/// Reads the map, adds the start of --start and drops the effects of --without.
 sl_status pipeline_read(sl_context *context, const map_pipeline *pipeline, sl_map *map);
 
-/// The same, and cleans the map. `account` may be NULL.
+/// Does the same, and cleans the map. `account` may be NULL.
 sl_status pipeline_read_clean(sl_context *context, const map_pipeline *pipeline, sl_map *map,
                               sl_clean_account *account);
 
-/// Subdivides a clean map, and checks the space if it is to be.
+/// Subdivides a clean map. Checks the space if asked to, and always for a mesh.
 sl_status pipeline_subdivide(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                              sl_space *space);
 
-/// The space of a map, or of a baked file, whose name ends in .slv. Fails where the map has other
-/// effects than `effects`, which `user` knows.
+/// The space of a map, or of a baked file (a name that ends in .slv). Fails where the map has
+/// effects other than `effects`, those that the command `user` supports.
 sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline, const char *user,
                               unsigned effects, sl_baked *baked);
 
-/// For --help: what the options choose from.
+/// For --help: the names that the options take.
 void pipeline_print_subdivisions(void);
 void pipeline_print_effects(void);
-/// Methods and solvers; the remarks stand behind the headings.
+/// Methods and solvers. The remarks follow the headings.
 void pipeline_print_methods(const char *on_methods, const char *on_solvers);
 
 #endif

@@ -14,7 +14,7 @@ const regions_cost *regions_cost_of(const regions_row *row, const char *method) 
     return NULL;
 }
 
-/// What "regions" tells: the table on stdout, and the same as CSV.
+/// The table on stdout, and the same as CSV.
 
 static void print_heading(const regions_row *row) {
     printf("\nview cells: %s\n", row->view_cells);

@@ -1,4 +1,4 @@
-/// From-region methods on maps, view cells after view cells: what "regions" measures and tells.
+/// The results of `sightline regions`: from-region methods on maps, for several sets of view cells.
 #ifndef REGIONS_REPORT_H
 #define REGIONS_REPORT_H
 
@@ -36,8 +36,8 @@ static inline double regions_mean_pvs(const regions_row *row) {
 /// The cost of a method by name; NULL where it did not run.
 const regions_cost *regions_cost_of(const regions_row *row, const char *method);
 
-/// Runs all methods, and adds a row. SL_BAD_INPUT where two of them see different objects, which
-/// none may.
+/// Runs all methods and adds a row. SL_BAD_INPUT where two methods see different objects, which
+/// must not happen.
 sl_status regions_measure(sl_context *context, const sl_map *map, const char *name,
                           const sl_regions_options *what, const sl_from_region_options *how,
                           regions_rows *rows);

@@ -76,8 +76,8 @@ void cleaning_print(const sl_clean_account *account) {
 
 // --- how much a cell sees
 
-/// What lies before a cell, of the cells that are looked at: a run of cells is one difference.
-/// Where all areas are too small for a double, cells count in their place.
+/// Sums over the cells before a cell, of those that count: the sum over a run of cells is one
+/// difference. Where all areas are too small for a double, each cell counts as 1.
 typedef struct before {
     double area;
     uint32_t cells;
@@ -144,7 +144,7 @@ void mean_pvs_add_json(sl_json_fields *fields, const pvs_means *mean) {
 void seconds_write(double seconds, const char *micro, char text[SECONDS_TEXT]) {
     const char *const units[] = {"s", "ms", micro, "ns"};
     int unit = 0;
-    // What would round up to 1000 of a unit belongs to the next larger.
+    // A value that would round up to 1000 gets the next larger unit.
     for (; unit < 3 && seconds < 0.9995; unit++) seconds *= 1000;
     const int decimals = seconds < 9.995 ? 2 : seconds < 99.95 ? 1 : 0;
     snprintf(text, SECONDS_TEXT, "%.*f %s%s", decimals, seconds, units[unit], unit == 2 ? "s" : "");

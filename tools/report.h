@@ -1,22 +1,23 @@
-/// Parts of reports that several commands print: the plan of a map, what cleaning did, how much a
-/// cell sees, times.
+/// Parts of reports that several commands print: the plan of a map, the account of cleaning, how
+/// much a cell sees on average, and times.
 #ifndef REPORT_H
 #define REPORT_H
 
 #include "json_print.h"
 #include "sightline/bake.h"
 
-/// What a map calls for, what each adds to the work, and what is left out as nothing calls for it.
+/// Prints the effects that a map has, what each adds to the work, and the effects that it does not
+/// have.
 void plan_print(const sl_map *map);
 
-/// "effects": a flag for each.
+/// Adds "effects": a flag for each.
 void plan_add_json(sl_json_fields *fields, const sl_map *map);
 
-/// What cleaning did, if anything: the rest of a line, and a line on welding.
+/// Prints what cleaning did, if anything: the rest of a line, and a line about welding.
 void cleaning_print(const sl_clean_account *account);
 
-/// Means over the cells that count (sl_baked_counts), each weighted equally, as sources and as what
-/// is seen.
+/// Means over the cells that count (sl_baked_counts), with equal weights. Only these cells count as
+/// seen, too.
 typedef struct pvs_means {
     bool inside_only;
     uint32_t cell_count;   ///< cells looked at

@@ -1,3 +1,4 @@
+/// The command `sightline`: finds the subcommand and runs it.
 #include "commands.h"
 #include "crew.h"
 #include "names.h"
@@ -71,7 +72,7 @@ static sl_status run(command_console *console, int argc, char **argv) {
                    near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
 }
 
-/// Where several processes share a command, the first one reports.
+/// Several processes can share a bake, and no other command.
 static sl_status run_in_crew(command_console *console, int argc, char **argv) {
     if (crew_size() > 1 && !(argc > 1 && strcmp(argv[1], "bake") == 0))
         return sl_fail(console->context, SL_BAD_ARGUMENT,

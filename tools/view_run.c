@@ -4,7 +4,7 @@
 #include "sightline/solvers.h"
 #include "sightline/support.h"
 
-/// Light pixels are where viewpoints are: the picture covers the map's bounds.
+/// A picture over the map's bounds: the lighter a pixel, the likelier is a viewpoint there.
 static sl_status places_by_picture(sl_context *context, const char *path, view_run *run) {
     sl_bytes bytes;
     sl_image image = {0};
@@ -35,7 +35,7 @@ static sl_status find_places(sl_context *context, const view_run_options *option
     return sl_view_places_inside(context, space, &run->places);
 }
 
-/// Of the elementary cells; what an exact method has found is handed over.
+/// The visible sets of the elementary cells. An exact method has found them already.
 static sl_status find_sets(sl_context *context, const view_run_options *options, view_run *run,
                            sl_view_sets *sets) {
     if (options->method->exact) {
@@ -65,7 +65,7 @@ static sl_status join(sl_context *context, const view_run_options *options, view
     return status;
 }
 
-/// Other lines than those that made the cells.
+/// Evaluates with other lines than those that made the cells.
 static sl_status evaluate(sl_context *context, const view_run_options *options, view_run *run) {
     if (!options->evaluation) return SL_OK;
     sl_view_sampling sampling = options->sampling;
@@ -130,7 +130,7 @@ static sl_status make_rows(sl_context *context, bool by_views, view_run *run) {
     SL_TRY(sl_view_rows_make(context, &exact->space, pvs, &run->tree, h, run->cell_count, false,
                              &plain));
     run->plain_bytes = plain.rows.offsets[plain.rows.cell_count];
-    // Rows for groups of view cells pay where there is room for them.
+    // Compress by rows for groups of view cells, unless there is no room for the groups.
     if (by_views || 2 * run->cell_count - 1 > exact->space.cell_count) {
         *rows = plain;
     } else {
@@ -143,7 +143,7 @@ static sl_status make_rows(sl_context *context, bool by_views, view_run *run) {
                              &run->exact_cost);
 }
 
-/// Lets go of what cells see: from here on that is what their view cells see.
+/// Replaces the set of each cell by that of its view cell.
 static sl_status forget_cells(sl_context *context, sl_baked *exact) {
     sl_visibility *v = &exact->visibility;
     sl_pvs expanded;
@@ -166,7 +166,7 @@ sl_status view_run_see(sl_context *context, const view_run_options *options,
     seeing.inside_only = true;
     if (!method) method = sl_see_method_for(&run->baked.map, &seeing);
     if (method->stabs) seeing.solver = sl_funnel();
-    // The map has done its work for the samples; from here on it is that of the baked file.
+    // Sampling needs the map no longer. It moves to the baked file.
     exact->map = run->baked.map;
     run->baked.map = (sl_map){0};
     const sl_space *objects = run->scene.objects == SL_VIEW_CELLS ? &run->baked.space : NULL;

@@ -1,4 +1,4 @@
-/// View cells as the command makes them: from a map that is read to a cut of the hierarchy.
+/// The work of `sightline viewcells`: from a map to a cut of the hierarchy of view cells.
 #ifndef VIEW_RUN_H
 #define VIEW_RUN_H
 
@@ -49,21 +49,20 @@ typedef struct view_run {
     view_seconds seconds;
 } view_run;
 
-/// From run->baked, whose map and space are there, on. `run` is to be destroyed also on failure.
+/// Starts from run->baked, which has a map and a space. Destroy `run` also on failure.
 sl_status view_run_make(sl_context *context, const view_run_options *options, view_run *run);
-/// Bakes the map with the view cells of the cut: exact sets by a method of sl_see_methods(),
-/// NULL for the fastest exact one.
-/// `by_views`: of the sets those of view cells alone are kept.
+/// Bakes the map with the view cells of the cut: exact sets by a method of sl_see_methods(); NULL
+/// for the fastest exact one. `by_views`: keeps only the sets of view cells.
 sl_status view_run_see(sl_context *context, const view_run_options *options,
                        const sl_see_method *method, bool by_views, view_run *run);
 void view_run_destroy(sl_context *context, view_run *run);
 
-/// What costs are told by: other samples than those that cells were made by, where there are some.
+/// The hierarchy that costs are reported by: that of the second set of samples, if there is one.
 static inline const sl_view_hierarchy *view_run_told(const view_run *run) {
     return run->evaluated.cell_count ? &run->evaluated : &run->hierarchy;
 }
 
-/// Expected cost with n view cells: all of the hierarchy's sum of mass times cost.
+/// The expected cost with that many view cells: the sum of mass times cost.
 sl_status view_run_cost(sl_context *context, const sl_view_hierarchy *hierarchy, uint32_t cells,
                         double *cost, uint64_t *bytes);
 

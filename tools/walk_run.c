@@ -151,7 +151,7 @@ static sl_status lay_tour(sl_context *context, tour *t, sl_point start, uint64_t
         cell = t->queue[1 + sl_random_below(&random, count - 1)];
         SL_TRY(go_to(context, t, cell, way));
     }
-    // What is too long of it is taken off.
+    // Cut off what is too long.
     double over = way_length(way) - length;
     sl_point *last = &way->items[way->count - 1];
     while (way->count > 2 && hypot(last->x - last[-1].x, last->y - last[-1].y) < over) {
@@ -391,7 +391,7 @@ static uint32_t count_cells(const uint64_t *cells, size_t words) {
     return count;
 }
 
-/// One frame; times already there are kept where they are less.
+/// One frame. A time in `out` stays where it is less than the new one.
 static sl_status do_frame(sl_context *context, running *r, const eye_place *eye, bool first,
                           double *out) {
     const sl_space *space = &r->scene->baked->space;

@@ -1,4 +1,4 @@
-/// The way of a walk, and walking it by each method: counts and times, frame by frame.
+/// The path of a walk, and the walk itself by each method: counts and times, frame by frame.
 #ifndef WALK_RUN_H
 #define WALK_RUN_H
 
@@ -10,23 +10,22 @@
 
 typedef SL_ARRAY(sl_point) walk_way;
 
-/// Lines of x and y, with blanks or a comma between; # begins a comment. SL_BAD_INPUT with
-/// FILE:LINE on anything else, on points outside the map, and where there are fewer than two.
+/// Reads lines of x and y, with blanks or a comma between; # begins a comment. SL_BAD_INPUT with
+/// FILE:LINE on anything else, on points outside the map, and on fewer than two points.
 sl_status way_read(sl_context *context, const char *path, const sl_space *space, walk_way *way);
 
-/// A tour: from cell to cell through the middles of portals, to cells chosen at random of those
-/// that can be walked to, until it is `length` long. It begins at `start`, which must lie inside
-/// the bounds.
+/// A tour to random cells that can be reached, through the middles of portals, until it is `length`
+/// long. It begins at `start`, which must lie inside the bounds.
 sl_status way_tour(sl_context *context, const sl_space *space, sl_point start, uint64_t seed,
                    double length, walk_way *way);
 
 double way_length(const walk_way *way);
 
-/// Eyes every `step` along the way, each looking at the point of the way that is `ahead` on.
+/// Eyes every `step` along the way. Each looks at the point that is `ahead` further on.
 sl_status way_frames(sl_context *context, const walk_way *way, double step, double ahead,
                      double fov, eye_places *eyes);
 
-/// What is counted and timed of each frame, and averaged over a walk.
+/// The figures of a frame: counts and times. A walk has their means.
 typedef enum walk_figure {
     FIGURE_TESTS,         ///< node visibility tests
     FIGURE_FRUSTUM_TESTS, ///< and the rest of sl_walk_frame
@@ -54,7 +53,7 @@ typedef enum walk_figure {
 /// The names of the figures, as columns of a table have them.
 const char *walk_figure_name(walk_figure figure);
 
-/// One way to walk: a method with a test; or, where `method` is NULL, culling for an eye from the
+/// One way to walk: a method with a node test. Where `method` is NULL: culling for an eye by the
 /// baked visible sets.
 typedef struct walk_choice {
     const sl_walk_method *method;
@@ -74,8 +73,8 @@ typedef struct walk_scene {
     unsigned repeat;     ///< walks; times are the least of all, frame by frame
 } walk_scene;
 
-/// Walks past the eyes: means over all frames. `frames` has FIGURES places for each eye, or is
-/// NULL.
+/// Walks from eye to eye; gives means over all frames. `frames` has FIGURES places for each eye, or
+/// is NULL.
 sl_status walk_run(command_console *console, const walk_scene *scene, const walk_choice *choice,
                    const eye_places *eyes, double means[FIGURES], double *frames);
 
