@@ -1,6 +1,9 @@
+/// What the culling methods share: the scratch memory, the begin and end of a query, and the step
+/// of the exact method through one portal, with the range of sight.
 #include "eye_to_cell/eye_search.h"
 
 #include "cell_to_cell/pvs_rows.h"
+#include "geometry/distance.h"
 
 #include <string.h>
 
@@ -63,8 +66,8 @@ static bool add_row(sl_eye_search *search, uint32_t cell) {
     return sl_bits_has(search->row, cell);
 }
 
-/// Finds the visible set of the eye's cell: those of all cells of the ground that it has a part of.
-/// Where there is none, nothing is to be seen.
+/// Finds the visible set of the eye's cell: the union over all cells of the ground that it has a
+/// part of. Where there is none, the eye sees nothing.
 static void find_row(sl_eye_search *search, uint32_t *cell) {
     const sl_boxed_space *boxed = search->boxed;
     const uint32_t row_cells = search->visibility->pvs.cell_count;
@@ -129,6 +132,41 @@ bool sl_eye_pass(sl_eye_query *query, const sl_eye_step *from, bool first,
     unsigned kept = 0;
     for (unsigned i = 0; i < to->arc_count; i++)
         if (to->arcs[i].span != SL_SPAN_RAY) to->arcs[kept++] = to->arcs[i];
+    to->arc_count = kept;
+    return kept > 0;
+}
+
+// --- the range of sight
+
+/// Whether the part of a portal within an arc is in range of the eye, which is not on it. With open
+/// sight more than one point of it must be. Exact: the nearest point of the part is compared; all
+/// of a cell that is seen through a portal lies beyond that.
+static bool reaches(const sl_pivot *pivot, const sl_arc *arc, const sl_directed_portal *directed,
+                    double range, sl_sight sight) {
+    const sl_glance glance = {.eye = {pivot->eye, pivot->rest},
+                              .from = {arc->right.point, arc->right.rest},
+                              .to = {arc->left.point, arc->left.rest},
+                              .from_away = arc->right.away,
+                              .to_away = arc->left.away,
+                              .right = directed->right,
+                              .left = directed->left};
+    const int sign = sl_nearest_compare(&glance, range);
+    return sight == SL_OPEN ? sign < 0 : sign <= 0;
+}
+
+void sl_eye_search_limit(sl_eye_search *search, double range) {
+    search->range = range;
+}
+
+bool sl_eye_pass_in_range(sl_eye_query *query, const sl_eye_step *from, bool first,
+                          const sl_directed_portal *directed, sl_eye_step *to) {
+    const double range = query->search->range;
+    if (!sl_eye_pass(query, from, first, directed, to)) return false;
+    if (!(range > 0) || to->near) return true;
+    unsigned kept = 0;
+    for (unsigned i = 0; i < to->arc_count; i++)
+        if (reaches(&query->pivot, &to->arcs[i], directed, range, query->search->visibility->sight))
+            to->arcs[kept++] = to->arcs[i];
     to->arc_count = kept;
     return kept > 0;
 }

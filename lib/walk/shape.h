@@ -3,7 +3,7 @@
 #ifndef SL_SHAPE_H
 #define SL_SHAPE_H
 
-#include "eye_to_cell/arc.h"
+#include "eye_to_cell/cone.h"
 #include "sightline/view.h"
 
 /// Directions strictly between two rays, counter-clockwise from right to left: more than 0 and
