@@ -1,11 +1,15 @@
-/// Objects: what may be seen, in pieces that each lie within one leaf.
+/// Objects: what may be seen, as items that each lie within one leaf.
+///
+/// Walls are found on the sides of leaves: walls are sorted by their lines, and each side of a leaf
+/// finds those on its own line by binary search. Boxes are found down the kd-tree. Groups of walls
+/// are made like a kd-tree: halved by number along the longer side, O(n log^2 n).
 #include "from_region/regions.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/// A wall by the line that it is on.
+/// A wall, with the line that it is on.
 typedef struct lined_wall {
     double at, lo, hi;
     int axis;
@@ -36,7 +40,8 @@ static sl_status add_item(sl_context *context, sl_regions *scene, sl_item item) 
     return SL_OK;
 }
 
-/// The first wall on a line, or beyond it, that ends past `lo`. Walls of a line do not overlap.
+/// The first wall in the sorted list that ends past `lo` on this line, or lies on a later line.
+/// Walls of a line do not overlap.
 static size_t find_on_line(const lined_wall *lined, size_t count, int axis, double at, double lo) {
     size_t first = 0;
     while (first < count) {
@@ -53,7 +58,8 @@ static size_t find_on_line(const lined_wall *lined, size_t count, int axis, doub
     return first;
 }
 
-/// The walls' pieces on the side of a leaf from a to b, counter-clockwise; objects are walls yet.
+/// Adds the pieces of walls on a side of a leaf from a to b, counter-clockwise. Each wall is an
+/// object for now.
 static sl_status add_side(sl_context *context, sl_regions *scene, const lined_wall *lined,
                           uint32_t leaf, sl_point a, sl_point b) {
     const int axis = a.x == b.x ? 0 : 1;
@@ -111,8 +117,8 @@ static int compare_y(const void *left, const void *right) {
     return (a->wall > b->wall) - (a->wall < b->wall);
 }
 
-/// Divides walls into `groups` about as large as each other, across the longer way each time;
-/// `object` is the first group's number. Depth: the logarithm of `groups`.
+/// Divides walls into `groups` of about the same size, along the longer side each time. `object` is
+/// the number of the first group. Recursion depth: the logarithm of `groups`.
 static void divide(placed_wall *walls, size_t count, uint32_t groups, uint32_t object,
                    uint32_t *of_wall) {
     if (groups == 1) {
@@ -134,8 +140,8 @@ static void divide(placed_wall *walls, size_t count, uint32_t groups, uint32_t o
     divide(walls + half, count - half, groups - below, object + below, of_wall);
 }
 
-/// Numbers the walls with items from `first` on, in `groups` groups, or each for itself (0).
-/// Returns in *count how many numbers there are.
+/// Numbers the walls that have items, from `first` on: in `groups` groups, or each on its own (0).
+/// *count: how many numbers there are.
 static sl_status number_walls(sl_context *context, sl_regions *scene, uint32_t groups,
                               uint32_t first, uint32_t *count) {
     const sl_space *space = &scene->space;
@@ -168,7 +174,7 @@ static sl_status number_walls(sl_context *context, sl_regions *scene, uint32_t g
     return SL_OK;
 }
 
-// --- what is seen through
+// --- objects that are seen through
 
 static sl_status add_through(sl_context *context, sl_regions *scene, uint32_t object, uint32_t leaf,
                              sl_box box) {
@@ -179,7 +185,7 @@ static sl_status add_through(sl_context *context, sl_regions *scene, uint32_t ob
     return add_item(context, scene, (sl_item){object, leaf, true, low, high});
 }
 
-/// A box in each leaf that it meets, found down the kd-tree.
+/// Adds a box to each leaf that it meets, down the kd-tree.
 static sl_status add_box(sl_context *context, sl_regions *scene, uint32_t object, sl_box box,
                          int32_t *stack) {
     const sl_space *space = &scene->space;
