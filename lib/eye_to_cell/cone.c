@@ -50,7 +50,7 @@ bool sl_arc_make(sl_pivot *pivot, sl_ray right, sl_ray left, sl_arc *out) {
     return true;
 }
 
-bool sl_arc_has(sl_pivot *pivot, const sl_arc *arc, sl_ray ray) {
+static bool arc_has(sl_pivot *pivot, const sl_arc *arc, sl_ray ray) {
     const int turn = sl_ray_turn(pivot, arc->right, ray);
     if (arc->span == SL_SPAN_RAY) return turn == 0 && sl_ray_same_way(pivot, arc->right, ray);
     return turn >= 0 && (arc->span == SL_SPAN_HALF || sl_ray_turn(pivot, ray, arc->left) >= 0);
@@ -65,8 +65,8 @@ static bool choose(sl_pivot *pivot, bool a_counts, sl_ray a, bool b_counts, sl_r
 }
 
 unsigned sl_arc_meet(sl_pivot *pivot, const sl_arc *a, const sl_arc *b, sl_arc pieces[2]) {
-    const bool b_right = sl_arc_has(pivot, a, b->right), a_right = sl_arc_has(pivot, b, a->right);
-    const bool b_left = sl_arc_has(pivot, a, b->left), a_left = sl_arc_has(pivot, b, a->left);
+    const bool b_right = arc_has(pivot, a, b->right), a_right = arc_has(pivot, b, a->right);
+    const bool b_left = arc_has(pivot, a, b->left), a_left = arc_has(pivot, b, a->left);
     if (b_right && a_right && !is_same_ray(pivot, a->right, b->right)) {
         unsigned count = sl_arc_make(pivot, a->right, b->left, &pieces[0]);
         count += sl_arc_make(pivot, b->right, a->left, &pieces[count]);
@@ -147,7 +147,7 @@ static bool holds_ray(sl_pivot *pivot, const sl_cone *cone, sl_ray ray) {
     return cone->full || holds_turned(pivot, cone, ray, sl_ray_turn(pivot, cone->arc.right, ray));
 }
 
-bool sl_cone_holds(sl_pivot *pivot, const sl_cone *cone, sl_point point) {
+static bool cone_holds(sl_pivot *pivot, const sl_cone *cone, sl_point point) {
     return sl_same_point(point, pivot->eye) || holds_ray(pivot, cone, sl_ray_to(point));
 }
 
@@ -190,8 +190,8 @@ static sl_ray border(sl_pivot *pivot, sl_ray cone, sl_ray arc) {
 static unsigned clip_around(sl_pivot *pivot, const sl_cone *cone, const sl_arc *arc,
                             sl_arc pieces[2]) {
     const sl_ray cone_left = cone->arc.right, cone_right = cone->arc.left;
-    const bool at_left = sl_arc_has(pivot, arc, cone_left);
-    const bool at_right = sl_arc_has(pivot, arc, cone_right);
+    const bool at_left = arc_has(pivot, arc, cone_left);
+    const bool at_right = arc_has(pivot, arc, cone_right);
     unsigned count = 0;
     if (at_left)
         count += sl_arc_make(pivot, arc->right, border(pivot, cone_left, arc->left), pieces);
@@ -253,7 +253,7 @@ bool sl_view_usable(const sl_view *view) {
 bool sl_view_holds(const sl_view *view, sl_point point) {
     sl_pivot pivot = {.eye = view->eye};
     const sl_cone cone = sl_cone_of(&pivot, view);
-    return sl_cone_holds(&pivot, &cone, point);
+    return cone_holds(&pivot, &cone, point);
 }
 
 bool sl_view_meets_segment(const sl_view *view, sl_segment segment) {

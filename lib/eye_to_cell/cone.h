@@ -75,8 +75,6 @@ bool sl_ray_same_way(const sl_pivot *pivot, sl_ray a, sl_ray b);
 /// them all strictly forwards.
 bool sl_arc_make(sl_pivot *pivot, sl_ray right, sl_ray left, sl_arc *out);
 
-bool sl_arc_has(sl_pivot *pivot, const sl_arc *arc, sl_ray ray);
-
 /// The intersection of two arcs: up to two arcs (two where they are opposite halves). Returns how
 /// many.
 unsigned sl_arc_meet(sl_pivot *pivot, const sl_arc *a, const sl_arc *b, sl_arc pieces[2]);
@@ -102,7 +100,6 @@ typedef struct sl_cone {
 /// The pivot must be at the view's eye, and the view usable.
 sl_cone sl_cone_of(sl_pivot *pivot, const sl_view *view);
 
-bool sl_cone_holds(sl_pivot *pivot, const sl_cone *cone, sl_point point);
 bool sl_cone_meets_segment(sl_pivot *pivot, const sl_cone *cone, sl_point a, sl_point b);
 bool sl_cone_meets_polygon(sl_pivot *pivot, const sl_cone *cone, const sl_point *corners,
                            size_t count);

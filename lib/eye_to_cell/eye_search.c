@@ -107,7 +107,9 @@ sl_eye_step sl_eye_first_step(const sl_eye_query *query) {
     return (sl_eye_step){.cell = query->cell, .near = true};
 }
 
-bool sl_eye_pass(sl_eye_query *query, const sl_eye_step *from, bool first,
+/// Clips a step's arcs to a directed portal of its cell; `first` for the eye's own cell. False
+/// where nothing is left that counts.
+static bool pass(sl_eye_query *query, const sl_eye_step *from, bool first,
                  const sl_directed_portal *directed, sl_eye_step *to) {
     sl_pivot *pivot = &query->pivot;
     *to = (sl_eye_step){.cell = directed->cell};
@@ -161,7 +163,7 @@ void sl_eye_search_limit(sl_eye_search *search, double range) {
 bool sl_eye_pass_in_range(sl_eye_query *query, const sl_eye_step *from, bool first,
                           const sl_directed_portal *directed, sl_eye_step *to) {
     const double range = query->search->range;
-    if (!sl_eye_pass(query, from, first, directed, to)) return false;
+    if (!pass(query, from, first, directed, to)) return false;
     if (!(range > 0) || to->near) return true;
     unsigned kept = 0;
     for (unsigned i = 0; i < to->arc_count; i++)

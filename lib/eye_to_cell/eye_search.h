@@ -95,11 +95,6 @@ static inline bool sl_eye_meets_portal(sl_eye_query *query, const sl_directed_po
 /// The first step of the exact method: the eye's cell, with all of the cone.
 sl_eye_step sl_eye_first_step(const sl_eye_query *query);
 
-/// Clips a step's arcs to a directed portal of its cell; `first` for the eye's own cell. False
-/// where nothing is left that counts.
-bool sl_eye_pass(sl_eye_query *query, const sl_eye_step *from, bool first,
-                 const sl_directed_portal *directed, sl_eye_step *to);
-
 /// Whether to go on from a step of one arc: not where its single ray has come to the cell before.
 /// Gives the ray a number, where it has none from the step before.
 bool sl_eye_is_new(sl_eye_search *search, const sl_eye_step *from, sl_eye_step *to);
@@ -109,7 +104,8 @@ void sl_eye_meet_targets(sl_eye_query *query, const sl_eye_step *at, bool first)
 
 void sl_eye_mirrors_destroy(sl_context *context, struct sl_eye_mirrors *mirrors);
 
-/// As sl_eye_pass, without the arcs in which the portal is out of the search's range.
+/// Clips a step's arcs to a directed portal of its cell; `first` for the eye's own cell. Leaves out
+/// arcs in which the portal is out of the search's range. False where nothing is left that counts.
 bool sl_eye_pass_in_range(sl_eye_query *query, const sl_eye_step *from, bool first,
                           const sl_directed_portal *directed, sl_eye_step *to);
 

@@ -151,10 +151,6 @@ sl_status sl_region_end_at_eye(sl_context *context, sl_region *region);
 /// Ends the polygon.
 sl_status sl_region_close(sl_context *context, sl_region *region);
 
-/// Adds a point, given from the eye.
-sl_status sl_region_add_point(sl_context *context, sl_region *region, sl_point point,
-                              sl_point offset, sl_region_edge edge);
-
 /// The point, less the eye, where a ray meets the line through a and b; the caller knows that it
 /// does. Good to a few units in the last place of each coordinate.
 sl_point sl_region_meet(sl_point eye, const sl_eye_ray *ray, sl_point a, sl_point b);

@@ -102,8 +102,9 @@ static sl_status grow(sl_context *context, sl_region *region) {
     return SL_OK;
 }
 
-sl_status sl_region_add_point(sl_context *context, sl_region *region, sl_point point,
-                              sl_point offset, sl_region_edge edge) {
+/// Adds a point, given from the eye.
+static sl_status add_point(sl_context *context, sl_region *region, sl_point point, sl_point offset,
+                           sl_region_edge edge) {
     if (region->count == region->memory->room) SL_TRY(grow(context, region));
     if (region->count) {
         const sl_point last = region->points[region->count - 1];
@@ -158,7 +159,7 @@ static sl_status end_piece(sl_context *context, sl_region *region, const place *
     region->memory->pending = false;
     if (next && same(&end, next)) return SL_OK;
     const sl_region_edge edge = {SL_NO_WALL, (uint8_t)kind, end.exact};
-    return sl_region_add_point(context, region, end.point, end.offset, edge);
+    return add_point(context, region, end.point, end.offset, edge);
 }
 
 sl_status sl_region_start_piece(sl_context *context, sl_region *region, uint32_t neighbour,
@@ -169,15 +170,15 @@ sl_status sl_region_start_piece(sl_context *context, sl_region *region, uint32_t
     if (m->pending) SL_TRY(end_piece(context, region, &start, SL_EDGE_OCCLUDING));
     m->piece.neighbour = neighbour;
     m->pending = true;
-    return sl_region_add_point(context, region, start.point, start.offset,
-                               edge_along(neighbour, start.exact));
+    return add_point(context, region, start.point, start.offset,
+                     edge_along(neighbour, start.exact));
 }
 
 sl_status sl_region_add_eye(sl_context *context, sl_region *region, sl_edge_kind kind) {
     const sl_region_edge edge = {SL_NO_WALL, (uint8_t)kind, true};
     const place eye = {region->view.eye, {0, 0}, true};
     if (region->memory->pending) SL_TRY(end_piece(context, region, &eye, SL_EDGE_BORDER));
-    return sl_region_add_point(context, region, eye.point, eye.offset, edge);
+    return add_point(context, region, eye.point, eye.offset, edge);
 }
 
 sl_status sl_region_end_at_eye(sl_context *context, sl_region *region) {
@@ -191,7 +192,7 @@ sl_status sl_region_add_on_mirror(sl_context *context, sl_region *region, const 
     const place at = place_of(region->view.eye, ray, at_end, a, b);
     if (region->memory->pending) SL_TRY(end_piece(context, region, &at, SL_EDGE_CONE));
     edge.exact = at.exact;
-    return sl_region_add_point(context, region, at.point, at.offset, edge);
+    return add_point(context, region, at.point, at.offset, edge);
 }
 
 /// Whether the pending piece goes on as the first piece.
@@ -259,7 +260,7 @@ static sl_status add_edge(sl_context *context, sl_region *region, sl_point start
         return SL_OK;
     const sl_point eye = region->view.eye;
     if (!edge.exact) point = (sl_point){eye.x + start.x, eye.y + start.y};
-    return sl_region_add_point(context, region, point, start, edge);
+    return add_point(context, region, point, start, edge);
 }
 
 /// Cuts an edge on a wall or border: what is inside the circle stays, with arcs before and after
@@ -373,5 +374,5 @@ sl_status sl_region_cut_mirrored(sl_context *context, sl_region *region) {
     sl_region_edge edge = near.edge;
     edge.exact = edge.exact && !cut_left;
     const sl_point point = cut_left ? (sl_point){eye.x + from.x, eye.y + from.y} : near.point;
-    return sl_region_add_point(context, region, point, from, edge);
+    return add_point(context, region, point, from, edge);
 }

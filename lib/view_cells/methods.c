@@ -1,6 +1,13 @@
-/// The methods of making view cells: ours of the paper, and those that it is compared with
-/// (Mattausch et al. 2006, section 6.3). What tells them apart is which split a part gets and when
-/// its turn comes.
+/// The methods of making view cells: the adaptive ones of the paper, and those that it compares
+/// them with (Mattausch et al. 2006, section 6.3).
+///
+/// All divide view space from the top (divide.c). They differ in the split that a part gets and in
+/// its place in the queue:
+///
+///   av-m, av-s   the split that gains most; parts by gain. av-m then merges (hierarchy.c).
+///   hybrid       the same by exact sets of pieces (pieces.c) in place of samples.
+///   kd-*         in the middle; breadth first, or until little is seen.
+///   bsp          along the line of a wall, until no wall is inside (Teller 1992).
 #include "view_cells/divide.h"
 
 #include "geometry/orient.h"
@@ -14,8 +21,8 @@ static sl_status find_best_split(sl_view_divider *d, sl_view_part *part, bool *s
     return *splits ? sl_view_choose_axes(d, part, &part->split) : SL_OK;
 }
 
-/// The split of the most gain; a small weight on the part's own cost sees to it that also those
-/// parts are split that only further splits would pay for.
+/// The split that gains most. A small weight on the part's own cost makes sure that parts are split
+/// too where only several splits together pay.
 static sl_status choose_adaptive(sl_view_divider *d, sl_view_part *part, double *priority,
                                  bool *splits) {
     sl_view_find_extents(d, part);
@@ -37,7 +44,7 @@ static sl_status divide_adaptive(sl_context *context, const sl_view_scene *scene
                           NULL);
 }
 
-/// Likewise by exact sets: `found` holds them only when all has gone well.
+/// The same by exact sets. `found` is set only on success.
 static sl_status divide_exactly(sl_context *context, const sl_view_scene *scene,
                                 const sl_view_segments *segments,
                                 const sl_view_subdivision *options, sl_view_tree *out,
@@ -60,7 +67,7 @@ static sl_status divide_exactly(sl_context *context, const sl_view_scene *scene,
 
 // --- kd-trees
 
-/// In the order in which parts are made.
+/// The priority that splits parts in the order in which they are made.
 static double next_in_line(sl_view_divider *d) {
     return -(double)d->made++;
 }
