@@ -3,11 +3,11 @@
 /// The map stays where it is and the eye is reflected. What the eye sees in a mirror is what its
 /// mirror image sees straight through the mirror, into the room in front of it:
 ///
-///          eye
-///         /   \             The two rays to the ends of the mirror become two rays of the image.
-///     ===/mirror\===        What lies between them, beyond the mirror's line as the image sees it,
-///        \     /            is the reflected view.
-///         image
+///       \    eye    /
+///        \         /         The image of the eye lies behind the mirror. The reflected view
+///     ===[ mirror ]===       is what the image sees between two rays, from the mirror on.
+///          \     /
+///           image
 ///
 /// The expansion of the visible region (region.c) takes a reflected view of each piece of a mirror
 /// that it sees. Views of one mirror that join make one part. From each part's image the same is

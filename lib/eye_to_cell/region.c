@@ -4,11 +4,13 @@
 /// piece by piece. Through a side that is a portal the view goes on as a cone of two rays into the
 /// room behind it:
 ///
-///              +-------b----------+
-///              |      /   seen    |      `right` and `left` bound what is seen through the portal
-///        eye   | left/            |      ab. The corners of the next room are passed
-///          \   |    /             |      counter-clockwise from the entry: first they are right of
-///           ---a-+-/- right ------+      the cone, then within it, then left of it.
+///      +---------+--------.-+
+///      |         |    .  left     `left` and `right` bound what is seen through the portal ab.
+///      |         b .        |     On the way around the next room, counter-clockwise from the
+///      |  eye *  |   seen   |     portal, corners come that are right of the cone, then those
+///      |         a .        |     within it, then those left of it.
+///      |         |    .  right
+///      +---------+--------.-+
 ///
 /// Invariant: rooms are convex and a cone is narrower than half a circle. So on the way around a
 /// room the corners pass the right ray once, and then the left ray once: one exact predicate a

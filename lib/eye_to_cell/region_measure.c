@@ -3,9 +3,9 @@
 /// The region is star-shaped about the eye. Each edge and the eye make a triangle, or a sector
 /// where the edge is an arc:
 ///
-///          q ---- p       area = sum of cross(p, q) / 2, with p and q as offsets from the eye
-///           \\  /         A radial edge (occluding, or the cone's border) adds no area.
-///            eye
+///       q ----- p      area = sum of cross(p, q) / 2, with p and q as offsets from the eye.
+///        `.   .'       A radial edge (occluding, or the cone's border) adds no area.
+///          eye
 ///
 /// All these parts are at least 0, so nothing cancels between them. Integrals over directions (mean
 /// radial, variance, skewness) have closed forms for each edge. Cost: O(edges).

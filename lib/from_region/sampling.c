@@ -1,11 +1,10 @@
 /// The sampling solver: random lines, rasterised point by point and half a quadrant at a time
 /// (Laine 2005, section 5.2; Nirenstein & Blake 2004).
 ///
-///      face   lines of one slope            A point of the face has one line for each pixel, which
-///       |  /   /   /   /                    is a slope from 0 to 1. The lines of one slope are
-///       | /   /   /   /   [object]          parallel and equally far apart, shifted at random.
-///       They
-///       |/   /   /   /                      are the same lines for all faces.
+///     face   lines of one slope      A point of the face has one line for each pixel, which is a
+///      |  /   /   /   /              slope from 0 to 1. The lines of one slope are parallel and
+///      | /   /   /  [object]         equally far apart, shifted at random. They are the same
+///      |/   /   /   /                lines for all faces.
 ///
 /// Invariant: a line that goes on through the next face is one of that face's lines too. So a
 /// refine set never lacks what a line meets, and all methods find the same, to the last bit.

@@ -5,12 +5,11 @@
 /// quadrant a view cell depends on those behind its faces. Multipass needs an order in which those
 /// behind come first, so dependences must have no cycle.
 ///
+///     +---+---+---+     Convex view cells have such an order in the plane, however they are
+///     | A   A   A |     laid out. (In space three boxes can make a cycle: Laine 2005, figure 5.)
+///     +---+---+   |     A view cell that lies on two sides of another makes a cycle: sightlines
+///     | A | B | A |     to the right go from A to B, and from B to A.
 ///     +---+---+---+
-///     | A   A   A |      Convex view cells have such an order in the plane, however they are laid
-///     +---+---+   |      out. (In space three boxes can make a cycle: Laine 2005, figure 5.) A
-///     view | A | B | A |      cell that lies on two sides of another makes a cycle: a sightline to
-///     the
-///     +---+---+---+      right goes from A to B, and from B to A.
 ///
 /// A cycle is refused, with its view cells named, or the view cell with the most leaves is cut
 /// along the kd-tree until there is no cycle left.

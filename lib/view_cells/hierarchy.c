@@ -4,13 +4,12 @@
 /// Merging goes bottom up. Of all neighbours, always those two become one for which that costs
 /// least (equation 2). The order is kept:
 ///
-///          6           Elementary cells 0 to 3, joints 4 to 6. A cut into n view cells undoes the
-///        .-+-.         last n - 1 joints: for n = 3, joints 6 and 5 are undone, and 4, 2 and 3 are
-///        4   5         the view cells.
-///       .+. .+.
-///       0 1 2 3        Costs are summed from the top down, so that rounding errors stay small
-///       where
-///                      cells are few.
+///         6         Elementary cells 0 to 3, joints 4 to 6. A cut into n view cells undoes the
+///       .-+-.       last n - 1 joints: for n = 3, joints 6 and 5 are undone, and 4, 2 and 3 are
+///       4   5       the view cells.
+///      .+. .+.
+///      0 1 2 3      Costs are summed from the top down: rounding errors stay small where cells
+///                   are few.
 ///
 /// A heap holds the pairs of neighbours by the increase in cost. A pair is stale where one of the
 /// two has been merged; it is then dropped. The joint takes over the longer of the two lists of

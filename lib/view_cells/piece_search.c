@@ -4,14 +4,11 @@
 /// While no side of the piece has a direction within a sector, the lines of the sector that meet
 /// the piece are those that pass between two of its corners, the utmost left and the utmost right:
 ///
-///             left  o-----.           The piece stands in the sequence as a portal between these
-///             two
-///                  /       \          corners, so no coordinate is computed. The quadrant is cut
-///                  into
-///          lines  /  piece  o         sectors at the directions of the piece's oblique sides; a
-///          box
-///            ->   \       /           needs one sector.
-///                  .-----o right
+///            left o----.       The piece stands in the sequence as a portal between these two
+///                /      .     corners, so no coordinate is computed. The quadrant is cut into
+///     lines ->  /  piece o     sectors at the directions of the piece's oblique sides. A box
+///               .       /     needs one sector.
+///                .---o right
 ///
 /// The search goes on where all candidates have been seen, because all sequences to an object are
 /// needed to know from where in the piece it is seen. That is read from the funnel's polygon of

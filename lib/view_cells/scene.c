@@ -2,8 +2,9 @@
 /// et al. 2006, sections 3.2 and 3.3).
 ///
 /// Viewpoints are spread evenly over the inside, along paths, or by a density. Each place is a
-/// convex polygon or a point, with its share of the probability. The cost of an object is max(a, b
-/// t, c p) for t walls and a share p of the full circle, as seen from the middle of the view cell.
+/// convex polygon or a point, with its share of the probability. An object costs
+/// max(a, b * t, c * p) for t walls and a share p of the full circle, as seen from the middle of
+/// the view cell.
 #include "geometry/orient.h"
 #include "sightline/support.h"
 #include "view_cells/tree.h"

@@ -8,10 +8,10 @@
 /// A rope (Havran, Bittner & Zara 1998) leads from a face of a node to the least node beyond that
 /// holds all of the face:
 ///
-///     +-----+-----+      A node's ropes are its parent's, but for the face between it and its
-///     |  A  |     |      sibling. Each is then let down the tree as far as one child holds all of
-///     +-----+  C  |      the face. Here the right ropes of A and B lead to C, the left rope of C
-///     to |  B  |     |      the node over A and B.
+///     +-----+-----+    A node's ropes are its parent's, but for the face between it and its
+///     |  A  |     |    sibling. Each rope is then let down the tree, as far as one child
+///     +-----+  C  |    holds all of the face. Here the right ropes of A and B lead to C, and
+///     |  B  |     |    the left rope of C leads to the node over A and B.
 ///     +-----+-----+
 ///
 /// Occluders are the walls, where axial ones that overlap or touch in line are joined. Cost of all:

@@ -1,11 +1,10 @@
 /// Shapes about an eye. All is decided by exact predicates on input coordinates.
 ///
-///          right border                A convex shape seen from outside lies in one open wedge of
-///        eye -------- o--+             less than 180 degrees, between its two tangent corners. For
-///        a
-///           \         |  |  shape      box these follow from where the eye is: left of, over or
-///             \       +--o            right of it, and below, beside or above it (nine cases).
-///               left border
+///           left border
+///              .  +--o       A convex shape seen from outside lies in one open wedge of less
+///           .     |  |       than 180 degrees, between its two tangent corners. For a box these
+///        eye .    o--+       follow from where the eye is: left of, over or right of it, and
+///              .  right      below, beside or above it (nine cases).
 ///
 /// An occluder that spans a wedge cuts the wedge into a part before it and a part behind it. A
 /// shape may reach into both. It reaches into a part if that part of the shape has directions
