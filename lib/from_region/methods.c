@@ -167,13 +167,8 @@ typedef struct task {
     uint32_t depth;
 } task;
 
-typedef struct placed_cell {
-    double x, y;
-    uint32_t cell;
-} placed_cell;
-
 typedef struct hierarchy {
-    placed_cell *cells;
+    sl_placed *cells;
     SL_ARRAY(node) nodes;
     uint32_t *leaf; ///< by view cell: its node
     task *tasks;
@@ -182,7 +177,7 @@ typedef struct hierarchy {
     sl_bits *sets;  ///< by node
 } hierarchy;
 
-static sl_status place_cells(sl_context *context, const sl_regions *scene, placed_cell *cells) {
+static sl_status place_cells(sl_context *context, const sl_regions *scene, sl_placed *cells) {
     const uint32_t count = scene->counts.view_cells;
     sl_box *boxes = sl_alloc_array(context, count, sizeof *boxes);
     if (!boxes) return SL_NO_MEMORY;
@@ -198,40 +193,22 @@ static sl_status place_cells(sl_context *context, const sl_regions *scene, place
         box->max.y = fmax(box->max.y, own.max.y);
     }
     for (uint32_t i = 0; i < count; i++)
-        cells[i] = (placed_cell){boxes[i].min.x + (boxes[i].max.x - boxes[i].min.x) / 2,
-                                 boxes[i].min.y + (boxes[i].max.y - boxes[i].min.y) / 2, i};
+        cells[i] = (sl_placed){{boxes[i].min.x + (boxes[i].max.x - boxes[i].min.x) / 2,
+                                boxes[i].min.y + (boxes[i].max.y - boxes[i].min.y) / 2},
+                               i};
     sl_free(context, boxes);
     return SL_OK;
 }
 
-static int compare_x(const void *left, const void *right) {
-    const placed_cell *a = left, *b = right;
-    if (a->x != b->x) return a->x < b->x ? -1 : 1;
-    return (a->cell > b->cell) - (a->cell < b->cell);
-}
-
-static int compare_y(const void *left, const void *right) {
-    const placed_cell *a = left, *b = right;
-    if (a->y != b->y) return a->y < b->y ? -1 : 1;
-    return (a->cell > b->cell) - (a->cell < b->cell);
-}
-
 /// Sorts a node's view cells along the longer side of the box about their middles and cuts there at
 /// its middle.
-static uint32_t cut(placed_cell *cells, uint32_t first, uint32_t end) {
-    sl_box box = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
-    for (uint32_t i = first; i < end; i++) {
-        box.min.x = fmin(box.min.x, cells[i].x);
-        box.min.y = fmin(box.min.y, cells[i].y);
-        box.max.x = fmax(box.max.x, cells[i].x);
-        box.max.y = fmax(box.max.y, cells[i].y);
-    }
-    const bool wide = box.max.x - box.min.x >= box.max.y - box.min.y;
+static uint32_t cut(sl_placed *cells, uint32_t first, uint32_t end) {
+    sl_box box;
+    const bool wide = sl_placed_sort(cells + first, end - first, &box);
     const double middle =
         wide ? box.min.x + (box.max.x - box.min.x) / 2 : box.min.y + (box.max.y - box.min.y) / 2;
-    qsort(cells + first, end - first, sizeof *cells, wide ? compare_x : compare_y);
     uint32_t at = first;
-    while (at < end && (wide ? cells[at].x : cells[at].y) < middle) at++;
+    while (at < end && (wide ? cells[at].at.x : cells[at].at.y) < middle) at++;
     return at > first && at < end ? at : first + (end - first) / 2;
 }
 
@@ -241,7 +218,7 @@ static sl_status divide(sl_context *context, hierarchy *h, uint32_t count) {
     for (uint32_t i = 0; i < h->nodes.count; i++) {
         const node n = h->nodes.items[i];
         if (n.end - n.first <= 1) {
-            if (n.end > n.first) h->leaf[h->cells[n.first].cell] = i;
+            if (n.end > n.first) h->leaf[h->cells[n.first].number] = i;
             continue;
         }
         const uint32_t at = cut(h->cells, n.first, n.end);
@@ -309,7 +286,7 @@ static void make_set(const region_work *work, uint32_t number) {
     sl_bits *set = h->sets + number * scene->words;
     if (number == 0) memcpy(set, work->all, scene->words * sizeof *set);
     for (uint32_t i = n->first; i < n->end && number; i++) {
-        const uint32_t cell = h->cells[i].cell;
+        const uint32_t cell = h->cells[i].number;
         add_row(set, sl_regions_inside(scene, cell), scene->words);
         for (uint32_t f = scene->first_face[cell]; f < scene->first_face[cell + 1]; f++) {
             const uint32_t to = scene->faces.items[f].to;
@@ -323,9 +300,9 @@ static void make_set(const region_work *work, uint32_t number) {
         }
     }
     if (n->end - n->first != 1) return;
-    sl_bits *row = work->seen + h->cells[n->first].cell * scene->words;
+    sl_bits *row = work->seen + h->cells[n->first].number * scene->words;
     // A compound of one view cell has its root for a leaf.
-    memcpy(row, number ? set : sl_regions_inside(scene, h->cells[n->first].cell),
+    memcpy(row, number ? set : sl_regions_inside(scene, h->cells[n->first].number),
            scene->words * sizeof *row);
 }
 
@@ -346,7 +323,7 @@ static sl_status task_unit(sl_context *context, region_work *work, region_thread
     if (n->end - n->first > 1) return SL_OK;
     // The boundary of a compound of one view cell: no other unit adds this.
     pthread_mutex_lock(&work->lock);
-    add_row(work->seen + h->cells[n->first].cell * words, seen, words);
+    add_row(work->seen + h->cells[n->first].number * words, seen, words);
     pthread_mutex_unlock(&work->lock);
     return SL_OK;
 }

@@ -100,40 +100,43 @@ static sl_status add_walls(sl_context *context, sl_regions *scene) {
 
 // --- walls that have a side inside, and groups of them
 
-typedef struct placed_wall {
-    sl_point middle;
-    uint32_t wall;
-} placed_wall;
+static void take(sl_box *box, sl_point p) {
+    box->min.x = fmin(box->min.x, p.x);
+    box->min.y = fmin(box->min.y, p.y);
+    box->max.x = fmax(box->max.x, p.x);
+    box->max.y = fmax(box->max.y, p.y);
+}
 
 static int compare_x(const void *left, const void *right) {
-    const placed_wall *a = left, *b = right;
-    if (a->middle.x != b->middle.x) return a->middle.x < b->middle.x ? -1 : 1;
-    return (a->wall > b->wall) - (a->wall < b->wall);
+    const sl_placed *a = left, *b = right;
+    if (a->at.x != b->at.x) return a->at.x < b->at.x ? -1 : 1;
+    return (a->number > b->number) - (a->number < b->number);
 }
 
 static int compare_y(const void *left, const void *right) {
-    const placed_wall *a = left, *b = right;
-    if (a->middle.y != b->middle.y) return a->middle.y < b->middle.y ? -1 : 1;
-    return (a->wall > b->wall) - (a->wall < b->wall);
+    const sl_placed *a = left, *b = right;
+    if (a->at.y != b->at.y) return a->at.y < b->at.y ? -1 : 1;
+    return (a->number > b->number) - (a->number < b->number);
+}
+
+bool sl_placed_sort(sl_placed *items, size_t count, sl_box *box) {
+    *box = (sl_box){items[0].at, items[0].at};
+    for (size_t i = 1; i < count; i++) take(box, items[i].at);
+    const bool wide = box->max.x - box->min.x >= box->max.y - box->min.y;
+    qsort(items, count, sizeof *items, wide ? compare_x : compare_y);
+    return wide;
 }
 
 /// Divides walls into `groups` of about the same size, along the longer side each time. `object` is
 /// the number of the first group. Recursion depth: the logarithm of `groups`.
-static void divide(placed_wall *walls, size_t count, uint32_t groups, uint32_t object,
+static void divide(sl_placed *walls, size_t count, uint32_t groups, uint32_t object,
                    uint32_t *of_wall) {
     if (groups == 1) {
-        for (size_t i = 0; i < count; i++) of_wall[walls[i].wall] = object;
+        for (size_t i = 0; i < count; i++) of_wall[walls[i].number] = object;
         return;
     }
-    sl_box box = {walls[0].middle, walls[0].middle};
-    for (size_t i = 1; i < count; i++) {
-        box.min.x = fmin(box.min.x, walls[i].middle.x);
-        box.min.y = fmin(box.min.y, walls[i].middle.y);
-        box.max.x = fmax(box.max.x, walls[i].middle.x);
-        box.max.y = fmax(box.max.y, walls[i].middle.y);
-    }
-    const bool wide = box.max.x - box.min.x >= box.max.y - box.min.y;
-    qsort(walls, count, sizeof *walls, wide ? compare_x : compare_y);
+    sl_box box;
+    sl_placed_sort(walls, count, &box);
     const uint32_t below = groups / 2;
     const size_t half = count * below / groups;
     divide(walls, half, below, object, of_wall);
@@ -146,7 +149,7 @@ static sl_status number_walls(sl_context *context, sl_regions *scene, uint32_t g
                               uint32_t first, uint32_t *count) {
     const sl_space *space = &scene->space;
     uint32_t *of_wall = sl_alloc_array(context, space->wall_count, sizeof *of_wall);
-    placed_wall *placed = sl_alloc_array(context, space->wall_count, sizeof *placed);
+    sl_placed *placed = sl_alloc_array(context, space->wall_count, sizeof *placed);
     if (!of_wall || !placed) {
         sl_free(context, of_wall);
         sl_free(context, placed);
@@ -159,7 +162,7 @@ static sl_status number_walls(sl_context *context, sl_regions *scene, uint32_t g
         if (!of_wall[i]) continue;
         const sl_point a = space->walls[i].a, b = space->walls[i].b;
         of_wall[i] = first + (uint32_t)walls;
-        placed[walls++] = (placed_wall){{a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2}, i};
+        placed[walls++] = (sl_placed){{a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2}, i};
     }
     *count = (uint32_t)walls;
     if (groups && groups < walls) {
@@ -238,13 +241,6 @@ static int compare_items(const void *left, const void *right) {
     if (a->leaf != b->leaf) return a->leaf < b->leaf ? -1 : 1;
     if (a->left.x != b->left.x) return a->left.x < b->left.x ? -1 : 1;
     return (a->left.y > b->left.y) - (a->left.y < b->left.y);
-}
-
-static void take(sl_box *box, sl_point p) {
-    box->min.x = fmin(box->min.x, p.x);
-    box->min.y = fmin(box->min.y, p.y);
-    box->max.x = fmax(box->max.x, p.x);
-    box->max.y = fmax(box->max.y, p.y);
 }
 
 static sl_status index_items(sl_context *context, sl_regions *scene) {

@@ -97,6 +97,17 @@ static inline sl_bits *sl_regions_inside(const sl_regions *scene, uint32_t view_
     return scene->inside + view_cell * scene->words;
 }
 
+// --- halving along the longer side
+
+/// A view cell or a wall, by its number, at its middle.
+typedef struct sl_placed {
+    sl_point at;
+    uint32_t number;
+} sl_placed;
+
+/// Sorts items along the longer side of the box about them: true for x. There must be one.
+bool sl_placed_sort(sl_placed *items, size_t count, sl_box *box);
+
 // --- solvers
 
 /// A question to a solver: which objects of the refine set are seen through the face, within the

@@ -52,9 +52,10 @@ static uint32_t find(merger *m, uint32_t number) {
     return top;
 }
 
-static sl_point middle_of_two(const merger *m, uint32_t a, uint32_t b) {
-    const double share = m->mass[b] / (m->mass[a] + m->mass[b]);
-    const sl_point p = m->middle[a], q = m->middle[b];
+/// The middle of two parts together, by mass. All arrays are by number.
+static sl_point middle_of_two(const double *mass, const sl_point *middle, uint32_t a, uint32_t b) {
+    const double share = mass[b] / (mass[a] + mass[b]);
+    const sl_point p = middle[a], q = middle[b];
     return (sl_point){p.x + share * (q.x - p.x), p.y + share * (q.y - p.y)};
 }
 
@@ -63,7 +64,8 @@ static double cost_of_both(merger *m, uint32_t a, uint32_t b) {
     const sl_bits *one = sl_view_set(&m->sets, m->row[a]);
     const sl_bits *other = sl_view_set(&m->sets, m->row[b]);
     for (size_t i = 0; i < m->sets.words; i++) m->both[i] = one[i] | other[i];
-    return sl_view_render_set(&m->render, m->both, m->sets.words, middle_of_two(m, a, b));
+    return sl_view_render_set(&m->render, m->both, m->sets.words,
+                              middle_of_two(m->mass, m->middle, a, b));
 }
 
 /// Queues a pair by the increase in cost of merging it (equation 2).
@@ -115,7 +117,7 @@ static sl_status merge_two(merger *m, uint32_t a, uint32_t b) {
     m->joints[m->joint_count++] = (sl_view_joint){{a, b}};
     m->cost[joint] = cost_of_both(m, a, b);
     m->mass[joint] = m->mass[a] + m->mass[b];
-    m->middle[joint] = middle_of_two(m, a, b);
+    m->middle[joint] = middle_of_two(m->mass, m->middle, a, b);
     m->row[joint] = m->row[a];
     memcpy(sl_view_set(&m->sets, m->row[a]), m->both, m->sets.words * sizeof *m->both);
     m->up[a] = m->up[b] = m->up[joint] = joint;
@@ -356,9 +358,7 @@ static sl_status measure_all(sl_context *context, const sl_view_render *render,
         for (size_t k = 0; k < rows->words; k++) into[k] |= from[k];
         row[c] = row[a];
         h->mass[c] = h->mass[a] + h->mass[b];
-        const double share = h->mass[b] / h->mass[c];
-        middle[c].x = middle[a].x + share * (middle[b].x - middle[a].x);
-        middle[c].y = middle[a].y + share * (middle[b].y - middle[a].y);
+        middle[c] = middle_of_two(h->mass, middle, a, b);
         measure(render, rows, into, middle[c], c, h);
     }
     sl_free(context, row);

@@ -14,6 +14,15 @@
 
 #include <math.h>
 
+/// Defines how a method by samples (`by` is segments) or by none (NULL) divides view space.
+#define DIVIDE(name, by, choose, stops_early)                                                      \
+    static sl_status name(sl_context *context, const sl_view_scene *scene,                         \
+                          const sl_view_segments *segments, const sl_view_subdivision *options,    \
+                          sl_view_tree *out, sl_view_found *found) {                               \
+        (void)segments, (void)found;                                                               \
+        return sl_view_divide(context, scene, by, NULL, options, choose, stops_early, out, NULL);  \
+    }
+
 // --- adaptive
 
 static sl_status find_best_split(sl_view_divider *d, sl_view_part *part, bool *splits) {
@@ -35,14 +44,7 @@ static sl_status choose_adaptive(sl_view_divider *d, sl_view_part *part, double 
     return SL_OK;
 }
 
-static sl_status divide_adaptive(sl_context *context, const sl_view_scene *scene,
-                                 const sl_view_segments *segments,
-                                 const sl_view_subdivision *options, sl_view_tree *out,
-                                 sl_view_found *found) {
-    (void)found;
-    return sl_view_divide(context, scene, segments, NULL, options, choose_adaptive, true, out,
-                          NULL);
-}
+DIVIDE(divide_adaptive, segments, choose_adaptive, true)
 
 /// The same by exact sets. `found` is set only on success.
 static sl_status divide_exactly(sl_context *context, const sl_view_scene *scene,
@@ -105,41 +107,10 @@ static sl_status choose_depth_first(sl_view_divider *d, sl_view_part *part, doub
     return SL_OK;
 }
 
-static sl_status divide_cycling(sl_context *context, const sl_view_scene *scene,
-                                const sl_view_segments *segments,
-                                const sl_view_subdivision *options, sl_view_tree *out,
-                                sl_view_found *found) {
-    (void)found;
-    (void)segments;
-    return sl_view_divide(context, scene, NULL, NULL, options, choose_cycling, false, out, NULL);
-}
-
-static sl_status divide_longest(sl_context *context, const sl_view_scene *scene,
-                                const sl_view_segments *segments,
-                                const sl_view_subdivision *options, sl_view_tree *out,
-                                sl_view_found *found) {
-    (void)found;
-    (void)segments;
-    return sl_view_divide(context, scene, NULL, NULL, options, choose_longest, false, out, NULL);
-}
-
-static sl_status divide_visible(sl_context *context, const sl_view_scene *scene,
-                                const sl_view_segments *segments,
-                                const sl_view_subdivision *options, sl_view_tree *out,
-                                sl_view_found *found) {
-    (void)found;
-    return sl_view_divide(context, scene, segments, NULL, options, choose_visible, false, out,
-                          NULL);
-}
-
-static sl_status divide_depth_first(sl_context *context, const sl_view_scene *scene,
-                                    const sl_view_segments *segments,
-                                    const sl_view_subdivision *options, sl_view_tree *out,
-                                    sl_view_found *found) {
-    (void)found;
-    return sl_view_divide(context, scene, segments, NULL, options, choose_depth_first, false, out,
-                          NULL);
-}
+DIVIDE(divide_cycling, NULL, choose_cycling, false)
+DIVIDE(divide_longest, NULL, choose_longest, false)
+DIVIDE(divide_visible, segments, choose_visible, false)
+DIVIDE(divide_depth_first, segments, choose_depth_first, false)
 
 // --- aligned with the walls
 
@@ -180,14 +151,7 @@ static sl_status choose_wall(sl_view_divider *d, sl_view_part *part, double *pri
     return SL_OK;
 }
 
-static sl_status divide_by_walls(sl_context *context, const sl_view_scene *scene,
-                                 const sl_view_segments *segments,
-                                 const sl_view_subdivision *options, sl_view_tree *out,
-                                 sl_view_found *found) {
-    (void)found;
-    (void)segments;
-    return sl_view_divide(context, scene, NULL, NULL, options, choose_wall, false, out, NULL);
-}
+DIVIDE(divide_by_walls, NULL, choose_wall, false)
 
 static const sl_view_method methods[] = {
     {.name = "av-m",

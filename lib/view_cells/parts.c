@@ -41,26 +41,14 @@ sl_point sl_view_part_middle(const sl_view_part *part) {
 
 // --- segments
 
-/// Shortens t0 .. t1 to where from + t * by <= 0.
-static void keep(double from, double by, double *t0, double *t1) {
-    if (by > 0)
-        *t1 = fmin(*t1, -from / by);
-    else if (by < 0)
-        *t0 = fmax(*t0, -from / by);
-}
-
 static void clip_to_polygon(const sl_view_part *part, const sl_segment *s, double *t0, double *t1) {
     for (size_t i = 0; i < part->corners.count; i++) {
         const sl_point a = part->corners.items[i];
         const sl_point b = part->corners.items[i + 1 < part->corners.count ? i + 1 : 0];
         const double nx = b.y - a.y, ny = a.x - b.x; // outwards
-        keep(nx * (s->a.x - a.x) + ny * (s->a.y - a.y),
-             nx * (s->b.x - s->a.x) + ny * (s->b.y - s->a.y), t0, t1);
+        sl_keep_below(nx * (s->a.x - a.x) + ny * (s->a.y - a.y),
+                      nx * (s->b.x - s->a.x) + ny * (s->b.y - s->a.y), t0, t1);
     }
-}
-
-static double within(double value, double low, double high) {
-    return value < low ? low : value > high ? high : value;
 }
 
 /// Shortens t0 .. t1 to where a + t * (b - a) is between low and high. It divides only where an end
@@ -90,8 +78,9 @@ sl_segment sl_view_part_clip(const sl_view_part *part, const sl_segment *s) {
     const double dx = s->b.x - s->a.x, dy = s->b.y - s->a.y;
     const sl_point a = t0 > 0 ? (sl_point){s->a.x + t0 * dx, s->a.y + t0 * dy} : s->a;
     const sl_point b = t1 < 1 ? (sl_point){s->a.x + t1 * dx, s->a.y + t1 * dy} : s->b;
-    return (sl_segment){{within(a.x, box->min.x, box->max.x), within(a.y, box->min.y, box->max.y)},
-                        {within(b.x, box->min.x, box->max.x), within(b.y, box->min.y, box->max.y)}};
+    return (sl_segment){
+        {sl_within(a.x, box->min.x, box->max.x), sl_within(a.y, box->min.y, box->max.y)},
+        {sl_within(b.x, box->min.x, box->max.x), sl_within(b.y, box->min.y, box->max.y)}};
 }
 
 // --- polygons
@@ -137,7 +126,7 @@ static double part_below(const sl_point *points, uint32_t count, const sl_view_s
         p = q;
         at_p = at_q;
     }
-    return all > 0 ? within(below / all, 0, 1) : 0;
+    return all > 0 ? sl_within(below / all, 0, 1) : 0;
 }
 
 double sl_view_share_below(const sl_view_share *share, const sl_view_split *split) {

@@ -127,17 +127,6 @@ void sl_view_search_allow(sl_view_searcher *me, uint32_t room) {
 
 // --- from where in the piece
 
-static void keep(double from, double by, double *t0, double *t1) {
-    if (by > 0)
-        *t1 = fmin(*t1, -from / by);
-    else if (by < 0)
-        *t0 = fmax(*t0, -from / by);
-}
-
-static double within(double value, double low, double high) {
-    return value < low ? low : value > high ? high : value;
-}
-
 /// Adds the part of a line within the piece, which the line meets, but for rounding.
 static void add_line(const sl_view_piece *piece, sl_point a, sl_point b, sl_view_extent *out) {
     double t0 = -INFINITY, t1 = INFINITY;
@@ -146,7 +135,7 @@ static void add_line(const sl_view_piece *piece, sl_point a, sl_point b, sl_view
     for (size_t i = 0; i < piece->corners.count; i++) {
         const sl_point q = piece->corners.items[i];
         const double nx = q.y - p.y, ny = p.x - q.x; // outwards
-        keep(nx * (a.x - p.x) + ny * (a.y - p.y), nx * dx + ny * dy, &t0, &t1);
+        sl_keep_below(nx * (a.x - p.x) + ny * (a.y - p.y), nx * dx + ny * dy, &t0, &t1);
         p = q;
     }
     const double ends[2] = {t0, t1};
@@ -154,7 +143,7 @@ static void add_line(const sl_view_piece *piece, sl_point a, sl_point b, sl_view
         if (!isfinite(ends[i])) continue;
         const double at[2] = {a.x + ends[i] * dx, a.y + ends[i] * dy};
         for (int axis = 0; axis < 2; axis++) {
-            const double v = within(at[axis], piece->box.low[axis], piece->box.high[axis]);
+            const double v = sl_within(at[axis], piece->box.low[axis], piece->box.high[axis]);
             if (v < out->low[axis]) out->low[axis] = v;
             if (v > out->high[axis]) out->high[axis] = v;
         }

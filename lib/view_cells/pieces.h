@@ -68,6 +68,22 @@ static inline void sl_view_extent_join(sl_view_extent *extent, const sl_view_ext
     }
 }
 
+// --- clipping in doubles
+
+/// Shortens t0 .. t1 to where from + t * by <= 0.
+static inline void sl_keep_below(double from, double by, double *t0, double *t1) {
+    if (by > 0)
+        *t1 = fmin(*t1, -from / by);
+    else if (by < 0)
+        *t0 = fmax(*t0, -from / by);
+}
+
+static inline double sl_within(double value, double low, double high) {
+    return value < low ? low : value > high ? high : value;
+}
+
+// --- directed visible sets
+
 typedef struct sl_view_sight {
     uint32_t object;
     sl_view_extent from;

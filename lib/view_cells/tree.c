@@ -44,26 +44,23 @@ uint32_t sl_view_tree_locate(const sl_view_tree *tree, sl_point point) {
     return (uint32_t)~at;
 }
 
-sl_point sl_view_leaf_middle(const sl_view_tree *tree, uint32_t leaf) {
-    const uint32_t first = tree->first[leaf], end = tree->first[leaf + 1];
-    const sl_point at = tree->corners[first];
+/// The mean of some corners, from the first one: large coordinates lose nothing.
+static sl_point middle_of(const sl_point *corners, uint32_t count) {
     sl_point sum = {0, 0};
-    for (uint32_t i = first; i < end; i++) {
-        sum.x += (tree->corners[i].x - at.x) / (end - first);
-        sum.y += (tree->corners[i].y - at.y) / (end - first);
+    for (uint32_t i = 1; i < count; i++) {
+        sum.x += (corners[i].x - corners[0].x) / count;
+        sum.y += (corners[i].y - corners[0].y) / count;
     }
-    return (sl_point){at.x + sum.x, at.y + sum.y};
+    return (sl_point){corners[0].x + sum.x, corners[0].y + sum.y};
+}
+
+sl_point sl_view_leaf_middle(const sl_view_tree *tree, uint32_t leaf) {
+    return middle_of(tree->corners + tree->first[leaf], tree->first[leaf + 1] - tree->first[leaf]);
 }
 
 sl_point sl_view_cell_middle(const sl_space *space, uint32_t cell) {
     const sl_cell *c = &space->cells[cell];
-    const sl_point *corners = space->vertices + c->first_vertex;
-    sl_point sum = {0, 0};
-    for (uint32_t i = 1; i < c->vertex_count; i++) {
-        sum.x += (corners[i].x - corners[0].x) / c->vertex_count;
-        sum.y += (corners[i].y - corners[0].y) / c->vertex_count;
-    }
-    return (sl_point){corners[0].x + sum.x, corners[0].y + sum.y};
+    return middle_of(space->vertices + c->first_vertex, c->vertex_count);
 }
 
 uint32_t sl_view_cell_home(const sl_space *homes, const sl_space *space, uint32_t cell) {
