@@ -79,21 +79,21 @@ unsigned sl_arc_meet(sl_pivot *pivot, const sl_arc *a, const sl_arc *b, sl_arc p
 }
 
 /// Marks the border at which a portal that lies along the ray is crossed. `ray` is the arc's.
-static void mark_along(const sl_pivot *pivot, const sl_directed_portal *directed, sl_arc *arc) {
+static void mark_along(const sl_pivot *pivot, const sl_directed_portal *portal, sl_arc *arc) {
     // Who goes from the portal's right end to its left end crosses it to the right.
-    const bool ahead = way_to(pivot, &arc->right) == way(directed->right, directed->left);
+    const bool ahead = way_to(pivot, &arc->right) == way(portal->right, portal->left);
     if (ahead != arc->right.away)
         arc->left.along = true;
     else
         arc->right.along = true;
 }
 
-bool sl_arc_of_portal(sl_pivot *pivot, const sl_directed_portal *directed, sl_arc *out) {
-    sl_arc arc = {sl_ray_to(directed->right), sl_ray_to(directed->left), SL_SPAN_HALF};
-    if (is_at(pivot, directed->left)) {
-        arc.left = (sl_ray){.point = directed->right, .away = true};
-    } else if (is_at(pivot, directed->right)) {
-        arc.right = (sl_ray){.point = directed->left, .away = true};
+bool sl_arc_of_portal(sl_pivot *pivot, const sl_directed_portal *portal, sl_arc *out) {
+    sl_arc arc = {sl_ray_to(portal->right), sl_ray_to(portal->left), SL_SPAN_HALF};
+    if (is_at(pivot, portal->left)) {
+        arc.left = (sl_ray){.point = portal->right, .away = true};
+    } else if (is_at(pivot, portal->right)) {
+        arc.right = (sl_ray){.point = portal->left, .away = true};
     } else {
         const int turn = sl_ray_turn(pivot, arc.right, arc.left);
         if (turn < 0) return false;
@@ -103,22 +103,21 @@ bool sl_arc_of_portal(sl_pivot *pivot, const sl_directed_portal *directed, sl_ar
             arc.span = SL_SPAN_RAY;
     }
     if (arc.span == SL_SPAN_HALF) arc.right.along = arc.left.along = true;
-    if (arc.span == SL_SPAN_RAY) mark_along(pivot, directed, &arc);
+    if (arc.span == SL_SPAN_RAY) mark_along(pivot, portal, &arc);
     *out = arc;
     return true;
 }
 
-bool sl_arc_narrow(sl_pivot *pivot, const sl_arc *arc, const sl_directed_portal *directed,
+bool sl_arc_narrow(sl_pivot *pivot, const sl_arc *arc, const sl_directed_portal *portal,
                    sl_arc *out) {
-    const sl_ray to_right = sl_ray_to(directed->right), to_left = sl_ray_to(directed->left);
+    const sl_ray to_right = sl_ray_to(portal->right), to_left = sl_ray_to(portal->left);
     sl_arc narrow = *arc;
     if (sl_ray_turn(pivot, arc->right, to_right) > 0) narrow.right = to_right;
     if (sl_ray_turn(pivot, arc->left, to_left) < 0) narrow.left = to_left;
     const int turn = sl_ray_turn(pivot, narrow.right, narrow.left);
     if (turn < 0) return false;
     narrow.span = turn > 0 ? SL_SPAN_WEDGE : SL_SPAN_RAY;
-    if (turn == 0 && sl_ray_turn(pivot, to_right, to_left) == 0)
-        mark_along(pivot, directed, &narrow);
+    if (turn == 0 && sl_ray_turn(pivot, to_right, to_left) == 0) mark_along(pivot, portal, &narrow);
     if (turn == 0 && narrow.right.along && narrow.left.along) return false;
     *out = narrow;
     return true;

@@ -82,12 +82,12 @@ unsigned sl_arc_meet(sl_pivot *pivot, const sl_arc *a, const sl_arc *b, sl_arc p
 /// The directions in which a line through the eye crosses a portal, for an eye in the cell that the
 /// directed portal leads out of: a half where the eye is on the portal, a single ray where it is
 /// elsewhere on the portal's line. False where there is none.
-bool sl_arc_of_portal(sl_pivot *pivot, const sl_directed_portal *directed, sl_arc *out);
+bool sl_arc_of_portal(sl_pivot *pivot, const sl_directed_portal *portal, sl_arc *out);
 
 /// Clips an arc to a directed portal of a cell. The cell was entered by a portal that the eye is
 /// not on, so all of it that the arc reaches is ahead, within less than 180 degrees. False where
 /// nothing is left.
-bool sl_arc_narrow(sl_pivot *pivot, const sl_arc *arc, const sl_directed_portal *directed,
+bool sl_arc_narrow(sl_pivot *pivot, const sl_arc *arc, const sl_directed_portal *portal,
                    sl_arc *out);
 
 /// A view cone as an arc, made once for many questions. Where the cone is wider than 180 degrees

@@ -70,20 +70,20 @@ static sl_status disjoint_cell(sl_context *context, sl_eye_search *search, const
 // --- spreading from the eye's cell
 
 /// Whether to go through a directed portal.
-typedef bool portal_test(sl_eye_query *query, const sl_directed_portal *directed);
+typedef bool portal_test(sl_eye_query *query, const sl_directed_portal *portal);
 
 /// Tests the portals of a kept cell and queues the cells behind those that pass.
 static size_t spread_from(sl_eye_query *query, portal_test *test, uint32_t from, uint32_t *queue,
                           size_t queued) {
     const sl_cell *cell = &query->space->cells[from];
     for (uint32_t i = 0; i < cell->directed_count; i++) {
-        const sl_directed_portal *directed = &query->space->directed[cell->first_directed + i];
-        if (sl_bits_has(query->cells, directed->cell) || !sl_eye_may_see(query, directed->cell))
+        const sl_directed_portal *portal = &query->space->directed[cell->first_directed + i];
+        if (sl_bits_has(query->cells, portal->cell) || !sl_eye_may_see(query, portal->cell))
             continue;
         query->nodes++;
-        if (!test(query, directed)) continue;
-        sl_bits_add(query->cells, directed->cell);
-        queue[queued++] = directed->cell;
+        if (!test(query, portal)) continue;
+        sl_bits_add(query->cells, portal->cell);
+        queue[queued++] = portal->cell;
     }
     return queued;
 }
@@ -103,8 +103,8 @@ static sl_status spread(sl_context *context, sl_eye_query *query, portal_test *t
     return SL_OK;
 }
 
-static bool meets_cell(sl_eye_query *query, const sl_directed_portal *directed) {
-    return sl_eye_meets_cell(query, directed->cell);
+static bool meets_cell(sl_eye_query *query, const sl_directed_portal *portal) {
+    return sl_eye_meets_cell(query, portal->cell);
 }
 
 static sl_status connected_component(sl_context *context, sl_eye_search *search,

@@ -87,9 +87,9 @@ static inline bool sl_eye_meets_cell(sl_eye_query *query, uint32_t number) {
 }
 
 /// Whether a portal meets the cone.
-static inline bool sl_eye_meets_portal(sl_eye_query *query, const sl_directed_portal *directed) {
+static inline bool sl_eye_meets_portal(sl_eye_query *query, const sl_directed_portal *portal) {
     return query->cone.full ||
-           sl_cone_meets_segment(&query->pivot, &query->cone, directed->left, directed->right);
+           sl_cone_meets_segment(&query->pivot, &query->cone, portal->left, portal->right);
 }
 
 /// The first step of the exact method: the eye's cell, with all of the cone.
@@ -107,7 +107,7 @@ void sl_eye_mirrors_destroy(sl_context *context, struct sl_eye_mirrors *mirrors)
 /// Clips a step's arcs to a directed portal of its cell; `first` for the eye's own cell. Leaves out
 /// arcs in which the portal is out of the search's range. False where nothing is left that counts.
 bool sl_eye_pass_in_range(sl_eye_query *query, const sl_eye_step *from, bool first,
-                          const sl_directed_portal *directed, sl_eye_step *to);
+                          const sl_directed_portal *portal, sl_eye_step *to);
 
 /// The exact method down the stab tree of the eye's cell. `done` is false, with nothing done, where
 /// the tree is not kept or its nodes are not in the order of a depth-first search.

@@ -109,18 +109,18 @@ static bool passes(sl_line line, sl_point left, sl_point right) {
 
 /// Adds the lines of one pixel that leave by the face.
 static sl_status add_rays(sl_context *context, sampler *s, image i, uint32_t pixel,
-                          const sl_directed_portal *directed, uint32_t points) {
+                          const sl_directed_portal *portal, uint32_t points) {
     // Rising and falling lines: x and y grow together in quadrants 0 and 2 alone.
     const double slope = (i.quadrant % 2 ? -1 : 1) * slope_of(s, pixel);
     const double shift = shift_of(s, i, pixel);
-    const double p = offset_of(s, i, slope, directed->left),
-                 q = offset_of(s, i, slope, directed->right);
+    const double p = offset_of(s, i, slope, portal->left),
+                 q = offset_of(s, i, slope, portal->right);
     const double low = floor(fmin(p, q) / s->step - shift) - 1;
     const double high = ceil(fmax(p, q) / s->step - shift) + 1;
     for (double number = low; number <= high; number++) {
         const double offset = (number + shift) * s->step;
         const sl_line line = line_of(s, i, slope, offset);
-        if (!passes(line, directed->left, directed->right)) continue;
+        if (!passes(line, portal->left, portal->right)) continue;
         // The point of the face that a line belongs to matters only for culling.
         const double share = (offset - p) / (q - p) * points;
         const uint32_t point = share >= points ? points - 1 : share > 0 ? (uint32_t)share : 0;
@@ -133,10 +133,10 @@ static sl_status add_rays(sl_context *context, sampler *s, image i, uint32_t pix
 
 /// Makes all lines of half a quadrant through a face, sorted by point, then pixel.
 static sl_status make_rays(sl_context *context, sampler *s, image i,
-                           const sl_directed_portal *directed, uint32_t points) {
+                           const sl_directed_portal *portal, uint32_t points) {
     s->found.count = 0;
     for (uint32_t pixel = 0; pixel < s->options->pixels; pixel++)
-        SL_TRY(add_rays(context, s, i, pixel, directed, points));
+        SL_TRY(add_rays(context, s, i, pixel, portal, points));
     SL_TRY(SL_ARRAY_ROOM(context, &s->starts, (size_t)points + 2));
     s->rays.count = 0;
     SL_TRY(SL_ARRAY_ROOM(context, &s->rays, s->found.count));
@@ -250,10 +250,10 @@ static void draw_image(sampler *s, image i, const sl_from_region_query *query, c
 }
 
 /// The part of a face from which the lines of one of its points leave, and a little more.
-static extent point_of(image i, const sl_directed_portal *directed, uint32_t point, uint32_t points,
+static extent point_of(image i, const sl_directed_portal *portal, uint32_t point, uint32_t points,
                        double step) {
     const double low = (double)point / points, high = (double)(point + 1) / points;
-    const sl_point l = directed->left, way = {directed->right.x - l.x, directed->right.y - l.y};
+    const sl_point l = portal->left, way = {portal->right.x - l.x, portal->right.y - l.y};
     extent e = extent_of(i, (sl_point){l.x + low * way.x, l.y + low * way.y},
                          (sl_point){l.x + high * way.x, l.y + high * way.y});
     const double room = step / 1024;
@@ -267,18 +267,18 @@ static extent point_of(image i, const sl_directed_portal *directed, uint32_t poi
 static sl_status run(sl_context *context, void *state, const sl_from_region_query *query,
                      sl_bits *seen, sl_from_region_account *account) {
     sampler *s = state;
-    const sl_directed_portal *directed = &s->scene->space.directed[query->face->directed];
+    const sl_directed_portal *portal = &s->scene->space.directed[query->face->directed];
     const double length =
-        fabs(directed->right.x - directed->left.x) + fabs(directed->right.y - directed->left.y);
+        fabs(portal->right.x - portal->left.x) + fabs(portal->right.y - portal->left.y);
     const uint32_t points = (uint32_t)fmax(1, ceil(length / s->step));
     SL_TRY(SL_ARRAY_ROOM(context, &s->refined, sl_regions_objects(s->scene)));
     for (int steep = 0; steep < 2; steep++) {
         const image i = {query->quadrant, steep};
         SL_TRY(sl_check_cancelled(context));
-        SL_TRY(make_rays(context, s, i, directed, points));
+        SL_TRY(make_rays(context, s, i, portal, points));
         for (uint32_t point = 0; point < points; point++) {
             const uint32_t first = s->starts.items[point], end = s->starts.items[point + 1];
-            const extent from = point_of(i, directed, point, points, s->step);
+            const extent from = point_of(i, portal, point, points, s->step);
             if (first < end)
                 draw_image(s, i, query, &from, s->rays.items + first, end - first, seen, account);
         }

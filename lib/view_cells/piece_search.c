@@ -181,7 +181,7 @@ static sl_view_extent find_extent(const sl_view_searcher *me, const sl_view_piec
 
 // --- the search
 
-/// One look into a quadrant.
+/// One search of a quadrant.
 typedef struct search {
     const sl_view_pieces *pieces;
     sl_view_searcher *me;
@@ -254,7 +254,7 @@ static bool is_behind(const search *s, const sl_room_side *side) {
 static sl_status try_side(search *s, const sl_room_side *side) {
     sl_view_searcher *me = s->me;
     step to = me->steps.items[me->steps.count - 1];
-    const sl_directed_portal directed = {.left = side->left, .right = side->right};
+    const sl_directed_portal portal = {.left = side->left, .right = side->right};
     if (me->steps.count == 1 && is_behind(s, side)) return SL_OK;
     if (side->room != SL_NO_ROOM && me->allowed[side->room] != me->allowing) return SL_OK;
     if (side->room == SL_NO_ROOM) {
@@ -262,7 +262,7 @@ static sl_status try_side(search *s, const sl_room_side *side) {
         if (me->steps.count == 1) return SL_OK;
         if (s->limited && me->asked[side->object] != me->current) return SL_OK;
     }
-    if (!sl_cone_cut(&to.cone, &directed)) return SL_OK;
+    if (!sl_cone_cut(&to.cone, &portal)) return SL_OK;
     bool seen;
     SL_TRY(push(s, side, &to.cone, &seen));
     if (seen && side->object != SL_NO_OBJECT) SL_TRY(add_object(s, side->object));

@@ -54,10 +54,10 @@ static void add_cell(const sl_space *space, const uint32_t *number, uint32_t cel
     for (uint32_t i = 0; i < c->vertex_count; i++)
         rooms->corners[corner++] = space->vertices[c->first_vertex + i];
     for (uint32_t e = c->first_directed; e < c->first_directed + c->directed_count; e++) {
-        const sl_directed_portal *directed = &space->directed[e];
-        if (number[directed->cell] == SL_NO_ROOM) continue;
+        const sl_directed_portal *portal = &space->directed[e];
+        if (number[portal->cell] == SL_NO_ROOM) continue;
         rooms->sides[side++] =
-            (sl_room_side){directed->left, directed->right, number[directed->cell], directed->cell};
+            (sl_room_side){portal->left, portal->right, number[portal->cell], portal->cell};
     }
     rooms->object[room] = cell;
     rooms->first_corner[room + 1] = corner;
@@ -244,8 +244,8 @@ static uint32_t fill_graph(const sl_view_rooms *rooms, int quadrant, uint32_t *f
         for (uint32_t i = rooms->first_side[room]; i < rooms->first_side[room + 1]; i++) {
             const sl_room_side *side = &rooms->sides[i];
             sl_cone cone = sl_view_quadrant(quadrant);
-            const sl_directed_portal directed = {.left = side->left, .right = side->right};
-            if (side->room != SL_NO_ROOM && sl_cone_cut(&cone, &directed)) to[count++] = side->room;
+            const sl_directed_portal portal = {.left = side->left, .right = side->right};
+            if (side->room != SL_NO_ROOM && sl_cone_cut(&cone, &portal)) to[count++] = side->room;
         }
         first[room + 1] = count;
     }

@@ -98,13 +98,13 @@ static bool follow(const sl_outline *outline, uint32_t side, sl_point p, sl_poin
 static sl_status pass_cells(sl_context *context, const sl_space *space, uint32_t cell, sl_point p,
                             sl_point q, batch *b) {
     for (uint32_t passed = 0; passed <= space->cell_count; passed++) {
-        const sl_directed_portal *directed = space->directed + space->cells[cell].first_directed;
-        const sl_directed_portal *end = directed + space->cells[cell].directed_count;
-        while (directed < end &&
-               (sl_orient(p, q, directed->right) > 0 || sl_orient(p, q, directed->left) <= 0))
-            directed++;
-        if (directed == end) return SL_OK;
-        cell = directed->cell;
+        const sl_directed_portal *portal = space->directed + space->cells[cell].first_directed;
+        const sl_directed_portal *end = portal + space->cells[cell].directed_count;
+        while (portal < end &&
+               (sl_orient(p, q, portal->right) > 0 || sl_orient(p, q, portal->left) <= 0))
+            portal++;
+        if (portal == end) return SL_OK;
+        cell = portal->cell;
         SL_TRY(SL_ARRAY_ROOM(context, &b->objects, 1));
         b->objects.items[b->objects.count++] = cell;
     }

@@ -84,7 +84,7 @@ static inline double sl_view_render_object(const sl_view_render *render, uint32_
     return seen > fixed ? seen : fixed;
 }
 
-/// The cost of a set of so many words, seen from a place.
+/// The cost of a set with this many words, seen from a place.
 double sl_view_render_set(const sl_view_render *render, const sl_bits *set, size_t words,
                           sl_point from);
 

@@ -70,7 +70,7 @@ static run *sort_walls(sl_context *context, const sl_space *space, uint32_t *cou
 
 typedef struct wall_list {
     SL_ARRAY(uint32_t) items;
-    uint32_t first; ///< of the cell at hand
+    uint32_t first; ///< of the current cell
 } wall_list;
 
 static sl_status add_wall(sl_context *context, wall_list *list, uint32_t wall) {

@@ -55,7 +55,7 @@ static inline sl_wedge sl_left_part(const sl_wedge *wedge, sl_split split, sl_ra
     return part;
 }
 
-/// Likewise right of it.
+/// The part right of the line.
 static inline sl_wedge sl_right_part(const sl_wedge *wedge, sl_split split, sl_ray ray) {
     sl_wedge part = *wedge;
     if (split.right > 0) part.right = sl_ray_back(ray);

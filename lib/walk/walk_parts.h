@@ -57,7 +57,7 @@ struct sl_walk {
     sl_walk_cone cone;
     sl_walk_memory *nodes;
     uint64_t *stack;
-    sl_wedge *wedges; ///< those of the node at hand, within the cone
+    sl_wedge *wedges; ///< of the node in question, within the cone
     sl_bits *cells;
     uint32_t *wall_counts; ///< by node: the sum over its cells
     uint64_t frame;
