@@ -13,12 +13,12 @@
 #define TREE_SECONDS 20
 
 static bool is_cancelled(void *user) {
-    const sl_bake_job *job = user;
-    return atomic_load(&job->cancel) || (job->until > 0 && sl_clock_seconds() > job->until);
+    const bake_job *job = user;
+    return atomic_load(&job->cancel) || (job->until > 0 && clock_seconds() > job->until);
 }
 
 static void take_progress(void *user, const sl_progress *progress) {
-    sl_bake_job *job = user;
+    bake_job *job = user;
     atomic_store(&job->stage, progress->stage);
     atomic_store(&job->count, progress->done);
     atomic_store(&job->total, progress->total);
@@ -33,7 +33,7 @@ static sl_status set_walls(sl_context *context, sl_map *map, const sl_wall *wall
 }
 
 /// A baked file has everything but the map as drawn, which its space's walls stand for.
-static sl_status read_baked(sl_context *context, sl_bake_job *job) {
+static sl_status read_baked(sl_context *context, bake_job *job) {
     SL_TRY(sl_baked_read(context, job->source.path, job->baked));
     SL_TRY(sl_map_copy(context, &job->baked->map, &job->map));
     SL_TRY(set_walls(context, &job->map, job->baked->space.walls, job->baked->space.wall_count));
@@ -44,8 +44,8 @@ static sl_status read_baked(sl_context *context, sl_bake_job *job) {
     return SL_OK;
 }
 
-static sl_status read_map(sl_context *context, sl_bake_job *job) {
-    const sl_document_source *source = &job->source;
+static sl_status read_map(sl_context *context, bake_job *job) {
+    const document_source *source = &job->source;
     SL_TRY(sl_map_read(context, source->path, &source->options, &job->map));
     if (!source->has_start) return SL_OK;
     const sl_box b = sl_map_bounds(&job->map);
@@ -76,7 +76,7 @@ static void drop_walls(sl_map *map) {
     map->wall_count = 0;
 }
 
-static sl_status see_all(sl_context *context, sl_bake_job *job, const sl_plan *plan) {
+static sl_status see_all(sl_context *context, bake_job *job, const sl_plan *plan) {
     const sl_see_method *method = method_for(plan);
     sl_see_options options = sl_see_options_default();
     options.plan = plan;
@@ -90,19 +90,19 @@ static sl_status see_all(sl_context *context, sl_bake_job *job, const sl_plan *p
 }
 
 /// The search knows the stab trees too. Where it takes too long there are none.
-static sl_status search_trees(sl_context *context, sl_bake_job *job, const sl_plan *plan) {
+static sl_status search_trees(sl_context *context, bake_job *job, const sl_plan *plan) {
     sl_see_options options = sl_see_options_default();
     options.plan = plan;
     options.solver = sl_funnel();
     options.trees = true;
     options.tree_bytes = TREE_BYTES;
-    job->until = sl_clock_seconds() + TREE_SECONDS;
+    job->until = clock_seconds() + TREE_SECONDS;
     const sl_status status =
         method_named("dfs")->see(context, &job->baked->space, &options, &job->with_trees);
     return status == SL_CANCELLED && !atomic_load(&job->cancel) ? SL_OK : status;
 }
 
-static sl_status bake(sl_context *context, sl_bake_job *job) {
+static sl_status bake(sl_context *context, bake_job *job) {
     sl_baked *baked = job->baked;
     SL_TRY(sl_map_copy(context, &job->map, &job->clean));
     SL_TRY(sl_map_clean(context, &job->clean, NULL, NULL));
@@ -116,14 +116,14 @@ static sl_status bake(sl_context *context, sl_bake_job *job) {
     return search_trees(context, job, &plan);
 }
 
-static sl_status work(sl_context *context, sl_bake_job *job) {
-    if (job->source.path && sl_document_is_baked(job->source.path)) return read_baked(context, job);
+static sl_status work(sl_context *context, bake_job *job) {
+    if (job->source.path && document_is_baked(job->source.path)) return read_baked(context, job);
     if (job->source.path) SL_TRY(read_map(context, job));
     return bake(context, job);
 }
 
 static void *run(void *user) {
-    sl_bake_job *job = user;
+    bake_job *job = user;
     const sl_hooks hooks = {.user = job, .progress = take_progress, .cancelled = is_cancelled};
     sl_context *context = sl_context_create(&hooks);
     job->status = context ? work(context, job) : SL_NO_MEMORY;
@@ -134,7 +134,7 @@ static void *run(void *user) {
     return NULL;
 }
 
-static void free_job(sl_context *context, sl_bake_job *job) {
+static void free_job(sl_context *context, bake_job *job) {
     if (!job->taken && job->baked) {
         sl_baked_destroy(context, job->baked);
         sl_free(context, job->baked);
@@ -143,11 +143,11 @@ static void free_job(sl_context *context, sl_bake_job *job) {
     sl_visibility_destroy(context, &job->with_trees);
     sl_map_destroy(context, &job->map);
     sl_map_destroy(context, &job->clean);
-    sl_document_source_destroy(context, &job->source);
+    document_source_destroy(context, &job->source);
     sl_free(context, job);
 }
 
-sl_status sl_bake_job_start(sl_context *context, sl_bake_job *job) {
+sl_status bake_job_start(sl_context *context, bake_job *job) {
     atomic_store(&job->stage, "read");
     job->baked = sl_alloc_array(context, 1, sizeof *job->baked);
     if (job->baked && pthread_create(&job->thread, NULL, run, job) == 0) return SL_OK;
@@ -155,7 +155,7 @@ sl_status sl_bake_job_start(sl_context *context, sl_bake_job *job) {
     return sl_fail(context, SL_NO_MEMORY, "no thread for the work in the background");
 }
 
-void sl_bake_job_end(sl_context *context, sl_bake_job *job) {
+void bake_job_end(sl_context *context, bake_job *job) {
     pthread_join(job->thread, NULL);
     free_job(context, job);
 }

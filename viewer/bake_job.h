@@ -8,8 +8,8 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
-struct sl_bake_job {
-    sl_document_source source; ///< what to read; no path: `map` is what to bake
+struct bake_job {
+    document_source source; ///< what to read; no path: `map` is what to bake
     uint32_t mirror_depth;
     sl_map map;               ///< as drawn; filled by the job where it reads
     sl_map clean;             ///< the job's, to the end
@@ -27,9 +27,9 @@ struct sl_bake_job {
 };
 
 /// Starts the thread. Takes what the job holds in any case.
-sl_status sl_bake_job_start(sl_context *context, sl_bake_job *job);
+sl_status bake_job_start(sl_context *context, bake_job *job);
 
 /// Waits for the thread and frees the job with what nobody has taken.
-void sl_bake_job_end(sl_context *context, sl_bake_job *job);
+void bake_job_end(sl_context *context, bake_job *job);
 
 #endif

@@ -2,26 +2,26 @@
 #ifndef VIEWER_CAMERA_H
 #define VIEWER_CAMERA_H
 
-#include "draw/canvas.h"
+#include "sightline/canvas.h"
 
-typedef struct sl_camera {
+typedef struct plan_camera {
     sl_point middle;    ///< of the map, in the pane's middle
     double scale;       ///< pixels for a unit of the map
     double least, most; ///< bounds of the scale, by the map's size
-} sl_camera;
+} plan_camera;
 
 /// All of `bounds` in a pane of that size, with a margin.
-sl_camera sl_camera_fit(sl_box bounds, double width, double height);
+plan_camera camera_fit(sl_box bounds, double width, double height);
 
-void sl_camera_pan(sl_camera *camera, double dx, double dy); ///< pixels, right and down
+void camera_pan(plan_camera *camera, double dx, double dy); ///< pixels, right and down
 
 /// Zooms; what is at `offset` (pixels from the pane's middle, right and down) stays there.
-void sl_camera_zoom(sl_camera *camera, double factor, sl_point offset);
+void camera_zoom(plan_camera *camera, double factor, sl_point offset);
 
 /// The frame that draws the whole plane through a pane.
-sl_frame sl_camera_frame(const sl_camera *camera, sl_box pane, double unit);
+sl_frame camera_frame(const plan_camera *camera, sl_box pane, double unit);
 
 /// The map's point at a place on the page.
-sl_point sl_camera_point(const sl_camera *camera, sl_box pane, sl_point page);
+sl_point camera_point(const plan_camera *camera, sl_box pane, sl_point page);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include <time.h>
 
-static inline double sl_clock_seconds(void) {
+static inline double clock_seconds(void) {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
@@ -12,7 +12,7 @@ static inline double sl_clock_seconds(void) {
 
 /// Of the processor's time that the calling thread has had: what a busy machine hardly changes, and
 /// work in the background does not.
-static inline double sl_clock_processor(void) {
+static inline double clock_processor(void) {
     struct timespec now;
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;

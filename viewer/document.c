@@ -12,48 +12,48 @@ static sl_status copy_text(sl_context *context, const char *text, char **out) {
     return text && !*out ? SL_NO_MEMORY : SL_OK;
 }
 
-void sl_document_source_destroy(sl_context *context, sl_document_source *source) {
+void document_source_destroy(sl_context *context, document_source *source) {
     sl_free(context, source->path);
     sl_free(context, (char *)(uintptr_t)source->options.map);
     sl_free(context, (char *)(uintptr_t)source->options.layers);
-    *source = (sl_document_source){0};
+    *source = (document_source){0};
 }
 
-sl_status sl_document_source_copy(sl_context *context, const sl_document_source *from,
-                                  sl_document_source *to) {
+sl_status document_source_copy(sl_context *context, const document_source *from,
+                               document_source *to) {
     char *path = NULL, *map = NULL, *layers = NULL;
     sl_status status = copy_text(context, from->path, &path);
     if (status == SL_OK) status = copy_text(context, from->options.map, &map);
     if (status == SL_OK) status = copy_text(context, from->options.layers, &layers);
-    sl_document_source copy = *from;
+    document_source copy = *from;
     copy.path = path;
     copy.options.map = map;
     copy.options.layers = layers;
     if (status == SL_OK)
         *to = copy;
     else
-        sl_document_source_destroy(context, &copy);
+        document_source_destroy(context, &copy);
     return status;
 }
 
-static sl_status start(sl_context *context, sl_document *document, sl_bake_job *job) {
-    sl_document_cancel(context, document);
-    SL_TRY(sl_bake_job_start(context, job));
+static sl_status start(sl_context *context, document_state *document, bake_job *job) {
+    document_cancel(context, document);
+    SL_TRY(bake_job_start(context, job));
     document->job = job;
     return SL_OK;
 }
 
-bool sl_document_is_baked(const char *path) {
+bool document_is_baked(const char *path) {
     const size_t length = strlen(path);
     return length > 4 && strcasecmp(path + length - 4, ".slv") == 0;
 }
 
-sl_status sl_document_open(sl_context *context, sl_document *document,
-                           const sl_document_source *source) {
-    sl_bake_job *job = sl_alloc_array(context, 1, sizeof *job);
+sl_status document_open(sl_context *context, document_state *document,
+                        const document_source *source) {
+    bake_job *job = sl_alloc_array(context, 1, sizeof *job);
     if (!job) return SL_NO_MEMORY;
     job->mirror_depth = document->mirror_depth;
-    const sl_status status = sl_document_source_copy(context, source, &job->source);
+    const sl_status status = document_source_copy(context, source, &job->source);
     if (status != SL_OK) {
         sl_free(context, job);
         return status;
@@ -61,8 +61,8 @@ sl_status sl_document_open(sl_context *context, sl_document *document,
     return start(context, document, job);
 }
 
-sl_status sl_document_rebuild(sl_context *context, sl_document *document) {
-    sl_bake_job *job = sl_alloc_array(context, 1, sizeof *job);
+sl_status document_rebuild(sl_context *context, document_state *document) {
+    bake_job *job = sl_alloc_array(context, 1, sizeof *job);
     if (!job) return SL_NO_MEMORY;
     job->mirror_depth = document->mirror_depth;
     const sl_status status = sl_map_copy(context, &document->map, &job->map);
@@ -73,12 +73,12 @@ sl_status sl_document_rebuild(sl_context *context, sl_document *document) {
     return start(context, document, job);
 }
 
-bool sl_document_has_rows(const sl_document *document) {
+bool document_has_rows(const document_state *document) {
     const double now = document->map.range, baked = document->baked->map.range;
     return document->has_visibility && (baked == 0 || (now > 0 && now <= baked));
 }
 
-void sl_document_touch(sl_document *document) {
+void document_touch(document_state *document) {
     const sl_map *map = &document->map;
     document->touched++;
     if (!document->baked || document->baked->map.door_count != map->door_count) return;
@@ -90,17 +90,17 @@ void sl_document_touch(sl_document *document) {
 }
 
 /// Of a map that was just opened: no object blocks sight.
-static sl_status take_objects(sl_context *context, sl_document *document) {
+static sl_status take_objects(sl_context *context, document_state *document) {
     const size_t count = document->map.object_count;
     sl_free(context, document->blocks);
     document->object_count = 0;
     document->blocks = sl_alloc_array(context, count, sizeof *document->blocks);
     if (!document->blocks) return SL_NO_MEMORY;
-    if (count <= SL_OBJECTS_MOST) document->object_count = count;
+    if (count <= OBJECTS_MOST) document->object_count = count;
     return SL_OK;
 }
 
-static void drop_baked(sl_context *context, sl_document *document) {
+static void drop_baked(sl_context *context, document_state *document) {
     if (document->search) sl_eye_search_destroy(context, document->search);
     document->search = NULL;
     sl_outline_destroy(context, &document->outline);
@@ -116,26 +116,26 @@ static void drop_baked(sl_context *context, sl_document *document) {
     document->has_visibility = false;
 }
 
-sl_status sl_document_add_mirrors(sl_context *context, const sl_document *document,
-                                  sl_eye_search *search) {
+sl_status document_add_mirrors(sl_context *context, const document_state *document,
+                               sl_eye_search *search) {
     const sl_map *map = &document->baked->map;
     if (!map->mirror_count) return SL_OK;
     return sl_eye_search_add_mirrors(context, search, map, document->mirror_depth);
 }
 
-static sl_status make_search(sl_context *context, sl_document *document) {
+static sl_status make_search(sl_context *context, document_state *document) {
     if (document->search) sl_eye_search_destroy(context, document->search);
     document->search = NULL;
     SL_TRY(sl_eye_search_create(context, &document->baked->space, &document->baked->visibility,
                                 &document->search));
-    return sl_document_add_mirrors(context, document, document->search);
+    return document_add_mirrors(context, document, document->search);
 }
 
-sl_status sl_document_renew_search(sl_context *context, sl_document *document) {
+sl_status document_renew_search(sl_context *context, document_state *document) {
     return document->search ? make_search(context, document) : SL_OK;
 }
 
-static sl_status measure_cells(sl_context *context, sl_document *document) {
+static sl_status measure_cells(sl_context *context, document_state *document) {
     const sl_space *space = &document->baked->space;
     document->areas = sl_alloc_array(context, space->cell_count, sizeof *document->areas);
     if (!document->areas) return SL_NO_MEMORY;
@@ -151,8 +151,8 @@ static sl_status measure_cells(sl_context *context, sl_document *document) {
 }
 
 /// The space is there: from now on it is what is shown.
-static sl_status take_space(sl_context *context, sl_document *document) {
-    sl_bake_job *job = document->job;
+static sl_status take_space(sl_context *context, document_state *document) {
+    bake_job *job = document->job;
     drop_baked(context, document);
     document->baked = job->baked;
     document->baked_depth = job->mirror_depth;
@@ -162,12 +162,12 @@ static sl_status take_space(sl_context *context, sl_document *document) {
         sl_map_destroy(context, &document->map);
         SL_TRY(sl_map_copy(context, &job->map, &document->map));
         SL_TRY(take_objects(context, document));
-        sl_document_source_destroy(context, &document->source);
+        document_source_destroy(context, &document->source);
         document->source = job->source;
-        job->source = (sl_document_source){0};
+        job->source = (document_source){0};
         document->opened += !document->source.again;
     }
-    sl_document_touch(document); // doors may have been turned while the job was at work
+    document_touch(document); // doors may have been turned while the job was at work
     SL_TRY(measure_cells(context, document));
     SL_TRY(sl_outline_make(context, &document->baked->space, &document->outline));
     SL_TRY(sl_splits_make(context, &document->baked->space, &document->splits));
@@ -175,7 +175,8 @@ static sl_status take_space(sl_context *context, sl_document *document) {
 }
 
 /// What is seen is there, or, with no change but for them, is there with its stab trees.
-static sl_status take_visibility(sl_context *context, sl_document *document, sl_visibility *from) {
+static sl_status take_visibility(sl_context *context, document_state *document,
+                                 sl_visibility *from) {
     if (document->search) sl_eye_search_destroy(context, document->search);
     document->search = NULL;
     sl_visibility_destroy(context, &document->baked->visibility);
@@ -186,28 +187,28 @@ static sl_status take_visibility(sl_context *context, sl_document *document, sl_
     return make_search(context, document);
 }
 
-static sl_status finish(sl_context *context, sl_document *document) {
-    sl_bake_job *job = document->job;
+static sl_status finish(sl_context *context, document_state *document) {
+    bake_job *job = document->job;
     sl_status status = job->status;
     if (status != SL_OK)
         sl_fail(context, status, "%s", job->message);
     else if (job->with_trees.pvs.cell_count)
         status = take_visibility(context, document, &job->with_trees);
     document->job = NULL;
-    sl_bake_job_end(context, job);
+    bake_job_end(context, job);
     return status;
 }
 
-sl_status sl_document_poll(sl_context *context, sl_document *document, bool *changed) {
+sl_status document_poll(sl_context *context, document_state *document, bool *changed) {
     *changed = false;
-    sl_bake_job *job = document->job;
+    bake_job *job = document->job;
     if (!job) return SL_OK;
     const bool done = atomic_load(&job->done);
     if (!job->taken && atomic_load(&job->space_ready)) {
         *changed = true;
         const sl_status status = take_space(context, document);
         if (status != SL_OK) {
-            sl_document_close(context, document);
+            document_close(context, document);
             return status;
         }
     }
@@ -221,12 +222,12 @@ sl_status sl_document_poll(sl_context *context, sl_document *document, bool *cha
     return finish(context, document);
 }
 
-sl_status sl_document_wait(sl_context *context, sl_document *document, bool *changed) {
+sl_status document_wait(sl_context *context, document_state *document, bool *changed) {
     bool any = false;
     sl_status status = SL_OK;
     while (document->job) {
         bool now;
-        status = sl_document_poll(context, document, &now);
+        status = document_poll(context, document, &now);
         any |= now;
         if (document->job && !now) {
             const struct timespec pause = {0, 500000};
@@ -237,29 +238,32 @@ sl_status sl_document_wait(sl_context *context, sl_document *document, bool *cha
     return status;
 }
 
-sl_document_progress sl_document_progress_of(const sl_document *document) {
-    const sl_bake_job *job = document->job;
-    if (!job) return (sl_document_progress){0};
+job_progress document_progress(const document_state *document) {
+    const bake_job *job = document->job;
+    if (!job) return (job_progress){0};
     const uint64_t total = atomic_load(&job->total), count = atomic_load(&job->count);
-    return (sl_document_progress){.running = true,
-                                  .stage = atomic_load(&job->stage),
-                                  .share = total ? (double)count / (double)total : -1};
+    return (job_progress){.running = true,
+                          .stage = atomic_load(&job->stage),
+                          .share = total ? (double)count / (double)total : -1};
 }
 
-void sl_document_cancel(sl_context *context, sl_document *document) {
-    sl_bake_job *job = document->job;
+void document_cancel(sl_context *context, document_state *document) {
+    bake_job *job = document->job;
     if (!job) return;
     atomic_store(&job->cancel, true);
     document->job = NULL;
-    sl_bake_job_end(context, job);
+    bake_job_end(context, job);
 }
 
-void sl_document_close(sl_context *context, sl_document *document) {
-    sl_document_cancel(context, document);
+void document_close(sl_context *context, document_state *document) {
+    document_cancel(context, document);
     drop_baked(context, document);
     sl_map_destroy(context, &document->map);
-    sl_document_source_destroy(context, &document->source);
+    document_source_destroy(context, &document->source);
     sl_free(context, document->blocks);
-    *document = (sl_document){
-        .version = document->version + 1, .touched = document->touched, .opened = document->opened};
+    *document = (document_state){.version = document->version + 1,
+                                 .touched = document->touched,
+                                 .opened = document->opened,
+                                 .history = document->history,
+                                 .stale = document->stale};
 }

@@ -5,12 +5,12 @@
 #include "app.h"
 
 /// The door under a place of the plan; UINT32_MAX for none.
-uint32_t sl_door_at(const sl_app *app, sl_point at);
+uint32_t door_at(const app_state *app, sl_point at);
 
 /// Shuts a door that is open, and opens one that is shut.
-void sl_door_toggle(sl_app *app, uint32_t door);
+void door_toggle(app_state *app, uint32_t door);
 
 /// The door nearest to the eye.
-void sl_door_toggle_nearest(sl_app *app);
+void door_toggle_nearest(app_state *app);
 
 #endif

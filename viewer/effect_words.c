@@ -3,12 +3,12 @@
 #include <stdio.h>
 #include <string.h>
 
-static void append(char text[SL_CALLS_TEXT], const char *before, const char *more) {
+static void append(char text[CALLS_TEXT], const char *before, const char *more) {
     const size_t used = strlen(text);
-    snprintf(text + used, SL_CALLS_TEXT - used, "%s%s", before, more);
+    snprintf(text + used, CALLS_TEXT - used, "%s%s", before, more);
 }
 
-void sl_effects_left_out(const sl_map *map, char text[SL_CALLS_TEXT]) {
+void effects_left_out(const sl_map *map, char text[CALLS_TEXT]) {
     size_t count;
     const sl_effect *const *effects = sl_effects(&count);
     const unsigned called_for = sl_plan_make(map).effects;
@@ -17,14 +17,14 @@ void sl_effects_left_out(const sl_map *map, char text[SL_CALLS_TEXT]) {
         if (!(called_for >> i & 1)) append(text, *text ? ", " : "", effects[i]->several);
 }
 
-void sl_effects_in_words(const sl_map *map, char text[SL_CALLS_TEXT]) {
+void effects_in_words(const sl_map *map, char text[CALLS_TEXT]) {
     size_t count;
     const sl_effect *const *effects = sl_effects(&count);
     const unsigned called_for = sl_plan_make(map).effects;
     if (!called_for) {
-        char none[SL_CALLS_TEXT];
-        sl_effects_left_out(map, none);
-        snprintf(text, SL_CALLS_TEXT, "nothing calls for %.120s", none);
+        char none[CALLS_TEXT];
+        effects_left_out(map, none);
+        snprintf(text, CALLS_TEXT, "nothing calls for %.120s", none);
         return;
     }
     text[0] = '\0';

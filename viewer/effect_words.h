@@ -4,13 +4,13 @@
 
 #include "sightline/effects.h"
 
-enum { SL_CALLS_TEXT = 160 };
+enum { CALLS_TEXT = 160 };
 
 /// "calls for doors (6), mirrors (2)"; where nothing does, that.
-void sl_effects_in_words(const sl_map *map, char text[SL_CALLS_TEXT]);
+void effects_in_words(const sl_map *map, char text[CALLS_TEXT]);
 
 /// The effects that nothing in the map calls for: "mirrors, a view range"; empty where there are
 /// none.
-void sl_effects_left_out(const sl_map *map, char text[SL_CALLS_TEXT]);
+void effects_left_out(const sl_map *map, char text[CALLS_TEXT]);
 
 #endif

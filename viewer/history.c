@@ -11,7 +11,7 @@ static sl_status push(sl_context *context, sl_map *list, size_t *count, const sl
     sl_map copy = {0};
     const sl_status status = sl_map_copy(context, map, &copy);
     if (status != SL_OK) return status;
-    if (*count == SL_HISTORY_MOST) {
+    if (*count == HISTORY_MOST) {
         sl_map_destroy(context, &list[0]);
         memmove(list, list + 1, --*count * sizeof *list);
     }
@@ -19,12 +19,12 @@ static sl_status push(sl_context *context, sl_map *list, size_t *count, const sl
     return SL_OK;
 }
 
-sl_status sl_history_keep(sl_context *context, sl_history *history, const sl_map *map) {
+sl_status history_keep(sl_context *context, edit_history *history, const sl_map *map) {
     clear(context, history->undone, &history->undone_count);
     return push(context, history->done, &history->done_count, map);
 }
 
-void sl_history_forget_last(sl_context *context, sl_history *history) {
+void history_forget_last(sl_context *context, edit_history *history) {
     if (history->done_count) sl_map_destroy(context, &history->done[--history->done_count]);
 }
 
@@ -53,8 +53,8 @@ static bool same_bake(const sl_map *a, const sl_map *b) {
            same_glass(a->seams, a->seam_count, b->seams, b->seam_count);
 }
 
-bool sl_history_undo(sl_context *context, sl_history *history, sl_map *map, bool redo, bool *bake,
-                     sl_status *status) {
+bool history_undo(sl_context *context, edit_history *history, sl_map *map, bool redo, bool *bake,
+                  sl_status *status) {
     sl_map *from = redo ? history->undone : history->done;
     sl_map *to = redo ? history->done : history->undone;
     size_t *from_count = redo ? &history->undone_count : &history->done_count;
@@ -69,7 +69,7 @@ bool sl_history_undo(sl_context *context, sl_history *history, sl_map *map, bool
     return true;
 }
 
-void sl_history_clear(sl_context *context, sl_history *history) {
+void history_clear(sl_context *context, edit_history *history) {
     clear(context, history->done, &history->done_count);
     clear(context, history->undone, &history->undone_count);
 }

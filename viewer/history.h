@@ -4,25 +4,25 @@
 
 #include "sightline/map.h"
 
-enum { SL_HISTORY_MOST = 100 };
+enum { HISTORY_MOST = 100 };
 
 /// Zeroed to start.
-typedef struct sl_history {
-    sl_map done[SL_HISTORY_MOST], undone[SL_HISTORY_MOST];
+typedef struct edit_history {
+    sl_map done[HISTORY_MOST], undone[HISTORY_MOST];
     size_t done_count, undone_count;
-} sl_history;
+} edit_history;
 
 /// Keeps the map as it is, before a change.
-sl_status sl_history_keep(sl_context *context, sl_history *history, const sl_map *map);
+sl_status history_keep(sl_context *context, edit_history *history, const sl_map *map);
 
 /// The last change kept was none.
-void sl_history_forget_last(sl_context *context, sl_history *history);
+void history_forget_last(sl_context *context, edit_history *history);
 
 /// Goes one change back (or forward again); false where there is none. *bake tells whether what
 /// changed asks for a new bake.
-bool sl_history_undo(sl_context *context, sl_history *history, sl_map *map, bool redo, bool *bake,
-                     sl_status *status);
+bool history_undo(sl_context *context, edit_history *history, sl_map *map, bool redo, bool *bake,
+                  sl_status *status);
 
-void sl_history_clear(sl_context *context, sl_history *history);
+void history_clear(sl_context *context, edit_history *history);
 
 #endif

@@ -4,8 +4,8 @@
 
 #include "sightline/context.h"
 
-typedef struct sl_node_layer sl_node_layer;
+typedef struct node_layer node_layer;
 
-void sl_node_layer_destroy(sl_context *context, sl_node_layer *layer); ///< NULL: nothing
+void node_layer_destroy(sl_context *context, node_layer *layer); ///< NULL: nothing
 
 #endif

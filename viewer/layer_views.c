@@ -1,8 +1,7 @@
 #include "layer_views.h"
 
 #include "app.h"
-#include "draw/marks.h"
-#include "draw/text.h"
+#include "sightline/canvas.h"
 #include "sightline/support.h"
 #include "view_job.h"
 
@@ -16,10 +15,10 @@
 /// The first cut costs so much more than the least, as `sightline viewcells` has it unless told.
 #define TOLERANCE 0.1
 
-struct sl_view_layer {
+struct view_layer {
     uint32_t version; ///< of the document that it is of
-    sl_view_job *job; ///< NULL: done, failed or stopped
-    sl_view_history history;
+    view_job *job;    ///< NULL: done, failed or stopped
+    view_history history;
     double *costs;   ///< of the cut with n view cells: n - 1
     uint64_t *bytes; ///< likewise
     uint32_t cells;  ///< of the cut that is shown; 0: none
@@ -32,28 +31,28 @@ struct sl_view_layer {
 
 // --- the work
 
-static void end_job(sl_context *context, sl_view_layer *layer) {
-    sl_view_history unused = {0};
+static void end_job(sl_context *context, view_layer *layer) {
+    view_history unused = {0};
     if (!layer->job) return;
-    sl_view_job_cancel(layer->job);
-    sl_view_job_end(context, layer->job, &unused);
-    sl_view_history_destroy(context, &unused);
+    view_job_cancel(layer->job);
+    view_job_end(context, layer->job, &unused);
+    view_history_destroy(context, &unused);
     layer->job = NULL;
 }
 
-static void drop_mark(sl_context *context, sl_view_layer *layer) {
+static void drop_mark(sl_context *context, view_layer *layer) {
     sl_view_borders_free(context, layer->mark_borders);
     layer->mark_borders = NULL;
     layer->mark_border_count = 0;
     layer->mark = SL_NO_VIEW_CELL;
 }
 
-void sl_view_layer_destroy(sl_context *context, sl_view_layer *layer) {
+void view_layer_destroy(sl_context *context, view_layer *layer) {
     if (!layer) return;
     end_job(context, layer);
     drop_mark(context, layer);
     sl_view_borders_free(context, layer->borders);
-    sl_view_history_destroy(context, &layer->history);
+    view_history_destroy(context, &layer->history);
     sl_free(context, layer->costs);
     sl_free(context, layer->bytes);
     sl_free(context, layer->view_cells);
@@ -61,13 +60,13 @@ void sl_view_layer_destroy(sl_context *context, sl_view_layer *layer) {
     sl_free(context, layer);
 }
 
-static double cost_of(const sl_view_layer *layer, uint32_t view_cell) {
+static double cost_of(const view_layer *layer, uint32_t view_cell) {
     return layer->history.hierarchy.cost[layer->numbers[view_cell]];
 }
 
 /// Shows the cut with so many view cells.
-static sl_status cut(sl_context *context, sl_view_layer *layer, uint32_t cells) {
-    const sl_view_history *h = &layer->history;
+static sl_status cut(sl_context *context, view_layer *layer, uint32_t cells) {
+    const view_history *h = &layer->history;
     sl_segment *borders = NULL;
     size_t count = 0;
     layer->cells = 0;
@@ -87,10 +86,10 @@ static sl_status cut(sl_context *context, sl_view_layer *layer, uint32_t cells) 
     return SL_OK;
 }
 
-static sl_status take(sl_context *context, sl_view_layer *layer) {
-    sl_view_job *job = layer->job;
+static sl_status take(sl_context *context, view_layer *layer) {
+    view_job *job = layer->job;
     layer->job = NULL;
-    SL_TRY(sl_view_job_end(context, job, &layer->history));
+    SL_TRY(view_job_end(context, job, &layer->history));
     const sl_view_hierarchy *h = &layer->history.hierarchy;
     layer->costs = sl_alloc_array(context, h->cell_count, sizeof *layer->costs);
     layer->bytes = sl_alloc_array(context, h->cell_count, sizeof *layer->bytes);
@@ -104,67 +103,67 @@ static sl_status take(sl_context *context, sl_view_layer *layer) {
     return cut(context, layer, cells);
 }
 
-static sl_status begin(sl_app *app) {
-    sl_view_layer *layer = sl_alloc_array(app->context, 1, sizeof *layer);
+static sl_status begin(app_state *app) {
+    view_layer *layer = sl_alloc_array(app->context, 1, sizeof *layer);
     if (!layer) return SL_NO_MEMORY;
     layer->version = app->document.version;
     layer->mark = SL_NO_VIEW_CELL;
-    app->views = layer; // kept where it fails too, so that it is not tried again and again
-    return sl_view_job_start(app->context, &app->document.map, &layer->job);
+    app->view.views = layer; // kept where it fails too, so that it is not tried again and again
+    return view_job_start(app->context, &app->document.map, &layer->job);
 }
 
-static void drop(sl_app *app) {
-    sl_view_layer_destroy(app->context, app->views);
-    app->views = NULL;
+static void drop(app_state *app) {
+    view_layer_destroy(app->context, app->view.views);
+    app->view.views = NULL;
 }
 
-void sl_view_layer_update(sl_app *app, bool wait) {
-    const bool wanted = app->show & SL_SHOW_VIEWS && app->document.baked;
-    if (app->views && app->views->version != app->document.version) drop(app);
+void view_layer_update(app_state *app, bool wait) {
+    const bool wanted = app->view.show & SHOW_VIEWS && app->document.baked;
+    if (app->view.views && app->view.views->version != app->document.version) drop(app);
     // Switched off, what is there waits for the next time; what is not starts anew then.
-    if (!wanted && app->views && !app->views->cells) drop(app);
+    if (!wanted && app->view.views && !app->view.views->cells) drop(app);
     if (!wanted) return;
     // The document's version has settled once its cells are seen.
     const bool settled = app->document.has_visibility || !app->document.job;
-    if (!app->views && settled) sl_app_check(app, begin(app));
-    sl_view_layer *layer = app->views;
-    if (layer && layer->job && (wait || sl_view_job_is_done(layer->job)))
-        sl_app_check(app, take(app->context, layer));
+    if (!app->view.views && settled) app_check(app, begin(app));
+    view_layer *layer = app->view.views;
+    if (layer && layer->job && (wait || view_job_is_done(layer->job)))
+        app_check(app, take(app->context, layer));
 }
 
-bool sl_view_layer_stop(sl_app *app) {
-    if (!app->views || !app->views->job) return false;
-    end_job(app->context, app->views);
+bool view_layer_stop(app_state *app) {
+    if (!app->view.views || !app->view.views->job) return false;
+    end_job(app->context, app->view.views);
     return true;
 }
 
-sl_document_progress sl_view_layer_progress(const sl_view_layer *layer) {
-    return layer && layer->job ? sl_view_job_progress(layer->job) : (sl_document_progress){0};
+job_progress view_layer_progress(const view_layer *layer) {
+    return layer && layer->job ? view_job_progress(layer->job) : (job_progress){0};
 }
 
 // --- the walk through the history
 
-uint32_t sl_view_layer_shown(const sl_view_layer *layer) {
+uint32_t view_layer_shown(const view_layer *layer) {
     return layer ? layer->cells : 0;
 }
 
-uint32_t sl_view_layer_most(const sl_view_layer *layer) {
-    return sl_view_layer_shown(layer) ? layer->history.hierarchy.cell_count : 0;
+uint32_t view_layer_most(const view_layer *layer) {
+    return view_layer_shown(layer) ? layer->history.hierarchy.cell_count : 0;
 }
 
-uint32_t sl_view_layer_marked(const sl_view_layer *layer) {
-    return sl_view_layer_shown(layer) ? layer->mark : SL_NO_VIEW_CELL;
+uint32_t view_layer_marked(const view_layer *layer) {
+    return view_layer_shown(layer) ? layer->mark : SL_NO_VIEW_CELL;
 }
 
-void sl_view_layer_go(sl_app *app, uint32_t cells) {
-    const uint32_t most = sl_view_layer_most(app->views);
+void view_layer_go(app_state *app, uint32_t cells) {
+    const uint32_t most = view_layer_most(app->view.views);
     if (cells > most) cells = most;
-    if (cells && cells != app->views->cells)
-        sl_app_check(app, cut(app->context, app->views, cells));
+    if (cells && cells != app->view.views->cells)
+        app_check(app, cut(app->context, app->view.views, cells));
 }
 
 /// The next view cell by falling cost, equal ones by number; after the last one the first.
-static uint32_t next_by_cost(const sl_view_layer *layer) {
+static uint32_t next_by_cost(const view_layer *layer) {
     const uint32_t none = SL_NO_VIEW_CELL, mark = layer->mark;
     uint32_t first = 0, next = none;
     for (uint32_t i = 0; i < layer->cells; i++) {
@@ -179,7 +178,7 @@ static uint32_t next_by_cost(const sl_view_layer *layer) {
 }
 
 /// Its border alone, and the middle of its largest elementary cell.
-static sl_status outline(sl_context *context, sl_view_layer *layer, sl_point *middle) {
+static sl_status outline(sl_context *context, view_layer *layer, sl_point *middle) {
     const sl_view_tree *tree = &layer->history.tree;
     uint32_t largest = SL_NO_VIEW_CELL;
     uint32_t *mine = sl_alloc_array(context, tree->cell_count, sizeof *mine);
@@ -217,10 +216,10 @@ static void write_bytes(uint64_t bytes, char text[32]) {
         snprintf(text, 32, "%.1f MiB", (double)bytes / (1024 * 1024));
 }
 
-void sl_view_layer_mark_next(sl_app *app) {
-    sl_view_layer *layer = app->views;
-    if (!sl_view_layer_shown(layer)) {
-        sl_app_say(app, false, "no view cells are there; F5 makes them");
+void view_layer_mark_next(app_state *app) {
+    view_layer *layer = app->view.views;
+    if (!view_layer_shown(layer)) {
+        app_say(app, false, "no view cells are there; F5 makes them");
         return;
     }
     const uint32_t mark = next_by_cost(layer);
@@ -228,9 +227,9 @@ void sl_view_layer_mark_next(sl_app *app) {
     drop_mark(app->context, layer);
     layer->mark = mark;
     const sl_status status = outline(app->context, layer, &middle);
-    sl_app_check(app, status);
+    app_check(app, status);
     if (status != SL_OK) return;
-    if (!app->fitted) app->camera.middle = middle;
+    if (!app->view.fitted) app->view.camera.middle = middle;
     uint32_t rank = 1;
     for (uint32_t i = 0; i < layer->cells; i++) {
         const double cost = cost_of(layer, i);
@@ -241,26 +240,26 @@ void sl_view_layer_mark_next(sl_app *app) {
     write_cost(cost_of(layer, mark), cost);
     write_bytes(layer->history.hierarchy.bytes[number], bytes);
     sl_text_percent(layer->history.hierarchy.mass[number], share);
-    sl_app_say(app, false,
-               "%u of %u view cells by cost: %s walls to render, for %s of the viewpoints; its set "
-               "takes %s",
-               rank, layer->cells, cost, share, bytes);
+    app_say(app, false,
+            "%u of %u view cells by cost: %s walls to render, for %s of the viewpoints; its set "
+            "takes %s",
+            rank, layer->cells, cost, share, bytes);
 }
 
 // --- drawing
 
-static int step_of(const sl_view_layer *layer, double cost) {
+static int step_of(const view_layer *layer, double cost) {
     const double range = layer->most - layer->least;
     return range > 0 ? (int)fmin((cost - layer->least) / range * RAMP_STEPS, RAMP_STEPS - 1) : 0;
 }
 
-static sl_colour colour_of(const sl_app *app, int step) {
-    return sl_palette_ramp(app->dark, (step + 0.5) / RAMP_STEPS);
+static sl_colour colour_of(const app_state *app, int step) {
+    return sl_palette_ramp(app->ui.dark, (step + 0.5) / RAMP_STEPS);
 }
 
 /// What is of one colour makes one path, with a thin stroke over the seams within.
-static void draw_cells(const sl_app *app, cairo_t *cairo, const sl_frame *frame) {
-    const sl_view_layer *layer = app->views;
+static void draw_cells(const app_state *app, cairo_t *cairo, const sl_frame *frame) {
+    const view_layer *layer = app->view.views;
     const sl_view_tree *tree = &layer->history.tree;
     for (int step = 0; step < RAMP_STEPS; step++) {
         for (uint32_t i = 0; i < tree->cell_count; i++)
@@ -284,7 +283,7 @@ static void draw_borders(cairo_t *cairo, const sl_frame *frame, const sl_segment
 }
 
 /// View cells reach into walled-in space where no viewpoint is.
-static void clip_to_inside(const sl_app *app, cairo_t *cairo, const sl_frame *frame) {
+static void clip_to_inside(const app_state *app, cairo_t *cairo, const sl_frame *frame) {
     const sl_space *space = &app->document.baked->space;
     for (uint32_t i = 0; i < space->cell_count; i++) {
         const sl_cell *c = &space->cells[i];
@@ -294,9 +293,9 @@ static void clip_to_inside(const sl_app *app, cairo_t *cairo, const sl_frame *fr
     cairo_clip(cairo);
 }
 
-void sl_view_layer_draw(const sl_app *app, cairo_t *cairo, const sl_frame *frame) {
-    const sl_view_layer *layer = app->views;
-    if (!sl_view_layer_shown(layer)) return;
+void view_layer_draw(const app_state *app, cairo_t *cairo, const sl_frame *frame) {
+    const view_layer *layer = app->view.views;
+    if (!view_layer_shown(layer)) return;
     cairo_push_group(cairo);
     draw_cells(app, cairo, frame);
     draw_borders(cairo, frame, layer->borders, layer->border_count, app->ui.palette.page,
@@ -311,32 +310,32 @@ void sl_view_layer_draw(const sl_app *app, cairo_t *cairo, const sl_frame *frame
 }
 
 /// The ramp between its ends.
-static void draw_ramp(sl_app *app, double left, double right, double base) {
-    const sl_view_layer *layer = app->views;
-    sl_ui *ui = &app->ui;
+static void draw_ramp(app_state *app, double left, double right, double base) {
+    const view_layer *layer = app->view.views;
+    ui_state *ui = &app->ui;
     const double t = ui->text;
     char least[32], most[32];
     write_cost(layer->least, least);
     write_cost(layer->most, most);
-    sl_ui_text(ui, left, base, 0.95, false, ui->palette.ink, least);
-    sl_ui_text_right(ui, right, base, 0.95, ui->palette.ink, most);
+    ui_text(ui, left, base, 0.95, false, ui->palette.ink, least);
+    ui_text_right(ui, right, base, 0.95, ui->palette.ink, most);
     const double from = left + 4.2 * t, wide = (right - left - 8.4 * t) / RAMP_STEPS;
     for (int step = 0; step < RAMP_STEPS; step++)
-        sl_ui_fill(
-            ui, (sl_box){{from + wide * step, base - 0.8 * t}, {right - 4.2 * t, base + 0.1 * t}},
-            colour_of(app, step));
+        ui_fill(ui,
+                (sl_box){{from + wide * step, base - 0.8 * t}, {right - 4.2 * t, base + 0.1 * t}},
+                colour_of(app, step));
 }
 
 /// What the view cell under the pointer costs; a dash where there is none.
-static void write_pointed(const sl_app *app, char *text, size_t room) {
-    const sl_view_tree *tree = &app->views->history.tree;
-    const sl_box plan = sl_app_layout(app).plan[0];
-    const sl_point at = sl_camera_point(&app->camera, plan, app->pointer);
+static void write_pointed(const app_state *app, char *text, size_t room) {
+    const sl_view_tree *tree = &app->view.views->history.tree;
+    const sl_box plan = app_layout(app).plan[0];
+    const sl_point at = camera_point(&app->view.camera, plan, app->tool.pointer);
     const uint32_t leaf = sl_view_tree_locate(tree, at);
     char cost[32];
     snprintf(text, room, "\xe2\x80\x93");
-    if (!sl_box_has(plan, app->pointer) || leaf >= tree->cell_count) return;
-    write_cost(cost_of(app->views, app->views->view_cells[leaf]), cost);
+    if (!box_has(plan, app->tool.pointer) || leaf >= tree->cell_count) return;
+    write_cost(cost_of(app->view.views, app->view.views->view_cells[leaf]), cost);
     snprintf(text, room, "%s walls", cost);
 }
 
@@ -347,9 +346,9 @@ typedef struct key_row {
     char text[96];
 } key_row;
 
-static void write_key(const sl_app *app, key_row rows[KEY_ROWS]) {
-    const sl_view_layer *layer = app->views;
-    const uint32_t most = sl_view_layer_most(layer);
+static void write_key(const app_state *app, key_row rows[KEY_ROWS]) {
+    const view_layer *layer = app->view.views;
+    const uint32_t most = view_layer_most(layer);
     char cost[32];
     rows[0].label = "view cells";
     snprintf(rows[0].text, sizeof rows[0].text, "%u of %u", layer->cells, most);
@@ -365,19 +364,19 @@ static void write_key(const sl_app *app, key_row rows[KEY_ROWS]) {
     write_pointed(app, rows[4].text, sizeof rows[4].text);
 }
 
-void sl_view_layer_draw_key(sl_app *app, const sl_frame *frame) {
-    if (!sl_view_layer_shown(app->views)) return;
-    sl_ui *ui = &app->ui;
+void view_layer_draw_key(app_state *app, const sl_frame *frame) {
+    if (!view_layer_shown(app->view.views)) return;
+    ui_state *ui = &app->ui;
     key_row rows[KEY_ROWS];
     const double t = ui->text, row = 1.5 * t, wide = 18 * t;
     const double right = frame->left + frame->width - t, bottom = frame->top + frame->height - t;
     const double left = right - wide, top = bottom - (KEY_ROWS + 1) * row - 0.6 * t;
-    sl_ui_fill_round(ui, (sl_box){{left, top}, {right, bottom}}, 0.3 * t, ui->palette.page);
+    ui_fill_round(ui, (sl_box){{left, top}, {right, bottom}}, 0.3 * t, ui->palette.page);
     write_key(app, rows);
     double base = top + 0.3 * t + 0.8 * row;
     for (int i = 0; i < KEY_ROWS; i++, base += row) {
-        sl_ui_text(ui, left + 0.6 * t, base, 0.95, i == 0, ui->palette.ink, rows[i].label);
-        sl_ui_text_right(ui, right - 0.6 * t, base, 0.95, ui->palette.ink, rows[i].text);
+        ui_text(ui, left + 0.6 * t, base, 0.95, i == 0, ui->palette.ink, rows[i].label);
+        ui_text_right(ui, right - 0.6 * t, base, 0.95, ui->palette.ink, rows[i].text);
     }
     draw_ramp(app, left + 0.6 * t, right - 0.6 * t, base);
 }

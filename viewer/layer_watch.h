@@ -5,8 +5,8 @@
 #include "sightline/context.h"
 
 /// What the layer keeps from frame to frame.
-typedef struct sl_watch_layer sl_watch_layer;
+typedef struct watch_layer watch_layer;
 
-void sl_watch_layer_destroy(sl_context *context, sl_watch_layer *layer); ///< NULL: nothing
+void watch_layer_destroy(sl_context *context, watch_layer *layer); ///< NULL: nothing
 
 #endif

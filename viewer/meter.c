@@ -2,8 +2,8 @@
 
 #include <stdlib.h>
 
-void sl_meter_add(sl_meter *meter, double seconds) {
-    if (meter->count < SL_METER_MOST) meter->seconds[meter->count++] = seconds;
+void meter_add(frame_meter *meter, double seconds) {
+    if (meter->count < METER_MOST) meter->seconds[meter->count++] = seconds;
 }
 
 static int by_value(const void *a, const void *b) {
@@ -11,8 +11,8 @@ static int by_value(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-sl_meter_summary sl_meter_sum_up(sl_meter *meter) {
-    sl_meter_summary sum = {0};
+meter_summary meter_sum_up(frame_meter *meter) {
+    meter_summary sum = {0};
     if (!meter->count) return sum;
     qsort(meter->seconds, meter->count, sizeof *meter->seconds, by_value);
     for (size_t i = 0; i < meter->count; i++) sum.mean += meter->seconds[i] / (double)meter->count;

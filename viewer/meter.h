@@ -4,20 +4,20 @@
 
 #include <stddef.h>
 
-enum { SL_METER_MOST = 20000 };
+enum { METER_MOST = 20000 };
 
-typedef struct sl_meter {
-    double seconds[SL_METER_MOST];
+typedef struct frame_meter {
+    double seconds[METER_MOST];
     size_t count;
-} sl_meter;
+} frame_meter;
 
-void sl_meter_add(sl_meter *meter, double seconds);
+void meter_add(frame_meter *meter, double seconds);
 
-typedef struct sl_meter_summary {
+typedef struct meter_summary {
     double mean, median, p95, worst; ///< seconds
-} sl_meter_summary;
+} meter_summary;
 
 /// Sorts what was measured.
-sl_meter_summary sl_meter_sum_up(sl_meter *meter);
+meter_summary meter_sum_up(frame_meter *meter);
 
 #endif

@@ -4,22 +4,22 @@
 
 #include "app.h"
 
-typedef struct sl_mode_row {
-    const char *hint;                       ///< said when it begins
-    void (*panel)(sl_app *app, sl_box box); ///< at the right
-    void (*below)(sl_app *app,
+typedef struct mode_row {
+    const char *hint;                          ///< said when it begins
+    void (*panel)(app_state *app, sl_box box); ///< at the right
+    void (*below)(app_state *app,
                   const sl_frame *frame); ///< below the walls, over the layers; or NULL
-    void (*above)(sl_app *app, const sl_frame *frame); ///< above the walls; or NULL
-    bool eye, cone;                                    ///< whether those are marked
-} sl_mode_row;
+    void (*above)(app_state *app, const sl_frame *frame); ///< above the walls; or NULL
+    bool eye, cone;                                       ///< whether those are marked
+} mode_row;
 
-/// By sl_mode.
-const sl_mode_row *sl_mode_rows(void);
+/// By app_mode.
+const mode_row *mode_table(void);
 
 /// What changes in the plan from frame to frame: cells and regions; `index` tells which of the
 /// plans side by side.
-void sl_modes_draw_below(sl_app *app, const sl_frame *frame, int index);
+void modes_draw_below(app_state *app, const sl_frame *frame, int index);
 /// The eye, lines and marks.
-void sl_modes_draw_above(sl_app *app, const sl_frame *frame);
+void modes_draw_above(app_state *app, const sl_frame *frame);
 
 #endif

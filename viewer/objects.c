@@ -1,7 +1,7 @@
 #include "objects.h"
 
-#include "draw/marks.h"
 #include "edit.h"
+#include "sightline/canvas.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -10,15 +10,15 @@ static double distance_to_border(sl_box b, sl_point at) {
     const sl_point corners[4] = {b.min, {b.max.x, b.min.y}, b.max, {b.min.x, b.max.y}};
     double nearest = INFINITY;
     for (int i = 0; i < 4; i++)
-        nearest = fmin(nearest, sl_edit_distance(at, corners[i], corners[(i + 1) % 4]));
+        nearest = fmin(nearest, edit_distance(at, corners[i], corners[(i + 1) % 4]));
     return nearest;
 }
 
-uint32_t sl_object_at(const sl_app *app, sl_point at) {
+uint32_t object_at(const app_state *app, sl_point at) {
     const sl_map *map = &app->document.map;
-    double within = sl_edit_reach(app);
+    double within = edit_reach(app);
     uint32_t found = UINT32_MAX;
-    if (!(app->show & SL_SHOW_STARTS)) return UINT32_MAX;
+    if (!(app->view.show & SHOW_STARTS)) return UINT32_MAX;
     for (size_t i = 0; i < map->object_count && i < app->document.object_count; i++) {
         const double off = distance_to_border(map->objects[i].box, at);
         if (off > within) continue;
@@ -28,18 +28,18 @@ uint32_t sl_object_at(const sl_app *app, sl_point at) {
     return found;
 }
 
-bool sl_object_take(sl_app *app, sl_drag *drag) {
-    drag->index = sl_object_at(app, drag->at);
+bool object_take(app_state *app, drag_state *drag) {
+    drag->index = object_at(app, drag->at);
     if (drag->index == UINT32_MAX) return false;
     const sl_box box = app->document.map.objects[drag->index].box;
     drag->segment = (sl_segment){box.min, box.max};
     return true;
 }
 
-void sl_object_move(sl_app *app, sl_drag *drag, sl_point now) {
+void object_move(app_state *app, drag_state *drag, sl_point now) {
     sl_map *map = &app->document.map;
     if (drag->index >= map->object_count) return;
-    const double step = sl_edit_step(app);
+    const double step = edit_step(app);
     const double dx = step * round((now.x - drag->at.x) / step);
     const double dy = step * round((now.y - drag->at.y) / step);
     const sl_box to = {{drag->segment.a.x + dx, drag->segment.a.y + dy},
@@ -49,48 +49,48 @@ void sl_object_move(sl_app *app, sl_drag *drag, sl_point now) {
     if (!sl_coordinate_usable(to.min.x) || !sl_coordinate_usable(to.min.y) ||
         !sl_coordinate_usable(to.max.x) || !sl_coordinate_usable(to.max.y))
         return;
-    if (!drag->changed) sl_app_keep(app);
+    if (!drag->changed) app_keep(app);
     drag->changed = true;
     *box = to;
-    sl_app_say(app, false, "%s at %g,%g", map->objects[drag->index].name, to.min.x, to.min.y);
-    sl_app_after_touch(app);
+    app_say(app, false, "%s at %g,%g", map->objects[drag->index].name, to.min.x, to.min.y);
+    app_after_touch(app);
 }
 
-void sl_object_toggle(sl_app *app, uint32_t object) {
-    sl_document *document = &app->document;
+void object_toggle(app_state *app, uint32_t object) {
+    document_state *document = &app->document;
     if (object >= document->object_count) return;
-    if (!app->present.moving && !document->blocks[object]) {
-        sl_app_say(app, true, "objects cannot block sight from here");
+    if (!app->view.present.moving && !document->blocks[object]) {
+        app_say(app, true, "objects cannot block sight from here");
         return;
     }
     document->blocks[object] = !document->blocks[object];
-    sl_app_after_touch(app);
-    sl_app_say(app, false, "%s %s", document->map.objects[object].name,
-               document->blocks[object] ? "blocks sight" : "is seen through");
+    app_after_touch(app);
+    app_say(app, false, "%s %s", document->map.objects[object].name,
+            document->blocks[object] ? "blocks sight" : "is seen through");
 }
 
-void sl_object_describe(const sl_app *app, uint32_t object, char *text, size_t room) {
+void object_describe(const app_state *app, uint32_t object, char *text, size_t room) {
     const bool blocks = app->document.blocks[object];
-    const bool seen =
-        app->seen.valid && object < app->seen.object_count && app->seen.objects[object];
+    const bool seen = app->view.seen.valid && object < app->view.seen.object_count &&
+                      app->view.seen.objects[object];
     snprintf(text, room, "%s: %s, %s. Drag it; a click has it %s.",
              app->document.map.objects[object].name, seen ? "seen by the eye" : "not seen",
              blocks ? "blocks sight" : "seen through", blocks ? "seen through" : "block sight");
 }
 
-void sl_object_draw(sl_app *app, const sl_frame *frame) {
+void object_draw(app_state *app, const sl_frame *frame) {
     const sl_map *map = &app->document.map;
     cairo_t *cairo = app->ui.cairo;
     const sl_palette *palette = &app->ui.palette;
-    const sl_layout l = sl_app_layout(app);
-    uint32_t held = app->drag.kind == SL_DRAG_OBJECT ? app->drag.index : UINT32_MAX;
-    if (app->drag.kind == SL_DRAG_NONE && sl_box_has(l.plan[0], app->pointer))
-        held = sl_object_at(app, sl_camera_point(&app->camera, l.plan[0], app->pointer));
-    if (!app->seen.valid || !(app->show & SL_SHOW_STARTS)) return;
-    for (size_t i = 0; i < map->object_count && i < app->seen.object_count; i++) {
+    const window_layout l = app_layout(app);
+    uint32_t held = app->tool.drag.kind == DRAG_OBJECT ? app->tool.drag.index : UINT32_MAX;
+    if (app->tool.drag.kind == DRAG_NONE && box_has(l.plan[0], app->tool.pointer))
+        held = object_at(app, camera_point(&app->view.camera, l.plan[0], app->tool.pointer));
+    if (!app->view.seen.valid || !(app->view.show & SHOW_STARTS)) return;
+    for (size_t i = 0; i < map->object_count && i < app->view.seen.object_count; i++) {
         const sl_box b = map->objects[i].box;
         const sl_point corners[4] = {b.min, {b.max.x, b.min.y}, b.max, {b.min.x, b.max.y}};
-        const bool blocks = app->document.blocks[i], seen = app->seen.objects[i];
+        const bool blocks = app->document.blocks[i], seen = app->view.seen.objects[i];
         if (!blocks && !seen && i != held) continue;
         sl_path_polygon(cairo, frame, corners, 4);
         const sl_colour fill = blocks ? palette->wall : palette->start;

@@ -6,19 +6,19 @@
 #include "app.h"
 
 /// The object whose border is under a place of the plan; UINT32_MAX for none.
-uint32_t sl_object_at(const sl_app *app, sl_point at);
+uint32_t object_at(const app_state *app, sl_point at);
 
 /// The pointer takes hold of what is under it; false where that is no object.
-bool sl_object_take(sl_app *app, sl_drag *drag);
+bool object_take(app_state *app, drag_state *drag);
 /// Moves what it holds, by steps of the grid.
-void sl_object_move(sl_app *app, sl_drag *drag, sl_point now);
+void object_move(app_state *app, drag_state *drag, sl_point now);
 /// An object that did not block sight does, or the other way round.
-void sl_object_toggle(sl_app *app, uint32_t object);
+void object_toggle(app_state *app, uint32_t object);
 
 /// Those that are seen, those that block, and the one that is held.
-void sl_object_draw(sl_app *app, const sl_frame *frame);
+void object_draw(app_state *app, const sl_frame *frame);
 
 /// What there is to say of one.
-void sl_object_describe(const sl_app *app, uint32_t object, char *text, size_t room);
+void object_describe(const app_state *app, uint32_t object, char *text, size_t room);
 
 #endif

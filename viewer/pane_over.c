@@ -2,42 +2,42 @@
 #include "panes.h"
 
 #include "actions.h"
-#include "draw/text.h"
 #include "shelf.h"
+#include "sightline/canvas.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static sl_box begin_sheet(sl_app *app, double width, double height, const char *title) {
-    sl_ui *ui = &app->ui;
+static sl_box begin_sheet(app_state *app, double width, double height, const char *title) {
+    ui_state *ui = &app->ui;
     const double t = ui->text;
-    const sl_box all = {{0, 0}, {app->width, app->height}};
-    sl_ui_hit(ui, SL_HIT_PANEL, 1, all);
+    const sl_box all = {{0, 0}, {app->ui.width, app->ui.height}};
+    ui_hit(ui, HIT_PANEL, 1, all);
     const sl_colour dim = ui->palette.dark ? ui->palette.page : ui->palette.ink;
     cairo_set_source_rgba(ui->cairo, dim.red, dim.green, dim.blue, 0.45);
     cairo_paint(ui->cairo);
-    const double w = fmin(width, app->width - 2 * t), h = fmin(height, app->height - 2 * t);
-    const sl_box sheet = {{floor((app->width - w) / 2), floor((app->height - h) / 2)},
-                          {floor((app->width + w) / 2), floor((app->height + h) / 2)}};
-    sl_ui_fill_round(ui, sheet, 0.6 * t, ui->palette.page);
-    sl_ui_text(ui, sheet.min.x + 1.5 * t, sheet.min.y + 2.2 * t, 1.3, true, ui->palette.ink, title);
+    const double w = fmin(width, app->ui.width - 2 * t), h = fmin(height, app->ui.height - 2 * t);
+    const sl_box sheet = {{floor((app->ui.width - w) / 2), floor((app->ui.height - h) / 2)},
+                          {floor((app->ui.width + w) / 2), floor((app->ui.height + h) / 2)}};
+    ui_fill_round(ui, sheet, 0.6 * t, ui->palette.page);
+    ui_text(ui, sheet.min.x + 1.5 * t, sheet.min.y + 2.2 * t, 1.3, true, ui->palette.ink, title);
     return sheet;
 }
 
 enum { MOUSE = 4 };
 
-void sl_pane_help(sl_app *app) {
-    sl_ui *ui = &app->ui;
+void pane_help(app_state *app) {
+    ui_state *ui = &app->ui;
     const double t = ui->text;
     size_t count, shown = 0;
-    const sl_action *actions = sl_actions(&count);
+    const action_row *actions = action_table(&count);
     for (size_t i = 0; i < count; i++) shown += actions[i].key != NULL;
     const sl_box sheet =
         begin_sheet(app, 74 * t, 44 * t, "Keys and mouse; a click on a line does it");
     const int columns = 2;
     const size_t rows = (shown + MOUSE + columns - 1) / columns;
-    const double top = sheet.min.y + 3.4 * t, column = (sl_box_width(sheet) - 2 * t) / columns;
+    const double top = sheet.min.y + 3.4 * t, column = (box_width(sheet) - 2 * t) / columns;
     const double high = fmin(1.55 * t, (sheet.max.y - top - 1.2 * t) / (double)rows);
     const double size = fmin(1, high / (1.3 * t));
     static const char *const mouse[MOUSE][2] = {
@@ -55,48 +55,49 @@ void sl_pane_help(sl_app *app) {
         const double y = top + high * ((double)(at % rows) + 0.7);
         const sl_box row = {{x - 0.4 * t, y - 0.75 * high}, {x + column - t, y + 0.25 * high}};
         if (i >= MOUSE && actions[i - MOUSE].run) {
-            if (sl_box_has(row, ui->pointer))
-                sl_ui_fill_round(ui, row, 0.25 * t,
-                                 sl_colour_mix(ui->palette.page, ui->palette.glass, 0.2));
-            sl_ui_hit(ui, SL_HIT_ACTION, (int)i - MOUSE, row);
+            if (box_has(row, ui->pointer))
+                ui_fill_round(ui, row, 0.25 * t,
+                              sl_colour_mix(ui->palette.page, ui->palette.glass, 0.2));
+            ui_hit(ui, HIT_ACTION, (int)i - MOUSE, row);
         }
-        sl_ui_text(ui, x, y, size, true, ui->palette.glass, key);
+        ui_text(ui, x, y, size, true, ui->palette.glass, key);
         sl_text_show_within(ui->cairo, ui->palette.ink, x + 7.2 * t * size, y,
                             column - 7.6 * t * size, size * t, false, help);
         at++;
     }
 }
 
-static void draw_row(sl_app *app, sl_box row, size_t i, const char *name) {
-    sl_ui *ui = &app->ui;
+static void draw_row(app_state *app, sl_box row, size_t i, const char *name) {
+    ui_state *ui = &app->ui;
     const double t = ui->text;
-    const bool over = sl_box_has(row, ui->pointer);
+    const bool over = box_has(row, ui->pointer);
     if (over || i == app->shelf.at)
-        sl_ui_fill_round(ui, row, 0.3 * t,
-                         sl_colour_mix(ui->palette.page, ui->palette.glass, over ? 0.25 : 0.14));
+        ui_fill_round(ui, row, 0.3 * t,
+                      sl_colour_mix(ui->palette.page, ui->palette.glass, over ? 0.25 : 0.14));
     sl_text_show_within(ui->cairo, ui->palette.ink, row.min.x + 0.6 * t, row.min.y + 1.3 * t,
-                        sl_box_width(row) - 1.2 * t, t, false, name);
-    sl_ui_hit(ui, SL_HIT_MAP, (int)i, row);
+                        box_width(row) - 1.2 * t, t, false, name);
+    ui_hit(ui, HIT_MAP, (int)i, row);
 }
 
 /// Rows go down one column after the other; of a long list the part that has the row chosen shows.
-void sl_pane_maps(sl_app *app) {
-    sl_ui *ui = &app->ui;
+void pane_maps(app_state *app) {
+    ui_state *ui = &app->ui;
     const double t = ui->text, high = 1.9 * t;
-    const sl_map_list *list = sl_shelf_list(app);
+    const sl_map_list *list = shelf_list(app);
     const bool maps = list == &app->shelf.maps;
-    const double columns = fmin(fmax(ceil(high * (double)list->count / (app->height - 8 * t)), 1),
-                                fmax(floor(app->width / (22 * t)), 1));
+    const double columns =
+        fmin(fmax(ceil(high * (double)list->count / (app->ui.height - 8 * t)), 1),
+             fmax(floor(app->ui.width / (22 * t)), 1));
     const double rows = fmax(ceil((double)list->count / columns), 1);
     const sl_box sheet = begin_sheet(app, fmax(40, 22 * columns) * t, 4.6 * t + high * rows,
                                      maps ? "Which of its maps?" : "Maps at hand");
-    const double top = sheet.min.y + 3.3 * t, width = (sl_box_width(sheet) - 2 * t) / columns;
+    const double top = sheet.min.y + 3.3 * t, width = (box_width(sheet) - 2 * t) / columns;
     const size_t fit = (size_t)fmax(floor((sheet.max.y - top) / high), 1);
     const size_t page = fit * (size_t)columns;
     if (!list->count)
-        sl_ui_text(ui, sheet.min.x + 1.5 * t, top + t, 1, false, ui->palette.faint,
-                   "None. Drop a file on the window.");
-    sl_shelf *shelf = &app->shelf;
+        ui_text(ui, sheet.min.x + 1.5 * t, top + t, 1, false, ui->palette.faint,
+                "None. Drop a file on the window.");
+    map_shelf *shelf = &app->shelf;
     if (shelf->at < shelf->first) shelf->first = shelf->at;
     if (shelf->at >= shelf->first + page) shelf->first = shelf->at - page + 1;
     for (size_t i = shelf->first; i < list->count && i < shelf->first + page; i++) {

@@ -1,10 +1,10 @@
 #include "range.h"
 
-#include "draw/marks.h"
+#include "sightline/canvas.h"
 
 #include <math.h>
 
-double sl_range_most(const sl_app *app) {
+double range_most(const app_state *app) {
     const sl_box b = app->document.baked->space.bounds;
     return hypot(b.max.x - b.min.x, b.max.y - b.min.y);
 }
@@ -15,40 +15,40 @@ static double rounded(double range) {
     return step * round(range / step);
 }
 
-void sl_range_set(sl_app *app, double range) {
-    app->document.map.range = rounded(fmax(range, 1e-3 * sl_range_most(app)));
-    sl_app_after_touch(app);
+void range_set(app_state *app, double range) {
+    app->document.map.range = rounded(fmax(range, 1e-3 * range_most(app)));
+    app_after_touch(app);
 }
 
-void sl_range_settle(sl_app *app) {
-    const sl_history *history = &app->history;
+void range_settle(app_state *app) {
+    const edit_history *history = &app->document.history;
     const size_t kept = history->done_count;
     if (kept && history->done[kept - 1].range == app->document.map.range)
-        sl_history_forget_last(app->context, &app->history);
-    if (app->document.baked->map.range != app->document.map.range) sl_app_after_edit(app);
+        history_forget_last(app->context, &app->document.history);
+    if (app->document.baked->map.range != app->document.map.range) app_after_edit(app);
 }
 
-void sl_range_toggle(sl_app *app) {
+void range_toggle(app_state *app) {
     if (!app->document.baked) return;
-    sl_app_keep(app);
+    app_keep(app);
     app->document.map.range =
-        app->document.map.range > 0 ? 0 : rounded(fmax(0.3 * sl_range_most(app), 1e-100));
-    sl_app_after_touch(app);
-    sl_range_settle(app);
+        app->document.map.range > 0 ? 0 : rounded(fmax(0.3 * range_most(app), 1e-100));
+    app_after_touch(app);
+    range_settle(app);
     if (app->document.map.range > 0)
-        sl_app_say(app, false, "nothing farther than %g is seen; the slider changes that",
-                   app->document.map.range);
+        app_say(app, false, "nothing farther than %g is seen; the slider changes that",
+                app->document.map.range);
     else
-        sl_app_say(app, false, "sight reaches any distance");
+        app_say(app, false, "sight reaches any distance");
 }
 
-void sl_range_draw(sl_app *app, const sl_frame *frame) {
+void range_draw(app_state *app, const sl_frame *frame) {
     cairo_t *cairo = app->ui.cairo;
     const double radius = app->document.map.range * frame->scale;
     const double dashes[] = {5 * frame->unit, 4 * frame->unit};
     sl_point at;
     // One that is larger than what cairo can hold is nowhere near the page's middle either.
-    if (!(radius > 0) || radius > 1e5 || !sl_frame_holds(frame, app->eye.at, &at)) return;
+    if (!(radius > 0) || radius > 1e5 || !sl_frame_holds(frame, app->view.eye.at, &at)) return;
     cairo_save(cairo);
     cairo_new_path(cairo);
     cairo_arc(cairo, at.x, at.y, radius, 0, 6.283185307179586);

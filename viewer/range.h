@@ -6,18 +6,18 @@
 #include "app.h"
 
 /// The farthest that the slider goes: the map's diagonal.
-double sl_range_most(const sl_app *app);
+double range_most(const app_state *app);
 
 /// Puts a range, above 0, in place of the one that is set; for the time being without a bake.
-void sl_range_set(sl_app *app, double range);
+void range_set(app_state *app, double range);
 
 /// Sets a range where there is none, and lifts the one that there is.
-void sl_range_toggle(sl_app *app);
+void range_toggle(app_state *app);
 
 /// The range has been chosen: what cells see is made anew, where it was made with another one.
-void sl_range_settle(sl_app *app);
+void range_settle(app_state *app);
 
 /// The circle about the eye.
-void sl_range_draw(sl_app *app, const sl_frame *frame);
+void range_draw(app_state *app, const sl_frame *frame);
 
 #endif

@@ -5,7 +5,7 @@
 /// Ten minutes.
 enum { FRAMES_MOST = 36000 };
 
-static sl_status add(sl_context *context, sl_recorder *recorder, sl_record_frame frame) {
+static sl_status add(sl_context *context, path_recorder *recorder, record_frame frame) {
     if (recorder->frames.count >= FRAMES_MOST) {
         recorder->records = false;
         return SL_OK;
@@ -15,20 +15,20 @@ static sl_status add(sl_context *context, sl_recorder *recorder, sl_record_frame
     return SL_OK;
 }
 
-sl_status sl_record_tick(sl_context *context, sl_recorder *recorder, double seconds,
-                         sl_record_frame now) {
+sl_status record_tick(sl_context *context, path_recorder *recorder, double seconds,
+                      record_frame now) {
     if (!recorder->records) return SL_OK;
-    for (recorder->waited += seconds; recorder->waited >= SL_RECORD_STEP * 0.999;
-         recorder->waited -= SL_RECORD_STEP)
+    for (recorder->waited += seconds; recorder->waited >= RECORD_STEP * 0.999;
+         recorder->waited -= RECORD_STEP)
         SL_TRY(add(context, recorder, now));
     return SL_OK;
 }
 
-bool sl_record_play(sl_recorder *recorder, double seconds, sl_record_frame *frame) {
+bool record_play(path_recorder *recorder, double seconds, record_frame *frame) {
     if (!recorder->plays) return false;
     recorder->waited += seconds;
-    const size_t steps = (size_t)(recorder->waited / SL_RECORD_STEP + 0.001);
-    recorder->waited -= (double)steps * SL_RECORD_STEP;
+    const size_t steps = (size_t)(recorder->waited / RECORD_STEP + 0.001);
+    recorder->waited -= (double)steps * RECORD_STEP;
     if (recorder->next >= recorder->frames.count) {
         recorder->plays = false;
         return false;
@@ -38,24 +38,24 @@ bool sl_record_play(sl_recorder *recorder, double seconds, sl_record_frame *fram
     return true;
 }
 
-sl_status sl_record_path(sl_context *context, sl_recorder *recorder, const sl_path *path,
-                         double speed) {
+sl_status record_path(sl_context *context, path_recorder *recorder, const sl_path *path,
+                      double speed) {
     recorder->frames.count = 0;
     for (size_t i = 1; i < path->count; i++) {
         const sl_point a = path->points[i - 1], b = path->points[i];
         const double length = hypot(b.x - a.x, b.y - a.y);
         const double heading = atan2(b.y - a.y, b.x - a.x) * (180 / 3.14159265358979323846);
-        const double steps = fmin(ceil(length / (speed * SL_RECORD_STEP)), FRAMES_MOST);
+        const double steps = fmin(ceil(length / (speed * RECORD_STEP)), FRAMES_MOST);
         for (double k = 0; k < steps; k++)
             SL_TRY(
                 add(context, recorder,
-                    (sl_record_frame){
-                        {a.x + (b.x - a.x) * k / steps, a.y + (b.y - a.y) * k / steps}, heading}));
+                    (record_frame){{a.x + (b.x - a.x) * k / steps, a.y + (b.y - a.y) * k / steps},
+                                   heading}));
     }
     return SL_OK;
 }
 
-void sl_record_destroy(sl_context *context, sl_recorder *recorder) {
+void record_destroy(sl_context *context, path_recorder *recorder) {
     sl_free(context, recorder->frames.items);
-    *recorder = (sl_recorder){0};
+    *recorder = (path_recorder){0};
 }

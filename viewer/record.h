@@ -6,29 +6,29 @@
 #include "sightline/support.h"
 
 /// Where the eye was, sixty times a second.
-typedef struct sl_record_frame {
+typedef struct record_frame {
     sl_point at;
     double heading;
-} sl_record_frame;
+} record_frame;
 
-#define SL_RECORD_STEP (1.0 / 60)
+#define RECORD_STEP (1.0 / 60)
 
 /// Zeroed to start.
-typedef struct sl_recorder {
+typedef struct path_recorder {
     bool records, plays;
     double waited;
     size_t next; ///< to be played
-    SL_ARRAY(sl_record_frame) frames;
-} sl_recorder;
+    SL_ARRAY(record_frame) frames;
+} path_recorder;
 
 /// Goes on by a time while it records: adds frames.
-sl_status sl_record_tick(sl_context *context, sl_recorder *recorder, double seconds,
-                         sl_record_frame now);
+sl_status record_tick(sl_context *context, path_recorder *recorder, double seconds,
+                      record_frame now);
 /// The next frame while it plays; false at the end.
-bool sl_record_play(sl_recorder *recorder, double seconds, sl_record_frame *frame);
+bool record_play(path_recorder *recorder, double seconds, record_frame *frame);
 /// In place of a recording, the way along a path of the map at a speed (units a second).
-sl_status sl_record_path(sl_context *context, sl_recorder *recorder, const sl_path *path,
-                         double speed);
-void sl_record_destroy(sl_context *context, sl_recorder *recorder);
+sl_status record_path(sl_context *context, path_recorder *recorder, const sl_path *path,
+                      double speed);
+void record_destroy(sl_context *context, path_recorder *recorder);
 
 #endif

@@ -14,15 +14,15 @@
 enum { PARTS_MOST = 100 };
 
 static bool is_late(void *user) {
-    const sl_seen *seen = user;
-    return sl_clock_seconds() > seen->until;
+    const seen_state *seen = user;
+    return clock_seconds() > seen->until;
 }
 
-static void give(sl_seen *seen, double seconds) {
-    seen->until = seen->patient ? INFINITY : sl_clock_seconds() + seconds;
+static void give(seen_state *seen, double seconds) {
+    seen->until = seen->patient ? INFINITY : clock_seconds() + seconds;
 }
 
-void sl_seen_forget_mirrors(sl_context *context, sl_seen *seen) {
+void seen_forget_mirrors(sl_context *context, seen_state *seen) {
     sl_mirrored_region_destroy(context, &seen->in_mirrors);
     sl_mirrored_region_destroy(context, &seen->deeper);
     seen->mirrored_area = 0;
@@ -30,13 +30,13 @@ void sl_seen_forget_mirrors(sl_context *context, sl_seen *seen) {
 }
 
 /// The methods stand from loose to exact: what one has no time for, the one before it knows.
-static sl_status look(sl_seen *seen, const sl_document *document, sl_eye_search *search) {
+static sl_status look(seen_state *seen, const document_state *document, sl_eye_search *search) {
     const size_t words = sl_eye_words(&document->baked->space);
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
     const uint64_t *known = seen->mirrored;
-    for (size_t i = 0; i < count && i < SL_SEEN_MOST; i++) {
-        sl_seen_method *m = &seen->methods[i];
+    for (size_t i = 0; i < count && i < SEEN_MOST; i++) {
+        seen_method *m = &seen->methods[i];
         sl_eye_account account;
         sl_status status = SL_CANCELLED;
         give(seen, CELLS_SECONDS);
@@ -54,8 +54,8 @@ static sl_status look(sl_seen *seen, const sl_document *document, sl_eye_search 
 
 /// One reflection more as long as there is time. Where there is one-way glass too there are no
 /// parts: a region knows what is dark from the eye, and not from its images.
-static sl_status make_parts(sl_context *context, sl_seen *seen, const sl_document *document,
-                            const sl_present *present) {
+static sl_status make_parts(sl_context *context, seen_state *seen, const document_state *document,
+                            const present_state *present) {
     const uint32_t most = document->mirror_depth;
     seen->depth = 0;
     give(seen, PARTS_SECONDS);
@@ -76,10 +76,10 @@ static sl_status make_parts(sl_context *context, sl_seen *seen, const sl_documen
     return SL_OK;
 }
 
-sl_status sl_seen_look_into_mirrors(sl_context *context, sl_seen *seen, const sl_document *document,
-                                    const sl_present *present) {
+sl_status seen_look_into_mirrors(sl_context *context, seen_state *seen,
+                                 const document_state *document, const present_state *present) {
     if (!document->baked->map.mirror_count) {
-        sl_seen_forget_mirrors(context, seen);
+        seen_forget_mirrors(context, seen);
         return SL_OK;
     }
     if (!seen->hurried) {
@@ -90,6 +90,6 @@ sl_status sl_seen_look_into_mirrors(sl_context *context, sl_seen *seen, const sl
     SL_TRY(look(seen, document, present->search));
     if (!document->map.oneway_count && present->mirrors.outline)
         return make_parts(context, seen, document, present);
-    sl_seen_forget_mirrors(context, seen);
+    seen_forget_mirrors(context, seen);
     return SL_OK;
 }

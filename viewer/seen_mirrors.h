@@ -7,9 +7,9 @@
 
 /// Sets, of each method, what is seen by mirror, and the parts of the region. Where that takes too
 /// long, cells are those that were baked, and parts those of fewer reflections.
-sl_status sl_seen_look_into_mirrors(sl_context *context, sl_seen *seen, const sl_document *document,
-                                    const sl_present *present);
+sl_status seen_look_into_mirrors(sl_context *context, seen_state *seen,
+                                 const document_state *document, const present_state *present);
 
-void sl_seen_forget_mirrors(sl_context *context, sl_seen *seen);
+void seen_forget_mirrors(sl_context *context, seen_state *seen);
 
 #endif

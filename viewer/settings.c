@@ -50,26 +50,26 @@ enum {
     SETTINGS
 };
 
-static void describe(const sl_app *app, setting list[SETTINGS]) {
+static void describe(const app_state *app, setting list[SETTINGS]) {
     size_t count;
     sl_eye_methods(&count);
     const setting all[SETTINGS] = {
-        [DARK] = {"dark", 0, 1, app->dark},
-        [TEXT] = {"text", 0.7, 3, app->text_scale},
-        [SHOW] = {"layers", 0, SL_SHOW_ALL, app->show},
-        [CONE] = {"cone", 1, 360, app->eye.fov},
-        [METHOD] = {"method", 0, (double)count - 1, (double)app->method},
-        [WIDTH] = {"width", 320, 8192, round(app->width / app->density)},
-        [HEIGHT] = {"height", 240, 8192, round(app->height / app->density)},
-        [PANEL] = {"panel", 0, 1, app->side_panel},
-        [FIRST_PERSON] = {"first_person", 0, 1, app->first_person},
-        [ACCOUNT] = {"account", 0, 1, app->accounts},
-        [EFFECTS] = {"effects", 0, 1, app->effects},
+        [DARK] = {"dark", 0, 1, app->ui.dark},
+        [TEXT] = {"text", 0.7, 3, app->ui.text_scale},
+        [SHOW] = {"layers", 0, SHOW_ALL, app->view.show},
+        [CONE] = {"cone", 1, 360, app->view.eye.fov},
+        [METHOD] = {"method", 0, (double)count - 1, (double)app->view.method},
+        [WIDTH] = {"width", 320, 8192, round(app->ui.width / app->ui.density)},
+        [HEIGHT] = {"height", 240, 8192, round(app->ui.height / app->ui.density)},
+        [PANEL] = {"panel", 0, 1, app->ui.side_panel},
+        [FIRST_PERSON] = {"first_person", 0, 1, app->ui.first_person},
+        [ACCOUNT] = {"account", 0, 1, app->ui.accounts},
+        [EFFECTS] = {"effects", 0, 1, app->ui.effects},
     };
     memcpy(list, all, sizeof all);
 }
 
-void sl_settings_load(sl_app *app) {
+void settings_load(app_state *app) {
     char path[PATH];
     sl_bytes bytes;
     if (!find_path(path, false) || sl_file_read(app->context, path, &bytes) != SL_OK) return;
@@ -87,20 +87,20 @@ void sl_settings_load(sl_app *app) {
                 list[i].value = value;
     }
     sl_free(app->context, bytes.data);
-    app->dark = list[DARK].value != 0;
-    app->text_scale = list[TEXT].value;
-    app->show = (unsigned)list[SHOW].value;
-    app->eye.fov = list[CONE].value;
-    app->method = (size_t)list[METHOD].value;
-    app->width = (int)list[WIDTH].value;
-    app->height = (int)list[HEIGHT].value;
-    app->side_panel = list[PANEL].value != 0;
-    app->first_person = list[FIRST_PERSON].value != 0;
-    app->accounts = list[ACCOUNT].value != 0;
-    app->effects = list[EFFECTS].value != 0;
+    app->ui.dark = list[DARK].value != 0;
+    app->ui.text_scale = list[TEXT].value;
+    app->view.show = (unsigned)list[SHOW].value;
+    app->view.eye.fov = list[CONE].value;
+    app->view.method = (size_t)list[METHOD].value;
+    app->ui.width = (int)list[WIDTH].value;
+    app->ui.height = (int)list[HEIGHT].value;
+    app->ui.side_panel = list[PANEL].value != 0;
+    app->ui.first_person = list[FIRST_PERSON].value != 0;
+    app->ui.accounts = list[ACCOUNT].value != 0;
+    app->ui.effects = list[EFFECTS].value != 0;
 }
 
-void sl_settings_save(sl_app *app) {
+void settings_save(app_state *app) {
     char path[PATH];
     sl_output output;
     if (!find_path(path, true) || sl_output_open(app->context, path, &output) != SL_OK) return;

@@ -5,8 +5,8 @@
 #include "app.h"
 
 /// Takes over what is remembered; what cannot be read is as if it had never been.
-void sl_settings_load(sl_app *app);
+void settings_load(app_state *app);
 /// Remembers. Where that fails nothing is said: it is no part of the work.
-void sl_settings_save(sl_app *app);
+void settings_save(app_state *app);
 
 #endif

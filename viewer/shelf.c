@@ -36,7 +36,7 @@ static int by_name(const void *a, const void *b) {
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-static void add_folder(sl_app *app, const char *folder, bool with_maps) {
+static void add_folder(app_state *app, const char *folder, bool with_maps) {
     DIR *dir = opendir(folder);
     if (!dir) return;
     sl_map_list *files = &app->shelf.files;
@@ -60,7 +60,7 @@ static bool same_folder(const char *a, const char *b) {
     return stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
 }
 
-void sl_shelf_fill(sl_app *app, const char *beside) {
+void shelf_fill(app_state *app, const char *beside) {
     char folder[PATH] = ".";
     const char *slash = beside ? strrchr(beside, '/') : NULL;
     if (slash && slash - beside < PATH - 1)
@@ -72,14 +72,14 @@ void sl_shelf_fill(sl_app *app, const char *beside) {
     if (!same_folder(folder, ".")) add_folder(app, ".", false);
 }
 
-void sl_shelf_forget_maps(sl_app *app) {
+void shelf_forget_maps(app_state *app) {
     sl_map_list_destroy(app->context, &app->shelf.maps);
-    sl_document_source_destroy(app->context, &app->shelf.source);
+    document_source_destroy(app->context, &app->shelf.source);
     app->shelf.at = app->shelf.first = 0;
 }
 
-void sl_shelf_empty(sl_app *app) {
-    sl_shelf_forget_maps(app);
+void shelf_empty(app_state *app) {
+    shelf_forget_maps(app);
     sl_map_list_destroy(app->context, &app->shelf.files);
 }
 
@@ -97,8 +97,8 @@ static void keep_useful(sl_import_options *options, unsigned takes) {
 }
 
 /// What the file is, and what there is to choose.
-static sl_status look(sl_context *context, sl_document_source *source, sl_map_choice *choice) {
-    if (sl_document_is_baked(source->path)) return SL_OK;
+static sl_status look(sl_context *context, document_source *source, sl_map_choice *choice) {
+    if (document_is_baked(source->path)) return SL_OK;
     SL_TRY(sl_map_choice_read(context, source->path, choice));
     source->takes = choice->format->takes;
     source->lowest = choice->lowest;
@@ -106,10 +106,10 @@ static sl_status look(sl_context *context, sl_document_source *source, sl_map_ch
     return SL_OK;
 }
 
-static sl_status open_source(sl_app *app, sl_document_source source, bool ask, bool all_meant) {
+static sl_status open_source(app_state *app, document_source source, bool ask, bool all_meant) {
     sl_context *context = app->context;
     sl_map_choice choice = {0};
-    sl_shelf_forget_maps(app);
+    shelf_forget_maps(app);
     SL_TRY(look(context, &source, &choice));
     if (!all_meant) keep_useful(&source.options, source.takes);
     if (source.highest > source.lowest && !source.options.has_slice) {
@@ -118,57 +118,57 @@ static sl_status open_source(sl_app *app, sl_document_source source, bool ask, b
     }
     sl_status status = SL_OK;
     if (ask && choice.maps.count > 1 && !source.options.map) {
-        status = sl_document_source_copy(context, &source, &app->shelf.source);
+        status = document_source_copy(context, &source, &app->shelf.source);
         app->shelf.maps = choice.maps;
         choice.maps = (sl_map_list){0};
-        app->maps_open = true;
+        app->ui.maps_open = true;
     } else {
-        status = sl_document_open(context, &app->document, &source);
+        status = document_open(context, &app->document, &source);
     }
     sl_map_choice_destroy(context, &choice);
     return status;
 }
 
-sl_status sl_shelf_open_source(sl_app *app, const sl_document_source *source, bool ask) {
+sl_status shelf_open_source(app_state *app, const document_source *source, bool ask) {
     return open_source(app, *source, ask, true);
 }
 
-void sl_shelf_open(sl_app *app, const char *path) {
-    const sl_document_source source = {.path = (char *)(uintptr_t)path, .options = app->options};
-    app->maps_open = false;
-    sl_app_check(app, open_source(app, source, true, false));
+void shelf_open(app_state *app, const char *path) {
+    const document_source source = {.path = (char *)(uintptr_t)path, .options = app->options};
+    app->ui.maps_open = false;
+    app_check(app, open_source(app, source, true, false));
 }
 
-void sl_shelf_open_again(sl_app *app, const sl_import_options *options) {
-    sl_document_source source = app->document.source;
+void shelf_open_again(app_state *app, const sl_import_options *options) {
+    document_source source = app->document.source;
     if (!source.path) return;
     source.options = *options;
     source.again = true;
-    sl_history_clear(app->context, &app->history);
-    sl_app_check(app, sl_document_open(app->context, &app->document, &source));
+    history_clear(app->context, &app->document.history);
+    app_check(app, document_open(app->context, &app->document, &source));
 }
 
-const sl_map_list *sl_shelf_list(const sl_app *app) {
+const sl_map_list *shelf_list(const app_state *app) {
     return app->shelf.source.path ? &app->shelf.maps : &app->shelf.files;
 }
 
-void sl_shelf_choose(sl_app *app, size_t row) {
-    const sl_map_list *list = sl_shelf_list(app);
+void shelf_choose(app_state *app, size_t row) {
+    const sl_map_list *list = shelf_list(app);
     if (row >= list->count) return;
     if (list == &app->shelf.files) {
-        sl_shelf_open(app, list->names[row]);
+        shelf_open(app, list->names[row]);
         return;
     }
-    sl_document_source source = app->shelf.source;
+    document_source source = app->shelf.source;
     source.options.map = list->names[row];
-    app->maps_open = false;
-    sl_app_check(app, sl_document_open(app->context, &app->document, &source));
-    sl_shelf_forget_maps(app);
+    app->ui.maps_open = false;
+    app_check(app, document_open(app->context, &app->document, &source));
+    shelf_forget_maps(app);
 }
 
-void sl_shelf_move(sl_app *app, int by) {
-    const size_t count = sl_shelf_list(app)->count;
-    sl_shelf *shelf = &app->shelf;
+void shelf_move(app_state *app, int by) {
+    const size_t count = shelf_list(app)->count;
+    map_shelf *shelf = &app->shelf;
     if (by < 0)
         shelf->at -= shelf->at < (size_t)-by ? shelf->at : (size_t)-by;
     else if (count)

@@ -5,6 +5,6 @@
 #include "app.h"
 
 /// Keys, clicks, drags, sizes and maps at random for so many seconds, without a window.
-sl_status sl_soak_run(sl_app *app, double seconds, uint64_t seed);
+sl_status soak_run(app_state *app, double seconds, uint64_t seed);
 
 #endif

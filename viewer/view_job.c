@@ -10,14 +10,14 @@
 /// Lines that tell costs, for each that makes the cells.
 #define TELLING 2
 
-struct sl_view_job {
+struct view_job {
     sl_map map;
     sl_space space;
     sl_outline outline;
     sl_view_places places;
     sl_view_segments segments, telling;
     sl_view_hierarchy merged; ///< as told by the lines that made it
-    sl_view_history history;
+    view_history history;
     sl_status status; ///< when `done`
     char message[1024];
     pthread_t thread;
@@ -26,18 +26,18 @@ struct sl_view_job {
     atomic_uint_fast64_t count, total;
 };
 
-void sl_view_history_destroy(sl_context *context, sl_view_history *history) {
+void view_history_destroy(sl_context *context, view_history *history) {
     sl_view_hierarchy_destroy(context, &history->hierarchy);
     sl_view_tree_destroy(context, &history->tree);
-    *history = (sl_view_history){0};
+    *history = (view_history){0};
 }
 
 static bool is_cancelled(void *user) {
-    return atomic_load(&((sl_view_job *)user)->cancel);
+    return atomic_load(&((view_job *)user)->cancel);
 }
 
 static void take_progress(void *user, const sl_progress *progress) {
-    sl_view_job *job = user;
+    view_job *job = user;
     atomic_store(&job->stage, progress->stage);
     atomic_store(&job->count, progress->done);
     atomic_store(&job->total, progress->total);
@@ -50,7 +50,7 @@ static const sl_view_method *method_that_merges(void) {
     return &methods[i];
 }
 
-static sl_status merge(sl_context *context, const sl_view_scene *scene, sl_view_job *job) {
+static sl_status merge(sl_context *context, const sl_view_scene *scene, view_job *job) {
     sl_view_sets sets = {0};
     SL_TRY(sl_view_sets_sample(context, scene, &job->history.tree, &job->segments, 0, &sets));
     const sl_status status = sl_view_merge(context, scene, &job->history.tree, &sets, &job->merged);
@@ -59,7 +59,7 @@ static sl_status merge(sl_context *context, const sl_view_scene *scene, sl_view_
 }
 
 /// By other lines: those that made the cells flatter them.
-static sl_status tell(sl_context *context, const sl_view_scene *scene, sl_view_job *job) {
+static sl_status tell(sl_context *context, const sl_view_scene *scene, view_job *job) {
     sl_view_sampling sampling = sl_view_sampling_default();
     sampling.samples *= TELLING;
     sampling.seed = ~sampling.seed;
@@ -72,7 +72,7 @@ static sl_status tell(sl_context *context, const sl_view_scene *scene, sl_view_j
     return status;
 }
 
-static sl_status work(sl_context *context, sl_view_job *job) {
+static sl_status work(sl_context *context, view_job *job) {
     const sl_view_sampling sampling = sl_view_sampling_default();
     sl_view_subdivision subdivision = sl_view_subdivision_default();
     subdivision.seed = sampling.seed;
@@ -90,7 +90,7 @@ static sl_status work(sl_context *context, sl_view_job *job) {
 }
 
 static void *run(void *user) {
-    sl_view_job *job = user;
+    view_job *job = user;
     const sl_hooks hooks = {.user = job, .progress = take_progress, .cancelled = is_cancelled};
     sl_context *context = sl_context_create(&hooks);
     job->status = context ? work(context, job) : SL_NO_MEMORY;
@@ -101,8 +101,8 @@ static void *run(void *user) {
     return NULL;
 }
 
-static void free_job(sl_context *context, sl_view_job *job) {
-    sl_view_history_destroy(context, &job->history);
+static void free_job(sl_context *context, view_job *job) {
+    view_history_destroy(context, &job->history);
     sl_view_hierarchy_destroy(context, &job->merged);
     sl_view_segments_destroy(context, &job->telling);
     sl_view_segments_destroy(context, &job->segments);
@@ -113,8 +113,8 @@ static void free_job(sl_context *context, sl_view_job *job) {
     sl_free(context, job);
 }
 
-sl_status sl_view_job_start(sl_context *context, const sl_map *map, sl_view_job **out) {
-    sl_view_job *job = sl_alloc_array(context, 1, sizeof *job);
+sl_status view_job_start(sl_context *context, const sl_map *map, view_job **out) {
+    view_job *job = sl_alloc_array(context, 1, sizeof *job);
     if (!job) return SL_NO_MEMORY;
     atomic_store(&job->stage, "sample");
     const sl_status status = sl_map_copy(context, map, &job->map);
@@ -127,27 +127,27 @@ sl_status sl_view_job_start(sl_context *context, const sl_map *map, sl_view_job 
     return sl_fail(context, SL_NO_MEMORY, "no thread for view cells in the background");
 }
 
-void sl_view_job_cancel(sl_view_job *job) {
+void view_job_cancel(view_job *job) {
     atomic_store(&job->cancel, true);
 }
 
-bool sl_view_job_is_done(const sl_view_job *job) {
+bool view_job_is_done(const view_job *job) {
     return atomic_load(&job->done);
 }
 
-sl_document_progress sl_view_job_progress(const sl_view_job *job) {
+job_progress view_job_progress(const view_job *job) {
     const uint64_t total = atomic_load(&job->total), count = atomic_load(&job->count);
-    return (sl_document_progress){.running = true,
-                                  .stage = atomic_load(&job->stage),
-                                  .share = total ? (double)count / (double)total : -1};
+    return (job_progress){.running = true,
+                          .stage = atomic_load(&job->stage),
+                          .share = total ? (double)count / (double)total : -1};
 }
 
-sl_status sl_view_job_end(sl_context *context, sl_view_job *job, sl_view_history *out) {
+sl_status view_job_end(sl_context *context, view_job *job, view_history *out) {
     pthread_join(job->thread, NULL);
     const sl_status status = job->status;
     if (status == SL_OK) {
         *out = job->history;
-        job->history = (sl_view_history){0};
+        job->history = (view_history){0};
     } else {
         sl_fail(context, status, "view cells: %s", job->message);
     }

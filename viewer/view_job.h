@@ -7,24 +7,24 @@
 #include "sightline/view_cells.h"
 
 /// What the work comes to. Zeroed: nothing yet.
-typedef struct sl_view_history {
+typedef struct view_history {
     sl_view_tree tree;
     sl_view_hierarchy hierarchy; ///< told by other lines than those that it was made by
-} sl_view_history;
+} view_history;
 
-void sl_view_history_destroy(sl_context *context, sl_view_history *history); ///< and zeroes it
+void view_history_destroy(sl_context *context, view_history *history); ///< and zeroes it
 
-typedef struct sl_view_job sl_view_job;
+typedef struct view_job view_job;
 
 /// Starts the thread, on a copy of the map: as many lines and elementary view cells as
 /// `sightline viewcells` takes unless told.
-sl_status sl_view_job_start(sl_context *context, const sl_map *map, sl_view_job **out);
-void sl_view_job_cancel(sl_view_job *job);
-bool sl_view_job_is_done(const sl_view_job *job);
-sl_document_progress sl_view_job_progress(const sl_view_job *job);
+sl_status view_job_start(sl_context *context, const sl_map *map, view_job **out);
+void view_job_cancel(view_job *job);
+bool view_job_is_done(const view_job *job);
+job_progress view_job_progress(const view_job *job);
 
 /// Waits for the thread and frees the job. `*out` is the caller's from then on, and untouched where
 /// the work failed, of which status and message tell.
-sl_status sl_view_job_end(sl_context *context, sl_view_job *job, sl_view_history *out);
+sl_status view_job_end(sl_context *context, view_job *job, view_history *out);
 
 #endif

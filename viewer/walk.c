@@ -6,8 +6,8 @@
 
 #define RADIANS (3.14159265358979323846 / 180)
 
-double sl_walk_speed(const sl_app *app) {
-    const sl_document *d = &app->document;
+double walk_speed(const app_state *app) {
+    const document_state *d = &app->document;
     return d->counted ? 1.6 * sqrt(d->area / d->counted) : 1;
 }
 
@@ -33,25 +33,25 @@ static uint32_t first_wall(const sl_space *space, sl_point from, sl_point to) {
 
 /// Moves as far as that where nothing stops it; else *wall is what does (wall_count: the map's
 /// border).
-static bool try_move(sl_app *app, double dx, double dy, double body, uint32_t *wall) {
-    const sl_space *space = app->present.space;
+static bool try_move(app_state *app, double dx, double dy, double body, uint32_t *wall) {
+    const sl_space *space = app->view.present.space;
     const double length = hypot(dx, dy);
     *wall = space->wall_count;
     if (!(length > 0)) return false;
-    const sl_point at = app->eye.at, to = {at.x + dx, at.y + dy};
+    const sl_point at = app->view.eye.at, to = {at.x + dx, at.y + dy};
     // A little farther than the step, so that some room to the wall is left.
     const sl_point ahead = {to.x + dx / length * body, to.y + dy / length * body};
-    if (!app->eye.flies) {
+    if (!app->view.eye.flies) {
         *wall = first_wall(space, at, ahead);
         if (*wall < space->wall_count || sl_space_locate(space, ahead) == SL_NO_CELL) return false;
     }
-    app->eye.at = to;
+    app->view.eye.at = to;
     return true;
 }
 
 /// What a wall leaves of a step: the part along it.
-static void slide(sl_app *app, double dx, double dy, double body, uint32_t wall) {
-    const sl_space *space = app->present.space;
+static void slide(app_state *app, double dx, double dy, double body, uint32_t wall) {
+    const sl_space *space = app->view.present.space;
     if (wall >= space->wall_count) return;
     const sl_wall *w = &space->walls[wall];
     const double x = w->b.x - w->a.x, y = w->b.y - w->a.y, square = x * x + y * y;
@@ -60,17 +60,17 @@ static void slide(sl_app *app, double dx, double dy, double body, uint32_t wall)
     try_move(app, share * x, share * y, body, &wall);
 }
 
-void sl_walk(sl_app *app, double seconds) {
-    if (!app->present.space || !app->held) return;
-    const unsigned held = app->held;
-    const double turn = ((held & SL_HOLD_TURN_LEFT) != 0) - ((held & SL_HOLD_TURN_RIGHT) != 0);
-    app->eye.heading = fmod(app->eye.heading + 120 * turn * seconds + 360, 360);
-    const double ahead = ((held & SL_HOLD_FORWARD) != 0) - ((held & SL_HOLD_BACK) != 0);
-    const double aside = ((held & SL_HOLD_RIGHT) != 0) - ((held & SL_HOLD_LEFT) != 0);
+void walk_tick(app_state *app, double seconds) {
+    if (!app->view.present.space || !app->tool.held) return;
+    const unsigned held = app->tool.held;
+    const double turn = ((held & HOLD_TURN_LEFT) != 0) - ((held & HOLD_TURN_RIGHT) != 0);
+    app->view.eye.heading = fmod(app->view.eye.heading + 120 * turn * seconds + 360, 360);
+    const double ahead = ((held & HOLD_FORWARD) != 0) - ((held & HOLD_BACK) != 0);
+    const double aside = ((held & HOLD_RIGHT) != 0) - ((held & HOLD_LEFT) != 0);
     const double length = hypot(ahead, aside);
     if (!(length > 0)) return;
-    const double step = sl_walk_speed(app) * seconds / length, body = 0.04 * sl_walk_speed(app);
-    const double c = cos(app->eye.heading * RADIANS), s = sin(app->eye.heading * RADIANS);
+    const double step = walk_speed(app) * seconds / length, body = 0.04 * walk_speed(app);
+    const double c = cos(app->view.eye.heading * RADIANS), s = sin(app->view.eye.heading * RADIANS);
     const double dx = step * (ahead * c + aside * s), dy = step * (ahead * s - aside * c);
     uint32_t wall;
     if (!try_move(app, dx, dy, body, &wall)) slide(app, dx, dy, body, wall);
@@ -86,17 +86,17 @@ static sl_point middle_of(const sl_space *space, uint32_t cell) {
     return sum;
 }
 
-void sl_walk_home(sl_app *app) {
-    const sl_document *d = &app->document;
+void walk_home(app_state *app) {
+    const document_state *d = &app->document;
     if (!d->baked) return;
     const sl_map *map = &d->baked->map;
     if (d->source.has_start) {
-        app->eye.at = d->source.start;
+        app->view.eye.at = d->source.start;
         return;
     }
     if (map->start_count) {
-        app->eye.at = map->starts[0].at;
-        app->eye.heading = fmod(map->starts[0].heading, 360);
+        app->view.eye.at = map->starts[0].at;
+        app->view.eye.heading = fmod(map->starts[0].heading, 360);
         return;
     }
     uint32_t best = 0;
@@ -106,5 +106,5 @@ void sl_walk_home(sl_app *app) {
             largest = d->areas[cell];
             best = cell;
         }
-    if (d->baked->space.cell_count) app->eye.at = middle_of(&d->baked->space, best);
+    if (d->baked->space.cell_count) app->view.eye.at = middle_of(&d->baked->space, best);
 }

@@ -23,6 +23,7 @@ typedef struct sl_moving sl_moving;
 /// which a portal lacks a direction (one-way glass).
 SL_API sl_status sl_moving_create(sl_context *context, const sl_space *space,
                                   const sl_visibility *visibility, sl_moving **out);
+/// Frees what sl_moving_create gave; NULL is fine.
 SL_API void sl_moving_destroy(sl_context *context, sl_moving *moving);
 
 /// Replaces the boxes by these. Only cells that sides of boxes touch are cut; the rest of the space

@@ -1,9 +1,9 @@
-/// A subdivision as it comes about: the splits of a kd-tree, or the triangles and cells of a mesh.
-#ifndef SL_DRAW_SUBDIVISION_H
-#define SL_DRAW_SUBDIVISION_H
+/// Figures of a subdivision as it comes about: the splits of a kd-tree, or the triangles and cells
+/// of a mesh. They show the inside of the library, so this header is not public.
+#ifndef SL_DRAW_LESSON_H
+#define SL_DRAW_LESSON_H
 
-#include "draw/canvas.h"
-#include "draw/palette.h"
+#include "sightline/canvas.h"
 #include "space/mesh_steps.h"
 #include "space/splits.h"
 
