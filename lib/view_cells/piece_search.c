@@ -1,14 +1,22 @@
-/// Looking from a piece of a room within a quadrant of directions: a depth-first search over portal
-/// sequences, as in multipass, each held against a stabbing solver.
+/// The search from a piece of a room within a quadrant of directions: depth first over portal
+/// sequences, as in multipass, each tested by the funnel.
 ///
-/// As long as no side of the piece has a direction between those of a sector, the lines of the
-/// sector that meet the piece are those that pass between two of its corners, the utmost left and
-/// the utmost right one. So the piece stands in the sequence as a portal between these, and no
-/// coordinate is computed. Of a box there is one such pair a quadrant.
+/// While no side of the piece has a direction within a sector, the lines of the sector that meet
+/// the piece are those that pass between two of its corners, the utmost left and the utmost right:
 ///
-/// Searches go on where all candidates have been seen: of each object all sequences tell from where
-/// in the piece it is seen. That is read off the solver's polygon of lines: how far a line is seen
-/// along an axis is greatest at a corner of the polygon, or where the quadrant's bounds cut it.
+///            left o----.       The piece stands in the sequence as a portal between these two
+///                /      .     corners, so no coordinate is computed. The quadrant is cut into
+///     lines ->  /  piece o     sectors at the directions of the piece's oblique sides. A box
+///               .       /     needs one sector.
+///                .---o right
+///
+/// The search goes on where all candidates have been seen, because all sequences to an object are
+/// needed to know from where in the piece it is seen. That is read from the funnel's polygon of
+/// lines: the extreme place along an axis belongs to a corner of the polygon, or to where the
+/// bounds of the sector cut it. It is rounded and decides no visibility, only where cutting may
+/// pay.
+///
+/// Cost: one test for each portal of each room entered, among the candidates alone.
 #include "stab/funnel.h"
 #include "view_cells/pieces.h"
 
@@ -19,21 +27,21 @@ typedef struct step {
     sl_cone cone;        ///< directions that cross all portals so far
 } step;
 
-struct sl_view_looker {
+struct sl_view_searcher {
     const sl_view_pieces *pieces;
-    sl_context *context;  ///< the thread's
-    sl_view_looker *next; ///< of those that are idle
+    sl_context *context;    ///< the thread's
+    sl_view_searcher *next; ///< idle ones are a list
     sl_view_work work;
     void *solver;
     SL_ARRAY(step) steps;
-    uint32_t *allowed, *entered;    ///< by room: the number of the look that says so
-    uint32_t *asked, *seen, *place; ///< by object: likewise, and where it is in the list
-    uint32_t allowing, looking;
+    uint32_t *allowed, *entered;    ///< by room: the number of the list, or search, that has it
+    uint32_t *asked, *seen, *place; ///< by object: the same, and its place in the list of objects
+    uint32_t allowing, current;
     uint64_t candidates;
     SL_ARRAY(sl_line) bounds; ///< of the sectors within a quadrant
 };
 
-static void destroy(sl_context *context, sl_view_looker *me) {
+static void destroy(sl_context *context, sl_view_searcher *me) {
     sl_funnel()->destroy(context, me->solver);
     sl_free(context, me->steps.items);
     sl_free(context, me->allowed);
@@ -45,7 +53,7 @@ static void destroy(sl_context *context, sl_view_looker *me) {
     sl_free(context, me);
 }
 
-static sl_status create(sl_context *context, const sl_view_pieces *pieces, sl_view_looker *me) {
+static sl_status create(sl_context *context, const sl_view_pieces *pieces, sl_view_searcher *me) {
     const size_t rooms = pieces->rooms.count, objects = pieces->rooms.object_count;
     me->allowed = sl_alloc_array(context, rooms, sizeof *me->allowed);
     me->entered = sl_alloc_array(context, rooms, sizeof *me->entered);
@@ -56,9 +64,10 @@ static sl_status create(sl_context *context, const sl_view_pieces *pieces, sl_vi
     return sl_funnel()->create(context, pieces->rooms.bounds, &me->solver);
 }
 
-sl_status sl_view_looker_take(sl_context *context, sl_view_pieces *pieces, sl_view_looker **out) {
+sl_status sl_view_searcher_take(sl_context *context, sl_view_pieces *pieces,
+                                sl_view_searcher **out) {
     pthread_mutex_lock(&pieces->lock);
-    sl_view_looker *me = pieces->idle;
+    sl_view_searcher *me = pieces->idle;
     if (me) pieces->idle = me->next;
     pthread_mutex_unlock(&pieces->lock);
     if (!me) {
@@ -76,22 +85,22 @@ sl_status sl_view_looker_take(sl_context *context, sl_view_pieces *pieces, sl_vi
     return SL_OK;
 }
 
-void sl_view_looker_give(sl_view_pieces *pieces, sl_view_looker *me) {
+void sl_view_searcher_give(sl_view_pieces *pieces, sl_view_searcher *me) {
     pthread_mutex_lock(&pieces->lock);
     me->next = pieces->idle;
     pieces->idle = me;
     pthread_mutex_unlock(&pieces->lock);
 }
 
-void sl_view_lookers_destroy(sl_context *context, sl_view_pieces *pieces) {
+void sl_view_searchers_destroy(sl_context *context, sl_view_pieces *pieces) {
     while (pieces->idle) {
-        sl_view_looker *me = pieces->idle;
+        sl_view_searcher *me = pieces->idle;
         pieces->idle = me->next;
         destroy(context, me);
     }
 }
 
-sl_view_work sl_view_looker_work(sl_view_looker *me) {
+sl_view_work sl_view_searcher_work(sl_view_searcher *me) {
     const sl_view_work work = me->work;
     me->work = (sl_view_work){0};
     return work;
@@ -105,31 +114,20 @@ sl_cone sl_view_quadrant(int quadrant) {
 
 // --- candidates
 
-void sl_view_look_begin(sl_view_looker *me) {
+void sl_view_search_begin(sl_view_searcher *me) {
     me->allowing++;
     me->candidates = 0;
 }
 
-void sl_view_look_allow(sl_view_looker *me, uint32_t room) {
+void sl_view_search_allow(sl_view_searcher *me, uint32_t room) {
     if (me->allowed[room] == me->allowing) return;
     me->allowed[room] = me->allowing;
     me->candidates++;
 }
 
-// --- from where
+// --- from where in the piece
 
-static void keep(double from, double by, double *t0, double *t1) {
-    if (by > 0)
-        *t1 = fmin(*t1, -from / by);
-    else if (by < 0)
-        *t0 = fmax(*t0, -from / by);
-}
-
-static double within(double value, double low, double high) {
-    return value < low ? low : value > high ? high : value;
-}
-
-/// Adds what of a line is within the piece: it touches it at least, but for rounding.
+/// Adds the part of a line within the piece, which the line meets, but for rounding.
 static void add_line(const sl_view_piece *piece, sl_point a, sl_point b, sl_view_extent *out) {
     double t0 = -INFINITY, t1 = INFINITY;
     const double dx = b.x - a.x, dy = b.y - a.y;
@@ -137,7 +135,7 @@ static void add_line(const sl_view_piece *piece, sl_point a, sl_point b, sl_view
     for (size_t i = 0; i < piece->corners.count; i++) {
         const sl_point q = piece->corners.items[i];
         const double nx = q.y - p.y, ny = p.x - q.x; // outwards
-        keep(nx * (a.x - p.x) + ny * (a.y - p.y), nx * dx + ny * dy, &t0, &t1);
+        sl_keep_below(nx * (a.x - p.x) + ny * (a.y - p.y), nx * dx + ny * dy, &t0, &t1);
         p = q;
     }
     const double ends[2] = {t0, t1};
@@ -145,7 +143,7 @@ static void add_line(const sl_view_piece *piece, sl_point a, sl_point b, sl_view
         if (!isfinite(ends[i])) continue;
         const double at[2] = {a.x + ends[i] * dx, a.y + ends[i] * dy};
         for (int axis = 0; axis < 2; axis++) {
-            const double v = within(at[axis], piece->box.low[axis], piece->box.high[axis]);
+            const double v = sl_within(at[axis], piece->box.low[axis], piece->box.high[axis]);
             if (v < out->low[axis]) out->low[axis] = v;
             if (v > out->high[axis]) out->high[axis] = v;
         }
@@ -156,8 +154,8 @@ static double turn(sl_point a, sl_point b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// From where in the piece the lines of the sequence as it stands pass.
-static sl_view_extent find_extent(const sl_view_looker *me, const sl_view_piece *piece,
+/// The extent within the piece of the lines of the current sequence.
+static sl_view_extent find_extent(const sl_view_searcher *me, const sl_view_piece *piece,
                                   sl_cone sector) {
     const uint32_t count = sl_funnel_corner_count(me->solver);
     sl_view_extent extent = sl_view_no_extent();
@@ -183,103 +181,102 @@ static sl_view_extent find_extent(const sl_view_looker *me, const sl_view_piece 
 
 // --- the search
 
-/// One look into a quadrant.
-typedef struct look {
+/// One search of a quadrant.
+typedef struct search {
     const sl_view_pieces *pieces;
-    sl_view_looker *me;
+    sl_view_searcher *me;
     const sl_view_piece *piece;
     sl_cone sector;
     bool east, north; ///< where the quadrant's directions go
-    bool limited;     ///< to objects that are asked for
+    bool limited;     ///< to the objects that are asked for
     sl_view_directed *out;
-} look;
+} search;
 
-static sl_status add_object(look *l, uint32_t object) {
-    sl_view_looker *me = l->me;
-    sl_view_directed *out = l->out;
-    if (me->seen[object] != me->looking) {
-        SL_TRY(SL_ARRAY_ROOM(l->me->context, &out->objects, 1));
-        me->seen[object] = me->looking;
+static sl_status add_object(search *s, uint32_t object) {
+    sl_view_searcher *me = s->me;
+    sl_view_directed *out = s->out;
+    if (me->seen[object] != me->current) {
+        SL_TRY(SL_ARRAY_ROOM(s->me->context, &out->objects, 1));
+        me->seen[object] = me->current;
         me->place[object] = (uint32_t)out->objects.count;
         out->objects.items[out->objects.count++] =
             (sl_view_sight){.object = object, .from = sl_view_no_extent()};
     }
     sl_view_extent *from = &out->objects.items[me->place[object]].from;
-    if (memcmp(from, &l->piece->box, sizeof *from) == 0) return SL_OK; // it cannot grow
-    sl_view_extent more = find_extent(me, l->piece, l->sector);
+    if (memcmp(from, &s->piece->box, sizeof *from) == 0) return SL_OK; // it cannot grow
+    sl_view_extent more = find_extent(me, s->piece, s->sector);
     for (int axis = 0; axis < 2; axis++) {
-        more.low[axis] = sl_view_rooms_snap(&l->pieces->rooms, axis, more.low[axis]);
-        more.high[axis] = sl_view_rooms_snap(&l->pieces->rooms, axis, more.high[axis]);
+        more.low[axis] = sl_view_rooms_snap(&s->pieces->rooms, axis, more.low[axis]);
+        more.high[axis] = sl_view_rooms_snap(&s->pieces->rooms, axis, more.high[axis]);
     }
     sl_view_extent_join(from, &more);
     return SL_OK;
 }
 
-static sl_status add_room(look *l, uint32_t room) {
-    sl_view_looker *me = l->me;
-    if (me->entered[room] == me->looking) return SL_OK;
-    me->entered[room] = me->looking;
-    SL_TRY(SL_ARRAY_ROOM(l->me->context, &l->out->rooms, 1));
-    l->out->rooms.items[l->out->rooms.count++] = room;
+static sl_status add_room(search *s, uint32_t room) {
+    sl_view_searcher *me = s->me;
+    if (me->entered[room] == me->current) return SL_OK;
+    me->entered[room] = me->current;
+    SL_TRY(SL_ARRAY_ROOM(s->me->context, &s->out->rooms, 1));
+    s->out->rooms.items[s->out->rooms.count++] = room;
     return SL_OK;
 }
 
-/// Whether lines of the sequence and the sector pass a side as well; on SL_OK it is to be popped.
-static sl_status push(look *l, const sl_room_side *side, const sl_cone *cone, bool *seen) {
-    sl_context *context = l->me->context;
+/// Whether lines of the sequence and the sector pass a side too. The caller pops it after SL_OK.
+static sl_status push(search *s, const sl_room_side *side, const sl_cone *cone, bool *seen) {
+    sl_context *context = s->me->context;
     sl_stab_verdict verdict;
-    if (++l->me->work.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
-    SL_TRY(sl_funnel()->push(context, l->me->solver, side->left, side->right, &verdict));
+    if (++s->me->work.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
+    SL_TRY(sl_funnel()->push(context, s->me->solver, side->left, side->right, &verdict));
     if (verdict != SL_HIDDEN)
-        SL_TRY(sl_funnel()->toward(context, l->me->solver, cone->right, cone->left, &verdict));
-    *seen = verdict == SL_STABBED || (verdict == SL_GRAZING && l->pieces->sight == SL_CLOSED);
+        SL_TRY(sl_funnel()->toward(context, s->me->solver, cone->right, cone->left, &verdict));
+    *seen = verdict == SL_STABBED || (verdict == SL_GRAZING && s->pieces->sight == SL_CLOSED);
     return SL_OK;
 }
 
-static sl_status enter(look *l, step to) {
-    SL_TRY(SL_ARRAY_ROOM(l->me->context, &l->me->steps, 1));
-    l->me->steps.items[l->me->steps.count++] = to;
+static sl_status enter(search *s, step to) {
+    SL_TRY(SL_ARRAY_ROOM(s->me->context, &s->me->steps, 1));
+    s->me->steps.items[s->me->steps.count++] = to;
     return SL_OK;
 }
 
-/// Whether a portal of the piece's own room is out of reach in the quadrant: nothing of it is ahead
-/// of any place of the piece. A line along both would lead to it all the same, backwards.
-static bool is_behind(const look *l, const sl_room_side *side) {
-    const sl_view_extent *box = &l->piece->box;
-    const bool behind_x = l->east ? fmax(side->left.x, side->right.x) < box->low[0]
+/// Whether a portal of the piece's own room is behind the whole piece in the quadrant. A line along
+/// both would reach it, but backwards.
+static bool is_behind(const search *s, const sl_room_side *side) {
+    const sl_view_extent *box = &s->piece->box;
+    const bool behind_x = s->east ? fmax(side->left.x, side->right.x) < box->low[0]
                                   : fmin(side->left.x, side->right.x) > box->high[0];
-    const bool behind_y = l->north ? fmax(side->left.y, side->right.y) < box->low[1]
+    const bool behind_y = s->north ? fmax(side->left.y, side->right.y) < box->low[1]
                                    : fmin(side->left.y, side->right.y) > box->high[1];
     return behind_x || behind_y;
 }
 
-static sl_status try_side(look *l, const sl_room_side *side) {
-    sl_view_looker *me = l->me;
+static sl_status try_side(search *s, const sl_room_side *side) {
+    sl_view_searcher *me = s->me;
     step to = me->steps.items[me->steps.count - 1];
-    const sl_directed_portal directed = {.left = side->left, .right = side->right};
-    if (me->steps.count == 1 && is_behind(l, side)) return SL_OK;
+    const sl_directed_portal portal = {.left = side->left, .right = side->right};
+    if (me->steps.count == 1 && is_behind(s, side)) return SL_OK;
     if (side->room != SL_NO_ROOM && me->allowed[side->room] != me->allowing) return SL_OK;
     if (side->room == SL_NO_ROOM) {
-        // Of its own room a piece sees all walls; they are told without being looked for.
+        // A piece sees all walls of its own room. sl_view_piece_add_to adds them.
         if (me->steps.count == 1) return SL_OK;
-        if (l->limited && me->asked[side->object] != me->looking) return SL_OK;
+        if (s->limited && me->asked[side->object] != me->current) return SL_OK;
     }
-    if (!sl_cone_cut(&to.cone, &directed)) return SL_OK;
+    if (!sl_cone_cut(&to.cone, &portal)) return SL_OK;
     bool seen;
-    SL_TRY(push(l, side, &to.cone, &seen));
-    if (seen && side->object != SL_NO_OBJECT) SL_TRY(add_object(l, side->object));
+    SL_TRY(push(s, side, &to.cone, &seen));
+    if (seen && side->object != SL_NO_OBJECT) SL_TRY(add_object(s, side->object));
     if (!seen || side->room == SL_NO_ROOM) {
         sl_funnel()->pop(me->solver);
         return SL_OK;
     }
-    SL_TRY(add_room(l, side->room));
+    SL_TRY(add_room(s, side->room));
     to.room = side->room;
     to.next = 0;
-    return enter(l, to);
+    return enter(s, to);
 }
 
-/// The corner that no other is farther left of (or right of), going in any direction of a sector in
-/// which that is the same one.
+/// The utmost corner to the left (or right), which is the same for all directions of the sector.
 static sl_point utmost(const sl_view_piece *piece, sl_cone sector, int side) {
     sl_point best = piece->corners.items[0];
     for (size_t i = 1; i < piece->corners.count; i++) {
@@ -291,19 +288,19 @@ static sl_point utmost(const sl_view_piece *piece, sl_cone sector, int side) {
     return best;
 }
 
-static sl_status look_into_sector(look *l) {
-    sl_view_looker *me = l->me;
-    const sl_view_rooms *rooms = &l->pieces->rooms;
-    const sl_point left = utmost(l->piece, l->sector, 1), right = utmost(l->piece, l->sector, -1);
+static sl_status search_sector(search *s) {
+    sl_view_searcher *me = s->me;
+    const sl_view_rooms *rooms = &s->pieces->rooms;
+    const sl_point left = utmost(s->piece, s->sector, 1), right = utmost(s->piece, s->sector, -1);
     sl_stab_verdict verdict;
     me->steps.count = 0;
-    SL_TRY(sl_funnel()->push(l->me->context, me->solver, left, right, &verdict));
-    SL_TRY(enter(l, (step){.room = l->piece->room, .cone = l->sector}));
+    SL_TRY(sl_funnel()->push(s->me->context, me->solver, left, right, &verdict));
+    SL_TRY(enter(s, (step){.room = s->piece->room, .cone = s->sector}));
     while (me->steps.count) {
         step *last = &me->steps.items[me->steps.count - 1];
         const uint32_t first = rooms->first_side[last->room];
         if (last->next < rooms->first_side[last->room + 1] - first) {
-            SL_TRY(try_side(l, &rooms->sides[first + last->next++]));
+            SL_TRY(try_side(s, &rooms->sides[first + last->next++]));
         } else {
             me->steps.count--;
             sl_funnel()->pop(me->solver);
@@ -312,8 +309,8 @@ static sl_status look_into_sector(look *l) {
     return SL_OK;
 }
 
-/// Adds a direction to the bounds, in order, if it lies between the first and the last.
-static sl_status add_bound(sl_context *context, sl_view_looker *me, sl_line way) {
+/// Adds a direction to the bounds, in order, if it lies strictly between the first and the last.
+static sl_status add_bound(sl_context *context, sl_view_searcher *me, sl_line way) {
     SL_TRY(SL_ARRAY_ROOM(context, &me->bounds, 1));
     sl_line *bounds = me->bounds.items;
     const size_t count = me->bounds.count;
@@ -330,7 +327,7 @@ static sl_status add_bound(sl_context *context, sl_view_looker *me, sl_line way)
 }
 
 /// Cuts a quadrant at the directions of the piece's sides.
-static sl_status find_sectors(sl_context *context, sl_view_looker *me, const sl_view_piece *piece,
+static sl_status find_sectors(sl_context *context, sl_view_searcher *me, const sl_view_piece *piece,
                               int quadrant) {
     const sl_cone all = sl_view_quadrant(quadrant);
     me->bounds.count = 0;
@@ -349,23 +346,23 @@ static sl_status find_sectors(sl_context *context, sl_view_looker *me, const sl_
     return SL_OK;
 }
 
-sl_status sl_view_look(sl_view_looker *me, const sl_view_piece *piece, int quadrant,
-                       const sl_view_directed *objects, sl_view_directed *out) {
-    me->looking++;
+sl_status sl_view_search(sl_view_searcher *me, const sl_view_piece *piece, int quadrant,
+                         const sl_view_directed *objects, sl_view_directed *out) {
+    me->current++;
     if (objects)
         for (size_t i = 0; i < objects->objects.count; i++)
-            me->asked[objects->objects.items[i].object] = me->looking;
+            me->asked[objects->objects.items[i].object] = me->current;
     SL_TRY(find_sectors(me->context, me, piece, quadrant));
-    look l = {.pieces = me->pieces,
-              .me = me,
-              .piece = piece,
-              .east = quadrant == 0 || quadrant == 3,
-              .north = quadrant < 2,
-              .limited = objects != NULL,
-              .out = out};
+    search s = {.pieces = me->pieces,
+                .me = me,
+                .piece = piece,
+                .east = quadrant == 0 || quadrant == 3,
+                .north = quadrant < 2,
+                .limited = objects != NULL,
+                .out = out};
     for (size_t i = 0; i + 1 < me->bounds.count; i++) {
-        l.sector = (sl_cone){me->bounds.items[i], me->bounds.items[i + 1]};
-        SL_TRY(look_into_sector(&l));
+        s.sector = (sl_cone){me->bounds.items[i], me->bounds.items[i + 1]};
+        SL_TRY(search_sector(&s));
     }
     me->work.looks++;
     me->work.candidates += me->candidates;
