@@ -1,14 +1,13 @@
 #include "actions.h"
 
-#include "doors.h"
 #include "edit.h"
+#include "effects.h"
+#include "files.h"
 #include "layers.h"
 #include "modes.h"
 #include "quiz.h"
-#include "range.h"
 #include "save.h"
-#include "shelf.h"
-#include "walk.h"
+#include "view.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,13 +1,12 @@
 #include "app.h"
 
-#include "bake_job.h"
-#include "effect_words.h"
+#include "document.h"
+#include "effects.h"
+#include "files.h"
 #include "modes.h"
-#include "panes.h"
 #include "quiz.h"
-#include "shelf.h"
 #include "sightline/support.h"
-#include "walk.h"
+#include "view.h"
 
 #include <math.h>
 #include <stdarg.h>

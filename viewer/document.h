@@ -1,14 +1,40 @@
 /// What is open: a map with its space and visibility, made anew in the background after each
-/// change.
+/// change; and the changes by hand, for undo.
 #ifndef VIEWER_DOCUMENT_H
 #define VIEWER_DOCUMENT_H
 
-#include "history.h"
 #include "sightline/bake.h"
 #include "sightline/eye_to_cell.h"
 #include "sightline/import.h"
+#include "sightline/map.h"
 #include "sightline/region.h"
 #include "space/splits.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+
+// --- undo
+
+enum { HISTORY_MOST = 100 };
+
+/// Zeroed to start.
+typedef struct edit_history {
+    sl_map done[HISTORY_MOST], undone[HISTORY_MOST];
+    size_t done_count, undone_count;
+} edit_history;
+
+/// Keeps the map as it is, before a change.
+sl_status history_keep(sl_context *context, edit_history *history, const sl_map *map);
+
+/// The last change kept was none.
+void history_forget_last(sl_context *context, edit_history *history);
+
+/// Goes one change back (or forward again); false where there is none. *bake tells whether what
+/// changed asks for a new bake.
+bool history_undo(sl_context *context, edit_history *history, sl_map *map, bool redo, bool *bake,
+                  sl_status *status);
+
+void history_clear(sl_context *context, edit_history *history);
 
 /// How to read a file.
 typedef struct document_source {
@@ -101,5 +127,29 @@ void document_cancel(sl_context *context, document_state *document);
 
 /// All but the changes by hand, which are the caller's to clear.
 void document_close(sl_context *context, document_state *document);
+
+struct bake_job {
+    document_source source; ///< what to read; no path: `map` is what to bake
+    uint32_t mirror_depth;
+    sl_map map;               ///< as drawn; filled by the job where it reads
+    sl_map clean;             ///< the job's, to the end
+    sl_baked *baked;          ///< the job's until space_ready, then only its visibility is
+    sl_visibility visibility; ///< the job's until seen_ready
+    sl_visibility with_trees; ///< the same with stab trees, when `done`; empty where there are none
+    sl_status status;         ///< when `done`
+    char message[1024];
+    pthread_t thread;
+    atomic_bool cancel, space_ready, seen_ready, done;
+    double until; ///< the clock's time at which the job gives up stab trees; 0: never
+    _Atomic(const char *) stage;
+    atomic_uint_fast64_t count, total;
+    bool taken, seen_taken; ///< the main thread has the space, the visibility
+};
+
+/// Starts the thread. Takes what the job holds in any case.
+sl_status bake_job_start(sl_context *context, bake_job *job);
+
+/// Waits for the thread and frees the job with what nobody has taken.
+void bake_job_end(sl_context *context, bake_job *job);
 
 #endif

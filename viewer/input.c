@@ -1,13 +1,11 @@
 #include "input.h"
 
 #include "actions.h"
-#include "doors.h"
 #include "edit.h"
-#include "mirrors.h"
-#include "objects.h"
-#include "panes.h"
+#include "effects.h"
+#include "files.h"
+#include "modes.h"
 #include "quiz.h"
-#include "shelf.h"
 #include "sliders.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /// The hierarchy's nodes as a walk without visible sets classifies them, frame by frame, in the
 /// colours of Bittner & Havran 2002, Figure 12.
-#include "layer_nodes.h"
+#include "layers.h"
 
 #include "app.h"
 #include "sightline/canvas.h"

@@ -1,7 +1,7 @@
 /// Cells by who sees whom, of the eye's cell; and the region from which the eye itself is seen. A
 /// line of sight is the same both ways but for the glass on it, so that the region is what an eye
 /// with all glass turned round would see.
-#include "layer_watch.h"
+#include "layers.h"
 
 #include "app.h"
 #include "sightline/canvas.h"

@@ -1,6 +1,6 @@
 #include "layers.h"
 
-#include "panes.h"
+#include "modes.h"
 #include "sightline/canvas.h"
 #include "sightline/support.h"
 

@@ -99,4 +99,13 @@ void layer_nodes_key(app_state *app, const sl_frame *frame); ///< its colours an
 void layer_watch(app_state *app, const sl_frame *frame, int index);
 void layer_watch_key(app_state *app, const sl_frame *frame);
 
+typedef struct node_layer node_layer;
+
+void node_layer_destroy(sl_context *context, node_layer *layer); ///< NULL: nothing
+
+/// What the layer keeps from frame to frame.
+typedef struct watch_layer watch_layer;
+
+void watch_layer_destroy(sl_context *context, watch_layer *layer); ///< NULL: nothing
+
 #endif

@@ -1,6 +1,6 @@
 /// What the eye sees, in first person: the walls of the cells that the chosen method keeps, the
 /// nearest of them in each column of pixels.
-#include "panes.h"
+#include "modes.h"
 
 #include "sightline/canvas.h"
 

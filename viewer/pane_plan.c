@@ -1,9 +1,8 @@
 /// The plan: what is kept from frame to frame, and over it what changes.
-#include "panes.h"
+#include "modes.h"
 
 #include "clock.h"
 #include "draw/lesson.h"
-#include "modes.h"
 #include "sightline/canvas.h"
 
 #include <math.h>

@@ -1,9 +1,8 @@
 #include "sliders.h"
 
+#include "effects.h"
+#include "files.h"
 #include "layers.h"
-#include "mirrors.h"
-#include "range.h"
-#include "shelf.h"
 
 #include <math.h>
 #include <stdio.h>

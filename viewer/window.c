@@ -1,8 +1,8 @@
 #include "window.h"
 
 #include "clock.h"
+#include "files.h"
 #include "input.h"
-#include "shelf.h"
 #include "sightline/support.h"
 
 #include <SDL.h>
