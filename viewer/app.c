@@ -135,7 +135,7 @@ static void follow(app_state *app) {
 /// While something is dragged the map is made anew as soon as the last one has its cells: one
 /// that was begun at each step would never get that far.
 static void keep_up(app_state *app) {
-    if (!app->document.stale || (app->document.job && !app->document.job->taken)) return;
+    if (!app->document.stale || document_awaits_space(&app->document)) return;
     app_after_edit(app);
 }
 

@@ -11,6 +11,8 @@
 #include "sightline/solvers.h"
 #include "sightline/support.h"
 
+#include <pthread.h>
+#include <stdatomic.h>
 #include <string.h>
 #include <strings.h>
 #include <time.h>
@@ -90,6 +92,24 @@ void history_clear(sl_context *context, edit_history *history) {
 }
 
 // --- the job
+
+struct bake_job {
+    document_source source; ///< what to read; no path: `map` is what to bake
+    uint32_t mirror_depth;
+    sl_map map;               ///< as drawn; filled by the job where it reads
+    sl_map clean;             ///< the job's, to the end
+    sl_baked *baked;          ///< the job's until space_ready, then only its visibility is
+    sl_visibility visibility; ///< the job's until seen_ready
+    sl_visibility with_trees; ///< the same with stab trees, when `done`; empty where there are none
+    sl_status status;         ///< when `done`
+    char message[1024];
+    pthread_t thread;
+    atomic_bool cancel, space_ready, seen_ready, done;
+    double until; ///< the clock's time at which the job gives up stab trees; 0: never
+    _Atomic(const char *) stage;
+    atomic_uint_fast64_t count, total;
+    bool taken, seen_taken; ///< the main thread has the space, the visibility
+};
 
 /// A stab tree is kept as long as all fit into this.
 #define TREE_BYTES ((uint64_t)128 << 20)
@@ -232,7 +252,8 @@ static void free_job(sl_context *context, bake_job *job) {
     sl_free(context, job);
 }
 
-sl_status bake_job_start(sl_context *context, bake_job *job) {
+/// Starts the thread. Takes what the job holds in any case.
+static sl_status bake_job_start(sl_context *context, bake_job *job) {
     atomic_store(&job->stage, "read");
     job->baked = sl_alloc_array(context, 1, sizeof *job->baked);
     if (job->baked && pthread_create(&job->thread, NULL, run, job) == 0) return SL_OK;
@@ -240,7 +261,8 @@ sl_status bake_job_start(sl_context *context, bake_job *job) {
     return sl_fail(context, SL_NO_MEMORY, "no thread for the work in the background");
 }
 
-void bake_job_end(sl_context *context, bake_job *job) {
+/// Waits for the thread and frees the job with what nobody has taken.
+static void bake_job_end(sl_context *context, bake_job *job) {
     pthread_join(job->thread, NULL);
     free_job(context, job);
 }
@@ -316,6 +338,10 @@ sl_status document_rebuild(sl_context *context, document_state *document) {
 bool document_has_rows(const document_state *document) {
     const double now = document->map.range, baked = document->baked->map.range;
     return document->has_visibility && (baked == 0 || (now > 0 && now <= baked));
+}
+
+bool document_awaits_space(const document_state *document) {
+    return document->job && !document->job->taken;
 }
 
 void document_touch(document_state *document) {

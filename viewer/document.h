@@ -8,10 +8,7 @@
 #include "sightline/import.h"
 #include "sightline/map.h"
 #include "sightline/region.h"
-#include "space/splits.h"
-
-#include <pthread.h>
-#include <stdatomic.h>
+#include "space/splits.h" // private: a lesson and a layer show the splits
 
 // --- undo
 
@@ -110,6 +107,9 @@ sl_status document_renew_search(sl_context *context, document_state *document);
 sl_status document_add_mirrors(sl_context *context, const document_state *document,
                                sl_eye_search *search);
 
+/// Whether a job runs that has no space yet.
+bool document_awaits_space(const document_state *document);
+
 /// What was changed in the map needs no new bake: shows it.
 void document_touch(document_state *document);
 
@@ -127,29 +127,5 @@ void document_cancel(sl_context *context, document_state *document);
 
 /// All but the changes by hand, which are the caller's to clear.
 void document_close(sl_context *context, document_state *document);
-
-struct bake_job {
-    document_source source; ///< what to read; no path: `map` is what to bake
-    uint32_t mirror_depth;
-    sl_map map;               ///< as drawn; filled by the job where it reads
-    sl_map clean;             ///< the job's, to the end
-    sl_baked *baked;          ///< the job's until space_ready, then only its visibility is
-    sl_visibility visibility; ///< the job's until seen_ready
-    sl_visibility with_trees; ///< the same with stab trees, when `done`; empty where there are none
-    sl_status status;         ///< when `done`
-    char message[1024];
-    pthread_t thread;
-    atomic_bool cancel, space_ready, seen_ready, done;
-    double until; ///< the clock's time at which the job gives up stab trees; 0: never
-    _Atomic(const char *) stage;
-    atomic_uint_fast64_t count, total;
-    bool taken, seen_taken; ///< the main thread has the space, the visibility
-};
-
-/// Starts the thread. Takes what the job holds in any case.
-sl_status bake_job_start(sl_context *context, bake_job *job);
-
-/// Waits for the thread and frees the job with what nobody has taken.
-void bake_job_end(sl_context *context, bake_job *job);
 
 #endif

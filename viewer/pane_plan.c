@@ -2,7 +2,7 @@
 #include "modes.h"
 
 #include "clock.h"
-#include "draw/lesson.h"
+#include "draw/lesson.h" // private: the layer of splits shows the inside of the library
 #include "sightline/canvas.h"
 
 #include <math.h>

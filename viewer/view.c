@@ -2,7 +2,7 @@
 #include "view.h"
 
 #include "app.h"
-#include "geometry/orient.h"
+#include "geometry/orient.h" // private: the exact predicate
 
 #include <math.h>
 
