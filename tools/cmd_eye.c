@@ -89,13 +89,31 @@ static sl_status tell(sl_console *console, const eye_texts *texts, const sl_bake
     return SL_OK;
 }
 
+/// Glass that is dark for the eye becomes walls.
+static sl_status darken(sl_context *context, sl_baked *baked, sl_point eye) {
+    const sl_filtered_space filtered = {.eye = &eye};
+    sl_space walled;
+    if (!baked->map.oneway_count) return SL_OK;
+    if (baked->visibility.mirrored.cell_count)
+        return sl_fail(context, SL_UNSUPPORTED,
+                       "glass that is dark from an eye may not be so in a mirror: bake the map "
+                       "--without mirror or --without oneway");
+    SL_TRY(sl_filtered_space_make(context, &baked->space, &filtered, NULL, &walled));
+    sl_space_destroy(context, &baked->space);
+    baked->space = walled;
+    sl_visibility trees = {.trees = baked->visibility.trees};
+    baked->visibility.trees = (sl_stab_trees){0};
+    sl_visibility_destroy(context, &trees);
+    return SL_OK;
+}
+
 static sl_status look(sl_console *console, const eye_texts *texts, sl_baked *baked) {
     sl_context *context = console->context;
     sl_view view;
     sl_eye_run run;
     SL_TRY(read_view(context, texts, &baked->space, &view));
     SL_TRY(sl_picture_check(context, texts->input, "-o", texts->output));
-    if (baked->map.oneway_count) SL_TRY(sl_baked_darken(context, baked, view.eye));
+    SL_TRY(darken(context, baked, view.eye));
     uint64_t depth = 1;
     SL_TRY(sl_option_count(context, "--mirror-depth", texts->mirror_depth, 16, &depth));
     double range = baked->map.range;

@@ -38,6 +38,18 @@ static sl_status read_names(sl_context *context, const char *text, const sl_map 
     return SL_OK;
 }
 
+/// Puts what is left to see in place of what was baked.
+static sl_status shut_doors(sl_context *context, sl_baked *baked, const bool *shut) {
+    sl_space space;
+    sl_visibility visibility;
+    SL_TRY(sl_baked_shut(context, baked, shut, &space, &visibility));
+    sl_space_destroy(context, &baked->space);
+    sl_visibility_destroy(context, &baked->visibility);
+    baked->space = space;
+    baked->visibility = visibility;
+    return SL_OK;
+}
+
 sl_status sl_doors_shut(sl_context *context, const char *text, sl_baked *baked) {
     const sl_map *map = &baked->map;
     if (!map->door_count) return text ? read_names(context, text, map, NULL) : SL_OK;
@@ -45,7 +57,7 @@ sl_status sl_doors_shut(sl_context *context, const char *text, sl_baked *baked) 
     if (!shut) return SL_NO_MEMORY;
     for (size_t i = 0; i < map->door_count && !text; i++) shut[i] = !map->doors[i].open;
     sl_status status = text ? read_names(context, text, map, shut) : SL_OK;
-    if (status == SL_OK) status = sl_baked_shut(context, baked, shut);
+    if (status == SL_OK) status = shut_doors(context, baked, shut);
     for (size_t i = 0; i < map->door_count && status == SL_OK; i++)
         baked->map.doors[i].open = !shut[i];
     sl_free(context, shut);

@@ -2,6 +2,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 static void *resize(const sl_hooks *hooks, void *block, size_t bytes) {
@@ -158,4 +159,10 @@ void sl_shrink(sl_context *context, void *items, size_t *capacity, size_t count,
     if (!block) return;
     memcpy(items, &block, sizeof block);
     *capacity = count;
+}
+
+double sl_seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
 }

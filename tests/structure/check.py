@@ -20,7 +20,7 @@ import tempfile
 
 # The stages, in order. Data goes one way: each knows those before it and nothing of those after it.
 FOLDERS = ["base", "geometry", "map", "import", "generate", "space", "effects", "stab", "cell_to_cell",
-           "from_region", "eye_to_cell", "walk", "view_cells", "bake", "runtime", "draw"]
+           "from_region", "eye_to_cell", "walk", "view_cells", "bake", "query", "runtime", "draw"]
 # Used by games with no other part of the library beside it.
 ALONE = {"runtime"}
 # Public headers that are not named after their folder.

@@ -20,6 +20,7 @@
 #include "sightline/moving.h"
 #include "sightline/outline.h"
 #include "sightline/pvs.h"
+#include "sightline/query.h"
 #include "sightline/region.h"
 #include "sightline/reject.h"
 #include "sightline/sees.h"
