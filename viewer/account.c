@@ -3,9 +3,9 @@
 /// change.
 #include "account.h"
 
-#include "clock.h"
 #include "modes.h"
 #include "sightline/canvas.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -133,7 +133,7 @@ static bool is_stale(const app_state *app, const account_picture *kept, int widt
         cairo_image_surface_get_width(kept->surface) != width ||
         cairo_image_surface_get_height(kept->surface) != height)
         return true;
-    return clock_seconds() - kept->made > SECONDS_BETWEEN;
+    return sl_seconds() - kept->made > SECONDS_BETWEEN;
 }
 
 static void remake(app_state *app, account_picture *kept, int width, int height) {
@@ -142,7 +142,7 @@ static void remake(app_state *app, account_picture *kept, int width, int height)
     kept->version = app->document.version;
     kept->dark = app->ui.dark;
     kept->text = app->ui.text;
-    kept->made = clock_seconds();
+    kept->made = sl_seconds();
     cairo_t *cairo = cairo_create(kept->surface);
     account_draw(app, cairo, (sl_box){{0, 0}, {width, height}});
     cairo_destroy(cairo);

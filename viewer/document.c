@@ -7,7 +7,6 @@
 /// space.
 #include "document.h"
 
-#include "clock.h"
 #include "sightline/solvers.h"
 #include "sightline/support.h"
 
@@ -119,7 +118,7 @@ struct bake_job {
 
 static bool is_cancelled(void *user) {
     const bake_job *job = user;
-    return atomic_load(&job->cancel) || (job->until > 0 && clock_seconds() > job->until);
+    return atomic_load(&job->cancel) || (job->until > 0 && sl_seconds() > job->until);
 }
 
 static void take_progress(void *user, const sl_progress *progress) {
@@ -162,63 +161,41 @@ static sl_status read_map(sl_context *context, bake_job *job) {
     return sl_map_add_start(context, &job->map, source->start, 0, 0);
 }
 
-static const sl_see_method *method_named(const char *name) {
-    size_t count;
-    const sl_see_method *methods = sl_see_methods(&count);
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(methods[i].name, name) == 0) return &methods[i];
-    return &methods[0];
-}
-
-/// The sweep is the fastest by far. A search knows all that a map can call for.
-static const sl_see_method *method_for(const sl_plan *plan) {
-    const sl_see_method *sweep = method_named("sweep");
-    return plan->effects & ~sweep->knows ? method_named("prune") : sweep;
-}
-
-/// The walls of a baked map are its space's.
-static void drop_walls(sl_map *map) {
-    map->wall_count = 0;
-}
-
-static sl_status see_all(sl_context *context, bake_job *job, const sl_plan *plan) {
-    const sl_see_method *method = method_for(plan);
-    sl_see_options options = sl_see_options_default();
-    options.plan = plan;
-    options.solver = sl_funnel();
-    snprintf(job->baked->method, sizeof job->baked->method, "%s", method->name);
-    atomic_store(&job->space_ready, true);
-    SL_TRY(sl_see_check(context, method, options.solver, &job->clean));
-    SL_TRY(method->see(context, &job->baked->space, &options, &job->visibility));
-    atomic_store(&job->seen_ready, true);
+/// Finds what `options` ask for. The job has a map of its own for that: the baked one is the main
+/// thread's by then.
+static sl_status see(sl_context *context, bake_job *job, const sl_bake_options *options,
+                     sl_visibility *out) {
+    sl_baked own = {.map = job->clean, .space = job->baked->space};
+    SL_TRY(sl_bake_see(context, options, &own, NULL));
+    *out = own.visibility;
     return SL_OK;
 }
 
-/// The search knows the stab trees too. Where it takes too long there are none.
-static sl_status search_trees(sl_context *context, bake_job *job, const sl_plan *plan) {
-    sl_see_options options = sl_see_options_default();
-    options.plan = plan;
-    options.solver = sl_funnel();
-    options.trees = true;
-    options.tree_bytes = TREE_BYTES;
-    job->until = clock_seconds() + TREE_SECONDS;
-    const sl_status status =
-        method_named("dfs")->see(context, &job->baked->space, &options, &job->with_trees);
+/// The search finds the stab trees too. Where it takes too long there are none.
+static sl_status see_with_trees(sl_context *context, bake_job *job, sl_bake_options options) {
+    options.method = sl_see_method_named("dfs");
+    options.see.solver = sl_funnel();
+    options.see.trees = true;
+    options.see.tree_bytes = TREE_BYTES;
+    job->until = sl_seconds() + TREE_SECONDS;
+    const sl_status status = see(context, job, &options, &job->with_trees);
     return status == SL_CANCELLED && !atomic_load(&job->cancel) ? SL_OK : status;
 }
 
 static sl_status bake(sl_context *context, bake_job *job) {
-    sl_baked *baked = job->baked;
-    SL_TRY(sl_map_copy(context, &job->map, &job->clean));
-    SL_TRY(sl_map_clean(context, &job->clean, NULL, NULL));
-    SL_TRY(sl_subdivision_for(&job->clean)->subdivide(context, &job->clean, NULL, &baked->space));
-    drop_walls(&job->clean);
-    SL_TRY(sl_map_copy(context, &job->clean, &baked->map));
-    // Not of the copy: from space_ready on that is the main thread's.
-    sl_plan plan = sl_plan_make(&job->clean);
-    plan.mirror_depth = job->mirror_depth;
-    SL_TRY(see_all(context, job, &plan));
-    return search_trees(context, job, &plan);
+    sl_bake_options options = sl_bake_options_default();
+    sl_bake_account account = {0};
+    sl_map map = {0};
+    options.mirror_depth = job->mirror_depth;
+    SL_TRY(sl_map_copy(context, &job->map, &map));
+    const sl_status status = sl_bake_space(context, &map, &options, job->baked, &account);
+    sl_map_destroy(context, &map);
+    SL_TRY(status);
+    SL_TRY(sl_map_copy(context, &job->baked->map, &job->clean));
+    atomic_store(&job->space_ready, true);
+    SL_TRY(see(context, job, &options, &job->visibility));
+    atomic_store(&job->seen_ready, true);
+    return see_with_trees(context, job, options);
 }
 
 static sl_status work(sl_context *context, bake_job *job) {

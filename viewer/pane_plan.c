@@ -1,9 +1,9 @@
 /// The plan: what is kept from frame to frame, and over it what changes.
 #include "modes.h"
 
-#include "clock.h"
 #include "draw/lesson.h" // private: the layer of splits shows the inside of the library
 #include "sightline/canvas.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <string.h>
@@ -66,7 +66,7 @@ static sl_frame at_origin(sl_frame frame) {
 
 static bool remake(app_state *app, kept_picture *kept, bool over, const sl_frame *local) {
     const int width = (int)ceil(local->width), height = (int)ceil(local->height);
-    const double before = clock_seconds();
+    const double before = sl_seconds();
     if (!kept->surface || cairo_image_surface_get_width(kept->surface) != width ||
         cairo_image_surface_get_height(kept->surface) != height) {
         if (kept->surface) cairo_surface_destroy(kept->surface);
@@ -84,7 +84,7 @@ static bool remake(app_state *app, kept_picture *kept, bool over, const sl_frame
     }
     const bool good = cairo_status(cairo) == CAIRO_STATUS_SUCCESS;
     cairo_destroy(cairo);
-    kept->seconds = clock_seconds() - before;
+    kept->seconds = sl_seconds() - before;
     return good;
 }
 

@@ -2,7 +2,6 @@
 /// reflection, so that a frame takes what it has time for.
 #include "seen.h"
 
-#include "clock.h"
 #include "edit.h"
 #include "sightline/support.h"
 
@@ -83,9 +82,9 @@ static void keep_in_range(const seen_state *seen, const sl_space *space, uint64_
 static void look(sl_context *context, const seen_state *seen, seen_method *m,
                  const sl_eye_method *method, const document_state *document, sl_eye_search *search,
                  const sl_view *view) {
-    const double before = clock_seconds();
+    const double before = sl_seconds();
     m->known = method->cull(context, search, view, m->cells, &m->account) == SL_OK;
-    const double seconds = clock_seconds() - before;
+    const double seconds = sl_seconds() - before;
     m->seconds = m->seconds > 0 ? 0.9 * m->seconds + 0.1 * seconds : seconds;
     if (!m->known) memset(m->cells, 0, sl_eye_words(&document->baked->space) * sizeof *m->cells);
     keep_in_range(seen, &document->baked->space, m->cells);
@@ -169,9 +168,9 @@ sl_status seen_update(sl_context *context, seen_state *seen, const document_stat
     for (size_t i = 0; i < count && i < SEEN_MOST; i++)
         look(context, seen, &seen->methods[i], &methods[i], document, present->search, view);
     SL_TRY(look_at_objects(context, seen, document, present));
-    const double before = clock_seconds();
+    const double before = sl_seconds();
     const sl_status status = sl_region_make(context, present->outline, view, range, &seen->region);
-    const double seconds = clock_seconds() - before;
+    const double seconds = sl_seconds() - before;
     seen->region_seconds =
         seen->region_seconds > 0 ? 0.9 * seen->region_seconds + 0.1 * seconds : seconds;
     seen->region_area = sl_region_area(&seen->region);
@@ -190,11 +189,11 @@ enum { PARTS_MOST = 100 };
 
 static bool is_late(void *user) {
     const seen_state *seen = user;
-    return clock_seconds() > seen->until;
+    return sl_seconds() > seen->until;
 }
 
 static void give(seen_state *seen, double seconds) {
-    seen->until = seen->patient ? INFINITY : clock_seconds() + seconds;
+    seen->until = seen->patient ? INFINITY : sl_seconds() + seconds;
 }
 
 void seen_forget_mirrors(sl_context *context, seen_state *seen) {
