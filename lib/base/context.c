@@ -1,4 +1,5 @@
 #include "base/base.h"
+#include "sightline/version.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -33,6 +34,10 @@ const sl_hooks *sl_context_hooks(const sl_context *context) {
 
 const char *sl_context_message(const sl_context *context) {
     return context->message;
+}
+
+const char *sl_version(void) {
+    return SL_VERSION;
 }
 
 const char *sl_status_name(sl_status status) {

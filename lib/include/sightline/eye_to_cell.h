@@ -43,6 +43,7 @@ typedef struct sl_eye_search sl_eye_search;
 /// SL_BAD_ARGUMENT where they do not go together. Memory: about 200 bytes a cell.
 SL_API sl_status sl_eye_search_create(sl_context *context, const sl_space *space,
                                       const sl_visibility *visibility, sl_eye_search **out);
+/// Frees a search; NULL is fine.
 SL_API void sl_eye_search_destroy(sl_context *context, sl_eye_search *search);
 
 /// Has a search look into mirrors: those of `map`, whose walls the space was made from, with

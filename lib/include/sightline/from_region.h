@@ -38,10 +38,13 @@ typedef struct sl_regions_options {
                      ///< and these along the kd-tree; else they are refused
 } sl_regions_options;
 
+/// The finest grid of view cells.
 #define SL_VIEW_GRID_MOST 256
 
+/// The usual options: 8 x 8 squares as view cells, about 1800 groups of walls as objects.
 SL_API sl_regions_options sl_regions_options_default(void);
 
+/// View cells and objects of a map, ready for the methods. It is only read by them.
 typedef struct sl_regions sl_regions;
 
 /// Subdivides the map by a kd-tree, cut along the view cells' borders as well, and takes of it what
@@ -50,8 +53,10 @@ typedef struct sl_regions sl_regions;
 /// quadrant of directions: the message names the cycle.
 SL_API sl_status sl_regions_create(sl_context *context, const sl_map *map,
                                    const sl_regions_options *options, sl_regions **out);
+/// Frees a scene; NULL is fine.
 SL_API void sl_regions_destroy(sl_context *context, sl_regions *scene);
 
+/// How much there is in a scene.
 typedef struct sl_regions_counts {
     uint32_t view_cells, objects;
     uint32_t leaves; ///< of the kd-tree, inside
@@ -60,6 +65,7 @@ typedef struct sl_regions_counts {
     uint32_t dependents; ///< the most view cells that depend on one in a quadrant: the paper's K
 } sl_regions_counts;
 
+/// Counts what is in a scene.
 SL_API sl_regions_counts sl_regions_count(const sl_regions *scene);
 
 /// The solvers that decide what is seen through a face.
@@ -83,6 +89,7 @@ typedef struct sl_from_region_options {
     unsigned threads;      ///< 0: one a core; the result does not depend on it
 } sl_from_region_options;
 
+/// The usual options, as told at each field.
 SL_API sl_from_region_options sl_from_region_options_default(void);
 
 /// What a method found. Zeroed, it is empty.
@@ -99,7 +106,9 @@ typedef struct sl_from_region_result {
                          ///< by "multipass" alone
 } sl_from_region_result;
 
+/// Frees a result and zeroes it.
 SL_API void sl_from_region_result_destroy(sl_context *context, sl_from_region_result *result);
+/// Whether a view cell sees an object; both numbers must be below their counts.
 SL_API bool sl_from_region_sees(const sl_from_region_result *result, uint32_t view_cell,
                                 uint32_t object);
 /// Over all view cells.

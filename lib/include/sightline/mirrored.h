@@ -26,8 +26,10 @@ typedef struct sl_room_mirrors {
 /// Mirrors must be walls of the outline's space too (sl_map_clean makes them so).
 SL_API sl_status sl_room_mirrors_make(sl_context *context, const sl_outline *outline,
                                       const sl_map *map, sl_room_mirrors *out);
+/// Frees what sl_room_mirrors_make gave and zeroes it.
 SL_API void sl_room_mirrors_destroy(sl_context *context, sl_room_mirrors *mirrors);
 
+/// The parent of a part whose mirror is seen directly.
 #define SL_NO_PART UINT32_MAX
 
 /// What is seen in a mirror, itself seen directly or in another: a polygon that one edge bounds
@@ -53,6 +55,7 @@ typedef struct sl_mirrored_region {
     size_t part_count, part_room;
 } sl_mirrored_region;
 
+/// Frees a region and zeroes it.
 SL_API void sl_mirrored_region_destroy(sl_context *context, sl_mirrored_region *region);
 
 /// The region of a view, with what is seen by up to `depth` reflections. Sightlines are `range`

@@ -22,6 +22,7 @@ typedef struct sl_moving sl_moving;
 /// without directed portals that its portals should have (one-way glass), and for a loose one.
 SL_API sl_status sl_moving_create(sl_context *context, const sl_space *space,
                                   const sl_visibility *visibility, sl_moving **out);
+/// Frees what sl_moving_create gave; NULL is fine.
 SL_API void sl_moving_destroy(sl_context *context, sl_moving *moving);
 
 /// Puts these boxes in, in place of those before. Only the cells that sides of boxes touch are cut,

@@ -12,6 +12,7 @@ extern "C" {
 /// The `wall` of an edge that lies on none.
 #define SL_NO_WALL UINT32_MAX
 
+/// What an edge of a region lies on.
 typedef enum sl_edge_kind {
     SL_EDGE_WALL,      ///< on a wall, or on several pieces that portals cut one wall into
     SL_EDGE_BORDER,    ///< on the map's border, where no wall is
@@ -21,6 +22,7 @@ typedef enum sl_edge_kind {
     SL_EDGE_ARC,       ///< of less than half a circle about the eye, counter-clockwise: the range
 } sl_edge_kind;
 
+/// An edge of a region.
 typedef struct sl_region_edge {
     uint32_t wall; ///< index of the space's walls; SL_NO_WALL for all kinds but walls
     uint8_t kind;  ///< of sl_edge_kind
@@ -83,6 +85,7 @@ typedef struct sl_region_measures {
     double radial_skewness; ///< their third moment about the mean
 } sl_region_measures;
 
+/// All measures of a region. Time: its edges.
 SL_API sl_region_measures sl_region_measure(const sl_region *region);
 
 /// Area alone: faster.

@@ -28,6 +28,7 @@
 #include "sightline/space.h"
 #include "sightline/stab.h"
 #include "sightline/steps.h"
+#include "sightline/version.h"
 #include "sightline/view.h"
 #include "sightline/view_cells.h"
 #include "sightline/walk.h"

@@ -18,6 +18,7 @@ typedef struct sl_view {
     sl_point left, right; ///< other than the eye
 } sl_view;
 
+/// A view of the full circle.
 SL_API sl_view sl_view_all_round(sl_point eye);
 
 /// A cone about a heading, in degrees counter-clockwise from +x, `fov` degrees wide in all: from 0

@@ -36,6 +36,7 @@ typedef struct sl_view_sampling {
     unsigned threads; ///< 0: one a core
 } sl_view_sampling;
 
+/// The usual options, as told at each field.
 SL_API sl_view_sampling sl_view_sampling_default(void);
 
 /// Visibility segments: maximal free segments (section 4.1). Zeroed, there are none.
@@ -56,6 +57,7 @@ typedef struct sl_view_segments {
 /// rounded. Reports stage "sample". SL_BAD_ARGUMENT where too many samples are asked for.
 SL_API sl_status sl_view_sample(sl_context *context, const sl_outline *outline,
                                 const sl_view_sampling *options, sl_view_segments *out);
+/// Frees segments and zeroes them.
 SL_API void sl_view_segments_destroy(sl_context *context, sl_view_segments *segments);
 
 // --- what rendering costs, and where viewpoints are
@@ -67,6 +69,7 @@ typedef struct sl_render_cost {
     double a, b, c;
 } sl_render_cost;
 
+/// The usual cost model: an object costs 1.
 SL_API sl_render_cost sl_render_cost_default(void);
 
 /// Places of viewpoints: convex polygons and single points, each with its share of the probability.
@@ -90,6 +93,7 @@ SL_API sl_status sl_view_places_paths(sl_context *context, const sl_map *map, co
 SL_API sl_status sl_view_places_density(sl_context *context, const sl_space *space,
                                         const double *values, uint32_t columns, uint32_t rows,
                                         sl_view_places *out);
+/// Frees places and zeroes them.
 SL_API void sl_view_places_destroy(sl_context *context, sl_view_places *places);
 
 /// All that costs depend on beside the view cells.
@@ -126,6 +130,7 @@ typedef struct sl_view_tree {
     double *mass;      ///< by leaf: the probability that a viewpoint is in it
 } sl_view_tree;
 
+/// Frees a tree and zeroes it.
 SL_API void sl_view_tree_destroy(sl_context *context, sl_view_tree *tree);
 
 /// The leaf that holds a point: on a split line the one above (right of or over) it, left of an
@@ -148,6 +153,7 @@ typedef struct sl_view_subdivision {
     unsigned threads;     ///< of "hybrid", 0: one a core; the result does not depend on it
 } sl_view_subdivision;
 
+/// The usual options, as told at each field.
 SL_API sl_view_subdivision sl_view_subdivision_default(void);
 
 /// Sets of objects, a row of bits each.
@@ -175,6 +181,7 @@ typedef struct sl_view_found {
     sl_view_work work;
 } sl_view_found;
 
+/// Frees what a method found and zeroes it.
 SL_API void sl_view_found_destroy(sl_context *context, sl_view_found *found);
 
 /// What each elementary view cell of a tree sees by the segments that pass it. `threads`: 0 for one
@@ -182,6 +189,7 @@ SL_API void sl_view_found_destroy(sl_context *context, sl_view_found *found);
 SL_API sl_status sl_view_sets_sample(sl_context *context, const sl_view_scene *scene,
                                      const sl_view_tree *tree, const sl_view_segments *segments,
                                      unsigned threads, sl_view_sets *out);
+/// Frees sets and zeroes them.
 SL_API void sl_view_sets_destroy(sl_context *context, sl_view_sets *sets);
 
 // --- the hierarchy and its cuts
@@ -203,6 +211,7 @@ typedef struct sl_view_hierarchy {
     uint64_t *bytes;
 } sl_view_hierarchy;
 
+/// Frees a hierarchy and zeroes it.
 SL_API void sl_view_hierarchy_destroy(sl_context *context, sl_view_hierarchy *hierarchy);
 
 /// A method of making view cells: reachable by name, listed everywhere from this table. Each
@@ -232,6 +241,7 @@ typedef struct sl_view_method {
                         sl_view_tree *out, sl_view_found *found);
 } sl_view_method;
 
+/// All methods, *count of them.
 SL_API const sl_view_method *sl_view_methods(size_t *count);
 
 /// The hierarchy of the splits themselves, or the merge history: always the two neighbours of which
@@ -241,6 +251,7 @@ SL_API const sl_view_method *sl_view_methods(size_t *count);
 SL_API sl_status sl_view_join_splits(sl_context *context, const sl_view_scene *scene,
                                      const sl_view_tree *tree, const sl_view_sets *sets,
                                      sl_view_hierarchy *out);
+/// The merge history, likewise.
 SL_API sl_status sl_view_merge(sl_context *context, const sl_view_scene *scene,
                                const sl_view_tree *tree, const sl_view_sets *sets,
                                sl_view_hierarchy *out);
@@ -259,8 +270,10 @@ SL_API void sl_view_curve(const sl_view_hierarchy *hierarchy, double *costs, uin
 /// 1 + tolerance times what the elementary cells do. Each gives a number of view cells, at least 1
 /// and as many as there are elementary ones at most (section 5.1).
 SL_API uint32_t sl_view_cut_by_count(const sl_view_hierarchy *hierarchy, uint64_t cells);
+/// As many view cells as fit into a number of bytes.
 SL_API sl_status sl_view_cut_by_bytes(sl_context *context, const sl_view_hierarchy *hierarchy,
                                       uint64_t bytes, uint32_t *cells);
+/// As few view cells as cost up to 1 + tolerance times what the elementary cells do.
 SL_API sl_status sl_view_cut_by_cost(sl_context *context, const sl_view_hierarchy *hierarchy,
                                      double tolerance, uint32_t *cells);
 
@@ -274,6 +287,7 @@ SL_API sl_status sl_view_cut(sl_context *context, const sl_view_hierarchy *hiera
 /// array is the caller's, who hands it to sl_view_borders_free.
 SL_API sl_status sl_view_borders(sl_context *context, const sl_view_tree *tree,
                                  const uint32_t *view_cells, sl_segment **borders, size_t *count);
+/// Frees what sl_view_borders gave; NULL is fine.
 SL_API void sl_view_borders_free(sl_context *context, sl_segment *borders);
 
 // --- exact sets, for use
@@ -323,6 +337,7 @@ SL_API uint32_t sl_view_rows_locate(const sl_view_rows *rows, const sl_space *sp
                                     sl_point point);
 /// Sets bit c % 64 of word c / 64 for each cell c that a view cell sees; other bits stay.
 SL_API void sl_view_rows_add_to(const sl_view_rows *rows, uint32_t view_cell, uint64_t *bits);
+/// Whether a view cell sees a cell.
 SL_API bool sl_view_rows_sees(const sl_view_rows *rows, uint32_t view_cell, uint32_t cell);
 
 /// Checks rows from an untrusted file. SL_BAD_INPUT.

@@ -49,6 +49,7 @@ typedef struct sl_hierarchy {
 SL_API sl_status sl_hierarchy_make(sl_context *context, const sl_space *space, sl_hierarchy *out);
 SL_API void sl_hierarchy_destroy(sl_context *context, sl_hierarchy *hierarchy); ///< and zeroes it
 
+/// How much of a node is seen.
 typedef enum sl_node_state {
     SL_NODE_INVISIBLE, ///< nothing of its inside is in the visible part
     SL_NODE_PARTIAL,
@@ -66,6 +67,7 @@ typedef struct sl_node_test {
 /// All tests: "tree", "intervals".
 SL_API const sl_node_test *sl_node_tests(size_t *count);
 
+/// The most occluders that a frame may have.
 #define SL_WALK_OCCLUDERS_MOST 1024
 
 /// Start from sl_walk_options_default().
@@ -78,6 +80,7 @@ typedef struct sl_walk_options {
     uint64_t seed;      ///< of all chances
 } sl_walk_options;
 
+/// The usual options, as told at each field.
 SL_API sl_walk_options sl_walk_options_default(void);
 
 /// What a method draws beside what the first one, the classical, does in the same frame. All draw
@@ -140,6 +143,7 @@ typedef struct sl_walk sl_walk;
 SL_API sl_status sl_walk_create(sl_context *context, const sl_hierarchy *hierarchy,
                                 const sl_walk_method *method, const sl_walk_options *options,
                                 sl_walk **out);
+/// Frees a walk; NULL is fine.
 SL_API void sl_walk_destroy(sl_context *context, sl_walk *walk);
 
 /// The next frame: classifies what the view sees. An eye outside the bounds looks in from there. A
