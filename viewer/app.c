@@ -35,8 +35,8 @@ void app_init(app_state *app, sl_context *context) {
 }
 
 static void drop_scenes(app_state *app) {
-    sl_scene_free(app->context, app->view.scene);
-    sl_scene_free(app->context, app->view.tree);
+    sl_scene_destroy(app->context, app->view.scene);
+    sl_scene_destroy(app->context, app->view.tree);
     app->view.scene = app->view.tree = NULL;
 }
 

@@ -170,7 +170,7 @@ static bool make_tree(app_state *app) {
     if (app->view.tree && app->view.tree_version == app->view.present.version &&
         app->view.tree_cell == cell && app->view.tree_dark == app->ui.dark)
         return true;
-    sl_scene_free(app->context, app->view.tree);
+    sl_scene_destroy(app->context, app->view.tree);
     app->view.tree = NULL;
     sl_draw_options options = sl_draw_options_default();
     options.layers = SL_LAYER_STAB_TREE;

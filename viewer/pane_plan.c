@@ -25,7 +25,7 @@ static bool make_scene(app_state *app) {
     if (app->view.scene && app->view.scene_version == app->document.version &&
         app->view.scene_show == key)
         return true;
-    sl_scene_free(app->context, app->view.scene);
+    sl_scene_destroy(app->context, app->view.scene);
     app->view.scene = NULL;
     sl_draw_options options = sl_draw_options_default();
     options.layers = layers;
