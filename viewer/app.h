@@ -137,10 +137,6 @@ void app_destroy(app_state *app);
 /// The first map is there: looks at it from its start.
 void app_take_opened(app_state *app);
 
-/// Says something in the status line.
-void app_say(app_state *app, bool error, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
-
 /// Says what failed, where something did.
 void app_check(app_state *app, sl_status status);
 

@@ -47,18 +47,18 @@ static double processor_seconds(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static void print_row(const app_state *app, const char *part, frame_meter *meter,
+static void print_row(const document_state *document, const char *part, frame_meter *meter,
                       double processor) {
     const meter_summary sum = meter_sum_up(meter);
-    const char *path = app->document.source.path, *slash = path ? strrchr(path, '/') : NULL;
+    const char *path = document->source.path, *slash = path ? strrchr(path, '/') : NULL;
     struct utsname machine;
     if (uname(&machine) != 0) snprintf(machine.nodename, sizeof machine.nodename, "unknown");
     printf("%s,%u,%u,%s,%zu,%.2f,%.2f,%.2f,%.2f,%.2f,%s\n",
            slash  ? slash + 1
            : path ? path
                   : "",
-           app->document.baked->space.cell_count, app->document.baked->space.wall_count, part,
-           meter->count, 1e3 * sum.mean, 1e3 * sum.median, 1e3 * sum.p95, 1e3 * sum.worst,
+           document->baked->space.cell_count, document->baked->space.wall_count, part, meter->count,
+           1e3 * sum.mean, 1e3 * sum.median, 1e3 * sum.p95, 1e3 * sum.worst,
            1e3 * processor / (double)meter->count, machine.nodename);
 }
 
@@ -102,7 +102,8 @@ sl_status bench_run(app_state *app, unsigned frames) {
             // The first frames make what is kept from then on.
             if (i >= 5) meter_add(meter, sl_seconds() - before);
         }
-        if (status == SL_OK) print_row(app, parts[part], meter, processor_seconds() - processor);
+        if (status == SL_OK)
+            print_row(&app->document, parts[part], meter, processor_seconds() - processor);
     }
     if (meter) sl_free(app->context, meter);
     window_close(window);
@@ -117,9 +118,8 @@ static bool is_harmless(const char *name) {
            strcmp(name, "quit") != 0;
 }
 
-static sl_point random_place(const app_state *app, sl_random *random) {
-    return (sl_point){sl_random_unit(random) * app->ui.width,
-                      sl_random_unit(random) * app->ui.height};
+static sl_point random_place(const ui_state *ui, sl_random *random) {
+    return (sl_point){sl_random_unit(random) * ui->width, sl_random_unit(random) * ui->height};
 }
 
 static void random_key(app_state *app, sl_random *random) {
@@ -133,20 +133,20 @@ static void random_key(app_state *app, sl_random *random) {
     if (sl_random_below(random, 4)) input_key(app, action->key, false);
 }
 
-static bool is_file_button(const app_state *app, sl_point at) {
+static bool is_file_button(const ui_state *ui, sl_point at) {
     size_t count;
-    const hit_area hit = ui_find(&app->ui, at);
+    const hit_area hit = ui_find(ui, at);
     return hit.kind == HIT_ACTION && !is_harmless(action_table(&count)[hit.value].name);
 }
 
 static void random_drag(app_state *app, sl_random *random) {
-    const sl_point from = random_place(app, random);
-    if (is_file_button(app, from)) return;
+    const sl_point from = random_place(&app->ui, random);
+    if (is_file_button(&app->ui, from)) return;
     input_press(app, (button_kind)sl_random_below(random, 3), from);
     if (sl_random_below(random, 2)) {
-        input_move(app, random_place(app, random));
+        input_move(app, random_place(&app->ui, random));
         script_frame(app);
-        input_move(app, random_place(app, random));
+        input_move(app, random_place(&app->ui, random));
     }
     input_release(app, app->tool.pointer);
 }
@@ -162,7 +162,7 @@ static void random_event(app_state *app, sl_random *random) {
         break;
     case 2:
         if (app->shelf.files.count)
-            shelf_choose(app, sl_random_below(random, shelf_list(app)->count));
+            shelf_choose(app, sl_random_below(random, shelf_list(&app->shelf)->count));
         break;
     case 3:
     case 4:
@@ -180,7 +180,7 @@ static void random_event(app_state *app, sl_random *random) {
         break;
     case 13:
     case 14:
-        input_move(app, random_place(app, random));
+        input_move(app, random_place(&app->ui, random));
         break;
     default:
         random_key(app, random);

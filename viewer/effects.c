@@ -115,8 +115,8 @@ void pane_effects(app_state *app, sl_box box) {
 
 // --- doors
 
-static uint32_t nearest_door(const app_state *app, sl_point at, double within) {
-    const sl_map *map = &app->document.map;
+static uint32_t nearest_door(const document_state *document, sl_point at, double within) {
+    const sl_map *map = &document->map;
     uint32_t found = UINT32_MAX;
     for (size_t i = 0; i < map->door_count; i++) {
         const double distance = edit_distance(at, map->doors[i].segment.a, map->doors[i].segment.b);
@@ -128,7 +128,7 @@ static uint32_t nearest_door(const app_state *app, sl_point at, double within) {
 }
 
 uint32_t door_at(const app_state *app, sl_point at) {
-    return nearest_door(app, at, edit_reach(app));
+    return nearest_door(&app->document, at, edit_reach(app));
 }
 
 void door_toggle(app_state *app, uint32_t door) {
@@ -137,14 +137,14 @@ void door_toggle(app_state *app, uint32_t door) {
     app_keep(app);
     map->doors[door].open = !map->doors[door].open;
     app_after_touch(app);
-    app_say(app, false, "door %s is %s", map->doors[door].name,
-            map->doors[door].open ? "open" : "shut");
+    ui_say(&app->ui, false, "door %s is %s", map->doors[door].name,
+           map->doors[door].open ? "open" : "shut");
 }
 
 void door_toggle_nearest(app_state *app) {
-    const uint32_t door = nearest_door(app, app->view.eye.at, INFINITY);
+    const uint32_t door = nearest_door(&app->document, app->view.eye.at, INFINITY);
     if (door == UINT32_MAX)
-        app_say(app, false, "this map has no doors");
+        ui_say(&app->ui, false, "this map has no doors");
     else
         door_toggle(app, door);
 }
@@ -206,7 +206,7 @@ void mirror_move(app_state *app, drag_state *drag, sl_point now) {
     const bool same = to.a.x == is.a.x && to.a.y == is.a.y && to.b.x == is.b.x && to.b.y == is.b.y;
     if (same || !usable(to)) return;
     if (app->document.source.path && document_is_baked(app->document.source.path)) {
-        app_say(app, true, "mirrors of a baked file stay: open the map that it was made from");
+        ui_say(&app->ui, true, "mirrors of a baked file stay: open the map that it was made from");
         return;
     }
     if (!drag->changed) app_before_edit(app);
@@ -219,7 +219,7 @@ void mirror_drop(app_state *app, const drag_state *drag) {
     const sl_map *map = &app->document.map;
     if (!drag->changed || drag->index >= map->mirror_count) return;
     const sl_segment s = map->mirrors[drag->index].segment;
-    app_say(app, false, "mirror from %g,%g to %g,%g", s.a.x, s.a.y, s.b.x, s.b.y);
+    ui_say(&app->ui, false, "mirror from %g,%g to %g,%g", s.a.x, s.a.y, s.b.x, s.b.y);
     app_after_edit(app);
 }
 
@@ -305,7 +305,7 @@ void object_move(app_state *app, drag_state *drag, sl_point now) {
     if (!drag->changed) app_keep(app);
     drag->changed = true;
     *box = to;
-    app_say(app, false, "%s at %g,%g", map->objects[drag->index].name, to.min.x, to.min.y);
+    ui_say(&app->ui, false, "%s at %g,%g", map->objects[drag->index].name, to.min.x, to.min.y);
     app_after_touch(app);
 }
 
@@ -313,13 +313,13 @@ void object_toggle(app_state *app, uint32_t object) {
     document_state *document = &app->document;
     if (object >= document->object_count) return;
     if (!app->view.present.moving && !document->blocks[object]) {
-        app_say(app, true, "objects cannot block sight from here");
+        ui_say(&app->ui, true, "objects cannot block sight from here");
         return;
     }
     document->blocks[object] = !document->blocks[object];
     app_after_touch(app);
-    app_say(app, false, "%s %s", document->map.objects[object].name,
-            document->blocks[object] ? "blocks sight" : "is seen through");
+    ui_say(&app->ui, false, "%s %s", document->map.objects[object].name,
+           document->blocks[object] ? "blocks sight" : "is seen through");
 }
 
 void object_describe(const app_state *app, uint32_t object, char *text, size_t room) {
@@ -358,8 +358,8 @@ void object_draw(app_state *app, const sl_frame *frame) {
 
 // --- the view range
 
-double range_most(const app_state *app) {
-    const sl_box b = app->document.baked->space.bounds;
+double range_most(const document_state *document) {
+    const sl_box b = document->baked->space.bounds;
     return hypot(b.max.x - b.min.x, b.max.y - b.min.y);
 }
 
@@ -370,7 +370,7 @@ static double rounded(double range) {
 }
 
 void range_set(app_state *app, double range) {
-    app->document.map.range = rounded(fmax(range, 1e-3 * range_most(app)));
+    app->document.map.range = rounded(fmax(range, 1e-3 * range_most(&app->document)));
     app_after_touch(app);
 }
 
@@ -386,14 +386,14 @@ void range_toggle(app_state *app) {
     if (!app->document.baked) return;
     app_keep(app);
     app->document.map.range =
-        app->document.map.range > 0 ? 0 : rounded(fmax(0.3 * range_most(app), 1e-100));
+        app->document.map.range > 0 ? 0 : rounded(fmax(0.3 * range_most(&app->document), 1e-100));
     app_after_touch(app);
     range_settle(app);
     if (app->document.map.range > 0)
-        app_say(app, false, "nothing farther than %g is seen; the slider changes that",
-                app->document.map.range);
+        ui_say(&app->ui, false, "nothing farther than %g is seen; the slider changes that",
+               app->document.map.range);
     else
-        app_say(app, false, "sight reaches any distance");
+        ui_say(&app->ui, false, "sight reaches any distance");
 }
 
 void range_draw(app_state *app, const sl_frame *frame) {

@@ -73,7 +73,7 @@ void object_describe(const app_state *app, uint32_t object, char *text, size_t r
 // --- the view range
 
 /// The farthest that the slider goes: the map's diagonal.
-double range_most(const app_state *app);
+double range_most(const document_state *document);
 
 /// Puts a range, above 0, in place of the one that is set; for the time being without a bake.
 void range_set(app_state *app, double range);

@@ -259,12 +259,12 @@ void shelf_open_again(app_state *app, const sl_import_options *options) {
     app_check(app, document_open(app->context, &app->document, &source));
 }
 
-const sl_map_list *shelf_list(const app_state *app) {
-    return app->shelf.source.path ? &app->shelf.maps : &app->shelf.files;
+const sl_map_list *shelf_list(const map_shelf *shelf) {
+    return shelf->source.path ? &shelf->maps : &shelf->files;
 }
 
 void shelf_choose(app_state *app, size_t row) {
-    const sl_map_list *list = shelf_list(app);
+    const sl_map_list *list = shelf_list(&app->shelf);
     if (row >= list->count) return;
     if (list == &app->shelf.files) {
         shelf_open(app, list->names[row]);
@@ -278,7 +278,7 @@ void shelf_choose(app_state *app, size_t row) {
 }
 
 void shelf_move(app_state *app, int by) {
-    const size_t count = shelf_list(app)->count;
+    const size_t count = shelf_list(&app->shelf)->count;
     map_shelf *shelf = &app->shelf;
     if (by < 0)
         shelf->at -= shelf->at < (size_t)-by ? shelf->at : (size_t)-by;

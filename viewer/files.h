@@ -35,7 +35,7 @@ sl_status shelf_open_source(app_state *app, const document_source *source, bool 
 void shelf_open_again(app_state *app, const sl_import_options *options);
 
 /// What the list shows: files, or the maps of one.
-const sl_map_list *shelf_list(const app_state *app);
+const sl_map_list *shelf_list(const map_shelf *shelf);
 /// Opens what stands in a row of it.
 void shelf_choose(app_state *app, size_t row);
 /// Moves to another row; stops at both ends.

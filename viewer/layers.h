@@ -6,6 +6,7 @@
 #include "sightline/canvas.h"
 #include "sightline/effects.h"
 #include "sightline/region.h"
+#include "ui.h"
 
 typedef struct app_state app_state;
 
@@ -83,7 +84,7 @@ typedef struct legend_row {
 } legend_row;
 
 /// A key in the lower left of the plan, with a line under its rows; NULL for none.
-void layers_draw_key(app_state *app, const sl_frame *frame, const legend_row *rows, int count,
+void layers_draw_key(ui_state *ui, const sl_frame *frame, const legend_row *rows, int count,
                      const char *line);
 
 /// Draws a region, arcs as arcs.

@@ -40,7 +40,7 @@ const pane_below *panes_below(void);
 void pane_describe(const app_state *app, sl_point at, char *text, size_t room);
 
 /// The colours of culling methods: steps of the ramp from loose to exact.
-sl_colour pane_method_colour(const app_state *app, size_t method);
+sl_colour pane_method_colour(const ui_state *ui, size_t method);
 
 /// The line chosen in the lesson is dragged, in the dual plane or in the plan.
 void pane_dual_drag(app_state *app, sl_box box, sl_point to);

@@ -127,17 +127,16 @@ void pane_time(app_state *app, sl_box box) {
 
 // --- over all
 
-static sl_box begin_sheet(app_state *app, double width, double height, const char *title) {
-    ui_state *ui = &app->ui;
+static sl_box begin_sheet(ui_state *ui, double width, double height, const char *title) {
     const double t = ui->text;
-    const sl_box all = {{0, 0}, {app->ui.width, app->ui.height}};
+    const sl_box all = {{0, 0}, {ui->width, ui->height}};
     ui_hit(ui, HIT_PANEL, 1, all);
     const sl_colour dim = ui->palette.dark ? ui->palette.page : ui->palette.ink;
     cairo_set_source_rgba(ui->cairo, dim.red, dim.green, dim.blue, 0.45);
     cairo_paint(ui->cairo);
-    const double w = fmin(width, app->ui.width - 2 * t), h = fmin(height, app->ui.height - 2 * t);
-    const sl_box sheet = {{floor((app->ui.width - w) / 2), floor((app->ui.height - h) / 2)},
-                          {floor((app->ui.width + w) / 2), floor((app->ui.height + h) / 2)}};
+    const double w = fmin(width, ui->width - 2 * t), h = fmin(height, ui->height - 2 * t);
+    const sl_box sheet = {{floor((ui->width - w) / 2), floor((ui->height - h) / 2)},
+                          {floor((ui->width + w) / 2), floor((ui->height + h) / 2)}};
     ui_fill_round(ui, sheet, 0.6 * t, ui->palette.page);
     ui_text(ui, sheet.min.x + 1.5 * t, sheet.min.y + 2.2 * t, 1.3, true, ui->palette.ink, title);
     return sheet;
@@ -152,7 +151,7 @@ void pane_help(app_state *app) {
     const action_row *actions = action_table(&count);
     for (size_t i = 0; i < count; i++) shown += actions[i].key != NULL;
     const sl_box sheet =
-        begin_sheet(app, 74 * t, 44 * t, "Keys and mouse; a click on a line does it");
+        begin_sheet(&app->ui, 74 * t, 44 * t, "Keys and mouse; a click on a line does it");
     const int columns = 2;
     const size_t rows = (shown + MOUSE + columns - 1) / columns;
     const double top = sheet.min.y + 3.4 * t, column = (box_width(sheet) - 2 * t) / columns;
@@ -201,13 +200,13 @@ static void draw_row(app_state *app, sl_box row, size_t i, const char *name) {
 void pane_maps(app_state *app) {
     ui_state *ui = &app->ui;
     const double t = ui->text, high = 1.9 * t;
-    const sl_map_list *list = shelf_list(app);
+    const sl_map_list *list = shelf_list(&app->shelf);
     const bool maps = list == &app->shelf.maps;
     const double columns =
         fmin(fmax(ceil(high * (double)list->count / (app->ui.height - 8 * t)), 1),
              fmax(floor(app->ui.width / (22 * t)), 1));
     const double rows = fmax(ceil((double)list->count / columns), 1);
-    const sl_box sheet = begin_sheet(app, fmax(40, 22 * columns) * t, 4.6 * t + high * rows,
+    const sl_box sheet = begin_sheet(&app->ui, fmax(40, 22 * columns) * t, 4.6 * t + high * rows,
                                      maps ? "Which of its maps?" : "Maps at hand");
     const double top = sheet.min.y + 3.3 * t, width = (box_width(sheet) - 2 * t) / columns;
     const size_t fit = (size_t)fmax(floor((sheet.max.y - top) / high), 1);

@@ -18,16 +18,14 @@ typedef struct column {
     double left, right, y, bottom;
 } column;
 
-static column begin_panel(app_state *app, sl_box box) {
-    ui_state *ui = &app->ui;
+static column begin_panel(ui_state *ui, sl_box box) {
     ui_fill(ui, box, ui->palette.page);
     ui_line(ui, box.min.x + 0.5, box.min.y, box.min.x + 0.5, box.max.y, ui->palette.outline);
     ui_hit(ui, HIT_PANEL, 0, box);
     return (column){box.min.x + 1.1 * ui->text, box.max.x - 1.1 * ui->text, box.min.y, box.max.y};
 }
 
-static void heading(app_state *app, column *c, const char *text, const char *right) {
-    ui_state *ui = &app->ui;
+static void heading(ui_state *ui, column *c, const char *text, const char *right) {
     c->y += 1.9 * ui->text;
     ui_text(ui, c->left, c->y, 1, true, ui->palette.ink, text);
     if (right) ui_text_right(ui, c->right, c->y, 0.9, ui->palette.faint, right);
@@ -65,7 +63,7 @@ static void button_row(app_state *app, column *c, const char *const *names) {
 
 /// The layers that have their place in the present mode.
 static void layer_rows(app_state *app, column *c) {
-    heading(app, c, "Layers", "key");
+    heading(&app->ui, c, "Layers", "key");
     for (unsigned i = 0; i < LAYER_COUNT; i++)
         if (layers_lists(app, i)) check_row(app, c, layer_table()[i].name);
 }
@@ -155,7 +153,7 @@ static void draw_methods(app_state *app, column *c) {
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
     const double unit = (c->right - c->left) / 22, t = ui->text, size = figure_size(ui, unit);
-    heading(app, c, "What is kept", NULL);
+    heading(&app->ui, c, "What is kept", NULL);
     c->y -= 0.55 * t;
     ui_text_right(ui, c->left + 12.3 * unit, c->y, 0.9 * size, ui->palette.faint, "cells");
     ui_text_right(ui, c->left + 16.3 * unit, c->y, 0.9 * size, ui->palette.faint, "area");
@@ -165,7 +163,7 @@ static void draw_methods(app_state *app, column *c) {
     for (size_t i = 0; i < count && i < SEEN_MOST; i++) {
         const seen_method *m = &app->view.seen.methods[i];
         const method_row row = {.name = methods[i].name,
-                                .colour = pane_method_colour(app, i),
+                                .colour = pane_method_colour(&app->ui, i),
                                 .known = app->view.seen.valid && m->known,
                                 .chosen = i == app->view.method,
                                 .other = app->view.compare && i == app->view.other,
@@ -318,13 +316,13 @@ static void draw_words(app_state *app, column *c) {
         object_describe(app, object, text, sizeof text);
     else
         pane_describe(app, at, text, sizeof text);
-    heading(app, c, over ? "Under the pointer" : "Under the eye", NULL);
+    heading(&app->ui, c, over ? "Under the pointer" : "Under the eye", NULL);
     c->y = ui_paragraph(&app->ui, c->left, c->y + 0.7 * app->ui.text, c->right - c->left, 0.95,
                         app->ui.palette.ink, text);
 }
 
 void pane_side(app_state *app, sl_box box) {
-    column c = begin_panel(app, box);
+    column c = begin_panel(&app->ui, box);
     layer_rows(app, &c);
     check_row(app, &c, "first_person");
     check_row(app, &c, "account");
@@ -373,13 +371,13 @@ static void draw_account(app_state *app, column *c) {
     if (!lesson_shows(lesson, &app->document)) return;
     if (subject->account) {
         subject->account(lesson, text);
-        heading(app, c, "So far", NULL);
+        heading(&app->ui, c, "So far", NULL);
         c->y = ui_paragraph(&app->ui, c->left, c->y + 0.7 * app->ui.text, c->right - c->left, 1,
                             app->ui.palette.ink, text) -
                0.9 * app->ui.text;
     }
     if (!lesson->end_count) return;
-    heading(app, c, "The line", lesson->dragged ? "ends were dragged" : NULL);
+    heading(&app->ui, c, "The line", lesson->dragged ? "ends were dragged" : NULL);
     const double margin =
         sl_dual_margin(&lesson->dual, lesson->ends, lesson->end_count, lesson->line);
     snprintf(text, sizeof text,
@@ -393,8 +391,8 @@ static void draw_account(app_state *app, column *c) {
 }
 
 void pane_learn(app_state *app, sl_box box) {
-    column c = begin_panel(app, box);
-    heading(app, &c, lesson_subject(&app->tool.lesson)->title, NULL);
+    column c = begin_panel(&app->ui, box);
+    heading(&app->ui, &c, lesson_subject(&app->tool.lesson)->title, NULL);
     draw_code(app, &c);
     static const char *const other[] = {"subject", NULL};
     button_row(app, &c, other);
@@ -406,22 +404,22 @@ void pane_learn(app_state *app, sl_box box) {
 
 // --- drawing walls
 
-static void rule(app_state *app, column *c, const char *text) {
-    c->y = ui_paragraph(&app->ui, c->left, c->y + 0.35 * app->ui.text, c->right - c->left, 0.95,
-                        app->ui.palette.ink, text);
+static void rule(ui_state *ui, column *c, const char *text) {
+    c->y = ui_paragraph(ui, c->left, c->y + 0.35 * ui->text, c->right - c->left, 0.95,
+                        ui->palette.ink, text);
 }
 
 void pane_draw(app_state *app, sl_box box) {
-    column c = begin_panel(app, box);
+    column c = begin_panel(&app->ui, box);
     char text[160];
-    heading(app, &c, "Walls", NULL);
+    heading(&app->ui, &c, "Walls", NULL);
     c.y += 0.7 * app->ui.text;
-    rule(app, &c, "Drag on free ground: a new wall, in any direction, its ends on the grid.");
-    rule(app, &c, "Drag a wall: moves it. Click: chooses it. Delete: deletes it.");
+    rule(&app->ui, &c, "Drag on free ground: a new wall, in any direction, its ends on the grid.");
+    rule(&app->ui, &c, "Drag a wall: moves it. Click: chooses it. Delete: deletes it.");
     snprintf(text, sizeof text, "%zu walls; %zu step%s to undo, %zu to redo.",
              app->document.map.wall_count, app->document.history.done_count,
              app->document.history.done_count == 1 ? "" : "s", app->document.history.undone_count);
-    rule(app, &c, text);
+    rule(&app->ui, &c, text);
     layer_rows(app, &c);
     draw_methods(app, &c);
     draw_words(app, &c);
@@ -430,16 +428,16 @@ void pane_draw(app_state *app, sl_box box) {
 // --- the quiz
 
 void pane_quiz(app_state *app, sl_box box) {
-    column c = begin_panel(app, box);
+    column c = begin_panel(&app->ui, box);
     ui_state *ui = &app->ui;
     const quiz_state *q = &app->tool.quiz;
     const double t = ui->text;
     char text[512];
     snprintf(text, sizeof text, "%u of %u right", q->right_count, q->asked_count);
-    heading(app, &c, "Seen or not?", q->asked_count ? text : NULL);
+    heading(&app->ui, &c, "Seen or not?", q->asked_count ? text : NULL);
     if (!q->asked) {
         c.y += 0.7 * t;
-        rule(app, &c, "Space asks about two cells. The visibility must be there first.");
+        rule(&app->ui, &c, "Space asks about two cells. The visibility must be there first.");
         return;
     }
     snprintf(text, sizeof text, "Can the orange cell %u see the purple cell %u?", q->from, q->to);

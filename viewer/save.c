@@ -118,12 +118,12 @@ void save_numbered(app_state *app, const char *ending) {
         sl_status status = save_plan(app, path);
         if (status == SL_OK && app->ui.accounts) status = account_save(app, chart);
         if (status == SL_OK)
-            app_say(app, false, "saved %s%s%s", path, app->ui.accounts ? " and " : "",
-                    app->ui.accounts ? chart : "");
+            ui_say(&app->ui, false, "saved %s%s%s", path, app->ui.accounts ? " and " : "",
+                   app->ui.accounts ? chart : "");
         app_check(app, status);
         return;
     }
-    app_say(app, true, "no free name for a picture in this folder");
+    ui_say(&app->ui, true, "no free name for a picture in this folder");
 }
 
 sl_status save_series(app_state *app, const char *folder, unsigned every) {
@@ -142,6 +142,6 @@ sl_status save_series(app_state *app, const char *folder, unsigned every) {
         snprintf(path, sizeof path, "%s/frame-%04u.png", folder, ++number);
         SL_TRY(save_window(app, path));
     }
-    app_say(app, false, "%u frames in %s", number, folder);
+    ui_say(&app->ui, false, "%u frames in %s", number, folder);
     return SL_OK;
 }

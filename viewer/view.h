@@ -3,6 +3,7 @@
 #ifndef VIEWER_VIEW_H
 #define VIEWER_VIEW_H
 
+#include "document.h"
 #include "sightline/canvas.h"
 
 typedef struct app_state app_state;
@@ -48,7 +49,7 @@ typedef struct eye_state {
 } eye_state;
 
 /// Units of the map a second, by the size of its cells.
-double walk_speed(const app_state *app);
+double walk_speed(const document_state *document);
 
 /// Moves by the keys held. Walls stop a walking eye, by an exact test, and it slides along them.
 void walk_tick(app_state *app, double seconds);

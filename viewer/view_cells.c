@@ -374,7 +374,7 @@ static void write_bytes(uint64_t bytes, char text[32]) {
 void view_layer_mark_next(app_state *app) {
     view_layer *layer = app->view.views;
     if (!view_layer_shown(layer)) {
-        app_say(app, false, "no view cells are there; F5 makes them");
+        ui_say(&app->ui, false, "no view cells are there; F5 makes them");
         return;
     }
     const uint32_t mark = next_by_cost(layer);
@@ -395,10 +395,10 @@ void view_layer_mark_next(app_state *app) {
     write_cost(cost_of(layer, mark), cost);
     write_bytes(layer->history.hierarchy.bytes[number], bytes);
     sl_text_percent(layer->history.hierarchy.mass[number], share);
-    app_say(app, false,
-            "%u of %u view cells by cost: %s walls to render, for %s of the viewpoints; its set "
-            "takes %s",
-            rank, layer->cells, cost, share, bytes);
+    ui_say(&app->ui, false,
+           "%u of %u view cells by cost: %s walls to render, for %s of the viewpoints; its set "
+           "takes %s",
+           rank, layer->cells, cost, share, bytes);
 }
 
 // --- drawing
@@ -408,8 +408,8 @@ static int step_of(const view_layer *layer, double cost) {
     return range > 0 ? (int)fmin((cost - layer->least) / range * RAMP_STEPS, RAMP_STEPS - 1) : 0;
 }
 
-static sl_colour colour_of(const app_state *app, int step) {
-    return sl_palette_ramp(app->ui.dark, (step + 0.5) / RAMP_STEPS);
+static sl_colour colour_of(const ui_state *ui, int step) {
+    return sl_palette_ramp(ui->dark, (step + 0.5) / RAMP_STEPS);
 }
 
 /// What is of one colour makes one path, with a thin stroke over the seams within.
@@ -421,7 +421,7 @@ static void draw_cells(const app_state *app, cairo_t *cairo, const sl_frame *fra
             if (step_of(layer, cost_of(layer, layer->view_cells[i])) == step)
                 sl_path_polygon(cairo, frame, tree->corners + tree->first[i],
                                 tree->first[i + 1] - tree->first[i]);
-        sl_set_colour(cairo, colour_of(app, step));
+        sl_set_colour(cairo, colour_of(&app->ui, step));
         cairo_fill_preserve(cairo);
         cairo_set_line_width(cairo, 0.6);
         cairo_stroke(cairo);
@@ -438,8 +438,8 @@ static void draw_borders(cairo_t *cairo, const sl_frame *frame, const sl_segment
 }
 
 /// View cells reach into walled-in space where no viewpoint is.
-static void clip_to_inside(const app_state *app, cairo_t *cairo, const sl_frame *frame) {
-    const sl_space *space = &app->document.baked->space;
+static void clip_to_inside(const document_state *document, cairo_t *cairo, const sl_frame *frame) {
+    const sl_space *space = &document->baked->space;
     for (uint32_t i = 0; i < space->cell_count; i++) {
         const sl_cell *c = &space->cells[i];
         if (c->inside)
@@ -457,7 +457,7 @@ void view_layer_draw(const app_state *app, cairo_t *cairo, const sl_frame *frame
                  0.8 * frame->unit);
     cairo_pop_group_to_source(cairo);
     cairo_save(cairo);
-    clip_to_inside(app, cairo, frame);
+    clip_to_inside(&app->document, cairo, frame);
     cairo_paint_with_alpha(cairo, OPACITY);
     draw_borders(cairo, frame, layer->mark_borders, layer->mark_border_count, app->ui.palette.start,
                  4 * frame->unit);
@@ -478,7 +478,7 @@ static void draw_ramp(app_state *app, double left, double right, double base) {
     for (int step = 0; step < RAMP_STEPS; step++)
         ui_fill(ui,
                 (sl_box){{from + wide * step, base - 0.8 * t}, {right - 4.2 * t, base + 0.1 * t}},
-                colour_of(app, step));
+                colour_of(&app->ui, step));
 }
 
 /// What the view cell under the pointer costs; a dash where there is none.
