@@ -6,7 +6,7 @@
 ///     sl_frame frame = sl_frame_fit(baked->space.bounds, 0, 0, 800, 600, 1);
 ///     sl_scene_create(context, baked, &options, NULL, &scene);
 ///     sl_draw_plan(context, cairo, scene, options.layers, &frame);
-///     sl_scene_free(context, scene);
+///     sl_scene_destroy(context, scene);
 ///
 /// The functions that draw return nothing: cairo_status(cairo) keeps what cairo could not do. They
 /// may change the context's source, line width, dash, cap, join, font and path.
@@ -123,11 +123,12 @@ SL_API void sl_text_percent(double share, char text[SL_COUNT_TEXT]);
 typedef struct sl_scene sl_scene;
 
 /// `baked` is referred to, not copied; options are as in sl_draw_file. `trees`: NULL for those of
-/// `baked`, else stab trees in their place, read here only. `*out` is untouched on failure.
+/// `baked`, else stab trees in their place, read here only. SL_BAD_ARGUMENT for a chosen cell that
+/// the map does not have. `*out` is untouched on failure.
 SL_API sl_status sl_scene_create(sl_context *context, const sl_baked *baked,
                                  const sl_draw_options *options, const sl_stab_trees *trees,
                                  sl_scene **out);
-SL_API void sl_scene_free(sl_context *context, sl_scene *scene); ///< NULL: nothing
+SL_API void sl_scene_destroy(sl_context *context, sl_scene *scene); ///< NULL: nothing
 
 /// The portals in the longest sequence of the stab tree; 0 where the scene has none.
 SL_API uint32_t sl_scene_tree_depth(const sl_scene *scene);

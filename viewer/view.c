@@ -1,14 +1,59 @@
-#include "walk.h"
+/// Where things are seen from: the camera over the plan, and the eye that walks through the map.
+#include "view.h"
 
-#include "geometry/orient.h"
+#include "app.h"
+#include "geometry/orient.h" // private: the exact predicate
 
 #include <math.h>
 
+// --- the camera
+
+plan_camera camera_fit(sl_box bounds, double width, double height) {
+    const double wide = fmax(bounds.max.x - bounds.min.x, 1e-100);
+    const double high = fmax(bounds.max.y - bounds.min.y, 1e-100);
+    const double scale = 0.94 * fmin(width / wide, height / high);
+    return (plan_camera){.middle = {bounds.min.x + wide / 2, bounds.min.y + high / 2},
+                         .scale = scale,
+                         .least = scale / 8,
+                         .most = scale * 4096};
+}
+
+void camera_pan(plan_camera *camera, double dx, double dy) {
+    camera->middle.x -= dx / camera->scale;
+    camera->middle.y += dy / camera->scale;
+}
+
+void camera_zoom(plan_camera *camera, double factor, sl_point offset) {
+    const double scale = fmin(fmax(camera->scale * factor, camera->least), camera->most);
+    camera->middle.x += offset.x / camera->scale - offset.x / scale;
+    camera->middle.y -= offset.y / camera->scale - offset.y / scale;
+    camera->scale = scale;
+}
+
+sl_frame camera_frame(const plan_camera *camera, sl_box pane, double unit) {
+    const double width = pane.max.x - pane.min.x, height = pane.max.y - pane.min.y;
+    return (sl_frame){.corner = {camera->middle.x - width / 2 / camera->scale,
+                                 camera->middle.y - height / 2 / camera->scale},
+                      .scale = camera->scale,
+                      .left = pane.min.x,
+                      .top = pane.min.y,
+                      .width = width,
+                      .height = height,
+                      .unit = unit};
+}
+
+sl_point camera_point(const plan_camera *camera, sl_box pane, sl_point page) {
+    const double x = page.x - (pane.min.x + pane.max.x) / 2;
+    const double y = page.y - (pane.min.y + pane.max.y) / 2;
+    return (sl_point){camera->middle.x + x / camera->scale, camera->middle.y - y / camera->scale};
+}
+
+// --- the eye
+
 #define RADIANS (3.14159265358979323846 / 180)
 
-double walk_speed(const app_state *app) {
-    const document_state *d = &app->document;
-    return d->counted ? 1.6 * sqrt(d->area / d->counted) : 1;
+double walk_speed(const document_state *document) {
+    return document->counted ? 1.6 * sqrt(document->area / document->counted) : 1;
 }
 
 static bool spans(double a, double b, double low, double high) {
@@ -33,31 +78,31 @@ static uint32_t first_wall(const sl_space *space, sl_point from, sl_point to) {
 
 /// Moves as far as that where nothing stops it; else *wall is what does (wall_count: the map's
 /// border).
-static bool try_move(app_state *app, double dx, double dy, double body, uint32_t *wall) {
-    const sl_space *space = app->view.present.space;
+static bool try_move(view_state *view, double dx, double dy, double body, uint32_t *wall) {
+    const sl_space *space = view->present.space;
     const double length = hypot(dx, dy);
     *wall = space->wall_count;
     if (!(length > 0)) return false;
-    const sl_point at = app->view.eye.at, to = {at.x + dx, at.y + dy};
+    const sl_point at = view->eye.at, to = {at.x + dx, at.y + dy};
     // A little farther than the step, so that some room to the wall is left.
     const sl_point ahead = {to.x + dx / length * body, to.y + dy / length * body};
-    if (!app->view.eye.flies) {
+    if (!view->eye.flies) {
         *wall = first_wall(space, at, ahead);
         if (*wall < space->wall_count || sl_space_locate(space, ahead) == SL_NO_CELL) return false;
     }
-    app->view.eye.at = to;
+    view->eye.at = to;
     return true;
 }
 
 /// What a wall leaves of a step: the part along it.
-static void slide(app_state *app, double dx, double dy, double body, uint32_t wall) {
-    const sl_space *space = app->view.present.space;
+static void slide(view_state *view, double dx, double dy, double body, uint32_t wall) {
+    const sl_space *space = view->present.space;
     if (wall >= space->wall_count) return;
     const sl_wall *w = &space->walls[wall];
     const double x = w->b.x - w->a.x, y = w->b.y - w->a.y, square = x * x + y * y;
     if (!(square > 0)) return;
     const double share = (dx * x + dy * y) / square;
-    try_move(app, share * x, share * y, body, &wall);
+    try_move(view, share * x, share * y, body, &wall);
 }
 
 void walk_tick(app_state *app, double seconds) {
@@ -69,11 +114,12 @@ void walk_tick(app_state *app, double seconds) {
     const double aside = ((held & HOLD_RIGHT) != 0) - ((held & HOLD_LEFT) != 0);
     const double length = hypot(ahead, aside);
     if (!(length > 0)) return;
-    const double step = walk_speed(app) * seconds / length, body = 0.04 * walk_speed(app);
+    const double step = walk_speed(&app->document) * seconds / length,
+                 body = 0.04 * walk_speed(&app->document);
     const double c = cos(app->view.eye.heading * RADIANS), s = sin(app->view.eye.heading * RADIANS);
     const double dx = step * (ahead * c + aside * s), dy = step * (ahead * s - aside * c);
     uint32_t wall;
-    if (!try_move(app, dx, dy, body, &wall)) slide(app, dx, dy, body, wall);
+    if (!try_move(&app->view, dx, dy, body, &wall)) slide(&app->view, dx, dy, body, wall);
 }
 
 static sl_point middle_of(const sl_space *space, uint32_t cell) {

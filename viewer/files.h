@@ -1,9 +1,20 @@
-/// Opening files: those at hand (beside the one that is open, in the present folder and its maps/),
-/// those that are dropped, and which of its maps where a file has several.
-#ifndef VIEWER_SHELF_H
-#define VIEWER_SHELF_H
+/// Files: settings that are remembered from one time to the next
+/// ($XDG_CONFIG_HOME/sightline/view.conf), and opening maps: those at hand (beside the one that is
+/// open, in the present folder and its maps/), those that are dropped, and which of its maps where
+/// a file has several.
+#ifndef VIEWER_FILES_H
+#define VIEWER_FILES_H
 
 #include "app.h"
+
+// --- settings
+
+/// Takes over what is remembered; what cannot be read is as if it had never been.
+void settings_load(app_state *app);
+/// Remembers. Where that fails nothing is said: it is no part of the work.
+void settings_save(app_state *app);
+
+// --- maps at hand
 
 /// Lists the files at hand, by name.
 void shelf_fill(app_state *app, const char *beside);
@@ -24,7 +35,7 @@ sl_status shelf_open_source(app_state *app, const document_source *source, bool 
 void shelf_open_again(app_state *app, const sl_import_options *options);
 
 /// What the list shows: files, or the maps of one.
-const sl_map_list *shelf_list(const app_state *app);
+const sl_map_list *shelf_list(const map_shelf *shelf);
 /// Opens what stands in a row of it.
 void shelf_choose(app_state *app, size_t row);
 /// Moves to another row; stops at both ends.

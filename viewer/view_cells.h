@@ -1,10 +1,36 @@
-/// The layer of view cells: the cut of the merge history that is shown, coloured by cost. The
-/// history is made in the background once the layer is on.
-#ifndef VIEWER_LAYER_VIEWS_H
-#define VIEWER_LAYER_VIEWS_H
+/// View cells that adapt to what is seen: the work in the background, from a map to the merge
+/// history, and the layer that shows a cut of it, coloured by cost.
+#ifndef VIEWER_VIEW_CELLS_H
+#define VIEWER_VIEW_CELLS_H
 
 #include "document.h"
 #include "sightline/canvas.h"
+#include "sightline/view_cells.h"
+
+// --- the job
+
+/// What the work comes to. Zeroed: nothing yet.
+typedef struct view_history {
+    sl_view_tree tree;
+    sl_view_hierarchy hierarchy; ///< told by other lines than those that it was made by
+} view_history;
+
+void view_history_destroy(sl_context *context, view_history *history); ///< and zeroes it
+
+typedef struct view_job view_job;
+
+/// Starts the thread, on a copy of the map: as many lines and elementary view cells as
+/// `sightline viewcells` takes unless told.
+sl_status view_job_start(sl_context *context, const sl_map *map, view_job **out);
+void view_job_cancel(view_job *job);
+bool view_job_is_done(const view_job *job);
+job_progress view_job_progress(const view_job *job);
+
+/// Waits for the thread and frees the job. `*out` is the caller's from then on, and untouched where
+/// the work failed, of which status and message tell.
+sl_status view_job_end(sl_context *context, view_job *job, view_history *out);
+
+// --- the layer
 
 typedef struct app_state app_state;
 typedef struct view_layer view_layer;
