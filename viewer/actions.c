@@ -1,14 +1,13 @@
 #include "actions.h"
 
-#include "doors.h"
 #include "edit.h"
+#include "effects.h"
+#include "files.h"
 #include "layers.h"
 #include "modes.h"
 #include "quiz.h"
-#include "range.h"
 #include "save.h"
-#include "shelf.h"
-#include "walk.h"
+#include "view.h"
 
 #include <math.h>
 #include <string.h>
@@ -30,7 +29,7 @@ static void set_mode(app_state *app, app_mode mode) {
     app->tool.lesson.plays = false;
     quiz_forget(app);
     if (mode == MODE_QUIZ) quiz_ask(app);
-    app_say(app, false, "%s", mode_table()[mode].hint);
+    ui_say(&app->ui, false, "%s", mode_table()[mode].hint);
     app_tick(app, 0);
 }
 
@@ -186,7 +185,7 @@ static void compare(app_state *app) {
     static const char *const words[] = {"one method", "two methods side by side",
                                         "what the looser one adds, in orange"};
     app->view.compare = (comparison)((app->view.compare + 1) % 3);
-    app_say(app, false, "%s", words[app->view.compare]);
+    ui_say(&app->ui, false, "%s", words[app->view.compare]);
 }
 
 static bool is_compare(const app_state *app) {
@@ -225,11 +224,11 @@ static void travel(app_state *app, bool redo) {
     bool bake = false;
     if (!history_undo(app->context, &app->document.history, &app->document.map, redo, &bake,
                       &status)) {
-        app_say(app, false, redo ? "nothing to redo" : "nothing to undo");
+        ui_say(&app->ui, false, redo ? "nothing to redo" : "nothing to undo");
         return;
     }
     app_check(app, status);
-    app_say(app, false, redo ? "redone" : "undone");
+    ui_say(&app->ui, false, redo ? "redone" : "undone");
     app->tool.wall = UINT32_MAX;
     if (bake)
         app_after_edit(app);
@@ -277,7 +276,7 @@ static void record(app_state *app) {
     r->waited = 0;
     if (!r->records) r->frames.count = 0;
     r->records = !r->records;
-    app_say(app, false, r->records ? "recording the eye's way" : "recorded");
+    ui_say(&app->ui, false, r->records ? "recording the eye's way" : "recorded");
 }
 
 static bool is_record(const app_state *app) {
@@ -289,10 +288,10 @@ static void play(app_state *app) {
     path_recorder *r = &app->tool.recorder;
     r->records = false;
     if (!r->frames.count && app->document.baked && app->document.baked->map.path_count)
-        app_check(
-            app, record_path(app->context, r, &app->document.baked->map.paths[0], walk_speed(app)));
+        app_check(app, record_path(app->context, r, &app->document.baked->map.paths[0],
+                                   walk_speed(&app->document)));
     if (!r->frames.count) {
-        app_say(app, false, "nothing was recorded, and the map has no path");
+        ui_say(&app->ui, false, "nothing was recorded, and the map has no path");
         return;
     }
     r->plays = !r->plays;
@@ -321,7 +320,7 @@ static bool is_doors(const app_state *app) {
 static void doors(app_state *app) {
     sl_import_options options = app->document.source.options;
     if (!(app->document.source.takes & SL_TAKES_DOORS)) {
-        app_say(app, false, "this map's format has no doors to be taken otherwise");
+        ui_say(&app->ui, false, "this map's format has no doors to be taken otherwise");
         return;
     }
     options.doors = !options.doors;
@@ -365,9 +364,9 @@ static void escape(app_state *app) {
         app->ui.help = app->ui.maps_open = false;
     else if (app->document.job) {
         document_cancel(app->context, &app->document);
-        app_say(app, false, "stopped; what is there stays");
+        ui_say(&app->ui, false, "stopped; what is there stays");
     } else if (view_layer_stop(app))
-        app_say(app, false, "stopped; F5 twice makes view cells again");
+        ui_say(&app->ui, false, "stopped; F5 twice makes view cells again");
     else if (app->tool.recorder.plays)
         app->tool.recorder.plays = false;
     else

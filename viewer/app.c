@@ -1,16 +1,14 @@
 #include "app.h"
 
-#include "bake_job.h"
-#include "effect_words.h"
+#include "document.h"
+#include "effects.h"
+#include "files.h"
 #include "modes.h"
-#include "panes.h"
 #include "quiz.h"
-#include "shelf.h"
 #include "sightline/support.h"
-#include "walk.h"
+#include "view.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <string.h>
 
 void app_init(app_state *app, sl_context *context) {
@@ -36,8 +34,8 @@ void app_init(app_state *app, sl_context *context) {
 }
 
 static void drop_scenes(app_state *app) {
-    sl_scene_free(app->context, app->view.scene);
-    sl_scene_free(app->context, app->view.tree);
+    sl_scene_destroy(app->context, app->view.scene);
+    sl_scene_destroy(app->context, app->view.tree);
     app->view.scene = app->view.tree = NULL;
 }
 
@@ -59,17 +57,9 @@ void app_destroy(app_state *app) {
     shelf_empty(app);
 }
 
-void app_say(app_state *app, bool error, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(app->ui.message, sizeof app->ui.message, format, arguments);
-    va_end(arguments);
-    app->ui.message_is_error = error;
-}
-
 void app_check(app_state *app, sl_status status) {
     if (status != SL_OK && status != SL_CANCELLED)
-        app_say(app, true, "%s", sl_context_message(app->context));
+        ui_say(&app->ui, true, "%s", sl_context_message(app->context));
 }
 
 uint32_t app_eye_cell(const app_state *app) {
@@ -110,15 +100,15 @@ static void take_document(app_state *app, bool opened) {
     const sl_space *space = &app->document.baked->space;
     char calls[CALLS_TEXT];
     effects_in_words(&app->document.map, calls);
-    app_say(app, false, "%s%s%s: %u cells, %u portals, %u walls; %s",
-            slash  ? slash + 1
-            : path ? path
-                   : "map",
-            map ? " " : "", map ? map : "", space->cell_count, space->portal_count,
-            space->wall_count, calls);
+    ui_say(&app->ui, false, "%s%s%s: %u cells, %u portals, %u walls; %s",
+           slash  ? slash + 1
+           : path ? path
+                  : "map",
+           map ? " " : "", map ? map : "", space->cell_count, space->portal_count,
+           space->wall_count, calls);
     char partial[SL_PARTIAL_TEXT];
     sl_baked_say_partial(app->document.baked, partial);
-    if (partial[0]) app_say(app, false, "%s is %s", slash ? slash + 1 : path, partial);
+    if (partial[0]) ui_say(&app->ui, false, "%s is %s", slash ? slash + 1 : path, partial);
 }
 
 void app_take_opened(app_state *app) {
@@ -136,7 +126,7 @@ static void follow(app_state *app) {
 /// While something is dragged the map is made anew as soon as the last one has its cells: one
 /// that was begun at each step would never get that far.
 static void keep_up(app_state *app) {
-    if (!app->document.stale || (app->document.job && !app->document.job->taken)) return;
+    if (!app->document.stale || document_awaits_space(&app->document)) return;
     app_after_edit(app);
 }
 
@@ -146,7 +136,7 @@ static void poll(app_state *app, bool wait) {
     bool changed = false;
     const sl_status status = wait ? document_wait(app->context, &app->document, &changed)
                                   : document_poll(app->context, &app->document, &changed);
-    if (status == SL_CANCELLED) app_say(app, false, "stopped");
+    if (status == SL_CANCELLED) ui_say(&app->ui, false, "stopped");
     if (changed) drop_made(app);
     if (version != app->document.version) take_document(app, before != app->document.opened);
     follow(app);

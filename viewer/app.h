@@ -3,40 +3,21 @@
 #ifndef VIEWER_APP_H
 #define VIEWER_APP_H
 
-#include "camera.h"
 #include "document.h"
-#include "history.h"
-#include "layer_nodes.h"
-#include "layer_views.h"
-#include "layer_watch.h"
 #include "layers.h"
 #include "lesson.h"
 #include "present.h"
-#include "record.h"
+#include "save.h"
 #include "seen.h"
 #include "sightline/canvas.h"
 #include "sightline/explain.h"
 #include "ui.h"
+#include "view.h"
+#include "view_cells.h"
 
 typedef enum app_mode { MODE_EXPLORE, MODE_LEARN, MODE_DRAW, MODE_QUIZ } app_mode;
 
 typedef enum comparison { COMPARE_OFF, COMPARE_PANES, COMPARE_DIFFERENCE } comparison;
-
-/// Keys held down.
-enum hold_key {
-    HOLD_FORWARD = 1,
-    HOLD_BACK = 2,
-    HOLD_LEFT = 4,
-    HOLD_RIGHT = 8,
-    HOLD_TURN_LEFT = 16,
-    HOLD_TURN_RIGHT = 32,
-};
-
-typedef struct eye_state {
-    sl_point at;
-    double heading, fov; ///< degrees; 360: all round
-    bool flies;          ///< through walls
-} eye_state;
 
 /// A picture that is kept as long as what it shows does not change.
 typedef struct kept_picture {
@@ -155,10 +136,6 @@ void app_destroy(app_state *app);
 
 /// The first map is there: looks at it from its start.
 void app_take_opened(app_state *app);
-
-/// Says something in the status line.
-void app_say(app_state *app, bool error, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
 
 /// Says what failed, where something did.
 void app_check(app_state *app, sl_status status);

@@ -1,28 +1,64 @@
+/// Runs without a user: frame times of a walk, and random events.
 #include "bench.h"
 
-#include "clock.h"
+#include "actions.h"
+#include "files.h"
 #include "input.h"
-#include "meter.h"
+#include "script.h"
 #include "sightline/support.h"
 #include "window.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/utsname.h>
+#include <time.h>
 
-static void print_row(const app_state *app, const char *part, frame_meter *meter,
+// --- meter
+
+void meter_add(frame_meter *meter, double seconds) {
+    if (meter->count < METER_MOST) meter->seconds[meter->count++] = seconds;
+}
+
+static int by_value(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+meter_summary meter_sum_up(frame_meter *meter) {
+    meter_summary sum = {0};
+    if (!meter->count) return sum;
+    qsort(meter->seconds, meter->count, sizeof *meter->seconds, by_value);
+    for (size_t i = 0; i < meter->count; i++) sum.mean += meter->seconds[i] / (double)meter->count;
+    sum.median = meter->seconds[meter->count / 2];
+    sum.p95 = meter->seconds[meter->count * 95 / 100];
+    sum.worst = meter->seconds[meter->count - 1];
+    return sum;
+}
+
+// --- benchmark
+
+/// Seconds of the processor's time that this thread has had. Neither a busy machine nor work in the
+/// background changes that much.
+static double processor_seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void print_row(const document_state *document, const char *part, frame_meter *meter,
                       double processor) {
     const meter_summary sum = meter_sum_up(meter);
-    const char *path = app->document.source.path, *slash = path ? strrchr(path, '/') : NULL;
+    const char *path = document->source.path, *slash = path ? strrchr(path, '/') : NULL;
     struct utsname machine;
     if (uname(&machine) != 0) snprintf(machine.nodename, sizeof machine.nodename, "unknown");
     printf("%s,%u,%u,%s,%zu,%.2f,%.2f,%.2f,%.2f,%.2f,%s\n",
            slash  ? slash + 1
            : path ? path
                   : "",
-           app->document.baked->space.cell_count, app->document.baked->space.wall_count, part,
-           meter->count, 1e3 * sum.mean, 1e3 * sum.median, 1e3 * sum.p95, 1e3 * sum.worst,
+           document->baked->space.cell_count, document->baked->space.wall_count, part, meter->count,
+           1e3 * sum.mean, 1e3 * sum.median, 1e3 * sum.p95, 1e3 * sum.worst,
            1e3 * processor / (double)meter->count, machine.nodename);
 }
 
@@ -58,17 +94,111 @@ sl_status bench_run(app_state *app, unsigned frames) {
         meter->count = 0;
         app->tool.held = 0;
         for (unsigned i = 0; i < frames + 5 && status == SL_OK; i++) {
-            if (i == 5) processor = clock_processor();
-            const double before = clock_seconds();
+            if (i == 5) processor = processor_seconds();
+            const double before = sl_seconds();
             move(app, part, i);
             app_tick(app, 1.0 / 60);
             status = window_show(window);
             // The first frames make what is kept from then on.
-            if (i >= 5) meter_add(meter, clock_seconds() - before);
+            if (i >= 5) meter_add(meter, sl_seconds() - before);
         }
-        if (status == SL_OK) print_row(app, parts[part], meter, clock_processor() - processor);
+        if (status == SL_OK)
+            print_row(&app->document, parts[part], meter, processor_seconds() - processor);
     }
     if (meter) sl_free(app->context, meter);
     window_close(window);
     return status;
+}
+
+// --- random events
+
+/// Actions that write files or end the program are left to tests.
+static bool is_harmless(const char *name) {
+    return strncmp(name, "save", 4) != 0 && strncmp(name, "export", 6) != 0 &&
+           strcmp(name, "quit") != 0;
+}
+
+static sl_point random_place(const ui_state *ui, sl_random *random) {
+    return (sl_point){sl_random_unit(random) * ui->width, sl_random_unit(random) * ui->height};
+}
+
+static void random_key(app_state *app, sl_random *random) {
+    size_t count;
+    const action_row *action = &action_table(&count)[0];
+    action += sl_random_below(random, count);
+    if (!action->key || !is_harmless(action->name)) return;
+    // A layout that never turns back to small text would make everything slow.
+    if (app->ui.text_scale > 1.8) app->ui.text_scale = 1;
+    input_key(app, action->key, true);
+    if (sl_random_below(random, 4)) input_key(app, action->key, false);
+}
+
+static bool is_file_button(const ui_state *ui, sl_point at) {
+    size_t count;
+    const hit_area hit = ui_find(ui, at);
+    return hit.kind == HIT_ACTION && !is_harmless(action_table(&count)[hit.value].name);
+}
+
+static void random_drag(app_state *app, sl_random *random) {
+    const sl_point from = random_place(&app->ui, random);
+    if (is_file_button(&app->ui, from)) return;
+    input_press(app, (button_kind)sl_random_below(random, 3), from);
+    if (sl_random_below(random, 2)) {
+        input_move(app, random_place(&app->ui, random));
+        script_frame(app);
+        input_move(app, random_place(&app->ui, random));
+    }
+    input_release(app, app->tool.pointer);
+}
+
+static void random_event(app_state *app, sl_random *random) {
+    switch (sl_random_below(random, 40)) {
+    case 0:
+        app->ui.width = 320 + (int)sl_random_below(random, 900);
+        app->ui.height = 240 + (int)sl_random_below(random, 700);
+        break;
+    case 1:
+        app->tool.held = 0;
+        break;
+    case 2:
+        if (app->shelf.files.count)
+            shelf_choose(app, sl_random_below(random, shelf_list(&app->shelf)->count));
+        break;
+    case 3:
+    case 4:
+        input_wheel(app, 6 * (sl_random_unit(random) - 0.5));
+        break;
+    case 5:
+    case 6:
+    case 7:
+    case 8:
+    case 9:
+    case 10:
+    case 11:
+    case 12:
+        random_drag(app, random);
+        break;
+    case 13:
+    case 14:
+        input_move(app, random_place(&app->ui, random));
+        break;
+    default:
+        random_key(app, random);
+        break;
+    }
+}
+
+sl_status soak_run(app_state *app, double seconds, uint64_t seed) {
+    sl_random random = {seed};
+    const double end = sl_seconds() + seconds;
+    uint64_t events = 0;
+    while (sl_seconds() < end) {
+        random_event(app, &random);
+        app_tick(app, 1.0 / 30);
+        script_frame(app);
+        events++;
+    }
+    printf("%llu random events from seed %llu in %g seconds\n", (unsigned long long)events,
+           (unsigned long long)seed, seconds);
+    return SL_OK;
 }

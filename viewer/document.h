@@ -1,14 +1,37 @@
 /// What is open: a map with its space and visibility, made anew in the background after each
-/// change.
+/// change; and the changes by hand, for undo.
 #ifndef VIEWER_DOCUMENT_H
 #define VIEWER_DOCUMENT_H
 
-#include "history.h"
 #include "sightline/bake.h"
 #include "sightline/eye_to_cell.h"
 #include "sightline/import.h"
+#include "sightline/map.h"
 #include "sightline/region.h"
-#include "space/splits.h"
+#include "space/splits.h" // private: a lesson and a layer show the splits
+
+// --- undo
+
+enum { HISTORY_MOST = 100 };
+
+/// Zeroed to start.
+typedef struct edit_history {
+    sl_map done[HISTORY_MOST], undone[HISTORY_MOST];
+    size_t done_count, undone_count;
+} edit_history;
+
+/// Keeps the map as it is, before a change.
+sl_status history_keep(sl_context *context, edit_history *history, const sl_map *map);
+
+/// The last change kept was none.
+void history_forget_last(sl_context *context, edit_history *history);
+
+/// Goes one change back (or forward again); false where there is none. *bake tells whether what
+/// changed asks for a new bake.
+bool history_undo(sl_context *context, edit_history *history, sl_map *map, bool redo, bool *bake,
+                  sl_status *status);
+
+void history_clear(sl_context *context, edit_history *history);
 
 /// How to read a file.
 typedef struct document_source {
@@ -83,6 +106,9 @@ sl_status document_renew_search(sl_context *context, document_state *document);
 /// Has a search over the document's cells look into the mirrors that were baked.
 sl_status document_add_mirrors(sl_context *context, const document_state *document,
                                sl_eye_search *search);
+
+/// Whether a job runs that has no space yet.
+bool document_awaits_space(const document_state *document);
 
 /// What was changed in the map needs no new bake: shows it.
 void document_touch(document_state *document);

@@ -45,7 +45,7 @@ void edit_add(app_state *app, sl_point from, sl_point end) {
     if (!sl_coordinate_usable(end.x) || !sl_coordinate_usable(end.y)) return;
     app_before_edit(app);
     app_check(app, sl_map_add_wall(app->context, &app->document.map, from, end, 0));
-    app_say(app, false, "wall from %g,%g to %g,%g", from.x, from.y, end.x, end.y);
+    ui_say(&app->ui, false, "wall from %g,%g to %g,%g", from.x, from.y, end.x, end.y);
     app_after_edit(app);
 }
 
@@ -59,24 +59,24 @@ void edit_move(app_state *app, uint32_t wall, double dx, double dy) {
     sl_wall *w = &app->document.map.walls[wall];
     w->a = (sl_point){moved[0], moved[1]};
     w->b = (sl_point){moved[2], moved[3]};
-    app_say(app, false, "wall moved by %g,%g", dx, dy);
+    ui_say(&app->ui, false, "wall moved by %g,%g", dx, dy);
     app_after_edit(app);
 }
 
 void edit_delete(app_state *app) {
     sl_map *map = &app->document.map;
     if (app->tool.wall >= map->wall_count) {
-        app_say(app, false, "no wall is chosen: click on one");
+        ui_say(&app->ui, false, "no wall is chosen: click on one");
         return;
     }
     if (map->wall_count == 1) {
-        app_say(app, true, "the last wall stays: a map without walls has no cells");
+        ui_say(&app->ui, true, "the last wall stays: a map without walls has no cells");
         return;
     }
     app_before_edit(app);
     map->walls[app->tool.wall] = map->walls[--map->wall_count];
     app->tool.wall = UINT32_MAX;
-    app_say(app, false, "wall deleted");
+    ui_say(&app->ui, false, "wall deleted");
     app_after_edit(app);
 }
 

@@ -1,13 +1,11 @@
 #include "input.h"
 
 #include "actions.h"
-#include "doors.h"
 #include "edit.h"
-#include "mirrors.h"
-#include "objects.h"
-#include "panes.h"
+#include "effects.h"
+#include "files.h"
+#include "modes.h"
 #include "quiz.h"
-#include "shelf.h"
 #include "sliders.h"
 
 #include <math.h>
@@ -144,7 +142,7 @@ static void explain_to(app_state *app, sl_point at) {
     if (!app->tool.quiz.answered) return;
     char text[sizeof app->ui.message];
     quiz_words(app, text, sizeof text);
-    app_say(app, false, "Cell %u: %.440s", to, text);
+    ui_say(&app->ui, false, "Cell %u: %.440s", to, text);
 }
 
 void input_press(app_state *app, button_kind button, sl_point at) {
@@ -170,8 +168,8 @@ void input_press(app_state *app, button_kind button, sl_point at) {
         drag->kind = button == BUTTON_MIDDLE ? DRAG_LOOK : DRAG_PAN;
 }
 
-static void drag_end(app_state *app, uint32_t index, sl_point at) {
-    lesson_state *lesson = &app->tool.lesson;
+static void drag_end(tool_state *tool, uint32_t index, sl_point at) {
+    lesson_state *lesson = &tool->lesson;
     if (index >= 2 * lesson->end_count) return;
     sl_portal_ends *ends = &lesson->ends[index / 2];
     const sl_portal_ends before = *ends;
@@ -207,7 +205,7 @@ void input_move(app_state *app, sl_point to) {
         pane_plan_drag_line(app, before, now);
         break;
     case DRAG_END:
-        if (drag->moved) drag_end(app, drag->index, now);
+        if (drag->moved) drag_end(&app->tool, drag->index, now);
         break;
     case DRAG_MIRROR:
         if (drag->moved) mirror_move(app, drag, now);

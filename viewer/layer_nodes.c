@@ -1,6 +1,6 @@
 /// The hierarchy's nodes as a walk without visible sets classifies them, frame by frame, in the
 /// colours of Bittner & Havran 2002, Figure 12.
-#include "layer_nodes.h"
+#include "layers.h"
 
 #include "app.h"
 #include "sightline/canvas.h"
@@ -123,7 +123,7 @@ void layer_nodes_key(app_state *app, const sl_frame *frame) {
     const sl_walk_frame *f = &layer->frame;
     snprintf(text, sizeof text, "%u tests for %u nodes, %u occluders", f->tests, f->visited,
              f->occluders);
-    layers_draw_key(app, frame, rows, KINDS, text);
+    layers_draw_key(&app->ui, frame, rows, KINDS, text);
 }
 
 void layer_nodes(app_state *app, const sl_frame *frame, int index) {

@@ -1,7 +1,7 @@
 /// Cells by who sees whom, of the eye's cell; and the region from which the eye itself is seen. A
 /// line of sight is the same both ways but for the glass on it, so that the region is what an eye
 /// with all glass turned round would see.
-#include "layer_watch.h"
+#include "layers.h"
 
 #include "app.h"
 #include "sightline/canvas.h"
@@ -92,8 +92,8 @@ static sl_status follow(app_state *app) {
     return make(app, layer);
 }
 
-static legend_row row_of(const app_state *app, const watch_layer *layer, kind k) {
-    const sl_palette *palette = &app->ui.palette;
+static legend_row row_of(const ui_state *ui, const watch_layer *layer, kind k) {
+    const sl_palette *palette = &ui->palette;
     const legend_row rows[KINDS] = {
         [SEES] = {"the eye's cell sees them", palette->glass, 0.45, layer->counts[SEES]},
         [MUTUAL] = {"both see each other", palette->portal, 0.3, layer->counts[MUTUAL]},
@@ -108,7 +108,7 @@ void layer_watch(app_state *app, const sl_frame *frame, int index) {
     app_check(app, status);
     if (status != SL_OK) return;
     for (kind k = 0; k < KINDS; k++) {
-        const legend_row row = row_of(app, app->view.watch, k);
+        const legend_row row = row_of(&app->ui, app->view.watch, k);
         sl_draw_cell_set(app->ui.cairo, &app->document.baked->space, frame,
                          app->view.watch->sets[k], NULL, row.colour, row.opacity);
     }
@@ -119,6 +119,6 @@ void layer_watch_key(app_state *app, const sl_frame *frame) {
     const watch_layer *layer = app->view.watch;
     if (!layer || !layer->made) return;
     legend_row rows[KINDS];
-    for (kind k = 0; k < KINDS; k++) rows[k] = row_of(app, layer, k);
-    layers_draw_key(app, frame, rows, KINDS, "Purple region: from there the eye is seen.");
+    for (kind k = 0; k < KINDS; k++) rows[k] = row_of(&app->ui, layer, k);
+    layers_draw_key(&app->ui, frame, rows, KINDS, "Purple region: from there the eye is seen.");
 }

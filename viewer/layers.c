@@ -1,6 +1,6 @@
 #include "layers.h"
 
-#include "panes.h"
+#include "modes.h"
 #include "sightline/canvas.h"
 #include "sightline/support.h"
 
@@ -27,9 +27,8 @@ bool layers_shows(const app_state *app, unsigned layer) {
     return app->view.show >> layer & 1 && layers_lists(app, layer);
 }
 
-void layers_draw_key(app_state *app, const sl_frame *frame, const legend_row *key, int count,
+void layers_draw_key(ui_state *ui, const sl_frame *frame, const legend_row *key, int count,
                      const char *line) {
-    ui_state *ui = &app->ui;
     const double t = ui->text, left = frame->left + t, row = 1.5 * t;
     const int lines = count + (line != NULL);
     const double bottom = frame->top + frame->height - t, top = bottom - lines * row - 0.6 * t;
@@ -111,11 +110,11 @@ void layer_region(app_state *app, const sl_frame *frame, int index) {
 
 // --- culling
 
-sl_colour pane_method_colour(const app_state *app, size_t method) {
+sl_colour pane_method_colour(const ui_state *ui, size_t method) {
     size_t count;
     sl_eye_methods(&count);
     const double share = count > 1 ? (double)method / (double)(count - 1) : 1;
-    return sl_palette_ramp(app->ui.dark, 0.10 + 0.66 * share);
+    return sl_palette_ramp(ui->dark, 0.10 + 0.66 * share);
 }
 
 /// All methods up to the chosen one, each in its colour where it is the last to keep a cell.
@@ -128,7 +127,7 @@ void layer_cull(app_state *app, const sl_frame *frame, int index) {
         const size_t loose = other_is_loose ? app->view.other : app->view.method;
         const size_t tight = other_is_loose ? app->view.method : app->view.other;
         sl_draw_cell_set(cairo, space, frame, seen->methods[tight].cells, NULL,
-                         pane_method_colour(app, tight), 0.75);
+                         pane_method_colour(&app->ui, tight), 0.75);
         sl_draw_cell_set(cairo, space, frame, seen->methods[loose].cells,
                          seen->methods[tight].cells, app->ui.palette.start, 0.6);
         return;
@@ -136,7 +135,7 @@ void layer_cull(app_state *app, const sl_frame *frame, int index) {
     const size_t last = index ? app->view.other : app->view.method;
     if (app->view.compare == COMPARE_PANES) {
         sl_draw_cell_set(cairo, space, frame, seen->methods[last].cells, NULL,
-                         pane_method_colour(app, last), 0.8);
+                         pane_method_colour(&app->ui, last), 0.8);
         return;
     }
     sl_draw_cell_set(cairo, space, frame, seen->methods[last].mirrored, seen->methods[last].cells,
@@ -145,7 +144,7 @@ void layer_cull(app_state *app, const sl_frame *frame, int index) {
         if (seen->methods[i].known || i == last)
             sl_draw_cell_set(cairo, space, frame, seen->methods[i].cells,
                              i < last ? seen->methods[i + 1].cells : NULL,
-                             pane_method_colour(app, i), 0.8);
+                             pane_method_colour(&app->ui, i), 0.8);
 }
 
 // --- the stab tree
@@ -170,7 +169,7 @@ static bool make_tree(app_state *app) {
     if (app->view.tree && app->view.tree_version == app->view.present.version &&
         app->view.tree_cell == cell && app->view.tree_dark == app->ui.dark)
         return true;
-    sl_scene_free(app->context, app->view.tree);
+    sl_scene_destroy(app->context, app->view.tree);
     app->view.tree = NULL;
     sl_draw_options options = sl_draw_options_default();
     options.layers = SL_LAYER_STAB_TREE;

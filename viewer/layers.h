@@ -6,6 +6,7 @@
 #include "sightline/canvas.h"
 #include "sightline/effects.h"
 #include "sightline/region.h"
+#include "ui.h"
 
 typedef struct app_state app_state;
 
@@ -83,7 +84,7 @@ typedef struct legend_row {
 } legend_row;
 
 /// A key in the lower left of the plan, with a line under its rows; NULL for none.
-void layers_draw_key(app_state *app, const sl_frame *frame, const legend_row *rows, int count,
+void layers_draw_key(ui_state *ui, const sl_frame *frame, const legend_row *rows, int count,
                      const char *line);
 
 /// Draws a region, arcs as arcs.
@@ -98,5 +99,14 @@ void layer_nodes(app_state *app, const sl_frame *frame, int index);
 void layer_nodes_key(app_state *app, const sl_frame *frame); ///< its colours and counts
 void layer_watch(app_state *app, const sl_frame *frame, int index);
 void layer_watch_key(app_state *app, const sl_frame *frame);
+
+typedef struct node_layer node_layer;
+
+void node_layer_destroy(sl_context *context, node_layer *layer); ///< NULL: nothing
+
+/// What the layer keeps from frame to frame.
+typedef struct watch_layer watch_layer;
+
+void watch_layer_destroy(sl_context *context, watch_layer *layer); ///< NULL: nothing
 
 #endif

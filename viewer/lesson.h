@@ -3,13 +3,13 @@
 #ifndef VIEWER_LESSON_H
 #define VIEWER_LESSON_H
 
-#include "cell_to_cell/pass.h"
+#include "cell_to_cell/pass.h" // private: lessons show the inside of the library
 #include "document.h"
 #include "sightline/canvas.h"
 #include "sightline/dual.h"
 #include "sightline/steps.h"
 #include "sightline/support.h"
-#include "space/mesh_steps.h"
+#include "space/mesh_steps.h" // private, likewise
 
 typedef struct app_state app_state;
 typedef struct lesson_state lesson_state;

@@ -1,8 +1,8 @@
 /// The lesson of the subdivision: the splits of a kd-tree in the order in which they are made; or
 /// of a mesh the triangulation, and its sides as they are taken out or have to stay.
 #include "app.h"
-#include "draw/lesson.h"
-#include "geometry/orient.h"
+#include "draw/lesson.h"     // private: the lesson shows the inside of the library
+#include "geometry/orient.h" // private: the exact predicate
 #include "sightline/canvas.h"
 
 #include <math.h>

@@ -1,12 +1,10 @@
 /// sightline-view: its arguments, and how it ends: 0 done, 1 the work failed (no display), 2 the
 /// arguments or an input file are wrong.
 #include "bench.h"
+#include "files.h"
 #include "save.h"
 #include "script.h"
-#include "settings.h"
-#include "shelf.h"
 #include "sightline/support.h"
-#include "soak.h"
 #include "window.h"
 
 #include <getopt.h>

@@ -1,12 +1,15 @@
-/// The buttons at the top, the line at the bottom, the time line.
-#include "panes.h"
-
+/// The bars at the top and at the bottom, the time line of the lesson, and what lies over all: the
+/// help and the list of maps.
 #include "actions.h"
+#include "files.h"
+#include "modes.h"
 #include "sightline/canvas.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+// --- bars
 
 static double put_button(app_state *app, double x, const char *name) {
     size_t count;
@@ -120,4 +123,106 @@ void pane_time(app_state *app, sl_box box) {
     const sl_box line = {{x + t, y}, {left - 1.1 * t, y + 1.6 * t}};
     if (box_width(line) < 3 * t) return;
     ui_slider(ui, line, length > 1 ? (double)lesson->at / (double)(length - 1) : 0, HIT_TIME, 0);
+}
+
+// --- over all
+
+static sl_box begin_sheet(ui_state *ui, double width, double height, const char *title) {
+    const double t = ui->text;
+    const sl_box all = {{0, 0}, {ui->width, ui->height}};
+    ui_hit(ui, HIT_PANEL, 1, all);
+    const sl_colour dim = ui->palette.dark ? ui->palette.page : ui->palette.ink;
+    cairo_set_source_rgba(ui->cairo, dim.red, dim.green, dim.blue, 0.45);
+    cairo_paint(ui->cairo);
+    const double w = fmin(width, ui->width - 2 * t), h = fmin(height, ui->height - 2 * t);
+    const sl_box sheet = {{floor((ui->width - w) / 2), floor((ui->height - h) / 2)},
+                          {floor((ui->width + w) / 2), floor((ui->height + h) / 2)}};
+    ui_fill_round(ui, sheet, 0.6 * t, ui->palette.page);
+    ui_text(ui, sheet.min.x + 1.5 * t, sheet.min.y + 2.2 * t, 1.3, true, ui->palette.ink, title);
+    return sheet;
+}
+
+enum { MOUSE = 4 };
+
+void pane_help(app_state *app) {
+    ui_state *ui = &app->ui;
+    const double t = ui->text;
+    size_t count, shown = 0;
+    const action_row *actions = action_table(&count);
+    for (size_t i = 0; i < count; i++) shown += actions[i].key != NULL;
+    const sl_box sheet =
+        begin_sheet(&app->ui, 74 * t, 44 * t, "Keys and mouse; a click on a line does it");
+    const int columns = 2;
+    const size_t rows = (shown + MOUSE + columns - 1) / columns;
+    const double top = sheet.min.y + 3.4 * t, column = (box_width(sheet) - 2 * t) / columns;
+    const double high = fmin(1.55 * t, (sheet.max.y - top - 1.2 * t) / (double)rows);
+    const double size = fmin(1, high / (1.3 * t));
+    static const char *const mouse[MOUSE][2] = {
+        {"Drag", "pan; middle button: look"},
+        {"Wheel", "zoom to the pointer"},
+        {"Click", "puts the eye; right: why is a cell seen or not?"},
+        {"On things", "drag a mirror, an object; click on a door, an object"},
+    };
+    size_t at = 0;
+    for (size_t i = 0; i < count + MOUSE; i++) {
+        const char *key = i < MOUSE ? mouse[i][0] : actions[i - MOUSE].key;
+        const char *help = i < MOUSE ? mouse[i][1] : actions[i - MOUSE].help;
+        if (!key) continue;
+        const double x = sheet.min.x + 1.5 * t + column * (double)(at / rows);
+        const double y = top + high * ((double)(at % rows) + 0.7);
+        const sl_box row = {{x - 0.4 * t, y - 0.75 * high}, {x + column - t, y + 0.25 * high}};
+        if (i >= MOUSE && actions[i - MOUSE].run) {
+            if (box_has(row, ui->pointer))
+                ui_fill_round(ui, row, 0.25 * t,
+                              sl_colour_mix(ui->palette.page, ui->palette.glass, 0.2));
+            ui_hit(ui, HIT_ACTION, (int)i - MOUSE, row);
+        }
+        ui_text(ui, x, y, size, true, ui->palette.glass, key);
+        sl_text_show_within(ui->cairo, ui->palette.ink, x + 7.2 * t * size, y,
+                            column - 7.6 * t * size, size * t, false, help);
+        at++;
+    }
+}
+
+static void draw_row(app_state *app, sl_box row, size_t i, const char *name) {
+    ui_state *ui = &app->ui;
+    const double t = ui->text;
+    const bool over = box_has(row, ui->pointer);
+    if (over || i == app->shelf.at)
+        ui_fill_round(ui, row, 0.3 * t,
+                      sl_colour_mix(ui->palette.page, ui->palette.glass, over ? 0.25 : 0.14));
+    sl_text_show_within(ui->cairo, ui->palette.ink, row.min.x + 0.6 * t, row.min.y + 1.3 * t,
+                        box_width(row) - 1.2 * t, t, false, name);
+    ui_hit(ui, HIT_MAP, (int)i, row);
+}
+
+/// Rows go down one column after the other; of a long list the part that has the row chosen shows.
+void pane_maps(app_state *app) {
+    ui_state *ui = &app->ui;
+    const double t = ui->text, high = 1.9 * t;
+    const sl_map_list *list = shelf_list(&app->shelf);
+    const bool maps = list == &app->shelf.maps;
+    const double columns =
+        fmin(fmax(ceil(high * (double)list->count / (app->ui.height - 8 * t)), 1),
+             fmax(floor(app->ui.width / (22 * t)), 1));
+    const double rows = fmax(ceil((double)list->count / columns), 1);
+    const sl_box sheet = begin_sheet(&app->ui, fmax(40, 22 * columns) * t, 4.6 * t + high * rows,
+                                     maps ? "Which of its maps?" : "Maps at hand");
+    const double top = sheet.min.y + 3.3 * t, width = (box_width(sheet) - 2 * t) / columns;
+    const size_t fit = (size_t)fmax(floor((sheet.max.y - top) / high), 1);
+    const size_t page = fit * (size_t)columns;
+    if (!list->count)
+        ui_text(ui, sheet.min.x + 1.5 * t, top + t, 1, false, ui->palette.faint,
+                "None. Drop a file on the window.");
+    map_shelf *shelf = &app->shelf;
+    if (shelf->at < shelf->first) shelf->first = shelf->at;
+    if (shelf->at >= shelf->first + page) shelf->first = shelf->at - page + 1;
+    for (size_t i = shelf->first; i < list->count && i < shelf->first + page; i++) {
+        const size_t place = i - shelf->first;
+        const double x = sheet.min.x + t + width * (double)(place / fit);
+        const double y = top + high * (double)(place % fit);
+        const char *slash = maps ? NULL : strrchr(list->names[i], '/');
+        draw_row(app, (sl_box){{x, y}, {x + width, y + high}}, i,
+                 slash ? slash + 1 : list->names[i]);
+    }
 }

@@ -1,6 +1,6 @@
 /// What the eye sees, in first person: the walls of the cells that the chosen method keeps, the
 /// nearest of them in each column of pixels.
-#include "panes.h"
+#include "modes.h"
 
 #include "sightline/canvas.h"
 
@@ -70,14 +70,13 @@ static void add_room(viewer *v, const sl_outline *outline, uint32_t room, double
 }
 
 /// The walls of the rooms that have a part of a cell that is seen, each room once.
-static void add_cells(const app_state *app, viewer *v, double near) {
-    const sl_outline *outline = app->view.present.outline;
-    const seen_method *method = &app->view.seen.methods[app->view.method];
+static void add_cells(const view_state *view, viewer *v, double near) {
+    const sl_outline *outline = view->present.outline;
+    const seen_method *method = &view->seen.methods[view->method];
     bool *added = calloc(outline->room_count, sizeof *added);
     if (!added) return;
     for (uint32_t cell = 0; cell < outline->space->cell_count; cell++) {
-        if (!sl_eye_sees(method->cells,
-                         app->view.present.parents ? app->view.present.parents[cell] : cell))
+        if (!sl_eye_sees(method->cells, view->present.parents ? view->present.parents[cell] : cell))
             continue;
         for (uint32_t i = outline->first_part[cell]; i < outline->first_part[cell + 1]; i++) {
             const uint32_t room = outline->parts[i];
@@ -90,9 +89,9 @@ static void add_cells(const app_state *app, viewer *v, double near) {
 }
 
 /// Columns of one wall make one shape, whose upper and lower edges are straight.
-static void draw_columns(app_state *app, const viewer *v, sl_box box, double high, double wide) {
-    cairo_t *cairo = app->ui.cairo;
-    const sl_palette *palette = &app->ui.palette;
+static void draw_columns(ui_state *ui, const viewer *v, sl_box box, double high, double wide) {
+    cairo_t *cairo = ui->cairo;
+    const sl_palette *palette = &ui->palette;
     const double middle = (box.min.y + box.max.y) / 2;
     for (int first = 0, end; first < v->columns; first = end) {
         for (end = first + 1; end < v->columns && v->seen[end].wall == v->seen[first].wall &&
@@ -161,8 +160,8 @@ void pane_first_person(app_state *app, sl_box box) {
     if (app->document.baked && app->view.seen.valid &&
         app->view.seen.methods[app->view.method].known) {
         const double size = sqrt(app->document.area / fmax(app->document.counted, 1));
-        add_cells(app, &v, 1e-3 * size);
-        draw_columns(app, &v, box, 0.22 * size * v.focal, box_width(box) / v.columns);
+        add_cells(&app->view, &v, 1e-3 * size);
+        draw_columns(&app->ui, &v, box, 0.22 * size * v.focal, box_width(box) / v.columns);
         draw_count(app, &v, box);
     }
     ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, palette->outline);

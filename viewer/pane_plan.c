@@ -1,10 +1,9 @@
 /// The plan: what is kept from frame to frame, and over it what changes.
-#include "panes.h"
-
-#include "clock.h"
-#include "draw/lesson.h"
 #include "modes.h"
+
+#include "draw/lesson.h" // private: the layer of splits shows the inside of the library
 #include "sightline/canvas.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <string.h>
@@ -14,19 +13,19 @@
 
 // --- scenes
 
-static unsigned scene_layers(const app_state *app) {
-    return SL_LAYER_WALLS | (app->view.show & SHOW_CELLS ? SL_LAYER_CELLS : 0u) |
-           (app->view.show & SHOW_PORTALS ? SL_LAYER_PORTALS : 0u) |
-           (app->view.show & SHOW_STARTS ? SL_LAYER_STARTS : 0u);
+static unsigned scene_layers(const view_state *view) {
+    return SL_LAYER_WALLS | (view->show & SHOW_CELLS ? SL_LAYER_CELLS : 0u) |
+           (view->show & SHOW_PORTALS ? SL_LAYER_PORTALS : 0u) |
+           (view->show & SHOW_STARTS ? SL_LAYER_STARTS : 0u);
 }
 
 static bool make_scene(app_state *app) {
-    const unsigned layers = scene_layers(app);
+    const unsigned layers = scene_layers(&app->view);
     const uint32_t key = layers | (app->ui.dark ? 1024u : 0u);
     if (app->view.scene && app->view.scene_version == app->document.version &&
         app->view.scene_show == key)
         return true;
-    sl_scene_free(app->context, app->view.scene);
+    sl_scene_destroy(app->context, app->view.scene);
     app->view.scene = NULL;
     sl_draw_options options = sl_draw_options_default();
     options.layers = layers;
@@ -44,7 +43,8 @@ static bool make_scene(app_state *app) {
 
 /// What is below all that changes: cells, portals, view cells, splits.
 static void draw_under(app_state *app, cairo_t *cairo, const sl_frame *frame) {
-    const unsigned layers = scene_layers(app) & ~(unsigned)(SL_LAYER_WALLS | SL_LAYER_STARTS);
+    const unsigned layers =
+        scene_layers(&app->view) & ~(unsigned)(SL_LAYER_WALLS | SL_LAYER_STARTS);
     sl_set_colour(cairo, app->ui.palette.page);
     cairo_paint(cairo);
     app_check(app, sl_draw_plan(app->context, cairo, app->view.scene, layers, frame));
@@ -67,7 +67,7 @@ static sl_frame at_origin(sl_frame frame) {
 
 static bool remake(app_state *app, kept_picture *kept, bool over, const sl_frame *local) {
     const int width = (int)ceil(local->width), height = (int)ceil(local->height);
-    const double before = clock_seconds();
+    const double before = sl_seconds();
     if (!kept->surface || cairo_image_surface_get_width(kept->surface) != width ||
         cairo_image_surface_get_height(kept->surface) != height) {
         if (kept->surface) cairo_surface_destroy(kept->surface);
@@ -85,7 +85,7 @@ static bool remake(app_state *app, kept_picture *kept, bool over, const sl_frame
     }
     const bool good = cairo_status(cairo) == CAIRO_STATUS_SUCCESS;
     cairo_destroy(cairo);
-    kept->seconds = clock_seconds() - before;
+    kept->seconds = sl_seconds() - before;
     return good;
 }
 
@@ -120,7 +120,7 @@ static void show_kept(app_state *app, kept_picture *kept, bool over, const sl_fr
     memset(&now.key, 0, sizeof now.key);
     now.key.version = app->document.version;
     now.key.touched = over ? app->document.touched : 0;
-    now.key.show = scene_layers(app) | (app->view.show & SHOW_SPLITS && !over ? 2048u : 0u);
+    now.key.show = scene_layers(&app->view) | (app->view.show & SHOW_SPLITS && !over ? 2048u : 0u);
     now.key.depth = app->view.show & SHOW_SPLITS && !over ? app->view.split_depth : 0;
     now.key.dark = app->ui.dark;
     if (!over && layers_shows(app, LAYER_VIEWS)) {

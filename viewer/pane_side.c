@@ -1,9 +1,9 @@
-/// The panel at the right: what can be shown, what each method keeps, what the pointer is over.
-#include "panes.h"
-
+/// The panel at the right: what can be shown, what each method keeps, what the pointer is over. In
+/// its place in other modes: pseudo-code, the question, walls. And lines as points: the dual plane
+/// of the lesson's portal sequence, linked with the plan.
 #include "actions.h"
-#include "doors.h"
-#include "objects.h"
+#include "effects.h"
+#include "modes.h"
 #include "quiz.h"
 #include "sightline/canvas.h"
 #include "sliders.h"
@@ -12,20 +12,20 @@
 #include <stdio.h>
 #include <string.h>
 
+// --- the panel
+
 typedef struct column {
     double left, right, y, bottom;
 } column;
 
-static column begin_panel(app_state *app, sl_box box) {
-    ui_state *ui = &app->ui;
+static column begin_panel(ui_state *ui, sl_box box) {
     ui_fill(ui, box, ui->palette.page);
     ui_line(ui, box.min.x + 0.5, box.min.y, box.min.x + 0.5, box.max.y, ui->palette.outline);
     ui_hit(ui, HIT_PANEL, 0, box);
     return (column){box.min.x + 1.1 * ui->text, box.max.x - 1.1 * ui->text, box.min.y, box.max.y};
 }
 
-static void heading(app_state *app, column *c, const char *text, const char *right) {
-    ui_state *ui = &app->ui;
+static void heading(ui_state *ui, column *c, const char *text, const char *right) {
     c->y += 1.9 * ui->text;
     ui_text(ui, c->left, c->y, 1, true, ui->palette.ink, text);
     if (right) ui_text_right(ui, c->right, c->y, 0.9, ui->palette.faint, right);
@@ -63,7 +63,7 @@ static void button_row(app_state *app, column *c, const char *const *names) {
 
 /// The layers that have their place in the present mode.
 static void layer_rows(app_state *app, column *c) {
-    heading(app, c, "Layers", "key");
+    heading(&app->ui, c, "Layers", "key");
     for (unsigned i = 0; i < LAYER_COUNT; i++)
         if (layers_lists(app, i)) check_row(app, c, layer_table()[i].name);
 }
@@ -153,7 +153,7 @@ static void draw_methods(app_state *app, column *c) {
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
     const double unit = (c->right - c->left) / 22, t = ui->text, size = figure_size(ui, unit);
-    heading(app, c, "What is kept", NULL);
+    heading(&app->ui, c, "What is kept", NULL);
     c->y -= 0.55 * t;
     ui_text_right(ui, c->left + 12.3 * unit, c->y, 0.9 * size, ui->palette.faint, "cells");
     ui_text_right(ui, c->left + 16.3 * unit, c->y, 0.9 * size, ui->palette.faint, "area");
@@ -163,7 +163,7 @@ static void draw_methods(app_state *app, column *c) {
     for (size_t i = 0; i < count && i < SEEN_MOST; i++) {
         const seen_method *m = &app->view.seen.methods[i];
         const method_row row = {.name = methods[i].name,
-                                .colour = pane_method_colour(app, i),
+                                .colour = pane_method_colour(&app->ui, i),
                                 .known = app->view.seen.valid && m->known,
                                 .chosen = i == app->view.method,
                                 .other = app->view.compare && i == app->view.other,
@@ -316,13 +316,13 @@ static void draw_words(app_state *app, column *c) {
         object_describe(app, object, text, sizeof text);
     else
         pane_describe(app, at, text, sizeof text);
-    heading(app, c, over ? "Under the pointer" : "Under the eye", NULL);
+    heading(&app->ui, c, over ? "Under the pointer" : "Under the eye", NULL);
     c->y = ui_paragraph(&app->ui, c->left, c->y + 0.7 * app->ui.text, c->right - c->left, 0.95,
                         app->ui.palette.ink, text);
 }
 
 void pane_side(app_state *app, sl_box box) {
-    column c = begin_panel(app, box);
+    column c = begin_panel(&app->ui, box);
     layer_rows(app, &c);
     check_row(app, &c, "first_person");
     check_row(app, &c, "account");
@@ -371,13 +371,13 @@ static void draw_account(app_state *app, column *c) {
     if (!lesson_shows(lesson, &app->document)) return;
     if (subject->account) {
         subject->account(lesson, text);
-        heading(app, c, "So far", NULL);
+        heading(&app->ui, c, "So far", NULL);
         c->y = ui_paragraph(&app->ui, c->left, c->y + 0.7 * app->ui.text, c->right - c->left, 1,
                             app->ui.palette.ink, text) -
                0.9 * app->ui.text;
     }
     if (!lesson->end_count) return;
-    heading(app, c, "The line", lesson->dragged ? "ends were dragged" : NULL);
+    heading(&app->ui, c, "The line", lesson->dragged ? "ends were dragged" : NULL);
     const double margin =
         sl_dual_margin(&lesson->dual, lesson->ends, lesson->end_count, lesson->line);
     snprintf(text, sizeof text,
@@ -391,8 +391,8 @@ static void draw_account(app_state *app, column *c) {
 }
 
 void pane_learn(app_state *app, sl_box box) {
-    column c = begin_panel(app, box);
-    heading(app, &c, lesson_subject(&app->tool.lesson)->title, NULL);
+    column c = begin_panel(&app->ui, box);
+    heading(&app->ui, &c, lesson_subject(&app->tool.lesson)->title, NULL);
     draw_code(app, &c);
     static const char *const other[] = {"subject", NULL};
     button_row(app, &c, other);
@@ -404,22 +404,22 @@ void pane_learn(app_state *app, sl_box box) {
 
 // --- drawing walls
 
-static void rule(app_state *app, column *c, const char *text) {
-    c->y = ui_paragraph(&app->ui, c->left, c->y + 0.35 * app->ui.text, c->right - c->left, 0.95,
-                        app->ui.palette.ink, text);
+static void rule(ui_state *ui, column *c, const char *text) {
+    c->y = ui_paragraph(ui, c->left, c->y + 0.35 * ui->text, c->right - c->left, 0.95,
+                        ui->palette.ink, text);
 }
 
 void pane_draw(app_state *app, sl_box box) {
-    column c = begin_panel(app, box);
+    column c = begin_panel(&app->ui, box);
     char text[160];
-    heading(app, &c, "Walls", NULL);
+    heading(&app->ui, &c, "Walls", NULL);
     c.y += 0.7 * app->ui.text;
-    rule(app, &c, "Drag on free ground: a new wall, in any direction, its ends on the grid.");
-    rule(app, &c, "Drag a wall: moves it. Click: chooses it. Delete: deletes it.");
+    rule(&app->ui, &c, "Drag on free ground: a new wall, in any direction, its ends on the grid.");
+    rule(&app->ui, &c, "Drag a wall: moves it. Click: chooses it. Delete: deletes it.");
     snprintf(text, sizeof text, "%zu walls; %zu step%s to undo, %zu to redo.",
              app->document.map.wall_count, app->document.history.done_count,
              app->document.history.done_count == 1 ? "" : "s", app->document.history.undone_count);
-    rule(app, &c, text);
+    rule(&app->ui, &c, text);
     layer_rows(app, &c);
     draw_methods(app, &c);
     draw_words(app, &c);
@@ -428,16 +428,16 @@ void pane_draw(app_state *app, sl_box box) {
 // --- the quiz
 
 void pane_quiz(app_state *app, sl_box box) {
-    column c = begin_panel(app, box);
+    column c = begin_panel(&app->ui, box);
     ui_state *ui = &app->ui;
     const quiz_state *q = &app->tool.quiz;
     const double t = ui->text;
     char text[512];
     snprintf(text, sizeof text, "%u of %u right", q->right_count, q->asked_count);
-    heading(app, &c, "Seen or not?", q->asked_count ? text : NULL);
+    heading(&app->ui, &c, "Seen or not?", q->asked_count ? text : NULL);
     if (!q->asked) {
         c.y += 0.7 * t;
-        rule(app, &c, "Space asks about two cells. The visibility must be there first.");
+        rule(&app->ui, &c, "Space asks about two cells. The visibility must be there first.");
         return;
     }
     snprintf(text, sizeof text, "Can the orange cell %u see the purple cell %u?", q->from, q->to);
@@ -451,4 +451,68 @@ void pane_quiz(app_state *app, sl_box box) {
     quiz_words(app, text, sizeof text);
     c.y = ui_paragraph(ui, c.left, c.y + t, c.right - c.left, 1, ui->palette.ink, text) + t;
     ui_button(ui, x, c.y, 2 * t, "Next (Space)", false, action_find("next_question"));
+}
+
+// --- the dual plane
+
+static sl_dual_frame frame_of(const app_state *app, sl_box box) {
+    const double t = ui_text_size(&app->ui);
+    return sl_dual_frame_fit(&app->tool.lesson.before, box.min.x + 0.9 * t, box.min.y + 2.2 * t,
+                             fmax(box_width(box) - 1.8 * t, 8), fmax(box_height(box) - 4.1 * t, 8),
+                             ui_scale(&app->ui));
+}
+
+void pane_dual(app_state *app, sl_box box) {
+    ui_state *ui = &app->ui;
+    const double t = ui->text;
+    const lesson_state *lesson = &app->tool.lesson;
+    ui_fill(ui, box, ui->palette.page);
+    ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, ui->palette.outline);
+    ui_hit(ui, HIT_PANEL, 0, box);
+    const double x = ui_text(ui, box.min.x + 0.9 * t, box.min.y + 1.5 * t, 1, true, ui->palette.ink,
+                             "Lines as points");
+    char text[160];
+    if (lesson->end_count)
+        snprintf(text, sizeof text, "%u half-planes: %s", 2 * lesson->end_count,
+                 lesson->dual.corner_count ? "what all leave is green" : "nothing is left");
+    else
+        snprintf(text, sizeof text, "no portal is crossed yet: every line counts");
+    ui_text(ui, box.min.x + 1.7 * t + x, box.min.y + 1.5 * t, 0.95, false, ui->palette.faint, text);
+    if (!lesson->end_count) return;
+    const sl_dual_frame frame = frame_of(app, box);
+    sl_draw_dual(ui->cairo, &ui->palette, &frame, &lesson->dual, lesson->ends, lesson->end_count,
+                 lesson->line);
+    const double base = frame.top + frame.height + 1.2 * t;
+    sl_text_show_within(
+        ui->cairo, ui->palette.faint, frame.left, base, frame.width, 0.85 * t, false,
+        "slope \xe2\x86\x92   height \xe2\x86\x91   blue: left ends, from above   orange: "
+        "right ends, from below   bar: the best line and its margin");
+    ui_hit(ui, HIT_DUAL, 0,
+           (sl_box){{frame.left, frame.top}, {frame.left + frame.width, frame.top + frame.height}});
+}
+
+void pane_dual_drag(app_state *app, sl_box box, sl_point to) {
+    if (!app->tool.lesson.end_count) return;
+    const sl_dual_frame frame = frame_of(app, box);
+    const sl_dual_line line = sl_dual_frame_line(&frame, to);
+    app->tool.lesson.line.slope = fmin(fmax(line.slope, -SL_DUAL_SLOPE), SL_DUAL_SLOPE);
+    app->tool.lesson.line.height = fmin(fmax(line.height, -SL_DUAL_HEIGHT), SL_DUAL_HEIGHT);
+}
+
+/// Near an end of what is shown the line turns about the other end; between them it is shifted.
+void pane_plan_drag_line(app_state *app, sl_point from, sl_point to) {
+    lesson_state *lesson = &app->tool.lesson;
+    if (!lesson->end_count) return;
+    const sl_point a = sl_dual_point(&lesson->dual, from), b = sl_dual_point(&lesson->dual, to);
+    sl_dual_line *line = &lesson->line;
+    const double pivot = a.x > 0.35 ? -1 : a.x < -0.35 ? 1 : 0;
+    if (pivot == 0) {
+        line->height += (b.y - line->slope * b.x) - line->height;
+    } else if (fabs(b.x - pivot) > 0.05) {
+        const double at = line->slope * pivot + line->height;
+        const double slope = (b.y - at) / (b.x - pivot);
+        line->slope = fmin(fmax(slope, -SL_DUAL_SLOPE), SL_DUAL_SLOPE);
+        line->height = at - line->slope * pivot;
+    }
+    line->height = fmin(fmax(line->height, -SL_DUAL_HEIGHT), SL_DUAL_HEIGHT);
 }

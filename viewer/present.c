@@ -1,7 +1,6 @@
 #include "present.h"
 
-#include "cell_to_cell/pvs_rows.h"
-#include "geometry/orient.h"
+#include "geometry/orient.h" // private: the exact predicate
 #include "sightline/support.h"
 
 #include <string.h>
@@ -79,7 +78,8 @@ void present_drop(sl_context *context, present_state *present) {
 static void add_row(const present_state *present, const sl_pvs *pvs, const sl_door_sets *doors,
                     uint32_t cell, sl_bits *set) {
     if (!present->has_rows || cell >= pvs->cell_count) return;
-    sl_row_add_to(pvs, cell, set);
+    for (sl_pvs_run r = sl_pvs_begin(pvs, cell); sl_pvs_next(&r);)
+        for (uint32_t i = r.first; i < r.end; i++) sl_bits_add(set, i);
     if (!doors->cell_count || !present->shut) return;
     for (sl_door_pairs p = sl_door_pairs_begin(doors, cell); sl_door_pairs_next(&p, present->shut);)
         if (!p.open) set[p.cell / 64] &= ~((sl_bits)1 << p.cell % 64);
@@ -108,25 +108,49 @@ bool present_sees(const present_state *present, const document_state *document, 
 typedef void (*add_function)(const present_state *present, const document_state *document,
                              uint32_t cell, sl_bits *set);
 
+/// A number in LEB128; returns its end.
+static uint8_t *put_number(uint8_t *out, uint32_t number) {
+    for (; number >= 128; number >>= 7) *out++ = (uint8_t)(number | 128);
+    *out++ = (uint8_t)number;
+    return out;
+}
+
+/// A set of `count` cells as the runs of a row (sl_pvs); returns its end. Without `out` it only
+/// counts: a number has at most 5 bytes.
+static size_t encode_row(const sl_bits *set, uint32_t count, uint8_t *out) {
+    uint8_t *at = out;
+    size_t numbers = 0;
+    uint32_t first = 0, behind = 0; // of the run; behind the last one
+    for (uint32_t i = 0; i < count; i++) {
+        if (!sl_bits_has(set, i)) continue;
+        for (first = i; i < count && sl_bits_has(set, i);) i++;
+        numbers += 2;
+        if (out) at = put_number(put_number(at, first - behind), i - first);
+        behind = i;
+    }
+    return out ? (size_t)(at - out) : 5 * numbers;
+}
+
 /// What the eye's cell sees, as rows of which the others are empty.
 static sl_status make_row(sl_context *context, const present_state *present,
                           const document_state *document, add_function add, uint32_t cell,
                           sl_pvs *out) {
     const uint32_t count = document->baked->space.cell_count;
-    sl_row_bytes *rows = sl_alloc_array(context, count, sizeof *rows);
+    sl_pvs made = {.cell_count = count};
     sl_bits *set = sl_alloc_array(context, sl_bits_words(count), sizeof *set);
-    sl_status status = rows && set ? SL_OK : SL_NO_MEMORY;
-    if (status == SL_OK && cell != SL_NO_CELL) {
-        add(present, document, cell, set);
-        status = sl_row_append(context, &rows[cell], set, count);
+    if (set && cell != SL_NO_CELL) add(present, document, cell, set);
+    made.offsets = sl_alloc_array(context, (size_t)count + 1, sizeof *made.offsets);
+    if (set) made.bytes = sl_alloc_array(context, encode_row(set, count, NULL), 1);
+    const bool good = set && made.offsets && made.bytes;
+    if (good) {
+        const size_t size = encode_row(set, count, made.bytes);
+        for (uint32_t i = 0; i <= count; i++) made.offsets[i] = i > cell ? size : 0;
+        *out = made;
+    } else {
+        sl_pvs_destroy(context, &made);
     }
-    if (status == SL_OK)
-        status = sl_pvs_join(context, rows, count, out);
-    else if (rows && cell != SL_NO_CELL)
-        sl_free(context, rows[cell].items);
-    sl_free(context, rows);
     sl_free(context, set);
-    return status;
+    return good ? SL_OK : SL_NO_MEMORY;
 }
 
 /// The search looks the row up again in each query.

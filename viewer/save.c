@@ -1,14 +1,80 @@
+/// What is kept of a session: recorded paths of the eye with their playback, and what is on the
+/// screen as files.
 #include "save.h"
 
 #include "account.h"
-#include "panes.h"
+#include "app.h"
+#include "modes.h"
 #include "sightline/canvas.h"
 #include "sightline/support.h"
 
 #include <errno.h>
+#include <math.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+// --- paths
+
+/// Ten minutes.
+enum { FRAMES_MOST = 36000 };
+
+static sl_status add(sl_context *context, path_recorder *recorder, record_frame frame) {
+    if (recorder->frames.count >= FRAMES_MOST) {
+        recorder->records = false;
+        return SL_OK;
+    }
+    SL_TRY(SL_ARRAY_ROOM(context, &recorder->frames, 1));
+    recorder->frames.items[recorder->frames.count++] = frame;
+    return SL_OK;
+}
+
+sl_status record_tick(sl_context *context, path_recorder *recorder, double seconds,
+                      record_frame now) {
+    if (!recorder->records) return SL_OK;
+    for (recorder->waited += seconds; recorder->waited >= RECORD_STEP * 0.999;
+         recorder->waited -= RECORD_STEP)
+        SL_TRY(add(context, recorder, now));
+    return SL_OK;
+}
+
+bool record_play(path_recorder *recorder, double seconds, record_frame *frame) {
+    if (!recorder->plays) return false;
+    recorder->waited += seconds;
+    const size_t steps = (size_t)(recorder->waited / RECORD_STEP + 0.001);
+    recorder->waited -= (double)steps * RECORD_STEP;
+    if (recorder->next >= recorder->frames.count) {
+        recorder->plays = false;
+        return false;
+    }
+    *frame = recorder->frames.items[recorder->next];
+    recorder->next += steps;
+    return true;
+}
+
+sl_status record_path(sl_context *context, path_recorder *recorder, const sl_path *path,
+                      double speed) {
+    recorder->frames.count = 0;
+    for (size_t i = 1; i < path->count; i++) {
+        const sl_point a = path->points[i - 1], b = path->points[i];
+        const double length = hypot(b.x - a.x, b.y - a.y);
+        const double heading = atan2(b.y - a.y, b.x - a.x) * (180 / 3.14159265358979323846);
+        const double steps = fmin(ceil(length / (speed * RECORD_STEP)), FRAMES_MOST);
+        for (double k = 0; k < steps; k++)
+            SL_TRY(
+                add(context, recorder,
+                    (record_frame){{a.x + (b.x - a.x) * k / steps, a.y + (b.y - a.y) * k / steps},
+                                   heading}));
+    }
+    return SL_OK;
+}
+
+void record_destroy(sl_context *context, path_recorder *recorder) {
+    sl_free(context, recorder->frames.items);
+    *recorder = (path_recorder){0};
+}
+
+// --- pictures
 
 static void draw_window(void *user, cairo_t *cairo) {
     app_draw(user, cairo);
@@ -52,12 +118,12 @@ void save_numbered(app_state *app, const char *ending) {
         sl_status status = save_plan(app, path);
         if (status == SL_OK && app->ui.accounts) status = account_save(app, chart);
         if (status == SL_OK)
-            app_say(app, false, "saved %s%s%s", path, app->ui.accounts ? " and " : "",
-                    app->ui.accounts ? chart : "");
+            ui_say(&app->ui, false, "saved %s%s%s", path, app->ui.accounts ? " and " : "",
+                   app->ui.accounts ? chart : "");
         app_check(app, status);
         return;
     }
-    app_say(app, true, "no free name for a picture in this folder");
+    ui_say(&app->ui, true, "no free name for a picture in this folder");
 }
 
 sl_status save_series(app_state *app, const char *folder, unsigned every) {
@@ -76,6 +142,6 @@ sl_status save_series(app_state *app, const char *folder, unsigned every) {
         snprintf(path, sizeof path, "%s/frame-%04u.png", folder, ++number);
         SL_TRY(save_window(app, path));
     }
-    app_say(app, false, "%u frames in %s", number, folder);
+    ui_say(&app->ui, false, "%u frames in %s", number, folder);
     return SL_OK;
 }

@@ -2,9 +2,9 @@
 
 #include "account.h"
 #include "actions.h"
+#include "files.h"
 #include "input.h"
 #include "save.h"
-#include "shelf.h"
 #include "sightline/support.h"
 
 #include <math.h>

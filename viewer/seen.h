@@ -1,4 +1,5 @@
-/// What the eye sees now, by every culling method, with what each cost.
+/// What the eye sees now, by every culling method, with what each cost; and what it sees in
+/// mirrors.
 #ifndef VIEWER_SEEN_H
 #define VIEWER_SEEN_H
 
@@ -46,5 +47,12 @@ sl_status seen_update(sl_context *context, seen_state *seen, const document_stat
 /// Whether two views are one.
 bool seen_same_view(const sl_view *a, const sl_view *b);
 void seen_destroy(sl_context *context, seen_state *seen);
+
+/// Sets, of each method, what is seen by mirror, and the parts of the region. Where that takes too
+/// long, cells are those that were baked, and parts those of fewer reflections.
+sl_status seen_look_into_mirrors(sl_context *context, seen_state *seen,
+                                 const document_state *document, const present_state *present);
+
+void seen_forget_mirrors(sl_context *context, seen_state *seen);
 
 #endif

@@ -1,9 +1,8 @@
 #include "sliders.h"
 
+#include "effects.h"
+#include "files.h"
 #include "layers.h"
-#include "mirrors.h"
-#include "range.h"
-#include "shelf.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -117,7 +116,7 @@ static bool has_range(const app_state *app) {
 }
 
 static double range_share(const app_state *app) {
-    return sqrt(fmin(app->document.map.range / range_most(app), 1));
+    return sqrt(fmin(app->document.map.range / range_most(&app->document), 1));
 }
 
 static void range_text(const app_state *app, char text[SLIDER_TEXT]) {
@@ -125,7 +124,7 @@ static void range_text(const app_state *app, char text[SLIDER_TEXT]) {
 }
 
 static void set_range(app_state *app, double share) {
-    range_set(app, share * share * range_most(app));
+    range_set(app, share * share * range_most(&app->document));
 }
 
 // --- how often a sightline is reflected

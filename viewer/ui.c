@@ -3,7 +3,17 @@
 #include "sightline/canvas.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
+
+void ui_say(ui_state *ui, bool error, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(ui->message, sizeof ui->message, format, arguments);
+    va_end(arguments);
+    ui->message_is_error = error;
+}
 
 void ui_hit(ui_state *ui, hit_kind kind, int value, sl_box box) {
     if (ui->hit_count < HITS_MOST) ui->hits[ui->hit_count++] = (hit_area){kind, value, box};

@@ -56,6 +56,10 @@ static inline double ui_text_size(const ui_state *ui) {
     return 13 * ui_scale(ui);
 }
 
+/// Says something in the status line.
+void ui_say(ui_state *ui, bool error, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
 void ui_hit(ui_state *ui, hit_kind kind, int value, sl_box box);
 /// What is at a place, the topmost; kind HIT_NONE for nothing.
 hit_area ui_find(const ui_state *ui, sl_point at);

@@ -1,8 +1,7 @@
 #include "window.h"
 
-#include "clock.h"
+#include "files.h"
 #include "input.h"
-#include "shelf.h"
 #include "sightline/support.h"
 
 #include <SDL.h>
@@ -188,7 +187,7 @@ static bool is_lively(const app_state *app) {
 
 sl_status window_run(app_window *w) {
     app_state *app = w->app;
-    double last = clock_seconds();
+    double last = sl_seconds();
     while (!app->quit) {
         SDL_Event event;
         // Nothing is drawn again while nothing happens.
@@ -199,12 +198,12 @@ sl_status window_run(app_window *w) {
             if (stale && event.type == SDL_MOUSEBUTTONDOWN) SL_TRY(window_show(w));
             take_event(w, &event);
         }
-        const double now = clock_seconds();
+        const double now = sl_seconds();
         const bool lively = is_lively(app);
         app_tick(app, lively ? now - last : 0);
         last = now;
         SL_TRY(window_show(w));
-        const double spent = clock_seconds() - now;
+        const double spent = sl_seconds() - now;
         app->ui.frame_seconds =
             app->ui.frame_seconds > 0 ? 0.9 * app->ui.frame_seconds + 0.1 * spent : spent;
         // Where the display does not make us wait for it, we wait ourselves.

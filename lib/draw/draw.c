@@ -493,6 +493,6 @@ sl_status sl_draw_file(sl_context *context, const sl_baked *baked, const sl_draw
     SL_TRY(check_options(context, baked, options));
     SL_TRY(sl_scene_make(context, baked, options, NULL, &scene));
     const sl_status status = draw_scene(context, &scene, kind, path);
-    sl_scene_destroy(context, &scene);
+    sl_scene_clear(context, &scene);
     return status;
 }

@@ -802,6 +802,6 @@ sl_status sl_draw_explanation(sl_context *context, const sl_baked *baked,
     }
     SL_TRY(sl_scene_make(context, baked, &plain, NULL, &pic.scene));
     const sl_status status = draw_file(context, &pic, kind, path);
-    sl_scene_destroy(context, &pic.scene);
+    sl_scene_clear(context, &pic.scene);
     return status;
 }

@@ -327,6 +327,6 @@ sl_status sl_draw_eye(sl_context *context, const sl_baked *baked, const sl_view 
     // Green would be lost among the ramp's colours.
     p.scene.palette.portal = sl_colour_mix(p.scene.palette.wall, p.scene.palette.page, 0.2);
     const sl_status status = draw_picture(context, &p, kind, path);
-    sl_scene_destroy(context, &p.scene);
+    sl_scene_clear(context, &p.scene);
     return status;
 }

@@ -174,7 +174,7 @@ static sl_status draw_picture(sl_context *context, const sl_baked *baked,
                                  .ground = p->scene.palette.page,
                                  .title = options->title};
     const sl_status status = sl_page_write(context, &parts, options->width, kind, path);
-    sl_scene_destroy(context, &p->scene);
+    sl_scene_clear(context, &p->scene);
     return status;
 }
 

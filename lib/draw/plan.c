@@ -274,11 +274,11 @@ sl_status sl_scene_make(sl_context *context, const sl_baked *baked, const sl_dra
     if (status == SL_OK)
         *out = scene;
     else
-        sl_scene_destroy(context, &scene);
+        sl_scene_clear(context, &scene);
     return status;
 }
 
-void sl_scene_destroy(sl_context *context, sl_scene *scene) {
+void sl_scene_clear(sl_context *context, sl_scene *scene) {
     sl_free(context, scene->order);
     sl_free(context, scene->strokes);
     memset(scene, 0, sizeof *scene);
@@ -287,7 +287,10 @@ void sl_scene_destroy(sl_context *context, sl_scene *scene) {
 sl_status sl_scene_create(sl_context *context, const sl_baked *baked,
                           const sl_draw_options *options, const sl_stab_trees *trees,
                           sl_scene **out) {
-    sl_scene *scene = sl_alloc(context, sizeof *scene);
+    if (options->cell != SL_NO_CELL && options->cell >= baked->space.cell_count)
+        return sl_fail(context, SL_BAD_ARGUMENT, "cell %u: the map has %u cells", options->cell,
+                       baked->space.cell_count);
+    sl_scene *scene = sl_alloc_array(context, 1, sizeof *scene);
     if (!scene) return SL_NO_MEMORY;
     const sl_status status = sl_scene_make(context, baked, options, trees, scene);
     if (status == SL_OK)
@@ -297,9 +300,9 @@ sl_status sl_scene_create(sl_context *context, const sl_baked *baked,
     return status;
 }
 
-void sl_scene_free(sl_context *context, sl_scene *scene) {
+void sl_scene_destroy(sl_context *context, sl_scene *scene) {
     if (!scene) return;
-    sl_scene_destroy(context, scene);
+    sl_scene_clear(context, scene);
     sl_free(context, scene);
 }
 

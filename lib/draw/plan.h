@@ -79,7 +79,7 @@ struct sl_scene {
 /// to, not copied. `trees` as in sl_scene_create. `out` is untouched on failure.
 sl_status sl_scene_make(sl_context *context, const sl_baked *baked, const sl_draw_options *options,
                         const sl_stab_trees *trees, sl_scene *out);
-void sl_scene_destroy(sl_context *context, sl_scene *scene);
+void sl_scene_clear(sl_context *context, sl_scene *scene);
 
 bool sl_scene_shows(const sl_scene *scene, uint32_t cell);
 

@@ -163,7 +163,7 @@ static void what_a_mirror_sends_back_has_its_hue(void **state) {
     assert_int_equal(scene.stroke_count, 3);
     assert_int_equal(scene.mirrored_nodes, 2);
     assert_true(scene.strokes[0].mirrored && !scene.strokes[1].mirrored);
-    sl_scene_destroy(context, &scene);
+    sl_scene_clear(context, &scene);
     cairo_surface_destroy(direct.surface);
     cairo_surface_destroy(mirrored.surface);
     sl_baked_destroy(context, &map.baked);
@@ -269,19 +269,19 @@ static void counts_refer_to_the_right_cells(void **state) {
     assert_int_equal(scene.seen, 2);
     assert_true(scene.seen_share == 0.5);
     assert_true(scene.eye.x == 5 && scene.eye.y == 5);
-    sl_scene_destroy(context, &scene);
+    sl_scene_clear(context, &scene);
     options.cell = map.cells[OUTSIDE];
     assert_ok(context, sl_scene_make(context, &map.baked, &options, NULL, &scene));
     assert_int_equal(scene.population, 1);
     assert_true(scene.outside && sl_scene_shows(&scene, map.cells[OUTSIDE]));
     assert_false(sl_scene_shows(&scene, map.cells[LEFT_BELOW]));
     assert_int_equal(scene.seen, 0);
-    sl_scene_destroy(context, &scene);
+    sl_scene_clear(context, &scene);
     options.cell = SL_NO_CELL;
     assert_ok(context, sl_scene_make(context, &map.baked, &options, NULL, &scene));
     assert_true(scene.heat && !scene.shows_seen);
     assert_true(scene.least == 0.25 && scene.most == 0.5 && scene.mean == 0.375);
-    sl_scene_destroy(context, &scene);
+    sl_scene_clear(context, &scene);
     sl_baked_destroy(context, &map.baked);
     sl_context_destroy(context);
 }
@@ -373,7 +373,7 @@ static void a_view_zoomed_in_shows_what_is_there(void **state) {
         if (i != 3) assert_true(same(pixel_at(&p, 0, 0), pixel_at(&p, 99, 99)));
         cairo_surface_destroy(p.surface);
     }
-    sl_scene_destroy(context, &scene);
+    sl_scene_clear(context, &scene);
     sl_baked_destroy(context, &map.baked);
     sl_context_destroy(context);
 }

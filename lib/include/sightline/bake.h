@@ -28,8 +28,7 @@ typedef struct sl_baked {
 
 SL_API void sl_baked_destroy(sl_context *context, sl_baked *baked); ///< and zeroes it
 
-/// How to bake a map. Start from sl_bake_options_default(), which says what the command line does
-/// without options.
+/// How to bake a map. Start from sl_bake_options_default().
 typedef struct sl_bake_options {
     sl_clean_options clean;
     const sl_subdivision *subdivision; ///< NULL: what the map's walls call for (sl_subdivision_for)
@@ -41,6 +40,7 @@ typedef struct sl_bake_options {
     uint32_t door_limit;         ///< sets of doors kept of a pair at most; 16 by default
 } sl_bake_options;
 
+/// What the command line does without options.
 SL_API sl_bake_options sl_bake_options_default(void);
 
 /// What a bake did, and how many seconds each stage took.

@@ -6,7 +6,7 @@
 ///     sl_frame frame = sl_frame_fit(baked->space.bounds, 0, 0, 800, 600, 1);
 ///     sl_scene_create(context, baked, &options, NULL, &scene);
 ///     sl_draw_plan(context, cairo, scene, options.layers, &frame);
-///     sl_scene_free(context, scene);
+///     sl_scene_destroy(context, scene);
 ///
 /// The functions that draw return nothing: cairo_status(cairo) keeps what cairo could not do. They
 /// may change the context's source, line width, dash, cap, join, font and path.
@@ -55,6 +55,7 @@ SL_API void sl_path_polygon(cairo_t *cairo, const sl_frame *frame, const sl_poin
 
 // --- colours
 
+/// A colour without transparency.
 typedef struct sl_colour {
     double red, green, blue; ///< sRGB, 0 to 1
 } sl_colour;
@@ -62,6 +63,7 @@ typedef struct sl_colour {
 /// Neighbouring cells get different tones where that many suffice.
 #define SL_TONES 4
 
+/// The colours of a picture.
 typedef struct sl_palette {
     sl_colour page, ground, hatch;   ///< paper, what is outside, the lines over it
     sl_colour floor[SL_TONES];       ///< cells
@@ -85,6 +87,7 @@ SL_API sl_colour sl_palette_ramp(bool dark, double value);
 /// A colour between two, in sRGB: `share` 0 gives a, 1 gives b.
 SL_API sl_colour sl_colour_mix(sl_colour a, sl_colour b, double share);
 
+/// Makes a colour the context's source.
 SL_API void sl_set_colour(cairo_t *cairo, sl_colour colour);
 
 // --- text
@@ -93,6 +96,7 @@ SL_API void sl_set_colour(cairo_t *cairo, sl_colour colour);
 /// kind are laid out alike.
 SL_API void sl_text_font(cairo_t *cairo, double size, bool bold);
 
+/// The width of a text in the font that is set, in page units.
 SL_API double sl_text_width(cairo_t *cairo, const char *text);
 
 /// Draws from the left end of the base line.
@@ -103,6 +107,7 @@ SL_API void sl_text_show(cairo_t *cairo, sl_colour colour, double x, double y, c
 SL_API void sl_text_show_within(cairo_t *cairo, sl_colour colour, double x, double y, double width,
                                 double size, bool bold, const char *text);
 
+/// The longest text of sl_text_count, its 0 included.
 #define SL_COUNT_TEXT 64
 
 /// A count with its thousands set apart, and what is counted: "1 204 cells", "1 cell".
@@ -118,11 +123,12 @@ SL_API void sl_text_percent(double share, char text[SL_COUNT_TEXT]);
 typedef struct sl_scene sl_scene;
 
 /// `baked` is referred to, not copied; options are as in sl_draw_file. `trees`: NULL for those of
-/// `baked`, else stab trees in their place, read here only. `*out` is untouched on failure.
+/// `baked`, else stab trees in their place, read here only. SL_BAD_ARGUMENT for a chosen cell that
+/// the map does not have. `*out` is untouched on failure.
 SL_API sl_status sl_scene_create(sl_context *context, const sl_baked *baked,
                                  const sl_draw_options *options, const sl_stab_trees *trees,
                                  sl_scene **out);
-SL_API void sl_scene_free(sl_context *context, sl_scene *scene); ///< NULL: nothing
+SL_API void sl_scene_destroy(sl_context *context, sl_scene *scene); ///< NULL: nothing
 
 /// The portals in the longest sequence of the stab tree; 0 where the scene has none.
 SL_API uint32_t sl_scene_tree_depth(const sl_scene *scene);

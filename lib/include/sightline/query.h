@@ -33,6 +33,7 @@ SL_API sl_status sl_query_create(sl_context *context, const sl_baked *baked, sl_
 /// The same for a baked file, which the query then owns. Fails as sl_baked_read does.
 SL_API sl_status sl_query_open(sl_context *context, const char *path, sl_query **out);
 
+/// Frees a query, and the baked file where it has read one. NULL is allowed.
 SL_API void sl_query_destroy(sl_context *context, sl_query *query);
 
 /// What is asked.
