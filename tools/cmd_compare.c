@@ -1,3 +1,4 @@
+#include "built.h"
 #include "commands.h"
 #include "compare_eye.h"
 #include "compare_report.h"
@@ -108,6 +109,7 @@ static sl_status make_plan(sl_context *context, const char *input, const compare
     SL_TRY(sl_compare_eye_plan_make(context, &texts->eye_texts, &plan->eye));
     SL_TRY(plan_seeing(context, texts, plan));
     SL_TRY(plan_timing(context, texts, &plan->timing));
+    if (texts->output) SL_TRY(sl_built_need_pictures(context));
     if (texts->dark && !texts->output)
         return sl_fail(context, SL_BAD_ARGUMENT, "--dark is for the chart, which needs -o");
     return SL_OK;

@@ -1,3 +1,4 @@
+#include "built.h"
 #include "commands.h"
 #include "inputs.h"
 #include "options.h"
@@ -7,17 +8,21 @@
 #include <string.h>
 #include <unistd.h>
 
-static sl_name_table format_names(void) {
+static sl_name_table format_names(const sl_context *context) {
     size_t count;
-    const sl_export_format *formats = sl_export_formats(&count);
+    const sl_export_format *formats = sl_export_formats(context, &count);
     return (sl_name_table){"format", formats, sizeof *formats, count};
 }
 
 static void print_formats(void) {
+    sl_context *context = sl_context_create(NULL);
+    if (!context) return;
+    (void)sl_built_use_formats(context); // with no memory: the formats that are always there
     size_t count;
-    const sl_export_format *formats = sl_export_formats(&count);
+    const sl_export_format *formats = sl_export_formats(context, &count);
     puts("\nformats (the first is the default):");
     for (size_t i = 0; i < count; i++) printf("  %-10s%s\n", formats[i].name, formats[i].what);
+    sl_context_destroy(context);
 }
 
 /// --wad and --map are for the formats that take them, and the WAD is not written over.
@@ -53,13 +58,14 @@ sl_status sl_cmd_export(sl_console *console, int argc, char **argv) {
     bool helped;
     SL_TRY(sl_option_parse(console, &usage, argc, argv, &path, &helped));
     if (helped) return SL_OK;
-    size_t chosen = 0, count;
-    const sl_name_table names = format_names();
+    size_t chosen = 0;
+    const sl_name_table names = format_names(console->context);
     SL_TRY(sl_option_choice(console->context, "--format", format, &names, &chosen));
+    const sl_export_format *formats = names.items;
 
     if (!output) output = "-";
     SL_TRY(sl_output_check(console->context, path, "-o", output));
-    SL_TRY(check_wad(console->context, &sl_export_formats(&count)[chosen], &given, output));
+    SL_TRY(check_wad(console->context, &formats[chosen], &given, output));
     sl_baked baked = {0};
     SL_TRY(sl_input_read_baked(console->context, path, &baked));
     sl_progress_line_clear(&console->line);
@@ -67,8 +73,7 @@ sl_status sl_cmd_export(sl_console *console, int argc, char **argv) {
     // Exports hold what is seen with all doors open; what is seen by mirror they have no place for.
     sl_status status = sl_effects_check(console->context, &baked.map, "export",
                                         SL_EFFECT_DOOR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE);
-    if (status == SL_OK)
-        status = sl_export_formats(&count)[chosen].write(console->context, &baked, &given, output);
+    if (status == SL_OK) status = formats[chosen].write(console->context, &baked, &given, output);
     sl_baked_destroy(console->context, &baked);
     return status;
 }

@@ -1,5 +1,6 @@
 #include "pictures.h"
 
+#include "built.h"
 #include "inputs.h"
 #include "options.h"
 #include "sightline/support.h"
@@ -17,6 +18,7 @@ sl_status sl_picture_plan(sl_context *context, const char *width, const char *ti
 
 sl_status sl_picture_check(sl_context *context, const char *path, const char *option,
                            const char *output) {
+    if (output) SL_TRY(sl_built_need_pictures(context));
     if (!output || sl_input_ends_with(output, ".png") || sl_input_ends_with(output, ".svg") ||
         sl_input_ends_with(output, ".pdf"))
         return sl_output_check(context, path, option, output);

@@ -5,6 +5,7 @@
 #include "script.h"
 #include "settings.h"
 #include "shelf.h"
+#include "sightline/io.h"
 #include "sightline/support.h"
 #include "soak.h"
 #include "window.h"
@@ -252,7 +253,8 @@ int main(int argc, char **argv) {
         fputs("sightline-view: out of memory\n", stderr);
         return 1;
     }
-    const sl_status status = run(context, argc, argv);
+    sl_status status = sl_io_use(context);
+    if (status == SL_OK) status = run(context, argc, argv);
     if (status != SL_OK) fprintf(stderr, "sightline-view: %s\n", sl_context_message(context));
     sl_context_destroy(context);
     const bool input =

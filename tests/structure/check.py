@@ -19,13 +19,13 @@ import sys
 import tempfile
 
 # The stages, in order. Data goes one way: each knows those before it and nothing of those after it.
-FOLDERS = ["base", "geometry", "map", "import", "generate", "space", "effects", "stab", "cell_to_cell",
-           "from_region", "eye_to_cell", "walk", "view_cells", "bake", "runtime", "draw"]
+FOLDERS = ["base", "geometry", "map", "generate", "space", "effects", "stab", "cell_to_cell",
+           "from_region", "eye_to_cell", "walk", "view_cells", "bake", "io", "runtime", "draw"]
 # Used by games with no other part of the library beside it.
 ALONE = {"runtime"}
 # Public headers that are not named after their folder.
-HEADERS = {"context": "base", "support": "base", "glpk": "stab", "solvers": "stab", "pvs": "cell_to_cell",
-           "explain": "cell_to_cell", "doors": "cell_to_cell", "dual": "stab", "steps": "cell_to_cell", "faults": "space", "reject": "bake", "view": "eye_to_cell", "outline": "space",
+HEADERS = {"context": "base", "support": "base", "json_write": "base", "import": "map", "glpk": "stab", "solvers": "stab", "pvs": "cell_to_cell",
+           "explain": "cell_to_cell", "doors": "cell_to_cell", "dual": "stab", "steps": "cell_to_cell", "faults": "space", "reject": "io", "view": "eye_to_cell", "outline": "space",
            "region": "eye_to_cell", "sees": "eye_to_cell", "mirrored": "eye_to_cell", "moving": "eye_to_cell"}
 # For users: it includes the others, and no part of the library includes it.
 ALL_HEADERS = "sightline"

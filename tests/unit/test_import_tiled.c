@@ -2,8 +2,9 @@
 // objects, chunks, tilesets in files of their own, and what is refused.
 #include "testing.h"
 
-#include "import/solid.h"
 #include "import_check.h"
+#include "io/solid.h"
+#include "sightline/io.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
