@@ -1,6 +1,6 @@
 # Installs into SCRATCH, moves the copy (it must not know where it was), builds the programs of this
-# folder against it and runs them. WAY subproject builds them with the sources inside, the core alone
-# where PARTS is empty. WAY game_copied builds the game with a copy of the header and nothing
+# folder against it and runs them. WAY subproject builds the core's with the sources inside, every
+# package hidden. WAY game_copied builds the game with a copy of the header and nothing
 # installed. WAY lean builds the command with every package hidden, by a C compiler and CMake alone.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE said ERROR_VARIABLE said)
@@ -32,9 +32,9 @@ function(check_core_alone program)
     return()
   endif()
   run(${CMAKE_COMMAND} -E env LC_ALL=C ${LDD} "${program}")
-  string(REGEX MATCHALL "lib[a-zA-Z0-9_+]+[^ \n]*\\.so" libraries "${said}")
+  string(REGEX MATCHALL "\tlib[^ /\n]+\\.so" libraries "${said}")
   list(FILTER libraries EXCLUDE REGEX
-    "lib(c|m|pthread|gcc_s|stdc\\+\\+|sightline|[atu]b?san)\\.so$")
+    "\tlib(c|m|pthread|gcc_s|stdc\\+\\+|sightline|[atu]b?san)\\.so$")
   if(libraries)
     message("${said}")
     message(FATAL_ERROR "${program} uses the core alone, but is linked with ${libraries}")
@@ -132,9 +132,8 @@ elseif(WAY STREQUAL "game_copied")
   file(COPY "${SOURCE}/lib/runtime/sightline_runtime.h" DESTINATION "${SCRATCH}/copied")
   game("-DHEADER_DIR=${SCRATCH}/copied")
 else()
-  string(TOUPPER "${PARTS}" options)
-  list(TRANSFORM options REPLACE "(.+)" "-DSIGHTLINE_\\1=ON")
-  by_cmake(programs "-DSIGHTLINE_SOURCES=${SOURCE}" "-DBUILD_SHARED_LIBS=${SHARED}" ${options})
+  by_cmake(programs "-DSIGHTLINE_SOURCES=${SOURCE}" "-DBUILD_SHARED_LIBS=${SHARED}" -DPARTS=
+    -DCMAKE_DISABLE_FIND_PACKAGE_PkgConfig=ON)
   check_core_alone("${SCRATCH}/build/core")
   file(GLOB_RECURSE extras "${SCRATCH}/build/test_*" "${SCRATCH}/build/*sightline-config*"
     "${SCRATCH}/build/sightline/tools/*")

@@ -439,6 +439,7 @@ static sl_status read_beside(sl_context *context, const char *folder, const char
     char path[256];
     snprintf(path, sizeof path, "%s/m.tmx", folder);
     write_file(folder, "m.tmx", text);
+    assert_ok(context, sl_io_use(context));
     return sl_map_read(context, path, NULL, map);
 }
 
