@@ -1,10 +1,8 @@
 // LDtk projects and separate level files: JSON (https://ldtk.io/json). Of a level's layers those of
 // type IntGrid are read: a whole number a cell, 0 for none.
-#include "io/beside.h"
-#include "io/json.h"
-#include "io/layers.h"
-#include "io/solid.h"
-#include "io/tiles.h"
+#include "io/document.h"
+#include "io/names.h"
+#include "io/shapes.h"
 #include "sightline/io.h"
 
 #include <math.h>

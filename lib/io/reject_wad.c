@@ -4,7 +4,7 @@
 #include "base/base.h"
 #include "base/threads.h"
 #include "io/reject.h"
-#include "io/wad_write.h"
+#include "io/wad.h"
 #include "sightline/io.h"
 
 #include <stdlib.h>

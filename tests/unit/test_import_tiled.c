@@ -3,7 +3,7 @@
 #include "testing.h"
 
 #include "import_check.h"
-#include "io/solid.h"
+#include "io/names.h"
 #include "sightline/io.h"
 
 #include <sys/stat.h>

@@ -1,11 +1,14 @@
-/// JSON files as importers read them: every value knows its way from the root, so that a message
-/// can say what is wrong where.
-#ifndef SL_IMPORT_JSON_H
-#define SL_IMPORT_JSON_H
+/// JSON and XML documents as importers read them: every value says where in the file it stands.
+#ifndef SL_DOCUMENT_H
+#define SL_DOCUMENT_H
 
+#include "sightline/context.h"
 #include "sightline/support.h"
 
 #include <jansson.h>
+#include <libxml/tree.h>
+
+// --- JSON: a value knows its way from the root, so that a message can say what is wrong where
 
 /// The member that holds an object's line in the file where the tree was made of another notation.
 #define SL_JSON_LINE "#line"
@@ -57,5 +60,25 @@ sl_status sl_json_whole_if(const sl_json *at, int64_t low, int64_t high, int64_t
 /// True for true, and for a number other than 0; false for no value. `*said`, where not NULL, tells
 /// whether the value is of such a kind at all.
 bool sl_json_true(const sl_json *at, bool *said);
+
+// --- XML through libxml2, asked by names without their namespaces
+
+/// Reads a document that is all there and has a root element. No other file is looked at, and
+/// entities are not followed; a document of more than 10 MB must not declare any. SL_BAD_INPUT with
+/// the line. To be freed by xmlFreeDoc.
+sl_status sl_xml_read(sl_context *context, const char *name, const char *text, size_t size,
+                      xmlDoc **out);
+
+bool sl_xml_is(const xmlNode *node, const char *name);
+
+/// The attribute's value, whatever its namespace; NULL where there is none. To be given back to
+/// sl_xml_free, which takes NULL.
+char *sl_xml_attribute(const xmlNode *node, const char *name);
+/// The text that stands in an element, without that of elements in it; NULL for lack of memory. To
+/// be given back to sl_xml_free.
+char *sl_xml_content(const xmlNode *node);
+void sl_xml_free(char *text);
+
+uint32_t sl_xml_line(const xmlNode *node);
 
 #endif
