@@ -170,6 +170,14 @@ typedef struct sl_see_method {
 /// All methods, *count of them.
 SL_API const sl_see_method *sl_see_methods(size_t *count);
 
+/// The method of that name; NULL for none.
+SL_API const sl_see_method *sl_see_method_named(const char *name);
+
+/// The method that is taken where none is asked for: the fastest exact one that can do what the
+/// options ask for and that knows the effects of the map. "sweep" in most cases; "dfs" where the
+/// options ask for stab trees or name a solver; "prune" where the map has mirrors.
+SL_API const sl_see_method *sl_see_method_for(const sl_map *map, const sl_see_options *options);
+
 /// SL_UNSUPPORTED, by name, where a method with a solver (NULL for methods that do not stab) does
 /// not know what a map calls for. To be asked before any work; the methods themselves believe
 /// their options.

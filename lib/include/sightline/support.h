@@ -56,6 +56,8 @@ SL_API void *sl_alloc_array(sl_context *context, size_t count, size_t size);
 SL_API void sl_free(sl_context *context, void *block);
 /// Bytes that the machine has, UINT64_MAX where the system does not tell.
 SL_API uint64_t sl_machine_memory(void);
+/// Seconds on a clock that only goes forward, since some moment.
+SL_API double sl_seconds(void);
 /// A copy of `length` bytes with a 0 behind them.
 SL_API char *sl_copy_text(sl_context *context, const char *text, size_t length);
 
