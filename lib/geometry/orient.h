@@ -5,7 +5,18 @@
 #include "sightline/geometry.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
+
+static inline bool sl_same_point(sl_point a, sl_point b) {
+    return a.x == b.x && a.y == b.y;
+}
+
+/// The order of points: by x, then by y. The sign of a - b.
+static inline int sl_compare_points(sl_point a, sl_point b) {
+    if (a.x != b.x) return a.x < b.x ? -1 : 1;
+    return (a.y > b.y) - (a.y < b.y);
+}
 
 /// As sl_orient, by exact arithmetic alone.
 int sl_orient_exact(sl_point a, sl_point b, sl_point c);
@@ -48,6 +59,14 @@ static inline int sl_orient_filter(sl_point a, sl_point b, sl_point c) {
 static inline int sl_orient(sl_point a, sl_point b, sl_point c) {
     const int sign = sl_orient_filter(a, b, c);
     return sign ? sign : sl_orient_exact(a, b, c);
+}
+
+/// Whether the way from a through p to b goes straight on or turns left. A way back is neither.
+static inline bool sl_goes_on(sl_point a, sl_point p, sl_point b) {
+    const int turn = sl_orient(a, p, b);
+    if (turn) return turn > 0;
+    return !sl_same_point(a, p) && !sl_same_point(p, b) && (a.x < p.x) == (p.x < b.x) &&
+           (a.x > p.x) == (p.x > b.x) && (a.y < p.y) == (p.y < b.y) && (a.y > p.y) == (p.y > b.y);
 }
 
 /// A point finer than doubles: at + rest, by coordinate, where `rest` is at most half a unit in the

@@ -1,4 +1,5 @@
 // Universal VTT (Dungeondraft, Arkenforge, DungeonFog): JSON with walls as polylines and portals.
+#include "geometry/orient.h"
 #include "import/json.h"
 #include "import/layers.h"
 #include "sightline/import.h"
@@ -29,10 +30,6 @@ static sl_status read_point(const uvtt *reader, const sl_json *at, sl_point *poi
     return SL_OK;
 }
 
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
 static sl_status read_polyline(uvtt *reader, const sl_json *line) {
     size_t count;
     SL_TRY(sl_json_array(line, &count));
@@ -41,7 +38,7 @@ static sl_status read_polyline(uvtt *reader, const sl_json *line) {
         const sl_json item = sl_json_item(line, i);
         sl_point point;
         SL_TRY(read_point(reader, &item, &point));
-        if (i && !same(before, point)) {
+        if (i && !sl_same_point(before, point)) {
             SL_TRY(sl_map_add_wall(reader->context, reader->map, before, point, 0));
             reader->walls++;
         } else if (i) {
@@ -64,7 +61,7 @@ static sl_status read_polylines(uvtt *reader, const sl_json *lines) {
 }
 
 static sl_status add_portal(uvtt *reader, sl_segment at, bool open) {
-    if (same(at.a, at.b)) {
+    if (sl_same_point(at.a, at.b)) {
         reader->points++;
         return SL_OK;
     }

@@ -1,3 +1,4 @@
+#include "geometry/orient.h"
 #include "map/planar.h"
 #include "sightline/support.h"
 
@@ -37,15 +38,10 @@ static int compare_pieces(const void *left, const void *right) {
     return order ? order : compare_lines(a->line, b->line);
 }
 
-static int compare_points(sl_point a, sl_point b) {
-    const int order = compare(a.x, b.x);
-    return order ? order : compare(a.y, b.y);
-}
-
 static int compare_walls(const void *left, const void *right) {
     const sl_wall *a = left, *b = right;
-    int order = compare_points(a->a, b->a);
-    if (!order) order = compare_points(a->b, b->b);
+    int order = sl_compare_points(a->a, b->a);
+    if (!order) order = sl_compare_points(a->b, b->b);
     return order ? order : compare_lines(a->line, b->line);
 }
 
@@ -73,7 +69,7 @@ typedef struct cleaning {
 static sl_status sort_in(cleaning *work, sl_wall wall) {
     wall.a = plain(wall.a);
     wall.b = plain(wall.b);
-    const int order = compare_points(wall.a, wall.b);
+    const int order = sl_compare_points(wall.a, wall.b);
     if (order == 0) {
         work->account.zero_length++;
         return SL_OK;
@@ -132,7 +128,7 @@ static void drop_duplicates(oblique_walls *list, sl_clean_account *account) {
     size_t kept = 0;
     for (size_t i = 1; i < list->count; i++) {
         const sl_wall *last = &list->items[kept], *next = &list->items[i];
-        if (compare_points(last->a, next->a) == 0 && compare_points(last->b, next->b) == 0)
+        if (sl_compare_points(last->a, next->a) == 0 && sl_compare_points(last->b, next->b) == 0)
             account->duplicate++;
         else
             list->items[++kept] = *next;

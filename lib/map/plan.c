@@ -1,3 +1,4 @@
+#include "geometry/orient.h"
 #include "map/grid.h"
 #include "map/print.h"
 #include "sightline/support.h"
@@ -159,10 +160,6 @@ static sl_status refuse_wall(const plan_maker *maker, const sl_wall *wall, const
     return refuse_segment(maker, wall->line, "wall", wall->a, wall->b, why);
 }
 
-static bool same_point(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
 /// What has no character in a plan is refused by name.
 static sl_status refuse_others(const plan_maker *maker) {
     const sl_map *map = maker->map;
@@ -183,7 +180,7 @@ static sl_status refuse_others(const plan_maker *maker) {
     if (map->notes) return refuse(maker, 0, "a plan has no place for the map's notes");
     bool walled = false;
     for (size_t i = 0; i < map->wall_count && !walled; i++)
-        walled = !same_point(map->walls[i].a, map->walls[i].b);
+        walled = !sl_same_point(map->walls[i].a, map->walls[i].b);
     if (!walled) return refuse(maker, 0, "a plan needs walls, the map has none");
     return SL_OK;
 }
@@ -394,8 +391,8 @@ static sl_status put_door(const plan_maker *maker, const sl_door *door) {
                                         fmin(door->segment.a.y, door->segment.b.y)},
                              &row, &column);
     if (!here || *here != '.' || !door_segment(&plan, row, column, &found) ||
-        !((same_point(at.a, found.a) && same_point(at.b, found.b)) ||
-          (same_point(at.a, found.b) && same_point(at.b, found.a))))
+        !((sl_same_point(at.a, found.a) && sl_same_point(at.b, found.b)) ||
+          (sl_same_point(at.a, found.b) && sl_same_point(at.b, found.a))))
         return refuse_segment(maker, door->line, "door", door->segment.a, door->segment.b,
                               "a plan's doors stand in the middle of a square, from one solid "
                               "square to the one opposite");
@@ -418,7 +415,7 @@ static sl_status put_things(const plan_maker *maker) {
             return refuse(maker, start->line, "the start's square holds a door or a start already");
         *here = '@';
         const sl_point at = moved(maker, (sl_segment){start->at, start->at}).a;
-        shifted += start->heading != 0 || !same_point(at, middle(&plan, row, column));
+        shifted += start->heading != 0 || !sl_same_point(at, middle(&plan, row, column));
     }
     if (shifted)
         sl_note(maker->context, "%zu starts moved to the middle of their square, heading 0",

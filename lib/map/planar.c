@@ -73,15 +73,6 @@ static int compare(double a, double b) {
     return (a > b) - (a < b);
 }
 
-static int compare_points(sl_point a, sl_point b) {
-    const int order = compare(a.x, b.x);
-    return order ? order : compare(a.y, b.y);
-}
-
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
 static uint64_t mix(uint64_t z) {
     z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
     z = (z ^ z >> 27) * 0x94d049bb133111ebu;
@@ -150,9 +141,11 @@ typedef struct found_point {
 static void find_in_square(const planer *p, sl_point at, square s, found_point *found) {
     for (uint32_t n = p->point_table[find_square(p, s)]; n; n = p->next_near.items[n - 1]) {
         const sl_point other = p->points.items[n - 1];
-        const double d = same(at, other) ? 0 : p->weld > 0 ? distance(at, other) : HUGE_VAL;
+        const double d = sl_same_point(at, other) ? 0
+                         : p->weld > 0            ? distance(at, other)
+                                                  : HUGE_VAL;
         if (d > p->weld || d > found->distance ||
-            (d == found->distance && compare_points(other, p->points.items[found->point]) > 0))
+            (d == found->distance && sl_compare_points(other, p->points.items[found->point]) > 0))
             continue;
         *found = (found_point){n - 1, d};
     }
@@ -422,7 +415,7 @@ static sl_status find_meetings(planer *p) {
 
 static int compare_meetings(const void *left, const void *right) {
     const meeting *a = left, *b = right;
-    const int order = compare_points(a->at, b->at);
+    const int order = sl_compare_points(a->at, b->at);
     if (order) return order;
     const int i = a->edges[0] == b->edges[0];
     return (a->edges[i] > b->edges[i]) - (a->edges[i] < b->edges[i]);
@@ -545,7 +538,7 @@ static sl_status settle(planer *p) {
 // --- from segments, to chains
 
 static int compare_for_qsort(const void *left, const void *right) {
-    return compare_points(*(const sl_point *)left, *(const sl_point *)right);
+    return sl_compare_points(*(const sl_point *)left, *(const sl_point *)right);
 }
 
 /// Takes all ends, in an order that the input has no part in.
@@ -596,8 +589,8 @@ static sl_status take_segments(planer *p, const sl_segment *segments, size_t cou
     if (!ends) return SL_NO_MEMORY;
     for (size_t i = 0; i < count; i++) {
         ends[i] = (sl_planar_edge){find_point(p, segments[i].a), find_point(p, segments[i].b)};
-        *welded += !same(p->points.items[ends[i].a], segments[i].a);
-        *welded += !same(p->points.items[ends[i].b], segments[i].b);
+        *welded += !sl_same_point(p->points.items[ends[i].a], segments[i].a);
+        *welded += !sl_same_point(p->points.items[ends[i].b], segments[i].b);
     }
     sl_status status = take_edges(p, ends, count);
     for (size_t i = 0; i < count && status == SL_OK; i++) {
@@ -654,7 +647,7 @@ static sl_status add_links(writer *w, sl_planar_link link) {
 static double distance_to(const sl_segment *s, sl_point v) {
     const double dx = s->b.x - s->a.x, dy = s->b.y - s->a.y, length = hypot(dx, dy);
     const double vx = v.x - s->a.x, vy = v.y - s->a.y, error = 0x1p-50 * (fabs(vx) + fabs(vy));
-    if (same(v, s->a) || same(v, s->b)) return 0;
+    if (sl_same_point(v, s->a) || sl_same_point(v, s->b)) return 0;
     if (length == 0) return distance(v, s->a) + error;
     const double along = vx * (dx / length) + vy * (dy / length);
     if (along <= 0) return distance(v, s->a) + error;
@@ -664,7 +657,7 @@ static double distance_to(const sl_segment *s, sl_point v) {
 }
 
 static void measure(writer *w, sl_segment s, size_t from) {
-    if (compare_points(s.a, s.b) > 0) s = (sl_segment){s.b, s.a};
+    if (sl_compare_points(s.a, s.b) > 0) s = (sl_segment){s.b, s.a};
     for (size_t i = from; i < w->links.count; i++) {
         const working_edge *e = &w->p->edges.items[w->links.items[i] / 2];
         const uint32_t ends[2] = {e->a, e->b};
@@ -694,7 +687,7 @@ typedef struct numbered {
 
 static int compare_numbered(const void *left, const void *right) {
     const numbered *a = left, *b = right;
-    return compare_points(a->at, b->at);
+    return sl_compare_points(a->at, b->at);
 }
 
 /// Hands the points over that some edge ends in, sorted.

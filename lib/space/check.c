@@ -1,6 +1,7 @@
 /// The whole-graph check: what the later stages take for granted, proven for one space. Safe on any
 /// bytes: every index is checked before it is used.
 #include "space/check.h"
+#include "geometry/orient.h"
 #include "sightline/support.h"
 #include "space/seams.h"
 #include "space/wall_lines.h"
@@ -16,10 +17,6 @@ typedef struct checker {
     uint8_t
         *directed_found; ///< by portal: 1 for the directed portal of cell[0], 2 for that of cell[1]
 } checker;
-
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
 
 static sl_status check_ranges(const checker *c) {
     const sl_space *s = c->space;
@@ -93,8 +90,8 @@ static sl_status check_cells(const checker *c) {
         const sl_box *r = &c->regions[s->node_count + i];
         const sl_point *v = &s->vertices[cell->first_vertex];
         const sl_point lower_right = {r->max.x, r->min.y}, upper_left = {r->min.x, r->max.y};
-        if (!same(v[0], r->min) || !same(v[1], lower_right) || !same(v[2], r->max) ||
-            !same(v[3], upper_left))
+        if (!sl_same_point(v[0], r->min) || !sl_same_point(v[1], lower_right) ||
+            !sl_same_point(v[2], r->max) || !sl_same_point(v[3], upper_left))
             return fail_cell(c, i, "is not the region that the tree gives it");
         if (cell->first_directed != directed || cell->directed_count > s->directed_count - directed)
             return fail_cell(c, i, "has exits out of range");
@@ -250,8 +247,8 @@ sl_status sl_check_directed(sl_context *context, const sl_space *s, uint32_t cel
         return sl_fail(context, SL_BAD_INPUT, "portal %u joins no two cells", directed->portal);
     const int side = p->cell[0] == cell ? 0 : 1;
     if (p->cell[side] != cell || directed->cell != p->cell[!side] ||
-        !same(directed->left, side ? p->right : p->left) ||
-        !same(directed->right, side ? p->left : p->right) ||
+        !sl_same_point(directed->left, side ? p->right : p->left) ||
+        !sl_same_point(directed->right, side ? p->left : p->right) ||
         directed_found[directed->portal] & (1 << side))
         return sl_fail(context, SL_BAD_INPUT, "cell %u has an exit unlike its portal", cell);
     directed_found[directed->portal] |= (uint8_t)(1 << side);

@@ -26,19 +26,7 @@ static sl_status fail_cell(const checker *c, uint32_t cell, const char *what) {
     return sl_fail(c->context, SL_BAD_INPUT, "cell %u %s", cell, what);
 }
 
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
 // --- cells
-
-/// Whether from a through p to b goes straight on or to the left, and not back.
-static bool goes_on(sl_point a, sl_point p, sl_point b) {
-    const int turn = sl_orient(a, p, b);
-    if (turn) return turn > 0;
-    return !same(a, p) && !same(p, b) && (a.x < p.x) == (p.x < b.x) && (a.x > p.x) == (p.x > b.x) &&
-           (a.y < p.y) == (p.y < b.y) && (a.y > p.y) == (p.y > b.y);
-}
 
 static bool goes_up(sl_point a, sl_point b) {
     return a.y < b.y || (a.y == b.y && a.x < b.x);
@@ -50,7 +38,7 @@ static bool is_convex(const sl_point *v, uint32_t count) {
     uint32_t turns = 0, peaks = 0;
     for (uint32_t i = 0; i < count; i++) {
         const sl_point a = v[i ? i - 1 : count - 1], p = v[i], b = v[i + 1 < count ? i + 1 : 0];
-        if (!goes_on(a, p, b)) return false;
+        if (!sl_goes_on(a, p, b)) return false;
         turns += sl_orient(a, p, b) > 0;
         peaks += goes_up(a, p) && !goes_up(p, b);
     }
@@ -116,7 +104,8 @@ static sl_status check_wall(const checker *c, uint32_t cell, uint32_t what, sl_p
     if (c->space->loose || c->space->cut_walls) return SL_OK;
     const sl_wall *wall = &c->space->walls[number];
     const bool right = what & SL_NEIGHBOUR_RIGHT;
-    if (!same(right ? wall->b : wall->a, from) || !same(right ? wall->a : wall->b, to))
+    if (!sl_same_point(right ? wall->b : wall->a, from) ||
+        !sl_same_point(right ? wall->a : wall->b, to))
         return fail_cell(c, cell, "has a side that is not the wall it is said to be");
     const uint8_t bit = right ? 2 : 1;
     if (c->sides_found[number] & bit)
@@ -137,7 +126,7 @@ static sl_status check_sides(const checker *c, uint32_t number) {
         if (what == SL_NEIGHBOUR_PORTAL) {
             if (passed == cell->directed_count) return fail_cell(c, number, "has too few exits");
             const sl_directed_portal *portal = &s->directed[cell->first_directed + passed++];
-            if (!same(portal->right, from) || !same(portal->left, to))
+            if (!sl_same_point(portal->right, from) || !sl_same_point(portal->left, to))
                 return fail_cell(c, number, "has an exit that is not on its boundary");
             SL_TRY(sl_check_directed(c->context, s, number, portal, c->directed_found));
         } else if (what != SL_NEIGHBOUR_BORDER) {
@@ -205,8 +194,8 @@ static sl_status check_cut_walls(const checker *c) {
     size_t i = 0;
     while (i < count) {
         const wall_side *s = &sides[i], *t = i + 1 < count ? s + 1 : s;
-        const bool pair = s->wall == t->wall && same(s->from, t->from) && same(s->to, t->to) &&
-                          !s->right && t->right;
+        const bool pair = s->wall == t->wall && sl_same_point(s->from, t->from) &&
+                          sl_same_point(s->to, t->to) && !s->right && t->right;
         if (!pair && !border_of(&c->space->bounds, s->from, s->to)) break;
         i += pair ? 2 : 1;
     }
@@ -305,20 +294,15 @@ static sl_status check_grid(const checker *c) {
 
 // --- seams
 
-static int compare_points(sl_point a, sl_point b) {
-    if (a.x != b.x) return a.x < b.x ? -1 : 1;
-    return (a.y > b.y) - (a.y < b.y);
-}
-
 /// A segment with its lower end first.
 static sl_segment in_order(sl_point a, sl_point b) {
-    return compare_points(a, b) < 0 ? (sl_segment){a, b} : (sl_segment){b, a};
+    return sl_compare_points(a, b) < 0 ? (sl_segment){a, b} : (sl_segment){b, a};
 }
 
 static int compare_segments(const void *left, const void *right) {
     const sl_segment *s = left, *t = right;
-    const int order = compare_points(s->a, t->a);
-    return order ? order : compare_points(s->b, t->b);
+    const int order = sl_compare_points(s->a, t->a);
+    return order ? order : sl_compare_points(s->b, t->b);
 }
 
 /// A portal that is said to be on a seam has the seam's ends.
@@ -328,8 +312,8 @@ static sl_status check_seam_portals(const checker *c, bool *passed) {
         const sl_seam_portal *at = &s->seam_portals[i];
         const sl_segment *seam = &s->seams[at->seam].at;
         const sl_portal *p = &s->portals[at->portal];
-        const bool forward = same(seam->a, p->left) && same(seam->b, p->right);
-        const bool backward = same(seam->a, p->right) && same(seam->b, p->left);
+        const bool forward = sl_same_point(seam->a, p->left) && sl_same_point(seam->b, p->right);
+        const bool backward = sl_same_point(seam->a, p->right) && sl_same_point(seam->b, p->left);
         if (!forward && !backward)
             return sl_fail(c->context, SL_BAD_INPUT, "portal %u is not on seam %u", at->portal,
                            at->seam);

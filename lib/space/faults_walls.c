@@ -4,10 +4,6 @@
 
 #include <math.h>
 
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
 sl_point sl_nearest_on_wall(const sl_wall *wall, sl_point point) {
     const sl_point along = {wall->b.x - wall->a.x, wall->b.y - wall->a.y};
     const double length = hypot(along.x, along.y);
@@ -59,15 +55,15 @@ static bool is_closed(const sl_map *map, const uint32_t *near, uint32_t count, s
 static bool is_told_before(const sl_map *map, const uint32_t *near, uint32_t count, uint32_t wall,
                            sl_point end) {
     for (uint32_t i = 0; i < count; i++)
-        if (near[i] < wall &&
-            (same(map->walls[near[i]].a, end) || same(map->walls[near[i]].b, end)))
+        if (near[i] < wall && (sl_same_point(map->walls[near[i]].a, end) ||
+                               sl_same_point(map->walls[near[i]].b, end)))
             return true;
     return false;
 }
 
 /// The gap between two ends is found from both of them.
 static bool is_told_from_there(const sl_wall *other, sl_point end, sl_point to) {
-    if (!same(to, other->a) && !same(to, other->b)) return false;
+    if (!sl_same_point(to, other->a) && !sl_same_point(to, other->b)) return false;
     return to.x != end.x ? to.x < end.x : to.y < end.y;
 }
 
@@ -128,7 +124,7 @@ static sl_status compare_walls(sl_fault_search *search, uint32_t i, uint32_t j) 
         fault.at.a = fault.at.b = crossing_point(a, b);
         return sl_add_fault(search, fault);
     }
-    const bool in_line = !same(a->a, a->b) && !same(b->a, b->b) &&
+    const bool in_line = !sl_same_point(a->a, a->b) && !sl_same_point(b->a, b->b) &&
                          sl_orient(a->a, a->b, b->a) == 0 && sl_orient(a->a, a->b, b->b) == 0;
     if (!in_line || !shared_piece(a, b, &fault.at)) return SL_OK;
     fault.kind = SL_FAULT_OVERLAP;

@@ -62,18 +62,10 @@ static uint32_t next(const merger *m, uint32_t half) {
 
 // --- merging
 
-/// Whether the way from a through p to b goes straight on or to the left, and not back.
-static bool is_convex(sl_point a, sl_point p, sl_point b) {
-    const int turn = sl_orient(a, p, b);
-    if (turn) return turn > 0;
-    return (a.x < p.x) == (p.x < b.x) && (a.x > p.x) == (p.x > b.x) && (a.y < p.y) == (p.y < b.y) &&
-           (a.y > p.y) == (p.y > b.y);
-}
-
 /// Whether the corner where a half-edge starts is convex once its edge is gone.
 static bool leaves_convex(const merger *m, uint32_t half) {
-    return is_convex(start_of(m, m->previous[half]), start_of(m, half),
-                     end_of(m, next(m, half ^ 1)));
+    return sl_goes_on(start_of(m, m->previous[half]), start_of(m, half),
+                      end_of(m, next(m, half ^ 1)));
 }
 
 static void join(merger *m, uint32_t before, uint32_t after) {

@@ -27,10 +27,6 @@ typedef struct outliner {
     uint32_t *of_portal; ///< the side of each directed portal
 } outliner;
 
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
 /// Where a point of the line through `from` and `to` lies along it: ascending from one to the
 /// other.
 static double along(sl_point from, sl_point to, sl_point point) {
@@ -98,7 +94,7 @@ static sl_status add_gap(sl_context *context, outliner *o, uint32_t cell, sl_poi
                          sl_point to) {
     SL_TRY(gather_covers(context, o, from, to));
     sl_point at = from;
-    for (size_t i = 0; i < o->covers.count && !same(at, to); i++) {
+    for (size_t i = 0; i < o->covers.count && !sl_same_point(at, to); i++) {
         const cover *c = &o->covers.items[i];
         if (c->to <= along(from, to, at)) continue;
         if (c->from > along(from, to, at)) {
@@ -108,7 +104,7 @@ static sl_status add_gap(sl_context *context, outliner *o, uint32_t cell, sl_poi
         SL_TRY(add_side(context, o, at, SL_SIDE_WALL + c->wall));
         at = c->to < along(from, to, to) ? c->end : to;
     }
-    return same(at, to) ? SL_OK : add_border(context, o, cell, at, to);
+    return sl_same_point(at, to) ? SL_OK : add_border(context, o, cell, at, to);
 }
 
 static bool on_edge(sl_point a, sl_point b, sl_point p) {
@@ -151,12 +147,12 @@ static sl_status outline_cell(sl_context *context, outliner *o, uint32_t cell) {
         for (; directed < c->first_directed + c->directed_count; directed++) {
             const sl_directed_portal *e = &o->space->directed[directed];
             if (!on_edge(corners[i], end, e->right) || !on_edge(corners[i], end, e->left)) break;
-            if (!same(at, e->right)) SL_TRY(add_gap(context, o, cell, at, e->right));
+            if (!sl_same_point(at, e->right)) SL_TRY(add_gap(context, o, cell, at, e->right));
             o->of_portal[directed] = (uint32_t)o->sides.count;
             SL_TRY(add_side(context, o, e->right, 0));
             at = e->left;
         }
-        if (!same(at, end)) SL_TRY(add_gap(context, o, cell, at, end));
+        if (!sl_same_point(at, end)) SL_TRY(add_gap(context, o, cell, at, end));
     }
     if (directed != c->first_directed + c->directed_count)
         return sl_fail(context, SL_BAD_ARGUMENT, "cell %u: exit %u is not on its boundary", cell,

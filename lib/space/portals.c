@@ -2,6 +2,8 @@
 /// out. Directed portals: each cell's portals, as it crosses them on the way out.
 #include "space/kd_tree.h"
 
+#include "geometry/orient.h"
+
 #include <stdlib.h>
 
 typedef SL_ARRAY(uint32_t) cell_list;
@@ -109,16 +111,11 @@ static sl_status make_portals_of(sl_context *context, portal_maker *maker, size_
     return SL_OK;
 }
 
-static int compare_points(sl_point a, sl_point b) {
-    if (a.x != b.x) return a.x < b.x ? -1 : 1;
-    return (a.y > b.y) - (a.y < b.y);
-}
-
 int sl_compare_portals(const void *left, const void *right) {
     const sl_portal *a = left, *b = right;
     if (a->cell[0] != b->cell[0]) return a->cell[0] < b->cell[0] ? -1 : 1;
     if (a->cell[1] != b->cell[1]) return a->cell[1] < b->cell[1] ? -1 : 1;
-    return compare_points(a->right, b->right);
+    return sl_compare_points(a->right, b->right);
 }
 
 /// Compares two directed portals of one cell by their place on its boundary, counter-clockwise from
@@ -130,7 +127,7 @@ static int compare_directed(const void *left, const void *right) {
     const int edge_a = u.x > 0 ? 0 : u.y > 0 ? 1 : u.x < 0 ? 2 : 3;
     const int edge_b = v.x > 0 ? 0 : v.y > 0 ? 1 : v.x < 0 ? 2 : 3;
     if (edge_a != edge_b) return edge_a - edge_b;
-    const int order = compare_points(a->right, b->right);
+    const int order = sl_compare_points(a->right, b->right);
     return edge_a < 2 ? order : -order;
 }
 

@@ -51,19 +51,11 @@ static int compare_starts(const void *left, const void *right) {
     return (a->side > b->side) - (a->side < b->side);
 }
 
-/// Whether the way from a through p to b goes straight on or to the left, and not back.
-static bool is_convex(sl_point a, sl_point p, sl_point b) {
-    const int turn = sl_orient(a, p, b);
-    if (turn) return turn > 0;
-    return (a.x < p.x) == (p.x < b.x) && (a.x > p.x) == (p.x > b.x) && (a.y < p.y) == (p.y < b.y) &&
-           (a.y > p.y) == (p.y > b.y);
-}
-
 /// Whether the corner where a portal starts is convex once the portal is gone.
 static bool leaves_convex(const joiner *j, uint32_t portal) {
     const uint32_t after = side(j, side(j, portal)->neighbour)->next;
-    return is_convex(side(j, j->mesh.previous.items[portal])->start, side(j, portal)->start,
-                     sl_mesh_end(&j->mesh, after));
+    return sl_goes_on(side(j, j->mesh.previous.items[portal])->start, side(j, portal)->start,
+                      sl_mesh_end(&j->mesh, after));
 }
 
 /// Tries every portal once, the longest first. *any tells whether one was dropped.

@@ -80,10 +80,6 @@ static sl_status add_corner(cutter *c, uint32_t i) {
     return SL_OK;
 }
 
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
 /// Whether a corner may be cut off: it turns left, and no other corner is in the way.
 static bool is_ear(const cutter *c, uint32_t at, bool convex) {
     const corner *ring = c->ring.items;
@@ -92,8 +88,8 @@ static bool is_ear(const cutter *c, uint32_t at, bool convex) {
     if (sl_orient(p, q, r) <= 0) return false;
     for (uint32_t i = ring[after].next; !convex && i != before; i = ring[i].next) {
         const sl_point s = ring[i].at;
-        if (!same(s, p) && !same(s, q) && !same(s, r) && sl_orient(p, q, s) >= 0 &&
-            sl_orient(q, r, s) >= 0 && sl_orient(r, p, s) >= 0)
+        if (!sl_same_point(s, p) && !sl_same_point(s, q) && !sl_same_point(s, r) &&
+            sl_orient(p, q, s) >= 0 && sl_orient(q, r, s) >= 0 && sl_orient(r, p, s) >= 0)
             return false;
     }
     return true;
@@ -202,7 +198,7 @@ static sl_status gather_star(cutter *c, uint32_t first, uint32_t *last) {
 static bool goes_on(const sl_mesh *m, uint32_t before, uint32_t after) {
     const sl_point a = side(m, before)->start, p = side(m, after)->start, b = sl_mesh_end(m, after);
     return side(m, before)->neighbour == side(m, after)->neighbour && sl_orient(a, p, b) == 0 &&
-           (a.x < p.x) == (p.x < b.x) && (a.y < p.y) == (p.y < b.y) && !same(a, b);
+           (a.x < p.x) == (p.x < b.x) && (a.y < p.y) == (p.y < b.y) && !sl_same_point(a, b);
 }
 
 /// Drops the corner where a side starts, if no wall ends there.

@@ -54,11 +54,6 @@ sl_status sl_seams_of_map(sl_context *context, const sl_map *map, bool axial, sl
 
 // --- parts
 
-static int compare_points(sl_point a, sl_point b) {
-    if (a.x != b.x) return a.x < b.x ? -1 : 1;
-    return (a.y > b.y) - (a.y < b.y);
-}
-
 /// A seam with its ends in order; while parts are made, a part of it.
 typedef struct stretch {
     sl_point a, b;
@@ -67,7 +62,7 @@ typedef struct stretch {
 
 static int compare_stretches(const void *left, const void *right) {
     const stretch *s = left, *t = right;
-    const int a = compare_points(s->a, t->a), b = compare_points(s->b, t->b);
+    const int a = sl_compare_points(s->a, t->a), b = sl_compare_points(s->b, t->b);
     if (a || b) return a ? a : b;
     return (s->mark.seam > t->mark.seam) - (s->mark.seam < t->mark.seam);
 }
@@ -83,18 +78,18 @@ typedef struct parter {
 } parter;
 
 static sl_status add_cut(parter *p, const stretch *seam, sl_point at) {
-    if (compare_points(at, seam->a) <= 0 || compare_points(at, seam->b) >= 0) return SL_OK;
+    if (sl_compare_points(at, seam->a) <= 0 || sl_compare_points(at, seam->b) >= 0) return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(p->context, &p->cuts, 1));
     p->cuts.items[p->cuts.count++] = at;
     return SL_OK;
 }
 
 static int compare_cuts(const void *left, const void *right) {
-    return compare_points(*(const sl_point *)left, *(const sl_point *)right);
+    return sl_compare_points(*(const sl_point *)left, *(const sl_point *)right);
 }
 
 static sl_status add_part(parter *p, const stretch *seam, sl_point a, sl_point b) {
-    if (compare_points(a, b) == 0) return SL_OK;
+    if (sl_compare_points(a, b) == 0) return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(p->context, &p->parts, 1));
     p->parts.items[p->parts.count++] = (stretch){a, b, seam->mark};
     return SL_OK;
@@ -129,7 +124,7 @@ static sl_status group_parts(const parter *p, sl_seam_parts *out) {
     for (size_t i = 0; i < p->parts.count; i++) {
         const stretch *part = &p->parts.items[i];
         sl_seam_part *last = out->parts.count ? &out->parts.items[out->parts.count - 1] : NULL;
-        if (!last || compare_points(last->a, part->a) || compare_points(last->b, part->b)) {
+        if (!last || sl_compare_points(last->a, part->a) || sl_compare_points(last->b, part->b)) {
             last = &out->parts.items[out->parts.count++];
             *last = (sl_seam_part){part->a, part->b, .first = out->marks.count};
         }
@@ -154,7 +149,7 @@ static sl_status part_all(parter *p, const sl_space *space, sl_seam_parts *out) 
     if (!p->seams) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < space->seam_count; i++) {
         const sl_segment at = space->seams[i].at;
-        const bool along = compare_points(at.a, at.b) < 0;
+        const bool along = sl_compare_points(at.a, at.b) < 0;
         p->seams[i] = (stretch){along ? at.a : at.b, along ? at.b : at.a, {i, along}};
     }
     SL_TRY(make_tree(p));

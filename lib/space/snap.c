@@ -1,6 +1,8 @@
 /// Closing gaps: wall ends that are near to each other, then ends that are near to a wall.
 #include "space/faults.h"
 
+#include "geometry/orient.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,10 +38,6 @@ static int compare_use(const void *left, const void *right) {
     return a->wall != b->wall ? (a->wall < b->wall ? -1 : 1) : a->second - b->second;
 }
 
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
 static sl_point *end_of(snapper *s, const wall_end *end) {
     sl_wall *wall = &s->map->walls[end->wall];
     return end->second ? &wall->b : &wall->a;
@@ -54,14 +52,15 @@ static void list_ends(snapper *s) {
     s->count = 2 * s->map->wall_count;
     qsort(s->ends, s->count, sizeof *s->ends, compare_places);
     for (size_t i = 0, end; i < s->count; i = end) {
-        for (end = i; end < s->count && same(s->ends[i].at, s->ends[end].at); end++) continue;
+        for (end = i; end < s->count && sl_same_point(s->ends[i].at, s->ends[end].at); end++)
+            continue;
         for (size_t k = i; k < end; k++) s->ends[k].users = (uint32_t)(end - i);
     }
 }
 
 static void move_end(snapper *s, sl_point *end, sl_point to) {
     const double way = sl_apart(*end, to);
-    if (same(*end, to)) return;
+    if (sl_same_point(*end, to)) return;
     s->account.moved++;
     s->account.farthest = fmax(s->account.farthest, way);
     *end = to;
@@ -122,7 +121,7 @@ static void put_on_wall(snapper *s, const sl_wall_grid *grid, const wall_end *en
     double least = INFINITY;
     for (uint32_t k = 0; k < count; k++) {
         const sl_wall *other = &s->map->walls[near[k]];
-        if (near[k] == end->wall || same(other->a, other->b)) continue;
+        if (near[k] == end->wall || sl_same_point(other->a, other->b)) continue;
         if (sl_touches_wall(other, *at)) return;
         const sl_point to = meeting(own, *at, other);
         const double way = sl_apart(*at, to);
@@ -140,7 +139,7 @@ static void drop_points(snapper *s) {
     size_t kept = 0;
     for (size_t i = 0; i < s->map->wall_count; i++) {
         const sl_wall wall = s->map->walls[i];
-        if (!same(wall.a, wall.b)) s->map->walls[kept++] = wall;
+        if (!sl_same_point(wall.a, wall.b)) s->map->walls[kept++] = wall;
     }
     s->account.vanished = s->map->wall_count - kept;
     s->map->wall_count = kept;
