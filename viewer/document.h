@@ -7,7 +7,7 @@
 #include "sightline/eye_to_cell.h"
 #include "sightline/import.h"
 #include "sightline/region.h"
-#include "space/splits.h"
+#include "space/kd_tree.h"
 
 /// How to read a file.
 typedef struct sl_document_source {

@@ -9,7 +9,7 @@
 #include "sightline/dual.h"
 #include "sightline/steps.h"
 #include "sightline/support.h"
-#include "space/mesh_steps.h"
+#include "space/mesh.h"
 
 typedef struct sl_app sl_app;
 typedef struct sl_lesson sl_lesson;

@@ -1,7 +1,7 @@
 #include "bake/cell_sectors.h"
 
 #include "geometry/orient.h"
-#include "space/box_tree.h"
+#include "space/index.h"
 
 #include <math.h>
 #include <stdlib.h>

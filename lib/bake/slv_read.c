@@ -2,7 +2,7 @@
 #include "bake/slv.h"
 #include "base/base.h"
 #include "effects/mirror_sides.h"
-#include "space/cell_grid.h"
+#include "space/index.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 #include "bake/slv.h"
-#include "map/print.h"
+#include "map/scan.h"
 #include "sightline/support.h"
 
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 
 #include "sightline/support.h"
 #include "space/boxes.h"
-#include "space/cell_grid.h"
+#include "space/index.h"
 
 #include <string.h>
 

@@ -1,6 +1,6 @@
 #include "eye_to_cell/box_targets.h"
 
-#include "space/cell_grid.h"
+#include "space/index.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 #include "eye_to_cell/box_targets.h"
 #include "eye_to_cell/eye_methods.h"
 #include "eye_to_cell/eye_search.h"
-#include "geometry/distance.h"
+#include "geometry/crossing.h"
 #include "sightline/map.h"
 #include "sightline/sees.h"
 

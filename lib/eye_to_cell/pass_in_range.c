@@ -2,7 +2,7 @@
 /// it. All of a cell that is seen through a portal is beyond it.
 #include "eye_to_cell/eye_search.h"
 
-#include "geometry/distance.h"
+#include "geometry/crossing.h"
 
 /// Whether what an arc has of a directed portal's portal, which the eye is not on, is within range
 /// of the eye, with open sight more of it than one place. Exact.

@@ -101,4 +101,11 @@ static inline sl_status sl_read_coordinate(sl_context *context, const char *name
 /// characters and '#', so that it can be written as one word of the map text.
 bool sl_name_usable(const char *name, size_t length);
 
+// --- writers
+
+void sl_map_print_text(const sl_map *map, FILE *stream);
+
+/// Prints nothing where it fails.
+sl_status sl_map_print_plan(sl_context *context, const sl_map *map, FILE *stream);
+
 #endif

@@ -1,4 +1,3 @@
-#include "map/print.h"
 #include "map/scan.h"
 #include "sightline/support.h"
 

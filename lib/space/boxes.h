@@ -3,7 +3,7 @@
 #define SL_BOXES_H
 
 #include "sightline/space.h"
-#include "space/wall_lines.h"
+#include "space/kd_tree.h"
 
 /// A space to put boxes into. Zeroed, it is empty.
 typedef struct sl_box_ground {
@@ -37,11 +37,8 @@ sl_status sl_boxes_put(sl_context *context, const sl_box_ground *ground, const s
                        size_t count, sl_boxed_space *out);
 void sl_boxed_space_destroy(sl_context *context, sl_boxed_space *boxed); ///< and zeroes it
 
-// --- what sl_boxes_put is made of; `out` is zeroed, and to be destroyed whatever comes
+// --- parts of sl_boxes_put; `out` is zeroed, and to be destroyed also on failure
 
-/// In a kd-tree's space (boxes.c).
-sl_status sl_boxes_put_axial(sl_context *context, const sl_box_ground *ground,
-                             const sl_moving_box *boxes, size_t count, sl_boxed_space *out);
 /// In a mesh (boxes_mesh.c).
 sl_status sl_boxes_put_mesh(sl_context *context, const sl_box_ground *ground,
                             const sl_moving_box *boxes, size_t count, sl_boxed_space *out);
@@ -52,8 +49,6 @@ bool sl_cell_meets_box(const sl_space *space, uint32_t cell, sl_box box);
 // --- the sides of boxes (box_sides.c)
 
 typedef SL_ARRAY(sl_piece) sl_piece_list;
-
-sl_status sl_piece_add(sl_context *context, sl_piece_list *list, sl_piece piece);
 
 /// Adds to a list what sorted pieces, as sl_wall_lines gives them, leave free of one.
 sl_status sl_piece_add_free(sl_context *context, const sl_piece *walls, size_t count,

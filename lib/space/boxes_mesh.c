@@ -10,8 +10,7 @@
 #include "space/boxes.h"
 
 #include "geometry/orient.h"
-#include "space/box_tree.h"
-#include "space/cell_grid.h"
+#include "space/index.h"
 #include "space/mesh.h"
 
 #include <string.h>

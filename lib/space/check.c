@@ -1,10 +1,10 @@
 /// The whole-graph check: what the later stages take for granted, proven for one space. Safe on any
 /// bytes: every index is checked before it is used.
-#include "space/check.h"
 #include "geometry/orient.h"
 #include "sightline/support.h"
+#include "space/kd_tree.h"
+#include "space/mesh.h"
 #include "space/seams.h"
-#include "space/wall_lines.h"
 
 #include <math.h>
 

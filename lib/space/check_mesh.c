@@ -7,8 +7,8 @@
 /// each point of the bounds as often as the border does: once.
 #include "geometry/orient.h"
 #include "sightline/support.h"
-#include "space/cell_grid.h"
-#include "space/check.h"
+#include "space/index.h"
+#include "space/mesh.h"
 #include "space/seams.h"
 
 #include <math.h>

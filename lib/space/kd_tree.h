@@ -2,8 +2,34 @@
 #ifndef SL_KD_TREE_H
 #define SL_KD_TREE_H
 
+#include "sightline/map.h"
+#include "sightline/outline.h"
 #include "sightline/space.h"
-#include "space/wall_lines.h"
+#include "sightline/support.h"
+
+// --- axial walls by line
+
+/// A wall, or what a region leaves of one: on the line x = at (axis 0) or y = at (axis 1), from lo
+/// to hi in the other coordinate, lo < hi.
+typedef struct sl_piece {
+    double at, lo, hi;
+    int axis;
+    uint32_t seam; ///< 0 for a wall; else 1 + the part of the seams that this is of
+} sl_piece;
+
+/// All walls, by axis, at, lo. SL_BAD_INPUT names the first wall of `source` that is not axial, and
+/// one that overlaps another.
+sl_status sl_wall_lines(sl_context *context, const char *source, const sl_wall *walls, size_t count,
+                        sl_piece **out);
+
+/// The first of `count` sorted pieces on the line or beyond whose end is past `lo`.
+size_t sl_wall_lines_find(const sl_piece *pieces, size_t count, int axis, double at, double lo);
+
+/// Whether walls cover all of lo .. hi on a line.
+bool sl_wall_lines_cover(const sl_piece *pieces, size_t count, int axis, double at, double lo,
+                         double hi);
+
+// --- the tree
 
 /// The walls on a node's split line, within the node's region: pieces[first .. first + count).
 typedef struct sl_split_walls {
@@ -43,5 +69,27 @@ sl_box sl_padded(sl_box box);
 /// space tells its sides.
 sl_status sl_mark_inside(sl_context *context, const sl_map *map, const sl_piece *walls,
                          sl_space *space);
+
+// --- rooms (rooms.c)
+
+/// Replaces the boundaries of cells in an outline by those of rooms, and tells which rooms each
+/// cell has a part of.
+sl_status sl_rooms_make(sl_context *context, sl_outline *outline);
+
+// --- splits of a finished space
+
+/// What a node splits.
+typedef struct sl_split {
+    uint32_t depth; ///< nodes above it
+    sl_box below, above;
+    sl_segment along; ///< the piece of the split line that is in the node's box
+} sl_split;
+
+/// The splits of a space by node, node_count of them; to be freed with sl_free(). A mesh has none.
+/// The space must be one that sl_space_check finds no fault in.
+sl_status sl_splits_make(sl_context *context, const sl_space *space, sl_split **out);
+
+/// The share of a node's split that walls on its line cover: 0 to 1.
+double sl_splits_covered(const sl_split *splits, const sl_space *space, uint32_t node);
 
 #endif

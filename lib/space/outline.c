@@ -5,8 +5,8 @@
 
 #include "geometry/orient.h"
 #include "sightline/support.h"
-#include "space/rooms.h"
-#include "space/wall_grid.h"
+#include "space/index.h"
+#include "space/kd_tree.h"
 
 #include <math.h>
 #include <stdlib.h>

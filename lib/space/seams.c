@@ -1,7 +1,7 @@
 #include "space/seams.h"
 
 #include "geometry/orient.h"
-#include "space/box_tree.h"
+#include "space/index.h"
 
 #include <math.h>
 #include <stdlib.h>

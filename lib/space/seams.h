@@ -3,7 +3,7 @@
 #define SL_SEAMS_H
 
 #include "sightline/space.h"
-#include "space/wall_lines.h"
+#include "space/kd_tree.h"
 
 /// A seam that a part is of.
 typedef struct sl_seam_mark {

@@ -1,8 +1,9 @@
+/// A space.
 #include "sightline/space.h"
 
 #include "geometry/orient.h"
 #include "sightline/support.h"
-#include "space/cell_grid.h"
+#include "space/index.h"
 #include "space/kd_tree.h"
 #include "space/seams.h"
 
@@ -168,4 +169,48 @@ double sl_space_area(const sl_space *space, uint32_t cell) {
         twice +=
             (v[i - 1].x - v[0].x) * (v[i].y - v[0].y) - (v[i].x - v[0].x) * (v[i - 1].y - v[0].y);
     return twice / 2;
+}
+
+// --- the table of subdivisions
+
+static sl_status by_kd(sl_context *context, const sl_map *map, const sl_subdivide_options *rules,
+                       sl_space *out) {
+    const sl_subdivide_options usual = sl_subdivide_options_default();
+    return sl_subdivide_kd(context, map, rules ? rules : &usual, out);
+}
+
+static sl_status by_mesh(sl_context *context, const sl_map *map, const sl_subdivide_options *rules,
+                         sl_space *out) {
+    (void)rules;
+    return sl_subdivide_mesh(context, map, out);
+}
+
+static sl_status as_given(sl_context *context, const sl_map *map, const sl_subdivide_options *rules,
+                          sl_space *out) {
+    (void)rules;
+    return sl_subdivide_given(context, map, out);
+}
+
+static const sl_subdivision subdivisions[] = {
+    {.name = "kd",
+     .what = "kd-tree on the walls' own lines; walls must be axial",
+     .takes_rules = true,
+     .subdivide = by_kd},
+    {.name = "mesh",
+     .what = "constrained triangulation, triangles merged to convex cells; walls may be oblique",
+     .subdivide = by_mesh},
+    {.name = "given",
+     .what = "the cells that the file brings: 'cell' of a map text, GL nodes of a WAD",
+     .takes_cells = true,
+     .subdivide = as_given},
+};
+enum { KD, MESH, GIVEN };
+
+const sl_subdivision *sl_subdivisions(size_t *count) {
+    *count = sizeof subdivisions / sizeof *subdivisions;
+    return subdivisions;
+}
+
+const sl_subdivision *sl_subdivision_for(const sl_map *map) {
+    return &subdivisions[map->cell_count ? GIVEN : sl_map_is_axial(map) ? KD : MESH];
 }

@@ -14,7 +14,7 @@
 /// Only the signs of sl_orient decide what is a triangle, and they are exact. Whether a point lies
 /// in a circle is told within rounding: where that leaves doubt nothing is turned, so that the
 /// turning ends, and all that may suffer is the shape of the triangles.
-#include "space/triangulation.h"
+#include "space/mesh.h"
 
 #include "geometry/orient.h"
 #include "sightline/support.h"

@@ -4,7 +4,7 @@
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime/sightline_runtime.h"
 #include "sightline/solvers.h"
-#include "space/cell_grid.h"
+#include "space/index.h"
 
 #include <math.h>
 

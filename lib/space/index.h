@@ -1,11 +1,78 @@
-/// The buckets that locate a point in a mesh.
-#ifndef SL_SPACE_CELL_GRID_H
-#define SL_SPACE_CELL_GRID_H
+/// Indexes over boxes, walls and cells: those near a place, without asking all.
+#ifndef SL_SPACE_INDEX_H
+#define SL_SPACE_INDEX_H
 
+#include "sightline/geometry.h"
+#include "sightline/map.h"
 #include "sightline/space.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdbool.h>
+
+// --- boxes in a tree
+
+/// Deep enough for 2^32 boxes.
+enum { SL_BOX_TREE_LEVELS = 12 };
+
+/// Zeroed, it is empty.
+typedef struct sl_box_tree {
+    uint32_t *items; ///< the boxes' numbers as they stand on the lowest level
+    sl_box *boxes;   ///< level after level, the lowest first; each of the next is around 8 of them
+    size_t first[SL_BOX_TREE_LEVELS + 1]; ///< where each level starts; one more at the end
+    uint32_t levels;
+} sl_box_tree;
+
+typedef struct sl_box_list {
+    uint32_t *items;
+    size_t count, capacity;
+} sl_box_list;
+
+/// The box around two points.
+sl_box sl_box_around(sl_point a, sl_point b);
+/// The box around a box and a point.
+sl_box sl_box_with(sl_box box, sl_point point);
+
+/// Fewer than 2^32 boxes, of coordinates that are no NaN; they are copied. `out` is to be
+/// destroyed whatever comes.
+sl_status sl_box_tree_create(sl_context *context, const sl_box *boxes, size_t count,
+                             sl_box_tree *out);
+void sl_box_tree_destroy(sl_context *context, sl_box_tree *tree); ///< and zeroes it
+
+/// The numbers of the boxes that meet a box, be it at a border, ascending, in the place of what was
+/// found before. The list begins zeroed; sl_free(items) ends it.
+sl_status sl_box_tree_find(sl_context *context, const sl_box_tree *tree, const sl_box *box,
+                           sl_box_list *found);
+
+// --- walls in a grid
+
+typedef struct sl_wall_grid {
+    sl_box bounds;
+    double step;
+    uint32_t columns, rows;
+    uint32_t *offsets; ///< by square, row after row, one more at the end
+    uint32_t *walls;   ///< a wall is in each square that it comes as near to as `reach`, or nearer
+} sl_wall_grid;
+
+sl_status sl_wall_grid_create(sl_context *context, const sl_map *map, double reach,
+                              sl_wall_grid *out);
+void sl_wall_grid_destroy(sl_context *context, sl_wall_grid *grid);
+
+/// The squares' walls about a point within the bounds: all that are within `reach` of it.
+static inline const uint32_t *sl_wall_grid_at(const sl_wall_grid *grid, sl_point point,
+                                              uint32_t *count) {
+    double x = (point.x - grid->bounds.min.x) / grid->step;
+    double y = (point.y - grid->bounds.min.y) / grid->step;
+    if (!(x >= 0)) x = 0;
+    if (!(y >= 0)) y = 0;
+    const uint32_t column = x < grid->columns - 1 ? (uint32_t)x : grid->columns - 1;
+    const uint32_t row = y < grid->rows - 1 ? (uint32_t)y : grid->rows - 1;
+    const uint32_t square = row * grid->columns + column;
+    *count = grid->offsets[square + 1] - grid->offsets[square];
+    return grid->walls + grid->offsets[square];
+}
+
+// --- cells in a grid
 
 /// Makes the grid of a space whose cells, vertices and bounds are there: four buckets for each cell
 /// or fewer, and 32 entries at most.

@@ -2,9 +2,94 @@
 /// split on a line that holds a wall, chosen by the rules of sl_subdivide_options.
 #include "space/kd_tree.h"
 
+#include "sightline/support.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+// --- axial walls by line
+
+static int compare_numbers(double a, double b) {
+    return (a > b) - (a < b);
+}
+
+static int compare_pieces(const void *left, const void *right) {
+    const sl_piece *a = left, *b = right;
+    if (a->axis != b->axis) return a->axis - b->axis;
+    const int at = compare_numbers(a->at, b->at);
+    return at ? at : compare_numbers(a->lo, b->lo);
+}
+
+static sl_piece make_piece(const sl_wall *wall) {
+    const int axis = wall->a.x == wall->b.x ? 0 : 1;
+    const double at = axis ? wall->a.y : wall->a.x;
+    const double one = axis ? wall->a.x : wall->a.y, other = axis ? wall->b.x : wall->b.y;
+    return (sl_piece){
+        .axis = axis, .at = at, .lo = one < other ? one : other, .hi = one < other ? other : one};
+}
+
+static sl_status check_axial(sl_context *context, const char *source, const sl_wall *wall) {
+    const bool vertical = wall->a.x == wall->b.x, horizontal = wall->a.y == wall->b.y;
+    if (vertical && horizontal)
+        return sl_fail_at(context, source, wall->line,
+                          "a wall of zero length at %.17g %.17g: clean the map first", wall->a.x,
+                          wall->a.y);
+    if (vertical || horizontal) return SL_OK;
+    return sl_fail_at(context, source, wall->line,
+                      "the wall from %.17g %.17g to %.17g %.17g is neither horizontal nor "
+                      "vertical, which the kd-tree needs: make it axial or leave it out",
+                      wall->a.x, wall->a.y, wall->b.x, wall->b.y);
+}
+
+sl_status sl_wall_lines(sl_context *context, const char *source, const sl_wall *walls, size_t count,
+                        sl_piece **out) {
+    if (!source) source = "the map";
+    for (size_t i = 0; i < count; i++) SL_TRY(check_axial(context, source, &walls[i]));
+    sl_piece *pieces = sl_alloc_array(context, count, sizeof *pieces);
+    if (!pieces) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++) pieces[i] = make_piece(&walls[i]);
+    qsort(pieces, count, sizeof *pieces, compare_pieces);
+    for (size_t i = 1; i < count; i++) {
+        const sl_piece *a = &pieces[i - 1], *b = &pieces[i];
+        if (a->axis != b->axis || a->at != b->at || b->lo >= a->hi) continue;
+        const sl_status status =
+            sl_fail_at(context, source, 0, "two walls overlap on %s = %.17g: clean the map first",
+                       a->axis ? "y" : "x", a->at);
+        sl_free(context, pieces);
+        return status;
+    }
+    *out = pieces;
+    return SL_OK;
+}
+
+size_t sl_wall_lines_find(const sl_piece *pieces, size_t count, int axis, double at, double lo) {
+    size_t first = 0, end = count;
+    while (first < end) {
+        const size_t middle = first + (end - first) / 2;
+        const sl_piece *p = &pieces[middle];
+        const bool before = p->axis != axis ? p->axis < axis
+                            : p->at != at   ? p->at < at
+                                            : p->hi <= lo;
+        if (before)
+            first = middle + 1;
+        else
+            end = middle;
+    }
+    return first;
+}
+
+bool sl_wall_lines_cover(const sl_piece *pieces, size_t count, int axis, double at, double lo,
+                         double hi) {
+    for (size_t i = sl_wall_lines_find(pieces, count, axis, at, lo); lo < hi; i++) {
+        if (i == count || pieces[i].axis != axis || pieces[i].at != at || pieces[i].lo > lo)
+            return false;
+        lo = pieces[i].hi;
+    }
+    return true;
+}
+
+// --- the tree
 
 /// A region still to be divided, with the walls inside it, sorted by line. Owned by the stack.
 typedef struct region {
@@ -311,4 +396,48 @@ void sl_kd_destroy(sl_context *context, sl_kd_tree *tree) {
     sl_free(context, tree->on_splits.items);
     sl_free(context, tree->cells.items);
     *tree = (sl_kd_tree){0};
+}
+
+// --- splits
+
+static sl_split split_box(const sl_node *node, sl_box box, uint32_t depth) {
+    sl_split s = {depth, box, box, {box.min, box.max}};
+    if (node->axis == 0)
+        s.below.max.x = s.above.min.x = s.along.a.x = s.along.b.x = node->position;
+    else
+        s.below.max.y = s.above.min.y = s.along.a.y = s.along.b.y = node->position;
+    return s;
+}
+
+sl_status sl_splits_make(sl_context *context, const sl_space *space, sl_split **out) {
+    sl_split *splits = sl_alloc_array(context, space->node_count, sizeof *splits);
+    if (!splits) return SL_NO_MEMORY;
+    // A node stands before its children: each finds its box and depth in its own place.
+    if (space->node_count) splits[space->root].below = space->bounds;
+    for (uint32_t i = 0; i < space->node_count; i++) {
+        const sl_node *node = &space->nodes[i];
+        splits[i] = split_box(node, splits[i].below, splits[i].depth);
+        if (node->below >= 0)
+            splits[node->below] = (sl_split){splits[i].depth + 1, .below = splits[i].below};
+        if (node->above >= 0)
+            splits[node->above] = (sl_split){splits[i].depth + 1, .below = splits[i].above};
+    }
+    *out = splits;
+    return SL_OK;
+}
+
+double sl_splits_covered(const sl_split *splits, const sl_space *space, uint32_t node) {
+    const bool upright = space->nodes[node].axis == 0;
+    const double position = space->nodes[node].position;
+    const sl_segment along = splits[node].along;
+    const double low = upright ? along.a.y : along.a.x, high = upright ? along.b.y : along.b.x;
+    double sum = 0;
+    for (uint32_t i = 0; i < space->wall_count; i++) {
+        const sl_wall *w = &space->walls[i];
+        if ((upright ? w->a.x : w->a.y) != position || (upright ? w->b.x : w->b.y) != position)
+            continue;
+        const double a = upright ? w->a.y : w->a.x, b = upright ? w->b.y : w->b.x;
+        sum += fmax(0, fmin(fmax(a, b), high) - fmax(fmin(a, b), low));
+    }
+    return high > low ? fmin(sum / (high - low), 1) : 0;
 }
