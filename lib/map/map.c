@@ -1,4 +1,4 @@
-
+/// The map: adding, copying, bounds.
 #include "sightline/map.h"
 
 #include "map/scan.h"
@@ -216,7 +216,7 @@ sl_status sl_map_add_note(sl_context *context, sl_map *map, const char *text) {
     return SL_OK;
 }
 
-/// Takes in one more point; the first makes the box.
+/// Adds a point to a box; the first one makes it.
 static void grow(sl_box *box, bool *any, sl_point point) {
     if (!*any) *box = (sl_box){.min = point, .max = point};
     *any = true;

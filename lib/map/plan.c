@@ -1,4 +1,16 @@
-
+/// Grids of solid and open squares, and the ASCII plan, which is such a grid.
+///
+/// A wall stands on each border between a solid square and an open one. Unit pieces in one line
+/// become one wall:
+///
+///     # # # #                         level walls come from one pass over each pair of rows;
+///     # . . #      .-----.            upright ones stay open in a table by column until a row
+///     # . . #  ->  |     |            ends them
+///     # # # #      '-----'
+///
+/// To write a plan, the squares outside the walls are solid, and each wall separates solid from
+/// open. A flood from outside, wall by wall, tells the two apart: a square that is an odd number of
+/// walls away is open. A map for which this does not work out is refused.
 #include "map/grid.h"
 
 #include "geometry/orient.h"
@@ -33,7 +45,7 @@ static size_t row_length(const sl_grid *grid, size_t row) {
     return row < grid->count ? grid->rows[row].length : 0;
 }
 
-/// How many columns can differ from what is beyond, in a row or in the one above it.
+/// The number of columns of a row or the one above it, whichever is more.
 static size_t columns_about(const sl_grid *grid, size_t row) {
     const size_t above = row_length(grid, row - 1), here = row_length(grid, row);
     return above > here ? above : here;
@@ -44,7 +56,7 @@ static uint32_t line_of(const sl_grid *grid, size_t row) {
     return grid->first_line + (uint32_t)(row < grid->count ? row : row - 1);
 }
 
-/// The walls between a row and the one above it; `row` may be one behind the last.
+/// The walls between a row and the one above it; `row` may be the one after the last.
 static sl_status add_level(sl_context *context, const sl_grid *grid, size_t row, sl_map *map) {
     const size_t length = columns_about(grid, row);
     for (size_t column = 0, first = NONE; column <= length; column++) {
@@ -58,8 +70,8 @@ static sl_status add_level(sl_context *context, const sl_grid *grid, size_t row,
     return SL_OK;
 }
 
-/// Begins and ends the walls between the columns of a row; one behind the last ends them all.
-/// `open_runs` has for each column's left edge the row where its wall begins, or NONE.
+/// Begins and ends the walls between the columns of a row; the row after the last ends them all.
+/// `open_runs` has, for the left edge of each column, the row where its wall begins, or NONE.
 static sl_status add_uprights(sl_context *context, const sl_grid *grid, size_t row,
                               size_t *open_runs, sl_map *map) {
     const size_t length = columns_about(grid, row);
@@ -94,11 +106,11 @@ sl_status sl_grid_add_walls(sl_context *context, const sl_grid *grid, sl_map *ma
 
 // --- plans
 
-/// The most unit squares a written plan has, a side.
+/// The limit of unit squares on each side of a written plan.
 #define MOST_SQUARES 4096
 
-/// Where the door of a square stands: through its middle, from one solid square to the one
-/// opposite. False unless there is just one such pair.
+/// The door of a square: through its middle, from one solid square to the opposite one. False
+/// unless there is exactly one such pair.
 static bool door_segment(const sl_grid *plan, size_t row, size_t column, sl_segment *out) {
     const bool beside =
         sl_grid_solid(plan, row, column - 1) && sl_grid_solid(plan, row, column + 1);
@@ -111,13 +123,13 @@ static bool door_segment(const sl_grid *plan, size_t row, size_t column, sl_segm
     return beside != along;
 }
 
-/// Where the start of a square stands.
+/// The place of a start in a square.
 static sl_point middle(const sl_grid *plan, size_t row, size_t column) {
     const sl_point at = sl_grid_corner(plan, row, column);
     return (sl_point){at.x + 0.5, at.y + 0.5};
 }
 
-/// A plan while it is read.
+/// The reading of a plan.
 typedef struct plan_reader {
     sl_context *context;
     const char *name;
@@ -179,7 +191,7 @@ static sl_status read_rows(const plan_reader *reader) {
     return SL_OK;
 }
 
-/// The plan of these rows: unit squares, a row a line.
+/// The plan of these rows: unit squares, one line for each row.
 static sl_grid plan_of(sl_word *rows, size_t count) {
     return (sl_grid){.rows = rows, .count = count, .step = {1, 1}, .first_line = 1};
 }
@@ -206,8 +218,8 @@ sl_status sl_map_read_plan(sl_context *context, const char *name, const char *te
     return status;
 }
 
-/// A plan while it is made from a map. Its squares are counted from the lower left; `left` and
-/// `bottom` are solid squares beyond the walls, and as many (one at most) stand on the other side.
+/// The making of a plan from a map. Squares are counted from the lower left. `left` and `bottom`
+/// are the numbers of solid squares outside the walls there; the other sides have one or none.
 typedef struct plan_maker {
     sl_context *context;
     const sl_map *map;
@@ -249,7 +261,7 @@ static sl_status refuse_wall(const plan_maker *maker, const sl_wall *wall, const
     return refuse_segment(maker, wall->line, "wall", wall->a, wall->b, why);
 }
 
-/// What has no character in a plan is refused by name.
+/// Refuses, by name, all that has no character in a plan.
 static sl_status refuse_others(const plan_maker *maker) {
     const sl_map *map = maker->map;
     if (map->mirror_count)
@@ -279,8 +291,8 @@ static bool whole(sl_point point) {
 }
 
 /// Places one axis: the squares that the walls span, and the solid ones around. Walls keep their
-/// coordinates where those are not negative and the squares suffice; else the first stands at 1, or
-/// at 0 where the walls take all squares there are.
+/// coordinates where these are not negative and there are enough squares. Else the first wall
+/// stands at 1, or at 0 where the walls need all squares.
 static bool place(double low, double high, size_t *before, size_t *size) {
     if (high - low > MOST_SQUARES) return false;
     const size_t span = (size_t)(high - low);
@@ -325,13 +337,13 @@ static size_t level_of(const plan_maker *maker, double y) {
     return (size_t)(y - maker->walls.min.y) + maker->bottom;
 }
 
-/// The marks of a square of the plan, or of those around it (column or level -1, as SIZE_MAX).
+/// The marks of a square of the plan, or of one around it (column or level SIZE_MAX for -1).
 static unsigned char *marks(const plan_maker *maker, size_t column, size_t level) {
     return &maker->squares[(level + 1) * (maker->width + 2) + column + 1];
 }
 
-/// A wall as the unit edges that it covers: `count` squares from (column, level) on, each with the
-/// wall to its left (upright) or below it.
+/// A wall as unit edges: `count` squares from (column, level) on, each with the wall to its left
+/// (upright) or below it.
 typedef struct edges {
     size_t column, level, count;
     bool upright;
@@ -369,7 +381,7 @@ static sl_status push(sl_context *context, squares *list, size_t square) {
     return SL_OK;
 }
 
-/// Floods from the squares in `now` what no wall keeps out; what lies behind a wall goes to `next`.
+/// Floods from the squares in `now` up to the walls; squares behind a wall go to `next`.
 static sl_status flood(const plan_maker *maker, squares *now, squares *next) {
     const size_t stride = maker->width + 2, rows = maker->height + 2;
     unsigned char *all = maker->squares;
@@ -393,8 +405,8 @@ static sl_status flood(const plan_maker *maker, squares *now, squares *next) {
     return SL_OK;
 }
 
-/// Outside is solid, and each wall parts solid from open: so squares an odd number of walls away
-/// from outside are open, on the way that crosses the fewest.
+/// Finds the open squares: those an odd number of walls away from outside, on the way that crosses
+/// the fewest walls.
 static sl_status find_open(const plan_maker *maker) {
     squares now = {0}, next = {0};
     maker->squares[0] |= KNOWN;
@@ -414,7 +426,7 @@ static sl_status find_open(const plan_maker *maker) {
     return status;
 }
 
-/// Every unit of every wall must part a solid square from an open one.
+/// Every unit of every wall must have a solid square on one side and an open one on the other.
 static sl_status check_walls(const plan_maker *maker) {
     for (size_t i = 0; i < maker->map->wall_count; i++) {
         const edges run = run_of(maker, &maker->map->walls[i]);
@@ -448,7 +460,7 @@ static sl_status make_text(plan_maker *maker) {
     return SL_OK;
 }
 
-/// The open square that holds a point (on an edge, the one right of or above it); NULL for none.
+/// The open square that holds a point (on an edge, the one right of it or above); NULL for none.
 static char *open_square(const plan_maker *maker, sl_point point, size_t *row, size_t *column) {
     const double x = point.x - maker->walls.min.x, y = point.y - maker->walls.min.y;
     if (!(x >= 0 && y >= 0 && point.x < maker->walls.max.x && point.y < maker->walls.max.y))
@@ -459,14 +471,14 @@ static char *open_square(const plan_maker *maker, sl_point point, size_t *row, s
     return *at == '#' ? NULL : at;
 }
 
-/// A segment as it stands in the plan.
+/// A segment in the coordinates of the plan.
 static sl_segment moved(const plan_maker *maker, sl_segment segment) {
     const double x = (double)maker->left - maker->walls.min.x;
     const double y = (double)maker->bottom - maker->walls.min.y;
     return (sl_segment){{segment.a.x + x, segment.a.y + y}, {segment.b.x + x, segment.b.y + y}};
 }
 
-/// A door is put where reading the plan finds the same door.
+/// Puts a door into a square, if reading the plan then finds the same door.
 static sl_status put_door(const plan_maker *maker, const sl_door *door) {
     const sl_grid plan = plan_of(maker->rows, maker->height);
     const sl_segment at = moved(maker, door->segment);

@@ -1,3 +1,4 @@
+/// The map text: one statement a line, a keyword first. The reader names file and line on an error.
 #include "map/scan.h"
 #include "sightline/support.h"
 

@@ -765,7 +765,7 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status) {
     case SL_RUNTIME_SECTION:
         return "damaged: a section is missing, there twice, or does not fit";
     case SL_RUNTIME_SPACE:
-        return "damaged: a number of the bounds, tree, grid, cells or exits is out of range";
+        return "damaged: a number of the bounds, tree, grid, cells or portals is out of range";
     case SL_RUNTIME_ROW:
         return "damaged: a row of the visible sets";
     case SL_RUNTIME_SHARD:
@@ -1053,7 +1053,7 @@ static bool slrt_holds(const sl_runtime *rt, uint32_t number, double x, double y
     return true;
 }
 
-/// The column or row of a coordinate within the bounds, as in lib/space/cell_grid.h. Cells are
+/// The column or row of a coordinate within the bounds, as in lib/space/index.h. Cells are
 /// entered in buckets that they only come near, too, so that rounding changes no answer.
 static uint32_t slrt_step(double value, double low, double high, uint32_t count) {
     const double step = (value - low) / (high - low) * count;

@@ -1,5 +1,19 @@
-/// Boxes put into a kd-tree's space: cells are cut at the lines of the boxes' sides. No coordinate
-/// is computed.
+/// Boxes put into a space. A kd-tree's space is cut here, a mesh in boxes_mesh.c.
+///
+/// Each cell that a side of a box runs through is cut along the lines of these sides, as nodes of
+/// the tree below its leaf:
+///
+///     +-------------+        +---+-----+---+
+///     |   .-----.   |        |   |     |   |      a part is cut at its first side; the other
+///     |   | box |   |   ->   |   +-----+   |      sides are cut for both halves, and so on,
+///     |   '-----'   |        |   |     |   |      until no side runs through a part
+///     |             |        |   +-----+   |
+///     +-------------+        +---+-----+---+
+///
+/// Portals of untouched cells stay. Others are found again between the parts on both sides of the
+/// old portal, and between the parts of one cell. Sides of boxes that block are left out of them.
+/// No coordinate is computed. Time: linear in the space, which is copied, plus the parts squared by
+/// cell.
 #include "space/boxes.h"
 
 #include "geometry/orient.h"
@@ -57,8 +71,8 @@ sl_status sl_piece_add_free(sl_context *context, const sl_piece *walls, size_t c
     return piece.lo < piece.hi ? add_piece(context, out, piece) : SL_OK;
 }
 
-/// Sorts pieces, each place once: of those that overlap, the later goes on where the one before it
-/// ends. Returns how many are left.
+/// Sorts pieces, each place once: a piece that overlaps the one before it starts at its end.
+/// Returns the number that is left.
 static size_t sort_out(sl_piece *pieces, size_t count) {
     size_t kept = 0;
     if (count) qsort(pieces, count, sizeof *pieces, compare_pieces);
@@ -72,7 +86,7 @@ static size_t sort_out(sl_piece *pieces, size_t count) {
     return kept;
 }
 
-/// What of a side lies within the space's bounds; false for nothing.
+/// Keeps the part of a side within the bounds; false for none.
 static bool clip(const sl_box *bounds, sl_piece *side) {
     const double at_lo = side->axis ? bounds->min.y : bounds->min.x;
     const double at_hi = side->axis ? bounds->max.y : bounds->max.x;
@@ -107,7 +121,7 @@ sl_status sl_box_sides_put(sl_context *context, const sl_box_ground *ground,
 
 // --- cells
 
-/// By separating lines, the box's own and those of the cell's sides.
+/// Looks for a separating line among the sides of the box and of the cell.
 bool sl_cell_meets_box(const sl_space *space, uint32_t number, sl_box box) {
     const sl_point corners[4] = {box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}};
     const sl_cell *cell = &space->cells[number];
@@ -128,7 +142,7 @@ bool sl_cell_meets_box(const sl_space *space, uint32_t number, sl_box box) {
 
 // --- the ground
 
-/// The axial ones of a mesh's walls.
+/// The axial walls of a mesh.
 static sl_status gather_axial(sl_context *context, const sl_space *space, sl_box_ground *out) {
     sl_piece *pieces = sl_alloc_array(context, space->wall_count, sizeof *pieces);
     size_t count = 0;
@@ -166,7 +180,7 @@ void sl_box_ground_destroy(sl_context *context, sl_box_ground *ground) {
     *ground = (sl_box_ground){0};
 }
 
-/// A side of a box that runs through a cell, and where the tree leads to that cell.
+/// A side of a box that runs through a cell, and the place in the tree that leads to the cell.
 typedef struct cut {
     uint32_t cell;
     sl_piece side;
@@ -182,7 +196,7 @@ typedef struct part {
     bool above;
 } part;
 
-/// A portal, and that of the ground which it is of; UINT32_MAX: within a cell that was one.
+/// A portal, and the portal of the ground that it is a part of; UINT32_MAX for one within a cell.
 typedef struct made_portal {
     sl_portal portal;
     uint32_t of;
@@ -193,7 +207,7 @@ typedef struct maker {
     const sl_box_ground *ground;
     const sl_space *from;
     sl_boxed_space *out;
-    sl_piece_list blocking; ///< as sl_box_sides_blocking gives them
+    sl_piece_list blocking; ///< the sides of boxes that block
     sl_piece_list sides;    ///< of parts
     SL_ARRAY(cut) cuts;
     SL_ARRAY(part) parts;
@@ -225,7 +239,7 @@ static sl_status push(maker *m, int32_t child) {
     return SL_OK;
 }
 
-/// Notes the cells that a box touches, and those that its sides run through, with what led there.
+/// Finds the cells that a box touches, and those that its sides run through.
 static sl_status find_cells(maker *m, sl_box box) {
     sl_piece sides[4];
     const unsigned count = sl_box_sides(box, sides);
@@ -238,7 +252,7 @@ static sl_status find_cells(maker *m, sl_box box) {
             const sl_node *n = &s->nodes[child];
             const double lo = n->axis ? box.min.y : box.min.x;
             const double hi = n->axis ? box.max.y : box.max.x;
-            // The stack holds nodes, each twice where both its children are to be looked at.
+            // The stack has 2 * node + 1 for the child above, 2 * node for the child below.
             if (lo <= n->position) SL_TRY(push(m, 2 * child));
             if (hi >= n->position) SL_TRY(push(m, 2 * child + 1));
         } else {
@@ -286,7 +300,7 @@ static sl_status keep_part(maker *m, const part *p, uint32_t cell) {
     return SL_OK;
 }
 
-/// Cuts a part at its first side; what of the others runs through either half is left for it.
+/// Cuts a part at its first side. Each half keeps the other sides that run through it.
 static sl_status cut_part(maker *m, const part *p) {
     const sl_piece by = m->sides.items[p->first];
     const int32_t node = (int32_t)m->nodes.count;
@@ -343,8 +357,7 @@ static sl_status cut_cells(maker *m) {
 
 // --- portals
 
-/// Whether two cells share a piece of a line of positive length, which `out` becomes, the first of
-/// them below it.
+/// The piece of positive length that two cells share, the first of them below it; false for none.
 static bool share(const sl_box *below, const sl_box *above, int axis, sl_piece *out) {
     const double at = axis ? below->max.y : below->max.x;
     if (at != (axis ? above->min.y : above->min.x)) return false;
@@ -354,7 +367,7 @@ static bool share(const sl_box *below, const sl_box *above, int axis, sl_piece *
     return out->lo < out->hi;
 }
 
-/// Adds the portals that blocking sides leave of a piece that two cells share.
+/// Adds the portals on a piece that two cells share, without the sides that block.
 static sl_status add_portals(maker *m, uint32_t below, uint32_t above, sl_piece piece,
                              uint32_t of) {
     m->sides.count = 0;
@@ -372,14 +385,14 @@ static sl_status add_portals(maker *m, uint32_t below, uint32_t above, sl_piece 
     return SL_OK;
 }
 
-/// The parts of a cell, itself where it is whole.
+/// The parts of a cell; a whole cell is its own part.
 static const uint32_t *parts_of(const maker *m, const uint32_t *cell, uint32_t *count) {
     const uint32_t first = m->first_part[*cell];
     *count = first == UINT32_MAX ? 1 : m->part_count[*cell];
     return first == UINT32_MAX ? cell : m->of_cut.items + first;
 }
 
-/// A portal of the ground, as the parts of its cells have it.
+/// The portals between parts of cells that a portal of the ground becomes.
 static sl_status take_portal(maker *m, uint32_t number) {
     const sl_portal *p = &m->from->portals[number];
     if (!m->touched[p->cell[0]] && !m->touched[p->cell[1]]) {
@@ -423,7 +436,7 @@ static sl_status join_parts(maker *m, uint32_t cell) {
     return SL_OK;
 }
 
-/// The seams that a portal of the ground lies on, for what has become of it.
+/// Gives a part of a portal the seams that the portal lies on.
 static void take_seams(maker *m, uint32_t number, const made_portal *made) {
     sl_space *s = &m->out->space;
     size_t count;
@@ -509,7 +522,7 @@ static sl_status write_walls(maker *m) {
     return SL_OK;
 }
 
-/// The deepest way down; nodes come after their parents.
+/// Takes the nodes, and finds the depth: nodes come after their parents.
 static sl_status write_nodes(maker *m) {
     sl_space *s = &m->out->space;
     s->nodes = m->nodes.items;

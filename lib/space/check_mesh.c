@@ -1,10 +1,15 @@
-/// The whole-graph check of a mesh, by exact signs and comparisons of coordinates alone.
+/// The check of a whole mesh, by exact signs and comparisons.
 ///
-/// That cells tile the bounds is proven by their sides. Each cell is convex and counter-clockwise,
-/// so that it winds once around each of its points. Each side that is not on the border of the
-/// bounds has one side of another cell that runs the other way, between the same two ends: the two
-/// cancel. The sides on the border make up the border, once. So the sum of all cells winds around
-/// each point of the bounds as often as the border does: once.
+/// The sides of cells prove that the cells tile the bounds. A convex, counter-clockwise cell winds
+/// once around each of its points. A side that is not on the border has exactly one partner, a side
+/// of another cell that runs the other way between the same two ends:
+///
+///     +-----<-----+-----<-----+       the two cancel; the sides on the border make up the border,
+///     |           ^|          |       once; so the sum of all cells winds around each point of the
+///     v           |v          ^       bounds as often as the border does, which is once
+///     +----->-----+----->-----+
+///
+/// Time O(n log n), for sorting.
 #include "geometry/orient.h"
 #include "sightline/support.h"
 #include "space/index.h"
@@ -17,8 +22,8 @@
 typedef struct checker {
     sl_context *context;
     const sl_space *space;
-    uint8_t *directed_found; ///< by portal, as sl_check_directed has it
-    uint8_t *sides_found;    ///< by wall: 1 for a cell at its left, 2 for one at its right
+    uint8_t *directed_found; ///< by portal, as in sl_check_directed
+    uint8_t *sides_found;    ///< by wall: bit 1 for a cell at its left, bit 2 for one at its right
     uint8_t *on_border;      ///< by wall
 } checker;
 
@@ -32,8 +37,8 @@ static bool goes_up(sl_point a, sl_point b) {
     return a.y < b.y || (a.y == b.y && a.x < b.x);
 }
 
-/// Whether corners make a convex polygon of positive area, counter-clockwise: no corner turns
-/// right, some turns left, and on the way around the sides go up once and down once.
+/// Whether corners make a convex, counter-clockwise polygon of positive area: no corner turns
+/// right, three turn left, and the way around goes up once and down once.
 static bool is_convex(const sl_point *v, uint32_t count) {
     uint32_t turns = 0, peaks = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -45,7 +50,7 @@ static bool is_convex(const sl_point *v, uint32_t count) {
     return turns >= 3 && peaks == 1;
 }
 
-/// Within what a map without width or height is padded to.
+/// Whether a corner is usable; the bounds of a map without width or height are padded.
 static bool is_usable(sl_point p) {
     return (sl_coordinate_usable(p.x) || sl_coordinate_usable(p.x / 2)) &&
            (sl_coordinate_usable(p.y) || sl_coordinate_usable(p.y / 2));
@@ -62,7 +67,7 @@ static sl_status check_cell(const checker *c, uint32_t number, uint64_t vertices
     if (cell->first_vertex != vertices || cell->vertex_count > s->vertex_count - vertices)
         return fail_cell(c, number, "has corners out of range");
     if (cell->first_directed != directed || cell->directed_count > s->directed_count - directed)
-        return fail_cell(c, number, "has exits out of range");
+        return fail_cell(c, number, "has portals out of range");
     if (cell->inside > 1) return fail_cell(c, number, "is neither inside nor outside");
     const sl_point *corners = s->vertices + cell->first_vertex;
     for (uint32_t i = 0; i < cell->vertex_count; i++)
@@ -84,7 +89,8 @@ static sl_status check_cells(const checker *c) {
     }
     if (inside == s->inside_count && directed == s->directed_count && vertices == s->vertex_count)
         return SL_OK;
-    return sl_fail(c->context, SL_BAD_INPUT, "the counts of cells, corners or exits do not add up");
+    return sl_fail(c->context, SL_BAD_INPUT,
+                   "the counts of cells, corners or portals do not add up");
 }
 
 // --- sides
@@ -124,10 +130,10 @@ static sl_status check_sides(const checker *c, uint32_t number) {
         const uint32_t what = s->neighbour[cell->first_vertex + i];
         const sl_point from = corners[i], to = corners[i + 1 < cell->vertex_count ? i + 1 : 0];
         if (what == SL_NEIGHBOUR_PORTAL) {
-            if (passed == cell->directed_count) return fail_cell(c, number, "has too few exits");
+            if (passed == cell->directed_count) return fail_cell(c, number, "has too few portals");
             const sl_directed_portal *portal = &s->directed[cell->first_directed + passed++];
             if (!sl_same_point(portal->right, from) || !sl_same_point(portal->left, to))
-                return fail_cell(c, number, "has an exit that is not on its boundary");
+                return fail_cell(c, number, "has a portal that is not on its boundary");
             SL_TRY(sl_check_directed(c->context, s, number, portal, c->directed_found));
         } else if (what != SL_NEIGHBOUR_BORDER) {
             SL_TRY(check_wall(c, number, what, from, to));
@@ -135,10 +141,10 @@ static sl_status check_sides(const checker *c, uint32_t number) {
             return fail_cell(c, number, "has a border within the bounds");
         }
     }
-    return passed == cell->directed_count ? SL_OK : fail_cell(c, number, "has too many exits");
+    return passed == cell->directed_count ? SL_OK : fail_cell(c, number, "has too many portals");
 }
 
-/// Each wall is seen from both sides, but for those on the border.
+/// Each wall has one cell on either side, except on the border.
 static sl_status check_walls(const checker *c) {
     for (uint32_t i = 0; i < c->space->wall_count; i++) {
         const uint8_t found = c->sides_found[i];
@@ -150,7 +156,7 @@ static sl_status check_walls(const checker *c) {
 
 // --- walls that are cut
 
-/// A side of a cell that is a wall or part of one: from where to where on the way from a to b.
+/// A side of a cell that is a wall or part of one. It runs as the wall does, from a to b.
 typedef struct wall_side {
     uint32_t wall;
     sl_point from, to;
@@ -186,7 +192,7 @@ static size_t gather_sides(const checker *c, wall_side *sides) {
     return count;
 }
 
-/// Each part of a wall has one cell on either side, but for those on the border.
+/// Each part of a wall has one cell on either side, except on the border.
 static sl_status check_cut_walls(const checker *c) {
     wall_side *sides = sl_alloc_array(c->context, c->space->vertex_count, sizeof *sides);
     if (!sides) return SL_NO_MEMORY;
@@ -208,7 +214,7 @@ static sl_status check_cut_walls(const checker *c) {
 
 // --- the border
 
-/// A side on the border: which one, and from where to where counter-clockwise.
+/// A side on the border: the border's number, and its ends counter-clockwise.
 typedef struct stretch {
     int border;
     double from, to;
@@ -233,7 +239,7 @@ static stretch stretch_of(int border, sl_point from, sl_point to) {
     }
 }
 
-/// Whether the stretches make up the border of the bounds, once.
+/// Whether the stretches cover the border of the bounds exactly once.
 static bool is_whole(const sl_box *b, const stretch *stretches, size_t count) {
     const double from[4] = {b->min.x, b->min.y, -b->max.x, -b->max.y};
     const double to[4] = {b->max.x, b->max.y, -b->min.x, -b->min.y};
@@ -272,7 +278,7 @@ static sl_status check_border(const checker *c) {
 
 // --- the grid
 
-/// Buckets that can be read: cells in one ascend.
+/// The buckets are readable, and the cells of each ascend.
 static sl_status check_grid(const checker *c) {
     const sl_space *s = c->space;
     const sl_cell_grid *g = &s->grid;
@@ -305,7 +311,7 @@ static int compare_segments(const void *left, const void *right) {
     return order ? order : sl_compare_points(s->b, t->b);
 }
 
-/// A portal that is said to be on a seam has the seam's ends.
+/// A portal that is listed for a seam has the ends of the seam.
 static sl_status check_seam_portals(const checker *c, bool *passed) {
     const sl_space *s = c->space;
     for (uint32_t i = 0; i < s->seam_portal_count; i++) {

@@ -1,4 +1,14 @@
-/// Faults of the space: leaks to the outside, thin cells, rooms that nothing leads to.
+/// The search for faults; here leaks to the outside, thin cells and rooms that no start reaches.
+///
+/// A leak is a way from a start to the border. Among all ways, the one is reported whose narrowest
+/// portal is the widest. Cells are joined over portals, the widest first (as in Kruskal's
+/// algorithm), until the start's cell and the border are in one set:
+///
+///     start o)  6  (  5  (  0.02  (   border       the portal that joined the two sets last, here
+///                                                  the one of 0.02, is the place to look at
+///
+/// The shortest way through portals no narrower than that one is then shown. A cell is as thin as
+/// the least distance from one of its edges to the farthest corner. Time O(n log n).
 #include "space/faults.h"
 
 #include "sightline/support.h"
@@ -10,13 +20,13 @@
 
 // --- the border
 
-/// A piece of a side of the bounds that a wall covers.
+/// A piece of the border that a wall covers.
 typedef struct cover {
     double low, high;
 } cover;
 
 typedef struct border {
-    cover *covers[4]; ///< left, right, lower, upper; ordered, joined
+    cover *covers[4]; ///< left, right, lower, upper; sorted and joined
     size_t counts[4];
 } border;
 
@@ -78,7 +88,7 @@ static bool is_covered(const border *b, int side, double low, double high) {
     return false;
 }
 
-/// Whether some of the map's border that the cell touches is free of walls. `at` is its middle.
+/// Whether a cell touches a part of the border that has no wall. `at` is its middle.
 static bool is_open(const sl_space *space, const border *b, uint32_t number, sl_point *at) {
     const sl_cell *cell = &space->cells[number];
     const sl_point *corners = space->vertices + cell->first_vertex;
@@ -108,10 +118,10 @@ static uint32_t find_root(uint32_t *parents, uint32_t cell) {
     return cell;
 }
 
-/// What is worked with: sets of connected cells, the cells open to the border.
+/// Sets of connected cells, and the cells open to the border.
 typedef struct rooms {
     uint32_t *parents;
-    uint32_t *queue, *from; ///< of a breadth-first search; `from` holds portals
+    uint32_t *queue, *from; ///< of a breadth-first search; `from` has portals
     uint32_t *order;        ///< portals, the widest first
     sl_bits *open;
     border edge;
@@ -172,14 +182,13 @@ static sl_status make_rooms(sl_context *context, const sl_space *space, rooms *o
 
 // --- leaks
 
-/// Joins cells over portals, the widest first, until the start's cell is joined with one that is
-/// open: the portal that did it is the narrowest of the way that keeps widest. UINT32_MAX where the
-/// start's cell is open itself. Some way there is.
+/// The narrowest portal on the widest way from a start's cell to an open cell. UINT32_MAX if the
+/// start's cell itself is open. There must be some way.
 static uint32_t find_bottleneck(const sl_space *space, rooms *r, uint32_t start) {
     const uint32_t count = space->cell_count;
     if (sl_bits_has(r->open, start)) return UINT32_MAX;
     for (uint32_t i = 0; i < count; i++) r->parents[i] = i;
-    // Open cells are one set from the beginning: that of the first of them.
+    // Open cells are one set from the beginning.
     uint32_t open = UINT32_MAX;
     for (uint32_t i = 0; i < count; i++) {
         if (!sl_bits_has(r->open, i)) continue;
@@ -223,7 +232,7 @@ static sl_status add_point(sl_fault_search *search, sl_point point) {
     return SL_OK;
 }
 
-/// The way from the start's place through portals' middles to the border; it is found backwards.
+/// Adds the way from the start through the middles of portals to the border. It is found backwards.
 static sl_status add_leak(sl_fault_search *search, rooms *r, sl_point start, uint32_t first,
                           uint32_t last, uint32_t narrowest) {
     const sl_space *space = search->space;
@@ -260,7 +269,7 @@ static sl_status add_leak(sl_fault_search *search, rooms *r, sl_point start, uin
 
 // --- rooms
 
-/// Marks all that can be reached from a cell; whether some of it is open to the border.
+/// Marks all cells that a cell reaches. Returns whether one of them is open to the border.
 static bool reach(const sl_space *space, rooms *r, sl_bits *reached, uint32_t start) {
     uint32_t end = 0;
     bool open = sl_bits_has(r->open, start);
@@ -279,7 +288,7 @@ static bool reach(const sl_space *space, rooms *r, sl_bits *reached, uint32_t st
     return open;
 }
 
-/// A leak for each room that a start is in, and marks what starts reach.
+/// Finds one leak for each room with a start, and marks the cells that starts reach.
 static sl_status find_leaks(sl_fault_search *search, rooms *r, sl_bits *reached) {
     const sl_map *map = search->map;
     for (size_t i = 0; i < map->start_count; i++) {
@@ -306,7 +315,7 @@ static sl_point middle_of(const sl_space *space, uint32_t number) {
     return sum;
 }
 
-/// The cells that the room has which a cell is in; none of them is reached before.
+/// Measures the room of a cell. None of its cells was reached before.
 static sl_fault measure_room(const sl_space *space, rooms *r, sl_bits *reached, uint32_t first,
                              bool *open) {
     sl_fault room = {.kind = SL_FAULT_UNREACHABLE, .walls = {UINT32_MAX, UINT32_MAX}};
@@ -348,7 +357,7 @@ static sl_status find_unreachable(sl_fault_search *search, rooms *r, sl_bits *re
 
 // --- thin cells
 
-/// A convex polygon is as thin as the least distance from one of its edges to the farthest corner.
+/// The width of a cell, and where it is that thin.
 static double thinnest(const sl_space *space, const sl_cell *cell, sl_segment *at) {
     const sl_point *p = space->vertices + cell->first_vertex;
     double least = INFINITY;
@@ -429,7 +438,7 @@ static int compare(const void *left, const void *right) {
     return (a->first_point > b->first_point) - (a->first_point < b->first_point);
 }
 
-/// Walls that lie side by side in several squares are found in each of them.
+/// Whether a fault was found twice, as happens to walls that share several squares of the grid.
 static bool is_same(const sl_fault *a, const sl_fault *b) {
     return a->kind == b->kind && a->walls[0] == b->walls[0] && a->walls[1] == b->walls[1] &&
            a->walls[0] != UINT32_MAX && a->at.a.x == b->at.a.x && a->at.a.y == b->at.a.y;

@@ -1,6 +1,18 @@
-/// Faults between walls: gaps, overlaps, crossings.
+/// Faults between walls (gaps, overlaps, crossings), and closing gaps. A grid over the walls gives
+/// the pairs that are near each other; exact signs decide whether two walls touch, cross or
+/// overlap.
 ///
-/// Closing gaps: wall ends that are near to each other, then ends that are near to a wall.
+///     gap                    closed              snapped: ends to ends      ends to walls
+///
+///     -----.  |              -----.  |           ---. .---                  ---.  |
+///             |                    \_|                   ->                        |   ->
+///             |                      |           ----o----                  ------o
+///                                                                                 |
+///
+/// A gap is an end near another wall, with no wall that joins the two and none between them.
+/// Snapping moves the ends near an often used place onto that place, and then free ends onto a near
+/// wall. Axial walls stay axial where they can. Time about O(n log n) for walls that are short
+/// against the map.
 #include "space/faults.h"
 
 #include "geometry/orient.h"
@@ -36,7 +48,7 @@ static bool crosses(const sl_wall *wall, sl_point a, sl_point b) {
 
 // --- gaps
 
-/// Whether two walls meet, by an end of one of them, nearer to a point than `reach`.
+/// Whether two walls meet at an end of one of them, within `reach` of a point.
 static bool meet_near(const sl_wall *a, const sl_wall *b, sl_point point, double reach) {
     return (touches_wall(a, b->a) && sl_apart(b->a, point) <= reach) ||
            (touches_wall(a, b->b) && sl_apart(b->b, point) <= reach) ||
@@ -44,8 +56,8 @@ static bool meet_near(const sl_wall *a, const sl_wall *b, sl_point point, double
            (touches_wall(b, a->b) && sl_apart(a->b, point) <= reach);
 }
 
-/// Whether the gap from a wall's end to another wall is closed: by a wall that joins the two, or by
-/// one that passes between.
+/// Whether a wall closes the gap from a wall's end to another wall: it joins the two, or passes
+/// between them.
 static bool is_closed(const sl_map *map, const uint32_t *near, uint32_t count, sl_point end,
                       const sl_wall *other, sl_point to) {
     const double reach = 2 * sl_apart(end, to);
@@ -58,9 +70,9 @@ static bool is_closed(const sl_map *map, const uint32_t *near, uint32_t count, s
     return false;
 }
 
-/// The end is told of once: by the first of the walls that have it.
-static bool is_told_before(const sl_map *map, const uint32_t *near, uint32_t count, uint32_t wall,
-                           sl_point end) {
+/// Whether an earlier wall has the same end, and so reports its gap.
+static bool is_reported(const sl_map *map, const uint32_t *near, uint32_t count, uint32_t wall,
+                        sl_point end) {
     for (uint32_t i = 0; i < count; i++)
         if (near[i] < wall && (sl_same_point(map->walls[near[i]].a, end) ||
                                sl_same_point(map->walls[near[i]].b, end)))
@@ -68,8 +80,8 @@ static bool is_told_before(const sl_map *map, const uint32_t *near, uint32_t cou
     return false;
 }
 
-/// The gap between two ends is found from both of them.
-static bool is_told_from_there(const sl_wall *other, sl_point end, sl_point to) {
+/// A gap between two ends is found from both. Whether the other end reports it.
+static bool is_reported_there(const sl_wall *other, sl_point end, sl_point to) {
     if (!sl_same_point(to, other->a) && !sl_same_point(to, other->b)) return false;
     return to.x != end.x ? to.x < end.x : to.y < end.y;
 }
@@ -79,7 +91,7 @@ static sl_status find_gap(sl_fault_search *search, const sl_wall_grid *grid, uin
     uint32_t count;
     const uint32_t *near = sl_wall_grid_at(grid, end, &count);
     const sl_map *map = search->map;
-    if (is_told_before(map, near, count, wall, end)) return SL_OK;
+    if (is_reported(map, near, count, wall, end)) return SL_OK;
     sl_fault gap = {.kind = SL_FAULT_GAP, .size = INFINITY, .cell = SL_NO_CELL};
     for (uint32_t i = 0; i < count; i++) {
         const sl_wall *other = &map->walls[near[i]];
@@ -93,14 +105,14 @@ static sl_status find_gap(sl_fault_search *search, const sl_wall_grid *grid, uin
         gap.walls[0] = wall;
         gap.walls[1] = near[i];
     }
-    if (gap.size == INFINITY || is_told_from_there(&map->walls[gap.walls[1]], end, gap.at.b))
+    if (gap.size == INFINITY || is_reported_there(&map->walls[gap.walls[1]], end, gap.at.b))
         return SL_OK;
     return sl_add_fault(search, gap);
 }
 
 // --- pairs
 
-/// The piece that two walls on one line share; false where it has no length.
+/// The piece that two walls in one line share; false if it has no length.
 static bool shared_piece(const sl_wall *a, const sl_wall *b, sl_segment *out) {
     const bool by_x = fabs(a->b.x - a->a.x) >= fabs(a->b.y - a->a.y);
     sl_point ends[4] = {a->a, a->b, b->a, b->b};
@@ -175,7 +187,7 @@ sl_status sl_find_wall_faults(sl_fault_search *search) {
 typedef struct wall_end {
     sl_point at;
     uint32_t wall;
-    uint32_t users; ///< walls with an end at the same place
+    uint32_t users; ///< the number of walls with an end at this place
     bool second;
 } wall_end;
 
@@ -183,7 +195,7 @@ typedef struct snapper {
     sl_context *context;
     sl_map *map;
     double gap;
-    wall_end *ends; ///< by place; those of one place together
+    wall_end *ends; ///< sorted by place
     size_t count;
     sl_snap_account account;
 } snapper;
@@ -195,7 +207,7 @@ static int compare_places(const void *left, const void *right) {
     return a->wall != b->wall ? (a->wall < b->wall ? -1 : 1) : a->second - b->second;
 }
 
-/// The most used places first, and then those of the first walls.
+/// The most used places first; then the order of walls.
 static int compare_use(const void *left, const void *right) {
     const wall_end *a = left, *b = right;
     if (a->users != b->users) return a->users > b->users ? -1 : 1;
@@ -232,8 +244,8 @@ static void move_end(snapper *s, sl_point *end, sl_point to) {
 
 // --- ends to ends
 
-/// Moves each end near to a place that is no less used, if it has not been moved, onto that place.
-/// `settled` says which walls' ends have their place, two bits a wall.
+/// Moves ends onto a near place that is used at least as often. Each end moves once. `settled` has
+/// two bits by wall: its ends that have their place.
 static sl_status join_ends(snapper *s, const sl_wall_grid *grid, uint8_t *settled) {
     const sl_wall *before = s->map->walls;
     for (size_t i = 0; i < s->count; i++) {
@@ -266,7 +278,7 @@ static bool is_level(const sl_wall *wall) {
     return wall->a.y == wall->b.y;
 }
 
-/// Where an end of one wall meets another wall.
+/// The place where an end of one wall meets another wall.
 static sl_point meeting(const sl_wall *own, sl_point end, const sl_wall *other) {
     if (is_upright(own) && is_level(other)) return (sl_point){end.x, other->a.y};
     if (is_level(own) && is_upright(other)) return (sl_point){other->a.x, end.y};
@@ -324,7 +336,7 @@ static sl_status snap_to_ends(snapper *s) {
     return status;
 }
 
-/// The grid holds what is within twice the gap: walls move while it serves, each by a gap at most.
+/// The grid finds walls within twice the gap, as each may move by a gap while the grid is in use.
 static sl_status snap_to_walls(snapper *s) {
     sl_wall_grid grid;
     SL_TRY(sl_wall_grid_create(s->context, s->map, 2 * s->gap, &grid));

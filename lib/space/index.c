@@ -1,12 +1,25 @@
-/// Each cell is entered row by row: what of it lies in a row of buckets reaches from one column to
-/// another. Places are rounded, so rows and columns are taken a little wider than they are: a
-/// bucket may hold a cell too many, and never one too few. A millionth of a bucket is far more than
-/// rounding, as coordinates are measured from the corner of the bounds, of which a bucket is no
-/// less than 2^-16.
+/// Three indexes, each for one question.
 ///
-/// There are four buckets for each cell, so that half of all places lie in a bucket of one or two
-/// cells. Buckets are as long as cells are on average, in x and in y. Where many long cells lie
-/// askew there would be too many entries: such a grid has fewer buckets.
+/// Boxes in a tree: which of many boxes meet a box? A packed R-tree (Kamel & Faloutsos 1993, On
+/// packing R-trees). The boxes are sorted along the Z-order curve by their middles, which keeps
+/// neighbours together. Then each level has one box around every 8 of the level below:
+///
+///     level 1        [--------- 0 .. 7 ---------][--------- 8 .. 15 ...
+///     level 0        [0][1][2][3][4][5][6][7]     [8][9] ...
+///
+/// Walls in a grid: which walls are within a reach of a point? A wall is in every square that is
+/// within the reach of it, so one square has the answer. There is about one square for each wall.
+///
+/// Cells in a grid: which cell of a mesh holds a point? Each cell is entered row by row. The sides
+/// of the cell give the columns that it spans in a row:
+///
+///     row 2   . . [A] [A] . .          a bucket may hold a cell too many, never one too few:
+///     row 1   . [A] [A] [A] . .        places are rounded, so rows and columns are taken wider
+///     row 0   . . [A] . . .            by a millionth of a bucket, far more than rounding
+///
+/// Buckets are as long as cells are on average, in x and in y, and there are four for each cell.
+/// Then half of all places lie in a bucket with one or two cells. Many long oblique cells would
+/// need too many entries; their grid gets fewer buckets.
 #include "space/index.h"
 
 #include "sightline/support.h"
@@ -46,7 +59,7 @@ typedef struct place {
     uint32_t key, item;
 } place;
 
-/// The bits of 16, a 0 before each.
+/// Puts a 0 before each of the 16 bits of a value.
 static uint32_t spread_bits(uint32_t value) {
     value = (value | value << 8) & 0x00ff00ff;
     value = (value | value << 4) & 0x0f0f0f0f;
@@ -54,7 +67,7 @@ static uint32_t spread_bits(uint32_t value) {
     return (value | value << 1) & 0x55555555;
 }
 
-/// Where along a side of 65,536 steps; rounding moves what is near to what, no more.
+/// The step, of 65,536, of a place between two limits. Rounding only changes the order of boxes.
 static uint32_t step_at(double at, double low, double high) {
     const double share = (at / 2 - low / 2) / (high / 2 - low / 2);
     return share > 0 ? (uint32_t)lesser(share * 65536, 65535) : 0;
@@ -66,7 +79,7 @@ static int compare_places(const void *left, const void *right) {
     return (a->item > b->item) - (a->item < b->item);
 }
 
-/// The boxes' numbers, sorted along the curve by their middles.
+/// The numbers of the boxes, sorted along the curve by their middles.
 static sl_status sort_items(sl_context *context, const sl_box *boxes, size_t count,
                             uint32_t *items) {
     place *places = sl_alloc_array(context, count, sizeof *places);
@@ -138,7 +151,7 @@ static int compare_items(const void *left, const void *right) {
     return (a > b) - (a < b);
 }
 
-/// What of a level lies below a box of the one above it, or on the highest all.
+/// Looks at the boxes of a level from `begin` on: those below one box of the next level.
 static sl_status find_below(sl_context *context, const sl_box_tree *tree, uint32_t level,
                             size_t begin, const sl_box *box, sl_box_list *found) {
     const size_t first = tree->first[level], count = tree->first[level + 1] - first;
@@ -165,7 +178,7 @@ sl_status sl_box_tree_find(sl_context *context, const sl_box_tree *tree, const s
 
 // --- walls in a grid
 
-/// What rounding may add to a computed place, as a share of the map's size.
+/// A bound for the rounding of a computed place, as a share of the map's size.
 #define WALL_SLACK 0x1p-40
 
 void sl_wall_grid_destroy(sl_context *context, sl_wall_grid *grid) {
@@ -174,7 +187,7 @@ void sl_wall_grid_destroy(sl_context *context, sl_wall_grid *grid) {
     *grid = (sl_wall_grid){0};
 }
 
-/// About a square a wall, and none smaller than what is looked for.
+/// About one square for each wall; a square is never smaller than the reach.
 static void choose_step(const sl_map *map, double reach, sl_wall_grid *grid) {
     const double width = grid->bounds.max.x - grid->bounds.min.x;
     const double height = grid->bounds.max.y - grid->bounds.min.y;
@@ -191,7 +204,7 @@ static uint32_t index_of(double offset, double step, uint32_t count) {
     return at <= 0 ? 0 : at >= count - 1 ? count - 1 : (uint32_t)at;
 }
 
-/// Puts a wall into its squares, column by column; only counts them where there is no room yet.
+/// Puts a wall into its squares, column by column; without lists it only counts.
 static void put_wall(sl_wall_grid *grid, const sl_wall *wall, uint32_t number, double reach) {
     const sl_point base = grid->bounds.min;
     const bool right = wall->b.x >= wall->a.x;
@@ -249,7 +262,7 @@ sl_status sl_wall_grid_create(sl_context *context, const sl_map *map, double rea
 // --- cells in a grid
 
 enum { MOST_STEPS = 1 << 16, BUCKETS_PER_CELL = 4, ENTRIES_PER_CELL = 32 };
-static const double CELL_SLACK = 1e-6; ///< of a bucket
+static const double CELL_SLACK = 1e-6; ///< a share of a bucket
 
 /// Columns from low to high; none where low > high.
 typedef struct span {
@@ -260,10 +273,10 @@ typedef struct filler {
     const sl_space *space;
     sl_cell_grid *grid;
     double width, height; ///< of the bounds
-    double slack;         ///< of a bucket
-    span *rows;           ///< by row: of the cell at hand
-    uint32_t *counts;     ///< by bucket: of entries so far
-    uint64_t total;       ///< of all counts
+    double slack;         ///< a share of a bucket
+    span *rows;           ///< by row: the columns of the current cell
+    uint32_t *counts;     ///< by bucket: entries so far
+    uint64_t total;       ///< the sum of all counts
 } filler;
 
 /// A corner in units of buckets.
@@ -299,7 +312,7 @@ static void add_side(const filler *f, sl_point p, sl_point q) {
     }
 }
 
-/// Enters a cell into its buckets; where there are no lists yet it is only counted.
+/// Enters a cell into its buckets; without lists it is only counted.
 static void enter(filler *f, uint32_t number, uint32_t *cells) {
     const sl_cell *cell = &f->space->cells[number];
     const sl_cell_grid *g = f->grid;
@@ -348,7 +361,7 @@ static sl_status fill_lists(sl_context *context, filler *f, uint64_t most) {
     return SL_OK;
 }
 
-/// Fills a grid whose columns and rows are set; leaves `cells` NULL where it would have more than
+/// Fills a grid whose columns and rows are set. Leaves `cells` NULL if it would have more than
 /// `most` entries.
 static sl_status fill(sl_context *context, const sl_space *space, double slack, uint64_t most,
                       sl_cell_grid *grid) {
@@ -364,7 +377,7 @@ static sl_status fill(sl_context *context, const sl_space *space, double slack, 
     return status;
 }
 
-/// How much wider than high cells are on average, both as shares of the bounds.
+/// The ratio of the average width of cells to their average height, as shares of the bounds.
 static double shape_of_cells(const sl_space *s) {
     const sl_box *b = &s->bounds;
     double wide = 0, high = 0;

@@ -1,5 +1,19 @@
-/// The kd-tree (Teller & Séquin 1991, Spatial Subdivision): a leaf where no wall is inside, else a
-/// split on a line that holds a wall, chosen by the rules of sl_subdivide_options.
+/// The kd-tree (Teller & Séquin 1991, Spatial Subdivision). A region without walls inside is a
+/// leaf, a cell. Any other region is split on a line that holds one of its walls:
+///
+///     +---------+----+      the rules choose among the lines (sl_subdivide_options):
+///     |         :    |      1. spanning: walls that cross the whole region come first
+///     |====.....:    |      2. obscured: else lines that walls cover for a good part
+///     |         |    |      3. cleaving: of these the lines that cut the fewest walls
+///     |   |     |    |      4. median:   of these the one nearest to the median
+///     +---------+----+
+///
+/// A wall that crosses the split line is cut for the two regions. Walls on the split line are kept
+/// with the node; portals are the free pieces between them (portals.c). Every split position is the
+/// coordinate of a wall, so no coordinate is computed.
+///
+/// Walls are sorted by line. So the candidates of a region are runs in its list, and two binary
+/// searches count the walls on either side of a candidate. Time O(n log n) for each level.
 #include "space/kd_tree.h"
 
 #include "sightline/support.h"
@@ -91,13 +105,13 @@ bool sl_wall_lines_cover(const sl_piece *pieces, size_t count, int axis, double 
 
 // --- the tree
 
-/// A region still to be divided, with the walls inside it, sorted by line. Owned by the stack.
+/// A region still to be divided, with the walls inside it, sorted by line. The stack owns it.
 typedef struct region {
     sl_box box;
     sl_piece *pieces;
     size_t count;
-    int32_t parent; ///< node that leads here, -1 for none
-    bool above;     ///< which child of it
+    int32_t parent; ///< the node that leads here, -1 for none
+    bool above;     ///< which child of that node
     uint32_t depth;
 } region;
 
@@ -106,17 +120,17 @@ typedef SL_ARRAY(region) region_stack;
 /// A line that could be split on: pieces[first .. end) lie on it.
 typedef struct candidate {
     size_t first, end;
-    double obscured; ///< share of the region's width that its walls cover
-    bool spanning;   ///< covered without a gap, decided by comparison
-    size_t cleaved;  ///< walls that the split would cut
-    size_t below, above;
+    double obscured;     ///< the share of the region's width that its walls cover
+    bool spanning;       ///< they cover it without a gap; this is exact
+    size_t cleaved;      ///< the number of walls that the split would cut
+    size_t below, above; ///< the number of walls on either side
 } candidate;
 
-/// Scratch of the choice, reused from region to region.
+/// Scratch memory for the choice.
 typedef struct chooser {
     const sl_subdivide_options *options;
     SL_ARRAY(candidate) candidates;
-    SL_ARRAY(double) lows[2], highs[2]; ///< ends of the pieces on either axis, each sorted
+    SL_ARRAY(double) lows[2], highs[2]; ///< the ends of the pieces by axis, sorted
 } chooser;
 
 static double low_of(const sl_box *box, int axis) {
@@ -136,7 +150,7 @@ static sl_status add_candidates(sl_context *context, chooser *choice, const regi
         for (end = first; end < r->count; end++) {
             const sl_piece *p = &r->pieces[end];
             if (p->axis != line->axis || p->at != line->at) break;
-            // Halved, so that the widest maps do not overflow.
+            // Half of each, so that the widest maps do not overflow.
             covered += p->hi / 2 - p->lo / 2;
             if (p->lo <= reached && p->hi > reached) reached = p->hi;
         }
@@ -155,7 +169,7 @@ static int compare_doubles(const void *left, const void *right) {
     return (a > b) - (a < b);
 }
 
-/// How many of sorted values are below `limit`.
+/// The number of sorted values below `limit`.
 static size_t count_below(const double *values, size_t count, double limit) {
     size_t first = 0;
     while (first < count) {
@@ -191,7 +205,7 @@ static sl_status sort_ends(sl_context *context, chooser *choice, const region *r
     return SL_OK;
 }
 
-/// Counts what each candidate would cut and leave on either side.
+/// Counts the walls that each candidate would cut, and those on either side.
 static void count_sides(chooser *choice, const region *r) {
     size_t on_axis[2] = {choice->lows[0].count, choice->lows[1].count};
     for (size_t i = 0; i < choice->candidates.count; i++) {
@@ -208,7 +222,7 @@ static void count_sides(chooser *choice, const region *r) {
     }
 }
 
-/// Keeps the candidates for which `keep` holds, if it holds for any.
+/// Keeps the candidates for which `keep` is true, if there are any.
 static void filter(chooser *choice, bool (*keep)(const candidate *, double), double value) {
     size_t kept = 0;
     for (size_t i = 0; i < choice->candidates.count; i++)
@@ -288,7 +302,7 @@ static sl_status add_node(sl_context *context, sl_kd_tree *tree, const region *r
     return SL_OK;
 }
 
-/// The part of a piece that a split leaves on one side; lo == hi where there is none.
+/// The part of a piece on one side of a split; lo == hi where there is none.
 static sl_piece clip_piece(const sl_piece *p, int axis, double at, bool above) {
     sl_piece part = *p;
     if (p->axis == axis) {
@@ -345,7 +359,7 @@ static sl_status divide(sl_context *context, chooser *choice, region_stack *stac
     return push_child(context, stack, r, &split, node, false);
 }
 
-/// The walls inside the bounds, those on the border left out.
+/// The root: the walls inside the bounds, without those on the border.
 static sl_status push_root(sl_context *context, region_stack *stack, const sl_piece *walls,
                            size_t count, sl_box bounds) {
     SL_TRY(SL_ARRAY_ROOM(context, stack, 1));

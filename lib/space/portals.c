@@ -1,7 +1,17 @@
-/// Portals: along each split line the cells on its two sides are merged and the walls on it left
-/// out. Directed portals: each cell's portals, as it crosses them on the way out.
+/// Portals and directed portals of a kd-tree's space, and which cells are inside.
 ///
-/// Inside and outside, told by reachability.
+/// A portal lies on a split line, between a cell below it and a cell above it. For each node, both
+/// lists of cells that touch the line are gathered in order, and merged:
+///
+///     above   |   A   |     B      |  C  |
+///     split   =====...:....====....:.....=       = wall   . free
+///     below   |      D      |     E      |
+///
+/// Each common stretch of two cells, without the walls on it, gives portals: here D-A, D-B, E-B and
+/// E-C. Seams on the line cut portals too. Time: linear in the portals, plus sorting.
+///
+/// Inside is what the map's starts reach through portals. Without starts, it is what the border
+/// does not reach.
 #include "space/kd_tree.h"
 
 #include "geometry/orient.h"
@@ -19,8 +29,8 @@ typedef struct portal_maker {
     portal_list portals;
 } portal_maker;
 
-/// Gathers the cells below `child` that touch the line of a split on `axis`: seen from the split,
-/// the subtree lies above or below it.
+/// Gathers the cells in a subtree that touch the line of a split on `axis`. The subtree lies above
+/// the split or below it.
 static sl_status gather_cells(sl_context *context, portal_maker *maker, int32_t child, int axis,
                               bool above, cell_list *out) {
     out->count = maker->stack.count = 0;
@@ -52,14 +62,14 @@ static sl_status add_portal(sl_context *context, portal_list *portals, const sl_
                             uint32_t below, uint32_t above, double lo, double hi) {
     const double at = split->position;
     SL_TRY(SL_ARRAY_ROOM(context, portals, 1));
-    // Going up in the split's coordinate, the left hand is at high y (axis 0) or at low x (axis 1).
+    // On the way up across the split, the left hand is at high y (axis 0) or at low x (axis 1).
     const sl_portal portal = split->axis == 0 ? (sl_portal){{below, above}, {at, hi}, {at, lo}}
                                               : (sl_portal){{below, above}, {lo, at}, {hi, at}};
     portals->items[portals->count++] = portal;
     return SL_OK;
 }
 
-/// Adds lo .. hi, cut where a seam on the split line begins or ends.
+/// Adds lo .. hi, cut where a seam on the line begins or ends.
 static sl_status add_cut_piece(sl_context *context, portal_maker *maker, const sl_node *split,
                                uint32_t below, uint32_t above, double lo, double hi,
                                const sl_piece *walls, size_t count, size_t next) {
@@ -75,7 +85,8 @@ static sl_status add_cut_piece(sl_context *context, portal_maker *maker, const s
     return add_portal(context, &maker->portals, split, below, above, lo, hi);
 }
 
-/// Adds what walls[*next ...] leave of lo .. hi; moves *next past the walls that end there.
+/// Adds the parts of lo .. hi that walls[*next ...] leave free. Moves *next past walls that end
+/// before lo.
 static sl_status add_free_pieces(sl_context *context, portal_maker *maker, const sl_node *split,
                                  uint32_t below, uint32_t above, double lo, double hi,
                                  const sl_piece *walls, size_t count, size_t *next) {
@@ -121,8 +132,8 @@ int sl_compare_portals(const void *left, const void *right) {
     return sl_compare_points(a->right, b->right);
 }
 
-/// Compares two directed portals of one cell by their place on its boundary, counter-clockwise from
-/// the corner at the lower left. That way round, a directed portal's right end comes first.
+/// The order of two directed portals of a cell: counter-clockwise from the lower left corner. The
+/// right end of a directed portal comes first on this way.
 static int compare_directed(const void *left, const void *right) {
     const sl_directed_portal *a = left, *b = right;
     const sl_point u = {a->left.x - a->right.x, a->left.y - a->right.y};
@@ -193,7 +204,7 @@ sl_status sl_make_portals(sl_context *context, const sl_kd_tree *tree, sl_space 
 
 // --- inside and outside
 
-/// Marks all that can be reached through portals from what is marked and on the stack.
+/// Marks all cells that portals connect with those on the stack.
 static void flood(const sl_space *space, sl_bits *reached, uint32_t *stack, size_t count) {
     while (count) {
         const sl_cell *cell = &space->cells[stack[--count]];
@@ -206,7 +217,7 @@ static void flood(const sl_space *space, sl_bits *reached, uint32_t *stack, size
     }
 }
 
-/// Whether some of the map's border that the cell touches is free of walls.
+/// Whether the cell touches a part of the map's border that has no wall.
 static bool open_to_border(const sl_space *space, const sl_cell *cell, const sl_piece *walls) {
     if (space->neighbour) {
         for (uint32_t i = 0; i < cell->vertex_count; i++)

@@ -1,13 +1,22 @@
-/// Rooms: triangles joined where what they make up is convex. Portals are dropped, the longest
-/// first, where both of their ends stay convex corners (Hertel and Mehlhorn 1983, Fast
-/// triangulation of simple polygons), until none can be.
+/// Rooms: the cells of a kd-tree, joined to larger convex polygons. A view then passes fewer
+/// portals.
 ///
-/// The triangles that rooms are made of. Where the corners of cells meet away from the ends of
-/// walls, a view would be split for nothing; so such corners are dropped, one by one: the faces
-/// around one are joined and cut again without it.
+/// 1. Faces of more than three corners are cut into triangles, ear by ear.
+/// 2. Cells also meet away from the ends of walls. Such a corner would split a view for nothing, so
+///    it is dropped: the faces around it become one, which is cut into triangles without it.
+/// 3. Portals between two triangles are flipped where that makes them shorter.
+/// 4. Portals are dropped, the longest first, if both of their ends stay convex corners (Hertel &
+///    Mehlhorn 1983, Fast triangulation of simple polygons), in rounds until none is dropped.
 ///
-/// Cutting needs no proof that polygons are simple: when all triangles of one turn left, by the
-/// exact predicate, they cover what its boundary winds around, once.
+///     +---+---+         +-------+         +-------+
+///     |   |   |         |\      |         |       |       # is a wall: its end keeps the corner
+///     +---+---+   2     |  \    |   4     |       |
+///     |   |   |  --->   |    \  |  --->   |       |
+///     +---#---+         +---#---+         +---#---+
+///
+/// Cutting needs no proof that a polygon is simple. If all triangles of it turn left, by exact
+/// signs, they cover once what its boundary winds around. If some does not, the face stays as it
+/// is. No coordinate is computed.
 #include "geometry/orient.h"
 #include "sightline/outline.h"
 #include "sightline/support.h"
@@ -16,11 +25,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-/// The boundaries as they are worked on: sides in no order, those of a face linked both ways.
+/// The boundaries during the work: sides in any order, those of a face linked both ways.
 typedef struct faces {
     SL_ARRAY(sl_side) sides;
-    SL_ARRAY(uint32_t) previous; ///< by side; GONE for one that is no more
-    SL_ARRAY(uint32_t) unused;   ///< the sides that are no more
+    SL_ARRAY(uint32_t) previous; ///< by side; GONE for a removed side
+    SL_ARRAY(uint32_t) unused;   ///< the removed sides
 } faces;
 
 #define GONE UINT32_MAX
@@ -34,18 +43,18 @@ static void link_sides(faces *mesh, uint32_t before, uint32_t after) {
     mesh->previous.items[after] = before;
 }
 
-/// A polygon to be cut, corner by corner.
+/// A corner of a polygon that is cut ear by ear.
 typedef struct corner {
     sl_point at;
-    uint32_t side;           ///< that starts there
-    uint32_t next, previous; ///< of the corners left
+    uint32_t side;           ///< the side that starts here
+    uint32_t next, previous; ///< of the corners that are left
 } corner;
 
 typedef struct cutter {
     sl_context *context;
     faces *mesh;
     SL_ARRAY(corner) ring;
-    SL_ARRAY(uint32_t) ears;   ///< corners, as they are cut off
+    SL_ARRAY(uint32_t) ears;   ///< corners, in the order of cutting
     SL_ARRAY(uint32_t) spokes; ///< the portals that start at a corner to be dropped
 } cutter;
 
@@ -81,8 +90,8 @@ static sl_status drop_portal(sl_context *context, faces *m, uint32_t portal) {
     return remove_side(context, m, other);
 }
 
-/// Adds a portal between the starts of two sides of a face. *out is the side of it that starts
-/// where a does, and has b after it.
+/// Adds a portal between the starts of two sides of a face. *out is its side from the start of a to
+/// that of b.
 static sl_status connect(sl_context *context, faces *m, uint32_t a, uint32_t b, uint32_t *out) {
     uint32_t to_a = 0, to_b = 0;
     SL_TRY(add_side(context, m, &to_a));
@@ -104,7 +113,7 @@ static sl_status add_corner(cutter *c, uint32_t i) {
     return SL_OK;
 }
 
-/// Whether a corner may be cut off: it turns left, and no other corner is in the way.
+/// Whether a corner is an ear: it turns left, and no other corner is in the way.
 static bool is_ear(const cutter *c, uint32_t at, bool convex) {
     const corner *ring = c->ring.items;
     const uint32_t before = ring[at].previous, after = ring[at].next;
@@ -119,7 +128,7 @@ static bool is_ear(const cutter *c, uint32_t at, bool convex) {
     return true;
 }
 
-/// Finds how to cut the ring. False where it cannot be done.
+/// Finds the ears of the ring, in order. False if it cannot be cut.
 static bool find_ears(cutter *c, bool convex) {
     corner *ring = c->ring.items;
     const uint32_t count = (uint32_t)c->ring.count;
@@ -142,7 +151,7 @@ static bool find_ears(cutter *c, bool convex) {
     return left == 3 && is_ear(c, at, true);
 }
 
-/// Cuts the face of the ring as find_ears found.
+/// Cuts the ears that find_ears found off the face.
 static sl_status cut_ears(cutter *c) {
     corner *ring = c->ring.items;
     const uint32_t count = (uint32_t)c->ring.count;
@@ -182,8 +191,7 @@ static sl_status cut_cells(cutter *c) {
     return SL_OK;
 }
 
-/// The side by which the faces around the start of `from` begin, clockwise of it: one that is no
-/// portal, or `from` again.
+/// The first side around the start of `from`, clockwise: one that is no portal, else `from`.
 static uint32_t first_spoke(const faces *m, uint32_t from) {
     uint32_t i = from;
     while (sl_side_is_portal(side(m, i))) {
@@ -193,8 +201,8 @@ static uint32_t first_spoke(const faces *m, uint32_t from) {
     return i;
 }
 
-/// Gathers the ring around the start of a side, and the portals that end there. *last is the side
-/// that ends the faces around it where these are not all round, else GONE.
+/// Gathers the ring around the start of a side, and the portals that end there. If the faces do not
+/// go all the way around, *last is the side where they end, else GONE.
 static sl_status gather_star(cutter *c, uint32_t first, uint32_t *last) {
     const faces *m = c->mesh;
     c->ring.count = c->spokes.count = 0;
@@ -218,7 +226,7 @@ static sl_status gather_star(cutter *c, uint32_t first, uint32_t *last) {
     return SL_ARRAY_ROOM(c->context, &c->ears, c->ring.count);
 }
 
-/// Whether two sides go on in one line along the same wall or border.
+/// Whether two sides lie in one line along the same wall or border.
 static bool goes_on(const faces *m, uint32_t before, uint32_t after) {
     const sl_point a = side(m, before)->start, p = side(m, after)->start, b = end_of(m, after);
     return side(m, before)->neighbour == side(m, after)->neighbour && sl_orient(a, p, b) == 0 &&
@@ -246,8 +254,7 @@ static double length(sl_point a, sl_point b) {
     return hypot(b.x - a.x, b.y - a.y);
 }
 
-/// Turns a portal between two triangles to the other two of their corners where it is shorter
-/// there.
+/// Flips a portal between two triangles to their other two corners if it is shorter there.
 static sl_status flip(cutter *c, uint32_t portal, bool *any) {
     faces *m = c->mesh;
     const uint32_t other = side(m, portal)->neighbour;
@@ -263,7 +270,7 @@ static sl_status flip(cutter *c, uint32_t portal, bool *any) {
     return connect(c->context, m, to, from, &(uint32_t){0});
 }
 
-/// Shortens portals until none can be: each turn makes their sum smaller.
+/// Flips until nothing changes. This ends, as each flip makes the sum of lengths smaller.
 static sl_status flip_all(cutter *c) {
     for (bool any = true; any;) {
         any = false;
@@ -300,8 +307,8 @@ typedef struct candidate {
     uint32_t side;
 } candidate;
 
-/// A room before it has its number: by the cell that it has a point of, so that neighbours stand
-/// near to each other.
+/// A room before it has a number. Rooms are sorted by a cell of theirs, so that neighbours are near
+/// each other.
 typedef struct start {
     uint32_t cell, side;
 } start;
@@ -318,8 +325,8 @@ typedef struct joiner {
     SL_ARRAY(start) starts;
     SL_ARRAY(share) shares;
     SL_ARRAY(uint32_t) waiting; ///< cells
-    uint32_t *number;           ///< by side of the mesh: where it goes
-    uint32_t *seen;             ///< by cell: the last room, and one more, that came to it
+    uint32_t *number;           ///< by side: its new number
+    uint32_t *seen;             ///< by cell: 1 + the last room that was compared with it
 } joiner;
 
 static const sl_side *side_of(const joiner *j, uint32_t i) {
@@ -338,14 +345,14 @@ static int compare_starts(const void *left, const void *right) {
     return (a->side > b->side) - (a->side < b->side);
 }
 
-/// Whether the corner where a portal starts is convex once the portal is gone.
+/// Whether the corner where a portal starts is convex without the portal.
 static bool leaves_convex(const joiner *j, uint32_t portal) {
     const uint32_t after = side_of(j, side_of(j, portal)->neighbour)->next;
     return sl_goes_on(side_of(j, j->mesh.previous.items[portal])->start, side_of(j, portal)->start,
                       end_of(&j->mesh, after));
 }
 
-/// Tries every portal once, the longest first. *any tells whether one was dropped.
+/// Tries every portal once, the longest first. *any: whether one was dropped.
 static sl_status join_round(sl_context *context, joiner *j, bool *any) {
     faces *m = &j->mesh;
     j->candidates.count = 0;
@@ -371,8 +378,7 @@ static sl_status join_round(sl_context *context, joiner *j, bool *any) {
     return SL_OK;
 }
 
-/// The cell in the middle of the room of a side; where the room is a sliver, rounding may make it
-/// another one.
+/// The cell in the middle of a side's room. For a sliver, rounding may give a cell beside it.
 static uint32_t middle_cell(const joiner *j, uint32_t first) {
     sl_point middle = {0, 0};
     uint32_t count = 0, i = first;
@@ -437,8 +443,7 @@ static sl_status pack(sl_context *context, joiner *j, sl_outline *o) {
     return SL_OK;
 }
 
-/// Whether a cell and a room have inner points in common: no side of either has the other on its
-/// right.
+/// Whether a cell and a room overlap: no side of either has the other one on its right.
 static bool overlap(const sl_outline *o, uint32_t cell, uint32_t room) {
     const sl_cell *c = &o->space->cells[cell];
     const sl_point *corners = o->space->vertices + c->first_vertex;
@@ -470,8 +475,8 @@ static sl_status share_cell(sl_context *context, joiner *j, const sl_outline *o,
     return SL_OK;
 }
 
-/// Finds the cells that a room has a part of: one leads to the next through portals, as no wall is
-/// in a room.
+/// Finds the cells that a room has a part of. No wall is in a room, so portals lead from one to the
+/// next.
 static sl_status share_room(sl_context *context, joiner *j, const sl_outline *o, uint32_t room) {
     const uint32_t cell = j->starts.items[room].cell;
     const size_t before = j->shares.count;
@@ -487,7 +492,7 @@ static sl_status share_room(sl_context *context, joiner *j, const sl_outline *o,
     return SL_OK;
 }
 
-/// Tells by cell which rooms have a part of it.
+/// Lists for each cell the rooms that have a part of it.
 static sl_status share_all(sl_context *context, joiner *j, sl_outline *o) {
     const uint32_t cells = o->space->cell_count;
     j->seen = sl_alloc_array(context, cells, sizeof *j->seen);

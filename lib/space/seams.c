@@ -1,3 +1,15 @@
+/// Seams: doors, one-way glass and plain seams cut cells, but are seen through.
+///
+/// Seams of one map may overlap. They are cut where another one in the same line ends, so that each
+/// part has the same seams all along:
+///
+///     seam 0     o-------------------o
+///     seam 1              o---------------------o
+///     parts      o---0----o---0,1----o----1-----o
+///
+/// The kd-tree takes the parts as if they were walls, so no cell runs over one. A portal then lies
+/// on one part or on none, and the part tells its seams. `forward` says which way the portal
+/// crosses the seam: from its right to its left, going from a to b.
 #include "space/seams.h"
 
 #include "geometry/orient.h"
@@ -54,7 +66,7 @@ sl_status sl_seams_of_map(sl_context *context, const sl_map *map, bool axial, sl
 
 // --- parts
 
-/// A seam with its ends in order; while parts are made, a part of it.
+/// A seam, or a part of it, with its ends in order.
 typedef struct stretch {
     sl_point a, b;
     sl_seam_mark mark;
@@ -95,7 +107,7 @@ static sl_status add_part(parter *p, const stretch *seam, sl_point a, sl_point b
     return SL_OK;
 }
 
-/// Cuts a seam where others that are in line with it end.
+/// Cuts a seam where others in one line with it end.
 static sl_status part_seam(parter *p, const stretch *seam) {
     const sl_box box = sl_box_around(seam->a, seam->b);
     p->cuts.count = 0;
@@ -117,7 +129,7 @@ static sl_status part_seam(parter *p, const stretch *seam) {
     return add_part(p, seam, from, seam->b);
 }
 
-/// Puts those together that are the same segment.
+/// Joins the parts that are the same segment.
 static sl_status group_parts(const parter *p, sl_seam_parts *out) {
     SL_TRY(SL_ARRAY_ROOM(p->context, &out->parts, p->parts.count));
     SL_TRY(SL_ARRAY_ROOM(p->context, &out->marks, p->parts.count));
@@ -208,15 +220,15 @@ sl_status sl_seam_lines(sl_context *context, const sl_piece *walls, size_t wall_
     return SL_OK;
 }
 
-// --- telling portals
+// --- portals on seams
 
-/// Whether the way from a portal's left end to its right one goes as a part does, from a to b.
+/// Whether a portal, from its left end to its right one, runs as a part does, from a to b.
 static bool goes_along(const sl_seam_part *part, const sl_portal *portal) {
     return (part->b.x > part->a.x) == (portal->left.x < portal->right.x) &&
            (part->b.y > part->a.y) == (portal->left.y < portal->right.y);
 }
 
-/// `on`: by portal, 1 + the part that it is on, 0 for none.
+/// `on`: by portal, 1 + the part that it lies on; 0 for none.
 static sl_status tag(sl_context *context, const sl_seam_parts *parts, const uint32_t *on,
                      sl_space *space) {
     size_t count = 0;
@@ -239,7 +251,7 @@ static sl_status tag(sl_context *context, const sl_seam_parts *parts, const uint
     return SL_OK;
 }
 
-/// The part that a portal is on, as 1 + its number.
+/// 1 + the number of the part that a portal lies on; 0 for none.
 static uint32_t part_of(const sl_piece *pieces, size_t count, const sl_portal *portal) {
     const bool upright = portal->left.x == portal->right.x;
     const double at = upright ? portal->left.x : portal->left.y;

@@ -1,4 +1,8 @@
-/// A space.
+/// The space: it is made from a kd-tree or a mesh, it locates points, and it is destroyed.
+///
+/// The kd-tree finds the cell of a point from the root down: at each node, below or above the
+/// split. A mesh looks into the one bucket of its grid, and asks each cell there for the exact side
+/// of each of its edges. The last cell of a bucket needs no test, as the cells leave nothing out.
 #include "sightline/space.h"
 
 #include "geometry/orient.h"
@@ -39,7 +43,7 @@ sl_box sl_padded(sl_box box) {
     const double width = box.max.x - box.min.x, height = box.max.y - box.min.y;
     const double wider = width > height ? width : height;
     if (width == 0) {
-        // Far from the origin a step that rounds to nothing would leave the map without area.
+        // Far from the origin, a small step would round to nothing and leave the map without area.
         box.min.x = fmin(box.min.x - wider / 2, nextafter(box.min.x, -INFINITY));
         box.max.x = fmax(box.max.x + wider / 2, nextafter(box.max.x, INFINITY));
     }
@@ -68,7 +72,7 @@ static sl_status copy_cells(sl_context *context, const sl_kd_tree *tree, sl_spac
     return SL_OK;
 }
 
-/// The tree over the walls and, where the map has any, the parts of its seams.
+/// The tree over the walls and the parts of seams.
 static sl_status build_tree(sl_context *context, const sl_piece *walls, size_t count,
                             const sl_seam_parts *seams, const sl_subdivide_options *options,
                             sl_box bounds, sl_kd_tree *tree) {
@@ -137,8 +141,8 @@ static bool holds(const sl_space *space, uint32_t number, sl_point point) {
     return true;
 }
 
-/// The first cell of a bucket that holds a point. Cells that tile the bounds leave no choice but
-/// the last where no other does.
+/// The first cell of a bucket that holds a point. Cells tile the bounds, so the last one holds it
+/// if no other does.
 static uint32_t locate_in_bucket(const sl_space *space, sl_point point) {
     const uint32_t bucket = sl_cell_grid_bucket(space, point);
     const uint32_t *cells = space->grid.cells, end = space->grid.first[bucket + 1];
