@@ -222,7 +222,7 @@ static int compare_events(const void *left, const void *right) {
 /// The sweep over x. A rank is one height (y). On each rank at most one level is active.
 typedef struct sweeper {
     event *ins, *outs; ///< the levels by where they begin, and by where they end
-    size_t in, out;    ///< the number of each that are passed
+    size_t in, out;    ///< the numbers of those that are passed
     size_t *rank;      ///< of each level
     double *height;    ///< of each rank, ascending
     size_t *here;      ///< on each rank the active level

@@ -97,7 +97,7 @@ static sl_status copy_name(sl_context *context, const char *what, const char *na
     return *copy ? SL_OK : SL_NO_MEMORY;
 }
 
-/// Room for one more in one of the map's arrays.
+/// Makes room for one more item in an array of the map.
 #define MAP_ROOM(context, map, items, thing)                                                       \
     sl_reserve((context), (void **)&(map)->items, &(map)->thing##_room, (map)->thing##_count + 1,  \
                sizeof *(map)->items)
@@ -203,7 +203,7 @@ sl_status sl_map_add_note(sl_context *context, sl_map *map, const char *text) {
     if (old) memcpy(notes, map->notes, old);
     size_t end = old;
     for (size_t i = 0; i < length; i++) {
-        // CR LF would not come back from the map text as it was.
+        // The map text would not keep CR LF.
         if (text[i] == '\n')
             while (end > old && notes[end - 1] == '\r') end--;
         notes[end++] = text[i];

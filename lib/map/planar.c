@@ -38,7 +38,7 @@ enum {
     MOST_GROWTH = 16, ///< times the points that ends and the first round's crossings give
 };
 
-/// A split must separate pieces: no more than so many times the pieces before it may come of it.
+/// A box is split only if the number of pieces grows by less than this factor.
 static const double MOST_CUTS = 1.6;
 
 /// An edge during the work. A replaced one has parts: parts[first .. first + count).

@@ -171,20 +171,20 @@ static bool lies_on(const sl_portal *p, const sl_segment *seam) {
 
 /// No part of a seam is inside a cell, and every portal on one is listed.
 static sl_status check_parts(const checker *c, const sl_seam_parts *parts, const sl_piece *pieces) {
-    sl_space told = *c->space;
-    told.seam_portals = NULL;
-    told.seam_portal_count = 0;
+    sl_space found = *c->space;
+    found.seam_portals = NULL;
+    found.seam_portal_count = 0;
     SL_TRY(check_walls(c, pieces, parts->parts.count));
-    sl_status status = sl_seams_tag_axial(c->context, parts, &told);
-    bool same = status == SL_OK && told.seam_portal_count == c->space->seam_portal_count;
-    for (uint32_t i = 0; same && i < told.seam_portal_count; i++) {
-        const sl_seam_portal *a = &told.seam_portals[i], *b = &c->space->seam_portals[i];
+    sl_status status = sl_seams_tag_axial(c->context, parts, &found);
+    bool same = status == SL_OK && found.seam_portal_count == c->space->seam_portal_count;
+    for (uint32_t i = 0; same && i < found.seam_portal_count; i++) {
+        const sl_seam_portal *a = &found.seam_portals[i], *b = &c->space->seam_portals[i];
         same = a->portal == b->portal && a->seam == b->seam && a->forward == b->forward &&
-               lies_on(&told.portals[a->portal], &told.seams[a->seam].at);
+               lies_on(&found.portals[a->portal], &found.seams[a->seam].at);
     }
-    sl_free(c->context, told.seam_portals);
+    sl_free(c->context, found.seam_portals);
     if (status != SL_OK || same) return status;
-    return sl_fail(c->context, SL_BAD_INPUT, "portals on seams are not told as such");
+    return sl_fail(c->context, SL_BAD_INPUT, "the list of portals on seams is wrong");
 }
 
 static sl_status check_seams(const checker *c) {

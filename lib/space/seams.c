@@ -84,9 +84,9 @@ typedef struct parter {
     stretch *seams;
     size_t count;
     sl_box_tree tree;   ///< of the seams
-    sl_box_list nearby; ///< to the seam at hand
+    sl_box_list nearby; ///< those near the current seam
     SL_ARRAY(stretch) parts;
-    SL_ARRAY(sl_point) cuts; ///< of the seam at hand
+    SL_ARRAY(sl_point) cuts; ///< of the current seam
 } parter;
 
 static sl_status add_cut(parter *p, const stretch *seam, sl_point at) {
