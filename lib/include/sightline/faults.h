@@ -9,6 +9,7 @@
 extern "C" {
 #endif
 
+/// What may be wrong with a map.
 typedef enum sl_fault_kind {
     SL_FAULT_LEAK,        ///< a way from a start to the map's border
     SL_FAULT_GAP,         ///< the end of a wall is near another wall, with nothing between
@@ -22,6 +23,7 @@ typedef enum sl_fault_kind {
 /// "leak", "gap", "overlap", "crossing", "thin", "unreachable".
 SL_API const char *sl_fault_name(sl_fault_kind kind);
 
+/// One fault, and where it is.
 typedef struct sl_fault {
     sl_fault_kind kind;
     /// Leak: its narrowest portal. Gap: from the wall's end to the other wall. Overlap: the shared
@@ -51,6 +53,7 @@ typedef struct sl_faults {
 
 SL_API void sl_faults_destroy(sl_context *context, sl_faults *faults); ///< and zeroes it
 
+/// Zeroed: the usual.
 typedef struct sl_faults_options {
     double gap;  ///< the largest width of a gap; 0 for 1/1000 of the map's diagonal
     double thin; ///< cells below this width are thin; 0 for the same
@@ -63,6 +66,7 @@ typedef struct sl_faults_options {
 SL_API sl_status sl_find_faults(sl_context *context, const sl_map *map, const sl_space *space,
                                 const sl_faults_options *options, sl_faults *out);
 
+/// What sl_map_snap did.
 typedef struct sl_snap_account {
     size_t moved;    ///< wall ends that moved
     double farthest; ///< the largest move

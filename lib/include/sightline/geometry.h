@@ -9,12 +9,15 @@ extern "C" {
 /// A usable coordinate is 0, or its magnitude is in this range. Then no later stage can overflow,
 /// or lose bits to underflow. Readers refuse other coordinates.
 #define SL_COORDINATE_MIN 1e-150
+/// The largest magnitude of a coordinate.
 #define SL_COORDINATE_MAX 1e150
 
+/// A point, in the map's unit; y grows upwards.
 typedef struct sl_point {
     double x, y;
 } sl_point;
 
+/// A closed segment from a to b.
 typedef struct sl_segment {
     sl_point a, b;
 } sl_segment;

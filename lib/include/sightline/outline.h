@@ -12,7 +12,8 @@ extern "C" {
 /// The values of sl_side.neighbour. Below SL_SIDE_WALL: a portal, as the index of its other side.
 /// From SL_SIDE_WALL on: a wall, by its number. From SL_SIDE_BORDER on: the map's border without a
 /// wall; the lower, right, upper or left one.
-#define SL_SIDE_WALL   UINT32_C(0x80000000)
+#define SL_SIDE_WALL UINT32_C(0x80000000)
+/// The map's lower border; the right, upper and left one follow.
 #define SL_SIDE_BORDER UINT32_C(0xfffffff0)
 
 /// A piece of a room's boundary: a portal, a piece of one wall, or a piece of the border. A portal
@@ -44,6 +45,7 @@ SL_API void sl_outline_destroy(sl_context *context, sl_outline *outline); ///< a
 /// of these rooms.
 SL_API uint32_t sl_outline_room(const sl_outline *outline, uint32_t cell, sl_point point);
 
+/// Whether a side is a portal.
 static inline bool sl_side_is_portal(const sl_side *side) {
     return side->neighbour < SL_SIDE_WALL;
 }

@@ -52,6 +52,7 @@ typedef struct sl_cell {
     uint32_t reserved; ///< 0
 } sl_cell;
 
+/// What a seam is in the map.
 typedef enum sl_seam_kind { SL_SEAM_PLAIN, SL_SEAM_DOOR, SL_SEAM_ONEWAY } sl_seam_kind;
 
 /// A seam: a line that cuts the cells although it is, or may be, seen through.
@@ -72,8 +73,10 @@ typedef struct sl_seam_portal {
 /// number of a wall. SL_NEIGHBOUR_RIGHT is or-ed to it if the cell is at the right of the wall,
 /// going from a to b.
 #define SL_NEIGHBOUR_PORTAL UINT32_MAX
+/// The side is on the map's border.
 #define SL_NEIGHBOUR_BORDER (UINT32_MAX - 1)
-#define SL_NEIGHBOUR_RIGHT  0x80000000u
+/// Or-ed to a wall's number: the cell is at the wall's right.
+#define SL_NEIGHBOUR_RIGHT 0x80000000u
 
 /// Zeroed, a space is empty.
 ///
@@ -121,6 +124,7 @@ typedef struct sl_subdivide_options {
     bool median;     ///< of these, the one nearest to the median; false: the first
 } sl_subdivide_options;
 
+/// The usual rules: all of them, walls that cover 0.2 of a line preferred.
 SL_API sl_subdivide_options sl_subdivide_options_default(void);
 
 /// Subdivides by a kd-tree on the lines of walls, until no wall is inside a cell. Walls and seams
