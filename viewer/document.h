@@ -8,7 +8,7 @@
 #include "sightline/import.h"
 #include "sightline/map.h"
 #include "sightline/region.h"
-#include "space/splits.h" // private: a lesson and a layer show the splits
+#include "space/kd_tree.h" // private: a lesson and a layer show the splits
 
 // --- undo
 

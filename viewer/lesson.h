@@ -9,7 +9,7 @@
 #include "sightline/dual.h"
 #include "sightline/steps.h"
 #include "sightline/support.h"
-#include "space/mesh_steps.h" // private, likewise
+#include "space/mesh.h" // private, likewise
 
 typedef struct app_state app_state;
 typedef struct lesson_state lesson_state;

@@ -4,8 +4,8 @@
 #define SL_DRAW_LESSON_H
 
 #include "sightline/canvas.h"
-#include "space/mesh_steps.h"
-#include "space/splits.h"
+#include "space/kd_tree.h"
+#include "space/mesh.h"
 
 /// The first `count` splits of a kd-tree (sl_splits_make) down to a depth (1: the first alone),
 /// each within its node's box: the deeper the thinner, in the steps of the heat map's ramp.
