@@ -190,17 +190,26 @@ void sl_eye_objects_print(const sl_eye_objects *objects) {
                sl_mirrored_area(&objects->mirrored_region));
 }
 
+/// Whether an object before it was given by the same text: a key stands once in an object.
+static bool is_repeated(const sl_eye_objects *objects, size_t index) {
+    for (size_t i = 0; i < index; i++)
+        if (strcmp(objects->objects[i].text, objects->objects[index].text) == 0) return true;
+    return false;
+}
+
 void sl_eye_objects_add_json(sl_json_fields *fields, const sl_baked *baked,
                              const sl_eye_objects *objects) {
     if (!objects->count) return;
     sl_json_fields sets = sl_json_begin(), seen = sl_json_begin(), region = sl_json_begin();
     for (size_t i = 0; i < objects->count; i++)
-        sl_json_add_flag(&seen, objects->objects[i].text, objects->seen[i]);
+        if (!is_repeated(objects, i))
+            sl_json_add_flag(&seen, objects->objects[i].text, objects->seen[i]);
     sl_json_add_fields(fields, "objects_seen", &seen);
     if (objects->has_mirrors) {
         sl_json_fields mirrored = sl_json_begin();
         for (size_t i = 0; i < objects->count; i++)
-            sl_json_add_flag(&mirrored, objects->objects[i].text, objects->mirrored[i]);
+            if (!is_repeated(objects, i))
+                sl_json_add_flag(&mirrored, objects->objects[i].text, objects->mirrored[i]);
         sl_json_add_fields(fields, "objects_mirrored", &mirrored);
         sl_json_add_members(&sets, "mirrored_cells", objects->mirrored_cells,
                             baked->space.cell_count);
