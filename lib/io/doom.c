@@ -11,7 +11,7 @@
 
 // --- the cells of a node builder
 
-/// One of the lumps, behind the four bytes that tell its version, if it has them.
+/// One of the lumps, without the four bytes of its version, if it has them.
 typedef struct gl_lump {
     const char *name;
     const unsigned char *bytes;
@@ -53,7 +53,7 @@ static bool is_header(const gl_nodes *gl, uint32_t index) {
            (lump.size == 6 + length || lump.bytes[6 + length] <= ' ');
 }
 
-/// The last header, as the game has it; the WAD's lump count where there is none.
+/// The last header, which is the one that the game takes; the WAD's lump count where there is none.
 static uint32_t find_header(const gl_nodes *gl) {
     uint32_t found = gl->wad->lump_count;
     for (uint32_t i = 0; i < gl->wad->lump_count; i++)
