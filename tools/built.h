@@ -6,9 +6,9 @@
 #include "sightline/context.h"
 
 /// Adds foreign formats to those that the context reads and writes, or formats that refuse.
-sl_status sl_built_use_formats(sl_context *context);
+sl_status built_use_formats(sl_context *context);
 
 /// SL_UNSUPPORTED where the build has no pictures.
-sl_status sl_built_need_pictures(sl_context *context);
+sl_status built_need_pictures(sl_context *context);
 
 #endif

@@ -2,6 +2,6 @@
 
 #include "sightline/io.h"
 
-sl_status sl_built_use_formats(sl_context *context) {
+sl_status built_use_formats(sl_context *context) {
     return sl_io_use(context);
 }

@@ -42,12 +42,12 @@ static const sl_export_format exports[] = {
     {.name = "reject", .what = WHAT, .takes_wad = true, .write = refuse_export},
 };
 
-sl_status sl_built_use_formats(sl_context *context) {
+sl_status built_use_formats(sl_context *context) {
     SL_TRY(sl_map_formats_add(context, &foreign, 1));
     return sl_export_formats_add(context, exports, sizeof exports / sizeof *exports);
 }
 
-sl_status sl_cmd_reject(sl_console *console, int argc, char **argv) {
+sl_status cmd_reject(command_console *console, int argc, char **argv) {
     (void)argc, (void)argv;
     return sl_fail(console->context, SL_UNSUPPORTED, "%s", refusal);
 }

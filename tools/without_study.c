@@ -2,22 +2,22 @@
 #include "commands.h"
 #include "sightline/support.h"
 
-static sl_status refuse(sl_console *console, const char *command) {
+static sl_status refuse(command_console *console, const char *command) {
     return sl_fail(console->context, SL_UNSUPPORTED,
                    "this build has no command '%s' (SIGHTLINE_STUDY is off)", command);
 }
 
-sl_status sl_cmd_generate(sl_console *console, int argc, char **argv) {
+sl_status cmd_generate(command_console *console, int argc, char **argv) {
     (void)argc;
     return refuse(console, argv[0]);
 }
 
-sl_status sl_cmd_regions(sl_console *console, int argc, char **argv) {
+sl_status cmd_regions(command_console *console, int argc, char **argv) {
     (void)argc;
     return refuse(console, argv[0]);
 }
 
-sl_status sl_cmd_walk(sl_console *console, int argc, char **argv) {
+sl_status cmd_walk(command_console *console, int argc, char **argv) {
     (void)argc;
     return refuse(console, argv[0]);
 }

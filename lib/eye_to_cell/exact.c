@@ -8,7 +8,6 @@
 /// steps than pieces of cells that are seen, but for single rays, which may pass a point where
 /// portals meet on either side and again at the next: of all sequences that one ray has to a cell,
 /// one is followed for each side on which it may still cross portals along it.
-#include "eye_to_cell/eye_methods.h"
 #include "eye_to_cell/eye_search.h"
 
 #include <string.h>

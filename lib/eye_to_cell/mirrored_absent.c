@@ -1,6 +1,5 @@
 /// What stands for sight by mirror where a build leaves the work on effects out: it is refused.
 #include "effects/effects.h"
-#include "eye_to_cell/eye_methods.h"
 #include "eye_to_cell/eye_search.h"
 #include "sightline/mirrored.h"
 

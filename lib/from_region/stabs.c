@@ -5,7 +5,7 @@
 /// In the plane the lines of a quadrant that leave by a face go through leaves in one way each, so
 /// that sequences share no inner lines and their number is bounded by the square of the number of
 /// portal ends: this is the exact solver of two dimensions, where three need Plücker space.
-#include "from_region/solver.h"
+#include "from_region/regions.h"
 
 #include <string.h>
 
@@ -112,8 +112,8 @@ static sl_status try_portal(sl_context *context, searcher *s, const sl_from_regi
     return try_items(context, s, query->quadrant, seen, account);
 }
 
-static sl_status look(sl_context *context, void *state, const sl_from_region_query *query,
-                      sl_bits *seen, sl_from_region_account *account) {
+static sl_status run(sl_context *context, void *state, const sl_from_region_query *query,
+                     sl_bits *seen, sl_from_region_account *account) {
     searcher *s = state;
     const sl_space *space = &s->scene->space;
     memcpy(s->left, query->refine, s->scene->words * sizeof *s->left);
@@ -138,11 +138,11 @@ static sl_status look(sl_context *context, void *state, const sl_from_region_que
     return SL_OK;
 }
 
-const sl_from_region_looker *sl_from_region_stabs(void) {
-    static const sl_from_region_looker stabs = {
+const sl_from_region_solver_calls *sl_from_region_stabs(void) {
+    static const sl_from_region_solver_calls stabs = {
         .create = create,
         .destroy = destroy,
-        .look = look,
+        .run = run,
     };
     return &stabs;
 }

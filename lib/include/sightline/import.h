@@ -35,6 +35,7 @@ typedef struct sl_import_options {
     bool cells;
 } sl_import_options;
 
+/// The usual options: each format's own choice.
 SL_API sl_import_options sl_import_options_default(void);
 
 /// Names of maps, in the order of their file. Zeroed, it is empty.

@@ -38,6 +38,7 @@ SL_API sl_status sl_export_reject(sl_context *context, const sl_baked *baked,
 SL_API sl_status sl_map_read_unigrafix(sl_context *context, const char *name, const char *text,
                                        size_t size, const sl_import_options *options, sl_map *map);
 
+/// Between which heights a UniGrafix model lies, for sl_import_options.slice.
 SL_API sl_status sl_map_heights_unigrafix(sl_context *context, const char *name, const char *text,
                                           size_t size, double *lowest, double *highest);
 
@@ -68,6 +69,7 @@ SL_API sl_status sl_map_read_ros(sl_context *context, const char *name, const ch
 /// pixels. What was taken is noted.
 SL_API sl_status sl_map_read_tmx(sl_context *context, const char *name, const char *text,
                                  size_t size, const sl_import_options *options, sl_map *map);
+/// As sl_map_read_tmx, from JSON.
 SL_API sl_status sl_map_read_tmj(sl_context *context, const char *name, const char *text,
                                  size_t size, const sl_import_options *options, sl_map *map);
 
@@ -75,6 +77,7 @@ SL_API sl_status sl_map_read_tmj(sl_context *context, const char *name, const ch
 /// the world's name): the cells of its IntGrid layers. Unit: pixels. What was taken is noted.
 SL_API sl_status sl_map_read_ldtk(sl_context *context, const char *name, const char *text,
                                   size_t size, const sl_import_options *options, sl_map *map);
+/// Lists the levels of an LDtk project into an empty list.
 SL_API sl_status sl_map_list_ldtk(sl_context *context, const char *name, const char *text,
                                   size_t size, sl_map_list *list);
 
@@ -115,6 +118,7 @@ typedef struct sl_image {
 /// transparent is white. SL_BAD_INPUT, naming the file, for all else.
 SL_API sl_status sl_image_read(sl_context *context, const char *name, const char *bytes,
                                size_t size, sl_image *out);
+/// Frees the pixels, and zeroes it.
 SL_API void sl_image_destroy(sl_context *context, sl_image *image);
 
 #ifdef __cplusplus
