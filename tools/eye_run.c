@@ -329,16 +329,25 @@ void eye_objects_print(const eye_objects *objects) {
                sl_mirrored_area(&objects->mirrored_region));
 }
 
+/// Whether an object before it was given by the same text: a key stands once in an object.
+static bool is_repeated(const eye_objects *objects, size_t index) {
+    for (size_t i = 0; i < index; i++)
+        if (strcmp(objects->objects[i].text, objects->objects[index].text) == 0) return true;
+    return false;
+}
+
 void eye_objects_add_json(json_fields *fields, const sl_baked *baked, const eye_objects *objects) {
     if (!objects->count) return;
     json_fields sets = json_begin(), seen = json_begin(), region = json_begin();
     for (size_t i = 0; i < objects->count; i++)
-        json_add_flag(&seen, objects->objects[i].text, objects->seen[i]);
+        if (!is_repeated(objects, i))
+            json_add_flag(&seen, objects->objects[i].text, objects->seen[i]);
     json_add_fields(fields, "objects_seen", &seen);
     if (objects->has_mirrors) {
         json_fields mirrored = json_begin();
         for (size_t i = 0; i < objects->count; i++)
-            json_add_flag(&mirrored, objects->objects[i].text, objects->mirrored[i]);
+            if (!is_repeated(objects, i))
+                json_add_flag(&mirrored, objects->objects[i].text, objects->mirrored[i]);
         json_add_fields(fields, "objects_mirrored", &mirrored);
         json_add_members(&sets, "mirrored_cells", objects->mirrored_cells, baked->space.cell_count);
     }

@@ -275,7 +275,7 @@ static sl_status take(foundry *reader, const record *wall) {
     return wall->door == DOOR_NONE ? add_wall(reader, wall) : add_door(reader, wall);
 }
 
-/// The largest y of all walls, as the file has it.
+/// The largest y of all walls in the file.
 static sl_status find_top(foundry *reader, const sl_json *walls, size_t count) {
     double top = -HUGE_VAL;
     for (size_t i = 0; i < count; i++) {

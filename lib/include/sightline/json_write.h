@@ -17,7 +17,7 @@ extern "C" {
 #endif
 
 /// Commas, line ends and indentation are put where they belong. Start from sl_json_writer_to(), or
-/// with `put`, `user` and `indent` of one's own and zeros in the rest.
+/// set `put`, `user` and `indent` and leave the rest zero.
 typedef struct sl_json_writer {
     void (*put)(void *user, const char *text, size_t size);
     void *user;
