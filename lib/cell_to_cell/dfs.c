@@ -20,17 +20,21 @@
 
 #include <string.h>
 
-sl_status sl_dfs_enter(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, sl_dfs_step to,
+/// A step of the search without effects.
+typedef struct step {
+    sl_dfs_step dfs;
+    sl_crossings crossings; ///< of the portals so far
+} step;
+
+sl_status sl_dfs_enter(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, sl_dfs_step *to,
                        uint32_t parent, uint32_t directed, bool counts) {
     if (counts) {
-        to.node = (uint32_t)me->account.nodes++;
-        const sl_stab_node node = {.parent = parent, .cell = to.cell, .directed = directed};
+        to->node = (uint32_t)me->account.nodes++;
+        const sl_stab_node node = {.parent = parent, .cell = to->at.cell, .directed = directed};
         if (all->options->trees) SL_TRY(sl_tree_grow(context, &all->trees, &me->tree, node));
     }
-    SL_TRY(SL_ARRAY_ROOM(context, &me->steps, 1));
-    me->steps.items[me->steps.count++] = to;
-    if (me->steps.count - 1 > me->account.deepest)
-        me->account.deepest = (uint32_t)me->steps.count - 1;
+    const size_t depth = me->search.count++;
+    if (depth > me->account.deepest) me->account.deepest = (uint32_t)depth;
     return SL_OK;
 }
 
@@ -40,9 +44,9 @@ static sl_status want(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
                       bool *something) {
     *something = true;
     if (!all->prunes) return SL_OK;
-    const size_t step = me->steps.count;
-    SL_TRY(sl_prune_step(context, &all->bounds, &me->wanted, step, directed));
-    const sl_prune_set *set = &me->wanted.sets.items[step];
+    const size_t depth = me->search.count;
+    SL_TRY(sl_prune_step(context, &all->bounds, &me->wanted, depth, directed));
+    const sl_prune_set *set = &me->wanted.sets.items[depth];
     *something = set->all;
     for (size_t i = set->begin; i < set->end && !*something; i++) {
         const sl_prune_word *at = &me->wanted.words.items[i];
@@ -57,14 +61,15 @@ static sl_status check_going_on(sl_context *context, const sl_dfs *all) {
     return all->before && sl_is_enough(all->options) ? SL_CANCELLED : SL_OK;
 }
 
-/// Tries one directed portal of the last step: tests the sequence with it, and enters the cell
-/// behind.
-static sl_status try_portal(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
-                            uint32_t number) {
-    const sl_solver *solver = all->options->solver;
+/// Tests the sequence with one more directed portal, and enters the cell behind.
+static sl_status cross(sl_context *context, void *job, const void *last, void *next,
+                       uint32_t number) {
+    const sl_dfs *all = ((sl_dfs_job *)job)->all;
+    sl_dfs_thread *me = ((sl_dfs_job *)job)->me;
+    const step *from = last;
+    step *to = next;
     const sl_directed_portal *directed = &all->space->directed[number];
-    const sl_dfs_step from = me->steps.items[me->steps.count - 1];
-    sl_crossings crossings = from.crossings;
+    sl_crossings crossings = from->crossings;
     if (!sl_crossings_add(all->space, &crossings, number)) return SL_OK;
     if (all->options->inside_only && !all->space->cells[directed->cell].inside) return SL_OK;
     bool something;
@@ -73,39 +78,32 @@ static sl_status try_portal(sl_context *context, const sl_dfs *all, sl_dfs_threa
     if (++me->account.tests % 64 == 0) SL_TRY(check_going_on(context, all));
 
     sl_stab_verdict verdict;
-    SL_TRY(solver->push(context, me->solver, directed->left, directed->right, &verdict));
+    SL_TRY(sl_portal_search_push(context, &me->search, directed->left, directed->right, &verdict));
     const bool closed = all->options->sight == SL_CLOSED;
-    const bool rounded = solver->guarantee == SL_ROUNDED;
-    const bool grazing = verdict == SL_GRAZING || from.grazing;
+    const bool rounded = all->options->solver->guarantee == SL_ROUNDED;
+    const bool grazing = verdict == SL_GRAZING || from->dfs.grazing;
     if (verdict == SL_HIDDEN || (grazing && !closed && !rounded)) {
-        solver->pop(me->solver);
+        sl_portal_search_pop(&me->search);
         return SL_OK;
     }
     sl_bits_add(grazing && rounded ? me->doubtful : me->sure, directed->cell);
-    const sl_dfs_step to = {.cell = directed->cell, .crossings = crossings, .grazing = grazing};
-    return sl_dfs_enter(context, all, me, to, from.node, number, closed || !grazing);
+    *to = (step){.dfs = {.at.cell = directed->cell, .grazing = grazing}, .crossings = crossings};
+    return sl_dfs_enter(context, all, me, &to->dfs, from->dfs.node, number, closed || !grazing);
 }
 
 static sl_status search_from(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
                              uint32_t source) {
-    const sl_space *space = all->space;
+    static const sl_portal_visitor visitor = {.step_size = sizeof(step), .cross = cross};
     sl_bits_add(me->sure, source);
     // Where pairs are found from either cell alike, those from the source on are wanted of it.
     const bool from_either = all->prunes && all->options->solver->guarantee == SL_EXACT;
     SL_TRY(sl_prune_start(context, &me->wanted, from_either ? source : 0));
-    me->steps.count = 0;
-    SL_TRY(sl_dfs_enter(context, all, me,
-                        (sl_dfs_step){.cell = source, .crossings = SL_CROSSINGS_NONE}, 0,
-                        UINT32_MAX, true));
-    while (me->steps.count) {
-        sl_dfs_step *last = &me->steps.items[me->steps.count - 1];
-        const sl_cell *cell = &space->cells[last->cell];
-        if (last->next < cell->directed_count) {
-            SL_TRY(try_portal(context, all, me, cell->first_directed + last->next++));
-        } else if (--me->steps.count)
-            all->options->solver->pop(me->solver);
-    }
-    return SL_OK;
+    SL_TRY(sl_portal_search_start(context, &me->search, sizeof(step)));
+    step *first = me->search.steps;
+    *first = (step){.dfs.at.cell = source, .crossings = SL_CROSSINGS_NONE};
+    SL_TRY(sl_dfs_enter(context, all, me, &first->dfs, 0, UINT32_MAX, true));
+    sl_dfs_job job = {all, me};
+    return sl_portal_search_run(context, &me->search, &visitor, &job);
 }
 
 static sl_status search_source(sl_context *context, sl_dfs *all, sl_dfs_thread *me,
@@ -146,13 +144,12 @@ static void end(sl_context *context, void *job, void *state) {
     sl_dfs *all = job;
     sl_dfs_thread *me = state;
     const sl_solver *solver = all->options->solver;
-    if (me->solver && solver->account) {
+    if (me->search.solver_state && solver->account) {
         pthread_mutex_lock(&all->lock);
-        solver->account(me->solver, &all->stab);
+        solver->account(me->search.solver_state, &all->stab);
         pthread_mutex_unlock(&all->lock);
     }
-    solver->destroy(context, me->solver);
-    sl_free(context, me->steps.items);
+    sl_portal_search_end(context, &me->search);
     sl_free(context, me->sure);
     sl_free(context, me->doubtful);
     sl_prune_wanted_destroy(context, &me->wanted);
@@ -169,8 +166,9 @@ static sl_status begin(sl_context *context, void *job, void **state) {
     me->sure = sl_alloc_array(context, words, sizeof *me->sure);
     me->doubtful = sl_alloc_array(context, words, sizeof *me->doubtful);
     sl_status status = me->sure && me->doubtful ? SL_OK : SL_NO_MEMORY;
+    me->search = (sl_portal_search){.space = all->space, .solver = all->options->solver};
     if (status == SL_OK)
-        status = all->options->solver->create(context, all->space->bounds, &me->solver);
+        status = me->search.solver->create(context, all->space->bounds, &me->search.solver_state);
     if (status == SL_OK && all->effects) status = sl_dfs_effects_begin(context, all, me);
     if (status == SL_OK)
         *state = me;

@@ -9,6 +9,7 @@
 
 #include "cell_to_cell/crossing.h"
 #include "cell_to_cell/explain_line.h"
+#include "cell_to_cell/portal_search.h"
 #include "sightline/solvers.h"
 #include "sightline/support.h"
 
@@ -16,8 +17,8 @@
 
 /// A cell on the way from the first.
 typedef struct step {
-    uint32_t cell;
-    uint32_t next;          ///< directed portal to try next, from 0
+    sl_portal_step at;
+    uint32_t directed;      ///< crossed last; none for the first
     sl_crossings crossings; ///< of the portals so far
     bool grazing;           ///< the sequence is no more than grazed
 } step;
@@ -25,14 +26,11 @@ typedef struct step {
 typedef struct search {
     const sl_space *space;
     const sl_explain_options *options;
-    void *solver;
-    uint32_t *distance; ///< by cell: portals to the target, SL_NO_WAY for no way
-    SL_ARRAY(step) steps;
-    SL_ARRAY(uint32_t) directed; ///< the sequence, with room for one more
-    uint32_t bound;              ///< sequences of more portals are left for later
-    bool cut;                    ///< some were
-    bool stopped;                ///< most_tests is reached
-    uint32_t stabbed, grazed;    ///< portals of the shortest sequences found; UINT32_MAX for none
+    sl_portal_search search;  ///< stops where most_tests is reached
+    uint32_t *distance;       ///< by cell: portals to the target, SL_NO_WAY for no way
+    uint32_t bound;           ///< sequences of more portals are left for later
+    bool cut;                 ///< some were
+    uint32_t stabbed, grazed; ///< portals of the shortest sequences found; UINT32_MAX for none
     uint32_t most_misses;
     sl_explanation out;
 } search;
@@ -86,13 +84,14 @@ sl_status sl_find_distances(sl_context *context, const sl_space *space, uint32_t
 /// A copy of the sequence as it stands with one more directed portal, without ends.
 static sl_status copy_sequence(sl_context *context, const search *s, uint32_t last,
                                sl_sequence *out) {
-    const uint32_t before = (uint32_t)s->directed.count;
-    uint32_t *directed = sl_alloc_array(context, (size_t)before + 1, sizeof *directed);
+    const step *steps = s->search.steps;
+    const uint32_t count = (uint32_t)s->search.count;
+    uint32_t *directed = sl_alloc_array(context, count, sizeof *directed);
     if (!directed) return SL_NO_MEMORY;
-    if (before) memcpy(directed, s->directed.items, before * sizeof *directed);
-    directed[before] = last;
+    for (uint32_t i = 1; i < count; i++) directed[i - 1] = steps[i].directed;
+    directed[count - 1] = last;
     sl_free(context, out->directed);
-    *out = (sl_sequence){.directed = directed, .directed_count = before + 1};
+    *out = (sl_sequence){.directed = directed, .directed_count = count};
     return SL_OK;
 }
 
@@ -102,14 +101,19 @@ static sl_status note_found(sl_context *context, search *s, uint32_t last, bool 
     sl_explanation *out = &s->out;
     SL_TRY(copy_sequence(context, s, last, &out->sequence));
     out->verdict = grazing ? SL_GRAZING : SL_STABBED;
-    out->witness = solver->witness(s->solver);
+    out->witness = solver->witness(s->search.solver_state);
     if (grazing) {
         s->grazed = out->sequence.directed_count;
-        return solver->conflict(context, s->solver, out->sequence.ends, &out->sequence.end_count);
+        return solver->conflict(context, s->search.solver_state, out->sequence.ends,
+                                &out->sequence.end_count);
     }
     s->stabbed = out->sequence.directed_count;
     s->grazed = 0;
     return SL_OK;
+}
+
+static const step *last_step(const search *s) {
+    return (const step *)s->search.steps + s->search.count - 1;
 }
 
 /// The last cell before the sequence's last portal.
@@ -128,7 +132,7 @@ static bool is_farther(const sl_miss *a, const sl_miss *b) {
 /// cell, or else the list's end, from where it moves up. UINT32_MAX where it does not.
 static uint32_t place_of_miss(const search *s, const sl_miss *miss) {
     const sl_explanation *out = &s->out;
-    const uint32_t cell = s->steps.items[s->steps.count - 1].cell;
+    const uint32_t cell = last_step(s)->at.cell;
     for (uint32_t i = 0; i < out->miss_count; i++)
         if (last_cell(s->space, out->from, &out->misses[i].sequence) == cell)
             return is_farther(miss, &out->misses[i]) ? i : UINT32_MAX;
@@ -148,7 +152,7 @@ static uint32_t place_of_portal(const sl_sequence *sequence, uint32_t directed) 
 static void tell_turn(const search *s, sl_sequence *sequence) {
     const uint32_t last = sequence->directed_count - 1;
     const uint32_t stop = sequence->directed[last];
-    const sl_crossings before = s->steps.items[s->steps.count - 1].crossings;
+    const sl_crossings before = last_step(s)->crossings;
     uint32_t portals[3] = {place_of_portal(sequence, before.least),
                            place_of_portal(sequence, before.most), last};
     uint32_t first = 0;
@@ -165,8 +169,9 @@ static void tell_turn(const search *s, sl_sequence *sequence) {
 }
 
 static bool is_visited(const search *s, uint32_t cell) {
-    for (size_t i = 0; i < s->steps.count; i++)
-        if (s->steps.items[i].cell == cell) return true;
+    const step *steps = s->search.steps;
+    for (size_t i = 0; i < s->search.count; i++)
+        if (steps[i].at.cell == cell) return true;
     return false;
 }
 
@@ -175,12 +180,11 @@ static bool is_visited(const search *s, uint32_t cell) {
 /// there; and none that lead back to where the sequence has been.
 static sl_status note_miss(sl_context *context, search *s, uint32_t directed, bool turns) {
     sl_explanation *out = &s->out;
-    const uint32_t missing = s->distance[s->steps.items[s->steps.count - 1].cell];
+    const uint32_t missing = s->distance[last_step(s)->at.cell];
     if (out->verdict != SL_HIDDEN || s->distance[s->space->directed[directed].cell] >= missing)
         return SL_OK;
-    sl_miss miss = {.sequence.directed_count = (uint32_t)s->directed.count + 1,
-                    .missing = missing,
-                    .turns = turns};
+    sl_miss miss = {
+        .sequence.directed_count = (uint32_t)s->search.count, .missing = missing, .turns = turns};
     uint32_t at = place_of_miss(s, &miss);
     if (at == UINT32_MAX || is_visited(s, s->space->directed[directed].cell)) return SL_OK;
     SL_TRY(copy_sequence(context, s, directed, &miss.sequence));
@@ -188,7 +192,7 @@ static sl_status note_miss(sl_context *context, search *s, uint32_t directed, bo
         tell_turn(s, &miss.sequence);
     } else {
         const sl_status status = s->options->solver->conflict(
-            context, s->solver, miss.sequence.ends, &miss.sequence.end_count);
+            context, s->search.solver_state, miss.sequence.ends, &miss.sequence.end_count);
         if (status != SL_OK) {
             sl_free(context, miss.sequence.directed);
             return status;
@@ -218,65 +222,55 @@ static sl_status count_test(sl_context *context, search *s) {
     sl_explanation *out = &s->out;
     if (++out->tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
     if (out->tests % 1024 == 0) sl_report(context, "explain", "tests", out->tests, 0);
-    s->stopped = out->tests == s->options->most_tests;
+    s->search.stop = out->tests == s->options->most_tests;
     return SL_OK;
 }
 
-/// What comes of the sequence with one more directed portal, which the solver holds. `enters`: it
-/// is followed into the next cell, and the solver keeps it.
-static sl_status judge(sl_context *context, search *s, uint32_t number, sl_stab_verdict verdict,
+/// What comes of the sequence with the directed portal of `to`, which the solver holds. `enters`:
+/// it is followed into the next cell, and the solver keeps it.
+static sl_status judge(sl_context *context, search *s, const step *to, sl_stab_verdict verdict,
                        bool *enters) {
-    const sl_directed_portal *directed = &s->space->directed[number];
-    const step from = s->steps.items[s->steps.count - 1];
-    const uint32_t portals = (uint32_t)s->directed.count + 1;
-    const bool grazing = verdict == SL_GRAZING;
+    const uint32_t portals = (uint32_t)s->search.count, cell = to->at.cell;
     *enters = false;
-    if (verdict == SL_HIDDEN) return note_miss(context, s, number, false);
-    if (is_neighbour(s, grazing, portals + s->distance[directed->cell])) return SL_OK;
-    if (directed->cell == s->out.to) return note_found(context, s, number, grazing);
-    SL_TRY(SL_ARRAY_ROOM(context, &s->steps, 1));
-    SL_TRY(SL_ARRAY_ROOM(context, &s->directed, 1));
-    s->directed.items[s->directed.count++] = number;
-    s->steps.items[s->steps.count++] =
-        (step){.cell = directed->cell, .crossings = from.crossings, .grazing = grazing};
-    sl_crossings_add(s->space, &s->steps.items[s->steps.count - 1].crossings, number);
+    if (verdict == SL_HIDDEN) return note_miss(context, s, to->directed, false);
+    if (is_neighbour(s, to->grazing, portals + s->distance[cell])) return SL_OK;
+    if (cell == s->out.to) return note_found(context, s, to->directed, to->grazing);
     *enters = true;
     return SL_OK;
 }
 
-static sl_status try_portal(sl_context *context, search *s, uint32_t number) {
-    const sl_solver *solver = s->options->solver;
+static sl_status cross(sl_context *context, void *job, const void *last, void *next,
+                       uint32_t number) {
+    search *s = job;
+    const step *from = last;
+    step *to = next;
     const sl_directed_portal *directed = &s->space->directed[number];
-    const step from = s->steps.items[s->steps.count - 1];
-    const uint32_t portals = (uint32_t)s->directed.count + 1 + s->distance[directed->cell];
-    sl_crossings crossings = from.crossings;
-    if (!sl_crossings_add(s->space, &crossings, number)) return note_miss(context, s, number, true);
-    if (is_neighbour(s, from.grazing, portals)) return SL_OK;
+    const uint32_t portals = (uint32_t)s->search.count + s->distance[directed->cell];
+    *to = (step){.at.cell = directed->cell, .directed = number, .crossings = from->crossings};
+    if (!sl_crossings_add(s->space, &to->crossings, number))
+        return note_miss(context, s, number, true);
+    if (is_neighbour(s, from->grazing, portals)) return SL_OK;
     SL_TRY(count_test(context, s));
     sl_stab_verdict verdict;
     bool enters;
-    SL_TRY(solver->push(context, s->solver, directed->left, directed->right, &verdict));
-    SL_TRY(judge(context, s, number, verdict, &enters));
-    if (!enters) solver->pop(s->solver);
+    SL_TRY(sl_portal_search_push(context, &s->search, directed->left, directed->right, &verdict));
+    to->grazing = verdict == SL_GRAZING;
+    SL_TRY(judge(context, s, to, verdict, &enters));
+    if (enters)
+        s->search.count++;
+    else
+        sl_portal_search_pop(&s->search);
     return SL_OK;
 }
 
 /// All sequences within the bound.
 static sl_status search_within(sl_context *context, search *s) {
-    const sl_space *space = s->space;
-    SL_TRY(SL_ARRAY_ROOM(context, &s->steps, 1));
-    s->steps.items[s->steps.count++] = (step){.cell = s->out.from, .crossings = SL_CROSSINGS_NONE};
-    while (s->steps.count && !s->stopped) {
-        step *last = &s->steps.items[s->steps.count - 1];
-        const sl_cell *cell = &space->cells[last->cell];
-        if (last->next < cell->directed_count) {
-            SL_TRY(try_portal(context, s, cell->first_directed + last->next++));
-        } else if (--s->steps.count) {
-            s->directed.count--;
-            s->options->solver->pop(s->solver);
-        }
-    }
-    return SL_OK;
+    static const sl_portal_visitor visitor = {.step_size = sizeof(step), .cross = cross};
+    SL_TRY(sl_portal_search_start(context, &s->search, sizeof(step)));
+    step *first = s->search.steps;
+    *first = (step){.at.cell = s->out.from, .directed = UINT32_MAX, .crossings = SL_CROSSINGS_NONE};
+    s->search.count++;
+    return sl_portal_search_run(context, &s->search, &visitor, s);
 }
 
 static sl_status search_all(sl_context *context, search *s) {
@@ -288,9 +282,9 @@ static sl_status search_all(sl_context *context, search *s) {
     for (s->bound = out->distance;; s->bound *= 2) {
         s->cut = false;
         SL_TRY(search_within(context, s));
-        if (!s->cut || s->stopped || out->verdict == SL_STABBED) break;
+        if (!s->cut || s->search.stop || out->verdict == SL_STABBED) break;
     }
-    out->complete = !s->stopped;
+    out->complete = !s->search.stop;
     return SL_OK;
 }
 
@@ -308,10 +302,8 @@ static sl_status explain(sl_context *context, search *s) {
     out->complete = true;
     out->verdict = out->distance == 0 ? SL_STABBED : SL_HIDDEN;
     if (out->distance != 0 && out->distance != SL_NO_WAY) {
-        SL_TRY(solver->create(context, s->space->bounds, &s->solver));
-        const sl_status status = search_all(context, s);
-        solver->destroy(context, s->solver);
-        SL_TRY(status);
+        SL_TRY(solver->create(context, s->space->bounds, &s->search.solver_state));
+        SL_TRY(search_all(context, s));
     }
     out->seen =
         out->verdict == SL_STABBED || (out->verdict == SL_GRAZING && out->sight == SL_CLOSED);
@@ -340,13 +332,13 @@ sl_status sl_explain(sl_context *context, const sl_space *space, const sl_explai
     SL_TRY(check(context, space, options, from, to));
     search s = {.space = space,
                 .options = options,
+                .search = {.space = space, .solver = options->solver},
                 .stabbed = UINT32_MAX,
                 .grazed = UINT32_MAX,
                 .out = {.from = from, .to = to, .sight = options->sight}};
     const sl_status status = explain(context, &s);
+    sl_portal_search_end(context, &s.search);
     sl_free(context, s.distance);
-    sl_free(context, s.steps.items);
-    sl_free(context, s.directed.items);
     if (status == SL_OK)
         *out = s.out;
     else

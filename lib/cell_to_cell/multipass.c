@@ -18,6 +18,7 @@
 #include "cell_to_cell/bit_rows.h"
 #include "cell_to_cell/methods.h"
 #include "cell_to_cell/pass.h"
+#include "cell_to_cell/portal_search.h"
 #include "cell_to_cell/prune.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "sightline/support.h"
@@ -53,15 +54,14 @@ typedef struct multipass {
 
 /// A cell on the way from a face.
 typedef struct step {
-    uint32_t cell, next; ///< directed portal to try next, from 0
-    sl_cone cone;        ///< directions that cross all portals so far
-    bool grazing;        ///< the sequence is no more than grazed
+    sl_portal_step at;
+    sl_cone cone; ///< directions that cross all portals so far
+    bool grazing; ///< the sequence is no more than grazed
 } step;
 
 /// One thread's own.
 typedef struct searcher {
-    void *solver;
-    SL_ARRAY(step) steps;
+    sl_portal_search search;
     sl_prune_wanted wanted;                               ///< at each step
     sl_word_set sure, doubtful, cell_sure, cell_doubtful; ///< of the face and of the cell at hand
     sl_word_set candidates;                               ///< of the face, or of its cycle
@@ -77,12 +77,10 @@ static void add_directed(const multipass *all, const running_pass *p, uint32_t c
         sl_sparse_row_add_to(&p->seen[face], all->words, set);
 }
 
-static sl_status enter(sl_context *context, searcher *me, step to) {
+static void enter(searcher *me) {
     me->account.nodes++;
-    SL_TRY(SL_ARRAY_ROOM(context, &me->steps, 1));
-    me->steps.items[me->steps.count++] = to;
-    if (me->steps.count > me->account.deepest) me->account.deepest = (uint32_t)me->steps.count;
-    return SL_OK;
+    me->search.count++;
+    if (me->search.count > me->account.deepest) me->account.deepest = (uint32_t)me->search.count;
 }
 
 /// The verdict on the sequence with one more portal, for lines of the sector. SL_HIDDEN: it must
@@ -92,10 +90,10 @@ static sl_status push(sl_context *context, const multipass *all, searcher *me,
                       sl_stab_verdict *verdict) {
     const sl_solver *solver = all->options->solver;
     if (++me->account.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
-    SL_TRY(solver->push(context, me->solver, directed->left, directed->right, verdict));
+    SL_TRY(sl_portal_search_push(context, &me->search, directed->left, directed->right, verdict));
     if (*verdict == SL_HIDDEN) return SL_OK;
     const bool near = *verdict == SL_GRAZING && solver->guarantee == SL_ROUNDED;
-    SL_TRY(solver->toward(context, me->solver, cone->right, cone->left, verdict));
+    SL_TRY(solver->toward(context, me->search.solver_state, cone->right, cone->left, verdict));
     // Whether a line that rounding may have made is within the sector cannot be told either.
     if (near && *verdict == SL_HIDDEN) *verdict = SL_GRAZING;
     return SL_OK;
@@ -106,7 +104,7 @@ static sl_status push(sl_context *context, const multipass *all, searcher *me,
 /// hand may not be known yet: then it bounds nothing.
 static sl_status want(sl_context *context, searcher *me, const sl_sparse_row *behind,
                       bool *something) {
-    const size_t depth = me->steps.count;
+    const size_t depth = me->search.count;
     SL_TRY(sl_prune_step_within(context, behind, &me->wanted, depth));
     const sl_prune_set *set = &me->wanted.sets.items[depth];
     *something = false;
@@ -117,52 +115,56 @@ static sl_status want(sl_context *context, searcher *me, const sl_sparse_row *be
     return SL_OK;
 }
 
-static sl_status try_portal(sl_context *context, const multipass *all, const running_pass *p,
-                            searcher *me, uint32_t number) {
-    const sl_solver *solver = all->options->solver;
+/// The search from one face.
+typedef struct face_job {
+    const multipass *all;
+    const running_pass *pass;
+    searcher *me;
+} face_job;
+
+static sl_status cross(sl_context *context, void *job, const void *last, void *next,
+                       uint32_t number) {
+    const face_job *at = job;
+    const multipass *all = at->all;
+    searcher *me = at->me;
+    const step *from = last;
+    step *to = next;
+    const uint32_t face = at->pass->pass.faces[number];
     const sl_directed_portal *directed = &all->space->directed[number];
-    const step from = me->steps.items[me->steps.count - 1];
-    sl_cone cone = from.cone;
-    if (p->pass.faces[number] == SL_NO_FACE || !sl_cone_cut(&cone, directed)) return SL_OK;
+    *to = (step){.at.cell = directed->cell, .cone = from->cone};
+    if (face == SL_NO_FACE || !sl_cone_cut(&to->cone, directed)) return SL_OK;
     bool something;
-    SL_TRY(want(context, me, &p->seen[p->pass.faces[number]], &something));
+    SL_TRY(want(context, me, &at->pass->seen[face], &something));
     if (!something) return SL_OK;
 
     sl_stab_verdict verdict;
-    SL_TRY(push(context, all, me, directed, &cone, &verdict));
-    const bool grazing = verdict == SL_GRAZING || from.grazing;
-    if (verdict == SL_HIDDEN || (grazing && all->options->sight == SL_OPEN && !all->rounded)) {
-        solver->pop(me->solver);
+    SL_TRY(push(context, all, me, directed, &to->cone, &verdict));
+    to->grazing = verdict == SL_GRAZING || from->grazing;
+    if (verdict == SL_HIDDEN || (to->grazing && all->options->sight == SL_OPEN && !all->rounded)) {
+        sl_portal_search_pop(&me->search);
         return SL_OK;
     }
-    sl_word_set_add(grazing && all->rounded ? &me->doubtful : &me->sure, directed->cell);
-    return enter(context, me, (step){.cell = directed->cell, .cone = cone, .grazing = grazing});
+    sl_word_set_add(to->grazing && all->rounded ? &me->doubtful : &me->sure, directed->cell);
+    enter(me);
+    return SL_OK;
 }
 
 /// Finds what a face sees among the candidates, into `sure` and `doubtful`.
 static sl_status search_face(sl_context *context, const multipass *all, const running_pass *p,
                              searcher *me, uint32_t number) {
-    const sl_space *space = all->space;
-    const sl_directed_portal *directed = &space->directed[number];
-    sl_cone cone = p->pass.cone;
-    (void)sl_cone_cut(&cone, directed); // it has some: else the directed portal were no face
+    static const sl_portal_visitor visitor = {.step_size = sizeof(step), .cross = cross};
+    const sl_directed_portal *directed = &all->space->directed[number];
+    SL_TRY(sl_portal_search_start(context, &me->search, sizeof(step)));
+    step *first = me->search.steps;
+    *first = (step){.at.cell = directed->cell, .cone = p->pass.cone};
+    (void)sl_cone_cut(&first->cone, directed); // it has some: else the portal were no face
     sl_stab_verdict verdict;
-    SL_TRY(push(context, all, me, directed, &cone, &verdict));
+    SL_TRY(push(context, all, me, directed, &first->cone, &verdict));
     sl_word_set_add(&me->sure, directed->cell);
     SL_TRY(sl_prune_start_among(context, &me->wanted, &me->candidates));
-    me->steps.count = 0;
-    SL_TRY(enter(context, me, (step){.cell = directed->cell, .cone = cone}));
-    while (me->steps.count) {
-        step *last = &me->steps.items[me->steps.count - 1];
-        const sl_cell *cell = &space->cells[last->cell];
-        if (last->next < cell->directed_count) {
-            SL_TRY(try_portal(context, all, p, me, cell->first_directed + last->next++));
-        } else {
-            me->steps.count--;
-            all->options->solver->pop(me->solver);
-        }
-    }
-    return SL_OK;
+    enter(me);
+    face_job job = {all, p, me};
+    return sl_portal_search_run(context, &me->search, &visitor, &job);
 }
 
 static uint64_t count_bits(const sl_word_set *set) {
@@ -263,7 +265,8 @@ static void end(sl_context *context, void *job, void *state) {
     searcher *me = state;
     const sl_solver *solver = all->options->solver;
     pthread_mutex_lock(&all->lock);
-    if (me->solver && solver->account) solver->account(me->solver, &all->account.stab);
+    if (me->search.solver_state && solver->account)
+        solver->account(me->search.solver_state, &all->account.stab);
     all->account.tests += me->account.tests;
     all->account.nodes += me->account.nodes;
     all->account.candidates += me->account.candidates;
@@ -273,8 +276,7 @@ static void end(sl_context *context, void *job, void *state) {
     sl_bit_rows_join(context, &all->sure, &me->rows);
     sl_bit_rows_join(context, &all->doubtful, &me->doubtful_rows);
     pthread_mutex_unlock(&all->lock);
-    solver->destroy(context, me->solver);
-    sl_free(context, me->steps.items);
+    sl_portal_search_end(context, &me->search);
     sl_prune_wanted_destroy(context, &me->wanted);
     free_sets(context, me);
     sl_free(context, me);
@@ -282,6 +284,7 @@ static void end(sl_context *context, void *job, void *state) {
 
 static sl_status make_sets(sl_context *context, const multipass *all, searcher *me) {
     const uint32_t count = all->space->cell_count;
+    me->search = (sl_portal_search){.space = all->space, .solver = all->options->solver};
     SL_TRY(sl_word_set_create(context, count, &me->sure));
     SL_TRY(sl_word_set_create(context, count, &me->doubtful));
     SL_TRY(sl_word_set_create(context, count, &me->cell_sure));
@@ -289,7 +292,7 @@ static sl_status make_sets(sl_context *context, const multipass *all, searcher *
     SL_TRY(sl_word_set_create(context, count, &me->candidates));
     SL_TRY(sl_bit_rows_fork(context, &all->sure, &me->rows));
     if (all->rounded) SL_TRY(sl_bit_rows_fork(context, &all->doubtful, &me->doubtful_rows));
-    return all->options->solver->create(context, all->space->bounds, &me->solver);
+    return me->search.solver->create(context, all->space->bounds, &me->search.solver_state);
 }
 
 static sl_status begin(sl_context *context, void *job, void **state) {

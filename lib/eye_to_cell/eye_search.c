@@ -101,13 +101,13 @@ void sl_eye_end(const sl_eye_query *query, sl_eye_account *account) {
 }
 
 sl_eye_step sl_eye_first_step(const sl_eye_query *query) {
-    return (sl_eye_step){.cell = query->cell, .near = true};
+    return (sl_eye_step){.at.cell = query->cell, .near = true};
 }
 
 bool sl_eye_pass(sl_eye_query *query, const sl_eye_step *from, bool first,
                  const sl_directed_portal *directed, sl_eye_step *to) {
     sl_pivot *pivot = &query->pivot;
-    *to = (sl_eye_step){.cell = directed->cell};
+    *to = (sl_eye_step){.at.cell = directed->cell};
     if (from->near) {
         sl_arc through;
         if (!sl_arc_of_portal(pivot, directed, &through)) return false;
