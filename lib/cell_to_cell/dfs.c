@@ -62,8 +62,8 @@ static sl_status check_going_on(sl_context *context, const sl_dfs *all) {
 }
 
 /// Tests the sequence with one more directed portal, and enters the cell behind.
-static sl_status cross(sl_context *context, void *job, const void *last, void *next,
-                       uint32_t number) {
+SL_VISIT sl_status cross(sl_context *context, void *job, const void *last, void *next,
+                         uint32_t number) {
     const sl_dfs *all = ((sl_dfs_job *)job)->all;
     sl_dfs_thread *me = ((sl_dfs_job *)job)->me;
     const step *from = last;

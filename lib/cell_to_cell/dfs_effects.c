@@ -162,8 +162,8 @@ static bool has_been_in(const sl_portal_search *search, uint32_t cell) {
     return false;
 }
 
-static sl_status cross(sl_context *context, void *visit, const void *last, void *next,
-                       uint32_t number) {
+SL_VISIT sl_status cross(sl_context *context, void *visit, const void *last, void *next,
+                         uint32_t number) {
     const sl_dfs_job *job = visit;
     const sl_dfs *all = job->all;
     sl_dfs_thread *me = job->me;

@@ -122,8 +122,8 @@ typedef struct face_job {
     searcher *me;
 } face_job;
 
-static sl_status cross(sl_context *context, void *job, const void *last, void *next,
-                       uint32_t number) {
+SL_VISIT sl_status cross(sl_context *context, void *job, const void *last, void *next,
+                         uint32_t number) {
     const face_job *at = job;
     const multipass *all = at->all;
     searcher *me = at->me;

@@ -54,6 +54,9 @@ typedef struct sl_portal_visitor {
     sl_status (*leave)(sl_context *context, void *job, const void *left);
 } sl_portal_visitor;
 
+/// Stands before a visitor's function that the compiler is to put into its copy of the search.
+#define SL_VISIT static inline __attribute__((always_inline))
+
 static inline void *sl_portal_search_step(const sl_portal_search *search, size_t step_size,
                                           size_t i) {
     return (char *)search->steps + i * step_size;
@@ -97,8 +100,11 @@ static inline sl_status sl_portal_search_run(sl_context *context, sl_portal_sear
                                              const sl_portal_visitor *visitor, void *job) {
     const size_t size = visitor->step_size;
     while (search->count && !search->stop) {
-        SL_TRY(sl_portal_search_room(context, search, size));
         sl_portal_step *last = sl_portal_search_step(search, size, search->count - 1);
+        if (last->next == 0) {
+            SL_TRY(sl_portal_search_room(context, search, size));
+            last = sl_portal_search_step(search, size, search->count - 1);
+        }
         void *to = sl_portal_search_step(search, size, search->count);
         const sl_cell *cell = &search->space->cells[last->cell];
         const uint32_t next = last->next++;

@@ -66,8 +66,8 @@ static sl_status enter(sl_context *context, exact_job *job, const sl_eye_step *t
 }
 
 /// Goes through a directed portal: one step for each arc that is left there.
-static sl_status cross(sl_context *context, void *visit, const void *last, void *next,
-                       uint32_t number) {
+SL_VISIT sl_status cross(sl_context *context, void *visit, const void *last, void *next,
+                         uint32_t number) {
     exact_job *job = visit;
     sl_eye_query *query = job->query;
     const sl_eye_step *from = last;
