@@ -16,7 +16,4 @@ extern const sl_effect sl_effect_range;
 sl_status sl_oneway_filtered(sl_context *context, const sl_space *space, const sl_plan *plan,
                              sl_space *made, const sl_space **through);
 
-/// SL_UNSUPPORTED: what functions of effects say in a build without them.
-sl_status sl_effects_refuse(sl_context *context);
-
 #endif

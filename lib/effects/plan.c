@@ -42,13 +42,9 @@ static void append(char *text, size_t size, const char *between, const char *mor
     snprintf(text + used, size - used, "%s%s", used ? between : "", more);
 }
 
-bool sl_effects_are_built(void) {
-    return SIGHTLINE_EFFECTS;
-}
-
 sl_status sl_effects_check(sl_context *context, const sl_map *map, const char *method,
                            unsigned known) {
-    const unsigned unknown = sl_plan_make(map).effects & ~(SIGHTLINE_EFFECTS ? known : 0);
+    const unsigned unknown = sl_plan_make(map).effects & ~known;
     if (!unknown) return SL_OK;
     char several[128] = "", names[64] = "", line[16] = "";
     uint32_t first = UINT32_MAX;
@@ -63,12 +59,6 @@ sl_status sl_effects_check(sl_context *context, const sl_map *map, const char *m
     const char *source = map->source ? map->source : "", *colon = map->source ? ":" : "";
     const char *space = map->source ? " " : "", *bake = map->source ? "" : "bake ";
     const char *them = unknown == SL_EFFECT_RANGE ? "it" : "them";
-    if (!SIGHTLINE_EFFECTS)
-        return sl_fail(
-            context, SL_UNSUPPORTED,
-            "%s%s%s%sthe map calls for %s, and this build is without effects: %s--without "
-            "%s leaves %s out, a build with -DSIGHTLINE_EFFECTS=ON knows %s",
-            source, colon, line, space, several, bake, names, them, them);
     return sl_fail(context, SL_UNSUPPORTED,
                    "%s%s%s%sthe map calls for %s, which '%s' does not know; "
                    "%s--without %s leaves %s out",

@@ -1,6 +1,5 @@
 /// Stab trees of maps with mirrors: what they hold, that eyes are not misled by them, and their
 /// baked file.
-// needs effects
 #include "slv_file.h"
 
 #include "effects/mirror_sides.h"
