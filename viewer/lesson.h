@@ -3,7 +3,7 @@
 #ifndef VIEWER_LESSON_H
 #define VIEWER_LESSON_H
 
-#include "cell_to_cell/pass.h"
+#include "cell_to_cell/sectors.h"
 #include "document.h"
 #include "draw/canvas.h"
 #include "sightline/dual.h"

@@ -1,7 +1,7 @@
 /// Reading a baked file: nothing in it is believed before it is checked.
 #include "bake/slv.h"
 #include "base/base.h"
-#include "effects/mirror_sides.h"
+#include "effects/mirrors.h"
 #include "space/cell_grid.h"
 
 #include <math.h>

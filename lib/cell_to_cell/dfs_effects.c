@@ -12,10 +12,10 @@
 /// (effects/frame.h).
 #include "cell_to_cell/dfs.h"
 
+#include "cell_to_cell/directions.h"
 #include "cell_to_cell/door_table.h"
 #include "cell_to_cell/methods.h"
-#include "cell_to_cell/unfolded.h"
-#include "effects/mirror_sides.h"
+#include "effects/mirrors.h"
 #include "stab/funnel.h"
 
 #include <string.h>
@@ -72,7 +72,8 @@ static const sl_bits *doors_at(const effects *all, const thread *me, size_t dept
 }
 
 /// Where a portal lies in the frame of the last place.
-static sl_directed_portal unfold(thread *me, const sl_frame *frame, sl_point left, sl_point right) {
+static sl_directed_portal unfold(thread *me, const sl_mirror_frame *frame, sl_point left,
+                                 sl_point right) {
     bool rounded = false;
     const sl_directed_portal ends = sl_unfold(frame, left, right, &rounded);
     me->rounded_places += rounded;
@@ -203,7 +204,7 @@ static sl_status reflect(sl_context *context, void *visit, const void *last, voi
         return SL_OK;
     *to = (step){.dfs.at.cell = side->cell,
                  .place = {.ends = unfold(e, &from->place.frame, side->left, side->right),
-                           .frame = sl_frame_reflect(&from->place.frame, mirror),
+                           .frame = sl_mirror_frame_reflect(&from->place.frame, mirror),
                            .mirror = side->mirror}};
     if (!may_cross(job->me, from, &to->place)) return SL_OK;
     SL_TRY(pass_doors(context, job->all->space, shared, e, UINT32_MAX, job->me->search.count));
@@ -242,8 +243,8 @@ static sl_status start(sl_context *context, const sl_dfs *all, sl_dfs_thread *me
     if (all->prunes) SL_TRY(want_from(context, all, me, source));
     SL_TRY(sl_portal_search_start(context, &me->search, sizeof(step)));
     step *first = me->search.steps;
-    *first =
-        (step){.dfs.at.cell = source, .place = {.frame = sl_frame_of_map(), .mirror = UINT32_MAX}};
+    *first = (step){.dfs.at.cell = source,
+                    .place = {.frame = sl_mirror_frame_of_map(), .mirror = UINT32_MAX}};
     return sl_dfs_enter(context, all, me, &first->dfs, 0, UINT32_MAX, true);
 }
 

@@ -1,17 +1,20 @@
-/// The search behind an explanation: depth first over portal sequences, as dfs.c, but from one cell
-/// for another, with a bound on the number of portals that is doubled until nothing is left beyond
-/// it. A sequence that cannot reach the target within the bound by any way there is, seen or not,
-/// is left alone (iterative deepening with an admissible estimate: Korf 1985).
+/// Why a cell sees another, or does not: a depth-first search from the one for the other.
 ///
-/// A pair is stabbed, only grazed, or hidden, whatever sight is asked for: sequences that are
-/// grazed are followed as well.
+/// The search has a bound on the number of portals. The bound is doubled until nothing is left
+/// beyond it. A sequence that cannot reach the target within the bound, seen or not, is not
+/// followed (iterative deepening with an admissible estimate: Korf 1985).
+///
+/// A pair is stabbed, only grazed, or hidden, whichever sight is asked for: sequences that are
+/// grazed are followed as well. For a hidden pair the sequences that came nearest are kept, each
+/// with the few portal ends that stop it.
 #include "sightline/explain.h"
-
-#include "cell_to_cell/crossing.h"
+#include "cell_to_cell/directions.h"
 #include "cell_to_cell/explain_line.h"
 #include "cell_to_cell/portal_search.h"
+#include "geometry/orient.h"
 #include "sightline/solvers.h"
 #include "sightline/support.h"
+#include "space/ray.h"
 
 #include <string.h>
 
@@ -344,4 +347,124 @@ sl_status sl_explain(sl_context *context, const sl_space *space, const sl_explai
     else
         sl_explanation_destroy(context, &s.out);
     return status;
+}
+
+// --- the line that is shown
+
+/// Significant digits, of the size of the map, that are tried for a line's coordinates.
+#define MOST_DIGITS 15
+
+static bool is_strict(const sl_space *space, const sl_sequence *sequence, sl_line line) {
+    for (uint32_t i = 0; i < sequence->directed_count; i++) {
+        const sl_directed_portal *directed = &space->directed[sequence->directed[i]];
+        if (sl_orient(line.a, line.b, directed->left) <= 0 ||
+            sl_orient(line.a, line.b, directed->right) >= 0)
+            return false;
+    }
+    return true;
+}
+
+double sl_share_of_portal(const sl_directed_portal *directed, sl_line line) {
+    const double x = line.b.x - line.a.x, y = line.b.y - line.a.y;
+    const double left = x * (directed->left.y - line.a.y) - y * (directed->left.x - line.a.x);
+    const double right = x * (directed->right.y - line.a.y) - y * (directed->right.x - line.a.x);
+    return left > right ? fmin(fmax(left / (left - right), 0), 1) : 0;
+}
+
+/// Whether a line keeps half of what distance another one keeps from the portals' ends.
+static bool is_near(const sl_space *space, const sl_sequence *sequence, sl_line line,
+                    sl_line other) {
+    for (uint32_t i = 0; i < sequence->directed_count; i++) {
+        const sl_directed_portal *directed = &space->directed[sequence->directed[i]];
+        const double share = sl_share_of_portal(directed, line),
+                     wanted = sl_share_of_portal(directed, other);
+        if (share < wanted / 2 || 1 - share < (1 - wanted) / 2) return false;
+    }
+    return true;
+}
+
+static sl_point rounded(sl_point p, double decimals) {
+    return (sl_point){round(p.x * decimals) / decimals, round(p.y * decimals) / decimals};
+}
+
+bool sl_simplify_line(const sl_space *space, const sl_sequence *sequence, sl_line *line) {
+    const sl_box b = space->bounds;
+    const double size =
+        fmax(fmax(fabs(b.min.x), fabs(b.max.x)), fmax(fabs(b.min.y), fabs(b.max.y)));
+    const double first = size > 0 ? 1 - ceil(log10(size)) : 0;
+    const bool strict = is_strict(space, sequence, *line);
+    for (int digits = 0; digits < MOST_DIGITS; digits++) {
+        const double decimals = pow(10, first + digits);
+        const sl_line simple = {rounded(line->a, decimals), rounded(line->b, decimals)};
+        if (!is_strict(space, sequence, simple)) continue;
+        if (strict && !is_near(space, sequence, simple, *line)) continue;
+        *line = simple;
+        return true;
+    }
+    return strict;
+}
+
+/// Where the line crosses a portal; an end of it where it lies along.
+static sl_point crossing_point(const sl_directed_portal *directed, sl_line line) {
+    const double share = sl_share_of_portal(directed, line);
+    return (sl_point){directed->left.x + share * (directed->right.x - directed->left.x),
+                      directed->left.y + share * (directed->right.y - directed->left.y)};
+}
+
+sl_point sl_halfway_into(const sl_space *space, uint32_t cell, sl_point at, sl_point direction) {
+    const double half = sl_ray_length(space, cell, at, direction) / 2;
+    return (sl_point){at.x + half * direction.x, at.y + half * direction.y};
+}
+
+sl_segment sl_shown_segment(const sl_space *space, const sl_sequence *sequence, uint32_t from,
+                            sl_line line) {
+    const sl_directed_portal *first = &space->directed[sequence->directed[0]];
+    const sl_directed_portal *last =
+        &space->directed[sequence->directed[sequence->directed_count - 1]];
+    const double x = line.b.x - line.a.x, y = line.b.y - line.a.y, length = hypot(x, y);
+    const sl_point forward = {x / length, y / length}, back = {-x / length, -y / length};
+    return (sl_segment){sl_halfway_into(space, from, crossing_point(first, line), back),
+                        sl_halfway_into(space, last->cell, crossing_point(last, line), forward)};
+}
+
+// --- what is said of a sequence
+
+sl_point sl_sequence_end(const sl_space *space, const sl_sequence *sequence, sl_stab_end end) {
+    const sl_directed_portal *directed = &space->directed[sequence->directed[end.portal]];
+    return end.left ? directed->left : directed->right;
+}
+
+/// The places of the ends of one side, each once. Returns how many.
+static uint32_t places_of(const sl_space *space, const sl_sequence *sequence, bool left,
+                          sl_point places[SL_CONFLICT_MOST]) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < sequence->end_count; i++) {
+        if (sequence->ends[i].left != left) continue;
+        const sl_point p = sl_sequence_end(space, sequence, sequence->ends[i]);
+        bool known = false;
+        for (uint32_t k = 0; k < count; k++) known |= places[k].x == p.x && places[k].y == p.y;
+        if (!known) places[count++] = p;
+    }
+    return count;
+}
+
+static bool segments_cross(const sl_point a[2], const sl_point b[2]) {
+    return sl_orient(a[0], a[1], b[0]) * sl_orient(a[0], a[1], b[1]) < 0 &&
+           sl_orient(b[0], b[1], a[0]) * sl_orient(b[0], b[1], a[1]) < 0;
+}
+
+const char *sl_sequence_reason(const sl_space *space, const sl_sequence *sequence) {
+    sl_point left[SL_CONFLICT_MOST], right[SL_CONFLICT_MOST];
+    const uint32_t lefts = places_of(space, sequence, true, left);
+    const uint32_t rights = places_of(space, sequence, false, right);
+    if (lefts == 1 && rights == 1) return "that left end is the same point as that right end";
+    if (lefts == 1 && rights == 2)
+        return "that left end lies between those right ends, on one line";
+    if (lefts == 2 && rights == 1)
+        return "that right end lies between those left ends, on one line";
+    if (lefts == 1) return "that left end lies within the triangle of those right ends";
+    if (rights == 1) return "that right end lies within the triangle of those left ends";
+    if (lefts == 2 && rights == 2 && segments_cross(left, right))
+        return "the segment between those left ends crosses the segment between those right ends";
+    return "what lies between those left ends overlaps what lies between those right ends";
 }

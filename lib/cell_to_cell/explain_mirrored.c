@@ -1,10 +1,10 @@
 /// A sightline by mirror, to be told: depth first over sequences of portals and mirrors, with one
 /// reflection more each time, and as in explain.c with a bound on what is crossed that is doubled
 /// until a line is found or nothing is left beyond it.
+#include "cell_to_cell/directions.h"
 #include "cell_to_cell/explain_line.h"
 #include "cell_to_cell/portal_search.h"
-#include "cell_to_cell/unfolded.h"
-#include "effects/mirror_sides.h"
+#include "effects/mirrors.h"
 #include "sightline/explain.h"
 #include "sightline/support.h"
 
@@ -41,7 +41,7 @@ static sl_point between(const sl_directed_portal *directed, double share) {
 /// `last` stands behind the steps of the way.
 static void place_bends(const search *s, const step *last, sl_line line) {
     const sl_space *space = s->search.space;
-    const sl_frame *f = &last->place.frame;
+    const sl_mirror_frame *f = &last->place.frame;
     const double x = line.b.x - line.a.x, y = line.b.y - line.a.y, length = hypot(x, y);
     const sl_point back = {-x / length, -y / length};
     // Frames keep lengths: back from one is by its transpose.
@@ -155,7 +155,7 @@ static sl_status reflect(sl_context *context, void *job, const void *last, void 
     if (from->place.mirror == side->mirror || from->place.frame.depth == s->reflections)
         return SL_OK;
     *to = make_step(s, from, side->cell, side->left, side->right);
-    to->place.frame = sl_frame_reflect(&from->place.frame, mirror);
+    to->place.frame = sl_mirror_frame_reflect(&from->place.frame, mirror);
     to->place.mirror = side->mirror;
     return try_step(context, s, from, to);
 }
@@ -166,8 +166,8 @@ static sl_status search_within(sl_context *context, search *s) {
         .step_size = sizeof(step), .cross = cross, .reflect = reflect};
     SL_TRY(sl_portal_search_start(context, &s->search, sizeof(step)));
     step *first = s->search.steps;
-    *first =
-        (step){.at.cell = s->from, .place = {.frame = sl_frame_of_map(), .mirror = UINT32_MAX}};
+    *first = (step){.at.cell = s->from,
+                    .place = {.frame = sl_mirror_frame_of_map(), .mirror = UINT32_MAX}};
     s->search.count++;
     return sl_portal_search_run(context, &s->search, &visitor, s);
 }

@@ -15,12 +15,12 @@
 /// Pairs are symmetric, and what a cell sees in one sector sees it in the opposite one: half of the
 /// sectors tell all.
 #include "base/threads.h"
-#include "cell_to_cell/bit_rows.h"
+#include "cell_to_cell/bounds.h"
 #include "cell_to_cell/methods.h"
-#include "cell_to_cell/pass.h"
 #include "cell_to_cell/portal_search.h"
-#include "cell_to_cell/prune.h"
 #include "cell_to_cell/pvs_rows.h"
+#include "cell_to_cell/rows.h"
+#include "cell_to_cell/sectors.h"
 #include "sightline/support.h"
 
 #include <pthread.h>

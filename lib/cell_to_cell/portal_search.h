@@ -15,7 +15,7 @@
 #ifndef SL_PORTAL_SEARCH_H
 #define SL_PORTAL_SEARCH_H
 
-#include "effects/mirror_sides.h"
+#include "effects/mirrors.h"
 #include "sightline/space.h"
 #include "sightline/stab.h"
 #include "sightline/support.h"

@@ -1,7 +1,6 @@
-#include "cell_to_cell/prune.h"
+#include "cell_to_cell/bounds.h"
 
-#include "cell_to_cell/flood.h"
-#include "cell_to_cell/pvs_maker.h"
+#include "cell_to_cell/pvs_rows.h"
 
 /// Bounds that would take no more than this as whole rows of bits are all kept.
 #define MOST_ROW_BYTES ((size_t)64 << 20)

@@ -1,6 +1,6 @@
 /// What was found in no order, sorted by direction: roughly by numbers that grow with the angle,
 /// and then exactly, neighbour by neighbour.
-#include "cell_to_cell/reach_bound.h"
+#include "cell_to_cell/reach.h"
 
 #include <math.h>
 #include <string.h>

@@ -25,8 +25,8 @@
 ///
 /// Nothing of it depends on how the cells are numbered, nor on the subdivision being the same: a
 /// split line that moves only makes more cells count as changed.
-#include "cell_to_cell/partial.h"
-#include "cell_to_cell/pvs_maker.h"
+#include "cell_to_cell/methods.h"
+#include "cell_to_cell/pvs_rows.h"
 
 #include <stdlib.h>
 #include <string.h>

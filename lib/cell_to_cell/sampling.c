@@ -2,8 +2,8 @@
 /// whatever portals the line passes strictly between their ends. All cells on a line see each
 /// other, if they are no farther apart on it than the range. What no line hits is missed: narrow
 /// sightlines first. Where glass is one-way, lines are taken one way only.
-#include "cell_to_cell/bit_rows.h"
 #include "cell_to_cell/methods.h"
+#include "cell_to_cell/rows.h"
 
 #include "base/threads.h"
 #include "effects/effects.h"

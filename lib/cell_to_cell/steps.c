@@ -1,6 +1,6 @@
 #include "sightline/steps.h"
 
-#include "cell_to_cell/crossing.h"
+#include "cell_to_cell/directions.h"
 #include "cell_to_cell/portal_search.h"
 #include "sightline/solvers.h"
 #include "sightline/support.h"

@@ -2,8 +2,8 @@
 #ifndef SL_SWEEP_H
 #define SL_SWEEP_H
 
-#include "cell_to_cell/bit_rows.h"
 #include "cell_to_cell/reach.h"
+#include "cell_to_cell/rows.h"
 
 /// A cell of a fan, and what of its sector is looked through.
 typedef struct sl_sector {

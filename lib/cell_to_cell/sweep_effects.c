@@ -3,10 +3,10 @@
 /// through none; cells whose nearest points are beyond the range do not see each other, those whose
 /// farthest points are within it may. Only pairs that are seen, and not so settled, are left to the
 /// depth-first search, which goes nowhere but towards them.
-#include "cell_to_cell/cells_apart.h"
+#include "cell_to_cell/sweep.h"
+
 #include "cell_to_cell/dfs.h"
 #include "cell_to_cell/methods.h"
-#include "cell_to_cell/sweep.h"
 #include "sightline/solvers.h"
 
 #include <string.h>

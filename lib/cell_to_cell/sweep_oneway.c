@@ -12,9 +12,8 @@
 /// is needed for the cell as the one that sees, not as the one that is seen; but there it needs all
 /// that can be turned to from the cell, both ways round.
 #include "cell_to_cell/methods.h"
-#include "cell_to_cell/partial.h"
 #include "cell_to_cell/pvs_rows.h"
-#include "cell_to_cell/reach_bound.h"
+#include "cell_to_cell/reach.h"
 #include "cell_to_cell/sweep.h"
 
 #include "base/threads.h"

@@ -4,10 +4,9 @@
 /// leaves the point through a cell of the fan: so both cells of such a pair are seen from cells of
 /// the fan, and are within the bound of "flood" from there. Pairs of which no missing fan has both
 /// cells within its bound are decided: what was not found is hidden.
-#include "cell_to_cell/flood.h"
+#include "cell_to_cell/bounds.h"
 #include "cell_to_cell/methods.h"
-#include "cell_to_cell/partial.h"
-#include "cell_to_cell/pvs_maker.h"
+#include "cell_to_cell/pvs_rows.h"
 #include "cell_to_cell/sweep.h"
 
 sl_status sl_sweep_finish(sl_context *context, const sl_space *space, const sl_see_options *options,

@@ -2,7 +2,7 @@
 
 #include "draw/faults.h"
 #include "draw/marks.h"
-#include "effects/mirror_sides.h"
+#include "effects/mirrors.h"
 #include "sightline/support.h"
 #include "space/ray.h"
 

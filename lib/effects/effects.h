@@ -5,11 +5,6 @@
 #include "sightline/effects.h"
 #include "sightline/support.h"
 
-extern const sl_effect sl_effect_door;
-extern const sl_effect sl_effect_mirror;
-extern const sl_effect sl_effect_oneway;
-extern const sl_effect sl_effect_range;
-
 /// The space to look through under a plan, or NULL for none: `space` itself, or where one-way glass
 /// is called for `made`, without the directed portals that it keeps sight from. `made` is zeroed,
 /// and to be destroyed when done.

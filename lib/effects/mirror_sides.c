@@ -1,4 +1,4 @@
-#include "effects/mirror_sides.h"
+#include "effects/mirrors.h"
 
 #include "geometry/orient.h"
 #include "sightline/support.h"

@@ -4,8 +4,7 @@
 #include "eye_to_cell/eye_methods.h"
 #include "eye_to_cell/eye_search.h"
 
-#include "effects/fold.h"
-#include "effects/mirror_sides.h"
+#include "effects/mirrors.h"
 
 /// A step, the number of mirrors on its way, and the one crossed last, UINT32_MAX for a portal.
 typedef struct step {

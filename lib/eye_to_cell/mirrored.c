@@ -3,8 +3,7 @@
 /// the piece are reflected (effects/fold.h).
 #include "sightline/mirrored.h"
 
-#include "effects/fold.h"
-#include "effects/frame.h"
+#include "effects/mirrors.h"
 #include "eye_to_cell/region_parts.h"
 
 #include <math.h>
@@ -21,7 +20,7 @@ typedef struct maker {
 typedef struct parent {
     uint32_t number, depth;
     const struct sl_region_memory *memory;
-    sl_frame frame;
+    sl_mirror_frame frame;
     bool rounded;
 } parent;
 
@@ -88,12 +87,12 @@ static sl_status look_in(maker *m, sl_region *region, const sl_reflected_view *r
 }
 
 /// Where the points of a part are in mirrored space.
-static sl_status place_image(maker *m, const sl_frame *frame, sl_mirror_part *part) {
+static sl_status place_image(maker *m, const sl_mirror_frame *frame, sl_mirror_part *part) {
     bool rounded;
     part->image = sl_alloc_array(m->context, part->region.count, sizeof *part->image);
     if (!part->image) return SL_NO_MEMORY;
     for (size_t i = 0; i < part->region.count; i++)
-        part->image[i] = sl_frame_place(frame, part->region.points[i], &rounded);
+        part->image[i] = sl_mirror_frame_place(frame, part->region.points[i], &rounded);
     return SL_OK;
 }
 
@@ -104,7 +103,7 @@ static sl_status keep(maker *m, const parent *from, sl_mirror_part *part) {
     sl_mirrored_region *out = m->out;
     const sl_segment mirror = m->mirrors->map->mirrors[part->mirror].segment;
     const parent here = {(uint32_t)out->part_count, part->depth, part->region.memory,
-                         sl_frame_reflect(&from->frame, mirror), part->rounded};
+                         sl_mirror_frame_reflect(&from->frame, mirror), part->rounded};
     if (!part->region.count) return SL_OK;
     SL_TRY(place_image(m, &here.frame, part));
     SL_TRY(sl_reserve(m->context, &out->parts, &out->part_room, out->part_count + 1,
@@ -183,7 +182,7 @@ sl_status sl_mirrored_region_make(sl_context *context, const sl_room_mirrors *mi
     direct->cell = sl_space_locate(mirrors->outline->space, view->eye);
     direct->memory->mirrors = depth ? mirrors : NULL;
     sl_status status = sl_region_spread(context, mirrors->outline, direct);
-    const parent all = {SL_NO_PART, 0, direct->memory, sl_frame_of_map(), false};
+    const parent all = {SL_NO_PART, 0, direct->memory, sl_mirror_frame_of_map(), false};
     if (status == SL_OK && depth) status = look_into_all(&m, &all);
     if (status != SL_OK) {
         empty(context, out);

@@ -1,6 +1,6 @@
 #include "sightline/mirrored.h"
 
-#include "effects/mirror_sides.h"
+#include "effects/mirrors.h"
 #include "geometry/orient.h"
 #include "sightline/support.h"
 

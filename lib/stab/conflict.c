@@ -5,6 +5,7 @@
 #include "stab/conflict.h"
 
 #include "geometry/orient.h"
+#include "sightline/stab.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -198,4 +199,20 @@ sl_status sl_conflict_find(sl_context *context, const sl_portal_ends *portals, s
     for (size_t i = 0; i < number && i < SL_CONFLICT_MOST; i++) ends[(*found)++] = chosen[i].end;
     sl_free(context, memory);
     return SL_OK;
+}
+
+// --- names
+
+const char *sl_guarantee_name(sl_guarantee guarantee) {
+    switch (guarantee) {
+    case SL_EXACT:
+        return "exact";
+    case SL_CONSERVATIVE:
+        return "conservative";
+    case SL_AGGRESSIVE:
+        return "aggressive";
+    case SL_ROUNDED:
+        return "rounded";
+    }
+    return "unknown";
 }

@@ -1,7 +1,7 @@
 #include "view_cells/pieces.h"
 
 #include "base/threads.h"
-#include "cell_to_cell/dependence.h"
+#include "cell_to_cell/sectors.h"
 #include "sightline/support.h"
 
 static void piece_destroy(sl_context *context, sl_view_piece *piece) {

@@ -1,5 +1,4 @@
 /// What view cells see, in use: location, lookup, the check of what a file says.
-#include "cell_to_cell/pvs_maker.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "sightline/support.h"
 #include "sightline/view_cells.h"

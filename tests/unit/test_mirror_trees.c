@@ -2,7 +2,7 @@
 /// baked file.
 #include "slv_file.h"
 
-#include "effects/mirror_sides.h"
+#include "effects/mirrors.h"
 #include "oracle/random_effects.h"
 #include "sightline/eye_to_cell.h"
 #include "sightline/solvers.h"

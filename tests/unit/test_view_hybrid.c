@@ -4,7 +4,7 @@
 ///   test_view_hybrid [FILE ...]    these maps instead, and more of each
 #include "view_cells_maps.h"
 
-#include "cell_to_cell/crossing.h"
+#include "cell_to_cell/directions.h"
 #include "map_files.h"
 #include "oracle/random_map.h"
 #include "sightline/bake.h"

@@ -1,11 +1,14 @@
 /// Which way portals are crossed, and the rule that keeps searches over portal sequences finite:
-/// some one direction crosses all of a sequence's portals strictly forwards. No line does without,
-/// and so no sequence enters a cell twice.
-#ifndef SL_CROSSING_H
-#define SL_CROSSING_H
+/// some one direction crosses all portals of a sequence strictly forwards. Every sightline has such
+/// a direction, and so no sequence enters a cell twice.
+#ifndef SL_DIRECTIONS_H
+#define SL_DIRECTIONS_H
 
+#include "effects/mirrors.h"
 #include "geometry/orient.h"
 #include "sightline/space.h"
+
+// --- the directions of portals
 
 #define SL_NO_PORTAL UINT32_MAX
 
@@ -58,6 +61,43 @@ static inline bool sl_crossings_add(const sl_space *space, sl_crossings *crossin
                        crossings->least == crossings->most, &space->directed[number]);
     if (crossing == SL_CROSSES_MOST) crossings->most = number;
     if (crossing == SL_CROSSES_LEAST) crossings->least = number;
+    return crossing != SL_CROSSES_NEVER;
+}
+
+// --- places in mirrored space
+
+typedef struct sl_unfolded {
+    sl_directed_portal ends; ///< of what was crossed last, where mirrored space has it
+    uint32_t least, most;    ///< places that bound the directions of all portals; 0 for none yet
+    sl_mirror_frame frame;   ///< beyond it
+    uint32_t mirror;         ///< crossed last; UINT32_MAX for a portal
+} sl_unfolded;
+
+/// Where a portal of the map lies in a frame; *rounded is set where that is not exact.
+static inline sl_directed_portal sl_unfold(const sl_mirror_frame *frame, sl_point left,
+                                           sl_point right, bool *rounded) {
+    if (!frame->depth) return (sl_directed_portal){.left = left, .right = right};
+    *rounded |= frame->rounded;
+    const sl_point l = sl_mirror_frame_place(frame, left, rounded);
+    const sl_point r = sl_mirror_frame_place(frame, right, rounded);
+    return frame->depth % 2 ? (sl_directed_portal){.left = r, .right = l}
+                            : (sl_directed_portal){.left = l, .right = r};
+}
+
+/// Whether some direction crosses all portals up to a new place, the last one of which is `from`;
+/// sets its bounds. `here`: its number.
+static inline bool sl_unfolded_may_cross(const sl_directed_portal *least,
+                                         const sl_directed_portal *most, const sl_unfolded *from,
+                                         uint32_t here, sl_unfolded *to) {
+    to->least = from->least;
+    to->most = from->most;
+    if (!from->least) {
+        to->least = to->most = here;
+        return true;
+    }
+    const sl_crossing crossing = sl_crossing_of(least, most, from->least == from->most, &to->ends);
+    if (crossing == SL_CROSSES_LEAST) to->least = here;
+    if (crossing == SL_CROSSES_MOST) to->most = here;
     return crossing != SL_CROSSES_NEVER;
 }
 
