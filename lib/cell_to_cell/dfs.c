@@ -20,6 +20,87 @@
 
 #include <string.h>
 
+// --- stab trees within a limit on memory
+
+static sl_status tree_store_create(sl_context *context, uint32_t cell_count, uint64_t limit,
+                                   sl_tree_store *store) {
+    *store = (sl_tree_store){.cell_count = cell_count, .limit = limit};
+    store->trees = sl_alloc_array(context, cell_count, sizeof *store->trees);
+    if (!store->trees) return SL_NO_MEMORY;
+    pthread_mutex_init(&store->lock, NULL);
+    return SL_OK;
+}
+
+static void tree_store_destroy(sl_context *context, sl_tree_store *store) {
+    if (!store->trees) return;
+    for (uint32_t i = 0; i < store->cell_count; i++) sl_free(context, store->trees[i].nodes);
+    sl_free(context, store->trees);
+    store->trees = NULL;
+    pthread_mutex_destroy(&store->lock);
+}
+
+/// Adds a node to a growing tree; does nothing once the tree is larger than the limit.
+static sl_status tree_grow(sl_context *context, const sl_tree_store *store, sl_growing_tree *tree,
+                           sl_stab_node node) {
+    if (tree->overflown) return SL_OK;
+    if (tree->nodes.count == UINT32_MAX || (tree->nodes.count + 1) * sizeof node > store->limit) {
+        tree->overflown = true;
+        return SL_OK;
+    }
+    SL_TRY(SL_ARRAY_ROOM(context, &tree->nodes, 1));
+    tree->nodes.items[tree->nodes.count++] = node;
+    return SL_OK;
+}
+
+static void let_largest_go(sl_context *context, sl_tree_store *store) {
+    struct sl_kept_tree *largest = &store->trees[0];
+    for (uint32_t i = 1; i < store->cell_count; i++)
+        if (store->trees[i].count >= largest->count) largest = &store->trees[i];
+    store->held -= largest->count * sizeof(sl_stab_node);
+    sl_free(context, largest->nodes);
+    *largest = (struct sl_kept_tree){0};
+}
+
+/// Takes a finished tree (its nodes are the store's then) and lets the largest go while too much is
+/// held. Safe from several threads.
+static void tree_store_put(sl_context *context, sl_tree_store *store, uint32_t source,
+                           sl_growing_tree *tree) {
+    if (tree->overflown)
+        sl_free(context, tree->nodes.items);
+    else {
+        pthread_mutex_lock(&store->lock);
+        store->trees[source] =
+            (struct sl_kept_tree){.nodes = tree->nodes.items, .count = tree->nodes.count};
+        store->held += tree->nodes.count * sizeof(sl_stab_node);
+        while (store->held > store->limit) let_largest_go(context, store);
+        pthread_mutex_unlock(&store->lock);
+    }
+    *tree = (sl_growing_tree){0};
+}
+
+/// Joins what was kept, in the sources' order.
+static sl_status tree_store_join(sl_context *context, const sl_tree_store *store,
+                                 sl_stab_trees *out) {
+    const uint32_t count = store->cell_count;
+    uint64_t *offsets = sl_alloc_array(context, (size_t)count + 1, sizeof *offsets);
+    sl_stab_node *nodes = sl_alloc_array(context, store->held / sizeof *nodes, sizeof *nodes);
+    if (!offsets || !nodes) {
+        sl_free(context, offsets);
+        sl_free(context, nodes);
+        return SL_NO_MEMORY;
+    }
+    uint32_t left_out = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const struct sl_kept_tree *tree = &store->trees[i];
+        if (tree->count) memcpy(nodes + offsets[i], tree->nodes, tree->count * sizeof *nodes);
+        left_out += tree->count == 0;
+        offsets[i + 1] = offsets[i] + tree->count;
+    }
+    *out = (sl_stab_trees){
+        .cell_count = count, .left_out = left_out, .offsets = offsets, .nodes = nodes};
+    return SL_OK;
+}
+
 /// A step of the search without effects.
 typedef struct step {
     sl_dfs_step dfs;
@@ -31,7 +112,7 @@ sl_status sl_dfs_enter(sl_context *context, const sl_dfs *all, sl_dfs_thread *me
     if (counts) {
         to->node = (uint32_t)me->account.nodes++;
         const sl_stab_node node = {.parent = parent, .cell = to->at.cell, .directed = directed};
-        if (all->options->trees) SL_TRY(sl_tree_grow(context, &all->trees, &me->tree, node));
+        if (all->options->trees) SL_TRY(tree_grow(context, &all->trees, &me->tree, node));
     }
     const size_t depth = me->search.count++;
     if (depth > me->account.deepest) me->account.deepest = (uint32_t)depth;
@@ -117,7 +198,7 @@ static sl_status search_source(sl_context *context, sl_dfs *all, sl_dfs_thread *
                         : search_from(context, all, me, source));
     SL_TRY(sl_row_append(context, &all->sure[source], me->sure, count));
     SL_TRY(sl_row_append(context, &all->doubtful[source], me->doubtful, count));
-    if (all->options->trees) sl_tree_store_put(context, &all->trees, source, &me->tree);
+    if (all->options->trees) tree_store_put(context, &all->trees, source, &me->tree);
     all->accounts[source] = me->account;
     return SL_OK;
 }
@@ -211,7 +292,7 @@ static sl_status search_all(sl_context *context, sl_dfs *all, sl_visibility *out
     sl_pvs_destroy(context, &doubtful);
     if (status == SL_OK && all->effects) status = sl_dfs_effects_finish(context, all, out);
     if (status == SL_OK && all->options->trees)
-        status = sl_tree_store_join(context, &all->trees, &out->trees);
+        status = tree_store_join(context, &all->trees, &out->trees);
     return status;
 }
 
@@ -224,7 +305,7 @@ static sl_status allocate(sl_context *context, sl_dfs *all) {
     if (all->options->plan && all->options->plan->effects)
         SL_TRY(sl_dfs_effects_create(context, all));
     if (!all->options->trees) return SL_OK;
-    return sl_tree_store_create(context, count, all->options->tree_bytes, &all->trees);
+    return tree_store_create(context, count, all->options->tree_bytes, &all->trees);
 }
 
 static sl_status prepare(sl_context *context, sl_dfs *all) {
@@ -247,7 +328,7 @@ static void tidy_up(sl_context *context, sl_dfs *all) {
     sl_prune_bounds_destroy(context, &all->bounds);
     sl_dfs_effects_destroy(context, all);
     sl_free(context, all->done);
-    sl_tree_store_destroy(context, &all->trees);
+    tree_store_destroy(context, &all->trees);
     pthread_mutex_destroy(&all->lock);
 }
 
@@ -346,80 +427,4 @@ sl_status sl_run_prune(sl_context *context, const sl_space *space, const sl_see_
     sl_dfs all = {.space = space, .options = options, .prunes = true};
     SL_TRY(check_options(context, options, all.prunes));
     return look(context, &all, partial);
-}
-
-// --- stab trees within a limit on memory
-
-sl_status sl_tree_store_create(sl_context *context, uint32_t cell_count, uint64_t limit,
-                               sl_tree_store *store) {
-    *store = (sl_tree_store){.cell_count = cell_count, .limit = limit};
-    store->trees = sl_alloc_array(context, cell_count, sizeof *store->trees);
-    if (!store->trees) return SL_NO_MEMORY;
-    pthread_mutex_init(&store->lock, NULL);
-    return SL_OK;
-}
-
-void sl_tree_store_destroy(sl_context *context, sl_tree_store *store) {
-    if (!store->trees) return;
-    for (uint32_t i = 0; i < store->cell_count; i++) sl_free(context, store->trees[i].nodes);
-    sl_free(context, store->trees);
-    store->trees = NULL;
-    pthread_mutex_destroy(&store->lock);
-}
-
-sl_status sl_tree_grow(sl_context *context, const sl_tree_store *store, sl_growing_tree *tree,
-                       sl_stab_node node) {
-    if (tree->overflown) return SL_OK;
-    if (tree->nodes.count == UINT32_MAX || (tree->nodes.count + 1) * sizeof node > store->limit) {
-        tree->overflown = true;
-        return SL_OK;
-    }
-    SL_TRY(SL_ARRAY_ROOM(context, &tree->nodes, 1));
-    tree->nodes.items[tree->nodes.count++] = node;
-    return SL_OK;
-}
-
-static void let_largest_go(sl_context *context, sl_tree_store *store) {
-    struct sl_kept_tree *largest = &store->trees[0];
-    for (uint32_t i = 1; i < store->cell_count; i++)
-        if (store->trees[i].count >= largest->count) largest = &store->trees[i];
-    store->held -= largest->count * sizeof(sl_stab_node);
-    sl_free(context, largest->nodes);
-    *largest = (struct sl_kept_tree){0};
-}
-
-void sl_tree_store_put(sl_context *context, sl_tree_store *store, uint32_t source,
-                       sl_growing_tree *tree) {
-    if (tree->overflown)
-        sl_free(context, tree->nodes.items);
-    else {
-        pthread_mutex_lock(&store->lock);
-        store->trees[source] =
-            (struct sl_kept_tree){.nodes = tree->nodes.items, .count = tree->nodes.count};
-        store->held += tree->nodes.count * sizeof(sl_stab_node);
-        while (store->held > store->limit) let_largest_go(context, store);
-        pthread_mutex_unlock(&store->lock);
-    }
-    *tree = (sl_growing_tree){0};
-}
-
-sl_status sl_tree_store_join(sl_context *context, const sl_tree_store *store, sl_stab_trees *out) {
-    const uint32_t count = store->cell_count;
-    uint64_t *offsets = sl_alloc_array(context, (size_t)count + 1, sizeof *offsets);
-    sl_stab_node *nodes = sl_alloc_array(context, store->held / sizeof *nodes, sizeof *nodes);
-    if (!offsets || !nodes) {
-        sl_free(context, offsets);
-        sl_free(context, nodes);
-        return SL_NO_MEMORY;
-    }
-    uint32_t left_out = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        const struct sl_kept_tree *tree = &store->trees[i];
-        if (tree->count) memcpy(nodes + offsets[i], tree->nodes, tree->count * sizeof *nodes);
-        left_out += tree->count == 0;
-        offsets[i + 1] = offsets[i] + tree->count;
-    }
-    *out = (sl_stab_trees){
-        .cell_count = count, .left_out = left_out, .offsets = offsets, .nodes = nodes};
-    return SL_OK;
 }

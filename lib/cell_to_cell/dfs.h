@@ -30,22 +30,6 @@ typedef struct sl_tree_store {
     } * trees;
 } sl_tree_store;
 
-sl_status sl_tree_store_create(sl_context *context, uint32_t cell_count, uint64_t limit,
-                               sl_tree_store *store);
-void sl_tree_store_destroy(sl_context *context, sl_tree_store *store);
-
-/// Adds a node to a growing tree; does nothing once the tree is larger than the limit.
-sl_status sl_tree_grow(sl_context *context, const sl_tree_store *store, sl_growing_tree *tree,
-                       sl_stab_node node);
-
-/// Takes a finished tree (its nodes are the store's then) and lets the largest go while too much is
-/// held. Safe from several threads.
-void sl_tree_store_put(sl_context *context, sl_tree_store *store, uint32_t source,
-                       sl_growing_tree *tree);
-
-/// Joins what was kept, in the sources' order.
-sl_status sl_tree_store_join(sl_context *context, const sl_tree_store *store, sl_stab_trees *out);
-
 // --- the search
 
 /// A cell on the way from the source.

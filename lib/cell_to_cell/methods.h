@@ -63,8 +63,6 @@ static inline bool sl_is_enough(const sl_see_options *options) {
     return options->enough && options->enough(options->enough_user);
 }
 
-/// Notes units as done.
-void sl_partial_note(sl_partial *partial, const sl_bits *done);
 /// As sl_partial_note, those whose byte is not 0: threads can write bytes side by side.
 void sl_partial_note_bytes(sl_partial *partial, const uint8_t *done);
 

@@ -84,7 +84,8 @@ static void count_done(sl_partial *partial) {
         partial->done_count += (uint32_t)__builtin_popcountll(partial->done[i]);
 }
 
-void sl_partial_note(sl_partial *partial, const sl_bits *done) {
+/// Notes units as done.
+static void note_done(sl_partial *partial, const sl_bits *done) {
     for (size_t i = 0; i < sl_bits_words(partial->unit_count); i++) partial->done[i] |= done[i];
     count_done(partial);
 }
@@ -131,7 +132,7 @@ sl_status sl_partial_merge(sl_context *context, sl_partial *partial, const sl_pa
     sl_pvs_destroy(context, &partial->doubtful);
     partial->sure = sure;
     partial->doubtful = doubtful;
-    sl_partial_note(partial, other->done);
+    note_done(partial, other->done);
     return SL_OK;
 }
 
@@ -242,6 +243,6 @@ sl_status sl_reuse_search(sl_context *context, const sl_space *space, const sl_s
                           const uint64_t *kept, const uint64_t *enclosed, sl_partial *partial) {
     (void)enclosed;
     SL_TRY(sl_partial_begin(context, space, options, space->cell_count, partial));
-    sl_partial_note(partial, kept);
+    note_done(partial, kept);
     return SL_OK;
 }

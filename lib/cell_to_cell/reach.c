@@ -187,7 +187,8 @@ static inline sl_bound to_left(const sl_reacher *r, const sl_walk_portal *e) {
 }
 
 // A line that turns counter-clockwise about the point crosses from the right to the left of it.
-int8_t sl_level_along(const sl_reacher *r, const sl_walk_portal *e) {
+/// Which level of its direction crosses a portal that lies on a ray from the point.
+static int8_t level_along(const sl_reacher *r, const sl_walk_portal *e) {
     const sl_point v = r->from, left = sl_end_of(r, e->left), right = sl_end_of(r, e->right);
     bool right_first;
     if (left.x != right.x) {
@@ -211,7 +212,7 @@ static bool clip_along(const sl_reacher *r, const sl_walk_portal *e, sl_bound lo
     const uint32_t far = sl_same_point(sl_end_of(r, e->left), r->from) ? e->right : e->left;
     const bool is_low = is_direction(r, low, far), is_high = is_direction(r, high, far);
     if (!is_low && !is_high) return false;
-    const int8_t level = sl_level_along(r, e);
+    const int8_t level = level_along(r, e);
     out->low = out->high = is_low ? low : high;
     out->low.level = is_low ? larger(level, low.level) : level;
     out->high.level = is_high ? smaller(level, high.level) : level;
@@ -431,7 +432,7 @@ static bool is_along(const sl_reacher *r, const ray *of, uint32_t end) {
 /// Whether the ray crosses a directed portal on a line with the point.
 static bool lies_along(const sl_reacher *r, const ray *of, const sl_walk_portal *e) {
     const uint32_t far = sl_same_point(sl_end_of(r, e->left), r->from) ? e->right : e->left;
-    return is_along(r, of, far) && sl_level_along(r, e) == of->along.level;
+    return is_along(r, of, far) && level_along(r, e) == of->along.level;
 }
 
 /// Whether the ray crosses a directed portal of its first cell, of which the point is a corner.

@@ -193,7 +193,4 @@ static inline bool sl_is_before(const sl_reacher *r, sl_bound a, sl_bound b) {
     return turn > 0 || (turn == 0 && a.level < b.level);
 }
 
-/// Which level of its direction crosses a portal that lies on a ray from the point.
-int8_t sl_level_along(const sl_reacher *r, const sl_walk_portal *e);
-
 #endif

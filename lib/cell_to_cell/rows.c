@@ -181,7 +181,9 @@ sl_status sl_sparse_row_add(sl_context *context, sl_sparse_row *row, size_t word
     return SL_OK;
 }
 
-sl_bits *sl_sparse_row_find(const sl_sparse_row *row, size_t word, uint32_t *cursor) {
+/// The place of a word, or NULL where the row has none. `cursor` starts at 0 and makes ascending
+/// searches short; words may be added to the row meanwhile.
+static sl_bits *find_sparse_word(const sl_sparse_row *row, size_t word, uint32_t *cursor) {
     if (row->count == SL_ALL_WORDS) return &row->words[word];
     if (!row->count) return NULL;
     const uint32_t *index = sl_sparse_index(row);
@@ -189,10 +191,11 @@ sl_bits *sl_sparse_row_find(const sl_sparse_row *row, size_t word, uint32_t *cur
     return *cursor < row->count && index[*cursor] == word ? &row->words[*cursor] : NULL;
 }
 
-sl_status sl_sparse_row_add_word(sl_context *context, sl_sparse_row *row, size_t words, size_t word,
+/// Adds the members of one word, not none.
+static sl_status add_sparse_word(sl_context *context, sl_sparse_row *row, size_t words, size_t word,
                                  sl_bits bits, sl_row_budget *budget) {
     uint32_t at = 0;
-    sl_bits *found = sl_sparse_row_find(row, word, &at);
+    sl_bits *found = find_sparse_word(row, word, &at);
     if (!found && are_many(row->count + 1, words)) {
         SL_TRY(keep_all_words(context, row, words, budget));
         found = &row->words[word];
@@ -315,8 +318,8 @@ sl_status sl_bit_rows_add_word(sl_context *context, sl_bit_rows *rows, uint32_t 
     }
     pthread_mutex_t *lock = &rows->shared->locks[cell % LOCKS];
     pthread_mutex_lock(lock);
-    const sl_status status = sl_sparse_row_add_word(context, &rows->sparse[cell], rows->words, word,
-                                                    bits, &rows->shared->budget);
+    const sl_status status = add_sparse_word(context, &rows->sparse[cell], rows->words, word, bits,
+                                             &rows->shared->budget);
     pthread_mutex_unlock(lock);
     return status;
 }
@@ -433,13 +436,13 @@ static uint32_t block_rows(const sl_bit_rows *rows, size_t first) {
     return rows->count - first < 64 ? (uint32_t)(rows->count - first) : 64;
 }
 
-/// Copies one word of each of 64 rows; cursors as those of sl_sparse_row_find.
+/// Copies one word of each of 64 rows; cursors as those of find_sparse_word.
 static void take_words(const sl_bit_rows *rows, size_t first, size_t word, uint32_t cursors[64],
                        sl_bits block[64]) {
     const uint32_t count = block_rows(rows, first);
     for (uint32_t i = 0; i < 64; i++) {
         const sl_bits *found =
-            i < count ? sl_sparse_row_find(&rows->sparse[first + i], word, &cursors[i]) : NULL;
+            i < count ? find_sparse_word(&rows->sparse[first + i], word, &cursors[i]) : NULL;
         block[i] = found ? *found : 0;
     }
 }
@@ -455,7 +458,7 @@ static sl_status add_words(sl_context *context, sl_bit_rows *rows, size_t first,
 static void keep_words(sl_bit_rows *rows, size_t first, size_t word, uint32_t cursors[64],
                        const sl_bits block[64]) {
     for (uint32_t i = 0; i < block_rows(rows, first); i++) {
-        sl_bits *found = sl_sparse_row_find(&rows->sparse[first + i], word, &cursors[i]);
+        sl_bits *found = find_sparse_word(&rows->sparse[first + i], word, &cursors[i]);
         if (found) *found &= block[i];
     }
 }

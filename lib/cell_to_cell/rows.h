@@ -91,13 +91,6 @@ static inline uint32_t *sl_sparse_index(const sl_sparse_row *row) {
 /// were added: SL_NO_MEMORY where the budget is used up too.
 sl_status sl_sparse_row_add(sl_context *context, sl_sparse_row *row, size_t words,
                             const sl_word_set *set, sl_row_budget *budget);
-/// Adds the members of one word, not none.
-sl_status sl_sparse_row_add_word(sl_context *context, sl_sparse_row *row, size_t words, size_t word,
-                                 sl_bits bits, sl_row_budget *budget);
-
-/// The place of a word, or NULL where the row has none. `cursor` starts at 0 and makes ascending
-/// searches short; words may be added to the row meanwhile.
-sl_bits *sl_sparse_row_find(const sl_sparse_row *row, size_t word, uint32_t *cursor);
 
 /// Adds the row's members to a set.
 void sl_sparse_row_add_to(const sl_sparse_row *row, size_t words, sl_word_set *set);

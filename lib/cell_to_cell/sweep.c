@@ -57,38 +57,12 @@
 /// Fans that a thread takes at once.
 enum { FANS_AT_ONCE = 32 };
 
-typedef struct sweep {
-    const sl_space *space;
-    const sl_see_options *options;
-    sl_fans fans;
-    const sl_partial *before; ///< what is known; NULL: nothing, and all is to be done
-    uint8_t *done;            ///< by fan, where there is `before`; each is written by one thread
-    pthread_mutex_t lock;
-    sl_bit_rows rows; ///< joined from the threads' forks, under the lock
-    uint64_t pieces;
-    uint32_t deepest;
-} sweep;
-
-static sl_status begin(sl_context *context, void *job, void **state) {
-    const sweep *all = job;
-    sl_sweeper *me = sl_alloc_array(context, 1, sizeof *me);
-    if (!me) return SL_NO_MEMORY;
-    const sl_status status =
-        sl_sweeper_create(context, &all->fans, all->options->sight == SL_CLOSED, &all->rows, me);
-    if (status == SL_OK) {
-        *state = me;
-        return SL_OK;
-    }
-    sl_sweeper_destroy(context, me);
-    sl_free(context, me);
-    return status;
-}
-
 static void end(sl_context *context, void *job, void *state) {
-    sweep *all = job;
+    sl_sweep *all = job;
     sl_sweeper *me = state;
     pthread_mutex_lock(&all->lock);
     sl_bit_rows_join(context, &all->rows, &me->rows);
+    sl_bit_rows_join(context, &all->seen_from, &me->seen_from);
     all->pieces += me->reacher.pieces;
     if (me->reacher.deepest > all->deepest) all->deepest = me->reacher.deepest;
     pthread_mutex_unlock(&all->lock);
@@ -96,119 +70,78 @@ static void end(sl_context *context, void *job, void *state) {
     sl_free(context, me);
 }
 
+static sl_status begin(sl_context *context, void *job, void **state) {
+    sl_sweep *all = job;
+    sl_sweeper *me = sl_alloc_array(context, 1, sizeof *me);
+    if (!me) return SL_NO_MEMORY;
+    const sl_status status =
+        sl_sweeper_create(context, &all->fans[0], all->options->sight == SL_CLOSED, &all->rows,
+                          all->seen_from.count ? &all->seen_from : NULL, me);
+    if (status == SL_OK)
+        *state = me;
+    else
+        end(context, job, me);
+    return status;
+}
+
+static size_t count_fans(const sl_sweep *all) {
+    size_t count = 0;
+    for (uint32_t set = 0; set < all->fan_sets; set++) count += all->fans[set].fans.count;
+    return count;
+}
+
+/// Fans are numbered through all sets, one set after the other.
 static sl_status sweep_unit(sl_context *context, void *job, void *state, size_t unit) {
-    const sweep *all = job;
-    const size_t count = all->fans.fans.count, first = unit * FANS_AT_ONCE;
+    const sl_sweep *all = job;
+    const size_t count = count_fans(all), first = unit * FANS_AT_ONCE;
     for (size_t i = first; i < first + FANS_AT_ONCE && i < count; i++) {
         if (all->before && !sl_unit_is_wanted(all->options, all->before, (uint32_t)i)) continue;
         if (all->before && sl_is_enough(all->options)) return SL_OK;
-        SL_TRY(sl_sweep_fan(context, state, &all->fans.fans.items[i]));
+        size_t in_set = i;
+        uint32_t set = 0;
+        while (in_set >= all->fans[set].fans.count) in_set -= all->fans[set++].fans.count;
+        SL_TRY(all->visit(context, all, state, set, &all->fans[set].fans.items[in_set]));
         if (all->before) all->done[i] = 1;
     }
     return SL_OK;
 }
 
-/// Says what sparse rows will take, and refuses what is far from what they may.
-static sl_status tell_memory(sl_context *context, sweep *all) {
-    if (all->rows.bits) return SL_OK;
-    const double limit = (double)all->options->row_bytes, mib = 1 << 20;
-    uint64_t bytes = 0;
-    SL_TRY(sl_sweep_estimate(context, &all->fans, all->options->sight == SL_CLOSED, &all->rows,
-                             &bytes));
-    if ((double)bytes / 2 > limit)
-        return sl_fail(context, SL_NO_MEMORY,
-                       "the visible sets would take about %.1f MiB, and may take %.1f MiB: allow "
-                       "more memory, or bake in parts",
-                       (double)bytes / mib, limit / mib);
-    sl_note(
-        context,
-        "the visible sets of %u cells will take about %.0f MiB of memory, the corners that lines "
-        "turn about %.0f MiB",
-        all->rows.count, (double)bytes / mib, (double)sl_fans_bytes(&all->fans) / mib);
-    return SL_OK;
-}
-
-static sl_status turn_about_all(sl_context *context, sweep *all) {
-    SL_TRY(sl_bit_rows_create(context, all->space->cell_count, all->options, &all->rows));
-    if (!all->options->shard_count) SL_TRY(tell_memory(context, all));
+sl_status sl_sweep_run(sl_context *context, sl_sweep *all) {
     const sl_work work = {.job = all,
                           .begin = begin,
                           .unit = sweep_unit,
                           .end = end,
                           .stage = "cell_to_cell",
                           .units = "corners"};
-    const size_t units = (all->fans.fans.count + FANS_AT_ONCE - 1) / FANS_AT_ONCE;
+    const size_t units = (count_fans(all) + FANS_AT_ONCE - 1) / FANS_AT_ONCE;
     return sl_work_run(context, &work, units, all->options->threads);
 }
 
-static sl_status sweep_all(sl_context *context, sweep *all, sl_visibility *out) {
-    SL_TRY(sl_fans_find(context, all->space, all->options, SL_FANS_MUTUAL, &all->fans));
-    SL_TRY(turn_about_all(context, all));
-    out->account.pieces = all->pieces;
-    out->account.deepest = all->deepest;
-    sl_fans_destroy(context, &all->fans);
-    return sl_sweep_finish(context, all->space, all->options, &all->rows, out);
+void sl_sweep_destroy(sl_context *context, sl_sweep *all) {
+    for (uint32_t set = 0; set < SL_MOST_FAN_SETS; set++) sl_fans_destroy(context, &all->fans[set]);
+    sl_bit_rows_destroy(context, &all->rows);
+    sl_bit_rows_destroy(context, &all->seen_from);
+    sl_free(context, all->done);
 }
 
-static sl_status check_options(sl_context *context, const sl_see_options *options) {
-    if (!options->trees) return SL_OK;
-    return sl_fail(context, SL_UNSUPPORTED, "the method 'sweep' makes no stab trees");
-}
-
-sl_status sl_see_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
+sl_status sl_sweep_see(sl_context *context, const sl_space *space, const sl_see_options *options,
+                       sl_status (*find)(sl_context *context, sl_sweep *all, sl_visibility *out),
                        sl_visibility *out) {
-    SL_TRY(check_options(context, options));
-    if (options->plan && options->plan->effects & (SL_EFFECT_DOOR | SL_EFFECT_RANGE))
-        return sl_see_sweep_finished(context, space, options, out);
-    if (options->plan && options->plan->effects & SL_EFFECT_ONEWAY)
-        return sl_see_sweep_one_way(context, space, options, out);
-    sweep all = {.space = space, .options = options};
+    sl_sweep all = {.space = space, .options = options};
     sl_visibility visibility = {.sight = options->sight, .guarantee = SL_EXACT};
     pthread_mutex_init(&all.lock, NULL);
-    const sl_status status = sweep_all(context, &all, &visibility);
+    sl_status status = find(context, &all, &visibility);
     pthread_mutex_destroy(&all.lock);
-    sl_fans_destroy(context, &all.fans);
-    sl_bit_rows_destroy(context, &all.rows);
+    if (status == SL_OK) {
+        visibility.account.pieces = all.pieces;
+        visibility.account.deepest = all.deepest;
+        status = sl_sweep_finish(context, space, options, &all.rows, &visibility);
+    }
+    sl_sweep_destroy(context, &all);
     if (status == SL_OK)
         *out = visibility;
     else
         sl_visibility_destroy(context, &visibility);
-    return status;
-}
-
-// --- in parts
-
-static sl_status sweep_some(sl_context *context, sweep *all, sl_partial *partial) {
-    SL_TRY(sl_fans_find(context, all->space, all->options, SL_FANS_MUTUAL, &all->fans));
-    const uint32_t count = (uint32_t)all->fans.fans.count;
-    SL_TRY(sl_partial_begin(context, all->space, all->options, count, partial));
-    all->before = partial;
-    all->done = sl_alloc_array(context, count, sizeof *all->done);
-    if (!all->done) return SL_NO_MEMORY;
-    SL_TRY(turn_about_all(context, all));
-    sl_fans_destroy(context, &all->fans);
-    SL_TRY(sl_bit_rows_add_pvs(context, &all->rows, &partial->sure));
-    sl_visibility found = {0};
-    SL_TRY(sl_bit_rows_encode(context, &all->rows, &found));
-    sl_pvs_destroy(context, &partial->sure);
-    partial->sure = found.pvs;
-    sl_partial_note_bytes(partial, all->done);
-    return SL_OK;
-}
-
-sl_status sl_run_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
-                       sl_partial *partial) {
-    SL_TRY(check_options(context, options));
-    if (options->plan && options->plan->effects)
-        return sl_fail(context, SL_UNSUPPORTED,
-                       "a sweep done in parts knows no effects: bake in one go");
-    sweep all = {.space = space, .options = options};
-    pthread_mutex_init(&all.lock, NULL);
-    const sl_status status = sweep_some(context, &all, partial);
-    pthread_mutex_destroy(&all.lock);
-    sl_fans_destroy(context, &all.fans);
-    sl_bit_rows_destroy(context, &all.rows);
-    sl_free(context, all.done);
     return status;
 }
 
@@ -252,15 +185,112 @@ static sl_status ask(sl_context *context, sl_sweeper *s, sl_word_set *set, uint6
     return SL_OK;
 }
 
-sl_status sl_sweep_estimate(sl_context *context, const sl_fans *fans, bool closed,
-                            sl_bit_rows *rows, uint64_t *bytes) {
+/// About how much sparse rows will take when all fans are swept, half as much or twice as much.
+/// Some fans are swept for it.
+static sl_status estimate_rows(sl_context *context, const sl_fans *fans, bool closed,
+                               sl_bit_rows *rows, uint64_t *bytes) {
     sl_sweeper sweeper;
     sl_word_set set = {0};
-    sl_status status = sl_sweeper_create(context, fans, closed, rows, &sweeper);
+    sl_status status = sl_sweeper_create(context, fans, closed, rows, NULL, &sweeper);
     if (status == SL_OK) status = sl_word_set_create(context, fans->cell_count, &set);
     if (status == SL_OK) status = ask(context, &sweeper, &set, bytes);
     sl_bit_rows_join(context, rows, &sweeper.rows);
     sl_sweeper_destroy(context, &sweeper);
     sl_word_set_destroy(context, &set);
+    return status;
+}
+
+/// Says what sparse rows will take, and refuses what is far from what they may.
+static sl_status tell_memory(sl_context *context, sl_sweep *all) {
+    if (all->rows.bits) return SL_OK;
+    const double limit = (double)all->options->row_bytes, mib = 1 << 20;
+    uint64_t bytes = 0;
+    SL_TRY(estimate_rows(context, &all->fans[0], all->options->sight == SL_CLOSED, &all->rows,
+                         &bytes));
+    if ((double)bytes / 2 > limit)
+        return sl_fail(context, SL_NO_MEMORY,
+                       "the visible sets would take about %.1f MiB, and may take %.1f MiB: allow "
+                       "more memory, or bake in parts",
+                       (double)bytes / mib, limit / mib);
+    sl_note(
+        context,
+        "the visible sets of %u cells will take about %.0f MiB of memory, the corners that lines "
+        "turn about %.0f MiB",
+        all->rows.count, (double)bytes / mib, (double)sl_fans_bytes(&all->fans[0]) / mib);
+    return SL_OK;
+}
+
+static sl_status visit(sl_context *context, const sl_sweep *all, sl_sweeper *me, uint32_t set,
+                       const sl_fan *fan) {
+    (void)all, (void)set;
+    return sl_sweep_fan(context, me, fan);
+}
+
+static sl_status find_fans(sl_context *context, sl_sweep *all) {
+    all->fan_sets = 1;
+    all->visit = visit;
+    return sl_fans_find(context, all->space, all->options, SL_FANS_MUTUAL, &all->fans[0]);
+}
+
+static sl_status turn_about_all(sl_context *context, sl_sweep *all) {
+    SL_TRY(sl_bit_rows_create(context, all->space->cell_count, all->options, &all->rows));
+    if (!all->options->shard_count) SL_TRY(tell_memory(context, all));
+    return sl_sweep_run(context, all);
+}
+
+static sl_status sweep_all(sl_context *context, sl_sweep *all, sl_visibility *out) {
+    (void)out;
+    SL_TRY(find_fans(context, all));
+    SL_TRY(turn_about_all(context, all));
+    sl_fans_destroy(context, &all->fans[0]);
+    return SL_OK;
+}
+
+static sl_status check_options(sl_context *context, const sl_see_options *options) {
+    if (!options->trees) return SL_OK;
+    return sl_fail(context, SL_UNSUPPORTED, "the method 'sweep' makes no stab trees");
+}
+
+sl_status sl_see_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
+                       sl_visibility *out) {
+    SL_TRY(check_options(context, options));
+    if (options->plan && options->plan->effects & (SL_EFFECT_DOOR | SL_EFFECT_RANGE))
+        return sl_see_sweep_finished(context, space, options, out);
+    if (options->plan && options->plan->effects & SL_EFFECT_ONEWAY)
+        return sl_see_sweep_one_way(context, space, options, out);
+    return sl_sweep_see(context, space, options, sweep_all, out);
+}
+
+// --- in parts
+
+static sl_status sweep_some(sl_context *context, sl_sweep *all, sl_partial *partial) {
+    SL_TRY(find_fans(context, all));
+    const uint32_t count = (uint32_t)all->fans[0].fans.count;
+    SL_TRY(sl_partial_begin(context, all->space, all->options, count, partial));
+    all->before = partial;
+    all->done = sl_alloc_array(context, count, sizeof *all->done);
+    if (!all->done) return SL_NO_MEMORY;
+    SL_TRY(turn_about_all(context, all));
+    sl_fans_destroy(context, &all->fans[0]);
+    SL_TRY(sl_bit_rows_add_pvs(context, &all->rows, &partial->sure));
+    sl_visibility found = {0};
+    SL_TRY(sl_bit_rows_encode(context, &all->rows, &found));
+    sl_pvs_destroy(context, &partial->sure);
+    partial->sure = found.pvs;
+    sl_partial_note_bytes(partial, all->done);
+    return SL_OK;
+}
+
+sl_status sl_run_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
+                       sl_partial *partial) {
+    SL_TRY(check_options(context, options));
+    if (options->plan && options->plan->effects)
+        return sl_fail(context, SL_UNSUPPORTED,
+                       "a sweep done in parts knows no effects: bake in one go");
+    sl_sweep all = {.space = space, .options = options};
+    pthread_mutex_init(&all.lock, NULL);
+    const sl_status status = sweep_some(context, &all, partial);
+    pthread_mutex_destroy(&all.lock);
+    sl_sweep_destroy(context, &all);
     return status;
 }

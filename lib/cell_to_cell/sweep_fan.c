@@ -13,7 +13,7 @@
 #include "cell_to_cell/sweep.h"
 
 sl_status sl_sweeper_create(sl_context *context, const sl_fans *fans, bool closed,
-                            const sl_bit_rows *rows, sl_sweeper *s) {
+                            const sl_bit_rows *rows, const sl_bit_rows *seen_from, sl_sweeper *s) {
     *s = (sl_sweeper){.fans = fans,
                       .inward = fans,
                       .outward = fans,
@@ -23,6 +23,7 @@ sl_status sl_sweeper_create(sl_context *context, const sl_fans *fans, bool close
     SL_TRY(sl_reacher_create(context, fans, closed, &s->reacher));
     SL_TRY(sl_word_set_create(context, fans->cell_count, &s->behind));
     SL_TRY(sl_word_set_create(context, fans->cell_count, &s->before));
+    if (seen_from) SL_TRY(sl_bit_rows_fork(context, seen_from, &s->seen_from));
     return sl_bit_rows_fork(context, rows, &s->rows);
 }
 
@@ -32,6 +33,7 @@ void sl_sweeper_destroy(sl_context *context, sl_sweeper *s) {
     sl_reach_destroy(context, &s->middle);
     sl_reach_destroy(context, &s->ahead);
     sl_rays_destroy(context, &s->rays);
+    sl_rays_destroy(context, &s->looks);
     sl_free(context, s->passing.items);
     sl_free(context, s->sectors.items);
     sl_word_set_destroy(context, &s->behind);
@@ -204,7 +206,7 @@ static void add_reach(sl_word_set *set, const sl_reach *reach) {
         sl_word_set_add(set, reach->cells.items[i].cell);
 }
 
-/// What the turning line does not join with a cell of the fan anyway: see sl_sweep_turn. Cells
+/// What the turning line does not join with a cell of the fan anyway: see turn_line. Cells
 /// beside each other mostly get the same.
 static sl_status serve(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     enum { NOTHING, MIDDLE = 1, BACK = 2, AHEAD = 4 };
@@ -226,25 +228,6 @@ static sl_status serve(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     }
     sl_word_set_clear(set);
     return SL_OK;
-}
-
-sl_status sl_sweep_fan(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
-    SL_TRY(sl_reacher_stand(context, &s->reacher, s->fans, fan->at));
-    sl_reach_clear(&s->back);
-    sl_reach_clear(&s->middle);
-    sl_reach_clear(&s->ahead);
-    s->rays.starts.count = s->rays.cells.count = 0;
-    if (fan->wide) {
-        s->reacher.fans = s->inward;
-        SL_TRY(reach_back(context, s, fan));
-        if (s->closed) SL_TRY(add_rays(context, s, fan, &s->back, 0, false));
-        s->reacher.fans = s->outward;
-        SL_TRY(reach_ahead(context, s, fan));
-        if (s->closed) SL_TRY(add_rays(context, s, fan, &s->ahead, first_ahead(s, fan), true));
-    }
-    if (fan->serves && !fan->back_to_back) SL_TRY(reach_middle(context, s, fan));
-    if (fan->serves) SL_TRY(serve(context, s, fan));
-    return fan->wide ? sl_sweep_turn(context, s, fan) : SL_OK;
 }
 
 // --- the line turns
@@ -366,7 +349,8 @@ static void touch(half *h) {
             sl_word_set_add(h->seen, h->reach->cells.items[i].cell);
 }
 
-sl_status sl_sweep_turn(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
+/// Turns the line: adds the pairs of what is seen by both its halves.
+static sl_status turn_line(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     const uint32_t first = s->fans->cells.items[fan->first].edge;
     half back = {
         .reach = &s->back, .seen = &s->behind, .rows = s->back_rows, .ray_level = SL_CLOCKWISE};
@@ -397,4 +381,25 @@ sl_status sl_sweep_turn(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     sl_word_set_clear(&s->behind);
     sl_word_set_clear(&s->before);
     return status;
+}
+
+// --- all of a fan
+
+sl_status sl_sweep_fan(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
+    SL_TRY(sl_reacher_stand(context, &s->reacher, s->fans, fan->at));
+    sl_reach_clear(&s->back);
+    sl_reach_clear(&s->middle);
+    sl_reach_clear(&s->ahead);
+    s->rays.starts.count = s->rays.cells.count = 0;
+    if (fan->wide) {
+        s->reacher.fans = s->inward;
+        SL_TRY(reach_back(context, s, fan));
+        if (s->closed) SL_TRY(add_rays(context, s, fan, &s->back, 0, false));
+        s->reacher.fans = s->outward;
+        SL_TRY(reach_ahead(context, s, fan));
+        if (s->closed) SL_TRY(add_rays(context, s, fan, &s->ahead, first_ahead(s, fan), true));
+    }
+    if (fan->serves && !fan->back_to_back) SL_TRY(reach_middle(context, s, fan));
+    if (fan->serves) SL_TRY(serve(context, s, fan));
+    return fan->wide ? turn_line(context, s, fan) : SL_OK;
 }

@@ -460,7 +460,8 @@ sl_funnel_corner sl_funnel_corner_at(const void *state, uint32_t i) {
     return (sl_funnel_corner){place_of(f, c->from), place_of(f, c->to), place_of(f, c->pivot)};
 }
 
-sl_portal_ends sl_funnel_portal(const void *state, bool last) {
+/// The first or the last.
+static sl_portal_ends portal_at(const void *state, bool last) {
     const funnel *f = state;
     const end_number left = last ? (end_number)f->ends.count - 2 : FIRST_LEFT;
     return (sl_portal_ends){place_of(f, left), place_of(f, left + 1)};
@@ -564,7 +565,7 @@ static double gap(const sl_portal_ends *a, const sl_portal_ends *b) {
 }
 
 double sl_funnel_shortest(const void *state) {
-    piece p = {.first = sl_funnel_portal(state, false), .last = sl_funnel_portal(state, true)};
+    piece p = {.first = portal_at(state, false), .last = portal_at(state, true)};
     const uint32_t count = sl_funnel_corner_count(state);
     if (!count) return gap(&p.first, &p.last);
     double least = INFINITY;
