@@ -1,17 +1,22 @@
-/// Depth-first search (Teller & Séquin 1991, Cell to Cell Visibility): from each source cell over
-/// the portals, as long as the sequence has a sightline. What is visited is the source's stab tree.
+/// Depth-first search over portal sequences (Teller & Séquin 1991, Visibility Preprocessing for
+/// Interactive Walkthroughs): what one cell sees.
 ///
-/// A sequence's portals are all crossed forwards by some one direction: no sightline does without,
-/// and a cell is never entered twice, so that the search ends.
+/// The search starts in a source cell and goes through portals as long as some line stabs all
+/// portals on the way. Every cell that it enters is seen from the source. The cells that it visits
+/// form the stab tree of the source.
 ///
-/// A rounded solver marks answers near zero. They are followed with either sight, so that all pairs
-/// of which rounding decided are known: they count as seen with closed sight, not with open.
+/// The search ends, since one direction crosses all portals of a sequence forwards. So no sequence
+/// enters a cell twice (directions.h). Cost: one stabbing test for each node of the tree and for
+/// each portal that leads out of it.
 ///
-/// The method "prune" is the same search, but goes through a directed portal only while something
-/// is left to be found there: cells not seen yet that the directed portal's upper bound (flood.c)
-/// and those of all directed portals before leave possible, as Quake's vis does. The bound misses
-/// nothing, so that a cell that is seen stays possible all along a sequence that leads to it. Exact
-/// solvers need find each pair from one of its cells only.
+/// Rounded solvers mark answers near zero. The search follows these with either sight, so that all
+/// pairs that hang on rounding are known. They count as seen with closed sight, not with open.
+///
+/// The method "prune" is the same search with an upper bound for each directed portal (flood.c), as
+/// in Quake's vis. It goes through a portal only while the bounds of all portals on the way leave a
+/// cell possible that it has not seen yet. A bound misses nothing: a cell that is seen stays
+/// possible along the sequence that leads to it. With an exact solver each pair need be found from
+/// one of its two cells only.
 #include "cell_to_cell/dfs.h"
 
 #include "base/threads.h"
@@ -104,7 +109,7 @@ static sl_status tree_store_join(sl_context *context, const sl_tree_store *store
 /// A step of the search without effects.
 typedef struct step {
     sl_dfs_step dfs;
-    sl_crossings crossings; ///< of the portals so far
+    sl_directions directions; ///< of the portals so far
 } step;
 
 sl_status sl_dfs_enter(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, sl_dfs_step *to,
@@ -150,8 +155,8 @@ SL_VISIT sl_status cross(sl_context *context, void *job, const void *last, void 
     const step *from = last;
     step *to = next;
     const sl_directed_portal *directed = &all->space->directed[number];
-    sl_crossings crossings = from->crossings;
-    if (!sl_crossings_add(all->space, &crossings, number)) return SL_OK;
+    sl_directions directions = from->directions;
+    if (!sl_directions_add(all->space, &directions, number)) return SL_OK;
     if (all->options->inside_only && !all->space->cells[directed->cell].inside) return SL_OK;
     bool something;
     SL_TRY(want(context, all, me, number, &something));
@@ -168,7 +173,7 @@ SL_VISIT sl_status cross(sl_context *context, void *job, const void *last, void 
         return SL_OK;
     }
     sl_bits_add(grazing && rounded ? me->doubtful : me->sure, directed->cell);
-    *to = (step){.dfs = {.at.cell = directed->cell, .grazing = grazing}, .crossings = crossings};
+    *to = (step){.dfs = {.at.cell = directed->cell, .grazing = grazing}, .directions = directions};
     return sl_dfs_enter(context, all, me, &to->dfs, from->dfs.node, number, closed || !grazing);
 }
 
@@ -181,7 +186,7 @@ static sl_status search_from(sl_context *context, const sl_dfs *all, sl_dfs_thre
     SL_TRY(sl_prune_start(context, &me->wanted, from_either ? source : 0));
     SL_TRY(sl_portal_search_start(context, &me->search, sizeof(step)));
     step *first = me->search.steps;
-    *first = (step){.dfs.at.cell = source, .crossings = SL_CROSSINGS_NONE};
+    *first = (step){.dfs.at.cell = source, .directions = SL_NO_DIRECTIONS};
     SL_TRY(sl_dfs_enter(context, all, me, &first->dfs, 0, UINT32_MAX, true));
     sl_dfs_job job = {all, me};
     return sl_portal_search_run(context, &me->search, &visitor, &job);

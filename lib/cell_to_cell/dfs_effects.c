@@ -1,15 +1,16 @@
-/// The depth-first search where the map calls for effects. Each of them is a matter of one step
-/// more of a sequence: which doors it has passed, whether glass lets it through, how long its
-/// shortest sightline is, and where in mirrored space it has come to. All are monotone: what a
-/// sequence fails, all that go on from it fail too, so that the search stays exact.
+/// The depth-first search for maps with doors, mirrors, one-way glass or a view range.
 ///
-/// The range is exact to rounding: of sightlines through the sequence, the piece between the first
-/// portal and the last is what lies between the two cells (0 for neighbours), and its shortest is
-/// held against the range. Within rounding it counts as in range, and is counted.
+/// Each effect is a question about one more step of a sequence: which doors it has passed, whether
+/// glass lets it through, how long its shortest sightline is, and where mirrored space it is. If a
+/// sequence fails, all sequences that go on from it fail too. So the search stays exact.
 ///
-/// A mirror is one more portal of the sequence, which leads back into the cell before it,
-/// reflected: the sequence goes on in the frame of mirrored space that lies beyond
-/// (effects/frame.h).
+/// Range: the part of a sightline that counts lies between the first portal and the last, as it is
+/// 0 for neighbours. The shortest such part is compared with the range. A part within rounding of
+/// the range counts as in range, and is counted.
+///
+/// Mirrors: a mirror is one more portal, which leads back into the cell before it. Behind it the
+/// sequence goes on in a reflected copy of the map, in whose frame all portals are placed
+/// (effects/mirrors.h).
 #include "cell_to_cell/dfs.h"
 
 #include "cell_to_cell/directions.h"

@@ -15,11 +15,11 @@
 /// The directions of a sequence's portals, from right end to left end, span less than half a turn:
 /// from that of directed portal `least` counter-clockwise to that of directed portal `most`.
 /// SL_NO_PORTAL for both: none yet.
-typedef struct sl_crossings {
+typedef struct sl_directions {
     uint32_t least, most;
-} sl_crossings;
+} sl_directions;
 
-#define SL_CROSSINGS_NONE ((sl_crossings){SL_NO_PORTAL, SL_NO_PORTAL})
+#define SL_NO_DIRECTIONS ((sl_directions){SL_NO_PORTAL, SL_NO_PORTAL})
 
 /// Whether two directions along one line are the same.
 static inline bool sl_same_way(const sl_directed_portal *a, const sl_directed_portal *b) {
@@ -28,17 +28,17 @@ static inline bool sl_same_way(const sl_directed_portal *a, const sl_directed_po
 }
 
 /// What one more directed portal does to the directions of those so far.
-typedef enum sl_crossing {
+typedef enum sl_direction_change {
     SL_CROSSES_NEVER,  ///< no direction is left
     SL_CROSSES_WITHIN, ///< it is among them
     SL_CROSSES_LEAST,  ///< it is the least now
     SL_CROSSES_MOST,   ///< it is the most now
-} sl_crossing;
+} sl_direction_change;
 
 /// `alone`: least and most are one directed portal.
-static inline sl_crossing sl_crossing_of(const sl_directed_portal *least,
-                                         const sl_directed_portal *most, bool alone,
-                                         const sl_directed_portal *directed) {
+static inline sl_direction_change sl_direction_change_of(const sl_directed_portal *least,
+                                                         const sl_directed_portal *most, bool alone,
+                                                         const sl_directed_portal *directed) {
     const int from_least = sl_turn(least->right, least->left, directed->right, directed->left);
     const int from_most =
         alone ? from_least : sl_turn(most->right, most->left, directed->right, directed->left);
@@ -50,22 +50,23 @@ static inline sl_crossing sl_crossing_of(const sl_directed_portal *least,
 }
 
 /// Adds a directed portal, by its number; false, and nothing added, where no direction is left.
-static inline bool sl_crossings_add(const sl_space *space, sl_crossings *crossings,
-                                    uint32_t number) {
-    if (crossings->least == SL_NO_PORTAL) {
-        *crossings = (sl_crossings){number, number};
+static inline bool sl_directions_add(const sl_space *space, sl_directions *directions,
+                                     uint32_t number) {
+    if (directions->least == SL_NO_PORTAL) {
+        *directions = (sl_directions){number, number};
         return true;
     }
-    const sl_crossing crossing =
-        sl_crossing_of(&space->directed[crossings->least], &space->directed[crossings->most],
-                       crossings->least == crossings->most, &space->directed[number]);
-    if (crossing == SL_CROSSES_MOST) crossings->most = number;
-    if (crossing == SL_CROSSES_LEAST) crossings->least = number;
+    const sl_direction_change crossing = sl_direction_change_of(
+        &space->directed[directions->least], &space->directed[directions->most],
+        directions->least == directions->most, &space->directed[number]);
+    if (crossing == SL_CROSSES_MOST) directions->most = number;
+    if (crossing == SL_CROSSES_LEAST) directions->least = number;
     return crossing != SL_CROSSES_NEVER;
 }
 
 // --- places in mirrored space
 
+/// A step of a portal sequence that mirrors may reflect.
 typedef struct sl_unfolded {
     sl_directed_portal ends; ///< of what was crossed last, where mirrored space has it
     uint32_t least, most;    ///< places that bound the directions of all portals; 0 for none yet
@@ -95,7 +96,8 @@ static inline bool sl_unfolded_may_cross(const sl_directed_portal *least,
         to->least = to->most = here;
         return true;
     }
-    const sl_crossing crossing = sl_crossing_of(least, most, from->least == from->most, &to->ends);
+    const sl_direction_change crossing =
+        sl_direction_change_of(least, most, from->least == from->most, &to->ends);
     if (crossing == SL_CROSSES_LEAST) to->least = here;
     if (crossing == SL_CROSSES_MOST) to->most = here;
     return crossing != SL_CROSSES_NEVER;

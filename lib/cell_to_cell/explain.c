@@ -21,9 +21,9 @@
 /// A cell on the way from the first.
 typedef struct step {
     sl_portal_step at;
-    uint32_t directed;      ///< crossed last; none for the first
-    sl_crossings crossings; ///< of the portals so far
-    bool grazing;           ///< the sequence is no more than grazed
+    uint32_t directed;        ///< crossed last; none for the first
+    sl_directions directions; ///< of the portals so far
+    bool grazing;             ///< the sequence is no more than grazed
 } step;
 
 typedef struct search {
@@ -236,13 +236,13 @@ static uint32_t place_of_portal(const sl_sequence *sequence, uint32_t directed) 
 static void tell_turn(const search *s, sl_sequence *sequence) {
     const uint32_t last = sequence->directed_count - 1;
     const uint32_t stop = sequence->directed[last];
-    const sl_crossings before = last_step(s)->crossings;
+    const sl_directions before = last_step(s)->directions;
     uint32_t portals[3] = {place_of_portal(sequence, before.least),
                            place_of_portal(sequence, before.most), last};
     uint32_t first = 0;
     for (uint32_t i = last; i-- > 0 && !first;) {
-        sl_crossings pair = {stop, stop};
-        if (sl_crossings_add(s->space, &pair, sequence->directed[i])) continue;
+        sl_directions pair = {stop, stop};
+        if (sl_directions_add(s->space, &pair, sequence->directed[i])) continue;
         portals[1] = i;
         first = 1;
     }
@@ -330,8 +330,8 @@ static sl_status cross(sl_context *context, void *job, const void *last, void *n
     step *to = next;
     const sl_directed_portal *directed = &s->space->directed[number];
     const uint32_t portals = (uint32_t)s->search.count + s->distance[directed->cell];
-    *to = (step){.at.cell = directed->cell, .directed = number, .crossings = from->crossings};
-    if (!sl_crossings_add(s->space, &to->crossings, number))
+    *to = (step){.at.cell = directed->cell, .directed = number, .directions = from->directions};
+    if (!sl_directions_add(s->space, &to->directions, number))
         return note_miss(context, s, number, true);
     if (is_neighbour(s, from->grazing, portals)) return SL_OK;
     SL_TRY(count_test(context, s));
@@ -352,7 +352,7 @@ static sl_status search_within(sl_context *context, search *s) {
     static const sl_portal_visitor visitor = {.step_size = sizeof(step), .cross = cross};
     SL_TRY(sl_portal_search_start(context, &s->search, sizeof(step)));
     step *first = s->search.steps;
-    *first = (step){.at.cell = s->out.from, .directed = UINT32_MAX, .crossings = SL_CROSSINGS_NONE};
+    *first = (step){.at.cell = s->out.from, .directed = UINT32_MAX, .directions = SL_NO_DIRECTIONS};
     s->search.count++;
     return sl_portal_search_run(context, &s->search, &visitor, s);
 }

@@ -1,6 +1,9 @@
-/// A sightline by mirror, to be told: depth first over sequences of portals and mirrors, with one
-/// reflection more each time, and as in explain.c with a bound on what is crossed that is doubled
-/// until a line is found or nothing is left beyond it.
+/// Finds the sightline with the fewest mirrors, and of these one over few portals, to be explained.
+///
+/// The search runs once for each number of reflections: 1, then 2, and so on. As in explain.c it
+/// has a bound on the number of portals and mirrors crossed, which is doubled until a line is found
+/// or nothing is left beyond the bound. In mirrored space the line is straight. Its bends in the
+/// map are where it crosses the mirrors.
 #include "cell_to_cell/directions.h"
 #include "cell_to_cell/explain_line.h"
 #include "cell_to_cell/portal_search.h"

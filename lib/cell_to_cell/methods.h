@@ -42,12 +42,12 @@ sl_status sl_plan_check_solver(sl_context *context, const sl_plan *plan, const s
 
 // --- work in parts
 
-/// Makes empty partial results of a method with so many units; partial results that are begun
-/// already must be its: SL_BAD_ARGUMENT.
+/// Makes an empty partial result of a method with so many units. One that is begun already must be
+/// of the same space and options: else SL_BAD_ARGUMENT.
 sl_status sl_partial_begin(sl_context *context, const sl_space *space,
                            const sl_see_options *options, uint32_t unit_count, sl_partial *partial);
 
-/// Whether a unit is of a shard; 0, 0 for all. Shards have turns at runs of a few units.
+/// Whether a unit is of a shard; 0, 0 for all. Shards take runs of a few units in turn.
 static inline bool sl_unit_is_of(uint32_t shard, uint32_t shard_count, uint32_t unit) {
     return !shard_count || unit / 8 % shard_count == shard - 1;
 }
@@ -63,7 +63,7 @@ static inline bool sl_is_enough(const sl_see_options *options) {
     return options->enough && options->enough(options->enough_user);
 }
 
-/// As sl_partial_note, those whose byte is not 0: threads can write bytes side by side.
+/// Notes units as done, those whose byte is not 0: threads can write bytes side by side.
 void sl_partial_note_bytes(sl_partial *partial, const uint8_t *done);
 
 /// Adds all pairs of a PVS.

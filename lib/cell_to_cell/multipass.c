@@ -1,19 +1,18 @@
-/// All cells at once, sector by sector of directions (Laine 2005, A General Algorithm for
+/// All cells at once, one sector of directions after the other (Laine 2005, A General Algorithm for
 /// Output-Sensitive Visibility Preprocessing).
 ///
-/// A sightline of a sector that leaves a cell by a face goes on in the cell behind it. So what the
-/// face sees is among what that cell sees in the sector, its directed visible set: those are the
-/// only candidates. Cells are done in an order in which the cells behind come first. Where a sector
-/// is so wide that portals are crossed both ways in it, cells may depend on each other round a
-/// cycle; the candidates of these are each other, and what all of them together see beyond.
+/// A sightline of a sector leaves a cell by a face and goes on in the cell behind. So the face sees
+/// nothing but what that cell sees in the sector, its directed visible set. These are the face's
+/// candidates. Cells are done in an order in which the cells behind come first (sectors.h).
 ///
-/// A face's candidates are decided on by a depth-first search over portal sequences, as in dfs.c,
-/// within the sector alone: the solver is asked for lines of its directions. The search goes
-/// through a directed portal only while a candidate that is not seen yet is left behind it, and
-/// what is behind it is known, by the faces that are done.
+/// A wide sector may have portals that are crossed both ways. Then cells may depend on each other
+/// round a cycle. Their candidates are all cells of the cycle and all that these see beyond it.
 ///
-/// Pairs are symmetric, and what a cell sees in one sector sees it in the opposite one: half of the
-/// sectors tell all.
+/// A depth-first search decides on the candidates of a face. It asks the solver for lines of the
+/// sector alone. It goes through a portal only while an unseen candidate is left behind it.
+///
+/// Pairs are symmetric: what a cell sees in one sector sees it in the opposite one. So half of the
+/// sectors are enough.
 #include "base/threads.h"
 #include "cell_to_cell/bounds.h"
 #include "cell_to_cell/methods.h"
@@ -55,8 +54,8 @@ typedef struct multipass {
 /// A cell on the way from a face.
 typedef struct step {
     sl_portal_step at;
-    sl_cone cone; ///< directions that cross all portals so far
-    bool grazing; ///< the sequence is no more than grazed
+    sl_direction_sector cone; ///< directions that cross all portals so far
+    bool grazing;             ///< the sequence is no more than grazed
 } step;
 
 /// One thread's own.
@@ -86,7 +85,7 @@ static void enter(searcher *me) {
 /// The verdict on the sequence with one more portal, for lines of the sector. SL_HIDDEN: it must
 /// be popped.
 static sl_status push(sl_context *context, const multipass *all, searcher *me,
-                      const sl_directed_portal *directed, const sl_cone *cone,
+                      const sl_directed_portal *directed, const sl_direction_sector *cone,
                       sl_stab_verdict *verdict) {
     const sl_solver *solver = all->options->solver;
     if (++me->account.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
@@ -132,7 +131,7 @@ SL_VISIT sl_status cross(sl_context *context, void *job, const void *last, void 
     const uint32_t face = at->pass->pass.faces[number];
     const sl_directed_portal *directed = &all->space->directed[number];
     *to = (step){.at.cell = directed->cell, .cone = from->cone};
-    if (face == SL_NO_FACE || !sl_cone_cut(&to->cone, directed)) return SL_OK;
+    if (face == SL_NO_FACE || !sl_direction_sector_cut(&to->cone, directed)) return SL_OK;
     bool something;
     SL_TRY(want(context, me, &at->pass->seen[face], &something));
     if (!something) return SL_OK;
@@ -157,7 +156,8 @@ static sl_status search_face(sl_context *context, const multipass *all, const ru
     SL_TRY(sl_portal_search_start(context, &me->search, sizeof(step)));
     step *first = me->search.steps;
     *first = (step){.at.cell = directed->cell, .cone = p->pass.cone};
-    (void)sl_cone_cut(&first->cone, directed); // it has some: else the portal were no face
+    (void)sl_direction_sector_cut(&first->cone,
+                                  directed); // it has some: else the portal were no face
     sl_stab_verdict verdict;
     SL_TRY(push(context, all, me, directed, &first->cone, &verdict));
     sl_word_set_add(&me->sure, directed->cell);
@@ -314,7 +314,7 @@ static sl_status add_pass(sl_context *context, multipass *all, uint32_t sector) 
     running_pass *p = &all->passes.items[all->passes.count];
     *p = (running_pass){0};
     SL_TRY(sl_pass_create(context, all->space, all->options->inside_only,
-                          sl_sector_cone(&all->sectors, sector), &p->pass));
+                          sl_sectors_get(&all->sectors, sector), &p->pass));
     all->passes.count++;
     p->seen = sl_alloc_array(context, p->pass.face_count, sizeof *p->seen);
     return p->seen ? SL_OK : SL_NO_MEMORY;

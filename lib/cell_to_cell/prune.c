@@ -1,3 +1,10 @@
+/// The sets that keep a search short: upper bounds for directed portals, and what is still wanted.
+///
+/// Each step of a search has a set of wanted cells: those that its portal's upper bound and all
+/// bounds before it leave possible. The sets of a way lie behind each other in one array, as sorted
+/// words that have any bits. A step back takes the last set off.
+///
+/// Invariant: the set of a step is a subset of the set of the step before it.
 #include "cell_to_cell/bounds.h"
 
 #include "cell_to_cell/pvs_rows.h"

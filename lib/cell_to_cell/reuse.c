@@ -1,30 +1,23 @@
-/// What of a space's visible sets still holds when some walls have changed.
+/// Which rows of a bake still hold after some walls have changed.
 ///
-/// A cell is unchanged where the new space has one of the same corners and the same directed
-/// portals, and each directed portal leads to the same cell as before, or to a changed one. Let A
-/// be unchanged, and let all that it saw be unchanged too. Then it sees the same cells as before,
-/// for a sightline's sequence of portals is made of directed portals, and each beginning of it has
-/// a sightline as well:
+/// A cell is unchanged if the new space has a cell with the same corners and the same directed
+/// portals, and each of these leads to the same cell as before, or to a changed one. Let A be
+/// unchanged, and let every cell that A saw be unchanged. Then A sees the same cells as before:
 ///
-/// - Each sequence from A that had a sightline goes through unchanged cells only, since A saw all
-///   of them. The new space has the same one, directed portal for directed portal, and the same
-///   line.
-/// - Take a sequence from A that has a sightline in the new space, and the first of its directed
-/// portals that
-///   does not lead to the same cell as before. Up to there the old space had the same sequence,
-///   with the same line, which went on through that directed portal: A saw the cell that it led to,
-///   and so that cell is unchanged. But then the directed portal would lead to it now.
+/// - Take a sequence from A that had a sightline. A saw all cells on it, so that all are unchanged.
+///   The new space has the same sequence of directed portals, and the same line stabs it.
+/// - Take a sequence from A that has a sightline now, and its first directed portal that leads to
+///   another cell than before. Up to there the old space had the same sequence and the same line,
+///   which went on through that portal. So A saw the cell behind it, and that cell is unchanged.
+///   But then the portal would lead to it now as well.
 ///
-/// So A's row is the old one. With exact sets it does not matter by which method they were found.
+/// So the row of A is the old one, whichever exact method found it. Pairs without such a cell are
+/// looked for anew. A search passes over such sources. The sweep passes over a fan all of whose
+/// cells are of this kind, and see only cells of this kind: a fan joins only cells that its own
+/// cells see (sweep_settle.c).
 ///
-/// Pairs of which neither cell is such an A are looked for anew. A fan of the sweep joins cells
-/// that see each other by lines through its point, and each of the two is seen from the cell of
-/// the fan by which its half of the line leaves the point (or is that cell). Where all cells of the
-/// fan are such A's, and see only such A's, all pairs that it joins are of these rows, and it is
-/// passed over (sweep_settle.c). Of the searches a source that is such an A is.
-///
-/// Nothing of it depends on how the cells are numbered, nor on the subdivision being the same: a
-/// split line that moves only makes more cells count as changed.
+/// The numbers of cells do not matter, nor does the subdivision: a split line that moves only makes
+/// more cells count as changed.
 #include "cell_to_cell/methods.h"
 #include "cell_to_cell/pvs_rows.h"
 

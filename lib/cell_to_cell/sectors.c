@@ -199,10 +199,10 @@ void sl_order_destroy(sl_context *context, sl_order *order) {
 // --- one pass
 
 static bool faces(const sl_space *space, bool inside_only, uint32_t cell,
-                  const sl_directed_portal *directed, sl_cone cone) {
+                  const sl_directed_portal *directed, sl_direction_sector cone) {
     if (inside_only && !(space->cells[cell].inside && space->cells[directed->cell].inside))
         return false;
-    return sl_cone_cut(&cone, directed);
+    return sl_direction_sector_cut(&cone, directed);
 }
 
 static sl_status fill(sl_context *context, const sl_space *space, bool inside_only, sl_pass *pass) {
@@ -220,8 +220,8 @@ static sl_status fill(sl_context *context, const sl_space *space, bool inside_on
     return sl_order_create(context, &graph, &pass->order);
 }
 
-sl_status sl_pass_create(sl_context *context, const sl_space *space, bool inside_only, sl_cone cone,
-                         sl_pass *out) {
+sl_status sl_pass_create(sl_context *context, const sl_space *space, bool inside_only,
+                         sl_direction_sector cone, sl_pass *out) {
     sl_pass pass = {.cone = cone,
                     .faces = sl_alloc_array(context, space->directed_count, sizeof *pass.faces),
                     .first =

@@ -27,24 +27,26 @@ sl_status sl_sectors_create(sl_context *context, const sl_space *space, uint32_t
 void sl_sectors_destroy(sl_context *context, sl_sectors *sectors);
 
 /// Directions strictly between two, less than half a turn.
-typedef struct sl_cone {
+typedef struct sl_direction_sector {
     sl_line right, left;
-} sl_cone;
+} sl_direction_sector;
 
-static inline sl_cone sl_sector_cone(const sl_sectors *sectors, uint32_t sector) {
-    return (sl_cone){sectors->bounds[sector], sectors->bounds[(sector + 1) % sectors->count]};
+static inline sl_direction_sector sl_sectors_get(const sl_sectors *sectors, uint32_t sector) {
+    return (sl_direction_sector){sectors->bounds[sector],
+                                 sectors->bounds[(sector + 1) % sectors->count]};
 }
 
 /// Keeps those that cross a directed portal strictly forwards; false where there are none.
-static inline bool sl_cone_cut(sl_cone *cone, const sl_directed_portal *directed) {
-    const int of_right = sl_turn(cone->right.a, cone->right.b, directed->right, directed->left);
-    const int of_left = sl_turn(cone->left.a, cone->left.b, directed->right, directed->left);
+static inline bool sl_direction_sector_cut(sl_direction_sector *sector,
+                                           const sl_directed_portal *directed) {
+    const int of_right = sl_turn(sector->right.a, sector->right.b, directed->right, directed->left);
+    const int of_left = sl_turn(sector->left.a, sector->left.b, directed->right, directed->left);
     if (of_right >= 0 && of_left >= 0) return true;
     if (of_right <= 0 && of_left <= 0) return false;
     if (of_right > 0)
-        cone->left = (sl_line){directed->right, directed->left};
+        sector->left = (sl_line){directed->right, directed->left};
     else
-        cone->right = (sl_line){directed->left, directed->right};
+        sector->right = (sl_line){directed->left, directed->right};
     return true;
 }
 
@@ -78,7 +80,7 @@ void sl_order_destroy(sl_context *context, sl_order *order);
 #define SL_NO_FACE UINT32_MAX
 
 typedef struct sl_pass {
-    sl_cone cone;
+    sl_direction_sector cone;
     uint32_t *faces; ///< by directed portal: its number among those that face the sector
     uint32_t face_count;
     uint32_t *first, *to; ///< the graph: a cell depends on those behind its faces
@@ -86,8 +88,8 @@ typedef struct sl_pass {
 } sl_pass;
 
 /// `inside_only`: what is not inside has no faces, and is behind none.
-sl_status sl_pass_create(sl_context *context, const sl_space *space, bool inside_only, sl_cone cone,
-                         sl_pass *out);
+sl_status sl_pass_create(sl_context *context, const sl_space *space, bool inside_only,
+                         sl_direction_sector cone, sl_pass *out);
 void sl_pass_destroy(sl_context *context, sl_pass *pass);
 
 #endif

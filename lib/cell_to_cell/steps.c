@@ -1,3 +1,5 @@
+/// Records a depth-first search step by step, to be shown: each portal that was tried, and what
+/// came of it. The search is that of dfs.c, without bounds and effects.
 #include "sightline/steps.h"
 
 #include "cell_to_cell/directions.h"
@@ -9,8 +11,8 @@
 typedef struct place {
     sl_portal_step at;
     uint32_t directed;
-    uint32_t step;          ///< that entered it
-    sl_crossings crossings; ///< of the portals so far
+    uint32_t step;            ///< that entered it
+    sl_directions directions; ///< of the portals so far
 } place;
 
 typedef struct recorder {
@@ -53,13 +55,13 @@ static sl_status cross(sl_context *context, void *job, const void *last, void *n
     place *to = next;
     const sl_space *space = r->search.space;
     const sl_directed_portal *directed = &space->directed[number];
-    *to = (place){.at.cell = directed->cell, .directed = number, .crossings = from->crossings};
+    *to = (place){.at.cell = directed->cell, .directed = number, .directions = from->directions};
     sl_step step = {.directed = number,
                     .cell = directed->cell,
                     .parent = from->step,
                     .depth = (uint32_t)r->search.count};
     if (r->options->inside_only && !space->cells[directed->cell].inside) return SL_OK;
-    if (!sl_crossings_add(space, &to->crossings, number)) {
+    if (!sl_directions_add(space, &to->directions, number)) {
         step.kind = SL_STEP_BACKWARDS;
         return add(context, r, step);
     }
@@ -90,7 +92,7 @@ static sl_status record(sl_context *context, recorder *r, uint32_t source) {
         .step_size = sizeof(place), .cross = cross, .leave = leave};
     SL_TRY(sl_portal_search_start(context, &r->search, sizeof(place)));
     place *first = r->search.steps;
-    *first = (place){.at.cell = source, .directed = UINT32_MAX, .crossings = SL_CROSSINGS_NONE};
+    *first = (place){.at.cell = source, .directed = UINT32_MAX, .directions = SL_NO_DIRECTIONS};
     SL_TRY(enter(context, r, first, (sl_step){.directed = UINT32_MAX, .cell = source}));
     return sl_portal_search_run(context, &r->search, &visitor, r);
 }

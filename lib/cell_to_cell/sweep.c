@@ -1,52 +1,22 @@
-/// The exact sweep: a line turns about every corner of walls, and notes at each cell that comes
-/// into its sight what it sees on the other side. No portal sequences, no solver; all signs by
-/// sl_orient, so that its answer is the depth-first search's with an exact solver, bit for bit.
+/// The sweep, the default method: a line rotates about every corner of walls (SWEEP.md).
 ///
-/// Which lines count. A sightline of closed sight is a directed line S that touches the closed
-/// segment of every portal of its sequence, such that one direction crosses all of them strictly
-/// forwards. S itself may run along a portal; its direction is then on the border of those that
-/// cross strictly, which form an open cone, and turning S a little to one side, clockwise or
-/// counter-clockwise, leads into the cone. So a sightline is a pair (S, turn), and what it may do
-/// is a matter of each portal alone: S crosses it strictly and touches it, or S runs along it and
-/// the turn crosses it forwards. Two cells see each other if for some (S, turn) the portals that it
-/// may cross lead from one to the other. Where S passes a corner of several cells, it may go round
-/// on either side as far as there are portals; along a wall it may go on either side of it. Open
-/// sight takes lines that pass strictly between the ends, and the turn does not matter.
+///      behind            A line through the corner w of a wall. While it rotates, cells come into
+///           .            the sight of one half, or leave it. A cell that comes into the sight of
+///            .           one half is joined with all cells that the other half sees.
+///     wall ###w
+///              .
+///               before
 ///
-/// About a point the pairs (S, turn) have an order: at each angle clockwise, then counter-clockwise
-/// (reach.h calls them levels). What can be seen through a portal from a point behind it is an
-/// interval of that order: from its right end, clockwise, to its left end, counter-clockwise; for a
-/// portal on a line with the point it is one pair. So cells are found by cutting intervals, with
-/// degenerate lines as intervals of one pair or two, and nothing is special about them.
+/// Idea: move a sightline between two cells until it touches a corner of a wall, or until it comes
+/// to a chosen corner of one of the cells. So two cells see each other exactly if a line through a
+/// wall's corner joins them while it rotates, or if the chosen corner of one of them sees the
+/// other.
 ///
-/// Why corners of walls, and one corner of each cell, are enough. Let A see B by a line that
-/// touches A in p and B in q. Move p within A to A's chosen corner c, and let the line follow, with
-/// q held. As long as the line passes no portal's end, its sequence stays. Where it passes an end w
-/// of a portal, it goes round w on the other side if portals lead round w there; else a wall ends
-/// at w, the line passes w beside that wall, and it is met when a line turns about w through all
-/// angles that leave the side of w free over half a turn. If nothing stops p, it comes to c, and
-/// the line is met when all is looked at from c. There the line may touch A in c alone; it goes
-/// round c through portals, so that what a direction sees counts for A if the edges of the cells
-/// between A and that direction are portals which the line crosses forwards: they are within half a
-/// turn of it (fans.h, sweep_fan.c).
+/// The method needs no portal sequences and no solver. It decides all signs by exact predicates,
+/// and gives the result of the depth-first search with an exact solver, bit for bit.
 ///
-/// Why half a turn is enough to look at from there. Stop p in A close by c, where it is no portal's
-/// end, and move q within B to B's chosen corner d in the same way. Either the line comes to pass
-/// beside a wall, or A and B are joined by lines as near to the one through c and d as one likes.
-/// Then c sees B near the direction to d, and d sees A near the opposite one, by the argument
-/// above. One of the two directions is above the horizon, or both lie along it: all directions from
-/// a little below it on the right to a little below it on the left are looked at. Where c is d,
-/// both are cells of one fan, which count as seen by each other. As all of A near c and all of B
-/// near d are joined, an open set of directions does: what lies along an edge of c's fan alone
-/// needs no look from c.
-///
-/// About w the line's backward half starts at the first edge of the free fan, its forward half
-/// there plus half a turn. Going round w counter-clockwise, the line crosses the edges between
-/// strictly; along the edge at the backward half's own angle it starts in the cell counter-
-/// clockwise of it and may cross the edge's portal if it is about to turn clockwise, and its
-/// forward half ends in the cell clockwise of its edge and may cross that if about to turn
-/// counter-clockwise. That is why the edges' angles themselves are left out of the sectors, on one
-/// side each, and looked at as rays of their own.
+/// Cost: for each corner, finding the intervals of angle at which cells are seen (visible.c), and
+/// one row operation for each interval. Corners are independent, and their results join by OR.
 #include "cell_to_cell/sweep.h"
 
 #include "base/threads.h"
@@ -63,8 +33,8 @@ static void end(sl_context *context, void *job, void *state) {
     pthread_mutex_lock(&all->lock);
     sl_bit_rows_join(context, &all->rows, &me->rows);
     sl_bit_rows_join(context, &all->seen_from, &me->seen_from);
-    all->pieces += me->reacher.pieces;
-    if (me->reacher.deepest > all->deepest) all->deepest = me->reacher.deepest;
+    all->pieces += me->finder.pieces;
+    if (me->finder.deepest > all->deepest) all->deepest = me->finder.deepest;
     pthread_mutex_unlock(&all->lock);
     sl_sweeper_destroy(context, me);
     sl_free(context, me);
@@ -153,9 +123,9 @@ enum { CORNERS_ASKED = 256 };
 /// generated cities, floors, mazes, caves and halls the two together come to 1.4 to 1.9.
 #define WORDS_A_WORD_SEEN 1.6
 
-static void add_cells(sl_word_set *set, const sl_reach *reach) {
-    for (size_t i = 0; i < reach->cells.count; i++)
-        sl_word_set_add(set, reach->cells.items[i].cell);
+static void add_cells(sl_word_set *set, const sl_visible *visible) {
+    for (size_t i = 0; i < visible->cells.count; i++)
+        sl_word_set_add(set, visible->cells.items[i].cell);
 }
 
 /// The words in which a row would have what is seen from the fan that was swept last.

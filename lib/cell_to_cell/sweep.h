@@ -1,19 +1,19 @@
-/// The turning line at one fan: what the sweep does for each.
+/// The sweep: what it does at one fan, and how its forms share the run over all fans (sweep.c).
 #ifndef SL_SWEEP_H
 #define SL_SWEEP_H
 
 #include "cell_to_cell/methods.h"
-#include "cell_to_cell/reach.h"
 #include "cell_to_cell/rows.h"
+#include "cell_to_cell/visible.h"
 
 #include <pthread.h>
 
 /// A cell of a fan, and what of its sector is looked through.
-typedef struct sl_sector {
+typedef struct sl_fan_sector {
     uint32_t cell;
     sl_bound low, high;
     bool thin; ///< the bounds are the same angle
-} sl_sector;
+} sl_fan_sector;
 
 /// Without one-way glass there is one set of fans, with it there are three.
 enum { SL_MOST_FAN_SETS = 3 };
@@ -27,14 +27,14 @@ typedef struct sl_sweeper {
     bool closed;
     sl_bit_rows rows;                    ///< what it finds: a fork
     sl_bit_rows seen_from;               ///< for one-way glass: from where cells are seen, a fork
-    sl_bit_rows *back_rows, *ahead_rows; ///< that get what the backward half and the forward half
-                                         ///< see, of the other; `rows`, but for one-way glass
-    sl_reacher reacher;
-    sl_reach back, middle, ahead;
+    sl_bit_rows *back_rows, *ahead_rows; ///< get what the backward half and the forward half see
+                                         ///< of each other; `rows`, but for one-way glass
+    sl_visible_finder finder;
+    sl_visible back, middle, ahead;
     sl_rays rays;
     sl_rays looks; ///< for one-way glass: what is seen through each cell of the fan at hand
     SL_ARRAY(uint32_t) passing; ///< scratch: cells that are seen along one ray only
-    SL_ARRAY(sl_sector) sectors;
+    SL_ARRAY(sl_fan_sector) sectors;
     sl_word_set behind, before;
 } sl_sweeper;
 

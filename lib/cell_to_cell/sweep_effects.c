@@ -1,8 +1,10 @@
-/// The sweep where the map has doors or a view range: it settles most pairs without a search. What
-/// it sees with all doors open bounds what is seen at all; what it sees with all doors shut is seen
-/// through none; cells whose nearest points are beyond the range do not see each other, those whose
-/// farthest points are within it may. Only pairs that are seen, and not so settled, are left to the
-/// depth-first search, which goes nowhere but towards them.
+/// The sweep for maps with doors or a view range: it decides most pairs, and a search the rest.
+///
+/// With all doors open the sweep sees every pair that can be seen at all. With all doors shut it
+/// sees the pairs that need no door. Cells whose nearest points are beyond the range do not see
+/// each other. Cells whose farthest points are within it need no test of the range. The depth-first
+/// search is left the pairs that are possible and not certain. It goes only where such a pair is
+/// left.
 #include "cell_to_cell/sweep.h"
 
 #include "cell_to_cell/dfs.h"

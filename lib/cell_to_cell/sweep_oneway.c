@@ -1,19 +1,18 @@
-/// The sweep where glass is one-way: what sweep.c says, of lines that have a direction.
+/// The sweep for maps with one-way glass: SWEEP.md, for lines that have a direction.
 ///
-/// A line that goes round a portal's end with the end at its left crosses the portals about it
-/// counter-clockwise, one with the end at its right clockwise: glass that ends there is a wall to
-/// one of them alone. So the proof of sweep.c holds for either, each with fans of its own, cut
-/// where its way is barred. About such a fan the backward half of the line sees cells from which
-/// sight comes to the point, the forward half those to which sight goes on: both by directed
-/// portals, taken the one way and the other. Lines that go clockwise are those that go
-/// counter-clockwise if all glass is turned round, backwards: what their halves see changes places.
+/// A line with a portal's end at its left crosses the portals round that end counter-clockwise. A
+/// line with the end at its right crosses them clockwise. Glass that ends there is a wall to one of
+/// the two. So the proof holds for either kind of line, each with fans of its own, which end where
+/// the glass is blocked. About such a fan the backward half of the line sees cells from which sight
+/// comes to the point. The forward half sees cells to which sight goes on. Clockwise lines are
+/// counter-clockwise ones with all glass turned round: their two halves change places.
 ///
-/// The proof moves one end of a line only, that in the cell that sees. So what a cell's corner sees
-/// is needed for the cell as the one that sees, not as the one that is seen; but there it needs all
-/// that can be turned to from the cell, both ways round.
+/// The proof moves one end of a line only, the one in the cell that sees. So what a cell's corner
+/// sees counts for that cell as the one that sees, not as the one that is seen. It must look at all
+/// directions that a line can turn to from the cell, both ways round.
 #include "cell_to_cell/pvs_rows.h"
-#include "cell_to_cell/reach.h"
 #include "cell_to_cell/sweep.h"
+#include "cell_to_cell/visible.h"
 
 /// The sets of fans: those that serve cells; those of lines that go round with the fan's point at
 /// their left; those with it at their right.
@@ -27,25 +26,25 @@ static sl_status look_along_edges(sl_context *context, sl_sweeper *s, const sl_f
     for (uint32_t k = 0; k < fan->count && s->closed; k++)
         for (int last = 0; last < 2; last++) {
             const sl_fan_edge along = {cells[k].cell, cells[k + (uint32_t)last].edge, last};
-            SL_TRY(sl_rays_add(context, &s->reacher, along, NULL, 0, &s->rays));
+            SL_TRY(sl_rays_add(context, &s->finder, along, NULL, 0, &s->rays));
         }
     return SL_OK;
 }
 
 static sl_bound first_bound(const sl_sweeper *s, const sl_fan_cell *cell) {
-    return (sl_bound){.end = cell->edge, .level = s->closed ? SL_COUNTER : SL_AFTER};
+    return (sl_bound){.end = cell->edge, .rank = s->closed ? SL_COUNTER : SL_AFTER};
 }
 
 static sl_bound last_bound(const sl_sweeper *s, const sl_fan_cell *cell) {
-    return (sl_bound){.end = cell[1].edge, .level = s->closed ? SL_CLOCKWISE : SL_BEFORE};
+    return (sl_bound){.end = cell[1].edge, .rank = s->closed ? SL_CLOCKWISE : SL_BEFORE};
 }
 
 static sl_status look_through(sl_context *context, sl_sweeper *s, const sl_fan_cell *cell,
                               sl_bound low, sl_bound high) {
-    sl_reach_clear(&s->middle);
-    SL_TRY(sl_reach_add(context, &s->reacher, cell->cell, low, high, &s->middle));
-    SL_TRY(sl_reach_through(context, &s->reacher, cell->cell, low, high, false, &s->middle));
-    return sl_reach_run(context, &s->reacher, &s->middle);
+    sl_visible_clear(&s->middle);
+    SL_TRY(sl_visible_add(context, &s->finder, cell->cell, low, high, &s->middle));
+    SL_TRY(sl_visible_through(context, &s->finder, cell->cell, low, high, false, &s->middle));
+    return sl_visible_run(context, &s->finder, &s->middle);
 }
 
 /// What is seen through each cell of a fan, all of it.
@@ -100,11 +99,11 @@ static sl_status turn_counter(sl_context *context, sl_sweeper *s, const sl_fan *
                               sl_word_set *set) {
     const sl_fan_cell *cells = s->fans->cells.items + fan->first;
     const sl_bound end = {
-        .end = cells[k + 1].edge, .away = true, .level = s->closed ? SL_CLOCKWISE : SL_BEFORE};
+        .end = cells[k + 1].edge, .away = true, .rank = s->closed ? SL_CLOCKWISE : SL_BEFORE};
     add_ray(s, k, true, set);
     uint32_t j = k;
     for (uint32_t left = fan->count - 1; left && step(s->fans, fan, true, &j); left--) {
-        const int within = sl_ends_turn(&s->reacher, cells[k + 1].edge, cells[j + 1].edge);
+        const int within = sl_ends_turn(&s->finder, cells[k + 1].edge, cells[j + 1].edge);
         if (within < 0) return add_part(context, s, &cells[j], first_bound(s, &cells[j]), end, set);
         add_listed(&s->looks, j, set);
         if (within == 0) break;
@@ -118,11 +117,11 @@ static sl_status turn_clockwise(sl_context *context, sl_sweeper *s, const sl_fan
                                 sl_word_set *set) {
     const sl_fan_cell *cells = s->fans->cells.items + fan->first;
     const sl_bound start = {
-        .end = cells[k].edge, .away = true, .level = s->closed ? SL_COUNTER : SL_AFTER};
+        .end = cells[k].edge, .away = true, .rank = s->closed ? SL_COUNTER : SL_AFTER};
     add_ray(s, k, false, set);
     uint32_t j = k;
     for (uint32_t left = fan->count - 1; left && step(s->fans, fan, false, &j); left--) {
-        const int within = sl_ends_turn(&s->reacher, cells[j].edge, cells[k].edge);
+        const int within = sl_ends_turn(&s->finder, cells[j].edge, cells[k].edge);
         if (within < 0)
             return add_part(context, s, &cells[j], start, last_bound(s, &cells[j]), set);
         add_listed(&s->looks, j, set);
@@ -134,8 +133,8 @@ static sl_status turn_clockwise(sl_context *context, sl_sweeper *s, const sl_fan
 
 static sl_status serve(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     const sl_fan_cell *cells = s->fans->cells.items + fan->first;
-    SL_TRY(sl_reacher_stand(context, &s->reacher, s->fans, fan->at));
-    s->reacher.fans = s->fans;
+    SL_TRY(sl_visible_finder_stand(context, &s->finder, s->fans, fan->at));
+    s->finder.fans = s->fans;
     SL_TRY(look_along_edges(context, s, fan));
     SL_TRY(look_through_all(context, s, fan));
     for (uint32_t k = 0; k < fan->count; k++) {

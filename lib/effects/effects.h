@@ -1,4 +1,4 @@
-/// One effect a file; the table lists them in the order of their bits.
+/// What effects do to the space before sight goes through it.
 #ifndef SL_EFFECTS_EFFECTS_H
 #define SL_EFFECTS_EFFECTS_H
 

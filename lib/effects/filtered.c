@@ -1,4 +1,5 @@
-/// The space for the time being: doors shut become walls, one-way glass loses directed portals.
+/// The space as sight finds it for the time being: the portals of shut doors become walls, and
+/// directed portals that one-way glass blocks are left out.
 #include "effects/effects.h"
 #include "geometry/orient.h"
 

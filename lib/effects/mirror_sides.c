@@ -1,3 +1,4 @@
+/// Finds the pieces of cells' boundaries that lie on mirrors, side by side and mirror by mirror.
 #include "effects/mirrors.h"
 
 #include "geometry/orient.h"

@@ -1,4 +1,9 @@
 /// Mirrors: what lies where in mirrored space, and which sides of cells reflect.
+///
+/// To look into a mirror from a place is to look at the map itself from the place's image, straight
+/// through the mirror. So nothing of the map need be mirrored. A view from one eye folds: the eye
+/// and the few points that bound its sight are reflected (sl_fold). A search over portal sequences
+/// unfolds: portals are placed in a frame of mirrored space, in which the sightline stays straight.
 #ifndef SL_MIRRORS_H
 #define SL_MIRRORS_H
 
@@ -19,7 +24,8 @@ sl_fine sl_fold(sl_segment mirror, const sl_fine *point, bool *rounded);
 
 // --- frames of mirrored space
 
-/// p goes to (xx p.x + xy p.y + x, yx p.x + yy p.y + y).
+/// A frame of mirrored space: where the map comes to lie after a number of reflections. A point p
+/// goes to (xx p.x + xy p.y + x, yx p.x + yy p.y + y).
 ///
 /// Reflections in axial mirrors only change signs and add: frames and places in them are exact as
 /// long as all sums are (coordinates with few bits, as those of drawings and games, always are).

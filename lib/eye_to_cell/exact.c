@@ -1,13 +1,13 @@
-/// Exact: depth-first over portal sequences, with the arc of directions in which a line through the
-/// eye and within the cone crosses all of the sequence. Each such line meets each portal within the
-/// cone, so that the cells are among those of the incident portals; and it is a sightline from the
-/// eye's cell, so that with exact visible sets these hold nothing back.
+/// The exact culling method: a depth-first search over portal sequences from the eye.
 ///
-/// Arcs that lead to the same cell by different sequences overlap at their borders at most (and
-/// where portals meet at the eye itself, which is passed on either side). So there are no more
-/// steps than pieces of cells that are seen, but for single rays, which may pass a point where
-/// portals meet on either side and again at the next: of all sequences that one ray has to a cell,
-/// one is followed for each side on which it may still cross portals along it.
+/// A step holds the arc of directions in which a line from the eye, within the view cone, crosses
+/// all portals of the sequence. Each such line is a sightline of the eye's cell. So with exact
+/// visible sets the search never leaves the visible set.
+///
+/// Arcs that lead to one cell by different sequences overlap in their borders at most. So there are
+/// no more steps than visible pieces of cells, but for single rays. A single ray may pass a point
+/// where portals meet on either side, and again at the next such point. Of all sequences that one
+/// ray has to a cell, one is followed for each side on which it may still cross portals along it.
 #include "eye_to_cell/eye_methods.h"
 #include "eye_to_cell/eye_search.h"
 

@@ -1,6 +1,6 @@
-/// The exact method by mirror: portal sequences as in exact.c, in which a mirror is one more portal
-/// that leads back into the cell before it. From there on the eye is its image in the mirror, and
-/// what is left of the cone is reflected with it: cells and portals stay where they are.
+/// The exact method by mirror: a mirror is one more portal, which leads back into the cell before
+/// it. Behind it the eye is its image in the mirror, and the rest of the arc is reflected with it.
+/// Cells and portals stay where they are.
 #include "eye_to_cell/eye_methods.h"
 #include "eye_to_cell/eye_search.h"
 

@@ -1,6 +1,8 @@
-/// The exact method down a stab tree: only sequences with a sightline are asked for one through the
-/// eye. Nodes come parents first; in the order of a depth-first search the nodes above the one at
-/// hand are all that need be kept, and where they come in another order that shows.
+/// The exact method down a stab tree: only sequences that have a sightline are tested from the eye.
+///
+/// The nodes of a tree come parents first, in the order of a depth-first search. So a stack of the
+/// nodes above the current one is enough. If the nodes come in another order, that shows, and the
+/// search over portals is used instead.
 #include "eye_to_cell/eye_search.h"
 
 #include <string.h>

@@ -1,6 +1,6 @@
 /// What is seen in mirrors: from the eye's image, straight through each piece of a mirror that was
 /// seen, into the room in front of it. The map stays where it is; the image and the rays that bound
-/// the piece are reflected (effects/fold.h).
+/// the piece are reflected (effects/mirrors.h).
 #include "sightline/mirrored.h"
 
 #include "effects/mirrors.h"

@@ -1,10 +1,10 @@
 /// Exact from-region visibility with an exact stabbing solver: a depth-first search over portal
-/// sequences from the face on, within the quadrant alone (Teller & Séquin 1991, Cell to Cell
-/// Visibility). A side of a leaf is stabbed as if it were one more portal.
+/// sequences from a face on, within one quadrant of directions (Teller & Séquin 1991). A side of a
+/// leaf is stabbed as if it were one more portal.
 ///
-/// In the plane the lines of a quadrant that leave by a face go through leaves in one way each, so
-/// that sequences share no inner lines and their number is bounded by the square of the number of
-/// portal ends: this is the exact solver of two dimensions, where three need Plücker space.
+/// In the plane the lines of a quadrant that leave by a face go through leaves in one way each. So
+/// sequences share no inner lines, and their number is at most the square of the number of portal
+/// ends. This is the exact solver of two dimensions, where three dimensions need Plücker space.
 #include "cell_to_cell/portal_search.h"
 #include "from_region/solver.h"
 
@@ -12,7 +12,7 @@
 
 typedef struct step {
     sl_portal_step at; ///< a leaf
-    sl_cone cone;
+    sl_direction_sector cone;
     bool grazing;
 } step;
 
@@ -57,8 +57,9 @@ static sl_status create(sl_context *context, const sl_regions *scene,
 }
 
 /// Whether the sequence with one more portal counts as seen; if not, it is popped.
-static sl_status push(sl_context *context, searcher *s, sl_portal_ends ends, const sl_cone *cone,
-                      bool grazing_before, bool *seen, bool *grazing) {
+static sl_status push(sl_context *context, searcher *s, sl_portal_ends ends,
+                      const sl_direction_sector *cone, bool grazing_before, bool *seen,
+                      bool *grazing) {
     const sl_solver *solver = s->search.solver;
     sl_stab_verdict verdict;
     SL_TRY(sl_portal_search_push(context, &s->search, ends.left, ends.right, &verdict));
@@ -79,9 +80,9 @@ static sl_status try_items(sl_context *context, searcher *s, const step *at) {
         if (!sl_bits_has(s->left, item->object)) continue;
         const sl_portal_ends ends = sl_item_ends(item, s->query->quadrant);
         const sl_directed_portal as_portal = {.left = ends.left, .right = ends.right};
-        sl_cone cone = at->cone;
+        sl_direction_sector cone = at->cone;
         if (ends.left.x == ends.right.x && ends.left.y == ends.right.y) continue;
-        if (!sl_cone_cut(&cone, &as_portal)) continue;
+        if (!sl_direction_sector_cut(&cone, &as_portal)) continue;
         bool stabbed, grazing;
         s->account->rays++;
         SL_TRY(push(context, s, ends, &cone, at->grazing, &stabbed, &grazing));
@@ -106,7 +107,7 @@ static sl_status cross(sl_context *context, void *job, const void *last, void *n
     if (scene->passes[s->query->quadrant].leaves.faces[number] == SL_NO_FACE) return SL_OK;
     *to = (step){.at.cell = directed->cell, .cone = from->cone};
     bool stabbed;
-    if (!sl_cone_cut(&to->cone, directed)) return SL_OK;
+    if (!sl_direction_sector_cut(&to->cone, directed)) return SL_OK;
     if (++s->account->rays % 64 == 0) SL_TRY(sl_check_cancelled(context));
     SL_TRY(push(context, s, (sl_portal_ends){directed->left, directed->right}, &to->cone,
                 from->grazing, &stabbed, &to->grazing));

@@ -1,7 +1,10 @@
-/// Conflicts: a line with all left ends at its left and all right ends at its right exists exactly
-/// if the hulls of the two do not overlap. So the ends that prove there is none are those of a
-/// place where the hulls meet: two edges that cross, or a corner of one within a triangle of the
-/// other.
+/// Conflicts: the few portal ends that prove that no line stabs a sequence.
+///
+/// A line with all left ends at its left and all right ends at its right exists exactly if the
+/// convex hulls of the two sets do not overlap. So a proof that there is none is a place where the
+/// hulls meet: two edges that cross, or a corner of one hull in a triangle of the other (Radon's
+/// theorem). That is four ends, or fewer where ends coincide. Cost: the product of the numbers of
+/// hull corners.
 #include "stab/conflict.h"
 
 #include "geometry/orient.h"

@@ -1,24 +1,23 @@
-/// The incremental exact solver: the two convex chains between which the line may swing.
+/// The funnel: the incremental exact solver.
 ///
-/// The lines that stab a sequence form a convex polygon in the plane of lines. Its corners are
-/// lines through two portal ends; an edge of it is a turn about one end. Going round, the line
-/// first turns clockwise about left ends (the left chain), then back about right ends (the right
-/// chain), so that the list of corners is the funnel. A new end is a half-plane that cuts the
-/// polygon: an orientation test a corner says what it cuts off, and each new corner is the line
-/// through the new end and the end of the edge that it cuts. No coordinate is ever computed: all is
-/// decided by exact orientation tests on portal ends, and directions follow from the order round
-/// the polygon.
+/// The lines that stab a sequence form a convex polygon in the plane of lines (dual.c). A corner of
+/// it is a line through two portal ends. An edge of it is a rotation about one end. Going round the
+/// polygon, the line first rotates clockwise about left ends (the left chain), then back about
+/// right ends (the right chain). So the list of corners is the funnel between two convex chains.
 ///
-/// The polygon has inner points, and the sequence a line strictly between its ends, exactly if it
-/// had them before the cut and some corner lies strictly inside the new half-plane. Without inner
-/// points what is left is a single line or a turn about one point: lines that graze.
+/// A new end is a half-plane that cuts the polygon. One orientation test for each corner says what
+/// the cut takes off. Each new corner is the line through the new end and the end of the edge that
+/// is cut. No coordinate is ever computed: everything is an orientation test on portal ends.
 ///
-/// While all ends lie on one line (the first portal's) the lines through it form no polygon but all
-/// that crosses an interval of it; the first end off that line makes them one.
+/// Invariant: the list is the polygon of all lines that stab the sequence. The polygon has inner
+/// points, and the sequence a line strictly between its ends, exactly if it had them before the cut
+/// and some corner lies strictly inside the new half-plane. Without inner points a single line or a
+/// rotation about one point is left: lines that graze. While all ends lie on one line, the first
+/// portal's, there is no polygon yet but an interval of that line.
 ///
-/// Cost: a push takes two orientation tests for each corner of the list, of which there are three
-/// to five in floor plans, and four of which are tested at once; a list is copied only when it is
-/// cut, so that a pop restores the old one.
+/// Cost: two orientation tests for each corner of the list. In floor plans there are three to five
+/// corners, and four are tested at once. A list is copied only when it is cut, so that a pop
+/// restores the old one.
 #include "stab/funnel.h"
 #include "geometry/orient.h"
 #include "sightline/solvers.h"

@@ -15,8 +15,8 @@
 #include <string.h>
 
 typedef struct step {
-    uint32_t room, next; ///< side to try next, from 0
-    sl_cone cone;        ///< directions that cross all portals so far
+    uint32_t room, next;      ///< side to try next, from 0
+    sl_direction_sector cone; ///< directions that cross all portals so far
 } step;
 
 struct sl_view_looker {
@@ -97,10 +97,11 @@ sl_view_work sl_view_looker_work(sl_view_looker *me) {
     return work;
 }
 
-sl_cone sl_view_quadrant(int quadrant) {
+sl_direction_sector sl_view_quadrant(int quadrant) {
     static const sl_point ways[SL_VIEW_QUADRANTS] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     const sl_point zero = {0, 0};
-    return (sl_cone){{zero, ways[quadrant]}, {zero, ways[(quadrant + 1) % SL_VIEW_QUADRANTS]}};
+    return (sl_direction_sector){{zero, ways[quadrant]},
+                                 {zero, ways[(quadrant + 1) % SL_VIEW_QUADRANTS]}};
 }
 
 // --- candidates
@@ -158,7 +159,7 @@ static double turn(sl_point a, sl_point b) {
 
 /// From where in the piece the lines of the sequence as it stands pass.
 static sl_view_extent find_extent(const sl_view_looker *me, const sl_view_piece *piece,
-                                  sl_cone sector) {
+                                  sl_direction_sector sector) {
     const uint32_t count = sl_funnel_corner_count(me->solver);
     sl_view_extent extent = sl_view_no_extent();
     if (!count) return piece->box;
@@ -188,7 +189,7 @@ typedef struct look {
     const sl_view_pieces *pieces;
     sl_view_looker *me;
     const sl_view_piece *piece;
-    sl_cone sector;
+    sl_direction_sector sector;
     bool east, north; ///< where the quadrant's directions go
     bool limited;     ///< to objects that are asked for
     sl_view_directed *out;
@@ -225,7 +226,8 @@ static sl_status add_room(look *l, uint32_t room) {
 }
 
 /// Whether lines of the sequence and the sector pass a side as well; on SL_OK it is to be popped.
-static sl_status push(look *l, const sl_room_side *side, const sl_cone *cone, bool *seen) {
+static sl_status push(look *l, const sl_room_side *side, const sl_direction_sector *cone,
+                      bool *seen) {
     sl_context *context = l->me->context;
     sl_stab_verdict verdict;
     if (++l->me->work.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
@@ -264,7 +266,7 @@ static sl_status try_side(look *l, const sl_room_side *side) {
         if (me->steps.count == 1) return SL_OK;
         if (l->limited && me->asked[side->object] != me->looking) return SL_OK;
     }
-    if (!sl_cone_cut(&to.cone, &directed)) return SL_OK;
+    if (!sl_direction_sector_cut(&to.cone, &directed)) return SL_OK;
     bool seen;
     SL_TRY(push(l, side, &to.cone, &seen));
     if (seen && side->object != SL_NO_OBJECT) SL_TRY(add_object(l, side->object));
@@ -280,7 +282,7 @@ static sl_status try_side(look *l, const sl_room_side *side) {
 
 /// The corner that no other is farther left of (or right of), going in any direction of a sector in
 /// which that is the same one.
-static sl_point utmost(const sl_view_piece *piece, sl_cone sector, int side) {
+static sl_point utmost(const sl_view_piece *piece, sl_direction_sector sector, int side) {
     sl_point best = piece->corners.items[0];
     for (size_t i = 1; i < piece->corners.count; i++) {
         const sl_point p = piece->corners.items[i];
@@ -332,7 +334,7 @@ static sl_status add_bound(sl_context *context, sl_view_looker *me, sl_line way)
 /// Cuts a quadrant at the directions of the piece's sides.
 static sl_status find_sectors(sl_context *context, sl_view_looker *me, const sl_view_piece *piece,
                               int quadrant) {
-    const sl_cone all = sl_view_quadrant(quadrant);
+    const sl_direction_sector all = sl_view_quadrant(quadrant);
     me->bounds.count = 0;
     SL_TRY(SL_ARRAY_ROOM(context, &me->bounds, 2));
     me->bounds.items[me->bounds.count++] = all.right;
@@ -364,7 +366,7 @@ sl_status sl_view_look(sl_view_looker *me, const sl_view_piece *piece, int quadr
               .limited = objects != NULL,
               .out = out};
     for (size_t i = 0; i + 1 < me->bounds.count; i++) {
-        l.sector = (sl_cone){me->bounds.items[i], me->bounds.items[i + 1]};
+        l.sector = (sl_direction_sector){me->bounds.items[i], me->bounds.items[i + 1]};
         SL_TRY(look_into_sector(&l));
     }
     me->work.looks++;

@@ -49,9 +49,10 @@ static uint32_t fill_graph(const sl_view_rooms *rooms, int quadrant, uint32_t *f
     for (uint32_t room = 0; room < rooms->count; room++) {
         for (uint32_t i = rooms->first_side[room]; i < rooms->first_side[room + 1]; i++) {
             const sl_room_side *side = &rooms->sides[i];
-            sl_cone cone = sl_view_quadrant(quadrant);
+            sl_direction_sector cone = sl_view_quadrant(quadrant);
             const sl_directed_portal directed = {.left = side->left, .right = side->right};
-            if (side->room != SL_NO_ROOM && sl_cone_cut(&cone, &directed)) to[count++] = side->room;
+            if (side->room != SL_NO_ROOM && sl_direction_sector_cut(&cone, &directed))
+                to[count++] = side->room;
         }
         first[room + 1] = count;
     }

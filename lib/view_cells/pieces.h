@@ -113,7 +113,7 @@ static inline void sl_view_work_add(sl_view_work *work, const sl_view_work *more
 }
 
 /// The directions of a quadrant: 0 from east to north, and on round.
-sl_cone sl_view_quadrant(int quadrant);
+sl_direction_sector sl_view_quadrant(int quadrant);
 
 /// No room is a candidate, and all objects are.
 void sl_view_look_begin(sl_view_looker *looker);
