@@ -401,7 +401,7 @@ static sl_status pass_all(sl_context *context, multipass *all) {
 
 /// Of rounded solvers: what is sure is not doubtful, and with closed sight what is doubtful is
 /// seen.
-static sl_status settle_rounded(sl_context *context, multipass *all, sl_visibility *out) {
+static sl_status finish_rounded(sl_context *context, multipass *all, sl_visibility *out) {
     sl_visibility sure = {0}, doubtful = {0};
     sl_status status = sl_bit_rows_encode(context, &all->sure, &sure);
     if (status == SL_OK) status = sl_bit_rows_encode(context, &all->doubtful, &doubtful);
@@ -412,8 +412,8 @@ static sl_status settle_rounded(sl_context *context, multipass *all, sl_visibili
     return status;
 }
 
-static sl_status settle(sl_context *context, multipass *all, sl_visibility *out) {
-    if (all->rounded) return settle_rounded(context, all, out);
+static sl_status finish(sl_context *context, multipass *all, sl_visibility *out) {
+    if (all->rounded) return finish_rounded(context, all, out);
     SL_TRY(sl_bit_rows_mirror(context, &all->sure, SL_ADD_MIRRORED));
     return sl_bit_rows_encode(context, &all->sure, out);
 }
@@ -426,7 +426,7 @@ static sl_status see(sl_context *context, multipass *all, sl_visibility *out) {
     if (all->rounded) SL_TRY(sl_bit_rows_create(context, count, all->options, &all->doubtful));
     SL_TRY(pass_all(context, all));
     out->account = all->account;
-    return settle(context, all, out);
+    return finish(context, all, out);
 }
 
 sl_status sl_see_multipass(sl_context *context, const sl_space *space,

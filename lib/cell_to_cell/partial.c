@@ -205,7 +205,7 @@ static sl_status add_open(sl_context *context, const sl_space *space, const sl_s
     return status;
 }
 
-static sl_status settle(sl_context *context, const sl_space *space, const sl_see_options *options,
+static sl_status finish(sl_context *context, const sl_space *space, const sl_see_options *options,
                         const sl_partial *partial, bool prunes, sl_visibility *out) {
     if (!options->solver) return sl_fail(context, SL_BAD_ARGUMENT, "the searches need a solver");
     const sl_guarantee guarantee = options->solver->guarantee;
@@ -231,12 +231,12 @@ static sl_status settle(sl_context *context, const sl_space *space, const sl_see
 
 sl_status sl_finish_dfs(sl_context *context, const sl_space *space, const sl_see_options *options,
                         const sl_partial *partial, sl_visibility *out) {
-    return settle(context, space, options, partial, false, out);
+    return finish(context, space, options, partial, false, out);
 }
 
 sl_status sl_finish_prune(sl_context *context, const sl_space *space, const sl_see_options *options,
                           const sl_partial *partial, sl_visibility *out) {
-    return settle(context, space, options, partial, true, out);
+    return finish(context, space, options, partial, true, out);
 }
 
 sl_status sl_reuse_search(sl_context *context, const sl_space *space, const sl_see_options *options,

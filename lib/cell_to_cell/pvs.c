@@ -306,7 +306,7 @@ static uint64_t count_bits(const sl_bits *set, size_t words) {
     return count;
 }
 
-static sl_status settle_row(sl_context *context, const both_ways *in, result_rows *rows,
+static sl_status finish_row(sl_context *context, const both_ways *in, result_rows *rows,
                             uint32_t cell, sl_visibility *out) {
     const uint32_t count = in->sure->cell_count;
     const size_t words = sl_bits_words(count);
@@ -325,7 +325,7 @@ static sl_status settle_row(sl_context *context, const both_ways *in, result_row
     return sl_row_append(context, &rows->seen[cell], rows->set, count);
 }
 
-static sl_status settle_rows(sl_context *context, const both_ways *in, result_rows *rows,
+static sl_status finish_rows(sl_context *context, const both_ways *in, result_rows *rows,
                              sl_visibility *out) {
     const uint32_t count = in->sure->cell_count;
     rows->seen = sl_alloc_array(context, count, sizeof *rows->seen);
@@ -333,7 +333,7 @@ static sl_status settle_rows(sl_context *context, const both_ways *in, result_ro
     rows->set = sl_alloc_array(context, sl_bits_words(count), sizeof *rows->set);
     rows->open = sl_alloc_array(context, sl_bits_words(count), sizeof *rows->open);
     if (!rows->seen || !rows->doubtful || !rows->set || !rows->open) return SL_NO_MEMORY;
-    for (uint32_t cell = 0; cell < count; cell++) SL_TRY(settle_row(context, in, rows, cell, out));
+    for (uint32_t cell = 0; cell < count; cell++) SL_TRY(finish_row(context, in, rows, cell, out));
     SL_TRY(sl_pvs_join(context, rows->seen, count, &out->pvs));
     return sl_pvs_join(context, rows->doubtful, count, &out->doubtful);
 }
@@ -345,7 +345,7 @@ sl_status sl_visibility_finish(sl_context *context, const sl_pvs *sure, const sl
     sl_status status = SL_OK;
     if (mutual) status = sl_pvs_transpose(context, sure, &in.sure_back);
     if (mutual && status == SL_OK) status = sl_pvs_transpose(context, doubtful, &in.doubtful_back);
-    if (status == SL_OK) status = settle_rows(context, &in, &rows, out);
+    if (status == SL_OK) status = finish_rows(context, &in, &rows, out);
     sl_pvs_destroy(context, &in.sure_back);
     sl_pvs_destroy(context, &in.doubtful_back);
     for (uint32_t i = 0; i < sure->cell_count; i++) {

@@ -87,7 +87,7 @@ sl_status sl_sweep_run(sl_context *context, sl_sweep *all) {
     return sl_work_run(context, &work, units, all->options->threads);
 }
 
-void sl_sweep_destroy(sl_context *context, sl_sweep *all) {
+static void destroy_sweep(sl_context *context, sl_sweep *all) {
     for (uint32_t set = 0; set < SL_MOST_FAN_SETS; set++) sl_fans_destroy(context, &all->fans[set]);
     sl_bit_rows_destroy(context, &all->rows);
     sl_bit_rows_destroy(context, &all->seen_from);
@@ -107,7 +107,7 @@ sl_status sl_sweep_see(sl_context *context, const sl_space *space, const sl_see_
         visibility.account.deepest = all.deepest;
         status = sl_sweep_finish(context, space, options, &all.rows, &visibility);
     }
-    sl_sweep_destroy(context, &all);
+    destroy_sweep(context, &all);
     if (status == SL_OK)
         *out = visibility;
     else
@@ -261,6 +261,6 @@ sl_status sl_run_sweep(sl_context *context, const sl_space *space, const sl_see_
     pthread_mutex_init(&all.lock, NULL);
     const sl_status status = sweep_some(context, &all, partial);
     pthread_mutex_destroy(&all.lock);
-    sl_sweep_destroy(context, &all);
+    destroy_sweep(context, &all);
     return status;
 }

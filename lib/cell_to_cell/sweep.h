@@ -46,6 +46,16 @@ sl_status sl_sweeper_create(sl_context *context, const sl_fans *fans, bool close
 /// Its rows must have been joined.
 void sl_sweeper_destroy(sl_context *context, sl_sweeper *sweeper);
 
+/// The first and the last direction of a sector between two edges. Directions along an edge belong
+/// to rays.
+static inline sl_bound sl_after_edge(const sl_sweeper *sweeper, uint32_t end) {
+    return (sl_bound){.end = end, .rank = sweeper->closed ? SL_COUNTER : SL_AFTER};
+}
+
+static inline sl_bound sl_before_edge(const sl_sweeper *sweeper, uint32_t end) {
+    return (sl_bound){.end = end, .rank = sweeper->closed ? SL_CLOCKWISE : SL_BEFORE};
+}
+
 /// Adds to the rows all pairs that lines through the fan's point join while it turns beside the
 /// walls' corner, and what the point sees for the cells that it serves. Pairs may be added one way
 /// only.
@@ -66,8 +76,6 @@ typedef struct sl_sweep {
     uint64_t pieces;
     uint32_t deepest;
 } sl_sweep;
-
-void sl_sweep_destroy(sl_context *context, sl_sweep *all);
 
 /// Visits all fans, by all threads.
 sl_status sl_sweep_run(sl_context *context, sl_sweep *all);

@@ -37,8 +37,8 @@ static sl_status narrow(sl_context *context, const sl_space *space, double range
     return SL_OK;
 }
 
-static sl_status settle(sl_context *context, const sl_space *space, const sl_see_options *options,
-                        sl_visibility *open, sl_visibility *shut, sl_visibility *out) {
+static sl_status see_all(sl_context *context, const sl_space *space, const sl_see_options *options,
+                         sl_visibility *open, sl_visibility *shut, sl_visibility *out) {
     const sl_plan *plan = options->plan;
     sl_plan ways = *plan;
     ways.effects &= SL_EFFECT_ONEWAY;
@@ -63,7 +63,7 @@ static sl_status settle(sl_context *context, const sl_space *space, const sl_see
 sl_status sl_see_sweep_finished(sl_context *context, const sl_space *space,
                                 const sl_see_options *options, sl_visibility *out) {
     sl_visibility open = {0}, shut = {0};
-    const sl_status status = settle(context, space, options, &open, &shut, out);
+    const sl_status status = see_all(context, space, options, &open, &shut, out);
     sl_visibility_destroy(context, &open);
     sl_visibility_destroy(context, &shut);
     return status;

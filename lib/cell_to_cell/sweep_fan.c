@@ -43,15 +43,6 @@ void sl_sweeper_destroy(sl_context *context, sl_sweeper *s) {
 
 // --- three parts of a fan
 
-/// The ranks at which sectors start and end. Edges that the line runs along belong to rays.
-static sl_bound after_edge(const sl_sweeper *s, uint32_t end) {
-    return (sl_bound){.end = end, .rank = s->closed ? SL_COUNTER : SL_AFTER};
-}
-
-static sl_bound before_edge(const sl_sweeper *s, uint32_t end) {
-    return (sl_bound){.end = end, .rank = s->closed ? SL_CLOCKWISE : SL_BEFORE};
-}
-
 /// Finds what is seen through the sectors that were added.
 static sl_status look(sl_context *context, sl_sweeper *s, sl_visible *visible) {
     for (size_t i = 0; i < s->sectors.count; i++) {
@@ -94,8 +85,8 @@ static sl_status find_back(sl_context *context, sl_sweeper *s, const sl_fan *fan
     for (uint32_t k = 0; k < fan->count && cells[k].past_rest <= (s->closed ? 0 : -1); k++) {
         const bool whole = cells[k + 1].past_rest <= 0;
         const sl_fan_sector sector = {.cell = cells[k].cell,
-                                      .low = after_edge(s, cells[k].edge),
-                                      .high = whole ? before_edge(s, cells[k + 1].edge) : end,
+                                      .low = sl_after_edge(s, cells[k].edge),
+                                      .high = whole ? sl_before_edge(s, cells[k + 1].edge) : end,
                                       .thin = cells[k].past_rest == 0};
         SL_TRY(add_sector(context, s, sector, cells[k + 1].past_rest < 0, &s->back));
     }
@@ -115,11 +106,11 @@ static sl_status find_ahead(sl_context *context, sl_sweeper *s, const sl_fan *fa
     const sl_bound start = {
         .end = cells[0].edge, .away = true, .rank = s->closed ? SL_CLOCKWISE : SL_AFTER};
     for (uint32_t k = first_ahead(s, fan); k < fan->count; k++) {
-        const sl_fan_sector sector = {.cell = cells[k].cell,
-                                      .low = cells[k].past_half >= 0 ? after_edge(s, cells[k].edge)
-                                                                     : start,
-                                      .high = before_edge(s, cells[k + 1].edge),
-                                      .thin = cells[k + 1].past_half == 0};
+        const sl_fan_sector sector = {
+            .cell = cells[k].cell,
+            .low = cells[k].past_half >= 0 ? sl_after_edge(s, cells[k].edge) : start,
+            .high = sl_before_edge(s, cells[k + 1].edge),
+            .thin = cells[k + 1].past_half == 0};
         SL_TRY(add_sector(context, s, sector, cells[k].past_half > 0, &s->ahead));
     }
     return look_sorted(context, s, &s->ahead);
@@ -167,8 +158,8 @@ static sl_status find_middle(sl_context *context, sl_sweeper *s, const sl_fan *f
     const sl_bound end = {.end = cells[0].edge, .away = true, .rank = SL_BEFORE};
     for (uint32_t k = 0; k < fan->count; k++) {
         sl_fan_sector sector = {.cell = cells[k].cell,
-                                .low = after_edge(s, cells[k].edge),
-                                .high = before_edge(s, cells[k + 1].edge)};
+                                .low = sl_after_edge(s, cells[k].edge),
+                                .high = sl_before_edge(s, cells[k + 1].edge)};
         if (fan->wide && (cells[k + 1].past_rest <= 0 || cells[k].past_half >= 0)) continue;
         if (fan->wide && cells[k].past_rest < 0) sector.low = start;
         if (fan->wide && cells[k + 1].past_half > 0) sector.high = end;

@@ -31,14 +31,6 @@ static sl_status look_along_edges(sl_context *context, sl_sweeper *s, const sl_f
     return SL_OK;
 }
 
-static sl_bound first_bound(const sl_sweeper *s, const sl_fan_cell *cell) {
-    return (sl_bound){.end = cell->edge, .rank = s->closed ? SL_COUNTER : SL_AFTER};
-}
-
-static sl_bound last_bound(const sl_sweeper *s, const sl_fan_cell *cell) {
-    return (sl_bound){.end = cell[1].edge, .rank = s->closed ? SL_CLOCKWISE : SL_BEFORE};
-}
-
 static sl_status look_through(sl_context *context, sl_sweeper *s, const sl_fan_cell *cell,
                               sl_bound low, sl_bound high) {
     sl_visible_clear(&s->middle);
@@ -55,8 +47,8 @@ static sl_status look_through_all(sl_context *context, sl_sweeper *s, const sl_f
     SL_TRY(SL_ARRAY_ROOM(context, &looks->starts, fan->count + 1));
     looks->starts.items[looks->starts.count++] = 0;
     for (uint32_t k = 0; k < fan->count; k++) {
-        SL_TRY(look_through(context, s, &cells[k], first_bound(s, &cells[k]),
-                            last_bound(s, &cells[k])));
+        SL_TRY(look_through(context, s, &cells[k], sl_after_edge(s, cells[k].edge),
+                            sl_before_edge(s, cells[k + 1].edge)));
         SL_TRY(SL_ARRAY_ROOM(context, &looks->cells, s->middle.cells.count));
         for (size_t i = 0; i < s->middle.cells.count; i++)
             looks->cells.items[looks->cells.count++] = s->middle.cells.items[i].cell;
@@ -104,7 +96,8 @@ static sl_status turn_counter(sl_context *context, sl_sweeper *s, const sl_fan *
     uint32_t j = k;
     for (uint32_t left = fan->count - 1; left && step(s->fans, fan, true, &j); left--) {
         const int within = sl_ends_turn(&s->finder, cells[k + 1].edge, cells[j + 1].edge);
-        if (within < 0) return add_part(context, s, &cells[j], first_bound(s, &cells[j]), end, set);
+        if (within < 0)
+            return add_part(context, s, &cells[j], sl_after_edge(s, cells[j].edge), end, set);
         add_listed(&s->looks, j, set);
         if (within == 0) break;
         add_ray(s, j, true, set);
@@ -123,7 +116,8 @@ static sl_status turn_clockwise(sl_context *context, sl_sweeper *s, const sl_fan
     for (uint32_t left = fan->count - 1; left && step(s->fans, fan, false, &j); left--) {
         const int within = sl_ends_turn(&s->finder, cells[j].edge, cells[k].edge);
         if (within < 0)
-            return add_part(context, s, &cells[j], start, last_bound(s, &cells[j]), set);
+            return add_part(context, s, &cells[j], start, sl_before_edge(s, cells[j + 1].edge),
+                            set);
         add_listed(&s->looks, j, set);
         if (within == 0) break;
         add_ray(s, j, false, set);

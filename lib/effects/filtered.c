@@ -16,7 +16,7 @@ typedef struct maker {
 
 /// Going from its a to its b, glass is seen through from its right to its left. A straight line
 /// that crosses it comes from the side that the eye is on; an eye on its line is where its cell is.
-static bool is_dark(const maker *m, const sl_segment *glass) {
+static bool is_blocked(const maker *m, const sl_segment *glass) {
     const int side = sl_orient(glass->a, glass->b, *m->filtered->eye);
     if (side || m->eye_cell == SL_NO_CELL) return side > 0;
     const sl_cell *cell = &m->from->cells[m->eye_cell];
@@ -33,7 +33,7 @@ static bool is_shut(const maker *m, uint32_t portal) {
         const sl_seam *seam = &m->from->seams[on[i].seam];
         if (seam->kind == SL_SEAM_DOOR && m->filtered->shut && m->filtered->shut[seam->number])
             return true;
-        if (seam->kind == SL_SEAM_ONEWAY && m->filtered->eye && is_dark(m, &seam->at)) return true;
+        if (seam->kind == SL_SEAM_ONEWAY && m->filtered->eye && is_blocked(m, &seam->at)) return true;
     }
     return false;
 }

@@ -130,7 +130,7 @@ static sl_status bound_open(sl_context *context, const sl_space *space,
 
 // --- the result
 
-static sl_status settle_rows(sl_context *context, const sl_space *space,
+static sl_status finish_rows(sl_context *context, const sl_space *space,
                              const sl_see_options *options, const sl_partial *partial,
                              sl_bit_rows *rows, sl_visibility *out) {
     SL_TRY(sl_bit_rows_create(context, space->cell_count, options, rows));
@@ -147,7 +147,7 @@ sl_status sl_finish_sweep(sl_context *context, const sl_space *space, const sl_s
     sl_visibility visibility = {.sight = options->sight, .guarantee = SL_EXACT};
     if (partial->sure.cell_count != space->cell_count)
         return sl_fail(context, SL_BAD_ARGUMENT, "findings of another space or other options");
-    const sl_status status = settle_rows(context, space, options, partial, &rows, &visibility);
+    const sl_status status = finish_rows(context, space, options, partial, &rows, &visibility);
     sl_bit_rows_destroy(context, &rows);
     if (status == SL_OK)
         *out = visibility;
