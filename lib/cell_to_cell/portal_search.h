@@ -100,21 +100,19 @@ static inline sl_status sl_portal_search_run(sl_context *context, sl_portal_sear
                                              const sl_portal_visitor *visitor, void *job) {
     const size_t size = visitor->step_size;
     while (search->count && !search->stop) {
-        sl_portal_step *last = sl_portal_search_step(search, size, search->count - 1);
-        if (last->next == 0) {
-            SL_TRY(sl_portal_search_room(context, search, size));
-            last = sl_portal_search_step(search, size, search->count - 1);
-        }
-        void *to = sl_portal_search_step(search, size, search->count);
+        SL_TRY(sl_portal_search_room(context, search, size));
+        const size_t count = search->count;
+        sl_portal_step *last = sl_portal_search_step(search, size, count - 1);
+        void *to = sl_portal_search_step(search, size, count);
         const sl_cell *cell = &search->space->cells[last->cell];
-        const uint32_t next = last->next++;
-        if (next < cell->directed_count) {
-            SL_TRY(visitor->cross(context, job, last, to, cell->first_directed + next));
-            continue;
-        }
+        while (last->next < cell->directed_count && search->count == count && !search->stop)
+            SL_TRY(visitor->cross(context, job, last, to, cell->first_directed + last->next++));
+        if (search->count != count || search->stop) continue;
         if (visitor->reflect && search->mirrors) {
-            const uint32_t side = search->mirrors->first[last->cell] + next - cell->directed_count;
+            const uint32_t side =
+                search->mirrors->first[last->cell] + last->next - cell->directed_count;
             if (side < search->mirrors->first[last->cell + 1]) {
+                last->next++;
                 SL_TRY(visitor->reflect(context, job, last, to, side));
                 continue;
             }
