@@ -33,7 +33,8 @@ static bool is_shut(const maker *m, uint32_t portal) {
         const sl_seam *seam = &m->from->seams[on[i].seam];
         if (seam->kind == SL_SEAM_DOOR && m->filtered->shut && m->filtered->shut[seam->number])
             return true;
-        if (seam->kind == SL_SEAM_ONEWAY && m->filtered->eye && is_blocked(m, &seam->at)) return true;
+        if (seam->kind == SL_SEAM_ONEWAY && m->filtered->eye && is_blocked(m, &seam->at))
+            return true;
     }
     return false;
 }
