@@ -10,31 +10,31 @@ enum { TAG = 1, MOST_AT_ONCE = 1 << 30 };
 /// as the process is one of MPI's only once.
 static bool failed;
 
-void sl_crew_begin(int *argc, char ***argv) {
+void crew_begin(int *argc, char ***argv) {
     int provided;
     // Threads look; the one that began all talks to the others.
     MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &provided);
 }
 
-void sl_crew_end(void) {
+void crew_end(void) {
     MPI_Finalize();
 }
 
-uint32_t sl_crew_rank(void) {
+uint32_t crew_rank(void) {
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     return (uint32_t)rank;
 }
 
-uint32_t sl_crew_size(void) {
+uint32_t crew_size(void) {
     int size = 1;
     MPI_Comm_size(MPI_COMM_WORLD, &size);
     return (uint32_t)size;
 }
 
-sl_status sl_crew_agree(sl_context *context, sl_status mine) {
+sl_status crew_agree(sl_context *context, sl_status mine) {
     if (failed) return mine;
-    const int rank = (int)sl_crew_rank(), size = (int)sl_crew_size();
+    const int rank = (int)crew_rank(), size = (int)crew_size();
     int first = mine == SL_OK ? size : rank;
     MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
     if (first == size) return SL_OK;
@@ -110,8 +110,8 @@ static sl_status take_from(sl_context *context, sl_partial *partial, int from) {
 }
 
 /// In pairs, in pairs of pairs and so on, so that it takes as many rounds as the size has bits.
-sl_status sl_crew_join(sl_context *context, sl_partial *partial) {
-    const int rank = (int)sl_crew_rank(), size = (int)sl_crew_size();
+sl_status crew_join(sl_context *context, sl_partial *partial) {
+    const int rank = (int)crew_rank(), size = (int)crew_size();
     for (int step = 1; step < size; step *= 2) {
         if (rank % (2 * step)) {
             send_partial(partial, rank - step);

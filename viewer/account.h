@@ -6,9 +6,9 @@
 #include "app.h"
 
 /// Draws the chart into a box of the page.
-void sl_account_draw(sl_app *app, cairo_t *cairo, sl_box box);
+void account_draw(app_state *app, cairo_t *cairo, sl_box box);
 
 /// Saves it: .png, .svg or .pdf.
-sl_status sl_account_save(sl_app *app, const char *path);
+sl_status account_save(app_state *app, const char *path);
 
 #endif

@@ -1,11 +1,33 @@
-/// Frame times of a walk, with all layers on and software rendering.
+/// Runs without a user: frame times of a walk with all layers on and software rendering, and random
+/// events that look for what falls over.
 #ifndef VIEWER_BENCH_H
 #define VIEWER_BENCH_H
 
 #include "app.h"
 
+#include <stddef.h>
+
+enum { METER_MOST = 20000 };
+
+typedef struct frame_meter {
+    double seconds[METER_MOST];
+    size_t count;
+} frame_meter;
+
+void meter_add(frame_meter *meter, double seconds);
+
+typedef struct meter_summary {
+    double mean, median, p95, worst; ///< seconds
+} meter_summary;
+
+/// Sorts what was measured.
+meter_summary meter_sum_up(frame_meter *meter);
+
 /// Walks, turns and pans through the map that is open and prints a CSV line a part of it:
 /// map,cells,walls,part,frames,mean_ms,median_ms,p95_ms,worst_ms,processor_ms,machine
-sl_status sl_bench_run(sl_app *app, unsigned frames);
+sl_status bench_run(app_state *app, unsigned frames);
+
+/// Keys, clicks, drags, sizes and maps at random for so many seconds, without a window.
+sl_status soak_run(app_state *app, double seconds, uint64_t seed);
 
 #endif

@@ -1,25 +1,69 @@
-/// The modes: one table of what each draws and says.
+/// The parts of the window, each drawn into its box; and the modes, one table of what each draws
+/// and says.
 #ifndef VIEWER_MODES_H
 #define VIEWER_MODES_H
 
 #include "app.h"
 
-typedef struct sl_mode_row {
-    const char *hint;                       ///< said when it begins
-    void (*panel)(sl_app *app, sl_box box); ///< at the right
-    void (*below)(sl_app *app,
-                  const sl_frame *frame); ///< below the walls, over the layers; or NULL
-    void (*above)(sl_app *app, const sl_frame *frame); ///< above the walls; or NULL
-    bool eye, cone;                                    ///< whether those are marked
-} sl_mode_row;
+// --- panes
 
-/// By sl_mode.
-const sl_mode_row *sl_mode_rows(void);
+/// The plan; `index` tells which of those side by side. Where `vector`, nothing kept is used, so
+/// that a file gets lines instead of pixels.
+void pane_plan(app_state *app, sl_box box, int index, bool vector);
+
+void pane_bar(app_state *app, sl_box box);          ///< the buttons at the top
+void pane_side(app_state *app, sl_box box);         ///< layers, methods with counts, words
+void pane_learn(app_state *app, sl_box box);        ///< in its place: pseudo-code and account
+void pane_quiz(app_state *app, sl_box box);         ///< likewise: the question
+void pane_draw(app_state *app, sl_box box);         ///< likewise: walls
+void pane_status(app_state *app, sl_box box);       ///< the line at the bottom
+void pane_time(app_state *app, sl_box box);         ///< the time line of the lesson
+void pane_dual(app_state *app, sl_box box);         ///< lines as points
+void pane_first_person(app_state *app, sl_box box); ///< what the eye sees
+void pane_account(app_state *app, sl_box box);      ///< what accuracy costs
+void pane_effects(app_state *app, sl_box box);      ///< what the map calls for
+void pane_help(app_state *app);                     ///< over all
+void pane_maps(app_state *app);                     ///< over all: the list of maps
+
+/// A pane below the plan: its file draws it, and a row of the table in panes.c tells when.
+typedef struct pane_below {
+    bool (*shown)(const app_state *app);
+    void (*draw)(app_state *app, sl_box box);
+    double (*lines)(
+        const app_state *app); ///< of text that it has room for; NULL: a share of the window
+} pane_below;
+
+/// PANES_BELOW of them.
+const pane_below *panes_below(void);
+
+/// The cell under a point in words; its lines are broken by the caller.
+void pane_describe(const app_state *app, sl_point at, char *text, size_t room);
+
+/// The colours of culling methods: steps of the ramp from loose to exact.
+sl_colour pane_method_colour(const ui_state *ui, size_t method);
+
+/// The line chosen in the lesson is dragged, in the dual plane or in the plan.
+void pane_dual_drag(app_state *app, sl_box box, sl_point to);
+void pane_plan_drag_line(app_state *app, sl_point from, sl_point to);
+
+// --- modes
+
+typedef struct mode_row {
+    const char *hint;                          ///< said when it begins
+    void (*panel)(app_state *app, sl_box box); ///< at the right
+    void (*below)(app_state *app,
+                  const sl_frame *frame); ///< below the walls, over the layers; or NULL
+    void (*above)(app_state *app, const sl_frame *frame); ///< above the walls; or NULL
+    bool eye, cone;                                       ///< whether those are marked
+} mode_row;
+
+/// By app_mode.
+const mode_row *mode_table(void);
 
 /// What changes in the plan from frame to frame: cells and regions; `index` tells which of the
 /// plans side by side.
-void sl_modes_draw_below(sl_app *app, const sl_frame *frame, int index);
+void modes_draw_below(app_state *app, const sl_frame *frame, int index);
 /// The eye, lines and marks.
-void sl_modes_draw_above(sl_app *app, const sl_frame *frame);
+void modes_draw_above(app_state *app, const sl_frame *frame);
 
 #endif

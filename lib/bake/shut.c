@@ -32,42 +32,22 @@ static sl_status keep_rows(sl_context *context, const sl_visibility *v, const bo
     return status;
 }
 
-sl_status sl_baked_darken(sl_context *context, sl_baked *baked, sl_point eye) {
-    const sl_filtered_space filtered = {.eye = &eye};
-    sl_visibility *v = &baked->visibility;
-    sl_space walled;
-    if (v->mirrored.cell_count)
-        return sl_fail(context, SL_UNSUPPORTED,
-                       "glass that is dark from an eye may not be so in a mirror: bake the map "
-                       "--without mirror or --without oneway");
-    SL_TRY(sl_filtered_space_make(context, &baked->space, &filtered, NULL, &walled));
-    sl_space_destroy(context, &baked->space);
-    baked->space = walled;
-    sl_visibility trees = {.trees = v->trees};
-    v->trees = (sl_stab_trees){0};
-    sl_visibility_destroy(context, &trees);
-    return SL_OK;
-}
-
-sl_status sl_baked_shut(sl_context *context, sl_baked *baked, const bool *shut) {
+sl_status sl_baked_shut(sl_context *context, const sl_baked *baked, const bool *shut,
+                        sl_space *space, sl_visibility *visibility) {
     const sl_filtered_space filtered = {.shut = shut};
-    sl_visibility *v = &baked->visibility;
-    sl_space walled;
+    const sl_visibility *v = &baked->visibility;
     sl_visibility kept = {.sight = v->sight, .guarantee = v->guarantee, .account = v->account};
     if (v->mirrored.cell_count)
         return sl_fail(context, SL_UNSUPPORTED, "doors are not shut where there are mirrors");
-    SL_TRY(sl_filtered_space_make(context, &baked->space, &filtered, NULL, &walled));
+    SL_TRY(sl_filtered_space_make(context, &baked->space, &filtered, NULL, space));
     const sl_status status = keep_rows(context, v, shut, &kept.pvs);
     if (status != SL_OK) {
-        sl_space_destroy(context, &walled);
+        sl_space_destroy(context, space);
         return status;
     }
     kept.account.pairs = 0;
     for (uint32_t i = 0; i < kept.pvs.cell_count; i++)
         kept.account.pairs += sl_pvs_count(&kept.pvs, i);
-    sl_space_destroy(context, &baked->space);
-    sl_visibility_destroy(context, v);
-    baked->space = walled;
-    *v = kept;
+    *visibility = kept;
     return SL_OK;
 }

@@ -1,7 +1,9 @@
 #include "base/base.h"
+#include "sightline/version.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 static void *resize(const sl_hooks *hooks, void *block, size_t bytes) {
@@ -32,6 +34,10 @@ const sl_hooks *sl_context_hooks(const sl_context *context) {
 
 const char *sl_context_message(const sl_context *context) {
     return context->message;
+}
+
+const char *sl_version(void) {
+    return SL_VERSION;
 }
 
 const char *sl_status_name(sl_status status) {
@@ -158,4 +164,10 @@ void sl_shrink(sl_context *context, void *items, size_t *capacity, size_t count,
     if (!block) return;
     memcpy(items, &block, sizeof block);
     *capacity = count;
+}
+
+double sl_seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
 }

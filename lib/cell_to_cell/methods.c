@@ -101,3 +101,17 @@ const sl_see_method *sl_see_methods(size_t *count) {
     *count = sizeof methods / sizeof *methods;
     return methods;
 }
+
+const sl_see_method *sl_see_method_named(const char *name) {
+    size_t count;
+    const sl_see_method *methods = sl_see_methods(&count);
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(methods[i].name, name) == 0) return &methods[i];
+    return NULL;
+}
+
+const sl_see_method *sl_see_method_for(const sl_map *map, const sl_see_options *options) {
+    if (options->trees || options->solver) return sl_see_method_named("dfs");
+    const sl_see_method *sweep = sl_see_method_named("sweep");
+    return sl_plan_make(map).effects & ~sweep->knows ? sl_see_method_named("prune") : sweep;
+}

@@ -41,7 +41,8 @@ endfunction()
 set(headers "${PROJECT_SOURCE_DIR}/lib/include/sightline")
 install_library(sightline)
 install(DIRECTORY "${headers}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
-  FILES_MATCHING PATTERN "*.h" PATTERN "glpk.h" EXCLUDE PATTERN "draw.h" EXCLUDE)
+  FILES_MATCHING PATTERN "*.h" PATTERN "glpk.h" EXCLUDE PATTERN "draw.h" EXCLUDE
+  PATTERN "canvas.h" EXCLUDE)
 
 install_library(sightline_runtime)
 install(FILES "${PROJECT_SOURCE_DIR}/lib/runtime/sightline_runtime.h"
@@ -59,7 +60,7 @@ if(SIGHTLINE_GLPK)
 endif()
 if(SIGHTLINE_DRAW)
   install_library(sightline_draw)
-  install(FILES "${headers}/draw.h" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/sightline")
+  install(FILES "${headers}/canvas.h" "${headers}/draw.h" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/sightline")
 endif()
 if(SIGHTLINE_TOOLS)
   install(TARGETS sightline_command RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")

@@ -1,4 +1,11 @@
-#include "draw/chart_labels.h"
+/// The places of a chart's labels.
+///
+/// Labels are placed one by one, each at the free place whose line to its mark is shortest: beside
+/// the mark, or in rows over and under it. A place is free where the label overlaps no obstacle and
+/// no label, and where lines cross nothing. The greedy order matters, so that labels which found no
+/// room get the first turns in the next attempt; of all attempts the best is kept. Each attempt
+/// costs labels x places x (obstacles + labels).
+#include "draw/chart.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -1,5 +1,5 @@
-#include "draw/chart_page.h"
-
+/// How a chart is painted: heading, key, axes, marks. Each part can be measured before it is drawn.
+#include "draw/chart.h"
 #include "draw/marks.h"
 
 #include <math.h>

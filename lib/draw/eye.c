@@ -1,17 +1,78 @@
-/// The page of what an eye sees: a heading, the plan with the cells that each method keeps, the eye
-/// and its cone over it, and a key with the methods' counts.
-#include "draw/boxes.h"
+/// The picture of what an eye sees: a heading, the plan with the cells that each method keeps, the
+/// eye with its cone, boxes that move, and a key with the methods' counts.
 #include "draw/marks.h"
 #include "draw/page.h"
-#include "draw/plan.h"
-#include "draw/seen.h"
-#include "draw/text.h"
-#include "sightline/draw.h"
-
 #include "sightline/support.h"
 
 #include <math.h>
 #include <stdio.h>
+
+// --- boxes that move
+
+/// Gives the path the looks of a box.
+static void ink(cairo_t *cairo, const sl_palette *palette, bool blocks, bool seen, double width) {
+    const sl_colour c = blocks ? palette->wall : palette->object;
+    const double dashes[2] = {2.5 * width, 2 * width};
+    sl_set_colour(cairo, palette->page);
+    cairo_fill_preserve(cairo);
+    cairo_set_source_rgba(cairo, c.red, c.green, c.blue, blocks ? 0.6 : 0.25);
+    cairo_fill_preserve(cairo);
+    cairo_set_source_rgba(cairo, c.red, c.green, c.blue, 1);
+    cairo_set_line_width(cairo, width);
+    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_MITER);
+    if (!seen) cairo_set_dash(cairo, dashes, 2, 0);
+    cairo_stroke(cairo);
+    cairo_set_dash(cairo, NULL, 0, 0);
+}
+
+static void set_light(cairo_t *cairo, const sl_palette *palette, double opacity) {
+    const sl_colour c = palette->page;
+    cairo_set_source_rgba(cairo, c.red, c.green, c.blue, opacity);
+}
+
+/// What is seen past boxes, lighter than the rest.
+static void draw_lit(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                     const sl_drawn_region *region) {
+    if (region->count < 3) return;
+    sl_path_polygon(cairo, frame, region->points, region->count);
+    set_light(cairo, palette, 0.6);
+    cairo_fill(cairo);
+}
+
+/// Those that block are full, those that are hidden dashed.
+static void draw_boxes(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                       const sl_drawn_box *boxes, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        const sl_box b = boxes[i].box;
+        const sl_point corners[4] = {b.min, {b.max.x, b.min.y}, b.max, {b.min.x, b.max.y}};
+        sl_path_polygon(cairo, frame, corners, 4);
+        ink(cairo, palette, boxes[i].blocks, boxes[i].seen, 2 * frame->unit);
+    }
+}
+
+/// What these marks say, from a place on the page on, in one line. Returns the height, 0 where
+/// there are no boxes. Without `paint` nothing is drawn.
+static double draw_boxes_key(cairo_t *cairo, const sl_palette *palette, size_t count, sl_point at,
+                             double size, bool paint) {
+    static const struct {
+        const char *text;
+        bool blocks, seen;
+    } entries[] = {{"object, seen", false, true},
+                   {"hidden", false, false},
+                   {"blocks sight", true, true},
+                   {"blocks sight, hidden", true, false}};
+    if (!count) return 0;
+    const double top = at.y + 0.22 * size;
+    double x = at.x;
+    for (size_t i = 0; i < sizeof entries / sizeof *entries && paint; i++) {
+        cairo_rectangle(cairo, x, top, 2 * size, 1.15 * size);
+        ink(cairo, palette, entries[i].blocks, entries[i].seen, 0.12 * size);
+        sl_text_font(cairo, size, false);
+        sl_text_show(cairo, palette->ink, x + 2.55 * size, at.y + 1.16 * size, entries[i].text);
+        x += 4.45 * size + sl_text_width(cairo, entries[i].text);
+    }
+    return 1.95 * size;
+}
 
 #define FULL_TURN 6.283185307179586
 
@@ -210,8 +271,7 @@ static void set_page(cairo_t *cairo, const void *what, sl_page *page, bool paint
     y += draw_key(cairo, p, page->margin, y, page->inner, page->text, paint);
     y += sl_draw_seen_key(cairo, palette, p->parts, p->part_count, (sl_point){page->margin, y},
                           page->inner, page->text, paint);
-    y += sl_draw_boxes_key(cairo, palette, box_count, (sl_point){page->margin, y}, page->text,
-                           paint);
+    y += draw_boxes_key(cairo, palette, box_count, (sl_point){page->margin, y}, page->text, paint);
     page->height = ceil(y + 0.5 * page->margin);
 }
 
@@ -219,13 +279,13 @@ static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what
                            const sl_frame *frame) {
     const eye_picture *p = what;
     const sl_draw_options *options = &p->scene.options;
-    SL_TRY(sl_draw_onto(context, cairo, &p->scene, frame));
+    SL_TRY(sl_draw_plan(context, cairo, &p->scene, options->layers, frame));
     for (size_t i = 0; i < p->part_count; i++) {
         const bool pale = options->box_count && !p->parts[i].depth;
-        (pale ? sl_draw_lit : sl_draw_seen)(cairo, &p->scene.palette, frame, &p->parts[i]);
+        (pale ? draw_lit : sl_draw_seen)(cairo, &p->scene.palette, frame, &p->parts[i]);
     }
-    if (p->part_count) SL_TRY(sl_draw_walls_onto(context, cairo, &p->scene, frame));
-    sl_draw_boxes(cairo, &p->scene.palette, frame, options->boxes, options->box_count);
+    if (p->part_count) SL_TRY(sl_draw_walls(context, cairo, &p->scene, frame));
+    draw_boxes(cairo, &p->scene.palette, frame, options->boxes, options->box_count);
     draw_cone(cairo, p, frame);
     draw_eye_mark(cairo, p, frame);
     return SL_OK;
@@ -263,10 +323,10 @@ sl_status sl_draw_eye(sl_context *context, const sl_baked *baked, const sl_view 
                      .layer_count = layer_count,
                      .parts = parts,
                      .part_count = part_count};
-    SL_TRY(sl_scene_make(context, baked, &plain, &p.scene));
+    SL_TRY(sl_scene_make(context, baked, &plain, NULL, &p.scene));
     // Green would be lost among the ramp's colours.
     p.scene.palette.portal = sl_colour_mix(p.scene.palette.wall, p.scene.palette.page, 0.2);
     const sl_status status = draw_picture(context, &p, kind, path);
-    sl_scene_destroy(context, &p.scene);
+    sl_scene_clear(context, &p.scene);
     return status;
 }

@@ -1,11 +1,7 @@
 /// Pictures of what is seen from places: regions over the plan, heat maps of their measures, and
 /// patches coloured by what they cost.
-#include "draw/legend.h"
+#include "draw/marks.h"
 #include "draw/page.h"
-#include "draw/plan.h"
-#include "draw/seen.h"
-#include "draw/text.h"
-#include "sightline/draw.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -105,12 +101,12 @@ static void draw_eye(cairo_t *cairo, const picture *p, const sl_frame *frame, sl
 static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what,
                            const sl_frame *frame) {
     const picture *p = what;
-    SL_TRY(sl_draw_onto(context, cairo, &p->scene, frame));
+    SL_TRY(sl_draw_plan(context, cairo, &p->scene, p->scene.options.layers, frame));
     SL_TRY(draw_values(context, cairo, p, frame));
     if (p->patches) draw_lines(cairo, p, frame);
     for (size_t i = 0; i < p->region_count; i++)
         sl_draw_seen(cairo, &p->scene.palette, frame, &p->regions[i]);
-    SL_TRY(sl_draw_walls_onto(context, cairo, &p->scene, frame));
+    SL_TRY(sl_draw_walls(context, cairo, &p->scene, frame));
     for (size_t i = 0; i < p->region_count; i++) draw_eye(cairo, p, frame, p->regions[i].eye);
     return SL_OK;
 }
@@ -171,14 +167,14 @@ static sl_status draw_picture(sl_context *context, const sl_baked *baked,
     sl_draw_options plain = *options;
     plain.layers = SL_LAYER_WALLS | (p->scale ? 0 : (unsigned)SL_LAYER_STARTS);
     plain.cell = SL_NO_CELL;
-    SL_TRY(sl_scene_make(context, baked, &plain, &p->scene));
+    SL_TRY(sl_scene_make(context, baked, &plain, NULL, &p->scene));
     const sl_page_parts parts = {.set = set_page,
                                  .draw_plan = draw_plan,
                                  .what = p,
                                  .ground = p->scene.palette.page,
                                  .title = options->title};
     const sl_status status = sl_page_write(context, &parts, options->width, kind, path);
-    sl_scene_destroy(context, &p->scene);
+    sl_scene_clear(context, &p->scene);
     return status;
 }
 

@@ -1,20 +1,16 @@
-/// The marks that stand for things, drawn alike in the plan and in its legend. In page coordinates.
+/// The marks that stand for things: drawn alike in the plan and in its legend, in page coordinates.
 #ifndef SL_DRAW_MARKS_H
 #define SL_DRAW_MARKS_H
 
-#include "draw/canvas.h"
-#include "draw/palette.h"
-#include "draw/scene.h"
+#include "draw/plan.h"
 
-/// Widths of lines, and the size of a start's mark: by how large the cells come out on the page,
+/// Widths of lines, and the size of a start's mark. They follow the size of the cells on the page,
 /// within bounds that keep them visible and apart.
 typedef struct sl_pens {
     double wall, portal, outline, tree, mark;
 } sl_pens;
 
 sl_pens sl_pens_for(const sl_scene *scene, const sl_frame *frame);
-
-void sl_set_colour(cairo_t *cairo, sl_colour colour);
 
 /// Each strokes the path.
 void sl_pen_wall(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens);
@@ -28,18 +24,26 @@ void sl_pen_tree(cairo_t *cairo, sl_colour colour, const sl_pens *pens, uint32_t
 void sl_pen_tree_dots(cairo_t *cairo, sl_colour colour, uint32_t depth); ///< fills the path
 double sl_tree_width(const sl_pens *pens, uint32_t depth);
 
-/// Slanting lines over a box, `phase` telling where they run.
+/// Slanting lines over a box; `phase` moves them.
 void sl_mark_hatch(cairo_t *cairo, const sl_palette *palette, sl_box box, double spacing,
                    double phase);
-/// An arrow head that points the way of the heading, in degrees counter-clockwise from right.
+/// An arrow head that points along the heading, in degrees counter-clockwise from right.
 void sl_mark_start(cairo_t *cairo, const sl_palette *palette, sl_point at, double heading,
                    double size);
 void sl_mark_door(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens, sl_point a,
                   sl_point b, bool open);
 void sl_mark_mirror(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens, sl_point a,
                     sl_point b);
-/// Its arrow points to where one looks through: `a` to `b` on the page, from its right to its left.
+/// Its arrow points in the direction that one can look: from the right of `a` to `b` to the left.
 void sl_mark_oneway(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens, sl_point a,
                     sl_point b);
+
+/// A shape and a colour for each kind of fault, from one point to another.
+void sl_mark_fault(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens,
+                   sl_fault_kind kind, sl_point a, sl_point b);
+
+/// All faults over the plan.
+void sl_draw_faults(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens,
+                    const sl_frame *frame, const sl_faults *faults);
 
 #endif

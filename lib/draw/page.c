@@ -1,10 +1,157 @@
+/// The page of a picture in a file. It is measured first, since a file's size must be known before
+/// anything is drawn; then the same functions draw it. The file is PNG, SVG or PDF.
 #include "draw/page.h"
-
 #include "draw/marks.h"
-#include "draw/text.h"
-#include "sightline/draw.h"
+#include "sightline/support.h"
 
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+#include <ctype.h>
+#include <errno.h>
 #include <math.h>
+#include <string.h>
+#include <strings.h>
+
+// --- files
+
+struct sl_paper_kind {
+    const char *ending;
+    cairo_surface_t *(*create)(sl_paper *paper, int width, int height);
+    void (*describe)(cairo_surface_t *surface, const char *title); ///< NULL for nothing to say
+    sl_status (*finish)(sl_context *context, sl_paper *paper);
+};
+
+static cairo_status_t write_through(void *user, const unsigned char *bytes, unsigned size) {
+    sl_paper *paper = user;
+    return fwrite(bytes, 1, size, paper->output.stream) == size ? CAIRO_STATUS_SUCCESS
+                                                                : CAIRO_STATUS_WRITE_ERROR;
+}
+
+static cairo_status_t keep_back(void *user, const unsigned char *bytes, unsigned size) {
+    sl_paper *paper = user;
+    if (SL_ARRAY_ROOM(paper->context, &paper->text, size) != SL_OK) {
+        paper->out_of_memory = true;
+        return CAIRO_STATUS_WRITE_ERROR;
+    }
+    memcpy(paper->text.items + paper->text.count, bytes, size);
+    paper->text.count += size;
+    return CAIRO_STATUS_SUCCESS;
+}
+
+/// A failure of cairo's in our words.
+static sl_status fail_cairo(sl_context *context, const char *path, cairo_status_t status) {
+    switch (status) {
+    case CAIRO_STATUS_NO_MEMORY:
+        return sl_fail_memory(context);
+    case CAIRO_STATUS_INVALID_STRING:
+        return sl_fail(context, SL_BAD_ARGUMENT, "%s: the title is not UTF-8", path);
+    case CAIRO_STATUS_WRITE_ERROR:
+        return sl_fail(context, SL_IO, "%s: cannot write: %s", path,
+                       errno ? strerror(errno) : "the system refused");
+    default:
+        return sl_fail(context, SL_IO, "%s: cannot draw: %s", path, cairo_status_to_string(status));
+    }
+}
+
+static sl_status finish_surface(sl_context *context, sl_paper *paper) {
+    errno = 0;
+    cairo_surface_finish(paper->surface);
+    const cairo_status_t status = cairo_surface_status(paper->surface);
+    if (paper->out_of_memory) return sl_fail_memory(context);
+    return status ? fail_cairo(context, paper->path, status) : SL_OK;
+}
+
+static cairo_surface_t *create_png(sl_paper *paper, int width, int height) {
+    (void)paper;
+    return cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
+}
+
+static sl_status finish_png(sl_context *context, sl_paper *paper) {
+    errno = 0;
+    const cairo_status_t status =
+        cairo_surface_write_to_png_stream(paper->surface, write_through, paper);
+    return status ? fail_cairo(context, paper->path, status) : SL_OK;
+}
+
+static cairo_surface_t *create_pdf(sl_paper *paper, int width, int height) {
+    return cairo_pdf_surface_create_for_stream(write_through, paper, width, height);
+}
+
+static void describe_pdf(cairo_surface_t *surface, const char *title) {
+    // The day of writing is what cairo would put in; the bytes must not depend on it.
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
+    if (title) cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, title);
+}
+
+static cairo_surface_t *create_svg(sl_paper *paper, int width, int height) {
+    cairo_surface_t *surface = cairo_svg_surface_create_for_stream(keep_back, paper, width, height);
+    if (cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS)
+        cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
+    return surface;
+}
+
+/// cairo numbers the surfaces of a process, and the number of the one that became the file stands
+/// in it: written as 0, so that the bytes depend on the picture alone.
+static sl_status finish_svg(sl_context *context, sl_paper *paper) {
+    static const char word[] = "\"surface";
+    const size_t length = sizeof word - 1;
+    SL_TRY(finish_surface(context, paper));
+    const char *at = paper->text.items, *end = at + paper->text.count;
+    bool good = true;
+    while (at < end && good) {
+        const char *next = at;
+        while (next < end && ((size_t)(end - next) < length || memcmp(next, word, length) != 0))
+            next++;
+        if (next < end) next += length;
+        good = fwrite(at, 1, (size_t)(next - at), paper->output.stream) == (size_t)(next - at);
+        if (next < end) good = good && fputc('0', paper->output.stream) != EOF;
+        for (at = next; at < end && isdigit((unsigned char)*at);) at++;
+    }
+    return good ? SL_OK : fail_cairo(context, paper->path, CAIRO_STATUS_WRITE_ERROR);
+}
+
+static const sl_paper_kind kinds[] = {
+    {".png", create_png, NULL, finish_png},
+    {".svg", create_svg, NULL, finish_svg},
+    {".pdf", create_pdf, describe_pdf, finish_surface},
+};
+
+sl_status sl_paper_kind_of(sl_context *context, const char *path, const sl_paper_kind **out) {
+    const size_t length = strlen(path);
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        const size_t ending = strlen(kinds[i].ending);
+        if (length <= ending || strcasecmp(path + length - ending, kinds[i].ending) != 0) continue;
+        *out = &kinds[i];
+        return SL_OK;
+    }
+    return sl_fail(context, SL_BAD_ARGUMENT, "%s: a picture's name ends in .png, .svg or .pdf",
+                   path);
+}
+
+sl_status sl_paper_open(sl_context *context, const sl_paper_kind *kind, const char *path, int width,
+                        int height, const char *title, sl_paper *out) {
+    *out = (sl_paper){.kind = kind, .path = path, .context = context};
+    SL_TRY(sl_output_open(context, path, &out->output));
+    out->surface = kind->create(out, width, height);
+    out->cairo = cairo_create(out->surface);
+    if (kind->describe) kind->describe(out->surface, title);
+    const cairo_status_t status = cairo_status(out->cairo);
+    if (status == CAIRO_STATUS_SUCCESS) return SL_OK;
+    return sl_paper_close(context, out, fail_cairo(context, path, status));
+}
+
+sl_status sl_paper_close(sl_context *context, sl_paper *paper, sl_status status) {
+    const cairo_status_t drawn = cairo_status(paper->cairo);
+    if (status == SL_OK && drawn) status = fail_cairo(context, paper->path, drawn);
+    cairo_destroy(paper->cairo);
+    if (status == SL_OK) status = paper->kind->finish(context, paper);
+    // Before the stream goes: cairo may still write when it lets go of a surface that failed.
+    cairo_surface_destroy(paper->surface);
+    sl_free(context, paper->text.items);
+    return sl_output_close(context, &paper->output, status);
+}
+
+// --- pages
 
 sl_status sl_page_check_width(sl_context *context, double width) {
     if (width >= SL_DRAW_WIDTH_MIN && width <= SL_DRAW_WIDTH_MAX) return SL_OK;
@@ -57,7 +204,7 @@ sl_status sl_page_measure(sl_context *context, const char *path,
     const cairo_status_t drawn = cairo_status(cairo);
     cairo_destroy(cairo);
     cairo_surface_destroy(scratch);
-    if (status == SL_OK && drawn) status = sl_fail_cairo(context, path, drawn);
+    if (status == SL_OK && drawn) status = fail_cairo(context, path, drawn);
     return status;
 }
 
@@ -73,8 +220,8 @@ static sl_status lay_out_parts(sl_context *context, cairo_t *cairo, void *what) 
     return SL_OK;
 }
 
-static sl_status draw(sl_context *context, cairo_t *cairo, const sl_page_parts *parts,
-                      sl_page *page) {
+static sl_status draw_page(sl_context *context, cairo_t *cairo, const sl_page_parts *parts,
+                           sl_page *page) {
     sl_set_colour(cairo, parts->ground);
     cairo_paint(cairo);
     SL_TRY(parts->draw_plan(context, cairo, parts->what, &page->frame));
@@ -89,5 +236,16 @@ sl_status sl_page_write(sl_context *context, const sl_page_parts *parts, double 
     SL_TRY(sl_page_measure(context, path, lay_out_parts, &m));
     SL_TRY(sl_paper_open(context, kind, path, (int)m.page.width, (int)m.page.height, parts->title,
                          &paper));
-    return sl_paper_close(context, &paper, draw(context, paper.cairo, parts, &m.page));
+    return sl_paper_close(context, &paper, draw_page(context, paper.cairo, parts, &m.page));
+}
+
+sl_status sl_draw_page_file(sl_context *context, const char *path, int width, int height,
+                            const char *title, void (*draw)(void *user, cairo_t *cairo),
+                            void *user) {
+    const sl_paper_kind *kind = NULL;
+    sl_paper paper;
+    SL_TRY(sl_paper_kind_of(context, path, &kind));
+    SL_TRY(sl_paper_open(context, kind, path, width, height, title, &paper));
+    draw(user, paper.cairo);
+    return sl_paper_close(context, &paper, SL_OK);
 }

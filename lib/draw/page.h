@@ -3,9 +3,35 @@
 #ifndef SL_DRAW_PAGE_H
 #define SL_DRAW_PAGE_H
 
-#include "draw/canvas.h"
-#include "draw/palette.h"
-#include "draw/paper.h"
+#include "draw/plan.h"
+#include "sightline/support.h"
+
+// --- files
+
+typedef struct sl_paper_kind sl_paper_kind;
+
+/// The kind that a file's name asks for: SL_BAD_ARGUMENT where its ending is none that is known.
+sl_status sl_paper_kind_of(sl_context *context, const char *path, const sl_paper_kind **out);
+
+typedef struct sl_paper {
+    const sl_paper_kind *kind;
+    const char *path; ///< the caller's
+    cairo_surface_t *surface;
+    cairo_t *cairo; ///< to draw with
+    sl_output output;
+    sl_context *context;
+    SL_ARRAY(char) text; ///< what is kept back until the end (SVG)
+    bool out_of_memory;  ///< while that was being kept
+} sl_paper;
+
+/// A blank page; `title` (NULL for none) goes into the file's own description where it has one.
+sl_status sl_paper_open(sl_context *context, const sl_paper_kind *kind, const char *path, int width,
+                        int height, const char *title, sl_paper *out);
+
+/// Writes the file where `status` is SL_OK and cairo has no complaint; else nothing is left of it.
+sl_status sl_paper_close(sl_context *context, sl_paper *paper, sl_status status);
+
+// --- pages
 
 /// Lengths in pixels (PDF: points).
 typedef struct sl_page {
@@ -59,5 +85,11 @@ typedef struct sl_page_parts {
 /// Measures, draws and writes a page of that width.
 sl_status sl_page_write(sl_context *context, const sl_page_parts *parts, double width,
                         const sl_paper_kind *kind, const char *path);
+
+/// The key of the colours of sl_draw_seen, from a place on the page on, in lines as the width
+/// allows. Returns the height: 0, and nothing is drawn, where nothing is seen by mirror. Without
+/// `paint` nothing is drawn.
+double sl_draw_seen_key(cairo_t *cairo, const sl_palette *palette, const sl_drawn_region *regions,
+                        size_t count, sl_point at, double width, double size, bool paint);
 
 #endif

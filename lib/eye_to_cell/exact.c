@@ -8,7 +8,6 @@
 /// no more steps than visible pieces of cells, but for single rays. A single ray may pass a point
 /// where portals meet on either side, and again at the next such point. Of all sequences that one
 /// ray has to a cell, one is followed for each side on which it may still cross portals along it.
-#include "eye_to_cell/eye_methods.h"
 #include "eye_to_cell/eye_search.h"
 
 #include <string.h>

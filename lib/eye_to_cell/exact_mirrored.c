@@ -1,7 +1,6 @@
 /// The exact method by mirror: a mirror is one more portal, which leads back into the cell before
 /// it. Behind it the eye is its image in the mirror, and the rest of the arc is reflected with it.
 /// Cells and portals stay where they are.
-#include "eye_to_cell/eye_methods.h"
 #include "eye_to_cell/eye_search.h"
 
 #include "effects/mirrors.h"

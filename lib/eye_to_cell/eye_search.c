@@ -1,6 +1,9 @@
+/// What the culling methods share: the scratch memory, the begin and end of a query, and the step
+/// of the exact method through one portal, with the range of sight.
 #include "eye_to_cell/eye_search.h"
 
 #include "cell_to_cell/pvs_rows.h"
+#include "geometry/distance.h"
 
 #include <string.h>
 
@@ -63,8 +66,8 @@ static bool add_row(sl_eye_search *search, uint32_t cell) {
     return sl_bits_has(search->row, cell);
 }
 
-/// Finds the visible set of the eye's cell: those of all cells of the ground that it has a part of.
-/// Where there is none, nothing is to be seen.
+/// Finds the visible set of the eye's cell: the union over all cells of the ground that it has a
+/// part of. Where there is none, the eye sees nothing.
 static void find_row(sl_eye_search *search, uint32_t *cell) {
     const sl_boxed_space *boxed = search->boxed;
     const uint32_t row_cells = search->visibility->pvs.cell_count;
@@ -104,13 +107,15 @@ sl_eye_step sl_eye_first_step(const sl_eye_query *query) {
     return (sl_eye_step){.at.cell = query->cell, .near = true};
 }
 
-bool sl_eye_pass(sl_eye_query *query, const sl_eye_step *from, bool first,
-                 const sl_directed_portal *directed, sl_eye_step *to) {
+/// Clips a step's arcs to a directed portal of its cell; `first` for the eye's own cell. False
+/// where nothing is left that counts.
+static bool pass(sl_eye_query *query, const sl_eye_step *from, bool first,
+                 const sl_directed_portal *portal, sl_eye_step *to) {
     sl_pivot *pivot = &query->pivot;
-    *to = (sl_eye_step){.at.cell = directed->cell};
+    *to = (sl_eye_step){.at.cell = portal->cell};
     if (from->near) {
         sl_arc through;
-        if (!sl_arc_of_portal(pivot, directed, &through)) return false;
+        if (!sl_arc_of_portal(pivot, portal, &through)) return false;
         to->near = through.span == SL_SPAN_HALF;
         if (first) to->arc_count = sl_cone_clip(pivot, &query->cone, &through, to->arcs);
         // Each arc meets the portal's half in one arc at most: along a half opposite to it there
@@ -122,13 +127,47 @@ bool sl_eye_pass(sl_eye_query *query, const sl_eye_step *from, bool first,
         }
     } else {
         for (unsigned i = 0; i < from->arc_count; i++)
-            to->arc_count +=
-                sl_arc_narrow(pivot, &from->arcs[i], directed, &to->arcs[to->arc_count]);
+            to->arc_count += sl_arc_narrow(pivot, &from->arcs[i], portal, &to->arcs[to->arc_count]);
     }
     if (query->search->visibility->sight == SL_CLOSED) return to->arc_count > 0;
     unsigned kept = 0;
     for (unsigned i = 0; i < to->arc_count; i++)
         if (to->arcs[i].span != SL_SPAN_RAY) to->arcs[kept++] = to->arcs[i];
+    to->arc_count = kept;
+    return kept > 0;
+}
+
+// --- the range of sight
+
+/// Whether the part of a portal within an arc is in range of the eye, which is not on it. With open
+/// sight more than one point of it must be. Exact: the nearest point of the part is compared; all
+/// of a cell that is seen through a portal lies beyond that.
+static bool reaches(const sl_pivot *pivot, const sl_arc *arc, const sl_directed_portal *portal,
+                    double range, sl_sight sight) {
+    const sl_glance glance = {.eye = {pivot->eye, pivot->rest},
+                              .from = {arc->right.point, arc->right.rest},
+                              .to = {arc->left.point, arc->left.rest},
+                              .from_away = arc->right.away,
+                              .to_away = arc->left.away,
+                              .right = portal->right,
+                              .left = portal->left};
+    const int sign = sl_nearest_compare(&glance, range);
+    return sight == SL_OPEN ? sign < 0 : sign <= 0;
+}
+
+void sl_eye_search_limit(sl_eye_search *search, double range) {
+    search->range = range;
+}
+
+bool sl_eye_pass_in_range(sl_eye_query *query, const sl_eye_step *from, bool first,
+                          const sl_directed_portal *portal, sl_eye_step *to) {
+    const double range = query->search->range;
+    if (!pass(query, from, first, portal, to)) return false;
+    if (!(range > 0) || to->near) return true;
+    unsigned kept = 0;
+    for (unsigned i = 0; i < to->arc_count; i++)
+        if (reaches(&query->pivot, &to->arcs[i], portal, range, query->search->visibility->sight))
+            to->arcs[kept++] = to->arcs[i];
     to->arc_count = kept;
     return kept > 0;
 }

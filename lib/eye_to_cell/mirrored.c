@@ -1,12 +1,108 @@
-/// What is seen in mirrors: from the eye's image, straight through each piece of a mirror that was
-/// seen, into the room in front of it. The map stays where it is; the image and the rays that bound
-/// the piece are reflected (effects/mirrors.h).
+/// What is seen in mirrors.
+///
+/// The map stays where it is and the eye is reflected. What the eye sees in a mirror is what its
+/// mirror image sees straight through the mirror, into the room in front of it:
+///
+///       \    eye    /
+///        \         /         The image of the eye lies behind the mirror. The reflected view
+///     ===[ mirror ]===       is what the image sees between two rays, from the mirror on.
+///          \     /
+///           image
+///
+/// The expansion of the visible region (region.c) takes a reflected view of each piece of a mirror
+/// that it sees. Views of one mirror that join make one part. From each part's image the same is
+/// done again, up to the depth that was asked for.
+///
+/// Images and rays are kept as sums of two doubles (effects/mirrors.h), so behind axial mirrors all is
+/// exact. Cost: an expansion for each part; parts may grow as a power of the mirrors.
 #include "sightline/mirrored.h"
 
 #include "effects/mirrors.h"
 #include "eye_to_cell/region_parts.h"
+#include "geometry/orient.h"
+#include "sightline/support.h"
 
 #include <math.h>
+
+// --- where rooms end at mirrors
+
+typedef struct finder {
+    sl_context *context;
+    const sl_outline *outline;
+    const sl_map *map;
+    SL_ARRAY(sl_room_mirror) pieces;
+} finder;
+
+/// Adds a piece without what earlier pieces of the same side, from number `at` on, cover.
+static sl_status add_new(finder *f, size_t at, sl_room_mirror piece) {
+    const sl_point from = piece.right, to = piece.left;
+    for (; at < f->pieces.count; at++) {
+        const sl_room_mirror have = f->pieces.items[at];
+        const double right = sl_mirror_along(from, to, have.right);
+        const double left = sl_mirror_along(from, to, have.left);
+        if (left <= sl_mirror_along(from, to, from) || right >= sl_mirror_along(from, to, to))
+            continue;
+        if (right > sl_mirror_along(from, to, from))
+            SL_TRY(add_new(f, at + 1, (sl_room_mirror){from, have.right, piece.mirror}));
+        if (left < sl_mirror_along(from, to, to))
+            SL_TRY(add_new(f, at + 1, (sl_room_mirror){have.left, to, piece.mirror}));
+        return SL_OK;
+    }
+    SL_TRY(SL_ARRAY_ROOM(f->context, &f->pieces, 1));
+    f->pieces.items[f->pieces.count++] = piece;
+    return SL_OK;
+}
+
+/// Adds the mirrors on a side that is a wall.
+static sl_status add_side(finder *f, const sl_side *side) {
+    const sl_wall *wall = &f->outline->space->walls[side->neighbour - SL_SIDE_WALL];
+    const size_t first = f->pieces.count;
+    for (uint32_t i = 0; i < f->map->mirror_count; i++) {
+        const sl_glass *mirror = &f->map->mirrors[i];
+        const sl_segment *at = &mirror->segment;
+        sl_room_mirror piece = {.mirror = i};
+        if (sl_orient(wall->a, wall->b, at->a) != 0 || sl_orient(wall->a, wall->b, at->b) != 0 ||
+            !sl_mirror_covers(mirror, side->start, f->outline->sides[side->next].start,
+                              &piece.right, &piece.left))
+            continue;
+        SL_TRY(add_new(f, first, piece));
+    }
+    return SL_OK;
+}
+
+static sl_status find(finder *f, uint32_t *first) {
+    for (uint32_t i = 0; i < f->outline->side_count; i++) {
+        const sl_side *side = &f->outline->sides[i];
+        first[i] = (uint32_t)f->pieces.count;
+        if (i % 4096 == 0) SL_TRY(sl_check_cancelled(f->context));
+        if (side->neighbour >= SL_SIDE_WALL && side->neighbour < SL_SIDE_BORDER)
+            SL_TRY(add_side(f, side));
+    }
+    first[f->outline->side_count] = (uint32_t)f->pieces.count;
+    return SL_OK;
+}
+
+sl_status sl_room_mirrors_make(sl_context *context, const sl_outline *outline, const sl_map *map,
+                               sl_room_mirrors *out) {
+    finder f = {.context = context, .outline = outline, .map = map};
+    uint32_t *first = sl_alloc_array(context, (size_t)outline->side_count + 1, sizeof *first);
+    const sl_status status = first ? find(&f, first) : SL_NO_MEMORY;
+    if (status == SL_OK) {
+        *out = (sl_room_mirrors){outline, map, first, f.pieces.items};
+        return SL_OK;
+    }
+    sl_free(context, f.pieces.items);
+    sl_free(context, first);
+    return status;
+}
+
+void sl_room_mirrors_destroy(sl_context *context, sl_room_mirrors *mirrors) {
+    sl_free(context, mirrors->first);
+    sl_free(context, mirrors->pieces);
+    *mirrors = (sl_room_mirrors){0};
+}
+
+// --- the parts of a mirrored region
 
 typedef struct maker {
     sl_context *context;
@@ -16,7 +112,7 @@ typedef struct maker {
     sl_mirrored_region *out;
 } maker;
 
-/// A part whose mirrors are still to be looked into.
+/// A part whose mirrors are next.
 typedef struct parent {
     uint32_t number, depth;
     const struct sl_region_memory *memory;
@@ -28,7 +124,7 @@ static sl_segment mirror_at(const maker *m, const sl_reflected_view *reflected) 
     return m->mirrors->map->mirrors[reflected->mirror].segment;
 }
 
-/// A reflected view as its mirror shows it: what was its left ray is its right one.
+/// Reflects a view in its mirror: its left ray becomes its right one.
 static sl_reflected_view fold(const maker *m, const sl_reflected_view *seen,
                               const sl_eye_place *eye, bool *rounded) {
     const sl_segment mirror = mirror_at(m, seen);
@@ -38,7 +134,7 @@ static sl_reflected_view fold(const maker *m, const sl_reflected_view *seen,
                                sl_eye_ray_fine(eye, &left)};
 }
 
-/// How many reflected views, from one on, join into one of a single mirror.
+/// How many reflected views from this one on join: of one mirror, and each where the last ended.
 static size_t run_of(const struct sl_region_memory *m, size_t from) {
     size_t i = from + 1;
     while (i < m->reflected_views.count &&
@@ -53,8 +149,8 @@ static double larger(double a, double b) {
     return fmax(fabs(a), fabs(b));
 }
 
-/// What the offsets of a fine eye may err by, as sl_eye_place has it: each by 2^-104 of the largest
-/// coordinate, times as much as that and to spare.
+/// The error bound of a fine eye (sl_eye_place): each offset errs by 2^-104 of the largest
+/// coordinate, times the largest coordinate, with room to spare.
 static double slack_of(const sl_outline *outline, const sl_view *view) {
     const sl_box *b = &outline->space->bounds;
     const sl_point points[3] = {view->eye, view->right, view->left};
@@ -67,9 +163,9 @@ static bool has_rest(const sl_eye_ray *ray) {
     return ray->rest.x != 0 || ray->rest.y != 0;
 }
 
-/// Makes the polygon of what `count` reflected views show, which are folded, from left to right.
-static sl_status look_in(maker *m, sl_region *region, const sl_reflected_view *reflected_views,
-                         size_t count) {
+/// Makes the polygon that `count` folded reflected views show, from left to right.
+static sl_status make_polygon(maker *m, sl_region *region, const sl_reflected_view *reflected_views,
+                              size_t count) {
     sl_context *context = m->context;
     const sl_outline *outline = m->mirrors->outline;
     const sl_reflected_view *rightmost = &reflected_views[count - 1],
@@ -96,9 +192,9 @@ static sl_status place_image(maker *m, const sl_mirror_frame *frame, sl_mirror_p
     return SL_OK;
 }
 
-static sl_status look_into_all(maker *m, const parent *from);
+static sl_status expand_all(maker *m, const parent *from);
 
-/// Adds the part, unless nothing of it is in range, and those that are seen in it.
+/// Adds the part, unless nothing of it is in range, and then the parts that are seen in it.
 static sl_status keep(maker *m, const parent *from, sl_mirror_part *part) {
     sl_mirrored_region *out = m->out;
     const sl_segment mirror = m->mirrors->map->mirrors[part->mirror].segment;
@@ -110,7 +206,7 @@ static sl_status keep(maker *m, const parent *from, sl_mirror_part *part) {
                       sizeof *out->parts));
     out->parts[out->part_count++] = *part;
     *part = (sl_mirror_part){0};
-    SL_TRY(look_into_all(m, &here));
+    SL_TRY(expand_all(m, &here));
     sl_region_settle(m->context, &out->parts[here.number].region);
     return SL_OK;
 }
@@ -120,9 +216,9 @@ static void drop(sl_context *context, sl_mirror_part *part) {
     sl_free(context, part->image);
 }
 
-/// Looks into a mirror through reflected views of it that lie side by side.
-static sl_status look_into(maker *m, const parent *from, const sl_reflected_view *seen,
-                           sl_reflected_view *folded, size_t count) {
+/// Makes the part that reflected views of one mirror, side by side, show.
+static sl_status expand_mirror(maker *m, const parent *from, const sl_reflected_view *seen,
+                               sl_reflected_view *folded, size_t count) {
     const sl_outline *outline = m->mirrors->outline;
     sl_mirror_part part = {.mirror = seen->mirror,
                            .parent = from->number,
@@ -143,13 +239,13 @@ static sl_status look_into(maker *m, const parent *from, const sl_reflected_view
     part.region.memory->eye = eye;
     part.region.memory->limit += eye.fine ? eye.slack : 0;
     part.region.memory->mirrors = part.depth < m->depth ? m->mirrors : NULL;
-    sl_status status = look_in(m, &part.region, folded, count);
+    sl_status status = make_polygon(m, &part.region, folded, count);
     if (status == SL_OK) status = keep(m, from, &part);
     drop(m->context, &part);
     return status;
 }
 
-static sl_status look_into_all(maker *m, const parent *from) {
+static sl_status expand_all(maker *m, const parent *from) {
     const struct sl_region_memory *memory = from->memory;
     SL_TRY(sl_check_cancelled(m->context));
     if (!memory->reflected_views.count) return SL_OK;
@@ -159,7 +255,7 @@ static sl_status look_into_all(maker *m, const parent *from) {
     sl_status status = SL_OK;
     for (size_t i = 0, run; i < memory->reflected_views.count && status == SL_OK; i += run) {
         run = run_of(memory, i);
-        status = look_into(m, from, &memory->reflected_views.items[i], folded, run);
+        status = expand_mirror(m, from, &memory->reflected_views.items[i], folded, run);
     }
     sl_free(m->context, folded);
     return status;
@@ -183,7 +279,7 @@ sl_status sl_mirrored_region_make(sl_context *context, const sl_room_mirrors *mi
     direct->memory->mirrors = depth ? mirrors : NULL;
     sl_status status = sl_region_spread(context, mirrors->outline, direct);
     const parent all = {SL_NO_PART, 0, direct->memory, sl_mirror_frame_of_map(), false};
-    if (status == SL_OK && depth) status = look_into_all(&m, &all);
+    if (status == SL_OK && depth) status = expand_all(&m, &all);
     if (status != SL_OK) {
         empty(context, out);
         direct->count = 0;

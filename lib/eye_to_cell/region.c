@@ -1,11 +1,155 @@
-/// The expansion: the view is spread over the sides of the eye's rooms; through a portal it goes on
-/// as a cone of two rays, over the sides of the room beyond that lie between them. A room is convex
-/// and a cone narrower than half a circle, so that on the way around a room from its entry, corners
-/// pass the right ray once, and then the left ray: one predicate a side.
+/// The visible region (isovist) of an eye, by expansion through portals.
+///
+/// The view spreads over the sides of the room that the eye is in. A side that is a wall is seen,
+/// piece by piece. Through a side that is a portal the view goes on as a cone of two rays into the
+/// room behind it:
+///
+///      +---------+--------.-+
+///      |         |    .  left     `left` and `right` bound what is seen through the portal ab.
+///      |         b .        |     On the way around the next room, counter-clockwise from the
+///      |  eye *  |   seen   |     portal, corners come that are right of the cone, then those
+///      |         a .        |     within it, then those left of it.
+///      |         |    .  right
+///      +---------+--------.-+
+///
+/// Invariant: rooms are convex and a cone is narrower than half a circle. So on the way around a
+/// room the corners pass the right ray once, and then the left ray once: one exact predicate a
+/// side. Pieces come in counter-clockwise order, so they are appended to one polygon
+/// (region_polygon.c).
+///
+/// Cost: O(sides of the rooms that are seen), counted once for each time a room is entered. The
+/// expansion is that of triangular expansion (Bungiu et al. 2014, Efficient Computation of
+/// Visibility Polygons), with convex rooms in place of triangles.
 #include "eye_to_cell/region_parts.h"
 #include "sightline/mirrored.h"
 
 #include <math.h>
+
+// --- the fan about the eye
+
+// The eye stands within a room, on a side, or on a corner where several rooms meet. The rooms that
+// touch it, joined by portals that touch it, are visited counter-clockwise. The fan is the list of
+// their sides that face the eye.
+
+/// The two sides of a room that meet at the eye. The room lies counter-clockwise from `right` to
+/// `left`. Both are the same side where the eye is between its ends.
+typedef struct corner {
+    uint32_t right, left;
+} corner;
+
+static const sl_side *side_of(const sl_outline *o, uint32_t i) {
+    return &o->sides[i];
+}
+
+static sl_point end_of(const sl_outline *o, uint32_t i) {
+    return side_of(o, side_of(o, i)->next)->start;
+}
+
+static uint32_t previous(const sl_outline *o, uint32_t i) {
+    uint32_t before = i;
+    while (side_of(o, before)->next != i) before = side_of(o, before)->next;
+    return before;
+}
+
+static bool same(sl_point a, sl_point b) {
+    return a.x == b.x && a.y == b.y;
+}
+
+static bool between(double a, double value, double b) {
+    return (a <= value && value <= b) || (b <= value && value <= a);
+}
+
+/// Whether the eye is on a side, whose line it is in, other than at its end.
+static bool is_on(const sl_outline *o, uint32_t i, sl_point eye) {
+    const sl_point a = side_of(o, i)->start, b = end_of(o, i);
+    return !same(eye, b) && between(a.x, eye.x, b.x) && between(a.y, eye.y, b.y);
+}
+
+/// Makes the fan of an eye within a room: all sides of the room face it. For an eye on a side,
+/// finds the sides there (*at) and leaves the fan empty: the caller goes around the eye.
+static sl_status gather_room(sl_context *context, const sl_outline *o, uint32_t room, sl_point eye,
+                             struct sl_region_memory *m, corner *at, bool *within) {
+    const uint32_t first = o->first[room], stop = o->first[room + 1];
+    SL_TRY(SL_ARRAY_ROOM(context, &m->fan, stop - first));
+    *within = true;
+    for (uint32_t i = first; i < stop; i++) {
+        const int turn = sl_orient(side_of(o, i)->start, end_of(o, i), eye);
+        if (turn > 0) m->fan.items[m->fan.count++] = i;
+        if (turn != 0 || !is_on(o, i, eye)) continue;
+        at->right = i;
+        at->left = same(eye, side_of(o, i)->start) ? previous(o, i) : i;
+        m->fan.count = 0;
+        *within = false;
+        return SL_OK;
+    }
+    return SL_OK;
+}
+
+/// The corner at the eye of the room behind a portal there, clockwise.
+static corner neighbour_right(const sl_outline *o, uint32_t portal, sl_point eye) {
+    const uint32_t other = side_of(o, portal)->neighbour;
+    return (corner){same(end_of(o, other), eye) ? side_of(o, other)->next : other, other};
+}
+
+/// The same, counter-clockwise.
+static corner neighbour_left(const sl_outline *o, uint32_t portal, sl_point eye) {
+    const uint32_t other = side_of(o, portal)->neighbour;
+    return (corner){other, same(side_of(o, other)->start, eye) ? previous(o, other) : other};
+}
+
+/// Adds the sides from `first` to before `stop` that face the eye.
+static sl_status add_sides(sl_context *context, const sl_outline *o, sl_point eye, uint32_t first,
+                           uint32_t stop, struct sl_region_memory *m) {
+    uint32_t i = first;
+    do {
+        if (sl_orient(side_of(o, i)->start, end_of(o, i), eye) > 0) {
+            SL_TRY(SL_ARRAY_ROOM(context, &m->fan, 1));
+            m->fan.items[m->fan.count++] = i;
+        }
+        i = side_of(o, i)->next;
+    } while (i != stop);
+    return SL_OK;
+}
+
+/// Whether an open fan starts and ends at one wall, which ends at the eye. Seen edge-on, it hides
+/// nothing.
+static bool ends_at_eye(const sl_outline *o, sl_point eye, corner at) {
+    const sl_point a = end_of(o, at.right), b = side_of(o, at.left)->start;
+    return side_of(o, at.right)->neighbour == side_of(o, at.left)->neighbour &&
+           (a.x > eye.x) == (b.x > eye.x) && (a.x < eye.x) == (b.x < eye.x) &&
+           (a.y > eye.y) == (b.y > eye.y) && (a.y < eye.y) == (b.y < eye.y);
+}
+
+sl_status sl_region_gather_fan(sl_context *context, const sl_outline *o, sl_region *region) {
+    struct sl_region_memory *m = region->memory;
+    const sl_point eye = region->view.eye;
+    const uint32_t room = sl_outline_room(o, region->cell, eye);
+    m->fan.count = 0;
+    m->open = false;
+    corner at = {0};
+    bool within;
+    SL_TRY(gather_room(context, o, room, eye, m, &at, &within));
+    if (within) return SL_OK;
+    // Clockwise as far as portals lead, or once around.
+    const uint32_t start = at.right;
+    bool around = false;
+    while (!around && sl_side_is_portal(side_of(o, at.right))) {
+        at = neighbour_right(o, at.right, eye);
+        around = at.right == start;
+    }
+    m->right = at.right;
+    for (;;) {
+        SL_TRY(add_sides(context, o, eye, side_of(o, at.right)->next, at.left, m));
+        m->left = at.left;
+        if (!sl_side_is_portal(side_of(o, at.left))) break;
+        at = neighbour_left(o, at.left, eye);
+        if (around && at.right == start) return SL_OK;
+    }
+    m->open = !ends_at_eye(o, eye, (corner){m->right, m->left});
+    return SL_OK;
+}
+
+// --- the expansion
 
 typedef struct expansion {
     sl_context *context;
@@ -38,7 +182,7 @@ static bool same_direction(const sl_eye_ray *a, const sl_eye_ray *b) {
     return same_sign(a->offset.x, b->offset.x) && same_sign(a->offset.y, b->offset.y);
 }
 
-/// What is seen of a side that is no portal (or of one out of range, SL_PIECE_FAR) from ray to ray.
+/// Adds the part between two rays of a wall, or of a portal out of range (SL_PIECE_FAR).
 static inline sl_status see_piece(expansion *x, uint32_t neighbour, const sl_eye_ray *a,
                                   const sl_eye_ray *b, const sl_eye_ray *right,
                                   const sl_eye_ray *left) {
@@ -52,9 +196,9 @@ static inline sl_status see_piece(expansion *x, uint32_t neighbour, const sl_eye
     return SL_OK;
 }
 
-/// Takes reflected views of the mirrors on a side, of which what is between two rays is seen.
-static sl_status reflected(expansion *x, uint32_t at, const sl_eye_ray *right,
-                           const sl_eye_ray *left) {
+/// Takes reflected views of the mirrors on a side, as far as they lie between two rays.
+static sl_status reflect(expansion *x, uint32_t at, const sl_eye_ray *right,
+                         const sl_eye_ray *left) {
     struct sl_region_memory *m = x->region->memory;
     const sl_room_mirrors *mirrors = m->mirrors;
     for (uint32_t i = mirrors->first[at]; i < mirrors->first[at + 1]; i++) {
@@ -71,13 +215,13 @@ static sl_status reflected(expansion *x, uint32_t at, const sl_eye_ray *right,
     return SL_OK;
 }
 
-/// Whether a portal leads nowhere that is within range.
+/// Whether a portal is out of range.
 static bool is_barred(const sl_region *region, const sl_eye_ray *a, const sl_eye_ray *b) {
     return region->range > 0 && is_far(region, a, b);
 }
 
-/// Where a room is being looked at: from the ray `right` on, which passes within the side `at` or
-/// goes through its start, to the ray `left`.
+/// A view cone within a room: from the ray `right`, which meets the side `at` within it or at its
+/// start, to the ray `left`.
 typedef struct view_cone {
     uint32_t entry, at;
     bool within;
@@ -88,51 +232,53 @@ static sl_status grow_frames(expansion *x) {
     return SL_ARRAY_ROOM(x->context, &x->region->memory->frames, 1);
 }
 
-/// Turns the gaze through the portal that it is at, whose ends are a and b; `turn` tells where the
-/// left ray leaves b. What is left to see of the room waits.
-static inline sl_status enter(expansion *x, view_cone *g, const sl_eye_ray *a, const sl_eye_ray *b,
-                              int turn) {
+/// Takes the cone through the portal that it is at, from a to b. `turn`: where b lies from the left
+/// ray. The rest of the room waits as a frame.
+static inline sl_status enter(expansion *x, view_cone *cone, const sl_eye_ray *a,
+                              const sl_eye_ray *b, int turn) {
     struct sl_region_memory *m = x->region->memory;
-    const sl_side *portal = side(x, g->at);
+    const sl_side *portal = side(x, cone->at);
     if (turn < 0) {
         if (m->frames.count == m->frames.capacity) SL_TRY(grow_frames(x));
-        m->frames.items[m->frames.count++] = (sl_region_frame){portal->next, g->entry, g->left};
+        m->frames.items[m->frames.count++] =
+            (sl_region_frame){portal->next, cone->entry, cone->left};
     }
-    if (turn <= 0) g->left = *b;
-    if (!g->within) g->right = *a;
-    g->entry = portal->neighbour;
+    if (turn <= 0) cone->left = *b;
+    if (!cone->within) cone->right = *a;
+    cone->entry = portal->neighbour;
     return SL_OK;
 }
 
-/// Goes around a room up to a portal, through which the gaze is turned (*enters), or to its end.
-static inline sl_status sweep(expansion *x, view_cone *g, bool *enters) {
+/// Goes around a room to the next portal within the cone and enters it (*enters), or to the end.
+static inline sl_status sweep(expansion *x, view_cone *cone, bool *enters) {
     sl_region *region = x->region;
     const sl_eye_place *eye = &region->memory->eye;
     const double limit = region->memory->limit;
-    sl_eye_ray a = to_start(x, g->at);
+    sl_eye_ray a = to_start(x, cone->at);
     *enters = false;
-    while (g->at != g->entry) {
-        const uint32_t next = side(x, g->at)->next, neighbour = side(x, g->at)->neighbour;
+    while (cone->at != cone->entry) {
+        const uint32_t next = side(x, cone->at)->next, neighbour = side(x, cone->at)->neighbour;
         const sl_eye_ray b = to_start(x, next);
-        const int turn = sl_eye_turn_within(eye, &g->left, &b, limit);
+        const int turn = sl_eye_turn_within(eye, &cone->left, &b, limit);
         if (neighbour < SL_SIDE_WALL && !is_barred(region, &a, &b)) {
             *enters = true;
-            return enter(x, g, &a, &b, turn);
+            return enter(x, cone, &a, &b, turn);
         }
         SL_TRY(see_piece(x, neighbour < SL_SIDE_WALL ? SL_PIECE_FAR : neighbour, &a, &b,
-                         g->within ? &g->right : NULL, turn > 0 ? &g->left : NULL));
+                         cone->within ? &cone->right : NULL, turn > 0 ? &cone->left : NULL));
         if (region->memory->mirrors && neighbour >= SL_SIDE_WALL)
-            SL_TRY(reflected(x, g->at, g->within ? &g->right : &a, turn > 0 ? &g->left : &b));
+            SL_TRY(reflect(x, cone->at, cone->within ? &cone->right : &a,
+                           turn > 0 ? &cone->left : &b));
         if (turn >= 0) return SL_OK;
-        g->within = false;
-        g->at = next;
+        cone->within = false;
+        cone->at = next;
         a = b;
     }
     return SL_OK;
 }
 
-/// What is seen through a portal between two rays. `gaze` is at the room's side of it.
-static sl_status look_through(expansion *x, view_cone g) {
+/// Adds all that a cone sees through its entry, from the room behind the entry on.
+static sl_status look_through(expansion *x, view_cone cone) {
     struct sl_region_memory *m = x->region->memory;
     const sl_eye_place *eye = &m->eye;
     const size_t floor = m->frames.count;
@@ -140,25 +286,25 @@ static sl_status look_through(expansion *x, view_cone g) {
     for (bool enters = true;;) {
         while (enters) {
             passed++;
-            if (!sl_region_find_first(x->outline, eye, m->limit, g.entry, &g.right, &g.at,
-                                      &g.within))
+            if (!sl_region_find_first(x->outline, eye, m->limit, cone.entry, &cone.right, &cone.at,
+                                      &cone.within))
                 break;
-            SL_TRY(sweep(x, &g, &enters));
+            SL_TRY(sweep(x, &cone, &enters));
         }
         if (m->frames.count == floor) break;
         const sl_region_frame *f = &m->frames.items[--m->frames.count];
-        g.entry = f->entry;
-        g.at = f->side;
-        g.left = f->left;
-        g.within = false;
-        SL_TRY(sweep(x, &g, &enters));
+        cone.entry = f->entry;
+        cone.at = f->side;
+        cone.left = f->left;
+        cone.within = false;
+        SL_TRY(sweep(x, &cone, &enters));
     }
     x->region->portals_passed += passed;
     return SL_OK;
 }
 
-/// What is seen of a side of the fan, from `right` and to `left` where they are given, else from
-/// and to its ends; with all that lies behind it.
+/// Adds what is seen of a side of the fan and behind it: from `right` to `left`, or where these are
+/// NULL from and to its ends.
 static sl_status see_fan(expansion *x, uint32_t k, const sl_eye_ray *right,
                          const sl_eye_ray *left) {
     const uint32_t i = x->region->memory->fan.items[k], neighbour = side(x, i)->neighbour;
@@ -172,7 +318,7 @@ static sl_status see_fan(expansion *x, uint32_t k, const sl_eye_ray *right,
                                            .right = right ? *right : a,
                                            .left = left ? *left : b});
     if (x->region->memory->mirrors && neighbour >= SL_SIDE_WALL)
-        SL_TRY(reflected(x, i, right ? right : &a, left ? left : &b));
+        SL_TRY(reflect(x, i, right ? right : &a, left ? left : &b));
     return see_piece(x, neighbour < SL_SIDE_WALL ? SL_PIECE_FAR : neighbour, &a, &b, right, left);
 }
 
@@ -185,15 +331,14 @@ static sl_point wall_end(const expansion *x, uint32_t neighbour, sl_point toward
     return same_direction(&to_a, &to_side) ? wall->a : wall->b;
 }
 
-/// The wall at the eye is seen edge-on, but it bounds what is seen: an edge from the eye to its
-/// end, or the other way.
+/// Adds the wall at the eye, seen edge-on: an edge from the eye to the wall's end, or back.
 static sl_status see_wall_at_eye(expansion *x, uint32_t neighbour, sl_point from, sl_point to) {
     const sl_eye_place *eye = &x->region->memory->eye;
     const sl_eye_ray a = sl_eye_ray_through(eye, from), b = sl_eye_ray_through(eye, to);
     return see_piece(x, neighbour, &a, &b, NULL, NULL);
 }
 
-/// From the eye along the wall or border where an open fan starts.
+/// Starts an open fan: from the eye along the wall or border there.
 static sl_status start_open(expansion *x) {
     const uint32_t right = x->region->memory->right, neighbour = side(x, right)->neighbour;
     if (neighbour >= SL_SIDE_BORDER)
@@ -202,7 +347,7 @@ static sl_status start_open(expansion *x) {
     return see_wall_at_eye(x, neighbour, x->region->view.eye, end);
 }
 
-/// Along the wall or border where an open fan ends, to the eye.
+/// Ends an open fan: along the wall or border there to the eye.
 static sl_status end_open(expansion *x) {
     const sl_side *left = side(x, x->region->memory->left);
     if (left->neighbour >= SL_SIDE_BORDER) return sl_region_end_at_eye(x->context, x->region);
@@ -232,7 +377,7 @@ uint32_t sl_region_find_side(const sl_outline *o, const sl_region *region, const
     return UINT32_MAX;
 }
 
-/// A cone that starts beside an open fan: what it holds of the fan starts where the fan does.
+/// A cone that starts beside an open fan: its part of the fan starts where the fan does.
 static sl_status see_from_gap(expansion *x, const sl_eye_ray *left, uint32_t stop) {
     const struct sl_region_memory *m = x->region->memory;
     const sl_view *view = &x->region->view;

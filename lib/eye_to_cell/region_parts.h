@@ -1,5 +1,6 @@
-/// What the parts of making a region share: rays from the eye, what is seen between two of them,
-/// and the polygon as it grows.
+/// What the parts of making a visible region share: rays from the eye, pieces seen between two
+/// rays, and the polygon as it grows. region.c expands, region_polygon.c writes and cuts the
+/// polygon, mirrored.c does the same for eyes in mirrors, sees.c casts single rays.
 #ifndef SL_REGION_PARTS_H
 #define SL_REGION_PARTS_H
 
@@ -9,37 +10,36 @@
 
 /// A ray from the eye through a point other than it: a corner of the space, or a cone's border.
 typedef struct sl_eye_ray {
-    sl_point at, offset; ///< the point, and as seen from the eye: each coordinate rounded once
+    sl_point at, offset; ///< the point, and the point less the eye: each coordinate rounded once
     sl_point rest;       ///< of the point, as that of sl_fine; 0 unless the eye is fine
 } sl_eye_ray;
 
-/// Where rays start. `fine`: the eye is the image of one in mirrors; it or a ray's point has a
-/// rest.
+/// Where rays start. `fine`: the eye is an image in mirrors, and it or a ray's point has a rest.
 typedef struct sl_eye_place {
     sl_fine point;
     bool fine;
-    double slack; ///< of a fine eye: what a x b of two offsets may be off by beside what
+    double slack; ///< of a fine eye: the error of a x b for two offsets, beyond what
                   ///< sl_turn_filter allows for
 } sl_eye_place;
 
-/// What is left to see of a room: from where `side` starts to the ray `left`.
+/// The rest of a room that waits: from the start of `side` to the ray `left`.
 typedef struct sl_region_frame {
     uint32_t side;
     uint32_t entry; ///< the portal that the room is seen through, as a side of it
     sl_eye_ray left;
 } sl_region_frame;
 
-/// What is seen of a side that is no portal, up to the ray `left`.
+/// The part of a side, no portal, that is seen: up to the ray `left`.
 typedef struct sl_region_piece {
     uint32_t neighbour; ///< as that of sl_side; SL_PIECE_FAR: all of it is out of range
     sl_point a, b;      ///< the side
     sl_eye_ray left;
-    bool to_end; ///< the side's own end is seen and lies on `left`; else that passes within it
+    bool to_end; ///< the side's own end lies on `left` and is seen; else `left` meets it within
 } sl_region_piece;
 
 #define SL_PIECE_FAR UINT32_MAX
 
-/// What is seen of a mirror, of one side of a room, between two rays.
+/// The part of a mirror, on one side of a room, that is seen between two rays.
 typedef struct sl_reflected_view {
     uint32_t side, mirror;
     sl_eye_ray right, left;
@@ -57,16 +57,16 @@ struct sl_region_memory {
     SL_ARRAY(sl_region_frame) frames;
     SL_ARRAY(uint32_t) fan; ///< the sides seen from the eye's rooms, counter-clockwise
     double limit;           ///< see sl_eye_limit
-    bool open;              ///< the fan is not all round: it ends at walls
+    bool open;              ///< the fan does not go all round: it ends at walls
     uint32_t right, left;   ///< where it is open: the walls at the eye that it starts and ends at
-    bool pending;           ///< `piece` is seen, but where it ends is not written yet
+    bool pending;           ///< `piece` is started, but its end is not added yet
     sl_region_piece piece;
     uint32_t first;                   ///< what the first piece lies on
     size_t room;                      ///< of points, offsets and edges
     SL_ARRAY(sl_region_corner) whole; ///< the region before its range was cut
 };
 
-/// The same for a fine eye: the offset is good to little more than one rounding.
+/// For a fine eye, as the two functions below. The offset is good to little more than one rounding.
 sl_eye_ray sl_eye_ray_fine(const sl_eye_place *eye, const sl_fine *at);
 int sl_eye_turn_fine(const sl_eye_place *eye, const sl_eye_ray *a, const sl_eye_ray *b);
 
@@ -79,7 +79,7 @@ static inline sl_eye_ray sl_eye_ray_through(const sl_eye_place *eye, sl_point at
     return (sl_eye_ray){.at = at, .offset = {at.x - eye->point.at.x, at.y - eye->point.at.y}};
 }
 
-/// Where b lies from the ray a: 1 to its left, -1 to its right, 0 in line with it. Exact.
+/// Which side of the ray a the ray b is on: 1 left, -1 right, 0 in line. Exact.
 static inline int sl_eye_turn(const sl_eye_place *eye, const sl_eye_ray *a, const sl_eye_ray *b) {
     if (eye->fine) return sl_eye_turn_fine(eye, a, b);
     const int sign = sl_turn_filter(a->offset, b->offset);
@@ -92,7 +92,7 @@ static inline int sl_eye_turn(const sl_eye_place *eye, const sl_eye_ray *a, cons
 sl_status sl_region_gather_fan(sl_context *context, const sl_outline *outline, sl_region *region);
 
 /// The limit of sl_turn_filter_within for any two rays to corners or to the cone's borders: one for
-/// all, from the largest products that there can be. What it leaves open is decided more closely.
+/// all, from the largest possible products. Closer calls go to the exact predicate.
 static inline double sl_eye_limit(const sl_space *space, const sl_view *view) {
     const sl_box *b = &space->bounds;
     const sl_point eye = view->eye;
@@ -117,10 +117,10 @@ static inline int sl_eye_turn_within(const sl_eye_place *eye, const sl_eye_ray *
 uint32_t sl_region_find_side(const sl_outline *outline, const sl_region *region,
                              const sl_eye_ray *ray, bool onward);
 
-/// Finds the side by which a ray leaves a room that it enters through `entry`: the first one around
-/// that ends to the left of it. *within, given whether the ray passes within the entry rather than
-/// through its right end, becomes whether it passes within that side rather than through its start.
-/// False where there is none, which only a loose space can bring about.
+/// Finds the side by which a ray leaves a room that it enters through `entry`: the first side
+/// around the room that ends to the left of the ray. *within says whether the ray passes within the
+/// entry (else through its right end), and is set to whether it passes within that side (else
+/// through its start). False where there is none, which happens only in a loose space.
 static inline bool sl_region_find_first(const sl_outline *o, const sl_eye_place *eye, double limit,
                                         uint32_t entry, const sl_eye_ray *ray, uint32_t *at,
                                         bool *within) {
@@ -139,24 +139,20 @@ static inline bool sl_region_find_first(const sl_outline *o, const sl_eye_place 
     return false;
 }
 
-/// Starts what is seen next, counter-clockwise, at the ray `right` or, where that is NULL, at the
-/// start of the side from a to b. The caller fills in the rest of the piece, which is pending then.
+/// Starts the next piece, counter-clockwise, at the ray `right` or, where that is NULL, at the
+/// start of the side from a to b. The caller fills in the rest of the piece, which is then pending.
 sl_status sl_region_start_piece(sl_context *context, sl_region *region, uint32_t neighbour,
                                 const sl_eye_ray *a, const sl_eye_ray *b, const sl_eye_ray *right);
 /// Adds the eye as a point, with the kind of the edge that starts there.
 sl_status sl_region_add_eye(sl_context *context, sl_region *region, sl_edge_kind kind);
-/// Ends what is seen with an edge along the border to the eye, which is added next or was the first
-/// point.
+/// Ends the pending piece with an edge along the border to the eye, which is the next point or was
+/// the first.
 sl_status sl_region_end_at_eye(sl_context *context, sl_region *region);
 /// Ends the polygon.
 sl_status sl_region_close(sl_context *context, sl_region *region);
 
-/// Adds a point, given from the eye.
-sl_status sl_region_add_point(sl_context *context, sl_region *region, sl_point point,
-                              sl_point offset, sl_region_edge edge);
-
-/// Where a ray meets the line through a and b, from the eye; it is given that it does. Good to a
-/// few units in the last place of each coordinate.
+/// The point, less the eye, where a ray meets the line through a and b; the caller knows that it
+/// does. Good to a few units in the last place of each coordinate.
 sl_point sl_region_meet(sl_point eye, const sl_eye_ray *ray, sl_point a, sl_point b);
 
 /// Cuts the region to its range.
@@ -167,18 +163,17 @@ sl_status sl_region_check_view(sl_context *context, const sl_view *view, double 
 /// Empties a region and makes its memory ready for a view.
 sl_status sl_region_start(sl_context *context, const sl_outline *outline, const sl_view *view,
                           double range, sl_region *region);
-/// The region of a view that sl_region_start has been called for; reflected views are taken on the
-/// way.
+/// Makes the region of a view after sl_region_start, and takes reflected views on the way.
 sl_status sl_region_spread(sl_context *context, const sl_outline *outline, sl_region *region);
-/// Adds what is seen into a room through a piece of one of its sides, from outside: a reflected
-/// view whose rays are those of the eye beyond.
+/// Adds what a reflected view shows: a cone into the room through a piece of one of its sides, from
+/// an eye (the image) behind that side.
 sl_status sl_region_look_in(sl_context *context, const sl_outline *outline, sl_region *region,
                             const sl_reflected_view *reflected);
-/// Adds the point where a ray meets the mirror from a to b, with the edge that starts there. What
-/// is pending ends with an edge that leads to it along the ray.
+/// Adds the point where a ray meets the mirror from a to b, with the edge that starts there. A
+/// pending piece ends with an edge along the ray to that point.
 sl_status sl_region_add_on_mirror(sl_context *context, sl_region *region, const sl_eye_ray *ray,
                                   sl_point a, sl_point b, sl_region_edge edge);
-/// Cuts what is seen in a mirror to its range: `region` ends with the edge along the mirror.
+/// Cuts the region of a part to its range. Its last edge lies along the mirror.
 sl_status sl_region_cut_mirrored(sl_context *context, sl_region *region);
 /// Frees what a region needs while it is made, and keeps the region.
 void sl_region_settle(sl_context *context, sl_region *region);

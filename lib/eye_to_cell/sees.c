@@ -1,5 +1,13 @@
-/// One line of sight. A segment is followed from room to room; where it touches a corner of rooms
-/// it may go on in several, and all are tried.
+/// Single lines of sight: do two points see each other, and what does a ray hit?
+///
+/// sl_sees follows the segment between two points from room to room, through all portals that it
+/// meets. Where it touches a corner of rooms it may go on in several rooms, and all are tried. It
+/// is seen where a room that holds the other point is entered; with open sight it must touch no
+/// wall.
+///
+/// sl_ray_cast starts at the side of the fan (region.c) that the ray meets and goes from room to
+/// room to the first side that is no portal. Both decide by exact predicates alone; only the point
+/// where the ray hits is rounded. Cost: O(sides of the rooms on the way).
 #include "sightline/sees.h"
 
 #include "eye_to_cell/region_parts.h"
@@ -56,7 +64,7 @@ static sl_status enter(sl_context *context, seer *s, uint32_t room) {
     return SL_OK;
 }
 
-/// Enters all rooms that the segment leads to; notes whether one of them holds the point.
+/// Enters all rooms that the segment leads to, and finds whether one of them holds the point.
 static sl_status follow(sl_context *context, seer *s, bool *arrives) {
     const sl_outline *o = s->outline;
     while (s->waiting.count) {
@@ -95,8 +103,8 @@ sl_status sl_sees(sl_context *context, const sl_outline *outline, sl_point eye, 
     return status;
 }
 
-/// The wall or border side that the ray meets, from a side of the fan on; false where the boundary
-/// of a room does not hold together, by rounding.
+/// Finds the wall or border that the ray meets, starting at a side of the fan. False where the
+/// boundary of a room is not closed, by rounding.
 static bool walk(const sl_outline *o, const sl_eye_place *eye, const sl_eye_ray *ray, uint32_t *at,
                  bool *within) {
     const sl_view view = {.eye = eye->point.at, .left = ray->at, .right = ray->at};
@@ -108,8 +116,8 @@ static bool walk(const sl_outline *o, const sl_eye_place *eye, const sl_eye_ray 
     return true;
 }
 
-static void tell(const sl_outline *o, sl_point eye, const sl_eye_ray *ray, uint32_t at, bool within,
-                 sl_hit *out) {
+static void write_hit(const sl_outline *o, sl_point eye, const sl_eye_ray *ray, uint32_t at,
+                      bool within, sl_hit *out) {
     const sl_side *side = &o->sides[at];
     out->wall = side->neighbour >= SL_SIDE_BORDER ? UINT32_MAX : side->neighbour - SL_SIDE_WALL;
     out->point = side->start;
@@ -144,7 +152,7 @@ sl_status sl_ray_cast(sl_context *context, const sl_outline *outline, sl_point e
         }
         if (k != UINT32_MAX && !walk(outline, &place, &ray, &at, &within))
             status = sl_fail(context, SL_BAD_ARGUMENT, "the outline of a room is not closed");
-        tell(outline, eye, &ray, at, within && k != UINT32_MAX, &hit);
+        write_hit(outline, eye, &ray, at, within && k != UINT32_MAX, &hit);
         if (k == UINT32_MAX) hit.point = eye;
         if (status == SL_OK) *out = hit;
     }

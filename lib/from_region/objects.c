@@ -1,11 +1,15 @@
-/// Objects: what may be seen, in pieces that each lie within one leaf.
+/// Objects: what may be seen, as items that each lie within one leaf.
+///
+/// Walls are found on the sides of leaves: walls are sorted by their lines, and each side of a leaf
+/// finds those on its own line by binary search. Boxes are found down the kd-tree. Groups of walls
+/// are made like a kd-tree: halved by number along the longer side, O(n log^2 n).
 #include "from_region/regions.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/// A wall by the line that it is on.
+/// A wall, with the line that it is on.
 typedef struct lined_wall {
     double at, lo, hi;
     int axis;
@@ -36,7 +40,8 @@ static sl_status add_item(sl_context *context, sl_regions *scene, sl_item item) 
     return SL_OK;
 }
 
-/// The first wall on a line, or beyond it, that ends past `lo`. Walls of a line do not overlap.
+/// The first wall in the sorted list that ends past `lo` on this line, or lies on a later line.
+/// Walls of a line do not overlap.
 static size_t find_on_line(const lined_wall *lined, size_t count, int axis, double at, double lo) {
     size_t first = 0;
     while (first < count) {
@@ -53,7 +58,8 @@ static size_t find_on_line(const lined_wall *lined, size_t count, int axis, doub
     return first;
 }
 
-/// The walls' pieces on the side of a leaf from a to b, counter-clockwise; objects are walls yet.
+/// Adds the pieces of walls on a side of a leaf from a to b, counter-clockwise. Each wall is an
+/// object for now.
 static sl_status add_side(sl_context *context, sl_regions *scene, const lined_wall *lined,
                           uint32_t leaf, sl_point a, sl_point b) {
     const int axis = a.x == b.x ? 0 : 1;
@@ -94,53 +100,56 @@ static sl_status add_walls(sl_context *context, sl_regions *scene) {
 
 // --- walls that have a side inside, and groups of them
 
-typedef struct placed_wall {
-    sl_point middle;
-    uint32_t wall;
-} placed_wall;
+static void take(sl_box *box, sl_point p) {
+    box->min.x = fmin(box->min.x, p.x);
+    box->min.y = fmin(box->min.y, p.y);
+    box->max.x = fmax(box->max.x, p.x);
+    box->max.y = fmax(box->max.y, p.y);
+}
 
 static int compare_x(const void *left, const void *right) {
-    const placed_wall *a = left, *b = right;
-    if (a->middle.x != b->middle.x) return a->middle.x < b->middle.x ? -1 : 1;
-    return (a->wall > b->wall) - (a->wall < b->wall);
+    const sl_placed *a = left, *b = right;
+    if (a->at.x != b->at.x) return a->at.x < b->at.x ? -1 : 1;
+    return (a->number > b->number) - (a->number < b->number);
 }
 
 static int compare_y(const void *left, const void *right) {
-    const placed_wall *a = left, *b = right;
-    if (a->middle.y != b->middle.y) return a->middle.y < b->middle.y ? -1 : 1;
-    return (a->wall > b->wall) - (a->wall < b->wall);
+    const sl_placed *a = left, *b = right;
+    if (a->at.y != b->at.y) return a->at.y < b->at.y ? -1 : 1;
+    return (a->number > b->number) - (a->number < b->number);
 }
 
-/// Divides walls into `groups` about as large as each other, across the longer way each time;
-/// `object` is the first group's number. Depth: the logarithm of `groups`.
-static void divide(placed_wall *walls, size_t count, uint32_t groups, uint32_t object,
+bool sl_placed_sort(sl_placed *items, size_t count, sl_box *box) {
+    *box = (sl_box){items[0].at, items[0].at};
+    for (size_t i = 1; i < count; i++) take(box, items[i].at);
+    const bool wide = box->max.x - box->min.x >= box->max.y - box->min.y;
+    qsort(items, count, sizeof *items, wide ? compare_x : compare_y);
+    return wide;
+}
+
+/// Divides walls into `groups` of about the same size, along the longer side each time. `object` is
+/// the number of the first group. Recursion depth: the logarithm of `groups`.
+static void divide(sl_placed *walls, size_t count, uint32_t groups, uint32_t object,
                    uint32_t *of_wall) {
     if (groups == 1) {
-        for (size_t i = 0; i < count; i++) of_wall[walls[i].wall] = object;
+        for (size_t i = 0; i < count; i++) of_wall[walls[i].number] = object;
         return;
     }
-    sl_box box = {walls[0].middle, walls[0].middle};
-    for (size_t i = 1; i < count; i++) {
-        box.min.x = fmin(box.min.x, walls[i].middle.x);
-        box.min.y = fmin(box.min.y, walls[i].middle.y);
-        box.max.x = fmax(box.max.x, walls[i].middle.x);
-        box.max.y = fmax(box.max.y, walls[i].middle.y);
-    }
-    const bool wide = box.max.x - box.min.x >= box.max.y - box.min.y;
-    qsort(walls, count, sizeof *walls, wide ? compare_x : compare_y);
+    sl_box box;
+    sl_placed_sort(walls, count, &box);
     const uint32_t below = groups / 2;
     const size_t half = count * below / groups;
     divide(walls, half, below, object, of_wall);
     divide(walls + half, count - half, groups - below, object + below, of_wall);
 }
 
-/// Numbers the walls with items from `first` on, in `groups` groups, or each for itself (0).
-/// Returns in *count how many numbers there are.
+/// Numbers the walls that have items, from `first` on: in `groups` groups, or each on its own (0).
+/// *count: how many numbers there are.
 static sl_status number_walls(sl_context *context, sl_regions *scene, uint32_t groups,
                               uint32_t first, uint32_t *count) {
     const sl_space *space = &scene->space;
     uint32_t *of_wall = sl_alloc_array(context, space->wall_count, sizeof *of_wall);
-    placed_wall *placed = sl_alloc_array(context, space->wall_count, sizeof *placed);
+    sl_placed *placed = sl_alloc_array(context, space->wall_count, sizeof *placed);
     if (!of_wall || !placed) {
         sl_free(context, of_wall);
         sl_free(context, placed);
@@ -153,7 +162,7 @@ static sl_status number_walls(sl_context *context, sl_regions *scene, uint32_t g
         if (!of_wall[i]) continue;
         const sl_point a = space->walls[i].a, b = space->walls[i].b;
         of_wall[i] = first + (uint32_t)walls;
-        placed[walls++] = (placed_wall){{a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2}, i};
+        placed[walls++] = (sl_placed){{a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2}, i};
     }
     *count = (uint32_t)walls;
     if (groups && groups < walls) {
@@ -168,7 +177,7 @@ static sl_status number_walls(sl_context *context, sl_regions *scene, uint32_t g
     return SL_OK;
 }
 
-// --- what is seen through
+// --- objects that are seen through
 
 static sl_status add_through(sl_context *context, sl_regions *scene, uint32_t object, uint32_t leaf,
                              sl_box box) {
@@ -179,7 +188,7 @@ static sl_status add_through(sl_context *context, sl_regions *scene, uint32_t ob
     return add_item(context, scene, (sl_item){object, leaf, true, low, high});
 }
 
-/// A box in each leaf that it meets, found down the kd-tree.
+/// Adds a box to each leaf that it meets, down the kd-tree.
 static sl_status add_box(sl_context *context, sl_regions *scene, uint32_t object, sl_box box,
                          int32_t *stack) {
     const sl_space *space = &scene->space;
@@ -232,13 +241,6 @@ static int compare_items(const void *left, const void *right) {
     if (a->leaf != b->leaf) return a->leaf < b->leaf ? -1 : 1;
     if (a->left.x != b->left.x) return a->left.x < b->left.x ? -1 : 1;
     return (a->left.y > b->left.y) - (a->left.y < b->left.y);
-}
-
-static void take(sl_box *box, sl_point p) {
-    box->min.x = fmin(box->min.x, p.x);
-    box->min.y = fmin(box->min.y, p.y);
-    box->max.x = fmax(box->max.x, p.x);
-    box->max.y = fmax(box->max.y, p.y);
 }
 
 static sl_status index_items(sl_context *context, sl_regions *scene) {

@@ -1,3 +1,10 @@
+/// The scene of the from-region methods: the map is cut along the borders of view cells, and each
+/// quadrant gets its pass.
+///
+/// Borders of view cells become seams of the map, so that each leaf of the kd-tree lies in one view
+/// cell. A pass has two orders in which those behind come first: of view cells, by the dependence
+/// graph of their faces; and of all leaves, by taking the farther side of each split first. Cost:
+/// O(leaves) a quadrant, besides the kd-tree.
 #include "from_region/regions.h"
 
 #include "space/kd_tree.h"
@@ -59,7 +66,7 @@ static sl_direction_sector quadrant_cone(int quadrant) {
                                  {zero, axes[(quadrant + 1) % SL_QUADRANTS]}};
 }
 
-/// The arcs of view cells on those behind their faces, in room for all faces.
+/// Lists, for each view cell, those behind its faces. There is room for all faces.
 static void link_view_cells(const sl_regions *scene, const sl_pass *pass, uint32_t *first,
                             uint32_t *to) {
     uint32_t count = 0;
@@ -74,7 +81,7 @@ static void link_view_cells(const sl_regions *scene, const sl_pass *pass, uint32
     first[scene->counts.view_cells] = count;
 }
 
-/// The most different view cells that one appears behind.
+/// The largest number of view cells that one lies behind.
 static uint32_t most_dependents(const sl_dependence *graph, uint32_t *last, uint32_t *dependents) {
     uint32_t most = 0;
     for (uint32_t i = 0; i < graph->count; i++) {
@@ -111,7 +118,7 @@ static sl_status find_orders(sl_context *context, sl_regions *scene) {
     return status;
 }
 
-/// Numbers leaves, those behind first: of each split the farther side before the nearer one.
+/// Numbers leaves, those behind first: at each split the farther side before the nearer one.
 static sl_status place_leaves(sl_context *context, const sl_space *space, int quadrant,
                               uint32_t **out) {
     uint32_t *place = sl_alloc_array(context, space->cell_count, sizeof *place);

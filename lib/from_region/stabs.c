@@ -6,7 +6,7 @@
 /// sequences share no inner lines, and their number is at most the square of the number of portal
 /// ends. This is the exact solver of two dimensions, where three dimensions need Plücker space.
 #include "cell_to_cell/portal_search.h"
-#include "from_region/solver.h"
+#include "from_region/regions.h"
 
 #include <string.h>
 
@@ -116,8 +116,8 @@ static sl_status cross(sl_context *context, void *job, const void *last, void *n
     return try_items(context, s, to);
 }
 
-static sl_status look(sl_context *context, void *state, const sl_from_region_query *query,
-                      sl_bits *seen, sl_from_region_account *account) {
+static sl_status run(sl_context *context, void *state, const sl_from_region_query *query,
+                     sl_bits *seen, sl_from_region_account *account) {
     static const sl_portal_visitor visitor = {.step_size = sizeof(step), .cross = cross};
     searcher *s = state;
     memcpy(s->left, query->refine, s->scene->words * sizeof *s->left);
@@ -135,11 +135,11 @@ static sl_status look(sl_context *context, void *state, const sl_from_region_que
     return sl_portal_search_run(context, &s->search, &visitor, s);
 }
 
-const sl_from_region_looker *sl_from_region_stabs(void) {
-    static const sl_from_region_looker stabs = {
+const sl_from_region_solver_calls *sl_from_region_stabs(void) {
+    static const sl_from_region_solver_calls stabs = {
         .create = create,
         .destroy = destroy,
-        .look = look,
+        .run = run,
     };
     return &stabs;
 }

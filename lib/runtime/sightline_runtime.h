@@ -126,6 +126,7 @@ typedef struct sl_runtime_run {
 ///     while (sl_runtime_next(&run))
 ///         for (uint32_t seen = run.first; seen < run.end; seen++) ...
 SL_RUNTIME_API sl_runtime_run sl_runtime_row(const sl_runtime *runtime, uint32_t cell);
+/// Goes on to the next run; false behind the last.
 SL_RUNTIME_API bool sl_runtime_next(sl_runtime_run *run);
 
 /// How many cells are seen from one.
@@ -160,6 +161,7 @@ typedef struct sl_runtime_view {
     double right[2], left[2];
 } sl_runtime_view;
 
+/// A view of the full circle.
 SL_RUNTIME_API sl_runtime_view sl_runtime_view_all_round(double x, double y);
 
 /// A cone of less than 180 degrees about a direction; `tan_half` is the tangent of half its angle:
@@ -197,9 +199,8 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
                                              const unsigned char *shut, double range,
                                              uint32_t *scratch, uint32_t *cells, uint32_t room);
 
-/// A cell: its corners, counter-clockwise, are the vertices first_vertex .., its directed portals
-/// first_directed
-/// ..
+/// A cell: its corners, counter-clockwise, are vertex_count vertices from first_vertex on, its
+/// portals directed_count directed portals from first_directed on.
 typedef struct sl_runtime_cell {
     uint32_t first_vertex, vertex_count, first_directed, directed_count;
 } sl_runtime_cell;
@@ -212,8 +213,10 @@ typedef struct sl_runtime_directed_portal {
 
 /// For drawing, finding ways, doors. The number must be less than the count of its kind.
 SL_RUNTIME_API sl_runtime_cell sl_runtime_get_cell(const sl_runtime *runtime, uint32_t cell);
+/// A directed portal; the number must be less than directed_count.
 SL_RUNTIME_API sl_runtime_directed_portal sl_runtime_get_directed_portal(const sl_runtime *runtime,
                                                                          uint32_t directed);
+/// A vertex; the number must be less than vertex_count.
 SL_RUNTIME_API void sl_runtime_get_vertex(const sl_runtime *runtime, uint32_t vertex, double *x,
                                           double *y);
 

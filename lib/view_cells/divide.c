@@ -1,10 +1,119 @@
-/// Top-down subdivision (Mattausch et al. 2006, section 4.2): the part that a priority queue names
-/// is split next, wherever it lies.
+/// Top-down subdivision of view space (Mattausch et al. 2006, section 4.2).
+///
+/// View space is one part at first. A priority queue holds the parts, each with the split that its
+/// method has chosen. The part at the front is split, its segments (or pieces, pieces.h) are dealt
+/// to the halves, and the halves are queued, until there are as many parts as asked for.
+///
+/// A split depends on its part alone. So where pieces make splits dear, the parts at the front are
+/// split ahead by all threads; the tree is the same for any number of threads.
+///
+/// Cost: with segments, O(segments of the part) a split, so about O(s log n) for s segments and n
+/// parts where splits are even.
 #include "view_cells/divide.h"
+
 #include "base/threads.h"
 
 #include <math.h>
 #include <string.h>
+
+// --- what pieces see
+
+static void add_extent(sl_view_divider *d, sl_view_part *part, sl_point middle, uint32_t object,
+                       const sl_view_extent *from) {
+    sl_view_extent *extent = &d->extents[object];
+    if (extent->low[0] == INFINITY) {
+        d->seen.items[d->seen.count++] = object;
+        part->seen += sl_view_render_object(&d->render, object, middle);
+    }
+    sl_view_extent_join(extent, from);
+}
+
+void sl_view_find_piece_extents(sl_view_divider *d, sl_view_part *part) {
+    const sl_view_rooms *rooms = &d->pieces->rooms;
+    const sl_point middle = sl_view_part_middle(part);
+    d->seen.count = 0;
+    part->seen = 0;
+    for (size_t i = 0; i < part->pieces.count; i++) {
+        const sl_view_piece *piece = &d->pieces->items.items[part->pieces.items[i]];
+        const uint32_t room = piece->room, own = rooms->object[room];
+        if (own != SL_NO_OBJECT) add_extent(d, part, middle, own, &piece->box);
+        for (uint32_t k = rooms->first_side[room]; k < rooms->first_side[room + 1]; k++)
+            if (rooms->sides[k].room == SL_NO_ROOM)
+                add_extent(d, part, middle, rooms->sides[k].object, &piece->box);
+        for (int q = 0; q < SL_VIEW_QUADRANTS; q++) {
+            d->pieces->work.weighed += piece->directed[q].objects.count;
+            for (size_t k = 0; k < piece->directed[q].objects.count; k++) {
+                const sl_view_sight *sight = &piece->directed[q].objects.items[k];
+                add_extent(d, part, middle, sight->object, &sight->from);
+            }
+        }
+    }
+}
+
+static sl_status add_piece(sl_context *context, sl_view_part *part, uint32_t number) {
+    SL_TRY(SL_ARRAY_ROOM(context, &part->pieces, 1));
+    part->pieces.items[part->pieces.count++] = number;
+    return SL_OK;
+}
+
+/// The sides of a split that a piece lies on: 1 below, 2 above, 3 both.
+static int sides_of_piece(const sl_view_pieces *pieces, uint32_t number,
+                          const sl_view_split *split) {
+    const sl_view_extent *box = &pieces->items.items[number].box;
+    if (box->high[split->axis] <= split->position) return 1;
+    return box->low[split->axis] >= split->position ? 2 : 3;
+}
+
+/// Finds the halves of the pieces that lie on both sides of a part's split, once the part's own
+/// halves are there.
+static sl_status halve_pieces(sl_context *context, const sl_view_pieces *pieces,
+                              sl_view_searcher *searcher, const sl_view_part *part,
+                              sl_view_part_halves *cut) {
+    const sl_view_split *split = &part->split;
+    for (size_t i = 0; i < part->pieces.count; i++) {
+        const uint32_t number = part->pieces.items[i];
+        if (sides_of_piece(pieces, number, split) != 3) continue;
+        SL_TRY(SL_ARRAY_ROOM(context, &cut->pieces, 1));
+        sl_view_halves *halves = &cut->pieces.items[cut->pieces.count++];
+        *halves = (sl_view_halves){0};
+        // What is seen from a half without viewpoints is never used.
+        SL_TRY(sl_view_pieces_halve(context, pieces, searcher, number, split->axis, split->position,
+                                    cut->below.mass > 0, cut->above.mass > 0, halves));
+    }
+    return SL_OK;
+}
+
+/// Deals the pieces of a part to its halves; those on both sides are cut.
+static sl_status deal_pieces(sl_view_divider *d, const sl_view_part *part,
+                             sl_view_part_halves *cut) {
+    size_t next = 0;
+    for (size_t i = 0; i < part->pieces.count; i++) {
+        const uint32_t number = part->pieces.items[i];
+        const int sides = sides_of_piece(d->pieces, number, &part->split);
+        uint32_t above = number;
+        if (sides == 3)
+            SL_TRY(sl_view_pieces_cut(d->pieces, number, &cut->pieces.items[next++], &above));
+        if (sides & 1) SL_TRY(add_piece(d->context, &cut->below, number));
+        if (sides & 2) SL_TRY(add_piece(d->context, &cut->above, above));
+    }
+    return SL_OK;
+}
+
+/// The sets of all leaves with mass, from what their pieces see.
+static sl_status make_sets(const sl_view_divider *d, sl_view_sets *sets) {
+    SL_TRY(sl_view_sets_create(d->context, d->with_mass, d->render.object_count, sets));
+    uint32_t leaf = 0;
+    for (size_t i = 0; i < d->parts.count; i++) {
+        const sl_view_part *part = &d->parts.items[i];
+        if (!(part->mass > 0)) continue;
+        sl_bits *row = sl_view_set(sets, leaf++);
+        for (size_t k = 0; k < part->pieces.count; k++)
+            sl_view_piece_add_to(d->pieces, &d->pieces->items.items[part->pieces.items[k]], row);
+    }
+    return SL_OK;
+}
+
+// --- parts
 
 sl_view_subdivision sl_view_subdivision_default(void) {
     return (sl_view_subdivision){.cells = 2000,
@@ -101,7 +210,7 @@ static sl_status make_first(sl_view_divider *d, sl_view_part *part) {
     return copy_share(d->context, d->scene->places, &part->share);
 }
 
-/// Puts a part that is done into the queue, if it is to be split at all.
+/// Queues a part, if it is to be split at all.
 static sl_status enqueue(sl_view_divider *d, sl_view_choose choose, uint32_t number) {
     sl_view_part *part = &d->parts.items[number];
     if (!(part->mass > 0)) return SL_OK;
@@ -114,8 +223,8 @@ static sl_status enqueue(sl_view_divider *d, sl_view_choose choose, uint32_t num
 
 // --- splitting
 
-/// On which sides of its split a part's segment is: 1 below, 2 above, 3 both. It is on a side where
-/// it has more than a point there; along the split it is above.
+/// The sides of the part's split that a segment is on: 1 below, 2 above, 3 both. It is on a side
+/// where it has more than a point there. Along the split it is above.
 static int sides_of(const sl_view_part *part, const sl_segment *s) {
     const sl_view_split *split = &part->split;
     double from = sl_view_side(split, s->a), to = sl_view_side(split, s->b);
@@ -170,7 +279,7 @@ static void set_new_edges(sl_view_part *part, uint32_t node) {
         if (part->edges.items[i] == SL_VIEW_EDGE_NEW) part->edges.items[i] = node;
 }
 
-/// The part below takes the number of the whole.
+/// Splits a part. The half below takes its number.
 static sl_status split(sl_view_divider *d, sl_view_choose choose, uint32_t number) {
     SL_TRY(SL_ARRAY_ROOM(d->context, &d->parts, 1));
     sl_view_part *part = &d->parts.items[number];
@@ -181,7 +290,7 @@ static sl_status split(sl_view_divider *d, sl_view_choose choose, uint32_t numbe
     cut->below.parent = cut->above.parent = (int32_t)node;
     cut->above.above = true;
     if (d->segments) SL_TRY(deal_segments(d, part, &cut->below, &cut->above));
-    if (d->pieces) SL_TRY(sl_view_deal_pieces(d, part, cut));
+    if (d->pieces) SL_TRY(deal_pieces(d, part, cut));
     SL_TRY(add_node(d, part));
     const sl_view_part below = cut->below, above = cut->above;
     cut->below = cut->above = (sl_view_part){0};
@@ -195,8 +304,8 @@ static sl_status split(sl_view_divider *d, sl_view_choose choose, uint32_t numbe
 
 // --- ahead
 
-/// The parts at the front of the queue are split ahead by all threads: so many a thread. What a
-/// split gives does not depend on others, and most of them come to be wanted.
+/// Parts at the front of the queue that are split ahead, for each thread. Most of them are needed
+/// later.
 enum { AHEAD_A_THREAD = 16 };
 
 /// Parts that are to be cut.
@@ -207,15 +316,15 @@ typedef struct ahead {
 
 static sl_status begin_cutting(sl_context *context, void *job, void **state) {
     sl_view_pieces *pieces = ((ahead *)job)->divider->pieces;
-    sl_view_looker *looker = NULL;
-    if (pieces) SL_TRY(sl_view_looker_take(context, pieces, &looker));
-    *state = looker;
+    sl_view_searcher *searcher = NULL;
+    if (pieces) SL_TRY(sl_view_searcher_take(context, pieces, &searcher));
+    *state = searcher;
     return SL_OK;
 }
 
 static void end_cutting(sl_context *context, void *job, void *state) {
     (void)context;
-    if (state) sl_view_looker_give(((ahead *)job)->divider->pieces, state);
+    if (state) sl_view_searcher_give(((ahead *)job)->divider->pieces, state);
 }
 
 static sl_status cut_part(sl_context *context, void *job, void *state, size_t unit) {
@@ -227,10 +336,10 @@ static sl_status cut_part(sl_context *context, void *job, void *state, size_t un
     SL_TRY(sl_view_part_cut(context, part, &part->split, SL_VIEW_EDGE_NEW, &part->cut->below,
                             &part->cut->above));
     if (!d->pieces) return SL_OK;
-    return sl_view_halve_pieces(context, d->pieces, state, part, part->cut);
+    return halve_pieces(context, d->pieces, state, part, part->cut);
 }
 
-/// Lists the part that is split next and, where pieces are to be cut, those that come after it.
+/// Lists the part that is split next and, where pieces are cut, those that come after it.
 static sl_status list_ahead(sl_view_divider *d, unsigned threads, ahead *a) {
     size_t most = d->pieces && threads > 1 ? (size_t)AHEAD_A_THREAD * threads : 1;
     if (most > d->options->cells - d->with_mass) most = d->options->cells - d->with_mass;
@@ -380,7 +489,7 @@ sl_status sl_view_divide(sl_context *context, const sl_view_scene *scene,
     sl_view_tree tree = {0};
     sl_status status = divide(&d, choose, stops_early);
     if (status == SL_OK) status = make_tree(&d, &tree);
-    if (status == SL_OK && sets) status = sl_view_sets_of_pieces(&d, sets);
+    if (status == SL_OK && sets) status = make_sets(&d, sets);
     destroy(&d);
     if (status == SL_OK)
         *out = tree;

@@ -1,11 +1,27 @@
-/// The methods of making view cells: ours of the paper, and those that it is compared with
-/// (Mattausch et al. 2006, section 6.3). What tells them apart is which split a part gets and when
-/// its turn comes.
+/// The methods of making view cells: the adaptive ones of the paper, and those that it compares
+/// them with (Mattausch et al. 2006, section 6.3).
+///
+/// All divide view space from the top (divide.c). They differ in the split that a part gets and in
+/// its place in the queue:
+///
+///   av-m, av-s   the split that gains most; parts by gain. av-m then merges (hierarchy.c).
+///   hybrid       the same by exact sets of pieces (pieces.c) in place of samples.
+///   kd-*         in the middle; breadth first, or until little is seen.
+///   bsp          along the line of a wall, until no wall is inside (Teller 1992).
 #include "view_cells/divide.h"
 
 #include "geometry/orient.h"
 
 #include <math.h>
+
+/// Defines how a method by samples (`by` is segments) or by none (NULL) divides view space.
+#define DIVIDE(name, by, choose, stops_early)                                                      \
+    static sl_status name(sl_context *context, const sl_view_scene *scene,                         \
+                          const sl_view_segments *segments, const sl_view_subdivision *options,    \
+                          sl_view_tree *out, sl_view_found *found) {                               \
+        (void)segments, (void)found;                                                               \
+        return sl_view_divide(context, scene, by, NULL, options, choose, stops_early, out, NULL);  \
+    }
 
 // --- adaptive
 
@@ -14,8 +30,8 @@ static sl_status find_best_split(sl_view_divider *d, sl_view_part *part, bool *s
     return *splits ? sl_view_choose_axes(d, part, &part->split) : SL_OK;
 }
 
-/// The split of the most gain; a small weight on the part's own cost sees to it that also those
-/// parts are split that only further splits would pay for.
+/// The split that gains most. A small weight on the part's own cost makes sure that parts are split
+/// too where only several splits together pay.
 static sl_status choose_adaptive(sl_view_divider *d, sl_view_part *part, double *priority,
                                  bool *splits) {
     sl_view_find_extents(d, part);
@@ -28,16 +44,9 @@ static sl_status choose_adaptive(sl_view_divider *d, sl_view_part *part, double 
     return SL_OK;
 }
 
-static sl_status divide_adaptive(sl_context *context, const sl_view_scene *scene,
-                                 const sl_view_segments *segments,
-                                 const sl_view_subdivision *options, sl_view_tree *out,
-                                 sl_view_found *found) {
-    (void)found;
-    return sl_view_divide(context, scene, segments, NULL, options, choose_adaptive, true, out,
-                          NULL);
-}
+DIVIDE(divide_adaptive, segments, choose_adaptive, true)
 
-/// Likewise by exact sets: `found` holds them only when all has gone well.
+/// The same by exact sets. `found` is set only on success.
 static sl_status divide_exactly(sl_context *context, const sl_view_scene *scene,
                                 const sl_view_segments *segments,
                                 const sl_view_subdivision *options, sl_view_tree *out,
@@ -60,7 +69,7 @@ static sl_status divide_exactly(sl_context *context, const sl_view_scene *scene,
 
 // --- kd-trees
 
-/// In the order in which parts are made.
+/// The priority that splits parts in the order in which they are made.
 static double next_in_line(sl_view_divider *d) {
     return -(double)d->made++;
 }
@@ -98,41 +107,10 @@ static sl_status choose_depth_first(sl_view_divider *d, sl_view_part *part, doub
     return SL_OK;
 }
 
-static sl_status divide_cycling(sl_context *context, const sl_view_scene *scene,
-                                const sl_view_segments *segments,
-                                const sl_view_subdivision *options, sl_view_tree *out,
-                                sl_view_found *found) {
-    (void)found;
-    (void)segments;
-    return sl_view_divide(context, scene, NULL, NULL, options, choose_cycling, false, out, NULL);
-}
-
-static sl_status divide_longest(sl_context *context, const sl_view_scene *scene,
-                                const sl_view_segments *segments,
-                                const sl_view_subdivision *options, sl_view_tree *out,
-                                sl_view_found *found) {
-    (void)found;
-    (void)segments;
-    return sl_view_divide(context, scene, NULL, NULL, options, choose_longest, false, out, NULL);
-}
-
-static sl_status divide_visible(sl_context *context, const sl_view_scene *scene,
-                                const sl_view_segments *segments,
-                                const sl_view_subdivision *options, sl_view_tree *out,
-                                sl_view_found *found) {
-    (void)found;
-    return sl_view_divide(context, scene, segments, NULL, options, choose_visible, false, out,
-                          NULL);
-}
-
-static sl_status divide_depth_first(sl_context *context, const sl_view_scene *scene,
-                                    const sl_view_segments *segments,
-                                    const sl_view_subdivision *options, sl_view_tree *out,
-                                    sl_view_found *found) {
-    (void)found;
-    return sl_view_divide(context, scene, segments, NULL, options, choose_depth_first, false, out,
-                          NULL);
-}
+DIVIDE(divide_cycling, NULL, choose_cycling, false)
+DIVIDE(divide_longest, NULL, choose_longest, false)
+DIVIDE(divide_visible, segments, choose_visible, false)
+DIVIDE(divide_depth_first, segments, choose_depth_first, false)
 
 // --- aligned with the walls
 
@@ -173,14 +151,7 @@ static sl_status choose_wall(sl_view_divider *d, sl_view_part *part, double *pri
     return SL_OK;
 }
 
-static sl_status divide_by_walls(sl_context *context, const sl_view_scene *scene,
-                                 const sl_view_segments *segments,
-                                 const sl_view_subdivision *options, sl_view_tree *out,
-                                 sl_view_found *found) {
-    (void)found;
-    (void)segments;
-    return sl_view_divide(context, scene, NULL, NULL, options, choose_wall, false, out, NULL);
-}
+DIVIDE(divide_by_walls, NULL, choose_wall, false)
 
 static const sl_view_method methods[] = {
     {.name = "av-m",

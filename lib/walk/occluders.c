@@ -1,7 +1,12 @@
-/// The choice of occluders: those that take up the largest angles about the eye, as far as those
-/// chosen before leave anything of them to see. Nodes wait among the walls, by the largest angle
-/// that a wall inside could take up; one that is hidden when its turn comes is passed over, with
-/// all that is inside. Angles are estimates: they decide of nothing but the order.
+/// The choice of occluders: greedily, those that take up the largest angles about the eye.
+///
+/// A heap holds walls and nodes, by the angle that a wall, or the longest wall inside a node, can
+/// take up. The largest comes first. A node that is already hidden is dropped with all that is
+/// inside; else its walls and children go on the heap. A wall is chosen where it hides anything in
+/// the view cone that was free.
+///
+/// Angles are estimates in doubles: they decide only the order. What is hidden is decided exactly,
+/// by the node visibility test. Cost: O(log n) for each node and wall that leaves the heap.
 #include "walk/walk_parts.h"
 
 #include <math.h>
@@ -64,8 +69,8 @@ static double cross(sl_point a, sl_point b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// How large a wall is that reaches from p to q as seen from the eye: minus the signed square of
-/// the angle's cosine; -2 for one that is not in the cone, or edge-on.
+/// The size of a wall from p to q as seen from the eye: minus the signed square of the angle's
+/// cosine; -2 for a wall outside the cone or edge-on.
 static double wall_size(const sl_chooser *c, sl_point p, sl_point q) {
     if (cross(p, q) < 0) {
         const sl_point turned = p;
@@ -83,7 +88,7 @@ static double wall_size(const sl_chooser *c, sl_point p, sl_point q) {
     return size >= -1 ? size : -1;
 }
 
-/// How large a wall inside a node can be: one of the longest's length, at the node's distance and
+/// An upper estimate for walls inside a node: as long as the longest, at the node's distance, and
 /// square to the line of sight.
 static double node_size(const sl_chooser *c, uint32_t node) {
     const sl_box *b = &c->hierarchy->nodes[node].box;
@@ -122,13 +127,13 @@ static void push_node(sl_chooser *c, uint32_t node) {
     push(c, (candidate){node_size(c, node), node, true});
 }
 
-/// Has what is in a node wait, unless it is hidden.
+/// Puts the contents of a node on the heap, unless it is hidden.
 static void open_node(sl_chooser *c, sl_walk *w, uint32_t node) {
     const sl_hierarchy *h = c->hierarchy;
     const sl_walk_node *n = &h->nodes[node];
-    sl_walk_look look;
-    sl_walk_look_at(w, node, &look);
-    if (!look.sector_count || sl_walk_test(w, &look) == SL_NODE_INVISIBLE) return;
+    sl_node_view seen;
+    sl_walk_view_node(w, node, &seen);
+    if (!seen.wedge_count || sl_walk_test(w, &seen) == SL_NODE_INVISIBLE) return;
     for (uint32_t i = h->first_occluder[node]; i < h->first_occluder[node + 1]; i++) {
         const sl_segment *s = &h->occluders[i];
         push(c, (candidate){wall_size(c, toward(c, s->a), toward(c, s->b)), i, false});
@@ -138,7 +143,7 @@ static void open_node(sl_chooser *c, sl_walk *w, uint32_t node) {
     push_node(c, (uint32_t)n->child[1]);
 }
 
-/// Tries a wall: it is chosen where it hides anything within the cone that was free.
+/// Chooses a wall if it hides anything within the cone that was free.
 static sl_status try_wall(sl_context *context, const sl_segment *wall, const sl_walk_cone *cone,
                           const sl_node_test_calls *test, sl_occlusion *occlusion) {
     sl_shadows *s = &occlusion->shadows;
@@ -149,10 +154,10 @@ static sl_status try_wall(sl_context *context, const sl_segment *wall, const sl_
     SL_TRY(SL_ARRAY_ROOM(context, &s->occluders, 1));
     const uint32_t number = (uint32_t)s->occluders.count++;
     s->occluders.items[number] = o;
-    const sl_sector whole = {sl_ray_to(o.a), sl_ray_to(o.b)};
-    sl_sector parts[2];
+    const sl_wedge whole = {sl_ray_to(o.a), sl_ray_to(o.b)};
+    sl_wedge parts[2];
     bool cut = false, added = false;
-    const unsigned count = sl_sector_in_cone(&s->pivot, cone, &whole, parts, &cut);
+    const unsigned count = sl_wedge_in_cone(&s->pivot, cone, &whole, parts, &cut);
     for (unsigned i = 0; i < count; i++)
         SL_TRY(test->add(context, occlusion, number, &parts[i], &added));
     if (!added) s->occluders.count--;

@@ -126,6 +126,23 @@ class CheckTest(unittest.TestCase):
         faults = self.faults(check.check_format, {"lib/map/m.c": "int  a ;\n"})
         self.assert_one(faults, "lib/map/m.c:1")
 
+    def test_doxygen(self):
+        doxyfile = pathlib.Path(__file__).resolve().parents[2] / "lib/Doxyfile"
+        tree = {"lib/Doxyfile": doxyfile.read_text(encoding="utf-8"), "lib/runtime/r.h": "",
+                "lib/include/sightline/context.h": "/// Numbers.\n\n/// One.\ntypedef int sl_number;\n",
+                "lib/include/sightline/map.h": "/// A map.\n\n/// It.\nstruct sl_map { int a; };\n",
+                "lib/include/sightline/space.h": "/// A space.\n\n/// Gets it.\nint sl_get(void);\n"}
+        try:
+            self.assertEqual(self.faults(check.check_doxygen, tree), [])
+        except check.CannotTell as reason:
+            self.skipTest(str(reason))
+        name = "lib/include/sightline/space.h"
+        faults = self.faults(check.check_doxygen, {**tree, name: "/// A space.\n\nint sl_get(void);\n"})
+        self.assert_one(faults, name + ":3", "sl_get")
+        name = "lib/include/sightline/map.h"
+        faults = self.faults(check.check_doxygen, {**tree, name: "/// A map.\n\nstruct sl_map { int a; };\n"})
+        self.assert_one(faults, name + ":3", "sl_map")
+
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser()

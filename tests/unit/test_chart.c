@@ -3,8 +3,7 @@
 
 #include "test_draw_map.h"
 
-#include "draw/chart_axis.h"
-#include "draw/chart_labels.h"
+#include "draw/chart.h"
 #include "sightline/support.h"
 
 #include <cairo.h>

@@ -3,7 +3,7 @@
 
 #include "test_draw_map.h"
 
-#include "draw/text.h"
+#include "sightline/canvas.h"
 #include "sightline/support.h"
 
 #include <cairo.h>

@@ -172,13 +172,13 @@ static void cut_at_random(sl_context *context, sl_view_pieces *pieces, const sl_
         double at = axis ? end.y : end.x;
         if (!(at > low && at < high)) at = low + (high - low) * (i % 3 ? 0.5 : 0.3);
         if (!(at > low && at < high)) continue;
-        sl_view_looker *looker;
+        sl_view_searcher *searcher;
         sl_view_halves halves = {0};
         uint32_t above;
-        assert_ok(context, sl_view_looker_take(context, pieces, &looker));
-        assert_ok(context, sl_view_pieces_halve(context, pieces, looker, number, axis, at, true,
+        assert_ok(context, sl_view_searcher_take(context, pieces, &searcher));
+        assert_ok(context, sl_view_pieces_halve(context, pieces, searcher, number, axis, at, true,
                                                 true, &halves));
-        sl_view_looker_give(pieces, looker);
+        sl_view_searcher_give(pieces, searcher);
         assert_ok(context, sl_view_pieces_cut(pieces, number, &halves, &above));
         assert_int_equal(above, pieces->items.count - 1);
     }

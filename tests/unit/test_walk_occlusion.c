@@ -131,21 +131,21 @@ static void fill(sl_context *context, const scene *s, const sl_node_test_calls *
             side > 0 ? (sl_occluder){w->a, w->b} : (sl_occluder){w->b, w->a};
         assert_ok(context, SL_ARRAY_ROOM(context, &shadows->occluders, 1));
         shadows->occluders.items[shadows->occluders.count++] = occluder;
-        const sl_sector whole_sector = {sl_ray_to(occluder.a), sl_ray_to(occluder.b)};
+        const sl_wedge wedge = {sl_ray_to(occluder.a), sl_ray_to(occluder.b)};
         bool added = false;
-        assert_ok(context, test->add(context, o, (uint32_t)shadows->occluders.count - 1,
-                                     &whole_sector, &added));
+        assert_ok(context,
+                  test->add(context, o, (uint32_t)shadows->occluders.count - 1, &wedge, &added));
     }
 }
 
-static unsigned look(const scene *s, const sl_node_test_calls *test, sl_occlusion *o) {
+static unsigned query(const scene *s, const sl_node_test_calls *test, sl_occlusion *o) {
     const sl_box *b = &s->box;
     const sl_point corners[4] = {b->min, {b->max.x, b->min.y}, b->max, {b->min.x, b->max.y}};
     const sl_shape shape = {corners, 4, *b, true};
-    sl_sector sectors[4];
+    sl_wedge wedges[4];
     unsigned bits = 0;
-    const uint32_t count = sl_shape_sectors(&o->shadows.pivot, &shape, sectors);
-    for (uint32_t i = 0; i < count; i++) test->look(o, &shape, &sectors[i], &bits);
+    const uint32_t count = sl_shape_wedges(&o->shadows.pivot, &shape, wedges);
+    for (uint32_t i = 0; i < count; i++) test->query(o, &shape, &wedges[i], &bits);
     return bits;
 }
 
@@ -199,7 +199,7 @@ static void as_brute_force_says(void **state) {
         unsigned first = 0;
         for (size_t t = 0; t < test_count; t++) {
             fill(context, &s, tests[t].calls, occlusions[t]);
-            const unsigned found = look(&s, tests[t].calls, occlusions[t]);
+            const unsigned found = query(&s, tests[t].calls, occlusions[t]);
             if (disjoint && found != due)
                 fail_msg("round %d, %s: %u, brute force %u", round, tests[t].name, found, due);
             if ((found & due) != due)
@@ -209,7 +209,7 @@ static void as_brute_force_says(void **state) {
             first = found;
         }
     }
-    assert_true(seen[SL_BEFORE] > 1000 && seen[SL_BEHIND] > 1000 && seen[SL_LOOK_BOTH] > 1000);
+    assert_true(seen[SL_BEFORE] > 1000 && seen[SL_BEHIND] > 1000 && seen[SL_BOTH_SIDES] > 1000);
     assert_true(loose < 600);
     for (size_t t = 0; t < test_count; t++) free_occlusion(context, tests[t].calls, occlusions[t]);
     sl_context_destroy(context);

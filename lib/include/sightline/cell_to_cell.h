@@ -39,6 +39,7 @@ typedef struct sl_stab_trees {
     sl_stab_node *nodes;
 } sl_stab_trees;
 
+/// What the work took, in numbers.
 typedef struct sl_see_account {
     uint64_t tests;          ///< stabbing tests (for GLPK: linear programs)
     uint64_t nodes;          ///< stab-tree nodes, roots included, kept or not
@@ -94,6 +95,7 @@ SL_API void sl_partial_destroy(sl_context *context, sl_partial *partial); ///< a
 
 /// Whether there are partial results at all; whether they are those of all units.
 SL_API bool sl_partial_begun(const sl_partial *partial);
+/// Whether there are partial results of all units.
 SL_API bool sl_partial_complete(const sl_partial *partial);
 
 /// How many units of what was asked for, all or one shard, are left to do.
@@ -133,6 +135,7 @@ typedef struct sl_see_options {
     void *enough_user;
 } sl_see_options;
 
+/// The usual options: closed sight, one thread a core, no stab trees.
 SL_API sl_see_options sl_see_options_default(void);
 
 /// A method: reachable by name, listed everywhere from this table. Each row of a PVS holds the cell
@@ -164,7 +167,16 @@ typedef struct sl_see_method {
                        const uint64_t *kept, const uint64_t *enclosed, sl_partial *partial);
 } sl_see_method;
 
+/// All methods, *count of them.
 SL_API const sl_see_method *sl_see_methods(size_t *count);
+
+/// The method of that name; NULL for none.
+SL_API const sl_see_method *sl_see_method_named(const char *name);
+
+/// The method that is taken where none is asked for: the fastest exact one that can do what the
+/// options ask for and that knows the effects of the map. "sweep" in most cases; "dfs" where the
+/// options ask for stab trees or name a solver; "prune" where the map has mirrors.
+SL_API const sl_see_method *sl_see_method_for(const sl_map *map, const sl_see_options *options);
 
 /// SL_UNSUPPORTED, by name, where a method with a solver (NULL for methods that do not stab) does
 /// not know what a map calls for. To be asked before any work; the methods themselves believe

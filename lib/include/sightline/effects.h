@@ -42,6 +42,7 @@ typedef struct sl_plan {
     uint32_t door_limit;   ///< sets of doors kept of a pair, at most; 16 by itself
 } sl_plan;
 
+/// The plan of a map; it never fails.
 SL_API sl_plan sl_plan_make(const sl_map *map);
 
 /// Takes effects out of a map, and notes what was taken.

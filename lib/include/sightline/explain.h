@@ -22,6 +22,7 @@ typedef struct sl_explain_options {
     uint64_t most_tests;     ///< stabbing tests after which to give up; 0, as usual, for no limit
 } sl_explain_options;
 
+/// The usual options, as told at each field.
 SL_API sl_explain_options sl_explain_options_default(void);
 
 /// A portal sequence, and the ends that decide on it; portal i of the ends is directed

@@ -9,6 +9,7 @@
 extern "C" {
 #endif
 
+/// What may be wrong with a map.
 typedef enum sl_fault_kind {
     SL_FAULT_LEAK,        ///< a way from a start to the map's border
     SL_FAULT_GAP,         ///< a wall's end near another wall, and nothing between
@@ -22,6 +23,7 @@ typedef enum sl_fault_kind {
 /// "leak", "gap", "overlap", "crossing", "thin", "unreachable".
 SL_API const char *sl_fault_name(sl_fault_kind kind);
 
+/// One fault, and where it is.
 typedef struct sl_fault {
     sl_fault_kind kind;
     /// A leak's narrowest portal; the gap from the wall's end to the other wall; the piece that two
@@ -51,6 +53,7 @@ typedef struct sl_faults {
 
 SL_API void sl_faults_destroy(sl_context *context, sl_faults *faults); ///< and zeroes it
 
+/// Zeroed: the usual.
 typedef struct sl_faults_options {
     double gap;  ///< gaps up to this width are told; 0 for a thousandth of the map's diagonal
     double thin; ///< cells thinner than this are told; 0 for the same
@@ -63,6 +66,7 @@ typedef struct sl_faults_options {
 SL_API sl_status sl_find_faults(sl_context *context, const sl_map *map, const sl_space *space,
                                 const sl_faults_options *options, sl_faults *out);
 
+/// What sl_map_snap did.
 typedef struct sl_snap_account {
     size_t moved;    ///< wall ends that were moved
     double farthest; ///< how far at most

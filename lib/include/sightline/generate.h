@@ -23,6 +23,7 @@ typedef struct sl_generate_options {
     bool in_line;   ///< walls in line stay in line to the last bit when the plan is turned
 } sl_generate_options;
 
+/// The usual options, as told at each field.
 SL_API sl_generate_options sl_generate_options_default(void);
 
 struct sl_plot;

@@ -32,6 +32,7 @@ typedef struct sl_import_options {
     bool cells;
 } sl_import_options;
 
+/// The usual options: each format's own choice.
 SL_API sl_import_options sl_import_options_default(void);
 
 /// Names of maps, in the order of their file. Zeroed, it is empty.
@@ -107,6 +108,7 @@ SL_API void sl_map_choice_destroy(sl_context *context, sl_map_choice *choice); /
 SL_API sl_status sl_map_read_unigrafix(sl_context *context, const char *name, const char *text,
                                        size_t size, const sl_import_options *options, sl_map *map);
 
+/// Between which heights a UniGrafix model lies, for sl_import_options.slice.
 SL_API sl_status sl_map_heights_unigrafix(sl_context *context, const char *name, const char *text,
                                           size_t size, double *lowest, double *highest);
 
@@ -137,6 +139,7 @@ SL_API sl_status sl_map_read_ros(sl_context *context, const char *name, const ch
 /// pixels. What was taken is noted.
 SL_API sl_status sl_map_read_tmx(sl_context *context, const char *name, const char *text,
                                  size_t size, const sl_import_options *options, sl_map *map);
+/// As sl_map_read_tmx, from JSON.
 SL_API sl_status sl_map_read_tmj(sl_context *context, const char *name, const char *text,
                                  size_t size, const sl_import_options *options, sl_map *map);
 
@@ -144,6 +147,7 @@ SL_API sl_status sl_map_read_tmj(sl_context *context, const char *name, const ch
 /// the world's name): the cells of its IntGrid layers. Unit: pixels. What was taken is noted.
 SL_API sl_status sl_map_read_ldtk(sl_context *context, const char *name, const char *text,
                                   size_t size, const sl_import_options *options, sl_map *map);
+/// Lists the levels of an LDtk project into an empty list.
 SL_API sl_status sl_map_list_ldtk(sl_context *context, const char *name, const char *text,
                                   size_t size, sl_map_list *list);
 

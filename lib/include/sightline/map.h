@@ -41,6 +41,7 @@ typedef struct sl_start {
     uint32_t line;
 } sl_start;
 
+/// A way through the map, as a polyline.
 typedef struct sl_path {
     char *name;
     sl_point *points;
@@ -98,17 +99,25 @@ SL_API sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to
 /// SL_BAD_ARGUMENT otherwise.
 SL_API sl_status sl_map_add_wall(sl_context *context, sl_map *map, sl_point a, sl_point b,
                                  uint32_t line);
+/// Adds a door. As sl_map_add_wall.
 SL_API sl_status sl_map_add_door(sl_context *context, sl_map *map, const char *name, sl_segment at,
                                  bool open, uint32_t line);
+/// Adds a mirror that reflects on both sides. As sl_map_add_wall.
 SL_API sl_status sl_map_add_mirror(sl_context *context, sl_map *map, sl_segment at, uint32_t line);
+/// Adds one-way glass, seen through from its right to its left. As sl_map_add_wall.
 SL_API sl_status sl_map_add_oneway(sl_context *context, sl_map *map, sl_segment at, uint32_t line);
+/// Adds a seam. As sl_map_add_wall.
 SL_API sl_status sl_map_add_seam(sl_context *context, sl_map *map, sl_segment at, uint32_t line);
+/// Adds a viewpoint; its heading in degrees, counter-clockwise from +x. As sl_map_add_wall.
 SL_API sl_status sl_map_add_start(sl_context *context, sl_map *map, sl_point at, double heading,
                                   uint32_t line);
+/// Adds a path of `count` points, at least 1. As sl_map_add_wall.
 SL_API sl_status sl_map_add_path(sl_context *context, sl_map *map, const char *name,
                                  const sl_point *points, size_t count, uint32_t line);
+/// Adds an object. As sl_map_add_wall.
 SL_API sl_status sl_map_add_object(sl_context *context, sl_map *map, const char *name, sl_box box,
                                    uint32_t line);
+/// Adds a cell of `count` corners, at least 3, either way round. As sl_map_add_wall.
 SL_API sl_status sl_map_add_cell(sl_context *context, sl_map *map, const sl_point *corners,
                                  size_t count, uint32_t line);
 /// Drops the map's own cells.
@@ -140,6 +149,7 @@ typedef struct sl_clean_account {
     double largest_move; ///< no clean wall is farther than this from the walls that it comes from
 } sl_clean_account;
 
+/// Start from sl_clean_options_default().
 typedef struct sl_clean_options {
     /// Ends no farther apart than this become one, and walls that come nearer to an end than half
     /// of it are led through it. 0: only ends that are equal, and only ends exactly on a wall.
@@ -148,6 +158,7 @@ typedef struct sl_clean_options {
     double weld;
 } sl_clean_options;
 
+/// The usual options, as told at each field.
 SL_API sl_clean_options sl_clean_options_default(void);
 
 /// Makes the walls a planar set: no two of them cross, overlap or touch but in common ends, by

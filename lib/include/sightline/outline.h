@@ -12,7 +12,8 @@ extern "C" {
 /// What lies beyond a side. A value below SL_SIDE_WALL: the portal's other side, as an index of
 /// sides. From SL_SIDE_WALL on: the wall of that number. From SL_SIDE_BORDER on: the map's border,
 /// lower, right, upper or left, where no wall is.
-#define SL_SIDE_WALL   UINT32_C(0x80000000)
+#define SL_SIDE_WALL UINT32_C(0x80000000)
+/// The map's lower border; the right, upper and left one follow.
 #define SL_SIDE_BORDER UINT32_C(0xfffffff0)
 
 /// A piece of a room's boundary: a portal (several of the space's, where they join in one line), or
@@ -45,6 +46,7 @@ SL_API void sl_outline_destroy(sl_context *context, sl_outline *outline); ///< a
 /// cell.
 SL_API uint32_t sl_outline_room(const sl_outline *outline, uint32_t cell, sl_point point);
 
+/// Whether a side is a portal.
 static inline bool sl_side_is_portal(const sl_side *side) {
     return side->neighbour < SL_SIDE_WALL;
 }

@@ -18,6 +18,7 @@ typedef struct sl_reject_options {
     uint64_t row_bytes; ///< limit on memory for visible sets, of all maps at work together
 } sl_reject_options;
 
+/// The usual options: all maps, open sight.
 SL_API sl_reject_options sl_reject_options_default(void);
 
 /// What the REJECT of a map holds.

@@ -52,6 +52,7 @@ typedef struct sl_cell {
     uint32_t reserved; ///< 0
 } sl_cell;
 
+/// What a seam is in the map.
 typedef enum sl_seam_kind { SL_SEAM_PLAIN, SL_SEAM_DOOR, SL_SEAM_ONEWAY } sl_seam_kind;
 
 /// A seam: what of the map is seen through, or can be, and cuts the cells all the same.
@@ -72,8 +73,10 @@ typedef struct sl_seam_portal {
 /// map's border. Else it is the wall's number, with SL_NEIGHBOUR_RIGHT or-ed where the cell is at
 /// the wall's right, going from its a to its b.
 #define SL_NEIGHBOUR_PORTAL UINT32_MAX
+/// The side is on the map's border.
 #define SL_NEIGHBOUR_BORDER (UINT32_MAX - 1)
-#define SL_NEIGHBOUR_RIGHT  0x80000000u
+/// Or-ed to a wall's number: the cell is at the wall's right.
+#define SL_NEIGHBOUR_RIGHT 0x80000000u
 
 /// Zeroed, a space is empty.
 ///
@@ -118,6 +121,7 @@ typedef struct sl_subdivide_options {
     bool median;     ///< then the one nearest to the median; off: the first
 } sl_subdivide_options;
 
+/// The usual rules: all of them, walls that cover 0.2 of a line preferred.
 SL_API sl_subdivide_options sl_subdivide_options_default(void);
 
 /// Subdivides by a kd-tree on the walls' own lines until no wall is inside a cell. Walls and seams

@@ -9,6 +9,7 @@
 extern "C" {
 #endif
 
+/// What a step of the search is.
 typedef enum sl_step_kind {
     SL_STEP_ENTER,     ///< the sequence has a sightline: the cell behind it is entered
     SL_STEP_BACKWARDS, ///< no one direction crosses all portals forwards: passed over
@@ -38,6 +39,7 @@ typedef struct sl_steps_options {
     size_t most;             ///< steps after which to stop; usually 200 000
 } sl_steps_options;
 
+/// The usual options, as told at each field.
 SL_API sl_steps_options sl_steps_options_default(void);
 
 /// Zeroed, it is empty.

@@ -14,8 +14,10 @@ extern "C" {
 #endif
 
 #if defined(__GNUC__)
+/// Lets compilers check the arguments of a function against its format.
 #define SL_PRINTF(text, first) __attribute__((format(printf, text, first)))
 #else
+/// Lets compilers check the arguments of a function against its format.
 #define SL_PRINTF(text, first)
 #endif
 
@@ -34,12 +36,15 @@ SL_API sl_status sl_fail(sl_context *context, sl_status status, const char *form
 SL_API sl_status sl_fail_at(sl_context *context, const char *file, unsigned line,
                             const char *format, ...) SL_PRINTF(4, 5);
 
+/// Says that there is no memory; gives SL_NO_MEMORY.
 SL_API sl_status sl_fail_memory(sl_context *context);
 
 /// SL_CANCELLED when the user wants to stop, else SL_OK.
 SL_API sl_status sl_check_cancelled(sl_context *context);
 
+/// Hands a message, as printf makes it, to the note hook.
 SL_API void sl_note(sl_context *context, const char *format, ...) SL_PRINTF(2, 3);
+/// Hands progress to the hook.
 SL_API void sl_report(sl_context *context, const char *stage, const char *unit, uint64_t done,
                       uint64_t total);
 
@@ -47,9 +52,12 @@ SL_API void sl_report(sl_context *context, const char *stage, const char *unit, 
 SL_API void *sl_alloc(sl_context *context, size_t bytes);
 /// Zeroed; safe under overflow of count * size. A count of 0 gives a block that can be freed.
 SL_API void *sl_alloc_array(sl_context *context, size_t count, size_t size);
+/// Frees what sl_alloc and its like gave; NULL is fine.
 SL_API void sl_free(sl_context *context, void *block);
 /// Bytes that the machine has, UINT64_MAX where the system does not tell.
 SL_API uint64_t sl_machine_memory(void);
+/// Seconds on a clock that only goes forward, since some moment.
+SL_API double sl_seconds(void);
 /// A copy of `length` bytes with a 0 behind them.
 SL_API char *sl_copy_text(sl_context *context, const char *text, size_t length);
 
@@ -78,30 +86,37 @@ SL_API void sl_shrink(sl_context *context, void *items, size_t *capacity, size_t
 
 // --- sets of small numbers, a bit each
 
+/// A word of a bit set: bit i of a set is word i / 64, bit i % 64.
 typedef uint64_t sl_bits;
 
+/// Words of a set of `count` bits.
 static inline size_t sl_bits_words(size_t count) {
     return (count + 63) / 64;
 }
 
+/// Whether bit i is set.
 static inline bool sl_bits_has(const sl_bits *set, size_t i) {
     return set[i / 64] >> (i % 64) & 1;
 }
 
+/// Sets bit i.
 static inline void sl_bits_add(sl_bits *set, size_t i) {
     set[i / 64] |= (sl_bits)1 << (i % 64);
 }
 
+/// Turns bit i over.
 static inline void sl_bits_flip(sl_bits *set, size_t i) {
     set[i / 64] ^= (sl_bits)1 << (i % 64);
 }
 
 // --- random numbers: the same on every machine (SplitMix64; Steele, Lea & Flood 2014)
 
+/// A source of random numbers; `state` is the seed at first. The same on every machine.
 typedef struct sl_random {
     uint64_t state;
 } sl_random;
 
+/// The next 64 random bits.
 static inline uint64_t sl_random_next(sl_random *random) {
     uint64_t z = random->state += 0x9e3779b97f4a7c15u;
     z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
@@ -137,6 +152,7 @@ SL_API bool sl_number_read(const char *text, size_t length, double *value);
 // --- whole files: a file is written beside its target and renamed, so that a failure leaves the
 // --- old one as it was and nothing half-written
 
+/// The bytes of a file, which the caller frees (sl_free).
 typedef struct sl_bytes {
     char *data; ///< `size` bytes and a 0 behind them
     size_t size;
@@ -147,6 +163,7 @@ typedef struct sl_bytes {
 /// bytes than a quarter of the machine's memory or, of a pipe or a device, than 1 GiB.
 SL_API sl_status sl_file_read(sl_context *context, const char *path, sl_bytes *out);
 
+/// A file in the making: written beside its target, and put in its place by sl_output_close.
 typedef struct sl_output {
     FILE *stream;
     char *path, *temporary;
