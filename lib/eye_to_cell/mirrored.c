@@ -13,8 +13,8 @@
 /// that it sees. Views of one mirror that join make one part. From each part's image the same is
 /// done again, up to the depth that was asked for.
 ///
-/// Images and rays are kept as sums of two doubles (effects/mirrors.h), so behind axial mirrors all is
-/// exact. Cost: an expansion for each part; parts may grow as a power of the mirrors.
+/// Images and rays are kept as sums of two doubles (effects/mirrors.h), so behind axial mirrors all
+/// is exact. Cost: an expansion for each part; parts may grow as a power of the mirrors.
 #include "sightline/mirrored.h"
 
 #include "effects/mirrors.h"

@@ -224,7 +224,8 @@ static sl_status add_room(search *s, uint32_t room) {
 }
 
 /// Whether lines of the sequence and the sector pass a side too. The caller pops it after SL_OK.
-static sl_status push(search *s, const sl_room_side *side, const sl_direction_sector *cone, bool *seen) {
+static sl_status push(search *s, const sl_room_side *side, const sl_direction_sector *cone,
+                      bool *seen) {
     sl_context *context = s->me->context;
     sl_stab_verdict verdict;
     if (++s->me->work.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));

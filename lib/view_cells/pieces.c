@@ -245,7 +245,8 @@ static uint32_t fill_graph(const sl_view_rooms *rooms, int quadrant, uint32_t *f
             const sl_room_side *side = &rooms->sides[i];
             sl_direction_sector cone = sl_view_quadrant(quadrant);
             const sl_directed_portal portal = {.left = side->left, .right = side->right};
-            if (side->room != SL_NO_ROOM && sl_direction_sector_cut(&cone, &portal)) to[count++] = side->room;
+            if (side->room != SL_NO_ROOM && sl_direction_sector_cut(&cone, &portal))
+                to[count++] = side->room;
         }
         first[room + 1] = count;
     }
