@@ -1,4 +1,5 @@
 /// `sightline compare`: every method on one map, accuracy against time, as table and chart.
+#include "built.h"
 #include "commands.h"
 #include "compare.h"
 #include "inputs.h"
@@ -46,6 +47,7 @@ static sl_status make_plan(sl_context *context, const char *input, compare_plan 
                        plan->eye ? "with" : "without");
     SL_TRY(pipeline_plan(context, input, &plan->pipeline));
     SL_TRY(compare_eye_read_fovs(context, plan->fov, &plan->eye_plan));
+    if (plan->output) SL_TRY(built_need_pictures(context));
     if (plan->dark && !plan->output)
         return sl_fail(context, SL_BAD_ARGUMENT, "--dark is for the chart, which needs -o");
     return SL_OK;

@@ -251,90 +251,106 @@ static void explanation_print(const sl_baked *baked, const sl_explanation *e) {
 
 // --- JSON
 
-static json_t *json_of_point(sl_point p) {
-    return json_pack("[f, f]", p.x, p.y);
+static void add_segment(sl_json_fields *fields, const char *key, sl_point a, sl_point b) {
+    sl_json_add_box(fields, key, (sl_box){a, b});
 }
 
-static json_t *json_of_two(sl_point a, sl_point b) {
-    return json_pack("[f, f, f, f]", a.x, a.y, b.x, b.y);
+static void put_portal(sl_json_writer *json, const sl_directed_portal *directed) {
+    sl_json_put_object(json);
+    sl_json_put_key(json, "portal");
+    sl_json_put_integer(json, directed->portal);
+    sl_json_put_key(json, "cell");
+    sl_json_put_integer(json, directed->cell);
+    sl_json_put_key(json, "left");
+    sl_json_put_point(json, directed->left);
+    sl_json_put_key(json, "right");
+    sl_json_put_point(json, directed->right);
+    sl_json_put_end(json, '}');
 }
 
-static json_t *json_of_portal(const sl_directed_portal *directed) {
-    return json_pack("{s:I, s:I, s:o, s:o}", "portal", (json_int_t)directed->portal, "cell",
-                     (json_int_t)directed->cell, "left", json_of_point(directed->left), "right",
-                     json_of_point(directed->right));
+static void put_portals(sl_json_writer *json, const sl_space *space, const sl_sequence *sequence,
+                        uint32_t count) {
+    sl_json_put_list(json);
+    for (uint32_t i = 0; i < count; i++) put_portal(json, &space->directed[sequence->directed[i]]);
+    sl_json_put_end(json, ']');
 }
 
-static json_t *json_of_portals(const sl_space *space, const sl_sequence *sequence, uint32_t count) {
-    json_t *array = json_array();
-    for (uint32_t i = 0; i < count; i++)
-        json_array_append_new(array, json_of_portal(&space->directed[sequence->directed[i]]));
-    return array;
-}
-
-static json_t *json_of_ends(const sl_space *space, const sl_sequence *sequence) {
-    json_t *array = json_array();
+static void put_ends(sl_json_writer *json, const sl_space *space, const sl_sequence *sequence) {
+    sl_json_put_list(json);
     for (uint32_t i = 0; i < sequence->end_count; i++) {
         const sl_stab_end end = sequence->ends[i];
-        const sl_point at = sl_sequence_end(space, sequence, end);
-        json_array_append_new(array,
-                              json_pack("{s:I, s:s, s:o}", "portal",
-                                        (json_int_t)portal_of(space, sequence, end.portal), "side",
-                                        end.left ? "left" : "right", "point", json_of_point(at)));
+        sl_json_put_object(json);
+        sl_json_put_key(json, "portal");
+        sl_json_put_integer(json, portal_of(space, sequence, end.portal));
+        sl_json_put_key(json, "side");
+        sl_json_put_text(json, end.left ? "left" : "right");
+        sl_json_put_key(json, "point");
+        sl_json_put_point(json, sl_sequence_end(space, sequence, end));
+        sl_json_put_end(json, '}');
     }
-    return array;
+    sl_json_put_end(json, ']');
 }
 
-static json_t *json_of_miss(const sl_space *space, const sl_miss *miss) {
+static void put_miss(sl_json_writer *json, const sl_space *space, const sl_miss *miss) {
     const uint32_t last = miss->sequence.directed_count - 1;
-    return json_pack("{s:o, s:o, s:s, s:I, s:o}", "sequence",
-                     json_of_portals(space, &miss->sequence, last), "stopped_by",
-                     json_of_portal(&space->directed[miss->sequence.directed[last]]), "reason",
-                     miss->turns ? "turn" : "conflict", "missing", (json_int_t)miss->missing,
-                     "ends", json_of_ends(space, &miss->sequence));
+    sl_json_put_object(json);
+    sl_json_put_key(json, "sequence");
+    put_portals(json, space, &miss->sequence, last);
+    sl_json_put_key(json, "stopped_by");
+    put_portal(json, &space->directed[miss->sequence.directed[last]]);
+    sl_json_put_key(json, "reason");
+    sl_json_put_text(json, miss->turns ? "turn" : "conflict");
+    sl_json_put_key(json, "missing");
+    sl_json_put_integer(json, (int64_t)miss->missing);
+    sl_json_put_key(json, "ends");
+    put_ends(json, space, &miss->sequence);
+    sl_json_put_end(json, '}');
 }
 
-static json_t *json_of_file(const sl_baked *baked, const sl_explanation *e) {
+static void add_file(sl_json_fields *fields, const sl_baked *baked, const sl_explanation *e) {
     const said what = said_by(baked, e);
-    return json_pack("{s:s, s:s, s:s, s:o, s:b}", "sight", sight_name(baked->visibility.sight),
-                     "method", baked->method, "guarantee",
-                     sl_guarantee_name(baked->visibility.guarantee), "seen",
-                     what == SAID_NOTHING ? json_null() : json_boolean(what == SAID_SEEN),
-                     "doubtful", (int)is_doubtful(baked, e));
-}
-
-static void set(sl_json_fields *fields, const char *key, json_t *value) {
-    if (json_object_set_new(fields->object, key, value) != 0) fields->failed = true;
+    sl_json_fields inner = sl_json_begin();
+    sl_json_add_text(&inner, "sight", sight_name(baked->visibility.sight));
+    sl_json_add_text(&inner, "method", baked->method);
+    sl_json_add_text(&inner, "guarantee", sl_guarantee_name(baked->visibility.guarantee));
+    if (what == SAID_NOTHING)
+        sl_json_add_text(&inner, "seen", NULL);
+    else
+        sl_json_add_flag(&inner, "seen", what == SAID_SEEN);
+    sl_json_add_flag(&inner, "doubtful", is_doubtful(baked, e));
+    sl_json_add_fields(fields, "file", &inner);
 }
 
 static void add_found(sl_json_fields *fields, const sl_space *space, const sl_explanation *e) {
     if (!e->sequence.directed_count) return;
-    set(fields, "sequence", json_of_portals(space, &e->sequence, e->sequence.directed_count));
-    set(fields, "line", json_of_two(e->witness.a, e->witness.b));
+    put_portals(sl_json_add(fields, "sequence"), space, &e->sequence, e->sequence.directed_count);
+    add_segment(fields, "line", e->witness.a, e->witness.b);
     sl_json_add_flag(fields, "touches", e->touches);
-    set(fields, "shown", json_of_two(e->shown.a, e->shown.b));
-    if (e->verdict == SL_GRAZING) set(fields, "ends", json_of_ends(space, &e->sequence));
+    add_segment(fields, "shown", e->shown.a, e->shown.b);
+    if (e->verdict == SL_GRAZING) put_ends(sl_json_add(fields, "ends"), space, &e->sequence);
 }
 
 static void add_bent(sl_json_fields *fields, const sl_space *space, const sl_bent_sightline *bent,
                      const char *verdict) {
-    json_t *steps = json_array();
-    for (uint32_t i = 0; i < bent->step_count; i++) {
-        const sl_bent_step *step = &bent->steps[i];
-        const bool portal = step->mirror == UINT32_MAX;
-        json_array_append_new(
-            steps,
-            json_pack("{s: I, s: I}", portal ? "portal" : "mirror",
-                      (json_int_t)(portal ? space->directed[step->directed].portal : step->mirror),
-                      "cell", (json_int_t)step->cell));
-    }
     sl_json_fields inner = sl_json_begin();
     sl_json_add_text(&inner, "verdict", verdict);
     sl_json_add_flag(&inner, "complete", bent->complete);
     sl_json_add_count(&inner, "tests", bent->tests);
     sl_json_add_flag(&inner, "rounded", bent->rounded);
     sl_json_add_count(&inner, "mirrors", bent->mirrors);
-    if (json_object_set_new(inner.object, "steps", steps) != 0) inner.failed = true;
+    sl_json_writer *json = sl_json_add(&inner, "steps");
+    sl_json_put_list(json);
+    for (uint32_t i = 0; i < bent->step_count; i++) {
+        const sl_bent_step *step = &bent->steps[i];
+        const bool portal = step->mirror == UINT32_MAX;
+        sl_json_put_object(json);
+        sl_json_put_key(json, portal ? "portal" : "mirror");
+        sl_json_put_integer(json, portal ? space->directed[step->directed].portal : step->mirror);
+        sl_json_put_key(json, "cell");
+        sl_json_put_integer(json, step->cell);
+        sl_json_put_end(json, '}');
+    }
+    sl_json_put_end(json, ']');
     sl_json_add_points(&inner, "line", bent->bends, bent->bends ? bent->mirrors + 2 : 0);
     sl_json_add_fields(fields, "by_mirror", &inner);
 }
@@ -356,11 +372,11 @@ static sl_status explanation_print_json(sl_context *context, const sl_baked *bak
     else
         sl_json_add_count(&fields, "distance", e->distance);
     add_found(&fields, &baked->space, e);
-    json_t *misses = json_array();
-    for (uint32_t i = 0; i < e->miss_count; i++)
-        json_array_append_new(misses, json_of_miss(&baked->space, &e->misses[i]));
-    set(&fields, "misses", misses);
-    set(&fields, "file", json_of_file(baked, e));
+    sl_json_writer *misses = sl_json_add(&fields, "misses");
+    sl_json_put_list(misses);
+    for (uint32_t i = 0; i < e->miss_count; i++) put_miss(misses, &baked->space, &e->misses[i]);
+    sl_json_put_end(misses, ']');
+    add_file(&fields, baked, e);
     if (e->bent.asked) add_bent(&fields, &baked->space, &e->bent, verdicts[e->bent.verdict]);
     return sl_json_print(context, &fields);
 }

@@ -1,4 +1,5 @@
 /// `sightline export`: a baked file for other programs.
+#include "built.h"
 #include "commands.h"
 #include "inputs.h"
 #include "outputs.h"
@@ -8,17 +9,21 @@
 #include <string.h>
 #include <unistd.h>
 
-static name_table format_table(void) {
+static name_table format_table(const sl_context *context) {
     size_t count;
-    const sl_export_format *formats = sl_export_formats(&count);
+    const sl_export_format *formats = sl_export_formats(context, &count);
     return (name_table){"format", formats, sizeof *formats, count, NULL};
 }
 
 static void print_formats(void) {
+    sl_context *context = sl_context_create(NULL);
+    if (!context) return;
+    (void)built_use_formats(context); // with no memory: the formats that are always there
     size_t count;
-    const sl_export_format *formats = sl_export_formats(&count);
+    const sl_export_format *formats = sl_export_formats(context, &count);
     puts("\nformats (the first is the default):");
     for (size_t i = 0; i < count; i++) printf("  %-10s%s\n", formats[i].name, formats[i].what);
+    sl_context_destroy(context);
 }
 
 /// Refuses --wad and --map for formats that do not take them, and an output that is the WAD itself.
@@ -37,7 +42,8 @@ sl_status cmd_export(command_console *console, int argc, char **argv) {
     const option_spec options[] = {
         {"output", 'o', "FILE", "where to write; stdout, or -, without it", .text = &output,
          .check = CHECK_FILE},
-        {"format", 0, "NAME", "what to write", .choice = &chosen, .names = format_table()},
+        {"format", 0, "NAME", "what to write", .choice = &chosen,
+         .names = format_table(console->context)},
         {"wad", 0, "IN.wad", "reject: the WAD of the map that was baked", .text = &given.wad},
         {"map", 0, "NAME", "reject: the name of that map", .text = &given.map},
     };
@@ -56,8 +62,9 @@ sl_status cmd_export(command_console *console, int argc, char **argv) {
     bool helped;
     SL_TRY(options_parse(console, &usage, argc, argv, &path, &helped));
     if (helped) return SL_OK;
+    const sl_export_format *formats = sl_export_formats(console->context, &count);
     if (!output) output = "-";
-    SL_TRY(check_wad(console->context, &sl_export_formats(&count)[chosen], &given, output));
+    SL_TRY(check_wad(console->context, &formats[chosen], &given, output));
     sl_baked baked = {0};
     SL_TRY(input_read_baked(console->context, path, &baked));
     progress_line_clear(&console->line);
@@ -65,8 +72,7 @@ sl_status cmd_export(command_console *console, int argc, char **argv) {
     // Exports hold what is seen with all doors open. They have no place for what mirrors show.
     sl_status status = sl_effects_check(console->context, &baked.map, "export",
                                         SL_EFFECT_DOOR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE);
-    if (status == SL_OK)
-        status = sl_export_formats(&count)[chosen].write(console->context, &baked, &given, output);
+    if (status == SL_OK) status = formats[chosen].write(console->context, &baked, &given, output);
     sl_baked_destroy(console->context, &baked);
     return status;
 }

@@ -92,11 +92,16 @@ static void add_region(sl_json_fields *fields, const sl_region *region) {
 
 /// "mirrors": the chain by the map's numbers, from 0, the eye's end first.
 static void add_chain(sl_json_fields *fields, const sl_mirrored_region *region, uint32_t number) {
-    json_t *chain = json_array();
-    for (uint32_t i = number; i != SL_NO_PART; i = region->parts[i].parent)
-        if (json_array_insert_new(chain, 0, json_integer(region->parts[i].mirror)) != 0)
-            fields->failed = true;
-    if (json_object_set_new(fields->object, "mirrors", chain) != 0) fields->failed = true;
+    uint32_t length = 0;
+    for (uint32_t i = number; i != SL_NO_PART; i = region->parts[i].parent) length++;
+    sl_json_writer *json = sl_json_add(fields, "mirrors");
+    sl_json_put_list(json);
+    for (; length; length--) {
+        uint32_t part = number;
+        for (uint32_t i = 1; i < length; i++) part = region->parts[part].parent;
+        sl_json_put_integer(json, region->parts[part].mirror);
+    }
+    sl_json_put_end(json, ']');
 }
 
 /// [{"mirrors": [0], "area": a, "rounded": false, "polygon": [...], "image": [...]}, ...]

@@ -56,7 +56,7 @@ static sl_status print_json(sl_context *context, const reject_plan *plan,
     sl_json_fields fields = sl_json_begin();
     sl_json_fields *maps = sl_alloc_array(context, report->count, sizeof *maps);
     if (!maps) {
-        json_decref(fields.object);
+        sl_json_drop(&fields);
         return SL_NO_MEMORY;
     }
     for (size_t i = 0; i < report->count; i++) {

@@ -1,5 +1,6 @@
 #include "console.h"
 
+#include "built.h"
 #include "sightline/support.h"
 
 #include <fcntl.h>
@@ -197,8 +198,9 @@ bool console_open(command_console *console) {
     const sl_hooks hooks = {
         .user = console, .progress = show_progress, .note = show_note, .cancelled = is_cancelled};
     console->context = sl_context_create(&hooks);
-    if (!console->context) fputs("sightline: out of memory\n", stderr);
-    return console->context != NULL;
+    const bool good = console->context && built_use_formats(console->context) == SL_OK;
+    if (!good) fputs("sightline: out of memory\n", stderr);
+    return good;
 }
 
 static int exit_status(sl_status status) {

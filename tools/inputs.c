@@ -1,5 +1,6 @@
 #include "inputs.h"
 
+#include "built.h"
 #include "names.h"
 #include "sightline/support.h"
 
@@ -25,9 +26,9 @@ static bool is_baked_name(const char *path) {
 }
 
 /// Whether the name has the ending of a map format.
-static bool is_map_name(const char *path) {
+static bool is_map_name(const sl_context *context, const char *path) {
     size_t count;
-    const sl_map_format *formats = sl_map_formats(&count);
+    const sl_map_format *formats = sl_map_formats(context, &count);
     for (size_t i = 0; i < count; i++) {
         for (const char *word = formats[i].endings; *word;) {
             const size_t length = strcspn(word, " ");
@@ -102,7 +103,7 @@ sl_status input_refuse_options(sl_context *context, const char *path, const inpu
 }
 
 sl_status input_read_baked(sl_context *context, const char *path, sl_baked *baked) {
-    if (is_map_name(path))
+    if (is_map_name(context, path))
         return sl_fail(
             context, SL_BAD_ARGUMENT,
             "%s: is a map, not a baked file; bake it first: sightline bake %s -o FILE.slv", path,
@@ -141,11 +142,15 @@ sl_status input_read_either(sl_context *context, const char *path, const input_o
 }
 
 void input_print_formats(void) {
+    sl_context *context = sl_context_create(NULL);
+    if (!context) return;
     size_t count;
-    const sl_map_format *formats = sl_map_formats(&count);
+    (void)built_use_formats(context); // with no memory: the formats that are always there
+    const sl_map_format *formats = sl_map_formats(context, &count);
     puts("\nmaps, by the ending of the file's name:");
     for (size_t i = 0; i < count; i++) printf("  %-28s%s\n", formats[i].endings, formats[i].what);
     printf("  %-28s%s\n", "-", "standard input, by its first bytes, else as the map text");
+    sl_context_destroy(context);
 }
 
 sl_status input_fail_outside(sl_context *context, const char *name, const char *text,

@@ -2,13 +2,15 @@
 #ifndef JSON_PRINT_H
 #define JSON_PRINT_H
 
+#include "sightline/json_write.h"
 #include "sightline/map.h"
 
-#include <jansson.h>
-
-/// Fields are added without asking each time; one that finds no memory fails the whole at its end.
+/// An object's fields, as they are written so far. A call that finds no memory fails the whole at
+/// its end, so that no caller asks each time.
 typedef struct sl_json_fields {
-    json_t *object;
+    sl_json_writer writer;
+    char *text;
+    size_t size, room;
     bool failed;
 } sl_json_fields;
 
@@ -17,6 +19,11 @@ typedef struct sl_json_fields {
 void sl_text_make_readable(const char *text, char *out, size_t size);
 
 sl_json_fields sl_json_begin(void);
+/// Frees fields that are not printed or added to others.
+void sl_json_drop(sl_json_fields *fields);
+
+/// A field whose value the caller puts: lists and objects within it must be closed again.
+sl_json_writer *sl_json_add(sl_json_fields *fields, const char *key);
 void sl_json_add_count(sl_json_fields *fields, const char *key, uint64_t count);
 void sl_json_add_real(sl_json_fields *fields, const char *key, double finite);
 void sl_json_add_flag(sl_json_fields *fields, const char *key, bool flag);
@@ -35,6 +42,9 @@ void sl_json_add_fields(sl_json_fields *fields, const char *key, sl_json_fields 
 /// A list of such objects; all of them are used up.
 void sl_json_add_list(sl_json_fields *fields, const char *key, sl_json_fields *items, size_t count);
 void sl_json_add_cleaning(sl_json_fields *fields, const char *key, const sl_clean_account *account);
+
+/// [x, y]
+void sl_json_put_point(sl_json_writer *json, sl_point point);
 
 /// Prints the object and uses it up.
 sl_status sl_json_print(sl_context *context, sl_json_fields *fields);

@@ -1,5 +1,6 @@
 #include "outputs.h"
 
+#include "built.h"
 #include "inputs.h"
 #include "sightline/support.h"
 
@@ -39,6 +40,7 @@ sl_status output_check_baked(sl_context *context, const char *path, const char *
 
 sl_status output_check_picture(sl_context *context, const char *path, const char *option,
                                const char *output) {
+    SL_TRY(built_need_pictures(context));
     if (input_ends_with(output, ".png") || input_ends_with(output, ".svg") ||
         input_ends_with(output, ".pdf"))
         return output_check_file(context, path, option, output);

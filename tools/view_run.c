@@ -1,6 +1,6 @@
 #include "view_run.h"
 
-#include "import/image.h"
+#include "sightline/io.h"
 #include "sightline/solvers.h"
 #include "sightline/support.h"
 

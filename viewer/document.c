@@ -7,6 +7,7 @@
 /// space.
 #include "document.h"
 
+#include "sightline/io.h"
 #include "sightline/solvers.h"
 #include "sightline/support.h"
 
@@ -208,7 +209,8 @@ static void *run(void *user) {
     bake_job *job = user;
     const sl_hooks hooks = {.user = job, .progress = take_progress, .cancelled = is_cancelled};
     sl_context *context = sl_context_create(&hooks);
-    job->status = context ? work(context, job) : SL_NO_MEMORY;
+    job->status = context ? sl_io_use(context) : SL_NO_MEMORY;
+    if (job->status == SL_OK) job->status = work(context, job);
     snprintf(job->message, sizeof job->message, "%s",
              context ? sl_context_message(context) : "out of memory");
     if (context) sl_context_destroy(context);

@@ -124,7 +124,7 @@ enum { FILES_MOST = 200 };
 
 /// By ending. Text files and pictures can be anything, and are listed only where they lie with
 /// maps.
-static bool is_map(const char *name, bool with_maps) {
+static bool is_map(const sl_context *context, const char *name, bool with_maps) {
     const char *dot = strrchr(name, '.');
     if (!dot) return false;
     if (strcasecmp(dot, ".slv") == 0) return true;
@@ -132,7 +132,7 @@ static bool is_map(const char *name, bool with_maps) {
     for (size_t i = 0; i < sizeof vague / sizeof *vague; i++)
         if (strcasecmp(dot, vague[i]) == 0 && (!with_maps || i > 0)) return false;
     size_t count;
-    const sl_map_format *formats = sl_map_formats(&count);
+    const sl_map_format *formats = sl_map_formats(context, &count);
     for (size_t i = 0; i < count; i++) {
         for (const char *at = formats[i].endings; *at;) {
             const size_t length = strcspn(at, " ");
@@ -156,7 +156,7 @@ static void add_folder(app_state *app, const char *folder, bool with_maps) {
     for (struct dirent *entry; (entry = readdir(dir)) && files->count < FILES_MOST;) {
         const int length = snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
         struct stat info;
-        if (length < 0 || length >= PATH || !is_map(entry->d_name, with_maps) ||
+        if (length < 0 || length >= PATH || !is_map(app->context, entry->d_name, with_maps) ||
             stat(path, &info) != 0 || !S_ISREG(info.st_mode))
             continue;
         if (sl_map_list_add(app->context, files, path, (size_t)length) != SL_OK) break;

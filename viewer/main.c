@@ -4,6 +4,7 @@
 #include "files.h"
 #include "save.h"
 #include "script.h"
+#include "sightline/io.h"
 #include "sightline/support.h"
 #include "window.h"
 
@@ -250,7 +251,8 @@ int main(int argc, char **argv) {
         fputs("sightline-view: out of memory\n", stderr);
         return 1;
     }
-    const sl_status status = run(context, argc, argv);
+    sl_status status = sl_io_use(context);
+    if (status == SL_OK) status = run(context, argc, argv);
     if (status != SL_OK) fprintf(stderr, "sightline-view: %s\n", sl_context_message(context));
     sl_context_destroy(context);
     const bool input =

@@ -1,12 +1,12 @@
 /// Reading a baked file: nothing in it is believed before it is checked.
 #include "bake/slv.h"
 #include "base/base.h"
+#include "base/checksum.h"
 #include "effects/mirrors.h"
 #include "space/cell_grid.h"
 
 #include <math.h>
 #include <string.h>
-#include <zlib.h>
 
 typedef struct reader {
     sl_context *context;
@@ -34,15 +34,11 @@ static sl_status in_file(const reader *r, sl_status status) {
 static uint32_t checksum_of(const reader *r) {
     sl_slv_header header = r->header;
     header.checksum = 0;
-    uLong sum = crc32(0, (const Bytef *)&header, sizeof header);
-    const Bytef *at = (const Bytef *)r->bytes + sizeof header;
-    for (size_t left = r->size - sizeof header; left;) {
-        const uInt part = left < (1u << 30) ? (uInt)left : 1u << 30;
-        sum = crc32(sum, at, part);
-        at += part;
-        left -= part;
-    }
-    return (uint32_t)sum;
+    sl_checksum sum;
+    sl_checksum_begin(&sum);
+    sl_checksum_add(&sum, &header, sizeof header);
+    sl_checksum_add(&sum, r->bytes + sizeof header, r->size - sizeof header);
+    return sl_checksum_value(&sum);
 }
 
 static sl_status check_header(reader *r) {

@@ -1,10 +1,10 @@
 #include "bake/slv.h"
+#include "base/checksum.h"
 #include "map/print.h"
 #include "sightline/support.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <zlib.h>
 
 enum { MOST_SECTIONS = 40 };
 
@@ -159,17 +159,6 @@ static void add_sections(plan *p, const sl_baked *baked, const sl_slv_info *info
     add_section(p, "MAPT", p->map_text, 1, map_bytes);
 }
 
-static uint32_t checksum_on(uint32_t checksum, const void *bytes, uint64_t count) {
-    const Bytef *at = bytes;
-    for (uint64_t left = count; left;) {
-        const uInt part = left < (1u << 30) ? (uInt)left : 1u << 30;
-        checksum = (uint32_t)crc32(checksum, at, part);
-        at += part;
-        left -= part;
-    }
-    return checksum;
-}
-
 /// Places the sections one behind the other and sums up what will be written.
 static void lay_out(plan *p) {
     static const char zeros[8] = {0};
@@ -183,14 +172,16 @@ static void lay_out(plan *p) {
         at = padded(at + section_bytes(&p->sections[i]));
     }
     header->file_bytes = at;
-    uint32_t sum = checksum_on(0, header, sizeof *header);
-    sum = checksum_on(sum, p->sections, header->section_count * sizeof *p->sections);
+    sl_checksum sum;
+    sl_checksum_begin(&sum);
+    sl_checksum_add(&sum, header, sizeof *header);
+    sl_checksum_add(&sum, p->sections, header->section_count * sizeof *p->sections);
     for (uint32_t i = 0; i < header->section_count; i++) {
         const uint64_t bytes = section_bytes(&p->sections[i]);
-        sum = checksum_on(sum, p->contents[i], bytes);
-        sum = checksum_on(sum, zeros, padded(bytes) - bytes);
+        sl_checksum_add(&sum, p->contents[i], bytes);
+        sl_checksum_add(&sum, zeros, padded(bytes) - bytes);
     }
-    header->checksum = sum;
+    header->checksum = sl_checksum_value(&sum);
 }
 
 /// Refused writes are left to the stream's error flag, which the commit asks.

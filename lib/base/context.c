@@ -25,6 +25,8 @@ sl_context *sl_context_create(const sl_hooks *hooks) {
 void sl_context_destroy(sl_context *context) {
     if (!context) return;
     const sl_hooks hooks = context->hooks;
+    sl_free(context, context->map_formats.items);
+    sl_free(context, context->export_formats.items);
     resize(&hooks, context, 0);
 }
 
@@ -170,4 +172,39 @@ double sl_seconds(void) {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
+}
+
+// --- tables that other libraries add to
+
+static const char *name_of(const char *item) {
+    const char *name;
+    memcpy(&name, item, sizeof name);
+    return name;
+}
+
+static bool has_name(const char *items, size_t count, size_t size, const char *name) {
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(name_of(items + i * size), name) == 0) return true;
+    return false;
+}
+
+const void *sl_table_items(const sl_table *table, const void *own, size_t own_count,
+                           size_t *count) {
+    *count = table->items ? table->count : own_count;
+    return table->items ? table->items : own;
+}
+
+sl_status sl_table_add(sl_context *context, sl_table *table, size_t size, const void *own,
+                       size_t own_count, const void *more, size_t count) {
+    size_t total;
+    const void *before = sl_table_items(table, own, own_count, &total);
+    char *items = sl_alloc_array(context, total + count, size);
+    if (!items) return SL_NO_MEMORY;
+    memcpy(items, before, total * size);
+    for (const char *item = more, *end = item + count * size; item < end; item += size)
+        if (!has_name(items, total, size, name_of(item)))
+            memcpy(items + total++ * size, item, size);
+    sl_free(context, table->items);
+    *table = (sl_table){items, total};
+    return SL_OK;
 }

@@ -1,5 +1,5 @@
 # What `cmake --install` puts down: libraries, headers, the command, the CMake package `sightline`
-# (components runtime, glpk and draw) and pkg-config files. All of it can be moved as one.
+# (components io, study, glpk, draw and runtime) and pkg-config files. All of it can be moved as one.
 include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/sightline")
 set(pkgconfig_dir "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
@@ -38,11 +38,19 @@ function(install_library target)
   install(FILES "${out}/${target}.pc" DESTINATION "${pkgconfig_dir}")
 endfunction()
 
+# The headers of a part come with it; all others belong to the core.
 set(headers "${PROJECT_SOURCE_DIR}/lib/include/sightline")
+set(io_headers io.h reject.h)
+set(study_headers from_region.h generate.h walk.h)
+set(glpk_headers glpk.h)
+set(draw_headers canvas.h draw.h)
+set(not_core "")
+foreach(header IN LISTS io_headers study_headers glpk_headers draw_headers)
+  list(APPEND not_core PATTERN ${header} EXCLUDE)
+endforeach()
 install_library(sightline)
 install(DIRECTORY "${headers}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
-  FILES_MATCHING PATTERN "*.h" PATTERN "glpk.h" EXCLUDE PATTERN "draw.h" EXCLUDE
-  PATTERN "canvas.h" EXCLUDE)
+  FILES_MATCHING PATTERN "*.h" ${not_core})
 
 install_library(sightline_runtime)
 install(FILES "${PROJECT_SOURCE_DIR}/lib/runtime/sightline_runtime.h"
@@ -54,14 +62,16 @@ if(SIGHTLINE_GLPK)
   if(NOT dir IN_LIST CMAKE_C_IMPLICIT_LINK_DIRECTORIES)
     set(PC_GLPK_LIBS "-L${dir} -lglpk")
   endif()
-  install_library(sightline_glpk)
-  install(FILES "${headers}/glpk.h" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/sightline")
   install(FILES "${in}/FindGLPK.cmake" DESTINATION "${package_dir}")
 endif()
-if(SIGHTLINE_DRAW)
-  install_library(sightline_draw)
-  install(FILES "${headers}/canvas.h" "${headers}/draw.h" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/sightline")
-endif()
+foreach(part io study glpk draw)
+  string(TOUPPER ${part} option)
+  if(SIGHTLINE_${option})
+    install_library(sightline_${part})
+    list(TRANSFORM ${part}_headers PREPEND "${headers}/")
+    install(FILES ${${part}_headers} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/sightline")
+  endif()
+endforeach()
 if(SIGHTLINE_TOOLS)
   install(TARGETS sightline_command RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 endif()

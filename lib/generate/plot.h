@@ -51,11 +51,6 @@ sl_status sl_plot_row_done(sl_plot *plot, int row);
 /// coordinates, so doors of 1 stay free.
 sl_status sl_plot_rooms(sl_plot *plot, sl_rect rect, int least);
 
-/// An office floor of wings x rows on a corner, with a start in its first corridor; about it is a
-/// wall. SL_WING_WIDTH and SL_WING_HEIGHT are a wing's share of the floor.
-enum { SL_WING_WIDTH = 28, SL_WING_HEIGHT = 18 };
-sl_status sl_plot_floor(sl_plot *plot, int x, int y, int wings, int rows);
-
 /// The kinds.
 sl_status sl_lay_maze(sl_plot *plot);
 sl_status sl_lay_office(sl_plot *plot);

@@ -10,6 +10,8 @@
 // of what they find, longest_s one machine's part of it: the longest shard and the joining. Their
 // set must be that of one run.
 #include "sightline/draw.h"
+#include "sightline/generate.h"
+#include "sightline/io.h"
 #include "sightline/sightline.h"
 
 #include <math.h>
@@ -132,6 +134,7 @@ static void write_map(const growth *g, uint64_t walls, const char *path) {
 static void make_space(sl_context *context, const char *path, sl_baked *baked, double *walls,
                        double *of) {
     double time = time_of(CLOCK_PROCESS_CPUTIME_ID);
+    must(context, sl_io_use(context));
     must(context, sl_map_read(context, path, NULL, &baked->map));
     of[READ_SECONDS] = lap(&time);
     *walls = (double)baked->map.wall_count;

@@ -3,6 +3,7 @@
 //   bench_solvers MAP [Z]     CSV: machine, map, solver, tests, nanoseconds a test, times the
 //   first's, and the same two without what playing alone takes
 #include "sightline/glpk.h"
+#include "sightline/io.h"
 #include "sightline/sightline.h"
 
 #include <stdio.h>
@@ -140,7 +141,7 @@ int main(int argc, char **argv) {
     if (argc < 2) fail("usage: bench_solvers MAP [Z]");
     sl_context *context = sl_context_create(NULL);
     sl_space space = {0};
-    if (!context) fail("out of memory");
+    if (!context || sl_io_use(context) != SL_OK) fail("out of memory");
     read_space(context, argv[1], argc > 2 ? argv[2] : NULL, &space);
     tape t = record_map(context, &space);
     const sl_solver *solvers[SOLVERS] = {sl_funnel(), sl_glpk_simplex(), sl_glpk_hybrid(),

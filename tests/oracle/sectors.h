@@ -3,7 +3,7 @@
 #ifndef SECTORS_H
 #define SECTORS_H
 
-#include "import/doom.h"
+#include "io/doom.h"
 #include "oracle/blockers.h"
 
 typedef struct sector_finder sector_finder;

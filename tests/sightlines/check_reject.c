@@ -12,7 +12,8 @@
 // or 2 for wrong arguments or files.
 #include "oracle/sectors.h"
 
-#include "bake/cell_sectors.h"
+#include "io/reject.h"
+#include "sightline/io.h"
 #include "sightline/sightline.h"
 #include "sightline/support.h"
 
@@ -259,7 +260,7 @@ static void read_arguments(check *run, int argc, char **argv) {
 int main(int argc, char **argv) {
     check run = {0};
     run.context = sl_context_create(NULL);
-    if (!run.context) abort();
+    if (!run.context || sl_io_use(run.context) != SL_OK) abort();
     read_arguments(&run, argc, argv);
     read_all(&run);
     const uint32_t count = (uint32_t)run.level.sector_count;

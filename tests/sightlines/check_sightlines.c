@@ -12,6 +12,7 @@
 // few are told on stderr), 2 wrong arguments or files.
 #include "oracle/sectors.h"
 
+#include "sightline/io.h"
 #include "sightline/sightline.h"
 #include "sightline/support.h"
 
@@ -301,7 +302,7 @@ static void read_arguments(check *run, int argc, char **argv) {
 int main(int argc, char **argv) {
     check run = {.count = 1000000, .apart = -1, .import = sl_import_options_default()};
     run.context = sl_context_create(NULL);
-    if (!run.context) abort();
+    if (!run.context || sl_io_use(run.context) != SL_OK) abort();
     read_arguments(&run, argc, argv);
     read_walls(&run);
     if (run.apart < 0) find_apart(&run);

@@ -24,19 +24,20 @@ import sys
 import tempfile
 
 # The stages, in order. Data goes one way: each knows those before it and nothing of those after it.
-FOLDERS = ["base", "geometry", "map", "import", "generate", "space", "effects", "stab", "cell_to_cell",
-           "from_region", "eye_to_cell", "walk", "view_cells", "bake", "query", "runtime", "draw"]
+FOLDERS = ["base", "geometry", "map", "generate", "space", "effects", "stab", "cell_to_cell",
+           "from_region", "eye_to_cell", "walk", "view_cells", "bake", "query", "io", "runtime", "draw"]
 # Used by games with no other part of the library beside it.
 ALONE = {"runtime"}
 # Public headers that are not named after their folder.
-HEADERS = {"context": "base", "support": "base", "version": "base",
+HEADERS = {"context": "base", "json_write": "base", "support": "base", "version": "base",
+           "import": "map",
            "faults": "space", "outline": "space",
            "dual": "stab", "glpk": "stab", "solvers": "stab",
            "doors": "cell_to_cell", "explain": "cell_to_cell", "pvs": "cell_to_cell",
            "steps": "cell_to_cell",
            "mirrored": "eye_to_cell", "moving": "eye_to_cell", "region": "eye_to_cell",
            "sees": "eye_to_cell", "view": "eye_to_cell",
-           "reject": "bake", "canvas": "draw"}
+           "reject": "io", "canvas": "draw"}
 # For users: it includes the others, and no part of the library includes it.
 ALL_HEADERS = "sightline"
 # Other versions lay out a few things differently.

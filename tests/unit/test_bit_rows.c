@@ -3,6 +3,7 @@
 #include "testing.h"
 
 #include "cell_to_cell/rows.h"
+#include "sightline/generate.h"
 #include "sightline/support.h"
 
 enum { MOST_CELLS = 700 };

@@ -4,6 +4,7 @@
 
 #include "geometry/orient.h"
 #include "map_same.h"
+#include "sightline/generate.h"
 
 #include <math.h>
 

@@ -2,6 +2,7 @@
 #include "testing.h"
 
 #include "map_same.h"
+#include "sightline/io.h"
 
 static void write_file(const char *path, const char *text) {
     FILE *file = fopen(path, "w");
@@ -12,19 +13,31 @@ static void write_file(const char *path, const char *text) {
 
 static void test_table(void **state) {
     (void)state;
-    size_t count;
-    const sl_map_format *formats = sl_map_formats(&count);
-    assert_true(count >= 3);
+    sl_context *context = testing_context(NULL);
+    size_t core, count, again;
+    assert_string_equal(sl_map_formats(context, &core)[1].endings, ".txt");
+    assert_int_equal(core, 2);
+    assert_ok(context, sl_io_use(context));
+    const sl_map_format *formats = sl_map_formats(context, &count);
+    assert_true(count > core);
     assert_string_equal(formats[0].endings, ".map");
     for (size_t i = 0; i < count; i++)
         assert_true(formats[i].name[0] && formats[i].endings[0] == '.' && formats[i].what[0] &&
                     formats[i].read);
+    // Formats that are there already are passed over.
+    assert_ok(context, sl_io_use(context));
+    sl_map_formats(context, &again);
+    assert_int_equal(again, count);
+    sl_export_formats(context, &again);
+    assert_int_equal(again, 5);
+    sl_context_destroy(context);
     assert_false(sl_import_options_default().has_slice);
 }
 
 static void test_endings(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
+    assert_ok(context, sl_io_use(context));
     const char *const text = "sightline 1\nwall 0 0 1 0\n", *const plan = "...\n";
     const char *const model = "v a 0 0 0;v b 4 0 0;v c 2 0 2;f f (a b c);";
     char folder[] = "/tmp/sightline-formats-XXXXXX";
@@ -90,6 +103,7 @@ static void test_report_and_failures(void **state) {
 static void test_options_refused(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
+    assert_ok(context, sl_io_use(context));
     char path[] = "/tmp/sightline-formats-XXXXXX";
     assert_true(mkstemp(path) >= 0);
     write_file(path, "sightline 1\nwall 0 0 1 0");

@@ -2,8 +2,9 @@
 // objects, chunks, tilesets in files of their own, and what is refused.
 #include "testing.h"
 
-#include "import/solid.h"
 #include "import_check.h"
+#include "io/names.h"
+#include "sightline/io.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -438,6 +439,7 @@ static sl_status read_beside(sl_context *context, const char *folder, const char
     char path[256];
     snprintf(path, sizeof path, "%s/m.tmx", folder);
     write_file(folder, "m.tmx", text);
+    assert_ok(context, sl_io_use(context));
     return sl_map_read(context, path, NULL, map);
 }
 

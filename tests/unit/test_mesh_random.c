@@ -6,6 +6,7 @@
 #include "oracle/blockers.h"
 #include "oracle/oracle.h"
 #include "oracle/random_map.h"
+#include "sightline/generate.h"
 #include "sightline/support.h"
 
 // --- what every scene must pass

@@ -4,6 +4,7 @@
 
 #include "geometry/orient.h"
 #include "oracle/random_map.h"
+#include "sightline/generate.h"
 
 #include <math.h>
 

@@ -6,6 +6,7 @@
 #include "sightline/support.h"
 
 #ifdef SIGHTLINE_TESTS_GLPK
+#include "sightline/generate.h"
 #include "sightline/glpk.h"
 #endif
 

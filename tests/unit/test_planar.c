@@ -5,6 +5,7 @@
 #include "map/planar.h"
 #include "oracle/planar_graph.h"
 #include "oracle/random_oblique.h"
+#include "sightline/generate.h"
 
 #include <math.h>
 

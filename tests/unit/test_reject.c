@@ -3,8 +3,9 @@
 // the WAD that it goes into is otherwise the same.
 #include "testing.h"
 
-#include "bake/exports.h"
 #include "oracle/sectors.h"
+#include "sightline/io.h"
+#include "sightline/reject.h"
 #include "sightline/support.h"
 #include "wad_make.h"
 

@@ -181,7 +181,7 @@ static void an_export_can_be_interrupted(void **state) {
     sl_baked baked;
     bake(context, rooms, &baked);
     size_t count;
-    const sl_export_format *formats = sl_export_formats(&count);
+    const sl_export_format *formats = sl_export_formats(context, &count);
     const sl_export_options none = {0};
     for (size_t i = 0; i < count; i++) {
         if (formats[i].takes_wad) continue;

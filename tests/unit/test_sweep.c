@@ -5,6 +5,7 @@
 #include "oracle/convex_space.h"
 #include "oracle/oracle.h"
 #include "oracle/random_map.h"
+#include "sightline/generate.h"
 #include "sightline/support.h"
 
 static const char OFFICE[] = SIGHTLINE_SOURCE_DIR "/maps/office.map";

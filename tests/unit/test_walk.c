@@ -5,6 +5,8 @@
 #include "geometry/orient.h"
 #include "oracle/random_map.h"
 #include "oracle/random_oblique.h"
+#include "sightline/generate.h"
+#include "sightline/walk.h"
 
 #include <math.h>
 

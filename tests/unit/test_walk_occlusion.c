@@ -3,6 +3,7 @@
 #include "testing.h"
 
 #include "oracle/random_map.h"
+#include "sightline/walk.h"
 #include "walk/occlusion.h"
 
 #include <math.h>

@@ -135,8 +135,23 @@ typedef struct sl_export_format {
                        const char *path);
 } sl_export_format;
 
-/// All formats of export, *count of them.
-SL_API const sl_export_format *sl_export_formats(size_t *count);
+/// The formats that the context knows; the first is the default. By itself it knows those below;
+/// sl_io_use() of sightline/io.h adds others.
+SL_API const sl_export_format *sl_export_formats(const sl_context *context, size_t *count);
+
+/// Adds formats, which are copied; one whose name is there already is passed over.
+SL_API sl_status sl_export_formats_add(sl_context *context, const sl_export_format *more,
+                                       size_t count);
+
+/// "json": one object with walls, cells, portals and visible sets.
+SL_API sl_status sl_export_json(sl_context *context, const sl_baked *baked,
+                                const sl_export_options *options, const char *path);
+/// "csv": a line "from,to" for each ordered pair seen.
+SL_API sl_status sl_export_csv(sl_context *context, const sl_baked *baked,
+                               const sl_export_options *options, const char *path);
+/// "c": a C header with the matrix, a bit a pair.
+SL_API sl_status sl_export_c(sl_context *context, const sl_baked *baked,
+                             const sl_export_options *options, const char *path);
 
 #ifdef __cplusplus
 }

@@ -11,8 +11,6 @@
 #include "sightline/explain.h"
 #include "sightline/eye_to_cell.h"
 #include "sightline/faults.h"
-#include "sightline/from_region.h"
-#include "sightline/generate.h"
 #include "sightline/geometry.h"
 #include "sightline/import.h"
 #include "sightline/map.h"
@@ -22,7 +20,6 @@
 #include "sightline/pvs.h"
 #include "sightline/query.h"
 #include "sightline/region.h"
-#include "sightline/reject.h"
 #include "sightline/sees.h"
 #include "sightline/solvers.h"
 #include "sightline/space.h"
@@ -31,6 +28,5 @@
 #include "sightline/version.h"
 #include "sightline/view.h"
 #include "sightline/view_cells.h"
-#include "sightline/walk.h"
 
 #endif
