@@ -85,8 +85,6 @@ static void print_effects(const sl_map *map) {
     for (size_t i = 0; i < effects.count; i++)
         if (called_for >> i & 1) printf(" %s", name_table_at(&effects, i));
     puts(called_for ? " (bake --without NAME leaves one out)" : " none");
-    if (called_for && !sl_effects_are_built())
-        puts("            this build is without effects: all of them must be left out");
     plan_print(map);
 }
 

@@ -4,7 +4,7 @@
 #ifndef VIEWER_LESSON_H
 #define VIEWER_LESSON_H
 
-#include "cell_to_cell/pass.h" // private: lessons show the inside of the library
+#include "cell_to_cell/sectors.h" // private: lessons show the inside of the library
 #include "document.h"
 #include "sightline/canvas.h"
 #include "sightline/dual.h"

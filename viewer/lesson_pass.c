@@ -15,7 +15,7 @@ static sl_status record(sl_context *context, lesson_state *lesson, const documen
     sl_status status = SL_OK;
     for (uint32_t i = 0; i < PASSES && status == SL_OK; i++)
         status =
-            sl_pass_create(context, space, false, sl_sector_cone(&sectors, i), &lesson->passes[i]);
+            sl_pass_create(context, space, false, sl_sectors_get(&sectors, i), &lesson->passes[i]);
     sl_sectors_destroy(context, &sectors);
     if (status == SL_OK) lesson->pass_cells = space->cell_count;
     return status;

@@ -2,7 +2,7 @@
 #include "bake/slv.h"
 #include "base/base.h"
 #include "base/checksum.h"
-#include "effects/mirror_sides.h"
+#include "effects/mirrors.h"
 #include "space/index.h"
 
 #include <math.h>

@@ -1,36 +1,126 @@
-/// Depth-first search (Teller & Séquin 1991, Cell to Cell Visibility): from each source cell over
-/// the portals, as long as the sequence has a sightline. What is visited is the source's stab tree.
+/// Depth-first search over portal sequences (Teller & Séquin 1991, Visibility Preprocessing for
+/// Interactive Walkthroughs): what one cell sees.
 ///
-/// A sequence's portals are all crossed forwards by some one direction: no sightline does without,
-/// and a cell is never entered twice, so that the search ends.
+/// The search starts in a source cell and goes through portals as long as some line stabs all
+/// portals on the way. Every cell that it enters is seen from the source. The cells that it visits
+/// form the stab tree of the source.
 ///
-/// A rounded solver marks answers near zero. They are followed with either sight, so that all pairs
-/// of which rounding decided are known: they count as seen with closed sight, not with open.
+/// The search ends, since one direction crosses all portals of a sequence forwards. So no sequence
+/// enters a cell twice (directions.h). Cost: one stabbing test for each node of the tree and for
+/// each portal that leads out of it.
 ///
-/// The method "prune" is the same search, but goes through a directed portal only while something
-/// is left to be found there: cells not seen yet that the directed portal's upper bound (flood.c)
-/// and those of all directed portals before leave possible, as Quake's vis does. The bound misses
-/// nothing, so that a cell that is seen stays possible all along a sequence that leads to it. Exact
-/// solvers need find each pair from one of its cells only.
+/// Rounded solvers mark answers near zero. The search follows these with either sight, so that all
+/// pairs that hang on rounding are known. They count as seen with closed sight, not with open.
+///
+/// The method "prune" is the same search with an upper bound for each directed portal (flood.c), as
+/// in Quake's vis. It goes through a portal only while the bounds of all portals on the way leave a
+/// cell possible that it has not seen yet. A bound misses nothing: a cell that is seen stays
+/// possible along the sequence that leads to it. With an exact solver each pair need be found from
+/// one of its two cells only.
 #include "cell_to_cell/dfs.h"
 
 #include "base/threads.h"
-#include "cell_to_cell/bit_rows.h"
 #include "cell_to_cell/methods.h"
+#include "cell_to_cell/rows.h"
 
 #include <string.h>
 
-sl_status sl_dfs_enter(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, sl_dfs_step to,
+// --- stab trees within a limit on memory
+
+static sl_status tree_store_create(sl_context *context, uint32_t cell_count, uint64_t limit,
+                                   sl_tree_store *store) {
+    *store = (sl_tree_store){.cell_count = cell_count, .limit = limit};
+    store->trees = sl_alloc_array(context, cell_count, sizeof *store->trees);
+    if (!store->trees) return SL_NO_MEMORY;
+    pthread_mutex_init(&store->lock, NULL);
+    return SL_OK;
+}
+
+static void tree_store_destroy(sl_context *context, sl_tree_store *store) {
+    if (!store->trees) return;
+    for (uint32_t i = 0; i < store->cell_count; i++) sl_free(context, store->trees[i].nodes);
+    sl_free(context, store->trees);
+    store->trees = NULL;
+    pthread_mutex_destroy(&store->lock);
+}
+
+/// Adds a node to a growing tree; does nothing once the tree is larger than the limit.
+static sl_status tree_grow(sl_context *context, const sl_tree_store *store, sl_growing_tree *tree,
+                           sl_stab_node node) {
+    if (tree->overflown) return SL_OK;
+    if (tree->nodes.count == UINT32_MAX || (tree->nodes.count + 1) * sizeof node > store->limit) {
+        tree->overflown = true;
+        return SL_OK;
+    }
+    SL_TRY(SL_ARRAY_ROOM(context, &tree->nodes, 1));
+    tree->nodes.items[tree->nodes.count++] = node;
+    return SL_OK;
+}
+
+static void let_largest_go(sl_context *context, sl_tree_store *store) {
+    struct sl_kept_tree *largest = &store->trees[0];
+    for (uint32_t i = 1; i < store->cell_count; i++)
+        if (store->trees[i].count >= largest->count) largest = &store->trees[i];
+    store->held -= largest->count * sizeof(sl_stab_node);
+    sl_free(context, largest->nodes);
+    *largest = (struct sl_kept_tree){0};
+}
+
+/// Takes a finished tree (its nodes are the store's then) and lets the largest go while too much is
+/// held. Safe from several threads.
+static void tree_store_put(sl_context *context, sl_tree_store *store, uint32_t source,
+                           sl_growing_tree *tree) {
+    if (tree->overflown)
+        sl_free(context, tree->nodes.items);
+    else {
+        pthread_mutex_lock(&store->lock);
+        store->trees[source] =
+            (struct sl_kept_tree){.nodes = tree->nodes.items, .count = tree->nodes.count};
+        store->held += tree->nodes.count * sizeof(sl_stab_node);
+        while (store->held > store->limit) let_largest_go(context, store);
+        pthread_mutex_unlock(&store->lock);
+    }
+    *tree = (sl_growing_tree){0};
+}
+
+/// Joins what was kept, in the sources' order.
+static sl_status tree_store_join(sl_context *context, const sl_tree_store *store,
+                                 sl_stab_trees *out) {
+    const uint32_t count = store->cell_count;
+    uint64_t *offsets = sl_alloc_array(context, (size_t)count + 1, sizeof *offsets);
+    sl_stab_node *nodes = sl_alloc_array(context, store->held / sizeof *nodes, sizeof *nodes);
+    if (!offsets || !nodes) {
+        sl_free(context, offsets);
+        sl_free(context, nodes);
+        return SL_NO_MEMORY;
+    }
+    uint32_t left_out = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const struct sl_kept_tree *tree = &store->trees[i];
+        if (tree->count) memcpy(nodes + offsets[i], tree->nodes, tree->count * sizeof *nodes);
+        left_out += tree->count == 0;
+        offsets[i + 1] = offsets[i] + tree->count;
+    }
+    *out = (sl_stab_trees){
+        .cell_count = count, .left_out = left_out, .offsets = offsets, .nodes = nodes};
+    return SL_OK;
+}
+
+/// A step of the search without effects.
+typedef struct step {
+    sl_dfs_step dfs;
+    sl_directions directions; ///< of the portals so far
+} step;
+
+sl_status sl_dfs_enter(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, sl_dfs_step *to,
                        uint32_t parent, uint32_t directed, bool counts) {
     if (counts) {
-        to.node = (uint32_t)me->account.nodes++;
-        const sl_stab_node node = {.parent = parent, .cell = to.cell, .directed = directed};
-        if (all->options->trees) SL_TRY(sl_tree_grow(context, &all->trees, &me->tree, node));
+        to->node = (uint32_t)me->account.nodes++;
+        const sl_stab_node node = {.parent = parent, .cell = to->at.cell, .directed = directed};
+        if (all->options->trees) SL_TRY(tree_grow(context, &all->trees, &me->tree, node));
     }
-    SL_TRY(SL_ARRAY_ROOM(context, &me->steps, 1));
-    me->steps.items[me->steps.count++] = to;
-    if (me->steps.count - 1 > me->account.deepest)
-        me->account.deepest = (uint32_t)me->steps.count - 1;
+    const size_t depth = me->search.count++;
+    if (depth > me->account.deepest) me->account.deepest = (uint32_t)depth;
     return SL_OK;
 }
 
@@ -40,9 +130,9 @@ static sl_status want(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
                       bool *something) {
     *something = true;
     if (!all->prunes) return SL_OK;
-    const size_t step = me->steps.count;
-    SL_TRY(sl_prune_step(context, &all->bounds, &me->wanted, step, directed));
-    const sl_prune_set *set = &me->wanted.sets.items[step];
+    const size_t depth = me->search.count;
+    SL_TRY(sl_prune_step(context, &all->bounds, &me->wanted, depth, directed));
+    const sl_prune_set *set = &me->wanted.sets.items[depth];
     *something = set->all;
     for (size_t i = set->begin; i < set->end && !*something; i++) {
         const sl_prune_word *at = &me->wanted.words.items[i];
@@ -57,15 +147,16 @@ static sl_status check_going_on(sl_context *context, const sl_dfs *all) {
     return all->before && sl_is_enough(all->options) ? SL_CANCELLED : SL_OK;
 }
 
-/// Tries one directed portal of the last step: tests the sequence with it, and enters the cell
-/// behind.
-static sl_status try_portal(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
-                            uint32_t number) {
-    const sl_solver *solver = all->options->solver;
+/// Tests the sequence with one more directed portal, and enters the cell behind.
+SL_VISIT sl_status cross(sl_context *context, void *job, const void *last, void *next,
+                         uint32_t number) {
+    const sl_dfs *all = ((sl_dfs_job *)job)->all;
+    sl_dfs_thread *me = ((sl_dfs_job *)job)->me;
+    const step *from = last;
+    step *to = next;
     const sl_directed_portal *directed = &all->space->directed[number];
-    const sl_dfs_step from = me->steps.items[me->steps.count - 1];
-    sl_crossings crossings = from.crossings;
-    if (!sl_crossings_add(all->space, &crossings, number)) return SL_OK;
+    sl_directions directions = from->directions;
+    if (!sl_directions_add(all->space, &directions, number)) return SL_OK;
     if (all->options->inside_only && !all->space->cells[directed->cell].inside) return SL_OK;
     bool something;
     SL_TRY(want(context, all, me, number, &something));
@@ -73,39 +164,32 @@ static sl_status try_portal(sl_context *context, const sl_dfs *all, sl_dfs_threa
     if (++me->account.tests % 64 == 0) SL_TRY(check_going_on(context, all));
 
     sl_stab_verdict verdict;
-    SL_TRY(solver->push(context, me->solver, directed->left, directed->right, &verdict));
+    SL_TRY(sl_portal_search_push(context, &me->search, directed->left, directed->right, &verdict));
     const bool closed = all->options->sight == SL_CLOSED;
-    const bool rounded = solver->guarantee == SL_ROUNDED;
-    const bool grazing = verdict == SL_GRAZING || from.grazing;
+    const bool rounded = all->options->solver->guarantee == SL_ROUNDED;
+    const bool grazing = verdict == SL_GRAZING || from->dfs.grazing;
     if (verdict == SL_HIDDEN || (grazing && !closed && !rounded)) {
-        solver->pop(me->solver);
+        sl_portal_search_pop(&me->search);
         return SL_OK;
     }
     sl_bits_add(grazing && rounded ? me->doubtful : me->sure, directed->cell);
-    const sl_dfs_step to = {.cell = directed->cell, .crossings = crossings, .grazing = grazing};
-    return sl_dfs_enter(context, all, me, to, from.node, number, closed || !grazing);
+    *to = (step){.dfs = {.at.cell = directed->cell, .grazing = grazing}, .directions = directions};
+    return sl_dfs_enter(context, all, me, &to->dfs, from->dfs.node, number, closed || !grazing);
 }
 
 static sl_status search_from(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
                              uint32_t source) {
-    const sl_space *space = all->space;
+    static const sl_portal_visitor visitor = {.step_size = sizeof(step), .cross = cross};
     sl_bits_add(me->sure, source);
     // Where pairs are found from either cell alike, those from the source on are wanted of it.
     const bool from_either = all->prunes && all->options->solver->guarantee == SL_EXACT;
     SL_TRY(sl_prune_start(context, &me->wanted, from_either ? source : 0));
-    me->steps.count = 0;
-    SL_TRY(sl_dfs_enter(context, all, me,
-                        (sl_dfs_step){.cell = source, .crossings = SL_CROSSINGS_NONE}, 0,
-                        UINT32_MAX, true));
-    while (me->steps.count) {
-        sl_dfs_step *last = &me->steps.items[me->steps.count - 1];
-        const sl_cell *cell = &space->cells[last->cell];
-        if (last->next < cell->directed_count) {
-            SL_TRY(try_portal(context, all, me, cell->first_directed + last->next++));
-        } else if (--me->steps.count)
-            all->options->solver->pop(me->solver);
-    }
-    return SL_OK;
+    SL_TRY(sl_portal_search_start(context, &me->search, sizeof(step)));
+    step *first = me->search.steps;
+    *first = (step){.dfs.at.cell = source, .directions = SL_NO_DIRECTIONS};
+    SL_TRY(sl_dfs_enter(context, all, me, &first->dfs, 0, UINT32_MAX, true));
+    sl_dfs_job job = {all, me};
+    return sl_portal_search_run(context, &me->search, &visitor, &job);
 }
 
 static sl_status search_source(sl_context *context, sl_dfs *all, sl_dfs_thread *me,
@@ -119,7 +203,7 @@ static sl_status search_source(sl_context *context, sl_dfs *all, sl_dfs_thread *
                         : search_from(context, all, me, source));
     SL_TRY(sl_row_append(context, &all->sure[source], me->sure, count));
     SL_TRY(sl_row_append(context, &all->doubtful[source], me->doubtful, count));
-    if (all->options->trees) sl_tree_store_put(context, &all->trees, source, &me->tree);
+    if (all->options->trees) tree_store_put(context, &all->trees, source, &me->tree);
     all->accounts[source] = me->account;
     return SL_OK;
 }
@@ -146,13 +230,12 @@ static void end(sl_context *context, void *job, void *state) {
     sl_dfs *all = job;
     sl_dfs_thread *me = state;
     const sl_solver *solver = all->options->solver;
-    if (me->solver && solver->account) {
+    if (me->search.solver_state && solver->account) {
         pthread_mutex_lock(&all->lock);
-        solver->account(me->solver, &all->stab);
+        solver->account(me->search.solver_state, &all->stab);
         pthread_mutex_unlock(&all->lock);
     }
-    solver->destroy(context, me->solver);
-    sl_free(context, me->steps.items);
+    sl_portal_search_end(context, &me->search);
     sl_free(context, me->sure);
     sl_free(context, me->doubtful);
     sl_prune_wanted_destroy(context, &me->wanted);
@@ -169,8 +252,9 @@ static sl_status begin(sl_context *context, void *job, void **state) {
     me->sure = sl_alloc_array(context, words, sizeof *me->sure);
     me->doubtful = sl_alloc_array(context, words, sizeof *me->doubtful);
     sl_status status = me->sure && me->doubtful ? SL_OK : SL_NO_MEMORY;
+    me->search = (sl_portal_search){.space = all->space, .solver = all->options->solver};
     if (status == SL_OK)
-        status = all->options->solver->create(context, all->space->bounds, &me->solver);
+        status = me->search.solver->create(context, all->space->bounds, &me->search.solver_state);
     if (status == SL_OK && all->effects) status = sl_dfs_effects_begin(context, all, me);
     if (status == SL_OK)
         *state = me;
@@ -213,7 +297,7 @@ static sl_status search_all(sl_context *context, sl_dfs *all, sl_visibility *out
     sl_pvs_destroy(context, &doubtful);
     if (status == SL_OK && all->effects) status = sl_dfs_effects_finish(context, all, out);
     if (status == SL_OK && all->options->trees)
-        status = sl_tree_store_join(context, &all->trees, &out->trees);
+        status = tree_store_join(context, &all->trees, &out->trees);
     return status;
 }
 
@@ -226,7 +310,7 @@ static sl_status allocate(sl_context *context, sl_dfs *all) {
     if (all->options->plan && all->options->plan->effects)
         SL_TRY(sl_dfs_effects_create(context, all));
     if (!all->options->trees) return SL_OK;
-    return sl_tree_store_create(context, count, all->options->tree_bytes, &all->trees);
+    return tree_store_create(context, count, all->options->tree_bytes, &all->trees);
 }
 
 static sl_status prepare(sl_context *context, sl_dfs *all) {
@@ -249,7 +333,7 @@ static void tidy_up(sl_context *context, sl_dfs *all) {
     sl_prune_bounds_destroy(context, &all->bounds);
     sl_dfs_effects_destroy(context, all);
     sl_free(context, all->done);
-    sl_tree_store_destroy(context, &all->trees);
+    tree_store_destroy(context, &all->trees);
     pthread_mutex_destroy(&all->lock);
 }
 

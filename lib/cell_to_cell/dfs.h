@@ -1,24 +1,42 @@
-/// The depth-first search: what its two forms share, the plain one and the one with effects.
+/// The depth-first search: what its two forms share, the plain one and the one with effects, and
+/// the stab trees that it leaves.
 #ifndef SL_DFS_H
 #define SL_DFS_H
 
-#include "cell_to_cell/crossing.h"
-#include "cell_to_cell/partial.h"
-#include "cell_to_cell/prune.h"
+#include "cell_to_cell/bounds.h"
+#include "cell_to_cell/directions.h"
+#include "cell_to_cell/portal_search.h"
 #include "cell_to_cell/pvs_rows.h"
-#include "cell_to_cell/tree_store.h"
 #include "sightline/cell_to_cell.h"
 #include "sightline/support.h"
 
 #include <pthread.h>
 
+// --- stab trees
+
+/// A tree while it grows. `overflown`: larger than the limit by itself, and no longer recorded.
+typedef struct sl_growing_tree {
+    SL_ARRAY(sl_stab_node) nodes;
+    bool overflown;
+} sl_growing_tree;
+
+typedef struct sl_tree_store {
+    pthread_mutex_t lock;
+    uint32_t cell_count;
+    uint64_t limit, held; ///< bytes
+    struct sl_kept_tree {
+        sl_stab_node *nodes;
+        uint64_t count;
+    } * trees;
+} sl_tree_store;
+
+// --- the search
+
 /// A cell on the way from the source.
 typedef struct sl_dfs_step {
-    uint32_t cell;
-    uint32_t next;          ///< directed portal to try next, from 0
-    uint32_t node;          ///< in the stab tree
-    sl_crossings crossings; ///< of the portals so far
-    bool grazing;           ///< the sequence is no more than grazed
+    sl_portal_step at;
+    uint32_t node; ///< in the stab tree
+    bool grazing;  ///< the sequence is no more than grazed
 } sl_dfs_step;
 
 /// What is known before a search with effects begins, without mirrors. Both have each cell with
@@ -49,8 +67,7 @@ typedef struct sl_dfs {
 
 /// One thread's own.
 typedef struct sl_dfs_thread {
-    void *solver;
-    SL_ARRAY(sl_dfs_step) steps;
+    sl_portal_search search;
     sl_bits *sure, *doubtful;
     sl_prune_wanted wanted; ///< where it prunes: what may be seen beyond each step
     sl_growing_tree tree;
@@ -63,9 +80,15 @@ typedef struct sl_dfs_thread {
 sl_status sl_dfs_see_rest(sl_context *context, const sl_space *space, const sl_see_options *options,
                           const sl_dfs_known *known, sl_visibility *out);
 
-/// Goes on from `to`; a sequence that counts as seen becomes a node of the stab tree,
-/// of which `directed portal` is as in sl_stab_node.
-sl_status sl_dfs_enter(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, sl_dfs_step to,
+/// Both searches' job for a visitor: one source at a time.
+typedef struct sl_dfs_job {
+    const sl_dfs *all;
+    sl_dfs_thread *me;
+} sl_dfs_job;
+
+/// Enters the step that stands behind the last one. A sequence that counts as seen becomes a node
+/// of the stab tree below `parent`, of which `directed` is as in sl_stab_node.
+sl_status sl_dfs_enter(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, sl_dfs_step *to,
                        uint32_t parent, uint32_t directed, bool counts);
 
 /// The search with effects (dfs_effects.c). What it finds beside the sets of cells seen goes to the

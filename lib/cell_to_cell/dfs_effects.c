@@ -1,27 +1,31 @@
-/// The depth-first search where the map calls for effects. Each of them is a matter of one step
-/// more of a sequence: which doors it has passed, whether glass lets it through, how long its
-/// shortest sightline is, and where in mirrored space it has come to. All are monotone: what a
-/// sequence fails, all that go on from it fail too, so that the search stays exact.
+/// The depth-first search for maps with doors, mirrors, one-way glass or a view range.
 ///
-/// The range is exact to rounding: of sightlines through the sequence, the piece between the first
-/// portal and the last is what lies between the two cells (0 for neighbours), and its shortest is
-/// held against the range. Within rounding it counts as in range, and is counted.
+/// Each effect is a question about one more step of a sequence: which doors it has passed, whether
+/// glass lets it through, how long its shortest sightline is, and where mirrored space it is. If a
+/// sequence fails, all sequences that go on from it fail too. So the search stays exact.
 ///
-/// A mirror is one more portal of the sequence, which leads back into the cell before it,
-/// reflected: the sequence goes on in the frame of mirrored space that lies beyond
-/// (effects/frame.h).
+/// Range: the part of a sightline that counts lies between the first portal and the last, as it is
+/// 0 for neighbours. The shortest such part is compared with the range. A part within rounding of
+/// the range counts as in range, and is counted.
+///
+/// Mirrors: a mirror is one more portal, which leads back into the cell before it. Behind it the
+/// sequence goes on in a reflected copy of the map, in whose frame all portals are placed
+/// (effects/mirrors.h).
 #include "cell_to_cell/dfs.h"
 
+#include "cell_to_cell/directions.h"
 #include "cell_to_cell/door_table.h"
 #include "cell_to_cell/methods.h"
-#include "cell_to_cell/unfolded.h"
-#include "effects/mirror_sides.h"
+#include "effects/mirrors.h"
 #include "stab/funnel.h"
 
 #include <string.h>
 
-/// Beside a step of the search, at the same place of its array.
-typedef sl_unfolded place;
+/// A step, and where mirrored space has what was crossed.
+typedef struct step {
+    sl_dfs_step dfs;
+    sl_unfolded place;
+} step;
 
 struct sl_dfs_effects {
     const sl_plan *plan;
@@ -35,8 +39,7 @@ struct sl_dfs_effects {
 };
 
 struct sl_dfs_effects_thread {
-    SL_ARRAY(place) places;
-    SL_ARRAY(sl_bits) doors; ///< a set for each place
+    SL_ARRAY(sl_bits) doors; ///< a set for each step
     sl_door_table direct, mirrored;
     uint64_t door_steps, mirror_steps, glass_tests, range_tests, close_calls, rounded_places;
     struct sl_dfs_effects *all;
@@ -70,7 +73,8 @@ static const sl_bits *doors_at(const effects *all, const thread *me, size_t dept
 }
 
 /// Where a portal lies in the frame of the last place.
-static sl_directed_portal unfold(thread *me, const sl_frame *frame, sl_point left, sl_point right) {
+static sl_directed_portal unfold(thread *me, const sl_mirror_frame *frame, sl_point left,
+                                 sl_point right) {
     bool rounded = false;
     const sl_directed_portal ends = sl_unfold(frame, left, right, &rounded);
     me->rounded_places += rounded;
@@ -78,10 +82,11 @@ static sl_directed_portal unfold(thread *me, const sl_frame *frame, sl_point lef
 }
 
 /// Whether some direction crosses all portals up to a new place; sets its bounds.
-static bool may_cross(const thread *me, const place *from, place *to) {
-    const place *places = me->places.items;
-    return sl_unfolded_may_cross(&places[from->least].ends, &places[from->most].ends, from,
-                                 (uint32_t)me->places.count, to);
+static bool may_cross(const sl_dfs_thread *me, const step *from, sl_unfolded *to) {
+    const step *steps = me->search.steps;
+    return sl_unfolded_may_cross(&steps[from->place.least].place.ends,
+                                 &steps[from->place.most].place.ends, &from->place,
+                                 (uint32_t)me->search.count, to);
 }
 
 /// Whether the sequence has a sightline of which no more than the range lies between the cells.
@@ -101,10 +106,10 @@ static sl_status want(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
                       bool *something) {
     *something = true;
     if (!all->prunes || all->effects->mirrors) return SL_OK;
-    const size_t step = me->steps.count;
-    SL_TRY(sl_prune_step(context, &all->bounds, &me->wanted, step, directed));
-    const sl_prune_set *set = &me->wanted.sets.items[step];
-    const sl_bits *doors = doors_at(all->effects, me->effects, step);
+    const size_t depth = me->search.count;
+    SL_TRY(sl_prune_step(context, &all->bounds, &me->wanted, depth, directed));
+    const sl_prune_set *set = &me->wanted.sets.items[depth];
+    const sl_bits *doors = doors_at(all->effects, me->effects, depth);
     const sl_door_table *table = &me->effects->direct;
     *something = set->all;
     for (size_t i = set->begin; i < set->end && !*something; i++) {
@@ -122,81 +127,89 @@ static sl_status want(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
     return SL_OK;
 }
 
-/// Tests the sequence with one portal more, and enters the cell behind. `directed portal`: as in a
-/// stab tree.
-static sl_status push(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, place to,
-                      uint32_t cell, uint32_t directed) {
+/// Tests the sequence with the portal or mirror of `to`, and enters the cell behind. `directed`: as
+/// in a stab tree.
+static sl_status enter(sl_context *context, const sl_dfs_job *job, const step *from, step *to,
+                       uint32_t directed) {
+    const sl_dfs *all = job->all;
+    sl_dfs_thread *me = job->me;
     thread *e = me->effects;
-    const sl_solver *solver = all->options->solver;
-    const sl_dfs_step from = me->steps.items[me->steps.count - 1];
+    const uint32_t cell = to->dfs.at.cell;
     if (++me->account.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
     sl_stab_verdict verdict;
-    SL_TRY(solver->push(context, me->solver, to.ends.left, to.ends.right, &verdict));
-    const bool grazing = verdict == SL_GRAZING || from.grazing;
-    const bool hidden = verdict == SL_HIDDEN || (grazing && all->options->sight == SL_OPEN);
-    if (hidden || !is_in_range(all->effects, e, me->solver)) {
-        solver->pop(me->solver);
+    SL_TRY(sl_portal_search_push(context, &me->search, to->place.ends.left, to->place.ends.right,
+                                 &verdict));
+    to->dfs.grazing = verdict == SL_GRAZING || from->dfs.grazing;
+    const bool hidden = verdict == SL_HIDDEN || (to->dfs.grazing && all->options->sight == SL_OPEN);
+    if (hidden || !is_in_range(all->effects, e, me->search.solver_state)) {
+        sl_portal_search_pop(&me->search);
         return SL_OK;
     }
-    sl_door_table *table = to.frame.depth ? &e->mirrored : &e->direct;
-    SL_TRY(sl_door_table_add(context, table, cell, doors_at(all->effects, e, e->places.count)));
-    if (!to.frame.depth) sl_bits_add(me->sure, cell);
-    SL_TRY(SL_ARRAY_ROOM(context, &e->places, 1));
-    e->places.items[e->places.count++] = to;
-    return sl_dfs_enter(context, all, me, (sl_dfs_step){.cell = cell, .grazing = grazing},
-                        from.node, directed, true);
+    const bool mirrored = to->place.frame.depth > 0;
+    SL_TRY(sl_door_table_add(context, mirrored ? &e->mirrored : &e->direct, cell,
+                             doors_at(all->effects, e, me->search.count)));
+    if (!mirrored) sl_bits_add(me->sure, cell);
+    return sl_dfs_enter(context, all, me, &to->dfs, from->dfs.node, directed, true);
 }
 
 /// Whether the sequence has been in a cell since the last mirror. Where places are exact no line
 /// can enter a cell twice, and the directions of portals tell; those of rounded places do not, for
 /// portals of the size of rounding may be turned any way.
-static bool has_been_in(const sl_dfs_thread *me, uint32_t cell) {
-    const thread *e = me->effects;
-    for (size_t i = e->places.count; i-- > 0;) {
-        if (me->steps.items[i].cell == cell) return true;
-        if (e->places.items[i].mirror != UINT32_MAX) return false;
+static bool has_been_in(const sl_portal_search *search, uint32_t cell) {
+    const step *steps = search->steps;
+    for (size_t i = search->count; i-- > 0;) {
+        if (steps[i].dfs.at.cell == cell) return true;
+        if (steps[i].place.mirror != UINT32_MAX) return false;
     }
     return false;
 }
 
-static sl_status try_portal(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
-                            uint32_t number) {
+SL_VISIT sl_status cross(sl_context *context, void *visit, const void *last, void *next,
+                         uint32_t number) {
+    const sl_dfs_job *job = visit;
+    const sl_dfs *all = job->all;
+    sl_dfs_thread *me = job->me;
     thread *e = me->effects;
+    const step *from = last;
+    step *to = next;
     const sl_directed_portal *directed = &all->space->directed[number];
-    const place *from = &e->places.items[e->places.count - 1];
-    const uint32_t cell = me->steps.items[me->steps.count - 1].cell;
     if (all->options->inside_only && !all->space->cells[directed->cell].inside) return SL_OK;
     if (all->effects->oneway) {
         e->glass_tests++;
-        if (sl_portal_is_blocked(all->space, cell, number)) return SL_OK;
+        if (sl_portal_is_blocked(all->space, from->dfs.at.cell, number)) return SL_OK;
     }
-    if (from->frame.depth && has_been_in(me, directed->cell)) return SL_OK;
-    place to = {.ends = unfold(e, &from->frame, directed->left, directed->right),
-                .frame = from->frame,
-                .mirror = UINT32_MAX};
-    if (!may_cross(e, from, &to)) return SL_OK;
-    SL_TRY(pass_doors(context, all->space, all->effects, e, directed->portal, e->places.count));
+    if (from->place.frame.depth && has_been_in(&me->search, directed->cell)) return SL_OK;
+    *to = (step){.dfs.at.cell = directed->cell,
+                 .place = {.ends = unfold(e, &from->place.frame, directed->left, directed->right),
+                           .frame = from->place.frame,
+                           .mirror = UINT32_MAX}};
+    if (!may_cross(me, from, &to->place)) return SL_OK;
+    SL_TRY(pass_doors(context, all->space, all->effects, e, directed->portal, me->search.count));
     bool something;
     SL_TRY(want(context, all, me, number, &something));
-    return something ? push(context, all, me, to, directed->cell, number) : SL_OK;
+    return something ? enter(context, job, from, to, number) : SL_OK;
 }
 
-static sl_status try_mirror(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
-                            uint32_t number) {
-    thread *e = me->effects;
-    const sl_mirror_side *side = &all->effects->sides.sides[number];
-    const place *from = &e->places.items[e->places.count - 1];
+static sl_status reflect(sl_context *context, void *visit, const void *last, void *next,
+                         uint32_t number) {
+    const sl_dfs_job *job = visit;
+    const effects *shared = job->all->effects;
+    thread *e = job->me->effects;
+    const step *from = last;
+    step *to = next;
+    const sl_mirror_side *side = &shared->sides.sides[number];
+    const sl_segment mirror = shared->plan->map->mirrors[side->mirror].segment;
     e->mirror_steps++;
     // Behind a mirror its own side is behind the line of sight, but for rounding.
-    if (from->mirror == side->mirror || from->frame.depth == all->effects->plan->mirror_depth)
+    if (from->place.mirror == side->mirror || from->place.frame.depth == shared->plan->mirror_depth)
         return SL_OK;
-    place to = {.ends = unfold(e, &from->frame, side->left, side->right),
-                .frame = sl_frame_reflect(&from->frame,
-                                          all->effects->plan->map->mirrors[side->mirror].segment),
-                .mirror = side->mirror};
-    if (!may_cross(e, from, &to)) return SL_OK;
-    SL_TRY(pass_doors(context, all->space, all->effects, e, UINT32_MAX, e->places.count));
-    return push(context, all, me, to, side->cell, SL_STAB_MIRROR + side->mirror);
+    *to = (step){.dfs.at.cell = side->cell,
+                 .place = {.ends = unfold(e, &from->place.frame, side->left, side->right),
+                           .frame = sl_mirror_frame_reflect(&from->place.frame, mirror),
+                           .mirror = side->mirror}};
+    if (!may_cross(job->me, from, &to->place)) return SL_OK;
+    SL_TRY(pass_doors(context, job->all->space, shared, e, UINT32_MAX, job->me->search.count));
+    return enter(context, job, from, to, SL_STAB_MIRROR + side->mirror);
 }
 
 // --- one source
@@ -224,16 +237,16 @@ static sl_status start(sl_context *context, const sl_dfs *all, sl_dfs_thread *me
     thread *e = me->effects;
     sl_door_table_clear(&e->direct);
     sl_door_table_clear(&e->mirrored);
-    e->places.count = 0;
-    SL_TRY(SL_ARRAY_ROOM(context, &e->places, 1));
-    e->places.items[e->places.count++] = (place){.frame = sl_frame_of_map(), .mirror = UINT32_MAX};
     SL_TRY(SL_ARRAY_ROOM(context, &e->doors, all->effects->door_words + 1));
     memset(e->doors.items, 0, all->effects->door_words * sizeof *e->doors.items);
     SL_TRY(sl_door_table_add(context, &e->direct, source, e->doors.items));
     sl_bits_add(me->sure, source);
     if (all->prunes) SL_TRY(want_from(context, all, me, source));
-    me->steps.count = 0;
-    return sl_dfs_enter(context, all, me, (sl_dfs_step){.cell = source}, 0, UINT32_MAX, true);
+    SL_TRY(sl_portal_search_start(context, &me->search, sizeof(step)));
+    step *first = me->search.steps;
+    *first = (step){.dfs.at.cell = source,
+                    .place = {.frame = sl_mirror_frame_of_map(), .mirror = UINT32_MAX}};
+    return sl_dfs_enter(context, all, me, &first->dfs, 0, UINT32_MAX, true);
 }
 
 static sl_status keep(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, uint32_t source) {
@@ -251,23 +264,12 @@ static sl_status keep(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
 
 sl_status sl_dfs_effects_search(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
                                 uint32_t source) {
-    const sl_space *space = all->space;
-    const uint32_t *first = all->effects->sides.first;
+    static const sl_portal_visitor visitor = {
+        .step_size = sizeof(step), .cross = cross, .reflect = reflect};
     SL_TRY(start(context, all, me, source));
-    while (me->steps.count) {
-        sl_dfs_step *last = &me->steps.items[me->steps.count - 1];
-        const sl_cell *cell = &space->cells[last->cell];
-        const uint32_t mirrors = first ? first[last->cell + 1] - first[last->cell] : 0;
-        const uint32_t next = last->next++;
-        if (next < cell->directed_count) {
-            SL_TRY(try_portal(context, all, me, cell->first_directed + next));
-        } else if (next < cell->directed_count + mirrors) {
-            SL_TRY(try_mirror(context, all, me, first[last->cell] + next - cell->directed_count));
-        } else {
-            me->effects->places.count--;
-            if (--me->steps.count) all->options->solver->pop(me->solver);
-        }
-    }
+    me->search.mirrors = all->effects->mirrors ? &all->effects->sides : NULL;
+    sl_dfs_job job = {all, me};
+    SL_TRY(sl_portal_search_run(context, &me->search, &visitor, &job));
     return keep(context, all, me, source);
 }
 
@@ -298,7 +300,6 @@ void sl_dfs_effects_end(sl_context *context, sl_dfs_thread *me) {
     pthread_mutex_unlock(e->all->lock);
     sl_door_table_destroy(context, &e->direct);
     sl_door_table_destroy(context, &e->mirrored);
-    sl_free(context, e->places.items);
     sl_free(context, e->doors.items);
     sl_free(context, e);
     me->effects = NULL;

@@ -1,38 +1,39 @@
-/// The search behind an explanation: depth first over portal sequences, as dfs.c, but from one cell
-/// for another, with a bound on the number of portals that is doubled until nothing is left beyond
-/// it. A sequence that cannot reach the target within the bound by any way there is, seen or not,
-/// is left alone (iterative deepening with an admissible estimate: Korf 1985).
+/// Why a cell sees another, or does not: a depth-first search from the one for the other.
 ///
-/// A pair is stabbed, only grazed, or hidden, whatever sight is asked for: sequences that are
-/// grazed are followed as well.
+/// The search has a bound on the number of portals. The bound is doubled until nothing is left
+/// beyond it. A sequence that cannot reach the target within the bound, seen or not, is not
+/// followed (iterative deepening with an admissible estimate: Korf 1985).
+///
+/// A pair is stabbed, only grazed, or hidden, whichever sight is asked for: sequences that are
+/// grazed are followed as well. For a hidden pair the sequences that came nearest are kept, each
+/// with the few portal ends that stop it.
 #include "sightline/explain.h"
-
-#include "cell_to_cell/crossing.h"
+#include "cell_to_cell/directions.h"
 #include "cell_to_cell/explain_line.h"
+#include "cell_to_cell/portal_search.h"
+#include "geometry/orient.h"
 #include "sightline/solvers.h"
 #include "sightline/support.h"
+#include "space/ray.h"
 
 #include <string.h>
 
 /// A cell on the way from the first.
 typedef struct step {
-    uint32_t cell;
-    uint32_t next;          ///< directed portal to try next, from 0
-    sl_crossings crossings; ///< of the portals so far
-    bool grazing;           ///< the sequence is no more than grazed
+    sl_portal_step at;
+    uint32_t directed;        ///< crossed last; none for the first
+    sl_directions directions; ///< of the portals so far
+    bool grazing;             ///< the sequence is no more than grazed
 } step;
 
 typedef struct search {
     const sl_space *space;
     const sl_explain_options *options;
-    void *solver;
-    uint32_t *distance; ///< by cell: portals to the target, SL_NO_WAY for no way
-    SL_ARRAY(step) steps;
-    SL_ARRAY(uint32_t) directed; ///< the sequence, with room for one more
-    uint32_t bound;              ///< sequences of more portals are left for later
-    bool cut;                    ///< some were
-    bool stopped;                ///< most_tests is reached
-    uint32_t stabbed, grazed;    ///< portals of the shortest sequences found; UINT32_MAX for none
+    sl_portal_search search;  ///< stops where most_tests is reached
+    uint32_t *distance;       ///< by cell: portals to the target, SL_NO_WAY for no way
+    uint32_t bound;           ///< sequences of more portals are left for later
+    bool cut;                 ///< some were
+    uint32_t stabbed, grazed; ///< portals of the shortest sequences found; UINT32_MAX for none
     uint32_t most_misses;
     sl_explanation out;
 } search;
@@ -49,6 +50,87 @@ void sl_explanation_destroy(sl_context *context, sl_explanation *explanation) {
     sl_free(context, explanation->bent.steps);
     sl_free(context, explanation->bent.bends);
     *explanation = (sl_explanation){0};
+}
+
+// --- the line that is shown
+
+/// Significant digits, of the size of the map, that are tried for a line's coordinates.
+#define MOST_DIGITS 15
+
+static bool is_strict(const sl_space *space, const sl_sequence *sequence, sl_line line) {
+    for (uint32_t i = 0; i < sequence->directed_count; i++) {
+        const sl_directed_portal *directed = &space->directed[sequence->directed[i]];
+        if (sl_orient(line.a, line.b, directed->left) <= 0 ||
+            sl_orient(line.a, line.b, directed->right) >= 0)
+            return false;
+    }
+    return true;
+}
+
+double sl_share_of_portal(const sl_directed_portal *directed, sl_line line) {
+    const double x = line.b.x - line.a.x, y = line.b.y - line.a.y;
+    const double left = x * (directed->left.y - line.a.y) - y * (directed->left.x - line.a.x);
+    const double right = x * (directed->right.y - line.a.y) - y * (directed->right.x - line.a.x);
+    return left > right ? fmin(fmax(left / (left - right), 0), 1) : 0;
+}
+
+/// Whether a line keeps half of what distance another one keeps from the portals' ends.
+static bool is_near(const sl_space *space, const sl_sequence *sequence, sl_line line,
+                    sl_line other) {
+    for (uint32_t i = 0; i < sequence->directed_count; i++) {
+        const sl_directed_portal *directed = &space->directed[sequence->directed[i]];
+        const double share = sl_share_of_portal(directed, line),
+                     wanted = sl_share_of_portal(directed, other);
+        if (share < wanted / 2 || 1 - share < (1 - wanted) / 2) return false;
+    }
+    return true;
+}
+
+static sl_point rounded(sl_point p, double decimals) {
+    return (sl_point){round(p.x * decimals) / decimals, round(p.y * decimals) / decimals};
+}
+
+/// Makes of a line one near it that is strictly between the ends of every portal of the sequence,
+/// of as few decimals as will do. False, and the line as it was, where doubles cannot express one.
+static bool simplify_line(const sl_space *space, const sl_sequence *sequence, sl_line *line) {
+    const sl_box b = space->bounds;
+    const double size =
+        fmax(fmax(fabs(b.min.x), fabs(b.max.x)), fmax(fabs(b.min.y), fabs(b.max.y)));
+    const double first = size > 0 ? 1 - ceil(log10(size)) : 0;
+    const bool strict = is_strict(space, sequence, *line);
+    for (int digits = 0; digits < MOST_DIGITS; digits++) {
+        const double decimals = pow(10, first + digits);
+        const sl_line simple = {rounded(line->a, decimals), rounded(line->b, decimals)};
+        if (!is_strict(space, sequence, simple)) continue;
+        if (strict && !is_near(space, sequence, simple, *line)) continue;
+        *line = simple;
+        return true;
+    }
+    return strict;
+}
+
+/// Where the line crosses a portal; an end of it where it lies along.
+static sl_point crossing_point(const sl_directed_portal *directed, sl_line line) {
+    const double share = sl_share_of_portal(directed, line);
+    return (sl_point){directed->left.x + share * (directed->right.x - directed->left.x),
+                      directed->left.y + share * (directed->right.y - directed->left.y)};
+}
+
+sl_point sl_halfway_into(const sl_space *space, uint32_t cell, sl_point at, sl_point direction) {
+    const double half = sl_ray_length(space, cell, at, direction) / 2;
+    return (sl_point){at.x + half * direction.x, at.y + half * direction.y};
+}
+
+/// The line's piece from the middle of its way through cell `from` to that through the last cell.
+static sl_segment shown_segment(const sl_space *space, const sl_sequence *sequence, uint32_t from,
+                                sl_line line) {
+    const sl_directed_portal *first = &space->directed[sequence->directed[0]];
+    const sl_directed_portal *last =
+        &space->directed[sequence->directed[sequence->directed_count - 1]];
+    const double x = line.b.x - line.a.x, y = line.b.y - line.a.y, length = hypot(x, y);
+    const sl_point forward = {x / length, y / length}, back = {-x / length, -y / length};
+    return (sl_segment){sl_halfway_into(space, from, crossing_point(first, line), back),
+                        sl_halfway_into(space, last->cell, crossing_point(last, line), forward)};
 }
 
 // --- distances
@@ -86,13 +168,14 @@ sl_status sl_find_distances(sl_context *context, const sl_space *space, uint32_t
 /// A copy of the sequence as it stands with one more directed portal, without ends.
 static sl_status copy_sequence(sl_context *context, const search *s, uint32_t last,
                                sl_sequence *out) {
-    const uint32_t before = (uint32_t)s->directed.count;
-    uint32_t *directed = sl_alloc_array(context, (size_t)before + 1, sizeof *directed);
+    const step *steps = s->search.steps;
+    const uint32_t count = (uint32_t)s->search.count;
+    uint32_t *directed = sl_alloc_array(context, count, sizeof *directed);
     if (!directed) return SL_NO_MEMORY;
-    if (before) memcpy(directed, s->directed.items, before * sizeof *directed);
-    directed[before] = last;
+    for (uint32_t i = 1; i < count; i++) directed[i - 1] = steps[i].directed;
+    directed[count - 1] = last;
     sl_free(context, out->directed);
-    *out = (sl_sequence){.directed = directed, .directed_count = before + 1};
+    *out = (sl_sequence){.directed = directed, .directed_count = count};
     return SL_OK;
 }
 
@@ -102,14 +185,19 @@ static sl_status note_found(sl_context *context, search *s, uint32_t last, bool 
     sl_explanation *out = &s->out;
     SL_TRY(copy_sequence(context, s, last, &out->sequence));
     out->verdict = grazing ? SL_GRAZING : SL_STABBED;
-    out->witness = solver->witness(s->solver);
+    out->witness = solver->witness(s->search.solver_state);
     if (grazing) {
         s->grazed = out->sequence.directed_count;
-        return solver->conflict(context, s->solver, out->sequence.ends, &out->sequence.end_count);
+        return solver->conflict(context, s->search.solver_state, out->sequence.ends,
+                                &out->sequence.end_count);
     }
     s->stabbed = out->sequence.directed_count;
     s->grazed = 0;
     return SL_OK;
+}
+
+static const step *last_step(const search *s) {
+    return (const step *)s->search.steps + s->search.count - 1;
 }
 
 /// The last cell before the sequence's last portal.
@@ -128,7 +216,7 @@ static bool is_farther(const sl_miss *a, const sl_miss *b) {
 /// cell, or else the list's end, from where it moves up. UINT32_MAX where it does not.
 static uint32_t place_of_miss(const search *s, const sl_miss *miss) {
     const sl_explanation *out = &s->out;
-    const uint32_t cell = s->steps.items[s->steps.count - 1].cell;
+    const uint32_t cell = last_step(s)->at.cell;
     for (uint32_t i = 0; i < out->miss_count; i++)
         if (last_cell(s->space, out->from, &out->misses[i].sequence) == cell)
             return is_farther(miss, &out->misses[i]) ? i : UINT32_MAX;
@@ -148,13 +236,13 @@ static uint32_t place_of_portal(const sl_sequence *sequence, uint32_t directed) 
 static void tell_turn(const search *s, sl_sequence *sequence) {
     const uint32_t last = sequence->directed_count - 1;
     const uint32_t stop = sequence->directed[last];
-    const sl_crossings before = s->steps.items[s->steps.count - 1].crossings;
+    const sl_directions before = last_step(s)->directions;
     uint32_t portals[3] = {place_of_portal(sequence, before.least),
                            place_of_portal(sequence, before.most), last};
     uint32_t first = 0;
     for (uint32_t i = last; i-- > 0 && !first;) {
-        sl_crossings pair = {stop, stop};
-        if (sl_crossings_add(s->space, &pair, sequence->directed[i])) continue;
+        sl_directions pair = {stop, stop};
+        if (sl_directions_add(s->space, &pair, sequence->directed[i])) continue;
         portals[1] = i;
         first = 1;
     }
@@ -165,8 +253,9 @@ static void tell_turn(const search *s, sl_sequence *sequence) {
 }
 
 static bool is_visited(const search *s, uint32_t cell) {
-    for (size_t i = 0; i < s->steps.count; i++)
-        if (s->steps.items[i].cell == cell) return true;
+    const step *steps = s->search.steps;
+    for (size_t i = 0; i < s->search.count; i++)
+        if (steps[i].at.cell == cell) return true;
     return false;
 }
 
@@ -175,12 +264,11 @@ static bool is_visited(const search *s, uint32_t cell) {
 /// there; and none that lead back to where the sequence has been.
 static sl_status note_miss(sl_context *context, search *s, uint32_t directed, bool turns) {
     sl_explanation *out = &s->out;
-    const uint32_t missing = s->distance[s->steps.items[s->steps.count - 1].cell];
+    const uint32_t missing = s->distance[last_step(s)->at.cell];
     if (out->verdict != SL_HIDDEN || s->distance[s->space->directed[directed].cell] >= missing)
         return SL_OK;
-    sl_miss miss = {.sequence.directed_count = (uint32_t)s->directed.count + 1,
-                    .missing = missing,
-                    .turns = turns};
+    sl_miss miss = {
+        .sequence.directed_count = (uint32_t)s->search.count, .missing = missing, .turns = turns};
     uint32_t at = place_of_miss(s, &miss);
     if (at == UINT32_MAX || is_visited(s, s->space->directed[directed].cell)) return SL_OK;
     SL_TRY(copy_sequence(context, s, directed, &miss.sequence));
@@ -188,7 +276,7 @@ static sl_status note_miss(sl_context *context, search *s, uint32_t directed, bo
         tell_turn(s, &miss.sequence);
     } else {
         const sl_status status = s->options->solver->conflict(
-            context, s->solver, miss.sequence.ends, &miss.sequence.end_count);
+            context, s->search.solver_state, miss.sequence.ends, &miss.sequence.end_count);
         if (status != SL_OK) {
             sl_free(context, miss.sequence.directed);
             return status;
@@ -218,65 +306,55 @@ static sl_status count_test(sl_context *context, search *s) {
     sl_explanation *out = &s->out;
     if (++out->tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
     if (out->tests % 1024 == 0) sl_report(context, "explain", "tests", out->tests, 0);
-    s->stopped = out->tests == s->options->most_tests;
+    s->search.stop = out->tests == s->options->most_tests;
     return SL_OK;
 }
 
-/// What comes of the sequence with one more directed portal, which the solver holds. `enters`: it
-/// is followed into the next cell, and the solver keeps it.
-static sl_status judge(sl_context *context, search *s, uint32_t number, sl_stab_verdict verdict,
+/// What comes of the sequence with the directed portal of `to`, which the solver holds. `enters`:
+/// it is followed into the next cell, and the solver keeps it.
+static sl_status judge(sl_context *context, search *s, const step *to, sl_stab_verdict verdict,
                        bool *enters) {
-    const sl_directed_portal *directed = &s->space->directed[number];
-    const step from = s->steps.items[s->steps.count - 1];
-    const uint32_t portals = (uint32_t)s->directed.count + 1;
-    const bool grazing = verdict == SL_GRAZING;
+    const uint32_t portals = (uint32_t)s->search.count, cell = to->at.cell;
     *enters = false;
-    if (verdict == SL_HIDDEN) return note_miss(context, s, number, false);
-    if (is_neighbour(s, grazing, portals + s->distance[directed->cell])) return SL_OK;
-    if (directed->cell == s->out.to) return note_found(context, s, number, grazing);
-    SL_TRY(SL_ARRAY_ROOM(context, &s->steps, 1));
-    SL_TRY(SL_ARRAY_ROOM(context, &s->directed, 1));
-    s->directed.items[s->directed.count++] = number;
-    s->steps.items[s->steps.count++] =
-        (step){.cell = directed->cell, .crossings = from.crossings, .grazing = grazing};
-    sl_crossings_add(s->space, &s->steps.items[s->steps.count - 1].crossings, number);
+    if (verdict == SL_HIDDEN) return note_miss(context, s, to->directed, false);
+    if (is_neighbour(s, to->grazing, portals + s->distance[cell])) return SL_OK;
+    if (cell == s->out.to) return note_found(context, s, to->directed, to->grazing);
     *enters = true;
     return SL_OK;
 }
 
-static sl_status try_portal(sl_context *context, search *s, uint32_t number) {
-    const sl_solver *solver = s->options->solver;
+static sl_status cross(sl_context *context, void *job, const void *last, void *next,
+                       uint32_t number) {
+    search *s = job;
+    const step *from = last;
+    step *to = next;
     const sl_directed_portal *directed = &s->space->directed[number];
-    const step from = s->steps.items[s->steps.count - 1];
-    const uint32_t portals = (uint32_t)s->directed.count + 1 + s->distance[directed->cell];
-    sl_crossings crossings = from.crossings;
-    if (!sl_crossings_add(s->space, &crossings, number)) return note_miss(context, s, number, true);
-    if (is_neighbour(s, from.grazing, portals)) return SL_OK;
+    const uint32_t portals = (uint32_t)s->search.count + s->distance[directed->cell];
+    *to = (step){.at.cell = directed->cell, .directed = number, .directions = from->directions};
+    if (!sl_directions_add(s->space, &to->directions, number))
+        return note_miss(context, s, number, true);
+    if (is_neighbour(s, from->grazing, portals)) return SL_OK;
     SL_TRY(count_test(context, s));
     sl_stab_verdict verdict;
     bool enters;
-    SL_TRY(solver->push(context, s->solver, directed->left, directed->right, &verdict));
-    SL_TRY(judge(context, s, number, verdict, &enters));
-    if (!enters) solver->pop(s->solver);
+    SL_TRY(sl_portal_search_push(context, &s->search, directed->left, directed->right, &verdict));
+    to->grazing = verdict == SL_GRAZING;
+    SL_TRY(judge(context, s, to, verdict, &enters));
+    if (enters)
+        s->search.count++;
+    else
+        sl_portal_search_pop(&s->search);
     return SL_OK;
 }
 
 /// All sequences within the bound.
 static sl_status search_within(sl_context *context, search *s) {
-    const sl_space *space = s->space;
-    SL_TRY(SL_ARRAY_ROOM(context, &s->steps, 1));
-    s->steps.items[s->steps.count++] = (step){.cell = s->out.from, .crossings = SL_CROSSINGS_NONE};
-    while (s->steps.count && !s->stopped) {
-        step *last = &s->steps.items[s->steps.count - 1];
-        const sl_cell *cell = &space->cells[last->cell];
-        if (last->next < cell->directed_count) {
-            SL_TRY(try_portal(context, s, cell->first_directed + last->next++));
-        } else if (--s->steps.count) {
-            s->directed.count--;
-            s->options->solver->pop(s->solver);
-        }
-    }
-    return SL_OK;
+    static const sl_portal_visitor visitor = {.step_size = sizeof(step), .cross = cross};
+    SL_TRY(sl_portal_search_start(context, &s->search, sizeof(step)));
+    step *first = s->search.steps;
+    *first = (step){.at.cell = s->out.from, .directed = UINT32_MAX, .directions = SL_NO_DIRECTIONS};
+    s->search.count++;
+    return sl_portal_search_run(context, &s->search, &visitor, s);
 }
 
 static sl_status search_all(sl_context *context, search *s) {
@@ -288,9 +366,9 @@ static sl_status search_all(sl_context *context, search *s) {
     for (s->bound = out->distance;; s->bound *= 2) {
         s->cut = false;
         SL_TRY(search_within(context, s));
-        if (!s->cut || s->stopped || out->verdict == SL_STABBED) break;
+        if (!s->cut || s->search.stop || out->verdict == SL_STABBED) break;
     }
-    out->complete = !s->stopped;
+    out->complete = !s->search.stop;
     return SL_OK;
 }
 
@@ -308,18 +386,16 @@ static sl_status explain(sl_context *context, search *s) {
     out->complete = true;
     out->verdict = out->distance == 0 ? SL_STABBED : SL_HIDDEN;
     if (out->distance != 0 && out->distance != SL_NO_WAY) {
-        SL_TRY(solver->create(context, s->space->bounds, &s->solver));
-        const sl_status status = search_all(context, s);
-        solver->destroy(context, s->solver);
-        SL_TRY(status);
+        SL_TRY(solver->create(context, s->space->bounds, &s->search.solver_state));
+        SL_TRY(search_all(context, s));
     }
     out->seen =
         out->verdict == SL_STABBED || (out->verdict == SL_GRAZING && out->sight == SL_CLOSED);
     if (out->verdict != SL_HIDDEN) drop_misses(context, out);
     if (!out->sequence.directed_count) return SL_OK;
     out->touches =
-        out->verdict == SL_GRAZING || !sl_simplify_line(s->space, &out->sequence, &out->witness);
-    out->shown = sl_shown_segment(s->space, &out->sequence, out->from, out->witness);
+        out->verdict == SL_GRAZING || !simplify_line(s->space, &out->sequence, &out->witness);
+    out->shown = shown_segment(s->space, &out->sequence, out->from, out->witness);
     return SL_OK;
 }
 
@@ -340,16 +416,58 @@ sl_status sl_explain(sl_context *context, const sl_space *space, const sl_explai
     SL_TRY(check(context, space, options, from, to));
     search s = {.space = space,
                 .options = options,
+                .search = {.space = space, .solver = options->solver},
                 .stabbed = UINT32_MAX,
                 .grazed = UINT32_MAX,
                 .out = {.from = from, .to = to, .sight = options->sight}};
     const sl_status status = explain(context, &s);
+    sl_portal_search_end(context, &s.search);
     sl_free(context, s.distance);
-    sl_free(context, s.steps.items);
-    sl_free(context, s.directed.items);
     if (status == SL_OK)
         *out = s.out;
     else
         sl_explanation_destroy(context, &s.out);
     return status;
+}
+
+// --- what is said of a sequence
+
+sl_point sl_sequence_end(const sl_space *space, const sl_sequence *sequence, sl_stab_end end) {
+    const sl_directed_portal *directed = &space->directed[sequence->directed[end.portal]];
+    return end.left ? directed->left : directed->right;
+}
+
+/// The places of the ends of one side, each once. Returns how many.
+static uint32_t places_of(const sl_space *space, const sl_sequence *sequence, bool left,
+                          sl_point places[SL_CONFLICT_MOST]) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < sequence->end_count; i++) {
+        if (sequence->ends[i].left != left) continue;
+        const sl_point p = sl_sequence_end(space, sequence, sequence->ends[i]);
+        bool known = false;
+        for (uint32_t k = 0; k < count; k++) known |= places[k].x == p.x && places[k].y == p.y;
+        if (!known) places[count++] = p;
+    }
+    return count;
+}
+
+static bool segments_cross(const sl_point a[2], const sl_point b[2]) {
+    return sl_orient(a[0], a[1], b[0]) * sl_orient(a[0], a[1], b[1]) < 0 &&
+           sl_orient(b[0], b[1], a[0]) * sl_orient(b[0], b[1], a[1]) < 0;
+}
+
+const char *sl_sequence_reason(const sl_space *space, const sl_sequence *sequence) {
+    sl_point left[SL_CONFLICT_MOST], right[SL_CONFLICT_MOST];
+    const uint32_t lefts = places_of(space, sequence, true, left);
+    const uint32_t rights = places_of(space, sequence, false, right);
+    if (lefts == 1 && rights == 1) return "that left end is the same point as that right end";
+    if (lefts == 1 && rights == 2)
+        return "that left end lies between those right ends, on one line";
+    if (lefts == 2 && rights == 1)
+        return "that right end lies between those left ends, on one line";
+    if (lefts == 1) return "that left end lies within the triangle of those right ends";
+    if (rights == 1) return "that right end lies within the triangle of those left ends";
+    if (lefts == 2 && rights == 2 && segments_cross(left, right))
+        return "the segment between those left ends crosses the segment between those right ends";
+    return "what lies between those left ends overlaps what lies between those right ends";
 }

@@ -1,4 +1,16 @@
-/// Walks round every portal end, from portal to portal, and chooses which fans serve which cells.
+/// Fans: what lies round each end of a portal, for the sweep to turn its line about.
+///
+///     cell 2  |  cell 1
+///     --------v#### wall        The fan of v: cells 1, 2, 3 and 4, counter-clockwise from one
+///     cell 3  |  cell 4         side of the wall to its other side.
+///
+/// A walk from portal to portal finds each fan. It starts at a wall and ends at the next wall, or
+/// goes all round. With one-way glass a fan also ends where the glass is blocked.
+///
+/// Each cell must be looked at from one of its corners: a fan there "serves" the cell. Which fans
+/// serve which cells is a greedy set cover. The candidate with the most gain for its cost comes
+/// first. Cost: linear in the number of directed portals. The set cover goes over all fans once for
+/// each different gain.
 #include "cell_to_cell/fans.h"
 
 #include "geometry/orient.h"
@@ -342,11 +354,11 @@ static sl_status walk_all_round(sl_context *context, walker *w, sl_bits *walked)
 
 // --- who serves whom
 
-/// A fan, as one that may serve cells.
-typedef struct offer {
-    uint32_t each;  ///< what one cell more is worth
-    uint32_t worth; ///< what all are that wait
-} offer;
+/// A fan, as a candidate to serve cells.
+typedef struct candidate {
+    uint32_t each; ///< the gain of one cell, less where looking costs more
+    uint32_t gain; ///< of all its cells that no fan serves yet
+} candidate;
 
 /// Grows with a direction's angle, from 0 to 4: by 1 a quarter turn.
 static double quarters(sl_point at, sl_point to) {
@@ -356,7 +368,7 @@ static double quarters(sl_point at, sl_point to) {
 }
 
 /// How much of a half turn a fan's point looks at for cells that it serves: what lies above the
-/// horizon, and is not looked at for a turning line anyway.
+/// horizon, and is not looked at for a rotating line anyway.
 static double share_above(const sl_fans *fans, const sl_fan *fan) {
     const sl_fan_cell *cells = fans->cells.items + fan->first;
     if (fan->full_turn) return 1;
@@ -372,13 +384,14 @@ static double share_above(const sl_fans *fans, const sl_fan *fan) {
     return (above + above_again) / 2;
 }
 
-static uint32_t worth_of_each(const sl_fans *fans, const sl_fan *fan) {
+/// The gain of one cell falls with the cost: the share of a half turn that is looked at.
+static uint32_t gain_of_each(const sl_fans *fans, const sl_fan *fan) {
     enum { MOST = 4 };
     return (uint32_t)(MOST / (1 + share_above(fans, fan)));
 }
 
-static uint32_t worth_of(const sl_fans *fans, const sl_fan *fan, uint32_t each,
-                         const sl_bits *served) {
+static uint32_t gain_of(const sl_fans *fans, const sl_fan *fan, uint32_t each,
+                        const sl_bits *served) {
     uint32_t waiting = 0;
     for (uint32_t i = 0; i < fan->count; i++)
         waiting += !sl_bits_has(served, fans->cells.items[fan->first + i].cell);
@@ -394,41 +407,41 @@ static void serve(sl_fans *fans, sl_fan *fan, sl_bits *served) {
     }
 }
 
-/// Greedily, those of most worth first. Worth only falls, so that a fan found to be worth less than
-/// where it stands moves on to a later round.
-static void share_out_by(sl_fans *fans, offer *offers, sl_bits *served) {
+/// Greedy set cover: the candidate with the most gain comes first. Gains only fall. So a fan whose
+/// gain turns out to be less than that of the round waits for a later round.
+static void share_out_by(sl_fans *fans, candidate *candidates, sl_bits *served) {
     const size_t count = fans->fans.count;
     uint32_t most = 0;
     for (size_t i = 0; i < count; i++) {
         sl_fan *fan = &fans->fans.items[i];
-        // Round one wall nothing is left to expand but what the turning line needs.
+        // Around a single wall, only the cells that the rotating line touches still need expanding.
         if (fan->back_to_back) serve(fans, fan, served);
-        offers[i].each = worth_of_each(fans, fan);
-        offers[i].worth = worth_of(fans, fan, offers[i].each, served);
-        if (offers[i].worth > most) most = offers[i].worth;
+        candidates[i].each = gain_of_each(fans, fan);
+        candidates[i].gain = gain_of(fans, fan, candidates[i].each, served);
+        if (candidates[i].gain > most) most = candidates[i].gain;
     }
     for (uint32_t now = most; now > 0;) {
         uint32_t next = 0;
         for (size_t i = 0; i < count; i++) {
-            offer *o = &offers[i];
+            candidate *c = &candidates[i];
             sl_fan *fan = &fans->fans.items[i];
-            if (o->worth >= now) o->worth = worth_of(fans, fan, o->each, served);
-            if (o->worth >= now) {
+            if (c->gain >= now) c->gain = gain_of(fans, fan, c->each, served);
+            if (c->gain >= now) {
                 serve(fans, fan, served);
-                o->worth = 0;
+                c->gain = 0;
             }
-            if (o->worth > next) next = o->worth;
+            if (c->gain > next) next = c->gain;
         }
         now = next < now ? next : now - 1;
     }
 }
 
 static sl_status share_out(sl_context *context, sl_fans *fans) {
-    offer *offers = sl_alloc_array(context, fans->fans.count, sizeof *offers);
+    candidate *candidates = sl_alloc_array(context, fans->fans.count, sizeof *candidates);
     sl_bits *served = sl_alloc_array(context, sl_bits_words(fans->cell_count), sizeof *served);
-    const bool room = offers && served;
-    if (room) share_out_by(fans, offers, served);
-    sl_free(context, offers);
+    const bool room = candidates && served;
+    if (room) share_out_by(fans, candidates, served);
+    sl_free(context, candidates);
     sl_free(context, served);
     return room ? SL_OK : SL_NO_MEMORY;
 }

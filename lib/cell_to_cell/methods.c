@@ -1,4 +1,4 @@
-/// The table of cell-to-cell methods, and what they share.
+/// The table of cell-to-cell methods, their default options, and what maps they can serve.
 #include "cell_to_cell/methods.h"
 
 #include "sightline/solvers.h"

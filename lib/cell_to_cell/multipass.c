@@ -1,25 +1,25 @@
-/// All cells at once, sector by sector of directions (Laine 2005, A General Algorithm for
+/// All cells at once, one sector of directions after the other (Laine 2005, A General Algorithm for
 /// Output-Sensitive Visibility Preprocessing).
 ///
-/// A sightline of a sector that leaves a cell by a face goes on in the cell behind it. So what the
-/// face sees is among what that cell sees in the sector, its directed visible set: those are the
-/// only candidates. Cells are done in an order in which the cells behind come first. Where a sector
-/// is so wide that portals are crossed both ways in it, cells may depend on each other round a
-/// cycle; the candidates of these are each other, and what all of them together see beyond.
+/// A sightline of a sector leaves a cell by a face and goes on in the cell behind. So the face sees
+/// nothing but what that cell sees in the sector, its directed visible set. These are the face's
+/// candidates. Cells are done in an order in which the cells behind come first (sectors.h).
 ///
-/// A face's candidates are decided on by a depth-first search over portal sequences, as in dfs.c,
-/// within the sector alone: the solver is asked for lines of its directions. The search goes
-/// through a directed portal only while a candidate that is not seen yet is left behind it, and
-/// what is behind it is known, by the faces that are done.
+/// A wide sector may have portals that are crossed both ways. Then cells may depend on each other
+/// round a cycle. Their candidates are all cells of the cycle and all that these see beyond it.
 ///
-/// Pairs are symmetric, and what a cell sees in one sector sees it in the opposite one: half of the
-/// sectors tell all.
+/// A depth-first search decides on the candidates of a face. It asks the solver for lines of the
+/// sector alone. It goes through a portal only while an unseen candidate is left behind it.
+///
+/// Pairs are symmetric: what a cell sees in one sector sees it in the opposite one. So half of the
+/// sectors are enough.
 #include "base/threads.h"
-#include "cell_to_cell/bit_rows.h"
+#include "cell_to_cell/bounds.h"
 #include "cell_to_cell/methods.h"
-#include "cell_to_cell/pass.h"
-#include "cell_to_cell/prune.h"
+#include "cell_to_cell/portal_search.h"
 #include "cell_to_cell/pvs_rows.h"
+#include "cell_to_cell/rows.h"
+#include "cell_to_cell/sectors.h"
 #include "sightline/support.h"
 
 #include <pthread.h>
@@ -53,15 +53,14 @@ typedef struct multipass {
 
 /// A cell on the way from a face.
 typedef struct step {
-    uint32_t cell, next; ///< directed portal to try next, from 0
-    sl_cone cone;        ///< directions that cross all portals so far
-    bool grazing;        ///< the sequence is no more than grazed
+    sl_portal_step at;
+    sl_direction_sector cone; ///< directions that cross all portals so far
+    bool grazing;             ///< the sequence is no more than grazed
 } step;
 
 /// One thread's own.
 typedef struct searcher {
-    void *solver;
-    SL_ARRAY(step) steps;
+    sl_portal_search search;
     sl_prune_wanted wanted;                               ///< at each step
     sl_word_set sure, doubtful, cell_sure, cell_doubtful; ///< of the face and of the cell at hand
     sl_word_set candidates;                               ///< of the face, or of its cycle
@@ -77,25 +76,23 @@ static void add_directed(const multipass *all, const running_pass *p, uint32_t c
         sl_sparse_row_add_to(&p->seen[face], all->words, set);
 }
 
-static sl_status enter(sl_context *context, searcher *me, step to) {
+static void enter(searcher *me) {
     me->account.nodes++;
-    SL_TRY(SL_ARRAY_ROOM(context, &me->steps, 1));
-    me->steps.items[me->steps.count++] = to;
-    if (me->steps.count > me->account.deepest) me->account.deepest = (uint32_t)me->steps.count;
-    return SL_OK;
+    me->search.count++;
+    if (me->search.count > me->account.deepest) me->account.deepest = (uint32_t)me->search.count;
 }
 
 /// The verdict on the sequence with one more portal, for lines of the sector. SL_HIDDEN: it must
 /// be popped.
 static sl_status push(sl_context *context, const multipass *all, searcher *me,
-                      const sl_directed_portal *directed, const sl_cone *cone,
+                      const sl_directed_portal *directed, const sl_direction_sector *cone,
                       sl_stab_verdict *verdict) {
     const sl_solver *solver = all->options->solver;
     if (++me->account.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
-    SL_TRY(solver->push(context, me->solver, directed->left, directed->right, verdict));
+    SL_TRY(sl_portal_search_push(context, &me->search, directed->left, directed->right, verdict));
     if (*verdict == SL_HIDDEN) return SL_OK;
     const bool near = *verdict == SL_GRAZING && solver->guarantee == SL_ROUNDED;
-    SL_TRY(solver->toward(context, me->solver, cone->right, cone->left, verdict));
+    SL_TRY(solver->toward(context, me->search.solver_state, cone->right, cone->left, verdict));
     // Whether a line that rounding may have made is within the sector cannot be told either.
     if (near && *verdict == SL_HIDDEN) *verdict = SL_GRAZING;
     return SL_OK;
@@ -106,7 +103,7 @@ static sl_status push(sl_context *context, const multipass *all, searcher *me,
 /// hand may not be known yet: then it bounds nothing.
 static sl_status want(sl_context *context, searcher *me, const sl_sparse_row *behind,
                       bool *something) {
-    const size_t depth = me->steps.count;
+    const size_t depth = me->search.count;
     SL_TRY(sl_prune_step_within(context, behind, &me->wanted, depth));
     const sl_prune_set *set = &me->wanted.sets.items[depth];
     *something = false;
@@ -117,52 +114,57 @@ static sl_status want(sl_context *context, searcher *me, const sl_sparse_row *be
     return SL_OK;
 }
 
-static sl_status try_portal(sl_context *context, const multipass *all, const running_pass *p,
-                            searcher *me, uint32_t number) {
-    const sl_solver *solver = all->options->solver;
+/// The search from one face.
+typedef struct face_job {
+    const multipass *all;
+    const running_pass *pass;
+    searcher *me;
+} face_job;
+
+SL_VISIT sl_status cross(sl_context *context, void *job, const void *last, void *next,
+                         uint32_t number) {
+    const face_job *at = job;
+    const multipass *all = at->all;
+    searcher *me = at->me;
+    const step *from = last;
+    step *to = next;
+    const uint32_t face = at->pass->pass.faces[number];
     const sl_directed_portal *directed = &all->space->directed[number];
-    const step from = me->steps.items[me->steps.count - 1];
-    sl_cone cone = from.cone;
-    if (p->pass.faces[number] == SL_NO_FACE || !sl_cone_cut(&cone, directed)) return SL_OK;
+    *to = (step){.at.cell = directed->cell, .cone = from->cone};
+    if (face == SL_NO_FACE || !sl_direction_sector_cut(&to->cone, directed)) return SL_OK;
     bool something;
-    SL_TRY(want(context, me, &p->seen[p->pass.faces[number]], &something));
+    SL_TRY(want(context, me, &at->pass->seen[face], &something));
     if (!something) return SL_OK;
 
     sl_stab_verdict verdict;
-    SL_TRY(push(context, all, me, directed, &cone, &verdict));
-    const bool grazing = verdict == SL_GRAZING || from.grazing;
-    if (verdict == SL_HIDDEN || (grazing && all->options->sight == SL_OPEN && !all->rounded)) {
-        solver->pop(me->solver);
+    SL_TRY(push(context, all, me, directed, &to->cone, &verdict));
+    to->grazing = verdict == SL_GRAZING || from->grazing;
+    if (verdict == SL_HIDDEN || (to->grazing && all->options->sight == SL_OPEN && !all->rounded)) {
+        sl_portal_search_pop(&me->search);
         return SL_OK;
     }
-    sl_word_set_add(grazing && all->rounded ? &me->doubtful : &me->sure, directed->cell);
-    return enter(context, me, (step){.cell = directed->cell, .cone = cone, .grazing = grazing});
+    sl_word_set_add(to->grazing && all->rounded ? &me->doubtful : &me->sure, directed->cell);
+    enter(me);
+    return SL_OK;
 }
 
 /// Finds what a face sees among the candidates, into `sure` and `doubtful`.
 static sl_status search_face(sl_context *context, const multipass *all, const running_pass *p,
                              searcher *me, uint32_t number) {
-    const sl_space *space = all->space;
-    const sl_directed_portal *directed = &space->directed[number];
-    sl_cone cone = p->pass.cone;
-    (void)sl_cone_cut(&cone, directed); // it has some: else the directed portal were no face
+    static const sl_portal_visitor visitor = {.step_size = sizeof(step), .cross = cross};
+    const sl_directed_portal *directed = &all->space->directed[number];
+    SL_TRY(sl_portal_search_start(context, &me->search, sizeof(step)));
+    step *first = me->search.steps;
+    *first = (step){.at.cell = directed->cell, .cone = p->pass.cone};
+    (void)sl_direction_sector_cut(&first->cone,
+                                  directed); // it has some: else the portal were no face
     sl_stab_verdict verdict;
-    SL_TRY(push(context, all, me, directed, &cone, &verdict));
+    SL_TRY(push(context, all, me, directed, &first->cone, &verdict));
     sl_word_set_add(&me->sure, directed->cell);
     SL_TRY(sl_prune_start_among(context, &me->wanted, &me->candidates));
-    me->steps.count = 0;
-    SL_TRY(enter(context, me, (step){.cell = directed->cell, .cone = cone}));
-    while (me->steps.count) {
-        step *last = &me->steps.items[me->steps.count - 1];
-        const sl_cell *cell = &space->cells[last->cell];
-        if (last->next < cell->directed_count) {
-            SL_TRY(try_portal(context, all, p, me, cell->first_directed + last->next++));
-        } else {
-            me->steps.count--;
-            all->options->solver->pop(me->solver);
-        }
-    }
-    return SL_OK;
+    enter(me);
+    face_job job = {all, p, me};
+    return sl_portal_search_run(context, &me->search, &visitor, &job);
 }
 
 static uint64_t count_bits(const sl_word_set *set) {
@@ -263,7 +265,8 @@ static void end(sl_context *context, void *job, void *state) {
     searcher *me = state;
     const sl_solver *solver = all->options->solver;
     pthread_mutex_lock(&all->lock);
-    if (me->solver && solver->account) solver->account(me->solver, &all->account.stab);
+    if (me->search.solver_state && solver->account)
+        solver->account(me->search.solver_state, &all->account.stab);
     all->account.tests += me->account.tests;
     all->account.nodes += me->account.nodes;
     all->account.candidates += me->account.candidates;
@@ -273,8 +276,7 @@ static void end(sl_context *context, void *job, void *state) {
     sl_bit_rows_join(context, &all->sure, &me->rows);
     sl_bit_rows_join(context, &all->doubtful, &me->doubtful_rows);
     pthread_mutex_unlock(&all->lock);
-    solver->destroy(context, me->solver);
-    sl_free(context, me->steps.items);
+    sl_portal_search_end(context, &me->search);
     sl_prune_wanted_destroy(context, &me->wanted);
     free_sets(context, me);
     sl_free(context, me);
@@ -282,6 +284,7 @@ static void end(sl_context *context, void *job, void *state) {
 
 static sl_status make_sets(sl_context *context, const multipass *all, searcher *me) {
     const uint32_t count = all->space->cell_count;
+    me->search = (sl_portal_search){.space = all->space, .solver = all->options->solver};
     SL_TRY(sl_word_set_create(context, count, &me->sure));
     SL_TRY(sl_word_set_create(context, count, &me->doubtful));
     SL_TRY(sl_word_set_create(context, count, &me->cell_sure));
@@ -289,7 +292,7 @@ static sl_status make_sets(sl_context *context, const multipass *all, searcher *
     SL_TRY(sl_word_set_create(context, count, &me->candidates));
     SL_TRY(sl_bit_rows_fork(context, &all->sure, &me->rows));
     if (all->rounded) SL_TRY(sl_bit_rows_fork(context, &all->doubtful, &me->doubtful_rows));
-    return all->options->solver->create(context, all->space->bounds, &me->solver);
+    return me->search.solver->create(context, all->space->bounds, &me->search.solver_state);
 }
 
 static sl_status begin(sl_context *context, void *job, void **state) {
@@ -311,7 +314,7 @@ static sl_status add_pass(sl_context *context, multipass *all, uint32_t sector) 
     running_pass *p = &all->passes.items[all->passes.count];
     *p = (running_pass){0};
     SL_TRY(sl_pass_create(context, all->space, all->options->inside_only,
-                          sl_sector_cone(&all->sectors, sector), &p->pass));
+                          sl_sectors_get(&all->sectors, sector), &p->pass));
     all->passes.count++;
     p->seen = sl_alloc_array(context, p->pass.face_count, sizeof *p->seen);
     return p->seen ? SL_OK : SL_NO_MEMORY;
@@ -398,7 +401,7 @@ static sl_status pass_all(sl_context *context, multipass *all) {
 
 /// Of rounded solvers: what is sure is not doubtful, and with closed sight what is doubtful is
 /// seen.
-static sl_status settle_rounded(sl_context *context, multipass *all, sl_visibility *out) {
+static sl_status finish_rounded(sl_context *context, multipass *all, sl_visibility *out) {
     sl_visibility sure = {0}, doubtful = {0};
     sl_status status = sl_bit_rows_encode(context, &all->sure, &sure);
     if (status == SL_OK) status = sl_bit_rows_encode(context, &all->doubtful, &doubtful);
@@ -409,8 +412,8 @@ static sl_status settle_rounded(sl_context *context, multipass *all, sl_visibili
     return status;
 }
 
-static sl_status settle(sl_context *context, multipass *all, sl_visibility *out) {
-    if (all->rounded) return settle_rounded(context, all, out);
+static sl_status finish(sl_context *context, multipass *all, sl_visibility *out) {
+    if (all->rounded) return finish_rounded(context, all, out);
     SL_TRY(sl_bit_rows_mirror(context, &all->sure, SL_ADD_MIRRORED));
     return sl_bit_rows_encode(context, &all->sure, out);
 }
@@ -423,7 +426,7 @@ static sl_status see(sl_context *context, multipass *all, sl_visibility *out) {
     if (all->rounded) SL_TRY(sl_bit_rows_create(context, count, all->options, &all->doubtful));
     SL_TRY(pass_all(context, all));
     out->account = all->account;
-    return settle(context, all, out);
+    return finish(context, all, out);
 }
 
 sl_status sl_see_multipass(sl_context *context, const sl_space *space,

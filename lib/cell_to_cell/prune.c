@@ -1,7 +1,13 @@
-#include "cell_to_cell/prune.h"
+/// The sets that keep a search short: upper bounds for directed portals, and what is still wanted.
+///
+/// Each step of a search has a set of wanted cells: those that its portal's upper bound and all
+/// bounds before it leave possible. The sets of a way lie behind each other in one array, as sorted
+/// words that have any bits. A step back takes the last set off.
+///
+/// Invariant: the set of a step is a subset of the set of the step before it.
+#include "cell_to_cell/bounds.h"
 
-#include "cell_to_cell/flood.h"
-#include "cell_to_cell/pvs_maker.h"
+#include "cell_to_cell/pvs_rows.h"
 
 /// Bounds that would take no more than this as whole rows of bits are all kept.
 #define MOST_ROW_BYTES ((size_t)64 << 20)

@@ -1,39 +1,32 @@
-/// What of a space's visible sets still holds when some walls have changed.
+/// Which rows of a bake still hold after some walls have changed.
 ///
-/// A cell is unchanged where the new space has one of the same corners and the same directed
-/// portals, and each directed portal leads to the same cell as before, or to a changed one. Let A
-/// be unchanged, and let all that it saw be unchanged too. Then it sees the same cells as before,
-/// for a sightline's sequence of portals is made of directed portals, and each beginning of it has
-/// a sightline as well:
+/// A cell is unchanged if the new space has a cell with the same corners and the same directed
+/// portals, and each of these leads to the same cell as before, or to a changed one. Let A be
+/// unchanged, and let every cell that A saw be unchanged. Then A sees the same cells as before:
 ///
-/// - Each sequence from A that had a sightline goes through unchanged cells only, since A saw all
-///   of them. The new space has the same one, directed portal for directed portal, and the same
-///   line.
-/// - Take a sequence from A that has a sightline in the new space, and the first of its directed
-/// portals that
-///   does not lead to the same cell as before. Up to there the old space had the same sequence,
-///   with the same line, which went on through that directed portal: A saw the cell that it led to,
-///   and so that cell is unchanged. But then the directed portal would lead to it now.
+/// - Take a sequence from A that had a sightline. A saw all cells on it, so that all are unchanged.
+///   The new space has the same sequence of directed portals, and the same line stabs it.
+/// - Take a sequence from A that has a sightline now, and its first directed portal that leads to
+///   another cell than before. Up to there the old space had the same sequence and the same line,
+///   which went on through that portal. So A saw the cell behind it, and that cell is unchanged.
+///   But then the portal would lead to it now as well.
 ///
-/// So A's row is the old one. With exact sets it does not matter by which method they were found.
+/// So the row of A is the old one, whichever exact method found it. Pairs without such a cell are
+/// looked for anew. A search passes over such sources. The sweep passes over a fan all of whose
+/// cells are of this kind, and see only cells of this kind: a fan joins only cells that its own
+/// cells see (sweep_finish.c).
 ///
-/// Pairs of which neither cell is such an A are looked for anew. A fan of the sweep joins cells
-/// that see each other by lines through its point, and each of the two is seen from the cell of
-/// the fan by which its half of the line leaves the point (or is that cell). Where all cells of the
-/// fan are such A's, and see only such A's, all pairs that it joins are of these rows, and it is
-/// passed over (sweep_settle.c). Of the searches a source that is such an A is.
-///
-/// Nothing of it depends on how the cells are numbered, nor on the subdivision being the same: a
-/// split line that moves only makes more cells count as changed.
-#include "cell_to_cell/partial.h"
-#include "cell_to_cell/pvs_maker.h"
+/// The numbers of cells do not matter, nor does the subdivision: a split line that moves only makes
+/// more cells count as changed.
+#include "cell_to_cell/methods.h"
+#include "cell_to_cell/pvs_rows.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #define NO_CELL UINT32_MAX
 
-typedef struct carrying {
+typedef struct reusing {
     const sl_space *before, *space;
     const sl_pvs *seen;
     uint32_t *now;     ///< by cell of the space before: the same cell, or NO_CELL
@@ -41,7 +34,7 @@ typedef struct carrying {
     sl_bits *kept;     ///< cells whose rows are as they were
     sl_bits *enclosed; ///< those of them that see only such cells
     sl_bits *set;      ///< scratch
-} carrying;
+} reusing;
 
 // --- the same cells
 
@@ -74,7 +67,7 @@ static bool is_alone(const shape *shapes, uint32_t count, uint32_t i) {
            (i + 1 == count || compare_shapes(&shapes[i], &shapes[i + 1]) != 0);
 }
 
-static bool same_directed(const carrying *c, uint32_t then, uint32_t now) {
+static bool same_directed(const reusing *c, uint32_t then, uint32_t now) {
     const sl_cell *a = &c->before->cells[then], *b = &c->space->cells[now];
     if (a->directed_count != b->directed_count || a->inside != b->inside) return false;
     for (uint32_t i = 0; i < a->directed_count; i++) {
@@ -87,7 +80,7 @@ static bool same_directed(const carrying *c, uint32_t then, uint32_t now) {
     return true;
 }
 
-static void match(const carrying *c, const shape *old, const shape *new) {
+static void match(const reusing *c, const shape *old, const shape *new) {
     const uint32_t old_count = c->before->cell_count, new_count = c->space->cell_count;
     for (uint32_t i = 0, k = 0; i < old_count && k < new_count;) {
         const int order = compare_shapes(&old[i], &new[k]);
@@ -103,7 +96,7 @@ static void match(const carrying *c, const shape *old, const shape *new) {
 
 /// Whether each directed portal leads to the same cell as before, or to one that is none of the
 /// same now.
-static bool leads_the_same_way(const carrying *c, uint32_t then, uint32_t now) {
+static bool leads_the_same_way(const reusing *c, uint32_t then, uint32_t now) {
     const sl_cell *a = &c->before->cells[then], *b = &c->space->cells[now];
     for (uint32_t i = 0; i < a->directed_count; i++) {
         const uint32_t to = c->now[c->before->directed[a->first_directed + i].cell];
@@ -112,7 +105,7 @@ static bool leads_the_same_way(const carrying *c, uint32_t then, uint32_t now) {
     return true;
 }
 
-static sl_status find_same_cells(sl_context *context, const carrying *c) {
+static sl_status find_same_cells(sl_context *context, const reusing *c) {
     memset(c->now, 0xff, c->before->cell_count * sizeof *c->now);
     memset(c->then, 0xff, c->space->cell_count * sizeof *c->then);
     shape *old = sort_shapes(context, c->before), *new = sort_shapes(context, c->space);
@@ -132,21 +125,21 @@ static sl_status find_same_cells(sl_context *context, const carrying *c) {
 
 // --- their rows
 
-static bool saw_no_changed_cell(const carrying *c, uint32_t then) {
+static bool saw_no_changed_cell(const reusing *c, uint32_t then) {
     for (sl_pvs_run run = sl_pvs_begin(c->seen, then); sl_pvs_next(&run);)
         for (uint32_t i = run.first; i < run.end; i++)
             if (c->now[i] == NO_CELL) return false;
     return true;
 }
 
-static bool saw_kept_cells_only(const carrying *c, uint32_t then) {
+static bool saw_kept_cells_only(const reusing *c, uint32_t then) {
     for (sl_pvs_run run = sl_pvs_begin(c->seen, then); sl_pvs_next(&run);)
         for (uint32_t i = run.first; i < run.end; i++)
             if (!sl_bits_has(c->kept, c->now[i])) return false;
     return true;
 }
 
-static void find_kept(const carrying *c) {
+static void find_kept(const reusing *c) {
     for (uint32_t now = 0; now < c->space->cell_count; now++)
         if (c->then[now] != NO_CELL && saw_no_changed_cell(c, c->then[now]))
             sl_bits_add(c->kept, now);
@@ -155,7 +148,7 @@ static void find_kept(const carrying *c) {
             sl_bits_add(c->enclosed, now);
 }
 
-static sl_status make_rows(sl_context *context, const carrying *c, sl_pvs_maker *maker,
+static sl_status make_rows(sl_context *context, const reusing *c, sl_pvs_maker *maker,
                            sl_pvs *out) {
     const uint32_t count = c->space->cell_count;
     SL_TRY(sl_pvs_maker_create(context, count, count, maker));
@@ -169,7 +162,7 @@ static sl_status make_rows(sl_context *context, const carrying *c, sl_pvs_maker 
     return sl_pvs_maker_finish(context, maker, out);
 }
 
-static sl_status take_rows(sl_context *context, const carrying *c, sl_partial *partial) {
+static sl_status take_rows(sl_context *context, const reusing *c, sl_partial *partial) {
     sl_pvs_maker maker;
     sl_pvs rows = {0};
     const sl_status status = make_rows(context, c, &maker, &rows);
@@ -212,7 +205,7 @@ static sl_status check_same_question(sl_context *context, const sl_space *before
     return SL_OK;
 }
 
-static sl_status allocate(sl_context *context, carrying *c) {
+static sl_status allocate(sl_context *context, reusing *c) {
     const size_t words = sl_bits_words(c->space->cell_count);
     c->now = sl_alloc_array(context, c->before->cell_count, sizeof *c->now);
     c->then = sl_alloc_array(context, c->space->cell_count, sizeof *c->then);
@@ -221,8 +214,8 @@ static sl_status allocate(sl_context *context, carrying *c) {
     return c->now && c->then && c->kept && c->enclosed ? SL_OK : SL_NO_MEMORY;
 }
 
-static sl_status carry(sl_context *context, carrying *c, const sl_see_method *method,
-                       const sl_see_options *options, sl_partial *partial) {
+static sl_status reuse_rows(sl_context *context, reusing *c, const sl_see_method *method,
+                            const sl_see_options *options, sl_partial *partial) {
     SL_TRY(allocate(context, c));
     SL_TRY(find_same_cells(context, c));
     SL_TRY(sl_check_cancelled(context));
@@ -235,16 +228,16 @@ sl_status sl_partial_reuse(sl_context *context, const sl_space *before, const sl
                            const sl_space *space, const sl_see_method *method,
                            const sl_see_options *options, sl_partial *partial) {
     SL_TRY(check_same_question(context, before, seen, method, options));
-    carrying c = {.before = before, .space = space, .seen = &seen->pvs};
-    sl_partial carried = {0};
-    const sl_status status = carry(context, &c, method, options, &carried);
+    reusing c = {.before = before, .space = space, .seen = &seen->pvs};
+    sl_partial reused = {0};
+    const sl_status status = reuse_rows(context, &c, method, options, &reused);
     sl_free(context, c.now);
     sl_free(context, c.then);
     sl_free(context, c.kept);
     sl_free(context, c.enclosed);
     if (status == SL_OK)
-        *partial = carried;
+        *partial = reused;
     else
-        sl_partial_destroy(context, &carried);
+        sl_partial_destroy(context, &reused);
     return status;
 }

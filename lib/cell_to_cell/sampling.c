@@ -1,9 +1,11 @@
-/// Lines at random: from a number of points of each cell in a random direction, both ways, through
-/// whatever portals the line passes strictly between their ends. All cells on a line see each
-/// other, if they are no farther apart on it than the range. What no line hits is missed: narrow
-/// sightlines first. Where glass is one-way, lines are taken one way only.
-#include "cell_to_cell/bit_rows.h"
+/// Random lines: an aggressive method, which finds no hidden pair but misses some visible ones.
+///
+/// From a number of points of each cell a line goes in a random direction, both ways, through all
+/// portals that it passes strictly between their ends. All cells on the line see each other, if
+/// they are no farther apart on it than the range. Narrow sightlines are missed first. With one-way
+/// glass each line is taken one way only.
 #include "cell_to_cell/methods.h"
+#include "cell_to_cell/rows.h"
 
 #include "base/threads.h"
 #include "effects/effects.h"

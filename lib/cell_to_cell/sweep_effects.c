@@ -1,12 +1,14 @@
-/// The sweep where the map has doors or a view range: it settles most pairs without a search. What
-/// it sees with all doors open bounds what is seen at all; what it sees with all doors shut is seen
-/// through none; cells whose nearest points are beyond the range do not see each other, those whose
-/// farthest points are within it may. Only pairs that are seen, and not so settled, are left to the
-/// depth-first search, which goes nowhere but towards them.
-#include "cell_to_cell/cells_apart.h"
+/// The sweep for maps with doors or a view range: it decides most pairs, and a search the rest.
+///
+/// With all doors open the sweep sees every pair that can be seen at all. With all doors shut it
+/// sees the pairs that need no door. Cells whose nearest points are beyond the range do not see
+/// each other. Cells whose farthest points are within it need no test of the range. The depth-first
+/// search is left the pairs that are possible and not certain. It goes only where such a pair is
+/// left.
+#include "cell_to_cell/sweep.h"
+
 #include "cell_to_cell/dfs.h"
 #include "cell_to_cell/methods.h"
-#include "cell_to_cell/sweep.h"
 #include "sightline/solvers.h"
 
 #include <string.h>
@@ -35,8 +37,8 @@ static sl_status narrow(sl_context *context, const sl_space *space, double range
     return SL_OK;
 }
 
-static sl_status settle(sl_context *context, const sl_space *space, const sl_see_options *options,
-                        sl_visibility *open, sl_visibility *shut, sl_visibility *out) {
+static sl_status see_all(sl_context *context, const sl_space *space, const sl_see_options *options,
+                         sl_visibility *open, sl_visibility *shut, sl_visibility *out) {
     const sl_plan *plan = options->plan;
     sl_plan ways = *plan;
     ways.effects &= SL_EFFECT_ONEWAY;
@@ -61,7 +63,7 @@ static sl_status settle(sl_context *context, const sl_space *space, const sl_see
 sl_status sl_see_sweep_finished(sl_context *context, const sl_space *space,
                                 const sl_see_options *options, sl_visibility *out) {
     sl_visibility open = {0}, shut = {0};
-    const sl_status status = settle(context, space, options, &open, &shut, out);
+    const sl_status status = see_all(context, space, options, &open, &shut, out);
     sl_visibility_destroy(context, &open);
     sl_visibility_destroy(context, &shut);
     return status;

@@ -7,7 +7,7 @@
 /// at right angles. It stays in its cell, which is convex.
 #include "draw/plan.h"
 #include "draw/marks.h"
-#include "effects/mirror_sides.h"
+#include "effects/mirrors.h"
 #include "sightline/support.h"
 #include "space/ray.h"
 

@@ -1,4 +1,5 @@
-/// The space for the time being: doors shut become walls, one-way glass loses directed portals.
+/// The space as sight finds it for the time being: the portals of shut doors become walls, and
+/// directed portals that one-way glass blocks are left out.
 #include "effects/effects.h"
 #include "geometry/orient.h"
 
@@ -15,7 +16,7 @@ typedef struct maker {
 
 /// Going from its a to its b, glass is seen through from its right to its left. A straight line
 /// that crosses it comes from the side that the eye is on; an eye on its line is where its cell is.
-static bool is_dark(const maker *m, const sl_segment *glass) {
+static bool is_blocked(const maker *m, const sl_segment *glass) {
     const int side = sl_orient(glass->a, glass->b, *m->filtered->eye);
     if (side || m->eye_cell == SL_NO_CELL) return side > 0;
     const sl_cell *cell = &m->from->cells[m->eye_cell];
@@ -32,7 +33,8 @@ static bool is_shut(const maker *m, uint32_t portal) {
         const sl_seam *seam = &m->from->seams[on[i].seam];
         if (seam->kind == SL_SEAM_DOOR && m->filtered->shut && m->filtered->shut[seam->number])
             return true;
-        if (seam->kind == SL_SEAM_ONEWAY && m->filtered->eye && is_dark(m, &seam->at)) return true;
+        if (seam->kind == SL_SEAM_ONEWAY && m->filtered->eye && is_blocked(m, &seam->at))
+            return true;
     }
     return false;
 }
@@ -171,4 +173,26 @@ sl_status sl_filtered_space_make(sl_context *context, const sl_space *space,
     else
         sl_space_destroy(context, &made);
     return status;
+}
+
+// --- one-way glass
+
+bool sl_portal_is_blocked(const sl_space *space, uint32_t cell, uint32_t directed) {
+    const uint32_t portal = space->directed[directed].portal;
+    const bool forward = space->portals[portal].cell[0] == cell;
+    size_t count;
+    const sl_seam_portal *on = sl_space_seams_of(space, portal, &count);
+    for (size_t i = 0; i < count; i++)
+        if (space->seams[on[i].seam].kind == SL_SEAM_ONEWAY && on[i].forward != forward)
+            return true;
+    return false;
+}
+
+sl_status sl_oneway_filtered(sl_context *context, const sl_space *space, const sl_plan *plan,
+                             sl_space *made, const sl_space **through) {
+    const sl_filtered_space filtered = {.one_way = true};
+    const bool called_for = plan && plan->effects & SL_EFFECT_ONEWAY;
+    if (called_for) SL_TRY(sl_filtered_space_make(context, space, &filtered, NULL, made));
+    *through = called_for ? made : space;
+    return SL_OK;
 }

@@ -1,4 +1,5 @@
-#include "effects/mirror_sides.h"
+/// Finds the pieces of cells' boundaries that lie on mirrors, side by side and mirror by mirror.
+#include "effects/mirrors.h"
 
 #include "geometry/orient.h"
 #include "sightline/support.h"

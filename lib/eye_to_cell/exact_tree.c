@@ -1,6 +1,8 @@
-/// The exact method down a stab tree: only sequences with a sightline are asked for one through the
-/// eye. Nodes come parents first; in the order of a depth-first search the nodes above the one at
-/// hand are all that need be kept, and where they come in another order that shows.
+/// The exact method down a stab tree: only sequences that have a sightline are tested from the eye.
+///
+/// The nodes of a tree come parents first, in the order of a depth-first search. So a stack of the
+/// nodes above the current one is enough. If the nodes come in another order, that shows, and the
+/// search over portals is used instead.
 #include "eye_to_cell/eye_search.h"
 
 #include <string.h>
@@ -17,7 +19,7 @@ static const sl_stab_node *tree_of(const sl_eye_query *query, uint64_t *count) {
 /// mirrors: what is seen by them is searched for by itself.
 static void go_down(sl_eye_query *query, const sl_eye_step *from, const sl_stab_node *node,
                     uint32_t number, sl_eye_step *to) {
-    const bool first = from->next == 0, dead = !first && !from->arc_count;
+    const bool first = from->at.next == 0, dead = !first && !from->arc_count;
     const bool passes =
         !dead && !sl_stab_is_mirror(node) && sl_eye_may_see(query, node->cell) &&
         sl_eye_pass_in_range(query, from, first, &query->space->directed[node->directed], to);
@@ -25,8 +27,8 @@ static void go_down(sl_eye_query *query, const sl_eye_step *from, const sl_stab_
         query->nodes++;
         sl_bits_add(query->cells, node->cell);
     } else
-        *to = (sl_eye_step){.cell = node->cell};
-    to->next = number;
+        *to = (sl_eye_step){.at.cell = node->cell};
+    to->at.next = number;
 }
 
 sl_status sl_eye_exact_tree(sl_context *context, sl_eye_query *query, bool *done) {
@@ -41,7 +43,7 @@ sl_status sl_eye_exact_tree(sl_context *context, sl_eye_query *query, bool *done
     query->nodes = 1;
     for (uint64_t i = 1; i < node_count; i++) {
         if (i % 4096 == 0) SL_TRY(sl_check_cancelled(context));
-        while (count && steps[count - 1].next != nodes[i].parent) count--;
+        while (count && steps[count - 1].at.next != nodes[i].parent) count--;
         if (!count || count > query->space->cell_count) {
             memset(query->cells, 0, sl_eye_words(query->space) * sizeof *query->cells);
             return SL_OK;

@@ -104,7 +104,7 @@ void sl_eye_end(const sl_eye_query *query, sl_eye_account *account) {
 }
 
 sl_eye_step sl_eye_first_step(const sl_eye_query *query) {
-    return (sl_eye_step){.cell = query->cell, .near = true};
+    return (sl_eye_step){.at.cell = query->cell, .near = true};
 }
 
 /// Clips a step's arcs to a directed portal of its cell; `first` for the eye's own cell. False
@@ -112,7 +112,7 @@ sl_eye_step sl_eye_first_step(const sl_eye_query *query) {
 static bool pass(sl_eye_query *query, const sl_eye_step *from, bool first,
                  const sl_directed_portal *portal, sl_eye_step *to) {
     sl_pivot *pivot = &query->pivot;
-    *to = (sl_eye_step){.cell = portal->cell};
+    *to = (sl_eye_step){.at.cell = portal->cell};
     if (from->near) {
         sl_arc through;
         if (!sl_arc_of_portal(pivot, portal, &through)) return false;

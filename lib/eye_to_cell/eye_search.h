@@ -2,6 +2,7 @@
 #ifndef SL_EYE_SEARCH_H
 #define SL_EYE_SEARCH_H
 
+#include "cell_to_cell/portal_search.h"
 #include "eye_to_cell/cone.h"
 #include "sightline/eye_to_cell.h"
 #include "sightline/support.h"
@@ -9,8 +10,7 @@
 
 /// A step of the exact method: a cell that is entered, or a node of the stab tree.
 typedef struct sl_eye_step {
-    uint32_t cell;
-    uint32_t next;      ///< directed portal to try next, from 0; in a stab tree the node's number
+    sl_portal_step at;  ///< `next` is the node's number in a stab tree
     uint32_t ray;       ///< over portals: the number of the ray, where a single one is left
     bool near;          ///< the eye is on the portal crossed last, or this is its own cell
     unsigned arc_count; ///< over portals, 1 but for the eye's cell

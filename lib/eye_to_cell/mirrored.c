@@ -13,13 +13,11 @@
 /// that it sees. Views of one mirror that join make one part. From each part's image the same is
 /// done again, up to the depth that was asked for.
 ///
-/// Images and rays are kept as sums of two doubles (effects/fold.h), so behind axial mirrors all is
-/// exact. Cost: an expansion for each part; parts may grow as a power of the mirrors.
+/// Images and rays are kept as sums of two doubles (effects/mirrors.h), so behind axial mirrors all
+/// is exact. Cost: an expansion for each part; parts may grow as a power of the mirrors.
 #include "sightline/mirrored.h"
 
-#include "effects/fold.h"
-#include "effects/frame.h"
-#include "effects/mirror_sides.h"
+#include "effects/mirrors.h"
 #include "eye_to_cell/region_parts.h"
 #include "geometry/orient.h"
 #include "sightline/support.h"
@@ -118,7 +116,7 @@ typedef struct maker {
 typedef struct parent {
     uint32_t number, depth;
     const struct sl_region_memory *memory;
-    sl_frame frame;
+    sl_mirror_frame frame;
     bool rounded;
 } parent;
 
@@ -185,12 +183,12 @@ static sl_status make_polygon(maker *m, sl_region *region, const sl_reflected_vi
 }
 
 /// Where the points of a part are in mirrored space.
-static sl_status place_image(maker *m, const sl_frame *frame, sl_mirror_part *part) {
+static sl_status place_image(maker *m, const sl_mirror_frame *frame, sl_mirror_part *part) {
     bool rounded;
     part->image = sl_alloc_array(m->context, part->region.count, sizeof *part->image);
     if (!part->image) return SL_NO_MEMORY;
     for (size_t i = 0; i < part->region.count; i++)
-        part->image[i] = sl_frame_place(frame, part->region.points[i], &rounded);
+        part->image[i] = sl_mirror_frame_place(frame, part->region.points[i], &rounded);
     return SL_OK;
 }
 
@@ -201,7 +199,7 @@ static sl_status keep(maker *m, const parent *from, sl_mirror_part *part) {
     sl_mirrored_region *out = m->out;
     const sl_segment mirror = m->mirrors->map->mirrors[part->mirror].segment;
     const parent here = {(uint32_t)out->part_count, part->depth, part->region.memory,
-                         sl_frame_reflect(&from->frame, mirror), part->rounded};
+                         sl_mirror_frame_reflect(&from->frame, mirror), part->rounded};
     if (!part->region.count) return SL_OK;
     SL_TRY(place_image(m, &here.frame, part));
     SL_TRY(sl_reserve(m->context, &out->parts, &out->part_room, out->part_count + 1,
@@ -280,7 +278,7 @@ sl_status sl_mirrored_region_make(sl_context *context, const sl_room_mirrors *mi
     direct->cell = sl_space_locate(mirrors->outline->space, view->eye);
     direct->memory->mirrors = depth ? mirrors : NULL;
     sl_status status = sl_region_spread(context, mirrors->outline, direct);
-    const parent all = {SL_NO_PART, 0, direct->memory, sl_frame_of_map(), false};
+    const parent all = {SL_NO_PART, 0, direct->memory, sl_mirror_frame_of_map(), false};
     if (status == SL_OK && depth) status = expand_all(&m, &all);
     if (status != SL_OK) {
         empty(context, out);

@@ -59,10 +59,11 @@ static sl_status subdivide(sl_context *context, const sl_map *map,
 
 // --- passes
 
-static sl_cone quadrant_cone(int quadrant) {
+static sl_direction_sector quadrant_cone(int quadrant) {
     static const sl_point axes[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     const sl_point zero = {0, 0};
-    return (sl_cone){{zero, axes[quadrant]}, {zero, axes[(quadrant + 1) % SL_QUADRANTS]}};
+    return (sl_direction_sector){{zero, axes[quadrant]},
+                                 {zero, axes[(quadrant + 1) % SL_QUADRANTS]}};
 }
 
 /// Lists, for each view cell, those behind its faces. There is room for all faces.

@@ -2,7 +2,7 @@
 #ifndef SL_REGIONS_H
 #define SL_REGIONS_H
 
-#include "cell_to_cell/pass.h"
+#include "cell_to_cell/sectors.h"
 #include "sightline/from_region.h"
 #include "sightline/space.h"
 #include "sightline/support.h"

@@ -1,10 +1,14 @@
-/// Conflicts: a line with all left ends at its left and all right ends at its right exists exactly
-/// if the hulls of the two do not overlap. So the ends that prove there is none are those of a
-/// place where the hulls meet: two edges that cross, or a corner of one within a triangle of the
-/// other.
+/// Conflicts: the few portal ends that prove that no line stabs a sequence.
+///
+/// A line with all left ends at its left and all right ends at its right exists exactly if the
+/// convex hulls of the two sets do not overlap. So a proof that there is none is a place where the
+/// hulls meet: two edges that cross, or a corner of one hull in a triangle of the other (Radon's
+/// theorem). That is four ends, or fewer where ends coincide. Cost: the product of the numbers of
+/// hull corners.
 #include "stab/conflict.h"
 
 #include "geometry/orient.h"
+#include "sightline/stab.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -194,4 +198,20 @@ sl_status sl_conflict_find(sl_context *context, const sl_portal_ends *portals, s
     for (size_t i = 0; i < number && i < SL_CONFLICT_MOST; i++) ends[(*found)++] = chosen[i].end;
     sl_free(context, memory);
     return SL_OK;
+}
+
+// --- names
+
+const char *sl_guarantee_name(sl_guarantee guarantee) {
+    switch (guarantee) {
+    case SL_EXACT:
+        return "exact";
+    case SL_CONSERVATIVE:
+        return "conservative";
+    case SL_AGGRESSIVE:
+        return "aggressive";
+    case SL_ROUNDED:
+        return "rounded";
+    }
+    return "unknown";
 }

@@ -1,30 +1,28 @@
-/// The incremental exact solver: the two convex chains between which the line may swing.
+/// The funnel: the incremental exact solver.
 ///
-/// The lines that stab a sequence form a convex polygon in the plane of lines. Its corners are
-/// lines through two portal ends; an edge of it is a turn about one end. Going round, the line
-/// first turns clockwise about left ends (the left chain), then back about right ends (the right
-/// chain), so that the list of corners is the funnel. A new end is a half-plane that cuts the
-/// polygon: an orientation test a corner says what it cuts off, and each new corner is the line
-/// through the new end and the end of the edge that it cuts. No coordinate is ever computed: all is
-/// decided by exact orientation tests on portal ends, and directions follow from the order round
-/// the polygon.
+/// The lines that stab a sequence form a convex polygon in the plane of lines (dual.c). A corner of
+/// it is a line through two portal ends. An edge of it is a rotation about one end. Going round the
+/// polygon, the line first rotates clockwise about left ends (the left chain), then back about
+/// right ends (the right chain). So the list of corners is the funnel between two convex chains.
 ///
-/// The polygon has inner points, and the sequence a line strictly between its ends, exactly if it
-/// had them before the cut and some corner lies strictly inside the new half-plane. Without inner
-/// points what is left is a single line or a turn about one point: lines that graze.
+/// A new end is a half-plane that cuts the polygon. One orientation test for each corner says what
+/// the cut takes off. Each new corner is the line through the new end and the end of the edge that
+/// is cut. No coordinate is ever computed: everything is an orientation test on portal ends.
 ///
-/// While all ends lie on one line (the first portal's) the lines through it form no polygon but all
-/// that crosses an interval of it; the first end off that line makes them one.
+/// Invariant: the list is the polygon of all lines that stab the sequence. The polygon has inner
+/// points, and the sequence a line strictly between its ends, exactly if it had them before the cut
+/// and some corner lies strictly inside the new half-plane. Without inner points a single line or a
+/// rotation about one point is left: lines that graze. While all ends lie on one line, the first
+/// portal's, there is no polygon yet but an interval of that line.
 ///
-/// Cost: a push takes two orientation tests for each corner of the list, of which there are three
-/// to five in floor plans, and four of which are tested at once; a list is copied only when it is
-/// cut, so that a pop restores the old one.
-#include "sightline/solvers.h"
-
+/// Cost: two orientation tests for each corner of the list. In floor plans there are three to five
+/// corners, and four are tested at once. A list is copied only when it is cut, so that a pop
+/// restores the old one.
+#include "stab/funnel.h"
 #include "geometry/orient.h"
+#include "sightline/solvers.h"
 #include "sightline/support.h"
 #include "stab/conflict.h"
-#include "stab/funnel.h"
 
 #include <math.h>
 
@@ -461,7 +459,8 @@ sl_funnel_corner sl_funnel_corner_at(const void *state, uint32_t i) {
     return (sl_funnel_corner){place_of(f, c->from), place_of(f, c->to), place_of(f, c->pivot)};
 }
 
-sl_portal_ends sl_funnel_portal(const void *state, bool last) {
+/// The first or the last.
+static sl_portal_ends portal_at(const void *state, bool last) {
     const funnel *f = state;
     const end_number left = last ? (end_number)f->ends.count - 2 : FIRST_LEFT;
     return (sl_portal_ends){place_of(f, left), place_of(f, left + 1)};
@@ -482,4 +481,99 @@ const sl_solver *sl_funnel(void) {
         .account = account,
     };
     return &solver;
+}
+
+// --- the shortest sightline
+
+/// Between two portals, along lines through a point.
+typedef struct piece {
+    sl_portal_ends first, last;
+    sl_point pivot;
+} piece;
+
+typedef struct way {
+    double x, y; ///< of unit length
+} way;
+
+static way way_of(sl_point from, sl_point to) {
+    const double x = to.x - from.x, y = to.y - from.y, length = hypot(x, y);
+    return (way){x / length, y / length};
+}
+
+static way between(way a, way b, double share) {
+    const double x = a.x + share * (b.x - a.x), y = a.y + share * (b.y - a.y);
+    const double length = hypot(x, y);
+    return (way){x / length, y / length};
+}
+
+/// How far along the way from the pivot a portal is crossed. A portal along the way is crossed
+/// where that makes the piece shortest: `late` at its far end, else at its near one.
+static double crossed_at(const piece *p, const sl_portal_ends *portal, way d, bool late) {
+    const double lx = portal->left.x - p->pivot.x, ly = portal->left.y - p->pivot.y;
+    const double rx = portal->right.x - p->pivot.x, ry = portal->right.y - p->pivot.y;
+    const double left = d.x * lx + d.y * ly, right = d.x * rx + d.y * ry;
+    const double left_off = d.x * ly - d.y * lx, right_off = d.x * ry - d.y * rx;
+    const double low = fmin(left, right), high = fmax(left, right);
+    if (left_off == right_off) return late ? high : low;
+    const double at = left + (right - left) * (left_off / (left_off - right_off));
+    return fmin(high, fmax(low, at));
+}
+
+static double length_at(const piece *p, way d) {
+    const double length = crossed_at(p, &p->last, d, false) - crossed_at(p, &p->first, d, true);
+    return fmax(0, length);
+}
+
+/// The least over a turn from one way to another, by golden section: the length is convex in the
+/// angle, and so has one low.
+static double shortest_of_turn(const piece *p, way from, way to) {
+    const double golden = 0.6180339887498949;
+    double low = 0, high = 1, a = 1 - golden, b = golden;
+    double at_a = length_at(p, between(from, to, a)), at_b = length_at(p, between(from, to, b));
+    double least = fmin(length_at(p, from), length_at(p, to));
+    for (int i = 0; i < 60; i++) {
+        if (at_a <= at_b) {
+            high = b;
+            b = a, at_b = at_a;
+            a = high - golden * (high - low);
+            at_a = length_at(p, between(from, to, a));
+        } else {
+            low = a;
+            a = b, at_a = at_b;
+            b = low + golden * (high - low);
+            at_b = length_at(p, between(from, to, b));
+        }
+        least = fmin(least, fmin(at_a, at_b));
+    }
+    return least;
+}
+
+/// Between two portals on one line.
+static double gap(const sl_portal_ends *a, const sl_portal_ends *b) {
+    const sl_point p[2] = {a->left, a->right}, q[2] = {b->left, b->right};
+    const bool flat = fabs(p[0].x - p[1].x) >= fabs(p[0].y - p[1].y);
+    const double a_low = flat ? fmin(p[0].x, p[1].x) : fmin(p[0].y, p[1].y);
+    const double a_high = flat ? fmax(p[0].x, p[1].x) : fmax(p[0].y, p[1].y);
+    const double b_low = flat ? fmin(q[0].x, q[1].x) : fmin(q[0].y, q[1].y);
+    const double b_high = flat ? fmax(q[0].x, q[1].x) : fmax(q[0].y, q[1].y);
+    if (a_high >= b_low && b_high >= a_low) return 0;
+    double least = INFINITY;
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 2; k++) least = fmin(least, hypot(p[i].x - q[k].x, p[i].y - q[k].y));
+    return least;
+}
+
+double sl_funnel_shortest(const void *state) {
+    piece p = {.first = portal_at(state, false), .last = portal_at(state, true)};
+    const uint32_t count = sl_funnel_corner_count(state);
+    if (!count) return gap(&p.first, &p.last);
+    double least = INFINITY;
+    for (uint32_t i = 0; i < count; i++) {
+        const sl_funnel_corner now = sl_funnel_corner_at(state, i);
+        const sl_funnel_corner next = sl_funnel_corner_at(state, i + 1 < count ? i + 1 : 0);
+        p.pivot = now.pivot;
+        least =
+            fmin(least, shortest_of_turn(&p, way_of(now.from, now.to), way_of(next.from, next.to)));
+    }
+    return least;
 }

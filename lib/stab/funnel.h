@@ -14,7 +14,6 @@ typedef struct sl_funnel_corner {
 /// one line.
 uint32_t sl_funnel_corner_count(const void *state);
 sl_funnel_corner sl_funnel_corner_at(const void *state, uint32_t i);
-sl_portal_ends sl_funnel_portal(const void *state, bool last); ///< the first or the last
 
 /// The length of the shortest piece, between the first portal and the last one, of the lines
 /// through the sequence as it stands, which must not be hidden or empty. 0 for one portal. Rounded:

@@ -8,7 +8,7 @@
 
 #include "geometry/orient.h"
 #include "sightline/support.h"
-#include "stab/glpk_guard.h"
+#include "stab/glpk_shared.h"
 
 #include <math.h>
 

@@ -12,8 +12,7 @@
 
 #include "sightline/support.h"
 #include "stab/conflict.h"
-#include "stab/counted.h"
-#include "stab/glpk_simplex.h"
+#include "stab/glpk_shared.h"
 
 /// What a push was answered.
 typedef struct answer {

@@ -7,10 +7,9 @@
 /// two portals that differ most in direction. Every u but 0 that crosses all portals forwards has
 /// w·u > 0 (unless all lie on one line), so the row takes no line away; it only fixes the length of
 /// u.
-#include "stab/glpk_simplex.h"
+#include "stab/glpk_shared.h"
 
 #include "sightline/support.h"
-#include "stab/glpk_guard.h"
 
 #include <math.h>
 

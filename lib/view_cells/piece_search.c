@@ -23,8 +23,8 @@
 #include <string.h>
 
 typedef struct step {
-    uint32_t room, next; ///< side to try next, from 0
-    sl_cone cone;        ///< directions that cross all portals so far
+    uint32_t room, next;      ///< side to try next, from 0
+    sl_direction_sector cone; ///< directions that cross all portals so far
 } step;
 
 struct sl_view_searcher {
@@ -106,10 +106,11 @@ sl_view_work sl_view_searcher_work(sl_view_searcher *me) {
     return work;
 }
 
-sl_cone sl_view_quadrant(int quadrant) {
+sl_direction_sector sl_view_quadrant(int quadrant) {
     static const sl_point ways[SL_VIEW_QUADRANTS] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     const sl_point zero = {0, 0};
-    return (sl_cone){{zero, ways[quadrant]}, {zero, ways[(quadrant + 1) % SL_VIEW_QUADRANTS]}};
+    return (sl_direction_sector){{zero, ways[quadrant]},
+                                 {zero, ways[(quadrant + 1) % SL_VIEW_QUADRANTS]}};
 }
 
 // --- candidates
@@ -156,7 +157,7 @@ static double turn(sl_point a, sl_point b) {
 
 /// The extent within the piece of the lines of the current sequence.
 static sl_view_extent find_extent(const sl_view_searcher *me, const sl_view_piece *piece,
-                                  sl_cone sector) {
+                                  sl_direction_sector sector) {
     const uint32_t count = sl_funnel_corner_count(me->solver);
     sl_view_extent extent = sl_view_no_extent();
     if (!count) return piece->box;
@@ -186,7 +187,7 @@ typedef struct search {
     const sl_view_pieces *pieces;
     sl_view_searcher *me;
     const sl_view_piece *piece;
-    sl_cone sector;
+    sl_direction_sector sector;
     bool east, north; ///< where the quadrant's directions go
     bool limited;     ///< to the objects that are asked for
     sl_view_directed *out;
@@ -223,7 +224,8 @@ static sl_status add_room(search *s, uint32_t room) {
 }
 
 /// Whether lines of the sequence and the sector pass a side too. The caller pops it after SL_OK.
-static sl_status push(search *s, const sl_room_side *side, const sl_cone *cone, bool *seen) {
+static sl_status push(search *s, const sl_room_side *side, const sl_direction_sector *cone,
+                      bool *seen) {
     sl_context *context = s->me->context;
     sl_stab_verdict verdict;
     if (++s->me->work.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
@@ -262,7 +264,7 @@ static sl_status try_side(search *s, const sl_room_side *side) {
         if (me->steps.count == 1) return SL_OK;
         if (s->limited && me->asked[side->object] != me->current) return SL_OK;
     }
-    if (!sl_cone_cut(&to.cone, &portal)) return SL_OK;
+    if (!sl_direction_sector_cut(&to.cone, &portal)) return SL_OK;
     bool seen;
     SL_TRY(push(s, side, &to.cone, &seen));
     if (seen && side->object != SL_NO_OBJECT) SL_TRY(add_object(s, side->object));
@@ -277,7 +279,7 @@ static sl_status try_side(search *s, const sl_room_side *side) {
 }
 
 /// The utmost corner to the left (or right), which is the same for all directions of the sector.
-static sl_point utmost(const sl_view_piece *piece, sl_cone sector, int side) {
+static sl_point utmost(const sl_view_piece *piece, sl_direction_sector sector, int side) {
     sl_point best = piece->corners.items[0];
     for (size_t i = 1; i < piece->corners.count; i++) {
         const sl_point p = piece->corners.items[i];
@@ -329,7 +331,7 @@ static sl_status add_bound(sl_context *context, sl_view_searcher *me, sl_line wa
 /// Cuts a quadrant at the directions of the piece's sides.
 static sl_status find_sectors(sl_context *context, sl_view_searcher *me, const sl_view_piece *piece,
                               int quadrant) {
-    const sl_cone all = sl_view_quadrant(quadrant);
+    const sl_direction_sector all = sl_view_quadrant(quadrant);
     me->bounds.count = 0;
     SL_TRY(SL_ARRAY_ROOM(context, &me->bounds, 2));
     me->bounds.items[me->bounds.count++] = all.right;
@@ -361,7 +363,7 @@ sl_status sl_view_search(sl_view_searcher *me, const sl_view_piece *piece, int q
                 .limited = objects != NULL,
                 .out = out};
     for (size_t i = 0; i + 1 < me->bounds.count; i++) {
-        s.sector = (sl_cone){me->bounds.items[i], me->bounds.items[i + 1]};
+        s.sector = (sl_direction_sector){me->bounds.items[i], me->bounds.items[i + 1]};
         SL_TRY(search_sector(&s));
     }
     me->work.looks++;

@@ -9,7 +9,7 @@
 #include "view_cells/pieces.h"
 
 #include "base/threads.h"
-#include "cell_to_cell/dependence.h"
+#include "cell_to_cell/sectors.h"
 #include "sightline/outline.h"
 #include "sightline/support.h"
 
@@ -243,9 +243,10 @@ static uint32_t fill_graph(const sl_view_rooms *rooms, int quadrant, uint32_t *f
     for (uint32_t room = 0; room < rooms->count; room++) {
         for (uint32_t i = rooms->first_side[room]; i < rooms->first_side[room + 1]; i++) {
             const sl_room_side *side = &rooms->sides[i];
-            sl_cone cone = sl_view_quadrant(quadrant);
+            sl_direction_sector cone = sl_view_quadrant(quadrant);
             const sl_directed_portal portal = {.left = side->left, .right = side->right};
-            if (side->room != SL_NO_ROOM && sl_cone_cut(&cone, &portal)) to[count++] = side->room;
+            if (side->room != SL_NO_ROOM && sl_direction_sector_cut(&cone, &portal))
+                to[count++] = side->room;
         }
         first[room + 1] = count;
     }

@@ -164,7 +164,7 @@ static inline void sl_view_work_add(sl_view_work *work, const sl_view_work *more
 }
 
 /// The directions of a quadrant: 0 from east to north, and on counter-clockwise.
-sl_cone sl_view_quadrant(int quadrant);
+sl_direction_sector sl_view_quadrant(int quadrant);
 
 /// Starts a new list of candidate rooms, which is empty.
 void sl_view_search_begin(sl_view_searcher *searcher);

@@ -11,7 +11,6 @@
 ///          {a}      {c d}
 ///
 /// Cost: O(rows x words) to make; O(depth) rows for a lookup.
-#include "cell_to_cell/pvs_maker.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "sightline/support.h"
 #include "view_cells/tree.h"

@@ -43,11 +43,11 @@ static double now(void) {
 // --- what the sweep does
 
 /// The words that a half of the line can have any in.
-static void span(const sl_reach *reach, uint32_t *low, uint32_t *high) {
+static void span(const sl_visible *visible, uint32_t *low, uint32_t *high) {
     *low = UINT32_MAX;
     *high = 0;
-    for (size_t i = 0; i < reach->cells.count; i++) {
-        const uint32_t word = reach->cells.items[i].cell / 64;
+    for (size_t i = 0; i < visible->cells.count; i++) {
+        const uint32_t word = visible->cells.items[i].cell / 64;
         if (word < *low) *low = word;
         if (word >= *high) *high = word + 1;
     }
@@ -55,7 +55,7 @@ static void span(const sl_reach *reach, uint32_t *low, uint32_t *high) {
 
 /// Each cell that comes into sight of one half gains what the other half sees: at most, as words
 /// go, all that it comes to see.
-static sl_status add_events(sl_context *context, const sl_reach *of, const sl_reach *other,
+static sl_status add_events(sl_context *context, const sl_visible *of, const sl_visible *other,
                             floors *f) {
     uint32_t low, high;
     span(other, &low, &high);
@@ -67,10 +67,10 @@ static sl_status add_events(sl_context *context, const sl_reach *of, const sl_re
     return SL_OK;
 }
 
-static void count_cells(const sl_reach *reach, sl_word_set *set, floors *f) {
-    f->intervals += reach->cells.count;
-    for (size_t i = 0; i < reach->cells.count; i++) {
-        const uint32_t cell = reach->cells.items[i].cell;
+static void count_cells(const sl_visible *visible, sl_word_set *set, floors *f) {
+    f->intervals += visible->cells.count;
+    for (size_t i = 0; i < visible->cells.count; i++) {
+        const uint32_t cell = visible->cells.items[i].cell;
         f->cells += !sl_bits_has(set->bits, cell);
         sl_word_set_add(set, cell);
     }
@@ -89,7 +89,7 @@ static sl_status sweep_all(sl_context *context, const sl_fans *fans, sl_sweeper 
         if (status == SL_OK) status = add_events(context, &s->back, &s->ahead, f);
         if (status == SL_OK) status = add_events(context, &s->ahead, &s->back, f);
     }
-    f->pieces = s->reacher.pieces;
+    f->pieces = s->finder.pieces;
     sl_word_set_destroy(context, &set);
     return status;
 }
@@ -190,7 +190,7 @@ static void measure(sl_context *context, const sl_space *space, sl_sight sight, 
     int64_t sum = 0;
     must(context, sl_fans_find(context, space, &options, SL_FANS_MUTUAL, &fans));
     must(context, sl_bit_rows_create(context, space->cell_count, &options, &rows));
-    must(context, sl_sweeper_create(context, &fans, sight == SL_CLOSED, &rows, &sweeper));
+    must(context, sl_sweeper_create(context, &fans, sight == SL_CLOSED, &rows, NULL, &sweeper));
     must(context, sweep_all(context, &fans, &sweeper, &f));
     const char *name = sight == SL_CLOSED ? "closed" : "open";
     const double events = (double)f.events.count, bytes = 16 * (double)f.words;

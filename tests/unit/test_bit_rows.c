@@ -2,7 +2,7 @@
 // under the methods that keep them.
 #include "testing.h"
 
-#include "cell_to_cell/bit_rows.h"
+#include "cell_to_cell/rows.h"
 #include "sightline/generate.h"
 #include "sightline/support.h"
 

@@ -1,7 +1,6 @@
 /// Doors of a large plan: every state of them is seen as a bake is that has walls in those that are
 /// shut, by the library and by the runtime for games.
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
-// needs effects
 #include "runtime_maps.h"
 
 #include "cell_to_cell/door_table.h"

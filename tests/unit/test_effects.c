@@ -1,6 +1,5 @@
 /// Effects against an oracle that knows them, on random maps with all their combinations; doors
 /// against bakes with walls in those that are shut.
-// needs effects
 #include "testing.h"
 
 #include "oracle/effects.h"

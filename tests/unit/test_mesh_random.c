@@ -1,6 +1,5 @@
 /// Meshes of random maps, oblique, degenerate, turned and moved: cells tile the bounds, exact
 /// methods agree, no free sightline is lost, and what is set among walls is as tight as they are.
-// needs effects
 #include "unit/grid_walls.h"
 #include "unit/mesh_scene.h"
 

@@ -1,9 +1,8 @@
 /// Stab trees of maps with mirrors: what they hold, that eyes are not misled by them, and their
 /// baked file.
-// needs effects
 #include "slv_file.h"
 
-#include "effects/mirror_sides.h"
+#include "effects/mirrors.h"
 #include "oracle/random_effects.h"
 #include "sightline/eye_to_cell.h"
 #include "sightline/solvers.h"

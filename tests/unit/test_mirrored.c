@@ -1,7 +1,6 @@
 /// What one viewpoint sees by mirror, cell by cell and as a region, against brute force: random
 /// axial maps with all combinations of effects, on a grid where images are doubles and on one where
 /// they are not. SIGHTLINE_SEEDS in the environment: how many maps (96 by default).
-// needs effects
 #include "testing.h"
 
 #include "oracle/mirrored.h"

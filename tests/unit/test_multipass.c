@@ -2,7 +2,7 @@
 // sectors and their orders themselves; and lines of a sector alone, by each solver that tells them.
 #include "map_files.h"
 
-#include "cell_to_cell/pass.h"
+#include "cell_to_cell/sectors.h"
 #include "oracle/convex_space.h"
 #include "oracle/random_map.h"
 #include "sightline/glpk.h"
@@ -89,7 +89,7 @@ static void check_sectors(const sl_space *space, const sl_sectors *sectors, bool
     assert_int_equal(sectors->count % 2, 0);
     assert_true(sectors->count >= 4);
     for (uint32_t i = 0; i < sectors->count; i++) {
-        const sl_cone c = sl_sector_cone(sectors, i);
+        const sl_direction_sector c = sl_sectors_get(sectors, i);
         assert_int_equal(sl_turn(c.right.a, c.right.b, c.left.a, c.left.b), 1);
     }
     for (uint32_t p = 0; p < space->portal_count && all; p++) {
@@ -133,7 +133,7 @@ static uint32_t check_passes(sl_context *context, const sl_space *space, uint32_
     for (uint32_t i = 0; i < sectors.count; i++) {
         sl_pass pass;
         assert_ok(context,
-                  sl_pass_create(context, space, false, sl_sector_cone(&sectors, i), &pass));
+                  sl_pass_create(context, space, false, sl_sectors_get(&sectors, i), &pass));
         on_cycles += check_order(space, &pass);
         sl_pass_destroy(context, &pass);
     }
@@ -233,17 +233,18 @@ static bool any_line(const sl_portal_ends *portals, size_t count, sl_line right,
 
 /// A sequence of portals that directions from `right` to `left` all cross forwards, and those
 /// directions; false where there are none.
-static bool make_sequence(sl_random *random, sl_portal_ends *portals, size_t count, sl_cone *cone) {
+static bool make_sequence(sl_random *random, sl_portal_ends *portals, size_t count,
+                          sl_direction_sector *cone) {
     const sl_point zero = {0, 0};
     static const sl_point axes[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     const size_t quadrant = (size_t)sl_random_below(random, 4);
-    *cone = (sl_cone){{zero, axes[quadrant]}, {zero, axes[(quadrant + 1) % 4]}};
+    *cone = (sl_direction_sector){{zero, axes[quadrant]}, {zero, axes[(quadrant + 1) % 4]}};
     for (size_t i = 0; i < count; i++) {
         const sl_point a = grid_point(random), b = grid_point(random);
         if (a.x == b.x && a.y == b.y) return false;
         portals[i] = (sl_portal_ends){a, b};
         const sl_directed_portal directed = {.left = a, .right = b};
-        if (!sl_cone_cut(cone, &directed)) return false;
+        if (!sl_direction_sector_cut(cone, &directed)) return false;
     }
     return true;
 }
@@ -261,7 +262,7 @@ static void solvers_find_lines_of_a_sector(void **state) {
         assert_ok(context, solvers[s]->create(context, bounds, &solver));
         for (int round = 0; round < RANDOM_SEQUENCES; round++) {
             sl_portal_ends portals[SEQUENCE_MOST];
-            sl_cone cone;
+            sl_direction_sector cone;
             const size_t count = 1 + (size_t)sl_random_below(&random, SEQUENCE_MOST);
             if (!make_sequence(&random, portals, count, &cone)) continue;
             sl_stab_verdict all = SL_STABBED, part;

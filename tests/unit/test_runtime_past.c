@@ -1,6 +1,5 @@
 /// The runtime's eye past shut doors and within a range, against the library's eye in a space with
 /// walls in those doors and against the visible region.
-// needs effects
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime_maps.h"
 

@@ -2,7 +2,7 @@
 /// rationals; and the rule of crossings, against all directions there are to try.
 #include "testing.h"
 
-#include "cell_to_cell/crossing.h"
+#include "cell_to_cell/directions.h"
 #include "sightline/support.h"
 
 #include <gmp.h>
@@ -152,7 +152,7 @@ static void crossings_are_those_of_some_direction(void **state) {
     const sl_space space = {.directed = directed};
     for (int i = 0; i < 20000; i++) {
         int degrees[5];
-        sl_crossings crossings = SL_CROSSINGS_NONE;
+        sl_directions crossings = SL_NO_DIRECTIONS;
         for (int k = 0; k < 5; k++) {
             const uint64_t way = sl_random_next(&random) % 8;
             const sl_point at = {random_double(&random, 0, 0), random_double(&random, 0, 0)};
@@ -163,7 +163,7 @@ static void crossings_are_those_of_some_direction(void **state) {
             directed[k].left = (sl_point){directed[k].right.x + size * ways[way].x,
                                           directed[k].right.y + size * ways[way].y};
             const bool some = some_direction_crosses(degrees, k + 1);
-            assert_int_equal(sl_crossings_add(&space, &crossings, (uint32_t)k), some);
+            assert_int_equal(sl_directions_add(&space, &crossings, (uint32_t)k), some);
             if (!some) break;
         }
     }

@@ -4,7 +4,7 @@
 ///   test_view_hybrid [FILE ...]    these maps instead, and more of each
 #include "view_cells_maps.h"
 
-#include "cell_to_cell/crossing.h"
+#include "cell_to_cell/directions.h"
 #include "map_files.h"
 #include "oracle/random_map.h"
 #include "sightline/bake.h"
@@ -100,14 +100,14 @@ static bool any_line(const oracle *o) {
     return false;
 }
 
-static void search(oracle *o, uint32_t cell, sl_crossings crossings) {
+static void search(oracle *o, uint32_t cell, sl_directions crossings) {
     const sl_cell *c = &o->space->cells[cell];
     sl_bits_add(o->seen, cell);
     assert_true(o->depth < DEEPEST);
     for (uint32_t e = c->first_directed; e < c->first_directed + c->directed_count; e++) {
         const sl_directed_portal *directed = &o->space->directed[e];
-        sl_crossings with = crossings;
-        if (!sl_crossings_add(o->space, &with, e)) continue;
+        sl_directions with = crossings;
+        if (!sl_directions_add(o->space, &with, e)) continue;
         o->ends[o->depth++] = (sl_portal_ends){directed->left, directed->right};
         if (any_line(o)) search(o, directed->cell, with);
         o->depth--;
@@ -147,10 +147,10 @@ static void check_pieces(const char *name, const sl_space *space, const sl_view_
         sl_view_piece_add_to(pieces, piece, found);
         const sl_view_piece within = inner(piece);
         oracle o = {.space = space, .piece = axial ? piece : &within, .seen = least};
-        search(&o, home, SL_CROSSINGS_NONE);
+        search(&o, home, SL_NO_DIRECTIONS);
         free(within.corners.items);
         o = (oracle){.space = space, .piece = piece, .anyhow = true, .seen = axial ? least : most};
-        if (!axial) search(&o, home, SL_CROSSINGS_NONE);
+        if (!axial) search(&o, home, SL_NO_DIRECTIONS);
         for (size_t w = 0; w < words; w++)
             if (least[w] & ~found[w] || found[w] & ~o.seen[w])
                 fail_msg("%s: piece %zu of %zu sees other cells than the search finds", name, i,

@@ -48,10 +48,6 @@ SL_API sl_plan sl_plan_make(const sl_map *map);
 /// Takes effects out of a map, and notes what was taken.
 SL_API void sl_effects_leave_out(sl_context *context, sl_map *map, unsigned effects);
 
-/// Whether the work that effects call for is part of this build (-DSIGHTLINE_EFFECTS). Without it
-/// no method knows any effect.
-SL_API bool sl_effects_are_built(void);
-
 /// SL_UNSUPPORTED, with what to do about it, where a map calls for more than `known`. `method` is
 /// what messages call the method.
 SL_API sl_status sl_effects_check(sl_context *context, const sl_map *map, const char *method,

@@ -7,13 +7,17 @@
 ///     sl_glpk_leave();
 ///
 /// After a failure all that GLPK holds for the thread is gone, every problem included.
-#ifndef SL_GLPK_GUARD_H
-#define SL_GLPK_GUARD_H
+#ifndef SL_GLPK_SHARED_H
+#define SL_GLPK_SHARED_H
 
+#include "sightline/glpk.h"
 #include "sightline/support.h"
 
 #include <glpk.h>
 #include <setjmp.h>
+#include <stddef.h>
+
+// --- leaving GLPK on errors
 
 typedef struct sl_glpk_guard {
     jmp_buf left;
@@ -44,5 +48,12 @@ static inline sl_status sl_glpk_start(sl_context *context) {
     glp_term_out(GLP_OFF);
     return SL_OK;
 }
+
+// --- confirming its answers
+
+/// Portals of the sequence that the last answer rests on, ascending, each once: those with an end
+/// that the line found is tight to, and the two that bound its direction. At most 6 are told.
+enum { SL_GLPK_TIGHT_MOST = 6 };
+size_t sl_glpk_tight_portals(const void *simplex, uint32_t portals[SL_GLPK_TIGHT_MOST]);
 
 #endif

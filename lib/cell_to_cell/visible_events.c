@@ -1,26 +1,31 @@
-/// What was found in no order, sorted by direction: roughly by numbers that grow with the angle,
-/// and then exactly, neighbour by neighbour.
-#include "cell_to_cell/reach_bound.h"
+/// Sorts the start and end events of visible intervals by angle about the point.
+///
+/// A rough angle in doubles sorts the events first (merge sort of short runs). Exact predicates
+/// then compare neighbours and move the few events that stand wrong. Events at one angle become
+/// one. Cost: n log n cheap comparisons of numbers, and about n exact ones.
+#include "cell_to_cell/visible.h"
 
 #include <math.h>
 #include <string.h>
 
 // --- intervals that have grown together
 
-static bool touch(const sl_reacher *r, const sl_reached *a, const sl_reached *b) {
+static bool touch(const sl_visible_finder *r, const sl_visible_interval *a,
+                  const sl_visible_interval *b) {
     return !sl_is_gap(r, a->high, b->low) && !sl_is_gap(r, b->high, a->low);
 }
 
-static void join_touching(const sl_reacher *r, sl_reached *a, const sl_reached *gone) {
+static void join_touching(const sl_visible_finder *r, sl_visible_interval *a,
+                          const sl_visible_interval *gone) {
     if (sl_is_before(r, gone->low, a->low)) a->low = gone->low;
     if (sl_is_before(r, a->high, gone->high)) a->high = gone->high;
 }
 
 /// Joins one pair of a cell's intervals, the later one into the earlier; false where there is none.
-static bool join_two(const sl_reacher *r, sl_reach *reach, uint32_t cell) {
-    sl_reached *all = reach->cells.items;
+static bool join_two(const sl_visible_finder *r, sl_visible *visible, uint32_t cell) {
+    sl_visible_interval *all = visible->cells.items;
     for (uint32_t *late = &r->last[cell]; *late != UINT32_MAX; late = &all[*late].other) {
-        sl_reached *gone = &all[*late];
+        sl_visible_interval *gone = &all[*late];
         for (uint32_t i = gone->other; i != UINT32_MAX; i = all[i].other) {
             if (!touch(r, &all[i], gone)) continue;
             join_touching(r, &all[i], gone);
@@ -32,29 +37,29 @@ static bool join_two(const sl_reacher *r, sl_reach *reach, uint32_t cell) {
     return false;
 }
 
-static void join_split(const sl_reacher *r, sl_reach *reach) {
+static void join_split(const sl_visible_finder *r, sl_visible *visible) {
     for (size_t i = 0; i < r->split.count; i++)
-        while (join_two(r, reach, r->split.items[i])) {
+        while (join_two(r, visible, r->split.items[i])) {
         }
 }
 
 // --- turns
 
-static uint32_t slot_of(sl_reacher *r, sl_bound bound) {
+static uint32_t slot_of(sl_visible_finder *r, sl_bound bound) {
     uint32_t *at = &r->slot_of.items[2 * bound.end + bound.away];
     if (*at < r->slots.count && r->slots.items[*at].end == bound.end &&
         r->slots.items[*at].away == bound.away)
         return *at;
     *at = (uint32_t)r->slots.count;
-    r->slots.items[r->slots.count++] = (sl_reach_slot){.end = bound.end, .away = bound.away};
+    r->slots.items[r->slots.count++] = (sl_event_slot){.end = bound.end, .away = bound.away};
     return *at;
 }
 
-static sl_status make_slots(sl_context *context, sl_reacher *r, sl_reach *reach) {
+static sl_status make_slots(sl_context *context, sl_visible_finder *r, sl_visible *visible) {
     r->slots.count = 0;
-    SL_TRY(SL_ARRAY_ROOM(context, &r->slots, 2 * reach->cells.count));
-    for (size_t i = 0; i < reach->cells.count; i++) {
-        sl_reached *c = &reach->cells.items[i];
+    SL_TRY(SL_ARRAY_ROOM(context, &r->slots, 2 * visible->cells.count));
+    for (size_t i = 0; i < visible->cells.count; i++) {
+        sl_visible_interval *c = &visible->cells.items[i];
         if (c->joined) continue;
         c->enter = slot_of(r, c->low);
         c->leave = slot_of(r, c->high);
@@ -63,7 +68,7 @@ static sl_status make_slots(sl_context *context, sl_reacher *r, sl_reach *reach)
 }
 
 /// Grows with the angle from `first`, up to half a turn; about.
-static uint32_t rough_angle(const sl_reacher *r, sl_point first, const sl_reach_slot *slot) {
+static uint32_t rough_angle(const sl_visible_finder *r, sl_point first, const sl_event_slot *slot) {
     sl_point to = sl_towards(r, slot->end);
     if (slot->away) to = (sl_point){-to.x, -to.y};
     const double sine = fabs(sl_cross(first, to)), cosine = first.x * to.x + first.y * to.y;
@@ -72,15 +77,16 @@ static uint32_t rough_angle(const sl_reacher *r, sl_point first, const sl_reach_
     return angle >= 0 ? (uint32_t)(angle * 0x7fffffff) : 0; // or it is no number
 }
 
-static bool same_direction(const sl_reacher *r, const sl_reach_slot *a, const sl_reach_slot *b) {
+static bool same_direction(const sl_visible_finder *r, const sl_event_slot *a,
+                           const sl_event_slot *b) {
     if (a->end == b->end) return a->away == b->away;
     return sl_ends_turn(r, a->end, b->end) == 0 &&
            sl_opposite(r->from, sl_end_of(r, a->end), sl_end_of(r, b->end)) == (a->away != b->away);
 }
 
 /// Compares two slots exactly: -1 where `a` comes first, 0 for the same direction, 1.
-static int compare(const sl_reacher *r, uint64_t a, uint64_t b) {
-    const sl_reach_slot *p = &r->slots.items[(uint32_t)a], *q = &r->slots.items[(uint32_t)b];
+static int compare(const sl_visible_finder *r, uint64_t a, uint64_t b) {
+    const sl_event_slot *p = &r->slots.items[(uint32_t)a], *q = &r->slots.items[(uint32_t)b];
     const int sign = sl_ends_turn(r, p->end, q->end);
     if (sign != 0) return p->away != q->away ? sign : -sign;
     if (same_direction(r, p, q)) return 0;
@@ -89,7 +95,7 @@ static int compare(const sl_reacher *r, uint64_t a, uint64_t b) {
 
 /// Sorts what is nearly sorted; of each it then says whether it has the direction of the one
 /// before.
-static void insert_sorted(const sl_reacher *r, uint64_t *keys, bool *same, size_t count) {
+static void insert_sorted(const sl_visible_finder *r, uint64_t *keys, bool *same, size_t count) {
     for (size_t i = 1; i < count; i++) {
         int order = compare(r, keys[i - 1], keys[i]);
         same[i] = order == 0;
@@ -142,23 +148,24 @@ static uint64_t *sort_keys(uint64_t *keys, uint64_t *other, size_t count) {
 }
 
 /// The turn of the next slot: the last one where that has the same direction, or a new one.
-static void add_turn(sl_reach_slot *slot, bool same, sl_reach *reach) {
+static void add_event(sl_event_slot *slot, bool same, sl_visible *visible) {
     if (!same)
-        reach->turns.items[reach->turns.count++] = (sl_reach_turn){.end = slot->end,
-                                                                   .away = slot->away,
-                                                                   .ray = UINT32_MAX,
-                                                                   .enter = UINT32_MAX,
-                                                                   .leave = UINT32_MAX};
-    slot->turn = (uint32_t)reach->turns.count - 1;
+        visible->events.items[visible->events.count++] = (sl_visible_event){.end = slot->end,
+                                                                            .away = slot->away,
+                                                                            .ray = UINT32_MAX,
+                                                                            .enter = UINT32_MAX,
+                                                                            .leave = UINT32_MAX};
+    slot->event = (uint32_t)visible->events.count - 1;
 }
 
-static sl_status sort_slots(sl_context *context, sl_reacher *r, sl_bound first, sl_reach *reach) {
+static sl_status sort_slots(sl_context *context, sl_visible_finder *r, sl_bound first,
+                            sl_visible *visible) {
     const size_t count = r->slots.count;
     sl_point along = sl_towards(r, first.end);
     if (first.away) along = (sl_point){-along.x, -along.y};
     SL_TRY(SL_ARRAY_ROOM(context, &r->keys, 2 * count));
     SL_TRY(SL_ARRAY_ROOM(context, &r->same, count));
-    SL_TRY(SL_ARRAY_ROOM(context, &reach->turns, count));
+    SL_TRY(SL_ARRAY_ROOM(context, &visible->events, count));
     bool *same = r->same.items;
     uint64_t *keys = r->keys.items;
     for (uint32_t i = 0; i < count; i++)
@@ -166,34 +173,36 @@ static sl_status sort_slots(sl_context *context, sl_reacher *r, sl_bound first, 
     keys = sort_keys(keys, keys + count, count);
     insert_sorted(r, keys, same, count);
     if (count) same[0] = false;
-    for (size_t i = 0; i < count; i++) add_turn(&r->slots.items[(uint32_t)keys[i]], same[i], reach);
+    for (size_t i = 0; i < count; i++)
+        add_event(&r->slots.items[(uint32_t)keys[i]], same[i], visible);
     return SL_OK;
 }
 
-sl_status sl_reach_sort(sl_context *context, sl_reacher *r, sl_bound first, sl_reach *reach) {
-    join_split(r, reach);
-    SL_TRY(make_slots(context, r, reach));
-    SL_TRY(sort_slots(context, r, first, reach));
-    for (uint32_t i = 0; i < reach->cells.count; i++) {
-        sl_reached *c = &reach->cells.items[i];
+sl_status sl_visible_sort(sl_context *context, sl_visible_finder *r, sl_bound first,
+                          sl_visible *visible) {
+    join_split(r, visible);
+    SL_TRY(make_slots(context, r, visible));
+    SL_TRY(sort_slots(context, r, first, visible));
+    for (uint32_t i = 0; i < visible->cells.count; i++) {
+        sl_visible_interval *c = &visible->cells.items[i];
         if (c->joined) continue;
-        c->enter = r->slots.items[c->enter].turn;
-        c->leave = r->slots.items[c->leave].turn;
-        c->next_enter = reach->turns.items[c->enter].enter;
-        c->next_leave = reach->turns.items[c->leave].leave;
-        reach->turns.items[c->enter].enter = reach->turns.items[c->leave].leave = i;
+        c->enter = r->slots.items[c->enter].event;
+        c->leave = r->slots.items[c->leave].event;
+        c->next_enter = visible->events.items[c->enter].enter;
+        c->next_leave = visible->events.items[c->leave].leave;
+        visible->events.items[c->enter].enter = visible->events.items[c->leave].leave = i;
     }
     return SL_OK;
 }
 
-int sl_turns_compare(const sl_reacher *r, uint32_t first, const sl_reach_turn *a,
-                     const sl_reach_turn *b) {
+int sl_events_compare(const sl_visible_finder *r, uint32_t first, const sl_visible_event *a,
+                      const sl_visible_event *b) {
     const bool turned = !b->away;
     const int sign = sl_ends_turn(r, a->end, b->end);
     if (sign != 0) return (a->away != turned) ? sign : -sign;
-    const sl_reach_slot of_a = {.end = a->end, .away = a->away};
-    const sl_reach_slot of_b = {.end = b->end, .away = turned};
+    const sl_event_slot of_a = {.end = a->end, .away = a->away};
+    const sl_event_slot of_b = {.end = b->end, .away = turned};
     if (same_direction(r, &of_a, &of_b)) return 0;
     // Half a turn apart: the one in the first direction comes first.
-    return same_direction(r, &(sl_reach_slot){.end = first}, &of_a) ? -1 : 1;
+    return same_direction(r, &(sl_event_slot){.end = first}, &of_a) ? -1 : 1;
 }

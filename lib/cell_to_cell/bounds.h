@@ -1,12 +1,40 @@
-/// What a search has left to find: the sets that the methods "prune" and "multipass" keep on their
-/// way. Beyond each directed portal only what its upper bound and those of all directed portals
-/// before leave possible is wanted.
-#ifndef SL_PRUNE_H
-#define SL_PRUNE_H
+/// Upper bounds on what is seen. A bound never misses a visible pair.
+#ifndef SL_BOUNDS_H
+#define SL_BOUNDS_H
 
-#include "cell_to_cell/sparse_row.h"
+#include "cell_to_cell/rows.h"
 #include "sightline/cell_to_cell.h"
 #include "sightline/support.h"
+
+// --- by signs of portals in pairs
+
+/// Adds to an empty set all cells that a sightline through the directed portal may reach: never
+/// misses one, but gives up where they are more than `most`. They are listed in `found`, which has
+/// room for all cells, and counted.
+uint32_t sl_flood_through(const sl_space *space, const sl_see_options *options,
+                          const sl_directed_portal *directed, uint32_t most, sl_bits *set,
+                          uint32_t *found);
+
+/// The bound on what all cells see, symmetric. Once options.enough says so there is none but
+/// what portals join: *bounded is then false.
+sl_status sl_flood_bound(sl_context *context, const sl_space *space, const sl_see_options *options,
+                         sl_pvs *out, bool *bounded);
+
+// --- by the view range
+
+/// Whether lines between two cells, from where they leave the one to where they enter the other,
+/// are within the range: ordered by how far apart the cells are.
+typedef enum sl_apart {
+    SL_ALL_WITHIN, ///< all are
+    SL_SOME_WITHIN,
+    SL_NONE_WITHIN, ///< none is, nor within rounding of it
+} sl_apart;
+
+/// The pairs of `pvs` whose cells are no farther apart than `most`.
+sl_status sl_pvs_within(sl_context *context, const sl_space *space, const sl_pvs *pvs, double range,
+                        sl_apart most, sl_pvs *out);
+
+// --- what a search has left to find
 
 /// A word of a set of cells that has some: cells 64 * word on.
 typedef struct sl_prune_word {

@@ -1,13 +1,13 @@
-/// What fans of the sweep have found becomes a result, also where some are missing.
+/// Makes the result of a sweep, also where some fans have not been visited.
 ///
-/// What a missing fan could add. It joins cells that lines through its point pass, each of which
-/// leaves the point through a cell of the fan: so both cells of such a pair are seen from cells of
-/// the fan, and are within the bound of "flood" from there. Pairs of which no missing fan has both
-/// cells within its bound are decided: what was not found is hidden.
-#include "cell_to_cell/flood.h"
+/// What could a missing fan add? It joins cells by lines through its point. Each half of such a
+/// line leaves the point through a cell of the fan. So both cells of the pair are seen from cells
+/// of the fan, and lie within the upper bound of these (flood.c). A pair is decided if no missing
+/// fan has both of its cells within its bound: if it was not found, it is hidden. All other pairs
+/// within the bound count as seen, so that the result is conservative.
+#include "cell_to_cell/bounds.h"
 #include "cell_to_cell/methods.h"
-#include "cell_to_cell/partial.h"
-#include "cell_to_cell/pvs_maker.h"
+#include "cell_to_cell/pvs_rows.h"
 #include "cell_to_cell/sweep.h"
 
 sl_status sl_sweep_finish(sl_context *context, const sl_space *space, const sl_see_options *options,
@@ -35,13 +35,13 @@ enum { FANS_OF_A_GROUP = 32 };
 
 /// For each group that misses fans, the cells that these may see; and for each cell the groups that
 /// may see it.
-typedef struct reaches {
+typedef struct group_bounds {
     sl_pvs groups; ///< a row a group
     sl_columns seen_by;
-} reaches;
+} group_bounds;
 
 /// Adds to a set what the missing fans of a group may see.
-static void reach_group(const sl_fans *fans, const sl_partial *partial, const sl_pvs *bound,
+static void bound_group(const sl_fans *fans, const sl_partial *partial, const sl_pvs *bound,
                         uint32_t group, sl_word_set *set) {
     const uint32_t first = group * FANS_OF_A_GROUP;
     for (uint32_t i = first; i < first + FANS_OF_A_GROUP && i < fans->fans.count; i++) {
@@ -53,11 +53,11 @@ static void reach_group(const sl_fans *fans, const sl_partial *partial, const sl
 }
 
 static sl_status find_groups(sl_context *context, const sl_fans *fans, const sl_partial *partial,
-                             const sl_pvs *bound, sl_pvs_maker *maker, reaches *out) {
+                             const sl_pvs *bound, sl_pvs_maker *maker, group_bounds *out) {
     const uint32_t count = (uint32_t)((fans->fans.count + FANS_OF_A_GROUP - 1) / FANS_OF_A_GROUP);
     SL_TRY(sl_pvs_maker_create(context, fans->cell_count, count, maker));
     for (uint32_t group = 0; group < count; group++) {
-        reach_group(fans, partial, bound, group, &maker->row);
+        bound_group(fans, partial, bound, group, &maker->row);
         SL_TRY(sl_pvs_maker_end_row(context, maker));
         SL_TRY(sl_check_cancelled(context));
     }
@@ -65,7 +65,7 @@ static sl_status find_groups(sl_context *context, const sl_fans *fans, const sl_
     return sl_columns_gather(context, &out->groups, fans->cell_count, &out->seen_by);
 }
 
-static sl_status make_rows(sl_context *context, const reaches *r, const sl_pvs *seen,
+static sl_status make_rows(sl_context *context, const group_bounds *r, const sl_pvs *seen,
                            const sl_pvs *bound, sl_word_set *open, sl_pvs_maker *maker,
                            sl_pvs *out) {
     const uint32_t count = seen->cell_count;
@@ -86,7 +86,7 @@ static sl_status make_rows(sl_context *context, const reaches *r, const sl_pvs *
 /// Adds to what is seen the open pairs within the bound.
 static sl_status add_open(sl_context *context, const sl_fans *fans, const sl_partial *partial,
                           const sl_pvs *bound, sl_visibility *out) {
-    reaches all = {0};
+    group_bounds all = {0};
     sl_word_set open = {0};
     sl_pvs_maker groups = {0}, maker = {0};
     sl_pvs rows = {0};
@@ -130,7 +130,7 @@ static sl_status bound_open(sl_context *context, const sl_space *space,
 
 // --- the result
 
-static sl_status settle_rows(sl_context *context, const sl_space *space,
+static sl_status finish_rows(sl_context *context, const sl_space *space,
                              const sl_see_options *options, const sl_partial *partial,
                              sl_bit_rows *rows, sl_visibility *out) {
     SL_TRY(sl_bit_rows_create(context, space->cell_count, options, rows));
@@ -147,7 +147,7 @@ sl_status sl_finish_sweep(sl_context *context, const sl_space *space, const sl_s
     sl_visibility visibility = {.sight = options->sight, .guarantee = SL_EXACT};
     if (partial->sure.cell_count != space->cell_count)
         return sl_fail(context, SL_BAD_ARGUMENT, "findings of another space or other options");
-    const sl_status status = settle_rows(context, space, options, partial, &rows, &visibility);
+    const sl_status status = finish_rows(context, space, options, partial, &rows, &visibility);
     sl_bit_rows_destroy(context, &rows);
     if (status == SL_OK)
         *out = visibility;
