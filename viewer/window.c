@@ -26,7 +26,7 @@ static sl_status fail(sl_context *context, const char *what) {
 static double density_of_screen(int screen) {
     float inch;
     if (SDL_GetDisplayDPI(screen, &inch, NULL, NULL) != 0) return 1;
-    return inch >= 130 && inch <= 600 ? round(2 * inch / 96) / 2 : 1;
+    return inch >= 130 && inch <= 600 ? round((double)(2 * inch / 96)) / 2 : 1;
 }
 
 /// Pixels per point of the window if the system tells the two apart; else the ratio of the screen.
