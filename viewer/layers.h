@@ -84,7 +84,7 @@ typedef struct legend_row {
 } legend_row;
 
 /// Draws a key in the lower left of the plan. `line` is a line under its rows; NULL for none.
-void layers_draw_key(ui_state *ui, const sl_frame *frame, const legend_row *rows, int count,
+void layers_draw_key(ui_state *ui, const sl_frame *frame, const legend_row *key, int count,
                      const char *line);
 
 /// Draws a region. Arcs are drawn as arcs.

@@ -242,7 +242,7 @@ sl_status sl_page_write(sl_context *context, const sl_page_parts *parts, double 
 sl_status sl_draw_page_file(sl_context *context, const char *path, int width, int height,
                             const char *title, void (*draw)(void *user, cairo_t *cairo),
                             void *user) {
-    const sl_paper_kind *kind = NULL;
+    const sl_paper_kind *kind = &kinds[0];
     sl_paper paper;
     SL_TRY(sl_paper_kind_of(context, path, &kind));
     SL_TRY(sl_paper_open(context, kind, path, width, height, title, &paper));
