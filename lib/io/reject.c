@@ -10,7 +10,7 @@
 
 #include "geometry/orient.h"
 #include "sightline/support.h"
-#include "space/box_tree.h"
+#include "space/index.h"
 
 #include <math.h>
 #include <stdlib.h>
