@@ -48,7 +48,7 @@ sl_json_writer *json_add(json_fields *fields, const char *key) {
     sl_json_writer *json = writer_of(fields);
     char readable[256];
     if (!sl_text_is_utf8(key)) {
-        sl_text_make_readable(key, readable, sizeof readable);
+        text_make_readable(key, readable, sizeof readable);
         key = readable;
     }
     sl_json_put_key(json, key);
