@@ -1,7 +1,6 @@
 /// Reading a baked file: nothing in it is believed before it is checked.
 #include "bake/slv.h"
 #include "base/base.h"
-#include "base/checksum.h"
 #include "effects/mirrors.h"
 #include "space/index.h"
 

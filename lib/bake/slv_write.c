@@ -1,5 +1,5 @@
 #include "bake/slv.h"
-#include "base/checksum.h"
+#include "base/base.h"
 #include "map/scan.h"
 #include "sightline/support.h"
 

@@ -5,7 +5,7 @@
 /// byte b adds to the remainder, table[k][b] what it adds when k more bytes follow. So the
 /// sixteen parts of a step do not wait for each other. The tables take some microseconds to make
 /// and live in the sum: nothing is shared between threads.
-#include "base/checksum.h"
+#include "base/base.h"
 
 #define POLYNOMIAL 0xedb88320u // bits reversed
 

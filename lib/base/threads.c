@@ -2,7 +2,7 @@
 /// next unit. Every thread has a context of its own, so that messages do not mix. The first failure
 /// stops the rest. Among several failures, the one of the lowest unit is reported, so that the
 /// result does not depend on who was faster.
-#include "base/threads.h"
+#include "base/base.h"
 
 #include <assert.h>
 #include <pthread.h>

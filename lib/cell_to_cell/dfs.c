@@ -19,7 +19,7 @@
 /// one of its two cells only.
 #include "cell_to_cell/dfs.h"
 
-#include "base/threads.h"
+#include "base/base.h"
 #include "cell_to_cell/methods.h"
 #include "cell_to_cell/rows.h"
 

@@ -14,7 +14,7 @@
 #include "geometry/orient.h"
 #include "sightline/solvers.h"
 #include "sightline/support.h"
-#include "space/ray.h"
+#include "space/index.h"
 
 #include <string.h>
 

@@ -9,7 +9,7 @@
 /// first. Rounding goes to the safe side.
 #include "cell_to_cell/bounds.h"
 
-#include "base/threads.h"
+#include "base/base.h"
 #include "cell_to_cell/methods.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "effects/effects.h"

@@ -13,7 +13,7 @@
 ///
 /// Pairs are symmetric: what a cell sees in one sector sees it in the opposite one. So half of the
 /// sectors are enough.
-#include "base/threads.h"
+#include "base/base.h"
 #include "cell_to_cell/bounds.h"
 #include "cell_to_cell/methods.h"
 #include "cell_to_cell/portal_search.h"

@@ -12,7 +12,7 @@
 /// 7-3).
 #include "cell_to_cell/rows.h"
 
-#include "base/threads.h"
+#include "base/base.h"
 #include "cell_to_cell/pvs_rows.h"
 
 #include <pthread.h>

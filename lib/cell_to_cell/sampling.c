@@ -7,7 +7,7 @@
 #include "cell_to_cell/methods.h"
 #include "cell_to_cell/rows.h"
 
-#include "base/threads.h"
+#include "base/base.h"
 #include "effects/effects.h"
 #include "geometry/orient.h"
 #include "sightline/support.h"

@@ -19,7 +19,7 @@
 /// one row operation for each interval. Corners are independent, and their results join by OR.
 #include "cell_to_cell/sweep.h"
 
-#include "base/threads.h"
+#include "base/base.h"
 #include "cell_to_cell/methods.h"
 
 #include <pthread.h>

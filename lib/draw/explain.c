@@ -9,7 +9,7 @@
 #include "draw/marks.h"
 #include "draw/page.h"
 #include "sightline/support.h"
-#include "space/ray.h"
+#include "space/index.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -9,7 +9,7 @@
 #include "draw/marks.h"
 #include "effects/mirrors.h"
 #include "sightline/support.h"
-#include "space/ray.h"
+#include "space/index.h"
 
 #include <math.h>
 #include <stdlib.h>

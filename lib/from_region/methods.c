@@ -18,7 +18,7 @@
 /// same. Cost: brute O(view cells x objects); multipass tests at most K candidates for each
 /// relation that it finds, where K is the number of view cells that depend on one (Laine 2005,
 /// section 6.3).
-#include "base/threads.h"
+#include "base/base.h"
 #include "from_region/regions.h"
 
 #include <math.h>

@@ -22,8 +22,6 @@
 ///           eye               these is the nearest place that is seen.
 #include "geometry/crossing.h"
 
-#include "geometry/whole.h"
-
 #include <limits.h>
 #include <math.h>
 

@@ -5,6 +5,8 @@
 
 #include "geometry/orient.h"
 
+#include <stdint.h>
+
 /// The place where two segments cross. Each coordinate is the nearest usable one
 /// (sl_coordinate_usable), of two equally near ones the lower. The order of the segments does not
 /// matter. They must cross properly: the ends of each lie strictly on different sides of the other.
@@ -31,5 +33,32 @@ int sl_nearest_compare(const sl_glance *glance, double length);
 
 /// The sign of the distance between two points, less a length of 0 or more. Exact.
 int sl_distance_compare(sl_point a, sl_point b, double length);
+
+// --- Whole numbers of many digits, on the stack, for predicates with more factors than a
+// determinant.
+
+/// The number of digits (base 2^32). It holds a product of six numbers, each a difference of two
+/// finite doubles, in units of one power of two.
+enum { SL_WHOLE_DIGITS = 408 };
+
+typedef struct sl_whole {
+    int sign;                         ///< -1, 0 or 1
+    uint32_t count;                   ///< digits in use; the last one is not 0
+    uint32_t digits[SL_WHOLE_DIGITS]; ///< the lowest first
+} sl_whole;
+
+/// The exponent of the last binary digit of a finite double other than 0.
+int sl_whole_exponent(double value);
+
+/// value * 2^-exponent, which must be whole.
+void sl_whole_set(double value, int exponent, sl_whole *out);
+
+// `out` must not be an operand.
+void sl_whole_add(const sl_whole *a, const sl_whole *b, sl_whole *out);
+void sl_whole_subtract(const sl_whole *a, const sl_whole *b, sl_whole *out);
+void sl_whole_multiply(const sl_whole *a, const sl_whole *b, sl_whole *out);
+
+/// The sign of a - b.
+int sl_whole_compare(const sl_whole *a, const sl_whole *b);
 
 #endif

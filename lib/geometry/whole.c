@@ -1,5 +1,5 @@
 /// Whole numbers: sign and magnitude, added and multiplied as by hand, digit by digit.
-#include "geometry/whole.h"
+#include "geometry/crossing.h"
 
 #include <math.h>
 #include <string.h>

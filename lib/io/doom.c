@@ -4,7 +4,7 @@
 /// doors are asked for. GL nodes are the convex subsectors that a node builder cut the map into
 /// (glBSP's GL nodes, versions 1, 2, 3 and 5, as its document "Specification for GL Nodes" has
 /// them: GL_VERT, GL_SEGS and GL_SSECT; the tree of GL_NODES is not needed).
-#include "io/doom.h"
+#include "io/wad.h"
 #include "sightline/io.h"
 
 #include <string.h>

@@ -3,7 +3,7 @@
 /// Format, version 1.1: "name = value;" and "block { name = value; ... }"; what is unknown is
 /// passed over, as the format wants). Both give the same records, whose references are then looked
 /// up.
-#include "io/doom.h"
+#include "io/wad.h"
 #include "map/scan.h"
 
 #include <limits.h>

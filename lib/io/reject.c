@@ -6,7 +6,7 @@
 ///
 /// Nothing that is seen may be hidden. So a cell counts for every sector that it reaches into, and
 /// a sector of which nothing is known sees everything. Sides are decided by exact predicates.
-#include "io/reject.h"
+#include "io/wad.h"
 
 #include "geometry/orient.h"
 #include "sightline/support.h"

@@ -2,8 +2,6 @@
 /// here. Maps are baked beside each other, each by one thread, the largest first: so none is left
 /// to one thread at the end.
 #include "base/base.h"
-#include "base/threads.h"
-#include "io/reject.h"
 #include "io/wad.h"
 #include "sightline/io.h"
 

@@ -4,6 +4,10 @@
 #ifndef SL_WAD_H
 #define SL_WAD_H
 
+#include "sightline/map.h"
+#include "sightline/pvs.h"
+#include "sightline/reject.h"
+#include "sightline/space.h"
 #include "sightline/support.h"
 
 enum { SL_LUMP_NAME = 9 }; ///< eight characters and a 0
@@ -82,5 +86,82 @@ typedef struct sl_wad_edit {
 /// SL_UNSUPPORTED where the copy is larger than a WAD can be.
 sl_status sl_wad_write(sl_context *context, const sl_wad *wad, const sl_wad_edit *edits,
                        size_t count, const char *path);
+
+// --- A Doom map as its lines and sectors.
+
+#define SL_NO_SECTOR UINT32_MAX
+
+/// A line from one vertex to another. The right hand is its front.
+typedef struct sl_doom_line {
+    sl_point from, to;
+    uint32_t right, left; ///< the sectors at its sides; SL_NO_SECTOR where it has no such side
+    int special, tag;     ///< of a line with Hexen's specials, the tag is its first argument
+    uint32_t line;        ///< of the TEXTMAP; 0 in lumps of records
+} sl_doom_line;
+
+typedef struct sl_doom_sector {
+    double floor, ceiling; ///< when the map begins
+    int tag;
+} sl_doom_sector;
+
+/// Zeroed, it is empty.
+typedef struct sl_doom_level {
+    char name[SL_LUMP_NAME];
+    const char *format; ///< "Doom", "Hexen" or "UDMF"
+    bool hexen_specials;
+    sl_doom_line *lines;
+    sl_doom_sector *sectors;
+    sl_start *starts; ///< of player 1
+    size_t line_count, sector_count, start_count;
+} sl_doom_level;
+
+/// Reads a map of a WAD. SL_BAD_INPUT names the file, the lump, and the line in a TEXTMAP.
+/// `level` must be empty; on failure it stays so.
+sl_status sl_doom_read(sl_context *context, const sl_wad *wad, const sl_wad_map *map,
+                       sl_doom_level *level);
+void sl_doom_level_destroy(sl_context *context, sl_doom_level *level); ///< and zeroes it
+
+/// Marks the sectors that are doors: those that a door special of a line moves, and those whose
+/// ceiling meets the floor when the map begins. `is_door` has one flag a sector, all false.
+void sl_doom_find_doors(const sl_doom_level *level, bool *is_door);
+
+// --- Doom's REJECT: a bit for each ordered pair of sectors, set where no place of the one sees a
+// --- place of the other, rows by the looking sector, low bits first (Unofficial Doom Specs 1.666,
+// --- 4-9).
+
+// --- which sectors a cell reaches into. Lines that are seen through cut cells only where that is
+// --- asked for (seams), so that one cell may reach into several sectors.
+
+/// The sectors of cell i are sectors[first[i] .. first[i + 1]), ascending, each once.
+typedef struct sl_cell_sectors {
+    uint32_t *first; ///< cell_count + 1
+    uint32_t *sectors;
+} sl_cell_sectors;
+
+/// Every sector that has a part within a cell's polygon is among the cell's, for each map whose
+/// lines say the sectors at both their sides rightly: a sector is found by the lines that pass
+/// through the cell's interior (exactly decided), by those that run along its border, and by the
+/// line to the right of its middle. Where cleaning rounded or welded lines, a cell may reach beyond
+/// a line as read, and then counts for the sector there too. Reports stage "sectors", unit "cells".
+sl_status sl_cell_sectors_find(sl_context *context, const sl_space *space,
+                               const sl_doom_level *level, sl_cell_sectors *out);
+void sl_cell_sectors_destroy(sl_context *context, sl_cell_sectors *sectors); ///< and zeroes it
+
+// --- the table
+
+/// Zeroed, it is empty.
+typedef struct sl_reject {
+    unsigned char *bytes;
+    size_t size;
+    sl_reject_account account; ///< its name is left empty
+} sl_reject;
+
+/// The REJECT of a level from the visible sets of a space made of its walls: hidden are the sectors
+/// of which no cells see each other. Nothing is hidden that a sightline joins, where the sets miss
+/// nothing: a cell counts for each sector that it reaches into. `out` must be empty; on failure it
+/// stays so.
+sl_status sl_reject_make(sl_context *context, const sl_space *space, const sl_pvs *pvs,
+                         const sl_doom_level *level, sl_reject *out);
+void sl_reject_destroy(sl_context *context, sl_reject *reject); ///< and zeroes it
 
 #endif

@@ -5,7 +5,7 @@
 /// hulls meet: two edges that cross, or a corner of one hull in a triangle of the other (Radon's
 /// theorem). That is four ends, or fewer where ends coincide. Cost: the product of the numbers of
 /// hull corners.
-#include "stab/conflict.h"
+#include "stab/funnel.h"
 
 #include "geometry/orient.h"
 #include "sightline/stab.h"

@@ -22,7 +22,6 @@
 #include "geometry/orient.h"
 #include "sightline/solvers.h"
 #include "sightline/support.h"
-#include "stab/conflict.h"
 
 #include <math.h>
 

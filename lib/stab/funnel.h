@@ -2,7 +2,10 @@
 #ifndef SL_FUNNEL_H
 #define SL_FUNNEL_H
 
+#include "geometry/orient.h"
 #include "sightline/solvers.h"
+#include "sightline/stab.h"
+#include "sightline/support.h"
 
 /// A corner of the polygon of lines: a directed line through two portal ends, and the end about
 /// which it turns to become the next corner's line. In order, around.
@@ -26,5 +29,26 @@ sl_funnel_corner sl_funnel_corner_at(const void *state, uint32_t i);
 double sl_funnel_shortest(const void *state);
 
 #define SL_SHORTEST_ERROR 0x1p-40
+
+// --- What exact solvers share: the exact predicate with its uses counted, and the few portal ends
+// --- that prove a sequence hidden.
+
+// --- the predicate
+
+static inline int sl_orient_counted(sl_stab_account *account, sl_point a, sl_point b, sl_point c) {
+    account->orientations++;
+    const int sign = sl_orient_filter(a, b, c);
+    if (sign) return sign;
+    account->exact++;
+    return sl_orient_exact(a, b, c);
+}
+
+// --- conflicts
+
+/// Finds ends of the portals that no line keeps on their sides: strictly, or (strict false) not
+/// even touching them. None of the ends found can be spared. The portals must have such ends. Time:
+/// the product of the corners of the two hulls, in rare degenerate cases a power more.
+sl_status sl_conflict_find(sl_context *context, const sl_portal_ends *portals, size_t count,
+                           bool strict, sl_stab_end ends[SL_CONFLICT_MOST], uint32_t *found);
 
 #endif

@@ -11,7 +11,7 @@
 #include "sightline/solvers.h"
 
 #include "sightline/support.h"
-#include "stab/conflict.h"
+#include "stab/funnel.h"
 #include "stab/glpk_shared.h"
 
 /// What a push was answered.

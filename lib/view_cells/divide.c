@@ -11,7 +11,7 @@
 /// parts where splits are even.
 #include "view_cells/divide.h"
 
-#include "base/threads.h"
+#include "base/base.h"
 
 #include <math.h>
 #include <string.h>

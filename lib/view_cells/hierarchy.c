@@ -14,7 +14,7 @@
 /// A heap holds the pairs of neighbours by the increase in cost. A pair is stale where one of the
 /// two has been merged; it is then dropped. The joint takes over the longer of the two lists of
 /// neighbours. Cost: O(p log p) heap steps for p pairs, each new pair with one union of two sets.
-#include "view_cells/heap.h"
+#include "view_cells/divide.h"
 #include "view_cells/tree.h"
 
 #include <string.h>

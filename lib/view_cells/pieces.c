@@ -8,7 +8,7 @@
 /// search from a half costs about what the whole saw, not what the map holds.
 #include "view_cells/pieces.h"
 
-#include "base/threads.h"
+#include "base/base.h"
 #include "cell_to_cell/sectors.h"
 #include "sightline/outline.h"
 #include "sightline/support.h"

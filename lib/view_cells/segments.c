@@ -11,7 +11,7 @@
 /// Each unit of samples has random numbers of its own, and units are joined in order. So the result
 /// is the same for any number of threads. Cost: O(rooms on the line) a sample; O(leaves passed x
 /// objects) a segment for the sets.
-#include "base/threads.h"
+#include "base/base.h"
 #include "geometry/orient.h"
 #include "view_cells/tree.h"
 

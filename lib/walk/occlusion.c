@@ -19,7 +19,7 @@
 ///
 /// Cost of a lookup: O(depth) for the tree, O(log n) for the array, and O(1) for each leaf within.
 /// An occluder costs the same in the tree; in the array it moves what comes after it, O(n).
-#include "walk/occlusion.h"
+#include "walk/shape.h"
 
 #include <math.h>
 #include <string.h>

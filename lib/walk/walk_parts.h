@@ -5,7 +5,7 @@
 
 #include "sightline/support.h"
 #include "sightline/walk.h"
-#include "walk/occlusion.h"
+#include "walk/shape.h"
 
 /// What a method does besides the classical way: bits.
 enum {

@@ -1,7 +1,7 @@
 /// Numbers as text, files, threads.
 #include "testing.h"
 
-#include "base/threads.h"
+#include "base/base.h"
 #include "sightline/support.h"
 #include "sightline/version.h"
 

@@ -1,7 +1,7 @@
 // Which sectors a cell is in, where the lines about it are in awkward places.
 #include "testing.h"
 
-#include "io/reject.h"
+#include "io/wad.h"
 
 /// The sectors of a cell of four corners.
 static uint32_t find_in(sl_doom_line *lines, size_t count, sl_point corners[4], uint32_t found[4]) {

@@ -3,7 +3,6 @@
 #include "testing.h"
 
 #include "geometry/crossing.h"
-#include "geometry/whole.h"
 #include "sightline/support.h"
 
 #include <gmp.h>

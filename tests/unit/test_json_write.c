@@ -1,7 +1,7 @@
 // The JSON writer against jansson, byte for byte; and the checksum against zlib.
 #include "testing.h"
 
-#include "base/checksum.h"
+#include "base/base.h"
 #include "sightline/json_write.h"
 #include "sightline/support.h"
 

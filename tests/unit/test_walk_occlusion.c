@@ -4,7 +4,7 @@
 
 #include "oracle/random_map.h"
 #include "sightline/walk.h"
-#include "walk/occlusion.h"
+#include "walk/shape.h"
 
 #include <math.h>
 
