@@ -7,9 +7,9 @@
 // many are over 1e-12; then, for 2000 random eyes, each once: microseconds a query here and there,
 // and their ratio. Exit status 1 on any difference over 1e-12.
 // Timed is, here, location, region and polygon; there, with the location given, the region.
-#include "sightline/support.h"
 #include "sightline/io.h"
 #include "sightline/sightline.h"
+#include "sightline/support.h"
 
 #include <CGAL/Arr_naive_point_location.h>
 #include <CGAL/Arr_segment_traits_2.h>
