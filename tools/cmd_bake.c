@@ -32,64 +32,64 @@ sl_status bake_report_print_json(sl_context *context, const bake_report *report)
 
 // --- JSON
 
-static void add_seconds(sl_json_fields *fields, const bake_report *report) {
-    sl_json_fields seconds = sl_json_begin();
-    sl_json_add_real(&seconds, "read", report->seconds.read);
-    sl_json_add_real(&seconds, "subdivide", report->account.seconds.subdivide);
-    if (report->account.checked) sl_json_add_real(&seconds, "check", report->account.seconds.check);
-    sl_json_add_real(&seconds, "cell_to_cell", report->seconds.see);
-    sl_json_add_real(&seconds, "write", report->seconds.write);
-    sl_json_add_fields(fields, "seconds", &seconds);
+static void add_seconds(json_fields *fields, const bake_report *report) {
+    json_fields seconds = json_begin();
+    json_add_real(&seconds, "read", report->seconds.read);
+    json_add_real(&seconds, "subdivide", report->account.seconds.subdivide);
+    if (report->account.checked) json_add_real(&seconds, "check", report->account.seconds.check);
+    json_add_real(&seconds, "cell_to_cell", report->seconds.see);
+    json_add_real(&seconds, "write", report->seconds.write);
+    json_add_fields(fields, "seconds", &seconds);
 }
 
 /// How much of the work was done, if the bake was not done in one go.
-static void add_parts(sl_json_fields *fields, const bake_report *report) {
+static void add_parts(json_fields *fields, const bake_report *report) {
     const bake_parts_account *parts = &report->parts;
     const sl_partial *partial = &report->baked->partial;
-    sl_json_add_flag(fields, "finished", !sl_partial_begun(partial));
+    json_add_flag(fields, "finished", !sl_partial_begun(partial));
     if (!parts->units) return;
-    sl_json_fields inner = sl_json_begin();
-    sl_json_add_text(&inner, "units", parts->units);
-    sl_json_add_count(&inner, "count", parts->unit_count);
-    sl_json_add_count(&inner, "known_before", parts->known);
-    sl_json_add_count(&inner, "done", parts->done);
+    json_fields inner = json_begin();
+    json_add_text(&inner, "units", parts->units);
+    json_add_count(&inner, "count", parts->unit_count);
+    json_add_count(&inner, "known_before", parts->known);
+    json_add_count(&inner, "done", parts->done);
     if (partial->shard_count) {
-        sl_json_add_count(&inner, "shard", partial->shard);
-        sl_json_add_count(&inner, "shards", partial->shard_count);
-        sl_json_add_count(&inner, "left", sl_partial_left(partial));
+        json_add_count(&inner, "shard", partial->shard);
+        json_add_count(&inner, "shards", partial->shard_count);
+        json_add_count(&inner, "left", sl_partial_left(partial));
     }
-    sl_json_add_fields(fields, "work", &inner);
+    json_add_fields(fields, "work", &inner);
 }
 
-static void add_visibility(sl_json_fields *fields, const sl_visibility *visibility) {
+static void add_visibility(json_fields *fields, const sl_visibility *visibility) {
     const sl_see_account *account = &visibility->account;
     const sl_stab_trees *trees = &visibility->trees;
-    sl_json_add_count(fields, "pairs", account->pairs);
-    sl_json_add_count(fields, "doubtful_pairs", account->doubtful_pairs);
-    sl_json_add_count(fields, "tests", account->tests);
-    sl_json_add_count(fields, "tree_nodes", account->nodes);
-    sl_json_add_count(fields, "pieces", account->pieces);
+    json_add_count(fields, "pairs", account->pairs);
+    json_add_count(fields, "doubtful_pairs", account->doubtful_pairs);
+    json_add_count(fields, "tests", account->tests);
+    json_add_count(fields, "tree_nodes", account->nodes);
+    json_add_count(fields, "pieces", account->pieces);
     if (account->sectors) {
-        sl_json_add_count(fields, "sectors", account->sectors);
-        sl_json_add_count(fields, "candidates", account->candidates);
-        sl_json_add_count(fields, "relations", account->relations);
-        sl_json_add_count(fields, "cells_on_cycles", account->on_cycles);
+        json_add_count(fields, "sectors", account->sectors);
+        json_add_count(fields, "candidates", account->candidates);
+        json_add_count(fields, "relations", account->relations);
+        json_add_count(fields, "cells_on_cycles", account->on_cycles);
     }
-    sl_json_add_count(fields, "longest_sequence", account->deepest);
-    sl_json_fields work = sl_json_begin();
-    sl_json_add_count(&work, "door_steps", account->door_steps);
-    sl_json_add_count(&work, "mirror_steps", account->mirror_steps);
-    sl_json_add_count(&work, "glass_tests", account->glass_tests);
-    sl_json_add_count(&work, "mirrored_pairs", account->mirrored_pairs);
-    sl_json_add_count(&work, "rounded_places", account->rounded_places);
-    sl_json_add_count(&work, "door_bytes", sl_door_sets_bytes(&visibility->doors));
-    sl_json_add_count(&work, "door_fallbacks", account->door_fallbacks);
-    sl_json_add_count(&work, "range_tests", account->range_tests);
-    sl_json_add_count(&work, "close_calls", account->close_calls);
-    sl_json_add_fields(fields, "effect_work", &work);
+    json_add_count(fields, "longest_sequence", account->deepest);
+    json_fields work = json_begin();
+    json_add_count(&work, "door_steps", account->door_steps);
+    json_add_count(&work, "mirror_steps", account->mirror_steps);
+    json_add_count(&work, "glass_tests", account->glass_tests);
+    json_add_count(&work, "mirrored_pairs", account->mirrored_pairs);
+    json_add_count(&work, "rounded_places", account->rounded_places);
+    json_add_count(&work, "door_bytes", sl_door_sets_bytes(&visibility->doors));
+    json_add_count(&work, "door_fallbacks", account->door_fallbacks);
+    json_add_count(&work, "range_tests", account->range_tests);
+    json_add_count(&work, "close_calls", account->close_calls);
+    json_add_fields(fields, "effect_work", &work);
     if (!trees->cell_count) return;
-    sl_json_add_count(fields, "tree_nodes_kept", trees->offsets[trees->cell_count]);
-    sl_json_add_count(fields, "trees_left_out", trees->left_out);
+    json_add_count(fields, "tree_nodes_kept", trees->offsets[trees->cell_count]);
+    json_add_count(fields, "trees_left_out", trees->left_out);
 }
 
 sl_status bake_report_print_json(sl_context *context, const bake_report *report) {
@@ -99,29 +99,29 @@ sl_status bake_report_print_json(sl_context *context, const bake_report *report)
     pvs_means mean;
     if (has_sets) SL_TRY(mean_pvs_of(context, baked, &mean));
 
-    sl_json_fields fields = sl_json_begin();
-    sl_json_add_text(&fields, "map", report->input);
-    sl_json_add_text(&fields, "output", report->output);
-    sl_json_add_text(&fields, "subdivide", report->account.subdivision->name);
-    sl_json_add_text(&fields, "method", baked->method);
-    sl_json_add_text(&fields, "solver", baked->solver[0] ? baked->solver : NULL);
-    sl_json_add_text(&fields, "sight", sight_name(baked->visibility.sight));
-    sl_json_add_text(&fields, "guarantee", sl_guarantee_name(baked->visibility.guarantee));
+    json_fields fields = json_begin();
+    json_add_text(&fields, "map", report->input);
+    json_add_text(&fields, "output", report->output);
+    json_add_text(&fields, "subdivide", report->account.subdivision->name);
+    json_add_text(&fields, "method", baked->method);
+    json_add_text(&fields, "solver", baked->solver[0] ? baked->solver : NULL);
+    json_add_text(&fields, "sight", sight_name(baked->visibility.sight));
+    json_add_text(&fields, "guarantee", sl_guarantee_name(baked->visibility.guarantee));
     plan_add_json(&fields, &baked->map);
     add_parts(&fields, report);
     add_seconds(&fields, report);
-    sl_json_add_cleaning(&fields, "cleaning", &report->account.cleaning);
-    sl_json_add_count(&fields, "walls", space->wall_count);
-    sl_json_add_count(&fields, "welded", report->account.cleaning.welded);
-    sl_json_add_count(&fields, "cells", space->cell_count);
-    sl_json_add_count(&fields, "inside_cells", space->inside_count);
-    sl_json_add_count(&fields, "portals", space->portal_count);
-    sl_json_add_count(&fields, "tree_depth", space->tree_depth);
+    json_add_cleaning(&fields, "cleaning", &report->account.cleaning);
+    json_add_count(&fields, "walls", space->wall_count);
+    json_add_count(&fields, "welded", report->account.cleaning.welded);
+    json_add_count(&fields, "cells", space->cell_count);
+    json_add_count(&fields, "inside_cells", space->inside_count);
+    json_add_count(&fields, "portals", space->portal_count);
+    json_add_count(&fields, "tree_depth", space->tree_depth);
     if (has_sets) add_visibility(&fields, &baked->visibility);
     if (has_sets) mean_pvs_add_json(&fields, &mean);
-    sl_json_add_count(&fields, "peak_memory_bytes", size_of_peak_memory());
-    sl_json_add_count(&fields, "file_bytes", size_of_file(report->output));
-    return sl_json_print(context, &fields);
+    json_add_count(&fields, "peak_memory_bytes", size_of_peak_memory());
+    json_add_count(&fields, "file_bytes", size_of_file(report->output));
+    return json_print(context, &fields);
 }
 
 // --- text

@@ -124,59 +124,59 @@ static sl_status faults_print(const faults_report *report) {
 
 // --- JSON
 
-static sl_json_fields fault_fields(const faults_report *report, const sl_fault *fault) {
-    sl_json_fields fields = sl_json_begin();
+static json_fields fault_fields(const faults_report *report, const sl_fault *fault) {
+    json_fields fields = json_begin();
     const sl_point at[2] = {fault->at.a, fault->at.b};
-    sl_json_add_text(&fields, "kind", sl_fault_name(fault->kind));
-    sl_json_add_real(&fields, "size", fault->size);
-    sl_json_add_points(&fields, "at", at, 2);
+    json_add_text(&fields, "kind", sl_fault_name(fault->kind));
+    json_add_real(&fields, "size", fault->size);
+    json_add_points(&fields, "at", at, 2);
     if (fault->walls[0] != UINT32_MAX) {
-        sl_json_add_count(&fields, "wall", fault->walls[0]);
-        sl_json_add_count(&fields, "line", report->map->walls[fault->walls[0]].line);
-        sl_json_add_count(&fields, "other_wall", fault->walls[1]);
-        sl_json_add_count(&fields, "other_line", report->map->walls[fault->walls[1]].line);
+        json_add_count(&fields, "wall", fault->walls[0]);
+        json_add_count(&fields, "line", report->map->walls[fault->walls[0]].line);
+        json_add_count(&fields, "other_wall", fault->walls[1]);
+        json_add_count(&fields, "other_line", report->map->walls[fault->walls[1]].line);
     }
-    if (fault->walls[0] == UINT32_MAX) sl_json_add_count(&fields, "cell", fault->cell);
-    if (fault->cells) sl_json_add_count(&fields, "cells", fault->cells);
+    if (fault->walls[0] == UINT32_MAX) json_add_count(&fields, "cell", fault->cell);
+    if (fault->cells) json_add_count(&fields, "cells", fault->cells);
     if (fault->point_count)
-        sl_json_add_points(&fields, "way", report->faults->points + fault->first_point,
-                           fault->point_count);
+        json_add_points(&fields, "way", report->faults->points + fault->first_point,
+                        fault->point_count);
     return fields;
 }
 
-static void add_counts(sl_json_fields *fields, const char *key,
+static void add_counts(json_fields *fields, const char *key,
                        const uint32_t counts[SL_FAULT_KINDS]) {
-    sl_json_fields inner = sl_json_begin();
+    json_fields inner = json_begin();
     for (int kind = 0; kind < SL_FAULT_KINDS; kind++)
-        sl_json_add_count(&inner, sl_fault_name((sl_fault_kind)kind), counts[kind]);
-    sl_json_add_fields(fields, key, &inner);
+        json_add_count(&inner, sl_fault_name((sl_fault_kind)kind), counts[kind]);
+    json_add_fields(fields, key, &inner);
 }
 
 static sl_status faults_print_json(sl_context *context, const faults_report *report) {
     const uint32_t count = report->faults->count;
-    sl_json_fields fields = sl_json_begin();
-    sl_json_fields *items = sl_alloc_array(context, count, sizeof *items);
+    json_fields fields = json_begin();
+    json_fields *items = sl_alloc_array(context, count, sizeof *items);
     if (!items) return SL_NO_MEMORY;
-    sl_json_add_text(&fields, "file", report->input);
-    sl_json_add_count(&fields, "walls", report->map->wall_count);
-    sl_json_add_count(&fields, "cells", report->space->cell_count);
-    sl_json_add_real(&fields, "gap", report->gap);
-    sl_json_add_real(&fields, "thin", report->thin);
-    sl_json_add_flag(&fields, "has_starts", report->faults->has_starts);
+    json_add_text(&fields, "file", report->input);
+    json_add_count(&fields, "walls", report->map->wall_count);
+    json_add_count(&fields, "cells", report->space->cell_count);
+    json_add_real(&fields, "gap", report->gap);
+    json_add_real(&fields, "thin", report->thin);
+    json_add_flag(&fields, "has_starts", report->faults->has_starts);
     add_counts(&fields, "counts", report->faults->counts);
     for (uint32_t i = 0; i < count; i++) items[i] = fault_fields(report, &report->faults->items[i]);
-    sl_json_add_list(&fields, "faults", items, count);
+    json_add_list(&fields, "faults", items, count);
     if (report->mended) {
-        sl_json_fields mended = sl_json_begin();
-        sl_json_add_text(&mended, "file", report->mended);
-        sl_json_add_count(&mended, "moved", report->snap.moved);
-        sl_json_add_real(&mended, "farthest", report->snap.farthest);
-        sl_json_add_count(&mended, "vanished", report->snap.vanished);
+        json_fields mended = json_begin();
+        json_add_text(&mended, "file", report->mended);
+        json_add_count(&mended, "moved", report->snap.moved);
+        json_add_real(&mended, "farthest", report->snap.farthest);
+        json_add_count(&mended, "vanished", report->snap.vanished);
         add_counts(&mended, "counts", report->left);
-        sl_json_add_fields(&fields, "mended", &mended);
+        json_add_fields(&fields, "mended", &mended);
     }
     sl_free(context, items);
-    return sl_json_print(context, &fields);
+    return json_print(context, &fields);
 }
 
 // --- the command

@@ -251,8 +251,8 @@ static void explanation_print(const sl_baked *baked, const sl_explanation *e) {
 
 // --- JSON
 
-static void add_segment(sl_json_fields *fields, const char *key, sl_point a, sl_point b) {
-    sl_json_add_box(fields, key, (sl_box){a, b});
+static void add_segment(json_fields *fields, const char *key, sl_point a, sl_point b) {
+    json_add_box(fields, key, (sl_box){a, b});
 }
 
 static void put_portal(sl_json_writer *json, const sl_directed_portal *directed) {
@@ -262,9 +262,9 @@ static void put_portal(sl_json_writer *json, const sl_directed_portal *directed)
     sl_json_put_key(json, "cell");
     sl_json_put_integer(json, directed->cell);
     sl_json_put_key(json, "left");
-    sl_json_put_point(json, directed->left);
+    json_put_point(json, directed->left);
     sl_json_put_key(json, "right");
-    sl_json_put_point(json, directed->right);
+    json_put_point(json, directed->right);
     sl_json_put_end(json, '}');
 }
 
@@ -285,7 +285,7 @@ static void put_ends(sl_json_writer *json, const sl_space *space, const sl_seque
         sl_json_put_key(json, "side");
         sl_json_put_text(json, end.left ? "left" : "right");
         sl_json_put_key(json, "point");
-        sl_json_put_point(json, sl_sequence_end(space, sequence, end));
+        json_put_point(json, sl_sequence_end(space, sequence, end));
         sl_json_put_end(json, '}');
     }
     sl_json_put_end(json, ']');
@@ -307,38 +307,38 @@ static void put_miss(sl_json_writer *json, const sl_space *space, const sl_miss 
     sl_json_put_end(json, '}');
 }
 
-static void add_file(sl_json_fields *fields, const sl_baked *baked, const sl_explanation *e) {
+static void add_file(json_fields *fields, const sl_baked *baked, const sl_explanation *e) {
     const said what = said_by(baked, e);
-    sl_json_fields inner = sl_json_begin();
-    sl_json_add_text(&inner, "sight", sight_name(baked->visibility.sight));
-    sl_json_add_text(&inner, "method", baked->method);
-    sl_json_add_text(&inner, "guarantee", sl_guarantee_name(baked->visibility.guarantee));
+    json_fields inner = json_begin();
+    json_add_text(&inner, "sight", sight_name(baked->visibility.sight));
+    json_add_text(&inner, "method", baked->method);
+    json_add_text(&inner, "guarantee", sl_guarantee_name(baked->visibility.guarantee));
     if (what == SAID_NOTHING)
-        sl_json_add_text(&inner, "seen", NULL);
+        json_add_text(&inner, "seen", NULL);
     else
-        sl_json_add_flag(&inner, "seen", what == SAID_SEEN);
-    sl_json_add_flag(&inner, "doubtful", is_doubtful(baked, e));
-    sl_json_add_fields(fields, "file", &inner);
+        json_add_flag(&inner, "seen", what == SAID_SEEN);
+    json_add_flag(&inner, "doubtful", is_doubtful(baked, e));
+    json_add_fields(fields, "file", &inner);
 }
 
-static void add_found(sl_json_fields *fields, const sl_space *space, const sl_explanation *e) {
+static void add_found(json_fields *fields, const sl_space *space, const sl_explanation *e) {
     if (!e->sequence.directed_count) return;
-    put_portals(sl_json_add(fields, "sequence"), space, &e->sequence, e->sequence.directed_count);
+    put_portals(json_add(fields, "sequence"), space, &e->sequence, e->sequence.directed_count);
     add_segment(fields, "line", e->witness.a, e->witness.b);
-    sl_json_add_flag(fields, "touches", e->touches);
+    json_add_flag(fields, "touches", e->touches);
     add_segment(fields, "shown", e->shown.a, e->shown.b);
-    if (e->verdict == SL_GRAZING) put_ends(sl_json_add(fields, "ends"), space, &e->sequence);
+    if (e->verdict == SL_GRAZING) put_ends(json_add(fields, "ends"), space, &e->sequence);
 }
 
-static void add_bent(sl_json_fields *fields, const sl_space *space, const sl_bent_sightline *bent,
+static void add_bent(json_fields *fields, const sl_space *space, const sl_bent_sightline *bent,
                      const char *verdict) {
-    sl_json_fields inner = sl_json_begin();
-    sl_json_add_text(&inner, "verdict", verdict);
-    sl_json_add_flag(&inner, "complete", bent->complete);
-    sl_json_add_count(&inner, "tests", bent->tests);
-    sl_json_add_flag(&inner, "rounded", bent->rounded);
-    sl_json_add_count(&inner, "mirrors", bent->mirrors);
-    sl_json_writer *json = sl_json_add(&inner, "steps");
+    json_fields inner = json_begin();
+    json_add_text(&inner, "verdict", verdict);
+    json_add_flag(&inner, "complete", bent->complete);
+    json_add_count(&inner, "tests", bent->tests);
+    json_add_flag(&inner, "rounded", bent->rounded);
+    json_add_count(&inner, "mirrors", bent->mirrors);
+    sl_json_writer *json = json_add(&inner, "steps");
     sl_json_put_list(json);
     for (uint32_t i = 0; i < bent->step_count; i++) {
         const sl_bent_step *step = &bent->steps[i];
@@ -351,34 +351,34 @@ static void add_bent(sl_json_fields *fields, const sl_space *space, const sl_ben
         sl_json_put_end(json, '}');
     }
     sl_json_put_end(json, ']');
-    sl_json_add_points(&inner, "line", bent->bends, bent->bends ? bent->mirrors + 2 : 0);
-    sl_json_add_fields(fields, "by_mirror", &inner);
+    json_add_points(&inner, "line", bent->bends, bent->bends ? bent->mirrors + 2 : 0);
+    json_add_fields(fields, "by_mirror", &inner);
 }
 
 static sl_status explanation_print_json(sl_context *context, const sl_baked *baked,
                                         const sl_explanation *e) {
     static const char *const verdicts[] = {
         [SL_HIDDEN] = "hidden", [SL_GRAZING] = "grazing", [SL_STABBED] = "stabbed"};
-    sl_json_fields fields = sl_json_begin();
-    sl_json_add_count(&fields, "from", e->from);
-    sl_json_add_count(&fields, "to", e->to);
-    sl_json_add_text(&fields, "sight", sight_name(e->sight));
-    sl_json_add_flag(&fields, "seen", e->seen);
-    sl_json_add_text(&fields, "verdict", verdicts[e->verdict]);
-    sl_json_add_flag(&fields, "complete", e->complete);
-    sl_json_add_count(&fields, "tests", e->tests);
+    json_fields fields = json_begin();
+    json_add_count(&fields, "from", e->from);
+    json_add_count(&fields, "to", e->to);
+    json_add_text(&fields, "sight", sight_name(e->sight));
+    json_add_flag(&fields, "seen", e->seen);
+    json_add_text(&fields, "verdict", verdicts[e->verdict]);
+    json_add_flag(&fields, "complete", e->complete);
+    json_add_count(&fields, "tests", e->tests);
     if (e->distance == SL_NO_WAY)
-        sl_json_add_text(&fields, "distance", NULL);
+        json_add_text(&fields, "distance", NULL);
     else
-        sl_json_add_count(&fields, "distance", e->distance);
+        json_add_count(&fields, "distance", e->distance);
     add_found(&fields, &baked->space, e);
-    sl_json_writer *misses = sl_json_add(&fields, "misses");
+    sl_json_writer *misses = json_add(&fields, "misses");
     sl_json_put_list(misses);
     for (uint32_t i = 0; i < e->miss_count; i++) put_miss(misses, &baked->space, &e->misses[i]);
     sl_json_put_end(misses, ']');
     add_file(&fields, baked, e);
     if (e->bent.asked) add_bent(&fields, &baked->space, &e->bent, verdicts[e->bent.verdict]);
-    return sl_json_print(context, &fields);
+    return json_print(context, &fields);
 }
 
 // --- the command

@@ -81,20 +81,20 @@ static void eye_print(const sl_baked *baked, const eye_run *run) {
 }
 
 /// {"area": a, "perimeter": p, "polygon": [[x, y], ...]}
-static void add_region(sl_json_fields *fields, const sl_region *region) {
+static void add_region(json_fields *fields, const sl_region *region) {
     const sl_region_measures measures = sl_region_measure(region);
-    sl_json_fields inner = sl_json_begin();
-    sl_json_add_real(&inner, "area", measures.area);
-    sl_json_add_real(&inner, "perimeter", measures.perimeter);
-    sl_json_add_points(&inner, "polygon", region->points, region->count);
-    sl_json_add_fields(fields, "region", &inner);
+    json_fields inner = json_begin();
+    json_add_real(&inner, "area", measures.area);
+    json_add_real(&inner, "perimeter", measures.perimeter);
+    json_add_points(&inner, "polygon", region->points, region->count);
+    json_add_fields(fields, "region", &inner);
 }
 
 /// "mirrors": the chain by the map's numbers, from 0, the eye's end first.
-static void add_chain(sl_json_fields *fields, const sl_mirrored_region *region, uint32_t number) {
+static void add_chain(json_fields *fields, const sl_mirrored_region *region, uint32_t number) {
     uint32_t length = 0;
     for (uint32_t i = number; i != SL_NO_PART; i = region->parts[i].parent) length++;
-    sl_json_writer *json = sl_json_add(fields, "mirrors");
+    sl_json_writer *json = json_add(fields, "mirrors");
     sl_json_put_list(json);
     for (; length; length--) {
         uint32_t part = number;
@@ -105,34 +105,34 @@ static void add_chain(sl_json_fields *fields, const sl_mirrored_region *region, 
 }
 
 /// [{"mirrors": [0], "area": a, "rounded": false, "polygon": [...], "image": [...]}, ...]
-static sl_status add_parts(sl_context *context, sl_json_fields *fields,
+static sl_status add_parts(sl_context *context, json_fields *fields,
                            const sl_mirrored_region *region) {
-    sl_json_fields *parts = sl_alloc_array(context, region->part_count, sizeof *parts);
+    json_fields *parts = sl_alloc_array(context, region->part_count, sizeof *parts);
     if (!parts) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < region->part_count; i++) {
         const sl_mirror_part *part = &region->parts[i];
-        parts[i] = sl_json_begin();
+        parts[i] = json_begin();
         add_chain(&parts[i], region, i);
-        sl_json_add_real(&parts[i], "area", sl_region_area(&part->region));
-        sl_json_add_flag(&parts[i], "rounded", part->rounded);
-        sl_json_add_points(&parts[i], "polygon", part->region.points, part->region.count);
-        sl_json_add_points(&parts[i], "image", part->image, part->region.count);
+        json_add_real(&parts[i], "area", sl_region_area(&part->region));
+        json_add_flag(&parts[i], "rounded", part->rounded);
+        json_add_points(&parts[i], "polygon", part->region.points, part->region.count);
+        json_add_points(&parts[i], "image", part->image, part->region.count);
     }
-    sl_json_add_list(fields, "mirrored_region", parts, region->part_count);
+    json_add_list(fields, "mirrored_region", parts, region->part_count);
     sl_free(context, parts);
     return SL_OK;
 }
 
-static sl_status add_mirrored(sl_context *context, sl_json_fields *fields, const sl_baked *baked,
+static sl_status add_mirrored(sl_context *context, json_fields *fields, const sl_baked *baked,
                               const eye_run *run) {
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
-    sl_json_fields sets = sl_json_begin();
+    json_fields sets = json_begin();
     for (size_t i = 0; i < count; i++)
         if (run->results[i].mirrored)
-            sl_json_add_members(&sets, methods[i].name, run->results[i].mirrored,
-                                baked->space.cell_count);
-    sl_json_add_fields(fields, "mirrored", &sets);
+            json_add_members(&sets, methods[i].name, run->results[i].mirrored,
+                             baked->space.cell_count);
+    json_add_fields(fields, "mirrored", &sets);
     return add_parts(context, fields, &run->mirrored);
 }
 
@@ -140,16 +140,16 @@ static sl_status eye_print_json(sl_context *context, const sl_baked *baked, cons
                                 const eye_objects *objects) {
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
-    sl_json_fields fields = sl_json_begin(), sets = sl_json_begin();
-    sl_json_add_count(&fields, "cell", run->cell);
-    if (sl_partial_begun(&baked->partial)) sl_json_add_flag(&fields, "finished", false);
+    json_fields fields = json_begin(), sets = json_begin();
+    json_add_count(&fields, "cell", run->cell);
+    if (sl_partial_begun(&baked->partial)) json_add_flag(&fields, "finished", false);
     for (size_t i = 0; i < count; i++)
-        sl_json_add_members(&sets, methods[i].name, run->results[i].cells, baked->space.cell_count);
-    sl_json_add_fields(&fields, "methods", &sets);
+        json_add_members(&sets, methods[i].name, run->results[i].cells, baked->space.cell_count);
+    json_add_fields(&fields, "methods", &sets);
     add_region(&fields, &run->region);
     if (run->has_mirrors) SL_TRY(add_mirrored(context, &fields, baked, run));
     eye_objects_add_json(&fields, baked, objects);
-    return sl_json_print(context, &fields);
+    return json_print(context, &fields);
 }
 
 // --- the command

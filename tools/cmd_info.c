@@ -65,17 +65,17 @@ static sl_status print_map_json(sl_context *context, const info_request *request
                                 size_t oblique, const sl_clean_account *cleaning) {
     map_count counts[MAP_COUNTS];
     count_map(map, counts);
-    sl_json_fields fields = sl_json_begin();
-    sl_json_add_text(&fields, "file", request->path);
-    sl_json_add_text(&fields, "kind", "map");
-    sl_json_add_box(&fields, "bounds", sl_map_bounds(map));
-    sl_json_add_count(&fields, "walls", cleaning->before);
-    sl_json_add_count(&fields, "oblique_walls", oblique);
-    for (int i = 0; i < MAP_COUNTS; i++) sl_json_add_count(&fields, counts[i].key, counts[i].count);
-    sl_json_add_real(&fields, "range", map->range);
-    sl_json_add_cleaning(&fields, "cleaning", cleaning);
+    json_fields fields = json_begin();
+    json_add_text(&fields, "file", request->path);
+    json_add_text(&fields, "kind", "map");
+    json_add_box(&fields, "bounds", sl_map_bounds(map));
+    json_add_count(&fields, "walls", cleaning->before);
+    json_add_count(&fields, "oblique_walls", oblique);
+    for (int i = 0; i < MAP_COUNTS; i++) json_add_count(&fields, counts[i].key, counts[i].count);
+    json_add_real(&fields, "range", map->range);
+    json_add_cleaning(&fields, "cleaning", cleaning);
     plan_add_json(&fields, map);
-    return sl_json_print(context, &fields);
+    return json_print(context, &fields);
 }
 
 static void print_effects(const sl_map *map) {
@@ -125,18 +125,18 @@ static void print_map(const info_request *request, const sl_map *map, size_t obl
 // --- files of several maps
 
 static sl_status print_list_json(sl_context *context, const char *path, const sl_map_list *list) {
-    sl_json_fields fields = sl_json_begin();
-    sl_json_fields *maps = sl_alloc_array(context, list->count, sizeof *maps);
+    json_fields fields = json_begin();
+    json_fields *maps = sl_alloc_array(context, list->count, sizeof *maps);
     if (!maps) return SL_NO_MEMORY;
     for (size_t i = 0; i < list->count; i++) {
-        maps[i] = sl_json_begin();
-        sl_json_add_text(&maps[i], "name", list->names[i]);
+        maps[i] = json_begin();
+        json_add_text(&maps[i], "name", list->names[i]);
     }
-    sl_json_add_text(&fields, "file", path);
-    sl_json_add_text(&fields, "kind", "maps");
-    sl_json_add_list(&fields, "maps", maps, list->count);
+    json_add_text(&fields, "file", path);
+    json_add_text(&fields, "kind", "maps");
+    json_add_list(&fields, "maps", maps, list->count);
     sl_free(context, maps);
-    return sl_json_print(context, &fields);
+    return json_print(context, &fields);
 }
 
 static void print_list(const char *path, const sl_map_list *list) {
@@ -223,26 +223,26 @@ static sl_status print_baked_json(sl_context *context, const info_request *reque
                                   const sl_baked *baked, const pvs_means *mean) {
     baked_part parts[BAKED_PARTS];
     list_parts(baked, parts);
-    sl_json_fields fields = sl_json_begin(), bytes = sl_json_begin();
-    sl_json_add_text(&fields, "file", request->path);
-    sl_json_add_text(&fields, "kind", "baked");
-    sl_json_add_box(&fields, "bounds", baked->space.bounds);
-    sl_json_add_text(&fields, "sight", sight_name(baked->visibility.sight));
-    sl_json_add_text(&fields, "method", baked->method);
-    sl_json_add_text(&fields, "solver", baked->solver[0] ? baked->solver : NULL);
-    sl_json_add_text(&fields, "guarantee", sl_guarantee_name(baked->visibility.guarantee));
-    sl_json_add_flag(&fields, "finished", !sl_partial_begun(&baked->partial));
-    sl_json_add_count(&fields, "inside_cells", baked->space.inside_count);
-    sl_json_add_count(&fields, "tree_depth", baked->space.tree_depth);
-    sl_json_add_count(&fields, "stab_trees_left_out", baked->visibility.trees.left_out);
+    json_fields fields = json_begin(), bytes = json_begin();
+    json_add_text(&fields, "file", request->path);
+    json_add_text(&fields, "kind", "baked");
+    json_add_box(&fields, "bounds", baked->space.bounds);
+    json_add_text(&fields, "sight", sight_name(baked->visibility.sight));
+    json_add_text(&fields, "method", baked->method);
+    json_add_text(&fields, "solver", baked->solver[0] ? baked->solver : NULL);
+    json_add_text(&fields, "guarantee", sl_guarantee_name(baked->visibility.guarantee));
+    json_add_flag(&fields, "finished", !sl_partial_begun(&baked->partial));
+    json_add_count(&fields, "inside_cells", baked->space.inside_count);
+    json_add_count(&fields, "tree_depth", baked->space.tree_depth);
+    json_add_count(&fields, "stab_trees_left_out", baked->visibility.trees.left_out);
     for (int i = 0; i < BAKED_PARTS; i++) {
-        sl_json_add_count(&fields, parts[i].name, parts[i].count);
-        sl_json_add_count(&bytes, parts[i].name, parts[i].bytes);
+        json_add_count(&fields, parts[i].name, parts[i].count);
+        json_add_count(&bytes, parts[i].name, parts[i].bytes);
     }
     mean_pvs_add_json(&fields, mean);
-    sl_json_add_fields(&fields, "memory_bytes", &bytes);
-    sl_json_add_count(&fields, "file_bytes", size_of_file(request->path));
-    return sl_json_print(context, &fields);
+    json_add_fields(&fields, "memory_bytes", &bytes);
+    json_add_count(&fields, "file_bytes", size_of_file(request->path));
+    return json_print(context, &fields);
 }
 
 static void print_baked(const info_request *request, const sl_baked *baked, const pvs_means *mean) {

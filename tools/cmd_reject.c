@@ -53,28 +53,28 @@ static void print_report(const reject_plan *plan, const sl_reject_report *report
 
 static sl_status print_json(sl_context *context, const reject_plan *plan,
                             const sl_reject_report *report, double seconds) {
-    sl_json_fields fields = sl_json_begin();
-    sl_json_fields *maps = sl_alloc_array(context, report->count, sizeof *maps);
+    json_fields fields = json_begin();
+    json_fields *maps = sl_alloc_array(context, report->count, sizeof *maps);
     if (!maps) {
-        sl_json_drop(&fields);
+        json_drop(&fields);
         return SL_NO_MEMORY;
     }
     for (size_t i = 0; i < report->count; i++) {
         const sl_reject_account *map = &report->maps[i];
-        maps[i] = sl_json_begin();
-        sl_json_add_text(&maps[i], "name", map->map);
-        sl_json_add_count(&maps[i], "sectors", map->sectors);
-        sl_json_add_count(&maps[i], "cells", map->cells);
-        sl_json_add_count(&maps[i], "pairs", pairs_of(map->sectors));
-        sl_json_add_count(&maps[i], "hidden", map->hidden);
-        sl_json_add_count(&maps[i], "unknown", map->unknown);
+        maps[i] = json_begin();
+        json_add_text(&maps[i], "name", map->map);
+        json_add_count(&maps[i], "sectors", map->sectors);
+        json_add_count(&maps[i], "cells", map->cells);
+        json_add_count(&maps[i], "pairs", pairs_of(map->sectors));
+        json_add_count(&maps[i], "hidden", map->hidden);
+        json_add_count(&maps[i], "unknown", map->unknown);
     }
-    sl_json_add_text(&fields, "input", plan->input);
-    sl_json_add_text(&fields, "output", plan->output);
-    sl_json_add_list(&fields, "maps", maps, report->count);
-    sl_json_add_real(&fields, "seconds", seconds);
+    json_add_text(&fields, "input", plan->input);
+    json_add_text(&fields, "output", plan->output);
+    json_add_list(&fields, "maps", maps, report->count);
+    json_add_real(&fields, "seconds", seconds);
     sl_free(context, maps);
-    return sl_json_print(context, &fields);
+    return json_print(context, &fields);
 }
 
 static sl_status run(command_console *console, reject_plan *plan) {

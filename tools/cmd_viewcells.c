@@ -47,14 +47,14 @@ static void print_work(const sl_view_work *w) {
            w->looks, w->rooms, w->cuts, w->candidates, w->relations, w->tests);
 }
 
-static void add_work(sl_json_fields *fields, const sl_view_work *work) {
-    sl_json_add_count(fields, "rooms", work->rooms);
-    sl_json_add_count(fields, "cuts", work->cuts);
-    sl_json_add_count(fields, "looks", work->looks);
-    sl_json_add_count(fields, "candidates", work->candidates);
-    sl_json_add_count(fields, "relations", work->relations);
-    sl_json_add_count(fields, "tests", work->tests);
-    sl_json_add_count(fields, "weighed", work->weighed);
+static void add_work(json_fields *fields, const sl_view_work *work) {
+    json_add_count(fields, "rooms", work->rooms);
+    json_add_count(fields, "cuts", work->cuts);
+    json_add_count(fields, "looks", work->looks);
+    json_add_count(fields, "candidates", work->candidates);
+    json_add_count(fields, "relations", work->relations);
+    json_add_count(fields, "tests", work->tests);
+    json_add_count(fields, "weighed", work->weighed);
 }
 
 static sl_status view_report_print(sl_context *context, const view_report *report) {
@@ -97,16 +97,16 @@ static sl_status view_report_print(sl_context *context, const view_report *repor
     return SL_OK;
 }
 
-static void add_seconds(sl_json_fields *fields, const view_seconds *seconds) {
-    sl_json_fields inner = sl_json_begin();
-    sl_json_add_real(&inner, "read", seconds->read);
-    sl_json_add_real(&inner, "subdivide", seconds->subdivide);
-    sl_json_add_real(&inner, "sample", seconds->sample);
-    sl_json_add_real(&inner, "divide", seconds->divide);
-    sl_json_add_real(&inner, "merge", seconds->merge);
-    sl_json_add_real(&inner, "evaluate", seconds->evaluate);
-    sl_json_add_real(&inner, "see", seconds->see);
-    sl_json_add_fields(fields, "seconds", &inner);
+static void add_seconds(json_fields *fields, const view_seconds *seconds) {
+    json_fields inner = json_begin();
+    json_add_real(&inner, "read", seconds->read);
+    json_add_real(&inner, "subdivide", seconds->subdivide);
+    json_add_real(&inner, "sample", seconds->sample);
+    json_add_real(&inner, "divide", seconds->divide);
+    json_add_real(&inner, "merge", seconds->merge);
+    json_add_real(&inner, "evaluate", seconds->evaluate);
+    json_add_real(&inner, "see", seconds->see);
+    json_add_fields(fields, "seconds", &inner);
 }
 
 static sl_status view_report_print_json(sl_context *context, const view_report *report) {
@@ -114,40 +114,39 @@ static sl_status view_report_print_json(sl_context *context, const view_report *
     const sl_view_segments *s = &run->segments;
     totals t;
     SL_TRY(add_up(context, run, &t));
-    sl_json_fields fields = sl_json_begin();
-    sl_json_add_text(&fields, "map", report->input);
-    sl_json_add_text(&fields, "subdivide", report->subdivide);
-    sl_json_add_text(&fields, "method", report->options->method->name);
-    sl_json_add_text(&fields, "objects", objects_name(report));
-    sl_json_add_count(&fields, "walls", run->baked.space.wall_count);
-    sl_json_add_count(&fields, "cells", run->baked.space.cell_count);
-    sl_json_add_count(&fields, "samples", s->drawn);
-    sl_json_add_count(&fields, "samples_in_empty_space", s->empty);
-    sl_json_add_count(&fields, "samples_that_saw_no_wall", s->unseeing);
-    sl_json_add_count(&fields, "samples_lost", s->lost);
-    sl_json_add_count(&fields, "segments", s->count);
-    sl_json_add_count(&fields, "evaluation_samples", report->options->evaluation);
-    sl_json_add_flag(&fields, "exact", is_told_exactly(report));
+    json_fields fields = json_begin();
+    json_add_text(&fields, "map", report->input);
+    json_add_text(&fields, "subdivide", report->subdivide);
+    json_add_text(&fields, "method", report->options->method->name);
+    json_add_text(&fields, "objects", objects_name(report));
+    json_add_count(&fields, "walls", run->baked.space.wall_count);
+    json_add_count(&fields, "cells", run->baked.space.cell_count);
+    json_add_count(&fields, "samples", s->drawn);
+    json_add_count(&fields, "samples_in_empty_space", s->empty);
+    json_add_count(&fields, "samples_that_saw_no_wall", s->unseeing);
+    json_add_count(&fields, "samples_lost", s->lost);
+    json_add_count(&fields, "segments", s->count);
+    json_add_count(&fields, "evaluation_samples", report->options->evaluation);
+    json_add_flag(&fields, "exact", is_told_exactly(report));
     if (report->options->method->exact) add_work(&fields, &run->found.work);
-    sl_json_add_count(&fields, "elementary_view_cells", run->tree.cell_count);
-    sl_json_add_count(&fields, "view_cells", run->cell_count);
-    sl_json_add_real(&fields, "cost_of_one", t.whole);
-    sl_json_add_real(&fields, "cost", t.cut);
-    sl_json_add_real(&fields, "cost_of_all", t.finest);
-    sl_json_add_count(&fields, "bytes", t.cut_bytes);
-    sl_json_add_count(&fields, "bytes_of_all", t.finest_bytes);
+    json_add_count(&fields, "elementary_view_cells", run->tree.cell_count);
+    json_add_count(&fields, "view_cells", run->cell_count);
+    json_add_real(&fields, "cost_of_one", t.whole);
+    json_add_real(&fields, "cost", t.cut);
+    json_add_real(&fields, "cost_of_all", t.finest);
+    json_add_count(&fields, "bytes", t.cut_bytes);
+    json_add_count(&fields, "bytes_of_all", t.finest_bytes);
     if (run->has_exact) {
         const sl_pvs *pulled = &run->exact.views.rows;
-        sl_json_add_count(&fields, "exact_cells", run->exact.space.cell_count);
-        sl_json_add_count(&fields, "exact_row_bytes_of_cells", run->cell_bytes);
-        sl_json_add_count(&fields, "exact_row_bytes", run->plain_bytes);
-        sl_json_add_count(&fields, "exact_row_bytes_pulled_up",
-                          pulled->offsets[pulled->cell_count]);
-        if (run->exact_cost > 0) sl_json_add_real(&fields, "exact_cost", run->exact_cost);
+        json_add_count(&fields, "exact_cells", run->exact.space.cell_count);
+        json_add_count(&fields, "exact_row_bytes_of_cells", run->cell_bytes);
+        json_add_count(&fields, "exact_row_bytes", run->plain_bytes);
+        json_add_count(&fields, "exact_row_bytes_pulled_up", pulled->offsets[pulled->cell_count]);
+        if (run->exact_cost > 0) json_add_real(&fields, "exact_cost", run->exact_cost);
     }
     add_seconds(&fields, &run->seconds);
-    sl_json_add_count(&fields, "peak_memory_bytes", size_of_peak_memory());
-    return sl_json_print(context, &fields);
+    json_add_count(&fields, "peak_memory_bytes", size_of_peak_memory());
+    return json_print(context, &fields);
 }
 
 static void put(FILE *out, double value, char after) {

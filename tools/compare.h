@@ -85,7 +85,7 @@ sl_status compare_subdivisions_time(command_console *console, const sl_map *map,
 
 void compare_subdivisions_print(const compare_subdivisions *all);
 /// A list "subdivisions".
-void compare_subdivisions_add_json(sl_json_fields *fields, const compare_subdivisions *all);
+void compare_subdivisions_add_json(json_fields *fields, const compare_subdivisions *all);
 
 typedef struct compare_result {
     const char *input; ///< the map's file

@@ -154,7 +154,7 @@ static void write_heading(chart_parts *parts) {
     const compare_result *comparison = parts->comparison;
     char readable[256];
     size_t length;
-    sl_text_make_readable(comparison->input, readable, sizeof readable);
+    text_make_readable(comparison->input, readable, sizeof readable);
     const char *name = input_base_name(readable, &length);
     snprintf(parts->title, sizeof parts->title, "%.*s: what accuracy costs in time", (int)length,
              name);
@@ -278,7 +278,7 @@ static void write_eye_heading(eye_chart_parts *parts) {
     const eye_comparison *c = parts->comparison;
     char readable[256];
     size_t length;
-    sl_text_make_readable(c->input, readable, sizeof readable);
+    text_make_readable(c->input, readable, sizeof readable);
     const char *name = input_base_name(readable, &length);
     snprintf(parts->title, sizeof parts->title, "%.*s: what culling for an eye keeps", (int)length,
              name);

@@ -436,42 +436,42 @@ void compare_eye_print_columns(void) {
          "                      what Teller & Sequin 1991 tell of Soda Hall");
 }
 
-static sl_json_fields fields_of_row(const compare_eye_row *row) {
-    sl_json_fields fields = sl_json_begin();
+static json_fields fields_of_row(const compare_eye_row *row) {
+    json_fields fields = json_begin();
     double share, reduction;
-    sl_json_add_real(&fields, "fov", row->fov);
-    sl_json_add_text(&fields, "method", row->name);
-    sl_json_add_text(&fields, "guarantee", sl_guarantee_name(row->guarantee));
-    sl_json_add_real(&fields, "share", row->share);
-    sl_json_add_real(&fields, "reduction", reduction_of(row));
-    sl_json_add_real(&fields, "cells", row->cells);
-    sl_json_add_real(&fields, "nodes", row->nodes);
-    sl_json_add_real(&fields, "orientations", row->orientations);
-    sl_json_add_real(&fields, "seconds", row->seconds);
+    json_add_real(&fields, "fov", row->fov);
+    json_add_text(&fields, "method", row->name);
+    json_add_text(&fields, "guarantee", sl_guarantee_name(row->guarantee));
+    json_add_real(&fields, "share", row->share);
+    json_add_real(&fields, "reduction", reduction_of(row));
+    json_add_real(&fields, "cells", row->cells);
+    json_add_real(&fields, "nodes", row->nodes);
+    json_add_real(&fields, "orientations", row->orientations);
+    json_add_real(&fields, "seconds", row->seconds);
     if (compare_eye_paper(row->name, row->fov, &share, &reduction)) {
-        sl_json_add_real(&fields, "paper_share", share);
-        sl_json_add_real(&fields, "paper_reduction", reduction);
+        json_add_real(&fields, "paper_share", share);
+        json_add_real(&fields, "paper_reduction", reduction);
     }
     return fields;
 }
 
 sl_status compare_eye_print_json(sl_context *context, const eye_comparison *comparison) {
     const sl_space *space = comparison->space;
-    sl_json_fields *rows = sl_alloc_array(context, comparison->row_count, sizeof *rows);
+    json_fields *rows = sl_alloc_array(context, comparison->row_count, sizeof *rows);
     if (!rows) return SL_NO_MEMORY;
     for (size_t i = 0; i < comparison->row_count; i++)
         rows[i] = fields_of_row(&comparison->rows[i]);
-    sl_json_fields fields = sl_json_begin();
-    sl_json_add_text(&fields, "map", comparison->input);
-    sl_json_add_text(&fields, "sight", sight_name(comparison->sight));
-    sl_json_add_count(&fields, "walls", space->wall_count);
-    sl_json_add_count(&fields, "cells", space->cell_count);
-    sl_json_add_count(&fields, "inside_cells", space->inside_count);
-    sl_json_add_count(&fields, "portals", space->portal_count);
-    sl_json_add_count(&fields, "viewpoints", comparison->plan->viewpoints);
-    sl_json_add_count(&fields, "seed", comparison->plan->seed);
-    sl_json_add_real(&fields, "cell_to_cell_seconds", comparison->pvs_seconds);
-    sl_json_add_list(&fields, "rows", rows, comparison->row_count);
+    json_fields fields = json_begin();
+    json_add_text(&fields, "map", comparison->input);
+    json_add_text(&fields, "sight", sight_name(comparison->sight));
+    json_add_count(&fields, "walls", space->wall_count);
+    json_add_count(&fields, "cells", space->cell_count);
+    json_add_count(&fields, "inside_cells", space->inside_count);
+    json_add_count(&fields, "portals", space->portal_count);
+    json_add_count(&fields, "viewpoints", comparison->plan->viewpoints);
+    json_add_count(&fields, "seed", comparison->plan->seed);
+    json_add_real(&fields, "cell_to_cell_seconds", comparison->pvs_seconds);
+    json_add_list(&fields, "rows", rows, comparison->row_count);
     sl_free(context, rows);
-    return sl_json_print(context, &fields);
+    return json_print(context, &fields);
 }

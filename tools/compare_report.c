@@ -375,27 +375,27 @@ void compare_print(const compare_result *comparison) {
 
 // --- JSON
 
-static void add_value(sl_json_fields *fields, const char *key, column_value value) {
+static void add_value(json_fields *fields, const char *key, column_value value) {
     switch (value.kind) {
     case VALUE_NONE:
-        sl_json_add_text(fields, key, NULL);
+        json_add_text(fields, key, NULL);
         return;
     case VALUE_TEXT:
-        sl_json_add_text(fields, key, value.text);
+        json_add_text(fields, key, value.text);
         return;
     case VALUE_REAL:
-        sl_json_add_real(fields, key, value.real);
+        json_add_real(fields, key, value.real);
         return;
     case VALUE_COUNT:
-        sl_json_add_count(fields, key, value.count);
+        json_add_count(fields, key, value.count);
         return;
     }
 }
 
-static sl_json_fields fields_of_run(const compare_result *comparison, const compare_run *run) {
+static json_fields fields_of_run(const compare_result *comparison, const compare_run *run) {
     size_t count;
     const compare_column *columns = compare_columns(&count);
-    sl_json_fields fields = sl_json_begin();
+    json_fields fields = json_begin();
     for (size_t i = 0; i < count; i++)
         add_value(&fields, columns[i].name, columns[i].value(comparison, run));
     return fields;
@@ -406,21 +406,21 @@ sl_status compare_print_json(sl_context *context, const compare_result *comparis
     char reference[RUN_NAME] = "";
     if (comparison->reference != NO_RUN)
         run_name(&comparison->runs[comparison->reference], reference);
-    sl_json_fields *runs = sl_alloc_array(context, comparison->run_count, sizeof *runs);
+    json_fields *runs = sl_alloc_array(context, comparison->run_count, sizeof *runs);
     if (!runs) return SL_NO_MEMORY;
     for (size_t i = 0; i < comparison->run_count; i++)
         runs[i] = fields_of_run(comparison, &comparison->runs[i]);
-    sl_json_fields fields = sl_json_begin();
-    sl_json_add_text(&fields, "map", comparison->input);
-    sl_json_add_text(&fields, "sight", sight_name(comparison->sight));
-    sl_json_add_count(&fields, "walls", space->wall_count);
-    sl_json_add_count(&fields, "cells", space->cell_count);
-    sl_json_add_count(&fields, "portals", space->portal_count);
-    sl_json_add_count(&fields, "threads", 1);
-    sl_json_add_real(&fields, "time_limit", comparison->limit);
-    sl_json_add_text(&fields, "reference", reference[0] ? reference : NULL);
-    sl_json_add_list(&fields, "runs", runs, comparison->run_count);
+    json_fields fields = json_begin();
+    json_add_text(&fields, "map", comparison->input);
+    json_add_text(&fields, "sight", sight_name(comparison->sight));
+    json_add_count(&fields, "walls", space->wall_count);
+    json_add_count(&fields, "cells", space->cell_count);
+    json_add_count(&fields, "portals", space->portal_count);
+    json_add_count(&fields, "threads", 1);
+    json_add_real(&fields, "time_limit", comparison->limit);
+    json_add_text(&fields, "reference", reference[0] ? reference : NULL);
+    json_add_list(&fields, "runs", runs, comparison->run_count);
     compare_subdivisions_add_json(&fields, &comparison->subdivisions);
     sl_free(context, runs);
-    return sl_json_print(context, &fields);
+    return json_print(context, &fields);
 }

@@ -170,20 +170,20 @@ void compare_subdivisions_print(const compare_subdivisions *all) {
            all->method->name, all->solver ? " with " : "", all->solver ? all->solver->name : "");
 }
 
-void compare_subdivisions_add_json(sl_json_fields *fields, const compare_subdivisions *all) {
-    sl_json_fields list[SUBDIVISIONS_MOST];
+void compare_subdivisions_add_json(json_fields *fields, const compare_subdivisions *all) {
+    json_fields list[SUBDIVISIONS_MOST];
     for (size_t i = 0; i < all->count; i++) {
         const compare_subdivision *one = &all->items[i];
-        list[i] = sl_json_begin();
-        sl_json_add_text(&list[i], "name", one->subdivision->name);
-        sl_json_add_count(&list[i], "cells", one->cells);
-        sl_json_add_count(&list[i], "portals", one->portals);
-        sl_json_add_real(&list[i], "subdivide_seconds", one->subdivide_seconds);
-        sl_json_add_text(&list[i], "method", all->method->name);
-        sl_json_add_text(&list[i], "solver", all->solver ? all->solver->name : NULL);
-        sl_json_add_flag(&list[i], "done", one->done);
-        sl_json_add_real(&list[i], "seconds", one->seconds);
-        sl_json_add_count(&list[i], "pairs", one->pairs);
+        list[i] = json_begin();
+        json_add_text(&list[i], "name", one->subdivision->name);
+        json_add_count(&list[i], "cells", one->cells);
+        json_add_count(&list[i], "portals", one->portals);
+        json_add_real(&list[i], "subdivide_seconds", one->subdivide_seconds);
+        json_add_text(&list[i], "method", all->method->name);
+        json_add_text(&list[i], "solver", all->solver ? all->solver->name : NULL);
+        json_add_flag(&list[i], "done", one->done);
+        json_add_real(&list[i], "seconds", one->seconds);
+        json_add_count(&list[i], "pairs", one->pairs);
     }
-    if (all->count) sl_json_add_list(fields, "subdivisions", list, all->count);
+    if (all->count) json_add_list(fields, "subdivisions", list, all->count);
 }

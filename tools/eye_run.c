@@ -329,28 +329,35 @@ void eye_objects_print(const eye_objects *objects) {
                sl_mirrored_area(&objects->mirrored_region));
 }
 
-void eye_objects_add_json(sl_json_fields *fields, const sl_baked *baked,
-                          const eye_objects *objects) {
+/// Whether an object before it was given by the same text: a key stands once in an object.
+static bool is_repeated(const eye_objects *objects, size_t index) {
+    for (size_t i = 0; i < index; i++)
+        if (strcmp(objects->objects[i].text, objects->objects[index].text) == 0) return true;
+    return false;
+}
+
+void eye_objects_add_json(json_fields *fields, const sl_baked *baked, const eye_objects *objects) {
     if (!objects->count) return;
-    sl_json_fields sets = sl_json_begin(), seen = sl_json_begin(), region = sl_json_begin();
+    json_fields sets = json_begin(), seen = json_begin(), region = json_begin();
     for (size_t i = 0; i < objects->count; i++)
-        sl_json_add_flag(&seen, objects->objects[i].text, objects->seen[i]);
-    sl_json_add_fields(fields, "objects_seen", &seen);
+        if (!is_repeated(objects, i))
+            json_add_flag(&seen, objects->objects[i].text, objects->seen[i]);
+    json_add_fields(fields, "objects_seen", &seen);
     if (objects->has_mirrors) {
-        sl_json_fields mirrored = sl_json_begin();
+        json_fields mirrored = json_begin();
         for (size_t i = 0; i < objects->count; i++)
-            sl_json_add_flag(&mirrored, objects->objects[i].text, objects->mirrored[i]);
-        sl_json_add_fields(fields, "objects_mirrored", &mirrored);
-        sl_json_add_members(&sets, "mirrored_cells", objects->mirrored_cells,
-                            baked->space.cell_count);
+            if (!is_repeated(objects, i))
+                json_add_flag(&mirrored, objects->objects[i].text, objects->mirrored[i]);
+        json_add_fields(fields, "objects_mirrored", &mirrored);
+        json_add_members(&sets, "mirrored_cells", objects->mirrored_cells, baked->space.cell_count);
     }
-    sl_json_add_members(&sets, "cells", objects->cells, baked->space.cell_count);
+    json_add_members(&sets, "cells", objects->cells, baked->space.cell_count);
     const sl_region_measures measures = sl_region_measure(&objects->region);
-    sl_json_add_real(&region, "area", measures.area);
-    sl_json_add_real(&region, "perimeter", measures.perimeter);
-    sl_json_add_points(&region, "polygon", objects->region.points, objects->region.count);
-    sl_json_add_fields(&sets, "region", &region);
-    sl_json_add_fields(fields, "past_objects", &sets);
+    json_add_real(&region, "area", measures.area);
+    json_add_real(&region, "perimeter", measures.perimeter);
+    json_add_points(&region, "polygon", objects->region.points, objects->region.count);
+    json_add_fields(&sets, "region", &region);
+    json_add_fields(fields, "past_objects", &sets);
 }
 
 // --- polygons to be drawn

@@ -85,8 +85,7 @@ sl_status eye_objects_run(sl_context *context, sl_query *query, const eye_run *r
                           eye_objects *objects);
 void eye_objects_print(const eye_objects *objects);
 /// Adds "objects_seen" and "past_objects"; nothing where there are no objects.
-void eye_objects_add_json(sl_json_fields *fields, const sl_baked *baked,
-                          const eye_objects *objects);
+void eye_objects_add_json(json_fields *fields, const sl_baked *baked, const eye_objects *objects);
 void eye_objects_destroy(sl_context *context, eye_objects *objects);
 
 /// Adds the direct region (if `direct`) and all parts that are seen by mirror. Arcs become chords.

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-void sl_text_make_readable(const char *text, char *out, size_t size) {
+void text_make_readable(const char *text, char *out, size_t size) {
     snprintf(out, size, "%s", text);
     // The copy may end within a character.
     if (sl_text_is_utf8(text) && strlen(text) < size) return;
@@ -14,7 +14,7 @@ void sl_text_make_readable(const char *text, char *out, size_t size) {
 }
 
 static void append(void *user, const char *text, size_t size) {
-    sl_json_fields *fields = user;
+    json_fields *fields = user;
     if (fields->size + size > fields->room) {
         const size_t room = 2 * (fields->size + size);
         char *grown = realloc(fields->text, room);
@@ -28,122 +28,123 @@ static void append(void *user, const char *text, size_t size) {
 }
 
 /// The writer of fields that may have moved since it was used last.
-static sl_json_writer *writer_of(sl_json_fields *fields) {
+static sl_json_writer *writer_of(json_fields *fields) {
     fields->writer.user = fields;
     return &fields->writer;
 }
 
-sl_json_fields sl_json_begin(void) {
-    sl_json_fields fields = {.writer.put = append};
+json_fields json_begin(void) {
+    json_fields fields = {.writer.put = append};
     sl_json_put_object(writer_of(&fields));
     return fields;
 }
 
-void sl_json_drop(sl_json_fields *fields) {
+void json_drop(json_fields *fields) {
     free(fields->text);
-    *fields = (sl_json_fields){0};
+    *fields = (json_fields){0};
 }
 
-sl_json_writer *sl_json_add(sl_json_fields *fields, const char *key) {
+sl_json_writer *json_add(json_fields *fields, const char *key) {
     sl_json_writer *json = writer_of(fields);
+    char readable[256];
+    if (!sl_text_is_utf8(key)) {
+        text_make_readable(key, readable, sizeof readable);
+        key = readable;
+    }
     sl_json_put_key(json, key);
     return json;
 }
 
-void sl_json_add_count(sl_json_fields *fields, const char *key, uint64_t count) {
-    sl_json_put_integer(sl_json_add(fields, key), (int64_t)count);
+void json_add_count(json_fields *fields, const char *key, uint64_t count) {
+    sl_json_put_integer(json_add(fields, key), (int64_t)count);
 }
 
-void sl_json_add_real(sl_json_fields *fields, const char *key, double finite) {
-    sl_json_put_real(sl_json_add(fields, key), finite);
+void json_add_real(json_fields *fields, const char *key, double finite) {
+    sl_json_put_real(json_add(fields, key), finite);
 }
 
-void sl_json_add_flag(sl_json_fields *fields, const char *key, bool flag) {
-    sl_json_put_flag(sl_json_add(fields, key), flag);
+void json_add_flag(json_fields *fields, const char *key, bool flag) {
+    sl_json_put_flag(json_add(fields, key), flag);
 }
 
-void sl_json_add_text(sl_json_fields *fields, const char *key, const char *text) {
-    sl_json_writer *json = sl_json_add(fields, key);
+void json_add_text(json_fields *fields, const char *key, const char *text) {
+    sl_json_writer *json = json_add(fields, key);
     char readable[256];
     if (!text) {
         sl_json_put_null(json);
         return;
     }
     if (!sl_text_is_utf8(text)) {
-        sl_text_make_readable(text, readable, sizeof readable);
+        text_make_readable(text, readable, sizeof readable);
         text = readable;
     }
     sl_json_put_text(json, text);
 }
 
-void sl_json_add_list(sl_json_fields *fields, const char *key, sl_json_fields *items,
-                      size_t count) {
-    sl_json_writer *json = sl_json_add(fields, key);
+void json_add_list(json_fields *fields, const char *key, json_fields *items, size_t count) {
+    sl_json_writer *json = json_add(fields, key);
     sl_json_put_list(json);
     for (size_t i = 0; i < count; i++) {
         sl_json_put_end(writer_of(&items[i]), '}');
         fields->failed |= items[i].failed || items[i].writer.failed;
         sl_json_put_written(json, items[i].text, items[i].size);
-        sl_json_drop(&items[i]);
+        json_drop(&items[i]);
     }
     sl_json_put_end(json, ']');
 }
 
-void sl_json_add_box(sl_json_fields *fields, const char *key, sl_box box) {
+void json_add_box(json_fields *fields, const char *key, sl_box box) {
     const double numbers[] = {box.min.x, box.min.y, box.max.x, box.max.y};
-    sl_json_writer *json = sl_json_add(fields, key);
+    sl_json_writer *json = json_add(fields, key);
     sl_json_put_list(json);
     for (int i = 0; i < 4; i++) sl_json_put_real(json, numbers[i]);
     sl_json_put_end(json, ']');
 }
 
-void sl_json_add_members(sl_json_fields *fields, const char *key, const uint64_t *set,
-                         uint32_t count) {
-    sl_json_writer *json = sl_json_add(fields, key);
+void json_add_members(json_fields *fields, const char *key, const uint64_t *set, uint32_t count) {
+    sl_json_writer *json = json_add(fields, key);
     sl_json_put_list(json);
     for (uint32_t i = 0; i < count; i++)
         if (sl_bits_has(set, i)) sl_json_put_integer(json, i);
     sl_json_put_end(json, ']');
 }
 
-void sl_json_put_point(sl_json_writer *json, sl_point point) {
+void json_put_point(sl_json_writer *json, sl_point point) {
     sl_json_put_list(json);
     sl_json_put_real(json, point.x);
     sl_json_put_real(json, point.y);
     sl_json_put_end(json, ']');
 }
 
-void sl_json_add_points(sl_json_fields *fields, const char *key, const sl_point *points,
-                        size_t count) {
-    sl_json_writer *json = sl_json_add(fields, key);
+void json_add_points(json_fields *fields, const char *key, const sl_point *points, size_t count) {
+    sl_json_writer *json = json_add(fields, key);
     sl_json_put_list(json);
-    for (size_t i = 0; i < count; i++) sl_json_put_point(json, points[i]);
+    for (size_t i = 0; i < count; i++) json_put_point(json, points[i]);
     sl_json_put_end(json, ']');
 }
 
-void sl_json_add_fields(sl_json_fields *fields, const char *key, sl_json_fields *inner) {
+void json_add_fields(json_fields *fields, const char *key, json_fields *inner) {
     sl_json_put_end(writer_of(inner), '}');
     fields->failed |= inner->failed || inner->writer.failed;
-    sl_json_put_written(sl_json_add(fields, key), inner->text, inner->size);
-    sl_json_drop(inner);
+    sl_json_put_written(json_add(fields, key), inner->text, inner->size);
+    json_drop(inner);
 }
 
-void sl_json_add_cleaning(sl_json_fields *fields, const char *key,
-                          const sl_clean_account *account) {
-    sl_json_fields cleaning = sl_json_begin();
-    sl_json_add_count(&cleaning, "before", account->before);
-    sl_json_add_count(&cleaning, "after", account->after);
-    sl_json_add_count(&cleaning, "zero_length", account->zero_length);
-    sl_json_add_count(&cleaning, "duplicate", account->duplicate);
-    sl_json_add_count(&cleaning, "merged", account->merged);
-    sl_json_add_count(&cleaning, "split", account->split);
-    sl_json_add_count(&cleaning, "welded", account->welded);
-    sl_json_add_count(&cleaning, "crossings", account->crossings);
-    sl_json_add_real(&cleaning, "largest_move", account->largest_move);
-    sl_json_add_fields(fields, key, &cleaning);
+void json_add_cleaning(json_fields *fields, const char *key, const sl_clean_account *account) {
+    json_fields cleaning = json_begin();
+    json_add_count(&cleaning, "before", account->before);
+    json_add_count(&cleaning, "after", account->after);
+    json_add_count(&cleaning, "zero_length", account->zero_length);
+    json_add_count(&cleaning, "duplicate", account->duplicate);
+    json_add_count(&cleaning, "merged", account->merged);
+    json_add_count(&cleaning, "split", account->split);
+    json_add_count(&cleaning, "welded", account->welded);
+    json_add_count(&cleaning, "crossings", account->crossings);
+    json_add_real(&cleaning, "largest_move", account->largest_move);
+    json_add_fields(fields, key, &cleaning);
 }
 
-sl_status sl_json_print(sl_context *context, sl_json_fields *fields) {
+sl_status json_print(sl_context *context, json_fields *fields) {
     sl_json_put_end(writer_of(fields), '}');
     const bool failed = fields->failed || fields->writer.failed;
     // A write that fails shows when the program checks its stdout at the end.
@@ -152,6 +153,6 @@ sl_status sl_json_print(sl_context *context, sl_json_fields *fields) {
         sl_json_put_written(&out, fields->text, fields->size);
         putchar('\n');
     }
-    sl_json_drop(fields);
+    json_drop(fields);
     return failed ? sl_fail_memory(context) : SL_OK;
 }

@@ -28,14 +28,13 @@ void plan_print(const sl_map *map) {
     if (!*lead) putchar('\n');
 }
 
-void plan_add_json(sl_json_fields *fields, const sl_map *map) {
+void plan_add_json(json_fields *fields, const sl_map *map) {
     size_t count;
     const sl_effect *const *effects = sl_effects(&count);
     const unsigned called_for = sl_plan_make(map).effects;
-    sl_json_fields calls = sl_json_begin();
-    for (size_t i = 0; i < count; i++)
-        sl_json_add_flag(&calls, effects[i]->name, called_for >> i & 1);
-    sl_json_add_fields(fields, "effects", &calls);
+    json_fields calls = json_begin();
+    for (size_t i = 0; i < count; i++) json_add_flag(&calls, effects[i]->name, called_for >> i & 1);
+    json_add_fields(fields, "effects", &calls);
 }
 
 // --- cleaning
@@ -132,11 +131,11 @@ void mean_pvs_print(const pvs_means *mean) {
            100 * mean->share_of_cells, 100 * mean->share_of_area);
 }
 
-void mean_pvs_add_json(sl_json_fields *fields, const pvs_means *mean) {
-    sl_json_add_text(fields, "mean_pvs_over", mean->inside_only ? "inside cells" : "all cells");
-    sl_json_add_real(fields, "mean_pvs_cells", mean->cells);
-    sl_json_add_real(fields, "mean_pvs_share_of_cells", mean->share_of_cells);
-    sl_json_add_real(fields, "mean_pvs_share_of_area", mean->share_of_area);
+void mean_pvs_add_json(json_fields *fields, const pvs_means *mean) {
+    json_add_text(fields, "mean_pvs_over", mean->inside_only ? "inside cells" : "all cells");
+    json_add_real(fields, "mean_pvs_cells", mean->cells);
+    json_add_real(fields, "mean_pvs_share_of_cells", mean->share_of_cells);
+    json_add_real(fields, "mean_pvs_share_of_area", mean->share_of_area);
 }
 
 // --- times

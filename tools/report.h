@@ -11,7 +11,7 @@
 void plan_print(const sl_map *map);
 
 /// Adds "effects": a flag for each.
-void plan_add_json(sl_json_fields *fields, const sl_map *map);
+void plan_add_json(json_fields *fields, const sl_map *map);
 
 /// Prints what cleaning did, if anything: the rest of a line, and a line about welding.
 void cleaning_print(const sl_clean_account *account);
@@ -31,7 +31,7 @@ sl_status mean_pvs_of(sl_context *context, const sl_baked *baked, pvs_means *out
 /// As lines of a report.
 void mean_pvs_print(const pvs_means *mean);
 /// As fields "mean_pvs_...".
-void mean_pvs_add_json(sl_json_fields *fields, const pvs_means *mean);
+void mean_pvs_add_json(json_fields *fields, const pvs_means *mean);
 
 enum { SECONDS_TEXT = 32 };
 

@@ -1,6 +1,5 @@
-/// The account of what accuracy costs: each culling method by what it keeps of the view and what
-/// that takes. The chart is made anew a few times a second, so that it can be read while times
-/// change.
+/// The account: what each culling method keeps of the view, and what that costs. The chart is drawn
+/// again a few times a second, so that one can read it while times change.
 #include "account.h"
 
 #include "modes.h"
@@ -22,7 +21,7 @@ typedef struct account {
     sl_chart chart;
 } account;
 
-/// Under a script tests stand for the time, so that pictures are the same each time.
+/// Scripts count tests in place of time, so that pictures are the same each time.
 static double cost_of(const app_state *app, double seconds, uint64_t tests) {
     return app->steady ? fmax((double)tests, 1) : fmax(seconds, 1e-8);
 }
@@ -41,7 +40,7 @@ static void add_mark(account *a, size_t i, double cost, double share) {
         (sl_chart_mark){.x = cost, .y = 100 * share, .label = a->labels[i], .note = a->notes[i]};
 }
 
-/// Marks of the methods that could answer, from loose to exact, and how many there are.
+/// Adds the marks of the methods that could answer, from loose to exact. Returns their number.
 static size_t add_methods(const app_state *app, account *a) {
     size_t count, marks = 0;
     const sl_eye_method *methods = sl_eye_methods(&count);
@@ -73,7 +72,7 @@ static void add_region(const app_state *app, account *a, size_t i) {
     add_mark(a, i, spent, share);
 }
 
-/// Logarithmic, as methods differ by factors, but for areas that are nothing.
+/// The axis is logarithmic, since methods differ by factors; it is not where an area is 0.
 static sl_chart_scale area_scale(const account *a, size_t marks) {
     for (size_t i = 0; i < marks; i++)
         if (!(a->marks[i].y > 0)) return SL_CHART_LINEAR;

@@ -1,4 +1,4 @@
-/// The one table of what can be done: keys, buttons, the help and scripts all go by it.
+/// The table of all actions. Keys, buttons, the help and scripts use it.
 #ifndef VIEWER_ACTIONS_H
 #define VIEWER_ACTIONS_H
 
@@ -17,12 +17,12 @@ typedef struct action_row {
 
 const action_row *action_table(size_t *count);
 
-/// The number of an action; -1 for none of that name.
+/// The number of an action; -1 for an unknown name.
 int action_find(const char *name);
-/// That of a key in a mode; -1 for none.
+/// The number of the action of a key in a mode; -1 for none.
 int action_of_key(const char *key, app_mode mode);
 
-/// Does it; one that is held is switched on for good until app_release.
+/// Runs an action. One that is held stays on until app_release.
 void action_run(app_state *app, int action);
 
 #endif

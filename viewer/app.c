@@ -75,13 +75,13 @@ static sl_view eye_view(const app_state *app) {
                : sl_view_cone(app->view.eye.at, app->view.eye.heading, app->view.eye.fov, reach);
 }
 
-/// What was made of the document before its last change.
+/// Drops what was made of the document before its last change.
 static void drop_made(app_state *app) {
     drop_scenes(app);
     app->view.seen.valid = false;
 }
 
-/// A map that was opened starts from its own start; one that was edited keeps the eye.
+/// A map that was opened starts from its own start. After a change by hand the eye stays.
 static void take_document(app_state *app, bool opened) {
     drop_made(app);
     app->tool.wall = UINT32_MAX;
@@ -115,7 +115,7 @@ void app_take_opened(app_state *app) {
     take_document(app, true);
 }
 
-/// What the eye sees of the document now; words about what it was are dropped.
+/// Follows the document and the eye; drops words about what was seen before.
 static void follow(app_state *app) {
     const uint32_t before = app->view.present.version;
     app_check(app,
@@ -123,8 +123,8 @@ static void follow(app_state *app) {
     if (app->view.present.version != before && app->tool.quiz.answered) quiz_forget(app);
 }
 
-/// While something is dragged the map is made anew as soon as the last one has its cells: one
-/// that was begun at each step would never get that far.
+/// While something is dragged, a new bake starts only after the last one has its cells. Bakes that
+/// start at each step would never get that far.
 static void keep_up(app_state *app) {
     if (!app->document.stale || document_awaits_space(&app->document)) return;
     app_after_edit(app);

@@ -1,5 +1,5 @@
-/// The viewer's state, and the frame that is drawn of it. Knows nothing of windows: the window, a
-/// script and a test drive it alike.
+/// The state of the viewer, and the frame that is drawn from it. It knows no window: the window,
+/// scripts and tests use it alike.
 #ifndef VIEWER_APP_H
 #define VIEWER_APP_H
 
@@ -19,7 +19,7 @@ typedef enum app_mode { MODE_EXPLORE, MODE_LEARN, MODE_DRAW, MODE_QUIZ } app_mod
 
 typedef enum comparison { COMPARE_OFF, COMPARE_PANES, COMPARE_DIFFERENCE } comparison;
 
-/// A picture that is kept as long as what it shows does not change.
+/// A picture that is kept until what it shows changes.
 typedef struct kept_picture {
     cairo_surface_t *surface;
     struct {
@@ -64,7 +64,7 @@ typedef struct drag_state {
     bool changed;
 } drag_state;
 
-/// The list that is shown while `maps_open`: files at hand, or the maps of one of them.
+/// The list that is shown while `maps_open`: files, or the maps of one file.
 typedef struct map_shelf {
     sl_map_list files;      ///< paths
     document_source source; ///< whose maps are listed; no path: files are
@@ -80,7 +80,7 @@ typedef struct quiz_state {
     sl_explanation explanation; ///< once answered
 } quiz_state;
 
-/// What is shown, and from where; what is worked out for that is kept from frame to frame.
+/// What is shown and from where. Results are kept from frame to frame.
 typedef struct view_state {
     plan_camera camera;
     bool fitted; ///< the camera fits the map, and follows the window's size
@@ -107,7 +107,7 @@ typedef struct view_state {
     watch_layer *watch;
 } view_state;
 
-/// What the hand does: the mode, keys and pointer, what is chosen, and the exercises.
+/// What the user does: the mode, keys and pointer, the selection, and the exercises.
 typedef struct tool_state {
     app_mode mode;
     unsigned held;    ///< keys, of hold_key
@@ -134,39 +134,39 @@ struct app_state {
 void app_init(app_state *app, sl_context *context);
 void app_destroy(app_state *app);
 
-/// The first map is there: looks at it from its start.
+/// The first map is there: puts the eye at its start.
 void app_take_opened(app_state *app);
 
-/// Says what failed, where something did.
+/// Shows the message of a failure; nothing for SL_OK.
 void app_check(app_state *app, sl_status status);
 
-/// Time goes on: walks, plays, takes over what the background has done.
+/// Lets time pass: walks, plays, takes over results of the background.
 void app_tick(app_state *app, double seconds);
 
-/// Waits for the background, so that scripts are the same on every machine.
+/// Waits for the background. Scripts need this to be the same on every machine.
 void app_settle(app_state *app);
 
-/// How the work in the background stands: the document's before all else.
+/// The progress of the background; that of the document comes first.
 job_progress app_progress(const app_state *app);
 
 /// Draws the whole window of width x height.
 void app_draw(app_state *app, cairo_t *cairo);
 
-/// The camera fits the map into a plan of that size, where it is to.
+/// Fits the map into a plan of that size, if the camera is to fit.
 void app_fit(app_state *app, sl_box plan);
 
-/// The map is about to be changed by hand: remembers it for undo.
+/// Call before a change by hand: keeps the map for undo.
 void app_keep(app_state *app);
-/// Likewise where a new bake will be needed; after the change, makes all anew.
+/// The same where the change needs a new bake. Call app_after_edit after it: that starts the bake.
 void app_before_edit(app_state *app);
 void app_after_edit(app_state *app);
-/// The map was changed, and no new bake is needed.
+/// Call after a change that needs no new bake.
 void app_after_touch(app_state *app);
 
-/// The cell of the eye; SL_NO_CELL outside and without a map.
+/// The cell of the eye; SL_NO_CELL outside, and without a map.
 uint32_t app_eye_cell(const app_state *app);
 
-/// The panes below the plan, side by side: the rows of the table in panes.c.
+/// The panes below the plan, side by side: rows of the table in modes.c.
 enum { PANE_DUAL, PANE_FIRST_PERSON, PANE_ACCOUNT, PANE_EFFECTS, PANES_BELOW };
 
 /// Where things are on the page.

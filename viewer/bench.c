@@ -39,8 +39,7 @@ meter_summary meter_sum_up(frame_meter *meter) {
 
 // --- benchmark
 
-/// Seconds of the processor's time that this thread has had. Neither a busy machine nor work in the
-/// background changes that much.
+/// Seconds of processor time of this thread. A busy machine and the background hardly change them.
 static double processor_seconds(void) {
     struct timespec now;
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

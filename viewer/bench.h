@@ -1,5 +1,5 @@
-/// Runs without a user: frame times of a walk with all layers on and software rendering, and random
-/// events that look for what falls over.
+/// Runs without a user: frame times with all layers on and software rendering, and random events
+/// that look for crashes.
 #ifndef VIEWER_BENCH_H
 #define VIEWER_BENCH_H
 
@@ -23,11 +23,11 @@ typedef struct meter_summary {
 /// Sorts what was measured.
 meter_summary meter_sum_up(frame_meter *meter);
 
-/// Walks, turns and pans through the map that is open and prints a CSV line a part of it:
+/// Walks, turns and pans through the open map. Prints one CSV line for each part:
 /// map,cells,walls,part,frames,mean_ms,median_ms,p95_ms,worst_ms,processor_ms,machine
 sl_status bench_run(app_state *app, unsigned frames);
 
-/// Keys, clicks, drags, sizes and maps at random for so many seconds, without a window.
+/// Sends random keys, clicks, drags, sizes and maps for a number of seconds, without a window.
 sl_status soak_run(app_state *app, double seconds, uint64_t seed);
 
 #endif

@@ -1,10 +1,9 @@
-/// What is open, and the work in the background: from a file or a map to its space, and on to its
+/// What is open, and the job in the background: from a file or a map to its space, and on to its
 /// visibility, in a thread of its own.
 ///
-/// A job owns all that it makes until it sets a flag: space_ready, seen_ready, done. From then on
-/// that part is the main thread's, which takes it over in document_poll and never waits. A change
-/// by hand cancels the job and starts another one. The last map stays until the new one has its
-/// space.
+/// A job owns all that it makes until it sets a flag: space_ready, seen_ready, done. After the flag
+/// that part belongs to the main thread. document_poll takes it over and never waits. A change by
+/// hand cancels the job and starts another one. The old map stays until the new one has its space.
 #include "document.h"
 
 #include "sightline/io.h"
@@ -23,7 +22,7 @@ static void clear(sl_context *context, sl_map *list, size_t *count) {
     while (*count) sl_map_destroy(context, &list[--*count]);
 }
 
-/// The oldest makes room.
+/// The oldest change is dropped for a new one.
 static sl_status push(sl_context *context, sl_map *list, size_t *count, const sl_map *map) {
     sl_map copy = {0};
     const sl_status status = sl_map_copy(context, map, &copy);
@@ -56,7 +55,7 @@ static bool same_glass(const sl_glass *a, size_t a_count, const sl_glass *b, siz
     return same;
 }
 
-/// Whether two maps differ in nothing that a bake looks at: doors may be open or shut.
+/// Whether two maps are equal for a bake: doors may be open or shut.
 static bool same_bake(const sl_map *a, const sl_map *b) {
     bool same = a->wall_count == b->wall_count && a->door_count == b->door_count &&
                 a->cell_count == b->cell_count && a->range == b->range;
@@ -111,10 +110,10 @@ struct bake_job {
     bool taken, seen_taken; ///< the main thread has the space, the visibility
 };
 
-/// A stab tree is kept as long as all fit into this.
+/// Stab trees are kept if all of them fit into this.
 #define TREE_BYTES ((uint64_t)128 << 20)
 
-/// Stab trees are searched for no longer than this: open places have too many sequences.
+/// The search for stab trees ends after this time: open places have too many sequences.
 #define TREE_SECONDS 20
 
 static bool is_cancelled(void *user) {
@@ -129,7 +128,7 @@ static void take_progress(void *user, const sl_progress *progress) {
     atomic_store(&job->total, progress->total);
 }
 
-/// Puts other walls in place of a map's own.
+/// Replaces the walls of a map.
 static sl_status set_walls(sl_context *context, sl_map *map, const sl_wall *walls, size_t count) {
     map->wall_count = 0;
     for (size_t i = 0; i < count; i++)
@@ -137,7 +136,7 @@ static sl_status set_walls(sl_context *context, sl_map *map, const sl_wall *wall
     return SL_OK;
 }
 
-/// A baked file has everything but the map as drawn, which its space's walls stand for.
+/// A baked file has all but the map as drawn: the walls of its space take its place.
 static sl_status read_baked(sl_context *context, bake_job *job) {
     SL_TRY(sl_baked_read(context, job->source.path, job->baked));
     SL_TRY(sl_map_copy(context, &job->baked->map, &job->map));
@@ -162,8 +161,8 @@ static sl_status read_map(sl_context *context, bake_job *job) {
     return sl_map_add_start(context, &job->map, source->start, 0, 0);
 }
 
-/// Finds what `options` ask for. The job has a map of its own for that: the baked one is the main
-/// thread's by then.
+/// Finds what `options` ask for. It uses a map of the job, since the baked map belongs to the main
+/// thread by now.
 static sl_status see(sl_context *context, bake_job *job, const sl_bake_options *options,
                      sl_visibility *out) {
     sl_baked own = {.map = job->clean, .space = job->baked->space};
@@ -172,7 +171,7 @@ static sl_status see(sl_context *context, bake_job *job, const sl_bake_options *
     return SL_OK;
 }
 
-/// The search finds the stab trees too. Where it takes too long there are none.
+/// The search also finds the stab trees. If it takes too long there are none.
 static sl_status see_with_trees(sl_context *context, bake_job *job, sl_bake_options options) {
     options.method = sl_see_method_named("dfs");
     options.see.solver = sl_funnel();
@@ -231,7 +230,7 @@ static void free_job(sl_context *context, bake_job *job) {
     sl_free(context, job);
 }
 
-/// Starts the thread. Takes what the job holds in any case.
+/// Starts the thread. Owns the content of the job also on failure.
 static sl_status bake_job_start(sl_context *context, bake_job *job) {
     atomic_store(&job->stage, "read");
     job->baked = sl_alloc_array(context, 1, sizeof *job->baked);
@@ -240,7 +239,7 @@ static sl_status bake_job_start(sl_context *context, bake_job *job) {
     return sl_fail(context, SL_NO_MEMORY, "no thread for the work in the background");
 }
 
-/// Waits for the thread and frees the job with what nobody has taken.
+/// Waits for the thread. Frees the job with all that was not taken over.
 static void bake_job_end(sl_context *context, bake_job *job) {
     pthread_join(job->thread, NULL);
     free_job(context, job);
@@ -395,7 +394,7 @@ static sl_status measure_cells(sl_context *context, document_state *document) {
     return SL_OK;
 }
 
-/// The space is there: from now on it is what is shown.
+/// Takes over the space: it is shown from now on.
 static sl_status take_space(sl_context *context, document_state *document) {
     bake_job *job = document->job;
     drop_baked(context, document);
@@ -419,7 +418,7 @@ static sl_status take_space(sl_context *context, document_state *document) {
     return make_search(context, document);
 }
 
-/// What is seen is there, or, with no change but for them, is there with its stab trees.
+/// Takes over the visible sets. They come a second time, equal but with stab trees.
 static sl_status take_visibility(sl_context *context, document_state *document,
                                  sl_visibility *from) {
     if (document->search) sl_eye_search_destroy(context, document->search);

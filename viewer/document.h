@@ -1,5 +1,5 @@
-/// What is open: a map with its space and visibility, made anew in the background after each
-/// change; and the changes by hand, for undo.
+/// What is open: a map with its space and visibility, baked again in the background after each
+/// change. Undo belongs to it.
 #ifndef VIEWER_DOCUMENT_H
 #define VIEWER_DOCUMENT_H
 
@@ -8,7 +8,7 @@
 #include "sightline/import.h"
 #include "sightline/map.h"
 #include "sightline/region.h"
-#include "space/splits.h" // private: a lesson and a layer show the splits
+#include "space/kd_tree.h" // private: a lesson and a layer show the splits
 
 // --- undo
 
@@ -23,11 +23,11 @@ typedef struct edit_history {
 /// Keeps the map as it is, before a change.
 sl_status history_keep(sl_context *context, edit_history *history, const sl_map *map);
 
-/// The last change kept was none.
+/// Drops the last change that was kept: nothing changed.
 void history_forget_last(sl_context *context, edit_history *history);
 
-/// Goes one change back (or forward again); false where there is none. *bake tells whether what
-/// changed asks for a new bake.
+/// Goes one change back (or forward); false where there is none. *bake says whether the change
+/// needs a new bake.
 bool history_undo(sl_context *context, edit_history *history, sl_map *map, bool redo, bool *bake,
                   sl_status *status);
 
@@ -53,7 +53,7 @@ typedef struct bake_job bake_job;
 
 enum { OBJECTS_MOST = 256 };
 
-/// A document, zeroed to start. All but the pointers marked so stay empty while nothing is open.
+/// A document, zeroed to start. Its content stays empty while nothing is open.
 typedef struct document_state {
     document_source source;
     sl_map map;          ///< as drawn: what is edited and baked
@@ -67,8 +67,8 @@ typedef struct document_state {
     uint32_t counted;      ///< how many there are
     uint32_t mirror_depth; ///< reflections of a sightline, at most
     uint32_t baked_depth;  ///< that cells are seen with
-    /// The map's objects that can be moved, and which of them block sight: all of them, but for
-    /// maps with very many, of which none can.
+    /// The objects of the map that can be moved, and which of them block sight. A map with too many
+    /// has none that can be moved.
     size_t object_count;
     bool *blocks;
     uint32_t version; ///< grows with every change but that of stab trees, for who keeps pictures
@@ -79,53 +79,53 @@ typedef struct document_state {
     bool stale;           ///< the map changes while something is dragged: it is to be made anew
 } document_state;
 
-/// How the work in the background stands.
+/// The progress of the work in the background.
 typedef struct job_progress {
     bool running;
     const char *stage;
     double share; ///< 0 to 1; negative where it is not known
 } job_progress;
 
-/// Whether a file's name is that of a baked one.
+/// Whether a file has the name of a baked map.
 bool document_is_baked(const char *path);
 
-/// Starts to open a file (map or .slv): what is open stays until the new map has its space. Copies
+/// Starts to open a file (map or .slv). The old map stays until the new one has its space. Copies
 /// the source.
 sl_status document_open(sl_context *context, document_state *document,
                         const document_source *source);
 
-/// Starts to make space and visibility of the map as it is now.
+/// Starts to bake the map as it is now.
 sl_status document_rebuild(sl_context *context, document_state *document);
 
-/// Whether what cells see is there, and holds all that they see with the map's range as it is now.
+/// Whether visible sets are there, and hold all that cells see with the present range.
 bool document_has_rows(const document_state *document);
 
-/// Makes the search anew, as the mirrors' depth is another.
+/// Makes the search again after the mirror depth changed.
 sl_status document_renew_search(sl_context *context, document_state *document);
 
-/// Has a search over the document's cells look into the mirrors that were baked.
+/// Adds the baked mirrors to a search over the cells of the document.
 sl_status document_add_mirrors(sl_context *context, const document_state *document,
                                sl_eye_search *search);
 
-/// Whether a job runs that has no space yet.
+/// Whether a job is running that has no space yet.
 bool document_awaits_space(const document_state *document);
 
-/// What was changed in the map needs no new bake: shows it.
+/// Shows a change of the map that needs no new bake.
 void document_touch(document_state *document);
 
-/// Takes over what the background has done; *changed where something new can be shown. A job that
-/// failed gives its status and message, and leaves what was open.
+/// Takes over results of the background; sets *changed where there is something new. A job that
+/// failed gives its status and message, and the old map stays.
 sl_status document_poll(sl_context *context, document_state *document, bool *changed);
 
-/// Waits until nothing runs any more.
+/// Waits until no job runs.
 sl_status document_wait(sl_context *context, document_state *document, bool *changed);
 
 job_progress document_progress(const document_state *document);
 
-/// Stops the work in the background, if there is any.
+/// Stops the job, if one runs.
 void document_cancel(sl_context *context, document_state *document);
 
-/// All but the changes by hand, which are the caller's to clear.
+/// Closes all but the changes kept for undo: the caller clears those.
 void document_close(sl_context *context, document_state *document);
 
 #endif

@@ -1,5 +1,6 @@
 /// What a map has beside walls, in words and by hand: doors turn, mirrors and objects are dragged,
-/// the view range is set. What needs no bake shows at once; the rest follows from the background.
+/// the view range is set. A change that needs no bake shows at once; others follow from the
+/// background.
 #include "effects.h"
 
 #include "edit.h"
@@ -47,7 +48,7 @@ void effects_in_words(const sl_map *map, char text[CALLS_TEXT]) {
 
 // --- the pane
 
-/// The effects found, each with the stages that it adds; returns the base line below.
+/// Lists the effects, each with the stages that it adds; returns the base line below.
 static double draw_found(app_state *app, sl_box box, double y) {
     ui_state *ui = &app->ui;
     const sl_map *map = &app->document.map;
@@ -363,7 +364,7 @@ double range_most(const document_state *document) {
     return hypot(b.max.x - b.min.x, b.max.y - b.min.y);
 }
 
-/// To three digits, so that it can be read.
+/// Rounds to three digits, so that one can read it.
 static double rounded(double range) {
     const double step = pow(10, floor(log10(range)) - 2);
     return step * round(range / step);

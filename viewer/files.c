@@ -1,5 +1,5 @@
-/// Files: what is remembered from one time to the next ($XDG_CONFIG_HOME/sightline/view.conf), the
-/// files at hand, and how they are opened.
+/// Settings that are kept between runs ($XDG_CONFIG_HOME/sightline/view.conf), the files at hand,
+/// and how they are opened.
 #include "files.h"
 
 #include "sightline/import.h"
@@ -17,7 +17,7 @@
 
 enum { PATH = 4096 };
 
-/// False where there is no home to remember in. Makes the folders where `make` is set.
+/// False without a home folder. Makes the folders if `make` is set.
 static bool find_path(char path[PATH], bool make) {
     const char *config = getenv("XDG_CONFIG_HOME"), *home = getenv("HOME");
     char folder[PATH - 64];
@@ -122,8 +122,8 @@ void settings_save(app_state *app) {
 
 enum { FILES_MOST = 200 };
 
-/// By ending. Text files and pictures can be anything, and are listed only where they lie with
-/// maps.
+/// Whether a file is a map, by its ending. Text files and pictures can be anything: they are listed
+/// only in folders of maps.
 static bool is_map(const sl_context *context, const char *name, bool with_maps) {
     const char *dot = strrchr(name, '.');
     if (!dot) return false;
@@ -207,7 +207,7 @@ static void keep_useful(sl_import_options *options, unsigned takes) {
     if (!(takes & SL_TAKES_CELLS)) options->cells = false;
 }
 
-/// What the file is, and what there is to choose.
+/// Reads what kind of file it is, and which choices it offers.
 static sl_status look(sl_context *context, document_source *source, sl_map_choice *choice) {
     if (document_is_baked(source->path)) return SL_OK;
     SL_TRY(sl_map_choice_read(context, source->path, choice));

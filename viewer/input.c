@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-/// The list takes the keys that choose from it.
+/// The open list takes the keys that move in it.
 static bool list_key(app_state *app, const char *key, bool down) {
     static const struct {
         const char *key;
@@ -79,7 +79,7 @@ static void follow(app_state *app, const hit_area *hit, sl_point at) {
     }
 }
 
-/// A portal end of the lesson under the pointer: twice its number, and one more for a right end.
+/// The portal end of the lesson under the pointer: twice its number, plus one for a right end.
 static bool pick_end(const app_state *app, sl_point at, uint32_t *found) {
     const lesson_state *lesson = &app->tool.lesson;
     double nearest = 8 * ui_scale(&app->ui) / app->view.camera.scale;

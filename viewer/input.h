@@ -1,4 +1,4 @@
-/// What comes from keys and pointer, in the terms of the page.
+/// Keys and pointer, in places of the page.
 #ifndef VIEWER_INPUT_H
 #define VIEWER_INPUT_H
 
@@ -12,7 +12,7 @@ typedef enum button_kind { BUTTON_LEFT, BUTTON_MIDDLE, BUTTON_RIGHT } button_kin
 void input_press(app_state *app, button_kind button, sl_point at);
 void input_move(app_state *app, sl_point to);
 void input_release(app_state *app, sl_point at);
-/// Turned away from the user is positive.
+/// Positive: turned away from the user.
 void input_wheel(app_state *app, double steps);
 
 #endif

@@ -1,5 +1,5 @@
-/// The hierarchy's nodes as a walk without visible sets classifies them, frame by frame, in the
-/// colours of Bittner & Havran 2002, Figure 12.
+/// The nodes of the hierarchy as a walk without visible sets classifies them, frame by frame, in
+/// the colours of Bittner and Havran 2002, Figure 12.
 #include "layers.h"
 
 #include "app.h"
@@ -64,7 +64,7 @@ static sl_status fill(sl_context *context, const present_state *present, node_la
                           &layer->walk);
 }
 
-/// Makes it for what is present, where it is not there yet.
+/// Makes the layer for the present space, if it is not there.
 static sl_status prepare(app_state *app) {
     if (app->view.nodes && app->view.nodes->version == app->view.present.version) return SL_OK;
     node_layer_destroy(app->context, app->view.nodes);
@@ -101,7 +101,7 @@ static void sort_cells(node_layer *layer) {
     }
 }
 
-/// A frame of the walk, where the eye has moved since the last one.
+/// Walks one frame if the eye moved since the last one.
 static sl_status step(app_state *app) {
     SL_TRY(prepare(app));
     node_layer *layer = app->view.nodes;

@@ -1,6 +1,6 @@
-/// Cells by who sees whom, of the eye's cell; and the region from which the eye itself is seen. A
-/// line of sight is the same both ways but for the glass on it, so that the region is what an eye
-/// with all glass turned round would see.
+/// Who sees the eye. Cells are coloured by who sees whom, and the region shows from where the eye
+/// is seen. A line of sight is the same in both directions except for one-way glass. So this region
+/// is what an eye would see with all glass turned round.
 #include "layers.h"
 
 #include "app.h"

@@ -76,8 +76,8 @@ void layer_pvs(app_state *app, const sl_frame *frame, int index) {
                      app->view.seen.pvs, app->ui.palette.mirrored, 0.3);
 }
 
-/// A region as a polygon, arcs as finely as can be seen; `depth` is 0, or that of a part which is
-/// seen in mirrors.
+/// Draws a region as a polygon; arcs are as fine as the eye can tell. `depth` is the number of
+/// mirrors in which the part is seen, 0 for none.
 static void draw_region(app_state *app, const sl_frame *frame, const sl_region *region,
                         uint32_t depth, sl_colour colour) {
     const double tolerance = fmax(0.2 / frame->scale, 1e-5 * region->range);
@@ -117,7 +117,7 @@ sl_colour pane_method_colour(const ui_state *ui, size_t method) {
     return sl_palette_ramp(ui->dark, 0.10 + 0.66 * share);
 }
 
-/// All methods up to the chosen one, each in its colour where it is the last to keep a cell.
+/// All methods up to the chosen one. A cell has the colour of the last method that keeps it.
 void layer_cull(app_state *app, const sl_frame *frame, int index) {
     const sl_space *space = &app->document.baked->space;
     cairo_t *cairo = app->ui.cairo;
@@ -149,7 +149,7 @@ void layer_cull(app_state *app, const sl_frame *frame, int index) {
 
 // --- the stab tree
 
-/// Where doors are shut: of the tree without the sequences through them.
+/// Where doors are shut, the tree has no sequences through them.
 static sl_status make_tree_scene(app_state *app, const sl_draw_options *options) {
     const document_state *document = &app->document;
     sl_stab_trees trees;

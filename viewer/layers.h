@@ -1,5 +1,5 @@
-/// What the plan shows beside walls: one table, from which keys, buttons, help, the panel, scripts
-/// and settings have their layers.
+/// The layers of the plan beside walls: one table. Keys, buttons, help, the panel, scripts and
+/// settings use it.
 #ifndef VIEWER_LAYERS_H
 #define VIEWER_LAYERS_H
 
@@ -18,10 +18,10 @@ typedef struct app_state app_state;
 
 /// A row: LAYER(NAME, name, key, label, help, modes, calls, draw).
 ///
-/// `name` is for scripts, `label` and `key` for the panel, `modes` are those in which it is listed
-/// and drawn; `calls` are effects, bits, of which the map must call for one, 0 for none. `draw` is
-/// called below the walls in each frame, in the order of the table; NULL for what does not change
-/// with the eye and is drawn into the picture that is kept (pane_plan.c).
+/// `name` is for scripts, `label` and `key` are for the panel. `modes` are the modes that list and
+/// draw the layer. `calls` are effects, as bits: the map must have one of them; 0: no condition.
+/// `draw` runs below the walls in each frame, in the order of the table. It is NULL for layers that
+/// do not change with the eye: they go into the kept picture (pane_plan.c).
 #define LAYERS(LAYER)                                                                              \
     LAYER(CELLS, "cells", "C", "Cells", "cells", IN_ALL_MODES, 0, NULL)                            \
     LAYER(PORTALS, "portals", "P", "Portals", "portals", IN_ALL_MODES, 0, NULL)                    \
@@ -62,20 +62,20 @@ typedef struct layer_row {
 /// LAYER_COUNT of them.
 const layer_row *layer_table(void);
 
-/// Whether a layer, by LAYER_..., has its place in the present mode and map. Splits are
-/// those of a kd-tree: a mesh has none.
+/// Whether a layer, by LAYER_..., belongs to the present mode and map. Splits belong to a kd-tree:
+/// a mesh has none.
 bool layers_lists(const app_state *app, unsigned layer);
 
-/// Whether it is on, too.
+/// Whether it is also switched on.
 bool layers_shows(const app_state *app, unsigned layer);
 
-/// Draws what is on and has its place.
+/// Draws the layers that are shown.
 void layers_draw(app_state *app, const sl_frame *frame, int index);
 
-/// Over all else in the plan: the keys of what is drawn.
+/// Draws their keys, over all else in the plan.
 void layers_draw_keys(app_state *app, const sl_frame *frame);
 
-/// A row of a key: a colour, as it comes out on a cell, and what it stands for.
+/// A row of a key: a colour, as it looks on a cell, and what it means.
 typedef struct legend_row {
     const char *label;
     sl_colour colour;
@@ -83,11 +83,11 @@ typedef struct legend_row {
     uint32_t count;
 } legend_row;
 
-/// A key in the lower left of the plan, with a line under its rows; NULL for none.
-void layers_draw_key(ui_state *ui, const sl_frame *frame, const legend_row *rows, int count,
+/// Draws a key in the lower left of the plan. `line` is a line under its rows; NULL for none.
+void layers_draw_key(ui_state *ui, const sl_frame *frame, const legend_row *key, int count,
                      const char *line);
 
-/// Draws a region, arcs as arcs.
+/// Draws a region. Arcs are drawn as arcs.
 void layers_draw_region(app_state *app, const sl_frame *frame, const sl_region *region,
                         sl_colour colour);
 

@@ -87,8 +87,7 @@ void lesson_refresh(lesson_state *lesson) {
     sl_dual_make(lesson->ends, count, count - 1, &lesson->before);
 }
 
-/// Takes the portals of the step's sequence, and of the lines through them the one with the largest
-/// margin.
+/// Takes the portals of the step's sequence, and the line through them with the largest margin.
 static void take_sequence(lesson_state *lesson, const sl_space *space) {
     const subject_row *subject = lesson_subject(lesson);
     lesson->end_count = subject->sequence ? subject->sequence(lesson, space, lesson->ends) : 0;

@@ -1,5 +1,6 @@
-/// The lesson: a search, a subdivision or the passes of multipass step by step, each step in a
-/// sentence with its line of pseudo-code; and the lines through the portal sequence at hand.
+/// The lesson shows a search, a subdivision or the passes of multipass step by step. Each step is a
+/// sentence with a line of pseudo-code. The lines through the portal sequence of the step can be
+/// dragged.
 #ifndef VIEWER_LESSON_H
 #define VIEWER_LESSON_H
 
@@ -9,33 +10,33 @@
 #include "sightline/dual.h"
 #include "sightline/steps.h"
 #include "sightline/support.h"
-#include "space/mesh_steps.h" // private, likewise
+#include "space/mesh.h" // private, likewise
 
 typedef struct app_state app_state;
 typedef struct lesson_state lesson_state;
 
 enum { SENTENCE = 512, PASSES = 4 };
 
-/// A subject: one file (lesson_search.c, lesson_subdivision.c, ...) and one row of the
-/// table in lesson.c. Its record stands in lesson_state. Functions behind `code` may be NULL. All
-/// but the first two are asked only while there is a step: at < length.
+/// A subject: one file (lesson_search.c, lesson_subdivision.c, ...) and one row of the table in
+/// lesson.c. Its record stands in lesson_state. Functions from `code` on may be NULL. All but the
+/// first two are called only while there is a step: at < length.
 typedef struct subject_row {
     const char *title;
     bool (*fits)(const document_state *document); ///< whether it has a place there; NULL: always
     bool of_eye; ///< recorded anew where the eye's cell is another; needs one
-    /// Records all steps. What is recorded goes with lesson_forget().
+    /// Records all steps. lesson_forget() drops the record.
     sl_status (*record)(sl_context *context, lesson_state *lesson, const document_state *document,
                         uint32_t source);
     size_t (*length)(const lesson_state *lesson);
     void (*sentence)(const lesson_state *lesson, const document_state *document,
                      char text[SENTENCE]);
-    /// The pseudo-code; *lit is the line that the step is at.
+    /// The pseudo-code; *lit is the line of the step.
     const char *const *(*code)(const lesson_state *lesson, const document_state *document,
                                size_t *count, size_t *lit);
     /// What has been found so far, in a sentence.
     void (*account)(const lesson_state *lesson, char text[SENTENCE]);
-    /// The portals of the step's sequence, into lesson->ends; for subjects that have one. Its lines
-    /// are then shown in the dual plane and can be dragged.
+    /// The portals of the step's sequence, into lesson->ends. The dual plane then shows its lines,
+    /// and they can be dragged.
     uint32_t (*sequence)(const lesson_state *lesson, const sl_space *space, sl_portal_ends *ends);
     void (*below)(app_state *app, const sl_frame *frame); ///< drawn below the walls
     void (*above)(app_state *app, const sl_frame *frame); ///< and above them
@@ -46,7 +47,7 @@ extern const subject_row lesson_search, lesson_subdivision, lesson_pass, lesson_
 /// All subjects.
 const subject_row *const *subject_table(size_t *count);
 
-/// What there is to say of a pair of cells, as was baked.
+/// What the bake says of a pair of cells.
 typedef enum effect_fact {
     FACT_SEEN,    ///< past walls alone
     FACT_SEES,    ///< likewise, and not the other way
@@ -87,25 +88,25 @@ struct lesson_state {
 };
 
 const subject_row *lesson_subject(const lesson_state *lesson);
-/// The next subject that has a place; it is recorded by the next update.
+/// Goes to the next subject that the map allows; the next update records it.
 void lesson_change(sl_context *context, lesson_state *lesson, const document_state *document);
-/// Whether there is a step to show of the document as it is.
+/// Whether there is a step to show for the present document.
 bool lesson_shows(const lesson_state *lesson, const document_state *document);
 
-/// Records anew where the document, the source or the subject are others.
+/// Records again where the document, the source or the subject changed.
 sl_status lesson_update(sl_context *context, lesson_state *lesson, const document_state *document,
                         uint32_t source);
-/// Drops what is recorded.
+/// Drops the record.
 void lesson_forget(sl_context *context, lesson_state *lesson);
 void lesson_destroy(sl_context *context, lesson_state *lesson);
 
 size_t lesson_length(const lesson_state *lesson);
-/// Shows a step; beyond the ends the first or the last.
+/// Shows a step; the first or the last one beyond the ends.
 void lesson_go(lesson_state *lesson, const document_state *document, size_t step);
 /// Plays on.
 void lesson_tick(lesson_state *lesson, const document_state *document, double seconds);
 
-/// An end was dragged: what follows from it.
+/// An end was dragged: computes the lines again.
 void lesson_refresh(lesson_state *lesson);
 
 void lesson_sentence(const lesson_state *lesson, const document_state *document,

@@ -1,5 +1,5 @@
 /// The lesson of effects: cell by cell what the eye's cell sees, and which doors, mirrors and glass
-/// that is a matter of.
+/// decide that.
 #include "app.h"
 #include "sightline/canvas.h"
 #include "sightline/support.h"
@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/// A search of walls alone is not followed farther than that.
+/// A search past walls alone is followed no farther than this.
 #define STEPS_MOST 20000
 
 enum { DOORS_TEXT = 256 };
@@ -22,7 +22,7 @@ static size_t length(const lesson_state *lesson) {
 
 // --- recording
 
-/// For each cell the step at which a search of walls alone enters it first; 0 for none.
+/// For each cell, the step at which a search past walls alone first enters it; 0 for none.
 static sl_status find_entries(sl_context *context, lesson_state *lesson,
                               const document_state *document, uint32_t source, size_t *entries) {
     sl_steps_options options = sl_steps_options_default();
@@ -106,7 +106,7 @@ static void append(char text[DOORS_TEXT], const char *between, const char *more)
     snprintf(text + used, DOORS_TEXT - used, "%s%s", used ? between : "", more);
 }
 
-/// One alternative: "west and east"; *open tells whether all of them are.
+/// One alternative: "west and east"; *open says whether all of them are open.
 static void name_doors(const sl_map *map, const bool *doors, char text[DOORS_TEXT], bool *open) {
     text[0] = '\0';
     *open = true;
@@ -119,7 +119,7 @@ static void name_doors(const sl_map *map, const bool *doors, char text[DOORS_TEX
 
 enum { DOORS_MOST = 1024 };
 
-/// "west and east are open, or north"; *now tells whether one of the alternatives is open.
+/// "west and east are open, or north"; *now says whether one of the alternatives is open.
 static void name_alternatives(const document_state *document, uint32_t source, uint32_t cell,
                               char text[DOORS_TEXT], bool *now) {
     const sl_map *map = &document->map;
@@ -222,7 +222,7 @@ static void below(app_state *app, const sl_frame *frame) {
                  2 * frame->unit);
 }
 
-/// The doors of all alternatives, those that are shut as what stops.
+/// Draws the doors of all alternatives. A shut door is drawn as what stops the line.
 static void draw_doors(app_state *app, const sl_frame *frame, uint32_t cell) {
     const sl_map *map = &app->document.map;
     const sl_door_sets *sets = &app->document.baked->visibility.doors;
@@ -237,7 +237,7 @@ static void draw_doors(app_state *app, const sl_frame *frame, uint32_t cell) {
                          7 * frame->unit);
 }
 
-/// The line of a search of walls alone.
+/// Draws the line of a search past walls alone.
 static void draw_line(app_state *app, const sl_frame *frame, const effect_step *s) {
     const sl_space *space = &app->document.baked->space;
     uint32_t directed[SL_DUAL_PORTALS_MOST];

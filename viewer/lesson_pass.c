@@ -1,5 +1,5 @@
-/// The lesson of the multipass method: quadrant by quadrant of directions, the cells in the order
-/// in which they are done, with what depends on what.
+/// The lesson of multipass: quadrant by quadrant of directions, the cells in the order in which
+/// they are done, and what depends on what.
 #include "app.h"
 #include "sightline/canvas.h"
 #include "sightline/support.h"
@@ -29,12 +29,12 @@ static const sl_pass *pass_of(const lesson_state *lesson) {
     return &lesson->passes[lesson->at / lesson->pass_cells];
 }
 
-/// How many cells of the pass come before the step's.
+/// How many cells of the pass come before the step.
 static uint32_t place_of(const lesson_state *lesson) {
     return (uint32_t)(lesson->at % lesson->pass_cells);
 }
 
-/// How many cells are on a cycle with one, itself included; 1 for none.
+/// How many cells are on a cycle with this one, itself included; 1 for no cycle.
 static uint32_t on_cycle(const sl_pass *pass, uint32_t cell) {
     const uint32_t component = pass->order.component[cell];
     return pass->order.starts[component + 1] - pass->order.starts[component];
@@ -94,7 +94,7 @@ static void account(const lesson_state *lesson, char text[SENTENCE]) {
              place_of(lesson), lesson->pass_cells, pass->face_count, pass->order.level_count);
 }
 
-/// Cells that are done, the one at hand, and those behind its faces.
+/// Draws the cells that are done, the present one, and those behind its faces.
 static void below(app_state *app, const sl_frame *frame) {
     const sl_space *space = &app->document.baked->space;
     const sl_palette *palette = &app->ui.palette;

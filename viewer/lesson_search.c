@@ -50,7 +50,7 @@ static const char *const *code(const lesson_state *lesson, const document_state 
     return search_code;
 }
 
-/// How many cells the search does not come to, as they are seen by mirror alone.
+/// How many cells are seen by mirror alone: the search does not enter them.
 static uint32_t count_by_mirror(const document_state *document, uint32_t source) {
     const sl_visibility *v = &document->baked->visibility;
     if (!document_has_rows(document) || !v->mirrored.cell_count) return 0;
@@ -127,7 +127,7 @@ static uint32_t sequence(const lesson_state *lesson, const sl_space *space, sl_p
 
 // --- drawing
 
-/// The cells that the search has entered so far, and the way between their portals.
+/// Draws the cells that the search has entered, and the way between their portals.
 static void draw_entered(app_state *app, const sl_frame *frame) {
     const lesson_state *lesson = &app->tool.lesson;
     const sl_space *space = &app->document.baked->space;

@@ -1,5 +1,5 @@
-/// The lesson of the subdivision: the splits of a kd-tree in the order in which they are made; or
-/// of a mesh the triangulation, and its sides as they are taken out or have to stay.
+/// The lesson of the subdivision: the splits of a kd-tree in the order in which they are made; for
+/// a mesh the triangulation, and the sides that are taken out or have to stay.
 #include "app.h"
 #include "draw/lesson.h"     // private: the lesson shows the inside of the library
 #include "geometry/orient.h" // private: the exact predicate
@@ -12,7 +12,7 @@ static bool is_mesh(const document_state *document) {
     return document->baked->space.neighbour != NULL;
 }
 
-/// Old files among oblique walls have neither splits nor a mesh.
+/// Old files with oblique walls have neither splits nor a mesh.
 static bool fits(const document_state *document) {
     return !document->baked || !document->baked->space.loose;
 }
@@ -43,7 +43,7 @@ static void say_split(const document_state *document, uint32_t at, char text[SEN
 
 // --- a mesh
 
-/// Steps before the sides, each of which is one; the cells as they are at last are one more.
+/// Number of steps before the sides. Each side is one step, and the final cells are one more.
 enum { WALLS, POINTS, DELAUNAY, TRIANGLES, FIRST_SIDE };
 
 static const char *const mesh_code[] = {
@@ -70,7 +70,7 @@ static const char *ending(size_t count) {
     return count == 1 ? "" : "s";
 }
 
-/// Walls and seams that the triangulation of the points alone does not have.
+/// Counts walls and seams that the triangulation of the points alone does not have.
 static size_t count_missing(const sl_mesh_steps *mesh) {
     size_t count = 0;
     for (size_t i = 0; i < mesh->triangles.halves.count / 2; i++)
@@ -141,7 +141,7 @@ static void say_cells(const sl_mesh_steps *mesh, const document_state *document,
                  space->cell_count);
 }
 
-/// Covers what the plan shows of the cells as they are at last.
+/// Covers the final cells of the plan.
 static void draw_ground(app_state *app, const sl_frame *frame) {
     const sl_box b = app->document.baked->space.bounds;
     const sl_point corners[4] = {b.min, {b.max.x, b.min.y}, b.max, {b.min.x, b.max.y}};

@@ -1,5 +1,5 @@
-/// sightline-view: its arguments, and how it ends: 0 done, 1 the work failed (no display), 2 the
-/// arguments or an input file are wrong.
+/// sightline-view: its arguments and its exit status. 0: done; 1: the work failed (no display); 2:
+/// the arguments or an input file are wrong.
 #include "bench.h"
 #include "files.h"
 #include "save.h"
@@ -184,7 +184,7 @@ static sl_status read_arguments(sl_context *context, int argc, char **argv, argu
     return SL_OK;
 }
 
-/// Opens the map named, and waits until it is there: what is wrong with it ends all.
+/// Opens the named map and waits for it. A failure ends the program.
 static sl_status open_map(app_state *app, const arguments *a, bool ask) {
     app->options = a->options;
     if (!a->map) return SL_OK;

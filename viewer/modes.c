@@ -1,5 +1,5 @@
-/// Two tables: the modes, by what each draws and says, and the panes below the plan, by when they
-/// show.
+/// Two tables: the modes, with what each draws and says; and the panes below the plan, with when
+/// each is shown.
 #include "modes.h"
 
 #include "edit.h"

@@ -1,5 +1,4 @@
-/// The parts of the window, each drawn into its box; and the modes, one table of what each draws
-/// and says.
+/// The parts of the window, each drawn into its box; and the table of modes.
 #ifndef VIEWER_MODES_H
 #define VIEWER_MODES_H
 
@@ -7,8 +6,8 @@
 
 // --- panes
 
-/// The plan; `index` tells which of those side by side. Where `vector`, nothing kept is used, so
-/// that a file gets lines instead of pixels.
+/// The plan; `index` is its number among the plans side by side. With `vector` no kept picture is
+/// used, so that a file gets lines and not pixels.
 void pane_plan(app_state *app, sl_box box, int index, bool vector);
 
 void pane_bar(app_state *app, sl_box box);          ///< the buttons at the top
@@ -25,7 +24,7 @@ void pane_effects(app_state *app, sl_box box);      ///< what the map calls for
 void pane_help(app_state *app);                     ///< over all
 void pane_maps(app_state *app);                     ///< over all: the list of maps
 
-/// A pane below the plan: its file draws it, and a row of the table in panes.c tells when.
+/// A pane below the plan. A row of the table in modes.c says when it is shown.
 typedef struct pane_below {
     bool (*shown)(const app_state *app);
     void (*draw)(app_state *app, sl_box box);
@@ -36,13 +35,13 @@ typedef struct pane_below {
 /// PANES_BELOW of them.
 const pane_below *panes_below(void);
 
-/// The cell under a point in words; its lines are broken by the caller.
+/// Describes the cell under a point. The caller breaks the text into lines.
 void pane_describe(const app_state *app, sl_point at, char *text, size_t room);
 
 /// The colours of culling methods: steps of the ramp from loose to exact.
 sl_colour pane_method_colour(const ui_state *ui, size_t method);
 
-/// The line chosen in the lesson is dragged, in the dual plane or in the plan.
+/// Drags the lesson's line, in the dual plane or in the plan.
 void pane_dual_drag(app_state *app, sl_box box, sl_point to);
 void pane_plan_drag_line(app_state *app, sl_point from, sl_point to);
 
@@ -60,10 +59,9 @@ typedef struct mode_row {
 /// By app_mode.
 const mode_row *mode_table(void);
 
-/// What changes in the plan from frame to frame: cells and regions; `index` tells which of the
-/// plans side by side.
+/// Draws what changes in the plan from frame to frame: cells and regions. `index` as in pane_plan.
 void modes_draw_below(app_state *app, const sl_frame *frame, int index);
-/// The eye, lines and marks.
+/// Draws the eye, lines and marks.
 void modes_draw_above(app_state *app, const sl_frame *frame);
 
 #endif

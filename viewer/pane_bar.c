@@ -1,4 +1,4 @@
-/// The bars at the top and at the bottom, the time line of the lesson, and what lies over all: the
+/// The bars at the top and at the bottom, the time line of the lesson, and the sheets over all: the
 /// help and the list of maps.
 #include "actions.h"
 #include "files.h"
@@ -196,7 +196,7 @@ static void draw_row(app_state *app, sl_box row, size_t i, const char *name) {
     ui_hit(ui, HIT_MAP, (int)i, row);
 }
 
-/// Rows go down one column after the other; of a long list the part that has the row chosen shows.
+/// Rows fill one column after the other. A long list shows the part with the chosen row.
 void pane_maps(app_state *app) {
     ui_state *ui = &app->ui;
     const double t = ui->text, high = 1.9 * t;

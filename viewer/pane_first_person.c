@@ -1,5 +1,5 @@
-/// What the eye sees, in first person: the walls of the cells that the chosen method keeps, the
-/// nearest of them in each column of pixels.
+/// What the eye sees, in first person: in each column of pixels the nearest wall of the cells that
+/// the chosen method keeps.
 #include "modes.h"
 
 #include "sightline/canvas.h"
@@ -69,7 +69,7 @@ static void add_room(viewer *v, const sl_outline *outline, uint32_t room, double
     }
 }
 
-/// The walls of the rooms that have a part of a cell that is seen, each room once.
+/// Adds the walls of rooms with a part in a visible cell, each room once.
 static void add_cells(const view_state *view, viewer *v, double near) {
     const sl_outline *outline = view->present.outline;
     const seen_method *method = &view->seen.methods[view->method];
@@ -88,7 +88,7 @@ static void add_cells(const view_state *view, viewer *v, double near) {
     free(added);
 }
 
-/// Columns of one wall make one shape, whose upper and lower edges are straight.
+/// Columns of one wall make one shape: its upper and lower edges are straight.
 static void draw_columns(ui_state *ui, const viewer *v, sl_box box, double high, double wide) {
     cairo_t *cairo = ui->cairo;
     const sl_palette *palette = &ui->palette;

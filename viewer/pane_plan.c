@@ -1,4 +1,4 @@
-/// The plan: what is kept from frame to frame, and over it what changes.
+/// The plan: pictures that are kept from frame to frame, and over them what changes.
 #include "modes.h"
 
 #include "draw/lesson.h" // private: the layer of splits shows the inside of the library
@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-/// A picture that takes longer than this to draw is moved as it is while the plan moves.
+/// While the plan moves, a picture that takes longer than this to draw is moved instead.
 #define SLOW_SECONDS 0.007
 
 // --- scenes
@@ -41,7 +41,7 @@ static bool make_scene(app_state *app) {
 
 // --- pictures that are kept
 
-/// What is below all that changes: cells, portals, view cells, splits.
+/// Draws what is below all that changes: cells, portals, view cells, splits.
 static void draw_under(app_state *app, cairo_t *cairo, const sl_frame *frame) {
     const unsigned layers =
         scene_layers(&app->view) & ~(unsigned)(SL_LAYER_WALLS | SL_LAYER_STARTS);
@@ -54,12 +54,12 @@ static void draw_under(app_state *app, cairo_t *cairo, const sl_frame *frame) {
                        app->document.baked->space.node_count, app->view.split_depth);
 }
 
-/// What is over it: walls and what else the map has.
+/// Draws what is over it: walls and other things of the map.
 static void draw_over(app_state *app, cairo_t *cairo, const sl_frame *frame) {
     app_check(app, sl_draw_walls(app->context, cairo, app->view.scene, frame));
 }
 
-/// A pane's frame with its upper left at the origin.
+/// The frame of a pane with its upper left at the origin.
 static sl_frame at_origin(sl_frame frame) {
     frame.left = frame.top = 0;
     return frame;
@@ -89,7 +89,7 @@ static bool remake(app_state *app, kept_picture *kept, bool over, const sl_frame
     return good;
 }
 
-/// Puts the picture where the frame is now; one of another frame is moved and scaled to it.
+/// Shows the picture at the present frame: moves and scales it if it was drawn for another one.
 static void blit(cairo_t *cairo, const kept_picture *kept, const sl_frame *frame, sl_colour page,
                  bool over) {
     const sl_frame *old = &kept->key.frame;

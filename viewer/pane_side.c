@@ -1,6 +1,6 @@
-/// The panel at the right: what can be shown, what each method keeps, what the pointer is over. In
-/// its place in other modes: pseudo-code, the question, walls. And lines as points: the dual plane
-/// of the lesson's portal sequence, linked with the plan.
+/// The panel at the right: layers, what each method keeps, what the pointer is over. Other modes
+/// show pseudo-code, the question, or walls there. And lines as points: the dual plane of the
+/// portal sequence of the lesson.
 #include "actions.h"
 #include "effects.h"
 #include "modes.h"
@@ -44,7 +44,7 @@ static void check_row(app_state *app, column *c, const char *name) {
     c->y += height;
 }
 
-/// Buttons of actions, as many as there is room for; the names end with NULL.
+/// Draws the buttons of actions that have room; the names end with NULL.
 static void button_row(app_state *app, column *c, const char *const *names) {
     size_t count;
     const action_row *actions = action_table(&count);
@@ -61,7 +61,7 @@ static void button_row(app_state *app, column *c, const char *const *names) {
     c->y += 2 * t;
 }
 
-/// The layers that have their place in the present mode.
+/// The layers that belong to the present mode.
 static void layer_rows(app_state *app, column *c) {
     heading(&app->ui, c, "Layers", "key");
     for (unsigned i = 0; i < LAYER_COUNT; i++)
@@ -103,7 +103,7 @@ static void cells_text(double x, ui_state *ui, double y, double size, uint64_t c
     ui_text_right(ui, x, y, size, ui->palette.ink, text);
 }
 
-/// Columns of figures are set in parts of the panel's width; in a narrow one they are smaller.
+/// Columns of numbers take shares of the width; in a narrow panel they are smaller.
 static double figure_size(const ui_state *ui, double unit) {
     return 0.95 * fmin(1, unit / (0.9 * ui->text));
 }
@@ -198,7 +198,7 @@ static void draw_methods(app_state *app, column *c) {
     }
 }
 
-/// What mirrors add to it.
+/// What mirrors add.
 static void draw_mirrored(app_state *app, column *c) {
     const seen_state *seen = &app->view.seen;
     const uint32_t cells = seen->methods[app->view.method].mirrored_count;
@@ -250,7 +250,7 @@ static void draw_difference(app_state *app, column *c) {
 
 // --- words
 
-/// Areas beyond four digits without a power of ten.
+/// Writes an area beyond four digits without a power of ten.
 static void write_area(double area, char text[SL_COUNT_TEXT]) {
     if (area >= 1e4 && area < 1e15)
         sl_text_count((uint64_t)llround(area), "", text);
@@ -499,7 +499,7 @@ void pane_dual_drag(app_state *app, sl_box box, sl_point to) {
     app->tool.lesson.line.height = fmin(fmax(line.height, -SL_DUAL_HEIGHT), SL_DUAL_HEIGHT);
 }
 
-/// Near an end of what is shown the line turns about the other end; between them it is shifted.
+/// Near an end of the shown line it turns about the other end; between the ends it is shifted.
 void pane_plan_drag_line(app_state *app, sl_point from, sl_point to) {
     lesson_state *lesson = &app->tool.lesson;
     if (!lesson->end_count) return;

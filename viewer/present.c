@@ -17,8 +17,8 @@ typedef struct present_own {
 
 // --- what is shut
 
-/// Going from its a to its b, glass is seen through from its right to its left. A straight line
-/// that crosses it comes from the side that the eye is on: seen from its left it is a wall.
+/// Glass from a to b can be looked through from its right to its left. A straight line that crosses
+/// it comes from the side of the eye. So for an eye at its left the glass is a wall.
 static bool find_shut(const sl_map *map, sl_point eye, bool backwards, bool *shut) {
     bool any = false;
     for (size_t i = 0; i < map->door_count; i++) any |= shut[i] = !map->doors[i].open;
@@ -30,7 +30,7 @@ static bool find_shut(const sl_map *map, sl_point eye, bool backwards, bool *shu
     return any;
 }
 
-/// The space with walls in what is shut. To the library dark glass is one more door.
+/// Makes the space with walls in what is shut. To the library, dark glass is one more door.
 static sl_status make_space(sl_context *context, const present_state *present,
                             const document_state *document, sl_space *out) {
     sl_space from = document->baked->space;
@@ -188,7 +188,7 @@ static sl_status make_own(sl_context *context, present_state *present,
     return sl_outline_make(context, &o->space, &o->outline);
 }
 
-/// Begins anew with a document, or one that has changed.
+/// Starts again with a new document, or one that changed.
 static sl_status begin(sl_context *context, present_state *present,
                        const document_state *document) {
     present_drop(context, present);
@@ -219,7 +219,7 @@ static sl_status place(sl_context *context, present_state *present,
     return SL_OK;
 }
 
-/// Objects are put in again where they have moved, or the space is another.
+/// Puts objects in again where they moved or the space changed.
 static sl_status put_objects(sl_context *context, present_state *present,
                              const document_state *document) {
     if (!present->moving) {
@@ -237,7 +237,7 @@ static sl_status put_objects(sl_context *context, present_state *present,
                             : SL_OK;
 }
 
-/// Where objects cannot be put in as they are now, sight goes past them.
+/// If objects cannot be put in as they are now, sight goes past them.
 static sl_status follow_objects(sl_context *context, present_state *present,
                                 const document_state *document) {
     if (!document->object_count || present->backwards) return SL_OK;

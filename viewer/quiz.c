@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/// A hidden pair can take a search of all that is seen.
+/// The limit of the search that explains a hidden pair: it can visit all that is seen.
 #define TESTS_MOST 200000
 
 void quiz_forget(app_state *app) {
@@ -33,8 +33,8 @@ void quiz_explain(app_state *app, uint32_t from, uint32_t to) {
     app_check(app, status);
 }
 
-/// A pair that is not too easy: neighbours of a few portals' distance, as many seen as not where
-/// that can be had.
+/// Chooses a pair that is not too easy: a few portals apart, and as often seen as not where
+/// possible.
 void quiz_ask(app_state *app) {
     const document_state *d = &app->document;
     quiz_forget(app);
@@ -74,7 +74,7 @@ static const sl_sequence *sequence_of(const sl_explanation *e) {
     return e->verdict != SL_HIDDEN ? &e->sequence : e->miss_count ? &e->misses[0].sequence : NULL;
 }
 
-/// What the map calls for can tell otherwise than the portals that are passed.
+/// Effects can decide otherwise than the portals that the line passes.
 static const char *words_of_effects(const app_state *app) {
     const sl_explanation *e = &app->tool.quiz.explanation;
     const document_state *d = &app->document;

@@ -1,4 +1,4 @@
-/// "Seen or not?": the viewer asks first and explains then. Explanations are also given unasked.
+/// "Seen or not?": the viewer asks first and explains then. It also explains without a question.
 #ifndef VIEWER_QUIZ_H
 #define VIEWER_QUIZ_H
 
@@ -11,10 +11,10 @@ void quiz_forget(app_state *app);
 /// Explains whether the eye's cell sees another.
 void quiz_explain(app_state *app, uint32_t from, uint32_t to);
 
-/// What is to be said once it is answered.
+/// The words after an answer.
 void quiz_words(const app_state *app, char *text, size_t room);
 
-/// The pair, and once it is explained its portals and its line.
+/// Draws the pair; after the explanation also its portals and its line.
 void quiz_draw_below(app_state *app, const sl_frame *frame);
 void quiz_draw_above(app_state *app, const sl_frame *frame);
 

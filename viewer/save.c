@@ -1,5 +1,5 @@
-/// What is kept of a session: recorded paths of the eye with their playback, and what is on the
-/// screen as files.
+/// Results of a session: recorded paths of the eye with their playback, and pictures of the screen
+/// as files.
 #include "save.h"
 
 #include "account.h"

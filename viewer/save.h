@@ -1,5 +1,5 @@
-/// What is kept of a session: recorded paths of the eye with their playback, and what is on the
-/// screen as files.
+/// Results of a session: recorded paths of the eye with their playback, and pictures of the screen
+/// as files.
 #ifndef VIEWER_SAVE_H
 #define VIEWER_SAVE_H
 
@@ -26,12 +26,12 @@ typedef struct path_recorder {
     SL_ARRAY(record_frame) frames;
 } path_recorder;
 
-/// Goes on by a time while it records: adds frames.
+/// Records for some time: adds frames.
 sl_status record_tick(sl_context *context, path_recorder *recorder, double seconds,
                       record_frame now);
-/// The next frame while it plays; false at the end.
+/// Gives the next frame while it plays; false at the end.
 bool record_play(path_recorder *recorder, double seconds, record_frame *frame);
-/// In place of a recording, the way along a path of the map at a speed (units a second).
+/// Replaces the recording by a walk along a path of the map (speed: units a second).
 sl_status record_path(sl_context *context, path_recorder *recorder, const sl_path *path,
                       double speed);
 void record_destroy(sl_context *context, path_recorder *recorder);
@@ -41,13 +41,13 @@ void record_destroy(sl_context *context, path_recorder *recorder);
 /// The whole window as .png, .svg or .pdf, by the ending of the name.
 sl_status save_window(app_state *app, const char *path);
 
-/// The plan alone, likewise; in .svg and .pdf as lines.
+/// The plan alone; .svg and .pdf contain lines.
 sl_status save_plan(app_state *app, const char *path);
 
-/// The plan under a name that is free: NAME-1.ENDING in the present folder.
+/// Saves the plan under a free name in the present folder: NAME-1.ENDING.
 void save_numbered(app_state *app, const char *ending);
 
-/// Plays what was recorded and saves each frame: FOLDER/frame-0001.png and on, `every` frames one.
+/// Plays the recording and saves frames: FOLDER/frame-0001.png and so on, one of `every`.
 sl_status save_series(app_state *app, const char *folder, unsigned every);
 
 #endif

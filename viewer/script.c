@@ -20,7 +20,7 @@ typedef struct reader {
     void *user;
 } reader;
 
-/// The words of a line: the command first. `rest` is all behind it.
+/// The words of a line, the command first. `rest` is all behind the command.
 typedef struct words {
     const char *name, *rest;
     double numbers[4];

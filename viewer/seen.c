@@ -1,5 +1,5 @@
 /// What the eye sees now, by every culling method. What it sees in mirrors grows with each
-/// reflection, so that a frame takes what it has time for.
+/// reflection, so a frame takes only what it has time for.
 #include "seen.h"
 
 #include "edit.h"
@@ -70,7 +70,7 @@ static double distance_to_cell(const sl_space *space, uint32_t number, sl_point 
     return nearest;
 }
 
-/// Drops cells that are out of range as a whole, which methods keep that know no range.
+/// Drops cells that are out of range as a whole: methods that know no range keep them.
 static void keep_in_range(const seen_state *seen, const sl_space *space, uint64_t *cells) {
     if (!(seen->range > 0)) return;
     for (uint32_t cell = 0; cell < space->cell_count; cell++)
@@ -97,8 +97,8 @@ static bool have_common(const uint64_t *a, const uint64_t *b, size_t words) {
     return false;
 }
 
-/// Which objects are seen; and the exact method again, where some of them block sight. Where they
-/// cannot be put into the space, those in cells that are seen count as seen.
+/// Finds the objects that are seen. Runs the exact method again if some of them block sight. If
+/// they cannot be put into the space, objects in visible cells count as seen.
 static sl_status look_at_objects(sl_context *context, seen_state *seen,
                                  const document_state *document, const present_state *present) {
     const size_t words = sl_eye_words(&document->baked->space);
@@ -180,11 +180,11 @@ sl_status seen_update(sl_context *context, seen_state *seen, const document_stat
 
 // --- mirrors
 
-/// What a frame gives for cells, and for the parts of the region.
+/// The seconds of a frame for cells, and for the parts of the region.
 #define CELLS_SECONDS 0.003
 #define PARTS_SECONDS 0.005
 
-/// So many parts a frame has time to draw.
+/// The number of parts that a frame has time to draw.
 enum { PARTS_MOST = 100 };
 
 static bool is_late(void *user) {
@@ -203,7 +203,8 @@ void seen_forget_mirrors(sl_context *context, seen_state *seen) {
     seen->depth = 0;
 }
 
-/// The methods stand from loose to exact: what one has no time for, the one before it knows.
+/// Methods are in order from loose to exact. If one has no time, the result of the one before is
+/// used.
 static sl_status look_by_methods(seen_state *seen, const document_state *document,
                                  sl_eye_search *search) {
     const size_t words = sl_eye_words(&document->baked->space);
@@ -227,8 +228,8 @@ static sl_status look_by_methods(seen_state *seen, const document_state *documen
     return SL_OK;
 }
 
-/// One reflection more as long as there is time. Where there is one-way glass too there are no
-/// parts: a region knows what is dark from the eye, and not from its images.
+/// Adds reflections as long as there is time. Maps with one-way glass have no parts: a region knows
+/// which glass is dark from the eye, but not from its images.
 static sl_status make_parts(sl_context *context, seen_state *seen, const document_state *document,
                             const present_state *present) {
     const uint32_t most = document->mirror_depth;

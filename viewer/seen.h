@@ -1,4 +1,4 @@
-/// What the eye sees now, by every culling method, with what each cost; and what it sees in
+/// What the eye sees now: the result and the cost of every culling method, and what is seen in
 /// mirrors.
 #ifndef VIEWER_SEEN_H
 #define VIEWER_SEEN_H
@@ -41,15 +41,15 @@ typedef struct seen_state {
     double range;
 } seen_state;
 
-/// Looks again where the view, the range or what is present has changed.
+/// Looks again where the view, the range or the map changed.
 sl_status seen_update(sl_context *context, seen_state *seen, const document_state *document,
                       const present_state *present, const sl_view *view);
-/// Whether two views are one.
+/// Whether two views are equal.
 bool seen_same_view(const sl_view *a, const sl_view *b);
 void seen_destroy(sl_context *context, seen_state *seen);
 
-/// Sets, of each method, what is seen by mirror, and the parts of the region. Where that takes too
-/// long, cells are those that were baked, and parts those of fewer reflections.
+/// Sets what each method sees by mirror, and the parts of the region. If that takes too long, the
+/// cells are those of the bake, and the parts have fewer reflections.
 sl_status seen_look_into_mirrors(sl_context *context, seen_state *seen,
                                  const document_state *document, const present_state *present);
 

@@ -1,4 +1,4 @@
-/// The sliders of the panel: one table.
+/// The table of sliders in the panel.
 #ifndef VIEWER_SLIDERS_H
 #define VIEWER_SLIDERS_H
 
@@ -12,7 +12,7 @@ typedef struct slider_row {
     double (*share)(const app_state *app);                      ///< where it stands, 0 to 1
     void (*text)(const app_state *app, char text[SLIDER_TEXT]); ///< its value
     void (*set)(app_state *app, double share);
-    /// When the pointer takes hold of it, and when it lets go; NULL for nothing.
+    /// Called when the pointer takes hold of it and when it lets go; NULL: nothing.
     void (*begin)(app_state *app);
     void (*end)(app_state *app);
 } slider_row;

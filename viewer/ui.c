@@ -99,7 +99,7 @@ double ui_paragraph(ui_state *ui, double x, double y, double width, double size,
     return y;
 }
 
-/// What the pointer is over looks a little stronger.
+/// Makes a colour a little stronger under the pointer.
 static sl_colour ground_of(const ui_state *ui, sl_box box, bool on) {
     const sl_palette *p = &ui->palette;
     const sl_colour plain = on ? sl_colour_mix(p->page, p->glass, p->dark ? 0.34 : 0.22)

@@ -1,4 +1,4 @@
-/// The few widgets: text, rows, buttons, sliders; and where they are, so that a click finds them.
+/// The widgets: text, rows, buttons, sliders. Each registers its place, so that a click finds it.
 #ifndef VIEWER_UI_H
 #define VIEWER_UI_H
 
@@ -28,7 +28,8 @@ typedef struct hit_area {
 
 enum { HITS_MOST = 256 };
 
-/// The page and its widgets: what a frame is drawn with, panels, words. No hits to start a frame.
+/// The page and its widgets: what a frame is drawn with, panels, messages. A frame starts without
+/// hits.
 typedef struct ui_state {
     cairo_t *cairo;
     sl_palette palette;
@@ -47,7 +48,7 @@ typedef struct ui_state {
     double frame_seconds; ///< smoothed; shown in the corner unless steady
 } ui_state;
 
-/// How many times larger than plain lines and marks are drawn.
+/// The factor by which lines and marks are larger than usual.
 static inline double ui_scale(const ui_state *ui) {
     return ui->text_scale * ui->density;
 }
@@ -56,12 +57,12 @@ static inline double ui_text_size(const ui_state *ui) {
     return 13 * ui_scale(ui);
 }
 
-/// Says something in the status line.
+/// Shows a message in the status line.
 void ui_say(ui_state *ui, bool error, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
 void ui_hit(ui_state *ui, hit_kind kind, int value, sl_box box);
-/// What is at a place, the topmost; kind HIT_NONE for nothing.
+/// The topmost thing at a place; kind HIT_NONE for nothing.
 hit_area ui_find(const ui_state *ui, sl_point at);
 
 bool box_has(sl_box box, sl_point at);
@@ -77,21 +78,22 @@ void ui_fill(ui_state *ui, sl_box box, sl_colour colour);
 void ui_fill_round(ui_state *ui, sl_box box, double radius, sl_colour colour);
 void ui_line(ui_state *ui, double x0, double y0, double x1, double y1, sl_colour colour);
 
-/// From its left end on the base line; returns its width. `size` in units of plain text.
+/// Draws text from the left end of its base line; returns its width. `size` in units of plain text.
 double ui_text(ui_state *ui, double x, double y, double size, bool bold, sl_colour colour,
                const char *text);
-/// Ends at x.
+/// The same, ending at x.
 void ui_text_right(ui_state *ui, double x, double y, double size, sl_colour colour,
                    const char *text);
 double ui_text_width(ui_state *ui, double size, bool bold, const char *text);
-/// Broken into lines of a width, each `size * 1.4` plain texts high; returns the base line below.
+/// Breaks text into lines of a width, each `size * 1.4` plain texts high; returns the base line
+/// below.
 double ui_paragraph(ui_state *ui, double x, double y, double width, double size, sl_colour colour,
                     const char *text);
 
-/// A button with its action's number; `on` shows it pressed. Returns its right edge.
+/// A button with the number of its action; `on` draws it pressed. Returns its right edge.
 double ui_button(ui_state *ui, double x, double y, double height, const char *label, bool on,
                  int action);
-/// A row with a box to check, a label and the key at the right.
+/// A row with a check box, a label, and the key at the right.
 void ui_check(ui_state *ui, sl_box row, const char *label, const char *key, bool on, int action);
 /// A slider with its value from 0 to 1.
 void ui_slider(ui_state *ui, sl_box track, double value, hit_kind kind, int number);

@@ -76,8 +76,8 @@ static uint32_t first_wall(const sl_space *space, sl_point from, sl_point to) {
     return space->wall_count;
 }
 
-/// Moves as far as that where nothing stops it; else *wall is what does (wall_count: the map's
-/// border).
+/// Moves the eye if nothing stops it. Else *wall is what stops it (wall_count: the border of the
+/// map).
 static bool try_move(view_state *view, double dx, double dy, double body, uint32_t *wall) {
     const sl_space *space = view->present.space;
     const double length = hypot(dx, dy);
@@ -94,7 +94,7 @@ static bool try_move(view_state *view, double dx, double dy, double body, uint32
     return true;
 }
 
-/// What a wall leaves of a step: the part along it.
+/// Moves by the part of a step that is along the wall.
 static void slide(view_state *view, double dx, double dy, double body, uint32_t wall) {
     const sl_space *space = view->present.space;
     if (wall >= space->wall_count) return;

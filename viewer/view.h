@@ -1,5 +1,4 @@
-/// Where things are seen from: the camera over the plan (the part of the map that is shown), and
-/// the eye that walks through the map.
+/// Where things are seen from: the camera over the plan, and the eye that walks through the map.
 #ifndef VIEWER_VIEW_H
 #define VIEWER_VIEW_H
 
@@ -21,7 +20,7 @@ plan_camera camera_fit(sl_box bounds, double width, double height);
 
 void camera_pan(plan_camera *camera, double dx, double dy); ///< pixels, right and down
 
-/// Zooms; what is at `offset` (pixels from the pane's middle, right and down) stays there.
+/// Zooms; the place at `offset` (pixels from the middle of the pane, right and down) stays.
 void camera_zoom(plan_camera *camera, double factor, sl_point offset);
 
 /// The frame that draws the whole plane through a pane.
@@ -48,10 +47,11 @@ typedef struct eye_state {
     bool flies;          ///< through walls
 } eye_state;
 
-/// Units of the map a second, by the size of its cells.
+/// The speed of the eye in map units a second: it depends on the size of cells.
 double walk_speed(const document_state *document);
 
-/// Moves by the keys held. Walls stop a walking eye, by an exact test, and it slides along them.
+/// Moves the eye by the keys that are held. Walls stop a walking eye by an exact test, and it
+/// slides along them.
 void walk_tick(app_state *app, double seconds);
 
 /// Puts the eye at the map's first start, or into the middle of its largest cell that counts.

@@ -1,5 +1,5 @@
-/// The layer of view cells: the cut of the merge history that is shown, coloured by cost. The
-/// history is made in a thread of its own, on a copy of the map, once the layer is on.
+/// The layer of view cells: a cut of the merge history, coloured by cost. A thread of its own makes
+/// the history on a copy of the map once the layer is on.
 #include "view_cells.h"
 
 #include "app.h"
@@ -15,7 +15,7 @@
 
 // --- the job
 
-/// Lines that tell costs, for each that makes the cells.
+/// Lines that measure costs, for each line that makes the cells.
 #define TELLING 2
 
 struct view_job {
@@ -66,7 +66,7 @@ static sl_status merge(sl_context *context, const sl_view_scene *scene, view_job
     return status;
 }
 
-/// By other lines: those that made the cells flatter them.
+/// Uses other lines: the cells fit the lines that made them too well.
 static sl_status tell(sl_context *context, const sl_view_scene *scene, view_job *job) {
     sl_view_sampling sampling = sl_view_sampling_default();
     sampling.samples *= TELLING;
@@ -167,7 +167,8 @@ sl_status view_job_end(sl_context *context, view_job *job, view_history *out) {
 
 #define RAMP_STEPS 32
 #define OPACITY    0.85
-/// The first cut costs so much more than the least, as `sightline viewcells` has it unless told.
+/// The first cut costs this much more than the cheapest one, as in `sightline viewcells` by
+/// default.
 #define TOLERANCE 0.1
 
 struct view_layer {
@@ -219,7 +220,7 @@ static double cost_of(const view_layer *layer, uint32_t view_cell) {
     return layer->history.hierarchy.cost[layer->numbers[view_cell]];
 }
 
-/// Shows the cut with so many view cells.
+/// Shows the cut with this number of view cells.
 static sl_status cut(sl_context *context, view_layer *layer, uint32_t cells) {
     const view_history *h = &layer->history;
     sl_segment *borders = NULL;
@@ -317,7 +318,7 @@ void view_layer_go(app_state *app, uint32_t cells) {
         app_check(app, cut(app->context, app->view.views, cells));
 }
 
-/// The next view cell by falling cost, equal ones by number; after the last one the first.
+/// The next view cell by falling cost, equal ones by number; the first one after the last.
 static uint32_t next_by_cost(const view_layer *layer) {
     const uint32_t none = SL_NO_VIEW_CELL, mark = layer->mark;
     uint32_t first = 0, next = none;
@@ -332,7 +333,7 @@ static uint32_t next_by_cost(const view_layer *layer) {
     return next == none ? first : next;
 }
 
-/// Its border alone, and the middle of its largest elementary cell.
+/// Finds the border of the marked view cell, and the middle of its largest elementary cell.
 static sl_status outline(sl_context *context, view_layer *layer, sl_point *middle) {
     const sl_view_tree *tree = &layer->history.tree;
     uint32_t largest = SL_NO_VIEW_CELL;
@@ -357,7 +358,7 @@ static sl_status outline(sl_context *context, view_layer *layer, sl_point *middl
     return status;
 }
 
-/// A count of objects, as many digits as tell.
+/// Writes a count of objects with the digits that matter.
 static void write_cost(double cost, char text[32]) {
     snprintf(text, 32, cost < 1000 ? "%.1f" : "%.0f", cost);
 }
@@ -412,7 +413,7 @@ static sl_colour colour_of(const ui_state *ui, int step) {
     return sl_palette_ramp(ui->dark, (step + 0.5) / RAMP_STEPS);
 }
 
-/// What is of one colour makes one path, with a thin stroke over the seams within.
+/// Cells of one colour make one path. A thin stroke covers the seams between them.
 static void draw_cells(const app_state *app, cairo_t *cairo, const sl_frame *frame) {
     const view_layer *layer = app->view.views;
     const sl_view_tree *tree = &layer->history.tree;
@@ -437,7 +438,7 @@ static void draw_borders(cairo_t *cairo, const sl_frame *frame, const sl_segment
     cairo_stroke(cairo);
 }
 
-/// View cells reach into walled-in space where no viewpoint is.
+/// View cells reach into walled-in space without viewpoints: that is cut off.
 static void clip_to_inside(const document_state *document, cairo_t *cairo, const sl_frame *frame) {
     const sl_space *space = &document->baked->space;
     for (uint32_t i = 0; i < space->cell_count; i++) {
@@ -481,7 +482,7 @@ static void draw_ramp(app_state *app, double left, double right, double base) {
                 colour_of(&app->ui, step));
 }
 
-/// What the view cell under the pointer costs; a dash where there is none.
+/// Writes the cost of the view cell under the pointer; a dash where there is none.
 static void write_pointed(const app_state *app, char *text, size_t room) {
     const sl_view_tree *tree = &app->view.views->history.tree;
     const sl_box plan = app_layout(app).plan[0];

@@ -22,14 +22,14 @@ static sl_status fail(sl_context *context, const char *what) {
     return sl_fail(context, SL_IO, "%s: %s", what, SDL_GetError());
 }
 
-/// A screen's pixels to an inch against the usual 96, where they are clearly more.
+/// The ratio of the screen's pixels per inch to the usual 96, if it is clearly more than 1.
 static double density_of_screen(int screen) {
     float inch;
     if (SDL_GetDisplayDPI(screen, &inch, NULL, NULL) != 0) return 1;
-    return inch >= 130 && inch <= 600 ? round(2 * inch / 96) / 2 : 1;
+    return inch >= 130 && inch <= 600 ? roundf(2 * inch / 96) / 2 : 1;
 }
 
-/// Pixels to a point of the window, where the system tells the two apart; else the screen's own.
+/// Pixels per point of the window if the system tells the two apart; else the ratio of the screen.
 static double find_density(const app_window *w) {
     int width;
     SDL_GetWindowSize(w->window, &width, NULL);
@@ -79,7 +79,7 @@ void window_close(app_window *w) {
     sl_free(w->app->context, w);
 }
 
-/// The texture is as large as the window's pixels, of which high-density screens have more.
+/// Makes the texture as large as the window in pixels; high-density screens have more than points.
 static sl_status fit_texture(app_window *w) {
     int width, height;
     if (SDL_GetRendererOutputSize(w->renderer, &width, &height) != 0)
@@ -179,7 +179,7 @@ static void take_event(app_window *w, const SDL_Event *e) {
     }
 }
 
-/// Whether something moves by itself.
+/// Whether something moves without input.
 static bool is_lively(const app_state *app) {
     return app->tool.held || app_progress(app).running || app->tool.recorder.plays ||
            app->tool.recorder.records || app->tool.lesson.plays || app->view.motion > 0;

@@ -6,7 +6,7 @@
 
 typedef struct app_window app_window;
 
-/// SL_IO where there is no display. `hidden` asks for SDL's dummy display and software rendering.
+/// SL_IO without a display. `hidden` asks for SDL's dummy display and software rendering.
 sl_status window_open(app_state *app, bool hidden, app_window **out);
 void window_close(app_window *window);
 

@@ -3,7 +3,7 @@
 #include "base/base.h"
 #include "base/checksum.h"
 #include "effects/mirrors.h"
-#include "space/cell_grid.h"
+#include "space/index.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 #include "bake/slv.h"
 #include "base/checksum.h"
-#include "map/print.h"
+#include "map/scan.h"
 #include "sightline/support.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/// The context: hooks, the message of the last failure, memory, and the tables of formats.
 #include "base/base.h"
 #include "sightline/version.h"
 

@@ -3,6 +3,7 @@
 #ifndef SL_FANS_H
 #define SL_FANS_H
 
+#include "geometry/orient.h"
 #include "sightline/cell_to_cell.h"
 #include "sightline/support.h"
 
@@ -74,10 +75,6 @@ sl_status sl_fans_find(sl_context *context, const sl_space *space, const sl_see_
 void sl_fans_destroy(sl_context *context, sl_fans *fans); ///< and zeroes it
 /// What they take of memory.
 uint64_t sl_fans_bytes(const sl_fans *fans);
-
-static inline bool sl_same_point(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
 
 /// Whether two points on one line through `v` lie on different sides of it.
 static inline bool sl_opposite(sl_point v, sl_point a, sl_point b) {

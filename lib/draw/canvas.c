@@ -85,8 +85,8 @@ void sl_path_segment(cairo_t *cairo, const sl_frame *frame, sl_point a, sl_point
     cairo_line_to(cairo, to.x, to.y);
 }
 
-/// One of the guard's four sides, as a step of Sutherland & Hodgman's clipping: corners go in one
-/// by one, what is left of them goes to the next side, and from the last into the path.
+/// One side of the guard, as a step of Sutherland and Hodgman's clipping. Corners enter one by one.
+/// What remains goes to the next side, and from the last side into the path.
 typedef struct side {
     bool vertical, upper; ///< whether it bounds x, and whether from above
     double bound;
@@ -205,7 +205,7 @@ void sl_text_copy(const char *text, size_t length, char *out, size_t room) {
     out[length] = '\0';
 }
 
-/// The text's longest beginning, at a character's end, that fits with an ellipsis behind it.
+/// The longest beginning of the text that fits with an ellipsis. It ends at a whole character.
 static void cut(cairo_t *cairo, const char *text, double width, char *out, size_t room) {
     size_t length = strlen(text);
     if (length > room - sizeof ELLIPSIS) length = room - sizeof ELLIPSIS;

@@ -1,9 +1,9 @@
-/// Charts: what is refused, the axes, and the page.
+/// Charts: the check of their values, the axes, and the page.
 ///
-/// An axis reaches as far as the values and a little farther; its ticks stand at powers of ten, or
-/// at 1, 2 and 5 times such a power. The frame grows in height until all labels find room beside
-/// their marks (chart_labels.c). Where even the highest frame has no room, labels lose their notes;
-/// those that still find none are listed below the chart.
+/// An axis reaches a little beyond the values. Its ticks stand at powers of ten, or at 1, 2 and 5
+/// times a power of ten. The frame grows in height until all labels find room beside their marks
+/// (chart_labels.c). If even the highest frame has no room, labels lose their notes. Labels that
+/// still find no room are listed below the chart.
 #include "draw/chart.h"
 #include "draw/page.h"
 #include "sightline/support.h"
@@ -126,7 +126,7 @@ static void add(tick_list *list, long long digits, int power, int unit_power, bo
     if (!minor) write_tick(axis, digits, power, unit_power, tick->text);
 }
 
-/// Every decade that fits, or every second or third ...; on short axes 2 and 5 between them too.
+/// Adds every decade that fits, or every second or third; on short axes also 2 and 5 between them.
 static void add_decades(tick_list *list, double low, double high, int sign) {
     const int first = (int)floor(low), last = (int)ceil(high), step = 1 + (last - first) / 11;
     const bool few = high - low < 2.5, fine = step == 1 && last - first <= 10;
@@ -243,7 +243,7 @@ static void take_span(extent *e, sl_chart_span span) {
     take(e, span.high);
 }
 
-/// Where nothing is drawn an axis has a range all the same.
+/// An axis without values has a range all the same.
 static sl_axis fit(const sl_chart_axis *axis, const extent *e) {
     if (e->least <= e->most) return sl_axis_fit(axis, e->least, e->most);
     return sl_axis_fit(axis, axis->scale == SL_CHART_LOG ? 1 : 0, 1);
@@ -270,7 +270,7 @@ static void fit_axes(sl_chart_page *page) {
 
 // --- the marks
 
-/// By place along x, which is how labels are best given room.
+/// Orders marks by x: labels find room best in this order.
 static int compare_spots(const void *left, const void *right) {
     const sl_spot *a = left, *b = right;
     if (a->mark->x != b->mark->x) return a->mark->x < b->mark->x ? -1 : 1;
@@ -423,7 +423,7 @@ static bool place_labels(const sl_chart_page *page, const obstacles *list) {
     return sl_labels_place(page->labels, page->label_count, &room);
 }
 
-/// Whether all labels find room in a frame of that height.
+/// Tries a frame of that height: do all labels find room?
 static sl_status try_frame(sl_context *context, cairo_t *cairo, sl_chart_page *page, double top,
                            double height, bool *fits) {
     obstacles list = {0};
@@ -447,8 +447,8 @@ static sl_status grow_frame(sl_context *context, cairo_t *cairo, sl_chart_page *
     return SL_OK;
 }
 
-/// Where even the highest frame has no room, labels lose their notes; what then finds none is left
-/// out.
+/// If even the highest frame has no room, labels lose their notes. Those that still find no room
+/// are left out.
 static sl_status lay_out_frame(sl_context *context, cairo_t *cairo, sl_chart_page *page,
                                double top) {
     bool fits;
@@ -457,7 +457,7 @@ static sl_status lay_out_frame(sl_context *context, cairo_t *cairo, sl_chart_pag
     return fits ? SL_OK : grow_frame(context, cairo, page, top, &fits);
 }
 
-/// What has been put on the page before the frame: its top.
+/// Puts the heading on the page; gives the top of the frame.
 static sl_status begin_page(sl_context *context, cairo_t *cairo, sl_chart_page *page, double *top) {
     page->palette = sl_palette_make(page->chart->dark);
     fit_axes(page);
@@ -467,7 +467,7 @@ static sl_status begin_page(sl_context *context, cairo_t *cairo, sl_chart_page *
     return SL_OK;
 }
 
-/// What stands between the frame and the key.
+/// The height between the frame and the key.
 static double below_frame(const sl_chart_page *page) {
     return (page->chart->x.label ? 3.6 : 2.1) * page->text;
 }

@@ -1,5 +1,5 @@
-/// A chart laid out on its page: the axes, the places of labels, and how it is painted. Made by
-/// chart.c and chart_labels.c, drawn by chart_paint.c.
+/// A chart on its page: axes, places of labels, painting. chart.c and chart_labels.c lay it out,
+/// chart_paint.c paints it.
 #ifndef SL_DRAW_CHART_H
 #define SL_DRAW_CHART_H
 
@@ -7,7 +7,7 @@
 
 // --- axes
 
-/// An axis fitted to values, and where its ends stand on the page.
+/// An axis fitted to values, with the places of its ends on the page.
 typedef struct sl_axis {
     const sl_chart_axis *what;
     double low, high; ///< its ends on the scale: powers of ten for logarithms
@@ -17,7 +17,7 @@ typedef struct sl_axis {
 /// Fits values from `least` to `most`, which the scale must allow.
 sl_axis sl_axis_fit(const sl_chart_axis *what, double least, double most);
 
-/// On the page.
+/// The place of a value on the page.
 double sl_axis_place(const sl_axis *axis, double value);
 
 typedef struct sl_tick {
@@ -28,24 +28,24 @@ typedef struct sl_tick {
 
 #define SL_TICKS_MOST 128
 
-/// Ascending, all on the axis.
+/// Ticks in ascending order, all on the axis. Returns their number.
 size_t sl_axis_ticks(const sl_axis *axis, sl_tick ticks[SL_TICKS_MOST]);
 
 // --- labels
 
-/// A label: what it is of and how large, and where it came to stand. In page coordinates.
+/// A label: its size, its anchor, and the place that it got. In page coordinates.
 typedef struct sl_label {
     sl_point anchor;
     double width, height;
     bool placed;   ///< false: there was no room
     sl_box box;    ///< where it stands
     sl_point knee; ///< where the line from its anchor meets it
-    /// The search's own. Of the label in array place n: the one whose turn is the n-th, and that of
-    /// the best search so far.
+    /// Used by the search. In place n of the array: the label whose turn is the n-th, and the same
+    /// for the best order so far.
     size_t turn, best_turn;
 } sl_label;
 
-/// What labels and their lines keep off.
+/// What labels and their lines must not touch.
 typedef struct sl_obstacle {
     sl_box box;
     size_t owner;     ///< the label whose line may cross it; SIZE_MAX for none
@@ -61,8 +61,8 @@ typedef struct sl_label_room {
     double gap, clearance;
 } sl_label_room;
 
-/// Places labels, each as near to its anchor as it can stand with its line crossing no obstacle,
-/// label or other line. Returns whether all found room.
+/// Places each label as near to its anchor as possible, so that its line crosses no obstacle, label
+/// or other line. Returns whether all found room.
 bool sl_labels_place(sl_label *labels, size_t count, const sl_label_room *room);
 
 // --- the page
@@ -98,19 +98,19 @@ typedef struct sl_chart_page {
 #define SL_CHART_NOTE        0.86
 #define SL_CHART_LINE_HEIGHT 1.3 ///< of lines of a label, in their own size
 
-/// The heading's height. Each paints only where `paint` is set.
+/// The height of the heading. This and the next paint only if `paint` is set.
 double sl_chart_heading(cairo_t *cairo, const sl_chart_page *page, bool paint);
 
-/// The key and the notes from page->key_top down. Returns their height.
+/// The height of the key and the notes, from page->key_top down.
 double sl_chart_key(cairo_t *cairo, const sl_chart_page *page, bool paint);
 
-/// How far the frame stands from the left margin, for the numbers and the label of the y axis.
+/// The room left of the frame for the numbers and the label of the y axis.
 double sl_chart_gutter(cairo_t *cairo, const sl_chart_page *page);
 
-/// The box of the words over or under 0, in the frame; without height where there are none.
+/// The box of the words over or under 0, in the frame; without height if there are none.
 sl_box sl_chart_words(cairo_t *cairo, const sl_chart_page *page, bool over);
 
-/// Everything.
+/// Paints all.
 void sl_chart_paint(cairo_t *cairo, const sl_chart_page *page);
 
 #endif

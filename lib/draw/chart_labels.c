@@ -10,7 +10,7 @@
 #include <math.h>
 #include <stdint.h>
 
-/// The labels are placed in turns; those before `turn` have their places, or have none.
+/// Labels take turns. Those before `turn` have their places, or found none.
 typedef struct placing {
     const sl_label_room *room;
     sl_label *labels;
@@ -119,8 +119,8 @@ static void consider(const placing *p, const sl_label *tried, double cost, choic
     *best = (choice){*tried, cost};
 }
 
-/// How many of the labels still to be placed a box `away` from its anchor shuts in: of those whose
-/// anchors are within its width, half may go to the other side, and as many as fit stand between.
+/// How many labels without a place a box `away` from its anchor would shut in. Of those with
+/// anchors within its width, half may go to the other side, and some fit between.
 static double count_shut_in(const placing *p, const sl_box *box, double away) {
     const double height = box->max.y - box->min.y + p->room->gap;
     size_t within = 0;
@@ -131,8 +131,8 @@ static double count_shut_in(const placing *p, const sl_box *box, double away) {
     return fmax(0, (double)within / 2 - floor((away - p->room->clearance) / height));
 }
 
-/// Where a label's left edge may be: shifted by quarters of its width; like a flag, with its line
-/// upright at one end; clear of its anchor to either side.
+/// The left edges that a label may have: shifted by quarters of its width; like a flag, with an
+/// upright line at one end; beside its anchor on either side.
 enum { QUARTERS = 6, LEFTS = 2 * QUARTERS + 1 + 4 };
 
 static void list_lefts(const sl_label *label, double clearance, double lefts[LEFTS]) {
@@ -144,8 +144,8 @@ static void list_lefts(const sl_label *label, double clearance, double lefts[LEF
     lefts[LEFTS - 1] = x - width - clearance;
 }
 
-/// Tries all places: beside the anchor, and in rows over and under it; takes the free one whose
-/// line is shortest. Slanting lines count more, and so does shutting others in.
+/// Tries all places, beside the anchor and in rows over and under it. Takes the free one with the
+/// shortest line. Slanting lines cost more, and so does shutting others in.
 static void place(const placing *p, sl_label *label) {
     const sl_box *frame = &p->room->frame;
     const double clearance = p->room->clearance, reach = frame->max.y - frame->min.y;
@@ -183,7 +183,7 @@ static size_t place_all(placing *p) {
     return left_out;
 }
 
-/// Gives those that found no room the first turns; the order is else kept.
+/// Gives the first turns to labels that found no room; else keeps the order.
 static void promote_left_out(const placing *p) {
     size_t front = 0;
     for (size_t i = 0; i < p->count; i++) {

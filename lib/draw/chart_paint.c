@@ -1,4 +1,4 @@
-/// How a chart is painted: heading, key, axes, marks. Each part can be measured before it is drawn.
+/// How a chart is painted: heading, key, axes, marks. Each part can be measured first.
 #include "draw/chart.h"
 #include "draw/marks.h"
 
@@ -74,7 +74,7 @@ static void set_frontier_dash(cairo_t *cairo, double size) {
     cairo_set_dash(cairo, dashes, 2, 0);
 }
 
-/// What a series looks like, in a box of the key.
+/// Draws the sign of a series into a box of the key.
 static void draw_swatch(cairo_t *cairo, const sl_chart_page *page, const sl_chart_series *series,
                         sl_box box) {
     const double size = page->text, middle = (box.min.y + box.max.y) / 2;
@@ -163,7 +163,7 @@ static void append(char *text, size_t room, const char *lead, const char *more) 
     }
 }
 
-/// The chart's own, and the labels that found no room.
+/// The chart's notes, and the labels that found no room.
 static double draw_notes(cairo_t *cairo, const sl_chart_page *page, double y, bool paint) {
     char shown[1024];
     for (const char *text = page->chart->notes; text && *text;) {
@@ -248,7 +248,7 @@ static void draw_grid(cairo_t *cairo, const sl_chart_page *page) {
     cairo_stroke(cairo);
 }
 
-/// Numbers that would run into the one before are left out.
+/// Leaves out numbers that would touch the one before.
 static void draw_x_numbers(cairo_t *cairo, const sl_chart_page *page) {
     const double size = SL_CHART_NUMBER * page->text, base = page->frame.max.y + 1.55 * page->text;
     double free_from = 0;
@@ -316,7 +316,8 @@ static void add_stairs(cairo_t *cairo, const sl_chart_page *page, const sl_chart
     cairo_line_to(cairo, page->frame.max.x, y);
 }
 
-/// What no mark reaches: from the stairs to 0 (or the frame's edge), and all that is left of them.
+/// Shades what no mark reaches: from the stairs to 0 (or to the edge of the frame), and all left of
+/// them.
 static void shade_frontier(cairo_t *cairo, const sl_chart_page *page,
                            const sl_chart_series *series) {
     const sl_box *frame = &page->frame;

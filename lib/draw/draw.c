@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/// The page's strip for a heading or a legend.
+/// The strip of the page for a heading or a legend.
 typedef struct strip {
     double left, top, width;
     double text; ///< size of the text
@@ -27,7 +27,7 @@ typedef struct strip {
 #define LINE_HEIGHT   1.95
 #define TEXT_MAX      (5 * SL_COUNT_TEXT)
 
-/// One entry of the key: a swatch and what it means; `lead` is a text before the swatch, or "".
+/// One entry of the key: a swatch and its meaning. `lead` is a text before the swatch, or "".
 typedef struct entry {
     void (*swatch)(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens, sl_box box);
     double width; ///< of the swatch, in sizes of the text
@@ -140,7 +140,7 @@ static void swatch_path(cairo_t *cairo, const sl_scene *scene, const sl_pens *pe
     sl_pen_path(cairo, &scene->palette, pens);
 }
 
-/// Strokes that fade from left to right, as they do with depth.
+/// Strokes fade from left to right, as they do with depth.
 static void fade(cairo_t *cairo, sl_colour colour, const sl_pens *pens, sl_box box) {
     const double step = (box.max.x - box.min.x) / 6, y = left_middle(box).y;
     for (uint32_t i = 0; i < 6; i++) {
@@ -261,7 +261,7 @@ static void add_effects(key *k, const sl_map *map) {
     if (map->oneway_count) add(k, swatch_oneway, "one-way glass");
 }
 
-/// In order of weight: what the picture is about first.
+/// Adds the entries in order of importance.
 static void fill_key(key *k, const sl_scene *scene) {
     const sl_space *space = &scene->baked->space;
     const sl_map *map = &scene->baked->map;
@@ -287,8 +287,8 @@ static void fill_key(key *k, const sl_scene *scene) {
         add_count(k, swatch_object, map->object_count, "object");
 }
 
-/// The longest 1, 2 or 5 times a power of ten that is at most `limit`, as the nearest double and as
-/// text. False where there is none.
+/// The longest 1, 2 or 5 times a power of ten up to `limit`, as the nearest double and as text.
+/// False if there is none.
 static bool round_length(double limit, double *length, char text[SL_NUMBER_TEXT]) {
     static const int leading[] = {1, 2, 5};
     if (!(limit > 0) || !isfinite(limit)) return false;
@@ -346,7 +346,7 @@ static double entry_width(cairo_t *cairo, const entry *e, double size) {
     return lead + (e->width + GAP) * size + sl_text_width(cairo, e->text);
 }
 
-/// Pens as fit a line of text, whatever those of the plan are.
+/// Pens that fit a line of text, whatever the plan uses.
 static sl_pens key_pens(const sl_pens *pens, double size) {
     sl_pens fitted = *pens;
     fitted.wall = fmin(fmax(pens->wall, 0.14 * size), 0.28 * size);
@@ -356,8 +356,8 @@ static sl_pens key_pens(const sl_pens *pens, double size) {
     return fitted;
 }
 
-/// A key for all that is drawn, in lines as the width allows, and a scale bar at the right. Returns
-/// its height, which does not depend on the frame or the pens.
+/// The key in lines as the width allows, and a scale bar at the right. Returns its height, which
+/// does not depend on the frame or the pens.
 static double draw_legend(cairo_t *cairo, const sl_scene *scene, const sl_frame *frame,
                           const sl_pens *pens, const strip *at) {
     key k = {0};
@@ -403,7 +403,7 @@ static void describe(const sl_scene *scene, char *text, size_t room) {
         snprintf(text, room, "%s", what);
 }
 
-/// The title, and under it what the picture shows and how that was found. Returns its height.
+/// The title, and below it what the picture shows and how that was found. Returns its height.
 static double draw_heading(cairo_t *cairo, const sl_scene *scene, const strip *at) {
     const double size = at->text;
     double y = at->top;

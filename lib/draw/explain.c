@@ -1,11 +1,11 @@
-/// The picture of an explanation, why one cell sees another or does not: a heading, the plan, a
-/// key, and a caption that says what is to be learned.
+/// The picture of an explanation: why one cell sees another or does not. It has a heading, the
+/// plan, a key, and a caption.
 ///
-/// Over the plan stand the two cells, the portals of a sequence with their ends, and the line that
-/// passes them. Of a hidden pair the nearest miss is shown, with what stops it: either a portal
-/// that turns back, or two hulls of left and of right ends that meet, so that no line has all left
-/// ends at its left and all right ends at its right. Names and badges look for the place that
-/// covers least.
+/// Over the plan are the two cells, the portals of a sequence with their ends, and the line that
+/// passes them. For a hidden pair it shows the nearest miss and what stops it. That is a portal
+/// that turns back; or two hulls, of left and of right ends, that meet: then no line has all left
+/// ends at its left and all right ends at its right. Names and badges take the place where they
+/// cover least.
 #include "draw/marks.h"
 #include "draw/page.h"
 #include "sightline/support.h"
@@ -36,7 +36,7 @@ typedef struct picture {
 #define MINOR_END 3.4
 #define MAJOR_END 6.2
 
-/// What has its place on the page already.
+/// A place on the page that is taken.
 typedef struct spot {
     sl_point at;
     double radius;
@@ -66,8 +66,8 @@ static void stroke_cased(cairo_t *cairo, sl_colour casing, double around, sl_col
     cairo_stroke(cairo);
 }
 
-/// The pens stroke the path: as the line that sees, as one that sees by mirror, as the way of a
-/// sequence that does not, as a portal of the sequence, as the portal that stops it.
+/// The pens stroke the path: the line that sees, the line that sees by mirror, the way of a
+/// sequence that does not, a portal of the sequence, the portal that stops it.
 static void pen_sightline(cairo_t *cairo, const picture *pic, double unit) {
     const sl_palette *palette = &pic->scene.palette;
     cairo_set_line_cap(cairo, CAIRO_LINE_CAP_BUTT);
@@ -148,7 +148,7 @@ static void mark_badge(cairo_t *cairo, const picture *pic, sl_point at, double r
     cairo_stroke(cairo);
 }
 
-/// A head at `tip`, of a stroke that comes from the direction of `from`.
+/// An arrow head at `tip` of a stroke that comes from `from`.
 static void draw_head(const overlay *o, sl_point from, sl_point tip) {
     const double dx = tip.x - from.x, dy = tip.y - from.y, length = hypot(dx, dy);
     if (!(length > 0)) return;
@@ -199,7 +199,7 @@ static double distance_to_segment(sl_point p, sl_point a, sl_point b) {
     return hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
 }
 
-/// How much a disc there would cover of what has its place: 0 for nothing.
+/// How much a disc there would cover of places that are taken; 0 for nothing.
 static double crowding(const overlay *o, sl_point at, double radius) {
     const double gap = 1.5 * o->unit;
     double sum = 0;
@@ -233,8 +233,8 @@ static sl_point portal_middle(const sl_directed_portal *directed) {
     return middle(directed->left, directed->right);
 }
 
-/// Where a stroke that crosses a portal at right angles may bend: into the cell from the portal's
-/// middle, along its normal. `sign` is 1 to go the directed portal's way.
+/// The control point of a stroke that crosses a portal at right angles: from the portal's middle
+/// into the cell, along its normal. `sign` is 1 in the direction of the directed portal.
 static sl_point bend(const overlay *o, uint32_t cell, const sl_directed_portal *directed,
                      double sign, double reach) {
     const sl_point at = portal_middle(directed);
@@ -246,7 +246,7 @@ static sl_point bend(const overlay *o, uint32_t cell, const sl_directed_portal *
     return (sl_point){at.x + forward.x * length, at.y + forward.y * length};
 }
 
-/// From the first cell's middle from portal to portal, as far as the sequence came.
+/// From the middle of the first cell from portal to portal, as far as the sequence goes.
 static void draw_way(const overlay *o) {
     uint32_t cell = o->pic->explanation->from;
     sl_point start = cell_middle(o, cell), leave = start;
@@ -380,7 +380,7 @@ static void draw_ends(overlay *o) {
     }
 }
 
-/// Beside its portal, where the least is covered.
+/// Puts a badge beside its portal, where it covers least.
 static void draw_badge(overlay *o, uint32_t number) {
     const sl_directed_portal *directed = directed_at(o, number);
     const sl_point left = place(o, directed->left), right = place(o, directed->right);
@@ -496,8 +496,6 @@ static sl_status draw_over_plan(sl_context *context, cairo_t *cairo, const pictu
     return status;
 }
 
-// --- what is shown
-
 #define CAPTION_TEXT 512
 #define LINE_HEIGHT  1.5
 #define TALLEST      1.1 ///< of the plan, in its width: the caption should not be far
@@ -554,7 +552,8 @@ static void widen(double *low, double *high, double wanted, double least, double
     *high = fmin(*low + length, most);
 }
 
-/// Both cells and all portals, with something about them; all of the map where that is most of it.
+/// Chooses the part of the map: both cells, all portals and some room. If that is most of the map,
+/// all of it.
 static void choose_frame(picture *pic) {
     const sl_space *space = &pic->scene.baked->space;
     const sl_box bounds = space->bounds;
@@ -582,7 +581,7 @@ static void choose_frame(picture *pic) {
 
 // --- words
 
-/// What is to be learned from the picture.
+/// Writes what the picture teaches.
 static void write_caption(const picture *pic, char text[CAPTION_TEXT]) {
     const sl_explanation *e = pic->explanation;
     const sl_space *space = &pic->scene.baked->space;
@@ -622,7 +621,7 @@ static void write_caption(const picture *pic, char text[CAPTION_TEXT]) {
     }
 }
 
-/// The one asked for, or one that is written into `text`.
+/// The title that was asked for, else one that is written into `text`.
 static const char *title_of(const picture *pic, char text[CAPTION_TEXT]) {
     const sl_explanation *e = pic->explanation;
     if (pic->scene.options.title) return pic->scene.options.title;
@@ -653,8 +652,7 @@ static void write_subtitle(const picture *pic, char text[CAPTION_TEXT]) {
              pic->part ? "  \xc2\xb7  part of the map" : "");
 }
 
-/// Sets a text in lines that are no wider than `width`. Returns the height; without `paint` nothing
-/// is drawn.
+/// Breaks a text into lines of a width. Returns the height; draws only with `paint`.
 static double set_lines(cairo_t *cairo, sl_colour colour, double left, double top, double width,
                         double size, const char *text, bool paint) {
     char line[CAPTION_TEXT] = "";
@@ -706,7 +704,7 @@ static void draw_swatch(cairo_t *cairo, const picture *pic, swatch what, double 
         mark_badge(cairo, pic, at, 0.6 * size, what == CROSSED ? 1 : 0);
 }
 
-/// A line of marks and what they mean, or lines where they do not fit. Returns the height.
+/// The marks with their meaning, in lines as they fit. Returns the height.
 static double draw_key(cairo_t *cairo, const picture *pic, double left, double top, double width,
                        double size, bool paint) {
     static const char *const words[SWATCHES] = {
@@ -754,7 +752,7 @@ static void set_page(cairo_t *cairo, const void *what, sl_page *page, bool paint
     page->height = ceil(y + 0.7 * page->margin);
 }
 
-/// Where only a part of the map is shown a thin line says where it ends.
+/// If only a part of the map is shown, a thin line marks its end.
 static void draw_frame(cairo_t *cairo, const picture *pic, const sl_frame *frame) {
     if (!pic->part) return;
     cairo_rectangle(cairo, frame->left, frame->top, frame->width, frame->height);

@@ -9,7 +9,7 @@
 
 // --- boxes that move
 
-/// Gives the path the looks of a box.
+/// Fills and strokes the path as a box.
 static void ink(cairo_t *cairo, const sl_palette *palette, bool blocks, bool seen, double width) {
     const sl_colour c = blocks ? palette->wall : palette->object;
     const double dashes[2] = {2.5 * width, 2 * width};
@@ -50,8 +50,8 @@ static void draw_boxes(cairo_t *cairo, const sl_palette *palette, const sl_frame
     }
 }
 
-/// What these marks say, from a place on the page on, in one line. Returns the height, 0 where
-/// there are no boxes. Without `paint` nothing is drawn.
+/// The key of these marks in one line, from a place on the page. Returns the height, 0 without
+/// boxes. Draws only with `paint`.
 static double draw_boxes_key(cairo_t *cairo, const sl_palette *palette, size_t count, sl_point at,
                              double size, bool paint) {
     static const struct {
@@ -91,7 +91,7 @@ typedef struct eye_picture {
 
 // --- what is shown
 
-/// Steps of the ramp, which tells more from less by lightness: the palest is for the loosest.
+/// Layers take steps of the ramp, which goes by lightness: the loosest is the palest.
 static uint8_t paint_of_layer(const eye_picture *p, size_t layer) {
     const double share = p->layer_count > 1 ? (double)layer / (double)(p->layer_count - 1) : 1;
     return (uint8_t)(SL_PAINT_HEAT + (unsigned)((0.08 + 0.92 * share) * (SL_HEAT_STEPS - 1)));
@@ -133,7 +133,7 @@ static double width_of(const sl_view *view) {
     return width < 0 ? width + 360 : width;
 }
 
-/// The cone as far as the frame, and its borders.
+/// The cone up to the border of the frame.
 static void draw_cone(cairo_t *cairo, const eye_picture *p, const sl_frame *frame) {
     if (p->view->full) return;
     const sl_palette *palette = &p->scene.palette;
@@ -232,7 +232,7 @@ static void write_entry(const eye_picture *p, size_t entry, char text[KEY_TEXT])
     snprintf(text, KEY_TEXT, "%s: %s, %s", name, cells, share);
 }
 
-/// Entries in lines as the width allows. Returns the height; without `paint` nothing is drawn.
+/// The entries in lines as the width allows. Returns the height; draws only with `paint`.
 static double draw_key(cairo_t *cairo, const eye_picture *p, double left, double top, double width,
                        double size, bool paint) {
     double x = left, y = top;

@@ -1,5 +1,5 @@
 /// Pictures of what is seen from places: regions over the plan, heat maps of their measures, and
-/// patches coloured by what they cost.
+/// patches coloured by cost.
 #include "draw/marks.h"
 #include "draw/page.h"
 #include "sightline/support.h"
@@ -55,7 +55,7 @@ static void add_patch(cairo_t *cairo, const sl_frame *frame, const sl_patches *p
     sl_path_polygon(cairo, frame, patches->points + first, patches->first[i + 1] - first);
 }
 
-/// What is of one colour makes one path, with a thin stroke over the seams within.
+/// Squares or patches of one colour make one path. A thin stroke covers the seams between them.
 static sl_status draw_values(sl_context *context, cairo_t *cairo, const picture *p,
                              const sl_frame *frame) {
     for (int step = 0; step < RAMP_STEPS; step++) {

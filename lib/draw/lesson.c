@@ -1,6 +1,7 @@
-/// Figures for lessons: a subdivision as it comes about (the splits of a kd-tree; the triangles and
-/// cells of a mesh), and the dual plane of a portal sequence. In that plane each line of the map is
-/// a point, each portal end a half-plane, and the lines through all portals a convex polygon.
+/// Figures for lessons. One shows a subdivision in the making: the splits of a kd-tree, or the
+/// triangles and cells of a mesh. The other shows the dual plane of a portal sequence: each line of
+/// the map is a point there, each portal end a half-plane, and the lines through all portals are a
+/// convex polygon.
 #include "draw/lesson.h"
 #include "draw/marks.h"
 #include "sightline/support.h"
@@ -93,7 +94,7 @@ static void draw_sides(cairo_t *cairo, const sl_palette *palette, const sl_frame
     stroke(cairo, palette->portal, 1.2 * frame->unit);
 }
 
-/// Sides that the points alone do not have: walls and seams, or what else there is.
+/// Adds sides that the points alone do not have: with `lines` walls and seams, else the others.
 static void add_fresh(cairo_t *cairo, const sl_frame *frame, const sl_mesh_steps *steps,
                       bool lines) {
     const sl_triangulation *t = &steps->triangles;
@@ -137,7 +138,8 @@ static sl_status fill_cell(sl_context *context, cairo_t *cairo, const sl_frame *
     return SL_OK;
 }
 
-/// Sides that are there before the one at `place` is tried: those that stay, and those to be tried.
+/// Draws the sides before the one at `place` is tried: those that stay, and those still to be
+/// tried.
 static void draw_cells(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
                        const sl_mesh_steps *steps, size_t place) {
     const sl_triangulation *t = &steps->triangles;
@@ -230,7 +232,7 @@ sl_dual_line sl_dual_frame_line(const sl_dual_frame *f, sl_point page) {
                           f->low.height + y * (f->high.height - f->low.height)};
 }
 
-/// The border of an end's half-plane, from one side of the frame to the other.
+/// The border of an end's half-plane, across the frame.
 static void add_border(cairo_t *cairo, const sl_dual_frame *f, sl_point end) {
     const double a = f->low.slope, b = f->high.slope;
     const sl_point from = frame_point(f, (sl_dual_line){a, end.y - a * end.x});
@@ -239,7 +241,7 @@ static void add_border(cairo_t *cairo, const sl_dual_frame *f, sl_point end) {
     cairo_line_to(cairo, to.x, to.y);
 }
 
-/// Short strokes on the side that an end forbids.
+/// Short strokes on the forbidden side of an end.
 static void add_teeth(cairo_t *cairo, const sl_dual_frame *f, sl_point end, bool left) {
     for (int i = 1; i < 14; i++) {
         const double a = f->low.slope + (f->high.slope - f->low.slope) * i / 14;
@@ -286,7 +288,7 @@ static void draw_polygon(cairo_t *cairo, const sl_palette *palette, const sl_dua
     cairo_stroke(cairo);
 }
 
-/// The optimum's margin: a bar as high as the line can move up and down.
+/// A bar at the optimum, as high as the line can move up and down.
 static void draw_best(cairo_t *cairo, const sl_palette *palette, const sl_dual_frame *f,
                       const sl_dual *dual) {
     const double m = fmax(dual->margin, 0);

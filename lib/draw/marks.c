@@ -299,7 +299,7 @@ static sl_colour colour_of(sl_fault_kind kind) {
     return (sl_colour){(hue >> 16 & 255) / 255.0, (hue >> 8 & 255) / 255.0, (hue & 255) / 255.0};
 }
 
-/// On a pale rim, so that it stands out from what is below.
+/// Strokes on a pale rim that sets the mark off from what is below.
 static void stroke_rimmed(cairo_t *cairo, const sl_palette *palette, sl_fault_kind kind,
                           double width) {
     const sl_colour rim = palette->page;

@@ -19,7 +19,7 @@ void sl_pen_outline(cairo_t *cairo, const sl_palette *palette, const sl_pens *pe
 void sl_pen_source_edge(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens);
 void sl_pen_path(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens);
 void sl_pen_object(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens);
-/// `depth` portals from the source cell: fainter and thinner the farther.
+/// Fainter and thinner the more portals (`depth`) lie between it and the source cell.
 void sl_pen_tree(cairo_t *cairo, sl_colour colour, const sl_pens *pens, uint32_t depth);
 void sl_pen_tree_dots(cairo_t *cairo, sl_colour colour, uint32_t depth); ///< fills the path
 double sl_tree_width(const sl_pens *pens, uint32_t depth);

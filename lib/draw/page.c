@@ -38,7 +38,7 @@ static cairo_status_t keep_back(void *user, const unsigned char *bytes, unsigned
     return CAIRO_STATUS_SUCCESS;
 }
 
-/// A failure of cairo's in our words.
+/// Reports a failure of cairo.
 static sl_status fail_cairo(sl_context *context, const char *path, cairo_status_t status) {
     switch (status) {
     case CAIRO_STATUS_NO_MEMORY:
@@ -90,8 +90,8 @@ static cairo_surface_t *create_svg(sl_paper *paper, int width, int height) {
     return surface;
 }
 
-/// cairo numbers the surfaces of a process, and the number of the one that became the file stands
-/// in it: written as 0, so that the bytes depend on the picture alone.
+/// cairo numbers the surfaces of a process, and the file holds such a number. It is written as 0,
+/// so that the bytes depend on the picture alone.
 static sl_status finish_svg(sl_context *context, sl_paper *paper) {
     static const char word[] = "\"surface";
     const size_t length = sizeof word - 1;
@@ -242,7 +242,7 @@ sl_status sl_page_write(sl_context *context, const sl_page_parts *parts, double 
 sl_status sl_draw_page_file(sl_context *context, const char *path, int width, int height,
                             const char *title, void (*draw)(void *user, cairo_t *cairo),
                             void *user) {
-    const sl_paper_kind *kind = NULL;
+    const sl_paper_kind *kind = &kinds[0];
     sl_paper paper;
     SL_TRY(sl_paper_kind_of(context, path, &kind));
     SL_TRY(sl_paper_open(context, kind, path, width, height, title, &paper));

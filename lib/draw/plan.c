@@ -1,10 +1,10 @@
-/// The plan of a baked map. A scene is worked out once: each cell's paint, the counts, the strokes
-/// of the stab tree. Its layers are then drawn through any number of frames, in files and in
-/// windows.
+/// The plan of a baked map. A scene is computed once: the paint of each cell, the counts, the
+/// strokes of the stab tree. Its layers are then drawn through any number of frames, in files and
+/// in windows.
 ///
-/// Cells of one paint make one path, so that drawing costs few calls of cairo. Strokes of the stab
-/// tree that several sequences share are drawn once, at their least depth. A stroke bends so that
-/// it crosses portals at right angles; it stays in its cell, which is convex.
+/// Cells of one paint make one path, so that a plan needs few calls of cairo. Strokes that several
+/// sequences share are drawn once, at their least depth. A stroke bends so that it crosses portals
+/// at right angles. It stays in its cell, which is convex.
 #include "draw/plan.h"
 #include "draw/marks.h"
 #include "effects/mirrors.h"
@@ -17,7 +17,7 @@
 
 // --- the scene
 
-/// What is worked with while a scene is made.
+/// Scratch while a scene is made.
 typedef struct maker {
     const sl_baked *baked;
     const sl_stab_trees *trees;
@@ -58,7 +58,7 @@ bool sl_scene_shows(const sl_scene *scene, uint32_t cell) {
     return sl_baked_counts(scene->baked, cell) != scene->outside;
 }
 
-/// Whether a table of rows goes with the space.
+/// Whether a table of rows belongs to the space.
 static bool has_rows(const sl_pvs *pvs, const sl_space *space) {
     return pvs->cell_count == space->cell_count && pvs->offsets;
 }
@@ -77,7 +77,8 @@ static void find_population(maker *m, sl_scene *scene) {
         scene->cell_size = sqrt(m->area_before[space->cell_count] / scene->population);
 }
 
-/// The smallest tone that no neighbour with a lower number has; where all are taken, one by number.
+/// Gives each cell the first tone that no neighbour with a lower number has; if all are taken, one
+/// by its number.
 static void choose_tones(maker *m, const sl_scene *scene) {
     const sl_space *space = &m->baked->space;
     const bool plain = !(scene->options.layers & SL_LAYER_CELLS);
@@ -117,7 +118,7 @@ static void paint_seen(maker *m, sl_scene *scene) {
         }
 }
 
-/// Each counted cell by the share of the area that it sees, from the least share to the most.
+/// Paints each cell by the share of the area that it sees, from the smallest share to the largest.
 static sl_status paint_heat(sl_context *context, maker *m, sl_scene *scene) {
     const sl_space *space = &m->baked->space;
     const double whole = m->area_before[space->cell_count];
@@ -185,8 +186,8 @@ static bool is_same_stroke(const sl_stroke *x, const sl_stroke *y) {
     return x->from == y->from && x->to == y->to && x->mirrored == y->mirrored && x->cell == y->cell;
 }
 
-/// The stroke to each node, the root's too, which is dropped later; its depth is where its children
-/// look.
+/// Finds the stroke to each node. The root has one too, which is dropped later: its children read
+/// its depth.
 static void find_strokes(const sl_stab_node *nodes, size_t count, sl_scene *scene) {
     sl_stroke *strokes = scene->strokes;
     strokes[0] = (sl_stroke){.from = UINT32_MAX, .to = UINT32_MAX};
@@ -308,7 +309,7 @@ void sl_scene_destroy(sl_context *context, sl_scene *scene) {
 
 // --- the layers
 
-/// What every layer draws with.
+/// What every layer needs.
 typedef struct plan {
     cairo_t *cairo;
     const sl_scene *scene;
@@ -324,7 +325,7 @@ static void add_cell(const plan *p, uint32_t cell) {
     sl_path_polygon(p->cairo, p->frame, p->space->vertices + c->first_vertex, c->vertex_count);
 }
 
-/// What is not shown: all of the bounds, hatched like cut masonry; cells are painted over it.
+/// Fills the bounds and hatches them like cut masonry. Cells are painted over it.
 static void draw_ground(const plan *p) {
     const uint32_t *begin = p->scene->paint_begin;
     if (begin[SL_PAINT_NONE + 1] == begin[SL_PAINT_NONE]) return;
@@ -340,8 +341,8 @@ static void draw_ground(const plan *p) {
     sl_mark_hatch(p->cairo, p->palette, box, 9 * p->frame->unit, low.x + low.y);
 }
 
-/// Cells of one colour make one path. Its thin stroke closes the seams that smoothed edges leave
-/// between neighbours.
+/// Cells of one colour make one path. A thin stroke covers the seams that smoothed edges leave
+/// between them.
 static void draw_cells(const plan *p) {
     for (unsigned paint = SL_PAINT_NONE + 1; paint < SL_PAINT_COUNT; paint++) {
         const uint32_t first = p->scene->paint_begin[paint], end = p->scene->paint_begin[paint + 1];
@@ -397,14 +398,14 @@ static void draw_walls(const plan *p) {
             sl_mark_oneway(p->cairo, p->palette, &p->pens, a, b);
 }
 
-/// Where a stroke of the stab tree begins or ends: a portal or a mirror, in the cell that the
-/// stroke is in.
+/// An end of a stroke of the stab tree: a portal or a mirror, in the cell of the stroke.
 typedef struct joint {
     sl_directed_portal ends; ///< as crossed on the way out of the cell
     sl_point place;          ///< on it
 } joint;
 
-/// Reflected sequences keep to one side of portals: what comes back does not hide what went.
+/// Reflected sequences cross portals off the middle, so that the way back does not hide the way
+/// there.
 static sl_point place_on(const sl_directed_portal *ends, double share) {
     return (sl_point){ends->left.x + share * (ends->right.x - ends->left.x),
                       ends->left.y + share * (ends->right.y - ends->left.y)};
@@ -423,9 +424,9 @@ static joint joint_at(const plan *p, const sl_stroke *stroke, uint32_t directed,
     return (joint){*at, place};
 }
 
-/// Where a stroke that crosses a portal at right angles may bend: into the cell from its place on
-/// the portal, along the portal's normal. Both such points and both places lie in the convex cell,
-/// and so does the curve between them.
+/// The control point of a stroke that crosses a portal at right angles: from its place on the
+/// portal into the cell, along the portal's normal. All four points lie in the convex cell, and so
+/// does the curve.
 static sl_point bend(const sl_space *space, uint32_t cell, const joint *at, double reach) {
     const sl_point left = at->ends.left, right = at->ends.right, place = at->place;
     const double along_x = left.x - right.x, along_y = left.y - right.y;
@@ -447,7 +448,7 @@ static void add_stroke(const plan *p, const sl_stroke *stroke) {
     sl_path_curve(p->cairo, p->frame, controls);
 }
 
-/// Where the stroke crosses its portal or meets its mirror.
+/// A dot where the stroke crosses its portal or meets its mirror.
 static void add_dot(const plan *p, const sl_stroke *stroke) {
     const double radius = 0.75 * sl_tree_width(&p->pens, stroke->depth - 1);
     sl_point place;

@@ -1,4 +1,4 @@
-/// What the drawing code keeps to itself of canvas.h: scenes, frames and text.
+/// The private part of canvas.h: scenes, frames and text.
 #ifndef SL_DRAW_PLAN_H
 #define SL_DRAW_PLAN_H
 
@@ -17,8 +17,7 @@ sl_box sl_frame_guard(const sl_frame *frame);
 /// A segment's piece in the guard, on the page; false where there is none.
 bool sl_frame_segment(const sl_frame *frame, sl_point a, sl_point b, sl_point *from, sl_point *to);
 
-/// Adds a curve to the path. Where it reaches far off the frame: the straight segment between its
-/// ends.
+/// Adds a curve to the path. If it reaches far off the frame: the segment between its ends.
 void sl_path_curve(cairo_t *cairo, const sl_frame *frame, const sl_point controls[4]);
 
 /// Copies text[0 .. length) as far as there is room, whole characters only.
@@ -26,8 +25,8 @@ void sl_text_copy(const char *text, size_t length, char *out, size_t room);
 
 // --- scenes
 
-/// How a cell is filled: not at all (a cell that is not shown), with a tone of the floor or of what
-/// is seen, as the chosen cell, as a doubtful one, or with a step of the heat map.
+/// How a cell is filled: not at all (not shown), with a tone of the floor or of visible cells, as
+/// the chosen cell, as a doubtful one, or with a step of the heat map.
 typedef enum sl_paint {
     SL_PAINT_NONE,
     SL_PAINT_FLOOR,
@@ -40,9 +39,9 @@ typedef enum sl_paint {
 #define SL_HEAT_STEPS  64
 #define SL_PAINT_COUNT (SL_PAINT_HEAT + SL_HEAT_STEPS)
 
-/// A stroke of the stab tree, within a cell, between places where sequences cross portals or turn
-/// back at mirrors: directed portals of nodes (sl_stab_node). Sequences that share it are drawn
-/// once, at their least depth.
+/// A stroke of the stab tree within a cell. It goes between places where sequences cross portals or
+/// turn back at mirrors, given by the directed portals of nodes (sl_stab_node). Sequences that
+/// share a stroke draw it once, at their least depth.
 typedef struct sl_stroke {
     uint32_t from, to, depth, cell;
     bool mirrored; ///< the sequence has been reflected before
@@ -74,9 +73,9 @@ struct sl_scene {
     sl_point eye; ///< where the stab tree starts: a start in the chosen cell, or its middle
 };
 
-/// No portal joins cells that count (sl_baked_counts) with the others, so that only one of the two
-/// groups is shown: that of the chosen cell; without one, the cells that count. `baked` is referred
-/// to, not copied. `trees` as in sl_scene_create. `out` is untouched on failure.
+/// No portal joins cells that count (sl_baked_counts) with others, so only one group is shown: that
+/// of the chosen cell, or without one the cells that count. `baked` is referred to, not copied.
+/// `trees` as in sl_scene_create. `out` is untouched on failure.
 sl_status sl_scene_make(sl_context *context, const sl_baked *baked, const sl_draw_options *options,
                         const sl_stab_trees *trees, sl_scene *out);
 void sl_scene_clear(sl_context *context, sl_scene *scene);
@@ -86,7 +85,7 @@ bool sl_scene_shows(const sl_scene *scene, uint32_t cell);
 /// The colour of a paint.
 sl_colour sl_scene_colour(const sl_scene *scene, unsigned paint);
 
-/// Each cell's paint, for a change by the caller: cell_count entries; and back.
+/// Copies the paint of each cell (cell_count entries) for a change by the caller; and back.
 void sl_scene_get_paint(const sl_scene *scene, uint8_t *paint);
 void sl_scene_set_paint(sl_scene *scene, const uint8_t *paint);
 

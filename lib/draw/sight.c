@@ -1,5 +1,5 @@
-/// What is seen, drawn over the plan: sets of cells, regions, eyes with their cones, portal
-/// sequences; and the key that says how deep in mirrors a region is seen.
+/// What is seen, over the plan: sets of cells, regions, eyes with their cones, portal sequences.
+/// The key says in how many mirrors a region is seen.
 #include "draw/marks.h"
 #include "draw/page.h"
 #include "sightline/support.h"
@@ -133,7 +133,7 @@ void sl_draw_portal_ends(cairo_t *cairo, const sl_palette *palette, const sl_fra
 
 // --- regions by the number of mirrors
 
-/// Depths that the key tells apart: more reflections come with the last.
+/// The key tells this many depths apart; deeper ones share the last entry.
 enum { DEPTHS_MOST = 8, KEY_TEXT = 64 };
 
 static sl_colour hue(const sl_palette *palette, uint32_t depth) {
@@ -157,7 +157,7 @@ void sl_draw_seen(cairo_t *cairo, const sl_palette *palette, const sl_frame *fra
     cairo_stroke(cairo);
 }
 
-/// An entry of the key: of a depth, or the last one of mirrors themselves.
+/// An entry of the key: a depth; the last entry is the mirrors themselves.
 static void write_entry(uint32_t depth, uint32_t deepest, char text[KEY_TEXT]) {
     static const char *const numbers[] = {"", "one mirror", "two mirrors", "three mirrors"};
     if (depth > deepest)

@@ -63,10 +63,6 @@ static inline sl_ray sl_ray_to(sl_point point) {
     return (sl_ray){.point = point};
 }
 
-static inline bool sl_same_point(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
 /// Whether two rays that are in line go the same way.
 bool sl_ray_same_way(const sl_pivot *pivot, sl_ray a, sl_ray b);
 

@@ -3,7 +3,7 @@
 #include "eye_to_cell/eye_search.h"
 
 #include "cell_to_cell/pvs_rows.h"
-#include "geometry/distance.h"
+#include "geometry/crossing.h"
 
 #include <string.h>
 

@@ -16,12 +16,12 @@
 #include "sightline/moving.h"
 
 #include "eye_to_cell/eye_search.h"
-#include "geometry/distance.h"
+#include "geometry/crossing.h"
 #include "sightline/map.h"
 #include "sightline/sees.h"
 #include "sightline/support.h"
 #include "space/boxes.h"
-#include "space/cell_grid.h"
+#include "space/index.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -51,10 +51,6 @@ static uint32_t previous(const sl_outline *o, uint32_t i) {
     return before;
 }
 
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
 static bool between(double a, double value, double b) {
     return (a <= value && value <= b) || (b <= value && value <= a);
 }
@@ -62,7 +58,7 @@ static bool between(double a, double value, double b) {
 /// Whether the eye is on a side, whose line it is in, other than at its end.
 static bool is_on(const sl_outline *o, uint32_t i, sl_point eye) {
     const sl_point a = side_of(o, i)->start, b = end_of(o, i);
-    return !same(eye, b) && between(a.x, eye.x, b.x) && between(a.y, eye.y, b.y);
+    return !sl_same_point(eye, b) && between(a.x, eye.x, b.x) && between(a.y, eye.y, b.y);
 }
 
 /// Makes the fan of an eye within a room: all sides of the room face it. For an eye on a side,
@@ -77,7 +73,7 @@ static sl_status gather_room(sl_context *context, const sl_outline *o, uint32_t 
         if (turn > 0) m->fan.items[m->fan.count++] = i;
         if (turn != 0 || !is_on(o, i, eye)) continue;
         at->right = i;
-        at->left = same(eye, side_of(o, i)->start) ? previous(o, i) : i;
+        at->left = sl_same_point(eye, side_of(o, i)->start) ? previous(o, i) : i;
         m->fan.count = 0;
         *within = false;
         return SL_OK;
@@ -88,13 +84,14 @@ static sl_status gather_room(sl_context *context, const sl_outline *o, uint32_t 
 /// The corner at the eye of the room behind a portal there, clockwise.
 static corner neighbour_right(const sl_outline *o, uint32_t portal, sl_point eye) {
     const uint32_t other = side_of(o, portal)->neighbour;
-    return (corner){same(end_of(o, other), eye) ? side_of(o, other)->next : other, other};
+    return (corner){sl_same_point(end_of(o, other), eye) ? side_of(o, other)->next : other, other};
 }
 
 /// The same, counter-clockwise.
 static corner neighbour_left(const sl_outline *o, uint32_t portal, sl_point eye) {
     const uint32_t other = side_of(o, portal)->neighbour;
-    return (corner){other, same(side_of(o, other)->start, eye) ? previous(o, other) : other};
+    return (corner){other,
+                    sl_same_point(side_of(o, other)->start, eye) ? previous(o, other) : other};
 }
 
 /// Adds the sides from `first` to before `stop` that face the eye.

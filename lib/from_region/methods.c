@@ -48,7 +48,7 @@ typedef struct region_thread {
     void *solver;
     sl_from_region_account account;
     uint64_t candidates, relations;
-    sl_bits *set, *refine; ///< scratch, a row each
+    sl_bits *set; ///< scratch: a row
 } region_thread;
 
 /// Whether sightlines of a quadrant leave by a face.
@@ -92,7 +92,6 @@ static void end(sl_context *context, void *job, void *state) {
     pthread_mutex_unlock(&work->lock);
     work->solver->destroy(context, me->solver);
     sl_free(context, me->set);
-    sl_free(context, me->refine);
     sl_free(context, me);
 }
 
@@ -101,8 +100,7 @@ static sl_status begin(sl_context *context, void *job, void **state) {
     region_thread *me = sl_alloc_array(context, 1, sizeof *me);
     if (!me) return SL_NO_MEMORY;
     me->set = sl_alloc_array(context, work->scene->words, sizeof *me->set);
-    me->refine = sl_alloc_array(context, work->scene->words, sizeof *me->refine);
-    sl_status status = me->set && me->refine ? SL_OK : SL_NO_MEMORY;
+    sl_status status = me->set ? SL_OK : SL_NO_MEMORY;
     if (status == SL_OK)
         status = work->solver->create(context, work->scene, work->options, &me->solver);
     if (status == SL_OK)

@@ -24,8 +24,8 @@ enum {
     COURT_LEAST = 2 * COURT + 4,
 };
 
-/// The streets. along[j * columns + i] tells how far the level street below block (i, j) is off its
-/// place, across[j * columns + i] the upright one at the left of it.
+/// The streets. along[j * columns + i] is how far the level street below block (i, j) is off its
+/// place; across[j * columns + i] is the same for the upright street at its left.
 typedef struct town {
     sl_plot *plot;
     int *along, *across;

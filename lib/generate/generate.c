@@ -165,7 +165,7 @@ static uint64_t difference(uint64_t a, uint64_t b) {
     return a > b ? a - b : b - a;
 }
 
-/// A large map: a part of it tells how many walls a unit has.
+/// A large map: a part of it shows how many walls a unit has.
 static sl_status lay_out_many(sl_context *context, const sl_map_kind *kind,
                               const sl_generate_options *options, sl_map *map) {
     size_t walls;

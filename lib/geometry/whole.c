@@ -1,3 +1,4 @@
+/// Whole numbers: sign and magnitude, added and multiplied as by hand, digit by digit.
 #include "geometry/whole.h"
 
 #include <math.h>

@@ -1,17 +1,16 @@
-/// Whole numbers of many digits, on the stack: what predicates fall back on whose terms have more
-/// factors than a determinant has.
+/// Whole numbers of many digits, on the stack, for predicates with more factors than a determinant.
 #ifndef SL_WHOLE_H
 #define SL_WHOLE_H
 
 #include <stdint.h>
 
-/// Digits of base 2^32 that fit: those of the product of six numbers that finite doubles are the
-/// differences of, once all are multiplied by one power of two.
+/// The number of digits (base 2^32). It holds a product of six numbers, each a difference of two
+/// finite doubles, in units of one power of two.
 enum { SL_WHOLE_DIGITS = 408 };
 
 typedef struct sl_whole {
     int sign;                         ///< -1, 0 or 1
-    uint32_t count;                   ///< of digits in use; the last of them is not 0
+    uint32_t count;                   ///< digits in use; the last one is not 0
     uint32_t digits[SL_WHOLE_DIGITS]; ///< the lowest first
 } sl_whole;
 
@@ -21,7 +20,7 @@ int sl_whole_exponent(double value);
 /// value * 2^-exponent, which must be whole.
 void sl_whole_set(double value, int exponent, sl_whole *out);
 
-// `out` may be no operand.
+// `out` must not be an operand.
 void sl_whole_add(const sl_whole *a, const sl_whole *b, sl_whole *out);
 void sl_whole_subtract(const sl_whole *a, const sl_whole *b, sl_whole *out);
 void sl_whole_multiply(const sl_whole *a, const sl_whole *b, sl_whole *out);

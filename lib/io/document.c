@@ -194,7 +194,7 @@ bool sl_json_true(const sl_json *at, bool *said) {
 
 // --- XML
 
-/// The longest text that libxml2 takes where it is not told to take all.
+/// The longest text that libxml2 takes by default.
 #define LONGEST_TEXT 10000000
 
 /// libxml2's message as one line that is safe to show.

@@ -9,9 +9,9 @@
 
 #include <string.h>
 
-// --- the cells of a node builder
+// --- the cells of a node builder: its lumps
 
-/// One of the lumps, behind the four bytes that tell its version, if it has them.
+/// One of the lumps, without the four bytes of its version, if it has them.
 typedef struct gl_lump {
     const char *name;
     const unsigned char *bytes;
@@ -35,8 +35,6 @@ static sl_status fail_lump(const gl_nodes *gl, const char *lump, const char *wha
                       what);
 }
 
-// --- finding the lumps
-
 /// Whether a lump is the header of the map's GL nodes: GL_ and the map's name, or, for longer
 /// names, GL_LEVEL with a line LEVEL=NAME.
 static bool is_header(const gl_nodes *gl, uint32_t index) {
@@ -53,7 +51,7 @@ static bool is_header(const gl_nodes *gl, uint32_t index) {
            (lump.size == 6 + length || lump.bytes[6 + length] <= ' ');
 }
 
-/// The last header, as the game has it; the WAD's lump count where there is none.
+/// The last header, which is the one that the game takes; the WAD's lump count where there is none.
 static uint32_t find_header(const gl_nodes *gl) {
     uint32_t found = gl->wad->lump_count;
     for (uint32_t i = 0; i < gl->wad->lump_count; i++)
@@ -114,7 +112,7 @@ static sl_status open_lumps(gl_nodes *gl) {
     return cut_records(gl, "VERTEXES", old, 0, 4, &gl->old_vertices);
 }
 
-// --- records
+// --- the cells of a node builder: its records
 
 static const unsigned char *record_at(const gl_lump *lump, size_t index) {
     return lump->bytes + index * lump->record;
@@ -178,6 +176,8 @@ static sl_status add_all(gl_nodes *gl, sl_map *out) {
     return SL_OK;
 }
 
+/// Adds each subsector that the WAD has for the map to `out` as a cell. SL_BAD_INPUT, naming the
+/// lump, where there are none or they are damaged.
 static sl_status doom_add_cells(sl_context *context, const sl_wad *wad, const sl_wad_map *map,
                                 sl_map *out) {
     gl_nodes gl = {.context = context, .wad = wad, .map = map};

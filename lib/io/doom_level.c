@@ -13,31 +13,32 @@
 
 // --- records, before anything is looked up
 
-typedef struct sl_doom_linedef {
+/// Numbers of other records, as they are written.
+typedef struct doom_linedef {
     int64_t vertex[2]; ///< from, to
     int64_t side[2];   ///< right, left; -1 for none
     int special, tag;
     uint32_t line; ///< of the TEXTMAP; 0 in lumps of records
-} sl_doom_linedef;
+} doom_linedef;
 
-typedef struct sl_doom_sidedef {
+typedef struct doom_sidedef {
     int64_t sector;
     uint32_t line;
-} sl_doom_sidedef;
+} doom_sidedef;
 
 /// Zeroed, it is empty.
-typedef struct sl_doom_records {
+typedef struct doom_records {
     SL_ARRAY(sl_point) vertices;
-    SL_ARRAY(sl_doom_linedef) linedefs;
-    SL_ARRAY(sl_doom_sidedef) sidedefs;
+    SL_ARRAY(doom_linedef) linedefs;
+    SL_ARRAY(doom_sidedef) sidedefs;
     SL_ARRAY(sl_doom_sector) sectors;
     SL_ARRAY(sl_start) starts;
     bool hexen_specials;
     const char *format;
-} sl_doom_records;
+} doom_records;
 
 /// The type of a thing where player 1 starts.
-enum { SL_DOOM_PLAYER_1 = 1 };
+enum { PLAYER_1 = 1 };
 
 // --- lumps of records
 
@@ -63,7 +64,7 @@ static sl_status open_lump(sl_context *context, const sl_wad *wad, const sl_wad_
 }
 
 static sl_status read_vertices(sl_context *context, const sl_wad *wad, const sl_wad_map *map,
-                               sl_doom_records *records) {
+                               doom_records *records) {
     enum { BYTES = 4 };
     record_lump lump;
     SL_TRY(open_lump(context, wad, map, "VERTEXES", BYTES, &lump));
@@ -82,7 +83,7 @@ static int64_t side_at(const unsigned char *at) {
 }
 
 static sl_status read_linedefs(sl_context *context, const sl_wad *wad, const sl_wad_map *map,
-                               bool hexen, sl_doom_records *records) {
+                               bool hexen, doom_records *records) {
     const size_t bytes = hexen ? 16 : 14;
     record_lump lump;
     SL_TRY(open_lump(context, wad, map, "LINEDEFS", bytes, &lump));
@@ -90,7 +91,7 @@ static sl_status read_linedefs(sl_context *context, const sl_wad *wad, const sl_
     for (size_t i = 0; i < lump.count; i++) {
         const unsigned char *at = lump.bytes + i * bytes;
         // Hexen has a special of one byte and five arguments where Doom has special and tag.
-        records->linedefs.items[records->linedefs.count++] = (sl_doom_linedef){
+        records->linedefs.items[records->linedefs.count++] = (doom_linedef){
             .vertex = {sl_wad_u16(at), sl_wad_u16(at + 2)},
             .special = hexen ? at[6] : (int)sl_wad_u16(at + 6),
             .tag = hexen ? at[7] : sl_wad_i16(at + 8),
@@ -101,19 +102,19 @@ static sl_status read_linedefs(sl_context *context, const sl_wad *wad, const sl_
 }
 
 static sl_status read_sidedefs(sl_context *context, const sl_wad *wad, const sl_wad_map *map,
-                               sl_doom_records *records) {
+                               doom_records *records) {
     enum { BYTES = 30, SECTOR = 28 };
     record_lump lump;
     SL_TRY(open_lump(context, wad, map, "SIDEDEFS", BYTES, &lump));
     SL_TRY(SL_ARRAY_ROOM(context, &records->sidedefs, lump.count));
     for (size_t i = 0; i < lump.count; i++)
         records->sidedefs.items[records->sidedefs.count++] =
-            (sl_doom_sidedef){.sector = sl_wad_u16(lump.bytes + i * BYTES + SECTOR)};
+            (doom_sidedef){.sector = sl_wad_u16(lump.bytes + i * BYTES + SECTOR)};
     return SL_OK;
 }
 
 static sl_status read_sectors(sl_context *context, const sl_wad *wad, const sl_wad_map *map,
-                              sl_doom_records *records) {
+                              doom_records *records) {
     enum { BYTES = 26, TAG = 24 };
     record_lump lump;
     SL_TRY(open_lump(context, wad, map, "SECTORS", BYTES, &lump));
@@ -127,7 +128,7 @@ static sl_status read_sectors(sl_context *context, const sl_wad *wad, const sl_w
 }
 
 static sl_status read_things(sl_context *context, const sl_wad *wad, const sl_wad_map *map,
-                             bool hexen, sl_doom_records *records) {
+                             bool hexen, doom_records *records) {
     const size_t bytes = hexen ? 20 : 10;
     record_lump lump;
     SL_TRY(open_lump(context, wad, map, "THINGS", bytes, &lump));
@@ -135,7 +136,7 @@ static sl_status read_things(sl_context *context, const sl_wad *wad, const sl_wa
         // A Hexen thing has an id in front, and its height behind its place.
         const unsigned char *at = lump.bytes + i * bytes + (hexen ? 2 : 0);
         const unsigned char *angle = at + (hexen ? 6 : 4);
-        if (sl_wad_u16(angle + 2) != SL_DOOM_PLAYER_1) continue;
+        if (sl_wad_u16(angle + 2) != PLAYER_1) continue;
         SL_TRY(SL_ARRAY_ROOM(context, &records->starts, 1));
         records->starts.items[records->starts.count++] =
             (sl_start){.at = {sl_wad_i16(at), sl_wad_i16(at + 2)}, .heading = sl_wad_i16(angle)};
@@ -143,8 +144,9 @@ static sl_status read_things(sl_context *context, const sl_wad *wad, const sl_wa
     return SL_OK;
 }
 
+/// Reads lumps of records: Doom's, or Hexen's where there is a BEHAVIOR.
 static sl_status doom_read_lumps(sl_context *context, const sl_wad *wad, const sl_wad_map *map,
-                                 sl_doom_records *records) {
+                                 doom_records *records) {
     const bool hexen = sl_wad_find_lump(wad, map, "BEHAVIOR") < wad->lump_count;
     records->format = hexen ? "Hexen" : "Doom";
     records->hexen_specials = hexen;
@@ -155,14 +157,14 @@ static sl_status doom_read_lumps(sl_context *context, const sl_wad *wad, const s
     return read_things(context, wad, map, hexen, records);
 }
 
-// --- text
+// --- TEXTMAP
 
 typedef struct text_map {
     sl_context *context;
     const sl_wad *wad;
     const char *map, *at, *end;
     uint32_t line;
-    sl_doom_records *records;
+    doom_records *records;
 } text_map;
 
 static sl_status fail_text(const text_map *text, uint32_t line, const char *format, ...)
@@ -179,7 +181,7 @@ static sl_status fail_text(const text_map *text, uint32_t line, const char *form
                       what);
 }
 
-// --- words
+// --- TEXTMAP: words
 
 static void step(text_map *text) {
     if (*text->at++ == '\n' && text->line < UINT32_MAX) text->line++;
@@ -265,7 +267,7 @@ static sl_status read_value(text_map *text, sl_word *value) {
     return expect(text, ";");
 }
 
-// --- numbers
+// --- TEXTMAP: numbers
 
 /// Digits of a base, all of the word from `at` on.
 static bool read_digits(sl_word word, size_t at, unsigned base, double *value) {
@@ -342,7 +344,7 @@ static sl_status read_block(text_map *text, const char *block, uint32_t line, fi
 
 #define FIELD_COUNT(fields) (sizeof(fields) / sizeof *(fields))
 
-// --- blocks
+// --- TEXTMAP: blocks
 
 static sl_status read_vertex(text_map *text, uint32_t line) {
     sl_point point = {0};
@@ -355,7 +357,7 @@ static sl_status read_vertex(text_map *text, uint32_t line) {
 }
 
 static sl_status read_linedef(text_map *text, uint32_t line) {
-    sl_doom_linedef linedef = {.side = {-1, -1}, .line = line};
+    doom_linedef linedef = {.side = {-1, -1}, .line = line};
     int64_t special = 0, id = -1, argument = 0;
     field fields[] = {
         {.name = "v1", .whole = &linedef.vertex[0], .needed = true},
@@ -376,7 +378,7 @@ static sl_status read_linedef(text_map *text, uint32_t line) {
 }
 
 static sl_status read_sidedef(text_map *text, uint32_t line) {
-    sl_doom_sidedef sidedef = {.line = line};
+    doom_sidedef sidedef = {.line = line};
     field fields[] = {{.name = "sector", .whole = &sidedef.sector, .needed = true}};
     SL_TRY(read_block(text, "sidedef", line, fields, FIELD_COUNT(fields)));
     SL_TRY(SL_ARRAY_ROOM(text->context, &text->records->sidedefs, 1));
@@ -405,7 +407,7 @@ static sl_status read_thing(text_map *text, uint32_t line) {
                       {.name = "angle", .real = &start.heading},
                       {.name = "type", .whole = &type, .needed = true}};
     SL_TRY(read_block(text, "thing", line, fields, FIELD_COUNT(fields)));
-    if (type != SL_DOOM_PLAYER_1) return SL_OK;
+    if (type != PLAYER_1) return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(text->context, &text->records->starts, 1));
     text->records->starts.items[text->records->starts.count++] = start;
     return SL_OK;
@@ -450,8 +452,9 @@ static sl_status read_all(text_map *text) {
     }
 }
 
+/// Reads a TEXTMAP.
 static sl_status doom_read_textmap(sl_context *context, const sl_wad *wad, const sl_wad_map *map,
-                                   sl_doom_records *records) {
+                                   doom_records *records) {
     sl_lump lump;
     SL_TRY(sl_wad_lump(context, wad, map->header + 1, &lump));
     if (map->end == wad->lump_count)
@@ -474,7 +477,7 @@ typedef struct lookup {
     sl_context *context;
     const sl_wad *wad;
     const sl_wad_map *map;
-    const sl_doom_records *records;
+    const doom_records *records;
 } lookup;
 
 /// "FILE:12: map MAP01, linedef 3: vertex 99, but there are 8"
@@ -486,15 +489,15 @@ static sl_status fail_reference(const lookup *look, const char *record, size_t i
 }
 
 static sl_status find_sector(const lookup *look, size_t linedef, int side, uint32_t *sector) {
-    const sl_doom_records *records = look->records;
-    const sl_doom_linedef *line = &records->linedefs.items[linedef];
+    const doom_records *records = look->records;
+    const doom_linedef *line = &records->linedefs.items[linedef];
     const int64_t index = line->side[side];
     *sector = SL_NO_SECTOR;
     if (index == -1) return SL_OK;
     if (index < 0 || (uint64_t)index >= records->sidedefs.count)
         return fail_reference(look, "linedef", linedef, line->line, "sidedef", index,
                               records->sidedefs.count);
-    const sl_doom_sidedef *found = &records->sidedefs.items[index];
+    const doom_sidedef *found = &records->sidedefs.items[index];
     if (found->sector < 0 || (uint64_t)found->sector >= records->sectors.count)
         return fail_reference(look, "sidedef", (size_t)index, found->line, "sector", found->sector,
                               records->sectors.count);
@@ -503,8 +506,8 @@ static sl_status find_sector(const lookup *look, size_t linedef, int side, uint3
 }
 
 static sl_status find_line(const lookup *look, size_t linedef, sl_doom_line *out) {
-    const sl_doom_records *records = look->records;
-    const sl_doom_linedef *line = &records->linedefs.items[linedef];
+    const doom_records *records = look->records;
+    const doom_linedef *line = &records->linedefs.items[linedef];
     sl_point ends[2];
     for (int i = 0; i < 2; i++) {
         if (line->vertex[i] < 0 || (uint64_t)line->vertex[i] >= records->vertices.count)
@@ -532,7 +535,7 @@ static sl_status find_lines(const lookup *look, sl_doom_level *level) {
 
 sl_status sl_doom_read(sl_context *context, const sl_wad *wad, const sl_wad_map *map,
                        sl_doom_level *level) {
-    sl_doom_records records = {0};
+    doom_records records = {0};
     const lookup look = {.context = context, .wad = wad, .map = map, .records = &records};
     sl_doom_level read = {0};
     sl_status status = map->is_text ? doom_read_textmap(context, wad, map, &records)

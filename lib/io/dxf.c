@@ -12,6 +12,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+/// A group code and its value.
 typedef struct dxf_pair {
     int code;
     uint32_t line; ///< of the value
@@ -293,7 +294,7 @@ static sl_status read_sections(drawing *dxf) {
     return SL_OK;
 }
 
-// --- entities
+// --- entities: points and planes
 
 /// Blocks within blocks; a block that inserts itself goes deeper than any drawing does.
 #define MOST_DEPTH 64
@@ -320,7 +321,7 @@ static sl_status read_plane(drawing *dxf, dxf_range entity, plane *out) {
     return SL_OK;
 }
 
-// --- lines and polylines
+// --- entities: lines and polylines
 
 static sl_status draw_line(drawing *dxf, dxf_range entity) {
     sl_point to = {0, 0};
@@ -408,7 +409,7 @@ static sl_status draw_polyline(drawing *dxf, dxf_range entity, size_t end) {
     return end_corners(dxf, &line, flags & 1);
 }
 
-// --- arcs
+// --- entities: arcs
 
 static sl_point on_arc(sl_point centre, sl_point u, sl_point v, double angle) {
     return (sl_point){centre.x + cos(angle) * u.x + sin(angle) * v.x,
@@ -461,7 +462,7 @@ static sl_status draw_ellipse(drawing *dxf, dxf_range entity, plane lies) {
     return draw_round(dxf, centre, major, (sl_point){-ratio * major.y, ratio * major.x}, from, to);
 }
 
-// --- blocks inserted
+// --- entities: blocks inserted
 
 /// From a block's coordinates to those of what inserts it, for one of the rows and columns.
 static sl_affine insertion(sl_point at, sl_point step, sl_point scale, double turn, sl_point base) {
@@ -482,6 +483,8 @@ static sl_status count_work(drawing *dxf, uint32_t line) {
     return dxf->work % 4096 == 0 ? sl_check_cancelled(dxf->context) : SL_OK;
 }
 
+/// Draws the entities of a range with the pen. `layer` is the one that things on layer "0" are on:
+/// that of the insertion; of no length at the top.
 static sl_status dxf_draw(drawing *dxf, dxf_range range, sl_word layer, unsigned depth);
 
 static sl_status draw_insert(drawing *dxf, dxf_range entity, sl_word layer, unsigned depth) {
@@ -518,7 +521,7 @@ static sl_status draw_insert(drawing *dxf, dxf_range entity, sl_word layer, unsi
     return SL_OK;
 }
 
-// --- any entity
+// --- entities: all of them
 
 static sl_status draw_shape(drawing *dxf, dxf_range entity, size_t end, sl_word layer, plane lies,
                             unsigned depth) {

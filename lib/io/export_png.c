@@ -1,4 +1,5 @@
-/// Export as a PNG of one bit a pixel: row a, column b is black where cell a sees cell b.
+/// Export as a PNG with one bit per pixel. The pixel in row a and column b is black where cell a
+/// sees cell b. Rows are written one at a time, so that the picture is never in memory as a whole.
 #include "sightline/io.h"
 #include "sightline/support.h"
 
@@ -6,7 +7,7 @@
 #include <setjmp.h>
 #include <string.h>
 
-/// libpng's largest side, unless it is told otherwise.
+/// libpng's largest side, by default.
 #define MOST_CELLS 1000000u
 
 typedef struct picture {
@@ -23,7 +24,7 @@ static void fill_row(const picture *p, uint32_t cell) {
         for (uint32_t i = run.first; i < run.end; i++) p->row[i / 8] &= (uint8_t) ~(0x80u >> i % 8);
 }
 
-/// What libpng has no room or no disk for it tells by a jump to here.
+/// libpng reports a lack of memory or of disk space by a jump to here.
 static sl_status write_rows(const picture *p, png_structp png, png_infop info) {
     if (setjmp(png_jmpbuf(png))) return ferror(p->stream) ? SL_OK : sl_fail_memory(p->context);
     png_init_io(png, p->stream);

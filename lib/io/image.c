@@ -165,7 +165,7 @@ static sl_status image_add_walls(sl_context *context, const sl_image *image, con
     SL_TRY(sl_grid_create(context, image->width, image->height, &grid));
     grid.origin = plan->origin;
     grid.step = (sl_point){plan->step, plan->step};
-    grid.open_neighbour = true;
+    grid.open_outside = true;
     *solid = 0;
     for (size_t i = 0; i < image->width * image->height; i++) {
         const int value = plan->light ? image->pixels[i] : 255 - image->pixels[i];

@@ -28,7 +28,7 @@ static bool is_small(char c) {
     return c >= 'a' && c <= 'z';
 }
 
-/// Whether a word, in small letters, is in the list, as it is or with an s or es behind it.
+/// Whether a word, in small letters, is in the list. A plural with s or es counts too.
 static bool in_list(const char *word, size_t length, const char *const *list, size_t count) {
     for (size_t i = 0; i < count; i++) {
         const size_t stem = strlen(list[i]);

@@ -10,7 +10,7 @@
 
 #include "geometry/orient.h"
 #include "sightline/support.h"
-#include "space/box_tree.h"
+#include "space/index.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -78,7 +78,7 @@ static bool overlaps(const sl_doom_line *line, sl_point a, sl_point b) {
     return fmin(c, d) < fmax(e, f) && fmin(e, f) < fmax(c, d);
 }
 
-/// Adds what a line tells of the sectors within the cell.
+/// Adds the sectors that a line says are within the cell.
 static sl_status ask_line(finder *find, const cell_view *view, const sl_doom_line *line) {
     bool at_left = false, at_right = false, runs_along = false;
     int before = sl_orient(line->from, line->to, view->corners[view->count - 1]);
@@ -104,10 +104,11 @@ typedef struct hit {
     uint32_t sector;    ///< at this side
 } hit;
 
-/// Whether a line is met before another by a ray at the height of both. What rounding cannot tell
-/// is told by the ends, of which both have one at the ray or below and one above it: lines that
-/// meet in a point do so as just above it. Of lines that lie on each other, as walls back to back
-/// do, one that has a sector at this side is wanted.
+/// Whether a ray at the height of both lines meets one line before the other. Where the two places
+/// are too close for rounded numbers, the ends decide: each line has one end at the ray or below
+/// it, and one above. Lines that meet in a point are ordered as they are just above it. Of lines
+/// that lie on each other, such as walls back to back, the one with a sector at this side comes
+/// first.
 static bool is_before(const hit *a, const hit *b, double point_x) {
     const double close = 1e-9 * (fabs(a->x) + fabs(point_x));
     if (fabs(a->x - b->x) > close) return a->x < b->x;

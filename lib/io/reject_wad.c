@@ -256,7 +256,7 @@ static sl_status do_map(sl_context *context, const wad_job *job, map_work *work)
     return sl_fail(context, status, "map %s: %s", work->map.name, message);
 }
 
-/// Of many maps beside each other only how many are done is told.
+/// With several maps at work, only the number of maps that are done is reported.
 static sl_status do_unit(sl_context *context, void *user, void *state, size_t unit) {
     (void)state;
     wad_job *job = user;

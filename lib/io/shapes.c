@@ -248,7 +248,7 @@ static sl_status add_grid(sl_context *context, sl_tiles *tiles, const char *name
     grid.step = step;
     grid.origin =
         (sl_point){corner.x + all->left * step.x, options->top - (corner.y + all->bottom * step.y)};
-    grid.open_neighbour = !closed;
+    grid.open_outside = !closed;
     const sl_status status = sl_grid_add_walls(context, &grid, map);
     sl_grid_destroy(context, &grid);
     return status;

@@ -65,7 +65,7 @@ void sl_tiles_destroy(sl_context *context, sl_tiles *tiles);
 
 /// Adds a block of open squares and gives them to be filled in; they belong to `tiles`.
 /// SL_BAD_INPUT, naming the file, where the block lies so far out or has so many squares that their
-/// corners cannot be told apart.
+/// corners would round to the same place.
 sl_status sl_tiles_add(sl_context *context, sl_tiles *tiles, const char *name, sl_point corner,
                        sl_point step, size_t columns, size_t rows, char **squares);
 

@@ -1,5 +1,6 @@
 /// Maps that are JSON with a list of walls: Universal VTT (Dungeondraft, Arkenforge, DungeonFog),
 /// the scenes of Foundry Virtual Tabletop, and our own JSON export.
+#include "geometry/orient.h"
 #include "io/document.h"
 #include "io/names.h"
 #include "map/scan.h"
@@ -33,10 +34,6 @@ static sl_status read_point(const uvtt *reader, const sl_json *at, sl_point *poi
     return SL_OK;
 }
 
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
 static sl_status read_polyline(uvtt *reader, const sl_json *line) {
     size_t count;
     SL_TRY(sl_json_array(line, &count));
@@ -45,7 +42,7 @@ static sl_status read_polyline(uvtt *reader, const sl_json *line) {
         const sl_json item = sl_json_item(line, i);
         sl_point point;
         SL_TRY(read_point(reader, &item, &point));
-        if (i && !same(before, point)) {
+        if (i && !sl_same_point(before, point)) {
             SL_TRY(sl_map_add_wall(reader->context, reader->map, before, point, 0));
             reader->walls++;
         } else if (i) {
@@ -68,7 +65,7 @@ static sl_status read_polylines(uvtt *reader, const sl_json *lines) {
 }
 
 static sl_status add_portal(uvtt *reader, sl_segment at, bool open) {
-    if (same(at.a, at.b)) {
+    if (sl_same_point(at.a, at.b)) {
         reader->points++;
         return SL_OK;
     }
@@ -278,7 +275,7 @@ static sl_status take(foundry *reader, const record *wall) {
     return wall->door == DOOR_NONE ? add_wall(reader, wall) : add_door(reader, wall);
 }
 
-/// The largest y of all walls, as the file has it.
+/// The largest y of all walls in the file.
 static sl_status find_top(foundry *reader, const sl_json *walls, size_t count) {
     double top = -HUGE_VAL;
     for (size_t i = 0; i < count; i++) {

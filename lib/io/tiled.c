@@ -24,6 +24,8 @@ static bool names(sl_word word, const char *layer, sl_word *gids) {
     return true;
 }
 
+/// Whether a layer of this name is in the list; `*gids` gets its tiles' numbers, of no length for
+/// all.
 static bool tiled_asked_for(const char *list, const char *layer, sl_word *gids) {
     for (sl_word word; sl_layers_next(&list, &word);)
         if (names(word, layer, gids)) return true;
@@ -57,6 +59,7 @@ static bool next_range(sl_word *gids, uint64_t *low, uint64_t *high) {
     return true;
 }
 
+/// Whether a tile is among the numbers; any tile is among none.
 static bool tiled_among(sl_word gids, uint32_t gid) {
     if (!gids.length) return true;
     for (uint64_t low, high; gids.length && next_range(&gids, &low, &high);)
@@ -82,6 +85,7 @@ static bool find_layer(const sl_json *layers, sl_word word, sl_word *gids) {
     return false;
 }
 
+/// SL_BAD_ARGUMENT where the list names a layer that `map` has not, or its numbers are none.
 static sl_status tiled_check_choice(const sl_json *map, const char *list) {
     const sl_json layers = sl_json_member(map, "layers");
     for (sl_word word; list && sl_layers_next(&list, &word);) {

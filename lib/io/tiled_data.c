@@ -275,7 +275,7 @@ static void free_for_zlib(void *context, void *block) {
     sl_free(context, block);
 }
 
-/// zlib and gzip, told apart by their first bytes.
+/// zlib and gzip. Their first bytes say which one it is.
 static sl_status inflate_all(const sl_json *data, bytes packed, bytes *out) {
     sl_context *context = data->file->context;
     z_stream stream = {.zalloc = resize_for_zlib,

@@ -44,7 +44,7 @@ sl_status sl_wad_lump(sl_context *context, const sl_wad *wad, uint32_t index, sl
 bool sl_wad_next_map(const sl_wad *wad, uint32_t *at, sl_wad_map *map);
 
 /// The map by its name (letters and capitals are the same), NULL for the first; of several with one
-/// name the last, as the game has it. SL_BAD_INPUT where there is none.
+/// name the last, which is the one that the game takes. SL_BAD_INPUT where there is none.
 sl_status sl_wad_find_map(sl_context *context, const sl_wad *wad, const char *name,
                           sl_wad_map *map);
 

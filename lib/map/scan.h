@@ -1,4 +1,4 @@
-/// Text as the readers see it: lines, words, numbers, and how a message shows them.
+/// Text of maps: lines, words and numbers for readers, their form in messages, and the writers.
 #ifndef SL_MAP_SCAN_H
 #define SL_MAP_SCAN_H
 
@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-/// A piece of the text that is read; not ended by a 0.
+/// A piece of the text; not ended by a 0.
 typedef struct sl_word {
     const char *at;
     size_t length;
@@ -17,12 +17,12 @@ static inline bool sl_word_is(sl_word word, const char *text) {
     return word.length == strlen(text) && memcmp(word.at, text, word.length) == 0;
 }
 
-/// A word as a message shows it. Lives to the end of the expression: sl_show(word).text.
+/// A word for a message. It lives to the end of the expression: sl_show(word).text.
 typedef struct sl_shown {
     char text[48];
 } sl_shown;
 
-/// Cut short, and without characters that could play tricks on a terminal.
+/// Shortens a word, and replaces control characters, which could play tricks on a terminal.
 static inline sl_shown sl_show(sl_word word) {
     sl_shown shown = {{0}};
     const size_t most = sizeof shown.text - 4;
@@ -45,13 +45,13 @@ typedef struct sl_lines {
     uint32_t line;
 } sl_lines;
 
-/// A byte order mark at the start is passed over.
+/// Skips a byte order mark at the start.
 static inline sl_lines sl_lines_of(const char *text, size_t size) {
     const size_t mark = size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
     return (sl_lines){.at = size ? text + mark : text, .end = size ? text + size : text};
 }
 
-/// The next line without its end (LF or CR LF); false where there is none.
+/// The next line without its end (LF or CR LF); false after the last.
 static inline bool sl_lines_next(sl_lines *lines, sl_word *line) {
     if (lines->at == lines->end) return false;
     const char *stop = memchr(lines->at, '\n', (size_t)(lines->end - lines->at));
@@ -64,7 +64,7 @@ static inline bool sl_lines_next(sl_lines *lines, sl_word *line) {
     return true;
 }
 
-/// No map format has NUL bytes: a file that does is no text, or text of 16-bit characters.
+/// Refuses NUL bytes. A file that has one is not text, or text of 16-bit characters.
 static inline sl_status sl_refuse_nul(sl_context *context, const char *name, const char *text,
                                       size_t size) {
     const char *nul = size ? memchr(text, '\0', size) : NULL;
@@ -81,7 +81,7 @@ static inline bool sl_has_value(sl_word decimal) {
     return false;
 }
 
-/// Reads a coordinate, or says at which line what stands in its place.
+/// Reads a coordinate; a message names the line and the wrong word.
 static inline sl_status sl_read_coordinate(sl_context *context, const char *name, uint32_t line,
                                            sl_word word, double *value) {
     double number;
@@ -97,8 +97,15 @@ static inline sl_status sl_read_coordinate(sl_context *context, const char *name
     return SL_OK;
 }
 
-/// Whether a thing of a map may have this name: UTF-8, not empty, without white space, control
-/// characters and '#', so that it can be written as one word of the map text.
+/// Whether a name can be written as one word of the map text: UTF-8, not empty, without white
+/// space, control characters and '#'.
 bool sl_name_usable(const char *name, size_t length);
+
+// --- writers of maps, to a stream that is open; the caller asks the stream for errors
+
+void sl_map_print_text(const sl_map *map, FILE *stream);
+
+/// Prints nothing on failure.
+sl_status sl_map_print_plan(sl_context *context, const sl_map *map, FILE *stream);
 
 #endif

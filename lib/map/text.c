@@ -1,11 +1,12 @@
-#include "map/print.h"
+/// The map text: one statement on each line, with a keyword first. One table has the form of every
+/// statement. Error messages name file and line.
 #include "map/scan.h"
 #include "sightline/support.h"
 
 #include <math.h>
 
-/// The map text while it is read. `words` and `numbers` are those of the statement at hand, without
-/// its first word and its name.
+/// The reading of a map text. `words` and `numbers` are those of the current statement, without its
+/// first word and its name.
 typedef struct text_reader {
     sl_context *context;
     const char *name;
@@ -106,7 +107,7 @@ static sl_status read_snap(text_reader *reader) {
     return SL_OK;
 }
 
-/// The heading may be any finite number: it is an angle, not a coordinate.
+/// The heading may be any finite number, as it is an angle and not a coordinate.
 static sl_status read_start(text_reader *reader) {
     const sl_word word = reader->words.items[2];
     double heading;
@@ -145,7 +146,7 @@ static sl_status read_cell(text_reader *reader) {
     return status;
 }
 
-/// Any two opposite corners will do.
+/// Any two opposite corners give the box.
 static sl_status read_object(text_reader *reader) {
     const sl_point a = point_of(reader, 0), b = point_of(reader, 1);
     const sl_box box = {.min = {b.x < a.x ? b.x : a.x, b.y < a.y ? b.y : a.y},
@@ -153,8 +154,8 @@ static sl_status read_object(text_reader *reader) {
     return sl_map_add_object(reader->context, reader->map, reader->label, box, reader->line);
 }
 
-/// What a statement looks like: its first word, whether a name follows, then from `least` to `most`
-/// words, the first `numbers` of them coordinates (an even number where that is ANY).
+/// The form of a statement: its first word, whether a name follows, then from `least` to `most`
+/// words. The first `numbers` of these are coordinates; with ANY all are, in pairs.
 typedef struct statement {
     const char *word, *usage;
     bool named;
@@ -219,7 +220,7 @@ static sl_status read_numbers(text_reader *reader, size_t count) {
     return SL_OK;
 }
 
-/// Reads the words behind a statement's first one by its row of the table.
+/// Reads the words after the first one, by the statement's row of the table.
 static sl_status read_by(text_reader *reader, const statement *row) {
     const size_t values = reader->words.count, names = row->named;
     const bool any = row->numbers == ANY;
@@ -269,11 +270,11 @@ static sl_status read_first(text_reader *reader) {
     return SL_OK;
 }
 
-/// Keeps a line "#! text". They stand between the first statement and the second.
+/// Keeps a note, a line "#! text". Notes stand between the first statement and the second.
 static sl_status read_note(text_reader *reader, sl_word line) {
     const size_t lead = line.length > 2 && line.at[2] == ' ' ? 3 : 2;
     const size_t length = line.length - lead;
-    // Room for the 0 behind the last line too.
+    // Also room for the 0 after the last line.
     SL_TRY(SL_ARRAY_ROOM(reader->context, &reader->notes, length + 2));
     if (length) memcpy(reader->notes.items + reader->notes.count, line.at + lead, length);
     reader->notes.count += length;
@@ -349,7 +350,7 @@ static void print_notes(FILE *stream, const char *notes) {
     }
 }
 
-/// What is not a wall.
+/// All but walls.
 static void print_others(const sl_map *map, FILE *stream) {
     for (size_t i = 0; i < map->door_count; i++) {
         const sl_door *door = &map->doors[i];

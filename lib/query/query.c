@@ -9,7 +9,7 @@
 /// A layer that changes nothing is the one below it.
 #include "sightline/query.h"
 
-#include "geometry/distance.h"
+#include "geometry/crossing.h"
 #include "geometry/orient.h"
 #include "sightline/moving.h"
 #include "sightline/sees.h"

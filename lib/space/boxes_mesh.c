@@ -1,17 +1,21 @@
 /// Boxes put into a mesh: the cells that their sides touch are cut anew.
 ///
-/// The walls and portals of those cells and the sides of the boxes are made a planar graph, which
-/// is triangulated and merged to cells as a map's is (mesh.h). A side of a box is axial, so it
-/// holds the rounded place of each of its crossings: only the wall or portal that it crosses is
-/// bent, by a step of doubles. What a cell's walls and portals enclose stays parts of that cell.
+/// The walls and portals of these cells, and the sides of the boxes, become a planar graph. It is
+/// triangulated and merged to cells, as for a map (mesh.h):
 ///
-/// Borders to cells that no box touches must stay as they are. Should a bent wall come to cross
-/// one, the cell beyond it is cut too, and all is done over.
+///     .-----.-----.           .-----.-----.       the portal and the wall that the box crosses are
+///     |    /|      \          |    / \_    \      bent to representable points of its sides; the
+///     |  [---]      .   ->    |  [-+--]-----.     sides of the box are axial, so they hold these
+///     |  [---]     /          |  [---]     /      points exactly
+///     '-----'-----'           '-----'-----'
+///
+/// The parts of a cell stay within its own walls and portals. The borders to untouched cells must
+/// not change. If a bent wall comes to cross one, the cell there is cut too, and all is done again.
+/// This ends, as there are only so many cells.
 #include "space/boxes.h"
 
 #include "geometry/orient.h"
-#include "space/box_tree.h"
-#include "space/cell_grid.h"
+#include "space/index.h"
 #include "space/mesh.h"
 
 #include <string.h>
@@ -20,20 +24,20 @@
 
 /// A wall or portal of cells that are cut.
 typedef struct line {
-    uint32_t cells[2]; ///< of the ground, at its left and right; NONE beyond the border
+    uint32_t cells[2]; ///< of the ground, at its left and right; NONE outside the border
     uint32_t wall;     ///< NONE for a portal
-    uint32_t portal;   ///< which runs from its right to its left; NONE for a wall
+    uint32_t portal;   ///< the line runs from its right to its left; NONE for a wall
 } line;
 
-/// What an edge of the graph is part of.
+/// The line that an edge of the graph is part of.
 typedef struct graph_edge {
-    uint32_t neighbour; ///< what a cell at its left has beyond it, as sl_space.neighbour has it
+    uint32_t neighbour; ///< of a cell at its left, as in sl_space.neighbour
     uint32_t line;      ///< NONE for none
     bool along;         ///< it runs as the line does
-    bool shared;        ///< by several lines
+    bool shared;        ///< several lines have it
 } graph_edge;
 
-/// Where a portal of the ground ends up: its cells, and the places of their directed portals.
+/// The new cell at one side of a portal of the ground, and the place of its directed portal.
 typedef struct portal_end {
     uint32_t cell, directed;
 } portal_end;
@@ -45,7 +49,7 @@ typedef struct new_cell {
 
 typedef struct polygon {
     const sl_point *corners;
-    uint32_t count; ///< two for a segment
+    uint32_t count; ///< 2 for a segment
 } polygon;
 
 typedef struct maker {
@@ -56,16 +60,16 @@ typedef struct maker {
     bool *touched;        ///< by cell of the ground
     uint32_t *wall_cells; ///< by wall of the ground: the cells at its left and right
     sl_piece_list blocking, open;
-    SL_ARRAY(sl_segment) segments; ///< lines, sides that block, sides that do not
+    SL_ARRAY(sl_segment) segments; ///< lines, then sides that block, then other sides
     SL_ARRAY(line) lines;
     sl_planar graph;
     sl_triangulation t;
     graph_edge *edges;
     bool *in;                 ///< by half-edge: it is in a cell that is cut
     uint32_t *cell;           ///< by half-edge: the new cell, NONE for none
-    SL_ARRAY(uint32_t) stack; ///< half-edges to go on from
+    SL_ARRAY(uint32_t) stack; ///< half-edges to visit
     SL_ARRAY(new_cell) cells;
-    SL_ARRAY(sl_point) corners; ///< of the cell at hand
+    SL_ARRAY(sl_point) corners; ///< of the current cell
     uint32_t *directed;         ///< by half-edge
     portal_end *ends;           ///< two by portal of the ground
     SL_ARRAY(sl_mesh_joint) joints;
@@ -108,7 +112,7 @@ static bool is_beside(const polygon *p, const polygon *other) {
     return false;
 }
 
-/// Whether the insides of two polygons have points in common, or of one and a segment.
+/// Whether the insides of two polygons, or of a polygon and a segment, overlap.
 static bool overlap(const polygon *p, const polygon *q) {
     return !is_beside(p, q) && !is_beside(q, p);
 }
@@ -210,13 +214,13 @@ static sl_status take_edges(maker *m) {
     return SL_OK;
 }
 
-/// Whether a line parts a cell that is cut from one that is not.
+/// Whether a line has a cut cell on one side and an uncut one on the other.
 static bool leads_out(const maker *m, const line *l) {
     return l->cells[0] != NONE && l->cells[1] != NONE &&
            m->touched[l->cells[0]] != m->touched[l->cells[1]];
 }
 
-/// Takes in the cells beyond borders that did not stay as they were; false for none.
+/// Adds the uncut cells whose border changed to the cut ones; false for none.
 static bool grow(maker *m) {
     const sl_planar *g = &m->graph;
     bool grown = false;
@@ -247,8 +251,7 @@ static const graph_edge *edge_of(const maker *m, uint32_t half, bool *along) {
     return &m->edges[label - 1];
 }
 
-/// The cell at the left of a half-edge, where its line parts a cell that is cut from one that is
-/// not; else NONE.
+/// The cell at the left of a half-edge on a border between cut and uncut cells; else NONE.
 static uint32_t cell_at_border(const maker *m, uint32_t half) {
     bool along = false;
     const graph_edge *e = edge_of(m, half, &along);
@@ -265,7 +268,7 @@ static sl_status enter_triangle(maker *m, uint32_t half) {
     return SL_OK;
 }
 
-/// Finds the triangles of the cells that are cut: from their borders on; all where there are none.
+/// Finds the triangles of the cut cells, from their borders on. Without borders, all triangles.
 static sl_status find_inside(maker *m) {
     const size_t halves = m->t.halves.count;
     bool bordered = false;
@@ -287,7 +290,7 @@ static sl_status find_inside(maker *m) {
     return SL_OK;
 }
 
-/// Takes in the cells that bent lines have come into; false for none.
+/// Adds the cells that bent lines have entered to the cut ones; false for none.
 static bool take_strays(maker *m) {
     bool grown = false;
     for (uint32_t half = 0; half < m->t.halves.count; half++) {
@@ -330,7 +333,7 @@ static sl_status make_triangles(maker *m) {
 
 // --- the cells
 
-/// Gathers the corners of the cell that a half-edge is a side of.
+/// Gathers the corners of the cell of a half-edge.
 static sl_status gather_corners(maker *m, uint32_t half) {
     const uint32_t first = half;
     m->corners.count = 0;
@@ -342,8 +345,8 @@ static sl_status gather_corners(maker *m, uint32_t half) {
     return SL_OK;
 }
 
-/// The cell of the ground that a new one is part of: the one that it is within. Where bent lines
-/// leave no such cell, that at its middle, or any that it reaches into.
+/// The cell of the ground that a new cell is within. Bent lines may leave none; then the one at its
+/// middle, or any one that it overlaps.
 static uint32_t parent_of(const maker *m, const polygon *p) {
     sl_point middle = {0, 0};
     for (uint32_t i = 0; i < p->count; i++) {
@@ -366,7 +369,7 @@ static uint32_t parent_of(const maker *m, const polygon *p) {
     return found;
 }
 
-/// Adds a cell, by its parent's number if that is free.
+/// Adds a cell, with the number of its parent if that is free.
 static sl_status add_cell(maker *m, uint32_t parent, uint32_t half) {
     if (m->cells.items[parent].half == NONE) {
         m->cells.items[parent].half = half;
@@ -378,7 +381,7 @@ static sl_status add_cell(maker *m, uint32_t parent, uint32_t half) {
     return SL_OK;
 }
 
-/// Of a cell as narrow as a step of doubles nothing may be left: the last one takes its number.
+/// Nothing may be left of a cell as narrow as a step of doubles. The last cell takes its number.
 static void close_gaps(maker *m) {
     for (uint32_t i = 0; i < m->cells.count; i++)
         while (i < m->cells.count && m->cells.items[i].half == NONE &&
@@ -420,7 +423,7 @@ static uint32_t neighbour_of(const maker *m, uint32_t half) {
     return sl_half_is_outside(&m->t, half ^ 1) ? SL_NEIGHBOUR_BORDER : SL_NEIGHBOUR_PORTAL;
 }
 
-/// Adds a corner and what is beyond its side; says whether that is a directed portal.
+/// Adds a corner and the neighbour across its side. Returns whether that is a portal.
 static bool add_corner(maker *m, sl_point corner, uint32_t neighbour) {
     sl_space *s = &m->out->space;
     s->vertices[s->vertex_count] = corner;
@@ -491,7 +494,7 @@ static sl_status write_cells(maker *m) {
 
 // --- portals and walls
 
-/// Adds a portal that runs from right to left as crossed from the first of two cells.
+/// Adds a portal; `right` and `left` are its ends as crossed from the first cell to the second.
 static sl_status add_joint(maker *m, portal_end from, portal_end to, sl_point right,
                            sl_point left) {
     const bool up = from.cell < to.cell;
@@ -535,7 +538,7 @@ static sl_status write_walls(maker *m) {
     return SL_OK;
 }
 
-// --- what bent lines leave in other cells
+// --- parts of other cells that bent lines leave
 
 static sl_status find_shares(maker *m, uint32_t number) {
     const polygon p = polygon_of(&m->out->space, number);

@@ -1,10 +1,10 @@
-/// What the searches for faults share.
+/// The search for faults, shared by faults.c and faults_walls.c.
 #ifndef SL_SPACE_FAULTS_H
 #define SL_SPACE_FAULTS_H
 
 #include "sightline/faults.h"
 #include "sightline/support.h"
-#include "space/wall_grid.h"
+#include "space/index.h"
 
 #include <math.h>
 
@@ -27,14 +27,7 @@ static inline double sl_apart(sl_point a, sl_point b) {
     return hypot(a.x - b.x, a.y - b.y);
 }
 
-/// The point of a wall that is nearest to another point; an end, or rounded.
-sl_point sl_nearest_on_wall(const sl_wall *wall, sl_point point);
-/// Exact.
-bool sl_touches_wall(const sl_wall *wall, sl_point point);
-
-/// Gaps, overlaps and crossings.
+/// Gaps, overlaps and crossings (faults_walls.c).
 sl_status sl_find_wall_faults(sl_fault_search *search);
-/// Leaks, thin cells and unreachable rooms.
-sl_status sl_find_space_faults(sl_fault_search *search);
 
 #endif

@@ -1,16 +1,21 @@
-/// Cells that a map brings along (a node builder's, or anyone's).
+/// Cells that a map brings along, from a node builder or elsewhere.
 ///
-/// Such cells have been rounded: corners that should lie on a straight side bend it, cells meet in
-/// T-junctions, corners stand off their walls. So their sides are taken for lines that end cells,
-/// welded together with the walls by the map's own tolerance (sl_map_clean does the same, and then
-/// nothing is left to weld), and a mesh is made over all of them. Cells that are still bent come
-/// out in several convex parts.
+/// Such cells are rounded. Corners that should lie on a straight side bend it, cells meet in
+/// T-junctions, corners stand beside their walls:
 ///
-/// Which of the map's cells a triangle is in is counted from outside: the way into a triangle
-/// crosses a side of each cell that it enters or leaves.
+///     +-----+-----+            the sides of cells are lines, welded with the walls by the
+///     |     .     |            map's own tolerance; a mesh is made over all of them, so a
+///     |      .----+            cell that is bent comes out in several convex parts
+///     |     .     |
+///     +-----+-----+
+///
+/// Are the cells sound? The cover of a triangle is the number of cells over it. Outside it is 0,
+/// and a side changes it by one, so a walk over all triangles counts it. More than one, or less
+/// than none, is a cell that overlaps another. Time O(n log n), for the mesh.
 #include "space/mesh.h"
 
-/// How many of the map's cells cover a triangle, and the sum of their numbers, each plus one.
+/// The number of the map's cells that cover a triangle, and the sum of their numbers, each plus
+/// one.
 typedef struct cover {
     int64_t count, sum;
 } cover;
@@ -20,9 +25,10 @@ typedef struct given {
     const sl_map *map;
     const char *source; ///< for messages
     sl_mesh_lines lines;
-    sl_planar graph; ///< sides of cells are behind walls and seams, by corner of the map
+    sl_planar graph; ///< of walls, seams, and sides of cells by corner of the map
     sl_triangulation triangles;
-    cover *steps;  ///< by edge of the graph: what is at the left of it, a to b, less what is not
+    cover
+        *steps; ///< by edge of the graph, from a to b: the cover at its left less that at its right
     cover *covers; ///< by half-edge
     bool *known;   ///< by half-edge
     SL_ARRAY(uint32_t) waiting;
@@ -44,9 +50,9 @@ static sl_status make_graph(given *g, sl_space *space) {
     return sl_triangulate(g->context, &g->graph, &space->bounds, &g->triangles);
 }
 
-// --- which cell a triangle is in
+// --- the cells that cover a triangle
 
-/// The edges around a cell, *count of them.
+/// The *count edges around a cell.
 static const sl_planar_link *links_of(const given *g, uint32_t cell, size_t *count) {
     const sl_map_cell *c = &g->map->cells[cell];
     const size_t *first = g->graph.first + g->lines.wall_count + g->lines.seam_count + c->first;
@@ -67,7 +73,7 @@ static double area_of(const given *g, uint32_t cell) {
     return sum;
 }
 
-/// What crossing each edge of the graph, from its right to its left, adds to the cover.
+/// Counts what crossing each edge of the graph, from its right to its left, adds to the cover.
 static void count_steps(given *g) {
     for (uint32_t i = 0; i < g->map->cell_count; i++) {
         const double area = area_of(g, i);
@@ -118,8 +124,8 @@ static sl_status cover_all(given *g) {
     return SL_OK;
 }
 
-/// Fails for the triangle of a half-edge, which is covered wrongly, naming a cell whose side the
-/// half-edge is and which is entered there, or left, where the cover is too low. SL_OK for none.
+/// Fails for a triangle that is covered wrongly. Names a cell that has the half-edge as a side, and
+/// is entered there, or left where the cover is too low. SL_OK if there is none.
 static sl_status fail_at(const given *g, uint32_t half) {
     const uint32_t from = g->triangles.halves.items[half].from;
     const sl_point at = g->triangles.points.items[from];
@@ -139,7 +145,7 @@ static sl_status fail_at(const given *g, uint32_t half) {
     return SL_OK;
 }
 
-/// Cells may not overlap, nor wind around a place more than once.
+/// Cells must not overlap, nor wind around a place more than once.
 static sl_status check_cover(given *g) {
     const size_t halves = g->triangles.halves.count;
     g->steps = sl_alloc_array(g->context, g->graph.edge_count, sizeof *g->steps);

@@ -1,13 +1,27 @@
-/// Cells of a mesh: triangles, merged where they make up a convex polygon.
+/// Cells of a mesh: triangles, merged where the result is convex.
 ///
-/// The sides of all triangles that are no edge of the graph are taken out, the longest first, where
-/// that leaves both of their ends convex (Hertel & Mehlhorn 1983, Fast triangulation of simple
-/// polygons). One round is enough: taking a side out only widens the corners at its ends, so one
-/// that had to stay has to stay for good.
+/// Each side between two triangles that is no edge of the graph is tried, the longest first. It is
+/// removed if both of its ends stay convex corners (Hertel & Mehlhorn 1983, Fast triangulation of
+/// simple polygons):
+///
+///     +-------+          +-------+             +-------+
+///     |     / |          |       |             |     / .
+///     |   /   |    ->    |       |      but    |   /  .       stays: without the side
+///     | /     |          |       |             | /   .        this corner would turn right
+///     +-------+          +-------+             +----+
+///                                              |     \.
+///                                              +------+
+///
+/// One round is enough. Removing a side only makes the corners at its ends wider, so a side that
+/// has to stay has to stay for good. Longest first gives few cells and few pairs of cells that see
+/// each other. Exactly straight corners count as convex. Time O(n log n), for sorting.
+///
+/// Then cells are numbered in the order of their points, and every side between two cells becomes a
+/// portal.
 #include "space/mesh.h"
 
 #include "geometry/orient.h"
-#include "space/cell_grid.h"
+#include "space/index.h"
 #include "space/kd_tree.h"
 #include "space/seams.h"
 
@@ -22,16 +36,16 @@ typedef struct candidate {
     uint32_t half;
 } candidate;
 
-/// What an edge of the graph is to the space.
+/// The wall and the seams that an edge of the graph is part of.
 typedef struct graph_edge {
     uint32_t wall;       ///< 1 + its number, 0 for none
-    uint32_t first_seam; ///< 1 + its place in seam_links, 0 for none
+    uint32_t first_seam; ///< 1 + the place of its first seam in seam_links, 0 for none
 } graph_edge;
 
-/// That an edge is part of a seam, and the next such link of that edge.
+/// A seam that an edge is part of, and the next such link of the edge.
 typedef struct seam_link {
     uint32_t seam, next;
-    bool reversed; ///< the edge runs from b to a along the seam
+    bool reversed; ///< the edge runs against the seam
 } seam_link;
 
 typedef struct merger {
@@ -40,8 +54,8 @@ typedef struct merger {
     const sl_planar *graph;
     sl_space *space;
     uint32_t *previous;   ///< by half-edge
-    uint32_t *cell;       ///< by half-edge; NONE for one that is gone or outside
-    uint32_t *directed;   ///< by half-edge of a portal: its place in space.directed portals
+    uint32_t *cell;       ///< by half-edge; NONE for a removed one or one outside
+    uint32_t *directed;   ///< by half-edge of a portal: its place in space.directed
     sl_mesh_watch *watch; ///< NULL for none
     void *user;
     graph_edge *edges;
@@ -62,18 +76,10 @@ static uint32_t next(const merger *m, uint32_t half) {
 
 // --- merging
 
-/// Whether the way from a through p to b goes straight on or to the left, and not back.
-static bool is_convex(sl_point a, sl_point p, sl_point b) {
-    const int turn = sl_orient(a, p, b);
-    if (turn) return turn > 0;
-    return (a.x < p.x) == (p.x < b.x) && (a.x > p.x) == (p.x > b.x) && (a.y < p.y) == (p.y < b.y) &&
-           (a.y > p.y) == (p.y > b.y);
-}
-
-/// Whether the corner where a half-edge starts is convex once its edge is gone.
+/// Whether the corner where a half-edge starts is convex without its edge.
 static bool leaves_convex(const merger *m, uint32_t half) {
-    return is_convex(start_of(m, m->previous[half]), start_of(m, half),
-                     end_of(m, next(m, half ^ 1)));
+    return sl_goes_on(start_of(m, m->previous[half]), start_of(m, half),
+                      end_of(m, next(m, half ^ 1)));
 }
 
 static void join(merger *m, uint32_t before, uint32_t after) {
@@ -104,7 +110,7 @@ static sl_status list_candidates(merger *m, candidate **out, size_t *count) {
     return SL_OK;
 }
 
-/// Takes a side out where both of its ends stay convex.
+/// Removes a side if both of its ends stay convex.
 static sl_status try_side(merger *m, uint32_t half) {
     const uint32_t twin = half ^ 1;
     const uint32_t stuck = !leaves_convex(m, half) ? half : leaves_convex(m, twin) ? NONE : twin;
@@ -154,8 +160,8 @@ static bool is_before(sl_point a, sl_point b) {
     return a.x < b.x || (a.x == b.x && a.y < b.y);
 }
 
-/// Numbers the cells by their first half-edges, which follow the order of points, and gives them
-/// their first corner: the leftmost, of those the lowest.
+/// Numbers the cells by their first half-edges, which follow the order of points. The first corner
+/// of a cell is the leftmost one, of several the lowest.
 static sl_status number_cells(merger *m, uint32_t **firsts) {
     const size_t halves = m->t->halves.count;
     uint32_t cells = 0;
@@ -164,7 +170,7 @@ static sl_status number_cells(merger *m, uint32_t **firsts) {
     if (!*firsts) return SL_NO_MEMORY;
     for (uint32_t half = 0; half < halves; half++) {
         if (sl_half_is_outside(m->t, half)) m->cell[half] = NONE;
-        if (m->cell[half]) continue; // gone, or 1 + its cell
+        if (m->cell[half]) continue; // removed, or has a number: 1 + its cell
         uint32_t first = half, at = half;
         do {
             m->cell[at] = cells + 1;
@@ -182,7 +188,7 @@ static sl_status number_cells(merger *m, uint32_t **firsts) {
     return SL_OK;
 }
 
-/// What is beyond a half-edge's side, as sl_space.neighbour has it.
+/// The neighbour across a half-edge, as in sl_space.neighbour.
 static uint32_t neighbour_of(const merger *m, uint32_t half) {
     const uint32_t label = m->t->labels[half / 2];
     const uint32_t wall = label ? m->edges[label - 1].wall : 0;
@@ -248,7 +254,7 @@ static sl_status add_seams(merger *m, const sl_mesh_joint *at, uint32_t portal, 
     const uint32_t label = m->t->labels[at->half / 2];
     if (!label) return SL_OK;
     const sl_planar_edge *e = &m->graph->edges[label - 1];
-    // The edge runs from the portal's right to its left where it starts as its half-edge does.
+    // The half-edge runs from the portal's right end to its left one.
     const bool along = m->t->halves.items[at->half].from != e->a;
     for (uint32_t i = m->edges[label - 1].first_seam; i; i = m->seam_links.items[i - 1].next) {
         const seam_link *l = &m->seam_links.items[i - 1];
@@ -285,7 +291,7 @@ static sl_status write_portals(merger *m) {
 
 // --- the graph's edges
 
-/// Walls are numbered as their segments come, so that those of a clean map keep their numbers.
+/// Walls are numbered in the order of segments, so that a clean map keeps its numbers.
 static sl_status take_walls(merger *m, const sl_map *map, const sl_mesh_lines *lines) {
     sl_space *s = m->space;
     const sl_planar *g = m->graph;
@@ -303,7 +309,7 @@ static sl_status take_walls(merger *m, const sl_map *map, const sl_mesh_lines *l
     return SL_OK;
 }
 
-/// Replaces the seams by their parts, one an edge, in order.
+/// Replaces the seams by their parts, one for each edge, in order.
 static sl_status take_seams(merger *m, const sl_mesh_lines *lines) {
     const sl_planar *g = m->graph;
     const size_t *first = g->first + lines->wall_count;
@@ -322,7 +328,7 @@ static sl_status take_seams(merger *m, const sl_mesh_lines *lines) {
     m->space->seams = parts;
     m->space->seam_count = next_part;
     SL_TRY(SL_ARRAY_ROOM(m->context, &m->seam_links, count));
-    // From the last one on, so that each edge has its seams in their order.
+    // Backwards, so that the links of each edge are in the order of seams.
     for (size_t k = first[lines->seam_count]; k-- > first[0];) {
         graph_edge *e = &m->edges[g->links[k] / 2];
         m->seam_links.items[m->seam_links.count++] =
@@ -402,4 +408,120 @@ sl_status sl_subdivide_mesh(sl_context *context, const sl_map *map, sl_space *ou
     sl_report(context, "subdivide", "cells", space.cell_count, space.cell_count);
     *out = space;
     return SL_OK;
+}
+
+// --- the steps of the mesh, for lessons
+
+void sl_mesh_steps_destroy(sl_context *context, sl_mesh_steps *steps) {
+    sl_triangulation_destroy(context, &steps->delaunay);
+    sl_triangulation_destroy(context, &steps->triangles);
+    sl_free(context, steps->fresh);
+    sl_free(context, steps->sides.items);
+    sl_free(context, steps->taken);
+    *steps = (sl_mesh_steps){0};
+}
+
+typedef struct recorder {
+    sl_context *context;
+    sl_mesh_steps *steps;
+} recorder;
+
+static sl_status note_side(void *user, uint32_t half, uint32_t stuck) {
+    const recorder *r = user;
+    sl_mesh_steps *s = r->steps;
+    SL_TRY(SL_ARRAY_ROOM(r->context, &s->sides, 1));
+    if (stuck == SL_OUTSIDE) s->taken[half / 2] = (uint32_t)s->sides.count;
+    s->sides.items[s->sides.count++] = (sl_mesh_side){half, stuck};
+    return SL_OK;
+}
+
+static int compare_keys(const void *left, const void *right) {
+    const uint64_t a = *(const uint64_t *)left, b = *(const uint64_t *)right;
+    return (a > b) - (a < b);
+}
+
+/// An edge as its two points, whichever way it runs.
+static uint64_t key_of(const sl_triangulation *t, size_t edge) {
+    const uint64_t a = t->halves.items[2 * edge].from, b = t->halves.items[2 * edge + 1].from;
+    return a < b ? a << 32 | b : b << 32 | a;
+}
+
+static sl_status find_fresh(sl_context *context, sl_mesh_steps *s) {
+    const size_t count = s->delaunay.halves.count / 2, edges = s->triangles.halves.count / 2;
+    uint64_t *keys = sl_alloc_array(context, count, sizeof *keys);
+    s->fresh = sl_alloc_array(context, edges, sizeof *s->fresh);
+    for (size_t i = 0; keys && i < count; i++) keys[i] = key_of(&s->delaunay, i);
+    if (keys) qsort(keys, count, sizeof *keys, compare_keys);
+    for (size_t i = 0; keys && s->fresh && i < edges; i++) {
+        const uint64_t key = key_of(&s->triangles, i);
+        s->fresh[i] = !bsearch(&key, keys, count, sizeof *keys, compare_keys);
+    }
+    const bool done = keys && s->fresh;
+    sl_free(context, keys);
+    return done ? SL_OK : SL_NO_MEMORY;
+}
+
+/// Records the merging of a second triangulation.
+static sl_status record_sides(sl_context *context, const sl_planar *graph, const sl_box *box,
+                              sl_mesh_steps *s) {
+    const size_t edges = s->triangles.halves.count / 2;
+    s->taken = sl_alloc_array(context, edges, sizeof *s->taken);
+    if (!s->taken) return SL_NO_MEMORY;
+    memset(s->taken, 0xff, edges * sizeof *s->taken);
+    sl_triangulation merged = {0};
+    recorder r = {context, s};
+    SL_TRY(sl_triangulate(context, graph, box, &merged));
+    const sl_status status = sl_mesh_merge(context, &merged, note_side, &r, NULL);
+    sl_triangulation_destroy(context, &merged);
+    return status;
+}
+
+static sl_status record(sl_context *context, const sl_planar *graph, const sl_box *box,
+                        sl_mesh_steps *s) {
+    sl_planar points = *graph;
+    points.edge_count = 0;
+    SL_TRY(sl_triangulate(context, &points, box, &s->delaunay));
+    SL_TRY(sl_triangulate(context, graph, box, &s->triangles));
+    SL_TRY(find_fresh(context, s));
+    return record_sides(context, graph, box, s);
+}
+
+sl_status sl_mesh_steps_record(sl_context *context, const sl_space *space, sl_mesh_steps *out) {
+    const size_t count = (size_t)space->wall_count + space->seam_count;
+    sl_segment *lines = sl_alloc_array(context, count, sizeof *lines);
+    sl_planar graph = {0};
+    sl_mesh_steps steps = {0};
+    if (!lines) return SL_NO_MEMORY;
+    for (size_t i = 0; i < space->wall_count; i++)
+        lines[i] = (sl_segment){space->walls[i].a, space->walls[i].b};
+    for (size_t i = 0; i < space->seam_count; i++)
+        lines[space->wall_count + i] = space->seams[i].at;
+    sl_status status = sl_planar_make(context, "the space", lines, count, 0, &graph);
+    if (status == SL_OK) status = record(context, &graph, &space->bounds, &steps);
+    sl_free(context, lines);
+    sl_planar_destroy(context, &graph);
+    if (status == SL_OK)
+        *out = steps;
+    else
+        sl_mesh_steps_destroy(context, &steps);
+    return status;
+}
+
+uint32_t sl_mesh_steps_next(const sl_mesh_steps *steps, size_t place, uint32_t half) {
+    const sl_half_edge *halves = steps->triangles.halves.items;
+    uint32_t next = halves[half].next;
+    // Around the point, past the removed sides.
+    while (steps->taken[next / 2] < place) next = halves[next ^ 1].next;
+    return next;
+}
+
+void sl_mesh_steps_corner(const sl_mesh_steps *steps, size_t place, sl_point corner[3]) {
+    const sl_triangulation *t = &steps->triangles;
+    const uint32_t stuck = steps->sides.items[place].stuck;
+    uint32_t before = stuck;
+    for (uint32_t half; (half = sl_mesh_steps_next(steps, place, before)) != stuck;) before = half;
+    const uint32_t after = sl_mesh_steps_next(steps, place, stuck ^ 1);
+    corner[0] = t->points.items[t->halves.items[before].from];
+    corner[1] = t->points.items[t->halves.items[stuck].from];
+    corner[2] = t->points.items[sl_half_end(t, after)];
 }

@@ -1,38 +1,41 @@
-/// The outline: each cell's directed portals in order, and between them what walls and the border
-/// there are. A mesh knows what each side is. In a kd-tree's space the wall on a piece of the
-/// boundary is found through a grid over the walls, and decided by the exact predicate.
+/// The outline of a space: for each cell its portals in order, and between them walls and border.
+///
+///          left ____ portal ____ right        a cell is walked counter-clockwise; a gap between
+///          two
+///         .                           .       portals is a piece of wall, or of several walls, or
+///        wall                       border    of the map's border
+///         .____ wall 3 _____ wall 4 __.
+///
+/// A mesh knows what each side is. In a kd-tree's space, a grid over the walls finds those near a
+/// gap, and an exact sign decides whether a wall lies on it. Then cells are joined to rooms
+/// (rooms.c). No coordinate is computed. Time O(n log n).
 #include "sightline/outline.h"
 
 #include "geometry/orient.h"
 #include "sightline/support.h"
-#include "space/rooms.h"
-#include "space/wall_grid.h"
+#include "space/index.h"
+#include "space/kd_tree.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/// What a wall covers of a piece of boundary, in the coordinate that runs along it.
+/// The part of a piece of boundary that a wall covers, in the coordinate along it.
 typedef struct cover {
     double from, to;
-    sl_point start, end; ///< the same as points
+    sl_point start, end; ///< the same, as points
     uint32_t wall;
 } cover;
 
 typedef struct outliner {
     const sl_space *space;
     sl_wall_grid grid;
-    double reach; ///< of the grid
+    double reach; ///< of the grid: it finds walls within it
     SL_ARRAY(cover) covers;
     SL_ARRAY(sl_side) sides;
     uint32_t *of_portal; ///< the side of each directed portal
 } outliner;
 
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
-/// Where a point of the line through `from` and `to` lies along it: ascending from one to the
-/// other.
+/// The place of a point along the line from `from` to `to`; it grows on the way.
 static double along(sl_point from, sl_point to, sl_point point) {
     const bool by_x = fabs(to.x / 2 - from.x / 2) >= fabs(to.y / 2 - from.y / 2);
     if (by_x) return to.x > from.x ? point.x : -point.x;
@@ -57,7 +60,8 @@ static sl_status add_cover(sl_context *context, outliner *o, uint32_t wall, sl_p
     return SL_OK;
 }
 
-/// Every wall on the way is near to some point of it; those near to several come several times.
+/// Finds the walls on a piece of boundary: each is near to some point of it. A wall may come
+/// several times.
 static sl_status gather_covers(sl_context *context, outliner *o, sl_point from, sl_point to) {
     const sl_point d = {to.x - from.x, to.y - from.y};
     const double steps = ceil((fabs(d.x) + fabs(d.y)) / o->reach);
@@ -93,12 +97,12 @@ static sl_status add_border(sl_context *context, outliner *o, uint32_t cell, sl_
                    cell, from.x, from.y, to.x, to.y);
 }
 
-/// Adds the sides of a piece of boundary that has no portal.
+/// Adds the sides of a piece of boundary without portals.
 static sl_status add_gap(sl_context *context, outliner *o, uint32_t cell, sl_point from,
                          sl_point to) {
     SL_TRY(gather_covers(context, o, from, to));
     sl_point at = from;
-    for (size_t i = 0; i < o->covers.count && !same(at, to); i++) {
+    for (size_t i = 0; i < o->covers.count && !sl_same_point(at, to); i++) {
         const cover *c = &o->covers.items[i];
         if (c->to <= along(from, to, at)) continue;
         if (c->from > along(from, to, at)) {
@@ -108,7 +112,7 @@ static sl_status add_gap(sl_context *context, outliner *o, uint32_t cell, sl_poi
         SL_TRY(add_side(context, o, at, SL_SIDE_WALL + c->wall));
         at = c->to < along(from, to, to) ? c->end : to;
     }
-    return same(at, to) ? SL_OK : add_border(context, o, cell, at, to);
+    return sl_same_point(at, to) ? SL_OK : add_border(context, o, cell, at, to);
 }
 
 static bool on_edge(sl_point a, sl_point b, sl_point p) {
@@ -151,15 +155,15 @@ static sl_status outline_cell(sl_context *context, outliner *o, uint32_t cell) {
         for (; directed < c->first_directed + c->directed_count; directed++) {
             const sl_directed_portal *e = &o->space->directed[directed];
             if (!on_edge(corners[i], end, e->right) || !on_edge(corners[i], end, e->left)) break;
-            if (!same(at, e->right)) SL_TRY(add_gap(context, o, cell, at, e->right));
+            if (!sl_same_point(at, e->right)) SL_TRY(add_gap(context, o, cell, at, e->right));
             o->of_portal[directed] = (uint32_t)o->sides.count;
             SL_TRY(add_side(context, o, e->right, 0));
             at = e->left;
         }
-        if (!same(at, end)) SL_TRY(add_gap(context, o, cell, at, end));
+        if (!sl_same_point(at, end)) SL_TRY(add_gap(context, o, cell, at, end));
     }
     if (directed != c->first_directed + c->directed_count)
-        return sl_fail(context, SL_BAD_ARGUMENT, "cell %u: exit %u is not on its boundary", cell,
+        return sl_fail(context, SL_BAD_ARGUMENT, "cell %u: portal %u is not on its boundary", cell,
                        directed - c->first_directed);
     if (o->sides.count > INT32_MAX) return sl_fail_memory(context);
     o->sides.items[o->sides.count - 1].next = first;

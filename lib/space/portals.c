@@ -1,6 +1,21 @@
-/// Portals: along each split line the cells on its two sides are merged and the walls on it left
-/// out. Directed portals: each cell's portals, as it crosses them on the way out.
+/// Portals and directed portals of a kd-tree's space, and which cells are inside.
+///
+/// A portal lies on a split line, between a cell below it and a cell above it. For each node, both
+/// lists of cells that touch the line are gathered in order, and merged:
+///
+///     above   |   A   |     B      |  C  |
+///     split   =====...:....====....:.....=       = wall   . free
+///     below   |      D      |     E      |
+///
+/// Each common stretch of two cells, without the walls on it, gives portals: here D-A, D-B, E-B and
+/// E-C. Seams on the line cut portals too. Time: linear in the portals, plus sorting.
+///
+/// Inside is what the map's starts reach through portals. Without starts, it is what the border
+/// does not reach.
 #include "space/kd_tree.h"
+
+#include "geometry/orient.h"
+#include "sightline/support.h"
 
 #include <stdlib.h>
 
@@ -14,8 +29,8 @@ typedef struct portal_maker {
     portal_list portals;
 } portal_maker;
 
-/// Gathers the cells below `child` that touch the line of a split on `axis`: seen from the split,
-/// the subtree lies above or below it.
+/// Gathers the cells in a subtree that touch the line of a split on `axis`. The subtree lies above
+/// the split or below it.
 static sl_status gather_cells(sl_context *context, portal_maker *maker, int32_t child, int axis,
                               bool above, cell_list *out) {
     out->count = maker->stack.count = 0;
@@ -47,14 +62,14 @@ static sl_status add_portal(sl_context *context, portal_list *portals, const sl_
                             uint32_t below, uint32_t above, double lo, double hi) {
     const double at = split->position;
     SL_TRY(SL_ARRAY_ROOM(context, portals, 1));
-    // Going up in the split's coordinate, the left hand is at high y (axis 0) or at low x (axis 1).
+    // On the way up across the split, the left hand is at high y (axis 0) or at low x (axis 1).
     const sl_portal portal = split->axis == 0 ? (sl_portal){{below, above}, {at, hi}, {at, lo}}
                                               : (sl_portal){{below, above}, {lo, at}, {hi, at}};
     portals->items[portals->count++] = portal;
     return SL_OK;
 }
 
-/// Adds lo .. hi, cut where a seam on the split line begins or ends.
+/// Adds lo .. hi, cut where a seam on the line begins or ends.
 static sl_status add_cut_piece(sl_context *context, portal_maker *maker, const sl_node *split,
                                uint32_t below, uint32_t above, double lo, double hi,
                                const sl_piece *walls, size_t count, size_t next) {
@@ -70,7 +85,8 @@ static sl_status add_cut_piece(sl_context *context, portal_maker *maker, const s
     return add_portal(context, &maker->portals, split, below, above, lo, hi);
 }
 
-/// Adds what walls[*next ...] leave of lo .. hi; moves *next past the walls that end there.
+/// Adds the parts of lo .. hi that walls[*next ...] leave free. Moves *next past walls that end
+/// before lo.
 static sl_status add_free_pieces(sl_context *context, portal_maker *maker, const sl_node *split,
                                  uint32_t below, uint32_t above, double lo, double hi,
                                  const sl_piece *walls, size_t count, size_t *next) {
@@ -109,20 +125,15 @@ static sl_status make_portals_of(sl_context *context, portal_maker *maker, size_
     return SL_OK;
 }
 
-static int compare_points(sl_point a, sl_point b) {
-    if (a.x != b.x) return a.x < b.x ? -1 : 1;
-    return (a.y > b.y) - (a.y < b.y);
-}
-
 int sl_compare_portals(const void *left, const void *right) {
     const sl_portal *a = left, *b = right;
     if (a->cell[0] != b->cell[0]) return a->cell[0] < b->cell[0] ? -1 : 1;
     if (a->cell[1] != b->cell[1]) return a->cell[1] < b->cell[1] ? -1 : 1;
-    return compare_points(a->right, b->right);
+    return sl_compare_points(a->right, b->right);
 }
 
-/// Compares two directed portals of one cell by their place on its boundary, counter-clockwise from
-/// the corner at the lower left. That way round, a directed portal's right end comes first.
+/// The order of two directed portals of a cell: counter-clockwise from the lower left corner. The
+/// right end of a directed portal comes first on this way.
 static int compare_directed(const void *left, const void *right) {
     const sl_directed_portal *a = left, *b = right;
     const sl_point u = {a->left.x - a->right.x, a->left.y - a->right.y};
@@ -130,7 +141,7 @@ static int compare_directed(const void *left, const void *right) {
     const int edge_a = u.x > 0 ? 0 : u.y > 0 ? 1 : u.x < 0 ? 2 : 3;
     const int edge_b = v.x > 0 ? 0 : v.y > 0 ? 1 : v.x < 0 ? 2 : 3;
     if (edge_a != edge_b) return edge_a - edge_b;
-    const int order = compare_points(a->right, b->right);
+    const int order = sl_compare_points(a->right, b->right);
     return edge_a < 2 ? order : -order;
 }
 
@@ -189,4 +200,73 @@ sl_status sl_make_portals(sl_context *context, const sl_kd_tree *tree, sl_space 
     sl_free(context, maker.above.items);
     sl_free(context, maker.portals.items);
     return status;
+}
+
+// --- inside and outside
+
+/// Marks all cells that portals connect with those on the stack.
+static void flood(const sl_space *space, sl_bits *reached, uint32_t *stack, size_t count) {
+    while (count) {
+        const sl_cell *cell = &space->cells[stack[--count]];
+        for (uint32_t i = 0; i < cell->directed_count; i++) {
+            const uint32_t next = space->directed[cell->first_directed + i].cell;
+            if (sl_bits_has(reached, next)) continue;
+            sl_bits_add(reached, next);
+            stack[count++] = next;
+        }
+    }
+}
+
+/// Whether the cell touches a part of the map's border that has no wall.
+static bool open_to_border(const sl_space *space, const sl_cell *cell, const sl_piece *walls) {
+    if (space->neighbour) {
+        for (uint32_t i = 0; i < cell->vertex_count; i++)
+            if (space->neighbour[cell->first_vertex + i] == SL_NEIGHBOUR_BORDER) return true;
+        return false;
+    }
+    const sl_point min = space->vertices[cell->first_vertex];
+    const sl_point max = space->vertices[cell->first_vertex + 2];
+    const size_t count = space->wall_count;
+    const sl_box *b = &space->bounds;
+    return (min.x == b->min.x && !sl_wall_lines_cover(walls, count, 0, min.x, min.y, max.y)) ||
+           (max.x == b->max.x && !sl_wall_lines_cover(walls, count, 0, max.x, min.y, max.y)) ||
+           (min.y == b->min.y && !sl_wall_lines_cover(walls, count, 1, min.y, min.x, max.x)) ||
+           (max.y == b->max.y && !sl_wall_lines_cover(walls, count, 1, max.y, min.x, max.x));
+}
+
+static void mark(const sl_map *map, const sl_piece *walls, sl_space *space, sl_bits *reached,
+                 uint32_t *stack) {
+    size_t count = 0;
+    const bool from_starts = map->start_count > 0;
+    for (size_t i = 0; i < map->start_count; i++) {
+        const uint32_t cell = sl_space_locate(space, map->starts[i].at);
+        if (cell == SL_NO_CELL || sl_bits_has(reached, cell)) continue;
+        sl_bits_add(reached, cell);
+        stack[count++] = cell;
+    }
+    for (uint32_t i = 0; i < space->cell_count && !from_starts; i++) {
+        if (!open_to_border(space, &space->cells[i], walls)) continue;
+        sl_bits_add(reached, i);
+        stack[count++] = i;
+    }
+    flood(space, reached, stack, count);
+    space->inside_count = 0;
+    for (uint32_t i = 0; i < space->cell_count; i++) {
+        space->cells[i].inside = sl_bits_has(reached, i) == from_starts;
+        space->inside_count += space->cells[i].inside;
+    }
+    if (space->inside_count) return;
+    for (uint32_t i = 0; i < space->cell_count; i++) space->cells[i].inside = 1;
+    space->inside_count = space->cell_count;
+}
+
+sl_status sl_mark_inside(sl_context *context, const sl_map *map, const sl_piece *walls,
+                         sl_space *space) {
+    sl_bits *reached = sl_alloc_array(context, sl_bits_words(space->cell_count), sizeof *reached);
+    uint32_t *stack = sl_alloc_array(context, space->cell_count, sizeof *stack);
+    if (reached && stack) mark(map, walls, space, reached, stack);
+    const bool done = reached && stack;
+    sl_free(context, reached);
+    sl_free(context, stack);
+    return done ? SL_OK : SL_NO_MEMORY;
 }

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-/// How far the ray from a point of the cell runs before it leaves the cell, in lengths of
+/// The length of a ray from a point of the cell to where it leaves the cell, as a multiple of
 /// `direction`. Rounded.
 static inline double sl_ray_length(const sl_space *space, uint32_t cell, sl_point from,
                                    sl_point direction) {

@@ -1,7 +1,19 @@
+/// Seams: doors, one-way glass and plain seams cut cells, but are seen through.
+///
+/// Seams of one map may overlap. They are cut where another one in the same line ends, so that each
+/// part has the same seams all along:
+///
+///     seam 0     o-------------------o
+///     seam 1              o---------------------o
+///     parts      o---0----o---0,1----o----1-----o
+///
+/// The kd-tree takes the parts as if they were walls, so no cell runs over one. A portal then lies
+/// on one part or on none, and the part tells its seams. `forward` says which way the portal
+/// crosses the seam: from its right to its left, going from a to b.
 #include "space/seams.h"
 
 #include "geometry/orient.h"
-#include "space/box_tree.h"
+#include "space/index.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -54,12 +66,7 @@ sl_status sl_seams_of_map(sl_context *context, const sl_map *map, bool axial, sl
 
 // --- parts
 
-static int compare_points(sl_point a, sl_point b) {
-    if (a.x != b.x) return a.x < b.x ? -1 : 1;
-    return (a.y > b.y) - (a.y < b.y);
-}
-
-/// A seam with its ends in order; while parts are made, a part of it.
+/// A seam, or a part of it, with its ends in order.
 typedef struct stretch {
     sl_point a, b;
     sl_seam_mark mark;
@@ -67,7 +74,7 @@ typedef struct stretch {
 
 static int compare_stretches(const void *left, const void *right) {
     const stretch *s = left, *t = right;
-    const int a = compare_points(s->a, t->a), b = compare_points(s->b, t->b);
+    const int a = sl_compare_points(s->a, t->a), b = sl_compare_points(s->b, t->b);
     if (a || b) return a ? a : b;
     return (s->mark.seam > t->mark.seam) - (s->mark.seam < t->mark.seam);
 }
@@ -77,30 +84,30 @@ typedef struct parter {
     stretch *seams;
     size_t count;
     sl_box_tree tree;   ///< of the seams
-    sl_box_list nearby; ///< to the seam at hand
+    sl_box_list nearby; ///< those near the current seam
     SL_ARRAY(stretch) parts;
-    SL_ARRAY(sl_point) cuts; ///< of the seam at hand
+    SL_ARRAY(sl_point) cuts; ///< of the current seam
 } parter;
 
 static sl_status add_cut(parter *p, const stretch *seam, sl_point at) {
-    if (compare_points(at, seam->a) <= 0 || compare_points(at, seam->b) >= 0) return SL_OK;
+    if (sl_compare_points(at, seam->a) <= 0 || sl_compare_points(at, seam->b) >= 0) return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(p->context, &p->cuts, 1));
     p->cuts.items[p->cuts.count++] = at;
     return SL_OK;
 }
 
 static int compare_cuts(const void *left, const void *right) {
-    return compare_points(*(const sl_point *)left, *(const sl_point *)right);
+    return sl_compare_points(*(const sl_point *)left, *(const sl_point *)right);
 }
 
 static sl_status add_part(parter *p, const stretch *seam, sl_point a, sl_point b) {
-    if (compare_points(a, b) == 0) return SL_OK;
+    if (sl_compare_points(a, b) == 0) return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(p->context, &p->parts, 1));
     p->parts.items[p->parts.count++] = (stretch){a, b, seam->mark};
     return SL_OK;
 }
 
-/// Cuts a seam where others that are in line with it end.
+/// Cuts a seam where others in one line with it end.
 static sl_status part_seam(parter *p, const stretch *seam) {
     const sl_box box = sl_box_around(seam->a, seam->b);
     p->cuts.count = 0;
@@ -122,14 +129,14 @@ static sl_status part_seam(parter *p, const stretch *seam) {
     return add_part(p, seam, from, seam->b);
 }
 
-/// Puts those together that are the same segment.
+/// Joins the parts that are the same segment.
 static sl_status group_parts(const parter *p, sl_seam_parts *out) {
     SL_TRY(SL_ARRAY_ROOM(p->context, &out->parts, p->parts.count));
     SL_TRY(SL_ARRAY_ROOM(p->context, &out->marks, p->parts.count));
     for (size_t i = 0; i < p->parts.count; i++) {
         const stretch *part = &p->parts.items[i];
         sl_seam_part *last = out->parts.count ? &out->parts.items[out->parts.count - 1] : NULL;
-        if (!last || compare_points(last->a, part->a) || compare_points(last->b, part->b)) {
+        if (!last || sl_compare_points(last->a, part->a) || sl_compare_points(last->b, part->b)) {
             last = &out->parts.items[out->parts.count++];
             *last = (sl_seam_part){part->a, part->b, .first = out->marks.count};
         }
@@ -154,7 +161,7 @@ static sl_status part_all(parter *p, const sl_space *space, sl_seam_parts *out) 
     if (!p->seams) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < space->seam_count; i++) {
         const sl_segment at = space->seams[i].at;
-        const bool along = compare_points(at.a, at.b) < 0;
+        const bool along = sl_compare_points(at.a, at.b) < 0;
         p->seams[i] = (stretch){along ? at.a : at.b, along ? at.b : at.a, {i, along}};
     }
     SL_TRY(make_tree(p));
@@ -213,15 +220,15 @@ sl_status sl_seam_lines(sl_context *context, const sl_piece *walls, size_t wall_
     return SL_OK;
 }
 
-// --- telling portals
+// --- portals on seams
 
-/// Whether the way from a portal's left end to its right one goes as a part does, from a to b.
+/// Whether a portal, from its left end to its right one, runs as a part does, from a to b.
 static bool goes_along(const sl_seam_part *part, const sl_portal *portal) {
     return (part->b.x > part->a.x) == (portal->left.x < portal->right.x) &&
            (part->b.y > part->a.y) == (portal->left.y < portal->right.y);
 }
 
-/// `on`: by portal, 1 + the part that it is on, 0 for none.
+/// `on`: by portal, 1 + the part that it lies on; 0 for none.
 static sl_status tag(sl_context *context, const sl_seam_parts *parts, const uint32_t *on,
                      sl_space *space) {
     size_t count = 0;
@@ -244,7 +251,7 @@ static sl_status tag(sl_context *context, const sl_seam_parts *parts, const uint
     return SL_OK;
 }
 
-/// The part that a portal is on, as 1 + its number.
+/// 1 + the number of the part that a portal lies on; 0 for none.
 static uint32_t part_of(const sl_piece *pieces, size_t count, const sl_portal *portal) {
     const bool upright = portal->left.x == portal->right.x;
     const double at = upright ? portal->left.x : portal->left.y;

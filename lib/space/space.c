@@ -1,8 +1,13 @@
+/// The space: it is made from a kd-tree or a mesh, it locates points, and it is destroyed.
+///
+/// The kd-tree finds the cell of a point from the root down: at each node, below or above the
+/// split. A mesh looks into the one bucket of its grid, and asks each cell there for the exact side
+/// of each of its edges. The last cell of a bucket needs no test, as the cells leave nothing out.
 #include "sightline/space.h"
 
 #include "geometry/orient.h"
 #include "sightline/support.h"
-#include "space/cell_grid.h"
+#include "space/index.h"
 #include "space/kd_tree.h"
 #include "space/seams.h"
 
@@ -38,7 +43,7 @@ sl_box sl_padded(sl_box box) {
     const double width = box.max.x - box.min.x, height = box.max.y - box.min.y;
     const double wider = width > height ? width : height;
     if (width == 0) {
-        // Far from the origin a step that rounds to nothing would leave the map without area.
+        // Far from the origin, a small step would round to nothing and leave the map without area.
         box.min.x = fmin(box.min.x - wider / 2, nextafter(box.min.x, -INFINITY));
         box.max.x = fmax(box.max.x + wider / 2, nextafter(box.max.x, INFINITY));
     }
@@ -67,7 +72,7 @@ static sl_status copy_cells(sl_context *context, const sl_kd_tree *tree, sl_spac
     return SL_OK;
 }
 
-/// The tree over the walls and, where the map has any, the parts of its seams.
+/// The tree over the walls and the parts of seams.
 static sl_status build_tree(sl_context *context, const sl_piece *walls, size_t count,
                             const sl_seam_parts *seams, const sl_subdivide_options *options,
                             sl_box bounds, sl_kd_tree *tree) {
@@ -136,8 +141,8 @@ static bool holds(const sl_space *space, uint32_t number, sl_point point) {
     return true;
 }
 
-/// The first cell of a bucket that holds a point. Cells that tile the bounds leave no choice but
-/// the last where no other does.
+/// The first cell of a bucket that holds a point. Cells tile the bounds, so the last one holds it
+/// if no other does.
 static uint32_t locate_in_bucket(const sl_space *space, sl_point point) {
     const uint32_t bucket = sl_cell_grid_bucket(space, point);
     const uint32_t *cells = space->grid.cells, end = space->grid.first[bucket + 1];
@@ -168,4 +173,48 @@ double sl_space_area(const sl_space *space, uint32_t cell) {
         twice +=
             (v[i - 1].x - v[0].x) * (v[i].y - v[0].y) - (v[i].x - v[0].x) * (v[i - 1].y - v[0].y);
     return twice / 2;
+}
+
+// --- the table of subdivisions
+
+static sl_status by_kd(sl_context *context, const sl_map *map, const sl_subdivide_options *rules,
+                       sl_space *out) {
+    const sl_subdivide_options usual = sl_subdivide_options_default();
+    return sl_subdivide_kd(context, map, rules ? rules : &usual, out);
+}
+
+static sl_status by_mesh(sl_context *context, const sl_map *map, const sl_subdivide_options *rules,
+                         sl_space *out) {
+    (void)rules;
+    return sl_subdivide_mesh(context, map, out);
+}
+
+static sl_status as_given(sl_context *context, const sl_map *map, const sl_subdivide_options *rules,
+                          sl_space *out) {
+    (void)rules;
+    return sl_subdivide_given(context, map, out);
+}
+
+static const sl_subdivision subdivisions[] = {
+    {.name = "kd",
+     .what = "kd-tree on the walls' own lines; walls must be axial",
+     .takes_rules = true,
+     .subdivide = by_kd},
+    {.name = "mesh",
+     .what = "constrained triangulation, triangles merged to convex cells; walls may be oblique",
+     .subdivide = by_mesh},
+    {.name = "given",
+     .what = "the cells that the file brings: 'cell' of a map text, GL nodes of a WAD",
+     .takes_cells = true,
+     .subdivide = as_given},
+};
+enum { KD, MESH, GIVEN };
+
+const sl_subdivision *sl_subdivisions(size_t *count) {
+    *count = sizeof subdivisions / sizeof *subdivisions;
+    return subdivisions;
+}
+
+const sl_subdivision *sl_subdivision_for(const sl_map *map) {
+    return &subdivisions[map->cell_count ? GIVEN : sl_map_is_axial(map) ? KD : MESH];
 }

@@ -32,10 +32,6 @@ static int compare_ends(const void *left, const void *right) {
     return (a->end.portal > b->end.portal) - (a->end.portal < b->end.portal);
 }
 
-static bool same_place(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
 /// Adds to a chain that turns left only.
 static void add_to_chain(hull *h, size_t chain, end e) {
     while (h->count >= chain + 2 &&
@@ -53,7 +49,7 @@ static void make_hull(const sl_portal_ends *portals, size_t count, bool left, en
     qsort(sorted, count, sizeof *sorted, compare_ends);
     size_t kept = 0;
     for (size_t i = 0; i < count; i++)
-        if (!kept || !same_place(sorted[kept - 1].at, sorted[i].at)) sorted[kept++] = sorted[i];
+        if (!kept || !sl_same_point(sorted[kept - 1].at, sorted[i].at)) sorted[kept++] = sorted[i];
     out->count = 0;
     for (size_t i = 0; i < kept; i++) add_to_chain(out, 0, sorted[i]);
     const size_t upper = out->count - 1;
@@ -126,7 +122,7 @@ static bool has_weak_line(const end *ends, size_t count, size_t but) {
     bool any_pair = false;
     for (size_t i = 0; i < count; i++)
         for (size_t j = 0; j < count; j++) {
-            if (i == but || j == but || same_place(ends[i].at, ends[j].at)) continue;
+            if (i == but || j == but || sl_same_point(ends[i].at, ends[j].at)) continue;
             any_pair = true;
             bool holds = true;
             for (size_t k = 0; k < count && holds; k++) {
@@ -156,7 +152,7 @@ static size_t thin_out_strict(end *ends, size_t count) {
     for (size_t i = 0; i < count; i++)
         for (size_t j = 0; j < count; j++) {
             if (!ends[i].end.left || ends[j].end.left) continue;
-            if (same_place(ends[i].at, ends[j].at)) {
+            if (sl_same_point(ends[i].at, ends[j].at)) {
                 const end pair[2] = {ends[i], ends[j]};
                 memcpy(ends, pair, sizeof pair);
                 return 2;

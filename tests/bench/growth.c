@@ -171,7 +171,7 @@ static void see_in_shards(sl_context *context, const sl_space *space, const sl_v
     options.shard_count = SHARDS;
     for (options.shard = 1; options.shard <= SHARDS; options.shard++) {
         sl_partial part = {0};
-        must(context, sweep()->look(context, space, &options, &part));
+        must(context, sweep()->run(context, space, &options, &part));
         const double took = lap(&time);
         sum += took;
         if (took > longest) longest = took;
@@ -184,7 +184,7 @@ static void see_in_shards(sl_context *context, const sl_space *space, const sl_v
         sl_partial_destroy(context, &part);
         of[LONGEST_SECONDS] += lap(&time);
     }
-    must(context, sweep()->settle(context, space, &options, &all, &seen));
+    must(context, sweep()->finish(context, space, &options, &all, &seen));
     of[LONGEST_SECONDS] += lap(&time);
     of[SHARDS_SECONDS] = sum + of[LONGEST_SECONDS];
     of[LONGEST_SECONDS] += longest;

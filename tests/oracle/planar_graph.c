@@ -2,28 +2,10 @@
 
 #include "oracle/apart.h"
 #include "oracle/blockers.h"
+#include "oracle/shared.h"
 
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
-
-__attribute__((format(printf, 2, 3))) static bool fault(char *why, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(why, ORACLE_WHY, format, arguments);
-    va_end(arguments);
-    return false;
-}
-
-static void *must(void *block) {
-    if (!block) abort();
-    return block;
-}
-
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
 
 // --- no two edges have more in common than an end
 
@@ -150,7 +132,7 @@ static bool check_parts(audit *t) {
     }
     for (size_t i = 0; i < g->point_count && sound; i++) {
         const sl_point p = g->points[i], before = g->points[i ? i - 1 : 0];
-        const bool ordered = !i || before.x < p.x || (before.x == p.x && before.y < p.y);
+        const bool ordered = !i || is_before(before, p);
         sound = (ended[i] && ordered && sl_coordinate_usable(p.x) && sl_coordinate_usable(p.y)) ||
                 fault(t->why, "point %zu is of no use or out of order", i);
     }

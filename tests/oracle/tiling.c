@@ -1,34 +1,15 @@
 #include "oracle/tiling.h"
 
 #include "oracle/blockers.h"
+#include "oracle/shared.h"
 
 #include <gmp.h>
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
-
-__attribute__((format(printf, 2, 3))) static bool fault(char *why, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(why, ORACLE_WHY, format, arguments);
-    va_end(arguments);
-    return false;
-}
-
-static void *must(void *block) {
-    if (!block) abort();
-    return block;
-}
-
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
 
 static int compare_points(const void *left, const void *right) {
     const sl_point *a = left, *b = right;
-    if (a->x != b->x) return a->x < b->x ? -1 : 1;
-    return (a->y > b->y) - (a->y < b->y);
+    return is_before(*b, *a) - is_before(*a, *b);
 }
 
 static const sl_point *corners_of(const sl_space *s, uint32_t cell) {
@@ -227,7 +208,7 @@ static bool check_side(const sl_space *s, uint32_t cell, uint32_t number, uint32
             &s->directed[s->cells[cell].first_directed + (*passed)++];
         return (*passed <= s->cells[cell].directed_count && same(directed->right, side.a) &&
                 same(directed->left, side.b)) ||
-               fault(why, "side %u of cell %u is not its exit", number, cell);
+               fault(why, "side %u of cell %u is not its portal", number, cell);
     }
     if (what == SL_NEIGHBOUR_BORDER)
         return on_border(&s->bounds, side.a, side.b) ||
@@ -249,7 +230,7 @@ static bool check_sides(const sl_space *s, char *why) {
         for (uint32_t k = 0; k < s->cells[i].vertex_count && sound; k++)
             sound = check_side(s, i, k, &directed, sides, why);
         if (sound && directed != s->cells[i].directed_count)
-            sound = fault(why, "cell %u has too many exits", i);
+            sound = fault(why, "cell %u has too many portals", i);
     }
     for (uint32_t i = 0; i < s->wall_count && sound; i++) {
         const uint32_t left = sides[2 * i], right = sides[2 * i + 1];

@@ -2,7 +2,7 @@
 #ifndef SL_MAP_SAME_H
 #define SL_MAP_SAME_H
 
-#include "map/print.h"
+#include "map/scan.h"
 
 #include <stdlib.h>
 #include <string.h>

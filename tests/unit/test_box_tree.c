@@ -3,7 +3,7 @@
 #include "testing.h"
 
 #include "sightline/support.h"
-#include "space/box_tree.h"
+#include "space/index.h"
 
 #include <math.h>
 

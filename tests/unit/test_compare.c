@@ -60,8 +60,7 @@ typedef struct made_run {
     uint32_t first, end;
 } made_run;
 
-static void make_runs(sl_context *context, const made_run *made, size_t count,
-                      compare_run *runs) {
+static void make_runs(sl_context *context, const made_run *made, size_t count, compare_run *runs) {
     for (size_t i = 0; i < count; i++) {
         static bool sees[CELLS][CELLS];
         memset(sees, 0, sizeof sees);
@@ -80,14 +79,12 @@ static void destroy_runs(sl_context *context, compare_run *runs, size_t count) {
 static void runs_are_held_against_the_first_exact_one(void **state) {
     (void)state;
     static const made_run made[] = {
-        {RUN_REFUSED, SL_EXACT, 0, 0, 0},
-        {RUN_DONE, SL_ROUNDED, 1, 8, 30}, // 2 too many
-        {RUN_NOT_DONE, SL_EXACT, 0, 0, 0},
-        {RUN_DONE, SL_EXACT, 4, 10, 30},         // the answer
-        {RUN_DONE, SL_EXACT, 2, 10, 30},         // the fastest
-        {RUN_DONE, SL_CONSERVATIVE, 0.5, 5, 40}, // 15 too many
-        {RUN_DONE, SL_AGGRESSIVE, 0.25, 20, 30}, // 10 too few
-        {RUN_DONE, SL_ROUNDED, 8, 9, 29},        // one of each
+        {RUN_REFUSED, SL_EXACT, 0, 0, 0},        {RUN_DONE, SL_ROUNDED, 1, 8, 30}, // 2 too many
+        {RUN_NOT_DONE, SL_EXACT, 0, 0, 0},       {RUN_DONE, SL_EXACT, 4, 10, 30},  // the answer
+        {RUN_DONE, SL_EXACT, 2, 10, 30},                                           // the fastest
+        {RUN_DONE, SL_CONSERVATIVE, 0.5, 5, 40},                                   // 15 too many
+        {RUN_DONE, SL_AGGRESSIVE, 0.25, 20, 30},                                   // 10 too few
+        {RUN_DONE, SL_ROUNDED, 8, 9, 29},                                          // one of each
     };
     static const struct {
         bool judged;

@@ -2,7 +2,7 @@
 /// distance, huge, tiny and far from the origin.
 #include "testing.h"
 
-#include "geometry/distance.h"
+#include "geometry/crossing.h"
 #include "geometry/whole.h"
 #include "sightline/support.h"
 

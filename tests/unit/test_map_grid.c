@@ -39,7 +39,7 @@ static void test_open_floor_has_a_frame(void **state) {
     (void)state;
     sl_grid grid = grid_of(3, 2, "......");
     assert_walls(&grid, "sightline 1\nwall 0 2 3 2\nwall 0 0 3 0\nwall 0 0 0 2\nwall 3 0 3 2\n");
-    grid.open_neighbour = true;
+    grid.open_outside = true;
     assert_walls(&grid, "sightline 1\n");
     destroy(&grid);
 }
@@ -47,7 +47,7 @@ static void test_open_floor_has_a_frame(void **state) {
 static void test_walls_run_over_many_squares(void **state) {
     (void)state;
     sl_grid grid = grid_of(4, 3, ".....##.....");
-    grid.open_neighbour = true;
+    grid.open_outside = true;
     assert_walls(&grid, "sightline 1\nwall 1 2 3 2\nwall 1 1 3 1\nwall 1 1 1 2\nwall 3 1 3 2\n");
     destroy(&grid);
 }
@@ -55,7 +55,7 @@ static void test_walls_run_over_many_squares(void **state) {
 static void test_squares_that_touch_at_a_corner(void **state) {
     (void)state;
     sl_grid grid = grid_of(2, 2, "#..#");
-    grid.open_neighbour = true;
+    grid.open_outside = true;
     // Where two squares meet at a corner both lines go on: solid and open change sides.
     assert_walls(&grid, "sightline 1\nwall 0 2 1 2\nwall 0 1 2 1\nwall 0 1 0 2\n"
                         "wall 1 0 2 0\nwall 1 0 1 2\nwall 2 0 2 1\n");
@@ -105,7 +105,7 @@ static void test_random_grids(void **state) {
         sl_grid grid;
         sl_map map = {0};
         assert_ok(context, sl_grid_create(context, width, height, &grid));
-        grid.open_neighbour = run & 1;
+        grid.open_outside = run & 1;
         for (size_t i = 0; i < width * height; i++)
             if (sl_random_below(&random, 256) < (uint64_t)(run & 0xff)) grid.squares[i] = '#';
         assert_ok(context, sl_grid_add_walls(context, &grid, &map));

@@ -3,7 +3,6 @@
 
 #include "contraction/expansion.h"
 #include "geometry/crossing.h"
-#include "geometry/orient.h"
 #include "sightline/support.h"
 
 #include <gmp.h>

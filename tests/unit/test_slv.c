@@ -4,7 +4,7 @@
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime/sightline_runtime.h"
 #include "sightline/solvers.h"
-#include "space/cell_grid.h"
+#include "space/index.h"
 
 #include <math.h>
 
@@ -81,7 +81,8 @@ static void a_lie_under_a_seal_is_refused(void **state) {
         {"INFO", INFO_FIELD(pairs), &pairs, "do not hold as many pairs"},
         {"WALL", 0, sizeof nan, &nan, "wall 0 lies out of range"},
         {"WALL", 24, sizeof far, &far, "wall 0 lies out of range"},
-        {"CELL", offsetof(sl_cell, first_directed), sizeof most, &most, "cell 0 has exits out of"},
+        {"CELL", offsetof(sl_cell, first_directed), sizeof most, &most,
+         "cell 0 has portals out of"},
         {"PVSB", 0, 2, "\1\1", "visible set 0 lacks its own cell"},
         {"PVSB", 0, 1, "\3", "visible set 0 is damaged"},
         {"TREN", offsetof(sl_stab_node, parent), sizeof one, &one, "stab tree 0 is no tree"},

@@ -4,8 +4,8 @@
 #include "geometry/orient.h"
 #include "sightline/import.h"
 #include "sightline/support.h"
-#include "space/mesh_steps.h"
-#include "space/splits.h"
+#include "space/kd_tree.h"
+#include "space/mesh.h"
 
 #include <math.h>
 #include <string.h>

@@ -22,7 +22,7 @@ extern "C" {
 #endif
 
 /// As in cairo.h, so that this header needs none of cairo's.
-typedef struct _cairo cairo_t;
+typedef struct _cairo cairo_t; // NOLINT: the name is cairo's own
 
 // --- from the map to the page
 

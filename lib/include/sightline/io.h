@@ -45,7 +45,7 @@ SL_API sl_status sl_map_heights_unigrafix(sl_context *context, const char *name,
 /// The lines, polylines with bulges, arcs, circles and ellipses of an ASCII DXF drawing, in blocks
 /// as inserted, on layers that are on and not frozen or on those asked for. What was taken is
 /// noted. SL_BAD_ARGUMENT where a unit is asked for and there is none of that name, or the drawing
-/// does not tell its own.
+/// does not name its own.
 SL_API sl_status sl_map_read_dxf(sl_context *context, const char *name, const char *text,
                                  size_t size, const sl_import_options *options, sl_map *map);
 
@@ -114,7 +114,7 @@ typedef struct sl_image {
     unsigned char *pixels;
 } sl_image;
 
-/// PNG, or portable grey map or bit map (P1, P2, P4, P5), told by their first bytes. What is
+/// PNG, or portable grey map or bit map (P1, P2, P4, P5); the first bytes say which. What is
 /// transparent is white. SL_BAD_INPUT, naming the file, for all else.
 SL_API sl_status sl_image_read(sl_context *context, const char *name, const char *bytes,
                                size_t size, sl_image *out);

@@ -17,7 +17,7 @@ extern "C" {
 #endif
 
 /// Commas, line ends and indentation are put where they belong. Start from sl_json_writer_to(), or
-/// with `put`, `user` and `indent` of one's own and zeros in the rest.
+/// set `put`, `user` and `indent` and leave the rest zero.
 typedef struct sl_json_writer {
     void (*put)(void *user, const char *text, size_t size);
     void *user;
@@ -31,15 +31,20 @@ typedef struct sl_json_writer {
 /// A writer into a stream. Refused writes are left to the stream's error flag.
 SL_API sl_json_writer sl_json_writer_to(FILE *stream, unsigned indent);
 
+/// Opens an object: keys, each followed by its value, then sl_json_put_end with '}'.
 SL_API void sl_json_put_object(sl_json_writer *json);
+/// Opens a list: values, then sl_json_put_end with ']'.
 SL_API void sl_json_put_list(sl_json_writer *json);
 /// Closes the object ('}') or the list (']') that was opened last.
 SL_API void sl_json_put_end(sl_json_writer *json, char bracket);
 /// The name of an object's next value; UTF-8.
 SL_API void sl_json_put_key(sl_json_writer *json, const char *key);
 
+/// The value `null`.
 SL_API void sl_json_put_null(sl_json_writer *json);
+/// The value `true` or `false`.
 SL_API void sl_json_put_flag(sl_json_writer *json, bool flag);
+/// A whole number.
 SL_API void sl_json_put_integer(sl_json_writer *json, int64_t number);
 /// 17 digits, which read back to the same double; always with a point or an exponent.
 SL_API void sl_json_put_real(sl_json_writer *json, double finite);

@@ -1,18 +1,117 @@
-/// The kd-tree (Teller & Séquin 1991, Spatial Subdivision): a leaf where no wall is inside, else a
-/// split on a line that holds a wall, chosen by the rules of sl_subdivide_options.
+/// The kd-tree (Teller & Séquin 1991, Spatial Subdivision). A region without walls inside is a
+/// leaf, a cell. Any other region is split on a line that holds one of its walls:
+///
+///     +---------+----+      the rules choose among the lines (sl_subdivide_options):
+///     |         :    |      1. spanning: walls that cross the whole region come first
+///     |====.....:    |      2. obscured: else lines that walls cover for a good part
+///     |         |    |      3. cleaving: of these the lines that cut the fewest walls
+///     |   |     |    |      4. median:   of these the one nearest to the median
+///     +---------+----+
+///
+/// A wall that crosses the split line is cut for the two regions. Walls on the split line are kept
+/// with the node; portals are the free pieces between them (portals.c). Every split position is the
+/// coordinate of a wall, so no coordinate is computed.
+///
+/// Walls are sorted by line. So the candidates of a region are runs in its list, and two binary
+/// searches count the walls on either side of a candidate. Time O(n log n) for each level.
 #include "space/kd_tree.h"
+
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/// A region still to be divided, with the walls inside it, sorted by line. Owned by the stack.
+// --- axial walls by line
+
+static int compare_numbers(double a, double b) {
+    return (a > b) - (a < b);
+}
+
+static int compare_pieces(const void *left, const void *right) {
+    const sl_piece *a = left, *b = right;
+    if (a->axis != b->axis) return a->axis - b->axis;
+    const int at = compare_numbers(a->at, b->at);
+    return at ? at : compare_numbers(a->lo, b->lo);
+}
+
+static sl_piece make_piece(const sl_wall *wall) {
+    const int axis = wall->a.x == wall->b.x ? 0 : 1;
+    const double at = axis ? wall->a.y : wall->a.x;
+    const double one = axis ? wall->a.x : wall->a.y, other = axis ? wall->b.x : wall->b.y;
+    return (sl_piece){
+        .axis = axis, .at = at, .lo = one < other ? one : other, .hi = one < other ? other : one};
+}
+
+static sl_status check_axial(sl_context *context, const char *source, const sl_wall *wall) {
+    const bool vertical = wall->a.x == wall->b.x, horizontal = wall->a.y == wall->b.y;
+    if (vertical && horizontal)
+        return sl_fail_at(context, source, wall->line,
+                          "a wall of zero length at %.17g %.17g: clean the map first", wall->a.x,
+                          wall->a.y);
+    if (vertical || horizontal) return SL_OK;
+    return sl_fail_at(context, source, wall->line,
+                      "the wall from %.17g %.17g to %.17g %.17g is neither horizontal nor "
+                      "vertical, which the kd-tree needs: make it axial or leave it out",
+                      wall->a.x, wall->a.y, wall->b.x, wall->b.y);
+}
+
+sl_status sl_wall_lines(sl_context *context, const char *source, const sl_wall *walls, size_t count,
+                        sl_piece **out) {
+    if (!source) source = "the map";
+    for (size_t i = 0; i < count; i++) SL_TRY(check_axial(context, source, &walls[i]));
+    sl_piece *pieces = sl_alloc_array(context, count, sizeof *pieces);
+    if (!pieces) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++) pieces[i] = make_piece(&walls[i]);
+    qsort(pieces, count, sizeof *pieces, compare_pieces);
+    for (size_t i = 1; i < count; i++) {
+        const sl_piece *a = &pieces[i - 1], *b = &pieces[i];
+        if (a->axis != b->axis || a->at != b->at || b->lo >= a->hi) continue;
+        const sl_status status =
+            sl_fail_at(context, source, 0, "two walls overlap on %s = %.17g: clean the map first",
+                       a->axis ? "y" : "x", a->at);
+        sl_free(context, pieces);
+        return status;
+    }
+    *out = pieces;
+    return SL_OK;
+}
+
+size_t sl_wall_lines_find(const sl_piece *pieces, size_t count, int axis, double at, double lo) {
+    size_t first = 0, end = count;
+    while (first < end) {
+        const size_t middle = first + (end - first) / 2;
+        const sl_piece *p = &pieces[middle];
+        const bool before = p->axis != axis ? p->axis < axis
+                            : p->at != at   ? p->at < at
+                                            : p->hi <= lo;
+        if (before)
+            first = middle + 1;
+        else
+            end = middle;
+    }
+    return first;
+}
+
+bool sl_wall_lines_cover(const sl_piece *pieces, size_t count, int axis, double at, double lo,
+                         double hi) {
+    for (size_t i = sl_wall_lines_find(pieces, count, axis, at, lo); lo < hi; i++) {
+        if (i == count || pieces[i].axis != axis || pieces[i].at != at || pieces[i].lo > lo)
+            return false;
+        lo = pieces[i].hi;
+    }
+    return true;
+}
+
+// --- the tree
+
+/// A region still to be divided, with the walls inside it, sorted by line. The stack owns it.
 typedef struct region {
     sl_box box;
     sl_piece *pieces;
     size_t count;
-    int32_t parent; ///< node that leads here, -1 for none
-    bool above;     ///< which child of it
+    int32_t parent; ///< the node that leads here, -1 for none
+    bool above;     ///< which child of that node
     uint32_t depth;
 } region;
 
@@ -21,17 +120,17 @@ typedef SL_ARRAY(region) region_stack;
 /// A line that could be split on: pieces[first .. end) lie on it.
 typedef struct candidate {
     size_t first, end;
-    double obscured; ///< share of the region's width that its walls cover
-    bool spanning;   ///< covered without a gap, decided by comparison
-    size_t cleaved;  ///< walls that the split would cut
-    size_t below, above;
+    double obscured;     ///< the share of the region's width that its walls cover
+    bool spanning;       ///< they cover it without a gap; this is exact
+    size_t cleaved;      ///< the number of walls that the split would cut
+    size_t below, above; ///< the number of walls on either side
 } candidate;
 
-/// Scratch of the choice, reused from region to region.
+/// Scratch memory for the choice.
 typedef struct chooser {
     const sl_subdivide_options *options;
     SL_ARRAY(candidate) candidates;
-    SL_ARRAY(double) lows[2], highs[2]; ///< ends of the pieces on either axis, each sorted
+    SL_ARRAY(double) lows[2], highs[2]; ///< the ends of the pieces by axis, sorted
 } chooser;
 
 static double low_of(const sl_box *box, int axis) {
@@ -51,7 +150,7 @@ static sl_status add_candidates(sl_context *context, chooser *choice, const regi
         for (end = first; end < r->count; end++) {
             const sl_piece *p = &r->pieces[end];
             if (p->axis != line->axis || p->at != line->at) break;
-            // Halved, so that the widest maps do not overflow.
+            // Half of each, so that the widest maps do not overflow.
             covered += p->hi / 2 - p->lo / 2;
             if (p->lo <= reached && p->hi > reached) reached = p->hi;
         }
@@ -70,7 +169,7 @@ static int compare_doubles(const void *left, const void *right) {
     return (a > b) - (a < b);
 }
 
-/// How many of sorted values are below `limit`.
+/// The number of sorted values below `limit`.
 static size_t count_below(const double *values, size_t count, double limit) {
     size_t first = 0;
     while (first < count) {
@@ -106,7 +205,7 @@ static sl_status sort_ends(sl_context *context, chooser *choice, const region *r
     return SL_OK;
 }
 
-/// Counts what each candidate would cut and leave on either side.
+/// Counts the walls that each candidate would cut, and those on either side.
 static void count_sides(chooser *choice, const region *r) {
     size_t on_axis[2] = {choice->lows[0].count, choice->lows[1].count};
     for (size_t i = 0; i < choice->candidates.count; i++) {
@@ -123,7 +222,7 @@ static void count_sides(chooser *choice, const region *r) {
     }
 }
 
-/// Keeps the candidates for which `keep` holds, if it holds for any.
+/// Keeps the candidates for which `keep` is true, if there are any.
 static void filter(chooser *choice, bool (*keep)(const candidate *, double), double value) {
     size_t kept = 0;
     for (size_t i = 0; i < choice->candidates.count; i++)
@@ -203,7 +302,7 @@ static sl_status add_node(sl_context *context, sl_kd_tree *tree, const region *r
     return SL_OK;
 }
 
-/// The part of a piece that a split leaves on one side; lo == hi where there is none.
+/// The part of a piece on one side of a split; lo == hi where there is none.
 static sl_piece clip_piece(const sl_piece *p, int axis, double at, bool above) {
     sl_piece part = *p;
     if (p->axis == axis) {
@@ -260,7 +359,7 @@ static sl_status divide(sl_context *context, chooser *choice, region_stack *stac
     return push_child(context, stack, r, &split, node, false);
 }
 
-/// The walls inside the bounds, those on the border left out.
+/// The root: the walls inside the bounds, without those on the border.
 static sl_status push_root(sl_context *context, region_stack *stack, const sl_piece *walls,
                            size_t count, sl_box bounds) {
     SL_TRY(SL_ARRAY_ROOM(context, stack, 1));
@@ -311,4 +410,48 @@ void sl_kd_destroy(sl_context *context, sl_kd_tree *tree) {
     sl_free(context, tree->on_splits.items);
     sl_free(context, tree->cells.items);
     *tree = (sl_kd_tree){0};
+}
+
+// --- splits
+
+static sl_split split_box(const sl_node *node, sl_box box, uint32_t depth) {
+    sl_split s = {depth, box, box, {box.min, box.max}};
+    if (node->axis == 0)
+        s.below.max.x = s.above.min.x = s.along.a.x = s.along.b.x = node->position;
+    else
+        s.below.max.y = s.above.min.y = s.along.a.y = s.along.b.y = node->position;
+    return s;
+}
+
+sl_status sl_splits_make(sl_context *context, const sl_space *space, sl_split **out) {
+    sl_split *splits = sl_alloc_array(context, space->node_count, sizeof *splits);
+    if (!splits) return SL_NO_MEMORY;
+    // A node stands before its children: each finds its box and depth in its own place.
+    if (space->node_count) splits[space->root].below = space->bounds;
+    for (uint32_t i = 0; i < space->node_count; i++) {
+        const sl_node *node = &space->nodes[i];
+        splits[i] = split_box(node, splits[i].below, splits[i].depth);
+        if (node->below >= 0)
+            splits[node->below] = (sl_split){splits[i].depth + 1, .below = splits[i].below};
+        if (node->above >= 0)
+            splits[node->above] = (sl_split){splits[i].depth + 1, .below = splits[i].above};
+    }
+    *out = splits;
+    return SL_OK;
+}
+
+double sl_splits_covered(const sl_split *splits, const sl_space *space, uint32_t node) {
+    const bool upright = space->nodes[node].axis == 0;
+    const double position = space->nodes[node].position;
+    const sl_segment along = splits[node].along;
+    const double low = upright ? along.a.y : along.a.x, high = upright ? along.b.y : along.b.x;
+    double sum = 0;
+    for (uint32_t i = 0; i < space->wall_count; i++) {
+        const sl_wall *w = &space->walls[i];
+        if ((upright ? w->a.x : w->a.y) != position || (upright ? w->b.x : w->b.y) != position)
+            continue;
+        const double a = upright ? w->a.y : w->a.x, b = upright ? w->b.y : w->b.x;
+        sum += fmax(0, fmin(fmax(a, b), high) - fmax(fmin(a, b), low));
+    }
+    return high > low ? fmin(sum / (high - low), 1) : 0;
 }
