@@ -66,8 +66,8 @@ static void let_largest_go(sl_context *context, sl_tree_store *store) {
     *largest = (struct sl_kept_tree){0};
 }
 
-/// Takes a finished tree (its nodes are the store's then) and lets the largest go while too much is
-/// held. Safe from several threads.
+/// Takes a finished tree, whose nodes then belong to the store. Drops the largest trees while the
+/// store is above its limit. Safe from several threads.
 static void tree_store_put(sl_context *context, sl_tree_store *store, uint32_t source,
                            sl_growing_tree *tree) {
     if (tree->overflown)
@@ -124,8 +124,8 @@ sl_status sl_dfs_enter(sl_context *context, const sl_dfs *all, sl_dfs_thread *me
     return SL_OK;
 }
 
-/// Where the search prunes: makes the set of what is wanted beyond a directed portal of the last
-/// step. False where nothing is.
+/// If the search prunes: makes the set of cells that are wanted beyond a directed portal of the
+/// last step. `something` is false if no cell is.
 static sl_status want(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, uint32_t directed,
                       bool *something) {
     *something = true;
@@ -141,7 +141,7 @@ static sl_status want(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
     return SL_OK;
 }
 
-/// Whether to stop, asked now and then.
+/// SL_CANCELLED if the search is to stop. It asks from time to time.
 static sl_status check_going_on(sl_context *context, const sl_dfs *all) {
     SL_TRY(sl_check_cancelled(context));
     return all->before && sl_is_enough(all->options) ? SL_CANCELLED : SL_OK;

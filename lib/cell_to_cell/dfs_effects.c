@@ -50,7 +50,7 @@ typedef struct sl_dfs_effects_thread thread;
 
 // --- one step
 
-/// The doors beyond a portal: those before it and its own.
+/// Makes the set of doors passed up to a portal: those before it and its own.
 static sl_status pass_doors(sl_context *context, const sl_space *space, const effects *all,
                             thread *me, uint32_t portal, size_t depth) {
     const size_t words = all->door_words;
@@ -99,9 +99,9 @@ static bool is_in_range(const effects *all, thread *me, const void *solver) {
     return shortest <= range + error;
 }
 
-/// Whether anything is left to be found beyond a directed portal: of what the bounds of all
-/// directed portals so far leave possible, a cell that no subset of the doors passed is known to
-/// join to the source.
+/// Whether anything is left to be found beyond a directed portal. That is a cell that the bounds of
+/// all directed portals on the way leave possible, and that no subset of the doors passed is known
+/// to join to the source.
 static sl_status want(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, uint32_t directed,
                       bool *something) {
     *something = true;
@@ -152,9 +152,9 @@ static sl_status enter(sl_context *context, const sl_dfs_job *job, const step *f
     return sl_dfs_enter(context, all, me, &to->dfs, from->dfs.node, directed, true);
 }
 
-/// Whether the sequence has been in a cell since the last mirror. Where places are exact no line
-/// can enter a cell twice, and the directions of portals tell; those of rounded places do not, for
-/// portals of the size of rounding may be turned any way.
+/// Whether the sequence has been in a cell since the last mirror. No line enters a cell twice. With
+/// exact places the directions of portals already see to that. With rounded places they do not,
+/// since a portal of the size of rounding may be turned any way.
 static bool has_been_in(const sl_portal_search *search, uint32_t cell) {
     const step *steps = search->steps;
     for (size_t i = search->count; i-- > 0;) {
@@ -219,8 +219,8 @@ static bool is_halved(const sl_dfs *all) {
     return all->known && all->effects->plan->mutual;
 }
 
-/// What is wanted of a source: all cells, or those that it is possible to see; what it is certain
-/// to see is noted.
+/// Sets what is wanted of a source: all cells, or those that it may see. Notes the cells that it
+/// sees for certain.
 static sl_status want_from(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
                            uint32_t source) {
     if (!all->known) return sl_prune_start(context, &me->wanted, 0);

@@ -90,8 +90,8 @@ static sl_point rounded(sl_point p, double decimals) {
     return (sl_point){round(p.x * decimals) / decimals, round(p.y * decimals) / decimals};
 }
 
-/// Makes of a line one near it that is strictly between the ends of every portal of the sequence,
-/// of as few decimals as will do. False, and the line as it was, where doubles cannot express one.
+/// Replaces a line by one near it with as few decimals as possible, strictly between the ends of
+/// every portal of the sequence. False, and the line unchanged, if doubles cannot express one.
 static bool simplify_line(const sl_space *space, const sl_sequence *sequence, sl_line *line) {
     const sl_box b = space->bounds;
     const double size =
@@ -212,8 +212,9 @@ static bool is_farther(const sl_miss *a, const sl_miss *b) {
     return a->sequence.directed_count < b->sequence.directed_count;
 }
 
-/// Where the miss belongs in the list, farthest first: the place of the one from the same last
-/// cell, or else the list's end, from where it moves up. UINT32_MAX where it does not.
+/// The place of a miss in the list, which has the farthest first. A miss takes the place of one
+/// with the same last cell, or else the list's end, from where it moves up. UINT32_MAX for no
+/// place.
 static uint32_t place_of_miss(const search *s, const sl_miss *miss) {
     const sl_explanation *out = &s->out;
     const uint32_t cell = last_step(s)->at.cell;
@@ -231,8 +232,8 @@ static uint32_t place_of_portal(const sl_sequence *sequence, uint32_t directed) 
     return at;
 }
 
-/// The ends of the last portal and of the one or two before it that leave no direction for it: one
-/// that it is crossed backwards to, or the two that bound the directions there were.
+/// Adds the ends of the last portal and of the one or two before it that leave it no direction: one
+/// portal that it turns back from, or the two that bound the directions so far.
 static void tell_turn(const search *s, sl_sequence *sequence) {
     const uint32_t last = sequence->directed_count - 1;
     const uint32_t stop = sequence->directed[last];
@@ -259,9 +260,9 @@ static bool is_visited(const search *s, uint32_t cell) {
     return false;
 }
 
-/// The directed portal stops the sequence: by ends, and the solver then holds it, or since it turns
-/// back. Only directed portals that lead nearer to the target are told of, what stands in the way
-/// there; and none that lead back to where the sequence has been.
+/// Notes a directed portal that stops the sequence: either its ends leave no line, and the solver
+/// holds it, or it turns back. Only portals that lead nearer to the target are noted, and none that
+/// lead back to where the sequence has been.
 static sl_status note_miss(sl_context *context, search *s, uint32_t directed, bool turns) {
     sl_explanation *out = &s->out;
     const uint32_t missing = s->distance[last_step(s)->at.cell];
@@ -294,8 +295,8 @@ static sl_status note_miss(sl_context *context, search *s, uint32_t directed, bo
 
 // --- the search
 
-/// Whether a sequence that takes at least so many portals in all is not to be followed: another one
-/// is as short, or it goes beyond the bound.
+/// Whether a sequence of at least so many portals in all is left alone: another one is as short, or
+/// it goes beyond the bound.
 static bool is_neighbour(search *s, bool grazing, uint32_t portals) {
     if (portals >= s->stabbed || (grazing && portals >= s->grazed)) return true;
     if (portals > s->bound) s->cut = true;
@@ -310,8 +311,8 @@ static sl_status count_test(sl_context *context, search *s) {
     return SL_OK;
 }
 
-/// What comes of the sequence with the directed portal of `to`, which the solver holds. `enters`:
-/// it is followed into the next cell, and the solver keeps it.
+/// Decides on the sequence with the directed portal of `to`, which the solver holds. `enters`: it
+/// is followed into the next cell, and the solver keeps it.
 static sl_status judge(sl_context *context, search *s, const step *to, sl_stab_verdict verdict,
                        bool *enters) {
     const uint32_t portals = (uint32_t)s->search.count, cell = to->at.cell;

@@ -91,8 +91,7 @@ static sl_status copy_directed(sl_context *context, walker *w, const sl_see_opti
     return SL_OK;
 }
 
-/// Directed portals that one-way glass blocks lead nowhere. Where ways are turned round, what is
-/// blocked is their twins.
+/// For glass that is turned round: blocks the twins of the blocked directed portals instead.
 static void turn_round(const sl_fans *fans, sl_bits *blocked) {
     for (uint32_t i = 0; i < fans->first_directed[fans->cell_count]; i++) {
         const uint32_t twin = fans->directed[i].twin;
@@ -121,7 +120,7 @@ static sl_point right_of(const walker *w, uint32_t directed) {
     return w->space->directed[w->of_space[directed]].right;
 }
 
-/// The directed portals of a cell that come after and before one, all round.
+/// The next and the previous directed portal of a cell, all round.
 static uint32_t portal_after(const sl_fans *fans, uint32_t cell, uint32_t directed) {
     return directed + 1 < fans->first_directed[cell + 1] ? directed + 1
                                                          : fans->first_directed[cell];
@@ -199,8 +198,8 @@ static bool is_grid(const sl_fans *fans, double scale) {
     return true;
 }
 
-/// What most maps are drawn on: whole numbers, or binary fractions of as many digits as a node
-/// builder has, and some more for the horizon.
+/// Finds the grid of the map, if it has one. Most maps are drawn on whole numbers, or on binary
+/// fractions with the digits of a node builder. The horizon needs some more digits.
 static double find_grid(const sl_fans *fans) {
     const double scales[] = {1, 0x1p6, 0x1p22};
     for (size_t i = 0; i < sizeof scales / sizeof *scales; i++)
@@ -208,8 +207,8 @@ static double find_grid(const sl_fans *fans) {
     return 0;
 }
 
-/// Points from which all ends are seen between a little less and a little more than half a turn:
-/// far to the right and to the left of all, and below.
+/// Adds the two ends of the horizon: far to the right and far to the left of everything, and below.
+/// From every end the directions above them are a little more than half a turn.
 static sl_status add_horizon(sl_context *context, sl_fans *fans) {
     enum { FAR = 64 };
     const sl_box box = fans->bounds;
@@ -252,7 +251,7 @@ static sl_status add_cell(sl_context *context, sl_fans *fans, sl_fan_cell cell) 
     return SL_OK;
 }
 
-/// The edge of a fan that a wall makes, or glass that ends it.
+/// Adds the edge with which a fan ends at a wall, or at glass.
 static sl_status end_beside(sl_context *context, const walker *w, uint32_t cell, sl_point at,
                             bool back, uint32_t *edge) {
     SL_TRY(SL_ARRAY_ROOM(context, &w->fans->ends, 1));
@@ -260,8 +259,8 @@ static sl_status end_beside(sl_context *context, const walker *w, uint32_t cell,
     return SL_OK;
 }
 
-/// How the edges lie to half a turn from the first and from the last. Angles only grow, and a
-/// sector is half a turn at most, so that one orientation test tells on which side of it.
+/// Says for each edge on which side it lies of half a turn from the first edge, and from the last.
+/// Angles only grow, and a sector is half a turn at most. So one orientation test is enough.
 static void measure(const sl_fan *fan, const sl_point *ends, sl_fan_cell *cells) {
     const sl_point first = ends[cells[0].edge], last = ends[cells[fan->count].edge];
     int past = -1;
@@ -294,9 +293,9 @@ static sl_status add_fan(sl_context *context, sl_fans *fans, sl_fan fan) {
     return SL_OK;
 }
 
-/// The fan that starts with the cell that `directed portal` leaves, its left end being the fan's
-/// point. One of a full turn ends where it starts; where it is `cut` there, a line turns beside its
-/// first edge.
+/// Walks the fan whose point is the left end of a directed portal `at`, from the cell that it
+/// leaves. A full turn ends where it starts. If it is `cut` there, a line rotates beside its first
+/// edge.
 static sl_status walk_round(sl_context *context, walker *w, uint32_t cell, uint32_t at,
                             bool full_turn, bool cut, sl_bits *walked) {
     sl_fans *fans = w->fans;
@@ -339,8 +338,8 @@ static sl_status walk_between(sl_context *context, walker *w, sl_bits *walked) {
     return SL_OK;
 }
 
-/// What is left goes all round. Where glass ends that is blocked to whoever goes round clockwise, a
-/// line that passes its end on one side cannot go on to pass it on the other.
+/// The remaining fans go all round. With glass that is blocked clockwise, a line that passes its
+/// end on one side cannot go on to pass it on the other.
 static sl_status walk_all_round(sl_context *context, walker *w, sl_bits *walked) {
     const sl_fans *fans = w->fans;
     for (uint32_t cell = 0; cell < fans->cell_count; cell++)
@@ -446,8 +445,8 @@ static sl_status share_out(sl_context *context, sl_fans *fans) {
     return room ? SL_OK : SL_NO_MEMORY;
 }
 
-/// Takes out fans that nothing is looked at from, and their cells, which follow one another as the
-/// fans do.
+/// Drops the fans from which nothing is looked at, and their cells. Cells stand in the order of
+/// fans.
 static void drop_idle(sl_context *context, sl_fans *fans, sl_fan_way way) {
     sl_fan_cell *cells = fans->cells.items;
     size_t kept = 0, kept_cells = 0;

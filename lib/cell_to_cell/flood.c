@@ -259,11 +259,11 @@ sl_status sl_flood_bound(sl_context *context, const sl_space *space, const sl_se
 
 // --- by the view range
 
-/// What rounding may do, in parts of the size of both cells together: differences, products and
+/// The error of rounding, as a share of the size of both cells together. Differences, products and
 /// roots are each rounded by 2^-53 of themselves.
 #define ERROR 0x1p-45
 
-/// And what the length of sightlines is known to, in parts of the range, doubled.
+/// Twice the error of the length of a sightline, as a share of the range.
 #define RANGE_ERROR 0x1p-39
 
 typedef struct polygon {
@@ -313,7 +313,7 @@ static double farthest(const polygon *p, const polygon *q) {
     return most;
 }
 
-/// Rounded, to the safe side: what is told of all is so.
+/// Rounded to the safe side: SL_ALL_WITHIN and SL_NONE_WITHIN are always right.
 static sl_apart cells_apart(const sl_space *space, uint32_t a, uint32_t b, double range) {
     const polygon p = polygon_of(space, a), q = polygon_of(space, b);
     const double width = fmax(p.box.max.x, q.box.max.x) - fmin(p.box.min.x, q.box.min.x);

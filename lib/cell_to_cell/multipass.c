@@ -98,9 +98,9 @@ static sl_status push(sl_context *context, const multipass *all, searcher *me,
     return SL_OK;
 }
 
-/// Whether candidates that are not seen yet are left beyond a directed portal of the last step;
-/// makes the set of all that are wanted there. What is behind a directed portal of the cycle at
-/// hand may not be known yet: then it bounds nothing.
+/// Makes the set of candidates that are wanted beyond a directed portal of the last step.
+/// `something`: one of them is not seen yet. What lies behind a portal of the current cycle may not
+/// be known yet. Then it bounds nothing.
 static sl_status want(sl_context *context, searcher *me, const sl_sparse_row *behind,
                       bool *something) {
     const size_t depth = me->search.count;
@@ -181,7 +181,7 @@ static void add_set(sl_word_set *to, const sl_word_set *from) {
         sl_word_set_join(to, word, from->bits[word]);
 }
 
-/// What a face sees in the sector, among the candidates: kept as its row, added to its cell's sets.
+/// Finds what a face sees in the sector. Keeps it as the face's row and adds it to its cell's sets.
 static sl_status search_whole_face(sl_context *context, multipass *all, const running_pass *p,
                                    searcher *me, uint32_t directed) {
     sl_sparse_row *row = &p->seen[p->pass.faces[directed]];
@@ -196,8 +196,8 @@ static sl_status search_whole_face(sl_context *context, multipass *all, const ru
     return sl_sparse_row_add(context, row, all->words, &me->sure, &all->budget);
 }
 
-/// What all faces of a cell see in the sector. `cyclic`: the candidates are those of the cycle, as
-/// what is behind a face need not be done yet.
+/// Finds what all faces of a cell see in the sector. `cyclic`: the candidates are those of the
+/// cycle, since the cell behind a face need not be done yet.
 static sl_status search_cell(sl_context *context, multipass *all, const running_pass *p,
                              searcher *me, uint32_t cell, bool cyclic) {
     const sl_cell *c = &all->space->cells[cell];
@@ -381,8 +381,8 @@ static sl_status run_passes(sl_context *context, multipass *all) {
     return sl_work_run(context, &work, all->units.count, all->options->threads);
 }
 
-/// As many passes at the same time as there are threads: one of them alone often has no more work
-/// that is ready.
+/// Runs as many passes at the same time as there are threads. One pass alone often has no work that
+/// is ready.
 static sl_status pass_all(sl_context *context, multipass *all) {
     const size_t together = all->options->threads ? all->options->threads : sl_core_count();
     const uint32_t count = all->sectors.count / 2;
@@ -399,8 +399,8 @@ static sl_status pass_all(sl_context *context, multipass *all) {
 
 // --- the method
 
-/// Of rounded solvers: what is sure is not doubtful, and with closed sight what is doubtful is
-/// seen.
+/// For rounded solvers: a pair that is sure is not doubtful. With closed sight a doubtful pair
+/// counts as seen.
 static sl_status finish_rounded(sl_context *context, multipass *all, sl_visibility *out) {
     sl_visibility sure = {0}, doubtful = {0};
     sl_status status = sl_bit_rows_encode(context, &all->sure, &sure);

@@ -33,7 +33,8 @@ static uint32_t most_cells(const sl_space *space) {
     return MOST_CELLS;
 }
 
-/// Adds to the row what may be seen through a directed portal, or nothing where that is too much.
+/// Adds the cells that may be seen through a directed portal to the row, or none if they are too
+/// many.
 static void flood_portal(bound_finder *find, uint32_t directed) {
     const uint32_t count =
         sl_flood_through(find->space, find->options, &find->space->directed[directed], find->most,

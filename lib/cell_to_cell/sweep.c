@@ -119,8 +119,8 @@ sl_status sl_sweep_see(sl_context *context, const sl_space *space, const sl_see_
 
 enum { CORNERS_ASKED = 256 };
 
-/// A cell has more words than one of its corners sees, and growing rows have room to spare: over
-/// generated cities, floors, mazes, caves and halls the two together come to 1.4 to 1.9.
+/// A cell has more words than one of its corners sees, and growing rows have room to spare.
+/// Together that is a factor of 1.4 to 1.9 over generated cities, floors, mazes, caves and halls.
 #define WORDS_A_WORD_SEEN 1.6
 
 static void add_cells(sl_word_set *set, const sl_visible *visible) {
@@ -128,7 +128,7 @@ static void add_cells(sl_word_set *set, const sl_visible *visible) {
         sl_word_set_add(set, visible->cells.items[i].cell);
 }
 
-/// The words in which a row would have what is seen from the fan that was swept last.
+/// Counts the words that a row needs for what the fan visited last sees.
 static uint64_t count_words(const sl_sweeper *s, sl_word_set *set) {
     uint64_t count = 0;
     add_cells(set, &s->back);
@@ -155,8 +155,7 @@ static sl_status ask(sl_context *context, sl_sweeper *s, sl_word_set *set, uint6
     return SL_OK;
 }
 
-/// About how much sparse rows will take when all fans are swept, half as much or twice as much.
-/// Some fans are swept for it.
+/// Estimates the memory of sparse rows, to a factor of 2 either way. It visits some of the fans.
 static sl_status estimate_rows(sl_context *context, const sl_fans *fans, bool closed,
                                sl_bit_rows *rows, uint64_t *bytes) {
     sl_sweeper sweeper;
@@ -170,7 +169,7 @@ static sl_status estimate_rows(sl_context *context, const sl_fans *fans, bool cl
     return status;
 }
 
-/// Says what sparse rows will take, and refuses what is far from what they may.
+/// Notes how much memory sparse rows will take. Refuses if that is far above the limit.
 static sl_status tell_memory(sl_context *context, sl_sweep *all) {
     if (all->rows.bits) return SL_OK;
     const double limit = (double)all->options->row_bytes, mib = 1 << 20;

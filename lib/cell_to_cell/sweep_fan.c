@@ -54,7 +54,7 @@ static sl_status look(sl_context *context, sl_sweeper *s, sl_visible *visible) {
     return sl_visible_run(context, &s->finder, visible);
 }
 
-/// As look, and sorts what was found.
+/// As look, and sorts the events.
 static sl_status look_sorted(sl_context *context, sl_sweeper *s, sl_visible *visible) {
     if (!s->sectors.count) return SL_OK;
     const sl_bound first = s->sectors.items[0].low;
@@ -71,8 +71,8 @@ static sl_status add_sector(sl_context *context, sl_sweeper *s, sl_fan_sector se
     return SL_OK;
 }
 
-/// The directions between which each fan's point looks for the cells that it serves, a little more
-/// than half a turn.
+/// The two ends of the horizon. A fan's point looks at the directions above it for the cells that
+/// it serves, a little more than half a turn.
 static sl_bound horizon(const sl_sweeper *s, bool left) {
     const uint32_t count = (uint32_t)s->fans->ends.count;
     return (sl_bound){.end = left ? count - 1 : count - 2, .rank = left ? SL_BEFORE : SL_AFTER};
@@ -123,7 +123,8 @@ static bool is_below(const sl_sweeper *s, sl_bound bound) {
            sl_bounds_turn(r, horizon(s, true), bound) > 0;
 }
 
-/// Adds of a sector, half a turn at most, what is above the horizon: one part, or two.
+/// Adds the part of a sector that is above the horizon, or its two parts. The sector is half a turn
+/// at most.
 static sl_status add_above(sl_context *context, sl_sweeper *s, sl_fan_sector sector) {
     const sl_visible_finder *r = &s->finder;
     SL_TRY(SL_ARRAY_ROOM(context, &s->sectors, 2));
@@ -151,7 +152,8 @@ static sl_status add_above(sl_context *context, sl_sweeper *s, sl_fan_sector sec
     return SL_OK;
 }
 
-/// Between the two; all of a fan that is not wide. Its cells count as seen wherever they lie.
+/// Finds what is seen between the two parts, or in all of a fan that is not wide. The fan's own
+/// cells count as seen wherever they lie.
 static sl_status find_middle(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     const sl_fan_cell *cells = s->fans->cells.items + fan->first;
     const sl_bound start = {.end = cells[fan->count].edge, .away = true, .rank = SL_AFTER};
@@ -172,8 +174,8 @@ static sl_status find_middle(sl_context *context, sl_sweeper *s, const sl_fan *f
 
 // --- rays along the edges
 
-/// Gives the turns at the edges of one part, which was found last, their rays. `first`: its first
-/// cell of the fan.
+/// Gives the events at the edges of the part that was found last their rays. `first`: the first
+/// cell of the fan in it.
 static sl_status add_rays(sl_context *context, sl_sweeper *s, const sl_fan *fan,
                           sl_visible *visible, uint32_t first, bool last) {
     const sl_fan_cell *cell = s->fans->cells.items + fan->first + first;
@@ -240,7 +242,7 @@ static void enter(half *h, int8_t rank) {
         if (cells[i].low.rank == rank) sl_word_set_add(h->seen, cells[i].cell);
 }
 
-/// Adds to the rows of what `h` has come to see all that the other half sees.
+/// Adds all that the other half sees to the rows of the cells that `h` begins to see.
 static sl_status join(sl_context *context, const half *h, const half *other, int8_t rank) {
     const sl_visible_interval *cells = h->visible->cells.items;
     for (uint32_t i = h->visible->events.items[h->event].enter; i != UINT32_MAX;
@@ -269,7 +271,7 @@ static void ray_of(const sl_sweeper *s, const half *h, int8_t rank, const uint32
     *count = s->rays.starts.items[ray + 1] - first;
 }
 
-/// A ray's cells come into sight for a moment: those that were not seen already are noted.
+/// Adds a ray's cells to what the half sees, for this event alone, and notes those that are new.
 static sl_status pass_ray(sl_context *context, sl_sweeper *s, half *h, int8_t rank) {
     const uint32_t *cells;
     uint32_t count;
@@ -333,14 +335,14 @@ static sl_status at_both_events(sl_context *context, sl_sweeper *s, half *halves
     return SL_OK;
 }
 
-/// The cells of the fan that the backward half will see are touched by the line from its start.
+/// The line touches the fan's cells that its backward half will see from its start on.
 static void touch(half *h) {
     for (size_t i = 0; i < h->visible->cells.count; i++)
         if (h->visible->cells.items[i].touched)
             sl_word_set_add(h->seen, h->visible->cells.items[i].cell);
 }
 
-/// Turns the line: adds the pairs of what is seen by both its halves.
+/// Rotates the line over half a turn, and adds the pairs that its two halves see.
 static sl_status turn_line(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     const uint32_t first = s->fans->cells.items[fan->first].edge;
     half back = {

@@ -33,7 +33,7 @@ sl_status sl_sweep_finish(sl_context *context, const sl_space *space, const sl_s
 /// Fans that lie side by side are taken together.
 enum { FANS_OF_A_GROUP = 32 };
 
-/// For each group that misses fans, the cells that these may see; and for each cell the groups that
+/// For each group of fans, the cells that its missing fans may see. For each cell, the groups that
 /// may see it.
 typedef struct group_bounds {
     sl_pvs groups; ///< a row a group
@@ -164,8 +164,8 @@ static bool is_spared(const sl_fans *fans, const sl_fan *fan, const uint64_t *en
     return true;
 }
 
-/// A fan joins cells that its own cells see: where these see no cell but such whose rows are known,
-/// it has nothing to add.
+/// A fan joins only cells that its own cells see. If the rows of all these are known, the fan has
+/// nothing to add.
 static sl_status spare(sl_context *context, const sl_fans *fans, const uint64_t *enclosed,
                        sl_partial *partial) {
     uint8_t *done = sl_alloc_array(context, fans->fans.count, sizeof *done);

@@ -39,7 +39,7 @@ static sl_status look_through(sl_context *context, sl_sweeper *s, const sl_fan_c
     return sl_visible_run(context, &s->finder, &s->middle);
 }
 
-/// What is seen through each cell of a fan, all of it.
+/// Finds what is seen through each cell of a fan.
 static sl_status look_through_all(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
     const sl_fan_cell *cells = s->fans->cells.items + fan->first;
     sl_rays *looks = &s->looks;
@@ -85,8 +85,8 @@ static bool step(const sl_fans *fans, const sl_fan *fan, bool counter, uint32_t 
     return fans->directed[counter ? fans->directed[back].twin : back].cell != SL_NO_CELL;
 }
 
-/// All that a line sees that turns counter-clockwise from a cell of the fan, by less than half a
-/// turn from its last edge.
+/// Adds all that a line sees while it rotates counter-clockwise from a cell of the fan, by less
+/// than half a turn from the cell's last edge.
 static sl_status turn_counter(sl_context *context, sl_sweeper *s, const sl_fan *fan, uint32_t k,
                               sl_word_set *set) {
     const sl_fan_cell *cells = s->fans->cells.items + fan->first;
@@ -105,7 +105,7 @@ static sl_status turn_counter(sl_context *context, sl_sweeper *s, const sl_fan *
     return SL_OK;
 }
 
-/// The other way round, from its first edge.
+/// Likewise clockwise, from the cell's first edge.
 static sl_status turn_clockwise(sl_context *context, sl_sweeper *s, const sl_fan *fan, uint32_t k,
                                 sl_word_set *set) {
     const sl_fan_cell *cells = s->fans->cells.items + fan->first;
@@ -157,7 +157,7 @@ static sl_status visit(sl_context *context, const sl_sweep *all, sl_sweeper *s, 
     return sl_sweep_fan(context, s, fan);
 }
 
-/// Adds to what cells see whatever they are seen from.
+/// Joins both tables: a cell sees another if that one is seen from it.
 static sl_status join_directions(sl_context *context, sl_sweep *all) {
     sl_visibility found = {0};
     sl_pvs sees = {0};

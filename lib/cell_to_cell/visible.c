@@ -82,7 +82,7 @@ int sl_ends_turn_exact(const sl_visible_finder *r, uint32_t a, uint32_t b) {
 
 // --- what waits
 
-/// About how far away a cell is: a float's upper bits grow with its logarithm.
+/// The ring of a cell by its distance. The upper bits of a float grow with its logarithm.
 static uint32_t ring_of(const sl_visible_finder *r, uint32_t cell) {
     enum { FINE = 18, OCTAVES = SL_NEAR_RINGS >> (23 - FINE), ONE = 127 };
     const sl_point at = r->fans->middles[cell];
@@ -106,7 +106,7 @@ static void wait(sl_visible_finder *r, sl_visible_interval *c, uint32_t found) {
     r->rings[ring] = found;
 }
 
-/// The nearest that waits; UINT32_MAX for none.
+/// Takes the nearest interval off the queue; UINT32_MAX for none.
 static uint32_t take_nearest(sl_visible_finder *r, sl_visible *visible) {
     if (!r->some_ringed) return UINT32_MAX;
     const uint32_t i = (uint32_t)__builtin_ctzll(r->some_ringed);
@@ -131,8 +131,8 @@ static sl_status add_interval(sl_context *context, sl_visible_finder *r, sl_visi
     return SL_OK;
 }
 
-/// Joins a piece to an interval of the same cell; false where they do not touch. `more`: there is
-/// something to look at, and it does not wait yet.
+/// Joins a piece to an interval of the same cell. False if they do not touch. `more`: the interval
+/// has grown and does not wait yet.
 static bool join(const sl_visible_finder *r, sl_visible_interval *c, sl_bound low, sl_bound high,
                  bool *more) {
     if (sl_is_gap(r, c->high, low) || sl_is_gap(r, high, c->low)) return false;
@@ -190,7 +190,7 @@ static inline int8_t smaller(int8_t a, int8_t b) {
     return a < b ? a : b;
 }
 
-/// The two bounds that a portal's ends make.
+/// The start event and the end event that a portal's ends make.
 static inline sl_bound from_right(const sl_visible_finder *r, const sl_walk_portal *e) {
     return (sl_bound){.end = e->right, .rank = r->closed ? SL_CLOCKWISE : SL_AFTER};
 }
@@ -218,8 +218,8 @@ static bool is_direction(const sl_visible_finder *r, sl_bound bound, uint32_t en
     return sl_ends_turn(r, bound.end, end) == 0 && sl_bound_has(r, bound, end);
 }
 
-/// Of a directed portal on a line with the point: it is at one of the bounds, as an edge of a
-/// convex cell.
+/// Cuts an interval by a directed portal on a line with the point. The portal is at one of the
+/// bounds, since it is an edge of a convex cell.
 static bool clip_along(const sl_visible_finder *r, const sl_walk_portal *e, sl_bound low,
                        sl_bound high, piece *out) {
     const uint32_t far = sl_same_point(sl_end_of(r, e->left), r->from) ? e->right : e->left;
@@ -232,8 +232,7 @@ static bool clip_along(const sl_visible_finder *r, const sl_walk_portal *e, sl_b
     return out->low.rank <= out->high.rank;
 }
 
-/// Which of the directions between two cross a directed portal, where a direction may lead to its
-/// end.
+/// Cuts an interval by the ends of a directed portal, exactly: also where a bound leads to an end.
 static bool clip(const sl_visible_finder *r, const sl_walk_portal *e, sl_bound low, sl_bound high,
                  piece *out) {
     const int facing = sl_ends_turn(r, e->right, e->left);
@@ -254,7 +253,7 @@ static bool clip(const sl_visible_finder *r, const sl_walk_portal *e, sl_bound l
     return out->low.rank <= out->high.rank;
 }
 
-/// Between which directions a cell is looked through, and these as vectors.
+/// The interval over which a cell is looked through, with its bounds as vectors.
 typedef struct view {
     sl_bound low, high;
     sl_point of_low, of_high;
@@ -268,7 +267,7 @@ typedef struct sight {
     sl_point right, left;
 } sight;
 
-/// One of two, without a branch: which one is hard to predict.
+/// Picks one of two bounds without a branch, since the choice is hard to predict.
 static inline sl_bound pick(bool first, sl_bound a, sl_bound b) {
     uint64_t of_a, of_b;
     static_assert(sizeof a == sizeof of_a, "a bound is to be picked as a whole");
@@ -279,7 +278,7 @@ static inline sl_bound pick(bool first, sl_bound a, sl_bound b) {
     return b;
 }
 
-/// As clip: nearly all that is asked, and cheap.
+/// As clip, but by products in doubles where their signs are certain. That is nearly always.
 static inline bool clip_fast(const sl_visible_finder *r, const view *v, const sight *s,
                              piece *out) {
     const sl_walk_portal *e = &r->fans->directed[s->directed];
@@ -293,8 +292,8 @@ static inline bool clip_fast(const sl_visible_finder *r, const view *v, const si
     return true;
 }
 
-/// The directed portals that may be crossed, of some of a cell: without a branch for each, as which
-/// ones is hard to predict.
+/// Lists which of a cell's directed portals may be crossed. There is no branch for each, since the
+/// choice is hard to predict.
 static inline uint32_t see_directed(const sl_visible_finder *r, const view *v, uint32_t first,
                                     uint32_t end, sight *out) {
     uint32_t count = 0;
@@ -354,7 +353,7 @@ static int side_in_sector(const sl_visible_finder *r, sl_bound bound, uint32_t e
     return sign == 0 && !sl_bound_has(r, bound, end) ? answer : sign;
 }
 
-/// What is seen through a directed portal on the far side of a cell that the point is a corner of.
+/// Cuts a sector of the fan by a directed portal on the far side of the fan's cell.
 static bool first_piece(const sl_visible_finder *r, const sl_walk_portal *e, sl_bound low,
                         sl_bound high, bool thin, piece *out) {
     const sl_point left = sl_end_of(r, e->left), right = sl_end_of(r, e->right);
@@ -403,7 +402,7 @@ void sl_rays_destroy(sl_context *context, sl_rays *rays) {
     *rays = (sl_rays){0};
 }
 
-/// A ray, and what is known of its moment.
+/// A ray, and what is known at its angle.
 typedef struct ray {
     sl_bound along;
     const sl_visible *known; ///< NULL for nothing
@@ -411,7 +410,7 @@ typedef struct ray {
     uint32_t first;          ///< of its cells
 } ray;
 
-/// Whether a cell is seen at the ray's moment without it, and so all that lies beyond.
+/// Whether a cell is seen at the ray's angle anyway, and with it all that lies beyond.
 static bool is_known(const sl_visible_finder *r, const ray *of, uint32_t cell) {
     if (!of->known) return false;
     const sl_visible_interval *all = of->known->cells.items;

@@ -43,7 +43,7 @@ static void join_split(const sl_visible_finder *r, sl_visible *visible) {
         }
 }
 
-// --- turns
+// --- events
 
 static uint32_t slot_of(sl_visible_finder *r, sl_bound bound) {
     uint32_t *at = &r->slot_of.items[2 * bound.end + bound.away];
@@ -67,7 +67,7 @@ static sl_status make_slots(sl_context *context, sl_visible_finder *r, sl_visibl
     return SL_OK;
 }
 
-/// Grows with the angle from `first`, up to half a turn; about.
+/// A number that grows with the angle from `first`, over half a turn, but for rounding.
 static uint32_t rough_angle(const sl_visible_finder *r, sl_point first, const sl_event_slot *slot) {
     sl_point to = sl_towards(r, slot->end);
     if (slot->away) to = (sl_point){-to.x, -to.y};
@@ -84,7 +84,7 @@ static bool same_direction(const sl_visible_finder *r, const sl_event_slot *a,
            sl_opposite(r->from, sl_end_of(r, a->end), sl_end_of(r, b->end)) == (a->away != b->away);
 }
 
-/// Compares two slots exactly: -1 where `a` comes first, 0 for the same direction, 1.
+/// Compares two slots exactly: -1 if `a` comes first, 0 for the same direction, else 1.
 static int compare(const sl_visible_finder *r, uint64_t a, uint64_t b) {
     const sl_event_slot *p = &r->slots.items[(uint32_t)a], *q = &r->slots.items[(uint32_t)b];
     const int sign = sl_ends_turn(r, p->end, q->end);
@@ -93,8 +93,8 @@ static int compare(const sl_visible_finder *r, uint64_t a, uint64_t b) {
     return a < b ? -1 : 1; // half a turn apart
 }
 
-/// Sorts what is nearly sorted; of each it then says whether it has the direction of the one
-/// before.
+/// Insertion sort by exact comparison, for keys that are nearly sorted. `same`: a key has the
+/// direction of the key before it.
 static void insert_sorted(const sl_visible_finder *r, uint64_t *keys, bool *same, size_t count) {
     for (size_t i = 1; i < count; i++) {
         int order = compare(r, keys[i - 1], keys[i]);
@@ -116,8 +116,8 @@ static void insert_sorted(const sl_visible_finder *r, uint64_t *keys, bool *same
 
 enum { RUN = 12 };
 
-/// Bottom-up mergesort of runs that were sorted by insertion; `other` has as much room. Where the
-/// result stands is returned.
+/// Merge sort, bottom-up, of short runs sorted by insertion. `other` has as much room. Returns the
+/// one of the two that holds the result.
 static uint64_t *sort_keys(uint64_t *keys, uint64_t *other, size_t count) {
     for (size_t first = 0; first < count; first += RUN) {
         const size_t end = first + RUN < count ? first + RUN : count;
@@ -147,7 +147,7 @@ static uint64_t *sort_keys(uint64_t *keys, uint64_t *other, size_t count) {
     return keys;
 }
 
-/// The turn of the next slot: the last one where that has the same direction, or a new one.
+/// Gives the next slot its event: the last one if it has the same direction, or a new one.
 static void add_event(sl_event_slot *slot, bool same, sl_visible *visible) {
     if (!same)
         visible->events.items[visible->events.count++] = (sl_visible_event){.end = slot->end,
