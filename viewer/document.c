@@ -414,7 +414,7 @@ static sl_status take_space(sl_context *context, document_state *document) {
     document_touch(document); // doors may have been turned while the job was at work
     SL_TRY(measure_cells(context, document));
     SL_TRY(sl_outline_make(context, &document->baked->space, &document->outline));
-    SL_TRY(sl_splits_make(context, &document->baked->space, &document->splits));
+    SL_TRY(sli_splits_make(context, &document->baked->space, &document->splits));
     return make_search(context, document);
 }
 

@@ -60,7 +60,7 @@ typedef struct document_state {
     sl_baked *baked;     ///< its space may be there before its visibility; NULL while nothing is
     bool has_visibility; ///< what cells see; stab trees come later, or not
     sl_outline outline;
-    sl_split *splits; ///< of the kd-tree, by node
+    sli_split *splits; ///< of the kd-tree, by node
     sl_eye_search *search;
     double *areas;         ///< of the cells
     double area;           ///< of all cells that count

@@ -19,10 +19,10 @@ const subject_row *lesson_subject(const lesson_state *lesson) {
 
 void lesson_forget(sl_context *context, lesson_state *lesson) {
     sl_steps_destroy(context, &lesson->steps);
-    sl_mesh_steps_destroy(context, &lesson->mesh);
+    sli_mesh_steps_destroy(context, &lesson->mesh);
     sl_free(context, lesson->effects.items);
     memset(&lesson->effects, 0, sizeof lesson->effects);
-    for (int i = 0; i < PASSES; i++) sl_pass_destroy(context, &lesson->passes[i]);
+    for (int i = 0; i < PASSES; i++) sli_pass_destroy(context, &lesson->passes[i]);
     lesson->pass_cells = 0;
     lesson->made = false;
     lesson->end_count = 0;

@@ -73,8 +73,8 @@ struct lesson_state {
     sl_steps steps;           ///< of the search
     SL_ARRAY(effect_step) effects;
     size_t subdivision_steps;
-    sl_mesh_steps mesh;     ///< of the subdivision, where it is a mesh
-    sl_pass passes[PASSES]; ///< of multipass, by quadrant
+    sli_mesh_steps mesh;     ///< of the subdivision, where it is a mesh
+    sli_pass passes[PASSES]; ///< of multipass, by quadrant
     uint32_t pass_cells;
     size_t at; ///< the step shown
     bool plays;

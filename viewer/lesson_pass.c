@@ -9,14 +9,14 @@
 static sl_status record(sl_context *context, lesson_state *lesson, const document_state *document,
                         uint32_t source) {
     const sl_space *space = &document->baked->space;
-    sl_sectors sectors;
+    sli_sectors sectors;
     (void)source;
-    SL_TRY(sl_sectors_create(context, space, PASSES, &sectors));
+    SL_TRY(sli_sectors_create(context, space, PASSES, &sectors));
     sl_status status = SL_OK;
     for (uint32_t i = 0; i < PASSES && status == SL_OK; i++)
-        status =
-            sl_pass_create(context, space, false, sl_sectors_get(&sectors, i), &lesson->passes[i]);
-    sl_sectors_destroy(context, &sectors);
+        status = sli_pass_create(context, space, false, sli_sectors_get(&sectors, i),
+                                 &lesson->passes[i]);
+    sli_sectors_destroy(context, &sectors);
     if (status == SL_OK) lesson->pass_cells = space->cell_count;
     return status;
 }
@@ -25,7 +25,7 @@ static size_t length(const lesson_state *lesson) {
     return (size_t)PASSES * lesson->pass_cells;
 }
 
-static const sl_pass *pass_of(const lesson_state *lesson) {
+static const sli_pass *pass_of(const lesson_state *lesson) {
     return &lesson->passes[lesson->at / lesson->pass_cells];
 }
 
@@ -35,7 +35,7 @@ static uint32_t place_of(const lesson_state *lesson) {
 }
 
 /// How many cells are on a cycle with this one, itself included; 1 for no cycle.
-static uint32_t on_cycle(const sl_pass *pass, uint32_t cell) {
+static uint32_t on_cycle(const sli_pass *pass, uint32_t cell) {
     const uint32_t component = pass->order.component[cell];
     return pass->order.starts[component + 1] - pass->order.starts[component];
 }
@@ -44,7 +44,7 @@ static void say(const lesson_state *lesson, const document_state *document, char
     static const char *const towards[PASSES] = {"Right and up", "Left and up", "Left and down",
                                                 "Right and down"};
     (void)document;
-    const sl_pass *pass = pass_of(lesson);
+    const sli_pass *pass = pass_of(lesson);
     const uint32_t cell = pass->order.nodes[place_of(lesson)];
     const uint32_t faces = pass->first[cell + 1] - pass->first[cell];
     const uint32_t cycle = on_cycle(pass, cell);
@@ -79,7 +79,7 @@ static const char *const lines[] = {
 static const char *const *code(const lesson_state *lesson, const document_state *document,
                                size_t *count, size_t *lit) {
     (void)document;
-    const sl_pass *pass = pass_of(lesson);
+    const sli_pass *pass = pass_of(lesson);
     const uint32_t cell = pass->order.nodes[place_of(lesson)];
     *lit = pass->first[cell] < pass->first[cell + 1] ? 5 : 3;
     *count = sizeof lines / sizeof *lines;
@@ -87,7 +87,7 @@ static const char *const *code(const lesson_state *lesson, const document_state 
 }
 
 static void account(const lesson_state *lesson, char text[SENTENCE]) {
-    const sl_pass *pass = pass_of(lesson);
+    const sli_pass *pass = pass_of(lesson);
     snprintf(text, SENTENCE,
              "%u of %u cells done in this quadrant; %u dependences, %u levels of cells that can be "
              "done at the same time.",
@@ -98,7 +98,7 @@ static void account(const lesson_state *lesson, char text[SENTENCE]) {
 static void below(app_state *app, const sl_frame *frame) {
     const sl_space *space = &app->document.baked->space;
     const sl_palette *palette = &app->ui.palette;
-    const sl_pass *pass = pass_of(&app->tool.lesson);
+    const sli_pass *pass = pass_of(&app->tool.lesson);
     const uint32_t place = place_of(&app->tool.lesson), cell = pass->order.nodes[place];
     for (uint32_t i = 0; i < place; i++)
         sl_draw_cell(app->ui.cairo, space, frame, pass->order.nodes[i], palette->glass, 0.18,
@@ -123,11 +123,11 @@ static sl_point middle_of(const sl_space *space, uint32_t cell) {
 static void draw_dependences(app_state *app, const sl_frame *frame, uint32_t cell, sl_colour colour,
                              double width) {
     const sl_space *space = &app->document.baked->space;
-    const sl_pass *pass = pass_of(&app->tool.lesson);
+    const sli_pass *pass = pass_of(&app->tool.lesson);
     const sl_cell *c = &space->cells[cell];
     const sl_point from = middle_of(space, cell);
     for (uint32_t i = c->first_directed; i < c->first_directed + c->directed_count; i++) {
-        if (pass->faces[i] == SL_NO_FACE) continue;
+        if (pass->faces[i] == SLI_NO_FACE) continue;
         const sl_directed_portal *directed = &space->directed[i];
         const sl_point through = {(directed->left.x + directed->right.x) / 2,
                                   (directed->left.y + directed->right.y) / 2};
@@ -139,7 +139,7 @@ static void draw_dependences(app_state *app, const sl_frame *frame, uint32_t cel
 
 static void above(app_state *app, const sl_frame *frame) {
     const sl_palette *palette = &app->ui.palette;
-    const sl_pass *pass = pass_of(&app->tool.lesson);
+    const sli_pass *pass = pass_of(&app->tool.lesson);
     const uint32_t place = place_of(&app->tool.lesson);
     for (uint32_t i = 0; i < pass->order.count; i++)
         draw_dependences(app, frame, pass->order.nodes[i],

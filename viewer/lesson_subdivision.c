@@ -35,7 +35,7 @@ static void say_split(const document_state *document, uint32_t at, char text[SEN
     snprintf(text, SENTENCE,
              "Split %u of %u, %u deep: the line %s = %.6g, of which walls cover %.0f %% here; %s.",
              at + 1, space->node_count, document->splits[at].depth + 1, node->axis == 0 ? "x" : "y",
-             node->position, 100 * sl_splits_covered(document->splits, space, at),
+             node->position, 100 * sli_splits_covered(document->splits, space, at),
              node->below < 0 && node->above < 0   ? "both sides are cells"
              : node->below < 0 || node->above < 0 ? "one side is a cell, the other goes on"
                                                   : "both sides go on");
@@ -63,7 +63,7 @@ static size_t mesh_line(const lesson_state *lesson) {
     if (lesson->at < FIRST_SIDE) return lines[lesson->at];
     const size_t place = lesson->at - FIRST_SIDE;
     if (place == lesson->mesh.sides.count) return 8;
-    return lesson->mesh.sides.items[place].stuck == SL_OUTSIDE ? 7 : 6;
+    return lesson->mesh.sides.items[place].stuck == SLI_OUTSIDE ? 7 : 6;
 }
 
 static const char *ending(size_t count) {
@@ -71,7 +71,7 @@ static const char *ending(size_t count) {
 }
 
 /// Counts walls and seams that the triangulation of the points alone does not have.
-static size_t count_missing(const sl_mesh_steps *mesh) {
+static size_t count_missing(const sli_mesh_steps *mesh) {
     size_t count = 0;
     for (size_t i = 0; i < mesh->triangles.halves.count / 2; i++)
         count += mesh->fresh[i] && mesh->triangles.labels[i];
@@ -79,7 +79,7 @@ static size_t count_missing(const sl_mesh_steps *mesh) {
 }
 
 static void say_stage(const lesson_state *lesson, const sl_space *space, char text[SENTENCE]) {
-    const sl_mesh_steps *mesh = &lesson->mesh;
+    const sli_mesh_steps *mesh = &lesson->mesh;
     const size_t missing = count_missing(mesh), points = mesh->triangles.points.count;
     if (lesson->at == WALLS)
         snprintf(text, SENTENCE, "%u wall%s and %u seam%s: cells must not run over them.",
@@ -106,30 +106,31 @@ static void say_stage(const lesson_state *lesson, const sl_space *space, char te
         snprintf(text, SENTENCE, "No side has to be turned.");
 }
 
-static void say_side(const sl_mesh_steps *mesh, size_t place, char text[SENTENCE]) {
-    const sl_mesh_side *side = &mesh->sides.items[place];
-    const sl_triangulation *t = &mesh->triangles;
+static void say_side(const sli_mesh_steps *mesh, size_t place, char text[SENTENCE]) {
+    const sli_mesh_side *side = &mesh->sides.items[place];
+    const sli_triangulation *t = &mesh->triangles;
     const sl_point a = t->points.items[t->halves.items[side->half].from];
-    const sl_point b = t->points.items[sl_half_end(t, side->half)];
+    const sl_point b = t->points.items[sli_half_end(t, side->half)];
     const int length = snprintf(text, SENTENCE, "Side %zu of %zu, %.3g long", place + 1,
                                 mesh->sides.count, hypot(b.x - a.x, b.y - a.y));
-    if (side->stuck == SL_OUTSIDE) {
+    if (side->stuck == SLI_OUTSIDE) {
         snprintf(text + length, SENTENCE - (size_t)length,
                  ": it is taken out, as the two cells make a convex one.");
         return;
     }
     sl_point corner[3];
-    sl_mesh_steps_corner(mesh, place, corner);
+    sli_mesh_steps_corner(mesh, place, corner);
     snprintf(text + length, SENTENCE - (size_t)length,
              " stays: without it the corner at %.5g, %.5g would turn %s.", corner[1].x, corner[1].y,
-             sl_orient(corner[0], corner[1], corner[2]) ? "right" : "back");
+             sli_orient(corner[0], corner[1], corner[2]) ? "right" : "back");
 }
 
-static void say_cells(const sl_mesh_steps *mesh, const document_state *document,
+static void say_cells(const sli_mesh_steps *mesh, const document_state *document,
                       char text[SENTENCE]) {
     const sl_space *space = &document->baked->space;
     size_t stay = 0;
-    for (size_t i = 0; i < mesh->sides.count; i++) stay += mesh->sides.items[i].stuck != SL_OUTSIDE;
+    for (size_t i = 0; i < mesh->sides.count; i++)
+        stay += mesh->sides.items[i].stuck != SLI_OUTSIDE;
     const int length = snprintf(text, SENTENCE, "%zu sides are taken out, %zu stay as portals.",
                                 mesh->sides.count - stay, stay);
     if (document->map.cell_count)
@@ -152,16 +153,16 @@ static void draw_ground(app_state *app, const sl_frame *frame) {
 
 static void draw_mesh(app_state *app, const sl_frame *frame) {
     const sl_palette *palette = &app->ui.palette;
-    const sl_mesh_steps *mesh = &app->tool.lesson.mesh;
+    const sli_mesh_steps *mesh = &app->tool.lesson.mesh;
     cairo_t *cairo = app->ui.cairo;
     const size_t at = app->tool.lesson.at;
     if (at == FIRST_SIDE + mesh->sides.count) return;
     draw_ground(app, frame);
-    if (at == DELAUNAY) sl_draw_mesh_delaunay(cairo, palette, frame, mesh);
-    if (at == TRIANGLES) sl_draw_mesh_triangles(cairo, palette, frame, mesh);
+    if (at == DELAUNAY) sli_draw_mesh_delaunay(cairo, palette, frame, mesh);
+    if (at == TRIANGLES) sli_draw_mesh_triangles(cairo, palette, frame, mesh);
     if (at >= FIRST_SIDE)
         app_check(app,
-                  sl_draw_mesh_side(app->context, cairo, palette, frame, mesh, at - FIRST_SIDE));
+                  sli_draw_mesh_side(app->context, cairo, palette, frame, mesh, at - FIRST_SIDE));
 }
 
 // --- all of it
@@ -171,7 +172,7 @@ static sl_status record(sl_context *context, lesson_state *lesson, const documen
     (void)source;
     lesson->subdivision_steps = document->baked->space.node_count;
     if (!is_mesh(document)) return SL_OK;
-    SL_TRY(sl_mesh_steps_record(context, &document->baked->space, &lesson->mesh));
+    SL_TRY(sli_mesh_steps_record(context, &document->baked->space, &lesson->mesh));
     lesson->subdivision_steps = FIRST_SIDE + lesson->mesh.sides.count + 1;
     return SL_OK;
 }
@@ -208,18 +209,18 @@ static void below(app_state *app, const sl_frame *frame) {
     if (is_mesh(&app->document))
         draw_mesh(app, frame);
     else
-        sl_draw_split(app->ui.cairo, &app->ui.palette, frame, app->document.splits,
-                      (uint32_t)app->tool.lesson.at);
+        sli_draw_split(app->ui.cairo, &app->ui.palette, frame, app->document.splits,
+                       (uint32_t)app->tool.lesson.at);
 }
 
 static void above(app_state *app, const sl_frame *frame) {
     const lesson_state *lesson = &app->tool.lesson;
     if (!is_mesh(&app->document)) return;
     if (lesson->at == POINTS)
-        sl_draw_mesh_points(app->ui.cairo, &app->ui.palette, frame, &lesson->mesh);
+        sli_draw_mesh_points(app->ui.cairo, &app->ui.palette, frame, &lesson->mesh);
     if (lesson->at >= FIRST_SIDE)
-        sl_draw_mesh_corner(app->ui.cairo, &app->ui.palette, frame, &lesson->mesh,
-                            lesson->at - FIRST_SIDE);
+        sli_draw_mesh_corner(app->ui.cairo, &app->ui.palette, frame, &lesson->mesh,
+                             lesson->at - FIRST_SIDE);
 }
 
 const subject_row lesson_subdivision = {

@@ -50,8 +50,8 @@ static void draw_under(app_state *app, cairo_t *cairo, const sl_frame *frame) {
     app_check(app, sl_draw_plan(app->context, cairo, app->view.scene, layers, frame));
     if (layers_shows(app, LAYER_VIEWS)) view_layer_draw(app, cairo, frame);
     if (app->view.show & SHOW_SPLITS)
-        sl_draw_splits(cairo, &app->ui.palette, frame, app->document.splits,
-                       app->document.baked->space.node_count, app->view.split_depth);
+        sli_draw_splits(cairo, &app->ui.palette, frame, app->document.splits,
+                        app->document.baked->space.node_count, app->view.split_depth);
 }
 
 /// Draws what is over it: walls and other things of the map.

@@ -65,8 +65,8 @@ static bool meet(sl_point a, sl_point b, sl_point p, sl_point q) {
     if (!spans(a.x, b.x, fmin(p.x, q.x), fmax(p.x, q.x)) ||
         !spans(a.y, b.y, fmin(p.y, q.y), fmax(p.y, q.y)))
         return false;
-    return sl_orient(a, b, p) * sl_orient(a, b, q) <= 0 &&
-           sl_orient(p, q, a) * sl_orient(p, q, b) <= 0;
+    return sli_orient(a, b, p) * sli_orient(a, b, q) <= 0 &&
+           sli_orient(p, q, a) * sli_orient(p, q, b) <= 0;
 }
 
 /// The wall in the way; wall_count for none.

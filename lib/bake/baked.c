@@ -6,7 +6,7 @@
 #include <inttypes.h>
 #include <string.h>
 
-bool sl_slv_is_name(const char name[16]) {
+bool sli_slv_is_name(const char name[16]) {
     static const char letters[] = "abcdefghijklmnopqrstuvwxyz0123456789-";
     size_t length = 0;
     while (length < 16 && name[length] && strchr(letters, name[length])) length++;

@@ -195,10 +195,10 @@ static const sl_export_format formats[] = {
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
 
 const sl_export_format *sl_export_formats(const sl_context *context, size_t *count) {
-    return sl_table_items(&context->export_formats, formats, FORMAT_COUNT, count);
+    return sli_table_items(&context->export_formats, formats, FORMAT_COUNT, count);
 }
 
 sl_status sl_export_formats_add(sl_context *context, const sl_export_format *more, size_t count) {
-    return sl_table_add(context, &context->export_formats, sizeof *formats, formats, FORMAT_COUNT,
-                        more, count);
+    return sli_table_add(context, &context->export_formats, sizeof *formats, formats, FORMAT_COUNT,
+                         more, count);
 }

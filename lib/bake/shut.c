@@ -8,24 +8,24 @@
 
 /// What a row keeps of its cells.
 static sl_status keep_row(sl_context *context, const sl_visibility *v, uint32_t row,
-                          const bool *shut, sl_bits *set, sl_row_bytes *out) {
+                          const bool *shut, sl_bits *set, sli_row_bytes *out) {
     const uint32_t count = v->pvs.cell_count;
     memset(set, 0, sl_bits_words(count) * sizeof *set);
-    sl_row_add_to(&v->pvs, row, set);
+    sli_row_add_to(&v->pvs, row, set);
     for (sl_door_pairs p = sl_door_pairs_begin(&v->doors, row); sl_door_pairs_next(&p, shut);)
         if (!p.open) set[p.cell / 64] &= ~((sl_bits)1 << p.cell % 64);
-    return sl_row_append(context, out, set, count);
+    return sli_row_append(context, out, set, count);
 }
 
 static sl_status keep_rows(sl_context *context, const sl_visibility *v, const bool *shut,
                            sl_pvs *out) {
     const uint32_t count = v->pvs.cell_count;
-    sl_row_bytes *rows = sl_alloc_array(context, count, sizeof *rows);
+    sli_row_bytes *rows = sl_alloc_array(context, count, sizeof *rows);
     sl_bits *set = sl_alloc_array(context, sl_bits_words(count), sizeof *set);
     sl_status status = rows && set ? SL_OK : SL_NO_MEMORY;
     for (uint32_t i = 0; i < count && status == SL_OK; i++)
         status = keep_row(context, v, i, shut, set, &rows[i]);
-    if (status == SL_OK) status = sl_pvs_join(context, rows, count, out);
+    if (status == SL_OK) status = sli_pvs_join(context, rows, count, out);
     for (uint32_t i = 0; rows && i < count; i++) sl_free(context, rows[i].items);
     sl_free(context, rows);
     sl_free(context, set);

@@ -12,7 +12,7 @@ typedef struct reader {
     const char *name;
     const char *bytes;
     size_t size;
-    sl_slv_header header;
+    sli_slv_header header;
     bool takes_shards;
     sl_baked *out;
 } reader;
@@ -31,32 +31,32 @@ static sl_status in_file(const reader *r, sl_status status) {
 
 /// The checksum over the file, its own four bytes taken as 0.
 static uint32_t checksum_of(const reader *r) {
-    sl_slv_header header = r->header;
+    sli_slv_header header = r->header;
     header.checksum = 0;
-    sl_checksum sum;
-    sl_checksum_begin(&sum);
-    sl_checksum_add(&sum, &header, sizeof header);
-    sl_checksum_add(&sum, r->bytes + sizeof header, r->size - sizeof header);
-    return sl_checksum_value(&sum);
+    sli_checksum sum;
+    sli_checksum_begin(&sum);
+    sli_checksum_add(&sum, &header, sizeof header);
+    sli_checksum_add(&sum, r->bytes + sizeof header, r->size - sizeof header);
+    return sli_checksum_value(&sum);
 }
 
 static sl_status check_header(reader *r) {
-    if (r->size < sizeof r->header || memcmp(r->bytes, SL_SLV_MAGIC, 8) != 0)
+    if (r->size < sizeof r->header || memcmp(r->bytes, SLI_SLV_MAGIC, 8) != 0)
         return fail_file(r, "not a baked file (.slv): make one with sightline bake");
     memcpy(&r->header, r->bytes, sizeof r->header);
-    const sl_slv_header *h = &r->header;
-    if (h->byte_order != SL_SLV_BYTE_ORDER)
+    const sli_slv_header *h = &r->header;
+    if (h->byte_order != SLI_SLV_BYTE_ORDER)
         return fail_file(r, "baked on a machine of other byte order: bake it again here");
-    if (h->version != SL_SLV_VERSION && h->version != SL_SLV_VERSION_AXIAL)
+    if (h->version != SLI_SLV_VERSION && h->version != SLI_SLV_VERSION_AXIAL)
         return sl_fail_at(r->context, r->name, 0,
                           "version %u of the baked format; this program knows versions up to %u: "
                           "bake the map again",
-                          h->version, SL_SLV_VERSION);
+                          h->version, SLI_SLV_VERSION);
     if (h->file_bytes != r->size)
         return sl_fail_at(r->context, r->name, 0,
                           "cut short or damaged: %llu bytes expected, %zu found",
                           (unsigned long long)h->file_bytes, r->size);
-    if (h->section_count > (r->size - sizeof *h) / sizeof(sl_slv_section))
+    if (h->section_count > (r->size - sizeof *h) / sizeof(sli_slv_section))
         return fail_file(r, "damaged: more sections than fit");
     if (checksum_of(r) != h->checksum) return fail_file(r, "damaged: the checksum does not match");
     return SL_OK;
@@ -64,10 +64,10 @@ static sl_status check_header(reader *r) {
 
 /// Finds a section and checks its place. False where the file has none of that tag.
 static sl_status find_section(const reader *r, const char *tag, size_t item_bytes,
-                              sl_slv_section *out, bool *found) {
+                              sli_slv_section *out, bool *found) {
     *found = false;
     for (uint32_t i = 0; i < r->header.section_count; i++) {
-        sl_slv_section s;
+        sli_slv_section s;
         memcpy(&s, r->bytes + sizeof r->header + i * sizeof s, sizeof s);
         if (memcmp(s.tag, tag, sizeof s.tag) != 0) continue;
         if (*found)
@@ -84,7 +84,7 @@ static sl_status find_section(const reader *r, const char *tag, size_t item_byte
 /// Copies a section's items; SL_OK and none where an optional one is missing.
 static sl_status load(const reader *r, const char *tag, size_t item_bytes, bool optional,
                       void **items, uint64_t *count) {
-    sl_slv_section s;
+    sli_slv_section s;
     bool found;
     *count = 0;
     SL_TRY(find_section(r, tag, item_bytes, &s, &found));
@@ -113,18 +113,18 @@ static bool is_bound(double value) {
     return fabs(value) <= 2 * SL_COORDINATE_MAX;
 }
 
-static bool makes_sense(const sl_slv_info *info) {
+static bool makes_sense(const sli_slv_info *info) {
     return info->sight <= SL_OPEN && info->guarantee <= SL_ROUNDED && is_bound(info->bounds[0]) &&
            is_bound(info->bounds[1]) && is_bound(info->bounds[2]) && is_bound(info->bounds[3]) &&
-           sl_slv_is_name(info->method) && sl_slv_is_name(info->solver);
+           sli_slv_is_name(info->method) && sli_slv_is_name(info->solver);
 }
 
 static sl_status load_info(const reader *r) {
-    sl_slv_section s;
+    sli_slv_section s;
     bool found;
-    SL_TRY(find_section(r, "INFO", sizeof(sl_slv_info), &s, &found));
+    SL_TRY(find_section(r, "INFO", sizeof(sli_slv_info), &s, &found));
     if (!found || s.count != 1) return fail_file(r, "damaged: section INFO is missing");
-    sl_slv_info info;
+    sli_slv_info info;
     memcpy(&info, r->bytes + s.offset, sizeof info);
     if (!makes_sense(&info)) return fail_file(r, "damaged: section INFO makes no sense");
     sl_baked *out = r->out;
@@ -235,7 +235,7 @@ static sl_status loosen(const reader *r) {
     const sl_box *b = &s->bounds;
     if (!s->cell_count || !(b->min.x < b->max.x) || !(b->min.y < b->max.y))
         return fail_file(r, "damaged: the bounds enclose no area");
-    return sl_cell_grid_make(r->context, s);
+    return sli_cell_grid_make(r->context, s);
 }
 
 static sl_status load_space(const reader *r) {
@@ -251,7 +251,7 @@ static sl_status load_space(const reader *r) {
     SL_TRY(load_seams(r));
     if (s->neighbour && sides != s->vertex_count)
         return fail_file(r, "damaged: section BEYO does not tell of each side");
-    const bool is_mesh = r->header.version != SL_SLV_VERSION_AXIAL;
+    const bool is_mesh = r->header.version != SLI_SLV_VERSION_AXIAL;
     if (is_mesh && !s->neighbour) return fail_file(r, "damaged: section BEYO is missing");
     if (s->neighbour) SL_TRY(is_mesh ? load_grid(r) : loosen(r));
     return in_file(r, sl_space_check(r->context, s));
@@ -280,7 +280,7 @@ static sl_status load_doors(const reader *r, const char *offsets_tag, const char
                             sl_door_sets *sets) {
     const uint32_t cells = r->out->space.cell_count;
     uint64_t offsets, bytes;
-    sl_slv_section section;
+    sli_slv_section section;
     bool has_offsets, has_bytes;
     SL_TRY(find_section(r, offsets_tag, sizeof *sets->offsets, &section, &has_offsets));
     SL_TRY(find_section(r, bytes_tag, 1, &section, &has_bytes));
@@ -313,9 +313,9 @@ static sl_status check_rows(const reader *r, const sl_pvs *pvs) {
 /// Whether a mirror that stands in a tree is one that the cell ends at.
 static bool mirror_is_sound(const sl_baked *baked, const sl_stab_node *node, uint32_t cell) {
     const uint32_t mirror = node->directed - SL_STAB_MIRROR;
-    sl_mirror_side side;
+    sli_mirror_side side;
     return node->cell == cell && mirror < baked->map.mirror_count &&
-           sl_mirror_side_of(&baked->space, &baked->map, cell, mirror, &side);
+           sli_mirror_side_of(&baked->space, &baked->map, cell, mirror, &side);
 }
 
 /// A tree's nodes: parents first, each directed portal one of the parent's cell and leading to the
@@ -366,12 +366,12 @@ static sl_status load_trees(const reader *r) {
 
 static sl_status load_views(const reader *r) {
     sl_view_rows *views = &r->out->views;
-    sl_slv_section s;
+    sli_slv_section s;
     bool found;
-    SL_TRY(find_section(r, "VCIN", sizeof(sl_slv_views), &s, &found));
+    SL_TRY(find_section(r, "VCIN", sizeof(sli_slv_views), &s, &found));
     if (!found) return SL_OK;
     if (s.count != 1) return fail_file(r, "damaged: section VCIN makes no sense");
-    sl_slv_views told;
+    sli_slv_views told;
     memcpy(&told, r->bytes + s.offset, sizeof told);
     uint32_t cells, nodes;
     SL_TRY(load_counted(r, "VCEL", sizeof *views->view_cells, (void **)&views->view_cells, &cells));
@@ -385,7 +385,7 @@ static sl_status load_views(const reader *r) {
 }
 
 static sl_status load_map(const reader *r) {
-    sl_slv_section s;
+    sli_slv_section s;
     bool found;
     SL_TRY(find_section(r, "MAPT", 1, &s, &found));
     if (!found) return fail_file(r, "damaged: section MAPT is missing");
@@ -414,8 +414,8 @@ static sl_status load_done(const reader *r, sl_partial *partial) {
 
 static sl_status load_partial(const reader *r) {
     sl_partial *partial = &r->out->partial;
-    sl_slv_section s;
-    sl_slv_part part;
+    sli_slv_section s;
+    sli_slv_part part;
     bool found;
     SL_TRY(find_section(r, "PART", sizeof part, &s, &found));
     if (!found) return SL_OK;

@@ -9,7 +9,7 @@
 
 #define POLYNOMIAL 0xedb88320u // bits reversed
 
-void sl_checksum_begin(sl_checksum *sum) {
+void sli_checksum_begin(sli_checksum *sum) {
     for (uint32_t i = 0; i < 256; i++) {
         uint32_t value = i;
         for (int bit = 0; bit < 8; bit++) value = value >> 1 ^ (value & 1 ? POLYNOMIAL : 0);
@@ -34,7 +34,7 @@ static inline uint32_t part(uint32_t (*t)[256], uint32_t bytes, int k) {
            t[k][bytes >> 24];
 }
 
-void sl_checksum_add(sl_checksum *sum, const void *bytes, size_t count) {
+void sli_checksum_add(sli_checksum *sum, const void *bytes, size_t count) {
     const unsigned char *at = bytes;
     uint32_t(*const t)[256] = sum->table;
     uint32_t state = sum->state;
@@ -45,6 +45,6 @@ void sl_checksum_add(sl_checksum *sum, const void *bytes, size_t count) {
     sum->state = state;
 }
 
-uint32_t sl_checksum_value(const sl_checksum *sum) {
+uint32_t sli_checksum_value(const sli_checksum *sum) {
     return ~sum->state;
 }

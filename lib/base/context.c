@@ -189,16 +189,16 @@ static bool has_name(const char *items, size_t count, size_t size, const char *n
     return false;
 }
 
-const void *sl_table_items(const sl_table *table, const void *own, size_t own_count,
-                           size_t *count) {
+const void *sli_table_items(const sli_table *table, const void *own, size_t own_count,
+                            size_t *count) {
     *count = table->items ? table->count : own_count;
     return table->items ? table->items : own;
 }
 
-sl_status sl_table_add(sl_context *context, sl_table *table, size_t size, const void *own,
-                       size_t own_count, const void *more, size_t count) {
+sl_status sli_table_add(sl_context *context, sli_table *table, size_t size, const void *own,
+                        size_t own_count, const void *more, size_t count) {
     size_t total;
-    const void *before = sl_table_items(table, own, own_count, &total);
+    const void *before = sli_table_items(table, own, own_count, &total);
     char *items = sl_alloc_array(context, total + count, size);
     if (!items) return SL_NO_MEMORY;
     memcpy(items, before, total * size);
@@ -206,6 +206,6 @@ sl_status sl_table_add(sl_context *context, sl_table *table, size_t size, const 
         if (!has_name(items, total, size, name_of(item)))
             memcpy(items + total++ * size, item, size);
     sl_free(context, table->items);
-    *table = (sl_table){items, total};
+    *table = (sli_table){items, total};
     return SL_OK;
 }

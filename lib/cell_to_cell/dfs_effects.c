@@ -23,16 +23,16 @@
 
 /// A step, and where mirrored space has what was crossed.
 typedef struct step {
-    sl_dfs_step dfs;
-    sl_unfolded place;
+    sli_dfs_step dfs;
+    sli_unfolded place;
 } step;
 
 struct sl_dfs_effects {
     const sl_plan *plan;
     bool doors, mirrors, oneway;
     size_t door_words;
-    sl_mirror_sides sides;
-    sl_row_bytes *door_rows, *mirrored_rows, *mirrored_door_rows; ///< by source
+    sli_mirror_sides sides;
+    sli_row_bytes *door_rows, *mirrored_rows, *mirrored_door_rows; ///< by source
     pthread_mutex_t *lock; ///< the search's, over the sums below
     uint64_t fallbacks, door_steps, mirror_steps, glass_tests;
     uint64_t range_tests, close_calls, rounded_places;
@@ -40,7 +40,7 @@ struct sl_dfs_effects {
 
 struct sl_dfs_effects_thread {
     SL_ARRAY(sl_bits) doors; ///< a set for each step
-    sl_door_table direct, mirrored;
+    sli_door_table direct, mirrored;
     uint64_t door_steps, mirror_steps, glass_tests, range_tests, close_calls, rounded_places;
     struct sl_dfs_effects *all;
 };
@@ -73,20 +73,20 @@ static const sl_bits *doors_at(const effects *all, const thread *me, size_t dept
 }
 
 /// Where a portal lies in the frame of the last place.
-static sl_directed_portal unfold(thread *me, const sl_mirror_frame *frame, sl_point left,
+static sl_directed_portal unfold(thread *me, const sli_mirror_frame *frame, sl_point left,
                                  sl_point right) {
     bool rounded = false;
-    const sl_directed_portal ends = sl_unfold(frame, left, right, &rounded);
+    const sl_directed_portal ends = sli_unfold(frame, left, right, &rounded);
     me->rounded_places += rounded;
     return ends;
 }
 
 /// Whether some direction crosses all portals up to a new place; sets its bounds.
-static bool may_cross(const sl_dfs_thread *me, const step *from, sl_unfolded *to) {
+static bool may_cross(const sli_dfs_thread *me, const step *from, sli_unfolded *to) {
     const step *steps = me->search.steps;
-    return sl_unfolded_may_cross(&steps[from->place.least].place.ends,
-                                 &steps[from->place.most].place.ends, &from->place,
-                                 (uint32_t)me->search.count, to);
+    return sli_unfolded_may_cross(&steps[from->place.least].place.ends,
+                                  &steps[from->place.most].place.ends, &from->place,
+                                  (uint32_t)me->search.count, to);
 }
 
 /// Whether the sequence has a sightline of which no more than the range lies between the cells.
@@ -94,7 +94,7 @@ static bool is_in_range(const effects *all, thread *me, const void *solver) {
     const double range = all->plan->range;
     if (!(range > 0)) return true;
     me->range_tests++;
-    const double shortest = sl_funnel_shortest(solver), error = SL_SHORTEST_ERROR * range;
+    const double shortest = sli_funnel_shortest(solver), error = SLI_SHORTEST_ERROR * range;
     me->close_calls += shortest > range - error && shortest <= range + error;
     return shortest <= range + error;
 }
@@ -102,26 +102,26 @@ static bool is_in_range(const effects *all, thread *me, const void *solver) {
 /// Whether anything is left to be found beyond a directed portal. That is a cell that the bounds of
 /// all directed portals on the way leave possible, and that no subset of the doors passed is known
 /// to join to the source.
-static sl_status want(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, uint32_t directed,
-                      bool *something) {
+static sl_status want(sl_context *context, const sli_dfs *all, sli_dfs_thread *me,
+                      uint32_t directed, bool *something) {
     *something = true;
     if (!all->prunes || all->effects->mirrors) return SL_OK;
     const size_t depth = me->search.count;
-    SL_TRY(sl_prune_step(context, &all->bounds, &me->wanted, depth, directed));
-    const sl_prune_set *set = &me->wanted.sets.items[depth];
+    SL_TRY(sli_prune_step(context, &all->bounds, &me->wanted, depth, directed));
+    const sli_prune_set *set = &me->wanted.sets.items[depth];
     const sl_bits *doors = doors_at(all->effects, me->effects, depth);
-    const sl_door_table *table = &me->effects->direct;
+    const sli_door_table *table = &me->effects->direct;
     *something = set->all;
     for (size_t i = set->begin; i < set->end && !*something; i++) {
-        const sl_prune_word *at = &me->wanted.words.items[i];
+        const sli_prune_word *at = &me->wanted.words.items[i];
         *something = (at->bits & ~table->seen[at->word]) != 0;
     }
     for (size_t i = set->begin; i < set->end && !*something; i++) {
-        const sl_prune_word *at = &me->wanted.words.items[i];
+        const sli_prune_word *at = &me->wanted.words.items[i];
         for (sl_bits open = at->bits & ~table->free[at->word]; open && !*something;
              open &= open - 1) {
             const uint32_t cell = 64 * at->word + (uint32_t)__builtin_ctzll(open);
-            *something = !sl_door_table_proves(table, cell, doors);
+            *something = !sli_door_table_proves(table, cell, doors);
         }
     }
     return SL_OK;
@@ -129,33 +129,33 @@ static sl_status want(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
 
 /// Tests the sequence with the portal or mirror of `to`, and enters the cell behind. `directed`: as
 /// in a stab tree.
-static sl_status enter(sl_context *context, const sl_dfs_job *job, const step *from, step *to,
+static sl_status enter(sl_context *context, const sli_dfs_job *job, const step *from, step *to,
                        uint32_t directed) {
-    const sl_dfs *all = job->all;
-    sl_dfs_thread *me = job->me;
+    const sli_dfs *all = job->all;
+    sli_dfs_thread *me = job->me;
     thread *e = me->effects;
     const uint32_t cell = to->dfs.at.cell;
     if (++me->account.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
     sl_stab_verdict verdict;
-    SL_TRY(sl_portal_search_push(context, &me->search, to->place.ends.left, to->place.ends.right,
-                                 &verdict));
+    SL_TRY(sli_portal_search_push(context, &me->search, to->place.ends.left, to->place.ends.right,
+                                  &verdict));
     to->dfs.grazing = verdict == SL_GRAZING || from->dfs.grazing;
     const bool hidden = verdict == SL_HIDDEN || (to->dfs.grazing && all->options->sight == SL_OPEN);
     if (hidden || !is_in_range(all->effects, e, me->search.solver_state)) {
-        sl_portal_search_pop(&me->search);
+        sli_portal_search_pop(&me->search);
         return SL_OK;
     }
     const bool mirrored = to->place.frame.depth > 0;
-    SL_TRY(sl_door_table_add(context, mirrored ? &e->mirrored : &e->direct, cell,
-                             doors_at(all->effects, e, me->search.count)));
+    SL_TRY(sli_door_table_add(context, mirrored ? &e->mirrored : &e->direct, cell,
+                              doors_at(all->effects, e, me->search.count)));
     if (!mirrored) sl_bits_add(me->sure, cell);
-    return sl_dfs_enter(context, all, me, &to->dfs, from->dfs.node, directed, true);
+    return sli_dfs_enter(context, all, me, &to->dfs, from->dfs.node, directed, true);
 }
 
 /// Whether the sequence has been in a cell since the last mirror. No line enters a cell twice. With
 /// exact places the directions of portals already see to that. With rounded places they do not,
 /// since a portal of the size of rounding may be turned any way.
-static bool has_been_in(const sl_portal_search *search, uint32_t cell) {
+static bool has_been_in(const sli_portal_search *search, uint32_t cell) {
     const step *steps = search->steps;
     for (size_t i = search->count; i-- > 0;) {
         if (steps[i].dfs.at.cell == cell) return true;
@@ -164,11 +164,11 @@ static bool has_been_in(const sl_portal_search *search, uint32_t cell) {
     return false;
 }
 
-SL_VISIT sl_status cross(sl_context *context, void *visit, const void *last, void *next,
-                         uint32_t number) {
-    const sl_dfs_job *job = visit;
-    const sl_dfs *all = job->all;
-    sl_dfs_thread *me = job->me;
+SLI_VISIT sl_status cross(sl_context *context, void *visit, const void *last, void *next,
+                          uint32_t number) {
+    const sli_dfs_job *job = visit;
+    const sli_dfs *all = job->all;
+    sli_dfs_thread *me = job->me;
     thread *e = me->effects;
     const step *from = last;
     step *to = next;
@@ -192,12 +192,12 @@ SL_VISIT sl_status cross(sl_context *context, void *visit, const void *last, voi
 
 static sl_status reflect(sl_context *context, void *visit, const void *last, void *next,
                          uint32_t number) {
-    const sl_dfs_job *job = visit;
+    const sli_dfs_job *job = visit;
     const effects *shared = job->all->effects;
     thread *e = job->me->effects;
     const step *from = last;
     step *to = next;
-    const sl_mirror_side *side = &shared->sides.sides[number];
+    const sli_mirror_side *side = &shared->sides.sides[number];
     const sl_segment mirror = shared->plan->map->mirrors[side->mirror].segment;
     e->mirror_steps++;
     // Behind a mirror its own side is behind the line of sight, but for rounding.
@@ -205,7 +205,7 @@ static sl_status reflect(sl_context *context, void *visit, const void *last, voi
         return SL_OK;
     *to = (step){.dfs.at.cell = side->cell,
                  .place = {.ends = unfold(e, &from->place.frame, side->left, side->right),
-                           .frame = sl_mirror_frame_reflect(&from->place.frame, mirror),
+                           .frame = sli_mirror_frame_reflect(&from->place.frame, mirror),
                            .mirror = side->mirror}};
     if (!may_cross(job->me, from, &to->place)) return SL_OK;
     SL_TRY(pass_doors(context, job->all->space, shared, e, UINT32_MAX, job->me->search.count));
@@ -215,78 +215,80 @@ static sl_status reflect(sl_context *context, void *visit, const void *last, voi
 // --- one source
 
 /// Whether pairs are found from the lower of their cells alone.
-static bool is_halved(const sl_dfs *all) {
+static bool is_halved(const sli_dfs *all) {
     return all->known && all->effects->plan->mutual;
 }
 
 /// Sets what is wanted of a source: all cells, or those that it may see. Notes the cells that it
 /// sees for certain.
-static sl_status want_from(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
+static sl_status want_from(sl_context *context, const sli_dfs *all, sli_dfs_thread *me,
                            uint32_t source) {
-    if (!all->known) return sl_prune_start(context, &me->wanted, 0);
+    if (!all->known) return sli_prune_start(context, &me->wanted, 0);
     const uint32_t first = is_halved(all) ? source : 0;
-    SL_TRY(sl_prune_start_with(context, &me->wanted, all->known->possible, source, first));
-    sl_door_table *table = &me->effects->direct;
-    sl_row_add_to(all->known->certain, source, me->sure);
-    sl_row_add_to(all->known->certain, source, table->seen);
-    sl_row_add_to(all->known->certain, source, table->free);
+    SL_TRY(sli_prune_start_with(context, &me->wanted, all->known->possible, source, first));
+    sli_door_table *table = &me->effects->direct;
+    sli_row_add_to(all->known->certain, source, me->sure);
+    sli_row_add_to(all->known->certain, source, table->seen);
+    sli_row_add_to(all->known->certain, source, table->free);
     return SL_OK;
 }
 
-static sl_status start(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, uint32_t source) {
+static sl_status start(sl_context *context, const sli_dfs *all, sli_dfs_thread *me,
+                       uint32_t source) {
     thread *e = me->effects;
-    sl_door_table_clear(&e->direct);
-    sl_door_table_clear(&e->mirrored);
+    sli_door_table_clear(&e->direct);
+    sli_door_table_clear(&e->mirrored);
     SL_TRY(SL_ARRAY_ROOM(context, &e->doors, all->effects->door_words + 1));
     memset(e->doors.items, 0, all->effects->door_words * sizeof *e->doors.items);
-    SL_TRY(sl_door_table_add(context, &e->direct, source, e->doors.items));
+    SL_TRY(sli_door_table_add(context, &e->direct, source, e->doors.items));
     sl_bits_add(me->sure, source);
     if (all->prunes) SL_TRY(want_from(context, all, me, source));
-    SL_TRY(sl_portal_search_start(context, &me->search, sizeof(step)));
+    SL_TRY(sli_portal_search_start(context, &me->search, sizeof(step)));
     step *first = me->search.steps;
     *first = (step){.dfs.at.cell = source,
-                    .place = {.frame = sl_mirror_frame_of_map(), .mirror = UINT32_MAX}};
-    return sl_dfs_enter(context, all, me, &first->dfs, 0, UINT32_MAX, true);
+                    .place = {.frame = sli_mirror_frame_of_map(), .mirror = UINT32_MAX}};
+    return sli_dfs_enter(context, all, me, &first->dfs, 0, UINT32_MAX, true);
 }
 
-static sl_status keep(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, uint32_t source) {
+static sl_status keep(sl_context *context, const sli_dfs *all, sli_dfs_thread *me,
+                      uint32_t source) {
     effects *shared = all->effects;
     thread *e = me->effects;
     const uint32_t first = is_halved(all) ? source : 0;
     if (shared->doors)
-        SL_TRY(sl_door_table_append(context, &e->direct, first, &shared->door_rows[source]));
+        SL_TRY(sli_door_table_append(context, &e->direct, first, &shared->door_rows[source]));
     if (!shared->mirrors) return SL_OK;
-    SL_TRY(sl_row_append(context, &shared->mirrored_rows[source], e->mirrored.seen,
-                         all->space->cell_count));
+    SL_TRY(sli_row_append(context, &shared->mirrored_rows[source], e->mirrored.seen,
+                          all->space->cell_count));
     if (!shared->doors) return SL_OK;
-    return sl_door_table_append(context, &e->mirrored, 0, &shared->mirrored_door_rows[source]);
+    return sli_door_table_append(context, &e->mirrored, 0, &shared->mirrored_door_rows[source]);
 }
 
-sl_status sl_dfs_effects_search(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
-                                uint32_t source) {
-    static const sl_portal_visitor visitor = {
+sl_status sli_dfs_effects_search(sl_context *context, const sli_dfs *all, sli_dfs_thread *me,
+                                 uint32_t source) {
+    static const sli_portal_visitor visitor = {
         .step_size = sizeof(step), .cross = cross, .reflect = reflect};
     SL_TRY(start(context, all, me, source));
     me->search.mirrors = all->effects->mirrors ? &all->effects->sides : NULL;
-    sl_dfs_job job = {all, me};
-    SL_TRY(sl_portal_search_run(context, &me->search, &visitor, &job));
+    sli_dfs_job job = {all, me};
+    SL_TRY(sli_portal_search_run(context, &me->search, &visitor, &job));
     return keep(context, all, me, source);
 }
 
 // --- begin and end
 
-sl_status sl_dfs_effects_begin(sl_context *context, const sl_dfs *all, sl_dfs_thread *me) {
+sl_status sli_dfs_effects_begin(sl_context *context, const sli_dfs *all, sli_dfs_thread *me) {
     me->effects = sl_alloc_array(context, 1, sizeof *me->effects);
     if (!me->effects) return SL_NO_MEMORY;
     const sl_plan *plan = all->effects->plan;
     const size_t doors = all->effects->doors ? plan->map->door_count : 0;
     const uint32_t cells = all->space->cell_count;
     me->effects->all = all->effects;
-    SL_TRY(sl_door_table_create(context, cells, doors, plan->door_limit, &me->effects->direct));
-    return sl_door_table_create(context, cells, doors, plan->door_limit, &me->effects->mirrored);
+    SL_TRY(sli_door_table_create(context, cells, doors, plan->door_limit, &me->effects->direct));
+    return sli_door_table_create(context, cells, doors, plan->door_limit, &me->effects->mirrored);
 }
 
-void sl_dfs_effects_end(sl_context *context, sl_dfs_thread *me) {
+void sli_dfs_effects_end(sl_context *context, sli_dfs_thread *me) {
     thread *e = me->effects;
     if (!e) return;
     pthread_mutex_lock(e->all->lock);
@@ -298,17 +300,17 @@ void sl_dfs_effects_end(sl_context *context, sl_dfs_thread *me) {
     e->all->close_calls += e->close_calls;
     e->all->rounded_places += e->rounded_places;
     pthread_mutex_unlock(e->all->lock);
-    sl_door_table_destroy(context, &e->direct);
-    sl_door_table_destroy(context, &e->mirrored);
+    sli_door_table_destroy(context, &e->direct);
+    sli_door_table_destroy(context, &e->mirrored);
     sl_free(context, e->doors.items);
     sl_free(context, e);
     me->effects = NULL;
 }
 
-sl_status sl_dfs_effects_create(sl_context *context, sl_dfs *all) {
+sl_status sli_dfs_effects_create(sl_context *context, sli_dfs *all) {
     const sl_plan *plan = all->options->plan;
     const uint32_t cells = all->space->cell_count;
-    SL_TRY(sl_plan_check_solver(context, plan, all->options->solver));
+    SL_TRY(sli_plan_check_solver(context, plan, all->options->solver));
     effects *e = all->effects = sl_alloc_array(context, 1, sizeof *e);
     if (!e) return SL_NO_MEMORY;
     e->plan = plan;
@@ -321,33 +323,33 @@ sl_status sl_dfs_effects_create(sl_context *context, sl_dfs *all) {
     e->mirrored_rows = sl_alloc_array(context, cells, sizeof *e->mirrored_rows);
     e->mirrored_door_rows = sl_alloc_array(context, cells, sizeof *e->mirrored_door_rows);
     if (!e->door_rows || !e->mirrored_rows || !e->mirrored_door_rows) return SL_NO_MEMORY;
-    return e->mirrors ? sl_mirror_sides_find(context, all->space, plan->map, &e->sides) : SL_OK;
+    return e->mirrors ? sli_mirror_sides_find(context, all->space, plan->map, &e->sides) : SL_OK;
 }
 
-void sl_dfs_effects_destroy(sl_context *context, sl_dfs *all) {
+void sli_dfs_effects_destroy(sl_context *context, sli_dfs *all) {
     effects *e = all->effects;
     if (!e) return;
-    sl_row_bytes *const rows[] = {e->door_rows, e->mirrored_rows, e->mirrored_door_rows};
+    sli_row_bytes *const rows[] = {e->door_rows, e->mirrored_rows, e->mirrored_door_rows};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         for (uint32_t cell = 0; rows[i] && cell < all->space->cell_count; cell++)
             sl_free(context, rows[i][cell].items);
         sl_free(context, rows[i]);
     }
-    sl_mirror_sides_destroy(context, &e->sides);
+    sli_mirror_sides_destroy(context, &e->sides);
     sl_free(context, e);
     all->effects = NULL;
 }
 
 /// Rows of door sets are joined as those of visible sets are.
-static sl_status join_doors(sl_context *context, sl_row_bytes *rows, uint32_t cells,
+static sl_status join_doors(sl_context *context, sli_row_bytes *rows, uint32_t cells,
                             sl_door_sets *out) {
     sl_pvs joined = {0};
-    SL_TRY(sl_pvs_join(context, rows, cells, &joined));
+    SL_TRY(sli_pvs_join(context, rows, cells, &joined));
     *out = (sl_door_sets){joined.cell_count, joined.offsets, joined.bytes};
     return SL_OK;
 }
 
-sl_status sl_dfs_effects_finish(sl_context *context, sl_dfs *all, sl_visibility *out) {
+sl_status sli_dfs_effects_finish(sl_context *context, sli_dfs *all, sl_visibility *out) {
     effects *e = all->effects;
     const uint32_t cells = all->space->cell_count;
     out->account.door_fallbacks = e->fallbacks;
@@ -357,10 +359,10 @@ sl_status sl_dfs_effects_finish(sl_context *context, sl_dfs *all, sl_visibility 
     out->account.range_tests = e->range_tests;
     out->account.close_calls = e->close_calls;
     out->account.rounded_places = e->rounded_places;
-    if (e->doors && is_halved(all)) SL_TRY(sl_door_rows_mirror(context, e->door_rows, cells));
+    if (e->doors && is_halved(all)) SL_TRY(sli_door_rows_mirror(context, e->door_rows, cells));
     if (e->doors) SL_TRY(join_doors(context, e->door_rows, cells, &out->doors));
     if (!e->mirrors) return SL_OK;
-    SL_TRY(sl_pvs_join(context, e->mirrored_rows, cells, &out->mirrored));
+    SL_TRY(sli_pvs_join(context, e->mirrored_rows, cells, &out->mirrored));
     for (uint32_t i = 0; i < cells; i++)
         out->account.mirrored_pairs += sl_pvs_count(&out->mirrored, i);
     if (!e->doors) return SL_OK;

@@ -137,19 +137,19 @@ sl_status sl_door_sets_check(sl_context *context, const sl_door_sets *sets, size
 
 // --- gathering door sets while one source is searched
 
-sl_status sl_door_table_create(sl_context *context, uint32_t cells, size_t doors, uint32_t limit,
-                               sl_door_table *table) {
-    *table = (sl_door_table){.words = sl_bits_words(doors), .cell_count = cells, .limit = limit};
+sl_status sli_door_table_create(sl_context *context, uint32_t cells, size_t doors, uint32_t limit,
+                                sli_door_table *table) {
+    *table = (sli_door_table){.words = sl_bits_words(doors), .cell_count = cells, .limit = limit};
     table->first = sl_alloc_array(context, cells, sizeof *table->first);
     table->count = sl_alloc_array(context, cells, sizeof *table->count);
     table->seen = sl_alloc_array(context, sl_bits_words(cells), sizeof *table->seen);
     table->free = sl_alloc_array(context, sl_bits_words(cells), sizeof *table->free);
     if (!table->first || !table->count || !table->seen || !table->free) return SL_NO_MEMORY;
-    sl_door_table_clear(table);
+    sli_door_table_clear(table);
     return SL_OK;
 }
 
-void sl_door_table_destroy(sl_context *context, sl_door_table *table) {
+void sli_door_table_destroy(sl_context *context, sli_door_table *table) {
     sl_free(context, table->first);
     sl_free(context, table->count);
     sl_free(context, table->seen);
@@ -157,10 +157,10 @@ void sl_door_table_destroy(sl_context *context, sl_door_table *table) {
     sl_free(context, table->alternatives.items);
     sl_free(context, table->sets.items);
     sl_free(context, table->sorted.items);
-    *table = (sl_door_table){0};
+    *table = (sli_door_table){0};
 }
 
-void sl_door_table_clear(sl_door_table *table) {
+void sli_door_table_clear(sli_door_table *table) {
     const size_t words = sl_bits_words(table->cell_count);
     memset(table->first, 0xff, table->cell_count * sizeof *table->first);
     memset(table->count, 0, table->cell_count * sizeof *table->count);
@@ -169,7 +169,7 @@ void sl_door_table_clear(sl_door_table *table) {
     table->alternatives.count = table->sets.count = 0;
 }
 
-static const sl_bits *set_of(const sl_door_table *table, uint32_t alternative) {
+static const sl_bits *set_of(const sli_door_table *table, uint32_t alternative) {
     return table->sets.items + alternative * table->words;
 }
 
@@ -179,7 +179,7 @@ static bool is_within(const sl_bits *set, const sl_bits *other, size_t words) {
     return true;
 }
 
-bool sl_door_table_proves(const sl_door_table *table, uint32_t cell, const sl_bits *doors) {
+bool sli_door_table_proves(const sli_door_table *table, uint32_t cell, const sl_bits *doors) {
     if (sl_bits_has(table->free, cell)) return true;
     for (uint32_t i = table->first[cell]; i != UINT32_MAX; i = table->alternatives.items[i].next)
         if (!table->alternatives.items[i].dropped &&
@@ -194,17 +194,17 @@ static bool is_empty(const sl_bits *set, size_t words) {
     return !any;
 }
 
-sl_status sl_door_table_add(sl_context *context, sl_door_table *table, uint32_t cell,
-                            const sl_bits *doors) {
+sl_status sli_door_table_add(sl_context *context, sli_door_table *table, uint32_t cell,
+                             const sl_bits *doors) {
     const size_t words = table->words;
     sl_bits_add(table->seen, cell);
-    if (sl_door_table_proves(table, cell, doors)) return SL_OK;
+    if (sli_door_table_proves(table, cell, doors)) return SL_OK;
     if (is_empty(doors, words)) {
         sl_bits_add(table->free, cell);
         return SL_OK;
     }
     for (uint32_t i = table->first[cell]; i != UINT32_MAX; i = table->alternatives.items[i].next) {
-        sl_door_alternative *old = &table->alternatives.items[i];
+        sli_door_alternative *old = &table->alternatives.items[i];
         if (old->dropped || !is_within(doors, set_of(table, i), words)) continue;
         old->dropped = true;
         table->count[cell]--;
@@ -219,13 +219,13 @@ sl_status sl_door_table_add(sl_context *context, sl_door_table *table, uint32_t 
     memcpy(table->sets.items + table->sets.count, doors, words * sizeof *doors);
     table->sets.count += words;
     table->alternatives.items[table->alternatives.count] =
-        (sl_door_alternative){.next = table->first[cell]};
+        (sli_door_alternative){.next = table->first[cell]};
     table->first[cell] = (uint32_t)table->alternatives.count++;
     table->count[cell]++;
     return SL_OK;
 }
 
-static sl_status append_number(sl_context *context, sl_row_bytes *row, uint32_t value) {
+static sl_status append_number(sl_context *context, sli_row_bytes *row, uint32_t value) {
     SL_TRY(SL_ARRAY_ROOM(context, row, 5));
     for (; value > 127; value >>= 7) row->items[row->count++] = (uint8_t)(value | 128);
     row->items[row->count++] = (uint8_t)value;
@@ -233,7 +233,7 @@ static sl_status append_number(sl_context *context, sl_row_bytes *row, uint32_t 
 }
 
 static sl_status append_set(sl_context *context, const sl_bits *set, size_t words,
-                            sl_row_bytes *row) {
+                            sli_row_bytes *row) {
     uint32_t count = 0, last = UINT32_MAX;
     for (size_t i = 0; i < words; i++) count += (uint32_t)__builtin_popcountll(set[i]);
     SL_TRY(append_number(context, row, count));
@@ -260,7 +260,7 @@ static bool comes_before(const sl_bits *a, const sl_bits *b, size_t words) {
 }
 
 /// The alternatives of a cell that stand, in order.
-static sl_status sort_sets(sl_context *context, sl_door_table *table, uint32_t cell) {
+static sl_status sort_sets(sl_context *context, sli_door_table *table, uint32_t cell) {
     table->sorted.count = 0;
     SL_TRY(SL_ARRAY_ROOM(context, &table->sorted, table->count[cell]));
     uint32_t *sorted = table->sorted.items;
@@ -275,8 +275,8 @@ static sl_status sort_sets(sl_context *context, sl_door_table *table, uint32_t c
     return SL_OK;
 }
 
-sl_status sl_door_table_append(sl_context *context, sl_door_table *table, uint32_t first,
-                               sl_row_bytes *row) {
+sl_status sli_door_table_append(sl_context *context, sli_door_table *table, uint32_t first,
+                                sli_row_bytes *row) {
     uint32_t last = UINT32_MAX;
     for (uint32_t cell = first; cell < table->cell_count; cell++) {
         if (!table->count[cell] || sl_bits_has(table->free, cell)) continue;
@@ -319,7 +319,7 @@ static bool next_entry(const uint8_t **next, const uint8_t *stop, entry *e) {
 }
 
 static sl_status append_entry(sl_context *context, const entry *e, uint32_t *last,
-                              sl_row_bytes *row) {
+                              sli_row_bytes *row) {
     SL_TRY(append_number(context, row, e->cell - *last - 1));
     *last = e->cell;
     SL_TRY(SL_ARRAY_ROOM(context, row, e->size));
@@ -328,8 +328,8 @@ static sl_status append_entry(sl_context *context, const entry *e, uint32_t *las
     return SL_OK;
 }
 
-static sl_status mirror_rows(sl_context *context, const sl_row_bytes *rows, uint32_t count,
-                             uint32_t *last, sl_row_bytes *out) {
+static sl_status mirror_rows(sl_context *context, const sli_row_bytes *rows, uint32_t count,
+                             uint32_t *last, sli_row_bytes *out) {
     memset(last, 0xff, count * sizeof *last);
     for (uint32_t cell = 0; cell < count; cell++) {
         if (!rows[cell].count) continue;
@@ -343,9 +343,9 @@ static sl_status mirror_rows(sl_context *context, const sl_row_bytes *rows, uint
     return SL_OK;
 }
 
-sl_status sl_door_rows_mirror(sl_context *context, sl_row_bytes *rows, uint32_t count) {
+sl_status sli_door_rows_mirror(sl_context *context, sli_row_bytes *rows, uint32_t count) {
     uint32_t *last = sl_alloc_array(context, count, sizeof *last);
-    sl_row_bytes *out = sl_alloc_array(context, count, sizeof *out);
+    sli_row_bytes *out = sl_alloc_array(context, count, sizeof *out);
     const sl_status status =
         last && out ? mirror_rows(context, rows, count, last, out) : SL_NO_MEMORY;
     for (uint32_t cell = 0; cell < count; cell++) {

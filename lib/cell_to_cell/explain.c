@@ -20,16 +20,16 @@
 
 /// A cell on the way from the first.
 typedef struct step {
-    sl_portal_step at;
-    uint32_t directed;        ///< crossed last; none for the first
-    sl_directions directions; ///< of the portals so far
-    bool grazing;             ///< the sequence is no more than grazed
+    sli_portal_step at;
+    uint32_t directed;         ///< crossed last; none for the first
+    sli_directions directions; ///< of the portals so far
+    bool grazing;              ///< the sequence is no more than grazed
 } step;
 
 typedef struct search {
     const sl_space *space;
     const sl_explain_options *options;
-    sl_portal_search search;  ///< stops where most_tests is reached
+    sli_portal_search search; ///< stops where most_tests is reached
     uint32_t *distance;       ///< by cell: portals to the target, SL_NO_WAY for no way
     uint32_t bound;           ///< sequences of more portals are left for later
     bool cut;                 ///< some were
@@ -60,14 +60,14 @@ void sl_explanation_destroy(sl_context *context, sl_explanation *explanation) {
 static bool is_strict(const sl_space *space, const sl_sequence *sequence, sl_line line) {
     for (uint32_t i = 0; i < sequence->directed_count; i++) {
         const sl_directed_portal *directed = &space->directed[sequence->directed[i]];
-        if (sl_orient(line.a, line.b, directed->left) <= 0 ||
-            sl_orient(line.a, line.b, directed->right) >= 0)
+        if (sli_orient(line.a, line.b, directed->left) <= 0 ||
+            sli_orient(line.a, line.b, directed->right) >= 0)
             return false;
     }
     return true;
 }
 
-double sl_share_of_portal(const sl_directed_portal *directed, sl_line line) {
+double sli_share_of_portal(const sl_directed_portal *directed, sl_line line) {
     const double x = line.b.x - line.a.x, y = line.b.y - line.a.y;
     const double left = x * (directed->left.y - line.a.y) - y * (directed->left.x - line.a.x);
     const double right = x * (directed->right.y - line.a.y) - y * (directed->right.x - line.a.x);
@@ -79,8 +79,8 @@ static bool is_near(const sl_space *space, const sl_sequence *sequence, sl_line 
                     sl_line other) {
     for (uint32_t i = 0; i < sequence->directed_count; i++) {
         const sl_directed_portal *directed = &space->directed[sequence->directed[i]];
-        const double share = sl_share_of_portal(directed, line),
-                     wanted = sl_share_of_portal(directed, other);
+        const double share = sli_share_of_portal(directed, line),
+                     wanted = sli_share_of_portal(directed, other);
         if (share < wanted / 2 || 1 - share < (1 - wanted) / 2) return false;
     }
     return true;
@@ -111,13 +111,13 @@ static bool simplify_line(const sl_space *space, const sl_sequence *sequence, sl
 
 /// Where the line crosses a portal; an end of it where it lies along.
 static sl_point crossing_point(const sl_directed_portal *directed, sl_line line) {
-    const double share = sl_share_of_portal(directed, line);
+    const double share = sli_share_of_portal(directed, line);
     return (sl_point){directed->left.x + share * (directed->right.x - directed->left.x),
                       directed->left.y + share * (directed->right.y - directed->left.y)};
 }
 
-sl_point sl_halfway_into(const sl_space *space, uint32_t cell, sl_point at, sl_point direction) {
-    const double half = sl_ray_length(space, cell, at, direction) / 2;
+sl_point sli_halfway_into(const sl_space *space, uint32_t cell, sl_point at, sl_point direction) {
+    const double half = sli_ray_length(space, cell, at, direction) / 2;
     return (sl_point){at.x + half * direction.x, at.y + half * direction.y};
 }
 
@@ -129,15 +129,15 @@ static sl_segment shown_segment(const sl_space *space, const sl_sequence *sequen
         &space->directed[sequence->directed[sequence->directed_count - 1]];
     const double x = line.b.x - line.a.x, y = line.b.y - line.a.y, length = hypot(x, y);
     const sl_point forward = {x / length, y / length}, back = {-x / length, -y / length};
-    return (sl_segment){sl_halfway_into(space, from, crossing_point(first, line), back),
-                        sl_halfway_into(space, last->cell, crossing_point(last, line), forward)};
+    return (sl_segment){sli_halfway_into(space, from, crossing_point(first, line), back),
+                        sli_halfway_into(space, last->cell, crossing_point(last, line), forward)};
 }
 
 // --- distances
 
 /// Breadth first from the target. Portals lead both ways, so that the ways there are the ways back.
-sl_status sl_find_distances(sl_context *context, const sl_space *space, uint32_t to,
-                            uint32_t **out) {
+sl_status sli_find_distances(sl_context *context, const sl_space *space, uint32_t to,
+                             uint32_t **out) {
     const uint32_t count = space->cell_count;
     uint32_t *distance = sl_alloc_array(context, count, sizeof *distance);
     uint32_t *queue = sl_alloc_array(context, count, sizeof *queue);
@@ -237,13 +237,13 @@ static uint32_t place_of_portal(const sl_sequence *sequence, uint32_t directed) 
 static void tell_turn(const search *s, sl_sequence *sequence) {
     const uint32_t last = sequence->directed_count - 1;
     const uint32_t stop = sequence->directed[last];
-    const sl_directions before = last_step(s)->directions;
+    const sli_directions before = last_step(s)->directions;
     uint32_t portals[3] = {place_of_portal(sequence, before.least),
                            place_of_portal(sequence, before.most), last};
     uint32_t first = 0;
     for (uint32_t i = last; i-- > 0 && !first;) {
-        sl_directions pair = {stop, stop};
-        if (sl_directions_add(s->space, &pair, sequence->directed[i])) continue;
+        sli_directions pair = {stop, stop};
+        if (sli_directions_add(s->space, &pair, sequence->directed[i])) continue;
         portals[1] = i;
         first = 1;
     }
@@ -332,30 +332,31 @@ static sl_status cross(sl_context *context, void *job, const void *last, void *n
     const sl_directed_portal *directed = &s->space->directed[number];
     const uint32_t portals = (uint32_t)s->search.count + s->distance[directed->cell];
     *to = (step){.at.cell = directed->cell, .directed = number, .directions = from->directions};
-    if (!sl_directions_add(s->space, &to->directions, number))
+    if (!sli_directions_add(s->space, &to->directions, number))
         return note_miss(context, s, number, true);
     if (is_neighbour(s, from->grazing, portals)) return SL_OK;
     SL_TRY(count_test(context, s));
     sl_stab_verdict verdict;
     bool enters;
-    SL_TRY(sl_portal_search_push(context, &s->search, directed->left, directed->right, &verdict));
+    SL_TRY(sli_portal_search_push(context, &s->search, directed->left, directed->right, &verdict));
     to->grazing = verdict == SL_GRAZING;
     SL_TRY(judge(context, s, to, verdict, &enters));
     if (enters)
         s->search.count++;
     else
-        sl_portal_search_pop(&s->search);
+        sli_portal_search_pop(&s->search);
     return SL_OK;
 }
 
 /// All sequences within the bound.
 static sl_status search_within(sl_context *context, search *s) {
-    static const sl_portal_visitor visitor = {.step_size = sizeof(step), .cross = cross};
-    SL_TRY(sl_portal_search_start(context, &s->search, sizeof(step)));
+    static const sli_portal_visitor visitor = {.step_size = sizeof(step), .cross = cross};
+    SL_TRY(sli_portal_search_start(context, &s->search, sizeof(step)));
     step *first = s->search.steps;
-    *first = (step){.at.cell = s->out.from, .directed = UINT32_MAX, .directions = SL_NO_DIRECTIONS};
+    *first =
+        (step){.at.cell = s->out.from, .directed = UINT32_MAX, .directions = SLI_NO_DIRECTIONS};
     s->search.count++;
-    return sl_portal_search_run(context, &s->search, &visitor, s);
+    return sli_portal_search_run(context, &s->search, &visitor, s);
 }
 
 static sl_status search_all(sl_context *context, search *s) {
@@ -382,7 +383,7 @@ static void drop_misses(sl_context *context, sl_explanation *out) {
 static sl_status explain(sl_context *context, search *s) {
     const sl_solver *solver = s->options->solver;
     sl_explanation *out = &s->out;
-    SL_TRY(sl_find_distances(context, s->space, out->to, &s->distance));
+    SL_TRY(sli_find_distances(context, s->space, out->to, &s->distance));
     out->distance = s->distance[out->from];
     out->complete = true;
     out->verdict = out->distance == 0 ? SL_STABBED : SL_HIDDEN;
@@ -422,7 +423,7 @@ sl_status sl_explain(sl_context *context, const sl_space *space, const sl_explai
                 .grazed = UINT32_MAX,
                 .out = {.from = from, .to = to, .sight = options->sight}};
     const sl_status status = explain(context, &s);
-    sl_portal_search_end(context, &s.search);
+    sli_portal_search_end(context, &s.search);
     sl_free(context, s.distance);
     if (status == SL_OK)
         *out = s.out;
@@ -453,8 +454,8 @@ static uint32_t places_of(const sl_space *space, const sl_sequence *sequence, bo
 }
 
 static bool segments_cross(const sl_point a[2], const sl_point b[2]) {
-    return sl_orient(a[0], a[1], b[0]) * sl_orient(a[0], a[1], b[1]) < 0 &&
-           sl_orient(b[0], b[1], a[0]) * sl_orient(b[0], b[1], a[1]) < 0;
+    return sli_orient(a[0], a[1], b[0]) * sli_orient(a[0], a[1], b[1]) < 0 &&
+           sli_orient(b[0], b[1], a[0]) * sli_orient(b[0], b[1], a[1]) < 0;
 }
 
 const char *sl_sequence_reason(const sl_space *space, const sl_sequence *sequence) {

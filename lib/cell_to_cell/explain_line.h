@@ -6,13 +6,13 @@
 
 /// For each cell how many portals it is from a cell, SL_NO_WAY where none lead there. The caller
 /// frees *out, on failure too.
-sl_status sl_find_distances(sl_context *context, const sl_space *space, uint32_t to,
-                            uint32_t **out);
+sl_status sli_find_distances(sl_context *context, const sl_space *space, uint32_t to,
+                             uint32_t **out);
 
 /// At what share of a portal, from its left end, a line crosses it; 0 where it lies along it.
-double sl_share_of_portal(const sl_directed_portal *directed, sl_line line);
+double sli_share_of_portal(const sl_directed_portal *directed, sl_line line);
 
 /// From a point on a cell's boundary half the way through it.
-sl_point sl_halfway_into(const sl_space *space, uint32_t cell, sl_point at, sl_point direction);
+sl_point sli_halfway_into(const sl_space *space, uint32_t cell, sl_point at, sl_point direction);
 
 #endif

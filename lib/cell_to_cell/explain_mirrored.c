@@ -14,8 +14,8 @@
 #include <math.h>
 
 typedef struct step {
-    sl_portal_step at;
-    sl_unfolded place;         ///< where mirrored space has what was crossed last
+    sli_portal_step at;
+    sli_unfolded place;        ///< where mirrored space has what was crossed last
     sl_directed_portal of_map; ///< where the map has it; ends named as those unfolded
     uint32_t directed;
     bool grazing;
@@ -24,9 +24,9 @@ typedef struct step {
 typedef struct search {
     const sl_map *map;
     const sl_explain_options *options;
-    sl_portal_search search; ///< stops where most_tests is reached
+    sli_portal_search search; ///< stops where most_tests is reached
     uint32_t *distance;
-    sl_mirror_sides sides;
+    sli_mirror_sides sides;
     uint32_t from, to, reflections, bound;
     uint32_t best; ///< crossed by the shortest found; UINT32_MAX for none
     bool cut;
@@ -44,7 +44,7 @@ static sl_point between(const sl_directed_portal *directed, double share) {
 /// `last` stands behind the steps of the way.
 static void place_bends(const search *s, const step *last, sl_line line) {
     const sl_space *space = s->search.space;
-    const sl_mirror_frame *f = &last->place.frame;
+    const sli_mirror_frame *f = &last->place.frame;
     const double x = line.b.x - line.a.x, y = line.b.y - line.a.y, length = hypot(x, y);
     const sl_point back = {-x / length, -y / length};
     // Frames keep lengths: back from one is by its transpose.
@@ -52,11 +52,11 @@ static void place_bends(const search *s, const step *last, sl_line line) {
     sl_point *bends = s->out.bends;
     uint32_t count = 1;
     for (const step *at = (const step *)s->search.steps + 1; at <= last; at++) {
-        const sl_point crossed = between(&at->of_map, sl_share_of_portal(&at->place.ends, line));
+        const sl_point crossed = between(&at->of_map, sli_share_of_portal(&at->place.ends, line));
         if (at - 1 == (const step *)s->search.steps)
-            bends[0] = sl_halfway_into(space, s->from, crossed, back);
+            bends[0] = sli_halfway_into(space, s->from, crossed, back);
         if (at->place.mirror != UINT32_MAX) bends[count++] = crossed;
-        if (at == last) bends[count] = sl_halfway_into(space, s->to, crossed, on);
+        if (at == last) bends[count] = sli_halfway_into(space, s->to, crossed, on);
     }
 }
 
@@ -107,20 +107,20 @@ static sl_status try_step(sl_context *context, search *s, const step *from, step
         s->cut = true;
         return SL_OK;
     }
-    if (!sl_unfolded_may_cross(&steps[from->place.least].place.ends,
-                               &steps[from->place.most].place.ends, &from->place, crossed,
-                               &to->place))
+    if (!sli_unfolded_may_cross(&steps[from->place.least].place.ends,
+                                &steps[from->place.most].place.ends, &from->place, crossed,
+                                &to->place))
         return SL_OK;
     SL_TRY(count_test(context, s));
     sl_stab_verdict verdict;
-    SL_TRY(sl_portal_search_push(context, &s->search, to->place.ends.left, to->place.ends.right,
-                                 &verdict));
+    SL_TRY(sli_portal_search_push(context, &s->search, to->place.ends.left, to->place.ends.right,
+                                  &verdict));
     to->grazing = from->grazing || verdict == SL_GRAZING;
     const bool hidden = verdict == SL_HIDDEN || (to->grazing && s->options->sight == SL_OPEN);
     const bool found = !hidden && to->place.frame.depth && cell == s->to;
     const sl_status status = found ? note_found(context, s, to) : SL_OK;
     if (hidden || found)
-        sl_portal_search_pop(&s->search);
+        sli_portal_search_pop(&s->search);
     else
         s->search.count++;
     return status;
@@ -130,7 +130,7 @@ static sl_status try_step(sl_context *context, search *s, const step *from, step
 static step make_step(search *s, const step *from, uint32_t cell, sl_point left, sl_point right) {
     const bool swaps = from->place.frame.depth % 2;
     return (step){.at.cell = cell,
-                  .place = {.ends = sl_unfold(&from->place.frame, left, right, &s->out.rounded),
+                  .place = {.ends = sli_unfold(&from->place.frame, left, right, &s->out.rounded),
                             .frame = from->place.frame,
                             .mirror = UINT32_MAX},
                   .of_map = {.left = swaps ? right : left, .right = swaps ? left : right},
@@ -153,26 +153,26 @@ static sl_status reflect(sl_context *context, void *job, const void *last, void 
     search *s = job;
     const step *from = last;
     step *to = next;
-    const sl_mirror_side *side = &s->sides.sides[number];
+    const sli_mirror_side *side = &s->sides.sides[number];
     const sl_segment mirror = s->map->mirrors[side->mirror].segment;
     if (from->place.mirror == side->mirror || from->place.frame.depth == s->reflections)
         return SL_OK;
     *to = make_step(s, from, side->cell, side->left, side->right);
-    to->place.frame = sl_mirror_frame_reflect(&from->place.frame, mirror);
+    to->place.frame = sli_mirror_frame_reflect(&from->place.frame, mirror);
     to->place.mirror = side->mirror;
     return try_step(context, s, from, to);
 }
 
 /// All sequences within the bound.
 static sl_status search_within(sl_context *context, search *s) {
-    static const sl_portal_visitor visitor = {
+    static const sli_portal_visitor visitor = {
         .step_size = sizeof(step), .cross = cross, .reflect = reflect};
-    SL_TRY(sl_portal_search_start(context, &s->search, sizeof(step)));
+    SL_TRY(sli_portal_search_start(context, &s->search, sizeof(step)));
     step *first = s->search.steps;
     *first = (step){.at.cell = s->from,
-                    .place = {.frame = sl_mirror_frame_of_map(), .mirror = UINT32_MAX}};
+                    .place = {.frame = sli_mirror_frame_of_map(), .mirror = UINT32_MAX}};
     s->search.count++;
-    return sl_portal_search_run(context, &s->search, &visitor, s);
+    return sli_portal_search_run(context, &s->search, &visitor, s);
 }
 
 static sl_status search_all(sl_context *context, search *s, uint32_t depth) {
@@ -199,14 +199,14 @@ sl_status sl_explain_by_mirror(sl_context *context, const sl_space *space, const
                 .to = explanation->to,
                 .best = UINT32_MAX,
                 .out = {.asked = true, .complete = true, .verdict = SL_HIDDEN}};
-    sl_status status = sl_find_distances(context, space, s.to, &s.distance);
-    if (status == SL_OK) status = sl_mirror_sides_find(context, space, map, &s.sides);
+    sl_status status = sli_find_distances(context, space, s.to, &s.distance);
+    if (status == SL_OK) status = sli_mirror_sides_find(context, space, map, &s.sides);
     s.search.mirrors = &s.sides;
     if (status == SL_OK)
         status = options->solver->create(context, space->bounds, &s.search.solver_state);
     if (status == SL_OK) status = search_all(context, &s, depth);
-    sl_portal_search_end(context, &s.search);
-    sl_mirror_sides_destroy(context, &s.sides);
+    sli_portal_search_end(context, &s.search);
+    sli_mirror_sides_destroy(context, &s.sides);
     sl_free(context, s.distance);
     if (status == SL_OK) {
         explanation->bent = s.out;

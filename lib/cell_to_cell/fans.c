@@ -19,17 +19,17 @@
 #include <math.h>
 #include <string.h>
 
-void sl_fans_destroy(sl_context *context, sl_fans *fans) {
+void sli_fans_destroy(sl_context *context, sli_fans *fans) {
     sl_free(context, fans->first_directed);
     sl_free(context, fans->directed);
     sl_free(context, fans->middles);
     sl_free(context, fans->ends.items);
     sl_free(context, fans->fans.items);
     sl_free(context, fans->cells.items);
-    *fans = (sl_fans){0};
+    *fans = (sli_fans){0};
 }
 
-uint64_t sl_fans_bytes(const sl_fans *fans) {
+uint64_t sli_fans_bytes(const sli_fans *fans) {
     const uint64_t directed = fans->first_directed[fans->cell_count];
     return ((uint64_t)fans->cell_count + 1) * sizeof *fans->first_directed +
            fans->cell_count * sizeof *fans->middles +
@@ -46,7 +46,7 @@ static bool takes_part(const sl_space *space, const sl_see_options *options, uin
 
 typedef struct walker {
     const sl_space *space;
-    sl_fans *fans;
+    sli_fans *fans;
     uint32_t *of_space;     ///< by directed portal: its number in the space
     const sl_bits *blocked; ///< directed portals that end a fan; NULL for none
 } walker;
@@ -55,7 +55,7 @@ typedef struct walker {
 static sl_status copy_directed(sl_context *context, walker *w, const sl_see_options *options,
                                sl_bits *blocked) {
     const sl_space *space = w->space;
-    sl_fans *fans = w->fans;
+    sli_fans *fans = w->fans;
     const uint32_t count = space->cell_count;
     fans->cell_count = count;
     fans->first_directed = sl_alloc_array(context, (size_t)count + 1, sizeof *fans->first_directed);
@@ -76,7 +76,7 @@ static sl_status copy_directed(sl_context *context, walker *w, const sl_see_opti
             if (!takes_part(space, options, cell) || !takes_part(space, options, e->cell)) continue;
             uint32_t *other = &of_portal[e->portal];
             fans->directed[at] =
-                (sl_walk_portal){.left = UINT32_MAX, .cell = e->cell, .twin = *other};
+                (sli_walk_portal){.left = UINT32_MAX, .cell = e->cell, .twin = *other};
             w->of_space[at] = i;
             if (*other == UINT32_MAX)
                 *other = at;
@@ -92,7 +92,7 @@ static sl_status copy_directed(sl_context *context, walker *w, const sl_see_opti
 }
 
 /// For glass that is turned round: blocks the twins of the blocked directed portals instead.
-static void turn_round(const sl_fans *fans, sl_bits *blocked) {
+static void turn_round(const sli_fans *fans, sl_bits *blocked) {
     for (uint32_t i = 0; i < fans->first_directed[fans->cell_count]; i++) {
         const uint32_t twin = fans->directed[i].twin;
         if (twin < i || sl_bits_has(blocked, i) == sl_bits_has(blocked, twin)) continue;
@@ -101,7 +101,7 @@ static void turn_round(const sl_fans *fans, sl_bits *blocked) {
     }
 }
 
-static void block_directed(sl_fans *fans, const sl_bits *blocked) {
+static void block_directed(sli_fans *fans, const sl_bits *blocked) {
     for (uint32_t i = 0; i < fans->first_directed[fans->cell_count]; i++)
         if (sl_bits_has(blocked, i)) fans->directed[i].cell = SL_NO_CELL;
 }
@@ -121,12 +121,12 @@ static sl_point right_of(const walker *w, uint32_t directed) {
 }
 
 /// The next and the previous directed portal of a cell, all round.
-static uint32_t portal_after(const sl_fans *fans, uint32_t cell, uint32_t directed) {
+static uint32_t portal_after(const sli_fans *fans, uint32_t cell, uint32_t directed) {
     return directed + 1 < fans->first_directed[cell + 1] ? directed + 1
                                                          : fans->first_directed[cell];
 }
 
-static uint32_t portal_before(const sl_fans *fans, uint32_t cell, uint32_t directed) {
+static uint32_t portal_before(const sli_fans *fans, uint32_t cell, uint32_t directed) {
     return (directed > fans->first_directed[cell] ? directed : fans->first_directed[cell + 1]) - 1;
 }
 
@@ -136,17 +136,17 @@ static sl_point corner_beside(const sl_space *space, uint32_t cell, sl_point at,
     const uint32_t count = space->cells[cell].vertex_count;
     const sl_point *corners = space->vertices + space->cells[cell].first_vertex;
     for (uint32_t i = 0; i < count; i++)
-        if (sl_same_point(corners[i], at)) return corners[(back ? i + count - 1 : i + 1) % count];
+        if (sli_same_point(corners[i], at)) return corners[(back ? i + count - 1 : i + 1) % count];
     for (uint32_t i = 0; i < count; i++) {
         const sl_point a = corners[i], b = corners[(i + 1) % count];
-        if (sl_orient(a, b, at) == 0 && sl_opposite(at, a, b)) return back ? a : b;
+        if (sli_orient(a, b, at) == 0 && sli_opposite(at, a, b)) return back ? a : b;
     }
     return at; // no point of the boundary: not in a space that keeps its promises
 }
 
 // --- ends
 
-static uint32_t add_end(sl_fans *fans, sl_point end) {
+static uint32_t add_end(sli_fans *fans, sl_point end) {
     sl_box *box = &fans->bounds;
     if (!fans->ends.count) *box = (sl_box){end, end};
     if (end.x < box->min.x) box->min.x = end.x;
@@ -159,25 +159,25 @@ static uint32_t add_end(sl_fans *fans, sl_point end) {
 
 /// Gives the left ends of all directed portals round a point one number.
 static void number_round(const walker *w, uint32_t directed, uint32_t number) {
-    const sl_fans *fans = w->fans;
+    const sli_fans *fans = w->fans;
     const sl_point at = left_of(w, directed);
     uint32_t i = directed;
     do {
         fans->directed[i].left = number;
         i = portal_before(fans, fans->directed[i].cell, fans->directed[i].twin);
         if (i == directed) return;
-    } while (sl_same_point(left_of(w, i), at));
+    } while (sli_same_point(left_of(w, i), at));
     for (i = directed;;) {
         const uint32_t cell = fans->directed[fans->directed[i].twin].cell;
         const uint32_t next = portal_after(fans, cell, i);
-        if (!sl_same_point(right_of(w, next), at)) return;
+        if (!sli_same_point(right_of(w, next), at)) return;
         i = fans->directed[next].twin;
         fans->directed[i].left = number;
     }
 }
 
 static sl_status number_ends(sl_context *context, const walker *w) {
-    sl_fans *fans = w->fans;
+    sli_fans *fans = w->fans;
     const uint32_t count = fans->first_directed[fans->cell_count];
     SL_TRY(SL_ARRAY_ROOM(context, &fans->ends, count));
     for (uint32_t i = 0; i < count; i++)
@@ -188,7 +188,7 @@ static sl_status number_ends(sl_context *context, const walker *w) {
 }
 
 /// Whether all coordinates are whole numbers below 2^50 once they are multiplied.
-static bool is_grid(const sl_fans *fans, double scale) {
+static bool is_grid(const sli_fans *fans, double scale) {
     const double most = 0x1p50;
     for (size_t i = 0; i < fans->ends.count; i++) {
         const double x = fans->ends.items[i].x * scale, y = fans->ends.items[i].y * scale;
@@ -200,7 +200,7 @@ static bool is_grid(const sl_fans *fans, double scale) {
 
 /// Finds the grid of the map, if it has one. Most maps are drawn on whole numbers, or on binary
 /// fractions with the digits of a node builder. The horizon needs some more digits.
-static double find_grid(const sl_fans *fans) {
+static double find_grid(const sli_fans *fans) {
     const double scales[] = {1, 0x1p6, 0x1p22};
     for (size_t i = 0; i < sizeof scales / sizeof *scales; i++)
         if (is_grid(fans, scales[i])) return scales[i];
@@ -209,7 +209,7 @@ static double find_grid(const sl_fans *fans) {
 
 /// Adds the two ends of the horizon: far to the right and far to the left of everything, and below.
 /// From every end the directions above them are a little more than half a turn.
-static sl_status add_horizon(sl_context *context, sl_fans *fans) {
+static sl_status add_horizon(sl_context *context, sli_fans *fans) {
     enum { FAR = 64 };
     const sl_box box = fans->bounds;
     const double width = box.max.x - box.min.x, height = box.max.y - box.min.y;
@@ -225,7 +225,7 @@ static sl_status add_horizon(sl_context *context, sl_fans *fans) {
     return SL_OK;
 }
 
-static sl_status find_middles(sl_context *context, sl_fans *fans) {
+static sl_status find_middles(sl_context *context, sli_fans *fans) {
     fans->middles = sl_alloc_array(context, fans->cell_count, sizeof *fans->middles);
     if (!fans->middles) return SL_NO_MEMORY;
     for (uint32_t cell = 0; cell < fans->cell_count; cell++) {
@@ -245,7 +245,7 @@ static sl_status find_middles(sl_context *context, sl_fans *fans) {
 
 // --- fans
 
-static sl_status add_cell(sl_context *context, sl_fans *fans, sl_fan_cell cell) {
+static sl_status add_cell(sl_context *context, sli_fans *fans, sli_fan_cell cell) {
     SL_TRY(SL_ARRAY_ROOM(context, &fans->cells, 1));
     fans->cells.items[fans->cells.count++] = cell;
     return SL_OK;
@@ -261,31 +261,31 @@ static sl_status end_beside(sl_context *context, const walker *w, uint32_t cell,
 
 /// Says for each edge on which side it lies of half a turn from the first edge, and from the last.
 /// Angles only grow, and a sector is half a turn at most. So one orientation test is enough.
-static void measure(const sl_fan *fan, const sl_point *ends, sl_fan_cell *cells) {
+static void measure(const sli_fan *fan, const sl_point *ends, sli_fan_cell *cells) {
     const sl_point first = ends[cells[0].edge], last = ends[cells[fan->count].edge];
     int past = -1;
     for (uint32_t i = 1; i <= fan->count; i++) {
-        past = past >= 0 ? 1 : -sl_orient(fan->at, first, ends[cells[i].edge]);
+        past = past >= 0 ? 1 : -sli_orient(fan->at, first, ends[cells[i].edge]);
         cells[i].past_half = (int8_t)past;
     }
     cells[0].past_half = -1;
     past = 1;
     for (uint32_t i = fan->count; i-- > 0;) {
-        past = past <= 0 ? -1 : sl_orient(fan->at, ends[cells[i].edge], last);
+        past = past <= 0 ? -1 : sli_orient(fan->at, ends[cells[i].edge], last);
         cells[i].past_rest = (int8_t)past;
     }
     cells[fan->count].past_rest = 1;
 }
 
 /// Adds the fan of the cells from its first one on, the last edge being there too.
-static sl_status add_fan(sl_context *context, sl_fans *fans, sl_fan fan) {
+static sl_status add_fan(sl_context *context, sli_fans *fans, sli_fan fan) {
     const sl_point *ends = fans->ends.items;
-    sl_fan_cell *cells = fans->cells.items + fan.first;
+    sli_fan_cell *cells = fans->cells.items + fan.first;
     fan.count = (uint32_t)fans->cells.count - fan.first - 1;
     measure(&fan, ends, cells);
     const sl_point first = ends[cells[0].edge], last = ends[cells[fan.count].edge];
-    const int neighbour = sl_orient(fan.at, first, last);
-    const bool same = neighbour == 0 && !sl_opposite(fan.at, first, last);
+    const int neighbour = sli_orient(fan.at, first, last);
+    const bool same = neighbour == 0 && !sli_opposite(fan.at, first, last);
     fan.wide = !fan.full_turn && cells[fan.count].past_half > 0;
     fan.back_to_back = fan.wide && same;
     SL_TRY(SL_ARRAY_ROOM(context, &fans->fans, 1));
@@ -298,39 +298,39 @@ static sl_status add_fan(sl_context *context, sl_fans *fans, sl_fan fan) {
 /// edge.
 static sl_status walk_round(sl_context *context, walker *w, uint32_t cell, uint32_t at,
                             bool full_turn, bool cut, sl_bits *walked) {
-    sl_fans *fans = w->fans;
-    const sl_walk_portal *directed = fans->directed;
-    const sl_fan fan = {
+    sli_fans *fans = w->fans;
+    const sli_walk_portal *directed = fans->directed;
+    const sli_fan fan = {
         .at = left_of(w, at), .first = (uint32_t)fans->cells.count, .full_turn = full_turn && !cut};
     const uint32_t start = at;
     uint32_t begin = portal_after(fans, cell, at), edge = directed[begin].left;
     if (!full_turn) SL_TRY(end_beside(context, w, cell, fan.at, false, &edge));
     for (;;) {
         if (!cut) sl_bits_add(walked, at);
-        SL_TRY(add_cell(context, fans, (sl_fan_cell){.cell = cell, .begin = begin, .edge = edge}));
+        SL_TRY(add_cell(context, fans, (sli_fan_cell){.cell = cell, .begin = begin, .edge = edge}));
         cell = directed[at].cell;
         begin = directed[at].twin;
         edge = directed[begin].left;
         at = portal_before(fans, cell, begin);
         if (at == start) break;
-        if (!sl_same_point(left_of(w, at), fan.at) || is_blocked(w, at)) {
-            SL_TRY(
-                add_cell(context, fans, (sl_fan_cell){.cell = cell, .begin = begin, .edge = edge}));
+        if (!sli_same_point(left_of(w, at), fan.at) || is_blocked(w, at)) {
+            SL_TRY(add_cell(context, fans,
+                            (sli_fan_cell){.cell = cell, .begin = begin, .edge = edge}));
             SL_TRY(end_beside(context, w, cell, fan.at, true, &edge));
             break;
         }
     }
-    SL_TRY(add_cell(context, fans, (sl_fan_cell){.cell = UINT32_MAX, .edge = edge}));
+    SL_TRY(add_cell(context, fans, (sli_fan_cell){.cell = UINT32_MAX, .edge = edge}));
     return add_fan(context, fans, fan);
 }
 
 /// Between walls, and glass that is blocked to whoever goes round counter-clockwise.
 static sl_status walk_between(sl_context *context, walker *w, sl_bits *walked) {
-    const sl_fans *fans = w->fans;
+    const sli_fans *fans = w->fans;
     for (uint32_t cell = 0; cell < fans->cell_count; cell++)
         for (uint32_t e = fans->first_directed[cell]; e < fans->first_directed[cell + 1]; e++) {
             const uint32_t next = portal_after(fans, cell, e);
-            const bool starts = !sl_same_point(right_of(w, next), left_of(w, e)) ||
+            const bool starts = !sli_same_point(right_of(w, next), left_of(w, e)) ||
                                 is_blocked(w, fans->directed[next].twin);
             if (starts && !sl_bits_has(walked, e) && !is_blocked(w, e))
                 SL_TRY(walk_round(context, w, cell, e, false, false, walked));
@@ -341,7 +341,7 @@ static sl_status walk_between(sl_context *context, walker *w, sl_bits *walked) {
 /// The remaining fans go all round. With glass that is blocked clockwise, a line that passes its
 /// end on one side cannot go on to pass it on the other.
 static sl_status walk_all_round(sl_context *context, walker *w, sl_bits *walked) {
-    const sl_fans *fans = w->fans;
+    const sli_fans *fans = w->fans;
     for (uint32_t cell = 0; cell < fans->cell_count; cell++)
         for (uint32_t e = fans->first_directed[cell]; e < fans->first_directed[cell + 1]; e++) {
             if (sl_bits_has(walked, e) || is_blocked(w, e)) continue;
@@ -368,8 +368,8 @@ static double quarters(sl_point at, sl_point to) {
 
 /// How much of a half turn a fan's point looks at for cells that it serves: what lies above the
 /// horizon, and is not looked at for a rotating line anyway.
-static double share_above(const sl_fans *fans, const sl_fan *fan) {
-    const sl_fan_cell *cells = fans->cells.items + fan->first;
+static double share_above(const sli_fans *fans, const sli_fan *fan) {
+    const sli_fan_cell *cells = fans->cells.items + fan->first;
     if (fan->full_turn) return 1;
     double first = quarters(fan->at, fans->ends.items[cells[0].edge]);
     double last = quarters(fan->at, fans->ends.items[cells[fan->count].edge]);
@@ -384,12 +384,12 @@ static double share_above(const sl_fans *fans, const sl_fan *fan) {
 }
 
 /// The gain of one cell falls with the cost: the share of a half turn that is looked at.
-static uint32_t gain_of_each(const sl_fans *fans, const sl_fan *fan) {
+static uint32_t gain_of_each(const sli_fans *fans, const sli_fan *fan) {
     enum { MOST = 4 };
     return (uint32_t)(MOST / (1 + share_above(fans, fan)));
 }
 
-static uint32_t gain_of(const sl_fans *fans, const sl_fan *fan, uint32_t each,
+static uint32_t gain_of(const sli_fans *fans, const sli_fan *fan, uint32_t each,
                         const sl_bits *served) {
     uint32_t waiting = 0;
     for (uint32_t i = 0; i < fan->count; i++)
@@ -397,9 +397,9 @@ static uint32_t gain_of(const sl_fans *fans, const sl_fan *fan, uint32_t each,
     return waiting * each;
 }
 
-static void serve(sl_fans *fans, sl_fan *fan, sl_bits *served) {
+static void serve(sli_fans *fans, sli_fan *fan, sl_bits *served) {
     for (uint32_t i = 0; i < fan->count; i++) {
-        sl_fan_cell *c = &fans->cells.items[fan->first + i];
+        sli_fan_cell *c = &fans->cells.items[fan->first + i];
         c->served = !sl_bits_has(served, c->cell);
         fan->serves |= c->served;
         sl_bits_add(served, c->cell);
@@ -408,11 +408,11 @@ static void serve(sl_fans *fans, sl_fan *fan, sl_bits *served) {
 
 /// Greedy set cover: the candidate with the most gain comes first. Gains only fall. So a fan whose
 /// gain turns out to be less than that of the round waits for a later round.
-static void share_out_by(sl_fans *fans, candidate *candidates, sl_bits *served) {
+static void share_out_by(sli_fans *fans, candidate *candidates, sl_bits *served) {
     const size_t count = fans->fans.count;
     uint32_t most = 0;
     for (size_t i = 0; i < count; i++) {
-        sl_fan *fan = &fans->fans.items[i];
+        sli_fan *fan = &fans->fans.items[i];
         // Around a single wall, only the cells that the rotating line touches still need expanding.
         if (fan->back_to_back) serve(fans, fan, served);
         candidates[i].each = gain_of_each(fans, fan);
@@ -423,7 +423,7 @@ static void share_out_by(sl_fans *fans, candidate *candidates, sl_bits *served) 
         uint32_t next = 0;
         for (size_t i = 0; i < count; i++) {
             candidate *c = &candidates[i];
-            sl_fan *fan = &fans->fans.items[i];
+            sli_fan *fan = &fans->fans.items[i];
             if (c->gain >= now) c->gain = gain_of(fans, fan, c->each, served);
             if (c->gain >= now) {
                 serve(fans, fan, served);
@@ -435,7 +435,7 @@ static void share_out_by(sl_fans *fans, candidate *candidates, sl_bits *served) 
     }
 }
 
-static sl_status share_out(sl_context *context, sl_fans *fans) {
+static sl_status share_out(sl_context *context, sli_fans *fans) {
     candidate *candidates = sl_alloc_array(context, fans->fans.count, sizeof *candidates);
     sl_bits *served = sl_alloc_array(context, sl_bits_words(fans->cell_count), sizeof *served);
     const bool room = candidates && served;
@@ -447,12 +447,12 @@ static sl_status share_out(sl_context *context, sl_fans *fans) {
 
 /// Drops the fans from which nothing is looked at, and their cells. Cells stand in the order of
 /// fans.
-static void drop_idle(sl_context *context, sl_fans *fans, sl_fan_way way) {
-    sl_fan_cell *cells = fans->cells.items;
+static void drop_idle(sl_context *context, sli_fans *fans, sli_fan_way way) {
+    sli_fan_cell *cells = fans->cells.items;
     size_t kept = 0, kept_cells = 0;
     for (size_t i = 0; i < fans->fans.count; i++) {
-        sl_fan fan = fans->fans.items[i];
-        const bool turns = fan.wide && way != SL_FANS_SERVING;
+        sli_fan fan = fans->fans.items[i];
+        const bool turns = fan.wide && way != SLI_FANS_SERVING;
         if (!turns && !fan.serves) continue;
         memmove(cells + kept_cells, cells + fan.first, ((size_t)fan.count + 1) * sizeof *cells);
         fan.first = (uint32_t)kept_cells;
@@ -465,29 +465,29 @@ static void drop_idle(sl_context *context, sl_fans *fans, sl_fan_way way) {
     sl_shrink(context, &fans->cells.items, &fans->cells.capacity, kept_cells, sizeof *cells);
 }
 
-/// `blocked`: of the space's directed portals, zeroed; NULL for SL_FANS_MUTUAL.
-static sl_status find(sl_context *context, walker *w, const sl_see_options *options, sl_fan_way way,
-                      sl_bits *blocked, sl_bits *walked) {
-    sl_fans *fans = w->fans;
+/// `blocked`: of the space's directed portals, zeroed; NULL for SLI_FANS_MUTUAL.
+static sl_status find(sl_context *context, walker *w, const sl_see_options *options,
+                      sli_fan_way way, sl_bits *blocked, sl_bits *walked) {
+    sli_fans *fans = w->fans;
     SL_TRY(copy_directed(context, w, options, blocked));
-    if (way == SL_FANS_BACK) turn_round(fans, blocked);
-    w->blocked = way == SL_FANS_SERVING ? NULL : blocked;
+    if (way == SLI_FANS_BACK) turn_round(fans, blocked);
+    w->blocked = way == SLI_FANS_SERVING ? NULL : blocked;
     SL_TRY(number_ends(context, w));
     SL_TRY(find_middles(context, fans));
     SL_TRY(walk_between(context, w, walked));
     SL_TRY(walk_all_round(context, w, walked));
     if (fans->ends.count) SL_TRY(add_horizon(context, fans));
     fans->grid = find_grid(fans);
-    if (way == SL_FANS_MUTUAL || way == SL_FANS_SERVING) SL_TRY(share_out(context, fans));
+    if (way == SLI_FANS_MUTUAL || way == SLI_FANS_SERVING) SL_TRY(share_out(context, fans));
     drop_idle(context, fans, way);
     if (blocked) block_directed(fans, blocked);
     return SL_OK;
 }
 
-sl_status sl_fans_find(sl_context *context, const sl_space *space, const sl_see_options *options,
-                       sl_fan_way way, sl_fans *fans) {
+sl_status sli_fans_find(sl_context *context, const sl_space *space, const sl_see_options *options,
+                        sli_fan_way way, sli_fans *fans) {
     walker w = {.space = space, .fans = fans};
-    const bool has_blocked = way != SL_FANS_MUTUAL;
+    const bool has_blocked = way != SLI_FANS_MUTUAL;
     const size_t words = sl_bits_words(space->directed_count);
     sl_bits *blocked = has_blocked ? sl_alloc_array(context, words, sizeof *blocked) : NULL;
     sl_bits *walked = sl_alloc_array(context, words, sizeof *walked);

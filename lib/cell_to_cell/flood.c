@@ -23,13 +23,13 @@
 static bool reaches(const sl_directed_portal *directed, sl_point left, sl_point right, int sign,
                     bool closed) {
     const int least = closed ? 0 : 1;
-    return sign * sl_orient(directed->right, directed->left, left) >= least ||
-           sign * sl_orient(directed->right, directed->left, right) >= least;
+    return sign * sli_orient(directed->right, directed->left, left) >= least ||
+           sign * sli_orient(directed->right, directed->left, right) >= least;
 }
 
-uint32_t sl_flood_through(const sl_space *space, const sl_see_options *options,
-                          const sl_directed_portal *directed, uint32_t most, sl_bits *set,
-                          uint32_t *found) {
+uint32_t sli_flood_through(const sl_space *space, const sl_see_options *options,
+                           const sl_directed_portal *directed, uint32_t most, sl_bits *set,
+                           uint32_t *found) {
     const bool closed = options->sight == SL_CLOSED;
     uint32_t count = 0;
     if (options->inside_only && !space->cells[directed->cell].inside) return 0;
@@ -55,16 +55,16 @@ uint32_t sl_flood_through(const sl_space *space, const sl_see_options *options,
 typedef struct flood {
     const sl_space *space;
     const sl_see_options *options;
-    bool hurries;     ///< gives up where that is enough
-    bool one_way;     ///< pairs are not mutual
-    sl_bit_rows rows; ///< each is written by one thread
+    bool hurries;      ///< gives up where that is enough
+    bool one_way;      ///< pairs are not mutual
+    sli_bit_rows rows; ///< each is written by one thread
 } flood;
 
 /// One thread's own.
 typedef struct flooder {
-    uint32_t *found; ///< through one directed portal
-    sl_bits *set;    ///< of them
-    sl_word_set row; ///< of them through all directed portals
+    uint32_t *found;  ///< through one directed portal
+    sl_bits *set;     ///< of them
+    sli_word_set row; ///< of them through all directed portals
 } flooder;
 
 static void end(sl_context *context, void *job, void *state) {
@@ -72,7 +72,7 @@ static void end(sl_context *context, void *job, void *state) {
     flooder *me = state;
     sl_free(context, me->found);
     sl_free(context, me->set);
-    sl_word_set_destroy(context, &me->row);
+    sli_word_set_destroy(context, &me->row);
     sl_free(context, me);
 }
 
@@ -83,7 +83,7 @@ static sl_status begin(sl_context *context, void *job, void **state) {
     me->found = sl_alloc_array(context, all->space->cell_count, sizeof *me->found);
     me->set = sl_alloc_array(context, all->rows.words, sizeof *me->set);
     if (me->found && me->set &&
-        sl_word_set_create(context, all->space->cell_count, &me->row) == SL_OK) {
+        sli_word_set_create(context, all->space->cell_count, &me->row) == SL_OK) {
         *state = me;
         return SL_OK;
     }
@@ -96,33 +96,33 @@ static sl_status flood_unit(sl_context *context, void *job, void *state, size_t 
     flooder *me = state;
     const sl_cell *cell = &all->space->cells[unit];
     if (all->options->inside_only && !cell->inside) return SL_OK;
-    if (all->hurries && sl_is_enough(all->options)) return SL_CANCELLED;
-    sl_word_set_add(&me->row, (uint32_t)unit);
+    if (all->hurries && sli_is_enough(all->options)) return SL_CANCELLED;
+    sli_word_set_add(&me->row, (uint32_t)unit);
     for (uint32_t i = 0; i < cell->directed_count; i++) {
-        const uint32_t count = sl_flood_through(all->space, all->options,
-                                                &all->space->directed[cell->first_directed + i],
-                                                all->space->cell_count, me->set, me->found);
+        const uint32_t count = sli_flood_through(all->space, all->options,
+                                                 &all->space->directed[cell->first_directed + i],
+                                                 all->space->cell_count, me->set, me->found);
         for (uint32_t k = 0; k < count; k++) {
-            sl_word_set_add(&me->row, me->found[k]);
+            sli_word_set_add(&me->row, me->found[k]);
             me->set[me->found[k] / 64] = 0;
         }
     }
-    SL_TRY(sl_bit_rows_add(context, &all->rows, (uint32_t)unit, &me->row));
-    sl_word_set_clear(&me->row);
+    SL_TRY(sli_bit_rows_add(context, &all->rows, (uint32_t)unit, &me->row));
+    sli_word_set_clear(&me->row);
     return sl_check_cancelled(context);
 }
 
 static sl_status flood_all(sl_context *context, flood *all, sl_visibility *out) {
-    SL_TRY(sl_bit_rows_create(context, all->space->cell_count, all->options, &all->rows));
-    const sl_work work = {.job = all,
-                          .begin = begin,
-                          .unit = flood_unit,
-                          .end = end,
-                          .stage = "cell_to_cell",
-                          .units = "cells"};
-    SL_TRY(sl_work_run(context, &work, all->space->cell_count, all->options->threads));
-    if (!all->one_way) SL_TRY(sl_bit_rows_mirror(context, &all->rows, SL_KEEP_MUTUAL));
-    return sl_bit_rows_encode(context, &all->rows, out);
+    SL_TRY(sli_bit_rows_create(context, all->space->cell_count, all->options, &all->rows));
+    const sli_work work = {.job = all,
+                           .begin = begin,
+                           .unit = flood_unit,
+                           .end = end,
+                           .stage = "cell_to_cell",
+                           .units = "cells"};
+    SL_TRY(sli_work_run(context, &work, all->space->cell_count, all->options->threads));
+    if (!all->one_way) SL_TRY(sli_bit_rows_mirror(context, &all->rows, SLI_KEEP_MUTUAL));
+    return sli_bit_rows_encode(context, &all->rows, out);
 }
 
 /// Cells that are farther apart than the range are left out.
@@ -130,26 +130,26 @@ static sl_status hold_against_range(sl_context *context, const flood *all, sl_vi
     const double range = all->options->plan ? all->options->plan->range : 0;
     if (!(range > 0)) return SL_OK;
     sl_pvs within;
-    SL_TRY(sl_pvs_within(context, all->space, &out->pvs, range, SL_SOME_WITHIN, &within));
+    SL_TRY(sli_pvs_within(context, all->space, &out->pvs, range, SLI_SOME_WITHIN, &within));
     sl_pvs_destroy(context, &out->pvs);
     out->pvs = within;
     out->account.pairs = sl_pvs_pairs(&within);
     return SL_OK;
 }
 
-sl_status sl_see_flood(sl_context *context, const sl_space *space, const sl_see_options *options,
-                       sl_visibility *out) {
+sl_status sli_see_flood(sl_context *context, const sl_space *space, const sl_see_options *options,
+                        sl_visibility *out) {
     if (options->trees)
         return sl_fail(context, SL_UNSUPPORTED, "the method 'flood' makes no stab trees");
     flood all = {.options = options};
     sl_visibility visibility = {.sight = options->sight, .guarantee = SL_CONSERVATIVE};
     sl_space open = {0};
-    SL_TRY(sl_oneway_filtered(context, space, options->plan, &open, &all.space));
+    SL_TRY(sli_oneway_filtered(context, space, options->plan, &open, &all.space));
     all.one_way = all.space != space;
     sl_status status = flood_all(context, &all, &visibility);
     if (status == SL_OK) status = hold_against_range(context, &all, &visibility);
     sl_space_destroy(context, &open);
-    sl_bit_rows_destroy(context, &all.rows);
+    sli_bit_rows_destroy(context, &all.rows);
     if (status == SL_OK)
         *out = visibility;
     else
@@ -165,7 +165,7 @@ static bool takes_part(const sl_space *space, const sl_see_options *options, uin
 
 /// Cells that portals join, as rows; and which of them each cell is in.
 typedef struct components {
-    sl_pvs_maker rows;
+    sli_pvs_maker rows;
     uint32_t *of; ///< by cell; UINT32_MAX for none
     uint32_t *stack;
 } components;
@@ -178,7 +178,7 @@ static void gather_component(const sl_space *space, const sl_see_options *option
     while (count) {
         const uint32_t cell = c->stack[--count];
         const sl_directed_portal *directed = space->directed + space->cells[cell].first_directed;
-        sl_word_set_add(&c->rows.row, cell);
+        sli_word_set_add(&c->rows.row, cell);
         for (uint32_t i = 0; i < space->cells[cell].directed_count; i++) {
             const uint32_t next = directed[i].cell;
             if (c->of[next] != UINT32_MAX || !takes_part(space, options, next)) continue;
@@ -191,7 +191,7 @@ static void gather_component(const sl_space *space, const sl_see_options *option
 static sl_status find_components(sl_context *context, const sl_space *space,
                                  const sl_see_options *options, components *c) {
     const uint32_t count = space->cell_count;
-    SL_TRY(sl_pvs_maker_create(context, count, count, &c->rows));
+    SL_TRY(sli_pvs_maker_create(context, count, count, &c->rows));
     c->of = sl_alloc_array(context, count, sizeof *c->of);
     c->stack = sl_alloc_array(context, count, sizeof *c->stack);
     if (!c->of || !c->stack) return SL_NO_MEMORY;
@@ -199,7 +199,7 @@ static sl_status find_components(sl_context *context, const sl_space *space,
     for (uint32_t cell = 0; cell < count; cell++) {
         if (c->of[cell] != UINT32_MAX || !takes_part(space, options, cell)) continue;
         gather_component(space, options, cell, c);
-        SL_TRY(sl_pvs_maker_end_row(context, &c->rows));
+        SL_TRY(sli_pvs_maker_end_row(context, &c->rows));
     }
     return SL_OK;
 }
@@ -232,7 +232,7 @@ static sl_status pair_components(sl_context *context, const sl_space *space,
     components c = {0};
     sl_status status = find_components(context, space, options, &c);
     if (status == SL_OK) status = spread_rows(context, &c, space->cell_count, &all);
-    sl_pvs_maker_destroy(context, &c.rows);
+    sli_pvs_maker_destroy(context, &c.rows);
     sl_free(context, c.of);
     sl_free(context, c.stack);
     if (status == SL_OK)
@@ -242,14 +242,14 @@ static sl_status pair_components(sl_context *context, const sl_space *space,
     return status;
 }
 
-sl_status sl_flood_bound(sl_context *context, const sl_space *space, const sl_see_options *options,
-                         sl_pvs *out, bool *bounded) {
+sl_status sli_flood_bound(sl_context *context, const sl_space *space, const sl_see_options *options,
+                          sl_pvs *out, bool *bounded) {
     flood all = {.space = space, .options = options, .hurries = true};
     sl_visibility visibility = {0};
     sl_status status = flood_all(context, &all, &visibility);
-    sl_bit_rows_destroy(context, &all.rows);
+    sli_bit_rows_destroy(context, &all.rows);
     *bounded = status == SL_OK;
-    if (status == SL_CANCELLED && sl_is_enough(options)) {
+    if (status == SL_CANCELLED && sli_is_enough(options)) {
         SL_TRY(sl_check_cancelled(context));
         return pair_components(context, space, options, out);
     }
@@ -313,39 +313,39 @@ static double farthest(const polygon *p, const polygon *q) {
     return most;
 }
 
-/// Rounded to the safe side: SL_ALL_WITHIN and SL_NONE_WITHIN are always right.
-static sl_apart cells_apart(const sl_space *space, uint32_t a, uint32_t b, double range) {
+/// Rounded to the safe side: SLI_ALL_WITHIN and SLI_NONE_WITHIN are always right.
+static sli_apart cells_apart(const sl_space *space, uint32_t a, uint32_t b, double range) {
     const polygon p = polygon_of(space, a), q = polygon_of(space, b);
     const double width = fmax(p.box.max.x, q.box.max.x) - fmin(p.box.min.x, q.box.min.x);
     const double height = fmax(p.box.max.y, q.box.max.y) - fmin(p.box.min.y, q.box.min.y);
     const double size = hypot(width, height), error = size * ERROR;
-    if (size + error <= range) return SL_ALL_WITHIN;
+    if (size + error <= range) return SLI_ALL_WITHIN;
     const double neighbour = range * (1 + RANGE_ERROR) + error;
     const double x = fmax(p.box.min.x, q.box.min.x) - fmin(p.box.max.x, q.box.max.x);
     const double y = fmax(p.box.min.y, q.box.min.y) - fmin(p.box.max.y, q.box.max.y);
-    if (hypot(fmax(x, 0), fmax(y, 0)) > neighbour) return SL_NONE_WITHIN;
-    if (farthest(&p, &q) + error <= range) return SL_ALL_WITHIN;
-    return fmin(nearest(&p, &q), nearest(&q, &p)) > neighbour ? SL_NONE_WITHIN : SL_SOME_WITHIN;
+    if (hypot(fmax(x, 0), fmax(y, 0)) > neighbour) return SLI_NONE_WITHIN;
+    if (farthest(&p, &q) + error <= range) return SLI_ALL_WITHIN;
+    return fmin(nearest(&p, &q), nearest(&q, &p)) > neighbour ? SLI_NONE_WITHIN : SLI_SOME_WITHIN;
 }
 
 static sl_status make_rows_within(sl_context *context, const sl_space *space, const sl_pvs *pvs,
-                                  double range, sl_apart most, sl_pvs_maker *maker, sl_pvs *out) {
-    SL_TRY(sl_pvs_maker_create(context, pvs->cell_count, pvs->cell_count, maker));
+                                  double range, sli_apart most, sli_pvs_maker *maker, sl_pvs *out) {
+    SL_TRY(sli_pvs_maker_create(context, pvs->cell_count, pvs->cell_count, maker));
     for (uint32_t cell = 0; cell < pvs->cell_count; cell++) {
         for (sl_pvs_run run = sl_pvs_begin(pvs, cell); sl_pvs_next(&run);)
             for (uint32_t i = run.first; i < run.end; i++)
                 if (i == cell || cells_apart(space, cell, i, range) <= most)
-                    sl_word_set_add(&maker->row, i);
-        SL_TRY(sl_pvs_maker_end_row(context, maker));
+                    sli_word_set_add(&maker->row, i);
+        SL_TRY(sli_pvs_maker_end_row(context, maker));
         SL_TRY(sl_check_cancelled(context));
     }
-    return sl_pvs_maker_finish(context, maker, out);
+    return sli_pvs_maker_finish(context, maker, out);
 }
 
-sl_status sl_pvs_within(sl_context *context, const sl_space *space, const sl_pvs *pvs, double range,
-                        sl_apart most, sl_pvs *out) {
-    sl_pvs_maker maker = {0};
+sl_status sli_pvs_within(sl_context *context, const sl_space *space, const sl_pvs *pvs,
+                         double range, sli_apart most, sl_pvs *out) {
+    sli_pvs_maker maker = {0};
     const sl_status status = make_rows_within(context, space, pvs, range, most, &maker, out);
-    sl_pvs_maker_destroy(context, &maker);
+    sli_pvs_maker_destroy(context, &maker);
     return status;
 }

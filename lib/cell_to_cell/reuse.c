@@ -148,25 +148,25 @@ static void find_kept(const reusing *c) {
             sl_bits_add(c->enclosed, now);
 }
 
-static sl_status make_rows(sl_context *context, const reusing *c, sl_pvs_maker *maker,
+static sl_status make_rows(sl_context *context, const reusing *c, sli_pvs_maker *maker,
                            sl_pvs *out) {
     const uint32_t count = c->space->cell_count;
-    SL_TRY(sl_pvs_maker_create(context, count, count, maker));
+    SL_TRY(sli_pvs_maker_create(context, count, count, maker));
     for (uint32_t now = 0; now < count; now++) {
         if (sl_bits_has(c->kept, now))
             for (sl_pvs_run run = sl_pvs_begin(c->seen, c->then[now]); sl_pvs_next(&run);)
                 for (uint32_t i = run.first; i < run.end; i++)
-                    sl_word_set_add(&maker->row, c->now[i]);
-        SL_TRY(sl_pvs_maker_end_row(context, maker));
+                    sli_word_set_add(&maker->row, c->now[i]);
+        SL_TRY(sli_pvs_maker_end_row(context, maker));
     }
-    return sl_pvs_maker_finish(context, maker, out);
+    return sli_pvs_maker_finish(context, maker, out);
 }
 
 static sl_status take_rows(sl_context *context, const reusing *c, sl_partial *partial) {
-    sl_pvs_maker maker;
+    sli_pvs_maker maker;
     sl_pvs rows = {0};
     const sl_status status = make_rows(context, c, &maker, &rows);
-    sl_pvs_maker_destroy(context, &maker);
+    sli_pvs_maker_destroy(context, &maker);
     if (status != SL_OK) return status;
     sl_pvs_destroy(context, &partial->sure);
     partial->sure = rows;

@@ -20,26 +20,26 @@
 
 // --- sets of cells
 
-sl_status sl_word_set_create(sl_context *context, size_t count, sl_word_set *set) {
+sl_status sli_word_set_create(sl_context *context, size_t count, sli_word_set *set) {
     const size_t words = sl_bits_words(count);
-    *set = (sl_word_set){.low = SIZE_MAX};
+    *set = (sli_word_set){.low = SIZE_MAX};
     set->bits = sl_alloc_array(context, words, sizeof *set->bits);
     set->used = sl_alloc_array(context, sl_bits_words(words), sizeof *set->used);
     if (set->bits && set->used) return SL_OK;
-    sl_word_set_destroy(context, set);
+    sli_word_set_destroy(context, set);
     return SL_NO_MEMORY;
 }
 
-void sl_word_set_destroy(sl_context *context, sl_word_set *set) {
+void sli_word_set_destroy(sl_context *context, sli_word_set *set) {
     sl_free(context, set->bits);
     sl_free(context, set->used);
-    *set = (sl_word_set){0};
+    *set = (sli_word_set){0};
 }
 
-void sl_word_set_clear(sl_word_set *set) {
+void sli_word_set_clear(sli_word_set *set) {
     if (set->low < set->high) {
-        for (size_t word = sl_word_set_next(set, set->low); word < set->high;
-             word = sl_word_set_next(set, word + 1))
+        for (size_t word = sli_word_set_next(set, set->low); word < set->high;
+             word = sli_word_set_next(set, word + 1))
             set->bits[word] = 0;
         for (size_t i = set->low / 64; i < sl_bits_words(set->high); i++) set->used[i] = 0;
     }
@@ -49,61 +49,61 @@ void sl_word_set_clear(sl_word_set *set) {
 
 // --- rows with few members
 
-void sl_sparse_row_destroy(sl_context *context, sl_sparse_row *row) {
+void sli_sparse_row_destroy(sl_context *context, sli_sparse_row *row) {
     sl_free(context, row->words);
-    *row = (sl_sparse_row){0};
+    *row = (sli_sparse_row){0};
 }
 
 /// Counts what a row takes more; false where that is too much.
-static bool spend(sl_row_budget *budget, uint64_t bytes) {
+static bool spend(sli_row_budget *budget, uint64_t bytes) {
     return atomic_fetch_add(&budget->used, bytes) + bytes <= budget->most;
 }
 
-static sl_status fail_budget(sl_context *context, const sl_row_budget *budget) {
+static sl_status fail_budget(sl_context *context, const sli_row_budget *budget) {
     return sl_fail(context, SL_NO_MEMORY,
                    "the visible sets take more than the %.1f MiB that they may: allow more memory, "
                    "or bake in parts",
                    (double)budget->most / (1 << 20));
 }
 
-static sl_status make_room(sl_context *context, sl_sparse_row *row, uint32_t more,
-                           sl_row_budget *budget) {
+static sl_status make_room(sl_context *context, sli_sparse_row *row, uint32_t more,
+                           sli_row_budget *budget) {
     const uint32_t needed = row->count + more;
     if (needed <= row->room) return SL_OK;
     uint32_t room = row->room + row->room / 2 + 2;
     if (room < needed) room = needed;
-    if (!spend(budget, (uint64_t)(room - row->room) * SL_SPARSE_WORD_BYTES))
+    if (!spend(budget, (uint64_t)(room - row->room) * SLI_SPARSE_WORD_BYTES))
         return fail_budget(context, budget);
-    sl_bits *words = sl_alloc(context, (size_t)room * SL_SPARSE_WORD_BYTES);
+    sl_bits *words = sl_alloc(context, (size_t)room * SLI_SPARSE_WORD_BYTES);
     if (!words) return SL_NO_MEMORY;
-    const sl_sparse_row grown = {.words = words, .room = room, .count = row->count};
+    const sli_sparse_row grown = {.words = words, .room = room, .count = row->count};
     if (row->count) {
         memcpy(grown.words, row->words, row->count * sizeof *words);
-        memcpy(sl_sparse_index(&grown), sl_sparse_index(row), row->count * sizeof(uint32_t));
+        memcpy(sli_sparse_index(&grown), sli_sparse_index(row), row->count * sizeof(uint32_t));
     }
     sl_free(context, row->words);
     *row = grown;
     return SL_OK;
 }
 
-static sl_status keep_all_words(sl_context *context, sl_sparse_row *row, size_t words,
-                                sl_row_budget *budget) {
-    const uint64_t before = (uint64_t)row->room * SL_SPARSE_WORD_BYTES;
+static sl_status keep_all_words(sl_context *context, sli_sparse_row *row, size_t words,
+                                sli_row_budget *budget) {
+    const uint64_t before = (uint64_t)row->room * SLI_SPARSE_WORD_BYTES;
     const uint64_t after = words * sizeof(sl_bits);
     // Where rows shrink by it, the difference wraps and takes off.
     if (!spend(budget, after - before)) return fail_budget(context, budget);
     sl_bits *all = sl_alloc_array(context, words, sizeof *all);
     if (!all) return SL_NO_MEMORY;
-    const uint32_t *index = sl_sparse_index(row);
+    const uint32_t *index = sli_sparse_index(row);
     for (uint32_t i = 0; i < row->count; i++) all[index[i]] = row->words[i];
     sl_free(context, row->words);
-    *row = (sl_sparse_row){.words = all, .room = (uint32_t)words, .count = SL_ALL_WORDS};
+    *row = (sli_sparse_row){.words = all, .room = (uint32_t)words, .count = SLI_ALL_WORDS};
     return SL_OK;
 }
 
 /// Whether so many words take less room without their indices.
 static bool are_many(size_t count, size_t words) {
-    return count * SL_SPARSE_WORD_BYTES >= words * sizeof(sl_bits);
+    return count * SLI_SPARSE_WORD_BYTES >= words * sizeof(sl_bits);
 }
 
 /// The first place from `at` on whose index is not below `word`.
@@ -125,11 +125,11 @@ static uint32_t place_of(const uint32_t *index, uint32_t at, uint32_t count, siz
 }
 
 /// Adds to the words that the row has; the count of those that it lacks.
-static uint32_t add_to_present(sl_sparse_row *row, const sl_word_set *set) {
-    const uint32_t *index = sl_sparse_index(row);
+static uint32_t add_to_present(sli_sparse_row *row, const sli_word_set *set) {
+    const uint32_t *index = sli_sparse_index(row);
     uint32_t missing = 0, at = 0;
-    for (size_t word = sl_word_set_next(set, set->low); word < set->high;
-         word = sl_word_set_next(set, word + 1)) {
+    for (size_t word = sli_word_set_next(set, set->low); word < set->high;
+         word = sli_word_set_next(set, word + 1)) {
         at = place_of(index, at, row->count, word);
         if (at < row->count && index[at] == word)
             row->words[at] |= set->bits[word];
@@ -140,34 +140,34 @@ static uint32_t add_to_present(sl_sparse_row *row, const sl_word_set *set) {
 }
 
 /// Moves what is there towards the end and puts what is missing between, from the end on.
-static void insert_missing(sl_sparse_row *row, const sl_word_set *set, uint32_t missing) {
-    uint32_t *index = sl_sparse_index(row);
+static void insert_missing(sli_sparse_row *row, const sli_word_set *set, uint32_t missing) {
+    uint32_t *index = sli_sparse_index(row);
     uint32_t from = row->count, to = from + missing;
-    size_t word = sl_word_set_before(set, set->high);
+    size_t word = sli_word_set_before(set, set->high);
     row->count = to;
     while (to > from) {
         to--;
         if (from && index[from - 1] >= word) {
-            if (index[--from] == word) word = sl_word_set_before(set, word);
+            if (index[--from] == word) word = sli_word_set_before(set, word);
             index[to] = index[from];
             row->words[to] = row->words[from];
         } else {
             index[to] = (uint32_t)word;
             row->words[to] = set->bits[word];
-            word = sl_word_set_before(set, word);
+            word = sli_word_set_before(set, word);
         }
     }
 }
 
-static void add_to_all(sl_sparse_row *row, const sl_word_set *set) {
+static void add_to_all(sli_sparse_row *row, const sli_word_set *set) {
     sl_bits *restrict words = row->words;
     const sl_bits *restrict bits = set->bits;
     for (size_t i = set->low; i < set->high; i++) words[i] |= bits[i];
 }
 
-sl_status sl_sparse_row_add(sl_context *context, sl_sparse_row *row, size_t words,
-                            const sl_word_set *set, sl_row_budget *budget) {
-    if (row->count != SL_ALL_WORDS) {
+sl_status sli_sparse_row_add(sl_context *context, sli_sparse_row *row, size_t words,
+                             const sli_word_set *set, sli_row_budget *budget) {
+    if (row->count != SLI_ALL_WORDS) {
         const uint32_t missing = add_to_present(row, set);
         if (!missing) return SL_OK;
         if (!are_many(row->count + missing, words)) {
@@ -183,17 +183,17 @@ sl_status sl_sparse_row_add(sl_context *context, sl_sparse_row *row, size_t word
 
 /// The place of a word, or NULL where the row has none. `cursor` starts at 0 and makes ascending
 /// searches short; words may be added to the row meanwhile.
-static sl_bits *find_sparse_word(const sl_sparse_row *row, size_t word, uint32_t *cursor) {
-    if (row->count == SL_ALL_WORDS) return &row->words[word];
+static sl_bits *find_sparse_word(const sli_sparse_row *row, size_t word, uint32_t *cursor) {
+    if (row->count == SLI_ALL_WORDS) return &row->words[word];
     if (!row->count) return NULL;
-    const uint32_t *index = sl_sparse_index(row);
+    const uint32_t *index = sli_sparse_index(row);
     *cursor = place_of(index, *cursor, row->count, word);
     return *cursor < row->count && index[*cursor] == word ? &row->words[*cursor] : NULL;
 }
 
 /// Adds the members of one word, not none.
-static sl_status add_sparse_word(sl_context *context, sl_sparse_row *row, size_t words, size_t word,
-                                 sl_bits bits, sl_row_budget *budget) {
+static sl_status add_sparse_word(sl_context *context, sli_sparse_row *row, size_t words,
+                                 size_t word, sl_bits bits, sli_row_budget *budget) {
     uint32_t at = 0;
     sl_bits *found = find_sparse_word(row, word, &at);
     if (!found && are_many(row->count + 1, words)) {
@@ -205,7 +205,7 @@ static sl_status add_sparse_word(sl_context *context, sl_sparse_row *row, size_t
         return SL_OK;
     }
     SL_TRY(make_room(context, row, 1, budget));
-    uint32_t *index = sl_sparse_index(row);
+    uint32_t *index = sli_sparse_index(row);
     const size_t behind = row->count - at;
     memmove(index + at + 1, index + at, behind * sizeof *index);
     memmove(row->words + at + 1, row->words + at, behind * sizeof *row->words);
@@ -215,11 +215,11 @@ static sl_status add_sparse_word(sl_context *context, sl_sparse_row *row, size_t
     return SL_OK;
 }
 
-void sl_sparse_row_add_to(const sl_sparse_row *row, size_t words, sl_word_set *set) {
-    const bool all = row->count == SL_ALL_WORDS;
-    const uint32_t *index = all || !row->count ? NULL : sl_sparse_index(row);
+void sli_sparse_row_add_to(const sli_sparse_row *row, size_t words, sli_word_set *set) {
+    const bool all = row->count == SLI_ALL_WORDS;
+    const uint32_t *index = all || !row->count ? NULL : sli_sparse_index(row);
     for (size_t i = 0; i < (all ? words : row->count); i++)
-        if (row->words[i]) sl_word_set_join(set, all ? i : index[i], row->words[i]);
+        if (row->words[i]) sli_word_set_join(set, all ? i : index[i], row->words[i]);
 }
 
 // --- all rows
@@ -230,8 +230,8 @@ void sl_sparse_row_add_to(const sl_sparse_row *row, size_t words, sl_word_set *s
 /// Neighbours are asked for at once, so that they have locks of their own.
 enum { LOCKS = 256 };
 
-struct sl_shared_rows {
-    sl_row_budget budget;
+struct sli_shared_rows {
+    sli_row_budget budget;
     pthread_mutex_t locks[LOCKS];
 };
 
@@ -239,11 +239,11 @@ struct sl_shared_rows {
 static bool choose_sparse(uint64_t count, size_t words, const sl_see_options *options) {
     if (options->rows != SL_ROWS_BY_SIZE) return options->rows == SL_ROWS_SPARSE;
     const uint64_t bytes = count * words * sizeof(sl_bits);
-    const uint64_t forks = options->threads ? options->threads : sl_core_count();
+    const uint64_t forks = options->threads ? options->threads : sli_core_count();
     return bytes > MOST_DENSE_BYTES || bytes * (forks + 1) > options->row_bytes;
 }
 
-static sl_status create_sparse(sl_context *context, sl_bit_rows *rows, uint64_t most) {
+static sl_status create_sparse(sl_context *context, sli_bit_rows *rows, uint64_t most) {
     const uint64_t heads = rows->count * sizeof *rows->sparse;
     rows->sparse = sl_alloc_array(context, rows->count, sizeof *rows->sparse);
     rows->shared = sl_alloc(context, sizeof *rows->shared);
@@ -258,15 +258,15 @@ static sl_status create_sparse(sl_context *context, sl_bit_rows *rows, uint64_t 
     return SL_OK;
 }
 
-static sl_status create_dense(sl_context *context, sl_bit_rows *rows) {
+static sl_status create_dense(sl_context *context, sli_bit_rows *rows) {
     if (rows->words && rows->count > SIZE_MAX / rows->words) return sl_fail_memory(context);
     rows->bits = sl_alloc_array(context, rows->count * rows->words, sizeof *rows->bits);
     return rows->bits ? SL_OK : SL_NO_MEMORY;
 }
 
-sl_status sl_bit_rows_create(sl_context *context, uint32_t count, const sl_see_options *options,
-                             sl_bit_rows *rows) {
-    sl_bit_rows made = {.count = count, .words = sl_bits_words(count)};
+sl_status sli_bit_rows_create(sl_context *context, uint32_t count, const sl_see_options *options,
+                              sli_bit_rows *rows) {
+    sli_bit_rows made = {.count = count, .words = sl_bits_words(count)};
     if (choose_sparse(count, made.words, options))
         SL_TRY(create_sparse(context, &made, options->row_bytes));
     else
@@ -275,45 +275,45 @@ sl_status sl_bit_rows_create(sl_context *context, uint32_t count, const sl_see_o
     return SL_OK;
 }
 
-void sl_bit_rows_destroy(sl_context *context, sl_bit_rows *rows) {
+void sli_bit_rows_destroy(sl_context *context, sli_bit_rows *rows) {
     sl_free(context, rows->bits);
     for (uint32_t cell = 0; rows->sparse && cell < rows->count; cell++)
-        sl_sparse_row_destroy(context, &rows->sparse[cell]);
+        sli_sparse_row_destroy(context, &rows->sparse[cell]);
     sl_free(context, rows->sparse);
     for (size_t i = 0; rows->shared && i < LOCKS; i++)
         pthread_mutex_destroy(&rows->shared->locks[i]);
     sl_free(context, rows->shared);
-    *rows = (sl_bit_rows){0};
+    *rows = (sli_bit_rows){0};
 }
 
-sl_status sl_bit_rows_fork(sl_context *context, const sl_bit_rows *rows, sl_bit_rows *fork) {
-    sl_bit_rows made = *rows;
+sl_status sli_bit_rows_fork(sl_context *context, const sli_bit_rows *rows, sli_bit_rows *fork) {
+    sli_bit_rows made = *rows;
     if (rows->bits) SL_TRY(create_dense(context, &made));
     *fork = made;
     return SL_OK;
 }
 
-void sl_bit_rows_join(sl_context *context, sl_bit_rows *rows, sl_bit_rows *fork) {
+void sli_bit_rows_join(sl_context *context, sli_bit_rows *rows, sli_bit_rows *fork) {
     for (size_t i = 0; fork->bits && i < rows->count * rows->words; i++)
         rows->bits[i] |= fork->bits[i];
     sl_free(context, fork->bits);
-    *fork = (sl_bit_rows){0};
+    *fork = (sli_bit_rows){0};
 }
 
-sl_status sl_bit_rows_add_sparse(sl_context *context, sl_bit_rows *rows, uint32_t cell,
-                                 const sl_word_set *set) {
+sl_status sli_bit_rows_add_sparse(sl_context *context, sli_bit_rows *rows, uint32_t cell,
+                                  const sli_word_set *set) {
     pthread_mutex_t *lock = &rows->shared->locks[cell % LOCKS];
     pthread_mutex_lock(lock);
     const sl_status status =
-        sl_sparse_row_add(context, &rows->sparse[cell], rows->words, set, &rows->shared->budget);
+        sli_sparse_row_add(context, &rows->sparse[cell], rows->words, set, &rows->shared->budget);
     pthread_mutex_unlock(lock);
     return status;
 }
 
-sl_status sl_bit_rows_add_word(sl_context *context, sl_bit_rows *rows, uint32_t cell, size_t word,
-                               sl_bits bits) {
+sl_status sli_bit_rows_add_word(sl_context *context, sli_bit_rows *rows, uint32_t cell, size_t word,
+                                sl_bits bits) {
     if (rows->bits) {
-        sl_bit_rows_dense(rows, cell)[word] |= bits;
+        sli_bit_rows_dense(rows, cell)[word] |= bits;
         return SL_OK;
     }
     pthread_mutex_t *lock = &rows->shared->locks[cell % LOCKS];
@@ -332,23 +332,23 @@ static uint64_t count_bits(const sl_bits *bits, size_t words) {
     return count;
 }
 
-static sl_status append_row(sl_context *context, sl_bit_rows *rows, uint32_t cell,
-                            sl_row_bytes *bytes, uint64_t *pairs) {
+static sl_status append_row(sl_context *context, sli_bit_rows *rows, uint32_t cell,
+                            sli_row_bytes *bytes, uint64_t *pairs) {
     if (rows->bits) {
-        *pairs += count_bits(sl_bit_rows_dense(rows, cell), rows->words);
-        return sl_row_append(context, bytes, sl_bit_rows_dense(rows, cell), rows->count);
+        *pairs += count_bits(sli_bit_rows_dense(rows, cell), rows->words);
+        return sli_row_append(context, bytes, sli_bit_rows_dense(rows, cell), rows->count);
     }
-    sl_sparse_row *row = &rows->sparse[cell];
-    const bool all = row->count == SL_ALL_WORDS;
+    sli_sparse_row *row = &rows->sparse[cell];
+    const bool all = row->count == SLI_ALL_WORDS;
     const size_t count = all ? rows->words : row->count;
     *pairs += count_bits(row->words, count);
-    SL_TRY(
-        sl_row_append_words(context, bytes, row->words, all ? NULL : sl_sparse_index(row), count));
-    sl_sparse_row_destroy(context, row);
+    SL_TRY(sli_row_append_words(context, bytes, row->words, all ? NULL : sli_sparse_index(row),
+                                count));
+    sli_sparse_row_destroy(context, row);
     return SL_OK;
 }
 
-static sl_status encode(sl_context *context, sl_bit_rows *rows, sl_row_bytes *bytes, sl_pvs *out,
+static sl_status encode(sl_context *context, sli_bit_rows *rows, sli_row_bytes *bytes, sl_pvs *out,
                         uint64_t *pairs) {
     out->cell_count = rows->count;
     out->offsets = sl_alloc_array(context, (size_t)rows->count + 1, sizeof *out->offsets);
@@ -364,8 +364,8 @@ static sl_status encode(sl_context *context, sl_bit_rows *rows, sl_row_bytes *by
     return SL_OK;
 }
 
-sl_status sl_bit_rows_encode(sl_context *context, sl_bit_rows *rows, sl_visibility *out) {
-    sl_row_bytes bytes = {0};
+sl_status sli_bit_rows_encode(sl_context *context, sli_bit_rows *rows, sl_visibility *out) {
+    sli_row_bytes bytes = {0};
     sl_pvs pvs = {0};
     uint64_t pairs = 0;
     const sl_status status = encode(context, rows, &bytes, &pvs, &pairs);
@@ -396,7 +396,7 @@ static void transpose(sl_bits block[64]) {
 // --- dense rows
 
 /// Copies 64 rows of one word each; rows past the last are empty. Returns whether any bit is set.
-static bool take_block(const sl_bit_rows *rows, size_t first_row, size_t word, sl_bits block[64]) {
+static bool take_block(const sli_bit_rows *rows, size_t first_row, size_t word, sl_bits block[64]) {
     sl_bits any = 0;
     for (size_t i = 0; i < 64; i++) {
         const size_t row = first_row + i;
@@ -406,15 +406,15 @@ static bool take_block(const sl_bit_rows *rows, size_t first_row, size_t word, s
     return any != 0;
 }
 
-static void merge_block(sl_bit_rows *rows, size_t first_row, size_t word, const sl_bits block[64],
-                        sl_mirroring how) {
+static void merge_block(sli_bit_rows *rows, size_t first_row, size_t word, const sl_bits block[64],
+                        sli_mirroring how) {
     for (size_t i = 0; i < 64 && first_row + i < rows->count; i++) {
         sl_bits *bits = &rows->bits[(first_row + i) * rows->words + word];
-        *bits = how == SL_ADD_MIRRORED ? *bits | block[i] : *bits & block[i];
+        *bits = how == SLI_ADD_MIRRORED ? *bits | block[i] : *bits & block[i];
     }
 }
 
-static void mirror_dense(sl_bit_rows *rows, sl_mirroring how) {
+static void mirror_dense(sli_bit_rows *rows, sli_mirroring how) {
     sl_bits below[64], above[64];
     for (size_t i = 0; i < rows->words; i++)
         for (size_t k = 0; k <= i; k++) {
@@ -432,12 +432,12 @@ static void mirror_dense(sl_bit_rows *rows, sl_mirroring how) {
 // --- sparse rows
 
 /// The number of rows, up to 64, from a multiple of 64 on.
-static uint32_t block_rows(const sl_bit_rows *rows, size_t first) {
+static uint32_t block_rows(const sli_bit_rows *rows, size_t first) {
     return rows->count - first < 64 ? (uint32_t)(rows->count - first) : 64;
 }
 
 /// Copies one word of each of 64 rows; cursors as those of find_sparse_word.
-static void take_words(const sl_bit_rows *rows, size_t first, size_t word, uint32_t cursors[64],
+static void take_words(const sli_bit_rows *rows, size_t first, size_t word, uint32_t cursors[64],
                        sl_bits block[64]) {
     const uint32_t count = block_rows(rows, first);
     for (uint32_t i = 0; i < 64; i++) {
@@ -447,15 +447,15 @@ static void take_words(const sl_bit_rows *rows, size_t first, size_t word, uint3
     }
 }
 
-static sl_status add_words(sl_context *context, sl_bit_rows *rows, size_t first, size_t word,
+static sl_status add_words(sl_context *context, sli_bit_rows *rows, size_t first, size_t word,
                            const sl_bits block[64]) {
     for (uint32_t i = 0; i < block_rows(rows, first); i++)
         if (block[i])
-            SL_TRY(sl_bit_rows_add_word(context, rows, (uint32_t)(first + i), word, block[i]));
+            SL_TRY(sli_bit_rows_add_word(context, rows, (uint32_t)(first + i), word, block[i]));
     return SL_OK;
 }
 
-static void keep_words(sl_bit_rows *rows, size_t first, size_t word, uint32_t cursors[64],
+static void keep_words(sli_bit_rows *rows, size_t first, size_t word, uint32_t cursors[64],
                        const sl_bits block[64]) {
     for (uint32_t i = 0; i < block_rows(rows, first); i++) {
         sl_bits *found = find_sparse_word(&rows->sparse[first + i], word, &cursors[i]);
@@ -465,15 +465,15 @@ static void keep_words(sl_bit_rows *rows, size_t first, size_t word, uint32_t cu
 
 /// The rows 64 * i and on against those that their words tell of: what they have goes there, or
 /// what those have stays here.
-static sl_status mirror_rows(sl_context *context, sl_bit_rows *rows, size_t i, sl_mirroring how,
-                             sl_word_set *any) {
+static sl_status mirror_rows(sl_context *context, sli_bit_rows *rows, size_t i, sli_mirroring how,
+                             sli_word_set *any) {
     uint32_t cursors[64] = {0};
     sl_bits block[64];
     for (uint32_t r = 0; r < block_rows(rows, 64 * i); r++)
-        sl_sparse_row_add_to(&rows->sparse[64 * i + r], rows->words, any);
-    for (size_t k = sl_word_set_next(any, any->low); k < any->high;
-         k = sl_word_set_next(any, k + 1)) {
-        if (how == SL_ADD_MIRRORED) {
+        sli_sparse_row_add_to(&rows->sparse[64 * i + r], rows->words, any);
+    for (size_t k = sli_word_set_next(any, any->low); k < any->high;
+         k = sli_word_set_next(any, k + 1)) {
+        if (how == SLI_ADD_MIRRORED) {
             take_words(rows, 64 * i, k, cursors, block);
             transpose(block);
             SL_TRY(add_words(context, rows, 64 * k, i, block));
@@ -484,23 +484,23 @@ static sl_status mirror_rows(sl_context *context, sl_bit_rows *rows, size_t i, s
             keep_words(rows, 64 * i, k, cursors, block);
         }
     }
-    sl_word_set_clear(any);
+    sli_word_set_clear(any);
     return SL_OK;
 }
 
-static sl_status mirror_sparse(sl_context *context, sl_bit_rows *rows, sl_mirroring how) {
-    sl_word_set any;
-    SL_TRY(sl_word_set_create(context, rows->count, &any));
+static sl_status mirror_sparse(sl_context *context, sli_bit_rows *rows, sli_mirroring how) {
+    sli_word_set any;
+    SL_TRY(sli_word_set_create(context, rows->count, &any));
     sl_status status = SL_OK;
     for (size_t i = 0; i < rows->words && status == SL_OK; i++) {
         status = mirror_rows(context, rows, i, how, &any);
         if (status == SL_OK && i % 64 == 0) status = sl_check_cancelled(context);
     }
-    sl_word_set_destroy(context, &any);
+    sli_word_set_destroy(context, &any);
     return status;
 }
 
-sl_status sl_bit_rows_mirror(sl_context *context, sl_bit_rows *rows, sl_mirroring how) {
+sl_status sli_bit_rows_mirror(sl_context *context, sli_bit_rows *rows, sli_mirroring how) {
     if (!rows->bits) return mirror_sparse(context, rows, how);
     mirror_dense(rows, how);
     return SL_OK;

@@ -12,40 +12,40 @@
 
 // --- sets of cells
 
-/// To be made with sl_word_set_create and freed with sl_word_set_destroy.
-typedef struct sl_word_set {
+/// To be made with sli_word_set_create and freed with sli_word_set_destroy.
+typedef struct sli_word_set {
     sl_bits *bits;
     sl_bits *used;    ///< a bit a word: whether it has any
     size_t low, high; ///< words low .. high - 1 may have any, no others
-} sl_word_set;
+} sli_word_set;
 
 /// Empty, of cells below `count`. Zeroed on failure.
-sl_status sl_word_set_create(sl_context *context, size_t count, sl_word_set *set);
-void sl_word_set_destroy(sl_context *context, sl_word_set *set);
+sl_status sli_word_set_create(sl_context *context, size_t count, sli_word_set *set);
+void sli_word_set_destroy(sl_context *context, sli_word_set *set);
 
 /// Adds the members of one word, not none.
-static inline void sl_word_set_join(sl_word_set *set, size_t word, sl_bits bits) {
+static inline void sli_word_set_join(sli_word_set *set, size_t word, sl_bits bits) {
     set->bits[word] |= bits;
     sl_bits_add(set->used, word);
     if (word < set->low) set->low = word;
     if (word >= set->high) set->high = word + 1;
 }
 
-static inline void sl_word_set_add(sl_word_set *set, uint32_t cell) {
-    sl_word_set_join(set, cell / 64, (sl_bits)1 << (cell % 64));
+static inline void sli_word_set_add(sli_word_set *set, uint32_t cell) {
+    sli_word_set_join(set, cell / 64, (sl_bits)1 << (cell % 64));
 }
 
-static inline void sl_word_set_drop(sl_word_set *set, uint32_t cell) {
+static inline void sli_word_set_drop(sli_word_set *set, uint32_t cell) {
     const size_t word = cell / 64;
     set->bits[word] &= ~((sl_bits)1 << (cell % 64));
     if (!set->bits[word]) set->used[word / 64] &= ~((sl_bits)1 << (word % 64));
 }
 
 /// Takes all out. Time: of the words that have any, and 1/64 of those between.
-void sl_word_set_clear(sl_word_set *set);
+void sli_word_set_clear(sli_word_set *set);
 
 /// The first word from `from` on that has any, set->high or more for none.
-static inline size_t sl_word_set_next(const sl_word_set *set, size_t from) {
+static inline size_t sli_word_set_next(const sli_word_set *set, size_t from) {
     if (from >= set->high) return set->high;
     size_t at = from / 64;
     const size_t end = sl_bits_words(set->high);
@@ -55,7 +55,7 @@ static inline size_t sl_word_set_next(const sl_word_set *set, size_t from) {
 }
 
 /// The last word before `end` that has any, SIZE_MAX for none.
-static inline size_t sl_word_set_before(const sl_word_set *set, size_t end) {
+static inline size_t sli_word_set_before(const sli_word_set *set, size_t end) {
     if (end <= set->low) return SIZE_MAX;
     size_t at = (end - 1) / 64;
     const size_t first = set->low / 64, above = 63 - (end - 1) % 64;
@@ -67,90 +67,90 @@ static inline size_t sl_word_set_before(const sl_word_set *set, size_t end) {
 // --- rows with few members
 
 /// What rows may take, and take; several threads may count at once.
-typedef struct sl_row_budget {
+typedef struct sli_row_budget {
     uint64_t most; ///< bytes
     atomic_uint_least64_t used;
-} sl_row_budget;
+} sli_row_budget;
 
-#define SL_ALL_WORDS UINT32_MAX
-enum { SL_SPARSE_WORD_BYTES = sizeof(sl_bits) + sizeof(uint32_t) };
+#define SLI_ALL_WORDS UINT32_MAX
+enum { SLI_SPARSE_WORD_BYTES = sizeof(sl_bits) + sizeof(uint32_t) };
 
 /// Words by ascending index, the indices behind them in the same block; where they are many, all
 /// words of the row, and no indices. Zeroed, it is empty.
-typedef struct sl_sparse_row {
+typedef struct sli_sparse_row {
     sl_bits *words;
     uint32_t room;  ///< of words, and of indices
-    uint32_t count; ///< of words; SL_ALL_WORDS where there are no indices
-} sl_sparse_row;
+    uint32_t count; ///< of words; SLI_ALL_WORDS where there are no indices
+} sli_sparse_row;
 
-static inline uint32_t *sl_sparse_index(const sl_sparse_row *row) {
+static inline uint32_t *sli_sparse_index(const sli_sparse_row *row) {
     return row->words ? (uint32_t *)(void *)(row->words + row->room) : NULL;
 }
 
 /// Of a row of `words` words at most. On failure the row is left as it was, but for members that
 /// were added: SL_NO_MEMORY where the budget is used up too.
-sl_status sl_sparse_row_add(sl_context *context, sl_sparse_row *row, size_t words,
-                            const sl_word_set *set, sl_row_budget *budget);
+sl_status sli_sparse_row_add(sl_context *context, sli_sparse_row *row, size_t words,
+                             const sli_word_set *set, sli_row_budget *budget);
 
 /// Adds the row's members to a set.
-void sl_sparse_row_add_to(const sl_sparse_row *row, size_t words, sl_word_set *set);
+void sli_sparse_row_add_to(const sli_sparse_row *row, size_t words, sli_word_set *set);
 
-void sl_sparse_row_destroy(sl_context *context, sl_sparse_row *row); ///< and zeroes it
+void sli_sparse_row_destroy(sl_context *context, sli_sparse_row *row); ///< and zeroes it
 
 // --- all rows
 
 /// Of rows that all threads add to.
-typedef struct sl_shared_rows sl_shared_rows;
+typedef struct sli_shared_rows sli_shared_rows;
 
 /// Dense or sparse: one of `bits` and `sparse` is there.
-typedef struct sl_bit_rows {
+typedef struct sli_bit_rows {
     uint32_t count; ///< of cells
     size_t words;   ///< of a row
     sl_bits *bits;
-    sl_sparse_row *sparse;
-    sl_shared_rows *shared; ///< of sparse rows
-} sl_bit_rows;
+    sli_sparse_row *sparse;
+    sli_shared_rows *shared; ///< of sparse rows
+} sli_bit_rows;
 
 /// Empty rows, kept as options->rows says, sparse ones in options->row_bytes at most.
-sl_status sl_bit_rows_create(sl_context *context, uint32_t count, const sl_see_options *options,
-                             sl_bit_rows *rows);
-void sl_bit_rows_destroy(sl_context *context, sl_bit_rows *rows);
+sl_status sli_bit_rows_create(sl_context *context, uint32_t count, const sl_see_options *options,
+                              sli_bit_rows *rows);
+void sli_bit_rows_destroy(sl_context *context, sli_bit_rows *rows);
 
 /// What one thread may add to while others do: empty rows of its own where they are dense, the same
 /// ones where they are sparse. Every fork is to be joined before `rows` are destroyed.
-sl_status sl_bit_rows_fork(sl_context *context, const sl_bit_rows *rows, sl_bit_rows *fork);
+sl_status sli_bit_rows_fork(sl_context *context, const sli_bit_rows *rows, sli_bit_rows *fork);
 /// Adds what a fork holds, and zeroes it. One join at a time.
-void sl_bit_rows_join(sl_context *context, sl_bit_rows *rows, sl_bit_rows *fork);
+void sli_bit_rows_join(sl_context *context, sli_bit_rows *rows, sli_bit_rows *fork);
 
-static inline sl_bits *sl_bit_rows_dense(const sl_bit_rows *rows, uint32_t cell) {
+static inline sl_bits *sli_bit_rows_dense(const sli_bit_rows *rows, uint32_t cell) {
     return rows->bits + cell * rows->words;
 }
 
 /// Adds to a row; SL_NO_MEMORY where rows take more than they may.
-sl_status sl_bit_rows_add_sparse(sl_context *context, sl_bit_rows *rows, uint32_t cell,
-                                 const sl_word_set *set);
-sl_status sl_bit_rows_add_word(sl_context *context, sl_bit_rows *rows, uint32_t cell, size_t word,
-                               sl_bits bits); ///< members of one word, not none
+sl_status sli_bit_rows_add_sparse(sl_context *context, sli_bit_rows *rows, uint32_t cell,
+                                  const sli_word_set *set);
+sl_status sli_bit_rows_add_word(sl_context *context, sli_bit_rows *rows, uint32_t cell, size_t word,
+                                sl_bits bits); ///< members of one word, not none
 
-static inline sl_status sl_bit_rows_add_one(sl_context *context, sl_bit_rows *rows, uint32_t cell,
-                                            uint32_t member) {
-    return sl_bit_rows_add_word(context, rows, cell, member / 64, (sl_bits)1 << (member % 64));
+static inline sl_status sli_bit_rows_add_one(sl_context *context, sli_bit_rows *rows, uint32_t cell,
+                                             uint32_t member) {
+    return sli_bit_rows_add_word(context, rows, cell, member / 64, (sl_bits)1 << (member % 64));
 }
 
-static inline sl_status sl_bit_rows_add(sl_context *context, sl_bit_rows *rows, uint32_t cell,
-                                        const sl_word_set *set) {
-    if (!rows->bits) return sl_bit_rows_add_sparse(context, rows, cell, set);
-    sl_bits *restrict row = sl_bit_rows_dense(rows, cell);
+static inline sl_status sli_bit_rows_add(sl_context *context, sli_bit_rows *rows, uint32_t cell,
+                                         const sli_word_set *set) {
+    if (!rows->bits) return sli_bit_rows_add_sparse(context, rows, cell, set);
+    sl_bits *restrict row = sli_bit_rows_dense(rows, cell);
     const sl_bits *restrict from = set->bits;
     for (size_t i = set->low; i < set->high; i++) row[i] |= from[i];
     return SL_OK;
 }
 
 /// Makes pairs symmetric: where (a, b) alone is there, (b, a) is added, or (a, b) taken away.
-typedef enum sl_mirroring { SL_ADD_MIRRORED, SL_KEEP_MUTUAL } sl_mirroring;
-sl_status sl_bit_rows_mirror(sl_context *context, sl_bit_rows *rows, sl_mirroring how);
+typedef enum sli_mirroring { SLI_ADD_MIRRORED, SLI_KEEP_MUTUAL } sli_mirroring;
+sl_status sli_bit_rows_mirror(sl_context *context, sli_bit_rows *rows, sli_mirroring how);
 
 /// Makes of them a PVS, and counts its pairs. Sparse rows are emptied.
-sl_status sl_bit_rows_encode(sl_context *context, sl_bit_rows *rows, sl_visibility *out);
+sl_status sli_bit_rows_encode(sl_context *context, sli_bit_rows *rows, sl_visibility *out);
 
 #endif

@@ -21,7 +21,7 @@ typedef struct sampling {
     bool one_way; ///< lines have a direction, and pairs are not mutual
     double range; ///< 0 for none
     pthread_mutex_t lock;
-    sl_bit_rows rows; ///< joined from the threads' forks, under the lock
+    sli_bit_rows rows; ///< joined from the threads' forks, under the lock
 } sampling;
 
 /// A cell on a line from a to b. Where there is a range: the part of the line's length after which
@@ -34,7 +34,7 @@ typedef struct stretch {
 
 /// One thread's own.
 typedef struct sampler {
-    sl_bit_rows rows;
+    sli_bit_rows rows;
     SL_ARRAY(stretch) way; ///< the cells of a line
 } sampler;
 
@@ -42,7 +42,7 @@ static void end(sl_context *context, void *job, void *state) {
     sampling *all = job;
     sampler *me = state;
     pthread_mutex_lock(&all->lock);
-    sl_bit_rows_join(context, &all->rows, &me->rows);
+    sli_bit_rows_join(context, &all->rows, &me->rows);
     pthread_mutex_unlock(&all->lock);
     sl_free(context, me->way.items);
     sl_free(context, me);
@@ -52,7 +52,7 @@ static sl_status begin(sl_context *context, void *job, void **state) {
     const sampling *all = job;
     sampler *me = sl_alloc_array(context, 1, sizeof *me);
     if (!me) return SL_NO_MEMORY;
-    const sl_status status = sl_bit_rows_fork(context, &all->rows, &me->rows);
+    const sl_status status = sli_bit_rows_fork(context, &all->rows, &me->rows);
     if (status == SL_OK)
         *state = me;
     else
@@ -77,8 +77,8 @@ static const sl_directed_portal *portal_on(const sampling *all, uint32_t cell, s
     for (uint32_t i = 0; i < c->directed_count; i++) {
         const sl_directed_portal *directed = &all->space->directed[c->first_directed + i];
         if (all->options->inside_only && !all->space->cells[directed->cell].inside) continue;
-        if (sl_orient(line.a, line.b, directed->left) > 0 &&
-            sl_orient(line.a, line.b, directed->right) < 0)
+        if (sli_orient(line.a, line.b, directed->left) > 0 &&
+            sli_orient(line.a, line.b, directed->right) < 0)
             return directed;
     }
     return NULL;
@@ -145,7 +145,7 @@ static sl_status sample(sl_context *context, const sampling *all, sampler *me, u
     for (size_t i = 0; i < me->way.count; i++)
         for (size_t k = i; k < me->way.count; k++)
             if (is_in_range(all, (sl_line){a, b}, &way[i], &way[k]))
-                SL_TRY(sl_bit_rows_add_one(context, &me->rows, way[i].cell, way[k].cell));
+                SL_TRY(sli_bit_rows_add_one(context, &me->rows, way[i].cell, way[k].cell));
     return SL_OK;
 }
 
@@ -154,11 +154,11 @@ static sl_status sample_unit(sl_context *context, void *job, void *state, size_t
     sampler *me = state;
     const sl_cell *cell = &all->space->cells[unit];
     if (all->options->inside_only && !cell->inside) return SL_OK;
-    SL_TRY(sl_bit_rows_add_one(context, &me->rows, (uint32_t)unit, (uint32_t)unit));
+    SL_TRY(sli_bit_rows_add_one(context, &me->rows, (uint32_t)unit, (uint32_t)unit));
     for (uint32_t i = 0; i < cell->directed_count; i++) {
         const uint32_t next = all->space->directed[cell->first_directed + i].cell;
         if (!all->options->inside_only || all->space->cells[next].inside)
-            SL_TRY(sl_bit_rows_add_one(context, &me->rows, (uint32_t)unit, next));
+            SL_TRY(sli_bit_rows_add_one(context, &me->rows, (uint32_t)unit, next));
     }
     sl_random random = {all->options->seed + (uint64_t)unit * 0x9e3779b97f4a7c15u};
     random.state = sl_random_next(&random); // so that neighbours' numbers are not each other's
@@ -168,34 +168,34 @@ static sl_status sample_unit(sl_context *context, void *job, void *state, size_t
 }
 
 static sl_status sample_all(sl_context *context, sampling *all, sl_visibility *out) {
-    SL_TRY(sl_bit_rows_create(context, all->space->cell_count, all->options, &all->rows));
-    const sl_work work = {.job = all,
-                          .begin = begin,
-                          .unit = sample_unit,
-                          .end = end,
-                          .stage = "cell_to_cell",
-                          .units = "cells"};
-    SL_TRY(sl_work_run(context, &work, all->space->cell_count, all->options->threads));
-    if (!all->one_way) SL_TRY(sl_bit_rows_mirror(context, &all->rows, SL_ADD_MIRRORED));
-    return sl_bit_rows_encode(context, &all->rows, out);
+    SL_TRY(sli_bit_rows_create(context, all->space->cell_count, all->options, &all->rows));
+    const sli_work work = {.job = all,
+                           .begin = begin,
+                           .unit = sample_unit,
+                           .end = end,
+                           .stage = "cell_to_cell",
+                           .units = "cells"};
+    SL_TRY(sli_work_run(context, &work, all->space->cell_count, all->options->threads));
+    if (!all->one_way) SL_TRY(sli_bit_rows_mirror(context, &all->rows, SLI_ADD_MIRRORED));
+    return sli_bit_rows_encode(context, &all->rows, out);
 }
 
 static sl_status see(sl_context *context, sampling *all, sl_visibility *out) {
     pthread_mutex_init(&all->lock, NULL);
     const sl_status status = sample_all(context, all, out);
     pthread_mutex_destroy(&all->lock);
-    sl_bit_rows_destroy(context, &all->rows);
+    sli_bit_rows_destroy(context, &all->rows);
     return status;
 }
 
-sl_status sl_see_sampling(sl_context *context, const sl_space *space, const sl_see_options *options,
-                          sl_visibility *out) {
+sl_status sli_see_sampling(sl_context *context, const sl_space *space,
+                           const sl_see_options *options, sl_visibility *out) {
     if (options->trees)
         return sl_fail(context, SL_UNSUPPORTED, "the method 'sampling' makes no stab trees");
     sampling all = {.options = options};
     sl_visibility visibility = {.sight = options->sight, .guarantee = SL_AGGRESSIVE};
     sl_space open = {0};
-    SL_TRY(sl_oneway_filtered(context, space, options->plan, &open, &all.space));
+    SL_TRY(sli_oneway_filtered(context, space, options->plan, &open, &all.space));
     all.one_way = all.space != space;
     all.range = options->plan ? options->plan->range : 0;
     const sl_status status = see(context, &all, &visibility);

@@ -29,7 +29,7 @@ static sl_line upwards(sl_point a, sl_point b) {
 
 static int by_angle(const void *a, const void *b) {
     const candidate *p = a, *q = b;
-    return -sl_turn(p->line.a, p->line.b, q->line.a, q->line.b);
+    return -sli_turn(p->line.a, p->line.b, q->line.a, q->line.b);
 }
 
 /// Axes first, then the longer ones; of equal length by angle, so that the order is a total one.
@@ -73,8 +73,8 @@ static size_t choose(const sl_space *space, uint32_t most, candidate *candidates
     return count;
 }
 
-sl_status sl_sectors_create(sl_context *context, const sl_space *space, uint32_t most,
-                            sl_sectors *out) {
+sl_status sli_sectors_create(sl_context *context, const sl_space *space, uint32_t most,
+                             sli_sectors *out) {
     candidate *candidates =
         sl_alloc_array(context, (size_t)space->portal_count + 2, sizeof *candidates);
     if (!candidates) return SL_NO_MEMORY;
@@ -87,13 +87,13 @@ sl_status sl_sectors_create(sl_context *context, const sl_space *space, uint32_t
     }
     sl_free(context, candidates);
     if (!bounds) return SL_NO_MEMORY;
-    *out = (sl_sectors){.count = (uint32_t)(2 * count), .bounds = bounds};
+    *out = (sli_sectors){.count = (uint32_t)(2 * count), .bounds = bounds};
     return SL_OK;
 }
 
-void sl_sectors_destroy(sl_context *context, sl_sectors *sectors) {
+void sli_sectors_destroy(sl_context *context, sli_sectors *sectors) {
     sl_free(context, sectors->bounds);
-    *sectors = (sl_sectors){0};
+    *sectors = (sli_sectors){0};
 }
 
 // --- what depends on what
@@ -102,8 +102,8 @@ void sl_sectors_destroy(sl_context *context, sl_sectors *sectors) {
 
 /// One run of the search. Numbers are given as nodes are met, from 0.
 typedef struct tarjan {
-    const sl_dependence *graph;
-    sl_order *order;
+    const sli_dependence *graph;
+    sli_order *order;
     uint32_t *number, *lowest; ///< by node
     uint32_t *next;            ///< by node: arc to look at next
     uint32_t *way, *open;      ///< nodes on the way down; nodes without a component, as met
@@ -119,7 +119,7 @@ static void enter(tarjan *t, uint32_t node) {
 
 /// All that was met since `node` and is still open is a component.
 static void close_component(tarjan *t, uint32_t node) {
-    sl_order *o = t->order;
+    sli_order *o = t->order;
     const uint32_t number = o->component_count++;
     uint32_t member, level = 0;
     do {
@@ -161,12 +161,12 @@ static void search(tarjan *t, uint32_t root) {
     }
 }
 
-sl_status sl_order_create(sl_context *context, const sl_dependence *graph, sl_order *out) {
+sl_status sli_order_create(sl_context *context, const sli_dependence *graph, sli_order *out) {
     const size_t count = graph->count;
-    sl_order order = {.nodes = sl_alloc_array(context, count, sizeof *order.nodes),
-                      .starts = sl_alloc_array(context, count + 1, sizeof *order.starts),
-                      .component = sl_alloc_array(context, count, sizeof *order.component),
-                      .level = sl_alloc_array(context, count, sizeof *order.level)};
+    sli_order order = {.nodes = sl_alloc_array(context, count, sizeof *order.nodes),
+                       .starts = sl_alloc_array(context, count + 1, sizeof *order.starts),
+                       .component = sl_alloc_array(context, count, sizeof *order.component),
+                       .level = sl_alloc_array(context, count, sizeof *order.level)};
     uint32_t *scratch = sl_alloc_array(context, count, 5 * sizeof *scratch);
     if (order.nodes && order.starts && order.component && order.level && scratch) {
         tarjan t = {.graph = graph,
@@ -184,62 +184,63 @@ sl_status sl_order_create(sl_context *context, const sl_dependence *graph, sl_or
         return SL_OK;
     }
     sl_free(context, scratch);
-    sl_order_destroy(context, &order);
+    sli_order_destroy(context, &order);
     return SL_NO_MEMORY;
 }
 
-void sl_order_destroy(sl_context *context, sl_order *order) {
+void sli_order_destroy(sl_context *context, sli_order *order) {
     sl_free(context, order->nodes);
     sl_free(context, order->starts);
     sl_free(context, order->component);
     sl_free(context, order->level);
-    *order = (sl_order){0};
+    *order = (sli_order){0};
 }
 
 // --- one pass
 
 static bool faces(const sl_space *space, bool inside_only, uint32_t cell,
-                  const sl_directed_portal *directed, sl_direction_sector cone) {
+                  const sl_directed_portal *directed, sli_direction_sector cone) {
     if (inside_only && !(space->cells[cell].inside && space->cells[directed->cell].inside))
         return false;
-    return sl_direction_sector_cut(&cone, directed);
+    return sli_direction_sector_cut(&cone, directed);
 }
 
-static sl_status fill(sl_context *context, const sl_space *space, bool inside_only, sl_pass *pass) {
+static sl_status fill(sl_context *context, const sl_space *space, bool inside_only,
+                      sli_pass *pass) {
     for (uint32_t cell = 0; cell < space->cell_count; cell++) {
         const sl_cell *c = &space->cells[cell];
         for (uint32_t e = c->first_directed; e < c->first_directed + c->directed_count; e++) {
-            pass->faces[e] = SL_NO_FACE;
+            pass->faces[e] = SLI_NO_FACE;
             if (!faces(space, inside_only, cell, &space->directed[e], pass->cone)) continue;
             pass->to[pass->face_count] = space->directed[e].cell;
             pass->faces[e] = pass->face_count++;
         }
         pass->first[cell + 1] = pass->face_count;
     }
-    const sl_dependence graph = {space->cell_count, pass->first, pass->to};
-    return sl_order_create(context, &graph, &pass->order);
+    const sli_dependence graph = {space->cell_count, pass->first, pass->to};
+    return sli_order_create(context, &graph, &pass->order);
 }
 
-sl_status sl_pass_create(sl_context *context, const sl_space *space, bool inside_only,
-                         sl_direction_sector cone, sl_pass *out) {
-    sl_pass pass = {.cone = cone,
-                    .faces = sl_alloc_array(context, space->directed_count, sizeof *pass.faces),
-                    .first =
-                        sl_alloc_array(context, (size_t)space->cell_count + 1, sizeof *pass.first),
-                    .to = sl_alloc_array(context, space->directed_count, sizeof *pass.to)};
+sl_status sli_pass_create(sl_context *context, const sl_space *space, bool inside_only,
+                          sli_direction_sector cone, sli_pass *out) {
+    sli_pass pass = {.cone = cone,
+                     .faces = sl_alloc_array(context, space->directed_count, sizeof *pass.faces),
+                     .first =
+                         sl_alloc_array(context, (size_t)space->cell_count + 1, sizeof *pass.first),
+                     .to = sl_alloc_array(context, space->directed_count, sizeof *pass.to)};
     sl_status status = pass.faces && pass.first && pass.to ? SL_OK : SL_NO_MEMORY;
     if (status == SL_OK) status = fill(context, space, inside_only, &pass);
     if (status == SL_OK)
         *out = pass;
     else
-        sl_pass_destroy(context, &pass);
+        sli_pass_destroy(context, &pass);
     return status;
 }
 
-void sl_pass_destroy(sl_context *context, sl_pass *pass) {
+void sli_pass_destroy(sl_context *context, sli_pass *pass) {
     sl_free(context, pass->faces);
     sl_free(context, pass->first);
     sl_free(context, pass->to);
-    sl_order_destroy(context, &pass->order);
-    *pass = (sl_pass){0};
+    sli_order_destroy(context, &pass->order);
+    *pass = (sli_pass){0};
 }

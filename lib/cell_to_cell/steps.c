@@ -9,15 +9,15 @@
 
 /// A cell on the way from the source.
 typedef struct place {
-    sl_portal_step at;
+    sli_portal_step at;
     uint32_t directed;
-    uint32_t step;            ///< that entered it
-    sl_directions directions; ///< of the portals so far
+    uint32_t step;             ///< that entered it
+    sli_directions directions; ///< of the portals so far
 } place;
 
 typedef struct recorder {
     const sl_steps_options *options;
-    sl_portal_search search;
+    sli_portal_search search;
     sl_bits *seen;
     uint32_t seen_count, node_count;
     SL_ARRAY(sl_step) steps;
@@ -61,15 +61,15 @@ static sl_status cross(sl_context *context, void *job, const void *last, void *n
                     .parent = from->step,
                     .depth = (uint32_t)r->search.count};
     if (r->options->inside_only && !space->cells[directed->cell].inside) return SL_OK;
-    if (!sl_directions_add(space, &to->directions, number)) {
+    if (!sli_directions_add(space, &to->directions, number)) {
         step.kind = SL_STEP_BACKWARDS;
         return add(context, r, step);
     }
     sl_stab_verdict verdict;
-    SL_TRY(sl_portal_search_push(context, &r->search, directed->left, directed->right, &verdict));
+    SL_TRY(sli_portal_search_push(context, &r->search, directed->left, directed->right, &verdict));
     step.grazing = verdict == SL_GRAZING;
     if (verdict == SL_HIDDEN || (verdict == SL_GRAZING && r->options->sight == SL_OPEN)) {
-        sl_portal_search_pop(&r->search);
+        sli_portal_search_pop(&r->search);
         step.kind = SL_STEP_HIDDEN;
         return add(context, r, step);
     }
@@ -88,13 +88,13 @@ static sl_status leave(sl_context *context, void *job, const void *left) {
 }
 
 static sl_status record(sl_context *context, recorder *r, uint32_t source) {
-    static const sl_portal_visitor visitor = {
+    static const sli_portal_visitor visitor = {
         .step_size = sizeof(place), .cross = cross, .leave = leave};
-    SL_TRY(sl_portal_search_start(context, &r->search, sizeof(place)));
+    SL_TRY(sli_portal_search_start(context, &r->search, sizeof(place)));
     place *first = r->search.steps;
-    *first = (place){.at.cell = source, .directed = UINT32_MAX, .directions = SL_NO_DIRECTIONS};
+    *first = (place){.at.cell = source, .directed = UINT32_MAX, .directions = SLI_NO_DIRECTIONS};
     SL_TRY(enter(context, r, first, (sl_step){.directed = UINT32_MAX, .cell = source}));
-    return sl_portal_search_run(context, &r->search, &visitor, r);
+    return sli_portal_search_run(context, &r->search, &visitor, r);
 }
 
 sl_status sl_steps_record(sl_context *context, const sl_space *space,
@@ -110,7 +110,7 @@ sl_status sl_steps_record(sl_context *context, const sl_space *space,
     sl_status status = options->solver->create(context, space->bounds, &r.search.solver_state);
     if (status == SL_OK) status = record(context, &r, source);
     const bool complete = r.search.count == 0;
-    sl_portal_search_end(context, &r.search);
+    sli_portal_search_end(context, &r.search);
     sl_free(context, r.seen);
     if (status == SL_OK)
         *out = (sl_steps){r.steps.items, r.steps.count, complete};

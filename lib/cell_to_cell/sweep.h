@@ -9,94 +9,94 @@
 #include <pthread.h>
 
 /// A cell of a fan, and what of its sector is looked through.
-typedef struct sl_fan_sector {
+typedef struct sli_fan_sector {
     uint32_t cell;
-    sl_bound low, high;
+    sli_bound low, high;
     bool thin; ///< the bounds are the same angle
-} sl_fan_sector;
+} sli_fan_sector;
 
 /// Without one-way glass there is one set of fans, with it there are three.
-enum { SL_MOST_FAN_SETS = 3 };
+enum { SLI_MOST_FAN_SETS = 3 };
 
 /// Scratch of one thread.
-typedef struct sl_sweeper {
-    const sl_fans *fans;
-    const sl_fans *inward,
+typedef struct sli_sweeper {
+    const sli_fans *fans;
+    const sli_fans *inward,
         *outward; ///< whose directed portals the line's backward half and its forward half
                   ///< go through; the fans' own, but for one-way glass
     bool closed;
-    sl_bit_rows rows;                    ///< what it finds: a fork
-    sl_bit_rows seen_from;               ///< for one-way glass: from where cells are seen, a fork
-    sl_bit_rows *back_rows, *ahead_rows; ///< get what the backward half and the forward half see
-                                         ///< of each other; `rows`, but for one-way glass
-    sl_visible_finder finder;
-    sl_visible back, middle, ahead;
-    sl_rays rays;
-    sl_rays looks; ///< for one-way glass: what is seen through each cell of the fan at hand
+    sli_bit_rows rows;                    ///< what it finds: a fork
+    sli_bit_rows seen_from;               ///< for one-way glass: from where cells are seen, a fork
+    sli_bit_rows *back_rows, *ahead_rows; ///< get what the backward half and the forward half see
+                                          ///< of each other; `rows`, but for one-way glass
+    sli_visible_finder finder;
+    sli_visible back, middle, ahead;
+    sli_rays rays;
+    sli_rays looks; ///< for one-way glass: what is seen through each cell of the fan at hand
     SL_ARRAY(uint32_t) passing; ///< scratch: cells that are seen along one ray only
-    SL_ARRAY(sl_fan_sector) sectors;
-    sl_word_set behind, before;
-} sl_sweeper;
+    SL_ARRAY(sli_fan_sector) sectors;
+    sli_word_set behind, before;
+} sli_sweeper;
 
 /// `rows`, and `seen_from` where there is one-way glass: empty, or shared with other threads. To be
 /// destroyed also on failure.
-sl_status sl_sweeper_create(sl_context *context, const sl_fans *fans, bool closed,
-                            const sl_bit_rows *rows, const sl_bit_rows *seen_from,
-                            sl_sweeper *sweeper);
+sl_status sli_sweeper_create(sl_context *context, const sli_fans *fans, bool closed,
+                             const sli_bit_rows *rows, const sli_bit_rows *seen_from,
+                             sli_sweeper *sweeper);
 /// Its rows must have been joined.
-void sl_sweeper_destroy(sl_context *context, sl_sweeper *sweeper);
+void sli_sweeper_destroy(sl_context *context, sli_sweeper *sweeper);
 
 /// The first and the last direction of a sector between two edges. Directions along an edge belong
 /// to rays.
-static inline sl_bound sl_after_edge(const sl_sweeper *sweeper, uint32_t end) {
-    return (sl_bound){.end = end, .rank = sweeper->closed ? SL_COUNTER : SL_AFTER};
+static inline sli_bound sli_after_edge(const sli_sweeper *sweeper, uint32_t end) {
+    return (sli_bound){.end = end, .rank = sweeper->closed ? SLI_COUNTER : SLI_AFTER};
 }
 
-static inline sl_bound sl_before_edge(const sl_sweeper *sweeper, uint32_t end) {
-    return (sl_bound){.end = end, .rank = sweeper->closed ? SL_CLOCKWISE : SL_BEFORE};
+static inline sli_bound sli_before_edge(const sli_sweeper *sweeper, uint32_t end) {
+    return (sli_bound){.end = end, .rank = sweeper->closed ? SLI_CLOCKWISE : SLI_BEFORE};
 }
 
 /// Adds to the rows all pairs that lines through the fan's point join while it turns beside the
 /// walls' corner, and what the point sees for the cells that it serves. Pairs may be added one way
 /// only.
-sl_status sl_sweep_fan(sl_context *context, sl_sweeper *sweeper, const sl_fan *fan);
+sl_status sli_sweep_fan(sl_context *context, sli_sweeper *sweeper, const sli_fan *fan);
 
 /// A sweep: sets of fans, and what is done at each fan. All threads share it.
-typedef struct sl_sweep {
+typedef struct sli_sweep {
     const sl_space *space;
     const sl_see_options *options;
-    sl_fans fans[SL_MOST_FAN_SETS]; ///< the first has the ends and cells of all
+    sli_fans fans[SLI_MOST_FAN_SETS]; ///< the first has the ends and cells of all
     uint32_t fan_sets;
-    sl_status (*visit)(sl_context *context, const struct sl_sweep *all, sl_sweeper *sweeper,
-                       uint32_t set, const sl_fan *fan);
+    sl_status (*visit)(sl_context *context, const struct sli_sweep *all, sli_sweeper *sweeper,
+                       uint32_t set, const sli_fan *fan);
     const sl_partial *before; ///< what is known; NULL: nothing, and all is to be done
     uint8_t *done;            ///< by fan, where there is `before`; each is written by one thread
     pthread_mutex_t lock;
-    sl_bit_rows rows, seen_from; ///< joined from the threads' forks, under the lock
+    sli_bit_rows rows, seen_from; ///< joined from the threads' forks, under the lock
     uint64_t pieces;
     uint32_t deepest;
-} sl_sweep;
+} sli_sweep;
 
 /// Visits all fans, by all threads.
-sl_status sl_sweep_run(sl_context *context, sl_sweep *all);
+sl_status sli_sweep_run(sl_context *context, sli_sweep *all);
 
 /// Makes a whole result: `find` fills the rows, from what the sweep has to begin with.
-sl_status sl_sweep_see(sl_context *context, const sl_space *space, const sl_see_options *options,
-                       sl_status (*find)(sl_context *context, sl_sweep *all, sl_visibility *out),
-                       sl_visibility *out);
+sl_status sli_sweep_see(sl_context *context, const sl_space *space, const sl_see_options *options,
+                        sl_status (*find)(sl_context *context, sli_sweep *all, sl_visibility *out),
+                        sl_visibility *out);
 
 /// The sweep where the map has one-way glass (sweep_oneway.c).
-sl_status sl_see_sweep_one_way(sl_context *context, const sl_space *space,
-                               const sl_see_options *options, sl_visibility *out);
+sl_status sli_see_sweep_one_way(sl_context *context, const sl_space *space,
+                                const sl_see_options *options, sl_visibility *out);
 
 /// The sweep where the map has doors or a view range (sweep_effects.c).
-sl_status sl_see_sweep_finished(sl_context *context, const sl_space *space,
-                                const sl_see_options *options, sl_visibility *out);
+sl_status sli_see_sweep_finished(sl_context *context, const sl_space *space,
+                                 const sl_see_options *options, sl_visibility *out);
 
 /// Makes the result of all that was found: adds that each cell sees itself and through each of its
 /// portals the cell behind, and that pairs are mutual where the plan is. Sets the PVS and its
 /// count.
-sl_status sl_sweep_finish(sl_context *context, const sl_space *space, const sl_see_options *options,
-                          sl_bit_rows *rows, sl_visibility *out);
+sl_status sli_sweep_finish(sl_context *context, const sl_space *space,
+                           const sl_see_options *options, sli_bit_rows *rows, sl_visibility *out);
 
 #endif

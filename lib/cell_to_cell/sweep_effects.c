@@ -23,15 +23,15 @@ static sl_status see_shut(sl_context *context, const sl_space *space, const sl_s
     const sl_filtered_space filtered = {.shut = shut};
     sl_status status = sl_filtered_space_make(context, space, &filtered, NULL, &walled);
     sl_free(context, shut);
-    if (status == SL_OK) status = sl_see_sweep(context, &walled, options, out);
+    if (status == SL_OK) status = sli_see_sweep(context, &walled, options, out);
     sl_space_destroy(context, &walled);
     return status;
 }
 
-static sl_status narrow(sl_context *context, const sl_space *space, double range, sl_apart most,
+static sl_status narrow(sl_context *context, const sl_space *space, double range, sli_apart most,
                         sl_visibility *visibility) {
     sl_pvs within;
-    SL_TRY(sl_pvs_within(context, space, &visibility->pvs, range, most, &within));
+    SL_TRY(sli_pvs_within(context, space, &visibility->pvs, range, most, &within));
     sl_pvs_destroy(context, &visibility->pvs);
     visibility->pvs = within;
     return SL_OK;
@@ -47,21 +47,21 @@ static sl_status see_all(sl_context *context, const sl_space *space, const sl_se
     swept.plan = &ways;
     searched.solver = sl_funnel();
     const size_t doors = plan->effects & SL_EFFECT_DOOR ? plan->map->door_count : 0;
-    SL_TRY(sl_see_sweep(context, space, &swept, open));
+    SL_TRY(sli_see_sweep(context, space, &swept, open));
     SL_TRY(see_shut(context, space, &swept, doors, shut));
     if (plan->range > 0) {
-        SL_TRY(narrow(context, space, plan->range, SL_SOME_WITHIN, open));
-        SL_TRY(narrow(context, space, plan->range, SL_ALL_WITHIN, shut));
+        SL_TRY(narrow(context, space, plan->range, SLI_SOME_WITHIN, open));
+        SL_TRY(narrow(context, space, plan->range, SLI_ALL_WITHIN, shut));
     }
-    const sl_dfs_known known = {.possible = &open->pvs, .certain = &shut->pvs};
-    SL_TRY(sl_dfs_see_rest(context, space, &searched, &known, out));
+    const sli_dfs_known known = {.possible = &open->pvs, .certain = &shut->pvs};
+    SL_TRY(sli_dfs_see_rest(context, space, &searched, &known, out));
     out->account.glass_tests += open->account.glass_tests + shut->account.glass_tests;
     out->account.pieces = open->account.pieces + shut->account.pieces;
     return SL_OK;
 }
 
-sl_status sl_see_sweep_finished(sl_context *context, const sl_space *space,
-                                const sl_see_options *options, sl_visibility *out) {
+sl_status sli_see_sweep_finished(sl_context *context, const sl_space *space,
+                                 const sl_see_options *options, sl_visibility *out) {
     sl_visibility open = {0}, shut = {0};
     const sl_status status = see_all(context, space, options, &open, &shut, out);
     sl_visibility_destroy(context, &open);

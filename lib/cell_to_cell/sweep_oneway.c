@@ -20,35 +20,35 @@ enum { SERVING, FORTH, BACK, SETS };
 
 // --- what a fan's point sees for the cells that it serves
 
-static sl_status look_along_edges(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
-    const sl_fan_cell *cells = s->fans->cells.items + fan->first;
+static sl_status look_along_edges(sl_context *context, sli_sweeper *s, const sli_fan *fan) {
+    const sli_fan_cell *cells = s->fans->cells.items + fan->first;
     s->rays.starts.count = s->rays.cells.count = 0;
     for (uint32_t k = 0; k < fan->count && s->closed; k++)
         for (int last = 0; last < 2; last++) {
-            const sl_fan_edge along = {cells[k].cell, cells[k + (uint32_t)last].edge, last};
-            SL_TRY(sl_rays_add(context, &s->finder, along, NULL, 0, &s->rays));
+            const sli_fan_edge along = {cells[k].cell, cells[k + (uint32_t)last].edge, last};
+            SL_TRY(sli_rays_add(context, &s->finder, along, NULL, 0, &s->rays));
         }
     return SL_OK;
 }
 
-static sl_status look_through(sl_context *context, sl_sweeper *s, const sl_fan_cell *cell,
-                              sl_bound low, sl_bound high) {
-    sl_visible_clear(&s->middle);
-    SL_TRY(sl_visible_add(context, &s->finder, cell->cell, low, high, &s->middle));
-    SL_TRY(sl_visible_through(context, &s->finder, cell->cell, low, high, false, &s->middle));
-    return sl_visible_run(context, &s->finder, &s->middle);
+static sl_status look_through(sl_context *context, sli_sweeper *s, const sli_fan_cell *cell,
+                              sli_bound low, sli_bound high) {
+    sli_visible_clear(&s->middle);
+    SL_TRY(sli_visible_add(context, &s->finder, cell->cell, low, high, &s->middle));
+    SL_TRY(sli_visible_through(context, &s->finder, cell->cell, low, high, false, &s->middle));
+    return sli_visible_run(context, &s->finder, &s->middle);
 }
 
 /// Finds what is seen through each cell of a fan.
-static sl_status look_through_all(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
-    const sl_fan_cell *cells = s->fans->cells.items + fan->first;
-    sl_rays *looks = &s->looks;
+static sl_status look_through_all(sl_context *context, sli_sweeper *s, const sli_fan *fan) {
+    const sli_fan_cell *cells = s->fans->cells.items + fan->first;
+    sli_rays *looks = &s->looks;
     looks->starts.count = looks->cells.count = 0;
     SL_TRY(SL_ARRAY_ROOM(context, &looks->starts, fan->count + 1));
     looks->starts.items[looks->starts.count++] = 0;
     for (uint32_t k = 0; k < fan->count; k++) {
-        SL_TRY(look_through(context, s, &cells[k], sl_after_edge(s, cells[k].edge),
-                            sl_before_edge(s, cells[k + 1].edge)));
+        SL_TRY(look_through(context, s, &cells[k], sli_after_edge(s, cells[k].edge),
+                            sli_before_edge(s, cells[k + 1].edge)));
         SL_TRY(SL_ARRAY_ROOM(context, &looks->cells, s->middle.cells.count));
         for (size_t i = 0; i < s->middle.cells.count; i++)
             looks->cells.items[looks->cells.count++] = s->middle.cells.items[i].cell;
@@ -57,26 +57,26 @@ static sl_status look_through_all(sl_context *context, sl_sweeper *s, const sl_f
     return SL_OK;
 }
 
-static void add_listed(const sl_rays *lists, uint32_t list, sl_word_set *set) {
+static void add_listed(const sli_rays *lists, uint32_t list, sli_word_set *set) {
     for (uint32_t i = lists->starts.items[list]; i < lists->starts.items[list + 1]; i++)
-        sl_word_set_add(set, lists->cells.items[i]);
+        sli_word_set_add(set, lists->cells.items[i]);
 }
 
-static void add_ray(const sl_sweeper *s, uint32_t k, bool last, sl_word_set *set) {
+static void add_ray(const sli_sweeper *s, uint32_t k, bool last, sli_word_set *set) {
     if (s->closed) add_listed(&s->rays, 2 * k + last, set);
 }
 
-static sl_status add_part(sl_context *context, sl_sweeper *s, const sl_fan_cell *cell, sl_bound low,
-                          sl_bound high, sl_word_set *set) {
+static sl_status add_part(sl_context *context, sli_sweeper *s, const sli_fan_cell *cell,
+                          sli_bound low, sli_bound high, sli_word_set *set) {
     SL_TRY(look_through(context, s, cell, low, high));
     for (size_t i = 0; i < s->middle.cells.count; i++)
-        sl_word_set_add(set, s->middle.cells.items[i].cell);
+        sli_word_set_add(set, s->middle.cells.items[i].cell);
     return SL_OK;
 }
 
 /// The next cell of a fan, one way or the other. False where there is none, or glass is blocked.
-static bool step(const sl_fans *fans, const sl_fan *fan, bool counter, uint32_t *k) {
-    const sl_fan_cell *cells = fans->cells.items + fan->first;
+static bool step(const sli_fans *fans, const sli_fan *fan, bool counter, uint32_t *k) {
+    const sli_fan_cell *cells = fans->cells.items + fan->first;
     if (*k == (counter ? fan->count - 1 : 0) && !fan->full_turn) return false;
     const uint32_t from = *k;
     *k = counter ? (from + 1) % fan->count : (from + fan->count - 1) % fan->count;
@@ -87,17 +87,17 @@ static bool step(const sl_fans *fans, const sl_fan *fan, bool counter, uint32_t 
 
 /// Adds all that a line sees while it rotates counter-clockwise from a cell of the fan, by less
 /// than half a turn from the cell's last edge.
-static sl_status turn_counter(sl_context *context, sl_sweeper *s, const sl_fan *fan, uint32_t k,
-                              sl_word_set *set) {
-    const sl_fan_cell *cells = s->fans->cells.items + fan->first;
-    const sl_bound end = {
-        .end = cells[k + 1].edge, .away = true, .rank = s->closed ? SL_CLOCKWISE : SL_BEFORE};
+static sl_status turn_counter(sl_context *context, sli_sweeper *s, const sli_fan *fan, uint32_t k,
+                              sli_word_set *set) {
+    const sli_fan_cell *cells = s->fans->cells.items + fan->first;
+    const sli_bound end = {
+        .end = cells[k + 1].edge, .away = true, .rank = s->closed ? SLI_CLOCKWISE : SLI_BEFORE};
     add_ray(s, k, true, set);
     uint32_t j = k;
     for (uint32_t left = fan->count - 1; left && step(s->fans, fan, true, &j); left--) {
-        const int within = sl_ends_turn(&s->finder, cells[k + 1].edge, cells[j + 1].edge);
+        const int within = sli_ends_turn(&s->finder, cells[k + 1].edge, cells[j + 1].edge);
         if (within < 0)
-            return add_part(context, s, &cells[j], sl_after_edge(s, cells[j].edge), end, set);
+            return add_part(context, s, &cells[j], sli_after_edge(s, cells[j].edge), end, set);
         add_listed(&s->looks, j, set);
         if (within == 0) break;
         add_ray(s, j, true, set);
@@ -106,17 +106,17 @@ static sl_status turn_counter(sl_context *context, sl_sweeper *s, const sl_fan *
 }
 
 /// Likewise clockwise, from the cell's first edge.
-static sl_status turn_clockwise(sl_context *context, sl_sweeper *s, const sl_fan *fan, uint32_t k,
-                                sl_word_set *set) {
-    const sl_fan_cell *cells = s->fans->cells.items + fan->first;
-    const sl_bound start = {
-        .end = cells[k].edge, .away = true, .rank = s->closed ? SL_COUNTER : SL_AFTER};
+static sl_status turn_clockwise(sl_context *context, sli_sweeper *s, const sli_fan *fan, uint32_t k,
+                                sli_word_set *set) {
+    const sli_fan_cell *cells = s->fans->cells.items + fan->first;
+    const sli_bound start = {
+        .end = cells[k].edge, .away = true, .rank = s->closed ? SLI_COUNTER : SLI_AFTER};
     add_ray(s, k, false, set);
     uint32_t j = k;
     for (uint32_t left = fan->count - 1; left && step(s->fans, fan, false, &j); left--) {
-        const int within = sl_ends_turn(&s->finder, cells[j].edge, cells[k].edge);
+        const int within = sli_ends_turn(&s->finder, cells[j].edge, cells[k].edge);
         if (within < 0)
-            return add_part(context, s, &cells[j], start, sl_before_edge(s, cells[j + 1].edge),
+            return add_part(context, s, &cells[j], start, sli_before_edge(s, cells[j + 1].edge),
                             set);
         add_listed(&s->looks, j, set);
         if (within == 0) break;
@@ -125,9 +125,9 @@ static sl_status turn_clockwise(sl_context *context, sl_sweeper *s, const sl_fan
     return SL_OK;
 }
 
-static sl_status serve(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
-    const sl_fan_cell *cells = s->fans->cells.items + fan->first;
-    SL_TRY(sl_visible_finder_stand(context, &s->finder, s->fans, fan->at));
+static sl_status serve(sl_context *context, sli_sweeper *s, const sli_fan *fan) {
+    const sli_fan_cell *cells = s->fans->cells.items + fan->first;
+    SL_TRY(sli_visible_finder_stand(context, &s->finder, s->fans, fan->at));
     s->finder.fans = s->fans;
     SL_TRY(look_along_edges(context, s, fan));
     SL_TRY(look_through_all(context, s, fan));
@@ -136,8 +136,8 @@ static sl_status serve(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
         add_listed(&s->looks, k, &s->before);
         SL_TRY(turn_counter(context, s, fan, k, &s->before));
         SL_TRY(turn_clockwise(context, s, fan, k, &s->before));
-        SL_TRY(sl_bit_rows_add(context, &s->rows, cells[k].cell, &s->before));
-        sl_word_set_clear(&s->before);
+        SL_TRY(sli_bit_rows_add(context, &s->rows, cells[k].cell, &s->before));
+        sli_word_set_clear(&s->before);
     }
     return SL_OK;
 }
@@ -145,8 +145,8 @@ static sl_status serve(sl_context *context, sl_sweeper *s, const sl_fan *fan) {
 // --- all fans
 
 /// Serves cells, or turns the line about a fan of lines that go one way round.
-static sl_status visit(sl_context *context, const sl_sweep *all, sl_sweeper *s, uint32_t set,
-                       const sl_fan *fan) {
+static sl_status visit(sl_context *context, const sli_sweep *all, sli_sweeper *s, uint32_t set,
+                       const sli_fan *fan) {
     const bool back = set == BACK;
     s->fans = &all->fans[set];
     if (set == SERVING) return serve(context, s, fan);
@@ -154,40 +154,40 @@ static sl_status visit(sl_context *context, const sl_sweep *all, sl_sweeper *s, 
     s->outward = s->fans;
     s->back_rows = back ? &s->seen_from : &s->rows;
     s->ahead_rows = back ? &s->rows : &s->seen_from;
-    return sl_sweep_fan(context, s, fan);
+    return sli_sweep_fan(context, s, fan);
 }
 
 /// Joins both tables: a cell sees another if that one is seen from it.
-static sl_status join_directions(sl_context *context, sl_sweep *all) {
+static sl_status join_directions(sl_context *context, sli_sweep *all) {
     sl_visibility found = {0};
     sl_pvs sees = {0};
-    SL_TRY(sl_bit_rows_encode(context, &all->seen_from, &found));
-    sl_status status = sl_pvs_transpose(context, &found.pvs, &sees);
-    if (status == SL_OK) status = sl_bit_rows_add_pvs(context, &all->rows, &sees);
+    SL_TRY(sli_bit_rows_encode(context, &all->seen_from, &found));
+    sl_status status = sli_pvs_transpose(context, &found.pvs, &sees);
+    if (status == SL_OK) status = sli_bit_rows_add_pvs(context, &all->rows, &sees);
     sl_pvs_destroy(context, &found.pvs);
     sl_pvs_destroy(context, &sees);
     return status;
 }
 
-static sl_status sweep_all(sl_context *context, sl_sweep *all, sl_visibility *out) {
-    static const sl_fan_way ways[SETS] = {SL_FANS_SERVING, SL_FANS_FORTH, SL_FANS_BACK};
+static sl_status sweep_all(sl_context *context, sli_sweep *all, sl_visibility *out) {
+    static const sli_fan_way ways[SETS] = {SLI_FANS_SERVING, SLI_FANS_FORTH, SLI_FANS_BACK};
     const sl_space *space = all->space;
     sl_see_options half = *all->options;
     if (half.row_bytes != UINT64_MAX) half.row_bytes /= 2;
     all->fan_sets = SETS;
     all->visit = visit;
     for (uint32_t set = 0; set < SETS; set++)
-        SL_TRY(sl_fans_find(context, space, all->options, ways[set], &all->fans[set]));
-    SL_TRY(sl_bit_rows_create(context, space->cell_count, &half, &all->rows));
-    SL_TRY(sl_bit_rows_create(context, space->cell_count, &half, &all->seen_from));
-    SL_TRY(sl_sweep_run(context, all));
+        SL_TRY(sli_fans_find(context, space, all->options, ways[set], &all->fans[set]));
+    SL_TRY(sli_bit_rows_create(context, space->cell_count, &half, &all->rows));
+    SL_TRY(sli_bit_rows_create(context, space->cell_count, &half, &all->seen_from));
+    SL_TRY(sli_sweep_run(context, all));
     SL_TRY(join_directions(context, all));
     // By each of the three that found fans.
     out->account.glass_tests = SETS * (uint64_t)all->fans[FORTH].first_directed[space->cell_count];
     return SL_OK;
 }
 
-sl_status sl_see_sweep_one_way(sl_context *context, const sl_space *space,
-                               const sl_see_options *options, sl_visibility *out) {
-    return sl_sweep_see(context, space, options, sweep_all, out);
+sl_status sli_see_sweep_one_way(sl_context *context, const sl_space *space,
+                                const sl_see_options *options, sl_visibility *out) {
+    return sli_sweep_see(context, space, options, sweep_all, out);
 }

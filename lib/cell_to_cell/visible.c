@@ -22,15 +22,15 @@
 #include <math.h>
 #include <string.h>
 
-sl_status sl_visible_finder_create(sl_context *context, const sl_fans *fans, bool closed,
-                                   sl_visible_finder *finder) {
-    *finder = (sl_visible_finder){.fans = fans, .closed = closed};
+sl_status sli_visible_finder_create(sl_context *context, const sli_fans *fans, bool closed,
+                                    sli_visible_finder *finder) {
+    *finder = (sli_visible_finder){.fans = fans, .closed = closed};
     finder->last = sl_alloc_array(context, fans->cell_count, sizeof *finder->last);
     finder->on_rays = sl_alloc_array(context, fans->cell_count, sizeof *finder->on_rays);
     return finder->last && finder->on_rays ? SL_OK : SL_NO_MEMORY;
 }
 
-void sl_visible_finder_destroy(sl_context *context, sl_visible_finder *finder) {
+void sli_visible_finder_destroy(sl_context *context, sli_visible_finder *finder) {
     sl_free(context, finder->last);
     sl_free(context, finder->on_rays);
     sl_free(context, finder->slot_of.items);
@@ -38,21 +38,21 @@ void sl_visible_finder_destroy(sl_context *context, sl_visible_finder *finder) {
     sl_free(context, finder->keys.items);
     sl_free(context, finder->same.items);
     sl_free(context, finder->slots.items);
-    *finder = (sl_visible_finder){0};
+    *finder = (sli_visible_finder){0};
 }
 
 static double farther(double a, double b, double from) {
     return from - a > b - from ? from - a : b - from;
 }
 
-sl_status sl_visible_finder_stand(sl_context *context, sl_visible_finder *r, const sl_fans *ends,
-                                  sl_point from) {
+sl_status sli_visible_finder_stand(sl_context *context, sli_visible_finder *r, const sli_fans *ends,
+                                   sl_point from) {
     const size_t slots = 2 * ends->ends.count, had = r->slot_of.count;
     const sl_box box = ends->bounds;
     const sl_point visible = {farther(box.min.x, box.max.x, from.x),
                               farther(box.min.y, box.max.y, from.y)};
     r->from = from;
-    r->limit = sl_turn_limit(visible, visible);
+    r->limit = sli_turn_limit(visible, visible);
     r->ring_scale = 1 / (visible.x * visible.x + visible.y * visible.y);
     r->ends = ends;
     if (slots <= had) return SL_OK;
@@ -62,29 +62,29 @@ sl_status sl_visible_finder_stand(sl_context *context, sl_visible_finder *r, con
     return SL_OK;
 }
 
-void sl_visible_clear(sl_visible *visible) {
+void sli_visible_clear(sli_visible *visible) {
     visible->events.count = visible->cells.count = 0;
 }
 
-void sl_visible_destroy(sl_context *context, sl_visible *visible) {
+void sli_visible_destroy(sl_context *context, sli_visible *visible) {
     sl_free(context, visible->events.items);
     sl_free(context, visible->cells.items);
-    *visible = (sl_visible){0};
+    *visible = (sli_visible){0};
 }
 
-int sl_ends_turn_exact(const sl_visible_finder *r, uint32_t a, uint32_t b) {
-    const sl_point p = sl_end_of(r, a), q = sl_end_of(r, b), from = r->from;
+int sli_ends_turn_exact(const sli_visible_finder *r, uint32_t a, uint32_t b) {
+    const sl_point p = sli_end_of(r, a), q = sli_end_of(r, b), from = r->from;
     if ((p.x == from.x && q.x == from.x) || (p.y == from.y && q.y == from.y)) return 0;
     const double scale = r->ends->grid;
-    if (scale > 0) return sl_turn_grid(sl_towards(r, a), sl_towards(r, b), scale);
-    return sl_orient(p, q, from);
+    if (scale > 0) return sli_turn_grid(sli_towards(r, a), sli_towards(r, b), scale);
+    return sli_orient(p, q, from);
 }
 
 // --- what waits
 
 /// The ring of a cell by its distance. The upper bits of a float grow with its logarithm.
-static uint32_t ring_of(const sl_visible_finder *r, uint32_t cell) {
-    enum { FINE = 18, OCTAVES = SL_NEAR_RINGS >> (23 - FINE), ONE = 127 };
+static uint32_t ring_of(const sli_visible_finder *r, uint32_t cell) {
+    enum { FINE = 18, OCTAVES = SLI_NEAR_RINGS >> (23 - FINE), ONE = 127 };
     const sl_point at = r->fans->middles[cell];
     const double x = at.x - r->from.x, y = at.y - r->from.y;
     const float share = (float)((x * x + y * y) * r->ring_scale);
@@ -92,10 +92,10 @@ static uint32_t ring_of(const sl_visible_finder *r, uint32_t cell) {
     memcpy(&bits, &share, sizeof bits);
     const uint32_t first = (uint32_t)(ONE - OCTAVES) << (23 - FINE);
     const uint32_t ring = bits >> FINE;
-    return ring < first ? 0 : ring - first < SL_NEAR_RINGS ? ring - first : SL_NEAR_RINGS - 1;
+    return ring < first ? 0 : ring - first < SLI_NEAR_RINGS ? ring - first : SLI_NEAR_RINGS - 1;
 }
 
-static void wait(sl_visible_finder *r, sl_visible_interval *c, uint32_t found) {
+static void wait(sli_visible_finder *r, sli_visible_interval *c, uint32_t found) {
     const uint32_t ring = ring_of(r, c->cell);
     uint64_t *word = &r->ringed[ring / 64];
     const uint64_t bit = (uint64_t)1 << (ring % 64);
@@ -107,12 +107,12 @@ static void wait(sl_visible_finder *r, sl_visible_interval *c, uint32_t found) {
 }
 
 /// Takes the nearest interval off the queue; UINT32_MAX for none.
-static uint32_t take_nearest(sl_visible_finder *r, sl_visible *visible) {
+static uint32_t take_nearest(sli_visible_finder *r, sli_visible *visible) {
     if (!r->some_ringed) return UINT32_MAX;
     const uint32_t i = (uint32_t)__builtin_ctzll(r->some_ringed);
     const uint32_t ring = 64 * i + (uint32_t)__builtin_ctzll(r->ringed[i]);
     const uint32_t found = r->rings[ring];
-    sl_visible_interval *c = &visible->cells.items[found];
+    sli_visible_interval *c = &visible->cells.items[found];
     c->waiting = false;
     r->rings[ring] = c->next_waiting;
     if (c->next_waiting == UINT32_MAX) r->ringed[i] &= r->ringed[i] - 1;
@@ -122,8 +122,8 @@ static uint32_t take_nearest(sl_visible_finder *r, sl_visible *visible) {
 
 // --- coming to a cell
 
-static sl_status add_interval(sl_context *context, sl_visible_finder *r, sl_visible *visible,
-                              const sl_visible_interval *interval) {
+static sl_status add_interval(sl_context *context, sli_visible_finder *r, sli_visible *visible,
+                              const sli_visible_interval *interval) {
     SL_TRY(SL_ARRAY_ROOM(context, &visible->cells, 1));
     r->last[interval->cell] = (uint32_t)visible->cells.count;
     if (interval->depth > r->deepest) r->deepest = interval->depth;
@@ -133,14 +133,14 @@ static sl_status add_interval(sl_context *context, sl_visible_finder *r, sl_visi
 
 /// Joins a piece to an interval of the same cell. False if they do not touch. `more`: the interval
 /// has grown and does not wait yet.
-static bool join(const sl_visible_finder *r, sl_visible_interval *c, sl_bound low, sl_bound high,
-                 bool *more) {
-    if (sl_is_gap(r, c->high, low) || sl_is_gap(r, high, c->low)) return false;
-    const bool lower = sl_is_before(r, low, c->low), upper = sl_is_before(r, c->high, high);
+static bool join(const sli_visible_finder *r, sli_visible_interval *c, sli_bound low,
+                 sli_bound high, bool *more) {
+    if (sli_is_gap(r, c->high, low) || sli_is_gap(r, high, c->low)) return false;
+    const bool lower = sli_is_before(r, low, c->low), upper = sli_is_before(r, c->high, high);
     *more = (lower || upper) && !c->waiting;
     if (*more) {
-        c->from = (sl_bound){c->high.end, r->closed ? c->high.rank : SL_AFTER, c->high.away};
-        c->to = (sl_bound){c->low.end, r->closed ? c->low.rank : SL_BEFORE, c->low.away};
+        c->from = (sli_bound){c->high.end, r->closed ? c->high.rank : SLI_AFTER, c->high.away};
+        c->to = (sli_bound){c->low.end, r->closed ? c->low.rank : SLI_BEFORE, c->low.away};
     }
     if (lower) c->low = c->from = low;
     if (upper) c->high = c->to = high;
@@ -149,10 +149,10 @@ static bool join(const sl_visible_finder *r, sl_visible_interval *c, sl_bound lo
 
 /// What is seen of the cell behind a directed portal.
 typedef struct piece {
-    sl_bound low, high;
+    sli_bound low, high;
 } piece;
 
-static sl_status arrive(sl_context *context, sl_visible_finder *r, sl_visible *visible,
+static sl_status arrive(sl_context *context, sli_visible_finder *r, sli_visible *visible,
                         uint32_t cell, const piece *p, uint32_t depth) {
     if (cell == SL_NO_CELL) return SL_OK;
     const uint32_t last = r->last[cell], count = (uint32_t)visible->cells.count;
@@ -168,13 +168,13 @@ static sl_status arrive(sl_context *context, sl_visible_finder *r, sl_visible *v
         SL_TRY(SL_ARRAY_ROOM(context, &r->split, 1));
         r->split.items[r->split.count++] = cell;
     }
-    const sl_visible_interval interval = {.cell = cell,
-                                          .other = known ? last : UINT32_MAX,
-                                          .low = p->low,
-                                          .high = p->high,
-                                          .from = p->low,
-                                          .to = p->high,
-                                          .depth = depth};
+    const sli_visible_interval interval = {.cell = cell,
+                                           .other = known ? last : UINT32_MAX,
+                                           .low = p->low,
+                                           .high = p->high,
+                                           .from = p->low,
+                                           .to = p->high,
+                                           .depth = depth};
     SL_TRY(add_interval(context, r, visible, &interval));
     wait(r, &visible->cells.items[count], count);
     return SL_OK;
@@ -191,18 +191,18 @@ static inline int8_t smaller(int8_t a, int8_t b) {
 }
 
 /// The start event and the end event that a portal's ends make.
-static inline sl_bound from_right(const sl_visible_finder *r, const sl_walk_portal *e) {
-    return (sl_bound){.end = e->right, .rank = r->closed ? SL_CLOCKWISE : SL_AFTER};
+static inline sli_bound from_right(const sli_visible_finder *r, const sli_walk_portal *e) {
+    return (sli_bound){.end = e->right, .rank = r->closed ? SLI_CLOCKWISE : SLI_AFTER};
 }
 
-static inline sl_bound to_left(const sl_visible_finder *r, const sl_walk_portal *e) {
-    return (sl_bound){.end = e->left, .rank = r->closed ? SL_COUNTER : SL_BEFORE};
+static inline sli_bound to_left(const sli_visible_finder *r, const sli_walk_portal *e) {
+    return (sli_bound){.end = e->left, .rank = r->closed ? SLI_COUNTER : SLI_BEFORE};
 }
 
 // A line that turns counter-clockwise about the point crosses from the right to the left of it.
 /// At which rank of its angle a portal on a ray from the point is crossed.
-static int8_t rank_along(const sl_visible_finder *r, const sl_walk_portal *e) {
-    const sl_point v = r->from, left = sl_end_of(r, e->left), right = sl_end_of(r, e->right);
+static int8_t rank_along(const sli_visible_finder *r, const sli_walk_portal *e) {
+    const sl_point v = r->from, left = sli_end_of(r, e->left), right = sli_end_of(r, e->right);
     bool right_first;
     if (left.x != right.x) {
         const bool rightwards = left.x > v.x || right.x > v.x;
@@ -211,18 +211,18 @@ static int8_t rank_along(const sl_visible_finder *r, const sl_walk_portal *e) {
         const bool upwards = left.y > v.y || right.y > v.y;
         right_first = upwards ? right.y < left.y : right.y > left.y;
     }
-    return right_first ? SL_CLOCKWISE : SL_COUNTER;
+    return right_first ? SLI_CLOCKWISE : SLI_COUNTER;
 }
 
-static bool is_direction(const sl_visible_finder *r, sl_bound bound, uint32_t end) {
-    return sl_ends_turn(r, bound.end, end) == 0 && sl_bound_has(r, bound, end);
+static bool is_direction(const sli_visible_finder *r, sli_bound bound, uint32_t end) {
+    return sli_ends_turn(r, bound.end, end) == 0 && sli_bound_has(r, bound, end);
 }
 
 /// Cuts an interval by a directed portal on a line with the point. The portal is at one of the
 /// bounds, since it is an edge of a convex cell.
-static bool clip_along(const sl_visible_finder *r, const sl_walk_portal *e, sl_bound low,
-                       sl_bound high, piece *out) {
-    const uint32_t far = sl_same_point(sl_end_of(r, e->left), r->from) ? e->right : e->left;
+static bool clip_along(const sli_visible_finder *r, const sli_walk_portal *e, sli_bound low,
+                       sli_bound high, piece *out) {
+    const uint32_t far = sli_same_point(sli_end_of(r, e->left), r->from) ? e->right : e->left;
     const bool is_low = is_direction(r, low, far), is_high = is_direction(r, high, far);
     if (!is_low && !is_high) return false;
     const int8_t rank = rank_along(r, e);
@@ -233,29 +233,29 @@ static bool clip_along(const sl_visible_finder *r, const sl_walk_portal *e, sl_b
 }
 
 /// Cuts an interval by the ends of a directed portal, exactly: also where a bound leads to an end.
-static bool clip(const sl_visible_finder *r, const sl_walk_portal *e, sl_bound low, sl_bound high,
-                 piece *out) {
-    const int facing = sl_ends_turn(r, e->right, e->left);
+static bool clip(const sli_visible_finder *r, const sli_walk_portal *e, sli_bound low,
+                 sli_bound high, piece *out) {
+    const int facing = sli_ends_turn(r, e->right, e->left);
     if (facing <= 0) return facing == 0 && r->closed && clip_along(r, e, low, high, out);
-    const int past_low = sl_bound_side(r, low, e->left);
-    const int past_high = sl_bound_side(r, high, e->right);
+    const int past_low = sli_bound_side(r, low, e->left);
+    const int past_high = sli_bound_side(r, high, e->right);
     if (past_low < 0 || past_high > 0) return false;
     if ((past_low == 0 || past_high == 0) && !r->closed) return false;
-    if (past_low == 0 && !sl_bound_has(r, low, e->left)) return false;
-    if (past_high == 0 && !sl_bound_has(r, high, e->right)) return false;
-    out->low = sl_bound_side(r, low, e->right) > 0 ? from_right(r, e) : low;
-    out->high = sl_bound_side(r, high, e->left) < 0 ? to_left(r, e) : high;
+    if (past_low == 0 && !sli_bound_has(r, low, e->left)) return false;
+    if (past_high == 0 && !sli_bound_has(r, high, e->right)) return false;
+    out->low = sli_bound_side(r, low, e->right) > 0 ? from_right(r, e) : low;
+    out->high = sli_bound_side(r, high, e->left) < 0 ? to_left(r, e) : high;
     if (past_low != 0 && past_high != 0) return true;
-    const bool thin = sl_bounds_turn(r, low, high) == 0;
+    const bool thin = sli_bounds_turn(r, low, high) == 0;
     out->low = out->high = past_low == 0 ? low : high;
-    out->low.rank = past_low == 0 || thin ? larger(low.rank, SL_CLOCKWISE) : SL_CLOCKWISE;
-    out->high.rank = past_high == 0 || thin ? smaller(high.rank, SL_COUNTER) : SL_COUNTER;
+    out->low.rank = past_low == 0 || thin ? larger(low.rank, SLI_CLOCKWISE) : SLI_CLOCKWISE;
+    out->high.rank = past_high == 0 || thin ? smaller(high.rank, SLI_COUNTER) : SLI_COUNTER;
     return out->low.rank <= out->high.rank;
 }
 
 /// The interval over which a cell is looked through, with its bounds as vectors.
 typedef struct view {
-    sl_bound low, high;
+    sli_bound low, high;
     sl_point of_low, of_high;
 } view;
 
@@ -268,7 +268,7 @@ typedef struct sight {
 } sight;
 
 /// Picks one of two bounds without a branch, since the choice is hard to predict.
-static inline sl_bound pick(bool first, sl_bound a, sl_bound b) {
+static inline sli_bound pick(bool first, sli_bound a, sli_bound b) {
     uint64_t of_a, of_b;
     static_assert(sizeof a == sizeof of_a, "a bound is to be picked as a whole");
     memcpy(&of_a, &a, sizeof of_a);
@@ -279,11 +279,11 @@ static inline sl_bound pick(bool first, sl_bound a, sl_bound b) {
 }
 
 /// As clip, but by products in doubles where their signs are certain. That is nearly always.
-static inline bool clip_fast(const sl_visible_finder *r, const view *v, const sight *s,
+static inline bool clip_fast(const sli_visible_finder *r, const view *v, const sight *s,
                              piece *out) {
-    const sl_walk_portal *e = &r->fans->directed[s->directed];
-    const double past_right = sl_cross(v->of_low, s->right);
-    const double before_left = sl_cross(s->left, v->of_high);
+    const sli_walk_portal *e = &r->fans->directed[s->directed];
+    const double past_right = sli_cross(v->of_low, s->right);
+    const double before_left = sli_cross(s->left, v->of_high);
     const bool sure_right = (fabs(past_right) > r->limit) | (v->low.end == e->right);
     const bool sure_left = (fabs(before_left) > r->limit) | (v->high.end == e->left);
     if (!(s->sure & sure_right & sure_left)) return clip(r, e, v->low, v->high, out);
@@ -294,15 +294,15 @@ static inline bool clip_fast(const sl_visible_finder *r, const view *v, const si
 
 /// Lists which of a cell's directed portals may be crossed. There is no branch for each, since the
 /// choice is hard to predict.
-static inline uint32_t see_directed(const sl_visible_finder *r, const view *v, uint32_t first,
+static inline uint32_t see_directed(const sli_visible_finder *r, const view *v, uint32_t first,
                                     uint32_t end, sight *out) {
     uint32_t count = 0;
     for (uint32_t i = first; i < end; i++) {
-        const sl_walk_portal *e = &r->fans->directed[i];
-        const sl_point right = sl_towards(r, e->right), left = sl_towards(r, e->left);
-        const double facing = sl_cross(right, left);
-        const double past_low = sl_cross(v->of_low, left),
-                     before_high = sl_cross(right, v->of_high);
+        const sli_walk_portal *e = &r->fans->directed[i];
+        const sl_point right = sli_towards(r, e->right), left = sli_towards(r, e->left);
+        const double facing = sli_cross(right, left);
+        const double past_low = sli_cross(v->of_low, left),
+                     before_high = sli_cross(right, v->of_high);
         const double of_both = past_low < before_high ? past_low : before_high;
         const double least = facing < of_both ? facing : of_both;
         out[count] = (sight){.directed = i, .sure = least > r->limit, .right = right, .left = left};
@@ -311,16 +311,16 @@ static inline uint32_t see_directed(const sl_visible_finder *r, const view *v, u
     return count;
 }
 
-static inline sl_point direction(const sl_visible_finder *r, sl_bound bound) {
-    const sl_point to = sl_towards(r, bound.end);
+static inline sl_point direction(const sli_visible_finder *r, sli_bound bound) {
+    const sl_point to = sli_towards(r, bound.end);
     return bound.away ? (sl_point){-to.x, -to.y} : to;
 }
 
-static sl_status look_through(sl_context *context, sl_visible_finder *r, sl_visible *visible,
+static sl_status look_through(sl_context *context, sli_visible_finder *r, sli_visible *visible,
                               uint32_t found) {
     enum { AT_ONCE = 16 };
     sight seen[AT_ONCE];
-    const sl_visible_interval *c = &visible->cells.items[found];
+    const sli_visible_interval *c = &visible->cells.items[found];
     const uint32_t depth = c->depth + 1;
     const view v = {.low = c->from,
                     .high = c->to,
@@ -339,7 +339,7 @@ static sl_status look_through(sl_context *context, sl_visible_finder *r, sl_visi
     return ++r->pieces % 4096 ? SL_OK : sl_check_cancelled(context);
 }
 
-sl_status sl_visible_run(sl_context *context, sl_visible_finder *r, sl_visible *visible) {
+sl_status sli_visible_run(sl_context *context, sli_visible_finder *r, sli_visible *visible) {
     for (uint32_t found; (found = take_nearest(r, visible)) != UINT32_MAX;)
         SL_TRY(look_through(context, r, visible, found));
     return SL_OK;
@@ -347,18 +347,18 @@ sl_status sl_visible_run(sl_context *context, sl_visible_finder *r, sl_visible *
 
 // --- from the cells of a fan
 
-/// As sl_bound_side, for an end half a turn away at most; where it is half a turn away, `answer`.
-static int side_in_sector(const sl_visible_finder *r, sl_bound bound, uint32_t end, int answer) {
-    const int sign = sl_bound_side(r, bound, end);
-    return sign == 0 && !sl_bound_has(r, bound, end) ? answer : sign;
+/// As sli_bound_side, for an end half a turn away at most; where it is half a turn away, `answer`.
+static int side_in_sector(const sli_visible_finder *r, sli_bound bound, uint32_t end, int answer) {
+    const int sign = sli_bound_side(r, bound, end);
+    return sign == 0 && !sli_bound_has(r, bound, end) ? answer : sign;
 }
 
 /// Cuts a sector of the fan by a directed portal on the far side of the fan's cell.
-static bool first_piece(const sl_visible_finder *r, const sl_walk_portal *e, sl_bound low,
-                        sl_bound high, bool thin, piece *out) {
-    const sl_point left = sl_end_of(r, e->left), right = sl_end_of(r, e->right);
-    if (sl_same_point(left, r->from) || sl_same_point(right, r->from)) return false;
-    if (sl_ends_turn(r, e->right, e->left) <= 0) return false;
+static bool first_piece(const sli_visible_finder *r, const sli_walk_portal *e, sli_bound low,
+                        sli_bound high, bool thin, piece *out) {
+    const sl_point left = sli_end_of(r, e->left), right = sli_end_of(r, e->right);
+    if (sli_same_point(left, r->from) || sli_same_point(right, r->from)) return false;
+    if (sli_ends_turn(r, e->right, e->left) <= 0) return false;
     // What faces the point lies past the sector's first edge, and not past its last.
     const int low_to_left = side_in_sector(r, low, e->left, 1);
     const int high_to_right = side_in_sector(r, high, e->right, -1);
@@ -375,18 +375,18 @@ static bool first_piece(const sl_visible_finder *r, const sl_walk_portal *e, sl_
     return !thin || out->low.rank <= out->high.rank;
 }
 
-sl_status sl_visible_add(sl_context *context, sl_visible_finder *r, uint32_t cell, sl_bound low,
-                         sl_bound high, sl_visible *visible) {
-    const sl_visible_interval interval = {
+sl_status sli_visible_add(sl_context *context, sli_visible_finder *r, uint32_t cell, sli_bound low,
+                          sli_bound high, sli_visible *visible) {
+    const sli_visible_interval interval = {
         .cell = cell, .other = UINT32_MAX, .low = low, .high = high, .start = true};
     if (!visible->cells.count) r->split.count = 0;
     return add_interval(context, r, visible, &interval);
 }
 
-sl_status sl_visible_through(sl_context *context, sl_visible_finder *r, uint32_t cell, sl_bound low,
-                             sl_bound high, bool thin, sl_visible *visible) {
+sl_status sli_visible_through(sl_context *context, sli_visible_finder *r, uint32_t cell,
+                              sli_bound low, sli_bound high, bool thin, sli_visible *visible) {
     for (uint32_t i = r->fans->first_directed[cell]; i < r->fans->first_directed[cell + 1]; i++) {
-        const sl_walk_portal *e = &r->fans->directed[i];
+        const sli_walk_portal *e = &r->fans->directed[i];
         piece p;
         if (first_piece(r, e, low, high, thin, &p))
             SL_TRY(arrive(context, r, visible, e->cell, &p, 1));
@@ -396,29 +396,29 @@ sl_status sl_visible_through(sl_context *context, sl_visible_finder *r, uint32_t
 
 // --- along one ray
 
-void sl_rays_destroy(sl_context *context, sl_rays *rays) {
+void sli_rays_destroy(sl_context *context, sli_rays *rays) {
     sl_free(context, rays->starts.items);
     sl_free(context, rays->cells.items);
-    *rays = (sl_rays){0};
+    *rays = (sli_rays){0};
 }
 
 /// A ray, and what is known at its angle.
 typedef struct ray {
-    sl_bound along;
-    const sl_visible *known; ///< NULL for nothing
-    uint32_t event;          ///< of `known`
-    uint32_t first;          ///< of its cells
+    sli_bound along;
+    const sli_visible *known; ///< NULL for nothing
+    uint32_t event;           ///< of `known`
+    uint32_t first;           ///< of its cells
 } ray;
 
 /// Whether a cell is seen at the ray's angle anyway, and with it all that lies beyond.
-static bool is_known(const sl_visible_finder *r, const ray *of, uint32_t cell) {
+static bool is_known(const sli_visible_finder *r, const ray *of, uint32_t cell) {
     if (!of->known) return false;
-    const sl_visible_interval *all = of->known->cells.items;
+    const sli_visible_interval *all = of->known->cells.items;
     const int8_t rank = of->along.rank;
     uint32_t i = r->last[cell];
     if (i >= of->known->cells.count || all[i].cell != cell) return false;
     for (; i != UINT32_MAX; i = all[i].other) {
-        const sl_visible_interval *c = &all[i];
+        const sli_visible_interval *c = &all[i];
         if ((c->enter < of->event || (c->enter == of->event && c->low.rank <= rank)) &&
             (c->leave > of->event || (c->leave == of->event && c->high.rank >= rank)))
             return true;
@@ -426,8 +426,8 @@ static bool is_known(const sl_visible_finder *r, const ray *of, uint32_t cell) {
     return false;
 }
 
-static sl_status arrive_on_ray(sl_context *context, sl_visible_finder *r, const ray *of,
-                               sl_rays *rays, uint32_t cell) {
+static sl_status arrive_on_ray(sl_context *context, sli_visible_finder *r, const ray *of,
+                               sli_rays *rays, uint32_t cell) {
     if (cell == SL_NO_CELL) return SL_OK;
     const uint32_t on_ray = r->on_rays[cell];
     if (on_ray >= of->first && on_ray < rays->cells.count && rays->cells.items[on_ray] == cell)
@@ -439,38 +439,38 @@ static sl_status arrive_on_ray(sl_context *context, sl_visible_finder *r, const 
     return ++r->pieces % 4096 ? SL_OK : sl_check_cancelled(context);
 }
 
-static bool is_along(const sl_visible_finder *r, const ray *of, uint32_t end) {
-    return sl_ends_turn(r, of->along.end, end) == 0 && sl_bound_has(r, of->along, end);
+static bool is_along(const sli_visible_finder *r, const ray *of, uint32_t end) {
+    return sli_ends_turn(r, of->along.end, end) == 0 && sli_bound_has(r, of->along, end);
 }
 
 /// Whether the ray crosses a directed portal on a line with the point.
-static bool lies_along(const sl_visible_finder *r, const ray *of, const sl_walk_portal *e) {
-    const uint32_t far = sl_same_point(sl_end_of(r, e->left), r->from) ? e->right : e->left;
+static bool lies_along(const sli_visible_finder *r, const ray *of, const sli_walk_portal *e) {
+    const uint32_t far = sli_same_point(sli_end_of(r, e->left), r->from) ? e->right : e->left;
     return is_along(r, of, far) && rank_along(r, e) == of->along.rank;
 }
 
 /// Whether the ray crosses a directed portal of its first cell, of which the point is a corner.
-static bool first_crosses(const sl_visible_finder *r, const ray *of, const sl_walk_portal *e) {
-    const int facing = sl_ends_turn(r, e->right, e->left);
+static bool first_crosses(const sli_visible_finder *r, const ray *of, const sli_walk_portal *e) {
+    const int facing = sli_ends_turn(r, e->right, e->left);
     if (facing <= 0) return facing == 0 && lies_along(r, of, e);
-    return is_along(r, of, of->along.rank == SL_CLOCKWISE ? e->right : e->left);
+    return is_along(r, of, of->along.rank == SLI_CLOCKWISE ? e->right : e->left);
 }
 
-static bool crosses(const sl_visible_finder *r, const ray *of, const sl_walk_portal *e) {
-    const int to_left = sl_ends_turn(r, of->along.end, e->left);
+static bool crosses(const sli_visible_finder *r, const ray *of, const sli_walk_portal *e) {
+    const int to_left = sli_ends_turn(r, of->along.end, e->left);
     if (to_left < 0) return false;
-    const int to_right = sl_ends_turn(r, of->along.end, e->right);
+    const int to_right = sli_ends_turn(r, of->along.end, e->right);
     if (to_right > 0) return false;
     if (to_left > 0 && to_right < 0) return true;
-    const int facing = sl_ends_turn(r, e->right, e->left);
+    const int facing = sli_ends_turn(r, e->right, e->left);
     if (facing <= 0) return facing == 0 && lies_along(r, of, e);
-    return sl_bound_has(r, of->along, to_left == 0 ? e->left : e->right);
+    return sli_bound_has(r, of->along, to_left == 0 ? e->left : e->right);
 }
 
-sl_status sl_rays_add(sl_context *context, sl_visible_finder *r, sl_fan_edge edge,
-                      const sl_visible *known, uint32_t event, sl_rays *rays) {
-    const sl_fans *fans = r->fans;
-    const ray of = {.along = {.end = edge.end, .rank = edge.last ? SL_COUNTER : SL_CLOCKWISE},
+sl_status sli_rays_add(sl_context *context, sli_visible_finder *r, sli_fan_edge edge,
+                       const sli_visible *known, uint32_t event, sli_rays *rays) {
+    const sli_fans *fans = r->fans;
+    const ray of = {.along = {.end = edge.end, .rank = edge.last ? SLI_COUNTER : SLI_CLOCKWISE},
                     .known = known,
                     .event = event,
                     .first = (uint32_t)rays->cells.count};
@@ -482,7 +482,7 @@ sl_status sl_rays_add(sl_context *context, sl_visible_finder *r, sl_fan_edge edg
     for (uint32_t i = of.first; i < rays->cells.count; i++) {
         const uint32_t cell = rays->cells.items[i];
         for (uint32_t k = fans->first_directed[cell]; k < fans->first_directed[cell + 1]; k++) {
-            const sl_walk_portal *e = &fans->directed[k];
+            const sli_walk_portal *e = &fans->directed[k];
             if (i == of.first ? first_crosses(r, &of, e) : crosses(r, &of, e))
                 SL_TRY(arrive_on_ray(context, r, &of, rays, e->cell));
         }

@@ -10,22 +10,22 @@
 
 // --- intervals that have grown together
 
-static bool touch(const sl_visible_finder *r, const sl_visible_interval *a,
-                  const sl_visible_interval *b) {
-    return !sl_is_gap(r, a->high, b->low) && !sl_is_gap(r, b->high, a->low);
+static bool touch(const sli_visible_finder *r, const sli_visible_interval *a,
+                  const sli_visible_interval *b) {
+    return !sli_is_gap(r, a->high, b->low) && !sli_is_gap(r, b->high, a->low);
 }
 
-static void join_touching(const sl_visible_finder *r, sl_visible_interval *a,
-                          const sl_visible_interval *gone) {
-    if (sl_is_before(r, gone->low, a->low)) a->low = gone->low;
-    if (sl_is_before(r, a->high, gone->high)) a->high = gone->high;
+static void join_touching(const sli_visible_finder *r, sli_visible_interval *a,
+                          const sli_visible_interval *gone) {
+    if (sli_is_before(r, gone->low, a->low)) a->low = gone->low;
+    if (sli_is_before(r, a->high, gone->high)) a->high = gone->high;
 }
 
 /// Joins one pair of a cell's intervals, the later one into the earlier; false where there is none.
-static bool join_two(const sl_visible_finder *r, sl_visible *visible, uint32_t cell) {
-    sl_visible_interval *all = visible->cells.items;
+static bool join_two(const sli_visible_finder *r, sli_visible *visible, uint32_t cell) {
+    sli_visible_interval *all = visible->cells.items;
     for (uint32_t *late = &r->last[cell]; *late != UINT32_MAX; late = &all[*late].other) {
-        sl_visible_interval *gone = &all[*late];
+        sli_visible_interval *gone = &all[*late];
         for (uint32_t i = gone->other; i != UINT32_MAX; i = all[i].other) {
             if (!touch(r, &all[i], gone)) continue;
             join_touching(r, &all[i], gone);
@@ -37,7 +37,7 @@ static bool join_two(const sl_visible_finder *r, sl_visible *visible, uint32_t c
     return false;
 }
 
-static void join_split(const sl_visible_finder *r, sl_visible *visible) {
+static void join_split(const sli_visible_finder *r, sli_visible *visible) {
     for (size_t i = 0; i < r->split.count; i++)
         while (join_two(r, visible, r->split.items[i])) {
         }
@@ -45,21 +45,21 @@ static void join_split(const sl_visible_finder *r, sl_visible *visible) {
 
 // --- events
 
-static uint32_t slot_of(sl_visible_finder *r, sl_bound bound) {
+static uint32_t slot_of(sli_visible_finder *r, sli_bound bound) {
     uint32_t *at = &r->slot_of.items[2 * bound.end + bound.away];
     if (*at < r->slots.count && r->slots.items[*at].end == bound.end &&
         r->slots.items[*at].away == bound.away)
         return *at;
     *at = (uint32_t)r->slots.count;
-    r->slots.items[r->slots.count++] = (sl_event_slot){.end = bound.end, .away = bound.away};
+    r->slots.items[r->slots.count++] = (sli_event_slot){.end = bound.end, .away = bound.away};
     return *at;
 }
 
-static sl_status make_slots(sl_context *context, sl_visible_finder *r, sl_visible *visible) {
+static sl_status make_slots(sl_context *context, sli_visible_finder *r, sli_visible *visible) {
     r->slots.count = 0;
     SL_TRY(SL_ARRAY_ROOM(context, &r->slots, 2 * visible->cells.count));
     for (size_t i = 0; i < visible->cells.count; i++) {
-        sl_visible_interval *c = &visible->cells.items[i];
+        sli_visible_interval *c = &visible->cells.items[i];
         if (c->joined) continue;
         c->enter = slot_of(r, c->low);
         c->leave = slot_of(r, c->high);
@@ -68,26 +68,28 @@ static sl_status make_slots(sl_context *context, sl_visible_finder *r, sl_visibl
 }
 
 /// A number that grows with the angle from `first`, over half a turn, but for rounding.
-static uint32_t rough_angle(const sl_visible_finder *r, sl_point first, const sl_event_slot *slot) {
-    sl_point to = sl_towards(r, slot->end);
+static uint32_t rough_angle(const sli_visible_finder *r, sl_point first,
+                            const sli_event_slot *slot) {
+    sl_point to = sli_towards(r, slot->end);
     if (slot->away) to = (sl_point){-to.x, -to.y};
-    const double sine = fabs(sl_cross(first, to)), cosine = first.x * to.x + first.y * to.y;
+    const double sine = fabs(sli_cross(first, to)), cosine = first.x * to.x + first.y * to.y;
     const double sum = sine + fabs(cosine);
     const double angle = cosine >= 0 ? sine / sum : 2 - sine / sum;
     return angle >= 0 ? (uint32_t)(angle * 0x7fffffff) : 0; // or it is no number
 }
 
-static bool same_direction(const sl_visible_finder *r, const sl_event_slot *a,
-                           const sl_event_slot *b) {
+static bool same_direction(const sli_visible_finder *r, const sli_event_slot *a,
+                           const sli_event_slot *b) {
     if (a->end == b->end) return a->away == b->away;
-    return sl_ends_turn(r, a->end, b->end) == 0 &&
-           sl_opposite(r->from, sl_end_of(r, a->end), sl_end_of(r, b->end)) == (a->away != b->away);
+    return sli_ends_turn(r, a->end, b->end) == 0 &&
+           sli_opposite(r->from, sli_end_of(r, a->end), sli_end_of(r, b->end)) ==
+               (a->away != b->away);
 }
 
 /// Compares two slots exactly: -1 if `a` comes first, 0 for the same direction, else 1.
-static int compare(const sl_visible_finder *r, uint64_t a, uint64_t b) {
-    const sl_event_slot *p = &r->slots.items[(uint32_t)a], *q = &r->slots.items[(uint32_t)b];
-    const int sign = sl_ends_turn(r, p->end, q->end);
+static int compare(const sli_visible_finder *r, uint64_t a, uint64_t b) {
+    const sli_event_slot *p = &r->slots.items[(uint32_t)a], *q = &r->slots.items[(uint32_t)b];
+    const int sign = sli_ends_turn(r, p->end, q->end);
     if (sign != 0) return p->away != q->away ? sign : -sign;
     if (same_direction(r, p, q)) return 0;
     return a < b ? -1 : 1; // half a turn apart
@@ -95,7 +97,7 @@ static int compare(const sl_visible_finder *r, uint64_t a, uint64_t b) {
 
 /// Insertion sort by exact comparison, for keys that are nearly sorted. `same`: a key has the
 /// direction of the key before it.
-static void insert_sorted(const sl_visible_finder *r, uint64_t *keys, bool *same, size_t count) {
+static void insert_sorted(const sli_visible_finder *r, uint64_t *keys, bool *same, size_t count) {
     for (size_t i = 1; i < count; i++) {
         int order = compare(r, keys[i - 1], keys[i]);
         same[i] = order == 0;
@@ -148,20 +150,20 @@ static uint64_t *sort_keys(uint64_t *keys, uint64_t *other, size_t count) {
 }
 
 /// Gives the next slot its event: the last one if it has the same direction, or a new one.
-static void add_event(sl_event_slot *slot, bool same, sl_visible *visible) {
+static void add_event(sli_event_slot *slot, bool same, sli_visible *visible) {
     if (!same)
-        visible->events.items[visible->events.count++] = (sl_visible_event){.end = slot->end,
-                                                                            .away = slot->away,
-                                                                            .ray = UINT32_MAX,
-                                                                            .enter = UINT32_MAX,
-                                                                            .leave = UINT32_MAX};
+        visible->events.items[visible->events.count++] = (sli_visible_event){.end = slot->end,
+                                                                             .away = slot->away,
+                                                                             .ray = UINT32_MAX,
+                                                                             .enter = UINT32_MAX,
+                                                                             .leave = UINT32_MAX};
     slot->event = (uint32_t)visible->events.count - 1;
 }
 
-static sl_status sort_slots(sl_context *context, sl_visible_finder *r, sl_bound first,
-                            sl_visible *visible) {
+static sl_status sort_slots(sl_context *context, sli_visible_finder *r, sli_bound first,
+                            sli_visible *visible) {
     const size_t count = r->slots.count;
-    sl_point along = sl_towards(r, first.end);
+    sl_point along = sli_towards(r, first.end);
     if (first.away) along = (sl_point){-along.x, -along.y};
     SL_TRY(SL_ARRAY_ROOM(context, &r->keys, 2 * count));
     SL_TRY(SL_ARRAY_ROOM(context, &r->same, count));
@@ -178,13 +180,13 @@ static sl_status sort_slots(sl_context *context, sl_visible_finder *r, sl_bound 
     return SL_OK;
 }
 
-sl_status sl_visible_sort(sl_context *context, sl_visible_finder *r, sl_bound first,
-                          sl_visible *visible) {
+sl_status sli_visible_sort(sl_context *context, sli_visible_finder *r, sli_bound first,
+                           sli_visible *visible) {
     join_split(r, visible);
     SL_TRY(make_slots(context, r, visible));
     SL_TRY(sort_slots(context, r, first, visible));
     for (uint32_t i = 0; i < visible->cells.count; i++) {
-        sl_visible_interval *c = &visible->cells.items[i];
+        sli_visible_interval *c = &visible->cells.items[i];
         if (c->joined) continue;
         c->enter = r->slots.items[c->enter].event;
         c->leave = r->slots.items[c->leave].event;
@@ -195,14 +197,14 @@ sl_status sl_visible_sort(sl_context *context, sl_visible_finder *r, sl_bound fi
     return SL_OK;
 }
 
-int sl_events_compare(const sl_visible_finder *r, uint32_t first, const sl_visible_event *a,
-                      const sl_visible_event *b) {
+int sli_events_compare(const sli_visible_finder *r, uint32_t first, const sli_visible_event *a,
+                       const sli_visible_event *b) {
     const bool turned = !b->away;
-    const int sign = sl_ends_turn(r, a->end, b->end);
+    const int sign = sli_ends_turn(r, a->end, b->end);
     if (sign != 0) return (a->away != turned) ? sign : -sign;
-    const sl_event_slot of_a = {.end = a->end, .away = a->away};
-    const sl_event_slot of_b = {.end = b->end, .away = turned};
+    const sli_event_slot of_a = {.end = a->end, .away = a->away};
+    const sli_event_slot of_b = {.end = b->end, .away = turned};
     if (same_direction(r, &of_a, &of_b)) return 0;
     // Half a turn apart: the one in the first direction comes first.
-    return same_direction(r, &(sl_event_slot){.end = first}, &of_a) ? -1 : 1;
+    return same_direction(r, &(sli_event_slot){.end = first}, &of_a) ? -1 : 1;
 }

@@ -38,7 +38,7 @@ sl_point sl_frame_point(const sl_frame *frame, sl_point point) {
     };
 }
 
-sl_box sl_frame_guard(const sl_frame *frame) {
+sl_box sli_frame_guard(const sl_frame *frame) {
     // Enough for the edge of the widest line, cut there, to stay out of sight.
     const double around = 100 * frame->unit;
     return (sl_box){{frame->left - around, frame->top - around},
@@ -59,8 +59,9 @@ static bool narrow(double start, double step, double low, double high, double *f
     return *from <= *to;
 }
 
-bool sl_frame_segment(const sl_frame *frame, sl_point a, sl_point b, sl_point *from, sl_point *to) {
-    const sl_box box = sl_frame_guard(frame);
+bool sli_frame_segment(const sl_frame *frame, sl_point a, sl_point b, sl_point *from,
+                       sl_point *to) {
+    const sl_box box = sli_frame_guard(frame);
     const sl_point p = sl_frame_point(frame, a), q = sl_frame_point(frame, b);
     const double dx = q.x - p.x, dy = q.y - p.y;
     double enter = 0, leave = 1;
@@ -72,7 +73,7 @@ bool sl_frame_segment(const sl_frame *frame, sl_point a, sl_point b, sl_point *f
 }
 
 bool sl_frame_holds(const sl_frame *frame, sl_point point, sl_point *place) {
-    const sl_box box = sl_frame_guard(frame);
+    const sl_box box = sli_frame_guard(frame);
     const sl_point p = sl_frame_point(frame, point);
     if (place) *place = p;
     return holds(&box, p);
@@ -80,7 +81,7 @@ bool sl_frame_holds(const sl_frame *frame, sl_point point, sl_point *place) {
 
 void sl_path_segment(cairo_t *cairo, const sl_frame *frame, sl_point a, sl_point b) {
     sl_point from, to;
-    if (!sl_frame_segment(frame, a, b, &from, &to)) return;
+    if (!sli_frame_segment(frame, a, b, &from, &to)) return;
     cairo_move_to(cairo, from.x, from.y);
     cairo_line_to(cairo, to.x, to.y);
 }
@@ -135,7 +136,7 @@ static void add_cut(cairo_t *cairo, const sl_box *box, const sl_frame *frame,
 }
 
 void sl_path_polygon(cairo_t *cairo, const sl_frame *frame, const sl_point *corners, size_t count) {
-    const sl_box box = sl_frame_guard(frame);
+    const sl_box box = sli_frame_guard(frame);
     bool whole = true;
     for (size_t i = 0; i < count && whole; i++)
         whole = holds(&box, sl_frame_point(frame, corners[i]));
@@ -151,8 +152,8 @@ void sl_path_polygon(cairo_t *cairo, const sl_frame *frame, const sl_point *corn
     if (cairo_has_current_point(cairo)) cairo_close_path(cairo);
 }
 
-void sl_path_curve(cairo_t *cairo, const sl_frame *frame, const sl_point controls[4]) {
-    const sl_box box = sl_frame_guard(frame);
+void sli_path_curve(cairo_t *cairo, const sl_frame *frame, const sl_point controls[4]) {
+    const sl_box box = sli_frame_guard(frame);
     sl_point p[4];
     bool whole = true;
     for (int i = 0; i < 4; i++) {
@@ -195,7 +196,7 @@ void sl_text_show(cairo_t *cairo, sl_colour colour, double x, double y, const ch
     cairo_new_path(cairo);
 }
 
-void sl_text_copy(const char *text, size_t length, char *out, size_t room) {
+void sli_text_copy(const char *text, size_t length, char *out, size_t room) {
     if (length > room - 1) {
         length = room - 1;
         // A byte 10xxxxxx continues a character.

@@ -12,12 +12,12 @@
 
 /// Labels take turns. Those before `turn` have their places, or found none.
 typedef struct placing {
-    const sl_label_room *room;
-    sl_label *labels;
+    const sli_label_room *room;
+    sli_label *labels;
     size_t count, turn;
 } placing;
 
-static sl_label *label_at(const placing *p, size_t turn) {
+static sli_label *label_at(const placing *p, size_t turn) {
     return &p->labels[p->labels[turn].turn];
 }
 
@@ -61,21 +61,21 @@ static bool lines_cross(sl_point a, sl_point b, sl_point c, sl_point d) {
 }
 
 /// Whether a label may stand where `tried` says.
-static bool stands_free(const placing *p, const sl_label *tried) {
-    const sl_label_room *room = p->room;
+static bool stands_free(const placing *p, const sli_label *tried) {
+    const sli_label_room *room = p->room;
     const sl_box *frame = &room->frame, *box = &tried->box;
     if (box->min.x < frame->min.x || box->max.x > frame->max.x || box->min.y < frame->min.y ||
         box->max.y > frame->max.y)
         return false;
     for (size_t i = 0; i < room->obstacle_count; i++) {
-        const sl_obstacle *o = &room->obstacles[i];
+        const sli_obstacle *o = &room->obstacles[i];
         if (overlap(*box, o->box, room->gap)) return false;
         if (!o->lines_cross && o->owner != p->labels[p->turn].turn &&
             !holds(o->box, tried->anchor) && line_meets_box(tried->anchor, tried->knee, o->box))
             return false;
     }
     for (size_t i = 0; i < p->turn; i++) {
-        const sl_label *other = label_at(p, i);
+        const sli_label *other = label_at(p, i);
         if (!other->placed) continue;
         if (overlap(*box, other->box, room->gap) ||
             line_meets_box(tried->anchor, tried->knee, other->box) ||
@@ -87,8 +87,8 @@ static bool stands_free(const placing *p, const sl_label *tried) {
 }
 
 /// The label with its left edge at `left`, `away` over its anchor, or under it.
-static sl_label put(const sl_label *label, double left, double away, bool over) {
-    sl_label put = *label;
+static sli_label put(const sli_label *label, double left, double away, bool over) {
+    sli_label put = *label;
     put.placed = true;
     put.box.min.x = left;
     put.box.max.x = left + label->width;
@@ -101,20 +101,20 @@ static sl_label put(const sl_label *label, double left, double away, bool over) 
 }
 
 /// At the anchor's own height, right or left of it.
-static sl_label put_beside(const sl_label *label, double clearance, bool right) {
+static sli_label put_beside(const sli_label *label, double clearance, bool right) {
     const double x = label->anchor.x;
-    sl_label beside =
+    sli_label beside =
         put(label, right ? x + clearance : x - clearance - label->width, -label->height / 2, true);
     beside.knee = (sl_point){right ? beside.box.min.x : beside.box.max.x, label->anchor.y};
     return beside;
 }
 
 typedef struct choice {
-    sl_label label;
+    sli_label label;
     double cost;
 } choice;
 
-static void consider(const placing *p, const sl_label *tried, double cost, choice *best) {
+static void consider(const placing *p, const sli_label *tried, double cost, choice *best) {
     if (cost >= best->cost || !stands_free(p, tried)) return;
     *best = (choice){*tried, cost};
 }
@@ -135,7 +135,7 @@ static double count_shut_in(const placing *p, const sl_box *box, double away) {
 /// upright line at one end; beside its anchor on either side.
 enum { QUARTERS = 6, LEFTS = 2 * QUARTERS + 1 + 4 };
 
-static void list_lefts(const sl_label *label, double clearance, double lefts[LEFTS]) {
+static void list_lefts(const sli_label *label, double clearance, double lefts[LEFTS]) {
     const double x = label->anchor.x, width = label->width, end = label->height / 4;
     for (int i = 0; i <= 2 * QUARTERS; i++) lefts[i] = x + ((i - QUARTERS) / 4.0 - 0.5) * width;
     lefts[LEFTS - 4] = x - end;
@@ -146,20 +146,20 @@ static void list_lefts(const sl_label *label, double clearance, double lefts[LEF
 
 /// Tries all places, beside the anchor and in rows over and under it. Takes the free one with the
 /// shortest line. Slanting lines cost more, and so does shutting others in.
-static void place(const placing *p, sl_label *label) {
+static void place(const placing *p, sli_label *label) {
     const sl_box *frame = &p->room->frame;
     const double clearance = p->room->clearance, reach = frame->max.y - frame->min.y;
     const double step = fmax(label->height / 3, 1);
     double lefts[LEFTS];
     choice best = {*label, INFINITY};
     for (int right = 1; right >= 0; right--) {
-        const sl_label tried = put_beside(label, clearance, right);
+        const sli_label tried = put_beside(label, clearance, right);
         consider(p, &tried, clearance + 0.1 * label->height, &best);
     }
     list_lefts(label, clearance, lefts);
     for (double away = clearance; away < reach && away < best.cost; away += step) {
         for (int i = 0; i < 2 * LEFTS; i++) {
-            const sl_label tried = put(label, lefts[i / 2], away, i % 2 == 0);
+            const sli_label tried = put(label, lefts[i / 2], away, i % 2 == 0);
             const double middle = (tried.box.min.x + tried.box.max.x) / 2;
             const double slant = fabs(tried.knee.x - label->anchor.x);
             const double off = fabs(middle - label->anchor.x) / label->width;
@@ -175,7 +175,7 @@ static void place(const placing *p, sl_label *label) {
 static size_t place_all(placing *p) {
     size_t left_out = 0;
     for (p->turn = 0; p->turn < p->count; p->turn++) {
-        sl_label *label = label_at(p, p->turn);
+        sli_label *label = label_at(p, p->turn);
         label->placed = false;
         place(p, label);
         left_out += !label->placed;
@@ -196,7 +196,7 @@ static void promote_left_out(const placing *p) {
 
 enum { ATTEMPTS = 24 };
 
-bool sl_labels_place(sl_label *labels, size_t count, const sl_label_room *room) {
+bool sli_labels_place(sli_label *labels, size_t count, const sli_label_room *room) {
     placing p = {.room = room, .labels = labels, .count = count};
     size_t least = SIZE_MAX;
     for (size_t i = 0; i < count; i++) labels[i].turn = i;

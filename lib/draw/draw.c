@@ -29,7 +29,7 @@ typedef struct strip {
 
 /// One entry of the key: a swatch and its meaning. `lead` is a text before the swatch, or "".
 typedef struct entry {
-    void (*swatch)(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens, sl_box box);
+    void (*swatch)(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box);
     double width; ///< of the swatch, in sizes of the text
     char lead[SL_COUNT_TEXT];
     char text[TEXT_MAX];
@@ -42,7 +42,7 @@ typedef struct key {
     size_t count;
 } key;
 
-static entry *add(key *k, void (*swatch)(cairo_t *, const sl_scene *, const sl_pens *, sl_box),
+static entry *add(key *k, void (*swatch)(cairo_t *, const sl_scene *, const sli_pens *, sl_box),
                   const char *text) {
     entry *e = &k->entries[k->count++];
     *e = (entry){.swatch = swatch, .width = SWATCH_WIDTH};
@@ -50,7 +50,7 @@ static entry *add(key *k, void (*swatch)(cairo_t *, const sl_scene *, const sl_p
     return e;
 }
 
-static void add_count(key *k, void (*swatch)(cairo_t *, const sl_scene *, const sl_pens *, sl_box),
+static void add_count(key *k, void (*swatch)(cairo_t *, const sl_scene *, const sli_pens *, sl_box),
                       uint64_t count, const char *unit) {
     char text[SL_COUNT_TEXT];
     sl_text_count(count, unit, text);
@@ -64,42 +64,42 @@ static void fill_box(cairo_t *cairo, sl_colour colour, double left, double right
 }
 
 /// The tones side by side, under one thin frame.
-static void swatch_tones(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens, sl_box box,
+static void swatch_tones(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box,
                          const sl_colour *tones, int count) {
     const double step = (box.max.x - box.min.x) / count;
     for (int i = 0; i < count; i++)
         fill_box(cairo, tones[i], box.min.x + i * step, box.min.x + (i + 1) * step, box);
     cairo_rectangle(cairo, box.min.x, box.min.y, box.max.x - box.min.x, box.max.y - box.min.y);
-    sl_pen_outline(cairo, &scene->palette, pens);
+    sli_pen_outline(cairo, &scene->palette, pens);
 }
 
-static void swatch_floor(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens, sl_box box) {
+static void swatch_floor(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
     swatch_tones(cairo, scene, pens, box, scene->palette.floor, SL_TONES - 1);
 }
 
-static void swatch_seen(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens, sl_box box) {
+static void swatch_seen(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
     swatch_tones(cairo, scene, pens, box, scene->palette.seen, SL_TONES - 1);
 }
 
-static void swatch_doubtful(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens,
+static void swatch_doubtful(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens,
                             sl_box box) {
     swatch_tones(cairo, scene, pens, box, &scene->palette.doubtful, 1);
 }
 
-static void swatch_source(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens, sl_box box) {
+static void swatch_source(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
     fill_box(cairo, scene->palette.source, box.min.x, box.max.x, box);
     cairo_rectangle(cairo, box.min.x, box.min.y, box.max.x - box.min.x, box.max.y - box.min.y);
-    sl_pen_source_edge(cairo, &scene->palette, pens);
+    sli_pen_source_edge(cairo, &scene->palette, pens);
 }
 
-static void swatch_hidden(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens, sl_box box) {
+static void swatch_hidden(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
     fill_box(cairo, scene->palette.ground, box.min.x, box.max.x, box);
-    sl_mark_hatch(cairo, &scene->palette, box, (box.max.y - box.min.y) / 2.5, 0);
+    sli_mark_hatch(cairo, &scene->palette, box, (box.max.y - box.min.y) / 2.5, 0);
     cairo_rectangle(cairo, box.min.x, box.min.y, box.max.x - box.min.x, box.max.y - box.min.y);
-    sl_pen_outline(cairo, &scene->palette, pens);
+    sli_pen_outline(cairo, &scene->palette, pens);
 }
 
-static void swatch_ramp(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens, sl_box box) {
+static void swatch_ramp(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
     cairo_pattern_t *ramp = cairo_pattern_create_linear(box.min.x, 0, box.max.x, 0);
     for (unsigned i = 0; i <= 12; i++) {
         const sl_colour c = sl_palette_ramp(scene->palette.dark, i / 12.0);
@@ -109,7 +109,7 @@ static void swatch_ramp(cairo_t *cairo, const sl_scene *scene, const sl_pens *pe
     cairo_set_source(cairo, ramp);
     cairo_fill_preserve(cairo);
     cairo_pattern_destroy(ramp);
-    sl_pen_outline(cairo, &scene->palette, pens);
+    sli_pen_outline(cairo, &scene->palette, pens);
 }
 
 static sl_point left_middle(sl_box box) {
@@ -125,70 +125,70 @@ static void add_middle_line(cairo_t *cairo, sl_box box) {
     cairo_line_to(cairo, box.max.x, left_middle(box).y);
 }
 
-static void swatch_wall(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens, sl_box box) {
+static void swatch_wall(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
     add_middle_line(cairo, box);
-    sl_pen_wall(cairo, &scene->palette, pens);
+    sli_pen_wall(cairo, &scene->palette, pens);
 }
 
-static void swatch_portal(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens, sl_box box) {
+static void swatch_portal(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
     add_middle_line(cairo, box);
-    sl_pen_portal(cairo, &scene->palette, pens);
+    sli_pen_portal(cairo, &scene->palette, pens);
 }
 
-static void swatch_path(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens, sl_box box) {
+static void swatch_path(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
     add_middle_line(cairo, box);
-    sl_pen_path(cairo, &scene->palette, pens);
+    sli_pen_path(cairo, &scene->palette, pens);
 }
 
 /// Strokes fade from left to right, as they do with depth.
-static void fade(cairo_t *cairo, sl_colour colour, const sl_pens *pens, sl_box box) {
+static void fade(cairo_t *cairo, sl_colour colour, const sli_pens *pens, sl_box box) {
     const double step = (box.max.x - box.min.x) / 6, y = left_middle(box).y;
     for (uint32_t i = 0; i < 6; i++) {
         cairo_move_to(cairo, box.min.x + i * step, y);
         cairo_line_to(cairo, box.min.x + (i + 1) * step, y);
-        sl_pen_tree(cairo, colour, pens, 2 * i);
+        sli_pen_tree(cairo, colour, pens, 2 * i);
     }
 }
 
-static void swatch_tree(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens, sl_box box) {
+static void swatch_tree(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
     fade(cairo, scene->palette.tree, pens, box);
 }
 
-static void swatch_mirrored(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens,
+static void swatch_mirrored(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens,
                             sl_box box) {
     fade(cairo, scene->palette.mirrored, pens, box);
 }
 
-static void swatch_start(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens, sl_box box) {
+static void swatch_start(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
     (void)pens;
     const sl_point middle = {(box.min.x + box.max.x) / 2, left_middle(box).y};
-    sl_mark_start(cairo, &scene->palette, middle, 0, (box.max.y - box.min.y) / 2);
+    sli_mark_start(cairo, &scene->palette, middle, 0, (box.max.y - box.min.y) / 2);
 }
 
-static void swatch_door(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens, sl_box box) {
+static void swatch_door(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
     const sl_point a = left_middle(box), b = right_middle(box);
     const sl_point middle = {(a.x + b.x) / 2, a.y};
-    sl_mark_door(cairo, &scene->palette, pens, a, middle, false);
-    sl_mark_door(cairo, &scene->palette, pens, middle, b, true);
+    sli_mark_door(cairo, &scene->palette, pens, a, middle, false);
+    sli_mark_door(cairo, &scene->palette, pens, middle, b, true);
 }
 
-static void swatch_mirror(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens, sl_box box) {
-    sl_mark_mirror(cairo, &scene->palette, pens, left_middle(box), right_middle(box));
+static void swatch_mirror(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
+    sli_mark_mirror(cairo, &scene->palette, pens, left_middle(box), right_middle(box));
 }
 
-static void swatch_oneway(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens, sl_box box) {
+static void swatch_oneway(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
     const sl_point a = {box.min.x, box.max.y}, b = {box.max.x, box.max.y};
-    sl_mark_oneway(cairo, &scene->palette, pens, a, b);
+    sli_mark_oneway(cairo, &scene->palette, pens, a, b);
 }
 
-static void swatch_object(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens, sl_box box) {
+static void swatch_object(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
     cairo_rectangle(cairo, box.min.x, box.min.y, box.max.x - box.min.x, box.max.y - box.min.y);
-    sl_pen_object(cairo, &scene->palette, pens);
+    sli_pen_object(cairo, &scene->palette, pens);
 }
 
 #define SWATCH_FAULT(name, kind)                                                                   \
-    static void name(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens, sl_box box) {     \
-        sl_mark_fault(cairo, &scene->palette, pens, kind, left_middle(box), right_middle(box));    \
+    static void name(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {    \
+        sli_mark_fault(cairo, &scene->palette, pens, kind, left_middle(box), right_middle(box));   \
     }
 SWATCH_FAULT(swatch_leak, SL_FAULT_LEAK)
 SWATCH_FAULT(swatch_gap, SL_FAULT_GAP)
@@ -199,7 +199,7 @@ SWATCH_FAULT(swatch_unreachable, SL_FAULT_UNREACHABLE)
 
 static void add_faults(key *k, const sl_faults *faults) {
     static const struct {
-        void (*swatch)(cairo_t *, const sl_scene *, const sl_pens *, sl_box);
+        void (*swatch)(cairo_t *, const sl_scene *, const sli_pens *, sl_box);
         const char *what;
     } kinds[SL_FAULT_KINDS] = {
         [SL_FAULT_LEAK] = {swatch_leak, "leak"},
@@ -328,7 +328,7 @@ static void draw_scale_bar(cairo_t *cairo, const sl_scene *scene, const sl_frame
                  y + 1.15 * at->text, text);
 }
 
-static void draw_entry(cairo_t *cairo, const sl_scene *scene, const sl_pens *pens, const entry *e,
+static void draw_entry(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, const entry *e,
                        double x, double middle, double size) {
     const double base = middle + 0.36 * size;
     if (e->lead[0]) {
@@ -347,8 +347,8 @@ static double entry_width(cairo_t *cairo, const entry *e, double size) {
 }
 
 /// Pens that fit a line of text, whatever the plan uses.
-static sl_pens key_pens(const sl_pens *pens, double size) {
-    sl_pens fitted = *pens;
+static sli_pens key_pens(const sli_pens *pens, double size) {
+    sli_pens fitted = *pens;
     fitted.wall = fmin(fmax(pens->wall, 0.14 * size), 0.28 * size);
     fitted.portal = fmin(fmax(pens->portal, 0.07 * size), 0.12 * size);
     fitted.tree = fmin(fmax(pens->tree, 0.16 * size), 0.3 * size);
@@ -359,12 +359,12 @@ static sl_pens key_pens(const sl_pens *pens, double size) {
 /// The key in lines as the width allows, and a scale bar at the right. Returns its height, which
 /// does not depend on the frame or the pens.
 static double draw_legend(cairo_t *cairo, const sl_scene *scene, const sl_frame *frame,
-                          const sl_pens *pens, const strip *at) {
+                          const sli_pens *pens, const strip *at) {
     key k = {0};
     fill_key(&k, scene);
     const double size = at->text, bar_room = 0.17 * at->width;
     const double width = at->width - bar_room - BETWEEN * size;
-    const sl_pens fitted = at->paint ? key_pens(pens, size) : (sl_pens){0};
+    const sli_pens fitted = at->paint ? key_pens(pens, size) : (sli_pens){0};
     sl_text_font(cairo, size, false);
     double x = 0, y = LINE_HEIGHT / 2 * size;
     for (size_t i = 0; i < k.count; i++) {
@@ -439,7 +439,7 @@ sl_draw_options sl_draw_options_default(void) {
 
 static sl_status check_options(sl_context *context, const sl_baked *baked,
                                const sl_draw_options *options) {
-    SL_TRY(sl_page_check_width(context, options->width));
+    SL_TRY(sli_page_check_width(context, options->width));
     if (options->layers & ~(unsigned)ALL_LAYERS)
         return sl_fail(context, SL_BAD_ARGUMENT, "layers 0x%x: only 0x%x are known",
                        options->layers, ALL_LAYERS);
@@ -449,20 +449,20 @@ static sl_status check_options(sl_context *context, const sl_baked *baked,
     return SL_OK;
 }
 
-static strip strip_at(const sl_page *page, double top, bool paint) {
+static strip strip_at(const sli_page *page, double top, bool paint) {
     return (strip){page->margin, top, page->inner, page->text, paint};
 }
 
-static void set_page(cairo_t *cairo, const void *what, sl_page *page, bool paint) {
+static void set_page(cairo_t *cairo, const void *what, sli_page *page, bool paint) {
     const sl_scene *scene = what;
     const strip heading = strip_at(page, page->margin, paint);
     double y = page->margin + draw_heading(cairo, scene, &heading);
     if (y > page->margin) y += 0.6 * page->margin;
-    if (!paint) sl_page_place_plan(page, scene->baked->space.bounds, y, SL_PAGE_TALLEST);
+    if (!paint) sli_page_place_plan(page, scene->baked->space.bounds, y, SLI_PAGE_TALLEST);
     y = page->bottom;
     if (scene->options.layers & SL_LAYER_LEGEND) {
         const strip legend = strip_at(page, y + 0.55 * page->margin, paint);
-        const sl_pens pens = sl_pens_for(scene, &page->frame);
+        const sli_pens pens = sli_pens_for(scene, &page->frame);
         y = legend.top + draw_legend(cairo, scene, &page->frame, &pens, &legend) -
             0.3 * page->margin;
     }
@@ -475,24 +475,24 @@ static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what
     return sl_draw_plan(context, cairo, scene, scene->options.layers, frame);
 }
 
-static sl_status draw_scene(sl_context *context, const sl_scene *scene, const sl_paper_kind *kind,
+static sl_status draw_scene(sl_context *context, const sl_scene *scene, const sli_paper_kind *kind,
                             const char *path) {
-    const sl_page_parts parts = {.set = set_page,
-                                 .draw_plan = draw_plan,
-                                 .what = scene,
-                                 .ground = scene->palette.page,
-                                 .title = scene->options.title};
-    return sl_page_write(context, &parts, scene->options.width, kind, path);
+    const sli_page_parts parts = {.set = set_page,
+                                  .draw_plan = draw_plan,
+                                  .what = scene,
+                                  .ground = scene->palette.page,
+                                  .title = scene->options.title};
+    return sli_page_write(context, &parts, scene->options.width, kind, path);
 }
 
 sl_status sl_draw_file(sl_context *context, const sl_baked *baked, const sl_draw_options *options,
                        const char *path) {
-    const sl_paper_kind *kind;
+    const sli_paper_kind *kind;
     sl_scene scene;
-    SL_TRY(sl_paper_kind_of(context, path, &kind));
+    SL_TRY(sli_paper_kind_of(context, path, &kind));
     SL_TRY(check_options(context, baked, options));
-    SL_TRY(sl_scene_make(context, baked, options, NULL, &scene));
+    SL_TRY(sli_scene_make(context, baked, options, NULL, &scene));
     const sl_status status = draw_scene(context, &scene, kind, path);
-    sl_scene_clear(context, &scene);
+    sli_scene_clear(context, &scene);
     return status;
 }

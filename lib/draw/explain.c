@@ -242,7 +242,7 @@ static sl_point bend(const overlay *o, uint32_t cell, const sl_directed_portal *
                  along_y = directed->left.y - directed->right.y;
     const double width = hypot(along_x, along_y);
     const sl_point forward = {sign * along_y / width, -sign * along_x / width};
-    const double length = fmin(reach, 0.9 * sl_ray_length(o->space, cell, at, forward));
+    const double length = fmin(reach, 0.9 * sli_ray_length(o->space, cell, at, forward));
     return (sl_point){at.x + forward.x * length, at.y + forward.y * length};
 }
 
@@ -256,7 +256,7 @@ static void draw_way(const overlay *o) {
         const double reach = 0.4 * hypot(end.x - start.x, end.y - start.y);
         if (i > 0) leave = bend(o, cell, directed_at(o, i - 1), 1, reach);
         const sl_point controls[4] = {start, leave, bend(o, cell, directed, -1, reach), end};
-        sl_path_curve(o->cairo, o->frame, controls);
+        sli_path_curve(o->cairo, o->frame, controls);
         start = end;
         cell = directed->cell;
     }
@@ -508,15 +508,15 @@ static sl_status paint_cells(sl_context *context, picture *pic) {
     const sl_space *space = &scene->baked->space;
     uint8_t *paint = sl_alloc_array(context, space->cell_count, sizeof *paint);
     if (!paint) return SL_NO_MEMORY;
-    sl_scene_get_paint(scene, paint);
+    sli_scene_get_paint(scene, paint);
     const uint32_t inner = pic->sequence ? pic->sequence->directed_count - 1 : 0;
     for (uint32_t i = 0; i < inner; i++) {
         uint8_t *p = &paint[space->directed[pic->sequence->directed[i]].cell];
-        if (*p >= SL_PAINT_FLOOR && *p < SL_PAINT_SEEN) *p += SL_PAINT_SEEN - SL_PAINT_FLOOR;
+        if (*p >= SLI_PAINT_FLOOR && *p < SLI_PAINT_SEEN) *p += SLI_PAINT_SEEN - SLI_PAINT_FLOOR;
     }
     if (pic->explanation->from != pic->explanation->to)
-        paint[pic->explanation->to] = SL_PAINT_DOUBTFUL;
-    sl_scene_set_paint(scene, paint);
+        paint[pic->explanation->to] = SLI_PAINT_DOUBTFUL;
+    sli_scene_set_paint(scene, paint);
     sl_free(context, paint);
     return SL_OK;
 }
@@ -736,13 +736,13 @@ static double draw_key(cairo_t *cairo, const picture *pic, double left, double t
 
 // --- the page
 
-static void set_page(cairo_t *cairo, const void *what, sl_page *page, bool paint) {
+static void set_page(cairo_t *cairo, const void *what, sli_page *page, bool paint) {
     const picture *pic = what;
     const sl_palette *palette = &pic->scene.palette;
     char title[CAPTION_TEXT], text[CAPTION_TEXT];
     write_subtitle(pic, text);
-    const double top = sl_page_heading(cairo, page, palette, title_of(pic, title), text, paint);
-    if (!paint) sl_page_place_plan(page, pic->frame, top, TALLEST);
+    const double top = sli_page_heading(cairo, page, palette, title_of(pic, title), text, paint);
+    if (!paint) sli_page_place_plan(page, pic->frame, top, TALLEST);
     double y = page->key;
     y += draw_key(cairo, pic, page->margin, y, page->inner, page->text, paint);
     write_caption(pic, text);
@@ -769,26 +769,26 @@ static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what
     return SL_OK;
 }
 
-static sl_status draw_file(sl_context *context, picture *pic, const sl_paper_kind *kind,
+static sl_status draw_file(sl_context *context, picture *pic, const sli_paper_kind *kind,
                            const char *path) {
     char title[CAPTION_TEXT];
     SL_TRY(paint_cells(context, pic));
     choose_colours(pic);
     choose_frame(pic);
-    const sl_page_parts parts = {.set = set_page,
-                                 .draw_plan = draw_plan,
-                                 .what = pic,
-                                 .ground = pic->scene.palette.page,
-                                 .title = title_of(pic, title)};
-    return sl_page_write(context, &parts, pic->scene.options.width, kind, path);
+    const sli_page_parts parts = {.set = set_page,
+                                  .draw_plan = draw_plan,
+                                  .what = pic,
+                                  .ground = pic->scene.palette.page,
+                                  .title = title_of(pic, title)};
+    return sli_page_write(context, &parts, pic->scene.options.width, kind, path);
 }
 
 sl_status sl_draw_explanation(sl_context *context, const sl_baked *baked,
                               const sl_explanation *explanation, const sl_draw_options *options,
                               const char *path) {
-    const sl_paper_kind *kind;
-    SL_TRY(sl_paper_kind_of(context, path, &kind));
-    SL_TRY(sl_page_check_width(context, options->width));
+    const sli_paper_kind *kind;
+    SL_TRY(sli_paper_kind_of(context, path, &kind));
+    SL_TRY(sli_page_check_width(context, options->width));
     sl_draw_options plain = *options;
     plain.layers = SL_LAYER_CELLS | SL_LAYER_PORTALS | SL_LAYER_WALLS;
     plain.cell = explanation->from;
@@ -798,8 +798,8 @@ sl_status sl_draw_explanation(sl_context *context, const sl_baked *baked,
         pic.miss = &explanation->misses[0];
         pic.sequence = &pic.miss->sequence;
     }
-    SL_TRY(sl_scene_make(context, baked, &plain, NULL, &pic.scene));
+    SL_TRY(sli_scene_make(context, baked, &plain, NULL, &pic.scene));
     const sl_status status = draw_file(context, &pic, kind, path);
-    sl_scene_clear(context, &pic.scene);
+    sli_scene_clear(context, &pic.scene);
     return status;
 }

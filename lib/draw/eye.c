@@ -94,7 +94,7 @@ typedef struct eye_picture {
 /// Layers take steps of the ramp, which goes by lightness: the loosest is the palest.
 static uint8_t paint_of_layer(const eye_picture *p, size_t layer) {
     const double share = p->layer_count > 1 ? (double)layer / (double)(p->layer_count - 1) : 1;
-    return (uint8_t)(SL_PAINT_HEAT + (unsigned)((0.08 + 0.92 * share) * (SL_HEAT_STEPS - 1)));
+    return (uint8_t)(SLI_PAINT_HEAT + (unsigned)((0.08 + 0.92 * share) * (SLI_HEAT_STEPS - 1)));
 }
 
 static sl_status paint_cells(sl_context *context, eye_picture *p) {
@@ -102,9 +102,9 @@ static sl_status paint_cells(sl_context *context, eye_picture *p) {
     uint8_t *paint = sl_alloc_array(context, space->cell_count, sizeof *paint);
     if (!paint) return SL_NO_MEMORY;
     double whole = 0;
-    sl_scene_get_paint(&p->scene, paint);
+    sli_scene_get_paint(&p->scene, paint);
     for (uint32_t cell = 0; cell < space->cell_count; cell++) {
-        if (!sl_scene_shows(&p->scene, cell)) continue;
+        if (!sli_scene_shows(&p->scene, cell)) continue;
         const double area = sl_space_area(space, cell);
         whole += area;
         for (size_t i = 0; i < p->layer_count; i++) {
@@ -115,7 +115,7 @@ static sl_status paint_cells(sl_context *context, eye_picture *p) {
         }
     }
     for (size_t i = 0; i < p->layer_count && whole > 0; i++) p->shares[i] /= whole;
-    sl_scene_set_paint(&p->scene, paint);
+    sli_scene_set_paint(&p->scene, paint);
     sl_free(context, paint);
     return SL_OK;
 }
@@ -209,7 +209,7 @@ static void draw_swatch(cairo_t *cairo, const eye_picture *p, size_t entry, doub
         return;
     }
     cairo_rectangle(cairo, left, middle - height / 2, width, height);
-    sl_set_colour(cairo, sl_scene_colour(&p->scene, paint_of_layer(p, entry)));
+    sl_set_colour(cairo, sli_scene_colour(&p->scene, paint_of_layer(p, entry)));
     cairo_fill_preserve(cairo);
     sl_set_colour(cairo, p->scene.palette.outline);
     cairo_set_line_width(cairo, 0.06 * size);
@@ -257,7 +257,7 @@ static double draw_key(cairo_t *cairo, const eye_picture *p, double left, double
 
 // --- the page
 
-static void set_page(cairo_t *cairo, const void *what, sl_page *page, bool paint) {
+static void set_page(cairo_t *cairo, const void *what, sli_page *page, bool paint) {
     const eye_picture *p = what;
     const sl_palette *palette = &p->scene.palette;
     const size_t box_count = p->scene.options.box_count;
@@ -265,12 +265,12 @@ static void set_page(cairo_t *cairo, const void *what, sl_page *page, bool paint
     write_title(p, title);
     write_subtitle(p, subtitle);
     const char *own = p->scene.options.title;
-    const double top = sl_page_heading(cairo, page, palette, own ? own : title, subtitle, paint);
-    if (!paint) sl_page_place_plan(page, p->scene.baked->space.bounds, top, SL_PAGE_TALLEST);
+    const double top = sli_page_heading(cairo, page, palette, own ? own : title, subtitle, paint);
+    if (!paint) sli_page_place_plan(page, p->scene.baked->space.bounds, top, SLI_PAGE_TALLEST);
     double y = page->key;
     y += draw_key(cairo, p, page->margin, y, page->inner, page->text, paint);
-    y += sl_draw_seen_key(cairo, palette, p->parts, p->part_count, (sl_point){page->margin, y},
-                          page->inner, page->text, paint);
+    y += sli_draw_seen_key(cairo, palette, p->parts, p->part_count, (sl_point){page->margin, y},
+                           page->inner, page->text, paint);
     y += draw_boxes_key(cairo, palette, box_count, (sl_point){page->margin, y}, page->text, paint);
     page->height = ceil(y + 0.5 * page->margin);
 }
@@ -291,30 +291,30 @@ static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what
     return SL_OK;
 }
 
-static sl_status draw_picture(sl_context *context, eye_picture *p, const sl_paper_kind *kind,
+static sl_status draw_picture(sl_context *context, eye_picture *p, const sli_paper_kind *kind,
                               const char *path) {
     char title[KEY_TEXT];
     write_title(p, title);
     SL_TRY(paint_cells(context, p));
-    const sl_page_parts parts = {.set = set_page,
-                                 .draw_plan = draw_plan,
-                                 .what = p,
-                                 .ground = p->scene.palette.page,
-                                 .title = title};
-    return sl_page_write(context, &parts, p->scene.options.width, kind, path);
+    const sli_page_parts parts = {.set = set_page,
+                                  .draw_plan = draw_plan,
+                                  .what = p,
+                                  .ground = p->scene.palette.page,
+                                  .title = title};
+    return sli_page_write(context, &parts, p->scene.options.width, kind, path);
 }
 
 sl_status sl_draw_eye(sl_context *context, const sl_baked *baked, const sl_view *view,
                       const sl_eye_layer *layers, size_t layer_count, const sl_drawn_region *parts,
                       size_t part_count, const sl_draw_options *options, const char *path) {
-    const sl_paper_kind *kind;
-    SL_TRY(sl_paper_kind_of(context, path, &kind));
+    const sli_paper_kind *kind;
+    SL_TRY(sli_paper_kind_of(context, path, &kind));
     if (layer_count > SL_EYE_LAYERS_MOST)
         return sl_fail(context, SL_BAD_ARGUMENT, "%zu layers: at most %d can be told apart",
                        layer_count, SL_EYE_LAYERS_MOST);
     if (!sl_view_usable(view))
         return sl_fail(context, SL_BAD_ARGUMENT, "the view to be drawn is none");
-    SL_TRY(sl_page_check_width(context, options->width));
+    SL_TRY(sli_page_check_width(context, options->width));
     sl_draw_options plain = *options;
     plain.layers = SL_LAYER_CELLS | SL_LAYER_PORTALS | SL_LAYER_WALLS;
     plain.cell = sl_space_locate(&baked->space, view->eye);
@@ -323,10 +323,10 @@ sl_status sl_draw_eye(sl_context *context, const sl_baked *baked, const sl_view 
                      .layer_count = layer_count,
                      .parts = parts,
                      .part_count = part_count};
-    SL_TRY(sl_scene_make(context, baked, &plain, NULL, &p.scene));
+    SL_TRY(sli_scene_make(context, baked, &plain, NULL, &p.scene));
     // Green would be lost among the ramp's colours.
     p.scene.palette.portal = sl_colour_mix(p.scene.palette.wall, p.scene.palette.page, 0.2);
     const sl_status status = draw_picture(context, &p, kind, path);
-    sl_scene_clear(context, &p.scene);
+    sli_scene_clear(context, &p.scene);
     return status;
 }

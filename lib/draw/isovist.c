@@ -112,7 +112,7 @@ static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what
 }
 
 /// The ramp with numbers under it. Returns its height.
-static double draw_scale(cairo_t *cairo, const picture *p, const sl_page *g, bool paint) {
+static double draw_scale(cairo_t *cairo, const picture *p, const sli_page *g, bool paint) {
     const double width = fmin(30 * g->text, g->inner), high = 1.2 * g->text;
     if (!paint || !(p->least <= p->most)) return 3.2 * g->text;
     for (int i = 0; i < RAMP_STEPS; i++) {
@@ -141,15 +141,15 @@ static double draw_scale(cairo_t *cairo, const picture *p, const sl_page *g, boo
     return 3.2 * g->text;
 }
 
-static void set_page(cairo_t *cairo, const void *what, sl_page *page, bool paint) {
+static void set_page(cairo_t *cairo, const void *what, sli_page *page, bool paint) {
     const picture *p = what;
     const sl_palette *palette = &p->scene.palette;
-    const double top = sl_page_heading(cairo, page, palette, p->scene.options.title, NULL, paint);
-    if (!paint) sl_page_place_plan(page, p->scene.baked->space.bounds, top, SL_PAGE_TALLEST);
+    const double top = sli_page_heading(cairo, page, palette, p->scene.options.title, NULL, paint);
+    if (!paint) sli_page_place_plan(page, p->scene.baked->space.bounds, top, SLI_PAGE_TALLEST);
     double y = page->key;
     if (p->scale) y += draw_scale(cairo, p, page, paint);
-    y += sl_draw_seen_key(cairo, palette, p->regions, p->region_count, (sl_point){page->margin, y},
-                          page->inner, page->text, paint);
+    y += sli_draw_seen_key(cairo, palette, p->regions, p->region_count, (sl_point){page->margin, y},
+                           page->inner, page->text, paint);
     if (p->caption) {
         if (paint)
             sl_text_show_within(cairo, palette->ink, page->margin, y + 1.1 * page->text,
@@ -161,20 +161,20 @@ static void set_page(cairo_t *cairo, const void *what, sl_page *page, bool paint
 
 static sl_status draw_picture(sl_context *context, const sl_baked *baked,
                               const sl_draw_options *options, picture *p, const char *path) {
-    const sl_paper_kind *kind;
-    SL_TRY(sl_paper_kind_of(context, path, &kind));
-    SL_TRY(sl_page_check_width(context, options->width));
+    const sli_paper_kind *kind;
+    SL_TRY(sli_paper_kind_of(context, path, &kind));
+    SL_TRY(sli_page_check_width(context, options->width));
     sl_draw_options plain = *options;
     plain.layers = SL_LAYER_WALLS | (p->scale ? 0 : (unsigned)SL_LAYER_STARTS);
     plain.cell = SL_NO_CELL;
-    SL_TRY(sl_scene_make(context, baked, &plain, NULL, &p->scene));
-    const sl_page_parts parts = {.set = set_page,
-                                 .draw_plan = draw_plan,
-                                 .what = p,
-                                 .ground = p->scene.palette.page,
-                                 .title = options->title};
-    const sl_status status = sl_page_write(context, &parts, options->width, kind, path);
-    sl_scene_clear(context, &p->scene);
+    SL_TRY(sli_scene_make(context, baked, &plain, NULL, &p->scene));
+    const sli_page_parts parts = {.set = set_page,
+                                  .draw_plan = draw_plan,
+                                  .what = p,
+                                  .ground = p->scene.palette.page,
+                                  .title = options->title};
+    const sl_status status = sli_page_write(context, &parts, options->width, kind, path);
+    sli_scene_clear(context, &p->scene);
     return status;
 }
 

@@ -26,8 +26,8 @@ static void stroke(cairo_t *cairo, sl_colour colour, double width) {
 
 // --- a kd-tree
 
-void sl_draw_splits(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
-                    const sl_split *splits, uint32_t count, uint32_t depth) {
+void sli_draw_splits(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                     const sli_split *splits, uint32_t count, uint32_t depth) {
     uint32_t deepest = 0;
     for (uint32_t i = 0; i < count; i++)
         if (splits[i].depth >= deepest) deepest = splits[i].depth + 1;
@@ -49,9 +49,9 @@ static void fill_box(cairo_t *cairo, const sl_frame *frame, sl_box b, sl_colour 
     fill(cairo, frame, corners, 4, colour, opacity);
 }
 
-void sl_draw_split(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
-                   const sl_split *splits, uint32_t node) {
-    const sl_split *now = &splits[node];
+void sli_draw_split(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                    const sli_split *splits, uint32_t node) {
+    const sli_split *now = &splits[node];
     for (uint32_t i = 0; i < node; i++)
         sl_path_segment(cairo, frame, splits[i].along.a, splits[i].along.b);
     stroke(cairo, palette->portal, 1.2 * frame->unit);
@@ -63,11 +63,11 @@ void sl_draw_split(cairo_t *cairo, const sl_palette *palette, const sl_frame *fr
 
 // --- a mesh
 
-static sl_point start_of(const sl_triangulation *t, uint32_t half) {
+static sl_point start_of(const sli_triangulation *t, uint32_t half) {
     return t->points.items[t->halves.items[half].from];
 }
 
-static void add_edge(cairo_t *cairo, const sl_frame *frame, const sl_triangulation *t,
+static void add_edge(cairo_t *cairo, const sl_frame *frame, const sli_triangulation *t,
                      size_t edge) {
     const uint32_t half = (uint32_t)(2 * edge);
     sl_path_segment(cairo, frame, start_of(t, half), start_of(t, half + 1));
@@ -80,37 +80,37 @@ static void draw_disc(cairo_t *cairo, const sl_frame *frame, sl_point point, dou
     cairo_arc(cairo, at.x, at.y, radius * frame->unit, 0, FULL_TURN);
 }
 
-void sl_draw_mesh_points(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
-                         const sl_mesh_steps *steps) {
-    const sl_triangulation *t = &steps->triangles;
+void sli_draw_mesh_points(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                          const sli_mesh_steps *steps) {
+    const sli_triangulation *t = &steps->triangles;
     for (size_t i = 0; i < t->points.count; i++) draw_disc(cairo, frame, t->points.items[i], 3.5);
     sl_set_colour(cairo, palette->start);
     cairo_fill(cairo);
 }
 
 static void draw_sides(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
-                       const sl_triangulation *t) {
+                       const sli_triangulation *t) {
     for (size_t i = 0; i < t->halves.count / 2; i++) add_edge(cairo, frame, t, i);
     stroke(cairo, palette->portal, 1.2 * frame->unit);
 }
 
 /// Adds sides that the points alone do not have: with `lines` walls and seams, else the others.
-static void add_fresh(cairo_t *cairo, const sl_frame *frame, const sl_mesh_steps *steps,
+static void add_fresh(cairo_t *cairo, const sl_frame *frame, const sli_mesh_steps *steps,
                       bool lines) {
-    const sl_triangulation *t = &steps->triangles;
+    const sli_triangulation *t = &steps->triangles;
     for (size_t i = 0; i < t->halves.count / 2; i++)
         if (steps->fresh[i] && (t->labels[i] != 0) == lines) add_edge(cairo, frame, t, i);
 }
 
-void sl_draw_mesh_delaunay(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
-                           const sl_mesh_steps *steps) {
+void sli_draw_mesh_delaunay(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                            const sli_mesh_steps *steps) {
     draw_sides(cairo, palette, frame, &steps->delaunay);
     add_fresh(cairo, frame, steps, true);
     stroke(cairo, palette->start, 6 * frame->unit);
 }
 
-void sl_draw_mesh_triangles(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
-                            const sl_mesh_steps *steps) {
+void sli_draw_mesh_triangles(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                             const sli_mesh_steps *steps) {
     draw_sides(cairo, palette, frame, &steps->triangles);
     add_fresh(cairo, frame, steps, false);
     stroke(cairo, palette->glass, 2.6 * frame->unit);
@@ -120,7 +120,7 @@ void sl_draw_mesh_triangles(cairo_t *cairo, const sl_palette *palette, const sl_
 
 /// Fills the cell at the left of a half-edge.
 static sl_status fill_cell(sl_context *context, cairo_t *cairo, const sl_frame *frame,
-                           const sl_mesh_steps *steps, size_t place, uint32_t half,
+                           const sli_mesh_steps *steps, size_t place, uint32_t half,
                            sl_colour colour, double opacity) {
     SL_ARRAY(sl_point) corners = {0};
     uint32_t at = half;
@@ -131,7 +131,7 @@ static sl_status fill_cell(sl_context *context, cairo_t *cairo, const sl_frame *
             return status;
         }
         corners.items[corners.count++] = start_of(&steps->triangles, at);
-        at = sl_mesh_steps_next(steps, place, at);
+        at = sli_mesh_steps_next(steps, place, at);
     } while (at != half);
     fill(cairo, frame, corners.items, corners.count, colour, opacity);
     sl_free(context, corners.items);
@@ -141,8 +141,8 @@ static sl_status fill_cell(sl_context *context, cairo_t *cairo, const sl_frame *
 /// Draws the sides before the one at `place` is tried: those that stay, and those still to be
 /// tried.
 static void draw_cells(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
-                       const sl_mesh_steps *steps, size_t place) {
-    const sl_triangulation *t = &steps->triangles;
+                       const sli_mesh_steps *steps, size_t place) {
+    const sli_triangulation *t = &steps->triangles;
     static const double dashes[2] = {1.5, 2.5};
     for (size_t i = place; i < steps->sides.count; i++)
         add_edge(cairo, frame, t, steps->sides.items[i].half / 2);
@@ -150,19 +150,19 @@ static void draw_cells(cairo_t *cairo, const sl_palette *palette, const sl_frame
     stroke(cairo, palette->faint, 0.9 * frame->unit);
     cairo_set_dash(cairo, NULL, 0, 0);
     for (size_t i = 0; i < place && i < steps->sides.count; i++)
-        if (steps->sides.items[i].stuck != SL_OUTSIDE)
+        if (steps->sides.items[i].stuck != SLI_OUTSIDE)
             add_edge(cairo, frame, t, steps->sides.items[i].half / 2);
     stroke(cairo, palette->portal, 1.6 * frame->unit);
 }
 
-sl_status sl_draw_mesh_side(sl_context *context, cairo_t *cairo, const sl_palette *palette,
-                            const sl_frame *frame, const sl_mesh_steps *steps, size_t place) {
+sl_status sli_draw_mesh_side(sl_context *context, cairo_t *cairo, const sl_palette *palette,
+                             const sl_frame *frame, const sli_mesh_steps *steps, size_t place) {
     if (place >= steps->sides.count) {
         draw_cells(cairo, palette, frame, steps, place);
         return SL_OK;
     }
-    const sl_mesh_side *side = &steps->sides.items[place];
-    const bool stays = side->stuck != SL_OUTSIDE;
+    const sli_mesh_side *side = &steps->sides.items[place];
+    const bool stays = side->stuck != SLI_OUTSIDE;
     const double dashes[2] = {8 * frame->unit, 6 * frame->unit};
     SL_TRY(fill_cell(context, cairo, frame, steps, place, side->half, palette->glass, 0.22));
     SL_TRY(fill_cell(context, cairo, frame, steps, place, side->half ^ 1,
@@ -175,11 +175,11 @@ sl_status sl_draw_mesh_side(sl_context *context, cairo_t *cairo, const sl_palett
     return SL_OK;
 }
 
-void sl_draw_mesh_corner(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
-                         const sl_mesh_steps *steps, size_t place) {
+void sli_draw_mesh_corner(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                          const sli_mesh_steps *steps, size_t place) {
     sl_point corner[3];
-    if (place >= steps->sides.count || steps->sides.items[place].stuck == SL_OUTSIDE) return;
-    sl_mesh_steps_corner(steps, place, corner);
+    if (place >= steps->sides.count || steps->sides.items[place].stuck == SLI_OUTSIDE) return;
+    sli_mesh_steps_corner(steps, place, corner);
     sl_path_segment(cairo, frame, corner[0], corner[1]);
     sl_path_segment(cairo, frame, corner[1], corner[2]);
     stroke(cairo, palette->mirrored, 3.4 * frame->unit);

@@ -7,35 +7,35 @@
 #include "space/kd_tree.h"
 #include "space/mesh.h"
 
-/// The first `count` splits of a kd-tree (sl_splits_make) down to a depth (1: the first one alone),
-/// each within its node's box. Deeper splits are thinner, in the colours of the ramp.
-void sl_draw_splits(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
-                    const sl_split *splits, uint32_t count, uint32_t depth);
+/// The first `count` splits of a kd-tree (sli_splits_make) down to a depth (1: the first one
+/// alone), each within its node's box. Deeper splits are thinner, in the colours of the ramp.
+void sli_draw_splits(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                     const sli_split *splits, uint32_t count, uint32_t depth);
 
 /// A split with both its sides, and the splits before it.
-void sl_draw_split(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
-                   const sl_split *splits, uint32_t node);
+void sli_draw_split(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                    const sli_split *splits, uint32_t node);
 
 /// The points of a mesh: ends of walls and seams, and corners of the bounds.
-void sl_draw_mesh_points(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
-                         const sl_mesh_steps *steps);
+void sli_draw_mesh_points(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                          const sli_mesh_steps *steps);
 
 /// The Delaunay triangles of the points, and the walls and seams that are no sides of them.
-void sl_draw_mesh_delaunay(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
-                           const sl_mesh_steps *steps);
+void sli_draw_mesh_delaunay(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                            const sli_mesh_steps *steps);
 
 /// The triangles with all walls and seams as sides; new sides are marked.
-void sl_draw_mesh_triangles(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
-                            const sl_mesh_steps *steps);
+void sli_draw_mesh_triangles(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                             const sli_mesh_steps *steps);
 
 /// The cells before the side at `place` is tried: sides that stay, sides still to be tried, and
 /// that side with the cells beside it. It is dashed if it is taken out. A place behind the last
 /// side draws the final cells.
-sl_status sl_draw_mesh_side(sl_context *context, cairo_t *cairo, const sl_palette *palette,
-                            const sl_frame *frame, const sl_mesh_steps *steps, size_t place);
+sl_status sli_draw_mesh_side(sl_context *context, cairo_t *cairo, const sl_palette *palette,
+                             const sl_frame *frame, const sli_mesh_steps *steps, size_t place);
 
 /// If that side has to stay: the corner that would turn right without it.
-void sl_draw_mesh_corner(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
-                         const sl_mesh_steps *steps, size_t place);
+void sli_draw_mesh_corner(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                          const sli_mesh_steps *steps, size_t place);
 
 #endif

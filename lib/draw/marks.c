@@ -121,12 +121,12 @@ sl_colour sl_palette_ramp(bool is_dark, double value) {
 
 // --- pens and marks
 
-sl_pens sl_pens_for(const sl_scene *scene, const sl_frame *frame) {
+sli_pens sli_pens_for(const sl_scene *scene, const sl_frame *frame) {
     const double unit = frame->unit, cell = scene->cell_size * frame->scale;
     // Where cells come out tiny the lines give way, or nothing but lines would be seen.
     const double least = fmin(unit, 0.11 * cell);
     const double wall = fmin(fmax(0.048 * cell, fmax(least, 0.3 * unit)), 3.6 * unit);
-    return (sl_pens){
+    return (sli_pens){
         .wall = wall,
         .portal = fmin(fmax(0.45 * wall, 0.6 * least), 1.4 * unit),
         .outline = fmin(0.25 * wall, 1.0 * unit),
@@ -155,24 +155,24 @@ static void stroke_dashed(cairo_t *cairo, sl_colour colour, double width, double
     cairo_set_dash(cairo, NULL, 0, 0);
 }
 
-void sl_pen_wall(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens) {
+void sli_pen_wall(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens) {
     stroke(cairo, palette->wall, pens->wall, CAIRO_LINE_CAP_ROUND);
 }
 
-void sl_pen_portal(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens) {
+void sli_pen_portal(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens) {
     const double width = pens->portal;
     stroke_dashed(cairo, palette->portal, width, 3.2 * width, 2.6 * width, CAIRO_LINE_CAP_BUTT);
 }
 
-void sl_pen_outline(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens) {
+void sli_pen_outline(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens) {
     stroke(cairo, palette->outline, pens->outline, CAIRO_LINE_CAP_BUTT);
 }
 
-void sl_pen_source_edge(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens) {
+void sli_pen_source_edge(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens) {
     stroke(cairo, palette->source_edge, pens->wall * 0.8, CAIRO_LINE_CAP_BUTT);
 }
 
-void sl_pen_path(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens) {
+void sli_pen_path(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens) {
     const double width = pens->mark * 0.24;
     cairo_path_t *path = cairo_copy_path(cairo);
     const sl_colour rim = palette->page;
@@ -185,7 +185,7 @@ void sl_pen_path(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens)
     stroke_dashed(cairo, palette->path, width, 0, 1.9 * width, CAIRO_LINE_CAP_ROUND);
 }
 
-void sl_pen_object(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens) {
+void sli_pen_object(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens) {
     const sl_colour c = palette->object;
     cairo_set_source_rgba(cairo, c.red, c.green, c.blue, 0.25);
     cairo_fill_preserve(cairo);
@@ -196,25 +196,25 @@ static void set_tree_colour(cairo_t *cairo, sl_colour c, uint32_t depth) {
     cairo_set_source_rgba(cairo, c.red, c.green, c.blue, 0.15 + 0.8 * pow(0.84, depth));
 }
 
-double sl_tree_width(const sl_pens *pens, uint32_t depth) {
+double sli_tree_width(const sli_pens *pens, uint32_t depth) {
     return pens->tree * (0.3 + 0.7 * pow(0.84, depth));
 }
 
-void sl_pen_tree_dots(cairo_t *cairo, sl_colour colour, uint32_t depth) {
+void sli_pen_tree_dots(cairo_t *cairo, sl_colour colour, uint32_t depth) {
     set_tree_colour(cairo, colour, depth);
     cairo_fill(cairo);
 }
 
-void sl_pen_tree(cairo_t *cairo, sl_colour colour, const sl_pens *pens, uint32_t depth) {
+void sli_pen_tree(cairo_t *cairo, sl_colour colour, const sli_pens *pens, uint32_t depth) {
     set_tree_colour(cairo, colour, depth);
-    cairo_set_line_width(cairo, sl_tree_width(pens, depth));
+    cairo_set_line_width(cairo, sli_tree_width(pens, depth));
     cairo_set_line_cap(cairo, CAIRO_LINE_CAP_BUTT);
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
     cairo_stroke(cairo);
 }
 
-void sl_mark_hatch(cairo_t *cairo, const sl_palette *palette, sl_box box, double spacing,
-                   double phase) {
+void sli_mark_hatch(cairo_t *cairo, const sl_palette *palette, sl_box box, double spacing,
+                    double phase) {
     // The lines x + y = phase + k * spacing.
     const double first = box.min.x + box.min.y, last = box.max.x + box.max.y;
     for (double sum = first + spacing - fmod(first - phase, spacing); sum < last; sum += spacing) {
@@ -226,8 +226,8 @@ void sl_mark_hatch(cairo_t *cairo, const sl_palette *palette, sl_box box, double
     stroke(cairo, palette->hatch, spacing * 0.14, CAIRO_LINE_CAP_BUTT);
 }
 
-void sl_mark_start(cairo_t *cairo, const sl_palette *palette, sl_point at, double heading,
-                   double size) {
+void sli_mark_start(cairo_t *cairo, const sl_palette *palette, sl_point at, double heading,
+                    double size) {
     cairo_save(cairo);
     cairo_translate(cairo, at.x, at.y);
     cairo_rotate(cairo, -fmod(heading, 360) * (3.14159265358979323846 / 180));
@@ -246,8 +246,8 @@ void sl_mark_start(cairo_t *cairo, const sl_palette *palette, sl_point at, doubl
     cairo_fill(cairo);
 }
 
-void sl_mark_door(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens, sl_point a,
-                  sl_point b, bool open) {
+void sli_mark_door(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens, sl_point a,
+                   sl_point b, bool open) {
     cairo_move_to(cairo, a.x, a.y);
     cairo_line_to(cairo, b.x, b.y);
     stroke(cairo, palette->door, 1.5 * pens->wall, CAIRO_LINE_CAP_BUTT);
@@ -257,8 +257,8 @@ void sl_mark_door(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens
     stroke(cairo, palette->page, 0.7 * pens->wall, CAIRO_LINE_CAP_BUTT);
 }
 
-void sl_mark_mirror(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens, sl_point a,
-                    sl_point b) {
+void sli_mark_mirror(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens, sl_point a,
+                     sl_point b) {
     cairo_move_to(cairo, a.x, a.y);
     cairo_line_to(cairo, b.x, b.y);
     stroke(cairo, palette->wall, 1.5 * pens->wall, CAIRO_LINE_CAP_BUTT);
@@ -267,8 +267,8 @@ void sl_mark_mirror(cairo_t *cairo, const sl_palette *palette, const sl_pens *pe
     stroke(cairo, palette->seen[0], 0.8 * pens->wall, CAIRO_LINE_CAP_BUTT);
 }
 
-void sl_mark_oneway(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens, sl_point a,
-                    sl_point b) {
+void sli_mark_oneway(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens, sl_point a,
+                     sl_point b) {
     const double dx = b.x - a.x, dy = b.y - a.y, length = hypot(dx, dy);
     cairo_move_to(cairo, a.x, a.y);
     cairo_line_to(cairo, b.x, b.y);
@@ -333,8 +333,8 @@ static void add_square(cairo_t *cairo, sl_point at, double radius, bool turned) 
     cairo_close_path(cairo);
 }
 
-void sl_mark_fault(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens,
-                   sl_fault_kind kind, sl_point a, sl_point b) {
+void sli_mark_fault(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens,
+                    sl_fault_kind kind, sl_point a, sl_point b) {
     const double size = 0.6 * pens->mark, half = hypot(b.x - a.x, b.y - a.y) / 2;
     const sl_point middle = {(a.x + b.x) / 2, (a.y + b.y) / 2};
     switch (kind) {
@@ -364,14 +364,14 @@ void sl_mark_fault(cairo_t *cairo, const sl_palette *palette, const sl_pens *pen
     stroke_rimmed(cairo, palette, kind, kind == SL_FAULT_OVERLAP ? 0.4 * size : 0.2 * size);
 }
 
-static void draw_way(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens,
+static void draw_way(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens,
                      const sl_frame *frame, const sl_point *points, uint32_t count) {
     for (uint32_t i = 1; i < count; i++) sl_path_segment(cairo, frame, points[i - 1], points[i]);
     stroke_rimmed(cairo, palette, SL_FAULT_LEAK, 0.22 * pens->mark);
 }
 
-void sl_draw_faults(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens,
-                    const sl_frame *frame, const sl_faults *faults) {
+void sli_draw_faults(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens,
+                     const sl_frame *frame, const sl_faults *faults) {
     // The gravest first of all in the list, and so last of all on the page.
     for (uint32_t i = faults->count; i-- > 0;) {
         const sl_fault *fault = &faults->items[i];
@@ -380,6 +380,6 @@ void sl_draw_faults(cairo_t *cairo, const sl_palette *palette, const sl_pens *pe
             draw_way(cairo, palette, pens, frame, faults->points + fault->first_point,
                      fault->point_count);
         if (sl_frame_holds(frame, fault->at.a, &a) && sl_frame_holds(frame, fault->at.b, &b))
-            sl_mark_fault(cairo, palette, pens, fault->kind, a, b);
+            sli_mark_fault(cairo, palette, pens, fault->kind, a, b);
     }
 }

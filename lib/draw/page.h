@@ -8,13 +8,13 @@
 
 // --- files
 
-typedef struct sl_paper_kind sl_paper_kind;
+typedef struct sli_paper_kind sli_paper_kind;
 
 /// The kind of file, by the ending of its name; SL_BAD_ARGUMENT for an unknown ending.
-sl_status sl_paper_kind_of(sl_context *context, const char *path, const sl_paper_kind **out);
+sl_status sli_paper_kind_of(sl_context *context, const char *path, const sli_paper_kind **out);
 
-typedef struct sl_paper {
-    const sl_paper_kind *kind;
+typedef struct sli_paper {
+    const sli_paper_kind *kind;
     const char *path; ///< the caller's
     cairo_surface_t *surface;
     cairo_t *cairo; ///< to draw with
@@ -22,19 +22,19 @@ typedef struct sl_paper {
     sl_context *context;
     SL_ARRAY(char) text; ///< what is kept back until the end (SVG)
     bool out_of_memory;  ///< while that was being kept
-} sl_paper;
+} sli_paper;
 
 /// A blank page. `title` (NULL for none) goes into the file's description if the kind has one.
-sl_status sl_paper_open(sl_context *context, const sl_paper_kind *kind, const char *path, int width,
-                        int height, const char *title, sl_paper *out);
+sl_status sli_paper_open(sl_context *context, const sli_paper_kind *kind, const char *path,
+                         int width, int height, const char *title, sli_paper *out);
 
 /// Writes the file if `status` is SL_OK and cairo did not fail; else leaves nothing.
-sl_status sl_paper_close(sl_context *context, sl_paper *paper, sl_status status);
+sl_status sli_paper_close(sl_context *context, sli_paper *paper, sl_status status);
 
 // --- pages
 
 /// Lengths in pixels (PDF: points).
-typedef struct sl_page {
+typedef struct sli_page {
     double width, height;
     double margin; ///< left, right and above
     double inner;  ///< the width between the margins
@@ -42,53 +42,53 @@ typedef struct sl_page {
     sl_frame frame; ///< of the plan
     double bottom;  ///< of the place of the plan, which may be lower than its frame
     double key;     ///< the top of what stands below the plan
-} sl_page;
+} sli_page;
 
 /// SL_BAD_ARGUMENT for a width that no page can have.
-sl_status sl_page_check_width(sl_context *context, double width);
+sl_status sli_page_check_width(sl_context *context, double width);
 
 /// A page of that width, rounded, with nothing on it yet.
-sl_page sl_page_of_width(double width);
+sli_page sli_page_of_width(double width);
 
 /// Places the plan from `top` on. It is as wide as the margins allow, and as high as `bounds` then
 /// are, but between a sixth and `tallest` of its width. So a long thin map is not stretched, and a
 /// page stays within the 32,767 pixels of cairo.
-void sl_page_place_plan(sl_page *page, sl_box bounds, double top, double tallest);
+void sli_page_place_plan(sli_page *page, sl_box bounds, double top, double tallest);
 
 /// The usual `tallest`.
-#define SL_PAGE_TALLEST 1.4
+#define SLI_PAGE_TALLEST 1.4
 
 /// A title and a fainter line below it, from the margin down; NULL for none. Returns where they
 /// end. Draws only with `paint`.
-double sl_page_heading(cairo_t *cairo, const sl_page *page, const sl_palette *palette,
-                       const char *title, const char *subtitle, bool paint);
+double sli_page_heading(cairo_t *cairo, const sli_page *page, const sl_palette *palette,
+                        const char *title, const char *subtitle, bool paint);
 
 /// Runs a layout that measures text, on a surface that is then thrown away. Failures of cairo name
 /// `path`.
-sl_status sl_page_measure(sl_context *context, const char *path,
-                          sl_status (*lay_out)(sl_context *context, cairo_t *cairo, void *what),
-                          void *what);
+sl_status sli_page_measure(sl_context *context, const char *path,
+                           sl_status (*lay_out)(sl_context *context, cairo_t *cairo, void *what),
+                           void *what);
 
 /// The contents of a page. `what` belongs to the picture.
-typedef struct sl_page_parts {
+typedef struct sli_page_parts {
     /// Without `paint`: measures, places the plan and sets the height. Else draws all but the plan,
     /// in the same places.
-    void (*set)(cairo_t *cairo, const void *what, sl_page *page, bool paint);
+    void (*set)(cairo_t *cairo, const void *what, sli_page *page, bool paint);
     /// Draws the plan, before the rest.
     sl_status (*draw_plan)(sl_context *context, cairo_t *cairo, const void *what,
                            const sl_frame *frame);
     const void *what;
     sl_colour ground;
     const char *title; ///< in the file's description, NULL for none
-} sl_page_parts;
+} sli_page_parts;
 
 /// Measures, draws and writes a page of that width.
-sl_status sl_page_write(sl_context *context, const sl_page_parts *parts, double width,
-                        const sl_paper_kind *kind, const char *path);
+sl_status sli_page_write(sl_context *context, const sli_page_parts *parts, double width,
+                         const sli_paper_kind *kind, const char *path);
 
 /// The key of the colours of sl_draw_seen, from a place on the page, in lines as the width allows.
 /// Returns the height; 0 if nothing is seen by mirror. Draws only with `paint`.
-double sl_draw_seen_key(cairo_t *cairo, const sl_palette *palette, const sl_drawn_region *regions,
-                        size_t count, sl_point at, double width, double size, bool paint);
+double sli_draw_seen_key(cairo_t *cairo, const sl_palette *palette, const sl_drawn_region *regions,
+                         size_t count, sl_point at, double width, double size, bool paint);
 
 #endif

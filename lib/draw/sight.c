@@ -84,7 +84,7 @@ void sl_draw_eye_mark(cairo_t *cairo, const sl_palette *palette, const sl_frame 
     sl_point at;
     if (!sl_frame_holds(frame, eye, &at)) return;
     cairo_new_path(cairo);
-    sl_mark_start(cairo, palette, at, heading, 2.2 * radius);
+    sli_mark_start(cairo, palette, at, heading, 2.2 * radius);
     cairo_new_path(cairo);
     cairo_arc(cairo, at.x, at.y, 0.55 * radius, 0, FULL_TURN);
     sl_set_colour(cairo, palette->page);
@@ -175,9 +175,9 @@ static void draw_swatch(cairo_t *cairo, const sl_palette *palette, uint32_t dept
                         double left, double top, double size) {
     const double width = 2 * size, height = 1.15 * size;
     if (depth > deepest) {
-        const sl_pens pens = {.wall = 0.22 * size};
-        sl_mark_mirror(cairo, palette, &pens, (sl_point){left, top + height / 2},
-                       (sl_point){left + width, top + height / 2});
+        const sli_pens pens = {.wall = 0.22 * size};
+        sli_mark_mirror(cairo, palette, &pens, (sl_point){left, top + height / 2},
+                        (sl_point){left + width, top + height / 2});
         return;
     }
     cairo_rectangle(cairo, left, top, width, height);
@@ -188,8 +188,8 @@ static void draw_swatch(cairo_t *cairo, const sl_palette *palette, uint32_t dept
     cairo_stroke(cairo);
 }
 
-double sl_draw_seen_key(cairo_t *cairo, const sl_palette *palette, const sl_drawn_region *regions,
-                        size_t count, sl_point at, double width, double size, bool paint) {
+double sli_draw_seen_key(cairo_t *cairo, const sl_palette *palette, const sl_drawn_region *regions,
+                         size_t count, sl_point at, double width, double size, bool paint) {
     uint32_t deepest = 0, first = 1;
     for (size_t i = 0; i < count; i++) {
         const uint32_t depth = regions[i].depth;

@@ -8,7 +8,7 @@
 /// The space to look through under a plan, or NULL for none: `space` itself, or where one-way glass
 /// is called for `made`, without the directed portals that it keeps sight from. `made` is zeroed,
 /// and to be destroyed when done.
-sl_status sl_oneway_filtered(sl_context *context, const sl_space *space, const sl_plan *plan,
-                             sl_space *made, const sl_space **through);
+sl_status sli_oneway_filtered(sl_context *context, const sl_space *space, const sl_plan *plan,
+                              sl_space *made, const sl_space **through);
 
 #endif

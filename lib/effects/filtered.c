@@ -17,11 +17,11 @@ typedef struct maker {
 /// Going from its a to its b, glass is seen through from its right to its left. A straight line
 /// that crosses it comes from the side that the eye is on; an eye on its line is where its cell is.
 static bool is_blocked(const maker *m, const sl_segment *glass) {
-    const int side = sl_orient(glass->a, glass->b, *m->filtered->eye);
+    const int side = sli_orient(glass->a, glass->b, *m->filtered->eye);
     if (side || m->eye_cell == SL_NO_CELL) return side > 0;
     const sl_cell *cell = &m->from->cells[m->eye_cell];
     for (uint32_t i = 0; i < cell->vertex_count; i++)
-        if (sl_orient(glass->a, glass->b, m->from->vertices[cell->first_vertex + i]) > 0)
+        if (sli_orient(glass->a, glass->b, m->from->vertices[cell->first_vertex + i]) > 0)
             return true;
     return false;
 }
@@ -188,8 +188,8 @@ bool sl_portal_is_blocked(const sl_space *space, uint32_t cell, uint32_t directe
     return false;
 }
 
-sl_status sl_oneway_filtered(sl_context *context, const sl_space *space, const sl_plan *plan,
-                             sl_space *made, const sl_space **through) {
+sl_status sli_oneway_filtered(sl_context *context, const sl_space *space, const sl_plan *plan,
+                              sl_space *made, const sl_space **through) {
     const sl_filtered_space filtered = {.one_way = true};
     const bool called_for = plan && plan->effects & SL_EFFECT_ONEWAY;
     if (called_for) SL_TRY(sl_filtered_space_make(context, space, &filtered, NULL, made));

@@ -34,15 +34,15 @@ static sl_point fold_oblique(sl_segment mirror, sl_point p) {
     return (sl_point){p.x + dy * share, p.y - dx * share};
 }
 
-sl_fine sl_fold(sl_segment mirror, const sl_fine *point, bool *rounded) {
-    sl_fine out = *point;
+sli_fine sli_fold(sl_segment mirror, const sli_fine *point, bool *rounded) {
+    sli_fine out = *point;
     const sl_point a = mirror.a, b = mirror.b;
     if (a.x == b.x) {
         fold_coordinate(a.x, &out.at.x, &out.rest.x, rounded);
     } else if (a.y == b.y) {
         fold_coordinate(a.y, &out.at.y, &out.rest.y, rounded);
-    } else if (sl_orient_fine(&(sl_fine){.at = a}, &(sl_fine){.at = b}, point) != 0) {
-        out = (sl_fine){.at = fold_oblique(mirror, point->at)};
+    } else if (sli_orient_fine(&(sli_fine){.at = a}, &(sli_fine){.at = b}, point) != 0) {
+        out = (sli_fine){.at = fold_oblique(mirror, point->at)};
         *rounded = true;
     }
     return out;
@@ -50,8 +50,8 @@ sl_fine sl_fold(sl_segment mirror, const sl_fine *point, bool *rounded) {
 
 // --- frames
 
-sl_mirror_frame sl_mirror_frame_of_map(void) {
-    return (sl_mirror_frame){.xx = 1, .yy = 1};
+sli_mirror_frame sli_mirror_frame_of_map(void) {
+    return (sli_mirror_frame){.xx = 1, .yy = 1};
 }
 
 /// a + b; *rounded where that is not the sum (Knuth's TwoSum).
@@ -62,17 +62,17 @@ static double add_noting(double a, double b, bool *rounded) {
 }
 
 /// The frame's map after p goes to (xx p.x + xy p.y + x, ...): first that, then the frame.
-static sl_mirror_frame after(const sl_mirror_frame *f, const sl_mirror_frame *r) {
-    return (sl_mirror_frame){.xx = f->xx * r->xx + f->xy * r->yx,
-                             .xy = f->xx * r->xy + f->xy * r->yy,
-                             .x = f->xx * r->x + f->xy * r->y + f->x,
-                             .yx = f->yx * r->xx + f->yy * r->yx,
-                             .yy = f->yx * r->xy + f->yy * r->yy,
-                             .y = f->yx * r->x + f->yy * r->y + f->y};
+static sli_mirror_frame after(const sli_mirror_frame *f, const sli_mirror_frame *r) {
+    return (sli_mirror_frame){.xx = f->xx * r->xx + f->xy * r->yx,
+                              .xy = f->xx * r->xy + f->xy * r->yy,
+                              .x = f->xx * r->x + f->xy * r->y + f->x,
+                              .yx = f->yx * r->xx + f->yy * r->yx,
+                              .yy = f->yx * r->xy + f->yy * r->yy,
+                              .y = f->yx * r->x + f->yy * r->y + f->y};
 }
 
-sl_mirror_frame sl_mirror_frame_reflect(const sl_mirror_frame *frame, sl_segment mirror) {
-    sl_mirror_frame out = *frame;
+sli_mirror_frame sli_mirror_frame_reflect(const sli_mirror_frame *frame, sl_segment mirror) {
+    sli_mirror_frame out = *frame;
     const sl_point a = mirror.a, b = mirror.b;
     if (a.x == b.x && frame->xy == 0) {
         out.x = add_noting(frame->x, frame->xx * (2 * a.x), &out.rounded);
@@ -84,12 +84,12 @@ sl_mirror_frame sl_mirror_frame_reflect(const sl_mirror_frame *frame, sl_segment
         // p + 2 n (n . (a - p)) for the mirror's unit normal n.
         const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
         const double nx = -dy, ny = dx, at = (nx * a.x + ny * a.y) / square;
-        const sl_mirror_frame reflection = {.xx = 1 - 2 * nx * nx / square,
-                                            .xy = -2 * nx * ny / square,
-                                            .x = 2 * nx * at,
-                                            .yx = -2 * nx * ny / square,
-                                            .yy = 1 - 2 * ny * ny / square,
-                                            .y = 2 * ny * at};
+        const sli_mirror_frame reflection = {.xx = 1 - 2 * nx * nx / square,
+                                             .xy = -2 * nx * ny / square,
+                                             .x = 2 * nx * at,
+                                             .yx = -2 * nx * ny / square,
+                                             .yy = 1 - 2 * ny * ny / square,
+                                             .y = 2 * ny * at};
         out = after(frame, &reflection);
         out.rounded = true;
     }
@@ -97,7 +97,7 @@ sl_mirror_frame sl_mirror_frame_reflect(const sl_mirror_frame *frame, sl_segment
     return out;
 }
 
-sl_point sl_mirror_frame_place(const sl_mirror_frame *f, sl_point p, bool *rounded) {
+sl_point sli_mirror_frame_place(const sli_mirror_frame *f, sl_point p, bool *rounded) {
     if (f->xy == 0 && f->yx == 0)
         return (sl_point){add_noting(f->x, f->xx * p.x, rounded),
                           add_noting(f->y, f->yy * p.y, rounded)};

@@ -23,29 +23,29 @@
 
 static sl_status cell_to_cell(sl_context *context, sl_eye_search *search, const sl_view *view,
                               uint64_t *cells, sl_eye_account *account) {
-    sl_eye_query query;
-    SL_TRY(sl_eye_begin(context, search, view, true, cells, &query));
+    sli_eye_query query;
+    SL_TRY(sli_eye_begin(context, search, view, true, cells, &query));
     const size_t words = sl_eye_words(search->space);
     if (query.cell != SL_NO_CELL) {
         memcpy(cells, search->row, words * sizeof *cells);
         for (size_t i = 0; i < words; i++) query.nodes += (uint64_t)__builtin_popcountll(cells[i]);
     }
-    sl_eye_end(&query, account);
+    sli_eye_end(&query, account);
     return SL_OK;
 }
 
 static sl_status cell_to_cell_mirrored(sl_context *context, sl_eye_search *search,
                                        const sl_view *view, uint64_t *cells,
                                        sl_eye_account *account) {
-    sl_eye_query query;
-    SL_TRY(sl_eye_begin(context, search, view, true, cells, &query));
+    sli_eye_query query;
+    SL_TRY(sli_eye_begin(context, search, view, true, cells, &query));
     const sl_pvs *mirrored = &search->visibility->mirrored;
     if (query.cell != SL_NO_CELL && mirrored->cell_count) {
-        sl_row_add_to(mirrored, query.cell, cells);
+        sli_row_add_to(mirrored, query.cell, cells);
         for (size_t i = 0; i < sl_eye_words(search->space); i++)
             query.nodes += (uint64_t)__builtin_popcountll(cells[i]);
     }
-    sl_eye_end(&query, account);
+    sli_eye_end(&query, account);
     return SL_OK;
 }
 
@@ -53,32 +53,32 @@ static sl_status cell_to_cell_mirrored(sl_context *context, sl_eye_search *searc
 
 static sl_status disjoint_cell(sl_context *context, sl_eye_search *search, const sl_view *view,
                                uint64_t *cells, sl_eye_account *account) {
-    sl_eye_query query;
-    SL_TRY(sl_eye_begin(context, search, view, true, cells, &query));
+    sli_eye_query query;
+    SL_TRY(sli_eye_begin(context, search, view, true, cells, &query));
     const size_t words = query.cell == SL_NO_CELL ? 0 : sl_eye_words(search->space);
     for (size_t word = 0; word < words; word++) {
         for (sl_bits rest = search->row[word]; rest; rest &= rest - 1) {
             const uint32_t cell = (uint32_t)(64 * word) + (uint32_t)__builtin_ctzll(rest);
             if (++query.nodes % 4096 == 0) SL_TRY(sl_check_cancelled(context));
-            if (sl_eye_meets_cell(&query, cell)) sl_bits_add(cells, cell);
+            if (sli_eye_meets_cell(&query, cell)) sl_bits_add(cells, cell);
         }
     }
-    sl_eye_end(&query, account);
+    sli_eye_end(&query, account);
     return SL_OK;
 }
 
 // --- spreading from the eye's cell
 
 /// Whether to go through a directed portal.
-typedef bool portal_test(sl_eye_query *query, const sl_directed_portal *portal);
+typedef bool portal_test(sli_eye_query *query, const sl_directed_portal *portal);
 
 /// Tests the portals of a kept cell and queues the cells behind those that pass.
-static size_t spread_from(sl_eye_query *query, portal_test *test, uint32_t from, uint32_t *queue,
+static size_t spread_from(sli_eye_query *query, portal_test *test, uint32_t from, uint32_t *queue,
                           size_t queued) {
     const sl_cell *cell = &query->space->cells[from];
     for (uint32_t i = 0; i < cell->directed_count; i++) {
         const sl_directed_portal *portal = &query->space->directed[cell->first_directed + i];
-        if (sl_bits_has(query->cells, portal->cell) || !sl_eye_may_see(query, portal->cell))
+        if (sl_bits_has(query->cells, portal->cell) || !sli_eye_may_see(query, portal->cell))
             continue;
         query->nodes++;
         if (!test(query, portal)) continue;
@@ -89,7 +89,7 @@ static size_t spread_from(sl_eye_query *query, portal_test *test, uint32_t from,
 }
 
 /// Adds to the result each cell that can be reached, the eye's own first.
-static sl_status spread(sl_context *context, sl_eye_query *query, portal_test *test) {
+static sl_status spread(sl_context *context, sli_eye_query *query, portal_test *test) {
     if (query->cell == SL_NO_CELL) return SL_OK;
     uint32_t *queue = query->search->queue;
     size_t queued = 0;
@@ -103,26 +103,26 @@ static sl_status spread(sl_context *context, sl_eye_query *query, portal_test *t
     return SL_OK;
 }
 
-static bool meets_cell(sl_eye_query *query, const sl_directed_portal *portal) {
-    return sl_eye_meets_cell(query, portal->cell);
+static bool meets_cell(sli_eye_query *query, const sl_directed_portal *portal) {
+    return sli_eye_meets_cell(query, portal->cell);
 }
 
 static sl_status connected_component(sl_context *context, sl_eye_search *search,
                                      const sl_view *view, uint64_t *cells,
                                      sl_eye_account *account) {
-    sl_eye_query query;
-    SL_TRY(sl_eye_begin(context, search, view, true, cells, &query));
+    sli_eye_query query;
+    SL_TRY(sli_eye_begin(context, search, view, true, cells, &query));
     SL_TRY(spread(context, &query, meets_cell));
-    sl_eye_end(&query, account);
+    sli_eye_end(&query, account);
     return SL_OK;
 }
 
 static sl_status incident_portals(sl_context *context, sl_eye_search *search, const sl_view *view,
                                   uint64_t *cells, sl_eye_account *account) {
-    sl_eye_query query;
-    SL_TRY(sl_eye_begin(context, search, view, true, cells, &query));
-    SL_TRY(spread(context, &query, sl_eye_meets_portal));
-    sl_eye_end(&query, account);
+    sli_eye_query query;
+    SL_TRY(sli_eye_begin(context, search, view, true, cells, &query));
+    SL_TRY(spread(context, &query, sli_eye_meets_portal));
+    sli_eye_end(&query, account);
     return SL_OK;
 }
 
@@ -139,7 +139,7 @@ const sl_eye_method *sl_eye_methods(size_t *count) {
         {"incident_portals", "of those, the cells reached through portals that meet the cone",
          SL_CONSERVATIVE, true, incident_portals, NULL},
         {"exact", "of those, the cells with a sightline from the eye within the cone", SL_EXACT,
-         false, sl_eye_exact, sl_eye_exact_mirrored},
+         false, sli_eye_exact, sli_eye_exact_mirrored},
     };
     *count = sizeof methods / sizeof *methods;
     return methods;

@@ -13,7 +13,7 @@
 #include <string.h>
 
 /// On which sides a ray has crossed portals along it: that is all that tells apart what is ahead.
-static unsigned sides_of(const sl_arc *ray) {
+static unsigned sides_of(const sli_arc *ray) {
     return ray->left.along ? 2 : ray->right.along;
 }
 
@@ -21,41 +21,41 @@ static unsigned sides_of(const sl_arc *ray) {
 static uint32_t new_ray(sl_eye_search *search) {
     if (++search->ray_count == 0) {
         memset(search->rays, 0,
-               SL_RAY_SIDES * (size_t)search->space->cell_count * sizeof(uint32_t));
+               SLI_RAY_SIDES * (size_t)search->space->cell_count * sizeof(uint32_t));
         search->ray_count = 1;
     }
     return search->ray_count;
 }
 
-bool sl_eye_is_new(sl_eye_search *search, const sl_eye_step *from, sl_eye_step *to) {
-    if (to->arcs[0].span != SL_SPAN_RAY) return true;
+bool sli_eye_is_new(sl_eye_search *search, const sli_eye_step *from, sli_eye_step *to) {
+    if (to->arcs[0].span != SLI_SPAN_RAY) return true;
     to->ray = from->ray ? from->ray : new_ray(search);
-    uint32_t *mark = &search->rays[SL_RAY_SIDES * (size_t)to->at.cell + sides_of(&to->arcs[0])];
+    uint32_t *mark = &search->rays[SLI_RAY_SIDES * (size_t)to->at.cell + sides_of(&to->arcs[0])];
     const bool fresh = *mark != to->ray;
     *mark = to->ray;
     return fresh;
 }
 
-void sl_eye_meet_targets(sl_eye_query *query, const sl_eye_step *at, bool first) {
-    const sl_eye_targets *t = &query->search->targets;
-    sl_eye_step neighbour;
+void sli_eye_meet_targets(sli_eye_query *query, const sli_eye_step *at, bool first) {
+    const sli_eye_targets *t = &query->search->targets;
+    sli_eye_step neighbour;
     for (uint32_t i = t->first[at->at.cell]; i < t->first[at->at.cell + 1]; i++)
         if (!t->met[t->targets[i].portal])
             t->met[t->targets[i].portal] =
-                sl_eye_pass_in_range(query, at, first, &t->targets[i], &neighbour);
+                sli_eye_pass_in_range(query, at, first, &t->targets[i], &neighbour);
 }
 
 /// One query's search.
 typedef struct exact_job {
-    sl_eye_query *query;
-    sl_portal_search way; ///< of sl_eye_step
+    sli_eye_query *query;
+    sli_portal_search way; ///< of sli_eye_step
 } exact_job;
 
 /// Enters the step that stands behind the last one.
-static sl_status enter(sl_context *context, exact_job *job, const sl_eye_step *to) {
-    sl_eye_query *query = job->query;
+static sl_status enter(sl_context *context, exact_job *job, const sli_eye_step *to) {
+    sli_eye_query *query = job->query;
     const size_t depth = ++job->way.count;
-    if (query->search->targets.first) sl_eye_meet_targets(query, to, depth == 1);
+    if (query->search->targets.first) sli_eye_meet_targets(query, to, depth == 1);
     // No cell comes twice on the way; a first directed portal may have given two steps.
     if (depth > (size_t)query->space->cell_count + 1)
         return sl_fail(context, SL_BAD_INPUT,
@@ -65,50 +65,50 @@ static sl_status enter(sl_context *context, exact_job *job, const sl_eye_step *t
 }
 
 /// Goes through a directed portal: one step for each arc that is left there.
-SL_VISIT sl_status cross(sl_context *context, void *visit, const void *last, void *next,
-                         uint32_t number) {
+SLI_VISIT sl_status cross(sl_context *context, void *visit, const void *last, void *next,
+                          uint32_t number) {
     exact_job *job = visit;
-    sl_eye_query *query = job->query;
-    const sl_eye_step *from = last;
-    sl_eye_step *to = next, entered;
+    sli_eye_query *query = job->query;
+    const sli_eye_step *from = last;
+    sli_eye_step *to = next, entered;
     const sl_directed_portal *directed = &query->space->directed[number];
-    if (!sl_eye_may_see(query, directed->cell) ||
-        !sl_eye_pass_in_range(query, from, job->way.count == 1, directed, &entered))
+    if (!sli_eye_may_see(query, directed->cell) ||
+        !sli_eye_pass_in_range(query, from, job->way.count == 1, directed, &entered))
         return SL_OK;
     for (unsigned i = 0; i < entered.arc_count; i++) {
         *to = entered;
         to->arcs[0] = entered.arcs[i];
         to->arc_count = 1;
-        if (!sl_eye_is_new(query->search, from, to)) continue;
+        if (!sli_eye_is_new(query->search, from, to)) continue;
         sl_bits_add(query->cells, directed->cell);
         SL_TRY(enter(context, job, to++));
     }
     return SL_OK;
 }
 
-static sl_status search_portals(sl_context *context, sl_eye_query *query) {
-    static const sl_portal_visitor visitor = {.step_size = sizeof(sl_eye_step), .cross = cross};
+static sl_status search_portals(sl_context *context, sli_eye_query *query) {
+    static const sli_portal_visitor visitor = {.step_size = sizeof(sli_eye_step), .cross = cross};
     sl_eye_search *search = query->search;
     exact_job job = {.query = query,
                      .way = {.space = query->space,
                              .steps = search->steps,
                              .capacity = (size_t)query->space->cell_count + 3}};
     query->nodes = 0;
-    search->steps[0] = sl_eye_first_step(query);
+    search->steps[0] = sli_eye_first_step(query);
     sl_bits_add(query->cells, query->cell);
     sl_status status = enter(context, &job, &search->steps[0]);
-    if (status == SL_OK) status = sl_portal_search_run(context, &job.way, &visitor, &job);
+    if (status == SL_OK) status = sli_portal_search_run(context, &job.way, &visitor, &job);
     search->steps = job.way.steps;
     return status;
 }
 
-sl_status sl_eye_exact(sl_context *context, sl_eye_search *search, const sl_view *view,
-                       uint64_t *cells, sl_eye_account *account) {
-    sl_eye_query query;
-    SL_TRY(sl_eye_begin(context, search, view, false, cells, &query));
+sl_status sli_eye_exact(sl_context *context, sl_eye_search *search, const sl_view *view,
+                        uint64_t *cells, sl_eye_account *account) {
+    sli_eye_query query;
+    SL_TRY(sli_eye_begin(context, search, view, false, cells, &query));
     bool done = query.cell == SL_NO_CELL;
-    if (!done && !search->boxed) SL_TRY(sl_eye_exact_tree(context, &query, &done));
+    if (!done && !search->boxed) SL_TRY(sli_eye_exact_tree(context, &query, &done));
     if (!done) SL_TRY(search_portals(context, &query));
-    sl_eye_end(&query, account);
+    sli_eye_end(&query, account);
     return SL_OK;
 }

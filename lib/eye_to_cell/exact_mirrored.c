@@ -7,16 +7,16 @@
 
 /// A step, the number of mirrors on its way, and the one crossed last, UINT32_MAX for a portal.
 typedef struct step {
-    sl_eye_step at;
+    sli_eye_step at;
     uint32_t depth, mirror;
 } step;
 
 struct sl_eye_mirrors {
     const sl_map *map;
     uint32_t depth;
-    sl_mirror_sides sides;
-    sl_fine *images;      ///< of the eye, by the number of mirrors
-    sl_portal_search way; ///< of `step`
+    sli_mirror_sides sides;
+    sli_fine *images;      ///< of the eye, by the number of mirrors
+    sli_portal_search way; ///< of `step`
     uint64_t rounded;
 };
 
@@ -30,34 +30,34 @@ sl_status sl_eye_search_add_mirrors(sl_context *context, sl_eye_search *search, 
     m->depth = depth;
     m->images = sl_alloc_array(context, (size_t)depth + 1, sizeof *m->images);
     const sl_status status =
-        m->images ? sl_mirror_sides_find(context, search->space, map, &m->sides) : SL_NO_MEMORY;
+        m->images ? sli_mirror_sides_find(context, search->space, map, &m->sides) : SL_NO_MEMORY;
     if (status != SL_OK) {
-        sl_eye_mirrors_destroy(context, m);
+        sli_eye_mirrors_destroy(context, m);
         return status;
     }
-    sl_eye_mirrors_destroy(context, search->mirrors);
+    sli_eye_mirrors_destroy(context, search->mirrors);
     search->mirrors = m;
     return SL_OK;
 }
 
-void sl_eye_mirrors_destroy(sl_context *context, mirrors *m) {
+void sli_eye_mirrors_destroy(sl_context *context, mirrors *m) {
     if (!m) return;
-    sl_mirror_sides_destroy(context, &m->sides);
+    sli_mirror_sides_destroy(context, &m->sides);
     sl_free(context, m->images);
-    sl_portal_search_end(context, &m->way);
+    sli_portal_search_end(context, &m->way);
     sl_free(context, m);
 }
 
 /// Puts the eye where it is seen to be after a number of mirrors.
-static void look_from(sl_eye_query *query, uint32_t depth) {
-    const sl_fine *image = &query->search->mirrors->images[depth];
+static void look_from(sli_eye_query *query, uint32_t depth) {
+    const sli_fine *image = &query->search->mirrors->images[depth];
     query->pivot.eye = image->at;
     query->pivot.rest = image->rest;
     query->pivot.fine = depth > 0;
 }
 
 /// Enters a step for each arc of one, at `to` and behind it.
-static sl_status enter(sl_context *context, sl_eye_query *query, const sl_eye_step *from,
+static sl_status enter(sl_context *context, sli_eye_query *query, const sli_eye_step *from,
                        step *to) {
     const step entered = *to;
     mirrors *m = query->search->mirrors;
@@ -66,8 +66,8 @@ static sl_status enter(sl_context *context, sl_eye_query *query, const sl_eye_st
         *to = entered;
         to->at.arcs[0] = entered.at.arcs[i];
         to->at.arc_count = 1;
-        if (!sl_eye_is_new(query->search, from, &to->at)) continue;
-        if (to->depth && query->search->targets.first) sl_eye_meet_targets(query, &to->at, false);
+        if (!sli_eye_is_new(query->search, from, &to->at)) continue;
+        if (to->depth && query->search->targets.first) sli_eye_meet_targets(query, &to->at, false);
         if (to->depth) sl_bits_add(query->cells, to->at.at.cell);
         to++;
         if (++m->way.count > most)
@@ -81,22 +81,22 @@ static sl_status enter(sl_context *context, sl_eye_query *query, const sl_eye_st
 
 static sl_status cross(sl_context *context, void *job, const void *last, void *next,
                        uint32_t number) {
-    sl_eye_query *query = job;
+    sli_eye_query *query = job;
     const step *from = last;
     step *to = next;
     const bool first = query->search->mirrors->way.count == 1;
     const sl_directed_portal *directed = &query->space->directed[number];
-    if (!from->depth && !sl_eye_may_see(query, directed->cell)) return SL_OK;
+    if (!from->depth && !sli_eye_may_see(query, directed->cell)) return SL_OK;
     look_from(query, from->depth);
-    if (!sl_eye_pass_in_range(query, &from->at, first, directed, &to->at)) return SL_OK;
+    if (!sli_eye_pass_in_range(query, &from->at, first, directed, &to->at)) return SL_OK;
     to->depth = from->depth;
     to->mirror = UINT32_MAX;
     return enter(context, query, &from->at, to);
 }
 
-static sl_ray fold_ray(mirrors *m, sl_segment mirror, sl_ray ray) {
+static sli_ray fold_ray(mirrors *m, sl_segment mirror, sli_ray ray) {
     bool rounded = false;
-    const sl_fine image = sl_fold(mirror, &(sl_fine){ray.point, ray.rest}, &rounded);
+    const sli_fine image = sli_fold(mirror, &(sli_fine){ray.point, ray.rest}, &rounded);
     m->rounded += rounded;
     ray.point = image.at;
     ray.rest = image.rest;
@@ -105,56 +105,56 @@ static sl_ray fold_ray(mirrors *m, sl_segment mirror, sl_ray ray) {
 
 static sl_status reflect(sl_context *context, void *job, const void *last, void *next,
                          uint32_t number) {
-    sl_eye_query *query = job;
+    sli_eye_query *query = job;
     const step *from = last;
     step *to = next;
     mirrors *m = query->search->mirrors;
-    const sl_mirror_side *side = &m->sides.sides[number];
+    const sli_mirror_side *side = &m->sides.sides[number];
     const sl_segment mirror = m->map->mirrors[side->mirror].segment;
     // Behind a mirror its own side is behind the line of sight, but for rounding.
     if (from->mirror == side->mirror || from->depth == m->depth) return SL_OK;
     const sl_directed_portal directed = {
         .left = side->left, .right = side->right, .cell = side->cell};
-    sl_eye_step seen;
+    sli_eye_step seen;
     look_from(query, from->depth);
-    if (!sl_eye_pass_in_range(query, &from->at, m->way.count == 1, &directed, &seen)) return SL_OK;
+    if (!sli_eye_pass_in_range(query, &from->at, m->way.count == 1, &directed, &seen)) return SL_OK;
     bool rounded = false;
     *to = (step){
         .at = {.at = seen.at, .near = seen.near}, .depth = from->depth + 1, .mirror = side->mirror};
-    m->images[to->depth] = sl_fold(mirror, &m->images[from->depth], &rounded);
+    m->images[to->depth] = sli_fold(mirror, &m->images[from->depth], &rounded);
     m->rounded += rounded;
     look_from(query, to->depth);
     for (unsigned i = 0; i < seen.arc_count; i++)
         to->at.arc_count +=
-            sl_arc_make(&query->pivot, fold_ray(m, mirror, seen.arcs[i].left),
-                        fold_ray(m, mirror, seen.arcs[i].right), &to->at.arcs[to->at.arc_count]);
-    return enter(context, query, &(sl_eye_step){0}, to);
+            sli_arc_make(&query->pivot, fold_ray(m, mirror, seen.arcs[i].left),
+                         fold_ray(m, mirror, seen.arcs[i].right), &to->at.arcs[to->at.arc_count]);
+    return enter(context, query, &(sli_eye_step){0}, to);
 }
 
-static sl_status search(sl_context *context, sl_eye_query *query) {
-    static const sl_portal_visitor visitor = {
+static sl_status search(sl_context *context, sli_eye_query *query) {
+    static const sli_portal_visitor visitor = {
         .step_size = sizeof(step), .cross = cross, .reflect = reflect};
     mirrors *m = query->search->mirrors;
     m->way.space = query->space;
     m->way.mirrors = &m->sides;
-    SL_TRY(sl_portal_search_start(context, &m->way, sizeof(step)));
-    m->images[0] = (sl_fine){.at = query->pivot.eye};
+    SL_TRY(sli_portal_search_start(context, &m->way, sizeof(step)));
+    m->images[0] = (sli_fine){.at = query->pivot.eye};
     step *first = m->way.steps;
-    *first = (step){.at = sl_eye_first_step(query), .mirror = UINT32_MAX};
+    *first = (step){.at = sli_eye_first_step(query), .mirror = UINT32_MAX};
     m->way.count = 1;
     query->nodes = 1;
-    return sl_portal_search_run(context, &m->way, &visitor, query);
+    return sli_portal_search_run(context, &m->way, &visitor, query);
 }
 
-sl_status sl_eye_exact_mirrored(sl_context *context, sl_eye_search *s, const sl_view *view,
-                                uint64_t *cells, sl_eye_account *account) {
+sl_status sli_eye_exact_mirrored(sl_context *context, sl_eye_search *s, const sl_view *view,
+                                 uint64_t *cells, sl_eye_account *account) {
     if (!s->mirrors)
         return sl_fail(context, SL_BAD_ARGUMENT, "the search was given no mirrors to look into");
-    sl_eye_query query;
-    SL_TRY(sl_eye_begin(context, s, view, false, cells, &query));
+    sli_eye_query query;
+    SL_TRY(sli_eye_begin(context, s, view, false, cells, &query));
     s->mirrors->rounded = 0;
     if (query.cell != SL_NO_CELL) SL_TRY(search(context, &query));
-    sl_eye_end(&query, account);
+    sli_eye_end(&query, account);
     account->rounded = s->mirrors->rounded;
     return SL_OK;
 }

@@ -31,12 +31,12 @@ void sl_cells_of_box(const sl_space *space, sl_box box, uint64_t *cells) {
     memset(cells, 0, sl_eye_words(space) * sizeof *cells);
     if (!space->neighbour) {
         for (uint32_t i = 0; i < space->cell_count; i++)
-            if (sl_cell_meets_box(space, i, box)) sl_bits_add(cells, i);
+            if (sli_cell_meets_box(space, i, box)) sl_bits_add(cells, i);
         return;
     }
-    sl_cell_grid_range r = sl_cell_grid_range_of(space, box);
-    for (uint32_t i; sl_cell_grid_next(&space->grid, &r, &i);)
-        if (!sl_bits_has(cells, i) && sl_cell_meets_box(space, i, box)) sl_bits_add(cells, i);
+    sli_cell_grid_range r = sli_cell_grid_range_of(space, box);
+    for (uint32_t i; sli_cell_grid_next(&space->grid, &r, &i);)
+        if (!sl_bits_has(cells, i) && sli_cell_meets_box(space, i, box)) sl_bits_add(cells, i);
 }
 
 // --- targets: the pieces of boxes' sides on the boundaries of cells
@@ -59,7 +59,7 @@ typedef struct gatherer {
     size_t *done;  ///< by cell: the number of the last piece that was tested against it
     SL_ARRAY(target) targets;
     SL_ARRAY(int32_t) stack;
-    sl_piece_list free;
+    sli_piece_list free;
 } gatherer;
 
 static sl_status add(gatherer *g, uint32_t cell, uint32_t box, sl_point left, sl_point right) {
@@ -71,7 +71,7 @@ static sl_status add(gatherer *g, uint32_t cell, uint32_t box, sl_point left, sl
 // --- where cells are boxes
 
 /// Adds a piece where it lies on the boundary of a cell.
-static sl_status add_on_boundary(gatherer *g, uint32_t cell, const sl_piece *side, uint32_t box) {
+static sl_status add_on_boundary(gatherer *g, uint32_t cell, const sli_piece *side, uint32_t box) {
     const sl_point *corners = g->space->vertices + g->space->cells[cell].first_vertex;
     const sl_point min = corners[0], max = corners[2];
     const bool below = side->at == (side->axis ? max.y : max.x);
@@ -86,7 +86,7 @@ static sl_status add_on_boundary(gatherer *g, uint32_t cell, const sl_piece *sid
 }
 
 /// Adds a piece to all cells that it lies on the boundary of.
-static sl_status add_down_tree(gatherer *g, const sl_piece *side, uint32_t box) {
+static sl_status add_down_tree(gatherer *g, const sli_piece *side, uint32_t box) {
     g->stack.count = 0;
     SL_TRY(SL_ARRAY_ROOM(g->context, &g->stack, 1));
     g->stack.items[g->stack.count++] = g->space->root;
@@ -108,20 +108,20 @@ static sl_status add_down_tree(gatherer *g, const sl_piece *side, uint32_t box) 
 
 // --- where cells are convex
 
-static double along(const sl_piece *side, sl_point p) {
+static double along(const sli_piece *side, sl_point p) {
     return side->axis ? p.x : p.y;
 }
 
-static double across(const sl_piece *side, sl_point p) {
+static double across(const sli_piece *side, sl_point p) {
     return side->axis ? p.y : p.x;
 }
 
-static sl_point on(const sl_piece *side, double at) {
+static sl_point on(const sli_piece *side, double at) {
     return side->axis ? (sl_point){at, side->at} : (sl_point){side->at, at};
 }
 
 /// Adds the part of a piece that lies on a side of a cell, which has the cell to its left.
-static sl_status add_along(gatherer *g, uint32_t number, const sl_piece *piece, uint32_t box,
+static sl_status add_along(gatherer *g, uint32_t number, const sli_piece *piece, uint32_t box,
                            sl_point p, sl_point q) {
     const double from = along(piece, p), to = along(piece, q);
     const double lo = fmax(piece->lo, fmin(from, to)), hi = fmin(piece->hi, fmax(from, to));
@@ -130,12 +130,12 @@ static sl_status add_along(gatherer *g, uint32_t number, const sl_piece *piece, 
 }
 
 /// Adds a piece to all cells that it lies on the boundary of.
-static sl_status add_to_cells(gatherer *g, const sl_piece *piece, uint32_t box) {
+static sl_status add_to_cells(gatherer *g, const sli_piece *piece, uint32_t box) {
     const sl_space *s = g->space;
     const sl_box around = {on(piece, piece->lo), on(piece, piece->hi)};
-    sl_cell_grid_range r = sl_cell_grid_range_of(s, around);
+    sli_cell_grid_range r = sli_cell_grid_range_of(s, around);
     g->pieces++;
-    for (uint32_t at; sl_cell_grid_next(&s->grid, &r, &at);) {
+    for (uint32_t at; sli_cell_grid_next(&s->grid, &r, &at);) {
         const sl_point *v = s->vertices + s->cells[at].first_vertex;
         const uint32_t count = s->cells[at].vertex_count;
         if (g->done[at] == g->pieces) continue;
@@ -169,19 +169,19 @@ static sl_status write_targets(gatherer *g, box_targets *out) {
     return SL_OK;
 }
 
-static sl_status gather(gatherer *g, const sl_box_ground *ground, const sl_moving_box *boxes,
+static sl_status gather(gatherer *g, const sli_box_ground *ground, const sl_moving_box *boxes,
                         size_t count) {
     g->done = sl_alloc_array(g->context, g->space->cell_count, sizeof *g->done);
     if (!g->done) return SL_NO_MEMORY;
     for (size_t i = 0; i < count; i++) {
-        sl_piece sides[4];
-        const unsigned n = sl_box_sides(boxes[i].box, sides);
+        sli_piece sides[4];
+        const unsigned n = sli_box_sides(boxes[i].box, sides);
         g->free.count = 0;
         for (unsigned k = 0; k < n; k++)
-            SL_TRY(sl_piece_add_free(g->context, ground->walls, ground->wall_count, sides[k],
-                                     &g->free));
+            SL_TRY(sli_piece_add_free(g->context, ground->walls, ground->wall_count, sides[k],
+                                      &g->free));
         for (size_t k = 0; k < g->free.count; k++) {
-            const sl_piece *piece = &g->free.items[k];
+            const sli_piece *piece = &g->free.items[k];
             SL_TRY(g->space->neighbour ? add_to_cells(g, piece, (uint32_t)i)
                                        : add_down_tree(g, piece, (uint32_t)i));
         }
@@ -191,7 +191,7 @@ static sl_status gather(gatherer *g, const sl_box_ground *ground, const sl_movin
 
 /// The pieces that no axial wall of the ground covers, in a space with the boxes in it. `out` is
 /// zeroed, and to be destroyed whatever comes.
-static sl_status find_targets(sl_context *context, const sl_box_ground *ground,
+static sl_status find_targets(sl_context *context, const sli_box_ground *ground,
                               const sl_space *space, const sl_moving_box *boxes, size_t count,
                               box_targets *out) {
     gatherer g = {.context = context, .space = space};
@@ -211,14 +211,14 @@ static void destroy_targets(sl_context *context, box_targets *targets) {
 }
 
 struct sl_moving {
-    sl_box_ground ground;
+    sli_box_ground ground;
     const sl_visibility *visibility;
     double range;
     const sl_map *mirrors; ///< the map that has them, NULL for none
     uint32_t depth;        ///< of reflections
     sl_moving_box *boxes;
     size_t count;
-    sl_boxed_space *boxed;
+    sli_boxed_space *boxed;
     sl_outline outline;
     bool outlined;
     box_targets targets;
@@ -233,7 +233,7 @@ struct sl_moving {
 static void drop(sl_context *context, sl_moving *m) {
     sl_eye_search_destroy(context, m->search);
     sl_outline_destroy(context, &m->outline);
-    if (m->boxed) sl_boxed_space_destroy(context, m->boxed);
+    if (m->boxed) sli_boxed_space_destroy(context, m->boxed);
     sl_free(context, m->boxed);
     sl_free(context, m->boxes);
     destroy_targets(context, &m->targets);
@@ -265,16 +265,16 @@ static sl_status check_boxes(sl_context *context, const sl_moving_box *boxes, si
 static sl_status place(sl_context *context, sl_moving *m) {
     m->boxed = sl_alloc_array(context, 1, sizeof *m->boxed);
     if (!m->boxed) return SL_NO_MEMORY;
-    SL_TRY(sl_boxes_put(context, &m->ground, m->boxes, m->count, m->boxed));
+    SL_TRY(sli_boxes_put(context, &m->ground, m->boxes, m->count, m->boxed));
     SL_TRY(find_targets(context, &m->ground, &m->boxed->space, m->boxes, m->count, &m->targets));
-    SL_TRY(sl_eye_search_create_cut(context, m->boxed, m->visibility, m->ground.space->cell_count,
-                                    &m->search));
+    SL_TRY(sli_eye_search_create_cut(context, m->boxed, m->visibility, m->ground.space->cell_count,
+                                     &m->search));
     m->met = sl_alloc_array(context, m->count, sizeof *m->met);
     m->cells = sl_alloc_array(context, sl_eye_words(&m->boxed->space), sizeof *m->cells);
     if (!m->met || !m->cells) return SL_NO_MEMORY;
     sl_eye_search_limit(m->search, m->range);
     if (m->mirrors) SL_TRY(sl_eye_search_add_mirrors(context, m->search, m->mirrors, m->depth));
-    m->search->targets = (sl_eye_targets){m->targets.first, m->targets.items, m->met};
+    m->search->targets = (sli_eye_targets){m->targets.first, m->targets.items, m->met};
     return SL_OK;
 }
 
@@ -301,7 +301,7 @@ sl_status sl_moving_create(sl_context *context, const sl_space *space,
     sl_moving *moving = sl_alloc_array(context, 1, sizeof *moving);
     if (!moving) return SL_NO_MEMORY;
     moving->visibility = visibility;
-    sl_status status = sl_box_ground_create(context, space, &moving->ground);
+    sl_status status = sli_box_ground_create(context, space, &moving->ground);
     if (status == SL_OK) status = sl_moving_place(context, moving, NULL, 0);
     if (status == SL_OK)
         *out = moving;
@@ -313,7 +313,7 @@ sl_status sl_moving_create(sl_context *context, const sl_space *space,
 void sl_moving_destroy(sl_context *context, sl_moving *moving) {
     if (!moving) return;
     drop(context, moving);
-    sl_box_ground_destroy(context, &moving->ground);
+    sli_box_ground_destroy(context, &moving->ground);
     sl_free(context, moving);
 }
 
@@ -347,14 +347,15 @@ static sl_status see_point(sl_context *context, sl_moving *moving, const sl_view
     const sl_outline *outline;
     *seen = false;
     if (!sl_view_holds(view, point)) return SL_OK;
-    if (moving->range > 0 && sl_distance_compare(view->eye, point, moving->range) > 0) return SL_OK;
+    if (moving->range > 0 && sli_distance_compare(view->eye, point, moving->range) > 0)
+        return SL_OK;
     SL_TRY(sl_moving_outline(context, moving, &outline));
     return sl_sees(context, outline, view->eye, point, moving->visibility->sight, seen);
 }
 
 /// Maps the cells that are seen to the cells of the space without boxes.
 static void write_cells(const sl_moving *moving, uint64_t *cells) {
-    const sl_boxed_space *boxed = moving->boxed;
+    const sli_boxed_space *boxed = moving->boxed;
     memset(cells, 0, sl_eye_words(moving->ground.space) * sizeof *cells);
     for (uint32_t c = 0; c < boxed->space.cell_count; c++)
         if (sl_bits_has(moving->cells, c)) sl_bits_add(cells, boxed->parents[c]);
@@ -364,7 +365,7 @@ sl_status sl_moving_look(sl_context *context, sl_moving *moving, const sl_view *
                          uint64_t *cells, bool *seen, sl_eye_account *account) {
     const sl_space *space = &moving->boxed->space;
     if (moving->count) memset(moving->met, 0, moving->count * sizeof *moving->met);
-    SL_TRY(sl_eye_exact(context, moving->search, view, moving->cells, account));
+    SL_TRY(sli_eye_exact(context, moving->search, view, moving->cells, account));
     const bool inside = sl_space_locate(space, view->eye) != SL_NO_CELL;
     for (size_t i = 0; i < moving->count; i++) {
         const sl_box box = moving->boxes[i].box;
@@ -387,7 +388,7 @@ sl_status sl_moving_add_mirrors(sl_context *context, sl_moving *moving, const sl
 sl_status sl_moving_look_mirrored(sl_context *context, sl_moving *moving, const sl_view *view,
                                   uint64_t *cells, bool *seen, sl_eye_account *account) {
     if (moving->count) memset(moving->met, 0, moving->count * sizeof *moving->met);
-    SL_TRY(sl_eye_exact_mirrored(context, moving->search, view, moving->cells, account));
+    SL_TRY(sli_eye_exact_mirrored(context, moving->search, view, moving->cells, account));
     if (moving->count) memcpy(seen, moving->met, moving->count * sizeof *seen);
     write_cells(moving, cells);
     return SL_OK;

@@ -51,7 +51,7 @@ static double precise_cross(sl_point from, sl_point to, sl_point other_from, sl_
                           difference(other_to.y, other_from.y));
 }
 
-sl_point sl_region_meet(sl_point eye, const sl_eye_ray *ray, sl_point a, sl_point b) {
+sl_point sli_region_meet(sl_point eye, const sli_eye_ray *ray, sl_point a, sl_point b) {
     const sl_point d = ray->offset;
     // A line parallel to an axis, at a known distance: nothing cancels.
     if (a.x == b.x) return (sl_point){a.x - eye.x, d.y * ((a.x - eye.x) / d.x)};
@@ -77,19 +77,19 @@ static double fine_difference(double a, double a_rest, double b, double b_rest) 
     return high + (middle + (lowest + lower));
 }
 
-sl_eye_ray sl_eye_ray_fine(const sl_eye_place *eye, const sl_fine *at) {
-    const sl_fine *from = &eye->point;
-    return (sl_eye_ray){at->at,
-                        {fine_difference(at->at.x, at->rest.x, from->at.x, from->rest.x),
-                         fine_difference(at->at.y, at->rest.y, from->at.y, from->rest.y)},
-                        at->rest};
+sli_eye_ray sli_eye_ray_fine(const sli_eye_place *eye, const sli_fine *at) {
+    const sli_fine *from = &eye->point;
+    return (sli_eye_ray){at->at,
+                         {fine_difference(at->at.x, at->rest.x, from->at.x, from->rest.x),
+                          fine_difference(at->at.y, at->rest.y, from->at.y, from->rest.y)},
+                         at->rest};
 }
 
-int sl_eye_turn_fine(const sl_eye_place *eye, const sl_eye_ray *a, const sl_eye_ray *b) {
+int sli_eye_turn_fine(const sli_eye_place *eye, const sli_eye_ray *a, const sli_eye_ray *b) {
     const double determinant = a->offset.x * b->offset.y - a->offset.y * b->offset.x;
-    const int sign = sl_turn_filter(a->offset, b->offset);
+    const int sign = sli_turn_filter(a->offset, b->offset);
     if (sign && fabs(determinant) > eye->slack) return sign;
-    return sl_orient_fine(&eye->point, &(sl_fine){a->at, a->rest}, &(sl_fine){b->at, b->rest});
+    return sli_orient_fine(&eye->point, &(sli_fine){a->at, a->rest}, &(sli_fine){b->at, b->rest});
 }
 
 static sl_status grow(sl_context *context, sl_region *region) {
@@ -111,7 +111,7 @@ static sl_status add_point(sl_context *context, sl_region *region, sl_point poin
         if (last.x == point.x && last.y == point.y) {
             // An edge shorter than a step of doubles.
             region->count--;
-            if (!region->count) region->memory->first = SL_PIECE_FAR;
+            if (!region->count) region->memory->first = SLI_PIECE_FAR;
         }
     }
     region->points[region->count] = point;
@@ -131,19 +131,19 @@ static double within(double a, double value, double b) {
     return value < low ? low : value > high ? high : value;
 }
 
-static place place_of(sl_point eye, const sl_eye_ray *ray, bool at_end, sl_point a, sl_point b) {
+static place place_of(sl_point eye, const sli_eye_ray *ray, bool at_end, sl_point a, sl_point b) {
     if (at_end) return (place){ray->at, ray->offset, true};
-    const sl_point offset = sl_region_meet(eye, ray, a, b);
+    const sl_point offset = sli_region_meet(eye, ray, a, b);
     const sl_point point = {within(a.x, eye.x + offset.x, b.x), within(a.y, eye.y + offset.y, b.y)};
     return (place){point, offset, false};
 }
 
-static place left_of(const sl_region *region, const sl_region_piece *p) {
+static place left_of(const sl_region *region, const sli_region_piece *p) {
     return place_of(region->view.eye, &p->left, p->to_end, p->a, p->b);
 }
 
 static sl_region_edge edge_along(uint32_t neighbour, bool exact) {
-    if (neighbour == SL_PIECE_FAR) return (sl_region_edge){SL_NO_WALL, SL_EDGE_ARC, exact};
+    if (neighbour == SLI_PIECE_FAR) return (sl_region_edge){SL_NO_WALL, SL_EDGE_ARC, exact};
     if (neighbour >= SL_SIDE_BORDER) return (sl_region_edge){SL_NO_WALL, SL_EDGE_BORDER, exact};
     return (sl_region_edge){neighbour - SL_SIDE_WALL, SL_EDGE_WALL, exact};
 }
@@ -162,9 +162,10 @@ static sl_status end_piece(sl_context *context, sl_region *region, const place *
     return add_point(context, region, end.point, end.offset, edge);
 }
 
-sl_status sl_region_start_piece(sl_context *context, sl_region *region, uint32_t neighbour,
-                                const sl_eye_ray *a, const sl_eye_ray *b, const sl_eye_ray *right) {
-    struct sl_region_memory *m = region->memory;
+sl_status sli_region_start_piece(sl_context *context, sl_region *region, uint32_t neighbour,
+                                 const sli_eye_ray *a, const sli_eye_ray *b,
+                                 const sli_eye_ray *right) {
+    struct sli_region_memory *m = region->memory;
     const place start = place_of(region->view.eye, right ? right : a, !right, a->at, b->at);
     if (region->count == 0) m->first = neighbour;
     if (m->pending) SL_TRY(end_piece(context, region, &start, SL_EDGE_OCCLUDING));
@@ -174,19 +175,19 @@ sl_status sl_region_start_piece(sl_context *context, sl_region *region, uint32_t
                      edge_along(neighbour, start.exact));
 }
 
-sl_status sl_region_add_eye(sl_context *context, sl_region *region, sl_edge_kind kind) {
+sl_status sli_region_add_eye(sl_context *context, sl_region *region, sl_edge_kind kind) {
     const sl_region_edge edge = {SL_NO_WALL, (uint8_t)kind, true};
     const place eye = {region->view.eye, {0, 0}, true};
     if (region->memory->pending) SL_TRY(end_piece(context, region, &eye, SL_EDGE_BORDER));
     return add_point(context, region, eye.point, eye.offset, edge);
 }
 
-sl_status sl_region_end_at_eye(sl_context *context, sl_region *region) {
+sl_status sli_region_end_at_eye(sl_context *context, sl_region *region) {
     return end_piece(context, region, NULL, SL_EDGE_BORDER);
 }
 
-sl_status sl_region_add_on_mirror(sl_context *context, sl_region *region, const sl_eye_ray *ray,
-                                  sl_point a, sl_point b, sl_region_edge edge) {
+sl_status sli_region_add_on_mirror(sl_context *context, sl_region *region, const sli_eye_ray *ray,
+                                   sl_point a, sl_point b, sl_region_edge edge) {
     const bool at_end = (ray->at.x == a.x && ray->at.y == a.y && !ray->rest.x && !ray->rest.y) ||
                         (ray->at.x == b.x && ray->at.y == b.y && !ray->rest.x && !ray->rest.y);
     const place at = place_of(region->view.eye, ray, at_end, a, b);
@@ -197,12 +198,12 @@ sl_status sl_region_add_on_mirror(sl_context *context, sl_region *region, const 
 
 /// Whether the pending piece goes on as the first piece.
 static bool goes_around(const sl_region *region) {
-    const struct sl_region_memory *m = region->memory;
-    return region->count > 1 && m->piece.neighbour == m->first && m->first != SL_PIECE_FAR &&
+    const struct sli_region_memory *m = region->memory;
+    return region->count > 1 && m->piece.neighbour == m->first && m->first != SLI_PIECE_FAR &&
            region->edges[0].kind != SL_EDGE_CONE;
 }
 
-sl_status sl_region_close(sl_context *context, sl_region *region) {
+sl_status sli_region_close(sl_context *context, sl_region *region) {
     if (!region->memory->pending) return SL_OK;
     if (goes_around(region)) {
         const size_t last = --region->count;
@@ -309,17 +310,17 @@ static void join_first_arc(sl_region *region) {
     region->count = last;
 }
 
-sl_status sl_region_cut_range(sl_context *context, sl_region *region) {
-    struct sl_region_memory *m = region->memory;
+sl_status sli_region_cut_range(sl_context *context, sl_region *region) {
+    struct sli_region_memory *m = region->memory;
     const size_t count = region->count;
     m->whole.count = 0;
     SL_TRY(SL_ARRAY_ROOM(context, &m->whole, count));
     for (size_t i = 0; i < count; i++)
         m->whole.items[i] =
-            (sl_region_corner){region->points[i], region->offsets[i], region->edges[i]};
+            (sli_region_corner){region->points[i], region->offsets[i], region->edges[i]};
     region->count = 0;
     for (size_t i = 0; i < count; i++) {
-        const sl_region_corner *c = &m->whole.items[i];
+        const sli_region_corner *c = &m->whole.items[i];
         const sl_point next = m->whole.items[(i + 1) % count].offset;
         SL_TRY(cut(context, region, c->offset, next, c->point, c->edge));
     }
@@ -352,17 +353,17 @@ static void trim_start(sl_region *region, sl_point start) {
     region->edges[0] = (sl_region_edge){SL_NO_WALL, SL_EDGE_ARC, false};
 }
 
-sl_status sl_region_cut_mirrored(sl_context *context, sl_region *region) {
+sl_status sli_region_cut_mirrored(sl_context *context, sl_region *region) {
     const size_t last = region->count - 1;
-    const sl_region_corner near = {region->points[last], region->offsets[last],
-                                   region->edges[last]};
+    const sli_region_corner near = {region->points[last], region->offsets[last],
+                                    region->edges[last]};
     const sl_point right = region->offsets[0], eye = region->view.eye;
     sl_point from, to;
     if (!within_range(near.offset, right, region->range, &from, &to)) {
         region->count = 0;
         return SL_OK;
     }
-    SL_TRY(sl_region_cut_range(context, region));
+    SL_TRY(sli_region_cut_range(context, region));
     const bool cut_right = to.x != right.x || to.y != right.y;
     const bool cut_left = from.x != near.offset.x || from.y != near.offset.y;
     // The mirror is no wall that faces the eye: the cut leaves at most a point of it.

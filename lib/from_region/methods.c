@@ -32,13 +32,13 @@ struct region_thread;
 typedef struct region_work {
     const sl_regions *scene;
     const sl_from_region_options *options;
-    const sl_from_region_solver_calls *solver;
+    const sli_from_region_solver_calls *solver;
     pthread_mutex_t lock;
-    sl_from_region_account account; ///< under the lock
-    uint64_t candidates, relations; ///< under the lock
-    sl_bits *all;                   ///< every object
-    sl_bits *seen;                  ///< the result: by view cell
-    void *own;                      ///< the method's
+    sli_from_region_account account; ///< under the lock
+    uint64_t candidates, relations;  ///< under the lock
+    sl_bits *all;                    ///< every object
+    sl_bits *seen;                   ///< the result: by view cell
+    void *own;                       ///< the method's
     sl_status (*unit)(sl_context *context, struct region_work *work, struct region_thread *thread,
                       size_t unit);
 } region_work;
@@ -46,14 +46,14 @@ typedef struct region_work {
 /// What each thread has for itself.
 typedef struct region_thread {
     void *solver;
-    sl_from_region_account account;
+    sli_from_region_account account;
     uint64_t candidates, relations;
     sl_bits *set; ///< scratch: a row
 } region_thread;
 
 /// Whether sightlines of a quadrant leave by a face.
 static bool faces_quadrant(const sl_regions *scene, uint32_t face, int quadrant) {
-    return scene->passes[quadrant].leaves.faces[scene->faces.items[face].directed] != SL_NO_FACE;
+    return scene->passes[quadrant].leaves.faces[scene->faces.items[face].directed] != SLI_NO_FACE;
 }
 
 static void add_row(sl_bits *to, const sl_bits *from, size_t words) {
@@ -72,9 +72,9 @@ static uint64_t count_row(const sl_bits *row, size_t words) {
 /// all).
 static sl_status solve_face(sl_context *context, const region_work *work, region_thread *thread,
                             uint32_t face, int quadrant, const sl_bits *refine, sl_bits *seen) {
-    for (int q = 0; q < SL_QUADRANTS; q++) {
+    for (int q = 0; q < SLI_QUADRANTS; q++) {
         if ((quadrant >= 0 && q != quadrant) || !faces_quadrant(work->scene, face, q)) continue;
-        const sl_from_region_query query = {&work->scene->faces.items[face], q, refine};
+        const sli_from_region_query query = {&work->scene->faces.items[face], q, refine};
         SL_TRY(work->solver->run(context, thread->solver, &query, seen, &thread->account));
     }
     return SL_OK;
@@ -115,10 +115,10 @@ static sl_status run_unit(sl_context *context, void *job, void *state, size_t un
     return work->unit(context, work, state, unit);
 }
 
-/// Runs the units of work by all threads; `after` as that of sl_work.
+/// Runs the units of work by all threads; `after` as that of sli_work.
 static sl_status run_units(sl_context *context, region_work *work, size_t count,
                            const size_t *after) {
-    const sl_work threads = {
+    const sli_work threads = {
         .job = work,
         .begin = begin,
         .unit = run_unit,
@@ -127,7 +127,7 @@ static sl_status run_units(sl_context *context, region_work *work, size_t count,
         .stage = "from_region",
         .units = "steps",
         .after = after};
-    return sl_work_run(context, &threads, count, work->options->threads);
+    return sli_work_run(context, &threads, count, work->options->threads);
 }
 
 // --- brute force
@@ -139,8 +139,8 @@ static sl_status brute_unit(sl_context *context, region_work *work, region_threa
     sl_bits *row = work->seen + unit * scene->words;
     for (uint32_t face = scene->first_face[unit]; face < scene->first_face[unit + 1]; face++)
         SL_TRY(solve_face(context, work, thread, face, -1, work->all, row));
-    thread->candidates += SL_QUADRANTS * (uint64_t)sl_regions_objects(scene);
-    add_row(row, sl_regions_inside(scene, (uint32_t)unit), scene->words);
+    thread->candidates += SLI_QUADRANTS * (uint64_t)sli_regions_objects(scene);
+    add_row(row, sli_regions_inside(scene, (uint32_t)unit), scene->words);
     return SL_OK;
 }
 
@@ -166,7 +166,7 @@ typedef struct task {
 } task;
 
 typedef struct hierarchy {
-    sl_placed *cells;
+    sli_placed *cells;
     SL_ARRAY(node) nodes;
     uint32_t *leaf; ///< by view cell: its node
     task *tasks;
@@ -175,7 +175,7 @@ typedef struct hierarchy {
     sl_bits *sets;  ///< by node
 } hierarchy;
 
-static sl_status place_cells(sl_context *context, const sl_regions *scene, sl_placed *cells) {
+static sl_status place_cells(sl_context *context, const sl_regions *scene, sli_placed *cells) {
     const uint32_t count = scene->counts.view_cells;
     sl_box *boxes = sl_alloc_array(context, count, sizeof *boxes);
     if (!boxes) return SL_NO_MEMORY;
@@ -184,25 +184,25 @@ static sl_status place_cells(sl_context *context, const sl_regions *scene, sl_pl
     for (uint32_t leaf = 0; leaf < scene->space.cell_count; leaf++) {
         if (scene->view_cell[leaf] == SL_NO_VIEW_CELL) continue;
         sl_box *box = &boxes[scene->view_cell[leaf]];
-        const sl_box own = sl_leaf_box(&scene->space, leaf);
+        const sl_box own = sli_leaf_box(&scene->space, leaf);
         box->min.x = fmin(box->min.x, own.min.x);
         box->min.y = fmin(box->min.y, own.min.y);
         box->max.x = fmax(box->max.x, own.max.x);
         box->max.y = fmax(box->max.y, own.max.y);
     }
     for (uint32_t i = 0; i < count; i++)
-        cells[i] = (sl_placed){{boxes[i].min.x + (boxes[i].max.x - boxes[i].min.x) / 2,
-                                boxes[i].min.y + (boxes[i].max.y - boxes[i].min.y) / 2},
-                               i};
+        cells[i] = (sli_placed){{boxes[i].min.x + (boxes[i].max.x - boxes[i].min.x) / 2,
+                                 boxes[i].min.y + (boxes[i].max.y - boxes[i].min.y) / 2},
+                                i};
     sl_free(context, boxes);
     return SL_OK;
 }
 
 /// Sorts a node's view cells along the longer side of the box about their middles and cuts there at
 /// its middle.
-static uint32_t cut(sl_placed *cells, uint32_t first, uint32_t end) {
+static uint32_t cut(sli_placed *cells, uint32_t first, uint32_t end) {
     sl_box box;
-    const bool wide = sl_placed_sort(cells + first, end - first, &box);
+    const bool wide = sli_placed_sort(cells + first, end - first, &box);
     const double middle =
         wide ? box.min.x + (box.max.x - box.min.x) / 2 : box.min.y + (box.max.y - box.min.y) / 2;
     uint32_t at = first;
@@ -228,7 +228,7 @@ static sl_status divide(sl_context *context, hierarchy *h, uint32_t count) {
 }
 
 /// The node whose halves a face lies between; the root for those of the compound's boundary.
-static uint32_t node_of(const hierarchy *h, const sl_face *face) {
+static uint32_t node_of(const hierarchy *h, const sli_face *face) {
     if (face->to == SL_NO_VIEW_CELL) return 0;
     uint32_t a = h->leaf[face->from], b = h->leaf[face->to];
     while (a != b) {
@@ -285,7 +285,7 @@ static void make_set(const region_work *work, uint32_t number) {
     if (number == 0) memcpy(set, work->all, scene->words * sizeof *set);
     for (uint32_t i = n->first; i < n->end && number; i++) {
         const uint32_t cell = h->cells[i].number;
-        add_row(set, sl_regions_inside(scene, cell), scene->words);
+        add_row(set, sli_regions_inside(scene, cell), scene->words);
         for (uint32_t f = scene->first_face[cell]; f < scene->first_face[cell + 1]; f++) {
             const uint32_t to = scene->faces.items[f].to;
             bool outer = to == SL_NO_VIEW_CELL;
@@ -300,7 +300,7 @@ static void make_set(const region_work *work, uint32_t number) {
     if (n->end - n->first != 1) return;
     sl_bits *row = work->seen + h->cells[n->first].number * scene->words;
     // A compound of one view cell has its root for a leaf.
-    memcpy(row, number ? set : sl_regions_inside(scene, h->cells[n->first].number),
+    memcpy(row, number ? set : sli_regions_inside(scene, h->cells[n->first].number),
            scene->words * sizeof *row);
 }
 
@@ -395,7 +395,7 @@ static sl_status visit_unit(sl_context *context, region_work *work, region_threa
         add_row(thread->set, refine, scene->words);
         SL_TRY(solve_face(context, work, thread, f, v.quadrant, refine, row));
     }
-    add_row(row, sl_regions_inside(scene, v.view_cell), scene->words);
+    add_row(row, sli_regions_inside(scene, v.view_cell), scene->words);
     thread->candidates += count_row(thread->set, scene->words);
     thread->relations += count_row(row, scene->words);
     pthread_mutex_lock(&work->lock);
@@ -407,21 +407,21 @@ static sl_status visit_unit(sl_context *context, region_work *work, region_threa
 /// Lists all view cells of all quadrants by level. Each is a component of its own: no cycles.
 static sl_status list_visits(sl_context *context, const sl_regions *scene, passes *p) {
     uint32_t levels = 0;
-    for (int q = 0; q < SL_QUADRANTS; q++)
+    for (int q = 0; q < SLI_QUADRANTS; q++)
         if (scene->passes[q].view_cells.level_count > levels)
             levels = scene->passes[q].view_cells.level_count;
     size_t *starts = sl_alloc_array(context, (size_t)levels + 1, sizeof *starts);
     if (!starts) return SL_NO_MEMORY;
-    for (int q = 0; q < SL_QUADRANTS; q++) {
-        const sl_order *order = &scene->passes[q].view_cells;
+    for (int q = 0; q < SLI_QUADRANTS; q++) {
+        const sli_order *order = &scene->passes[q].view_cells;
         for (uint32_t k = 0; k < order->component_count; k++) starts[order->level[k] + 1]++;
     }
     for (uint32_t level = 0; level < levels; level++) {
         starts[level + 1] += starts[level];
         for (size_t i = starts[level]; i < starts[level + 1]; i++) p->after[i] = starts[level];
     }
-    for (int q = 0; q < SL_QUADRANTS; q++) {
-        const sl_order *order = &scene->passes[q].view_cells;
+    for (int q = 0; q < SLI_QUADRANTS; q++) {
+        const sli_order *order = &scene->passes[q].view_cells;
         for (uint32_t k = 0; k < order->component_count; k++)
             p->visits[starts[order->level[k]]++] = (visit){order->nodes[order->starts[k]], q};
     }
@@ -431,7 +431,7 @@ static sl_status list_visits(sl_context *context, const sl_regions *scene, passe
 
 static sl_status multipass_method(sl_context *context, region_work *work) {
     const sl_regions *scene = work->scene;
-    const size_t count = (size_t)SL_QUADRANTS * scene->counts.view_cells;
+    const size_t count = (size_t)SLI_QUADRANTS * scene->counts.view_cells;
     passes p = {.visits = sl_alloc_array(context, count, sizeof *p.visits),
                 .after = sl_alloc_array(context, count, sizeof *p.after),
                 .directed = sl_alloc_array(context, count, scene->words * sizeof *p.directed)};
@@ -502,7 +502,7 @@ static void fill(const region_work *work, sl_from_region_result *out) {
     const uint32_t objects = scene->counts.objects;
     for (uint32_t i = 0; i < scene->counts.view_cells && scene->occluders; i++) {
         sl_bits *row = work->seen + i * scene->words;
-        for (uint32_t k = objects; k < sl_regions_objects(scene); k++)
+        for (uint32_t k = objects; k < sli_regions_objects(scene); k++)
             row[k / 64] &= ~((sl_bits)1 << (k % 64));
     }
     *out = (sl_from_region_result){.view_cells = scene->counts.view_cells,
@@ -522,13 +522,13 @@ static sl_status see(sl_context *context, const sl_regions *scene,
     SL_TRY(check_options(context, options));
     region_work work = {.scene = scene,
                         .options = options,
-                        .solver = options->solver->stabs ? sl_from_region_stabs()
-                                                         : sl_from_region_sampling()};
+                        .solver = options->solver->stabs ? sli_from_region_stabs()
+                                                         : sli_from_region_sampling()};
     work.all = sl_alloc_array(context, scene->words, sizeof *work.all);
     work.seen = sl_alloc_array(context, scene->counts.view_cells, scene->words * sizeof(sl_bits));
     pthread_mutex_init(&work.lock, NULL);
     sl_status status = work.all && work.seen ? SL_OK : SL_NO_MEMORY;
-    for (uint32_t i = 0; i < sl_regions_objects(scene) && status == SL_OK; i++)
+    for (uint32_t i = 0; i < sli_regions_objects(scene) && status == SL_OK; i++)
         sl_bits_add(work.all, i);
     if (status == SL_OK) status = method(context, &work);
     pthread_mutex_destroy(&work.lock);

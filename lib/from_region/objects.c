@@ -34,7 +34,7 @@ static void line_walls(const sl_space *space, lined_wall *lined) {
     if (space->wall_count) qsort(lined, space->wall_count, sizeof *lined, compare_lined);
 }
 
-static sl_status add_item(sl_context *context, sl_regions *scene, sl_item item) {
+static sl_status add_item(sl_context *context, sl_regions *scene, sli_item item) {
     SL_TRY(SL_ARRAY_ROOM(context, &scene->items, 1));
     scene->items.items[scene->items.count++] = item;
     return SL_OK;
@@ -73,10 +73,10 @@ static sl_status add_side(sl_context *context, sl_regions *scene, const lined_wa
         const double low = fmax(lo, w->lo), high = fmin(hi, w->hi);
         const double right = from < to ? low : high, left = from < to ? high : low;
         SL_TRY(add_item(context, scene,
-                        (sl_item){.object = w->wall,
-                                  .leaf = leaf,
-                                  .left = axis ? (sl_point){left, at} : (sl_point){at, left},
-                                  .right = axis ? (sl_point){right, at} : (sl_point){at, right}}));
+                        (sli_item){.object = w->wall,
+                                   .leaf = leaf,
+                                   .left = axis ? (sl_point){left, at} : (sl_point){at, left},
+                                   .right = axis ? (sl_point){right, at} : (sl_point){at, right}}));
     }
     return SL_OK;
 }
@@ -108,18 +108,18 @@ static void take(sl_box *box, sl_point p) {
 }
 
 static int compare_x(const void *left, const void *right) {
-    const sl_placed *a = left, *b = right;
+    const sli_placed *a = left, *b = right;
     if (a->at.x != b->at.x) return a->at.x < b->at.x ? -1 : 1;
     return (a->number > b->number) - (a->number < b->number);
 }
 
 static int compare_y(const void *left, const void *right) {
-    const sl_placed *a = left, *b = right;
+    const sli_placed *a = left, *b = right;
     if (a->at.y != b->at.y) return a->at.y < b->at.y ? -1 : 1;
     return (a->number > b->number) - (a->number < b->number);
 }
 
-bool sl_placed_sort(sl_placed *items, size_t count, sl_box *box) {
+bool sli_placed_sort(sli_placed *items, size_t count, sl_box *box) {
     *box = (sl_box){items[0].at, items[0].at};
     for (size_t i = 1; i < count; i++) take(box, items[i].at);
     const bool wide = box->max.x - box->min.x >= box->max.y - box->min.y;
@@ -129,14 +129,14 @@ bool sl_placed_sort(sl_placed *items, size_t count, sl_box *box) {
 
 /// Divides walls into `groups` of about the same size, along the longer side each time. `object` is
 /// the number of the first group. Recursion depth: the logarithm of `groups`.
-static void divide(sl_placed *walls, size_t count, uint32_t groups, uint32_t object,
+static void divide(sli_placed *walls, size_t count, uint32_t groups, uint32_t object,
                    uint32_t *of_wall) {
     if (groups == 1) {
         for (size_t i = 0; i < count; i++) of_wall[walls[i].number] = object;
         return;
     }
     sl_box box;
-    sl_placed_sort(walls, count, &box);
+    sli_placed_sort(walls, count, &box);
     const uint32_t below = groups / 2;
     const size_t half = count * below / groups;
     divide(walls, half, below, object, of_wall);
@@ -149,7 +149,7 @@ static sl_status number_walls(sl_context *context, sl_regions *scene, uint32_t g
                               uint32_t first, uint32_t *count) {
     const sl_space *space = &scene->space;
     uint32_t *of_wall = sl_alloc_array(context, space->wall_count, sizeof *of_wall);
-    sl_placed *placed = sl_alloc_array(context, space->wall_count, sizeof *placed);
+    sli_placed *placed = sl_alloc_array(context, space->wall_count, sizeof *placed);
     if (!of_wall || !placed) {
         sl_free(context, of_wall);
         sl_free(context, placed);
@@ -162,7 +162,7 @@ static sl_status number_walls(sl_context *context, sl_regions *scene, uint32_t g
         if (!of_wall[i]) continue;
         const sl_point a = space->walls[i].a, b = space->walls[i].b;
         of_wall[i] = first + (uint32_t)walls;
-        placed[walls++] = (sl_placed){{a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2}, i};
+        placed[walls++] = (sli_placed){{a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2}, i};
     }
     *count = (uint32_t)walls;
     if (groups && groups < walls) {
@@ -181,11 +181,11 @@ static sl_status number_walls(sl_context *context, sl_regions *scene, uint32_t g
 
 static sl_status add_through(sl_context *context, sl_regions *scene, uint32_t object, uint32_t leaf,
                              sl_box box) {
-    const sl_box own = sl_leaf_box(&scene->space, leaf);
+    const sl_box own = sli_leaf_box(&scene->space, leaf);
     const sl_point low = {fmax(own.min.x, box.min.x), fmax(own.min.y, box.min.y)};
     const sl_point high = {fmin(own.max.x, box.max.x), fmin(own.max.y, box.max.y)};
     if (!scene->space.cells[leaf].inside || low.x > high.x || low.y > high.y) return SL_OK;
-    return add_item(context, scene, (sl_item){object, leaf, true, low, high});
+    return add_item(context, scene, (sli_item){object, leaf, true, low, high});
 }
 
 /// Adds a box to each leaf that it meets, down the kd-tree.
@@ -229,14 +229,14 @@ static sl_status add_leaves(sl_context *context, sl_regions *scene) {
     for (uint32_t leaf = 0; leaf < scene->space.cell_count; leaf++)
         if (scene->space.cells[leaf].inside)
             SL_TRY(add_through(context, scene, scene->counts.objects++, leaf,
-                               sl_leaf_box(&scene->space, leaf)));
+                               sli_leaf_box(&scene->space, leaf)));
     return SL_OK;
 }
 
 // --- indices
 
 static int compare_items(const void *left, const void *right) {
-    const sl_item *a = left, *b = right;
+    const sli_item *a = left, *b = right;
     if (a->object != b->object) return a->object < b->object ? -1 : 1;
     if (a->leaf != b->leaf) return a->leaf < b->leaf ? -1 : 1;
     if (a->left.x != b->left.x) return a->left.x < b->left.x ? -1 : 1;
@@ -244,9 +244,9 @@ static int compare_items(const void *left, const void *right) {
 }
 
 static sl_status index_items(sl_context *context, sl_regions *scene) {
-    const uint32_t objects = sl_regions_objects(scene), leaves = scene->space.cell_count;
+    const uint32_t objects = sli_regions_objects(scene), leaves = scene->space.cell_count;
     const size_t count = scene->items.count;
-    sl_item *items = scene->items.items;
+    sli_item *items = scene->items.items;
     if (count) qsort(items, count, sizeof *items, compare_items);
     scene->words = sl_bits_words(objects);
     scene->first_item = sl_alloc_array(context, (size_t)objects + 1, sizeof *scene->first_item);
@@ -272,8 +272,8 @@ static sl_status index_items(sl_context *context, sl_regions *scene) {
     return SL_OK;
 }
 
-sl_status sl_regions_find_objects(sl_context *context, const sl_regions_options *options,
-                                  sl_regions *scene) {
+sl_status sli_regions_find_objects(sl_context *context, const sl_regions_options *options,
+                                   sl_regions *scene) {
     SL_TRY(add_walls(context, scene));
     if (options->objects == SL_OBJECTS_BOXES) SL_TRY(add_boxes(context, scene));
     if (options->objects == SL_OBJECTS_CELLS) SL_TRY(add_leaves(context, scene));

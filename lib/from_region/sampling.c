@@ -94,7 +94,7 @@ static double offset_of(const sampler *s, image i, double slope, sl_point p) {
 /// The line of a number, in the quadrant's direction, from one edge of the map to the other.
 static sl_line line_of(const sampler *s, image i, double slope, double offset) {
     const sl_box b = s->scene->space.bounds;
-    const bool onwards = i.steep ? sl_goes_up(i.quadrant) : sl_goes_right(i.quadrant);
+    const bool onwards = i.steep ? sli_goes_up(i.quadrant) : sli_goes_right(i.quadrant);
     const double low = i.steep ? b.min.y : b.min.x, high = i.steep ? b.max.y : b.max.x;
     const double at_low = (i.steep ? b.min.x : b.min.y) + offset;
     const double at_high = at_low + slope * (high - low);
@@ -104,7 +104,7 @@ static sl_line line_of(const sampler *s, image i, double slope, double offset) {
 }
 
 static bool passes(sl_line line, sl_point left, sl_point right) {
-    return sl_orient(line.a, line.b, left) >= 0 && sl_orient(line.a, line.b, right) < 0;
+    return sli_orient(line.a, line.b, left) >= 0 && sli_orient(line.a, line.b, right) < 0;
 }
 
 /// Adds the lines of one pixel that leave by the face.
@@ -158,8 +158,8 @@ typedef struct frame {
 } frame;
 
 static frame in_frame(image i, sl_point p) {
-    const double x = sl_goes_right(i.quadrant) ? p.x : -p.x;
-    const double y = sl_goes_up(i.quadrant) ? p.y : -p.y;
+    const double x = sli_goes_right(i.quadrant) ? p.x : -p.x;
+    const double y = sli_goes_up(i.quadrant) ? p.y : -p.y;
     return i.steep ? (frame){y, x} : (frame){x, y};
 }
 
@@ -198,12 +198,12 @@ static void pixels_of(const sampler *s, const extent *from, const extent *what, 
 
 /// Draws an item. A solid one is kept where it is the nearest. One that is seen through is seen
 /// where nothing solid is nearer.
-static void draw(const sampler *s, image i, const sl_item *item, const extent *from,
+static void draw(const sampler *s, image i, const sli_item *item, const extent *from,
                  uint32_t behind, ray *rays, size_t count, sl_bits *seen) {
     const sl_regions *scene = s->scene;
     const uint32_t place = scene->passes[i.quadrant].place[item->leaf];
     if (place > behind) return; // before the face
-    const sl_portal_ends ends = sl_item_ends(item, i.quadrant);
+    const sl_portal_ends ends = sli_item_ends(item, i.quadrant);
     const extent what = extent_of(i, ends.left, ends.right);
     uint32_t first, end;
     if (!in_frustum(from, &what)) return;
@@ -222,8 +222,8 @@ static void draw(const sampler *s, image i, const sl_item *item, const extent *f
 }
 
 /// Draws one image: a point of the face, half a quadrant.
-static void draw_image(sampler *s, image i, const sl_from_region_query *query, const extent *from,
-                       ray *rays, size_t count, sl_bits *seen, sl_from_region_account *account) {
+static void draw_image(sampler *s, image i, const sli_from_region_query *query, const extent *from,
+                       ray *rays, size_t count, sl_bits *seen, sli_from_region_account *account) {
     const sl_regions *scene = s->scene;
     const uint32_t behind =
         scene->passes[i.quadrant].place[scene->space.directed[query->face->directed].cell];
@@ -264,14 +264,14 @@ static extent point_of(image i, const sl_directed_portal *portal, uint32_t point
     return e;
 }
 
-static sl_status run(sl_context *context, void *state, const sl_from_region_query *query,
-                     sl_bits *seen, sl_from_region_account *account) {
+static sl_status run(sl_context *context, void *state, const sli_from_region_query *query,
+                     sl_bits *seen, sli_from_region_account *account) {
     sampler *s = state;
     const sl_directed_portal *portal = &s->scene->space.directed[query->face->directed];
     const double length =
         fabs(portal->right.x - portal->left.x) + fabs(portal->right.y - portal->left.y);
     const uint32_t points = (uint32_t)fmax(1, ceil(length / s->step));
-    SL_TRY(SL_ARRAY_ROOM(context, &s->refined, sl_regions_objects(s->scene)));
+    SL_TRY(SL_ARRAY_ROOM(context, &s->refined, sli_regions_objects(s->scene)));
     for (int steep = 0; steep < 2; steep++) {
         const image i = {query->quadrant, steep};
         SL_TRY(sl_check_cancelled(context));
@@ -286,8 +286,8 @@ static sl_status run(sl_context *context, void *state, const sl_from_region_quer
     return SL_OK;
 }
 
-const sl_from_region_solver_calls *sl_from_region_sampling(void) {
-    static const sl_from_region_solver_calls sampling = {
+const sli_from_region_solver_calls *sli_from_region_sampling(void) {
+    static const sli_from_region_solver_calls sampling = {
         .create = create,
         .destroy = destroy,
         .run = run,

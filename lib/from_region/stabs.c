@@ -11,27 +11,27 @@
 #include <string.h>
 
 typedef struct step {
-    sl_portal_step at; ///< a leaf
-    sl_direction_sector cone;
+    sli_portal_step at; ///< a leaf
+    sli_direction_sector cone;
     bool grazing;
 } step;
 
 typedef struct searcher {
     const sl_regions *scene;
     const sl_from_region_options *options;
-    sl_portal_search search;
+    sli_portal_search search;
     sl_bits *left; ///< of the refine set, what is not seen yet
     uint64_t left_count;
     /// Of the query at hand:
-    const sl_from_region_query *query;
+    const sli_from_region_query *query;
     sl_bits *seen;
-    sl_from_region_account *account;
+    sli_from_region_account *account;
 } searcher;
 
 static void destroy(sl_context *context, void *state) {
     searcher *s = state;
     if (!s) return;
-    sl_portal_search_end(context, &s->search);
+    sli_portal_search_end(context, &s->search);
     sl_free(context, s->left);
     sl_free(context, s);
 }
@@ -44,7 +44,7 @@ static sl_status create(sl_context *context, const sl_regions *scene,
     if (!s) return SL_NO_MEMORY;
     s->scene = scene;
     s->options = options;
-    s->search = (sl_portal_search){.space = &scene->space, .solver = options->stab};
+    s->search = (sli_portal_search){.space = &scene->space, .solver = options->stab};
     s->left = sl_alloc_array(context, scene->words, sizeof *s->left);
     sl_status status = s->left ? SL_OK : SL_NO_MEMORY;
     if (status == SL_OK)
@@ -58,16 +58,16 @@ static sl_status create(sl_context *context, const sl_regions *scene,
 
 /// Whether the sequence with one more portal counts as seen; if not, it is popped.
 static sl_status push(sl_context *context, searcher *s, sl_portal_ends ends,
-                      const sl_direction_sector *cone, bool grazing_before, bool *seen,
+                      const sli_direction_sector *cone, bool grazing_before, bool *seen,
                       bool *grazing) {
     const sl_solver *solver = s->search.solver;
     sl_stab_verdict verdict;
-    SL_TRY(sl_portal_search_push(context, &s->search, ends.left, ends.right, &verdict));
+    SL_TRY(sli_portal_search_push(context, &s->search, ends.left, ends.right, &verdict));
     if (verdict != SL_HIDDEN)
         SL_TRY(solver->toward(context, s->search.solver_state, cone->right, cone->left, &verdict));
     *grazing = grazing_before || verdict == SL_GRAZING;
     *seen = verdict != SL_HIDDEN && (s->options->sight == SL_CLOSED || !*grazing);
-    if (!*seen) sl_portal_search_pop(&s->search);
+    if (!*seen) sli_portal_search_pop(&s->search);
     return SL_OK;
 }
 
@@ -76,18 +76,18 @@ static sl_status try_items(sl_context *context, searcher *s, const step *at) {
     const sl_regions *scene = s->scene;
     const uint32_t *index = scene->first_leaf_item;
     for (uint32_t i = index[at->at.cell]; i < index[at->at.cell + 1]; i++) {
-        const sl_item *item = &scene->items.items[scene->leaf_items[i]];
+        const sli_item *item = &scene->items.items[scene->leaf_items[i]];
         if (!sl_bits_has(s->left, item->object)) continue;
-        const sl_portal_ends ends = sl_item_ends(item, s->query->quadrant);
+        const sl_portal_ends ends = sli_item_ends(item, s->query->quadrant);
         const sl_directed_portal as_portal = {.left = ends.left, .right = ends.right};
-        sl_direction_sector cone = at->cone;
+        sli_direction_sector cone = at->cone;
         if (ends.left.x == ends.right.x && ends.left.y == ends.right.y) continue;
-        if (!sl_direction_sector_cut(&cone, &as_portal)) continue;
+        if (!sli_direction_sector_cut(&cone, &as_portal)) continue;
         bool stabbed, grazing;
         s->account->rays++;
         SL_TRY(push(context, s, ends, &cone, at->grazing, &stabbed, &grazing));
         if (!stabbed) continue;
-        sl_portal_search_pop(&s->search);
+        sli_portal_search_pop(&s->search);
         s->left[item->object / 64] &= ~((sl_bits)1 << (item->object % 64));
         s->left_count--;
         sl_bits_add(s->seen, item->object);
@@ -104,10 +104,10 @@ static sl_status cross(sl_context *context, void *job, const void *last, void *n
     step *to = next;
     const sl_regions *scene = s->scene;
     const sl_directed_portal *directed = &scene->space.directed[number];
-    if (scene->passes[s->query->quadrant].leaves.faces[number] == SL_NO_FACE) return SL_OK;
+    if (scene->passes[s->query->quadrant].leaves.faces[number] == SLI_NO_FACE) return SL_OK;
     *to = (step){.at.cell = directed->cell, .cone = from->cone};
     bool stabbed;
-    if (!sl_direction_sector_cut(&to->cone, directed)) return SL_OK;
+    if (!sli_direction_sector_cut(&to->cone, directed)) return SL_OK;
     if (++s->account->rays % 64 == 0) SL_TRY(sl_check_cancelled(context));
     SL_TRY(push(context, s, (sl_portal_ends){directed->left, directed->right}, &to->cone,
                 from->grazing, &stabbed, &to->grazing));
@@ -116,9 +116,9 @@ static sl_status cross(sl_context *context, void *job, const void *last, void *n
     return try_items(context, s, to);
 }
 
-static sl_status run(sl_context *context, void *state, const sl_from_region_query *query,
-                     sl_bits *seen, sl_from_region_account *account) {
-    static const sl_portal_visitor visitor = {.step_size = sizeof(step), .cross = cross};
+static sl_status run(sl_context *context, void *state, const sli_from_region_query *query,
+                     sl_bits *seen, sli_from_region_account *account) {
+    static const sli_portal_visitor visitor = {.step_size = sizeof(step), .cross = cross};
     searcher *s = state;
     memcpy(s->left, query->refine, s->scene->words * sizeof *s->left);
     s->left_count = 0;
@@ -129,14 +129,14 @@ static sl_status run(sl_context *context, void *state, const sl_from_region_quer
     s->query = query;
     s->seen = seen;
     s->account = account;
-    SL_TRY(sl_portal_search_start(context, &s->search, sizeof(step)));
+    SL_TRY(sli_portal_search_start(context, &s->search, sizeof(step)));
     const step outside = {.cone = s->scene->passes[query->quadrant].leaves.cone};
     SL_TRY(cross(context, s, &outside, s->search.steps, query->face->directed));
-    return sl_portal_search_run(context, &s->search, &visitor, s);
+    return sli_portal_search_run(context, &s->search, &visitor, s);
 }
 
-const sl_from_region_solver_calls *sl_from_region_stabs(void) {
-    static const sl_from_region_solver_calls stabs = {
+const sli_from_region_solver_calls *sli_from_region_stabs(void) {
+    static const sli_from_region_solver_calls stabs = {
         .create = create,
         .destroy = destroy,
         .run = run,

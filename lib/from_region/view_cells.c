@@ -19,7 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-sl_box sl_leaf_box(const sl_space *space, uint32_t leaf) {
+sl_box sli_leaf_box(const sl_space *space, uint32_t leaf) {
     const sl_cell *c = &space->cells[leaf];
     const sl_point *corners = space->vertices + c->first_vertex;
     sl_box box = {corners[0], corners[0]};
@@ -32,7 +32,7 @@ sl_box sl_leaf_box(const sl_space *space, uint32_t leaf) {
     return box;
 }
 
-double sl_grid_line(const sl_box *bounds, int axis, uint32_t line, uint32_t grid) {
+double sli_grid_line(const sl_box *bounds, int axis, uint32_t line, uint32_t grid) {
     const double low = axis ? bounds->min.y : bounds->min.x;
     const double high = axis ? bounds->max.y : bounds->max.x;
     return line == grid ? high : low + (high - low) * ((double)line / grid);
@@ -43,7 +43,7 @@ double sl_grid_line(const sl_box *bounds, int axis, uint32_t line, uint32_t grid
 /// The number of a leaf's square on one axis. No leaf crosses a line of the grid.
 static uint32_t square_on(const sl_box *bounds, int axis, uint32_t grid, double low) {
     uint32_t square = 0;
-    while (square + 1 < grid && sl_grid_line(bounds, axis, square + 1, grid) <= low) square++;
+    while (square + 1 < grid && sli_grid_line(bounds, axis, square + 1, grid) <= low) square++;
     return square;
 }
 
@@ -105,7 +105,7 @@ static sl_status assign(sl_context *context, const sl_regions_options *options, 
         return SL_NO_MEMORY;
     }
     for (uint32_t leaf = 0; leaf < space->cell_count; leaf++) {
-        const sl_box box = sl_leaf_box(space, leaf);
+        const sl_box box = sli_leaf_box(space, leaf);
         scene->view_cell[leaf] = SL_NO_VIEW_CELL;
         if (!space->cells[leaf].inside) continue;
         scene->counts.leaves++;
@@ -124,20 +124,20 @@ static sl_status assign(sl_context *context, const sl_regions_options *options, 
 // --- faces
 
 static int compare_faces(const void *left, const void *right) {
-    const sl_face *a = left, *b = right;
+    const sli_face *a = left, *b = right;
     if (a->from != b->from) return a->from < b->from ? -1 : 1;
     return (a->directed > b->directed) - (a->directed < b->directed);
 }
 
-sl_status sl_regions_find_faces(sl_context *context, sl_regions *scene) {
+sl_status sli_regions_find_faces(sl_context *context, sl_regions *scene) {
     const sl_space *space = &scene->space;
     scene->faces.count = 0;
     scene->counts.boundary_faces = 0;
     for (uint32_t leaf = 0; leaf < space->cell_count; leaf++) {
         const sl_cell *c = &space->cells[leaf];
         for (uint32_t e = c->first_directed; e < c->first_directed + c->directed_count; e++) {
-            const sl_face face = {scene->view_cell[leaf], scene->view_cell[space->directed[e].cell],
-                                  e};
+            const sli_face face = {scene->view_cell[leaf],
+                                   scene->view_cell[space->directed[e].cell], e};
             scene->face_of[e] = UINT32_MAX;
             if (face.from == SL_NO_VIEW_CELL || face.from == face.to) continue;
             if (!space->cells[space->directed[e].cell].inside) continue;
@@ -146,7 +146,7 @@ sl_status sl_regions_find_faces(sl_context *context, sl_regions *scene) {
             scene->counts.boundary_faces += face.to == SL_NO_VIEW_CELL;
         }
     }
-    sl_face *faces = scene->faces.items;
+    sli_face *faces = scene->faces.items;
     const uint32_t count = scene->counts.faces = (uint32_t)scene->faces.count;
     if (count) qsort(faces, count, sizeof *faces, compare_faces);
     sl_free(context, scene->first_face);
@@ -162,22 +162,22 @@ sl_status sl_regions_find_faces(sl_context *context, sl_regions *scene) {
     return SL_OK;
 }
 
-sl_status sl_regions_find_view_cells(sl_context *context, const sl_regions_options *options,
-                                     sl_regions *scene) {
+sl_status sli_regions_find_view_cells(sl_context *context, const sl_regions_options *options,
+                                      sl_regions *scene) {
     SL_TRY(assign(context, options, scene));
     scene->face_of = sl_alloc_array(context, scene->space.directed_count, sizeof *scene->face_of);
     if (!scene->face_of) return SL_NO_MEMORY;
-    return sl_regions_find_faces(context, scene);
+    return sli_regions_find_faces(context, scene);
 }
 
 // --- cycles
 
 /// A face to a view cell of the same component; UINT32_MAX for none.
-static uint32_t face_within(const sl_regions *scene, const sl_regions_pass *pass, uint32_t cell) {
-    const sl_order *order = &pass->view_cells;
+static uint32_t face_within(const sl_regions *scene, const sli_regions_pass *pass, uint32_t cell) {
+    const sli_order *order = &pass->view_cells;
     for (uint32_t f = scene->first_face[cell]; f < scene->first_face[cell + 1]; f++) {
-        const sl_face *face = &scene->faces.items[f];
-        if (face->to != SL_NO_VIEW_CELL && pass->leaves.faces[face->directed] != SL_NO_FACE &&
+        const sli_face *face = &scene->faces.items[f];
+        if (face->to != SL_NO_VIEW_CELL && pass->leaves.faces[face->directed] != SLI_NO_FACE &&
             order->component[face->to] == order->component[cell])
             return f;
     }
@@ -185,7 +185,7 @@ static uint32_t face_within(const sl_regions *scene, const sl_regions_pass *pass
 }
 
 /// The first component of more than one view cell; UINT32_MAX for none.
-static uint32_t cyclic_component(const sl_order *order) {
+static uint32_t cyclic_component(const sli_order *order) {
     for (uint32_t k = 0; k < order->component_count; k++)
         if (order->starts[k + 1] - order->starts[k] > 1) return k;
     return UINT32_MAX;
@@ -205,7 +205,7 @@ static sl_status refuse(sl_context *context, const sl_regions *scene, int quadra
                         uint32_t component) {
     static const char *const towards[] = {"up and right", "up and left", "down and left",
                                           "down and right"};
-    const sl_regions_pass *pass = &scene->passes[quadrant];
+    const sli_regions_pass *pass = &scene->passes[quadrant];
     bool *met = sl_alloc_array(context, scene->counts.view_cells, sizeof *met);
     if (!met) return SL_NO_MEMORY;
     uint32_t cell = pass->view_cells.nodes[pass->view_cells.starts[component]];
@@ -295,7 +295,7 @@ static sl_status cut_in_two(sl_context *context, sl_regions *scene, uint32_t cel
 
 /// Chooses the view cell of a component with the most leaves. It has several, as leaves have an
 /// order.
-static sl_status choose(sl_context *context, const sl_regions *scene, const sl_order *order,
+static sl_status choose(sl_context *context, const sl_regions *scene, const sli_order *order,
                         uint32_t component, uint32_t *cell) {
     uint32_t *leaves = sl_alloc_array(context, scene->counts.view_cells, sizeof *leaves);
     if (!leaves) return SL_NO_MEMORY;
@@ -308,11 +308,11 @@ static sl_status choose(sl_context *context, const sl_regions *scene, const sl_o
     return SL_OK;
 }
 
-sl_status sl_regions_check_cycles(sl_context *context, const sl_regions_options *options,
-                                  sl_regions *scene, bool *cut) {
+sl_status sli_regions_check_cycles(sl_context *context, const sl_regions_options *options,
+                                   sl_regions *scene, bool *cut) {
     *cut = false;
-    for (int q = 0; q < SL_QUADRANTS; q++) {
-        const sl_order *order = &scene->passes[q].view_cells;
+    for (int q = 0; q < SLI_QUADRANTS; q++) {
+        const sli_order *order = &scene->passes[q].view_cells;
         const uint32_t component = cyclic_component(order);
         if (component == UINT32_MAX) continue;
         if (!options->cut_cycles) return refuse(context, scene, q, component);

@@ -28,21 +28,21 @@
 // --- vectors of whole numbers
 
 typedef struct vector {
-    sl_whole x, y;
+    sli_whole x, y;
 } vector;
 
 /// Lowers an exponent to that of a value, so that both are whole in its unit.
 static void lower(int *exponent, double value) {
     if (value == 0) return;
-    const int own = sl_whole_exponent(value);
+    const int own = sli_whole_exponent(value);
     if (own < *exponent) *exponent = own;
 }
 
-static void subtract(double a, double b, int exponent, sl_whole *out) {
-    sl_whole left, right;
-    sl_whole_set(a, exponent, &left);
-    sl_whole_set(b, exponent, &right);
-    sl_whole_subtract(&left, &right, out);
+static void subtract(double a, double b, int exponent, sli_whole *out) {
+    sli_whole left, right;
+    sli_whole_set(a, exponent, &left);
+    sli_whole_set(b, exponent, &right);
+    sli_whole_subtract(&left, &right, out);
 }
 
 static void set_way(sl_point from, sl_point to, int exponent, vector *out) {
@@ -50,26 +50,26 @@ static void set_way(sl_point from, sl_point to, int exponent, vector *out) {
     subtract(to.y, from.y, exponent, &out->y);
 }
 
-static void whole_cross(const vector *a, const vector *b, sl_whole *out) {
-    sl_whole s, t;
-    sl_whole_multiply(&a->x, &b->y, &s);
-    sl_whole_multiply(&a->y, &b->x, &t);
-    sl_whole_subtract(&s, &t, out);
+static void whole_cross(const vector *a, const vector *b, sli_whole *out) {
+    sli_whole s, t;
+    sli_whole_multiply(&a->x, &b->y, &s);
+    sli_whole_multiply(&a->y, &b->x, &t);
+    sli_whole_subtract(&s, &t, out);
 }
 
-static void whole_dot(const vector *a, const vector *b, sl_whole *out) {
-    sl_whole s, t;
-    sl_whole_multiply(&a->x, &b->x, &s);
-    sl_whole_multiply(&a->y, &b->y, &t);
-    sl_whole_add(&s, &t, out);
+static void whole_dot(const vector *a, const vector *b, sli_whole *out) {
+    sli_whole s, t;
+    sli_whole_multiply(&a->x, &b->x, &s);
+    sli_whole_multiply(&a->y, &b->y, &t);
+    sli_whole_add(&s, &t, out);
 }
 
 // --- the place of a crossing
 
 /// The two coordinates of a crossing as quotients.
 typedef struct quotient {
-    sl_whole x, y, divisor; ///< the divisor is positive
-    int exponent;           ///< of the unit of the whole numbers
+    sli_whole x, y, divisor; ///< the divisor is positive
+    int exponent;            ///< of the unit of the whole numbers
 } quotient;
 
 /// The exponent of the unit for two segments. It is 0 or less, so that the ratio of this unit to
@@ -82,18 +82,18 @@ static int lowest_exponent(const sl_segment *s, const sl_segment *t) {
 }
 
 /// from * divisor + step * share
-static void along(double from, int exponent, const sl_whole *divisor, const sl_whole *step,
-                  const sl_whole *share, sl_whole *out) {
-    sl_whole start, left, right;
-    sl_whole_set(from, exponent, &start);
-    sl_whole_multiply(&start, divisor, &left);
-    sl_whole_multiply(step, share, &right);
-    sl_whole_add(&left, &right, out);
+static void along(double from, int exponent, const sli_whole *divisor, const sli_whole *step,
+                  const sli_whole *share, sli_whole *out) {
+    sli_whole start, left, right;
+    sli_whole_set(from, exponent, &start);
+    sli_whole_multiply(&start, divisor, &left);
+    sli_whole_multiply(step, share, &right);
+    sli_whole_add(&left, &right, out);
 }
 
 static void divide(const sl_segment *s, const sl_segment *t, quotient *q) {
     vector s_way, t_way, gap;
-    sl_whole share;
+    sli_whole share;
     q->exponent = lowest_exponent(s, t);
     set_way(s->a, s->b, q->exponent, &s_way);
     set_way(t->a, t->b, q->exponent, &t_way);
@@ -109,18 +109,18 @@ static void divide(const sl_segment *s, const sl_segment *t, quotient *q) {
 }
 
 /// The sign of a coordinate of the place less the middle of two doubles.
-static int compare_to_middle(const quotient *q, const sl_whole *coordinate, double a, double b) {
+static int compare_to_middle(const quotient *q, const sli_whole *coordinate, double a, double b) {
     int exponent = q->exponent;
     lower(&exponent, a);
     lower(&exponent, b);
-    sl_whole left, right, sum, twice, unit;
-    sl_whole_set(a, exponent, &left);
-    sl_whole_set(b, exponent, &right);
-    sl_whole_add(&left, &right, &sum);
-    sl_whole_multiply(&sum, &q->divisor, &right);
-    sl_whole_set(ldexp(1, q->exponent - exponent + 1), 0, &unit);
-    sl_whole_multiply(coordinate, &unit, &twice);
-    return sl_whole_compare(&twice, &right);
+    sli_whole left, right, sum, twice, unit;
+    sli_whole_set(a, exponent, &left);
+    sli_whole_set(b, exponent, &right);
+    sli_whole_add(&left, &right, &sum);
+    sli_whole_multiply(&sum, &q->divisor, &right);
+    sli_whole_set(ldexp(1, q->exponent - exponent + 1), 0, &unit);
+    sli_whole_multiply(coordinate, &unit, &twice);
+    return sli_whole_compare(&twice, &right);
 }
 
 /// The next usable coordinate (sl_coordinate_usable), up or down.
@@ -131,7 +131,7 @@ static double next_to(double value, double toward) {
 }
 
 /// The highest digits of a whole number. The number is about the result times 2^*exponent.
-static double leading(const sl_whole *whole, int *exponent) {
+static double leading(const sli_whole *whole, int *exponent) {
     const uint32_t first = whole->count > 3 ? whole->count - 3 : 0;
     double value = 0;
     for (uint32_t i = whole->count; i-- > first;) value = value * 0x1p32 + whole->digits[i];
@@ -140,7 +140,7 @@ static double leading(const sl_whole *whole, int *exponent) {
 }
 
 /// The usable double that is nearest to a coordinate; of two equally near ones the lower.
-static double nearest(const quotient *q, const sl_whole *coordinate) {
+static double nearest(const quotient *q, const sli_whole *coordinate) {
     int above, below;
     const double share = leading(coordinate, &above) / leading(&q->divisor, &below);
     double value = coordinate->sign * ldexp(share, above - below + q->exponent);
@@ -156,7 +156,7 @@ static double nearest(const quotient *q, const sl_whole *coordinate) {
     }
 }
 
-sl_point sl_crossing(sl_segment s, sl_segment t) {
+sl_point sli_crossing(sl_segment s, sl_segment t) {
     quotient q;
     divide(&s, &t, &q);
     return (sl_point){nearest(&q, &q.x), nearest(&q, &q.y)};
@@ -174,7 +174,7 @@ static rounded determinant(sl_point a, sl_point b, sl_point c) {
     return (rounded){left - right, 8 * 0x1p-53 * (fabs(left) + fabs(right)) + 0x1p-900};
 }
 
-static void determinant_exact(sl_point a, sl_point b, sl_point c, int exponent, sl_whole *out) {
+static void determinant_exact(sl_point a, sl_point b, sl_point c, int exponent, sli_whole *out) {
     vector to_b, to_c;
     set_way(a, b, exponent, &to_b);
     set_way(a, c, exponent, &to_c);
@@ -198,20 +198,20 @@ static int compare_shares(sl_point from, sl_point to, const sl_segment *s, const
     const sl_segment line = {from, to};
     const int first = lowest_exponent(s, t), second = lowest_exponent(s, &line);
     const int exponent = first < second ? first : second;
-    sl_whole one, other, left_exact, right_exact;
+    sli_whole one, other, left_exact, right_exact;
     determinant_exact(t->a, t->b, s->b, exponent, &one);
     determinant_exact(from, to, s->a, exponent, &other);
-    sl_whole_multiply(&one, &other, &left_exact);
+    sli_whole_multiply(&one, &other, &left_exact);
     determinant_exact(t->a, t->b, s->a, exponent, &one);
     determinant_exact(from, to, s->b, exponent, &other);
-    sl_whole_multiply(&one, &other, &right_exact);
+    sli_whole_multiply(&one, &other, &right_exact);
     left_exact.sign = left_exact.sign != 0;
     right_exact.sign = right_exact.sign != 0;
-    return sl_whole_compare(&left_exact, &right_exact);
+    return sli_whole_compare(&left_exact, &right_exact);
 }
 
-int sl_crossing_side(sl_point from, sl_point to, sl_segment s, sl_segment t) {
-    const int a = sl_orient(from, to, s.a), b = sl_orient(from, to, s.b);
+int sli_crossing_side(sl_point from, sl_point to, sl_segment s, sl_segment t) {
+    const int a = sli_orient(from, to, s.a), b = sli_orient(from, to, s.b);
     if (a * b >= 0) return a ? a : b;
     return a * compare_shares(from, to, &s, &t);
 }
@@ -228,7 +228,7 @@ static double size(sl_point v) {
     return fabs(v.x) + fabs(v.y);
 }
 
-static rough rough_between(const sl_fine *from, const sl_fine *to) {
+static rough rough_between(const sli_fine *from, const sli_fine *to) {
     const sl_point at = {to->at.x - from->at.x, to->at.y - from->at.y};
     const sl_point rest = {to->rest.x - from->rest.x, to->rest.y - from->rest.y};
     const sl_point sum = {at.x + rest.x, at.y + rest.y};
@@ -260,8 +260,8 @@ static int compare_roughly(double a, double b) {
 }
 
 /// The sign; 0 where doubles leave it open.
-static int compare_in_doubles(const sl_glance *g, double length) {
-    const sl_fine right = {.at = g->right}, left = {.at = g->left};
+static int compare_in_doubles(const sli_glance *g, double length) {
+    const sli_fine right = {.at = g->right}, left = {.at = g->left};
     const rough p = rough_between(&g->eye, &right), q = rough_between(&g->eye, &left);
     const rough w = rough_between(&right, &left);
     const double area = cross(p.at, q.at), square = length * length;
@@ -281,78 +281,78 @@ static int compare_in_doubles(const sl_glance *g, double length) {
 
 // --- distances: in whole numbers
 
-static void lower_by(int *exponent, const sl_fine *p) {
+static void lower_by(int *exponent, const sli_fine *p) {
     lower(exponent, p->at.x);
     lower(exponent, p->at.y);
     lower(exponent, p->rest.x);
     lower(exponent, p->rest.y);
 }
 
-static void set_sum(double a, double b, int exponent, sl_whole *out) {
-    sl_whole s, t;
-    sl_whole_set(a, exponent, &s);
-    sl_whole_set(b, exponent, &t);
-    sl_whole_add(&s, &t, out);
+static void set_sum(double a, double b, int exponent, sli_whole *out) {
+    sli_whole s, t;
+    sli_whole_set(a, exponent, &s);
+    sli_whole_set(b, exponent, &t);
+    sli_whole_add(&s, &t, out);
 }
 
-static void set_between(const sl_fine *from, const sl_fine *to, int exponent, vector *out) {
-    sl_whole a, b;
+static void set_between(const sli_fine *from, const sli_fine *to, int exponent, vector *out) {
+    sli_whole a, b;
     set_sum(from->at.x, from->rest.x, exponent, &a);
     set_sum(to->at.x, to->rest.x, exponent, &b);
-    sl_whole_subtract(&b, &a, &out->x);
+    sli_whole_subtract(&b, &a, &out->x);
     set_sum(from->at.y, from->rest.y, exponent, &a);
     set_sum(to->at.y, to->rest.y, exponent, &b);
-    sl_whole_subtract(&b, &a, &out->y);
+    sli_whole_subtract(&b, &a, &out->y);
 }
 
 /// The sign of a a b - c c d.
-static int compare_products(const sl_whole *a, const sl_whole *b, const sl_whole *c,
-                            const sl_whole *d) {
-    sl_whole square, left, right;
-    sl_whole_multiply(a, a, &square);
-    sl_whole_multiply(&square, b, &left);
-    sl_whole_multiply(c, c, &square);
-    sl_whole_multiply(&square, d, &right);
-    return sl_whole_compare(&left, &right);
+static int compare_products(const sli_whole *a, const sli_whole *b, const sli_whole *c,
+                            const sli_whole *d) {
+    sli_whole square, left, right;
+    sli_whole_multiply(a, a, &square);
+    sli_whole_multiply(&square, b, &left);
+    sli_whole_multiply(c, c, &square);
+    sli_whole_multiply(&square, d, &right);
+    return sli_whole_compare(&left, &right);
 }
 
 /// The sign of |v| - length.
-static int compare_length(const vector *v, const sl_whole *length) {
-    sl_whole left, right;
+static int compare_length(const vector *v, const sli_whole *length) {
+    sli_whole left, right;
     whole_dot(v, v, &left);
-    sl_whole_multiply(length, length, &right);
-    return sl_whole_compare(&left, &right);
+    sli_whole_multiply(length, length, &right);
+    return sli_whole_compare(&left, &right);
 }
 
 /// The sign of the distance to the place that a direction meets, less the length.
-static int compare_met(const sl_whole *area, const vector *d, const vector *w,
-                       const sl_whole *length) {
-    sl_whole square, over, reach;
+static int compare_met(const sli_whole *area, const vector *d, const vector *w,
+                       const sli_whole *length) {
+    sli_whole square, over, reach;
     whole_dot(d, d, &square);
     whole_cross(d, w, &over);
-    sl_whole_multiply(length, &over, &reach);
-    sl_whole one;
-    sl_whole_set(1, 0, &one);
+    sli_whole_multiply(length, &over, &reach);
+    sli_whole one;
+    sli_whole_set(1, 0, &one);
     return compare_products(area, &square, &reach, &one);
 }
 
-static int exponent_of(const sl_glance *g, double length) {
+static int exponent_of(const sli_glance *g, double length) {
     int exponent = INT_MAX;
     lower_by(&exponent, &g->eye);
     lower_by(&exponent, &g->from);
     lower_by(&exponent, &g->to);
-    lower_by(&exponent, &(sl_fine){.at = g->right});
-    lower_by(&exponent, &(sl_fine){.at = g->left});
+    lower_by(&exponent, &(sli_fine){.at = g->right});
+    lower_by(&exponent, &(sli_fine){.at = g->left});
     lower(&exponent, length);
     return exponent;
 }
 
-static int compare_exactly(const sl_glance *g, double length) {
-    const sl_fine right = {.at = g->right}, left = {.at = g->left};
+static int compare_exactly(const sli_glance *g, double length) {
+    const sli_fine right = {.at = g->right}, left = {.at = g->left};
     const int exponent = exponent_of(g, length);
     vector p, q, w, d;
-    sl_whole range, area, along;
-    sl_whole_set(length, exponent, &range);
+    sli_whole range, area, along;
+    sli_whole_set(length, exponent, &range);
     set_between(&g->eye, &right, exponent, &p);
     set_between(&g->eye, &left, exponent, &q);
     set_between(&right, &left, exponent, &w);
@@ -367,19 +367,19 @@ static int compare_exactly(const sl_glance *g, double length) {
     set_between(&g->eye, &g->to, exponent, &d);
     whole_dot(&d, &w, &along);
     if ((g->to_away ? -along.sign : along.sign) <= 0) return compare_met(&area, &d, &w, &range);
-    sl_whole square, one;
+    sli_whole square, one;
     whole_dot(&w, &w, &square);
-    sl_whole_set(1, 0, &one);
+    sli_whole_set(1, 0, &one);
     return compare_products(&area, &one, &range, &square);
 }
 
-int sl_nearest_compare(const sl_glance *glance, double length) {
+int sli_nearest_compare(const sli_glance *glance, double length) {
     const int sign = compare_in_doubles(glance, length);
     return sign ? sign : compare_exactly(glance, length);
 }
 
-int sl_distance_compare(sl_point a, sl_point b, double length) {
-    const sl_fine from = {.at = a}, to = {.at = b};
+int sli_distance_compare(sl_point a, sl_point b, double length) {
+    const sli_fine from = {.at = a}, to = {.at = b};
     const rough v = rough_between(&from, &to);
     const int sign = compare_roughly(dot(v.at, v.at), length * length);
     if (sign) return sign;
@@ -389,8 +389,8 @@ int sl_distance_compare(sl_point a, sl_point b, double length) {
     lower(&exponent, length);
     if (exponent == INT_MAX) return 0;
     vector way;
-    sl_whole range;
+    sli_whole range;
     set_between(&from, &to, exponent, &way);
-    sl_whole_set(length, exponent, &range);
+    sli_whole_set(length, exponent, &range);
     return compare_length(&way, &range);
 }

@@ -10,55 +10,55 @@
 /// The place where two segments cross. Each coordinate is the nearest usable one
 /// (sl_coordinate_usable), of two equally near ones the lower. The order of the segments does not
 /// matter. They must cross properly: the ends of each lie strictly on different sides of the other.
-sl_point sl_crossing(sl_segment s, sl_segment t);
+sl_point sli_crossing(sl_segment s, sl_segment t);
 
-/// The side of the line from `from` to `to` on which s crosses the line through t, as sl_orient.
+/// The side of the line from `from` to `to` on which s crosses the line through t, as sli_orient.
 /// The ends of s must lie strictly on different sides of t's line. Exact for all finite doubles.
-int sl_crossing_side(sl_point from, sl_point to, sl_segment s, sl_segment t);
+int sli_crossing_side(sl_point from, sl_point to, sl_segment s, sl_segment t);
 
 /// A segment, and the directions in which an eye looks at it. `right` and `left` are the ends of
 /// the segment as the eye sees them. The directions go counter-clockwise from `from` to `to`, by
 /// less than half a turn. Each points to its point, or straight away from it (`away`). They meet
 /// the segment.
-typedef struct sl_glance {
-    sl_fine eye, from, to;
+typedef struct sli_glance {
+    sli_fine eye, from, to;
     bool from_away, to_away;
     sl_point right, left;
-} sl_glance;
+} sli_glance;
 
 /// The sign of the distance from the eye to the nearest place that is seen of the segment, less a
 /// positive length. A segment in line with the eye counts as a whole, and must not hold the eye.
 /// Exact for all finite doubles.
-int sl_nearest_compare(const sl_glance *glance, double length);
+int sli_nearest_compare(const sli_glance *glance, double length);
 
 /// The sign of the distance between two points, less a length of 0 or more. Exact.
-int sl_distance_compare(sl_point a, sl_point b, double length);
+int sli_distance_compare(sl_point a, sl_point b, double length);
 
 // --- Whole numbers of many digits, on the stack, for predicates with more factors than a
 // determinant.
 
 /// The number of digits (base 2^32). It holds a product of six numbers, each a difference of two
 /// finite doubles, in units of one power of two.
-enum { SL_WHOLE_DIGITS = 408 };
+enum { SLI_WHOLE_DIGITS = 408 };
 
-typedef struct sl_whole {
-    int sign;                         ///< -1, 0 or 1
-    uint32_t count;                   ///< digits in use; the last one is not 0
-    uint32_t digits[SL_WHOLE_DIGITS]; ///< the lowest first
-} sl_whole;
+typedef struct sli_whole {
+    int sign;                          ///< -1, 0 or 1
+    uint32_t count;                    ///< digits in use; the last one is not 0
+    uint32_t digits[SLI_WHOLE_DIGITS]; ///< the lowest first
+} sli_whole;
 
 /// The exponent of the last binary digit of a finite double other than 0.
-int sl_whole_exponent(double value);
+int sli_whole_exponent(double value);
 
 /// value * 2^-exponent, which must be whole.
-void sl_whole_set(double value, int exponent, sl_whole *out);
+void sli_whole_set(double value, int exponent, sli_whole *out);
 
 // `out` must not be an operand.
-void sl_whole_add(const sl_whole *a, const sl_whole *b, sl_whole *out);
-void sl_whole_subtract(const sl_whole *a, const sl_whole *b, sl_whole *out);
-void sl_whole_multiply(const sl_whole *a, const sl_whole *b, sl_whole *out);
+void sli_whole_add(const sli_whole *a, const sli_whole *b, sli_whole *out);
+void sli_whole_subtract(const sli_whole *a, const sli_whole *b, sli_whole *out);
+void sli_whole_multiply(const sli_whole *a, const sli_whole *b, sli_whole *out);
 
 /// The sign of a - b.
-int sl_whole_compare(const sl_whole *a, const sl_whole *b);
+int sli_whole_compare(const sli_whole *a, const sli_whole *b);
 
 #endif

@@ -124,7 +124,7 @@ static bool orient_by_differences(sl_point a, sl_point b, sl_point c, int *sign)
     return compare_products(&left, &right, sign);
 }
 
-int sl_orient_exact(sl_point a, sl_point b, sl_point c) {
+int sli_orient_exact(sl_point a, sl_point b, sl_point c) {
     int sign;
     if (plainly_on_line(a, b, c)) return 0;
     if (orient_by_differences(a, b, c, &sign)) return sign;
@@ -136,7 +136,7 @@ int sl_orient_exact(sl_point a, sl_point b, sl_point c) {
 }
 
 /// Adds the products of p x q, sums of two each.
-static int multiply_fine(const sl_fine *p, const sl_fine *q, product *products) {
+static int multiply_fine(const sli_fine *p, const sli_fine *q, product *products) {
     const double px[2] = {p->at.x, p->rest.x}, py[2] = {p->at.y, p->rest.y};
     const double qx[2] = {q->at.x, q->rest.x}, qy[2] = {q->at.y, q->rest.y};
     for (int i = 0; i < 4; i++) {
@@ -146,7 +146,7 @@ static int multiply_fine(const sl_fine *p, const sl_fine *q, product *products) 
     return 8;
 }
 
-int sl_orient_fine(const sl_fine *a, const sl_fine *b, const sl_fine *c) {
+int sli_orient_fine(const sli_fine *a, const sli_fine *b, const sli_fine *c) {
     product products[24];
     int count = multiply_fine(a, b, products);
     count += multiply_fine(b, c, products + count);
@@ -154,7 +154,7 @@ int sl_orient_fine(const sl_fine *a, const sl_fine *b, const sl_fine *c) {
     return sign_of_sum(products, count);
 }
 
-int sl_turn_exact(sl_point a, sl_point b, sl_point c, sl_point d) {
+int sli_turn_exact(sl_point a, sl_point b, sl_point c, sl_point d) {
     // Two directions along the same axis are frequent.
     if ((a.x == b.x && c.x == d.x) || (a.y == b.y && c.y == d.y)) return 0;
     const product products[8] = {

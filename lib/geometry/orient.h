@@ -9,18 +9,18 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-static inline bool sl_same_point(sl_point a, sl_point b) {
+static inline bool sli_same_point(sl_point a, sl_point b) {
     return a.x == b.x && a.y == b.y;
 }
 
 /// The order of points: by x, then by y. The sign of a - b.
-static inline int sl_compare_points(sl_point a, sl_point b) {
+static inline int sli_compare_points(sl_point a, sl_point b) {
     if (a.x != b.x) return a.x < b.x ? -1 : 1;
     return (a.y > b.y) - (a.y < b.y);
 }
 
-/// As sl_orient, by exact arithmetic only.
-int sl_orient_exact(sl_point a, sl_point b, sl_point c);
+/// As sli_orient, by exact arithmetic only.
+int sli_orient_exact(sl_point a, sl_point b, sl_point c);
 
 /// The sign of a x b for two vectors whose coordinates are differences, each rounded once. 0 where
 /// rounding may have changed the sign.
@@ -30,7 +30,7 @@ int sl_orient_exact(sl_point a, sl_point b, sl_point c);
 /// than (3 + 16e)e times the sum of its two products, e = 2^-53. The last term of the bound is
 /// larger than what a product loses by underflow. An overflow makes both comparisons false. The
 /// bound also holds where the compiler fuses a product into the difference.
-static inline int sl_turn_filter(sl_point a, sl_point b) {
+static inline int sli_turn_filter(sl_point a, sl_point b) {
     const double left = a.x * b.y, right = a.y * b.x;
     const double determinant = left - right;
     const double sum = fabs(left) + fabs(right);
@@ -40,64 +40,64 @@ static inline int sl_turn_filter(sl_point a, sl_point b) {
 
 /// The limit that a x b must exceed for its sign to be sure, for every b whose coordinates are no
 /// larger than those of `reach`. It is the bound above for the largest products, rounded up.
-static inline double sl_turn_limit(sl_point a, sl_point reach) {
+static inline double sli_turn_limit(sl_point a, sl_point reach) {
     return 4 * 0x1p-53 * (fabs(a.x) * reach.y + fabs(a.y) * reach.x) + 0x1p-1000;
 }
 
-/// As sl_turn_filter with the limit of `a`: cheaper for many b with the same a.
-static inline int sl_turn_filter_within(sl_point a, sl_point b, double limit) {
+/// As sli_turn_filter with the limit of `a`: cheaper for many b with the same a.
+static inline int sli_turn_filter_within(sl_point a, sl_point b, double limit) {
     const double determinant = a.x * b.y - a.y * b.x;
     return determinant > limit ? 1 : determinant < -limit ? -1 : 0;
 }
 
 /// The sign of (b - a) x (c - a); 0 where rounding may have changed it.
-static inline int sl_orient_filter(sl_point a, sl_point b, sl_point c) {
-    return sl_turn_filter((sl_point){a.x - c.x, a.y - c.y}, (sl_point){b.x - c.x, b.y - c.y});
+static inline int sli_orient_filter(sl_point a, sl_point b, sl_point c) {
+    return sli_turn_filter((sl_point){a.x - c.x, a.y - c.y}, (sl_point){b.x - c.x, b.y - c.y});
 }
 
 /// The sign of (b - a) x (c - a): 1 where c lies to the left of the line from a to b, -1 to the
 /// right, 0 on it. Exact for all finite doubles, also near overflow and underflow.
-static inline int sl_orient(sl_point a, sl_point b, sl_point c) {
-    const int sign = sl_orient_filter(a, b, c);
-    return sign ? sign : sl_orient_exact(a, b, c);
+static inline int sli_orient(sl_point a, sl_point b, sl_point c) {
+    const int sign = sli_orient_filter(a, b, c);
+    return sign ? sign : sli_orient_exact(a, b, c);
 }
 
 /// Whether the way from a through p to b goes straight on or turns left. A way back is neither.
-static inline bool sl_goes_on(sl_point a, sl_point p, sl_point b) {
-    const int turn = sl_orient(a, p, b);
+static inline bool sli_goes_on(sl_point a, sl_point p, sl_point b) {
+    const int turn = sli_orient(a, p, b);
     if (turn) return turn > 0;
-    return !sl_same_point(a, p) && !sl_same_point(p, b) && (a.x < p.x) == (p.x < b.x) &&
+    return !sli_same_point(a, p) && !sli_same_point(p, b) && (a.x < p.x) == (p.x < b.x) &&
            (a.x > p.x) == (p.x > b.x) && (a.y < p.y) == (p.y < b.y) && (a.y > p.y) == (p.y > b.y);
 }
 
 /// A point finer than doubles: at + rest. `rest` is at most half a unit in the last place of `at`.
 /// Places in mirrored space are sums of coordinates, and so need it.
-typedef struct sl_fine {
+typedef struct sli_fine {
     sl_point at, rest;
-} sl_fine;
+} sli_fine;
 
-/// As sl_orient, of fine points.
-int sl_orient_fine(const sl_fine *a, const sl_fine *b, const sl_fine *c);
+/// As sli_orient, of fine points.
+int sli_orient_fine(const sli_fine *a, const sli_fine *b, const sli_fine *c);
 
 /// The sign of a x b, exact. `scale` is a power of two; the coordinates of both vectors, times
 /// `scale`, must be whole numbers below 2^62.
-static inline int sl_turn_grid(sl_point a, sl_point b, double scale) {
+static inline int sli_turn_grid(sl_point a, sl_point b, double scale) {
     __extension__ typedef __int128 wide;
     const wide left = (wide)(int64_t)(a.x * scale) * (int64_t)(b.y * scale);
     const wide right = (wide)(int64_t)(a.y * scale) * (int64_t)(b.x * scale);
     return (left > right) - (left < right);
 }
 
-/// As sl_turn, by exact arithmetic only.
-int sl_turn_exact(sl_point a, sl_point b, sl_point c, sl_point d);
+/// As sli_turn, by exact arithmetic only.
+int sli_turn_exact(sl_point a, sl_point b, sl_point c, sl_point d);
 
 /// The sign of (b - a) x (d - c): 1 where the direction from c to d lies to the left of that from a
 /// to b, by less than half a turn; -1 to the right; 0 where both lie in one line. Exact for all
 /// finite doubles.
-static inline int sl_turn(sl_point a, sl_point b, sl_point c, sl_point d) {
+static inline int sli_turn(sl_point a, sl_point b, sl_point c, sl_point d) {
     const int sign =
-        sl_turn_filter((sl_point){b.x - a.x, b.y - a.y}, (sl_point){d.x - c.x, d.y - c.y});
-    return sign ? sign : sl_turn_exact(a, b, c, d);
+        sli_turn_filter((sl_point){b.x - a.x, b.y - a.y}, (sl_point){d.x - c.x, d.y - c.y});
+    return sign ? sign : sli_turn_exact(a, b, c, d);
 }
 
 #endif

@@ -13,14 +13,14 @@
 
 // --- JSON
 
-sl_status sl_json_open(sl_context *context, const char *name, const char *text, size_t size,
-                       sl_json_file *file) {
-    const char *begin = sl_lines_of(text, size).at;
+sl_status sli_json_open(sl_context *context, const char *name, const char *text, size_t size,
+                        sli_json_file *file) {
+    const char *begin = sli_lines_of(text, size).at;
     json_error_t error;
     json_t *root = json_loadb(begin ? begin : "", size - (size_t)(begin - text), 0, &error);
     if (!root) {
         if (json_error_code(&error) == json_error_out_of_memory) return sl_fail_memory(context);
-        const sl_word what = {error.text, strlen(error.text)};
+        const sli_word what = {error.text, strlen(error.text)};
         char shown[JSON_ERROR_TEXT_LENGTH];
         snprintf(shown, sizeof shown, "%.*s", (int)what.length, what.at);
         for (char *at = shown; *at; at++)
@@ -28,39 +28,39 @@ sl_status sl_json_open(sl_context *context, const char *name, const char *text, 
         const unsigned line = error.line > 0 ? (unsigned)error.line : 0;
         return sl_fail_at(context, name, line, "column %d: no JSON: %s", error.column, shown);
     }
-    *file = (sl_json_file){.context = context, .name = name, .root = root};
+    *file = (sli_json_file){.context = context, .name = name, .root = root};
     return SL_OK;
 }
 
-void sl_json_close(sl_json_file *file) {
+void sli_json_close(sli_json_file *file) {
     json_decref(file->root);
-    *file = (sl_json_file){0};
+    *file = (sli_json_file){0};
 }
 
 static json_t *present(json_t *value) {
     return value && json_is_null(value) ? NULL : value;
 }
 
-sl_json sl_json_root(const sl_json_file *file) {
-    return (sl_json){.file = file, .value = file->root};
+sli_json sli_json_root(const sli_json_file *file) {
+    return (sli_json){.file = file, .value = file->root};
 }
 
-sl_json sl_json_member(const sl_json *parent, const char *key) {
-    return (sl_json){.file = parent->file,
-                     .value = present(json_object_get(parent->value, key)),
-                     .parent = parent,
-                     .key = key};
+sli_json sli_json_member(const sli_json *parent, const char *key) {
+    return (sli_json){.file = parent->file,
+                      .value = present(json_object_get(parent->value, key)),
+                      .parent = parent,
+                      .key = key};
 }
 
-sl_json sl_json_item(const sl_json *parent, size_t index) {
-    return (sl_json){.file = parent->file,
-                     .value = present(json_array_get(parent->value, index)),
-                     .parent = parent,
-                     .index = index};
+sli_json sli_json_item(const sli_json *parent, size_t index) {
+    return (sli_json){.file = parent->file,
+                      .value = present(json_array_get(parent->value, index)),
+                      .parent = parent,
+                      .index = index};
 }
 
 /// The way from the root, from its end: each step is put before what is there.
-static const char *way_to(const sl_json *at, char *buffer, size_t size) {
+static const char *way_to(const sli_json *at, char *buffer, size_t size) {
     size_t begin = size - 1;
     buffer[begin] = '\0';
     for (; at->parent; at = at->parent) {
@@ -82,15 +82,15 @@ static const char *way_to(const sl_json *at, char *buffer, size_t size) {
 }
 
 /// The line of the nearest object about the value that has one; 0 for none.
-static unsigned line_of(const sl_json *at) {
+static unsigned line_of(const sli_json *at) {
     for (; at; at = at->parent) {
-        const json_t *line = json_object_get(at->value, SL_JSON_LINE);
+        const json_t *line = json_object_get(at->value, SLI_JSON_LINE);
         if (line) return (unsigned)json_integer_value(line);
     }
     return 0;
 }
 
-sl_status sl_json_fail(const sl_json *at, const char *format, ...) {
+sl_status sli_json_fail(const sli_json *at, const char *format, ...) {
     char what[512], way[256];
     va_list arguments;
     va_start(arguments, format);
@@ -101,32 +101,32 @@ sl_status sl_json_fail(const sl_json *at, const char *format, ...) {
                       *steps ? ": " : "", what);
 }
 
-static sl_status fail_kind(const sl_json *at, const char *expected) {
+static sl_status fail_kind(const sli_json *at, const char *expected) {
     static const char *const kinds[] = {"an object",     "an array", "text", "a whole number",
                                         "a real number", "true",     "false"};
-    if (!at->value) return sl_json_fail(at, "expected %s, found nothing", expected);
+    if (!at->value) return sli_json_fail(at, "expected %s, found nothing", expected);
     if (json_is_string(at->value)) {
         const char *text = json_string_value(at->value);
-        return sl_json_fail(at, "expected %s, found '%s'", expected,
-                            sl_show((sl_word){text, strlen(text)}).text);
+        return sli_json_fail(at, "expected %s, found '%s'", expected,
+                             sli_show((sli_word){text, strlen(text)}).text);
     }
     if (json_is_number(at->value))
-        return sl_json_fail(at, "expected %s, found %g", expected, json_number_value(at->value));
-    return sl_json_fail(at, "expected %s, found %s", expected, kinds[json_typeof(at->value)]);
+        return sli_json_fail(at, "expected %s, found %g", expected, json_number_value(at->value));
+    return sli_json_fail(at, "expected %s, found %s", expected, kinds[json_typeof(at->value)]);
 }
 
-sl_status sl_json_array(const sl_json *at, size_t *count) {
+sl_status sli_json_array(const sli_json *at, size_t *count) {
     if (!json_is_array(at->value)) return fail_kind(at, "an array");
     *count = json_array_size(at->value);
     return SL_OK;
 }
 
-sl_status sl_json_object(const sl_json *at) {
+sl_status sli_json_object(const sli_json *at) {
     return json_is_object(at->value) ? SL_OK : fail_kind(at, "an object");
 }
 
 /// The number that a value is, or that its text says where that is the notation.
-static bool number_of(const sl_json *at, double *number) {
+static bool number_of(const sli_json *at, double *number) {
     if (json_is_number(at->value)) {
         *number = json_number_value(at->value);
         return true;
@@ -135,17 +135,17 @@ static bool number_of(const sl_json *at, double *number) {
     return sl_number_read(json_string_value(at->value), json_string_length(at->value), number);
 }
 
-sl_status sl_json_number(const sl_json *at, double *number) {
+sl_status sli_json_number(const sli_json *at, double *number) {
     double value;
     if (!number_of(at, &value)) return fail_kind(at, "a number");
     if (!sl_coordinate_usable(value))
-        return sl_json_fail(at, "%g is out of range: expected 0 or a magnitude from %g to %g",
-                            value, SL_COORDINATE_MIN, SL_COORDINATE_MAX);
+        return sli_json_fail(at, "%g is out of range: expected 0 or a magnitude from %g to %g",
+                             value, SL_COORDINATE_MIN, SL_COORDINATE_MAX);
     *number = value;
     return SL_OK;
 }
 
-sl_status sl_json_whole(const sl_json *at, int64_t low, int64_t high, int64_t *number) {
+sl_status sli_json_whole(const sli_json *at, int64_t low, int64_t high, int64_t *number) {
     double value;
     if (json_is_integer(at->value)) {
         const int64_t whole = json_integer_value(at->value);
@@ -153,32 +153,32 @@ sl_status sl_json_whole(const sl_json *at, int64_t low, int64_t high, int64_t *n
             *number = whole;
             return SL_OK;
         }
-        return sl_json_fail(at, "%lld is out of range: expected a whole number from %lld to %lld",
-                            (long long)whole, (long long)low, (long long)high);
+        return sli_json_fail(at, "%lld is out of range: expected a whole number from %lld to %lld",
+                             (long long)whole, (long long)low, (long long)high);
     }
     if (!number_of(at, &value) || value != floor(value)) return fail_kind(at, "a whole number");
     if (!(value >= (double)low && value <= (double)high))
-        return sl_json_fail(at, "%g is out of range: expected a whole number from %lld to %lld",
-                            value, (long long)low, (long long)high);
+        return sli_json_fail(at, "%g is out of range: expected a whole number from %lld to %lld",
+                             value, (long long)low, (long long)high);
     *number = (int64_t)value;
     return SL_OK;
 }
 
-sl_status sl_json_text(const sl_json *at, const char **text) {
+sl_status sli_json_text(const sli_json *at, const char **text) {
     if (!json_is_string(at->value)) return fail_kind(at, "text");
     *text = json_string_value(at->value);
     return SL_OK;
 }
 
-sl_status sl_json_number_if(const sl_json *at, double *number) {
-    return at->value ? sl_json_number(at, number) : SL_OK;
+sl_status sli_json_number_if(const sli_json *at, double *number) {
+    return at->value ? sli_json_number(at, number) : SL_OK;
 }
 
-sl_status sl_json_whole_if(const sl_json *at, int64_t low, int64_t high, int64_t *number) {
-    return at->value ? sl_json_whole(at, low, high, number) : SL_OK;
+sl_status sli_json_whole_if(const sli_json *at, int64_t low, int64_t high, int64_t *number) {
+    return at->value ? sli_json_whole(at, low, high, number) : SL_OK;
 }
 
-bool sl_json_true(const sl_json *at, bool *said) {
+bool sli_json_true(const sli_json *at, bool *said) {
     const char *text = json_string_value(at->value);
     double number = 0;
     bool is_said = true, is_true = json_is_true(at->value);
@@ -221,8 +221,8 @@ static void refuse_entity(void *user, const xmlChar *name, int type, const xmlCh
     xmlStopParser(parser);
 }
 
-sl_status sl_xml_read(sl_context *context, const char *name, const char *text, size_t size,
-                      xmlDoc **out) {
+sl_status sli_xml_read(sl_context *context, const char *name, const char *text, size_t size,
+                       xmlDoc **out) {
     if (size == 0 || size > INT_MAX)
         return sl_fail_at(context, name, 0, size ? "too large for XML" : "the file is empty");
     xmlParserCtxt *parser = xmlNewParserCtxt();
@@ -248,7 +248,7 @@ sl_status sl_xml_read(sl_context *context, const char *name, const char *text, s
     return status;
 }
 
-bool sl_xml_is(const xmlNode *node, const char *name) {
+bool sli_xml_is(const xmlNode *node, const char *name) {
     return node->type == XML_ELEMENT_NODE && strcmp((const char *)node->name, name) == 0;
 }
 
@@ -260,21 +260,21 @@ static char *plain_text(const xmlNode *node) {
     return (char *)(text ? text : xmlStrdup((const xmlChar *)""));
 }
 
-char *sl_xml_attribute(const xmlNode *node, const char *name) {
+char *sli_xml_attribute(const xmlNode *node, const char *name) {
     for (const xmlAttr *each = node->properties; each; each = each->next)
         if (strcmp((const char *)each->name, name) == 0) return plain_text(each->children);
     return NULL;
 }
 
-char *sl_xml_content(const xmlNode *node) {
+char *sli_xml_content(const xmlNode *node) {
     return plain_text(node->children);
 }
 
-void sl_xml_free(char *text) {
+void sli_xml_free(char *text) {
     xmlFree(text);
 }
 
-uint32_t sl_xml_line(const xmlNode *node) {
+uint32_t sli_xml_line(const xmlNode *node) {
     const long line = xmlGetLineNo(node);
     return line > 0 ? (uint32_t)line : 0;
 }

@@ -21,8 +21,8 @@ typedef struct gl_lump {
 
 typedef struct gl_nodes {
     sl_context *context;
-    const sl_wad *wad;
-    const sl_wad_map *map;
+    const sli_wad *wad;
+    const sli_wad_map *map;
     bool is_wide;      ///< numbers of segs and vertices have 32 bits: versions 3 and 5
     bool is_fixed;     ///< new vertices have 16 bits behind the point: all but version 1
     uint32_t new_flag; ///< of a vertex of GL_VERT
@@ -38,12 +38,12 @@ static sl_status fail_lump(const gl_nodes *gl, const char *lump, const char *wha
 /// Whether a lump is the header of the map's GL nodes: GL_ and the map's name, or, for longer
 /// names, GL_LEVEL with a line LEVEL=NAME.
 static bool is_header(const gl_nodes *gl, uint32_t index) {
-    char name[SL_LUMP_NAME];
-    sl_lump lump;
-    sl_wad_lump_name(gl->wad, index, name);
+    char name[SLI_LUMP_NAME];
+    sli_lump lump;
+    sli_wad_lump_name(gl->wad, index, name);
     if (strncmp(name, "GL_", 3) != 0) return false;
     if (strcmp(name + 3, gl->map->name) == 0) return true;
-    if (strcmp(name, "GL_LEVEL") != 0 || sl_wad_lump(gl->context, gl->wad, index, &lump) != SL_OK)
+    if (strcmp(name, "GL_LEVEL") != 0 || sli_wad_lump(gl->context, gl->wad, index, &lump) != SL_OK)
         return false;
     const size_t length = strlen(gl->map->name);
     return lump.size >= 6 + length && memcmp(lump.bytes, "LEVEL=", 6) == 0 &&
@@ -59,21 +59,21 @@ static uint32_t find_header(const gl_nodes *gl) {
     return found;
 }
 
-static sl_status find_lump(const gl_nodes *gl, uint32_t header, const char *name, sl_lump *out) {
+static sl_status find_lump(const gl_nodes *gl, uint32_t header, const char *name, sli_lump *out) {
     for (uint32_t i = header + 1; i < gl->wad->lump_count && i <= header + 5; i++) {
-        char own[SL_LUMP_NAME];
-        sl_wad_lump_name(gl->wad, i, own);
+        char own[SLI_LUMP_NAME];
+        sli_wad_lump_name(gl->wad, i, own);
         if (strncmp(own, "GL_", 3) != 0) break;
-        if (strcmp(own, name) == 0) return sl_wad_lump(gl->context, gl->wad, i, out);
+        if (strcmp(own, name) == 0) return sli_wad_lump(gl->context, gl->wad, i, out);
     }
     return fail_lump(gl, name, "is missing");
 }
 
-static bool has_mark(const sl_lump *lump, const char *mark) {
+static bool has_mark(const sli_lump *lump, const char *mark) {
     return lump->size >= 4 && memcmp(lump->bytes, mark, 4) == 0;
 }
 
-static sl_status cut_records(const gl_nodes *gl, const char *name, sl_lump lump, size_t skip,
+static sl_status cut_records(const gl_nodes *gl, const char *name, sli_lump lump, size_t skip,
                              size_t record, gl_lump *out) {
     const size_t size = lump.size - skip;
     if (size % record) return fail_lump(gl, name, "is cut off: its last record is not whole");
@@ -89,7 +89,7 @@ static sl_status open_lumps(gl_nodes *gl) {
                           "map %s brings no cells: it has no GL nodes; a node builder adds them "
                           "(glbsp IN.wad -o OUT.wad)",
                           gl->map->name);
-    sl_lump vertices, segs, subsectors, old;
+    sli_lump vertices, segs, subsectors, old;
     SL_TRY(find_lump(gl, header, "GL_VERT", &vertices));
     SL_TRY(find_lump(gl, header, "GL_SEGS", &segs));
     SL_TRY(find_lump(gl, header, "GL_SSECT", &subsectors));
@@ -106,9 +106,9 @@ static sl_status open_lumps(gl_nodes *gl) {
     if (is_third && !has_mark(&subsectors, "gNd3"))
         return fail_lump(gl, "GL_SSECT", "is of another version than GL_SEGS");
     SL_TRY(cut_records(gl, "GL_SSECT", subsectors, skip, wide ? 8 : 4, &gl->subsectors));
-    const uint32_t index = sl_wad_find_lump(gl->wad, gl->map, "VERTEXES");
+    const uint32_t index = sli_wad_find_lump(gl->wad, gl->map, "VERTEXES");
     if (index == gl->wad->lump_count) return fail_lump(gl, "VERTEXES", "is missing");
-    SL_TRY(sl_wad_lump(gl->context, gl->wad, index, &old));
+    SL_TRY(sli_wad_lump(gl->context, gl->wad, index, &old));
     return cut_records(gl, "VERTEXES", old, 0, 4, &gl->old_vertices);
 }
 
@@ -119,11 +119,11 @@ static const unsigned char *record_at(const gl_lump *lump, size_t index) {
 }
 
 static uint32_t number_at(const gl_nodes *gl, const unsigned char *record, size_t field) {
-    return gl->is_wide ? sl_wad_u32(record + 4 * field) : sl_wad_u16(record + 2 * field);
+    return gl->is_wide ? sli_wad_u32(record + 4 * field) : sli_wad_u16(record + 2 * field);
 }
 
 static double fixed_at(const unsigned char *at) {
-    return (double)(int32_t)sl_wad_u32(at) / 65536;
+    return (double)(int32_t)sli_wad_u32(at) / 65536;
 }
 
 static sl_status find_vertex(const gl_nodes *gl, size_t seg, uint32_t number, sl_point *out) {
@@ -136,7 +136,7 @@ static sl_status find_vertex(const gl_nodes *gl, size_t seg, uint32_t number, sl
                           gl->map->name, seg, (unsigned long)index, lump->name, lump->count);
     const unsigned char *at = record_at(lump, index);
     *out = is_new && gl->is_fixed ? (sl_point){fixed_at(at), fixed_at(at + 4)}
-                                  : (sl_point){sl_wad_i16(at), sl_wad_i16(at + 2)};
+                                  : (sl_point){sli_wad_i16(at), sli_wad_i16(at + 2)};
     return SL_OK;
 }
 
@@ -178,7 +178,7 @@ static sl_status add_all(gl_nodes *gl, sl_map *out) {
 
 /// Adds each subsector that the WAD has for the map to `out` as a cell. SL_BAD_INPUT, naming the
 /// lump, where there are none or they are damaged.
-static sl_status doom_add_cells(sl_context *context, const sl_wad *wad, const sl_wad_map *map,
+static sl_status doom_add_cells(sl_context *context, const sli_wad *wad, const sli_wad_map *map,
                                 sl_map *out) {
     gl_nodes gl = {.context = context, .wad = wad, .map = map};
     const sl_status status = add_all(&gl, out);
@@ -195,7 +195,7 @@ typedef struct line_account {
 
 typedef struct doom_import {
     sl_context *context;
-    const sl_doom_level *level;
+    const sli_doom_level *level;
     const bool *is_door; ///< NULL where doors are seen through
     bool seams;          ///< lines between sectors are to cut cells
     sl_map *map;
@@ -203,14 +203,14 @@ typedef struct doom_import {
 } doom_import;
 
 /// A line between a door and another sector is a door, named after the sector.
-static sl_status add_door(doom_import *import, const sl_doom_line *line) {
+static sl_status add_door(doom_import *import, const sli_doom_line *line) {
     const bool *is_door = import->is_door;
     if (line->right == line->left || !(is_door[line->right] || is_door[line->left])) return SL_OK;
     // Between two doors: the one with the lower number, wherever the line's front is.
     const uint32_t low = line->right < line->left ? line->right : line->left;
     const uint32_t high = line->right < line->left ? line->left : line->right;
     const uint32_t owner = is_door[low] ? low : high;
-    const sl_doom_sector *sector = &import->level->sectors[owner];
+    const sli_doom_sector *sector = &import->level->sectors[owner];
     const bool open = sector->ceiling > sector->floor;
     char name[32];
     snprintf(name, sizeof name, "sector_%lu", (unsigned long)owner);
@@ -220,17 +220,17 @@ static sl_status add_door(doom_import *import, const sl_doom_line *line) {
                            open, line->line);
 }
 
-static sl_status add_line(doom_import *import, const sl_doom_line *line) {
+static sl_status add_line(doom_import *import, const sli_doom_line *line) {
     line_account *lines = &import->lines;
     if (line->from.x == line->to.x && line->from.y == line->to.y) {
         lines->zero_length++;
         return SL_OK;
     }
-    if (line->right == SL_NO_SECTOR && line->left == SL_NO_SECTOR) {
+    if (line->right == SLI_NO_SECTOR && line->left == SLI_NO_SECTOR) {
         lines->without_sides++;
         return SL_OK;
     }
-    if (line->right != SL_NO_SECTOR && line->left != SL_NO_SECTOR) {
+    if (line->right != SLI_NO_SECTOR && line->left != SLI_NO_SECTOR) {
         lines->seen_through++;
         if (import->seams && line->right != line->left)
             SL_TRY(sl_map_add_seam(import->context, import->map, (sl_segment){line->from, line->to},
@@ -243,14 +243,14 @@ static sl_status add_line(doom_import *import, const sl_doom_line *line) {
 
 /// The game puts player 1 where the last of the starts is.
 static sl_status add_start(doom_import *import) {
-    const sl_doom_level *level = import->level;
+    const sli_doom_level *level = import->level;
     if (level->start_count == 0) return SL_OK;
     const sl_start *start = &level->starts[level->start_count - 1];
     return sl_map_add_start(import->context, import->map, start->at, start->heading, start->line);
 }
 
 static void tell(const doom_import *import, const char *name) {
-    const sl_doom_level *level = import->level;
+    const sli_doom_level *level = import->level;
     const line_account *lines = &import->lines;
     char doors[64] = "";
     if (import->is_door)
@@ -266,7 +266,7 @@ static void tell(const doom_import *import, const char *name) {
 }
 
 /// How many doors are seen through, as nobody asked for doors.
-static void tell_doors_left_out(sl_context *context, const char *name, const sl_doom_level *level,
+static void tell_doors_left_out(sl_context *context, const char *name, const sli_doom_level *level,
                                 const bool *is_door) {
     size_t doors = 0;
     for (size_t i = 0; i < level->sector_count; i++) doors += is_door[i];
@@ -283,13 +283,13 @@ static sl_status add_lines(doom_import *import) {
     return SL_OK;
 }
 
-static sl_status make_map(sl_context *context, const sl_wad *wad, const sl_wad_map *chosen,
-                          const sl_doom_level *level, const sl_import_options *options,
+static sl_status make_map(sl_context *context, const sli_wad *wad, const sli_wad_map *chosen,
+                          const sli_doom_level *level, const sl_import_options *options,
                           sl_map *map) {
     const char *name = wad->name;
     bool *is_door = sl_alloc_array(context, level->sector_count, sizeof *is_door);
     if (!is_door) return SL_NO_MEMORY;
-    sl_doom_find_doors(level, is_door);
+    sli_doom_find_doors(level, is_door);
     doom_import import = {.context = context,
                           .level = level,
                           .is_door = options->doors ? is_door : NULL,
@@ -306,15 +306,15 @@ static sl_status make_map(sl_context *context, const sl_wad *wad, const sl_wad_m
 
 sl_status sl_map_read_wad(sl_context *context, const char *name, const char *text, size_t size,
                           const sl_import_options *options, sl_map *map) {
-    sl_wad wad;
-    sl_wad_map chosen;
-    sl_doom_level level = {0};
+    sli_wad wad;
+    sli_wad_map chosen;
+    sli_doom_level level = {0};
     sl_map read = {0};
-    SL_TRY(sl_wad_open(context, name, text, size, &wad));
-    SL_TRY(sl_wad_find_map(context, &wad, options->map, &chosen));
-    SL_TRY(sl_doom_read(context, &wad, &chosen, &level));
+    SL_TRY(sli_wad_open(context, name, text, size, &wad));
+    SL_TRY(sli_wad_find_map(context, &wad, options->map, &chosen));
+    SL_TRY(sli_doom_read(context, &wad, &chosen, &level));
     const sl_status status = make_map(context, &wad, &chosen, &level, options, &read);
-    sl_doom_level_destroy(context, &level);
+    sli_doom_level_destroy(context, &level);
     if (status == SL_OK)
         *map = read;
     else
@@ -324,10 +324,10 @@ sl_status sl_map_read_wad(sl_context *context, const char *name, const char *tex
 
 sl_status sl_map_list_wad(sl_context *context, const char *name, const char *text, size_t size,
                           sl_map_list *list) {
-    sl_wad wad;
-    sl_wad_map map;
-    SL_TRY(sl_wad_open(context, name, text, size, &wad));
-    for (uint32_t at = 0; sl_wad_next_map(&wad, &at, &map);) {
+    sli_wad wad;
+    sli_wad_map map;
+    SL_TRY(sli_wad_open(context, name, text, size, &wad));
+    for (uint32_t at = 0; sli_wad_next_map(&wad, &at, &map);) {
         bool known = false;
         for (size_t i = 0; i < list->count && !known; i++)
             known = strcmp(list->names[i], map.name) == 0;

@@ -31,7 +31,7 @@ typedef struct doom_records {
     SL_ARRAY(sl_point) vertices;
     SL_ARRAY(doom_linedef) linedefs;
     SL_ARRAY(doom_sidedef) sidedefs;
-    SL_ARRAY(sl_doom_sector) sectors;
+    SL_ARRAY(sli_doom_sector) sectors;
     SL_ARRAY(sl_start) starts;
     bool hexen_specials;
     const char *format;
@@ -48,13 +48,13 @@ typedef struct record_lump {
     size_t count;
 } record_lump;
 
-static sl_status open_lump(sl_context *context, const sl_wad *wad, const sl_wad_map *map,
+static sl_status open_lump(sl_context *context, const sli_wad *wad, const sli_wad_map *map,
                            const char *name, size_t record_bytes, record_lump *out) {
-    const uint32_t index = sl_wad_find_lump(wad, map, name);
+    const uint32_t index = sli_wad_find_lump(wad, map, name);
     if (index == wad->lump_count)
         return sl_fail_at(context, wad->name, 0, "map %s has no lump %s", map->name, name);
-    sl_lump lump;
-    SL_TRY(sl_wad_lump(context, wad, index, &lump));
+    sli_lump lump;
+    SL_TRY(sli_wad_lump(context, wad, index, &lump));
     if (lump.size % record_bytes)
         return sl_fail_at(context, wad->name, 0,
                           "map %s, lump %s: %zu bytes are no whole number of records of %zu bytes",
@@ -63,7 +63,7 @@ static sl_status open_lump(sl_context *context, const sl_wad *wad, const sl_wad_
     return SL_OK;
 }
 
-static sl_status read_vertices(sl_context *context, const sl_wad *wad, const sl_wad_map *map,
+static sl_status read_vertices(sl_context *context, const sli_wad *wad, const sli_wad_map *map,
                                doom_records *records) {
     enum { BYTES = 4 };
     record_lump lump;
@@ -72,17 +72,17 @@ static sl_status read_vertices(sl_context *context, const sl_wad *wad, const sl_
     for (size_t i = 0; i < lump.count; i++) {
         const unsigned char *at = lump.bytes + i * BYTES;
         records->vertices.items[records->vertices.count++] =
-            (sl_point){sl_wad_i16(at), sl_wad_i16(at + 2)};
+            (sl_point){sli_wad_i16(at), sli_wad_i16(at + 2)};
     }
     return SL_OK;
 }
 
 static int64_t side_at(const unsigned char *at) {
-    const unsigned side = sl_wad_u16(at);
+    const unsigned side = sli_wad_u16(at);
     return side == 0xffff ? -1 : (int64_t)side;
 }
 
-static sl_status read_linedefs(sl_context *context, const sl_wad *wad, const sl_wad_map *map,
+static sl_status read_linedefs(sl_context *context, const sli_wad *wad, const sli_wad_map *map,
                                bool hexen, doom_records *records) {
     const size_t bytes = hexen ? 16 : 14;
     record_lump lump;
@@ -92,16 +92,16 @@ static sl_status read_linedefs(sl_context *context, const sl_wad *wad, const sl_
         const unsigned char *at = lump.bytes + i * bytes;
         // Hexen has a special of one byte and five arguments where Doom has special and tag.
         records->linedefs.items[records->linedefs.count++] = (doom_linedef){
-            .vertex = {sl_wad_u16(at), sl_wad_u16(at + 2)},
-            .special = hexen ? at[6] : (int)sl_wad_u16(at + 6),
-            .tag = hexen ? at[7] : sl_wad_i16(at + 8),
+            .vertex = {sli_wad_u16(at), sli_wad_u16(at + 2)},
+            .special = hexen ? at[6] : (int)sli_wad_u16(at + 6),
+            .tag = hexen ? at[7] : sli_wad_i16(at + 8),
             .side = {side_at(at + bytes - 4), side_at(at + bytes - 2)},
         };
     }
     return SL_OK;
 }
 
-static sl_status read_sidedefs(sl_context *context, const sl_wad *wad, const sl_wad_map *map,
+static sl_status read_sidedefs(sl_context *context, const sli_wad *wad, const sli_wad_map *map,
                                doom_records *records) {
     enum { BYTES = 30, SECTOR = 28 };
     record_lump lump;
@@ -109,11 +109,11 @@ static sl_status read_sidedefs(sl_context *context, const sl_wad *wad, const sl_
     SL_TRY(SL_ARRAY_ROOM(context, &records->sidedefs, lump.count));
     for (size_t i = 0; i < lump.count; i++)
         records->sidedefs.items[records->sidedefs.count++] =
-            (doom_sidedef){.sector = sl_wad_u16(lump.bytes + i * BYTES + SECTOR)};
+            (doom_sidedef){.sector = sli_wad_u16(lump.bytes + i * BYTES + SECTOR)};
     return SL_OK;
 }
 
-static sl_status read_sectors(sl_context *context, const sl_wad *wad, const sl_wad_map *map,
+static sl_status read_sectors(sl_context *context, const sli_wad *wad, const sli_wad_map *map,
                               doom_records *records) {
     enum { BYTES = 26, TAG = 24 };
     record_lump lump;
@@ -121,13 +121,13 @@ static sl_status read_sectors(sl_context *context, const sl_wad *wad, const sl_w
     SL_TRY(SL_ARRAY_ROOM(context, &records->sectors, lump.count));
     for (size_t i = 0; i < lump.count; i++) {
         const unsigned char *at = lump.bytes + i * BYTES;
-        records->sectors.items[records->sectors.count++] = (sl_doom_sector){
-            .floor = sl_wad_i16(at), .ceiling = sl_wad_i16(at + 2), .tag = sl_wad_i16(at + TAG)};
+        records->sectors.items[records->sectors.count++] = (sli_doom_sector){
+            .floor = sli_wad_i16(at), .ceiling = sli_wad_i16(at + 2), .tag = sli_wad_i16(at + TAG)};
     }
     return SL_OK;
 }
 
-static sl_status read_things(sl_context *context, const sl_wad *wad, const sl_wad_map *map,
+static sl_status read_things(sl_context *context, const sli_wad *wad, const sli_wad_map *map,
                              bool hexen, doom_records *records) {
     const size_t bytes = hexen ? 20 : 10;
     record_lump lump;
@@ -136,18 +136,18 @@ static sl_status read_things(sl_context *context, const sl_wad *wad, const sl_wa
         // A Hexen thing has an id in front, and its height behind its place.
         const unsigned char *at = lump.bytes + i * bytes + (hexen ? 2 : 0);
         const unsigned char *angle = at + (hexen ? 6 : 4);
-        if (sl_wad_u16(angle + 2) != PLAYER_1) continue;
+        if (sli_wad_u16(angle + 2) != PLAYER_1) continue;
         SL_TRY(SL_ARRAY_ROOM(context, &records->starts, 1));
         records->starts.items[records->starts.count++] =
-            (sl_start){.at = {sl_wad_i16(at), sl_wad_i16(at + 2)}, .heading = sl_wad_i16(angle)};
+            (sl_start){.at = {sli_wad_i16(at), sli_wad_i16(at + 2)}, .heading = sli_wad_i16(angle)};
     }
     return SL_OK;
 }
 
 /// Reads lumps of records: Doom's, or Hexen's where there is a BEHAVIOR.
-static sl_status doom_read_lumps(sl_context *context, const sl_wad *wad, const sl_wad_map *map,
+static sl_status doom_read_lumps(sl_context *context, const sli_wad *wad, const sli_wad_map *map,
                                  doom_records *records) {
-    const bool hexen = sl_wad_find_lump(wad, map, "BEHAVIOR") < wad->lump_count;
+    const bool hexen = sli_wad_find_lump(wad, map, "BEHAVIOR") < wad->lump_count;
     records->format = hexen ? "Hexen" : "Doom";
     records->hexen_specials = hexen;
     SL_TRY(read_vertices(context, wad, map, records));
@@ -161,7 +161,7 @@ static sl_status doom_read_lumps(sl_context *context, const sl_wad *wad, const s
 
 typedef struct text_map {
     sl_context *context;
-    const sl_wad *wad;
+    const sli_wad *wad;
     const char *map, *at, *end;
     uint32_t line;
     doom_records *records;
@@ -214,7 +214,7 @@ static sl_status skip_blank(text_map *text) {
 
 /// The next word: a string with its quotes, one of "{};=", or any other run of characters; one of
 /// no length at the end of the text.
-static sl_status next_word(text_map *text, sl_word *word) {
+static sl_status next_word(text_map *text, sli_word *word) {
     SL_TRY(skip_blank(text));
     const char *first = text->at;
     const uint32_t line = text->line;
@@ -231,35 +231,35 @@ static sl_status next_word(text_map *text, sl_word *word) {
                !is_next(text, "//") && !is_next(text, "/*"))
             step(text);
     }
-    *word = (sl_word){first, (size_t)(text->at - first)};
+    *word = (sli_word){first, (size_t)(text->at - first)};
     return SL_OK;
 }
 
-static bool same_word(sl_word word, const char *name) {
+static bool same_word(sli_word word, const char *name) {
     return word.length == strlen(name) && strncasecmp(word.at, name, word.length) == 0;
 }
 
-static bool is_mark(sl_word word) {
+static bool is_mark(sli_word word) {
     return word.length == 0 || strchr("{};=\"", word.at[0]);
 }
 
-static sl_status fail_expected(const text_map *text, const char *expected, sl_word found) {
+static sl_status fail_expected(const text_map *text, const char *expected, sli_word found) {
     if (!found.length)
         return fail_text(text, text->line, "expected %s, found the end of the lump", expected);
-    return fail_text(text, text->line, "expected %s, found '%s'", expected, sl_show(found).text);
+    return fail_text(text, text->line, "expected %s, found '%s'", expected, sli_show(found).text);
 }
 
 static sl_status expect(text_map *text, const char *mark) {
-    sl_word word;
+    sli_word word;
     char expected[4];
     SL_TRY(next_word(text, &word));
-    if (sl_word_is(word, mark)) return SL_OK;
+    if (sli_word_is(word, mark)) return SL_OK;
     snprintf(expected, sizeof expected, "'%s'", mark);
     return fail_expected(text, expected, word);
 }
 
 /// "= value ;" behind a name.
-static sl_status read_value(text_map *text, sl_word *value) {
+static sl_status read_value(text_map *text, sli_word *value) {
     SL_TRY(expect(text, "="));
     SL_TRY(next_word(text, value));
     if (value->length == 0 || strchr("{};=", value->at[0]))
@@ -270,7 +270,7 @@ static sl_status read_value(text_map *text, sl_word *value) {
 // --- TEXTMAP: numbers
 
 /// Digits of a base, all of the word from `at` on.
-static bool read_digits(sl_word word, size_t at, unsigned base, double *value) {
+static bool read_digits(sli_word word, size_t at, unsigned base, double *value) {
     *value = 0;
     for (size_t i = at; i < word.length; i++) {
         const char c = word.at[i], small = (char)(c | 0x20);
@@ -284,7 +284,7 @@ static bool read_digits(sl_word word, size_t at, unsigned base, double *value) {
 }
 
 /// A decimal, or a whole number by 0x or 0 in base 16 or 8.
-static bool read_number(sl_word word, double *value) {
+static bool read_number(sli_word word, double *value) {
     const size_t sign = word.length && (word.at[0] == '-' || word.at[0] == '+');
     bool read;
     if (word.length > sign + 2 && word.at[sign] == '0' && (word.at[sign + 1] | 0x20) == 'x')
@@ -305,11 +305,11 @@ typedef struct field {
     bool needed, given;
 } field;
 
-static sl_status read_field(const text_map *text, field *at, sl_word value) {
+static sl_status read_field(const text_map *text, field *at, sli_word value) {
     double number;
     if (!read_number(value, &number) || !sl_coordinate_usable(number))
         return fail_text(text, text->line, "%s: expected a number, found '%s'", at->name,
-                         sl_show(value).text);
+                         sli_show(value).text);
     at->given = true;
     if (at->real) {
         *at->real = number;
@@ -317,7 +317,7 @@ static sl_status read_field(const text_map *text, field *at, sl_word value) {
     }
     if (number != floor(number) || fabs(number) > INT_MAX)
         return fail_text(text, text->line, "%s: expected a whole number, found '%s'", at->name,
-                         sl_show(value).text);
+                         sli_show(value).text);
     *at->whole = (int64_t)number;
     return SL_OK;
 }
@@ -328,9 +328,9 @@ static sl_status read_block(text_map *text, const char *block, uint32_t line, fi
                             size_t count) {
     SL_TRY(expect(text, "{"));
     for (;;) {
-        sl_word name, value;
+        sli_word name, value;
         SL_TRY(next_word(text, &name));
-        if (sl_word_is(name, "}")) break;
+        if (sli_word_is(name, "}")) break;
         if (is_mark(name)) return fail_expected(text, "a field's name or '}'", name);
         SL_TRY(read_value(text, &value));
         for (size_t i = 0; i < count; i++)
@@ -387,7 +387,7 @@ static sl_status read_sidedef(text_map *text, uint32_t line) {
 }
 
 static sl_status read_sector(text_map *text, uint32_t line) {
-    sl_doom_sector sector = {0};
+    sli_doom_sector sector = {0};
     int64_t tag = 0;
     field fields[] = {{.name = "heightfloor", .real = &sector.floor},
                       {.name = "heightceiling", .real = &sector.ceiling},
@@ -413,7 +413,7 @@ static sl_status read_thing(text_map *text, uint32_t line) {
     return SL_OK;
 }
 
-static sl_status read_named_block(text_map *text, sl_word name, uint32_t line) {
+static sl_status read_named_block(text_map *text, sli_word name, uint32_t line) {
     static const struct {
         const char *name;
         sl_status (*read)(text_map *text, uint32_t line);
@@ -428,7 +428,7 @@ static sl_status read_named_block(text_map *text, sl_word name, uint32_t line) {
 }
 
 /// Doom's own specials stand in the namespaces of the older games; all others have Hexen's.
-static void take_namespace(text_map *text, sl_word value) {
+static void take_namespace(text_map *text, sli_word value) {
     text->records->hexen_specials = !same_word(value, "\"doom\"") &&
                                     !same_word(value, "\"heretic\"") &&
                                     !same_word(value, "\"strife\"");
@@ -437,7 +437,7 @@ static void take_namespace(text_map *text, sl_word value) {
 static sl_status read_all(text_map *text) {
     for (size_t count = 0;; count++) {
         if (count % 1024 == 0) SL_TRY(sl_check_cancelled(text->context));
-        sl_word name, value;
+        sli_word name, value;
         SL_TRY(next_word(text, &name));
         if (name.length == 0) return SL_OK;
         if (is_mark(name)) return fail_expected(text, "a name", name);
@@ -453,10 +453,10 @@ static sl_status read_all(text_map *text) {
 }
 
 /// Reads a TEXTMAP.
-static sl_status doom_read_textmap(sl_context *context, const sl_wad *wad, const sl_wad_map *map,
+static sl_status doom_read_textmap(sl_context *context, const sli_wad *wad, const sli_wad_map *map,
                                    doom_records *records) {
-    sl_lump lump;
-    SL_TRY(sl_wad_lump(context, wad, map->header + 1, &lump));
+    sli_lump lump;
+    SL_TRY(sli_wad_lump(context, wad, map->header + 1, &lump));
     if (map->end == wad->lump_count)
         return sl_fail_at(context, wad->name, 0, "map %s has no lump ENDMAP", map->name);
     records->format = "UDMF";
@@ -475,8 +475,8 @@ static sl_status doom_read_textmap(sl_context *context, const sl_wad *wad, const
 /// What is needed to look up one record's references.
 typedef struct lookup {
     sl_context *context;
-    const sl_wad *wad;
-    const sl_wad_map *map;
+    const sli_wad *wad;
+    const sli_wad_map *map;
     const doom_records *records;
 } lookup;
 
@@ -492,7 +492,7 @@ static sl_status find_sector(const lookup *look, size_t linedef, int side, uint3
     const doom_records *records = look->records;
     const doom_linedef *line = &records->linedefs.items[linedef];
     const int64_t index = line->side[side];
-    *sector = SL_NO_SECTOR;
+    *sector = SLI_NO_SECTOR;
     if (index == -1) return SL_OK;
     if (index < 0 || (uint64_t)index >= records->sidedefs.count)
         return fail_reference(look, "linedef", linedef, line->line, "sidedef", index,
@@ -505,7 +505,7 @@ static sl_status find_sector(const lookup *look, size_t linedef, int side, uint3
     return SL_OK;
 }
 
-static sl_status find_line(const lookup *look, size_t linedef, sl_doom_line *out) {
+static sl_status find_line(const lookup *look, size_t linedef, sli_doom_line *out) {
     const doom_records *records = look->records;
     const doom_linedef *line = &records->linedefs.items[linedef];
     sl_point ends[2];
@@ -515,16 +515,16 @@ static sl_status find_line(const lookup *look, size_t linedef, sl_doom_line *out
                                   records->vertices.count);
         ends[i] = records->vertices.items[line->vertex[i]];
     }
-    *out = (sl_doom_line){.from = ends[0],
-                          .to = ends[1],
-                          .special = line->special,
-                          .tag = line->tag,
-                          .line = line->line};
+    *out = (sli_doom_line){.from = ends[0],
+                           .to = ends[1],
+                           .special = line->special,
+                           .tag = line->tag,
+                           .line = line->line};
     SL_TRY(find_sector(look, linedef, 0, &out->right));
     return find_sector(look, linedef, 1, &out->left);
 }
 
-static sl_status find_lines(const lookup *look, sl_doom_level *level) {
+static sl_status find_lines(const lookup *look, sli_doom_level *level) {
     const size_t count = look->records->linedefs.count;
     level->lines = sl_alloc_array(look->context, count, sizeof *level->lines);
     if (!level->lines) return SL_NO_MEMORY;
@@ -533,11 +533,11 @@ static sl_status find_lines(const lookup *look, sl_doom_level *level) {
     return SL_OK;
 }
 
-sl_status sl_doom_read(sl_context *context, const sl_wad *wad, const sl_wad_map *map,
-                       sl_doom_level *level) {
+sl_status sli_doom_read(sl_context *context, const sli_wad *wad, const sli_wad_map *map,
+                        sli_doom_level *level) {
     doom_records records = {0};
     const lookup look = {.context = context, .wad = wad, .map = map, .records = &records};
-    sl_doom_level read = {0};
+    sli_doom_level read = {0};
     sl_status status = map->is_text ? doom_read_textmap(context, wad, map, &records)
                                     : doom_read_lumps(context, wad, map, &records);
     if (status == SL_OK) status = find_lines(&look, &read);
@@ -554,15 +554,15 @@ sl_status sl_doom_read(sl_context *context, const sl_wad *wad, const sl_wad_map 
     if (status == SL_OK)
         *level = read;
     else
-        sl_doom_level_destroy(context, &read);
+        sli_doom_level_destroy(context, &read);
     return status;
 }
 
-void sl_doom_level_destroy(sl_context *context, sl_doom_level *level) {
+void sli_doom_level_destroy(sl_context *context, sli_doom_level *level) {
     sl_free(context, level->lines);
     sl_free(context, level->sectors);
     sl_free(context, level->starts);
-    *level = (sl_doom_level){0};
+    *level = (sli_doom_level){0};
 }
 
 // --- doors
@@ -592,16 +592,16 @@ static bool is_hexen_door(int special) {
            special == 202 || special == 249;
 }
 
-void sl_doom_find_doors(const sl_doom_level *level, bool *is_door) {
+void sli_doom_find_doors(const sli_doom_level *level, bool *is_door) {
     for (size_t i = 0; i < level->sector_count; i++)
         is_door[i] = level->sectors[i].ceiling <= level->sectors[i].floor;
     for (size_t i = 0; i < level->line_count; i++) {
-        const sl_doom_line *line = &level->lines[i];
+        const sli_doom_line *line = &level->lines[i];
         bool manual = line->tag == 0;
         if (!(level->hexen_specials ? is_hexen_door(line->special)
                                     : is_doom_door(line->special, &manual)))
             continue;
-        if (manual && line->left != SL_NO_SECTOR) is_door[line->left] = true;
+        if (manual && line->left != SLI_NO_SECTOR) is_door[line->left] = true;
         if (manual || line->tag == 0) continue;
         for (size_t k = 0; k < level->sector_count; k++)
             if (level->sectors[k].tag == line->tag) is_door[k] = true;

@@ -16,7 +16,7 @@
 typedef struct dxf_pair {
     int code;
     uint32_t line; ///< of the value
-    sl_word value;
+    sli_word value;
 } dxf_pair;
 
 /// Pairs begin .. end - 1.
@@ -25,13 +25,13 @@ typedef struct dxf_range {
 } dxf_range;
 
 typedef struct dxf_block {
-    sl_word name;
+    sli_word name;
     dxf_range entities;
     sl_point base;
 } dxf_block;
 
 typedef struct dxf_layer {
-    sl_word name;
+    sli_word name;
     bool taken;
 } dxf_layer;
 
@@ -44,7 +44,7 @@ typedef struct drawing {
     SL_ARRAY(dxf_layer) layers; ///< of the table, and those that only the option names
     dxf_range entities;
     int unit; ///< $INSUNITS; 0 where the drawing does not tell
-    sl_pen pen;
+    sli_pen pen;
     size_t work; ///< entities and insertions gone through
     /// Entities drawn; those of other layers, kinds, of the paper or out of the plan's plane.
     size_t drawn, other_layers, other_kinds, on_paper, out_of_plane;
@@ -56,7 +56,7 @@ static inline const dxf_pair *dxf_at(const drawing *dxf, size_t i) {
 
 // --- names
 
-static sl_word trimmed(sl_word word) {
+static sli_word trimmed(sli_word word) {
     while (word.length && strchr(" \t", *word.at)) word.at++, word.length--;
     while (word.length && strchr(" \t", word.at[word.length - 1])) word.length--;
     return word;
@@ -66,7 +66,7 @@ static char small(char c) {
     return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
 }
 
-static bool same_name(sl_word a, sl_word b) {
+static bool same_name(sli_word a, sli_word b) {
     if (a.length != b.length) return false;
     for (size_t i = 0; i < a.length; i++)
         if (small(a.at[i]) != small(b.at[i])) return false;
@@ -75,7 +75,7 @@ static bool same_name(sl_word a, sl_word b) {
 
 // --- pairs
 
-static bool read_code(sl_word word, int *code) {
+static bool read_code(sli_word word, int *code) {
     double value;
     if (!sl_number_read(word.at, word.length, &value)) return false;
     *code = value >= -5 && value <= 1071 ? (int)value : -6;
@@ -88,28 +88,28 @@ static sl_status refuse_other_files(drawing *dxf, const char *text, size_t size)
         return sl_fail_at(dxf->context, dxf->name, 0, "binary DXF: save the drawing as ASCII DXF");
     if (size >= 6 && memcmp(text, "AC10", 4) == 0)
         return sl_fail_at(dxf->context, dxf->name, 0, "a DWG drawing: save it as ASCII DXF");
-    return sl_refuse_nul(dxf->context, dxf->name, text, size);
+    return sli_refuse_nul(dxf->context, dxf->name, text, size);
 }
 
 /// Reads all pairs up to the one that says EOF.
 static sl_status read_pairs(drawing *dxf, const char *text, size_t size) {
-    sl_lines lines = sl_lines_of(text, size);
-    sl_word code, value;
-    while (sl_lines_next(&lines, &code)) {
+    sli_lines lines = sli_lines_of(text, size);
+    sli_word code, value;
+    while (sli_lines_next(&lines, &code)) {
         dxf_pair pair;
         code = trimmed(code);
         if (!read_code(code, &pair.code))
             return sl_fail_at(dxf->context, dxf->name, lines.line,
                               "expected a group code (a whole number), found '%s'",
-                              sl_show(code).text);
-        if (!sl_lines_next(&lines, &value))
+                              sli_show(code).text);
+        if (!sli_lines_next(&lines, &value))
             return sl_fail_at(dxf->context, dxf->name, lines.line,
                               "the file ends where the value of group %d should be", pair.code);
         pair.line = lines.line;
         pair.value = trimmed(value);
         SL_TRY(SL_ARRAY_ROOM(dxf->context, &dxf->pairs, 1));
         dxf->pairs.items[dxf->pairs.count++] = pair;
-        if (pair.code == 0 && sl_word_is(pair.value, "EOF")) return SL_OK;
+        if (pair.code == 0 && sli_word_is(pair.value, "EOF")) return SL_OK;
         if (dxf->pairs.count % 4096 == 0) SL_TRY(sl_check_cancelled(dxf->context));
     }
     return sl_fail_at(dxf->context, dxf->name, lines.line,
@@ -130,7 +130,7 @@ static sl_status read_number(drawing *dxf, const dxf_pair *pair, double *value) 
         !(number <= SL_COORDINATE_MAX && number >= -SL_COORDINATE_MAX))
         return sl_fail_at(dxf->context, dxf->name, pair->line,
                           "expected a number up to %g for group %d, found '%s'", SL_COORDINATE_MAX,
-                          pair->code, sl_show(pair->value).text);
+                          pair->code, sli_show(pair->value).text);
     *value = number;
     return SL_OK;
 }
@@ -155,28 +155,28 @@ static sl_status dxf_integer(drawing *dxf, dxf_range entity, int code, int *valu
     if (!(number >= -32768 && number <= 65535) || number != (int)number)
         return sl_fail_at(dxf->context, dxf->name, pair->line,
                           "expected a whole number of 16 bits for group %d, found '%s'", code,
-                          sl_show(pair->value).text);
+                          sli_show(pair->value).text);
     *value = (int)number;
     return SL_OK;
 }
 
-static sl_word dxf_text(const drawing *dxf, dxf_range entity, int code) {
+static sli_word dxf_text(const drawing *dxf, dxf_range entity, int code) {
     const dxf_pair *pair = find(dxf, entity, code);
-    return pair ? pair->value : (sl_word){"", 0};
+    return pair ? pair->value : (sli_word){"", 0};
 }
 
 // --- header and tables
 
 static sl_status read_header(drawing *dxf, dxf_range section) {
     for (size_t i = section.begin; i + 1 < section.end; i++) {
-        if (dxf_at(dxf, i)->code != 9 || !sl_word_is(dxf_at(dxf, i)->value, "$INSUNITS")) continue;
+        if (dxf_at(dxf, i)->code != 9 || !sli_word_is(dxf_at(dxf, i)->value, "$INSUNITS")) continue;
         return dxf_integer(dxf, (dxf_range){i + 1, i + 2}, 70, &dxf->unit);
     }
     return SL_OK;
 }
 
-static bool is_asked_for(const char *list, sl_word layer) {
-    for (sl_word name; sl_layers_next(&list, &name);)
+static bool is_asked_for(const char *list, sli_word layer) {
+    for (sli_word name; sli_layers_next(&list, &name);)
         if (same_name(name, layer)) return true;
     return false;
 }
@@ -185,7 +185,7 @@ static bool is_asked_for(const char *list, sl_word layer) {
 static sl_status read_tables(drawing *dxf, dxf_range section) {
     for (size_t i = section.begin; i < section.end; i++) {
         const dxf_pair *pair = dxf_at(dxf, i);
-        if (pair->code != 0 || !sl_word_is(pair->value, "LAYER")) continue;
+        if (pair->code != 0 || !sli_word_is(pair->value, "LAYER")) continue;
         const dxf_range entry = dxf_entity(dxf, i, section.end);
         const char *list = dxf->options->layers;
         int colour = 7, flags = 0;
@@ -200,7 +200,7 @@ static sl_status read_tables(drawing *dxf, dxf_range section) {
 }
 
 /// Whether entities of the layer are taken. Names are the same in small letters and capitals.
-static bool dxf_takes_layer(const drawing *dxf, sl_word name) {
+static bool dxf_takes_layer(const drawing *dxf, sli_word name) {
     for (size_t i = 0; i < dxf->layers.count; i++)
         if (same_name(dxf->layers.items[i].name, name)) return dxf->layers.items[i].taken;
     return !dxf->options->layers || is_asked_for(dxf->options->layers, name);
@@ -218,7 +218,7 @@ static int compare_blocks(const void *left, const void *right) {
     return (a->name.length > least) - (b->name.length > least);
 }
 
-static const dxf_block *dxf_find_block(const drawing *dxf, sl_word name) {
+static const dxf_block *dxf_find_block(const drawing *dxf, sli_word name) {
     const dxf_block wanted = {.name = name};
     if (!dxf->blocks.count) return NULL;
     return bsearch(&wanted, dxf->blocks.items, dxf->blocks.count, sizeof wanted, compare_blocks);
@@ -230,12 +230,12 @@ static sl_status read_blocks(drawing *dxf, dxf_range section) {
     for (size_t i = section.begin; i < section.end;) {
         const dxf_range entity = dxf_entity(dxf, i, section.end);
         const dxf_pair *kind = dxf_at(dxf, i);
-        if (sl_word_is(kind->value, "BLOCK")) {
+        if (sli_word_is(kind->value, "BLOCK")) {
             block = (dxf_block){.name = dxf_text(dxf, entity, 2), .entities = {entity.end, 0}};
             SL_TRY(dxf_number(dxf, entity, 10, &block.base.x));
             SL_TRY(dxf_number(dxf, entity, 20, &block.base.y));
             within = true;
-        } else if (sl_word_is(kind->value, "ENDBLK") && within) {
+        } else if (sli_word_is(kind->value, "ENDBLK") && within) {
             block.entities.end = i;
             SL_TRY(SL_ARRAY_ROOM(dxf->context, &dxf->blocks, 1));
             dxf->blocks.items[dxf->blocks.count++] = block;
@@ -245,7 +245,7 @@ static sl_status read_blocks(drawing *dxf, dxf_range section) {
     }
     if (within)
         return sl_fail_at(dxf->context, dxf->name, dxf_at(dxf, section.end)->line,
-                          "block '%s' has no ENDBLK", sl_show(block.name).text);
+                          "block '%s' has no ENDBLK", sli_show(block.name).text);
     if (dxf->blocks.count)
         qsort(dxf->blocks.items, dxf->blocks.count, sizeof *dxf->blocks.items, compare_blocks);
     return SL_OK;
@@ -263,18 +263,18 @@ static sl_status read_section(drawing *dxf, size_t begin, size_t *after) {
     while (section.end < count) {
         const dxf_pair *pair = dxf_at(dxf, section.end);
         if (pair->code == 0 &&
-            (sl_word_is(pair->value, "ENDSEC") || sl_word_is(pair->value, "EOF")))
+            (sli_word_is(pair->value, "ENDSEC") || sli_word_is(pair->value, "EOF")))
             break;
         section.end++;
     }
-    if (!sl_word_is(dxf_at(dxf, section.end)->value, "ENDSEC"))
+    if (!sli_word_is(dxf_at(dxf, section.end)->value, "ENDSEC"))
         return sl_fail_at(dxf->context, dxf->name, name->line, "section '%s' has no ENDSEC",
-                          sl_show(name->value).text);
+                          sli_show(name->value).text);
     *after = section.end + 1;
-    if (sl_word_is(name->value, "HEADER")) return read_header(dxf, section);
-    if (sl_word_is(name->value, "TABLES")) return read_tables(dxf, section);
-    if (sl_word_is(name->value, "BLOCKS")) return read_blocks(dxf, section);
-    if (sl_word_is(name->value, "ENTITIES")) dxf->entities = section;
+    if (sli_word_is(name->value, "HEADER")) return read_header(dxf, section);
+    if (sli_word_is(name->value, "TABLES")) return read_tables(dxf, section);
+    if (sli_word_is(name->value, "BLOCKS")) return read_blocks(dxf, section);
+    if (sli_word_is(name->value, "ENTITIES")) dxf->entities = section;
     return SL_OK;
 }
 
@@ -283,10 +283,10 @@ static sl_status read_sections(drawing *dxf) {
     while (dxf_at(dxf, i)->code == 999) i++;
     while (i + 1 < dxf->pairs.count) {
         const dxf_pair *pair = dxf_at(dxf, i);
-        if (pair->code != 0 || !sl_word_is(pair->value, "SECTION"))
+        if (pair->code != 0 || !sli_word_is(pair->value, "SECTION"))
             return sl_fail_at(dxf->context, dxf->name, pair->line,
                               "expected a SECTION, found '%s': is it a DXF drawing?",
-                              sl_show(pair->value).text);
+                              sli_show(pair->value).text);
         SL_TRY(read_section(dxf, i, &i));
     }
     if (dxf->entities.begin == 0)
@@ -328,20 +328,20 @@ static sl_status draw_line(drawing *dxf, dxf_range entity) {
     dxf->pen.at = to;
     SL_TRY(read_point(dxf, entity, 10, &dxf->pen.at));
     SL_TRY(read_point(dxf, entity, 11, &to));
-    return sl_pen_line(&dxf->pen, to);
+    return sli_pen_line(&dxf->pen, to);
 }
 
 /// A piece of a polyline: straight, or an arc whose bulge is the tangent of a quarter of its angle,
 /// positive counter-clockwise.
-static sl_status draw_piece(sl_pen *pen, sl_point to, double bulge) {
+static sl_status draw_piece(sli_pen *pen, sl_point to, double bulge) {
     const sl_point from = pen->at;
     const sl_point chord = {to.x - from.x, to.y - from.y};
-    if (bulge == 0 || (chord.x == 0 && chord.y == 0)) return sl_pen_line(pen, to);
+    if (bulge == 0 || (chord.x == 0 && chord.y == 0)) return sli_pen_line(pen, to);
     const double across = (1 - bulge * bulge) / (4 * bulge);
     const sl_point centre = {from.x + chord.x / 2 - across * chord.y,
                              from.y + chord.y / 2 + across * chord.x};
     const sl_point u = {from.x - centre.x, from.y - centre.y};
-    return sl_pen_arc(pen, centre, u, (sl_point){-u.y, u.x}, 4 * atan(bulge), to);
+    return sli_pen_arc(pen, centre, u, (sl_point){-u.y, u.x}, 4 * atan(bulge), to);
 }
 
 /// A polyline's corners as they come; `next` draws up to the corner given.
@@ -395,7 +395,7 @@ static sl_status draw_polyline(drawing *dxf, dxf_range entity, size_t end) {
         dxf->other_kinds++;
         return SL_OK;
     }
-    for (size_t i = entity.end; i < end && sl_word_is(dxf_at(dxf, i)->value, "VERTEX");) {
+    for (size_t i = entity.end; i < end && sli_word_is(dxf_at(dxf, i)->value, "VERTEX");) {
         const dxf_range vertex = dxf_entity(dxf, i, end);
         sl_point at = {0, 0};
         double bulge = 0;
@@ -429,8 +429,8 @@ static sl_status draw_round(drawing *dxf, sl_point centre, sl_point u, sl_point 
     const double c = cos(from), s = sin(from);
     const sl_point across = {c * v.x - s * u.x, c * v.y - s * u.y};
     dxf->pen.at = start;
-    return sl_pen_arc(&dxf->pen, centre, turned, across, sweep,
-                      sweep < 2 * pi ? on_arc(centre, u, v, to) : start);
+    return sli_pen_arc(&dxf->pen, centre, turned, across, sweep,
+                       sweep < 2 * pi ? on_arc(centre, u, v, to) : start);
 }
 
 static sl_status draw_circle(drawing *dxf, dxf_range entity, bool whole) {
@@ -465,12 +465,13 @@ static sl_status draw_ellipse(drawing *dxf, dxf_range entity, plane lies) {
 // --- entities: blocks inserted
 
 /// From a block's coordinates to those of what inserts it, for one of the rows and columns.
-static sl_affine insertion(sl_point at, sl_point step, sl_point scale, double turn, sl_point base) {
-    const sl_affine to_origin = {.xx = scale.x,
-                                 .x0 = -scale.x * base.x + step.x,
-                                 .yy = scale.y,
-                                 .y0 = -scale.y * base.y + step.y};
-    sl_affine affine = sl_affine_after(sl_affine_turn(turn), to_origin);
+static sli_affine insertion(sl_point at, sl_point step, sl_point scale, double turn,
+                            sl_point base) {
+    const sli_affine to_origin = {.xx = scale.x,
+                                  .x0 = -scale.x * base.x + step.x,
+                                  .yy = scale.y,
+                                  .y0 = -scale.y * base.y + step.y};
+    sli_affine affine = sli_affine_after(sli_affine_turn(turn), to_origin);
     affine.x0 += at.x;
     affine.y0 += at.y;
     return affine;
@@ -485,19 +486,19 @@ static sl_status count_work(drawing *dxf, uint32_t line) {
 
 /// Draws the entities of a range with the pen. `layer` is the one that things on layer "0" are on:
 /// that of the insertion; of no length at the top.
-static sl_status dxf_draw(drawing *dxf, dxf_range range, sl_word layer, unsigned depth);
+static sl_status dxf_draw(drawing *dxf, dxf_range range, sli_word layer, unsigned depth);
 
-static sl_status draw_insert(drawing *dxf, dxf_range entity, sl_word layer, unsigned depth) {
-    const sl_word name = dxf_text(dxf, entity, 2);
+static sl_status draw_insert(drawing *dxf, dxf_range entity, sli_word layer, unsigned depth) {
+    const sli_word name = dxf_text(dxf, entity, 2);
     const dxf_block *block = dxf_find_block(dxf, name);
     const uint32_t line = dxf->pen.line;
     if (!block)
         return sl_fail_at(dxf->context, dxf->name, line, "there is no block '%s'",
-                          sl_show(name).text);
+                          sli_show(name).text);
     if (depth == MOST_DEPTH)
         return sl_fail_at(dxf->context, dxf->name, line,
                           "block '%s' is inserted more than %d blocks deep: does it hold itself?",
-                          sl_show(name).text, MOST_DEPTH);
+                          sli_show(name).text, MOST_DEPTH);
     sl_point at = {0, 0}, scale = {1, 1}, gap = {0, 0};
     double turn = 0;
     int columns = 1, rows = 1;
@@ -509,12 +510,13 @@ static sl_status draw_insert(drawing *dxf, dxf_range entity, sl_word layer, unsi
     SL_TRY(dxf_integer(dxf, entity, 71, &rows));
     SL_TRY(dxf_number(dxf, entity, 44, &gap.x));
     SL_TRY(dxf_number(dxf, entity, 45, &gap.y));
-    const sl_affine outer = dxf->pen.affine;
+    const sli_affine outer = dxf->pen.affine;
     for (int row = 0; row < rows; row++) {
         for (int column = 0; column < columns; column++) {
             SL_TRY(count_work(dxf, line));
             const sl_point step = {column * gap.x, row * gap.y};
-            dxf->pen.affine = sl_affine_after(outer, insertion(at, step, scale, turn, block->base));
+            dxf->pen.affine =
+                sli_affine_after(outer, insertion(at, step, scale, turn, block->base));
             SL_TRY(dxf_draw(dxf, block->entities, layer, depth + 1));
         }
     }
@@ -523,55 +525,55 @@ static sl_status draw_insert(drawing *dxf, dxf_range entity, sl_word layer, unsi
 
 // --- entities: all of them
 
-static sl_status draw_shape(drawing *dxf, dxf_range entity, size_t end, sl_word layer, plane lies,
+static sl_status draw_shape(drawing *dxf, dxf_range entity, size_t end, sli_word layer, plane lies,
                             unsigned depth) {
-    const sl_word kind = dxf_at(dxf, entity.begin)->value;
+    const sli_word kind = dxf_at(dxf, entity.begin)->value;
     dxf->drawn++;
-    if (sl_word_is(kind, "LINE")) return draw_line(dxf, entity);
-    if (sl_word_is(kind, "LWPOLYLINE")) return draw_light_polyline(dxf, entity);
-    if (sl_word_is(kind, "POLYLINE")) return draw_polyline(dxf, entity, end);
-    if (sl_word_is(kind, "ARC")) return draw_circle(dxf, entity, false);
-    if (sl_word_is(kind, "CIRCLE")) return draw_circle(dxf, entity, true);
-    if (sl_word_is(kind, "ELLIPSE")) return draw_ellipse(dxf, entity, lies);
+    if (sli_word_is(kind, "LINE")) return draw_line(dxf, entity);
+    if (sli_word_is(kind, "LWPOLYLINE")) return draw_light_polyline(dxf, entity);
+    if (sli_word_is(kind, "POLYLINE")) return draw_polyline(dxf, entity, end);
+    if (sli_word_is(kind, "ARC")) return draw_circle(dxf, entity, false);
+    if (sli_word_is(kind, "CIRCLE")) return draw_circle(dxf, entity, true);
+    if (sli_word_is(kind, "ELLIPSE")) return draw_ellipse(dxf, entity, lies);
     dxf->drawn--;
-    if (sl_word_is(kind, "INSERT")) return draw_insert(dxf, entity, layer, depth);
+    if (sli_word_is(kind, "INSERT")) return draw_insert(dxf, entity, layer, depth);
     dxf->other_kinds++;
     return SL_OK;
 }
 
-static sl_status draw_entity(drawing *dxf, dxf_range entity, size_t end, sl_word layer,
+static sl_status draw_entity(drawing *dxf, dxf_range entity, size_t end, sli_word layer,
                              unsigned depth) {
-    const sl_word kind = dxf_at(dxf, entity.begin)->value;
-    sl_word own = dxf_text(dxf, entity, 8);
-    if (sl_word_is(own, "0") && layer.length) own = layer;
+    const sli_word kind = dxf_at(dxf, entity.begin)->value;
+    sli_word own = dxf_text(dxf, entity, 8);
+    if (sli_word_is(own, "0") && layer.length) own = layer;
     int on_paper = 0;
     SL_TRY(dxf_integer(dxf, entity, 67, &on_paper));
-    const bool part = sl_word_is(kind, "VERTEX") || sl_word_is(kind, "SEQEND");
-    if (part || sl_word_is(kind, "ATTRIB")) return SL_OK;
+    const bool part = sli_word_is(kind, "VERTEX") || sli_word_is(kind, "SEQEND");
+    if (part || sli_word_is(kind, "ATTRIB")) return SL_OK;
     if (on_paper) {
         dxf->on_paper++;
         return SL_OK;
     }
-    if (!sl_word_is(kind, "INSERT") && !dxf_takes_layer(dxf, own)) {
+    if (!sli_word_is(kind, "INSERT") && !dxf_takes_layer(dxf, own)) {
         dxf->other_layers++;
         return SL_OK;
     }
     plane lies = LEVEL;
-    if (!sl_word_is(kind, "LINE")) SL_TRY(read_plane(dxf, entity, &lies));
+    if (!sli_word_is(kind, "LINE")) SL_TRY(read_plane(dxf, entity, &lies));
     if (lies == LEANING) {
         dxf->out_of_plane++;
         return SL_OK;
     }
-    const sl_affine outer = dxf->pen.affine;
-    if (lies == FROM_BELOW && !sl_word_is(kind, "ELLIPSE"))
-        dxf->pen.affine = sl_affine_after(outer, (sl_affine){.xx = -1, .yy = 1});
+    const sli_affine outer = dxf->pen.affine;
+    if (lies == FROM_BELOW && !sli_word_is(kind, "ELLIPSE"))
+        dxf->pen.affine = sli_affine_after(outer, (sli_affine){.xx = -1, .yy = 1});
     dxf->pen.line = dxf_at(dxf, entity.begin)->line;
     const sl_status status = draw_shape(dxf, entity, end, own, lies, depth);
     dxf->pen.affine = outer;
     return status;
 }
 
-static sl_status dxf_draw(drawing *dxf, dxf_range range, sl_word layer, unsigned depth) {
+static sl_status dxf_draw(drawing *dxf, dxf_range range, sli_word layer, unsigned depth) {
     for (size_t i = range.begin; i < range.end;) {
         const dxf_range entity = dxf_entity(dxf, i, range.end);
         SL_TRY(count_work(dxf, dxf_at(dxf, i)->line));
@@ -586,15 +588,15 @@ static sl_status dxf_draw(drawing *dxf, dxf_range range, sl_word layer, unsigned
 /// A layer that is asked for and not there is a mistake worth telling of.
 static sl_status check_layers(const drawing *dxf) {
     const char *list = dxf->options->layers;
-    for (sl_word name; list && sl_layers_next(&list, &name);) {
+    for (sli_word name; list && sli_layers_next(&list, &name);) {
         bool known = dxf->layers.count == 0;
         for (size_t i = 0; i < dxf->layers.count; i++)
             known |= same_name(dxf->layers.items[i].name, name);
         if (!known)
             return sl_fail(dxf->context, SL_BAD_ARGUMENT,
                            "%s: there is no layer '%s' among the drawing's %zu; the first is '%s'",
-                           dxf->name, sl_show(name).text, dxf->layers.count,
-                           sl_show(dxf->layers.items[0].name).text);
+                           dxf->name, sli_show(name).text, dxf->layers.count,
+                           sli_show(dxf->layers.items[0].name).text);
     }
     return SL_OK;
 }
@@ -631,7 +633,7 @@ static sl_status take_unit(drawing *dxf) {
                        dxf->name, unit_name(dxf->unit), units[to].name);
     if ((size_t)dxf->unit == to) return SL_OK;
     const double scale = units[dxf->unit].metres / units[to].metres;
-    dxf->pen.affine = (sl_affine){.xx = scale, .yy = scale};
+    dxf->pen.affine = (sli_affine){.xx = scale, .yy = scale};
     return SL_OK;
 }
 
@@ -641,7 +643,7 @@ static sl_status read_drawing(drawing *dxf, const char *text, size_t size) {
     SL_TRY(read_sections(dxf));
     SL_TRY(check_layers(dxf));
     SL_TRY(take_unit(dxf));
-    SL_TRY(dxf_draw(dxf, dxf->entities, (sl_word){"", 0}, 0));
+    SL_TRY(dxf_draw(dxf, dxf->entities, (sli_word){"", 0}, 0));
     sl_note(dxf->context,
             "%s: %zu entities give %zu walls (unit: %s%s%s); left out: %zu on other layers, %zu of "
             "other kinds, %zu on the paper, %zu out of the plan's plane, %zu lines of no length",
@@ -661,7 +663,7 @@ sl_status sl_map_read_dxf(sl_context *context, const char *name, const char *tex
                    .pen = {.context = context,
                            .name = name,
                            .map = &read,
-                           .affine = SL_AFFINE_NONE,
+                           .affine = SLI_AFFINE_NONE,
                            .tolerance = options->tolerance}};
     const sl_status status = read_drawing(&dxf, text, size);
     sl_free(context, dxf.pairs.items);

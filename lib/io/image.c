@@ -20,9 +20,9 @@ void sl_image_destroy(sl_context *context, sl_image *image) {
 static sl_status make_room(sl_context *context, const char *name, size_t width, size_t height,
                            sl_image *image) {
     if (width == 0 || height == 0) return sl_fail_at(context, name, 0, "a picture without pixels");
-    if (height > SL_GRID_MOST / width)
+    if (height > SLI_GRID_MOST / width)
         return sl_fail_at(context, name, 0, "a picture of %zu x %zu pixels: more than %zu", width,
-                          height, SL_GRID_MOST);
+                          height, SLI_GRID_MOST);
     image->pixels = sl_alloc(context, width * height);
     if (!image->pixels) return SL_NO_MEMORY;
     image->width = width;
@@ -161,8 +161,8 @@ typedef struct image_plan {
 /// open. Gives the number of solid pixels.
 static sl_status image_add_walls(sl_context *context, const sl_image *image, const image_plan *plan,
                                  sl_map *map, size_t *solid) {
-    sl_grid grid;
-    SL_TRY(sl_grid_create(context, image->width, image->height, &grid));
+    sli_grid grid;
+    SL_TRY(sli_grid_create(context, image->width, image->height, &grid));
     grid.origin = plan->origin;
     grid.step = (sl_point){plan->step, plan->step};
     grid.open_outside = true;
@@ -173,8 +173,8 @@ static sl_status image_add_walls(sl_context *context, const sl_image *image, con
         grid.squares[i] = '#';
         ++*solid;
     }
-    const sl_status status = sl_grid_add_walls(context, &grid, map);
-    sl_grid_destroy(context, &grid);
+    const sl_status status = sli_grid_add_walls(context, &grid, map);
+    sli_grid_destroy(context, &grid);
     return status;
 }
 
@@ -224,12 +224,12 @@ static sl_status fail_yaml(const ros_map *m, const yaml_parser_t *parser) {
 
 static sl_status read_number(const ros_map *m, const char *key, const ros_value *value,
                              double *out) {
-    const sl_word word = {value->text, strlen(value->text)};
+    const sli_word word = {value->text, strlen(value->text)};
     double number;
     if (!sl_number_read(word.at, word.length, &number) ||
         (number != 0 && !sl_coordinate_usable(number)))
         return sl_fail_at(m->context, m->name, value->line, "%s: expected a number, found '%s'",
-                          key, sl_show(word).text);
+                          key, sli_show(word).text);
     *out = number;
     return SL_OK;
 }
@@ -314,9 +314,9 @@ static sl_status read_yaml(ros_map *m, const char *text, size_t size) {
 
 /// The picture as named or, since maps are often renamed, one that has the map's own name.
 static sl_status find_image(const ros_map *m, char **path) {
-    *path = sl_beside_path(m->context, m->name, m->image);
+    *path = sli_beside_path(m->context, m->name, m->image);
     if (!*path) return SL_NO_MEMORY;
-    if (sl_beside_is_there(*path)) return SL_OK;
+    if (sli_beside_is_there(*path)) return SL_OK;
     sl_free(m->context, *path);
     const char *dot = strrchr(m->name, '.');
     const size_t stem = dot ? (size_t)(dot - m->name) : strlen(m->name);
@@ -326,7 +326,7 @@ static sl_status find_image(const ros_map *m, char **path) {
     static const char *const endings[] = {".pgm", ".png"};
     for (int i = 0; i < 2; i++) {
         memcpy(*path + stem, endings[i], 5);
-        if (!sl_beside_is_there(*path)) continue;
+        if (!sli_beside_is_there(*path)) continue;
         sl_note(m->context, "%s: there is no picture '%s' beside it; '%s' is taken", m->name,
                 m->image, *path);
         return SL_OK;
@@ -334,7 +334,7 @@ static sl_status find_image(const ros_map *m, char **path) {
     sl_free(m->context, *path);
     *path = NULL;
     return sl_fail_at(m->context, m->name, m->image_line, "image: there is no picture '%s'",
-                      sl_show((sl_word){m->image, strlen(m->image)}).text);
+                      sli_show((sli_word){m->image, strlen(m->image)}).text);
 }
 
 static sl_status read_image(const ros_map *m, sl_image *image) {
@@ -354,7 +354,7 @@ static sl_status read_map(ros_map *m, const sl_import_options *options, const ch
                           size_t size, sl_map *map) {
     sl_image image = {0};
     size_t solid;
-    SL_TRY(sl_refuse_nul(m->context, m->name, text, size));
+    SL_TRY(sli_refuse_nul(m->context, m->name, text, size));
     SL_TRY(read_yaml(m, text, size));
     SL_TRY(read_image(m, &image));
     const image_plan plan = {.threshold = options->threshold > 0 ? options->threshold : m->occupied,

@@ -54,7 +54,7 @@ static bool knows_foundry(const char *text, size_t size) {
 }
 
 static bool knows_wad(const char *text, size_t size) {
-    return sl_wad_known(text, size);
+    return sli_wad_known(text, size);
 }
 
 static const sl_map_format map_formats[] = {

@@ -52,7 +52,7 @@ static size_t next_word(const char **at, char word[16]) {
     return length < 15 ? length : 0;
 }
 
-bool sl_says_solid(const char *name) {
+bool sli_says_solid(const char *name) {
     bool solid = false;
     while (*name) {
         if (!is_small(*name) && !is_capital(*name)) {
@@ -75,7 +75,7 @@ bool sl_says_solid(const char *name) {
 
 #define MOST_BYTES ((off_t)1 << 30)
 
-char *sl_beside_path(sl_context *context, const char *name, const char *relative) {
+char *sli_beside_path(sl_context *context, const char *name, const char *relative) {
     const char *slash = strrchr(name, '/');
     const size_t folder = slash && relative[0] != '/' ? (size_t)(slash + 1 - name) : 0;
     const size_t length = strlen(relative);
@@ -88,7 +88,7 @@ char *sl_beside_path(sl_context *context, const char *name, const char *relative
     return path;
 }
 
-bool sl_beside_is_there(const char *path) {
+bool sli_beside_is_there(const char *path) {
     struct stat there;
     return stat(path, &there) == 0 && S_ISREG(there.st_mode);
 }
@@ -98,9 +98,9 @@ static sl_status fail_beside(sl_context *context, const char *name, const char *
     return sl_fail_at(context, name, 0, "it names the file %.200s: %s", path, why);
 }
 
-sl_status sl_beside_read(sl_context *context, const char *name, const char *relative, char **path,
-                         sl_bytes *bytes) {
-    char *from = sl_beside_path(context, name, relative);
+sl_status sli_beside_read(sl_context *context, const char *name, const char *relative, char **path,
+                          sl_bytes *bytes) {
+    char *from = sli_beside_path(context, name, relative);
     if (!from) return SL_NO_MEMORY;
     struct stat there;
     sl_status status = SL_OK;

@@ -28,9 +28,9 @@ typedef struct cell_view {
 
 typedef struct finder {
     sl_context *context;
-    const sl_doom_level *level;
-    sl_box_tree tree;         ///< of the lines
-    sl_box_list nearby;       ///< lines, of the current question
+    const sli_doom_level *level;
+    sli_box_tree tree;        ///< of the lines
+    sli_box_list nearby;      ///< lines, of the current question
     SL_ARRAY(uint32_t) found; ///< of all cells so far
     size_t begin;             ///< of the current cell
 } finder;
@@ -52,7 +52,7 @@ static cell_view view_of(const sl_space *space, uint32_t cell) {
 }
 
 static sl_status add(finder *find, uint32_t sector) {
-    if (sector == SL_NO_SECTOR) return SL_OK;
+    if (sector == SLI_NO_SECTOR) return SL_OK;
     for (size_t i = find->begin; i < find->found.count; i++)
         if (find->found.items[i] == sector) return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(find->context, &find->found, 1));
@@ -62,16 +62,16 @@ static sl_status add(finder *find, uint32_t sector) {
 
 /// Whether an edge of the cell, to the left of which the cell lies, has all of the line at its
 /// right or on it: then the line does not pass through the interior.
-static bool is_parted_by_an_edge(const cell_view *view, const sl_doom_line *line) {
+static bool is_parted_by_an_edge(const cell_view *view, const sli_doom_line *line) {
     for (uint32_t i = 0; i < view->count; i++) {
         const sl_point a = view->corners[i], b = view->corners[(i + 1) % view->count];
-        if (sl_orient(a, b, line->from) <= 0 && sl_orient(a, b, line->to) <= 0) return true;
+        if (sli_orient(a, b, line->from) <= 0 && sli_orient(a, b, line->to) <= 0) return true;
     }
     return false;
 }
 
 /// Whether the line, which holds both points, has a piece of positive length between them.
-static bool overlaps(const sl_doom_line *line, sl_point a, sl_point b) {
+static bool overlaps(const sli_doom_line *line, sl_point a, sl_point b) {
     const bool by_x = fabs(line->to.x - line->from.x) >= fabs(line->to.y - line->from.y);
     const double c = by_x ? line->from.x : line->from.y, d = by_x ? line->to.x : line->to.y;
     const double e = by_x ? a.x : a.y, f = by_x ? b.x : b.y;
@@ -79,11 +79,11 @@ static bool overlaps(const sl_doom_line *line, sl_point a, sl_point b) {
 }
 
 /// Adds the sectors that a line says are within the cell.
-static sl_status ask_line(finder *find, const cell_view *view, const sl_doom_line *line) {
+static sl_status ask_line(finder *find, const cell_view *view, const sli_doom_line *line) {
     bool at_left = false, at_right = false, runs_along = false;
-    int before = sl_orient(line->from, line->to, view->corners[view->count - 1]);
+    int before = sli_orient(line->from, line->to, view->corners[view->count - 1]);
     for (uint32_t i = 0; i < view->count; i++) {
-        const int side = sl_orient(line->from, line->to, view->corners[i]);
+        const int side = sli_orient(line->from, line->to, view->corners[i]);
         at_left |= side > 0;
         at_right |= side < 0;
         if (side == 0 && before == 0)
@@ -112,26 +112,26 @@ typedef struct hit {
 static bool is_before(const hit *a, const hit *b, double point_x) {
     const double close = 1e-9 * (fabs(a->x) + fabs(point_x));
     if (fabs(a->x - b->x) > close) return a->x < b->x;
-    int side = a->low.y >= b->low.y ? sl_orient(b->low, b->high, a->low)
-                                    : -sl_orient(a->low, a->high, b->low);
+    int side = a->low.y >= b->low.y ? sli_orient(b->low, b->high, a->low)
+                                    : -sli_orient(a->low, a->high, b->low);
     if (side == 0)
-        side = a->high.y <= b->high.y ? sl_orient(b->low, b->high, a->high)
-                                      : -sl_orient(a->low, a->high, b->high);
-    return side ? side > 0 : b->sector == SL_NO_SECTOR;
+        side = a->high.y <= b->high.y ? sli_orient(b->low, b->high, a->high)
+                                      : -sli_orient(a->low, a->high, b->high);
+    return side ? side > 0 : b->sector == SLI_NO_SECTOR;
 }
 
 /// The sector that the nearest line to the right of a point says that the point is in.
 static sl_status find_left_of_nearest(finder *find, sl_point point, uint32_t *sector) {
     const sl_box ray = {point, {HUGE_VAL, point.y}};
-    SL_TRY(sl_box_tree_find(find->context, &find->tree, &ray, &find->nearby));
-    hit nearest = {.x = HUGE_VAL, .sector = SL_NO_SECTOR};
+    SL_TRY(sli_box_tree_find(find->context, &find->tree, &ray, &find->nearby));
+    hit nearest = {.x = HUGE_VAL, .sector = SLI_NO_SECTOR};
     for (size_t i = 0; i < find->nearby.count; i++) {
-        const sl_doom_line *line = &find->level->lines[find->nearby.items[i]];
+        const sli_doom_line *line = &find->level->lines[find->nearby.items[i]];
         if ((line->from.y <= point.y) == (line->to.y <= point.y)) continue;
         const bool up = line->from.y <= point.y;
         hit met = {up ? line->from : line->to, up ? line->to : line->from, 0,
                    up ? line->left : line->right};
-        if (sl_orient(met.low, met.high, point) <= 0) continue;
+        if (sli_orient(met.low, met.high, point) <= 0) continue;
         const double slope = (met.high.x - met.low.x) / (met.high.y - met.low.y);
         met.x = met.low.x + (point.y - met.low.y) * slope;
         if (nearest.x == HUGE_VAL || is_before(&met, &nearest, point.x)) nearest = met;
@@ -148,7 +148,7 @@ static int compare_sectors(const void *left, const void *right) {
 static sl_status find_cell(finder *find, const sl_space *space, uint32_t cell) {
     const cell_view view = view_of(space, cell);
     find->begin = find->found.count;
-    SL_TRY(sl_box_tree_find(find->context, &find->tree, &view.box, &find->nearby));
+    SL_TRY(sli_box_tree_find(find->context, &find->tree, &view.box, &find->nearby));
     for (size_t i = 0; i < find->nearby.count; i++)
         SL_TRY(ask_line(find, &view, &find->level->lines[find->nearby.items[i]]));
     uint32_t sector;
@@ -163,19 +163,19 @@ static sl_status find_cell(finder *find, const sl_space *space, uint32_t cell) {
 }
 
 static sl_status make_tree(finder *find) {
-    const sl_doom_level *level = find->level;
+    const sli_doom_level *level = find->level;
     sl_box *boxes = sl_alloc_array(find->context, level->line_count, sizeof *boxes);
     if (!boxes) return SL_NO_MEMORY;
     for (size_t i = 0; i < level->line_count; i++)
-        boxes[i] = sl_box_around(level->lines[i].from, level->lines[i].to);
+        boxes[i] = sli_box_around(level->lines[i].from, level->lines[i].to);
     const sl_status status =
-        sl_box_tree_create(find->context, boxes, level->line_count, &find->tree);
+        sli_box_tree_create(find->context, boxes, level->line_count, &find->tree);
     sl_free(find->context, boxes);
     return status;
 }
 
-sl_status sl_cell_sectors_find(sl_context *context, const sl_space *space,
-                               const sl_doom_level *level, sl_cell_sectors *out) {
+sl_status sli_cell_sectors_find(sl_context *context, const sl_space *space,
+                                const sli_doom_level *level, sli_cell_sectors *out) {
     finder find = {.context = context, .level = level};
     uint32_t *first = sl_alloc_array(context, (size_t)space->cell_count + 1, sizeof *first);
     if (!first) return SL_NO_MEMORY;
@@ -186,20 +186,20 @@ sl_status sl_cell_sectors_find(sl_context *context, const sl_space *space,
         if (status == SL_OK) status = find_cell(&find, space, cell);
         first[cell + 1] = (uint32_t)find.found.count;
     }
-    sl_box_tree_destroy(context, &find.tree);
+    sli_box_tree_destroy(context, &find.tree);
     sl_free(context, find.nearby.items);
-    sl_cell_sectors made = {.first = first, .sectors = find.found.items};
+    sli_cell_sectors made = {.first = first, .sectors = find.found.items};
     if (status == SL_OK)
         *out = made;
     else
-        sl_cell_sectors_destroy(context, &made);
+        sli_cell_sectors_destroy(context, &made);
     return status;
 }
 
-void sl_cell_sectors_destroy(sl_context *context, sl_cell_sectors *sectors) {
+void sli_cell_sectors_destroy(sl_context *context, sli_cell_sectors *sectors) {
     sl_free(context, sectors->first);
     sl_free(context, sectors->sectors);
-    *sectors = (sl_cell_sectors){0};
+    *sectors = (sli_cell_sectors){0};
 }
 
 // --- the table
@@ -208,7 +208,7 @@ typedef struct reject_maker {
     sl_context *context;
     const sl_space *space;
     const sl_pvs *pvs;
-    sl_cell_sectors cells;
+    sli_cell_sectors cells;
     size_t count;   ///< of sectors
     size_t words;   ///< of a row of sectors
     sl_bits *seen;  ///< a row for each sector
@@ -221,7 +221,7 @@ static sl_bits *row_of(const reject_maker *make, size_t sector) {
 
 /// All sectors that cells seen from this one reach into.
 static void collect_seen(const reject_maker *make, uint32_t cell, sl_bits *row) {
-    const sl_cell_sectors *cells = &make->cells;
+    const sli_cell_sectors *cells = &make->cells;
     memset(row, 0, make->words * sizeof *row);
     for (sl_pvs_run r = sl_pvs_begin(make->pvs, cell); sl_pvs_next(&r);)
         for (uint32_t i = cells->first[r.first]; i < cells->first[r.end]; i++)
@@ -233,7 +233,7 @@ static void see_all(const reject_maker *make, size_t sector) {
 }
 
 static sl_status spread_rows(reject_maker *make, sl_bits *row, bool *reached) {
-    const sl_cell_sectors *cells = &make->cells;
+    const sli_cell_sectors *cells = &make->cells;
     for (uint32_t cell = 0; cell < make->space->cell_count; cell++) {
         if (cell % 256 == 0) SL_TRY(sl_check_cancelled(make->context));
         if (cells->first[cell] == cells->first[cell + 1]) continue;
@@ -271,7 +271,7 @@ static sl_status find_seen(reject_maker *make) {
 
 /// The lump: a bit for each ordered pair, set where it is hidden. Sight goes both ways: a pair of
 /// which one sees the other is not hidden.
-static sl_status make_lump(const reject_maker *make, sl_reject *out) {
+static sl_status make_lump(const reject_maker *make, sli_reject *out) {
     const size_t count = make->count;
     out->size = (count * count + 7) / 8;
     out->bytes = sl_alloc_array(make->context, out->size, 1);
@@ -289,25 +289,25 @@ static sl_status make_lump(const reject_maker *make, sl_reject *out) {
     return SL_OK;
 }
 
-sl_status sl_reject_make(sl_context *context, const sl_space *space, const sl_pvs *pvs,
-                         const sl_doom_level *level, sl_reject *out) {
+sl_status sli_reject_make(sl_context *context, const sl_space *space, const sl_pvs *pvs,
+                          const sli_doom_level *level, sli_reject *out) {
     reject_maker make = {
         .context = context, .space = space, .pvs = pvs, .count = level->sector_count};
-    sl_reject made = {.account = {.sectors = (uint32_t)make.count, .cells = space->cell_count}};
-    sl_status status = sl_cell_sectors_find(context, space, level, &make.cells);
+    sli_reject made = {.account = {.sectors = (uint32_t)make.count, .cells = space->cell_count}};
+    sl_status status = sli_cell_sectors_find(context, space, level, &make.cells);
     if (status == SL_OK) status = find_seen(&make);
     if (status == SL_OK) status = make_lump(&make, &made);
     made.account.unknown = (uint32_t)make.unknown;
-    sl_cell_sectors_destroy(context, &make.cells);
+    sli_cell_sectors_destroy(context, &make.cells);
     sl_free(context, make.seen);
     if (status == SL_OK)
         *out = made;
     else
-        sl_reject_destroy(context, &made);
+        sli_reject_destroy(context, &made);
     return status;
 }
 
-void sl_reject_destroy(sl_context *context, sl_reject *reject) {
+void sli_reject_destroy(sl_context *context, sli_reject *reject) {
     sl_free(context, reject->bytes);
-    *reject = (sl_reject){0};
+    *reject = (sli_reject){0};
 }

@@ -14,10 +14,10 @@ typedef struct reject_export {
     sl_context *context;
     const sl_baked *baked;
     const sl_export_options *options;
-    sl_wad wad;
-    sl_wad_map map;
-    sl_doom_level level;
-    sl_reject reject;
+    sli_wad wad;
+    sli_wad_map map;
+    sli_doom_level level;
+    sli_reject reject;
 } reject_export;
 
 static bool has_walls(const sl_space *space, const sl_map *map) {
@@ -72,9 +72,9 @@ static sl_status check_baked(sl_context *context, const sl_baked *baked) {
 }
 
 static sl_status write_reject(const reject_export *export, const char *path) {
-    const sl_wad_edit edit = {
+    const sli_wad_edit edit = {
         .map = export->map, .name = "REJECT", .lump = {export->reject.bytes, export->reject.size}};
-    SL_TRY(sl_wad_write(export->context, &export->wad, &edit, 1, path));
+    SL_TRY(sli_wad_write(export->context, &export->wad, &edit, 1, path));
     const sl_reject_account *account = &export->reject.account;
     const double pairs = (double)account->sectors * ((double)account->sectors - 1) / 2;
     sl_note(export->context,
@@ -86,11 +86,11 @@ static sl_status write_reject(const reject_export *export, const char *path) {
 }
 
 static sl_status export_map(reject_export *export, const char *path) {
-    SL_TRY(sl_wad_find_map(export->context, &export->wad, export->options->map, &export->map));
+    SL_TRY(sli_wad_find_map(export->context, &export->wad, export->options->map, &export->map));
     SL_TRY(check_map(export));
-    SL_TRY(sl_doom_read(export->context, &export->wad, &export->map, &export->level));
-    SL_TRY(sl_reject_make(export->context, &export->baked->space, &export->baked->visibility.pvs,
-                          &export->level, &export->reject));
+    SL_TRY(sli_doom_read(export->context, &export->wad, &export->map, &export->level));
+    SL_TRY(sli_reject_make(export->context, &export->baked->space, &export->baked->visibility.pvs,
+                           &export->level, &export->reject));
     return write_reject(export, path);
 }
 
@@ -104,10 +104,10 @@ sl_status sl_export_reject(sl_context *context, const sl_baked *baked,
     sl_bytes bytes;
     SL_TRY(sl_file_read(context, options->wad, &bytes));
     reject_export export = {.context = context, .baked = baked, .options = options};
-    sl_status status = sl_wad_open(context, options->wad, bytes.data, bytes.size, &export.wad);
+    sl_status status = sli_wad_open(context, options->wad, bytes.data, bytes.size, &export.wad);
     if (status == SL_OK) status = export_map(&export, path);
-    sl_doom_level_destroy(context, &export.level);
-    sl_reject_destroy(context, &export.reject);
+    sli_doom_level_destroy(context, &export.level);
+    sli_reject_destroy(context, &export.reject);
     sl_free(context, bytes.data);
     return status;
 }
@@ -126,15 +126,15 @@ void sl_reject_report_destroy(sl_context *context, sl_reject_report *report) {
 
 /// A map and what becomes of it.
 typedef struct map_work {
-    sl_wad_map map;
-    sl_reject reject;
+    sli_wad_map map;
+    sli_reject reject;
 } map_work;
 
 typedef struct wad_job {
     sl_context *context;
     const sl_reject_options *options;
     sl_bytes bytes;
-    sl_wad wad;
+    sli_wad wad;
     SL_ARRAY(map_work) maps;
     size_t *order;    ///< the maps' numbers, the largest map's first
     unsigned at_work; ///< maps at most at once
@@ -142,8 +142,8 @@ typedef struct wad_job {
 } wad_job;
 
 static sl_status add_map(wad_job *job, const char *name) {
-    sl_wad_map map;
-    SL_TRY(sl_wad_find_map(job->context, &job->wad, name, &map));
+    sli_wad_map map;
+    SL_TRY(sli_wad_find_map(job->context, &job->wad, name, &map));
     for (size_t i = 0; i < job->maps.count; i++)
         if (job->maps.items[i].map.header == map.header)
             return sl_fail(job->context, SL_BAD_ARGUMENT, "map %s is asked for twice", map.name);
@@ -168,11 +168,11 @@ static sl_status choose_maps(wad_job *job) {
 
 /// Bytes of a map's lines, or of its text.
 static size_t map_size(const wad_job *job, size_t number) {
-    const sl_wad_map *map = &job->maps.items[number].map;
+    const sli_wad_map *map = &job->maps.items[number].map;
     const char *name = map->is_text ? "TEXTMAP" : "LINEDEFS";
-    const uint32_t index = sl_wad_find_lump(&job->wad, map, name);
+    const uint32_t index = sli_wad_find_lump(&job->wad, map, name);
     if (index == job->wad.lump_count) return 0;
-    return sl_wad_u32(job->wad.bytes + job->wad.directory + (size_t)index * 16 + 4);
+    return sli_wad_u32(job->wad.bytes + job->wad.directory + (size_t)index * 16 + 4);
 }
 
 typedef struct sized_map {
@@ -204,7 +204,7 @@ typedef struct map_state {
     sl_map map;
     sl_space space;
     sl_visibility visibility;
-    sl_doom_level level;
+    sli_doom_level level;
 } map_state;
 
 static const sl_see_method *find_sweep(void) {
@@ -233,9 +233,9 @@ static sl_status make_reject(sl_context *context, const wad_job *job, map_work *
     SL_TRY(sl_map_clean(context, &state->map, NULL, NULL));
     SL_TRY(sl_subdivision_for(&state->map)->subdivide(context, &state->map, &rules, &state->space));
     SL_TRY(see(context, job, state));
-    SL_TRY(sl_doom_read(context, &job->wad, &work->map, &state->level));
-    SL_TRY(sl_reject_make(context, &state->space, &state->visibility.pvs, &state->level,
-                          &work->reject));
+    SL_TRY(sli_doom_read(context, &job->wad, &work->map, &state->level));
+    SL_TRY(sli_reject_make(context, &state->space, &state->visibility.pvs, &state->level,
+                           &work->reject));
     memcpy(work->reject.account.map, work->map.name, sizeof work->map.name);
     return SL_OK;
 }
@@ -244,7 +244,7 @@ static sl_status make_reject(sl_context *context, const wad_job *job, map_work *
 static sl_status do_map(sl_context *context, const wad_job *job, map_work *work) {
     map_state state = {0};
     const sl_status status = make_reject(context, job, work, &state);
-    sl_doom_level_destroy(context, &state.level);
+    sli_doom_level_destroy(context, &state.level);
     sl_visibility_destroy(context, &state.visibility);
     sl_space_destroy(context, &state.space);
     sl_map_destroy(context, &state.map);
@@ -267,31 +267,31 @@ static sl_status do_unit(sl_context *context, void *user, void *state, size_t un
 }
 
 static sl_status make_rejects(wad_job *job) {
-    const unsigned threads = job->options->threads ? job->options->threads : sl_core_count();
+    const unsigned threads = job->options->threads ? job->options->threads : sli_core_count();
     job->at_work = threads < job->maps.count ? threads : (unsigned)job->maps.count;
     job->per_map = threads / job->at_work;
     if (job->maps.count == 1) return do_map(job->context, job, &job->maps.items[0]);
     SL_TRY(order_maps(job));
-    const sl_work work = {.job = job, .unit = do_unit, .stage = "reject", .units = "maps"};
-    return sl_work_run(job->context, &work, job->maps.count, job->at_work);
+    const sli_work work = {.job = job, .unit = do_unit, .stage = "reject", .units = "maps"};
+    return sli_work_run(job->context, &work, job->maps.count, job->at_work);
 }
 
 static sl_status write_copy(const wad_job *job, const char *output) {
-    sl_wad_edit *edits = sl_alloc_array(job->context, job->maps.count, sizeof *edits);
+    sli_wad_edit *edits = sl_alloc_array(job->context, job->maps.count, sizeof *edits);
     if (!edits) return SL_NO_MEMORY;
     for (size_t i = 0; i < job->maps.count; i++) {
         const map_work *work = &job->maps.items[i];
-        edits[i] = (sl_wad_edit){
+        edits[i] = (sli_wad_edit){
             .map = work->map, .name = "REJECT", .lump = {work->reject.bytes, work->reject.size}};
     }
-    const sl_status status = sl_wad_write(job->context, &job->wad, edits, job->maps.count, output);
+    const sl_status status = sli_wad_write(job->context, &job->wad, edits, job->maps.count, output);
     sl_free(job->context, edits);
     return status;
 }
 
 static sl_status do_wad(wad_job *job, const char *path, const char *output,
                         sl_reject_report *report) {
-    SL_TRY(sl_wad_open(job->context, path, job->bytes.data, job->bytes.size, &job->wad));
+    SL_TRY(sli_wad_open(job->context, path, job->bytes.data, job->bytes.size, &job->wad));
     SL_TRY(choose_maps(job));
     SL_TRY(make_rejects(job));
     sl_reject_account *accounts = sl_alloc_array(job->context, job->maps.count, sizeof *accounts);
@@ -311,7 +311,7 @@ sl_status sl_reject_wad(sl_context *context, const char *path, const sl_reject_o
     SL_TRY(sl_file_read(context, path, &job.bytes));
     const sl_status status = do_wad(&job, path, output, report);
     for (size_t i = 0; i < job.maps.count; i++)
-        sl_reject_destroy(context, &job.maps.items[i].reject);
+        sli_reject_destroy(context, &job.maps.items[i].reject);
     sl_free(context, job.maps.items);
     sl_free(context, job.order);
     sl_free(context, job.bytes.data);

@@ -19,39 +19,39 @@
 
 static const double pi = 3.14159265358979323846;
 
-sl_affine sl_affine_after(sl_affine outer, sl_affine inner) {
-    return (sl_affine){.xx = outer.xx * inner.xx + outer.xy * inner.yx,
-                       .xy = outer.xx * inner.xy + outer.xy * inner.yy,
-                       .x0 = outer.xx * inner.x0 + outer.xy * inner.y0 + outer.x0,
-                       .yx = outer.yx * inner.xx + outer.yy * inner.yx,
-                       .yy = outer.yx * inner.xy + outer.yy * inner.yy,
-                       .y0 = outer.yx * inner.x0 + outer.yy * inner.y0 + outer.y0};
+sli_affine sli_affine_after(sli_affine outer, sli_affine inner) {
+    return (sli_affine){.xx = outer.xx * inner.xx + outer.xy * inner.yx,
+                        .xy = outer.xx * inner.xy + outer.xy * inner.yy,
+                        .x0 = outer.xx * inner.x0 + outer.xy * inner.y0 + outer.x0,
+                        .yx = outer.yx * inner.xx + outer.yy * inner.yx,
+                        .yy = outer.yx * inner.xy + outer.yy * inner.yy,
+                        .y0 = outer.yx * inner.x0 + outer.yy * inner.y0 + outer.y0};
 }
 
-static sl_point apply(const sl_affine *affine, sl_point point) {
+static sl_point apply(const sli_affine *affine, sl_point point) {
     return (sl_point){affine->xx * point.x + affine->xy * point.y + affine->x0,
                       affine->yx * point.x + affine->yy * point.y + affine->y0};
 }
 
-sl_affine sl_affine_turn(double degrees) {
+sli_affine sli_affine_turn(double degrees) {
     double sine = sin(degrees * (pi / 180)), cosine = cos(degrees * (pi / 180));
     const double quarters = remainder(degrees / 90, 4);
     if (quarters == rint(quarters)) {
         sine = quarters == 1 ? 1 : quarters == -1 ? -1 : 0;
         cosine = quarters == 0 ? 1 : sine ? 0 : -1;
     }
-    return (sl_affine){.xx = cosine, .xy = -sine, .yx = sine, .yy = cosine};
+    return (sli_affine){.xx = cosine, .xy = -sine, .yx = sine, .yy = cosine};
 }
 
 /// A place in the map; what is too small to be used is 0.
-static bool place(const sl_pen *pen, sl_point point, sl_point *out) {
+static bool place(const sli_pen *pen, sl_point point, sl_point *out) {
     const sl_point at = apply(&pen->affine, point);
     out->x = fabs(at.x) < SL_COORDINATE_MIN ? 0 : at.x;
     out->y = fabs(at.y) < SL_COORDINATE_MIN ? 0 : at.y;
     return sl_coordinate_usable(out->x) && sl_coordinate_usable(out->y);
 }
 
-sl_status sl_pen_line(sl_pen *pen, sl_point to) {
+sl_status sli_pen_line(sli_pen *pen, sl_point to) {
     sl_point a, b;
     if (!place(pen, pen->at, &a) || !place(pen, to, &b))
         return sl_fail_at(pen->context, pen->name, pen->line,
@@ -70,7 +70,7 @@ sl_status sl_pen_line(sl_pen *pen, sl_point to) {
 }
 
 /// How far the map makes a vector at most.
-static double length_in_map(const sl_affine *affine, sl_point vector) {
+static double length_in_map(const sli_affine *affine, sl_point vector) {
     return hypot(affine->xx * vector.x + affine->xy * vector.y,
                  affine->yx * vector.x + affine->yy * vector.y);
 }
@@ -78,7 +78,7 @@ static double length_in_map(const sl_affine *affine, sl_point vector) {
 /// A chord over an angle s is r (1 - cos(s / 2)) from its circle. An ellipse is a circle of its
 /// greatest radius pressed together, and so are the distances; the two given radii are no less
 /// than that one when added up as the legs of a right angle.
-static int arc_chords(const sl_pen *pen, sl_point u, sl_point v, double sweep) {
+static int arc_chords(const sli_pen *pen, sl_point u, sl_point v, double sweep) {
     const double radius = hypot(length_in_map(&pen->affine, u), length_in_map(&pen->affine, v));
     double share = pen->tolerance > 0 ? pen->tolerance / radius : 0.005;
     if (!(share < 1)) share = 1;
@@ -86,8 +86,8 @@ static int arc_chords(const sl_pen *pen, sl_point u, sl_point v, double sweep) {
     return count >= 1 && count <= MOST_CHORDS ? (int)count : count > MOST_CHORDS ? MOST_CHORDS : 1;
 }
 
-sl_status sl_pen_arc(sl_pen *pen, sl_point centre, sl_point u, sl_point v, double sweep,
-                     sl_point to) {
+sl_status sli_pen_arc(sli_pen *pen, sl_point centre, sl_point u, sl_point v, double sweep,
+                      sl_point to) {
     const int count = arc_chords(pen, u, v, sweep);
     // A closed curve keeps an area.
     const int least = fabs(sweep) > 1.75 * pi ? 4 : 1;
@@ -95,15 +95,15 @@ sl_status sl_pen_arc(sl_pen *pen, sl_point centre, sl_point u, sl_point v, doubl
     for (int i = 1; i < chords; i++) {
         const double angle = sweep * i / chords;
         const double cosine = cos(angle), sine = sin(angle);
-        SL_TRY(sl_pen_line(pen, (sl_point){centre.x + cosine * u.x + sine * v.x,
-                                           centre.y + cosine * u.y + sine * v.y}));
+        SL_TRY(sli_pen_line(pen, (sl_point){centre.x + cosine * u.x + sine * v.x,
+                                            centre.y + cosine * u.y + sine * v.y}));
     }
-    return sl_pen_line(pen, to);
+    return sli_pen_line(pen, to);
 }
 
 /// n chords of even steps are no farther from the curve than max |B''| / (8 n²); for a cubic curve
 /// that second derivative is at most 6 times the larger second difference of its control points.
-static int cubic_chords(const sl_pen *pen, const sl_point p[4]) {
+static int cubic_chords(const sli_pen *pen, const sl_point p[4]) {
     double bend = 0, size = 0;
     for (int i = 0; i < 2; i++) {
         const sl_point second = {p[i].x - 2 * p[i + 1].x + p[i + 2].x,
@@ -119,17 +119,17 @@ static int cubic_chords(const sl_pen *pen, const sl_point p[4]) {
     return count >= 1 && count <= MOST_CHORDS ? (int)count : count > MOST_CHORDS ? MOST_CHORDS : 1;
 }
 
-sl_status sl_pen_cubic(sl_pen *pen, sl_point first, sl_point second, sl_point to) {
+sl_status sli_pen_cubic(sli_pen *pen, sl_point first, sl_point second, sl_point to) {
     const sl_point p[4] = {pen->at, first, second, to};
     const int chords = cubic_chords(pen, p);
     for (int i = 1; i < chords; i++) {
         const double t = (double)i / chords, s = 1 - t;
         const double w[4] = {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
-        SL_TRY(sl_pen_line(
+        SL_TRY(sli_pen_line(
             pen, (sl_point){w[0] * p[0].x + w[1] * p[1].x + w[2] * p[2].x + w[3] * p[3].x,
                             w[0] * p[0].y + w[1] * p[1].y + w[2] * p[2].y + w[3] * p[3].y}));
     }
-    return sl_pen_line(pen, to);
+    return sli_pen_line(pen, to);
 }
 
 // --- tiles
@@ -140,11 +140,11 @@ sl_status sl_pen_cubic(sl_pen *pen, sl_point first, sl_point second, sl_point to
 /// Tiles are counted from the first block of a grid; farther out they are on another grid.
 #define FARTHEST 1e9
 
-void sl_tiles_destroy(sl_context *context, sl_tiles *tiles) {
+void sli_tiles_destroy(sl_context *context, sli_tiles *tiles) {
     for (size_t i = 0; i < tiles->blocks.count; i++)
         sl_free(context, tiles->blocks.items[i].squares);
     sl_free(context, tiles->blocks.items);
-    *tiles = (sl_tiles){0};
+    *tiles = (sli_tiles){0};
 }
 
 /// Whether tiles of this size have corners of their own, up to `count` of them from `from` on, and
@@ -155,8 +155,8 @@ static bool can_be_told_apart(double from, double step, size_t count) {
     return step >= 1e-9 && farthest <= 1e15 && farthest / step <= 1e12;
 }
 
-sl_status sl_tiles_add(sl_context *context, sl_tiles *tiles, const char *name, sl_point corner,
-                       sl_point step, size_t columns, size_t rows, char **squares) {
+sl_status sli_tiles_add(sl_context *context, sli_tiles *tiles, const char *name, sl_point corner,
+                        sl_point step, size_t columns, size_t rows, char **squares) {
     if (columns > MOST_SQUARES / rows)
         return sl_fail_at(context, name, 0, "%zu x %zu tiles: more than 2^26", columns, rows);
     if (!can_be_told_apart(corner.x, step.x, columns) || !can_be_told_apart(corner.y, step.y, rows))
@@ -167,14 +167,14 @@ sl_status sl_tiles_add(sl_context *context, sl_tiles *tiles, const char *name, s
     char *open = sl_alloc_array(context, rows, columns);
     if (!open) return SL_NO_MEMORY;
     memset(open, '.', rows * columns);
-    tiles->blocks.items[tiles->blocks.count++] = (sl_tile_block){
+    tiles->blocks.items[tiles->blocks.count++] = (sli_tile_block){
         .corner = corner, .step = step, .columns = columns, .rows = rows, .squares = open};
     *squares = open;
     return SL_OK;
 }
 
 /// Where a block lies on the grid of the first one, in tiles; false where it is on another.
-static bool place_on(const sl_tile_block *first, const sl_tile_block *block, double *column,
+static bool place_on(const sli_tile_block *first, const sli_tile_block *block, double *column,
                      double *row) {
     if (block->step.x != first->step.x || block->step.y != first->step.y) return false;
     *column = (block->corner.x - first->corner.x) / first->step.x;
@@ -185,14 +185,14 @@ static bool place_on(const sl_tile_block *first, const sl_tile_block *block, dou
 
 /// The blocks of one grid: which they are, and the tiles that they span.
 typedef struct span {
-    const sl_tile_block *first;
+    const sli_tile_block *first;
     double left, top, right, bottom;
 } span;
 
-static span find_span(const sl_tiles *tiles, const sl_tile_block *first) {
+static span find_span(const sli_tiles *tiles, const sli_tile_block *first) {
     span all = {.first = first};
     for (size_t i = 0; i < tiles->blocks.count; i++) {
-        const sl_tile_block *block = &tiles->blocks.items[i];
+        const sli_tile_block *block = &tiles->blocks.items[i];
         double column, row;
         if (block->done || !place_on(first, block, &column, &row)) continue;
         all.left = fmin(all.left, column);
@@ -204,7 +204,7 @@ static span find_span(const sl_tiles *tiles, const sl_tile_block *first) {
 }
 
 /// Puts one kind of square of a block in its place.
-static void put(const sl_tile_block *block, size_t column, size_t row, char kind, sl_grid *grid) {
+static void put(const sli_tile_block *block, size_t column, size_t row, char kind, sli_grid *grid) {
     const size_t width = grid->rows[0].length;
     for (size_t y = 0; y < block->rows; y++) {
         const char *from = block->squares + y * block->columns;
@@ -214,11 +214,11 @@ static void put(const sl_tile_block *block, size_t column, size_t row, char kind
     }
 }
 
-static void put_all(sl_tiles *tiles, const span *all, char kind, sl_grid *grid) {
+static void put_all(sli_tiles *tiles, const span *all, char kind, sli_grid *grid) {
     // The first block is what the others are held against: it is done last.
     const size_t first = (size_t)(all->first - tiles->blocks.items);
     for (size_t i = tiles->blocks.count; i-- > first;) {
-        sl_tile_block *block = &tiles->blocks.items[i];
+        sli_tile_block *block = &tiles->blocks.items[i];
         double column, row;
         if (block->done || !place_on(all->first, block, &column, &row)) continue;
         put(block, (size_t)(column - all->left), (size_t)(row - all->top), kind, grid);
@@ -226,8 +226,8 @@ static void put_all(sl_tiles *tiles, const span *all, char kind, sl_grid *grid) 
     }
 }
 
-static sl_status add_grid(sl_context *context, sl_tiles *tiles, const char *name, const span *all,
-                          const sl_tiles_options *options, bool closed, sl_map *map) {
+static sl_status add_grid(sl_context *context, sli_tiles *tiles, const char *name, const span *all,
+                          const sli_tiles_options *options, bool closed, sl_map *map) {
     const double width = all->right - all->left, height = all->bottom - all->top;
     if (!can_be_told_apart(options->top, all->first->step.y, 0))
         return sl_fail_at(context, name, 0, "its tiles are out of range: its lower edge is at %g",
@@ -238,8 +238,8 @@ static sl_status add_grid(sl_context *context, sl_tiles *tiles, const char *name
             "its tiles are spread over %.0f x %.0f squares: more than 2^26, or 2^20 on a side",
             width, height);
     const sl_point step = all->first->step, corner = all->first->corner;
-    sl_grid grid;
-    SL_TRY(sl_grid_create(context, (size_t)width, (size_t)height, &grid));
+    sli_grid grid;
+    SL_TRY(sli_grid_create(context, (size_t)width, (size_t)height, &grid));
     if (options->solid_between) {
         memset(grid.squares, '#', (size_t)width * (size_t)height);
         put_all(tiles, all, '.', &grid);
@@ -249,13 +249,13 @@ static sl_status add_grid(sl_context *context, sl_tiles *tiles, const char *name
     grid.origin =
         (sl_point){corner.x + all->left * step.x, options->top - (corner.y + all->bottom * step.y)};
     grid.open_outside = !closed;
-    const sl_status status = sl_grid_add_walls(context, &grid, map);
-    sl_grid_destroy(context, &grid);
+    const sl_status status = sli_grid_add_walls(context, &grid, map);
+    sli_grid_destroy(context, &grid);
     return status;
 }
 
-sl_status sl_tiles_add_walls(sl_context *context, sl_tiles *tiles, const char *name,
-                             const sl_tiles_options *options, sl_map *map, size_t *grids) {
+sl_status sli_tiles_add_walls(sl_context *context, sli_tiles *tiles, const char *name,
+                              const sli_tiles_options *options, sl_map *map, size_t *grids) {
     size_t count = 0;
     for (size_t i = 0; i < tiles->blocks.count; i++) {
         if (tiles->blocks.items[i].done) continue;

@@ -40,15 +40,15 @@ static void svg_skip(svg_text *text) {
     skip_space(text);
 }
 
-static sl_status fail_expected(const sl_pen *pen, const svg_text *text, const char *expected) {
-    const sl_word rest = {text->at, (size_t)(text->end - text->at)};
+static sl_status fail_expected(const sli_pen *pen, const svg_text *text, const char *expected) {
+    const sli_word rest = {text->at, (size_t)(text->end - text->at)};
     return sl_fail_at(pen->context, pen->name, pen->line, "%s: expected %s, found %s%s%s",
                       text->what, expected, rest.length ? "'" : "",
-                      rest.length ? sl_show(rest).text : "the end", rest.length ? "'" : "");
+                      rest.length ? sli_show(rest).text : "the end", rest.length ? "'" : "");
 }
 
 /// The next number. SL_BAD_INPUT, at the pen's line, where there is none.
-static sl_status svg_number(const sl_pen *pen, svg_text *text, double *value) {
+static sl_status svg_number(const sli_pen *pen, svg_text *text, double *value) {
     svg_skip(text);
     const size_t length = sl_number_length(text->at, (size_t)(text->end - text->at));
     if (!length || !sl_number_read(text->at, length, value) || !isfinite(*value))
@@ -59,41 +59,41 @@ static sl_status svg_number(const sl_pen *pen, svg_text *text, double *value) {
 
 // --- transforms
 
-static sl_affine skewed(bool x, double degrees) {
+static sli_affine skewed(bool x, double degrees) {
     const double slope = tan(degrees * (pi / 180));
-    return (sl_affine){.xx = 1, .xy = x ? slope : 0, .yx = x ? 0 : slope, .yy = 1};
+    return (sli_affine){.xx = 1, .xy = x ? slope : 0, .yx = x ? 0 : slope, .yy = 1};
 }
 
-static sl_affine moved(double x, double y) {
-    return (sl_affine){.xx = 1, .x0 = x, .yy = 1, .y0 = y};
+static sli_affine moved(double x, double y) {
+    return (sli_affine){.xx = 1, .x0 = x, .yy = 1, .y0 = y};
 }
 
 /// What a transform's name and numbers mean; false where there is none of that name and number.
-static bool make_transform(sl_word name, const double n[6], int count, sl_affine *out) {
-    if (sl_word_is(name, "matrix") && count == 6)
-        *out = (sl_affine){n[0], n[2], n[4], n[1], n[3], n[5]};
-    else if (sl_word_is(name, "translate") && (count == 1 || count == 2))
+static bool make_transform(sli_word name, const double n[6], int count, sli_affine *out) {
+    if (sli_word_is(name, "matrix") && count == 6)
+        *out = (sli_affine){n[0], n[2], n[4], n[1], n[3], n[5]};
+    else if (sli_word_is(name, "translate") && (count == 1 || count == 2))
         *out = moved(n[0], count == 2 ? n[1] : 0);
-    else if (sl_word_is(name, "scale") && (count == 1 || count == 2))
-        *out = (sl_affine){.xx = n[0], .yy = count == 2 ? n[1] : n[0]};
-    else if (sl_word_is(name, "rotate") && (count == 1 || count == 3))
-        *out =
-            sl_affine_after(moved(count == 3 ? n[1] : 0, count == 3 ? n[2] : 0),
-                            sl_affine_after(sl_affine_turn(n[0]),
-                                            moved(count == 3 ? -n[1] : 0, count == 3 ? -n[2] : 0)));
-    else if ((sl_word_is(name, "skewX") || sl_word_is(name, "skewY")) && count == 1)
-        *out = skewed(sl_word_is(name, "skewX"), n[0]);
+    else if (sli_word_is(name, "scale") && (count == 1 || count == 2))
+        *out = (sli_affine){.xx = n[0], .yy = count == 2 ? n[1] : n[0]};
+    else if (sli_word_is(name, "rotate") && (count == 1 || count == 3))
+        *out = sli_affine_after(
+            moved(count == 3 ? n[1] : 0, count == 3 ? n[2] : 0),
+            sli_affine_after(sli_affine_turn(n[0]),
+                             moved(count == 3 ? -n[1] : 0, count == 3 ? -n[2] : 0)));
+    else if ((sli_word_is(name, "skewX") || sli_word_is(name, "skewY")) && count == 1)
+        *out = skewed(sli_word_is(name, "skewX"), n[0]);
     else
         return false;
     return true;
 }
 
 /// Reads a list of transforms: matrix, translate, scale, rotate, skewX, skewY (SVG 1.1, 7.6).
-static sl_status svg_transform(const sl_pen *pen, const char *data, sl_affine *affine) {
+static sl_status svg_transform(const sli_pen *pen, const char *data, sli_affine *affine) {
     svg_text text = svg_text_of(data, "transform");
-    *affine = SL_AFFINE_NONE;
+    *affine = SLI_AFFINE_NONE;
     for (svg_skip(&text); text.at < text.end; svg_skip(&text)) {
-        sl_word name = {text.at, 0};
+        sli_word name = {text.at, 0};
         while (text.at < text.end && ((*text.at | 0x20) >= 'a' && (*text.at | 0x20) <= 'z'))
             text.at++, name.length++;
         skip_space(&text);
@@ -107,12 +107,12 @@ static sl_status svg_transform(const sl_pen *pen, const char *data, sl_affine *a
         }
         if (text.at == text.end) return fail_expected(pen, &text, "')'");
         text.at++;
-        sl_affine one;
+        sli_affine one;
         if (!make_transform(name, numbers, count, &one))
             return sl_fail_at(pen->context, pen->name, pen->line,
-                              "transform: there is no '%s' of %d numbers", sl_show(name).text,
+                              "transform: there is no '%s' of %d numbers", sli_show(name).text,
                               count);
-        *affine = sl_affine_after(*affine, one);
+        *affine = sli_affine_after(*affine, one);
     }
     return SL_OK;
 }
@@ -120,7 +120,7 @@ static sl_status svg_transform(const sl_pen *pen, const char *data, sl_affine *a
 // --- paths
 
 typedef struct path {
-    sl_pen *pen;
+    sli_pen *pen;
     svg_text text;
     sl_point start;   ///< of the subpath
     sl_point control; ///< the last curve's, which smooth ones mirror
@@ -157,7 +157,7 @@ static sl_status draw_cubic(path *p, bool smooth, bool relative) {
     SL_TRY(read_point(p, relative, &second));
     SL_TRY(read_point(p, relative, &to));
     p->control = second;
-    return sl_pen_cubic(p->pen, first, second, to);
+    return sli_pen_cubic(p->pen, first, second, to);
 }
 
 static sl_status draw_quadratic(path *p, bool smooth, bool relative) {
@@ -169,7 +169,7 @@ static sl_status draw_quadratic(path *p, bool smooth, bool relative) {
     const sl_point first = {from.x + (control.x - from.x) * 2 / 3,
                             from.y + (control.y - from.y) * 2 / 3};
     const sl_point second = {to.x + (control.x - to.x) * 2 / 3, to.y + (control.y - to.y) * 2 / 3};
-    return sl_pen_cubic(p->pen, first, second, to);
+    return sli_pen_cubic(p->pen, first, second, to);
 }
 
 /// From two ends and radii to a centre (SVG 1.1, F.6.5), in the frame where the ellipse is the unit
@@ -178,9 +178,9 @@ static sl_status draw_ellipse_arc(path *p, sl_point radii, double turn, bool lar
                                   sl_point to) {
     const sl_point from = p->pen->at;
     if (radii.x == 0 || radii.y == 0 || (from.x == to.x && from.y == to.y))
-        return sl_pen_line(p->pen, to);
+        return sli_pen_line(p->pen, to);
     double rx = fabs(radii.x), ry = fabs(radii.y);
-    const sl_affine along = sl_affine_turn(turn);
+    const sli_affine along = sli_affine_turn(turn);
     const double dx = (from.x - to.x) / 2, dy = (from.y - to.y) / 2;
     double x = (along.xx * dx + along.yx * dy) / rx, y = (along.xy * dx + along.yy * dy) / ry;
     const double half = hypot(x, y);
@@ -201,8 +201,8 @@ static sl_status draw_ellipse_arc(path *p, sl_point radii, double turn, bool lar
     const sl_point centre = {(from.x + to.x) / 2 + cx * u.x + cy * v.x,
                              (from.y + to.y) / 2 + cx * u.y + cy * v.y};
     const double c = cos(begin), s = sin(begin);
-    return sl_pen_arc(p->pen, centre, (sl_point){c * u.x + s * v.x, c * u.y + s * v.y},
-                      (sl_point){c * v.x - s * u.x, c * v.y - s * u.y}, angle, to);
+    return sli_pen_arc(p->pen, centre, (sl_point){c * u.x + s * v.x, c * u.y + s * v.y},
+                       (sl_point){c * v.x - s * u.x, c * v.y - s * u.y}, angle, to);
 }
 
 static sl_status draw_arc(path *p, bool relative) {
@@ -222,14 +222,14 @@ static sl_status draw_straight(path *p, char command, bool relative) {
     double value;
     if (command == 'L') {
         SL_TRY(read_point(p, relative, &to));
-        return sl_pen_line(p->pen, to);
+        return sli_pen_line(p->pen, to);
     }
     SL_TRY(svg_number(p->pen, &p->text, &value));
     if (command == 'H')
         to.x = relative ? to.x + value : value;
     else
         to.y = relative ? to.y + value : value;
-    return sl_pen_line(p->pen, to);
+    return sli_pen_line(p->pen, to);
 }
 
 static sl_status draw_command(path *p, char command, bool relative) {
@@ -241,7 +241,7 @@ static sl_status draw_command(path *p, char command, bool relative) {
     case 'Z': {
         const sl_point at = p->pen->at;
         const bool there = at.x == p->start.x && at.y == p->start.y;
-        return there ? SL_OK : sl_pen_line(p->pen, p->start);
+        return there ? SL_OK : sli_pen_line(p->pen, p->start);
     }
     case 'C':
     case 'S':
@@ -257,7 +257,7 @@ static sl_status draw_command(path *p, char command, bool relative) {
 }
 
 /// Draws a path's data, all commands (SVG 1.1, 8.3).
-static sl_status svg_path(sl_pen *pen, const char *data) {
+static sl_status svg_path(sli_pen *pen, const char *data) {
     path p = {.pen = pen, .text = svg_text_of(data, "path data")};
     char command = 0;
     pen->at = (sl_point){0, 0};
@@ -287,13 +287,13 @@ typedef struct svg {
     sl_context *context;
     const sl_import_options *options;
     xmlDoc *document;
-    sl_pen pen;
+    sli_pen pen;
     size_t work, shapes, hidden, other;
 } svg;
 
 /// Where an element stands.
 typedef struct place {
-    sl_affine affine;
+    sli_affine affine;
     bool taken; ///< on a layer that is asked for
     unsigned depth;
 } place;
@@ -309,44 +309,44 @@ static sl_status read_length(svg *s, xmlNode *node, const char *name, double *va
         double size;
     } units[] = {{"", 1},           {"px", 1},         {"in", 96},      {"cm", 96 / 2.54},
                  {"mm", 96 / 25.4}, {"pt", 96.0 / 72}, {"pc", 96.0 / 6}};
-    char *text = sl_xml_attribute(node, name);
+    char *text = sli_xml_attribute(node, name);
     if (!text) return SL_OK;
     svg_text scan = svg_text_of(text, name);
     double number = 0;
     sl_status status = svg_number(&s->pen, &scan, &number);
     if (status == SL_OK) {
         size_t length = strcspn(scan.at, " \t\r\n"), i = 0;
-        const sl_word unit = {scan.at, length};
-        while (i < sizeof units / sizeof *units && !sl_word_is(unit, units[i].name)) i++;
+        const sli_word unit = {scan.at, length};
+        while (i < sizeof units / sizeof *units && !sli_word_is(unit, units[i].name)) i++;
         if (i < sizeof units / sizeof *units)
             *value = number * units[i].size;
         else
             status = sl_fail_at(s->context, s->pen.name, s->pen.line,
                                 "%s: the unit '%s' is not known here (px, in, cm, mm, pt, pc are)",
-                                name, sl_show(unit).text);
+                                name, sli_show(unit).text);
     }
-    sl_xml_free(text);
+    sli_xml_free(text);
     return status;
 }
 
 /// A share of a window that a map has not.
 static bool has_percent(xmlNode *node, const char *name) {
-    char *text = sl_xml_attribute(node, name);
+    char *text = sli_xml_attribute(node, name);
     const bool percent = text && strchr(text, '%');
-    sl_xml_free(text);
+    sli_xml_free(text);
     return percent;
 }
 
 static bool attribute_is(xmlNode *node, const char *name, const char *value) {
-    char *text = sl_xml_attribute(node, name);
+    char *text = sli_xml_attribute(node, name);
     const bool same = text && strcmp(text, value) == 0;
-    sl_xml_free(text);
+    sli_xml_free(text);
     return same;
 }
 
 /// Whether the element's style says so; blanks do not count.
 static bool style_has(xmlNode *node, const char *property, const char *value) {
-    char *text = sl_xml_attribute(node, "style");
+    char *text = sli_xml_attribute(node, "style");
     if (!text) return false;
     size_t length = 0;
     for (const char *from = text; *from; from++)
@@ -359,7 +359,7 @@ static bool style_has(xmlNode *node, const char *property, const char *value) {
                 strcspn(at + name + 1, ";!") == strlen(value) &&
                 strncmp(at + name + 1, value, strlen(value)) == 0;
     }
-    sl_xml_free(text);
+    sli_xml_free(text);
     return found;
 }
 
@@ -369,22 +369,22 @@ static bool is_hidden(xmlNode *node) {
 }
 
 static bool names_layer(const char *list, const char *name) {
-    return name && sl_layers_have(list, name);
+    return name && sli_layers_have(list, name);
 }
 
 /// Whether the group's id or label is among the layers asked for.
 static bool is_layer(const svg *s, xmlNode *node) {
-    char *id = sl_xml_attribute(node, "id"), *label = sl_xml_attribute(node, "label");
+    char *id = sli_xml_attribute(node, "id"), *label = sli_xml_attribute(node, "label");
     const bool is = names_layer(s->options->layers, id) || names_layer(s->options->layers, label);
-    sl_xml_free(id);
-    sl_xml_free(label);
+    sli_xml_free(id);
+    sli_xml_free(label);
     return is;
 }
 
 // --- shapes
 
 static sl_status draw_points(svg *s, xmlNode *node, bool closed) {
-    char *data = sl_xml_attribute(node, "points");
+    char *data = sli_xml_attribute(node, "points");
     if (!data) return SL_OK;
     svg_text text = svg_text_of(data, "points");
     sl_point first = {0, 0};
@@ -396,12 +396,12 @@ static sl_status draw_points(svg *s, xmlNode *node, bool closed) {
         if (status == SL_OK) status = svg_number(&s->pen, &text, &to.y);
         if (status != SL_OK) break;
         if (count++)
-            status = sl_pen_line(&s->pen, to);
+            status = sli_pen_line(&s->pen, to);
         else
             first = s->pen.at = to;
     }
-    if (status == SL_OK && closed && count > 2) status = sl_pen_line(&s->pen, first);
-    sl_xml_free(data);
+    if (status == SL_OK && closed && count > 2) status = sli_pen_line(&s->pen, first);
+    sli_xml_free(data);
     return status;
 }
 
@@ -412,7 +412,7 @@ static sl_status draw_line(svg *s, xmlNode *node) {
     SL_TRY(read_length(s, node, "y1", &s->pen.at.y));
     SL_TRY(read_length(s, node, "x2", &to.x));
     SL_TRY(read_length(s, node, "y2", &to.y));
-    return sl_pen_line(&s->pen, to);
+    return sli_pen_line(&s->pen, to);
 }
 
 /// A quarter of an ellipse at a rectangle's corner.
@@ -420,7 +420,7 @@ static sl_status draw_corner(svg *s, sl_point centre, sl_point to) {
     const sl_point from = s->pen.at;
     const sl_point u = {from.x - centre.x, from.y - centre.y};
     const sl_point v = {to.x - centre.x, to.y - centre.y};
-    return sl_pen_arc(&s->pen, centre, u, v, pi / 2, to);
+    return sli_pen_arc(&s->pen, centre, u, v, pi / 2, to);
 }
 
 static sl_status draw_rect(svg *s, xmlNode *node) {
@@ -445,7 +445,7 @@ static sl_status draw_rect(svg *s, xmlNode *node) {
     s->pen.at = ends[0];
     for (int side = 0; side < 4; side++) {
         const sl_point next = ends[(2 * side + 2) % 8];
-        SL_TRY(sl_pen_line(&s->pen, ends[2 * side + 1]));
+        SL_TRY(sli_pen_line(&s->pen, ends[2 * side + 1]));
         const sl_point centre = {side == 0 || side == 1 ? high.x - rx : low.x + rx,
                                  side == 1 || side == 2 ? high.y - ry : low.y + ry};
         if (round) SL_TRY(draw_corner(s, centre, next));
@@ -462,15 +462,15 @@ static sl_status draw_round(svg *s, xmlNode *node, bool circle) {
     if (!circle) SL_TRY(read_length(s, node, "ry", &radii.y));
     if (!(radii.x > 0 && radii.y > 0)) return SL_OK;
     s->pen.at = (sl_point){centre.x + radii.x, centre.y};
-    return sl_pen_arc(&s->pen, centre, (sl_point){radii.x, 0}, (sl_point){0, radii.y}, 2 * pi,
-                      s->pen.at);
+    return sli_pen_arc(&s->pen, centre, (sl_point){radii.x, 0}, (sl_point){0, radii.y}, 2 * pi,
+                       s->pen.at);
 }
 
 static sl_status draw_path(svg *s, xmlNode *node) {
-    char *data = sl_xml_attribute(node, "d");
+    char *data = sli_xml_attribute(node, "d");
     if (!data) return SL_OK;
     const sl_status status = svg_path(&s->pen, data);
-    sl_xml_free(data);
+    sli_xml_free(data);
     return status;
 }
 
@@ -480,7 +480,7 @@ static shape shape_of(xmlNode *node) {
     static const char *const names[] = {"line",   "polyline", "polygon", "rect",
                                         "circle", "ellipse",  "path"};
     for (int i = 0; i < NO_SHAPE; i++)
-        if (sl_xml_is(node, names[i])) return (shape)i;
+        if (sli_xml_is(node, names[i])) return (shape)i;
     return NO_SHAPE;
 }
 
@@ -513,7 +513,7 @@ static sl_status draw_children(svg *s, xmlNode *node, place at) {
 /// The box of a drawing, as its attribute viewBox or its size has it; no box where `box[2]` is 0.
 static sl_status read_view_box(svg *s, xmlNode *node, double box[4]) {
     memset(box, 0, 4 * sizeof *box);
-    char *data = sl_xml_attribute(node, "viewBox");
+    char *data = sli_xml_attribute(node, "viewBox");
     if (!data) return SL_OK;
     svg_text text = svg_text_of(data, "viewBox");
     sl_status status = SL_OK;
@@ -521,12 +521,12 @@ static sl_status read_view_box(svg *s, xmlNode *node, double box[4]) {
     if (status == SL_OK && !(box[2] > 0 && box[3] > 0))
         status = sl_fail_at(s->context, s->pen.name, s->pen.line,
                             "viewBox: its width and height must be positive");
-    sl_xml_free(data);
+    sli_xml_free(data);
     return status;
 }
 
 /// A drawing within the drawing: its box is fitted into its place, in the middle and not stretched.
-static sl_status enter_drawing(svg *s, xmlNode *node, sl_affine *inner) {
+static sl_status enter_drawing(svg *s, xmlNode *node, sli_affine *inner) {
     double x = 0, y = 0, box[4];
     SL_TRY(read_view_box(s, node, box));
     double width = box[2], height = box[3];
@@ -536,7 +536,7 @@ static sl_status enter_drawing(svg *s, xmlNode *node, sl_affine *inner) {
     if (!has_percent(node, "height")) SL_TRY(read_length(s, node, "height", &height));
     const double scale = box[2] > 0 ? fmin(width / box[2], height / box[3]) : 1;
     *inner =
-        (sl_affine){.xx = scale, .x0 = x - scale * box[0], .yy = scale, .y0 = y - scale * box[1]};
+        (sli_affine){.xx = scale, .x0 = x - scale * box[0], .yy = scale, .y0 = y - scale * box[1]};
     if (box[2] > 0) {
         inner->x0 += (width - scale * box[2]) / 2;
         inner->y0 += (height - scale * box[3]) / 2;
@@ -558,18 +558,18 @@ static sl_status draw_use(svg *s, xmlNode *node, place at) {
     double x = 0, y = 0;
     SL_TRY(read_length(s, node, "x", &x));
     SL_TRY(read_length(s, node, "y", &y));
-    char *link = sl_xml_attribute(node, "href");
+    char *link = sli_xml_attribute(node, "href");
     xmlNode *used =
         link && *link == '#' ? find_id(xmlDocGetRootElement(s->document), link + 1) : NULL;
     const sl_status status =
         used ? SL_OK
              : sl_fail_at(s->context, s->pen.name, s->pen.line, "use: there is no element '%s'",
-                          link ? sl_show((sl_word){link, strlen(link)}).text : "");
-    sl_xml_free(link);
+                          link ? sli_show((sli_word){link, strlen(link)}).text : "");
+    sli_xml_free(link);
     SL_TRY(status);
-    at.affine = sl_affine_after(at.affine, (sl_affine){.xx = 1, .x0 = x, .yy = 1, .y0 = y});
+    at.affine = sli_affine_after(at.affine, (sli_affine){.xx = 1, .x0 = x, .yy = 1, .y0 = y});
     at.depth++;
-    return sl_xml_is(used, "symbol") ? draw_children(s, used, at) : draw_element(s, used, at);
+    return sli_xml_is(used, "symbol") ? draw_children(s, used, at) : draw_element(s, used, at);
 }
 
 static sl_status draw_group(svg *s, xmlNode *node, place at) {
@@ -577,29 +577,29 @@ static sl_status draw_group(svg *s, xmlNode *node, place at) {
         return sl_fail_at(s->context, s->pen.name, s->pen.line,
                           "elements within elements, more than %d: does a use hold itself?",
                           MOST_DEPTH);
-    if (sl_xml_is(node, "use")) return draw_use(s, node, at);
+    if (sli_xml_is(node, "use")) return draw_use(s, node, at);
     at.depth++;
-    if (sl_xml_is(node, "svg")) {
-        sl_affine inner;
+    if (sli_xml_is(node, "svg")) {
+        sli_affine inner;
         SL_TRY(enter_drawing(s, node, &inner));
-        at.affine = sl_affine_after(at.affine, inner);
+        at.affine = sli_affine_after(at.affine, inner);
     }
     return draw_children(s, node, at);
 }
 
 static bool is_group(xmlNode *node) {
-    return sl_xml_is(node, "g") || sl_xml_is(node, "a") || sl_xml_is(node, "svg") ||
-           sl_xml_is(node, "switch") || sl_xml_is(node, "use");
+    return sli_xml_is(node, "g") || sli_xml_is(node, "a") || sli_xml_is(node, "svg") ||
+           sli_xml_is(node, "switch") || sli_xml_is(node, "use");
 }
 
 /// Text, pictures and what is drawn only where it is used give no walls; the former are counted.
 static void pass_over(svg *s, xmlNode *node) {
     s->other +=
-        sl_xml_is(node, "text") || sl_xml_is(node, "image") || sl_xml_is(node, "foreignObject");
+        sli_xml_is(node, "text") || sli_xml_is(node, "image") || sli_xml_is(node, "foreignObject");
 }
 
 static sl_status draw_element(svg *s, xmlNode *node, place at) {
-    s->pen.line = sl_xml_line(node);
+    s->pen.line = sli_xml_line(node);
     if (++s->work > MOST_WORK)
         return sl_fail_at(s->context, s->pen.name, s->pen.line,
                           "the drawing's uses give more than %zu elements", MOST_WORK);
@@ -613,13 +613,13 @@ static sl_status draw_element(svg *s, xmlNode *node, place at) {
         s->hidden++;
         return SL_OK;
     }
-    char *transform = sl_xml_attribute(node, "transform");
+    char *transform = sli_xml_attribute(node, "transform");
     if (transform) {
-        sl_affine own;
+        sli_affine own;
         const sl_status status = svg_transform(&s->pen, transform, &own);
-        sl_xml_free(transform);
+        sli_xml_free(transform);
         SL_TRY(status);
-        at.affine = sl_affine_after(at.affine, own);
+        at.affine = sli_affine_after(at.affine, own);
     }
     at.taken |= s->options->layers && is_layer(s, node);
     if (kind == NO_SHAPE) return draw_group(s, node, at);
@@ -634,7 +634,7 @@ static sl_status draw_element(svg *s, xmlNode *node, place at) {
 /// is at y 0.
 static sl_status draw_root(svg *s, xmlNode *root) {
     double box[4], height = 0;
-    s->pen.line = sl_xml_line(root);
+    s->pen.line = sli_xml_line(root);
     SL_TRY(read_view_box(s, root, box));
     if (box[2] > 0)
         height = box[1] + box[3];
@@ -656,14 +656,14 @@ sl_status sl_map_read_svg(sl_context *context, const char *name, const char *tex
         .context = context,
         .options = options,
         .pen = {.context = context, .name = name, .map = &read, .tolerance = options->tolerance}};
-    SL_TRY(sl_xml_read(context, name, text, size, &s.document));
+    SL_TRY(sli_xml_read(context, name, text, size, &s.document));
     xmlNode *root = xmlDocGetRootElement(s.document);
     const sl_status status =
-        sl_xml_is(root, "svg")
+        sli_xml_is(root, "svg")
             ? draw_root(&s, root)
             : sl_fail_at(
-                  context, name, sl_xml_line(root), "expected an svg element, found '%s'",
-                  sl_show((sl_word){(const char *)root->name, strlen((const char *)root->name)})
+                  context, name, sli_xml_line(root), "expected an svg element, found '%s'",
+                  sli_show((sli_word){(const char *)root->name, strlen((const char *)root->name)})
                       .text);
     xmlFreeDoc(s.document);
     if (status == SL_OK)

@@ -22,27 +22,27 @@ typedef struct uvtt {
 static const char *const layer_names[] = {"line_of_sight", "objects_line_of_sight", "portals"};
 enum { LAYER_COUNT = sizeof layer_names / sizeof *layer_names };
 
-static sl_status read_point(const uvtt *reader, const sl_json *at, sl_point *point) {
-    SL_TRY(sl_json_object(at));
-    const sl_json x = sl_json_member(at, "x"), y = sl_json_member(at, "y");
+static sl_status read_point(const uvtt *reader, const sli_json *at, sl_point *point) {
+    SL_TRY(sli_json_object(at));
+    const sli_json x = sli_json_member(at, "x"), y = sli_json_member(at, "y");
     sl_point read = {0};
-    SL_TRY(sl_json_number(&x, &read.x));
-    SL_TRY(sl_json_number(&y, &read.y));
+    SL_TRY(sli_json_number(&x, &read.x));
+    SL_TRY(sli_json_number(&y, &read.y));
     read.y = reader->top - read.y;
-    if (!sl_coordinate_usable(read.y)) return sl_json_fail(&y, "out of range once y points up");
+    if (!sl_coordinate_usable(read.y)) return sli_json_fail(&y, "out of range once y points up");
     *point = read;
     return SL_OK;
 }
 
-static sl_status read_polyline(uvtt *reader, const sl_json *line) {
+static sl_status read_polyline(uvtt *reader, const sli_json *line) {
     size_t count;
-    SL_TRY(sl_json_array(line, &count));
+    SL_TRY(sli_json_array(line, &count));
     sl_point before = {0};
     for (size_t i = 0; i < count; i++) {
-        const sl_json item = sl_json_item(line, i);
+        const sli_json item = sli_json_item(line, i);
         sl_point point;
         SL_TRY(read_point(reader, &item, &point));
-        if (i && !sl_same_point(before, point)) {
+        if (i && !sli_same_point(before, point)) {
             SL_TRY(sl_map_add_wall(reader->context, reader->map, before, point, 0));
             reader->walls++;
         } else if (i) {
@@ -53,19 +53,19 @@ static sl_status read_polyline(uvtt *reader, const sl_json *line) {
     return SL_OK;
 }
 
-static sl_status read_polylines(uvtt *reader, const sl_json *lines) {
+static sl_status read_polylines(uvtt *reader, const sli_json *lines) {
     size_t count;
-    SL_TRY(sl_json_array(lines, &count));
+    SL_TRY(sli_json_array(lines, &count));
     for (size_t i = 0; i < count; i++) {
         SL_TRY(sl_check_cancelled(reader->context));
-        const sl_json line = sl_json_item(lines, i);
+        const sli_json line = sli_json_item(lines, i);
         SL_TRY(read_polyline(reader, &line));
     }
     return SL_OK;
 }
 
 static sl_status add_portal(uvtt *reader, sl_segment at, bool open) {
-    if (sl_same_point(at.a, at.b)) {
+    if (sli_same_point(at.a, at.b)) {
         reader->points++;
         return SL_OK;
     }
@@ -77,24 +77,24 @@ static sl_status add_portal(uvtt *reader, sl_segment at, bool open) {
     return sl_map_add_door(reader->context, reader->map, name, at, open, 0);
 }
 
-static sl_status read_portals(uvtt *reader, const sl_json *portals) {
+static sl_status read_portals(uvtt *reader, const sli_json *portals) {
     size_t count;
-    SL_TRY(sl_json_array(portals, &count));
+    SL_TRY(sli_json_array(portals, &count));
     for (size_t i = 0; i < count; i++) {
-        const sl_json portal = sl_json_item(portals, i);
-        SL_TRY(sl_json_object(&portal));
-        const sl_json bounds = sl_json_member(&portal, "bounds");
-        const sl_json closed = sl_json_member(&portal, "closed");
+        const sli_json portal = sli_json_item(portals, i);
+        SL_TRY(sli_json_object(&portal));
+        const sli_json bounds = sli_json_member(&portal, "bounds");
+        const sli_json closed = sli_json_member(&portal, "closed");
         size_t ends;
-        SL_TRY(sl_json_array(&bounds, &ends));
-        if (ends != 2) return sl_json_fail(&bounds, "a portal has 2 ends, this one %zu", ends);
-        const sl_json from = sl_json_item(&bounds, 0), to = sl_json_item(&bounds, 1);
+        SL_TRY(sli_json_array(&bounds, &ends));
+        if (ends != 2) return sli_json_fail(&bounds, "a portal has 2 ends, this one %zu", ends);
+        const sli_json from = sli_json_item(&bounds, 0), to = sli_json_item(&bounds, 1);
         sl_segment at;
         SL_TRY(read_point(reader, &from, &at.a));
         SL_TRY(read_point(reader, &to, &at.b));
         bool said;
-        const bool is_closed = sl_json_true(&closed, &said);
-        if (closed.value && !said) return sl_json_fail(&closed, "expected true or false");
+        const bool is_closed = sli_json_true(&closed, &said);
+        if (closed.value && !said) return sli_json_fail(&closed, "expected true or false");
         // A portal that does not say so is shut, as in the programs that draw it.
         SL_TRY(add_portal(reader, at, closed.value && !is_closed));
     }
@@ -102,49 +102,49 @@ static sl_status read_portals(uvtt *reader, const sl_json *portals) {
 }
 
 /// The lower edge of the map is y 0: its origin and its size say where that is.
-static sl_status read_size(uvtt *reader, const sl_json *root) {
-    const sl_json resolution = sl_json_member(root, "resolution");
-    SL_TRY(sl_json_object(&resolution));
-    const sl_json size = sl_json_member(&resolution, "map_size");
-    const sl_json origin = sl_json_member(&resolution, "map_origin");
-    const sl_json height = sl_json_member(&size, "y"), y = sl_json_member(&origin, "y");
+static sl_status read_size(uvtt *reader, const sli_json *root) {
+    const sli_json resolution = sli_json_member(root, "resolution");
+    SL_TRY(sli_json_object(&resolution));
+    const sli_json size = sli_json_member(&resolution, "map_size");
+    const sli_json origin = sli_json_member(&resolution, "map_origin");
+    const sli_json height = sli_json_member(&size, "y"), y = sli_json_member(&origin, "y");
     double first = 0, rows;
-    SL_TRY(sl_json_number_if(&y, &first));
-    SL_TRY(sl_json_number(&height, &rows));
+    SL_TRY(sli_json_number_if(&y, &first));
+    SL_TRY(sli_json_number(&height, &rows));
     reader->top = first + rows;
     return SL_OK;
 }
 
 static bool takes(const uvtt *reader, const char *layer) {
-    return !reader->options->layers || sl_layers_have(reader->options->layers, layer);
+    return !reader->options->layers || sli_layers_have(reader->options->layers, layer);
 }
 
 static sl_status check_layers(const uvtt *reader, const char *name) {
     const char *list = reader->options->layers;
-    for (sl_word word; list && sl_layers_next(&list, &word);) {
+    for (sli_word word; list && sli_layers_next(&list, &word);) {
         bool known = false;
-        for (size_t i = 0; i < LAYER_COUNT; i++) known |= sl_word_is(word, layer_names[i]);
+        for (size_t i = 0; i < LAYER_COUNT; i++) known |= sli_word_is(word, layer_names[i]);
         if (!known)
             return sl_fail(reader->context, SL_BAD_ARGUMENT,
                            "%s: there is no layer '%s': a Universal VTT file has line_of_sight, "
                            "objects_line_of_sight and portals",
-                           name, sl_show(word).text);
+                           name, sli_show(word).text);
     }
     return SL_OK;
 }
 
-static sl_status read_uvtt(uvtt *reader, const sl_json *root) {
-    SL_TRY(sl_json_object(root));
+static sl_status read_uvtt(uvtt *reader, const sli_json *root) {
+    SL_TRY(sli_json_object(root));
     SL_TRY(read_size(reader, root));
-    const sl_json lines = sl_json_member(root, layer_names[0]);
-    const sl_json objects = sl_json_member(root, layer_names[1]);
-    const sl_json portals = sl_json_member(root, layer_names[2]);
+    const sli_json lines = sli_json_member(root, layer_names[0]);
+    const sli_json objects = sli_json_member(root, layer_names[1]);
+    const sli_json portals = sli_json_member(root, layer_names[2]);
     // Files of the format's first versions have no list of objects.
     if (takes(reader, layer_names[0])) SL_TRY(read_polylines(reader, &lines));
     const size_t of_lines = reader->walls;
     if (takes(reader, layer_names[1]) && objects.value) SL_TRY(read_polylines(reader, &objects));
     if (takes(reader, layer_names[2]) && portals.value) SL_TRY(read_portals(reader, &portals));
-    const sl_json lights = sl_json_member(root, "lights");
+    const sli_json lights = sli_json_member(root, "lights");
     char top[SL_NUMBER_TEXT];
     sl_number_write(reader->top, top);
     sl_note(reader->context,
@@ -160,14 +160,14 @@ static sl_status read_uvtt(uvtt *reader, const sl_json *root) {
 
 sl_status sl_map_read_uvtt(sl_context *context, const char *name, const char *text, size_t size,
                            const sl_import_options *options, sl_map *map) {
-    sl_json_file file;
+    sli_json_file file;
     sl_map read = {0};
     uvtt reader = {.context = context, .options = options, .map = &read};
     SL_TRY(check_layers(&reader, name));
-    SL_TRY(sl_json_open(context, name, text, size, &file));
-    const sl_json root = sl_json_root(&file);
+    SL_TRY(sli_json_open(context, name, text, size, &file));
+    const sli_json root = sli_json_root(&file);
     const sl_status status = read_uvtt(&reader, &root);
-    sl_json_close(&file);
+    sli_json_close(&file);
     if (status == SL_OK)
         *map = read;
     else
@@ -200,32 +200,33 @@ typedef struct record {
     int64_t sight, side, door, state;
 } record;
 
-static sl_status read_ends(const foundry *reader, const sl_json *wall, sl_segment *at) {
-    const sl_json c = sl_json_member(wall, "c");
+static sl_status read_ends(const foundry *reader, const sli_json *wall, sl_segment *at) {
+    const sli_json c = sli_json_member(wall, "c");
     size_t count;
-    SL_TRY(sl_json_array(&c, &count));
-    if (count != 4) return sl_json_fail(&c, "expected 4 numbers: x0, y0, x1, y1; found %zu", count);
+    SL_TRY(sli_json_array(&c, &count));
+    if (count != 4)
+        return sli_json_fail(&c, "expected 4 numbers: x0, y0, x1, y1; found %zu", count);
     double values[4];
     for (size_t i = 0; i < 4; i++) {
-        const sl_json number = sl_json_item(&c, i);
-        SL_TRY(sl_json_number(&number, &values[i]));
+        const sli_json number = sli_json_item(&c, i);
+        SL_TRY(sli_json_number(&number, &values[i]));
     }
     *at = (sl_segment){{values[0], reader->top - values[1]}, {values[2], reader->top - values[3]}};
     if (!sl_coordinate_usable(at->a.y) || !sl_coordinate_usable(at->b.y))
-        return sl_json_fail(&c, "out of range once y points up");
+        return sli_json_fail(&c, "out of range once y points up");
     return SL_OK;
 }
 
-static sl_status read_record(const foundry *reader, const sl_json *wall, record *read) {
-    SL_TRY(sl_json_object(wall));
+static sl_status read_record(const foundry *reader, const sli_json *wall, record *read) {
+    SL_TRY(sli_json_object(wall));
     SL_TRY(read_ends(reader, wall, &read->at));
-    const sl_json sight = sl_json_member(wall, "sight"), sense = sl_json_member(wall, "sense");
-    const sl_json side = sl_json_member(wall, "dir"), door = sl_json_member(wall, "door");
-    const sl_json state = sl_json_member(wall, "ds");
-    SL_TRY(sl_json_whole_if(sight.value ? &sight : &sense, 0, SIGHT_MOST, &read->sight));
-    SL_TRY(sl_json_whole_if(&side, 0, RIGHT_ONLY, &read->side));
-    SL_TRY(sl_json_whole_if(&door, 0, DOOR_SECRET, &read->door));
-    return sl_json_whole_if(&state, 0, DOOR_LOCKED, &read->state);
+    const sli_json sight = sli_json_member(wall, "sight"), sense = sli_json_member(wall, "sense");
+    const sli_json side = sli_json_member(wall, "dir"), door = sli_json_member(wall, "door");
+    const sli_json state = sli_json_member(wall, "ds");
+    SL_TRY(sli_json_whole_if(sight.value ? &sight : &sense, 0, SIGHT_MOST, &read->sight));
+    SL_TRY(sli_json_whole_if(&side, 0, RIGHT_ONLY, &read->side));
+    SL_TRY(sli_json_whole_if(&door, 0, DOOR_SECRET, &read->door));
+    return sli_json_whole_if(&state, 0, DOOR_LOCKED, &read->state);
 }
 
 /// Seen through from where it does not work: a wall for those on its left is passed from its right.
@@ -276,12 +277,12 @@ static sl_status take(foundry *reader, const record *wall) {
 }
 
 /// The largest y of all walls in the file.
-static sl_status find_top(foundry *reader, const sl_json *walls, size_t count) {
+static sl_status find_top(foundry *reader, const sli_json *walls, size_t count) {
     double top = -HUGE_VAL;
     for (size_t i = 0; i < count; i++) {
-        const sl_json wall = sl_json_item(walls, i);
+        const sli_json wall = sli_json_item(walls, i);
         sl_segment at;
-        SL_TRY(sl_json_object(&wall));
+        SL_TRY(sli_json_object(&wall));
         SL_TRY(read_ends(reader, &wall, &at));
         top = fmax(top, fmax(-at.a.y, -at.b.y));
     }
@@ -289,13 +290,13 @@ static sl_status find_top(foundry *reader, const sl_json *walls, size_t count) {
     return SL_OK;
 }
 
-static sl_status read_foundry_walls(foundry *reader, const sl_json *walls) {
+static sl_status read_foundry_walls(foundry *reader, const sli_json *walls) {
     size_t count;
-    SL_TRY(sl_json_array(walls, &count));
+    SL_TRY(sli_json_array(walls, &count));
     SL_TRY(find_top(reader, walls, count));
     for (size_t i = 0; i < count; i++) {
         if (i % 1024 == 0) SL_TRY(sl_check_cancelled(reader->context));
-        const sl_json wall = sl_json_item(walls, i);
+        const sli_json wall = sli_json_item(walls, i);
         record read = {.sight = SIGHT_NORMAL};
         SL_TRY(read_record(reader, &wall, &read));
         SL_TRY(take(reader, &read));
@@ -314,22 +315,22 @@ static sl_status read_foundry_walls(foundry *reader, const sl_json *walls) {
 }
 
 /// A scene, or a list of walls alone.
-static sl_status read_foundry(foundry *reader, const sl_json *root) {
+static sl_status read_foundry(foundry *reader, const sli_json *root) {
     if (json_is_array(root->value)) return read_foundry_walls(reader, root);
-    SL_TRY(sl_json_object(root));
-    const sl_json walls = sl_json_member(root, "walls");
+    SL_TRY(sli_json_object(root));
+    const sli_json walls = sli_json_member(root, "walls");
     return read_foundry_walls(reader, &walls);
 }
 
 sl_status sl_map_read_foundry(sl_context *context, const char *name, const char *text, size_t size,
                               const sl_import_options *options, sl_map *map) {
-    sl_json_file file;
-    SL_TRY(sl_json_open(context, name, text, size, &file));
+    sli_json_file file;
+    SL_TRY(sli_json_open(context, name, text, size, &file));
     sl_map read = {0};
     foundry reader = {.context = context, .options = options, .map = &read};
-    const sl_json root = sl_json_root(&file);
+    const sli_json root = sli_json_root(&file);
     const sl_status status = read_foundry(&reader, &root);
-    sl_json_close(&file);
+    sli_json_close(&file);
     if (status == SL_OK)
         *map = read;
     else
@@ -339,28 +340,28 @@ sl_status sl_map_read_foundry(sl_context *context, const char *name, const char 
 
 // --- our export: its walls are a map; cells and what they see are made anew
 
-static sl_status read_export_wall(sl_context *context, const sl_json *wall, sl_map *map) {
+static sl_status read_export_wall(sl_context *context, const sli_json *wall, sl_map *map) {
     size_t count;
     double ends[4];
-    SL_TRY(sl_json_array(wall, &count));
+    SL_TRY(sli_json_array(wall, &count));
     if (count != 4)
-        return sl_json_fail(wall, "expected 4 numbers: x0, y0, x1, y1; found %zu", count);
+        return sli_json_fail(wall, "expected 4 numbers: x0, y0, x1, y1; found %zu", count);
     for (size_t i = 0; i < 4; i++) {
-        const sl_json number = sl_json_item(wall, i);
-        SL_TRY(sl_json_number(&number, &ends[i]));
+        const sli_json number = sli_json_item(wall, i);
+        SL_TRY(sli_json_number(&number, &ends[i]));
     }
     return sl_map_add_wall(context, map, (sl_point){ends[0], ends[1]}, (sl_point){ends[2], ends[3]},
                            0);
 }
 
-static sl_status read_export_walls(sl_context *context, const sl_json *root, sl_map *map) {
-    const sl_json walls = sl_json_member(root, "walls");
+static sl_status read_export_walls(sl_context *context, const sli_json *root, sl_map *map) {
+    const sli_json walls = sli_json_member(root, "walls");
     size_t count;
-    SL_TRY(sl_json_object(root));
-    SL_TRY(sl_json_array(&walls, &count));
+    SL_TRY(sli_json_object(root));
+    SL_TRY(sli_json_array(&walls, &count));
     for (size_t i = 0; i < count; i++) {
         if (i % 1024 == 0) SL_TRY(sl_check_cancelled(context));
-        const sl_json wall = sl_json_item(&walls, i);
+        const sli_json wall = sli_json_item(&walls, i);
         SL_TRY(read_export_wall(context, &wall, map));
     }
     sl_note(context,
@@ -373,12 +374,12 @@ static sl_status read_export_walls(sl_context *context, const sl_json *root, sl_
 sl_status sl_map_read_export(sl_context *context, const char *name, const char *text, size_t size,
                              const sl_import_options *options, sl_map *map) {
     (void)options;
-    sl_json_file file;
-    SL_TRY(sl_json_open(context, name, text, size, &file));
+    sli_json_file file;
+    SL_TRY(sli_json_open(context, name, text, size, &file));
     sl_map read = {0};
-    const sl_json root = sl_json_root(&file);
+    const sli_json root = sli_json_root(&file);
     const sl_status status = read_export_walls(context, &root, &read);
-    sl_json_close(&file);
+    sli_json_close(&file);
     if (status == SL_OK)
         *map = read;
     else

@@ -39,21 +39,21 @@ static bool set(json_t *object, const char *key, json_t *value) {
 /// Text that libxml2 gave, as a value; frees it.
 static json_t *take_text(char *text) {
     json_t *value = text ? json_string(text) : NULL;
-    sl_xml_free(text);
+    sli_xml_free(text);
     return value;
 }
 
 static json_t *content_of(const xmlNode *node) {
-    return take_text(sl_xml_content(node));
+    return take_text(sli_xml_content(node));
 }
 
 /// An object of the element's attributes.
 static json_t *attributes_of(const xmlNode *node) {
     json_t *object = json_object();
-    bool good = object && set(object, SL_JSON_LINE, json_integer(sl_xml_line(node)));
+    bool good = object && set(object, SLI_JSON_LINE, json_integer(sli_xml_line(node)));
     for (const xmlAttr *each = node->properties; good && each; each = each->next) {
         const char *key = (const char *)each->name;
-        good = set(object, key, take_text(sl_xml_attribute(node, key)));
+        good = set(object, key, take_text(sli_xml_attribute(node, key)));
     }
     if (good) return object;
     json_decref(object);
@@ -71,7 +71,7 @@ static bool append(json_t *object, const char *key, json_t *value) {
 
 /// The number of a <tile> of a layer; 0 where it has none, as Tiled reads it.
 static json_t *gid_of(const xmlNode *tile) {
-    char *text = sl_xml_attribute(tile, "gid");
+    char *text = sli_xml_attribute(tile, "gid");
     if (text) return take_text(text);
     return json_integer(0);
 }
@@ -80,7 +80,7 @@ static json_t *gid_of(const xmlNode *tile) {
 static json_t *tiles_of(const xmlNode *data) {
     json_t *array = NULL;
     for (const xmlNode *child = data->children; child; child = child->next) {
-        if (!sl_xml_is(child, "tile")) continue;
+        if (!sli_xml_is(child, "tile")) continue;
         if (!array && !(array = json_array())) return NULL;
         if (json_array_append_new(array, gid_of(child)) == 0) continue;
         json_decref(array);
@@ -100,12 +100,12 @@ static bool add_chunk(json_t *layer, const xmlNode *chunk) {
 static bool add_data(json_t *layer, const xmlNode *data) {
     static const char *const keys[] = {"encoding", "compression"};
     for (size_t i = 0; i < 2; i++) {
-        char *text = sl_xml_attribute(data, keys[i]);
+        char *text = sli_xml_attribute(data, keys[i]);
         if (text && !set(layer, keys[i], take_text(text))) return false;
     }
     bool chunks = false;
     for (const xmlNode *child = data->children; child; child = child->next) {
-        if (!sl_xml_is(child, "chunk")) continue;
+        if (!sli_xml_is(child, "chunk")) continue;
         chunks = true;
         if (!add_chunk(layer, child)) return false;
     }
@@ -119,7 +119,7 @@ static bool add_item(json_t *parent, const item_kind *kind, const xmlNode *node)
     if (!object) return false;
     bool good = !kind->type || set(object, "type", json_string(kind->type));
     // A property's longer text is its content.
-    if (good && sl_xml_is(node, "property") && !json_object_get(object, "value"))
+    if (good && sli_xml_is(node, "property") && !json_object_get(object, "value"))
         good = set(object, "value", content_of(node));
     if (good) return append(parent, kind->array, object);
     json_decref(object);
@@ -127,23 +127,24 @@ static bool add_item(json_t *parent, const item_kind *kind, const xmlNode *node)
 }
 
 static bool add_child(json_t *parent, const xmlNode *node) {
-    const bool in_tile = sl_xml_is(node->parent, "tile");
-    if (in_tile && sl_xml_is(node, "objectgroup")) return set(parent, "objectgroup", convert(node));
-    if (sl_xml_is(node, "data")) return add_data(parent, node);
-    if (sl_xml_is(node, "tileoffset")) return set(parent, "tileoffset", convert(node));
-    if (sl_xml_is(node, "polygon") || sl_xml_is(node, "polyline")) {
-        char *points = sl_xml_attribute(node, "points");
+    const bool in_tile = sli_xml_is(node->parent, "tile");
+    if (in_tile && sli_xml_is(node, "objectgroup"))
+        return set(parent, "objectgroup", convert(node));
+    if (sli_xml_is(node, "data")) return add_data(parent, node);
+    if (sli_xml_is(node, "tileoffset")) return set(parent, "tileoffset", convert(node));
+    if (sli_xml_is(node, "polygon") || sli_xml_is(node, "polyline")) {
+        char *points = sli_xml_attribute(node, "points");
         return set(parent, (const char *)node->name, points ? take_text(points) : json_string(""));
     }
-    if (sl_xml_is(node, "properties")) {
+    if (sli_xml_is(node, "properties")) {
         for (const xmlNode *child = node->children; child; child = child->next)
-            if (sl_xml_is(child, "property") && !add_child(parent, child)) return false;
+            if (sli_xml_is(child, "property") && !add_child(parent, child)) return false;
         return true;
     }
     for (size_t i = 0; i < SHAPE_COUNT; i++)
-        if (sl_xml_is(node, shapes[i])) return set(parent, shapes[i], json_true());
+        if (sli_xml_is(node, shapes[i])) return set(parent, shapes[i], json_true());
     for (size_t i = 0; i < ITEM_KIND_COUNT; i++)
-        if (sl_xml_is(node, item_kinds[i].element)) return add_item(parent, &item_kinds[i], node);
+        if (sli_xml_is(node, item_kinds[i].element)) return add_item(parent, &item_kinds[i], node);
     return true;
 }
 
@@ -158,20 +159,20 @@ static json_t *convert(const xmlNode *node) {
     return object;
 }
 
-sl_status sl_tiled_from_xml(sl_context *context, const char *name, const char *root,
-                            const char *text, size_t size, sl_json_file *file) {
+sl_status sli_tiled_from_xml(sl_context *context, const char *name, const char *root,
+                             const char *text, size_t size, sli_json_file *file) {
     xmlDoc *document;
-    SL_TRY(sl_xml_read(context, name, text, size, &document));
+    SL_TRY(sli_xml_read(context, name, text, size, &document));
     const xmlNode *first = xmlDocGetRootElement(document);
     sl_status status = SL_OK;
-    if (!sl_xml_is(first, root)) {
+    if (!sli_xml_is(first, root)) {
         const char *found = (const char *)first->name;
-        status = sl_fail_at(context, name, sl_xml_line(first), "expected <%s>, found <%s>", root,
-                            sl_show((sl_word){found, strlen(found)}).text);
+        status = sl_fail_at(context, name, sli_xml_line(first), "expected <%s>, found <%s>", root,
+                            sli_show((sli_word){found, strlen(found)}).text);
     } else {
         json_t *tree = convert(first);
         if (tree)
-            *file = (sl_json_file){
+            *file = (sli_json_file){
                 .context = context, .name = name, .root = tree, .numbers_as_text = true};
         else
             status = sl_fail_memory(context);
@@ -190,12 +191,12 @@ typedef struct bytes {
     size_t size;
 } bytes;
 
-static sl_status read_array(const sl_json *data, size_t count, uint32_t *gids) {
+static sl_status read_array(const sli_json *data, size_t count, uint32_t *gids) {
     for (size_t i = 0; i < count; i++) {
         if (i % 65536 == 0) SL_TRY(sl_check_cancelled(data->file->context));
-        const sl_json item = sl_json_item(data, i);
+        const sli_json item = sli_json_item(data, i);
         int64_t gid;
-        SL_TRY(sl_json_whole(&item, 0, UINT32_MAX, &gid));
+        SL_TRY(sli_json_whole(&item, 0, UINT32_MAX, &gid));
         gids[i] = (uint32_t)gid;
     }
     return SL_OK;
@@ -206,7 +207,7 @@ static bool is_blank(char c) {
 }
 
 /// Whole numbers with commas between; blanks anywhere about them.
-static sl_status read_csv(const sl_json *data, const char *text, size_t count, uint32_t *gids) {
+static sl_status read_csv(const sli_json *data, const char *text, size_t count, uint32_t *gids) {
     size_t found = 0;
     for (const char *at = text;; at++) {
         while (is_blank(*at)) at++;
@@ -217,19 +218,19 @@ static sl_status read_csv(const sl_json *data, const char *text, size_t count, u
         for (; *at >= '0' && *at <= '9' && value <= UINT32_MAX; at++)
             value = 10 * value + (uint64_t)(*at - '0');
         if (at == first || value > UINT32_MAX)
-            return sl_json_fail(data, "tile %zu of %zu: expected a whole number, found '%s'",
-                                found + 1, count,
-                                sl_show((sl_word){first, strcspn(first, ", \t\r\n")}).text);
-        if (found == count) return sl_json_fail(data, "more than the layer's %zu tiles", count);
+            return sli_json_fail(data, "tile %zu of %zu: expected a whole number, found '%s'",
+                                 found + 1, count,
+                                 sli_show((sli_word){first, strcspn(first, ", \t\r\n")}).text);
+        if (found == count) return sli_json_fail(data, "more than the layer's %zu tiles", count);
         gids[found++] = (uint32_t)value;
         while (is_blank(*at)) at++;
         if (!*at) break;
         if (*at != ',')
-            return sl_json_fail(data, "tile %zu of %zu: expected ',', found '%s'", found, count,
-                                sl_show((sl_word){at, strcspn(at, ", \t\r\n")}).text);
+            return sli_json_fail(data, "tile %zu of %zu: expected ',', found '%s'", found, count,
+                                 sli_show((sli_word){at, strcspn(at, ", \t\r\n")}).text);
     }
     if (found == count) return SL_OK;
-    return sl_json_fail(data, "%zu tiles, the layer has %zu", found, count);
+    return sli_json_fail(data, "%zu tiles, the layer has %zu", found, count);
 }
 
 /// The six bits of a character of base64 (RFC 4648), or -1.
@@ -241,7 +242,7 @@ static int six_bits(char c) {
 }
 
 /// `out->at` has room for all; blanks between the characters are passed over.
-static sl_status decode_base64(const sl_json *data, const char *text, bytes *out) {
+static sl_status decode_base64(const sli_json *data, const char *text, bytes *out) {
     uint32_t bits = 0, pads = 0;
     size_t characters = 0;
     for (const char *at = text; *at; at++) {
@@ -249,7 +250,7 @@ static sl_status decode_base64(const sl_json *data, const char *text, bytes *out
         const int value = six_bits(*at);
         pads += *at == '=';
         if ((value < 0 && *at != '=') || (value >= 0 && pads))
-            return sl_json_fail(data, "character %zu is not base64", (size_t)(at - text) + 1);
+            return sli_json_fail(data, "character %zu is not base64", (size_t)(at - text) + 1);
         bits = bits << 6 | (value < 0 ? 0u : (uint32_t)value);
         if (++characters % 4) continue;
         for (int shift = 16; shift >= 0; shift -= 8)
@@ -257,14 +258,14 @@ static sl_status decode_base64(const sl_json *data, const char *text, bytes *out
         bits = 0;
     }
     if (characters % 4 || pads > 2 || (pads && !out->size))
-        return sl_json_fail(data, "the base64 text is cut off");
+        return sli_json_fail(data, "the base64 text is cut off");
     out->size -= pads;
     return SL_OK;
 }
 
-static sl_status fail_size(const sl_json *data, size_t count) {
-    return sl_json_fail(data, "the data is not that of the layer's %zu tiles, of 4 bytes each",
-                        count);
+static sl_status fail_size(const sli_json *data, size_t count) {
+    return sli_json_fail(data, "the data is not that of the layer's %zu tiles, of 4 bytes each",
+                         count);
 }
 
 static void *resize_for_zlib(void *context, uInt count, uInt size) {
@@ -276,7 +277,7 @@ static void free_for_zlib(void *context, void *block) {
 }
 
 /// zlib and gzip. Their first bytes say which one it is.
-static sl_status inflate_all(const sl_json *data, bytes packed, bytes *out) {
+static sl_status inflate_all(const sli_json *data, bytes packed, bytes *out) {
     sl_context *context = data->file->context;
     z_stream stream = {.zalloc = resize_for_zlib,
                        .zfree = free_for_zlib,
@@ -296,18 +297,18 @@ static sl_status inflate_all(const sl_json *data, bytes packed, bytes *out) {
     if (all) return SL_OK;
     if (result == Z_MEM_ERROR) return sl_fail_memory(context);
     if (more || less) return fail_size(data, out->size / 4);
-    return sl_json_fail(data, "the compressed data is damaged: %s", why);
+    return sli_json_fail(data, "the compressed data is damaged: %s", why);
 }
 
-static sl_status unpack_zstd(const sl_json *data, bytes packed, bytes *out) {
+static sl_status unpack_zstd(const sli_json *data, bytes packed, bytes *out) {
     const size_t got = ZSTD_decompress(out->at, out->size, packed.at, packed.size);
     if (!ZSTD_isError(got)) return got == out->size ? SL_OK : fail_size(data, out->size / 4);
     const char *why = ZSTD_getErrorName(got);
     if (strstr(why, "too small")) return fail_size(data, out->size / 4);
-    return sl_json_fail(data, "the compressed data is damaged: %s", why);
+    return sli_json_fail(data, "the compressed data is damaged: %s", why);
 }
 
-static sl_status unpack(const sl_json *data, const char *compression, bytes packed, bytes *out) {
+static sl_status unpack(const sli_json *data, const char *compression, bytes packed, bytes *out) {
     if (!*compression) {
         if (packed.size != out->size) return fail_size(data, out->size / 4);
         memcpy(out->at, packed.at, packed.size);
@@ -324,11 +325,11 @@ static void put_together(const unsigned char *from, size_t count, uint32_t *gids
             from[0] | (uint32_t)from[1] << 8 | (uint32_t)from[2] << 16 | (uint32_t)from[3] << 24;
 }
 
-static sl_status read_base64(const sl_json *data, const char *compression, const char *text,
+static sl_status read_base64(const sli_json *data, const char *compression, const char *text,
                              size_t count, uint32_t *gids) {
     sl_context *context = data->file->context;
     const size_t length = strlen(text), size = 4 * count;
-    if (length > UINT32_MAX) return sl_json_fail(data, "more than 2^32 characters");
+    if (length > UINT32_MAX) return sli_json_fail(data, "more than 2^32 characters");
     bytes packed = {.at = sl_alloc_array(context, length / 4 + 1, 3)};
     bytes plain = {.at = sl_alloc_array(context, count, 4), .size = size};
     sl_status status = packed.at && plain.at ? SL_OK : SL_NO_MEMORY;
@@ -341,40 +342,40 @@ static sl_status read_base64(const sl_json *data, const char *compression, const
 }
 
 /// How the layer's text is written; refused by name where that is not known.
-static sl_status find_codec(const sl_json *layer, bool *base64, const char **compression) {
+static sl_status find_codec(const sli_json *layer, bool *base64, const char **compression) {
     static const char *const known[] = {"", "zlib", "gzip", "zstd"};
-    const sl_json encoding = sl_json_member(layer, "encoding");
-    const sl_json packing = sl_json_member(layer, "compression");
+    const sli_json encoding = sli_json_member(layer, "encoding");
+    const sli_json packing = sli_json_member(layer, "compression");
     const char *name = "csv";
     *compression = "";
-    if (encoding.value) SL_TRY(sl_json_text(&encoding, &name));
-    if (packing.value) SL_TRY(sl_json_text(&packing, compression));
+    if (encoding.value) SL_TRY(sli_json_text(&encoding, &name));
+    if (packing.value) SL_TRY(sli_json_text(&packing, compression));
     *base64 = strcmp(name, "base64") == 0;
     if (!*base64 && strcmp(name, "csv") != 0)
-        return sl_json_fail(&encoding, "'%s' is unknown; csv and base64 are taken",
-                            sl_show((sl_word){name, strlen(name)}).text);
+        return sli_json_fail(&encoding, "'%s' is unknown; csv and base64 are taken",
+                             sli_show((sli_word){name, strlen(name)}).text);
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (strcmp(*compression, known[i]) == 0) return SL_OK;
-    return sl_json_fail(&packing, "'%s' is unknown; zlib, gzip and zstd are taken",
-                        sl_show((sl_word){*compression, strlen(*compression)}).text);
+    return sli_json_fail(&packing, "'%s' is unknown; zlib, gzip and zstd are taken",
+                         sli_show((sli_word){*compression, strlen(*compression)}).text);
 }
 
-static sl_status read_text(const sl_json *layer, const sl_json *data, size_t count,
+static sl_status read_text(const sli_json *layer, const sli_json *data, size_t count,
                            uint32_t *gids) {
     const char *text, *compression;
     bool base64;
     SL_TRY(find_codec(layer, &base64, &compression));
-    SL_TRY(sl_json_text(data, &text));
+    SL_TRY(sli_json_text(data, &text));
     if (base64) return read_base64(data, compression, text, count, gids);
     return read_csv(data, text, count, gids);
 }
 
-sl_status sl_tiled_read_data(const sl_json *layer, const sl_json *data, size_t count,
-                             uint32_t **gids) {
+sl_status sli_tiled_read_data(const sli_json *layer, const sli_json *data, size_t count,
+                              uint32_t **gids) {
     const bool array = json_is_array(data->value);
     if (array && json_array_size(data->value) != count)
-        return sl_json_fail(data, "%zu tiles, the layer has %zu", json_array_size(data->value),
-                            count);
+        return sli_json_fail(data, "%zu tiles, the layer has %zu", json_array_size(data->value),
+                             count);
     const size_t length = json_string_length(data->value);
     if (!array && length < count / (MOST_EXPANSION / 4)) return fail_size(data, count);
     uint32_t *read = sl_alloc_array(data->file->context, count, sizeof *read);

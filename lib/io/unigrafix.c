@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 typedef struct vertex {
-    sl_word name;
+    sli_word name;
     double x, y, z;
     uint32_t line;
 } vertex;
@@ -78,7 +78,7 @@ static sl_status skip_blank(ug_model *model, bool keep) {
 }
 
 /// The next word, "(", ")" or ";"; one of no length at the end of the text.
-static sl_status next_word(ug_model *model, sl_word *word) {
+static sl_status next_word(ug_model *model, sli_word *word) {
     SL_TRY(skip_blank(model, false));
     const char *first = model->at;
     if (first < model->end && *first == '}')
@@ -87,34 +87,34 @@ static sl_status next_word(ug_model *model, sl_word *word) {
         model->at++;
     else
         while (model->at < model->end && !strchr(" \t\r\n\f\v(){};", *model->at)) model->at++;
-    *word = (sl_word){first, (size_t)(model->at - first)};
+    *word = (sli_word){first, (size_t)(model->at - first)};
     return SL_OK;
 }
 
-static bool is_mark(sl_word word) {
+static bool is_mark(sli_word word) {
     return word.length == 0 || strchr("();", word.at[0]);
 }
 
 static sl_status fail_expected(ug_model *model, const char *expected, uint32_t line,
-                               sl_word found) {
+                               sli_word found) {
     return sl_fail_at(model->context, model->name, model->line,
                       "expected %s in the statement of line %u, found %s%s%s", expected, line,
-                      found.length ? "'" : "", found.length ? sl_show(found).text : "the end",
+                      found.length ? "'" : "", found.length ? sli_show(found).text : "the end",
                       found.length ? "'" : "");
 }
 
 /// Passes over the rest of a statement, its ';' included.
 static sl_status skip_statement(ug_model *model, uint32_t line) {
     for (;;) {
-        sl_word word;
+        sli_word word;
         SL_TRY(next_word(model, &word));
         if (word.length == 0) return fail_expected(model, "';'", line, word);
-        if (sl_word_is(word, ";")) return SL_OK;
+        if (sli_word_is(word, ";")) return SL_OK;
     }
 }
 
 /// FNV-1a, the upper half folded in.
-static size_t hash(sl_word word) {
+static size_t hash(sli_word word) {
     uint64_t value = 0xcbf29ce484222325u;
     for (size_t i = 0; i < word.length; i++)
         value = (value ^ (unsigned char)word.at[i]) * 0x100000001b3u;
@@ -122,12 +122,12 @@ static size_t hash(sl_word word) {
 }
 
 /// The slot that has the vertex of this name, or the empty one where it belongs.
-static uint32_t *find_slot(const ug_model *model, sl_word name) {
+static uint32_t *find_slot(const ug_model *model, sli_word name) {
     size_t i = hash(name) & (model->slot_count - 1);
     for (;; i = (i + 1) & (model->slot_count - 1)) {
         uint32_t *slot = &model->slots[i];
         if (!*slot) return slot;
-        const sl_word other = model->vertices.items[*slot - 1].name;
+        const sli_word other = model->vertices.items[*slot - 1].name;
         if (other.length == name.length && memcmp(other.at, name.at, name.length) == 0) return slot;
     }
 }
@@ -151,14 +151,14 @@ static sl_status read_vertex(ug_model *model, uint32_t line) {
     double *const values[] = {&read.x, &read.y, &read.z};
     SL_TRY(next_word(model, &read.name));
     if (is_mark(read.name)) return fail_expected(model, "a vertex name", line, read.name);
-    sl_word word;
+    sli_word word;
     for (int i = 0; i < 3; i++) {
         SL_TRY(next_word(model, &word));
         if (is_mark(word)) return fail_expected(model, "x, y and z", line, word);
-        SL_TRY(sl_read_coordinate(model->context, model->name, model->line, word, values[i]));
+        SL_TRY(sli_read_coordinate(model->context, model->name, model->line, word, values[i]));
     }
     SL_TRY(next_word(model, &word));
-    if (!sl_word_is(word, ";")) return fail_expected(model, "';'", line, word);
+    if (!sli_word_is(word, ";")) return fail_expected(model, "';'", line, word);
     if (model->vertices.count == UINT32_MAX - 1)
         return sl_fail_at(model->context, model->name, line, "more vertices than can be counted");
     SL_TRY(grow_table(model));
@@ -166,7 +166,7 @@ static sl_status read_vertex(ug_model *model, uint32_t line) {
     if (*slot)
         return sl_fail_at(model->context, model->name, line,
                           "vertex '%s' once more: it is defined on line %u",
-                          sl_show(read.name).text, model->vertices.items[*slot - 1].line);
+                          sli_show(read.name).text, model->vertices.items[*slot - 1].line);
     SL_TRY(SL_ARRAY_ROOM(model->context, &model->vertices, 1));
     model->vertices.items[model->vertices.count++] = read;
     *slot = (uint32_t)model->vertices.count;
@@ -201,14 +201,14 @@ static sl_status read_contour(ug_model *model, uint32_t line, bool *flat) {
     const vertex *first = NULL, *previous = NULL;
     size_t count = 0;
     for (;;) {
-        sl_word word;
+        sli_word word;
         SL_TRY(next_word(model, &word));
-        if (sl_word_is(word, ")")) break;
+        if (sli_word_is(word, ")")) break;
         if (is_mark(word)) return fail_expected(model, "vertex names and ')'", line, word);
         const uint32_t slot = model->slot_count ? *find_slot(model, word) : 0;
         if (!slot)
             return sl_fail_at(model->context, model->name, model->line, "unknown vertex '%s'",
-                              sl_show(word).text);
+                              sli_show(word).text);
         const vertex *next = &model->vertices.items[slot - 1];
         if (previous)
             SL_TRY(cross_edge(model, previous, next));
@@ -262,16 +262,16 @@ static sl_status add_walls(ug_model *model, uint32_t line) {
 static sl_status read_face(ug_model *model, uint32_t line) {
     model->crossings.count = 0;
     bool flat = true;
-    sl_word word;
+    sli_word word;
     SL_TRY(next_word(model, &word));
     if (!is_mark(word)) SL_TRY(next_word(model, &word));
-    if (!sl_word_is(word, "(")) return fail_expected(model, "'('", line, word);
-    while (sl_word_is(word, "(")) {
+    if (!sli_word_is(word, "(")) return fail_expected(model, "'('", line, word);
+    while (sli_word_is(word, "(")) {
         SL_TRY(read_contour(model, line, &flat));
         SL_TRY(next_word(model, &word));
     }
     for (int i = 0; i < 2 && !is_mark(word); i++) SL_TRY(next_word(model, &word));
-    if (!sl_word_is(word, ";")) return fail_expected(model, "';'", line, word);
+    if (!sli_word_is(word, ";")) return fail_expected(model, "';'", line, word);
     model->faces++;
     model->flat += flat;
     return add_walls(model, line);
@@ -284,18 +284,18 @@ static sl_status read_statements(ug_model *model, const char *text, bool faces) 
     SL_TRY(skip_blank(model, !faces));
     for (size_t count = 0; model->at < model->end; count++) {
         if (count % 1024 == 0) SL_TRY(sl_check_cancelled(model->context));
-        sl_word word;
+        sli_word word;
         const uint32_t line = model->line;
         SL_TRY(next_word(model, &word));
         if (is_mark(word)) return fail_expected(model, "a statement", line, word);
-        const bool point = sl_word_is(word, "v"), face = sl_word_is(word, "f");
+        const bool point = sli_word_is(word, "v"), face = sli_word_is(word, "f");
         if (point && !faces)
             SL_TRY(read_vertex(model, line));
         else if (face && faces)
             SL_TRY(read_face(model, line));
         else
             SL_TRY(skip_statement(model, line));
-        const bool colour = sl_word_is(word, "c_rgb") || sl_word_is(word, "c");
+        const bool colour = sli_word_is(word, "c_rgb") || sli_word_is(word, "c");
         model->skipped += faces && !point && !face && !colour;
         // What follows the last statement is kept, as is what leads the first one.
         const size_t kept = model->notes.count;
@@ -326,9 +326,9 @@ static sl_status check_slice(const ug_model *model, const sl_import_options *opt
 
 /// The points alone.
 static sl_status read_points(ug_model *model, const char *text, size_t size) {
-    SL_TRY(sl_refuse_nul(model->context, model->name, text, size));
+    SL_TRY(sli_refuse_nul(model->context, model->name, text, size));
     model->end = size ? text + size : text;
-    SL_TRY(read_statements(model, sl_lines_of(text, size).at, false));
+    SL_TRY(read_statements(model, sli_lines_of(text, size).at, false));
     if (model->vertices.count) return SL_OK;
     return sl_fail_at(model->context, model->name, 0, "the model has no vertices");
 }
@@ -338,7 +338,7 @@ static sl_status read_model(ug_model *model, const char *text, size_t size,
     SL_TRY(read_points(model, text, size));
     SL_TRY(check_slice(model, options));
     model->slice = options->slice;
-    SL_TRY(read_statements(model, sl_lines_of(text, size).at, true));
+    SL_TRY(read_statements(model, sli_lines_of(text, size).at, true));
     if (model->notes.count) {
         model->notes.items[model->notes.count] = '\0';
         SL_TRY(sl_map_add_note(model->context, model->map, model->notes.items));

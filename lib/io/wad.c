@@ -11,54 +11,54 @@
 
 enum { HEADER_BYTES = 12, ENTRY_BYTES = 16 };
 
-bool sl_wad_known(const void *bytes, size_t size) {
+bool sli_wad_known(const void *bytes, size_t size) {
     return size >= 4 && (memcmp(bytes, "IWAD", 4) == 0 || memcmp(bytes, "PWAD", 4) == 0);
 }
 
-sl_status sl_wad_open(sl_context *context, const char *name, const void *bytes, size_t size,
-                      sl_wad *wad) {
-    if (!sl_wad_known(bytes, size))
+sl_status sli_wad_open(sl_context *context, const char *name, const void *bytes, size_t size,
+                       sli_wad *wad) {
+    if (!sli_wad_known(bytes, size))
         return sl_fail_at(context, name, 0, "no WAD: expected 'IWAD' or 'PWAD' at its start");
     if (size < HEADER_BYTES)
         return sl_fail_at(context, name, 0, "the WAD's header is cut off: %zu bytes of %d", size,
                           HEADER_BYTES);
-    const uint32_t count = sl_wad_u32((const unsigned char *)bytes + 4);
-    const uint32_t directory = sl_wad_u32((const unsigned char *)bytes + 8);
+    const uint32_t count = sli_wad_u32((const unsigned char *)bytes + 4);
+    const uint32_t directory = sli_wad_u32((const unsigned char *)bytes + 8);
     if (directory > size || count > (size - directory) / ENTRY_BYTES)
         return sl_fail_at(context, name, 0,
                           "the directory of %lu lumps at byte %lu does not lie in the file's %zu "
                           "bytes: the WAD is cut off or damaged",
                           (unsigned long)count, (unsigned long)directory, size);
-    *wad = (sl_wad){
+    *wad = (sli_wad){
         .name = name, .bytes = bytes, .size = size, .directory = directory, .lump_count = count};
     return SL_OK;
 }
 
-static const unsigned char *entry_of(const sl_wad *wad, uint32_t index) {
+static const unsigned char *entry_of(const sli_wad *wad, uint32_t index) {
     return wad->bytes + wad->directory + (size_t)index * ENTRY_BYTES;
 }
 
-void sl_wad_lump_name(const sl_wad *wad, uint32_t index, char name[SL_LUMP_NAME]) {
+void sli_wad_lump_name(const sli_wad *wad, uint32_t index, char name[SLI_LUMP_NAME]) {
     const unsigned char *text = entry_of(wad, index) + 8;
-    memset(name, 0, SL_LUMP_NAME);
-    for (int i = 0; i < SL_LUMP_NAME - 1 && text[i]; i++) {
+    memset(name, 0, SLI_LUMP_NAME);
+    for (int i = 0; i < SLI_LUMP_NAME - 1 && text[i]; i++) {
         const unsigned char c = text[i];
         name[i] = (char)(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
     }
 }
 
-sl_status sl_wad_lump(sl_context *context, const sl_wad *wad, uint32_t index, sl_lump *lump) {
-    const uint32_t offset = sl_wad_u32(entry_of(wad, index));
-    const uint32_t size = sl_wad_u32(entry_of(wad, index) + 4);
-    char name[SL_LUMP_NAME];
-    sl_wad_lump_name(wad, index, name);
+sl_status sli_wad_lump(sl_context *context, const sli_wad *wad, uint32_t index, sli_lump *lump) {
+    const uint32_t offset = sli_wad_u32(entry_of(wad, index));
+    const uint32_t size = sli_wad_u32(entry_of(wad, index) + 4);
+    char name[SLI_LUMP_NAME];
+    sli_wad_lump_name(wad, index, name);
     if (size && (offset > wad->size || size > wad->size - offset))
         return sl_fail_at(context, wad->name, 0,
                           "lump %lu, %s: its %lu bytes at byte %lu do not lie in the file's %zu "
                           "bytes: the WAD is cut off or damaged",
                           (unsigned long)index, name, (unsigned long)size, (unsigned long)offset,
                           wad->size);
-    *lump = (sl_lump){.bytes = wad->bytes + (size ? offset : 0), .size = size};
+    *lump = (sli_lump){.bytes = wad->bytes + (size ? offset : 0), .size = size};
     return SL_OK;
 }
 
@@ -86,19 +86,19 @@ static bool is_map_name(const char *name) {
     return name[0] && !is_record_lump(name) && strcmp(name, "TEXTMAP") != 0;
 }
 
-bool sl_wad_next_map(const sl_wad *wad, uint32_t *at, sl_wad_map *map) {
+bool sli_wad_next_map(const sli_wad *wad, uint32_t *at, sli_wad_map *map) {
     for (uint32_t i = *at; i + 1 < wad->lump_count; i++) {
-        char name[SL_LUMP_NAME], next[SL_LUMP_NAME];
-        sl_wad_lump_name(wad, i, name);
-        sl_wad_lump_name(wad, i + 1, next);
+        char name[SLI_LUMP_NAME], next[SLI_LUMP_NAME];
+        sli_wad_lump_name(wad, i, name);
+        sli_wad_lump_name(wad, i + 1, next);
         const bool is_text = strcmp(next, "TEXTMAP") == 0;
         if (!is_map_name(name) || !(is_text || is_record_lump(next))) continue;
         uint32_t end = i + 2;
         for (; end < wad->lump_count; end++) {
-            sl_wad_lump_name(wad, end, next);
+            sli_wad_lump_name(wad, end, next);
             if (is_text ? strcmp(next, "ENDMAP") == 0 : !is_record_lump(next)) break;
         }
-        *map = (sl_wad_map){.header = i, .end = end, .is_text = is_text};
+        *map = (sli_wad_map){.header = i, .end = end, .is_text = is_text};
         memcpy(map->name, name, sizeof name);
         *at = end;
         return true;
@@ -106,11 +106,11 @@ bool sl_wad_next_map(const sl_wad *wad, uint32_t *at, sl_wad_map *map) {
     return false;
 }
 
-sl_status sl_wad_find_map(sl_context *context, const sl_wad *wad, const char *name,
-                          sl_wad_map *map) {
+sl_status sli_wad_find_map(sl_context *context, const sli_wad *wad, const char *name,
+                           sli_wad_map *map) {
     bool found = false;
-    sl_wad_map next;
-    for (uint32_t at = 0; sl_wad_next_map(wad, &at, &next);) {
+    sli_wad_map next;
+    for (uint32_t at = 0; sli_wad_next_map(wad, &at, &next);) {
         if (name ? strcasecmp(next.name, name) != 0 : found) continue;
         *map = next;
         found = true;
@@ -120,10 +120,10 @@ sl_status sl_wad_find_map(sl_context *context, const sl_wad *wad, const char *na
     return sl_fail_at(context, wad->name, 0, "there is no map '%.64s' for --map", name);
 }
 
-uint32_t sl_wad_find_lump(const sl_wad *wad, const sl_wad_map *map, const char *name) {
+uint32_t sli_wad_find_lump(const sli_wad *wad, const sli_wad_map *map, const char *name) {
     for (uint32_t i = map->header + 1; i < map->end; i++) {
-        char own[SL_LUMP_NAME];
-        sl_wad_lump_name(wad, i, own);
+        char own[SLI_LUMP_NAME];
+        sli_wad_lump_name(wad, i, own);
         if (strcmp(own, name) == 0) return i;
     }
     return wad->lump_count;
@@ -134,7 +134,7 @@ uint32_t sl_wad_find_lump(const sl_wad *wad, const sl_wad_map *map, const char *
 /// A lump with other bytes.
 typedef struct change {
     const char *name;
-    sl_lump lump;
+    sli_lump lump;
     uint32_t index; ///< of the lump, or of the one that it comes before
     bool is_new;
     bool in_place;   ///< written over what is there
@@ -143,7 +143,7 @@ typedef struct change {
 
 typedef struct wad_copy {
     sl_context *context;
-    const sl_wad *wad;
+    const sli_wad *wad;
     change *changes; ///< by index, and as they were given
     size_t count;
     size_t kept; ///< bytes of the WAD before the new ones: all but a directory at the end
@@ -160,27 +160,27 @@ static bool ranges_meet(size_t a, size_t a_size, size_t b, size_t b_size) {
 }
 
 /// Whether the lump may be written over where it is: nothing else has these bytes.
-static bool fits_in_place(const sl_wad *wad, const change *to) {
+static bool fits_in_place(const sli_wad *wad, const change *to) {
     if (to->is_new) return false;
     const unsigned char *own = entry_of(wad, to->index);
-    const size_t offset = sl_wad_u32(own), size = sl_wad_u32(own + 4);
+    const size_t offset = sli_wad_u32(own), size = sli_wad_u32(own + 4);
     if (size != to->lump.size || offset > wad->size || size > wad->size - offset) return false;
     if (ranges_meet(offset, size, 0, HEADER_BYTES)) return false;
     if (ranges_meet(offset, size, wad->directory, (size_t)wad->lump_count * ENTRY_BYTES))
         return false;
     for (uint32_t i = 0; i < wad->lump_count; i++) {
         const unsigned char *other = entry_of(wad, i);
-        if (i != to->index && ranges_meet(offset, size, sl_wad_u32(other), sl_wad_u32(other + 4)))
+        if (i != to->index && ranges_meet(offset, size, sli_wad_u32(other), sli_wad_u32(other + 4)))
             return false;
     }
     return true;
 }
 
-static change make_change(const sl_wad *wad, const sl_wad_edit *edit) {
+static change make_change(const sli_wad *wad, const sli_wad_edit *edit) {
     change to = {.name = edit->name, .lump = edit->lump};
-    to.index = sl_wad_find_lump(wad, &edit->map, edit->name);
+    to.index = sli_wad_find_lump(wad, &edit->map, edit->name);
     to.is_new = to.index == wad->lump_count;
-    if (to.is_new) to.index = sl_wad_find_lump(wad, &edit->map, "BLOCKMAP");
+    if (to.is_new) to.index = sli_wad_find_lump(wad, &edit->map, "BLOCKMAP");
     if (to.index == wad->lump_count) to.index = edit->map.end;
     to.in_place = fits_in_place(wad, &to);
     return to;
@@ -198,14 +198,14 @@ static int compare_offsets(const void *left, const void *right) {
 
 /// Says where all bytes go.
 static sl_status lay_out(wad_copy *copy) {
-    const sl_wad *wad = copy->wad;
+    const sli_wad *wad = copy->wad;
     const size_t directory_bytes = (size_t)wad->lump_count * ENTRY_BYTES;
     const bool is_last =
         wad->directory >= HEADER_BYTES && wad->directory + directory_bytes == wad->size;
     uint64_t end = copy->kept = is_last ? wad->directory : wad->size, lumps = wad->lump_count;
     for (size_t i = 0; i < copy->count; i++) {
         change *to = &copy->changes[i];
-        to->offset = to->in_place ? sl_wad_u32(entry_of(wad, to->index)) : (uint32_t)end;
+        to->offset = to->in_place ? sli_wad_u32(entry_of(wad, to->index)) : (uint32_t)end;
         if (!to->in_place) end += to->lump.size;
         lumps += to->is_new;
         if (end > UINT32_MAX || lumps > UINT32_MAX)
@@ -280,8 +280,8 @@ static sl_status write_copy(wad_copy *copy, const char *path) {
     return sl_output_close(copy->context, &output, status);
 }
 
-sl_status sl_wad_write(sl_context *context, const sl_wad *wad, const sl_wad_edit *edits,
-                       size_t count, const char *path) {
+sl_status sli_wad_write(sl_context *context, const sli_wad *wad, const sli_wad_edit *edits,
+                        size_t count, const char *path) {
     wad_copy copy = {.context = context, .wad = wad, .count = count};
     copy.changes = sl_alloc_array(context, count, sizeof *copy.changes);
     if (!copy.changes) return SL_NO_MEMORY;

@@ -56,8 +56,8 @@ static int compare_pieces(const void *left, const void *right) {
 
 static int compare_walls(const void *left, const void *right) {
     const sl_wall *a = left, *b = right;
-    int order = sl_compare_points(a->a, b->a);
-    if (!order) order = sl_compare_points(a->b, b->b);
+    int order = sli_compare_points(a->a, b->a);
+    if (!order) order = sli_compare_points(a->b, b->b);
     return order ? order : compare_lines(a->line, b->line);
 }
 
@@ -85,7 +85,7 @@ typedef struct cleaning {
 static sl_status sort_in(cleaning *work, sl_wall wall) {
     wall.a = plain(wall.a);
     wall.b = plain(wall.b);
-    const int order = sl_compare_points(wall.a, wall.b);
+    const int order = sli_compare_points(wall.a, wall.b);
     if (order == 0) {
         work->account.zero_length++;
         return SL_OK;
@@ -144,7 +144,7 @@ static void drop_duplicates(oblique_walls *list, sl_clean_account *account) {
     size_t kept = 0;
     for (size_t i = 1; i < list->count; i++) {
         const sl_wall *last = &list->items[kept], *next = &list->items[i];
-        if (sl_compare_points(last->a, next->a) == 0 && sl_compare_points(last->b, next->b) == 0)
+        if (sli_compare_points(last->a, next->a) == 0 && sli_compare_points(last->b, next->b) == 0)
             account->duplicate++;
         else
             list->items[++kept] = *next;
@@ -366,7 +366,7 @@ static sl_status clean_oblique(cleaning *work, sl_map *map, double weld) {
     size_t count = 0;
     SL_TRY(list_walls(work, &work->uprights, &work->levels, &walls, &count));
     const sl_status status =
-        sl_clean_oblique(work->context, map, walls, count, weld, &work->account);
+        sli_clean_oblique(work->context, map, walls, count, weld, &work->account);
     sl_free(work->context, walls);
     SL_TRY(status);
     if (map->wall_count) qsort(map->walls, map->wall_count, sizeof *map->walls, compare_walls);

@@ -2,7 +2,7 @@
 ///
 ///     walls | mirrors | one-way glass | seams | doors | sides of the map's cells
 ///     \_____________________ one list of segments _____________________________/
-///                                    |  sl_planar_make: weld, split at crossings
+///                                    |  sli_planar_make: weld, split at crossings
 ///                                    v
 ///     chains of edges, one for each segment, in the same order
 ///
@@ -26,7 +26,7 @@ typedef struct maker {
     const sl_wall *walls;
     sl_clean_account *account;
     segment_list list;
-    sl_planar graph;
+    sli_planar graph;
 } maker;
 
 static sl_status add_segment(sl_context *context, segment_list *list, sl_point a, sl_point b) {
@@ -81,7 +81,7 @@ static uint32_t lower_line(uint32_t a, uint32_t b) {
 
 /// Makes a wall of each edge that is part of one.
 static sl_status make_walls(maker *m, replacement *out) {
-    const sl_planar *graph = &m->graph;
+    const sli_planar *graph = &m->graph;
     uint32_t *lines = sl_alloc_array(m->context, graph->edge_count, sizeof *lines);
     bool *walled = sl_alloc_array(m->context, graph->edge_count, sizeof *walled);
     out->walls = sl_alloc_array(m->context, graph->edge_count, sizeof *out->walls);
@@ -108,7 +108,7 @@ static sl_status make_walls(maker *m, replacement *out) {
 }
 
 /// The parts that mirrors, one-way glass or seams have become.
-static sl_status make_glass(sl_context *context, const sl_planar *graph, size_t first,
+static sl_status make_glass(sl_context *context, const sli_planar *graph, size_t first,
                             const sl_glass *glass, size_t count, sl_glass **out) {
     size_t next = 0;
     *out = sl_alloc_array(context, graph->first[first + count] - graph->first[first], sizeof **out);
@@ -116,13 +116,13 @@ static sl_status make_glass(sl_context *context, const sl_planar *graph, size_t 
     for (size_t i = 0; i < count; i++)
         for (size_t k = graph->first[first + i]; k < graph->first[first + i + 1]; k++) {
             (*out)[next] = glass[i];
-            (*out)[next++].segment = sl_planar_at(graph, graph->links[k]);
+            (*out)[next++].segment = sli_planar_at(graph, graph->links[k]);
         }
     return SL_OK;
 }
 
-static sl_status make_doors(sl_context *context, const sl_planar *graph, size_t first, size_t count,
-                            sl_segment ***out) {
+static sl_status make_doors(sl_context *context, const sli_planar *graph, size_t first,
+                            size_t count, sl_segment ***out) {
     *out = sl_alloc_array(context, count, sizeof **out);
     if (!*out) return SL_NO_MEMORY;
     for (size_t i = 0; i < count; i++) {
@@ -130,14 +130,14 @@ static sl_status make_doors(sl_context *context, const sl_planar *graph, size_t 
         (*out)[i] = sl_alloc_array(context, parts, sizeof ***out);
         if (!(*out)[i]) return SL_NO_MEMORY;
         for (size_t k = 0; k < parts; k++)
-            (*out)[i][k] = sl_planar_at(graph, graph->links[links + k]);
+            (*out)[i][k] = sli_planar_at(graph, graph->links[links + k]);
     }
     return SL_OK;
 }
 
 static sl_status make_replacement(maker *m, const sl_map *map, replacement *out) {
     sl_context *context = m->context;
-    const sl_planar *graph = &m->graph;
+    const sli_planar *graph = &m->graph;
     const segment_list *list = &m->list;
     SL_TRY(make_walls(m, out));
     SL_TRY(
@@ -173,7 +173,7 @@ static void replace_door(sl_context *context, sl_door *door, sl_segment **parts,
 }
 
 /// The sides of a cell have become edges; its corners are the starts of these edges.
-static void replace_cells(sl_context *context, const sl_planar *graph, size_t first, sl_map *map,
+static void replace_cells(sl_context *context, const sli_planar *graph, size_t first, sl_map *map,
                           sl_point **corners) {
     size_t cells = 0, count = 0;
     for (size_t i = 0; i < map->cell_count; i++) {
@@ -181,7 +181,7 @@ static void replace_cells(sl_context *context, const sl_planar *graph, size_t fi
         const size_t *sides = graph->first + first + cell.first;
         cell.first = count;
         for (size_t k = sides[0]; k < sides[cell.count]; k++)
-            (*corners)[count++] = sl_planar_at(graph, graph->links[k]).a;
+            (*corners)[count++] = sli_planar_at(graph, graph->links[k]).a;
         cell.count = (uint32_t)(count - cell.first);
         if (cell.count < 3)
             count = cell.first;
@@ -229,17 +229,17 @@ static sl_status take_graph(maker *m, sl_map *map) {
     return status;
 }
 
-sl_status sl_clean_oblique(sl_context *context, sl_map *map, const sl_wall *walls, size_t count,
-                           double weld, sl_clean_account *account) {
+sl_status sli_clean_oblique(sl_context *context, sl_map *map, const sl_wall *walls, size_t count,
+                            double weld, sl_clean_account *account) {
     const sl_box bounds = sl_map_bounds(map);
-    const double own = weld < 0 ? sl_planar_tolerance(&bounds) : weld;
+    const double own = weld < 0 ? sli_planar_tolerance(&bounds) : weld;
     maker m = {.context = context, .walls = walls, .account = account};
     sl_status status = list_segments(context, walls, count, map, &m.list);
     if (status == SL_OK)
-        status = sl_planar_make(context, map->source ? map->source : "the map", m.list.items.items,
-                                m.list.items.count, fmax(own, 2 * map->snap), &m.graph);
+        status = sli_planar_make(context, map->source ? map->source : "the map", m.list.items.items,
+                                 m.list.items.count, fmax(own, 2 * map->snap), &m.graph);
     if (status == SL_OK) status = take_graph(&m, map);
-    sl_planar_destroy(context, &m.graph);
+    sli_planar_destroy(context, &m.graph);
     sl_free(context, m.list.items.items);
     return status;
 }

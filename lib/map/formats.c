@@ -33,12 +33,12 @@ static const sl_map_format formats[] = {
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
 
 const sl_map_format *sl_map_formats(const sl_context *context, size_t *count) {
-    return sl_table_items(&context->map_formats, formats, FORMAT_COUNT, count);
+    return sli_table_items(&context->map_formats, formats, FORMAT_COUNT, count);
 }
 
 sl_status sl_map_formats_add(sl_context *context, const sl_map_format *more, size_t count) {
-    return sl_table_add(context, &context->map_formats, sizeof *formats, formats, FORMAT_COUNT,
-                        more, count);
+    return sli_table_add(context, &context->map_formats, sizeof *formats, formats, FORMAT_COUNT,
+                         more, count);
 }
 
 // --- which format

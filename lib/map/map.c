@@ -28,7 +28,7 @@ static size_t character_length(const unsigned char *text, size_t size) {
     return code < least[length] || code > 0x10ffff || surrogate ? 0 : length;
 }
 
-bool sl_name_usable(const char *name, size_t length) {
+bool sli_name_usable(const char *name, size_t length) {
     const unsigned char *text = (const unsigned char *)name;
     for (size_t i = 0; i < length;) {
         if (text[i] <= 0x20 || text[i] == 0x7f || text[i] == '#') return false;
@@ -89,10 +89,10 @@ static sl_status check_ends(sl_context *context, const char *what, sl_point a, s
 /// A copy of the name of a door, path or object.
 static sl_status copy_name(sl_context *context, const char *what, const char *name, char **copy) {
     const size_t length = strlen(name);
-    if (!sl_name_usable(name, length))
+    if (!sli_name_usable(name, length))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "%s: name '%s': expected one word of UTF-8 without '#'", what,
-                       sl_show((sl_word){name, length}).text);
+                       sli_show((sli_word){name, length}).text);
     *copy = sl_copy_text(context, name, length);
     return *copy ? SL_OK : SL_NO_MEMORY;
 }

@@ -21,8 +21,8 @@
 
 #define NONE SIZE_MAX
 
-sl_status sl_grid_create(sl_context *context, size_t width, size_t height, sl_grid *grid) {
-    sl_word *rows = sl_alloc_array(context, height, sizeof *rows);
+sl_status sli_grid_create(sl_context *context, size_t width, size_t height, sli_grid *grid) {
+    sli_word *rows = sl_alloc_array(context, height, sizeof *rows);
     char *squares = sl_alloc_array(context, height, width);
     if (!rows || !squares) {
         sl_free(context, rows);
@@ -30,41 +30,42 @@ sl_status sl_grid_create(sl_context *context, size_t width, size_t height, sl_gr
         return SL_NO_MEMORY;
     }
     memset(squares, '.', width * height);
-    for (size_t row = 0; row < height; row++) rows[row] = (sl_word){squares + row * width, width};
-    *grid = (sl_grid){.rows = rows, .count = height, .step = {1, 1}, .squares = squares};
+    for (size_t row = 0; row < height; row++) rows[row] = (sli_word){squares + row * width, width};
+    *grid = (sli_grid){.rows = rows, .count = height, .step = {1, 1}, .squares = squares};
     return SL_OK;
 }
 
-void sl_grid_destroy(sl_context *context, sl_grid *grid) {
+void sli_grid_destroy(sl_context *context, sli_grid *grid) {
     sl_free(context, grid->rows);
     sl_free(context, grid->squares);
-    *grid = (sl_grid){0};
+    *grid = (sli_grid){0};
 }
 
-static size_t row_length(const sl_grid *grid, size_t row) {
+static size_t row_length(const sli_grid *grid, size_t row) {
     return row < grid->count ? grid->rows[row].length : 0;
 }
 
 /// The number of columns of a row or the one above it, whichever is more.
-static size_t columns_about(const sl_grid *grid, size_t row) {
+static size_t columns_about(const sli_grid *grid, size_t row) {
     const size_t above = row_length(grid, row - 1), here = row_length(grid, row);
     return above > here ? above : here;
 }
 
-static uint32_t line_of(const sl_grid *grid, size_t row) {
+static uint32_t line_of(const sli_grid *grid, size_t row) {
     if (!grid->first_line) return 0;
     return grid->first_line + (uint32_t)(row < grid->count ? row : row - 1);
 }
 
 /// The walls between a row and the one above it; `row` may be the one after the last.
-static sl_status add_level(sl_context *context, const sl_grid *grid, size_t row, sl_map *map) {
+static sl_status add_level(sl_context *context, const sli_grid *grid, size_t row, sl_map *map) {
     const size_t length = columns_about(grid, row);
     for (size_t column = 0, first = NONE; column <= length; column++) {
-        const bool wall = sl_grid_solid(grid, row - 1, column) != sl_grid_solid(grid, row, column);
+        const bool wall =
+            sli_grid_solid(grid, row - 1, column) != sli_grid_solid(grid, row, column);
         if (wall && first == NONE) first = column;
         if (wall || first == NONE) continue;
-        SL_TRY(sl_map_add_wall(context, map, sl_grid_corner(grid, row - 1, first),
-                               sl_grid_corner(grid, row - 1, column), line_of(grid, row)));
+        SL_TRY(sl_map_add_wall(context, map, sli_grid_corner(grid, row - 1, first),
+                               sli_grid_corner(grid, row - 1, column), line_of(grid, row)));
         first = NONE;
     }
     return SL_OK;
@@ -72,22 +73,23 @@ static sl_status add_level(sl_context *context, const sl_grid *grid, size_t row,
 
 /// Begins and ends the walls between the columns of a row; the row after the last ends them all.
 /// `open_runs` has, for the left edge of each column, the row where its wall begins, or NONE.
-static sl_status add_uprights(sl_context *context, const sl_grid *grid, size_t row,
+static sl_status add_uprights(sl_context *context, const sli_grid *grid, size_t row,
                               size_t *open_runs, sl_map *map) {
     const size_t length = columns_about(grid, row);
     for (size_t column = 0; column <= length; column++) {
         size_t *first = &open_runs[column];
-        const bool wall = sl_grid_solid(grid, row, column - 1) != sl_grid_solid(grid, row, column);
+        const bool wall =
+            sli_grid_solid(grid, row, column - 1) != sli_grid_solid(grid, row, column);
         if (wall && *first == NONE) *first = row;
         if (wall || *first == NONE) continue;
-        SL_TRY(sl_map_add_wall(context, map, sl_grid_corner(grid, row - 1, column),
-                               sl_grid_corner(grid, *first - 1, column), line_of(grid, *first)));
+        SL_TRY(sl_map_add_wall(context, map, sli_grid_corner(grid, row - 1, column),
+                               sli_grid_corner(grid, *first - 1, column), line_of(grid, *first)));
         *first = NONE;
     }
     return SL_OK;
 }
 
-sl_status sl_grid_add_walls(sl_context *context, const sl_grid *grid, sl_map *map) {
+sl_status sli_grid_add_walls(sl_context *context, const sli_grid *grid, sl_map *map) {
     size_t width = 0;
     for (size_t row = 0; row < grid->count; row++)
         if (grid->rows[row].length > width) width = grid->rows[row].length;
@@ -111,11 +113,12 @@ sl_status sl_grid_add_walls(sl_context *context, const sl_grid *grid, sl_map *ma
 
 /// The door of a square: through its middle, from one solid square to the opposite one. False
 /// unless there is exactly one such pair.
-static bool door_segment(const sl_grid *plan, size_t row, size_t column, sl_segment *out) {
+static bool door_segment(const sli_grid *plan, size_t row, size_t column, sl_segment *out) {
     const bool beside =
-        sl_grid_solid(plan, row, column - 1) && sl_grid_solid(plan, row, column + 1);
-    const bool along = sl_grid_solid(plan, row - 1, column) && sl_grid_solid(plan, row + 1, column);
-    const sl_point at = sl_grid_corner(plan, row, column);
+        sli_grid_solid(plan, row, column - 1) && sli_grid_solid(plan, row, column + 1);
+    const bool along =
+        sli_grid_solid(plan, row - 1, column) && sli_grid_solid(plan, row + 1, column);
+    const sl_point at = sli_grid_corner(plan, row, column);
     if (beside)
         *out = (sl_segment){{at.x, at.y + 0.5}, {at.x + 1, at.y + 0.5}};
     else
@@ -124,8 +127,8 @@ static bool door_segment(const sl_grid *plan, size_t row, size_t column, sl_segm
 }
 
 /// The place of a start in a square.
-static sl_point middle(const sl_grid *plan, size_t row, size_t column) {
-    const sl_point at = sl_grid_corner(plan, row, column);
+static sl_point middle(const sli_grid *plan, size_t row, size_t column) {
+    const sl_point at = sli_grid_corner(plan, row, column);
     return (sl_point){at.x + 0.5, at.y + 0.5};
 }
 
@@ -133,12 +136,12 @@ static sl_point middle(const sl_grid *plan, size_t row, size_t column) {
 typedef struct plan_reader {
     sl_context *context;
     const char *name;
-    sl_grid plan;
+    sli_grid plan;
     sl_map *map;
 } plan_reader;
 
 static sl_status check_row(const plan_reader *reader, size_t row) {
-    const sl_word line = reader->plan.rows[row];
+    const sli_word line = reader->plan.rows[row];
     for (size_t i = 0; i < line.length; i++) {
         const unsigned char c = (unsigned char)line.at[i];
         if (strchr("# .+@", c)) continue;
@@ -153,10 +156,10 @@ static sl_status check_row(const plan_reader *reader, size_t row) {
 
 /// The doors and starts of a row.
 static sl_status add_things(const plan_reader *reader, size_t row) {
-    const sl_grid *plan = &reader->plan;
+    const sli_grid *plan = &reader->plan;
     const uint32_t line = (uint32_t)row + 1;
     for (size_t column = 0; column < plan->rows[row].length; column++) {
-        const char what = sl_grid_square(plan, row, column);
+        const char what = sli_grid_square(plan, row, column);
         if (what == '@')
             SL_TRY(
                 sl_map_add_start(reader->context, reader->map, middle(plan, row, column), 0, line));
@@ -178,12 +181,12 @@ static sl_status read_rows(const plan_reader *reader) {
     bool any_open = false;
     for (size_t row = 0; row < reader->plan.count; row++) {
         SL_TRY(check_row(reader, row));
-        const sl_word line = reader->plan.rows[row];
+        const sli_word line = reader->plan.rows[row];
         for (size_t i = 0; i < line.length && !any_open; i++) any_open = line.at[i] != '#';
     }
     if (!any_open)
         return sl_fail_at(reader->context, reader->name, 0, "the plan has no open square");
-    SL_TRY(sl_grid_add_walls(reader->context, &reader->plan, reader->map));
+    SL_TRY(sli_grid_add_walls(reader->context, &reader->plan, reader->map));
     for (size_t row = 0; row < reader->plan.count; row++) {
         if (row % 256 == 0) SL_TRY(sl_check_cancelled(reader->context));
         SL_TRY(add_things(reader, row));
@@ -192,19 +195,19 @@ static sl_status read_rows(const plan_reader *reader) {
 }
 
 /// The plan of these rows: unit squares, one line for each row.
-static sl_grid plan_of(sl_word *rows, size_t count) {
-    return (sl_grid){.rows = rows, .count = count, .step = {1, 1}, .first_line = 1};
+static sli_grid plan_of(sli_word *rows, size_t count) {
+    return (sli_grid){.rows = rows, .count = count, .step = {1, 1}, .first_line = 1};
 }
 
 sl_status sl_map_read_plan(sl_context *context, const char *name, const char *text, size_t size,
                            sl_map *map) {
-    SL_TRY(sl_refuse_nul(context, name, text, size));
+    SL_TRY(sli_refuse_nul(context, name, text, size));
     sl_map read = {0};
-    SL_ARRAY(sl_word) rows = {0};
+    SL_ARRAY(sli_word) rows = {0};
     plan_reader reader = {.context = context, .name = name, .map = &read};
-    sl_lines lines = sl_lines_of(text, size);
+    sli_lines lines = sli_lines_of(text, size);
     sl_status status = SL_OK;
-    for (sl_word line; status == SL_OK && sl_lines_next(&lines, &line);) {
+    for (sli_word line; status == SL_OK && sli_lines_next(&lines, &line);) {
         status = SL_ARRAY_ROOM(context, &rows, 1);
         if (status == SL_OK) rows.items[rows.count++] = line;
     }
@@ -228,7 +231,7 @@ typedef struct plan_maker {
     size_t width, height;
     unsigned char *squares; ///< of the plan and one more square all around, see the marks below
     char *text;
-    sl_word *rows;
+    sli_word *rows;
 } plan_maker;
 
 enum { WALL_LEFT = 1, WALL_BELOW = 2, KNOWN = 4, OPEN = 8 };
@@ -281,7 +284,7 @@ static sl_status refuse_others(const plan_maker *maker) {
     if (map->notes) return refuse(maker, 0, "a plan has no place for the map's notes");
     bool walled = false;
     for (size_t i = 0; i < map->wall_count && !walled; i++)
-        walled = !sl_same_point(map->walls[i].a, map->walls[i].b);
+        walled = !sli_same_point(map->walls[i].a, map->walls[i].b);
     if (!walled) return refuse(maker, 0, "a plan needs walls, the map has none");
     return SL_OK;
 }
@@ -455,7 +458,7 @@ static sl_status make_text(plan_maker *maker) {
         for (size_t column = 0; column < maker->width; column++)
             row[column] = *marks(maker, column, level) & OPEN ? '.' : '#';
         row[maker->width] = '\n';
-        maker->rows[maker->height - 1 - level] = (sl_word){row, maker->width};
+        maker->rows[maker->height - 1 - level] = (sli_word){row, maker->width};
     }
     return SL_OK;
 }
@@ -480,7 +483,7 @@ static sl_segment moved(const plan_maker *maker, sl_segment segment) {
 
 /// Puts a door into a square, if reading the plan then finds the same door.
 static sl_status put_door(const plan_maker *maker, const sl_door *door) {
-    const sl_grid plan = plan_of(maker->rows, maker->height);
+    const sli_grid plan = plan_of(maker->rows, maker->height);
     const sl_segment at = moved(maker, door->segment);
     size_t row, column;
     sl_segment found;
@@ -492,8 +495,8 @@ static sl_status put_door(const plan_maker *maker, const sl_door *door) {
                                         fmin(door->segment.a.y, door->segment.b.y)},
                              &row, &column);
     if (!here || *here != '.' || !door_segment(&plan, row, column, &found) ||
-        !((sl_same_point(at.a, found.a) && sl_same_point(at.b, found.b)) ||
-          (sl_same_point(at.a, found.b) && sl_same_point(at.b, found.a))))
+        !((sli_same_point(at.a, found.a) && sli_same_point(at.b, found.b)) ||
+          (sli_same_point(at.a, found.b) && sli_same_point(at.b, found.a))))
         return refuse_segment(maker, door->line, "door", door->segment.a, door->segment.b,
                               "a plan's doors stand in the middle of a square, from one solid "
                               "square to the one opposite");
@@ -503,7 +506,7 @@ static sl_status put_door(const plan_maker *maker, const sl_door *door) {
 
 static sl_status put_things(const plan_maker *maker) {
     const sl_map *map = maker->map;
-    const sl_grid plan = plan_of(maker->rows, maker->height);
+    const sli_grid plan = plan_of(maker->rows, maker->height);
     for (size_t i = 0; i < map->door_count; i++) SL_TRY(put_door(maker, &map->doors[i]));
     if (map->door_count) sl_note(maker->context, "a plan's doors are named in reading order");
     size_t shifted = 0;
@@ -516,7 +519,7 @@ static sl_status put_things(const plan_maker *maker) {
             return refuse(maker, start->line, "the start's square holds a door or a start already");
         *here = '@';
         const sl_point at = moved(maker, (sl_segment){start->at, start->at}).a;
-        shifted += start->heading != 0 || !sl_same_point(at, middle(&plan, row, column));
+        shifted += start->heading != 0 || !sli_same_point(at, middle(&plan, row, column));
     }
     if (shifted)
         sl_note(maker->context, "%zu starts moved to the middle of their square, heading 0",
@@ -536,7 +539,7 @@ static sl_status make_plan(plan_maker *maker) {
     return put_things(maker);
 }
 
-sl_status sl_map_print_plan(sl_context *context, const sl_map *map, FILE *stream) {
+sl_status sli_map_print_plan(sl_context *context, const sl_map *map, FILE *stream) {
     plan_maker maker = {.context = context, .map = map};
     const sl_status status = make_plan(&maker);
     if (status == SL_OK) fwrite(maker.text, maker.width + 1, maker.height, stream);
@@ -549,5 +552,5 @@ sl_status sl_map_print_plan(sl_context *context, const sl_map *map, FILE *stream
 sl_status sl_map_write_plan(sl_context *context, const sl_map *map, const char *path) {
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));
-    return sl_output_close(context, &output, sl_map_print_plan(context, map, output.stream));
+    return sl_output_close(context, &output, sli_map_print_plan(context, map, output.stream));
 }

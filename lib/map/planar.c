@@ -78,7 +78,7 @@ typedef struct planer {
     double scale, slack; ///< of working coordinates: places times scale are at most 1
     SL_ARRAY(sl_point) points;
     SL_ARRAY(working_edge) edges;
-    SL_ARRAY(sl_planar_link) parts;
+    SL_ARRAY(sli_planar_link) parts;
     table of_squares;             ///< the point that was put last into a square
     SL_ARRAY(uint32_t) next_near; ///< by point: 1 + the point before it in its square
     table of_ends;                ///< the edge between two points
@@ -168,11 +168,11 @@ static void find_in_square(const planer *p, sl_point at, square s, found_point *
     const uint32_t *slot = find_slot(p, &p->of_squares, key_of_square(s), key_of_point);
     for (uint32_t n = *slot; n; n = p->next_near.items[n - 1]) {
         const sl_point other = p->points.items[n - 1];
-        const double d = sl_same_point(at, other) ? 0
-                         : p->weld > 0            ? distance(at, other)
-                                                  : HUGE_VAL;
+        const double d = sli_same_point(at, other) ? 0
+                         : p->weld > 0             ? distance(at, other)
+                                                   : HUGE_VAL;
         if (d > p->weld || d > found->distance ||
-            (d == found->distance && sl_compare_points(other, p->points.items[found->point]) > 0))
+            (d == found->distance && sli_compare_points(other, p->points.items[found->point]) > 0))
             continue;
         *found = (found_point){n - 1, d};
     }
@@ -228,7 +228,7 @@ static sl_status grow_edges(planer *p) {
 }
 
 /// The edge between two different points, there already or new.
-static sl_status take_edge(planer *p, uint32_t from, uint32_t to, sl_planar_link *out) {
+static sl_status take_edge(planer *p, uint32_t from, uint32_t to, sli_planar_link *out) {
     const uint32_t a = from < to ? from : to, b = from < to ? to : from;
     if (2 * (p->edges.count + 1) > p->of_ends.count) SL_TRY(grow_edges(p));
     uint32_t *slot = find_edge(p, a, b);
@@ -264,7 +264,7 @@ static bool is_near(const planer *p, sl_point a, sl_point b, sl_point v) {
     const double length = hypot(dx, dy);
     const double along = (vx * dx + vy * dy) / length, off = fabs(dx * vy - dy * vx) / length;
     if (off <= reach * p->scale && along > 0 && along < length) return true;
-    return off <= 0x1p-48 * (fabs(vx) + fabs(vy)) + 0x1p-1000 && sl_orient(a, b, v) == 0 &&
+    return off <= 0x1p-48 * (fabs(vx) + fabs(vy)) + 0x1p-1000 && sli_orient(a, b, v) == 0 &&
            strictly_between(a, b, v);
 }
 
@@ -313,8 +313,8 @@ static sl_status meet(planer *p, uint32_t edge, uint32_t other) {
         return SL_OK;
     const sl_point a = p->points.items[e->a], b = p->points.items[e->b];
     const sl_point c = p->points.items[o->a], d = p->points.items[o->b];
-    if (sl_orient(a, b, c) * sl_orient(a, b, d) >= 0 ||
-        sl_orient(c, d, a) * sl_orient(c, d, b) >= 0)
+    if (sli_orient(a, b, c) * sli_orient(a, b, d) >= 0 ||
+        sli_orient(c, d, a) * sli_orient(c, d, b) >= 0)
         return SL_OK;
     return add_meeting(p, edge, other);
 }
@@ -438,7 +438,7 @@ static sl_status find_meetings(planer *p) {
 
 static int compare_meetings(const void *left, const void *right) {
     const meeting *a = left, *b = right;
-    const int order = sl_compare_points(a->at, b->at);
+    const int order = sli_compare_points(a->at, b->at);
     if (order) return order;
     const int i = a->edges[0] == b->edges[0];
     return (a->edges[i] > b->edges[i]) - (a->edges[i] < b->edges[i]);
@@ -448,7 +448,7 @@ static int compare_meetings(const void *left, const void *right) {
 static sl_status take_meeting(planer *p, const meeting *m, uint32_t *out) {
     *out = p->weld > 0 ? find_point(p, m->at) : NONE;
     if (*out != NONE) return SL_OK;
-    return take_point(p, sl_crossing(segment_of(p, m->edges[0]), segment_of(p, m->edges[1])), out);
+    return take_point(p, sli_crossing(segment_of(p, m->edges[0]), segment_of(p, m->edges[1])), out);
 }
 
 /// Gives the crossings their points, in the order of places.
@@ -502,7 +502,7 @@ static sl_status split_edge(planer *p, const split *splits, size_t count) {
     for (size_t i = 0; i <= count; i++) {
         const uint32_t to = i < count ? splits[i].point : last;
         if (to == from) continue;
-        sl_planar_link link;
+        sli_planar_link link;
         SL_TRY(take_edge(p, from, to, &link));
         SL_TRY(SL_ARRAY_ROOM(p->context, &p->parts, 1));
         p->parts.items[p->parts.count++] = link;
@@ -561,7 +561,7 @@ static sl_status settle(planer *p) {
 // --- from segments to edges
 
 static int compare_for_qsort(const void *left, const void *right) {
-    return sl_compare_points(*(const sl_point *)left, *(const sl_point *)right);
+    return sli_compare_points(*(const sl_point *)left, *(const sl_point *)right);
 }
 
 /// Takes all ends in the order of places, so that the order of the input does not matter.
@@ -582,23 +582,23 @@ static sl_status take_ends(planer *p, const sl_segment *segments, size_t count) 
 }
 
 static int compare_edges(const void *left, const void *right) {
-    const sl_planar_edge *a = left, *b = right;
+    const sli_planar_edge *a = left, *b = right;
     if (a->a != b->a) return a->a < b->a ? -1 : 1;
     return (a->b > b->b) - (a->b < b->b);
 }
 
 /// Takes the edges between the segments' points, in the order of places. So the numbers of points
 /// and edges, and all that follows from them, do not depend on the order of the input.
-static sl_status take_edges(planer *p, const sl_planar_edge *ends, size_t count) {
-    sl_planar_edge *sorted = sl_alloc_array(p->context, count, sizeof *sorted);
+static sl_status take_edges(planer *p, const sli_planar_edge *ends, size_t count) {
+    sli_planar_edge *sorted = sl_alloc_array(p->context, count, sizeof *sorted);
     if (!sorted) return SL_NO_MEMORY;
     for (size_t i = 0; i < count; i++) {
         const uint32_t a = ends[i].a, b = ends[i].b;
-        sorted[i] = a < b ? ends[i] : (sl_planar_edge){b, a};
+        sorted[i] = a < b ? ends[i] : (sli_planar_edge){b, a};
     }
     if (count) qsort(sorted, count, sizeof *sorted, compare_edges);
     sl_status status = SL_OK;
-    sl_planar_link link;
+    sli_planar_link link;
     for (size_t i = 0; i < count && status == SL_OK; i++)
         if (sorted[i].a != sorted[i].b) status = take_edge(p, sorted[i].a, sorted[i].b, &link);
     sl_free(p->context, sorted);
@@ -607,13 +607,13 @@ static sl_status take_edges(planer *p, const sl_planar_edge *ends, size_t count)
 
 /// The link of each segment before it is split; NONE for a segment of no length.
 static sl_status take_segments(planer *p, const sl_segment *segments, size_t count,
-                               sl_planar_link *roots, size_t *welded) {
-    sl_planar_edge *ends = sl_alloc_array(p->context, count, sizeof *ends);
+                               sli_planar_link *roots, size_t *welded) {
+    sli_planar_edge *ends = sl_alloc_array(p->context, count, sizeof *ends);
     if (!ends) return SL_NO_MEMORY;
     for (size_t i = 0; i < count; i++) {
-        ends[i] = (sl_planar_edge){find_point(p, segments[i].a), find_point(p, segments[i].b)};
-        *welded += !sl_same_point(p->points.items[ends[i].a], segments[i].a);
-        *welded += !sl_same_point(p->points.items[ends[i].b], segments[i].b);
+        ends[i] = (sli_planar_edge){find_point(p, segments[i].a), find_point(p, segments[i].b)};
+        *welded += !sli_same_point(p->points.items[ends[i].a], segments[i].a);
+        *welded += !sli_same_point(p->points.items[ends[i].b], segments[i].b);
     }
     sl_status status = take_edges(p, ends, count);
     for (size_t i = 0; i < count && status == SL_OK; i++) {
@@ -630,27 +630,27 @@ static sl_status take_segments(planer *p, const sl_segment *segments, size_t cou
 typedef struct writer {
     planer *p;
     const sl_segment *segments;
-    sl_planar *out;
+    sli_planar *out;
     uint32_t *number; ///< the new one: by point, then by edge
-    SL_ARRAY(sl_planar_link) links;
-    SL_ARRAY(sl_planar_link) waiting;
+    SL_ARRAY(sli_planar_link) links;
+    SL_ARRAY(sli_planar_link) waiting;
 } writer;
 
-static void turn_round(sl_planar_link *links, size_t count) {
+static void turn_round(sli_planar_link *links, size_t count) {
     for (size_t i = 0; i < count / 2; i++) {
-        const sl_planar_link link = links[i];
+        const sli_planar_link link = links[i];
         links[i] = links[count - 1 - i];
         links[count - 1 - i] = link;
     }
 }
 
 /// Adds the edges that a link has become.
-static sl_status add_links(writer *w, sl_planar_link link) {
+static sl_status add_links(writer *w, sli_planar_link link) {
     w->waiting.count = 0;
     SL_TRY(SL_ARRAY_ROOM(w->p->context, &w->waiting, 1));
     w->waiting.items[w->waiting.count++] = link;
     while (w->waiting.count) {
-        const sl_planar_link at = w->waiting.items[--w->waiting.count];
+        const sli_planar_link at = w->waiting.items[--w->waiting.count];
         const working_edge *e = &w->p->edges.items[at / 2];
         if (!e->count) {
             SL_TRY(SL_ARRAY_ROOM(w->p->context, &w->links, 1));
@@ -658,7 +658,7 @@ static sl_status add_links(writer *w, sl_planar_link link) {
             continue;
         }
         SL_TRY(SL_ARRAY_ROOM(w->p->context, &w->waiting, e->count));
-        sl_planar_link *top = w->waiting.items + w->waiting.count;
+        sli_planar_link *top = w->waiting.items + w->waiting.count;
         for (uint32_t i = 0; i < e->count; i++) top[i] = w->p->parts.items[e->first + i] ^ (at % 2);
         // The first one to go along must be the last on the stack.
         if (at % 2 == 0) turn_round(top, e->count);
@@ -671,17 +671,17 @@ static sl_status add_links(writer *w, sl_planar_link link) {
 static double distance_to(const sl_segment *s, sl_point v) {
     const double dx = s->b.x - s->a.x, dy = s->b.y - s->a.y, length = hypot(dx, dy);
     const double vx = v.x - s->a.x, vy = v.y - s->a.y, error = 0x1p-50 * (fabs(vx) + fabs(vy));
-    if (sl_same_point(v, s->a) || sl_same_point(v, s->b)) return 0;
+    if (sli_same_point(v, s->a) || sli_same_point(v, s->b)) return 0;
     if (length == 0) return distance(v, s->a) + error;
     const double along = vx * (dx / length) + vy * (dy / length);
     if (along <= 0) return distance(v, s->a) + error;
     if (along >= length) return distance(v, s->b) + error;
-    if (sl_orient(s->a, s->b, v) == 0) return 0;
+    if (sli_orient(s->a, s->b, v) == 0) return 0;
     return fabs(dx / length * vy - dy / length * vx) + error;
 }
 
 static void measure(writer *w, sl_segment s, size_t from) {
-    if (sl_compare_points(s.a, s.b) > 0) s = (sl_segment){s.b, s.a};
+    if (sli_compare_points(s.a, s.b) > 0) s = (sl_segment){s.b, s.a};
     for (size_t i = from; i < w->links.count; i++) {
         const working_edge *e = &w->p->edges.items[w->links.items[i] / 2];
         const uint32_t ends[2] = {e->a, e->b};
@@ -692,7 +692,7 @@ static void measure(writer *w, sl_segment s, size_t from) {
     }
 }
 
-static sl_status write_chains(writer *w, const sl_planar_link *roots, size_t count) {
+static sl_status write_chains(writer *w, const sli_planar_link *roots, size_t count) {
     SL_TRY(SL_ARRAY_ROOM(w->p->context, &w->links, 1)); // a place to point to, without a link too
     for (size_t i = 0; i < count; i++) {
         w->out->first[i] = w->links.count;
@@ -711,7 +711,7 @@ typedef struct numbered {
 
 static int compare_numbered(const void *left, const void *right) {
     const numbered *a = left, *b = right;
-    return sl_compare_points(a->at, b->at);
+    return sli_compare_points(a->at, b->at);
 }
 
 /// Hands over the points at the ends of edges, sorted.
@@ -751,7 +751,7 @@ static sl_status write_edges(writer *w) {
         if (!is_whole(p, (uint32_t)i)) continue;
         const uint32_t a = w->number[p->edges.items[i].a], b = w->number[p->edges.items[i].b];
         number[i] = (uint32_t)(2 * count + (a > b));
-        w->out->edges[count++] = (sl_planar_edge){a < b ? a : b, a < b ? b : a};
+        w->out->edges[count++] = (sli_planar_edge){a < b ? a : b, a < b ? b : a};
     }
     w->out->edge_count = count;
     for (size_t i = 0; i < w->links.count; i++)
@@ -761,8 +761,8 @@ static sl_status write_edges(writer *w) {
     return SL_OK;
 }
 
-static sl_status write(planer *p, const sl_segment *segments, const sl_planar_link *roots,
-                       size_t count, sl_planar *out) {
+static sl_status write(planer *p, const sl_segment *segments, const sli_planar_link *roots,
+                       size_t count, sli_planar *out) {
     writer w = {.p = p, .segments = segments, .out = out};
     w.number = sl_alloc_array(p->context, p->points.count + p->edges.count, sizeof *w.number);
     out->first = sl_alloc_array(p->context, count + 1, sizeof *out->first);
@@ -786,14 +786,14 @@ static double magnitude(const sl_segment *segments, size_t count) {
     return most;
 }
 
-double sl_planar_tolerance(const sl_box *b) {
+double sli_planar_tolerance(const sl_box *b) {
     const double most =
         fmax(fmax(fabs(b->min.x), fabs(b->min.y)), fmax(fabs(b->max.x), fabs(b->max.y)));
     return 0x1p-46 * most;
 }
 
-static sl_status make(planer *p, const sl_segment *segments, size_t count, sl_planar *out) {
-    sl_planar_link *roots = sl_alloc_array(p->context, count, sizeof *roots);
+static sl_status make(planer *p, const sl_segment *segments, size_t count, sli_planar *out) {
+    sli_planar_link *roots = sl_alloc_array(p->context, count, sizeof *roots);
     if (!roots) return SL_NO_MEMORY;
     sl_status status = take_ends(p, segments, count);
     if (status == SL_OK) status = take_segments(p, segments, count, roots, &out->welded);
@@ -805,8 +805,8 @@ static sl_status make(planer *p, const sl_segment *segments, size_t count, sl_pl
     return status;
 }
 
-sl_status sl_planar_make(sl_context *context, const char *source, const sl_segment *segments,
-                         size_t count, double weld, sl_planar *out) {
+sl_status sli_planar_make(sl_context *context, const char *source, const sl_segment *segments,
+                          size_t count, double weld, sli_planar *out) {
     int exponent = 0;
     frexp(magnitude(segments, count), &exponent);
     planer p = {.context = context, .source = source, .weld = weld, .scale = ldexp(1, -exponent)};
@@ -814,7 +814,7 @@ sl_status sl_planar_make(sl_context *context, const char *source, const sl_segme
     if (!(weld * p.scale >= 0x1p-50)) p.weld = 0;
     p.side = 64 * p.weld;
     p.slack = 4 * p.weld * p.scale + 0x1p-46;
-    sl_planar made = {0};
+    sli_planar made = {0};
     const sl_status status = make(&p, segments, count, &made);
     sl_free(context, p.points.items);
     sl_free(context, p.edges.items);
@@ -828,14 +828,14 @@ sl_status sl_planar_make(sl_context *context, const char *source, const sl_segme
     if (status == SL_OK)
         *out = made;
     else
-        sl_planar_destroy(context, &made);
+        sli_planar_destroy(context, &made);
     return status;
 }
 
-void sl_planar_destroy(sl_context *context, sl_planar *planar) {
+void sli_planar_destroy(sl_context *context, sli_planar *planar) {
     sl_free(context, planar->points);
     sl_free(context, planar->edges);
     sl_free(context, planar->links);
     sl_free(context, planar->first);
-    *planar = (sl_planar){0};
+    *planar = (sli_planar){0};
 }

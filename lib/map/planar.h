@@ -9,25 +9,25 @@
 #include "sightline/map.h"
 
 /// An edge of the graph, from points[a] to points[b]; a < b, and points are by x, then y.
-typedef struct sl_planar_edge {
+typedef struct sli_planar_edge {
     uint32_t a, b;
-} sl_planar_edge;
+} sli_planar_edge;
 
 /// An edge of a chain: 2 * edge, plus 1 where the chain runs from b to a.
-typedef uint32_t sl_planar_link;
+typedef uint32_t sli_planar_link;
 
 /// Zeroed, a graph is empty.
-typedef struct sl_planar {
+typedef struct sli_planar {
     sl_point *points;
-    sl_planar_edge *edges;
+    sli_planar_edge *edges;
     size_t point_count, edge_count;
-    sl_planar_link *links; ///< of segment i: links[first[i]] .. links[first[i + 1] - 1], in order
-                           ///< from its a to its b; none for a segment of no length
+    sli_planar_link *links; ///< of segment i: links[first[i]] .. links[first[i + 1] - 1], in order
+                            ///< from its a to its b; none for a segment of no length
     size_t *first;
     size_t welded;       ///< ends that were moved
     size_t crossings;    ///< points that were computed
     double largest_move; ///< the largest distance of a chain's point from its segment
-} sl_planar;
+} sli_planar;
 
 /// Makes the graph of segments.
 ///
@@ -42,21 +42,21 @@ typedef struct sl_planar {
 ///
 /// The order of the segments does not matter. Time O((n + k) log n) for k crossings, where few
 /// segments come near to each other in one place.
-sl_status sl_planar_make(sl_context *context, const char *source, const sl_segment *segments,
-                         size_t count, double weld, sl_planar *out);
-void sl_planar_destroy(sl_context *context, sl_planar *planar); ///< and zeroes it
+sl_status sli_planar_make(sl_context *context, const char *source, const sl_segment *segments,
+                          size_t count, double weld, sli_planar *out);
+void sli_planar_destroy(sl_context *context, sli_planar *planar); ///< and zeroes it
 
 /// The tolerance for doubles of a map's size. Ends that met still do after a map was turned and
 /// moved in doubles.
-double sl_planar_tolerance(const sl_box *bounds);
+double sli_planar_tolerance(const sl_box *bounds);
 
 /// Cleans a map with oblique walls (clean_oblique.c). `walls` are to stand for the map's own;
 /// mirrors are among them. `weld` as in sl_clean_options. The walls come out in no order.
-sl_status sl_clean_oblique(sl_context *context, sl_map *map, const sl_wall *walls, size_t count,
-                           double weld, sl_clean_account *account);
+sl_status sli_clean_oblique(sl_context *context, sl_map *map, const sl_wall *walls, size_t count,
+                            double weld, sl_clean_account *account);
 
-static inline sl_segment sl_planar_at(const sl_planar *planar, sl_planar_link link) {
-    const sl_planar_edge *e = &planar->edges[link / 2];
+static inline sl_segment sli_planar_at(const sli_planar *planar, sli_planar_link link) {
+    const sli_planar_edge *e = &planar->edges[link / 2];
     const sl_point a = planar->points[e->a], b = planar->points[e->b];
     return link % 2 ? (sl_segment){b, a} : (sl_segment){a, b};
 }

@@ -219,7 +219,7 @@ static bool find_sides(sl_query *q, sl_point eye) {
     for (uint32_t i = 0; i < space->seam_count; i++) {
         const sl_seam *seam = &space->seams[i];
         if (seam->kind != SL_SEAM_ONEWAY) continue;
-        const int8_t side = (int8_t)sl_orient(seam->at.a, seam->at.b, eye);
+        const int8_t side = (int8_t)sli_orient(seam->at.a, seam->at.b, eye);
         changed |= side != q->sides[i];
         on_line |= !side;
         q->sides[i] = side;
@@ -365,7 +365,7 @@ sl_status sl_query_can_see(sl_context *context, sl_query *query, sl_point eye, s
     SL_TRY(make_outline(context, query, &outline));
     SL_TRY(sl_sees(context, outline, eye, point, sight, &sees));
     if (sees && query->range > 0)
-        sees = sl_distance_compare(eye, point, query->range) < (sight == SL_CLOSED ? 1 : 0);
+        sees = sli_distance_compare(eye, point, query->range) < (sight == SL_CLOSED ? 1 : 0);
     *out = sees;
     return SL_OK;
 }

@@ -25,45 +25,45 @@
 
 // --- the sides of boxes
 
-unsigned sl_box_sides(sl_box box, sl_piece sides[4]) {
+unsigned sli_box_sides(sl_box box, sli_piece sides[4]) {
     const sl_point a = box.min, b = box.max;
     unsigned count = 0;
     if (a.y < b.y) {
-        sides[count++] = (sl_piece){.axis = 0, .at = a.x, .lo = a.y, .hi = b.y};
-        if (a.x < b.x) sides[count++] = (sl_piece){.axis = 0, .at = b.x, .lo = a.y, .hi = b.y};
+        sides[count++] = (sli_piece){.axis = 0, .at = a.x, .lo = a.y, .hi = b.y};
+        if (a.x < b.x) sides[count++] = (sli_piece){.axis = 0, .at = b.x, .lo = a.y, .hi = b.y};
     }
     if (a.x < b.x) {
-        sides[count++] = (sl_piece){.axis = 1, .at = a.y, .lo = a.x, .hi = b.x};
-        if (a.y < b.y) sides[count++] = (sl_piece){.axis = 1, .at = b.y, .lo = a.x, .hi = b.x};
+        sides[count++] = (sli_piece){.axis = 1, .at = a.y, .lo = a.x, .hi = b.x};
+        if (a.y < b.y) sides[count++] = (sli_piece){.axis = 1, .at = b.y, .lo = a.x, .hi = b.x};
     }
     return count;
 }
 
-sl_wall sl_piece_wall(const sl_piece *p) {
+sl_wall sli_piece_wall(const sli_piece *p) {
     return p->axis ? (sl_wall){.a = {p->lo, p->at}, .b = {p->hi, p->at}}
                    : (sl_wall){.a = {p->at, p->lo}, .b = {p->at, p->hi}};
 }
 
 static int compare_pieces(const void *left, const void *right) {
-    const sl_piece *a = left, *b = right;
+    const sli_piece *a = left, *b = right;
     if (a->axis != b->axis) return a->axis - b->axis;
     if (a->at != b->at) return a->at < b->at ? -1 : 1;
     return (a->lo > b->lo) - (a->lo < b->lo);
 }
 
-static sl_status add_piece(sl_context *context, sl_piece_list *list, sl_piece piece) {
+static sl_status add_piece(sl_context *context, sli_piece_list *list, sli_piece piece) {
     SL_TRY(SL_ARRAY_ROOM(context, list, 1));
     list->items[list->count++] = piece;
     return SL_OK;
 }
 
-sl_status sl_piece_add_free(sl_context *context, const sl_piece *walls, size_t count,
-                            sl_piece piece, sl_piece_list *out) {
-    size_t i = sl_wall_lines_find(walls, count, piece.axis, piece.at, piece.lo);
+sl_status sli_piece_add_free(sl_context *context, const sli_piece *walls, size_t count,
+                             sli_piece piece, sli_piece_list *out) {
+    size_t i = sli_wall_lines_find(walls, count, piece.axis, piece.at, piece.lo);
     for (; i < count && piece.lo < piece.hi; i++) {
-        const sl_piece *wall = &walls[i];
+        const sli_piece *wall = &walls[i];
         if (wall->axis != piece.axis || wall->at != piece.at || wall->lo >= piece.hi) break;
-        sl_piece before = piece;
+        sli_piece before = piece;
         before.hi = wall->lo;
         if (before.lo < before.hi) SL_TRY(add_piece(context, out, before));
         piece.lo = fmax(piece.lo, wall->hi);
@@ -73,12 +73,12 @@ sl_status sl_piece_add_free(sl_context *context, const sl_piece *walls, size_t c
 
 /// Sorts pieces, each place once: a piece that overlaps the one before it starts at its end.
 /// Returns the number that is left.
-static size_t sort_out(sl_piece *pieces, size_t count) {
+static size_t sort_out(sli_piece *pieces, size_t count) {
     size_t kept = 0;
     if (count) qsort(pieces, count, sizeof *pieces, compare_pieces);
     for (size_t i = 0; i < count; i++) {
-        sl_piece piece = pieces[i];
-        const sl_piece *last = kept ? &pieces[kept - 1] : NULL;
+        sli_piece piece = pieces[i];
+        const sli_piece *last = kept ? &pieces[kept - 1] : NULL;
         if (last && last->axis == piece.axis && last->at == piece.at)
             piece.lo = fmax(piece.lo, last->hi);
         if (piece.lo < piece.hi) pieces[kept++] = piece;
@@ -87,7 +87,7 @@ static size_t sort_out(sl_piece *pieces, size_t count) {
 }
 
 /// Keeps the part of a side within the bounds; false for none.
-static bool clip(const sl_box *bounds, sl_piece *side) {
+static bool clip(const sl_box *bounds, sli_piece *side) {
     const double at_lo = side->axis ? bounds->min.y : bounds->min.x;
     const double at_hi = side->axis ? bounds->max.y : bounds->max.x;
     side->lo = fmax(side->lo, side->axis ? bounds->min.x : bounds->min.y);
@@ -95,25 +95,25 @@ static bool clip(const sl_box *bounds, sl_piece *side) {
     return side->at >= at_lo && side->at <= at_hi && side->lo < side->hi;
 }
 
-static sl_status add_sides(sl_context *context, const sl_box_ground *ground,
+static sl_status add_sides(sl_context *context, const sli_box_ground *ground,
                            const sl_moving_box *boxes, size_t count, bool blocking,
-                           sl_piece_list *all, sl_piece_list *out) {
+                           sli_piece_list *all, sli_piece_list *out) {
     for (size_t i = 0; i < count; i++) {
-        sl_piece sides[4];
-        const unsigned n = boxes[i].blocks == blocking ? sl_box_sides(boxes[i].box, sides) : 0;
+        sli_piece sides[4];
+        const unsigned n = boxes[i].blocks == blocking ? sli_box_sides(boxes[i].box, sides) : 0;
         for (unsigned k = 0; k < n; k++)
             if (clip(&ground->space->bounds, &sides[k])) SL_TRY(add_piece(context, all, sides[k]));
     }
     all->count = sort_out(all->items, all->count);
     for (size_t i = 0; i < all->count; i++)
-        SL_TRY(sl_piece_add_free(context, ground->walls, ground->wall_count, all->items[i], out));
+        SL_TRY(sli_piece_add_free(context, ground->walls, ground->wall_count, all->items[i], out));
     return SL_OK;
 }
 
-sl_status sl_box_sides_put(sl_context *context, const sl_box_ground *ground,
-                           const sl_moving_box *boxes, size_t count, bool blocking,
-                           sl_piece_list *out) {
-    sl_piece_list all = {0};
+sl_status sli_box_sides_put(sl_context *context, const sli_box_ground *ground,
+                            const sl_moving_box *boxes, size_t count, bool blocking,
+                            sli_piece_list *out) {
+    sli_piece_list all = {0};
     const sl_status status = add_sides(context, ground, boxes, count, blocking, &all, out);
     sl_free(context, all.items);
     return status;
@@ -122,7 +122,7 @@ sl_status sl_box_sides_put(sl_context *context, const sl_box_ground *ground,
 // --- cells
 
 /// Looks for a separating line among the sides of the box and of the cell.
-bool sl_cell_meets_box(const sl_space *space, uint32_t number, sl_box box) {
+bool sli_cell_meets_box(const sl_space *space, uint32_t number, sl_box box) {
     const sl_point corners[4] = {box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}};
     const sl_cell *cell = &space->cells[number];
     const sl_point *v = space->vertices + cell->first_vertex;
@@ -130,7 +130,7 @@ bool sl_cell_meets_box(const sl_space *space, uint32_t number, sl_box box) {
     for (uint32_t i = 0; i < cell->vertex_count; i++) {
         const sl_point next = v[i + 1 == cell->vertex_count ? 0 : i + 1];
         bool outside = true;
-        for (int k = 0; k < 4 && outside; k++) outside = sl_orient(v[i], next, corners[k]) < 0;
+        for (int k = 0; k < 4 && outside; k++) outside = sli_orient(v[i], next, corners[k]) < 0;
         if (outside) return false;
         left &= v[i].x < box.min.x;
         right &= v[i].x > box.max.x;
@@ -143,25 +143,25 @@ bool sl_cell_meets_box(const sl_space *space, uint32_t number, sl_box box) {
 // --- the ground
 
 /// The axial walls of a mesh.
-static sl_status gather_axial(sl_context *context, const sl_space *space, sl_box_ground *out) {
-    sl_piece *pieces = sl_alloc_array(context, space->wall_count, sizeof *pieces);
+static sl_status gather_axial(sl_context *context, const sl_space *space, sli_box_ground *out) {
+    sli_piece *pieces = sl_alloc_array(context, space->wall_count, sizeof *pieces);
     size_t count = 0;
     if (!pieces) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < space->wall_count; i++) {
         const sl_point a = space->walls[i].a, b = space->walls[i].b;
-        sl_piece sides[4];
+        sli_piece sides[4];
         // A box without width or height has one side.
         if (a.x == b.x || a.y == b.y)
-            if (sl_box_sides(
+            if (sli_box_sides(
                     (sl_box){{fmin(a.x, b.x), fmin(a.y, b.y)}, {fmax(a.x, b.x), fmax(a.y, b.y)}},
                     sides))
                 pieces[count++] = sides[0];
     }
-    *out = (sl_box_ground){space, pieces, sort_out(pieces, count)};
+    *out = (sli_box_ground){space, pieces, sort_out(pieces, count)};
     return SL_OK;
 }
 
-sl_status sl_box_ground_create(sl_context *context, const sl_space *space, sl_box_ground *out) {
+sl_status sli_box_ground_create(sl_context *context, const sl_space *space, sli_box_ground *out) {
     if (space->directed_count != 2 * space->portal_count)
         return sl_fail(context, SL_UNSUPPORTED, "boxes are put in before one-way glass is");
     if (space->loose)
@@ -169,21 +169,21 @@ sl_status sl_box_ground_create(sl_context *context, const sl_space *space, sl_bo
                        "boxes need cells that fit together, which a file of version 1 does not "
                        "have: bake the map anew");
     if (space->neighbour) return gather_axial(context, space, out);
-    sl_piece *walls = NULL;
-    SL_TRY(sl_wall_lines(context, "the walls", space->walls, space->wall_count, &walls));
-    *out = (sl_box_ground){space, walls, space->wall_count};
+    sli_piece *walls = NULL;
+    SL_TRY(sli_wall_lines(context, "the walls", space->walls, space->wall_count, &walls));
+    *out = (sli_box_ground){space, walls, space->wall_count};
     return SL_OK;
 }
 
-void sl_box_ground_destroy(sl_context *context, sl_box_ground *ground) {
+void sli_box_ground_destroy(sl_context *context, sli_box_ground *ground) {
     sl_free(context, ground->walls);
-    *ground = (sl_box_ground){0};
+    *ground = (sli_box_ground){0};
 }
 
 /// A side of a box that runs through a cell, and the place in the tree that leads to the cell.
 typedef struct cut {
     uint32_t cell;
-    sl_piece side;
+    sli_piece side;
     int32_t node; ///< -1: the cell is the root
     bool above;
 } cut;
@@ -204,11 +204,11 @@ typedef struct made_portal {
 
 typedef struct maker {
     sl_context *context;
-    const sl_box_ground *ground;
+    const sli_box_ground *ground;
     const sl_space *from;
-    sl_boxed_space *out;
-    sl_piece_list blocking; ///< the sides of boxes that block
-    sl_piece_list sides;    ///< of parts
+    sli_boxed_space *out;
+    sli_piece_list blocking; ///< the sides of boxes that block
+    sli_piece_list sides;    ///< of parts
     SL_ARRAY(cut) cuts;
     SL_ARRAY(part) parts;
     SL_ARRAY(sl_box) boxes; ///< of all cells
@@ -225,7 +225,7 @@ typedef struct maker {
 // --- which cells are cut
 
 /// Whether a side has a point strictly inside a box.
-static bool runs_through(const sl_piece *side, const sl_box *box) {
+static bool runs_through(const sli_piece *side, const sl_box *box) {
     const double at_lo = side->axis ? box->min.y : box->min.x;
     const double at_hi = side->axis ? box->max.y : box->max.x;
     const double lo = side->axis ? box->min.x : box->min.y;
@@ -241,8 +241,8 @@ static sl_status push(maker *m, int32_t child) {
 
 /// Finds the cells that a box touches, and those that its sides run through.
 static sl_status find_cells(maker *m, sl_box box) {
-    sl_piece sides[4];
-    const unsigned count = sl_box_sides(box, sides);
+    sli_piece sides[4];
+    const unsigned count = sli_box_sides(box, sides);
     const sl_space *s = m->from;
     m->stack.count = 0;
     int32_t node = -1;
@@ -302,7 +302,7 @@ static sl_status keep_part(maker *m, const part *p, uint32_t cell) {
 
 /// Cuts a part at its first side. Each half keeps the other sides that run through it.
 static sl_status cut_part(maker *m, const part *p) {
-    const sl_piece by = m->sides.items[p->first];
+    const sli_piece by = m->sides.items[p->first];
     const int32_t node = (int32_t)m->nodes.count;
     SL_TRY(SL_ARRAY_ROOM(m->context, &m->nodes, 1));
     m->nodes.items[m->nodes.count++] = (sl_node){.position = by.at, .axis = by.axis};
@@ -314,7 +314,7 @@ static sl_status cut_part(maker *m, const part *p) {
         else
             *(above ? &half.box.min.x : &half.box.max.x) = by.at;
         for (size_t i = p->first + 1; i < p->first + p->count; i++) {
-            const sl_piece side = m->sides.items[i];
+            const sli_piece side = m->sides.items[i];
             if (runs_through(&side, &half.box)) SL_TRY(add_piece(m->context, &m->sides, side));
         }
         half.count = m->sides.count - half.first;
@@ -358,22 +358,22 @@ static sl_status cut_cells(maker *m) {
 // --- portals
 
 /// The piece of positive length that two cells share, the first of them below it; false for none.
-static bool share(const sl_box *below, const sl_box *above, int axis, sl_piece *out) {
+static bool share(const sl_box *below, const sl_box *above, int axis, sli_piece *out) {
     const double at = axis ? below->max.y : below->max.x;
     if (at != (axis ? above->min.y : above->min.x)) return false;
-    *out = (sl_piece){.axis = axis, .at = at};
+    *out = (sli_piece){.axis = axis, .at = at};
     out->lo = axis ? fmax(below->min.x, above->min.x) : fmax(below->min.y, above->min.y);
     out->hi = axis ? fmin(below->max.x, above->max.x) : fmin(below->max.y, above->max.y);
     return out->lo < out->hi;
 }
 
 /// Adds the portals on a piece that two cells share, without the sides that block.
-static sl_status add_portals(maker *m, uint32_t below, uint32_t above, sl_piece piece,
+static sl_status add_portals(maker *m, uint32_t below, uint32_t above, sli_piece piece,
                              uint32_t of) {
     m->sides.count = 0;
-    SL_TRY(sl_piece_add_free(m->context, m->blocking.items, m->blocking.count, piece, &m->sides));
+    SL_TRY(sli_piece_add_free(m->context, m->blocking.items, m->blocking.count, piece, &m->sides));
     for (size_t i = 0; i < m->sides.count; i++) {
-        const sl_piece *p = &m->sides.items[i];
+        const sli_piece *p = &m->sides.items[i];
         // Going up in the line's coordinate, the left hand is at high y (axis 0) or at low x.
         sl_point left = p->axis ? (sl_point){p->lo, p->at} : (sl_point){p->at, p->hi};
         sl_point right = p->axis ? (sl_point){p->hi, p->at} : (sl_point){p->at, p->lo};
@@ -410,7 +410,7 @@ static sl_status take_portal(maker *m, uint32_t number) {
     const uint32_t *above = parts_of(m, &p->cell[up ? 1 : 0], &above_count);
     for (uint32_t i = 0; i < below_count; i++)
         for (uint32_t k = 0; k < above_count; k++) {
-            sl_piece piece;
+            sli_piece piece;
             if (!share(&m->boxes.items[below[i]], &m->boxes.items[above[k]], axis, &piece))
                 continue;
             piece.lo = fmax(piece.lo, lo);
@@ -428,7 +428,7 @@ static sl_status join_parts(maker *m, uint32_t cell) {
         SL_TRY(sl_check_cancelled(m->context));
         for (uint32_t k = 0; k < count; k++)
             for (int axis = 0; axis < 2; axis++) {
-                sl_piece piece;
+                sli_piece piece;
                 if (share(&m->boxes.items[parts[i]], &m->boxes.items[parts[k]], axis, &piece))
                     SL_TRY(add_portals(m, parts[i], parts[k], piece, UINT32_MAX));
             }
@@ -458,7 +458,7 @@ static sl_status write_portals(maker *m) {
     size_t tags = 0, count;
     if (m->portals.count > UINT32_MAX / 2) return sl_fail_memory(m->context);
     if (m->portals.count)
-        qsort(m->portals.items, m->portals.count, sizeof *m->portals.items, sl_compare_portals);
+        qsort(m->portals.items, m->portals.count, sizeof *m->portals.items, sli_compare_portals);
     for (size_t i = 0; i < m->portals.count; i++)
         if (m->portals.items[i].of != UINT32_MAX) {
             sl_space_seams_of(m->from, m->portals.items[i].of, &count);
@@ -473,7 +473,7 @@ static sl_status write_portals(maker *m) {
     }
     s->portal_count = (uint32_t)m->portals.count;
     s->directed_count = 2 * s->portal_count;
-    return sl_make_directed(m->context, s);
+    return sli_make_directed(m->context, s);
 }
 
 static sl_status make_portals(maker *m) {
@@ -518,7 +518,7 @@ static sl_status write_walls(maker *m) {
     s->seam_count = f->seam_count;
     s->wall_count = f->wall_count;
     for (size_t i = 0; i < m->blocking.count; i++)
-        s->walls[s->wall_count++] = sl_piece_wall(&m->blocking.items[i]);
+        s->walls[s->wall_count++] = sli_piece_wall(&m->blocking.items[i]);
     return SL_OK;
 }
 
@@ -565,7 +565,7 @@ static sl_status begin(maker *m) {
 
 static sl_status make(maker *m, const sl_moving_box *boxes, size_t count) {
     SL_TRY(begin(m));
-    SL_TRY(sl_box_sides_put(m->context, m->ground, boxes, count, true, &m->blocking));
+    SL_TRY(sli_box_sides_put(m->context, m->ground, boxes, count, true, &m->blocking));
     for (size_t i = 0; i < count; i++) SL_TRY(find_cells(m, boxes[i].box));
     SL_TRY(cut_cells(m));
     SL_TRY(write_cells(m));
@@ -578,8 +578,8 @@ static sl_status make(maker *m, const sl_moving_box *boxes, size_t count) {
 }
 
 /// In a kd-tree's space.
-static sl_status put_axial(sl_context *context, const sl_box_ground *ground,
-                           const sl_moving_box *boxes, size_t count, sl_boxed_space *out) {
+static sl_status put_axial(sl_context *context, const sli_box_ground *ground,
+                           const sl_moving_box *boxes, size_t count, sli_boxed_space *out) {
     maker m = {.context = context, .ground = ground, .from = ground->space, .out = out};
     const sl_status status = make(&m, boxes, count);
     void *const scratch[] = {m.blocking.items, m.sides.items,   m.cuts.items,  m.parts.items,
@@ -592,23 +592,23 @@ static sl_status put_axial(sl_context *context, const sl_box_ground *ground,
 
 // --- any space
 
-sl_status sl_boxes_put(sl_context *context, const sl_box_ground *ground, const sl_moving_box *boxes,
-                       size_t count, sl_boxed_space *out) {
-    sl_boxed_space made = {0};
+sl_status sli_boxes_put(sl_context *context, const sli_box_ground *ground,
+                        const sl_moving_box *boxes, size_t count, sli_boxed_space *out) {
+    sli_boxed_space made = {0};
     const sl_status status = ground->space->neighbour
-                                 ? sl_boxes_put_mesh(context, ground, boxes, count, &made)
+                                 ? sli_boxes_put_mesh(context, ground, boxes, count, &made)
                                  : put_axial(context, ground, boxes, count, &made);
     if (status == SL_OK)
         *out = made;
     else
-        sl_boxed_space_destroy(context, &made);
+        sli_boxed_space_destroy(context, &made);
     return status;
 }
 
-void sl_boxed_space_destroy(sl_context *context, sl_boxed_space *boxed) {
+void sli_boxed_space_destroy(sl_context *context, sli_boxed_space *boxed) {
     sl_space_destroy(context, &boxed->space);
     sl_free(context, boxed->parents);
     sl_free(context, boxed->first_share);
     sl_free(context, boxed->shares);
-    *boxed = (sl_boxed_space){0};
+    *boxed = (sli_boxed_space){0};
 }

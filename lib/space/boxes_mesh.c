@@ -54,16 +54,16 @@ typedef struct polygon {
 
 typedef struct maker {
     sl_context *context;
-    const sl_box_ground *ground;
+    const sli_box_ground *ground;
     const sl_space *from;
-    sl_boxed_space *out;
+    sli_boxed_space *out;
     bool *touched;        ///< by cell of the ground
     uint32_t *wall_cells; ///< by wall of the ground: the cells at its left and right
-    sl_piece_list blocking, open;
+    sli_piece_list blocking, open;
     SL_ARRAY(sl_segment) segments; ///< lines, then sides that block, then other sides
     SL_ARRAY(line) lines;
-    sl_planar graph;
-    sl_triangulation t;
+    sli_planar graph;
+    sli_triangulation t;
     graph_edge *edges;
     bool *in;                 ///< by half-edge: it is in a cell that is cut
     uint32_t *cell;           ///< by half-edge: the new cell, NONE for none
@@ -72,7 +72,7 @@ typedef struct maker {
     SL_ARRAY(sl_point) corners; ///< of the current cell
     uint32_t *directed;         ///< by half-edge
     portal_end *ends;           ///< two by portal of the ground
-    SL_ARRAY(sl_mesh_joint) joints;
+    SL_ARRAY(sli_mesh_joint) joints;
     SL_ARRAY(uint32_t) shares;
 } maker;
 
@@ -88,15 +88,15 @@ static sl_point corner_after(const polygon *p, uint32_t i) {
 }
 
 static sl_box box_of(const polygon *p) {
-    sl_box box = sl_box_around(p->corners[0], p->corners[1]);
-    for (uint32_t i = 2; i < p->count; i++) box = sl_box_with(box, p->corners[i]);
+    sl_box box = sli_box_around(p->corners[0], p->corners[1]);
+    for (uint32_t i = 2; i < p->count; i++) box = sli_box_with(box, p->corners[i]);
     return box;
 }
 
 /// Whether all corners are at the left of a line or on it.
 static bool is_left_of(const polygon *p, sl_point a, sl_point b) {
     for (uint32_t i = 0; i < p->count; i++)
-        if (sl_orient(a, b, p->corners[i]) < 0) return false;
+        if (sli_orient(a, b, p->corners[i]) < 0) return false;
     return true;
 }
 
@@ -119,13 +119,13 @@ static bool overlap(const polygon *p, const polygon *q) {
 
 // --- the cells to be cut
 
-static void touch_along(maker *m, const sl_piece_list *sides) {
+static void touch_along(maker *m, const sli_piece_list *sides) {
     for (size_t i = 0; i < sides->count; i++) {
-        const sl_wall side = sl_piece_wall(&sides->items[i]);
+        const sl_wall side = sli_piece_wall(&sides->items[i]);
         const sl_box box = {side.a, side.b};
-        sl_cell_grid_range r = sl_cell_grid_range_of(m->from, box);
-        for (uint32_t at; sl_cell_grid_next(&m->from->grid, &r, &at);)
-            if (!m->touched[at] && sl_cell_meets_box(m->from, at, box)) m->touched[at] = true;
+        sli_cell_grid_range r = sli_cell_grid_range_of(m->from, box);
+        for (uint32_t at; sli_cell_grid_next(&m->from->grid, &r, &at);)
+            if (!m->touched[at] && sli_cell_meets_box(m->from, at, box)) m->touched[at] = true;
     }
 }
 
@@ -161,9 +161,9 @@ static sl_status add_line(maker *m, line l, sl_point a, sl_point b) {
     return add_segment(m, a, b);
 }
 
-static sl_status add_sides(maker *m, const sl_piece_list *sides) {
+static sl_status add_sides(maker *m, const sli_piece_list *sides) {
     for (size_t i = 0; i < sides->count; i++) {
-        const sl_wall side = sl_piece_wall(&sides->items[i]);
+        const sl_wall side = sli_piece_wall(&sides->items[i]);
         SL_TRY(add_segment(m, side.a, side.b));
     }
     return SL_OK;
@@ -192,7 +192,7 @@ static uint32_t seen_from_left(uint32_t wall, bool along) {
 }
 
 static sl_status take_edges(maker *m) {
-    const sl_planar *g = &m->graph;
+    const sli_planar *g = &m->graph;
     sl_free(m->context, m->edges);
     m->edges = sl_alloc_array(m->context, g->edge_count, sizeof *m->edges);
     if (!m->edges) return SL_NO_MEMORY;
@@ -222,7 +222,7 @@ static bool leads_out(const maker *m, const line *l) {
 
 /// Adds the uncut cells whose border changed to the cut ones; false for none.
 static bool grow(maker *m) {
-    const sl_planar *g = &m->graph;
+    const sli_planar *g = &m->graph;
     bool grown = false;
     for (size_t i = 0; i < m->lines.count; i++) {
         const uint32_t *cells = m->lines.items[i].cells;
@@ -235,11 +235,11 @@ static bool grow(maker *m) {
 }
 
 static sl_box region_box(const maker *m) {
-    sl_box box = sl_box_around(m->segments.items[0].a, m->segments.items[0].b);
+    sl_box box = sli_box_around(m->segments.items[0].a, m->segments.items[0].b);
     for (uint32_t i = 0; i < m->from->cell_count; i++) {
         const polygon cell = polygon_of(m->from, i);
         for (uint32_t k = 0; k < cell.count && m->touched[i]; k++)
-            box = sl_box_with(box, cell.corners[k]);
+            box = sli_box_with(box, cell.corners[k]);
     }
     return box;
 }
@@ -282,11 +282,11 @@ static sl_status find_inside(maker *m) {
     }
     while (m->stack.count) {
         const uint32_t twin = m->stack.items[--m->stack.count] ^ 1;
-        if (!sl_half_is_outside(&m->t, twin) && !m->in[twin] && cell_at_border(m, twin) == NONE)
+        if (!sli_half_is_outside(&m->t, twin) && !m->in[twin] && cell_at_border(m, twin) == NONE)
             SL_TRY(enter_triangle(m, twin));
     }
     for (uint32_t half = 0; half < halves && !bordered; half++)
-        m->in[half] = !sl_half_is_outside(&m->t, half);
+        m->in[half] = !sli_half_is_outside(&m->t, half);
     return SL_OK;
 }
 
@@ -295,13 +295,13 @@ static bool take_strays(maker *m) {
     bool grown = false;
     for (uint32_t half = 0; half < m->t.halves.count; half++) {
         const sl_point ends[2] = {m->t.points.items[m->t.halves.items[half].from],
-                                  m->t.points.items[sl_half_end(&m->t, half)]};
+                                  m->t.points.items[sli_half_end(&m->t, half)]};
         const polygon edge = {ends, 2};
-        if (!m->t.labels[half / 2] || sl_half_is_outside(&m->t, half) || m->in[half] ||
+        if (!m->t.labels[half / 2] || sli_half_is_outside(&m->t, half) || m->in[half] ||
             cell_at_border(m, half) != NONE)
             continue;
-        sl_cell_grid_range r = sl_cell_grid_range_of(m->from, box_of(&edge));
-        for (uint32_t at; sl_cell_grid_next(&m->from->grid, &r, &at);) {
+        sli_cell_grid_range r = sli_cell_grid_range_of(m->from, box_of(&edge));
+        for (uint32_t at; sli_cell_grid_next(&m->from->grid, &r, &at);) {
             const polygon cell = polygon_of(m->from, at);
             if (!m->touched[at] && overlap(&edge, &cell)) m->touched[at] = grown = true;
         }
@@ -312,9 +312,9 @@ static bool take_strays(maker *m) {
 static sl_status make_graph(maker *m) {
     SL_TRY(sl_check_cancelled(m->context));
     SL_TRY(gather_segments(m));
-    sl_planar_destroy(m->context, &m->graph);
-    SL_TRY(sl_planar_make(m->context, "the space with boxes", m->segments.items, m->segments.count,
-                          0, &m->graph));
+    sli_planar_destroy(m->context, &m->graph);
+    SL_TRY(sli_planar_make(m->context, "the space with boxes", m->segments.items, m->segments.count,
+                           0, &m->graph));
     return take_edges(m);
 }
 
@@ -324,8 +324,8 @@ static sl_status make_triangles(maker *m) {
         do SL_TRY(make_graph(m));
         while (grow(m));
         const sl_box box = region_box(m);
-        sl_triangulation_destroy(m->context, &m->t);
-        SL_TRY(sl_triangulate(m->context, &m->graph, &box, &m->t));
+        sli_triangulation_destroy(m->context, &m->t);
+        SL_TRY(sli_triangulate(m->context, &m->graph, &box, &m->t));
         SL_TRY(find_inside(m));
     } while (take_strays(m));
     return SL_OK;
@@ -359,8 +359,8 @@ static uint32_t parent_of(const maker *m, const polygon *p) {
         const polygon cell = polygon_of(m->from, found);
         if (is_within(p, &cell)) return found;
     }
-    sl_cell_grid_range r = sl_cell_grid_range_of(m->from, box_of(p));
-    for (uint32_t at; sl_cell_grid_next(&m->from->grid, &r, &at);) {
+    sli_cell_grid_range r = sli_cell_grid_range_of(m->from, box_of(p));
+    for (uint32_t at; sli_cell_grid_next(&m->from->grid, &r, &at);) {
         const polygon cell = polygon_of(m->from, at);
         if (!m->touched[at]) continue;
         if (is_within(p, &cell)) return at;
@@ -391,7 +391,7 @@ static void close_gaps(maker *m) {
 
 static sl_status make_cells(maker *m) {
     const size_t halves = m->t.halves.count;
-    SL_TRY(sl_mesh_merge(m->context, &m->t, NULL, NULL, &m->cell));
+    SL_TRY(sli_mesh_merge(m->context, &m->t, NULL, NULL, &m->cell));
     SL_TRY(SL_ARRAY_ROOM(m->context, &m->cells, m->from->cell_count));
     for (uint32_t i = 0; i < m->from->cell_count; i++)
         m->cells.items[m->cells.count++] = (new_cell){i, NONE};
@@ -420,7 +420,7 @@ static uint32_t neighbour_of(const maker *m, uint32_t half) {
     if (e && e->neighbour != SL_NEIGHBOUR_PORTAL)
         return along ? e->neighbour : e->neighbour ^ SL_NEIGHBOUR_RIGHT;
     if (e && e->line != NONE && leads_out(m, &m->lines.items[e->line])) return SL_NEIGHBOUR_PORTAL;
-    return sl_half_is_outside(&m->t, half ^ 1) ? SL_NEIGHBOUR_BORDER : SL_NEIGHBOUR_PORTAL;
+    return sli_half_is_outside(&m->t, half ^ 1) ? SL_NEIGHBOUR_BORDER : SL_NEIGHBOUR_PORTAL;
 }
 
 /// Adds a corner and the neighbour across its side. Returns whether that is a portal.
@@ -498,10 +498,10 @@ static sl_status write_cells(maker *m) {
 static sl_status add_joint(maker *m, portal_end from, portal_end to, sl_point right,
                            sl_point left) {
     const bool up = from.cell < to.cell;
-    sl_mesh_joint joint = {{{from.cell, to.cell}, left, right}, {from.directed, to.directed}, 0};
+    sli_mesh_joint joint = {{{from.cell, to.cell}, left, right}, {from.directed, to.directed}, 0};
     if (!up)
         joint =
-            (sl_mesh_joint){{{to.cell, from.cell}, right, left}, {to.directed, from.directed}, 0};
+            (sli_mesh_joint){{{to.cell, from.cell}, right, left}, {to.directed, from.directed}, 0};
     SL_TRY(SL_ARRAY_ROOM(m->context, &m->joints, 1));
     m->joints.items[m->joints.count++] = joint;
     return SL_OK;
@@ -521,7 +521,7 @@ static sl_status write_portals(maker *m) {
                          m->t.points.items[m->t.halves.items[half].from],
                          m->t.points.items[m->t.halves.items[twin].from]));
     }
-    return sl_mesh_join(m->context, m->joints.items, m->joints.count, &m->out->space);
+    return sli_mesh_join(m->context, m->joints.items, m->joints.count, &m->out->space);
 }
 
 static sl_status write_walls(maker *m) {
@@ -533,7 +533,7 @@ static sl_status write_walls(maker *m) {
     if (!s->walls) return SL_NO_MEMORY;
     if (f->wall_count) memcpy(s->walls, f->walls, f->wall_count * sizeof *s->walls);
     for (size_t i = 0; i < m->blocking.count; i++)
-        s->walls[f->wall_count + i] = sl_piece_wall(&m->blocking.items[i]);
+        s->walls[f->wall_count + i] = sli_piece_wall(&m->blocking.items[i]);
     s->wall_count = (uint32_t)count;
     return SL_OK;
 }
@@ -546,8 +546,8 @@ static sl_status find_shares(maker *m, uint32_t number) {
     const polygon whole = polygon_of(m->from, parent);
     if (is_within(&p, &whole)) return SL_OK;
     const size_t before = m->shares.count;
-    sl_cell_grid_range r = sl_cell_grid_range_of(m->from, box_of(&p));
-    for (uint32_t at; sl_cell_grid_next(&m->from->grid, &r, &at);) {
+    sli_cell_grid_range r = sli_cell_grid_range_of(m->from, box_of(&p));
+    for (uint32_t at; sli_cell_grid_next(&m->from->grid, &r, &at);) {
         const polygon cell = polygon_of(m->from, at);
         bool known = at == parent || !overlap(&p, &cell);
         for (size_t i = before; i < m->shares.count && !known; i++)
@@ -578,8 +578,8 @@ static sl_status write_shares(maker *m) {
 
 static sl_status make(maker *m, const sl_moving_box *boxes, size_t count) {
     m->out->space = (sl_space){.bounds = m->from->bounds, .root = m->from->root, .cut_walls = 1};
-    SL_TRY(sl_box_sides_put(m->context, m->ground, boxes, count, true, &m->blocking));
-    SL_TRY(sl_box_sides_put(m->context, m->ground, boxes, count, false, &m->open));
+    SL_TRY(sli_box_sides_put(m->context, m->ground, boxes, count, true, &m->blocking));
+    SL_TRY(sli_box_sides_put(m->context, m->ground, boxes, count, false, &m->open));
     m->touched = sl_alloc_array(m->context, m->from->cell_count, sizeof *m->touched);
     if (!m->touched) return SL_NO_MEMORY;
     touch_along(m, &m->blocking);
@@ -591,11 +591,11 @@ static sl_status make(maker *m, const sl_moving_box *boxes, size_t count) {
     SL_TRY(write_portals(m));
     SL_TRY(write_walls(m));
     SL_TRY(write_shares(m));
-    return sl_cell_grid_make(m->context, &m->out->space);
+    return sli_cell_grid_make(m->context, &m->out->space);
 }
 
-sl_status sl_boxes_put_mesh(sl_context *context, const sl_box_ground *ground,
-                            const sl_moving_box *boxes, size_t count, sl_boxed_space *out) {
+sl_status sli_boxes_put_mesh(sl_context *context, const sli_box_ground *ground,
+                             const sl_moving_box *boxes, size_t count, sli_boxed_space *out) {
     maker m = {.context = context, .ground = ground, .from = ground->space, .out = out};
     const sl_status status = make(&m, boxes, count);
     void *const scratch[] = {m.touched,     m.wall_cells,  m.blocking.items, m.open.items,
@@ -603,7 +603,7 @@ sl_status sl_boxes_put_mesh(sl_context *context, const sl_box_ground *ground,
                              m.cell,        m.stack.items, m.cells.items,    m.corners.items,
                              m.directed,    m.ends,        m.joints.items,   m.shares.items};
     for (size_t i = 0; i < sizeof scratch / sizeof *scratch; i++) sl_free(context, scratch[i]);
-    sl_planar_destroy(context, &m.graph);
-    sl_triangulation_destroy(context, &m.t);
+    sli_planar_destroy(context, &m.graph);
+    sli_triangulation_destroy(context, &m.t);
     return status;
 }

@@ -17,7 +17,7 @@
 typedef struct checker {
     sl_context *context;
     const sl_space *space;
-    sl_piece *walls;
+    sli_piece *walls;
     sl_box *regions; ///< of the nodes, then of the cells, by the tree
     sl_bits *led_to; ///< the nodes, then the cells, that some node leads to
     uint8_t
@@ -95,8 +95,8 @@ static sl_status check_cells(const checker *c) {
         const sl_box *r = &c->regions[s->node_count + i];
         const sl_point *v = &s->vertices[cell->first_vertex];
         const sl_point lower_right = {r->max.x, r->min.y}, upper_left = {r->min.x, r->max.y};
-        if (!sl_same_point(v[0], r->min) || !sl_same_point(v[1], lower_right) ||
-            !sl_same_point(v[2], r->max) || !sl_same_point(v[3], upper_left))
+        if (!sli_same_point(v[0], r->min) || !sli_same_point(v[1], lower_right) ||
+            !sli_same_point(v[2], r->max) || !sli_same_point(v[3], upper_left))
             return fail_cell(c, i, "is not the region that the tree gives it");
         if (cell->first_directed != directed || cell->directed_count > s->directed_count - directed)
             return fail_cell(c, i, "has portals out of range");
@@ -110,7 +110,7 @@ static sl_status check_cells(const checker *c) {
 }
 
 /// Keeps the part of a wall in a child's region; false for none. A wall on the split is in neither.
-static bool enters(const sl_node *node, bool above, sl_piece *wall) {
+static bool enters(const sl_node *node, bool above, sli_piece *wall) {
     const double at = node->position;
     if (wall->axis == node->axis) return above ? wall->at > at : wall->at < at;
     if (above)
@@ -122,10 +122,10 @@ static bool enters(const sl_node *node, bool above, sl_piece *wall) {
 
 typedef struct visit {
     int32_t child;
-    sl_piece wall;
+    sli_piece wall;
 } visit;
 
-static sl_status check_wall(const checker *c, const sl_piece *wall, visit *stack) {
+static sl_status check_wall(const checker *c, const sli_piece *wall, visit *stack) {
     const sl_box *b = &c->space->bounds;
     const double lo = wall->axis ? b->min.y : b->min.x, hi = wall->axis ? b->max.y : b->max.x;
     const double side_lo = wall->axis ? b->min.x : b->min.y;
@@ -147,7 +147,7 @@ static sl_status check_wall(const checker *c, const sl_piece *wall, visit *stack
 }
 
 /// Checks that no wall, or no part of a seam, is inside a cell.
-static sl_status check_walls(const checker *c, const sl_piece *walls, size_t count) {
+static sl_status check_walls(const checker *c, const sli_piece *walls, size_t count) {
     // A way down leaves at most one sibling waiting on each level.
     visit *stack = sl_alloc_array(c->context, (size_t)c->space->node_count + 2, sizeof *stack);
     if (!stack) return SL_NO_MEMORY;
@@ -170,12 +170,13 @@ static bool lies_on(const sl_portal *p, const sl_segment *seam) {
 }
 
 /// No part of a seam is inside a cell, and every portal on one is listed.
-static sl_status check_parts(const checker *c, const sl_seam_parts *parts, const sl_piece *pieces) {
+static sl_status check_parts(const checker *c, const sli_seam_parts *parts,
+                             const sli_piece *pieces) {
     sl_space found = *c->space;
     found.seam_portals = NULL;
     found.seam_portal_count = 0;
     SL_TRY(check_walls(c, pieces, parts->parts.count));
-    sl_status status = sl_seams_tag_axial(c->context, parts, &found);
+    sl_status status = sli_seams_tag_axial(c->context, parts, &found);
     bool same = status == SL_OK && found.seam_portal_count == c->space->seam_portal_count;
     for (uint32_t i = 0; same && i < found.seam_portal_count; i++) {
         const sl_seam_portal *a = &found.seam_portals[i], *b = &c->space->seam_portals[i];
@@ -189,13 +190,13 @@ static sl_status check_parts(const checker *c, const sl_seam_parts *parts, const
 
 static sl_status check_seams(const checker *c) {
     if (!c->space->seam_count && !c->space->seam_portal_count) return SL_OK;
-    SL_TRY(sl_seams_check(c->context, c->space, true));
-    sl_seam_parts parts = {0};
-    sl_piece *pieces = NULL;
-    sl_status status = sl_seams_part(c->context, c->space, &parts);
-    if (status == SL_OK) status = sl_seam_lines(c->context, NULL, 0, &parts, &pieces);
+    SL_TRY(sli_seams_check(c->context, c->space, true));
+    sli_seam_parts parts = {0};
+    sli_piece *pieces = NULL;
+    sl_status status = sli_seams_part(c->context, c->space, &parts);
+    if (status == SL_OK) status = sli_seam_lines(c->context, NULL, 0, &parts, &pieces);
     if (status == SL_OK) status = check_parts(c, &parts, pieces);
-    sl_seam_parts_destroy(c->context, &parts);
+    sli_seam_parts_destroy(c->context, &parts);
     sl_free(c->context, pieces);
     return status;
 }
@@ -222,12 +223,12 @@ static edge edge_of(const sl_box *r, const sl_box *bounds, int number) {
 
 static bool wall_between(const checker *c, const edge *e, double from, double to) {
     const double lo = from < to ? from : to, hi = from < to ? to : from;
-    return sl_wall_lines_cover(c->walls, c->space->wall_count, e->axis, e->at, lo, hi);
+    return sli_wall_lines_cover(c->walls, c->space->wall_count, e->axis, e->at, lo, hi);
 }
 
 static bool free_between(const checker *c, const edge *e, double from, double to) {
     const double lo = from < to ? from : to, hi = from < to ? to : from;
-    const size_t i = sl_wall_lines_find(c->walls, c->space->wall_count, e->axis, e->at, lo);
+    const size_t i = sli_wall_lines_find(c->walls, c->space->wall_count, e->axis, e->at, lo);
     return i == c->space->wall_count || c->walls[i].axis != e->axis || c->walls[i].at != e->at ||
            c->walls[i].lo >= hi;
 }
@@ -242,8 +243,8 @@ static bool portal_on_edge(const sl_directed_portal *directed, const edge *e, do
     return on && (e->from < e->to ? *from < *to : *from > *to);
 }
 
-sl_status sl_check_directed(sl_context *context, const sl_space *s, uint32_t cell,
-                            const sl_directed_portal *directed, uint8_t *directed_found) {
+sl_status sli_check_directed(sl_context *context, const sl_space *s, uint32_t cell,
+                             const sl_directed_portal *directed, uint8_t *directed_found) {
     if (directed->portal >= s->portal_count)
         return sl_fail(context, SL_BAD_INPUT, "cell %u has a portal of an unknown number", cell);
     const sl_portal *p = &s->portals[directed->portal];
@@ -251,8 +252,8 @@ sl_status sl_check_directed(sl_context *context, const sl_space *s, uint32_t cel
         return sl_fail(context, SL_BAD_INPUT, "portal %u joins no two cells", directed->portal);
     const int side = p->cell[0] == cell ? 0 : 1;
     if (p->cell[side] != cell || directed->cell != p->cell[!side] ||
-        !sl_same_point(directed->left, side ? p->right : p->left) ||
-        !sl_same_point(directed->right, side ? p->left : p->right) ||
+        !sli_same_point(directed->left, side ? p->right : p->left) ||
+        !sli_same_point(directed->right, side ? p->left : p->right) ||
         directed_found[directed->portal] & (1 << side))
         return sl_fail(context, SL_BAD_INPUT, "cell %u has a directed portal unlike its portal",
                        cell);
@@ -269,7 +270,7 @@ static sl_status check_boundary(checker *c, uint32_t cell) {
         const edge e = edge_of(&c->regions[s->node_count + cell], &s->bounds, number);
         double at = e.from, from, to;
         for (; directed < end && portal_on_edge(directed, &e, &from, &to); directed++) {
-            SL_TRY(sl_check_directed(c->context, s, cell, directed, c->directed_found));
+            SL_TRY(sli_check_directed(c->context, s, cell, directed, c->directed_found));
             const bool forward =
                 e.from < e.to ? from >= at && to <= e.to : from <= at && to >= e.to;
             if (!forward || e.on_border) return fail_cell(c, cell, "has a portal out of place");
@@ -277,7 +278,7 @@ static sl_status check_boundary(checker *c, uint32_t cell) {
             if (from != at && !wall_between(c, &e, at, from))
                 return fail_cell(c, cell, "has a boundary that is neither wall nor portal");
             if (from == at && at != e.from && directed[-1].cell == directed->cell &&
-                sl_seams_same(s, directed[-1].portal, directed->portal))
+                sli_seams_same(s, directed[-1].portal, directed->portal))
                 return fail_cell(c, cell, "has a portal that is not a longest piece");
             at = to;
         }
@@ -293,7 +294,7 @@ static sl_status check_all(checker *c) {
     const sl_space *s = c->space;
     SL_TRY(check_tree(c));
     SL_TRY(check_cells(c));
-    SL_TRY(sl_wall_lines(c->context, "the walls", s->walls, s->wall_count, &c->walls));
+    SL_TRY(sli_wall_lines(c->context, "the walls", s->walls, s->wall_count, &c->walls));
     SL_TRY(check_walls(c, c->walls, s->wall_count));
     for (uint32_t cell = 0; cell < s->cell_count; cell++) SL_TRY(check_boundary(c, cell));
     return check_seams(c);
@@ -302,7 +303,7 @@ static sl_status check_all(checker *c) {
 sl_status sl_space_check(sl_context *context, const sl_space *space) {
     checker c = {.context = context, .space = space};
     SL_TRY(check_ranges(&c));
-    if (space->neighbour) return sl_check_mesh(context, space);
+    if (space->neighbour) return sli_check_mesh(context, space);
     if (space->loose)
         return sl_fail(context, SL_BAD_INPUT, "a loose space that does not know its sides");
     const size_t places = (size_t)space->node_count + space->cell_count;

@@ -22,7 +22,7 @@
 typedef struct checker {
     sl_context *context;
     const sl_space *space;
-    uint8_t *directed_found; ///< by portal, as in sl_check_directed
+    uint8_t *directed_found; ///< by portal, as in sli_check_directed
     uint8_t *sides_found;    ///< by wall: bit 1 for a cell at its left, bit 2 for one at its right
     uint8_t *on_border;      ///< by wall
 } checker;
@@ -43,8 +43,8 @@ static bool is_convex(const sl_point *v, uint32_t count) {
     uint32_t turns = 0, peaks = 0;
     for (uint32_t i = 0; i < count; i++) {
         const sl_point a = v[i ? i - 1 : count - 1], p = v[i], b = v[i + 1 < count ? i + 1 : 0];
-        if (!sl_goes_on(a, p, b)) return false;
-        turns += sl_orient(a, p, b) > 0;
+        if (!sli_goes_on(a, p, b)) return false;
+        turns += sli_orient(a, p, b) > 0;
         peaks += goes_up(a, p) && !goes_up(p, b);
     }
     return turns >= 3 && peaks == 1;
@@ -110,8 +110,8 @@ static sl_status check_wall(const checker *c, uint32_t cell, uint32_t what, sl_p
     if (c->space->loose || c->space->cut_walls) return SL_OK;
     const sl_wall *wall = &c->space->walls[number];
     const bool right = what & SL_NEIGHBOUR_RIGHT;
-    if (!sl_same_point(right ? wall->b : wall->a, from) ||
-        !sl_same_point(right ? wall->a : wall->b, to))
+    if (!sli_same_point(right ? wall->b : wall->a, from) ||
+        !sli_same_point(right ? wall->a : wall->b, to))
         return fail_cell(c, cell, "has a side that is not the wall it is said to be");
     const uint8_t bit = right ? 2 : 1;
     if (c->sides_found[number] & bit)
@@ -132,9 +132,9 @@ static sl_status check_sides(const checker *c, uint32_t number) {
         if (what == SL_NEIGHBOUR_PORTAL) {
             if (passed == cell->directed_count) return fail_cell(c, number, "has too few portals");
             const sl_directed_portal *portal = &s->directed[cell->first_directed + passed++];
-            if (!sl_same_point(portal->right, from) || !sl_same_point(portal->left, to))
+            if (!sli_same_point(portal->right, from) || !sli_same_point(portal->left, to))
                 return fail_cell(c, number, "has a portal that is not on its boundary");
-            SL_TRY(sl_check_directed(c->context, s, number, portal, c->directed_found));
+            SL_TRY(sli_check_directed(c->context, s, number, portal, c->directed_found));
         } else if (what != SL_NEIGHBOUR_BORDER) {
             SL_TRY(check_wall(c, number, what, from, to));
         } else if (!s->loose && !border_of(&s->bounds, from, to)) {
@@ -200,8 +200,8 @@ static sl_status check_cut_walls(const checker *c) {
     size_t i = 0;
     while (i < count) {
         const wall_side *s = &sides[i], *t = i + 1 < count ? s + 1 : s;
-        const bool pair = s->wall == t->wall && sl_same_point(s->from, t->from) &&
-                          sl_same_point(s->to, t->to) && !s->right && t->right;
+        const bool pair = s->wall == t->wall && sli_same_point(s->from, t->from) &&
+                          sli_same_point(s->to, t->to) && !s->right && t->right;
         if (!pair && !border_of(&c->space->bounds, s->from, s->to)) break;
         i += pair ? 2 : 1;
     }
@@ -302,13 +302,13 @@ static sl_status check_grid(const checker *c) {
 
 /// A segment with its lower end first.
 static sl_segment in_order(sl_point a, sl_point b) {
-    return sl_compare_points(a, b) < 0 ? (sl_segment){a, b} : (sl_segment){b, a};
+    return sli_compare_points(a, b) < 0 ? (sl_segment){a, b} : (sl_segment){b, a};
 }
 
 static int compare_segments(const void *left, const void *right) {
     const sl_segment *s = left, *t = right;
-    const int order = sl_compare_points(s->a, t->a);
-    return order ? order : sl_compare_points(s->b, t->b);
+    const int order = sli_compare_points(s->a, t->a);
+    return order ? order : sli_compare_points(s->b, t->b);
 }
 
 /// A portal that is listed for a seam has the ends of the seam.
@@ -318,8 +318,8 @@ static sl_status check_seam_portals(const checker *c, bool *passed) {
         const sl_seam_portal *at = &s->seam_portals[i];
         const sl_segment *seam = &s->seams[at->seam].at;
         const sl_portal *p = &s->portals[at->portal];
-        const bool forward = sl_same_point(seam->a, p->left) && sl_same_point(seam->b, p->right);
-        const bool backward = sl_same_point(seam->a, p->right) && sl_same_point(seam->b, p->left);
+        const bool forward = sli_same_point(seam->a, p->left) && sli_same_point(seam->b, p->right);
+        const bool backward = sli_same_point(seam->a, p->right) && sli_same_point(seam->b, p->left);
         if (!forward && !backward)
             return sl_fail(c->context, SL_BAD_INPUT, "portal %u is not on seam %u", at->portal,
                            at->seam);
@@ -347,7 +347,7 @@ static sl_status check_covered(const checker *c, const bool *passed, sl_segment 
 
 static sl_status check_seams(const checker *c) {
     const sl_space *s = c->space;
-    SL_TRY(sl_seams_check(c->context, s, false));
+    SL_TRY(sli_seams_check(c->context, s, false));
     if (s->loose || !s->seam_count) return SL_OK;
     bool *passed = sl_alloc_array(c->context, s->seam_count, sizeof *passed);
     sl_segment *walls = sl_alloc_array(c->context, s->wall_count, sizeof *walls);
@@ -367,10 +367,10 @@ static sl_status check_all(const checker *c) {
     if (s->loose) return SL_OK;
     SL_TRY(s->cut_walls ? check_cut_walls(c) : check_walls(c));
     SL_TRY(check_border(c));
-    return sl_cell_grid_check(c->context, s);
+    return sli_cell_grid_check(c->context, s);
 }
 
-sl_status sl_check_mesh(sl_context *context, const sl_space *space) {
+sl_status sli_check_mesh(sl_context *context, const sl_space *space) {
     checker c = {.context = context, .space = space};
     c.directed_found = sl_alloc_array(context, space->portal_count, sizeof *c.directed_found);
     c.sides_found = sl_alloc_array(context, space->wall_count, sizeof *c.sides_found);

@@ -110,7 +110,7 @@ static bool is_open(const sl_space *space, const border *b, uint32_t number, sl_
 // --- connected cells
 
 static double width_of(const sl_portal *portal) {
-    return sl_apart(portal->left, portal->right);
+    return sli_apart(portal->left, portal->right);
 }
 
 static uint32_t find_root(uint32_t *parents, uint32_t cell) {
@@ -226,14 +226,14 @@ static uint32_t find_way(const sl_space *space, rooms *r, uint32_t start, double
     return SL_NO_CELL;
 }
 
-static sl_status add_point(sl_fault_search *search, sl_point point) {
+static sl_status add_point(sli_fault_search *search, sl_point point) {
     SL_TRY(SL_ARRAY_ROOM(search->context, &search->points, 1));
     search->points.items[search->points.count++] = point;
     return SL_OK;
 }
 
 /// Adds the way from the start through the middles of portals to the border. It is found backwards.
-static sl_status add_leak(sl_fault_search *search, rooms *r, sl_point start, uint32_t first,
+static sl_status add_leak(sli_fault_search *search, rooms *r, sl_point start, uint32_t first,
                           uint32_t last, uint32_t narrowest) {
     const sl_space *space = search->space;
     sl_fault leak = {.kind = SL_FAULT_LEAK,
@@ -264,7 +264,7 @@ static sl_status add_leak(sl_fault_search *search, rooms *r, sl_point start, uin
         points[i] = points[j];
         points[j] = swapped;
     }
-    return sl_add_fault(search, leak);
+    return sli_add_fault(search, leak);
 }
 
 // --- rooms
@@ -289,7 +289,7 @@ static bool reach(const sl_space *space, rooms *r, sl_bits *reached, uint32_t st
 }
 
 /// Finds one leak for each room with a start, and marks the cells that starts reach.
-static sl_status find_leaks(sl_fault_search *search, rooms *r, sl_bits *reached) {
+static sl_status find_leaks(sli_fault_search *search, rooms *r, sl_bits *reached) {
     const sl_map *map = search->map;
     for (size_t i = 0; i < map->start_count; i++) {
         const uint32_t start = sl_space_locate(search->space, map->starts[i].at);
@@ -345,12 +345,12 @@ static sl_fault measure_room(const sl_space *space, rooms *r, sl_bits *reached, 
     return room;
 }
 
-static sl_status find_unreachable(sl_fault_search *search, rooms *r, sl_bits *reached) {
+static sl_status find_unreachable(sli_fault_search *search, rooms *r, sl_bits *reached) {
     for (uint32_t i = 0; i < search->space->cell_count; i++) {
         if (sl_bits_has(reached, i)) continue;
         bool open;
         const sl_fault room = measure_room(search->space, r, reached, i, &open);
-        if (!open) SL_TRY(sl_add_fault(search, room));
+        if (!open) SL_TRY(sli_add_fault(search, room));
     }
     return SL_OK;
 }
@@ -363,7 +363,7 @@ static double thinnest(const sl_space *space, const sl_cell *cell, sl_segment *a
     double least = INFINITY;
     for (uint32_t i = 0; i < cell->vertex_count; i++) {
         const sl_point a = p[i], b = p[(i + 1) % cell->vertex_count];
-        const double length = sl_apart(a, b);
+        const double length = sli_apart(a, b);
         double most = 0;
         sl_point far = a;
         for (uint32_t k = 0; k < cell->vertex_count && length > 0; k++) {
@@ -383,13 +383,13 @@ static double thinnest(const sl_space *space, const sl_cell *cell, sl_segment *a
     return least;
 }
 
-static sl_status find_thin(sl_fault_search *search) {
+static sl_status find_thin(sli_fault_search *search) {
     const sl_space *space = search->space;
     for (uint32_t i = 0; i < space->cell_count; i++) {
         sl_fault thin = {.kind = SL_FAULT_THIN, .walls = {UINT32_MAX, UINT32_MAX}, .cell = i};
         if (!space->cells[i].inside) continue;
         thin.size = thinnest(space, &space->cells[i], &thin.at);
-        if (thin.size < search->options.thin) SL_TRY(sl_add_fault(search, thin));
+        if (thin.size < search->options.thin) SL_TRY(sli_add_fault(search, thin));
     }
     return SL_OK;
 }
@@ -397,7 +397,7 @@ static sl_status find_thin(sl_fault_search *search) {
 // --- all
 
 /// Leaks, thin cells and unreachable rooms.
-static sl_status find_space_faults(sl_fault_search *search) {
+static sl_status find_space_faults(sli_fault_search *search) {
     rooms r;
     SL_TRY(find_thin(search));
     if (!search->map->start_count) return SL_OK;
@@ -444,7 +444,7 @@ static bool is_same(const sl_fault *a, const sl_fault *b) {
            a->walls[0] != UINT32_MAX && a->at.a.x == b->at.a.x && a->at.a.y == b->at.a.y;
 }
 
-static void finish(sl_fault_search *search, sl_faults *out) {
+static void finish(sli_fault_search *search, sl_faults *out) {
     sl_faults faults = {.items = search->faults.items,
                         .points = search->points.items,
                         .point_count = (uint32_t)search->points.count,
@@ -462,13 +462,13 @@ static void finish(sl_fault_search *search, sl_faults *out) {
 sl_status sl_find_faults(sl_context *context, const sl_map *map, const sl_space *space,
                          const sl_faults_options *options, sl_faults *out) {
     const sl_box box = sl_map_bounds(map);
-    const double usual = sl_apart(box.min, box.max) / 1000;
-    sl_fault_search search = {.context = context, .map = map, .space = space, .options = *options};
+    const double usual = sli_apart(box.min, box.max) / 1000;
+    sli_fault_search search = {.context = context, .map = map, .space = space, .options = *options};
     if (!(options->gap >= 0 && options->thin >= 0))
         return sl_fail(context, SL_BAD_ARGUMENT, "a gap or width cannot be less than 0");
     if (options->gap == 0) search.options.gap = usual;
     if (options->thin == 0) search.options.thin = usual;
-    sl_status status = sl_find_wall_faults(&search);
+    sl_status status = sli_find_wall_faults(&search);
     if (status == SL_OK) status = find_space_faults(&search);
     if (status == SL_OK) {
         finish(&search, out);

@@ -36,31 +36,31 @@ static sl_point nearest_on_wall(const sl_wall *wall, sl_point point) {
 
 /// Exact.
 static bool touches_wall(const sl_wall *wall, sl_point p) {
-    if (sl_orient(wall->a, wall->b, p) != 0) return false;
+    if (sli_orient(wall->a, wall->b, p) != 0) return false;
     return p.x >= fmin(wall->a.x, wall->b.x) && p.x <= fmax(wall->a.x, wall->b.x) &&
            p.y >= fmin(wall->a.y, wall->b.y) && p.y <= fmax(wall->a.y, wall->b.y);
 }
 
 static bool crosses(const sl_wall *wall, sl_point a, sl_point b) {
-    return sl_orient(wall->a, wall->b, a) * sl_orient(wall->a, wall->b, b) < 0 &&
-           sl_orient(a, b, wall->a) * sl_orient(a, b, wall->b) < 0;
+    return sli_orient(wall->a, wall->b, a) * sli_orient(wall->a, wall->b, b) < 0 &&
+           sli_orient(a, b, wall->a) * sli_orient(a, b, wall->b) < 0;
 }
 
 // --- gaps
 
 /// Whether two walls meet at an end of one of them, within `reach` of a point.
 static bool meet_near(const sl_wall *a, const sl_wall *b, sl_point point, double reach) {
-    return (touches_wall(a, b->a) && sl_apart(b->a, point) <= reach) ||
-           (touches_wall(a, b->b) && sl_apart(b->b, point) <= reach) ||
-           (touches_wall(b, a->a) && sl_apart(a->a, point) <= reach) ||
-           (touches_wall(b, a->b) && sl_apart(a->b, point) <= reach);
+    return (touches_wall(a, b->a) && sli_apart(b->a, point) <= reach) ||
+           (touches_wall(a, b->b) && sli_apart(b->b, point) <= reach) ||
+           (touches_wall(b, a->a) && sli_apart(a->a, point) <= reach) ||
+           (touches_wall(b, a->b) && sli_apart(a->b, point) <= reach);
 }
 
 /// Whether a wall closes the gap from a wall's end to another wall: it joins the two, or passes
 /// between them.
 static bool is_closed(const sl_map *map, const uint32_t *near, uint32_t count, sl_point end,
                       const sl_wall *other, sl_point to) {
-    const double reach = 2 * sl_apart(end, to);
+    const double reach = 2 * sli_apart(end, to);
     for (uint32_t i = 0; i < count; i++) {
         const sl_wall *wall = &map->walls[near[i]];
         if (wall == other) continue;
@@ -74,22 +74,22 @@ static bool is_closed(const sl_map *map, const uint32_t *near, uint32_t count, s
 static bool is_reported(const sl_map *map, const uint32_t *near, uint32_t count, uint32_t wall,
                         sl_point end) {
     for (uint32_t i = 0; i < count; i++)
-        if (near[i] < wall && (sl_same_point(map->walls[near[i]].a, end) ||
-                               sl_same_point(map->walls[near[i]].b, end)))
+        if (near[i] < wall && (sli_same_point(map->walls[near[i]].a, end) ||
+                               sli_same_point(map->walls[near[i]].b, end)))
             return true;
     return false;
 }
 
 /// A gap between two ends is found from both. Whether the other end reports it.
 static bool is_reported_there(const sl_wall *other, sl_point end, sl_point to) {
-    if (!sl_same_point(to, other->a) && !sl_same_point(to, other->b)) return false;
+    if (!sli_same_point(to, other->a) && !sli_same_point(to, other->b)) return false;
     return to.x != end.x ? to.x < end.x : to.y < end.y;
 }
 
-static sl_status find_gap(sl_fault_search *search, const sl_wall_grid *grid, uint32_t wall,
+static sl_status find_gap(sli_fault_search *search, const sli_wall_grid *grid, uint32_t wall,
                           sl_point end) {
     uint32_t count;
-    const uint32_t *near = sl_wall_grid_at(grid, end, &count);
+    const uint32_t *near = sli_wall_grid_at(grid, end, &count);
     const sl_map *map = search->map;
     if (is_reported(map, near, count, wall, end)) return SL_OK;
     sl_fault gap = {.kind = SL_FAULT_GAP, .size = INFINITY, .cell = SL_NO_CELL};
@@ -97,7 +97,7 @@ static sl_status find_gap(sl_fault_search *search, const sl_wall_grid *grid, uin
         const sl_wall *other = &map->walls[near[i]];
         if (near[i] == wall || touches_wall(other, end)) continue;
         const sl_point to = nearest_on_wall(other, end);
-        const double width = sl_apart(end, to);
+        const double width = sli_apart(end, to);
         if (!(width <= search->options.gap) || width >= gap.size) continue;
         if (is_closed(map, near, count, end, other, to)) continue;
         gap.size = width;
@@ -107,7 +107,7 @@ static sl_status find_gap(sl_fault_search *search, const sl_wall_grid *grid, uin
     }
     if (gap.size == INFINITY || is_reported_there(&map->walls[gap.walls[1]], end, gap.at.b))
         return SL_OK;
-    return sl_add_fault(search, gap);
+    return sli_add_fault(search, gap);
 }
 
 // --- pairs
@@ -135,29 +135,30 @@ static sl_point crossing_point(const sl_wall *a, const sl_wall *b) {
     return (sl_point){a->a.x + at * u.x, a->a.y + at * u.y};
 }
 
-static sl_status compare_walls(sl_fault_search *search, uint32_t i, uint32_t j) {
+static sl_status compare_walls(sli_fault_search *search, uint32_t i, uint32_t j) {
     const sl_wall *a = &search->map->walls[i], *b = &search->map->walls[j];
     sl_fault fault = {.walls = {i, j}, .cell = SL_NO_CELL};
     if (crosses(a, b->a, b->b)) {
         fault.kind = SL_FAULT_CROSSING;
         fault.at.a = fault.at.b = crossing_point(a, b);
-        return sl_add_fault(search, fault);
+        return sli_add_fault(search, fault);
     }
-    const bool in_line = !sl_same_point(a->a, a->b) && !sl_same_point(b->a, b->b) &&
-                         sl_orient(a->a, a->b, b->a) == 0 && sl_orient(a->a, a->b, b->b) == 0;
+    const bool in_line = !sli_same_point(a->a, a->b) && !sli_same_point(b->a, b->b) &&
+                         sli_orient(a->a, a->b, b->a) == 0 && sli_orient(a->a, a->b, b->b) == 0;
     if (!in_line || !shared_piece(a, b, &fault.at)) return SL_OK;
     fault.kind = SL_FAULT_OVERLAP;
-    fault.size = sl_apart(fault.at.a, fault.at.b);
-    return sl_add_fault(search, fault);
+    fault.size = sli_apart(fault.at.a, fault.at.b);
+    return sli_add_fault(search, fault);
 }
 
-static sl_status compare_in_square(sl_fault_search *search, const uint32_t *walls, uint32_t count) {
+static sl_status compare_in_square(sli_fault_search *search, const uint32_t *walls,
+                                   uint32_t count) {
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t j = i + 1; j < count; j++) SL_TRY(compare_walls(search, walls[i], walls[j]));
     return SL_OK;
 }
 
-static sl_status search_grid(sl_fault_search *search, const sl_wall_grid *grid) {
+static sl_status search_grid(sli_fault_search *search, const sli_wall_grid *grid) {
     const size_t squares = (size_t)grid->columns * grid->rows;
     for (size_t i = 0; i < squares; i++) {
         if (i % 1024 == 0) SL_TRY(sl_check_cancelled(search->context));
@@ -173,11 +174,11 @@ static sl_status search_grid(sl_fault_search *search, const sl_wall_grid *grid) 
     return SL_OK;
 }
 
-sl_status sl_find_wall_faults(sl_fault_search *search) {
-    sl_wall_grid grid;
-    SL_TRY(sl_wall_grid_create(search->context, search->map, search->options.gap, &grid));
+sl_status sli_find_wall_faults(sli_fault_search *search) {
+    sli_wall_grid grid;
+    SL_TRY(sli_wall_grid_create(search->context, search->map, search->options.gap, &grid));
     const sl_status status = search_grid(search, &grid);
-    sl_wall_grid_destroy(search->context, &grid);
+    sli_wall_grid_destroy(search->context, &grid);
     return status;
 }
 
@@ -228,15 +229,15 @@ static void list_ends(snapper *s) {
     s->count = 2 * s->map->wall_count;
     qsort(s->ends, s->count, sizeof *s->ends, compare_places);
     for (size_t i = 0, end; i < s->count; i = end) {
-        for (end = i; end < s->count && sl_same_point(s->ends[i].at, s->ends[end].at); end++)
+        for (end = i; end < s->count && sli_same_point(s->ends[i].at, s->ends[end].at); end++)
             continue;
         for (size_t k = i; k < end; k++) s->ends[k].users = (uint32_t)(end - i);
     }
 }
 
 static void move_end(snapper *s, sl_point *end, sl_point to) {
-    const double way = sl_apart(*end, to);
-    if (sl_same_point(*end, to)) return;
+    const double way = sli_apart(*end, to);
+    if (sli_same_point(*end, to)) return;
     s->account.moved++;
     s->account.farthest = fmax(s->account.farthest, way);
     *end = to;
@@ -246,19 +247,19 @@ static void move_end(snapper *s, sl_point *end, sl_point to) {
 
 /// Moves ends onto a near place that is used at least as often. Each end moves once. `settled` has
 /// two bits by wall: its ends that have their place.
-static sl_status join_ends(snapper *s, const sl_wall_grid *grid, uint8_t *settled) {
+static sl_status join_ends(snapper *s, const sli_wall_grid *grid, uint8_t *settled) {
     const sl_wall *before = s->map->walls;
     for (size_t i = 0; i < s->count; i++) {
         const wall_end *keep = &s->ends[i];
         if (i % 1024 == 0) SL_TRY(sl_check_cancelled(s->context));
         if (settled[keep->wall] >> keep->second & 1) continue;
         uint32_t count;
-        const uint32_t *near = sl_wall_grid_at(grid, keep->at, &count);
+        const uint32_t *near = sli_wall_grid_at(grid, keep->at, &count);
         for (uint32_t k = 0; k < count; k++) {
             for (int second = 0; second < 2; second++) {
                 const sl_wall *wall = &before[near[k]];
                 const sl_point at = second ? wall->b : wall->a;
-                if (settled[near[k]] >> second & 1 || sl_apart(at, keep->at) > s->gap) continue;
+                if (settled[near[k]] >> second & 1 || sli_apart(at, keep->at) > s->gap) continue;
                 settled[near[k]] |= (uint8_t)(1 << second);
                 const wall_end moved = {.wall = near[k], .second = second};
                 move_end(s, end_of(s, &moved), keep->at);
@@ -288,20 +289,20 @@ static sl_point meeting(const sl_wall *own, sl_point end, const sl_wall *other) 
     return to;
 }
 
-static void put_on_wall(snapper *s, const sl_wall_grid *grid, const wall_end *end) {
+static void put_on_wall(snapper *s, const sli_wall_grid *grid, const wall_end *end) {
     sl_point *at = end_of(s, end);
     const sl_wall *own = &s->map->walls[end->wall];
     uint32_t count;
-    const uint32_t *near = sl_wall_grid_at(grid, *at, &count);
+    const uint32_t *near = sli_wall_grid_at(grid, *at, &count);
     sl_point best = *at;
     double least = INFINITY;
     for (uint32_t k = 0; k < count; k++) {
         const sl_wall *other = &s->map->walls[near[k]];
-        if (near[k] == end->wall || sl_same_point(other->a, other->b)) continue;
+        if (near[k] == end->wall || sli_same_point(other->a, other->b)) continue;
         if (touches_wall(other, *at)) return;
         const sl_point to = meeting(own, *at, other);
-        const double way = sl_apart(*at, to);
-        const bool there = sl_apart(to, nearest_on_wall(other, to)) <= s->gap;
+        const double way = sli_apart(*at, to);
+        const bool there = sli_apart(to, nearest_on_wall(other, to)) <= s->gap;
         if (way > s->gap || way >= least || !there) continue;
         least = way;
         best = to;
@@ -315,22 +316,22 @@ static void drop_points(snapper *s) {
     size_t kept = 0;
     for (size_t i = 0; i < s->map->wall_count; i++) {
         const sl_wall wall = s->map->walls[i];
-        if (!sl_same_point(wall.a, wall.b)) s->map->walls[kept++] = wall;
+        if (!sli_same_point(wall.a, wall.b)) s->map->walls[kept++] = wall;
     }
     s->account.vanished = s->map->wall_count - kept;
     s->map->wall_count = kept;
 }
 
 static sl_status snap_to_ends(snapper *s) {
-    sl_wall_grid grid;
+    sli_wall_grid grid;
     uint8_t *settled = sl_alloc_array(s->context, s->map->wall_count, sizeof *settled);
     if (!settled) return SL_NO_MEMORY;
-    sl_status status = sl_wall_grid_create(s->context, s->map, s->gap, &grid);
+    sl_status status = sli_wall_grid_create(s->context, s->map, s->gap, &grid);
     if (status == SL_OK) {
         list_ends(s);
         qsort(s->ends, s->count, sizeof *s->ends, compare_use);
         status = join_ends(s, &grid, settled);
-        sl_wall_grid_destroy(s->context, &grid);
+        sli_wall_grid_destroy(s->context, &grid);
     }
     sl_free(s->context, settled);
     return status;
@@ -338,13 +339,13 @@ static sl_status snap_to_ends(snapper *s) {
 
 /// The grid finds walls within twice the gap, as each may move by a gap while the grid is in use.
 static sl_status snap_to_walls(snapper *s) {
-    sl_wall_grid grid;
-    SL_TRY(sl_wall_grid_create(s->context, s->map, 2 * s->gap, &grid));
+    sli_wall_grid grid;
+    SL_TRY(sli_wall_grid_create(s->context, s->map, 2 * s->gap, &grid));
     list_ends(s);
     qsort(s->ends, s->count, sizeof *s->ends, compare_use);
     for (size_t i = 0; i < s->count; i++)
         if (s->ends[i].users == 1) put_on_wall(s, &grid, &s->ends[i]);
-    sl_wall_grid_destroy(s->context, &grid);
+    sli_wall_grid_destroy(s->context, &grid);
     return SL_OK;
 }
 

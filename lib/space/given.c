@@ -24,9 +24,9 @@ typedef struct given {
     sl_context *context;
     const sl_map *map;
     const char *source; ///< for messages
-    sl_mesh_lines lines;
-    sl_planar graph; ///< of walls, seams, and sides of cells by corner of the map
-    sl_triangulation triangles;
+    sli_mesh_lines lines;
+    sli_planar graph; ///< of walls, seams, and sides of cells by corner of the map
+    sli_triangulation triangles;
     cover
         *steps; ///< by edge of the graph, from a to b: the cover at its left less that at its right
     cover *covers; ///< by half-edge
@@ -36,24 +36,24 @@ typedef struct given {
 } given;
 
 static sl_status make_graph(given *g, sl_space *space) {
-    SL_TRY(sl_mesh_lines_of_map(g->context, g->map, &g->lines, space));
+    SL_TRY(sli_mesh_lines_of_map(g->context, g->map, &g->lines, space));
     for (size_t i = 0; i < g->map->cell_count; i++) {
         const sl_map_cell *cell = &g->map->cells[i];
         const sl_point *corners = g->map->corners + cell->first;
         if (i % 1024 == 0) SL_TRY(sl_check_cancelled(g->context));
         for (size_t k = 0; k < cell->count; k++)
-            SL_TRY(sl_mesh_add_line(g->context, &g->lines,
-                                    (sl_segment){corners[k], corners[(k + 1) % cell->count]}));
+            SL_TRY(sli_mesh_add_line(g->context, &g->lines,
+                                     (sl_segment){corners[k], corners[(k + 1) % cell->count]}));
     }
-    SL_TRY(sl_planar_make(g->context, g->source, g->lines.items.items, g->lines.items.count,
-                          2 * g->map->snap, &g->graph));
-    return sl_triangulate(g->context, &g->graph, &space->bounds, &g->triangles);
+    SL_TRY(sli_planar_make(g->context, g->source, g->lines.items.items, g->lines.items.count,
+                           2 * g->map->snap, &g->graph));
+    return sli_triangulate(g->context, &g->graph, &space->bounds, &g->triangles);
 }
 
 // --- the cells that cover a triangle
 
 /// The *count edges around a cell.
-static const sl_planar_link *links_of(const given *g, uint32_t cell, size_t *count) {
+static const sli_planar_link *links_of(const given *g, uint32_t cell, size_t *count) {
     const sl_map_cell *c = &g->map->cells[cell];
     const size_t *first = g->graph.first + g->lines.wall_count + g->lines.seam_count + c->first;
     *count = first[c->count] - first[0];
@@ -63,11 +63,11 @@ static const sl_planar_link *links_of(const given *g, uint32_t cell, size_t *cou
 /// Twice the area of a cell as welded; negative where it is clockwise.
 static double area_of(const given *g, uint32_t cell) {
     size_t count;
-    const sl_planar_link *links = links_of(g, cell, &count);
+    const sli_planar_link *links = links_of(g, cell, &count);
     double sum = 0;
     for (size_t k = 1; k < count; k++) {
-        const sl_point o = sl_planar_at(&g->graph, links[0]).a;
-        const sl_segment at = sl_planar_at(&g->graph, links[k]);
+        const sl_point o = sli_planar_at(&g->graph, links[0]).a;
+        const sl_segment at = sli_planar_at(&g->graph, links[k]);
         sum += (at.a.x - o.x) * (at.b.y - o.y) - (at.b.x - o.x) * (at.a.y - o.y);
     }
     return sum;
@@ -78,7 +78,7 @@ static void count_steps(given *g) {
     for (uint32_t i = 0; i < g->map->cell_count; i++) {
         const double area = area_of(g, i);
         size_t count;
-        const sl_planar_link *links = links_of(g, i, &count);
+        const sli_planar_link *links = links_of(g, i, &count);
         g->without_area += area == 0;
         for (size_t k = 0; k < count; k++) {
             const int sign = (links[k] % 2 == 1) == (area < 0) ? 1 : -1;
@@ -111,13 +111,13 @@ static sl_status cover_triangle(given *g, uint32_t half, cover c) {
 }
 
 static sl_status cover_all(given *g) {
-    const sl_triangulation *t = &g->triangles;
+    const sli_triangulation *t = &g->triangles;
     uint32_t outside = 0;
-    while (!sl_half_is_outside(t, outside)) outside++;
+    while (!sli_half_is_outside(t, outside)) outside++;
     SL_TRY(cover_triangle(g, outside ^ 1, step_into(g, outside ^ 1)));
     while (g->waiting.count) {
         const uint32_t half = g->waiting.items[--g->waiting.count], twin = half ^ 1;
-        if (sl_half_is_outside(t, twin) || g->known[twin]) continue;
+        if (sli_half_is_outside(t, twin) || g->known[twin]) continue;
         const cover step = step_into(g, twin), c = g->covers[half];
         SL_TRY(cover_triangle(g, twin, (cover){c.count + step.count, c.sum + step.sum}));
     }
@@ -131,7 +131,7 @@ static sl_status fail_at(const given *g, uint32_t half) {
     const sl_point at = g->triangles.points.items[from];
     for (uint32_t i = 0; i < g->map->cell_count; i++) {
         size_t count;
-        const sl_planar_link *links = links_of(g, i, &count);
+        const sli_planar_link *links = links_of(g, i, &count);
         for (size_t k = 0; k < count; k++) {
             if (links[k] / 2 + 1 != g->triangles.labels[half / 2]) continue;
             const bool along = (from == g->graph.edges[links[k] / 2].a) == (links[k] % 2 == 0);
@@ -167,8 +167,8 @@ static sl_status check_cover(given *g) {
 
 static void destroy(given *g) {
     sl_free(g->context, g->lines.items.items);
-    sl_planar_destroy(g->context, &g->graph);
-    sl_triangulation_destroy(g->context, &g->triangles);
+    sli_planar_destroy(g->context, &g->graph);
+    sli_triangulation_destroy(g->context, &g->triangles);
     sl_free(g->context, g->steps);
     sl_free(g->context, g->covers);
     sl_free(g->context, g->known);
@@ -184,7 +184,7 @@ sl_status sl_subdivide_given(sl_context *context, const sl_map *map, sl_space *o
     sl_status status = make_graph(&g, &space);
     if (status == SL_OK) status = check_cover(&g);
     if (status == SL_OK)
-        status = sl_mesh_make(context, map, &g.lines, &g.graph, &g.triangles, &space);
+        status = sli_mesh_make(context, map, &g.lines, &g.graph, &g.triangles, &space);
     destroy(&g);
     if (status != SL_OK) {
         sl_space_destroy(context, &space);

@@ -40,7 +40,7 @@ static double greater(double a, double b) {
     return a > b ? a : b;
 }
 
-sl_box sl_box_around(sl_point a, sl_point b) {
+sl_box sli_box_around(sl_point a, sl_point b) {
     return (sl_box){{lesser(a.x, b.x), lesser(a.y, b.y)}, {greater(a.x, b.x), greater(a.y, b.y)}};
 }
 
@@ -49,7 +49,7 @@ static sl_box joined(sl_box a, sl_box b) {
                     {greater(a.max.x, b.max.x), greater(a.max.y, b.max.y)}};
 }
 
-sl_box sl_box_with(sl_box box, sl_point point) {
+sl_box sli_box_with(sl_box box, sl_point point) {
     return joined(box, (sl_box){point, point});
 }
 
@@ -101,7 +101,7 @@ static sl_status sort_items(sl_context *context, const sl_box *boxes, size_t cou
 // --- the tree
 
 /// Counts the boxes of each level; the last has one.
-static void lay_out(sl_box_tree *tree, size_t count) {
+static void lay_out(sli_box_tree *tree, size_t count) {
     while (true) {
         tree->first[tree->levels + 1] = tree->first[tree->levels] + count;
         tree->levels++;
@@ -110,7 +110,7 @@ static void lay_out(sl_box_tree *tree, size_t count) {
     }
 }
 
-static void fill_level(sl_box_tree *tree, uint32_t level) {
+static void fill_level(sli_box_tree *tree, uint32_t level) {
     const sl_box *below = tree->boxes + tree->first[level - 1];
     const size_t count = tree->first[level] - tree->first[level - 1];
     for (size_t i = 0; i < count; i++) {
@@ -119,9 +119,9 @@ static void fill_level(sl_box_tree *tree, uint32_t level) {
     }
 }
 
-sl_status sl_box_tree_create(sl_context *context, const sl_box *boxes, size_t count,
-                             sl_box_tree *out) {
-    *out = (sl_box_tree){0};
+sl_status sli_box_tree_create(sl_context *context, const sl_box *boxes, size_t count,
+                              sli_box_tree *out) {
+    *out = (sli_box_tree){0};
     if (!count) return SL_OK;
     lay_out(out, count);
     out->items = sl_alloc_array(context, count, sizeof *out->items);
@@ -133,10 +133,10 @@ sl_status sl_box_tree_create(sl_context *context, const sl_box *boxes, size_t co
     return SL_OK;
 }
 
-void sl_box_tree_destroy(sl_context *context, sl_box_tree *tree) {
+void sli_box_tree_destroy(sl_context *context, sli_box_tree *tree) {
     sl_free(context, tree->items);
     sl_free(context, tree->boxes);
-    *tree = (sl_box_tree){0};
+    *tree = (sli_box_tree){0};
 }
 
 // --- finding
@@ -152,8 +152,8 @@ static int compare_items(const void *left, const void *right) {
 }
 
 /// Looks at the boxes of a level from `begin` on: those below one box of the next level.
-static sl_status find_below(sl_context *context, const sl_box_tree *tree, uint32_t level,
-                            size_t begin, const sl_box *box, sl_box_list *found) {
+static sl_status find_below(sl_context *context, const sli_box_tree *tree, uint32_t level,
+                            size_t begin, const sl_box *box, sli_box_list *found) {
     const size_t first = tree->first[level], count = tree->first[level + 1] - first;
     const size_t end = count - begin < FAN ? count : begin + FAN;
     if (level == 0) SL_TRY(SL_ARRAY_ROOM(context, found, FAN));
@@ -167,8 +167,8 @@ static sl_status find_below(sl_context *context, const sl_box_tree *tree, uint32
     return SL_OK;
 }
 
-sl_status sl_box_tree_find(sl_context *context, const sl_box_tree *tree, const sl_box *box,
-                           sl_box_list *found) {
+sl_status sli_box_tree_find(sl_context *context, const sli_box_tree *tree, const sl_box *box,
+                            sli_box_list *found) {
     found->count = 0;
     if (!tree->levels) return SL_OK;
     SL_TRY(find_below(context, tree, tree->levels - 1, 0, box, found));
@@ -181,14 +181,14 @@ sl_status sl_box_tree_find(sl_context *context, const sl_box_tree *tree, const s
 /// A bound for the rounding of a computed place, as a share of the map's size.
 #define WALL_SLACK 0x1p-40
 
-void sl_wall_grid_destroy(sl_context *context, sl_wall_grid *grid) {
+void sli_wall_grid_destroy(sl_context *context, sli_wall_grid *grid) {
     sl_free(context, grid->offsets);
     sl_free(context, grid->walls);
-    *grid = (sl_wall_grid){0};
+    *grid = (sli_wall_grid){0};
 }
 
 /// About one square for each wall; a square is never smaller than the reach.
-static void choose_step(const sl_map *map, double reach, sl_wall_grid *grid) {
+static void choose_step(const sl_map *map, double reach, sli_wall_grid *grid) {
     const double width = grid->bounds.max.x - grid->bounds.min.x;
     const double height = grid->bounds.max.y - grid->bounds.min.y;
     const double longer = fmax(width, height);
@@ -205,7 +205,7 @@ static uint32_t index_of(double offset, double step, uint32_t count) {
 }
 
 /// Puts a wall into its squares, column by column; without lists it only counts.
-static void put_wall(sl_wall_grid *grid, const sl_wall *wall, uint32_t number, double reach) {
+static void put_wall(sli_wall_grid *grid, const sl_wall *wall, uint32_t number, double reach) {
     const sl_point base = grid->bounds.min;
     const bool right = wall->b.x >= wall->a.x;
     const sl_point a = right ? wall->a : wall->b, b = right ? wall->b : wall->a;
@@ -231,9 +231,9 @@ static void put_wall(sl_wall_grid *grid, const sl_wall *wall, uint32_t number, d
     }
 }
 
-sl_status sl_wall_grid_create(sl_context *context, const sl_map *map, double reach,
-                              sl_wall_grid *out) {
-    sl_wall_grid grid = {.bounds = sl_map_bounds(map)};
+sl_status sli_wall_grid_create(sl_context *context, const sl_map *map, double reach,
+                               sli_wall_grid *out) {
+    sli_wall_grid grid = {.bounds = sl_map_bounds(map)};
     choose_step(map, reach, &grid);
     const size_t squares = (size_t)grid.columns * grid.rows;
     const sl_point min = grid.bounds.min, max = grid.bounds.max;
@@ -398,14 +398,14 @@ static uint32_t steps(double share) {
     return share >= 1 ? (uint32_t)fmin(share, MOST_STEPS) : 1;
 }
 
-sl_status sl_cell_grid_make(sl_context *context, sl_space *space) {
+sl_status sli_cell_grid_make(sl_context *context, sl_space *space) {
     sl_cell_grid *g = &space->grid;
     const double shape = shape_of_cells(space);
     const uint64_t most = (uint64_t)space->cell_count * ENTRIES_PER_CELL;
     double buckets = (double)space->cell_count * BUCKETS_PER_CELL;
     sl_status status = SL_OK;
     for (; status == SL_OK && !g->cells; buckets /= 4) {
-        sl_cell_grid_destroy(context, g);
+        sli_cell_grid_destroy(context, g);
         g->columns = steps(fmin(buckets, sqrt(buckets / shape)));
         g->rows = steps(buckets / g->columns);
         status = fill(context, space, CELL_SLACK, most < UINT32_MAX ? most : UINT32_MAX, g);
@@ -431,15 +431,15 @@ static sl_status compare(sl_context *context, const sl_cell_grid *grid, const sl
     return SL_OK;
 }
 
-sl_status sl_cell_grid_check(sl_context *context, const sl_space *space) {
+sl_status sli_cell_grid_check(sl_context *context, const sl_space *space) {
     sl_cell_grid least = {.columns = space->grid.columns, .rows = space->grid.rows};
     sl_status status = fill(context, space, CELL_SLACK / 2, space->grid.entry_count, &least);
     if (status == SL_OK) status = compare(context, &space->grid, &least);
-    sl_cell_grid_destroy(context, &least);
+    sli_cell_grid_destroy(context, &least);
     return status;
 }
 
-void sl_cell_grid_destroy(sl_context *context, sl_cell_grid *grid) {
+void sli_cell_grid_destroy(sl_context *context, sl_cell_grid *grid) {
     sl_free(context, grid->first);
     sl_free(context, grid->cells);
     *grid = (sl_cell_grid){0};

@@ -29,17 +29,17 @@ static int compare_numbers(double a, double b) {
 }
 
 static int compare_pieces(const void *left, const void *right) {
-    const sl_piece *a = left, *b = right;
+    const sli_piece *a = left, *b = right;
     if (a->axis != b->axis) return a->axis - b->axis;
     const int at = compare_numbers(a->at, b->at);
     return at ? at : compare_numbers(a->lo, b->lo);
 }
 
-static sl_piece make_piece(const sl_wall *wall) {
+static sli_piece make_piece(const sl_wall *wall) {
     const int axis = wall->a.x == wall->b.x ? 0 : 1;
     const double at = axis ? wall->a.y : wall->a.x;
     const double one = axis ? wall->a.x : wall->a.y, other = axis ? wall->b.x : wall->b.y;
-    return (sl_piece){
+    return (sli_piece){
         .axis = axis, .at = at, .lo = one < other ? one : other, .hi = one < other ? other : one};
 }
 
@@ -56,16 +56,16 @@ static sl_status check_axial(sl_context *context, const char *source, const sl_w
                       wall->a.x, wall->a.y, wall->b.x, wall->b.y);
 }
 
-sl_status sl_wall_lines(sl_context *context, const char *source, const sl_wall *walls, size_t count,
-                        sl_piece **out) {
+sl_status sli_wall_lines(sl_context *context, const char *source, const sl_wall *walls,
+                         size_t count, sli_piece **out) {
     if (!source) source = "the map";
     for (size_t i = 0; i < count; i++) SL_TRY(check_axial(context, source, &walls[i]));
-    sl_piece *pieces = sl_alloc_array(context, count, sizeof *pieces);
+    sli_piece *pieces = sl_alloc_array(context, count, sizeof *pieces);
     if (!pieces) return SL_NO_MEMORY;
     for (size_t i = 0; i < count; i++) pieces[i] = make_piece(&walls[i]);
     qsort(pieces, count, sizeof *pieces, compare_pieces);
     for (size_t i = 1; i < count; i++) {
-        const sl_piece *a = &pieces[i - 1], *b = &pieces[i];
+        const sli_piece *a = &pieces[i - 1], *b = &pieces[i];
         if (a->axis != b->axis || a->at != b->at || b->lo >= a->hi) continue;
         const sl_status status =
             sl_fail_at(context, source, 0, "two walls overlap on %s = %.17g: clean the map first",
@@ -77,11 +77,11 @@ sl_status sl_wall_lines(sl_context *context, const char *source, const sl_wall *
     return SL_OK;
 }
 
-size_t sl_wall_lines_find(const sl_piece *pieces, size_t count, int axis, double at, double lo) {
+size_t sli_wall_lines_find(const sli_piece *pieces, size_t count, int axis, double at, double lo) {
     size_t first = 0, end = count;
     while (first < end) {
         const size_t middle = first + (end - first) / 2;
-        const sl_piece *p = &pieces[middle];
+        const sli_piece *p = &pieces[middle];
         const bool before = p->axis != axis ? p->axis < axis
                             : p->at != at   ? p->at < at
                                             : p->hi <= lo;
@@ -93,9 +93,9 @@ size_t sl_wall_lines_find(const sl_piece *pieces, size_t count, int axis, double
     return first;
 }
 
-bool sl_wall_lines_cover(const sl_piece *pieces, size_t count, int axis, double at, double lo,
-                         double hi) {
-    for (size_t i = sl_wall_lines_find(pieces, count, axis, at, lo); lo < hi; i++) {
+bool sli_wall_lines_cover(const sli_piece *pieces, size_t count, int axis, double at, double lo,
+                          double hi) {
+    for (size_t i = sli_wall_lines_find(pieces, count, axis, at, lo); lo < hi; i++) {
         if (i == count || pieces[i].axis != axis || pieces[i].at != at || pieces[i].lo > lo)
             return false;
         lo = pieces[i].hi;
@@ -108,7 +108,7 @@ bool sl_wall_lines_cover(const sl_piece *pieces, size_t count, int axis, double 
 /// A region still to be divided, with the walls inside it, sorted by line. The stack owns it.
 typedef struct region {
     sl_box box;
-    sl_piece *pieces;
+    sli_piece *pieces;
     size_t count;
     int32_t parent; ///< the node that leads here, -1 for none
     bool above;     ///< which child of that node
@@ -144,11 +144,11 @@ static double high_of(const sl_box *box, int axis) {
 static sl_status add_candidates(sl_context *context, chooser *choice, const region *r) {
     choice->candidates.count = 0;
     for (size_t first = 0, end; first < r->count; first = end) {
-        const sl_piece *line = &r->pieces[first];
+        const sli_piece *line = &r->pieces[first];
         const double lo = low_of(&r->box, !line->axis), hi = high_of(&r->box, !line->axis);
         double covered = 0, reached = lo;
         for (end = first; end < r->count; end++) {
-            const sl_piece *p = &r->pieces[end];
+            const sli_piece *p = &r->pieces[end];
             if (p->axis != line->axis || p->at != line->at) break;
             // Half of each, so that the widest maps do not overflow.
             covered += p->hi / 2 - p->lo / 2;
@@ -193,7 +193,7 @@ static sl_status sort_ends(sl_context *context, chooser *choice, const region *r
         choice->lows[axis].count = choice->highs[axis].count = 0;
     }
     for (size_t i = 0; i < r->count; i++) {
-        const sl_piece *p = &r->pieces[i];
+        const sli_piece *p = &r->pieces[i];
         choice->lows[p->axis].items[choice->lows[p->axis].count++] = p->lo;
         choice->highs[p->axis].items[choice->highs[p->axis].count++] = p->hi;
     }
@@ -210,7 +210,7 @@ static void count_sides(chooser *choice, const region *r) {
     size_t on_axis[2] = {choice->lows[0].count, choice->lows[1].count};
     for (size_t i = 0; i < choice->candidates.count; i++) {
         candidate *c = &choice->candidates.items[i];
-        const sl_piece *line = &r->pieces[c->first];
+        const sli_piece *line = &r->pieces[c->first];
         const int across = !line->axis;
         const size_t base = line->axis ? on_axis[0] : 0;
         const size_t starting = count_below(choice->lows[across].items, on_axis[across], line->at);
@@ -286,9 +286,9 @@ static sl_status choose_split(sl_context *context, chooser *choice, const region
     return SL_OK;
 }
 
-static sl_status add_node(sl_context *context, sl_kd_tree *tree, const region *r,
+static sl_status add_node(sl_context *context, sli_kd_tree *tree, const region *r,
                           const candidate *split) {
-    const sl_piece *line = &r->pieces[split->first];
+    const sli_piece *line = &r->pieces[split->first];
     const size_t count = split->end - split->first;
     if (tree->nodes.count == INT32_MAX) return sl_fail_memory(context);
     SL_TRY(SL_ARRAY_ROOM(context, &tree->nodes, 1));
@@ -296,15 +296,15 @@ static sl_status add_node(sl_context *context, sl_kd_tree *tree, const region *r
     SL_TRY(SL_ARRAY_ROOM(context, &tree->on_splits, count));
     tree->nodes.items[tree->nodes.count++] = (sl_node){.position = line->at, .axis = line->axis};
     tree->splits.items[tree->splits.count++] =
-        (sl_split_walls){.first = tree->on_splits.count, .count = count};
+        (sli_split_walls){.first = tree->on_splits.count, .count = count};
     memcpy(tree->on_splits.items + tree->on_splits.count, line, count * sizeof *line);
     tree->on_splits.count += count;
     return SL_OK;
 }
 
 /// The part of a piece on one side of a split; lo == hi where there is none.
-static sl_piece clip_piece(const sl_piece *p, int axis, double at, bool above) {
-    sl_piece part = *p;
+static sli_piece clip_piece(const sli_piece *p, int axis, double at, bool above) {
+    sli_piece part = *p;
     if (p->axis == axis) {
         if (above ? p->at <= at : p->at >= at) part.lo = part.hi;
     } else if (above) {
@@ -316,7 +316,7 @@ static sl_piece clip_piece(const sl_piece *p, int axis, double at, bool above) {
 
 static sl_status push_child(sl_context *context, region_stack *stack, const region *r,
                             const candidate *split, int32_t node, bool above) {
-    const sl_piece *line = &r->pieces[split->first];
+    const sli_piece *line = &r->pieces[split->first];
     SL_TRY(SL_ARRAY_ROOM(context, stack, 1));
     region child = {.box = r->box, .parent = node, .above = above, .depth = r->depth + 1};
     sl_point *corner = above ? &child.box.min : &child.box.max;
@@ -324,14 +324,14 @@ static sl_status push_child(sl_context *context, region_stack *stack, const regi
     child.pieces = sl_alloc_array(context, above ? split->above : split->below, sizeof *line);
     if (!child.pieces) return SL_NO_MEMORY;
     for (size_t i = 0; i < r->count; i++) {
-        const sl_piece part = clip_piece(&r->pieces[i], line->axis, line->at, above);
+        const sli_piece part = clip_piece(&r->pieces[i], line->axis, line->at, above);
         if (part.lo < part.hi) child.pieces[child.count++] = part;
     }
     stack->items[stack->count++] = child;
     return SL_OK;
 }
 
-static void link_child(sl_kd_tree *tree, const region *r, int32_t child) {
+static void link_child(sli_kd_tree *tree, const region *r, int32_t child) {
     if (r->parent < 0)
         tree->root = child;
     else if (r->above)
@@ -341,7 +341,7 @@ static void link_child(sl_kd_tree *tree, const region *r, int32_t child) {
 }
 
 static sl_status divide(sl_context *context, chooser *choice, region_stack *stack, const region *r,
-                        sl_kd_tree *tree) {
+                        sli_kd_tree *tree) {
     if (r->count == 0) {
         if (tree->cells.count == INT32_MAX) return sl_fail_memory(context);
         SL_TRY(SL_ARRAY_ROOM(context, &tree->cells, 1));
@@ -360,7 +360,7 @@ static sl_status divide(sl_context *context, chooser *choice, region_stack *stac
 }
 
 /// The root: the walls inside the bounds, without those on the border.
-static sl_status push_root(sl_context *context, region_stack *stack, const sl_piece *walls,
+static sl_status push_root(sl_context *context, region_stack *stack, const sli_piece *walls,
                            size_t count, sl_box bounds) {
     SL_TRY(SL_ARRAY_ROOM(context, stack, 1));
     region root = {.box = bounds, .parent = -1};
@@ -376,7 +376,7 @@ static sl_status push_root(sl_context *context, region_stack *stack, const sl_pi
 }
 
 static sl_status divide_all(sl_context *context, chooser *choice, region_stack *stack,
-                            sl_kd_tree *tree) {
+                            sli_kd_tree *tree) {
     while (stack->count) {
         const region r = stack->items[--stack->count];
         sl_status status = sl_check_cancelled(context);
@@ -388,8 +388,8 @@ static sl_status divide_all(sl_context *context, chooser *choice, region_stack *
     return SL_OK;
 }
 
-sl_status sl_kd_build(sl_context *context, const sl_piece *walls, size_t count, sl_box bounds,
-                      const sl_subdivide_options *options, sl_kd_tree *tree) {
+sl_status sli_kd_build(sl_context *context, const sli_piece *walls, size_t count, sl_box bounds,
+                       const sl_subdivide_options *options, sli_kd_tree *tree) {
     region_stack stack = {0};
     chooser choice = {.options = options};
     sl_status status = push_root(context, &stack, walls, count, bounds);
@@ -404,18 +404,18 @@ sl_status sl_kd_build(sl_context *context, const sl_piece *walls, size_t count, 
     return status;
 }
 
-void sl_kd_destroy(sl_context *context, sl_kd_tree *tree) {
+void sli_kd_destroy(sl_context *context, sli_kd_tree *tree) {
     sl_free(context, tree->nodes.items);
     sl_free(context, tree->splits.items);
     sl_free(context, tree->on_splits.items);
     sl_free(context, tree->cells.items);
-    *tree = (sl_kd_tree){0};
+    *tree = (sli_kd_tree){0};
 }
 
 // --- splits
 
-static sl_split split_box(const sl_node *node, sl_box box, uint32_t depth) {
-    sl_split s = {depth, box, box, {box.min, box.max}};
+static sli_split split_box(const sl_node *node, sl_box box, uint32_t depth) {
+    sli_split s = {depth, box, box, {box.min, box.max}};
     if (node->axis == 0)
         s.below.max.x = s.above.min.x = s.along.a.x = s.along.b.x = node->position;
     else
@@ -423,8 +423,8 @@ static sl_split split_box(const sl_node *node, sl_box box, uint32_t depth) {
     return s;
 }
 
-sl_status sl_splits_make(sl_context *context, const sl_space *space, sl_split **out) {
-    sl_split *splits = sl_alloc_array(context, space->node_count, sizeof *splits);
+sl_status sli_splits_make(sl_context *context, const sl_space *space, sli_split **out) {
+    sli_split *splits = sl_alloc_array(context, space->node_count, sizeof *splits);
     if (!splits) return SL_NO_MEMORY;
     // A node stands before its children: each finds its box and depth in its own place.
     if (space->node_count) splits[space->root].below = space->bounds;
@@ -432,15 +432,15 @@ sl_status sl_splits_make(sl_context *context, const sl_space *space, sl_split **
         const sl_node *node = &space->nodes[i];
         splits[i] = split_box(node, splits[i].below, splits[i].depth);
         if (node->below >= 0)
-            splits[node->below] = (sl_split){splits[i].depth + 1, .below = splits[i].below};
+            splits[node->below] = (sli_split){splits[i].depth + 1, .below = splits[i].below};
         if (node->above >= 0)
-            splits[node->above] = (sl_split){splits[i].depth + 1, .below = splits[i].above};
+            splits[node->above] = (sli_split){splits[i].depth + 1, .below = splits[i].above};
     }
     *out = splits;
     return SL_OK;
 }
 
-double sl_splits_covered(const sl_split *splits, const sl_space *space, uint32_t node) {
+double sli_splits_covered(const sli_split *splits, const sl_space *space, uint32_t node) {
     const bool upright = space->nodes[node].axis == 0;
     const double position = space->nodes[node].position;
     const sl_segment along = splits[node].along;

@@ -28,7 +28,7 @@ typedef struct cover {
 
 typedef struct outliner {
     const sl_space *space;
-    sl_wall_grid grid;
+    sli_wall_grid grid;
     double reach; ///< of the grid: it finds walls within it
     SL_ARRAY(cover) covers;
     SL_ARRAY(sl_side) sides;
@@ -51,7 +51,7 @@ static int compare_covers(const void *left, const void *right) {
 static sl_status add_cover(sl_context *context, outliner *o, uint32_t wall, sl_point from,
                            sl_point to) {
     const sl_wall *w = &o->space->walls[wall];
-    if (sl_orient(w->a, w->b, from) != 0 || sl_orient(w->a, w->b, to) != 0) return SL_OK;
+    if (sli_orient(w->a, w->b, from) != 0 || sli_orient(w->a, w->b, to) != 0) return SL_OK;
     const double a = along(from, to, w->a), b = along(from, to, w->b);
     cover c = {fmin(a, b), fmax(a, b), a < b ? w->a : w->b, a < b ? w->b : w->a, wall};
     if (c.to <= along(from, to, from) || c.from >= along(from, to, to)) return SL_OK;
@@ -69,7 +69,7 @@ static sl_status gather_covers(sl_context *context, outliner *o, sl_point from, 
     for (double i = 0; i <= steps; i++) {
         const sl_point at = {from.x + d.x * (i / steps), from.y + d.y * (i / steps)};
         uint32_t count;
-        const uint32_t *walls = sl_wall_grid_at(&o->grid, at, &count);
+        const uint32_t *walls = sli_wall_grid_at(&o->grid, at, &count);
         for (uint32_t k = 0; k < count; k++) SL_TRY(add_cover(context, o, walls[k], from, to));
     }
     if (o->covers.count)
@@ -102,7 +102,7 @@ static sl_status add_gap(sl_context *context, outliner *o, uint32_t cell, sl_poi
                          sl_point to) {
     SL_TRY(gather_covers(context, o, from, to));
     sl_point at = from;
-    for (size_t i = 0; i < o->covers.count && !sl_same_point(at, to); i++) {
+    for (size_t i = 0; i < o->covers.count && !sli_same_point(at, to); i++) {
         const cover *c = &o->covers.items[i];
         if (c->to <= along(from, to, at)) continue;
         if (c->from > along(from, to, at)) {
@@ -112,11 +112,11 @@ static sl_status add_gap(sl_context *context, outliner *o, uint32_t cell, sl_poi
         SL_TRY(add_side(context, o, at, SL_SIDE_WALL + c->wall));
         at = c->to < along(from, to, to) ? c->end : to;
     }
-    return sl_same_point(at, to) ? SL_OK : add_border(context, o, cell, at, to);
+    return sli_same_point(at, to) ? SL_OK : add_border(context, o, cell, at, to);
 }
 
 static bool on_edge(sl_point a, sl_point b, sl_point p) {
-    return sl_orient(a, b, p) == 0 && along(a, b, p) >= along(a, b, a) &&
+    return sli_orient(a, b, p) == 0 && along(a, b, p) >= along(a, b, a) &&
            along(a, b, p) <= along(a, b, b);
 }
 
@@ -155,12 +155,12 @@ static sl_status outline_cell(sl_context *context, outliner *o, uint32_t cell) {
         for (; directed < c->first_directed + c->directed_count; directed++) {
             const sl_directed_portal *e = &o->space->directed[directed];
             if (!on_edge(corners[i], end, e->right) || !on_edge(corners[i], end, e->left)) break;
-            if (!sl_same_point(at, e->right)) SL_TRY(add_gap(context, o, cell, at, e->right));
+            if (!sli_same_point(at, e->right)) SL_TRY(add_gap(context, o, cell, at, e->right));
             o->of_portal[directed] = (uint32_t)o->sides.count;
             SL_TRY(add_side(context, o, e->right, 0));
             at = e->left;
         }
-        if (!sl_same_point(at, end)) SL_TRY(add_gap(context, o, cell, at, end));
+        if (!sli_same_point(at, end)) SL_TRY(add_gap(context, o, cell, at, end));
     }
     if (directed != c->first_directed + c->directed_count)
         return sl_fail(context, SL_BAD_ARGUMENT, "cell %u: portal %u is not on its boundary", cell,
@@ -194,7 +194,7 @@ static sl_status make_grid(sl_context *context, outliner *o) {
     const sl_map map = {.walls = s->walls, .wall_count = s->wall_count};
     const double size = fmax(s->bounds.max.x - s->bounds.min.x, s->bounds.max.y - s->bounds.min.y);
     o->reach = size / (4 * sqrt((double)s->wall_count) + 4);
-    return sl_wall_grid_create(context, &map, o->reach, &o->grid);
+    return sli_wall_grid_create(context, &map, o->reach, &o->grid);
 }
 
 static sl_status outline_all(sl_context *context, outliner *o, uint32_t *first) {
@@ -238,12 +238,12 @@ sl_status sl_outline_make(sl_context *context, const sl_space *space, sl_outline
     made.sides = o.sides.items;
     made.side_count = (uint32_t)o.sides.count;
     if (status == SL_OK)
-        status = space->neighbour ? keep_cells(context, &made) : sl_rooms_make(context, &made);
+        status = space->neighbour ? keep_cells(context, &made) : sli_rooms_make(context, &made);
     if (status == SL_OK)
         *out = made;
     else
         sl_outline_destroy(context, &made);
-    sl_wall_grid_destroy(context, &o.grid);
+    sli_wall_grid_destroy(context, &o.grid);
     sl_free(context, o.covers.items);
     sl_free(context, o.of_portal);
     return status;

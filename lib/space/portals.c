@@ -23,7 +23,7 @@ typedef SL_ARRAY(uint32_t) cell_list;
 typedef SL_ARRAY(sl_portal) portal_list;
 
 typedef struct portal_maker {
-    const sl_kd_tree *tree;
+    const sli_kd_tree *tree;
     SL_ARRAY(int32_t) stack;
     cell_list below, above; ///< the cells that touch a split line, in order along it
     portal_list portals;
@@ -72,7 +72,7 @@ static sl_status add_portal(sl_context *context, portal_list *portals, const sl_
 /// Adds lo .. hi, cut where a seam on the line begins or ends.
 static sl_status add_cut_piece(sl_context *context, portal_maker *maker, const sl_node *split,
                                uint32_t below, uint32_t above, double lo, double hi,
-                               const sl_piece *walls, size_t count, size_t next) {
+                               const sli_piece *walls, size_t count, size_t next) {
     for (size_t i = next; i < count && walls[i].lo < hi; i++) {
         if (!walls[i].seam || walls[i].hi <= lo) continue;
         const double cuts[2] = {walls[i].lo, walls[i].hi};
@@ -89,7 +89,7 @@ static sl_status add_cut_piece(sl_context *context, portal_maker *maker, const s
 /// before lo.
 static sl_status add_free_pieces(sl_context *context, portal_maker *maker, const sl_node *split,
                                  uint32_t below, uint32_t above, double lo, double hi,
-                                 const sl_piece *walls, size_t count, size_t *next) {
+                                 const sli_piece *walls, size_t count, size_t *next) {
     while (*next < count && walls[*next].hi <= lo) ++*next;
     for (size_t i = *next; i < count && walls[i].lo < hi; i++) {
         if (walls[i].seam) continue;
@@ -103,9 +103,9 @@ static sl_status add_free_pieces(sl_context *context, portal_maker *maker, const
 }
 
 static sl_status make_portals_of(sl_context *context, portal_maker *maker, size_t node) {
-    const sl_kd_tree *tree = maker->tree;
+    const sli_kd_tree *tree = maker->tree;
     const sl_node *split = &tree->nodes.items[node];
-    const sl_piece *walls = tree->on_splits.items + tree->splits.items[node].first;
+    const sli_piece *walls = tree->on_splits.items + tree->splits.items[node].first;
     const size_t wall_count = tree->splits.items[node].count;
     SL_TRY(gather_cells(context, maker, split->below, split->axis, false, &maker->below));
     SL_TRY(gather_cells(context, maker, split->above, split->axis, true, &maker->above));
@@ -125,11 +125,11 @@ static sl_status make_portals_of(sl_context *context, portal_maker *maker, size_
     return SL_OK;
 }
 
-int sl_compare_portals(const void *left, const void *right) {
+int sli_compare_portals(const void *left, const void *right) {
     const sl_portal *a = left, *b = right;
     if (a->cell[0] != b->cell[0]) return a->cell[0] < b->cell[0] ? -1 : 1;
     if (a->cell[1] != b->cell[1]) return a->cell[1] < b->cell[1] ? -1 : 1;
-    return sl_compare_points(a->right, b->right);
+    return sli_compare_points(a->right, b->right);
 }
 
 /// The order of two directed portals of a cell: counter-clockwise from the lower left corner. The
@@ -141,11 +141,11 @@ static int compare_directed(const void *left, const void *right) {
     const int edge_a = u.x > 0 ? 0 : u.y > 0 ? 1 : u.x < 0 ? 2 : 3;
     const int edge_b = v.x > 0 ? 0 : v.y > 0 ? 1 : v.x < 0 ? 2 : 3;
     if (edge_a != edge_b) return edge_a - edge_b;
-    const int order = sl_compare_points(a->right, b->right);
+    const int order = sli_compare_points(a->right, b->right);
     return edge_a < 2 ? order : -order;
 }
 
-sl_status sl_make_directed(sl_context *context, sl_space *space) {
+sl_status sli_make_directed(sl_context *context, sl_space *space) {
     space->directed = sl_alloc_array(context, space->directed_count, sizeof *space->directed);
     if (!space->directed) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < space->portal_count; i++)
@@ -184,15 +184,15 @@ static sl_status make_all(sl_context *context, portal_maker *maker, sl_space *sp
     if (maker->portals.count > UINT32_MAX / 2) return sl_fail_memory(context);
     if (maker->portals.count)
         qsort(maker->portals.items, maker->portals.count, sizeof *maker->portals.items,
-              sl_compare_portals);
+              sli_compare_portals);
     space->portals = maker->portals.items;
     space->portal_count = (uint32_t)maker->portals.count;
     space->directed_count = 2 * space->portal_count;
     maker->portals.items = NULL;
-    return sl_make_directed(context, space);
+    return sli_make_directed(context, space);
 }
 
-sl_status sl_make_portals(sl_context *context, const sl_kd_tree *tree, sl_space *space) {
+sl_status sli_make_portals(sl_context *context, const sli_kd_tree *tree, sl_space *space) {
     portal_maker maker = {.tree = tree};
     const sl_status status = make_all(context, &maker, space);
     sl_free(context, maker.stack.items);
@@ -218,7 +218,7 @@ static void flood(const sl_space *space, sl_bits *reached, uint32_t *stack, size
 }
 
 /// Whether the cell touches a part of the map's border that has no wall.
-static bool open_to_border(const sl_space *space, const sl_cell *cell, const sl_piece *walls) {
+static bool open_to_border(const sl_space *space, const sl_cell *cell, const sli_piece *walls) {
     if (space->neighbour) {
         for (uint32_t i = 0; i < cell->vertex_count; i++)
             if (space->neighbour[cell->first_vertex + i] == SL_NEIGHBOUR_BORDER) return true;
@@ -228,13 +228,13 @@ static bool open_to_border(const sl_space *space, const sl_cell *cell, const sl_
     const sl_point max = space->vertices[cell->first_vertex + 2];
     const size_t count = space->wall_count;
     const sl_box *b = &space->bounds;
-    return (min.x == b->min.x && !sl_wall_lines_cover(walls, count, 0, min.x, min.y, max.y)) ||
-           (max.x == b->max.x && !sl_wall_lines_cover(walls, count, 0, max.x, min.y, max.y)) ||
-           (min.y == b->min.y && !sl_wall_lines_cover(walls, count, 1, min.y, min.x, max.x)) ||
-           (max.y == b->max.y && !sl_wall_lines_cover(walls, count, 1, max.y, min.x, max.x));
+    return (min.x == b->min.x && !sli_wall_lines_cover(walls, count, 0, min.x, min.y, max.y)) ||
+           (max.x == b->max.x && !sli_wall_lines_cover(walls, count, 0, max.x, min.y, max.y)) ||
+           (min.y == b->min.y && !sli_wall_lines_cover(walls, count, 1, min.y, min.x, max.x)) ||
+           (max.y == b->max.y && !sli_wall_lines_cover(walls, count, 1, max.y, min.x, max.x));
 }
 
-static void mark(const sl_map *map, const sl_piece *walls, sl_space *space, sl_bits *reached,
+static void mark(const sl_map *map, const sli_piece *walls, sl_space *space, sl_bits *reached,
                  uint32_t *stack) {
     size_t count = 0;
     const bool from_starts = map->start_count > 0;
@@ -260,8 +260,8 @@ static void mark(const sl_map *map, const sl_piece *walls, sl_space *space, sl_b
     space->inside_count = space->cell_count;
 }
 
-sl_status sl_mark_inside(sl_context *context, const sl_map *map, const sl_piece *walls,
-                         sl_space *space) {
+sl_status sli_mark_inside(sl_context *context, const sl_map *map, const sli_piece *walls,
+                          sl_space *space) {
     sl_bits *reached = sl_alloc_array(context, sl_bits_words(space->cell_count), sizeof *reached);
     uint32_t *stack = sl_alloc_array(context, space->cell_count, sizeof *stack);
     if (reached && stack) mark(map, walls, space, reached, stack);

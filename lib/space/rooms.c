@@ -118,11 +118,11 @@ static bool is_ear(const cutter *c, uint32_t at, bool convex) {
     const corner *ring = c->ring.items;
     const uint32_t before = ring[at].previous, after = ring[at].next;
     const sl_point p = ring[before].at, q = ring[at].at, r = ring[after].at;
-    if (sl_orient(p, q, r) <= 0) return false;
+    if (sli_orient(p, q, r) <= 0) return false;
     for (uint32_t i = ring[after].next; !convex && i != before; i = ring[i].next) {
         const sl_point s = ring[i].at;
-        if (!sl_same_point(s, p) && !sl_same_point(s, q) && !sl_same_point(s, r) &&
-            sl_orient(p, q, s) >= 0 && sl_orient(q, r, s) >= 0 && sl_orient(r, p, s) >= 0)
+        if (!sli_same_point(s, p) && !sli_same_point(s, q) && !sli_same_point(s, r) &&
+            sli_orient(p, q, s) >= 0 && sli_orient(q, r, s) >= 0 && sli_orient(r, p, s) >= 0)
             return false;
     }
     return true;
@@ -229,8 +229,8 @@ static sl_status gather_star(cutter *c, uint32_t first, uint32_t *last) {
 /// Whether two sides lie in one line along the same wall or border.
 static bool goes_on(const faces *m, uint32_t before, uint32_t after) {
     const sl_point a = side(m, before)->start, p = side(m, after)->start, b = end_of(m, after);
-    return side(m, before)->neighbour == side(m, after)->neighbour && sl_orient(a, p, b) == 0 &&
-           (a.x < p.x) == (p.x < b.x) && (a.y < p.y) == (p.y < b.y) && !sl_same_point(a, b);
+    return side(m, before)->neighbour == side(m, after)->neighbour && sli_orient(a, p, b) == 0 &&
+           (a.x < p.x) == (p.x < b.x) && (a.y < p.y) == (p.y < b.y) && !sli_same_point(a, b);
 }
 
 /// Drops the corner where a side starts, if no wall ends there.
@@ -264,7 +264,7 @@ static sl_status flip(cutter *c, uint32_t portal, bool *any) {
     const sl_point a = side(m, portal)->start, b = side(m, other)->start;
     const sl_point p = side(m, to)->start, q = side(m, from)->start;
     if (!(length(p, q) < length(a, b))) return SL_OK;
-    if (sl_orient(p, a, q) <= 0 || sl_orient(q, b, p) <= 0) return SL_OK;
+    if (sli_orient(p, a, q) <= 0 || sli_orient(q, b, p) <= 0) return SL_OK;
     *any = true;
     SL_TRY(drop_portal(c->context, m, portal));
     return connect(c->context, m, to, from, &(uint32_t){0});
@@ -348,8 +348,8 @@ static int compare_starts(const void *left, const void *right) {
 /// Whether the corner where a portal starts is convex without the portal.
 static bool leaves_convex(const joiner *j, uint32_t portal) {
     const uint32_t after = side_of(j, side_of(j, portal)->neighbour)->next;
-    return sl_goes_on(side_of(j, j->mesh.previous.items[portal])->start, side_of(j, portal)->start,
-                      end_of(&j->mesh, after));
+    return sli_goes_on(side_of(j, j->mesh.previous.items[portal])->start, side_of(j, portal)->start,
+                       end_of(&j->mesh, after));
 }
 
 /// Tries every portal once, the longest first. *any: whether one was dropped.
@@ -451,13 +451,13 @@ static bool overlap(const sl_outline *o, uint32_t cell, uint32_t room) {
     for (uint32_t i = first; i < stop; i++) {
         const sl_point a = o->sides[i].start, b = o->sides[o->sides[i].next].start;
         uint32_t k = 0;
-        while (k < count && sl_orient(a, b, corners[k]) <= 0) k++;
+        while (k < count && sli_orient(a, b, corners[k]) <= 0) k++;
         if (k == count) return false;
     }
     for (uint32_t k = 0; k < count; k++) {
         const sl_point a = corners[k], b = corners[k + 1 < count ? k + 1 : 0];
         uint32_t i = first;
-        while (i < stop && sl_orient(a, b, o->sides[i].start) <= 0) i++;
+        while (i < stop && sli_orient(a, b, o->sides[i].start) <= 0) i++;
         if (i == stop) return false;
     }
     return true;
@@ -530,7 +530,7 @@ static sl_status make(sl_context *context, joiner *j, sl_outline *o) {
     return share_all(context, j, o);
 }
 
-sl_status sl_rooms_make(sl_context *context, sl_outline *o) {
+sl_status sli_rooms_make(sl_context *context, sl_outline *o) {
     joiner j = {.space = o->space};
     const sl_status status = make(context, &j, o);
     sl_free(context, j.mesh.sides.items);
@@ -547,7 +547,8 @@ sl_status sl_rooms_make(sl_context *context, sl_outline *o) {
 
 static bool holds(const sl_outline *o, uint32_t room, sl_point point) {
     for (uint32_t i = o->first[room]; i < o->first[room + 1]; i++)
-        if (sl_orient(o->sides[i].start, o->sides[o->sides[i].next].start, point) < 0) return false;
+        if (sli_orient(o->sides[i].start, o->sides[o->sides[i].next].start, point) < 0)
+            return false;
     return true;
 }
 

@@ -6,44 +6,44 @@
 #include "space/kd_tree.h"
 
 /// A seam, as a part of it knows it.
-typedef struct sl_seam_mark {
+typedef struct sli_seam_mark {
     uint32_t seam;
     bool along; ///< it runs from the part's a to its b
-} sl_seam_mark;
+} sli_seam_mark;
 
 /// A segment with the same seams along all of it: marks[first .. first + count). a comes before b,
 /// by x, then y.
-typedef struct sl_seam_part {
+typedef struct sli_seam_part {
     sl_point a, b;
     size_t first, count;
-} sl_seam_part;
+} sli_seam_part;
 
 /// Two parts in one line share an end at most. All ends of parts are ends of seams.
-typedef struct sl_seam_parts {
-    SL_ARRAY(sl_seam_part) parts; ///< by a, then b
-    SL_ARRAY(sl_seam_mark) marks;
-} sl_seam_parts;
+typedef struct sli_seam_parts {
+    SL_ARRAY(sli_seam_part) parts; ///< by a, then b
+    SL_ARRAY(sli_seam_mark) marks;
+} sli_seam_parts;
 
 /// Gives the space the seams of a map, without those of no length. With `axial`, SL_BAD_INPUT names
 /// the first that is not axial.
-sl_status sl_seams_of_map(sl_context *context, const sl_map *map, bool axial, sl_space *space);
+sl_status sli_seams_of_map(sl_context *context, const sl_map *map, bool axial, sl_space *space);
 
 /// Cuts the space's seams. `out` is zeroed; destroy it also on failure.
-sl_status sl_seams_part(sl_context *context, const sl_space *space, sl_seam_parts *out);
-void sl_seam_parts_destroy(sl_context *context, sl_seam_parts *parts);
+sl_status sli_seams_part(sl_context *context, const sl_space *space, sli_seam_parts *out);
+void sli_seam_parts_destroy(sl_context *context, sli_seam_parts *parts);
 
 /// Walls and axial parts together, sorted by line. A wall comes before a part that starts with it.
-sl_status sl_seam_lines(sl_context *context, const sl_piece *walls, size_t wall_count,
-                        const sl_seam_parts *parts, sl_piece **out);
+sl_status sli_seam_lines(sl_context *context, const sli_piece *walls, size_t wall_count,
+                         const sli_seam_parts *parts, sli_piece **out);
 
 /// Lists the portals on seams, where all is axial.
-sl_status sl_seams_tag_axial(sl_context *context, const sl_seam_parts *parts, sl_space *space);
+sl_status sli_seams_tag_axial(sl_context *context, const sli_seam_parts *parts, sl_space *space);
 
 /// Checks that seams and the portals on them are in range, in order and within the bounds; with
 /// `axial`, that seams are axial. SL_BAD_INPUT.
-sl_status sl_seams_check(sl_context *context, const sl_space *space, bool axial);
+sl_status sli_seams_check(sl_context *context, const sl_space *space, bool axial);
 
 /// Whether two portals lie on the same seams.
-bool sl_seams_same(const sl_space *space, uint32_t portal, uint32_t other);
+bool sli_seams_same(const sl_space *space, uint32_t portal, uint32_t other);
 
 #endif

@@ -17,7 +17,7 @@
 /// it is tried again later. In the end none crosses, and a-b is a side of two triangles. The new
 /// edges are then flipped to Delaunay triangles again, edges of the graph excepted.
 ///
-/// Exact signs (sl_orient) decide what is a triangle. The circle test is rounded: a flip needs to
+/// Exact signs (sli_orient) decide what is a triangle. The circle test is rounded: a flip needs to
 /// be sure, so flipping ends, and a doubtful case costs nothing but the shape of a triangle. Time
 /// about O(n log n), for sorting; the walks are short.
 #include "space/mesh.h"
@@ -34,7 +34,7 @@ typedef SL_ARRAY(uint32_t) half_list;
 
 typedef struct maker {
     sl_context *context;
-    sl_triangulation *t;
+    sli_triangulation *t;
     double scale;  ///< distances in the box, times scale, are at most 1
     uint32_t last; ///< a half-edge at the point added last
     sl_random random;
@@ -65,20 +65,20 @@ static void link(maker *m, uint32_t a, uint32_t b, uint32_t c) {
 }
 
 static int side(const maker *m, uint32_t a, uint32_t b, uint32_t c) {
-    return sl_orient(at(m, a), at(m, b), at(m, c));
+    return sli_orient(at(m, a), at(m, b), at(m, c));
 }
 
 /// A new edge between two points; its half-edge from a to b.
 static sl_status add_edge(maker *m, uint32_t a, uint32_t b, uint32_t *out) {
-    sl_triangulation *t = m->t;
+    sli_triangulation *t = m->t;
     if (t->halves.count >= INT32_MAX) return sl_fail_memory(m->context);
     SL_TRY(SL_ARRAY_ROOM(m->context, &t->halves, 2));
     SL_TRY(sl_reserve(m->context, &t->labels, &t->label_room, t->halves.count / 2 + 1,
                       sizeof *t->labels));
     *out = (uint32_t)t->halves.count;
     t->labels[*out / 2] = 0;
-    t->halves.items[t->halves.count++] = (sl_half_edge){a, SL_OUTSIDE};
-    t->halves.items[t->halves.count++] = (sl_half_edge){b, SL_OUTSIDE};
+    t->halves.items[t->halves.count++] = (sli_half_edge){a, SLI_OUTSIDE};
+    t->halves.items[t->halves.count++] = (sli_half_edge){b, SLI_OUTSIDE};
     return SL_OK;
 }
 
@@ -107,7 +107,7 @@ static bool can_flip(const maker *m, uint32_t half) {
 
 /// Flips an edge to the other two corners of the quadrilateral.
 static void flip(maker *m, uint32_t half) {
-    sl_half_edge *halves = m->t->halves.items;
+    sli_half_edge *halves = m->t->halves.items;
     const uint32_t twin = half ^ 1;
     const uint32_t a = next(m, half), b = next(m, a), c = next(m, twin), d = next(m, c);
     m->t->out[halves[half].from] = c;
@@ -119,8 +119,8 @@ static void flip(maker *m, uint32_t half) {
 }
 
 static bool should_flip(const maker *m, uint32_t half) {
-    if (m->t->labels[half / 2] || sl_half_is_outside(m->t, half) ||
-        sl_half_is_outside(m->t, half ^ 1))
+    if (m->t->labels[half / 2] || sli_half_is_outside(m->t, half) ||
+        sli_half_is_outside(m->t, half ^ 1))
         return false;
     const uint32_t x = to(m, next(m, half)), y = to(m, next(m, half ^ 1));
     return in_circle(m, at(m, from(m, half)), at(m, to(m, half)), at(m, x), at(m, y)) &&
@@ -158,7 +158,7 @@ static uint32_t walk_to(maker *m, sl_point p, bool *on) {
         uint32_t zero = NONE;
         int i = 0;
         for (; i < 3; i++, half = next(m, half)) {
-            const int sign = sl_orient(at(m, from(m, half)), at(m, to(m, half)), p);
+            const int sign = sli_orient(at(m, from(m, half)), at(m, to(m, half)), p);
             if (sign < 0) break;
             if (sign == 0) zero = half;
         }
@@ -184,10 +184,10 @@ static sl_status split_triangle(maker *m, uint32_t half, uint32_t p) {
 
 /// Cuts the triangles at an edge; one of its sides may be outside.
 static sl_status split_edge(maker *m, uint32_t half, uint32_t p) {
-    if (sl_half_is_outside(m->t, half)) half ^= 1;
+    if (sli_half_is_outside(m->t, half)) half ^= 1;
     const uint32_t twin = half ^ 1, b = to(m, half);
     const uint32_t h1 = next(m, half), h2 = next(m, h1);
-    const bool outer = sl_half_is_outside(m->t, twin);
+    const bool outer = sli_half_is_outside(m->t, twin);
     uint32_t rest, inward, across;
     SL_TRY(add_edge(m, p, b, &rest));
     SL_TRY(add_edge(m, p, from(m, h2), &inward));
@@ -220,7 +220,7 @@ static sl_status add_point(maker *m, uint32_t p) {
 // --- the box
 
 /// The number of a corner: a point of the graph where there is one.
-static sl_status take_corner(maker *m, const sl_planar *graph, sl_point corner, uint32_t *out) {
+static sl_status take_corner(maker *m, const sli_planar *graph, sl_point corner, uint32_t *out) {
     size_t low = 0, high = graph->point_count;
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
@@ -241,8 +241,8 @@ static sl_status take_corner(maker *m, const sl_planar *graph, sl_point corner, 
     return SL_OK;
 }
 
-static sl_status start(maker *m, const sl_planar *graph, const sl_box *box) {
-    sl_triangulation *t = m->t;
+static sl_status start(maker *m, const sli_planar *graph, const sl_box *box) {
+    sli_triangulation *t = m->t;
     const sl_point corners[4] = {
         box->min, {box->max.x, box->min.y}, box->max, {box->min.x, box->max.y}};
     uint32_t c[4], h[4], diagonal;
@@ -301,7 +301,7 @@ static uint32_t square_of(double value, double low, double high) {
 }
 
 static sl_status add_points(maker *m, const sl_box *box) {
-    sl_triangulation *t = m->t;
+    sli_triangulation *t = m->t;
     place *places = sl_alloc_array(m->context, t->points.count, sizeof *places);
     if (!places) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < t->points.count; i++) {
@@ -330,7 +330,8 @@ static sl_status fail_at(const maker *m, uint32_t a, uint32_t b) {
                    at(m, a).x, at(m, a).y, at(m, b).x, at(m, b).y);
 }
 
-/// The next half-edge that starts in the same point, counter-clockwise; SL_OUTSIDE behind the last.
+/// The next half-edge that starts in the same point, counter-clockwise; SLI_OUTSIDE behind the
+/// last.
 static uint32_t around(const maker *m, uint32_t half) {
     return next(m, next(m, half)) ^ 1;
 }
@@ -341,7 +342,7 @@ static uint32_t first_around(const maker *m, uint32_t half) {
     const uint32_t stop = half;
     for (;;) {
         const uint32_t before = half ^ 1;
-        if (sl_half_is_outside(m->t, before)) return half;
+        if (sli_half_is_outside(m->t, before)) return half;
         half = next(m, before);
         if (half == stop) return half;
     }
@@ -355,7 +356,7 @@ static sl_status find_way(const maker *m, uint32_t a, uint32_t b, bool *there, u
     do {
         *out = half;
         if (to(m, half) == b) return SL_OK;
-        if (sl_half_is_outside(m->t, half)) return fail_at(m, a, b);
+        if (sli_half_is_outside(m->t, half)) return fail_at(m, a, b);
         if (side(m, a, b, to(m, half)) < 0 && side(m, a, b, to(m, next(m, half))) > 0) {
             *there = false;
             *out = next(m, half);
@@ -408,7 +409,7 @@ static sl_status clear_way(maker *m, uint32_t a, uint32_t b, uint32_t label) {
     return settle(m);
 }
 
-static sl_status add_edges(maker *m, const sl_planar *graph) {
+static sl_status add_edges(maker *m, const sli_planar *graph) {
     for (uint32_t i = 0; i < graph->edge_count; i++) {
         const uint32_t a = graph->edges[i].a, b = graph->edges[i].b;
         bool there;
@@ -433,9 +434,9 @@ static double scale_of(const sl_box *box) {
     return ldexp(1, -exponent);
 }
 
-sl_status sl_triangulate(sl_context *context, const sl_planar *graph, const sl_box *box,
-                         sl_triangulation *out) {
-    sl_triangulation made = {0};
+sl_status sli_triangulate(sl_context *context, const sli_planar *graph, const sl_box *box,
+                          sli_triangulation *out) {
+    sli_triangulation made = {0};
     maker m = {.context = context, .t = &made, .scale = scale_of(box)};
     sl_status status = start(&m, graph, box);
     if (status == SL_OK) status = add_points(&m, box);
@@ -446,14 +447,14 @@ sl_status sl_triangulate(sl_context *context, const sl_planar *graph, const sl_b
     if (status == SL_OK)
         *out = made;
     else
-        sl_triangulation_destroy(context, &made);
+        sli_triangulation_destroy(context, &made);
     return status;
 }
 
-void sl_triangulation_destroy(sl_context *context, sl_triangulation *t) {
+void sli_triangulation_destroy(sl_context *context, sli_triangulation *t) {
     sl_free(context, t->points.items);
     sl_free(context, t->halves.items);
     sl_free(context, t->labels);
     sl_free(context, t->out);
-    *t = (sl_triangulation){0};
+    *t = (sli_triangulation){0};
 }

@@ -35,7 +35,7 @@ static int compare_ends(const void *left, const void *right) {
 /// Adds to a chain that turns left only.
 static void add_to_chain(hull *h, size_t chain, end e) {
     while (h->count >= chain + 2 &&
-           sl_orient(h->ends[h->count - 2].at, h->ends[h->count - 1].at, e.at) <= 0)
+           sli_orient(h->ends[h->count - 2].at, h->ends[h->count - 1].at, e.at) <= 0)
         h->count--;
     h->ends[h->count++] = e;
 }
@@ -49,7 +49,7 @@ static void make_hull(const sl_portal_ends *portals, size_t count, bool left, en
     qsort(sorted, count, sizeof *sorted, compare_ends);
     size_t kept = 0;
     for (size_t i = 0; i < count; i++)
-        if (!kept || !sl_same_point(sorted[kept - 1].at, sorted[i].at)) sorted[kept++] = sorted[i];
+        if (!kept || !sli_same_point(sorted[kept - 1].at, sorted[i].at)) sorted[kept++] = sorted[i];
     out->count = 0;
     for (size_t i = 0; i < kept; i++) add_to_chain(out, 0, sorted[i]);
     const size_t upper = out->count - 1;
@@ -63,12 +63,12 @@ static bool within(double a, double b, double value) {
 
 /// Whether segments cross in inner points of both.
 static bool cross_properly(sl_point a, sl_point b, sl_point c, sl_point d) {
-    return sl_orient(a, b, c) * sl_orient(a, b, d) < 0 &&
-           sl_orient(c, d, a) * sl_orient(c, d, b) < 0;
+    return sli_orient(a, b, c) * sli_orient(a, b, d) < 0 &&
+           sli_orient(c, d, a) * sli_orient(c, d, b) < 0;
 }
 
 static bool on_segment(sl_point a, sl_point b, sl_point p) {
-    return sl_orient(a, b, p) == 0 && within(a.x, b.x, p.x) && within(a.y, b.y, p.y);
+    return sli_orient(a, b, p) == 0 && within(a.x, b.x, p.x) && within(a.y, b.y, p.y);
 }
 
 static bool touch(sl_point a, sl_point b, sl_point c, sl_point d) {
@@ -79,8 +79,8 @@ static bool touch(sl_point a, sl_point b, sl_point c, sl_point d) {
 /// Whether a triangle, counter-clockwise, holds a point, in its inside or (not strict) on its edge.
 static bool in_triangle(sl_point a, sl_point b, sl_point c, sl_point p, bool inside) {
     const int least = inside ? 1 : 0;
-    return sl_orient(a, b, p) >= least && sl_orient(b, c, p) >= least &&
-           sl_orient(c, a, p) >= least;
+    return sli_orient(a, b, p) >= least && sli_orient(b, c, p) >= least &&
+           sli_orient(c, a, p) >= least;
 }
 
 /// A set of ends that may be a conflict.
@@ -122,12 +122,12 @@ static bool has_weak_line(const end *ends, size_t count, size_t but) {
     bool any_pair = false;
     for (size_t i = 0; i < count; i++)
         for (size_t j = 0; j < count; j++) {
-            if (i == but || j == but || sl_same_point(ends[i].at, ends[j].at)) continue;
+            if (i == but || j == but || sli_same_point(ends[i].at, ends[j].at)) continue;
             any_pair = true;
             bool holds = true;
             for (size_t k = 0; k < count && holds; k++) {
                 if (k == but) continue;
-                const int side = sl_orient(ends[i].at, ends[j].at, ends[k].at);
+                const int side = sli_orient(ends[i].at, ends[j].at, ends[k].at);
                 holds = ends[k].end.left ? side >= 0 : side <= 0;
             }
             if (holds) return true;
@@ -152,7 +152,7 @@ static size_t thin_out_strict(end *ends, size_t count) {
     for (size_t i = 0; i < count; i++)
         for (size_t j = 0; j < count; j++) {
             if (!ends[i].end.left || ends[j].end.left) continue;
-            if (sl_same_point(ends[i].at, ends[j].at)) {
+            if (sli_same_point(ends[i].at, ends[j].at)) {
                 const end pair[2] = {ends[i], ends[j]};
                 memcpy(ends, pair, sizeof pair);
                 return 2;
@@ -185,8 +185,8 @@ static size_t find_among(const hull *left, const hull *right, bool strict, end *
     return thin_out_weak(ends, left->count + right->count);
 }
 
-sl_status sl_conflict_find(sl_context *context, const sl_portal_ends *portals, size_t count,
-                           bool strict, sl_stab_end ends[SL_CONFLICT_MOST], uint32_t *found) {
+sl_status sli_conflict_find(sl_context *context, const sl_portal_ends *portals, size_t count,
+                            bool strict, sl_stab_end ends[SL_CONFLICT_MOST], uint32_t *found) {
     end *memory = sl_alloc_array(context, 7 * count, sizeof *memory);
     if (!memory) return SL_NO_MEMORY;
     hull left = {memory + count, 0}, right = {memory + 3 * count, 0};

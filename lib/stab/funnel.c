@@ -147,7 +147,8 @@ static bool comes_before(const funnel *f, end_number a, end_number b) {
 
 /// Cuts while all ends so far lie on the first portal's line. Room for three corners is there.
 static void cut_interval(funnel *f, level *l, end_number new) {
-    const int side = sl_orient(place_of(f, FIRST_RIGHT), place_of(f, FIRST_LEFT), place_of(f, new));
+    const int side =
+        sli_orient(place_of(f, FIRST_RIGHT), place_of(f, FIRST_LEFT), place_of(f, new));
     f->account.orientations++;
     if (side == 0) {
         if (is_left(new) && comes_before(f, new, l->high)) l->high = new;
@@ -192,7 +193,7 @@ static corner_sets decide(funnel *f, const corner *corners, uint32_t open, end_n
     for (; open; open &= open - 1) {
         const corner *c = &corners[__builtin_ctz(open)];
         const int side =
-            sl_orient_exact(place_of(f, c->from), place_of(f, c->to), place_of(f, new));
+            sli_orient_exact(place_of(f, c->from), place_of(f, c->to), place_of(f, new));
         const uint32_t bit = open & -open;
         if (side) *((side > 0) == is_left(new) ? &sets.in : &sets.out) |= bit;
         f->account.exact++;
@@ -257,7 +258,7 @@ static void cut_long(funnel *f, level *l, end_number new) {
     for (size_t step = 0; step <= l->count; step++) {
         const size_t i = step ? step - 1 : l->count - 1;
         const sl_point from = place_of(f, corners[i].from), to = place_of(f, corners[i].to);
-        const int left = sl_orient(from, to, place_of(f, new)), side = is_left(new) ? left : -left;
+        const int left = sli_orient(from, to, place_of(f, new)), side = is_left(new) ? left : -left;
         if (step && side >= 0 && before < 0) {
             r.last_out = i ? i - 1 : l->count - 1;
             r.cuts_entering = side > 0;
@@ -358,8 +359,8 @@ static sl_status toward(sl_context *context, void *state, sl_line right, sl_line
     for (size_t i = 0; i < l->count; i++) {
         const corner *c = &f->corners.items[l->first + i];
         const sl_point from = place_of(f, c->from), to = place_of(f, c->to);
-        const int of_right = sl_turn(right.a, right.b, from, to);
-        const int of_left = sl_turn(left.a, left.b, from, to);
+        const int of_right = sli_turn(right.a, right.b, from, to);
+        const int of_left = sli_turn(left.a, left.b, from, to);
         if (of_right > 0 && of_left < 0) between = true;
         if (of_right >= 0 && of_left <= 0) on_bound = true;
         low |= of_right < 0 || (of_right == 0 && of_left < 0);
@@ -375,7 +376,7 @@ static sl_status toward(sl_context *context, void *state, sl_line right, sl_line
 /// Whether the line keeps all left ends strictly at its left and all right ends at its right.
 static bool is_strict(const funnel *f, sl_line line) {
     for (end_number e = 0; e < f->ends.count; e++)
-        if (sl_orient(line.a, line.b, place_of(f, e)) * (is_left(e) ? 1 : -1) <= 0) return false;
+        if (sli_orient(line.a, line.b, place_of(f, e)) * (is_left(e) ? 1 : -1) <= 0) return false;
     return true;
 }
 
@@ -436,7 +437,8 @@ static sl_status conflict(sl_context *context, const void *state,
     for (end_number e = 0; e < f->ends.count; e += 2)
         portals[e / 2] = (sl_portal_ends){place_of(f, e), place_of(f, e + 1)};
     const bool grazing = f->levels.items[portal_count - 1].verdict != SL_HIDDEN;
-    const sl_status status = sl_conflict_find(context, portals, portal_count, grazing, ends, count);
+    const sl_status status =
+        sli_conflict_find(context, portals, portal_count, grazing, ends, count);
     sl_free(context, portals);
     return status;
 }
@@ -447,15 +449,15 @@ static void account(const void *state, sl_stab_account *sum) {
     sum->exact += f->account.exact;
 }
 
-uint32_t sl_funnel_corner_count(const void *state) {
+uint32_t sli_funnel_corner_count(const void *state) {
     const funnel *f = state;
     return (uint32_t)f->levels.items[f->levels.count - 1].count;
 }
 
-sl_funnel_corner sl_funnel_corner_at(const void *state, uint32_t i) {
+sli_funnel_corner sli_funnel_corner_at(const void *state, uint32_t i) {
     const funnel *f = state;
     const corner *c = &f->corners.items[f->levels.items[f->levels.count - 1].first + i];
-    return (sl_funnel_corner){place_of(f, c->from), place_of(f, c->to), place_of(f, c->pivot)};
+    return (sli_funnel_corner){place_of(f, c->from), place_of(f, c->to), place_of(f, c->pivot)};
 }
 
 /// The first or the last.
@@ -562,14 +564,14 @@ static double gap(const sl_portal_ends *a, const sl_portal_ends *b) {
     return least;
 }
 
-double sl_funnel_shortest(const void *state) {
+double sli_funnel_shortest(const void *state) {
     piece p = {.first = portal_at(state, false), .last = portal_at(state, true)};
-    const uint32_t count = sl_funnel_corner_count(state);
+    const uint32_t count = sli_funnel_corner_count(state);
     if (!count) return gap(&p.first, &p.last);
     double least = INFINITY;
     for (uint32_t i = 0; i < count; i++) {
-        const sl_funnel_corner now = sl_funnel_corner_at(state, i);
-        const sl_funnel_corner next = sl_funnel_corner_at(state, i + 1 < count ? i + 1 : 0);
+        const sli_funnel_corner now = sli_funnel_corner_at(state, i);
+        const sli_funnel_corner next = sli_funnel_corner_at(state, i + 1 < count ? i + 1 : 0);
         p.pivot = now.pivot;
         least =
             fmin(least, shortest_of_turn(&p, way_of(now.from, now.to), way_of(next.from, next.to)));

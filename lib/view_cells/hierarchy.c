@@ -26,7 +26,7 @@ typedef SL_ARRAY(uint32_t) number_list;
 typedef struct merger {
     sl_context *context;
     const sl_view_tree *tree;
-    sl_view_render render;
+    sli_view_render render;
     uint32_t cell_count, joint_count;
     sl_view_joint *joints;
     sl_view_sets sets;   ///< a row for each elementary cell; a joint takes over its first part's
@@ -37,7 +37,7 @@ typedef struct merger {
     sl_point *middle;    ///< by number
     number_list *around; ///< by number: its neighbours, some since merged
     sl_bits *both;       ///< scratch: a row
-    sl_heap queue;
+    sli_heap queue;
 } merger;
 
 /// The part that holds a number now (find with path compression).
@@ -61,19 +61,19 @@ static sl_point middle_of_two(const double *mass, const sl_point *middle, uint32
 
 /// Unites two sets in the scratch row; the cost of rendering it.
 static double cost_of_both(merger *m, uint32_t a, uint32_t b) {
-    const sl_bits *one = sl_view_set(&m->sets, m->row[a]);
-    const sl_bits *other = sl_view_set(&m->sets, m->row[b]);
+    const sl_bits *one = sli_view_set(&m->sets, m->row[a]);
+    const sl_bits *other = sli_view_set(&m->sets, m->row[b]);
     for (size_t i = 0; i < m->sets.words; i++) m->both[i] = one[i] | other[i];
-    return sl_view_render_set(&m->render, m->both, m->sets.words,
-                              middle_of_two(m->mass, m->middle, a, b));
+    return sli_view_render_set(&m->render, m->both, m->sets.words,
+                               middle_of_two(m->mass, m->middle, a, b));
 }
 
 /// Queues a pair by the increase in cost of merging it (equation 2).
 static sl_status weigh(merger *m, uint32_t a, uint32_t b) {
     const double increase = (m->mass[a] + m->mass[b]) * cost_of_both(m, a, b) -
                             m->mass[a] * m->cost[a] - m->mass[b] * m->cost[b];
-    const sl_heap_item item = {-increase, a < b ? a : b, a < b ? b : a};
-    return sl_heap_push(m->context, &m->queue, item);
+    const sli_heap_item item = {-increase, a < b ? a : b, a < b ? b : a};
+    return sli_heap_push(m->context, &m->queue, item);
 }
 
 static sl_status add_around(merger *m, uint32_t number, uint32_t neighbour) {
@@ -119,7 +119,7 @@ static sl_status merge_two(merger *m, uint32_t a, uint32_t b) {
     m->mass[joint] = m->mass[a] + m->mass[b];
     m->middle[joint] = middle_of_two(m->mass, m->middle, a, b);
     m->row[joint] = m->row[a];
-    memcpy(sl_view_set(&m->sets, m->row[a]), m->both, m->sets.words * sizeof *m->both);
+    memcpy(sli_view_set(&m->sets, m->row[a]), m->both, m->sets.words * sizeof *m->both);
     m->up[a] = m->up[b] = m->up[joint] = joint;
     SL_TRY(join_around(m, a, b, joint));
     for (size_t i = 0; i < m->around[joint].count; i++)
@@ -145,7 +145,7 @@ static sl_status merge_all(merger *m) {
         }
         uint32_t a, b;
         if (m->queue.count) {
-            const sl_heap_item item = sl_heap_pop(&m->queue);
+            const sli_heap_item item = sli_heap_pop(&m->queue);
             a = item.a;
             b = item.b;
             if (m->up[a] != a || m->up[b] != b) continue;
@@ -159,8 +159,8 @@ static sl_status merge_all(merger *m) {
 
 static sl_status begin(merger *m, const sl_view_scene *scene, const sl_view_sets *sets) {
     const size_t count = m->cell_count, all = 2 * count;
-    SL_TRY(sl_view_render_make(m->context, scene, &m->render));
-    SL_TRY(sl_view_sets_create(m->context, sets->count, sets->object_count, &m->sets));
+    SL_TRY(sli_view_render_make(m->context, scene, &m->render));
+    SL_TRY(sli_view_sets_create(m->context, sets->count, sets->object_count, &m->sets));
     memcpy(m->sets.bits, sets->bits, count * sets->words * sizeof *sets->bits);
     m->joints = sl_alloc_array(m->context, count, sizeof *m->joints);
     m->row = sl_alloc_array(m->context, all, sizeof *m->row);
@@ -177,19 +177,19 @@ static sl_status begin(merger *m, const sl_view_scene *scene, const sl_view_sets
     for (uint32_t i = 0; i < m->cell_count; i++) {
         m->row[i] = m->up[i] = i;
         m->mass[i] = m->tree->mass[i];
-        m->middle[i] = sl_view_leaf_middle(m->tree, i);
+        m->middle[i] = sli_view_leaf_middle(m->tree, i);
         m->cost[i] =
-            sl_view_render_set(&m->render, sl_view_set(sets, i), sets->words, m->middle[i]);
+            sli_view_render_set(&m->render, sli_view_set(sets, i), sets->words, m->middle[i]);
     }
     for (size_t i = count; i < all; i++) m->up[i] = UINT32_MAX;
     return SL_OK;
 }
 
 static sl_status start_queue(merger *m) {
-    sl_view_pairs pairs = {0};
-    sl_status status = sl_view_neighbours(m->context, m->tree, &pairs);
+    sli_view_pairs pairs = {0};
+    sl_status status = sli_view_neighbours(m->context, m->tree, &pairs);
     for (size_t i = 0; i < pairs.count && status == SL_OK; i++) {
-        const sl_view_pair p = pairs.items[i];
+        const sli_view_pair p = pairs.items[i];
         if (p.a >= m->cell_count || p.b >= m->cell_count) continue;
         status = add_around(m, p.a, p.b);
         if (status == SL_OK) status = add_around(m, p.b, p.a);
@@ -213,7 +213,7 @@ static void destroy(merger *m) {
     sl_free(m->context, m->both);
     sl_free(m->context, m->queue.items);
     sl_view_sets_destroy(m->context, &m->sets);
-    sl_view_render_destroy(m->context, &m->render);
+    sli_view_render_destroy(m->context, &m->render);
 }
 
 sl_status sl_view_merge(sl_context *context, const sl_view_scene *scene, const sl_view_tree *tree,
@@ -310,9 +310,9 @@ static uint32_t count_objects(const sl_bits *set, size_t words) {
     return count;
 }
 
-static void measure(const sl_view_render *render, const sl_view_sets *sets, const sl_bits *set,
+static void measure(const sli_view_render *render, const sl_view_sets *sets, const sl_bits *set,
                     sl_point middle, uint32_t number, sl_view_hierarchy *h) {
-    h->cost[number] = sl_view_render_set(render, set, sets->words, middle);
+    h->cost[number] = sli_view_render_set(render, set, sets->words, middle);
     h->objects[number] = count_objects(set, sets->words);
     h->bytes[number] = row_bytes(set, sets->object_count);
 }
@@ -333,7 +333,7 @@ static sl_status make_arrays(sl_context *context, const sl_view_hierarchy *joint
 }
 
 /// Measures from the elementary cells up. A joint takes over the row of its first part.
-static sl_status measure_all(sl_context *context, const sl_view_render *render,
+static sl_status measure_all(sl_context *context, const sli_view_render *render,
                              const sl_view_tree *tree, const sl_view_sets *sets, sl_view_sets *rows,
                              sl_view_hierarchy *h) {
     const uint32_t count = h->cell_count;
@@ -348,13 +348,13 @@ static sl_status measure_all(sl_context *context, const sl_view_render *render,
     for (uint32_t i = 0; i < count; i++) {
         row[i] = i;
         h->mass[i] = tree->mass[i];
-        middle[i] = sl_view_leaf_middle(tree, i);
-        measure(render, rows, sl_view_set(rows, i), middle[i], i, h);
+        middle[i] = sli_view_leaf_middle(tree, i);
+        measure(render, rows, sli_view_set(rows, i), middle[i], i, h);
     }
     for (uint32_t i = 0; i + 1 < count; i++) {
         const uint32_t a = h->joints[i].parts[0], b = h->joints[i].parts[1], c = count + i;
-        sl_bits *into = sl_view_set(rows, row[a]);
-        const sl_bits *from = sl_view_set(rows, row[b]);
+        sl_bits *into = sli_view_set(rows, row[a]);
+        const sl_bits *from = sli_view_set(rows, row[b]);
         for (size_t k = 0; k < rows->words; k++) into[k] |= from[k];
         row[c] = row[a];
         h->mass[c] = h->mass[a] + h->mass[b];
@@ -369,15 +369,15 @@ static sl_status measure_all(sl_context *context, const sl_view_render *render,
 sl_status sl_view_evaluate(sl_context *context, const sl_view_scene *scene,
                            const sl_view_tree *tree, const sl_view_hierarchy *hierarchy,
                            const sl_view_sets *sets, sl_view_hierarchy *out) {
-    sl_view_render render = {0};
+    sli_view_render render = {0};
     sl_view_sets rows = {0};
     sl_view_hierarchy made = {0};
-    sl_status status = sl_view_render_make(context, scene, &render);
+    sl_status status = sli_view_render_make(context, scene, &render);
     if (status == SL_OK)
-        status = sl_view_sets_create(context, sets->count, sets->object_count, &rows);
+        status = sli_view_sets_create(context, sets->count, sets->object_count, &rows);
     if (status == SL_OK) status = make_arrays(context, hierarchy, &made);
     if (status == SL_OK) status = measure_all(context, &render, tree, sets, &rows, &made);
-    sl_view_render_destroy(context, &render);
+    sli_view_render_destroy(context, &render);
     sl_view_sets_destroy(context, &rows);
     if (status == SL_OK)
         *out = made;

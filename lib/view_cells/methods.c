@@ -20,25 +20,26 @@
                           const sl_view_segments *segments, const sl_view_subdivision *options,    \
                           sl_view_tree *out, sl_view_found *found) {                               \
         (void)segments, (void)found;                                                               \
-        return sl_view_divide(context, scene, by, NULL, options, choose, stops_early, out, NULL);  \
+        return sli_view_divide(context, scene, by, NULL, options, choose, stops_early, out, NULL); \
     }
 
 // --- adaptive
 
-static sl_status find_best_split(sl_view_divider *d, sl_view_part *part, bool *splits) {
-    *splits = part->seen > 0 && sl_view_split_middle(part, sl_view_longer_axis(part), &part->split);
-    return *splits ? sl_view_choose_axes(d, part, &part->split) : SL_OK;
+static sl_status find_best_split(sli_view_divider *d, sli_view_part *part, bool *splits) {
+    *splits =
+        part->seen > 0 && sli_view_split_middle(part, sli_view_longer_axis(part), &part->split);
+    return *splits ? sli_view_choose_axes(d, part, &part->split) : SL_OK;
 }
 
 /// The split that gains most. A small weight on the part's own cost makes sure that parts are split
 /// too where only several splits together pay.
-static sl_status choose_adaptive(sl_view_divider *d, sl_view_part *part, double *priority,
+static sl_status choose_adaptive(sli_view_divider *d, sli_view_part *part, double *priority,
                                  bool *splits) {
-    sl_view_find_extents(d, part);
+    sli_view_find_extents(d, part);
     const sl_status status = find_best_split(d, part, splits);
-    sl_view_forget_extents(d);
+    sli_view_forget_extents(d);
     SL_TRY(status);
-    if (*splits && d->options->wall_splits) SL_TRY(sl_view_choose_walls(d, part, &part->split));
+    if (*splits && d->options->wall_splits) SL_TRY(sli_view_choose_walls(d, part, &part->split));
     const double weight = d->options->cost_weight;
     *priority = (1 - weight) * part->split.gain + weight * part->mass * part->seen;
     return SL_OK;
@@ -55,51 +56,51 @@ static sl_status divide_exactly(sl_context *context, const sl_view_scene *scene,
     if (options->wall_splits)
         return sl_fail(context, SL_UNSUPPORTED,
                        "the method 'hybrid' splits across the axes alone, not along walls' lines");
-    sl_view_pieces pieces;
+    sli_view_pieces pieces;
     sl_view_sets sets = {0};
     sl_status status =
-        sl_view_pieces_create(context, scene, options->sight, options->threads, &pieces);
+        sli_view_pieces_create(context, scene, options->sight, options->threads, &pieces);
     if (status == SL_OK)
-        status = sl_view_divide(context, scene, NULL, &pieces, options, choose_adaptive, true, out,
-                                found ? &sets : NULL);
+        status = sli_view_divide(context, scene, NULL, &pieces, options, choose_adaptive, true, out,
+                                 found ? &sets : NULL);
     if (status == SL_OK && found) *found = (sl_view_found){sets, pieces.work};
-    sl_view_pieces_destroy(&pieces);
+    sli_view_pieces_destroy(&pieces);
     return status;
 }
 
 // --- kd-trees
 
 /// The priority that splits parts in the order in which they are made.
-static double next_in_line(sl_view_divider *d) {
+static double next_in_line(sli_view_divider *d) {
     return -(double)d->made++;
 }
 
-static sl_status choose_cycling(sl_view_divider *d, sl_view_part *part, double *priority,
+static sl_status choose_cycling(sli_view_divider *d, sli_view_part *part, double *priority,
                                 bool *splits) {
-    *splits = sl_view_split_middle(part, part->depth % 2, &part->split);
+    *splits = sli_view_split_middle(part, part->depth % 2, &part->split);
     *priority = next_in_line(d);
     return SL_OK;
 }
 
-static sl_status choose_longest(sl_view_divider *d, sl_view_part *part, double *priority,
+static sl_status choose_longest(sli_view_divider *d, sli_view_part *part, double *priority,
                                 bool *splits) {
-    *splits = sl_view_split_middle(part, sl_view_longer_axis(part), &part->split);
+    *splits = sli_view_split_middle(part, sli_view_longer_axis(part), &part->split);
     *priority = next_in_line(d);
     return SL_OK;
 }
 
-static bool sees_enough(sl_view_divider *d, sl_view_part *part) {
-    sl_view_find_seen(d, part);
+static bool sees_enough(sli_view_divider *d, sli_view_part *part) {
+    sli_view_find_seen(d, part);
     return part->seen > d->options->visible_share * d->all_seen;
 }
 
-static sl_status choose_visible(sl_view_divider *d, sl_view_part *part, double *priority,
+static sl_status choose_visible(sli_view_divider *d, sli_view_part *part, double *priority,
                                 bool *splits) {
     if (!sees_enough(d, part)) return SL_OK;
     return choose_longest(d, part, priority, splits);
 }
 
-static sl_status choose_depth_first(sl_view_divider *d, sl_view_part *part, double *priority,
+static sl_status choose_depth_first(sli_view_divider *d, sli_view_part *part, double *priority,
                                     bool *splits) {
     if (!sees_enough(d, part) || part->depth >= d->options->deepest) return SL_OK;
     SL_TRY(choose_longest(d, part, priority, splits));
@@ -118,12 +119,12 @@ DIVIDE(divide_depth_first, segments, choose_depth_first, false)
 enum { MOST_WEIGHED = 512, MOST_TRIED = 24 };
 
 /// The cost of a line: walls cut, and sides uneven, as shares of all.
-static double line_cost(const sl_view_divider *d, const sl_segment *line) {
+static double line_cost(const sli_view_divider *d, const sl_segment *line) {
     const size_t step = (d->walls.count + MOST_WEIGHED - 1) / MOST_WEIGHED;
     double cut = 0, left = 0, right = 0, all = 0;
     for (size_t i = 0; i < d->walls.count; i += step, all++) {
         const sl_wall *w = &d->scene->space->walls[d->walls.items[i]];
-        const int a = sl_orient(line->a, line->b, w->a), b = sl_orient(line->a, line->b, w->b);
+        const int a = sli_orient(line->a, line->b, w->a), b = sli_orient(line->a, line->b, w->b);
         cut += a * b < 0;
         left += a * b >= 0 && a + b > 0;
         right += a * b >= 0 && a + b < 0;
@@ -132,9 +133,9 @@ static double line_cost(const sl_view_divider *d, const sl_segment *line) {
 }
 
 /// Auto-partition (Teller 1992): the line of a wall within; a part without walls stays whole.
-static sl_status choose_wall(sl_view_divider *d, sl_view_part *part, double *priority,
+static sl_status choose_wall(sli_view_divider *d, sli_view_part *part, double *priority,
                              bool *splits) {
-    SL_TRY(sl_view_walls_within(d, part, UINT32_MAX, &d->walls));
+    SL_TRY(sli_view_walls_within(d, part, UINT32_MAX, &d->walls));
     const size_t count = d->walls.count;
     double least = INFINITY;
     for (size_t i = 0; i < count && i < MOST_TRIED; i++) {
@@ -144,7 +145,7 @@ static sl_status choose_wall(sl_view_divider *d, sl_view_part *part, double *pri
         const double cost = line_cost(d, &line);
         if (cost >= least) continue;
         least = cost;
-        part->split = sl_view_split_along(w);
+        part->split = sli_view_split_along(w);
     }
     *splits = count > 0;
     *priority = next_in_line(d);

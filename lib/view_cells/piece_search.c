@@ -23,14 +23,14 @@
 #include <string.h>
 
 typedef struct step {
-    uint32_t room, next;      ///< side to try next, from 0
-    sl_direction_sector cone; ///< directions that cross all portals so far
+    uint32_t room, next;       ///< side to try next, from 0
+    sli_direction_sector cone; ///< directions that cross all portals so far
 } step;
 
-struct sl_view_searcher {
-    const sl_view_pieces *pieces;
-    sl_context *context;    ///< the thread's
-    sl_view_searcher *next; ///< idle ones are a list
+struct sli_view_searcher {
+    const sli_view_pieces *pieces;
+    sl_context *context;     ///< the thread's
+    sli_view_searcher *next; ///< idle ones are a list
     sl_view_work work;
     void *solver;
     SL_ARRAY(step) steps;
@@ -41,7 +41,7 @@ struct sl_view_searcher {
     SL_ARRAY(sl_line) bounds; ///< of the sectors within a quadrant
 };
 
-static void destroy(sl_context *context, sl_view_searcher *me) {
+static void destroy(sl_context *context, sli_view_searcher *me) {
     sl_funnel()->destroy(context, me->solver);
     sl_free(context, me->steps.items);
     sl_free(context, me->allowed);
@@ -53,7 +53,7 @@ static void destroy(sl_context *context, sl_view_searcher *me) {
     sl_free(context, me);
 }
 
-static sl_status create(sl_context *context, const sl_view_pieces *pieces, sl_view_searcher *me) {
+static sl_status create(sl_context *context, const sli_view_pieces *pieces, sli_view_searcher *me) {
     const size_t rooms = pieces->rooms.count, objects = pieces->rooms.object_count;
     me->allowed = sl_alloc_array(context, rooms, sizeof *me->allowed);
     me->entered = sl_alloc_array(context, rooms, sizeof *me->entered);
@@ -64,10 +64,10 @@ static sl_status create(sl_context *context, const sl_view_pieces *pieces, sl_vi
     return sl_funnel()->create(context, pieces->rooms.bounds, &me->solver);
 }
 
-sl_status sl_view_searcher_take(sl_context *context, sl_view_pieces *pieces,
-                                sl_view_searcher **out) {
+sl_status sli_view_searcher_take(sl_context *context, sli_view_pieces *pieces,
+                                 sli_view_searcher **out) {
     pthread_mutex_lock(&pieces->lock);
-    sl_view_searcher *me = pieces->idle;
+    sli_view_searcher *me = pieces->idle;
     if (me) pieces->idle = me->next;
     pthread_mutex_unlock(&pieces->lock);
     if (!me) {
@@ -85,42 +85,42 @@ sl_status sl_view_searcher_take(sl_context *context, sl_view_pieces *pieces,
     return SL_OK;
 }
 
-void sl_view_searcher_give(sl_view_pieces *pieces, sl_view_searcher *me) {
+void sli_view_searcher_give(sli_view_pieces *pieces, sli_view_searcher *me) {
     pthread_mutex_lock(&pieces->lock);
     me->next = pieces->idle;
     pieces->idle = me;
     pthread_mutex_unlock(&pieces->lock);
 }
 
-void sl_view_searchers_destroy(sl_context *context, sl_view_pieces *pieces) {
+void sli_view_searchers_destroy(sl_context *context, sli_view_pieces *pieces) {
     while (pieces->idle) {
-        sl_view_searcher *me = pieces->idle;
+        sli_view_searcher *me = pieces->idle;
         pieces->idle = me->next;
         destroy(context, me);
     }
 }
 
-sl_view_work sl_view_searcher_work(sl_view_searcher *me) {
+sl_view_work sli_view_searcher_work(sli_view_searcher *me) {
     const sl_view_work work = me->work;
     me->work = (sl_view_work){0};
     return work;
 }
 
-sl_direction_sector sl_view_quadrant(int quadrant) {
-    static const sl_point ways[SL_VIEW_QUADRANTS] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+sli_direction_sector sli_view_quadrant(int quadrant) {
+    static const sl_point ways[SLI_VIEW_QUADRANTS] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     const sl_point zero = {0, 0};
-    return (sl_direction_sector){{zero, ways[quadrant]},
-                                 {zero, ways[(quadrant + 1) % SL_VIEW_QUADRANTS]}};
+    return (sli_direction_sector){{zero, ways[quadrant]},
+                                  {zero, ways[(quadrant + 1) % SLI_VIEW_QUADRANTS]}};
 }
 
 // --- candidates
 
-void sl_view_search_begin(sl_view_searcher *me) {
+void sli_view_search_begin(sli_view_searcher *me) {
     me->allowing++;
     me->candidates = 0;
 }
 
-void sl_view_search_allow(sl_view_searcher *me, uint32_t room) {
+void sli_view_search_allow(sli_view_searcher *me, uint32_t room) {
     if (me->allowed[room] == me->allowing) return;
     me->allowed[room] = me->allowing;
     me->candidates++;
@@ -129,14 +129,14 @@ void sl_view_search_allow(sl_view_searcher *me, uint32_t room) {
 // --- from where in the piece
 
 /// Adds the part of a line within the piece, which the line meets, but for rounding.
-static void add_line(const sl_view_piece *piece, sl_point a, sl_point b, sl_view_extent *out) {
+static void add_line(const sli_view_piece *piece, sl_point a, sl_point b, sli_view_extent *out) {
     double t0 = -INFINITY, t1 = INFINITY;
     const double dx = b.x - a.x, dy = b.y - a.y;
     sl_point p = piece->corners.items[piece->corners.count - 1];
     for (size_t i = 0; i < piece->corners.count; i++) {
         const sl_point q = piece->corners.items[i];
         const double nx = q.y - p.y, ny = p.x - q.x; // outwards
-        sl_keep_below(nx * (a.x - p.x) + ny * (a.y - p.y), nx * dx + ny * dy, &t0, &t1);
+        sli_keep_below(nx * (a.x - p.x) + ny * (a.y - p.y), nx * dx + ny * dy, &t0, &t1);
         p = q;
     }
     const double ends[2] = {t0, t1};
@@ -144,7 +144,7 @@ static void add_line(const sl_view_piece *piece, sl_point a, sl_point b, sl_view
         if (!isfinite(ends[i])) continue;
         const double at[2] = {a.x + ends[i] * dx, a.y + ends[i] * dy};
         for (int axis = 0; axis < 2; axis++) {
-            const double v = sl_within(at[axis], piece->box.low[axis], piece->box.high[axis]);
+            const double v = sli_within(at[axis], piece->box.low[axis], piece->box.high[axis]);
             if (v < out->low[axis]) out->low[axis] = v;
             if (v > out->high[axis]) out->high[axis] = v;
         }
@@ -156,18 +156,18 @@ static double turn(sl_point a, sl_point b) {
 }
 
 /// The extent within the piece of the lines of the current sequence.
-static sl_view_extent find_extent(const sl_view_searcher *me, const sl_view_piece *piece,
-                                  sl_direction_sector sector) {
-    const uint32_t count = sl_funnel_corner_count(me->solver);
-    sl_view_extent extent = sl_view_no_extent();
+static sli_view_extent find_extent(const sli_view_searcher *me, const sli_view_piece *piece,
+                                   sli_direction_sector sector) {
+    const uint32_t count = sli_funnel_corner_count(me->solver);
+    sli_view_extent extent = sli_view_no_extent();
     if (!count) return piece->box;
     const sl_point ways[2] = {
         {sector.right.b.x - sector.right.a.x, sector.right.b.y - sector.right.a.y},
         {sector.left.b.x - sector.left.a.x, sector.left.b.y - sector.left.a.y}};
-    sl_funnel_corner last = sl_funnel_corner_at(me->solver, count - 1);
+    sli_funnel_corner last = sli_funnel_corner_at(me->solver, count - 1);
     sl_point from = {last.to.x - last.from.x, last.to.y - last.from.y};
     for (uint32_t i = 0; i < count; i++) {
-        const sl_funnel_corner c = sl_funnel_corner_at(me->solver, i);
+        const sli_funnel_corner c = sli_funnel_corner_at(me->solver, i);
         const sl_point to = {c.to.x - c.from.x, c.to.y - c.from.y};
         add_line(piece, c.from, c.to, &extent);
         for (int k = 0; k < 2; k++)
@@ -184,38 +184,38 @@ static sl_view_extent find_extent(const sl_view_searcher *me, const sl_view_piec
 
 /// One search of a quadrant.
 typedef struct search {
-    const sl_view_pieces *pieces;
-    sl_view_searcher *me;
-    const sl_view_piece *piece;
-    sl_direction_sector sector;
+    const sli_view_pieces *pieces;
+    sli_view_searcher *me;
+    const sli_view_piece *piece;
+    sli_direction_sector sector;
     bool east, north; ///< where the quadrant's directions go
     bool limited;     ///< to the objects that are asked for
-    sl_view_directed *out;
+    sli_view_directed *out;
 } search;
 
 static sl_status add_object(search *s, uint32_t object) {
-    sl_view_searcher *me = s->me;
-    sl_view_directed *out = s->out;
+    sli_view_searcher *me = s->me;
+    sli_view_directed *out = s->out;
     if (me->seen[object] != me->current) {
         SL_TRY(SL_ARRAY_ROOM(s->me->context, &out->objects, 1));
         me->seen[object] = me->current;
         me->place[object] = (uint32_t)out->objects.count;
         out->objects.items[out->objects.count++] =
-            (sl_view_sight){.object = object, .from = sl_view_no_extent()};
+            (sli_view_sight){.object = object, .from = sli_view_no_extent()};
     }
-    sl_view_extent *from = &out->objects.items[me->place[object]].from;
+    sli_view_extent *from = &out->objects.items[me->place[object]].from;
     if (memcmp(from, &s->piece->box, sizeof *from) == 0) return SL_OK; // it cannot grow
-    sl_view_extent more = find_extent(me, s->piece, s->sector);
+    sli_view_extent more = find_extent(me, s->piece, s->sector);
     for (int axis = 0; axis < 2; axis++) {
-        more.low[axis] = sl_view_rooms_snap(&s->pieces->rooms, axis, more.low[axis]);
-        more.high[axis] = sl_view_rooms_snap(&s->pieces->rooms, axis, more.high[axis]);
+        more.low[axis] = sli_view_rooms_snap(&s->pieces->rooms, axis, more.low[axis]);
+        more.high[axis] = sli_view_rooms_snap(&s->pieces->rooms, axis, more.high[axis]);
     }
-    sl_view_extent_join(from, &more);
+    sli_view_extent_join(from, &more);
     return SL_OK;
 }
 
 static sl_status add_room(search *s, uint32_t room) {
-    sl_view_searcher *me = s->me;
+    sli_view_searcher *me = s->me;
     if (me->entered[room] == me->current) return SL_OK;
     me->entered[room] = me->current;
     SL_TRY(SL_ARRAY_ROOM(s->me->context, &s->out->rooms, 1));
@@ -224,7 +224,7 @@ static sl_status add_room(search *s, uint32_t room) {
 }
 
 /// Whether lines of the sequence and the sector pass a side too. The caller pops it after SL_OK.
-static sl_status push(search *s, const sl_room_side *side, const sl_direction_sector *cone,
+static sl_status push(search *s, const sli_room_side *side, const sli_direction_sector *cone,
                       bool *seen) {
     sl_context *context = s->me->context;
     sl_stab_verdict verdict;
@@ -244,8 +244,8 @@ static sl_status enter(search *s, step to) {
 
 /// Whether a portal of the piece's own room is behind the whole piece in the quadrant. A line along
 /// both would reach it, but backwards.
-static bool is_behind(const search *s, const sl_room_side *side) {
-    const sl_view_extent *box = &s->piece->box;
+static bool is_behind(const search *s, const sli_room_side *side) {
+    const sli_view_extent *box = &s->piece->box;
     const bool behind_x = s->east ? fmax(side->left.x, side->right.x) < box->low[0]
                                   : fmin(side->left.x, side->right.x) > box->high[0];
     const bool behind_y = s->north ? fmax(side->left.y, side->right.y) < box->low[1]
@@ -253,22 +253,22 @@ static bool is_behind(const search *s, const sl_room_side *side) {
     return behind_x || behind_y;
 }
 
-static sl_status try_side(search *s, const sl_room_side *side) {
-    sl_view_searcher *me = s->me;
+static sl_status try_side(search *s, const sli_room_side *side) {
+    sli_view_searcher *me = s->me;
     step to = me->steps.items[me->steps.count - 1];
     const sl_directed_portal portal = {.left = side->left, .right = side->right};
     if (me->steps.count == 1 && is_behind(s, side)) return SL_OK;
-    if (side->room != SL_NO_ROOM && me->allowed[side->room] != me->allowing) return SL_OK;
-    if (side->room == SL_NO_ROOM) {
-        // A piece sees all walls of its own room. sl_view_piece_add_to adds them.
+    if (side->room != SLI_NO_ROOM && me->allowed[side->room] != me->allowing) return SL_OK;
+    if (side->room == SLI_NO_ROOM) {
+        // A piece sees all walls of its own room. sli_view_piece_add_to adds them.
         if (me->steps.count == 1) return SL_OK;
         if (s->limited && me->asked[side->object] != me->current) return SL_OK;
     }
-    if (!sl_direction_sector_cut(&to.cone, &portal)) return SL_OK;
+    if (!sli_direction_sector_cut(&to.cone, &portal)) return SL_OK;
     bool seen;
     SL_TRY(push(s, side, &to.cone, &seen));
-    if (seen && side->object != SL_NO_OBJECT) SL_TRY(add_object(s, side->object));
-    if (!seen || side->room == SL_NO_ROOM) {
+    if (seen && side->object != SLI_NO_OBJECT) SL_TRY(add_object(s, side->object));
+    if (!seen || side->room == SLI_NO_ROOM) {
         sl_funnel()->pop(me->solver);
         return SL_OK;
     }
@@ -279,20 +279,20 @@ static sl_status try_side(search *s, const sl_room_side *side) {
 }
 
 /// The utmost corner to the left (or right), which is the same for all directions of the sector.
-static sl_point utmost(const sl_view_piece *piece, sl_direction_sector sector, int side) {
+static sl_point utmost(const sli_view_piece *piece, sli_direction_sector sector, int side) {
     sl_point best = piece->corners.items[0];
     for (size_t i = 1; i < piece->corners.count; i++) {
         const sl_point p = piece->corners.items[i];
-        if (sl_turn(sector.right.a, sector.right.b, best, p) == side ||
-            sl_turn(sector.left.a, sector.left.b, best, p) == side)
+        if (sli_turn(sector.right.a, sector.right.b, best, p) == side ||
+            sli_turn(sector.left.a, sector.left.b, best, p) == side)
             best = p;
     }
     return best;
 }
 
 static sl_status search_sector(search *s) {
-    sl_view_searcher *me = s->me;
-    const sl_view_rooms *rooms = &s->pieces->rooms;
+    sli_view_searcher *me = s->me;
+    const sli_view_rooms *rooms = &s->pieces->rooms;
     const sl_point left = utmost(s->piece, s->sector, 1), right = utmost(s->piece, s->sector, -1);
     sl_stab_verdict verdict;
     me->steps.count = 0;
@@ -312,16 +312,16 @@ static sl_status search_sector(search *s) {
 }
 
 /// Adds a direction to the bounds, in order, if it lies strictly between the first and the last.
-static sl_status add_bound(sl_context *context, sl_view_searcher *me, sl_line way) {
+static sl_status add_bound(sl_context *context, sli_view_searcher *me, sl_line way) {
     SL_TRY(SL_ARRAY_ROOM(context, &me->bounds, 1));
     sl_line *bounds = me->bounds.items;
     const size_t count = me->bounds.count;
-    if (sl_turn(bounds[0].a, bounds[0].b, way.a, way.b) <= 0 ||
-        sl_turn(way.a, way.b, bounds[count - 1].a, bounds[count - 1].b) <= 0)
+    if (sli_turn(bounds[0].a, bounds[0].b, way.a, way.b) <= 0 ||
+        sli_turn(way.a, way.b, bounds[count - 1].a, bounds[count - 1].b) <= 0)
         return SL_OK;
     size_t at = 1;
-    while (sl_turn(bounds[at].a, bounds[at].b, way.a, way.b) > 0) at++;
-    if (sl_turn(bounds[at].a, bounds[at].b, way.a, way.b) == 0) return SL_OK;
+    while (sli_turn(bounds[at].a, bounds[at].b, way.a, way.b) > 0) at++;
+    if (sli_turn(bounds[at].a, bounds[at].b, way.a, way.b) == 0) return SL_OK;
     memmove(bounds + at + 1, bounds + at, (count - at) * sizeof *bounds);
     bounds[at] = way;
     me->bounds.count++;
@@ -329,9 +329,9 @@ static sl_status add_bound(sl_context *context, sl_view_searcher *me, sl_line wa
 }
 
 /// Cuts a quadrant at the directions of the piece's sides.
-static sl_status find_sectors(sl_context *context, sl_view_searcher *me, const sl_view_piece *piece,
-                              int quadrant) {
-    const sl_direction_sector all = sl_view_quadrant(quadrant);
+static sl_status find_sectors(sl_context *context, sli_view_searcher *me,
+                              const sli_view_piece *piece, int quadrant) {
+    const sli_direction_sector all = sli_view_quadrant(quadrant);
     me->bounds.count = 0;
     SL_TRY(SL_ARRAY_ROOM(context, &me->bounds, 2));
     me->bounds.items[me->bounds.count++] = all.right;
@@ -348,8 +348,8 @@ static sl_status find_sectors(sl_context *context, sl_view_searcher *me, const s
     return SL_OK;
 }
 
-sl_status sl_view_search(sl_view_searcher *me, const sl_view_piece *piece, int quadrant,
-                         const sl_view_directed *objects, sl_view_directed *out) {
+sl_status sli_view_search(sli_view_searcher *me, const sli_view_piece *piece, int quadrant,
+                          const sli_view_directed *objects, sli_view_directed *out) {
     me->current++;
     if (objects)
         for (size_t i = 0; i < objects->objects.count; i++)
@@ -363,7 +363,7 @@ sl_status sl_view_search(sl_view_searcher *me, const sl_view_piece *piece, int q
                 .limited = objects != NULL,
                 .out = out};
     for (size_t i = 0; i + 1 < me->bounds.count; i++) {
-        s.sector = (sl_direction_sector){me->bounds.items[i], me->bounds.items[i + 1]};
+        s.sector = (sli_direction_sector){me->bounds.items[i], me->bounds.items[i + 1]};
         SL_TRY(search_sector(&s));
     }
     me->work.looks++;

@@ -33,7 +33,7 @@ uint32_t sl_view_rows_locate(const sl_view_rows *rows, const sl_space *space, sl
 
 void sl_view_rows_add_to(const sl_view_rows *rows, uint32_t view_cell, uint64_t *bits) {
     for (uint32_t node = view_cell; node != SL_NO_VIEW_CELL; node = rows->parents[node])
-        sl_row_add_to(&rows->rows, node, bits);
+        sli_row_add_to(&rows->rows, node, bits);
 }
 
 bool sl_view_rows_sees(const sl_view_rows *rows, uint32_t view_cell, uint32_t cell) {
@@ -62,18 +62,18 @@ sl_status sl_view_rows_check(sl_context *context, const sl_view_rows *rows) {
 sl_status sl_view_rows_expand(sl_context *context, const sl_view_rows *rows, sl_pvs *out,
                               uint64_t *pairs) {
     const uint32_t cells = rows->rows.cell_count;
-    sl_pvs_maker maker;
-    sl_status status = sl_pvs_maker_create(context, cells, cells, &maker);
+    sli_pvs_maker maker;
+    sl_status status = sli_pvs_maker_create(context, cells, cells, &maker);
     for (uint32_t i = 0; i < cells && status == SL_OK; i++) {
         for (uint32_t node = rows->view_cells[i]; node != SL_NO_VIEW_CELL;
              node = rows->parents[node])
-            sl_pvs_maker_add(&maker, &rows->rows, node);
-        status = sl_pvs_maker_end_row(context, &maker);
+            sli_pvs_maker_add(&maker, &rows->rows, node);
+        status = sli_pvs_maker_end_row(context, &maker);
         if (status == SL_OK && i % 256 == 0) status = sl_check_cancelled(context);
     }
-    if (status == SL_OK) status = sl_pvs_maker_finish(context, &maker, out);
+    if (status == SL_OK) status = sli_pvs_maker_finish(context, &maker, out);
     if (status == SL_OK) *pairs = maker.pairs;
-    sl_pvs_maker_destroy(context, &maker);
+    sli_pvs_maker_destroy(context, &maker);
     return status;
 }
 
@@ -99,12 +99,12 @@ typedef struct maker {
     const sl_space *space;
     const sl_view_tree *tree;
     const sl_view_hierarchy *hierarchy;
-    uint32_t cells;     ///< view cells
-    uint32_t *cut;      ///< by elementary cell: its view cell
-    uint32_t *numbers;  ///< by view cell: its number in the hierarchy
-    uint32_t *node_of;  ///< by number in the hierarchy: its node
-    sl_view_sets sets;  ///< by node
-    sl_row_bytes bytes; ///< of the rows
+    uint32_t cells;      ///< view cells
+    uint32_t *cut;       ///< by elementary cell: its view cell
+    uint32_t *numbers;   ///< by view cell: its number in the hierarchy
+    uint32_t *node_of;   ///< by number in the hierarchy: its node
+    sl_view_sets sets;   ///< by node
+    sli_row_bytes bytes; ///< of the rows
     sl_view_rows *out;
 } maker;
 
@@ -122,7 +122,7 @@ static sl_status deal_cells(sl_context *context, maker *m) {
     m->out->view_cells = sl_alloc_array(context, space->cell_count, sizeof *m->out->view_cells);
     if (!m->out->view_cells) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < space->cell_count; i++) {
-        const uint32_t leaf = sl_view_cell_leaf(m->tree, space, i);
+        const uint32_t leaf = sli_view_cell_leaf(m->tree, space, i);
         const bool in = space->cells[i].inside && leaf < m->tree->cell_count;
         m->out->view_cells[i] = in ? m->cut[leaf] : SL_NO_VIEW_CELL;
     }
@@ -156,9 +156,9 @@ static void pull_up(maker *m) {
     const uint32_t below = m->hierarchy->cell_count - m->cells;
     for (uint32_t node = m->cells; node < m->out->node_count; node++) {
         const uint32_t *parts = m->hierarchy->joints[below + node - m->cells].parts;
-        sl_bits *up = sl_view_set(&m->sets, node);
-        sl_bits *a = sl_view_set(&m->sets, m->node_of[parts[0]]);
-        sl_bits *b = sl_view_set(&m->sets, m->node_of[parts[1]]);
+        sl_bits *up = sli_view_set(&m->sets, node);
+        sl_bits *a = sli_view_set(&m->sets, m->node_of[parts[0]]);
+        sl_bits *b = sli_view_set(&m->sets, m->node_of[parts[1]]);
         for (size_t i = 0; i < m->sets.words; i++) {
             up[i] = a[i] & b[i];
             a[i] &= ~up[i];
@@ -174,7 +174,7 @@ static sl_status encode(sl_context *context, maker *m) {
     if (!rows->offsets) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < cells; i++) {
         if (i < m->out->node_count)
-            SL_TRY(sl_row_append(context, &m->bytes, sl_view_set(&m->sets, i), cells));
+            SL_TRY(sli_row_append(context, &m->bytes, sli_view_set(&m->sets, i), cells));
         rows->offsets[i + 1] = m->bytes.count;
     }
     // Never NULL, also where no view cell sees any.
@@ -189,10 +189,10 @@ static sl_status make(sl_context *context, maker *m, const sl_pvs *pvs, bool com
     SL_TRY(find_cut(context, m));
     SL_TRY(deal_cells(context, m));
     SL_TRY(hang_nodes(context, m, compressed));
-    SL_TRY(sl_view_sets_create(context, m->out->node_count, m->space->cell_count, &m->sets));
+    SL_TRY(sli_view_sets_create(context, m->out->node_count, m->space->cell_count, &m->sets));
     for (uint32_t i = 0; i < m->space->cell_count; i++)
         if (m->out->view_cells[i] != SL_NO_VIEW_CELL)
-            sl_row_add_to(pvs, i, sl_view_set(&m->sets, m->out->view_cells[i]));
+            sli_row_add_to(pvs, i, sli_view_set(&m->sets, m->out->view_cells[i]));
     pull_up(m);
     return encode(context, m);
 }
@@ -225,7 +225,7 @@ static sl_status find_homes(sl_context *context, const sl_space *home, const sl_
                             uint32_t **out) {
     uint32_t *homes = sl_alloc_array(context, space->cell_count, sizeof *homes);
     if (!homes) return SL_NO_MEMORY;
-    for (uint32_t i = 0; i < space->cell_count; i++) homes[i] = sl_view_cell_home(home, space, i);
+    for (uint32_t i = 0; i < space->cell_count; i++) homes[i] = sli_view_cell_home(home, space, i);
     *out = homes;
     return SL_OK;
 }
@@ -237,13 +237,13 @@ static sl_point eye_of(const sl_space *space, const sl_view_rows *rows, uint32_t
     for (uint32_t i = 0; i < space->cell_count; i++) {
         if (rows->view_cells[i] != view_cell || sl_space_area(space, i) <= most) continue;
         most = sl_space_area(space, i);
-        eye = sl_view_cell_middle(space, i);
+        eye = sli_view_cell_middle(space, i);
     }
     return eye;
 }
 
 typedef struct coster {
-    sl_view_render render;
+    sli_view_render render;
     uint32_t *homes, *cut, *numbers;
     sl_bits *seen, *homes_seen;
 } coster;
@@ -264,7 +264,7 @@ static sl_status add_costs(sl_context *context, coster *c, const sl_space *space
                 sl_bits_add(c->homes_seen, c->homes[i]);
         const sl_point eye = c->render.even ? (sl_point){0, 0} : eye_of(space, rows, v);
         *cost += hierarchy->mass[c->numbers[v]] *
-                 sl_view_render_set(&c->render, c->homes_seen, home_words, eye);
+                 sli_view_render_set(&c->render, c->homes_seen, home_words, eye);
     }
     return SL_OK;
 }
@@ -276,7 +276,7 @@ sl_status sl_view_rows_cost(sl_context *context, const sl_view_scene *scene, con
         return sl_fail(context, SL_BAD_ARGUMENT, "exact costs are in cells, not in walls");
     coster c = {0};
     double sum = 0;
-    SL_TRY(sl_view_render_make(context, scene, &c.render));
+    SL_TRY(sli_view_render_make(context, scene, &c.render));
     c.cut = sl_alloc_array(context, hierarchy->cell_count, sizeof *c.cut);
     c.numbers = sl_alloc_array(context, cells, sizeof *c.numbers);
     c.seen = sl_alloc_array(context, sl_bits_words(space->cell_count), sizeof *c.seen);
@@ -286,7 +286,7 @@ sl_status sl_view_rows_cost(sl_context *context, const sl_view_scene *scene, con
     if (status == SL_OK) status = find_homes(context, scene->space, space, &c.homes);
     if (status == SL_OK) status = sl_view_cut(context, hierarchy, cells, c.cut, c.numbers);
     if (status == SL_OK) status = add_costs(context, &c, space, rows, hierarchy, &sum);
-    sl_view_render_destroy(context, &c.render);
+    sli_view_render_destroy(context, &c.render);
     sl_free(context, c.homes);
     sl_free(context, c.cut);
     sl_free(context, c.numbers);
@@ -326,7 +326,7 @@ static sl_status find_places(sl_context *context, exact *e) {
     const uint32_t count = e->space.cell_count;
     e->leaves = sl_alloc_array(context, count, sizeof *e->leaves);
     if (!e->leaves) return SL_NO_MEMORY;
-    for (uint32_t i = 0; i < count; i++) e->leaves[i] = sl_view_cell_leaf(e->tree, &e->space, i);
+    for (uint32_t i = 0; i < count; i++) e->leaves[i] = sli_view_cell_leaf(e->tree, &e->space, i);
     return find_homes(context, e->scene->space, &e->space, &e->homes);
 }
 
@@ -335,7 +335,7 @@ static sl_status fill(sl_context *context, exact *e, sl_view_sets *sets) {
     for (uint32_t i = 0; i < count; i++) {
         if (i % 256 == 0) SL_TRY(sl_check_cancelled(context));
         if (!e->space.cells[i].inside || e->leaves[i] >= e->tree->cell_count) continue;
-        sl_bits *set = sl_view_set(sets, e->leaves[i]);
+        sl_bits *set = sli_view_set(sets, e->leaves[i]);
         for (sl_pvs_run run = sl_pvs_begin(&e->visibility.pvs, i); sl_pvs_next(&run);)
             for (uint32_t c = run.first; c < run.end; c++)
                 if (e->homes[c] != SL_NO_CELL) sl_bits_add(set, e->homes[c]);
@@ -356,7 +356,7 @@ sl_status sl_view_sets_exact(sl_context *context, const sl_map *map, const sl_vi
     if (status == SL_OK) status = method->see(context, &e.space, options, &e.visibility);
     if (status == SL_OK) status = find_places(context, &e);
     if (status == SL_OK)
-        status = sl_view_sets_create(context, tree->cell_count, scene->space->cell_count, &sets);
+        status = sli_view_sets_create(context, tree->cell_count, scene->space->cell_count, &sets);
     if (status == SL_OK) status = fill(context, &e, &sets);
     sl_free(context, e.leaves);
     sl_free(context, e.homes);

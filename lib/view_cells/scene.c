@@ -162,7 +162,7 @@ sl_render_cost sl_render_cost_default(void) {
 
 static bool is_between(sl_point a, sl_point b, sl_point p) {
     return fmin(a.x, b.x) <= p.x && p.x <= fmax(a.x, b.x) && fmin(a.y, b.y) <= p.y &&
-           p.y <= fmax(a.y, b.y) && sl_orient(a, b, p) == 0;
+           p.y <= fmax(a.y, b.y) && sli_orient(a, b, p) == 0;
 }
 
 /// The number of pieces of a cell's boundary that are no portal: its walls.
@@ -183,8 +183,8 @@ static uint32_t count_walls(const sl_space *space, const sl_cell *cell) {
     return count;
 }
 
-sl_status sl_view_render_make(sl_context *context, const sl_view_scene *scene,
-                              sl_view_render *out) {
+sl_status sli_view_render_make(sl_context *context, const sl_view_scene *scene,
+                               sli_view_render *out) {
     const sl_render_cost *cost = &scene->cost;
     if (!(cost->a >= 0 && cost->b >= 0 && cost->c >= 0 && isfinite(cost->a + cost->b + cost->c)))
         return sl_fail(context, SL_BAD_ARGUMENT,
@@ -192,7 +192,7 @@ sl_status sl_view_render_make(sl_context *context, const sl_view_scene *scene,
                        cost->c);
     const bool walls = scene->objects == SL_VIEW_WALLS;
     const uint32_t count = walls ? scene->space->wall_count : scene->space->cell_count;
-    sl_view_render made = {.scene = scene, .object_count = count, .even = cost->c == 0};
+    sli_view_render made = {.scene = scene, .object_count = count, .even = cost->c == 0};
     made.fixed = sl_alloc_array(context, count, sizeof *made.fixed);
     if (!made.fixed) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < count; i++) {
@@ -204,9 +204,9 @@ sl_status sl_view_render_make(sl_context *context, const sl_view_scene *scene,
     return SL_OK;
 }
 
-void sl_view_render_destroy(sl_context *context, sl_view_render *render) {
+void sli_view_render_destroy(sl_context *context, sli_view_render *render) {
     sl_free(context, render->fixed);
-    *render = (sl_view_render){0};
+    *render = (sli_view_render){0};
 }
 
 /// The angle from one direction to another, -pi to pi.
@@ -215,7 +215,7 @@ static double turn(sl_point from, sl_point a, sl_point b) {
     return atan2(ax * by - ay * bx, ax * bx + ay * by);
 }
 
-double sl_view_render_share(const sl_view_render *render, uint32_t object, sl_point from) {
+double sli_view_render_share(const sli_view_render *render, uint32_t object, sl_point from) {
     const double full = 6.283185307179586;
     const sl_space *space = render->scene->space;
     if (render->scene->objects == SL_VIEW_WALLS)
@@ -232,8 +232,8 @@ double sl_view_render_share(const sl_view_render *render, uint32_t object, sl_po
     return fmin((high - low) / full, 1);
 }
 
-double sl_view_render_set(const sl_view_render *render, const sl_bits *set, size_t words,
-                          sl_point from) {
+double sli_view_render_set(const sli_view_render *render, const sl_bits *set, size_t words,
+                           sl_point from) {
     if (render->even) {
         uint64_t count = 0;
         for (size_t i = 0; i < words; i++) count += (uint64_t)__builtin_popcountll(set[i]);
@@ -243,7 +243,7 @@ double sl_view_render_set(const sl_view_render *render, const sl_bits *set, size
     for (size_t i = 0; i < words; i++)
         for (sl_bits left = set[i]; left; left &= left - 1) {
             const uint32_t object = (uint32_t)(64 * i) + (uint32_t)__builtin_ctzll(left);
-            sum += sl_view_render_object(render, object, from);
+            sum += sli_view_render_object(render, object, from);
         }
     return sum;
 }

@@ -73,11 +73,11 @@ static bool follow(const sl_outline *outline, uint32_t side, sl_point p, sl_poin
                    line_end *out) {
     for (uint32_t rooms = 0; rooms <= outline->room_count; rooms++) {
         const uint32_t first = side;
-        bool left = sl_orient(p, q, outline->sides[side].start) > 0;
+        bool left = sli_orient(p, q, outline->sides[side].start) > 0;
         while (true) {
             const sl_side *s = &outline->sides[side];
             const sl_point end = outline->sides[s->next].start;
-            const bool then = sl_orient(p, q, end) > 0;
+            const bool then = sli_orient(p, q, end) > 0;
             if (!left && then) break;
             left = then;
             side = s->next;
@@ -101,7 +101,7 @@ static sl_status pass_cells(sl_context *context, const sl_space *space, uint32_t
         const sl_directed_portal *portal = space->directed + space->cells[cell].first_directed;
         const sl_directed_portal *end = portal + space->cells[cell].directed_count;
         while (portal < end &&
-               (sl_orient(p, q, portal->right) > 0 || sl_orient(p, q, portal->left) <= 0))
+               (sli_orient(p, q, portal->right) > 0 || sli_orient(p, q, portal->left) <= 0))
             portal++;
         if (portal == end) return SL_OK;
         cell = portal->cell;
@@ -259,10 +259,10 @@ sl_status sl_view_sample(sl_context *context, const sl_outline *outline,
     const size_t units = (size_t)((options->samples + SAMPLES_A_UNIT - 1) / SAMPLES_A_UNIT);
     sampler s = {outline, options, sl_alloc_array(context, units, sizeof(batch))};
     if (!s.batches) return SL_NO_MEMORY;
-    const sl_work work = {
+    const sli_work work = {
         .job = &s, .unit = sample_unit, .stage = "sample", .units = "bundles of lines"};
     sl_view_segments joined = {0}, made = {.drawn = options->samples};
-    sl_status status = sl_work_run(context, &work, units, options->threads);
+    sl_status status = sli_work_run(context, &work, units, options->threads);
     if (status == SL_OK) status = join(context, s.batches, units, &joined);
     if (status == SL_OK) status = sort(context, &outline->space->bounds, &joined, &made);
     made.empty = joined.empty;
@@ -312,7 +312,7 @@ static sl_status begin(sl_context *context, void *job, void **state) {
     const gathering *g = job;
     gatherer *me = sl_alloc_array(context, 1, sizeof *me);
     if (!me) return SL_NO_MEMORY;
-    if (sl_view_sets_create(context, g->tree->cell_count, g->object_count, &me->sets) != SL_OK) {
+    if (sli_view_sets_create(context, g->tree->cell_count, g->object_count, &me->sets) != SL_OK) {
         sl_free(context, me);
         return SL_NO_MEMORY;
     }
@@ -346,8 +346,8 @@ static sl_status wait(sl_context *context, gatherer *me, int32_t at, double t0, 
 static sl_status pass_node(sl_context *context, const gathering *g, gatherer *me, descent d,
                            const sl_segment *s) {
     const sl_view_node *node = &g->tree->nodes[d.at];
-    const double a = sl_view_node_side(g->tree, node, s->a),
-                 b = sl_view_node_side(g->tree, node, s->b);
+    const double a = sli_view_node_side(g->tree, node, s->a),
+                 b = sli_view_node_side(g->tree, node, s->b);
     const double from = a + d.t0 * (b - a), to = a + d.t1 * (b - a);
     if (from < 0 && to < 0) return wait(context, me, node->below, d.t0, d.t1);
     if (from >= 0 && to >= 0) return wait(context, me, node->above, d.t0, d.t1);
@@ -376,7 +376,7 @@ static sl_status gather_unit(sl_context *context, void *job, void *state, size_t
             }
             const uint32_t leaf = (uint32_t)~d.at;
             if (leaf >= g->tree->cell_count) continue;
-            sl_bits *row = sl_view_set(&me->sets, leaf);
+            sl_bits *row = sli_view_set(&me->sets, leaf);
             for (uint64_t k = segments->first[i]; k < segments->first[i + 1]; k++)
                 sl_bits_add(row, segments->objects[k]);
         }
@@ -391,17 +391,17 @@ sl_status sl_view_sets_sample(sl_context *context, const sl_view_scene *scene,
     gathering g = {.tree = tree, .segments = segments};
     g.object_count = scene->objects == SL_VIEW_WALLS ? space->wall_count : space->cell_count;
     const uint64_t bytes = (uint64_t)tree->cell_count * sl_bits_words(g.object_count) * 8 + 1;
-    if (!threads) threads = sl_core_count();
+    if (!threads) threads = sli_core_count();
     if (threads > MOST_SET_BYTES / bytes) threads = (unsigned)(MOST_SET_BYTES / bytes);
     pthread_mutex_init(&g.lock, NULL);
-    const sl_work work = {.job = &g,
-                          .begin = begin,
-                          .unit = gather_unit,
-                          .end = end,
-                          .stage = "see",
-                          .units = "bundles of lines"};
+    const sli_work work = {.job = &g,
+                           .begin = begin,
+                           .unit = gather_unit,
+                           .end = end,
+                           .stage = "see",
+                           .units = "bundles of lines"};
     const size_t units = (segments->count + (size_t)SEGMENTS_A_UNIT) / SEGMENTS_A_UNIT;
-    const sl_status status = sl_work_run(context, &work, units, threads ? threads : 1);
+    const sl_status status = sli_work_run(context, &work, units, threads ? threads : 1);
     pthread_mutex_destroy(&g.lock);
     if (status == SL_OK)
         *out = g.sets;

@@ -28,7 +28,7 @@
 // --- across an axis
 
 static int compare_events(const void *left, const void *right) {
-    const double a = ((const sl_view_event *)left)->at, b = ((const sl_view_event *)right)->at;
+    const double a = ((const sli_view_event *)left)->at, b = ((const sli_view_event *)right)->at;
     return (a > b) - (a < b);
 }
 
@@ -37,27 +37,27 @@ static int compare_positions(const void *left, const void *right) {
     return (a > b) - (a < b);
 }
 
-void sl_view_find_extents(sl_view_divider *d, sl_view_part *part) {
+void sli_view_find_extents(sli_view_divider *d, sli_view_part *part) {
     if (d->pieces) {
-        sl_view_find_piece_extents(d, part);
+        sli_view_find_piece_extents(d, part);
         return;
     }
-    const sl_point middle = sl_view_part_middle(part);
-    const size_t step = sl_view_step(d, part);
+    const sl_point middle = sli_view_part_middle(part);
+    const size_t step = sli_view_step(d, part);
     d->seen.count = 0;
     part->seen = 0;
     for (size_t i = 0; i < part->segments.count; i += step) {
         const uint32_t number = part->segments.items[i];
-        const sl_segment inner = sl_view_part_clip(part, &d->segments->items[number]);
+        const sl_segment inner = sli_view_part_clip(part, &d->segments->items[number]);
         const bool right = inner.a.x < inner.b.x, up = inner.a.y < inner.b.y;
         const double x0 = right ? inner.a.x : inner.b.x, x1 = right ? inner.b.x : inner.a.x;
         const double y0 = up ? inner.a.y : inner.b.y, y1 = up ? inner.b.y : inner.a.y;
         for (uint64_t k = d->segments->first[number]; k < d->segments->first[number + 1]; k++) {
             const uint32_t object = d->segments->objects[k];
-            sl_view_extent *extent = &d->extents[object];
+            sli_view_extent *extent = &d->extents[object];
             if (extent->low[0] == INFINITY) {
                 d->seen.items[d->seen.count++] = object;
-                part->seen += sl_view_render_object(&d->render, object, middle);
+                part->seen += sli_view_render_object(&d->render, object, middle);
             }
             if (x0 < extent->low[0]) extent->low[0] = x0;
             if (x1 > extent->high[0]) extent->high[0] = x1;
@@ -67,26 +67,26 @@ void sl_view_find_extents(sl_view_divider *d, sl_view_part *part) {
     }
 }
 
-void sl_view_forget_extents(sl_view_divider *d) {
-    for (size_t i = 0; i < d->seen.count; i++) d->extents[d->seen.items[i]] = sl_view_no_extent();
+void sli_view_forget_extents(sli_view_divider *d) {
+    for (size_t i = 0; i < d->seen.count; i++) d->extents[d->seen.items[i]] = sli_view_no_extent();
 }
 
-static sl_status add_event(sl_context *context, sl_view_events *events, double at, double cost) {
+static sl_status add_event(sl_context *context, sli_view_events *events, double at, double cost) {
     SL_TRY(SL_ARRAY_ROOM(context, events, 1));
-    events->items[events->count++] = (sl_view_event){at, cost};
+    events->items[events->count++] = (sli_view_event){at, cost};
     return SL_OK;
 }
 
 /// Gathers where objects start and end to be seen between the borders. *below: the cost of those
 /// seen from the lower border on.
-static sl_status gather_events(sl_view_divider *d, const sl_view_part *part, int axis, double low,
+static sl_status gather_events(sli_view_divider *d, const sli_view_part *part, int axis, double low,
                                double high, double *below) {
-    const sl_point middle = sl_view_part_middle(part);
+    const sl_point middle = sli_view_part_middle(part);
     d->starts.count = d->ends.count = 0;
     *below = 0;
     for (size_t i = 0; i < d->seen.count; i++) {
         const uint32_t object = d->seen.items[i];
-        const double cost = sl_view_render_object(&d->render, object, middle);
+        const double cost = sli_view_render_object(&d->render, object, middle);
         const double start = d->extents[object].low[axis], end = d->extents[object].high[axis];
         if (start <= low)
             *below += cost;
@@ -103,8 +103,8 @@ static sl_status gather_events(sl_view_divider *d, const sl_view_part *part, int
     return SL_OK;
 }
 
-static sl_status add_positions(sl_context *context, sl_view_divider *d,
-                               const sl_view_events *events, double low, double high) {
+static sl_status add_positions(sl_context *context, sli_view_divider *d,
+                               const sli_view_events *events, double low, double high) {
     SL_TRY(SL_ARRAY_ROOM(context, &d->positions, events->count));
     for (size_t i = 0; i < events->count; i++) {
         // A map can have no coordinate just above 0.
@@ -116,7 +116,7 @@ static sl_status add_positions(sl_context *context, sl_view_divider *d,
 }
 
 /// All positions that can be best, or a random choice of as many as the options allow, in order.
-static sl_status gather_positions(sl_view_divider *d, double low, double high) {
+static sl_status gather_positions(sli_view_divider *d, double low, double high) {
     const double margin = SLIVER * (high - low);
     d->positions.count = 0;
     SL_TRY(add_positions(d->context, d, &d->starts, low + margin, high - margin));
@@ -136,21 +136,21 @@ static sl_status gather_positions(sl_view_divider *d, double low, double high) {
 }
 
 /// Of two splits with equal gains the one nearer to the middle is better.
-static bool is_better(const sl_view_split *split, const sl_view_split *best,
-                      const sl_view_part *part) {
+static bool is_better(const sli_view_split *split, const sli_view_split *best,
+                      const sli_view_part *part) {
     if (split->gain != best->gain) return split->gain > best->gain;
     if (best->axis == 2 || split->axis != best->axis) return false;
     const double middle =
-        sl_along(part->box.min, split->axis) / 2 + sl_along(part->box.max, split->axis) / 2;
+        sli_along(part->box.min, split->axis) / 2 + sli_along(part->box.max, split->axis) / 2;
     return fabs(split->position - middle) < fabs(best->position - middle);
 }
 
-static void weigh_positions(sl_view_divider *d, const sl_view_part *part, int axis, double below,
-                            sl_view_split *best) {
+static void weigh_positions(sli_view_divider *d, const sli_view_part *part, int axis, double below,
+                            sli_view_split *best) {
     double above = part->seen;
     size_t start = 0, end = 0;
     for (size_t i = 0; i < d->positions.count; i++) {
-        sl_view_split split = {.axis = axis, .position = d->positions.items[i]};
+        sli_view_split split = {.axis = axis, .position = d->positions.items[i]};
         if (i && split.position == d->positions.items[i - 1]) continue;
         for (; start < d->starts.count && d->starts.items[start].at < split.position; start++)
             below += d->starts.items[start].cost;
@@ -158,15 +158,16 @@ static void weigh_positions(sl_view_divider *d, const sl_view_part *part, int ax
             above -= d->ends.items[end].cost;
         // The gain is at most this, however the mass is shared.
         if (part->mass * (part->seen - fmin(below, above)) <= best->gain) continue;
-        const double mass = sl_view_share_below(&part->share, &split);
+        const double mass = sli_view_share_below(&part->share, &split);
         split.gain = mass * (part->seen - below) + (part->mass - mass) * (part->seen - above);
         if (is_better(&split, best, part)) *best = split;
     }
 }
 
-sl_status sl_view_choose_axes(sl_view_divider *d, const sl_view_part *part, sl_view_split *best) {
+sl_status sli_view_choose_axes(sli_view_divider *d, const sli_view_part *part,
+                               sli_view_split *best) {
     for (int axis = 0; axis < 2; axis++) {
-        const double low = sl_along(part->box.min, axis), high = sl_along(part->box.max, axis);
+        const double low = sli_along(part->box.min, axis), high = sli_along(part->box.max, axis);
         double below;
         SL_TRY(gather_events(d, part, axis, low, high, &below));
         SL_TRY(gather_positions(d, low, high));
@@ -178,19 +179,21 @@ sl_status sl_view_choose_axes(sl_view_divider *d, const sl_view_part *part, sl_v
 // --- along walls
 
 /// Whether a wall lies on the line of one of the splits that bound a part.
-static bool is_on_border(const sl_view_divider *d, const sl_view_part *part, const sl_wall *wall) {
+static bool is_on_border(const sli_view_divider *d, const sli_view_part *part,
+                         const sl_wall *wall) {
     for (size_t i = 0; i < part->edges.count; i++) {
         if (part->edges.items[i] == UINT32_MAX) continue;
         const sl_view_node *node = &d->nodes.items[part->edges.items[i]];
         if (node->axis < 2) continue;
         const sl_segment *l = &d->lines.items[node->line];
-        if (sl_orient(l->a, l->b, wall->a) == 0 && sl_orient(l->a, l->b, wall->b) == 0) return true;
+        if (sli_orient(l->a, l->b, wall->a) == 0 && sli_orient(l->a, l->b, wall->b) == 0)
+            return true;
     }
     return false;
 }
 
 /// Whether a wall goes inside a part. Rounded: it only chooses which splits to try.
-static bool goes_into(const sl_view_part *part, const sl_wall *wall) {
+static bool goes_into(const sli_view_part *part, const sl_wall *wall) {
     double t0 = 0, t1 = 1;
     const double dx = wall->b.x - wall->a.x, dy = wall->b.y - wall->a.y;
     for (size_t i = 0; i < part->corners.count; i++) {
@@ -207,24 +210,24 @@ static bool goes_into(const sl_view_part *part, const sl_wall *wall) {
 }
 
 /// Whether the split leaves corners of the part strictly on both sides.
-static bool divides(const sl_view_part *part, const sl_view_split *split) {
+static bool divides(const sli_view_part *part, const sli_view_split *split) {
     bool below = false, above = false;
     for (size_t i = 0; i < part->corners.count; i++) {
-        const double side = sl_view_side(split, part->corners.items[i]);
+        const double side = sli_view_side(split, part->corners.items[i]);
         below = below || side < 0;
         above = above || side > 0;
     }
     return below && above;
 }
 
-sl_view_split sl_view_split_along(const sl_wall *wall) {
-    if (wall->a.x == wall->b.x) return (sl_view_split){.axis = 0, .position = wall->a.x};
-    if (wall->a.y == wall->b.y) return (sl_view_split){.axis = 1, .position = wall->a.y};
-    return (sl_view_split){.axis = 2, .line = {wall->a, wall->b}};
+sli_view_split sli_view_split_along(const sl_wall *wall) {
+    if (wall->a.x == wall->b.x) return (sli_view_split){.axis = 0, .position = wall->a.x};
+    if (wall->a.y == wall->b.y) return (sli_view_split){.axis = 1, .position = wall->a.y};
+    return (sli_view_split){.axis = 2, .line = {wall->a, wall->b}};
 }
 
-sl_status sl_view_walls_within(sl_view_divider *d, const sl_view_part *part, uint32_t most,
-                               sl_view_numbers *out) {
+sl_status sli_view_walls_within(sli_view_divider *d, const sli_view_part *part, uint32_t most,
+                                sli_view_numbers *out) {
     const sl_space *space = d->scene->space;
     const sl_box *box = &part->box;
     out->count = 0;
@@ -234,7 +237,7 @@ sl_status sl_view_walls_within(sl_view_divider *d, const sl_view_part *part, uin
             fmax(w->a.y, w->b.y) < box->min.y || fmin(w->a.y, w->b.y) > box->max.y ||
             !goes_into(part, w) || is_on_border(d, part, w))
             continue;
-        const sl_view_split split = sl_view_split_along(w);
+        const sli_view_split split = sli_view_split_along(w);
         if (!divides(part, &split)) continue;
         SL_TRY(SL_ARRAY_ROOM(d->context, out, 1));
         out->items[out->count++] = i;
@@ -249,21 +252,23 @@ sl_status sl_view_walls_within(sl_view_divider *d, const sl_view_part *part, uin
     return SL_OK;
 }
 
-static sl_status clip_all(sl_view_divider *d, const sl_view_part *part) {
+static sl_status clip_all(sli_view_divider *d, const sli_view_part *part) {
     SL_TRY(SL_ARRAY_ROOM(d->context, &d->clipped, part->segments.count));
-    const size_t step = sl_view_step(d, part);
+    const size_t step = sli_view_step(d, part);
     for (size_t i = 0; i < part->segments.count; i += step)
-        d->clipped.items[i] = sl_view_part_clip(part, &d->segments->items[part->segments.items[i]]);
+        d->clipped.items[i] =
+            sli_view_part_clip(part, &d->segments->items[part->segments.items[i]]);
     return SL_OK;
 }
 
 /// Marks the sides of a split from which each object is seen.
-static void mark_sides(sl_view_divider *d, const sl_view_part *part, const sl_view_split *split) {
-    const size_t step = sl_view_step(d, part);
+static void mark_sides(sli_view_divider *d, const sli_view_part *part,
+                       const sli_view_split *split) {
+    const size_t step = sli_view_step(d, part);
     d->seen.count = 0;
     for (size_t i = 0; i < part->segments.count; i += step) {
-        const double a = sl_view_side(split, d->clipped.items[i].a);
-        const double b = sl_view_side(split, d->clipped.items[i].b);
+        const double a = sli_view_side(split, d->clipped.items[i].a);
+        const double b = sli_view_side(split, d->clipped.items[i].b);
         const uint8_t sides =
             (uint8_t)((a < 0 || b < 0) | ((a > 0 || b > 0 || (a >= 0 && b >= 0)) << 1));
         const uint64_t *first = &d->segments->first[part->segments.items[i]];
@@ -275,29 +280,30 @@ static void mark_sides(sl_view_divider *d, const sl_view_part *part, const sl_vi
     }
 }
 
-static void weigh_line(sl_view_divider *d, const sl_view_part *part, sl_view_split *split,
-                       sl_view_split *best) {
-    const sl_point middle = sl_view_part_middle(part);
+static void weigh_line(sli_view_divider *d, const sli_view_part *part, sli_view_split *split,
+                       sli_view_split *best) {
+    const sl_point middle = sli_view_part_middle(part);
     double below = 0, above = 0;
     mark_sides(d, part, split);
     for (size_t i = 0; i < d->seen.count; i++) {
         const uint32_t object = d->seen.items[i];
-        const double cost = sl_view_render_object(&d->render, object, middle);
+        const double cost = sli_view_render_object(&d->render, object, middle);
         if (d->sides[object] & 1) below += cost;
         if (d->sides[object] & 2) above += cost;
         d->sides[object] = 0;
     }
-    const double mass = sl_view_share_below(&part->share, split);
+    const double mass = sli_view_share_below(&part->share, split);
     split->gain = mass * (part->seen - below) + (part->mass - mass) * (part->seen - above);
     if (split->gain > best->gain) *best = *split;
 }
 
-sl_status sl_view_choose_walls(sl_view_divider *d, const sl_view_part *part, sl_view_split *best) {
-    SL_TRY(sl_view_walls_within(d, part, d->options->wall_splits, &d->walls));
+sl_status sli_view_choose_walls(sli_view_divider *d, const sli_view_part *part,
+                                sli_view_split *best) {
+    SL_TRY(sli_view_walls_within(d, part, d->options->wall_splits, &d->walls));
     if (!d->walls.count) return SL_OK;
     SL_TRY(clip_all(d, part));
     for (size_t i = 0; i < d->walls.count; i++) {
-        sl_view_split split = sl_view_split_along(&d->scene->space->walls[d->walls.items[i]]);
+        sli_view_split split = sli_view_split_along(&d->scene->space->walls[d->walls.items[i]]);
         weigh_line(d, part, &split, best);
     }
     return SL_OK;

@@ -37,7 +37,7 @@ uint32_t sl_view_tree_locate(const sl_view_tree *tree, sl_point point) {
             below = (node->axis ? point.y : point.x) < node->position;
         } else {
             const sl_segment *line = &tree->lines[node->line];
-            below = sl_orient(line->a, line->b, point) < 0;
+            below = sli_orient(line->a, line->b, point) < 0;
         }
         at = below ? node->below : node->above;
     }
@@ -54,17 +54,17 @@ static sl_point middle_of(const sl_point *corners, uint32_t count) {
     return (sl_point){corners[0].x + sum.x, corners[0].y + sum.y};
 }
 
-sl_point sl_view_leaf_middle(const sl_view_tree *tree, uint32_t leaf) {
+sl_point sli_view_leaf_middle(const sl_view_tree *tree, uint32_t leaf) {
     return middle_of(tree->corners + tree->first[leaf], tree->first[leaf + 1] - tree->first[leaf]);
 }
 
-sl_point sl_view_cell_middle(const sl_space *space, uint32_t cell) {
+sl_point sli_view_cell_middle(const sl_space *space, uint32_t cell) {
     const sl_cell *c = &space->cells[cell];
     return middle_of(space->vertices + c->first_vertex, c->vertex_count);
 }
 
-uint32_t sl_view_cell_home(const sl_space *homes, const sl_space *space, uint32_t cell) {
-    if (homes->neighbour) return sl_space_locate(homes, sl_view_cell_middle(space, cell));
+uint32_t sli_view_cell_home(const sl_space *homes, const sl_space *space, uint32_t cell) {
+    if (homes->neighbour) return sl_space_locate(homes, sli_view_cell_middle(space, cell));
     const sl_cell *c = &space->cells[cell];
     sl_point least = space->vertices[c->first_vertex];
     for (uint32_t i = 1; i < c->vertex_count; i++) {
@@ -74,14 +74,15 @@ uint32_t sl_view_cell_home(const sl_space *homes, const sl_space *space, uint32_
     return sl_space_locate(homes, least);
 }
 
-uint32_t sl_view_cell_leaf(const sl_view_tree *tree, const sl_space *space, uint32_t cell) {
+uint32_t sli_view_cell_leaf(const sl_view_tree *tree, const sl_space *space, uint32_t cell) {
     const sl_cell *c = &space->cells[cell];
     int32_t at = tree->root;
     while (at >= 0) {
         const sl_view_node *node = &tree->nodes[at];
         double least = 0, most = 0;
         for (uint32_t i = 0; i < c->vertex_count; i++) {
-            const double side = sl_view_node_side(tree, node, space->vertices[c->first_vertex + i]);
+            const double side =
+                sli_view_node_side(tree, node, space->vertices[c->first_vertex + i]);
             least = fmin(least, side);
             most = fmax(most, side);
         }
@@ -102,8 +103,8 @@ void sl_view_found_destroy(sl_context *context, sl_view_found *found) {
     *found = (sl_view_found){0};
 }
 
-sl_status sl_view_sets_create(sl_context *context, uint32_t count, uint32_t object_count,
-                              sl_view_sets *sets) {
+sl_status sli_view_sets_create(sl_context *context, uint32_t count, uint32_t object_count,
+                               sl_view_sets *sets) {
     const size_t words = sl_bits_words(object_count);
     if (words && count > SIZE_MAX / words) return sl_fail_memory(context);
     uint64_t *bits = sl_alloc_array(context, count * words, sizeof *bits);
@@ -168,14 +169,14 @@ static sl_status gather(sl_context *context, const sl_view_tree *tree, sides *al
 
 /// Sides on either side of one split, in order along it: below[0 .. middle), then above.
 static sl_status pair_up(sl_context *context, const side *below, const side *middle,
-                         const side *end, sl_view_pairs *out) {
+                         const side *end, sli_view_pairs *out) {
     const side *above = middle;
     while (below < middle && above < end) {
         if (fmax(below->low, above->low) < fmin(below->high, above->high)) {
             SL_TRY(SL_ARRAY_ROOM(context, out, 1));
             const sl_segment shared = {below->low > above->low ? below->from : above->from,
                                        below->high < above->high ? below->to : above->to};
-            out->items[out->count++] = (sl_view_pair){below->leaf, above->leaf, shared};
+            out->items[out->count++] = (sli_view_pair){below->leaf, above->leaf, shared};
         }
         if (below->high <= above->high)
             below++;
@@ -185,7 +186,7 @@ static sl_status pair_up(sl_context *context, const side *below, const side *mid
     return SL_OK;
 }
 
-sl_status sl_view_neighbours(sl_context *context, const sl_view_tree *tree, sl_view_pairs *out) {
+sl_status sli_view_neighbours(sl_context *context, const sl_view_tree *tree, sli_view_pairs *out) {
     sides all = {0};
     sl_status status = gather(context, tree, &all);
     if (status == SL_OK && all.count) qsort(all.items, all.count, sizeof *all.items, compare_sides);
@@ -202,14 +203,14 @@ sl_status sl_view_neighbours(sl_context *context, const sl_view_tree *tree, sl_v
 
 sl_status sl_view_borders(sl_context *context, const sl_view_tree *tree, const uint32_t *view_cells,
                           sl_segment **borders, size_t *count) {
-    sl_view_pairs pairs = {0};
-    sl_status status = sl_view_neighbours(context, tree, &pairs);
+    sli_view_pairs pairs = {0};
+    sl_status status = sli_view_neighbours(context, tree, &pairs);
     sl_segment *made = NULL;
     if (status == SL_OK) made = sl_alloc_array(context, pairs.count, sizeof *made);
     if (status == SL_OK && !made) status = SL_NO_MEMORY;
     size_t found = 0;
     for (size_t i = 0; i < pairs.count && status == SL_OK; i++) {
-        const sl_view_pair *p = &pairs.items[i];
+        const sli_view_pair *p = &pairs.items[i];
         const uint32_t a = p->a < tree->cell_count ? view_cells[p->a] : SL_NO_VIEW_CELL;
         const uint32_t b = p->b < tree->cell_count ? view_cells[p->b] : SL_NO_VIEW_CELL;
         if (a != b) made[found++] = p->shared;

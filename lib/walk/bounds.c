@@ -35,7 +35,7 @@ static double length_of(double x, double y) {
 }
 
 /// No more than the distance from a point to the line through two others; 0 where rounding leaves
-/// nothing that is sure. The bound on the determinant is that of sl_turn_filter, with room.
+/// nothing that is sure. The bound on the determinant is that of sli_turn_filter, with room.
 static double clearance(sl_point p, sl_point a, sl_point b) {
     const double ax = a.x - p.x, ay = a.y - p.y, bx = b.x - p.x, by = b.y - p.y;
     const double left = ax * by, right = ay * bx;
@@ -45,32 +45,32 @@ static double clearance(sl_point p, sl_point a, sl_point b) {
     return distance > 0 ? distance : 0; // not NaN, where it overflows
 }
 
-double sl_walk_moved(sl_point from, sl_point to) {
+double sli_walk_moved(sl_point from, sl_point to) {
     return length_of(to.x - from.x, to.y - from.y) * (1 + SLACK) + 0x1p-900;
 }
 
-static bool hides_from(const sl_occluder *o, const sl_shape *shape) {
+static bool hides_from(const sli_occluder *o, const sli_shape *shape) {
     for (uint32_t k = 0; k < shape->count; k++)
-        if (sl_orient(o->a, o->b, shape->corners[k]) > 0) return false;
+        if (sli_orient(o->a, o->b, shape->corners[k]) > 0) return false;
     return true;
 }
 
 /// The occluder that begins right of a point (or is in line with it) and ends farthest to the left,
 /// of those that the shape is behind. NULL for none that gets past the point.
-static const sl_occluder *farthest(const sl_shadows *s, const sl_shape *shape, sl_point from) {
+static const sli_occluder *farthest(const sli_shadows *s, const sli_shape *shape, sl_point from) {
     const sl_point eye = s->pivot.eye;
-    const sl_occluder *best = NULL;
+    const sli_occluder *best = NULL;
     for (size_t i = 0; i < s->occluders.count; i++) {
-        const sl_occluder *o = &s->occluders.items[i];
-        if (sl_orient(eye, o->a, from) < 0 || sl_orient(eye, from, o->b) <= 0) continue;
-        if (best && sl_orient(eye, best->b, o->b) <= 0) continue;
+        const sli_occluder *o = &s->occluders.items[i];
+        if (sli_orient(eye, o->a, from) < 0 || sli_orient(eye, from, o->b) <= 0) continue;
+        if (best && sli_orient(eye, best->b, o->b) <= 0) continue;
         if (hides_from(o, shape)) best = o;
     }
     return best;
 }
 
 /// The least clearance of an eye from the lines through a point and a shape's corners.
-static double clear_of_corners(sl_point eye, sl_point end, const sl_shape *shape) {
+static double clear_of_corners(sl_point eye, sl_point end, const sli_shape *shape) {
     double least = INFINITY;
     for (uint32_t k = 0; k < shape->count; k++) {
         const sl_point c = shape->corners[k];
@@ -79,24 +79,24 @@ static double clear_of_corners(sl_point eye, sl_point end, const sl_shape *shape
     return least;
 }
 
-double sl_walk_hidden_bound(sl_walk *w, const sl_node_view *seen) {
-    sl_shadows *s = &w->occlusion->shadows;
+double sli_walk_hidden_bound(sl_walk *w, const sli_node_view *seen) {
+    sli_shadows *s = &w->occlusion->shadows;
     const sl_point eye = s->pivot.eye;
     // The part outside the cone must be hidden too: the cone may turn.
-    if (sl_shape_wedges(&s->pivot, &seen->shape, w->wedges) != 1) return 0;
+    if (sli_shape_wedges(&s->pivot, &seen->shape, w->wedges) != 1) return 0;
     const sl_point left = w->wedges[0].left.point;
     sl_point at = w->wedges[0].right.point;
     double bound = INFINITY;
-    const sl_occluder *before = NULL;
+    const sli_occluder *before = NULL;
     while (bound > 0) {
-        const sl_occluder *o = farthest(s, &seen->shape, at);
+        const sli_occluder *o = farthest(s, &seen->shape, at);
         if (!o) return 0;
         bound = fmin(bound, clearance(eye, o->a, o->b));
         if (!before)
             bound = fmin(bound, clear_of_corners(eye, o->a, &seen->shape));
         else if (before->b.x != o->a.x || before->b.y != o->a.y)
             bound = fmin(bound, clearance(eye, o->a, before->b));
-        if (sl_orient(eye, left, o->b) >= 0)
+        if (sli_orient(eye, left, o->b) >= 0)
             return fmin(bound, clear_of_corners(eye, o->b, &seen->shape));
         before = o;
         at = o->b;
@@ -121,32 +121,32 @@ static bool is_ahead(sl_point p, sl_point q, sl_point back, sl_point front) {
 /// No more than the distance from the eye to the ray that starts at an end and leads straight away
 /// from a corner.
 static double to_ray(sl_point eye, sl_point end, sl_point corner) {
-    if (sl_same_point(end, corner)) return INFINITY; // the shape has other corners
+    if (sli_same_point(end, corner)) return INFINITY; // the shape has other corners
     return is_ahead(end, eye, corner, end) ? clearance(eye, corner, end) : distance(eye, end);
 }
 
 /// No more than the distance from the eye to an occluder.
-static double to_occluder(sl_point eye, const sl_occluder *o) {
+static double to_occluder(sl_point eye, const sli_occluder *o) {
     if (!is_ahead(o->a, eye, o->a, o->b)) return distance(eye, o->a);
     if (!is_ahead(o->b, eye, o->b, o->a)) return distance(eye, o->b);
     return clearance(eye, o->a, o->b);
 }
 
 /// Whether an occluder is on one side of a line, on it included: 1 for the left.
-static bool is_beside(sl_point from, sl_point to, const sl_occluder *o, int side) {
-    return sl_orient(from, to, o->a) * side >= 0 && sl_orient(from, to, o->b) * side >= 0;
+static bool is_beside(sl_point from, sl_point to, const sli_occluder *o, int side) {
+    return sli_orient(from, to, o->a) * side >= 0 && sli_orient(from, to, o->b) * side >= 0;
 }
 
 /// Whether an occluder meets the line of sight to a point; true where all is in line.
-static bool meets_sight(sl_point eye, sl_point at, const sl_occluder *o) {
-    return sl_orient(o->a, o->b, eye) * sl_orient(o->a, o->b, at) <= 0 &&
-           sl_orient(eye, at, o->a) * sl_orient(eye, at, o->b) <= 0;
+static bool meets_sight(sl_point eye, sl_point at, const sli_occluder *o) {
+    return sli_orient(o->a, o->b, eye) * sli_orient(o->a, o->b, at) <= 0 &&
+           sli_orient(eye, at, o->a) * sli_orient(eye, at, o->b) <= 0;
 }
 
 /// Whether an occluder stays clear of the line of sight to a point, or of the inside of the hull of
 /// the eye and a node. Two convex sets are apart where the line of a side of one separates them.
-static bool is_clear(sl_point eye, const sl_shape *shape, const sl_wedge *wedge,
-                     const sl_occluder *o) {
+static bool is_clear(sl_point eye, const sli_shape *shape, const sli_wedge *wedge,
+                     const sli_occluder *o) {
     if (shape->count == 1) return !meets_sight(eye, shape->corners[0], o);
     if (wedge &&
         (is_beside(eye, wedge->right.point, o, -1) || is_beside(eye, wedge->left.point, o, 1)))
@@ -154,15 +154,15 @@ static bool is_clear(sl_point eye, const sl_shape *shape, const sl_wedge *wedge,
     bool before = true;
     for (uint32_t k = 0; k < shape->count; k++) {
         const sl_point from = shape->corners[k], to = shape->corners[(k + 1) % shape->count];
-        if (sl_orient(from, to, eye) >= 0 && is_beside(from, to, o, -1)) return true;
-        before = before && sl_orient(o->a, o->b, from) >= 0;
+        if (sli_orient(from, to, eye) >= 0 && is_beside(from, to, o, -1)) return true;
+        before = before && sli_orient(o->a, o->b, from) >= 0;
     }
     return before;
 }
 
 /// Whether an occluder is at least a bound away from the box of the hull. It then cannot matter:
 /// the hull moves no farther than the eye.
-static bool is_far(const sl_box *hull, const sl_occluder *o, double bound) {
+static bool is_far(const sl_box *hull, const sli_occluder *o, double bound) {
     const double reach = bound * (1 + SLACK);
     return fmin(o->a.x, o->b.x) - hull->max.x > reach ||
            hull->min.x - fmax(o->a.x, o->b.x) > reach ||
@@ -171,7 +171,7 @@ static bool is_far(const sl_box *hull, const sl_occluder *o, double bound) {
 
 /// No more than the distance from the eye to a place where an occluder hides something of a shape,
 /// and no more than `bound`.
-static double to_shadow(sl_point eye, const sl_shape *shape, const sl_occluder *o, double bound) {
+static double to_shadow(sl_point eye, const sli_shape *shape, const sli_occluder *o, double bound) {
     bound = fmin(bound, to_occluder(eye, o));
     for (uint32_t k = 0; k < shape->count; k++) {
         bound = fmin(bound, to_ray(eye, o->a, shape->corners[k]));
@@ -181,14 +181,14 @@ static double to_shadow(sl_point eye, const sl_shape *shape, const sl_occluder *
 }
 
 /// How far the eye may move with a shape in view; 0 where that is not more than `least`.
-static double seen_bound(sl_walk *w, const sl_shape *shape, const sl_wedge *wedge, double least) {
-    const sl_shadows *s = &w->occlusion->shadows;
+static double seen_bound(sl_walk *w, const sli_shape *shape, const sli_wedge *wedge, double least) {
+    const sli_shadows *s = &w->occlusion->shadows;
     const sl_point eye = s->pivot.eye;
     const sl_box hull = {{fmin(eye.x, shape->box.min.x), fmin(eye.y, shape->box.min.y)},
                          {fmax(eye.x, shape->box.max.x), fmax(eye.y, shape->box.max.y)}};
     double bound = w->moved > 0 ? FAR * w->moved : INFINITY;
     for (size_t i = 0; i < s->occluders.count && bound > 0; i++) {
-        const sl_occluder *o = &s->occluders.items[i];
+        const sli_occluder *o = &s->occluders.items[i];
         if (is_far(&hull, o, bound)) continue;
         bound = to_shadow(eye, shape, o, bound);
         if (!(bound > least) || !is_clear(eye, shape, wedge, o)) bound = 0;
@@ -196,21 +196,21 @@ static double seen_bound(sl_walk *w, const sl_shape *shape, const sl_wedge *wedg
     return bound;
 }
 
-double sl_walk_whole_bound(sl_walk *w, const sl_node_view *seen) {
-    sl_pivot *pivot = &w->occlusion->shadows.pivot;
-    const bool outside = sl_shape_wedges(pivot, &seen->shape, w->wedges) == 1;
+double sli_walk_whole_bound(sl_walk *w, const sli_node_view *seen) {
+    sli_pivot *pivot = &w->occlusion->shadows.pivot;
+    const bool outside = sli_shape_wedges(pivot, &seen->shape, w->wedges) == 1;
     return seen_bound(w, &seen->shape, outside ? w->wedges : NULL, w->moved);
 }
 
-static bool holds_inside(const sl_shape *shape, sl_point p) {
+static bool holds_inside(const sli_shape *shape, sl_point p) {
     for (uint32_t k = 0; k < shape->count; k++)
-        if (sl_orient(shape->corners[k], shape->corners[(k + 1) % shape->count], p) <= 0)
+        if (sli_orient(shape->corners[k], shape->corners[(k + 1) % shape->count], p) <= 0)
             return false;
     return true;
 }
 
-double sl_walk_witness_bound(sl_walk *w, const sl_node_view *seen, sl_point *witness) {
-    const sl_shape *shape = &seen->shape;
+double sli_walk_witness_bound(sl_walk *w, const sli_node_view *seen, sl_point *witness) {
+    const sli_shape *shape = &seen->shape;
     sl_point middle = {0, 0};
     for (uint32_t k = 0; k < shape->count; k++) {
         middle.x += shape->corners[k].x / shape->count;
@@ -225,7 +225,7 @@ double sl_walk_witness_bound(sl_walk *w, const sl_node_view *seen, sl_point *wit
             at.y += PULL * (corner.y - middle.y);
         }
         if (!sl_view_holds(&w->view, at) || !holds_inside(shape, at)) continue;
-        const sl_shape point = {&at, 1, {at, at}, false};
+        const sli_shape point = {&at, 1, {at, at}, false};
         const double bound = seen_bound(w, &point, NULL, fmax(best, w->moved));
         if (bound > best) {
             best = bound;

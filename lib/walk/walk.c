@@ -22,8 +22,8 @@
 // --- the methods
 
 static const sl_node_test tests[] = {
-    {"tree", "shadows merged into a binary tree of directions", &sl_occlusion_tree},
-    {"intervals", "shadows merged into an array of angular intervals", &sl_occlusion_intervals},
+    {"tree", "shadows merged into a binary tree of directions", &sli_occlusion_tree},
+    {"intervals", "shadows merged into an array of angular intervals", &sli_occlusion_intervals},
 };
 
 const sl_node_test *sl_node_tests(size_t *count) {
@@ -34,19 +34,19 @@ const sl_node_test *sl_node_tests(size_t *count) {
 static const sl_walk_method methods[] = {
     {"classical", "A: every node from the root down, in every frame", SL_WALK_AS_CLASSICAL, 0},
     {"updating", "B: hierarchy updating: nodes that the last frame opened are not tested",
-     SL_WALK_AS_CLASSICAL, SL_WALK_UPDATES},
+     SL_WALK_AS_CLASSICAL, SLI_WALK_UPDATES},
     {"propagation", "C: B, and states are taken from neighbours, by chance --p-vp",
-     SL_WALK_AS_CLASSICAL, SL_WALK_UPDATES | SL_WALK_PROPAGATES},
+     SL_WALK_AS_CLASSICAL, SLI_WALK_UPDATES | SLI_WALK_PROPAGATES},
     {"skipping", "D: C, and what was drawn is drawn again, by chance --p-skip", SL_WALK_MAYBE_MORE,
-     SL_WALK_UPDATES | SL_WALK_PROPAGATES | SL_WALK_SKIPS},
+     SLI_WALK_UPDATES | SLI_WALK_PROPAGATES | SLI_WALK_SKIPS},
     {"adaptive", "D with both chances set by each node's history", SL_WALK_MAYBE_MORE,
-     SL_WALK_UPDATES | SL_WALK_PROPAGATES | SL_WALK_SKIPS | SL_WALK_ADAPTS},
+     SLI_WALK_UPDATES | SLI_WALK_PROPAGATES | SLI_WALK_SKIPS | SLI_WALK_ADAPTS},
     {"predicting", "B, and leaves are taken to stay partially visible, by their history",
-     SL_WALK_MAYBE_MORE, SL_WALK_UPDATES | SL_WALK_PREDICTS},
+     SL_WALK_MAYBE_MORE, SLI_WALK_UPDATES | SLI_WALK_PREDICTS},
     {"bounded", "B, and nothing is tested before the eye has moved far enough to change its state",
-     SL_WALK_MAYBE_EITHER, SL_WALK_UPDATES | SL_WALK_BOUNDS},
+     SL_WALK_MAYBE_EITHER, SLI_WALK_UPDATES | SLI_WALK_BOUNDS},
     {"combined", "bounded and predicting", SL_WALK_MAYBE_EITHER,
-     SL_WALK_UPDATES | SL_WALK_BOUNDS | SL_WALK_PREDICTS},
+     SLI_WALK_UPDATES | SLI_WALK_BOUNDS | SLI_WALK_PREDICTS},
 };
 
 const sl_walk_method *sl_walk_methods(size_t *count) {
@@ -60,42 +60,42 @@ sl_walk_options sl_walk_options_default(void) {
 
 // --- the node visibility test
 
-void sl_walk_view_node(sl_walk *w, uint32_t node, sl_node_view *seen) {
+void sli_walk_view_node(sl_walk *w, uint32_t node, sli_node_view *seen) {
     const sl_walk_node *n = &w->hierarchy->nodes[node];
     const sl_space *space = w->hierarchy->space;
-    sl_pivot *pivot = &w->occlusion->shadows.pivot;
+    sli_pivot *pivot = &w->occlusion->shadows.pivot;
     const sl_box *b = &n->box;
     seen->cut = false;
-    seen->shape = (sl_shape){seen->box_corners, 4, *b, true};
+    seen->shape = (sli_shape){seen->box_corners, 4, *b, true};
     if (n->cell != SL_NO_CELL && !w->hierarchy->tiles) {
         const sl_cell *c = &space->cells[n->cell];
-        seen->shape = (sl_shape){space->vertices + c->first_vertex, c->vertex_count, *b, false};
+        seen->shape = (sli_shape){space->vertices + c->first_vertex, c->vertex_count, *b, false};
     } else {
         seen->box_corners[0] = b->min;
         seen->box_corners[1] = (sl_point){b->max.x, b->min.y};
         seen->box_corners[2] = b->max;
         seen->box_corners[3] = (sl_point){b->min.x, b->max.y};
     }
-    seen->wedge_count = sl_shape_wedges(pivot, &seen->shape, w->wedges);
-    if (w->cone.kind == SL_CONE_ALL) return;
+    seen->wedge_count = sli_shape_wedges(pivot, &seen->shape, w->wedges);
+    if (w->cone.kind == SLI_CONE_ALL) return;
     // From the last wedge on: the parts of one take room behind those still to come.
     uint32_t kept = 2 * w->hierarchy->corner_most;
     for (uint32_t i = seen->wedge_count; i-- > 0;) {
-        sl_wedge parts[2];
-        const unsigned count = sl_wedge_in_cone(pivot, &w->cone, &w->wedges[i], parts, &seen->cut);
+        sli_wedge parts[2];
+        const unsigned count = sli_wedge_in_cone(pivot, &w->cone, &w->wedges[i], parts, &seen->cut);
         for (unsigned k = count; k-- > 0;) w->wedges[--kept] = parts[k];
     }
     seen->wedge_count = 2 * w->hierarchy->corner_most - kept;
     memmove(w->wedges, w->wedges + kept, seen->wedge_count * sizeof *w->wedges);
 }
 
-sl_node_state sl_walk_test(sl_walk *w, const sl_node_view *seen) {
-    unsigned bits = seen->cut ? SL_BEHIND : 0;
-    for (uint32_t i = 0; i < seen->wedge_count && bits != SL_BOTH_SIDES; i++)
+sl_node_state sli_walk_test(sl_walk *w, const sli_node_view *seen) {
+    unsigned bits = seen->cut ? SLI_BEHIND : 0;
+    for (uint32_t i = 0; i < seen->wedge_count && bits != SLI_BOTH_SIDES; i++)
         w->test->query(w->occlusion, &seen->shape, &w->wedges[i], &bits);
-    return bits == SL_BOTH_SIDES ? SL_NODE_PARTIAL
-           : bits == SL_BEFORE   ? SL_NODE_VISIBLE
-                                 : SL_NODE_INVISIBLE;
+    return bits == SLI_BOTH_SIDES ? SL_NODE_PARTIAL
+           : bits == SLI_BEFORE   ? SL_NODE_VISIBLE
+                                  : SL_NODE_INVISIBLE;
 }
 
 // --- visibility propagation: what reaches a node passes the faces that look at the eye, and before
@@ -114,7 +114,7 @@ static bool uniform(const sl_walk *w, int32_t id, const sl_box *box, int face,
                     sl_node_state *state) {
     const sl_hierarchy *h = w->hierarchy;
     const sl_walk_node *n = &h->nodes[id];
-    const sl_walk_memory *m = &w->nodes[id];
+    const sli_walk_memory *m = &w->nodes[id];
     if (m->state != SL_NODE_PARTIAL) {
         *state = (sl_node_state)m->state;
         return true;
@@ -145,7 +145,7 @@ static bool face_state(const sl_walk *w, const sl_walk_node *n, int face, sl_nod
 
 /// Whether no chosen occluder can touch a box, by their bounding boxes.
 static bool is_free(const sl_walk *w, const sl_box *b) {
-    const sl_shadows *s = &w->occlusion->shadows;
+    const sli_shadows *s = &w->occlusion->shadows;
     for (size_t i = 0; i < s->occluders.count; i++) {
         const sl_point p = s->occluders.items[i].a, q = s->occluders.items[i].b;
         const bool apart = (p.x < b->min.x && q.x < b->min.x) ||
@@ -209,7 +209,7 @@ static sl_status fill_walk(sl_context *context, sl_walk *w) {
     w->wall_counts = sl_alloc_array(context, h->node_count, sizeof *w->wall_counts);
     if (!w->nodes || !w->stack || !w->wedges || !w->cells || !w->wall_counts) return SL_NO_MEMORY;
     count_walls(w);
-    SL_TRY(sl_chooser_create(context, h, &w->chooser));
+    SL_TRY(sli_chooser_create(context, h, &w->chooser));
     return w->test->create(context, &w->occlusion);
 }
 
@@ -239,7 +239,7 @@ void sl_walk_destroy(sl_context *context, sl_walk *walk) {
         sl_free(context, walk->occlusion->shadows.shadows.items);
         walk->test->destroy(context, walk->occlusion);
     }
-    sl_chooser_destroy(context, walk->chooser);
+    sli_chooser_destroy(context, walk->chooser);
     sl_free(context, walk->nodes);
     sl_free(context, walk->stack);
     sl_free(context, walk->wedges);
@@ -265,19 +265,19 @@ static bool by_chance(sl_walk *w, double chance) {
 /// Whether propagation takes the node's state from its neighbours. It is tried on nodes that were
 /// not partially visible in the last frame: always where it last succeeded, else by chance.
 static bool propagates(sl_walk *w, uint32_t id, bool known, sl_walk_frame *frame) {
-    sl_walk_memory *m = &w->nodes[id];
+    sli_walk_memory *m = &w->nodes[id];
     const bool again = known && m->spread;
     m->spread = false;
-    if (!does(w, SL_WALK_PROPAGATES) || !w->hierarchy->tiles ||
+    if (!does(w, SLI_WALK_PROPAGATES) || !w->hierarchy->tiles ||
         (known && m->state == SL_NODE_PARTIAL))
         return false;
-    const double chance = does(w, SL_WALK_ADAPTS) ? sl_walk_share(&m->spreads) : w->options.p_vp;
+    const double chance = does(w, SLI_WALK_ADAPTS) ? sli_walk_share(&m->spreads) : w->options.p_vp;
     if (!again && !by_chance(w, chance)) return false;
     sl_node_state state;
     m->spread = propagate(w, id, &state);
     frame->propagations++;
     frame->propagated += m->spread;
-    sl_walk_note(&m->spreads, m->spread);
+    sli_walk_note(&m->spreads, m->spread);
     if (m->spread) m->state = (uint8_t)state;
     return m->spread;
 }
@@ -285,45 +285,45 @@ static bool propagates(sl_walk *w, uint32_t id, bool known, sl_walk_frame *frame
 /// Whether a node that the last frame ended at and drew is drawn again without a test. With chances
 /// by history, the chance is 0 for a node that changes every second time.
 static bool is_skipped(sl_walk *w, uint32_t id, bool known) {
-    const sl_walk_memory *m = &w->nodes[id];
+    const sli_walk_memory *m = &w->nodes[id];
     const bool leaf = w->hierarchy->nodes[id].cell != SL_NO_CELL;
     if (!known || m->state == SL_NODE_INVISIBLE || (m->state == SL_NODE_PARTIAL && !leaf))
         return false;
-    const double steady = 2 * sl_walk_share(&m->kept) - 1;
-    if (does(w, SL_WALK_PREDICTS)) return m->state == SL_NODE_PARTIAL && by_chance(w, steady);
-    return does(w, SL_WALK_SKIPS) &&
-           by_chance(w, does(w, SL_WALK_ADAPTS) ? steady : w->options.p_skip);
+    const double steady = 2 * sli_walk_share(&m->kept) - 1;
+    if (does(w, SLI_WALK_PREDICTS)) return m->state == SL_NODE_PARTIAL && by_chance(w, steady);
+    return does(w, SLI_WALK_SKIPS) &&
+           by_chance(w, does(w, SLI_WALK_ADAPTS) ? steady : w->options.p_skip);
 }
 
 /// Whether the eye is still near enough for what is known of a node.
-static bool still_holds(const sl_walk *w, const sl_walk_memory *m) {
-    return m->bound > 0 && sl_walk_moved(m->from, w->view.eye) < m->bound;
+static bool still_holds(const sl_walk *w, const sli_walk_memory *m) {
+    return m->bound > 0 && sli_walk_moved(m->from, w->view.eye) < m->bound;
 }
 
 /// Whether a node in the cone is known to be in view, and in which state.
-static bool stays_seen(const sl_walk *w, const sl_node_view *seen, sl_walk_memory *m) {
-    if (!still_holds(w, m) || m->known == SL_WALK_HIDDEN ||
-        (m->known == SL_WALK_WITNESS && !sl_view_holds(&w->view, m->witness)))
+static bool stays_seen(const sl_walk *w, const sli_node_view *seen, sli_walk_memory *m) {
+    if (!still_holds(w, m) || m->known == SLI_WALK_HIDDEN ||
+        (m->known == SLI_WALK_WITNESS && !sl_view_holds(&w->view, m->witness)))
         return false;
-    m->state = m->known == SL_WALK_IN_VIEW && !seen->cut ? SL_NODE_VISIBLE : SL_NODE_PARTIAL;
+    m->state = m->known == SLI_WALK_IN_VIEW && !seen->cut ? SL_NODE_VISIBLE : SL_NODE_PARTIAL;
     return true;
 }
 
-static double find_bound(sl_walk *w, const sl_node_view *seen, bool leaf, sl_walk_memory *m) {
-    m->known = SL_WALK_HIDDEN;
-    if (m->state == SL_NODE_INVISIBLE) return sl_walk_hidden_bound(w, seen);
-    m->known = SL_WALK_IN_VIEW;
-    const double whole = m->state == SL_NODE_VISIBLE ? sl_walk_whole_bound(w, seen) : 0;
+static double find_bound(sl_walk *w, const sli_node_view *seen, bool leaf, sli_walk_memory *m) {
+    m->known = SLI_WALK_HIDDEN;
+    if (m->state == SL_NODE_INVISIBLE) return sli_walk_hidden_bound(w, seen);
+    m->known = SLI_WALK_IN_VIEW;
+    const double whole = m->state == SL_NODE_VISIBLE ? sli_walk_whole_bound(w, seen) : 0;
     if (whole > 0 || !leaf) return whole;
-    m->known = SL_WALK_WITNESS;
-    return sl_walk_witness_bound(w, seen, &m->witness);
+    m->known = SLI_WALK_WITNESS;
+    return sli_walk_witness_bound(w, seen, &m->witness);
 }
 
 /// Finds how far the eye may move with a tested node in its state. Where no bound is found, the
 /// next tests search for none, each time for twice as many.
-static void note_bound(sl_walk *w, uint32_t id, const sl_node_view *seen) {
+static void note_bound(sl_walk *w, uint32_t id, const sli_node_view *seen) {
     enum { LONGEST = 15 };
-    sl_walk_memory *m = &w->nodes[id];
+    sli_walk_memory *m = &w->nodes[id];
     m->bound = 0;
     if (m->waiting) {
         m->waiting--;
@@ -336,15 +336,15 @@ static void note_bound(sl_walk *w, uint32_t id, const sl_node_view *seen) {
 }
 
 static void decide(sl_walk *w, uint32_t id, bool known, sl_walk_frame *frame) {
-    sl_walk_memory *m = &w->nodes[id];
-    if (m->known == SL_WALK_HIDDEN && still_holds(w, m)) {
+    sli_walk_memory *m = &w->nodes[id];
+    if (m->known == SLI_WALK_HIDDEN && still_holds(w, m)) {
         m->state = SL_NODE_INVISIBLE;
         m->reason = SL_WALK_BOUNDED;
         frame->bounded++;
         return;
     }
-    sl_node_view seen;
-    sl_walk_view_node(w, id, &seen);
+    sli_node_view seen;
+    sli_walk_view_node(w, id, &seen);
     frame->frustum_tests++;
     if (!seen.wedge_count) {
         m->state = SL_NODE_INVISIBLE;
@@ -360,16 +360,16 @@ static void decide(sl_walk *w, uint32_t id, bool known, sl_walk_frame *frame) {
         m->reason = SL_WALK_BOUNDED;
         frame->bounded++;
     } else if (is_skipped(w, id, known)) {
-        if (!does(w, SL_WALK_PREDICTS)) m->state = SL_NODE_VISIBLE;
+        if (!does(w, SLI_WALK_PREDICTS)) m->state = SL_NODE_VISIBLE;
         m->reason = SL_WALK_SKIPPED;
         frame->skipped++;
     } else {
         const bool drawn = known && m->state != SL_NODE_INVISIBLE;
-        m->state = (uint8_t)sl_walk_test(w, &seen);
+        m->state = (uint8_t)sli_walk_test(w, &seen);
         m->reason = SL_WALK_TESTED;
         frame->tests++;
-        if (does(w, SL_WALK_BOUNDS)) note_bound(w, id, &seen);
-        if (drawn) sl_walk_note(&m->kept, m->state != SL_NODE_INVISIBLE);
+        if (does(w, SLI_WALK_BOUNDS)) note_bound(w, id, &seen);
+        if (drawn) sli_walk_note(&m->kept, m->state != SL_NODE_INVISIBLE);
     }
 }
 
@@ -381,7 +381,7 @@ static void draw_node(sl_walk *w, const sl_walk_node *n, sl_walk_frame *frame) {
     frame->cells += n->leaf_count;
 }
 
-static void count_state(const sl_walk_memory *m, sl_walk_frame *frame) {
+static void count_state(const sli_walk_memory *m, sl_walk_frame *frame) {
     if (m->state == SL_NODE_VISIBLE) frame->visible++;
     if (m->state == SL_NODE_PARTIAL) frame->partial++;
     if (m->state != SL_NODE_INVISIBLE) return;
@@ -395,7 +395,7 @@ static void count_state(const sl_walk_memory *m, sl_walk_frame *frame) {
 /// without a test is tested: only the parent's test can find that child hidden.
 static bool stays_open(const sl_walk *w, uint32_t id, bool known) {
     const sl_walk_node *n = &w->hierarchy->nodes[id];
-    if (!does(w, SL_WALK_UPDATES) || !known || n->cell != SL_NO_CELL ||
+    if (!does(w, SLI_WALK_UPDATES) || !known || n->cell != SL_NO_CELL ||
         w->nodes[id].state != SL_NODE_PARTIAL)
         return false;
     return !is_cheap(w, (uint32_t)n->child[0]) && !is_cheap(w, (uint32_t)n->child[1]);
@@ -404,8 +404,8 @@ static bool stays_open(const sl_walk *w, uint32_t id, bool known) {
 /// A node whose children are all visible, or all invisible, is so too.
 static void pull_up(sl_walk *w, uint32_t id) {
     const sl_walk_node *n = &w->hierarchy->nodes[id];
-    const sl_walk_memory *a = &w->nodes[n->child[0]], *b = &w->nodes[n->child[1]];
-    sl_walk_memory *m = &w->nodes[id];
+    const sli_walk_memory *a = &w->nodes[n->child[0]], *b = &w->nodes[n->child[1]];
+    sli_walk_memory *m = &w->nodes[id];
     if (a->state != b->state || a->state == SL_NODE_PARTIAL) return;
     m->state = a->state;
     m->reason = a->reason == b->reason ? a->reason : (uint8_t)SL_WALK_PULLED_UP;
@@ -419,7 +419,7 @@ static int nearer_child(const sl_walk *w, const sl_walk_node *n) {
 /// Visits a node; true where its children are to be visited.
 static bool visit(sl_walk *w, uint32_t id, sl_walk_frame *frame) {
     const sl_walk_node *n = &w->hierarchy->nodes[id];
-    sl_walk_memory *m = &w->nodes[id];
+    sli_walk_memory *m = &w->nodes[id];
     const bool known = w->frame > 1 && m->frame == w->frame - 1;
     frame->visited++;
     if (stays_open(w, id, known)) {
@@ -450,7 +450,7 @@ static void go_down(sl_walk *w, sl_walk_frame *frame) {
         const uint32_t id = (uint32_t)(top / 2);
         const sl_walk_node *n = &h->nodes[id];
         if (top & COMING_UP) {
-            if (does(w, SL_WALK_UPDATES)) pull_up(w, id);
+            if (does(w, SLI_WALK_UPDATES)) pull_up(w, id);
             count_state(&w->nodes[id], frame);
         } else if (visit(w, id, frame)) {
             const int near = nearer_child(w, n);
@@ -462,14 +462,14 @@ static void go_down(sl_walk *w, sl_walk_frame *frame) {
 }
 
 static sl_status choose(sl_context *context, sl_walk *w, const sl_view *view) {
-    sl_shadows *shadows = &w->occlusion->shadows;
-    w->moved = w->frame ? sl_walk_moved(w->view.eye, view->eye) : 0;
+    sli_shadows *shadows = &w->occlusion->shadows;
+    w->moved = w->frame ? sli_walk_moved(w->view.eye, view->eye) : 0;
     w->view = *view;
-    shadows->pivot = (sl_pivot){.eye = view->eye};
+    shadows->pivot = (sli_pivot){.eye = view->eye};
     shadows->occluders.count = shadows->shadows.count = 0;
-    w->cone = sl_walk_cone_of(&shadows->pivot, view);
+    w->cone = sli_walk_cone_of(&shadows->pivot, view);
     SL_TRY(w->test->clear(context, w->occlusion, view->eye));
-    return sl_chooser_choose(context, w, view);
+    return sli_chooser_choose(context, w, view);
 }
 
 sl_status sl_walk_step(sl_context *context, sl_walk *w, const sl_view *view, sl_walk_frame *out) {

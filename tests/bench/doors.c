@@ -71,7 +71,7 @@ static void bake(bench *b) {
     see(b, &b->baked.space, &plan, &b->baked.visibility);
     FILE *stream = open_memstream(&b->bytes, &b->size);
     if (!stream) exit(1);
-    check(b, sl_slv_print(b->context, &b->baked, stream));
+    check(b, sli_slv_print(b->context, &b->baked, stream));
     if (fclose(stream) != 0 || sl_runtime_open(b->bytes, b->size, &b->runtime) != SL_RUNTIME_OK)
         exit(1);
     b->scratch = calloc(sl_runtime_scratch_count(&b->runtime), sizeof *b->scratch);

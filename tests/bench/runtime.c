@@ -64,7 +64,7 @@ static char *bake(sl_context *context, const char *name, const char *slice, size
         fail(sl_context_message(context));
     char *bytes = NULL;
     FILE *stream = open_memstream(&bytes, size);
-    if (!stream || sl_slv_print(context, &baked, stream) != SL_OK || fclose(stream) != 0)
+    if (!stream || sli_slv_print(context, &baked, stream) != SL_OK || fclose(stream) != 0)
         fail("out of memory");
     sl_baked_destroy(context, &baked);
     return bytes;

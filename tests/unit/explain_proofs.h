@@ -27,7 +27,7 @@ static inline uint32_t check_chain(const sl_space *space, uint32_t from,
 /// What a line does to the ends of a side: 1 where all are strictly on it, 0 where some are
 /// touched, -1 where some are on the other side.
 static inline int keeps(sl_line line, sl_point left, sl_point right) {
-    const int l = sl_orient(line.a, line.b, left), r = -sl_orient(line.a, line.b, right);
+    const int l = sli_orient(line.a, line.b, left), r = -sli_orient(line.a, line.b, right);
     return l < r ? l : r;
 }
 
@@ -43,7 +43,7 @@ static inline void check_witness(const sl_space *space, const sl_explanation *e)
     if (e->verdict == SL_GRAZING) assert_true(e->touches);
     for (uint32_t i = 0; i < e->sequence.end_count; i++) {
         const sl_point p = sl_sequence_end(space, &e->sequence, e->sequence.ends[i]);
-        assert_int_equal(sl_orient(e->witness.a, e->witness.b, p), 0);
+        assert_int_equal(sli_orient(e->witness.a, e->witness.b, p), 0);
     }
 }
 
@@ -61,7 +61,7 @@ static inline bool has_weak_line(const sl_point *ends, const bool *left, uint32_
             if (ends[i].x == ends[j].x && ends[i].y == ends[j].y) continue;
             bool holds = true;
             for (uint32_t k = 0; k < count && holds; k++) {
-                const int side = sl_orient(ends[i], ends[j], ends[k]);
+                const int side = sli_orient(ends[i], ends[j], ends[k]);
                 holds = left[k] ? side >= 0 : side <= 0;
             }
             if (holds) return true;
@@ -97,7 +97,7 @@ static inline bool has_strict_line(const sl_point *ends, const bool *left, uint3
             uint32_t touched = 0;
             bool holds = true;
             for (uint32_t k = 0; k < count && holds; k++) {
-                const int side = sl_orient(ends[i], ends[j], ends[k]);
+                const int side = sli_orient(ends[i], ends[j], ends[k]);
                 holds = left[k] ? side >= 0 : side <= 0;
                 if (side != 0) continue;
                 on[touched] = ends[k];

@@ -10,15 +10,15 @@ enum { CELLS = 130 }; // three words of bits, the last one not full
 
 /// A PVS from a table of who sees whom.
 static sl_pvs pvs_of(sl_context *context, bool sees[CELLS][CELLS]) {
-    sl_row_bytes rows[CELLS] = {0};
+    sli_row_bytes rows[CELLS] = {0};
     sl_pvs pvs;
     for (uint32_t a = 0; a < CELLS; a++) {
         sl_bits set[(CELLS + 63) / 64] = {0};
         for (uint32_t b = 0; b < CELLS; b++)
             if (sees[a][b]) sl_bits_add(set, b);
-        assert_ok(context, sl_row_append(context, &rows[a], set, CELLS));
+        assert_ok(context, sli_row_append(context, &rows[a], set, CELLS));
     }
-    assert_ok(context, sl_pvs_join(context, rows, CELLS, &pvs));
+    assert_ok(context, sli_pvs_join(context, rows, CELLS, &pvs));
     return pvs;
 }
 

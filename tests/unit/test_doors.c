@@ -26,7 +26,7 @@ static void bake(sl_context *context, baked_file *f) {
     assert_int_equal(b->visibility.account.door_fallbacks, 0);
     FILE *stream = open_memstream(&f->bytes, &f->size);
     assert_non_null(stream);
-    assert_ok(context, sl_slv_print(context, b, stream));
+    assert_ok(context, sli_slv_print(context, b, stream));
     assert_int_equal(fclose(stream), 0);
     baked_file_open(f);
     assert_int_equal(f->runtime.door_count, DOORS);
@@ -187,24 +187,24 @@ static void sets_of_many_doors_are_told_apart(void **state) {
     (void)state;
     enum { MANY = 150, LIMIT = 3 };
     sl_context *context = testing_context(NULL);
-    sl_door_table table;
-    assert_ok(context, sl_door_table_create(context, 1, MANY, LIMIT, &table));
+    sli_door_table table;
+    assert_ok(context, sli_door_table_create(context, 1, MANY, LIMIT, &table));
     sl_bits low[3] = {0}, both[3] = {0}, high[3] = {0};
     sl_bits_add(low, 1);
     sl_bits_add(both, 1);
     sl_bits_add(both, 149);
     sl_bits_add(high, 100);
-    assert_ok(context, sl_door_table_add(context, &table, 0, both));
-    assert_true(sl_door_table_proves(&table, 0, both));
-    assert_false(sl_door_table_proves(&table, 0, low));
-    assert_ok(context, sl_door_table_add(context, &table, 0, high));
+    assert_ok(context, sli_door_table_add(context, &table, 0, both));
+    assert_true(sli_door_table_proves(&table, 0, both));
+    assert_false(sli_door_table_proves(&table, 0, low));
+    assert_ok(context, sli_door_table_add(context, &table, 0, high));
     assert_int_equal(table.count[0], 2);
-    assert_false(sl_door_table_proves(&table, 0, low));
-    assert_ok(context, sl_door_table_add(context, &table, 0, low)); // in the place of both
+    assert_false(sli_door_table_proves(&table, 0, low));
+    assert_ok(context, sli_door_table_add(context, &table, 0, low)); // in the place of both
     assert_int_equal(table.count[0], 2);
-    assert_true(sl_door_table_proves(&table, 0, low) && sl_door_table_proves(&table, 0, high));
+    assert_true(sli_door_table_proves(&table, 0, low) && sli_door_table_proves(&table, 0, high));
     assert_int_equal(table.fallbacks, 0);
-    sl_door_table_destroy(context, &table);
+    sli_door_table_destroy(context, &table);
     sl_context_destroy(context);
 }
 

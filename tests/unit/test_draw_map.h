@@ -41,15 +41,15 @@ static inline void draw_add_walls(sl_context *context, sl_map *map, draw_place p
 /// Cells below see each other, those in the middle only themselves, the one outside nothing.
 static inline void draw_add_sets(sl_context *context, draw_map *map) {
     const uint32_t count = map->baked.space.cell_count;
-    sl_row_bytes rows[5] = {0};
+    sli_row_bytes rows[5] = {0};
     assert_int_equal(count, 5);
     for (uint32_t i = LEFT_BELOW; i < OUTSIDE; i++) {
         sl_bits set[1] = {0};
         sl_bits_add(set, map->cells[i]);
         if (i <= RIGHT_BELOW) sl_bits_add(set, map->cells[RIGHT_BELOW - i]);
-        assert_ok(context, sl_row_append(context, &rows[map->cells[i]], set, count));
+        assert_ok(context, sli_row_append(context, &rows[map->cells[i]], set, count));
     }
-    assert_ok(context, sl_pvs_join(context, rows, count, &map->baked.visibility.pvs));
+    assert_ok(context, sli_pvs_join(context, rows, count, &map->baked.visibility.pvs));
 }
 
 /// One stab tree of two nodes, from the left cell below through its portal to the right one.

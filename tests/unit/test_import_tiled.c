@@ -114,9 +114,9 @@ static void test_names_that_say_solid(void **state) {
     static const char *const others[] = {"",      "Floor",   "wall_tops",    "wallpaper",
                                          "layer", "unsolid", "Wand\xc3\xa4", "walls behind"};
     for (size_t i = 0; i < sizeof solid / sizeof *solid; i++)
-        if (!sl_says_solid(solid[i])) fail_msg("%s", solid[i]);
+        if (!sli_says_solid(solid[i])) fail_msg("%s", solid[i]);
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        if (sl_says_solid(others[i])) fail_msg("%s", others[i]);
+        if (sli_says_solid(others[i])) fail_msg("%s", others[i]);
 }
 
 static void test_layers_that_are_solid(void **state) {

@@ -123,11 +123,11 @@ static void checksum(void **state) {
     for (size_t i = 0; i < sizeof bytes; i++) bytes[i] = (unsigned char)sl_random_next(&random);
     for (size_t count = 0; count <= sizeof bytes; count++) {
         const size_t first = (size_t)sl_random_below(&random, count + 1);
-        sl_checksum sum;
-        sl_checksum_begin(&sum);
-        sl_checksum_add(&sum, bytes, first);
-        sl_checksum_add(&sum, bytes + first, count - first);
-        assert_int_equal(sl_checksum_value(&sum), crc32(0, bytes, (uInt)count));
+        sli_checksum sum;
+        sli_checksum_begin(&sum);
+        sli_checksum_add(&sum, bytes, first);
+        sli_checksum_add(&sum, bytes + first, count - first);
+        assert_int_equal(sli_checksum_value(&sum), crc32(0, bytes, (uInt)count));
     }
 }
 

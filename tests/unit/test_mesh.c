@@ -514,7 +514,7 @@ static void a_baked_space_reads_back(void **state) {
     size_t size = 0;
     FILE *stream = open_memstream(&bytes, &size);
     assert_non_null(stream);
-    assert_ok(s.context, sl_slv_print(s.context, &baked, stream));
+    assert_ok(s.context, sli_slv_print(s.context, &baked, stream));
     assert_int_equal(fclose(stream), 0);
     assert_ok(s.context, sl_baked_parse(s.context, "test", bytes, size, &again));
     assert_memory_equal(again.space.neighbour, baked.space.neighbour,

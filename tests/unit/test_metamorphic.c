@@ -188,8 +188,8 @@ static void turned_mirrored_scaled_moved_spaces_are_seen_alike(void **state) {
 }
 
 static bool touches(sl_point p, sl_point q, const sl_wall *wall) {
-    const int a = sl_orient(p, q, wall->a), b = sl_orient(p, q, wall->b);
-    const int c = sl_orient(wall->a, wall->b, p), d = sl_orient(wall->a, wall->b, q);
+    const int a = sli_orient(p, q, wall->a), b = sli_orient(p, q, wall->b);
+    const int c = sli_orient(wall->a, wall->b, p), d = sli_orient(wall->a, wall->b, q);
     if (a * b > 0 || c * d > 0) return false;
     if (a || b || c || d) return true;
     // All on one line.

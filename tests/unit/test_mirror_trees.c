@@ -67,13 +67,13 @@ static void tell(const trial *t, const sl_stab_node *nodes, uint64_t node, told 
         assert_int_equal(t->space.directed[n->directed].cell, n->cell);
         return;
     }
-    sl_mirror_side side;
+    sli_mirror_side side;
     of[node].mirrors++;
     assert_int_equal(n->cell, parent->cell);
     assert_true(n->directed != parent->directed);
     assert_true(n->directed - SL_STAB_MIRROR < t->map.mirror_count);
     assert_true(
-        sl_mirror_side_of(&t->space, &t->map, n->cell, n->directed - SL_STAB_MIRROR, &side));
+        sli_mirror_side_of(&t->space, &t->map, n->cell, n->directed - SL_STAB_MIRROR, &side));
 }
 
 /// The cells at a tree's nodes are those that the source sees, directly and by mirror; no sequence
@@ -161,7 +161,7 @@ static char *print(sl_context *context, const sl_baked *baked, size_t *size) {
     char *bytes = NULL;
     FILE *stream = open_memstream(&bytes, size);
     assert_non_null(stream);
-    assert_ok(context, sl_slv_print(context, baked, stream));
+    assert_ok(context, sli_slv_print(context, baked, stream));
     assert_int_equal(fclose(stream), 0);
     return bytes;
 }

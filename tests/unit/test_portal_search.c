@@ -9,13 +9,13 @@ static const char *const hall = "walls 0 0 12 0 12 8 0 8 0 0\n"
                                 "wall 4 6 6 6\n";
 
 typedef struct step {
-    sl_portal_step at;
-    sl_directions directions;
+    sli_portal_step at;
+    sli_directions directions;
     bool first;
 } step;
 
 typedef struct job {
-    sl_portal_search search;
+    sli_portal_search search;
     bool entered[256];
     uint32_t steps, left, most; ///< it stops after so many steps; 0 for no limit
 } job;
@@ -32,15 +32,15 @@ static sl_status cross(sl_context *context, void *of, const void *from, void *to
     step *next = to;
     const sl_directed_portal *portal = &j->search.space->directed[number];
     *next = (step){.at.cell = portal->cell, .directions = ((const step *)from)->directions};
-    if (!sl_directions_add(j->search.space, &next->directions, number)) return SL_OK;
+    if (!sli_directions_add(j->search.space, &next->directions, number)) return SL_OK;
     const step *way = j->search.steps;
     for (size_t i = 0; i < j->search.count; i++) assert_int_not_equal(way[i].at.cell, portal->cell);
     if (j->search.solver) {
         sl_stab_verdict verdict;
-        SL_TRY(sl_portal_search_push(context, &j->search, portal->left, portal->right, &verdict));
+        SL_TRY(sli_portal_search_push(context, &j->search, portal->left, portal->right, &verdict));
         assert_int_equal(j->search.held, j->search.count);
         if (verdict == SL_HIDDEN) {
-            sl_portal_search_pop(&j->search);
+            sli_portal_search_pop(&j->search);
             return SL_OK;
         }
     }
@@ -70,16 +70,17 @@ static sl_status leave(sl_context *context, void *of, const void *left) {
     return SL_OK;
 }
 
-static void search(sl_context *context, job *j, const sl_portal_visitor *visitor, uint32_t source) {
-    assert_ok(context, sl_portal_search_start(context, &j->search, sizeof(step)));
+static void search(sl_context *context, job *j, const sli_portal_visitor *visitor,
+                   uint32_t source) {
+    assert_ok(context, sli_portal_search_start(context, &j->search, sizeof(step)));
     *(step *)j->search.steps =
-        (step){.at.cell = source, .directions = SL_NO_DIRECTIONS, .first = true};
+        (step){.at.cell = source, .directions = SLI_NO_DIRECTIONS, .first = true};
     enter(j, source);
-    assert_ok(context, sl_portal_search_run(context, &j->search, visitor, j));
+    assert_ok(context, sli_portal_search_run(context, &j->search, visitor, j));
     assert_int_equal(j->search.held, 0);
 }
 
-static const sl_portal_visitor by_rule = {
+static const sli_portal_visitor by_rule = {
     .step_size = sizeof(step), .cross = cross, .leave = leave};
 
 typedef struct scene {
@@ -125,8 +126,8 @@ static void test_what_is_entered(void **state) {
             assert_int_equal(stabbed.entered[cell], sl_pvs_sees(&s.seen.pvs, source, cell));
             assert_true(all.entered[cell] || !stabbed.entered[cell]);
         }
-        sl_portal_search_end(s.context, &all.search);
-        sl_portal_search_end(s.context, &stabbed.search);
+        sli_portal_search_end(s.context, &all.search);
+        sli_portal_search_end(s.context, &stabbed.search);
     }
     destroy_scene(&s);
 }
@@ -145,13 +146,13 @@ static void test_stop(void **state) {
     search(s.context, &again, &by_rule, 0);
     assert_int_equal(again.search.count, 0);
     assert_int_equal(again.left, again.steps);
-    sl_portal_search_end(s.context, &again.search);
+    sli_portal_search_end(s.context, &again.search);
     destroy_scene(&s);
 }
 
 static void test_two_steps_by_one_crossing(void **state) {
     (void)state;
-    static const sl_portal_visitor visitor = {
+    static const sli_portal_visitor visitor = {
         .step_size = sizeof(step), .cross = cross_twice, .leave = leave};
     scene s = make_scene();
     for (uint32_t source = 0; source < s.space.cell_count; source++) {
@@ -159,7 +160,7 @@ static void test_two_steps_by_one_crossing(void **state) {
         search(s.context, &j, &visitor, source);
         assert_int_equal(j.steps, 1 + 2 * s.space.cells[source].directed_count);
         assert_int_equal(j.left, j.steps);
-        sl_portal_search_end(s.context, &j.search);
+        sli_portal_search_end(s.context, &j.search);
     }
     destroy_scene(&s);
 }

@@ -159,7 +159,7 @@ static uint32_t first_that_holds(const sl_space *s, sl_point p) {
         const sl_cell *c = &s->cells[i];
         const sl_point *v = s->vertices + c->first_vertex;
         uint32_t k = 0;
-        while (k < c->vertex_count && sl_orient(v[k], v[(k + 1) % c->vertex_count], p) >= 0) k++;
+        while (k < c->vertex_count && sli_orient(v[k], v[(k + 1) % c->vertex_count], p) >= 0) k++;
         if (k == c->vertex_count) return i;
     }
     return SL_NO_CELL;

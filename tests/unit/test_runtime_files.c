@@ -146,14 +146,14 @@ static void a_lie_under_a_seal_is_refused(void **state) {
 static void a_lie_about_the_grid_is_refused(void **state) {
     (void)state;
     const uint32_t none = 0, one = 1, thousand = 1000, most = UINT32_MAX;
-    const size_t columns = offsetof(sl_slv_info, grid_columns);
-    const size_t rows = offsetof(sl_slv_info, grid_rows);
+    const size_t columns = offsetof(sli_slv_info, grid_columns);
+    const size_t rows = offsetof(sli_slv_info, grid_rows);
     const lie lies[] = {
         {"INFO", columns, 4, &none, SL_RUNTIME_SPACE},
         {"INFO", columns, 4, &thousand, SL_RUNTIME_SPACE},
         {"INFO", rows, 4, &none, SL_RUNTIME_SPACE},
         {"INFO", rows, 4, &most, SL_RUNTIME_SPACE},
-        {"INFO", offsetof(sl_slv_info, loose), 4, &one, SL_RUNTIME_OK},
+        {"INFO", offsetof(sli_slv_info, loose), 4, &one, SL_RUNTIME_OK},
         {"GRIO", 0, 4, &one, SL_RUNTIME_SPACE},
         {"GRIO", 4, 4, &most, SL_RUNTIME_SPACE},
         {"GRIO", 4, 4, &thousand, SL_RUNTIME_SPACE},
@@ -190,7 +190,7 @@ static void check_table(const char *statements, const char *const *tags, size_t 
     char *bytes = malloc(f.size);
     assert_non_null(bytes);
     for (size_t i = 0; i < count; i++) {
-        sl_slv_section s;
+        sli_slv_section s;
         memcpy(&s, slv_entry(f.bytes, tags[i]), sizeof s);
         const struct {
             uint32_t item_bytes;
@@ -207,7 +207,7 @@ static void check_table(const char *statements, const char *const *tags, size_t 
         };
         for (size_t k = 0; k < sizeof lies / sizeof *lies; k++) {
             memcpy(bytes, f.bytes, f.size);
-            sl_slv_section entry = s;
+            sli_slv_section entry = s;
             entry.item_bytes = lies[k].item_bytes;
             entry.offset = lies[k].offset;
             entry.count = lies[k].count;
@@ -221,7 +221,7 @@ static void check_table(const char *statements, const char *const *tags, size_t 
         assert_int_equal(open_bytes(bytes, f.size), missing);
     }
     memcpy(bytes, f.bytes, f.size);
-    memset(bytes + offsetof(sl_slv_header, section_count), 0xff, 4);
+    memset(bytes + offsetof(sli_slv_header, section_count), 0xff, 4);
     slv_seal(bytes, f.size);
     assert_int_equal(open_bytes(bytes, f.size), SL_RUNTIME_SECTION);
     free(bytes);
@@ -245,10 +245,10 @@ static void the_version_says_what_locates_points(void **state) {
     sl_context *context = testing_context(NULL);
     baked_file axial = baked_file_of_text(context, rooms);
     baked_file mesh = baked_file_of_text(context, oblique);
-    memcpy(axial.bytes + offsetof(sl_slv_header, version), &two, 4);
+    memcpy(axial.bytes + offsetof(sli_slv_header, version), &two, 4);
     slv_seal(axial.bytes, axial.size);
     assert_int_equal(open_bytes(axial.bytes, axial.size), SL_RUNTIME_SPACE);
-    memcpy(mesh.bytes + offsetof(sl_slv_header, version), &one, 4);
+    memcpy(mesh.bytes + offsetof(sli_slv_header, version), &one, 4);
     slv_seal(mesh.bytes, mesh.size);
     assert_false(mesh.runtime.loose);
     baked_file_open(&mesh);

@@ -22,9 +22,9 @@ static bool same(sl_point a, sl_point b) {
 
 /// Whether the closed ray from an eye through another point leaves by a directed portal.
 static bool leaves_by(sl_point eye, sl_point through, const sl_directed_portal *directed) {
-    const int facing = sl_orient(directed->right, directed->left, eye);
-    const int right = sl_orient(eye, through, directed->right),
-              left = sl_orient(eye, through, directed->left);
+    const int facing = sli_orient(directed->right, directed->left, eye);
+    const int right = sli_orient(eye, through, directed->right),
+              left = sli_orient(eye, through, directed->left);
     if (facing < 0 || right > 0 || left < 0) return false;
     if (facing > 0) return true;
     // In line with it: on it, or looking along it.
@@ -249,8 +249,8 @@ static void signs_are_exact(void **state) {
         }
         const slrt_arm u = slrt_make_arm(p[0].x, p[0].y, p[1].x, p[1].y);
         const slrt_arm v = slrt_make_arm(p[0].x, p[0].y, p[2].x, p[2].y);
-        assert_int_equal(slrt_side(&u, &v), sl_orient(p[0], p[1], p[2]));
-        assert_int_equal(slrt_side_exact(&u, &v), sl_orient(p[0], p[1], p[2]));
+        assert_int_equal(slrt_side(&u, &v), sli_orient(p[0], p[1], p[2]));
+        assert_int_equal(slrt_side_exact(&u, &v), sli_orient(p[0], p[1], p[2]));
     }
 }
 

@@ -33,12 +33,12 @@ static file print(sl_context *context, const sl_baked *baked) {
     file f = {0};
     FILE *stream = open_memstream(&f.bytes, &f.size);
     assert_non_null(stream);
-    assert_ok(context, sl_slv_print(context, baked, stream));
+    assert_ok(context, sli_slv_print(context, baked, stream));
     assert_int_equal(fclose(stream), 0);
     return f;
 }
 
-#define INFO_FIELD(field) offsetof(sl_slv_info, field), sizeof(((sl_slv_info *)0)->field)
+#define INFO_FIELD(field) offsetof(sli_slv_info, field), sizeof(((sli_slv_info *)0)->field)
 
 typedef struct lie {
     const char *tag;
@@ -72,8 +72,8 @@ static void a_lie_under_a_seal_is_refused(void **state) {
     const uint32_t one = 1, most = UINT32_MAX;
     const char escape[16] = "d\033[2Js", hidden[16] = "glpk\0hidden";
     const lie lies[] = {
-        {"INFO", offsetof(sl_slv_info, bounds), sizeof far, &far, "INFO makes no sense"},
-        {"INFO", offsetof(sl_slv_info, bounds), sizeof nan, &nan, "INFO makes no sense"},
+        {"INFO", offsetof(sli_slv_info, bounds), sizeof far, &far, "INFO makes no sense"},
+        {"INFO", offsetof(sli_slv_info, bounds), sizeof nan, &nan, "INFO makes no sense"},
         {"INFO", INFO_FIELD(sight), &most, "INFO makes no sense"},
         {"INFO", INFO_FIELD(method), escape, "INFO makes no sense"},
         {"INFO", INFO_FIELD(solver), hidden, "INFO makes no sense"},
@@ -103,7 +103,7 @@ static void a_lie_under_a_seal_is_refused(void **state) {
 static uint32_t lonely_bucket(const sl_space *s) {
     for (uint32_t bucket = 0; bucket < s->grid.columns * s->grid.rows; bucket++) {
         uint32_t i = 0;
-        while (i < s->vertex_count && sl_cell_grid_bucket(s, s->vertices[i]) != bucket) i++;
+        while (i < s->vertex_count && sli_cell_grid_bucket(s, s->vertices[i]) != bucket) i++;
         if (i == s->vertex_count && s->grid.first[bucket + 1] == s->grid.first[bucket] + 1)
             return bucket;
     }
@@ -265,10 +265,10 @@ static void a_lie_about_what_is_done_is_refused(void **state) {
     (void)state;
     const uint32_t two = 2, most = UINT32_MAX;
     const lie lies[] = {
-        {"PART", offsetof(sl_slv_part, shard), 4, &two, "PART makes no sense"},
-        {"PART", offsetof(sl_slv_part, inside_only), 4, &two, "PART makes no sense"},
-        {"PART", offsetof(sl_slv_part, unit_count), 4, &most, "DONE does not tell of each unit"},
-        {"PART", offsetof(sl_slv_part, shard_count), 4, &two, "PART makes no sense"},
+        {"PART", offsetof(sli_slv_part, shard), 4, &two, "PART makes no sense"},
+        {"PART", offsetof(sli_slv_part, inside_only), 4, &two, "PART makes no sense"},
+        {"PART", offsetof(sli_slv_part, unit_count), 4, &most, "DONE does not tell of each unit"},
+        {"PART", offsetof(sli_slv_part, shard_count), 4, &two, "PART makes no sense"},
         {"DONE", 7, 1, "\200", "DONE does not tell of each unit"},
         {"FNDO", 0, 4, &most, "do not start at their first byte"},
         {"FNDB", 0, 1, "\177", "visible set 0 is damaged"},

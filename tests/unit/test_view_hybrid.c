@@ -30,7 +30,7 @@ static void check_work(const sl_view_work *work) {
 /// there where the middle of some three of them is one.)
 typedef struct oracle {
     const sl_space *space;
-    const sl_view_piece *piece;
+    const sli_view_piece *piece;
     sl_portal_ends ends[DEEPEST];
     size_t depth;
     bool anyhow; ///< lines along the first directed portal count wherever that is
@@ -39,12 +39,12 @@ typedef struct oracle {
 
 static bool line_passes(const oracle *o, sl_line line) {
     for (size_t i = 0; i < o->depth; i++)
-        if (sl_orient(line.a, line.b, o->ends[i].left) < 0 ||
-            sl_orient(line.a, line.b, o->ends[i].right) > 0)
+        if (sli_orient(line.a, line.b, o->ends[i].left) < 0 ||
+            sli_orient(line.a, line.b, o->ends[i].right) > 0)
             return false;
     bool left = false, right = false;
     for (size_t i = 0; i < o->piece->corners.count; i++) {
-        const int side = sl_orient(line.a, line.b, o->piece->corners.items[i]);
+        const int side = sli_orient(line.a, line.b, o->piece->corners.items[i]);
         left = left || side >= 0;
         right = right || side <= 0;
     }
@@ -56,13 +56,13 @@ static bool line_passes(const oracle *o, sl_line line) {
 /// the piece is on its near side.
 static bool is_ahead(const oracle *o, sl_line line) {
     const sl_portal_ends *first = &o->ends[0];
-    if (sl_orient(line.a, line.b, first->left) || sl_orient(line.a, line.b, first->right))
+    if (sli_orient(line.a, line.b, first->left) || sli_orient(line.a, line.b, first->right))
         return true;
     const double dx = line.b.x - line.a.x, dy = line.b.y - line.a.y;
     double least = INFINITY;
     for (size_t i = 0; i < o->piece->corners.count; i++) {
         const sl_point p = o->piece->corners.items[i];
-        if (sl_orient(line.a, line.b, p) == 0) least = fmin(least, dx * p.x + dy * p.y);
+        if (sli_orient(line.a, line.b, p) == 0) least = fmin(least, dx * p.x + dy * p.y);
     }
     return fmax(dx * first->left.x + dy * first->left.y,
                 dx * first->right.x + dy * first->right.y) >= least;
@@ -72,7 +72,7 @@ static bool is_ahead(const oracle *o, sl_line line) {
 /// line as far as a limit of such directions may.
 static bool is_forwards(const oracle *o, sl_line line) {
     for (size_t i = 0; i < o->depth; i++)
-        if (sl_turn(line.a, line.b, o->ends[i].right, o->ends[i].left) < 0) return false;
+        if (sli_turn(line.a, line.b, o->ends[i].right, o->ends[i].left) < 0) return false;
     return true;
 }
 
@@ -100,14 +100,14 @@ static bool any_line(const oracle *o) {
     return false;
 }
 
-static void search(oracle *o, uint32_t cell, sl_directions crossings) {
+static void search(oracle *o, uint32_t cell, sli_directions crossings) {
     const sl_cell *c = &o->space->cells[cell];
     sl_bits_add(o->seen, cell);
     assert_true(o->depth < DEEPEST);
     for (uint32_t e = c->first_directed; e < c->first_directed + c->directed_count; e++) {
         const sl_directed_portal *directed = &o->space->directed[e];
-        sl_directions with = crossings;
-        if (!sl_directions_add(o->space, &with, e)) continue;
+        sli_directions with = crossings;
+        if (!sli_directions_add(o->space, &with, e)) continue;
         o->ends[o->depth++] = (sl_portal_ends){directed->left, directed->right};
         if (any_line(o)) search(o, directed->cell, with);
         o->depth--;
@@ -115,9 +115,9 @@ static void search(oracle *o, uint32_t cell, sl_directions crossings) {
 }
 
 /// A little of a piece's sides is taken away: rounding may have put them outside the room.
-static sl_view_piece inner(const sl_view_piece *piece) {
+static sli_view_piece inner(const sli_view_piece *piece) {
     const size_t count = piece->corners.count;
-    sl_view_piece made = *piece;
+    sli_view_piece made = *piece;
     made.corners.items = malloc(count * sizeof *made.corners.items);
     sl_point middle = {0, 0};
     for (size_t i = 0; i < count; i++) {
@@ -135,22 +135,22 @@ static sl_view_piece inner(const sl_view_piece *piece) {
 /// Holds each piece against it. Of a piece with oblique sides a line along a portal of its room may
 /// count though the portal is behind. One that only touches a corner where a cut crosses such a
 /// side need not count, as that corner is rounded.
-static void check_pieces(const char *name, const sl_space *space, const sl_view_pieces *pieces,
+static void check_pieces(const char *name, const sl_space *space, const sli_view_pieces *pieces,
                          bool axial) {
     const size_t words = sl_bits_words(space->cell_count);
     sl_bits *rows = calloc(3 * words, sizeof *rows);
     sl_bits *found = rows, *least = rows + words, *most = rows + 2 * words;
     for (size_t i = 0; i < pieces->items.count; i++) {
-        const sl_view_piece *piece = &pieces->items.items[i];
+        const sli_view_piece *piece = &pieces->items.items[i];
         const uint32_t home = pieces->rooms.object[piece->room];
         memset(rows, 0, 3 * words * sizeof *rows);
-        sl_view_piece_add_to(pieces, piece, found);
-        const sl_view_piece within = inner(piece);
+        sli_view_piece_add_to(pieces, piece, found);
+        const sli_view_piece within = inner(piece);
         oracle o = {.space = space, .piece = axial ? piece : &within, .seen = least};
-        search(&o, home, SL_NO_DIRECTIONS);
+        search(&o, home, SLI_NO_DIRECTIONS);
         free(within.corners.items);
         o = (oracle){.space = space, .piece = piece, .anyhow = true, .seen = axial ? least : most};
-        if (!axial) search(&o, home, SL_NO_DIRECTIONS);
+        if (!axial) search(&o, home, SLI_NO_DIRECTIONS);
         for (size_t w = 0; w < words; w++)
             if (least[w] & ~found[w] || found[w] & ~o.seen[w])
                 fail_msg("%s: piece %zu of %zu sees other cells than the search finds", name, i,
@@ -160,26 +160,26 @@ static void check_pieces(const char *name, const sl_space *space, const sl_view_
 }
 
 /// Cuts pieces at random: in their middle, beside it, and at coordinates of the map.
-static void cut_at_random(sl_context *context, sl_view_pieces *pieces, const sl_map *map,
+static void cut_at_random(sl_context *context, sli_view_pieces *pieces, const sl_map *map,
                           int cuts) {
     sl_random random = {17};
     for (int i = 0; i < cuts; i++) {
         const uint32_t number = (uint32_t)sl_random_below(&random, pieces->items.count);
         const int axis = (int)sl_random_below(&random, 2);
-        const sl_view_extent *box = &pieces->items.items[number].box;
+        const sli_view_extent *box = &pieces->items.items[number].box;
         const double low = box->low[axis], high = box->high[axis];
         const sl_point end = map->walls[sl_random_below(&random, map->wall_count)].a;
         double at = axis ? end.y : end.x;
         if (!(at > low && at < high)) at = low + (high - low) * (i % 3 ? 0.5 : 0.3);
         if (!(at > low && at < high)) continue;
-        sl_view_searcher *searcher;
-        sl_view_halves halves = {0};
+        sli_view_searcher *searcher;
+        sli_view_halves halves = {0};
         uint32_t above;
-        assert_ok(context, sl_view_searcher_take(context, pieces, &searcher));
-        assert_ok(context, sl_view_pieces_halve(context, pieces, searcher, number, axis, at, true,
-                                                true, &halves));
-        sl_view_searcher_give(pieces, searcher);
-        assert_ok(context, sl_view_pieces_cut(pieces, number, &halves, &above));
+        assert_ok(context, sli_view_searcher_take(context, pieces, &searcher));
+        assert_ok(context, sli_view_pieces_halve(context, pieces, searcher, number, axis, at, true,
+                                                 true, &halves));
+        sli_view_searcher_give(pieces, searcher);
+        assert_ok(context, sli_view_pieces_cut(pieces, number, &halves, &above));
         assert_int_equal(above, pieces->items.count - 1);
     }
 }
@@ -188,12 +188,12 @@ static void cut_at_random(sl_context *context, sl_view_pieces *pieces, const sl_
 static void check_cuts(sl_context *context, const char *name, const sl_map *map,
                        const sl_space *space, int cuts, bool axial) {
     const sl_view_scene scene = {space, SL_VIEW_CELLS, sl_render_cost_default(), NULL};
-    sl_view_pieces pieces;
-    assert_ok(context, sl_view_pieces_create(context, &scene, SL_CLOSED, 2, &pieces));
+    sli_view_pieces pieces;
+    assert_ok(context, sli_view_pieces_create(context, &scene, SL_CLOSED, 2, &pieces));
     if (pieces.items.count) cut_at_random(context, &pieces, map, cuts);
     check_pieces(name, space, &pieces, axial);
     check_work(&pieces.work);
-    sl_view_pieces_destroy(&pieces);
+    sli_view_pieces_destroy(&pieces);
 }
 
 // --- view cells

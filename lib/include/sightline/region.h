@@ -46,7 +46,7 @@ typedef struct sl_region {
     sl_point *offsets; ///< the points less the eye: more precise far from the origin
     sl_region_edge *edges;
     uint64_t portals_passed; ///< of the outline, to find it: the measure of the work
-    struct sl_region_memory *memory;
+    struct sli_region_memory *memory;
 } sl_region;
 
 SL_API void sl_region_destroy(sl_context *context, sl_region *region); ///< and zeroes it

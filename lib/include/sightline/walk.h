@@ -60,7 +60,7 @@ typedef enum sl_node_state {
 /// give the same answer. It is exact for the chosen occluders and the node's box, or a leaf's cell.
 typedef struct sl_node_test {
     const char *name, *what;
-    const struct sl_node_test_calls *calls; ///< the library's own
+    const struct sli_node_test_calls *calls; ///< the library's own
 } sl_node_test;
 
 /// All tests: "tree", "intervals".
