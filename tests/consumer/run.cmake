@@ -102,7 +102,7 @@ function(lean)
     "-DCMAKE_BUILD_TYPE=${CONFIG}" "-DCMAKE_C_COMPILER=${CC}" "-DCMAKE_C_FLAGS=${FLAGS}"
     -DSIGHTLINE_STUDY=OFF -DSIGHTLINE_WERROR=ON
     -DCMAKE_DISABLE_FIND_PACKAGE_PkgConfig=ON -DCMAKE_DISABLE_FIND_PACKAGE_ZLIB=ON
-    -DCMAKE_DISABLE_FIND_PACKAGE_GLPK=ON)
+    -DCMAKE_DISABLE_FIND_PACKAGE_GLPK=ON -DBUILD_SHARED_LIBS=OFF)
   foreach(part IO STUDY GLPK DRAW VIEWER TESTS)
     if(NOT said MATCHES "SIGHTLINE_${part} is OFF [^\n]*: (not found|as asked for)")
       message("${said}")
@@ -113,6 +113,17 @@ function(lean)
   check_core_alone("${SCRATCH}/build/tools/sightline")
   run("${PYTHON}" -B "${SOURCE}/tests/command/case.py" "${SCRATCH}/build/tools/sightline"
     "${here}/lean.case")
+  # The runtime and a program on the core need no more either.
+  separate_arguments(flags UNIX_COMMAND "${FLAGS}")
+  run("${SCRATCH}/build/tools/sightline" bake "${SOURCE}/maps/office.map" -o
+    "${SCRATCH}/level.slv")
+  run("${CC}" ${flags} "-I${SOURCE}/lib/runtime" "${here}/game/game.c"
+    "${here}/game/game_runtime.c" -o "${SCRATCH}/game")
+  run("${SCRATCH}/game" "${SCRATCH}/level.slv")
+  run("${CC}" ${flags} "-I${SOURCE}/lib/include" "${here}/programs/core.c" -o "${SCRATCH}/core"
+    "${SCRATCH}/build/lib/libsightline.a" -lm -pthread)
+  run("${SCRATCH}/core")
+  check_core_alone("${SCRATCH}/core")
 endfunction()
 
 if(WAY STREQUAL "pkg_config")
