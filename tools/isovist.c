@@ -3,11 +3,8 @@
 #include "sightline/support.h"
 
 #include <math.h>
-#include <pthread.h>
-#include <stdatomic.h>
 #include <stddef.h>
 #include <string.h>
-#include <unistd.h>
 
 // --- eyes
 
@@ -186,29 +183,23 @@ sl_status isovist_look(sl_context *context, const isovist_scene *scene, const sl
                                    out);
 }
 
-/// Each thread takes the next bundle of eyes until none is left, or one has failed.
 typedef struct job {
     const isovist_scene *scene;
     const eye_places *eyes;
     isovist_result *out;
-    size_t bundles;
-    atomic_size_t next, done;
-    atomic_bool failed;
 } job;
 
-typedef struct worker {
-    job *job;
-    sl_context *context; ///< its own: each keeps one message
-    pthread_t thread;
-    sl_status status;
-    bool reports;
-} worker;
+static sl_status begin(sl_context *context, void *all, void **state) {
+    (void)all;
+    *state = sl_alloc_array(context, 1, sizeof(sl_mirrored_region));
+    return *state ? SL_OK : SL_NO_MEMORY;
+}
 
-static sl_status measure_bundle(sl_context *context, const job *j, size_t bundle,
-                                sl_mirrored_region *region) {
+static sl_status measure_bundle(sl_context *context, void *all, void *state, size_t bundle) {
+    const job *j = all;
+    sl_mirrored_region *region = state;
     const sl_space *space = j->scene->outline->space;
     const size_t first = bundle * EYES_A_BUNDLE, count = j->eyes->list.count;
-    SL_TRY(sl_check_cancelled(context));
     for (size_t i = first; i < count && i < first + EYES_A_BUNDLE; i++) {
         const sl_view view = eye_view(space, &j->eyes->list.items[i]);
         SL_TRY(isovist_look(context, j->scene, &view, region));
@@ -219,62 +210,23 @@ static sl_status measure_bundle(sl_context *context, const job *j, size_t bundle
     return SL_OK;
 }
 
-static void *run_worker(void *argument) {
-    worker *w = argument;
-    job *j = w->job;
-    sl_mirrored_region region = {0};
-    while (w->status == SL_OK && !atomic_load(&j->failed)) {
-        const size_t bundle = atomic_fetch_add(&j->next, 1);
-        if (bundle >= j->bundles) break;
-        w->status = measure_bundle(w->context, j, bundle, &region);
-        const size_t done = atomic_fetch_add(&j->done, 1) + 1;
-        if (w->reports) sl_report(w->context, "isovist", "bundles of eyes", done, j->bundles);
-    }
-    if (w->status != SL_OK) atomic_store(&j->failed, true);
-    sl_mirrored_region_destroy(w->context, &region);
-    return NULL;
-}
-
-/// The caller's thread is the first worker. If the system refuses a thread, the others do its
-/// share.
-static sl_status run_workers(sl_context *context, job *j, worker *workers, size_t count) {
-    size_t started = 0;
-    sl_status status = SL_OK;
-    for (; started < count; started++) {
-        worker *w = &workers[started];
-        *w = (worker){.job = j, .context = sl_context_create(sl_context_hooks(context))};
-        if (!w->context) break;
-        w->reports = started == 0;
-        if (started && pthread_create(&w->thread, NULL, run_worker, w) != 0) {
-            sl_context_destroy(w->context);
-            break;
-        }
-    }
-    if (!started) return sl_fail_memory(context);
-    run_worker(&workers[0]);
-    for (size_t i = 0; i < started; i++) {
-        worker *w = &workers[i];
-        if (i) pthread_join(w->thread, NULL);
-        if (w->status != SL_OK && status == SL_OK)
-            status = sl_fail(context, w->status, "%s", sl_context_message(w->context));
-        sl_context_destroy(w->context);
-    }
-    return status;
+static void end(sl_context *context, void *all, void *state) {
+    (void)all;
+    sl_mirrored_region_destroy(context, state);
+    sl_free(context, state);
 }
 
 sl_status isovist_run(sl_context *context, const isovist_scene *scene, const eye_places *eyes,
                       unsigned threads, isovist_result *out) {
-    const long cores = sysconf(_SC_NPROCESSORS_ONLN);
-    job j = {.scene = scene, .eyes = eyes, .out = out};
-    j.bundles = (eyes->list.count + EYES_A_BUNDLE - 1) / EYES_A_BUNDLE;
-    size_t count = threads ? threads : cores < 1 ? 1 : (size_t)cores;
-    if (count > j.bundles) count = j.bundles ? j.bundles : 1;
-    worker *workers = sl_alloc_array(context, count, sizeof *workers);
-    if (!workers) return SL_NO_MEMORY;
-    sl_report(context, "isovist", "bundles of eyes", 0, j.bundles);
-    const sl_status status = run_workers(context, &j, workers, count);
-    sl_free(context, workers);
-    return status;
+    job j = {scene, eyes, out};
+    const sl_work work = {.job = &j,
+                          .begin = begin,
+                          .unit = measure_bundle,
+                          .end = end,
+                          .stage = "isovist",
+                          .units = "bundles of eyes"};
+    const size_t bundles = (eyes->list.count + EYES_A_BUNDLE - 1) / EYES_A_BUNDLE;
+    return sl_work_run(context, &work, bundles, threads);
 }
 
 static void put(FILE *out, double value, char after) {

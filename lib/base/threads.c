@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 typedef struct crew {
-    const sli_work *work;
+    const sl_work *work;
     size_t count;
     atomic_size_t next, done;
     atomic_bool failed;
@@ -67,7 +67,7 @@ static sl_status run_units(worker *w, void *state) {
 }
 
 static void run_worker(worker *w) {
-    const sli_work *work = w->crew->work;
+    const sl_work *work = w->crew->work;
     void *state = NULL;
     w->status = work->begin ? work->begin(&w->context, work->job, &state) : SL_OK;
     if (w->status == SL_OK) {
@@ -97,8 +97,8 @@ static sl_status first_failure(sl_context *context, const worker *workers, size_
     return first->status;
 }
 
-sl_status sli_work_run(sl_context *context, const sli_work *work, size_t count, unsigned threads) {
-    size_t wanted = threads ? threads : sli_core_count();
+sl_status sl_work_run(sl_context *context, const sl_work *work, size_t count, unsigned threads) {
+    size_t wanted = threads ? threads : sl_core_count();
     if (wanted > count) wanted = count ? count : 1;
     crew c = {.work = work, .count = count};
     worker *workers = sl_alloc_array(context, wanted, sizeof *workers);
@@ -124,7 +124,7 @@ sl_status sli_work_run(sl_context *context, const sli_work *work, size_t count, 
     return status;
 }
 
-unsigned sli_core_count(void) {
+unsigned sl_core_count(void) {
     const long cores = sysconf(_SC_NPROCESSORS_ONLN);
     return cores < 1 ? 1 : cores > 1024 ? 1024 : (unsigned)cores;
 }

@@ -19,9 +19,9 @@
 /// one of its two cells only.
 #include "cell_to_cell/dfs.h"
 
-#include "base/base.h"
 #include "cell_to_cell/methods.h"
 #include "cell_to_cell/rows.h"
+#include "sightline/support.h"
 
 #include <string.h>
 
@@ -274,14 +274,14 @@ static void sum_accounts(const sli_dfs *all, sl_see_account *sum) {
 }
 
 static sl_status run_search(sl_context *context, sli_dfs *all) {
-    const sli_work work = {.job = all,
-                           .begin = begin,
-                           .unit = search_unit,
-                           .end = end,
-                           .leave_thread = all->options->solver->leave_thread,
-                           .stage = "cell_to_cell",
-                           .units = "cells"};
-    return sli_work_run(context, &work, all->space->cell_count, all->options->threads);
+    const sl_work work = {.job = all,
+                          .begin = begin,
+                          .unit = search_unit,
+                          .end = end,
+                          .leave_thread = all->options->solver->leave_thread,
+                          .stage = "cell_to_cell",
+                          .units = "cells"};
+    return sl_work_run(context, &work, all->space->cell_count, all->options->threads);
 }
 
 static sl_status search_all(sl_context *context, sli_dfs *all, sl_visibility *out) {

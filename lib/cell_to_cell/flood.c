@@ -9,11 +9,11 @@
 /// first. Rounding goes to the safe side.
 #include "cell_to_cell/bounds.h"
 
-#include "base/base.h"
 #include "cell_to_cell/methods.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "effects/effects.h"
 #include "geometry/orient.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <string.h>
@@ -114,13 +114,13 @@ static sl_status flood_unit(sl_context *context, void *job, void *state, size_t 
 
 static sl_status flood_all(sl_context *context, flood *all, sl_visibility *out) {
     SL_TRY(sli_bit_rows_create(context, all->space->cell_count, all->options, &all->rows));
-    const sli_work work = {.job = all,
-                           .begin = begin,
-                           .unit = flood_unit,
-                           .end = end,
-                           .stage = "cell_to_cell",
-                           .units = "cells"};
-    SL_TRY(sli_work_run(context, &work, all->space->cell_count, all->options->threads));
+    const sl_work work = {.job = all,
+                          .begin = begin,
+                          .unit = flood_unit,
+                          .end = end,
+                          .stage = "cell_to_cell",
+                          .units = "cells"};
+    SL_TRY(sl_work_run(context, &work, all->space->cell_count, all->options->threads));
     if (!all->one_way) SL_TRY(sli_bit_rows_mirror(context, &all->rows, SLI_KEEP_MUTUAL));
     return sli_bit_rows_encode(context, &all->rows, out);
 }

@@ -13,7 +13,6 @@
 ///
 /// Pairs are symmetric: what a cell sees in one sector sees it in the opposite one. So half of the
 /// sectors are enough.
-#include "base/base.h"
 #include "cell_to_cell/bounds.h"
 #include "cell_to_cell/methods.h"
 #include "cell_to_cell/portal_search.h"
@@ -370,21 +369,21 @@ static sl_status list_units(sl_context *context, multipass *all) {
 
 static sl_status run_passes(sl_context *context, multipass *all) {
     SL_TRY(list_units(context, all));
-    const sli_work work = {.job = all,
-                           .begin = begin,
-                           .unit = search_unit,
-                           .end = end,
-                           .leave_thread = all->options->solver->leave_thread,
-                           .stage = "cell_to_cell",
-                           .units = "cells",
-                           .after = all->after};
-    return sli_work_run(context, &work, all->units.count, all->options->threads);
+    const sl_work work = {.job = all,
+                          .begin = begin,
+                          .unit = search_unit,
+                          .end = end,
+                          .leave_thread = all->options->solver->leave_thread,
+                          .stage = "cell_to_cell",
+                          .units = "cells",
+                          .after = all->after};
+    return sl_work_run(context, &work, all->units.count, all->options->threads);
 }
 
 /// Runs as many passes at the same time as there are threads. One pass alone often has no work that
 /// is ready.
 static sl_status pass_all(sl_context *context, multipass *all) {
-    const size_t together = all->options->threads ? all->options->threads : sli_core_count();
+    const size_t together = all->options->threads ? all->options->threads : sl_core_count();
     const uint32_t count = all->sectors.count / 2;
     for (uint32_t sector = 0; sector < count; sector++) {
         SL_TRY(add_pass(context, all, sector));

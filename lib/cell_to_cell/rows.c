@@ -12,8 +12,8 @@
 /// 7-3).
 #include "cell_to_cell/rows.h"
 
-#include "base/base.h"
 #include "cell_to_cell/pvs_rows.h"
+#include "sightline/support.h"
 
 #include <pthread.h>
 #include <string.h>
@@ -239,7 +239,7 @@ struct sli_shared_rows {
 static bool choose_sparse(uint64_t count, size_t words, const sl_see_options *options) {
     if (options->rows != SL_ROWS_BY_SIZE) return options->rows == SL_ROWS_SPARSE;
     const uint64_t bytes = count * words * sizeof(sl_bits);
-    const uint64_t forks = options->threads ? options->threads : sli_core_count();
+    const uint64_t forks = options->threads ? options->threads : sl_core_count();
     return bytes > MOST_DENSE_BYTES || bytes * (forks + 1) > options->row_bytes;
 }
 

@@ -7,7 +7,6 @@
 #include "cell_to_cell/methods.h"
 #include "cell_to_cell/rows.h"
 
-#include "base/base.h"
 #include "effects/effects.h"
 #include "geometry/orient.h"
 #include "sightline/support.h"
@@ -169,13 +168,13 @@ static sl_status sample_unit(sl_context *context, void *job, void *state, size_t
 
 static sl_status sample_all(sl_context *context, sampling *all, sl_visibility *out) {
     SL_TRY(sli_bit_rows_create(context, all->space->cell_count, all->options, &all->rows));
-    const sli_work work = {.job = all,
-                           .begin = begin,
-                           .unit = sample_unit,
-                           .end = end,
-                           .stage = "cell_to_cell",
-                           .units = "cells"};
-    SL_TRY(sli_work_run(context, &work, all->space->cell_count, all->options->threads));
+    const sl_work work = {.job = all,
+                          .begin = begin,
+                          .unit = sample_unit,
+                          .end = end,
+                          .stage = "cell_to_cell",
+                          .units = "cells"};
+    SL_TRY(sl_work_run(context, &work, all->space->cell_count, all->options->threads));
     if (!all->one_way) SL_TRY(sli_bit_rows_mirror(context, &all->rows, SLI_ADD_MIRRORED));
     return sli_bit_rows_encode(context, &all->rows, out);
 }

@@ -19,8 +19,8 @@
 /// one row operation for each interval. Corners are independent, and their results join by OR.
 #include "cell_to_cell/sweep.h"
 
-#include "base/base.h"
 #include "cell_to_cell/methods.h"
+#include "sightline/support.h"
 
 #include <pthread.h>
 
@@ -77,14 +77,14 @@ static sl_status sweep_unit(sl_context *context, void *job, void *state, size_t 
 }
 
 sl_status sli_sweep_run(sl_context *context, sli_sweep *all) {
-    const sli_work work = {.job = all,
-                           .begin = begin,
-                           .unit = sweep_unit,
-                           .end = end,
-                           .stage = "cell_to_cell",
-                           .units = "corners"};
+    const sl_work work = {.job = all,
+                          .begin = begin,
+                          .unit = sweep_unit,
+                          .end = end,
+                          .stage = "cell_to_cell",
+                          .units = "corners"};
     const size_t units = (count_fans(all) + FANS_AT_ONCE - 1) / FANS_AT_ONCE;
-    return sli_work_run(context, &work, units, all->options->threads);
+    return sl_work_run(context, &work, units, all->options->threads);
 }
 
 static void destroy_sweep(sl_context *context, sli_sweep *all) {

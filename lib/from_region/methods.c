@@ -18,8 +18,8 @@
 /// same. Cost: brute O(view cells x objects); multipass tests at most K candidates for each
 /// relation that it finds, where K is the number of view cells that depend on one (Laine 2005,
 /// section 6.3).
-#include "base/base.h"
 #include "from_region/regions.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -115,10 +115,10 @@ static sl_status run_unit(sl_context *context, void *job, void *state, size_t un
     return work->unit(context, work, state, unit);
 }
 
-/// Runs the units of work by all threads; `after` as that of sli_work.
+/// Runs the units of work by all threads; `after` as that of sl_work.
 static sl_status run_units(sl_context *context, region_work *work, size_t count,
                            const size_t *after) {
-    const sli_work threads = {
+    const sl_work threads = {
         .job = work,
         .begin = begin,
         .unit = run_unit,
@@ -127,7 +127,7 @@ static sl_status run_units(sl_context *context, region_work *work, size_t count,
         .stage = "from_region",
         .units = "steps",
         .after = after};
-    return sli_work_run(context, &threads, count, work->options->threads);
+    return sl_work_run(context, &threads, count, work->options->threads);
 }
 
 // --- brute force

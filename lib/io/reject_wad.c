@@ -267,13 +267,13 @@ static sl_status do_unit(sl_context *context, void *user, void *state, size_t un
 }
 
 static sl_status make_rejects(wad_job *job) {
-    const unsigned threads = job->options->threads ? job->options->threads : sli_core_count();
+    const unsigned threads = job->options->threads ? job->options->threads : sl_core_count();
     job->at_work = threads < job->maps.count ? threads : (unsigned)job->maps.count;
     job->per_map = threads / job->at_work;
     if (job->maps.count == 1) return do_map(job->context, job, &job->maps.items[0]);
     SL_TRY(order_maps(job));
-    const sli_work work = {.job = job, .unit = do_unit, .stage = "reject", .units = "maps"};
-    return sli_work_run(job->context, &work, job->maps.count, job->at_work);
+    const sl_work work = {.job = job, .unit = do_unit, .stage = "reject", .units = "maps"};
+    return sl_work_run(job->context, &work, job->maps.count, job->at_work);
 }
 
 static sl_status write_copy(const wad_job *job, const char *output) {

@@ -11,7 +11,7 @@
 /// parts where splits are even.
 #include "view_cells/divide.h"
 
-#include "base/base.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <string.h>
@@ -361,11 +361,11 @@ static sl_status list_ahead(sli_view_divider *d, unsigned threads, ahead *a) {
 }
 
 static sl_status cut_ahead(sli_view_divider *d) {
-    const unsigned threads = d->options->threads ? d->options->threads : sli_core_count();
+    const unsigned threads = d->options->threads ? d->options->threads : sl_core_count();
     ahead a = {.divider = d};
     sl_status status = list_ahead(d, threads, &a);
-    const sli_work work = {.job = &a, .begin = begin_cutting, .unit = cut_part, .end = end_cutting};
-    if (status == SL_OK) status = sli_work_run(d->context, &work, a.parts.count, threads);
+    const sl_work work = {.job = &a, .begin = begin_cutting, .unit = cut_part, .end = end_cutting};
+    if (status == SL_OK) status = sl_work_run(d->context, &work, a.parts.count, threads);
     sl_free(d->context, a.parts.items);
     return status;
 }

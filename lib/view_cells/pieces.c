@@ -8,7 +8,6 @@
 /// search from a half costs about what the whole saw, not what the map holds.
 #include "view_cells/pieces.h"
 
-#include "base/base.h"
 #include "cell_to_cell/sectors.h"
 #include "sightline/outline.h"
 #include "sightline/support.h"
@@ -330,13 +329,13 @@ sl_status sli_view_pieces_create(sl_context *context, const sl_view_scene *scene
     SL_TRY(make_rooms(context, scene->space, scene->objects, &pieces->rooms));
     for (uint32_t i = 0; i < pieces->rooms.count; i++) SL_TRY(take_room(pieces, i));
     pieces->work.rooms = pieces->rooms.count;
-    const sli_work work = {.job = pieces,
-                           .begin = begin,
-                           .unit = pass_quadrant,
-                           .end = end,
-                           .stage = "look",
-                           .units = "quadrants"};
-    return sli_work_run(context, &work, SLI_VIEW_QUADRANTS, threads);
+    const sl_work work = {.job = pieces,
+                          .begin = begin,
+                          .unit = pass_quadrant,
+                          .end = end,
+                          .stage = "look",
+                          .units = "quadrants"};
+    return sl_work_run(context, &work, SLI_VIEW_QUADRANTS, threads);
 }
 
 // --- cutting

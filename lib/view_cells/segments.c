@@ -11,8 +11,8 @@
 /// Each unit of samples has random numbers of its own, and units are joined in order. So the result
 /// is the same for any number of threads. Cost: O(rooms on the line) a sample; O(leaves passed x
 /// objects) a segment for the sets.
-#include "base/base.h"
 #include "geometry/orient.h"
+#include "sightline/support.h"
 #include "view_cells/tree.h"
 
 #include <math.h>
@@ -259,10 +259,10 @@ sl_status sl_view_sample(sl_context *context, const sl_outline *outline,
     const size_t units = (size_t)((options->samples + SAMPLES_A_UNIT - 1) / SAMPLES_A_UNIT);
     sampler s = {outline, options, sl_alloc_array(context, units, sizeof(batch))};
     if (!s.batches) return SL_NO_MEMORY;
-    const sli_work work = {
+    const sl_work work = {
         .job = &s, .unit = sample_unit, .stage = "sample", .units = "bundles of lines"};
     sl_view_segments joined = {0}, made = {.drawn = options->samples};
-    sl_status status = sli_work_run(context, &work, units, options->threads);
+    sl_status status = sl_work_run(context, &work, units, options->threads);
     if (status == SL_OK) status = join(context, s.batches, units, &joined);
     if (status == SL_OK) status = sort(context, &outline->space->bounds, &joined, &made);
     made.empty = joined.empty;
@@ -391,17 +391,17 @@ sl_status sl_view_sets_sample(sl_context *context, const sl_view_scene *scene,
     gathering g = {.tree = tree, .segments = segments};
     g.object_count = scene->objects == SL_VIEW_WALLS ? space->wall_count : space->cell_count;
     const uint64_t bytes = (uint64_t)tree->cell_count * sl_bits_words(g.object_count) * 8 + 1;
-    if (!threads) threads = sli_core_count();
+    if (!threads) threads = sl_core_count();
     if (threads > MOST_SET_BYTES / bytes) threads = (unsigned)(MOST_SET_BYTES / bytes);
     pthread_mutex_init(&g.lock, NULL);
-    const sli_work work = {.job = &g,
-                           .begin = begin,
-                           .unit = gather_unit,
-                           .end = end,
-                           .stage = "see",
-                           .units = "bundles of lines"};
+    const sl_work work = {.job = &g,
+                          .begin = begin,
+                          .unit = gather_unit,
+                          .end = end,
+                          .stage = "see",
+                          .units = "bundles of lines"};
     const size_t units = (segments->count + (size_t)SEGMENTS_A_UNIT) / SEGMENTS_A_UNIT;
-    const sl_status status = sli_work_run(context, &work, units, threads ? threads : 1);
+    const sl_status status = sl_work_run(context, &work, units, threads ? threads : 1);
     pthread_mutex_destroy(&g.lock);
     if (status == SL_OK)
         *out = g.sets;

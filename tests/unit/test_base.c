@@ -1,7 +1,6 @@
 /// Numbers as text, files, threads.
 #include "testing.h"
 
-#include "base/base.h"
 #include "sightline/support.h"
 #include "sightline/version.h"
 
@@ -154,9 +153,9 @@ static void every_unit_of_work_is_done_once(void **state) {
     for (unsigned threads = 1; threads <= 8; threads *= 2) {
         sl_context *context = testing_context(NULL);
         counting_job job = {.fails = UNITS};
-        const sli_work work = {
+        const sl_work work = {
             .job = &job, .begin = begin_counting, .unit = count_unit, .end = end_counting};
-        assert_ok(context, sli_work_run(context, &work, UNITS, threads));
+        assert_ok(context, sl_work_run(context, &work, UNITS, threads));
         for (size_t i = 0; i < UNITS; i++) assert_int_equal(job.done[i], 1);
         assert_int_equal(job.begun, job.ended);
         sl_context_destroy(context);
@@ -168,9 +167,9 @@ static void the_first_failure_of_work_is_told(void **state) {
     for (int round = 0; round < 100; round++) {
         sl_context *context = testing_context(NULL);
         counting_job job = {.fails = 500};
-        const sli_work work = {
+        const sl_work work = {
             .job = &job, .begin = begin_counting, .unit = count_unit, .end = end_counting};
-        assert_int_equal(sli_work_run(context, &work, UNITS, 4), SL_BAD_INPUT);
+        assert_int_equal(sl_work_run(context, &work, UNITS, 4), SL_BAD_INPUT);
         assert_string_equal(sl_context_message(context), "unit 500");
         assert_int_equal(job.begun, job.ended);
         sl_context_destroy(context);
@@ -193,8 +192,8 @@ static void of_failures_that_of_the_lowest_unit_is_told(void **state) {
     for (int round = 0; round < 100; round++) {
         sl_context *context = testing_context(NULL);
         atomic_int arrived = 0;
-        const sli_work work = {.job = &arrived, .unit = fail_together};
-        assert_int_equal(sli_work_run(context, &work, UNITS, TOGETHER), SL_BAD_INPUT);
+        const sl_work work = {.job = &arrived, .unit = fail_together};
+        assert_int_equal(sl_work_run(context, &work, UNITS, TOGETHER), SL_BAD_INPUT);
         assert_string_equal(sl_context_message(context), "unit 0");
         sl_context_destroy(context);
     }

@@ -1,6 +1,6 @@
 /// For programs and parts that are written as the library itself is: statuses that lead to an early
-/// return, memory, growing arrays, sets of bits, random numbers, numbers as text, whole files.
-/// Whoever only asks what is seen does not need it.
+/// return, memory, growing arrays, sets of bits, random numbers, work on threads, numbers as text,
+/// whole files. Programs that only ask what is seen do not need it.
 #ifndef SIGHTLINE_SUPPORT_H
 #define SIGHTLINE_SUPPORT_H
 
@@ -133,6 +133,31 @@ static inline uint64_t sl_random_below(sl_random *random, uint64_t bound) {
 static inline double sl_random_unit(sl_random *random) {
     return (double)(sl_random_next(random) >> 11) * 1.1102230246251565e-16; // 2^-53
 }
+
+// --- independent work in numbered units, spread over threads
+
+/// What a thread does. `begin` makes what the thread needs for itself (out into *state), `unit`
+/// does one unit, `end` frees the state; begin, units and end of a state run in one thread. Units
+/// are handed out in ascending order, any thread may get any unit. `begin` and `end` may be NULL.
+/// `after`: NULL, or for each unit the number of the first unit of its wave: waves are runs of
+/// units, and one starts when all before it are done.
+typedef struct sl_work {
+    void *job;
+    sl_status (*begin)(sl_context *context, void *job, void **state);
+    sl_status (*unit)(sl_context *context, void *job, void *state, size_t unit);
+    void (*end)(sl_context *context, void *job, void *state);
+    void (*leave_thread)(void);
+    const char *stage, *units; ///< for the progress report; NULL: none
+    const size_t *after;
+} sl_work;
+
+/// Runs units 0 .. count-1 on `threads` threads (0: one a core), the caller's among them. The first
+/// failure stops the rest; with several at once, that of the lowest unit is returned.
+SL_API sl_status sl_work_run(sl_context *context, const sl_work *work, size_t count,
+                             unsigned threads);
+
+/// The number of threads that 0 stands for.
+SL_API unsigned sl_core_count(void);
 
 // --- numbers as text, both ways, the same in every locale
 
