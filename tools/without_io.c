@@ -29,8 +29,7 @@ static sl_status refuse_export(sl_context *context, const sl_baked *baked,
 
 static const sl_map_format foreign = {
     .name = "foreign",
-    .endings = ".ug .dxf .svg .png .pgm .pbm .yaml .yml .tmx .json .tmj .ldtk .ldtkl .dd2vtt .uvtt "
-               ".df2vtt .wad",
+    .endings = SL_IO_ENDINGS,
     .what = WHAT,
     .read = refuse_map,
     .takes = UINT32_MAX,

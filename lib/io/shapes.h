@@ -7,8 +7,8 @@
 #include "sightline/support.h"
 
 // --- the pen. Curves become chords that end on the curve. No point of the curve is farther than
-// the
-// --- tolerance from its chord, in the map's unit; by default no farther than 1/200 of the curve's
+// --- the tolerance from its chord, in the map's unit; by default no farther than 1/200 of the
+// curve's
 // --- own size (32 chords a circle)
 
 /// x' = xx x + xy y + x0, y' = yx x + yy y + y0.

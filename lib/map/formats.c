@@ -171,6 +171,20 @@ static sl_status read_format(sl_context *context, const char *path, const sl_map
     return status;
 }
 
+/// A foreign file that was taken for map text: the message says how to read it.
+static sl_status tell_of_formats(sl_context *context, const char *path, sl_status status) {
+    size_t count;
+    const sl_map_format *known = sl_map_formats(context, &count);
+    const char *ending = strrchr(path, '.');
+    char message[sizeof context->message];
+    if (status != SL_BAD_INPUT || context->map_formats.items || !ending) return status;
+    for (size_t i = 0; i < count; i++)
+        if (has_ending(&known[i], path)) return status;
+    memcpy(message, context->message, sizeof message);
+    return sl_fail(context, status, "%.900s (read as map text: sl_io_use() adds other formats)",
+                   message);
+}
+
 sl_status sl_map_read(sl_context *context, const char *path, const sl_import_options *options,
                       sl_map *map) {
     sl_bytes bytes;
@@ -186,7 +200,7 @@ sl_status sl_map_read(sl_context *context, const char *path, const sl_import_opt
     sl_free(context, bytes.data);
     if (status != SL_OK) {
         sl_free(context, source);
-        return status;
+        return tell_of_formats(context, path, status);
     }
     read.source = source;
     *map = read;

@@ -96,9 +96,10 @@ static void check_view(const world *w, const sl_view *view, const char *where) {
             any = true;
             if (c >= w->space.cell_count || (i && !sl_eye_sees(before, c)))
                 fail_msg("%s, eye %.17g,%.17g right %.17g,%.17g left %.17g,%.17g: cell %u is kept "
-                         "by %s, not by the method before",
+                         "by %s, not by %s before it",
                          where, view->eye.x, view->eye.y, view->right.x, view->right.y,
-                         view->left.x, view->left.y, c, methods[i].name);
+                         view->left.x, view->left.y, c, methods[i].name,
+                         i ? methods[i - 1].name : "any cell that there is");
         }
         if (any) assert_true(sl_eye_sees(cells, own));
         if (any) assert_true(account.nodes > 0);

@@ -11,6 +11,22 @@ static void write_file(const char *path, const char *text) {
     assert_int_equal(fclose(file), 0);
 }
 
+/// Whether each word of a list is in another one.
+static bool all_words_in(const char *words, const char *others) {
+    for (const char *at = words; *at; at += strspn(at, " ")) {
+        const size_t length = strcspn(at, " ");
+        bool found = false;
+        for (const char *other = others; *other && !found; other += strspn(other, " ")) {
+            const size_t same = strcspn(other, " ");
+            found = same == length && memcmp(other, at, length) == 0;
+            other += same;
+        }
+        if (!found) return false;
+        at += length;
+    }
+    return true;
+}
+
 static void test_table(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
@@ -24,6 +40,15 @@ static void test_table(void **state) {
     for (size_t i = 0; i < count; i++)
         assert_true(formats[i].name[0] && formats[i].endings[0] == '.' && formats[i].what[0] &&
                     formats[i].read);
+    // SL_IO_ENDINGS has the ending of each format that is not the core's, and no other.
+    for (size_t i = core; i < count; i++)
+        assert_true(all_words_in(formats[i].endings, SL_IO_ENDINGS));
+    char endings[512] = "";
+    for (size_t i = core; i < count; i++) {
+        strcat(endings, " ");
+        strcat(endings, formats[i].endings);
+    }
+    assert_true(all_words_in(SL_IO_ENDINGS, endings));
     // Formats that are there already are passed over.
     assert_ok(context, sl_io_use(context));
     sl_map_formats(context, &again);
@@ -136,10 +161,28 @@ static void test_options_refused(void **state) {
     sl_context_destroy(context);
 }
 
+/// Without sl_io_use() a foreign file is taken for map text, and the message says so.
+static void test_formats_missing(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    char folder[] = "/tmp/sightline-formats-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/plan.dxf", folder);
+    write_file(path, "  0\nSECTION\n");
+    sl_map map = {0};
+    assert_int_equal(sl_map_read(context, path, NULL, &map), SL_BAD_INPUT);
+    assert_non_null(strstr(sl_context_message(context), ".dxf:1: "));
+    assert_non_null(strstr(sl_context_message(context), "sl_io_use()"));
+    assert_int_equal(remove(path), 0);
+    assert_int_equal(remove(folder), 0);
+    sl_context_destroy(context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_table),
         cmocka_unit_test(test_endings),
+        cmocka_unit_test(test_formats_missing),
         cmocka_unit_test(test_options_refused),
         cmocka_unit_test(test_report_and_failures),
     };

@@ -1,4 +1,4 @@
-// Every reader, the cleaning and the writers, with an allocator that gives out after N calls.
+// Readers, the cleaning and the writers, with an allocator that gives out after N calls.
 #include "testing.h"
 
 #include "map_same.h"

@@ -93,8 +93,7 @@ typedef struct sl_eye_method {
                           uint64_t *cells, sl_eye_account *account);
 } sl_eye_method;
 
-/// All methods, the loosest first: "cell_to_cell", "disjoint_cell", "connected_component",
-/// "incident_portals", "exact".
+/// All methods, the loosest first, from "cell_to_cell" to "exact".
 SL_API const sl_eye_method *sl_eye_methods(size_t *count);
 
 #ifdef __cplusplus

@@ -31,7 +31,15 @@ SL_API sl_status sl_export_png(sl_context *context, const sl_baked *baked,
 SL_API sl_status sl_export_reject(sl_context *context, const sl_baked *baked,
                                   const sl_export_options *options, const char *path);
 
-// --- readers of maps, as sl_map_format has them
+/// The endings of all formats below, with spaces between.
+#define SL_IO_ENDINGS                                                                              \
+    ".ug .dxf .svg .png .pgm .pbm .yaml .yml .tmx .json .tmj .ldtk .ldtkl .dd2vtt .uvtt .df2vtt "  \
+    ".wad"
+
+// --- readers of maps, as sl_map_format has them. `name` is what messages call the file. The map
+// --- must be empty, and stays so on failure: SL_BAD_INPUT for a broken file, with "NAME: " or
+// --- "NAME:LINE: " first. Walls without length are left out. A file without walls is read; a bake
+// --- of it fails.
 
 /// Cuts a UniGrafix model at a height: every face that crosses the plane gives walls. Faces in the
 /// plane give none; comments that surround the model are kept as notes. What was taken is noted.
