@@ -7,8 +7,8 @@
 /// A walk from portal to portal finds each fan. It starts at a wall and ends at the next wall, or
 /// goes all round. With one-way glass a fan also ends where the glass is blocked.
 ///
-/// Each cell must be looked at from one of its corners: a fan there "serves" the cell. Which fans
-/// serve which cells is a greedy set cover. The candidate with the most gain for its cost comes
+/// Each cell must be looked at from one of its corners: a fan there "covers" the cell. Which fans
+/// cover which cells is a greedy set cover. The candidate with the most gain for its cost comes
 /// first. Cost: linear in the number of directed portals. The set cover goes over all fans once for
 /// each different gain.
 #include "cell_to_cell/fans.h"
@@ -351,12 +351,12 @@ static sl_status walk_all_round(sl_context *context, walker *w, sl_bits *walked)
     return SL_OK;
 }
 
-// --- who serves whom
+// --- which fan covers which cell
 
-/// A fan, as a candidate to serve cells.
+/// A fan, as a candidate to cover cells.
 typedef struct candidate {
     uint32_t each; ///< the gain of one cell, less where looking costs more
-    uint32_t gain; ///< of all its cells that no fan serves yet
+    uint32_t gain; ///< of all its cells that no fan covers yet
 } candidate;
 
 /// Grows with a direction's angle, from 0 to 4: by 1 a quarter turn.
@@ -366,7 +366,7 @@ static double quarters(sl_point at, sl_point to) {
     return x < 0 ? 2 - y / size : 3 + x / size;
 }
 
-/// How much of a half turn a fan's point looks at for cells that it serves: what lies above the
+/// How much of a half turn a fan's point looks at for cells that it covers: what lies above the
 /// horizon, and is not looked at for a rotating line anyway.
 static double share_above(const sli_fans *fans, const sli_fan *fan) {
     const sli_fan_cell *cells = fans->cells.items + fan->first;
@@ -390,33 +390,33 @@ static uint32_t gain_of_each(const sli_fans *fans, const sli_fan *fan) {
 }
 
 static uint32_t gain_of(const sli_fans *fans, const sli_fan *fan, uint32_t each,
-                        const sl_bits *served) {
+                        const sl_bits *covered) {
     uint32_t waiting = 0;
     for (uint32_t i = 0; i < fan->count; i++)
-        waiting += !sl_bits_has(served, fans->cells.items[fan->first + i].cell);
+        waiting += !sl_bits_has(covered, fans->cells.items[fan->first + i].cell);
     return waiting * each;
 }
 
-static void serve(sli_fans *fans, sli_fan *fan, sl_bits *served) {
+static void cover(sli_fans *fans, sli_fan *fan, sl_bits *covered) {
     for (uint32_t i = 0; i < fan->count; i++) {
         sli_fan_cell *c = &fans->cells.items[fan->first + i];
-        c->served = !sl_bits_has(served, c->cell);
-        fan->serves |= c->served;
-        sl_bits_add(served, c->cell);
+        c->covered = !sl_bits_has(covered, c->cell);
+        fan->covers |= c->covered;
+        sl_bits_add(covered, c->cell);
     }
 }
 
 /// Greedy set cover: the candidate with the most gain comes first. Gains only fall. So a fan whose
 /// gain turns out to be less than that of the round waits for a later round.
-static void share_out_by(sli_fans *fans, candidate *candidates, sl_bits *served) {
+static void share_out_by(sli_fans *fans, candidate *candidates, sl_bits *covered) {
     const size_t count = fans->fans.count;
     uint32_t most = 0;
     for (size_t i = 0; i < count; i++) {
         sli_fan *fan = &fans->fans.items[i];
         // Around a single wall, only the cells that the rotating line touches still need expanding.
-        if (fan->back_to_back) serve(fans, fan, served);
+        if (fan->back_to_back) cover(fans, fan, covered);
         candidates[i].each = gain_of_each(fans, fan);
-        candidates[i].gain = gain_of(fans, fan, candidates[i].each, served);
+        candidates[i].gain = gain_of(fans, fan, candidates[i].each, covered);
         if (candidates[i].gain > most) most = candidates[i].gain;
     }
     for (uint32_t now = most; now > 0;) {
@@ -424,9 +424,9 @@ static void share_out_by(sli_fans *fans, candidate *candidates, sl_bits *served)
         for (size_t i = 0; i < count; i++) {
             candidate *c = &candidates[i];
             sli_fan *fan = &fans->fans.items[i];
-            if (c->gain >= now) c->gain = gain_of(fans, fan, c->each, served);
+            if (c->gain >= now) c->gain = gain_of(fans, fan, c->each, covered);
             if (c->gain >= now) {
-                serve(fans, fan, served);
+                cover(fans, fan, covered);
                 c->gain = 0;
             }
             if (c->gain > next) next = c->gain;
@@ -437,11 +437,11 @@ static void share_out_by(sli_fans *fans, candidate *candidates, sl_bits *served)
 
 static sl_status share_out(sl_context *context, sli_fans *fans) {
     candidate *candidates = sl_alloc_array(context, fans->fans.count, sizeof *candidates);
-    sl_bits *served = sl_alloc_array(context, sl_bits_words(fans->cell_count), sizeof *served);
-    const bool room = candidates && served;
-    if (room) share_out_by(fans, candidates, served);
+    sl_bits *covered = sl_alloc_array(context, sl_bits_words(fans->cell_count), sizeof *covered);
+    const bool room = candidates && covered;
+    if (room) share_out_by(fans, candidates, covered);
     sl_free(context, candidates);
-    sl_free(context, served);
+    sl_free(context, covered);
     return room ? SL_OK : SL_NO_MEMORY;
 }
 
@@ -452,8 +452,8 @@ static void drop_idle(sl_context *context, sli_fans *fans, sli_fan_way way) {
     size_t kept = 0, kept_cells = 0;
     for (size_t i = 0; i < fans->fans.count; i++) {
         sli_fan fan = fans->fans.items[i];
-        const bool turns = fan.wide && way != SLI_FANS_SERVING;
-        if (!turns && !fan.serves) continue;
+        const bool turns = fan.wide && way != SLI_FANS_COVERING;
+        if (!turns && !fan.covers) continue;
         memmove(cells + kept_cells, cells + fan.first, ((size_t)fan.count + 1) * sizeof *cells);
         fan.first = (uint32_t)kept_cells;
         kept_cells += (size_t)fan.count + 1;
@@ -471,14 +471,14 @@ static sl_status find(sl_context *context, walker *w, const sl_see_options *opti
     sli_fans *fans = w->fans;
     SL_TRY(copy_directed(context, w, options, blocked));
     if (way == SLI_FANS_BACK) turn_round(fans, blocked);
-    w->blocked = way == SLI_FANS_SERVING ? NULL : blocked;
+    w->blocked = way == SLI_FANS_COVERING ? NULL : blocked;
     SL_TRY(number_ends(context, w));
     SL_TRY(find_middles(context, fans));
     SL_TRY(walk_between(context, w, walked));
     SL_TRY(walk_all_round(context, w, walked));
     if (fans->ends.count) SL_TRY(add_horizon(context, fans));
     fans->grid = find_grid(fans);
-    if (way == SLI_FANS_MUTUAL || way == SLI_FANS_SERVING) SL_TRY(share_out(context, fans));
+    if (way == SLI_FANS_MUTUAL || way == SLI_FANS_COVERING) SL_TRY(share_out(context, fans));
     drop_idle(context, fans, way);
     if (blocked) block_directed(fans, blocked);
     return SL_OK;

@@ -25,7 +25,7 @@ typedef struct sli_fan_cell {
     /// Sign of the edge's angle beyond the fan's first edge, less pi; and of the angle by which the
     /// fan's last edge is beyond the edge, taken from pi.
     int8_t past_half, past_rest;
-    bool served; ///< what is seen from the fan's point counts for the cell
+    bool covered; ///< what is seen from the fan's point counts for the cell
 } sli_fan_cell;
 
 /// Consecutive cells round a portal end, counter-clockwise. A fan between walls has one item more
@@ -36,7 +36,7 @@ typedef struct sli_fan {
     bool full_turn;        ///< no wall stops it
     bool wide;             ///< it leaves a line room to turn beside the corner of its walls
     bool back_to_back;     ///< it goes all round one wall: first and last edge are the same
-    bool serves;           ///< some of its cells are served
+    bool covers;           ///< some of its cells are covered
 } sli_fan;
 
 typedef struct sli_fans {
@@ -58,18 +58,18 @@ typedef struct sli_fans {
 /// Which fans, and in which of its two directions one-way glass is blocked for whoever walks
 /// through the directed portals.
 typedef enum sli_fan_way {
-    SLI_FANS_MUTUAL,  ///< no glass is blocked
-    SLI_FANS_SERVING, ///< those that serve cells alone; glass does not end them, directed portals
-                      ///< are as sight
-    SLI_FANS_FORTH,   ///< wide ones alone, also between glass that is blocked counter-clockwise
+    SLI_FANS_MUTUAL,   ///< no glass is blocked
+    SLI_FANS_COVERING, ///< those that cover cells alone; glass does not end them, directed portals
+                       ///< are as sight
+    SLI_FANS_FORTH,    ///< wide ones alone, also between glass that is blocked counter-clockwise
     SLI_FANS_BACK, ///< as if all glass were turned round: directed portals lead to cells from which
                    ///< sight comes
 } sli_fan_way;
 
-/// Finds the fans of all portal ends. Each cell that has a directed portal is served by one of them
-/// at least, but for SLI_FANS_FORTH and SLI_FANS_BACK. Fans without room to turn that serve nobody
-/// are left out. Directed portals and ends of portals have the same numbers in all ways. `fans` is
-/// zeroed, and to be destroyed also on failure. Time: a hash table of the ends.
+/// Finds the fans of all portal ends. Each cell that has a directed portal is covered by one of
+/// them at least, but for SLI_FANS_FORTH and SLI_FANS_BACK. Fans without room to turn that cover no
+/// cell are left out. Directed portals and ends of portals have the same numbers in all ways.
+/// `fans` is zeroed, and to be destroyed also on failure. Time: a hash table of the ends.
 sl_status sli_fans_find(sl_context *context, const sl_space *space, const sl_see_options *options,
                         sli_fan_way way, sli_fans *fans);
 void sli_fans_destroy(sl_context *context, sli_fans *fans); ///< and zeroes it

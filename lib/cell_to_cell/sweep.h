@@ -57,7 +57,7 @@ static inline sli_bound sli_before_edge(const sli_sweeper *sweeper, uint32_t end
 }
 
 /// Adds to the rows all pairs that lines through the fan's point join while it turns beside the
-/// walls' corner, and what the point sees for the cells that it serves. Pairs may be added one way
+/// walls' corner, and what the point sees for the cells that it covers. Pairs may be added one way
 /// only.
 sl_status sli_sweep_fan(sl_context *context, sli_sweeper *sweeper, const sli_fan *fan);
 

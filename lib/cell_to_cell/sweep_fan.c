@@ -2,7 +2,7 @@
 ///
 /// What is seen from the point is cut into three parts: what the rotating line has behind itself,
 /// what it has before itself, and what lies between. The third part counts only for cells that the
-/// point serves.
+/// point covers.
 ///
 /// Then the line rotates. Its backward half goes over one part of the fan, its forward half over
 /// the part half a turn on. At each event cells come into the sight of one half or leave it. A cell
@@ -73,7 +73,7 @@ static sl_status add_sector(sl_context *context, sli_sweeper *s, sli_fan_sector 
 }
 
 /// The two ends of the horizon. A fan's point looks at the directions above it for the cells that
-/// it serves, a little more than half a turn.
+/// it covers, a little more than half a turn.
 static sli_bound horizon(const sli_sweeper *s, bool left) {
     const uint32_t count = (uint32_t)s->fans->ends.count;
     return (sli_bound){.end = left ? count - 1 : count - 2, .rank = left ? SLI_BEFORE : SLI_AFTER};
@@ -193,7 +193,7 @@ static sl_status add_rays(sl_context *context, sli_sweeper *s, const sli_fan *fa
     return SL_OK;
 }
 
-// --- what the point sees for the cells that it serves
+// --- what the point sees for the cells that it covers
 
 static void add_visible(sli_word_set *set, const sli_visible *visible) {
     for (size_t i = 0; i < visible->cells.count; i++)
@@ -202,12 +202,12 @@ static void add_visible(sli_word_set *set, const sli_visible *visible) {
 
 /// What the rotating line does not join with a cell of the fan anyway: see turn_line. Cells
 /// beside each other mostly get the same.
-static sl_status serve(sl_context *context, sli_sweeper *s, const sli_fan *fan) {
+static sl_status cover(sl_context *context, sli_sweeper *s, const sli_fan *fan) {
     enum { NOTHING, MIDDLE = 1, BACK = 2, AHEAD = 4 };
     const sli_fan_cell *cells = s->fans->cells.items + fan->first;
     sli_word_set *set = &s->behind;
     for (uint32_t k = 0, has = NOTHING; k < fan->count; k++) {
-        if (!cells[k].served) continue;
+        if (!cells[k].covered) continue;
         const uint32_t gets = MIDDLE | (fan->wide && cells[k].past_half <= 0 ? BACK : 0) |
                               (fan->wide && cells[k + 1].past_rest >= 0 ? AHEAD : 0);
         if (has & ~gets) {
@@ -393,7 +393,7 @@ sl_status sli_sweep_fan(sl_context *context, sli_sweeper *s, const sli_fan *fan)
         SL_TRY(find_ahead(context, s, fan));
         if (s->closed) SL_TRY(add_rays(context, s, fan, &s->ahead, first_ahead(s, fan), true));
     }
-    if (fan->serves && !fan->back_to_back) SL_TRY(find_middle(context, s, fan));
-    if (fan->serves) SL_TRY(serve(context, s, fan));
+    if (fan->covers && !fan->back_to_back) SL_TRY(find_middle(context, s, fan));
+    if (fan->covers) SL_TRY(cover(context, s, fan));
     return fan->wide ? turn_line(context, s, fan) : SL_OK;
 }

@@ -14,11 +14,11 @@
 #include "cell_to_cell/sweep.h"
 #include "cell_to_cell/visible.h"
 
-/// The sets of fans: those that serve cells; those of lines that go round with the fan's point at
+/// The sets of fans: those that cover cells; those of lines that go round with the fan's point at
 /// their left; those with it at their right.
-enum { SERVING, FORTH, BACK, SETS };
+enum { COVERING, FORTH, BACK, SETS };
 
-// --- what a fan's point sees for the cells that it serves
+// --- what a fan's point sees for the cells that it covers
 
 static sl_status look_along_edges(sl_context *context, sli_sweeper *s, const sli_fan *fan) {
     const sli_fan_cell *cells = s->fans->cells.items + fan->first;
@@ -125,14 +125,14 @@ static sl_status turn_clockwise(sl_context *context, sli_sweeper *s, const sli_f
     return SL_OK;
 }
 
-static sl_status serve(sl_context *context, sli_sweeper *s, const sli_fan *fan) {
+static sl_status cover(sl_context *context, sli_sweeper *s, const sli_fan *fan) {
     const sli_fan_cell *cells = s->fans->cells.items + fan->first;
     SL_TRY(sli_visible_finder_stand(context, &s->finder, s->fans, fan->at));
     s->finder.fans = s->fans;
     SL_TRY(look_along_edges(context, s, fan));
     SL_TRY(look_through_all(context, s, fan));
     for (uint32_t k = 0; k < fan->count; k++) {
-        if (!cells[k].served) continue;
+        if (!cells[k].covered) continue;
         add_listed(&s->looks, k, &s->before);
         SL_TRY(turn_counter(context, s, fan, k, &s->before));
         SL_TRY(turn_clockwise(context, s, fan, k, &s->before));
@@ -149,7 +149,7 @@ static sl_status visit(sl_context *context, const sli_sweep *all, sli_sweeper *s
                        const sli_fan *fan) {
     const bool back = set == BACK;
     s->fans = &all->fans[set];
-    if (set == SERVING) return serve(context, s, fan);
+    if (set == COVERING) return cover(context, s, fan);
     s->inward = &all->fans[back ? FORTH : BACK];
     s->outward = s->fans;
     s->back_rows = back ? &s->seen_from : &s->rows;
@@ -170,7 +170,7 @@ static sl_status join_directions(sl_context *context, sli_sweep *all) {
 }
 
 static sl_status sweep_all(sl_context *context, sli_sweep *all, sl_visibility *out) {
-    static const sli_fan_way ways[SETS] = {SLI_FANS_SERVING, SLI_FANS_FORTH, SLI_FANS_BACK};
+    static const sli_fan_way ways[SETS] = {SLI_FANS_COVERING, SLI_FANS_FORTH, SLI_FANS_BACK};
     const sl_space *space = all->space;
     sl_see_options half = *all->options;
     if (half.row_bytes != UINT64_MAX) half.row_bytes /= 2;
