@@ -1,6 +1,7 @@
 """Checks of the source tree: check.py SUBJECT ROOT.
 
-layers   a folder of lib/ includes only from itself and from folders before it, and lib/README.md
+layers   a folder of lib/ includes only from itself and from folders before it; tools and viewer include
+         public headers alone; private names begin with sli_; and lib/README.md
          has a line for each
 sources  lib/CMakeLists.txt names every source of lib/
 headers  every public header compiles alone, as C11 and as C++
@@ -122,7 +123,27 @@ def check_layers(root):
                 fault = f"a public header includes {name}, which is not installed"
             if fault:
                 yield f"{path.relative_to(root)}:{line}: {fault}"
+    for path in sources(root, ["tools", "viewer"], {".c", ".h"}):
+        lines = path.read_text(encoding="utf-8").splitlines()
+        for line, how, name in includes(path):
+            folder = pathlib.PurePosixPath(name).parts[0]
+            if how == '"' and folder in FOLDERS and "// private" not in lines[line - 1]:
+                yield (f"{path.relative_to(root)}:{line}: {name} is private to lib; a lesson that shows "
+                       "the library's inside says so behind it: // private: why")
+    yield from check_names(root)
     yield from check_map_of_the_house(lib, [name for name in FOLDERS if name in there])
+
+
+def check_names(root):
+    """What a private header declares begins with sli_, so that a reader sees what is public."""
+    for path in sorted((root / "lib").glob("*/*.h")):
+        if path.parent.name in ALONE:
+            continue
+        text = path.read_text(encoding="utf-8")
+        for declared in DECLARATION.finditer(text):
+            if text[declared.start()] != " " and not declared[1].startswith("sli_"):
+                line = text.count("\n", 0, declared.start(1)) + 1
+                yield f"{path.relative_to(root)}:{line}: {declared[1]}: a private name begins with sli_"
 
 
 def check_map_of_the_house(lib, there):
@@ -145,7 +166,7 @@ def check_sources(root):
 
 
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
-DECLARATION = re.compile(r"^(?!static|typedef)[\w ]+[ *](sl_\w+)\([^;{]*\);", re.MULTILINE)
+DECLARATION = re.compile(r"^(?!static|typedef)[\w ]+[ *](sli?_\w+)\([^;{]*\);", re.MULTILINE)
 
 
 def check_used(root):
@@ -153,7 +174,7 @@ def check_used(root):
              for path in sources(root, ["lib", "tools", "viewer", "tests"], {".c", ".h"})}
     users = {}
     for path, text in texts.items():
-        for name in re.findall(r"\bsl_\w+", text):
+        for name in re.findall(r"\bsli?_\w+", text):
             users.setdefault(name, []).append(path)
     for path in sorted((root / "lib").glob("*/*.h")):
         for declared in DECLARATION.finditer(texts[path]):

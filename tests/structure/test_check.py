@@ -53,6 +53,15 @@ class CheckTest(unittest.TestCase):
         self.assert_one(faults, "lib/map/m.c:2", "space/x.h")
         self.assert_one(self.layers("lib/base/b.h", '# include "map/m.h"\n'), "lib/base/b.h:1")
 
+    def test_private_include_of_an_application(self):
+        self.assert_one(self.layers("tools/t.c", '#include "base/a.h"\n'), "tools/t.c:1", "private")
+        self.assertEqual(self.layers("tools/t.c", '#include "base/a.h" // private: a lesson\n'), [])
+        self.assertEqual(self.layers("viewer/v.c", '#include "sightline/map.h"\n#include "v.h"\n'), [])
+
+    def test_private_name_that_looks_public(self):
+        self.assert_one(self.layers("lib/base/b.h", "int sl_get(int i);\n"), "lib/base/b.h:1", "sl_get")
+        self.assertEqual(self.layers("lib/base/b.h", "int sli_get(int i);\n"), [])
+
     def test_public_include_of_a_later_stage(self):
         self.assert_one(self.layers("lib/map/m.c", '#include "sightline/space.h"\n'), "space/")
         self.assert_one(self.layers("lib/map/m.c", "#include <sightline/pvs.h>\n"), "cell_to_cell/")
