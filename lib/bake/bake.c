@@ -4,6 +4,8 @@
 #include "sightline/solvers.h"
 #include "sightline/support.h"
 
+enum { MIRROR_DEPTH_MOST = 16 };
+
 sl_bake_options sl_bake_options_default(void) {
     sl_bake_options options = {.clean = sl_clean_options_default(),
                                .rules = sl_subdivide_options_default(),
@@ -32,6 +34,9 @@ static void keep_rest_of_map(sl_context *context, sl_map *map, sl_baked *baked) 
 }
 
 static sl_status choose(sl_context *context, const sl_map *map, sl_bake_options *options) {
+    if (options->mirror_depth > MIRROR_DEPTH_MOST)
+        return sl_fail(context, SL_BAD_ARGUMENT, "the mirror depth must be 0 to %d",
+                       MIRROR_DEPTH_MOST);
     if (!options->method) options->method = sl_see_method_for(map, &options->see);
     if (options->method->stabs && !options->see.solver) options->see.solver = sl_funnel();
     return sl_see_check(context, options->method, options->see.solver, map);

@@ -197,8 +197,11 @@ const void *sli_table_items(const sli_table *table, const void *own, size_t own_
 
 sl_status sli_table_add(sl_context *context, sli_table *table, size_t size, const void *own,
                         size_t own_count, const void *more, size_t count) {
-    size_t total;
+    size_t total, added = 0;
     const void *before = sli_table_items(table, own, own_count, &total);
+    for (const char *item = more, *end = item + count * size; item < end; item += size)
+        added += !has_name(before, total, size, name_of(item));
+    if (!added) return SL_OK;
     char *items = sl_alloc_array(context, total + count, size);
     if (!items) return SL_NO_MEMORY;
     memcpy(items, before, total * size);

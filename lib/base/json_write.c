@@ -133,12 +133,17 @@ void sl_json_put_real(sl_json_writer *json, double finite) {
     }
     snprintf(text, sizeof text - 2, "%.17g", finite);
     bool whole = true;
-    for (char *at = text; *at; at++) {
+    char *to = text;
+    for (const char *at = text; *at; at++) {
         if (*at == 'e') whole = false;
-        if (strchr("0123456789+-e", *at)) continue;
-        *at = '.'; // whatever the locale's decimal point is
-        whole = false;
+        if (strchr("0123456789+-e", *at)) {
+            *to++ = *at;
+        } else if (whole) { // the locale's decimal point, of whatever bytes
+            *to++ = '.';
+            whole = false;
+        }
     }
+    *to = '\0';
     if (whole) strcat(text, ".0");
     shorten_exponent(text);
     put_scalar(json, text, strlen(text));

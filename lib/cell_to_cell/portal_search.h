@@ -84,8 +84,9 @@ static inline sl_status sli_portal_search_start(sl_context *context, sli_portal_
 static inline sl_status sli_portal_search_push(sl_context *context, sli_portal_search *search,
                                                sl_point left, sl_point right,
                                                sl_stab_verdict *verdict) {
+    SL_TRY(search->solver->push(context, search->solver_state, left, right, verdict));
     search->held++;
-    return search->solver->push(context, search->solver_state, left, right, verdict);
+    return SL_OK;
 }
 
 /// Takes the last portal off again.

@@ -12,7 +12,8 @@ static bool knows_svg(const char *text, size_t size) {
 
 static bool knows_image(const char *text, size_t size) {
     return (size > 4 && memcmp(text, "\x89PNG", 4) == 0) ||
-           (size > 3 && text[0] == 'P' && strchr("1245", text[1]) && strchr(" \t\r\n#", text[2]));
+           (size > 3 && text[0] == 'P' && memchr("1245", text[1], 4) &&
+            memchr(" \t\r\n#", text[2], 5));
 }
 
 static bool knows_tmx(const char *text, size_t size) {

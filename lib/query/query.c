@@ -181,9 +181,16 @@ sl_status sl_query_set_boxes(sl_context *context, sl_query *query, const sl_movi
 }
 
 sl_status sl_query_set_range(sl_context *context, sl_query *query, double range) {
+    const double baked = query->baked->map.range;
     if (!(range >= 0) || isinf(range))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "the range must be 0 or more, and finite; 0: no limit");
+    if (baked > 0 && (range == 0 || range > baked))
+        return sl_fail(
+            context, SL_BAD_ARGUMENT,
+            "the map was baked with a view range of %.17g, and nothing farther is known: "
+            "ask for a range up to that, or bake the map --without range",
+            baked);
     query->range = range;
     return SL_OK;
 }
@@ -432,9 +439,9 @@ sl_status sl_query_look_mirrored(sl_context *context, sl_query *query, const sl_
 sl_status sl_query_boxes_seen(sl_context *context, sl_query *query, const sl_view *view, bool *seen,
                               bool *mirrored) {
     sl_eye_account account;
+    SL_TRY(make_layers(context, query, view->eye));
     if (!query->box_count) return SL_OK;
     if (mirrored) memset(mirrored, 0, query->box_count * sizeof *mirrored);
-    SL_TRY(make_layers(context, query, view->eye));
     uint64_t *cells = sl_alloc_array(context, sl_eye_words(query->glass.space), sizeof *cells);
     if (!cells) return SL_NO_MEMORY;
     sl_status status = look_past(context, query, view, false, cells, seen, &account);

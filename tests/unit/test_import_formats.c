@@ -51,7 +51,7 @@ static void test_table(void **state) {
     assert_true(all_words_in(SL_IO_ENDINGS, endings));
     // Formats that are there already are passed over.
     assert_ok(context, sl_io_use(context));
-    sl_map_formats(context, &again);
+    assert_ptr_equal(sl_map_formats(context, &again), formats);
     assert_int_equal(again, count);
     sl_export_formats(context, &again);
     assert_int_equal(again, 5);

@@ -246,6 +246,29 @@ static void a_bake_is_its_stages(void **state) {
     sl_context_destroy(context);
 }
 
+static void what_a_bake_does_not_know_is_refused(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    const char *const parts[] = {rooms, "range 9\n", NULL};
+    sl_map map = {0};
+    sl_baked baked = {0};
+    sl_query *query;
+    sl_bake_options options = sl_bake_options_default();
+    options.mirror_depth = 17;
+    read_map(context, parts, &map);
+    assert_int_equal(sl_bake(context, &map, &options, &baked, NULL), SL_BAD_ARGUMENT);
+    sl_map_destroy(context, &map);
+    bake(context, parts, &baked);
+    assert_ok(context, sl_query_create(context, &baked, &query));
+    assert_int_equal(sl_query_set_range(context, query, 0), SL_BAD_ARGUMENT);
+    assert_int_equal(sl_query_set_range(context, query, 9.5), SL_BAD_ARGUMENT);
+    assert_non_null(strstr(sl_context_message(context), "range of 9,"));
+    assert_ok(context, sl_query_set_range(context, query, 9));
+    sl_query_destroy(context, query);
+    sl_baked_destroy(context, &baked);
+    sl_context_destroy(context);
+}
+
 /// All that a caller does once, with an allocator that fails at its Nth call.
 static sl_status bake_and_ask(sl_context *context) {
     const char *const parts[] = {rooms, door, glass, NULL};
@@ -300,6 +323,7 @@ int main(void) {
         cmocka_unit_test(a_file_answers_as_memory_does),
         cmocka_unit_test(mirrors_show_what_the_depth_allows),
         cmocka_unit_test(boxes_are_seen_and_wrong_settings_refused),
+        cmocka_unit_test(what_a_bake_does_not_know_is_refused),
         cmocka_unit_test(without_memory_nothing_leaks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -69,11 +69,12 @@ SL_API sl_status sl_bake(sl_context *context, sl_map *map, const sl_bake_options
 
 /// The two halves of sl_bake(), for those who show the space first or do the second half in parts.
 /// The first half cleans and subdivides. It also chooses: where `options` names no method or
-/// solver, it gets them.
+/// solver, it gets them. `account` is set.
 SL_API sl_status sl_bake_space(sl_context *context, sl_map *map, sl_bake_options *options,
                                sl_baked *out, sl_bake_account *account);
 
-/// The second half finds the visible sets by what the first has chosen. `account` may be NULL.
+/// The second half finds the visible sets by what the first has chosen, so `options` must be those
+/// that the first has filled in. `account` may be NULL.
 SL_API sl_status sl_bake_see(sl_context *context, const sl_bake_options *options, sl_baked *baked,
                              sl_bake_account *account);
 
@@ -137,6 +138,7 @@ typedef struct sl_export_format {
 
 /// The formats that the context knows; the first is the default. By itself it knows those below;
 /// sl_io_use() of sightline/io.h adds others.
+/// The table stays until formats are next added.
 SL_API const sl_export_format *sl_export_formats(const sl_context *context, size_t *count);
 
 /// Adds formats, which are copied; one whose name is there already is passed over.

@@ -80,6 +80,7 @@ typedef struct sl_map_format {
 } sl_map_format;
 
 /// The formats that the context knows; the first is the map text.
+/// The table stays until formats are next added.
 SL_API const sl_map_format *sl_map_formats(const sl_context *context, size_t *count);
 
 /// Adds formats, which are copied; one whose name is there already is passed over.

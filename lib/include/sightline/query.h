@@ -9,7 +9,8 @@
 ///     sl_query_look(context, query, &view, NULL, cells, NULL);
 ///
 /// Answers are exact where the bake is, unless a method of culling is asked for that is looser. An
-/// eye outside the bounds sees nothing. Numbers of cells are those of the baked space.
+/// eye outside the bounds sees nothing. All questions about an eye fail (SL_UNSUPPORTED) on a map
+/// that has mirrors and one-way glass. Numbers of cells are those of the baked space.
 #ifndef SIGHTLINE_QUERY_H
 #define SIGHTLINE_QUERY_H
 
@@ -53,7 +54,9 @@ SL_API void sl_query_set_doors(sl_context *context, sl_query *query, bool open);
 SL_API sl_status sl_query_set_boxes(sl_context *context, sl_query *query,
                                     const sl_moving_box *boxes, size_t count);
 
-/// How far is seen, in map units; 0 for no limit. SL_BAD_ARGUMENT for less, and for NaN.
+/// How far is seen, in map units; 0 for no limit. SL_BAD_ARGUMENT for less and for values that are
+/// not finite; and for more than the map's own range, where it has one: the visible sets know of
+/// nothing farther.
 SL_API sl_status sl_query_set_range(sl_context *context, sl_query *query, double range);
 
 /// How often mirrors reflect a sightline at most: 0 to 16, else SL_BAD_ARGUMENT.
@@ -85,7 +88,8 @@ SL_API sl_status sl_query_look(sl_context *context, sl_query *query, const sl_vi
                                const sl_eye_method *method, uint64_t *cells,
                                sl_eye_account *account);
 
-/// Likewise the cells that it sees by mirror. None where the map has no mirror or the depth is 0.
+/// Likewise the cells that it sees by mirror. Methods other than the exact one give what was baked,
+/// so no more reflections than the bake's. None where the map has no mirror or the depth is 0.
 /// SL_UNSUPPORTED where the method does not know mirrors (sl_eye_method.mirrored).
 SL_API sl_status sl_query_look_mirrored(sl_context *context, sl_query *query, const sl_view *view,
                                         const sl_eye_method *method, uint64_t *cells,
