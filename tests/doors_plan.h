@@ -2,8 +2,8 @@
 #ifndef SL_DOORS_PLAN_H
 #define SL_DOORS_PLAN_H
 
-#include "base/base.h"
 #include "sightline/map.h"
+#include "sightline/support.h"
 
 enum { DOORS_COLUMNS = 6, DOORS_ROWS = 4, DOORS = 30, DOORS_ROOM = 10 };
 

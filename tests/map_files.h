@@ -5,6 +5,8 @@
 
 #include "testing.h"
 
+#include "sightline/io.h"
+
 #include <glob.h>
 
 enum { MAP_FILES_OWN = 1, MAP_FILES_CASES = 2, MAP_FILES_SODA_HALL = 4, MAP_FILES_ALL = 7 };
@@ -41,6 +43,7 @@ static inline void map_files_read(sl_context *context, const char *path, sl_map 
     sl_import_options options = sl_import_options_default();
     options.has_slice = strstr(path, ".ug") != NULL;
     options.slice = 1040;
+    assert_ok(context, sl_io_use(context));
     assert_ok(context, sl_map_read(context, path, &options, map));
 }
 

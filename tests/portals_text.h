@@ -9,7 +9,7 @@
 #ifndef SL_TESTS_PORTALS_TEXT_H
 #define SL_TESTS_PORTALS_TEXT_H
 
-#include "base/number.h"
+#include "sightline/support.h"
 #include "solver_table.h"
 
 #include <math.h>

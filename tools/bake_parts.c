@@ -1,21 +1,20 @@
 #include "bake_parts.h"
 
-#include "base/base.h"
 #include "crew.h"
+#include "sightline/support.h"
 
-#include <stdatomic.h>
-#include <stdlib.h>
 #include <string.h>
 
 // --- the options
 
-static bool in_parts(const sl_bake_parts *parts) {
+static bool in_parts(const bake_parts *parts) {
     return parts->time_limit > 0 || parts->keep_partial || parts->shard_count || parts->resume ||
-           parts->previous || sl_crew_size() > 1;
+           parts->previous || crew_size() > 1;
 }
 
 /// "3/8"
-static sl_status plan_shard(sl_context *context, const char *text, sl_bake_parts *parts) {
+static sl_status plan_shard(sl_context *context, bake_parts *parts) {
+    const char *text = parts->shard_text;
     if (!text) return SL_OK;
     const char *slash = strchr(text, '/');
     char first[16];
@@ -25,8 +24,8 @@ static sl_status plan_shard(sl_context *context, const char *text, sl_bake_parts
         return sl_fail(context, SL_BAD_ARGUMENT, "--shard %s: K/N is needed, as 1/8", text);
     memcpy(first, text, length);
     first[length] = '\0';
-    SL_TRY(sl_option_count(context, "--shard", first, UINT32_MAX, &shard));
-    SL_TRY(sl_option_count(context, "--shard", slash + 1, UINT32_MAX, &count));
+    SL_TRY(read_count(context, "--shard", first, UINT32_MAX, &shard));
+    SL_TRY(read_count(context, "--shard", slash + 1, UINT32_MAX, &count));
     if (!shard || shard > count)
         return sl_fail(context, SL_BAD_ARGUMENT, "--shard %s: of N parts K is one from 1 to N",
                        text);
@@ -35,8 +34,8 @@ static sl_status plan_shard(sl_context *context, const char *text, sl_bake_parts
     return SL_OK;
 }
 
-/// The option for which the bake is done in parts.
-static const char *reason(const sl_bake_parts *parts) {
+/// The option that asks for a bake in parts.
+static const char *reason(const bake_parts *parts) {
     return parts->time_limit > 0 ? "--time-limit"
            : parts->keep_partial ? "--keep-partial"
            : parts->shard_count  ? "--shard"
@@ -45,57 +44,74 @@ static const char *reason(const sl_bake_parts *parts) {
                                  : "mpirun";
 }
 
-sl_status sl_bake_parts_plan(sl_context *context, const sl_bake_part_texts *texts,
-                             const sl_see_method *method, const sl_see_options *see,
-                             sl_bake_parts *out) {
-    sl_bake_parts parts = {.start = sl_now(),
-                           .keep_partial = texts->keep_partial,
-                           .resume = texts->resume,
-                           .previous = texts->previous};
-    SL_TRY(sl_option_number(context, "--time-limit", texts->time_limit, &parts.time_limit));
-    if (texts->time_limit && !(parts.time_limit > 0))
-        return sl_fail(context, SL_BAD_ARGUMENT, "--time-limit %s: seconds, more than 0",
-                       texts->time_limit);
-    SL_TRY(plan_shard(context, texts->shard, &parts));
-    if (parts.resume && parts.previous)
+option_table bake_parts_option_table(bake_parts *parts) {
+    const option_spec options[] = {
+        {"time-limit", 0, "SECONDS",
+         "look no longer than that, from the start on, and\nwrite what there is: a partial set, in "
+         "which all\nthat is not decided counts as seen (bounding it\ntakes a quarter more at "
+         "most)",
+         .number = &parts->time_limit, .over_0 = true, .needs = "seconds, more than 0"},
+        {"keep-partial", 0, NULL,
+         "the first Ctrl-C writes what there is, as\n--time-limit does; the second stops all "
+         "(without\nit the first does, and nothing is written)",
+         .flag = &parts->keep_partial},
+        {"resume", 0, "FILE.slv",
+         "go on with a partial file of the same map and\noptions: in the end the same bytes",
+         .text = &parts->resume},
+        {"previous", 0, "FILE.slv",
+         "take over what changed walls cannot affect from\nan older bake of the map: the same "
+         "bytes, sooner",
+         .text = &parts->previous},
+        {"shard", 0, "K/N",
+         "do the Kth of N parts of the work, 1 to N, and\nwrite them for sightline merge",
+         .text = &parts->shard_text},
+    };
+    option_table table = {0};
+    option_table_add(&table, options, sizeof options / sizeof *options);
+    return table;
+}
+
+sl_status bake_parts_plan(sl_context *context, const sl_see_method *method,
+                          const sl_see_options *see, bake_parts *parts) {
+    parts->start = sl_seconds();
+    SL_TRY(plan_shard(context, parts));
+    if (parts->resume && parts->previous)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--resume goes on with a bake, --previous takes over an older one: give "
                        "one of them");
-    if (sl_crew_size() > 1 && parts.shard_count)
+    if (crew_size() > 1 && parts->shard_count)
         return sl_fail(context, SL_BAD_ARGUMENT, "--shard: the processes of mpirun share the work");
-    if (in_parts(&parts) && !method->look)
+    if (in_parts(parts) && !method->run)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "%s: the method '%s' is done in one go; sweep, dfs and prune can be done in "
                        "parts",
-                       reason(&parts), method->name);
-    if (in_parts(&parts) && see->trees)
+                       reason(parts), method->name);
+    if (in_parts(parts) && see->trees)
         return sl_fail(context, SL_BAD_ARGUMENT,
-                       "%s: --stab-trees are kept by a bake that is done in one go",
-                       reason(&parts));
-    *out = parts;
+                       "%s: --stab-trees are kept by a bake that is done in one go", reason(parts));
     return SL_OK;
 }
 
 // --- when to stop
 
 typedef struct patience {
-    double end; ///< by sl_now(); 0 for none
+    double end; ///< by sl_seconds(); 0 for none
     bool asked; ///< whether Ctrl-C ends it
 } patience;
 
 static bool is_over(void *user) {
     const patience *p = user;
-    return (p->asked && sl_console_is_asked()) || (p->end > 0 && sl_now() >= p->end);
+    return (p->asked && console_is_asked()) || (p->end > 0 && sl_seconds() >= p->end);
 }
 
 // --- what is known before
 
-const char *sl_bake_difference(const sl_baked *a, const sl_baked *b) {
+const char *bake_difference(const sl_baked *a, const sl_baked *b) {
     if (strcmp(a->method, b->method) != 0) return "by another method";
     if (strcmp(a->solver, b->solver) != 0) return "with another solver";
     if (a->visibility.sight != b->visibility.sight) return "with other sight";
-    if (a->findings.inside_only != b->findings.inside_only)
-        return a->findings.inside_only ? "with --inside" : "without --inside";
+    if (a->partial.inside_only != b->partial.inside_only)
+        return a->partial.inside_only ? "with --inside" : "without --inside";
     if (!sl_baked_same_space(&a->space, &b->space))
         return "from another map, or cut into other cells,";
     return NULL;
@@ -107,79 +123,78 @@ static sl_status fail_other(sl_context *context, const char *path, const char *d
                    "--resume %s: was baked %s than asked for; it was begun with --method %s%s%s "
                    "--sight %s%s",
                    path, difference, before->method, before->solver[0] ? " --solver " : "",
-                   before->solver, sl_sight_name(before->visibility.sight),
-                   before->findings.inside_only ? " --inside" : "");
+                   before->solver, sight_name(before->visibility.sight),
+                   before->partial.inside_only ? " --inside" : "");
 }
 
 static sl_status take_begun(sl_context *context, const char *path, const sl_see_options *see,
-                            const sl_baked *baked, sl_baked *before, sl_findings *findings) {
+                            const sl_baked *baked, sl_baked *before, sl_partial *partial) {
     SL_TRY(sl_baked_read_part(context, path, before));
-    if (!sl_findings_begun(&before->findings))
+    if (!sl_partial_begun(&before->partial))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--resume %s: is finished; there is nothing to go on with", path);
     sl_baked asked = *baked;
     asked.visibility.sight = see->sight;
-    asked.findings.inside_only = see->inside_only;
-    const char *other = sl_bake_difference(before, &asked);
+    asked.partial.inside_only = see->inside_only;
+    const char *other = bake_difference(before, &asked);
     if (other) return fail_other(context, path, other, before);
-    if (before->findings.shard != see->shard || before->findings.shard_count != see->shard_count)
+    if (before->partial.shard != see->shard || before->partial.shard_count != see->shard_count)
         return sl_fail(context, SL_BAD_ARGUMENT,
-                       before->findings.shard_count ? "--resume %s: is shard %u of %u; ask for it"
-                                                    : "--resume %s: is no shard",
-                       path, before->findings.shard, before->findings.shard_count);
-    *findings = before->findings;
-    before->findings = (sl_findings){0};
+                       before->partial.shard_count ? "--resume %s: is shard %u of %u; ask for it"
+                                                   : "--resume %s: is no shard",
+                       path, before->partial.shard, before->partial.shard_count);
+    *partial = before->partial;
+    before->partial = (sl_partial){0};
     return SL_OK;
 }
 
-/// Nothing that can be taken over is no failure: all is looked for.
+/// It is no failure when nothing can be reused: then everything is computed.
 static sl_status take_over(sl_context *context, const char *path, const sl_see_method *method,
                            const sl_see_options *see, const sl_baked *baked, sl_baked *before,
-                           sl_findings *findings) {
+                           sl_partial *partial) {
     SL_TRY(sl_baked_read(context, path, before));
     if (sl_plan_make(&before->map).effects) {
         sl_note(context, "nothing is taken over from %s: it has effects", path);
         return SL_OK;
     }
-    const sl_status status = sl_findings_carry(context, &before->space, &before->visibility,
-                                               &baked->space, method, see, findings);
+    const sl_status status = sl_partial_reuse(context, &before->space, &before->visibility,
+                                              &baked->space, method, see, partial);
     if (status != SL_BAD_ARGUMENT) return status;
     sl_note(context, "nothing is taken over from %s: %s", path, sl_context_message(context));
     return SL_OK;
 }
 
-static sl_status take_known(sl_context *context, const sl_bake_parts *parts,
+static sl_status take_known(sl_context *context, const bake_parts *parts,
                             const sl_see_method *method, const sl_see_options *see,
-                            const sl_baked *baked, sl_findings *findings) {
+                            const sl_baked *baked, sl_partial *partial) {
     sl_baked before = {0};
     sl_status status = SL_OK;
     if (parts->resume)
-        status = take_begun(context, parts->resume, see, baked, &before, findings);
+        status = take_begun(context, parts->resume, see, baked, &before, partial);
     else if (parts->previous)
-        status = take_over(context, parts->previous, method, see, baked, &before, findings);
+        status = take_over(context, parts->previous, method, see, baked, &before, partial);
     sl_baked_destroy(context, &before);
     return status;
 }
 
 // --- the work
 
-/// Looks, each process of the crew at its share; findings of all of them come together in the first
-/// one.
+/// Each process of the crew computes its share. The first process gathers all partial results.
 static sl_status look(sl_context *context, const sl_see_method *method, const sl_space *space,
-                      sl_see_options see, sl_findings *findings) {
-    if (sl_crew_size() > 1) {
-        see.shard = sl_crew_rank() + 1;
-        see.shard_count = sl_crew_size();
+                      sl_see_options see, sl_partial *partial) {
+    if (crew_size() > 1) {
+        see.shard = crew_rank() + 1;
+        see.shard_count = crew_size();
     }
-    SL_TRY(sl_crew_agree(context, method->look(context, space, &see, findings)));
-    if (sl_crew_size() == 1) return SL_OK;
-    findings->shard = findings->shard_count = 0;
-    return sl_crew_join(context, findings);
+    SL_TRY(crew_agree(context, method->run(context, space, &see, partial)));
+    if (crew_size() == 1) return SL_OK;
+    partial->shard = partial->shard_count = 0;
+    return crew_join(context, partial);
 }
 
-static sl_status see_parts(sl_context *context, const sl_bake_parts *parts,
+static sl_status see_parts(sl_context *context, const bake_parts *parts,
                            const sl_see_method *method, const sl_see_options *options,
-                           sl_baked *baked, sl_findings *findings, sl_bake_parts_account *account) {
+                           sl_baked *baked, sl_partial *partial, bake_parts_account *account) {
     sl_see_options see = *options;
     patience p = {.end = parts->time_limit > 0 ? parts->start + parts->time_limit : 0,
                   .asked = parts->keep_partial};
@@ -187,34 +202,37 @@ static sl_status see_parts(sl_context *context, const sl_bake_parts *parts,
     see.shard_count = parts->shard_count;
     see.enough = is_over;
     see.enough_user = &p;
-    SL_TRY(sl_crew_agree(context, take_known(context, parts, method, &see, baked, findings)));
-    account->known = findings->done_count;
-    SL_TRY(look(context, method, &baked->space, see, findings));
+    SL_TRY(crew_agree(context, take_known(context, parts, method, &see, baked, partial)));
+    account->known = partial->done_count;
+    SL_TRY(look(context, method, &baked->space, see, partial));
     account->units = method->units;
-    account->unit_count = findings->unit_count;
-    account->done = findings->done_count;
-    if (sl_crew_rank() != 0 || parts->shard_count) return SL_OK;
-    // Ctrl-C has been heard. A quarter of the time goes into the bound.
-    p = (patience){.end = parts->time_limit > 0 ? sl_now() + parts->time_limit / 4 : 0};
-    return method->settle(context, &baked->space, &see, findings, &baked->visibility);
+    account->unit_count = partial->unit_count;
+    account->done = partial->done_count;
+    if (crew_rank() != 0 || parts->shard_count) return SL_OK;
+    // Ctrl-C has had its effect. The bound may take a quarter of the time limit.
+    p = (patience){.end = parts->time_limit > 0 ? sl_seconds() + parts->time_limit / 4 : 0};
+    return method->finish(context, &baked->space, &see, partial, &baked->visibility);
 }
 
-sl_status sl_bake_parts_see(sl_context *context, const sl_bake_parts *parts,
-                            const sl_see_method *method, const sl_see_options *see, sl_baked *baked,
-                            sl_bake_parts_account *account) {
-    if (!in_parts(parts)) return method->see(context, &baked->space, see, &baked->visibility);
-    if (parts->keep_partial) sl_console_ask_first();
-    sl_findings findings = {0};
-    sl_status status = see_parts(context, parts, method, see, baked, &findings, account);
-    if (status == SL_OK && (parts->shard_count || !sl_findings_complete(&findings))) {
-        baked->findings = findings;
+sl_status bake_parts_see(sl_context *context, const bake_parts *parts,
+                         const sl_bake_options *options, sl_baked *baked,
+                         bake_parts_account *account) {
+    if (!in_parts(parts)) return sl_bake_see(context, options, baked, NULL);
+    if (parts->keep_partial) console_ask_first();
+    const sl_see_method *method = options->method;
+    const sl_plan plan = sl_bake_plan(options, baked);
+    sl_see_options see = options->see;
+    see.plan = &plan;
+    sl_partial partial = {0};
+    sl_status status = see_parts(context, parts, method, &see, baked, &partial, account);
+    if (status == SL_OK && (parts->shard_count || !sl_partial_complete(&partial))) {
+        baked->partial = partial;
         if (parts->shard_count) {
-            baked->visibility.sight = see->sight;
-            baked->visibility.guarantee =
-                method->stabs ? see->solver->guarantee : method->guarantee;
+            baked->visibility.sight = see.sight;
+            baked->visibility.guarantee = method->stabs ? see.solver->guarantee : method->guarantee;
         }
         return SL_OK;
     }
-    sl_findings_destroy(context, &findings);
+    sl_partial_destroy(context, &partial);
     return status;
 }

@@ -1,125 +1,274 @@
+/// `sightline bake`: cells, portals and cell-to-cell visibility of a map, into a file.
 #include "bake_parts.h"
-#include "bake_report.h"
-#include "base/base.h"
 #include "commands.h"
 #include "crew.h"
 #include "inputs.h"
+#include "json_print.h"
+#include "names.h"
+#include "outputs.h"
 #include "pipeline.h"
-#include "sizes.h"
+#include "report.h"
+#include "sightline/support.h"
 #include "solvers.h"
 
+#include <inttypes.h>
 #include <string.h>
+
+typedef struct bake_report {
+    const char *input, *output;
+    const sl_baked *baked;
+    sl_bake_account account;
+    bake_parts_account parts;
+    struct {
+        double read; ///< cleaning included
+        double see, write;
+    } seconds;
+} bake_report;
+
+sl_status bake_report_print(sl_context *context, const bake_report *report);
+sl_status bake_report_print_json(sl_context *context, const bake_report *report);
+
+// --- the report
+
+// --- JSON
+
+static void add_seconds(json_fields *fields, const bake_report *report) {
+    json_fields seconds = json_begin();
+    json_add_real(&seconds, "read", report->seconds.read);
+    json_add_real(&seconds, "subdivide", report->account.seconds.subdivide);
+    if (report->account.checked) json_add_real(&seconds, "check", report->account.seconds.check);
+    json_add_real(&seconds, "cell_to_cell", report->seconds.see);
+    json_add_real(&seconds, "write", report->seconds.write);
+    json_add_fields(fields, "seconds", &seconds);
+}
+
+/// How much of the work was done, if the bake was not done in one go.
+static void add_parts(json_fields *fields, const bake_report *report) {
+    const bake_parts_account *parts = &report->parts;
+    const sl_partial *partial = &report->baked->partial;
+    json_add_flag(fields, "finished", !sl_partial_begun(partial));
+    if (!parts->units) return;
+    json_fields inner = json_begin();
+    json_add_text(&inner, "units", parts->units);
+    json_add_count(&inner, "count", parts->unit_count);
+    json_add_count(&inner, "known_before", parts->known);
+    json_add_count(&inner, "done", parts->done);
+    if (partial->shard_count) {
+        json_add_count(&inner, "shard", partial->shard);
+        json_add_count(&inner, "shards", partial->shard_count);
+        json_add_count(&inner, "left", sl_partial_left(partial));
+    }
+    json_add_fields(fields, "work", &inner);
+}
+
+static void add_visibility(json_fields *fields, const sl_visibility *visibility) {
+    const sl_see_account *account = &visibility->account;
+    const sl_stab_trees *trees = &visibility->trees;
+    json_add_count(fields, "pairs", account->pairs);
+    json_add_count(fields, "doubtful_pairs", account->doubtful_pairs);
+    json_add_count(fields, "tests", account->tests);
+    json_add_count(fields, "tree_nodes", account->nodes);
+    json_add_count(fields, "pieces", account->pieces);
+    if (account->sectors) {
+        json_add_count(fields, "sectors", account->sectors);
+        json_add_count(fields, "candidates", account->candidates);
+        json_add_count(fields, "relations", account->relations);
+        json_add_count(fields, "cells_on_cycles", account->on_cycles);
+    }
+    json_add_count(fields, "longest_sequence", account->deepest);
+    json_fields work = json_begin();
+    json_add_count(&work, "door_steps", account->door_steps);
+    json_add_count(&work, "mirror_steps", account->mirror_steps);
+    json_add_count(&work, "glass_tests", account->glass_tests);
+    json_add_count(&work, "mirrored_pairs", account->mirrored_pairs);
+    json_add_count(&work, "rounded_places", account->rounded_places);
+    json_add_count(&work, "door_bytes", sl_door_sets_bytes(&visibility->doors));
+    json_add_count(&work, "door_fallbacks", account->door_fallbacks);
+    json_add_count(&work, "range_tests", account->range_tests);
+    json_add_count(&work, "close_calls", account->close_calls);
+    json_add_fields(fields, "effect_work", &work);
+    if (!trees->cell_count) return;
+    json_add_count(fields, "tree_nodes_kept", trees->offsets[trees->cell_count]);
+    json_add_count(fields, "trees_left_out", trees->left_out);
+}
+
+sl_status bake_report_print_json(sl_context *context, const bake_report *report) {
+    const sl_baked *baked = report->baked;
+    const sl_space *space = &baked->space;
+    const bool has_sets = !sl_baked_is_shard(baked);
+    pvs_means mean;
+    if (has_sets) SL_TRY(mean_pvs_of(context, baked, &mean));
+
+    json_fields fields = json_begin();
+    json_add_text(&fields, "map", report->input);
+    json_add_text(&fields, "output", report->output);
+    json_add_text(&fields, "subdivide", report->account.subdivision->name);
+    json_add_text(&fields, "method", baked->method);
+    json_add_text(&fields, "solver", baked->solver[0] ? baked->solver : NULL);
+    json_add_text(&fields, "sight", sight_name(baked->visibility.sight));
+    json_add_text(&fields, "guarantee", sl_guarantee_name(baked->visibility.guarantee));
+    plan_add_json(&fields, &baked->map);
+    add_parts(&fields, report);
+    add_seconds(&fields, report);
+    json_add_cleaning(&fields, "cleaning", &report->account.cleaning);
+    json_add_count(&fields, "walls", space->wall_count);
+    json_add_count(&fields, "welded", report->account.cleaning.welded);
+    json_add_count(&fields, "cells", space->cell_count);
+    json_add_count(&fields, "inside_cells", space->inside_count);
+    json_add_count(&fields, "portals", space->portal_count);
+    json_add_count(&fields, "tree_depth", space->tree_depth);
+    if (has_sets) add_visibility(&fields, &baked->visibility);
+    if (has_sets) mean_pvs_add_json(&fields, &mean);
+    json_add_count(&fields, "peak_memory_bytes", size_of_peak_memory());
+    json_add_count(&fields, "file_bytes", size_of_file(report->output));
+    return json_print(context, &fields);
+}
+
+// --- text
+
+static void print_parts(const bake_report *report) {
+    const bake_parts_account *parts = &report->parts;
+    const sl_partial *partial = &report->baked->partial;
+    char text[SL_PARTIAL_TEXT];
+    if (!parts->units) return;
+    printf("  %-9s %" PRIu32 ", %" PRIu32 " of them done, %" PRIu32 " known before\n", parts->units,
+           parts->unit_count, parts->done, parts->known);
+    if (partial->shard_count) {
+        printf("  shard     %" PRIu32 " of %" PRIu32 ", %" PRIu32 " %s left\n", partial->shard,
+               partial->shard_count, sl_partial_left(partial), parts->units);
+        return;
+    }
+    sl_baked_say_partial(report->baked, text);
+    if (text[0]) printf("  %s\n", text);
+}
+
+static void print_effect_work(const sl_visibility *visibility) {
+    const sl_see_account *account = &visibility->account;
+    const sl_door_sets *doors = &visibility->doors;
+    if (visibility->mirrored.cell_count)
+        printf("  mirrored  %" PRIu64 " pairs seen by mirror; %" PRIu64 " places rounded\n",
+               account->mirrored_pairs, account->rounded_places);
+    if (doors->cell_count)
+        printf("  doors     %" PRIu64 " bytes of door sets, %.2f a pair; %" PRIu64
+               " pairs with more than kept: they count as seen\n",
+               sl_door_sets_bytes(doors),
+               account->pairs ? (double)sl_door_sets_bytes(doors) / (double)account->pairs : 0,
+               account->door_fallbacks);
+    if (account->range_tests)
+        printf("  in range  %" PRIu64 " sequences measured, %" PRIu64
+               " within rounding of the range: they count as seen\n",
+               account->range_tests, account->close_calls);
+}
+
+static void print_visibility(const sl_baked *baked) {
+    const sl_visibility *visibility = &baked->visibility;
+    const sl_see_account *account = &visibility->account;
+    printf("  pairs     %" PRIu64 " seen, %s sight, by %s%s%s (%s)\n", account->pairs,
+           sight_name(visibility->sight), baked->method, baked->solver[0] ? " with " : "",
+           baked->solver, sl_guarantee_name(visibility->guarantee));
+    if (account->doubtful_pairs)
+        printf("  doubtful  %" PRIu64 " of them, of which rounding decided\n",
+               account->doubtful_pairs);
+    if (account->tests)
+        printf("  work      %" PRIu64 " stabbing tests, %" PRIu64
+               " tree nodes, longest sequence %" PRIu32 "\n",
+               account->tests, account->nodes, account->deepest);
+    else if (account->pieces)
+        printf("  work      %" PRIu64 " pieces of cells, longest sequence %" PRIu32 "\n",
+               account->pieces, account->deepest);
+    print_effect_work(visibility);
+    const sl_stab_trees *trees = &visibility->trees;
+    if (trees->cell_count)
+        printf("  trees     %" PRIu64 " nodes kept, %" PRIu32 " of %" PRIu32
+               " trees left out by --tree-memory\n",
+               trees->offsets[trees->cell_count], trees->left_out, trees->cell_count);
+}
+
+static void print_seconds(const bake_report *report) {
+    printf("  seconds   read %.3f, subdivide %.3f", report->seconds.read,
+           report->account.seconds.subdivide);
+    if (report->account.checked) printf(", check %.3f", report->account.seconds.check);
+    printf(", cell to cell %.3f, write %.3f\n", report->seconds.see, report->seconds.write);
+}
+
+sl_status bake_report_print(sl_context *context, const bake_report *report) {
+    const sl_space *space = &report->baked->space;
+    const bool has_sets = !sl_baked_is_shard(report->baked);
+    pvs_means mean;
+    if (has_sets) SL_TRY(mean_pvs_of(context, report->baked, &mean));
+    char file[SIZE_TEXT], memory[SIZE_TEXT];
+    size_write(size_of_file(report->output), file);
+    size_write(size_of_peak_memory(), memory);
+    printf("%s: %s, baked from %s\n", report->output, file, report->input);
+    printf("  walls     %" PRIu32, space->wall_count);
+    cleaning_print(&report->account.cleaning);
+    printf("  cells     %" PRIu32 ", %" PRIu32 " of them inside", space->cell_count,
+           space->inside_count);
+    if (space->node_count) printf("; tree depth %" PRIu32, space->tree_depth);
+    putchar('\n');
+    printf("  portals   %" PRIu32 "\n", space->portal_count);
+    plan_print(&report->baked->map);
+    print_parts(report);
+    if (has_sets) {
+        print_visibility(report->baked);
+        mean_pvs_print(&mean);
+    }
+    print_seconds(report);
+    printf("  memory    %s at most\n", memory);
+    return SL_OK;
+}
+
+// --- the command
 
 enum { MAX_THREADS = 4096 };
 
-/// The options as they are given.
-typedef struct bake_texts {
-    sl_pipeline_texts pipeline;
-    const char *output, *method, *solver, *sight, *threads, *memory, *tree_memory, *samples, *seed;
-    const char *passes, *mirror_depth, *door_sets;
-    bool stab_trees, inside, json;
-    sl_bake_part_texts parts;
-} bake_texts;
-
-/// The options as they are meant.
 typedef struct bake_plan {
-    sl_pipeline pipeline;
-    const char *output;
-    const sl_see_method *method;
-    sl_see_options see;
-    sl_bake_parts parts;
-    uint64_t mirror_depth, door_sets;
+    const char *input, *output;
+    map_pipeline pipeline;
+    size_t method, solver; ///< in their tables
+    const char *method_given, *solver_given;
+    const char *memory_given, *tree_memory_given, *samples_given, *seed_given, *passes_given;
+    bake_parts parts;
     bool json;
-    bool any_method;   // none was asked for, nor what only one gives
     bool named_by_map; // no -o was given
 } bake_plan;
 
 // --- reading the options
 
-/// The solver by name, or the first.
-static sl_status plan_solver(sl_context *context, const char *text, bake_plan *plan) {
-    if (text && !plan->method->stabs)
-        return sl_fail(context, SL_BAD_ARGUMENT, "--solver: the method '%s' uses none",
-                       plan->method->name);
-    if (!plan->method->stabs) return SL_OK;
-    sl_solver solvers[SL_SOLVERS_MOST];
-    const sl_name_table names = sl_pipeline_solver_names(solvers);
-    size_t chosen = 0;
-    SL_TRY(sl_option_choice(context, "--solver", text, &names, &chosen));
-    plan->see.solver = sl_solver_at(chosen);
+/// Refuses options that the chosen method has no use for.
+static sl_status check_method(sl_context *context, const bake_plan *plan,
+                              const sl_see_method *chosen) {
+    const sl_see_options *see = &plan->pipeline.bake.see;
+    const char *method = chosen->name;
+    const char *random = plan->samples_given ? plan->samples_given : plan->seed_given;
+    if (random && chosen->guarantee != SL_AGGRESSIVE)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--%s: the method '%s' draws nothing at random",
+                       random, method);
+    if (plan->passes_given && strcmp(method, "multipass") != 0)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--passes: the method '%s' makes none", method);
+    if (plan->passes_given && see->sectors && see->sectors < 4)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--passes: at least 4, or 0 for all");
+    if (plan->tree_memory_given && !see->trees)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--tree-memory needs --stab-trees");
+    if (plan->memory_given && !chosen->keeps_rows)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--memory: the method '%s' keeps no more than it writes", method);
+    if (plan->solver_given && !chosen->stabs)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--solver: the method '%s' uses none", method);
     return SL_OK;
 }
 
-/// The fastest exact method; what only a search can give asks for the first, which is one.
-static size_t default_method(const bake_texts *texts, const sl_see_method *methods, size_t count) {
-    for (size_t i = 0; i < count && !texts->stab_trees && !texts->solver; i++)
-        if (strcmp(methods[i].name, "sweep") == 0) return i;
-    return 0;
-}
-
-/// What else than walls a map calls for only some methods know: where the default does not, prune.
-static sl_status fit_method(sl_context *context, const sl_map *map, bake_plan *plan) {
-    const unsigned effects = sl_plan_make(map).effects;
-    size_t count;
-    const sl_see_method *methods = sl_see_methods(&count);
-    for (size_t i = 0; i < count && plan->any_method && effects & ~plan->method->knows; i++)
-        if (strcmp(methods[i].name, "prune") == 0) plan->method = &methods[i];
-    return plan->see.solver ? SL_OK : plan_solver(context, NULL, plan);
-}
-
-static sl_status plan_effects(sl_context *context, const bake_texts *texts, bake_plan *plan) {
-    plan->mirror_depth = 1;
-    plan->door_sets = 16;
-    SL_TRY(
-        sl_option_count(context, "--mirror-depth", texts->mirror_depth, 16, &plan->mirror_depth));
-    return sl_option_count(context, "--door-sets", texts->door_sets, 65535, &plan->door_sets);
-}
-
-static sl_status plan_seeing(sl_context *context, const bake_texts *texts, bake_plan *plan) {
-    size_t sight = SL_CLOSED, count;
-    uint64_t threads = 0, tree_bytes = (uint64_t)256 << 20;
-    const sl_see_method *methods = sl_see_methods(&count);
-    size_t method = default_method(texts, methods, count);
-    const sl_name_table method_names = {"method", methods, sizeof *methods, count};
-    const sl_name_table sight_names = sl_sight_table();
-    SL_TRY(sl_option_choice(context, "--method", texts->method, &method_names, &method));
-    SL_TRY(sl_option_choice(context, "--sight", texts->sight, &sight_names, &sight));
-    SL_TRY(sl_option_count(context, "--threads", texts->threads, MAX_THREADS, &threads));
-    SL_TRY(sl_option_size(context, "--tree-memory", texts->tree_memory, &tree_bytes));
-    sl_see_options see = sl_see_options_default();
-    uint64_t samples = see.samples;
-    SL_TRY(sl_option_count(context, "--samples", texts->samples, UINT32_MAX, &samples));
-    SL_TRY(sl_option_count(context, "--seed", texts->seed, UINT64_MAX, &see.seed));
-    if ((texts->samples || texts->seed) && methods[method].guarantee != SL_AGGRESSIVE)
-        return sl_fail(context, SL_BAD_ARGUMENT, "%s: the method '%s' draws nothing at random",
-                       texts->samples ? "--samples" : "--seed", methods[method].name);
-    uint64_t sectors = see.sectors;
-    SL_TRY(sl_option_count(context, "--passes", texts->passes, UINT32_MAX, &sectors));
-    if (texts->passes && strcmp(methods[method].name, "multipass") != 0)
-        return sl_fail(context, SL_BAD_ARGUMENT, "--passes: the method '%s' makes none",
-                       methods[method].name);
-    if (texts->passes && sectors && sectors < 4)
-        return sl_fail(context, SL_BAD_ARGUMENT, "--passes: at least 4, or 0 for all");
-    if (texts->tree_memory && !texts->stab_trees)
-        return sl_fail(context, SL_BAD_ARGUMENT, "--tree-memory needs --stab-trees");
-    if (texts->memory && !methods[method].keeps_rows)
-        return sl_fail(context, SL_BAD_ARGUMENT,
-                       "--memory: the method '%s' keeps no more than it writes",
-                       methods[method].name);
-    see.row_bytes = sl_machine_memory() / 2;
-    SL_TRY(sl_option_size(context, "--memory", texts->memory, &see.row_bytes));
-    plan->method = &methods[method];
-    plan->any_method = !texts->method && !texts->solver && !texts->stab_trees;
-    SL_TRY(plan_effects(context, texts, plan));
-    plan->see = see;
-    plan->see.samples = (uint32_t)samples;
-    plan->see.sectors = (uint32_t)sectors;
-    plan->see.sight = (sl_sight)sight;
-    plan->see.threads = (unsigned)threads;
-    plan->see.trees = texts->stab_trees;
-    plan->see.tree_bytes = tree_bytes;
-    plan->see.inside_only = texts->inside;
-    return plan_solver(context, texts->solver, plan);
+/// Where no method is named, the map decides later. Options are checked against the method for a
+/// map of walls alone.
+static sl_status make_plan(sl_context *context, bake_plan *plan) {
+    sl_bake_options *bake = &plan->pipeline.bake;
+    SL_TRY(pipeline_plan(context, plan->input, &plan->pipeline));
+    if (plan->solver_given) bake->see.solver = solver_at(plan->solver);
+    if (plan->method_given) bake->method = &sl_see_methods(&(size_t){0})[plan->method];
+    const sl_see_method *method =
+        bake->method ? bake->method : sl_see_method_for(&(sl_map){0}, &bake->see);
+    SL_TRY(check_method(context, plan, method));
+    return bake_parts_plan(context, method, &bake->see, &plan->parts);
 }
 
 /// "maps/office.map" gives "office.slv"; the name belongs to the caller.
@@ -128,7 +277,7 @@ static sl_status name_output(sl_context *context, const char *input, char **name
     if (strcmp(input, "-") == 0)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "-o is missing: name the file, for standard input has no name to take");
-    const char *base = sl_input_base_name(input, &length);
+    const char *base = input_base_name(input, &length);
     *name = sl_alloc(context, length + sizeof ".slv");
     if (!*name) return SL_NO_MEMORY;
     memcpy(*name, base, length);
@@ -136,105 +285,55 @@ static sl_status name_output(sl_context *context, const char *input, char **name
     return SL_OK;
 }
 
-static sl_status make_plan(sl_context *context, const char *input, const bake_texts *texts,
-                           bake_plan *plan) {
-    SL_TRY(sl_output_check_baked(context, input, "-o", texts->output));
-    SL_TRY(sl_pipeline_plan(context, input, &texts->pipeline, &plan->pipeline));
-    SL_TRY(plan_seeing(context, texts, plan));
-    plan->output = texts->output;
-    plan->json = texts->json;
-    return sl_bake_parts_plan(context, &texts->parts, plan->method, &plan->see, &plan->parts);
-}
-
 // --- the work
 
 /// Seconds since *last, which is set to now.
 static double lap(double *last) {
     const double before = *last;
-    *last = sl_now();
+    *last = sl_seconds();
     return *last - before;
 }
 
-/// What a baked file keeps of the map: all but the walls and cells, which the space has.
-static void keep_rest_of_map(sl_context *context, sl_map *map, sl_baked *baked) {
-    sl_free(context, map->walls);
-    map->walls = NULL;
-    map->wall_count = map->wall_room = 0;
-    sl_map_drop_cells(context, map);
-    baked->map = *map;
-    *map = (sl_map){0};
-}
-
-static sl_status read_and_clean(sl_context *context, bake_plan *plan, sl_map *map,
-                                sl_bake_report *report) {
-    SL_TRY(sl_pipeline_read_clean(context, &plan->pipeline, map, &report->cleaning));
-    SL_TRY(fit_method(context, map, plan));
-    return sl_see_check(context, plan->method, plan->see.solver, map);
-}
-
-static sl_status subdivide(sl_context *context, const bake_plan *plan, const sl_map *map,
-                           sl_bake_report *report, sl_space *space, double *time) {
-    SL_TRY(sl_pipeline_subdivide(context, &plan->pipeline, map, space));
-    report->subdivide = sl_pipeline_subdivision(&plan->pipeline, map)->name;
-    report->seconds.subdivide = lap(time);
-    SL_TRY(sl_pipeline_check(context, &plan->pipeline, space));
-    report->seconds.check = lap(time);
-    report->checked = sl_pipeline_checks(&plan->pipeline, space);
-    return SL_OK;
-}
-
-static sl_status see(sl_context *context, const bake_plan *plan, sl_baked *baked,
-                     sl_bake_report *report) {
-    sl_plan effects = sl_plan_make(&baked->map);
-    effects.mirror_depth = (uint32_t)plan->mirror_depth;
-    effects.door_limit = (uint32_t)plan->door_sets;
-    sl_see_options options = plan->see;
-    options.plan = &effects;
-    return sl_bake_parts_see(context, &plan->parts, plan->method, &options, baked, &report->parts);
-}
-
-/// With --check, that what was written can be read.
+/// With --check: reads the file again that was written.
 static sl_status check_file(sl_context *context, const bake_plan *plan) {
     sl_baked again = {0};
-    if (!plan->pipeline.check) return SL_OK;
+    if (!plan->pipeline.bake.check) return SL_OK;
     SL_TRY(sl_baked_read_part(context, plan->output, &again));
     sl_baked_destroy(context, &again);
     return SL_OK;
 }
 
 static sl_status bake(sl_context *context, bake_plan *plan, sl_map *map, sl_baked *baked,
-                      sl_bake_report *report) {
-    double time = sl_now();
-    SL_TRY(read_and_clean(context, plan, map, report));
+                      bake_report *report) {
+    sl_bake_options *options = &plan->pipeline.bake;
+    double time = sl_seconds();
+    SL_TRY(pipeline_read(context, &plan->pipeline, map));
     report->seconds.read = lap(&time);
-    SL_TRY(subdivide(context, plan, map, report, &baked->space, &time));
-    keep_rest_of_map(context, map, baked);
-    snprintf(baked->method, sizeof baked->method, "%s", plan->method->name);
-    if (plan->see.solver)
-        snprintf(baked->solver, sizeof baked->solver, "%s", plan->see.solver->name);
-    SL_TRY(see(context, plan, baked, report));
-    report->seconds.cell_to_cell = lap(&time);
-    if (sl_crew_rank() != 0) return SL_OK;
+    SL_TRY(sl_bake_space(context, map, options, baked, &report->account));
+    report->seconds.read += report->account.seconds.clean;
+    lap(&time);
+    SL_TRY(bake_parts_see(context, &plan->parts, options, baked, &report->parts));
+    report->seconds.see = lap(&time);
+    if (crew_rank() != 0) return SL_OK;
     if (plan->named_by_map) sl_note(context, "writing %s, as no -o is given", plan->output);
     SL_TRY(sl_baked_write(context, baked, plan->output));
     report->seconds.write = lap(&time);
     return check_file(context, plan);
 }
 
-static sl_status bake_and_report(sl_console *console, bake_plan *plan) {
+static sl_status bake_and_report(command_console *console, bake_plan *plan) {
     sl_context *context = console->context;
     sl_map map = {0};
     sl_baked baked = {0};
-    sl_bake_report report = {
-        .input = plan->pipeline.input, .output = plan->output, .baked = &baked};
+    bake_report report = {.input = plan->input, .output = plan->output, .baked = &baked};
     sl_status status = bake(context, plan, &map, &baked, &report);
-    sl_progress_line_clear(&console->line);
-    if (status == SL_OK && sl_crew_rank() != 0)
+    progress_line_clear(&console->line);
+    if (status == SL_OK && crew_rank() != 0)
         status = SL_OK; // the first process reports
     else if (status == SL_OK && plan->json)
-        status = sl_bake_report_print_json(context, &report);
+        status = bake_report_print_json(context, &report);
     else if (status == SL_OK && !console->quiet)
-        status = sl_bake_report_print(context, &report);
+        status = bake_report_print(context, &report);
     sl_baked_destroy(context, &baked);
     sl_map_destroy(context, &map);
     return status;
@@ -243,47 +342,63 @@ static sl_status bake_and_report(sl_console *console, bake_plan *plan) {
 // --- help
 
 static void print_tables(void) {
-    sl_pipeline_print_subdivisions();
-    sl_pipeline_print_methods("; sweep is the default, but dfs where stab trees or a solver are "
-                              "asked for,\nand prune where the map has mirrors",
-                              " (the first is the default)");
-    sl_pipeline_print_effects();
-    sl_input_print_formats();
+    pipeline_print_subdivisions();
+    pipeline_print_methods("; sweep is the default, but dfs where stab trees or a solver are "
+                           "asked for,\nand prune where the map has mirrors",
+                           " (the first is the default)");
+    pipeline_print_effects();
+    input_print_formats();
 }
 
-sl_status sl_cmd_bake(sl_console *console, int argc, char **argv) {
-    bake_texts t = {0};
-    const sl_option_spec options[] = {
-        {"output", 'o', "FILE.slv", NULL, &t.output,
-         "where to write; without it in the current folder,\nby the map's name"},
-        SL_PIPELINE_OPTIONS(t.pipeline),
-        {"method", 0, "NAME", NULL, &t.method, "how to find what a cell sees"},
-        {"solver", 0, "NAME", NULL, &t.solver, "what stabs portal sequences"},
-        {"sight", 0, "closed|open", NULL, &t.sight,
-         "closed (the default): lines that only touch\nwall ends count; open: they do not"},
-        {"threads", 0, "N", NULL, &t.threads,
-         "0, the default, for one a core;\nthe result is the same for any number"},
-        {"samples", 0, "N", NULL, &t.samples, "lines from each cell, for sampling"},
-        {"seed", 0, "N", NULL, &t.seed, "of random numbers, for sampling"},
-        {"memory", 0, "SIZE", NULL, &t.memory,
+sl_status cmd_bake(command_console *console, int argc, char **argv) {
+    bake_plan plan = {.pipeline = pipeline_default()};
+    sl_bake_options *bake_options = &plan.pipeline.bake;
+    sl_see_options *see = &bake_options->see;
+    const option_table pipeline = pipeline_option_table(&plan.pipeline);
+    const option_table parts = bake_parts_option_table(&plan.parts);
+    const option_spec options[] = {
+        {"output", 'o', "FILE.slv",
+         "where to write; without it in the current folder,\nby the map's name",
+         .text = &plan.output, .check = CHECK_BAKED},
+        {.group = &pipeline},
+        {"method", 0, "NAME", "how to find what a cell sees", .choice = &plan.method,
+         .names = method_table(), .given = &plan.method_given},
+        {"solver", 0, "NAME", "what stabs portal sequences", .choice = &plan.solver,
+         .names = solver_table(), .given = &plan.solver_given},
+        {"sight", 0, "closed|open",
+         "closed (the default): lines that only touch\nwall ends count; open: they do not",
+         .sight = &see->sight},
+        {"threads", 0, "N",
+         "0, the default, for one a core;\nthe result is the same for any number",
+         .count32 = &see->threads, .most = MAX_THREADS},
+        {"samples", 0, "N", "lines from each cell, for sampling", .count32 = &see->samples,
+         .given = &plan.samples_given},
+        {"seed", 0, "N", "of random numbers, for sampling", .count = &see->seed,
+         .given = &plan.seed_given},
+        {"memory", 0, "SIZE",
          "for the visible sets in the making at most, as 64M,\n2G; half of the machine's unless "
-         "told"},
-        {"passes", 0, "N", NULL, &t.passes,
+         "told",
+         .bytes = &see->row_bytes, .given = &plan.memory_given},
+        {"passes", 0, "N",
          "sectors that multipass cuts directions into, at most;\n8 unless told; 0: at all portals' "
-         "own"},
-        {"stab-trees", 0, NULL, &t.stab_trees, NULL, "keep the trees of portal sequences"},
-        {"tree-memory", 0, "SIZE", NULL, &t.tree_memory,
-         "for them at most, as 64K, 256M (the default), 2G"},
-        {"inside", 0, NULL, &t.inside, NULL,
-         "look from and at inside cells only: those that a\nstart leads to or that walls enclose"},
-        {"mirror-depth", 0, "N", NULL, &t.mirror_depth,
-         "reflections of a sightline, at most (1 without it, up\nto 16; 0: mirrors are walls)"},
-        {"door-sets", 0, "N", NULL, &t.door_sets,
-         "sets of doors kept of a pair, at most (16 without\nit); a pair with more counts as seen"},
-        {"json", 0, NULL, &t.json, NULL, "print the statistics as one JSON object"},
-        SL_BAKE_PART_OPTIONS(t.parts),
+         "own",
+         .count32 = &see->sectors, .given = &plan.passes_given},
+        {"stab-trees", 0, NULL, "keep the trees of portal sequences", .flag = &see->trees},
+        {"tree-memory", 0, "SIZE", "for them at most, as 64K, 256M (the default), 2G",
+         .bytes = &see->tree_bytes, .given = &plan.tree_memory_given},
+        {"inside", 0, NULL,
+         "look from and at inside cells only: those that a\nstart leads to or that walls enclose",
+         .flag = &see->inside_only},
+        {"mirror-depth", 0, "N",
+         "reflections of a sightline, at most (1 without it, up\nto 16; 0: mirrors are walls)",
+         .count32 = &bake_options->mirror_depth, .most = 16},
+        {"door-sets", 0, "N",
+         "sets of doors kept of a pair, at most (16 without\nit); a pair with more counts as seen",
+         .count32 = &bake_options->door_limit, .most = 65535},
+        {"json", 0, NULL, "print the statistics as one JSON object", .flag = &plan.json},
+        {.group = &parts},
     };
-    const sl_command_usage usage = {
+    const command_usage usage = {
         .name = "bake",
         .synopsis = "MAP [-o FILE.slv] [options]",
         .operands = {"MAP"},
@@ -298,15 +413,13 @@ sl_status sl_cmd_bake(sl_console *console, int argc, char **argv) {
         .options = options,
         .option_count = sizeof options / sizeof *options,
     };
-    bake_plan plan = {0};
     bool helped;
-    const char *input;
-    SL_TRY(sl_option_parse(console, &usage, argc, argv, &input, &helped));
+    SL_TRY(options_parse(console, &usage, argc, argv, &plan.input, &helped));
     if (helped) return SL_OK;
-    SL_TRY(make_plan(console->context, input, &t, &plan));
+    SL_TRY(make_plan(console->context, &plan));
     char *own_name = NULL;
     if (!plan.output) {
-        SL_TRY(name_output(console->context, input, &own_name));
+        SL_TRY(name_output(console->context, plan.input, &own_name));
         plan.output = own_name;
         plan.named_by_map = true;
     }

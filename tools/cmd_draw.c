@@ -1,9 +1,10 @@
-#include "base/base.h"
+/// `sightline draw`: a picture of a baked file.
 #include "commands.h"
 #include "inputs.h"
 #include "options.h"
-#include "pictures.h"
+#include "outputs.h"
 #include "sightline/draw.h"
+#include "sightline/support.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -23,55 +24,44 @@ static const layer layers[] = {
     {"legend", "what the colours mean, and the counts", SL_LAYER_LEGEND},
 };
 enum { LAYER_COUNT = sizeof layers / sizeof *layers };
-static const sl_name_table layer_names = {"layer", layers, sizeof *layers, LAYER_COUNT};
+static const name_table layer_names = {"layer", layers, sizeof *layers, LAYER_COUNT, NULL};
 
-/// The options as they are given.
-typedef struct draw_texts {
-    const char *input, *output, *cell, *at, *layers, *width, *title;
-    bool stab_tree, dark;
-} draw_texts;
+typedef struct draw_plan {
+    const char *input, *output, *cell, *at_text;
+    sl_point at;
+    unsigned layers; ///< numbers of the table above, as bits
+    const char *layers_given;
+    bool stab_tree;
+    sl_draw_options drawing;
+} draw_plan;
 
-static sl_status choose_layers(sl_context *context, const draw_texts *texts,
-                               sl_draw_options *options) {
-    unsigned chosen = 0;
-    SL_TRY(sl_option_choices(context, "--layers", texts->layers, &layer_names, &chosen));
-    if (texts->layers) {
-        options->layers = 0;
-        for (unsigned i = 0; i < LAYER_COUNT; i++)
-            if (chosen >> i & 1) options->layers |= (unsigned)layers[i].bit;
-    }
-    if (texts->stab_tree) options->layers |= SL_LAYER_STAB_TREE;
+static sl_status make_plan(sl_context *context, draw_plan *plan) {
+    if (!plan->output)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "-o is missing: name the picture, ending in .png, .svg or .pdf");
+    if (plan->cell && plan->at_text)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--cell and --at both choose a cell; give one");
+    if (plan->layers_given) plan->drawing.layers = 0;
+    for (unsigned i = 0; i < LAYER_COUNT; i++)
+        if (plan->layers >> i & 1) plan->drawing.layers |= (unsigned)layers[i].bit;
+    if (plan->stab_tree) plan->drawing.layers |= SL_LAYER_STAB_TREE;
     return SL_OK;
 }
 
-static sl_status read_options(sl_context *context, const draw_texts *texts,
-                              sl_draw_options *options) {
-    if (!texts->output)
-        return sl_fail(context, SL_BAD_ARGUMENT,
-                       "-o is missing: name the picture, ending in .png, .svg or .pdf");
-    SL_TRY(sl_picture_check(context, texts->input, "-o", texts->output));
-    if (texts->cell && texts->at)
-        return sl_fail(context, SL_BAD_ARGUMENT, "--cell and --at both choose a cell; give one");
-    SL_TRY(sl_picture_plan(context, texts->width, texts->title, texts->dark, options));
-    return choose_layers(context, texts, options);
-}
-
-/// By number, by a point, or by the map's first start; "none" for an overview.
-static sl_status choose_cell(sl_context *context, const draw_texts *texts, const sl_baked *baked,
+/// Chooses a cell by number, by a point, or by the map's first start. "none": an overview.
+static sl_status choose_cell(sl_context *context, const draw_plan *plan, const sl_baked *baked,
                              uint32_t *cell) {
     const sl_space *space = &baked->space;
     *cell = SL_NO_CELL;
-    if (texts->cell && strcmp(texts->cell, "none") != 0) {
+    if (plan->cell && strcmp(plan->cell, "none") != 0) {
         uint64_t number = 0;
-        SL_TRY(sl_option_count(context, "--cell", texts->cell, space->cell_count - 1, &number));
+        SL_TRY(read_count(context, "--cell", plan->cell, space->cell_count - 1, &number));
         *cell = (uint32_t)number;
-    } else if (texts->at) {
-        sl_point at = {0};
-        SL_TRY(sl_option_point(context, "--at", texts->at, &at));
-        *cell = sl_space_locate(space, at);
+    } else if (plan->at_text) {
+        *cell = sl_space_locate(space, plan->at);
         if (*cell == SL_NO_CELL)
-            return sl_input_fail_outside(context, "--at", texts->at, space->bounds);
-    } else if (!texts->cell && baked->map.start_count) {
+            return input_fail_outside(context, "--at", plan->at_text, space->bounds);
+    } else if (!plan->cell && baked->map.start_count) {
         *cell = sl_space_locate(space, baked->map.starts[0].at);
     }
     return SL_OK;
@@ -96,11 +86,10 @@ static sl_status check_stab_tree(sl_context *context, const char *path, const sl
     return SL_OK;
 }
 
-static sl_status draw(sl_context *context, const draw_texts *texts, const sl_baked *baked,
-                      sl_draw_options *options) {
-    SL_TRY(choose_cell(context, texts, baked, &options->cell));
-    SL_TRY(check_stab_tree(context, texts->input, baked, options));
-    return sl_draw_file(context, baked, options, texts->output);
+static sl_status draw(sl_context *context, draw_plan *plan, const sl_baked *baked) {
+    SL_TRY(choose_cell(context, plan, baked, &plan->drawing.cell));
+    SL_TRY(check_stab_tree(context, plan->input, baked, &plan->drawing));
+    return sl_draw_file(context, baked, &plan->drawing, plan->output);
 }
 
 static void print_layers(void) {
@@ -111,22 +100,24 @@ static void print_layers(void) {
                layers[i].what);
 }
 
-sl_status sl_cmd_draw(sl_console *console, int argc, char **argv) {
-    draw_texts t = {0};
-    const sl_option_spec options[] = {
-        {"output", 'o', "PICTURE", NULL, &t.output,
-         "where to draw: .png, .svg or .pdf, by the ending"},
-        {"cell", 0, "N", NULL, &t.cell,
-         "choose a cell by its number; none for an overview:\nhow much each cell sees"},
-        {"at", 0, "X,Y", NULL, &t.at,
-         "choose the cell at a point; with neither, the cell\nof the map's first start, if any"},
-        {"layers", 0, "LAYER,...", NULL, &t.layers, "what to draw"},
-        {"stab-tree", 0, NULL, &t.stab_tree, NULL, "draw the chosen cell's stab tree too"},
-        {"width", 0, "PX", NULL, &t.width, "of the picture, 64 to 20000 pixels or points"},
-        {"dark", 0, NULL, &t.dark, NULL, "light on dark"},
-        {"title", 0, "TEXT", NULL, &t.title, "a line over the picture"},
+sl_status cmd_draw(command_console *console, int argc, char **argv) {
+    draw_plan plan = {.drawing = sl_draw_options_default()};
+    const option_table picture = picture_option_table(&plan.drawing, true);
+    const option_spec options[] = {
+        {"output", 'o', "PICTURE", "where to draw: .png, .svg or .pdf, by the ending",
+         .text = &plan.output, .check = CHECK_PICTURE},
+        {"cell", 0, "N",
+         "choose a cell by its number; none for an overview:\nhow much each cell sees",
+         .text = &plan.cell},
+        {"at", 0, "X,Y",
+         "choose the cell at a point; with neither, the cell\nof the map's first start, if any",
+         .point = &plan.at, .text = &plan.at_text},
+        {"layers", 0, "LAYER,...", "what to draw", .choices = &plan.layers, .names = layer_names,
+         .given = &plan.layers_given},
+        {"stab-tree", 0, NULL, "draw the chosen cell's stab tree too", .flag = &plan.stab_tree},
+        {.group = &picture},
     };
-    const sl_command_usage usage = {
+    const command_usage usage = {
         .name = "draw",
         .synopsis = "FILE.slv -o PICTURE [options]",
         .operands = {"FILE.slv"},
@@ -138,13 +129,12 @@ sl_status sl_cmd_draw(sl_console *console, int argc, char **argv) {
         .option_count = sizeof options / sizeof *options,
     };
     bool helped;
-    SL_TRY(sl_option_parse(console, &usage, argc, argv, &t.input, &helped));
+    SL_TRY(options_parse(console, &usage, argc, argv, &plan.input, &helped));
     if (helped) return SL_OK;
-    sl_draw_options drawing;
-    SL_TRY(read_options(console->context, &t, &drawing));
+    SL_TRY(make_plan(console->context, &plan));
     sl_baked baked = {0};
-    SL_TRY(sl_input_read_baked(console->context, t.input, &baked));
-    const sl_status status = draw(console->context, &t, &baked, &drawing);
+    SL_TRY(input_read_baked(console->context, plan.input, &baked));
+    const sl_status status = draw(console->context, &plan, &baked);
     sl_baked_destroy(console->context, &baked);
     return status;
 }

@@ -1,44 +1,53 @@
-#include "base/base.h"
+/// `sightline export`: a baked file for other programs.
+#include "built.h"
 #include "commands.h"
 #include "inputs.h"
-#include "options.h"
+#include "outputs.h"
+#include "sightline/support.h"
 
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
-static sl_name_table format_names(void) {
+static name_table format_table(const sl_context *context) {
     size_t count;
-    const sl_export_format *formats = sl_export_formats(&count);
-    return (sl_name_table){"format", formats, sizeof *formats, count};
+    const sl_export_format *formats = sl_export_formats(context, &count);
+    return (name_table){"format", formats, sizeof *formats, count, NULL};
 }
 
 static void print_formats(void) {
+    sl_context *context = sl_context_create(NULL);
+    if (!context) return;
+    (void)built_use_formats(context); // with no memory: the formats that are always there
     size_t count;
-    const sl_export_format *formats = sl_export_formats(&count);
+    const sl_export_format *formats = sl_export_formats(context, &count);
     puts("\nformats (the first is the default):");
     for (size_t i = 0; i < count; i++) printf("  %-10s%s\n", formats[i].name, formats[i].what);
+    sl_context_destroy(context);
 }
 
-/// --wad and --map are for the formats that take them, and the WAD is not written over.
+/// Refuses --wad and --map for formats that do not take them, and an output that is the WAD itself.
 static sl_status check_wad(sl_context *context, const sl_export_format *format,
                            const sl_export_options *given, const char *output) {
     if (!format->takes_wad && (given->wad || given->map))
         return sl_fail(context, SL_BAD_ARGUMENT, "--%s: the format %s has no use for it",
                        given->wad ? "wad" : "map", format->name);
-    return given->wad ? sl_output_check(context, given->wad, "-o", output) : SL_OK;
+    return given->wad ? output_check_file(context, given->wad, "-o", output) : SL_OK;
 }
 
-sl_status sl_cmd_export(sl_console *console, int argc, char **argv) {
-    const char *path = NULL, *format = NULL, *output = NULL;
+sl_status cmd_export(command_console *console, int argc, char **argv) {
+    const char *path = NULL, *output = NULL;
+    size_t chosen = 0, count;
     sl_export_options given = {0};
-    const sl_option_spec options[] = {
-        {"output", 'o', "FILE", NULL, &output, "where to write; stdout, or -, without it"},
-        {"format", 0, "NAME", NULL, &format, "what to write"},
-        {"wad", 0, "IN.wad", NULL, &given.wad, "reject: the WAD of the map that was baked"},
-        {"map", 0, "NAME", NULL, &given.map, "reject: the name of that map"},
+    const option_spec options[] = {
+        {"output", 'o', "FILE", "where to write; stdout, or -, without it", .text = &output,
+         .check = CHECK_FILE},
+        {"format", 0, "NAME", "what to write", .choice = &chosen,
+         .names = format_table(console->context)},
+        {"wad", 0, "IN.wad", "reject: the WAD of the map that was baked", .text = &given.wad},
+        {"map", 0, "NAME", "reject: the name of that map", .text = &given.map},
     };
-    const sl_command_usage usage = {
+    const command_usage usage = {
         .name = "export",
         .synopsis = "FILE.slv [--format NAME] [-o FILE] [options]",
         .operands = {"FILE.slv"},
@@ -51,24 +60,19 @@ sl_status sl_cmd_export(sl_console *console, int argc, char **argv) {
         .option_count = sizeof options / sizeof *options,
     };
     bool helped;
-    SL_TRY(sl_option_parse(console, &usage, argc, argv, &path, &helped));
+    SL_TRY(options_parse(console, &usage, argc, argv, &path, &helped));
     if (helped) return SL_OK;
-    size_t chosen = 0, count;
-    const sl_name_table names = format_names();
-    SL_TRY(sl_option_choice(console->context, "--format", format, &names, &chosen));
-
+    const sl_export_format *formats = sl_export_formats(console->context, &count);
     if (!output) output = "-";
-    SL_TRY(sl_output_check(console->context, path, "-o", output));
-    SL_TRY(check_wad(console->context, &sl_export_formats(&count)[chosen], &given, output));
+    SL_TRY(check_wad(console->context, &formats[chosen], &given, output));
     sl_baked baked = {0};
-    SL_TRY(sl_input_read_baked(console->context, path, &baked));
-    sl_progress_line_clear(&console->line);
+    SL_TRY(input_read_baked(console->context, path, &baked));
+    progress_line_clear(&console->line);
     if (strcmp(output, "-") == 0 && isatty(STDOUT_FILENO)) console->line.shows = false;
-    // Exports hold what is seen with all doors open; what is seen by mirror they have no place for.
+    // Exports hold what is seen with all doors open. They have no place for what mirrors show.
     sl_status status = sl_effects_check(console->context, &baked.map, "export",
                                         SL_EFFECT_DOOR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE);
-    if (status == SL_OK)
-        status = sl_export_formats(&count)[chosen].write(console->context, &baked, &given, output);
+    if (status == SL_OK) status = formats[chosen].write(console->context, &baked, &given, output);
     sl_baked_destroy(console->context, &baked);
     return status;
 }

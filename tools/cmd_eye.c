@@ -1,114 +1,277 @@
-#include "base/base.h"
+/// `sightline eye`: what one viewpoint sees, by every culling method.
 #include "commands.h"
-#include "doors_shut.h"
-#include "eye_objects.h"
-#include "eye_report.h"
 #include "eye_run.h"
 #include "inputs.h"
+#include "json_print.h"
+#include "names.h"
 #include "options.h"
-#include "pictures.h"
-#include "seen_parts.h"
+#include "outputs.h"
+#include "report.h"
 #include "sightline/draw.h"
+#include "sightline/support.h"
 
-/// The operand and options as they are given.
-typedef struct eye_texts {
-    const char *input, *at, *look, *fov, *output, *width, *shut, *mirror_depth, *range;
-    bool json, dark;
-    sl_option_list objects;
-} eye_texts;
+#include <inttypes.h>
+#include <stdio.h>
 
-static sl_status read_view(sl_context *context, const eye_texts *texts, const sl_space *space,
-                           sl_view *view) {
-    sl_point eye = {0};
-    double heading = 0, fov = 360;
-    if (!texts->at) return sl_fail(context, SL_BAD_ARGUMENT, "--at is missing: where the eye is");
-    if (!texts->look != !texts->fov)
-        return sl_fail(context, SL_BAD_ARGUMENT,
-                       "--look and --fov make a view cone together; without both the eye looks "
-                       "all round");
-    SL_TRY(sl_option_point(context, "--at", texts->at, &eye));
-    SL_TRY(sl_option_number(context, "--look", texts->look, &heading));
-    SL_TRY(sl_option_number(context, "--fov", texts->fov, &fov));
-    if (fov < 0 || fov > 360)
-        return sl_fail(context, SL_BAD_ARGUMENT, "--fov %s: degrees from 0 to 360 are needed",
-                       texts->fov);
-    if (sl_space_locate(space, eye) == SL_NO_CELL)
-        return sl_input_fail_outside(context, "--at", texts->at, space->bounds);
-    *view = sl_view_cone(eye, heading, fov, sl_eye_reach(space));
+// --- the report
+
+/// Prints what is seen by mirror: the cells of each method, and the parts of the region by the
+/// number of reflections.
+static void print_mirrored(const eye_run *run) {
+    size_t count;
+    const sl_eye_method *methods = sl_eye_methods(&count);
+    uint64_t rounded = 0;
+    printf("\nby mirror, %" PRIu32 " reflection%s at most:\n", run->mirror_depth,
+           run->mirror_depth == 1 ? "" : "s");
+    for (size_t i = 0; i < count; i++) {
+        const eye_result *result = &run->results[i];
+        rounded += result->rounded;
+        if (!result->mirrored)
+            printf("  %-20s refused: does not know mirrors\n", methods[i].name);
+        else
+            printf("  %-20s %-13s %7" PRIu32 " %6.2f %%\n", methods[i].name,
+                   sl_guarantee_name(methods[i].guarantee), result->mirrored_count,
+                   100 * result->mirrored_share);
+    }
+    for (uint32_t depth = 1; depth <= run->mirror_depth; depth++) {
+        size_t parts = 0;
+        double area = 0;
+        for (size_t i = 0; i < run->mirrored.part_count; i++) {
+            const sl_mirror_part *part = &run->mirrored.parts[i];
+            if (part->depth != depth) continue;
+            parts++;
+            area += sl_region_area(&part->region);
+        }
+        if (parts)
+            printf("  in %" PRIu32 " mirror%s: %zu part%s of the region, area %.6g\n", depth,
+                   depth == 1 ? "" : "s", parts, parts == 1 ? "" : "s", area);
+    }
+    if (rounded) printf("  %" PRIu64 " images of the eye and its rays are rounded\n", rounded);
+}
+
+static void eye_print(const sl_baked *baked, const eye_run *run) {
+    size_t count;
+    const sl_eye_method *methods = sl_eye_methods(&count);
+    char x[SL_NUMBER_TEXT], y[SL_NUMBER_TEXT], seconds[SECONDS_TEXT];
+    sl_number_write(run->view.eye.x, x);
+    sl_number_write(run->view.eye.y, y);
+    printf("eye at %s,%s: cell %" PRIu32 ", %s sight\n", x, y, run->cell,
+           sight_name(baked->visibility.sight));
+    puts("\n  method               guarantee       cells     area     nodes  orientations     "
+         "time");
+    for (size_t i = 0; i < count; i++) {
+        const eye_result *result = &run->results[i];
+        seconds_write(result->seconds, "u", seconds);
+        printf("  %-20s %-13s %7" PRIu32 " %6.2f %% %9" PRIu64 " %13" PRIu64 " %8s\n",
+               methods[i].name, sl_guarantee_name(methods[i].guarantee), result->count,
+               100 * result->share, result->account.nodes, result->account.orientations, seconds);
+    }
+    seconds_write(run->region_seconds, "u", seconds);
+    printf("  %-20s %-13s %7s %6.2f %% %9" PRIu64 " %13s %8s\n", "visible_area",
+           sl_guarantee_name(SL_EXACT), "", 100 * run->region_share, run->region.portals_passed, "",
+           seconds);
+    const sl_region_measures m = sl_region_measure(&run->region);
+    printf("\nvisible region: area %.6g, perimeter %.6g, %zu corners\n", m.area, m.perimeter,
+           run->region.count);
+    if (run->has_mirrors) print_mirrored(run);
+    if (!run->results[0].count)
+        printf("\nthe file has no visible set for cell %" PRIu32
+               ": it was baked for inside cells only\n",
+               run->cell);
+}
+
+/// {"area": a, "perimeter": p, "polygon": [[x, y], ...]}
+static void add_region(json_fields *fields, const sl_region *region) {
+    const sl_region_measures measures = sl_region_measure(region);
+    json_fields inner = json_begin();
+    json_add_real(&inner, "area", measures.area);
+    json_add_real(&inner, "perimeter", measures.perimeter);
+    json_add_points(&inner, "polygon", region->points, region->count);
+    json_add_fields(fields, "region", &inner);
+}
+
+/// "mirrors": the chain by the map's numbers, from 0, the eye's end first.
+static void add_chain(json_fields *fields, const sl_mirrored_region *region, uint32_t number) {
+    uint32_t length = 0;
+    for (uint32_t i = number; i != SL_NO_PART; i = region->parts[i].parent) length++;
+    sl_json_writer *json = json_add(fields, "mirrors");
+    sl_json_put_list(json);
+    for (; length; length--) {
+        uint32_t part = number;
+        for (uint32_t i = 1; i < length; i++) part = region->parts[part].parent;
+        sl_json_put_integer(json, region->parts[part].mirror);
+    }
+    sl_json_put_end(json, ']');
+}
+
+/// [{"mirrors": [0], "area": a, "rounded": false, "polygon": [...], "image": [...]}, ...]
+static sl_status add_parts(sl_context *context, json_fields *fields,
+                           const sl_mirrored_region *region) {
+    json_fields *parts = sl_alloc_array(context, region->part_count, sizeof *parts);
+    if (!parts) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < region->part_count; i++) {
+        const sl_mirror_part *part = &region->parts[i];
+        parts[i] = json_begin();
+        add_chain(&parts[i], region, i);
+        json_add_real(&parts[i], "area", sl_region_area(&part->region));
+        json_add_flag(&parts[i], "rounded", part->rounded);
+        json_add_points(&parts[i], "polygon", part->region.points, part->region.count);
+        json_add_points(&parts[i], "image", part->image, part->region.count);
+    }
+    json_add_list(fields, "mirrored_region", parts, region->part_count);
+    sl_free(context, parts);
     return SL_OK;
 }
 
-/// What is to be drawn of the objects: the region past them, and themselves.
-static sl_status add_objects(sl_context *context, const sl_space *space,
-                             const sl_eye_objects *objects, sl_seen_parts *parts,
-                             sl_drawn_box *boxes, sl_draw_options *options) {
+static sl_status add_mirrored(sl_context *context, json_fields *fields, const sl_baked *baked,
+                              const eye_run *run) {
+    size_t count;
+    const sl_eye_method *methods = sl_eye_methods(&count);
+    json_fields sets = json_begin();
+    for (size_t i = 0; i < count; i++)
+        if (run->results[i].mirrored)
+            json_add_members(&sets, methods[i].name, run->results[i].mirrored,
+                             baked->space.cell_count);
+    json_add_fields(fields, "mirrored", &sets);
+    return add_parts(context, fields, &run->mirrored);
+}
+
+static sl_status eye_print_json(sl_context *context, const sl_baked *baked, const eye_run *run,
+                                const eye_objects *objects) {
+    size_t count;
+    const sl_eye_method *methods = sl_eye_methods(&count);
+    json_fields fields = json_begin(), sets = json_begin();
+    json_add_count(&fields, "cell", run->cell);
+    if (sl_partial_begun(&baked->partial)) json_add_flag(&fields, "finished", false);
+    for (size_t i = 0; i < count; i++)
+        json_add_members(&sets, methods[i].name, run->results[i].cells, baked->space.cell_count);
+    json_add_fields(&fields, "methods", &sets);
+    add_region(&fields, &run->region);
+    if (run->has_mirrors) SL_TRY(add_mirrored(context, &fields, baked, run));
+    eye_objects_add_json(&fields, baked, objects);
+    return json_print(context, &fields);
+}
+
+// --- the command
+
+typedef struct eye_plan {
+    const char *input, *at_text, *shut, *output;
+    sl_point at;
+    double look, fov, range;
+    const char *look_given, *fov_given, *range_given, *picture_given;
+    uint32_t mirror_depth;
+    sl_draw_options drawing;
+    option_list objects;
+    bool json;
+} eye_plan;
+
+static sl_status check_view(sl_context *context, const eye_plan *plan, const sl_space *space) {
+    if (!plan->at_text)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--at is missing: where the eye is");
+    if (!plan->look_given != !plan->fov_given)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--look and --fov make a view cone together; without both the eye looks "
+                       "all round");
+    if (sl_space_locate(space, plan->at) == SL_NO_CELL)
+        return input_fail_outside(context, "--at", plan->at_text, space->bounds);
+    return SL_OK;
+}
+
+/// Adds the objects to the picture, and the region past them.
+static sl_status add_objects(sl_context *context, const sl_space *space, const eye_objects *objects,
+                             seen_parts *parts, sl_drawn_box *boxes, sl_draw_options *options) {
     for (size_t i = 0; i < objects->count; i++)
         boxes[i] = (sl_drawn_box){objects->boxes[i].box, objects->boxes[i].blocks,
                                   objects->seen[i] || objects->mirrored[i]};
     options->boxes = boxes;
     options->box_count = objects->count;
     if (!objects->count) return SL_OK;
-    return sl_seen_parts_add_region(context, space, &objects->region, parts);
+    return seen_parts_add_region(context, space, &objects->region, parts);
 }
 
-static sl_status draw(sl_context *context, const eye_texts *texts, const sl_baked *baked,
-                      const sl_eye_run *run, const sl_eye_objects *objects) {
-    sl_draw_options options;
+static sl_status draw(sl_context *context, const eye_plan *plan, const sl_baked *baked,
+                      const eye_run *run, const eye_objects *objects) {
+    sl_draw_options options = plan->drawing;
     sl_eye_layer layers[SL_EYE_LAYERS_MOST];
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
-    SL_TRY(sl_picture_plan(context, texts->width, NULL, texts->dark, &options));
     for (size_t i = 0; i < count; i++)
         layers[i] = (sl_eye_layer){methods[i].name, run->results[i].cells};
     if (objects->count) layers[count++] = (sl_eye_layer){"past_objects", objects->cells};
-    sl_seen_parts parts = {0};
+    seen_parts parts = {0};
     sl_drawn_box *boxes = sl_alloc_array(context, objects->count, sizeof *boxes);
     sl_status status = boxes ? SL_OK : SL_NO_MEMORY;
     if (status == SL_OK)
         status = add_objects(context, &baked->space, objects, &parts, boxes, &options);
     if (status == SL_OK)
-        status = sl_seen_parts_add(context, &baked->space,
-                                   objects->count ? &objects->mirrored_region : &run->mirrored,
-                                   false, &parts);
+        status = seen_parts_add(context, &baked->space,
+                                objects->count ? &objects->mirrored_region : &run->mirrored, false,
+                                &parts);
     if (status == SL_OK)
         status = sl_draw_eye(context, baked, &run->view, layers, count, parts.items, parts.count,
-                             &options, texts->output);
-    sl_seen_parts_destroy(context, &parts);
+                             &options, plan->output);
+    seen_parts_destroy(context, &parts);
     sl_free(context, boxes);
     return status;
 }
 
-static sl_status tell(sl_console *console, const eye_texts *texts, const sl_baked *baked,
-                      const sl_eye_run *run, const sl_eye_objects *objects) {
-    if (texts->output) SL_TRY(draw(console->context, texts, baked, run, objects));
-    sl_progress_line_clear(&console->line);
-    if (texts->json) return sl_eye_print_json(console->context, baked, run, objects);
-    if (console->quiet && texts->output) return SL_OK;
-    sl_eye_print(baked, run);
-    sl_eye_objects_print(objects);
+static sl_status tell(command_console *console, const eye_plan *plan, const sl_baked *baked,
+                      const eye_run *run, const eye_objects *objects) {
+    if (plan->output) SL_TRY(draw(console->context, plan, baked, run, objects));
+    progress_line_clear(&console->line);
+    if (plan->json) return eye_print_json(console->context, baked, run, objects);
+    if (console->quiet && plan->output) return SL_OK;
+    eye_print(baked, run);
+    eye_objects_print(objects);
     return SL_OK;
 }
 
-static sl_status look(sl_console *console, const eye_texts *texts, sl_baked *baked) {
+/// Makes walls of the one-way glass that blocks the eye, so that the picture shows it.
+static sl_status darken(sl_context *context, sl_baked *baked, sl_point eye) {
+    const sl_filtered_space filtered = {.eye = &eye};
+    sl_space walled;
+    if (!baked->map.oneway_count) return SL_OK;
+    if (baked->visibility.mirrored.cell_count)
+        return sl_fail(context, SL_UNSUPPORTED,
+                       "glass that is dark from an eye may not be so in a mirror: bake the map "
+                       "--without mirror or --without oneway");
+    SL_TRY(sl_filtered_space_make(context, &baked->space, &filtered, NULL, &walled));
+    sl_space_destroy(context, &baked->space);
+    baked->space = walled;
+    sl_visibility trees = {.trees = baked->visibility.trees};
+    baked->visibility.trees = (sl_stab_trees){0};
+    sl_visibility_destroy(context, &trees);
+    return SL_OK;
+}
+
+/// Shut doors and blocking glass are walls of `baked` by now.
+static sl_status ask(command_console *console, const eye_plan *plan, const sl_view *view,
+                     sl_query *query) {
     sl_context *context = console->context;
-    sl_view view;
-    sl_eye_run run;
-    SL_TRY(read_view(context, texts, &baked->space, &view));
-    SL_TRY(sl_picture_check(context, texts->input, "-o", texts->output));
-    if (baked->map.oneway_count) SL_TRY(sl_baked_darken(context, baked, view.eye));
-    uint64_t depth = 1;
-    SL_TRY(sl_option_count(context, "--mirror-depth", texts->mirror_depth, 16, &depth));
-    double range = baked->map.range;
-    SL_TRY(sl_option_number(context, "--range", texts->range, &range));
-    if (range < 0)
-        return sl_fail(context, SL_BAD_ARGUMENT, "--range %s: must not be negative", texts->range);
-    SL_TRY(sl_eye_run_make(context, baked, &view, (uint32_t)depth, range, !texts->json, &run));
-    sl_eye_objects objects = {0};
-    sl_status status = sl_eye_objects_read(context, &texts->objects, &baked->map, &objects);
-    if (status == SL_OK) status = sl_eye_objects_run(context, baked, &run, !texts->json, &objects);
-    if (status == SL_OK) status = tell(console, texts, baked, &run, &objects);
-    sl_eye_objects_destroy(context, &objects);
-    sl_eye_run_destroy(context, &run);
+    const sl_baked *baked = sl_query_baked(query);
+    eye_run run;
+    sl_query_set_doors(context, query, true);
+    SL_TRY(sl_query_set_mirror_depth(context, query, plan->mirror_depth));
+    if (plan->range_given) SL_TRY(sl_query_set_range(context, query, plan->range));
+    SL_TRY(eye_run_make(context, query, view, plan->mirror_depth, !plan->json, &run));
+    eye_objects objects = {0};
+    sl_status status = eye_objects_read(context, &plan->objects, &baked->map, &objects);
+    if (status == SL_OK) status = eye_objects_run(context, query, &run, !plan->json, &objects);
+    if (status == SL_OK) status = tell(console, plan, baked, &run, &objects);
+    eye_objects_destroy(context, &objects);
+    eye_run_destroy(context, &run);
+    return status;
+}
+
+static sl_status look(command_console *console, const eye_plan *plan, sl_baked *baked) {
+    sl_context *context = console->context;
+    sl_query *query;
+    SL_TRY(check_view(context, plan, &baked->space));
+    SL_TRY(darken(context, baked, plan->at));
+    SL_TRY(sl_query_create(context, baked, &query));
+    const sl_view view = sl_query_view(query, plan->at, plan->look, plan->fov);
+    const sl_status status = ask(console, plan, &view, query);
+    sl_query_destroy(context, query);
     return status;
 }
 
@@ -121,33 +284,38 @@ static void print_methods(void) {
                sl_guarantee_name(methods[i].guarantee));
 }
 
-sl_status sl_cmd_eye(sl_console *console, int argc, char **argv) {
-    eye_texts t = {0};
-    const sl_option_spec options[] = {
-        {"at", 0, "X,Y", NULL, &t.at, "where the eye is"},
-        {"shut", 0, "NAME,...", NULL, &t.shut,
+sl_status cmd_eye(command_console *console, int argc, char **argv) {
+    eye_plan plan = {.fov = 360, .mirror_depth = 1, .drawing = sl_draw_options_default()};
+    option_table picture = picture_option_table(&plan.drawing, false);
+    for (size_t i = 0; i < picture.count; i++) picture.items[i].given = &plan.picture_given;
+    const option_spec options[] = {
+        {"at", 0, "X,Y", "where the eye is", .point = &plan.at, .text = &plan.at_text},
+        {"shut", 0, "NAME,...",
          "doors that are shut, the others being open; 'none':\nall open; without it as the map "
-         "says"},
-        {"mirror-depth", 0, "N", NULL, &t.mirror_depth,
-         "how often mirrors reflect a sightline, 0 to 16;\n1 without it"},
-        {"range", 0, "R", NULL, &t.range,
+         "says",
+         .text = &plan.shut},
+        {"mirror-depth", 0, "N", "how often mirrors reflect a sightline, 0 to 16;\n1 without it",
+         .count32 = &plan.mirror_depth, .most = 16},
+        {"range", 0, "R",
          "how far the exact method and the region see, 0 for no\nlimit; without it as far as the "
-         "map says"},
-        {"object", 0, "BOX", NULL, NULL,
+         "map says",
+         .number = &plan.range, .needs = "must not be negative", .given = &plan.range_given},
+        {"object", 0, "BOX",
          "X0,Y0,X1,Y1 or the name of the map's object: something\nthat stands or moves where the "
          "bake knows nothing of\nit: is it seen? With ',block' behind it, it blocks sight;\nmay "
-         "be given several times"},
-        {"look", 0, "DEG", NULL, &t.look,
-         "which way it looks, in degrees counter-clockwise\nfrom +x"},
-        {"fov", 0, "DEG", NULL, &t.fov,
-         "how wide, 0 to 360 degrees in all; without --look\nand --fov all round"},
-        {"output", 'o', "PICTURE", NULL, &t.output,
-         "draw it too: .png, .svg or .pdf, by the ending"},
-        {"width", 0, "PX", NULL, &t.width, "of the picture, 64 to 20000 pixels or points"},
-        {"dark", 0, NULL, &t.dark, NULL, "the picture light on dark"},
-        {"json", 0, NULL, &t.json, NULL, "print JSON: the cells that each method keeps"},
+         "be given several times",
+         .list = &plan.objects},
+        {"look", 0, "DEG", "which way it looks, in degrees counter-clockwise\nfrom +x",
+         .number = &plan.look, .given = &plan.look_given},
+        {"fov", 0, "DEG", "how wide, 0 to 360 degrees in all; without --look\nand --fov all round",
+         .number = &plan.fov, .most = 360, .needs = "degrees from 0 to 360 are needed",
+         .given = &plan.fov_given},
+        {"output", 'o', "PICTURE", "draw it too: .png, .svg or .pdf, by the ending",
+         .text = &plan.output, .check = CHECK_PICTURE},
+        {.group = &picture},
+        {"json", 0, NULL, "print JSON: the cells that each method keeps", .flag = &plan.json},
     };
-    const sl_command_usage usage = {
+    const command_usage usage = {
         .name = "eye",
         .synopsis = "FILE.slv --at X,Y [--look DEG --fov DEG] [options]",
         .operands = {"FILE.slv"},
@@ -159,22 +327,20 @@ sl_status sl_cmd_eye(sl_console *console, int argc, char **argv) {
                     "  sightline eye office.slv --at 53,20 --object 40,18,41,21,block -o eye.png",
         .options = options,
         .option_count = sizeof options / sizeof *options,
-        .repeats = "object",
-        .repeated = &t.objects,
     };
     bool helped;
-    SL_TRY(sl_option_parse(console, &usage, argc, argv, &t.input, &helped));
+    SL_TRY(options_parse(console, &usage, argc, argv, &plan.input, &helped));
     if (helped) return SL_OK;
-    if ((t.width || t.dark) && !t.output)
+    if (plan.picture_given && !plan.output)
         return sl_fail(console->context, SL_BAD_ARGUMENT,
                        "--width and --dark are for the picture, which needs -o");
     sl_baked baked = {0};
-    SL_TRY(sl_input_read_baked(console->context, t.input, &baked));
+    SL_TRY(input_read_baked(console->context, plan.input, &baked));
     sl_status status =
         sl_effects_check(console->context, &baked.map, "eye",
                          SL_EFFECT_DOOR | SL_EFFECT_MIRROR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE);
-    if (status == SL_OK) status = sl_doors_shut(console->context, t.shut, &baked);
-    if (status == SL_OK) status = look(console, &t, &baked);
+    if (status == SL_OK) status = doors_shut(console->context, plan.shut, &baked);
+    if (status == SL_OK) status = look(console, &plan, &baked);
     sl_baked_destroy(console->context, &baked);
     return status;
 }

@@ -1,22 +1,19 @@
-#include "bake_report.h"
-#include "base/base.h"
-#include "base/number.h"
+/// `sightline info`: the contents of a map or of a baked file.
 #include "commands.h"
-#include "doors_shut.h"
 #include "inputs.h"
 #include "json_print.h"
-#include "mean_pvs.h"
 #include "names.h"
 #include "options.h"
-#include "plan_report.h"
-#include "sizes.h"
+#include "outputs.h"
+#include "report.h"
+#include "sightline/support.h"
 
 #include <inttypes.h>
 #include <string.h>
 
 typedef struct info_request {
     const char *path;
-    sl_input_texts texts;
+    input_options input;
     const char *shut;
     bool json;
 } info_request;
@@ -34,7 +31,7 @@ static void print_bounds(sl_box box) {
 
 // --- maps
 
-/// What is counted of a map, in the order it is shown.
+/// A number of things in a map.
 typedef struct map_count {
     const char *key;
     size_t count;
@@ -68,30 +65,27 @@ static sl_status print_map_json(sl_context *context, const info_request *request
                                 size_t oblique, const sl_clean_account *cleaning) {
     map_count counts[MAP_COUNTS];
     count_map(map, counts);
-    sl_json_fields fields = sl_json_begin();
-    sl_json_add_text(&fields, "file", request->path);
-    sl_json_add_text(&fields, "kind", "map");
-    sl_json_add_box(&fields, "bounds", sl_map_bounds(map));
-    sl_json_add_count(&fields, "walls", cleaning->before);
-    sl_json_add_count(&fields, "oblique_walls", oblique);
-    for (int i = 0; i < MAP_COUNTS; i++) sl_json_add_count(&fields, counts[i].key, counts[i].count);
-    sl_json_add_real(&fields, "range", map->range);
-    sl_json_add_cleaning(&fields, "cleaning", cleaning);
-    sl_plan_add_json(&fields, map);
-    return sl_json_print(context, &fields);
+    json_fields fields = json_begin();
+    json_add_text(&fields, "file", request->path);
+    json_add_text(&fields, "kind", "map");
+    json_add_box(&fields, "bounds", sl_map_bounds(map));
+    json_add_count(&fields, "walls", cleaning->before);
+    json_add_count(&fields, "oblique_walls", oblique);
+    for (int i = 0; i < MAP_COUNTS; i++) json_add_count(&fields, counts[i].key, counts[i].count);
+    json_add_real(&fields, "range", map->range);
+    json_add_cleaning(&fields, "cleaning", cleaning);
+    plan_add_json(&fields, map);
+    return json_print(context, &fields);
 }
 
 static void print_effects(const sl_map *map) {
-    sl_effect_names names;
-    const sl_name_table effects = sl_effect_table(&names);
+    const name_table effects = effect_table();
     const unsigned called_for = sl_plan_make(map).effects;
     printf("  effects  ");
     for (size_t i = 0; i < effects.count; i++)
-        if (called_for >> i & 1) printf(" %s", sl_name_table_at(&effects, i));
+        if (called_for >> i & 1) printf(" %s", name_table_at(&effects, i));
     puts(called_for ? " (bake --without NAME leaves one out)" : " none");
-    if (called_for && !sl_effects_are_built())
-        puts("            this build is without effects: all of them must be left out");
-    sl_plan_print(map);
+    plan_print(map);
 }
 
 static void print_notices(const char *notes) {
@@ -99,7 +93,7 @@ static void print_notices(const char *notes) {
     puts("  notices");
     while (*notes) {
         const size_t length = strcspn(notes, "\n");
-        sl_console_print_line(stdout, "    ", notes, length);
+        console_print_line(stdout, "    ", notes, length);
         notes += length + (notes[length] == '\n');
     }
 }
@@ -123,7 +117,7 @@ static void print_map(const info_request *request, const sl_map *map, size_t obl
         printf("  range     %s\n", number);
     }
     printf("  cleaned   %zu walls", cleaning->after);
-    sl_cleaning_print(cleaning);
+    cleaning_print(cleaning);
     print_effects(map);
     print_notices(map->notes);
 }
@@ -131,33 +125,33 @@ static void print_map(const info_request *request, const sl_map *map, size_t obl
 // --- files of several maps
 
 static sl_status print_list_json(sl_context *context, const char *path, const sl_map_list *list) {
-    sl_json_fields fields = sl_json_begin();
-    sl_json_fields *maps = sl_alloc_array(context, list->count, sizeof *maps);
+    json_fields fields = json_begin();
+    json_fields *maps = sl_alloc_array(context, list->count, sizeof *maps);
     if (!maps) return SL_NO_MEMORY;
     for (size_t i = 0; i < list->count; i++) {
-        maps[i] = sl_json_begin();
-        sl_json_add_text(&maps[i], "name", list->names[i]);
+        maps[i] = json_begin();
+        json_add_text(&maps[i], "name", list->names[i]);
     }
-    sl_json_add_text(&fields, "file", path);
-    sl_json_add_text(&fields, "kind", "maps");
-    sl_json_add_list(&fields, "maps", maps, list->count);
+    json_add_text(&fields, "file", path);
+    json_add_text(&fields, "kind", "maps");
+    json_add_list(&fields, "maps", maps, list->count);
     sl_free(context, maps);
-    return sl_json_print(context, &fields);
+    return json_print(context, &fields);
 }
 
 static void print_list(const char *path, const sl_map_list *list) {
     printf("%s: %zu maps (--map NAME chooses one)\n", path, list->count);
     for (size_t i = 0; i < list->count; i++)
-        sl_console_print_line(stdout, "  ", list->names[i], strlen(list->names[i]));
+        console_print_line(stdout, "  ", list->names[i], strlen(list->names[i]));
 }
 
-/// Lists the maps of a file that holds several, where none is chosen; *done says whether. Not for
-/// standard input, which is read only once.
-static sl_status inform_of_list(sl_console *console, const info_request *request, bool *done) {
+/// Lists the maps of a file that holds several; *done says whether it does. Not for standard input,
+/// which can be read only once.
+static sl_status inform_of_list(command_console *console, const info_request *request, bool *done) {
     sl_map_list list = {0};
     if (strcmp(request->path, "-") == 0) return SL_OK;
     SL_TRY(sl_map_list_read(console->context, request->path, &list));
-    sl_progress_line_clear(&console->line);
+    progress_line_clear(&console->line);
     sl_status status = SL_OK;
     *done = list.count > 1;
     if (*done && request->json)
@@ -168,13 +162,13 @@ static sl_status inform_of_list(sl_console *console, const info_request *request
     return status;
 }
 
-static sl_status inform_of_map(sl_console *console, const info_request *request) {
+static sl_status inform_of_map(command_console *console, const info_request *request) {
     sl_map map = {0};
     sl_clean_account cleaning;
-    SL_TRY(sl_input_read_map(console->context, request->path, &request->texts, &map));
+    SL_TRY(input_read_map(console->context, request->path, &request->input, &map));
     const size_t oblique = sl_map_count_oblique(&map);
-    sl_status status = sl_input_clean(console->context, &request->texts, &map, &cleaning);
-    sl_progress_line_clear(&console->line);
+    sl_status status = input_clean(console->context, &request->input, &map, &cleaning);
+    progress_line_clear(&console->line);
     if (status == SL_OK && request->json)
         status = print_map_json(console->context, request, &map, oblique, &cleaning);
     else if (status == SL_OK)
@@ -185,7 +179,7 @@ static sl_status inform_of_map(sl_console *console, const info_request *request)
 
 // --- baked files
 
-/// A part of what a baked file holds, as it lies in memory.
+/// A part of a baked file, with its size in memory.
 typedef struct baked_part {
     const char *name;
     uint64_t count, bytes;
@@ -214,7 +208,7 @@ static void list_parts(const sl_baked *baked, baked_part parts[BAKED_PARTS]) {
         {"cells", space->cell_count, space->cell_count * sizeof *space->cells},
         {"vertices", space->vertex_count, space->vertex_count * sizeof *space->vertices},
         {"portals", space->portal_count, space->portal_count * sizeof *space->portals},
-        {"exits", space->exit_count, space->exit_count * sizeof *space->exits},
+        {"exits", space->directed_count, space->directed_count * sizeof *space->directed},
         {"nodes", space->node_count, space->node_count * sizeof *space->nodes},
         {"buckets", (uint64_t)space->grid.columns * space->grid.rows, grid_bytes(&space->grid)},
         {"pairs", visibility->account.pairs, baked->by_views ? 0 : pvs_bytes(&visibility->pvs)},
@@ -226,42 +220,41 @@ static void list_parts(const sl_baked *baked, baked_part parts[BAKED_PARTS]) {
 }
 
 static sl_status print_baked_json(sl_context *context, const info_request *request,
-                                  const sl_baked *baked, const sl_mean_pvs *mean) {
+                                  const sl_baked *baked, const pvs_means *mean) {
     baked_part parts[BAKED_PARTS];
     list_parts(baked, parts);
-    sl_json_fields fields = sl_json_begin(), bytes = sl_json_begin();
-    sl_json_add_text(&fields, "file", request->path);
-    sl_json_add_text(&fields, "kind", "baked");
-    sl_json_add_box(&fields, "bounds", baked->space.bounds);
-    sl_json_add_text(&fields, "sight", sl_sight_name(baked->visibility.sight));
-    sl_json_add_text(&fields, "method", baked->method);
-    sl_json_add_text(&fields, "solver", baked->solver[0] ? baked->solver : NULL);
-    sl_json_add_text(&fields, "guarantee", sl_guarantee_name(baked->visibility.guarantee));
-    sl_json_add_flag(&fields, "finished", !sl_findings_begun(&baked->findings));
-    sl_json_add_count(&fields, "inside_cells", baked->space.inside_count);
-    sl_json_add_count(&fields, "tree_depth", baked->space.tree_depth);
-    sl_json_add_count(&fields, "stab_trees_left_out", baked->visibility.trees.left_out);
+    json_fields fields = json_begin(), bytes = json_begin();
+    json_add_text(&fields, "file", request->path);
+    json_add_text(&fields, "kind", "baked");
+    json_add_box(&fields, "bounds", baked->space.bounds);
+    json_add_text(&fields, "sight", sight_name(baked->visibility.sight));
+    json_add_text(&fields, "method", baked->method);
+    json_add_text(&fields, "solver", baked->solver[0] ? baked->solver : NULL);
+    json_add_text(&fields, "guarantee", sl_guarantee_name(baked->visibility.guarantee));
+    json_add_flag(&fields, "finished", !sl_partial_begun(&baked->partial));
+    json_add_count(&fields, "inside_cells", baked->space.inside_count);
+    json_add_count(&fields, "tree_depth", baked->space.tree_depth);
+    json_add_count(&fields, "stab_trees_left_out", baked->visibility.trees.left_out);
     for (int i = 0; i < BAKED_PARTS; i++) {
-        sl_json_add_count(&fields, parts[i].name, parts[i].count);
-        sl_json_add_count(&bytes, parts[i].name, parts[i].bytes);
+        json_add_count(&fields, parts[i].name, parts[i].count);
+        json_add_count(&bytes, parts[i].name, parts[i].bytes);
     }
-    sl_mean_pvs_add_json(&fields, mean);
-    sl_json_add_fields(&fields, "memory_bytes", &bytes);
-    sl_json_add_count(&fields, "file_bytes", sl_size_of_file(request->path));
-    return sl_json_print(context, &fields);
+    mean_pvs_add_json(&fields, mean);
+    json_add_fields(&fields, "memory_bytes", &bytes);
+    json_add_count(&fields, "file_bytes", size_of_file(request->path));
+    return json_print(context, &fields);
 }
 
-static void print_baked(const info_request *request, const sl_baked *baked,
-                        const sl_mean_pvs *mean) {
+static void print_baked(const info_request *request, const sl_baked *baked, const pvs_means *mean) {
     baked_part parts[BAKED_PARTS];
     list_parts(baked, parts);
     const sl_space *space = &baked->space;
     const sl_stab_trees *trees = &baked->visibility.trees;
-    char size[SL_SIZE_TEXT];
-    sl_size_write(sl_size_of_file(request->path), size);
+    char size[SIZE_TEXT];
+    size_write(size_of_file(request->path), size);
     printf("%s: a baked file, %s\n", request->path, size);
     print_bounds(space->bounds);
-    printf("  seen      %s sight, by %s%s%s (%s)\n", sl_sight_name(baked->visibility.sight),
+    printf("  seen      %s sight, by %s%s%s (%s)\n", sight_name(baked->visibility.sight),
            baked->method, baked->solver[0] ? " with " : "", baked->solver,
            sl_guarantee_name(baked->visibility.guarantee));
     char partial[SL_PARTIAL_TEXT];
@@ -270,28 +263,27 @@ static void print_baked(const info_request *request, const sl_baked *baked,
     printf("  inside    %" PRIu32 " of %" PRIu32 " cells", space->inside_count, space->cell_count);
     if (space->node_count) printf("; tree depth %" PRIu32, space->tree_depth);
     putchar('\n');
-    sl_mean_pvs_print(mean);
+    mean_pvs_print(mean);
     if (trees->cell_count)
         printf("  trees     %" PRIu32 " of %" PRIu32 " stab trees left out\n", trees->left_out,
                trees->cell_count);
     printf("  %-16s %12s %12s\n", "part", "count", "in memory");
     for (int i = 0; i < BAKED_PARTS; i++) {
         if (!parts[i].count) continue;
-        sl_size_write(parts[i].bytes, size);
+        size_write(parts[i].bytes, size);
         printf("  %-16s %12" PRIu64 " %12s\n", parts[i].name, parts[i].count, size);
     }
     print_notices(baked->map.notes);
 }
 
-static sl_status inform_of_baked(sl_console *console, const info_request *request) {
+static sl_status inform_of_baked(command_console *console, const info_request *request) {
     sl_baked baked = {0};
-    sl_mean_pvs mean;
-    SL_TRY(sl_input_refuse_texts(console->context, request->path, &request->texts));
-    SL_TRY(sl_input_read_baked(console->context, request->path, &baked));
-    sl_status status =
-        request->shut ? sl_doors_shut(console->context, request->shut, &baked) : SL_OK;
-    if (status == SL_OK) status = sl_mean_pvs_of(console->context, &baked, &mean);
-    sl_progress_line_clear(&console->line);
+    pvs_means mean;
+    SL_TRY(input_refuse_options(console->context, request->path, &request->input));
+    SL_TRY(input_read_baked(console->context, request->path, &baked));
+    sl_status status = request->shut ? doors_shut(console->context, request->shut, &baked) : SL_OK;
+    if (status == SL_OK) status = mean_pvs_of(console->context, &baked, &mean);
+    progress_line_clear(&console->line);
     if (status == SL_OK && request->json)
         status = print_baked_json(console->context, request, &baked, &mean);
     else if (status == SL_OK)
@@ -300,33 +292,34 @@ static sl_status inform_of_baked(sl_console *console, const info_request *reques
     return status;
 }
 
-sl_status sl_cmd_info(sl_console *console, int argc, char **argv) {
-    info_request request = {0};
-    const sl_option_spec options[] = {
-        {.name = "json", .flag = &request.json, .help = "print one JSON object"},
-        {"shut", 0, "NAME,...", NULL, &request.shut, "of a baked file: with these doors shut"},
-        SL_INPUT_OPTIONS(request.texts),
+sl_status cmd_info(command_console *console, int argc, char **argv) {
+    info_request request = {.input = input_options_default()};
+    const option_table input = input_option_table(&request.input);
+    const option_spec options[] = {
+        {"json", 0, NULL, "print one JSON object", .flag = &request.json},
+        {"shut", 0, "NAME,...", "of a baked file: with these doors shut", .text = &request.shut},
+        {.group = &input},
     };
-    const sl_command_usage usage = {
+    const command_usage usage = {
         .name = "info",
         .synopsis = "MAP|FILE.slv [options]",
         .operands = {"MAP|FILE.slv"},
         .what = "Prints what a map holds, what cleaning its walls would do and which effects it\n"
                 "calls for; of a baked file (by its ending, .slv) its parts, how it was baked and\n"
                 "how much a cell sees.",
-        .tables = sl_input_print_formats,
+        .tables = input_print_formats,
         .examples = "  sightline info office.map\n"
                     "  sightline info office.slv --json",
         .options = options,
         .option_count = sizeof options / sizeof *options,
     };
     bool helped;
-    SL_TRY(sl_option_parse(console, &usage, argc, argv, &request.path, &helped));
+    SL_TRY(options_parse(console, &usage, argc, argv, &request.path, &helped));
     if (helped) return SL_OK;
-    if (sl_input_ends_with(request.path, ".slv")) return inform_of_baked(console, &request);
+    if (input_ends_with(request.path, ".slv")) return inform_of_baked(console, &request);
     if (request.shut)
         return sl_fail(console->context, SL_BAD_ARGUMENT, "--shut is for baked files");
     bool done = false;
-    if (!request.texts.map) SL_TRY(inform_of_list(console, &request, &done));
+    if (!request.input.import.map) SL_TRY(inform_of_list(console, &request, &done));
     return done ? SL_OK : inform_of_map(console, &request);
 }

@@ -1,9 +1,9 @@
+/// `sightline merge`: puts the shards of a bake together.
 #include "bake_parts.h"
-#include "base/base.h"
 #include "commands.h"
 #include "inputs.h"
-#include "pipeline.h"
-#include "sizes.h"
+#include "outputs.h"
+#include "sightline/support.h"
 #include "solvers.h"
 
 #include <inttypes.h>
@@ -11,7 +11,7 @@
 
 typedef struct merge_plan {
     const char *first, *output;
-    sl_option_list more;
+    option_list more;
     uint32_t *shards; ///< by part in the order given: its number
 } merge_plan;
 
@@ -28,23 +28,23 @@ static const char *part_name(const merge_plan *plan, uint32_t part) {
 static sl_status check_part(sl_context *context, const merge_plan *plan, uint32_t part,
                             const sl_baked *baked, const sl_baked *first) {
     const char *name = part_name(plan, part);
-    const sl_findings *f = &baked->findings;
+    const sl_partial *f = &baked->partial;
     if (!sl_baked_is_shard(baked))
         return sl_fail_at(context, name, 0, "is no shard: sightline bake --shard K/N writes them");
-    if (f->shard_count != first->findings.shard_count)
+    if (f->shard_count != first->partial.shard_count)
         return sl_fail_at(context, name, 0, "is shard %u of %u, but %s is one of %u", f->shard,
-                          f->shard_count, plan->first, first->findings.shard_count);
-    const char *other = part ? sl_bake_difference(baked, first) : NULL;
+                          f->shard_count, plan->first, first->partial.shard_count);
+    const char *other = part ? bake_difference(baked, first) : NULL;
     if (other) return sl_fail_at(context, name, 0, "was baked %s than %s", other, plan->first);
     for (uint32_t i = 0; i < part; i++)
         if (plan->shards[i] == f->shard)
             return sl_fail_at(context, name, 0, "is shard %u of %u, as is %s", f->shard,
                               f->shard_count, part_name(plan, i));
-    if (sl_findings_left(f))
+    if (sl_partial_left(f))
         return sl_fail_at(context, name, 0,
                           "shard %u of %u is not finished, %u units are left: go on with it, bake "
                           "--shard %u/%u --resume %s",
-                          f->shard, f->shard_count, sl_findings_left(f), f->shard, f->shard_count,
+                          f->shard, f->shard_count, sl_partial_left(f), f->shard, f->shard_count,
                           name);
     plan->shards[part] = f->shard;
     return SL_OK;
@@ -56,7 +56,7 @@ static bool is_there(const merge_plan *plan, uint32_t shard) {
     return false;
 }
 
-/// There are no more parts than shards, as no two of them are the same.
+/// No two parts are the same shard, so there are never too many.
 static sl_status check_all_there(sl_context *context, const merge_plan *plan, uint32_t count) {
     if (part_count(plan) == count) return SL_OK;
     char missing[64] = "";
@@ -76,8 +76,7 @@ static sl_status take_part(sl_context *context, const merge_plan *plan, uint32_t
     sl_baked baked = {0};
     SL_TRY(sl_baked_read_part(context, part_name(plan, part), &baked));
     sl_status status = check_part(context, plan, part, &baked, part ? all : &baked);
-    if (status == SL_OK && part)
-        status = sl_findings_join(context, &all->findings, &baked.findings);
+    if (status == SL_OK && part) status = sl_partial_merge(context, &all->partial, &baked.partial);
     if (status == SL_OK && !part) {
         *all = baked;
         return SL_OK;
@@ -86,34 +85,26 @@ static sl_status take_part(sl_context *context, const merge_plan *plan, uint32_t
     return status;
 }
 
-static const sl_see_method *find_method(const char *name) {
-    size_t count;
-    const sl_see_method *methods = sl_see_methods(&count);
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(methods[i].name, name) == 0 && methods[i].settle) return &methods[i];
-    return NULL;
-}
-
 static const sl_solver *find_solver(const char *name) {
-    for (size_t i = 0; sl_solver_at(i); i++)
-        if (strcmp(sl_solver_at(i)->name, name) == 0) return sl_solver_at(i);
+    for (size_t i = 0; solver_at(i); i++)
+        if (strcmp(solver_at(i)->name, name) == 0) return solver_at(i);
     return NULL;
 }
 
 static sl_status settle(sl_context *context, const merge_plan *plan, sl_baked *all) {
-    const sl_see_method *method = find_method(all->method);
+    const sl_see_method *method = sl_see_method_named(all->method);
     sl_see_options see = sl_see_options_default();
     see.sight = all->visibility.sight;
-    see.inside_only = all->findings.inside_only;
+    see.inside_only = all->partial.inside_only;
     see.solver = find_solver(all->solver);
-    if (!method || (method->stabs && !see.solver))
+    if (!method || !method->finish || (method->stabs && !see.solver))
         return sl_fail_at(context, plan->first, 0,
                           "was baked by a method or a solver that this program has not");
     sl_visibility seen;
-    SL_TRY(method->settle(context, &all->space, &see, &all->findings, &seen));
+    SL_TRY(method->finish(context, &all->space, &see, &all->partial, &seen));
     sl_visibility_destroy(context, &all->visibility);
     all->visibility = seen;
-    sl_findings_destroy(context, &all->findings);
+    sl_partial_destroy(context, &all->partial);
     return SL_OK;
 }
 
@@ -122,24 +113,24 @@ static sl_status merge(sl_context *context, const merge_plan *plan, sl_baked *al
         sl_report(context, "read", "shards", i, part_count(plan));
         SL_TRY(take_part(context, plan, i, all));
     }
-    SL_TRY(check_all_there(context, plan, all->findings.shard_count));
+    SL_TRY(check_all_there(context, plan, all->partial.shard_count));
     SL_TRY(settle(context, plan, all));
     return sl_baked_write(context, all, plan->output);
 }
 
-static sl_status merge_and_report(sl_console *console, merge_plan *plan) {
+static sl_status merge_and_report(command_console *console, merge_plan *plan) {
     sl_context *context = console->context;
     plan->shards = sl_alloc_array(context, part_count(plan), sizeof *plan->shards);
     if (!plan->shards) return SL_NO_MEMORY;
     sl_baked all = {0};
     const sl_status status = merge(context, plan, &all);
-    sl_progress_line_clear(&console->line);
+    progress_line_clear(&console->line);
     if (status == SL_OK && !console->quiet) {
-        char size[SL_SIZE_TEXT];
-        sl_size_write(sl_size_of_file(plan->output), size);
+        char size[SIZE_TEXT];
+        size_write(size_of_file(plan->output), size);
         printf("%s: %s, merged from %u shards\n", plan->output, size, part_count(plan));
         printf("  pairs     %" PRIu64 " seen, %s sight, by %s%s%s (%s)\n",
-               all.visibility.account.pairs, sl_sight_name(all.visibility.sight), all.method,
+               all.visibility.account.pairs, sight_name(all.visibility.sight), all.method,
                all.solver[0] ? " with " : "", all.solver,
                sl_guarantee_name(all.visibility.guarantee));
     }
@@ -148,12 +139,12 @@ static sl_status merge_and_report(sl_console *console, merge_plan *plan) {
     return status;
 }
 
-sl_status sl_cmd_merge(sl_console *console, int argc, char **argv) {
+sl_status cmd_merge(command_console *console, int argc, char **argv) {
     merge_plan plan = {0};
-    const sl_option_spec options[] = {
-        {"output", 'o', "FILE.slv", NULL, &plan.output, "where to write"},
+    const option_spec options[] = {
+        {"output", 'o', "FILE.slv", "where to write", .text = &plan.output},
     };
-    const sl_command_usage usage = {
+    const command_usage usage = {
         .name = "merge",
         .synopsis = "PART.slv [PART.slv ...] -o FILE.slv",
         .operands = {"PART.slv"},
@@ -168,12 +159,12 @@ sl_status sl_cmd_merge(sl_console *console, int argc, char **argv) {
         .more = &plan.more,
     };
     bool helped;
-    SL_TRY(sl_option_parse(console, &usage, argc, argv, &plan.first, &helped));
+    SL_TRY(options_parse(console, &usage, argc, argv, &plan.first, &helped));
     if (helped) return SL_OK;
-    if (!plan.output || !sl_input_ends_with(plan.output, ".slv"))
+    if (!plan.output || !input_ends_with(plan.output, ".slv"))
         return sl_fail(console->context, SL_BAD_ARGUMENT,
                        "-o FILE.slv is needed: where to write what the shards make");
     for (uint32_t i = 0; i < part_count(&plan); i++)
-        SL_TRY(sl_output_check(console->context, part_name(&plan, i), "-o", plan.output));
+        SL_TRY(output_check_file(console->context, part_name(&plan, i), "-o", plan.output));
     return merge_and_report(console, &plan);
 }

@@ -1,43 +1,22 @@
-#include "base/base.h"
+/// `sightline reject`: new REJECT lumps for all maps of a Doom WAD.
 #include "commands.h"
-#include "inputs.h"
 #include "json_print.h"
 #include "options.h"
+#include "outputs.h"
 #include "sightline/reject.h"
-#include "sizes.h"
+#include "sightline/support.h"
 
 #include <inttypes.h>
 #include <string.h>
 
 enum { MAX_THREADS = 4096 };
 
-/// The options as they are given.
-typedef struct reject_texts {
-    const char *input, *output, *map, *sight, *threads, *memory;
-    sl_option_list maps;
+typedef struct reject_plan {
+    const char *input, *output;
+    option_list maps;
+    sl_reject_options options;
     bool json;
-} reject_texts;
-
-static sl_status plan(sl_context *context, const reject_texts *texts, sl_reject_options *options) {
-    if (!texts->output)
-        return sl_fail(context, SL_BAD_ARGUMENT,
-                       "-o OUT.wad is needed: where to write the copy with its REJECTs");
-    SL_TRY(sl_output_check(context, texts->input, "-o", texts->output));
-    if (texts->json && strcmp(texts->output, "-") == 0)
-        return sl_fail(context, SL_BAD_ARGUMENT, "--json and -o - both write to stdout");
-    size_t sight = options->sight;
-    uint64_t threads = 0;
-    const sl_name_table sights = sl_sight_table();
-    SL_TRY(sl_option_choice(context, "--sight", texts->sight, &sights, &sight));
-    SL_TRY(sl_option_count(context, "--threads", texts->threads, MAX_THREADS, &threads));
-    options->row_bytes = sl_machine_memory() / 2;
-    SL_TRY(sl_option_size(context, "--memory", texts->memory, &options->row_bytes));
-    options->sight = (sl_sight)sight;
-    options->threads = (unsigned)threads;
-    options->maps = texts->maps.items;
-    options->map_count = texts->maps.count;
-    return SL_OK;
-}
+} reject_plan;
 
 static uint64_t pairs_of(uint64_t sectors) {
     return sectors ? sectors * (sectors - 1) / 2 : 0;
@@ -56,16 +35,15 @@ static void print_map(const sl_reject_account *map) {
     putchar('\n');
 }
 
-static void print_report(const reject_texts *texts, const sl_reject_report *report,
-                         double seconds) {
-    char size[SL_SIZE_TEXT];
+static void print_report(const reject_plan *plan, const sl_reject_report *report, double seconds) {
+    char size[SIZE_TEXT];
     uint64_t hidden = 0, pairs = 0;
     for (size_t i = 0; i < report->count; i++) {
         hidden += report->maps[i].hidden;
         pairs += pairs_of(report->maps[i].sectors);
     }
-    sl_size_write(sl_size_of_file(texts->output), size);
-    printf("%s: %s, with a new REJECT for %zu map%s, in %.2f s\n", texts->output, size,
+    size_write(size_of_file(plan->output), size);
+    printf("%s: %s, with a new REJECT for %zu map%s, in %.2f s\n", plan->output, size,
            report->count, report->count == 1 ? "" : "s", seconds);
     for (size_t i = 0; i < report->count; i++) print_map(&report->maps[i]);
     if (report->count > 1)
@@ -73,65 +51,75 @@ static void print_report(const reject_texts *texts, const sl_reject_report *repo
                percent(hidden, pairs));
 }
 
-static sl_status print_json(sl_context *context, const reject_texts *texts,
+static sl_status print_json(sl_context *context, const reject_plan *plan,
                             const sl_reject_report *report, double seconds) {
-    sl_json_fields fields = sl_json_begin();
-    sl_json_fields *maps = sl_alloc_array(context, report->count, sizeof *maps);
+    json_fields fields = json_begin();
+    json_fields *maps = sl_alloc_array(context, report->count, sizeof *maps);
     if (!maps) {
-        json_decref(fields.object);
+        json_drop(&fields);
         return SL_NO_MEMORY;
     }
     for (size_t i = 0; i < report->count; i++) {
         const sl_reject_account *map = &report->maps[i];
-        maps[i] = sl_json_begin();
-        sl_json_add_text(&maps[i], "name", map->map);
-        sl_json_add_count(&maps[i], "sectors", map->sectors);
-        sl_json_add_count(&maps[i], "cells", map->cells);
-        sl_json_add_count(&maps[i], "pairs", pairs_of(map->sectors));
-        sl_json_add_count(&maps[i], "hidden", map->hidden);
-        sl_json_add_count(&maps[i], "unknown", map->unknown);
+        maps[i] = json_begin();
+        json_add_text(&maps[i], "name", map->map);
+        json_add_count(&maps[i], "sectors", map->sectors);
+        json_add_count(&maps[i], "cells", map->cells);
+        json_add_count(&maps[i], "pairs", pairs_of(map->sectors));
+        json_add_count(&maps[i], "hidden", map->hidden);
+        json_add_count(&maps[i], "unknown", map->unknown);
     }
-    sl_json_add_text(&fields, "input", texts->input);
-    sl_json_add_text(&fields, "output", texts->output);
-    sl_json_add_list(&fields, "maps", maps, report->count);
-    sl_json_add_real(&fields, "seconds", seconds);
+    json_add_text(&fields, "input", plan->input);
+    json_add_text(&fields, "output", plan->output);
+    json_add_list(&fields, "maps", maps, report->count);
+    json_add_real(&fields, "seconds", seconds);
     sl_free(context, maps);
-    return sl_json_print(context, &fields);
+    return json_print(context, &fields);
 }
 
-static sl_status run(sl_console *console, const reject_texts *texts) {
+static sl_status run(command_console *console, reject_plan *plan) {
     sl_context *context = console->context;
-    sl_reject_options options = sl_reject_options_default();
-    SL_TRY(plan(context, texts, &options));
-    const double began = sl_now();
+    if (!plan->output)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "-o OUT.wad is needed: where to write the copy with its REJECTs");
+    if (plan->json && strcmp(plan->output, "-") == 0)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--json and -o - both write to stdout");
+    plan->options.maps = plan->maps.items;
+    plan->options.map_count = plan->maps.count;
+    const double began = sl_seconds();
     sl_reject_report report = {0};
-    SL_TRY(sl_reject_wad(context, texts->input, &options, texts->output, &report));
-    const double seconds = sl_now() - began;
-    sl_progress_line_clear(&console->line);
+    SL_TRY(sl_reject_wad(context, plan->input, &plan->options, plan->output, &report));
+    const double seconds = sl_seconds() - began;
+    progress_line_clear(&console->line);
     sl_status status = SL_OK;
-    if (texts->json)
-        status = print_json(context, texts, &report, seconds);
-    else if (!console->quiet && strcmp(texts->output, "-") != 0)
-        print_report(texts, &report, seconds);
+    if (plan->json)
+        status = print_json(context, plan, &report, seconds);
+    else if (!console->quiet && strcmp(plan->output, "-") != 0)
+        print_report(plan, &report, seconds);
     sl_reject_report_destroy(context, &report);
     return status;
 }
 
-sl_status sl_cmd_reject(sl_console *console, int argc, char **argv) {
-    reject_texts t = {0};
-    const sl_option_spec options[] = {
-        {"output", 'o', "OUT.wad", NULL, &t.output, "where to write the copy; - for stdout"},
-        {"map", 0, "NAME", NULL, &t.map, "only this map; may be given several times"},
-        {"sight", 0, "closed|open", NULL, &t.sight,
-         "open (the default): lines that only touch wall ends\nhide; closed: they count as seen"},
-        {"threads", 0, "N", NULL, &t.threads,
-         "0, the default, for one a core;\nthe result is the same for any number"},
-        {"memory", 0, "SIZE", NULL, &t.memory,
+sl_status cmd_reject(command_console *console, int argc, char **argv) {
+    reject_plan plan = {.options = sl_reject_options_default()};
+    plan.options.row_bytes = sl_machine_memory() / 2;
+    const option_spec options[] = {
+        {"output", 'o', "OUT.wad", "where to write the copy; - for stdout", .text = &plan.output,
+         .check = CHECK_FILE},
+        {"map", 0, "NAME", "only this map; may be given several times", .list = &plan.maps},
+        {"sight", 0, "closed|open",
+         "open (the default): lines that only touch wall ends\nhide; closed: they count as seen",
+         .sight = &plan.options.sight},
+        {"threads", 0, "N",
+         "0, the default, for one a core;\nthe result is the same for any number",
+         .count32 = &plan.options.threads, .most = MAX_THREADS},
+        {"memory", 0, "SIZE",
          "for the visible sets in the making at most, as 64M,\n2G; half of the machine's unless "
-         "told"},
-        {"json", 0, NULL, &t.json, NULL, "print the statistics as one JSON object"},
+         "told",
+         .bytes = &plan.options.row_bytes},
+        {"json", 0, NULL, "print the statistics as one JSON object", .flag = &plan.json},
     };
-    const sl_command_usage usage = {
+    const command_usage usage = {
         .name = "reject",
         .synopsis = "IN.wad -o OUT.wad [--map NAME ...] [options]",
         .operands = {"IN.wad"},
@@ -146,10 +134,8 @@ sl_status sl_cmd_reject(sl_console *console, int argc, char **argv) {
                     "  sightline reject doom2.wad -o out.wad --map MAP01 --map MAP07",
         .options = options,
         .option_count = sizeof options / sizeof *options,
-        .repeats = "map",
-        .repeated = &t.maps,
     };
     bool helped;
-    SL_TRY(sl_option_parse(console, &usage, argc, argv, &t.input, &helped));
-    return helped ? SL_OK : run(console, &t);
+    SL_TRY(options_parse(console, &usage, argc, argv, &plan.input, &helped));
+    return helped ? SL_OK : run(console, &plan);
 }

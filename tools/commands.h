@@ -4,22 +4,22 @@
 
 #include "console.h"
 
-/// Each is given its own name as argv[0]. A failure's message is in the console's context.
-sl_status sl_cmd_bake(sl_console *console, int argc, char **argv);
-sl_status sl_cmd_check(sl_console *console, int argc, char **argv);
-sl_status sl_cmd_compare(sl_console *console, int argc, char **argv);
-sl_status sl_cmd_convert(sl_console *console, int argc, char **argv);
-sl_status sl_cmd_draw(sl_console *console, int argc, char **argv);
-sl_status sl_cmd_explain(sl_console *console, int argc, char **argv);
-sl_status sl_cmd_export(sl_console *console, int argc, char **argv);
-sl_status sl_cmd_eye(sl_console *console, int argc, char **argv);
-sl_status sl_cmd_generate(sl_console *console, int argc, char **argv);
-sl_status sl_cmd_info(sl_console *console, int argc, char **argv);
-sl_status sl_cmd_merge(sl_console *console, int argc, char **argv);
-sl_status sl_cmd_isovist(sl_console *console, int argc, char **argv);
-sl_status sl_cmd_reject(sl_console *console, int argc, char **argv);
-sl_status sl_cmd_regions(sl_console *console, int argc, char **argv);
-sl_status sl_cmd_viewcells(sl_console *console, int argc, char **argv);
-sl_status sl_cmd_walk(sl_console *console, int argc, char **argv);
+/// argv[0] is the name of the command. The message of a failure is in the console's context.
+sl_status cmd_bake(command_console *console, int argc, char **argv);
+sl_status cmd_check(command_console *console, int argc, char **argv);
+sl_status cmd_compare(command_console *console, int argc, char **argv);
+sl_status cmd_convert(command_console *console, int argc, char **argv);
+sl_status cmd_draw(command_console *console, int argc, char **argv);
+sl_status cmd_explain(command_console *console, int argc, char **argv);
+sl_status cmd_export(command_console *console, int argc, char **argv);
+sl_status cmd_eye(command_console *console, int argc, char **argv);
+sl_status cmd_generate(command_console *console, int argc, char **argv);
+sl_status cmd_info(command_console *console, int argc, char **argv);
+sl_status cmd_merge(command_console *console, int argc, char **argv);
+sl_status cmd_isovist(command_console *console, int argc, char **argv);
+sl_status cmd_reject(command_console *console, int argc, char **argv);
+sl_status cmd_regions(command_console *console, int argc, char **argv);
+sl_status cmd_viewcells(command_console *console, int argc, char **argv);
+sl_status cmd_walk(command_console *console, int argc, char **argv);
 
 #endif

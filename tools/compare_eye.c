@@ -1,23 +1,25 @@
-#include "compare_eye.h"
+/// Culling methods on many viewpoints: Teller and Séquin 1991, Results.
+#include "compare.h"
 
-#include "base/base.h"
-#include "base/bits.h"
-#include "base/number.h"
-#include "base/random.h"
 #include "eye_run.h"
+#include "json_print.h"
+#include "names.h"
+#include "report.h"
 #include "sightline/region.h"
 #include "sightline/solvers.h"
+#include "sightline/support.h"
 
+#include <inttypes.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/// Queries between two looks at the clock, and how often they are run: the shortest time counts,
-/// since other work of the machine only adds to it. What they keep is summed up apart.
+/// The number of queries that are timed together, and how often. The shortest time counts, since
+/// other work of the machine only adds to it. The cells that they keep are summed up separately.
 enum { BATCH = 64, RUNS = 3 };
-#define MAX_VIEWPOINTS 1000000000
 
-/// What one query says: cells, or an area by itself.
+/// The answer of one query: cells, or an area.
 typedef struct answer {
     uint64_t *cells;
     sl_eye_account account;
@@ -32,7 +34,7 @@ typedef struct viewpoint {
 
 typedef struct comparing {
     sl_context *context;
-    const sl_compare_eye_plan *plan;
+    const compare_eye_plan *plan;
     const sl_space *space;
     sl_visibility visibility;
     sl_eye_search *search;
@@ -44,7 +46,7 @@ typedef struct comparing {
     answer answers[BATCH];
 } comparing;
 
-/// A way to say what is seen: a row of the table for each cone.
+/// A method under comparison. It has a row of the table for each cone.
 typedef struct contender {
     const char *name;
     sl_guarantee guarantee;
@@ -80,38 +82,30 @@ static size_t list_contenders(contender contenders[CONTENDERS_MOST]) {
 
 // --- reading the options
 
-static sl_status read_fovs(sl_context *context, const char *text, sl_compare_eye_plan *plan) {
+sl_status compare_eye_read_fovs(sl_context *context, const char *text, compare_eye_plan *plan) {
     for (const char *word = text;; word++) {
         const size_t length = strcspn(word, ",");
         double fov;
         if (!sl_number_read(word, length, &fov) || !(fov >= 0 && fov <= 360))
             return sl_fail(context, SL_BAD_ARGUMENT,
                            "--fov %s: degrees from 0 to 360 are needed, with commas between", text);
-        if (plan->fov_count == SL_FOVS_MOST)
+        if (plan->fov_count == FOVS_MOST)
             return sl_fail(context, SL_BAD_ARGUMENT, "--fov %s: at most %d cones can be compared",
-                           text, SL_FOVS_MOST);
+                           text, FOVS_MOST);
         plan->fovs[plan->fov_count++] = fov;
         word += length;
         if (!*word) return SL_OK;
     }
 }
 
-sl_status sl_compare_eye_plan_make(sl_context *context, const sl_compare_eye_texts *texts,
-                                   sl_compare_eye_plan *out) {
-    sl_compare_eye_plan plan = {.viewpoints = 10000, .seed = 1};
-    SL_TRY(sl_option_count(context, "--viewpoints", texts->viewpoints, MAX_VIEWPOINTS,
-                           &plan.viewpoints));
-    if (!plan.viewpoints)
-        return sl_fail(context, SL_BAD_ARGUMENT, "--viewpoints 0: one at least is needed");
-    SL_TRY(sl_option_count(context, "--seed", texts->seed, UINT64_MAX, &plan.seed));
-    SL_TRY(read_fovs(context, texts->fov ? texts->fov : "360,60", &plan));
-    *out = plan;
-    return SL_OK;
+compare_eye_plan compare_eye_plan_default(void) {
+    return (compare_eye_plan){.viewpoints = 10000, .seed = 1};
 }
 
 // --- viewpoints
 
-/// A point of a cell, all alike: of a triangle of its fan, chosen by area, any point.
+/// A random point of a cell, evenly over its area: choose a triangle of its fan by area, then a
+/// point of it.
 static sl_point point_in(const sl_space *space, uint32_t number, sl_random *random) {
     const sl_cell *cell = &space->cells[number];
     const sl_point *v = space->vertices + cell->first_vertex;
@@ -132,7 +126,7 @@ static sl_point point_in(const sl_space *space, uint32_t number, sl_random *rand
                       v[0].y + s * (v[i].y - v[0].y) + t * (v[i + 1].y - v[0].y)};
 }
 
-/// The cell in which an area, counted from the first cell on, ends; found by halving.
+/// The cell where the running sum of areas passes `area`; binary search.
 static uint32_t cell_at(const double *before, uint32_t count, double area) {
     uint32_t low = 0, high = count;
     while (high - low > 1) {
@@ -145,8 +139,8 @@ static uint32_t cell_at(const double *before, uint32_t count, double area) {
     return low;
 }
 
-/// Rounding may put a point on the far side of its cell's border: there another one is drawn, and
-/// where that never ends, as in cells too thin for doubles, the corner does.
+/// Rounding may put a point beyond its cell's border. Then another point is drawn; after many
+/// tries, as in cells too thin for doubles, a corner is taken.
 static void draw_viewpoint(const comparing *all, const double *before, sl_random *random,
                            viewpoint *out) {
     const sl_space *space = all->space;
@@ -185,7 +179,7 @@ static sl_status draw_viewpoints(sl_context *context, comparing *all) {
 
 // --- the runs
 
-static void add_answer(const comparing *all, const answer *a, sl_compare_eye_row *row) {
+static void add_answer(const comparing *all, const answer *a, compare_eye_row *row) {
     double area = a->has_area ? a->area : 0;
     const size_t words = a->has_area ? 0 : sl_eye_words(all->space);
     for (size_t word = 0; word < words; word++)
@@ -198,17 +192,17 @@ static void add_answer(const comparing *all, const answer *a, sl_compare_eye_row
     row->orientations += (double)a->account.orientations;
 }
 
-/// Asks a batch of views, and tells the time of a query.
+/// Asks a batch of views, and gives the time of one query.
 static sl_status run_batch(comparing *all, const contender *who, const sl_view *views, size_t count,
-                           sl_compare_eye_row *row, double *seconds) {
+                           compare_eye_row *row, double *seconds) {
     double least = INFINITY;
     for (int run = 0; run < RUNS; run++) {
-        const double start = sl_now();
+        const double start = sl_seconds();
         for (size_t i = 0; i < count; i++) {
             all->answers[i].has_area = false;
             SL_TRY(who->ask(all, who, &views[i], &all->answers[i]));
         }
-        least = fmin(least, sl_now() - start);
+        least = fmin(least, sl_seconds() - start);
     }
     *seconds = least / (double)count;
     for (size_t i = 0; i < count; i++) add_answer(all, &all->answers[i], row);
@@ -220,9 +214,9 @@ static int compare_doubles(const void *left, const void *right) {
     return (a > b) - (a < b);
 }
 
-/// From sums to means; `seconds` are those of all batches, the median of which is told.
+/// Turns sums into means. `seconds` has the times of all batches; their median is the result.
 static void finish_row(const comparing *all, double *seconds, size_t batches,
-                       sl_compare_eye_row *row) {
+                       compare_eye_row *row) {
     const double n = (double)all->plan->viewpoints;
     row->share /= n;
     row->cells /= n;
@@ -232,13 +226,13 @@ static void finish_row(const comparing *all, double *seconds, size_t batches,
     row->seconds = (seconds[(batches - 1) / 2] + seconds[batches / 2]) / 2;
 }
 
-/// All contenders take turns, batch by batch, so that what else the machine does in the meantime
-/// slows none more than another.
+/// All methods take turns, batch by batch, so that other work of the machine slows all of them
+/// alike.
 static sl_status run_cone(comparing *all, const contender *contenders, size_t count, double fov,
-                          double *seconds, sl_compare_eye_row *rows) {
+                          double *seconds, compare_eye_row *rows) {
     const uint64_t total = all->plan->viewpoints;
     const size_t batches = (size_t)((total + BATCH - 1) / BATCH);
-    const double reach = sl_eye_reach(all->space);
+    const double reach = eye_reach(all->space);
     sl_view views[BATCH];
     char stage[32];
     snprintf(stage, sizeof stage, "cones of %g degrees", fov);
@@ -258,7 +252,7 @@ static sl_status run_cone(comparing *all, const contender *contenders, size_t co
     return SL_OK;
 }
 
-static sl_status run_cones(comparing *all, sl_compare_eye *out) {
+static sl_status run_cones(comparing *all, eye_comparison *out) {
     contender contenders[CONTENDERS_MOST];
     const size_t count = list_contenders(contenders), cones = all->plan->fov_count;
     const size_t batches = (size_t)((all->plan->viewpoints + BATCH - 1) / BATCH);
@@ -266,11 +260,11 @@ static sl_status run_cones(comparing *all, sl_compare_eye *out) {
     double *seconds = sl_alloc_array(all->context, count * batches, sizeof *seconds);
     sl_status status = out->rows && seconds ? SL_OK : SL_NO_MEMORY;
     for (size_t f = 0; f < cones && status == SL_OK; f++) {
-        sl_compare_eye_row *rows = out->rows + f * count;
+        compare_eye_row *rows = out->rows + f * count;
         for (size_t k = 0; k < count; k++)
-            rows[k] = (sl_compare_eye_row){.name = contenders[k].name,
-                                           .guarantee = contenders[k].guarantee,
-                                           .fov = all->plan->fovs[f]};
+            rows[k] = (compare_eye_row){.name = contenders[k].name,
+                                        .guarantee = contenders[k].guarantee,
+                                        .fov = all->plan->fovs[f]};
         status = run_cone(all, contenders, count, all->plan->fovs[f], seconds, rows);
     }
     out->row_count = count * cones;
@@ -284,9 +278,9 @@ static sl_status see(comparing *all, sl_sight sight, double *seconds) {
     options.solver = sl_funnel();
     options.sight = sight;
     options.inside_only = true;
-    const double start = sl_now();
+    const double start = sl_seconds();
     SL_TRY(sl_see_methods(&count)->see(all->context, all->space, &options, &all->visibility));
-    *seconds = sl_now() - start;
+    *seconds = sl_seconds() - start;
     return sl_eye_search_create(all->context, all->space, &all->visibility, &all->search);
 }
 
@@ -299,11 +293,11 @@ static sl_status make_answers(comparing *all) {
     return SL_OK;
 }
 
-sl_status sl_compare_eye_run(sl_console *console, const sl_compare_eye_plan *plan,
-                             const sl_space *space, sl_sight sight, sl_compare_eye *out) {
+sl_status compare_eye_run(command_console *console, const compare_eye_plan *plan,
+                          const sl_space *space, sl_sight sight, eye_comparison *out) {
     sl_context *context = console->context;
     comparing all = {.context = context, .plan = plan, .space = space};
-    sl_compare_eye result = {.space = space, .sight = sight, .plan = plan};
+    eye_comparison result = {.space = space, .sight = sight, .plan = plan};
     sl_status status = draw_viewpoints(context, &all);
     if (status == SL_OK) status = make_answers(&all);
     if (status == SL_OK) status = see(&all, sight, &result.pvs_seconds);
@@ -321,4 +315,163 @@ sl_status sl_compare_eye_run(sl_console *console, const sl_compare_eye_plan *pla
     else
         sl_free(context, result.rows);
     return status;
+}
+
+// --- the report
+
+bool compare_eye_paper(const char *name, double fov, double *share, double *reduction) {
+    // Teller & Séquin 1991, Results; the reduction factors are rounded there.
+    static const struct {
+        const char *name;
+        double fov, percent, reduction;
+    } told[] = {
+        {"cell_to_cell", 360, 8.1, 10},
+        {"cell_to_cell", 60, 8.1, 10},
+        {"disjoint_cell", 360, 8.1, 10},
+        {"disjoint_cell", 60, 3.1, 30},
+        {"connected_component", 360, 8.1, 10},
+        {"connected_component", 60, 2.4, 40},
+        {"incident_portals", 360, 8.1, 10},
+        {"incident_portals", 60, 2.2, 40},
+        {"exact", 360, 4.9, 20},
+        {"exact", 60, 1.8, 50},
+        {"visible_area", 360, 2.1, 50},
+        {"visible_area", 60, 0.3, 300},
+    };
+    for (size_t i = 0; i < sizeof told / sizeof *told; i++)
+        if (told[i].fov == fov && strcmp(told[i].name, name) == 0) {
+            *share = told[i].percent / 100;
+            *reduction = told[i].reduction;
+            return true;
+        }
+    return false;
+}
+
+static double reduction_of(const compare_eye_row *row) {
+    return row->share > 0 ? 1 / row->share : 0;
+}
+
+// --- the table
+
+static void print_row(const compare_eye_row *row) {
+    char seconds[SECONDS_TEXT], paper[64] = "";
+    double share, reduction;
+    seconds_write(row->seconds, "u", seconds);
+    if (compare_eye_paper(row->name, row->fov, &share, &reduction))
+        snprintf(paper, sizeof paper, "%12.1f %% %8.0f x", 100 * share, reduction);
+    printf("  %-20s %8.2f %% %8.1f x %8.1f %9.1f %13.1f %9s%s\n", row->name, 100 * row->share,
+           reduction_of(row), row->cells, row->nodes, row->orientations, seconds, paper);
+}
+
+void compare_eye_print(const eye_comparison *comparison) {
+    const sl_space *space = comparison->space;
+    char seconds[SECONDS_TEXT];
+    seconds_write(comparison->pvs_seconds, "u", seconds);
+    printf("%s: %" PRIu32 " walls, %" PRIu32 " cells (%" PRIu32 " inside), %" PRIu32
+           " portals; %s sight\n%" PRIu64 " viewpoints, seed %" PRIu64
+           ", spread evenly over the inside area; visible sets made in %s\n",
+           comparison->input, space->wall_count, space->cell_count, space->inside_count,
+           space->portal_count, sight_name(comparison->sight), comparison->plan->viewpoints,
+           comparison->plan->seed, seconds);
+    double fov = -1;
+    for (size_t i = 0; i < comparison->row_count; i++) {
+        const compare_eye_row *row = &comparison->rows[i];
+        if (row->fov != fov)
+            printf("\n%g degrees              area kept  reduction    cells     nodes  "
+                   "orientations      time   paper: area  reduction\n",
+                   row->fov);
+        fov = row->fov;
+        print_row(row);
+    }
+    puts("\nmeans over all viewpoints (time: the median), a query; reduction: 1 / area kept; "
+         "paper: Teller & Sequin "
+         "1991,\nof Soda Hall");
+}
+
+// --- CSV and JSON
+
+static void write_real(FILE *stream, double value) {
+    char text[SL_NUMBER_TEXT];
+    sl_number_write(value, text);
+    fprintf(stream, ",%s", text);
+}
+
+sl_status compare_eye_write_csv(sl_context *context, const eye_comparison *comparison,
+                                const char *path) {
+    sl_output output;
+    SL_TRY(sl_output_open(context, path, &output));
+    fputs("fov,method,guarantee,share,reduction,cells,nodes,orientations,seconds,paper_share,"
+          "paper_reduction\n",
+          output.stream);
+    for (size_t i = 0; i < comparison->row_count; i++) {
+        const compare_eye_row *row = &comparison->rows[i];
+        const double values[] = {row->share, reduction_of(row), row->cells,
+                                 row->nodes, row->orientations, row->seconds};
+        double share, reduction;
+        char fov[SL_NUMBER_TEXT];
+        sl_number_write(row->fov, fov);
+        fprintf(output.stream, "%s,%s,%s", fov, row->name, sl_guarantee_name(row->guarantee));
+        for (size_t k = 0; k < sizeof values / sizeof *values; k++)
+            write_real(output.stream, values[k]);
+        if (compare_eye_paper(row->name, row->fov, &share, &reduction)) {
+            write_real(output.stream, share);
+            write_real(output.stream, reduction);
+            fputc('\n', output.stream);
+        } else
+            fputs(",,\n", output.stream);
+    }
+    return sl_output_close(context, &output, SL_OK);
+}
+
+void compare_eye_print_columns(void) {
+    puts("\ncolumns of eye.csv, a line for each cone and method; means over all viewpoints:\n"
+         "  fov                 the view cone, degrees\n"
+         "  method, guarantee   as 'sightline eye --help' lists them\n"
+         "  share, reduction    the area kept, as a share of all inside; 1 / share\n"
+         "  cells               those kept\n"
+         "  nodes               cells looked at; exact: nodes of the stab tree visited\n"
+         "  orientations        orientation tests\n"
+         "  seconds             a query, on one thread (the median)\n"
+         "  paper_share, paper_reduction\n"
+         "                      what Teller & Sequin 1991 tell of Soda Hall");
+}
+
+static json_fields fields_of_row(const compare_eye_row *row) {
+    json_fields fields = json_begin();
+    double share, reduction;
+    json_add_real(&fields, "fov", row->fov);
+    json_add_text(&fields, "method", row->name);
+    json_add_text(&fields, "guarantee", sl_guarantee_name(row->guarantee));
+    json_add_real(&fields, "share", row->share);
+    json_add_real(&fields, "reduction", reduction_of(row));
+    json_add_real(&fields, "cells", row->cells);
+    json_add_real(&fields, "nodes", row->nodes);
+    json_add_real(&fields, "orientations", row->orientations);
+    json_add_real(&fields, "seconds", row->seconds);
+    if (compare_eye_paper(row->name, row->fov, &share, &reduction)) {
+        json_add_real(&fields, "paper_share", share);
+        json_add_real(&fields, "paper_reduction", reduction);
+    }
+    return fields;
+}
+
+sl_status compare_eye_print_json(sl_context *context, const eye_comparison *comparison) {
+    const sl_space *space = comparison->space;
+    json_fields *rows = sl_alloc_array(context, comparison->row_count, sizeof *rows);
+    if (!rows) return SL_NO_MEMORY;
+    for (size_t i = 0; i < comparison->row_count; i++)
+        rows[i] = fields_of_row(&comparison->rows[i]);
+    json_fields fields = json_begin();
+    json_add_text(&fields, "map", comparison->input);
+    json_add_text(&fields, "sight", sight_name(comparison->sight));
+    json_add_count(&fields, "walls", space->wall_count);
+    json_add_count(&fields, "cells", space->cell_count);
+    json_add_count(&fields, "inside_cells", space->inside_count);
+    json_add_count(&fields, "portals", space->portal_count);
+    json_add_count(&fields, "viewpoints", comparison->plan->viewpoints);
+    json_add_count(&fields, "seed", comparison->plan->seed);
+    json_add_real(&fields, "cell_to_cell_seconds", comparison->pvs_seconds);
+    json_add_list(&fields, "rows", rows, comparison->row_count);
+    sl_free(context, rows);
+    return json_print(context, &fields);
 }

@@ -1,12 +1,13 @@
-#include "compare_time.h"
+/// Times runs: again and again until the time is known, within a limit.
+#include "compare.h"
 
-#include "base/base.h"
+#include "report.h"
+#include "sightline/support.h"
 
-#include <math.h>
+#include <inttypes.h>
 #include <stdlib.h>
 
-/// Without --repeat: at least three runs and a fifth of a second, but no more once a few seconds
-/// have gone.
+/// Default of --repeat: at least three runs and 0.2 seconds, but none after 5 seconds.
 enum { LEAST_TIMINGS = 3 };
 #define ENOUGH_SECONDS 0.2
 #define MOST_SECONDS   5.0
@@ -34,11 +35,11 @@ static void show_note(void *user, const char *message) {
 static bool is_cancelled(void *user) {
     watch *w = user;
     if (w->console->cancelled && w->console->cancelled(w->console->user)) return true;
-    w->late = sl_now() >= w->deadline;
+    w->late = sl_seconds() >= w->deadline;
     return w->late;
 }
 
-static bool is_enough(const sl_timing *timing, size_t count, double sum) {
+static bool is_enough(const run_timing *timing, size_t count, double sum) {
     if (timing->repeat) return count >= timing->repeat;
     return (count >= LEAST_TIMINGS && sum >= ENOUGH_SECONDS) || sum >= MOST_SECONDS;
 }
@@ -50,18 +51,18 @@ static int compare_doubles(const void *left, const void *right) {
 
 typedef SL_ARRAY(double) durations;
 
-/// Runs until it is enough; the first answer is kept, the others are the same.
+/// Runs until the time is known well enough. Keeps the first answer; the others are the same.
 static sl_status run_often(sl_context *context, watch *w, const sl_space *space,
-                           const sl_see_options *options, const sl_timing *timing, durations *taken,
-                           sl_compare_run *run) {
+                           const sl_see_options *options, const run_timing *timing,
+                           durations *taken, compare_run *run) {
     double sum = 0;
     while (!is_enough(timing, taken->count, sum)) {
         SL_TRY(SL_ARRAY_ROOM(context, taken, 1));
         sl_visibility visibility = {0};
-        const double start = sl_now();
+        const double start = sl_seconds();
         w->deadline = start + timing->limit;
         SL_TRY(run->method->see(context, space, options, &visibility));
-        const double seconds = sl_now() - start;
+        const double seconds = sl_seconds() - start;
         if (taken->count)
             sl_visibility_destroy(context, &visibility);
         else
@@ -72,7 +73,7 @@ static sl_status run_often(sl_context *context, watch *w, const sl_space *space,
     return SL_OK;
 }
 
-static void summarise(const durations *taken, sl_compare_run *run) {
+static void summarise(const durations *taken, compare_run *run) {
     const size_t n = taken->count;
     qsort(taken->items, n, sizeof *taken->items, compare_doubles);
     run->timings = (unsigned)n;
@@ -81,28 +82,108 @@ static void summarise(const durations *taken, sl_compare_run *run) {
     run->seconds = (taken->items[(n - 1) / 2] + taken->items[n / 2]) / 2;
 }
 
-sl_status sl_compare_time(sl_console *console, const sl_space *space, const sl_see_options *options,
-                          const sl_timing *timing, const char *label, sl_compare_run *run) {
-    watch w = {.console = &console->context->hooks, .label = label};
+sl_status compare_time(command_console *console, const sl_space *space,
+                       const sl_see_options *options, const run_timing *timing, const char *label,
+                       compare_run *run) {
+    watch w = {.console = sl_context_hooks(console->context), .label = label};
     const sl_hooks hooks = {
         .user = &w, .progress = show_progress, .note = show_note, .cancelled = is_cancelled};
     sl_context *context = sl_context_create(&hooks);
     if (!context) return sl_fail_memory(console->context);
     durations taken = {0};
     sl_status status = run_often(context, &w, space, options, timing, &taken, run);
-    run->outcome = SL_RUN_DONE;
+    run->outcome = RUN_DONE;
     if (status == SL_UNSUPPORTED)
         snprintf(run->refusal, sizeof run->refusal, "%s", sl_context_message(context));
     if (status == SL_UNSUPPORTED || (status == SL_CANCELLED && w.late)) {
-        run->outcome = status == SL_UNSUPPORTED ? SL_RUN_REFUSED : SL_RUN_NOT_DONE;
+        run->outcome = status == SL_UNSUPPORTED ? RUN_REFUSED : RUN_NOT_DONE;
         status = SL_OK;
     }
     if (taken.count && status == SL_OK) {
-        run->outcome = SL_RUN_DONE; // a later run that was late, or none
+        run->outcome = RUN_DONE; // a later run that was late, or none
         summarise(&taken, run);
     }
     if (status != SL_OK) sl_fail(console->context, status, "%s", sl_context_message(context));
     sl_free(context, taken.items);
     sl_context_destroy(context);
     return status;
+}
+
+// --- subdivisions
+
+static sl_status time_one(command_console *console, const sl_map *map,
+                          const sl_see_options *options, const run_timing *timing,
+                          const compare_run *like, compare_subdivision *one) {
+    sl_context *context = console->context;
+    sl_space space = {0};
+    compare_run run = {.method = like->method, .solver = like->solver};
+    char label[64];
+    const double start = sl_seconds();
+    SL_TRY(one->subdivision->subdivide(context, map, NULL, &space));
+    one->subdivide_seconds = sl_seconds() - start;
+    one->cells = space.cell_count;
+    one->portals = space.portal_count;
+    snprintf(label, sizeof label, "%s, %s", one->subdivision->name, like->method->name);
+    const sl_status status = compare_time(console, &space, options, timing, label, &run);
+    one->done = run.outcome == RUN_DONE;
+    one->seconds = run.seconds;
+    one->pairs = run.visibility.account.pairs;
+    sl_visibility_destroy(context, &run.visibility);
+    sl_space_destroy(context, &space);
+    return status;
+}
+
+sl_status compare_subdivisions_time(command_console *console, const sl_map *map,
+                                    const sl_see_options *options, const run_timing *timing,
+                                    const compare_run *like, compare_subdivisions *out) {
+    size_t count;
+    const sl_subdivision *ways = sl_subdivisions(&count);
+    sl_see_options see = *options;
+    see.solver = out->solver = like->solver;
+    out->method = like->method;
+    for (size_t i = 0; i < count && out->count < SUBDIVISIONS_MOST; i++) {
+        if (ways[i].takes_cells) continue;
+        compare_subdivision *one = &out->items[out->count++];
+        *one = (compare_subdivision){.subdivision = &ways[i]};
+        SL_TRY(time_one(console, map, &see, timing, like, one));
+    }
+    return SL_OK;
+}
+
+static void print_one(const compare_subdivision *one) {
+    char subdivide[SECONDS_TEXT], seconds[SECONDS_TEXT];
+    seconds_write(one->subdivide_seconds, "u", subdivide);
+    seconds_write(one->seconds, "u", seconds);
+    printf("  %-12s %8" PRIu32 " %9" PRIu32 " %10s ", one->subdivision->name, one->cells,
+           one->portals, subdivide);
+    if (one->done)
+        printf("%9s %11" PRIu64 "\n", seconds, one->pairs);
+    else
+        puts(" not done");
+}
+
+void compare_subdivisions_print(const compare_subdivisions *all) {
+    if (!all->count) return;
+    puts("\n  subdivision     cells   portals  subdivide   seconds       pairs");
+    for (size_t i = 0; i < all->count; i++) print_one(&all->items[i]);
+    printf("\nseconds and pairs of each subdivision: by %s%s%s, the fastest exact run\n",
+           all->method->name, all->solver ? " with " : "", all->solver ? all->solver->name : "");
+}
+
+void compare_subdivisions_add_json(json_fields *fields, const compare_subdivisions *all) {
+    json_fields list[SUBDIVISIONS_MOST];
+    for (size_t i = 0; i < all->count; i++) {
+        const compare_subdivision *one = &all->items[i];
+        list[i] = json_begin();
+        json_add_text(&list[i], "name", one->subdivision->name);
+        json_add_count(&list[i], "cells", one->cells);
+        json_add_count(&list[i], "portals", one->portals);
+        json_add_real(&list[i], "subdivide_seconds", one->subdivide_seconds);
+        json_add_text(&list[i], "method", all->method->name);
+        json_add_text(&list[i], "solver", all->solver ? all->solver->name : NULL);
+        json_add_flag(&list[i], "done", one->done);
+        json_add_real(&list[i], "seconds", one->seconds);
+        json_add_count(&list[i], "pairs", one->pairs);
+    }
+    if (all->count) json_add_list(fields, "subdivisions", list, all->count);
 }

@@ -1,20 +1,114 @@
 #include "console.h"
 
-#include "base/base.h"
-#include "base/file.h"
+#include "built.h"
+#include "sightline/support.h"
 
 #include <fcntl.h>
+#include <inttypes.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
+#include <time.h>
 #include <unistd.h>
+
+// --- the progress line
+
+void progress_line_clear(progress_line *line) {
+    if (!line->visible) return;
+    fputs("\r\033[K", stderr);
+    fflush(stderr);
+    line->visible = false;
+}
+
+/// Adds to the text, as far as there is room.
+static void append(char *text, size_t size, const char *format, ...) SL_PRINTF(3, 4);
+
+static void append(char *text, size_t size, const char *format, ...) {
+    const size_t used = strlen(text);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text + used, size - used, format, arguments);
+    va_end(arguments);
+}
+
+static void append_time(char *text, size_t size, double seconds) {
+    if (seconds < 100)
+        append(text, size, ", %.0f s", seconds);
+    else if (seconds < 6000)
+        append(text, size, ", %.0f min", seconds / 60);
+    else
+        append(text, size, ", %.1f h", seconds / 3600);
+}
+
+/// The width of the terminal in characters, at most `most`. A longer text would continue on the
+/// next line, and only that line would be cleared.
+static int room_of_terminal(int most) {
+    struct winsize size;
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return most;
+    return size.ws_col - 1 < most ? size.ws_col - 1 : most;
+}
+
+/// "cell to cell: 120/2000 cells, 6 %, 34/s, 55 s left"; before there is a rate, the time so far.
+static void write_line(const progress_line *line, double elapsed) {
+    char text[80] = "";
+    const uint64_t more = line->done - line->first;
+    append(text, sizeof text, "%s: %" PRIu64, line->stage, line->done);
+    if (line->total) append(text, sizeof text, "/%" PRIu64, line->total);
+    append(text, sizeof text, " %s", line->unit);
+    if (line->total)
+        append(text, sizeof text, ", %.0f %%", 100 * (double)line->done / (double)line->total);
+    if (more && elapsed > 0) {
+        const double rate = (double)more / elapsed;
+        append(text, sizeof text, ", %.*f/s", rate < 10 ? 1 : 0, rate);
+        if (line->total >= line->done) {
+            append_time(text, sizeof text, (double)(line->total - line->done) / rate);
+            append(text, sizeof text, " left");
+        }
+    } else {
+        append_time(text, sizeof text, elapsed);
+    }
+    for (char *at = strchr(text, '_'); at; at = strchr(at, '_')) *at = ' ';
+    fprintf(stderr, "\r\033[K%.*s", room_of_terminal(sizeof text), text);
+    fflush(stderr);
+}
+
+static void show(progress_line *line) {
+    const double now = sl_seconds();
+    if (now - line->last_shown < 0.1) return;
+    write_line(line, now - line->start);
+    line->last_shown = now;
+    line->visible = true;
+}
+
+void progress_line_report(progress_line *line, const sl_progress *progress) {
+    if (!line->shows) return;
+    if (strcmp(line->stage, progress->stage) != 0 || progress->done < line->done) {
+        snprintf(line->stage, sizeof line->stage, "%s", progress->stage);
+        snprintf(line->unit, sizeof line->unit, "%s", progress->unit);
+        line->first = progress->done;
+        line->start = sl_seconds();
+        // What takes less than a tenth of a second needs no line.
+        if (!line->visible) line->last_shown = line->start;
+    }
+    line->done = progress->done;
+    line->total = progress->total;
+    show(line);
+}
+
+void progress_line_tick(progress_line *line) {
+    const bool running = line->shows && line->stage[0] && line->done != line->total;
+    if (running && ++line->ticks % 64 == 0) show(line);
+}
+
+// --- the console
 
 /// Set by SIGINT or SIGTERM. At file scope because a signal handler is given nothing but
 /// the signal's number; lock-free and atomic because worker threads read it.
 static atomic_bool interrupted;
 
-/// As it: whether the first signal is to ask only, and whether it did.
+/// The same for: whether the first signal is only noted, and whether it came.
 static atomic_bool asks_first, asked;
 
 static void set_handler(int number, void (*handler)(int)) {
@@ -24,7 +118,7 @@ static void set_handler(int number, void (*handler)(int)) {
 }
 
 /// The first signal makes the running call stop and tidy up; the next one ends the program. Where
-/// the first one is to ask only, it is the second and the third that do.
+/// the first one is only noted, the second and the third do this.
 static void on_signal(int number) {
     (void)number;
     if (atomic_load(&asks_first) && !atomic_exchange(&asked, true)) return;
@@ -33,7 +127,7 @@ static void on_signal(int number) {
     set_handler(SIGTERM, SIG_DFL);
 }
 
-/// A signal that whoever started the program has it ignore (nohup) stays ignored.
+/// A signal that is ignored from the start (nohup) stays ignored.
 static void catch_signal(int number) {
     struct sigaction now;
     if (sigaction(number, NULL, &now) == 0 && now.sa_handler != SIG_IGN)
@@ -48,15 +142,15 @@ static void hold_standard_streams(void) {
             (void)!open("/dev/null", descriptor == 0 ? O_WRONLY : O_RDONLY);
 }
 
-void sl_console_ask_first(void) {
+void console_ask_first(void) {
     atomic_store(&asks_first, true);
 }
 
-bool sl_console_is_asked(void) {
+bool console_is_asked(void) {
     return atomic_load(&asked);
 }
 
-void sl_console_print_line(FILE *stream, const char *before, const char *text, size_t length) {
+void console_print_line(FILE *stream, const char *before, const char *text, size_t length) {
     fputs(before, stream);
     for (size_t i = 0; i < length; i++) {
         const unsigned char c = (unsigned char)text[i];
@@ -70,42 +164,43 @@ void sl_console_print_line(FILE *stream, const char *before, const char *text, s
 }
 
 static void show_note(void *user, const char *message) {
-    sl_console *console = user;
+    command_console *console = user;
     if (console->quiet) return;
-    sl_progress_line_clear(&console->line);
-    sl_console_print_line(stderr, "note: ", message, strlen(message));
+    progress_line_clear(&console->line);
+    console_print_line(stderr, "note: ", message, strlen(message));
 }
 
 static void show_progress(void *user, const sl_progress *progress) {
-    sl_console *console = user;
-    if (!console->quiet) sl_progress_line_report(&console->line, progress);
+    command_console *console = user;
+    if (!console->quiet) progress_line_report(&console->line, progress);
 }
 
-/// Asked far more often than progress is reported, so that the line lives through long units of
-/// work.
+/// This is asked far more often than progress is reported. It keeps the line alive during long
+/// units of work.
 static bool is_cancelled(void *user) {
-    sl_console *console = user;
-    if (pthread_equal(pthread_self(), console->main_thread)) sl_progress_line_tick(&console->line);
+    command_console *console = user;
+    if (pthread_equal(pthread_self(), console->main_thread)) progress_line_tick(&console->line);
     return atomic_load(&interrupted);
 }
 
-bool sl_console_open(sl_console *console) {
+bool console_open(command_console *console) {
     hold_standard_streams();
-    // A reader that goes away and a file that grows beyond its limit are then failed writes.
+    // If a reader goes away, or a file grows beyond its limit, writes then fail instead.
     set_handler(SIGPIPE, SIG_IGN);
     set_handler(SIGXFSZ, SIG_IGN);
     catch_signal(SIGINT);
     catch_signal(SIGTERM);
     const char *kind = getenv("TERM");
-    *console = (sl_console){
+    *console = (command_console){
         .main_thread = pthread_self(),
         .line.shows = isatty(STDERR_FILENO) && !(kind && strcmp(kind, "dumb") == 0),
     };
     const sl_hooks hooks = {
         .user = console, .progress = show_progress, .note = show_note, .cancelled = is_cancelled};
     console->context = sl_context_create(&hooks);
-    if (!console->context) fputs("sightline: out of memory\n", stderr);
-    return console->context != NULL;
+    const bool good = console->context && built_use_formats(console->context) == SL_OK;
+    if (!good) fputs("sightline: out of memory\n", stderr);
+    return good;
 }
 
 static int exit_status(sl_status status) {
@@ -124,8 +219,8 @@ static int exit_status(sl_status status) {
     return 2;
 }
 
-int sl_console_close(sl_console *console, sl_status status) {
-    sl_progress_line_clear(&console->line);
+int console_close(command_console *console, sl_status status) {
+    progress_line_clear(&console->line);
     if (status == SL_OK) {
         sl_output output;
         status = sl_output_open(console->context, "-", &output);
@@ -136,7 +231,7 @@ int sl_console_close(sl_console *console, sl_status status) {
         status = sl_fail(console->context, SL_CANCELLED, "%s", sl_status_name(SL_CANCELLED));
     const char *message = sl_context_message(console->context);
     if (status != SL_OK && message[0])
-        sl_console_print_line(stderr, "sightline: ", message, strlen(message));
+        console_print_line(stderr, "sightline: ", message, strlen(message));
     sl_context_destroy(console->context);
     return exit_status(status);
 }

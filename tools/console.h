@@ -1,35 +1,53 @@
-/// What a command has of the terminal and the system: the library's context with its hooks (notes,
-/// progress, Ctrl-C), and how the program ends.
+/// What a command needs of the terminal and the system: the library's context with its hooks
+/// (notes, progress, Ctrl-C), the progress line, and the end of the program.
 #ifndef CONSOLE_H
 #define CONSOLE_H
 
-#include "progress_line.h"
+#include "sightline/context.h"
 
 #include <pthread.h>
 #include <stdio.h>
 
-typedef struct sl_console {
+/// Ready when all but `shows` is zero.
+typedef struct progress_line {
+    bool shows;               ///< false: nothing is written
+    bool visible;             ///< it stands there and must be cleared before anything else
+    char stage[32], unit[32]; ///< of the last report, as are:
+    uint64_t done, total;
+    uint64_t first;    ///< how far the stage was when it was first heard of,
+    double start;      ///< and when that was, in seconds of sl_seconds()
+    double last_shown; ///< the same clock
+    unsigned ticks;
+} progress_line;
+
+void progress_line_report(progress_line *line, const sl_progress *progress);
+
+/// Call it often while a stage runs: it keeps the line alive between reports.
+void progress_line_tick(progress_line *line);
+
+void progress_line_clear(progress_line *line);
+
+typedef struct command_console {
     sl_context *context;
     pthread_t main_thread; ///< the only one that writes
-    sl_progress_line line; ///< shown where stderr is a terminal
+    progress_line line;    ///< shown where stderr is a terminal
     bool quiet;            ///< --quiet: neither notes nor progress
-} sl_console;
+} command_console;
 
-/// False, after a message, where there is no memory.
-bool sl_console_open(sl_console *console);
+/// False where there is no memory; a message has been printed.
+bool console_open(command_console *console);
 
-/// From now on the first Ctrl-C (or SIGTERM) only asks, and the second one makes running calls
-/// stop.
-void sl_console_ask_first(void);
+/// From now on the first Ctrl-C (or SIGTERM) is only noted. The second one stops running calls.
+void console_ask_first(void);
 /// Whether there was one.
-bool sl_console_is_asked(void);
+bool console_is_asked(void);
 
-/// Prints a line; control characters of a text that others wrote come out as '?', for they could
-/// play tricks on a terminal.
-void sl_console_print_line(FILE *stream, const char *before, const char *text, size_t length);
+/// Prints a line of text from a file. Control characters become '?', since they could play tricks
+/// on the terminal.
+void console_print_line(FILE *stream, const char *before, const char *text, size_t length);
 
-/// Checks that all of stdout was written, tells of a failure, and gives the program's exit status:
-/// 0 done, 1 the work failed, 2 the arguments or an input are wrong.
-int sl_console_close(sl_console *console, sl_status status);
+/// Checks that all of stdout was written, prints the message of a failure, and gives the exit
+/// status of the program: 0 done, 1 the work failed, 2 the arguments or an input file are wrong.
+int console_close(command_console *console, sl_status status);
 
 #endif

@@ -1,21 +1,21 @@
-/// The processes that work on one bake together. One alone, but in sightline-mpi: there as many as
-/// mpirun starts, each of which runs the whole command on its share of the work; the first one
-/// gathers what they find, and reports and writes.
+/// The processes that share one bake. The command `sightline` is one process. `sightline-mpi` is as
+/// many as mpirun starts: each runs the whole command on its share of the work. The first one
+/// gathers the results, writes and reports.
 #ifndef CREW_H
 #define CREW_H
 
 #include "sightline/cell_to_cell.h"
 
-void sl_crew_begin(int *argc, char ***argv);
-void sl_crew_end(void);
+void crew_begin(int *argc, char ***argv);
+void crew_end(void);
 
-uint32_t sl_crew_rank(void); ///< from 0
-uint32_t sl_crew_size(void);
+uint32_t crew_rank(void); ///< from 0
+uint32_t crew_size(void);
 
-/// What came of a step in all processes: SL_OK where it went well everywhere. To be called by all.
-sl_status sl_crew_agree(sl_context *context, sl_status mine);
+/// The outcome of a step in all processes: SL_OK where it went well everywhere. All must call it.
+sl_status crew_agree(sl_context *context, sl_status mine);
 
-/// Joins the findings of all processes, by OR, into those of the first one. To be called by all.
-sl_status sl_crew_join(sl_context *context, sl_findings *findings);
+/// Joins the partial results of all processes by OR, in the first one. All must call it.
+sl_status crew_join(sl_context *context, sl_partial *partial);
 
 #endif

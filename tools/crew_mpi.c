@@ -1,7 +1,6 @@
 #include "crew.h"
 
-#include "base/base.h"
-#include "base/bits.h"
+#include "sightline/support.h"
 
 #include <mpi.h>
 
@@ -11,31 +10,31 @@ enum { TAG = 1, MOST_AT_ONCE = 1 << 30 };
 /// as the process is one of MPI's only once.
 static bool failed;
 
-void sl_crew_begin(int *argc, char ***argv) {
+void crew_begin(int *argc, char ***argv) {
     int provided;
     // Threads look; the one that began all talks to the others.
     MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &provided);
 }
 
-void sl_crew_end(void) {
+void crew_end(void) {
     MPI_Finalize();
 }
 
-uint32_t sl_crew_rank(void) {
+uint32_t crew_rank(void) {
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     return (uint32_t)rank;
 }
 
-uint32_t sl_crew_size(void) {
+uint32_t crew_size(void) {
     int size = 1;
     MPI_Comm_size(MPI_COMM_WORLD, &size);
     return (uint32_t)size;
 }
 
-sl_status sl_crew_agree(sl_context *context, sl_status mine) {
+sl_status crew_agree(sl_context *context, sl_status mine) {
     if (failed) return mine;
-    const int rank = (int)sl_crew_rank(), size = (int)sl_crew_size();
+    const int rank = (int)crew_rank(), size = (int)crew_size();
     int first = mine == SL_OK ? size : rank;
     MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
     if (first == size) return SL_OK;
@@ -45,7 +44,7 @@ sl_status sl_crew_agree(sl_context *context, sl_status mine) {
     return mine;
 }
 
-// --- findings as messages
+// --- partial results as messages
 
 static void send_bytes(const void *bytes, uint64_t count, int to) {
     const char *at = bytes;
@@ -83,15 +82,15 @@ static sl_status receive_rows(sl_context *context, uint32_t cell_count, int from
     return SL_OK;
 }
 
-static void send_findings(const sl_findings *findings, int to) {
-    send_bytes(findings->done, sl_bits_words(findings->unit_count) * sizeof *findings->done, to);
-    send_rows(&findings->sure, to);
-    send_rows(&findings->doubtful, to);
+static void send_partial(const sl_partial *partial, int to) {
+    send_bytes(partial->done, sl_bits_words(partial->unit_count) * sizeof *partial->done, to);
+    send_rows(&partial->sure, to);
+    send_rows(&partial->doubtful, to);
 }
 
-/// Findings of the same work as `like`.
-static sl_status receive_findings(sl_context *context, const sl_findings *like, int from,
-                                  sl_findings *out) {
+/// Partial results of the same work as `like`.
+static sl_status receive_partial(sl_context *context, const sl_partial *like, int from,
+                                 sl_partial *out) {
     const size_t words = sl_bits_words(like->unit_count);
     out->unit_count = like->unit_count;
     out->inside_only = like->inside_only;
@@ -102,25 +101,25 @@ static sl_status receive_findings(sl_context *context, const sl_findings *like, 
     return receive_rows(context, like->doubtful.cell_count, from, &out->doubtful);
 }
 
-static sl_status take_from(sl_context *context, sl_findings *findings, int from) {
-    sl_findings other = {0};
-    sl_status status = receive_findings(context, findings, from, &other);
-    if (status == SL_OK) status = sl_findings_join(context, findings, &other);
-    sl_findings_destroy(context, &other);
+static sl_status take_from(sl_context *context, sl_partial *partial, int from) {
+    sl_partial other = {0};
+    sl_status status = receive_partial(context, partial, from, &other);
+    if (status == SL_OK) status = sl_partial_merge(context, partial, &other);
+    sl_partial_destroy(context, &other);
     return status;
 }
 
 /// In pairs, in pairs of pairs and so on, so that it takes as many rounds as the size has bits.
-sl_status sl_crew_join(sl_context *context, sl_findings *findings) {
-    const int rank = (int)sl_crew_rank(), size = (int)sl_crew_size();
+sl_status crew_join(sl_context *context, sl_partial *partial) {
+    const int rank = (int)crew_rank(), size = (int)crew_size();
     for (int step = 1; step < size; step *= 2) {
         if (rank % (2 * step)) {
-            send_findings(findings, rank - step);
+            send_partial(partial, rank - step);
             return SL_OK;
         }
         if (rank + step >= size) continue;
         // The others cannot be told in the midst of a message.
-        if (take_from(context, findings, rank + step) != SL_OK) {
+        if (take_from(context, partial, rank + step) != SL_OK) {
             fprintf(stderr, "sightline: %s\n", sl_context_message(context));
             MPI_Abort(MPI_COMM_WORLD, 1);
         }

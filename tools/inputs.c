@@ -1,20 +1,19 @@
 #include "inputs.h"
 
-#include "base/file.h"
-#include "base/number.h"
-#include "options.h"
+#include "built.h"
+#include "names.h"
+#include "sightline/support.h"
 
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
 
-bool sl_input_ends_with(const char *path, const char *ending) {
+bool input_ends_with(const char *path, const char *ending) {
     const size_t length = strlen(path), tail = strlen(ending);
     return length > tail && strcasecmp(path + length - tail, ending) == 0;
 }
 
-const char *sl_input_base_name(const char *path, size_t *length) {
+const char *input_base_name(const char *path, size_t *length) {
     const char *slash = strrchr(path, '/');
     const char *base = slash ? slash + 1 : path;
     const char *dot = strrchr(base, '.');
@@ -23,19 +22,19 @@ const char *sl_input_base_name(const char *path, size_t *length) {
 }
 
 static bool is_baked_name(const char *path) {
-    return sl_input_ends_with(path, ".slv");
+    return input_ends_with(path, ".slv");
 }
 
-/// Whether the name ends as that of a map does, of any format.
-static bool is_map_name(const char *path) {
+/// Whether the name has the ending of a map format.
+static bool is_map_name(const sl_context *context, const char *path) {
     size_t count;
-    const sl_map_format *formats = sl_map_formats(&count);
+    const sl_map_format *formats = sl_map_formats(context, &count);
     for (size_t i = 0; i < count; i++) {
         for (const char *word = formats[i].endings; *word;) {
             const size_t length = strcspn(word, " ");
             char ending[32];
             snprintf(ending, sizeof ending, "%.*s", (int)length, word);
-            if (sl_input_ends_with(path, ending)) return true;
+            if (input_ends_with(path, ending)) return true;
             word += length;
             word += strspn(word, " ");
         }
@@ -43,67 +42,68 @@ static bool is_map_name(const char *path) {
     return false;
 }
 
-static sl_status read_options(sl_context *context, const sl_input_texts *texts,
-                              sl_import_options *options) {
-    *options = sl_import_options_default();
-    SL_TRY(sl_option_number(context, "--slice", texts->slice, &options->slice));
-    SL_TRY(sl_option_number(context, "--tolerance", texts->tolerance, &options->tolerance));
-    SL_TRY(sl_option_number(context, "--threshold", texts->threshold, &options->threshold));
-    if (texts->tolerance && options->tolerance <= 0)
-        return sl_fail(context, SL_BAD_ARGUMENT, "--tolerance %s: a number over 0 is needed",
-                       texts->tolerance);
-    if (texts->threshold && !(options->threshold > 0 && options->threshold <= 1))
-        return sl_fail(context, SL_BAD_ARGUMENT,
-                       "--threshold %s: a number over 0, at most 1, is needed", texts->threshold);
-    options->has_slice = texts->slice != NULL;
-    options->map = texts->map;
-    options->layers = texts->layers;
-    options->unit = texts->unit;
-    options->doors = texts->doors;
-    options->sectors = texts->sectors;
-    options->cells = texts->cells;
-    return SL_OK;
+// --- options
+
+input_options input_options_default(void) {
+    return (input_options){.import = sl_import_options_default(),
+                           .clean = sl_clean_options_default()};
 }
 
-sl_status sl_input_read_map(sl_context *context, const char *path, const sl_input_texts *texts,
-                            sl_map *map) {
+option_table input_option_table(input_options *input) {
+    sl_import_options *to = &input->import;
+    const char **given = &input->given;
+    const option_spec options[] = {
+        {"map", 0, "NAME", "which map of a file that holds several", .text = &to->map,
+         .given = given},
+        {"slice", 0, "Z", "cut a 3D model at this height", .number = &to->slice,
+         .flag = &to->has_slice, .given = given},
+        {"layers", 0, "LAYER,...", "the layers of a drawing or tile map to take",
+         .text = &to->layers, .given = given},
+        {"tolerance", 0, "T", "how far curves may be from their walls", .number = &to->tolerance,
+         .over_0 = true, .given = given},
+        {"unit", 0, "UNIT", "of a drawing, turned into this: mm cm m km in ft yd",
+         .text = &to->unit, .given = given},
+        {"weld", 0, "T",
+         "join wall ends up to this far apart, in map units;\n0: none (default: on oblique maps, "
+         "2^-46 of the\nlargest coordinate)",
+         .number = &input->clean.weld, .needs = "0 or a number over 0 is needed", .given = given},
+        {"threshold", 0, "T", "darkness from which a pixel is solid, up to 1",
+         .number = &to->threshold, .over_0 = true, .most = 1,
+         .needs = "a number over 0, at most 1, is needed", .given = given},
+        {"sectors", 0, NULL,
+         "cut cells between the sectors of a Doom map too: for\na REJECT that hides more",
+         .flag = &to->sectors, .given = given},
+        {"doors", 0, NULL, "take doors as doors; without it as what they are\nwhen the map begins",
+         .flag = &to->doors, .given = given},
+    };
+    option_table table = {0};
+    option_table_add(&table, options, sizeof options / sizeof *options);
+    return table;
+}
+
+// --- maps
+
+sl_status input_read_map(sl_context *context, const char *path, const input_options *input,
+                         sl_map *map) {
     if (is_baked_name(path))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "%s: is baked already; name the map that it was made from", path);
-    sl_import_options options;
-    SL_TRY(read_options(context, texts, &options));
-    return sl_map_read(context, path, &options, map);
+    return sl_map_read(context, path, &input->import, map);
 }
 
-sl_status sl_input_clean(sl_context *context, const sl_input_texts *texts, sl_map *map,
-                         sl_clean_account *account) {
-    sl_clean_options options = sl_clean_options_default();
-    SL_TRY(sl_option_number(context, "--weld", texts->weld, &options.weld));
-    if (texts->weld && options.weld < 0)
-        return sl_fail(context, SL_BAD_ARGUMENT, "--weld %s: 0 or a number over 0 is needed",
-                       texts->weld);
-    return sl_map_clean(context, map, &options, account);
+sl_status input_clean(sl_context *context, const input_options *input, sl_map *map,
+                      sl_clean_account *account) {
+    return sl_map_clean(context, map, &input->clean, account);
 }
 
-sl_status sl_input_refuse_texts(sl_context *context, const char *path,
-                                const sl_input_texts *texts) {
-    const char *given = texts->map         ? "map"
-                        : texts->slice     ? "slice"
-                        : texts->layers    ? "layers"
-                        : texts->tolerance ? "tolerance"
-                        : texts->unit      ? "unit"
-                        : texts->threshold ? "threshold"
-                        : texts->weld      ? "weld"
-                        : texts->doors     ? "doors"
-                        : texts->sectors   ? "sectors"
-                                           : NULL;
-    if (!given) return SL_OK;
+sl_status input_refuse_options(sl_context *context, const char *path, const input_options *input) {
+    if (!input->given) return SL_OK;
     return sl_fail(context, SL_BAD_ARGUMENT, "--%s: %s is baked; the option is for reading a map",
-                   given, path);
+                   input->given, path);
 }
 
-sl_status sl_input_read_baked(sl_context *context, const char *path, sl_baked *baked) {
-    if (is_map_name(path))
+sl_status input_read_baked(sl_context *context, const char *path, sl_baked *baked) {
+    if (is_map_name(context, path))
         return sl_fail(
             context, SL_BAD_ARGUMENT,
             "%s: is a map, not a baked file; bake it first: sightline bake %s -o FILE.slv", path,
@@ -115,32 +115,8 @@ sl_status sl_input_read_baked(sl_context *context, const char *path, sl_baked *b
     return SL_OK;
 }
 
-static bool is_same_file(const char *path, const char *other) {
-    struct stat a, b;
-    return stat(path, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev &&
-           a.st_ino == b.st_ino && S_ISREG(a.st_mode);
-}
-
-sl_status sl_output_check(sl_context *context, const char *path, const char *option,
-                          const char *output) {
-    if (!output) return SL_OK;
-    if (!*output) return sl_fail(context, SL_BAD_ARGUMENT, "%s is empty; name a file", option);
-    if (!is_same_file(path, output)) return sl_output_try(context, output);
-    return sl_fail(context, SL_BAD_ARGUMENT,
-                   "%s %s: is the input itself, which would be lost; give another name", option,
-                   output);
-}
-
-sl_status sl_output_check_baked(sl_context *context, const char *path, const char *option,
-                                const char *output) {
-    if (output && !is_baked_name(output))
-        return sl_fail(context, SL_BAD_ARGUMENT,
-                       "%s %s: the name of a baked file ends in .slv, by which it is known", option,
-                       output);
-    return sl_output_check(context, path, option, output);
-}
-
-/// The map that a baked file was made from: what it kept of it, and the walls of its space.
+/// The map that a baked file was made from: the rest of the map that it kept, and the walls of its
+/// space.
 static sl_status read_map_of_baked(sl_context *context, const char *path, sl_map *map) {
     sl_baked baked = {0};
     SL_TRY(sl_baked_read(context, path, &baked));
@@ -158,26 +134,91 @@ static sl_status read_map_of_baked(sl_context *context, const char *path, sl_map
     return status;
 }
 
-sl_status sl_input_read_either(sl_context *context, const char *path, const sl_input_texts *texts,
-                               sl_map *map) {
-    if (!is_baked_name(path)) return sl_input_read_map(context, path, texts, map);
-    SL_TRY(sl_input_refuse_texts(context, path, texts));
+sl_status input_read_either(sl_context *context, const char *path, const input_options *input,
+                            sl_map *map) {
+    if (!is_baked_name(path)) return input_read_map(context, path, input, map);
+    SL_TRY(input_refuse_options(context, path, input));
     return read_map_of_baked(context, path, map);
 }
 
-void sl_input_print_formats(void) {
+void input_print_formats(void) {
+    sl_context *context = sl_context_create(NULL);
+    if (!context) return;
     size_t count;
-    const sl_map_format *formats = sl_map_formats(&count);
+    (void)built_use_formats(context); // with no memory: the formats that are always there
+    const sl_map_format *formats = sl_map_formats(context, &count);
     puts("\nmaps, by the ending of the file's name:");
     for (size_t i = 0; i < count; i++) printf("  %-28s%s\n", formats[i].endings, formats[i].what);
     printf("  %-28s%s\n", "-", "standard input, by its first bytes, else as the map text");
+    sl_context_destroy(context);
 }
 
-sl_status sl_input_fail_outside(sl_context *context, const char *name, const char *text,
-                                sl_box bounds) {
+sl_status input_fail_outside(sl_context *context, const char *name, const char *text,
+                             sl_box bounds) {
     const double values[4] = {bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y};
     char numbers[4][SL_NUMBER_TEXT];
     for (int i = 0; i < 4; i++) sl_number_write(values[i], numbers[i]);
     return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: outside the map, which is %s,%s to %s,%s",
                    name, text, numbers[0], numbers[1], numbers[2], numbers[3]);
+}
+
+// --- doors
+
+/// Marks the doors of one name.
+static bool shut_named(const sl_map *map, const char *name, size_t length, bool *shut) {
+    bool found = false;
+    for (size_t i = 0; i < map->door_count; i++) {
+        if (strlen(map->doors[i].name) != length || memcmp(map->doors[i].name, name, length) != 0)
+            continue;
+        shut[i] = found = true;
+    }
+    return found;
+}
+
+static sl_status fail_door(sl_context *context, const sl_map *map, const char *name,
+                           size_t length) {
+    const name_table doors = {"door", map->doors, sizeof *map->doors, map->door_count, NULL};
+    char names[NAME_LIST];
+    name_list(&doors, names);
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "--shut: there is no door '%.*s'; the map's doors: %s%s",
+                   (int)(length < 64 ? length : 64), name, names,
+                   map->door_count ? "; 'none' leaves all open" : "");
+}
+
+static sl_status read_names(sl_context *context, const char *text, const sl_map *map, bool *shut) {
+    if (strcmp(text, "none") == 0) return SL_OK;
+    while (*text) {
+        const size_t length = strcspn(text, ",");
+        if (!shut_named(map, text, length, shut)) return fail_door(context, map, text, length);
+        text += length;
+        if (*text) text++;
+    }
+    return SL_OK;
+}
+
+/// Replaces the space and the visible sets by those with the doors shut.
+static sl_status shut_doors(sl_context *context, sl_baked *baked, const bool *shut) {
+    sl_space space;
+    sl_visibility visibility;
+    SL_TRY(sl_baked_shut(context, baked, shut, &space, &visibility));
+    sl_space_destroy(context, &baked->space);
+    sl_visibility_destroy(context, &baked->visibility);
+    baked->space = space;
+    baked->visibility = visibility;
+    return SL_OK;
+}
+
+sl_status doors_shut(sl_context *context, const char *text, sl_baked *baked) {
+    const sl_map *map = &baked->map;
+    if (!map->door_count) return text ? read_names(context, text, map, NULL) : SL_OK;
+    bool *shut = sl_alloc_array(context, map->door_count, sizeof *shut);
+    if (!shut) return SL_NO_MEMORY;
+    for (size_t i = 0; i < map->door_count && !text; i++) shut[i] = !map->doors[i].open;
+    sl_status status = text ? read_names(context, text, map, shut) : SL_OK;
+    if (status == SL_OK) status = shut_doors(context, baked, shut);
+    for (size_t i = 0; i < map->door_count && status == SL_OK; i++)
+        baked->map.doors[i].open = !shut[i];
+    sl_free(context, shut);
+    return status;
 }

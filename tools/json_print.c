@@ -1,110 +1,158 @@
 #include "json_print.h"
 
-#include "base/base.h"
-#include "base/bits.h"
+#include "sightline/support.h"
 
+#include <stdlib.h>
 #include <string.h>
 
-void sl_text_make_readable(const char *text, char *out, size_t size) {
-    json_t *value = json_string(text); // NULL for what is no UTF-8
+void text_make_readable(const char *text, char *out, size_t size) {
     snprintf(out, size, "%s", text);
     // The copy may end within a character.
-    if (!value || strlen(text) >= size)
-        for (char *at = out; *at; at++)
-            if ((unsigned char)*at >= 0x80) *at = '?';
-    json_decref(value);
+    if (sl_text_is_utf8(text) && strlen(text) < size) return;
+    for (char *at = out; *at; at++)
+        if ((unsigned char)*at >= 0x80) *at = '?';
 }
 
-sl_json_fields sl_json_begin(void) {
-    json_t *object = json_object();
-    return (sl_json_fields){.object = object, .failed = !object};
-}
-
-static void add(sl_json_fields *fields, const char *key, json_t *value) {
-    if (json_object_set_new(fields->object, key, value) != 0) fields->failed = true;
-}
-
-void sl_json_add_count(sl_json_fields *fields, const char *key, uint64_t count) {
-    add(fields, key, json_integer((json_int_t)count));
-}
-
-void sl_json_add_real(sl_json_fields *fields, const char *key, double finite) {
-    add(fields, key, json_real(finite));
-}
-
-void sl_json_add_flag(sl_json_fields *fields, const char *key, bool flag) {
-    add(fields, key, json_boolean(flag));
-}
-
-void sl_json_add_text(sl_json_fields *fields, const char *key, const char *text) {
-    json_t *value = text ? json_string(text) : json_null();
-    if (!value) {
-        char readable[256];
-        sl_text_make_readable(text, readable, sizeof readable);
-        value = json_string(readable);
+static void append(void *user, const char *text, size_t size) {
+    json_fields *fields = user;
+    if (fields->size + size > fields->room) {
+        const size_t room = 2 * (fields->size + size);
+        char *grown = realloc(fields->text, room);
+        fields->failed |= !grown;
+        if (!grown) return;
+        fields->text = grown;
+        fields->room = room;
     }
-    add(fields, key, value);
+    memcpy(fields->text + fields->size, text, size);
+    fields->size += size;
 }
 
-void sl_json_add_list(sl_json_fields *fields, const char *key, sl_json_fields *items,
-                      size_t count) {
-    json_t *list = json_array();
+/// The writer of fields that may have moved since it was used last.
+static sl_json_writer *writer_of(json_fields *fields) {
+    fields->writer.user = fields;
+    return &fields->writer;
+}
+
+json_fields json_begin(void) {
+    json_fields fields = {.writer.put = append};
+    sl_json_put_object(writer_of(&fields));
+    return fields;
+}
+
+void json_drop(json_fields *fields) {
+    free(fields->text);
+    *fields = (json_fields){0};
+}
+
+sl_json_writer *json_add(json_fields *fields, const char *key) {
+    sl_json_writer *json = writer_of(fields);
+    char readable[256];
+    if (!sl_text_is_utf8(key)) {
+        text_make_readable(key, readable, sizeof readable);
+        key = readable;
+    }
+    sl_json_put_key(json, key);
+    return json;
+}
+
+void json_add_count(json_fields *fields, const char *key, uint64_t count) {
+    sl_json_put_integer(json_add(fields, key), (int64_t)count);
+}
+
+void json_add_real(json_fields *fields, const char *key, double finite) {
+    sl_json_put_real(json_add(fields, key), finite);
+}
+
+void json_add_flag(json_fields *fields, const char *key, bool flag) {
+    sl_json_put_flag(json_add(fields, key), flag);
+}
+
+void json_add_text(json_fields *fields, const char *key, const char *text) {
+    sl_json_writer *json = json_add(fields, key);
+    char readable[256];
+    if (!text) {
+        sl_json_put_null(json);
+        return;
+    }
+    if (!sl_text_is_utf8(text)) {
+        text_make_readable(text, readable, sizeof readable);
+        text = readable;
+    }
+    sl_json_put_text(json, text);
+}
+
+void json_add_list(json_fields *fields, const char *key, json_fields *items, size_t count) {
+    sl_json_writer *json = json_add(fields, key);
+    sl_json_put_list(json);
     for (size_t i = 0; i < count; i++) {
-        if (items[i].failed || json_array_append_new(list, items[i].object) != 0)
-            fields->failed = true;
-        items[i] = (sl_json_fields){0};
+        sl_json_put_end(writer_of(&items[i]), '}');
+        fields->failed |= items[i].failed || items[i].writer.failed;
+        sl_json_put_written(json, items[i].text, items[i].size);
+        json_drop(&items[i]);
     }
-    add(fields, key, list);
+    sl_json_put_end(json, ']');
 }
 
-void sl_json_add_box(sl_json_fields *fields, const char *key, sl_box box) {
-    add(fields, key, json_pack("[f, f, f, f]", box.min.x, box.min.y, box.max.x, box.max.y));
+void json_add_box(json_fields *fields, const char *key, sl_box box) {
+    const double numbers[] = {box.min.x, box.min.y, box.max.x, box.max.y};
+    sl_json_writer *json = json_add(fields, key);
+    sl_json_put_list(json);
+    for (int i = 0; i < 4; i++) sl_json_put_real(json, numbers[i]);
+    sl_json_put_end(json, ']');
 }
 
-void sl_json_add_members(sl_json_fields *fields, const char *key, const uint64_t *set,
-                         uint32_t count) {
-    json_t *list = json_array();
+void json_add_members(json_fields *fields, const char *key, const uint64_t *set, uint32_t count) {
+    sl_json_writer *json = json_add(fields, key);
+    sl_json_put_list(json);
     for (uint32_t i = 0; i < count; i++)
-        if (sl_bits_has(set, i) && json_array_append_new(list, json_integer(i)) != 0)
-            fields->failed = true;
-    add(fields, key, list);
+        if (sl_bits_has(set, i)) sl_json_put_integer(json, i);
+    sl_json_put_end(json, ']');
 }
 
-void sl_json_add_points(sl_json_fields *fields, const char *key, const sl_point *points,
-                        size_t count) {
-    json_t *list = json_array();
-    for (size_t i = 0; i < count; i++)
-        if (json_array_append_new(list, json_pack("[f, f]", points[i].x, points[i].y)) != 0)
-            fields->failed = true;
-    add(fields, key, list);
+void json_put_point(sl_json_writer *json, sl_point point) {
+    sl_json_put_list(json);
+    sl_json_put_real(json, point.x);
+    sl_json_put_real(json, point.y);
+    sl_json_put_end(json, ']');
 }
 
-void sl_json_add_fields(sl_json_fields *fields, const char *key, sl_json_fields *inner) {
-    if (inner->failed) fields->failed = true;
-    add(fields, key, inner->object);
-    *inner = (sl_json_fields){0};
+void json_add_points(json_fields *fields, const char *key, const sl_point *points, size_t count) {
+    sl_json_writer *json = json_add(fields, key);
+    sl_json_put_list(json);
+    for (size_t i = 0; i < count; i++) json_put_point(json, points[i]);
+    sl_json_put_end(json, ']');
 }
 
-void sl_json_add_cleaning(sl_json_fields *fields, const char *key,
-                          const sl_clean_account *account) {
-    sl_json_fields cleaning = sl_json_begin();
-    sl_json_add_count(&cleaning, "before", account->before);
-    sl_json_add_count(&cleaning, "after", account->after);
-    sl_json_add_count(&cleaning, "zero_length", account->zero_length);
-    sl_json_add_count(&cleaning, "duplicate", account->duplicate);
-    sl_json_add_count(&cleaning, "merged", account->merged);
-    sl_json_add_count(&cleaning, "split", account->split);
-    sl_json_add_count(&cleaning, "welded", account->welded);
-    sl_json_add_count(&cleaning, "crossings", account->crossings);
-    sl_json_add_real(&cleaning, "largest_move", account->largest_move);
-    sl_json_add_fields(fields, key, &cleaning);
+void json_add_fields(json_fields *fields, const char *key, json_fields *inner) {
+    sl_json_put_end(writer_of(inner), '}');
+    fields->failed |= inner->failed || inner->writer.failed;
+    sl_json_put_written(json_add(fields, key), inner->text, inner->size);
+    json_drop(inner);
 }
 
-sl_status sl_json_print(sl_context *context, sl_json_fields *fields) {
-    const bool failed = fields->failed;
+void json_add_cleaning(json_fields *fields, const char *key, const sl_clean_account *account) {
+    json_fields cleaning = json_begin();
+    json_add_count(&cleaning, "before", account->before);
+    json_add_count(&cleaning, "after", account->after);
+    json_add_count(&cleaning, "zero_length", account->zero_length);
+    json_add_count(&cleaning, "duplicate", account->duplicate);
+    json_add_count(&cleaning, "merged", account->merged);
+    json_add_count(&cleaning, "split", account->split);
+    json_add_count(&cleaning, "welded", account->welded);
+    json_add_count(&cleaning, "crossings", account->crossings);
+    json_add_real(&cleaning, "largest_move", account->largest_move);
+    json_add_fields(fields, key, &cleaning);
+}
+
+sl_status json_print(sl_context *context, json_fields *fields) {
+    sl_json_put_end(writer_of(fields), '}');
+    const bool failed = fields->failed || fields->writer.failed;
     // A write that fails shows when the program checks its stdout at the end.
-    if (!failed && json_dumpf(fields->object, stdout, JSON_INDENT(2)) == 0) putchar('\n');
-    json_decref(fields->object);
-    *fields = (sl_json_fields){0};
+    sl_json_writer out = sl_json_writer_to(stdout, 2);
+    if (!failed) {
+        sl_json_put_written(&out, fields->text, fields->size);
+        putchar('\n');
+    }
+    json_drop(fields);
     return failed ? sl_fail_memory(context) : SL_OK;
 }

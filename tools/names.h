@@ -4,26 +4,35 @@
 
 #include "sightline/stab.h"
 
-/// `count` structures of `stride` bytes, each starting with a pointer to its name.
-typedef struct sl_name_table {
+/// `count` structures of `stride` bytes that each start with a pointer to their name. Or, without
+/// them, a function that gives the names by number.
+typedef struct name_table {
     const char *kind; ///< "method", for messages
     const void *items;
     size_t stride, count;
-} sl_name_table;
+    const char *(*at)(size_t index); ///< instead of `items`
+} name_table;
 
-const char *sl_name_table_at(const sl_name_table *table, size_t index);
+const char *name_table_at(const name_table *table, size_t index);
 
-enum { SL_NAME_LIST = 256 };
+enum { NAME_LIST = 256 };
 
-/// All names with commas between, for messages: those that there is room for, "..." for the others,
-/// "none" where there are none. A name that is there twice, one behind the other, is told once.
-void sl_name_list(const sl_name_table *table, char text[SL_NAME_LIST]);
+/// All names with commas between, for messages. "..." stands for those that do not fit, "none" for
+/// an empty table. A name that follows itself appears once.
+void name_list(const name_table *table, char text[NAME_LIST]);
 
-/// The name of the table that a word was most likely meant to be; NULL where none is near.
-const char *sl_nearest_name(const sl_name_table *table, const char *word);
+/// The name that a misspelt word most likely means; NULL where none is near.
+const char *nearest_name(const name_table *table, const char *word);
 
 /// "closed" and "open", numbered as sl_sight is.
-sl_name_table sl_sight_table(void);
-const char *sl_sight_name(sl_sight sight);
+name_table sight_table(void);
+/// Numbered as in the tables of the library.
+name_table method_table(void);
+name_table effect_table(void);
+name_table subdivision_table(void);
+/// Numbered as by solver_at().
+name_table solver_table(void);
+
+const char *sight_name(sl_sight sight);
 
 #endif

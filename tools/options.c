@@ -1,7 +1,7 @@
 #include "options.h"
 
-#include "base/base.h"
-#include "base/number.h"
+#include "outputs.h"
+#include "sightline/support.h"
 
 #include <assert.h>
 #include <getopt.h>
@@ -10,9 +10,39 @@
 
 enum { MAX_OPTIONS = 64, HELP_COLUMN = 26 };
 
+/// All options of a command, with those of its groups, and the argument of each: NULL where the
+/// option is not given, "" for a flag. Arguments are gathered first and read afterwards, so that
+/// --help works beside a wrong argument.
+typedef struct parsing {
+    sl_context *context;
+    const command_usage *usage;
+    option_spec options[MAX_OPTIONS];
+    const char *arguments[MAX_OPTIONS];
+    size_t count;
+} parsing;
+
+// --- tables
+
+void option_table_add(option_table *table, const option_spec *items, size_t count) {
+    assert(table->count + count <= sizeof table->items / sizeof *table->items);
+    memcpy(table->items + table->count, items, count * sizeof *items);
+    table->count += count;
+}
+
+static void add_options(parsing *p, const option_spec *options, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        if (options[i].group) {
+            add_options(p, options[i].group->items, options[i].group->count);
+            continue;
+        }
+        assert(p->count < MAX_OPTIONS);
+        p->options[p->count++] = options[i];
+    }
+}
+
 // --- help
 
-static void print_option(const sl_option_spec *option) {
+static void print_option(const option_spec *option) {
     char head[64], letter[8] = "";
     if (option->letter) snprintf(letter, sizeof letter, "-%c, ", option->letter);
     const int width =
@@ -31,194 +61,167 @@ static void print_option(const sl_option_spec *option) {
     }
 }
 
-static void print_help(const sl_command_usage *usage, const sl_option_spec *options, size_t count) {
+static void print_help(const parsing *p) {
+    const command_usage *usage = p->usage;
     printf("usage: sightline %s %s\n\n%s\n\noptions:\n", usage->name, usage->synopsis, usage->what);
-    for (size_t i = 0; i < count; i++) print_option(&options[i]);
+    for (size_t i = 0; i < p->count; i++) print_option(&p->options[i]);
     if (usage->tables) usage->tables();
     printf("\nexamples:\n%s\n", usage->examples);
 }
 
 // --- parsing
 
-static sl_status fail_unknown(sl_context *context, const sl_command_usage *usage, const char *word,
-                              const sl_option_spec *options, size_t count) {
+static sl_status fail_unknown(const parsing *p, const char *word) {
+    const char *command = p->usage->name;
     if (word[1] == '.' || (word[1] >= '0' && word[1] <= '9'))
-        return sl_fail(context, SL_BAD_ARGUMENT,
+        return sl_fail(p->context, SL_BAD_ARGUMENT,
                        "'%s...' looks like an option; 'sightline %s [options] -- ...' takes what "
                        "follows the -- as it is",
-                       word, usage->name);
-    const sl_name_table names = {"option", options, sizeof *options, count};
+                       word, command);
+    const name_table names = {"option", p->options, sizeof *p->options, p->count, NULL};
     const char *bare = word + strspn(word, "-");
     const size_t length = strcspn(bare, "=");
     char name[64];
     snprintf(name, sizeof name, "%.*s", (int)length, bare);
     size_t fitting = 0;
-    for (size_t i = 0; i < count; i++)
-        fitting += word[1] == '-' && strncmp(options[i].name, name, length) == 0;
+    for (size_t i = 0; i < p->count; i++)
+        fitting += word[1] == '-' && strncmp(p->options[i].name, name, length) == 0;
     if (fitting > 1)
-        return sl_fail(context, SL_BAD_ARGUMENT,
+        return sl_fail(p->context, SL_BAD_ARGUMENT,
                        "--%s may mean several options; 'sightline %s --help' lists them", name,
-                       usage->name);
-    const char *near = sl_nearest_name(&names, name);
-    return sl_fail(context, SL_BAD_ARGUMENT,
+                       command);
+    const char *near = nearest_name(&names, name);
+    return sl_fail(p->context, SL_BAD_ARGUMENT,
                    "unknown option '%s'%s%s%s; 'sightline %s --help' lists the options", word,
-                   near ? " (did you mean --" : "", near ? near : "", near ? "?)" : "",
-                   usage->name);
+                   near ? " (did you mean --" : "", near ? near : "", near ? "?)" : "", command);
 }
 
-/// What getopt_long is told: the long options, by their place in the table, and the letters.
-static void fill_getopt(const sl_option_spec *options, size_t count, struct option *longs,
-                        char *letters) {
+/// The input of getopt_long: the long options, coded by their place in the table, and the letters.
+static void fill_getopt(const parsing *p, struct option *longs, char *letters) {
     *letters++ = ':'; // tell a missing argument from an unknown option
-    for (size_t i = 0; i < count; i++) {
-        const int takes = options[i].argument ? required_argument : no_argument;
-        longs[i] = (struct option){options[i].name, takes, NULL, 256 + (int)i};
-        if (!options[i].letter) continue;
-        *letters++ = options[i].letter;
-        if (options[i].argument) *letters++ = ':';
+    for (size_t i = 0; i < p->count; i++) {
+        const option_spec *option = &p->options[i];
+        const int takes = option->argument ? required_argument : no_argument;
+        longs[i] = (struct option){option->name, takes, NULL, 256 + (int)i};
+        if (!option->letter) continue;
+        *letters++ = option->letter;
+        if (option->argument) *letters++ = ':';
     }
-    longs[count] = (struct option){0};
+    longs[p->count] = (struct option){0};
     *letters = '\0';
 }
 
-static const sl_option_spec *find_option(const sl_option_spec *options, size_t count, int code) {
-    for (size_t i = 0; i < count; i++)
-        if (code == 256 + (int)i || (options[i].letter && code == options[i].letter))
-            return &options[i];
-    return NULL;
+/// The place of an option by the code that getopt_long returned; p->count for none.
+static size_t find_option(const parsing *p, int code) {
+    size_t i = 0;
+    while (i < p->count && code != 256 + (int)i &&
+           !(p->options[i].letter && code == p->options[i].letter))
+        i++;
+    return i;
 }
 
-static sl_status take_option(sl_context *context, const sl_command_usage *usage,
-                             const sl_option_spec *option) {
-    if (usage->repeats && strcmp(option->name, usage->repeats) == 0) {
-        sl_option_list *list = usage->repeated;
-        if (list->count == SL_OPTION_LIST_MOST)
-            return sl_fail(context, SL_BAD_ARGUMENT, "--%s is given more than %d times",
-                           option->name, SL_OPTION_LIST_MOST);
-        list->items[list->count++] = optarg;
-        return SL_OK;
-    }
-    if (option->flag ? *option->flag : *option->text != NULL)
-        return sl_fail(context, SL_BAD_ARGUMENT, "--%s is given twice", option->name);
-    if (option->flag)
-        *option->flag = true;
-    else
-        *option->text = optarg;
+static sl_status take_argument(parsing *p, size_t i) {
+    const option_spec *option = &p->options[i];
+    option_list *list = option->list;
+    if (!list && p->arguments[i])
+        return sl_fail(p->context, SL_BAD_ARGUMENT, "--%s is given twice", option->name);
+    if (list && list->count == OPTION_LIST_MOST)
+        return sl_fail(p->context, SL_BAD_ARGUMENT, "--%s is given more than %d times",
+                       option->name, OPTION_LIST_MOST);
+    p->arguments[i] = option->argument ? optarg : "";
+    if (list) list->items[list->count++] = optarg;
+    if (option->flag) *option->flag = true;
     return SL_OK;
 }
 
-static sl_status parse_options(sl_context *context, const sl_command_usage *usage,
-                               const sl_option_spec *options, size_t count, int argc, char **argv) {
+static sl_status take_arguments(parsing *p, int argc, char **argv) {
     struct option longs[MAX_OPTIONS + 1];
     char letters[2 * MAX_OPTIONS + 2];
-    fill_getopt(options, count, longs, letters);
+    fill_getopt(p, longs, letters);
     opterr = 0;
     for (;;) {
         const int code = getopt_long(argc, argv, letters, longs, NULL);
         if (code == -1) return SL_OK;
-        const sl_option_spec *option = find_option(options, count, code);
-        if (option) {
-            SL_TRY(take_option(context, usage, option));
+        size_t i = find_option(p, code);
+        if (i < p->count) {
+            SL_TRY(take_argument(p, i));
             continue;
         }
-        option = find_option(options, count, optopt);
+        i = find_option(p, optopt);
         if (code == ':')
-            return sl_fail(context, SL_BAD_ARGUMENT,
+            return sl_fail(p->context, SL_BAD_ARGUMENT,
                            "--%s needs an argument: %s; 'sightline %s --help' tells more",
-                           option->name, option->argument, usage->name);
-        if (option)
-            return sl_fail(context, SL_BAD_ARGUMENT, "--%s takes no argument", option->name);
+                           p->options[i].name, p->options[i].argument, p->usage->name);
+        if (i < p->count)
+            return sl_fail(p->context, SL_BAD_ARGUMENT, "--%s takes no argument",
+                           p->options[i].name);
         const char short_word[3] = {'-', (char)optopt, '\0'};
-        return fail_unknown(context, usage, optopt ? short_word : argv[optind - 1], options, count);
+        return fail_unknown(p, optopt ? short_word : argv[optind - 1]);
     }
 }
 
-static sl_status take_operands(sl_context *context, const sl_command_usage *usage, int argc,
-                               char **argv, const char **operands) {
+static sl_status take_operands(const parsing *p, int argc, char **argv, const char **operands) {
+    const command_usage *usage = p->usage;
     size_t wanted = 0;
     while (wanted < 4 && usage->operands[wanted]) wanted++;
     const size_t given = (size_t)(argc - optind);
     if (given < wanted)
-        return sl_fail(context, SL_BAD_ARGUMENT, "%s is missing; 'sightline %s --help' tells more",
-                       usage->operands[given], usage->name);
+        return sl_fail(p->context, SL_BAD_ARGUMENT,
+                       "%s is missing; 'sightline %s --help' tells more", usage->operands[given],
+                       usage->name);
     if (given > wanted && !usage->more)
-        return sl_fail(context, SL_BAD_ARGUMENT,
+        return sl_fail(p->context, SL_BAD_ARGUMENT,
                        "'%s' is one argument too many; 'sightline %s --help' tells more",
                        argv[optind + (int)wanted], usage->name);
     for (size_t i = 0; i < wanted; i++) {
         operands[i] = argv[optind + (int)i];
         if (!operands[i][0])
-            return sl_fail(context, SL_BAD_ARGUMENT,
+            return sl_fail(p->context, SL_BAD_ARGUMENT,
                            "%s is empty; 'sightline %s --help' tells more", usage->operands[i],
                            usage->name);
     }
     for (size_t i = wanted; i < given; i++) {
-        sl_option_list *list = usage->more;
-        if (list->count == SL_OPTION_LIST_MOST)
-            return sl_fail(context, SL_BAD_ARGUMENT, "more than %d arguments after %s",
-                           SL_OPTION_LIST_MOST, usage->operands[wanted - 1]);
+        option_list *list = usage->more;
+        if (list->count == OPTION_LIST_MOST)
+            return sl_fail(p->context, SL_BAD_ARGUMENT, "more than %d arguments after %s",
+                           OPTION_LIST_MOST, usage->operands[wanted - 1]);
         list->items[list->count++] = argv[optind + (int)i];
     }
     return SL_OK;
 }
 
-sl_status sl_option_parse(sl_console *console, const sl_command_usage *usage, int argc, char **argv,
-                          const char **operands, bool *helped) {
-    sl_option_spec options[MAX_OPTIONS];
-    size_t count = usage->option_count;
-    assert(count + 2 <= MAX_OPTIONS);
-    *helped = false;
-    memcpy(options, usage->options, count * sizeof *options);
-    options[count++] =
-        (sl_option_spec){.name = "quiet",
-                         .letter = 'q',
-                         .flag = &console->quiet,
-                         .help = "no notes, no progress, no report of what is written"};
-    options[count++] =
-        (sl_option_spec){.name = "help", .letter = 'h', .flag = helped, .help = "this text"};
-    SL_TRY(parse_options(console->context, usage, options, count, argc, argv));
-    if (*helped) {
-        print_help(usage, options, count);
-        return SL_OK;
-    }
-    return take_operands(console->context, usage, argc, argv, operands);
-}
-
 // --- numbers
 
-sl_status sl_option_number(sl_context *context, const char *option, const char *text,
-                           double *value) {
-    if (!text) return SL_OK;
+sl_status read_number(sl_context *context, const char *label, const char *text, double *value) {
     double number;
     if (!sl_number_read(text, strlen(text), &number) || !isfinite(number))
-        return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: a finite number is needed", option, text);
+        return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: a finite number is needed", label, text);
     *value = number;
     return SL_OK;
 }
 
-/// Digits, all of text[0 .. length), of a value up to the maximum.
-static bool read_count(const char *text, size_t length, uint64_t maximum, uint64_t *value) {
+/// Reads text[0 .. length), all digits, as a value up to `most`.
+static bool parse_count(const char *text, size_t length, uint64_t most, uint64_t *value) {
     uint64_t number = 0;
     for (size_t i = 0; i < length; i++) {
         if (text[i] < '0' || text[i] > '9') return false;
         const unsigned digit = (unsigned)(text[i] - '0');
-        if (digit > maximum || number > (maximum - digit) / 10) return false;
+        if (digit > most || number > (most - digit) / 10) return false;
         number = number * 10 + digit;
     }
     *value = number;
     return length > 0;
 }
 
-sl_status sl_option_count(sl_context *context, const char *option, const char *text,
-                          uint64_t maximum, uint64_t *value) {
-    if (!text || read_count(text, strlen(text), maximum, value)) return SL_OK;
+sl_status read_count(sl_context *context, const char *label, const char *text, uint64_t most,
+                     uint64_t *value) {
+    if (parse_count(text, strlen(text), most, value)) return SL_OK;
     return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: a whole number from 0 to %llu is needed",
-                   option, text, (unsigned long long)maximum);
+                   label, text, (unsigned long long)most);
 }
 
-sl_status sl_option_size(sl_context *context, const char *option, const char *text,
-                         uint64_t *bytes) {
-    if (!text) return SL_OK;
+static sl_status read_bytes(sl_context *context, const char *label, const char *text,
+                            uint64_t *bytes) {
     const char units[] = "KMGT";
     size_t length = strlen(text);
     unsigned shift = 0;
@@ -228,44 +231,59 @@ sl_status sl_option_size(sl_context *context, const char *option, const char *te
         length--;
     }
     uint64_t number;
-    if (!read_count(text, length, UINT64_MAX >> shift, &number))
+    if (!parse_count(text, length, UINT64_MAX >> shift, &number))
         return sl_fail(context, SL_BAD_ARGUMENT,
-                       "%s %s: a number of bytes is needed, as 4096, 64K, 256M or 2G", option,
-                       text);
+                       "%s %s: a number of bytes is needed, as 4096, 64K, 256M or 2G", label, text);
     *bytes = number << shift;
     return SL_OK;
 }
 
-sl_status sl_option_point(sl_context *context, const char *option, const char *text,
-                          sl_point *point) {
-    if (!text) return SL_OK;
+sl_status read_point(sl_context *context, const char *label, const char *text, sl_point *point) {
     const size_t comma = strcspn(text, ",");
     sl_point p;
     if (!text[comma] || !sl_number_read(text, comma, &p.x) ||
         !sl_number_read(text + comma + 1, strlen(text + comma + 1), &p.y) || !isfinite(p.x) ||
         !isfinite(p.y))
         return sl_fail(context, SL_BAD_ARGUMENT,
-                       "%s %s: two finite numbers with a comma between are needed, as 3.5,2",
-                       option, text);
+                       "%s %s: two finite numbers with a comma between are needed, as 3.5,2", label,
+                       text);
     *point = p;
     return SL_OK;
 }
 
+/// Checks that a number is in the range of its option.
+static sl_status check_range(sl_context *context, const char *label, const char *text,
+                             const option_spec *option, double value) {
+    const bool fits = value >= option->least && !(option->over_0 && value <= 0) &&
+                      (option->most == 0 || value <= option->most);
+    if (fits) return SL_OK;
+    char needs[80];
+    if (option->count || option->count32)
+        snprintf(needs, sizeof needs, "at least %g is needed", option->least);
+    else if (option->over_0)
+        snprintf(needs, sizeof needs, "a number over 0 is needed");
+    else
+        snprintf(needs, sizeof needs, "a number from %g to %g is needed", option->least,
+                 option->most);
+    return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: %s", label, text,
+                   option->needs ? option->needs : needs);
+}
+
 // --- names
 
-/// "dfs, sweep": as many as fit.
-static void write_names(const sl_name_table *table, char *text, size_t size) {
+/// "dfs, sweep": as many names as fit.
+static void write_names(const name_table *table, char *text, size_t size) {
     text[0] = '\0';
     for (size_t i = 0; i < table->count; i++) {
         const size_t used = strlen(text);
-        snprintf(text + used, size - used, "%s%s", i ? ", " : "", sl_name_table_at(table, i));
+        snprintf(text + used, size - used, "%s%s", i ? ", " : "", name_table_at(table, i));
     }
 }
 
-static sl_status find_name(sl_context *context, const char *option, const char *word, size_t length,
-                           const sl_name_table *table, size_t *index) {
+static sl_status find_name(sl_context *context, const char *label, const char *word, size_t length,
+                           const name_table *table, size_t *index) {
     for (size_t i = 0; i < table->count; i++) {
-        const char *name = sl_name_table_at(table, i);
+        const char *name = name_table_at(table, i);
         if (strlen(name) == length && memcmp(name, word, length) == 0) {
             *index = i;
             return SL_OK;
@@ -273,28 +291,101 @@ static sl_status find_name(sl_context *context, const char *option, const char *
     }
     char known[512];
     write_names(table, known, sizeof known);
-    return sl_fail(context, SL_BAD_ARGUMENT, "%s: there is no %s '%.*s'; choose from %s", option,
+    return sl_fail(context, SL_BAD_ARGUMENT, "%s: there is no %s '%.*s'; choose from %s", label,
                    table->kind, (int)length, word, known);
 }
 
-sl_status sl_option_choice(sl_context *context, const char *option, const char *text,
-                           const sl_name_table *table, size_t *index) {
-    return text ? find_name(context, option, text, strlen(text), table, index) : SL_OK;
+sl_status read_choice(sl_context *context, const char *label, const char *text,
+                      const name_table *table, size_t *index) {
+    return find_name(context, label, text, strlen(text), table, index);
 }
 
-sl_status sl_option_choices(sl_context *context, const char *option, const char *text,
-                            const sl_name_table *table, unsigned *bits) {
-    if (!text) return SL_OK;
+static sl_status read_choices(sl_context *context, const char *label, const char *text,
+                              const name_table *table, unsigned *bits) {
     unsigned chosen = 0;
     assert(table->count <= 32);
     for (const char *word = text; strcmp(text, "none") != 0;) {
         const size_t length = strcspn(word, ",");
         size_t index;
-        SL_TRY(find_name(context, option, word, length, table, &index));
+        SL_TRY(find_name(context, label, word, length, table, &index));
         chosen |= 1u << index;
         if (!word[length]) break;
         word += length + 1;
     }
     *bits = chosen;
+    return SL_OK;
+}
+
+// --- from arguments to targets
+
+static sl_status set_count(sl_context *context, const char *label, const char *text,
+                           const option_spec *option) {
+    const uint64_t any = option->count ? UINT64_MAX : UINT32_MAX;
+    uint64_t count;
+    SL_TRY(
+        read_count(context, label, text, option->most > 0 ? (uint64_t)option->most : any, &count));
+    SL_TRY(check_range(context, label, text, option, (double)count));
+    if (option->count)
+        *option->count = count;
+    else
+        *option->count32 = (uint32_t)count;
+    return SL_OK;
+}
+
+static sl_status set_sight(sl_context *context, const char *label, const char *text,
+                           sl_sight *sight) {
+    const name_table names = sight_table();
+    size_t index;
+    SL_TRY(read_choice(context, label, text, &names, &index));
+    *sight = (sl_sight)index;
+    return SL_OK;
+}
+
+static sl_status set_target(sl_context *context, const option_spec *option, const char *text,
+                            const char *input) {
+    char label[40];
+    if (option->letter)
+        snprintf(label, sizeof label, "-%c", option->letter);
+    else
+        snprintf(label, sizeof label, "--%s", option->name);
+    if (option->given && !*option->given) *option->given = option->name;
+    if (option->text) *option->text = text;
+    if (option->number) {
+        SL_TRY(read_number(context, label, text, option->number));
+        const bool ranges = option->most != 0 || option->over_0 || option->needs;
+        return ranges ? check_range(context, label, text, option, *option->number) : SL_OK;
+    }
+    if (option->count || option->count32) return set_count(context, label, text, option);
+    if (option->bytes) return read_bytes(context, label, text, option->bytes);
+    if (option->point) return read_point(context, label, text, option->point);
+    if (option->sight) return set_sight(context, label, text, option->sight);
+    if (option->choice) return read_choice(context, label, text, &option->names, option->choice);
+    if (option->choices) return read_choices(context, label, text, &option->names, option->choices);
+    if (option->check == CHECK_FILE) return output_check_file(context, input, label, text);
+    if (option->check == CHECK_PICTURE) return output_check_picture(context, input, label, text);
+    if (option->check == CHECK_BAKED) return output_check_baked(context, input, label, text);
+    return SL_OK;
+}
+
+sl_status options_parse(command_console *console, const command_usage *usage, int argc, char **argv,
+                        const char **operands, bool *helped) {
+    const option_spec common[] = {
+        {"quiet", 'q', NULL, "no notes, no progress, no report of what is written",
+         .flag = &console->quiet},
+        {"help", 'h', NULL, "this text", .flag = helped},
+    };
+    parsing p = {.context = console->context, .usage = usage};
+    *helped = false;
+    add_options(&p, usage->options, usage->option_count);
+    add_options(&p, common, sizeof common / sizeof *common);
+    SL_TRY(take_arguments(&p, argc, argv));
+    if (*helped) {
+        print_help(&p);
+        return SL_OK;
+    }
+    SL_TRY(take_operands(&p, argc, argv, operands));
+    for (size_t i = 0; i < p.count; i++)
+        if (p.arguments[i])
+            SL_TRY(set_target(p.context, &p.options[i], p.arguments[i], operands[0]));
     return SL_OK;
 }

@@ -1,5 +1,5 @@
-/// Command-line options: one table says what a command takes, and both parsing and --help follow
-/// it.
+/// Command-line options. A command has one typed table of what it takes. Parsing, checking and
+/// --help all follow the table.
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
@@ -7,64 +7,87 @@
 #include "names.h"
 #include "sightline/geometry.h"
 
-#define SL_OPTION_LIST_MOST 4096
+#define OPTION_LIST_MOST 4096
 
 /// The arguments of an option that may be given several times, in order.
-typedef struct sl_option_list {
-    const char *items[SL_OPTION_LIST_MOST];
+typedef struct option_list {
+    const char *items[OPTION_LIST_MOST];
     size_t count;
-} sl_option_list;
+} option_list;
 
-/// An option: either a flag, or text that the functions below read. Given twice it is an error, but
-/// for a command's option that may repeat.
-typedef struct sl_option_spec {
+/// How the name of an output file is checked before the work begins (outputs.h).
+typedef enum output_check { CHECK_NONE, CHECK_FILE, CHECK_PICTURE, CHECK_BAKED } output_check;
+
+typedef struct option_table option_table;
+
+/// An option. It has at most one of the targets from `number` to `list`; the type of the target
+/// says how the argument is read. An option that is not given leaves its targets as they are. To
+/// give an option twice is an error, unless its target is a list.
+typedef struct option_spec {
     const char *name;     ///< without its dashes
     char letter;          ///< its short form, 0 for none
     const char *argument; ///< what --help calls its argument; NULL for a flag
-    bool *flag;           ///< set where it is given
-    const char **text;    ///< its argument where it is given, else left as it is
     const char *help;     ///< lines
-} sl_option_spec;
 
-/// What a command is called with, for --help and for messages.
-typedef struct sl_command_usage {
+    bool *flag;         ///< set to true where the option is given
+    const char **given; ///< set to its name, unless another option has set it before
+    const char **text;  ///< its argument as it was given
+
+    double *number;    ///< any finite number
+    uint64_t *count;   ///< a whole number
+    uint32_t *count32; ///< likewise
+    uint64_t *bytes;   ///< "4096", "64K", "256M", "2G", "1T", by powers of 1024
+    sl_point *point;   ///< "X,Y"
+    sl_sight *sight;   ///< "closed" or "open"
+    size_t *choice;    ///< one of `names`
+    unsigned *choices; ///< names of `names` with commas between, a bit for each; "none" for none
+    option_list *list; ///< may be given several times
+
+    name_table names;
+    double least, most; ///< of a number or a count; most = 0: no limit
+    bool over_0;        ///< a number must be over 0
+    const char *needs;  ///< says what is needed; NULL: as least, most and over_0 say
+    output_check check;
+
+    const option_table *group; ///< instead of all this: a group's options stand here
+} option_spec;
+
+/// A group of options that several commands share. Its targets belong to one command.
+struct option_table {
+    option_spec items[24];
+    size_t count;
+};
+
+void option_table_add(option_table *table, const option_spec *items, size_t count);
+
+/// How a command is used: for parsing, --help and messages.
+typedef struct command_usage {
     const char *name;
     const char *synopsis;    ///< what follows the name: "MAP [-o FILE.slv] [options]"
     const char *operands[4]; ///< what is given without an option, by the names that help uses
     const char *what;        ///< lines
-    void (*tables)(void); ///< prints what may be chosen from, after the options; NULL for nothing
-    const char *examples; ///< lines
-    const sl_option_spec *options;
+    void (*tables)(void);    ///< prints what may be chosen from, after the options; NULL: nothing
+    const char *examples;    ///< lines
+    const option_spec *options;
     size_t option_count;
-    const char *repeats;      ///< the name of the option that may be given several times, or NULL
-    sl_option_list *repeated; ///< where all its arguments go
-    sl_option_list *more;     ///< where what follows the operands goes; NULL where nothing may
-} sl_command_usage;
+    option_list *more; ///< where what follows the operands goes; NULL where nothing may
+} command_usage;
 
-/// Reads the arguments after the command's name, argv[0]; adds --help and --quiet to the options.
-/// `operands` has a place for each operand of the usage. After --help, *helped is true and nothing
-/// else is to be done.
-sl_status sl_option_parse(sl_console *console, const sl_command_usage *usage, int argc, char **argv,
-                          const char **operands, bool *helped);
+/// Reads the arguments after the command's name, argv[0], and fills the targets. Adds --help and
+/// --quiet to the options. `operands` has a place for each operand of the usage. The first of them
+/// is the input, which no output file may be. After --help, *helped is true and nothing else is
+/// done. SL_BAD_ARGUMENT, with a message that names the option.
+sl_status options_parse(command_console *console, const command_usage *usage, int argc, char **argv,
+                        const char **operands, bool *helped);
 
-/// Each reads an option's text, all of it; `option` is for the message, as "--slice". Where text is
-/// NULL, the option was not given: the value stays as it is.
-sl_status sl_option_number(sl_context *context, const char *option, const char *text,
-                           double *value);
-sl_status sl_option_count(sl_context *context, const char *option, const char *text,
-                          uint64_t maximum, uint64_t *value);
-/// A number of bytes: "4096", "64K", "256M", "2G", "1T", by powers of 1024.
-sl_status sl_option_size(sl_context *context, const char *option, const char *text,
-                         uint64_t *bytes);
-/// "X,Y"
-sl_status sl_option_point(sl_context *context, const char *option, const char *text,
-                          sl_point *point);
-
-/// One of the table by name.
-sl_status sl_option_choice(sl_context *context, const char *option, const char *text,
-                           const sl_name_table *table, size_t *index);
-/// Names of the table with commas between: a bit for each, of at most 32; "none" for none.
-sl_status sl_option_choices(sl_context *context, const char *option, const char *text,
-                            const sl_name_table *table, unsigned *bits);
+/// For arguments that the table cannot describe. Each reads all of the text. `label` is for the
+/// message: "--slice", or the name of an operand.
+sl_status read_count(sl_context *context, const char *label, const char *text, uint64_t most,
+                     uint64_t *value);
+sl_status read_number(sl_context *context, const char *label, const char *text, double *value);
+sl_status read_point(sl_context *context, const char *label, const char *text, sl_point *point);
+/// Finds a name in a table.
+sl_status read_choice(sl_context *context, const char *label, const char *text,
+                      const name_table *table, size_t *index);
 
 #endif

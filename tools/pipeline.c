@@ -1,126 +1,146 @@
 #include "pipeline.h"
 
-#include "base/base.h"
 #include "inputs.h"
-#include "plan_report.h"
+#include "sightline/support.h"
 #include "solvers.h"
-
-#include <string.h>
-
-static sl_name_table subdivision_names(void) {
-    sl_name_table names = {.kind = "subdivision", .stride = sizeof(sl_subdivision)};
-    names.items = sl_subdivisions(&names.count);
-    return names;
-}
 
 static const char *const kd_rules[] = {"spanning", "obscured", "cleaving", "median"};
 enum { SPANNING = 1, OBSCURED = 2, CLEAVING = 4, MEDIAN = 8, ALL_RULES = 15 };
-static const sl_name_table kd_rule_names = {"rule", kd_rules, sizeof *kd_rules, 4};
+static const name_table kd_rule_names = {"rule", kd_rules, sizeof *kd_rules, 4, NULL};
 
-static sl_status plan_subdivision(sl_context *context, const sl_pipeline_texts *texts,
-                                  sl_pipeline *plan) {
-    const sl_name_table names = subdivision_names();
-    size_t subdivide = 0; // which takes rules
-    unsigned rules = ALL_RULES;
-    SL_TRY(sl_option_choice(context, "--subdivide", texts->subdivide, &names, &subdivide));
-    SL_TRY(sl_option_choices(context, "--kd-rules", texts->kd_rules, &kd_rule_names, &rules));
-    sl_subdivide_options *options = &plan->options;
-    *options = sl_subdivide_options_default();
-    SL_TRY(sl_option_number(context, "--kd-obscured", texts->kd_obscured, &options->obscured));
-    if (options->obscured < 0 || options->obscured > 1)
-        return sl_fail(context, SL_BAD_ARGUMENT, "--kd-obscured %s: a share from 0 to 1 is needed",
-                       texts->kd_obscured);
-    if (texts->kd_obscured && !(rules & OBSCURED))
+// --- options
+
+map_pipeline pipeline_default(void) {
+    return (map_pipeline){
+        .input = input_options_default(), .bake = sl_bake_options_default(), .kd_rules = ALL_RULES};
+}
+
+option_table pipeline_without_table(map_pipeline *p) {
+    const option_spec without = {"without",
+                                 0,
+                                 "EFFECT,...",
+                                 "leave out what the map calls for",
+                                 .choices = &p->without,
+                                 .names = effect_table()};
+    option_table table = {0};
+    option_table_add(&table, &without, 1);
+    return table;
+}
+
+option_table pipeline_option_table(map_pipeline *p) {
+    const option_spec cutting[] = {
+        {"subdivide", 0, "kd|mesh|given",
+         "how to cut the map into cells (default: given where\nthe map brings cells, kd on axial "
+         "maps, else mesh)",
+         .choice = &p->subdivide, .names = subdivision_table(), .text = &p->subdivide_text},
+        {"kd-rules", 0, "RULE,...",
+         "the rules kept, of spanning, obscured, cleaving,\nmedian (the default is all; none: "
+         "none)",
+         .choices = &p->kd_rules, .names = kd_rule_names, .given = &p->kd_rules_given},
+        {"kd-obscured", 0, "SHARE", "prefer lines of which walls cover this share, 0 to 1",
+         .number = &p->bake.rules.obscured, .most = 1, .needs = "a share from 0 to 1 is needed",
+         .given = &p->kd_obscured_given},
+    };
+    const option_spec rest[] = {
+        {"start", 0, "X,Y", "a start beside the map's own: starts tell inside\nfrom outside",
+         .point = &p->start, .text = &p->start_text},
+    };
+    const option_spec check = {"check", 0, NULL,
+                               "check the whole graph of cells and portals (for a\nmesh: always)",
+                               .flag = &p->bake.check};
+    const option_table input = input_option_table(&p->input), without = pipeline_without_table(p);
+    option_table table = {0};
+    option_table_add(&table, cutting, sizeof cutting / sizeof *cutting);
+    option_table_add(&table, input.items, input.count);
+    option_table_add(&table, rest, 1);
+    option_table_add(&table, without.items, without.count);
+    option_table_add(&table, &check, 1);
+    return table;
+}
+
+sl_status pipeline_plan(sl_context *context, const char *path, map_pipeline *p) {
+    size_t count;
+    const sl_subdivision *chosen = &sl_subdivisions(&count)[p->subdivide];
+    const bool kd_wanted = p->kd_rules_given || p->kd_obscured_given;
+    sl_subdivide_options *rules = &p->bake.rules;
+    p->path = path;
+    p->bake.clean = p->input.clean;
+    if (p->kd_obscured_given && !(p->kd_rules & OBSCURED))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--kd-obscured needs the rule 'obscured', which --kd-rules leaves out");
-    if (texts->kd_rules) {
-        options->spanning = rules & SPANNING;
-        if (!(rules & OBSCURED)) options->obscured = 0;
-        options->cleaving = rules & CLEAVING;
-        options->median = rules & MEDIAN;
-    }
-    const bool kd_wanted = texts->kd_rules || texts->kd_obscured;
-    const sl_subdivision *chosen = (const sl_subdivision *)names.items + subdivide;
+    if (!(p->kd_rules & SPANNING)) rules->spanning = false;
+    if (!(p->kd_rules & OBSCURED)) rules->obscured = 0;
+    if (!(p->kd_rules & CLEAVING)) rules->cleaving = false;
+    if (!(p->kd_rules & MEDIAN)) rules->median = false;
     if (!chosen->takes_rules && kd_wanted)
-        return sl_fail(context, SL_BAD_ARGUMENT, "%s is for --subdivide kd, not %s",
-                       texts->kd_rules ? "--kd-rules" : "--kd-obscured", texts->subdivide);
-    if (texts->subdivide || kd_wanted) plan->subdivision = chosen;
-    plan->texts.cells = texts->subdivide && chosen->takes_cells;
-    return SL_OK;
-}
-
-sl_status sl_pipeline_plan(sl_context *context, const char *input, const sl_pipeline_texts *texts,
-                           sl_pipeline *out) {
-    sl_pipeline plan = {.input = input, .texts = texts->input, .start = texts->start};
-    sl_effect_names list;
-    const sl_name_table effects = sl_effect_table(&list);
-    SL_TRY(sl_option_choices(context, "--without", texts->without, &effects, &plan.without));
-    SL_TRY(plan_subdivision(context, texts, &plan));
-#ifdef NDEBUG
-    plan.check = texts->check;
-#else
-    plan.check = true;
+        return sl_fail(context, SL_BAD_ARGUMENT, "--%s is for --subdivide kd, not %s",
+                       p->kd_rules_given ? p->kd_rules_given : p->kd_obscured_given,
+                       p->subdivide_text);
+    if (p->subdivide_text || kd_wanted) p->bake.subdivision = chosen;
+    p->input.import.cells = p->subdivide_text && chosen->takes_cells;
+#ifndef NDEBUG
+    p->bake.check = true;
 #endif
-    *out = plan;
     return SL_OK;
 }
 
-static sl_status add_start(sl_context *context, const sl_pipeline *pipeline, sl_map *map) {
-    if (!pipeline->start) return SL_OK;
-    sl_point at = {0};
-    SL_TRY(sl_option_point(context, "--start", pipeline->start, &at));
+// --- the way
+
+static sl_status add_start(sl_context *context, const map_pipeline *pipeline, sl_map *map) {
+    if (!pipeline->start_text) return SL_OK;
+    const sl_point at = pipeline->start;
     const sl_box b = sl_map_bounds(map);
     if (at.x < b.min.x || at.x > b.max.x || at.y < b.min.y || at.y > b.max.y)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--start %s: outside the map; sightline info %s tells its bounds",
-                       pipeline->start, pipeline->input);
+                       pipeline->start_text, pipeline->path);
     return sl_map_add_start(context, map, at, 0, 0);
 }
 
-sl_status sl_pipeline_read(sl_context *context, const sl_pipeline *pipeline, sl_map *map) {
-    SL_TRY(sl_input_read_map(context, pipeline->input, &pipeline->texts, map));
-    if (pipeline->subdivision && !pipeline->subdivision->takes_cells)
+sl_status pipeline_read(sl_context *context, const map_pipeline *pipeline, sl_map *map) {
+    SL_TRY(input_read_map(context, pipeline->path, &pipeline->input, map));
+    if (pipeline->bake.subdivision && !pipeline->bake.subdivision->takes_cells)
         sl_map_drop_cells(context, map);
     SL_TRY(add_start(context, pipeline, map));
     sl_effects_leave_out(context, map, pipeline->without);
     return SL_OK;
 }
 
-sl_status sl_pipeline_read_clean(sl_context *context, const sl_pipeline *pipeline, sl_map *map,
-                                 sl_clean_account *account) {
-    SL_TRY(sl_pipeline_read(context, pipeline, map));
-    return sl_input_clean(context, &pipeline->texts, map, account);
+sl_status pipeline_read_clean(sl_context *context, const map_pipeline *pipeline, sl_map *map,
+                              sl_clean_account *account) {
+    SL_TRY(pipeline_read(context, pipeline, map));
+    return input_clean(context, &pipeline->input, map, account);
 }
 
-const sl_subdivision *sl_pipeline_subdivision(const sl_pipeline *pipeline, const sl_map *map) {
-    return pipeline->subdivision ? pipeline->subdivision : sl_subdivision_for(map);
+sl_status pipeline_subdivide(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
+                             sl_space *space) {
+    const sl_bake_options *bake = &pipeline->bake;
+    const sl_subdivision *way = bake->subdivision ? bake->subdivision : sl_subdivision_for(map);
+    SL_TRY(way->subdivide(context, map, &bake->rules, space));
+    return bake->check || space->neighbour ? sl_space_check(context, space) : SL_OK;
 }
 
-sl_status sl_pipeline_subdivide(sl_context *context, const sl_pipeline *pipeline, const sl_map *map,
-                                sl_space *space) {
-    const sl_subdivision *subdivision = sl_pipeline_subdivision(pipeline, map);
-    return subdivision->subdivide(context, map, &pipeline->options, space);
-}
-
-bool sl_pipeline_checks(const sl_pipeline *pipeline, const sl_space *space) {
-    return pipeline->check || space->beyond;
-}
-
-sl_status sl_pipeline_check(sl_context *context, const sl_pipeline *pipeline,
-                            const sl_space *space) {
-    return sl_pipeline_checks(pipeline, space) ? sl_space_check(context, space) : SL_OK;
-}
-
-sl_name_table sl_pipeline_solver_names(sl_solver solvers[SL_SOLVERS_MOST]) {
-    sl_name_table names = {"solver", solvers, sizeof *solvers, 0};
-    while (names.count < SL_SOLVERS_MOST && sl_solver_at(names.count)) {
-        solvers[names.count] = *sl_solver_at(names.count);
-        names.count++;
+sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline, const char *user,
+                              unsigned effects, sl_baked *baked) {
+    const char *path = pipeline->path;
+    if (input_ends_with(path, ".slv")) {
+        SL_TRY(input_refuse_options(context, path, &pipeline->input));
+        SL_TRY(input_read_baked(context, path, baked));
+        return sl_effects_check(context, &baked->map, user, effects);
     }
-    return names;
+    sl_map map = {0};
+    sl_bake_options options = pipeline->bake;
+    sl_bake_account account = {0};
+    sl_status status = pipeline_read(context, pipeline, &map);
+    if (status == SL_OK) status = sl_effects_check(context, &map, user, effects);
+    if (status == SL_OK) status = sl_bake_space(context, &map, &options, baked, &account);
+    sl_map_destroy(context, &map);
+    return status;
 }
 
-void sl_pipeline_print_subdivisions(void) {
+// --- help
+
+void pipeline_print_subdivisions(void) {
     puts("\nsubdivisions (default: given where a map text brings cells, kd where all\nwalls are "
          "axial, else mesh):");
     size_t count;
@@ -131,16 +151,15 @@ void sl_pipeline_print_subdivisions(void) {
            sl_subdivide_options_default().obscured);
 }
 
-void sl_pipeline_print_effects(void) {
-    sl_effect_names list;
-    const sl_name_table effects = sl_effect_table(&list);
+void pipeline_print_effects(void) {
+    const name_table effects = effect_table();
     printf("\neffects, for --without: ");
     for (size_t i = 0; i < effects.count; i++)
-        printf("%s%s", i ? ", " : "", sl_name_table_at(&effects, i));
+        printf("%s%s", i ? ", " : "", name_table_at(&effects, i));
     putchar('\n');
 }
 
-void sl_pipeline_print_methods(const char *on_methods, const char *on_solvers) {
+void pipeline_print_methods(const char *on_methods, const char *on_solvers) {
     size_t count;
     const sl_see_method *methods = sl_see_methods(&count);
     printf("\nmethods%s:\n", on_methods);
@@ -149,7 +168,7 @@ void sl_pipeline_print_methods(const char *on_methods, const char *on_solvers) {
                methods[i].stabs ? "as exact as the solver"
                                 : sl_guarantee_name(methods[i].guarantee));
     printf("\nsolvers%s:\n", on_solvers);
-    for (size_t i = 0; sl_solver_at(i); i++)
-        printf("  %-12s%s; %s\n", sl_solver_at(i)->name, sl_solver_at(i)->what,
-               sl_guarantee_name(sl_solver_at(i)->guarantee));
+    for (size_t i = 0; solver_at(i); i++)
+        printf("  %-12s%s; %s\n", solver_at(i)->name, solver_at(i)->what,
+               sl_guarantee_name(solver_at(i)->guarantee));
 }

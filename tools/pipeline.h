@@ -1,95 +1,56 @@
-/// The way from a map's file to its space, and the options that say how it is gone: shared by all
-/// commands that subdivide a map.
+/// From a map's file to its space, and the options for it. All commands that subdivide a map share
+/// them.
 #ifndef PIPELINE_H
 #define PIPELINE_H
 
 #include "inputs.h"
-#include "options.h"
-#include "sightline/cell_to_cell.h"
 
-/// The options as they are given.
-typedef struct sl_pipeline_texts {
-    sl_input_texts input;
-    const char *subdivide, *kd_rules, *kd_obscured, *start, *without;
-    bool check;
-} sl_pipeline_texts;
+/// How a map is read, cleaned and subdivided.
+typedef struct map_pipeline {
+    const char *path; ///< the map's file
+    input_options input;
+    sl_bake_options bake;   ///< the method is the command's
+    sl_point start;         ///< beside the map's own, where `start_text` is not NULL
+    const char *start_text; ///< as it is given
+    unsigned without;       ///< effects to leave out: bits of sl_effects()
 
-/// Those options, for a command's table of options.
-#define SL_PIPELINE_OPTIONS(texts)                                                                 \
-    {"subdivide",                                                                                  \
-     0,                                                                                            \
-     "kd|mesh|given",                                                                              \
-     NULL,                                                                                         \
-     &(texts).subdivide,                                                                           \
-     "how to cut the map into cells (default: given where\nthe map brings cells, kd on axial "     \
-     "maps, else mesh)"},                                                                          \
-        {"kd-rules",                                                                               \
-         0,                                                                                        \
-         "RULE,...",                                                                               \
-         NULL,                                                                                     \
-         &(texts).kd_rules,                                                                        \
-         "the rules kept, of spanning, obscured, cleaving,\n"                                      \
-         "median (the default is all; none: none)"},                                               \
-        {"kd-obscured",                                                                            \
-         0,                                                                                        \
-         "SHARE",                                                                                  \
-         NULL,                                                                                     \
-         &(texts).kd_obscured,                                                                     \
-         "prefer lines of which walls cover this share, 0 to 1"},                                  \
-        SL_INPUT_OPTIONS((texts).input),                                                           \
-        {"start",        0,                                                                        \
-         "X,Y",          NULL,                                                                     \
-         &(texts).start, "a start beside the map's own: starts tell inside\nfrom outside"},        \
-        {"without", 0, "EFFECT,...", NULL, &(texts).without, "leave out what the map calls for"},  \
-    {                                                                                              \
-        "check", 0, NULL, &(texts).check, NULL,                                                    \
-            "check the whole graph of cells and portals (for a\nmesh: always)"                     \
-    }
+    // What the options of the subdivision say. pipeline_plan() puts it into `bake`.
+    size_t subdivide;           ///< of sl_subdivisions()
+    const char *subdivide_text; ///< NULL where it is not given
+    unsigned kd_rules;          ///< bits
+    const char *kd_rules_given, *kd_obscured_given;
+} map_pipeline;
 
-/// The options as they are meant.
-typedef struct sl_pipeline {
-    const char *input, *start;
-    sl_input_texts texts;              ///< how the input is read
-    const sl_subdivision *subdivision; ///< NULL where the map decides
-    unsigned without;                  ///< bits of sl_effects()
-    sl_subdivide_options options;
-    bool check;
-} sl_pipeline;
+map_pipeline pipeline_default(void);
 
-sl_status sl_pipeline_plan(sl_context *context, const char *input, const sl_pipeline_texts *texts,
-                           sl_pipeline *out);
+/// The command-line options that fill it, with those of its input.
+option_table pipeline_option_table(map_pipeline *pipeline);
+/// The option --without alone.
+option_table pipeline_without_table(map_pipeline *pipeline);
 
-/// Reads the map, adds the start asked for and leaves out the effects named.
-sl_status sl_pipeline_read(sl_context *context, const sl_pipeline *pipeline, sl_map *map);
+/// Call it after the options are read and before anything else.
+sl_status pipeline_plan(sl_context *context, const char *path, map_pipeline *pipeline);
 
-/// The same, and cleans the map. `account` may be NULL.
-sl_status sl_pipeline_read_clean(sl_context *context, const sl_pipeline *pipeline, sl_map *map,
-                                 sl_clean_account *account);
+/// Reads the map, adds the start of --start and drops the effects of --without.
+sl_status pipeline_read(sl_context *context, const map_pipeline *pipeline, sl_map *map);
 
-/// The subdivision: the one asked for, or what the map's walls call for.
-const sl_subdivision *sl_pipeline_subdivision(const sl_pipeline *pipeline, const sl_map *map);
+/// Does the same, and cleans the map. `account` may be NULL.
+sl_status pipeline_read_clean(sl_context *context, const map_pipeline *pipeline, sl_map *map,
+                              sl_clean_account *account);
 
-/// Subdivides a map that is clean.
-sl_status sl_pipeline_subdivide(sl_context *context, const sl_pipeline *pipeline, const sl_map *map,
-                                sl_space *space);
+/// Subdivides a clean map. Checks the space if asked to, and always for a mesh.
+sl_status pipeline_subdivide(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
+                             sl_space *space);
 
-/// Whether the space is to be checked: where that is asked for, and each mesh, for which it costs
-/// little. What is baked is then never refused by those who read it.
-bool sl_pipeline_checks(const sl_pipeline *pipeline, const sl_space *space);
+/// The space of a map, or of a baked file (a name that ends in .slv). Fails where the map has
+/// effects other than `effects`, those that the command `user` supports.
+sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline, const char *user,
+                              unsigned effects, sl_baked *baked);
 
-/// Checks the space if it is to be.
-sl_status sl_pipeline_check(sl_context *context, const sl_pipeline *pipeline,
-                            const sl_space *space);
-
-enum { SL_SOLVERS_MOST = 16 };
-
-/// The names of all solvers; `solvers` holds copies of them for the table.
-sl_name_table sl_pipeline_solver_names(sl_solver solvers[SL_SOLVERS_MOST]);
-
-/// For --help: what the options choose from.
-void sl_pipeline_print_subdivisions(void);
-void sl_pipeline_print_effects(void);
-/// Methods and solvers; the remarks stand behind the headings.
-void sl_pipeline_print_methods(const char *on_methods, const char *on_solvers);
+/// For --help: the names that the options take.
+void pipeline_print_subdivisions(void);
+void pipeline_print_effects(void);
+/// Methods and solvers. The remarks follow the headings.
+void pipeline_print_methods(const char *on_methods, const char *on_solvers);
 
 #endif

@@ -2,7 +2,7 @@
 # Installs what Sightline needs and this machine has not: sh tools/setup.sh [--ci]
 # It looks at what is really there, asks the system's package manager for the rest, and does nothing
 # when all is there. --ci adds what the checks of .ci/run need: clang, its sanitizers, clang-format,
-# a display that is none, with keys to press (Xvfb, xdotool), and MPI.
+# clang-tidy, doxygen, a display that is none, with keys to press (Xvfb, xdotool), and MPI.
 #
 # Tried on Debian. Fedora, Arch and macOS are written from their package lists and untried.
 set -eu
@@ -81,7 +81,7 @@ is_there() {
     xdotool) has xdotool ;;
     x11) module x11 ;;
     font) font ;;
-    clang | clang-format | llvm-symbolizer) has "$1" ;;
+    clang | clang-format | clang-tidy | doxygen | llvm-symbolizer) has "$1" ;;
     clang-sanitizers) clang_sanitizes ;;
     esac
 }
@@ -113,7 +113,7 @@ package() { # system thing
     dnf:ninja) echo ninja-build ;;
     dnf:pkg-config) echo pkgconf-pkg-config ;;
     dnf:font) echo dejavu-sans-fonts ;;
-    dnf:clang-format) echo clang-tools-extra ;;
+    dnf:clang-format | dnf:clang-tidy) echo clang-tools-extra ;;
     dnf:clang-sanitizers) echo compiler-rt libasan libubsan libtsan ;;
     dnf:glpk | dnf:gmp | dnf:cairo | dnf:jansson | dnf:zlib) echo "$2-devel" ;;
     dnf:zstd) echo libzstd-devel ;;
@@ -128,7 +128,7 @@ package() { # system thing
     pacman:pkg-config) echo pkgconf ;;
     pacman:python3) echo python ;;
     pacman:font) echo ttf-dejavu ;;
-    pacman:clang-format) echo clang ;;
+    pacman:clang-format | pacman:clang-tidy) echo clang ;;
     pacman:xvfb) echo xorg-server-xvfb ;;
     pacman:x11) echo libx11 ;;
     pacman:clang-sanitizers) echo compiler-rt ;;
@@ -137,7 +137,7 @@ package() { # system thing
     brew:pkg-config) echo pkgconf ;;
     brew:python3) echo python ;;
     brew:font) echo --cask font-dejavu ;;
-    brew:clang | brew:clang-sanitizers) echo llvm ;;
+    brew:clang | brew:clang-sanitizers | brew:clang-tidy) echo llvm ;;
     brew:xvfb) echo --cask xquartz ;;
 
     pacman:mpi | brew:mpi) echo openmpi ;;
@@ -184,7 +184,7 @@ install_packages() { # system package...
 # ---- What to do ----
 
 things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml zstd glpk cairo sdl2 font cmocka gmp"
-[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format xvfb xdotool x11 mpi"
+[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy doxygen xvfb xdotool x11 mpi"
 
 missing=
 for thing in $things; do is_there "$thing" || missing="$missing $thing"; done

@@ -1,35 +1,34 @@
-#include "base/base.h"
+/// The command `sightline`: finds the subcommand and runs it.
 #include "commands.h"
 #include "crew.h"
-#include "options.h"
+#include "names.h"
+#include "sightline/support.h"
 
 #include <stdio.h>
 #include <string.h>
 
 typedef struct command {
     const char *name, *summary;
-    sl_status (*run)(sl_console *console, int argc, char **argv);
+    sl_status (*run)(command_console *console, int argc, char **argv);
 } command;
 
 static const command commands[] = {
-    {"info", "what a map or a baked file holds", sl_cmd_info},
-    {"bake", "cells, portals and cell-to-cell visibility of a map, into a file", sl_cmd_bake},
-    {"merge", "the shards of a bake, put together", sl_cmd_merge},
-    {"check", "what is wrong with a map: leaks, gaps, overlaps, thin cells", sl_cmd_check},
-    {"compare", "every method on one map: accuracy against time, as table and chart",
-     sl_cmd_compare},
-    {"export", "a baked file for other programs", sl_cmd_export},
-    {"reject", "the REJECT of all maps of a Doom WAD, made anew in one go", sl_cmd_reject},
-    {"explain", "why a cell does or does not see another", sl_cmd_explain},
-    {"eye", "what one viewpoint sees, by every culling method", sl_cmd_eye},
-    {"isovist", "what is seen from points: regions, their measures, heat maps", sl_cmd_isovist},
-    {"viewcells", "view cells that adapt to what is seen, for a budget", sl_cmd_viewcells},
-    {"walk", "a walk, frame by frame: culling without visible sets, with coherence", sl_cmd_walk},
-    {"regions", "what view cells see: brute force, hierarchy and multipass compared",
-     sl_cmd_regions},
-    {"draw", "a picture of a baked file", sl_cmd_draw},
-    {"convert", "any map that can be read, as map text or ASCII plan", sl_cmd_convert},
-    {"generate", "procedural maps: maze, office, city, pillars, tunnels, tower", sl_cmd_generate},
+    {"info", "what a map or a baked file holds", cmd_info},
+    {"bake", "cells, portals and cell-to-cell visibility of a map, into a file", cmd_bake},
+    {"merge", "the shards of a bake, put together", cmd_merge},
+    {"check", "what is wrong with a map: leaks, gaps, overlaps, thin cells", cmd_check},
+    {"compare", "every method on one map: accuracy against time, as table and chart", cmd_compare},
+    {"export", "a baked file for other programs", cmd_export},
+    {"reject", "the REJECT of all maps of a Doom WAD, made anew in one go", cmd_reject},
+    {"explain", "why a cell does or does not see another", cmd_explain},
+    {"eye", "what one viewpoint sees, by every culling method", cmd_eye},
+    {"isovist", "what is seen from points: regions, their measures, heat maps", cmd_isovist},
+    {"viewcells", "view cells that adapt to what is seen, for a budget", cmd_viewcells},
+    {"walk", "a walk, frame by frame: culling without visible sets, with coherence", cmd_walk},
+    {"regions", "what view cells see: brute force, hierarchy and multipass compared", cmd_regions},
+    {"draw", "a picture of a baked file", cmd_draw},
+    {"convert", "any map that can be read, as map text or ASCII plan", cmd_convert},
+    {"generate", "procedural maps: maze, office, city, pillars, tunnels, tower", cmd_generate},
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof *commands };
 
@@ -45,7 +44,7 @@ static void print_help(void) {
          "  sightline draw office.slv -o office.png");
 }
 
-static sl_status run(sl_console *console, int argc, char **argv) {
+static sl_status run(command_console *console, int argc, char **argv) {
     if (argc < 2)
         return sl_fail(console->context, SL_BAD_ARGUMENT,
                        "no command is given; 'sightline --help' lists them");
@@ -66,27 +65,27 @@ static sl_status run(sl_console *console, int argc, char **argv) {
         if (strcmp(name, commands[i].name) == 0)
             return commands[i].run(console, argc - 1, argv + 1);
 
-    const sl_name_table table = {"command", commands, sizeof *commands, COMMAND_COUNT};
-    const char *near = sl_nearest_name(&table, name);
+    const name_table table = {"command", commands, sizeof *commands, COMMAND_COUNT, NULL};
+    const char *near = nearest_name(&table, name);
     return sl_fail(console->context, SL_BAD_ARGUMENT,
                    "there is no command '%s'%s%s%s; 'sightline --help' lists them", name,
                    near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
 }
 
-/// Where several processes share a command, the first one reports.
-static sl_status run_in_crew(sl_console *console, int argc, char **argv) {
-    if (sl_crew_size() > 1 && !(argc > 1 && strcmp(argv[1], "bake") == 0))
+/// Several processes can share a bake, and no other command.
+static sl_status run_in_crew(command_console *console, int argc, char **argv) {
+    if (crew_size() > 1 && !(argc > 1 && strcmp(argv[1], "bake") == 0))
         return sl_fail(console->context, SL_BAD_ARGUMENT,
                        "several processes can share 'bake' alone");
     return run(console, argc, argv);
 }
 
 int main(int argc, char **argv) {
-    sl_console console;
-    sl_crew_begin(&argc, &argv);
-    if (!sl_console_open(&console)) return 1;
+    command_console console;
+    crew_begin(&argc, &argv);
+    if (!console_open(&console)) return 1;
     const sl_status status = run_in_crew(&console, argc, argv);
-    const int code = sl_console_close(&console, sl_crew_agree(console.context, status));
-    sl_crew_end();
+    const int code = console_close(&console, crew_agree(console.context, status));
+    crew_end();
     return code;
 }

@@ -5,6 +5,6 @@
 #include "sightline/stab.h"
 
 /// The solver of that number, from 0, which is the default; NULL past the last.
-const sl_solver *sl_solver_at(size_t index);
+const sl_solver *solver_at(size_t index);
 
 #endif

@@ -1,21 +1,11 @@
 #include "view_run.h"
 
-#include "base/base.h"
-#include "base/file.h"
-#include "import/image.h"
-#include "solvers.h"
+#include "sightline/io.h"
+#include "sightline/solvers.h"
+#include "sightline/support.h"
 
-#include <string.h>
-#include <time.h>
-
-double sl_view_clock(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
-}
-
-/// Light pixels are where viewpoints are: the picture covers the map's bounds.
-static sl_status places_by_picture(sl_context *context, const char *path, sl_view_run *run) {
+/// A picture over the map's bounds: the lighter a pixel, the likelier is a viewpoint there.
+static sl_status places_by_picture(sl_context *context, const char *path, view_run *run) {
     sl_bytes bytes;
     sl_image image = {0};
     SL_TRY(sl_file_read(context, path, &bytes));
@@ -37,8 +27,7 @@ static sl_status places_by_picture(sl_context *context, const char *path, sl_vie
     return status;
 }
 
-static sl_status find_places(sl_context *context, const sl_view_run_options *options,
-                             sl_view_run *run) {
+static sl_status find_places(sl_context *context, const view_run_options *options, view_run *run) {
     const sl_space *space = &run->baked.space;
     if (options->density) return places_by_picture(context, options->density, run);
     if (options->paths)
@@ -46,16 +35,9 @@ static sl_status find_places(sl_context *context, const sl_view_run_options *opt
     return sl_view_places_inside(context, space, &run->places);
 }
 
-static const sl_see_method *sweep(void) {
-    size_t count, i = 0;
-    const sl_see_method *methods = sl_see_methods(&count);
-    while (i + 1 < count && strcmp(methods[i].name, "sweep") != 0) i++;
-    return &methods[i];
-}
-
-/// Of the elementary cells; what an exact method has found is handed over.
-static sl_status find_sets(sl_context *context, const sl_view_run_options *options,
-                           sl_view_run *run, sl_view_sets *sets) {
+/// The visible sets of the elementary cells. An exact method has found them already.
+static sl_status find_sets(sl_context *context, const view_run_options *options, view_run *run,
+                           sl_view_sets *sets) {
     if (options->method->exact) {
         *sets = run->found.sets;
         run->found.sets = (sl_view_sets){0};
@@ -67,11 +49,12 @@ static sl_status find_sets(sl_context *context, const sl_view_run_options *optio
     sl_see_options seeing = sl_see_options_default();
     seeing.threads = options->sampling.threads;
     seeing.inside_only = true;
-    return sl_view_sets_exact(context, &run->baked.map, &run->scene, &run->tree, sweep(), &seeing,
+    const sl_see_method *method = sl_see_method_for(&run->baked.map, &seeing);
+    return sl_view_sets_exact(context, &run->baked.map, &run->scene, &run->tree, method, &seeing,
                               sets);
 }
 
-static sl_status join(sl_context *context, const sl_view_run_options *options, sl_view_run *run) {
+static sl_status join(sl_context *context, const view_run_options *options, view_run *run) {
     sl_view_sets sets = {0};
     SL_TRY(find_sets(context, options, run, &sets));
     const sl_status status =
@@ -82,9 +65,8 @@ static sl_status join(sl_context *context, const sl_view_run_options *options, s
     return status;
 }
 
-/// Other lines than those that made the cells.
-static sl_status evaluate(sl_context *context, const sl_view_run_options *options,
-                          sl_view_run *run) {
+/// Evaluates with other lines than those that made the cells.
+static sl_status evaluate(sl_context *context, const view_run_options *options, view_run *run) {
     if (!options->evaluation) return SL_OK;
     sl_view_sampling sampling = options->sampling;
     sampling.samples = options->evaluation;
@@ -102,11 +84,11 @@ static sl_status evaluate(sl_context *context, const sl_view_run_options *option
     return status;
 }
 
-static sl_status cut(sl_context *context, const sl_view_run_options *options, sl_view_run *run) {
-    const sl_view_hierarchy *h = sl_view_run_told(run);
-    if (options->budget == SL_BUDGET_CELLS)
+static sl_status cut(sl_context *context, const view_run_options *options, view_run *run) {
+    const sl_view_hierarchy *h = view_run_told(run);
+    if (options->budget == BUDGET_CELLS)
         run->cell_count = sl_view_cut_by_count(h, options->cells);
-    else if (options->budget == SL_BUDGET_BYTES)
+    else if (options->budget == BUDGET_BYTES)
         SL_TRY(sl_view_cut_by_bytes(context, h, options->bytes, &run->cell_count));
     else
         SL_TRY(sl_view_cut_by_cost(context, h, options->tolerance, &run->cell_count));
@@ -116,32 +98,31 @@ static sl_status cut(sl_context *context, const sl_view_run_options *options, sl
     return sl_view_cut(context, h, run->cell_count, run->view_cells, run->numbers);
 }
 
-sl_status sl_view_run_make(sl_context *context, const sl_view_run_options *options,
-                           sl_view_run *run) {
-    const double start = sl_view_clock();
+sl_status view_run_make(sl_context *context, const view_run_options *options, view_run *run) {
+    const double start = sl_seconds();
     SL_TRY(sl_outline_make(context, &run->baked.space, &run->outline));
     SL_TRY(find_places(context, options, run));
     run->scene = (sl_view_scene){&run->baked.space, options->sampling.objects, options->render,
                                  &run->places};
     if (!options->method->exact)
         SL_TRY(sl_view_sample(context, &run->outline, &options->sampling, &run->segments));
-    const double sampled = sl_view_clock();
+    const double sampled = sl_seconds();
     SL_TRY(options->method->divide(context, &run->scene, &run->segments, &options->subdivision,
                                    &run->tree, &run->found));
-    const double divided = sl_view_clock();
+    const double divided = sl_seconds();
     SL_TRY(join(context, options, run));
-    const double joined = sl_view_clock();
+    const double joined = sl_seconds();
     SL_TRY(evaluate(context, options, run));
     run->seconds.sample = sampled - start;
     run->seconds.divide = divided - sampled;
     run->seconds.merge = joined - divided;
-    run->seconds.evaluate = sl_view_clock() - joined;
+    run->seconds.evaluate = sl_seconds() - joined;
     return cut(context, options, run);
 }
 
-static sl_status make_rows(sl_context *context, bool by_views, sl_view_run *run) {
+static sl_status make_rows(sl_context *context, bool by_views, view_run *run) {
     sl_baked *exact = &run->exact;
-    const sl_view_hierarchy *h = sl_view_run_told(run);
+    const sl_view_hierarchy *h = view_run_told(run);
     sl_view_rows *rows = &exact->views;
     sl_view_rows plain = {0};
     const sl_pvs *pvs = &exact->visibility.pvs;
@@ -149,7 +130,7 @@ static sl_status make_rows(sl_context *context, bool by_views, sl_view_run *run)
     SL_TRY(sl_view_rows_make(context, &exact->space, pvs, &run->tree, h, run->cell_count, false,
                              &plain));
     run->plain_bytes = plain.rows.offsets[plain.rows.cell_count];
-    // Rows for groups of view cells pay where there is room for them.
+    // Compress by rows for groups of view cells, unless there is no room for the groups.
     if (by_views || 2 * run->cell_count - 1 > exact->space.cell_count) {
         *rows = plain;
     } else {
@@ -162,7 +143,7 @@ static sl_status make_rows(sl_context *context, bool by_views, sl_view_run *run)
                              &run->exact_cost);
 }
 
-/// Lets go of what cells see: from here on that is what their view cells see.
+/// Replaces the set of each cell by that of its view cell.
 static sl_status forget_cells(sl_context *context, sl_baked *exact) {
     sl_visibility *v = &exact->visibility;
     sl_pvs expanded;
@@ -176,15 +157,16 @@ static sl_status forget_cells(sl_context *context, sl_baked *exact) {
     return SL_OK;
 }
 
-sl_status sl_view_run_see(sl_context *context, const sl_view_run_options *options,
-                          const sl_see_method *method, bool by_views, sl_view_run *run) {
-    const double start = sl_view_clock();
+sl_status view_run_see(sl_context *context, const view_run_options *options,
+                       const sl_see_method *method, bool by_views, view_run *run) {
+    const double start = sl_seconds();
     sl_baked *exact = &run->exact;
     sl_see_options seeing = sl_see_options_default();
     seeing.threads = options->sampling.threads;
     seeing.inside_only = true;
-    if (method->stabs) seeing.solver = sl_solver_at(0);
-    // The map has done its work for the samples; from here on it is that of the baked file.
+    if (!method) method = sl_see_method_for(&run->baked.map, &seeing);
+    if (method->stabs) seeing.solver = sl_funnel();
+    // Sampling needs the map no longer. It moves to the baked file.
     exact->map = run->baked.map;
     run->baked.map = (sl_map){0};
     const sl_space *objects = run->scene.objects == SL_VIEW_CELLS ? &run->baked.space : NULL;
@@ -195,12 +177,12 @@ sl_status sl_view_run_see(sl_context *context, const sl_view_run_options *option
     if (method->stabs) snprintf(exact->solver, sizeof exact->solver, "%s", seeing.solver->name);
     SL_TRY(make_rows(context, by_views, run));
     if (by_views) SL_TRY(forget_cells(context, exact));
-    run->seconds.see = sl_view_clock() - start;
+    run->seconds.see = sl_seconds() - start;
     run->has_exact = true;
     return SL_OK;
 }
 
-void sl_view_run_destroy(sl_context *context, sl_view_run *run) {
+void view_run_destroy(sl_context *context, view_run *run) {
     sl_view_hierarchy_destroy(context, &run->hierarchy);
     sl_view_hierarchy_destroy(context, &run->evaluated);
     sl_view_tree_destroy(context, &run->tree);
@@ -214,8 +196,8 @@ void sl_view_run_destroy(sl_context *context, sl_view_run *run) {
     sl_free(context, run->numbers);
 }
 
-sl_status sl_view_run_cost(sl_context *context, const sl_view_hierarchy *hierarchy, uint32_t cells,
-                           double *cost, uint64_t *bytes) {
+sl_status view_run_cost(sl_context *context, const sl_view_hierarchy *hierarchy, uint32_t cells,
+                        double *cost, uint64_t *bytes) {
     double *costs = sl_alloc_array(context, hierarchy->cell_count, sizeof *costs);
     uint64_t *sizes = sl_alloc_array(context, hierarchy->cell_count, sizeof *sizes);
     if (costs && sizes) {

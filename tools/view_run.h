@@ -1,4 +1,4 @@
-/// View cells as the command makes them: from a map that is read to a cut of the hierarchy.
+/// The work of `sightline viewcells`: from a map to a cut of the hierarchy of view cells.
 #ifndef VIEW_RUN_H
 #define VIEW_RUN_H
 
@@ -6,13 +6,9 @@
 #include "sightline/view_cells.h"
 
 /// How the number of view cells is chosen.
-typedef enum sl_view_budget {
-    SL_BUDGET_TOLERANCE,
-    SL_BUDGET_CELLS,
-    SL_BUDGET_BYTES
-} sl_view_budget;
+typedef enum view_budget { BUDGET_TOLERANCE, BUDGET_CELLS, BUDGET_BYTES } view_budget;
 
-typedef struct sl_view_run_options {
+typedef struct view_run_options {
     const sl_view_method *method;
     sl_view_sampling sampling;
     sl_view_subdivision subdivision;
@@ -22,17 +18,17 @@ typedef struct sl_view_run_options {
     bool paths;          ///< viewpoints are along the map's paths
     double step;         ///< along them
     const char *density; ///< a picture of where viewpoints are, NULL for none
-    sl_view_budget budget;
+    view_budget budget;
     uint64_t cells, bytes;
     double tolerance;
-} sl_view_run_options;
+} view_run_options;
 
-typedef struct sl_view_seconds {
+typedef struct view_seconds {
     double read, subdivide, sample, divide, merge, evaluate, see;
-} sl_view_seconds;
+} view_seconds;
 
 /// All that was made, and what it took.
-typedef struct sl_view_run {
+typedef struct view_run {
     sl_baked baked; ///< map and space alone
     sl_outline outline;
     sl_view_places places;
@@ -50,27 +46,24 @@ typedef struct sl_view_run {
     double exact_cost;           ///< expected, in cells; 0 where objects are walls
     uint64_t cell_bytes;         ///< what rows of the cells of `exact` take
     uint64_t plain_bytes;        ///< what rows of view cells take, before compression
-    sl_view_seconds seconds;
-} sl_view_run;
+    view_seconds seconds;
+} view_run;
 
-/// From run->baked, whose map and space are there, on. `run` is to be destroyed also on failure.
-sl_status sl_view_run_make(sl_context *context, const sl_view_run_options *options,
-                           sl_view_run *run);
-/// Bakes the map with the view cells of the cut: exact sets by a method of sl_see_methods().
-/// `by_views`: of the sets those of view cells alone are kept.
-sl_status sl_view_run_see(sl_context *context, const sl_view_run_options *options,
-                          const sl_see_method *method, bool by_views, sl_view_run *run);
-void sl_view_run_destroy(sl_context *context, sl_view_run *run);
+/// Starts from run->baked, which has a map and a space. Destroy `run` also on failure.
+sl_status view_run_make(sl_context *context, const view_run_options *options, view_run *run);
+/// Bakes the map with the view cells of the cut: exact sets by a method of sl_see_methods(); NULL
+/// for the fastest exact one. `by_views`: keeps only the sets of view cells.
+sl_status view_run_see(sl_context *context, const view_run_options *options,
+                       const sl_see_method *method, bool by_views, view_run *run);
+void view_run_destroy(sl_context *context, view_run *run);
 
-/// What costs are told by: other samples than those that cells were made by, where there are some.
-static inline const sl_view_hierarchy *sl_view_run_told(const sl_view_run *run) {
+/// The hierarchy that costs are reported by: that of the second set of samples, if there is one.
+static inline const sl_view_hierarchy *view_run_told(const view_run *run) {
     return run->evaluated.cell_count ? &run->evaluated : &run->hierarchy;
 }
 
-/// Expected cost with n view cells: all of the hierarchy's sum of mass times cost.
-sl_status sl_view_run_cost(sl_context *context, const sl_view_hierarchy *hierarchy, uint32_t cells,
-                           double *cost, uint64_t *bytes);
-
-double sl_view_clock(void);
+/// The expected cost with that many view cells: the sum of mass times cost.
+sl_status view_run_cost(sl_context *context, const sl_view_hierarchy *hierarchy, uint32_t cells,
+                        double *cost, uint64_t *bytes);
 
 #endif

@@ -1,11 +1,16 @@
+/// The account: what each culling method keeps of the view, and what that costs. The chart is drawn
+/// again a few times a second, so that one can read it while times change.
 #include "account.h"
 
-#include "draw/chart.h"
+#include "modes.h"
+#include "sightline/canvas.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
-enum { MARKS_MOST = SL_SEEN_MOST + 1, TEXT = 96 };
+enum { MARKS_MOST = SEEN_MOST + 1, TEXT = 96 };
 
 /// A chart and what its pointers lead to.
 typedef struct account {
@@ -16,12 +21,12 @@ typedef struct account {
     sl_chart chart;
 } account;
 
-/// Under a script tests stand for the time, so that pictures are the same each time.
-static double cost_of(const sl_app *app, double seconds, uint64_t tests) {
+/// Scripts count tests in place of time, so that pictures are the same each time.
+static double cost_of(const app_state *app, double seconds, uint64_t tests) {
     return app->steady ? fmax((double)tests, 1) : fmax(seconds, 1e-8);
 }
 
-static void write_cost(const sl_app *app, double cost, char text[32]) {
+static void write_cost(const app_state *app, double cost, char text[32]) {
     if (app->steady)
         snprintf(text, 32, "%.0f test%s", cost, cost == 1 ? "" : "s");
     else if (cost < 1e-3)
@@ -35,12 +40,12 @@ static void add_mark(account *a, size_t i, double cost, double share) {
         (sl_chart_mark){.x = cost, .y = 100 * share, .label = a->labels[i], .note = a->notes[i]};
 }
 
-/// Marks of the methods that could answer, from loose to exact, and how many there are.
-static size_t add_methods(const sl_app *app, account *a) {
+/// Adds the marks of the methods that could answer, from loose to exact. Returns their number.
+static size_t add_methods(const app_state *app, account *a) {
     size_t count, marks = 0;
     const sl_eye_method *methods = sl_eye_methods(&count);
-    for (size_t i = 0; i < count && i < SL_SEEN_MOST; i++) {
-        const sl_seen_method *m = &app->seen.methods[i];
+    for (size_t i = 0; i < count && i < SEEN_MOST; i++) {
+        const seen_method *m = &app->view.seen.methods[i];
         if (!m->known) continue;
         char cost[32];
         const double spent = cost_of(app, m->seconds, m->account.orientations);
@@ -55,17 +60,19 @@ static size_t add_methods(const sl_app *app, account *a) {
     return marks;
 }
 
-static void add_region(const sl_app *app, account *a, size_t i) {
+static void add_region(const app_state *app, account *a, size_t i) {
     char cost[32];
-    const double spent = cost_of(app, app->seen.region_seconds, app->seen.region.portals_passed);
-    const double share = app->document.area > 0 ? app->seen.region_area / app->document.area : 0;
+    const double spent =
+        cost_of(app, app->view.seen.region_seconds, app->view.seen.region.portals_passed);
+    const double share =
+        app->document.area > 0 ? app->view.seen.region_area / app->document.area : 0;
     write_cost(app, spent, cost);
     snprintf(a->labels[i], sizeof a->labels[i], "visible region");
     snprintf(a->notes[i], TEXT, "%.1f %% in %s", 100 * share, cost);
     add_mark(a, i, spent, share);
 }
 
-/// Logarithmic, as methods differ by factors, but for areas that are nothing.
+/// The axis is logarithmic, since methods differ by factors; it is not where an area is 0.
 static sl_chart_scale area_scale(const account *a, size_t marks) {
     for (size_t i = 0; i < marks; i++)
         if (!(a->marks[i].y > 0)) return SL_CHART_LINEAR;
@@ -73,10 +80,10 @@ static sl_chart_scale area_scale(const account *a, size_t marks) {
 }
 
 /// Where there is little room the title is a line of plain size.
-static void make(const sl_app *app, account *a, bool small) {
-    const size_t methods = app->seen.valid ? add_methods(app, a) : 0;
-    if (app->seen.valid) add_region(app, a, methods);
-    const size_t marks = app->seen.valid ? methods + 1 : 0;
+static void make(const app_state *app, account *a, bool small) {
+    const size_t methods = app->view.seen.valid ? add_methods(app, a) : 0;
+    if (app->view.seen.valid) add_region(app, a, methods);
+    const size_t marks = app->view.seen.valid ? methods + 1 : 0;
     a->series[0] = (sl_chart_series){.name = "cells kept by culling",
                                      .style = SL_CHART_MARKS,
                                      .colour = 0,
@@ -88,7 +95,7 @@ static void make(const sl_app *app, account *a, bool small) {
                                      .marks = a->marks + methods,
                                      .mark_count = marks - methods};
     snprintf(a->title, sizeof a->title, "What accuracy costs here: cell %u, cone of %.0f\xc2\xb0",
-             app->seen.cell, app->eye.fov);
+             app->view.seen.cell, app->view.eye.fov);
     a->chart = (sl_chart){
         .title = small ? NULL : a->title,
         .subtitle = small ? a->title : NULL,
@@ -99,18 +106,58 @@ static void make(const sl_app *app, account *a, bool small) {
         .series = a->series,
         .series_count = 2,
         .width = sl_draw_options_default().width,
-        .dark = app->dark,
+        .dark = app->ui.dark,
     };
 }
 
-void sl_account_draw(sl_app *app, cairo_t *cairo, sl_box box) {
+void account_draw(app_state *app, cairo_t *cairo, sl_box box) {
     account a;
     make(app, &a, true);
-    sl_app_check(app, sl_draw_chart_onto(app->context, cairo, &a.chart, box, 0.92 * app->ui.text));
+    app_check(app, sl_draw_chart_onto(app->context, cairo, &a.chart, box, 0.92 * app->ui.text));
 }
 
-sl_status sl_account_save(sl_app *app, const char *path) {
+sl_status account_save(app_state *app, const char *path) {
     account a;
     make(app, &a, false);
     return sl_draw_chart_file(app->context, &a.chart, path);
+}
+
+// --- the pane
+
+#define SECONDS_BETWEEN 0.25
+
+static bool is_stale(const app_state *app, const account_picture *kept, int width, int height) {
+    if (!kept->surface || app->steady || kept->version != app->document.version ||
+        kept->dark != app->ui.dark || kept->text != app->ui.text ||
+        cairo_image_surface_get_width(kept->surface) != width ||
+        cairo_image_surface_get_height(kept->surface) != height)
+        return true;
+    return sl_seconds() - kept->made > SECONDS_BETWEEN;
+}
+
+static void remake(app_state *app, account_picture *kept, int width, int height) {
+    if (kept->surface) cairo_surface_destroy(kept->surface);
+    kept->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
+    kept->version = app->document.version;
+    kept->dark = app->ui.dark;
+    kept->text = app->ui.text;
+    kept->made = sl_seconds();
+    cairo_t *cairo = cairo_create(kept->surface);
+    account_draw(app, cairo, (sl_box){{0, 0}, {width, height}});
+    cairo_destroy(cairo);
+}
+
+void pane_account(app_state *app, sl_box box) {
+    ui_state *ui = &app->ui;
+    const int width = (int)ceil(box_width(box)), height = (int)ceil(box_height(box));
+    ui_hit(ui, HIT_PANEL, 0, box);
+    if (is_stale(app, &app->view.account, width, height))
+        remake(app, &app->view.account, width, height);
+    cairo_save(ui->cairo);
+    cairo_rectangle(ui->cairo, box.min.x, box.min.y, box_width(box), box_height(box));
+    cairo_clip(ui->cairo);
+    cairo_set_source_surface(ui->cairo, app->view.account.surface, box.min.x, box.min.y);
+    cairo_paint(ui->cairo);
+    cairo_restore(ui->cairo);
+    ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, ui->palette.outline);
 }

@@ -1,295 +1,297 @@
 #include "actions.h"
 
-#include "doors.h"
 #include "edit.h"
+#include "effects.h"
+#include "files.h"
 #include "layers.h"
 #include "modes.h"
 #include "quiz.h"
-#include "range.h"
 #include "save.h"
-#include "shelf.h"
-#include "walk.h"
+#include "view.h"
 
 #include <math.h>
 #include <string.h>
 
 enum {
-    EXPLORE = 1 << SL_MODE_EXPLORE,
-    LEARN = 1 << SL_MODE_LEARN,
-    DRAW = 1 << SL_MODE_DRAW,
-    QUIZ = 1 << SL_MODE_QUIZ,
+    EXPLORE = 1 << MODE_EXPLORE,
+    LEARN = 1 << MODE_LEARN,
+    DRAW = 1 << MODE_DRAW,
+    QUIZ = 1 << MODE_QUIZ,
     NOT_LEARN = EXPLORE | DRAW | QUIZ,
     WALKS = EXPLORE | DRAW | LEARN,
 };
 
 // --- modes
 
-static void set_mode(sl_app *app, sl_mode mode) {
-    app->mode = mode;
-    app->held = 0;
-    app->lesson.plays = false;
-    sl_quiz_forget(app);
-    if (mode == SL_MODE_QUIZ) sl_quiz_ask(app);
-    sl_app_say(app, false, "%s", sl_mode_rows()[mode].hint);
-    sl_app_tick(app, 0);
+static void set_mode(app_state *app, app_mode mode) {
+    app->tool.mode = mode;
+    app->tool.held = 0;
+    app->tool.lesson.plays = false;
+    quiz_forget(app);
+    if (mode == MODE_QUIZ) quiz_ask(app);
+    ui_say(&app->ui, false, "%s", mode_table()[mode].hint);
+    app_tick(app, 0);
 }
 
 #define MODE(name, value)                                                                          \
-    static void name(sl_app *app) {                                                                \
+    static void name(app_state *app) {                                                             \
         set_mode(app, value);                                                                      \
     }                                                                                              \
-    static bool is_##name(const sl_app *app) {                                                     \
-        return app->mode == (value);                                                               \
+    static bool is_##name(const app_state *app) {                                                  \
+        return app->tool.mode == (value);                                                          \
     }
-MODE(explore, SL_MODE_EXPLORE)
-MODE(learn, SL_MODE_LEARN)
-MODE(draw, SL_MODE_DRAW)
-MODE(quiz, SL_MODE_QUIZ)
+MODE(explore, MODE_EXPLORE)
+MODE(learn, MODE_LEARN)
+MODE(draw, MODE_DRAW)
+MODE(quiz, MODE_QUIZ)
 
 // --- layers
 
 #define TOGGLE(NAME, ...)                                                                          \
-    static void toggle_##NAME(sl_app *app) {                                                       \
-        app->show ^= SL_SHOW_##NAME;                                                               \
+    static void toggle_##NAME(app_state *app) {                                                    \
+        app->view.show ^= SHOW_##NAME;                                                             \
     }                                                                                              \
-    static bool is_##NAME(const sl_app *app) {                                                     \
-        return (app->show & SL_SHOW_##NAME) != 0;                                                  \
+    static bool is_##NAME(const app_state *app) {                                                  \
+        return (app->view.show & SHOW_##NAME) != 0;                                                \
     }
-SL_LAYERS(TOGGLE)
+LAYERS(TOGGLE)
 
 #define SWITCH(name, field)                                                                        \
-    static void name(sl_app *app) {                                                                \
+    static void name(app_state *app) {                                                             \
         app->field = !app->field;                                                                  \
     }                                                                                              \
-    static bool is_##name(const sl_app *app) {                                                     \
+    static bool is_##name(const app_state *app) {                                                  \
         return app->field;                                                                         \
     }
-SWITCH(first_person, first_person)
-SWITCH(account, accounts)
-SWITCH(effects, effects)
-SWITCH(side_panel, side_panel)
-SWITCH(dark, dark)
-SWITCH(help, help)
+SWITCH(first_person, ui.first_person)
+SWITCH(account, ui.accounts)
+SWITCH(effects, ui.effects)
+SWITCH(side_panel, ui.side_panel)
+SWITCH(dark, ui.dark)
+SWITCH(help, ui.help)
 
-static void maps(sl_app *app) {
-    app->maps_open = !app->maps_open;
-    if (app->maps_open) sl_shelf_forget_maps(app);
+static void maps(app_state *app) {
+    app->ui.maps_open = !app->ui.maps_open;
+    if (app->ui.maps_open) shelf_forget_maps(app);
 }
 
-static bool is_maps(const sl_app *app) {
-    return app->maps_open;
+static bool is_maps(const app_state *app) {
+    return app->ui.maps_open;
 }
 
-SWITCH(fly, eye.flies)
+SWITCH(fly, view.eye.flies)
 
-static void range(sl_app *app) {
-    sl_range_toggle(app);
+static void range(app_state *app) {
+    range_toggle(app);
 }
 
-static bool is_range(const sl_app *app) {
+static bool is_range(const app_state *app) {
     return app->document.map.range > 0;
 }
 
-static void split_less(sl_app *app) {
-    if (app->split_depth > 1) app->split_depth--;
+static void split_less(app_state *app) {
+    if (app->view.split_depth > 1) app->view.split_depth--;
 }
 
-static void split_more(sl_app *app) {
-    if (app->split_depth < 64) app->split_depth++;
+static void split_more(app_state *app) {
+    if (app->view.split_depth < 64) app->view.split_depth++;
 }
 
 /// From the whole tree the first step down is that of its deepest nodes.
-static void tree_less(sl_app *app) {
-    const uint32_t deepest = app->tree.baked ? app->tree.tree_depth : 64;
-    if (app->tree_depth > deepest) app->tree_depth = deepest;
-    if (app->tree_depth > 0) app->tree_depth--;
+static void tree_less(app_state *app) {
+    const uint32_t deepest = app->view.tree ? sl_scene_tree_depth(app->view.tree) : 64;
+    if (app->view.tree_depth > deepest) app->view.tree_depth = deepest;
+    if (app->view.tree_depth > 0) app->view.tree_depth--;
 }
 
-static void tree_more(sl_app *app) {
-    if (app->tree_depth < 64) app->tree_depth++;
+static void tree_more(app_state *app) {
+    if (app->view.tree_depth < 64) app->view.tree_depth++;
 }
 
-static void views_merge(sl_app *app) {
-    const uint32_t shown = sl_view_layer_shown(app->views);
-    if (shown > 1) sl_view_layer_go(app, shown - 1);
+static void views_merge(app_state *app) {
+    const uint32_t shown = view_layer_shown(app->view.views);
+    if (shown > 1) view_layer_go(app, shown - 1);
 }
 
-static void views_split(sl_app *app) {
-    sl_view_layer_go(app, sl_view_layer_shown(app->views) + 1);
+static void views_split(app_state *app) {
+    view_layer_go(app, view_layer_shown(app->view.views) + 1);
 }
 
-static void views_largest(sl_app *app) {
-    sl_view_layer_mark_next(app);
+static void views_largest(app_state *app) {
+    view_layer_mark_next(app);
 }
 
 // --- view
 
-static void fit(sl_app *app) {
-    app->fitted = true;
+static void fit(app_state *app) {
+    app->view.fitted = true;
 }
 
-static void zoom(sl_app *app, double factor) {
-    app->fitted = false;
-    app->motion = 0.2;
-    if (app->camera.scale > 0) sl_camera_zoom(&app->camera, factor, (sl_point){0, 0});
+static void zoom(app_state *app, double factor) {
+    app->view.fitted = false;
+    app->view.motion = 0.2;
+    if (app->view.camera.scale > 0) camera_zoom(&app->view.camera, factor, (sl_point){0, 0});
 }
 
-static void zoom_in(sl_app *app) {
+static void zoom_in(app_state *app) {
     zoom(app, 1.25);
 }
 
-static void zoom_out(sl_app *app) {
+static void zoom_out(app_state *app) {
     zoom(app, 1 / 1.25);
 }
 
-static void text_larger(sl_app *app) {
-    app->text_scale = fmin(app->text_scale * 1.15, 3);
+static void text_larger(app_state *app) {
+    app->ui.text_scale = fmin(app->ui.text_scale * 1.15, 3);
 }
 
-static void text_smaller(sl_app *app) {
-    app->text_scale = fmax(app->text_scale / 1.15, 0.7);
+static void text_smaller(app_state *app) {
+    app->ui.text_scale = fmax(app->ui.text_scale / 1.15, 0.7);
 }
 
-static void narrower(sl_app *app) {
-    app->eye.fov = fmax(app->eye.fov > 5 ? app->eye.fov - 5 : app->eye.fov - 1, 1);
+static void narrower(app_state *app) {
+    app->view.eye.fov =
+        fmax(app->view.eye.fov > 5 ? app->view.eye.fov - 5 : app->view.eye.fov - 1, 1);
 }
 
-static void wider(sl_app *app) {
-    app->eye.fov = fmin(app->eye.fov < 5 ? app->eye.fov + 1 : app->eye.fov + 5, 360);
+static void wider(app_state *app) {
+    app->view.eye.fov =
+        fmin(app->view.eye.fov < 5 ? app->view.eye.fov + 1 : app->view.eye.fov + 5, 360);
 }
 
-static void all_round(sl_app *app) {
-    app->eye.fov = app->eye.fov >= 360 ? 90 : 360;
+static void all_round(app_state *app) {
+    app->view.eye.fov = app->view.eye.fov >= 360 ? 90 : 360;
 }
 
-static void home(sl_app *app) {
-    sl_walk_home(app);
+static void home(app_state *app) {
+    walk_home(app);
 }
 
 // --- methods
 
-static void method_next(sl_app *app) {
+static void method_next(app_state *app) {
     size_t count;
     sl_eye_methods(&count);
-    app->method = (app->method + 1) % count;
+    app->view.method = (app->view.method + 1) % count;
 }
 
-static void other_next(sl_app *app) {
+static void other_next(app_state *app) {
     size_t count;
     sl_eye_methods(&count);
-    app->other = (app->other + 1) % count;
+    app->view.other = (app->view.other + 1) % count;
 }
 
-static void compare(sl_app *app) {
+static void compare(app_state *app) {
     static const char *const words[] = {"one method", "two methods side by side",
                                         "what the looser one adds, in orange"};
-    app->compare = (sl_compare)((app->compare + 1) % 3);
-    sl_app_say(app, false, "%s", words[app->compare]);
+    app->view.compare = (comparison)((app->view.compare + 1) % 3);
+    ui_say(&app->ui, false, "%s", words[app->view.compare]);
 }
 
-static bool is_compare(const sl_app *app) {
-    return app->compare != SL_COMPARE_OFF;
+static bool is_compare(const app_state *app) {
+    return app->view.compare != COMPARE_OFF;
 }
 
 // --- the lesson
 
-static void step_next(sl_app *app) {
-    sl_lesson_go(&app->lesson, &app->document, app->lesson.at + 1);
+static void step_next(app_state *app) {
+    lesson_go(&app->tool.lesson, &app->document, app->tool.lesson.at + 1);
 }
 
-static void step_back(sl_app *app) {
-    if (app->lesson.at) sl_lesson_go(&app->lesson, &app->document, app->lesson.at - 1);
+static void step_back(app_state *app) {
+    if (app->tool.lesson.at) lesson_go(&app->tool.lesson, &app->document, app->tool.lesson.at - 1);
 }
 
-static void step_first(sl_app *app) {
-    sl_lesson_go(&app->lesson, &app->document, 0);
+static void step_first(app_state *app) {
+    lesson_go(&app->tool.lesson, &app->document, 0);
 }
 
-static void step_last(sl_app *app) {
-    sl_lesson_go(&app->lesson, &app->document, SIZE_MAX);
+static void step_last(app_state *app) {
+    lesson_go(&app->tool.lesson, &app->document, SIZE_MAX);
 }
 
-SWITCH(play_steps, lesson.plays)
+SWITCH(play_steps, tool.lesson.plays)
 
-static void subject(sl_app *app) {
-    sl_lesson_change(app->context, &app->lesson, &app->document);
-    sl_app_tick(app, 0);
+static void subject(app_state *app) {
+    lesson_change(app->context, &app->tool.lesson, &app->document);
+    app_tick(app, 0);
 }
 
 // --- walls
 
-static void travel(sl_app *app, bool redo) {
+static void travel(app_state *app, bool redo) {
     sl_status status = SL_OK;
     bool bake = false;
-    if (!sl_history_undo(app->context, &app->history, &app->document.map, redo, &bake, &status)) {
-        sl_app_say(app, false, redo ? "nothing to redo" : "nothing to undo");
+    if (!history_undo(app->context, &app->document.history, &app->document.map, redo, &bake,
+                      &status)) {
+        ui_say(&app->ui, false, redo ? "nothing to redo" : "nothing to undo");
         return;
     }
-    sl_app_check(app, status);
-    sl_app_say(app, false, redo ? "redone" : "undone");
-    app->wall = UINT32_MAX;
+    app_check(app, status);
+    ui_say(&app->ui, false, redo ? "redone" : "undone");
+    app->tool.wall = UINT32_MAX;
     if (bake)
-        sl_app_after_edit(app);
+        app_after_edit(app);
     else
-        sl_app_after_touch(app);
+        app_after_touch(app);
 }
 
-static void undo(sl_app *app) {
+static void undo(app_state *app) {
     travel(app, false);
 }
 
-static void redo(sl_app *app) {
+static void redo(app_state *app) {
     travel(app, true);
 }
 
-static void delete_wall(sl_app *app) {
-    sl_edit_delete(app);
+static void delete_wall(app_state *app) {
+    edit_delete(app);
 }
 
 // --- doors
 
-static void nearest_door(sl_app *app) {
-    sl_door_toggle_nearest(app);
+static void nearest_door(app_state *app) {
+    door_toggle_nearest(app);
 }
 
 // --- the quiz
 
-static void answer_yes(sl_app *app) {
-    sl_quiz_answer(app, true);
+static void answer_yes(app_state *app) {
+    quiz_answer(app, true);
 }
 
-static void answer_no(sl_app *app) {
-    sl_quiz_answer(app, false);
+static void answer_no(app_state *app) {
+    quiz_answer(app, false);
 }
 
-static void next_question(sl_app *app) {
-    sl_quiz_ask(app);
+static void next_question(app_state *app) {
+    quiz_ask(app);
 }
 
 // --- recording
 
-static void record(sl_app *app) {
-    sl_recorder *r = &app->recorder;
+static void record(app_state *app) {
+    path_recorder *r = &app->tool.recorder;
     r->plays = false;
     r->waited = 0;
     if (!r->records) r->frames.count = 0;
     r->records = !r->records;
-    sl_app_say(app, false, r->records ? "recording the eye's way" : "recorded");
+    ui_say(&app->ui, false, r->records ? "recording the eye's way" : "recorded");
 }
 
-static bool is_record(const sl_app *app) {
-    return app->recorder.records;
+static bool is_record(const app_state *app) {
+    return app->tool.recorder.records;
 }
 
 /// Without a recording the map's first path is walked.
-static void play(sl_app *app) {
-    sl_recorder *r = &app->recorder;
+static void play(app_state *app) {
+    path_recorder *r = &app->tool.recorder;
     r->records = false;
     if (!r->frames.count && app->document.baked && app->document.baked->map.path_count)
-        sl_app_check(app, sl_record_path(app->context, r, &app->document.baked->map.paths[0],
-                                         sl_walk_speed(app)));
+        app_check(app, record_path(app->context, r, &app->document.baked->map.paths[0],
+                                   walk_speed(&app->document)));
     if (!r->frames.count) {
-        sl_app_say(app, false, "nothing was recorded, and the map has no path");
+        ui_say(&app->ui, false, "nothing was recorded, and the map has no path");
         return;
     }
     r->plays = !r->plays;
@@ -297,78 +299,78 @@ static void play(sl_app *app) {
     r->waited = 0;
 }
 
-static bool is_play(const sl_app *app) {
-    return app->recorder.plays;
+static bool is_play(const app_state *app) {
+    return app->tool.recorder.plays;
 }
 
-static void export_series(sl_app *app) {
-    sl_app_check(app, sl_save_series(app, "sightline-frames", 2));
+static void export_series(app_state *app) {
+    app_check(app, save_series(app, "sightline-frames", 2));
 }
 
 // --- files
 
-static void choose(sl_app *app) {
-    if (app->maps_open) sl_shelf_choose(app, app->shelf.at);
+static void choose(app_state *app) {
+    if (app->ui.maps_open) shelf_choose(app, app->shelf.at);
 }
 
-static bool is_doors(const sl_app *app) {
+static bool is_doors(const app_state *app) {
     return app->document.source.options.doors;
 }
 
-static void doors(sl_app *app) {
+static void doors(app_state *app) {
     sl_import_options options = app->document.source.options;
     if (!(app->document.source.takes & SL_TAKES_DOORS)) {
-        sl_app_say(app, false, "this map's format has no doors to be taken otherwise");
+        ui_say(&app->ui, false, "this map's format has no doors to be taken otherwise");
         return;
     }
     options.doors = !options.doors;
-    sl_shelf_open_again(app, &options);
+    shelf_open_again(app, &options);
 }
 
-static void cut_by(sl_app *app, double share) {
-    const sl_document_source *source = &app->document.source;
+static void cut_by(app_state *app, double share) {
+    const document_source *source = &app->document.source;
     sl_import_options options = source->options;
     const double by = share * (source->highest - source->lowest);
     options.slice = fmin(fmax(options.slice + by, source->lowest), source->highest);
-    if (options.slice != source->options.slice) sl_shelf_open_again(app, &options);
+    if (options.slice != source->options.slice) shelf_open_again(app, &options);
 }
 
-static void cut_lower(sl_app *app) {
+static void cut_lower(app_state *app) {
     cut_by(app, -0.02);
 }
 
-static void cut_higher(sl_app *app) {
+static void cut_higher(app_state *app) {
     cut_by(app, 0.02);
 }
 
-static void save_png(sl_app *app) {
-    sl_save_numbered(app, "png");
+static void save_png(app_state *app) {
+    save_numbered(app, "png");
 }
 
-static void save_svg(sl_app *app) {
-    sl_save_numbered(app, "svg");
+static void save_svg(app_state *app) {
+    save_numbered(app, "svg");
 }
 
-static void save_pdf(sl_app *app) {
-    sl_save_numbered(app, "pdf");
+static void save_pdf(app_state *app) {
+    save_numbered(app, "pdf");
 }
 
-static void quit(sl_app *app) {
+static void quit(app_state *app) {
     app->quit = true;
 }
 
-static void escape(sl_app *app) {
-    if (app->help || app->maps_open)
-        app->help = app->maps_open = false;
+static void escape(app_state *app) {
+    if (app->ui.help || app->ui.maps_open)
+        app->ui.help = app->ui.maps_open = false;
     else if (app->document.job) {
-        sl_document_cancel(app->context, &app->document);
-        sl_app_say(app, false, "stopped; what is there stays");
-    } else if (sl_view_layer_stop(app))
-        sl_app_say(app, false, "stopped; F5 twice makes view cells again");
-    else if (app->recorder.plays)
-        app->recorder.plays = false;
+        document_cancel(app->context, &app->document);
+        ui_say(&app->ui, false, "stopped; what is there stays");
+    } else if (view_layer_stop(app))
+        ui_say(&app->ui, false, "stopped; F5 twice makes view cells again");
+    else if (app->tool.recorder.plays)
+        app->tool.recorder.plays = false;
     else
-        sl_quiz_forget(app);
+        quiz_forget(app);
 }
 
 #define HOLD(name, key, what, modes, bit)                                                          \
@@ -377,20 +379,20 @@ static void escape(sl_app *app) {
 #define LAYER_ROW(NAME, name, key, label, help, modes, calls, draw)                                \
     {name, key, label, "layer: " help, modes, 0, toggle_##NAME, is_##NAME},
 
-static const sl_action actions[] = {
+static const action_row actions[] = {
     {"explore", "F1", "Explore", "explore: walk about", 0, 0, explore, is_explore},
     {"learn", "F2", "Learn", "learn: step by step", 0, 0, learn, is_learn},
     {"draw", "F3", "Draw", "draw: walls by hand", 0, 0, draw, is_draw},
     {"quiz", "F4", "Quiz", "quiz: seen or not?", 0, 0, quiz, is_quiz},
 
-    HOLD("forward", "W", "walk ahead", WALKS, SL_HOLD_FORWARD),
-    HOLD("forward_too", "Up", "walk ahead", WALKS, SL_HOLD_FORWARD),
-    HOLD("back", "S", "walk back", WALKS, SL_HOLD_BACK),
-    HOLD("back_too", "Down", "walk back", WALKS, SL_HOLD_BACK),
-    HOLD("left", "A", "step to the left", WALKS, SL_HOLD_LEFT),
-    HOLD("right", "D", "step to the right", WALKS, SL_HOLD_RIGHT),
-    HOLD("turn_left", "Left", "turn left", EXPLORE | DRAW, SL_HOLD_TURN_LEFT),
-    HOLD("turn_right", "Right", "turn right", EXPLORE | DRAW, SL_HOLD_TURN_RIGHT),
+    HOLD("forward", "W", "walk ahead", WALKS, HOLD_FORWARD),
+    HOLD("forward_too", "Up", "walk ahead", WALKS, HOLD_FORWARD),
+    HOLD("back", "S", "walk back", WALKS, HOLD_BACK),
+    HOLD("back_too", "Down", "walk back", WALKS, HOLD_BACK),
+    HOLD("left", "A", "step to the left", WALKS, HOLD_LEFT),
+    HOLD("right", "D", "step to the right", WALKS, HOLD_RIGHT),
+    HOLD("turn_left", "Left", "turn left", EXPLORE | DRAW, HOLD_TURN_LEFT),
+    HOLD("turn_right", "Right", "turn right", EXPLORE | DRAW, HOLD_TURN_RIGHT),
     {"fly", "G", "Fly", "fly through walls, or walk", 0, 0, fly, is_fly},
     {"home", "H", "Home", "back to the map's start", 0, 0, home, NULL},
     {"narrower", ",", NULL, "narrower view cone", 0, 0, narrower, NULL},
@@ -398,7 +400,7 @@ static const sl_action actions[] = {
     {"range", "Ctrl+R", "Range", "set a view range, or lift it", 0, 0, range, is_range},
     {"all_round", "/", NULL, "all round, or a cone", 0, 0, all_round, NULL},
 
-    SL_LAYERS(LAYER_ROW){"split_less", "[", NULL, "splits less deep", 0, 0, split_less, NULL},
+    LAYERS(LAYER_ROW){"split_less", "[", NULL, "splits less deep", 0, 0, split_less, NULL},
     {"split_more", "]", NULL, "splits deeper", 0, 0, split_more, NULL},
     {"tree_less", "-", NULL, "stab tree: a portal shorter", 0, 0, tree_less, NULL},
     {"tree_more", "=", NULL, "stab tree: a portal longer", 0, 0, tree_more, NULL},
@@ -459,18 +461,18 @@ static const sl_action actions[] = {
 };
 enum { COUNT = sizeof actions / sizeof *actions };
 
-const sl_action *sl_actions(size_t *count) {
+const action_row *action_table(size_t *count) {
     *count = COUNT;
     return actions;
 }
 
-int sl_action_find(const char *name) {
+int action_find(const char *name) {
     for (int i = 0; i < COUNT; i++)
         if (strcmp(actions[i].name, name) == 0) return i;
     return -1;
 }
 
-int sl_action_of_key(const char *key, sl_mode mode) {
+int action_of_key(const char *key, app_mode mode) {
     for (int i = 0; i < COUNT; i++)
         if (actions[i].key && strcmp(actions[i].key, key) == 0 &&
             (!actions[i].modes || actions[i].modes & 1u << mode))
@@ -478,10 +480,10 @@ int sl_action_of_key(const char *key, sl_mode mode) {
     return -1;
 }
 
-void sl_action_run(sl_app *app, int action) {
+void action_run(app_state *app, int action) {
     if (action < 0 || action >= COUNT) return;
     if (actions[action].run)
         actions[action].run(app);
     else
-        app->held |= actions[action].hold;
+        app->tool.held |= actions[action].hold;
 }

@@ -1,78 +1,59 @@
-/// The viewer's state, and the frame that is drawn of it. Knows nothing of windows: the window, a
-/// script and a test drive it alike.
+/// The state of the viewer, and the frame that is drawn from it. It knows no window: the window,
+/// scripts and tests use it alike.
 #ifndef VIEWER_APP_H
 #define VIEWER_APP_H
 
-#include "camera.h"
 #include "document.h"
-#include "draw/scene.h"
-#include "history.h"
-#include "layer_nodes.h"
-#include "layer_views.h"
-#include "layer_watch.h"
 #include "layers.h"
 #include "lesson.h"
 #include "present.h"
-#include "record.h"
+#include "save.h"
 #include "seen.h"
+#include "sightline/canvas.h"
 #include "sightline/explain.h"
 #include "ui.h"
+#include "view.h"
+#include "view_cells.h"
 
-typedef enum sl_mode { SL_MODE_EXPLORE, SL_MODE_LEARN, SL_MODE_DRAW, SL_MODE_QUIZ } sl_mode;
+typedef enum app_mode { MODE_EXPLORE, MODE_LEARN, MODE_DRAW, MODE_QUIZ } app_mode;
 
-typedef enum sl_compare { SL_COMPARE_OFF, SL_COMPARE_PANES, SL_COMPARE_DIFFERENCE } sl_compare;
+typedef enum comparison { COMPARE_OFF, COMPARE_PANES, COMPARE_DIFFERENCE } comparison;
 
-/// Keys held down.
-enum sl_hold {
-    SL_HOLD_FORWARD = 1,
-    SL_HOLD_BACK = 2,
-    SL_HOLD_LEFT = 4,
-    SL_HOLD_RIGHT = 8,
-    SL_HOLD_TURN_LEFT = 16,
-    SL_HOLD_TURN_RIGHT = 32,
-};
-
-typedef struct sl_eye {
-    sl_point at;
-    double heading, fov; ///< degrees; 360: all round
-    bool flies;          ///< through walls
-} sl_eye;
-
-/// A picture that is kept as long as what it shows does not change.
-typedef struct sl_kept {
+/// A picture that is kept until what it shows changes.
+typedef struct kept_picture {
     cairo_surface_t *surface;
     struct {
         uint32_t version, touched, show, depth, dark, views, mark;
         sl_frame frame;
     } key;
     double seconds; ///< that drawing it took
-} sl_kept;
+} kept_picture;
 
 /// The account as it was drawn last.
-typedef struct sl_account_picture {
+typedef struct account_picture {
     cairo_surface_t *surface;
     uint32_t version;
     bool dark;
     double text, made; ///< when, by the clock
-} sl_account_picture;
+} account_picture;
 
 /// What the pointer does while its button is down.
-typedef enum sl_drag_kind {
-    SL_DRAG_NONE,
-    SL_DRAG_PAN,
-    SL_DRAG_LOOK,
-    SL_DRAG_HIT,  ///< a slider, the time line, the dual plane
-    SL_DRAG_LINE, ///< the lesson's line, in the plan
-    SL_DRAG_END,  ///< a portal end of the lesson
-    SL_DRAG_NEW_WALL,
-    SL_DRAG_WALL,
-    SL_DRAG_MIRROR,
-    SL_DRAG_OBJECT,
-} sl_drag_kind;
+typedef enum drag_kind {
+    DRAG_NONE,
+    DRAG_PAN,
+    DRAG_LOOK,
+    DRAG_HIT,  ///< a slider, the time line, the dual plane
+    DRAG_LINE, ///< the lesson's line, in the plan
+    DRAG_END,  ///< a portal end of the lesson
+    DRAG_NEW_WALL,
+    DRAG_WALL,
+    DRAG_MIRROR,
+    DRAG_OBJECT,
+} drag_kind;
 
-typedef struct sl_drag {
-    sl_drag_kind kind;
-    sl_hit hit;
+typedef struct drag_state {
+    drag_kind kind;
+    hit_area hit;
     sl_point from, last; ///< pointer
     sl_point at;         ///< where it began, in the map
     uint32_t index;
@@ -81,127 +62,120 @@ typedef struct sl_drag {
     int part;
     sl_segment segment;
     bool changed;
-} sl_drag;
+} drag_state;
 
-/// The list that is shown while `maps_open`: files at hand, or the maps of one of them.
-typedef struct sl_shelf {
-    sl_map_list files;         ///< paths
-    sl_document_source source; ///< whose maps are listed; no path: files are
-    sl_map_list maps;          ///< of that file
-    size_t at, first;          ///< the row that the keys are at, and the first one shown
-} sl_shelf;
+/// The list that is shown while `maps_open`: files, or the maps of one file.
+typedef struct map_shelf {
+    sl_map_list files;      ///< paths
+    document_source source; ///< whose maps are listed; no path: files are
+    sl_map_list maps;       ///< of that file
+    size_t at, first;       ///< the row that the keys are at, and the first one shown
+} map_shelf;
 
-typedef struct sl_quiz {
+typedef struct quiz_state {
     uint32_t from, to;
     bool asked, answered, right;
     unsigned asked_count, right_count;
     uint64_t random;
     sl_explanation explanation; ///< once answered
-} sl_quiz;
+} quiz_state;
 
-struct sl_app {
-    sl_context *context;
-    sl_document document;
-    sl_history history;
-    sl_camera camera;
+/// What is shown and from where. Results are kept from frame to frame.
+typedef struct view_state {
+    plan_camera camera;
     bool fitted; ///< the camera fits the map, and follows the window's size
-    sl_eye eye;
-    unsigned held; ///< of sl_hold
-    unsigned show; ///< of sl_show
+    eye_state eye;
+    unsigned show; ///< layers, of show_bit
     uint32_t split_depth, tree_depth;
-    sl_mode mode;
     size_t method, other; ///< of sl_eye_methods: chosen, and compared with
-    sl_compare compare;
-    bool side_panel, first_person, accounts, effects, help, maps_open, dark;
-    double text_scale;
-    double density; ///< of the screen: pixels where a common one has 1
-    bool steady;    ///< under a script: no clock shows, nothing is remembered
-    bool quit;
-    int width, height;
-    sl_point pointer;
-    sl_drag drag;
-    bool stale; ///< the map changes while something is dragged: it is to be made anew
-    sl_present present;
-    sl_seen seen;
-    sl_lesson lesson;
-    sl_quiz quiz;
-    sl_recorder recorder;
+    comparison compare;
+    double motion; ///< seconds for which a moving plan may be drawn by moving the kept picture
+
+    present_state present;
+    seen_state seen;
+
+    sl_scene *scene;                    ///< of the plan; NULL: none yet
+    sl_scene *tree;                     ///< the stab tree of the eye's cell, likewise
+    uint32_t scene_version, scene_show; ///< of what the scene was made
+    uint32_t tree_version, tree_cell;   ///< of what the tree was made
+    bool tree_dark;
+    kept_picture under, over; ///< below and above what changes from frame to frame
+    account_picture account;
+
+    node_layer *nodes; ///< these three: NULL: none yet
+    view_layer *views;
+    watch_layer *watch;
+} view_state;
+
+/// What the user does: the mode, keys and pointer, the selection, and the exercises.
+typedef struct tool_state {
+    app_mode mode;
+    unsigned held;    ///< keys, of hold_key
+    sl_point pointer; ///< negative: outside
+    drag_state drag;
     uint32_t wall; ///< chosen, of the map; UINT32_MAX: none
-    sl_ui ui;
-    sl_kept under, over; ///< below and above what changes from frame to frame
-    sl_account_picture account;
-    sl_scene scene;        ///< that they are drawn of; baked NULL: none yet
-    sl_scene tree;         ///< the stab tree of the eye's cell, likewise
-    sl_node_layer *nodes;  ///< NULL: none yet
-    sl_view_layer *views;  ///< likewise
-    sl_watch_layer *watch; ///< likewise
-    uint32_t scene_version, scene_show, tree_version;
-    double motion;     ///< seconds for which a moving plan may be drawn by moving the kept picture
-    char message[512]; ///< the last thing to say
-    bool message_is_error;
-    sl_shelf shelf;
+    lesson_state lesson;
+    quiz_state quiz;
+    path_recorder recorder;
+} tool_state;
+
+struct app_state {
+    sl_context *context;
+    document_state document;
+    view_state view;
+    tool_state tool;
+    ui_state ui;
+    map_shelf shelf;
     sl_import_options options; ///< the command line's, for files opened later too
-    double frame_seconds;      ///< smoothed; shown in the corner unless steady
+    bool steady;               ///< under a script: no clock shows, nothing is remembered
+    bool quit;
 };
 
-void sl_app_init(sl_app *app, sl_context *context);
-void sl_app_destroy(sl_app *app);
+void app_init(app_state *app, sl_context *context);
+void app_destroy(app_state *app);
 
-/// The first map is there: looks at it from its start.
-void sl_app_take_opened(sl_app *app);
+/// The first map is there: puts the eye at its start.
+void app_take_opened(app_state *app);
 
-/// How many times larger than plain lines and marks are drawn.
-static inline double sl_app_scale(const sl_app *app) {
-    return app->text_scale * app->density;
-}
-/// The size of plain text, pixels.
-static inline double sl_app_text(const sl_app *app) {
-    return 13 * sl_app_scale(app);
-}
+/// Shows the message of a failure; nothing for SL_OK.
+void app_check(app_state *app, sl_status status);
 
-/// Says something in the status line.
-void sl_app_say(sl_app *app, bool error, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
+/// Lets time pass: walks, plays, takes over results of the background.
+void app_tick(app_state *app, double seconds);
 
-/// Says what failed, where something did.
-void sl_app_check(sl_app *app, sl_status status);
+/// Waits for the background. Scripts need this to be the same on every machine.
+void app_settle(app_state *app);
 
-/// Time goes on: walks, plays, takes over what the background has done.
-void sl_app_tick(sl_app *app, double seconds);
-
-/// Waits for the background, so that scripts are the same on every machine.
-void sl_app_settle(sl_app *app);
-
-/// How the work in the background stands: the document's before all else.
-sl_document_progress sl_app_progress(const sl_app *app);
+/// The progress of the background; that of the document comes first.
+job_progress app_progress(const app_state *app);
 
 /// Draws the whole window of width x height.
-void sl_app_draw(sl_app *app, cairo_t *cairo);
+void app_draw(app_state *app, cairo_t *cairo);
 
-/// The camera fits the map into a plan of that size, where it is to.
-void sl_app_fit(sl_app *app, sl_box plan);
+/// Fits the map into a plan of that size, if the camera is to fit.
+void app_fit(app_state *app, sl_box plan);
 
-/// The map is about to be changed by hand: remembers it for undo.
-void sl_app_keep(sl_app *app);
-/// Likewise where a new bake will be needed; after the change, makes all anew.
-void sl_app_before_edit(sl_app *app);
-void sl_app_after_edit(sl_app *app);
-/// The map was changed, and no new bake is needed.
-void sl_app_after_touch(sl_app *app);
+/// Call before a change by hand: keeps the map for undo.
+void app_keep(app_state *app);
+/// The same where the change needs a new bake. Call app_after_edit after it: that starts the bake.
+void app_before_edit(app_state *app);
+void app_after_edit(app_state *app);
+/// Call after a change that needs no new bake.
+void app_after_touch(app_state *app);
 
-/// The cell of the eye; SL_NO_CELL outside and without a map.
-uint32_t sl_app_eye_cell(const sl_app *app);
+/// The cell of the eye; SL_NO_CELL outside, and without a map.
+uint32_t app_eye_cell(const app_state *app);
 
-/// The panes below the plan, side by side: the rows of the table in panes.c.
-enum { SL_PANE_DUAL, SL_PANE_FIRST_PERSON, SL_PANE_ACCOUNT, SL_PANE_EFFECTS, SL_PANES_BELOW };
+/// The panes below the plan, side by side: rows of the table in modes.c.
+enum { PANE_DUAL, PANE_FIRST_PERSON, PANE_ACCOUNT, PANE_EFFECTS, PANES_BELOW };
 
 /// Where things are on the page.
-typedef struct sl_layout {
+typedef struct window_layout {
     sl_box bar, side, status, plan[2], time;
     int plan_count;
-    sl_box below[SL_PANES_BELOW]; ///< the plan; of no width where they are not shown
-} sl_layout;
+    sl_box below[PANES_BELOW]; ///< the plan; of no width where they are not shown
+} window_layout;
 
-sl_layout sl_app_layout(const sl_app *app);
+window_layout app_layout(const app_state *app);
 
 #endif

@@ -1,73 +1,203 @@
+/// Runs without a user: frame times of a walk, and random events.
 #include "bench.h"
 
-#include "base/base.h"
-#include "clock.h"
+#include "actions.h"
+#include "files.h"
 #include "input.h"
-#include "meter.h"
+#include "script.h"
+#include "sightline/support.h"
 #include "window.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/utsname.h>
+#include <time.h>
 
-static void print_row(const sl_app *app, const char *part, sl_meter *meter, double processor) {
-    const sl_meter_summary sum = sl_meter_sum_up(meter);
-    const char *path = app->document.source.path, *slash = path ? strrchr(path, '/') : NULL;
+// --- meter
+
+void meter_add(frame_meter *meter, double seconds) {
+    if (meter->count < METER_MOST) meter->seconds[meter->count++] = seconds;
+}
+
+static int by_value(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+meter_summary meter_sum_up(frame_meter *meter) {
+    meter_summary sum = {0};
+    if (!meter->count) return sum;
+    qsort(meter->seconds, meter->count, sizeof *meter->seconds, by_value);
+    for (size_t i = 0; i < meter->count; i++) sum.mean += meter->seconds[i] / (double)meter->count;
+    sum.median = meter->seconds[meter->count / 2];
+    sum.p95 = meter->seconds[meter->count * 95 / 100];
+    sum.worst = meter->seconds[meter->count - 1];
+    return sum;
+}
+
+// --- benchmark
+
+/// Seconds of processor time of this thread. A busy machine and the background hardly change them.
+static double processor_seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void print_row(const document_state *document, const char *part, frame_meter *meter,
+                      double processor) {
+    const meter_summary sum = meter_sum_up(meter);
+    const char *path = document->source.path, *slash = path ? strrchr(path, '/') : NULL;
     struct utsname machine;
     if (uname(&machine) != 0) snprintf(machine.nodename, sizeof machine.nodename, "unknown");
     printf("%s,%u,%u,%s,%zu,%.2f,%.2f,%.2f,%.2f,%.2f,%s\n",
            slash  ? slash + 1
            : path ? path
                   : "",
-           app->document.baked->space.cell_count, app->document.baked->space.wall_count, part,
-           meter->count, 1e3 * sum.mean, 1e3 * sum.median, 1e3 * sum.p95, 1e3 * sum.worst,
+           document->baked->space.cell_count, document->baked->space.wall_count, part, meter->count,
+           1e3 * sum.mean, 1e3 * sum.median, 1e3 * sum.p95, 1e3 * sum.worst,
            1e3 * processor / (double)meter->count, machine.nodename);
 }
 
 /// One frame of a part of the benchmark.
-static void move(sl_app *app, int part, unsigned frame) {
-    app->first_person = app->accounts = part == 3;
+static void move(app_state *app, int part, unsigned frame) {
+    app->ui.first_person = app->ui.accounts = part == 3;
     if (part == 0 || part == 3) { // walks, and turns away from walls
-        app->held = SL_HOLD_FORWARD | (frame / 20 % 3 == 0 ? SL_HOLD_TURN_LEFT : 0u);
+        app->tool.held = HOLD_FORWARD | (frame / 20 % 3 == 0 ? HOLD_TURN_LEFT : 0u);
     } else if (part == 1) { // looks round
-        app->eye.heading = fmod(app->eye.heading + 2, 360);
+        app->view.eye.heading = fmod(app->view.eye.heading + 2, 360);
     } else { // pans and zooms
-        app->fitted = false;
-        app->motion = 0.2;
-        sl_camera_pan(&app->camera, 4 * cos(frame * 0.05), 4 * sin(frame * 0.05));
-        sl_camera_zoom(&app->camera, frame / 60 % 2 ? 1 / 1.02 : 1.02, (sl_point){0, 0});
+        app->view.fitted = false;
+        app->view.motion = 0.2;
+        camera_pan(&app->view.camera, 4 * cos(frame * 0.05), 4 * sin(frame * 0.05));
+        camera_zoom(&app->view.camera, frame / 60 % 2 ? 1 / 1.02 : 1.02, (sl_point){0, 0});
     }
 }
 
-sl_status sl_bench_run(sl_app *app, unsigned frames) {
+sl_status bench_run(app_state *app, unsigned frames) {
     static const char *const parts[] = {"walk", "look round", "pan and zoom",
                                         "walk with all panes"};
-    sl_window *window;
-    app->show = SL_SHOW_ALL;
-    sl_app_settle(app);
+    app_window *window;
+    app->view.show = SHOW_ALL;
+    app_settle(app);
     if (!app->document.baked) return sl_fail(app->context, SL_BAD_ARGUMENT, "no map is open");
-    SL_TRY(sl_window_open(app, true, &window));
-    sl_meter *meter = sl_alloc_array(app->context, 1, sizeof *meter);
+    SL_TRY(window_open(app, true, &window));
+    frame_meter *meter = sl_alloc_array(app->context, 1, sizeof *meter);
     sl_status status = meter ? SL_OK : SL_NO_MEMORY;
     app->steady = false;
     puts("map,cells,walls,part,frames,mean_ms,median_ms,p95_ms,worst_ms,processor_ms,machine");
     for (int part = 0; part < 4 && status == SL_OK; part++) {
         double processor = 0;
         meter->count = 0;
-        app->held = 0;
+        app->tool.held = 0;
         for (unsigned i = 0; i < frames + 5 && status == SL_OK; i++) {
-            if (i == 5) processor = sl_clock_processor();
-            const double before = sl_clock_seconds();
+            if (i == 5) processor = processor_seconds();
+            const double before = sl_seconds();
             move(app, part, i);
-            sl_app_tick(app, 1.0 / 60);
-            status = sl_window_show(window);
+            app_tick(app, 1.0 / 60);
+            status = window_show(window);
             // The first frames make what is kept from then on.
-            if (i >= 5) sl_meter_add(meter, sl_clock_seconds() - before);
+            if (i >= 5) meter_add(meter, sl_seconds() - before);
         }
-        if (status == SL_OK) print_row(app, parts[part], meter, sl_clock_processor() - processor);
+        if (status == SL_OK)
+            print_row(&app->document, parts[part], meter, processor_seconds() - processor);
     }
     if (meter) sl_free(app->context, meter);
-    sl_window_close(window);
+    window_close(window);
     return status;
+}
+
+// --- random events
+
+/// Actions that write files or end the program are left to tests.
+static bool is_harmless(const char *name) {
+    return strncmp(name, "save", 4) != 0 && strncmp(name, "export", 6) != 0 &&
+           strcmp(name, "quit") != 0;
+}
+
+static sl_point random_place(const ui_state *ui, sl_random *random) {
+    return (sl_point){sl_random_unit(random) * ui->width, sl_random_unit(random) * ui->height};
+}
+
+static void random_key(app_state *app, sl_random *random) {
+    size_t count;
+    const action_row *action = &action_table(&count)[0];
+    action += sl_random_below(random, count);
+    if (!action->key || !is_harmless(action->name)) return;
+    // A layout that never turns back to small text would make everything slow.
+    if (app->ui.text_scale > 1.8) app->ui.text_scale = 1;
+    input_key(app, action->key, true);
+    if (sl_random_below(random, 4)) input_key(app, action->key, false);
+}
+
+static bool is_file_button(const ui_state *ui, sl_point at) {
+    size_t count;
+    const hit_area hit = ui_find(ui, at);
+    return hit.kind == HIT_ACTION && !is_harmless(action_table(&count)[hit.value].name);
+}
+
+static void random_drag(app_state *app, sl_random *random) {
+    const sl_point from = random_place(&app->ui, random);
+    if (is_file_button(&app->ui, from)) return;
+    input_press(app, (button_kind)sl_random_below(random, 3), from);
+    if (sl_random_below(random, 2)) {
+        input_move(app, random_place(&app->ui, random));
+        script_frame(app);
+        input_move(app, random_place(&app->ui, random));
+    }
+    input_release(app, app->tool.pointer);
+}
+
+static void random_event(app_state *app, sl_random *random) {
+    switch (sl_random_below(random, 40)) {
+    case 0:
+        app->ui.width = 320 + (int)sl_random_below(random, 900);
+        app->ui.height = 240 + (int)sl_random_below(random, 700);
+        break;
+    case 1:
+        app->tool.held = 0;
+        break;
+    case 2:
+        if (app->shelf.files.count)
+            shelf_choose(app, sl_random_below(random, shelf_list(&app->shelf)->count));
+        break;
+    case 3:
+    case 4:
+        input_wheel(app, 6 * (sl_random_unit(random) - 0.5));
+        break;
+    case 5:
+    case 6:
+    case 7:
+    case 8:
+    case 9:
+    case 10:
+    case 11:
+    case 12:
+        random_drag(app, random);
+        break;
+    case 13:
+    case 14:
+        input_move(app, random_place(&app->ui, random));
+        break;
+    default:
+        random_key(app, random);
+        break;
+    }
+}
+
+sl_status soak_run(app_state *app, double seconds, uint64_t seed) {
+    sl_random random = {seed};
+    const double end = sl_seconds() + seconds;
+    uint64_t events = 0;
+    while (sl_seconds() < end) {
+        random_event(app, &random);
+        app_tick(app, 1.0 / 30);
+        script_frame(app);
+        events++;
+    }
+    printf("%llu random events from seed %llu in %g seconds\n", (unsigned long long)events,
+           (unsigned long long)seed, seconds);
+    return SL_OK;
 }

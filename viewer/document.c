@@ -1,59 +1,299 @@
+/// What is open, and the job in the background: from a file or a map to its space, and on to its
+/// visibility, in a thread of its own.
+///
+/// A job owns all that it makes until it sets a flag: space_ready, seen_ready, done. After the flag
+/// that part belongs to the main thread. document_poll takes it over and never waits. A change by
+/// hand cancels the job and starts another one. The old map stays until the new one has its space.
 #include "document.h"
 
-#include "bake_job.h"
-#include "base/base.h"
+#include "sightline/io.h"
+#include "sightline/solvers.h"
+#include "sightline/support.h"
 
+#include <pthread.h>
+#include <stdatomic.h>
 #include <string.h>
 #include <strings.h>
 #include <time.h>
+
+// --- undo
+
+static void clear(sl_context *context, sl_map *list, size_t *count) {
+    while (*count) sl_map_destroy(context, &list[--*count]);
+}
+
+/// The oldest change is dropped for a new one.
+static sl_status push(sl_context *context, sl_map *list, size_t *count, const sl_map *map) {
+    sl_map copy = {0};
+    const sl_status status = sl_map_copy(context, map, &copy);
+    if (status != SL_OK) return status;
+    if (*count == HISTORY_MOST) {
+        sl_map_destroy(context, &list[0]);
+        memmove(list, list + 1, --*count * sizeof *list);
+    }
+    list[(*count)++] = copy;
+    return SL_OK;
+}
+
+sl_status history_keep(sl_context *context, edit_history *history, const sl_map *map) {
+    clear(context, history->undone, &history->undone_count);
+    return push(context, history->done, &history->done_count, map);
+}
+
+void history_forget_last(sl_context *context, edit_history *history) {
+    if (history->done_count) sl_map_destroy(context, &history->done[--history->done_count]);
+}
+
+static bool same_segment(sl_segment a, sl_segment b) {
+    return a.a.x == b.a.x && a.a.y == b.a.y && a.b.x == b.b.x && a.b.y == b.b.y;
+}
+
+static bool same_glass(const sl_glass *a, size_t a_count, const sl_glass *b, size_t b_count) {
+    bool same = a_count == b_count;
+    for (size_t i = 0; i < a_count && same; i++)
+        same = same_segment(a[i].segment, b[i].segment) && a[i].one_sided == b[i].one_sided;
+    return same;
+}
+
+/// Whether two maps are equal for a bake: doors may be open or shut.
+static bool same_bake(const sl_map *a, const sl_map *b) {
+    bool same = a->wall_count == b->wall_count && a->door_count == b->door_count &&
+                a->cell_count == b->cell_count && a->range == b->range;
+    for (size_t i = 0; i < a->wall_count && same; i++)
+        same = same_segment((sl_segment){a->walls[i].a, a->walls[i].b},
+                            (sl_segment){b->walls[i].a, b->walls[i].b});
+    for (size_t i = 0; i < a->door_count && same; i++)
+        same = same_segment(a->doors[i].segment, b->doors[i].segment);
+    return same && same_glass(a->mirrors, a->mirror_count, b->mirrors, b->mirror_count) &&
+           same_glass(a->oneways, a->oneway_count, b->oneways, b->oneway_count) &&
+           same_glass(a->seams, a->seam_count, b->seams, b->seam_count);
+}
+
+bool history_undo(sl_context *context, edit_history *history, sl_map *map, bool redo, bool *bake,
+                  sl_status *status) {
+    sl_map *from = redo ? history->undone : history->done;
+    sl_map *to = redo ? history->done : history->undone;
+    size_t *from_count = redo ? &history->undone_count : &history->done_count;
+    size_t *to_count = redo ? &history->done_count : &history->undone_count;
+    if (!*from_count) return false;
+    *status = push(context, to, to_count, map);
+    if (*status != SL_OK) return true;
+    const sl_map last = from[--*from_count];
+    *bake = !same_bake(map, &last);
+    sl_map_destroy(context, map);
+    *map = last;
+    return true;
+}
+
+void history_clear(sl_context *context, edit_history *history) {
+    clear(context, history->done, &history->done_count);
+    clear(context, history->undone, &history->undone_count);
+}
+
+// --- the job
+
+struct bake_job {
+    document_source source; ///< what to read; no path: `map` is what to bake
+    uint32_t mirror_depth;
+    sl_map map;               ///< as drawn; filled by the job where it reads
+    sl_map clean;             ///< the job's, to the end
+    sl_baked *baked;          ///< the job's until space_ready, then only its visibility is
+    sl_visibility visibility; ///< the job's until seen_ready
+    sl_visibility with_trees; ///< the same with stab trees, when `done`; empty where there are none
+    sl_status status;         ///< when `done`
+    char message[1024];
+    pthread_t thread;
+    atomic_bool cancel, space_ready, seen_ready, done;
+    double until; ///< the clock's time at which the job gives up stab trees; 0: never
+    _Atomic(const char *) stage;
+    atomic_uint_fast64_t count, total;
+    bool taken, seen_taken; ///< the main thread has the space, the visibility
+};
+
+/// Stab trees are kept if all of them fit into this.
+#define TREE_BYTES ((uint64_t)128 << 20)
+
+/// The search for stab trees ends after this time: open places have too many sequences.
+#define TREE_SECONDS 20
+
+static bool is_cancelled(void *user) {
+    const bake_job *job = user;
+    return atomic_load(&job->cancel) || (job->until > 0 && sl_seconds() > job->until);
+}
+
+static void take_progress(void *user, const sl_progress *progress) {
+    bake_job *job = user;
+    atomic_store(&job->stage, progress->stage);
+    atomic_store(&job->count, progress->done);
+    atomic_store(&job->total, progress->total);
+}
+
+/// Replaces the walls of a map.
+static sl_status set_walls(sl_context *context, sl_map *map, const sl_wall *walls, size_t count) {
+    map->wall_count = 0;
+    for (size_t i = 0; i < count; i++)
+        SL_TRY(sl_map_add_wall(context, map, walls[i].a, walls[i].b, walls[i].line));
+    return SL_OK;
+}
+
+/// A baked file has all but the map as drawn: the walls of its space take its place.
+static sl_status read_baked(sl_context *context, bake_job *job) {
+    SL_TRY(sl_baked_read(context, job->source.path, job->baked));
+    SL_TRY(sl_map_copy(context, &job->baked->map, &job->map));
+    SL_TRY(set_walls(context, &job->map, job->baked->space.walls, job->baked->space.wall_count));
+    job->visibility = job->baked->visibility;
+    job->baked->visibility = (sl_visibility){0};
+    atomic_store(&job->space_ready, true);
+    atomic_store(&job->seen_ready, true);
+    return SL_OK;
+}
+
+static sl_status read_map(sl_context *context, bake_job *job) {
+    const document_source *source = &job->source;
+    SL_TRY(sl_map_read(context, source->path, &source->options, &job->map));
+    if (!source->has_start) return SL_OK;
+    const sl_box b = sl_map_bounds(&job->map);
+    const sl_point at = source->start;
+    if (at.x < b.min.x || at.x > b.max.x || at.y < b.min.y || at.y > b.max.y)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--start %.10g,%.10g: outside the map, which is %.10g,%.10g to %.10g,%.10g",
+                       at.x, at.y, b.min.x, b.min.y, b.max.x, b.max.y);
+    return sl_map_add_start(context, &job->map, source->start, 0, 0);
+}
+
+/// Finds what `options` ask for. It uses a map of the job, since the baked map belongs to the main
+/// thread by now.
+static sl_status see(sl_context *context, bake_job *job, const sl_bake_options *options,
+                     sl_visibility *out) {
+    sl_baked own = {.map = job->clean, .space = job->baked->space};
+    SL_TRY(sl_bake_see(context, options, &own, NULL));
+    *out = own.visibility;
+    return SL_OK;
+}
+
+/// The search also finds the stab trees. If it takes too long there are none.
+static sl_status see_with_trees(sl_context *context, bake_job *job, sl_bake_options options) {
+    options.method = sl_see_method_named("dfs");
+    options.see.solver = sl_funnel();
+    options.see.trees = true;
+    options.see.tree_bytes = TREE_BYTES;
+    job->until = sl_seconds() + TREE_SECONDS;
+    const sl_status status = see(context, job, &options, &job->with_trees);
+    return status == SL_CANCELLED && !atomic_load(&job->cancel) ? SL_OK : status;
+}
+
+static sl_status bake(sl_context *context, bake_job *job) {
+    sl_bake_options options = sl_bake_options_default();
+    sl_bake_account account = {0};
+    sl_map map = {0};
+    options.mirror_depth = job->mirror_depth;
+    SL_TRY(sl_map_copy(context, &job->map, &map));
+    const sl_status status = sl_bake_space(context, &map, &options, job->baked, &account);
+    sl_map_destroy(context, &map);
+    SL_TRY(status);
+    SL_TRY(sl_map_copy(context, &job->baked->map, &job->clean));
+    atomic_store(&job->space_ready, true);
+    SL_TRY(see(context, job, &options, &job->visibility));
+    atomic_store(&job->seen_ready, true);
+    return see_with_trees(context, job, options);
+}
+
+static sl_status work(sl_context *context, bake_job *job) {
+    if (job->source.path && document_is_baked(job->source.path)) return read_baked(context, job);
+    if (job->source.path) SL_TRY(read_map(context, job));
+    return bake(context, job);
+}
+
+static void *run(void *user) {
+    bake_job *job = user;
+    const sl_hooks hooks = {.user = job, .progress = take_progress, .cancelled = is_cancelled};
+    sl_context *context = sl_context_create(&hooks);
+    job->status = context ? sl_io_use(context) : SL_NO_MEMORY;
+    if (job->status == SL_OK) job->status = work(context, job);
+    snprintf(job->message, sizeof job->message, "%s",
+             context ? sl_context_message(context) : "out of memory");
+    if (context) sl_context_destroy(context);
+    atomic_store(&job->done, true);
+    return NULL;
+}
+
+static void free_job(sl_context *context, bake_job *job) {
+    if (!job->taken && job->baked) {
+        sl_baked_destroy(context, job->baked);
+        sl_free(context, job->baked);
+    }
+    sl_visibility_destroy(context, &job->visibility);
+    sl_visibility_destroy(context, &job->with_trees);
+    sl_map_destroy(context, &job->map);
+    sl_map_destroy(context, &job->clean);
+    document_source_destroy(context, &job->source);
+    sl_free(context, job);
+}
+
+/// Starts the thread. Owns the content of the job also on failure.
+static sl_status bake_job_start(sl_context *context, bake_job *job) {
+    atomic_store(&job->stage, "read");
+    job->baked = sl_alloc_array(context, 1, sizeof *job->baked);
+    if (job->baked && pthread_create(&job->thread, NULL, run, job) == 0) return SL_OK;
+    free_job(context, job);
+    return sl_fail(context, SL_NO_MEMORY, "no thread for the work in the background");
+}
+
+/// Waits for the thread. Frees the job with all that was not taken over.
+static void bake_job_end(sl_context *context, bake_job *job) {
+    pthread_join(job->thread, NULL);
+    free_job(context, job);
+}
+
+// --- the document
 
 static sl_status copy_text(sl_context *context, const char *text, char **out) {
     *out = text ? sl_copy_text(context, text, strlen(text)) : NULL;
     return text && !*out ? SL_NO_MEMORY : SL_OK;
 }
 
-void sl_document_source_destroy(sl_context *context, sl_document_source *source) {
+void document_source_destroy(sl_context *context, document_source *source) {
     sl_free(context, source->path);
     sl_free(context, (char *)(uintptr_t)source->options.map);
     sl_free(context, (char *)(uintptr_t)source->options.layers);
-    *source = (sl_document_source){0};
+    *source = (document_source){0};
 }
 
-sl_status sl_document_source_copy(sl_context *context, const sl_document_source *from,
-                                  sl_document_source *to) {
+sl_status document_source_copy(sl_context *context, const document_source *from,
+                               document_source *to) {
     char *path = NULL, *map = NULL, *layers = NULL;
     sl_status status = copy_text(context, from->path, &path);
     if (status == SL_OK) status = copy_text(context, from->options.map, &map);
     if (status == SL_OK) status = copy_text(context, from->options.layers, &layers);
-    sl_document_source copy = *from;
+    document_source copy = *from;
     copy.path = path;
     copy.options.map = map;
     copy.options.layers = layers;
     if (status == SL_OK)
         *to = copy;
     else
-        sl_document_source_destroy(context, &copy);
+        document_source_destroy(context, &copy);
     return status;
 }
 
-static sl_status start(sl_context *context, sl_document *document, sl_bake_job *job) {
-    sl_document_cancel(context, document);
-    SL_TRY(sl_bake_job_start(context, job));
+static sl_status start(sl_context *context, document_state *document, bake_job *job) {
+    document_cancel(context, document);
+    SL_TRY(bake_job_start(context, job));
     document->job = job;
     return SL_OK;
 }
 
-bool sl_document_is_baked(const char *path) {
+bool document_is_baked(const char *path) {
     const size_t length = strlen(path);
     return length > 4 && strcasecmp(path + length - 4, ".slv") == 0;
 }
 
-sl_status sl_document_open(sl_context *context, sl_document *document,
-                           const sl_document_source *source) {
-    sl_bake_job *job = sl_alloc_array(context, 1, sizeof *job);
+sl_status document_open(sl_context *context, document_state *document,
+                        const document_source *source) {
+    bake_job *job = sl_alloc_array(context, 1, sizeof *job);
     if (!job) return SL_NO_MEMORY;
     job->mirror_depth = document->mirror_depth;
-    const sl_status status = sl_document_source_copy(context, source, &job->source);
+    const sl_status status = document_source_copy(context, source, &job->source);
     if (status != SL_OK) {
         sl_free(context, job);
         return status;
@@ -61,8 +301,8 @@ sl_status sl_document_open(sl_context *context, sl_document *document,
     return start(context, document, job);
 }
 
-sl_status sl_document_rebuild(sl_context *context, sl_document *document) {
-    sl_bake_job *job = sl_alloc_array(context, 1, sizeof *job);
+sl_status document_rebuild(sl_context *context, document_state *document) {
+    bake_job *job = sl_alloc_array(context, 1, sizeof *job);
     if (!job) return SL_NO_MEMORY;
     job->mirror_depth = document->mirror_depth;
     const sl_status status = sl_map_copy(context, &document->map, &job->map);
@@ -73,12 +313,16 @@ sl_status sl_document_rebuild(sl_context *context, sl_document *document) {
     return start(context, document, job);
 }
 
-bool sl_document_has_rows(const sl_document *document) {
+bool document_has_rows(const document_state *document) {
     const double now = document->map.range, baked = document->baked->map.range;
     return document->has_visibility && (baked == 0 || (now > 0 && now <= baked));
 }
 
-void sl_document_touch(sl_document *document) {
+bool document_awaits_space(const document_state *document) {
+    return document->job && !document->job->taken;
+}
+
+void document_touch(document_state *document) {
     const sl_map *map = &document->map;
     document->touched++;
     if (!document->baked || document->baked->map.door_count != map->door_count) return;
@@ -90,17 +334,17 @@ void sl_document_touch(sl_document *document) {
 }
 
 /// Of a map that was just opened: no object blocks sight.
-static sl_status take_objects(sl_context *context, sl_document *document) {
+static sl_status take_objects(sl_context *context, document_state *document) {
     const size_t count = document->map.object_count;
     sl_free(context, document->blocks);
     document->object_count = 0;
     document->blocks = sl_alloc_array(context, count, sizeof *document->blocks);
     if (!document->blocks) return SL_NO_MEMORY;
-    if (count <= SL_OBJECTS_MOST) document->object_count = count;
+    if (count <= OBJECTS_MOST) document->object_count = count;
     return SL_OK;
 }
 
-static void drop_baked(sl_context *context, sl_document *document) {
+static void drop_baked(sl_context *context, document_state *document) {
     if (document->search) sl_eye_search_destroy(context, document->search);
     document->search = NULL;
     sl_outline_destroy(context, &document->outline);
@@ -116,26 +360,26 @@ static void drop_baked(sl_context *context, sl_document *document) {
     document->has_visibility = false;
 }
 
-sl_status sl_document_add_mirrors(sl_context *context, const sl_document *document,
-                                  sl_eye_search *search) {
+sl_status document_add_mirrors(sl_context *context, const document_state *document,
+                               sl_eye_search *search) {
     const sl_map *map = &document->baked->map;
     if (!map->mirror_count) return SL_OK;
     return sl_eye_search_add_mirrors(context, search, map, document->mirror_depth);
 }
 
-static sl_status make_search(sl_context *context, sl_document *document) {
+static sl_status make_search(sl_context *context, document_state *document) {
     if (document->search) sl_eye_search_destroy(context, document->search);
     document->search = NULL;
     SL_TRY(sl_eye_search_create(context, &document->baked->space, &document->baked->visibility,
                                 &document->search));
-    return sl_document_add_mirrors(context, document, document->search);
+    return document_add_mirrors(context, document, document->search);
 }
 
-sl_status sl_document_renew_search(sl_context *context, sl_document *document) {
+sl_status document_renew_search(sl_context *context, document_state *document) {
     return document->search ? make_search(context, document) : SL_OK;
 }
 
-static sl_status measure_cells(sl_context *context, sl_document *document) {
+static sl_status measure_cells(sl_context *context, document_state *document) {
     const sl_space *space = &document->baked->space;
     document->areas = sl_alloc_array(context, space->cell_count, sizeof *document->areas);
     if (!document->areas) return SL_NO_MEMORY;
@@ -150,9 +394,9 @@ static sl_status measure_cells(sl_context *context, sl_document *document) {
     return SL_OK;
 }
 
-/// The space is there: from now on it is what is shown.
-static sl_status take_space(sl_context *context, sl_document *document) {
-    sl_bake_job *job = document->job;
+/// Takes over the space: it is shown from now on.
+static sl_status take_space(sl_context *context, document_state *document) {
+    bake_job *job = document->job;
     drop_baked(context, document);
     document->baked = job->baked;
     document->baked_depth = job->mirror_depth;
@@ -162,20 +406,21 @@ static sl_status take_space(sl_context *context, sl_document *document) {
         sl_map_destroy(context, &document->map);
         SL_TRY(sl_map_copy(context, &job->map, &document->map));
         SL_TRY(take_objects(context, document));
-        sl_document_source_destroy(context, &document->source);
+        document_source_destroy(context, &document->source);
         document->source = job->source;
-        job->source = (sl_document_source){0};
+        job->source = (document_source){0};
         document->opened += !document->source.again;
     }
-    sl_document_touch(document); // doors may have been turned while the job was at work
+    document_touch(document); // doors may have been turned while the job was at work
     SL_TRY(measure_cells(context, document));
     SL_TRY(sl_outline_make(context, &document->baked->space, &document->outline));
-    SL_TRY(sl_splits_make(context, &document->baked->space, &document->splits));
+    SL_TRY(sli_splits_make(context, &document->baked->space, &document->splits));
     return make_search(context, document);
 }
 
-/// What is seen is there, or, with no change but for them, is there with its stab trees.
-static sl_status take_visibility(sl_context *context, sl_document *document, sl_visibility *from) {
+/// Takes over the visible sets. They come a second time, equal but with stab trees.
+static sl_status take_visibility(sl_context *context, document_state *document,
+                                 sl_visibility *from) {
     if (document->search) sl_eye_search_destroy(context, document->search);
     document->search = NULL;
     sl_visibility_destroy(context, &document->baked->visibility);
@@ -186,28 +431,28 @@ static sl_status take_visibility(sl_context *context, sl_document *document, sl_
     return make_search(context, document);
 }
 
-static sl_status finish(sl_context *context, sl_document *document) {
-    sl_bake_job *job = document->job;
+static sl_status finish(sl_context *context, document_state *document) {
+    bake_job *job = document->job;
     sl_status status = job->status;
     if (status != SL_OK)
         sl_fail(context, status, "%s", job->message);
     else if (job->with_trees.pvs.cell_count)
         status = take_visibility(context, document, &job->with_trees);
     document->job = NULL;
-    sl_bake_job_end(context, job);
+    bake_job_end(context, job);
     return status;
 }
 
-sl_status sl_document_poll(sl_context *context, sl_document *document, bool *changed) {
+sl_status document_poll(sl_context *context, document_state *document, bool *changed) {
     *changed = false;
-    sl_bake_job *job = document->job;
+    bake_job *job = document->job;
     if (!job) return SL_OK;
     const bool done = atomic_load(&job->done);
     if (!job->taken && atomic_load(&job->space_ready)) {
         *changed = true;
         const sl_status status = take_space(context, document);
         if (status != SL_OK) {
-            sl_document_close(context, document);
+            document_close(context, document);
             return status;
         }
     }
@@ -221,12 +466,12 @@ sl_status sl_document_poll(sl_context *context, sl_document *document, bool *cha
     return finish(context, document);
 }
 
-sl_status sl_document_wait(sl_context *context, sl_document *document, bool *changed) {
+sl_status document_wait(sl_context *context, document_state *document, bool *changed) {
     bool any = false;
     sl_status status = SL_OK;
     while (document->job) {
         bool now;
-        status = sl_document_poll(context, document, &now);
+        status = document_poll(context, document, &now);
         any |= now;
         if (document->job && !now) {
             const struct timespec pause = {0, 500000};
@@ -237,29 +482,32 @@ sl_status sl_document_wait(sl_context *context, sl_document *document, bool *cha
     return status;
 }
 
-sl_document_progress sl_document_progress_of(const sl_document *document) {
-    const sl_bake_job *job = document->job;
-    if (!job) return (sl_document_progress){0};
+job_progress document_progress(const document_state *document) {
+    const bake_job *job = document->job;
+    if (!job) return (job_progress){0};
     const uint64_t total = atomic_load(&job->total), count = atomic_load(&job->count);
-    return (sl_document_progress){.running = true,
-                                  .stage = atomic_load(&job->stage),
-                                  .share = total ? (double)count / (double)total : -1};
+    return (job_progress){.running = true,
+                          .stage = atomic_load(&job->stage),
+                          .share = total ? (double)count / (double)total : -1};
 }
 
-void sl_document_cancel(sl_context *context, sl_document *document) {
-    sl_bake_job *job = document->job;
+void document_cancel(sl_context *context, document_state *document) {
+    bake_job *job = document->job;
     if (!job) return;
     atomic_store(&job->cancel, true);
     document->job = NULL;
-    sl_bake_job_end(context, job);
+    bake_job_end(context, job);
 }
 
-void sl_document_close(sl_context *context, sl_document *document) {
-    sl_document_cancel(context, document);
+void document_close(sl_context *context, document_state *document) {
+    document_cancel(context, document);
     drop_baked(context, document);
     sl_map_destroy(context, &document->map);
-    sl_document_source_destroy(context, &document->source);
+    document_source_destroy(context, &document->source);
     sl_free(context, document->blocks);
-    *document = (sl_document){
-        .version = document->version + 1, .touched = document->touched, .opened = document->opened};
+    *document = (document_state){.version = document->version + 1,
+                                 .touched = document->touched,
+                                 .opened = document->opened,
+                                 .history = document->history,
+                                 .stale = document->stale};
 }

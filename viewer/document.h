@@ -1,16 +1,40 @@
-/// What is open: a map with its space and visibility, made anew in the background after each
-/// change.
+/// What is open: a map with its space and visibility, baked again in the background after each
+/// change. Undo belongs to it.
 #ifndef VIEWER_DOCUMENT_H
 #define VIEWER_DOCUMENT_H
 
 #include "sightline/bake.h"
 #include "sightline/eye_to_cell.h"
 #include "sightline/import.h"
+#include "sightline/map.h"
 #include "sightline/region.h"
-#include "space/splits.h"
+#include "space/kd_tree.h" // private: a lesson and a layer show the splits
+
+// --- undo
+
+enum { HISTORY_MOST = 100 };
+
+/// Zeroed to start.
+typedef struct edit_history {
+    sl_map done[HISTORY_MOST], undone[HISTORY_MOST];
+    size_t done_count, undone_count;
+} edit_history;
+
+/// Keeps the map as it is, before a change.
+sl_status history_keep(sl_context *context, edit_history *history, const sl_map *map);
+
+/// Drops the last change that was kept: nothing changed.
+void history_forget_last(sl_context *context, edit_history *history);
+
+/// Goes one change back (or forward); false where there is none. *bake says whether the change
+/// needs a new bake.
+bool history_undo(sl_context *context, edit_history *history, sl_map *map, bool redo, bool *bake,
+                  sl_status *status);
+
+void history_clear(sl_context *context, edit_history *history);
 
 /// How to read a file.
-typedef struct sl_document_source {
+typedef struct document_source {
     char *path;                ///< NULL: none was opened
     sl_import_options options; ///< its texts are the source's
     bool has_start;
@@ -18,84 +42,90 @@ typedef struct sl_document_source {
     double lowest, highest; ///< of a 3D model; equal for all else
     unsigned takes;         ///< of sl_import_takes: what the format has a use for
     bool again;             ///< the file that is open with other options: no other one is opened
-} sl_document_source;
+} document_source;
 
 /// A copy. `to` is untouched on failure.
-sl_status sl_document_source_copy(sl_context *context, const sl_document_source *from,
-                                  sl_document_source *to);
-void sl_document_source_destroy(sl_context *context, sl_document_source *source); ///< and zeroes it
+sl_status document_source_copy(sl_context *context, const document_source *from,
+                               document_source *to);
+void document_source_destroy(sl_context *context, document_source *source); ///< and zeroes it
 
-typedef struct sl_bake_job sl_bake_job;
+typedef struct bake_job bake_job;
 
-enum { SL_OBJECTS_MOST = 256 };
+enum { OBJECTS_MOST = 256 };
 
-/// A document, zeroed to start. All but the pointers marked so stay empty while nothing is open.
-typedef struct sl_document {
-    sl_document_source source;
+/// A document, zeroed to start. Its content stays empty while nothing is open.
+typedef struct document_state {
+    document_source source;
     sl_map map;          ///< as drawn: what is edited and baked
     sl_baked *baked;     ///< its space may be there before its visibility; NULL while nothing is
     bool has_visibility; ///< what cells see; stab trees come later, or not
     sl_outline outline;
-    sl_split *splits; ///< of the kd-tree, by node
+    sli_split *splits; ///< of the kd-tree, by node
     sl_eye_search *search;
     double *areas;         ///< of the cells
     double area;           ///< of all cells that count
     uint32_t counted;      ///< how many there are
     uint32_t mirror_depth; ///< reflections of a sightline, at most
     uint32_t baked_depth;  ///< that cells are seen with
-    /// The map's objects that can be moved, and which of them block sight: all of them, but for
-    /// maps with very many, of which none can.
+    /// The objects of the map that can be moved, and which of them block sight. A map with too many
+    /// has none that can be moved.
     size_t object_count;
     bool *blocks;
     uint32_t version; ///< grows with every change but that of stab trees, for who keeps pictures
     uint32_t touched; ///< grows with every change that needs no new bake
     uint32_t opened;  ///< grows with every file that is opened
-    sl_bake_job *job; ///< NULL: none runs
-} sl_document;
+    bake_job *job;    ///< NULL: none runs
+    edit_history history; ///< of changes by hand
+    bool stale;           ///< the map changes while something is dragged: it is to be made anew
+} document_state;
 
-/// How the work in the background stands.
-typedef struct sl_document_progress {
+/// The progress of the work in the background.
+typedef struct job_progress {
     bool running;
     const char *stage;
     double share; ///< 0 to 1; negative where it is not known
-} sl_document_progress;
+} job_progress;
 
-/// Whether a file's name is that of a baked one.
-bool sl_document_is_baked(const char *path);
+/// Whether a file has the name of a baked map.
+bool document_is_baked(const char *path);
 
-/// Starts to open a file (map or .slv): what is open stays until the new map has its space. Copies
+/// Starts to open a file (map or .slv). The old map stays until the new one has its space. Copies
 /// the source.
-sl_status sl_document_open(sl_context *context, sl_document *document,
-                           const sl_document_source *source);
+sl_status document_open(sl_context *context, document_state *document,
+                        const document_source *source);
 
-/// Starts to make space and visibility of the map as it is now.
-sl_status sl_document_rebuild(sl_context *context, sl_document *document);
+/// Starts to bake the map as it is now.
+sl_status document_rebuild(sl_context *context, document_state *document);
 
-/// Whether what cells see is there, and holds all that they see with the map's range as it is now.
-bool sl_document_has_rows(const sl_document *document);
+/// Whether visible sets are there, and hold all that cells see with the present range.
+bool document_has_rows(const document_state *document);
 
-/// Makes the search anew, as the mirrors' depth is another.
-sl_status sl_document_renew_search(sl_context *context, sl_document *document);
+/// Makes the search again after the mirror depth changed.
+sl_status document_renew_search(sl_context *context, document_state *document);
 
-/// Has a search over the document's cells look into the mirrors that were baked.
-sl_status sl_document_add_mirrors(sl_context *context, const sl_document *document,
-                                  sl_eye_search *search);
+/// Adds the baked mirrors to a search over the cells of the document.
+sl_status document_add_mirrors(sl_context *context, const document_state *document,
+                               sl_eye_search *search);
 
-/// What was changed in the map needs no new bake: shows it.
-void sl_document_touch(sl_document *document);
+/// Whether a job is running that has no space yet.
+bool document_awaits_space(const document_state *document);
 
-/// Takes over what the background has done; *changed where something new can be shown. A job that
-/// failed gives its status and message, and leaves what was open.
-sl_status sl_document_poll(sl_context *context, sl_document *document, bool *changed);
+/// Shows a change of the map that needs no new bake.
+void document_touch(document_state *document);
 
-/// Waits until nothing runs any more.
-sl_status sl_document_wait(sl_context *context, sl_document *document, bool *changed);
+/// Takes over results of the background; sets *changed where there is something new. A job that
+/// failed gives its status and message, and the old map stays.
+sl_status document_poll(sl_context *context, document_state *document, bool *changed);
 
-sl_document_progress sl_document_progress_of(const sl_document *document);
+/// Waits until no job runs.
+sl_status document_wait(sl_context *context, document_state *document, bool *changed);
 
-/// Stops the work in the background, if there is any.
-void sl_document_cancel(sl_context *context, sl_document *document);
+job_progress document_progress(const document_state *document);
 
-void sl_document_close(sl_context *context, sl_document *document);
+/// Stops the job, if one runs.
+void document_cancel(sl_context *context, document_state *document);
+
+/// Closes all but the changes kept for undo: the caller clears those.
+void document_close(sl_context *context, document_state *document);
 
 #endif

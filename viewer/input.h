@@ -1,18 +1,18 @@
-/// What comes from keys and pointer, in the terms of the page.
+/// Keys and pointer, in places of the page.
 #ifndef VIEWER_INPUT_H
 #define VIEWER_INPUT_H
 
 #include "app.h"
 
 /// A key goes down or up, by its name in the table of actions.
-void sl_input_key(sl_app *app, const char *key, bool down);
+void input_key(app_state *app, const char *key, bool down);
 
-typedef enum sl_button { SL_BUTTON_LEFT, SL_BUTTON_MIDDLE, SL_BUTTON_RIGHT } sl_button;
+typedef enum button_kind { BUTTON_LEFT, BUTTON_MIDDLE, BUTTON_RIGHT } button_kind;
 
-void sl_input_press(sl_app *app, sl_button button, sl_point at);
-void sl_input_move(sl_app *app, sl_point to);
-void sl_input_release(sl_app *app, sl_point at);
-/// Turned away from the user is positive.
-void sl_input_wheel(sl_app *app, double steps);
+void input_press(app_state *app, button_kind button, sl_point at);
+void input_move(app_state *app, sl_point to);
+void input_release(app_state *app, sl_point at);
+/// Positive: turned away from the user.
+void input_wheel(app_state *app, double steps);
 
 #endif

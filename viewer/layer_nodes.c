@@ -1,11 +1,10 @@
-/// The hierarchy's nodes as a walk without visible sets classifies them, frame by frame, in the
-/// colours of Bittner & Havran 2002, Figure 12.
-#include "layer_nodes.h"
+/// The nodes of the hierarchy as a walk without visible sets classifies them, frame by frame, in
+/// the colours of Bittner and Havran 2002, Figure 12.
+#include "layers.h"
 
 #include "app.h"
-#include "base/base.h"
-#include "base/bits.h"
-#include "draw/sight.h"
+#include "sightline/canvas.h"
+#include "sightline/support.h"
 #include "sightline/walk.h"
 
 #include <stdio.h>
@@ -25,7 +24,7 @@ static const struct {
     [PARTIAL] = {"partially visible", {1, 1, 1}, 0},
 };
 
-struct sl_node_layer {
+struct node_layer {
     uint32_t version; ///< of what is present that it is of
     sl_hierarchy hierarchy;
     sl_walk *walk;
@@ -36,7 +35,7 @@ struct sl_node_layer {
     uint32_t counts[KINDS];
 };
 
-void sl_node_layer_destroy(sl_context *context, sl_node_layer *layer) {
+void node_layer_destroy(sl_context *context, node_layer *layer) {
     if (!layer) return;
     sl_walk_destroy(context, layer->walk);
     sl_hierarchy_destroy(context, &layer->hierarchy);
@@ -51,7 +50,7 @@ static const sl_walk_method *find_method(const char *name) {
     return &methods[i];
 }
 
-static sl_status fill(sl_context *context, const sl_present *present, sl_node_layer *layer) {
+static sl_status fill(sl_context *context, const present_state *present, node_layer *layer) {
     const sl_space *space = present->space;
     const sl_walk_options options = sl_walk_options_default();
     layer->version = present->version;
@@ -65,18 +64,18 @@ static sl_status fill(sl_context *context, const sl_present *present, sl_node_la
                           &layer->walk);
 }
 
-/// Makes it for what is present, where it is not there yet.
-static sl_status prepare(sl_app *app) {
-    if (app->nodes && app->nodes->version == app->present.version) return SL_OK;
-    sl_node_layer_destroy(app->context, app->nodes);
-    app->nodes = NULL;
-    sl_node_layer *layer = sl_alloc_array(app->context, 1, sizeof *layer);
+/// Makes the layer for the present space, if it is not there.
+static sl_status prepare(app_state *app) {
+    if (app->view.nodes && app->view.nodes->version == app->view.present.version) return SL_OK;
+    node_layer_destroy(app->context, app->view.nodes);
+    app->view.nodes = NULL;
+    node_layer *layer = sl_alloc_array(app->context, 1, sizeof *layer);
     if (!layer) return SL_NO_MEMORY;
-    const sl_status status = fill(app->context, &app->present, layer);
+    const sl_status status = fill(app->context, &app->view.present, layer);
     if (status == SL_OK)
-        app->nodes = layer;
+        app->view.nodes = layer;
     else
-        sl_node_layer_destroy(app->context, layer);
+        node_layer_destroy(app->context, layer);
     return status;
 }
 
@@ -86,7 +85,7 @@ static kind kind_of(sl_node_state state, sl_walk_reason reason) {
     return reason == SL_WALK_FRUSTUM ? OUT : reason == SL_WALK_PROPAGATED ? PROPAGATED : INVISIBLE;
 }
 
-static void sort_cells(sl_node_layer *layer) {
+static void sort_cells(node_layer *layer) {
     const sl_hierarchy *h = &layer->hierarchy;
     for (int k = 0; k < KINDS; k++) {
         memset(layer->sets[k], 0, sl_bits_words(h->space->cell_count) * sizeof *layer->sets[k]);
@@ -102,38 +101,38 @@ static void sort_cells(sl_node_layer *layer) {
     }
 }
 
-/// A frame of the walk, where the eye has moved since the last one.
-static sl_status step(sl_app *app) {
+/// Walks one frame if the eye moved since the last one.
+static sl_status step(app_state *app) {
     SL_TRY(prepare(app));
-    sl_node_layer *layer = app->nodes;
-    if (layer->stepped && sl_seen_same_view(&layer->view, &app->seen.view)) return SL_OK;
-    SL_TRY(sl_walk_step(app->context, layer->walk, &app->seen.view, &layer->frame));
-    layer->view = app->seen.view;
+    node_layer *layer = app->view.nodes;
+    if (layer->stepped && seen_same_view(&layer->view, &app->view.seen.view)) return SL_OK;
+    SL_TRY(sl_walk_step(app->context, layer->walk, &app->view.seen.view, &layer->frame));
+    layer->view = app->view.seen.view;
     layer->stepped = true;
     sort_cells(layer);
     return SL_OK;
 }
 
-void sl_layer_nodes_key(sl_app *app, const sl_frame *frame) {
-    const sl_node_layer *layer = app->nodes;
+void layer_nodes_key(app_state *app, const sl_frame *frame) {
+    const node_layer *layer = app->view.nodes;
     if (!layer || !layer->stepped) return;
-    sl_key_row rows[KINDS];
+    legend_row rows[KINDS];
     for (int k = 0; k < KINDS; k++)
-        rows[k] = (sl_key_row){kinds[k].label, kinds[k].colour, kinds[k].opacity, layer->counts[k]};
+        rows[k] = (legend_row){kinds[k].label, kinds[k].colour, kinds[k].opacity, layer->counts[k]};
     char text[96];
     const sl_walk_frame *f = &layer->frame;
     snprintf(text, sizeof text, "%u tests for %u nodes, %u occluders", f->tests, f->visited,
              f->occluders);
-    sl_layers_draw_key(app, frame, rows, KINDS, text);
+    layers_draw_key(&app->ui, frame, rows, KINDS, text);
 }
 
-void sl_layer_nodes(sl_app *app, const sl_frame *frame, int index) {
+void layer_nodes(app_state *app, const sl_frame *frame, int index) {
     const sl_status status = step(app);
-    sl_app_check(app, status);
+    app_check(app, status);
     if (status != SL_OK) return;
     for (int k = 0; k < KINDS; k++)
         if (kinds[k].opacity > 0)
-            sl_draw_cell_set(app->ui.cairo, &app->document.baked->space, frame, app->nodes->sets[k],
-                             NULL, kinds[k].colour, kinds[k].opacity);
+            sl_draw_cell_set(app->ui.cairo, &app->document.baked->space, frame,
+                             app->view.nodes->sets[k], NULL, kinds[k].colour, kinds[k].opacity);
     (void)index;
 }

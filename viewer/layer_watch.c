@@ -1,19 +1,19 @@
-/// Cells by who sees whom, of the eye's cell; and the region from which the eye itself is seen. A
-/// line of sight is the same both ways but for the glass on it, so that the region is what an eye
-/// with all glass turned round would see.
-#include "layer_watch.h"
+/// Who sees the eye. Cells are coloured by who sees whom, and the region shows from where the eye
+/// is seen. A line of sight is the same in both directions except for one-way glass. So this region
+/// is what an eye would see with all glass turned round.
+#include "layers.h"
 
 #include "app.h"
-#include "base/base.h"
-#include "draw/sight.h"
+#include "sightline/canvas.h"
+#include "sightline/support.h"
 
 #include <string.h>
 
 typedef enum kind { SEES, MUTUAL, SEEN, KINDS } kind;
 
-struct sl_watch_layer {
+struct watch_layer {
     uint32_t version; ///< of what is present that it is of
-    sl_present present;
+    present_state present;
     sl_point eye;
     double range;
     bool made;
@@ -23,22 +23,22 @@ struct sl_watch_layer {
     uint32_t counts[KINDS];
 };
 
-static void free_sets(sl_context *context, sl_watch_layer *layer) {
+static void free_sets(sl_context *context, watch_layer *layer) {
     for (int k = 0; k < KINDS; k++) {
         sl_free(context, layer->sets[k]);
         layer->sets[k] = NULL;
     }
 }
 
-void sl_watch_layer_destroy(sl_context *context, sl_watch_layer *layer) {
+void watch_layer_destroy(sl_context *context, watch_layer *layer) {
     if (!layer) return;
-    sl_present_drop(context, &layer->present);
+    present_drop(context, &layer->present);
     sl_region_destroy(context, &layer->region);
     free_sets(context, layer);
     sl_free(context, layer);
 }
 
-static sl_status make_sets(sl_context *context, sl_watch_layer *layer, const sl_space *space) {
+static sl_status make_sets(sl_context *context, watch_layer *layer, const sl_space *space) {
     free_sets(context, layer);
     layer->words = sl_bits_words(space->cell_count);
     for (int k = 0; k < KINDS; k++) {
@@ -48,13 +48,13 @@ static sl_status make_sets(sl_context *context, sl_watch_layer *layer, const sl_
     return SL_OK;
 }
 
-static void sort_cells(const sl_app *app, sl_watch_layer *layer) {
-    const uint32_t eye = app->seen.cell;
+static void sort_cells(const app_state *app, watch_layer *layer) {
+    const uint32_t eye = app->view.seen.cell;
     memset(layer->counts, 0, sizeof layer->counts);
-    if (eye == SL_NO_CELL || !app->present.has_rows) return;
-    for (uint32_t cell = 0; cell < app->present.space->cell_count; cell++) {
-        const bool sees = sl_bits_has(app->seen.pvs, cell);
-        const bool seen = sl_present_sees(&app->present, &app->document, cell, eye);
+    if (eye == SL_NO_CELL || !app->view.present.has_rows) return;
+    for (uint32_t cell = 0; cell < app->view.present.space->cell_count; cell++) {
+        const bool sees = sl_bits_has(app->view.seen.pvs, cell);
+        const bool seen = present_sees(&app->view.present, &app->document, cell, eye);
         if (cell == eye || !(sees || seen)) continue;
         const kind k = sees && seen ? MUTUAL : sees ? SEES : SEEN;
         sl_bits_add(layer->sets[k], cell);
@@ -62,38 +62,39 @@ static void sort_cells(const sl_app *app, sl_watch_layer *layer) {
     }
 }
 
-static sl_status make(sl_app *app, sl_watch_layer *layer) {
+static sl_status make(app_state *app, watch_layer *layer) {
     sl_context *context = app->context;
-    const sl_view view = sl_view_all_round(app->eye.at);
-    SL_TRY(sl_present_update(context, &layer->present, &app->document, app->eye.at));
-    SL_TRY(make_sets(context, layer, app->present.space));
+    const sl_view view = sl_view_all_round(app->view.eye.at);
+    SL_TRY(present_update(context, &layer->present, &app->document, app->view.eye.at));
+    SL_TRY(make_sets(context, layer, app->view.present.space));
     sort_cells(app, layer);
     SL_TRY(sl_region_make(context, layer->present.outline, &view, app->document.map.range,
                           &layer->region));
-    layer->version = app->present.version;
-    layer->eye = app->eye.at;
+    layer->version = app->view.present.version;
+    layer->eye = app->view.eye.at;
     layer->range = app->document.map.range;
     layer->made = true;
     return SL_OK;
 }
 
-static sl_status follow(sl_app *app) {
-    if (!app->watch) {
-        app->watch = sl_alloc_array(app->context, 1, sizeof *app->watch);
-        if (!app->watch) return SL_NO_MEMORY;
-        app->watch->present.backwards = true;
+static sl_status follow(app_state *app) {
+    if (!app->view.watch) {
+        app->view.watch = sl_alloc_array(app->context, 1, sizeof *app->view.watch);
+        if (!app->view.watch) return SL_NO_MEMORY;
+        app->view.watch->present.backwards = true;
     }
-    sl_watch_layer *layer = app->watch;
-    if (layer->made && layer->version == app->present.version && layer->eye.x == app->eye.at.x &&
-        layer->eye.y == app->eye.at.y && layer->range == app->document.map.range)
+    watch_layer *layer = app->view.watch;
+    if (layer->made && layer->version == app->view.present.version &&
+        layer->eye.x == app->view.eye.at.x && layer->eye.y == app->view.eye.at.y &&
+        layer->range == app->document.map.range)
         return SL_OK;
     layer->made = false;
     return make(app, layer);
 }
 
-static sl_key_row row_of(const sl_app *app, const sl_watch_layer *layer, kind k) {
-    const sl_palette *palette = &app->ui.palette;
-    const sl_key_row rows[KINDS] = {
+static legend_row row_of(const ui_state *ui, const watch_layer *layer, kind k) {
+    const sl_palette *palette = &ui->palette;
+    const legend_row rows[KINDS] = {
         [SEES] = {"the eye's cell sees them", palette->glass, 0.45, layer->counts[SEES]},
         [MUTUAL] = {"both see each other", palette->portal, 0.3, layer->counts[MUTUAL]},
         [SEEN] = {"they see the eye's cell", palette->door, 0.45, layer->counts[SEEN]},
@@ -101,23 +102,23 @@ static sl_key_row row_of(const sl_app *app, const sl_watch_layer *layer, kind k)
     return rows[k];
 }
 
-void sl_layer_watch(sl_app *app, const sl_frame *frame, int index) {
+void layer_watch(app_state *app, const sl_frame *frame, int index) {
     (void)index;
     const sl_status status = follow(app);
-    sl_app_check(app, status);
+    app_check(app, status);
     if (status != SL_OK) return;
     for (kind k = 0; k < KINDS; k++) {
-        const sl_key_row row = row_of(app, app->watch, k);
-        sl_draw_cell_set(app->ui.cairo, &app->document.baked->space, frame, app->watch->sets[k],
-                         NULL, row.colour, row.opacity);
+        const legend_row row = row_of(&app->ui, app->view.watch, k);
+        sl_draw_cell_set(app->ui.cairo, &app->document.baked->space, frame,
+                         app->view.watch->sets[k], NULL, row.colour, row.opacity);
     }
-    sl_layers_draw_region(app, frame, &app->watch->region, app->ui.palette.door);
+    layers_draw_region(app, frame, &app->view.watch->region, app->ui.palette.door);
 }
 
-void sl_layer_watch_key(sl_app *app, const sl_frame *frame) {
-    const sl_watch_layer *layer = app->watch;
+void layer_watch_key(app_state *app, const sl_frame *frame) {
+    const watch_layer *layer = app->view.watch;
     if (!layer || !layer->made) return;
-    sl_key_row rows[KINDS];
-    for (kind k = 0; k < KINDS; k++) rows[k] = row_of(app, layer, k);
-    sl_layers_draw_key(app, frame, rows, KINDS, "Purple region: from there the eye is seen.");
+    legend_row rows[KINDS];
+    for (kind k = 0; k < KINDS; k++) rows[k] = row_of(&app->ui, layer, k);
+    layers_draw_key(&app->ui, frame, rows, KINDS, "Purple region: from there the eye is seen.");
 }

@@ -1,31 +1,30 @@
 /// The lesson of effects: cell by cell what the eye's cell sees, and which doors, mirrors and glass
-/// that is a matter of.
+/// decide that.
 #include "app.h"
-#include "base/base.h"
-#include "draw/marks.h"
-#include "draw/sight.h"
+#include "sightline/canvas.h"
+#include "sightline/support.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/// A search of walls alone is not followed farther than that.
+/// A search past walls alone is followed no farther than this.
 #define STEPS_MOST 20000
 
 enum { DOORS_TEXT = 256 };
 
-static bool fits(const sl_document *document) {
+static bool fits(const document_state *document) {
     return sl_plan_make(&document->map).effects != 0;
 }
 
-static size_t length(const sl_lesson *lesson) {
+static size_t length(const lesson_state *lesson) {
     return lesson->effects.count;
 }
 
 // --- recording
 
-/// For each cell the step at which a search of walls alone enters it first; 0 for none.
-static sl_status find_entries(sl_context *context, sl_lesson *lesson, const sl_document *document,
-                              uint32_t source, size_t *entries) {
+/// For each cell, the step at which a search past walls alone first enters it; 0 for none.
+static sl_status find_entries(sl_context *context, lesson_state *lesson,
+                              const document_state *document, uint32_t source, size_t *entries) {
     sl_steps_options options = sl_steps_options_default();
     options.sight = document->baked->visibility.sight;
     options.most = STEPS_MOST;
@@ -37,36 +36,35 @@ static sl_status find_entries(sl_context *context, sl_lesson *lesson, const sl_d
     return SL_OK;
 }
 
-static sl_effect_fact fact_of(const sl_document *document, uint32_t source, uint32_t cell,
-                              bool entered) {
+static effect_fact fact_of(const document_state *document, uint32_t source, uint32_t cell,
+                           bool entered) {
     const sl_visibility *v = &document->baked->visibility;
     const bool mutual = sl_plan_make(&document->map).mutual;
     const bool sees = sl_pvs_sees(&v->pvs, source, cell);
     const bool seen = mutual ? sees : sl_pvs_sees(&v->pvs, cell, source);
-    if (sees && sl_door_sets_alternative(&v->doors, source, cell, 0, NULL)) return SL_FACT_DOORS;
-    if (sees) return seen ? SL_FACT_SEEN : SL_FACT_SEES;
-    if (v->mirrored.cell_count && sl_pvs_sees(&v->mirrored, source, cell)) return SL_FACT_MIRROR;
-    if (seen) return SL_FACT_WATCHED;
-    if (!entered) return SL_FACT_NONE;
-    return document->map.range > 0 ? SL_FACT_RANGE : SL_FACT_DARK;
+    if (sees && sl_door_sets_alternative(&v->doors, source, cell, 0, NULL)) return FACT_DOORS;
+    if (sees) return seen ? FACT_SEEN : FACT_SEES;
+    if (v->mirrored.cell_count && sl_pvs_sees(&v->mirrored, source, cell)) return FACT_MIRROR;
+    if (seen) return FACT_WATCHED;
+    if (!entered) return FACT_NONE;
+    return document->map.range > 0 ? FACT_RANGE : FACT_DARK;
 }
 
-static sl_status collect(sl_context *context, sl_lesson *lesson, const sl_document *document,
+static sl_status collect(sl_context *context, lesson_state *lesson, const document_state *document,
                          uint32_t source, const size_t *entries) {
     for (uint32_t cell = 0; cell < document->baked->space.cell_count; cell++) {
         if (cell == source) continue;
-        const sl_effect_fact fact = fact_of(document, source, cell, entries[cell] != 0);
-        if (fact == SL_FACT_NONE) continue;
+        const effect_fact fact = fact_of(document, source, cell, entries[cell] != 0);
+        if (fact == FACT_NONE) continue;
         SL_TRY(SL_ARRAY_ROOM(context, &lesson->effects, 1));
-        lesson->effects.items[lesson->effects.count++] =
-            (sl_effect_step){cell, fact, entries[cell]};
+        lesson->effects.items[lesson->effects.count++] = (effect_step){cell, fact, entries[cell]};
     }
     return SL_OK;
 }
 
-static sl_status record(sl_context *context, sl_lesson *lesson, const sl_document *document,
+static sl_status record(sl_context *context, lesson_state *lesson, const document_state *document,
                         uint32_t source) {
-    if (!sl_document_has_rows(document)) return SL_OK;
+    if (!document_has_rows(document)) return SL_OK;
     const uint32_t cells = document->baked->space.cell_count;
     size_t *entries = sl_alloc_array(context, cells, sizeof *entries);
     if (!entries) return SL_NO_MEMORY;
@@ -91,11 +89,11 @@ static const char *const effects_code[] = {
     "        search(cell, sequence + mirror, doors), reflected",
 };
 
-static const char *const *code(const sl_lesson *lesson, const sl_document *document, size_t *count,
-                               size_t *lit) {
+static const char *const *code(const lesson_state *lesson, const document_state *document,
+                               size_t *count, size_t *lit) {
     static const size_t lines[] = {
-        [SL_FACT_SEEN] = 6,    [SL_FACT_SEES] = 6, [SL_FACT_DOORS] = 1, [SL_FACT_MIRROR] = 9,
-        [SL_FACT_WATCHED] = 3, [SL_FACT_DARK] = 3, [SL_FACT_RANGE] = 5,
+        [FACT_SEEN] = 6,    [FACT_SEES] = 6, [FACT_DOORS] = 1, [FACT_MIRROR] = 9,
+        [FACT_WATCHED] = 3, [FACT_DARK] = 3, [FACT_RANGE] = 5,
     };
     (void)document;
     *count = sizeof effects_code / sizeof *effects_code;
@@ -108,7 +106,7 @@ static void append(char text[DOORS_TEXT], const char *between, const char *more)
     snprintf(text + used, DOORS_TEXT - used, "%s%s", used ? between : "", more);
 }
 
-/// One alternative: "west and east"; *open tells whether all of them are.
+/// One alternative: "west and east"; *open says whether all of them are open.
 static void name_doors(const sl_map *map, const bool *doors, char text[DOORS_TEXT], bool *open) {
     text[0] = '\0';
     *open = true;
@@ -121,8 +119,8 @@ static void name_doors(const sl_map *map, const bool *doors, char text[DOORS_TEX
 
 enum { DOORS_MOST = 1024 };
 
-/// "west and east are open, or north"; *now tells whether one of the alternatives is open.
-static void name_alternatives(const sl_document *document, uint32_t source, uint32_t cell,
+/// "west and east are open, or north"; *now says whether one of the alternatives is open.
+static void name_alternatives(const document_state *document, uint32_t source, uint32_t cell,
                               char text[DOORS_TEXT], bool *now) {
     const sl_map *map = &document->map;
     const sl_door_sets *sets = &document->baked->visibility.doors;
@@ -140,83 +138,82 @@ static void name_alternatives(const sl_document *document, uint32_t source, uint
     }
 }
 
-static void say(const sl_lesson *lesson, const sl_document *document, char text[SL_SENTENCE]) {
-    const sl_effect_step *s = &lesson->effects.items[lesson->at];
+static void say(const lesson_state *lesson, const document_state *document, char text[SENTENCE]) {
+    const effect_step *s = &lesson->effects.items[lesson->at];
     const uint32_t from = lesson->source, to = s->cell;
     char doors[DOORS_TEXT];
     bool now;
     switch (s->fact) {
-    case SL_FACT_SEEN:
-        snprintf(text, SL_SENTENCE, "Cell %u is seen past walls alone%s.", to,
+    case FACT_SEEN:
+        snprintf(text, SENTENCE, "Cell %u is seen past walls alone%s.", to,
                  document->map.door_count ? ", whatever doors are shut" : "");
         return;
-    case SL_FACT_SEES:
-        snprintf(text, SL_SENTENCE,
+    case FACT_SEES:
+        snprintf(text, SENTENCE,
                  "Cell %u is seen from cell %u, which it does not see: glass is dark that way.", to,
                  from);
         return;
-    case SL_FACT_DOORS:
+    case FACT_DOORS:
         name_alternatives(document, from, to, doors, &now);
-        snprintf(text, SL_SENTENCE, "Cell %u is seen while these doors are open: %s. Now it is%s.",
-                 to, doors, now ? "" : " not");
+        snprintf(text, SENTENCE, "Cell %u is seen while these doors are open: %s. Now it is%s.", to,
+                 doors, now ? "" : " not");
         return;
-    case SL_FACT_MIRROR:
-        snprintf(text, SL_SENTENCE,
-                 "Cell %u is seen by mirror alone: the search goes on reflected.", to);
+    case FACT_MIRROR:
+        snprintf(text, SENTENCE, "Cell %u is seen by mirror alone: the search goes on reflected.",
+                 to);
         return;
-    case SL_FACT_WATCHED:
-        snprintf(text, SL_SENTENCE,
+    case FACT_WATCHED:
+        snprintf(text, SENTENCE,
                  "Cell %u is not seen from cell %u, but sees it: glass is dark from here.", to,
                  from);
         return;
-    case SL_FACT_RANGE:
-        snprintf(text, SL_SENTENCE,
+    case FACT_RANGE:
+        snprintf(text, SENTENCE,
                  "A line passes the portals to cell %u, but the shortest is longer than %g%s.", to,
                  document->map.range, document->map.oneway_count ? ", or glass is dark" : "");
         return;
-    case SL_FACT_DARK:
-        snprintf(text, SL_SENTENCE,
-                 "A line passes the portals to cell %u, but glass is dark on it.", to);
+    case FACT_DARK:
+        snprintf(text, SENTENCE, "A line passes the portals to cell %u, but glass is dark on it.",
+                 to);
         return;
-    case SL_FACT_NONE:
+    case FACT_NONE:
         return;
     }
 }
 
-static void account(const sl_lesson *lesson, char text[SL_SENTENCE]) {
-    unsigned counts[SL_FACT_NONE + 1] = {0};
+static void account(const lesson_state *lesson, char text[SENTENCE]) {
+    unsigned counts[FACT_NONE + 1] = {0};
     for (size_t i = 0; i <= lesson->at; i++) counts[lesson->effects.items[i].fact]++;
-    snprintf(text, SL_SENTENCE,
+    snprintf(text, SENTENCE,
              "%u cells seen past walls alone, %u a matter of doors, %u by mirror, %u one way only, "
              "%u hidden by glass or out of range.",
-             counts[SL_FACT_SEEN], counts[SL_FACT_DOORS], counts[SL_FACT_MIRROR],
-             counts[SL_FACT_SEES] + counts[SL_FACT_WATCHED],
-             counts[SL_FACT_DARK] + counts[SL_FACT_RANGE]);
+             counts[FACT_SEEN], counts[FACT_DOORS], counts[FACT_MIRROR],
+             counts[FACT_SEES] + counts[FACT_WATCHED], counts[FACT_DARK] + counts[FACT_RANGE]);
 }
 
 // --- drawing
 
-static sl_colour colour_of(const sl_palette *palette, sl_effect_fact fact) {
+static sl_colour colour_of(const sl_palette *palette, effect_fact fact) {
     switch (fact) {
-    case SL_FACT_SEEN:
-    case SL_FACT_SEES:
+    case FACT_SEEN:
+    case FACT_SEES:
         return palette->seen[0];
-    case SL_FACT_DOORS:
+    case FACT_DOORS:
         return palette->portal;
-    case SL_FACT_MIRROR:
-    case SL_FACT_WATCHED:
+    case FACT_MIRROR:
+    case FACT_WATCHED:
         return palette->door;
     default:
         return palette->start;
     }
 }
 
-static void below(sl_app *app, const sl_frame *frame) {
-    const sl_lesson *lesson = &app->lesson;
+static void below(app_state *app, const sl_frame *frame) {
+    const lesson_state *lesson = &app->tool.lesson;
     const sl_space *space = &app->document.baked->space;
     const sl_palette *palette = &app->ui.palette;
     for (size_t i = 0; i <= lesson->at; i++) {
-        const sl_effect_step *s = &lesson->effects.items[i];
+        const effect_step *s = &lesson->effects.items[i];
         const bool here = i == lesson->at;
         sl_draw_cell(app->ui.cairo, space, frame, s->cell, colour_of(palette, s->fact),
                      here ? 0.7 : 0.3, here ? 3 * frame->unit : frame->unit);
@@ -225,13 +222,14 @@ static void below(sl_app *app, const sl_frame *frame) {
                  2 * frame->unit);
 }
 
-/// The doors of all alternatives, those that are shut as what stops.
-static void draw_doors(sl_app *app, const sl_frame *frame, uint32_t cell) {
+/// Draws the doors of all alternatives. A shut door is drawn as what stops the line.
+static void draw_doors(app_state *app, const sl_frame *frame, uint32_t cell) {
     const sl_map *map = &app->document.map;
     const sl_door_sets *sets = &app->document.baked->visibility.doors;
     bool doors[DOORS_MOST] = {false};
     if (map->door_count > DOORS_MOST) return;
-    for (uint32_t i = 0; sl_door_sets_alternative(sets, app->lesson.source, cell, i, doors);) i++;
+    for (uint32_t i = 0; sl_door_sets_alternative(sets, app->tool.lesson.source, cell, i, doors);)
+        i++;
     for (size_t i = 0; i < map->door_count; i++)
         if (doors[i])
             sl_draw_line(app->ui.cairo, frame, map->doors[i].segment.a, map->doors[i].segment.b,
@@ -239,18 +237,20 @@ static void draw_doors(sl_app *app, const sl_frame *frame, uint32_t cell) {
                          7 * frame->unit);
 }
 
-/// The line of a search of walls alone.
-static void draw_line(sl_app *app, const sl_frame *frame, const sl_effect_step *s) {
+/// Draws the line of a search past walls alone.
+static void draw_line(app_state *app, const sl_frame *frame, const effect_step *s) {
     const sl_space *space = &app->document.baked->space;
-    uint32_t exits[SL_DUAL_PORTALS_MOST];
+    uint32_t directed[SL_DUAL_PORTALS_MOST];
     sl_portal_ends ends[SL_DUAL_PORTALS_MOST];
     sl_dual dual;
     const uint32_t count =
-        sl_steps_sequence(&app->lesson.steps, s->entry, exits, SL_DUAL_PORTALS_MOST);
+        sl_steps_sequence(&app->tool.lesson.steps, s->entry, directed, SL_DUAL_PORTALS_MOST);
     if (!count || count > SL_DUAL_PORTALS_MOST) return;
     for (uint32_t i = 0; i < count; i++)
-        ends[i] = (sl_portal_ends){space->exits[exits[i]].left, space->exits[exits[i]].right};
-    const bool stops = !sl_present_sees(&app->present, &app->document, app->lesson.source, s->cell);
+        ends[i] =
+            (sl_portal_ends){space->directed[directed[i]].left, space->directed[directed[i]].right};
+    const bool stops =
+        !present_sees(&app->view.present, &app->document, app->tool.lesson.source, s->cell);
     sl_draw_portal_ends(app->ui.cairo, &app->ui.palette, frame, ends, count, stops);
     sl_dual_make(ends, count, count, &dual);
     if (!dual.corner_count) return;
@@ -259,13 +259,13 @@ static void draw_line(sl_app *app, const sl_frame *frame, const sl_effect_step *
                  stops ? app->ui.palette.start : app->ui.palette.ink, 2 * frame->unit);
 }
 
-static void above(sl_app *app, const sl_frame *frame) {
-    const sl_effect_step *s = &app->lesson.effects.items[app->lesson.at];
+static void above(app_state *app, const sl_frame *frame) {
+    const effect_step *s = &app->tool.lesson.effects.items[app->tool.lesson.at];
     if (s->entry) draw_line(app, frame, s);
-    if (s->fact == SL_FACT_DOORS) draw_doors(app, frame, s->cell);
+    if (s->fact == FACT_DOORS) draw_doors(app, frame, s->cell);
 }
 
-const sl_subject sl_lesson_effects = {
+const subject_row lesson_effects = {
     .title = "What the map calls for",
     .of_eye = true,
     .fits = fits,

@@ -1,58 +1,58 @@
-/// The lesson of the multipass method: quadrant by quadrant of directions, the cells in the order
-/// in which they are done, with what depends on what.
+/// The lesson of multipass: quadrant by quadrant of directions, the cells in the order in which
+/// they are done, and what depends on what.
 #include "app.h"
-#include "base/base.h"
-#include "draw/sight.h"
+#include "sightline/canvas.h"
+#include "sightline/support.h"
 
 #include <stdio.h>
 
-static sl_status record(sl_context *context, sl_lesson *lesson, const sl_document *document,
+static sl_status record(sl_context *context, lesson_state *lesson, const document_state *document,
                         uint32_t source) {
     const sl_space *space = &document->baked->space;
-    sl_sectors sectors;
+    sli_sectors sectors;
     (void)source;
-    SL_TRY(sl_sectors_create(context, space, SL_PASSES, &sectors));
+    SL_TRY(sli_sectors_create(context, space, PASSES, &sectors));
     sl_status status = SL_OK;
-    for (uint32_t i = 0; i < SL_PASSES && status == SL_OK; i++)
-        status =
-            sl_pass_create(context, space, false, sl_sector_cone(&sectors, i), &lesson->passes[i]);
-    sl_sectors_destroy(context, &sectors);
+    for (uint32_t i = 0; i < PASSES && status == SL_OK; i++)
+        status = sli_pass_create(context, space, false, sli_sectors_get(&sectors, i),
+                                 &lesson->passes[i]);
+    sli_sectors_destroy(context, &sectors);
     if (status == SL_OK) lesson->pass_cells = space->cell_count;
     return status;
 }
 
-static size_t length(const sl_lesson *lesson) {
-    return (size_t)SL_PASSES * lesson->pass_cells;
+static size_t length(const lesson_state *lesson) {
+    return (size_t)PASSES * lesson->pass_cells;
 }
 
-static const sl_pass *pass_of(const sl_lesson *lesson) {
+static const sli_pass *pass_of(const lesson_state *lesson) {
     return &lesson->passes[lesson->at / lesson->pass_cells];
 }
 
-/// How many cells of the pass come before the step's.
-static uint32_t place_of(const sl_lesson *lesson) {
+/// How many cells of the pass come before the step.
+static uint32_t place_of(const lesson_state *lesson) {
     return (uint32_t)(lesson->at % lesson->pass_cells);
 }
 
-/// How many cells are on a cycle with one, itself included; 1 for none.
-static uint32_t on_cycle(const sl_pass *pass, uint32_t cell) {
+/// How many cells are on a cycle with this one, itself included; 1 for no cycle.
+static uint32_t on_cycle(const sli_pass *pass, uint32_t cell) {
     const uint32_t component = pass->order.component[cell];
     return pass->order.starts[component + 1] - pass->order.starts[component];
 }
 
-static void say(const sl_lesson *lesson, const sl_document *document, char text[SL_SENTENCE]) {
-    static const char *const towards[SL_PASSES] = {"Right and up", "Left and up", "Left and down",
-                                                   "Right and down"};
+static void say(const lesson_state *lesson, const document_state *document, char text[SENTENCE]) {
+    static const char *const towards[PASSES] = {"Right and up", "Left and up", "Left and down",
+                                                "Right and down"};
     (void)document;
-    const sl_pass *pass = pass_of(lesson);
+    const sli_pass *pass = pass_of(lesson);
     const uint32_t cell = pass->order.nodes[place_of(lesson)];
     const uint32_t faces = pass->first[cell + 1] - pass->first[cell];
     const uint32_t cycle = on_cycle(pass, cell);
     const int length =
-        snprintf(text, SL_SENTENCE, "%s, %u of %u: ", towards[lesson->at / lesson->pass_cells],
+        snprintf(text, SENTENCE, "%s, %u of %u: ", towards[lesson->at / lesson->pass_cells],
                  place_of(lesson) + 1, lesson->pass_cells);
     text += length;
-    const size_t room = SL_SENTENCE - (size_t)length;
+    const size_t room = SENTENCE - (size_t)length;
     if (cycle > 1)
         snprintf(text, room,
                  "cell %u is on a cycle with %u more: they are each other's candidates.", cell,
@@ -76,30 +76,30 @@ static const char *const lines[] = {
     "what a cell sees = its sets of all quadrants",
 };
 
-static const char *const *code(const sl_lesson *lesson, const sl_document *document, size_t *count,
-                               size_t *lit) {
+static const char *const *code(const lesson_state *lesson, const document_state *document,
+                               size_t *count, size_t *lit) {
     (void)document;
-    const sl_pass *pass = pass_of(lesson);
+    const sli_pass *pass = pass_of(lesson);
     const uint32_t cell = pass->order.nodes[place_of(lesson)];
     *lit = pass->first[cell] < pass->first[cell + 1] ? 5 : 3;
     *count = sizeof lines / sizeof *lines;
     return lines;
 }
 
-static void account(const sl_lesson *lesson, char text[SL_SENTENCE]) {
-    const sl_pass *pass = pass_of(lesson);
-    snprintf(text, SL_SENTENCE,
+static void account(const lesson_state *lesson, char text[SENTENCE]) {
+    const sli_pass *pass = pass_of(lesson);
+    snprintf(text, SENTENCE,
              "%u of %u cells done in this quadrant; %u dependences, %u levels of cells that can be "
              "done at the same time.",
              place_of(lesson), lesson->pass_cells, pass->face_count, pass->order.level_count);
 }
 
-/// Cells that are done, the one at hand, and those behind its faces.
-static void below(sl_app *app, const sl_frame *frame) {
+/// Draws the cells that are done, the present one, and those behind its faces.
+static void below(app_state *app, const sl_frame *frame) {
     const sl_space *space = &app->document.baked->space;
     const sl_palette *palette = &app->ui.palette;
-    const sl_pass *pass = pass_of(&app->lesson);
-    const uint32_t place = place_of(&app->lesson), cell = pass->order.nodes[place];
+    const sli_pass *pass = pass_of(&app->tool.lesson);
+    const uint32_t place = place_of(&app->tool.lesson), cell = pass->order.nodes[place];
     for (uint32_t i = 0; i < place; i++)
         sl_draw_cell(app->ui.cairo, space, frame, pass->order.nodes[i], palette->glass, 0.18,
                      frame->unit);
@@ -120,33 +120,34 @@ static sl_point middle_of(const sl_space *space, uint32_t cell) {
 }
 
 /// From a cell through the middle of each of its faces to the cell behind.
-static void draw_dependences(sl_app *app, const sl_frame *frame, uint32_t cell, sl_colour colour,
+static void draw_dependences(app_state *app, const sl_frame *frame, uint32_t cell, sl_colour colour,
                              double width) {
     const sl_space *space = &app->document.baked->space;
-    const sl_pass *pass = pass_of(&app->lesson);
+    const sli_pass *pass = pass_of(&app->tool.lesson);
     const sl_cell *c = &space->cells[cell];
     const sl_point from = middle_of(space, cell);
-    for (uint32_t i = c->first_exit; i < c->first_exit + c->exit_count; i++) {
-        if (pass->faces[i] == SL_NO_FACE) continue;
-        const sl_exit *exit = &space->exits[i];
-        const sl_point through = {(exit->left.x + exit->right.x) / 2,
-                                  (exit->left.y + exit->right.y) / 2};
+    for (uint32_t i = c->first_directed; i < c->first_directed + c->directed_count; i++) {
+        if (pass->faces[i] == SLI_NO_FACE) continue;
+        const sl_directed_portal *directed = &space->directed[i];
+        const sl_point through = {(directed->left.x + directed->right.x) / 2,
+                                  (directed->left.y + directed->right.y) / 2};
         sl_draw_line(app->ui.cairo, frame, from, through, colour, width);
-        sl_draw_line(app->ui.cairo, frame, through, middle_of(space, exit->cell), colour, width);
+        sl_draw_line(app->ui.cairo, frame, through, middle_of(space, directed->cell), colour,
+                     width);
     }
 }
 
-static void above(sl_app *app, const sl_frame *frame) {
+static void above(app_state *app, const sl_frame *frame) {
     const sl_palette *palette = &app->ui.palette;
-    const sl_pass *pass = pass_of(&app->lesson);
-    const uint32_t place = place_of(&app->lesson);
+    const sli_pass *pass = pass_of(&app->tool.lesson);
+    const uint32_t place = place_of(&app->tool.lesson);
     for (uint32_t i = 0; i < pass->order.count; i++)
         draw_dependences(app, frame, pass->order.nodes[i],
                          i < place ? palette->glass : palette->faint, 0.8 * frame->unit);
     draw_dependences(app, frame, pass->order.nodes[place], palette->start, 2.5 * frame->unit);
 }
 
-const sl_subject sl_lesson_pass = {
+const subject_row lesson_pass = {
     .title = "Multipass",
     .record = record,
     .length = length,

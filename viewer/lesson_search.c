@@ -1,19 +1,18 @@
 /// The lesson of the depth-first search from the eye's cell: which portals it tries, and why it
 /// goes on or back.
 #include "app.h"
-#include "draw/marks.h"
-#include "draw/sight.h"
+#include "sightline/canvas.h"
 
 #include <stdio.h>
 
-static sl_status record(sl_context *context, sl_lesson *lesson, const sl_document *document,
+static sl_status record(sl_context *context, lesson_state *lesson, const document_state *document,
                         uint32_t source) {
     sl_steps_options options = sl_steps_options_default();
     options.sight = document->baked->visibility.sight;
     return sl_steps_record(context, &document->baked->space, &options, source, &lesson->steps);
 }
 
-static size_t length(const sl_lesson *lesson) {
+static size_t length(const lesson_state *lesson) {
     return lesson->steps.count;
 }
 
@@ -30,8 +29,8 @@ static const char *const search_code[] = {
     "    return",
 };
 
-static const char *const *code(const sl_lesson *lesson, const sl_document *document, size_t *count,
-                               size_t *lit) {
+static const char *const *code(const lesson_state *lesson, const document_state *document,
+                               size_t *count, size_t *lit) {
     (void)document;
     *count = sizeof search_code / sizeof *search_code;
     switch (lesson->steps.steps[lesson->at].kind) {
@@ -51,10 +50,10 @@ static const char *const *code(const sl_lesson *lesson, const sl_document *docum
     return search_code;
 }
 
-/// How many cells the search does not come to, as they are seen by mirror alone.
-static uint32_t count_by_mirror(const sl_document *document, uint32_t source) {
+/// How many cells are seen by mirror alone: the search does not enter them.
+static uint32_t count_by_mirror(const document_state *document, uint32_t source) {
     const sl_visibility *v = &document->baked->visibility;
-    if (!sl_document_has_rows(document) || !v->mirrored.cell_count) return 0;
+    if (!document_has_rows(document) || !v->mirrored.cell_count) return 0;
     uint32_t count = 0;
     for (uint32_t cell = 0; cell < v->mirrored.cell_count; cell++)
         count += sl_pvs_sees(&v->mirrored, source, cell) && !sl_pvs_sees(&v->pvs, source, cell);
@@ -65,18 +64,18 @@ static const char *ending(uint32_t count) {
     return count == 1 ? "" : "s";
 }
 
-static void say_end(const sl_step *s, const sl_document *document, uint32_t source,
-                    char text[SL_SENTENCE]) {
+static void say_end(const sl_step *s, const document_state *document, uint32_t source,
+                    char text[SENTENCE]) {
     char aside[128] = "";
     const uint32_t by_mirror = count_by_mirror(document, source);
     if (by_mirror)
         snprintf(aside, sizeof aside, " %u more %s seen by mirror alone: U, \"%s\", tells which.",
-                 by_mirror, by_mirror == 1 ? "is" : "are", sl_lesson_effects.title);
-    snprintf(text, SL_SENTENCE, "All portals of cell %u are tried: it sees %u cell%s.%s", s->cell,
+                 by_mirror, by_mirror == 1 ? "is" : "are", lesson_effects.title);
+    snprintf(text, SENTENCE, "All portals of cell %u are tried: it sees %u cell%s.%s", s->cell,
              s->seen, ending(s->seen), aside);
 }
 
-static void say(const sl_lesson *lesson, const sl_document *document, char text[SL_SENTENCE]) {
+static void say(const lesson_state *lesson, const document_state *document, char text[SENTENCE]) {
     const char *aside = document->map.mirror_count ? " Mirrors are walls to this search." : "";
     const sl_step *s = &lesson->steps.steps[lesson->at];
     const uint32_t here = lesson->steps.steps[s->parent].cell;
@@ -84,54 +83,53 @@ static void say(const sl_lesson *lesson, const sl_document *document, char text[
     switch (s->kind) {
     case SL_STEP_ENTER:
         if (!lesson->at)
-            snprintf(text, SL_SENTENCE, "The search starts in cell %u, which sees itself.%s",
-                     s->cell, aside);
+            snprintf(text, SENTENCE, "The search starts in cell %u, which sees itself.%s", s->cell,
+                     aside);
         else
-            snprintf(text, SL_SENTENCE, "A line %s the %u portal%s: enter cell %u, %s.",
+            snprintf(text, SENTENCE, "A line %s the %u portal%s: enter cell %u, %s.",
                      s->grazing ? "only grazes" : "stabs", s->depth, plural, s->cell,
                      s->first ? "seen for the first time" : "already seen another way");
         return;
     case SL_STEP_BACKWARDS:
-        snprintf(text, SL_SENTENCE,
+        snprintf(text, SENTENCE,
                  "The portal from cell %u to cell %u goes back against the sequence: passed over.",
                  here, s->cell);
         return;
     case SL_STEP_HIDDEN:
-        snprintf(text, SL_SENTENCE,
+        snprintf(text, SENTENCE,
                  "No line stabs the %u portal%s to cell %u: its half-planes leave nothing.",
                  s->depth, plural, s->cell);
         return;
     case SL_STEP_LEAVE:
         if (s->depth)
-            snprintf(text, SL_SENTENCE, "All portals of cell %u are tried: back one portal.",
-                     s->cell);
+            snprintf(text, SENTENCE, "All portals of cell %u are tried: back one portal.", s->cell);
         else
             say_end(s, document, lesson->source, text);
         return;
     }
 }
 
-static void account(const sl_lesson *lesson, char text[SL_SENTENCE]) {
+static void account(const lesson_state *lesson, char text[SENTENCE]) {
     const sl_step *s = &lesson->steps.steps[lesson->at];
-    snprintf(text, SL_SENTENCE,
-             "%u cell%s seen, %u node%s in the stab tree, %u portal%s in sequence.", s->seen,
-             ending(s->seen), s->node, ending(s->node), s->depth, ending(s->depth));
+    snprintf(text, SENTENCE, "%u cell%s seen, %u node%s in the stab tree, %u portal%s in sequence.",
+             s->seen, ending(s->seen), s->node, ending(s->node), s->depth, ending(s->depth));
 }
 
-static uint32_t sequence(const sl_lesson *lesson, const sl_space *space, sl_portal_ends *ends) {
-    uint32_t exits[SL_DUAL_PORTALS_MOST];
-    uint32_t count = sl_steps_sequence(&lesson->steps, lesson->at, exits, SL_DUAL_PORTALS_MOST);
+static uint32_t sequence(const lesson_state *lesson, const sl_space *space, sl_portal_ends *ends) {
+    uint32_t directed[SL_DUAL_PORTALS_MOST];
+    uint32_t count = sl_steps_sequence(&lesson->steps, lesson->at, directed, SL_DUAL_PORTALS_MOST);
     if (count > SL_DUAL_PORTALS_MOST) count = SL_DUAL_PORTALS_MOST;
     for (uint32_t i = 0; i < count; i++)
-        ends[i] = (sl_portal_ends){space->exits[exits[i]].left, space->exits[exits[i]].right};
+        ends[i] =
+            (sl_portal_ends){space->directed[directed[i]].left, space->directed[directed[i]].right};
     return count;
 }
 
 // --- drawing
 
-/// The cells that the search has entered so far, and the way between their portals.
-static void draw_entered(sl_app *app, const sl_frame *frame) {
-    const sl_lesson *lesson = &app->lesson;
+/// Draws the cells that the search has entered, and the way between their portals.
+static void draw_entered(app_state *app, const sl_frame *frame) {
+    const lesson_state *lesson = &app->tool.lesson;
     const sl_space *space = &app->document.baked->space;
     const sl_palette *palette = &app->ui.palette;
     cairo_t *cairo = app->ui.cairo;
@@ -145,14 +143,14 @@ static void draw_entered(sl_app *app, const sl_frame *frame) {
     cairo_fill(cairo);
 }
 
-static sl_point exit_middle(const sl_space *space, uint32_t exit, sl_point none) {
-    if (exit == UINT32_MAX) return none;
-    const sl_exit *e = &space->exits[exit];
+static sl_point portal_middle(const sl_space *space, uint32_t directed, sl_point none) {
+    if (directed == UINT32_MAX) return none;
+    const sl_directed_portal *e = &space->directed[directed];
     return (sl_point){(e->left.x + e->right.x) / 2, (e->left.y + e->right.y) / 2};
 }
 
-static void draw_branches(sl_app *app, const sl_frame *frame) {
-    const sl_lesson *lesson = &app->lesson;
+static void draw_branches(app_state *app, const sl_frame *frame) {
+    const lesson_state *lesson = &app->tool.lesson;
     const sl_space *space = &app->document.baked->space;
     const sl_palette *palette = &app->ui.palette;
     cairo_t *cairo = app->ui.cairo;
@@ -160,8 +158,8 @@ static void draw_branches(sl_app *app, const sl_frame *frame) {
         const sl_step *s = &lesson->steps.steps[i];
         if (s->kind != SL_STEP_ENTER) continue;
         const sl_step *from = &lesson->steps.steps[s->parent];
-        sl_path_segment(cairo, frame, exit_middle(space, from->exit, app->eye.at),
-                        exit_middle(space, s->exit, app->eye.at));
+        sl_path_segment(cairo, frame, portal_middle(space, from->directed, app->view.eye.at),
+                        portal_middle(space, s->directed, app->view.eye.at));
     }
     cairo_set_source_rgba(cairo, palette->tree.red, palette->tree.green, palette->tree.blue, 0.45);
     cairo_set_line_width(cairo, 1.5 * frame->unit);
@@ -169,8 +167,8 @@ static void draw_branches(sl_app *app, const sl_frame *frame) {
     cairo_stroke(cairo);
 }
 
-static void below(sl_app *app, const sl_frame *frame) {
-    const sl_lesson *lesson = &app->lesson;
+static void below(app_state *app, const sl_frame *frame) {
+    const lesson_state *lesson = &app->tool.lesson;
     const sl_space *space = &app->document.baked->space;
     const sl_palette *palette = &app->ui.palette;
     const sl_step *now = &lesson->steps.steps[lesson->at];
@@ -183,8 +181,8 @@ static void below(sl_app *app, const sl_frame *frame) {
         sl_draw_cell(app->ui.cairo, space, frame, now->cell, palette->start, 0.25, 2 * frame->unit);
 }
 
-static void above(sl_app *app, const sl_frame *frame) {
-    const sl_lesson *lesson = &app->lesson;
+static void above(app_state *app, const sl_frame *frame) {
+    const lesson_state *lesson = &app->tool.lesson;
     const sl_step_kind kind = lesson->steps.steps[lesson->at].kind;
     draw_branches(app, frame);
     sl_draw_portal_ends(app->ui.cairo, &app->ui.palette, frame, lesson->ends, lesson->end_count,
@@ -197,7 +195,7 @@ static void above(sl_app *app, const sl_frame *frame) {
                  good ? app->ui.palette.ink : app->ui.palette.start, 2 * frame->unit);
 }
 
-const sl_subject sl_lesson_search = {
+const subject_row lesson_search = {
     .title = "Depth-first search",
     .of_eye = true,
     .record = record,

@@ -1,12 +1,11 @@
-/// sightline-view: its arguments, and how it ends: 0 done, 1 the work failed (no display), 2 the
-/// arguments or an input file are wrong.
-#include "base/base.h"
+/// sightline-view: its arguments and its exit status. 0: done; 1: the work failed (no display); 2:
+/// the arguments or an input file are wrong.
 #include "bench.h"
+#include "files.h"
 #include "save.h"
 #include "script.h"
-#include "settings.h"
-#include "shelf.h"
-#include "soak.h"
+#include "sightline/io.h"
+#include "sightline/support.h"
 #include "window.h"
 
 #include <getopt.h>
@@ -185,47 +184,47 @@ static sl_status read_arguments(sl_context *context, int argc, char **argv, argu
     return SL_OK;
 }
 
-/// Opens the map named, and waits until it is there: what is wrong with it ends all.
-static sl_status open_map(sl_app *app, const arguments *a, bool ask) {
+/// Opens the named map and waits for it. A failure ends the program.
+static sl_status open_map(app_state *app, const arguments *a, bool ask) {
     app->options = a->options;
     if (!a->map) return SL_OK;
-    const sl_document_source source = {.path = (char *)(uintptr_t)a->map,
-                                       .options = a->options,
-                                       .has_start = a->has_start,
-                                       .start = a->start};
-    SL_TRY(sl_shelf_open_source(app, &source, ask));
+    const document_source source = {.path = (char *)(uintptr_t)a->map,
+                                    .options = a->options,
+                                    .has_start = a->has_start,
+                                    .start = a->start};
+    SL_TRY(shelf_open_source(app, &source, ask));
     sl_status status = SL_OK;
     bool changed;
     // The window's own way, but for the status, which is the program's here.
     while (app->document.job && !app->document.baked && status == SL_OK)
-        status = sl_document_poll(app->context, &app->document, &changed);
+        status = document_poll(app->context, &app->document, &changed);
     return status;
 }
 
-static sl_status run_headless(sl_app *app, const arguments *a) {
+static sl_status run_headless(app_state *app, const arguments *a) {
     app->steady = true;
     SL_TRY(open_map(app, a, false));
-    sl_app_take_opened(app);
-    sl_app_settle(app);
-    if (a->script) SL_TRY(sl_script_run(app, a->script, NULL, NULL));
-    if (a->bench) SL_TRY(sl_bench_run(app, (unsigned)a->frames));
+    app_take_opened(app);
+    app_settle(app);
+    if (a->script) SL_TRY(script_run(app, a->script, NULL, NULL));
+    if (a->bench) SL_TRY(bench_run(app, (unsigned)a->frames));
     if (a->soak > 0) {
         app->steady = false;
-        SL_TRY(sl_soak_run(app, a->soak, a->seed));
+        SL_TRY(soak_run(app, a->soak, a->seed));
     }
-    return a->screenshot ? sl_save_window(app, a->screenshot) : SL_OK;
+    return a->screenshot ? save_window(app, a->screenshot) : SL_OK;
 }
 
-static sl_status run_window(sl_app *app, const arguments *a) {
-    sl_window *window;
+static sl_status run_window(app_state *app, const arguments *a) {
+    app_window *window;
     SL_TRY(open_map(app, a, true));
-    sl_app_take_opened(app);
-    sl_settings_load(app);
-    SL_TRY(sl_window_open(app, false, &window));
-    if (!a->map) app->maps_open = true;
-    const sl_status status = sl_window_run(window);
-    sl_window_close(window);
-    if (status == SL_OK) sl_settings_save(app);
+    app_take_opened(app);
+    settings_load(app);
+    SL_TRY(window_open(app, false, &window));
+    if (!a->map) app->ui.maps_open = true;
+    const sl_status status = window_run(window);
+    window_close(window);
+    if (status == SL_OK) settings_save(app);
     return status;
 }
 
@@ -235,13 +234,13 @@ static sl_status run(sl_context *context, int argc, char **argv) {
     if (a.help) print_help();
     if (a.version) puts("sightline-view " SIGHTLINE_VERSION);
     if (a.help || a.version) return SL_OK;
-    sl_app *app = sl_alloc_array(context, 1, sizeof *app);
+    app_state *app = sl_alloc_array(context, 1, sizeof *app);
     if (!app) return SL_NO_MEMORY;
-    sl_app_init(app, context);
-    sl_shelf_fill(app, a.map);
+    app_init(app, context);
+    shelf_fill(app, a.map);
     const bool headless = a.script || a.screenshot || a.bench || a.soak > 0;
     const sl_status status = headless ? run_headless(app, &a) : run_window(app, &a);
-    sl_app_destroy(app);
+    app_destroy(app);
     sl_free(context, app);
     return status;
 }
@@ -252,7 +251,8 @@ int main(int argc, char **argv) {
         fputs("sightline-view: out of memory\n", stderr);
         return 1;
     }
-    const sl_status status = run(context, argc, argv);
+    sl_status status = sl_io_use(context);
+    if (status == SL_OK) status = run(context, argc, argv);
     if (status != SL_OK) fprintf(stderr, "sightline-view: %s\n", sl_context_message(context));
     sl_context_destroy(context);
     const bool input =

@@ -1,56 +1,93 @@
+/// Two tables: the modes, with what each draws and says; and the panes below the plan, with when
+/// each is shown.
 #include "modes.h"
 
-#include "draw/sight.h"
 #include "edit.h"
+#include "effects.h"
 #include "layers.h"
-#include "mirrors.h"
-#include "objects.h"
-#include "panes.h"
 #include "quiz.h"
-#include "range.h"
+#include "sightline/canvas.h"
 
-static void lesson_below(sl_app *app, const sl_frame *frame) {
-    const sl_subject *subject = sl_lesson_subject(&app->lesson);
-    if (subject->below && sl_lesson_shows(&app->lesson, &app->document)) subject->below(app, frame);
+// --- modes
+
+static void lesson_below(app_state *app, const sl_frame *frame) {
+    const subject_row *subject = lesson_subject(&app->tool.lesson);
+    if (subject->below && lesson_shows(&app->tool.lesson, &app->document))
+        subject->below(app, frame);
 }
 
-static void lesson_above(sl_app *app, const sl_frame *frame) {
-    const sl_subject *subject = sl_lesson_subject(&app->lesson);
-    if (subject->above && sl_lesson_shows(&app->lesson, &app->document)) subject->above(app, frame);
+static void lesson_above(app_state *app, const sl_frame *frame) {
+    const subject_row *subject = lesson_subject(&app->tool.lesson);
+    if (subject->above && lesson_shows(&app->tool.lesson, &app->document))
+        subject->above(app, frame);
 }
 
-static const sl_mode_row modes[] = {
-    [SL_MODE_EXPLORE] = {"W A S D and arrows walk, a click puts the eye, the wheel zooms",
-                         sl_pane_side, NULL, sl_quiz_draw_above, true, true},
-    [SL_MODE_LEARN] = {"Left and Right step, Space plays, U changes the subject", sl_pane_learn,
-                       lesson_below, lesson_above, true, false},
-    [SL_MODE_DRAW] = {"Drag to draw a wall or to move one; Ctrl+Z undoes", sl_pane_draw, NULL,
-                      sl_edit_draw, true, false},
-    [SL_MODE_QUIZ] = {"Y or N answers, Space asks again", sl_pane_quiz, sl_quiz_draw_below,
-                      sl_quiz_draw_above, false, false},
+static const mode_row modes[] = {
+    [MODE_EXPLORE] = {"W A S D and arrows walk, a click puts the eye, the wheel zooms", pane_side,
+                      NULL, quiz_draw_above, true, true},
+    [MODE_LEARN] = {"Left and Right step, Space plays, U changes the subject", pane_learn,
+                    lesson_below, lesson_above, true, false},
+    [MODE_DRAW] = {"Drag to draw a wall or to move one; Ctrl+Z undoes", pane_draw, NULL, edit_draw,
+                   true, false},
+    [MODE_QUIZ] = {"Y or N answers, Space asks again", pane_quiz, quiz_draw_below, quiz_draw_above,
+                   false, false},
 };
 
-const sl_mode_row *sl_mode_rows(void) {
+const mode_row *mode_table(void) {
     return modes;
 }
 
-void sl_modes_draw_below(sl_app *app, const sl_frame *frame, int index) {
-    const sl_mode_row *mode = &modes[app->mode];
-    sl_layers_draw(app, frame, index);
+void modes_draw_below(app_state *app, const sl_frame *frame, int index) {
+    const mode_row *mode = &modes[app->tool.mode];
+    layers_draw(app, frame, index);
     if (mode->below) mode->below(app, frame);
 }
 
-void sl_modes_draw_above(sl_app *app, const sl_frame *frame) {
-    const sl_mode_row *mode = &modes[app->mode];
+void modes_draw_above(app_state *app, const sl_frame *frame) {
+    const mode_row *mode = &modes[app->tool.mode];
     const sl_palette *palette = &app->ui.palette;
     if (mode->above) mode->above(app, frame);
     if (mode->cone)
-        sl_draw_cone(app->ui.cairo, frame, app->eye.at, app->eye.heading, app->eye.fov,
-                     6 * app->ui.text, palette->start);
-    if (mode->eye) sl_range_draw(app, frame);
-    if (mode->eye) sl_mirror_draw(app, frame);
-    if (app->mode == SL_MODE_EXPLORE) sl_object_draw(app, frame);
+        sl_draw_cone(app->ui.cairo, frame, app->view.eye.at, app->view.eye.heading,
+                     app->view.eye.fov, 6 * app->ui.text, palette->start);
+    if (mode->eye) range_draw(app, frame);
+    if (mode->eye) mirror_draw(app, frame);
+    if (app->tool.mode == MODE_EXPLORE) object_draw(app, frame);
     if (mode->eye)
-        sl_draw_eye_mark(app->ui.cairo, palette, frame, app->eye.at, app->eye.heading,
+        sl_draw_eye_mark(app->ui.cairo, palette, frame, app->view.eye.at, app->view.eye.heading,
                          0.5 * app->ui.text);
+}
+
+// --- panes below the plan
+
+static bool dual_shown(const app_state *app) {
+    return app->tool.mode == MODE_LEARN && lesson_subject(&app->tool.lesson)->sequence;
+}
+
+static bool first_person_shown(const app_state *app) {
+    return app->ui.first_person;
+}
+
+static bool account_shown(const app_state *app) {
+    return app->ui.accounts;
+}
+
+static bool effects_shown(const app_state *app) {
+    return app->ui.effects && app->tool.mode != MODE_LEARN && app->document.baked &&
+           sl_plan_make(&app->document.map).effects;
+}
+
+static double effects_lines(const app_state *app) {
+    return 4.5 + 1.5 * __builtin_popcount(sl_plan_make(&app->document.map).effects);
+}
+
+static const pane_below panes[PANES_BELOW] = {
+    [PANE_DUAL] = {dual_shown, pane_dual, NULL},
+    [PANE_FIRST_PERSON] = {first_person_shown, pane_first_person, NULL},
+    [PANE_ACCOUNT] = {account_shown, pane_account, NULL},
+    [PANE_EFFECTS] = {effects_shown, pane_effects, effects_lines},
+};
+
+const pane_below *panes_below(void) {
+    return panes;
 }

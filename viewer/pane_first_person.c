@@ -1,9 +1,8 @@
-/// What the eye sees, in first person: the walls of the cells that the chosen method keeps, the
-/// nearest of them in each column of pixels.
-#include "panes.h"
+/// What the eye sees, in first person: in each column of pixels the nearest wall of the cells that
+/// the chosen method keeps.
+#include "modes.h"
 
-#include "draw/marks.h"
-#include "draw/text.h"
+#include "sightline/canvas.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -65,19 +64,19 @@ static void add_room(viewer *v, const sl_outline *outline, uint32_t room, double
     for (uint32_t i = first; i < end; i++) {
         if (sl_side_is_portal(&outline->sides[i])) continue;
         const uint32_t next = i + 1 < end ? i + 1 : first;
-        add_wall(v, outline->sides[i].start, outline->sides[next].start, outline->sides[i].beyond,
-                 near);
+        add_wall(v, outline->sides[i].start, outline->sides[next].start,
+                 outline->sides[i].neighbour, near);
     }
 }
 
-/// The walls of the rooms that have a part of a cell that is seen, each room once.
-static void add_cells(const sl_app *app, viewer *v, double near) {
-    const sl_outline *outline = app->present.outline;
-    const sl_seen_method *method = &app->seen.methods[app->method];
+/// Adds the walls of rooms with a part in a visible cell, each room once.
+static void add_cells(const view_state *view, viewer *v, double near) {
+    const sl_outline *outline = view->present.outline;
+    const seen_method *method = &view->seen.methods[view->method];
     bool *added = calloc(outline->room_count, sizeof *added);
     if (!added) return;
     for (uint32_t cell = 0; cell < outline->space->cell_count; cell++) {
-        if (!sl_eye_sees(method->cells, app->present.parents ? app->present.parents[cell] : cell))
+        if (!sl_eye_sees(method->cells, view->present.parents ? view->present.parents[cell] : cell))
             continue;
         for (uint32_t i = outline->first_part[cell]; i < outline->first_part[cell + 1]; i++) {
             const uint32_t room = outline->parts[i];
@@ -89,10 +88,10 @@ static void add_cells(const sl_app *app, viewer *v, double near) {
     free(added);
 }
 
-/// Columns of one wall make one shape, whose upper and lower edges are straight.
-static void draw_columns(sl_app *app, const viewer *v, sl_box box, double high, double wide) {
-    cairo_t *cairo = app->ui.cairo;
-    const sl_palette *palette = &app->ui.palette;
+/// Columns of one wall make one shape: its upper and lower edges are straight.
+static void draw_columns(ui_state *ui, const viewer *v, sl_box box, double high, double wide) {
+    cairo_t *cairo = ui->cairo;
+    const sl_palette *palette = &ui->palette;
     const double middle = (box.min.y + box.max.y) / 2;
     for (int first = 0, end; first < v->columns; first = end) {
         for (end = first + 1; end < v->columns && v->seen[end].wall == v->seen[first].wall &&
@@ -107,7 +106,7 @@ static void draw_columns(sl_app *app, const viewer *v, sl_box box, double high, 
         cairo_line_to(cairo, x1, middle + b);
         cairo_line_to(cairo, x0, middle + a);
         cairo_close_path(cairo);
-        const double far = fmin(fmax(1 - 5 * (a + b) / 2 / sl_box_height(box), 0), 1);
+        const double far = fmin(fmax(1 - 5 * (a + b) / 2 / box_height(box), 0), 1);
         const sl_colour lit =
             sl_colour_mix(palette->floor[2], palette->glass, 0.16 + 0.3 * v->seen[first].light);
         sl_set_colour(cairo, sl_colour_mix(lit, palette->ground, 0.75 * far));
@@ -119,51 +118,52 @@ static void draw_columns(sl_app *app, const viewer *v, sl_box box, double high, 
     }
 }
 
-static void draw_count(sl_app *app, const viewer *v, sl_box box) {
+static void draw_count(app_state *app, const viewer *v, sl_box box) {
     char text[160];
-    const uint32_t all = app->present.outline->side_count;
+    const uint32_t all = app->view.present.outline->side_count;
     uint32_t walls = 0;
-    for (uint32_t i = 0; i < all; i++) walls += !sl_side_is_portal(&app->present.outline->sides[i]);
+    for (uint32_t i = 0; i < all; i++)
+        walls += !sl_side_is_portal(&app->view.present.outline->sides[i]);
     size_t count;
     snprintf(text, sizeof text, "%u of %u wall pieces drawn, %.1f %% culled by %s", v->pieces,
              walls, walls ? 100.0 * (walls - v->pieces) / walls : 0,
-             sl_eye_methods(&count)[app->method].name);
+             sl_eye_methods(&count)[app->view.method].name);
     const double t = app->ui.text;
-    const double width =
-        fmin(sl_ui_text_width(&app->ui, 0.95, false, text), sl_box_width(box) - 2.6 * t);
+    const double width = fmin(ui_text_width(&app->ui, 0.95, false, text), box_width(box) - 2.6 * t);
     const sl_box ground = {{box.min.x + 0.7 * t, box.max.y - 2.3 * t},
                            {box.min.x + 1.9 * t + width, box.max.y - 0.6 * t}};
-    sl_ui_fill_round(&app->ui, ground, 0.3 * t, app->ui.palette.page);
+    ui_fill_round(&app->ui, ground, 0.3 * t, app->ui.palette.page);
     sl_text_show_within(app->ui.cairo, app->ui.palette.ink, ground.min.x + 0.6 * t,
                         ground.max.y - 0.5 * t, width, 0.95 * t, false, text);
 }
 
-void sl_pane_first_person(sl_app *app, sl_box box) {
-    sl_ui *ui = &app->ui;
+void pane_first_person(app_state *app, sl_box box) {
+    ui_state *ui = &app->ui;
     const sl_palette *palette = &ui->palette;
     const double middle = (box.min.y + box.max.y) / 2;
-    sl_ui_hit(ui, SL_HIT_PANEL, 0, box);
+    ui_hit(ui, HIT_PANEL, 0, box);
     cairo_save(ui->cairo);
-    cairo_rectangle(ui->cairo, box.min.x, box.min.y, sl_box_width(box), sl_box_height(box));
+    cairo_rectangle(ui->cairo, box.min.x, box.min.y, box_width(box), box_height(box));
     cairo_clip(ui->cairo);
-    sl_ui_fill(ui, box, sl_colour_mix(palette->page, palette->glass, 0.10));
-    sl_ui_fill(ui, (sl_box){{box.min.x, middle}, box.max},
-               sl_colour_mix(palette->page, palette->object, 0.22));
+    ui_fill(ui, box, sl_colour_mix(palette->page, palette->glass, 0.10));
+    ui_fill(ui, (sl_box){{box.min.x, middle}, box.max},
+            sl_colour_mix(palette->page, palette->object, 0.22));
     static const double widest = 110;
-    const double fov = fmin(app->eye.fov, widest) * RADIANS;
-    viewer v = {.eye = app->eye.at,
-                .c = cos(app->eye.heading * RADIANS),
-                .s = sin(app->eye.heading * RADIANS),
-                .columns = (int)fmin(sl_box_width(box), COLUMNS_MOST)};
+    const double fov = fmin(app->view.eye.fov, widest) * RADIANS;
+    viewer v = {.eye = app->view.eye.at,
+                .c = cos(app->view.eye.heading * RADIANS),
+                .s = sin(app->view.eye.heading * RADIANS),
+                .columns = (int)fmin(box_width(box), COLUMNS_MOST)};
     v.focal = v.columns / 2.0 / tan(fov / 2);
     column seen[COLUMNS_MOST] = {0};
     v.seen = seen;
-    if (app->document.baked && app->seen.valid && app->seen.methods[app->method].known) {
+    if (app->document.baked && app->view.seen.valid &&
+        app->view.seen.methods[app->view.method].known) {
         const double size = sqrt(app->document.area / fmax(app->document.counted, 1));
-        add_cells(app, &v, 1e-3 * size);
-        draw_columns(app, &v, box, 0.22 * size * v.focal, sl_box_width(box) / v.columns);
+        add_cells(&app->view, &v, 1e-3 * size);
+        draw_columns(&app->ui, &v, box, 0.22 * size * v.focal, box_width(box) / v.columns);
         draw_count(app, &v, box);
     }
-    sl_ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, palette->outline);
+    ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, palette->outline);
     cairo_restore(ui->cairo);
 }

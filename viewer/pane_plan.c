@@ -1,74 +1,73 @@
-/// The plan: what is kept from frame to frame, and over it what changes.
-#include "panes.h"
-
-#include "clock.h"
-#include "draw/marks.h"
-#include "draw/plan.h"
-#include "draw/subdivision.h"
-#include "draw/text.h"
+/// The plan: pictures that are kept from frame to frame, and over them what changes.
 #include "modes.h"
+
+#include "draw/lesson.h" // private: the layer of splits shows the inside of the library
+#include "sightline/canvas.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <string.h>
 
-/// A picture that takes longer than this to draw is moved as it is while the plan moves.
+/// While the plan moves, a picture that takes longer than this to draw is moved instead.
 #define SLOW_SECONDS 0.007
 
 // --- scenes
 
-static unsigned scene_layers(const sl_app *app) {
-    return SL_LAYER_WALLS | (app->show & SL_SHOW_CELLS ? SL_LAYER_CELLS : 0u) |
-           (app->show & SL_SHOW_PORTALS ? SL_LAYER_PORTALS : 0u) |
-           (app->show & SL_SHOW_STARTS ? SL_LAYER_STARTS : 0u);
+static unsigned scene_layers(const view_state *view) {
+    return SL_LAYER_WALLS | (view->show & SHOW_CELLS ? SL_LAYER_CELLS : 0u) |
+           (view->show & SHOW_PORTALS ? SL_LAYER_PORTALS : 0u) |
+           (view->show & SHOW_STARTS ? SL_LAYER_STARTS : 0u);
 }
 
-static bool make_scene(sl_app *app) {
-    const unsigned layers = scene_layers(app);
-    const uint32_t key = layers | (app->dark ? 1024u : 0u);
-    if (app->scene.baked && app->scene_version == app->document.version && app->scene_show == key)
+static bool make_scene(app_state *app) {
+    const unsigned layers = scene_layers(&app->view);
+    const uint32_t key = layers | (app->ui.dark ? 1024u : 0u);
+    if (app->view.scene && app->view.scene_version == app->document.version &&
+        app->view.scene_show == key)
         return true;
-    if (app->scene.baked) sl_scene_destroy(app->context, &app->scene);
+    sl_scene_destroy(app->context, app->view.scene);
+    app->view.scene = NULL;
     sl_draw_options options = sl_draw_options_default();
     options.layers = layers;
     options.cell = SL_NO_CELL;
-    options.dark = app->dark;
+    options.dark = app->ui.dark;
     const sl_status status =
-        sl_scene_make(app->context, app->document.baked, &options, &app->scene);
-    sl_app_check(app, status);
-    app->scene_version = app->document.version;
-    app->scene_show = key;
+        sl_scene_create(app->context, app->document.baked, &options, NULL, &app->view.scene);
+    app_check(app, status);
+    app->view.scene_version = app->document.version;
+    app->view.scene_show = key;
     return status == SL_OK;
 }
 
 // --- pictures that are kept
 
-/// What is below all that changes: cells, portals, view cells, splits.
-static void draw_under(sl_app *app, cairo_t *cairo, const sl_frame *frame) {
-    sl_scene under = app->scene;
-    under.options.layers &= ~(unsigned)(SL_LAYER_WALLS | SL_LAYER_STARTS);
+/// Draws what is below all that changes: cells, portals, view cells, splits.
+static void draw_under(app_state *app, cairo_t *cairo, const sl_frame *frame) {
+    const unsigned layers =
+        scene_layers(&app->view) & ~(unsigned)(SL_LAYER_WALLS | SL_LAYER_STARTS);
     sl_set_colour(cairo, app->ui.palette.page);
     cairo_paint(cairo);
-    sl_app_check(app, sl_draw_onto(app->context, cairo, &under, frame));
-    if (sl_layers_shows(app, SL_LAYER_NUMBER_VIEWS)) sl_view_layer_draw(app, cairo, frame);
-    if (app->show & SL_SHOW_SPLITS)
-        sl_draw_splits(cairo, &app->ui.palette, frame, app->document.splits,
-                       app->document.baked->space.node_count, app->split_depth);
+    app_check(app, sl_draw_plan(app->context, cairo, app->view.scene, layers, frame));
+    if (layers_shows(app, LAYER_VIEWS)) view_layer_draw(app, cairo, frame);
+    if (app->view.show & SHOW_SPLITS)
+        sli_draw_splits(cairo, &app->ui.palette, frame, app->document.splits,
+                        app->document.baked->space.node_count, app->view.split_depth);
 }
 
-/// What is over it: walls and what else the map has.
-static void draw_over(sl_app *app, cairo_t *cairo, const sl_frame *frame) {
-    sl_app_check(app, sl_draw_walls_onto(app->context, cairo, &app->scene, frame));
+/// Draws what is over it: walls and other things of the map.
+static void draw_over(app_state *app, cairo_t *cairo, const sl_frame *frame) {
+    app_check(app, sl_draw_walls(app->context, cairo, app->view.scene, frame));
 }
 
-/// A pane's frame with its upper left at the origin.
+/// The frame of a pane with its upper left at the origin.
 static sl_frame at_origin(sl_frame frame) {
     frame.left = frame.top = 0;
     return frame;
 }
 
-static bool remake(sl_app *app, sl_kept *kept, bool over, const sl_frame *local) {
+static bool remake(app_state *app, kept_picture *kept, bool over, const sl_frame *local) {
     const int width = (int)ceil(local->width), height = (int)ceil(local->height);
-    const double before = sl_clock_seconds();
+    const double before = sl_seconds();
     if (!kept->surface || cairo_image_surface_get_width(kept->surface) != width ||
         cairo_image_surface_get_height(kept->surface) != height) {
         if (kept->surface) cairo_surface_destroy(kept->surface);
@@ -86,12 +85,12 @@ static bool remake(sl_app *app, sl_kept *kept, bool over, const sl_frame *local)
     }
     const bool good = cairo_status(cairo) == CAIRO_STATUS_SUCCESS;
     cairo_destroy(cairo);
-    kept->seconds = sl_clock_seconds() - before;
+    kept->seconds = sl_seconds() - before;
     return good;
 }
 
-/// Puts the picture where the frame is now; one of another frame is moved and scaled to it.
-static void blit(cairo_t *cairo, const sl_kept *kept, const sl_frame *frame, sl_colour page,
+/// Shows the picture at the present frame: moves and scales it if it was drawn for another one.
+static void blit(cairo_t *cairo, const kept_picture *kept, const sl_frame *frame, sl_colour page,
                  bool over) {
     const sl_frame *old = &kept->key.frame;
     const double s = frame->scale / old->scale;
@@ -116,27 +115,27 @@ static void blit(cairo_t *cairo, const sl_kept *kept, const sl_frame *frame, sl_
     cairo_restore(cairo);
 }
 
-static void show_kept(sl_app *app, sl_kept *kept, bool over, const sl_frame *frame) {
-    sl_kept now;
+static void show_kept(app_state *app, kept_picture *kept, bool over, const sl_frame *frame) {
+    kept_picture now;
     memset(&now.key, 0, sizeof now.key);
     now.key.version = app->document.version;
     now.key.touched = over ? app->document.touched : 0;
-    now.key.show = scene_layers(app) | (app->show & SL_SHOW_SPLITS && !over ? 2048u : 0u);
-    now.key.depth = app->show & SL_SHOW_SPLITS && !over ? app->split_depth : 0;
-    now.key.dark = app->dark;
-    if (!over && sl_layers_shows(app, SL_LAYER_NUMBER_VIEWS)) {
-        now.key.views = sl_view_layer_shown(app->views);
-        now.key.mark = sl_view_layer_marked(app->views);
+    now.key.show = scene_layers(&app->view) | (app->view.show & SHOW_SPLITS && !over ? 2048u : 0u);
+    now.key.depth = app->view.show & SHOW_SPLITS && !over ? app->view.split_depth : 0;
+    now.key.dark = app->ui.dark;
+    if (!over && layers_shows(app, LAYER_VIEWS)) {
+        now.key.views = view_layer_shown(app->view.views);
+        now.key.mark = view_layer_marked(app->view.views);
     }
     now.key.frame = at_origin(*frame);
     const bool same = kept->surface && memcmp(&kept->key, &now.key, sizeof now.key) == 0;
     if (!same) {
-        sl_kept other = *kept;
+        kept_picture other = *kept;
         other.key.frame = now.key.frame;
         const bool only_moved =
             kept->surface && memcmp(&other.key, &now.key, sizeof now.key) == 0 &&
             kept->key.frame.width == frame->width && kept->key.frame.height == frame->height;
-        const bool wait = only_moved && app->motion > 0 && kept->seconds > SLOW_SECONDS;
+        const bool wait = only_moved && app->view.motion > 0 && kept->seconds > SLOW_SECONDS;
         if (!wait && remake(app, kept, over, &now.key.frame))
             memcpy(&kept->key, &now.key, sizeof now.key);
     }
@@ -145,61 +144,61 @@ static void show_kept(sl_app *app, sl_kept *kept, bool over, const sl_frame *fra
 
 // --- the pane
 
-static void draw_empty(sl_app *app, sl_box box) {
-    sl_ui *ui = &app->ui;
-    sl_ui_fill(ui, box, ui->palette.ground);
+static void draw_empty(app_state *app, sl_box box) {
+    ui_state *ui = &app->ui;
+    ui_fill(ui, box, ui->palette.ground);
     const double x = box.min.x + 3 * ui->text, y = (box.min.y + box.max.y) / 2;
-    sl_ui_text(ui, x, y, 1.6, true, ui->palette.ink,
-               app->document.job ? "Opening ..." : "No map is open");
-    sl_ui_text(ui, x, y + 2 * ui->text, 1, false, ui->palette.faint,
-               "Drop a map or a .slv file here, or press O for the maps at hand.");
+    ui_text(ui, x, y, 1.6, true, ui->palette.ink,
+            app->document.job ? "Opening ..." : "No map is open");
+    ui_text(ui, x, y + 2 * ui->text, 1, false, ui->palette.faint,
+            "Drop a map or a .slv file here, or press O for the maps at hand.");
 }
 
-static void draw_name(sl_app *app, sl_box box, int index, int count) {
+static void draw_name(app_state *app, sl_box box, int index, int count) {
     if (count < 2) return;
-    sl_ui *ui = &app->ui;
+    ui_state *ui = &app->ui;
     size_t methods;
-    const size_t method = index ? app->other : app->method;
+    const size_t method = index ? app->view.other : app->view.method;
     const char *name = sl_eye_methods(&methods)[method].name;
     char text[96];
-    const sl_seen_method *seen = &app->seen.methods[method];
+    const seen_method *seen = &app->view.seen.methods[method];
     char words[64];
     snprintf(words, sizeof words, "%s", name);
     for (char *at = words; *at; at++)
         if (*at == '_') *at = ' ';
-    snprintf(text, sizeof text, "%s: %u cells", words, app->seen.valid ? seen->count : 0);
-    const double width = sl_ui_text_width(ui, 1, true, text);
+    snprintf(text, sizeof text, "%s: %u cells", words, app->view.seen.valid ? seen->count : 0);
+    const double width = ui_text_width(ui, 1, true, text);
     const sl_box ground = {{box.min.x + ui->text, box.min.y + 0.8 * ui->text},
                            {box.min.x + 2.2 * ui->text + width, box.min.y + 2.7 * ui->text}};
-    sl_ui_fill_round(ui, ground, 0.3 * ui->text, ui->palette.page);
-    sl_ui_text(ui, ground.min.x + 0.6 * ui->text, ground.max.y - 0.6 * ui->text, 1, true,
-               ui->palette.ink, text);
-    if (index) sl_ui_line(ui, box.min.x, box.min.y, box.min.x, box.max.y, ui->palette.faint);
+    ui_fill_round(ui, ground, 0.3 * ui->text, ui->palette.page);
+    ui_text(ui, ground.min.x + 0.6 * ui->text, ground.max.y - 0.6 * ui->text, 1, true,
+            ui->palette.ink, text);
+    if (index) ui_line(ui, box.min.x, box.min.y, box.min.x, box.max.y, ui->palette.faint);
 }
 
-void sl_pane_plan(sl_app *app, sl_box box, int index, bool vector) {
+void pane_plan(app_state *app, sl_box box, int index, bool vector) {
     cairo_t *cairo = app->ui.cairo;
-    sl_ui_hit(&app->ui, SL_HIT_PLAN, index, box);
+    ui_hit(&app->ui, HIT_PLAN, index, box);
     if (!app->document.baked || !make_scene(app)) {
         draw_empty(app, box);
         return;
     }
-    const sl_frame frame = sl_camera_frame(&app->camera, box, sl_app_scale(app));
+    const sl_frame frame = camera_frame(&app->view.camera, box, ui_scale(&app->ui));
     cairo_save(cairo);
-    cairo_rectangle(cairo, box.min.x, box.min.y, sl_box_width(box), sl_box_height(box));
+    cairo_rectangle(cairo, box.min.x, box.min.y, box_width(box), box_height(box));
     cairo_clip(cairo);
     if (vector)
         draw_under(app, cairo, &frame);
     else
-        show_kept(app, &app->under, false, &frame);
-    sl_modes_draw_below(app, &frame, index);
+        show_kept(app, &app->view.under, false, &frame);
+    modes_draw_below(app, &frame, index);
     if (vector)
         draw_over(app, cairo, &frame);
     else
-        show_kept(app, &app->over, true, &frame);
-    sl_modes_draw_above(app, &frame);
-    if (!index) sl_layers_draw_keys(app, &frame);
-    const bool panes = app->compare == SL_COMPARE_PANES && app->mode == SL_MODE_EXPLORE;
+        show_kept(app, &app->view.over, true, &frame);
+    modes_draw_above(app, &frame);
+    if (!index) layers_draw_keys(app, &frame);
+    const bool panes = app->view.compare == COMPARE_PANES && app->tool.mode == MODE_EXPLORE;
     draw_name(app, box, index, panes ? 2 : 1);
     cairo_restore(cairo);
 }

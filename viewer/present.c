@@ -1,15 +1,14 @@
 #include "present.h"
 
-#include "base/base.h"
-#include "cell_to_cell/pvs_rows.h"
-#include "geometry/orient.h"
+#include "geometry/orient.h" // private: the exact predicate
+#include "sightline/support.h"
 
 #include <string.h>
 
-typedef struct sl_present_own {
+typedef struct present_own {
     sl_space space;
     sl_space one_way; ///< for mirrors, into which glass is dark or not by another side: without the
-                      ///< exits that glass bars; empty where the map has not both
+                      ///< directed portals that glass bars; empty where the map has not both
     sl_outline outline;
     sl_visibility row; ///< of one cell
     uint32_t cell;
@@ -18,22 +17,22 @@ typedef struct sl_present_own {
 
 // --- what is shut
 
-/// Going from its a to its b, glass is seen through from its right to its left. A straight line
-/// that crosses it comes from the side that the eye is on: seen from its left it is a wall.
+/// Glass from a to b can be looked through from its right to its left. A straight line that crosses
+/// it comes from the side of the eye. So for an eye at its left the glass is a wall.
 static bool find_shut(const sl_map *map, sl_point eye, bool backwards, bool *shut) {
     bool any = false;
     for (size_t i = 0; i < map->door_count; i++) any |= shut[i] = !map->doors[i].open;
     for (size_t i = 0; i < map->oneway_count; i++) {
         const sl_segment glass = map->oneways[i].segment;
         any |= shut[map->door_count + i] =
-            (backwards ? sl_orient(glass.b, glass.a, eye) : sl_orient(glass.a, glass.b, eye)) > 0;
+            (backwards ? sli_orient(glass.b, glass.a, eye) : sli_orient(glass.a, glass.b, eye)) > 0;
     }
     return any;
 }
 
-/// The space with walls in what is shut. To the library dark glass is one more door.
-static sl_status make_space(sl_context *context, const sl_present *present,
-                            const sl_document *document, sl_space *out) {
+/// Makes the space with walls in what is shut. To the library, dark glass is one more door.
+static sl_status make_space(sl_context *context, const present_state *present,
+                            const document_state *document, sl_space *out) {
     sl_space from = document->baked->space;
     sl_seam *seams = sl_alloc_array(context, from.seam_count, sizeof *seams);
     if (!seams) return SL_NO_MEMORY;
@@ -44,15 +43,15 @@ static sl_status make_space(sl_context *context, const sl_present *present,
         seams[i].number += (uint32_t)document->baked->map.door_count;
     }
     from.seams = seams;
-    const sl_passage passage = {.shut = present->shut};
-    const sl_status status = sl_passage_make(context, &from, &passage, NULL, out);
+    const sl_filtered_space filtered = {.shut = present->shut};
+    const sl_status status = sl_filtered_space_make(context, &from, &filtered, NULL, out);
     sl_free(context, seams);
     return status;
 }
 
 // --- what it is made of
 
-static void drop_own(sl_context *context, sl_present *present) {
+static void drop_own(sl_context *context, present_state *present) {
     own *o = present->own;
     sl_moving_destroy(context, present->moving);
     present->moving = NULL;
@@ -68,79 +67,104 @@ static void drop_own(sl_context *context, sl_present *present) {
     present->own = NULL;
 }
 
-void sl_present_drop(sl_context *context, sl_present *present) {
+void present_drop(sl_context *context, present_state *present) {
     drop_own(context, present);
     sl_room_mirrors_destroy(context, &present->mirrors);
     sl_free(context, present->shut);
     sl_free(context, present->wanted);
-    *present = (sl_present){.version = present->version + 1, .backwards = present->backwards};
+    *present = (present_state){.version = present->version + 1, .backwards = present->backwards};
 }
 
-static void add_row(const sl_present *present, const sl_pvs *pvs, const sl_door_sets *doors,
+static void add_row(const present_state *present, const sl_pvs *pvs, const sl_door_sets *doors,
                     uint32_t cell, sl_bits *set) {
     if (!present->has_rows || cell >= pvs->cell_count) return;
-    sl_row_add_to(pvs, cell, set);
+    for (sl_pvs_run r = sl_pvs_begin(pvs, cell); sl_pvs_next(&r);)
+        for (uint32_t i = r.first; i < r.end; i++) sl_bits_add(set, i);
     if (!doors->cell_count || !present->shut) return;
     for (sl_door_pairs p = sl_door_pairs_begin(doors, cell); sl_door_pairs_next(&p, present->shut);)
         if (!p.open) set[p.cell / 64] &= ~((sl_bits)1 << p.cell % 64);
 }
 
-void sl_present_add_row(const sl_present *present, const sl_document *document, uint32_t cell,
-                        sl_bits *set) {
+void present_add_row(const present_state *present, const document_state *document, uint32_t cell,
+                     sl_bits *set) {
     const sl_visibility *v = &document->baked->visibility;
     add_row(present, &v->pvs, &v->doors, cell, set);
 }
 
-void sl_present_add_mirrored(const sl_present *present, const sl_document *document, uint32_t cell,
-                             sl_bits *set) {
+void present_add_mirrored(const present_state *present, const document_state *document,
+                          uint32_t cell, sl_bits *set) {
     const sl_visibility *v = &document->baked->visibility;
     add_row(present, &v->mirrored, &v->mirrored_doors, cell, set);
 }
 
-bool sl_present_sees(const sl_present *present, const sl_document *document, uint32_t from,
-                     uint32_t to) {
+bool present_sees(const present_state *present, const document_state *document, uint32_t from,
+                  uint32_t to) {
     const sl_visibility *v = &document->baked->visibility;
     if (from >= v->pvs.cell_count || !sl_pvs_sees(&v->pvs, from, to)) return false;
     return !v->doors.cell_count || !present->shut ||
            sl_door_sets_open(&v->doors, from, to, present->shut);
 }
 
-typedef void (*add_function)(const sl_present *present, const sl_document *document, uint32_t cell,
-                             sl_bits *set);
+typedef void (*add_function)(const present_state *present, const document_state *document,
+                             uint32_t cell, sl_bits *set);
+
+/// A number in LEB128; returns its end.
+static uint8_t *put_number(uint8_t *out, uint32_t number) {
+    for (; number >= 128; number >>= 7) *out++ = (uint8_t)(number | 128);
+    *out++ = (uint8_t)number;
+    return out;
+}
+
+/// A set of `count` cells as the runs of a row (sl_pvs); returns its end. Without `out` it only
+/// counts: a number has at most 5 bytes.
+static size_t encode_row(const sl_bits *set, uint32_t count, uint8_t *out) {
+    uint8_t *at = out;
+    size_t numbers = 0;
+    uint32_t first = 0, behind = 0; // of the run; behind the last one
+    for (uint32_t i = 0; i < count; i++) {
+        if (!sl_bits_has(set, i)) continue;
+        for (first = i; i < count && sl_bits_has(set, i);) i++;
+        numbers += 2;
+        if (out) at = put_number(put_number(at, first - behind), i - first);
+        behind = i;
+    }
+    return out ? (size_t)(at - out) : 5 * numbers;
+}
 
 /// What the eye's cell sees, as rows of which the others are empty.
-static sl_status make_row(sl_context *context, const sl_present *present,
-                          const sl_document *document, add_function add, uint32_t cell,
+static sl_status make_row(sl_context *context, const present_state *present,
+                          const document_state *document, add_function add, uint32_t cell,
                           sl_pvs *out) {
     const uint32_t count = document->baked->space.cell_count;
-    sl_row_bytes *rows = sl_alloc_array(context, count, sizeof *rows);
+    sl_pvs made = {.cell_count = count};
     sl_bits *set = sl_alloc_array(context, sl_bits_words(count), sizeof *set);
-    sl_status status = rows && set ? SL_OK : SL_NO_MEMORY;
-    if (status == SL_OK && cell != SL_NO_CELL) {
-        add(present, document, cell, set);
-        status = sl_row_append(context, &rows[cell], set, count);
+    if (set && cell != SL_NO_CELL) add(present, document, cell, set);
+    made.offsets = sl_alloc_array(context, (size_t)count + 1, sizeof *made.offsets);
+    if (set) made.bytes = sl_alloc_array(context, encode_row(set, count, NULL), 1);
+    const bool good = set && made.offsets && made.bytes;
+    if (good) {
+        const size_t size = encode_row(set, count, made.bytes);
+        for (uint32_t i = 0; i <= count; i++) made.offsets[i] = i > cell ? size : 0;
+        *out = made;
+    } else {
+        sl_pvs_destroy(context, &made);
     }
-    if (status == SL_OK)
-        status = sl_pvs_join(context, rows, count, out);
-    else if (rows && cell != SL_NO_CELL)
-        sl_free(context, rows[cell].items);
-    sl_free(context, rows);
     sl_free(context, set);
-    return status;
+    return good ? SL_OK : SL_NO_MEMORY;
 }
 
 /// The search looks the row up again in each query.
-static sl_status follow_eye(sl_context *context, sl_present *present, const sl_document *document,
-                            sl_point eye) {
+static sl_status follow_eye(sl_context *context, present_state *present,
+                            const document_state *document, sl_point eye) {
     own *o = present->own;
     const uint32_t cell = sl_space_locate(&o->space, eye);
     if (o->search && (o->cell == cell || !present->has_rows)) return SL_OK;
     sl_visibility row = {.sight = document->baked->visibility.sight};
     sl_status status = SL_OK;
     if (present->has_rows)
-        status = make_row(context, present, document, sl_present_add_row, cell, &row.pvs);
+        status = make_row(context, present, document, present_add_row, cell, &row.pvs);
     if (status == SL_OK && present->has_rows && document->map.mirror_count)
-        status = make_row(context, present, document, sl_present_add_mirrored, cell, &row.mirrored);
+        status = make_row(context, present, document, present_add_mirrored, cell, &row.mirrored);
     sl_visibility_destroy(context, &o->row);
     o->row = row;
     SL_TRY(status);
@@ -148,23 +172,26 @@ static sl_status follow_eye(sl_context *context, sl_present *present, const sl_d
     if (o->search) return SL_OK;
     const sl_space *space = o->one_way.cell_count ? &o->one_way : &o->space;
     SL_TRY(sl_eye_search_create(context, space, &o->row, &o->search));
-    return sl_document_add_mirrors(context, document, o->search);
+    return document_add_mirrors(context, document, o->search);
 }
 
-static sl_status make_own(sl_context *context, sl_present *present, const sl_document *document) {
+static sl_status make_own(sl_context *context, present_state *present,
+                          const document_state *document) {
     own *o = present->own = sl_alloc_array(context, 1, sizeof *o);
     if (!o) return SL_NO_MEMORY;
     SL_TRY(make_space(context, present, document, &o->space));
     if (document->map.mirror_count && document->map.oneway_count) {
-        const sl_passage passage = {.shut = present->shut, .one_way = true};
-        SL_TRY(sl_passage_make(context, &document->baked->space, &passage, NULL, &o->one_way));
+        const sl_filtered_space filtered = {.shut = present->shut, .one_way = true};
+        SL_TRY(
+            sl_filtered_space_make(context, &document->baked->space, &filtered, NULL, &o->one_way));
     }
     return sl_outline_make(context, &o->space, &o->outline);
 }
 
-/// Begins anew with a document, or one that has changed.
-static sl_status begin(sl_context *context, sl_present *present, const sl_document *document) {
-    sl_present_drop(context, present);
+/// Starts again with a new document, or one that changed.
+static sl_status begin(sl_context *context, present_state *present,
+                       const document_state *document) {
+    present_drop(context, present);
     // The clean map: in it, glass that something crosses is several.
     const sl_map *map = &document->baked->map;
     const size_t count = map->door_count + map->oneway_count;
@@ -177,8 +204,9 @@ static sl_status begin(sl_context *context, sl_present *present, const sl_docume
 }
 
 /// Puts the map's objects into the space.
-static sl_status place(sl_context *context, sl_present *present, const sl_document *document) {
-    sl_moving_box boxes[SL_OBJECTS_MOST] = {0};
+static sl_status place(sl_context *context, present_state *present,
+                       const document_state *document) {
+    sl_moving_box boxes[OBJECTS_MOST] = {0};
     const uint32_t *parents;
     bool any = false;
     for (size_t i = 0; i < document->object_count; i++) {
@@ -191,9 +219,9 @@ static sl_status place(sl_context *context, sl_present *present, const sl_docume
     return SL_OK;
 }
 
-/// Objects are put in again where they have moved, or the space is another.
-static sl_status put_objects(sl_context *context, sl_present *present,
-                             const sl_document *document) {
+/// Puts objects in again where they moved or the space changed.
+static sl_status put_objects(sl_context *context, present_state *present,
+                             const document_state *document) {
     if (!present->moving) {
         const own *o = present->own;
         SL_TRY(sl_moving_create(context, present->space, o ? &o->row : &document->baked->visibility,
@@ -209,9 +237,9 @@ static sl_status put_objects(sl_context *context, sl_present *present,
                             : SL_OK;
 }
 
-/// Where objects cannot be put in as they are now, sight goes past them.
-static sl_status follow_objects(sl_context *context, sl_present *present,
-                                const sl_document *document) {
+/// If objects cannot be put in as they are now, sight goes past them.
+static sl_status follow_objects(sl_context *context, present_state *present,
+                                const document_state *document) {
     if (!document->object_count || present->backwards) return SL_OK;
     if (present->still && present->touched == document->touched) return SL_OK;
     const sl_status status = put_objects(context, present, document);
@@ -225,12 +253,12 @@ static sl_status follow_objects(sl_context *context, sl_present *present,
     return SL_OK;
 }
 
-static sl_status update(sl_context *context, sl_present *present, const sl_document *document,
+static sl_status update(sl_context *context, present_state *present, const document_state *document,
                         sl_point eye) {
     const bool fresh = !present->space || present->document_version != document->version;
     if (fresh) SL_TRY(begin(context, present, document));
     const size_t count = present->shut_count;
-    const bool has_rows = sl_document_has_rows(document);
+    const bool has_rows = document_has_rows(document);
     const bool unused = document->has_visibility && !has_rows; // its search would believe them
     // Where both are, what is dark in a mirror is not what is dark from the eye.
     const bool both = document->map.mirror_count && document->map.oneway_count;
@@ -259,22 +287,22 @@ static sl_status update(sl_context *context, sl_present *present, const sl_docum
                                 &present->mirrors);
 }
 
-sl_status sl_present_update(sl_context *context, sl_present *present, const sl_document *document,
-                            sl_point eye) {
+sl_status present_update(sl_context *context, present_state *present,
+                         const document_state *document, sl_point eye) {
     if (!document->baked) {
-        if (present->space) sl_present_drop(context, present);
+        if (present->space) present_drop(context, present);
         return SL_OK;
     }
     const sl_status status = update(context, present, document, eye);
-    if (status != SL_OK) sl_present_drop(context, present);
+    if (status != SL_OK) present_drop(context, present);
     return status;
 }
 
 // --- the stab tree
 
-static bool passes_shut(const sl_present *present, const sl_space *space, uint32_t exit) {
+static bool passes_shut(const present_state *present, const sl_space *space, uint32_t directed) {
     size_t count;
-    const sl_seam_portal *on = sl_space_seams_of(space, space->exits[exit].portal, &count);
+    const sl_seam_portal *on = sl_space_seams_of(space, space->directed[directed].portal, &count);
     for (size_t i = 0; i < count; i++) {
         const sl_seam *seam = &space->seams[on[i].seam];
         if (seam->kind == SL_SEAM_DOOR && present->shut[seam->number]) return true;
@@ -283,16 +311,16 @@ static bool passes_shut(const sl_present *present, const sl_space *space, uint32
 }
 
 /// Keeps nodes whose parents are kept; `numbers` gets the new number of each.
-static uint32_t keep_nodes(const sl_present *present, const sl_space *space,
+static uint32_t keep_nodes(const present_state *present, const sl_space *space,
                            const sl_stab_node *from, uint32_t count, uint32_t *numbers,
                            sl_stab_node *to) {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < count; i++) {
         numbers[i] = UINT32_MAX;
-        const bool root = from[i].exit == UINT32_MAX;
+        const bool root = from[i].directed == UINT32_MAX;
         const bool portal = !root && !sl_stab_is_mirror(&from[i]);
         if (!root && numbers[from[i].parent] == UINT32_MAX) continue;
-        if (portal && passes_shut(present, space, from[i].exit)) continue;
+        if (portal && passes_shut(present, space, from[i].directed)) continue;
         to[kept] = from[i];
         to[kept].parent = root ? kept : numbers[from[i].parent];
         numbers[i] = kept++;
@@ -300,8 +328,8 @@ static uint32_t keep_nodes(const sl_present *present, const sl_space *space,
     return kept;
 }
 
-sl_status sl_present_tree(sl_context *context, const sl_present *present,
-                          const sl_document *document, uint32_t cell, sl_stab_trees *out) {
+sl_status present_tree(sl_context *context, const present_state *present,
+                       const document_state *document, uint32_t cell, sl_stab_trees *out) {
     const sl_stab_trees *all = &document->baked->visibility.trees;
     const uint32_t cells = document->baked->space.cell_count;
     if (cell >= all->cell_count) {

@@ -1,46 +1,46 @@
 #include "quiz.h"
 
-#include "base/random.h"
-#include "draw/sight.h"
+#include "sightline/canvas.h"
 #include "sightline/solvers.h"
+#include "sightline/support.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/// A hidden pair can take a search of all that is seen.
+/// The limit of the search that explains a hidden pair: it can visit all that is seen.
 #define TESTS_MOST 200000
 
-void sl_quiz_forget(sl_app *app) {
-    app->quiz.asked = app->quiz.answered = false;
-    sl_explanation_destroy(app->context, &app->quiz.explanation);
+void quiz_forget(app_state *app) {
+    app->tool.quiz.asked = app->tool.quiz.answered = false;
+    sl_explanation_destroy(app->context, &app->tool.quiz.explanation);
 }
 
-void sl_quiz_explain(sl_app *app, uint32_t from, uint32_t to) {
-    sl_quiz_forget(app);
-    const sl_document *d = &app->document;
-    if (!d->baked || !app->present.space || from >= d->baked->space.cell_count ||
+void quiz_explain(app_state *app, uint32_t from, uint32_t to) {
+    quiz_forget(app);
+    const document_state *d = &app->document;
+    if (!d->baked || !app->view.present.space || from >= d->baked->space.cell_count ||
         to >= d->baked->space.cell_count)
         return;
     sl_explain_options options = sl_explain_options_default();
     options.solver = sl_funnel();
     options.most_tests = TESTS_MOST;
-    app->quiz.from = from;
-    app->quiz.to = to;
-    app->quiz.asked = true;
-    const sl_status status =
-        sl_explain(app->context, app->present.space, &options, from, to, &app->quiz.explanation);
-    app->quiz.answered = status == SL_OK;
-    sl_app_check(app, status);
+    app->tool.quiz.from = from;
+    app->tool.quiz.to = to;
+    app->tool.quiz.asked = true;
+    const sl_status status = sl_explain(app->context, app->view.present.space, &options, from, to,
+                                        &app->tool.quiz.explanation);
+    app->tool.quiz.answered = status == SL_OK;
+    app_check(app, status);
 }
 
-/// A pair that is not too easy: neighbours of a few portals' distance, as many seen as not where
-/// that can be had.
-void sl_quiz_ask(sl_app *app) {
-    const sl_document *d = &app->document;
-    sl_quiz_forget(app);
-    if (!d->baked || !sl_document_has_rows(d) || d->counted < 2) return;
+/// Chooses a pair that is not too easy: a few portals apart, and as often seen as not where
+/// possible.
+void quiz_ask(app_state *app) {
+    const document_state *d = &app->document;
+    quiz_forget(app);
+    if (!d->baked || !document_has_rows(d) || d->counted < 2) return;
     const sl_space *space = &d->baked->space;
-    sl_random random = {app->quiz.random};
+    sl_random random = {app->tool.quiz.random};
     const bool wanted = sl_random_next(&random) & 1;
     uint32_t from = 0, to = 0;
     for (int attempt = 0; attempt < 4000; attempt++) {
@@ -49,22 +49,22 @@ void sl_quiz_ask(sl_app *app) {
         if (from == to || !sl_baked_counts(d->baked, from) || !sl_baked_counts(d->baked, to))
             continue;
         bool neighbours = false;
-        for (uint32_t i = 0; i < space->cells[from].exit_count; i++)
-            neighbours |= space->exits[space->cells[from].first_exit + i].cell == to;
+        for (uint32_t i = 0; i < space->cells[from].directed_count; i++)
+            neighbours |= space->directed[space->cells[from].first_directed + i].cell == to;
         if (neighbours && attempt < 3000) continue;
-        if (sl_present_sees(&app->present, d, from, to) == wanted || attempt > 2000) break;
+        if (present_sees(&app->view.present, d, from, to) == wanted || attempt > 2000) break;
     }
-    app->quiz.random = random.state;
-    app->quiz.from = from;
-    app->quiz.to = to;
-    app->quiz.asked = from != to;
+    app->tool.quiz.random = random.state;
+    app->tool.quiz.from = from;
+    app->tool.quiz.to = to;
+    app->tool.quiz.asked = from != to;
 }
 
-void sl_quiz_answer(sl_app *app, bool seen) {
-    sl_quiz *q = &app->quiz;
+void quiz_answer(app_state *app, bool seen) {
+    quiz_state *q = &app->tool.quiz;
     if (!q->asked || q->answered) return;
-    const bool is_seen = sl_present_sees(&app->present, &app->document, q->from, q->to);
-    sl_quiz_explain(app, q->from, q->to);
+    const bool is_seen = present_sees(&app->view.present, &app->document, q->from, q->to);
+    quiz_explain(app, q->from, q->to);
     q->right = is_seen == seen;
     q->asked_count++;
     q->right_count += q->right;
@@ -74,22 +74,22 @@ static const sl_sequence *sequence_of(const sl_explanation *e) {
     return e->verdict != SL_HIDDEN ? &e->sequence : e->miss_count ? &e->misses[0].sequence : NULL;
 }
 
-/// What the map calls for can tell otherwise than the portals that are passed.
-static const char *words_of_effects(const sl_app *app) {
-    const sl_explanation *e = &app->quiz.explanation;
-    const sl_document *d = &app->document;
+/// Effects can decide otherwise than the portals that the line passes.
+static const char *words_of_effects(const app_state *app) {
+    const sl_explanation *e = &app->tool.quiz.explanation;
+    const document_state *d = &app->document;
     const sl_visibility *v = &d->baked->visibility;
-    if (!sl_document_has_rows(d) || !sl_plan_make(&d->map).effects || !e->complete) return "";
+    if (!document_has_rows(d) || !sl_plan_make(&d->map).effects || !e->complete) return "";
     if (v->mirrored.cell_count && sl_pvs_sees(&v->mirrored, e->from, e->to))
         return " It is seen by mirror.";
-    const bool sees = sl_present_sees(&app->present, d, e->from, e->to);
+    const bool sees = present_sees(&app->view.present, d, e->from, e->to);
     if (e->seen && !sees) return " But glass is dark that way, or it is out of the view's range.";
     return !e->seen && sees ? " From elsewhere in its cell glass lets it through." : "";
 }
 
-static void write_words(const sl_app *app, char *text, size_t room) {
-    const sl_explanation *e = &app->quiz.explanation;
-    const sl_space *space = app->present.space;
+static void write_words(const app_state *app, char *text, size_t room) {
+    const sl_explanation *e = &app->tool.quiz.explanation;
+    const sl_space *space = app->view.present.space;
     const sl_sequence *sequence = sequence_of(e);
     if (e->from == e->to)
         snprintf(text, room, "A cell sees itself: it is convex, and no wall is inside it.");
@@ -97,7 +97,7 @@ static void write_words(const sl_app *app, char *text, size_t room) {
         snprintf(text, room,
                  "Seen: the line passes %u portal%s, left ends at its left and right ends at its "
                  "right.",
-                 e->sequence.exit_count, e->sequence.exit_count == 1 ? "" : "s");
+                 e->sequence.directed_count, e->sequence.directed_count == 1 ? "" : "s");
     else if (e->verdict == SL_GRAZING)
         snprintf(text, room, "Only grazed: the line touches portal ends, for %s.",
                  sl_sequence_reason(space, sequence));
@@ -117,7 +117,7 @@ static void write_words(const sl_app *app, char *text, size_t room) {
                  sl_sequence_reason(space, sequence));
 }
 
-void sl_quiz_words(const sl_app *app, char *text, size_t room) {
+void quiz_words(const app_state *app, char *text, size_t room) {
     write_words(app, text, room);
     const size_t used = strlen(text);
     snprintf(text + used, room - used, "%s", words_of_effects(app));
@@ -125,8 +125,8 @@ void sl_quiz_words(const sl_app *app, char *text, size_t room) {
 
 // --- drawing
 
-void sl_quiz_draw_below(sl_app *app, const sl_frame *frame) {
-    const sl_quiz *q = &app->quiz;
+void quiz_draw_below(app_state *app, const sl_frame *frame) {
+    const quiz_state *q = &app->tool.quiz;
     const sl_palette *palette = &app->ui.palette;
     if (!q->asked) return;
     const sl_space *space = &app->document.baked->space;
@@ -134,16 +134,16 @@ void sl_quiz_draw_below(sl_app *app, const sl_frame *frame) {
     sl_draw_cell(app->ui.cairo, space, frame, q->to, palette->door, 0.5, 2 * frame->unit);
 }
 
-void sl_quiz_draw_above(sl_app *app, const sl_frame *frame) {
-    const sl_quiz *q = &app->quiz;
+void quiz_draw_above(app_state *app, const sl_frame *frame) {
+    const quiz_state *q = &app->tool.quiz;
     if (!q->asked || !q->answered) return;
     sl_portal_ends ends[SL_DUAL_PORTALS_MOST] = {0};
     const sl_sequence *sequence = sequence_of(&q->explanation);
-    const sl_exit *exits = app->present.space->exits;
+    const sl_directed_portal *directed = app->view.present.space->directed;
     uint32_t count = 0;
-    for (; sequence && count < sequence->exit_count && count < SL_DUAL_PORTALS_MOST; count++) {
-        const sl_exit *exit = &exits[sequence->exits[count]];
-        ends[count] = (sl_portal_ends){exit->left, exit->right};
+    for (; sequence && count < sequence->directed_count && count < SL_DUAL_PORTALS_MOST; count++) {
+        const sl_directed_portal *step = &directed[sequence->directed[count]];
+        ends[count] = (sl_portal_ends){step->left, step->right};
     }
     const bool seen = q->explanation.verdict != SL_HIDDEN;
     sl_draw_portal_ends(app->ui.cairo, &app->ui.palette, frame, ends, count, !seen);

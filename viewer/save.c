@@ -1,79 +1,147 @@
+/// Results of a session: recorded paths of the eye with their playback, and pictures of the screen
+/// as files.
 #include "save.h"
 
 #include "account.h"
-#include "base/base.h"
-#include "draw/paper.h"
-#include "panes.h"
+#include "app.h"
+#include "modes.h"
+#include "sightline/canvas.h"
+#include "sightline/support.h"
 
 #include <errno.h>
+#include <math.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-static sl_status save(sl_app *app, const char *path, bool window) {
-    const sl_paper_kind *kind;
-    sl_paper paper;
-    sl_context *context = app->context;
-    SL_TRY(sl_paper_kind_of(context, path, &kind));
-    const sl_layout l = sl_app_layout(app);
-    const double w = window ? app->width : sl_box_width(l.plan[0]);
-    const double h = window ? app->height : sl_box_height(l.plan[0]);
-    SL_TRY(sl_paper_open(context, kind, path, (int)w, (int)h, "Sightline", &paper));
-    if (window) {
-        sl_app_draw(app, paper.cairo);
-    } else {
-        const sl_ui before = app->ui;
-        app->ui.cairo = paper.cairo;
-        app->ui.palette = sl_palette_make(app->dark);
-        app->ui.text = sl_app_text(app);
-        sl_app_fit(app, l.plan[0]);
-        sl_pane_plan(app, (sl_box){{0, 0}, {w, h}}, 0, true);
-        app->ui = before;
+// --- paths
+
+/// Ten minutes.
+enum { FRAMES_MOST = 36000 };
+
+static sl_status add(sl_context *context, path_recorder *recorder, record_frame frame) {
+    if (recorder->frames.count >= FRAMES_MOST) {
+        recorder->records = false;
+        return SL_OK;
     }
-    return sl_paper_close(context, &paper, SL_OK);
+    SL_TRY(SL_ARRAY_ROOM(context, &recorder->frames, 1));
+    recorder->frames.items[recorder->frames.count++] = frame;
+    return SL_OK;
 }
 
-sl_status sl_save_window(sl_app *app, const char *path) {
-    return save(app, path, true);
+sl_status record_tick(sl_context *context, path_recorder *recorder, double seconds,
+                      record_frame now) {
+    if (!recorder->records) return SL_OK;
+    for (recorder->waited += seconds; recorder->waited >= RECORD_STEP * 0.999;
+         recorder->waited -= RECORD_STEP)
+        SL_TRY(add(context, recorder, now));
+    return SL_OK;
 }
 
-sl_status sl_save_plan(sl_app *app, const char *path) {
-    return save(app, path, false);
+bool record_play(path_recorder *recorder, double seconds, record_frame *frame) {
+    if (!recorder->plays) return false;
+    recorder->waited += seconds;
+    const size_t steps = (size_t)(recorder->waited / RECORD_STEP + 0.001);
+    recorder->waited -= (double)steps * RECORD_STEP;
+    if (recorder->next >= recorder->frames.count) {
+        recorder->plays = false;
+        return false;
+    }
+    *frame = recorder->frames.items[recorder->next];
+    recorder->next += steps;
+    return true;
 }
 
-void sl_save_numbered(sl_app *app, const char *ending) {
+sl_status record_path(sl_context *context, path_recorder *recorder, const sl_path *path,
+                      double speed) {
+    recorder->frames.count = 0;
+    for (size_t i = 1; i < path->count; i++) {
+        const sl_point a = path->points[i - 1], b = path->points[i];
+        const double length = hypot(b.x - a.x, b.y - a.y);
+        const double heading = atan2(b.y - a.y, b.x - a.x) * (180 / 3.14159265358979323846);
+        const double steps = fmin(ceil(length / (speed * RECORD_STEP)), FRAMES_MOST);
+        for (double k = 0; k < steps; k++)
+            SL_TRY(
+                add(context, recorder,
+                    (record_frame){{a.x + (b.x - a.x) * k / steps, a.y + (b.y - a.y) * k / steps},
+                                   heading}));
+    }
+    return SL_OK;
+}
+
+void record_destroy(sl_context *context, path_recorder *recorder) {
+    sl_free(context, recorder->frames.items);
+    *recorder = (path_recorder){0};
+}
+
+// --- pictures
+
+static void draw_window(void *user, cairo_t *cairo) {
+    app_draw(user, cairo);
+}
+
+static void draw_plan(void *user, cairo_t *cairo) {
+    app_state *app = user;
+    const sl_box plan = app_layout(app).plan[0];
+    const int hits = app->ui.hit_count;
+    const double text = app->ui.text;
+    const sl_palette palette = app->ui.palette;
+    cairo_t *const before = app->ui.cairo;
+    app->ui.cairo = cairo;
+    app->ui.palette = sl_palette_make(app->ui.dark);
+    app->ui.text = ui_text_size(&app->ui);
+    app_fit(app, plan);
+    pane_plan(app, (sl_box){{0, 0}, {box_width(plan), box_height(plan)}}, 0, true);
+    app->ui.cairo = before;
+    app->ui.palette = palette;
+    app->ui.text = text;
+    app->ui.hit_count = hits;
+}
+
+sl_status save_window(app_state *app, const char *path) {
+    return sl_draw_page_file(app->context, path, app->ui.width, app->ui.height, "Sightline",
+                             draw_window, app);
+}
+
+sl_status save_plan(app_state *app, const char *path) {
+    const sl_box plan = app_layout(app).plan[0];
+    return sl_draw_page_file(app->context, path, (int)box_width(plan), (int)box_height(plan),
+                             "Sightline", draw_plan, app);
+}
+
+void save_numbered(app_state *app, const char *ending) {
     char path[64], chart[64];
     for (unsigned i = 1; i < 10000; i++) {
         snprintf(path, sizeof path, "sightline-%u.%s", i, ending);
         snprintf(chart, sizeof chart, "sightline-%u-account.%s", i, ending);
         if (access(path, F_OK) == 0 || access(chart, F_OK) == 0) continue;
-        sl_status status = sl_save_plan(app, path);
-        if (status == SL_OK && app->accounts) status = sl_account_save(app, chart);
+        sl_status status = save_plan(app, path);
+        if (status == SL_OK && app->ui.accounts) status = account_save(app, chart);
         if (status == SL_OK)
-            sl_app_say(app, false, "saved %s%s%s", path, app->accounts ? " and " : "",
-                       app->accounts ? chart : "");
-        sl_app_check(app, status);
+            ui_say(&app->ui, false, "saved %s%s%s", path, app->ui.accounts ? " and " : "",
+                   app->ui.accounts ? chart : "");
+        app_check(app, status);
         return;
     }
-    sl_app_say(app, true, "no free name for a picture in this folder");
+    ui_say(&app->ui, true, "no free name for a picture in this folder");
 }
 
-sl_status sl_save_series(sl_app *app, const char *folder, unsigned every) {
+sl_status save_series(app_state *app, const char *folder, unsigned every) {
     if (mkdir(folder, 0777) != 0 && errno != EEXIST)
         return sl_fail(app->context, SL_IO, "%s: %s", folder, strerror(errno));
-    sl_recorder *r = &app->recorder;
+    path_recorder *r = &app->tool.recorder;
     if (!r->frames.count)
         return sl_fail(app->context, SL_BAD_ARGUMENT, "nothing was recorded to be exported");
     char path[4096];
     unsigned number = 0;
     r->records = r->plays = false;
     for (size_t i = 0; i < r->frames.count; i += every ? every : 1) {
-        app->eye.at = r->frames.items[i].at;
-        app->eye.heading = r->frames.items[i].heading;
-        sl_app_tick(app, 0);
+        app->view.eye.at = r->frames.items[i].at;
+        app->view.eye.heading = r->frames.items[i].heading;
+        app_tick(app, 0);
         snprintf(path, sizeof path, "%s/frame-%04u.png", folder, ++number);
-        SL_TRY(sl_save_window(app, path));
+        SL_TRY(save_window(app, path));
     }
-    sl_app_say(app, false, "%u frames in %s", number, folder);
+    ui_say(&app->ui, false, "%u frames in %s", number, folder);
     return SL_OK;
 }

@@ -1,19 +1,53 @@
-/// What is on the screen, as a file.
+/// Results of a session: recorded paths of the eye with their playback, and pictures of the screen
+/// as files.
 #ifndef VIEWER_SAVE_H
 #define VIEWER_SAVE_H
 
-#include "app.h"
+#include "sightline/map.h"
+#include "sightline/support.h"
+
+typedef struct app_state app_state;
+
+// --- paths
+
+/// Where the eye was, sixty times a second.
+typedef struct record_frame {
+    sl_point at;
+    double heading;
+} record_frame;
+
+#define RECORD_STEP (1.0 / 60)
+
+/// Zeroed to start.
+typedef struct path_recorder {
+    bool records, plays;
+    double waited;
+    size_t next; ///< to be played
+    SL_ARRAY(record_frame) frames;
+} path_recorder;
+
+/// Records for some time: adds frames.
+sl_status record_tick(sl_context *context, path_recorder *recorder, double seconds,
+                      record_frame now);
+/// Gives the next frame while it plays; false at the end.
+bool record_play(path_recorder *recorder, double seconds, record_frame *frame);
+/// Replaces the recording by a walk along a path of the map (speed: units a second).
+sl_status record_path(sl_context *context, path_recorder *recorder, const sl_path *path,
+                      double speed);
+void record_destroy(sl_context *context, path_recorder *recorder);
+
+// --- pictures
 
 /// The whole window as .png, .svg or .pdf, by the ending of the name.
-sl_status sl_save_window(sl_app *app, const char *path);
+sl_status save_window(app_state *app, const char *path);
 
-/// The plan alone, likewise; in .svg and .pdf as lines.
-sl_status sl_save_plan(sl_app *app, const char *path);
+/// The plan alone; .svg and .pdf contain lines.
+sl_status save_plan(app_state *app, const char *path);
 
-/// The plan under a name that is free: NAME-1.ENDING in the present folder.
-void sl_save_numbered(sl_app *app, const char *ending);
+/// Saves the plan under a free name in the present folder: NAME-1.ENDING.
+void save_numbered(app_state *app, const char *ending);
 
-/// Plays what was recorded and saves each frame: FOLDER/frame-0001.png and on, `every` frames one.
-sl_status sl_save_series(sl_app *app, const char *folder, unsigned every);
+/// Plays the recording and saves frames: FOLDER/frame-0001.png and so on, one of `every`.
+sl_status save_series(app_state *app, const char *folder, unsigned every);
 
 #endif

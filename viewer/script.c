@@ -2,10 +2,10 @@
 
 #include "account.h"
 #include "actions.h"
-#include "base/file.h"
+#include "files.h"
 #include "input.h"
 #include "save.h"
-#include "shelf.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -13,119 +13,119 @@
 #include <string.h>
 
 typedef struct reader {
-    sl_app *app;
+    app_state *app;
     const char *file;
     unsigned line;
-    void (*after)(void *user, sl_app *app);
+    void (*after)(void *user, app_state *app);
     void *user;
 } reader;
 
-/// The words of a line: the command first. `rest` is all behind it.
+/// The words of a line, the command first. `rest` is all behind the command.
 typedef struct words {
     const char *name, *rest;
     double numbers[4];
     int count;
 } words;
 
-void sl_script_frame(sl_app *app) {
+void script_frame(app_state *app) {
     cairo_surface_t *surface =
-        cairo_image_surface_create(CAIRO_FORMAT_RGB24, app->width, app->height);
+        cairo_image_surface_create(CAIRO_FORMAT_RGB24, app->ui.width, app->ui.height);
     cairo_t *cairo = cairo_create(surface);
-    sl_app_draw(app, cairo);
+    app_draw(app, cairo);
     cairo_destroy(cairo);
     cairo_surface_destroy(surface);
 }
 
 static void frame(reader *r, double seconds) {
-    sl_app_tick(r->app, seconds);
+    app_tick(r->app, seconds);
     if (r->after)
         r->after(r->user, r->app);
     else
-        sl_script_frame(r->app);
+        script_frame(r->app);
 }
 
 // --- commands
 
 static sl_status do_open(reader *r, const words *w) {
-    sl_shelf_open(r->app, w->rest);
-    sl_app_settle(r->app);
-    if (r->app->message_is_error)
-        return sl_fail_at(r->app->context, r->file, r->line, "%s", r->app->message);
+    shelf_open(r->app, w->rest);
+    app_settle(r->app);
+    if (r->app->ui.message_is_error)
+        return sl_fail_at(r->app->context, r->file, r->line, "%s", r->app->ui.message);
     return SL_OK;
 }
 
 static sl_status check_key(reader *r, const char *key) {
-    for (int mode = SL_MODE_EXPLORE; mode <= SL_MODE_QUIZ; mode++)
-        if (sl_action_of_key(key, (sl_mode)mode) >= 0) return SL_OK;
+    for (int mode = MODE_EXPLORE; mode <= MODE_QUIZ; mode++)
+        if (action_of_key(key, (app_mode)mode) >= 0) return SL_OK;
     return sl_fail_at(r->app->context, r->file, r->line, "no action has the key '%s'", key);
 }
 
 static sl_status do_key(reader *r, const words *w) {
     SL_TRY(check_key(r, w->rest));
-    sl_input_key(r->app, w->rest, true);
+    input_key(r->app, w->rest, true);
     frame(r, 1.0 / 60);
-    sl_input_key(r->app, w->rest, false);
+    input_key(r->app, w->rest, false);
     return SL_OK;
 }
 
 static sl_status do_down(reader *r, const words *w) {
     SL_TRY(check_key(r, w->rest));
-    sl_input_key(r->app, w->rest, true);
+    input_key(r->app, w->rest, true);
     return SL_OK;
 }
 
 static sl_status do_up(reader *r, const words *w) {
     SL_TRY(check_key(r, w->rest));
-    sl_input_key(r->app, w->rest, false);
+    input_key(r->app, w->rest, false);
     return SL_OK;
 }
 
 static sl_status do_action(reader *r, const words *w) {
-    const int number = sl_action_find(w->rest);
+    const int number = action_find(w->rest);
     if (number < 0)
         return sl_fail_at(r->app->context, r->file, r->line, "no action is called '%s'", w->rest);
-    sl_action_run(r->app, number);
+    action_run(r->app, number);
     frame(r, 0);
     return SL_OK;
 }
 
 static sl_status do_move(reader *r, const words *w) {
-    sl_input_move(r->app, (sl_point){w->numbers[0], w->numbers[1]});
+    input_move(r->app, (sl_point){w->numbers[0], w->numbers[1]});
     return SL_OK;
 }
 
-static void press(reader *r, sl_button button, sl_point from, sl_point to) {
+static void press(reader *r, button_kind button, sl_point from, sl_point to) {
     frame(r, 0);
-    sl_input_move(r->app, from);
-    sl_input_press(r->app, button, from);
+    input_move(r->app, from);
+    input_press(r->app, button, from);
     if (to.x != from.x || to.y != from.y)
         for (int i = 1; i <= 4; i++)
-            sl_input_move(r->app, (sl_point){from.x + (to.x - from.x) * i / 4,
-                                             from.y + (to.y - from.y) * i / 4});
-    sl_input_release(r->app, to);
+            input_move(r->app, (sl_point){from.x + (to.x - from.x) * i / 4,
+                                          from.y + (to.y - from.y) * i / 4});
+    input_release(r->app, to);
     frame(r, 0);
 }
 
 static sl_status do_click(reader *r, const words *w) {
     const sl_point at = {w->numbers[0], w->numbers[1]};
-    press(r, SL_BUTTON_LEFT, at, at);
+    press(r, BUTTON_LEFT, at, at);
     return SL_OK;
 }
 
 static sl_status do_right(reader *r, const words *w) {
     const sl_point at = {w->numbers[0], w->numbers[1]};
-    press(r, SL_BUTTON_RIGHT, at, at);
+    press(r, BUTTON_RIGHT, at, at);
     return SL_OK;
 }
 
 static sl_status do_drag(reader *r, const words *w) {
-    press(r, SL_BUTTON_LEFT, (sl_point){w->numbers[0], w->numbers[1]},
+    press(r, BUTTON_LEFT, (sl_point){w->numbers[0], w->numbers[1]},
           (sl_point){w->numbers[2], w->numbers[3]});
     return SL_OK;
 }
 
 static sl_status do_wheel(reader *r, const words *w) {
-    sl_input_wheel(r->app, w->numbers[0]);
+    input_wheel(r->app, w->numbers[0]);
     return SL_OK;
 }
 
@@ -138,42 +138,42 @@ static sl_status do_size(reader *r, const words *w) {
     if (!(w->numbers[0] >= 320 && w->numbers[0] <= 8192 && w->numbers[1] >= 240 &&
           w->numbers[1] <= 8192))
         return sl_fail_at(r->app->context, r->file, r->line, "a size is 320x240 to 8192x8192");
-    r->app->width = (int)w->numbers[0];
-    r->app->height = (int)w->numbers[1];
+    r->app->ui.width = (int)w->numbers[0];
+    r->app->ui.height = (int)w->numbers[1];
     return SL_OK;
 }
 
 static sl_status do_eye(reader *r, const words *w) {
     if (w->count != 3 && w->count != 4)
         return sl_fail_at(r->app->context, r->file, r->line, "eye needs X Y HEADING [CONE]");
-    r->app->eye.at = (sl_point){w->numbers[0], w->numbers[1]};
-    r->app->eye.heading = fmod(fmod(w->numbers[2], 360) + 360, 360);
-    if (w->count == 4) r->app->eye.fov = fmin(fmax(w->numbers[3], 1), 360);
+    r->app->view.eye.at = (sl_point){w->numbers[0], w->numbers[1]};
+    r->app->view.eye.heading = fmod(fmod(w->numbers[2], 360) + 360, 360);
+    if (w->count == 4) r->app->view.eye.fov = fmin(fmax(w->numbers[3], 1), 360);
     return SL_OK;
 }
 
 static sl_status do_text(reader *r, const words *w) {
-    r->app->text_scale = fmin(fmax(w->numbers[0], 0.7), 3);
+    r->app->ui.text_scale = fmin(fmax(w->numbers[0], 0.7), 3);
     return SL_OK;
 }
 
 static sl_status do_screenshot(reader *r, const words *w) {
-    sl_app_tick(r->app, 0);
-    return sl_save_window(r->app, w->rest);
+    app_tick(r->app, 0);
+    return save_window(r->app, w->rest);
 }
 
 static sl_status do_save(reader *r, const words *w) {
-    sl_app_tick(r->app, 0);
-    return sl_save_plan(r->app, w->rest);
+    app_tick(r->app, 0);
+    return save_plan(r->app, w->rest);
 }
 
 static sl_status do_account(reader *r, const words *w) {
-    sl_app_tick(r->app, 0);
-    return sl_account_save(r->app, w->rest);
+    app_tick(r->app, 0);
+    return account_save(r->app, w->rest);
 }
 
 static sl_status do_export(reader *r, const words *w) {
-    return sl_save_series(r->app, w->rest, 2);
+    return save_series(r->app, w->rest, 2);
 }
 
 static const struct command {
@@ -227,8 +227,8 @@ static sl_status run_line(reader *r, char *line) {
     return sl_fail_at(r->app->context, r->file, r->line, "no command is called '%s'", w.name);
 }
 
-sl_status sl_script_run(sl_app *app, const char *path, void (*after)(void *user, sl_app *app),
-                        void *user) {
+sl_status script_run(app_state *app, const char *path, void (*after)(void *user, app_state *app),
+                     void *user) {
     reader r = {.app = app, .file = path, .after = after, .user = user};
     sl_bytes bytes;
     SL_TRY(sl_file_read(app->context, path, &bytes));
@@ -238,7 +238,7 @@ sl_status sl_script_run(sl_app *app, const char *path, void (*after)(void *user,
         if (next) *next++ = '\0';
         r.line++;
         status = run_line(&r, line);
-        sl_app_settle(app);
+        app_settle(app);
     }
     sl_free(app->context, bytes.data);
     return status;

@@ -10,11 +10,11 @@
 
 #include "app.h"
 
-/// Runs a script; `after` (NULL for nothing) is called after each of its frames, with `user`.
-sl_status sl_script_run(sl_app *app, const char *path, void (*after)(void *user, sl_app *app),
-                        void *user);
+/// Runs a script. Calls `after` (NULL: nothing) with `user` after each frame.
+sl_status script_run(app_state *app, const char *path, void (*after)(void *user, app_state *app),
+                     void *user);
 
-/// A frame as the window would show it, onto nothing: so that clicks find what is there.
-void sl_script_frame(sl_app *app);
+/// Draws a frame onto nothing, so that clicks find what is there.
+void script_frame(app_state *app);
 
 #endif

@@ -1,19 +1,18 @@
+/// What the eye sees now, by every culling method. What it sees in mirrors grows with each
+/// reflection, so a frame takes only what it has time for.
 #include "seen.h"
 
-#include "base/base.h"
-#include "base/bits.h"
-#include "clock.h"
 #include "edit.h"
-#include "seen_mirrors.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <string.h>
 
-static void free_sets(sl_context *context, sl_seen *seen) {
-    for (int i = 0; i < SL_SEEN_MOST; i++) {
+static void free_sets(sl_context *context, seen_state *seen) {
+    for (int i = 0; i < SEEN_MOST; i++) {
         if (seen->methods[i].cells) sl_free(context, seen->methods[i].cells);
         if (seen->methods[i].mirrored) sl_free(context, seen->methods[i].mirrored);
-        seen->methods[i] = (sl_seen_method){0};
+        seen->methods[i] = (seen_method){0};
     }
     sl_free(context, seen->objects);
     seen->objects = NULL;
@@ -23,15 +22,15 @@ static void free_sets(sl_context *context, sl_seen *seen) {
     seen->pvs = seen->mirrored = NULL;
 }
 
-void sl_seen_destroy(sl_context *context, sl_seen *seen) {
+void seen_destroy(sl_context *context, seen_state *seen) {
     free_sets(context, seen);
     sl_region_destroy(context, &seen->region);
-    sl_seen_forget_mirrors(context, seen);
+    seen_forget_mirrors(context, seen);
     if (seen->hurried) sl_context_destroy(seen->hurried);
-    *seen = (sl_seen){0};
+    *seen = (seen_state){0};
 }
 
-static sl_status make_sets(sl_context *context, sl_seen *seen, const sl_document *document) {
+static sl_status make_sets(sl_context *context, seen_state *seen, const document_state *document) {
     const sl_space *space = &document->baked->space;
     size_t count;
     sl_eye_methods(&count);
@@ -42,7 +41,7 @@ static sl_status make_sets(sl_context *context, sl_seen *seen, const sl_document
     seen->objects = sl_alloc_array(context, document->object_count, sizeof *seen->objects);
     if (!seen->pvs || !seen->mirrored || !seen->objects) return SL_NO_MEMORY;
     seen->object_count = document->object_count;
-    for (size_t i = 0; i < count && i < SL_SEEN_MOST; i++) {
+    for (size_t i = 0; i < count && i < SEEN_MOST; i++) {
         seen->methods[i].cells = sl_alloc_array(context, words, sizeof *seen->pvs);
         seen->methods[i].mirrored = sl_alloc_array(context, words, sizeof *seen->pvs);
         if (!seen->methods[i].cells || !seen->methods[i].mirrored) return SL_NO_MEMORY;
@@ -50,7 +49,7 @@ static sl_status make_sets(sl_context *context, sl_seen *seen, const sl_document
     return SL_OK;
 }
 
-static void sum_up(const sl_document *document, const uint64_t *cells, uint32_t *count,
+static void sum_up(const document_state *document, const uint64_t *cells, uint32_t *count,
                    double *area) {
     *count = 0;
     *area = 0;
@@ -67,12 +66,12 @@ static double distance_to_cell(const sl_space *space, uint32_t number, sl_point 
     double nearest = INFINITY;
     for (uint32_t i = 0; i < cell->vertex_count; i++)
         nearest =
-            fmin(nearest, sl_edit_distance(at, corners[i], corners[(i + 1) % cell->vertex_count]));
+            fmin(nearest, edit_distance(at, corners[i], corners[(i + 1) % cell->vertex_count]));
     return nearest;
 }
 
-/// Drops cells that are out of range as a whole, which methods keep that know no range.
-static void keep_in_range(const sl_seen *seen, const sl_space *space, uint64_t *cells) {
+/// Drops cells that are out of range as a whole: methods that know no range keep them.
+static void keep_in_range(const seen_state *seen, const sl_space *space, uint64_t *cells) {
     if (!(seen->range > 0)) return;
     for (uint32_t cell = 0; cell < space->cell_count; cell++)
         if (sl_bits_has(cells, cell) && cell != seen->cell &&
@@ -80,12 +79,12 @@ static void keep_in_range(const sl_seen *seen, const sl_space *space, uint64_t *
             cells[cell / 64] &= ~((sl_bits)1 << cell % 64);
 }
 
-static void look(sl_context *context, const sl_seen *seen, sl_seen_method *m,
-                 const sl_eye_method *method, const sl_document *document, sl_eye_search *search,
+static void look(sl_context *context, const seen_state *seen, seen_method *m,
+                 const sl_eye_method *method, const document_state *document, sl_eye_search *search,
                  const sl_view *view) {
-    const double before = sl_clock_seconds();
+    const double before = sl_seconds();
     m->known = method->cull(context, search, view, m->cells, &m->account) == SL_OK;
-    const double seconds = sl_clock_seconds() - before;
+    const double seconds = sl_seconds() - before;
     m->seconds = m->seconds > 0 ? 0.9 * m->seconds + 0.1 * seconds : seconds;
     if (!m->known) memset(m->cells, 0, sl_eye_words(&document->baked->space) * sizeof *m->cells);
     keep_in_range(seen, &document->baked->space, m->cells);
@@ -98,14 +97,14 @@ static bool have_common(const uint64_t *a, const uint64_t *b, size_t words) {
     return false;
 }
 
-/// Which objects are seen; and the exact method again, where some of them block sight. Where they
-/// cannot be put into the space, those in cells that are seen count as seen.
-static sl_status look_at_objects(sl_context *context, sl_seen *seen, const sl_document *document,
-                                 const sl_present *present) {
+/// Finds the objects that are seen. Runs the exact method again if some of them block sight. If
+/// they cannot be put into the space, objects in visible cells count as seen.
+static sl_status look_at_objects(sl_context *context, seen_state *seen,
+                                 const document_state *document, const present_state *present) {
     const size_t words = sl_eye_words(&document->baked->space);
     size_t count;
     sl_eye_methods(&count);
-    sl_seen_method *exact = &seen->methods[count - 1];
+    seen_method *exact = &seen->methods[count - 1];
     if (!seen->object_count || !exact->known) return SL_OK;
     uint64_t *cells = sl_alloc_array(context, words, sizeof *cells);
     if (!cells) return SL_NO_MEMORY;
@@ -127,26 +126,26 @@ static sl_status look_at_objects(sl_context *context, sl_seen *seen, const sl_do
     return status;
 }
 
-static void take_pvs(sl_seen *seen, const sl_document *document, const sl_present *present,
+static void take_pvs(seen_state *seen, const document_state *document, const present_state *present,
                      sl_point eye) {
     const sl_space *space = &document->baked->space;
     memset(seen->pvs, 0, sl_eye_words(space) * sizeof *seen->pvs);
     memset(seen->mirrored, 0, sl_eye_words(space) * sizeof *seen->mirrored);
     seen->cell = sl_space_locate(space, eye);
-    if (seen->cell != SL_NO_CELL) sl_present_add_row(present, document, seen->cell, seen->pvs);
+    if (seen->cell != SL_NO_CELL) present_add_row(present, document, seen->cell, seen->pvs);
     if (seen->cell != SL_NO_CELL)
-        sl_present_add_mirrored(present, document, seen->cell, seen->mirrored);
+        present_add_mirrored(present, document, seen->cell, seen->mirrored);
     sum_up(document, seen->pvs, &seen->pvs_count, &seen->pvs_area);
 }
 
-bool sl_seen_same_view(const sl_view *a, const sl_view *b) {
+bool seen_same_view(const sl_view *a, const sl_view *b) {
     return a->eye.x == b->eye.x && a->eye.y == b->eye.y && a->full == b->full &&
            (a->full || (a->left.x == b->left.x && a->left.y == b->left.y &&
                         a->right.x == b->right.x && a->right.y == b->right.y));
 }
 
-sl_status sl_seen_update(sl_context *context, sl_seen *seen, const sl_document *document,
-                         const sl_present *present, const sl_view *view) {
+sl_status seen_update(sl_context *context, seen_state *seen, const document_state *document,
+                      const present_state *present, const sl_view *view) {
     const double range = document->map.range;
     if (!document->baked || !present->search) {
         seen->valid = false;
@@ -156,7 +155,7 @@ sl_status sl_seen_update(sl_context *context, sl_seen *seen, const sl_document *
         seen->valid = false;
         SL_TRY(make_sets(context, seen, document));
     }
-    if (seen->valid && seen->range == range && sl_seen_same_view(&seen->view, view)) return SL_OK;
+    if (seen->valid && seen->range == range && seen_same_view(&seen->view, view)) return SL_OK;
     seen->version = present->version;
     seen->view = *view;
     seen->range = range;
@@ -166,15 +165,107 @@ sl_status sl_seen_update(sl_context *context, sl_seen *seen, const sl_document *
     const sl_eye_method *methods = sl_eye_methods(&count);
     sl_eye_search_limit(present->search, range);
     if (present->moving) sl_moving_limit(present->moving, range);
-    for (size_t i = 0; i < count && i < SL_SEEN_MOST; i++)
+    for (size_t i = 0; i < count && i < SEEN_MOST; i++)
         look(context, seen, &seen->methods[i], &methods[i], document, present->search, view);
     SL_TRY(look_at_objects(context, seen, document, present));
-    const double before = sl_clock_seconds();
+    const double before = sl_seconds();
     const sl_status status = sl_region_make(context, present->outline, view, range, &seen->region);
-    const double seconds = sl_clock_seconds() - before;
+    const double seconds = sl_seconds() - before;
     seen->region_seconds =
         seen->region_seconds > 0 ? 0.9 * seen->region_seconds + 0.1 * seconds : seconds;
     seen->region_area = sl_region_area(&seen->region);
     SL_TRY(status);
-    return sl_seen_look_into_mirrors(context, seen, document, present);
+    return seen_look_into_mirrors(context, seen, document, present);
+}
+
+// --- mirrors
+
+/// The seconds of a frame for cells, and for the parts of the region.
+#define CELLS_SECONDS 0.003
+#define PARTS_SECONDS 0.005
+
+/// The number of parts that a frame has time to draw.
+enum { PARTS_MOST = 100 };
+
+static bool is_late(void *user) {
+    const seen_state *seen = user;
+    return sl_seconds() > seen->until;
+}
+
+static void give(seen_state *seen, double seconds) {
+    seen->until = seen->patient ? INFINITY : sl_seconds() + seconds;
+}
+
+void seen_forget_mirrors(sl_context *context, seen_state *seen) {
+    sl_mirrored_region_destroy(context, &seen->in_mirrors);
+    sl_mirrored_region_destroy(context, &seen->deeper);
+    seen->mirrored_area = 0;
+    seen->depth = 0;
+}
+
+/// Methods are in order from loose to exact. If one has no time, the result of the one before is
+/// used.
+static sl_status look_by_methods(seen_state *seen, const document_state *document,
+                                 sl_eye_search *search) {
+    const size_t words = sl_eye_words(&document->baked->space);
+    size_t count;
+    const sl_eye_method *methods = sl_eye_methods(&count);
+    const uint64_t *known = seen->mirrored;
+    for (size_t i = 0; i < count && i < SEEN_MOST; i++) {
+        seen_method *m = &seen->methods[i];
+        sl_eye_account account;
+        sl_status status = SL_CANCELLED;
+        give(seen, CELLS_SECONDS);
+        if (methods[i].mirrored)
+            status = methods[i].mirrored(seen->hurried, search, &seen->view, m->mirrored, &account);
+        if (status == SL_NO_MEMORY) return status;
+        if (status != SL_OK) memcpy(m->mirrored, known, words * sizeof *known);
+        known = m->mirrored;
+        m->mirrored_count = 0;
+        for (size_t w = 0; w < words; w++)
+            m->mirrored_count += (uint32_t)__builtin_popcountll(m->mirrored[w] & ~m->cells[w]);
+    }
+    return SL_OK;
+}
+
+/// Adds reflections as long as there is time. Maps with one-way glass have no parts: a region knows
+/// which glass is dark from the eye, but not from its images.
+static sl_status make_parts(sl_context *context, seen_state *seen, const document_state *document,
+                            const present_state *present) {
+    const uint32_t most = document->mirror_depth;
+    seen->depth = 0;
+    give(seen, PARTS_SECONDS);
+    for (uint32_t depth = seen->patient ? most : 1; depth <= most && most; depth++) {
+        const sl_status status = sl_mirrored_region_make(
+            seen->hurried, &present->mirrors, &seen->view, seen->range, depth, &seen->deeper);
+        if (status == SL_CANCELLED) break;
+        if (status != SL_OK)
+            return sl_fail(context, status, "%s", sl_context_message(seen->hurried));
+        if (!seen->patient && depth > 1 && seen->deeper.part_count > PARTS_MOST) break;
+        const sl_mirrored_region made = seen->deeper;
+        seen->deeper = seen->in_mirrors;
+        seen->in_mirrors = made;
+        seen->depth = depth;
+    }
+    if (!seen->depth) sl_mirrored_region_destroy(context, &seen->in_mirrors);
+    seen->mirrored_area = sl_mirrored_area(&seen->in_mirrors);
+    return SL_OK;
+}
+
+sl_status seen_look_into_mirrors(sl_context *context, seen_state *seen,
+                                 const document_state *document, const present_state *present) {
+    if (!document->baked->map.mirror_count) {
+        seen_forget_mirrors(context, seen);
+        return SL_OK;
+    }
+    if (!seen->hurried) {
+        const sl_hooks hooks = {.user = seen, .cancelled = is_late};
+        seen->hurried = sl_context_create(&hooks);
+        if (!seen->hurried) return SL_NO_MEMORY;
+    }
+    SL_TRY(look_by_methods(seen, document, present->search));
+    if (!document->map.oneway_count && present->mirrors.outline)
+        return make_parts(context, seen, document, present);
+    seen_forget_mirrors(context, seen);
+    return SL_OK;
 }

@@ -1,26 +1,27 @@
-/// What the eye sees now, by every culling method, with what each cost.
+/// What the eye sees now: the result and the cost of every culling method, and what is seen in
+/// mirrors.
 #ifndef VIEWER_SEEN_H
 #define VIEWER_SEEN_H
 
 #include "present.h"
 
-enum { SL_SEEN_MOST = 16 };
+enum { SEEN_MOST = 16 };
 
-typedef struct sl_seen_method {
+typedef struct seen_method {
     uint64_t *cells;    ///< words of the space's; NULL before the first look
     uint64_t *mirrored; ///< kept for what is seen in mirrors; none by methods that do not know them
     bool known;         ///< the method could answer
     uint32_t count, mirrored_count; ///< the latter of cells that are not seen directly
     double area, seconds;           ///< seconds are smoothed
     sl_eye_account account;
-} sl_seen_method;
+} seen_method;
 
 /// Zeroed to start.
-typedef struct sl_seen {
+typedef struct seen_state {
     uint32_t version; ///< of what is present that it is of
     sl_view view;
     bool valid;
-    sl_seen_method methods[SL_SEEN_MOST];
+    seen_method methods[SEEN_MOST];
     uint64_t *pvs;      ///< of the eye's cell; all 0 while it is not known
     uint64_t *mirrored; ///< what it sees by mirror, likewise
     uint32_t cell, pvs_count;
@@ -38,13 +39,20 @@ typedef struct sl_seen {
     double until;
     double region_area, region_seconds;
     double range;
-} sl_seen;
+} seen_state;
 
-/// Looks again where the view, the range or what is present has changed.
-sl_status sl_seen_update(sl_context *context, sl_seen *seen, const sl_document *document,
-                         const sl_present *present, const sl_view *view);
-/// Whether two views are one.
-bool sl_seen_same_view(const sl_view *a, const sl_view *b);
-void sl_seen_destroy(sl_context *context, sl_seen *seen);
+/// Looks again where the view, the range or the map changed.
+sl_status seen_update(sl_context *context, seen_state *seen, const document_state *document,
+                      const present_state *present, const sl_view *view);
+/// Whether two views are equal.
+bool seen_same_view(const sl_view *a, const sl_view *b);
+void seen_destroy(sl_context *context, seen_state *seen);
+
+/// Sets what each method sees by mirror, and the parts of the region. If that takes too long, the
+/// cells are those of the bake, and the parts have fewer reflections.
+sl_status seen_look_into_mirrors(sl_context *context, seen_state *seen,
+                                 const document_state *document, const present_state *present);
+
+void seen_forget_mirrors(sl_context *context, seen_state *seen);
 
 #endif

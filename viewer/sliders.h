@@ -1,22 +1,22 @@
-/// The sliders of the panel: one table.
+/// The table of sliders in the panel.
 #ifndef VIEWER_SLIDERS_H
 #define VIEWER_SLIDERS_H
 
 #include "app.h"
 
-enum { SL_SLIDER_TEXT = 32 };
+enum { SLIDER_TEXT = 32 };
 
-typedef struct sl_slider {
+typedef struct slider_row {
     const char *label;
-    bool (*shown)(const sl_app *app);
-    double (*share)(const sl_app *app);                         ///< where it stands, 0 to 1
-    void (*text)(const sl_app *app, char text[SL_SLIDER_TEXT]); ///< its value
-    void (*set)(sl_app *app, double share);
-    /// When the pointer takes hold of it, and when it lets go; NULL for nothing.
-    void (*begin)(sl_app *app);
-    void (*end)(sl_app *app);
-} sl_slider;
+    bool (*shown)(const app_state *app);
+    double (*share)(const app_state *app);                      ///< where it stands, 0 to 1
+    void (*text)(const app_state *app, char text[SLIDER_TEXT]); ///< its value
+    void (*set)(app_state *app, double share);
+    /// Called when the pointer takes hold of it and when it lets go; NULL: nothing.
+    void (*begin)(app_state *app);
+    void (*end)(app_state *app);
+} slider_row;
 
-const sl_slider *sl_sliders(size_t *count);
+const slider_row *slider_table(size_t *count);
 
 #endif

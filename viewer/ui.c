@@ -1,32 +1,41 @@
 #include "ui.h"
 
-#include "draw/marks.h"
-#include "draw/text.h"
+#include "sightline/canvas.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
-void sl_ui_hit(sl_ui *ui, sl_hit_kind kind, int value, sl_box box) {
-    if (ui->hit_count < SL_HITS_MOST) ui->hits[ui->hit_count++] = (sl_hit){kind, value, box};
+void ui_say(ui_state *ui, bool error, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(ui->message, sizeof ui->message, format, arguments);
+    va_end(arguments);
+    ui->message_is_error = error;
 }
 
-bool sl_box_has(sl_box box, sl_point at) {
+void ui_hit(ui_state *ui, hit_kind kind, int value, sl_box box) {
+    if (ui->hit_count < HITS_MOST) ui->hits[ui->hit_count++] = (hit_area){kind, value, box};
+}
+
+bool box_has(sl_box box, sl_point at) {
     return at.x >= box.min.x && at.x < box.max.x && at.y >= box.min.y && at.y < box.max.y;
 }
 
-sl_hit sl_ui_find(const sl_ui *ui, sl_point at) {
+hit_area ui_find(const ui_state *ui, sl_point at) {
     for (int i = ui->hit_count; i-- > 0;)
-        if (sl_box_has(ui->hits[i].box, at)) return ui->hits[i];
-    return (sl_hit){0};
+        if (box_has(ui->hits[i].box, at)) return ui->hits[i];
+    return (hit_area){0};
 }
 
-void sl_ui_fill(sl_ui *ui, sl_box box, sl_colour colour) {
+void ui_fill(ui_state *ui, sl_box box, sl_colour colour) {
     sl_set_colour(ui->cairo, colour);
-    cairo_rectangle(ui->cairo, box.min.x, box.min.y, sl_box_width(box), sl_box_height(box));
+    cairo_rectangle(ui->cairo, box.min.x, box.min.y, box_width(box), box_height(box));
     cairo_fill(ui->cairo);
 }
 
-void sl_ui_fill_round(sl_ui *ui, sl_box box, double r, sl_colour colour) {
+void ui_fill_round(ui_state *ui, sl_box box, double r, sl_colour colour) {
     const double quarter = 1.5707963267948966;
     cairo_new_path(ui->cairo);
     cairo_arc(ui->cairo, box.max.x - r, box.min.y + r, r, -quarter, 0);
@@ -38,7 +47,7 @@ void sl_ui_fill_round(sl_ui *ui, sl_box box, double r, sl_colour colour) {
     cairo_fill(ui->cairo);
 }
 
-void sl_ui_line(sl_ui *ui, double x0, double y0, double x1, double y1, sl_colour colour) {
+void ui_line(ui_state *ui, double x0, double y0, double x1, double y1, sl_colour colour) {
     cairo_move_to(ui->cairo, x0, y0);
     cairo_line_to(ui->cairo, x1, y1);
     sl_set_colour(ui->cairo, colour);
@@ -46,26 +55,26 @@ void sl_ui_line(sl_ui *ui, double x0, double y0, double x1, double y1, sl_colour
     cairo_stroke(ui->cairo);
 }
 
-double sl_ui_text(sl_ui *ui, double x, double y, double size, bool bold, sl_colour colour,
-                  const char *text) {
+double ui_text(ui_state *ui, double x, double y, double size, bool bold, sl_colour colour,
+               const char *text) {
     sl_text_font(ui->cairo, size * ui->text, bold);
     sl_text_show(ui->cairo, colour, x, y, text);
     return sl_text_width(ui->cairo, text);
 }
 
-double sl_ui_text_width(sl_ui *ui, double size, bool bold, const char *text) {
+double ui_text_width(ui_state *ui, double size, bool bold, const char *text) {
     sl_text_font(ui->cairo, size * ui->text, bold);
     return sl_text_width(ui->cairo, text);
 }
 
-void sl_ui_text_right(sl_ui *ui, double x, double y, double size, sl_colour colour,
-                      const char *text) {
+void ui_text_right(ui_state *ui, double x, double y, double size, sl_colour colour,
+                   const char *text) {
     sl_text_font(ui->cairo, size * ui->text, false);
     sl_text_show(ui->cairo, colour, x - sl_text_width(ui->cairo, text), y, text);
 }
 
-double sl_ui_paragraph(sl_ui *ui, double x, double y, double width, double size, sl_colour colour,
-                       const char *text) {
+double ui_paragraph(ui_state *ui, double x, double y, double width, double size, sl_colour colour,
+                    const char *text) {
     char line[256] = "";
     sl_text_font(ui->cairo, size * ui->text, false);
     while (*text) {
@@ -90,32 +99,31 @@ double sl_ui_paragraph(sl_ui *ui, double x, double y, double width, double size,
     return y;
 }
 
-/// What the pointer is over looks a little stronger.
-static sl_colour ground_of(const sl_ui *ui, sl_box box, bool on) {
+/// Makes a colour a little stronger under the pointer.
+static sl_colour ground_of(const ui_state *ui, sl_box box, bool on) {
     const sl_palette *p = &ui->palette;
     const sl_colour plain = on ? sl_colour_mix(p->page, p->glass, p->dark ? 0.34 : 0.22)
                                : sl_colour_mix(p->page, p->ink, 0.07);
-    return sl_box_has(box, ui->pointer) ? sl_colour_mix(plain, p->ink, 0.09) : plain;
+    return box_has(box, ui->pointer) ? sl_colour_mix(plain, p->ink, 0.09) : plain;
 }
 
-double sl_ui_button(sl_ui *ui, double x, double y, double height, const char *label, bool on,
-                    int action) {
-    const double width = sl_ui_text_width(ui, 0.95, false, label) + 1.3 * ui->text;
+double ui_button(ui_state *ui, double x, double y, double height, const char *label, bool on,
+                 int action) {
+    const double width = ui_text_width(ui, 0.95, false, label) + 1.3 * ui->text;
     const sl_box box = {{x, y}, {x + width, y + height}};
-    sl_ui_fill_round(ui, box, 0.3 * ui->text, ground_of(ui, box, on));
-    sl_ui_text(ui, x + 0.65 * ui->text, y + height / 2 + 0.35 * ui->text, 0.95, false,
-               ui->palette.ink, label);
-    sl_ui_hit(ui, SL_HIT_ACTION, action, box);
+    ui_fill_round(ui, box, 0.3 * ui->text, ground_of(ui, box, on));
+    ui_text(ui, x + 0.65 * ui->text, y + height / 2 + 0.35 * ui->text, 0.95, false, ui->palette.ink,
+            label);
+    ui_hit(ui, HIT_ACTION, action, box);
     return box.max.x;
 }
 
-void sl_ui_check(sl_ui *ui, sl_box row, const char *label, const char *key, bool on, int action) {
+void ui_check(ui_state *ui, sl_box row, const char *label, const char *key, bool on, int action) {
     const double t = ui->text, middle = (row.min.y + row.max.y) / 2, half = 0.46 * t;
     const double x = row.min.x + 0.4 * t;
-    if (sl_box_has(row, ui->pointer))
-        sl_ui_fill_round(ui, row, 0.25 * t, ground_of(ui, row, false));
+    if (box_has(row, ui->pointer)) ui_fill_round(ui, row, 0.25 * t, ground_of(ui, row, false));
     const sl_box mark = {{x, middle - half}, {x + 2 * half, middle + half}};
-    sl_ui_fill_round(ui, mark, 0.2 * t, on ? ui->palette.glass : ui->palette.outline);
+    ui_fill_round(ui, mark, 0.2 * t, on ? ui->palette.glass : ui->palette.outline);
     if (on) {
         cairo_move_to(ui->cairo, x + 0.45 * half, middle + 0.05 * half);
         cairo_line_to(ui->cairo, x + 0.85 * half, middle + 0.5 * half);
@@ -124,23 +132,21 @@ void sl_ui_check(sl_ui *ui, sl_box row, const char *label, const char *key, bool
         cairo_set_line_width(ui->cairo, 0.16 * t);
         cairo_stroke(ui->cairo);
     }
-    sl_ui_text(ui, x + 1.5 * t, middle + 0.36 * t, 1, false, ui->palette.ink, label);
-    if (key)
-        sl_ui_text_right(ui, row.max.x - 0.4 * t, middle + 0.36 * t, 0.9, ui->palette.faint, key);
-    sl_ui_hit(ui, SL_HIT_ACTION, action, row);
+    ui_text(ui, x + 1.5 * t, middle + 0.36 * t, 1, false, ui->palette.ink, label);
+    if (key) ui_text_right(ui, row.max.x - 0.4 * t, middle + 0.36 * t, 0.9, ui->palette.faint, key);
+    ui_hit(ui, HIT_ACTION, action, row);
 }
 
-void sl_ui_slider(sl_ui *ui, sl_box track, double value, sl_hit_kind kind, int number) {
+void ui_slider(ui_state *ui, sl_box track, double value, hit_kind kind, int number) {
     const double t = ui->text, y = (track.min.y + track.max.y) / 2;
-    const double x = track.min.x + fmin(fmax(value, 0), 1) * sl_box_width(track);
+    const double x = track.min.x + fmin(fmax(value, 0), 1) * box_width(track);
     const double thick = 0.14 * t;
-    sl_ui_fill(ui, (sl_box){{track.min.x, y - thick}, {track.max.x, y + thick}},
-               ui->palette.outline);
-    sl_ui_fill(ui, (sl_box){{track.min.x, y - thick}, {x, y + thick}}, ui->palette.glass);
+    ui_fill(ui, (sl_box){{track.min.x, y - thick}, {track.max.x, y + thick}}, ui->palette.outline);
+    ui_fill(ui, (sl_box){{track.min.x, y - thick}, {x, y + thick}}, ui->palette.glass);
     cairo_new_path(ui->cairo);
     cairo_arc(ui->cairo, x, y, 0.5 * t, 0, 6.283185307179586);
     sl_set_colour(ui->cairo, ui->palette.glass);
     cairo_fill(ui->cairo);
-    sl_ui_hit(ui, kind, number,
-              (sl_box){{track.min.x - 0.5 * t, track.min.y}, {track.max.x + 0.5 * t, track.max.y}});
+    ui_hit(ui, kind, number,
+           (sl_box){{track.min.x - 0.5 * t, track.min.y}, {track.max.x + 0.5 * t, track.max.y}});
 }

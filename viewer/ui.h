@@ -1,77 +1,101 @@
-/// The few widgets: text, rows, buttons, sliders; and where they are, so that a click finds them.
+/// The widgets: text, rows, buttons, sliders. Each registers its place, so that a click finds it.
 #ifndef VIEWER_UI_H
 #define VIEWER_UI_H
 
-#include "draw/palette.h"
+#include "sightline/canvas.h"
 #include "sightline/geometry.h"
 
 #include <cairo.h>
 #include <stdbool.h>
 
-typedef enum sl_hit_kind {
-    SL_HIT_NONE,
-    SL_HIT_PANEL,  ///< swallows
-    SL_HIT_ACTION, ///< value: of the table of actions
-    SL_HIT_METHOD, ///< value: of the culling methods
-    SL_HIT_PLAN,   ///< value: which of the plans, from 0
-    SL_HIT_DUAL,
-    SL_HIT_TIME,   ///< the time line
-    SL_HIT_SLIDER, ///< value: of the table of sliders
-    SL_HIT_MAP,    ///< value: row of the list that is open
-} sl_hit_kind;
+typedef enum hit_kind {
+    HIT_NONE,
+    HIT_PANEL,  ///< swallows
+    HIT_ACTION, ///< value: of the table of actions
+    HIT_METHOD, ///< value: of the culling methods
+    HIT_PLAN,   ///< value: which of the plans, from 0
+    HIT_DUAL,
+    HIT_TIME,   ///< the time line
+    HIT_SLIDER, ///< value: of the table of sliders
+    HIT_MAP,    ///< value: row of the list that is open
+} hit_kind;
 
-typedef struct sl_hit {
-    sl_hit_kind kind;
+typedef struct hit_area {
+    hit_kind kind;
     int value;
     sl_box box; ///< on the page, min at the upper left
-} sl_hit;
+} hit_area;
 
-enum { SL_HITS_MOST = 256 };
+enum { HITS_MOST = 256 };
 
-/// What a frame is drawn with. Zeroed hits to start a frame.
-typedef struct sl_ui {
+/// The page and its widgets: what a frame is drawn with, panels, messages. A frame starts without
+/// hits.
+typedef struct ui_state {
     cairo_t *cairo;
     sl_palette palette;
     double text; ///< size of plain text, pixels
     sl_point pointer;
-    sl_hit hits[SL_HITS_MOST];
+    hit_area hits[HITS_MOST];
     int hit_count;
-} sl_ui;
 
-void sl_ui_hit(sl_ui *ui, sl_hit_kind kind, int value, sl_box box);
-/// What is at a place, the topmost; kind SL_HIT_NONE for nothing.
-sl_hit sl_ui_find(const sl_ui *ui, sl_point at);
+    int width, height; ///< of the window, pixels
+    double text_scale; ///< chosen by the user
+    double density;    ///< of the screen: pixels where a common one has 1
+    bool dark;
+    bool side_panel, first_person, accounts, effects, help, maps_open; ///< panels shown
+    char message[512];                                                 ///< the last thing to say
+    bool message_is_error;
+    double frame_seconds; ///< smoothed; shown in the corner unless steady
+} ui_state;
 
-bool sl_box_has(sl_box box, sl_point at);
-static inline double sl_box_width(sl_box box) {
+/// The factor by which lines and marks are larger than usual.
+static inline double ui_scale(const ui_state *ui) {
+    return ui->text_scale * ui->density;
+}
+/// The size of plain text, pixels.
+static inline double ui_text_size(const ui_state *ui) {
+    return 13 * ui_scale(ui);
+}
+
+/// Shows a message in the status line.
+void ui_say(ui_state *ui, bool error, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+void ui_hit(ui_state *ui, hit_kind kind, int value, sl_box box);
+/// The topmost thing at a place; kind HIT_NONE for nothing.
+hit_area ui_find(const ui_state *ui, sl_point at);
+
+bool box_has(sl_box box, sl_point at);
+static inline double box_width(sl_box box) {
     return box.max.x - box.min.x;
 }
-static inline double sl_box_height(sl_box box) {
+static inline double box_height(sl_box box) {
     return box.max.y - box.min.y;
 }
 
-void sl_ui_fill(sl_ui *ui, sl_box box, sl_colour colour);
+void ui_fill(ui_state *ui, sl_box box, sl_colour colour);
 /// With rounded corners.
-void sl_ui_fill_round(sl_ui *ui, sl_box box, double radius, sl_colour colour);
-void sl_ui_line(sl_ui *ui, double x0, double y0, double x1, double y1, sl_colour colour);
+void ui_fill_round(ui_state *ui, sl_box box, double radius, sl_colour colour);
+void ui_line(ui_state *ui, double x0, double y0, double x1, double y1, sl_colour colour);
 
-/// From its left end on the base line; returns its width. `size` in units of plain text.
-double sl_ui_text(sl_ui *ui, double x, double y, double size, bool bold, sl_colour colour,
-                  const char *text);
-/// Ends at x.
-void sl_ui_text_right(sl_ui *ui, double x, double y, double size, sl_colour colour,
-                      const char *text);
-double sl_ui_text_width(sl_ui *ui, double size, bool bold, const char *text);
-/// Broken into lines of a width, each `size * 1.4` plain texts high; returns the base line below.
-double sl_ui_paragraph(sl_ui *ui, double x, double y, double width, double size, sl_colour colour,
-                       const char *text);
+/// Draws text from the left end of its base line; returns its width. `size` in units of plain text.
+double ui_text(ui_state *ui, double x, double y, double size, bool bold, sl_colour colour,
+               const char *text);
+/// The same, ending at x.
+void ui_text_right(ui_state *ui, double x, double y, double size, sl_colour colour,
+                   const char *text);
+double ui_text_width(ui_state *ui, double size, bool bold, const char *text);
+/// Breaks text into lines of a width, each `size * 1.4` plain texts high; returns the base line
+/// below.
+double ui_paragraph(ui_state *ui, double x, double y, double width, double size, sl_colour colour,
+                    const char *text);
 
-/// A button with its action's number; `on` shows it pressed. Returns its right edge.
-double sl_ui_button(sl_ui *ui, double x, double y, double height, const char *label, bool on,
-                    int action);
-/// A row with a box to check, a label and the key at the right.
-void sl_ui_check(sl_ui *ui, sl_box row, const char *label, const char *key, bool on, int action);
+/// A button with the number of its action; `on` draws it pressed. Returns its right edge.
+double ui_button(ui_state *ui, double x, double y, double height, const char *label, bool on,
+                 int action);
+/// A row with a check box, a label, and the key at the right.
+void ui_check(ui_state *ui, sl_box row, const char *label, const char *key, bool on, int action);
 /// A slider with its value from 0 to 1.
-void sl_ui_slider(sl_ui *ui, sl_box track, double value, sl_hit_kind kind, int number);
+void ui_slider(ui_state *ui, sl_box track, double value, hit_kind kind, int number);
 
 #endif

@@ -1,17 +1,16 @@
 #include "window.h"
 
-#include "base/base.h"
-#include "clock.h"
+#include "files.h"
 #include "input.h"
-#include "shelf.h"
+#include "sightline/support.h"
 
 #include <SDL.h>
 #include <ctype.h>
 #include <math.h>
 #include <string.h>
 
-struct sl_window {
-    sl_app *app;
+struct app_window {
+    app_state *app;
     SDL_Window *window;
     SDL_Renderer *renderer;
     SDL_Texture *texture;
@@ -23,22 +22,22 @@ static sl_status fail(sl_context *context, const char *what) {
     return sl_fail(context, SL_IO, "%s: %s", what, SDL_GetError());
 }
 
-/// A screen's pixels to an inch against the usual 96, where they are clearly more.
+/// The ratio of the screen's pixels per inch to the usual 96, if it is clearly more than 1.
 static double density_of_screen(int screen) {
     float inch;
     if (SDL_GetDisplayDPI(screen, &inch, NULL, NULL) != 0) return 1;
-    return inch >= 130 && inch <= 600 ? round(2 * inch / 96) / 2 : 1;
+    return inch >= 130 && inch <= 600 ? roundf(2 * inch / 96) / 2 : 1;
 }
 
-/// Pixels to a point of the window, where the system tells the two apart; else the screen's own.
-static double find_density(const sl_window *w) {
+/// Pixels per point of the window if the system tells the two apart; else the ratio of the screen.
+static double find_density(const app_window *w) {
     int width;
     SDL_GetWindowSize(w->window, &width, NULL);
     if (width > 0 && w->width > width) return (double)w->width / width;
     return density_of_screen(SDL_GetWindowDisplayIndex(w->window));
 }
 
-static sl_status open_window(sl_window *w, bool hidden) {
+static sl_status open_window(app_window *w, bool hidden) {
     sl_context *context = w->app->context;
     if (hidden) SDL_SetHint(SDL_HINT_VIDEODRIVER, "dummy");
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "0");
@@ -47,7 +46,7 @@ static sl_status open_window(sl_window *w, bool hidden) {
     // X's windows are measured in pixels, whatever the screen.
     const double by = driver && strcmp(driver, "x11") == 0 ? density_of_screen(0) : 1;
     w->window = SDL_CreateWindow("Sightline", SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED,
-                                 (int)(by * w->app->width), (int)(by * w->app->height),
+                                 (int)(by * w->app->ui.width), (int)(by * w->app->ui.height),
                                  SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
     if (!w->window) return fail(context, "no window");
     SDL_SetWindowMinimumSize(w->window, 640, 480);
@@ -59,19 +58,19 @@ static sl_status open_window(sl_window *w, bool hidden) {
     return SL_OK;
 }
 
-sl_status sl_window_open(sl_app *app, bool hidden, sl_window **out) {
-    sl_window *w = sl_alloc_array(app->context, 1, sizeof *w);
+sl_status window_open(app_state *app, bool hidden, app_window **out) {
+    app_window *w = sl_alloc_array(app->context, 1, sizeof *w);
     if (!w) return SL_NO_MEMORY;
     w->app = app;
     const sl_status status = open_window(w, hidden);
     if (status == SL_OK)
         *out = w;
     else
-        sl_window_close(w);
+        window_close(w);
     return status;
 }
 
-void sl_window_close(sl_window *w) {
+void window_close(app_window *w) {
     if (w->surface) cairo_surface_destroy(w->surface);
     if (w->texture) SDL_DestroyTexture(w->texture);
     if (w->renderer) SDL_DestroyRenderer(w->renderer);
@@ -80,8 +79,8 @@ void sl_window_close(sl_window *w) {
     sl_free(w->app->context, w);
 }
 
-/// The texture is as large as the window's pixels, of which high-density screens have more.
-static sl_status fit_texture(sl_window *w) {
+/// Makes the texture as large as the window in pixels; high-density screens have more than points.
+static sl_status fit_texture(app_window *w) {
     int width, height;
     if (SDL_GetRendererOutputSize(w->renderer, &width, &height) != 0)
         return fail(w->app->context, "no size");
@@ -90,19 +89,19 @@ static sl_status fit_texture(sl_window *w) {
     if (w->surface) cairo_surface_destroy(w->surface);
     w->width = width;
     w->height = height;
-    w->app->width = width;
-    w->app->height = height;
-    if (!w->app->steady) w->app->density = find_density(w);
+    w->app->ui.width = width;
+    w->app->ui.height = height;
+    if (!w->app->steady) w->app->ui.density = find_density(w);
     w->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
     w->texture = SDL_CreateTexture(w->renderer, SDL_PIXELFORMAT_RGB888, SDL_TEXTUREACCESS_STREAMING,
                                    width, height);
     return w->texture ? SL_OK : fail(w->app->context, "no texture");
 }
 
-sl_status sl_window_show(sl_window *w) {
+sl_status window_show(app_window *w) {
     SL_TRY(fit_texture(w));
     cairo_t *cairo = cairo_create(w->surface);
-    sl_app_draw(w->app, cairo);
+    app_draw(w->app, cairo);
     cairo_destroy(cairo);
     cairo_surface_flush(w->surface);
     SDL_UpdateTexture(w->texture, NULL, cairo_image_surface_get_data(w->surface),
@@ -127,27 +126,27 @@ static void key_name(const SDL_Keysym *sym, char name[48]) {
 }
 
 /// From window coordinates to pixels.
-static sl_point to_pixels(const sl_window *w, int x, int y) {
+static sl_point to_pixels(const app_window *w, int x, int y) {
     int width, height;
     SDL_GetWindowSize(w->window, &width, &height);
     return (sl_point){(double)x * w->width / (width > 0 ? width : 1),
                       (double)y * w->height / (height > 0 ? height : 1)};
 }
 
-static void take_button(sl_window *w, const SDL_MouseButtonEvent *e) {
+static void take_button(app_window *w, const SDL_MouseButtonEvent *e) {
     const sl_point at = to_pixels(w, e->x, e->y);
     if (e->type == SDL_MOUSEBUTTONUP) {
-        sl_input_release(w->app, at);
+        input_release(w->app, at);
         return;
     }
-    sl_input_press(w->app,
-                   e->button == SDL_BUTTON_RIGHT    ? SL_BUTTON_RIGHT
-                   : e->button == SDL_BUTTON_MIDDLE ? SL_BUTTON_MIDDLE
-                                                    : SL_BUTTON_LEFT,
-                   at);
+    input_press(w->app,
+                e->button == SDL_BUTTON_RIGHT    ? BUTTON_RIGHT
+                : e->button == SDL_BUTTON_MIDDLE ? BUTTON_MIDDLE
+                                                 : BUTTON_LEFT,
+                at);
 }
 
-static void take_event(sl_window *w, const SDL_Event *e) {
+static void take_event(app_window *w, const SDL_Event *e) {
     char name[48];
     switch (e->type) {
     case SDL_QUIT:
@@ -156,39 +155,39 @@ static void take_event(sl_window *w, const SDL_Event *e) {
     case SDL_KEYDOWN:
     case SDL_KEYUP:
         key_name(&e->key.keysym, name);
-        sl_input_key(w->app, name, e->type == SDL_KEYDOWN);
+        input_key(w->app, name, e->type == SDL_KEYDOWN);
         break;
     case SDL_MOUSEBUTTONDOWN:
     case SDL_MOUSEBUTTONUP:
         take_button(w, &e->button);
         break;
     case SDL_MOUSEMOTION:
-        sl_input_move(w->app, to_pixels(w, e->motion.x, e->motion.y));
+        input_move(w->app, to_pixels(w, e->motion.x, e->motion.y));
         break;
     case SDL_MOUSEWHEEL:
-        sl_input_wheel(w->app, e->wheel.y);
+        input_wheel(w->app, e->wheel.y);
         break;
     case SDL_DROPFILE:
-        sl_shelf_open(w->app, e->drop.file);
+        shelf_open(w->app, e->drop.file);
         SDL_free(e->drop.file);
         break;
     case SDL_WINDOWEVENT:
-        if (e->window.event == SDL_WINDOWEVENT_FOCUS_LOST) w->app->held = 0;
+        if (e->window.event == SDL_WINDOWEVENT_FOCUS_LOST) w->app->tool.held = 0;
         break;
     default:
         break;
     }
 }
 
-/// Whether something moves by itself.
-static bool is_lively(const sl_app *app) {
-    return app->held || sl_app_progress(app).running || app->recorder.plays ||
-           app->recorder.records || app->lesson.plays || app->motion > 0;
+/// Whether something moves without input.
+static bool is_lively(const app_state *app) {
+    return app->tool.held || app_progress(app).running || app->tool.recorder.plays ||
+           app->tool.recorder.records || app->tool.lesson.plays || app->view.motion > 0;
 }
 
-sl_status sl_window_run(sl_window *w) {
-    sl_app *app = w->app;
-    double last = sl_clock_seconds();
+sl_status window_run(app_window *w) {
+    app_state *app = w->app;
+    double last = sl_seconds();
     while (!app->quit) {
         SDL_Event event;
         // Nothing is drawn again while nothing happens.
@@ -196,17 +195,17 @@ sl_status sl_window_run(sl_window *w) {
         bool more = any;
         for (bool stale = false; more; stale = true, more = SDL_PollEvent(&event)) {
             // A click meant what is there after the key before it.
-            if (stale && event.type == SDL_MOUSEBUTTONDOWN) SL_TRY(sl_window_show(w));
+            if (stale && event.type == SDL_MOUSEBUTTONDOWN) SL_TRY(window_show(w));
             take_event(w, &event);
         }
-        const double now = sl_clock_seconds();
+        const double now = sl_seconds();
         const bool lively = is_lively(app);
-        sl_app_tick(app, lively ? now - last : 0);
+        app_tick(app, lively ? now - last : 0);
         last = now;
-        SL_TRY(sl_window_show(w));
-        const double spent = sl_clock_seconds() - now;
-        app->frame_seconds =
-            app->frame_seconds > 0 ? 0.9 * app->frame_seconds + 0.1 * spent : spent;
+        SL_TRY(window_show(w));
+        const double spent = sl_seconds() - now;
+        app->ui.frame_seconds =
+            app->ui.frame_seconds > 0 ? 0.9 * app->ui.frame_seconds + 0.1 * spent : spent;
         // Where the display does not make us wait for it, we wait ourselves.
         if (lively && spent < 0.004) SDL_Delay((Uint32)((0.0155 - spent) * 1000));
     }

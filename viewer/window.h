@@ -4,16 +4,16 @@
 
 #include "app.h"
 
-typedef struct sl_window sl_window;
+typedef struct app_window app_window;
 
-/// SL_IO where there is no display. `hidden` asks for SDL's dummy display and software rendering.
-sl_status sl_window_open(sl_app *app, bool hidden, sl_window **out);
-void sl_window_close(sl_window *window);
+/// SL_IO without a display. `hidden` asks for SDL's dummy display and software rendering.
+sl_status window_open(app_state *app, bool hidden, app_window **out);
+void window_close(app_window *window);
 
 /// Draws the app and shows it.
-sl_status sl_window_show(sl_window *window);
+sl_status window_show(app_window *window);
 
 /// Runs until the app wants to quit.
-sl_status sl_window_run(sl_window *window);
+sl_status window_run(app_window *window);
 
 #endif

@@ -1,12 +1,12 @@
 #include "sightline/bake.h"
 
 #include "bake/slv.h"
-#include "base/base.h"
+#include "sightline/support.h"
 
 #include <inttypes.h>
 #include <string.h>
 
-bool sl_slv_is_name(const char name[16]) {
+bool sli_slv_is_name(const char name[16]) {
     static const char letters[] = "abcdefghijklmnopqrstuvwxyz0123456789-";
     size_t length = 0;
     while (length < 16 && name[length] && strchr(letters, name[length])) length++;
@@ -21,12 +21,12 @@ bool sl_baked_counts(const sl_baked *baked, uint32_t cell) {
 }
 
 bool sl_baked_is_shard(const sl_baked *baked) {
-    return sl_findings_begun(&baked->findings) && baked->findings.shard_count;
+    return sl_partial_begun(&baked->partial) && baked->partial.shard_count;
 }
 
 void sl_baked_say_partial(const sl_baked *baked, char text[SL_PARTIAL_TEXT]) {
     text[0] = '\0';
-    if (!sl_findings_begun(&baked->findings)) return;
+    if (!sl_partial_begun(&baked->partial)) return;
     size_t count;
     const sl_see_method *methods = sl_see_methods(&count);
     const char *units = "units";
@@ -35,7 +35,7 @@ void sl_baked_say_partial(const sl_baked *baked, char text[SL_PARTIAL_TEXT]) {
             units = methods[i].units;
     snprintf(text, SL_PARTIAL_TEXT,
              "partial: %" PRIu32 " of %" PRIu32 " %s looked at; what is not decided counts as seen",
-             baked->findings.done_count, baked->findings.unit_count, units);
+             baked->partial.done_count, baked->partial.unit_count, units);
 }
 
 /// Whether two arrays are the same, of items without padding.
@@ -55,11 +55,12 @@ static bool same_walls(const sl_space *a, const sl_space *b) {
 bool sl_baked_same_space(const sl_space *a, const sl_space *b) {
     return a->root == b->root && a->loose == b->loose && SAME_ITEMS(a, b, nodes, node_count) &&
            SAME_ITEMS(a, b, cells, cell_count) && SAME_ITEMS(a, b, vertices, vertex_count) &&
-           SAME_ITEMS(a, b, portals, portal_count) && SAME_ITEMS(a, b, exits, exit_count) &&
+           SAME_ITEMS(a, b, portals, portal_count) && SAME_ITEMS(a, b, directed, directed_count) &&
            SAME_ITEMS(a, b, seams, seam_count) &&
            SAME_ITEMS(a, b, seam_portals, seam_portal_count) && same_walls(a, b) &&
-           !a->beyond == !b->beyond &&
-           (!a->beyond || memcmp(a->beyond, b->beyond, a->vertex_count * sizeof *a->beyond) == 0);
+           !a->neighbour == !b->neighbour &&
+           (!a->neighbour ||
+            memcmp(a->neighbour, b->neighbour, a->vertex_count * sizeof *a->neighbour) == 0);
 }
 
 void sl_baked_destroy(sl_context *context, sl_baked *baked) {
@@ -67,6 +68,6 @@ void sl_baked_destroy(sl_context *context, sl_baked *baked) {
     sl_space_destroy(context, &baked->space);
     sl_visibility_destroy(context, &baked->visibility);
     sl_view_rows_destroy(context, &baked->views);
-    sl_findings_destroy(context, &baked->findings);
+    sl_partial_destroy(context, &baked->partial);
     *baked = (sl_baked){0};
 }

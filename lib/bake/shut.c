@@ -1,74 +1,53 @@
 /// A baked file with doors shut: what is left to see, without a new bake.
 #include "sightline/bake.h"
 
-#include "base/base.h"
-#include "base/bits.h"
 #include "cell_to_cell/pvs_rows.h"
+#include "sightline/support.h"
 
 #include <string.h>
 
 /// What a row keeps of its cells.
 static sl_status keep_row(sl_context *context, const sl_visibility *v, uint32_t row,
-                          const bool *shut, sl_bits *set, sl_row_bytes *out) {
+                          const bool *shut, sl_bits *set, sli_row_bytes *out) {
     const uint32_t count = v->pvs.cell_count;
     memset(set, 0, sl_bits_words(count) * sizeof *set);
-    sl_row_add_to(&v->pvs, row, set);
+    sli_row_add_to(&v->pvs, row, set);
     for (sl_door_pairs p = sl_door_pairs_begin(&v->doors, row); sl_door_pairs_next(&p, shut);)
         if (!p.open) set[p.cell / 64] &= ~((sl_bits)1 << p.cell % 64);
-    return sl_row_append(context, out, set, count);
+    return sli_row_append(context, out, set, count);
 }
 
 static sl_status keep_rows(sl_context *context, const sl_visibility *v, const bool *shut,
                            sl_pvs *out) {
     const uint32_t count = v->pvs.cell_count;
-    sl_row_bytes *rows = sl_alloc_array(context, count, sizeof *rows);
+    sli_row_bytes *rows = sl_alloc_array(context, count, sizeof *rows);
     sl_bits *set = sl_alloc_array(context, sl_bits_words(count), sizeof *set);
     sl_status status = rows && set ? SL_OK : SL_NO_MEMORY;
     for (uint32_t i = 0; i < count && status == SL_OK; i++)
         status = keep_row(context, v, i, shut, set, &rows[i]);
-    if (status == SL_OK) status = sl_pvs_join(context, rows, count, out);
+    if (status == SL_OK) status = sli_pvs_join(context, rows, count, out);
     for (uint32_t i = 0; rows && i < count; i++) sl_free(context, rows[i].items);
     sl_free(context, rows);
     sl_free(context, set);
     return status;
 }
 
-sl_status sl_baked_darken(sl_context *context, sl_baked *baked, sl_point eye) {
-    const sl_passage passage = {.eye = &eye};
-    sl_visibility *v = &baked->visibility;
-    sl_space walled;
-    if (v->mirrored.cell_count)
-        return sl_fail(context, SL_UNSUPPORTED,
-                       "glass that is dark from an eye may not be so in a mirror: bake the map "
-                       "--without mirror or --without oneway");
-    SL_TRY(sl_passage_make(context, &baked->space, &passage, NULL, &walled));
-    sl_space_destroy(context, &baked->space);
-    baked->space = walled;
-    sl_visibility trees = {.trees = v->trees};
-    v->trees = (sl_stab_trees){0};
-    sl_visibility_destroy(context, &trees);
-    return SL_OK;
-}
-
-sl_status sl_baked_shut(sl_context *context, sl_baked *baked, const bool *shut) {
-    const sl_passage passage = {.shut = shut};
-    sl_visibility *v = &baked->visibility;
-    sl_space walled;
+sl_status sl_baked_shut(sl_context *context, const sl_baked *baked, const bool *shut,
+                        sl_space *space, sl_visibility *visibility) {
+    const sl_filtered_space filtered = {.shut = shut};
+    const sl_visibility *v = &baked->visibility;
     sl_visibility kept = {.sight = v->sight, .guarantee = v->guarantee, .account = v->account};
     if (v->mirrored.cell_count)
         return sl_fail(context, SL_UNSUPPORTED, "doors are not shut where there are mirrors");
-    SL_TRY(sl_passage_make(context, &baked->space, &passage, NULL, &walled));
+    SL_TRY(sl_filtered_space_make(context, &baked->space, &filtered, NULL, space));
     const sl_status status = keep_rows(context, v, shut, &kept.pvs);
     if (status != SL_OK) {
-        sl_space_destroy(context, &walled);
+        sl_space_destroy(context, space);
         return status;
     }
     kept.account.pairs = 0;
     for (uint32_t i = 0; i < kept.pvs.cell_count; i++)
         kept.account.pairs += sl_pvs_count(&kept.pvs, i);
-    sl_space_destroy(context, &baked->space);
-    sl_visibility_destroy(context, v);
-    baked->space = walled;
-    *v = kept;
+    *visibility = kept;
     return SL_OK;
 }

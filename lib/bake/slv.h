@@ -11,30 +11,30 @@
 
 #include <stdio.h>
 
-#define SL_SLV_MAGIC "\x89SLV\r\n\x1a\n"
+#define SLI_SLV_MAGIC "\x89SLV\r\n\x1a\n"
 /// Files of meshes; and those of kd-trees, which have stayed as they were. Files of version 1 that
 /// have a section BEYO were made by a BSP, whose cells may overlap by rounding: they are read, and
 /// a grid is made for them.
-#define SL_SLV_VERSION       2u
-#define SL_SLV_VERSION_AXIAL 1u
-#define SL_SLV_BYTE_ORDER    0x01020304u
+#define SLI_SLV_VERSION       2u
+#define SLI_SLV_VERSION_AXIAL 1u
+#define SLI_SLV_BYTE_ORDER    0x01020304u
 
-typedef struct sl_slv_header {
+typedef struct sli_slv_header {
     char magic[8];
     uint32_t version, byte_order;
     uint64_t file_bytes;
     uint32_t section_count, checksum;
-} sl_slv_header;
+} sli_slv_header;
 
-typedef struct sl_slv_section {
+typedef struct sli_slv_section {
     char tag[4];
     uint32_t item_bytes;
     uint64_t offset; ///< from the file's start
     uint64_t count;  ///< of items
-} sl_slv_section;
+} sli_slv_section;
 
 /// Section INFO, one item.
-typedef struct sl_slv_info {
+typedef struct sli_slv_info {
     double bounds[4]; ///< min x, min y, max x, max y
     int32_t root;     ///< as a child of a node
     uint32_t tree_depth, inside_count;
@@ -45,16 +45,16 @@ typedef struct sl_slv_info {
     uint32_t grid_columns, grid_rows; ///< 0 for a kd-tree
     uint64_t unused_count;            ///< 0
     uint64_t pairs, doubtful_pairs;
-    char method[16], solver[16]; ///< as sl_slv_is_name
-} sl_slv_info;
+    char method[16], solver[16]; ///< as sli_slv_is_name
+} sli_slv_info;
 
 /// Section PART, one item, of a bake that is not finished. INFO then says conservative (but rounded
 /// of a rounded method), so that who does not know this section takes the sets for what they are.
-typedef struct sl_slv_part {
+typedef struct sli_slv_part {
     uint32_t shard, shard_count; ///< 0, 0 where it is no shard
     uint32_t unit_count;
     uint32_t inside_only; ///< 0 or 1
-} sl_slv_part;
+} sli_slv_part;
 
 /// The other sections: NODE, CELL, VERT, PORT, EXIT hold the arrays of sl_space item by item, WALL
 /// its walls as segments. Files of meshes alone have BEYO, what is beyond the cells' sides, and
@@ -70,30 +70,30 @@ typedef struct sl_slv_part {
 /// them: FNDO and FNDB, doubtful ones in FNRO and FNRB. A shard has no PVSO and PVSB. What the work
 /// took (tests, nodes ...) is in no file: it would depend on the way.
 ///
-/// View cells (only with sightline viewcells --slv): VCIN has one sl_slv_views, VCEL the view cell
+/// View cells (only with sightline viewcells --slv): VCIN has one sli_slv_views, VCEL the view cell
 /// of each cell (32 bits, all set for none), VCPA the parent of each node (likewise), VCRO and VCRB
 /// offsets and bytes of the nodes' rows, as PVSO and PVSB, with empty ones behind the last node so
 /// that there are as many as cells. A view cell is the node of its number, and sees what its row
 /// and those of the nodes above it hold. Where PVSO and PVSB are left out each cell sees what its
 /// view cell does, and no node has one above; INFO then counts these pairs, and says conservative.
-typedef struct sl_slv_views {
+typedef struct sli_slv_views {
     uint32_t view_cell_count, node_count;
-} sl_slv_views;
+} sli_slv_views;
 
-_Static_assert(sizeof(sl_slv_header) == 32 && sizeof(sl_slv_section) == 24 &&
-                   sizeof(sl_slv_info) == 128 && sizeof(sl_slv_part) == 16,
+_Static_assert(sizeof(sli_slv_header) == 32 && sizeof(sli_slv_section) == 24 &&
+                   sizeof(sli_slv_info) == 128 && sizeof(sli_slv_part) == 16,
                "no padding in the file");
 _Static_assert(sizeof(sl_node) == 24 && sizeof(sl_cell) == 24 && sizeof(sl_point) == 16 &&
-                   sizeof(sl_portal) == 40 && sizeof(sl_exit) == 40 && sizeof(sl_segment) == 32 &&
-                   sizeof(sl_stab_node) == 12 && sizeof(sl_seam) == 40 &&
-                   sizeof(sl_seam_portal) == 12,
+                   sizeof(sl_portal) == 40 && sizeof(sl_directed_portal) == 40 &&
+                   sizeof(sl_segment) == 32 && sizeof(sl_stab_node) == 12 &&
+                   sizeof(sl_seam) == 40 && sizeof(sl_seam_portal) == 12,
                "no padding in the file");
 
 /// Whether it is letters, digits and dashes, zeros behind: nothing that plays tricks on a terminal.
-bool sl_slv_is_name(const char name[16]);
+bool sli_slv_is_name(const char name[16]);
 
 /// Writes the file to a stream that is open already. Whether the stream took all is the caller's to
 /// ask.
-sl_status sl_slv_print(sl_context *context, const sl_baked *baked, FILE *stream);
+sl_status sli_slv_print(sl_context *context, const sl_baked *baked, FILE *stream);
 
 #endif

@@ -1,20 +1,18 @@
 /// Reading a baked file: nothing in it is believed before it is checked.
 #include "bake/slv.h"
-#include "base/bits.h"
-#include "base/file.h"
-#include "effects/mirror_sides.h"
-#include "space/cell_grid.h"
+#include "base/base.h"
+#include "effects/mirrors.h"
+#include "space/index.h"
 
 #include <math.h>
 #include <string.h>
-#include <zlib.h>
 
 typedef struct reader {
     sl_context *context;
     const char *name;
     const char *bytes;
     size_t size;
-    sl_slv_header header;
+    sli_slv_header header;
     bool takes_shards;
     sl_baked *out;
 } reader;
@@ -33,36 +31,32 @@ static sl_status in_file(const reader *r, sl_status status) {
 
 /// The checksum over the file, its own four bytes taken as 0.
 static uint32_t checksum_of(const reader *r) {
-    sl_slv_header header = r->header;
+    sli_slv_header header = r->header;
     header.checksum = 0;
-    uLong sum = crc32(0, (const Bytef *)&header, sizeof header);
-    const Bytef *at = (const Bytef *)r->bytes + sizeof header;
-    for (size_t left = r->size - sizeof header; left;) {
-        const uInt part = left < (1u << 30) ? (uInt)left : 1u << 30;
-        sum = crc32(sum, at, part);
-        at += part;
-        left -= part;
-    }
-    return (uint32_t)sum;
+    sli_checksum sum;
+    sli_checksum_begin(&sum);
+    sli_checksum_add(&sum, &header, sizeof header);
+    sli_checksum_add(&sum, r->bytes + sizeof header, r->size - sizeof header);
+    return sli_checksum_value(&sum);
 }
 
 static sl_status check_header(reader *r) {
-    if (r->size < sizeof r->header || memcmp(r->bytes, SL_SLV_MAGIC, 8) != 0)
+    if (r->size < sizeof r->header || memcmp(r->bytes, SLI_SLV_MAGIC, 8) != 0)
         return fail_file(r, "not a baked file (.slv): make one with sightline bake");
     memcpy(&r->header, r->bytes, sizeof r->header);
-    const sl_slv_header *h = &r->header;
-    if (h->byte_order != SL_SLV_BYTE_ORDER)
+    const sli_slv_header *h = &r->header;
+    if (h->byte_order != SLI_SLV_BYTE_ORDER)
         return fail_file(r, "baked on a machine of other byte order: bake it again here");
-    if (h->version != SL_SLV_VERSION && h->version != SL_SLV_VERSION_AXIAL)
+    if (h->version != SLI_SLV_VERSION && h->version != SLI_SLV_VERSION_AXIAL)
         return sl_fail_at(r->context, r->name, 0,
                           "version %u of the baked format; this program knows versions up to %u: "
                           "bake the map again",
-                          h->version, SL_SLV_VERSION);
+                          h->version, SLI_SLV_VERSION);
     if (h->file_bytes != r->size)
         return sl_fail_at(r->context, r->name, 0,
                           "cut short or damaged: %llu bytes expected, %zu found",
                           (unsigned long long)h->file_bytes, r->size);
-    if (h->section_count > (r->size - sizeof *h) / sizeof(sl_slv_section))
+    if (h->section_count > (r->size - sizeof *h) / sizeof(sli_slv_section))
         return fail_file(r, "damaged: more sections than fit");
     if (checksum_of(r) != h->checksum) return fail_file(r, "damaged: the checksum does not match");
     return SL_OK;
@@ -70,10 +64,10 @@ static sl_status check_header(reader *r) {
 
 /// Finds a section and checks its place. False where the file has none of that tag.
 static sl_status find_section(const reader *r, const char *tag, size_t item_bytes,
-                              sl_slv_section *out, bool *found) {
+                              sli_slv_section *out, bool *found) {
     *found = false;
     for (uint32_t i = 0; i < r->header.section_count; i++) {
-        sl_slv_section s;
+        sli_slv_section s;
         memcpy(&s, r->bytes + sizeof r->header + i * sizeof s, sizeof s);
         if (memcmp(s.tag, tag, sizeof s.tag) != 0) continue;
         if (*found)
@@ -90,7 +84,7 @@ static sl_status find_section(const reader *r, const char *tag, size_t item_byte
 /// Copies a section's items; SL_OK and none where an optional one is missing.
 static sl_status load(const reader *r, const char *tag, size_t item_bytes, bool optional,
                       void **items, uint64_t *count) {
-    sl_slv_section s;
+    sli_slv_section s;
     bool found;
     *count = 0;
     SL_TRY(find_section(r, tag, item_bytes, &s, &found));
@@ -119,18 +113,18 @@ static bool is_bound(double value) {
     return fabs(value) <= 2 * SL_COORDINATE_MAX;
 }
 
-static bool makes_sense(const sl_slv_info *info) {
+static bool makes_sense(const sli_slv_info *info) {
     return info->sight <= SL_OPEN && info->guarantee <= SL_ROUNDED && is_bound(info->bounds[0]) &&
            is_bound(info->bounds[1]) && is_bound(info->bounds[2]) && is_bound(info->bounds[3]) &&
-           sl_slv_is_name(info->method) && sl_slv_is_name(info->solver);
+           sli_slv_is_name(info->method) && sli_slv_is_name(info->solver);
 }
 
 static sl_status load_info(const reader *r) {
-    sl_slv_section s;
+    sli_slv_section s;
     bool found;
-    SL_TRY(find_section(r, "INFO", sizeof(sl_slv_info), &s, &found));
+    SL_TRY(find_section(r, "INFO", sizeof(sli_slv_info), &s, &found));
     if (!found || s.count != 1) return fail_file(r, "damaged: section INFO is missing");
-    sl_slv_info info;
+    sli_slv_info info;
     memcpy(&info, r->bytes + s.offset, sizeof info);
     if (!makes_sense(&info)) return fail_file(r, "damaged: section INFO makes no sense");
     sl_baked *out = r->out;
@@ -241,7 +235,7 @@ static sl_status loosen(const reader *r) {
     const sl_box *b = &s->bounds;
     if (!s->cell_count || !(b->min.x < b->max.x) || !(b->min.y < b->max.y))
         return fail_file(r, "damaged: the bounds enclose no area");
-    return sl_cell_grid_make(r->context, s);
+    return sli_cell_grid_make(r->context, s);
 }
 
 static sl_status load_space(const reader *r) {
@@ -250,16 +244,16 @@ static sl_status load_space(const reader *r) {
     SL_TRY(load_counted(r, "CELL", sizeof *s->cells, (void **)&s->cells, &s->cell_count));
     SL_TRY(load_counted(r, "VERT", sizeof *s->vertices, (void **)&s->vertices, &s->vertex_count));
     SL_TRY(load_counted(r, "PORT", sizeof *s->portals, (void **)&s->portals, &s->portal_count));
-    SL_TRY(load_counted(r, "EXIT", sizeof *s->exits, (void **)&s->exits, &s->exit_count));
+    SL_TRY(load_counted(r, "EXIT", sizeof *s->directed, (void **)&s->directed, &s->directed_count));
     SL_TRY(load_walls(r));
     uint64_t sides;
-    SL_TRY(load(r, "BEYO", sizeof *s->beyond, true, (void **)&s->beyond, &sides));
+    SL_TRY(load(r, "BEYO", sizeof *s->neighbour, true, (void **)&s->neighbour, &sides));
     SL_TRY(load_seams(r));
-    if (s->beyond && sides != s->vertex_count)
+    if (s->neighbour && sides != s->vertex_count)
         return fail_file(r, "damaged: section BEYO does not tell of each side");
-    const bool is_mesh = r->header.version != SL_SLV_VERSION_AXIAL;
-    if (is_mesh && !s->beyond) return fail_file(r, "damaged: section BEYO is missing");
-    if (s->beyond) SL_TRY(is_mesh ? load_grid(r) : loosen(r));
+    const bool is_mesh = r->header.version != SLI_SLV_VERSION_AXIAL;
+    if (is_mesh && !s->neighbour) return fail_file(r, "damaged: section BEYO is missing");
+    if (s->neighbour) SL_TRY(is_mesh ? load_grid(r) : loosen(r));
     return in_file(r, sl_space_check(r->context, s));
 }
 
@@ -286,7 +280,7 @@ static sl_status load_doors(const reader *r, const char *offsets_tag, const char
                             sl_door_sets *sets) {
     const uint32_t cells = r->out->space.cell_count;
     uint64_t offsets, bytes;
-    sl_slv_section section;
+    sli_slv_section section;
     bool has_offsets, has_bytes;
     SL_TRY(find_section(r, offsets_tag, sizeof *sets->offsets, &section, &has_offsets));
     SL_TRY(find_section(r, bytes_tag, 1, &section, &has_bytes));
@@ -318,18 +312,19 @@ static sl_status check_rows(const reader *r, const sl_pvs *pvs) {
 
 /// Whether a mirror that stands in a tree is one that the cell ends at.
 static bool mirror_is_sound(const sl_baked *baked, const sl_stab_node *node, uint32_t cell) {
-    const uint32_t mirror = node->exit - SL_STAB_MIRROR;
-    sl_mirror_side side;
+    const uint32_t mirror = node->directed - SL_STAB_MIRROR;
+    sli_mirror_side side;
     return node->cell == cell && mirror < baked->map.mirror_count &&
-           sl_mirror_side_of(&baked->space, &baked->map, cell, mirror, &side);
+           sli_mirror_side_of(&baked->space, &baked->map, cell, mirror, &side);
 }
 
-/// A tree's nodes: parents first, each exit one of the parent's cell and leading to the node's.
+/// A tree's nodes: parents first, each directed portal one of the parent's cell and leading to the
+/// node's.
 static bool tree_is_sound(const sl_baked *baked, const sl_stab_node *nodes, uint64_t count,
                           uint32_t source) {
     const sl_space *space = &baked->space;
     if (!count) return true;
-    if (nodes[0].parent != 0 || nodes[0].cell != source || nodes[0].exit != UINT32_MAX)
+    if (nodes[0].parent != 0 || nodes[0].cell != source || nodes[0].directed != UINT32_MAX)
         return false;
     for (uint64_t i = 1; i < count; i++) {
         const sl_stab_node *node = &nodes[i];
@@ -339,10 +334,11 @@ static bool tree_is_sound(const sl_baked *baked, const sl_stab_node *nodes, uint
             if (!mirror_is_sound(baked, node, before)) return false;
             continue;
         }
-        if (node->exit >= space->exit_count) return false;
+        if (node->directed >= space->directed_count) return false;
         const sl_cell *from = &space->cells[before];
-        if (node->exit < from->first_exit || node->exit - from->first_exit >= from->exit_count ||
-            space->exits[node->exit].cell != node->cell)
+        if (node->directed < from->first_directed ||
+            node->directed - from->first_directed >= from->directed_count ||
+            space->directed[node->directed].cell != node->cell)
             return false;
     }
     return true;
@@ -370,12 +366,12 @@ static sl_status load_trees(const reader *r) {
 
 static sl_status load_views(const reader *r) {
     sl_view_rows *views = &r->out->views;
-    sl_slv_section s;
+    sli_slv_section s;
     bool found;
-    SL_TRY(find_section(r, "VCIN", sizeof(sl_slv_views), &s, &found));
+    SL_TRY(find_section(r, "VCIN", sizeof(sli_slv_views), &s, &found));
     if (!found) return SL_OK;
     if (s.count != 1) return fail_file(r, "damaged: section VCIN makes no sense");
-    sl_slv_views told;
+    sli_slv_views told;
     memcpy(&told, r->bytes + s.offset, sizeof told);
     uint32_t cells, nodes;
     SL_TRY(load_counted(r, "VCEL", sizeof *views->view_cells, (void **)&views->view_cells, &cells));
@@ -389,7 +385,7 @@ static sl_status load_views(const reader *r) {
 }
 
 static sl_status load_map(const reader *r) {
-    sl_slv_section s;
+    sli_slv_section s;
     bool found;
     SL_TRY(find_section(r, "MAPT", 1, &s, &found));
     if (!found) return fail_file(r, "damaged: section MAPT is missing");
@@ -401,25 +397,25 @@ static sl_status load_map(const reader *r) {
 
 // --- what is not finished
 
-static bool bits_beyond_are_clear(const sl_findings *findings) {
-    const uint32_t last = findings->unit_count % 64;
-    return !last || !(findings->done[findings->unit_count / 64] >> last);
+static bool bits_beyond_are_clear(const sl_partial *partial) {
+    const uint32_t last = partial->unit_count % 64;
+    return !last || !(partial->done[partial->unit_count / 64] >> last);
 }
 
-static sl_status load_done(const reader *r, sl_findings *findings) {
+static sl_status load_done(const reader *r, sl_partial *partial) {
     uint64_t words;
-    SL_TRY(load(r, "DONE", sizeof *findings->done, false, (void **)&findings->done, &words));
-    if (words != sl_bits_words(findings->unit_count) || !bits_beyond_are_clear(findings))
+    SL_TRY(load(r, "DONE", sizeof *partial->done, false, (void **)&partial->done, &words));
+    if (words != sl_bits_words(partial->unit_count) || !bits_beyond_are_clear(partial))
         return fail_file(r, "damaged: section DONE does not tell of each unit");
     for (uint64_t i = 0; i < words; i++)
-        findings->done_count += (uint32_t)__builtin_popcountll(findings->done[i]);
+        partial->done_count += (uint32_t)__builtin_popcountll(partial->done[i]);
     return SL_OK;
 }
 
-static sl_status load_findings(const reader *r) {
-    sl_findings *findings = &r->out->findings;
-    sl_slv_section s;
-    sl_slv_part part;
+static sl_status load_partial(const reader *r) {
+    sl_partial *partial = &r->out->partial;
+    sli_slv_section s;
+    sli_slv_part part;
     bool found;
     SL_TRY(find_section(r, "PART", sizeof part, &s, &found));
     if (!found) return SL_OK;
@@ -427,13 +423,13 @@ static sl_status load_findings(const reader *r) {
     memcpy(&part, r->bytes + s.offset, sizeof part);
     if (part.inside_only > 1 || part.shard > part.shard_count || (part.shard_count && !part.shard))
         return fail_file(r, "damaged: section PART makes no sense");
-    findings->shard = part.shard;
-    findings->shard_count = part.shard_count;
-    findings->unit_count = part.unit_count;
-    findings->inside_only = part.inside_only;
-    SL_TRY(load_done(r, findings));
-    SL_TRY(load_pvs(r, "FNDO", "FNDB", false, &findings->sure));
-    return load_pvs(r, "FNRO", "FNRB", false, &findings->doubtful);
+    partial->shard = part.shard;
+    partial->shard_count = part.shard_count;
+    partial->unit_count = part.unit_count;
+    partial->inside_only = part.inside_only;
+    SL_TRY(load_done(r, partial));
+    SL_TRY(load_pvs(r, "FNDO", "FNDB", false, &partial->sure));
+    return load_pvs(r, "FNRO", "FNRB", false, &partial->doubtful);
 }
 
 /// The visible sets of cells from those of their view cells, where the file has only these.
@@ -450,11 +446,11 @@ static sl_status load_by_views(const reader *r) {
 /// The visible sets, which a shard has none of.
 static sl_status load_seen(const reader *r) {
     sl_visibility *visibility = &r->out->visibility;
-    if (r->out->findings.shard_count) {
+    if (r->out->partial.shard_count) {
         if (r->takes_shards) return SL_OK;
         return sl_fail_at(r->context, r->name, 0,
                           "one shard of a bake, %u of %u: put them together with sightline merge",
-                          r->out->findings.shard, r->out->findings.shard_count);
+                          r->out->partial.shard, r->out->partial.shard_count);
     }
     SL_TRY(load_pvs(r, "PVSO", "PVSB", r->out->views.view_cell_count > 0, &visibility->pvs));
     if (!visibility->pvs.cell_count) SL_TRY(load_by_views(r));
@@ -470,7 +466,7 @@ static sl_status load_all(reader *r) {
     SL_TRY(check_header(r));
     SL_TRY(load_info(r));
     SL_TRY(load_space(r));
-    SL_TRY(load_findings(r));
+    SL_TRY(load_partial(r));
     SL_TRY(load_views(r));
     SL_TRY(load_seen(r));
     SL_TRY(load_effects(r));

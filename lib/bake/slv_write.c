@@ -1,36 +1,35 @@
 #include "bake/slv.h"
-#include "base/bits.h"
-#include "base/file.h"
-#include "map/print.h"
+#include "base/base.h"
+#include "map/scan.h"
+#include "sightline/support.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <zlib.h>
 
 enum { MOST_SECTIONS = 40 };
 
 /// A file made ready: what goes into each section, still where it lies.
 typedef struct plan {
-    sl_slv_header header;
-    sl_slv_section sections[MOST_SECTIONS];
+    sli_slv_header header;
+    sli_slv_section sections[MOST_SECTIONS];
     const void *contents[MOST_SECTIONS];
     sl_segment *walls;
     char *map_text;
-    sl_slv_views views;
-    sl_slv_part part;
+    sli_slv_views views;
+    sli_slv_part part;
     uint32_t version;
 } plan;
 
 static void add_section(plan *p, const char *tag, const void *items, size_t item_bytes,
                         uint64_t count) {
-    sl_slv_section *s = &p->sections[p->header.section_count];
+    sli_slv_section *s = &p->sections[p->header.section_count];
     memcpy(s->tag, tag, sizeof s->tag);
     s->item_bytes = (uint32_t)item_bytes;
     s->count = count;
     p->contents[p->header.section_count++] = items;
 }
 
-static uint64_t section_bytes(const sl_slv_section *section) {
+static uint64_t section_bytes(const sli_slv_section *section) {
     return section->item_bytes * section->count;
 }
 
@@ -38,10 +37,10 @@ static uint64_t padded(uint64_t bytes) {
     return (bytes + 7) / 8 * 8;
 }
 
-static sl_slv_info make_info(const sl_baked *baked) {
+static sli_slv_info make_info(const sl_baked *baked) {
     const sl_space *space = &baked->space;
     const sl_see_account *account = &baked->visibility.account;
-    sl_slv_info info = {
+    sli_slv_info info = {
         .bounds = {space->bounds.min.x, space->bounds.min.y, space->bounds.max.x,
                    space->bounds.max.y},
         .root = space->root,
@@ -76,7 +75,7 @@ static sl_status print_map(sl_context *context, const sl_map *map, plan *p, size
     others.snap = 0;
     FILE *stream = open_memstream(&p->map_text, size);
     if (!stream) return sl_fail_memory(context);
-    sl_map_print_text(&others, stream);
+    sli_map_print_text(&others, stream);
     const bool failed = ferror(stream) != 0;
     if (fclose(stream) != 0 || failed) return sl_fail_memory(context);
     return SL_OK;
@@ -87,16 +86,16 @@ static void add_pvs(plan *p, const char *offsets_tag, const char *bytes_tag, con
     add_section(p, bytes_tag, pvs->bytes, 1, pvs->offsets[pvs->cell_count]);
 }
 
-static void add_findings(plan *p, const sl_findings *findings) {
-    p->part = (sl_slv_part){.shard = findings->shard,
-                            .shard_count = findings->shard_count,
-                            .unit_count = findings->unit_count,
-                            .inside_only = findings->inside_only};
+static void add_partial(plan *p, const sl_partial *partial) {
+    p->part = (sli_slv_part){.shard = partial->shard,
+                             .shard_count = partial->shard_count,
+                             .unit_count = partial->unit_count,
+                             .inside_only = partial->inside_only};
     add_section(p, "PART", &p->part, sizeof p->part, 1);
-    add_section(p, "DONE", findings->done, sizeof *findings->done,
-                sl_bits_words(findings->unit_count));
-    add_pvs(p, "FNDO", "FNDB", &findings->sure);
-    add_pvs(p, "FNRO", "FNRB", &findings->doubtful);
+    add_section(p, "DONE", partial->done, sizeof *partial->done,
+                sl_bits_words(partial->unit_count));
+    add_pvs(p, "FNDO", "FNDB", &partial->sure);
+    add_pvs(p, "FNRO", "FNRB", &partial->doubtful);
 }
 
 static void add_doors(plan *p, const char *offsets_tag, const char *bytes_tag,
@@ -114,28 +113,28 @@ static void add_effects(plan *p, const sl_visibility *visibility) {
 }
 
 static void add_views(plan *p, const sl_view_rows *views) {
-    p->views = (sl_slv_views){views->view_cell_count, views->node_count};
+    p->views = (sli_slv_views){views->view_cell_count, views->node_count};
     add_section(p, "VCIN", &p->views, sizeof p->views, 1);
     add_section(p, "VCEL", views->view_cells, sizeof *views->view_cells, views->rows.cell_count);
     add_section(p, "VCPA", views->parents, sizeof *views->parents, views->node_count);
     add_pvs(p, "VCRO", "VCRB", &views->rows);
 }
 
-static void add_sections(plan *p, const sl_baked *baked, const sl_slv_info *info,
+static void add_sections(plan *p, const sl_baked *baked, const sli_slv_info *info,
                          size_t map_bytes) {
     const sl_space *space = &baked->space;
     const sl_stab_trees *trees = &baked->visibility.trees;
-    p->version = space->beyond ? SL_SLV_VERSION : SL_SLV_VERSION_AXIAL;
+    p->version = space->neighbour ? SLI_SLV_VERSION : SLI_SLV_VERSION_AXIAL;
     add_section(p, "INFO", info, sizeof *info, 1);
     add_section(p, "NODE", space->nodes, sizeof *space->nodes, space->node_count);
     add_section(p, "CELL", space->cells, sizeof *space->cells, space->cell_count);
     add_section(p, "VERT", space->vertices, sizeof *space->vertices, space->vertex_count);
     add_section(p, "PORT", space->portals, sizeof *space->portals, space->portal_count);
-    add_section(p, "EXIT", space->exits, sizeof *space->exits, space->exit_count);
+    add_section(p, "EXIT", space->directed, sizeof *space->directed, space->directed_count);
     add_section(p, "WALL", p->walls, sizeof *p->walls, space->wall_count);
-    if (space->beyond) {
+    if (space->neighbour) {
         const sl_cell_grid *g = &space->grid;
-        add_section(p, "BEYO", space->beyond, sizeof *space->beyond, space->vertex_count);
+        add_section(p, "BEYO", space->neighbour, sizeof *space->neighbour, space->vertex_count);
         add_section(p, "GRIO", g->first, sizeof *g->first, (uint64_t)g->columns * g->rows + 1);
         add_section(p, "GRIC", g->cells, sizeof *g->cells, g->entry_count);
     }
@@ -155,43 +154,34 @@ static void add_sections(plan *p, const sl_baked *baked, const sl_slv_info *info
         add_section(p, "TREN", trees->nodes, sizeof *trees->nodes,
                     trees->offsets[trees->cell_count]);
     }
-    if (sl_findings_begun(&baked->findings)) add_findings(p, &baked->findings);
+    if (sl_partial_begun(&baked->partial)) add_partial(p, &baked->partial);
     if (baked->views.view_cell_count) add_views(p, &baked->views);
     add_section(p, "MAPT", p->map_text, 1, map_bytes);
-}
-
-static uint32_t checksum_on(uint32_t checksum, const void *bytes, uint64_t count) {
-    const Bytef *at = bytes;
-    for (uint64_t left = count; left;) {
-        const uInt part = left < (1u << 30) ? (uInt)left : 1u << 30;
-        checksum = (uint32_t)crc32(checksum, at, part);
-        at += part;
-        left -= part;
-    }
-    return checksum;
 }
 
 /// Places the sections one behind the other and sums up what will be written.
 static void lay_out(plan *p) {
     static const char zeros[8] = {0};
-    sl_slv_header *header = &p->header;
-    memcpy(header->magic, SL_SLV_MAGIC, sizeof header->magic);
+    sli_slv_header *header = &p->header;
+    memcpy(header->magic, SLI_SLV_MAGIC, sizeof header->magic);
     header->version = p->version;
-    header->byte_order = SL_SLV_BYTE_ORDER;
+    header->byte_order = SLI_SLV_BYTE_ORDER;
     uint64_t at = sizeof *header + header->section_count * sizeof *p->sections;
     for (uint32_t i = 0; i < header->section_count; i++) {
         p->sections[i].offset = at;
         at = padded(at + section_bytes(&p->sections[i]));
     }
     header->file_bytes = at;
-    uint32_t sum = checksum_on(0, header, sizeof *header);
-    sum = checksum_on(sum, p->sections, header->section_count * sizeof *p->sections);
+    sli_checksum sum;
+    sli_checksum_begin(&sum);
+    sli_checksum_add(&sum, header, sizeof *header);
+    sli_checksum_add(&sum, p->sections, header->section_count * sizeof *p->sections);
     for (uint32_t i = 0; i < header->section_count; i++) {
         const uint64_t bytes = section_bytes(&p->sections[i]);
-        sum = checksum_on(sum, p->contents[i], bytes);
-        sum = checksum_on(sum, zeros, padded(bytes) - bytes);
+        sli_checksum_add(&sum, p->contents[i], bytes);
+        sli_checksum_add(&sum, zeros, padded(bytes) - bytes);
     }
-    header->checksum = sum;
+    header->checksum = sli_checksum_value(&sum);
 }
 
 /// Refused writes are left to the stream's error flag, which the commit asks.
@@ -210,17 +200,17 @@ static sl_status write_plan(sl_context *context, const plan *p, FILE *stream) {
 }
 
 /// Makes the file ready; `info` is part of it and must live as long.
-static sl_status make_plan(sl_context *context, const sl_baked *baked, const sl_slv_info *info,
+static sl_status make_plan(sl_context *context, const sl_baked *baked, const sli_slv_info *info,
                            plan *p) {
     const uint32_t cells = baked->space.cell_count;
-    const sl_pvs *rows = sl_baked_is_shard(baked) ? &baked->findings.sure : &baked->visibility.pvs;
+    const sl_pvs *rows = sl_baked_is_shard(baked) ? &baked->partial.sure : &baked->visibility.pvs;
     if (!cells || rows->cell_count != cells)
         return sl_fail(context, SL_BAD_ARGUMENT, "nothing baked: no visible set for each cell");
     if (baked->by_views && !baked->views.view_cell_count)
         return sl_fail(context, SL_BAD_ARGUMENT, "no view cells to stand for the cells");
     if (baked->views.view_cell_count && baked->views.rows.cell_count != cells)
         return sl_fail(context, SL_BAD_ARGUMENT, "the view cells are of another space");
-    if (!sl_slv_is_name(info->method) || !sl_slv_is_name(info->solver))
+    if (!sli_slv_is_name(info->method) || !sli_slv_is_name(info->solver))
         return sl_fail(
             context, SL_BAD_ARGUMENT,
             "the names of method and solver must be up to 15 letters, digits and dashes");
@@ -243,9 +233,9 @@ static void destroy_plan(sl_context *context, plan *p) {
     free(p->map_text);
 }
 
-sl_status sl_slv_print(sl_context *context, const sl_baked *baked, FILE *stream) {
+sl_status sli_slv_print(sl_context *context, const sl_baked *baked, FILE *stream) {
     plan p = {0};
-    const sl_slv_info info = make_info(baked);
+    const sli_slv_info info = make_info(baked);
     sl_status status = make_plan(context, baked, &info, &p);
     if (status == SL_OK) status = write_plan(context, &p, stream);
     destroy_plan(context, &p);
@@ -254,7 +244,7 @@ sl_status sl_slv_print(sl_context *context, const sl_baked *baked, FILE *stream)
 
 sl_status sl_baked_write(sl_context *context, const sl_baked *baked, const char *path) {
     plan p = {0};
-    const sl_slv_info info = make_info(baked);
+    const sli_slv_info info = make_info(baked);
     sl_status status = make_plan(context, baked, &info, &p);
     if (status == SL_OK) status = write_file(context, &p, path);
     destroy_plan(context, &p);

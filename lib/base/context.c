@@ -1,7 +1,10 @@
+/// The context: hooks, the message of the last failure, memory, and the tables of formats.
 #include "base/base.h"
+#include "sightline/version.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 static void *resize(const sl_hooks *hooks, void *block, size_t bytes) {
@@ -23,11 +26,21 @@ sl_context *sl_context_create(const sl_hooks *hooks) {
 void sl_context_destroy(sl_context *context) {
     if (!context) return;
     const sl_hooks hooks = context->hooks;
+    sl_free(context, context->map_formats.items);
+    sl_free(context, context->export_formats.items);
     resize(&hooks, context, 0);
+}
+
+const sl_hooks *sl_context_hooks(const sl_context *context) {
+    return &context->hooks;
 }
 
 const char *sl_context_message(const sl_context *context) {
     return context->message;
+}
+
+const char *sl_version(void) {
+    return SL_VERSION;
 }
 
 const char *sl_status_name(sl_status status) {
@@ -154,4 +167,48 @@ void sl_shrink(sl_context *context, void *items, size_t *capacity, size_t count,
     if (!block) return;
     memcpy(items, &block, sizeof block);
     *capacity = count;
+}
+
+double sl_seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
+}
+
+// --- tables that other libraries add to
+
+static const char *name_of(const char *item) {
+    const char *name;
+    memcpy(&name, item, sizeof name);
+    return name;
+}
+
+static bool has_name(const char *items, size_t count, size_t size, const char *name) {
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(name_of(items + i * size), name) == 0) return true;
+    return false;
+}
+
+const void *sli_table_items(const sli_table *table, const void *own, size_t own_count,
+                            size_t *count) {
+    *count = table->items ? table->count : own_count;
+    return table->items ? table->items : own;
+}
+
+sl_status sli_table_add(sl_context *context, sli_table *table, size_t size, const void *own,
+                        size_t own_count, const void *more, size_t count) {
+    size_t total, added = 0;
+    const void *before = sli_table_items(table, own, own_count, &total);
+    for (const char *item = more, *end = item + count * size; item < end; item += size)
+        added += !has_name(before, total, size, name_of(item));
+    if (!added) return SL_OK;
+    char *items = sl_alloc_array(context, total + count, size);
+    if (!items) return SL_NO_MEMORY;
+    memcpy(items, before, total * size);
+    for (const char *item = more, *end = item + count * size; item < end; item += size)
+        if (!has_name(items, total, size, name_of(item)))
+            memcpy(items + total++ * size, item, size);
+    sl_free(context, table->items);
+    *table = (sli_table){items, total};
+    return SL_OK;
 }

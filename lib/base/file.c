@@ -1,4 +1,7 @@
-#include "base/file.h"
+/// Whole files. A file is written beside its target, brought to the disk and renamed. So a failure
+/// at any moment leaves the old file as it was, and nothing half-written. Devices and pipes cannot
+/// be replaced: they are written to directly.
+#include "sightline/support.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,4 +1,8 @@
-#include "base/threads.h"
+/// Work in numbered units, shared out between threads by one counter: whoever is free takes the
+/// next unit. Every thread has a context of its own, so that messages do not mix. The first failure
+/// stops the rest. Among several failures, the one of the lowest unit is reported, so that the
+/// result does not depend on who was faster.
+#include "base/base.h"
 
 #include <assert.h>
 #include <pthread.h>
@@ -33,8 +37,8 @@ static void tell(crew *c) {
 }
 
 /// Waits until a unit's wave may start; false where another unit has failed. Units are handed out
-/// in order, so that all that this one waits for are in some thread's hands; and as none of its
-/// wave starts before these are done, their number tells that they are.
+/// in order, so every unit that this one waits for is in some thread's hands. No unit of this wave
+/// starts before those are done, so it is enough to count how many are done.
 static bool is_ready(crew *c, size_t unit) {
     const size_t *after = c->work->after;
     if (!after) return true;

@@ -1,81 +1,105 @@
-/// The depth-first search: what its two forms share, the plain one and the one with effects.
+/// The depth-first search: what its two forms share, the plain one and the one with effects, and
+/// the stab trees that it leaves.
 #ifndef SL_DFS_H
 #define SL_DFS_H
 
-#include "base/bits.h"
-#include "cell_to_cell/crossing.h"
-#include "cell_to_cell/findings.h"
-#include "cell_to_cell/prune.h"
+#include "cell_to_cell/bounds.h"
+#include "cell_to_cell/directions.h"
+#include "cell_to_cell/portal_search.h"
 #include "cell_to_cell/pvs_rows.h"
-#include "cell_to_cell/tree_store.h"
 #include "sightline/cell_to_cell.h"
+#include "sightline/support.h"
 
 #include <pthread.h>
 
+// --- stab trees
+
+/// A tree while it grows. `overflown`: larger than the limit by itself, and no longer recorded.
+typedef struct sli_growing_tree {
+    SL_ARRAY(sl_stab_node) nodes;
+    bool overflown;
+} sli_growing_tree;
+
+typedef struct sli_tree_store {
+    pthread_mutex_t lock;
+    uint32_t cell_count;
+    uint64_t limit, held; ///< bytes
+    struct sli_kept_tree {
+        sl_stab_node *nodes;
+        uint64_t count;
+    } * trees;
+} sli_tree_store;
+
+// --- the search
+
 /// A cell on the way from the source.
-typedef struct sl_dfs_step {
-    uint32_t cell;
-    uint32_t next;          ///< exit to try next, from 0
-    uint32_t node;          ///< in the stab tree
-    sl_crossings crossings; ///< of the portals so far
-    bool grazing;           ///< the sequence is no more than grazed
-} sl_dfs_step;
+typedef struct sli_dfs_step {
+    sli_portal_step at;
+    uint32_t node; ///< in the stab tree
+    bool grazing;  ///< the sequence is no more than grazed
+} sli_dfs_step;
 
 /// What is known before a search with effects begins, without mirrors. Both have each cell with
 /// itself.
-typedef struct sl_dfs_known {
+typedef struct sli_dfs_known {
     const sl_pvs *possible; ///< no other pairs are seen
     const sl_pvs *certain;  ///< of them those that are, through no door
-} sl_dfs_known;
+} sli_dfs_known;
 
 /// All searches together.
-typedef struct sl_dfs {
+typedef struct sli_dfs {
     const sl_space *space;
     const sl_see_options *options;
-    sl_tree_store trees;
-    sl_row_bytes *sure;     ///< by source: seen whatever rounding did
-    sl_row_bytes *doubtful; ///< by source: seen unless rounding erred
+    sli_tree_store trees;
+    sli_row_bytes *sure;     ///< by source: seen whatever rounding did
+    sli_row_bytes *doubtful; ///< by source: seen unless rounding erred
     sl_see_account *accounts;
     pthread_mutex_t lock;
-    sl_stab_account stab;      ///< of all solvers, under the lock
-    const sl_findings *before; ///< what is known; NULL: nothing, and all is to be done
-    uint8_t *done;             ///< by source, where there is `before`
+    sl_stab_account stab;     ///< of all solvers, under the lock
+    const sl_partial *before; ///< what is known; NULL: nothing, and all is to be done
+    uint8_t *done;            ///< by source, where there is `before`
     bool prunes;
-    const sl_dfs_known *known;      ///< NULL: nothing; else it prunes
+    const sli_dfs_known *known;     ///< NULL: nothing; else it prunes
     size_t words;                   ///< of a set of cells
-    sl_prune_bounds bounds;         ///< where it prunes
+    sli_prune_bounds bounds;        ///< where it prunes
     struct sl_dfs_effects *effects; ///< where the plan has any, all that is done for them
-} sl_dfs;
+} sli_dfs;
 
 /// One thread's own.
-typedef struct sl_dfs_thread {
-    void *solver;
-    SL_ARRAY(sl_dfs_step) steps;
+typedef struct sli_dfs_thread {
+    sli_portal_search search;
     sl_bits *sure, *doubtful;
-    sl_prune_wanted wanted; ///< where it prunes: what may be seen beyond each step
-    sl_growing_tree tree;
+    sli_prune_wanted wanted; ///< where it prunes: what may be seen beyond each step
+    sli_growing_tree tree;
     sl_see_account account; ///< of the source at hand
     struct sl_dfs_effects_thread *effects;
-} sl_dfs_thread;
+} sli_dfs_thread;
 
 /// The depth-first search with effects, but mirrors, for the pairs that are possible and not
 /// certain.
-sl_status sl_dfs_see_rest(sl_context *context, const sl_space *space, const sl_see_options *options,
-                          const sl_dfs_known *known, sl_visibility *out);
+sl_status sli_dfs_see_rest(sl_context *context, const sl_space *space,
+                           const sl_see_options *options, const sli_dfs_known *known,
+                           sl_visibility *out);
 
-/// Goes on from `to`; a sequence that counts as seen becomes a node of the stab tree,
-/// of which `exit` is as in sl_stab_node.
-sl_status sl_dfs_enter(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, sl_dfs_step to,
-                       uint32_t parent, uint32_t exit, bool counts);
+/// Both searches' job for a visitor: one source at a time.
+typedef struct sli_dfs_job {
+    const sli_dfs *all;
+    sli_dfs_thread *me;
+} sli_dfs_job;
+
+/// Enters the step that stands behind the last one. A sequence that counts as seen becomes a node
+/// of the stab tree below `parent`, of which `directed` is as in sl_stab_node.
+sl_status sli_dfs_enter(sl_context *context, const sli_dfs *all, sli_dfs_thread *me,
+                        sli_dfs_step *to, uint32_t parent, uint32_t directed, bool counts);
 
 /// The search with effects (dfs_effects.c). What it finds beside the sets of cells seen goes to the
 /// visibility at the end.
-sl_status sl_dfs_effects_create(sl_context *context, sl_dfs *all);
-void sl_dfs_effects_destroy(sl_context *context, sl_dfs *all);
-sl_status sl_dfs_effects_begin(sl_context *context, const sl_dfs *all, sl_dfs_thread *me);
-void sl_dfs_effects_end(sl_context *context, sl_dfs_thread *me);
-sl_status sl_dfs_effects_search(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
-                                uint32_t source);
-sl_status sl_dfs_effects_finish(sl_context *context, sl_dfs *all, sl_visibility *out);
+sl_status sli_dfs_effects_create(sl_context *context, sli_dfs *all);
+void sli_dfs_effects_destroy(sl_context *context, sli_dfs *all);
+sl_status sli_dfs_effects_begin(sl_context *context, const sli_dfs *all, sli_dfs_thread *me);
+void sli_dfs_effects_end(sl_context *context, sli_dfs_thread *me);
+sl_status sli_dfs_effects_search(sl_context *context, const sli_dfs *all, sli_dfs_thread *me,
+                                 uint32_t source);
+sl_status sli_dfs_effects_finish(sl_context *context, sli_dfs *all, sl_visibility *out);
 
 #endif

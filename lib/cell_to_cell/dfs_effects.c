@@ -1,43 +1,46 @@
-/// The depth-first search where the map calls for effects. Each of them is a matter of one step
-/// more of a sequence: which doors it has passed, whether glass lets it through, how long its
-/// shortest sightline is, and where in mirrored space it has come to. All are monotone: what a
-/// sequence fails, all that go on from it fail too, so that the search stays exact.
+/// The depth-first search for maps with doors, mirrors, one-way glass or a view range.
 ///
-/// The range is exact to rounding: of sightlines through the sequence, the piece between the first
-/// portal and the last is what lies between the two cells (0 for neighbours), and its shortest is
-/// held against the range. Within rounding it counts as in range, and is counted.
+/// Each effect is a question about one more step of a sequence: which doors it has passed, whether
+/// glass lets it through, how long its shortest sightline is, and where mirrored space it is. If a
+/// sequence fails, all sequences that go on from it fail too. So the search stays exact.
 ///
-/// A mirror is one more portal of the sequence, which leads back into the cell before it,
-/// reflected: the sequence goes on in the frame of mirrored space that lies beyond
-/// (effects/frame.h).
+/// Range: the part of a sightline that counts lies between the first portal and the last, as it is
+/// 0 for neighbours. The shortest such part is compared with the range. A part within rounding of
+/// the range counts as in range, and is counted.
+///
+/// Mirrors: a mirror is one more portal, which leads back into the cell before it. Behind it the
+/// sequence goes on in a reflected copy of the map, in whose frame all portals are placed
+/// (effects/mirrors.h).
 #include "cell_to_cell/dfs.h"
 
+#include "cell_to_cell/directions.h"
 #include "cell_to_cell/door_table.h"
 #include "cell_to_cell/methods.h"
-#include "cell_to_cell/unfolded.h"
-#include "effects/mirror_sides.h"
+#include "effects/mirrors.h"
 #include "stab/funnel.h"
 
 #include <string.h>
 
-/// Beside a step of the search, at the same place of its array.
-typedef sl_unfolded place;
+/// A step, and where mirrored space has what was crossed.
+typedef struct step {
+    sli_dfs_step dfs;
+    sli_unfolded place;
+} step;
 
 struct sl_dfs_effects {
     const sl_plan *plan;
     bool doors, mirrors, oneway;
     size_t door_words;
-    sl_mirror_sides sides;
-    sl_row_bytes *door_rows, *mirrored_rows, *mirrored_door_rows; ///< by source
+    sli_mirror_sides sides;
+    sli_row_bytes *door_rows, *mirrored_rows, *mirrored_door_rows; ///< by source
     pthread_mutex_t *lock; ///< the search's, over the sums below
     uint64_t fallbacks, door_steps, mirror_steps, glass_tests;
     uint64_t range_tests, close_calls, rounded_places;
 };
 
 struct sl_dfs_effects_thread {
-    SL_ARRAY(place) places;
-    SL_ARRAY(sl_bits) doors; ///< a set for each place
-    sl_door_table direct, mirrored;
+    SL_ARRAY(sl_bits) doors; ///< a set for each step
+    sli_door_table direct, mirrored;
     uint64_t door_steps, mirror_steps, glass_tests, range_tests, close_calls, rounded_places;
     struct sl_dfs_effects *all;
 };
@@ -47,7 +50,7 @@ typedef struct sl_dfs_effects_thread thread;
 
 // --- one step
 
-/// The doors beyond a portal: those before it and its own.
+/// Makes the set of doors passed up to a portal: those before it and its own.
 static sl_status pass_doors(sl_context *context, const sl_space *space, const effects *all,
                             thread *me, uint32_t portal, size_t depth) {
     const size_t words = all->door_words;
@@ -70,18 +73,20 @@ static const sl_bits *doors_at(const effects *all, const thread *me, size_t dept
 }
 
 /// Where a portal lies in the frame of the last place.
-static sl_exit unfold(thread *me, const sl_frame *frame, sl_point left, sl_point right) {
+static sl_directed_portal unfold(thread *me, const sli_mirror_frame *frame, sl_point left,
+                                 sl_point right) {
     bool rounded = false;
-    const sl_exit ends = sl_unfold(frame, left, right, &rounded);
+    const sl_directed_portal ends = sli_unfold(frame, left, right, &rounded);
     me->rounded_places += rounded;
     return ends;
 }
 
 /// Whether some direction crosses all portals up to a new place; sets its bounds.
-static bool may_cross(const thread *me, const place *from, place *to) {
-    const place *places = me->places.items;
-    return sl_unfolded_may_cross(&places[from->least].ends, &places[from->most].ends, from,
-                                 (uint32_t)me->places.count, to);
+static bool may_cross(const sli_dfs_thread *me, const step *from, sli_unfolded *to) {
+    const step *steps = me->search.steps;
+    return sli_unfolded_may_cross(&steps[from->place.least].place.ends,
+                                  &steps[from->place.most].place.ends, &from->place,
+                                  (uint32_t)me->search.count, to);
 }
 
 /// Whether the sequence has a sightline of which no more than the range lies between the cells.
@@ -89,200 +94,201 @@ static bool is_in_range(const effects *all, thread *me, const void *solver) {
     const double range = all->plan->range;
     if (!(range > 0)) return true;
     me->range_tests++;
-    const double shortest = sl_funnel_shortest(solver), error = SL_SHORTEST_ERROR * range;
+    const double shortest = sli_funnel_shortest(solver), error = SLI_SHORTEST_ERROR * range;
     me->close_calls += shortest > range - error && shortest <= range + error;
     return shortest <= range + error;
 }
 
-/// Whether anything is left to be found beyond an exit: of what the bounds of all exits so far
-/// leave possible, a cell that no subset of the doors passed is known to join to the source.
-static sl_status want(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, uint32_t exit,
-                      bool *something) {
+/// Whether anything is left to be found beyond a directed portal. That is a cell that the bounds of
+/// all directed portals on the way leave possible, and that no subset of the doors passed is known
+/// to join to the source.
+static sl_status want(sl_context *context, const sli_dfs *all, sli_dfs_thread *me,
+                      uint32_t directed, bool *something) {
     *something = true;
     if (!all->prunes || all->effects->mirrors) return SL_OK;
-    const size_t step = me->steps.count;
-    SL_TRY(sl_prune_step(context, &all->bounds, &me->wanted, step, exit));
-    const sl_prune_set *set = &me->wanted.sets.items[step];
-    const sl_bits *doors = doors_at(all->effects, me->effects, step);
-    const sl_door_table *table = &me->effects->direct;
+    const size_t depth = me->search.count;
+    SL_TRY(sli_prune_step(context, &all->bounds, &me->wanted, depth, directed));
+    const sli_prune_set *set = &me->wanted.sets.items[depth];
+    const sl_bits *doors = doors_at(all->effects, me->effects, depth);
+    const sli_door_table *table = &me->effects->direct;
     *something = set->all;
     for (size_t i = set->begin; i < set->end && !*something; i++) {
-        const sl_prune_word *at = &me->wanted.words.items[i];
+        const sli_prune_word *at = &me->wanted.words.items[i];
         *something = (at->bits & ~table->seen[at->word]) != 0;
     }
     for (size_t i = set->begin; i < set->end && !*something; i++) {
-        const sl_prune_word *at = &me->wanted.words.items[i];
+        const sli_prune_word *at = &me->wanted.words.items[i];
         for (sl_bits open = at->bits & ~table->free[at->word]; open && !*something;
              open &= open - 1) {
             const uint32_t cell = 64 * at->word + (uint32_t)__builtin_ctzll(open);
-            *something = !sl_door_table_proves(table, cell, doors);
+            *something = !sli_door_table_proves(table, cell, doors);
         }
     }
     return SL_OK;
 }
 
-/// Tests the sequence with one portal more, and enters the cell behind. `exit`: as in a stab tree.
-static sl_status push(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, place to,
-                      uint32_t cell, uint32_t exit) {
+/// Tests the sequence with the portal or mirror of `to`, and enters the cell behind. `directed`: as
+/// in a stab tree.
+static sl_status enter(sl_context *context, const sli_dfs_job *job, const step *from, step *to,
+                       uint32_t directed) {
+    const sli_dfs *all = job->all;
+    sli_dfs_thread *me = job->me;
     thread *e = me->effects;
-    const sl_solver *solver = all->options->solver;
-    const sl_dfs_step from = me->steps.items[me->steps.count - 1];
+    const uint32_t cell = to->dfs.at.cell;
     if (++me->account.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
     sl_stab_verdict verdict;
-    SL_TRY(solver->push(context, me->solver, to.ends.left, to.ends.right, &verdict));
-    const bool grazing = verdict == SL_GRAZING || from.grazing;
-    const bool hidden = verdict == SL_HIDDEN || (grazing && all->options->sight == SL_OPEN);
-    if (hidden || !is_in_range(all->effects, e, me->solver)) {
-        solver->pop(me->solver);
+    SL_TRY(sli_portal_search_push(context, &me->search, to->place.ends.left, to->place.ends.right,
+                                  &verdict));
+    to->dfs.grazing = verdict == SL_GRAZING || from->dfs.grazing;
+    const bool hidden = verdict == SL_HIDDEN || (to->dfs.grazing && all->options->sight == SL_OPEN);
+    if (hidden || !is_in_range(all->effects, e, me->search.solver_state)) {
+        sli_portal_search_pop(&me->search);
         return SL_OK;
     }
-    sl_door_table *table = to.frame.depth ? &e->mirrored : &e->direct;
-    SL_TRY(sl_door_table_add(context, table, cell, doors_at(all->effects, e, e->places.count)));
-    if (!to.frame.depth) sl_bits_add(me->sure, cell);
-    SL_TRY(SL_ARRAY_ROOM(context, &e->places, 1));
-    e->places.items[e->places.count++] = to;
-    return sl_dfs_enter(context, all, me, (sl_dfs_step){.cell = cell, .grazing = grazing},
-                        from.node, exit, true);
+    const bool mirrored = to->place.frame.depth > 0;
+    SL_TRY(sli_door_table_add(context, mirrored ? &e->mirrored : &e->direct, cell,
+                              doors_at(all->effects, e, me->search.count)));
+    if (!mirrored) sl_bits_add(me->sure, cell);
+    return sli_dfs_enter(context, all, me, &to->dfs, from->dfs.node, directed, true);
 }
 
-/// Whether the sequence has been in a cell since the last mirror. Where places are exact no line
-/// can enter a cell twice, and the directions of portals tell; those of rounded places do not, for
-/// portals of the size of rounding may be turned any way.
-static bool has_been_in(const sl_dfs_thread *me, uint32_t cell) {
-    const thread *e = me->effects;
-    for (size_t i = e->places.count; i-- > 0;) {
-        if (me->steps.items[i].cell == cell) return true;
-        if (e->places.items[i].mirror != UINT32_MAX) return false;
+/// Whether the sequence has been in a cell since the last mirror. No line enters a cell twice. With
+/// exact places the directions of portals already see to that. With rounded places they do not,
+/// since a portal of the size of rounding may be turned any way.
+static bool has_been_in(const sli_portal_search *search, uint32_t cell) {
+    const step *steps = search->steps;
+    for (size_t i = search->count; i-- > 0;) {
+        if (steps[i].dfs.at.cell == cell) return true;
+        if (steps[i].place.mirror != UINT32_MAX) return false;
     }
     return false;
 }
 
-static sl_status try_exit(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
+SLI_VISIT sl_status cross(sl_context *context, void *visit, const void *last, void *next,
                           uint32_t number) {
+    const sli_dfs_job *job = visit;
+    const sli_dfs *all = job->all;
+    sli_dfs_thread *me = job->me;
     thread *e = me->effects;
-    const sl_exit *exit = &all->space->exits[number];
-    const place *from = &e->places.items[e->places.count - 1];
-    const uint32_t cell = me->steps.items[me->steps.count - 1].cell;
-    if (all->options->inside_only && !all->space->cells[exit->cell].inside) return SL_OK;
+    const step *from = last;
+    step *to = next;
+    const sl_directed_portal *directed = &all->space->directed[number];
+    if (all->options->inside_only && !all->space->cells[directed->cell].inside) return SL_OK;
     if (all->effects->oneway) {
         e->glass_tests++;
-        if (sl_exit_is_dark(all->space, cell, number)) return SL_OK;
+        if (sl_portal_is_blocked(all->space, from->dfs.at.cell, number)) return SL_OK;
     }
-    if (from->frame.depth && has_been_in(me, exit->cell)) return SL_OK;
-    place to = {.ends = unfold(e, &from->frame, exit->left, exit->right),
-                .frame = from->frame,
-                .mirror = UINT32_MAX};
-    if (!may_cross(e, from, &to)) return SL_OK;
-    SL_TRY(pass_doors(context, all->space, all->effects, e, exit->portal, e->places.count));
+    if (from->place.frame.depth && has_been_in(&me->search, directed->cell)) return SL_OK;
+    *to = (step){.dfs.at.cell = directed->cell,
+                 .place = {.ends = unfold(e, &from->place.frame, directed->left, directed->right),
+                           .frame = from->place.frame,
+                           .mirror = UINT32_MAX}};
+    if (!may_cross(me, from, &to->place)) return SL_OK;
+    SL_TRY(pass_doors(context, all->space, all->effects, e, directed->portal, me->search.count));
     bool something;
     SL_TRY(want(context, all, me, number, &something));
-    return something ? push(context, all, me, to, exit->cell, number) : SL_OK;
+    return something ? enter(context, job, from, to, number) : SL_OK;
 }
 
-static sl_status try_mirror(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
-                            uint32_t number) {
-    thread *e = me->effects;
-    const sl_mirror_side *side = &all->effects->sides.sides[number];
-    const place *from = &e->places.items[e->places.count - 1];
+static sl_status reflect(sl_context *context, void *visit, const void *last, void *next,
+                         uint32_t number) {
+    const sli_dfs_job *job = visit;
+    const effects *shared = job->all->effects;
+    thread *e = job->me->effects;
+    const step *from = last;
+    step *to = next;
+    const sli_mirror_side *side = &shared->sides.sides[number];
+    const sl_segment mirror = shared->plan->map->mirrors[side->mirror].segment;
     e->mirror_steps++;
     // Behind a mirror its own side is behind the line of sight, but for rounding.
-    if (from->mirror == side->mirror || from->frame.depth == all->effects->plan->mirror_depth)
+    if (from->place.mirror == side->mirror || from->place.frame.depth == shared->plan->mirror_depth)
         return SL_OK;
-    place to = {.ends = unfold(e, &from->frame, side->left, side->right),
-                .frame = sl_frame_reflect(&from->frame,
-                                          all->effects->plan->map->mirrors[side->mirror].segment),
-                .mirror = side->mirror};
-    if (!may_cross(e, from, &to)) return SL_OK;
-    SL_TRY(pass_doors(context, all->space, all->effects, e, UINT32_MAX, e->places.count));
-    return push(context, all, me, to, side->cell, SL_STAB_MIRROR + side->mirror);
+    *to = (step){.dfs.at.cell = side->cell,
+                 .place = {.ends = unfold(e, &from->place.frame, side->left, side->right),
+                           .frame = sli_mirror_frame_reflect(&from->place.frame, mirror),
+                           .mirror = side->mirror}};
+    if (!may_cross(job->me, from, &to->place)) return SL_OK;
+    SL_TRY(pass_doors(context, job->all->space, shared, e, UINT32_MAX, job->me->search.count));
+    return enter(context, job, from, to, SL_STAB_MIRROR + side->mirror);
 }
 
 // --- one source
 
 /// Whether pairs are found from the lower of their cells alone.
-static bool is_halved(const sl_dfs *all) {
+static bool is_halved(const sli_dfs *all) {
     return all->known && all->effects->plan->mutual;
 }
 
-/// What is wanted of a source: all cells, or those that it is possible to see; what it is certain
-/// to see is noted.
-static sl_status want_from(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
+/// Sets what is wanted of a source: all cells, or those that it may see. Notes the cells that it
+/// sees for certain.
+static sl_status want_from(sl_context *context, const sli_dfs *all, sli_dfs_thread *me,
                            uint32_t source) {
-    if (!all->known) return sl_prune_start(context, &me->wanted, 0);
+    if (!all->known) return sli_prune_start(context, &me->wanted, 0);
     const uint32_t first = is_halved(all) ? source : 0;
-    SL_TRY(sl_prune_start_with(context, &me->wanted, all->known->possible, source, first));
-    sl_door_table *table = &me->effects->direct;
-    sl_row_add_to(all->known->certain, source, me->sure);
-    sl_row_add_to(all->known->certain, source, table->seen);
-    sl_row_add_to(all->known->certain, source, table->free);
+    SL_TRY(sli_prune_start_with(context, &me->wanted, all->known->possible, source, first));
+    sli_door_table *table = &me->effects->direct;
+    sli_row_add_to(all->known->certain, source, me->sure);
+    sli_row_add_to(all->known->certain, source, table->seen);
+    sli_row_add_to(all->known->certain, source, table->free);
     return SL_OK;
 }
 
-static sl_status start(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, uint32_t source) {
+static sl_status start(sl_context *context, const sli_dfs *all, sli_dfs_thread *me,
+                       uint32_t source) {
     thread *e = me->effects;
-    sl_door_table_clear(&e->direct);
-    sl_door_table_clear(&e->mirrored);
-    e->places.count = 0;
-    SL_TRY(SL_ARRAY_ROOM(context, &e->places, 1));
-    e->places.items[e->places.count++] = (place){.frame = sl_frame_of_map(), .mirror = UINT32_MAX};
+    sli_door_table_clear(&e->direct);
+    sli_door_table_clear(&e->mirrored);
     SL_TRY(SL_ARRAY_ROOM(context, &e->doors, all->effects->door_words + 1));
     memset(e->doors.items, 0, all->effects->door_words * sizeof *e->doors.items);
-    SL_TRY(sl_door_table_add(context, &e->direct, source, e->doors.items));
+    SL_TRY(sli_door_table_add(context, &e->direct, source, e->doors.items));
     sl_bits_add(me->sure, source);
     if (all->prunes) SL_TRY(want_from(context, all, me, source));
-    me->steps.count = 0;
-    return sl_dfs_enter(context, all, me, (sl_dfs_step){.cell = source}, 0, UINT32_MAX, true);
+    SL_TRY(sli_portal_search_start(context, &me->search, sizeof(step)));
+    step *first = me->search.steps;
+    *first = (step){.dfs.at.cell = source,
+                    .place = {.frame = sli_mirror_frame_of_map(), .mirror = UINT32_MAX}};
+    return sli_dfs_enter(context, all, me, &first->dfs, 0, UINT32_MAX, true);
 }
 
-static sl_status keep(sl_context *context, const sl_dfs *all, sl_dfs_thread *me, uint32_t source) {
+static sl_status keep(sl_context *context, const sli_dfs *all, sli_dfs_thread *me,
+                      uint32_t source) {
     effects *shared = all->effects;
     thread *e = me->effects;
     const uint32_t first = is_halved(all) ? source : 0;
     if (shared->doors)
-        SL_TRY(sl_door_table_append(context, &e->direct, first, &shared->door_rows[source]));
+        SL_TRY(sli_door_table_append(context, &e->direct, first, &shared->door_rows[source]));
     if (!shared->mirrors) return SL_OK;
-    SL_TRY(sl_row_append(context, &shared->mirrored_rows[source], e->mirrored.seen,
-                         all->space->cell_count));
+    SL_TRY(sli_row_append(context, &shared->mirrored_rows[source], e->mirrored.seen,
+                          all->space->cell_count));
     if (!shared->doors) return SL_OK;
-    return sl_door_table_append(context, &e->mirrored, 0, &shared->mirrored_door_rows[source]);
+    return sli_door_table_append(context, &e->mirrored, 0, &shared->mirrored_door_rows[source]);
 }
 
-sl_status sl_dfs_effects_search(sl_context *context, const sl_dfs *all, sl_dfs_thread *me,
-                                uint32_t source) {
-    const sl_space *space = all->space;
-    const uint32_t *first = all->effects->sides.first;
+sl_status sli_dfs_effects_search(sl_context *context, const sli_dfs *all, sli_dfs_thread *me,
+                                 uint32_t source) {
+    static const sli_portal_visitor visitor = {
+        .step_size = sizeof(step), .cross = cross, .reflect = reflect};
     SL_TRY(start(context, all, me, source));
-    while (me->steps.count) {
-        sl_dfs_step *last = &me->steps.items[me->steps.count - 1];
-        const sl_cell *cell = &space->cells[last->cell];
-        const uint32_t mirrors = first ? first[last->cell + 1] - first[last->cell] : 0;
-        const uint32_t next = last->next++;
-        if (next < cell->exit_count) {
-            SL_TRY(try_exit(context, all, me, cell->first_exit + next));
-        } else if (next < cell->exit_count + mirrors) {
-            SL_TRY(try_mirror(context, all, me, first[last->cell] + next - cell->exit_count));
-        } else {
-            me->effects->places.count--;
-            if (--me->steps.count) all->options->solver->pop(me->solver);
-        }
-    }
+    me->search.mirrors = all->effects->mirrors ? &all->effects->sides : NULL;
+    sli_dfs_job job = {all, me};
+    SL_TRY(sli_portal_search_run(context, &me->search, &visitor, &job));
     return keep(context, all, me, source);
 }
 
 // --- begin and end
 
-sl_status sl_dfs_effects_begin(sl_context *context, const sl_dfs *all, sl_dfs_thread *me) {
+sl_status sli_dfs_effects_begin(sl_context *context, const sli_dfs *all, sli_dfs_thread *me) {
     me->effects = sl_alloc_array(context, 1, sizeof *me->effects);
     if (!me->effects) return SL_NO_MEMORY;
     const sl_plan *plan = all->effects->plan;
     const size_t doors = all->effects->doors ? plan->map->door_count : 0;
     const uint32_t cells = all->space->cell_count;
     me->effects->all = all->effects;
-    SL_TRY(sl_door_table_create(context, cells, doors, plan->door_limit, &me->effects->direct));
-    return sl_door_table_create(context, cells, doors, plan->door_limit, &me->effects->mirrored);
+    SL_TRY(sli_door_table_create(context, cells, doors, plan->door_limit, &me->effects->direct));
+    return sli_door_table_create(context, cells, doors, plan->door_limit, &me->effects->mirrored);
 }
 
-void sl_dfs_effects_end(sl_context *context, sl_dfs_thread *me) {
+void sli_dfs_effects_end(sl_context *context, sli_dfs_thread *me) {
     thread *e = me->effects;
     if (!e) return;
     pthread_mutex_lock(e->all->lock);
@@ -294,18 +300,17 @@ void sl_dfs_effects_end(sl_context *context, sl_dfs_thread *me) {
     e->all->close_calls += e->close_calls;
     e->all->rounded_places += e->rounded_places;
     pthread_mutex_unlock(e->all->lock);
-    sl_door_table_destroy(context, &e->direct);
-    sl_door_table_destroy(context, &e->mirrored);
-    sl_free(context, e->places.items);
+    sli_door_table_destroy(context, &e->direct);
+    sli_door_table_destroy(context, &e->mirrored);
     sl_free(context, e->doors.items);
     sl_free(context, e);
     me->effects = NULL;
 }
 
-sl_status sl_dfs_effects_create(sl_context *context, sl_dfs *all) {
+sl_status sli_dfs_effects_create(sl_context *context, sli_dfs *all) {
     const sl_plan *plan = all->options->plan;
     const uint32_t cells = all->space->cell_count;
-    SL_TRY(sl_plan_check_solver(context, plan, all->options->solver));
+    SL_TRY(sli_plan_check_solver(context, plan, all->options->solver));
     effects *e = all->effects = sl_alloc_array(context, 1, sizeof *e);
     if (!e) return SL_NO_MEMORY;
     e->plan = plan;
@@ -318,33 +323,33 @@ sl_status sl_dfs_effects_create(sl_context *context, sl_dfs *all) {
     e->mirrored_rows = sl_alloc_array(context, cells, sizeof *e->mirrored_rows);
     e->mirrored_door_rows = sl_alloc_array(context, cells, sizeof *e->mirrored_door_rows);
     if (!e->door_rows || !e->mirrored_rows || !e->mirrored_door_rows) return SL_NO_MEMORY;
-    return e->mirrors ? sl_mirror_sides_find(context, all->space, plan->map, &e->sides) : SL_OK;
+    return e->mirrors ? sli_mirror_sides_find(context, all->space, plan->map, &e->sides) : SL_OK;
 }
 
-void sl_dfs_effects_destroy(sl_context *context, sl_dfs *all) {
+void sli_dfs_effects_destroy(sl_context *context, sli_dfs *all) {
     effects *e = all->effects;
     if (!e) return;
-    sl_row_bytes *const rows[] = {e->door_rows, e->mirrored_rows, e->mirrored_door_rows};
+    sli_row_bytes *const rows[] = {e->door_rows, e->mirrored_rows, e->mirrored_door_rows};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         for (uint32_t cell = 0; rows[i] && cell < all->space->cell_count; cell++)
             sl_free(context, rows[i][cell].items);
         sl_free(context, rows[i]);
     }
-    sl_mirror_sides_destroy(context, &e->sides);
+    sli_mirror_sides_destroy(context, &e->sides);
     sl_free(context, e);
     all->effects = NULL;
 }
 
 /// Rows of door sets are joined as those of visible sets are.
-static sl_status join_doors(sl_context *context, sl_row_bytes *rows, uint32_t cells,
+static sl_status join_doors(sl_context *context, sli_row_bytes *rows, uint32_t cells,
                             sl_door_sets *out) {
     sl_pvs joined = {0};
-    SL_TRY(sl_pvs_join(context, rows, cells, &joined));
+    SL_TRY(sli_pvs_join(context, rows, cells, &joined));
     *out = (sl_door_sets){joined.cell_count, joined.offsets, joined.bytes};
     return SL_OK;
 }
 
-sl_status sl_dfs_effects_finish(sl_context *context, sl_dfs *all, sl_visibility *out) {
+sl_status sli_dfs_effects_finish(sl_context *context, sli_dfs *all, sl_visibility *out) {
     effects *e = all->effects;
     const uint32_t cells = all->space->cell_count;
     out->account.door_fallbacks = e->fallbacks;
@@ -354,10 +359,10 @@ sl_status sl_dfs_effects_finish(sl_context *context, sl_dfs *all, sl_visibility 
     out->account.range_tests = e->range_tests;
     out->account.close_calls = e->close_calls;
     out->account.rounded_places = e->rounded_places;
-    if (e->doors && is_halved(all)) SL_TRY(sl_door_rows_mirror(context, e->door_rows, cells));
+    if (e->doors && is_halved(all)) SL_TRY(sli_door_rows_mirror(context, e->door_rows, cells));
     if (e->doors) SL_TRY(join_doors(context, e->door_rows, cells, &out->doors));
     if (!e->mirrors) return SL_OK;
-    SL_TRY(sl_pvs_join(context, e->mirrored_rows, cells, &out->mirrored));
+    SL_TRY(sli_pvs_join(context, e->mirrored_rows, cells, &out->mirrored));
     for (uint32_t i = 0; i < cells; i++)
         out->account.mirrored_pairs += sl_pvs_count(&out->mirrored, i);
     if (!e->doors) return SL_OK;

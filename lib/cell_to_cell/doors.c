@@ -1,7 +1,17 @@
-/// Rows of door sets: reading them.
-#include "sightline/doors.h"
+/// Sets of doors: through which doors a pair of cells is seen.
+///
+/// A pair that is seen through doors keeps its smallest sets: the pair is seen while all doors of
+/// some set are open. The search brings sets one by one. A set that holds a known one is dropped,
+/// and known ones that hold it are dropped too. A pair with more sets than the limit counts as
+/// always seen, which never misses anything.
+#include "cell_to_cell/door_table.h"
 
-#include "base/base.h"
+#include "sightline/doors.h"
+#include "sightline/support.h"
+
+#include <string.h>
+
+// --- reading rows of door sets
 
 void sl_door_sets_destroy(sl_context *context, sl_door_sets *sets) {
     sl_free(context, sets->offsets);
@@ -123,4 +133,228 @@ sl_status sl_door_sets_check(sl_context *context, const sl_door_sets *sets, size
         sound = row_is_sound(sets, i, door_count);
     if (sound) return SL_OK;
     return sl_fail(context, SL_BAD_INPUT, "the sets of doors are damaged");
+}
+
+// --- gathering door sets while one source is searched
+
+sl_status sli_door_table_create(sl_context *context, uint32_t cells, size_t doors, uint32_t limit,
+                                sli_door_table *table) {
+    *table = (sli_door_table){.words = sl_bits_words(doors), .cell_count = cells, .limit = limit};
+    table->first = sl_alloc_array(context, cells, sizeof *table->first);
+    table->count = sl_alloc_array(context, cells, sizeof *table->count);
+    table->seen = sl_alloc_array(context, sl_bits_words(cells), sizeof *table->seen);
+    table->free = sl_alloc_array(context, sl_bits_words(cells), sizeof *table->free);
+    if (!table->first || !table->count || !table->seen || !table->free) return SL_NO_MEMORY;
+    sli_door_table_clear(table);
+    return SL_OK;
+}
+
+void sli_door_table_destroy(sl_context *context, sli_door_table *table) {
+    sl_free(context, table->first);
+    sl_free(context, table->count);
+    sl_free(context, table->seen);
+    sl_free(context, table->free);
+    sl_free(context, table->alternatives.items);
+    sl_free(context, table->sets.items);
+    sl_free(context, table->sorted.items);
+    *table = (sli_door_table){0};
+}
+
+void sli_door_table_clear(sli_door_table *table) {
+    const size_t words = sl_bits_words(table->cell_count);
+    memset(table->first, 0xff, table->cell_count * sizeof *table->first);
+    memset(table->count, 0, table->cell_count * sizeof *table->count);
+    memset(table->seen, 0, words * sizeof *table->seen);
+    memset(table->free, 0, words * sizeof *table->free);
+    table->alternatives.count = table->sets.count = 0;
+}
+
+static const sl_bits *set_of(const sli_door_table *table, uint32_t alternative) {
+    return table->sets.items + alternative * table->words;
+}
+
+static bool is_within(const sl_bits *set, const sl_bits *other, size_t words) {
+    for (size_t i = 0; i < words; i++)
+        if (set[i] & ~other[i]) return false;
+    return true;
+}
+
+bool sli_door_table_proves(const sli_door_table *table, uint32_t cell, const sl_bits *doors) {
+    if (sl_bits_has(table->free, cell)) return true;
+    for (uint32_t i = table->first[cell]; i != UINT32_MAX; i = table->alternatives.items[i].next)
+        if (!table->alternatives.items[i].dropped &&
+            is_within(set_of(table, i), doors, table->words))
+            return true;
+    return false;
+}
+
+static bool is_empty(const sl_bits *set, size_t words) {
+    sl_bits any = 0;
+    for (size_t i = 0; i < words; i++) any |= set[i];
+    return !any;
+}
+
+sl_status sli_door_table_add(sl_context *context, sli_door_table *table, uint32_t cell,
+                             const sl_bits *doors) {
+    const size_t words = table->words;
+    sl_bits_add(table->seen, cell);
+    if (sli_door_table_proves(table, cell, doors)) return SL_OK;
+    if (is_empty(doors, words)) {
+        sl_bits_add(table->free, cell);
+        return SL_OK;
+    }
+    for (uint32_t i = table->first[cell]; i != UINT32_MAX; i = table->alternatives.items[i].next) {
+        sli_door_alternative *old = &table->alternatives.items[i];
+        if (old->dropped || !is_within(doors, set_of(table, i), words)) continue;
+        old->dropped = true;
+        table->count[cell]--;
+    }
+    if (table->count[cell] == table->limit) {
+        table->fallbacks++;
+        sl_bits_add(table->free, cell);
+        return SL_OK;
+    }
+    SL_TRY(SL_ARRAY_ROOM(context, &table->alternatives, 1));
+    SL_TRY(SL_ARRAY_ROOM(context, &table->sets, words));
+    memcpy(table->sets.items + table->sets.count, doors, words * sizeof *doors);
+    table->sets.count += words;
+    table->alternatives.items[table->alternatives.count] =
+        (sli_door_alternative){.next = table->first[cell]};
+    table->first[cell] = (uint32_t)table->alternatives.count++;
+    table->count[cell]++;
+    return SL_OK;
+}
+
+static sl_status append_number(sl_context *context, sli_row_bytes *row, uint32_t value) {
+    SL_TRY(SL_ARRAY_ROOM(context, row, 5));
+    for (; value > 127; value >>= 7) row->items[row->count++] = (uint8_t)(value | 128);
+    row->items[row->count++] = (uint8_t)value;
+    return SL_OK;
+}
+
+static sl_status append_set(sl_context *context, const sl_bits *set, size_t words,
+                            sli_row_bytes *row) {
+    uint32_t count = 0, last = UINT32_MAX;
+    for (size_t i = 0; i < words; i++) count += (uint32_t)__builtin_popcountll(set[i]);
+    SL_TRY(append_number(context, row, count));
+    for (uint32_t door = 0; door < 64 * words; door++) {
+        if (!sl_bits_has(set, door)) continue;
+        SL_TRY(append_number(context, row, door - last - 1));
+        last = door;
+    }
+    return SL_OK;
+}
+
+/// Fewer doors first, then the lowest door that the other has not: the order does not tell how the
+/// sets were found.
+static bool comes_before(const sl_bits *a, const sl_bits *b, size_t words) {
+    int more = 0;
+    for (size_t i = 0; i < words; i++)
+        more += __builtin_popcountll(a[i]) - __builtin_popcountll(b[i]);
+    if (more) return more < 0;
+    for (size_t i = 0; i < words; i++) {
+        const sl_bits differ = a[i] ^ b[i];
+        if (differ) return a[i] & (differ & (~differ + 1));
+    }
+    return false;
+}
+
+/// The alternatives of a cell that stand, in order.
+static sl_status sort_sets(sl_context *context, sli_door_table *table, uint32_t cell) {
+    table->sorted.count = 0;
+    SL_TRY(SL_ARRAY_ROOM(context, &table->sorted, table->count[cell]));
+    uint32_t *sorted = table->sorted.items;
+    for (uint32_t i = table->first[cell]; i != UINT32_MAX; i = table->alternatives.items[i].next) {
+        if (table->alternatives.items[i].dropped) continue;
+        size_t at = table->sorted.count++;
+        for (; at && comes_before(set_of(table, i), set_of(table, sorted[at - 1]), table->words);
+             at--)
+            sorted[at] = sorted[at - 1];
+        sorted[at] = i;
+    }
+    return SL_OK;
+}
+
+sl_status sli_door_table_append(sl_context *context, sli_door_table *table, uint32_t first,
+                                sli_row_bytes *row) {
+    uint32_t last = UINT32_MAX;
+    for (uint32_t cell = first; cell < table->cell_count; cell++) {
+        if (!table->count[cell] || sl_bits_has(table->free, cell)) continue;
+        SL_TRY(append_number(context, row, cell - last - 1));
+        SL_TRY(append_number(context, row, table->count[cell]));
+        last = cell;
+        SL_TRY(sort_sets(context, table, cell));
+        for (size_t i = 0; i < table->sorted.count; i++)
+            SL_TRY(append_set(context, set_of(table, table->sorted.items[i]), table->words, row));
+    }
+    return SL_OK;
+}
+
+// --- both directions
+
+/// A pair of a row: the other cell, and its bytes behind that.
+typedef struct entry {
+    uint32_t cell;
+    const uint8_t *bytes;
+    size_t size;
+} entry;
+
+static uint32_t read_trusted(const uint8_t **next) {
+    uint32_t value = 0;
+    for (unsigned shift = 0;; shift += 7) {
+        const uint8_t byte = *(*next)++;
+        value |= (uint32_t)(byte & 127) << shift;
+        if (byte < 128) return value;
+    }
+}
+
+static bool next_entry(const uint8_t **next, const uint8_t *stop, entry *e) {
+    if (*next == stop) return false;
+    e->cell += 1 + read_trusted(next);
+    e->bytes = *next;
+    for (uint32_t sets = read_trusted(next); sets > 0; sets--)
+        for (uint32_t doors = read_trusted(next); doors > 0; doors--) read_trusted(next);
+    e->size = (size_t)(*next - e->bytes);
+    return true;
+}
+
+static sl_status append_entry(sl_context *context, const entry *e, uint32_t *last,
+                              sli_row_bytes *row) {
+    SL_TRY(append_number(context, row, e->cell - *last - 1));
+    *last = e->cell;
+    SL_TRY(SL_ARRAY_ROOM(context, row, e->size));
+    memcpy(row->items + row->count, e->bytes, e->size);
+    row->count += e->size;
+    return SL_OK;
+}
+
+static sl_status mirror_rows(sl_context *context, const sli_row_bytes *rows, uint32_t count,
+                             uint32_t *last, sli_row_bytes *out) {
+    memset(last, 0xff, count * sizeof *last);
+    for (uint32_t cell = 0; cell < count; cell++) {
+        if (!rows[cell].count) continue;
+        const uint8_t *next = rows[cell].items, *stop = next + rows[cell].count;
+        for (entry e = {.cell = UINT32_MAX}; next_entry(&next, stop, &e);) {
+            const entry back = {cell, e.bytes, e.size};
+            SL_TRY(append_entry(context, &e, &last[cell], &out[cell]));
+            SL_TRY(append_entry(context, &back, &last[e.cell], &out[e.cell]));
+        }
+    }
+    return SL_OK;
+}
+
+sl_status sli_door_rows_mirror(sl_context *context, sli_row_bytes *rows, uint32_t count) {
+    uint32_t *last = sl_alloc_array(context, count, sizeof *last);
+    sli_row_bytes *out = sl_alloc_array(context, count, sizeof *out);
+    const sl_status status =
+        last && out ? mirror_rows(context, rows, count, last, out) : SL_NO_MEMORY;
+    for (uint32_t cell = 0; cell < count; cell++) {
+        if (status != SL_OK && out) sl_free(context, out[cell].items);
+        if (status != SL_OK) continue;
+        sl_free(context, rows[cell].items);
+        rows[cell] = out[cell];
+    }
+    sl_free(context, last);
+    sl_free(context, out);
+    return status;
 }

@@ -1,37 +1,38 @@
-/// The search behind an explanation: depth first over portal sequences, as dfs.c, but from one cell
-/// for another, with a bound on the number of portals that is doubled until nothing is left beyond
-/// it. A sequence that cannot reach the target within the bound by any way there is, seen or not,
-/// is left alone (iterative deepening with an admissible estimate: Korf 1985).
+/// Why a cell sees another, or does not: a depth-first search from the one for the other.
 ///
-/// A pair is stabbed, only grazed, or hidden, whatever sight is asked for: sequences that are
-/// grazed are followed as well.
+/// The search has a bound on the number of portals. The bound is doubled until nothing is left
+/// beyond it. A sequence that cannot reach the target within the bound, seen or not, is not
+/// followed (iterative deepening with an admissible estimate: Korf 1985).
+///
+/// A pair is stabbed, only grazed, or hidden, whichever sight is asked for: sequences that are
+/// grazed are followed as well. For a hidden pair the sequences that came nearest are kept, each
+/// with the few portal ends that stop it.
 #include "sightline/explain.h"
-
-#include "base/base.h"
-#include "cell_to_cell/crossing.h"
+#include "cell_to_cell/directions.h"
 #include "cell_to_cell/explain_line.h"
+#include "cell_to_cell/portal_search.h"
+#include "geometry/orient.h"
 #include "sightline/solvers.h"
+#include "sightline/support.h"
+#include "space/index.h"
 
 #include <string.h>
 
 /// A cell on the way from the first.
 typedef struct step {
-    uint32_t cell;
-    uint32_t next;          ///< exit to try next, from 0
-    sl_crossings crossings; ///< of the portals so far
-    bool grazing;           ///< the sequence is no more than grazed
+    sli_portal_step at;
+    uint32_t directed;         ///< crossed last; none for the first
+    sli_directions directions; ///< of the portals so far
+    bool grazing;              ///< the sequence is no more than grazed
 } step;
 
 typedef struct search {
     const sl_space *space;
     const sl_explain_options *options;
-    void *solver;
-    uint32_t *distance; ///< by cell: portals to the target, SL_NO_WAY for no way
-    SL_ARRAY(step) steps;
-    SL_ARRAY(uint32_t) exits; ///< the sequence, with room for one more
+    sli_portal_search search; ///< stops where most_tests is reached
+    uint32_t *distance;       ///< by cell: portals to the target, SL_NO_WAY for no way
     uint32_t bound;           ///< sequences of more portals are left for later
     bool cut;                 ///< some were
-    bool stopped;             ///< most_tests is reached
     uint32_t stabbed, grazed; ///< portals of the shortest sequences found; UINT32_MAX for none
     uint32_t most_misses;
     sl_explanation out;
@@ -42,20 +43,101 @@ sl_explain_options sl_explain_options_default(void) {
 }
 
 void sl_explanation_destroy(sl_context *context, sl_explanation *explanation) {
-    sl_free(context, explanation->sequence.exits);
+    sl_free(context, explanation->sequence.directed);
     for (uint32_t i = 0; i < explanation->miss_count; i++)
-        sl_free(context, explanation->misses[i].sequence.exits);
+        sl_free(context, explanation->misses[i].sequence.directed);
     sl_free(context, explanation->misses);
     sl_free(context, explanation->bent.steps);
     sl_free(context, explanation->bent.bends);
     *explanation = (sl_explanation){0};
 }
 
+// --- the line that is shown
+
+/// Significant digits, of the size of the map, that are tried for a line's coordinates.
+#define MOST_DIGITS 15
+
+static bool is_strict(const sl_space *space, const sl_sequence *sequence, sl_line line) {
+    for (uint32_t i = 0; i < sequence->directed_count; i++) {
+        const sl_directed_portal *directed = &space->directed[sequence->directed[i]];
+        if (sli_orient(line.a, line.b, directed->left) <= 0 ||
+            sli_orient(line.a, line.b, directed->right) >= 0)
+            return false;
+    }
+    return true;
+}
+
+double sli_share_of_portal(const sl_directed_portal *directed, sl_line line) {
+    const double x = line.b.x - line.a.x, y = line.b.y - line.a.y;
+    const double left = x * (directed->left.y - line.a.y) - y * (directed->left.x - line.a.x);
+    const double right = x * (directed->right.y - line.a.y) - y * (directed->right.x - line.a.x);
+    return left > right ? fmin(fmax(left / (left - right), 0), 1) : 0;
+}
+
+/// Whether a line keeps half of what distance another one keeps from the portals' ends.
+static bool is_near(const sl_space *space, const sl_sequence *sequence, sl_line line,
+                    sl_line other) {
+    for (uint32_t i = 0; i < sequence->directed_count; i++) {
+        const sl_directed_portal *directed = &space->directed[sequence->directed[i]];
+        const double share = sli_share_of_portal(directed, line),
+                     wanted = sli_share_of_portal(directed, other);
+        if (share < wanted / 2 || 1 - share < (1 - wanted) / 2) return false;
+    }
+    return true;
+}
+
+static sl_point rounded(sl_point p, double decimals) {
+    return (sl_point){round(p.x * decimals) / decimals, round(p.y * decimals) / decimals};
+}
+
+/// Replaces a line by one near it with as few decimals as possible, strictly between the ends of
+/// every portal of the sequence. False, and the line unchanged, if doubles cannot express one.
+static bool simplify_line(const sl_space *space, const sl_sequence *sequence, sl_line *line) {
+    const sl_box b = space->bounds;
+    const double size =
+        fmax(fmax(fabs(b.min.x), fabs(b.max.x)), fmax(fabs(b.min.y), fabs(b.max.y)));
+    const double first = size > 0 ? 1 - ceil(log10(size)) : 0;
+    const bool strict = is_strict(space, sequence, *line);
+    for (int digits = 0; digits < MOST_DIGITS; digits++) {
+        const double decimals = pow(10, first + digits);
+        const sl_line simple = {rounded(line->a, decimals), rounded(line->b, decimals)};
+        if (!is_strict(space, sequence, simple)) continue;
+        if (strict && !is_near(space, sequence, simple, *line)) continue;
+        *line = simple;
+        return true;
+    }
+    return strict;
+}
+
+/// Where the line crosses a portal; an end of it where it lies along.
+static sl_point crossing_point(const sl_directed_portal *directed, sl_line line) {
+    const double share = sli_share_of_portal(directed, line);
+    return (sl_point){directed->left.x + share * (directed->right.x - directed->left.x),
+                      directed->left.y + share * (directed->right.y - directed->left.y)};
+}
+
+sl_point sli_halfway_into(const sl_space *space, uint32_t cell, sl_point at, sl_point direction) {
+    const double half = sli_ray_length(space, cell, at, direction) / 2;
+    return (sl_point){at.x + half * direction.x, at.y + half * direction.y};
+}
+
+/// The line's piece from the middle of its way through cell `from` to that through the last cell.
+static sl_segment shown_segment(const sl_space *space, const sl_sequence *sequence, uint32_t from,
+                                sl_line line) {
+    const sl_directed_portal *first = &space->directed[sequence->directed[0]];
+    const sl_directed_portal *last =
+        &space->directed[sequence->directed[sequence->directed_count - 1]];
+    const double x = line.b.x - line.a.x, y = line.b.y - line.a.y, length = hypot(x, y);
+    const sl_point forward = {x / length, y / length}, back = {-x / length, -y / length};
+    return (sl_segment){sli_halfway_into(space, from, crossing_point(first, line), back),
+                        sli_halfway_into(space, last->cell, crossing_point(last, line), forward)};
+}
+
 // --- distances
 
 /// Breadth first from the target. Portals lead both ways, so that the ways there are the ways back.
-sl_status sl_find_distances(sl_context *context, const sl_space *space, uint32_t to,
-                            uint32_t **out) {
+sl_status sli_find_distances(sl_context *context, const sl_space *space, uint32_t to,
+                             uint32_t **out) {
     const uint32_t count = space->cell_count;
     uint32_t *distance = sl_alloc_array(context, count, sizeof *distance);
     uint32_t *queue = sl_alloc_array(context, count, sizeof *queue);
@@ -70,8 +152,8 @@ sl_status sl_find_distances(sl_context *context, const sl_space *space, uint32_t
     distance[to] = 0;
     for (uint32_t begin = 0; begin < end; begin++) {
         const sl_cell *cell = &space->cells[queue[begin]];
-        for (uint32_t i = 0; i < cell->exit_count; i++) {
-            const uint32_t next = space->exits[cell->first_exit + i].cell;
+        for (uint32_t i = 0; i < cell->directed_count; i++) {
+            const uint32_t next = space->directed[cell->first_directed + i].cell;
             if (distance[next] != SL_NO_WAY) continue;
             distance[next] = distance[queue[begin]] + 1;
             queue[end++] = next;
@@ -83,52 +165,59 @@ sl_status sl_find_distances(sl_context *context, const sl_space *space, uint32_t
 
 // --- sequences to be told
 
-/// A copy of the sequence as it stands with one more exit, without ends.
+/// A copy of the sequence as it stands with one more directed portal, without ends.
 static sl_status copy_sequence(sl_context *context, const search *s, uint32_t last,
                                sl_sequence *out) {
-    const uint32_t before = (uint32_t)s->exits.count;
-    uint32_t *exits = sl_alloc_array(context, (size_t)before + 1, sizeof *exits);
-    if (!exits) return SL_NO_MEMORY;
-    if (before) memcpy(exits, s->exits.items, before * sizeof *exits);
-    exits[before] = last;
-    sl_free(context, out->exits);
-    *out = (sl_sequence){.exits = exits, .exit_count = before + 1};
+    const step *steps = s->search.steps;
+    const uint32_t count = (uint32_t)s->search.count;
+    uint32_t *directed = sl_alloc_array(context, count, sizeof *directed);
+    if (!directed) return SL_NO_MEMORY;
+    for (uint32_t i = 1; i < count; i++) directed[i - 1] = steps[i].directed;
+    directed[count - 1] = last;
+    sl_free(context, out->directed);
+    *out = (sl_sequence){.directed = directed, .directed_count = count};
     return SL_OK;
 }
 
-/// The target is reached by the sequence with one more exit, which the solver holds.
+/// The target is reached by the sequence with one more directed portal, which the solver holds.
 static sl_status note_found(sl_context *context, search *s, uint32_t last, bool grazing) {
     const sl_solver *solver = s->options->solver;
     sl_explanation *out = &s->out;
     SL_TRY(copy_sequence(context, s, last, &out->sequence));
     out->verdict = grazing ? SL_GRAZING : SL_STABBED;
-    out->witness = solver->witness(s->solver);
+    out->witness = solver->witness(s->search.solver_state);
     if (grazing) {
-        s->grazed = out->sequence.exit_count;
-        return solver->conflict(context, s->solver, out->sequence.ends, &out->sequence.end_count);
+        s->grazed = out->sequence.directed_count;
+        return solver->conflict(context, s->search.solver_state, out->sequence.ends,
+                                &out->sequence.end_count);
     }
-    s->stabbed = out->sequence.exit_count;
+    s->stabbed = out->sequence.directed_count;
     s->grazed = 0;
     return SL_OK;
 }
 
+static const step *last_step(const search *s) {
+    return (const step *)s->search.steps + s->search.count - 1;
+}
+
 /// The last cell before the sequence's last portal.
 static uint32_t last_cell(const sl_space *space, uint32_t from, const sl_sequence *sequence) {
-    const uint32_t count = sequence->exit_count;
-    return count > 1 ? space->exits[sequence->exits[count - 2]].cell : from;
+    const uint32_t count = sequence->directed_count;
+    return count > 1 ? space->directed[sequence->directed[count - 2]].cell : from;
 }
 
 static bool is_farther(const sl_miss *a, const sl_miss *b) {
     if (a->missing != b->missing) return a->missing < b->missing;
     if (a->turns != b->turns) return b->turns;
-    return a->sequence.exit_count < b->sequence.exit_count;
+    return a->sequence.directed_count < b->sequence.directed_count;
 }
 
-/// Where the miss belongs in the list, farthest first: the place of the one from the same last
-/// cell, or else the list's end, from where it moves up. UINT32_MAX where it does not.
+/// The place of a miss in the list, which has the farthest first. A miss takes the place of one
+/// with the same last cell, or else the list's end, from where it moves up. UINT32_MAX for no
+/// place.
 static uint32_t place_of_miss(const search *s, const sl_miss *miss) {
     const sl_explanation *out = &s->out;
-    const uint32_t cell = s->steps.items[s->steps.count - 1].cell;
+    const uint32_t cell = last_step(s)->at.cell;
     for (uint32_t i = 0; i < out->miss_count; i++)
         if (last_cell(s->space, out->from, &out->misses[i].sequence) == cell)
             return is_farther(miss, &out->misses[i]) ? i : UINT32_MAX;
@@ -137,24 +226,24 @@ static uint32_t place_of_miss(const search *s, const sl_miss *miss) {
     return s->most_misses && is_farther(miss, &out->misses[last]) ? last : UINT32_MAX;
 }
 
-static uint32_t place_of_exit(const sl_sequence *sequence, uint32_t exit) {
+static uint32_t place_of_portal(const sl_sequence *sequence, uint32_t directed) {
     uint32_t at = 0;
-    while (sequence->exits[at] != exit) at++;
+    while (sequence->directed[at] != directed) at++;
     return at;
 }
 
-/// The ends of the last portal and of the one or two before it that leave no direction for it: one
-/// that it is crossed backwards to, or the two that bound the directions there were.
+/// Adds the ends of the last portal and of the one or two before it that leave it no direction: one
+/// portal that it turns back from, or the two that bound the directions so far.
 static void tell_turn(const search *s, sl_sequence *sequence) {
-    const uint32_t last = sequence->exit_count - 1;
-    const uint32_t stop = sequence->exits[last];
-    const sl_crossings before = s->steps.items[s->steps.count - 1].crossings;
-    uint32_t portals[3] = {place_of_exit(sequence, before.least),
-                           place_of_exit(sequence, before.most), last};
+    const uint32_t last = sequence->directed_count - 1;
+    const uint32_t stop = sequence->directed[last];
+    const sli_directions before = last_step(s)->directions;
+    uint32_t portals[3] = {place_of_portal(sequence, before.least),
+                           place_of_portal(sequence, before.most), last};
     uint32_t first = 0;
     for (uint32_t i = last; i-- > 0 && !first;) {
-        sl_crossings pair = {stop, stop};
-        if (sl_crossings_add(s->space, &pair, sequence->exits[i])) continue;
+        sli_directions pair = {stop, stop};
+        if (sli_directions_add(s->space, &pair, sequence->directed[i])) continue;
         portals[1] = i;
         first = 1;
     }
@@ -165,38 +254,39 @@ static void tell_turn(const search *s, sl_sequence *sequence) {
 }
 
 static bool is_visited(const search *s, uint32_t cell) {
-    for (size_t i = 0; i < s->steps.count; i++)
-        if (s->steps.items[i].cell == cell) return true;
+    const step *steps = s->search.steps;
+    for (size_t i = 0; i < s->search.count; i++)
+        if (steps[i].at.cell == cell) return true;
     return false;
 }
 
-/// The exit stops the sequence: by ends, and the solver then holds it, or since it turns back. Only
-/// exits that lead nearer to the target are told of, what stands in the way there; and none that
+/// Notes a directed portal that stops the sequence: either its ends leave no line, and the solver
+/// holds it, or it turns back. Only portals that lead nearer to the target are noted, and none that
 /// lead back to where the sequence has been.
-static sl_status note_miss(sl_context *context, search *s, uint32_t exit, bool turns) {
+static sl_status note_miss(sl_context *context, search *s, uint32_t directed, bool turns) {
     sl_explanation *out = &s->out;
-    const uint32_t missing = s->distance[s->steps.items[s->steps.count - 1].cell];
-    if (out->verdict != SL_HIDDEN || s->distance[s->space->exits[exit].cell] >= missing)
+    const uint32_t missing = s->distance[last_step(s)->at.cell];
+    if (out->verdict != SL_HIDDEN || s->distance[s->space->directed[directed].cell] >= missing)
         return SL_OK;
     sl_miss miss = {
-        .sequence.exit_count = (uint32_t)s->exits.count + 1, .missing = missing, .turns = turns};
+        .sequence.directed_count = (uint32_t)s->search.count, .missing = missing, .turns = turns};
     uint32_t at = place_of_miss(s, &miss);
-    if (at == UINT32_MAX || is_visited(s, s->space->exits[exit].cell)) return SL_OK;
-    SL_TRY(copy_sequence(context, s, exit, &miss.sequence));
+    if (at == UINT32_MAX || is_visited(s, s->space->directed[directed].cell)) return SL_OK;
+    SL_TRY(copy_sequence(context, s, directed, &miss.sequence));
     if (turns) {
         tell_turn(s, &miss.sequence);
     } else {
         const sl_status status = s->options->solver->conflict(
-            context, s->solver, miss.sequence.ends, &miss.sequence.end_count);
+            context, s->search.solver_state, miss.sequence.ends, &miss.sequence.end_count);
         if (status != SL_OK) {
-            sl_free(context, miss.sequence.exits);
+            sl_free(context, miss.sequence.directed);
             return status;
         }
     }
     if (at == out->miss_count)
         out->miss_count++;
     else
-        sl_free(context, out->misses[at].sequence.exits);
+        sl_free(context, out->misses[at].sequence.directed);
     for (; at > 0 && is_farther(&miss, &out->misses[at - 1]); at--)
         out->misses[at] = out->misses[at - 1];
     out->misses[at] = miss;
@@ -205,9 +295,9 @@ static sl_status note_miss(sl_context *context, search *s, uint32_t exit, bool t
 
 // --- the search
 
-/// Whether a sequence that takes at least so many portals in all is not to be followed: another one
-/// is as short, or it goes beyond the bound.
-static bool is_beyond(search *s, bool grazing, uint32_t portals) {
+/// Whether a sequence of at least so many portals in all is left alone: another one is as short, or
+/// it goes beyond the bound.
+static bool is_neighbour(search *s, bool grazing, uint32_t portals) {
     if (portals >= s->stabbed || (grazing && portals >= s->grazed)) return true;
     if (portals > s->bound) s->cut = true;
     return portals > s->bound;
@@ -217,65 +307,56 @@ static sl_status count_test(sl_context *context, search *s) {
     sl_explanation *out = &s->out;
     if (++out->tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
     if (out->tests % 1024 == 0) sl_report(context, "explain", "tests", out->tests, 0);
-    s->stopped = out->tests == s->options->most_tests;
+    s->search.stop = out->tests == s->options->most_tests;
     return SL_OK;
 }
 
-/// What comes of the sequence with one more exit, which the solver holds. `enters`: it is followed
-/// into the next cell, and the solver keeps it.
-static sl_status judge(sl_context *context, search *s, uint32_t number, sl_stab_verdict verdict,
+/// Decides on the sequence with the directed portal of `to`, which the solver holds. `enters`: it
+/// is followed into the next cell, and the solver keeps it.
+static sl_status judge(sl_context *context, search *s, const step *to, sl_stab_verdict verdict,
                        bool *enters) {
-    const sl_exit *exit = &s->space->exits[number];
-    const step from = s->steps.items[s->steps.count - 1];
-    const uint32_t portals = (uint32_t)s->exits.count + 1;
-    const bool grazing = verdict == SL_GRAZING;
+    const uint32_t portals = (uint32_t)s->search.count, cell = to->at.cell;
     *enters = false;
-    if (verdict == SL_HIDDEN) return note_miss(context, s, number, false);
-    if (is_beyond(s, grazing, portals + s->distance[exit->cell])) return SL_OK;
-    if (exit->cell == s->out.to) return note_found(context, s, number, grazing);
-    SL_TRY(SL_ARRAY_ROOM(context, &s->steps, 1));
-    SL_TRY(SL_ARRAY_ROOM(context, &s->exits, 1));
-    s->exits.items[s->exits.count++] = number;
-    s->steps.items[s->steps.count++] =
-        (step){.cell = exit->cell, .crossings = from.crossings, .grazing = grazing};
-    sl_crossings_add(s->space, &s->steps.items[s->steps.count - 1].crossings, number);
+    if (verdict == SL_HIDDEN) return note_miss(context, s, to->directed, false);
+    if (is_neighbour(s, to->grazing, portals + s->distance[cell])) return SL_OK;
+    if (cell == s->out.to) return note_found(context, s, to->directed, to->grazing);
     *enters = true;
     return SL_OK;
 }
 
-static sl_status try_exit(sl_context *context, search *s, uint32_t number) {
-    const sl_solver *solver = s->options->solver;
-    const sl_exit *exit = &s->space->exits[number];
-    const step from = s->steps.items[s->steps.count - 1];
-    const uint32_t portals = (uint32_t)s->exits.count + 1 + s->distance[exit->cell];
-    sl_crossings crossings = from.crossings;
-    if (!sl_crossings_add(s->space, &crossings, number)) return note_miss(context, s, number, true);
-    if (is_beyond(s, from.grazing, portals)) return SL_OK;
+static sl_status cross(sl_context *context, void *job, const void *last, void *next,
+                       uint32_t number) {
+    search *s = job;
+    const step *from = last;
+    step *to = next;
+    const sl_directed_portal *directed = &s->space->directed[number];
+    const uint32_t portals = (uint32_t)s->search.count + s->distance[directed->cell];
+    *to = (step){.at.cell = directed->cell, .directed = number, .directions = from->directions};
+    if (!sli_directions_add(s->space, &to->directions, number))
+        return note_miss(context, s, number, true);
+    if (is_neighbour(s, from->grazing, portals)) return SL_OK;
     SL_TRY(count_test(context, s));
     sl_stab_verdict verdict;
     bool enters;
-    SL_TRY(solver->push(context, s->solver, exit->left, exit->right, &verdict));
-    SL_TRY(judge(context, s, number, verdict, &enters));
-    if (!enters) solver->pop(s->solver);
+    SL_TRY(sli_portal_search_push(context, &s->search, directed->left, directed->right, &verdict));
+    to->grazing = verdict == SL_GRAZING;
+    SL_TRY(judge(context, s, to, verdict, &enters));
+    if (enters)
+        s->search.count++;
+    else
+        sli_portal_search_pop(&s->search);
     return SL_OK;
 }
 
 /// All sequences within the bound.
 static sl_status search_within(sl_context *context, search *s) {
-    const sl_space *space = s->space;
-    SL_TRY(SL_ARRAY_ROOM(context, &s->steps, 1));
-    s->steps.items[s->steps.count++] = (step){.cell = s->out.from, .crossings = SL_CROSSINGS_NONE};
-    while (s->steps.count && !s->stopped) {
-        step *last = &s->steps.items[s->steps.count - 1];
-        const sl_cell *cell = &space->cells[last->cell];
-        if (last->next < cell->exit_count) {
-            SL_TRY(try_exit(context, s, cell->first_exit + last->next++));
-        } else if (--s->steps.count) {
-            s->exits.count--;
-            s->options->solver->pop(s->solver);
-        }
-    }
-    return SL_OK;
+    static const sli_portal_visitor visitor = {.step_size = sizeof(step), .cross = cross};
+    SL_TRY(sli_portal_search_start(context, &s->search, sizeof(step)));
+    step *first = s->search.steps;
+    *first =
+        (step){.at.cell = s->out.from, .directed = UINT32_MAX, .directions = SLI_NO_DIRECTIONS};
+    s->search.count++;
+    return sli_portal_search_run(context, &s->search, &visitor, s);
 }
 
 static sl_status search_all(sl_context *context, search *s) {
@@ -287,37 +368,36 @@ static sl_status search_all(sl_context *context, search *s) {
     for (s->bound = out->distance;; s->bound *= 2) {
         s->cut = false;
         SL_TRY(search_within(context, s));
-        if (!s->cut || s->stopped || out->verdict == SL_STABBED) break;
+        if (!s->cut || s->search.stop || out->verdict == SL_STABBED) break;
     }
-    out->complete = !s->stopped;
+    out->complete = !s->search.stop;
     return SL_OK;
 }
 
 static void drop_misses(sl_context *context, sl_explanation *out) {
-    for (uint32_t i = 0; i < out->miss_count; i++) sl_free(context, out->misses[i].sequence.exits);
+    for (uint32_t i = 0; i < out->miss_count; i++)
+        sl_free(context, out->misses[i].sequence.directed);
     out->miss_count = 0;
 }
 
 static sl_status explain(sl_context *context, search *s) {
     const sl_solver *solver = s->options->solver;
     sl_explanation *out = &s->out;
-    SL_TRY(sl_find_distances(context, s->space, out->to, &s->distance));
+    SL_TRY(sli_find_distances(context, s->space, out->to, &s->distance));
     out->distance = s->distance[out->from];
     out->complete = true;
     out->verdict = out->distance == 0 ? SL_STABBED : SL_HIDDEN;
     if (out->distance != 0 && out->distance != SL_NO_WAY) {
-        SL_TRY(solver->create(context, s->space->bounds, &s->solver));
-        const sl_status status = search_all(context, s);
-        solver->destroy(context, s->solver);
-        SL_TRY(status);
+        SL_TRY(solver->create(context, s->space->bounds, &s->search.solver_state));
+        SL_TRY(search_all(context, s));
     }
     out->seen =
         out->verdict == SL_STABBED || (out->verdict == SL_GRAZING && out->sight == SL_CLOSED);
     if (out->verdict != SL_HIDDEN) drop_misses(context, out);
-    if (!out->sequence.exit_count) return SL_OK;
+    if (!out->sequence.directed_count) return SL_OK;
     out->touches =
-        out->verdict == SL_GRAZING || !sl_simplify_line(s->space, &out->sequence, &out->witness);
-    out->shown = sl_shown_segment(s->space, &out->sequence, out->from, out->witness);
+        out->verdict == SL_GRAZING || !simplify_line(s->space, &out->sequence, &out->witness);
+    out->shown = shown_segment(s->space, &out->sequence, out->from, out->witness);
     return SL_OK;
 }
 
@@ -338,16 +418,58 @@ sl_status sl_explain(sl_context *context, const sl_space *space, const sl_explai
     SL_TRY(check(context, space, options, from, to));
     search s = {.space = space,
                 .options = options,
+                .search = {.space = space, .solver = options->solver},
                 .stabbed = UINT32_MAX,
                 .grazed = UINT32_MAX,
                 .out = {.from = from, .to = to, .sight = options->sight}};
     const sl_status status = explain(context, &s);
+    sli_portal_search_end(context, &s.search);
     sl_free(context, s.distance);
-    sl_free(context, s.steps.items);
-    sl_free(context, s.exits.items);
     if (status == SL_OK)
         *out = s.out;
     else
         sl_explanation_destroy(context, &s.out);
     return status;
+}
+
+// --- what is said of a sequence
+
+sl_point sl_sequence_end(const sl_space *space, const sl_sequence *sequence, sl_stab_end end) {
+    const sl_directed_portal *directed = &space->directed[sequence->directed[end.portal]];
+    return end.left ? directed->left : directed->right;
+}
+
+/// The places of the ends of one side, each once. Returns how many.
+static uint32_t places_of(const sl_space *space, const sl_sequence *sequence, bool left,
+                          sl_point places[SL_CONFLICT_MOST]) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < sequence->end_count; i++) {
+        if (sequence->ends[i].left != left) continue;
+        const sl_point p = sl_sequence_end(space, sequence, sequence->ends[i]);
+        bool known = false;
+        for (uint32_t k = 0; k < count; k++) known |= places[k].x == p.x && places[k].y == p.y;
+        if (!known) places[count++] = p;
+    }
+    return count;
+}
+
+static bool segments_cross(const sl_point a[2], const sl_point b[2]) {
+    return sli_orient(a[0], a[1], b[0]) * sli_orient(a[0], a[1], b[1]) < 0 &&
+           sli_orient(b[0], b[1], a[0]) * sli_orient(b[0], b[1], a[1]) < 0;
+}
+
+const char *sl_sequence_reason(const sl_space *space, const sl_sequence *sequence) {
+    sl_point left[SL_CONFLICT_MOST], right[SL_CONFLICT_MOST];
+    const uint32_t lefts = places_of(space, sequence, true, left);
+    const uint32_t rights = places_of(space, sequence, false, right);
+    if (lefts == 1 && rights == 1) return "that left end is the same point as that right end";
+    if (lefts == 1 && rights == 2)
+        return "that left end lies between those right ends, on one line";
+    if (lefts == 2 && rights == 1)
+        return "that right end lies between those left ends, on one line";
+    if (lefts == 1) return "that left end lies within the triangle of those right ends";
+    if (rights == 1) return "that right end lies within the triangle of those left ends";
+    if (lefts == 2 && rights == 2 && segments_cross(left, right))
+        return "the segment between those left ends crosses the segment between those right ends";
+    return "what lies between those left ends overlaps what lies between those right ends";
 }

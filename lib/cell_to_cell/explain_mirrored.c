@@ -1,81 +1,82 @@
-/// A sightline by mirror, to be told: depth first over sequences of portals and mirrors, with one
-/// reflection more each time, and as in explain.c with a bound on what is crossed that is doubled
-/// until a line is found or nothing is left beyond it.
-#include "base/base.h"
+/// Finds the sightline with the fewest mirrors, and of these one over few portals, to be explained.
+///
+/// The search runs once for each number of reflections: 1, then 2, and so on. As in explain.c it
+/// has a bound on the number of portals and mirrors crossed, which is doubled until a line is found
+/// or nothing is left beyond the bound. In mirrored space the line is straight. Its bends in the
+/// map are where it crosses the mirrors.
+#include "cell_to_cell/directions.h"
 #include "cell_to_cell/explain_line.h"
-#include "cell_to_cell/unfolded.h"
-#include "effects/mirror_sides.h"
+#include "cell_to_cell/portal_search.h"
+#include "effects/mirrors.h"
 #include "sightline/explain.h"
+#include "sightline/support.h"
 
 #include <math.h>
 
 typedef struct step {
-    sl_unfolded at;
-    sl_exit place; ///< what was crossed last, where the map has it; ends named as those unfolded
-    uint32_t cell, exit, next;
+    sli_portal_step at;
+    sli_unfolded place;        ///< where mirrored space has what was crossed last
+    sl_directed_portal of_map; ///< where the map has it; ends named as those unfolded
+    uint32_t directed;
     bool grazing;
 } step;
 
 typedef struct search {
-    const sl_space *space;
     const sl_map *map;
     const sl_explain_options *options;
-    void *solver;
+    sli_portal_search search; ///< stops where most_tests is reached
     uint32_t *distance;
-    sl_mirror_sides sides;
-    SL_ARRAY(step) steps;
+    sli_mirror_sides sides;
     uint32_t from, to, reflections, bound;
     uint32_t best; ///< crossed by the shortest found; UINT32_MAX for none
-    bool cut, stopped;
+    bool cut;
     sl_bent_sightline out;
 } search;
 
-static const step *last_step(const search *s) {
-    return &s->steps.items[s->steps.count - 1];
-}
-
 // --- what is found
 
-static sl_point between(const sl_exit *exit, double share) {
-    return (sl_point){exit->left.x + share * (exit->right.x - exit->left.x),
-                      exit->left.y + share * (exit->right.y - exit->left.y)};
+static sl_point between(const sl_directed_portal *directed, double share) {
+    return (sl_point){directed->left.x + share * (directed->right.x - directed->left.x),
+                      directed->left.y + share * (directed->right.y - directed->left.y)};
 }
 
 /// Where the line turns, in the map: a mirror is crossed at the same share of it as its image.
+/// `last` stands behind the steps of the way.
 static void place_bends(const search *s, const step *last, sl_line line) {
-    const sl_frame *f = &last->at.frame;
+    const sl_space *space = s->search.space;
+    const sli_mirror_frame *f = &last->place.frame;
     const double x = line.b.x - line.a.x, y = line.b.y - line.a.y, length = hypot(x, y);
     const sl_point back = {-x / length, -y / length};
     // Frames keep lengths: back from one is by its transpose.
     const sl_point on = {(f->xx * x + f->yx * y) / length, (f->xy * x + f->yy * y) / length};
     sl_point *bends = s->out.bends;
     uint32_t count = 1;
-    for (size_t i = 1; i <= s->steps.count; i++) {
-        const step *at = i < s->steps.count ? &s->steps.items[i] : last;
-        const sl_point crossed = between(&at->place, sl_share_of_exit(&at->at.ends, line));
-        if (i == 1) bends[0] = sl_halfway_into(s->space, s->from, crossed, back);
-        if (at->at.mirror != UINT32_MAX) bends[count++] = crossed;
-        if (at == last) bends[count] = sl_halfway_into(s->space, s->to, crossed, on);
+    for (const step *at = (const step *)s->search.steps + 1; at <= last; at++) {
+        const sl_point crossed = between(&at->of_map, sli_share_of_portal(&at->place.ends, line));
+        if (at - 1 == (const step *)s->search.steps)
+            bends[0] = sli_halfway_into(space, s->from, crossed, back);
+        if (at->place.mirror != UINT32_MAX) bends[count++] = crossed;
+        if (at == last) bends[count] = sli_halfway_into(space, s->to, crossed, on);
     }
 }
 
-static sl_status note_found(sl_context *context, search *s, const step *last, bool grazing) {
+static sl_status note_found(sl_context *context, search *s, const step *last) {
+    const step *steps = s->search.steps;
     sl_bent_sightline *out = &s->out;
     sl_free(context, out->steps);
     sl_free(context, out->bends);
     out->bends = NULL;
-    out->mirrors = last->at.frame.depth;
-    out->step_count = (uint32_t)s->steps.count;
+    out->mirrors = last->place.frame.depth;
+    out->step_count = (uint32_t)s->search.count;
     out->steps = sl_alloc_array(context, out->step_count, sizeof *out->steps);
     out->bends = sl_alloc_array(context, (size_t)out->mirrors + 2, sizeof *out->bends);
     if (!out->steps || !out->bends) return SL_NO_MEMORY;
-    for (uint32_t i = 0; i < out->step_count; i++) {
-        const step *at = i + 1 < s->steps.count ? &s->steps.items[i + 1] : last;
-        out->steps[i] = (sl_bent_step){at->exit, at->at.mirror, at->cell};
-    }
-    out->verdict = grazing ? SL_GRAZING : SL_STABBED;
+    for (uint32_t i = 0; i < out->step_count; i++)
+        out->steps[i] =
+            (sl_bent_step){steps[i + 1].directed, steps[i + 1].place.mirror, steps[i + 1].at.cell};
+    out->verdict = last->grazing ? SL_GRAZING : SL_STABBED;
     s->best = out->step_count;
-    place_bends(s, last, s->options->solver->witness(s->solver));
+    place_bends(s, last, s->search.solver->witness(s->search.solver_state));
     return SL_OK;
 }
 
@@ -83,132 +84,130 @@ static sl_status note_found(sl_context *context, search *s, const step *last, bo
 
 /// Whether the sequence has been in a cell since the last mirror: no line enters one twice.
 static bool has_been_in(const search *s, uint32_t cell) {
-    for (size_t i = s->steps.count; i-- > 0;) {
-        if (s->steps.items[i].cell == cell) return true;
-        if (s->steps.items[i].at.mirror != UINT32_MAX) return false;
+    const step *steps = s->search.steps;
+    for (size_t i = s->search.count; i-- > 0;) {
+        if (steps[i].at.cell == cell) return true;
+        if (steps[i].place.mirror != UINT32_MAX) return false;
     }
     return false;
 }
 
 static sl_status count_test(sl_context *context, search *s) {
     if (++s->out.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
-    s->stopped = s->out.tests == s->options->most_tests;
+    s->search.stop = s->out.tests == s->options->most_tests;
     return SL_OK;
 }
 
 /// Tests the sequence with one step more, and goes there.
-static sl_status try_step(sl_context *context, search *s, step *to) {
-    const sl_solver *solver = s->options->solver;
-    const step *from = last_step(s), *steps = s->steps.items;
-    const uint32_t crossed = (uint32_t)s->steps.count;
-    if (s->distance[to->cell] == SL_NO_WAY || crossed + s->distance[to->cell] >= s->best)
-        return SL_OK;
-    if (crossed + s->distance[to->cell] > s->bound) {
+static sl_status try_step(sl_context *context, search *s, const step *from, step *to) {
+    const step *steps = s->search.steps;
+    const uint32_t crossed = (uint32_t)s->search.count, cell = to->at.cell;
+    if (s->distance[cell] == SL_NO_WAY || crossed + s->distance[cell] >= s->best) return SL_OK;
+    if (crossed + s->distance[cell] > s->bound) {
         s->cut = true;
         return SL_OK;
     }
-    if (!sl_unfolded_may_cross(&steps[from->at.least].at.ends, &steps[from->at.most].at.ends,
-                               &from->at, crossed, &to->at))
+    if (!sli_unfolded_may_cross(&steps[from->place.least].place.ends,
+                                &steps[from->place.most].place.ends, &from->place, crossed,
+                                &to->place))
         return SL_OK;
     SL_TRY(count_test(context, s));
     sl_stab_verdict verdict;
-    SL_TRY(solver->push(context, s->solver, to->at.ends.left, to->at.ends.right, &verdict));
+    SL_TRY(sli_portal_search_push(context, &s->search, to->place.ends.left, to->place.ends.right,
+                                  &verdict));
     to->grazing = from->grazing || verdict == SL_GRAZING;
     const bool hidden = verdict == SL_HIDDEN || (to->grazing && s->options->sight == SL_OPEN);
-    const bool found = !hidden && to->at.frame.depth && to->cell == s->to;
-    const sl_status status = found ? note_found(context, s, to, to->grazing) : SL_OK;
-    if (hidden || found) {
-        solver->pop(s->solver);
-        return status;
-    }
-    SL_TRY(SL_ARRAY_ROOM(context, &s->steps, 1));
-    s->steps.items[s->steps.count++] = *to;
-    return SL_OK;
+    const bool found = !hidden && to->place.frame.depth && cell == s->to;
+    const sl_status status = found ? note_found(context, s, to) : SL_OK;
+    if (hidden || found)
+        sli_portal_search_pop(&s->search);
+    else
+        s->search.count++;
+    return status;
 }
 
-static sl_status try_exit(sl_context *context, search *s, uint32_t number) {
-    const sl_exit *exit = &s->space->exits[number];
-    const sl_frame frame = last_step(s)->at.frame;
-    if (has_been_in(s, exit->cell)) return SL_OK;
-    const bool swaps = frame.depth % 2;
-    step to = {.at = {.ends = sl_unfold(&frame, exit->left, exit->right, &s->out.rounded),
-                      .frame = frame,
-                      .mirror = UINT32_MAX},
-               .place = {.left = swaps ? exit->right : exit->left,
-                         .right = swaps ? exit->left : exit->right},
-               .cell = exit->cell,
-               .exit = number};
-    return try_step(context, s, &to);
+/// A step over a piece of the map, by the frame of the step before.
+static step make_step(search *s, const step *from, uint32_t cell, sl_point left, sl_point right) {
+    const bool swaps = from->place.frame.depth % 2;
+    return (step){.at.cell = cell,
+                  .place = {.ends = sli_unfold(&from->place.frame, left, right, &s->out.rounded),
+                            .frame = from->place.frame,
+                            .mirror = UINT32_MAX},
+                  .of_map = {.left = swaps ? right : left, .right = swaps ? left : right},
+                  .directed = UINT32_MAX};
 }
 
-static sl_status try_mirror(sl_context *context, search *s, uint32_t number) {
-    const sl_mirror_side *side = &s->sides.sides[number];
-    const sl_unfolded from = last_step(s)->at;
-    if (from.mirror == side->mirror || from.frame.depth == s->reflections) return SL_OK;
-    const bool swaps = from.frame.depth % 2;
-    step to = {.at = {.ends = sl_unfold(&from.frame, side->left, side->right, &s->out.rounded),
-                      .frame = sl_frame_reflect(&from.frame, s->map->mirrors[side->mirror].segment),
-                      .mirror = side->mirror},
-               .place = {.left = swaps ? side->right : side->left,
-                         .right = swaps ? side->left : side->right},
-               .cell = side->cell,
-               .exit = UINT32_MAX};
-    return try_step(context, s, &to);
+static sl_status cross(sl_context *context, void *job, const void *last, void *next,
+                       uint32_t number) {
+    search *s = job;
+    step *to = next;
+    const sl_directed_portal *directed = &s->search.space->directed[number];
+    if (has_been_in(s, directed->cell)) return SL_OK;
+    *to = make_step(s, last, directed->cell, directed->left, directed->right);
+    to->directed = number;
+    return try_step(context, s, last, to);
+}
+
+static sl_status reflect(sl_context *context, void *job, const void *last, void *next,
+                         uint32_t number) {
+    search *s = job;
+    const step *from = last;
+    step *to = next;
+    const sli_mirror_side *side = &s->sides.sides[number];
+    const sl_segment mirror = s->map->mirrors[side->mirror].segment;
+    if (from->place.mirror == side->mirror || from->place.frame.depth == s->reflections)
+        return SL_OK;
+    *to = make_step(s, from, side->cell, side->left, side->right);
+    to->place.frame = sli_mirror_frame_reflect(&from->place.frame, mirror);
+    to->place.mirror = side->mirror;
+    return try_step(context, s, from, to);
 }
 
 /// All sequences within the bound.
 static sl_status search_within(sl_context *context, search *s) {
-    s->steps.count = 0;
-    SL_TRY(SL_ARRAY_ROOM(context, &s->steps, 1));
-    s->steps.items[s->steps.count++] =
-        (step){.at = {.frame = sl_frame_of_map(), .mirror = UINT32_MAX}, .cell = s->from};
-    while (s->steps.count && !s->stopped) {
-        step *last = &s->steps.items[s->steps.count - 1];
-        const sl_cell *cell = &s->space->cells[last->cell];
-        const uint32_t first = s->sides.first[last->cell];
-        const uint32_t mirrors = s->sides.first[last->cell + 1] - first, next = last->next++;
-        if (next < cell->exit_count)
-            SL_TRY(try_exit(context, s, cell->first_exit + next));
-        else if (next < cell->exit_count + mirrors)
-            SL_TRY(try_mirror(context, s, first + next - cell->exit_count));
-        else if (--s->steps.count)
-            s->options->solver->pop(s->solver);
-    }
-    return SL_OK;
+    static const sli_portal_visitor visitor = {
+        .step_size = sizeof(step), .cross = cross, .reflect = reflect};
+    SL_TRY(sli_portal_search_start(context, &s->search, sizeof(step)));
+    step *first = s->search.steps;
+    *first = (step){.at.cell = s->from,
+                    .place = {.frame = sli_mirror_frame_of_map(), .mirror = UINT32_MAX}};
+    s->search.count++;
+    return sli_portal_search_run(context, &s->search, &visitor, s);
 }
 
 static sl_status search_all(sl_context *context, search *s, uint32_t depth) {
     if (s->distance[s->from] == SL_NO_WAY) return SL_OK;
     for (s->reflections = 1; s->reflections <= depth && s->best == UINT32_MAX; s->reflections++) {
         s->cut = true;
-        for (s->bound = s->distance[s->from] + 1; s->cut && !s->stopped && s->best == UINT32_MAX;
-             s->bound *= 2) {
+        for (s->bound = s->distance[s->from] + 1;
+             s->cut && !s->search.stop && s->best == UINT32_MAX; s->bound *= 2) {
             s->cut = false;
             SL_TRY(search_within(context, s));
         }
     }
-    s->out.complete = !s->stopped;
+    s->out.complete = !s->search.stop;
     return SL_OK;
 }
 
 sl_status sl_explain_by_mirror(sl_context *context, const sl_space *space, const sl_map *map,
                                const sl_explain_options *options, uint32_t depth,
                                sl_explanation *explanation) {
-    search s = {.space = space,
-                .map = map,
+    search s = {.map = map,
                 .options = options,
+                .search = {.space = space, .solver = options->solver},
                 .from = explanation->from,
                 .to = explanation->to,
                 .best = UINT32_MAX,
                 .out = {.asked = true, .complete = true, .verdict = SL_HIDDEN}};
-    sl_status status = sl_find_distances(context, space, s.to, &s.distance);
-    if (status == SL_OK) status = sl_mirror_sides_find(context, space, map, &s.sides);
-    if (status == SL_OK) status = options->solver->create(context, space->bounds, &s.solver);
+    sl_status status = sli_find_distances(context, space, s.to, &s.distance);
+    if (status == SL_OK) status = sli_mirror_sides_find(context, space, map, &s.sides);
+    s.search.mirrors = &s.sides;
+    if (status == SL_OK)
+        status = options->solver->create(context, space->bounds, &s.search.solver_state);
     if (status == SL_OK) status = search_all(context, &s, depth);
-    if (s.solver) options->solver->destroy(context, s.solver);
-    sl_mirror_sides_destroy(context, &s.sides);
+    sli_portal_search_end(context, &s.search);
+    sli_mirror_sides_destroy(context, &s.sides);
     sl_free(context, s.distance);
-    sl_free(context, s.steps.items);
     if (status == SL_OK) {
         explanation->bent = s.out;
     } else {

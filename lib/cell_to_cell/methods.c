@@ -1,8 +1,8 @@
-/// The table of cell-to-cell methods, and what they share.
+/// The table of cell-to-cell methods, their default options, and what maps they can serve.
 #include "cell_to_cell/methods.h"
 
-#include "base/base.h"
 #include "sightline/solvers.h"
+#include "sightline/support.h"
 
 #include <string.h>
 
@@ -26,7 +26,7 @@ void sl_visibility_destroy(sl_context *context, sl_visibility *visibility) {
     *visibility = (sl_visibility){0};
 }
 
-sl_status sl_plan_check_solver(sl_context *context, const sl_plan *plan, const sl_solver *solver) {
+sl_status sli_plan_check_solver(sl_context *context, const sl_plan *plan, const sl_solver *solver) {
     if (plan->range > 0 && strcmp(solver->name, sl_funnel()->name) != 0)
         return sl_fail(context, SL_UNSUPPORTED,
                        "the solver '%s' does not tell how long sightlines are, which a view range "
@@ -44,7 +44,7 @@ sl_status sl_see_check(sl_context *context, const sl_see_method *method, const s
                        const sl_map *map) {
     SL_TRY(sl_effects_check(context, map, method->name, method->knows));
     const sl_plan plan = sl_plan_make(map);
-    return method->stabs ? sl_plan_check_solver(context, &plan, solver) : SL_OK;
+    return method->stabs ? sli_plan_check_solver(context, &plan, solver) : SL_OK;
 }
 
 const sl_see_method *sl_see_methods(size_t *count) {
@@ -54,50 +54,64 @@ const sl_see_method *sl_see_methods(size_t *count) {
          .stabs = true,
          .guarantee = SL_EXACT,
          .knows = SL_EFFECT_DOOR | SL_EFFECT_MIRROR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE,
-         .see = sl_see_dfs,
+         .see = sli_see_dfs,
          .units = "cells",
-         .look = sl_look_dfs,
-         .settle = sl_settle_dfs,
-         .carry = sl_carry_search},
+         .run = sli_run_dfs,
+         .finish = sli_finish_dfs,
+         .reuse = sli_reuse_search},
         {.name = "sweep",
          .what = "a line turned about every corner of walls, by exact predicates: the fastest",
          .keeps_rows = true,
          .guarantee = SL_EXACT,
          .knows = SL_EFFECT_DOOR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE,
-         .see = sl_see_sweep,
+         .see = sli_see_sweep,
          .units = "corners",
-         .look = sl_look_sweep,
-         .settle = sl_settle_sweep,
-         .carry = sl_carry_sweep},
+         .run = sli_run_sweep,
+         .finish = sli_finish_sweep,
+         .reuse = sli_reuse_sweep},
         {.name = "prune",
          .what = "dfs only on where a bound leaves something to be found",
          .stabs = true,
          .guarantee = SL_EXACT,
          .knows = SL_EFFECT_DOOR | SL_EFFECT_MIRROR | SL_EFFECT_ONEWAY | SL_EFFECT_RANGE,
-         .see = sl_see_prune,
+         .see = sli_see_prune,
          .units = "cells",
-         .look = sl_look_prune,
-         .settle = sl_settle_prune,
-         .carry = sl_carry_search},
+         .run = sli_run_prune,
+         .finish = sli_finish_prune,
+         .reuse = sli_reuse_search},
         {.name = "multipass",
          .what = "sector by sector of directions, each cell among what those behind it see",
          .stabs = true,
          .guarantee = SL_EXACT,
          .keeps_rows = true,
-         .see = sl_see_multipass},
+         .see = sli_see_multipass},
         {.name = "flood",
          .what = "all that portals in pairs leave possible",
          .keeps_rows = true,
          .guarantee = SL_CONSERVATIVE,
          .knows = SL_EFFECT_ONEWAY | SL_EFFECT_RANGE,
-         .see = sl_see_flood},
+         .see = sli_see_flood},
         {.name = "sampling",
          .what = "random lines from each cell",
          .keeps_rows = true,
          .guarantee = SL_AGGRESSIVE,
          .knows = SL_EFFECT_ONEWAY | SL_EFFECT_RANGE,
-         .see = sl_see_sampling},
+         .see = sli_see_sampling},
     };
     *count = sizeof methods / sizeof *methods;
     return methods;
+}
+
+const sl_see_method *sl_see_method_named(const char *name) {
+    size_t count;
+    const sl_see_method *methods = sl_see_methods(&count);
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(methods[i].name, name) == 0) return &methods[i];
+    return NULL;
+}
+
+const sl_see_method *sl_see_method_for(const sl_map *map, const sl_see_options *options) {
+    if (options->trees || options->solver) return sl_see_method_named("dfs");
+    const sl_see_method *sweep = sl_see_method_named("sweep");
+    return sl_plan_make(map).effects & ~sweep->knows ? sl_see_method_named("prune") : sweep;
 }

@@ -1,3 +1,8 @@
+/// Potentially visible sets: a row for each cell, compressed.
+///
+/// A row lists its members as runs. Each run is two numbers: how many cells to skip, and how many
+/// follow each other. A number takes 7 bits a byte, the lowest first; the top bit says that more
+/// follow. Neighbouring cells have neighbouring numbers, so that runs are long and rows short.
 #include "cell_to_cell/pvs_rows.h"
 
 #include <string.h>
@@ -87,7 +92,7 @@ static uint8_t *write_number(uint8_t *at, uint32_t value) {
     return at;
 }
 
-static sl_status append_run(sl_context *context, sl_row_bytes *bytes, uint32_t skip,
+static sl_status append_run(sl_context *context, sli_row_bytes *bytes, uint32_t skip,
                             uint32_t length) {
     SL_TRY(SL_ARRAY_ROOM(context, bytes, 10));
     uint8_t *at = bytes->items + bytes->count;
@@ -96,15 +101,15 @@ static sl_status append_run(sl_context *context, sl_row_bytes *bytes, uint32_t s
     return SL_OK;
 }
 
-sl_status sl_row_append_words(sl_context *context, sl_row_bytes *bytes, const sl_bits *words,
-                              const uint32_t *index, size_t count) {
+sl_status sli_row_append_words(sl_context *context, sli_row_bytes *bytes, const sl_bits *words,
+                               const uint32_t *index, size_t count) {
     uint64_t before = 0, first = 0, end = 0; // the end of the run before, and a run in the making
     for (size_t i = 0; i < count; i++) {
         const uint64_t base = 64 * (uint64_t)(index ? index[i] : i);
         for (sl_bits left = words[i]; left;) {
             const unsigned start = (unsigned)__builtin_ctzll(left);
-            const sl_bits beyond = ~(left >> start); // 0 where all 64 are there
-            const unsigned length = beyond ? (unsigned)__builtin_ctzll(beyond) : 64;
+            const sl_bits neighbour = ~(left >> start); // 0 where all 64 are there
+            const unsigned length = neighbour ? (unsigned)__builtin_ctzll(neighbour) : 64;
             left = start + length < 64 ? left >> (start + length) << (start + length) : 0;
             if (base + start != end && end > first) {
                 SL_TRY(append_run(context, bytes, (uint32_t)(first - before),
@@ -119,17 +124,17 @@ sl_status sl_row_append_words(sl_context *context, sl_row_bytes *bytes, const sl
     return append_run(context, bytes, (uint32_t)(first - before), (uint32_t)(end - first));
 }
 
-sl_status sl_row_append(sl_context *context, sl_row_bytes *bytes, const sl_bits *set,
-                        uint32_t count) {
-    return sl_row_append_words(context, bytes, set, NULL, sl_bits_words(count));
+sl_status sli_row_append(sl_context *context, sli_row_bytes *bytes, const sl_bits *set,
+                         uint32_t count) {
+    return sli_row_append_words(context, bytes, set, NULL, sl_bits_words(count));
 }
 
-void sl_row_add_to(const sl_pvs *pvs, uint32_t cell, sl_bits *set) {
+void sli_row_add_to(const sl_pvs *pvs, uint32_t cell, sl_bits *set) {
     for (sl_pvs_run run = sl_pvs_begin(pvs, cell); sl_pvs_next(&run);)
         for (uint32_t i = run.first; i < run.end; i++) sl_bits_add(set, i);
 }
 
-static sl_status join(sl_context *context, const sl_row_bytes *rows, uint32_t count, sl_pvs *out) {
+static sl_status join(sl_context *context, const sli_row_bytes *rows, uint32_t count, sl_pvs *out) {
     sl_pvs pvs = {.cell_count = count};
     pvs.offsets = sl_alloc_array(context, (size_t)count + 1, sizeof *pvs.offsets);
     if (!pvs.offsets) return SL_NO_MEMORY;
@@ -145,17 +150,17 @@ static sl_status join(sl_context *context, const sl_row_bytes *rows, uint32_t co
     return SL_OK;
 }
 
-sl_status sl_pvs_join(sl_context *context, sl_row_bytes *rows, uint32_t count, sl_pvs *out) {
+sl_status sli_pvs_join(sl_context *context, sli_row_bytes *rows, uint32_t count, sl_pvs *out) {
     const sl_status status = join(context, rows, count, out);
     for (uint32_t i = 0; i < count; i++) {
         sl_free(context, rows[i].items);
-        rows[i] = (sl_row_bytes){0};
+        rows[i] = (sli_row_bytes){0};
     }
     return status;
 }
 
-sl_status sl_columns_gather(sl_context *context, const sl_pvs *rows, uint32_t count,
-                            sl_columns *out) {
+sl_status sli_columns_gather(sl_context *context, const sl_pvs *rows, uint32_t count,
+                             sli_columns *out) {
     out->starts = sl_alloc_array(context, (size_t)count + 2, sizeof *out->starts);
     if (!out->starts) return SL_NO_MEMORY;
     // Counted two places on, then summed, so that filling moves each start to where it belongs.
@@ -172,14 +177,14 @@ sl_status sl_columns_gather(sl_context *context, const sl_pvs *rows, uint32_t co
     return SL_OK;
 }
 
-void sl_columns_destroy(sl_context *context, sl_columns *columns) {
+void sli_columns_destroy(sl_context *context, sli_columns *columns) {
     sl_free(context, columns->starts);
     sl_free(context, columns->members);
-    *columns = (sl_columns){0};
+    *columns = (sli_columns){0};
 }
 
-static sl_status encode_column(sl_context *context, const sl_columns *all, uint32_t cell,
-                               sl_row_bytes *row) {
+static sl_status encode_column(sl_context *context, const sli_columns *all, uint32_t cell,
+                               sli_row_bytes *row) {
     uint32_t end = 0;
     for (uint64_t i = all->starts[cell]; i < all->starts[cell + 1];) {
         const uint32_t first = all->members[i], skip = first - end;
@@ -189,19 +194,167 @@ static sl_status encode_column(sl_context *context, const sl_columns *all, uint3
     return SL_OK;
 }
 
-sl_status sl_pvs_transpose(sl_context *context, const sl_pvs *pvs, sl_pvs *out) {
+sl_status sli_pvs_transpose(sl_context *context, const sl_pvs *pvs, sl_pvs *out) {
     const uint32_t count = pvs->cell_count;
-    sl_columns gathered = {0};
-    sl_status status = sl_columns_gather(context, pvs, count, &gathered);
-    sl_row_bytes *rows = status == SL_OK ? sl_alloc_array(context, count, sizeof *rows) : NULL;
+    sli_columns gathered = {0};
+    sl_status status = sli_columns_gather(context, pvs, count, &gathered);
+    sli_row_bytes *rows = status == SL_OK ? sl_alloc_array(context, count, sizeof *rows) : NULL;
     if (status == SL_OK && !rows) status = SL_NO_MEMORY;
     for (uint32_t cell = 0; cell < count && status == SL_OK; cell++)
         status = encode_column(context, &gathered, cell, &rows[cell]);
     if (status == SL_OK)
-        status = sl_pvs_join(context, rows, count, out);
+        status = sli_pvs_join(context, rows, count, out);
     else
         for (uint32_t cell = 0; rows && cell < count; cell++) sl_free(context, rows[cell].items);
     sl_free(context, rows);
-    sl_columns_destroy(context, &gathered);
+    sli_columns_destroy(context, &gathered);
+    return status;
+}
+
+// --- a PVS in the making
+
+sl_status sli_pvs_maker_create(sl_context *context, uint32_t members, uint32_t rows,
+                               sli_pvs_maker *maker) {
+    *maker = (sli_pvs_maker){.count = rows};
+    SL_TRY(sli_word_set_create(context, members, &maker->row));
+    maker->offsets = sl_alloc_array(context, (size_t)rows + 1, sizeof *maker->offsets);
+    return maker->offsets ? SL_OK : SL_NO_MEMORY;
+}
+
+void sli_pvs_maker_destroy(sl_context *context, sli_pvs_maker *maker) {
+    sli_word_set_destroy(context, &maker->row);
+    sl_free(context, maker->offsets);
+    sl_free(context, maker->bytes.items);
+    sl_free(context, maker->words.items);
+    sl_free(context, maker->places.items);
+    *maker = (sli_pvs_maker){0};
+}
+
+/// The bits of a word that are members `first` .. `end` - 1.
+static sl_bits bits_between(size_t word, uint32_t first, uint32_t end) {
+    sl_bits bits = ~(sl_bits)0;
+    if (first / 64 == word) bits &= ~(sl_bits)0 << (first % 64);
+    if (end / 64 == word) bits &= ~(~(sl_bits)0 << (end % 64));
+    return bits;
+}
+
+void sli_word_set_add_row(sli_word_set *set, const sl_pvs *pvs, uint32_t cell) {
+    for (sl_pvs_run run = sl_pvs_begin(pvs, cell); sl_pvs_next(&run);)
+        for (size_t word = run.first / 64; word < sl_bits_words(run.end); word++)
+            sli_word_set_join(set, word, bits_between(word, run.first, run.end));
+}
+
+void sli_word_set_add_common(sli_word_set *set, const sl_pvs *pvs, uint32_t cell,
+                             const sli_word_set *other) {
+    for (sl_pvs_run run = sl_pvs_begin(pvs, cell); sl_pvs_next(&run);) {
+        const size_t end = sl_bits_words(run.end);
+        for (size_t word = sli_word_set_next(other, run.first / 64);
+             word < end && word < other->high; word = sli_word_set_next(other, word + 1)) {
+            const sl_bits bits = other->bits[word] & bits_between(word, run.first, run.end);
+            if (bits) sli_word_set_join(set, word, bits);
+        }
+    }
+}
+
+void sli_pvs_maker_add(sli_pvs_maker *maker, const sl_pvs *pvs, uint32_t cell) {
+    sli_word_set_add_row(&maker->row, pvs, cell);
+}
+
+sl_status sli_pvs_maker_end_row(sl_context *context, sli_pvs_maker *maker) {
+    const sli_word_set *row = &maker->row;
+    maker->words.count = maker->places.count = 0;
+    for (size_t word = sli_word_set_next(row, row->low); word < row->high;
+         word = sli_word_set_next(row, word + 1)) {
+        SL_TRY(SL_ARRAY_ROOM(context, &maker->words, 1));
+        SL_TRY(SL_ARRAY_ROOM(context, &maker->places, 1));
+        maker->words.items[maker->words.count++] = row->bits[word];
+        maker->places.items[maker->places.count++] = (uint32_t)word;
+        maker->pairs += (uint64_t)__builtin_popcountll(row->bits[word]);
+    }
+    SL_TRY(sli_row_append_words(context, &maker->bytes, maker->words.items, maker->places.items,
+                                maker->words.count));
+    maker->offsets[++maker->made] = maker->bytes.count;
+    sli_word_set_clear(&maker->row);
+    return SL_OK;
+}
+
+sl_status sli_pvs_maker_finish(sl_context *context, sli_pvs_maker *maker, sl_pvs *out) {
+    SL_TRY(SL_ARRAY_ROOM(context, &maker->bytes, 1)); // never NULL, also where no row has any
+    *out = (sl_pvs){
+        .cell_count = maker->count, .offsets = maker->offsets, .bytes = maker->bytes.items};
+    maker->offsets = NULL;
+    maker->bytes.items = NULL;
+    return SL_OK;
+}
+
+// --- from both directions to one result
+
+/// The rows that go in, each with its transposed.
+typedef struct both_ways {
+    const sl_pvs *sure, *doubtful;
+    sl_pvs sure_back, doubtful_back;
+} both_ways;
+
+typedef struct result_rows {
+    sli_row_bytes *seen, *doubtful;
+    sl_bits *set, *open; ///< scratch
+} result_rows;
+
+static uint64_t count_bits(const sl_bits *set, size_t words) {
+    uint64_t count = 0;
+    for (size_t i = 0; i < words; i++) count += (uint64_t)__builtin_popcountll(set[i]);
+    return count;
+}
+
+static sl_status finish_row(sl_context *context, const both_ways *in, result_rows *rows,
+                            uint32_t cell, sl_visibility *out) {
+    const uint32_t count = in->sure->cell_count;
+    const size_t words = sl_bits_words(count);
+    memset(rows->set, 0, words * sizeof *rows->set);
+    memset(rows->open, 0, words * sizeof *rows->open);
+    sli_row_add_to(in->sure, cell, rows->set);
+    if (in->sure_back.cell_count) sli_row_add_to(&in->sure_back, cell, rows->set);
+    sli_row_add_to(in->doubtful, cell, rows->open);
+    if (in->doubtful_back.cell_count) sli_row_add_to(&in->doubtful_back, cell, rows->open);
+    for (size_t i = 0; i < words; i++) rows->open[i] &= ~rows->set[i];
+    SL_TRY(sli_row_append(context, &rows->doubtful[cell], rows->open, count));
+    out->account.doubtful_pairs += count_bits(rows->open, words);
+    if (out->sight == SL_CLOSED)
+        for (size_t i = 0; i < words; i++) rows->set[i] |= rows->open[i];
+    out->account.pairs += count_bits(rows->set, words);
+    return sli_row_append(context, &rows->seen[cell], rows->set, count);
+}
+
+static sl_status finish_rows(sl_context *context, const both_ways *in, result_rows *rows,
+                             sl_visibility *out) {
+    const uint32_t count = in->sure->cell_count;
+    rows->seen = sl_alloc_array(context, count, sizeof *rows->seen);
+    rows->doubtful = sl_alloc_array(context, count, sizeof *rows->doubtful);
+    rows->set = sl_alloc_array(context, sl_bits_words(count), sizeof *rows->set);
+    rows->open = sl_alloc_array(context, sl_bits_words(count), sizeof *rows->open);
+    if (!rows->seen || !rows->doubtful || !rows->set || !rows->open) return SL_NO_MEMORY;
+    for (uint32_t cell = 0; cell < count; cell++) SL_TRY(finish_row(context, in, rows, cell, out));
+    SL_TRY(sli_pvs_join(context, rows->seen, count, &out->pvs));
+    return sli_pvs_join(context, rows->doubtful, count, &out->doubtful);
+}
+
+sl_status sli_visibility_finish(sl_context *context, const sl_pvs *sure, const sl_pvs *doubtful,
+                                bool mutual, sl_visibility *out) {
+    both_ways in = {.sure = sure, .doubtful = doubtful};
+    result_rows rows = {0};
+    sl_status status = SL_OK;
+    if (mutual) status = sli_pvs_transpose(context, sure, &in.sure_back);
+    if (mutual && status == SL_OK) status = sli_pvs_transpose(context, doubtful, &in.doubtful_back);
+    if (status == SL_OK) status = finish_rows(context, &in, &rows, out);
+    sl_pvs_destroy(context, &in.sure_back);
+    sl_pvs_destroy(context, &in.doubtful_back);
+    for (uint32_t i = 0; i < sure->cell_count; i++) {
+        if (rows.seen) sl_free(context, rows.seen[i].items);
+        if (rows.doubtful) sl_free(context, rows.doubtful[i].items);
+    }
+    sl_free(context, rows.seen);
+    sl_free(context, rows.doubtful);
+    sl_free(context, rows.set);
+    sl_free(context, rows.open);
     return status;
 }

@@ -1,14 +1,15 @@
-/// Lines at random: from a number of points of each cell in a random direction, both ways, through
-/// whatever portals the line passes strictly between their ends. All cells on a line see each
-/// other, if they are no farther apart on it than the range. What no line hits is missed: narrow
-/// sightlines first. Where glass is one-way, lines are taken one way only.
-#include "cell_to_cell/bit_rows.h"
+/// Random lines: an aggressive method, which finds no hidden pair but misses some visible ones.
+///
+/// From a number of points of each cell a line goes in a random direction, both ways, through all
+/// portals that it passes strictly between their ends. All cells on the line see each other, if
+/// they are no farther apart on it than the range. Narrow sightlines are missed first. With one-way
+/// glass each line is taken one way only.
 #include "cell_to_cell/methods.h"
+#include "cell_to_cell/rows.h"
 
-#include "base/random.h"
-#include "base/threads.h"
 #include "effects/effects.h"
 #include "geometry/orient.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -19,7 +20,7 @@ typedef struct sampling {
     bool one_way; ///< lines have a direction, and pairs are not mutual
     double range; ///< 0 for none
     pthread_mutex_t lock;
-    sl_bit_rows rows; ///< joined from the threads' forks, under the lock
+    sli_bit_rows rows; ///< joined from the threads' forks, under the lock
 } sampling;
 
 /// A cell on a line from a to b. Where there is a range: the part of the line's length after which
@@ -32,7 +33,7 @@ typedef struct stretch {
 
 /// One thread's own.
 typedef struct sampler {
-    sl_bit_rows rows;
+    sli_bit_rows rows;
     SL_ARRAY(stretch) way; ///< the cells of a line
 } sampler;
 
@@ -40,7 +41,7 @@ static void end(sl_context *context, void *job, void *state) {
     sampling *all = job;
     sampler *me = state;
     pthread_mutex_lock(&all->lock);
-    sl_bit_rows_join(context, &all->rows, &me->rows);
+    sli_bit_rows_join(context, &all->rows, &me->rows);
     pthread_mutex_unlock(&all->lock);
     sl_free(context, me->way.items);
     sl_free(context, me);
@@ -50,7 +51,7 @@ static sl_status begin(sl_context *context, void *job, void **state) {
     const sampling *all = job;
     sampler *me = sl_alloc_array(context, 1, sizeof *me);
     if (!me) return SL_NO_MEMORY;
-    const sl_status status = sl_bit_rows_fork(context, &all->rows, &me->rows);
+    const sl_status status = sli_bit_rows_fork(context, &all->rows, &me->rows);
     if (status == SL_OK)
         *state = me;
     else
@@ -69,23 +70,25 @@ static sl_point random_point(const sl_space *space, const sl_cell *cell, sl_rand
     return (sl_point){c.x + t * (on.x - c.x), c.y + t * (on.y - c.y)};
 }
 
-/// The exit that a line passes strictly; NULL for none.
-static const sl_exit *exit_on(const sampling *all, uint32_t cell, sl_line line) {
+/// The directed portal that a line passes strictly; NULL for none.
+static const sl_directed_portal *portal_on(const sampling *all, uint32_t cell, sl_line line) {
     const sl_cell *c = &all->space->cells[cell];
-    for (uint32_t i = 0; i < c->exit_count; i++) {
-        const sl_exit *exit = &all->space->exits[c->first_exit + i];
-        if (all->options->inside_only && !all->space->cells[exit->cell].inside) continue;
-        if (sl_orient(line.a, line.b, exit->left) > 0 && sl_orient(line.a, line.b, exit->right) < 0)
-            return exit;
+    for (uint32_t i = 0; i < c->directed_count; i++) {
+        const sl_directed_portal *directed = &all->space->directed[c->first_directed + i];
+        if (all->options->inside_only && !all->space->cells[directed->cell].inside) continue;
+        if (sli_orient(line.a, line.b, directed->left) > 0 &&
+            sli_orient(line.a, line.b, directed->right) < 0)
+            return directed;
     }
     return NULL;
 }
 
-/// Where a line crosses an exit, in parts of its length, and how far rounding may be off.
-static double place_on(sl_line line, const sl_exit *exit, double *error) {
+/// Where a line crosses a directed portal, in parts of its length, and how far rounding may be off.
+static double place_on(sl_line line, const sl_directed_portal *directed, double *error) {
     const double dx = line.b.x - line.a.x, dy = line.b.y - line.a.y;
-    const double ex = exit->left.x - exit->right.x, ey = exit->left.y - exit->right.y;
-    const double rx = exit->right.x - line.a.x, ry = exit->right.y - line.a.y;
+    const double ex = directed->left.x - directed->right.x,
+                 ey = directed->left.y - directed->right.y;
+    const double rx = directed->right.x - line.a.x, ry = directed->right.y - line.a.y;
     const double across = dx * ey - dy * ex, place = (rx * ey - ry * ex) / across;
     const double rounding = 0x1p-49 / fabs(across);
     *error = rounding * (fabs(rx * ey) + fabs(ry * ex)) +
@@ -99,12 +102,13 @@ static sl_status walk(sl_context *context, const sampling *all, sampler *me, sl_
                       bool back) {
     const sl_line towards = back ? (sl_line){line.b, line.a} : line;
     size_t last = 0;
-    for (const sl_exit *exit; (exit = exit_on(all, me->way.items[last].cell, towards));) {
+    for (const sl_directed_portal *directed;
+         (directed = portal_on(all, me->way.items[last].cell, towards));) {
         SL_TRY(SL_ARRAY_ROOM(context, &me->way, 1));
-        stretch *from = &me->way.items[last], next = {.cell = exit->cell, .back = back};
+        stretch *from = &me->way.items[last], next = {.cell = directed->cell, .back = back};
         if (all->range > 0) {
             double error;
-            const double place = place_on(line, exit, &error);
+            const double place = place_on(line, directed, &error);
             *(back ? &from->entered : &from->left) = back ? place + error : place - error;
             *(back ? &next.left : &next.entered) = back ? place - error : place + error;
         }
@@ -140,7 +144,7 @@ static sl_status sample(sl_context *context, const sampling *all, sampler *me, u
     for (size_t i = 0; i < me->way.count; i++)
         for (size_t k = i; k < me->way.count; k++)
             if (is_in_range(all, (sl_line){a, b}, &way[i], &way[k]))
-                SL_TRY(sl_bit_rows_add_one(context, &me->rows, way[i].cell, way[k].cell));
+                SL_TRY(sli_bit_rows_add_one(context, &me->rows, way[i].cell, way[k].cell));
     return SL_OK;
 }
 
@@ -149,11 +153,11 @@ static sl_status sample_unit(sl_context *context, void *job, void *state, size_t
     sampler *me = state;
     const sl_cell *cell = &all->space->cells[unit];
     if (all->options->inside_only && !cell->inside) return SL_OK;
-    SL_TRY(sl_bit_rows_add_one(context, &me->rows, (uint32_t)unit, (uint32_t)unit));
-    for (uint32_t i = 0; i < cell->exit_count; i++) {
-        const uint32_t next = all->space->exits[cell->first_exit + i].cell;
+    SL_TRY(sli_bit_rows_add_one(context, &me->rows, (uint32_t)unit, (uint32_t)unit));
+    for (uint32_t i = 0; i < cell->directed_count; i++) {
+        const uint32_t next = all->space->directed[cell->first_directed + i].cell;
         if (!all->options->inside_only || all->space->cells[next].inside)
-            SL_TRY(sl_bit_rows_add_one(context, &me->rows, (uint32_t)unit, next));
+            SL_TRY(sli_bit_rows_add_one(context, &me->rows, (uint32_t)unit, next));
     }
     sl_random random = {all->options->seed + (uint64_t)unit * 0x9e3779b97f4a7c15u};
     random.state = sl_random_next(&random); // so that neighbours' numbers are not each other's
@@ -163,7 +167,7 @@ static sl_status sample_unit(sl_context *context, void *job, void *state, size_t
 }
 
 static sl_status sample_all(sl_context *context, sampling *all, sl_visibility *out) {
-    SL_TRY(sl_bit_rows_create(context, all->space->cell_count, all->options, &all->rows));
+    SL_TRY(sli_bit_rows_create(context, all->space->cell_count, all->options, &all->rows));
     const sl_work work = {.job = all,
                           .begin = begin,
                           .unit = sample_unit,
@@ -171,26 +175,26 @@ static sl_status sample_all(sl_context *context, sampling *all, sl_visibility *o
                           .stage = "cell_to_cell",
                           .units = "cells"};
     SL_TRY(sl_work_run(context, &work, all->space->cell_count, all->options->threads));
-    if (!all->one_way) SL_TRY(sl_bit_rows_mirror(context, &all->rows, SL_ADD_MIRRORED));
-    return sl_bit_rows_encode(context, &all->rows, out);
+    if (!all->one_way) SL_TRY(sli_bit_rows_mirror(context, &all->rows, SLI_ADD_MIRRORED));
+    return sli_bit_rows_encode(context, &all->rows, out);
 }
 
 static sl_status see(sl_context *context, sampling *all, sl_visibility *out) {
     pthread_mutex_init(&all->lock, NULL);
     const sl_status status = sample_all(context, all, out);
     pthread_mutex_destroy(&all->lock);
-    sl_bit_rows_destroy(context, &all->rows);
+    sli_bit_rows_destroy(context, &all->rows);
     return status;
 }
 
-sl_status sl_see_sampling(sl_context *context, const sl_space *space, const sl_see_options *options,
-                          sl_visibility *out) {
+sl_status sli_see_sampling(sl_context *context, const sl_space *space,
+                           const sl_see_options *options, sl_visibility *out) {
     if (options->trees)
         return sl_fail(context, SL_UNSUPPORTED, "the method 'sampling' makes no stab trees");
     sampling all = {.options = options};
     sl_visibility visibility = {.sight = options->sight, .guarantee = SL_AGGRESSIVE};
     sl_space open = {0};
-    SL_TRY(sl_oneway_passage(context, space, options->plan, &open, &all.space));
+    SL_TRY(sli_oneway_filtered(context, space, options->plan, &open, &all.space));
     all.one_way = all.space != space;
     all.range = options->plan ? options->plan->range : 0;
     const sl_status status = see(context, &all, &visibility);

@@ -1,121 +1,182 @@
-/// The exact sweep: a line turns about every corner of walls, and notes at each cell that comes
-/// into its sight what it sees on the other side. No portal sequences, no solver; all signs by
-/// sl_orient, so that its answer is the depth-first search's with an exact solver, bit for bit.
+/// The sweep, the default method: a line rotates about every corner of walls (SWEEP.md).
 ///
-/// Which lines count. A sightline of closed sight is a directed line S that touches the closed
-/// segment of every portal of its sequence, such that one direction crosses all of them strictly
-/// forwards. S itself may run along a portal; its direction is then on the border of those that
-/// cross strictly, which form an open cone, and turning S a little to one side, clockwise or
-/// counter-clockwise, leads into the cone. So a sightline is a pair (S, turn), and what it may do
-/// is a matter of each portal alone: S crosses it strictly and touches it, or S runs along it and
-/// the turn crosses it forwards. Two cells see each other if for some (S, turn) the portals that it
-/// may cross lead from one to the other. Where S passes a corner of several cells, it may go round
-/// on either side as far as there are portals; along a wall it may go on either side of it. Open
-/// sight takes lines that pass strictly between the ends, and the turn does not matter.
+///      behind            A line through the corner w of a wall. While it rotates, cells come into
+///           .            the sight of one half, or leave it. A cell that comes into the sight of
+///            .           one half is joined with all cells that the other half sees.
+///     wall ###w
+///              .
+///               before
 ///
-/// About a point the pairs (S, turn) have an order: at each angle clockwise, then counter-clockwise
-/// (reach.h calls them levels). What can be seen through a portal from a point behind it is an
-/// interval of that order: from its right end, clockwise, to its left end, counter-clockwise; for a
-/// portal on a line with the point it is one pair. So cells are found by cutting intervals, with
-/// degenerate lines as intervals of one pair or two, and nothing is special about them.
+/// Idea: move a sightline between two cells until it touches a corner of a wall, or until it comes
+/// to a chosen corner of one of the cells. So two cells see each other exactly if a line through a
+/// wall's corner joins them while it rotates, or if the chosen corner of one of them sees the
+/// other.
 ///
-/// Why corners of walls, and one corner of each cell, are enough. Let A see B by a line that
-/// touches A in p and B in q. Move p within A to A's chosen corner c, and let the line follow, with
-/// q held. As long as the line passes no portal's end, its sequence stays. Where it passes an end w
-/// of a portal, it goes round w on the other side if portals lead round w there; else a wall ends
-/// at w, the line passes w beside that wall, and it is met when a line turns about w through all
-/// angles that leave the side of w free over half a turn. If nothing stops p, it comes to c, and
-/// the line is met when all is looked at from c. There the line may touch A in c alone; it goes
-/// round c through portals, so that what a direction sees counts for A if the edges of the cells
-/// between A and that direction are portals which the line crosses forwards: they are within half a
-/// turn of it (fans.h, sweep_fan.c).
+/// The method needs no portal sequences and no solver. It decides all signs by exact predicates,
+/// and gives the result of the depth-first search with an exact solver, bit for bit.
 ///
-/// Why half a turn is enough to look at from there. Stop p in A close by c, where it is no portal's
-/// end, and move q within B to B's chosen corner d in the same way. Either the line comes to pass
-/// beside a wall, or A and B are joined by lines as near to the one through c and d as one likes.
-/// Then c sees B near the direction to d, and d sees A near the opposite one, by the argument
-/// above. One of the two directions is above the horizon, or both lie along it: all directions from
-/// a little below it on the right to a little below it on the left are looked at. Where c is d,
-/// both are cells of one fan, which count as seen by each other. As all of A near c and all of B
-/// near d are joined, an open set of directions does: what lies along an edge of c's fan alone
-/// needs no look from c.
-///
-/// About w the line's backward half starts at the first edge of the free fan, its forward half
-/// there plus half a turn. Going round w counter-clockwise, the line crosses the edges between
-/// strictly; along the edge at the backward half's own angle it starts in the cell counter-
-/// clockwise of it and may cross the edge's portal if it is about to turn clockwise, and its
-/// forward half ends in the cell clockwise of its edge and may cross that if about to turn
-/// counter-clockwise. That is why the edges' angles themselves are left out of the sectors, on one
-/// side each, and looked at as rays of their own.
+/// Cost: for each corner, finding the intervals of angle at which cells are seen (visible.c), and
+/// one row operation for each interval. Corners are independent, and their results join by OR.
 #include "cell_to_cell/sweep.h"
-#include "cell_to_cell/findings.h"
-#include "cell_to_cell/methods.h"
 
-#include "base/threads.h"
+#include "cell_to_cell/methods.h"
+#include "sightline/support.h"
 
 #include <pthread.h>
 
 /// Fans that a thread takes at once.
 enum { FANS_AT_ONCE = 32 };
 
-typedef struct sweep {
-    const sl_space *space;
-    const sl_see_options *options;
-    sl_fans fans;
-    const sl_findings *before; ///< what is known; NULL: nothing, and all is to be done
-    uint8_t *done;             ///< by fan, where there is `before`; each is written by one thread
-    pthread_mutex_t lock;
-    sl_bit_rows rows; ///< joined from the threads' forks, under the lock
-    uint64_t pieces;
-    uint32_t deepest;
-} sweep;
+static void end(sl_context *context, void *job, void *state) {
+    sli_sweep *all = job;
+    sli_sweeper *me = state;
+    pthread_mutex_lock(&all->lock);
+    sli_bit_rows_join(context, &all->rows, &me->rows);
+    sli_bit_rows_join(context, &all->seen_from, &me->seen_from);
+    all->pieces += me->finder.pieces;
+    if (me->finder.deepest > all->deepest) all->deepest = me->finder.deepest;
+    pthread_mutex_unlock(&all->lock);
+    sli_sweeper_destroy(context, me);
+    sl_free(context, me);
+}
 
 static sl_status begin(sl_context *context, void *job, void **state) {
-    const sweep *all = job;
-    sl_sweeper *me = sl_alloc_array(context, 1, sizeof *me);
+    sli_sweep *all = job;
+    sli_sweeper *me = sl_alloc_array(context, 1, sizeof *me);
     if (!me) return SL_NO_MEMORY;
     const sl_status status =
-        sl_sweeper_create(context, &all->fans, all->options->sight == SL_CLOSED, &all->rows, me);
-    if (status == SL_OK) {
+        sli_sweeper_create(context, &all->fans[0], all->options->sight == SL_CLOSED, &all->rows,
+                           all->seen_from.count ? &all->seen_from : NULL, me);
+    if (status == SL_OK)
         *state = me;
-        return SL_OK;
-    }
-    sl_sweeper_destroy(context, me);
-    sl_free(context, me);
+    else
+        end(context, job, me);
     return status;
 }
 
-static void end(sl_context *context, void *job, void *state) {
-    sweep *all = job;
-    sl_sweeper *me = state;
-    pthread_mutex_lock(&all->lock);
-    sl_bit_rows_join(context, &all->rows, &me->rows);
-    all->pieces += me->reacher.pieces;
-    if (me->reacher.deepest > all->deepest) all->deepest = me->reacher.deepest;
-    pthread_mutex_unlock(&all->lock);
-    sl_sweeper_destroy(context, me);
-    sl_free(context, me);
+static size_t count_fans(const sli_sweep *all) {
+    size_t count = 0;
+    for (uint32_t set = 0; set < all->fan_sets; set++) count += all->fans[set].fans.count;
+    return count;
 }
 
+/// Fans are numbered through all sets, one set after the other.
 static sl_status sweep_unit(sl_context *context, void *job, void *state, size_t unit) {
-    const sweep *all = job;
-    const size_t count = all->fans.fans.count, first = unit * FANS_AT_ONCE;
+    const sli_sweep *all = job;
+    const size_t count = count_fans(all), first = unit * FANS_AT_ONCE;
     for (size_t i = first; i < first + FANS_AT_ONCE && i < count; i++) {
-        if (all->before && !sl_unit_is_wanted(all->options, all->before, (uint32_t)i)) continue;
-        if (all->before && sl_is_enough(all->options)) return SL_OK;
-        SL_TRY(sl_sweep_fan(context, state, &all->fans.fans.items[i]));
+        if (all->before && !sli_unit_is_wanted(all->options, all->before, (uint32_t)i)) continue;
+        if (all->before && sli_is_enough(all->options)) return SL_OK;
+        size_t in_set = i;
+        uint32_t set = 0;
+        while (in_set >= all->fans[set].fans.count) in_set -= all->fans[set++].fans.count;
+        SL_TRY(all->visit(context, all, state, set, &all->fans[set].fans.items[in_set]));
         if (all->before) all->done[i] = 1;
     }
     return SL_OK;
 }
 
-/// Says what sparse rows will take, and refuses what is far from what they may.
-static sl_status tell_memory(sl_context *context, sweep *all) {
+sl_status sli_sweep_run(sl_context *context, sli_sweep *all) {
+    const sl_work work = {.job = all,
+                          .begin = begin,
+                          .unit = sweep_unit,
+                          .end = end,
+                          .stage = "cell_to_cell",
+                          .units = "corners"};
+    const size_t units = (count_fans(all) + FANS_AT_ONCE - 1) / FANS_AT_ONCE;
+    return sl_work_run(context, &work, units, all->options->threads);
+}
+
+static void destroy_sweep(sl_context *context, sli_sweep *all) {
+    for (uint32_t set = 0; set < SLI_MOST_FAN_SETS; set++)
+        sli_fans_destroy(context, &all->fans[set]);
+    sli_bit_rows_destroy(context, &all->rows);
+    sli_bit_rows_destroy(context, &all->seen_from);
+    sl_free(context, all->done);
+}
+
+sl_status sli_sweep_see(sl_context *context, const sl_space *space, const sl_see_options *options,
+                        sl_status (*find)(sl_context *context, sli_sweep *all, sl_visibility *out),
+                        sl_visibility *out) {
+    sli_sweep all = {.space = space, .options = options};
+    sl_visibility visibility = {.sight = options->sight, .guarantee = SL_EXACT};
+    pthread_mutex_init(&all.lock, NULL);
+    sl_status status = find(context, &all, &visibility);
+    pthread_mutex_destroy(&all.lock);
+    if (status == SL_OK) {
+        visibility.account.pieces = all.pieces;
+        visibility.account.deepest = all.deepest;
+        status = sli_sweep_finish(context, space, options, &all.rows, &visibility);
+    }
+    destroy_sweep(context, &all);
+    if (status == SL_OK)
+        *out = visibility;
+    else
+        sl_visibility_destroy(context, &visibility);
+    return status;
+}
+
+// --- what rows will take
+
+enum { CORNERS_ASKED = 256 };
+
+/// A cell has more words than one of its corners sees, and growing rows have room to spare.
+/// Together that is a factor of 1.4 to 1.9 over generated cities, floors, mazes, caves and halls.
+#define WORDS_A_WORD_SEEN 1.6
+
+static void add_cells(sli_word_set *set, const sli_visible *visible) {
+    for (size_t i = 0; i < visible->cells.count; i++)
+        sli_word_set_add(set, visible->cells.items[i].cell);
+}
+
+/// Counts the words that a row needs for what the fan visited last sees.
+static uint64_t count_words(const sli_sweeper *s, sli_word_set *set) {
+    uint64_t count = 0;
+    add_cells(set, &s->back);
+    add_cells(set, &s->middle);
+    add_cells(set, &s->ahead);
+    for (size_t word = sli_word_set_next(set, set->low); word < set->high;
+         word = sli_word_set_next(set, word + 1))
+        count++;
+    sli_word_set_clear(set);
+    return count;
+}
+
+static sl_status ask(sl_context *context, sli_sweeper *s, sli_word_set *set, uint64_t *bytes) {
+    const size_t count = s->fans->fans.count;
+    const size_t asked = count < CORNERS_ASKED ? count : CORNERS_ASKED;
+    uint64_t sum = 0;
+    for (size_t i = 0; i < asked; i++) {
+        SL_TRY(sli_sweep_fan(context, s, &s->fans->fans.items[i * count / asked]));
+        sum += count_words(s, set);
+    }
+    const double words = asked ? WORDS_A_WORD_SEEN * (double)sum / (double)asked : 0;
+    *bytes = (uint64_t)(s->fans->cell_count *
+                        (words * SLI_SPARSE_WORD_BYTES + (double)sizeof(sli_sparse_row)));
+    return SL_OK;
+}
+
+/// Estimates the memory of sparse rows, to a factor of 2 either way. It visits some of the fans.
+static sl_status estimate_rows(sl_context *context, const sli_fans *fans, bool closed,
+                               sli_bit_rows *rows, uint64_t *bytes) {
+    sli_sweeper sweeper;
+    sli_word_set set = {0};
+    sl_status status = sli_sweeper_create(context, fans, closed, rows, NULL, &sweeper);
+    if (status == SL_OK) status = sli_word_set_create(context, fans->cell_count, &set);
+    if (status == SL_OK) status = ask(context, &sweeper, &set, bytes);
+    sli_bit_rows_join(context, rows, &sweeper.rows);
+    sli_sweeper_destroy(context, &sweeper);
+    sli_word_set_destroy(context, &set);
+    return status;
+}
+
+/// Notes how much memory sparse rows will take. Refuses if that is far above the limit.
+static sl_status tell_memory(sl_context *context, sli_sweep *all) {
     if (all->rows.bits) return SL_OK;
     const double limit = (double)all->options->row_bytes, mib = 1 << 20;
     uint64_t bytes = 0;
-    SL_TRY(sl_sweep_estimate(context, &all->fans, all->options->sight == SL_CLOSED, &all->rows,
-                             &bytes));
+    SL_TRY(estimate_rows(context, &all->fans[0], all->options->sight == SL_CLOSED, &all->rows,
+                         &bytes));
     if ((double)bytes / 2 > limit)
         return sl_fail(context, SL_NO_MEMORY,
                        "the visible sets would take about %.1f MiB, and may take %.1f MiB: allow "
@@ -125,30 +186,34 @@ static sl_status tell_memory(sl_context *context, sweep *all) {
         context,
         "the visible sets of %u cells will take about %.0f MiB of memory, the corners that lines "
         "turn about %.0f MiB",
-        all->rows.count, (double)bytes / mib, (double)sl_fans_bytes(&all->fans) / mib);
+        all->rows.count, (double)bytes / mib, (double)sli_fans_bytes(&all->fans[0]) / mib);
     return SL_OK;
 }
 
-static sl_status turn_about_all(sl_context *context, sweep *all) {
-    SL_TRY(sl_bit_rows_create(context, all->space->cell_count, all->options, &all->rows));
-    if (!all->options->shard_count) SL_TRY(tell_memory(context, all));
-    const sl_work work = {.job = all,
-                          .begin = begin,
-                          .unit = sweep_unit,
-                          .end = end,
-                          .stage = "cell_to_cell",
-                          .units = "corners"};
-    const size_t units = (all->fans.fans.count + FANS_AT_ONCE - 1) / FANS_AT_ONCE;
-    return sl_work_run(context, &work, units, all->options->threads);
+static sl_status visit(sl_context *context, const sli_sweep *all, sli_sweeper *me, uint32_t set,
+                       const sli_fan *fan) {
+    (void)all, (void)set;
+    return sli_sweep_fan(context, me, fan);
 }
 
-static sl_status sweep_all(sl_context *context, sweep *all, sl_visibility *out) {
-    SL_TRY(sl_fans_find(context, all->space, all->options, SL_FANS_MUTUAL, &all->fans));
+static sl_status find_fans(sl_context *context, sli_sweep *all) {
+    all->fan_sets = 1;
+    all->visit = visit;
+    return sli_fans_find(context, all->space, all->options, SLI_FANS_MUTUAL, &all->fans[0]);
+}
+
+static sl_status turn_about_all(sl_context *context, sli_sweep *all) {
+    SL_TRY(sli_bit_rows_create(context, all->space->cell_count, all->options, &all->rows));
+    if (!all->options->shard_count) SL_TRY(tell_memory(context, all));
+    return sli_sweep_run(context, all);
+}
+
+static sl_status sweep_all(sl_context *context, sli_sweep *all, sl_visibility *out) {
+    (void)out;
+    SL_TRY(find_fans(context, all));
     SL_TRY(turn_about_all(context, all));
-    out->account.pieces = all->pieces;
-    out->account.deepest = all->deepest;
-    sl_fans_destroy(context, &all->fans);
-    return sl_sweep_finish(context, all->space, all->options, &all->rows, out);
+    sli_fans_destroy(context, &all->fans[0]);
+    return SL_OK;
 }
 
 static sl_status check_options(sl_context *context, const sl_see_options *options) {
@@ -156,59 +221,46 @@ static sl_status check_options(sl_context *context, const sl_see_options *option
     return sl_fail(context, SL_UNSUPPORTED, "the method 'sweep' makes no stab trees");
 }
 
-sl_status sl_see_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
-                       sl_visibility *out) {
+sl_status sli_see_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
+                        sl_visibility *out) {
     SL_TRY(check_options(context, options));
     if (options->plan && options->plan->effects & (SL_EFFECT_DOOR | SL_EFFECT_RANGE))
-        return sl_see_sweep_settled(context, space, options, out);
+        return sli_see_sweep_finished(context, space, options, out);
     if (options->plan && options->plan->effects & SL_EFFECT_ONEWAY)
-        return sl_see_sweep_one_way(context, space, options, out);
-    sweep all = {.space = space, .options = options};
-    sl_visibility visibility = {.sight = options->sight, .guarantee = SL_EXACT};
-    pthread_mutex_init(&all.lock, NULL);
-    const sl_status status = sweep_all(context, &all, &visibility);
-    pthread_mutex_destroy(&all.lock);
-    sl_fans_destroy(context, &all.fans);
-    sl_bit_rows_destroy(context, &all.rows);
-    if (status == SL_OK)
-        *out = visibility;
-    else
-        sl_visibility_destroy(context, &visibility);
-    return status;
+        return sli_see_sweep_one_way(context, space, options, out);
+    return sli_sweep_see(context, space, options, sweep_all, out);
 }
 
 // --- in parts
 
-static sl_status sweep_some(sl_context *context, sweep *all, sl_findings *findings) {
-    SL_TRY(sl_fans_find(context, all->space, all->options, SL_FANS_MUTUAL, &all->fans));
-    const uint32_t count = (uint32_t)all->fans.fans.count;
-    SL_TRY(sl_findings_start(context, all->space, all->options, count, findings));
-    all->before = findings;
+static sl_status sweep_some(sl_context *context, sli_sweep *all, sl_partial *partial) {
+    SL_TRY(find_fans(context, all));
+    const uint32_t count = (uint32_t)all->fans[0].fans.count;
+    SL_TRY(sli_partial_begin(context, all->space, all->options, count, partial));
+    all->before = partial;
     all->done = sl_alloc_array(context, count, sizeof *all->done);
     if (!all->done) return SL_NO_MEMORY;
     SL_TRY(turn_about_all(context, all));
-    sl_fans_destroy(context, &all->fans);
-    SL_TRY(sl_bit_rows_add_pvs(context, &all->rows, &findings->sure));
+    sli_fans_destroy(context, &all->fans[0]);
+    SL_TRY(sli_bit_rows_add_pvs(context, &all->rows, &partial->sure));
     sl_visibility found = {0};
-    SL_TRY(sl_bit_rows_encode(context, &all->rows, &found));
-    sl_pvs_destroy(context, &findings->sure);
-    findings->sure = found.pvs;
-    sl_findings_note_bytes(findings, all->done);
+    SL_TRY(sli_bit_rows_encode(context, &all->rows, &found));
+    sl_pvs_destroy(context, &partial->sure);
+    partial->sure = found.pvs;
+    sli_partial_note_bytes(partial, all->done);
     return SL_OK;
 }
 
-sl_status sl_look_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
-                        sl_findings *findings) {
+sl_status sli_run_sweep(sl_context *context, const sl_space *space, const sl_see_options *options,
+                        sl_partial *partial) {
     SL_TRY(check_options(context, options));
     if (options->plan && options->plan->effects)
         return sl_fail(context, SL_UNSUPPORTED,
                        "a sweep done in parts knows no effects: bake in one go");
-    sweep all = {.space = space, .options = options};
+    sli_sweep all = {.space = space, .options = options};
     pthread_mutex_init(&all.lock, NULL);
-    const sl_status status = sweep_some(context, &all, findings);
+    const sl_status status = sweep_some(context, &all, partial);
     pthread_mutex_destroy(&all.lock);
-    sl_fans_destroy(context, &all.fans);
-    sl_bit_rows_destroy(context, &all.rows);
-    sl_free(context, all.done);
+    destroy_sweep(context, &all);
     return status;
 }

@@ -1,12 +1,14 @@
-/// The sweep where the map has doors or a view range: it settles most pairs without a search. What
-/// it sees with all doors open bounds what is seen at all; what it sees with all doors shut is seen
-/// through none; cells whose nearest points are beyond the range do not see each other, those whose
-/// farthest points are within it may. Only pairs that are seen, and not so settled, are left to the
-/// depth-first search, which goes nowhere but towards them.
-#include "cell_to_cell/cells_apart.h"
+/// The sweep for maps with doors or a view range: it decides most pairs, and a search the rest.
+///
+/// With all doors open the sweep sees every pair that can be seen at all. With all doors shut it
+/// sees the pairs that need no door. Cells whose nearest points are beyond the range do not see
+/// each other. Cells whose farthest points are within it need no test of the range. The depth-first
+/// search is left the pairs that are possible and not certain. It goes only where such a pair is
+/// left.
+#include "cell_to_cell/sweep.h"
+
 #include "cell_to_cell/dfs.h"
 #include "cell_to_cell/methods.h"
-#include "cell_to_cell/sweep.h"
 #include "sightline/solvers.h"
 
 #include <string.h>
@@ -18,25 +20,25 @@ static sl_status see_shut(sl_context *context, const sl_space *space, const sl_s
     if (!shut) return SL_NO_MEMORY;
     memset(shut, 1, doors * sizeof *shut);
     sl_space walled = {0};
-    const sl_passage passage = {.shut = shut};
-    sl_status status = sl_passage_make(context, space, &passage, NULL, &walled);
+    const sl_filtered_space filtered = {.shut = shut};
+    sl_status status = sl_filtered_space_make(context, space, &filtered, NULL, &walled);
     sl_free(context, shut);
-    if (status == SL_OK) status = sl_see_sweep(context, &walled, options, out);
+    if (status == SL_OK) status = sli_see_sweep(context, &walled, options, out);
     sl_space_destroy(context, &walled);
     return status;
 }
 
-static sl_status narrow(sl_context *context, const sl_space *space, double range, sl_apart most,
+static sl_status narrow(sl_context *context, const sl_space *space, double range, sli_apart most,
                         sl_visibility *visibility) {
     sl_pvs within;
-    SL_TRY(sl_pvs_within(context, space, &visibility->pvs, range, most, &within));
+    SL_TRY(sli_pvs_within(context, space, &visibility->pvs, range, most, &within));
     sl_pvs_destroy(context, &visibility->pvs);
     visibility->pvs = within;
     return SL_OK;
 }
 
-static sl_status settle(sl_context *context, const sl_space *space, const sl_see_options *options,
-                        sl_visibility *open, sl_visibility *shut, sl_visibility *out) {
+static sl_status see_all(sl_context *context, const sl_space *space, const sl_see_options *options,
+                         sl_visibility *open, sl_visibility *shut, sl_visibility *out) {
     const sl_plan *plan = options->plan;
     sl_plan ways = *plan;
     ways.effects &= SL_EFFECT_ONEWAY;
@@ -45,23 +47,23 @@ static sl_status settle(sl_context *context, const sl_space *space, const sl_see
     swept.plan = &ways;
     searched.solver = sl_funnel();
     const size_t doors = plan->effects & SL_EFFECT_DOOR ? plan->map->door_count : 0;
-    SL_TRY(sl_see_sweep(context, space, &swept, open));
+    SL_TRY(sli_see_sweep(context, space, &swept, open));
     SL_TRY(see_shut(context, space, &swept, doors, shut));
     if (plan->range > 0) {
-        SL_TRY(narrow(context, space, plan->range, SL_SOME_WITHIN, open));
-        SL_TRY(narrow(context, space, plan->range, SL_ALL_WITHIN, shut));
+        SL_TRY(narrow(context, space, plan->range, SLI_SOME_WITHIN, open));
+        SL_TRY(narrow(context, space, plan->range, SLI_ALL_WITHIN, shut));
     }
-    const sl_dfs_known known = {.possible = &open->pvs, .certain = &shut->pvs};
-    SL_TRY(sl_dfs_see_rest(context, space, &searched, &known, out));
+    const sli_dfs_known known = {.possible = &open->pvs, .certain = &shut->pvs};
+    SL_TRY(sli_dfs_see_rest(context, space, &searched, &known, out));
     out->account.glass_tests += open->account.glass_tests + shut->account.glass_tests;
     out->account.pieces = open->account.pieces + shut->account.pieces;
     return SL_OK;
 }
 
-sl_status sl_see_sweep_settled(sl_context *context, const sl_space *space,
-                               const sl_see_options *options, sl_visibility *out) {
+sl_status sli_see_sweep_finished(sl_context *context, const sl_space *space,
+                                 const sl_see_options *options, sl_visibility *out) {
     sl_visibility open = {0}, shut = {0};
-    const sl_status status = settle(context, space, options, &open, &shut, out);
+    const sl_status status = see_all(context, space, options, &open, &shut, out);
     sl_visibility_destroy(context, &open);
     sl_visibility_destroy(context, &shut);
     return status;

@@ -1,6 +1,14 @@
-#include "draw/canvas.h"
+/// From the map to the page: the transform, paths cut to the frame, and text.
+///
+/// cairo keeps coordinates as fixed-point numbers, which overflow beyond 2^23. A frame zoomed in
+/// reaches that, so all paths are cut to the guard: the frame and a margin as wide as the widest
+/// line. Segments are cut after Liang and Barsky (1984), polygons after Sutherland and Hodgman
+/// (1974): corners stream through the four sides of the guard, with no array between them.
+#include "draw/plan.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 sl_frame sl_frame_fit(sl_box bounds, double left, double top, double width, double height,
                       double unit) {
@@ -30,7 +38,7 @@ sl_point sl_frame_point(const sl_frame *frame, sl_point point) {
     };
 }
 
-sl_box sl_frame_guard(const sl_frame *frame) {
+sl_box sli_frame_guard(const sl_frame *frame) {
     // Enough for the edge of the widest line, cut there, to stay out of sight.
     const double around = 100 * frame->unit;
     return (sl_box){{frame->left - around, frame->top - around},
@@ -51,8 +59,9 @@ static bool narrow(double start, double step, double low, double high, double *f
     return *from <= *to;
 }
 
-bool sl_frame_segment(const sl_frame *frame, sl_point a, sl_point b, sl_point *from, sl_point *to) {
-    const sl_box box = sl_frame_guard(frame);
+bool sli_frame_segment(const sl_frame *frame, sl_point a, sl_point b, sl_point *from,
+                       sl_point *to) {
+    const sl_box box = sli_frame_guard(frame);
     const sl_point p = sl_frame_point(frame, a), q = sl_frame_point(frame, b);
     const double dx = q.x - p.x, dy = q.y - p.y;
     double enter = 0, leave = 1;
@@ -64,7 +73,7 @@ bool sl_frame_segment(const sl_frame *frame, sl_point a, sl_point b, sl_point *f
 }
 
 bool sl_frame_holds(const sl_frame *frame, sl_point point, sl_point *place) {
-    const sl_box box = sl_frame_guard(frame);
+    const sl_box box = sli_frame_guard(frame);
     const sl_point p = sl_frame_point(frame, point);
     if (place) *place = p;
     return holds(&box, p);
@@ -72,13 +81,13 @@ bool sl_frame_holds(const sl_frame *frame, sl_point point, sl_point *place) {
 
 void sl_path_segment(cairo_t *cairo, const sl_frame *frame, sl_point a, sl_point b) {
     sl_point from, to;
-    if (!sl_frame_segment(frame, a, b, &from, &to)) return;
+    if (!sli_frame_segment(frame, a, b, &from, &to)) return;
     cairo_move_to(cairo, from.x, from.y);
     cairo_line_to(cairo, to.x, to.y);
 }
 
-/// One of the guard's four sides, as a step of Sutherland & Hodgman's clipping: corners go in one
-/// by one, what is left of them goes to the next side, and from the last into the path.
+/// One side of the guard, as a step of Sutherland and Hodgman's clipping. Corners enter one by one.
+/// What remains goes to the next side, and from the last side into the path.
 typedef struct side {
     bool vertical, upper; ///< whether it bounds x, and whether from above
     double bound;
@@ -127,7 +136,7 @@ static void add_cut(cairo_t *cairo, const sl_box *box, const sl_frame *frame,
 }
 
 void sl_path_polygon(cairo_t *cairo, const sl_frame *frame, const sl_point *corners, size_t count) {
-    const sl_box box = sl_frame_guard(frame);
+    const sl_box box = sli_frame_guard(frame);
     bool whole = true;
     for (size_t i = 0; i < count && whole; i++)
         whole = holds(&box, sl_frame_point(frame, corners[i]));
@@ -143,8 +152,8 @@ void sl_path_polygon(cairo_t *cairo, const sl_frame *frame, const sl_point *corn
     if (cairo_has_current_point(cairo)) cairo_close_path(cairo);
 }
 
-void sl_path_curve(cairo_t *cairo, const sl_frame *frame, const sl_point controls[4]) {
-    const sl_box box = sl_frame_guard(frame);
+void sli_path_curve(cairo_t *cairo, const sl_frame *frame, const sl_point controls[4]) {
+    const sl_box box = sli_frame_guard(frame);
     sl_point p[4];
     bool whole = true;
     for (int i = 0; i < 4; i++) {
@@ -157,4 +166,89 @@ void sl_path_curve(cairo_t *cairo, const sl_frame *frame, const sl_point control
     }
     cairo_move_to(cairo, p[0].x, p[0].y);
     cairo_curve_to(cairo, p[1].x, p[1].y, p[2].x, p[2].y, p[3].x, p[3].y);
+}
+
+#define THIN_SPACE "\xe2\x80\x89"
+#define ELLIPSIS   "\xe2\x80\xa6"
+
+void sl_text_font(cairo_t *cairo, double size, bool bold) {
+    cairo_font_options_t *options = cairo_font_options_create();
+    cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+    cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+    cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
+    cairo_set_font_options(cairo, options);
+    cairo_font_options_destroy(options);
+    cairo_select_font_face(cairo, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
+                           bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(cairo, size);
+}
+
+double sl_text_width(cairo_t *cairo, const char *text) {
+    cairo_text_extents_t extents;
+    cairo_text_extents(cairo, text, &extents);
+    return extents.x_advance;
+}
+
+void sl_text_show(cairo_t *cairo, sl_colour colour, double x, double y, const char *text) {
+    cairo_set_source_rgb(cairo, colour.red, colour.green, colour.blue);
+    cairo_move_to(cairo, x, y);
+    cairo_show_text(cairo, text);
+    cairo_new_path(cairo);
+}
+
+void sli_text_copy(const char *text, size_t length, char *out, size_t room) {
+    if (length > room - 1) {
+        length = room - 1;
+        // A byte 10xxxxxx continues a character.
+        while (length > 0 && ((unsigned char)text[length] & 0xc0) == 0x80) length--;
+    }
+    memcpy(out, text, length);
+    out[length] = '\0';
+}
+
+/// The longest beginning of the text that fits with an ellipsis. It ends at a whole character.
+static void cut(cairo_t *cairo, const char *text, double width, char *out, size_t room) {
+    size_t length = strlen(text);
+    if (length > room - sizeof ELLIPSIS) length = room - sizeof ELLIPSIS;
+    for (;; length--) {
+        // A byte 10xxxxxx continues a character.
+        while (length > 0 && ((unsigned char)text[length] & 0xc0) == 0x80) length--;
+        snprintf(out, room, "%.*s" ELLIPSIS, (int)length, text);
+        if (length == 0 || sl_text_width(cairo, out) <= width) return;
+    }
+}
+
+void sl_text_show_within(cairo_t *cairo, sl_colour colour, double x, double y, double width,
+                         double size, bool bold, const char *text) {
+    sl_text_font(cairo, size, bold);
+    const double wanted = sl_text_width(cairo, text);
+    if (wanted > width) sl_text_font(cairo, size * fmax(width / wanted, 2.0 / 3), bold);
+    if (wanted * (2.0 / 3) <= width) {
+        sl_text_show(cairo, colour, x, y, text);
+        return;
+    }
+    char shown[512];
+    cut(cairo, text, width, shown, sizeof shown);
+    sl_text_show(cairo, colour, x, y, shown);
+}
+
+void sl_text_count(uint64_t count, const char *unit, char text[SL_COUNT_TEXT]) {
+    char digits[24], grouped[2 * sizeof digits];
+    const int length = snprintf(digits, sizeof digits, "%llu", (unsigned long long)count);
+    size_t at = 0;
+    for (int i = 0; i < length; i++) {
+        if (i > 0 && (length - i) % 3 == 0) {
+            memcpy(grouped + at, THIN_SPACE, sizeof THIN_SPACE - 1);
+            at += sizeof THIN_SPACE - 1;
+        }
+        grouped[at++] = digits[i];
+    }
+    grouped[at] = '\0';
+    snprintf(text, SL_COUNT_TEXT, "%s%s%s%s", grouped, *unit ? " " : "", unit,
+             *unit && count != 1 ? "s" : "");
+}
+
+void sl_text_percent(double share, char text[SL_COUNT_TEXT]) {
+    const unsigned tenths = (unsigned)(fmin(fmax(share, 0), 1) * 1000 + 0.5);
+    snprintf(text, SL_COUNT_TEXT, "%u.%u" THIN_SPACE "%%", tenths / 10, tenths % 10);
 }

@@ -1,16 +1,23 @@
-#include "draw/chart_labels.h"
+/// The places of a chart's labels.
+///
+/// Labels are placed one by one, each at the free place whose line to its mark is shortest: beside
+/// the mark, or in rows over and under it. A place is free where the label overlaps no obstacle and
+/// no label, and where lines cross nothing. The greedy order matters, so that labels which found no
+/// room get the first turns in the next attempt; of all attempts the best is kept. Each attempt
+/// costs labels x places x (obstacles + labels).
+#include "draw/chart.h"
 
 #include <math.h>
 #include <stdint.h>
 
-/// The labels are placed in turns; those before `turn` have their places, or have none.
+/// Labels take turns. Those before `turn` have their places, or found none.
 typedef struct placing {
-    const sl_label_room *room;
-    sl_label *labels;
+    const sli_label_room *room;
+    sli_label *labels;
     size_t count, turn;
 } placing;
 
-static sl_label *label_at(const placing *p, size_t turn) {
+static sli_label *label_at(const placing *p, size_t turn) {
     return &p->labels[p->labels[turn].turn];
 }
 
@@ -54,21 +61,21 @@ static bool lines_cross(sl_point a, sl_point b, sl_point c, sl_point d) {
 }
 
 /// Whether a label may stand where `tried` says.
-static bool stands_free(const placing *p, const sl_label *tried) {
-    const sl_label_room *room = p->room;
+static bool stands_free(const placing *p, const sli_label *tried) {
+    const sli_label_room *room = p->room;
     const sl_box *frame = &room->frame, *box = &tried->box;
     if (box->min.x < frame->min.x || box->max.x > frame->max.x || box->min.y < frame->min.y ||
         box->max.y > frame->max.y)
         return false;
     for (size_t i = 0; i < room->obstacle_count; i++) {
-        const sl_obstacle *o = &room->obstacles[i];
+        const sli_obstacle *o = &room->obstacles[i];
         if (overlap(*box, o->box, room->gap)) return false;
         if (!o->lines_cross && o->owner != p->labels[p->turn].turn &&
             !holds(o->box, tried->anchor) && line_meets_box(tried->anchor, tried->knee, o->box))
             return false;
     }
     for (size_t i = 0; i < p->turn; i++) {
-        const sl_label *other = label_at(p, i);
+        const sli_label *other = label_at(p, i);
         if (!other->placed) continue;
         if (overlap(*box, other->box, room->gap) ||
             line_meets_box(tried->anchor, tried->knee, other->box) ||
@@ -80,8 +87,8 @@ static bool stands_free(const placing *p, const sl_label *tried) {
 }
 
 /// The label with its left edge at `left`, `away` over its anchor, or under it.
-static sl_label put(const sl_label *label, double left, double away, bool over) {
-    sl_label put = *label;
+static sli_label put(const sli_label *label, double left, double away, bool over) {
+    sli_label put = *label;
     put.placed = true;
     put.box.min.x = left;
     put.box.max.x = left + label->width;
@@ -94,26 +101,26 @@ static sl_label put(const sl_label *label, double left, double away, bool over) 
 }
 
 /// At the anchor's own height, right or left of it.
-static sl_label put_beside(const sl_label *label, double clearance, bool right) {
+static sli_label put_beside(const sli_label *label, double clearance, bool right) {
     const double x = label->anchor.x;
-    sl_label beside =
+    sli_label beside =
         put(label, right ? x + clearance : x - clearance - label->width, -label->height / 2, true);
     beside.knee = (sl_point){right ? beside.box.min.x : beside.box.max.x, label->anchor.y};
     return beside;
 }
 
 typedef struct choice {
-    sl_label label;
+    sli_label label;
     double cost;
 } choice;
 
-static void consider(const placing *p, const sl_label *tried, double cost, choice *best) {
+static void consider(const placing *p, const sli_label *tried, double cost, choice *best) {
     if (cost >= best->cost || !stands_free(p, tried)) return;
     *best = (choice){*tried, cost};
 }
 
-/// How many of the labels still to be placed a box `away` from its anchor shuts in: of those whose
-/// anchors are within its width, half may go to the other side, and as many as fit stand between.
+/// How many labels without a place a box `away` from its anchor would shut in. Of those with
+/// anchors within its width, half may go to the other side, and some fit between.
 static double count_shut_in(const placing *p, const sl_box *box, double away) {
     const double height = box->max.y - box->min.y + p->room->gap;
     size_t within = 0;
@@ -124,11 +131,11 @@ static double count_shut_in(const placing *p, const sl_box *box, double away) {
     return fmax(0, (double)within / 2 - floor((away - p->room->clearance) / height));
 }
 
-/// Where a label's left edge may be: shifted by quarters of its width; like a flag, with its line
-/// upright at one end; clear of its anchor to either side.
+/// The left edges that a label may have: shifted by quarters of its width; like a flag, with an
+/// upright line at one end; beside its anchor on either side.
 enum { QUARTERS = 6, LEFTS = 2 * QUARTERS + 1 + 4 };
 
-static void list_lefts(const sl_label *label, double clearance, double lefts[LEFTS]) {
+static void list_lefts(const sli_label *label, double clearance, double lefts[LEFTS]) {
     const double x = label->anchor.x, width = label->width, end = label->height / 4;
     for (int i = 0; i <= 2 * QUARTERS; i++) lefts[i] = x + ((i - QUARTERS) / 4.0 - 0.5) * width;
     lefts[LEFTS - 4] = x - end;
@@ -137,22 +144,22 @@ static void list_lefts(const sl_label *label, double clearance, double lefts[LEF
     lefts[LEFTS - 1] = x - width - clearance;
 }
 
-/// Tries all places: beside the anchor, and in rows over and under it; takes the free one whose
-/// line is shortest. Slanting lines count more, and so does shutting others in.
-static void place(const placing *p, sl_label *label) {
+/// Tries all places, beside the anchor and in rows over and under it. Takes the free one with the
+/// shortest line. Slanting lines cost more, and so does shutting others in.
+static void place(const placing *p, sli_label *label) {
     const sl_box *frame = &p->room->frame;
     const double clearance = p->room->clearance, reach = frame->max.y - frame->min.y;
     const double step = fmax(label->height / 3, 1);
     double lefts[LEFTS];
     choice best = {*label, INFINITY};
     for (int right = 1; right >= 0; right--) {
-        const sl_label tried = put_beside(label, clearance, right);
+        const sli_label tried = put_beside(label, clearance, right);
         consider(p, &tried, clearance + 0.1 * label->height, &best);
     }
     list_lefts(label, clearance, lefts);
     for (double away = clearance; away < reach && away < best.cost; away += step) {
         for (int i = 0; i < 2 * LEFTS; i++) {
-            const sl_label tried = put(label, lefts[i / 2], away, i % 2 == 0);
+            const sli_label tried = put(label, lefts[i / 2], away, i % 2 == 0);
             const double middle = (tried.box.min.x + tried.box.max.x) / 2;
             const double slant = fabs(tried.knee.x - label->anchor.x);
             const double off = fabs(middle - label->anchor.x) / label->width;
@@ -168,7 +175,7 @@ static void place(const placing *p, sl_label *label) {
 static size_t place_all(placing *p) {
     size_t left_out = 0;
     for (p->turn = 0; p->turn < p->count; p->turn++) {
-        sl_label *label = label_at(p, p->turn);
+        sli_label *label = label_at(p, p->turn);
         label->placed = false;
         place(p, label);
         left_out += !label->placed;
@@ -176,7 +183,7 @@ static size_t place_all(placing *p) {
     return left_out;
 }
 
-/// Gives those that found no room the first turns; the order is else kept.
+/// Gives the first turns to labels that found no room; else keeps the order.
 static void promote_left_out(const placing *p) {
     size_t front = 0;
     for (size_t i = 0; i < p->count; i++) {
@@ -189,7 +196,7 @@ static void promote_left_out(const placing *p) {
 
 enum { ATTEMPTS = 24 };
 
-bool sl_labels_place(sl_label *labels, size_t count, const sl_label_room *room) {
+bool sli_labels_place(sli_label *labels, size_t count, const sli_label_room *room) {
     placing p = {.room = room, .labels = labels, .count = count};
     size_t least = SIZE_MAX;
     for (size_t i = 0; i < count; i++) labels[i].turn = i;

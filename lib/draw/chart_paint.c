@@ -1,5 +1,5 @@
-#include "draw/chart_page.h"
-
+/// How a chart is painted: heading, key, axes, marks. Each part can be measured first.
+#include "draw/chart.h"
 #include "draw/marks.h"
 
 #include <math.h>
@@ -39,7 +39,7 @@ static void stroke(cairo_t *cairo, sl_colour colour, double width) {
 
 // --- heading, key, notes
 
-double sl_chart_heading(cairo_t *cairo, const sl_chart_page *page, bool paint) {
+double sli_chart_heading(cairo_t *cairo, const sli_chart_page *page, bool paint) {
     const sl_chart *chart = page->chart;
     const double width = page->width - 2 * page->margin, size = page->text;
     double y = page->margin;
@@ -74,15 +74,15 @@ static void set_frontier_dash(cairo_t *cairo, double size) {
     cairo_set_dash(cairo, dashes, 2, 0);
 }
 
-/// What a series looks like, in a box of the key.
-static void draw_swatch(cairo_t *cairo, const sl_chart_page *page, const sl_chart_series *series,
+/// Draws the sign of a series into a box of the key.
+static void draw_swatch(cairo_t *cairo, const sli_chart_page *page, const sl_chart_series *series,
                         sl_box box) {
     const double size = page->text, middle = (box.min.y + box.max.y) / 2;
     const sl_palette *palette = &page->palette;
     switch (series->style) {
     case SL_CHART_MARKS:
         draw_disc(cairo, palette, series_colour(palette, series),
-                  (sl_point){(box.min.x + box.max.x) / 2, middle}, SL_CHART_DISC * size);
+                  (sl_point){(box.min.x + box.max.x) / 2, middle}, SLI_CHART_DISC * size);
         return;
     case SL_CHART_LINE:
         line(cairo, box.min.x, middle, box.max.x, middle);
@@ -104,8 +104,8 @@ static void draw_swatch(cairo_t *cairo, const sl_chart_page *page, const sl_char
     }
 }
 
-static void draw_band_swatch(cairo_t *cairo, const sl_chart_page *page, sl_box box) {
-    const double half = SL_CHART_DISC * page->text, x = (box.min.x + box.max.x) / 2;
+static void draw_band_swatch(cairo_t *cairo, const sli_chart_page *page, sl_box box) {
+    const double half = SLI_CHART_DISC * page->text, x = (box.min.x + box.max.x) / 2;
     cairo_rectangle(cairo, x - half, box.min.y, 2 * half, box.max.y - box.min.y);
     set_translucent(cairo, page->palette.faint, 0.35);
     cairo_fill(cairo);
@@ -116,7 +116,7 @@ typedef struct flow {
     double x, y;
 } flow;
 
-static void add_entry(cairo_t *cairo, const sl_chart_page *page, flow *at,
+static void add_entry(cairo_t *cairo, const sli_chart_page *page, flow *at,
                       const sl_chart_series *series, const char *name, bool paint) {
     const double size = page->text, swatch = (series && series->style ? 2.0 : 1.2) * size;
     sl_text_font(cairo, size, false);
@@ -145,7 +145,7 @@ static bool named_before(const sl_chart *chart, size_t i) {
     return false;
 }
 
-static double draw_note(cairo_t *cairo, const sl_chart_page *page, double y, const char *text,
+static double draw_note(cairo_t *cairo, const sli_chart_page *page, double y, const char *text,
                         bool paint) {
     const double size = 0.9 * page->text, width = page->width - 2 * page->margin;
     y += 1.4 * size;
@@ -159,16 +159,16 @@ static void append(char *text, size_t room, const char *lead, const char *more) 
     const char *const parts[] = {lead, more};
     for (int i = 0; i < 2; i++) {
         const size_t used = strlen(text);
-        sl_text_copy(parts[i], strlen(parts[i]), text + used, room - used);
+        sli_text_copy(parts[i], strlen(parts[i]), text + used, room - used);
     }
 }
 
-/// The chart's own, and the labels that found no room.
-static double draw_notes(cairo_t *cairo, const sl_chart_page *page, double y, bool paint) {
+/// The chart's notes, and the labels that found no room.
+static double draw_notes(cairo_t *cairo, const sli_chart_page *page, double y, bool paint) {
     char shown[1024];
     for (const char *text = page->chart->notes; text && *text;) {
         const size_t length = strcspn(text, "\n");
-        sl_text_copy(text, length, shown, sizeof shown);
+        sli_text_copy(text, length, shown, sizeof shown);
         y = draw_note(cairo, page, y, shown, paint);
         text += length + (text[length] == '\n');
     }
@@ -180,7 +180,7 @@ static double draw_notes(cairo_t *cairo, const sl_chart_page *page, double y, bo
     return shown[0] ? draw_note(cairo, page, y, shown, paint) : y;
 }
 
-double sl_chart_key(cairo_t *cairo, const sl_chart_page *page, bool paint) {
+double sli_chart_key(cairo_t *cairo, const sli_chart_page *page, bool paint) {
     const sl_chart *chart = page->chart;
     flow at = {page->margin, page->key_top};
     for (size_t i = 0; i < chart->series_count; i++)
@@ -193,9 +193,9 @@ double sl_chart_key(cairo_t *cairo, const sl_chart_page *page, bool paint) {
 
 // --- axes
 
-double sl_chart_gutter(cairo_t *cairo, const sl_chart_page *page) {
+double sli_chart_gutter(cairo_t *cairo, const sli_chart_page *page) {
     double widest = 0;
-    sl_text_font(cairo, SL_CHART_NUMBER * page->text, false);
+    sl_text_font(cairo, SLI_CHART_NUMBER * page->text, false);
     for (size_t i = 0; i < page->y_tick_count; i++)
         widest = fmax(widest, sl_text_width(cairo, page->y_ticks[i].text));
     return widest + 0.7 * page->text + (page->chart->y.label ? 1.9 * page->text : 0);
@@ -204,7 +204,7 @@ double sl_chart_gutter(cairo_t *cairo, const sl_chart_page *page) {
 #define UP_ARROW   "\xe2\x86\x91 "
 #define DOWN_ARROW "\xe2\x86\x93 "
 
-static bool write_words(const sl_chart_page *page, bool over, char *text, size_t room) {
+static bool write_words(const sli_chart_page *page, bool over, char *text, size_t room) {
     const char *words = over ? page->chart->y.over : page->chart->y.under;
     if (!words) return false;
     text[0] = '\0';
@@ -212,35 +212,35 @@ static bool write_words(const sl_chart_page *page, bool over, char *text, size_t
     return true;
 }
 
-sl_box sl_chart_words(cairo_t *cairo, const sl_chart_page *page, bool over) {
+sl_box sli_chart_words(cairo_t *cairo, const sli_chart_page *page, bool over) {
     char text[256];
     if (!write_words(page, over, text, sizeof text)) return (sl_box){0};
-    const double size = SL_CHART_NUMBER * page->text, inset = 0.5 * page->text;
+    const double size = SLI_CHART_NUMBER * page->text, inset = 0.5 * page->text;
     sl_text_font(cairo, size, false);
     const double width = sl_text_width(cairo, text), left = page->frame.max.x - inset - width;
     const double top = over ? page->frame.min.y + inset : page->frame.max.y - inset - 1.25 * size;
     return (sl_box){{left, top}, {left + width, top + 1.25 * size}};
 }
 
-static void draw_words(cairo_t *cairo, const sl_chart_page *page) {
+static void draw_words(cairo_t *cairo, const sli_chart_page *page) {
     for (int over = 0; over < 2; over++) {
         char text[256];
         if (!write_words(page, over, text, sizeof text)) continue;
-        const sl_box box = sl_chart_words(cairo, page, over);
+        const sl_box box = sli_chart_words(cairo, page, over);
         sl_text_show(cairo, page->palette.faint, box.min.x,
-                     box.max.y - 0.3 * SL_CHART_NUMBER * page->text, text);
+                     box.max.y - 0.3 * SLI_CHART_NUMBER * page->text, text);
     }
 }
 
-static void draw_grid(cairo_t *cairo, const sl_chart_page *page) {
+static void draw_grid(cairo_t *cairo, const sli_chart_page *page) {
     const sl_box *frame = &page->frame;
     cairo_set_line_cap(cairo, CAIRO_LINE_CAP_BUTT);
     for (size_t i = 0; i < page->x_tick_count; i++) {
-        const double x = sl_axis_place(&page->x, page->x_ticks[i].value);
+        const double x = sli_axis_place(&page->x, page->x_ticks[i].value);
         if (!page->x_ticks[i].minor) line(cairo, x, frame->min.y, x, frame->max.y);
     }
     for (size_t i = 0; i < page->y_tick_count; i++) {
-        const double y = sl_axis_place(&page->y, page->y_ticks[i].value);
+        const double y = sli_axis_place(&page->y, page->y_ticks[i].value);
         if (!page->y_ticks[i].minor) line(cairo, frame->min.x, y, frame->max.x, y);
     }
     set_translucent(cairo, page->palette.outline, 0.55);
@@ -248,14 +248,14 @@ static void draw_grid(cairo_t *cairo, const sl_chart_page *page) {
     cairo_stroke(cairo);
 }
 
-/// Numbers that would run into the one before are left out.
-static void draw_x_numbers(cairo_t *cairo, const sl_chart_page *page) {
-    const double size = SL_CHART_NUMBER * page->text, base = page->frame.max.y + 1.55 * page->text;
+/// Leaves out numbers that would touch the one before.
+static void draw_x_numbers(cairo_t *cairo, const sli_chart_page *page) {
+    const double size = SLI_CHART_NUMBER * page->text, base = page->frame.max.y + 1.55 * page->text;
     double free_from = 0;
     sl_text_font(cairo, size, false);
     for (size_t i = 0; i < page->x_tick_count; i++) {
-        const sl_tick *tick = &page->x_ticks[i];
-        const double x = sl_axis_place(&page->x, tick->value);
+        const sli_tick *tick = &page->x_ticks[i];
+        const double x = sli_axis_place(&page->x, tick->value);
         const double long_tick = (tick->minor ? 0.25 : 0.45) * page->text;
         line(cairo, x, page->frame.max.y, x, page->frame.max.y + long_tick);
         stroke(cairo, page->palette.faint, 0.07 * page->text);
@@ -266,13 +266,13 @@ static void draw_x_numbers(cairo_t *cairo, const sl_chart_page *page) {
     }
 }
 
-static void draw_y_numbers(cairo_t *cairo, const sl_chart_page *page) {
-    const double size = SL_CHART_NUMBER * page->text;
+static void draw_y_numbers(cairo_t *cairo, const sli_chart_page *page) {
+    const double size = SLI_CHART_NUMBER * page->text;
     double free_from = page->frame.max.y + size; // upwards
     for (size_t i = 0; i < page->y_tick_count; i++) {
-        const sl_tick *tick = &page->y_ticks[i];
+        const sli_tick *tick = &page->y_ticks[i];
         const bool named = tick->value == 0 && page->chart->y.zero;
-        const double y = sl_axis_place(&page->y, tick->value), base = y + 0.36 * size;
+        const double y = sli_axis_place(&page->y, tick->value), base = y + 0.36 * size;
         sl_text_font(cairo, size, named);
         if (tick->minor || base > free_from) continue;
         const double left = page->frame.min.x - 0.5 * page->text;
@@ -282,7 +282,7 @@ static void draw_y_numbers(cairo_t *cairo, const sl_chart_page *page) {
     }
 }
 
-static void draw_axis_labels(cairo_t *cairo, const sl_chart_page *page) {
+static void draw_axis_labels(cairo_t *cairo, const sli_chart_page *page) {
     const sl_box *frame = &page->frame;
     const double size = page->text;
     sl_text_font(cairo, size, false);
@@ -304,25 +304,26 @@ static void draw_axis_labels(cairo_t *cairo, const sl_chart_page *page) {
 // --- what is shown
 
 /// The stairs, from the edge of the frame over (or under) the first mark to its right edge.
-static void add_stairs(cairo_t *cairo, const sl_chart_page *page, const sl_chart_series *series) {
+static void add_stairs(cairo_t *cairo, const sli_chart_page *page, const sl_chart_series *series) {
     const bool over = series->style == SL_CHART_FRONTIER_OVER;
     double y = over ? page->frame.min.y : page->frame.max.y;
     for (size_t i = 0; i < series->mark_count; i++) {
-        const double x = sl_axis_place(&page->x, series->marks[i].x);
+        const double x = sli_axis_place(&page->x, series->marks[i].x);
         cairo_line_to(cairo, x, y);
-        y = sl_axis_place(&page->y, series->marks[i].y);
+        y = sli_axis_place(&page->y, series->marks[i].y);
         cairo_line_to(cairo, x, y);
     }
     cairo_line_to(cairo, page->frame.max.x, y);
 }
 
-/// What no mark reaches: from the stairs to 0 (or the frame's edge), and all that is left of them.
-static void shade_frontier(cairo_t *cairo, const sl_chart_page *page,
+/// Shades what no mark reaches: from the stairs to 0 (or to the edge of the frame), and all left of
+/// them.
+static void shade_frontier(cairo_t *cairo, const sli_chart_page *page,
                            const sl_chart_series *series) {
     const sl_box *frame = &page->frame;
     const bool over = series->style == SL_CHART_FRONTIER_OVER;
     const bool log = page->chart->y.scale == SL_CHART_LOG;
-    const double zero = log ? frame->max.y : sl_axis_place(&page->y, 0);
+    const double zero = log ? frame->max.y : sli_axis_place(&page->y, 0);
     const double base = fmin(fmax(zero, frame->min.y), frame->max.y);
     if (!series->mark_count) return;
     cairo_move_to(cairo, frame->min.x, base);
@@ -334,7 +335,7 @@ static void shade_frontier(cairo_t *cairo, const sl_chart_page *page,
     cairo_fill(cairo);
 }
 
-static void draw_frontier(cairo_t *cairo, const sl_chart_page *page,
+static void draw_frontier(cairo_t *cairo, const sli_chart_page *page,
                           const sl_chart_series *series) {
     if (!series->mark_count) return;
     cairo_new_path(cairo);
@@ -344,36 +345,36 @@ static void draw_frontier(cairo_t *cairo, const sl_chart_page *page,
     cairo_set_dash(cairo, NULL, 0, 0);
 }
 
-static void draw_line(cairo_t *cairo, const sl_chart_page *page, const sl_chart_series *series) {
+static void draw_line(cairo_t *cairo, const sli_chart_page *page, const sl_chart_series *series) {
     cairo_new_path(cairo);
     for (size_t i = 0; i < series->mark_count; i++)
-        cairo_line_to(cairo, sl_axis_place(&page->x, series->marks[i].x),
-                      sl_axis_place(&page->y, series->marks[i].y));
+        cairo_line_to(cairo, sli_axis_place(&page->x, series->marks[i].x),
+                      sli_axis_place(&page->y, series->marks[i].y));
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
     stroke(cairo, series_colour(&page->palette, series), 0.14 * page->text);
 }
 
-static void draw_spans(cairo_t *cairo, const sl_chart_page *page, const sl_spot *spot) {
+static void draw_spans(cairo_t *cairo, const sli_chart_page *page, const sli_spot *spot) {
     const sl_chart_mark *m = spot->mark;
     const sl_colour colour = series_colour(&page->palette, spot->series);
-    const double half = SL_CHART_DISC * page->text, cap = 0.5 * half;
+    const double half = SLI_CHART_DISC * page->text, cap = 0.5 * half;
     if (m->y_band.low != m->y_band.high) {
-        const double y0 = sl_axis_place(&page->y, m->y_band.low);
-        const double y1 = sl_axis_place(&page->y, m->y_band.high);
+        const double y0 = sli_axis_place(&page->y, m->y_band.low);
+        const double y1 = sli_axis_place(&page->y, m->y_band.high);
         cairo_rectangle(cairo, spot->at.x - half, fmin(y0, y1), 2 * half, fabs(y1 - y0));
         set_translucent(cairo, colour, 0.3);
         cairo_fill(cairo);
     }
     if (m->x_whisker.low != m->x_whisker.high) {
-        const double x0 = sl_axis_place(&page->x, m->x_whisker.low);
-        const double x1 = sl_axis_place(&page->x, m->x_whisker.high);
+        const double x0 = sli_axis_place(&page->x, m->x_whisker.low);
+        const double x1 = sli_axis_place(&page->x, m->x_whisker.high);
         line(cairo, x0, spot->at.y, x1, spot->at.y);
         line(cairo, x0, spot->at.y - cap, x0, spot->at.y + cap);
         line(cairo, x1, spot->at.y - cap, x1, spot->at.y + cap);
     }
     if (m->y_whisker.low != m->y_whisker.high) {
-        const double y0 = sl_axis_place(&page->y, m->y_whisker.low);
-        const double y1 = sl_axis_place(&page->y, m->y_whisker.high);
+        const double y0 = sli_axis_place(&page->y, m->y_whisker.low);
+        const double y1 = sli_axis_place(&page->y, m->y_whisker.high);
         line(cairo, spot->at.x, y0, spot->at.x, y1);
         line(cairo, spot->at.x - cap, y0, spot->at.x + cap, y0);
         line(cairo, spot->at.x - cap, y1, spot->at.x + cap, y1);
@@ -381,11 +382,11 @@ static void draw_spans(cairo_t *cairo, const sl_chart_page *page, const sl_spot 
     stroke(cairo, colour, 0.1 * page->text);
 }
 
-static void draw_label(cairo_t *cairo, const sl_chart_page *page, size_t i) {
-    const sl_label *label = &page->labels[i];
+static void draw_label(cairo_t *cairo, const sli_chart_page *page, size_t i) {
+    const sli_label *label = &page->labels[i];
     const sl_chart_mark *mark = page->spots[i].mark;
     if (!label->placed) return;
-    const double size = SL_CHART_LABEL * page->text, small = SL_CHART_NOTE * page->text;
+    const double size = SLI_CHART_LABEL * page->text, small = SLI_CHART_NOTE * page->text;
     // Each line is centred, or flush with the side that the mark is on.
     const double lean = label->knee.x <= label->box.min.x + label->height / 2   ? 0
                         : label->knee.x >= label->box.max.x - label->height / 2 ? 1
@@ -396,24 +397,24 @@ static void draw_label(cairo_t *cairo, const sl_chart_page *page, size_t i) {
     sl_text_show(cairo, page->palette.ink, label->box.min.x + lean * free, y, mark->label);
     if (!mark->note || page->bare) return;
     sl_text_font(cairo, small, false);
-    y += SL_CHART_LINE_HEIGHT * small + 0.1 * size;
+    y += SLI_CHART_LINE_HEIGHT * small + 0.1 * size;
     free = label->width - sl_text_width(cairo, mark->note);
     sl_text_show(cairo, page->palette.faint, label->box.min.x + lean * free, y, mark->note);
 }
 
-static void draw_leaders(cairo_t *cairo, const sl_chart_page *page) {
+static void draw_leaders(cairo_t *cairo, const sli_chart_page *page) {
     for (size_t i = 0; i < page->label_count; i++) {
-        const sl_label *label = &page->labels[i];
+        const sli_label *label = &page->labels[i];
         if (label->placed)
             line(cairo, label->anchor.x, label->anchor.y, label->knee.x, label->knee.y);
     }
     stroke(cairo, page->palette.faint, 0.06 * page->text);
 }
 
-static void draw_frame(cairo_t *cairo, const sl_chart_page *page) {
+static void draw_frame(cairo_t *cairo, const sli_chart_page *page) {
     const sl_box *frame = &page->frame;
     if (page->chart->y.over && page->chart->y.under) {
-        const double zero = sl_axis_place(&page->y, 0);
+        const double zero = sli_axis_place(&page->y, 0);
         line(cairo, frame->min.x, zero, frame->max.x, zero);
         stroke(cairo, page->palette.ink, 0.1 * page->text);
     }
@@ -422,7 +423,7 @@ static void draw_frame(cairo_t *cairo, const sl_chart_page *page) {
     stroke(cairo, page->palette.outline, 0.08 * page->text);
 }
 
-static void draw_series(cairo_t *cairo, const sl_chart_page *page) {
+static void draw_series(cairo_t *cairo, const sli_chart_page *page) {
     const sl_chart *chart = page->chart;
     for (size_t i = 0; i < chart->series_count; i++) {
         const sl_chart_series *series = &chart->series[i];
@@ -434,20 +435,20 @@ static void draw_series(cairo_t *cairo, const sl_chart_page *page) {
     draw_leaders(cairo, page);
     for (size_t i = 0; i < page->spot_count; i++) draw_spans(cairo, page, &page->spots[i]);
     for (size_t i = 0; i < page->spot_count; i++) {
-        const sl_spot *spot = &page->spots[i];
+        const sli_spot *spot = &page->spots[i];
         if (spot->series->style == SL_CHART_MARKS)
             draw_disc(cairo, &page->palette, series_colour(&page->palette, spot->series), spot->at,
-                      SL_CHART_DISC * page->text);
+                      SLI_CHART_DISC * page->text);
     }
     for (size_t i = 0; i < page->label_count; i++) draw_label(cairo, page, i);
 }
 
-void sl_chart_paint(cairo_t *cairo, const sl_chart_page *page) {
+void sli_chart_paint(cairo_t *cairo, const sli_chart_page *page) {
     const sl_chart *chart = page->chart;
     const sl_box *frame = &page->frame;
     sl_set_colour(cairo, page->palette.page);
     cairo_paint(cairo);
-    sl_chart_heading(cairo, page, true);
+    sli_chart_heading(cairo, page, true);
     cairo_rectangle(cairo, frame->min.x, frame->min.y, frame->max.x - frame->min.x,
                     frame->max.y - frame->min.y);
     sl_set_colour(cairo, page->palette.floor[0]);
@@ -463,5 +464,5 @@ void sl_chart_paint(cairo_t *cairo, const sl_chart_page *page) {
     draw_x_numbers(cairo, page);
     draw_y_numbers(cairo, page);
     draw_axis_labels(cairo, page);
-    sl_chart_key(cairo, page, true);
+    sli_chart_key(cairo, page, true);
 }

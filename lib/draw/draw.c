@@ -1,11 +1,432 @@
+/// The picture of a baked map: a heading, the plan, and below it a legend with the counts and a
+/// scale bar.
 #include "sightline/draw.h"
-
-#include "base/base.h"
-#include "draw/legend.h"
+#include "draw/marks.h"
 #include "draw/page.h"
-#include "draw/plan.h"
+#include "sightline/support.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/// The strip of the page for a heading or a legend.
+typedef struct strip {
+    double left, top, width;
+    double text; ///< size of the text
+    bool paint;  ///< false only measures
+} strip;
+
+// --- the legend
+
+/// The widths of things, in sizes of the text.
+#define SWATCH_WIDTH  2.0
+#define SWATCH_HEIGHT 1.15
+#define RAMP_WIDTH    9.0
+#define GAP           0.55
+#define BETWEEN       1.9
+#define LINE_HEIGHT   1.95
+#define TEXT_MAX      (5 * SL_COUNT_TEXT)
+
+/// One entry of the key: a swatch and its meaning. `lead` is a text before the swatch, or "".
+typedef struct entry {
+    void (*swatch)(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box);
+    double width; ///< of the swatch, in sizes of the text
+    char lead[SL_COUNT_TEXT];
+    char text[TEXT_MAX];
+} entry;
+
+#define ENTRIES 24
+
+typedef struct key {
+    entry entries[ENTRIES];
+    size_t count;
+} key;
+
+static entry *add(key *k, void (*swatch)(cairo_t *, const sl_scene *, const sli_pens *, sl_box),
+                  const char *text) {
+    entry *e = &k->entries[k->count++];
+    *e = (entry){.swatch = swatch, .width = SWATCH_WIDTH};
+    snprintf(e->text, sizeof e->text, "%s", text);
+    return e;
+}
+
+static void add_count(key *k, void (*swatch)(cairo_t *, const sl_scene *, const sli_pens *, sl_box),
+                      uint64_t count, const char *unit) {
+    char text[SL_COUNT_TEXT];
+    sl_text_count(count, unit, text);
+    add(k, swatch, text);
+}
+
+static void fill_box(cairo_t *cairo, sl_colour colour, double left, double right, sl_box box) {
+    sl_set_colour(cairo, colour);
+    cairo_rectangle(cairo, left, box.min.y, right - left, box.max.y - box.min.y);
+    cairo_fill(cairo);
+}
+
+/// The tones side by side, under one thin frame.
+static void swatch_tones(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box,
+                         const sl_colour *tones, int count) {
+    const double step = (box.max.x - box.min.x) / count;
+    for (int i = 0; i < count; i++)
+        fill_box(cairo, tones[i], box.min.x + i * step, box.min.x + (i + 1) * step, box);
+    cairo_rectangle(cairo, box.min.x, box.min.y, box.max.x - box.min.x, box.max.y - box.min.y);
+    sli_pen_outline(cairo, &scene->palette, pens);
+}
+
+static void swatch_floor(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
+    swatch_tones(cairo, scene, pens, box, scene->palette.floor, SL_TONES - 1);
+}
+
+static void swatch_seen(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
+    swatch_tones(cairo, scene, pens, box, scene->palette.seen, SL_TONES - 1);
+}
+
+static void swatch_doubtful(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens,
+                            sl_box box) {
+    swatch_tones(cairo, scene, pens, box, &scene->palette.doubtful, 1);
+}
+
+static void swatch_source(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
+    fill_box(cairo, scene->palette.source, box.min.x, box.max.x, box);
+    cairo_rectangle(cairo, box.min.x, box.min.y, box.max.x - box.min.x, box.max.y - box.min.y);
+    sli_pen_source_edge(cairo, &scene->palette, pens);
+}
+
+static void swatch_hidden(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
+    fill_box(cairo, scene->palette.ground, box.min.x, box.max.x, box);
+    sli_mark_hatch(cairo, &scene->palette, box, (box.max.y - box.min.y) / 2.5, 0);
+    cairo_rectangle(cairo, box.min.x, box.min.y, box.max.x - box.min.x, box.max.y - box.min.y);
+    sli_pen_outline(cairo, &scene->palette, pens);
+}
+
+static void swatch_ramp(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
+    cairo_pattern_t *ramp = cairo_pattern_create_linear(box.min.x, 0, box.max.x, 0);
+    for (unsigned i = 0; i <= 12; i++) {
+        const sl_colour c = sl_palette_ramp(scene->palette.dark, i / 12.0);
+        cairo_pattern_add_color_stop_rgb(ramp, i / 12.0, c.red, c.green, c.blue);
+    }
+    cairo_rectangle(cairo, box.min.x, box.min.y, box.max.x - box.min.x, box.max.y - box.min.y);
+    cairo_set_source(cairo, ramp);
+    cairo_fill_preserve(cairo);
+    cairo_pattern_destroy(ramp);
+    sli_pen_outline(cairo, &scene->palette, pens);
+}
+
+static sl_point left_middle(sl_box box) {
+    return (sl_point){box.min.x, (box.min.y + box.max.y) / 2};
+}
+
+static sl_point right_middle(sl_box box) {
+    return (sl_point){box.max.x, (box.min.y + box.max.y) / 2};
+}
+
+static void add_middle_line(cairo_t *cairo, sl_box box) {
+    cairo_move_to(cairo, box.min.x, left_middle(box).y);
+    cairo_line_to(cairo, box.max.x, left_middle(box).y);
+}
+
+static void swatch_wall(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
+    add_middle_line(cairo, box);
+    sli_pen_wall(cairo, &scene->palette, pens);
+}
+
+static void swatch_portal(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
+    add_middle_line(cairo, box);
+    sli_pen_portal(cairo, &scene->palette, pens);
+}
+
+static void swatch_path(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
+    add_middle_line(cairo, box);
+    sli_pen_path(cairo, &scene->palette, pens);
+}
+
+/// Strokes fade from left to right, as they do with depth.
+static void fade(cairo_t *cairo, sl_colour colour, const sli_pens *pens, sl_box box) {
+    const double step = (box.max.x - box.min.x) / 6, y = left_middle(box).y;
+    for (uint32_t i = 0; i < 6; i++) {
+        cairo_move_to(cairo, box.min.x + i * step, y);
+        cairo_line_to(cairo, box.min.x + (i + 1) * step, y);
+        sli_pen_tree(cairo, colour, pens, 2 * i);
+    }
+}
+
+static void swatch_tree(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
+    fade(cairo, scene->palette.tree, pens, box);
+}
+
+static void swatch_mirrored(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens,
+                            sl_box box) {
+    fade(cairo, scene->palette.mirrored, pens, box);
+}
+
+static void swatch_start(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
+    (void)pens;
+    const sl_point middle = {(box.min.x + box.max.x) / 2, left_middle(box).y};
+    sli_mark_start(cairo, &scene->palette, middle, 0, (box.max.y - box.min.y) / 2);
+}
+
+static void swatch_door(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
+    const sl_point a = left_middle(box), b = right_middle(box);
+    const sl_point middle = {(a.x + b.x) / 2, a.y};
+    sli_mark_door(cairo, &scene->palette, pens, a, middle, false);
+    sli_mark_door(cairo, &scene->palette, pens, middle, b, true);
+}
+
+static void swatch_mirror(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
+    sli_mark_mirror(cairo, &scene->palette, pens, left_middle(box), right_middle(box));
+}
+
+static void swatch_oneway(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
+    const sl_point a = {box.min.x, box.max.y}, b = {box.max.x, box.max.y};
+    sli_mark_oneway(cairo, &scene->palette, pens, a, b);
+}
+
+static void swatch_object(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
+    cairo_rectangle(cairo, box.min.x, box.min.y, box.max.x - box.min.x, box.max.y - box.min.y);
+    sli_pen_object(cairo, &scene->palette, pens);
+}
+
+#define SWATCH_FAULT(name, kind)                                                                   \
+    static void name(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {    \
+        sli_mark_fault(cairo, &scene->palette, pens, kind, left_middle(box), right_middle(box));   \
+    }
+SWATCH_FAULT(swatch_leak, SL_FAULT_LEAK)
+SWATCH_FAULT(swatch_gap, SL_FAULT_GAP)
+SWATCH_FAULT(swatch_overlap, SL_FAULT_OVERLAP)
+SWATCH_FAULT(swatch_crossing, SL_FAULT_CROSSING)
+SWATCH_FAULT(swatch_thin, SL_FAULT_THIN)
+SWATCH_FAULT(swatch_unreachable, SL_FAULT_UNREACHABLE)
+
+static void add_faults(key *k, const sl_faults *faults) {
+    static const struct {
+        void (*swatch)(cairo_t *, const sl_scene *, const sli_pens *, sl_box);
+        const char *what;
+    } kinds[SL_FAULT_KINDS] = {
+        [SL_FAULT_LEAK] = {swatch_leak, "leak"},
+        [SL_FAULT_GAP] = {swatch_gap, "gap"},
+        [SL_FAULT_OVERLAP] = {swatch_overlap, "overlap"},
+        [SL_FAULT_CROSSING] = {swatch_crossing, "crossing"},
+        [SL_FAULT_THIN] = {swatch_thin, "thin cell"},
+        [SL_FAULT_UNREACHABLE] = {swatch_unreachable, "unreachable room"},
+    };
+    for (int kind = 0; kind < SL_FAULT_KINDS; kind++)
+        if (faults->counts[kind])
+            add_count(k, kinds[kind].swatch, faults->counts[kind], kinds[kind].what);
+}
+
+static void add_seen(key *k, const sl_scene *scene) {
+    char text[TEXT_MAX], seen[SL_COUNT_TEXT], of[SL_COUNT_TEXT], share[SL_COUNT_TEXT];
+    sl_text_percent(scene->seen_share, share);
+    sl_text_count(scene->seen, "", seen);
+    sl_text_count(scene->population, "cell", of);
+    snprintf(text, sizeof text, "sees %s of %s, %s of the area", seen, of, share);
+    add(k, swatch_seen, text);
+    if (!scene->doubtful) return;
+    sl_text_count(scene->doubtful, "cell", of);
+    snprintf(text, sizeof text, "%s decided by rounding", of);
+    add(k, swatch_doubtful, text);
+}
+
+static void add_tree(key *k, const sl_scene *scene) {
+    char text[TEXT_MAX], nodes[SL_COUNT_TEXT];
+    sl_text_count(scene->tree_nodes, "node", nodes);
+    snprintf(text, sizeof text, "stab tree: %s, %u deep", nodes, scene->tree_depth);
+    add(k, swatch_tree, scene->tree_nodes ? text : "stab tree: not kept");
+    if (!scene->mirrored_nodes) return;
+    sl_text_count(scene->mirrored_nodes, "node", nodes);
+    snprintf(text, sizeof text, "%s of it by mirror", nodes);
+    add(k, swatch_mirrored, text);
+}
+
+static void add_heat(key *k, const sl_scene *scene) {
+    char text[TEXT_MAX], most[SL_COUNT_TEXT], mean[SL_COUNT_TEXT];
+    sl_text_percent(scene->most, most);
+    sl_text_percent(scene->mean, mean);
+    snprintf(text, sizeof text, "%s of the area seen, %s on average", most, mean);
+    entry *e = add(k, swatch_ramp, text);
+    e->width = RAMP_WIDTH;
+    sl_text_percent(scene->least, e->lead);
+}
+
+static void add_cells(key *k, const sl_scene *scene) {
+    const uint32_t hidden = scene->baked->space.cell_count - scene->population;
+    if (!scene->heat) add_count(k, swatch_floor, scene->population, "cell");
+    if (hidden)
+        add_count(k, swatch_hidden, hidden, scene->outside ? "inside cell" : "outside cell");
+}
+
+static void add_effects(key *k, const sl_map *map) {
+    if (map->door_count) add(k, swatch_door, "door, shut and open");
+    if (map->mirror_count) add(k, swatch_mirror, "mirror");
+    if (map->oneway_count) add(k, swatch_oneway, "one-way glass");
+}
+
+/// Adds the entries in order of importance.
+static void fill_key(key *k, const sl_scene *scene) {
+    const sl_space *space = &scene->baked->space;
+    const sl_map *map = &scene->baked->map;
+    const unsigned layers = scene->options.layers;
+    if (scene->options.faults) add_faults(k, scene->options.faults);
+    if (scene->heat) add_heat(k, scene);
+    if (scene->chosen) {
+        char text[SL_COUNT_TEXT];
+        snprintf(text, sizeof text, "cell %u", scene->options.cell);
+        add(k, swatch_source, text);
+        if (scene->shows_seen) add_seen(k, scene);
+        if (layers & SL_LAYER_STAB_TREE) add_tree(k, scene);
+    }
+    if (layers & SL_LAYER_STARTS && map->start_count)
+        add(k, swatch_start, map->start_count > 1 ? "starts" : "start");
+    if (layers & SL_LAYER_WALLS) add_count(k, swatch_wall, space->wall_count, "wall");
+    add_cells(k, scene);
+    if (layers & SL_LAYER_PORTALS) add_count(k, swatch_portal, scene->portals, "portal");
+    if (layers & SL_LAYER_WALLS) add_effects(k, map);
+    if (layers & SL_LAYER_STARTS && map->path_count)
+        add(k, swatch_path, map->path_count > 1 ? "paths" : "path");
+    if (layers & SL_LAYER_STARTS && map->object_count)
+        add_count(k, swatch_object, map->object_count, "object");
+}
+
+/// The longest 1, 2 or 5 times a power of ten up to `limit`, as the nearest double and as text.
+/// False if there is none.
+static bool round_length(double limit, double *length, char text[SL_NUMBER_TEXT]) {
+    static const int leading[] = {1, 2, 5};
+    if (!(limit > 0) || !isfinite(limit)) return false;
+    bool found = false;
+    for (int power = (int)floor(log10(limit)) - 1, i = 0; i < 9; i++) {
+        char decimal[SL_NUMBER_TEXT];
+        double value;
+        // Read as text, since pow() may be a bit off the decimal.
+        const int size = snprintf(decimal, sizeof decimal, "%de%d", leading[i % 3], power + i / 3);
+        if (!sl_number_read(decimal, (size_t)size, &value) || !(value > 0) || value > limit)
+            continue;
+        *length = value;
+        found = true;
+    }
+    if (found) sl_number_write(*length, text);
+    return found;
+}
+
+static void draw_scale_bar(cairo_t *cairo, const sl_scene *scene, const sl_frame *frame,
+                           const strip *at, double room) {
+    double length;
+    char number[SL_NUMBER_TEXT], text[SL_NUMBER_TEXT + 8];
+    if (!round_length(room / frame->scale, &length, number)) return;
+    snprintf(text, sizeof text, "%s unit%s", number, length == 1 ? "" : "s");
+    const double right = at->left + at->width, left = right - length * frame->scale;
+    const double y = at->top + 0.45 * LINE_HEIGHT * at->text, tick = 0.35 * at->text;
+    cairo_move_to(cairo, left, y - tick);
+    cairo_line_to(cairo, left, y);
+    cairo_line_to(cairo, right, y);
+    cairo_line_to(cairo, right, y - tick);
+    sl_set_colour(cairo, scene->palette.ink);
+    cairo_set_line_width(cairo, 0.11 * at->text);
+    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_SQUARE);
+    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_MITER);
+    cairo_stroke(cairo);
+    sl_text_show(cairo, scene->palette.faint, right - sl_text_width(cairo, text),
+                 y + 1.15 * at->text, text);
+}
+
+static void draw_entry(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, const entry *e,
+                       double x, double middle, double size) {
+    const double base = middle + 0.36 * size;
+    if (e->lead[0]) {
+        sl_text_show(cairo, scene->palette.ink, x, base, e->lead);
+        x += sl_text_width(cairo, e->lead) + GAP * size;
+    }
+    const double half = SWATCH_HEIGHT / 2 * size;
+    e->swatch(cairo, scene, pens,
+              (sl_box){{x, middle - half}, {x + e->width * size, middle + half}});
+    sl_text_show(cairo, scene->palette.ink, x + (e->width + GAP) * size, base, e->text);
+}
+
+static double entry_width(cairo_t *cairo, const entry *e, double size) {
+    const double lead = e->lead[0] ? sl_text_width(cairo, e->lead) + GAP * size : 0;
+    return lead + (e->width + GAP) * size + sl_text_width(cairo, e->text);
+}
+
+/// Pens that fit a line of text, whatever the plan uses.
+static sli_pens key_pens(const sli_pens *pens, double size) {
+    sli_pens fitted = *pens;
+    fitted.wall = fmin(fmax(pens->wall, 0.14 * size), 0.28 * size);
+    fitted.portal = fmin(fmax(pens->portal, 0.07 * size), 0.12 * size);
+    fitted.tree = fmin(fmax(pens->tree, 0.16 * size), 0.3 * size);
+    fitted.mark = fmin(pens->mark, 0.75 * size);
+    return fitted;
+}
+
+/// The key in lines as the width allows, and a scale bar at the right. Returns its height, which
+/// does not depend on the frame or the pens.
+static double draw_legend(cairo_t *cairo, const sl_scene *scene, const sl_frame *frame,
+                          const sli_pens *pens, const strip *at) {
+    key k = {0};
+    fill_key(&k, scene);
+    const double size = at->text, bar_room = 0.17 * at->width;
+    const double width = at->width - bar_room - BETWEEN * size;
+    const sli_pens fitted = at->paint ? key_pens(pens, size) : (sli_pens){0};
+    sl_text_font(cairo, size, false);
+    double x = 0, y = LINE_HEIGHT / 2 * size;
+    for (size_t i = 0; i < k.count; i++) {
+        const double wide = entry_width(cairo, &k.entries[i], size);
+        if (x > 0 && x + wide > width) {
+            x = 0;
+            y += LINE_HEIGHT * size;
+        }
+        if (at->paint)
+            draw_entry(cairo, scene, &fitted, &k.entries[i], at->left + x, at->top + y, size);
+        x += wide + BETWEEN * size;
+    }
+    if (at->paint) draw_scale_bar(cairo, scene, frame, at, bar_room);
+    return y + LINE_HEIGHT / 2 * size;
+}
+
+/// "What cell 17 sees  ·  dfs with funnel  ·  closed sight, exact"
+static void describe(const sl_scene *scene, char *text, size_t room) {
+    const sl_baked *baked = scene->baked;
+    char what[32] = "Cells and portals", how[64] = "";
+    if (scene->heat)
+        snprintf(what, sizeof what, "How much each cell sees");
+    else if (scene->shows_seen)
+        snprintf(what, sizeof what, "What cell %u sees", scene->options.cell);
+    else if (scene->chosen)
+        snprintf(what, sizeof what, "Cell %u", scene->options.cell);
+    if (baked->method[0])
+        snprintf(how, sizeof how, "  \xc2\xb7  %.15s%s%.15s", baked->method,
+                 baked->solver[0] ? " with " : "", baked->solver);
+    if (scene->heat || scene->shows_seen)
+        snprintf(text, room, "%s%s  \xc2\xb7  %s sight, %s%s", what, how,
+                 baked->visibility.sight == SL_OPEN ? "open" : "closed",
+                 sl_guarantee_name(baked->visibility.guarantee),
+                 sl_partial_begun(&baked->partial) ? " (partial)" : "");
+    else
+        snprintf(text, room, "%s", what);
+}
+
+/// The title, and below it what the picture shows and how that was found. Returns its height.
+static double draw_heading(cairo_t *cairo, const sl_scene *scene, const strip *at) {
+    const double size = at->text;
+    double y = at->top;
+    if (scene->options.title) {
+        y += 1.9 * size;
+        if (at->paint)
+            sl_text_show_within(cairo, scene->palette.ink, at->left, y, at->width, 1.9 * size, true,
+                                scene->options.title);
+        y += 0.45 * size;
+    }
+    if (scene->options.layers & SL_LAYER_LEGEND) {
+        char text[160];
+        describe(scene, text, sizeof text);
+        y += 1.15 * size;
+        if (at->paint)
+            sl_text_show_within(cairo, scene->palette.faint, at->left, y, at->width, size, false,
+                                text);
+        y += 0.2 * size;
+    }
+    return y - at->top;
+}
+
+// --- the picture
 
 #define ALL_LAYERS                                                                                 \
     (SL_LAYER_CELLS | SL_LAYER_PORTALS | SL_LAYER_WALLS | SL_LAYER_PVS | SL_LAYER_STAB_TREE |      \
@@ -18,7 +439,7 @@ sl_draw_options sl_draw_options_default(void) {
 
 static sl_status check_options(sl_context *context, const sl_baked *baked,
                                const sl_draw_options *options) {
-    SL_TRY(sl_page_check_width(context, options->width));
+    SL_TRY(sli_page_check_width(context, options->width));
     if (options->layers & ~(unsigned)ALL_LAYERS)
         return sl_fail(context, SL_BAD_ARGUMENT, "layers 0x%x: only 0x%x are known",
                        options->layers, ALL_LAYERS);
@@ -28,21 +449,21 @@ static sl_status check_options(sl_context *context, const sl_baked *baked,
     return SL_OK;
 }
 
-static sl_strip strip_at(const sl_page *page, double top, bool paint) {
-    return (sl_strip){page->margin, top, page->inner, page->text, paint};
+static strip strip_at(const sli_page *page, double top, bool paint) {
+    return (strip){page->margin, top, page->inner, page->text, paint};
 }
 
-static void set_page(cairo_t *cairo, const void *what, sl_page *page, bool paint) {
+static void set_page(cairo_t *cairo, const void *what, sli_page *page, bool paint) {
     const sl_scene *scene = what;
-    const sl_strip heading = strip_at(page, page->margin, paint);
-    double y = page->margin + sl_draw_heading(cairo, scene, &heading);
+    const strip heading = strip_at(page, page->margin, paint);
+    double y = page->margin + draw_heading(cairo, scene, &heading);
     if (y > page->margin) y += 0.6 * page->margin;
-    if (!paint) sl_page_place_plan(page, scene->baked->space.bounds, y, SL_PAGE_TALLEST);
+    if (!paint) sli_page_place_plan(page, scene->baked->space.bounds, y, SLI_PAGE_TALLEST);
     y = page->bottom;
     if (scene->options.layers & SL_LAYER_LEGEND) {
-        const sl_strip legend = strip_at(page, y + 0.55 * page->margin, paint);
-        const sl_pens pens = sl_pens_for(scene, &page->frame);
-        y = legend.top + sl_draw_legend(cairo, scene, &page->frame, &pens, &legend) -
+        const strip legend = strip_at(page, y + 0.55 * page->margin, paint);
+        const sli_pens pens = sli_pens_for(scene, &page->frame);
+        y = legend.top + draw_legend(cairo, scene, &page->frame, &pens, &legend) -
             0.3 * page->margin;
     }
     page->height = ceil(y + page->margin);
@@ -50,27 +471,28 @@ static void set_page(cairo_t *cairo, const void *what, sl_page *page, bool paint
 
 static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what,
                            const sl_frame *frame) {
-    return sl_draw_onto(context, cairo, what, frame);
+    const sl_scene *scene = what;
+    return sl_draw_plan(context, cairo, scene, scene->options.layers, frame);
 }
 
-static sl_status draw_scene(sl_context *context, const sl_scene *scene, const sl_paper_kind *kind,
+static sl_status draw_scene(sl_context *context, const sl_scene *scene, const sli_paper_kind *kind,
                             const char *path) {
-    const sl_page_parts parts = {.set = set_page,
-                                 .draw_plan = draw_plan,
-                                 .what = scene,
-                                 .ground = scene->palette.page,
-                                 .title = scene->options.title};
-    return sl_page_write(context, &parts, scene->options.width, kind, path);
+    const sli_page_parts parts = {.set = set_page,
+                                  .draw_plan = draw_plan,
+                                  .what = scene,
+                                  .ground = scene->palette.page,
+                                  .title = scene->options.title};
+    return sli_page_write(context, &parts, scene->options.width, kind, path);
 }
 
 sl_status sl_draw_file(sl_context *context, const sl_baked *baked, const sl_draw_options *options,
                        const char *path) {
-    const sl_paper_kind *kind;
+    const sli_paper_kind *kind;
     sl_scene scene;
-    SL_TRY(sl_paper_kind_of(context, path, &kind));
+    SL_TRY(sli_paper_kind_of(context, path, &kind));
     SL_TRY(check_options(context, baked, options));
-    SL_TRY(sl_scene_make(context, baked, options, &scene));
+    SL_TRY(sli_scene_make(context, baked, options, NULL, &scene));
     const sl_status status = draw_scene(context, &scene, kind, path);
-    sl_scene_destroy(context, &scene);
+    sli_scene_clear(context, &scene);
     return status;
 }

@@ -1,18 +1,78 @@
-/// The page of what an eye sees: a heading, the plan with the cells that each method keeps, the eye
-/// and its cone over it, and a key with the methods' counts.
-#include "draw/boxes.h"
+/// The picture of what an eye sees: a heading, the plan with the cells that each method keeps, the
+/// eye with its cone, boxes that move, and a key with the methods' counts.
 #include "draw/marks.h"
 #include "draw/page.h"
-#include "draw/plan.h"
-#include "draw/seen.h"
-#include "draw/text.h"
-#include "sightline/draw.h"
-
-#include "base/bits.h"
-#include "base/number.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdio.h>
+
+// --- boxes that move
+
+/// Fills and strokes the path as a box.
+static void ink(cairo_t *cairo, const sl_palette *palette, bool blocks, bool seen, double width) {
+    const sl_colour c = blocks ? palette->wall : palette->object;
+    const double dashes[2] = {2.5 * width, 2 * width};
+    sl_set_colour(cairo, palette->page);
+    cairo_fill_preserve(cairo);
+    cairo_set_source_rgba(cairo, c.red, c.green, c.blue, blocks ? 0.6 : 0.25);
+    cairo_fill_preserve(cairo);
+    cairo_set_source_rgba(cairo, c.red, c.green, c.blue, 1);
+    cairo_set_line_width(cairo, width);
+    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_MITER);
+    if (!seen) cairo_set_dash(cairo, dashes, 2, 0);
+    cairo_stroke(cairo);
+    cairo_set_dash(cairo, NULL, 0, 0);
+}
+
+static void set_light(cairo_t *cairo, const sl_palette *palette, double opacity) {
+    const sl_colour c = palette->page;
+    cairo_set_source_rgba(cairo, c.red, c.green, c.blue, opacity);
+}
+
+/// What is seen past boxes, lighter than the rest.
+static void draw_lit(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                     const sl_drawn_region *region) {
+    if (region->count < 3) return;
+    sl_path_polygon(cairo, frame, region->points, region->count);
+    set_light(cairo, palette, 0.6);
+    cairo_fill(cairo);
+}
+
+/// Those that block are full, those that are hidden dashed.
+static void draw_boxes(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
+                       const sl_drawn_box *boxes, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        const sl_box b = boxes[i].box;
+        const sl_point corners[4] = {b.min, {b.max.x, b.min.y}, b.max, {b.min.x, b.max.y}};
+        sl_path_polygon(cairo, frame, corners, 4);
+        ink(cairo, palette, boxes[i].blocks, boxes[i].seen, 2 * frame->unit);
+    }
+}
+
+/// The key of these marks in one line, from a place on the page. Returns the height, 0 without
+/// boxes. Draws only with `paint`.
+static double draw_boxes_key(cairo_t *cairo, const sl_palette *palette, size_t count, sl_point at,
+                             double size, bool paint) {
+    static const struct {
+        const char *text;
+        bool blocks, seen;
+    } entries[] = {{"object, seen", false, true},
+                   {"hidden", false, false},
+                   {"blocks sight", true, true},
+                   {"blocks sight, hidden", true, false}};
+    if (!count) return 0;
+    const double top = at.y + 0.22 * size;
+    double x = at.x;
+    for (size_t i = 0; i < sizeof entries / sizeof *entries && paint; i++) {
+        cairo_rectangle(cairo, x, top, 2 * size, 1.15 * size);
+        ink(cairo, palette, entries[i].blocks, entries[i].seen, 0.12 * size);
+        sl_text_font(cairo, size, false);
+        sl_text_show(cairo, palette->ink, x + 2.55 * size, at.y + 1.16 * size, entries[i].text);
+        x += 4.45 * size + sl_text_width(cairo, entries[i].text);
+    }
+    return 1.95 * size;
+}
 
 #define FULL_TURN 6.283185307179586
 
@@ -31,10 +91,10 @@ typedef struct eye_picture {
 
 // --- what is shown
 
-/// Steps of the ramp, which tells more from less by lightness: the palest is for the loosest.
+/// Layers take steps of the ramp, which goes by lightness: the loosest is the palest.
 static uint8_t paint_of_layer(const eye_picture *p, size_t layer) {
     const double share = p->layer_count > 1 ? (double)layer / (double)(p->layer_count - 1) : 1;
-    return (uint8_t)(SL_PAINT_HEAT + (unsigned)((0.08 + 0.92 * share) * (SL_HEAT_STEPS - 1)));
+    return (uint8_t)(SLI_PAINT_HEAT + (unsigned)((0.08 + 0.92 * share) * (SLI_HEAT_STEPS - 1)));
 }
 
 static sl_status paint_cells(sl_context *context, eye_picture *p) {
@@ -42,9 +102,9 @@ static sl_status paint_cells(sl_context *context, eye_picture *p) {
     uint8_t *paint = sl_alloc_array(context, space->cell_count, sizeof *paint);
     if (!paint) return SL_NO_MEMORY;
     double whole = 0;
-    sl_scene_get_paint(&p->scene, paint);
+    sli_scene_get_paint(&p->scene, paint);
     for (uint32_t cell = 0; cell < space->cell_count; cell++) {
-        if (!sl_scene_shows(&p->scene, cell)) continue;
+        if (!sli_scene_shows(&p->scene, cell)) continue;
         const double area = sl_space_area(space, cell);
         whole += area;
         for (size_t i = 0; i < p->layer_count; i++) {
@@ -55,7 +115,7 @@ static sl_status paint_cells(sl_context *context, eye_picture *p) {
         }
     }
     for (size_t i = 0; i < p->layer_count && whole > 0; i++) p->shares[i] /= whole;
-    sl_scene_set_paint(&p->scene, paint);
+    sli_scene_set_paint(&p->scene, paint);
     sl_free(context, paint);
     return SL_OK;
 }
@@ -73,7 +133,7 @@ static double width_of(const sl_view *view) {
     return width < 0 ? width + 360 : width;
 }
 
-/// The cone as far as the frame, and its borders.
+/// The cone up to the border of the frame.
 static void draw_cone(cairo_t *cairo, const eye_picture *p, const sl_frame *frame) {
     if (p->view->full) return;
     const sl_palette *palette = &p->scene.palette;
@@ -149,7 +209,7 @@ static void draw_swatch(cairo_t *cairo, const eye_picture *p, size_t entry, doub
         return;
     }
     cairo_rectangle(cairo, left, middle - height / 2, width, height);
-    sl_set_colour(cairo, sl_scene_colour(&p->scene, paint_of_layer(p, entry)));
+    sl_set_colour(cairo, sli_scene_colour(&p->scene, paint_of_layer(p, entry)));
     cairo_fill_preserve(cairo);
     sl_set_colour(cairo, p->scene.palette.outline);
     cairo_set_line_width(cairo, 0.06 * size);
@@ -172,7 +232,7 @@ static void write_entry(const eye_picture *p, size_t entry, char text[KEY_TEXT])
     snprintf(text, KEY_TEXT, "%s: %s, %s", name, cells, share);
 }
 
-/// Entries in lines as the width allows. Returns the height; without `paint` nothing is drawn.
+/// The entries in lines as the width allows. Returns the height; draws only with `paint`.
 static double draw_key(cairo_t *cairo, const eye_picture *p, double left, double top, double width,
                        double size, bool paint) {
     double x = left, y = top;
@@ -197,7 +257,7 @@ static double draw_key(cairo_t *cairo, const eye_picture *p, double left, double
 
 // --- the page
 
-static void set_page(cairo_t *cairo, const void *what, sl_page *page, bool paint) {
+static void set_page(cairo_t *cairo, const void *what, sli_page *page, bool paint) {
     const eye_picture *p = what;
     const sl_palette *palette = &p->scene.palette;
     const size_t box_count = p->scene.options.box_count;
@@ -205,14 +265,13 @@ static void set_page(cairo_t *cairo, const void *what, sl_page *page, bool paint
     write_title(p, title);
     write_subtitle(p, subtitle);
     const char *own = p->scene.options.title;
-    const double top = sl_page_heading(cairo, page, palette, own ? own : title, subtitle, paint);
-    if (!paint) sl_page_place_plan(page, p->scene.baked->space.bounds, top, SL_PAGE_TALLEST);
+    const double top = sli_page_heading(cairo, page, palette, own ? own : title, subtitle, paint);
+    if (!paint) sli_page_place_plan(page, p->scene.baked->space.bounds, top, SLI_PAGE_TALLEST);
     double y = page->key;
     y += draw_key(cairo, p, page->margin, y, page->inner, page->text, paint);
-    y += sl_draw_seen_key(cairo, palette, p->parts, p->part_count, (sl_point){page->margin, y},
-                          page->inner, page->text, paint);
-    y += sl_draw_boxes_key(cairo, palette, box_count, (sl_point){page->margin, y}, page->text,
-                           paint);
+    y += sli_draw_seen_key(cairo, palette, p->parts, p->part_count, (sl_point){page->margin, y},
+                           page->inner, page->text, paint);
+    y += draw_boxes_key(cairo, palette, box_count, (sl_point){page->margin, y}, page->text, paint);
     page->height = ceil(y + 0.5 * page->margin);
 }
 
@@ -220,42 +279,42 @@ static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what
                            const sl_frame *frame) {
     const eye_picture *p = what;
     const sl_draw_options *options = &p->scene.options;
-    SL_TRY(sl_draw_onto(context, cairo, &p->scene, frame));
+    SL_TRY(sl_draw_plan(context, cairo, &p->scene, options->layers, frame));
     for (size_t i = 0; i < p->part_count; i++) {
         const bool pale = options->box_count && !p->parts[i].depth;
-        (pale ? sl_draw_lit : sl_draw_seen)(cairo, &p->scene.palette, frame, &p->parts[i]);
+        (pale ? draw_lit : sl_draw_seen)(cairo, &p->scene.palette, frame, &p->parts[i]);
     }
-    if (p->part_count) SL_TRY(sl_draw_walls_onto(context, cairo, &p->scene, frame));
-    sl_draw_boxes(cairo, &p->scene.palette, frame, options->boxes, options->box_count);
+    if (p->part_count) SL_TRY(sl_draw_walls(context, cairo, &p->scene, frame));
+    draw_boxes(cairo, &p->scene.palette, frame, options->boxes, options->box_count);
     draw_cone(cairo, p, frame);
     draw_eye_mark(cairo, p, frame);
     return SL_OK;
 }
 
-static sl_status draw_picture(sl_context *context, eye_picture *p, const sl_paper_kind *kind,
+static sl_status draw_picture(sl_context *context, eye_picture *p, const sli_paper_kind *kind,
                               const char *path) {
     char title[KEY_TEXT];
     write_title(p, title);
     SL_TRY(paint_cells(context, p));
-    const sl_page_parts parts = {.set = set_page,
-                                 .draw_plan = draw_plan,
-                                 .what = p,
-                                 .ground = p->scene.palette.page,
-                                 .title = title};
-    return sl_page_write(context, &parts, p->scene.options.width, kind, path);
+    const sli_page_parts parts = {.set = set_page,
+                                  .draw_plan = draw_plan,
+                                  .what = p,
+                                  .ground = p->scene.palette.page,
+                                  .title = title};
+    return sli_page_write(context, &parts, p->scene.options.width, kind, path);
 }
 
 sl_status sl_draw_eye(sl_context *context, const sl_baked *baked, const sl_view *view,
                       const sl_eye_layer *layers, size_t layer_count, const sl_drawn_region *parts,
                       size_t part_count, const sl_draw_options *options, const char *path) {
-    const sl_paper_kind *kind;
-    SL_TRY(sl_paper_kind_of(context, path, &kind));
+    const sli_paper_kind *kind;
+    SL_TRY(sli_paper_kind_of(context, path, &kind));
     if (layer_count > SL_EYE_LAYERS_MOST)
         return sl_fail(context, SL_BAD_ARGUMENT, "%zu layers: at most %d can be told apart",
                        layer_count, SL_EYE_LAYERS_MOST);
     if (!sl_view_usable(view))
         return sl_fail(context, SL_BAD_ARGUMENT, "the view to be drawn is none");
-    SL_TRY(sl_page_check_width(context, options->width));
+    SL_TRY(sli_page_check_width(context, options->width));
     sl_draw_options plain = *options;
     plain.layers = SL_LAYER_CELLS | SL_LAYER_PORTALS | SL_LAYER_WALLS;
     plain.cell = sl_space_locate(&baked->space, view->eye);
@@ -264,10 +323,10 @@ sl_status sl_draw_eye(sl_context *context, const sl_baked *baked, const sl_view 
                      .layer_count = layer_count,
                      .parts = parts,
                      .part_count = part_count};
-    SL_TRY(sl_scene_make(context, baked, &plain, &p.scene));
+    SL_TRY(sli_scene_make(context, baked, &plain, NULL, &p.scene));
     // Green would be lost among the ramp's colours.
     p.scene.palette.portal = sl_colour_mix(p.scene.palette.wall, p.scene.palette.page, 0.2);
     const sl_status status = draw_picture(context, &p, kind, path);
-    sl_scene_destroy(context, &p.scene);
+    sli_scene_clear(context, &p.scene);
     return status;
 }

@@ -1,12 +1,8 @@
 /// Pictures of what is seen from places: regions over the plan, heat maps of their measures, and
-/// patches coloured by what they cost.
-#include "base/base.h"
-#include "draw/legend.h"
+/// patches coloured by cost.
+#include "draw/marks.h"
 #include "draw/page.h"
-#include "draw/plan.h"
-#include "draw/seen.h"
-#include "draw/text.h"
-#include "sightline/draw.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -59,7 +55,7 @@ static void add_patch(cairo_t *cairo, const sl_frame *frame, const sl_patches *p
     sl_path_polygon(cairo, frame, patches->points + first, patches->first[i + 1] - first);
 }
 
-/// What is of one colour makes one path, with a thin stroke over the seams within.
+/// Squares or patches of one colour make one path. A thin stroke covers the seams between them.
 static sl_status draw_values(sl_context *context, cairo_t *cairo, const picture *p,
                              const sl_frame *frame) {
     for (int step = 0; step < RAMP_STEPS; step++) {
@@ -105,18 +101,18 @@ static void draw_eye(cairo_t *cairo, const picture *p, const sl_frame *frame, sl
 static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what,
                            const sl_frame *frame) {
     const picture *p = what;
-    SL_TRY(sl_draw_onto(context, cairo, &p->scene, frame));
+    SL_TRY(sl_draw_plan(context, cairo, &p->scene, p->scene.options.layers, frame));
     SL_TRY(draw_values(context, cairo, p, frame));
     if (p->patches) draw_lines(cairo, p, frame);
     for (size_t i = 0; i < p->region_count; i++)
         sl_draw_seen(cairo, &p->scene.palette, frame, &p->regions[i]);
-    SL_TRY(sl_draw_walls_onto(context, cairo, &p->scene, frame));
+    SL_TRY(sl_draw_walls(context, cairo, &p->scene, frame));
     for (size_t i = 0; i < p->region_count; i++) draw_eye(cairo, p, frame, p->regions[i].eye);
     return SL_OK;
 }
 
 /// The ramp with numbers under it. Returns its height.
-static double draw_scale(cairo_t *cairo, const picture *p, const sl_page *g, bool paint) {
+static double draw_scale(cairo_t *cairo, const picture *p, const sli_page *g, bool paint) {
     const double width = fmin(30 * g->text, g->inner), high = 1.2 * g->text;
     if (!paint || !(p->least <= p->most)) return 3.2 * g->text;
     for (int i = 0; i < RAMP_STEPS; i++) {
@@ -145,15 +141,15 @@ static double draw_scale(cairo_t *cairo, const picture *p, const sl_page *g, boo
     return 3.2 * g->text;
 }
 
-static void set_page(cairo_t *cairo, const void *what, sl_page *page, bool paint) {
+static void set_page(cairo_t *cairo, const void *what, sli_page *page, bool paint) {
     const picture *p = what;
     const sl_palette *palette = &p->scene.palette;
-    const double top = sl_page_heading(cairo, page, palette, p->scene.options.title, NULL, paint);
-    if (!paint) sl_page_place_plan(page, p->scene.baked->space.bounds, top, SL_PAGE_TALLEST);
+    const double top = sli_page_heading(cairo, page, palette, p->scene.options.title, NULL, paint);
+    if (!paint) sli_page_place_plan(page, p->scene.baked->space.bounds, top, SLI_PAGE_TALLEST);
     double y = page->key;
     if (p->scale) y += draw_scale(cairo, p, page, paint);
-    y += sl_draw_seen_key(cairo, palette, p->regions, p->region_count, (sl_point){page->margin, y},
-                          page->inner, page->text, paint);
+    y += sli_draw_seen_key(cairo, palette, p->regions, p->region_count, (sl_point){page->margin, y},
+                           page->inner, page->text, paint);
     if (p->caption) {
         if (paint)
             sl_text_show_within(cairo, palette->ink, page->margin, y + 1.1 * page->text,
@@ -165,20 +161,20 @@ static void set_page(cairo_t *cairo, const void *what, sl_page *page, bool paint
 
 static sl_status draw_picture(sl_context *context, const sl_baked *baked,
                               const sl_draw_options *options, picture *p, const char *path) {
-    const sl_paper_kind *kind;
-    SL_TRY(sl_paper_kind_of(context, path, &kind));
-    SL_TRY(sl_page_check_width(context, options->width));
+    const sli_paper_kind *kind;
+    SL_TRY(sli_paper_kind_of(context, path, &kind));
+    SL_TRY(sli_page_check_width(context, options->width));
     sl_draw_options plain = *options;
     plain.layers = SL_LAYER_WALLS | (p->scale ? 0 : (unsigned)SL_LAYER_STARTS);
     plain.cell = SL_NO_CELL;
-    SL_TRY(sl_scene_make(context, baked, &plain, &p->scene));
-    const sl_page_parts parts = {.set = set_page,
-                                 .draw_plan = draw_plan,
-                                 .what = p,
-                                 .ground = p->scene.palette.page,
-                                 .title = options->title};
-    const sl_status status = sl_page_write(context, &parts, options->width, kind, path);
-    sl_scene_destroy(context, &p->scene);
+    SL_TRY(sli_scene_make(context, baked, &plain, NULL, &p->scene));
+    const sli_page_parts parts = {.set = set_page,
+                                  .draw_plan = draw_plan,
+                                  .what = p,
+                                  .ground = p->scene.palette.page,
+                                  .title = options->title};
+    const sl_status status = sli_page_write(context, &parts, options->width, kind, path);
+    sli_scene_clear(context, &p->scene);
     return status;
 }
 

@@ -1,45 +1,49 @@
-/// The marks that stand for things, drawn alike in the plan and in its legend. In page coordinates.
+/// The marks that stand for things: drawn alike in the plan and in its legend, in page coordinates.
 #ifndef SL_DRAW_MARKS_H
 #define SL_DRAW_MARKS_H
 
-#include "draw/canvas.h"
-#include "draw/palette.h"
-#include "draw/scene.h"
+#include "draw/plan.h"
 
-/// Widths of lines, and the size of a start's mark: by how large the cells come out on the page,
+/// Widths of lines, and the size of a start's mark. They follow the size of the cells on the page,
 /// within bounds that keep them visible and apart.
-typedef struct sl_pens {
+typedef struct sli_pens {
     double wall, portal, outline, tree, mark;
-} sl_pens;
+} sli_pens;
 
-sl_pens sl_pens_for(const sl_scene *scene, const sl_frame *frame);
-
-void sl_set_colour(cairo_t *cairo, sl_colour colour);
+sli_pens sli_pens_for(const sl_scene *scene, const sl_frame *frame);
 
 /// Each strokes the path.
-void sl_pen_wall(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens);
-void sl_pen_portal(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens);
-void sl_pen_outline(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens);
-void sl_pen_source_edge(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens);
-void sl_pen_path(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens);
-void sl_pen_object(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens);
-/// `depth` portals from the source cell: fainter and thinner the farther.
-void sl_pen_tree(cairo_t *cairo, sl_colour colour, const sl_pens *pens, uint32_t depth);
-void sl_pen_tree_dots(cairo_t *cairo, sl_colour colour, uint32_t depth); ///< fills the path
-double sl_tree_width(const sl_pens *pens, uint32_t depth);
+void sli_pen_wall(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens);
+void sli_pen_portal(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens);
+void sli_pen_outline(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens);
+void sli_pen_source_edge(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens);
+void sli_pen_path(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens);
+void sli_pen_object(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens);
+/// Fainter and thinner the more portals (`depth`) lie between it and the source cell.
+void sli_pen_tree(cairo_t *cairo, sl_colour colour, const sli_pens *pens, uint32_t depth);
+void sli_pen_tree_dots(cairo_t *cairo, sl_colour colour, uint32_t depth); ///< fills the path
+double sli_tree_width(const sli_pens *pens, uint32_t depth);
 
-/// Slanting lines over a box, `phase` telling where they run.
-void sl_mark_hatch(cairo_t *cairo, const sl_palette *palette, sl_box box, double spacing,
-                   double phase);
-/// An arrow head that points the way of the heading, in degrees counter-clockwise from right.
-void sl_mark_start(cairo_t *cairo, const sl_palette *palette, sl_point at, double heading,
-                   double size);
-void sl_mark_door(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens, sl_point a,
-                  sl_point b, bool open);
-void sl_mark_mirror(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens, sl_point a,
-                    sl_point b);
-/// Its arrow points to where one looks through: `a` to `b` on the page, from its right to its left.
-void sl_mark_oneway(cairo_t *cairo, const sl_palette *palette, const sl_pens *pens, sl_point a,
-                    sl_point b);
+/// Slanting lines over a box; `phase` moves them.
+void sli_mark_hatch(cairo_t *cairo, const sl_palette *palette, sl_box box, double spacing,
+                    double phase);
+/// An arrow head that points along the heading, in degrees counter-clockwise from right.
+void sli_mark_start(cairo_t *cairo, const sl_palette *palette, sl_point at, double heading,
+                    double size);
+void sli_mark_door(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens, sl_point a,
+                   sl_point b, bool open);
+void sli_mark_mirror(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens, sl_point a,
+                     sl_point b);
+/// Its arrow points in the direction that one can look: from the right of `a` to `b` to the left.
+void sli_mark_oneway(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens, sl_point a,
+                     sl_point b);
+
+/// A shape and a colour for each kind of fault, from one point to another.
+void sli_mark_fault(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens,
+                    sl_fault_kind kind, sl_point a, sl_point b);
+
+/// All faults over the plan.
+void sli_draw_faults(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens,
+                     const sl_frame *frame, const sl_faults *faults);
 
 #endif

@@ -1,26 +1,173 @@
+/// The page of a picture in a file. It is measured first, since a file's size must be known before
+/// anything is drawn; then the same functions draw it. The file is PNG, SVG or PDF.
 #include "draw/page.h"
-
 #include "draw/marks.h"
-#include "draw/text.h"
-#include "sightline/draw.h"
+#include "sightline/support.h"
 
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+#include <ctype.h>
+#include <errno.h>
 #include <math.h>
+#include <string.h>
+#include <strings.h>
 
-sl_status sl_page_check_width(sl_context *context, double width) {
+// --- files
+
+struct sli_paper_kind {
+    const char *ending;
+    cairo_surface_t *(*create)(sli_paper *paper, int width, int height);
+    void (*describe)(cairo_surface_t *surface, const char *title); ///< NULL for nothing to say
+    sl_status (*finish)(sl_context *context, sli_paper *paper);
+};
+
+static cairo_status_t write_through(void *user, const unsigned char *bytes, unsigned size) {
+    sli_paper *paper = user;
+    return fwrite(bytes, 1, size, paper->output.stream) == size ? CAIRO_STATUS_SUCCESS
+                                                                : CAIRO_STATUS_WRITE_ERROR;
+}
+
+static cairo_status_t keep_back(void *user, const unsigned char *bytes, unsigned size) {
+    sli_paper *paper = user;
+    if (SL_ARRAY_ROOM(paper->context, &paper->text, size) != SL_OK) {
+        paper->out_of_memory = true;
+        return CAIRO_STATUS_WRITE_ERROR;
+    }
+    memcpy(paper->text.items + paper->text.count, bytes, size);
+    paper->text.count += size;
+    return CAIRO_STATUS_SUCCESS;
+}
+
+/// Reports a failure of cairo.
+static sl_status fail_cairo(sl_context *context, const char *path, cairo_status_t status) {
+    switch (status) {
+    case CAIRO_STATUS_NO_MEMORY:
+        return sl_fail_memory(context);
+    case CAIRO_STATUS_INVALID_STRING:
+        return sl_fail(context, SL_BAD_ARGUMENT, "%s: the title is not UTF-8", path);
+    case CAIRO_STATUS_WRITE_ERROR:
+        return sl_fail(context, SL_IO, "%s: cannot write: %s", path,
+                       errno ? strerror(errno) : "the system refused");
+    default:
+        return sl_fail(context, SL_IO, "%s: cannot draw: %s", path, cairo_status_to_string(status));
+    }
+}
+
+static sl_status finish_surface(sl_context *context, sli_paper *paper) {
+    errno = 0;
+    cairo_surface_finish(paper->surface);
+    const cairo_status_t status = cairo_surface_status(paper->surface);
+    if (paper->out_of_memory) return sl_fail_memory(context);
+    return status ? fail_cairo(context, paper->path, status) : SL_OK;
+}
+
+static cairo_surface_t *create_png(sli_paper *paper, int width, int height) {
+    (void)paper;
+    return cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
+}
+
+static sl_status finish_png(sl_context *context, sli_paper *paper) {
+    errno = 0;
+    const cairo_status_t status =
+        cairo_surface_write_to_png_stream(paper->surface, write_through, paper);
+    return status ? fail_cairo(context, paper->path, status) : SL_OK;
+}
+
+static cairo_surface_t *create_pdf(sli_paper *paper, int width, int height) {
+    return cairo_pdf_surface_create_for_stream(write_through, paper, width, height);
+}
+
+static void describe_pdf(cairo_surface_t *surface, const char *title) {
+    // The day of writing is what cairo would put in; the bytes must not depend on it.
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
+    if (title) cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, title);
+}
+
+static cairo_surface_t *create_svg(sli_paper *paper, int width, int height) {
+    cairo_surface_t *surface = cairo_svg_surface_create_for_stream(keep_back, paper, width, height);
+    if (cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS)
+        cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
+    return surface;
+}
+
+/// cairo numbers the surfaces of a process, and the file holds such a number. It is written as 0,
+/// so that the bytes depend on the picture alone.
+static sl_status finish_svg(sl_context *context, sli_paper *paper) {
+    static const char word[] = "\"surface";
+    const size_t length = sizeof word - 1;
+    SL_TRY(finish_surface(context, paper));
+    const char *at = paper->text.items, *end = at + paper->text.count;
+    bool good = true;
+    while (at < end && good) {
+        const char *next = at;
+        while (next < end && ((size_t)(end - next) < length || memcmp(next, word, length) != 0))
+            next++;
+        if (next < end) next += length;
+        good = fwrite(at, 1, (size_t)(next - at), paper->output.stream) == (size_t)(next - at);
+        if (next < end) good = good && fputc('0', paper->output.stream) != EOF;
+        for (at = next; at < end && isdigit((unsigned char)*at);) at++;
+    }
+    return good ? SL_OK : fail_cairo(context, paper->path, CAIRO_STATUS_WRITE_ERROR);
+}
+
+static const sli_paper_kind kinds[] = {
+    {".png", create_png, NULL, finish_png},
+    {".svg", create_svg, NULL, finish_svg},
+    {".pdf", create_pdf, describe_pdf, finish_surface},
+};
+
+sl_status sli_paper_kind_of(sl_context *context, const char *path, const sli_paper_kind **out) {
+    const size_t length = strlen(path);
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        const size_t ending = strlen(kinds[i].ending);
+        if (length <= ending || strcasecmp(path + length - ending, kinds[i].ending) != 0) continue;
+        *out = &kinds[i];
+        return SL_OK;
+    }
+    return sl_fail(context, SL_BAD_ARGUMENT, "%s: a picture's name ends in .png, .svg or .pdf",
+                   path);
+}
+
+sl_status sli_paper_open(sl_context *context, const sli_paper_kind *kind, const char *path,
+                         int width, int height, const char *title, sli_paper *out) {
+    *out = (sli_paper){.kind = kind, .path = path, .context = context};
+    SL_TRY(sl_output_open(context, path, &out->output));
+    out->surface = kind->create(out, width, height);
+    out->cairo = cairo_create(out->surface);
+    if (kind->describe) kind->describe(out->surface, title);
+    const cairo_status_t status = cairo_status(out->cairo);
+    if (status == CAIRO_STATUS_SUCCESS) return SL_OK;
+    return sli_paper_close(context, out, fail_cairo(context, path, status));
+}
+
+sl_status sli_paper_close(sl_context *context, sli_paper *paper, sl_status status) {
+    const cairo_status_t drawn = cairo_status(paper->cairo);
+    if (status == SL_OK && drawn) status = fail_cairo(context, paper->path, drawn);
+    cairo_destroy(paper->cairo);
+    if (status == SL_OK) status = paper->kind->finish(context, paper);
+    // Before the stream goes: cairo may still write when it lets go of a surface that failed.
+    cairo_surface_destroy(paper->surface);
+    sl_free(context, paper->text.items);
+    return sl_output_close(context, &paper->output, status);
+}
+
+// --- pages
+
+sl_status sli_page_check_width(sl_context *context, double width) {
     if (width >= SL_DRAW_WIDTH_MIN && width <= SL_DRAW_WIDTH_MAX) return SL_OK;
     return sl_fail(context, SL_BAD_ARGUMENT, "width %g: must be %d to %d", width, SL_DRAW_WIDTH_MIN,
                    SL_DRAW_WIDTH_MAX);
 }
 
-sl_page sl_page_of_width(double width) {
+sli_page sli_page_of_width(double width) {
     const double whole = round(width), margin = 0.04 * whole;
-    return (sl_page){.width = whole,
-                     .margin = margin,
-                     .inner = whole - 2 * margin,
-                     .text = 16.5 * pow(whole / 1200, 0.75)};
+    return (sli_page){.width = whole,
+                      .margin = margin,
+                      .inner = whole - 2 * margin,
+                      .text = 16.5 * pow(whole / 1200, 0.75)};
 }
 
-void sl_page_place_plan(sl_page *page, sl_box bounds, double top, double tallest) {
+void sli_page_place_plan(sli_page *page, sl_box bounds, double top, double tallest) {
     const double wide = bounds.max.x - bounds.min.x, high = bounds.max.y - bounds.min.y;
     const double ratio = wide > 0 ? high / wide : high > 0 ? INFINITY : 1;
     const double height = page->inner * fmin(fmax(ratio, 1.0 / 6), tallest);
@@ -29,8 +176,8 @@ void sl_page_place_plan(sl_page *page, sl_box bounds, double top, double tallest
     page->key = page->bottom + 1.1 * page->text;
 }
 
-double sl_page_heading(cairo_t *cairo, const sl_page *page, const sl_palette *palette,
-                       const char *title, const char *subtitle, bool paint) {
+double sli_page_heading(cairo_t *cairo, const sli_page *page, const sl_palette *palette,
+                        const char *title, const char *subtitle, bool paint) {
     const double text = page->text;
     double y = page->margin;
     if (title) {
@@ -48,22 +195,22 @@ double sl_page_heading(cairo_t *cairo, const sl_page *page, const sl_palette *pa
     return title || subtitle ? y + 1.3 * text : y;
 }
 
-sl_status sl_page_measure(sl_context *context, const char *path,
-                          sl_status (*lay_out)(sl_context *context, cairo_t *cairo, void *what),
-                          void *what) {
+sl_status sli_page_measure(sl_context *context, const char *path,
+                           sl_status (*lay_out)(sl_context *context, cairo_t *cairo, void *what),
+                           void *what) {
     cairo_surface_t *scratch = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
     cairo_t *cairo = cairo_create(scratch);
     sl_status status = lay_out(context, cairo, what);
     const cairo_status_t drawn = cairo_status(cairo);
     cairo_destroy(cairo);
     cairo_surface_destroy(scratch);
-    if (status == SL_OK && drawn) status = sl_fail_cairo(context, path, drawn);
+    if (status == SL_OK && drawn) status = fail_cairo(context, path, drawn);
     return status;
 }
 
 typedef struct measured {
-    const sl_page_parts *parts;
-    sl_page page;
+    const sli_page_parts *parts;
+    sli_page page;
 } measured;
 
 static sl_status lay_out_parts(sl_context *context, cairo_t *cairo, void *what) {
@@ -73,8 +220,8 @@ static sl_status lay_out_parts(sl_context *context, cairo_t *cairo, void *what) 
     return SL_OK;
 }
 
-static sl_status draw(sl_context *context, cairo_t *cairo, const sl_page_parts *parts,
-                      sl_page *page) {
+static sl_status draw_page(sl_context *context, cairo_t *cairo, const sli_page_parts *parts,
+                           sli_page *page) {
     sl_set_colour(cairo, parts->ground);
     cairo_paint(cairo);
     SL_TRY(parts->draw_plan(context, cairo, parts->what, &page->frame));
@@ -82,12 +229,23 @@ static sl_status draw(sl_context *context, cairo_t *cairo, const sl_page_parts *
     return SL_OK;
 }
 
-sl_status sl_page_write(sl_context *context, const sl_page_parts *parts, double width,
-                        const sl_paper_kind *kind, const char *path) {
-    measured m = {.parts = parts, .page = sl_page_of_width(width)};
-    sl_paper paper;
-    SL_TRY(sl_page_measure(context, path, lay_out_parts, &m));
-    SL_TRY(sl_paper_open(context, kind, path, (int)m.page.width, (int)m.page.height, parts->title,
-                         &paper));
-    return sl_paper_close(context, &paper, draw(context, paper.cairo, parts, &m.page));
+sl_status sli_page_write(sl_context *context, const sli_page_parts *parts, double width,
+                         const sli_paper_kind *kind, const char *path) {
+    measured m = {.parts = parts, .page = sli_page_of_width(width)};
+    sli_paper paper;
+    SL_TRY(sli_page_measure(context, path, lay_out_parts, &m));
+    SL_TRY(sli_paper_open(context, kind, path, (int)m.page.width, (int)m.page.height, parts->title,
+                          &paper));
+    return sli_paper_close(context, &paper, draw_page(context, paper.cairo, parts, &m.page));
+}
+
+sl_status sl_draw_page_file(sl_context *context, const char *path, int width, int height,
+                            const char *title, void (*draw)(void *user, cairo_t *cairo),
+                            void *user) {
+    const sli_paper_kind *kind = &kinds[0];
+    sli_paper paper;
+    SL_TRY(sli_paper_kind_of(context, path, &kind));
+    SL_TRY(sli_paper_open(context, kind, path, width, height, title, &paper));
+    draw(user, paper.cairo);
+    return sli_paper_close(context, &paper, SL_OK);
 }

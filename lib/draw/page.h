@@ -1,14 +1,40 @@
-/// The page of a picture in a file: measured first, for the file's size must be known before
-/// anything is drawn, then drawn the same way.
+/// The page of a picture in a file. It is measured first, since the size of a file must be known
+/// before anything is drawn. Then it is drawn by the same functions.
 #ifndef SL_DRAW_PAGE_H
 #define SL_DRAW_PAGE_H
 
-#include "draw/canvas.h"
-#include "draw/palette.h"
-#include "draw/paper.h"
+#include "draw/plan.h"
+#include "sightline/support.h"
+
+// --- files
+
+typedef struct sli_paper_kind sli_paper_kind;
+
+/// The kind of file, by the ending of its name; SL_BAD_ARGUMENT for an unknown ending.
+sl_status sli_paper_kind_of(sl_context *context, const char *path, const sli_paper_kind **out);
+
+typedef struct sli_paper {
+    const sli_paper_kind *kind;
+    const char *path; ///< the caller's
+    cairo_surface_t *surface;
+    cairo_t *cairo; ///< to draw with
+    sl_output output;
+    sl_context *context;
+    SL_ARRAY(char) text; ///< what is kept back until the end (SVG)
+    bool out_of_memory;  ///< while that was being kept
+} sli_paper;
+
+/// A blank page. `title` (NULL for none) goes into the file's description if the kind has one.
+sl_status sli_paper_open(sl_context *context, const sli_paper_kind *kind, const char *path,
+                         int width, int height, const char *title, sli_paper *out);
+
+/// Writes the file if `status` is SL_OK and cairo did not fail; else leaves nothing.
+sl_status sli_paper_close(sl_context *context, sli_paper *paper, sl_status status);
+
+// --- pages
 
 /// Lengths in pixels (PDF: points).
-typedef struct sl_page {
+typedef struct sli_page {
     double width, height;
     double margin; ///< left, right and above
     double inner;  ///< the width between the margins
@@ -16,48 +42,53 @@ typedef struct sl_page {
     sl_frame frame; ///< of the plan
     double bottom;  ///< of the place of the plan, which may be lower than its frame
     double key;     ///< the top of what stands below the plan
-} sl_page;
+} sli_page;
 
-/// SL_BAD_ARGUMENT where no page can be so wide.
-sl_status sl_page_check_width(sl_context *context, double width);
+/// SL_BAD_ARGUMENT for a width that no page can have.
+sl_status sli_page_check_width(sl_context *context, double width);
 
 /// A page of that width, rounded, with nothing on it yet.
-sl_page sl_page_of_width(double width);
+sli_page sli_page_of_width(double width);
 
-/// Places the plan from `top` on: as wide as the margins leave and as high as `bounds` then are,
-/// but never lower than a sixth or higher than `tallest` of its width, so that a long thin map gets
-/// free paper beside it, is not stretched, and stays within cairo's 32,767 pixels.
-void sl_page_place_plan(sl_page *page, sl_box bounds, double top, double tallest);
+/// Places the plan from `top` on. It is as wide as the margins allow, and as high as `bounds` then
+/// are, but between a sixth and `tallest` of its width. So a long thin map is not stretched, and a
+/// page stays within the 32,767 pixels of cairo.
+void sli_page_place_plan(sli_page *page, sl_box bounds, double top, double tallest);
 
 /// The usual `tallest`.
-#define SL_PAGE_TALLEST 1.4
+#define SLI_PAGE_TALLEST 1.4
 
-/// A title and a fainter line below it, each NULL for none, from the margin down. Returns where
-/// they end; without `paint` nothing is drawn.
-double sl_page_heading(cairo_t *cairo, const sl_page *page, const sl_palette *palette,
-                       const char *title, const char *subtitle, bool paint);
+/// A title and a fainter line below it, from the margin down; NULL for none. Returns where they
+/// end. Draws only with `paint`.
+double sli_page_heading(cairo_t *cairo, const sli_page *page, const sl_palette *palette,
+                        const char *title, const char *subtitle, bool paint);
 
-/// Lays something out, for which text is measured, on a surface that is then thrown away. `path` is
-/// named where cairo fails.
-sl_status sl_page_measure(sl_context *context, const char *path,
-                          sl_status (*lay_out)(sl_context *context, cairo_t *cairo, void *what),
-                          void *what);
+/// Runs a layout that measures text, on a surface that is then thrown away. Failures of cairo name
+/// `path`.
+sl_status sli_page_measure(sl_context *context, const char *path,
+                           sl_status (*lay_out)(sl_context *context, cairo_t *cairo, void *what),
+                           void *what);
 
-/// What stands on a page. `what` is the picture's own.
-typedef struct sl_page_parts {
-    /// Measures where `paint` is false: places the plan and sets the height. Else draws all but the
-    /// plan, in the same places.
-    void (*set)(cairo_t *cairo, const void *what, sl_page *page, bool paint);
+/// The contents of a page. `what` belongs to the picture.
+typedef struct sli_page_parts {
+    /// Without `paint`: measures, places the plan and sets the height. Else draws all but the plan,
+    /// in the same places.
+    void (*set)(cairo_t *cairo, const void *what, sli_page *page, bool paint);
     /// Draws the plan, before the rest.
     sl_status (*draw_plan)(sl_context *context, cairo_t *cairo, const void *what,
                            const sl_frame *frame);
     const void *what;
     sl_colour ground;
     const char *title; ///< in the file's description, NULL for none
-} sl_page_parts;
+} sli_page_parts;
 
 /// Measures, draws and writes a page of that width.
-sl_status sl_page_write(sl_context *context, const sl_page_parts *parts, double width,
-                        const sl_paper_kind *kind, const char *path);
+sl_status sli_page_write(sl_context *context, const sli_page_parts *parts, double width,
+                         const sli_paper_kind *kind, const char *path);
+
+/// The key of the colours of sl_draw_seen, from a place on the page, in lines as the width allows.
+/// Returns the height; 0 if nothing is seen by mirror. Draws only with `paint`.
+double sli_draw_seen_key(cairo_t *cairo, const sl_palette *palette, const sl_drawn_region *regions,
+                         size_t count, sl_point at, double width, double size, bool paint);
 
 #endif

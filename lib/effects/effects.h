@@ -1,22 +1,14 @@
-/// One effect a file; the table lists them in the order of their bits.
+/// What effects do to the space before sight goes through it.
 #ifndef SL_EFFECTS_EFFECTS_H
 #define SL_EFFECTS_EFFECTS_H
 
-#include "base/base.h"
 #include "sightline/effects.h"
-
-extern const sl_effect sl_effect_door;
-extern const sl_effect sl_effect_mirror;
-extern const sl_effect sl_effect_oneway;
-extern const sl_effect sl_effect_range;
+#include "sightline/support.h"
 
 /// The space to look through under a plan, or NULL for none: `space` itself, or where one-way glass
-/// is called for `made`, without the exits that it keeps sight from. `made` is zeroed, and to be
-/// destroyed when done.
-sl_status sl_oneway_passage(sl_context *context, const sl_space *space, const sl_plan *plan,
-                            sl_space *made, const sl_space **through);
-
-/// SL_UNSUPPORTED: what functions of effects say in a build without them.
-sl_status sl_effects_refuse(sl_context *context);
+/// is called for `made`, without the directed portals that it keeps sight from. `made` is zeroed,
+/// and to be destroyed when done.
+sl_status sli_oneway_filtered(sl_context *context, const sl_space *space, const sl_plan *plan,
+                              sl_space *made, const sl_space **through);
 
 #endif

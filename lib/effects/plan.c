@@ -1,11 +1,125 @@
-/// The table of effects, and what is planned from it.
+/// The table of effects, and the plan of a map: which effects its bake needs.
+///
+/// A map declares its doors, mirrors, one-way glass and view range. The plan has a bit for each
+/// effect that the map has. A map without any has an empty plan, and no stage does work for
+/// effects.
 #include "effects/effects.h"
 
 #include <stdio.h>
 #include <string.h>
 
-static const sl_effect *const table[] = {&sl_effect_door, &sl_effect_mirror, &sl_effect_oneway,
-                                         &sl_effect_range};
+// --- doors
+
+static size_t count_door(const sl_map *map) {
+    return map->door_count;
+}
+
+static uint32_t line_of_door(const sl_map *map) {
+    return map->doors[0].line;
+}
+
+static void leave_out_door(sl_context *context, sl_map *map) {
+    for (size_t i = 0; i < map->door_count; i++) {
+        sl_free(context, map->doors[i].name);
+        sl_free(context, map->doors[i].parts);
+    }
+    map->door_count = 0;
+}
+
+static const sl_effect door_effect = {
+    .name = "door",
+    .several = "doors",
+    .adds = "cells end at doors; each pair keeps the sets of doors that it is seen through",
+    .without = "open passages stand in their place",
+    .mutual = true,
+    .count = count_door,
+    .line = line_of_door,
+    .leave_out = leave_out_door,
+};
+
+// --- mirrors
+
+static size_t count_mirror(const sl_map *map) {
+    return map->mirror_count;
+}
+
+static uint32_t line_of_mirror(const sl_map *map) {
+    return map->mirrors[0].line;
+}
+
+static void leave_out_mirror(sl_context *context, sl_map *map) {
+    (void)context;
+    map->mirror_count = 0;
+}
+
+static const sl_effect mirror_effect = {
+    .name = "mirror",
+    .several = "mirrors",
+    .adds = "mirrors are walls that sequences go on from, reflected",
+    .without = "sight passes where they stand",
+    .mutual = true,
+    .count = count_mirror,
+    .line = line_of_mirror,
+    .leave_out = leave_out_mirror,
+};
+
+// --- one-way glass
+
+static size_t count_oneway(const sl_map *map) {
+    return map->oneway_count;
+}
+
+static uint32_t line_of_oneway(const sl_map *map) {
+    return map->oneways[0].line;
+}
+
+static void leave_out_oneway(sl_context *context, sl_map *map) {
+    (void)context;
+    map->oneway_count = 0;
+}
+
+static const sl_effect oneway_effect = {
+    .name = "oneway",
+    .several = "one-way glass",
+    .adds = "cells end at glass; sequences cross it one way, pairs are no longer mutual",
+    .without = "sight passes it both ways",
+    .mutual = false,
+    .count = count_oneway,
+    .line = line_of_oneway,
+    .leave_out = leave_out_oneway,
+};
+
+// --- the view range
+
+static size_t count_range(const sl_map *map) {
+    return map->range > 0;
+}
+
+static uint32_t line_of_range(const sl_map *map) {
+    return map->range_line;
+}
+
+static void leave_out_range(sl_context *context, sl_map *map) {
+    (void)context;
+    map->range = 0;
+    map->range_line = 0;
+}
+
+static const sl_effect range_effect = {
+    .name = "range",
+    .several = "a view range",
+    .adds = "each sequence's shortest sightline is held against the range",
+    .without = "sight reaches any distance",
+    .mutual = true,
+    .count = count_range,
+    .line = line_of_range,
+    .leave_out = leave_out_range,
+};
+
+// --- the plan
+
+static const sl_effect *const table[] = {&door_effect, &mirror_effect, &oneway_effect,
+                                         &range_effect};
 
 const sl_effect *const *sl_effects(size_t *count) {
     *count = sizeof table / sizeof *table;
@@ -42,13 +156,9 @@ static void append(char *text, size_t size, const char *between, const char *mor
     snprintf(text + used, size - used, "%s%s", used ? between : "", more);
 }
 
-bool sl_effects_are_built(void) {
-    return SIGHTLINE_EFFECTS;
-}
-
 sl_status sl_effects_check(sl_context *context, const sl_map *map, const char *method,
                            unsigned known) {
-    const unsigned unknown = sl_plan_make(map).effects & ~(SIGHTLINE_EFFECTS ? known : 0);
+    const unsigned unknown = sl_plan_make(map).effects & ~known;
     if (!unknown) return SL_OK;
     char several[128] = "", names[64] = "", line[16] = "";
     uint32_t first = UINT32_MAX;
@@ -63,12 +173,6 @@ sl_status sl_effects_check(sl_context *context, const sl_map *map, const char *m
     const char *source = map->source ? map->source : "", *colon = map->source ? ":" : "";
     const char *space = map->source ? " " : "", *bake = map->source ? "" : "bake ";
     const char *them = unknown == SL_EFFECT_RANGE ? "it" : "them";
-    if (!SIGHTLINE_EFFECTS)
-        return sl_fail(
-            context, SL_UNSUPPORTED,
-            "%s%s%s%sthe map calls for %s, and this build is without effects: %s--without "
-            "%s leaves %s out, a build with -DSIGHTLINE_EFFECTS=ON knows %s",
-            source, colon, line, space, several, bake, names, them, them);
     return sl_fail(context, SL_UNSUPPORTED,
                    "%s%s%s%sthe map calls for %s, which '%s' does not know; "
                    "%s--without %s leaves %s out",

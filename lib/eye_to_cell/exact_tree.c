@@ -1,12 +1,14 @@
-/// The exact method down a stab tree: only sequences with a sightline are asked for one through the
-/// eye. Nodes come parents first; in the order of a depth-first search the nodes above the one at
-/// hand are all that need be kept, and where they come in another order that shows.
+/// The exact method down a stab tree: only sequences that have a sightline are tested from the eye.
+///
+/// The nodes of a tree come parents first, in the order of a depth-first search. So a stack of the
+/// nodes above the current one is enough. If the nodes come in another order, that shows, and the
+/// search over portals is used instead.
 #include "eye_to_cell/eye_search.h"
 
 #include <string.h>
 
 /// The tree of the eye's cell, and how many nodes; NULL where it is not kept.
-static const sl_stab_node *tree_of(const sl_eye_query *query, uint64_t *count) {
+static const sl_stab_node *tree_of(const sli_eye_query *query, uint64_t *count) {
     const sl_stab_trees *trees = &query->search->visibility->trees;
     if (!trees->cell_count) return NULL;
     *count = trees->offsets[query->cell + 1] - trees->offsets[query->cell];
@@ -15,33 +17,33 @@ static const sl_stab_node *tree_of(const sl_eye_query *query, uint64_t *count) {
 
 /// Goes down to a node; nodes that nothing is seen of stay on the way, without arcs, and so do
 /// mirrors: what is seen by them is searched for by itself.
-static void go_down(sl_eye_query *query, const sl_eye_step *from, const sl_stab_node *node,
-                    uint32_t number, sl_eye_step *to) {
-    const bool first = from->next == 0, dead = !first && !from->arc_count;
+static void go_down(sli_eye_query *query, const sli_eye_step *from, const sl_stab_node *node,
+                    uint32_t number, sli_eye_step *to) {
+    const bool first = from->at.next == 0, dead = !first && !from->arc_count;
     const bool passes =
-        !dead && !sl_stab_is_mirror(node) && sl_eye_may_see(query, node->cell) &&
-        sl_eye_pass_in_range(query, from, first, &query->space->exits[node->exit], to);
+        !dead && !sl_stab_is_mirror(node) && sli_eye_may_see(query, node->cell) &&
+        sli_eye_pass_in_range(query, from, first, &query->space->directed[node->directed], to);
     if (passes) {
         query->nodes++;
         sl_bits_add(query->cells, node->cell);
     } else
-        *to = (sl_eye_step){.cell = node->cell};
-    to->next = number;
+        *to = (sli_eye_step){.at.cell = node->cell};
+    to->at.next = number;
 }
 
-sl_status sl_eye_exact_tree(sl_context *context, sl_eye_query *query, bool *done) {
+sl_status sli_eye_exact_tree(sl_context *context, sli_eye_query *query, bool *done) {
     uint64_t node_count = 0;
     const sl_stab_node *nodes = tree_of(query, &node_count);
     *done = false;
     if (!nodes) return SL_OK;
-    sl_eye_step *steps = query->search->steps;
+    sli_eye_step *steps = query->search->steps;
     size_t count = 1;
-    steps[0] = sl_eye_first_step(query);
+    steps[0] = sli_eye_first_step(query);
     sl_bits_add(query->cells, query->cell);
     query->nodes = 1;
     for (uint64_t i = 1; i < node_count; i++) {
         if (i % 4096 == 0) SL_TRY(sl_check_cancelled(context));
-        while (count && steps[count - 1].next != nodes[i].parent) count--;
+        while (count && steps[count - 1].at.next != nodes[i].parent) count--;
         if (!count || count > query->space->cell_count) {
             memset(query->cells, 0, sl_eye_words(query->space) * sizeof *query->cells);
             return SL_OK;

@@ -1,6 +1,9 @@
+/// What the culling methods share: the scratch memory, the begin and end of a query, and the step
+/// of the exact method through one portal, with the range of sight.
 #include "eye_to_cell/eye_search.h"
 
 #include "cell_to_cell/pvs_rows.h"
+#include "geometry/crossing.h"
 
 #include <string.h>
 
@@ -14,7 +17,7 @@ static sl_status check_fits(sl_context *context, uint32_t cells, const sl_visibi
     return sl_fail(context, SL_BAD_ARGUMENT, "the visible sets are those of another space");
 }
 
-static sl_status create(sl_context *context, const sl_space *space, const sl_boxed_space *boxed,
+static sl_status create(sl_context *context, const sl_space *space, const sli_boxed_space *boxed,
                         const sl_visibility *visibility, uint32_t row_cells, sl_eye_search **out) {
     SL_TRY(check_fits(context, row_cells, visibility));
     sl_eye_search *search = sl_alloc_array(context, 1, sizeof *search);
@@ -27,7 +30,7 @@ static sl_status create(sl_context *context, const sl_space *space, const sl_box
     search->row = sl_alloc_array(context, sl_bits_words(row_cells), sizeof *search->row);
     search->queue = sl_alloc_array(context, count, sizeof *search->queue);
     search->steps = sl_alloc_array(context, count + 3, sizeof *search->steps);
-    search->rays = sl_alloc_array(context, SL_RAY_SIDES * count, sizeof *search->rays);
+    search->rays = sl_alloc_array(context, SLI_RAY_SIDES * count, sizeof *search->rays);
     if (!search->row || !search->queue || !search->steps || !search->rays) {
         sl_eye_search_destroy(context, search);
         return SL_NO_MEMORY;
@@ -41,9 +44,9 @@ sl_status sl_eye_search_create(sl_context *context, const sl_space *space,
     return create(context, space, NULL, visibility, space->cell_count, out);
 }
 
-sl_status sl_eye_search_create_cut(sl_context *context, const sl_boxed_space *boxed,
-                                   const sl_visibility *visibility, uint32_t row_cells,
-                                   sl_eye_search **out) {
+sl_status sli_eye_search_create_cut(sl_context *context, const sli_boxed_space *boxed,
+                                    const sl_visibility *visibility, uint32_t row_cells,
+                                    sl_eye_search **out) {
     return create(context, &boxed->space, boxed, visibility, row_cells, out);
 }
 
@@ -53,20 +56,20 @@ void sl_eye_search_destroy(sl_context *context, sl_eye_search *search) {
     sl_free(context, search->queue);
     sl_free(context, search->steps);
     sl_free(context, search->rays);
-    sl_eye_mirrors_destroy(context, search->mirrors);
+    sli_eye_mirrors_destroy(context, search->mirrors);
     sl_free(context, search);
 }
 
 /// Adds a cell's visible set to the row; false where it has none, not even itself.
 static bool add_row(sl_eye_search *search, uint32_t cell) {
-    sl_row_add_to(&search->visibility->pvs, cell, search->row);
+    sli_row_add_to(&search->visibility->pvs, cell, search->row);
     return sl_bits_has(search->row, cell);
 }
 
-/// Finds the visible set of the eye's cell: those of all cells of the ground that it has a part of.
-/// Where there is none, nothing is to be seen.
+/// Finds the visible set of the eye's cell: the union over all cells of the ground that it has a
+/// part of. Where there is none, the eye sees nothing.
 static void find_row(sl_eye_search *search, uint32_t *cell) {
-    const sl_boxed_space *boxed = search->boxed;
+    const sli_boxed_space *boxed = search->boxed;
     const uint32_t row_cells = search->visibility->pvs.cell_count;
     memset(search->row, 0, sl_bits_words(row_cells) * sizeof *search->row);
     bool found = add_row(search, boxed ? boxed->parents[*cell] : *cell);
@@ -76,8 +79,8 @@ static void find_row(sl_eye_search *search, uint32_t *cell) {
     if (!found) *cell = SL_NO_CELL;
 }
 
-sl_status sl_eye_begin(sl_context *context, sl_eye_search *search, const sl_view *view,
-                       bool needs_pvs, uint64_t *cells, sl_eye_query *out) {
+sl_status sli_eye_begin(sl_context *context, sl_eye_search *search, const sl_view *view,
+                        bool needs_pvs, uint64_t *cells, sli_eye_query *out) {
     if (!sl_view_usable(view))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "the view is none: its points must be finite, the cone's not the eye");
@@ -85,49 +88,87 @@ sl_status sl_eye_begin(sl_context *context, sl_eye_search *search, const sl_view
         return sl_fail(context, SL_BAD_ARGUMENT, "there are no visible sets to cull");
     const size_t words = sl_eye_words(search->space);
     memset(cells, 0, words * sizeof *cells);
-    *out = (sl_eye_query){.search = search,
-                          .space = search->space,
-                          .pivot = {.eye = view->eye},
-                          .cell = sl_space_locate(search->space, view->eye),
-                          .cells = cells};
+    *out = (sli_eye_query){.search = search,
+                           .space = search->space,
+                           .pivot = {.eye = view->eye},
+                           .cell = sl_space_locate(search->space, view->eye),
+                           .cells = cells};
     if (out->cell == SL_NO_CELL) return SL_OK;
     if (search->has_pvs) find_row(search, &out->cell);
-    out->cone = sl_cone_of(&out->pivot, view);
+    out->cone = sli_cone_of(&out->pivot, view);
     return SL_OK;
 }
 
-void sl_eye_end(const sl_eye_query *query, sl_eye_account *account) {
+void sli_eye_end(const sli_eye_query *query, sl_eye_account *account) {
     *account = (sl_eye_account){.nodes = query->nodes, .orientations = query->pivot.tests};
 }
 
-sl_eye_step sl_eye_first_step(const sl_eye_query *query) {
-    return (sl_eye_step){.cell = query->cell, .near = true};
+sli_eye_step sli_eye_first_step(const sli_eye_query *query) {
+    return (sli_eye_step){.at.cell = query->cell, .near = true};
 }
 
-bool sl_eye_pass(sl_eye_query *query, const sl_eye_step *from, bool first, const sl_exit *exit,
-                 sl_eye_step *to) {
-    sl_pivot *pivot = &query->pivot;
-    *to = (sl_eye_step){.cell = exit->cell};
+/// Clips a step's arcs to a directed portal of its cell; `first` for the eye's own cell. False
+/// where nothing is left that counts.
+static bool pass(sli_eye_query *query, const sli_eye_step *from, bool first,
+                 const sl_directed_portal *portal, sli_eye_step *to) {
+    sli_pivot *pivot = &query->pivot;
+    *to = (sli_eye_step){.at.cell = portal->cell};
     if (from->near) {
-        sl_arc through;
-        if (!sl_arc_of_exit(pivot, exit, &through)) return false;
-        to->near = through.span == SL_SPAN_HALF;
-        if (first) to->arc_count = sl_cone_clip(pivot, &query->cone, &through, to->arcs);
+        sli_arc through;
+        if (!sli_arc_of_portal(pivot, portal, &through)) return false;
+        to->near = through.span == SLI_SPAN_HALF;
+        if (first) to->arc_count = sli_cone_clip(pivot, &query->cone, &through, to->arcs);
         // Each arc meets the portal's half in one arc at most: along a half opposite to it there
         // are portals that are crossed the other way.
         for (unsigned i = 0; i < from->arc_count; i++) {
-            sl_arc pieces[2];
-            if (sl_arc_meet(pivot, &from->arcs[i], &through, pieces))
+            sli_arc pieces[2];
+            if (sli_arc_meet(pivot, &from->arcs[i], &through, pieces))
                 to->arcs[to->arc_count++] = pieces[0];
         }
     } else {
         for (unsigned i = 0; i < from->arc_count; i++)
-            to->arc_count += sl_arc_narrow(pivot, &from->arcs[i], exit, &to->arcs[to->arc_count]);
+            to->arc_count +=
+                sli_arc_narrow(pivot, &from->arcs[i], portal, &to->arcs[to->arc_count]);
     }
     if (query->search->visibility->sight == SL_CLOSED) return to->arc_count > 0;
     unsigned kept = 0;
     for (unsigned i = 0; i < to->arc_count; i++)
-        if (to->arcs[i].span != SL_SPAN_RAY) to->arcs[kept++] = to->arcs[i];
+        if (to->arcs[i].span != SLI_SPAN_RAY) to->arcs[kept++] = to->arcs[i];
+    to->arc_count = kept;
+    return kept > 0;
+}
+
+// --- the range of sight
+
+/// Whether the part of a portal within an arc is in range of the eye, which is not on it. With open
+/// sight more than one point of it must be. Exact: the nearest point of the part is compared; all
+/// of a cell that is seen through a portal lies beyond that.
+static bool reaches(const sli_pivot *pivot, const sli_arc *arc, const sl_directed_portal *portal,
+                    double range, sl_sight sight) {
+    const sli_glance glance = {.eye = {pivot->eye, pivot->rest},
+                               .from = {arc->right.point, arc->right.rest},
+                               .to = {arc->left.point, arc->left.rest},
+                               .from_away = arc->right.away,
+                               .to_away = arc->left.away,
+                               .right = portal->right,
+                               .left = portal->left};
+    const int sign = sli_nearest_compare(&glance, range);
+    return sight == SL_OPEN ? sign < 0 : sign <= 0;
+}
+
+void sl_eye_search_limit(sl_eye_search *search, double range) {
+    search->range = range;
+}
+
+bool sli_eye_pass_in_range(sli_eye_query *query, const sli_eye_step *from, bool first,
+                           const sl_directed_portal *portal, sli_eye_step *to) {
+    const double range = query->search->range;
+    if (!pass(query, from, first, portal, to)) return false;
+    if (!(range > 0) || to->near) return true;
+    unsigned kept = 0;
+    for (unsigned i = 0; i < to->arc_count; i++)
+        if (reaches(&query->pivot, &to->arcs[i], portal, range, query->search->visibility->sight))
+            to->arcs[kept++] = to->arcs[i];
     to->arc_count = kept;
     return kept > 0;
 }

@@ -2,73 +2,73 @@
 #ifndef SL_EYE_SEARCH_H
 #define SL_EYE_SEARCH_H
 
-#include "base/base.h"
-#include "base/bits.h"
+#include "cell_to_cell/portal_search.h"
 #include "eye_to_cell/cone.h"
 #include "sightline/eye_to_cell.h"
+#include "sightline/support.h"
 #include "space/boxes.h"
 
-/// A cell on the way of the exact method, or a node of the stab tree with all above it.
-typedef struct sl_eye_step {
-    uint32_t cell;
-    uint32_t next;      ///< exit to try next, from 0; in a stab tree the node's number
-    uint32_t ray;       ///< over portals: of the ray that is left, where a single one is
-    bool near;          ///< the eye is on the portal crossed last, or in the cell of the source
+/// A step of the exact method: a cell that is entered, or a node of the stab tree.
+typedef struct sli_eye_step {
+    sli_portal_step at; ///< `next` is the node's number in a stab tree
+    uint32_t ray;       ///< over portals: the number of the ray, where a single one is left
+    bool near;          ///< the eye is on the portal crossed last, or this is its own cell
     unsigned arc_count; ///< over portals, 1 but for the eye's cell
-    sl_arc arcs[2];     ///< what is seen into the cell: within a wide cone up to two arcs
-} sl_eye_step;
+    sli_arc arcs[2];    ///< what is seen into the cell: within a wide cone up to two arcs
+} sli_eye_step;
 
-/// Pieces of cells' boundaries, to be told which of them a search meets.
-typedef struct sl_eye_targets {
-    const uint32_t *first;  ///< by cell: its targets are items[first[cell] .. first[cell + 1])
-    const sl_exit *targets; ///< as crossed on the way out of the cell; `portal`: of `met`
+/// Pieces of cells' boundaries. A search marks those that it meets.
+typedef struct sli_eye_targets {
+    const uint32_t *first; ///< by cell: its targets are items[first[cell] .. first[cell + 1])
+    const sl_directed_portal
+        *targets; ///< as crossed on the way out of the cell; `portal`: of `met`
     bool *met;
-} sl_eye_targets;
+} sli_eye_targets;
 
 struct sl_eye_search {
     double range; ///< of the exact method; 0 for no limit
     const sl_space *space;
     const sl_visibility *visibility;
-    const sl_boxed_space *boxed; ///< what `space` is of: tells whose rows and bits a cell has; or
-                                 ///< NULL: its own
-    sl_eye_targets targets; ///< of the exact method, over portals and by mirror; `first` NULL: none
+    const sli_boxed_space *boxed; ///< of which `space` is: maps its cells to those of the ground,
+                                  ///< which rows and bits are of; NULL for a space without boxes
+    sli_eye_targets targets;      ///< for the exact method, also by mirror; `first` NULL: none
     bool has_pvs;
-    sl_bits *row;       ///< the visible set of the eye's cell
-    uint32_t *queue;    ///< cells still to be looked at from
-    sl_eye_step *steps; ///< cell_count + 3 of them
-    uint32_t *rays;     ///< SL_RAY_SIDES a cell: the last ray that has come to it
+    sl_bits *row;        ///< the visible set of the eye's cell
+    uint32_t *queue;     ///< cells to spread from
+    sli_eye_step *steps; ///< cell_count + 3 of them
+    uint32_t *rays;      ///< SLI_RAY_SIDES a cell: the last ray that has come to it
     uint32_t ray_count;
-    struct sl_eye_mirrors *mirrors; ///< NULL where it looks into none
+    struct sl_eye_mirrors *mirrors; ///< NULL for none
 };
 
-enum { SL_RAY_SIDES = 3 };
+enum { SLI_RAY_SIDES = 3 };
 
 /// A query under way.
-typedef struct sl_eye_query {
+typedef struct sli_eye_query {
     sl_eye_search *search;
     const sl_space *space;
-    sl_pivot pivot;
-    sl_cone cone;
-    uint32_t cell;  ///< the eye's; SL_NO_CELL where nothing is to be seen
+    sli_pivot pivot;
+    sli_cone cone;
+    uint32_t cell;  ///< the eye's cell; SL_NO_CELL where it sees nothing
     uint64_t nodes; ///< so far
     sl_bits *cells; ///< the result
-} sl_eye_query;
+} sli_eye_query;
 
-/// A search of a space with boxes. The visibility is that of the ground, of `row_cells` cells.
-sl_status sl_eye_search_create_cut(sl_context *context, const sl_boxed_space *boxed,
-                                   const sl_visibility *visibility, uint32_t row_cells,
-                                   sl_eye_search **out);
+/// A search of a space with boxes. The visibility is that of the ground, with `row_cells` cells.
+sl_status sli_eye_search_create_cut(sl_context *context, const sli_boxed_space *boxed,
+                                    const sl_visibility *visibility, uint32_t row_cells,
+                                    sl_eye_search **out);
 
 /// Checks the view, finds the eye's cell and its visible set, and empties the result.
-sl_status sl_eye_begin(sl_context *context, sl_eye_search *search, const sl_view *view,
-                       bool needs_pvs, uint64_t *cells, sl_eye_query *out);
+sl_status sli_eye_begin(sl_context *context, sl_eye_search *search, const sl_view *view,
+                        bool needs_pvs, uint64_t *cells, sli_eye_query *out);
 
-void sl_eye_end(const sl_eye_query *query, sl_eye_account *account);
+void sli_eye_end(const sli_eye_query *query, sl_eye_account *account);
 
-/// Whether a cell has a part in the visible set of the eye's, or there are no visible sets.
-static inline bool sl_eye_may_see(const sl_eye_query *query, uint32_t cell) {
+/// Whether a part of a cell is in the visible set of the eye's cell. True where there are no sets.
+static inline bool sli_eye_may_see(const sli_eye_query *query, uint32_t cell) {
     const sl_eye_search *search = query->search;
-    const sl_boxed_space *boxed = search->boxed;
+    const sli_boxed_space *boxed = search->boxed;
     if (!search->has_pvs) return true;
     if (!boxed) return sl_bits_has(search->row, cell);
     if (sl_bits_has(search->row, boxed->parents[cell])) return true;
@@ -79,42 +79,44 @@ static inline bool sl_eye_may_see(const sl_eye_query *query, uint32_t cell) {
 }
 
 /// Whether a cell meets the cone.
-static inline bool sl_eye_meets_cell(sl_eye_query *query, uint32_t number) {
+static inline bool sli_eye_meets_cell(sli_eye_query *query, uint32_t number) {
     const sl_cell *cell = &query->space->cells[number];
     return query->cone.full ||
-           sl_cone_meets_polygon(&query->pivot, &query->cone,
-                                 query->space->vertices + cell->first_vertex, cell->vertex_count);
+           sli_cone_meets_polygon(&query->pivot, &query->cone,
+                                  query->space->vertices + cell->first_vertex, cell->vertex_count);
 }
 
 /// Whether a portal meets the cone.
-static inline bool sl_eye_meets_exit(sl_eye_query *query, const sl_exit *exit) {
+static inline bool sli_eye_meets_portal(sli_eye_query *query, const sl_directed_portal *portal) {
     return query->cone.full ||
-           sl_cone_meets_segment(&query->pivot, &query->cone, exit->left, exit->right);
+           sli_cone_meets_segment(&query->pivot, &query->cone, portal->left, portal->right);
 }
 
 /// The first step of the exact method: the eye's cell, with all of the cone.
-sl_eye_step sl_eye_first_step(const sl_eye_query *query);
+sli_eye_step sli_eye_first_step(const sli_eye_query *query);
 
-/// What of a step's arcs passes an exit of its cell; `first` for the eye's own cell. False where
-/// nothing does, or nothing that counts.
-bool sl_eye_pass(sl_eye_query *query, const sl_eye_step *from, bool first, const sl_exit *exit,
-                 sl_eye_step *to);
+/// Whether to go on from a step of one arc: not where its single ray has come to the cell before.
+/// Gives the ray a number, where it has none from the step before.
+bool sli_eye_is_new(sl_eye_search *search, const sli_eye_step *from, sli_eye_step *to);
 
-/// Whether a step of one arc is worth going on from: not where its single ray has come to the cell
-/// before. Gives the ray a number, where it has none from the step before.
-bool sl_eye_is_new(sl_eye_search *search, const sl_eye_step *from, sl_eye_step *to);
+/// Marks the targets that are met in a cell just entered; `first` for the eye's own cell.
+void sli_eye_meet_targets(sli_eye_query *query, const sli_eye_step *at, bool first);
 
-/// Notes the targets of a cell that is just entered; `first` for the eye's own.
-void sl_eye_meet_targets(sl_eye_query *query, const sl_eye_step *at, bool first);
+void sli_eye_mirrors_destroy(sl_context *context, struct sl_eye_mirrors *mirrors);
 
-void sl_eye_mirrors_destroy(sl_context *context, struct sl_eye_mirrors *mirrors);
-
-/// As sl_eye_pass, but that arcs are left out in which the portal is out of the search's range.
-bool sl_eye_pass_in_range(sl_eye_query *query, const sl_eye_step *from, bool first,
-                          const sl_exit *exit, sl_eye_step *to);
+/// Clips a step's arcs to a directed portal of its cell; `first` for the eye's own cell. Leaves out
+/// arcs in which the portal is out of the search's range. False where nothing is left that counts.
+bool sli_eye_pass_in_range(sli_eye_query *query, const sli_eye_step *from, bool first,
+                           const sl_directed_portal *portal, sli_eye_step *to);
 
 /// The exact method down the stab tree of the eye's cell. `done` is false, with nothing done, where
-/// that is not kept or its nodes do not come in the order of a depth-first search.
-sl_status sl_eye_exact_tree(sl_context *context, sl_eye_query *query, bool *done);
+/// the tree is not kept or its nodes are not in the order of a depth-first search.
+sl_status sli_eye_exact_tree(sl_context *context, sli_eye_query *query, bool *done);
+
+/// The exact method of the table, and what is seen by mirror with it.
+sl_status sli_eye_exact(sl_context *context, sl_eye_search *search, const sl_view *view,
+                        uint64_t *cells, sl_eye_account *account);
+sl_status sli_eye_exact_mirrored(sl_context *context, sl_eye_search *search, const sl_view *view,
+                                 uint64_t *cells, sl_eye_account *account);
 
 #endif

@@ -1,28 +1,227 @@
-/// Boxes that move: the space is cut along their sides (space/boxes.h), and the exact search tells
-/// which pieces of them it meets (box_targets.h).
+/// Boxes that move: doors that slide, crates, people.
+///
+/// The cells that the boxes touch are cut along the boxes' sides (space/boxes.h); the rest of the
+/// space is copied. A side of a box that blocks sight is then a wall. The visible sets stay those
+/// of the space without boxes: a box can only hide, so they remain conservative.
+///
+/// Each side of a box lies on the boundaries of cells. Its pieces there are targets: the exact
+/// search tests, in each cell that it enters, which targets its arc meets. A box is seen when one
+/// of its targets is met. No bake is needed when a box moves.
+///
+///     +-----------+          +---+---+---+
+///     |   cell    |          |   |   |   |    four cells are left around the box;
+///     |   [box]   |    ->    |   +---+   |    each side of the box is a target of the
+///     |           |          |   |   |   |    cell beside it
+///     +-----------+          +---+---+---+
 #include "sightline/moving.h"
 
-#include "eye_to_cell/box_targets.h"
-#include "eye_to_cell/eye_methods.h"
 #include "eye_to_cell/eye_search.h"
-#include "geometry/distance.h"
+#include "geometry/crossing.h"
 #include "sightline/map.h"
 #include "sightline/sees.h"
+#include "sightline/support.h"
+#include "space/boxes.h"
+#include "space/index.h"
 
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
+void sl_cells_of_box(const sl_space *space, sl_box box, uint64_t *cells) {
+    memset(cells, 0, sl_eye_words(space) * sizeof *cells);
+    if (!space->neighbour) {
+        for (uint32_t i = 0; i < space->cell_count; i++)
+            if (sli_cell_meets_box(space, i, box)) sl_bits_add(cells, i);
+        return;
+    }
+    sli_cell_grid_range r = sli_cell_grid_range_of(space, box);
+    for (uint32_t i; sli_cell_grid_next(&space->grid, &r, &i);)
+        if (!sl_bits_has(cells, i) && sli_cell_meets_box(space, i, box)) sl_bits_add(cells, i);
+}
+
+// --- targets: the pieces of boxes' sides on the boundaries of cells
+
+typedef struct box_targets {
+    uint32_t *first; ///< by cell, and one more: its targets are items[first[c] .. first[c + 1])
+    sl_directed_portal *items; ///< as crossed on the way out of the cell; `portal`: the box
+} box_targets;
+
+/// A piece of a box's side in a cell.
+typedef struct target {
+    uint32_t cell;
+    sl_directed_portal directed;
+} target;
+
+typedef struct gatherer {
+    sl_context *context;
+    const sl_space *space;
+    size_t pieces; ///< so far
+    size_t *done;  ///< by cell: the number of the last piece that was tested against it
+    SL_ARRAY(target) targets;
+    SL_ARRAY(int32_t) stack;
+    sli_piece_list free;
+} gatherer;
+
+static sl_status add(gatherer *g, uint32_t cell, uint32_t box, sl_point left, sl_point right) {
+    SL_TRY(SL_ARRAY_ROOM(g->context, &g->targets, 1));
+    g->targets.items[g->targets.count++] = (target){cell, {box, SL_NO_CELL, left, right}};
+    return SL_OK;
+}
+
+// --- where cells are boxes
+
+/// Adds a piece where it lies on the boundary of a cell.
+static sl_status add_on_boundary(gatherer *g, uint32_t cell, const sli_piece *side, uint32_t box) {
+    const sl_point *corners = g->space->vertices + g->space->cells[cell].first_vertex;
+    const sl_point min = corners[0], max = corners[2];
+    const bool below = side->at == (side->axis ? max.y : max.x);
+    const bool above = side->at == (side->axis ? min.y : min.x);
+    const double lo = fmax(side->lo, side->axis ? min.x : min.y);
+    const double hi = fmin(side->hi, side->axis ? max.x : max.y);
+    if (!(below || above) || lo >= hi) return SL_OK;
+    // Going up in the line's coordinate, the left hand is at high y (axis 0) or at low x (axis 1).
+    const sl_point a = side->axis ? (sl_point){lo, side->at} : (sl_point){side->at, hi};
+    const sl_point b = side->axis ? (sl_point){hi, side->at} : (sl_point){side->at, lo};
+    return add(g, cell, box, below ? a : b, below ? b : a);
+}
+
+/// Adds a piece to all cells that it lies on the boundary of.
+static sl_status add_down_tree(gatherer *g, const sli_piece *side, uint32_t box) {
+    g->stack.count = 0;
+    SL_TRY(SL_ARRAY_ROOM(g->context, &g->stack, 1));
+    g->stack.items[g->stack.count++] = g->space->root;
+    while (g->stack.count) {
+        const int32_t child = g->stack.items[--g->stack.count];
+        if (child < 0) {
+            SL_TRY(add_on_boundary(g, (uint32_t)~child, side, box));
+            continue;
+        }
+        const sl_node *node = &g->space->nodes[child];
+        const double lo = node->axis == side->axis ? side->at : side->lo;
+        const double hi = node->axis == side->axis ? side->at : side->hi;
+        SL_TRY(SL_ARRAY_ROOM(g->context, &g->stack, 2));
+        if (lo <= node->position) g->stack.items[g->stack.count++] = node->below;
+        if (hi >= node->position) g->stack.items[g->stack.count++] = node->above;
+    }
+    return SL_OK;
+}
+
+// --- where cells are convex
+
+static double along(const sli_piece *side, sl_point p) {
+    return side->axis ? p.x : p.y;
+}
+
+static double across(const sli_piece *side, sl_point p) {
+    return side->axis ? p.y : p.x;
+}
+
+static sl_point on(const sli_piece *side, double at) {
+    return side->axis ? (sl_point){at, side->at} : (sl_point){side->at, at};
+}
+
+/// Adds the part of a piece that lies on a side of a cell, which has the cell to its left.
+static sl_status add_along(gatherer *g, uint32_t number, const sli_piece *piece, uint32_t box,
+                           sl_point p, sl_point q) {
+    const double from = along(piece, p), to = along(piece, q);
+    const double lo = fmax(piece->lo, fmin(from, to)), hi = fmin(piece->hi, fmax(from, to));
+    if (across(piece, p) != piece->at || across(piece, q) != piece->at || lo >= hi) return SL_OK;
+    return add(g, number, box, on(piece, from < to ? hi : lo), on(piece, from < to ? lo : hi));
+}
+
+/// Adds a piece to all cells that it lies on the boundary of.
+static sl_status add_to_cells(gatherer *g, const sli_piece *piece, uint32_t box) {
+    const sl_space *s = g->space;
+    const sl_box around = {on(piece, piece->lo), on(piece, piece->hi)};
+    sli_cell_grid_range r = sli_cell_grid_range_of(s, around);
+    g->pieces++;
+    for (uint32_t at; sli_cell_grid_next(&s->grid, &r, &at);) {
+        const sl_point *v = s->vertices + s->cells[at].first_vertex;
+        const uint32_t count = s->cells[at].vertex_count;
+        if (g->done[at] == g->pieces) continue;
+        g->done[at] = g->pieces;
+        for (uint32_t i = 0; i < count; i++)
+            SL_TRY(add_along(g, at, piece, box, v[i], v[i + 1 == count ? 0 : i + 1]));
+    }
+    return SL_OK;
+}
+
+// --- gathering
+
+static int compare_targets(const void *left, const void *right) {
+    const target *a = left, *b = right;
+    return (a->cell > b->cell) - (a->cell < b->cell);
+}
+
+static sl_status write_targets(gatherer *g, box_targets *out) {
+    const uint32_t cells = g->space->cell_count;
+    out->first = sl_alloc_array(g->context, (size_t)cells + 1, sizeof *out->first);
+    out->items = sl_alloc_array(g->context, g->targets.count, sizeof *out->items);
+    if (!out->first || !out->items) return SL_NO_MEMORY;
+    if (g->targets.count > UINT32_MAX) return sl_fail_memory(g->context);
+    if (g->targets.count)
+        qsort(g->targets.items, g->targets.count, sizeof *g->targets.items, compare_targets);
+    for (size_t i = 0; i < g->targets.count; i++) {
+        out->items[i] = g->targets.items[i].directed;
+        out->first[g->targets.items[i].cell + 1]++;
+    }
+    for (uint32_t c = 0; c < cells; c++) out->first[c + 1] += out->first[c];
+    return SL_OK;
+}
+
+static sl_status gather(gatherer *g, const sli_box_ground *ground, const sl_moving_box *boxes,
+                        size_t count) {
+    g->done = sl_alloc_array(g->context, g->space->cell_count, sizeof *g->done);
+    if (!g->done) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++) {
+        sli_piece sides[4];
+        const unsigned n = sli_box_sides(boxes[i].box, sides);
+        g->free.count = 0;
+        for (unsigned k = 0; k < n; k++)
+            SL_TRY(sli_piece_add_free(g->context, ground->walls, ground->wall_count, sides[k],
+                                      &g->free));
+        for (size_t k = 0; k < g->free.count; k++) {
+            const sli_piece *piece = &g->free.items[k];
+            SL_TRY(g->space->neighbour ? add_to_cells(g, piece, (uint32_t)i)
+                                       : add_down_tree(g, piece, (uint32_t)i));
+        }
+    }
+    return SL_OK;
+}
+
+/// The pieces that no axial wall of the ground covers, in a space with the boxes in it. `out` is
+/// zeroed, and to be destroyed whatever comes.
+static sl_status find_targets(sl_context *context, const sli_box_ground *ground,
+                              const sl_space *space, const sl_moving_box *boxes, size_t count,
+                              box_targets *out) {
+    gatherer g = {.context = context, .space = space};
+    sl_status status = gather(&g, ground, boxes, count);
+    if (status == SL_OK) status = write_targets(&g, out);
+    sl_free(context, g.done);
+    sl_free(context, g.targets.items);
+    sl_free(context, g.stack.items);
+    sl_free(context, g.free.items);
+    return status;
+}
+
+static void destroy_targets(sl_context *context, box_targets *targets) {
+    sl_free(context, targets->first);
+    sl_free(context, targets->items);
+    *targets = (box_targets){0};
+}
+
 struct sl_moving {
-    sl_box_ground ground;
+    sli_box_ground ground;
     const sl_visibility *visibility;
     double range;
     const sl_map *mirrors; ///< the map that has them, NULL for none
     uint32_t depth;        ///< of reflections
     sl_moving_box *boxes;
     size_t count;
-    sl_boxed_space *boxed;
+    sli_boxed_space *boxed;
     sl_outline outline;
     bool outlined;
-    sl_box_targets targets;
+    box_targets targets;
     bool *met; ///< by box
     sl_eye_search *search;
     uint64_t *cells; ///< of the space with boxes
@@ -30,14 +229,14 @@ struct sl_moving {
 
 // --- placing
 
-/// All that follows from the boxes.
+/// Frees all that was made for the boxes.
 static void drop(sl_context *context, sl_moving *m) {
     sl_eye_search_destroy(context, m->search);
     sl_outline_destroy(context, &m->outline);
-    if (m->boxed) sl_boxed_space_destroy(context, m->boxed);
+    if (m->boxed) sli_boxed_space_destroy(context, m->boxed);
     sl_free(context, m->boxed);
     sl_free(context, m->boxes);
-    sl_box_targets_destroy(context, &m->targets);
+    destroy_targets(context, &m->targets);
     sl_free(context, m->met);
     sl_free(context, m->cells);
     *m = (sl_moving){.ground = m->ground,
@@ -62,21 +261,20 @@ static sl_status check_boxes(sl_context *context, const sl_moving_box *boxes, si
     return SL_OK;
 }
 
-/// Fills `m`, whose boxes are there.
+/// Makes all that follows from the boxes of `m`.
 static sl_status place(sl_context *context, sl_moving *m) {
     m->boxed = sl_alloc_array(context, 1, sizeof *m->boxed);
     if (!m->boxed) return SL_NO_MEMORY;
-    SL_TRY(sl_boxes_put(context, &m->ground, m->boxes, m->count, m->boxed));
-    SL_TRY(sl_box_targets_find(context, &m->ground, &m->boxed->space, m->boxes, m->count,
-                               &m->targets));
-    SL_TRY(sl_eye_search_create_cut(context, m->boxed, m->visibility, m->ground.space->cell_count,
-                                    &m->search));
+    SL_TRY(sli_boxes_put(context, &m->ground, m->boxes, m->count, m->boxed));
+    SL_TRY(find_targets(context, &m->ground, &m->boxed->space, m->boxes, m->count, &m->targets));
+    SL_TRY(sli_eye_search_create_cut(context, m->boxed, m->visibility, m->ground.space->cell_count,
+                                     &m->search));
     m->met = sl_alloc_array(context, m->count, sizeof *m->met);
     m->cells = sl_alloc_array(context, sl_eye_words(&m->boxed->space), sizeof *m->cells);
     if (!m->met || !m->cells) return SL_NO_MEMORY;
     sl_eye_search_limit(m->search, m->range);
     if (m->mirrors) SL_TRY(sl_eye_search_add_mirrors(context, m->search, m->mirrors, m->depth));
-    m->search->targets = (sl_eye_targets){m->targets.first, m->targets.items, m->met};
+    m->search->targets = (sli_eye_targets){m->targets.first, m->targets.items, m->met};
     return SL_OK;
 }
 
@@ -103,7 +301,7 @@ sl_status sl_moving_create(sl_context *context, const sl_space *space,
     sl_moving *moving = sl_alloc_array(context, 1, sizeof *moving);
     if (!moving) return SL_NO_MEMORY;
     moving->visibility = visibility;
-    sl_status status = sl_box_ground_create(context, space, &moving->ground);
+    sl_status status = sli_box_ground_create(context, space, &moving->ground);
     if (status == SL_OK) status = sl_moving_place(context, moving, NULL, 0);
     if (status == SL_OK)
         *out = moving;
@@ -115,7 +313,7 @@ sl_status sl_moving_create(sl_context *context, const sl_space *space,
 void sl_moving_destroy(sl_context *context, sl_moving *moving) {
     if (!moving) return;
     drop(context, moving);
-    sl_box_ground_destroy(context, &moving->ground);
+    sli_box_ground_destroy(context, &moving->ground);
     sl_free(context, moving);
 }
 
@@ -149,14 +347,15 @@ static sl_status see_point(sl_context *context, sl_moving *moving, const sl_view
     const sl_outline *outline;
     *seen = false;
     if (!sl_view_holds(view, point)) return SL_OK;
-    if (moving->range > 0 && sl_distance_compare(view->eye, point, moving->range) > 0) return SL_OK;
+    if (moving->range > 0 && sli_distance_compare(view->eye, point, moving->range) > 0)
+        return SL_OK;
     SL_TRY(sl_moving_outline(context, moving, &outline));
     return sl_sees(context, outline, view->eye, point, moving->visibility->sight, seen);
 }
 
-/// The cells without boxes, of those with them.
-static void tell_cells(const sl_moving *moving, uint64_t *cells) {
-    const sl_boxed_space *boxed = moving->boxed;
+/// Maps the cells that are seen to the cells of the space without boxes.
+static void write_cells(const sl_moving *moving, uint64_t *cells) {
+    const sli_boxed_space *boxed = moving->boxed;
     memset(cells, 0, sl_eye_words(moving->ground.space) * sizeof *cells);
     for (uint32_t c = 0; c < boxed->space.cell_count; c++)
         if (sl_bits_has(moving->cells, c)) sl_bits_add(cells, boxed->parents[c]);
@@ -166,7 +365,7 @@ sl_status sl_moving_look(sl_context *context, sl_moving *moving, const sl_view *
                          uint64_t *cells, bool *seen, sl_eye_account *account) {
     const sl_space *space = &moving->boxed->space;
     if (moving->count) memset(moving->met, 0, moving->count * sizeof *moving->met);
-    SL_TRY(sl_eye_exact(context, moving->search, view, moving->cells, account));
+    SL_TRY(sli_eye_exact(context, moving->search, view, moving->cells, account));
     const bool inside = sl_space_locate(space, view->eye) != SL_NO_CELL;
     for (size_t i = 0; i < moving->count; i++) {
         const sl_box box = moving->boxes[i].box;
@@ -174,7 +373,7 @@ sl_status sl_moving_look(sl_context *context, sl_moving *moving, const sl_view *
         if (!seen[i] && inside && box.min.x == box.max.x && box.min.y == box.max.y)
             SL_TRY(see_point(context, moving, view, box.min, &seen[i]));
     }
-    tell_cells(moving, cells);
+    write_cells(moving, cells);
     return SL_OK;
 }
 
@@ -189,8 +388,8 @@ sl_status sl_moving_add_mirrors(sl_context *context, sl_moving *moving, const sl
 sl_status sl_moving_look_mirrored(sl_context *context, sl_moving *moving, const sl_view *view,
                                   uint64_t *cells, bool *seen, sl_eye_account *account) {
     if (moving->count) memset(moving->met, 0, moving->count * sizeof *moving->met);
-    SL_TRY(sl_eye_exact_mirrored(context, moving->search, view, moving->cells, account));
+    SL_TRY(sli_eye_exact_mirrored(context, moving->search, view, moving->cells, account));
     if (moving->count) memcpy(seen, moving->met, moving->count * sizeof *seen);
-    tell_cells(moving, cells);
+    write_cells(moving, cells);
     return SL_OK;
 }

@@ -1,11 +1,152 @@
-/// The expansion: the view is spread over the sides of the eye's rooms; through a portal it goes on
-/// as a cone of two rays, over the sides of the room beyond that lie between them. A room is convex
-/// and a cone narrower than half a circle, so that on the way around a room from its entry, corners
-/// pass the right ray once, and then the left ray: one predicate a side.
+/// The visible region (isovist) of an eye, by expansion through portals.
+///
+/// The view spreads over the sides of the room that the eye is in. A side that is a wall is seen,
+/// piece by piece. Through a side that is a portal the view goes on as a cone of two rays into the
+/// room behind it:
+///
+///      +---------+--------.-+
+///      |         |    .  left     `left` and `right` bound what is seen through the portal ab.
+///      |         b .        |     On the way around the next room, counter-clockwise from the
+///      |  eye *  |   seen   |     portal, corners come that are right of the cone, then those
+///      |         a .        |     within it, then those left of it.
+///      |         |    .  right
+///      +---------+--------.-+
+///
+/// Invariant: rooms are convex and a cone is narrower than half a circle. So on the way around a
+/// room the corners pass the right ray once, and then the left ray once: one exact predicate a
+/// side. Pieces come in counter-clockwise order, so they are appended to one polygon
+/// (region_polygon.c).
+///
+/// Cost: O(sides of the rooms that are seen), counted once for each time a room is entered. The
+/// expansion is that of triangular expansion (Bungiu et al. 2014, Efficient Computation of
+/// Visibility Polygons), with convex rooms in place of triangles.
 #include "eye_to_cell/region_parts.h"
 #include "sightline/mirrored.h"
 
 #include <math.h>
+
+// --- the fan about the eye
+
+// The eye stands within a room, on a side, or on a corner where several rooms meet. The rooms that
+// touch it, joined by portals that touch it, are visited counter-clockwise. The fan is the list of
+// their sides that face the eye.
+
+/// The two sides of a room that meet at the eye. The room lies counter-clockwise from `right` to
+/// `left`. Both are the same side where the eye is between its ends.
+typedef struct corner {
+    uint32_t right, left;
+} corner;
+
+static const sl_side *side_of(const sl_outline *o, uint32_t i) {
+    return &o->sides[i];
+}
+
+static sl_point end_of(const sl_outline *o, uint32_t i) {
+    return side_of(o, side_of(o, i)->next)->start;
+}
+
+static uint32_t previous(const sl_outline *o, uint32_t i) {
+    uint32_t before = i;
+    while (side_of(o, before)->next != i) before = side_of(o, before)->next;
+    return before;
+}
+
+static bool between(double a, double value, double b) {
+    return (a <= value && value <= b) || (b <= value && value <= a);
+}
+
+/// Whether the eye is on a side, whose line it is in, other than at its end.
+static bool is_on(const sl_outline *o, uint32_t i, sl_point eye) {
+    const sl_point a = side_of(o, i)->start, b = end_of(o, i);
+    return !sli_same_point(eye, b) && between(a.x, eye.x, b.x) && between(a.y, eye.y, b.y);
+}
+
+/// Makes the fan of an eye within a room: all sides of the room face it. For an eye on a side,
+/// finds the sides there (*at) and leaves the fan empty: the caller goes around the eye.
+static sl_status gather_room(sl_context *context, const sl_outline *o, uint32_t room, sl_point eye,
+                             struct sli_region_memory *m, corner *at, bool *within) {
+    const uint32_t first = o->first[room], stop = o->first[room + 1];
+    SL_TRY(SL_ARRAY_ROOM(context, &m->fan, stop - first));
+    *within = true;
+    for (uint32_t i = first; i < stop; i++) {
+        const int turn = sli_orient(side_of(o, i)->start, end_of(o, i), eye);
+        if (turn > 0) m->fan.items[m->fan.count++] = i;
+        if (turn != 0 || !is_on(o, i, eye)) continue;
+        at->right = i;
+        at->left = sli_same_point(eye, side_of(o, i)->start) ? previous(o, i) : i;
+        m->fan.count = 0;
+        *within = false;
+        return SL_OK;
+    }
+    return SL_OK;
+}
+
+/// The corner at the eye of the room behind a portal there, clockwise.
+static corner neighbour_right(const sl_outline *o, uint32_t portal, sl_point eye) {
+    const uint32_t other = side_of(o, portal)->neighbour;
+    return (corner){sli_same_point(end_of(o, other), eye) ? side_of(o, other)->next : other, other};
+}
+
+/// The same, counter-clockwise.
+static corner neighbour_left(const sl_outline *o, uint32_t portal, sl_point eye) {
+    const uint32_t other = side_of(o, portal)->neighbour;
+    return (corner){other,
+                    sli_same_point(side_of(o, other)->start, eye) ? previous(o, other) : other};
+}
+
+/// Adds the sides from `first` to before `stop` that face the eye.
+static sl_status add_sides(sl_context *context, const sl_outline *o, sl_point eye, uint32_t first,
+                           uint32_t stop, struct sli_region_memory *m) {
+    uint32_t i = first;
+    do {
+        if (sli_orient(side_of(o, i)->start, end_of(o, i), eye) > 0) {
+            SL_TRY(SL_ARRAY_ROOM(context, &m->fan, 1));
+            m->fan.items[m->fan.count++] = i;
+        }
+        i = side_of(o, i)->next;
+    } while (i != stop);
+    return SL_OK;
+}
+
+/// Whether an open fan starts and ends at one wall, which ends at the eye. Seen edge-on, it hides
+/// nothing.
+static bool ends_at_eye(const sl_outline *o, sl_point eye, corner at) {
+    const sl_point a = end_of(o, at.right), b = side_of(o, at.left)->start;
+    return side_of(o, at.right)->neighbour == side_of(o, at.left)->neighbour &&
+           (a.x > eye.x) == (b.x > eye.x) && (a.x < eye.x) == (b.x < eye.x) &&
+           (a.y > eye.y) == (b.y > eye.y) && (a.y < eye.y) == (b.y < eye.y);
+}
+
+sl_status sli_region_gather_fan(sl_context *context, const sl_outline *o, sl_region *region) {
+    struct sli_region_memory *m = region->memory;
+    const sl_point eye = region->view.eye;
+    const uint32_t room = sl_outline_room(o, region->cell, eye);
+    m->fan.count = 0;
+    m->open = false;
+    corner at = {0};
+    bool within;
+    SL_TRY(gather_room(context, o, room, eye, m, &at, &within));
+    if (within) return SL_OK;
+    // Clockwise as far as portals lead, or once around.
+    const uint32_t start = at.right;
+    bool around = false;
+    while (!around && sl_side_is_portal(side_of(o, at.right))) {
+        at = neighbour_right(o, at.right, eye);
+        around = at.right == start;
+    }
+    m->right = at.right;
+    for (;;) {
+        SL_TRY(add_sides(context, o, eye, side_of(o, at.right)->next, at.left, m));
+        m->left = at.left;
+        if (!sl_side_is_portal(side_of(o, at.left))) break;
+        at = neighbour_left(o, at.left, eye);
+        if (around && at.right == start) return SL_OK;
+    }
+    m->open = !ends_at_eye(o, eye, (corner){m->right, m->left});
+    return SL_OK;
+}
+
+// --- the expansion
 
 typedef struct expansion {
     sl_context *context;
@@ -17,12 +158,12 @@ static const sl_side *side(const expansion *x, uint32_t i) {
     return &x->outline->sides[i];
 }
 
-static sl_eye_ray to_start(const expansion *x, uint32_t i) {
-    return sl_eye_ray_through(&x->region->memory->eye, side(x, i)->start);
+static sli_eye_ray to_start(const expansion *x, uint32_t i) {
+    return sli_eye_ray_through(&x->region->memory->eye, side(x, i)->start);
 }
 
 /// Whether a side is out of range, however its distance was rounded.
-static bool is_far(const sl_region *region, const sl_eye_ray *a, const sl_eye_ray *b) {
+static bool is_far(const sl_region *region, const sli_eye_ray *a, const sli_eye_ray *b) {
     const sl_point p = a->offset, d = {b->at.x - a->at.x, b->at.y - a->at.y};
     const double along = -(p.x * d.x + p.y * d.y) / (d.x * d.x + d.y * d.y);
     const double share = along > 0 ? along < 1 ? along : 1 : 0;
@@ -34,17 +175,17 @@ static bool same_sign(double a, double b) {
 }
 
 /// Whether two rays that lie in one line are one.
-static bool same_direction(const sl_eye_ray *a, const sl_eye_ray *b) {
+static bool same_direction(const sli_eye_ray *a, const sli_eye_ray *b) {
     return same_sign(a->offset.x, b->offset.x) && same_sign(a->offset.y, b->offset.y);
 }
 
-/// What is seen of a side that is no portal (or of one out of range, SL_PIECE_FAR) from ray to ray.
-static inline sl_status see_piece(expansion *x, uint32_t beyond, const sl_eye_ray *a,
-                                  const sl_eye_ray *b, const sl_eye_ray *right,
-                                  const sl_eye_ray *left) {
-    struct sl_region_memory *m = x->region->memory;
-    if (!m->pending || m->piece.beyond != beyond || beyond == SL_PIECE_FAR)
-        SL_TRY(sl_region_start_piece(x->context, x->region, beyond, a, b, right));
+/// Adds the part between two rays of a wall, or of a portal out of range (SLI_PIECE_FAR).
+static inline sl_status see_piece(expansion *x, uint32_t neighbour, const sli_eye_ray *a,
+                                  const sli_eye_ray *b, const sli_eye_ray *right,
+                                  const sli_eye_ray *left) {
+    struct sli_region_memory *m = x->region->memory;
+    if (!m->pending || m->piece.neighbour != neighbour || neighbour == SLI_PIECE_FAR)
+        SL_TRY(sli_region_start_piece(x->context, x->region, neighbour, a, b, right));
     m->piece.a = a->at;
     m->piece.b = b->at;
     m->piece.left = left ? *left : *b;
@@ -52,193 +193,195 @@ static inline sl_status see_piece(expansion *x, uint32_t beyond, const sl_eye_ra
     return SL_OK;
 }
 
-/// Takes glimpses of the mirrors on a side, of which what is between two rays is seen.
-static sl_status glimpse(expansion *x, uint32_t at, const sl_eye_ray *right,
-                         const sl_eye_ray *left) {
-    struct sl_region_memory *m = x->region->memory;
+/// Takes reflected views of the mirrors on a side, as far as they lie between two rays.
+static sl_status reflect(expansion *x, uint32_t at, const sli_eye_ray *right,
+                         const sli_eye_ray *left) {
+    struct sli_region_memory *m = x->region->memory;
     const sl_room_mirrors *mirrors = m->mirrors;
     for (uint32_t i = mirrors->first[at]; i < mirrors->first[at + 1]; i++) {
         const sl_room_mirror *mirror = &mirrors->pieces[i];
-        sl_glimpse seen = {.side = at, .mirror = mirror->mirror};
-        seen.right = sl_eye_ray_through(&m->eye, mirror->right);
-        seen.left = sl_eye_ray_through(&m->eye, mirror->left);
-        if (sl_eye_turn(&m->eye, &seen.right, right) > 0) seen.right = *right;
-        if (sl_eye_turn(&m->eye, left, &seen.left) > 0) seen.left = *left;
-        if (sl_eye_turn(&m->eye, &seen.right, &seen.left) <= 0) continue;
-        SL_TRY(SL_ARRAY_ROOM(x->context, &m->glimpses, 1));
-        m->glimpses.items[m->glimpses.count++] = seen;
+        sli_reflected_view seen = {.side = at, .mirror = mirror->mirror};
+        seen.right = sli_eye_ray_through(&m->eye, mirror->right);
+        seen.left = sli_eye_ray_through(&m->eye, mirror->left);
+        if (sli_eye_turn(&m->eye, &seen.right, right) > 0) seen.right = *right;
+        if (sli_eye_turn(&m->eye, left, &seen.left) > 0) seen.left = *left;
+        if (sli_eye_turn(&m->eye, &seen.right, &seen.left) <= 0) continue;
+        SL_TRY(SL_ARRAY_ROOM(x->context, &m->reflected_views, 1));
+        m->reflected_views.items[m->reflected_views.count++] = seen;
     }
     return SL_OK;
 }
 
-/// Whether a portal leads nowhere that is within range.
-static bool is_barred(const sl_region *region, const sl_eye_ray *a, const sl_eye_ray *b) {
+/// Whether a portal is out of range.
+static bool is_barred(const sl_region *region, const sli_eye_ray *a, const sli_eye_ray *b) {
     return region->range > 0 && is_far(region, a, b);
 }
 
-/// Where a room is being looked at: from the ray `right` on, which passes within the side `at` or
-/// goes through its start, to the ray `left`.
-typedef struct gaze {
+/// A view cone within a room: from the ray `right`, which meets the side `at` within it or at its
+/// start, to the ray `left`.
+typedef struct view_cone {
     uint32_t entry, at;
     bool within;
-    sl_eye_ray right, left;
-} gaze;
+    sli_eye_ray right, left;
+} view_cone;
 
 static sl_status grow_frames(expansion *x) {
     return SL_ARRAY_ROOM(x->context, &x->region->memory->frames, 1);
 }
 
-/// Turns the gaze through the portal that it is at, whose ends are a and b; `turn` tells where the
-/// left ray leaves b. What is left to see of the room waits.
-static inline sl_status enter(expansion *x, gaze *g, const sl_eye_ray *a, const sl_eye_ray *b,
-                              int turn) {
-    struct sl_region_memory *m = x->region->memory;
-    const sl_side *portal = side(x, g->at);
+/// Takes the cone through the portal that it is at, from a to b. `turn`: where b lies from the left
+/// ray. The rest of the room waits as a frame.
+static inline sl_status enter(expansion *x, view_cone *cone, const sli_eye_ray *a,
+                              const sli_eye_ray *b, int turn) {
+    struct sli_region_memory *m = x->region->memory;
+    const sl_side *portal = side(x, cone->at);
     if (turn < 0) {
         if (m->frames.count == m->frames.capacity) SL_TRY(grow_frames(x));
-        m->frames.items[m->frames.count++] = (sl_region_frame){portal->next, g->entry, g->left};
+        m->frames.items[m->frames.count++] =
+            (sli_region_frame){portal->next, cone->entry, cone->left};
     }
-    if (turn <= 0) g->left = *b;
-    if (!g->within) g->right = *a;
-    g->entry = portal->beyond;
+    if (turn <= 0) cone->left = *b;
+    if (!cone->within) cone->right = *a;
+    cone->entry = portal->neighbour;
     return SL_OK;
 }
 
-/// Goes around a room up to a portal, through which the gaze is turned (*enters), or to its end.
-static inline sl_status sweep(expansion *x, gaze *g, bool *enters) {
+/// Goes around a room to the next portal within the cone and enters it (*enters), or to the end.
+static inline sl_status sweep(expansion *x, view_cone *cone, bool *enters) {
     sl_region *region = x->region;
-    const sl_eye_place *eye = &region->memory->eye;
+    const sli_eye_place *eye = &region->memory->eye;
     const double limit = region->memory->limit;
-    sl_eye_ray a = to_start(x, g->at);
+    sli_eye_ray a = to_start(x, cone->at);
     *enters = false;
-    while (g->at != g->entry) {
-        const uint32_t next = side(x, g->at)->next, beyond = side(x, g->at)->beyond;
-        const sl_eye_ray b = to_start(x, next);
-        const int turn = sl_eye_turn_within(eye, &g->left, &b, limit);
-        if (beyond < SL_SIDE_WALL && !is_barred(region, &a, &b)) {
+    while (cone->at != cone->entry) {
+        const uint32_t next = side(x, cone->at)->next, neighbour = side(x, cone->at)->neighbour;
+        const sli_eye_ray b = to_start(x, next);
+        const int turn = sli_eye_turn_within(eye, &cone->left, &b, limit);
+        if (neighbour < SL_SIDE_WALL && !is_barred(region, &a, &b)) {
             *enters = true;
-            return enter(x, g, &a, &b, turn);
+            return enter(x, cone, &a, &b, turn);
         }
-        SL_TRY(see_piece(x, beyond < SL_SIDE_WALL ? SL_PIECE_FAR : beyond, &a, &b,
-                         g->within ? &g->right : NULL, turn > 0 ? &g->left : NULL));
-        if (region->memory->mirrors && beyond >= SL_SIDE_WALL)
-            SL_TRY(glimpse(x, g->at, g->within ? &g->right : &a, turn > 0 ? &g->left : &b));
+        SL_TRY(see_piece(x, neighbour < SL_SIDE_WALL ? SLI_PIECE_FAR : neighbour, &a, &b,
+                         cone->within ? &cone->right : NULL, turn > 0 ? &cone->left : NULL));
+        if (region->memory->mirrors && neighbour >= SL_SIDE_WALL)
+            SL_TRY(reflect(x, cone->at, cone->within ? &cone->right : &a,
+                           turn > 0 ? &cone->left : &b));
         if (turn >= 0) return SL_OK;
-        g->within = false;
-        g->at = next;
+        cone->within = false;
+        cone->at = next;
         a = b;
     }
     return SL_OK;
 }
 
-/// What is seen through a portal between two rays. `gaze` is at the room's side of it.
-static sl_status look_through(expansion *x, gaze g) {
-    struct sl_region_memory *m = x->region->memory;
-    const sl_eye_place *eye = &m->eye;
+/// Adds all that a cone sees through its entry, from the room behind the entry on.
+static sl_status look_through(expansion *x, view_cone cone) {
+    struct sli_region_memory *m = x->region->memory;
+    const sli_eye_place *eye = &m->eye;
     const size_t floor = m->frames.count;
     uint64_t passed = 0;
     for (bool enters = true;;) {
         while (enters) {
             passed++;
-            if (!sl_region_find_first(x->outline, eye, m->limit, g.entry, &g.right, &g.at,
-                                      &g.within))
+            if (!sli_region_find_first(x->outline, eye, m->limit, cone.entry, &cone.right, &cone.at,
+                                       &cone.within))
                 break;
-            SL_TRY(sweep(x, &g, &enters));
+            SL_TRY(sweep(x, &cone, &enters));
         }
         if (m->frames.count == floor) break;
-        const sl_region_frame *f = &m->frames.items[--m->frames.count];
-        g.entry = f->entry;
-        g.at = f->side;
-        g.left = f->left;
-        g.within = false;
-        SL_TRY(sweep(x, &g, &enters));
+        const sli_region_frame *f = &m->frames.items[--m->frames.count];
+        cone.entry = f->entry;
+        cone.at = f->side;
+        cone.left = f->left;
+        cone.within = false;
+        SL_TRY(sweep(x, &cone, &enters));
     }
     x->region->portals_passed += passed;
     return SL_OK;
 }
 
-/// What is seen of a side of the fan, from `right` and to `left` where they are given, else from
-/// and to its ends; with all that lies behind it.
-static sl_status see_fan(expansion *x, uint32_t k, const sl_eye_ray *right,
-                         const sl_eye_ray *left) {
-    const uint32_t i = x->region->memory->fan.items[k], beyond = side(x, i)->beyond;
-    const sl_eye_ray a = to_start(x, i), b = to_start(x, side(x, i)->next);
-    const sl_eye_place *eye = &x->region->memory->eye;
-    if (right && sl_eye_turn(eye, right, &a) == 0) right = NULL;
-    if (left && sl_eye_turn(eye, left, &b) == 0) left = NULL;
-    if (beyond < SL_SIDE_WALL && !is_barred(x->region, &a, &b))
-        return look_through(x, (gaze){.entry = beyond,
-                                      .within = right,
-                                      .right = right ? *right : a,
-                                      .left = left ? *left : b});
-    if (x->region->memory->mirrors && beyond >= SL_SIDE_WALL)
-        SL_TRY(glimpse(x, i, right ? right : &a, left ? left : &b));
-    return see_piece(x, beyond < SL_SIDE_WALL ? SL_PIECE_FAR : beyond, &a, &b, right, left);
+/// Adds what is seen of a side of the fan and behind it: from `right` to `left`, or where these are
+/// NULL from and to its ends.
+static sl_status see_fan(expansion *x, uint32_t k, const sli_eye_ray *right,
+                         const sli_eye_ray *left) {
+    const uint32_t i = x->region->memory->fan.items[k], neighbour = side(x, i)->neighbour;
+    const sli_eye_ray a = to_start(x, i), b = to_start(x, side(x, i)->next);
+    const sli_eye_place *eye = &x->region->memory->eye;
+    if (right && sli_eye_turn(eye, right, &a) == 0) right = NULL;
+    if (left && sli_eye_turn(eye, left, &b) == 0) left = NULL;
+    if (neighbour < SL_SIDE_WALL && !is_barred(x->region, &a, &b))
+        return look_through(x, (view_cone){.entry = neighbour,
+                                           .within = right,
+                                           .right = right ? *right : a,
+                                           .left = left ? *left : b});
+    if (x->region->memory->mirrors && neighbour >= SL_SIDE_WALL)
+        SL_TRY(reflect(x, i, right ? right : &a, left ? left : &b));
+    return see_piece(x, neighbour < SL_SIDE_WALL ? SLI_PIECE_FAR : neighbour, &a, &b, right, left);
 }
 
 /// The end of the wall at the eye that lies on the ray through `toward`.
-static sl_point wall_end(const expansion *x, uint32_t beyond, sl_point toward) {
-    const sl_wall *wall = &x->outline->space->walls[beyond - SL_SIDE_WALL];
-    const sl_eye_place *eye = &x->region->memory->eye;
-    const sl_eye_ray to_a = sl_eye_ray_through(eye, wall->a);
-    const sl_eye_ray to_side = sl_eye_ray_through(eye, toward);
+static sl_point wall_end(const expansion *x, uint32_t neighbour, sl_point toward) {
+    const sl_wall *wall = &x->outline->space->walls[neighbour - SL_SIDE_WALL];
+    const sli_eye_place *eye = &x->region->memory->eye;
+    const sli_eye_ray to_a = sli_eye_ray_through(eye, wall->a);
+    const sli_eye_ray to_side = sli_eye_ray_through(eye, toward);
     return same_direction(&to_a, &to_side) ? wall->a : wall->b;
 }
 
-/// The wall at the eye is seen edge-on, but it bounds what is seen: an edge from the eye to its
-/// end, or the other way.
-static sl_status see_wall_at_eye(expansion *x, uint32_t beyond, sl_point from, sl_point to) {
-    const sl_eye_place *eye = &x->region->memory->eye;
-    const sl_eye_ray a = sl_eye_ray_through(eye, from), b = sl_eye_ray_through(eye, to);
-    return see_piece(x, beyond, &a, &b, NULL, NULL);
+/// Adds the wall at the eye, seen edge-on: an edge from the eye to the wall's end, or back.
+static sl_status see_wall_at_eye(expansion *x, uint32_t neighbour, sl_point from, sl_point to) {
+    const sli_eye_place *eye = &x->region->memory->eye;
+    const sli_eye_ray a = sli_eye_ray_through(eye, from), b = sli_eye_ray_through(eye, to);
+    return see_piece(x, neighbour, &a, &b, NULL, NULL);
 }
 
-/// From the eye along the wall or border where an open fan starts.
+/// Starts an open fan: from the eye along the wall or border there.
 static sl_status start_open(expansion *x) {
-    const uint32_t right = x->region->memory->right, beyond = side(x, right)->beyond;
-    if (beyond >= SL_SIDE_BORDER) return sl_region_add_eye(x->context, x->region, SL_EDGE_BORDER);
-    const sl_point end = wall_end(x, beyond, side(x, side(x, right)->next)->start);
-    return see_wall_at_eye(x, beyond, x->region->view.eye, end);
+    const uint32_t right = x->region->memory->right, neighbour = side(x, right)->neighbour;
+    if (neighbour >= SL_SIDE_BORDER)
+        return sli_region_add_eye(x->context, x->region, SL_EDGE_BORDER);
+    const sl_point end = wall_end(x, neighbour, side(x, side(x, right)->next)->start);
+    return see_wall_at_eye(x, neighbour, x->region->view.eye, end);
 }
 
-/// Along the wall or border where an open fan ends, to the eye.
+/// Ends an open fan: along the wall or border there to the eye.
 static sl_status end_open(expansion *x) {
     const sl_side *left = side(x, x->region->memory->left);
-    if (left->beyond >= SL_SIDE_BORDER) return sl_region_end_at_eye(x->context, x->region);
-    const sl_point end = wall_end(x, left->beyond, left->start);
-    return see_wall_at_eye(x, left->beyond, end, x->region->view.eye);
+    if (left->neighbour >= SL_SIDE_BORDER) return sli_region_end_at_eye(x->context, x->region);
+    const sl_point end = wall_end(x, left->neighbour, left->start);
+    return see_wall_at_eye(x, left->neighbour, end, x->region->view.eye);
 }
 
 static sl_status see_all_round(expansion *x) {
-    const struct sl_region_memory *m = x->region->memory;
+    const struct sli_region_memory *m = x->region->memory;
     if (m->open) SL_TRY(start_open(x));
     for (uint32_t k = 0; k < m->fan.count; k++) SL_TRY(see_fan(x, k, NULL, NULL));
     if (m->open) SL_TRY(end_open(x));
     return SL_OK;
 }
 
-uint32_t sl_region_find_side(const sl_outline *o, const sl_region *region, const sl_eye_ray *ray,
-                             bool onward) {
-    const struct sl_region_memory *m = region->memory;
-    const sl_eye_place *eye = &m->eye;
+uint32_t sli_region_find_side(const sl_outline *o, const sl_region *region, const sli_eye_ray *ray,
+                              bool onward) {
+    const struct sli_region_memory *m = region->memory;
+    const sli_eye_place *eye = &m->eye;
     for (uint32_t k = 0; k < m->fan.count; k++) {
         const sl_side *s = &o->sides[m->fan.items[k]];
-        const sl_eye_ray a = sl_eye_ray_through(eye, s->start);
-        const sl_eye_ray b = sl_eye_ray_through(eye, o->sides[s->next].start);
-        const int from = sl_eye_turn(eye, &a, ray), to = sl_eye_turn(eye, ray, &b);
+        const sli_eye_ray a = sli_eye_ray_through(eye, s->start);
+        const sli_eye_ray b = sli_eye_ray_through(eye, o->sides[s->next].start);
+        const int from = sli_eye_turn(eye, &a, ray), to = sli_eye_turn(eye, ray, &b);
         if (onward ? from >= 0 && to > 0 : from > 0 && to >= 0) return k;
     }
     return UINT32_MAX;
 }
 
-/// A cone that starts beside an open fan: what it holds of the fan starts where the fan does.
-static sl_status see_from_gap(expansion *x, const sl_eye_ray *left, uint32_t stop) {
-    const struct sl_region_memory *m = x->region->memory;
+/// A cone that starts beside an open fan: its part of the fan starts where the fan does.
+static sl_status see_from_gap(expansion *x, const sli_eye_ray *left, uint32_t stop) {
+    const struct sli_region_memory *m = x->region->memory;
     const sl_view *view = &x->region->view;
-    const sl_eye_ray start = to_start(x, side(x, m->right)->next);
+    const sli_eye_ray start = to_start(x, side(x, m->right)->next);
     if (stop == UINT32_MAX) {
         const bool touches =
-            sl_eye_turn(&m->eye, &start, left) == 0 && same_direction(&start, left);
+            sli_eye_turn(&m->eye, &start, left) == 0 && same_direction(&start, left);
         return sl_view_holds(view, start.at) && !touches ? see_all_round(x) : SL_OK;
     }
     SL_TRY(start_open(x));
@@ -247,15 +390,15 @@ static sl_status see_from_gap(expansion *x, const sl_eye_ray *left, uint32_t sto
 }
 
 static sl_status see_cone(expansion *x) {
-    const struct sl_region_memory *m = x->region->memory;
+    const struct sli_region_memory *m = x->region->memory;
     const sl_view *view = &x->region->view;
-    const sl_eye_ray right = sl_eye_ray_through(&m->eye, view->right);
-    const sl_eye_ray left = sl_eye_ray_through(&m->eye, view->left);
-    const uint32_t start = sl_region_find_side(x->outline, x->region, &right, true);
-    const uint32_t stop = sl_region_find_side(x->outline, x->region, &left, false);
+    const sli_eye_ray right = sli_eye_ray_through(&m->eye, view->right);
+    const sli_eye_ray left = sli_eye_ray_through(&m->eye, view->left);
+    const uint32_t start = sli_region_find_side(x->outline, x->region, &right, true);
+    const uint32_t stop = sli_region_find_side(x->outline, x->region, &left, false);
     if (start == UINT32_MAX) return see_from_gap(x, &left, stop);
-    SL_TRY(sl_region_add_eye(x->context, x->region, SL_EDGE_CONE));
-    if (start == stop && sl_eye_turn(&m->eye, &right, &left) > 0)
+    SL_TRY(sli_region_add_eye(x->context, x->region, SL_EDGE_CONE));
+    if (start == stop && sli_eye_turn(&m->eye, &right, &left) > 0)
         return see_fan(x, start, &right, &left);
     SL_TRY(see_fan(x, start, &right, NULL));
     const bool wraps = stop <= start;
@@ -270,17 +413,17 @@ static sl_status see_cone(expansion *x) {
 }
 
 static bool is_one_ray(const sl_view *cone) {
-    const sl_eye_place eye = sl_eye_place_at(cone->eye);
-    const sl_eye_ray right = sl_eye_ray_through(&eye, cone->right);
-    const sl_eye_ray left = sl_eye_ray_through(&eye, cone->left);
-    return sl_eye_turn(&eye, &right, &left) == 0 && same_direction(&right, &left);
+    const sli_eye_place eye = sli_eye_place_at(cone->eye);
+    const sli_eye_ray right = sli_eye_ray_through(&eye, cone->right);
+    const sli_eye_ray left = sli_eye_ray_through(&eye, cone->left);
+    return sli_eye_turn(&eye, &right, &left) == 0 && same_direction(&right, &left);
 }
 
 static bool usable(sl_point eye, sl_point border) {
     return isfinite(border.x) && isfinite(border.y) && (border.x != eye.x || border.y != eye.y);
 }
 
-sl_status sl_region_check_view(sl_context *context, const sl_view *view, double range) {
+sl_status sli_region_check_view(sl_context *context, const sl_view *view, double range) {
     if (!(range >= 0 && isfinite(range)))
         return sl_fail(context, SL_BAD_ARGUMENT, "range %g: must be finite and not negative",
                        range);
@@ -290,30 +433,30 @@ sl_status sl_region_check_view(sl_context *context, const sl_view *view, double 
     return SL_OK;
 }
 
-sl_status sl_region_spread(sl_context *context, const sl_outline *outline, sl_region *region) {
+sl_status sli_region_spread(sl_context *context, const sl_outline *outline, sl_region *region) {
     expansion x = {context, outline, region};
     if (region->cell == SL_NO_CELL) return SL_OK;
     if (!region->view.full && is_one_ray(&region->view)) return SL_OK;
-    SL_TRY(sl_region_gather_fan(context, outline, region));
+    SL_TRY(sli_region_gather_fan(context, outline, region));
     SL_TRY(region->view.full ? see_all_round(&x) : see_cone(&x));
-    SL_TRY(sl_region_close(context, region));
-    return region->range > 0 ? sl_region_cut_range(context, region) : SL_OK;
+    SL_TRY(sli_region_close(context, region));
+    return region->range > 0 ? sli_region_cut_range(context, region) : SL_OK;
 }
 
-sl_status sl_region_look_in(sl_context *context, const sl_outline *outline, sl_region *region,
-                            const sl_glimpse *glimpse) {
+sl_status sli_region_look_in(sl_context *context, const sl_outline *outline, sl_region *region,
+                             const sli_reflected_view *reflected) {
     expansion x = {context, outline, region};
-    const sl_side *entry = side(&x, glimpse->side);
-    const sl_eye_ray right_end = to_start(&x, entry->next);
-    const bool within = sl_eye_turn(&region->memory->eye, &glimpse->right, &right_end) < 0;
-    return look_through(&x, (gaze){.entry = glimpse->side,
-                                   .within = within,
-                                   .right = glimpse->right,
-                                   .left = glimpse->left});
+    const sl_side *entry = side(&x, reflected->side);
+    const sli_eye_ray right_end = to_start(&x, entry->next);
+    const bool within = sli_eye_turn(&region->memory->eye, &reflected->right, &right_end) < 0;
+    return look_through(&x, (view_cone){.entry = reflected->side,
+                                        .within = within,
+                                        .right = reflected->right,
+                                        .left = reflected->left});
 }
 
-sl_status sl_region_start(sl_context *context, const sl_outline *outline, const sl_view *view,
-                          double range, sl_region *region) {
+sl_status sli_region_start(sl_context *context, const sl_outline *outline, const sl_view *view,
+                           double range, sl_region *region) {
     region->count = 0;
     region->portals_passed = 0;
     region->cell = SL_NO_CELL;
@@ -321,13 +464,13 @@ sl_status sl_region_start(sl_context *context, const sl_outline *outline, const 
         region->memory = sl_alloc_array(context, 1, sizeof *region->memory);
         if (!region->memory) return SL_NO_MEMORY;
     }
-    struct sl_region_memory *m = region->memory;
+    struct sli_region_memory *m = region->memory;
     m->pending = false;
-    m->first = SL_PIECE_FAR;
-    m->frames.count = m->glimpses.count = 0;
+    m->first = SLI_PIECE_FAR;
+    m->frames.count = m->reflected_views.count = 0;
     m->mirrors = NULL;
-    m->eye = sl_eye_place_at(view->eye);
-    m->limit = sl_eye_limit(outline->space, view);
+    m->eye = sli_eye_place_at(view->eye);
+    m->limit = sli_eye_limit(outline->space, view);
     region->view = *view;
     region->range = range;
     return SL_OK;
@@ -336,20 +479,20 @@ sl_status sl_region_start(sl_context *context, const sl_outline *outline, const 
 sl_status sl_region_make(sl_context *context, const sl_outline *outline, const sl_view *view,
                          double range, sl_region *region) {
     region->count = 0;
-    SL_TRY(sl_region_check_view(context, view, range));
-    SL_TRY(sl_region_start(context, outline, view, range, region));
+    SL_TRY(sli_region_check_view(context, view, range));
+    SL_TRY(sli_region_start(context, outline, view, range, region));
     region->cell = sl_space_locate(outline->space, view->eye);
-    const sl_status status = sl_region_spread(context, outline, region);
+    const sl_status status = sli_region_spread(context, outline, region);
     if (status != SL_OK) region->count = 0;
     return status;
 }
 
-void sl_region_settle(sl_context *context, sl_region *region) {
+void sli_region_settle(sl_context *context, sl_region *region) {
     if (region->memory) {
         sl_free(context, region->memory->frames.items);
         sl_free(context, region->memory->fan.items);
         sl_free(context, region->memory->whole.items);
-        sl_free(context, region->memory->glimpses.items);
+        sl_free(context, region->memory->reflected_views.items);
     }
     sl_free(context, region->memory);
     region->memory = NULL;
@@ -359,6 +502,6 @@ void sl_region_destroy(sl_context *context, sl_region *region) {
     sl_free(context, region->points);
     sl_free(context, region->offsets);
     sl_free(context, region->edges);
-    sl_region_settle(context, region);
+    sli_region_settle(context, region);
     *region = (sl_region){0};
 }

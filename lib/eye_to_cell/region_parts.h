@@ -1,99 +1,100 @@
-/// What the parts of making a region share: rays from the eye, what is seen between two of them,
-/// and the polygon as it grows.
+/// What the parts of making a visible region share: rays from the eye, pieces seen between two
+/// rays, and the polygon as it grows. region.c expands, region_polygon.c writes and cuts the
+/// polygon, mirrored.c does the same for eyes in mirrors, sees.c casts single rays.
 #ifndef SL_REGION_PARTS_H
 #define SL_REGION_PARTS_H
 
-#include "base/base.h"
 #include "geometry/orient.h"
 #include "sightline/region.h"
+#include "sightline/support.h"
 
 /// A ray from the eye through a point other than it: a corner of the space, or a cone's border.
-typedef struct sl_eye_ray {
-    sl_point at, offset; ///< the point, and as seen from the eye: each coordinate rounded once
-    sl_point rest;       ///< of the point, as that of sl_fine; 0 unless the eye is fine
-} sl_eye_ray;
+typedef struct sli_eye_ray {
+    sl_point at, offset; ///< the point, and the point less the eye: each coordinate rounded once
+    sl_point rest;       ///< of the point, as that of sli_fine; 0 unless the eye is fine
+} sli_eye_ray;
 
-/// Where rays start. `fine`: the eye is the image of one in mirrors; it or a ray's point has a
-/// rest.
-typedef struct sl_eye_place {
-    sl_fine point;
+/// Where rays start. `fine`: the eye is an image in mirrors, and it or a ray's point has a rest.
+typedef struct sli_eye_place {
+    sli_fine point;
     bool fine;
-    double slack; ///< of a fine eye: what a x b of two offsets may be off by beside what
-                  ///< sl_turn_filter allows for
-} sl_eye_place;
+    double slack; ///< of a fine eye: the error of a x b for two offsets, beyond what
+                  ///< sli_turn_filter allows for
+} sli_eye_place;
 
-/// What is left to see of a room: from where `side` starts to the ray `left`.
-typedef struct sl_region_frame {
+/// The rest of a room that waits: from the start of `side` to the ray `left`.
+typedef struct sli_region_frame {
     uint32_t side;
     uint32_t entry; ///< the portal that the room is seen through, as a side of it
-    sl_eye_ray left;
-} sl_region_frame;
+    sli_eye_ray left;
+} sli_region_frame;
 
-/// What is seen of a side that is no portal, up to the ray `left`.
-typedef struct sl_region_piece {
-    uint32_t beyond; ///< as that of sl_side; SL_PIECE_FAR: all of it is out of range
-    sl_point a, b;   ///< the side
-    sl_eye_ray left;
-    bool to_end; ///< the side's own end is seen and lies on `left`; else that passes within it
-} sl_region_piece;
+/// The part of a side, no portal, that is seen: up to the ray `left`.
+typedef struct sli_region_piece {
+    uint32_t neighbour; ///< as that of sl_side; SLI_PIECE_FAR: all of it is out of range
+    sl_point a, b;      ///< the side
+    sli_eye_ray left;
+    bool to_end; ///< the side's own end lies on `left` and is seen; else `left` meets it within
+} sli_region_piece;
 
-#define SL_PIECE_FAR UINT32_MAX
+#define SLI_PIECE_FAR UINT32_MAX
 
-/// What is seen of a mirror, of one side of a room, between two rays.
-typedef struct sl_glimpse {
+/// The part of a mirror, on one side of a room, that is seen between two rays.
+typedef struct sli_reflected_view {
     uint32_t side, mirror;
-    sl_eye_ray right, left;
-} sl_glimpse;
+    sli_eye_ray right, left;
+} sli_reflected_view;
 
-typedef struct sl_region_corner {
+typedef struct sli_region_corner {
     sl_point point, offset;
     sl_region_edge edge;
-} sl_region_corner;
+} sli_region_corner;
 
-struct sl_region_memory {
-    sl_eye_place eye;
-    const struct sl_room_mirrors *mirrors; ///< glimpses are taken of these; NULL for none
-    SL_ARRAY(sl_glimpse) glimpses;         ///< counter-clockwise
-    SL_ARRAY(sl_region_frame) frames;
+struct sli_region_memory {
+    sli_eye_place eye;
+    const struct sl_room_mirrors *mirrors; ///< reflected views are taken of these; NULL for none
+    SL_ARRAY(sli_reflected_view) reflected_views; ///< counter-clockwise
+    SL_ARRAY(sli_region_frame) frames;
     SL_ARRAY(uint32_t) fan; ///< the sides seen from the eye's rooms, counter-clockwise
-    double limit;           ///< see sl_eye_limit
-    bool open;              ///< the fan is not all round: it ends at walls
+    double limit;           ///< see sli_eye_limit
+    bool open;              ///< the fan does not go all round: it ends at walls
     uint32_t right, left;   ///< where it is open: the walls at the eye that it starts and ends at
-    bool pending;           ///< `piece` is seen, but where it ends is not written yet
-    sl_region_piece piece;
-    uint32_t first;                   ///< what the first piece lies on
-    size_t room;                      ///< of points, offsets and edges
-    SL_ARRAY(sl_region_corner) whole; ///< the region before its range was cut
+    bool pending;           ///< `piece` is started, but its end is not added yet
+    sli_region_piece piece;
+    uint32_t first;                    ///< what the first piece lies on
+    size_t room;                       ///< of points, offsets and edges
+    SL_ARRAY(sli_region_corner) whole; ///< the region before its range was cut
 };
 
-/// The same for a fine eye: the offset is good to little more than one rounding.
-sl_eye_ray sl_eye_ray_fine(const sl_eye_place *eye, const sl_fine *at);
-int sl_eye_turn_fine(const sl_eye_place *eye, const sl_eye_ray *a, const sl_eye_ray *b);
+/// For a fine eye, as the two functions below. The offset is good to little more than one rounding.
+sli_eye_ray sli_eye_ray_fine(const sli_eye_place *eye, const sli_fine *at);
+int sli_eye_turn_fine(const sli_eye_place *eye, const sli_eye_ray *a, const sli_eye_ray *b);
 
-static inline sl_eye_place sl_eye_place_at(sl_point eye) {
-    return (sl_eye_place){.point.at = eye};
+static inline sli_eye_place sli_eye_place_at(sl_point eye) {
+    return (sli_eye_place){.point.at = eye};
 }
 
-static inline sl_eye_ray sl_eye_ray_through(const sl_eye_place *eye, sl_point at) {
-    if (eye->fine) return sl_eye_ray_fine(eye, &(sl_fine){.at = at});
-    return (sl_eye_ray){.at = at, .offset = {at.x - eye->point.at.x, at.y - eye->point.at.y}};
+static inline sli_eye_ray sli_eye_ray_through(const sli_eye_place *eye, sl_point at) {
+    if (eye->fine) return sli_eye_ray_fine(eye, &(sli_fine){.at = at});
+    return (sli_eye_ray){.at = at, .offset = {at.x - eye->point.at.x, at.y - eye->point.at.y}};
 }
 
-/// Where b lies from the ray a: 1 to its left, -1 to its right, 0 in line with it. Exact.
-static inline int sl_eye_turn(const sl_eye_place *eye, const sl_eye_ray *a, const sl_eye_ray *b) {
-    if (eye->fine) return sl_eye_turn_fine(eye, a, b);
-    const int sign = sl_turn_filter(a->offset, b->offset);
+/// Which side of the ray a the ray b is on: 1 left, -1 right, 0 in line. Exact.
+static inline int sli_eye_turn(const sli_eye_place *eye, const sli_eye_ray *a,
+                               const sli_eye_ray *b) {
+    if (eye->fine) return sli_eye_turn_fine(eye, a, b);
+    const int sign = sli_turn_filter(a->offset, b->offset);
     if (sign) return sign;
     if (a->at.x == b->at.x && a->at.y == b->at.y) return 0;
-    return sl_orient(eye->point.at, a->at, b->at);
+    return sli_orient(eye->point.at, a->at, b->at);
 }
 
 /// Gathers the fan about the eye, given the cell that it is located in.
-sl_status sl_region_gather_fan(sl_context *context, const sl_outline *outline, sl_region *region);
+sl_status sli_region_gather_fan(sl_context *context, const sl_outline *outline, sl_region *region);
 
-/// The limit of sl_turn_filter_within for any two rays to corners or to the cone's borders: one for
-/// all, from the largest products that there can be. What it leaves open is decided more closely.
-static inline double sl_eye_limit(const sl_space *space, const sl_view *view) {
+/// The limit of sli_turn_filter_within for any two rays to corners or to the cone's borders: one
+/// for all, from the largest possible products. Closer calls go to the exact predicate.
+static inline double sli_eye_limit(const sl_space *space, const sl_view *view) {
     const sl_box *b = &space->bounds;
     const sl_point eye = view->eye;
     sl_point reach = {fmax(eye.x - b->min.x, b->max.x - eye.x),
@@ -102,33 +103,33 @@ static inline double sl_eye_limit(const sl_space *space, const sl_view *view) {
         reach.x = fmax(reach.x, fmax(fabs(view->right.x - eye.x), fabs(view->left.x - eye.x)));
         reach.y = fmax(reach.y, fmax(fabs(view->right.y - eye.y), fabs(view->left.y - eye.y)));
     }
-    return sl_turn_limit(reach, reach);
+    return sli_turn_limit(reach, reach);
 }
 
-/// As sl_eye_turn, given the limit of the view.
-static inline int sl_eye_turn_within(const sl_eye_place *eye, const sl_eye_ray *a,
-                                     const sl_eye_ray *b, double limit) {
-    const int sign = sl_turn_filter_within(a->offset, b->offset, limit);
-    return sign ? sign : sl_eye_turn(eye, a, b);
+/// As sli_eye_turn, given the limit of the view.
+static inline int sli_eye_turn_within(const sli_eye_place *eye, const sli_eye_ray *a,
+                                      const sli_eye_ray *b, double limit) {
+    const int sign = sli_turn_filter_within(a->offset, b->offset, limit);
+    return sign ? sign : sli_eye_turn(eye, a, b);
 }
 
 /// The side of the fan that a ray meets, one end of each side counted: just counter-clockwise of
 /// the ray (`onward`) or just clockwise of it. UINT32_MAX for none.
-uint32_t sl_region_find_side(const sl_outline *outline, const sl_region *region,
-                             const sl_eye_ray *ray, bool onward);
+uint32_t sli_region_find_side(const sl_outline *outline, const sl_region *region,
+                              const sli_eye_ray *ray, bool onward);
 
-/// Finds the side by which a ray leaves a room that it enters through `entry`: the first one around
-/// that ends to the left of it. *within, given whether the ray passes within the entry rather than
-/// through its right end, becomes whether it passes within that side rather than through its start.
-/// False where there is none, which only a loose space can bring about.
-static inline bool sl_region_find_first(const sl_outline *o, const sl_eye_place *eye, double limit,
-                                        uint32_t entry, const sl_eye_ray *ray, uint32_t *at,
-                                        bool *within) {
+/// Finds the side by which a ray leaves a room that it enters through `entry`: the first side
+/// around the room that ends to the left of the ray. *within says whether the ray passes within the
+/// entry (else through its right end), and is set to whether it passes within that side (else
+/// through its start). False where there is none, which happens only in a loose space.
+static inline bool sli_region_find_first(const sl_outline *o, const sli_eye_place *eye,
+                                         double limit, uint32_t entry, const sli_eye_ray *ray,
+                                         uint32_t *at, bool *within) {
     const sl_side *sides = o->sides;
     for (uint32_t i = sides[entry].next; i != entry;) {
         const uint32_t next = sides[i].next;
-        const sl_eye_ray end = sl_eye_ray_through(eye, sides[next].start);
-        const int turn = sl_eye_turn_within(eye, ray, &end, limit);
+        const sli_eye_ray end = sli_eye_ray_through(eye, sides[next].start);
+        const int turn = sli_eye_turn_within(eye, ray, &end, limit);
         if (turn > 0) {
             *at = i;
             return true;
@@ -139,47 +140,44 @@ static inline bool sl_region_find_first(const sl_outline *o, const sl_eye_place 
     return false;
 }
 
-/// Starts what is seen next, counter-clockwise, at the ray `right` or, where that is NULL, at the
-/// start of the side from a to b. The caller fills in the rest of the piece, which is pending then.
-sl_status sl_region_start_piece(sl_context *context, sl_region *region, uint32_t beyond,
-                                const sl_eye_ray *a, const sl_eye_ray *b, const sl_eye_ray *right);
+/// Starts the next piece, counter-clockwise, at the ray `right` or, where that is NULL, at the
+/// start of the side from a to b. The caller fills in the rest of the piece, which is then pending.
+sl_status sli_region_start_piece(sl_context *context, sl_region *region, uint32_t neighbour,
+                                 const sli_eye_ray *a, const sli_eye_ray *b,
+                                 const sli_eye_ray *right);
 /// Adds the eye as a point, with the kind of the edge that starts there.
-sl_status sl_region_add_eye(sl_context *context, sl_region *region, sl_edge_kind kind);
-/// Ends what is seen with an edge along the border to the eye, which is added next or was the first
-/// point.
-sl_status sl_region_end_at_eye(sl_context *context, sl_region *region);
+sl_status sli_region_add_eye(sl_context *context, sl_region *region, sl_edge_kind kind);
+/// Ends the pending piece with an edge along the border to the eye, which is the next point or was
+/// the first.
+sl_status sli_region_end_at_eye(sl_context *context, sl_region *region);
 /// Ends the polygon.
-sl_status sl_region_close(sl_context *context, sl_region *region);
+sl_status sli_region_close(sl_context *context, sl_region *region);
 
-/// Adds a point, given from the eye.
-sl_status sl_region_add_point(sl_context *context, sl_region *region, sl_point point,
-                              sl_point offset, sl_region_edge edge);
-
-/// Where a ray meets the line through a and b, from the eye; it is given that it does. Good to a
-/// few units in the last place of each coordinate.
-sl_point sl_region_meet(sl_point eye, const sl_eye_ray *ray, sl_point a, sl_point b);
+/// The point, less the eye, where a ray meets the line through a and b; the caller knows that it
+/// does. Good to a few units in the last place of each coordinate.
+sl_point sli_region_meet(sl_point eye, const sli_eye_ray *ray, sl_point a, sl_point b);
 
 /// Cuts the region to its range.
-sl_status sl_region_cut_range(sl_context *context, sl_region *region);
+sl_status sli_region_cut_range(sl_context *context, sl_region *region);
 
 /// Checks the arguments of sl_region_make.
-sl_status sl_region_check_view(sl_context *context, const sl_view *view, double range);
+sl_status sli_region_check_view(sl_context *context, const sl_view *view, double range);
 /// Empties a region and makes its memory ready for a view.
-sl_status sl_region_start(sl_context *context, const sl_outline *outline, const sl_view *view,
-                          double range, sl_region *region);
-/// The region of a view that sl_region_start has been called for; glimpses are taken on the way.
-sl_status sl_region_spread(sl_context *context, const sl_outline *outline, sl_region *region);
-/// Adds what is seen into a room through a piece of one of its sides, from outside: a glimpse whose
-/// rays are those of the eye beyond.
-sl_status sl_region_look_in(sl_context *context, const sl_outline *outline, sl_region *region,
-                            const sl_glimpse *glimpse);
-/// Adds the point where a ray meets the mirror from a to b, with the edge that starts there. What
-/// is pending ends with an edge that leads to it along the ray.
-sl_status sl_region_add_on_mirror(sl_context *context, sl_region *region, const sl_eye_ray *ray,
-                                  sl_point a, sl_point b, sl_region_edge edge);
-/// Cuts what is seen in a mirror to its range: `region` ends with the edge along the mirror.
-sl_status sl_region_cut_mirrored(sl_context *context, sl_region *region);
+sl_status sli_region_start(sl_context *context, const sl_outline *outline, const sl_view *view,
+                           double range, sl_region *region);
+/// Makes the region of a view after sli_region_start, and takes reflected views on the way.
+sl_status sli_region_spread(sl_context *context, const sl_outline *outline, sl_region *region);
+/// Adds what a reflected view shows: a cone into the room through a piece of one of its sides, from
+/// an eye (the image) behind that side.
+sl_status sli_region_look_in(sl_context *context, const sl_outline *outline, sl_region *region,
+                             const sli_reflected_view *reflected);
+/// Adds the point where a ray meets the mirror from a to b, with the edge that starts there. A
+/// pending piece ends with an edge along the ray to that point.
+sl_status sli_region_add_on_mirror(sl_context *context, sl_region *region, const sli_eye_ray *ray,
+                                   sl_point a, sl_point b, sl_region_edge edge);
+/// Cuts the region of a part to its range. Its last edge lies along the mirror.
+sl_status sli_region_cut_mirrored(sl_context *context, sl_region *region);
 /// Frees what a region needs while it is made, and keeps the region.
-void sl_region_settle(sl_context *context, sl_region *region);
+void sli_region_settle(sl_context *context, sl_region *region);
 
 #endif

@@ -1,9 +1,17 @@
-/// One line of sight. A segment is followed from room to room; where it touches a corner of rooms
-/// it may go on in several, and all are tried.
+/// Single lines of sight: do two points see each other, and what does a ray hit?
+///
+/// sl_sees follows the segment between two points from room to room, through all portals that it
+/// meets. Where it touches a corner of rooms it may go on in several rooms, and all are tried. It
+/// is seen where a room that holds the other point is entered; with open sight it must touch no
+/// wall.
+///
+/// sl_ray_cast starts at the side of the fan (region.c) that the ray meets and goes from room to
+/// room to the first side that is no portal. Both decide by exact predicates alone; only the point
+/// where the ray hits is rounded. Cost: O(sides of the rooms on the way).
 #include "sightline/sees.h"
 
-#include "base/bits.h"
 #include "eye_to_cell/region_parts.h"
+#include "sightline/support.h"
 
 #include <math.h>
 
@@ -23,8 +31,8 @@ static bool overlap(sl_point a, sl_point b, sl_point c, sl_point d) {
 
 /// Whether the segment and a side have a point in common.
 static bool meets(const seer *s, sl_point a, sl_point b) {
-    const int ea = sl_orient(s->eye, s->point, a), eb = sl_orient(s->eye, s->point, b);
-    const int from = sl_orient(a, b, s->eye), to = sl_orient(a, b, s->point);
+    const int ea = sli_orient(s->eye, s->point, a), eb = sli_orient(s->eye, s->point, b);
+    const int from = sli_orient(a, b, s->eye), to = sli_orient(a, b, s->point);
     if (ea == 0 && eb == 0) return from == 0 && overlap(s->eye, s->point, a, b);
     return ea * eb <= 0 && from * to <= 0;
 }
@@ -32,7 +40,7 @@ static bool meets(const seer *s, sl_point a, sl_point b) {
 static bool room_holds(const seer *s, uint32_t room, sl_point point) {
     const sl_side *sides = s->outline->sides;
     for (uint32_t i = s->outline->first[room]; i < s->outline->first[room + 1]; i++)
-        if (sl_orient(sides[i].start, sides[sides[i].next].start, point) < 0) return false;
+        if (sli_orient(sides[i].start, sides[sides[i].next].start, point) < 0) return false;
     return true;
 }
 
@@ -56,7 +64,7 @@ static sl_status enter(sl_context *context, seer *s, uint32_t room) {
     return SL_OK;
 }
 
-/// Enters all rooms that the segment leads to; notes whether one of them holds the point.
+/// Enters all rooms that the segment leads to, and finds whether one of them holds the point.
 static sl_status follow(sl_context *context, seer *s, bool *arrives) {
     const sl_outline *o = s->outline;
     while (s->waiting.count) {
@@ -66,8 +74,8 @@ static sl_status follow(sl_context *context, seer *s, bool *arrives) {
             const sl_side *side = &o->sides[i];
             if (sl_side_is_portal(side)) {
                 if (meets(s, side->start, o->sides[side->next].start))
-                    SL_TRY(enter(context, s, room_of(o, side->beyond)));
-            } else if (side->beyond < SL_SIDE_BORDER && !s->touches) {
+                    SL_TRY(enter(context, s, room_of(o, side->neighbour)));
+            } else if (side->neighbour < SL_SIDE_BORDER && !s->touches) {
                 s->touches = meets(s, side->start, o->sides[side->next].start);
             }
         }
@@ -95,56 +103,56 @@ sl_status sl_sees(sl_context *context, const sl_outline *outline, sl_point eye, 
     return status;
 }
 
-/// The wall or border side that the ray meets, from a side of the fan on; false where the boundary
-/// of a room does not hold together, by rounding.
-static bool walk(const sl_outline *o, const sl_eye_place *eye, const sl_eye_ray *ray, uint32_t *at,
-                 bool *within) {
+/// Finds the wall or border that the ray meets, starting at a side of the fan. False where the
+/// boundary of a room is not closed, by rounding.
+static bool walk(const sl_outline *o, const sli_eye_place *eye, const sli_eye_ray *ray,
+                 uint32_t *at, bool *within) {
     const sl_view view = {.eye = eye->point.at, .left = ray->at, .right = ray->at};
-    const double limit = sl_eye_limit(o->space, &view);
+    const double limit = sli_eye_limit(o->space, &view);
     while (sl_side_is_portal(&o->sides[*at])) {
-        const uint32_t entry = o->sides[*at].beyond;
-        if (!sl_region_find_first(o, eye, limit, entry, ray, at, within)) return false;
+        const uint32_t entry = o->sides[*at].neighbour;
+        if (!sli_region_find_first(o, eye, limit, entry, ray, at, within)) return false;
     }
     return true;
 }
 
-static void tell(const sl_outline *o, sl_point eye, const sl_eye_ray *ray, uint32_t at, bool within,
-                 sl_hit *out) {
+static void write_hit(const sl_outline *o, sl_point eye, const sli_eye_ray *ray, uint32_t at,
+                      bool within, sl_hit *out) {
     const sl_side *side = &o->sides[at];
-    out->wall = side->beyond >= SL_SIDE_BORDER ? UINT32_MAX : side->beyond - SL_SIDE_WALL;
+    out->wall = side->neighbour >= SL_SIDE_BORDER ? UINT32_MAX : side->neighbour - SL_SIDE_WALL;
     out->point = side->start;
     if (!within) return;
     const sl_point a = side->start, b = o->sides[side->next].start;
-    const sl_point offset = sl_region_meet(eye, ray, a, b);
+    const sl_point offset = sli_region_meet(eye, ray, a, b);
     out->point.x = fmin(fmax(eye.x + offset.x, fmin(a.x, b.x)), fmax(a.x, b.x));
     out->point.y = fmin(fmax(eye.y + offset.y, fmin(a.y, b.y)), fmax(a.y, b.y));
 }
 
-sl_status sl_shoot(sl_context *context, const sl_outline *outline, sl_point eye, sl_point through,
-                   sl_hit *out) {
-    struct sl_region_memory memory = {0};
+sl_status sl_ray_cast(sl_context *context, const sl_outline *outline, sl_point eye,
+                      sl_point through, sl_hit *out) {
+    struct sli_region_memory memory = {0};
     sl_region region = {.view = sl_view_all_round(eye), .memory = &memory};
     region.cell = sl_space_locate(outline->space, eye);
     if (region.cell == SL_NO_CELL)
         return sl_fail(context, SL_BAD_ARGUMENT, "the eye is outside the map");
     if (!isfinite(through.x) || !isfinite(through.y) || (through.x == eye.x && through.y == eye.y))
         return sl_fail(context, SL_BAD_ARGUMENT, "a ray needs a second point");
-    const sl_eye_place place = sl_eye_place_at(eye);
-    const sl_eye_ray ray = sl_eye_ray_through(&place, through);
+    const sli_eye_place place = sli_eye_place_at(eye);
+    const sli_eye_ray ray = sli_eye_ray_through(&place, through);
     memory.eye = place;
-    sl_status status = sl_region_gather_fan(context, outline, &region);
+    sl_status status = sli_region_gather_fan(context, outline, &region);
     if (status == SL_OK) {
-        const uint32_t k = sl_region_find_side(outline, &region, &ray, true);
+        const uint32_t k = sli_region_find_side(outline, &region, &ray, true);
         uint32_t at = k == UINT32_MAX ? memory.left : memory.fan.items[k];
         sl_hit hit = {0};
         bool within = true;
         if (k != UINT32_MAX) {
-            const sl_eye_ray start = sl_eye_ray_through(&place, outline->sides[at].start);
-            within = sl_eye_turn(&place, &ray, &start) != 0;
+            const sli_eye_ray start = sli_eye_ray_through(&place, outline->sides[at].start);
+            within = sli_eye_turn(&place, &ray, &start) != 0;
         }
         if (k != UINT32_MAX && !walk(outline, &place, &ray, &at, &within))
             status = sl_fail(context, SL_BAD_ARGUMENT, "the outline of a room is not closed");
-        tell(outline, eye, &ray, at, within && k != UINT32_MAX, &hit);
+        write_hit(outline, eye, &ray, at, within && k != UINT32_MAX, &hit);
         if (k == UINT32_MAX) hit.point = eye;
         if (status == SL_OK) *out = hit;
     }

@@ -1,11 +1,15 @@
-/// Objects: what may be seen, in pieces that each lie within one leaf.
+/// Objects: what may be seen, as items that each lie within one leaf.
+///
+/// Walls are found on the sides of leaves: walls are sorted by their lines, and each side of a leaf
+/// finds those on its own line by binary search. Boxes are found down the kd-tree. Groups of walls
+/// are made like a kd-tree: halved by number along the longer side, O(n log^2 n).
 #include "from_region/regions.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/// A wall by the line that it is on.
+/// A wall, with the line that it is on.
 typedef struct lined_wall {
     double at, lo, hi;
     int axis;
@@ -30,13 +34,14 @@ static void line_walls(const sl_space *space, lined_wall *lined) {
     if (space->wall_count) qsort(lined, space->wall_count, sizeof *lined, compare_lined);
 }
 
-static sl_status add_item(sl_context *context, sl_regions *scene, sl_item item) {
+static sl_status add_item(sl_context *context, sl_regions *scene, sli_item item) {
     SL_TRY(SL_ARRAY_ROOM(context, &scene->items, 1));
     scene->items.items[scene->items.count++] = item;
     return SL_OK;
 }
 
-/// The first wall on a line, or beyond it, that ends past `lo`. Walls of a line do not overlap.
+/// The first wall in the sorted list that ends past `lo` on this line, or lies on a later line.
+/// Walls of a line do not overlap.
 static size_t find_on_line(const lined_wall *lined, size_t count, int axis, double at, double lo) {
     size_t first = 0;
     while (first < count) {
@@ -53,7 +58,8 @@ static size_t find_on_line(const lined_wall *lined, size_t count, int axis, doub
     return first;
 }
 
-/// The walls' pieces on the side of a leaf from a to b, counter-clockwise; objects are walls yet.
+/// Adds the pieces of walls on a side of a leaf from a to b, counter-clockwise. Each wall is an
+/// object for now.
 static sl_status add_side(sl_context *context, sl_regions *scene, const lined_wall *lined,
                           uint32_t leaf, sl_point a, sl_point b) {
     const int axis = a.x == b.x ? 0 : 1;
@@ -67,10 +73,10 @@ static sl_status add_side(sl_context *context, sl_regions *scene, const lined_wa
         const double low = fmax(lo, w->lo), high = fmin(hi, w->hi);
         const double right = from < to ? low : high, left = from < to ? high : low;
         SL_TRY(add_item(context, scene,
-                        (sl_item){.object = w->wall,
-                                  .leaf = leaf,
-                                  .left = axis ? (sl_point){left, at} : (sl_point){at, left},
-                                  .right = axis ? (sl_point){right, at} : (sl_point){at, right}}));
+                        (sli_item){.object = w->wall,
+                                   .leaf = leaf,
+                                   .left = axis ? (sl_point){left, at} : (sl_point){at, left},
+                                   .right = axis ? (sl_point){right, at} : (sl_point){at, right}}));
     }
     return SL_OK;
 }
@@ -94,53 +100,56 @@ static sl_status add_walls(sl_context *context, sl_regions *scene) {
 
 // --- walls that have a side inside, and groups of them
 
-typedef struct placed_wall {
-    sl_point middle;
-    uint32_t wall;
-} placed_wall;
+static void take(sl_box *box, sl_point p) {
+    box->min.x = fmin(box->min.x, p.x);
+    box->min.y = fmin(box->min.y, p.y);
+    box->max.x = fmax(box->max.x, p.x);
+    box->max.y = fmax(box->max.y, p.y);
+}
 
 static int compare_x(const void *left, const void *right) {
-    const placed_wall *a = left, *b = right;
-    if (a->middle.x != b->middle.x) return a->middle.x < b->middle.x ? -1 : 1;
-    return (a->wall > b->wall) - (a->wall < b->wall);
+    const sli_placed *a = left, *b = right;
+    if (a->at.x != b->at.x) return a->at.x < b->at.x ? -1 : 1;
+    return (a->number > b->number) - (a->number < b->number);
 }
 
 static int compare_y(const void *left, const void *right) {
-    const placed_wall *a = left, *b = right;
-    if (a->middle.y != b->middle.y) return a->middle.y < b->middle.y ? -1 : 1;
-    return (a->wall > b->wall) - (a->wall < b->wall);
+    const sli_placed *a = left, *b = right;
+    if (a->at.y != b->at.y) return a->at.y < b->at.y ? -1 : 1;
+    return (a->number > b->number) - (a->number < b->number);
 }
 
-/// Divides walls into `groups` about as large as each other, across the longer way each time;
-/// `object` is the first group's number. Depth: the logarithm of `groups`.
-static void divide(placed_wall *walls, size_t count, uint32_t groups, uint32_t object,
+bool sli_placed_sort(sli_placed *items, size_t count, sl_box *box) {
+    *box = (sl_box){items[0].at, items[0].at};
+    for (size_t i = 1; i < count; i++) take(box, items[i].at);
+    const bool wide = box->max.x - box->min.x >= box->max.y - box->min.y;
+    qsort(items, count, sizeof *items, wide ? compare_x : compare_y);
+    return wide;
+}
+
+/// Divides walls into `groups` of about the same size, along the longer side each time. `object` is
+/// the number of the first group. Recursion depth: the logarithm of `groups`.
+static void divide(sli_placed *walls, size_t count, uint32_t groups, uint32_t object,
                    uint32_t *of_wall) {
     if (groups == 1) {
-        for (size_t i = 0; i < count; i++) of_wall[walls[i].wall] = object;
+        for (size_t i = 0; i < count; i++) of_wall[walls[i].number] = object;
         return;
     }
-    sl_box box = {walls[0].middle, walls[0].middle};
-    for (size_t i = 1; i < count; i++) {
-        box.min.x = fmin(box.min.x, walls[i].middle.x);
-        box.min.y = fmin(box.min.y, walls[i].middle.y);
-        box.max.x = fmax(box.max.x, walls[i].middle.x);
-        box.max.y = fmax(box.max.y, walls[i].middle.y);
-    }
-    const bool wide = box.max.x - box.min.x >= box.max.y - box.min.y;
-    qsort(walls, count, sizeof *walls, wide ? compare_x : compare_y);
+    sl_box box;
+    sli_placed_sort(walls, count, &box);
     const uint32_t below = groups / 2;
     const size_t half = count * below / groups;
     divide(walls, half, below, object, of_wall);
     divide(walls + half, count - half, groups - below, object + below, of_wall);
 }
 
-/// Numbers the walls with items from `first` on, in `groups` groups, or each for itself (0).
-/// Returns in *count how many numbers there are.
+/// Numbers the walls that have items, from `first` on: in `groups` groups, or each on its own (0).
+/// *count: how many numbers there are.
 static sl_status number_walls(sl_context *context, sl_regions *scene, uint32_t groups,
                               uint32_t first, uint32_t *count) {
     const sl_space *space = &scene->space;
     uint32_t *of_wall = sl_alloc_array(context, space->wall_count, sizeof *of_wall);
-    placed_wall *placed = sl_alloc_array(context, space->wall_count, sizeof *placed);
+    sli_placed *placed = sl_alloc_array(context, space->wall_count, sizeof *placed);
     if (!of_wall || !placed) {
         sl_free(context, of_wall);
         sl_free(context, placed);
@@ -153,7 +162,7 @@ static sl_status number_walls(sl_context *context, sl_regions *scene, uint32_t g
         if (!of_wall[i]) continue;
         const sl_point a = space->walls[i].a, b = space->walls[i].b;
         of_wall[i] = first + (uint32_t)walls;
-        placed[walls++] = (placed_wall){{a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2}, i};
+        placed[walls++] = (sli_placed){{a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2}, i};
     }
     *count = (uint32_t)walls;
     if (groups && groups < walls) {
@@ -168,18 +177,18 @@ static sl_status number_walls(sl_context *context, sl_regions *scene, uint32_t g
     return SL_OK;
 }
 
-// --- what is seen through
+// --- objects that are seen through
 
 static sl_status add_through(sl_context *context, sl_regions *scene, uint32_t object, uint32_t leaf,
                              sl_box box) {
-    const sl_box own = sl_leaf_box(&scene->space, leaf);
+    const sl_box own = sli_leaf_box(&scene->space, leaf);
     const sl_point low = {fmax(own.min.x, box.min.x), fmax(own.min.y, box.min.y)};
     const sl_point high = {fmin(own.max.x, box.max.x), fmin(own.max.y, box.max.y)};
     if (!scene->space.cells[leaf].inside || low.x > high.x || low.y > high.y) return SL_OK;
-    return add_item(context, scene, (sl_item){object, leaf, true, low, high});
+    return add_item(context, scene, (sli_item){object, leaf, true, low, high});
 }
 
-/// A box in each leaf that it meets, found down the kd-tree.
+/// Adds a box to each leaf that it meets, down the kd-tree.
 static sl_status add_box(sl_context *context, sl_regions *scene, uint32_t object, sl_box box,
                          int32_t *stack) {
     const sl_space *space = &scene->space;
@@ -220,31 +229,24 @@ static sl_status add_leaves(sl_context *context, sl_regions *scene) {
     for (uint32_t leaf = 0; leaf < scene->space.cell_count; leaf++)
         if (scene->space.cells[leaf].inside)
             SL_TRY(add_through(context, scene, scene->counts.objects++, leaf,
-                               sl_leaf_box(&scene->space, leaf)));
+                               sli_leaf_box(&scene->space, leaf)));
     return SL_OK;
 }
 
 // --- indices
 
 static int compare_items(const void *left, const void *right) {
-    const sl_item *a = left, *b = right;
+    const sli_item *a = left, *b = right;
     if (a->object != b->object) return a->object < b->object ? -1 : 1;
     if (a->leaf != b->leaf) return a->leaf < b->leaf ? -1 : 1;
     if (a->left.x != b->left.x) return a->left.x < b->left.x ? -1 : 1;
     return (a->left.y > b->left.y) - (a->left.y < b->left.y);
 }
 
-static void take(sl_box *box, sl_point p) {
-    box->min.x = fmin(box->min.x, p.x);
-    box->min.y = fmin(box->min.y, p.y);
-    box->max.x = fmax(box->max.x, p.x);
-    box->max.y = fmax(box->max.y, p.y);
-}
-
 static sl_status index_items(sl_context *context, sl_regions *scene) {
-    const uint32_t objects = sl_regions_objects(scene), leaves = scene->space.cell_count;
+    const uint32_t objects = sli_regions_objects(scene), leaves = scene->space.cell_count;
     const size_t count = scene->items.count;
-    sl_item *items = scene->items.items;
+    sli_item *items = scene->items.items;
     if (count) qsort(items, count, sizeof *items, compare_items);
     scene->words = sl_bits_words(objects);
     scene->first_item = sl_alloc_array(context, (size_t)objects + 1, sizeof *scene->first_item);
@@ -270,8 +272,8 @@ static sl_status index_items(sl_context *context, sl_regions *scene) {
     return SL_OK;
 }
 
-sl_status sl_regions_find_objects(sl_context *context, const sl_regions_options *options,
-                                  sl_regions *scene) {
+sl_status sli_regions_find_objects(sl_context *context, const sl_regions_options *options,
+                                   sl_regions *scene) {
     SL_TRY(add_walls(context, scene));
     if (options->objects == SL_OBJECTS_BOXES) SL_TRY(add_boxes(context, scene));
     if (options->objects == SL_OBJECTS_CELLS) SL_TRY(add_leaves(context, scene));

@@ -1,3 +1,10 @@
+/// The scene of the from-region methods: the map is cut along the borders of view cells, and each
+/// quadrant gets its pass.
+///
+/// Borders of view cells become seams of the map, so that each leaf of the kd-tree lies in one view
+/// cell. A pass has two orders in which those behind come first: of view cells, by the dependence
+/// graph of their faces; and of all leaves, by taking the farther side of each split first. Cost:
+/// O(leaves) a quadrant, besides the kd-tree.
 #include "from_region/regions.h"
 
 #include "space/kd_tree.h"
@@ -18,9 +25,9 @@ static sl_status copy_map(sl_context *context, const sl_map *map, sl_map *to) {
 }
 
 static sl_status add_grid(sl_context *context, sl_map *map, uint32_t grid) {
-    const sl_box b = sl_padded(sl_map_bounds(map)); // the space's
+    const sl_box b = sli_padded(sl_map_bounds(map)); // the space's
     for (uint32_t i = 1; i < grid; i++) {
-        const double x = sl_grid_line(&b, 0, i, grid), y = sl_grid_line(&b, 1, i, grid);
+        const double x = sli_grid_line(&b, 0, i, grid), y = sli_grid_line(&b, 1, i, grid);
         SL_TRY(sl_map_add_seam(context, map, (sl_segment){{x, b.min.y}, {x, b.max.y}}, 0));
         SL_TRY(sl_map_add_seam(context, map, (sl_segment){{b.min.x, y}, {b.max.x, y}}, 0));
     }
@@ -52,29 +59,30 @@ static sl_status subdivide(sl_context *context, const sl_map *map,
 
 // --- passes
 
-static sl_cone quadrant_cone(int quadrant) {
+static sli_direction_sector quadrant_cone(int quadrant) {
     static const sl_point axes[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     const sl_point zero = {0, 0};
-    return (sl_cone){{zero, axes[quadrant]}, {zero, axes[(quadrant + 1) % SL_QUADRANTS]}};
+    return (sli_direction_sector){{zero, axes[quadrant]},
+                                  {zero, axes[(quadrant + 1) % SLI_QUADRANTS]}};
 }
 
-/// The arcs of view cells on those behind their faces, in room for all faces.
-static void link_view_cells(const sl_regions *scene, const sl_pass *pass, uint32_t *first,
+/// Lists, for each view cell, those behind its faces. There is room for all faces.
+static void link_view_cells(const sl_regions *scene, const sli_pass *pass, uint32_t *first,
                             uint32_t *to) {
     uint32_t count = 0;
     for (uint32_t cell = 0; cell < scene->counts.view_cells; cell++) {
         first[cell] = count;
         for (uint32_t f = scene->first_face[cell]; f < scene->first_face[cell + 1]; f++) {
-            const sl_face *face = &scene->faces.items[f];
-            if (face->to != SL_NO_VIEW_CELL && pass->faces[face->exit] != SL_NO_FACE)
+            const sli_face *face = &scene->faces.items[f];
+            if (face->to != SL_NO_VIEW_CELL && pass->faces[face->directed] != SLI_NO_FACE)
                 to[count++] = face->to;
         }
     }
     first[scene->counts.view_cells] = count;
 }
 
-/// The most different view cells that one appears behind.
-static uint32_t most_dependents(const sl_dependence *graph, uint32_t *last, uint32_t *dependents) {
+/// The largest number of view cells that one lies behind.
+static uint32_t most_dependents(const sli_dependence *graph, uint32_t *last, uint32_t *dependents) {
     uint32_t most = 0;
     for (uint32_t i = 0; i < graph->count; i++) {
         last[i] = UINT32_MAX;
@@ -96,21 +104,21 @@ static sl_status find_orders(sl_context *context, sl_regions *scene) {
     uint32_t *to = sl_alloc_array(context, scene->faces.count, sizeof *to);
     sl_status status = first && to ? SL_OK : SL_NO_MEMORY;
     scene->counts.dependents = 0;
-    for (int q = 0; q < SL_QUADRANTS && status == SL_OK; q++) {
-        sl_regions_pass *pass = &scene->passes[q];
+    for (int q = 0; q < SLI_QUADRANTS && status == SL_OK; q++) {
+        sli_regions_pass *pass = &scene->passes[q];
         link_view_cells(scene, &pass->leaves, first, to);
-        const sl_dependence graph = {scene->counts.view_cells, first, to};
+        const sli_dependence graph = {scene->counts.view_cells, first, to};
         const uint32_t most = most_dependents(&graph, first + count + 1, first + 2 * (count + 1));
         if (most > scene->counts.dependents) scene->counts.dependents = most;
-        sl_order_destroy(context, &pass->view_cells);
-        status = sl_order_create(context, &graph, &pass->view_cells);
+        sli_order_destroy(context, &pass->view_cells);
+        status = sli_order_create(context, &graph, &pass->view_cells);
     }
     sl_free(context, first);
     sl_free(context, to);
     return status;
 }
 
-/// Numbers leaves, those behind first: of each split the farther side before the nearer one.
+/// Numbers leaves, those behind first: at each split the farther side before the nearer one.
 static sl_status place_leaves(sl_context *context, const sl_space *space, int quadrant,
                               uint32_t **out) {
     uint32_t *place = sl_alloc_array(context, space->cell_count, sizeof *place);
@@ -125,7 +133,7 @@ static sl_status place_leaves(sl_context *context, const sl_space *space, int qu
                 continue;
             }
             const sl_node *node = &space->nodes[child];
-            const bool onwards = node->axis ? sl_goes_up(quadrant) : sl_goes_right(quadrant);
+            const bool onwards = node->axis ? sli_goes_up(quadrant) : sli_goes_right(quadrant);
             stack[count++] = onwards ? node->below : node->above;
             stack[count++] = onwards ? node->above : node->below;
         }
@@ -136,9 +144,9 @@ static sl_status place_leaves(sl_context *context, const sl_space *space, int qu
 }
 
 static sl_status make_passes(sl_context *context, sl_regions *scene) {
-    for (int q = 0; q < SL_QUADRANTS; q++) {
-        SL_TRY(sl_pass_create(context, &scene->space, true, quadrant_cone(q),
-                              &scene->passes[q].leaves));
+    for (int q = 0; q < SLI_QUADRANTS; q++) {
+        SL_TRY(sli_pass_create(context, &scene->space, true, quadrant_cone(q),
+                               &scene->passes[q].leaves));
         SL_TRY(place_leaves(context, &scene->space, q, &scene->passes[q].place));
     }
     return find_orders(context, scene);
@@ -153,7 +161,7 @@ static sl_status mark_inside(sl_context *context, sl_regions *scene) {
     for (size_t i = 0; i < scene->items.count; i++) {
         const uint32_t cell = scene->view_cell[scene->items.items[i].leaf];
         if (cell != SL_NO_VIEW_CELL)
-            sl_bits_add(sl_regions_inside(scene, cell), scene->items.items[i].object);
+            sl_bits_add(sli_regions_inside(scene, cell), scene->items.items[i].object);
     }
     return SL_OK;
 }
@@ -176,18 +184,18 @@ static sl_status check_options(sl_context *context, const sl_map *map,
 static sl_status make(sl_context *context, const sl_map *map, const sl_regions_options *options,
                       sl_regions *scene) {
     SL_TRY(check_options(context, map, options));
-    SL_TRY(sl_check_has_walls(context, map));
+    SL_TRY(sli_check_has_walls(context, map));
     SL_TRY(subdivide(context, map, options, scene));
-    SL_TRY(sl_regions_find_view_cells(context, options, scene));
+    SL_TRY(sli_regions_find_view_cells(context, options, scene));
     SL_TRY(make_passes(context, scene));
     for (bool cut = true; cut;) {
         SL_TRY(sl_check_cancelled(context));
-        SL_TRY(sl_regions_check_cycles(context, options, scene, &cut));
+        SL_TRY(sli_regions_check_cycles(context, options, scene, &cut));
         if (!cut) break;
-        SL_TRY(sl_regions_find_faces(context, scene));
+        SL_TRY(sli_regions_find_faces(context, scene));
         SL_TRY(find_orders(context, scene));
     }
-    SL_TRY(sl_regions_find_objects(context, options, scene));
+    SL_TRY(sli_regions_find_objects(context, options, scene));
     return mark_inside(context, scene);
 }
 
@@ -207,9 +215,9 @@ void sl_regions_destroy(sl_context *context, sl_regions *scene) {
     if (!scene) return;
     for (uint32_t i = 0; scene->names && i < scene->counts.view_cells; i++)
         sl_free(context, scene->names[i]);
-    for (int q = 0; q < SL_QUADRANTS; q++) {
-        sl_pass_destroy(context, &scene->passes[q].leaves);
-        sl_order_destroy(context, &scene->passes[q].view_cells);
+    for (int q = 0; q < SLI_QUADRANTS; q++) {
+        sli_pass_destroy(context, &scene->passes[q].leaves);
+        sli_order_destroy(context, &scene->passes[q].view_cells);
         sl_free(context, scene->passes[q].place);
     }
     sl_map_destroy(context, &scene->map);

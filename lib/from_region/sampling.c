@@ -1,31 +1,33 @@
-/// Sampling: lines at random, rasterised point by point and half a quadrant at a time (Laine 2005,
-/// section 5.2; Nirenstein & Blake 2004). Of a refine set only what a point's view frustum meets is
-/// drawn.
+/// The sampling solver: random lines, rasterised point by point and half a quadrant at a time
+/// (Laine 2005, section 5.2; Nirenstein & Blake 2004).
 ///
-/// The lines of one direction are parallel and equally far from each other, the same ones for all
-/// faces; which points of a face they leave from differs from direction to direction by a random
-/// shift. So the density is uniform, and a line that goes on through the next face is one of that
-/// face's too. That makes samples whole: what a face's line sees beyond the view cell behind it, a
-/// face of that cell sees by the same line. A refine set then never lacks what a line meets, and
-/// with whatever refine set a method comes, it finds the same.
+///     face   lines of one slope      A point of the face has one line for each pixel, which is a
+///      |  /   /   /   /              slope from 0 to 1. The lines of one slope are parallel and
+///      | /   /   /  [object]         equally far apart, shifted at random. They are the same
+///      |/   /   /   /                lines for all faces.
 ///
-/// What a line meets first is told without measuring: leaves have an order in each quadrant, and a
-/// line leaves a convex leaf by one side. Signs are exact, and a line through an end counts as
-/// passing at its right.
-#include "from_region/solver.h"
+/// Invariant: a line that goes on through the next face is one of that face's lines too. So a
+/// refine set never lacks what a line meets, and all methods find the same, to the last bit.
+///
+/// What a line meets first is found without measuring: leaves have an order in each quadrant, and a
+/// line leaves a convex leaf by one side. Signs are exact; a line through an end of a side passes
+/// at its right. Only objects that a point's view frustum meets are drawn.
+///
+/// Cost: O(points x (objects of the refine set + pixels x items drawn)) for a face and quadrant.
+#include "from_region/regions.h"
 
-#include "base/random.h"
 #include "geometry/orient.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <string.h>
 
-/// A line that leaves by the face at hand, and the nearest that it has met so far.
+/// A line that leaves by the face, and the nearest object that it has met so far.
 typedef struct ray {
     sl_line line;
     uint32_t pixel, point;
     uint32_t object; ///< UINT32_MAX for none
-    uint32_t leaf;   ///< place in the quadrant's order of where it was met
+    uint32_t leaf;   ///< where it was met, by place in the quadrant's order
 } ray;
 
 typedef struct sampler {
@@ -34,7 +36,7 @@ typedef struct sampler {
     double step;                ///< from one line of a direction to the next, along an axis
     SL_ARRAY(ray) found, rays;  ///< as found; by point, then pixel
     SL_ARRAY(uint32_t) starts;  ///< by point
-    SL_ARRAY(uint32_t) refined; ///< what is left of the refine set
+    SL_ARRAY(uint32_t) refined; ///< the refine set after view frustum culling
 } sampler;
 
 static sl_status create(sl_context *context, const sl_regions *scene,
@@ -70,8 +72,8 @@ static double slope_of(const sampler *s, uint32_t pixel) {
     return (pixel + 0.5) / s->options->pixels;
 }
 
-/// The share of a step by which a pixel's lines are shifted. The same for opposite quadrants: they
-/// have the same lines.
+/// The share of a step by which a pixel's lines are shifted. Opposite quadrants have the same
+/// lines, and so the same shift.
 static double shift_of(const sampler *s, image i, uint32_t pixel) {
     const uint64_t falling = i.quadrant % 2, steep = i.steep;
     sl_random random = {s->options->seed ^
@@ -80,9 +82,9 @@ static double shift_of(const sampler *s, image i, uint32_t pixel) {
     return sl_random_unit(&random);
 }
 
-/// The other coordinate of a point, less what the slope makes of its own: of all points of a line
-/// of the pixel the same. From the map's corner, not from the origin: far from that, lines' numbers
-/// would be too large for a double to count.
+/// Where the line of this slope through a point meets the map's edge: the same for all points of a
+/// line. It is measured from the map's corner: far from the origin, lines' numbers would be too
+/// large for a double to count.
 static double offset_of(const sampler *s, image i, double slope, sl_point p) {
     const sl_point corner = s->scene->space.bounds.min;
     const double x = p.x - corner.x, y = p.y - corner.y;
@@ -92,7 +94,7 @@ static double offset_of(const sampler *s, image i, double slope, sl_point p) {
 /// The line of a number, in the quadrant's direction, from one edge of the map to the other.
 static sl_line line_of(const sampler *s, image i, double slope, double offset) {
     const sl_box b = s->scene->space.bounds;
-    const bool onwards = i.steep ? sl_goes_up(i.quadrant) : sl_goes_right(i.quadrant);
+    const bool onwards = i.steep ? sli_goes_up(i.quadrant) : sli_goes_right(i.quadrant);
     const double low = i.steep ? b.min.y : b.min.x, high = i.steep ? b.max.y : b.max.x;
     const double at_low = (i.steep ? b.min.x : b.min.y) + offset;
     const double at_high = at_low + slope * (high - low);
@@ -102,23 +104,24 @@ static sl_line line_of(const sampler *s, image i, double slope, double offset) {
 }
 
 static bool passes(sl_line line, sl_point left, sl_point right) {
-    return sl_orient(line.a, line.b, left) >= 0 && sl_orient(line.a, line.b, right) < 0;
+    return sli_orient(line.a, line.b, left) >= 0 && sli_orient(line.a, line.b, right) < 0;
 }
 
-/// The lines of one pixel that leave by the face.
+/// Adds the lines of one pixel that leave by the face.
 static sl_status add_rays(sl_context *context, sampler *s, image i, uint32_t pixel,
-                          const sl_exit *exit, uint32_t points) {
+                          const sl_directed_portal *portal, uint32_t points) {
     // Rising and falling lines: x and y grow together in quadrants 0 and 2 alone.
     const double slope = (i.quadrant % 2 ? -1 : 1) * slope_of(s, pixel);
     const double shift = shift_of(s, i, pixel);
-    const double p = offset_of(s, i, slope, exit->left), q = offset_of(s, i, slope, exit->right);
+    const double p = offset_of(s, i, slope, portal->left),
+                 q = offset_of(s, i, slope, portal->right);
     const double low = floor(fmin(p, q) / s->step - shift) - 1;
     const double high = ceil(fmax(p, q) / s->step - shift) + 1;
     for (double number = low; number <= high; number++) {
         const double offset = (number + shift) * s->step;
         const sl_line line = line_of(s, i, slope, offset);
-        if (!passes(line, exit->left, exit->right)) continue;
-        // Which point of the face it is counted to decides on nothing but culling.
+        if (!passes(line, portal->left, portal->right)) continue;
+        // The point of the face that a line belongs to matters only for culling.
         const double share = (offset - p) / (q - p) * points;
         const uint32_t point = share >= points ? points - 1 : share > 0 ? (uint32_t)share : 0;
         SL_TRY(SL_ARRAY_ROOM(context, &s->found, 1));
@@ -128,12 +131,12 @@ static sl_status add_rays(sl_context *context, sampler *s, image i, uint32_t pix
     return SL_OK;
 }
 
-/// All lines of half a quadrant through a face, by point and pixel.
-static sl_status make_rays(sl_context *context, sampler *s, image i, const sl_exit *exit,
-                           uint32_t points) {
+/// Makes all lines of half a quadrant through a face, sorted by point, then pixel.
+static sl_status make_rays(sl_context *context, sampler *s, image i,
+                           const sl_directed_portal *portal, uint32_t points) {
     s->found.count = 0;
     for (uint32_t pixel = 0; pixel < s->options->pixels; pixel++)
-        SL_TRY(add_rays(context, s, i, pixel, exit, points));
+        SL_TRY(add_rays(context, s, i, pixel, portal, points));
     SL_TRY(SL_ARRAY_ROOM(context, &s->starts, (size_t)points + 2));
     s->rays.count = 0;
     SL_TRY(SL_ARRAY_ROOM(context, &s->rays, s->found.count));
@@ -149,18 +152,18 @@ static sl_status make_rays(sl_context *context, sampler *s, image i, const sl_ex
 
 // --- drawing
 
-/// Coordinates as seen in the image's direction: `ahead` grows along it, `aside` too.
+/// Coordinates in the image's direction: both grow along the lines.
 typedef struct frame {
     double ahead, aside;
 } frame;
 
 static frame in_frame(image i, sl_point p) {
-    const double x = sl_goes_right(i.quadrant) ? p.x : -p.x;
-    const double y = sl_goes_up(i.quadrant) ? p.y : -p.y;
+    const double x = sli_goes_right(i.quadrant) ? p.x : -p.x;
+    const double y = sli_goes_up(i.quadrant) ? p.y : -p.y;
     return i.steep ? (frame){y, x} : (frame){x, y};
 }
 
-/// A box in the frame: where the lines of a point leave from, or what may be met.
+/// A box in the frame: the part of a face that a point stands for, or an object.
 typedef struct extent {
     frame low, high;
 } extent;
@@ -178,7 +181,7 @@ static bool in_frustum(const extent *from, const extent *what) {
            what->low.aside - from->high.aside <= ahead;
 }
 
-/// The pixels whose lines may meet what: slopes from the face to it, and one pixel more.
+/// The pixels whose lines may meet a box: the slopes from the face to it, with room for rounding.
 static void pixels_of(const sampler *s, const extent *from, const extent *what, uint32_t *first,
                       uint32_t *end) {
     const double near = what->low.ahead - from->high.ahead;
@@ -193,14 +196,14 @@ static void pixels_of(const sampler *s, const extent *from, const extent *what, 
     *end = high > 0 ? high < count ? (uint32_t)high : count : 0;
 }
 
-/// Draws a piece: what is solid is kept where it is the nearest, what is seen through is seen where
-/// nothing solid is nearer.
-static void draw(const sampler *s, image i, const sl_item *item, const extent *from,
+/// Draws an item. A solid one is kept where it is the nearest. One that is seen through is seen
+/// where nothing solid is nearer.
+static void draw(const sampler *s, image i, const sli_item *item, const extent *from,
                  uint32_t behind, ray *rays, size_t count, sl_bits *seen) {
     const sl_regions *scene = s->scene;
     const uint32_t place = scene->passes[i.quadrant].place[item->leaf];
     if (place > behind) return; // before the face
-    const sl_portal_ends ends = sl_item_ends(item, i.quadrant);
+    const sl_portal_ends ends = sli_item_ends(item, i.quadrant);
     const extent what = extent_of(i, ends.left, ends.right);
     uint32_t first, end;
     if (!in_frustum(from, &what)) return;
@@ -218,12 +221,12 @@ static void draw(const sampler *s, image i, const sl_item *item, const extent *f
     }
 }
 
-/// One image: a point of the face, half a quadrant.
-static void draw_image(sampler *s, image i, const sl_from_region_query *query, const extent *from,
-                       ray *rays, size_t count, sl_bits *seen, sl_from_region_account *account) {
+/// Draws one image: a point of the face, half a quadrant.
+static void draw_image(sampler *s, image i, const sli_from_region_query *query, const extent *from,
+                       ray *rays, size_t count, sl_bits *seen, sli_from_region_account *account) {
     const sl_regions *scene = s->scene;
     const uint32_t behind =
-        scene->passes[i.quadrant].place[scene->space.exits[query->face->exit].cell];
+        scene->passes[i.quadrant].place[scene->space.directed[query->face->directed].cell];
     s->refined.count = 0;
     for (size_t word = 0; word < scene->words; word++)
         for (sl_bits left = query->refine[word]; left; left &= left - 1) {
@@ -247,9 +250,10 @@ static void draw_image(sampler *s, image i, const sl_from_region_query *query, c
 }
 
 /// The part of a face from which the lines of one of its points leave, and a little more.
-static extent point_of(image i, const sl_exit *exit, uint32_t point, uint32_t points, double step) {
+static extent point_of(image i, const sl_directed_portal *portal, uint32_t point, uint32_t points,
+                       double step) {
     const double low = (double)point / points, high = (double)(point + 1) / points;
-    const sl_point l = exit->left, way = {exit->right.x - l.x, exit->right.y - l.y};
+    const sl_point l = portal->left, way = {portal->right.x - l.x, portal->right.y - l.y};
     extent e = extent_of(i, (sl_point){l.x + low * way.x, l.y + low * way.y},
                          (sl_point){l.x + high * way.x, l.y + high * way.y});
     const double room = step / 1024;
@@ -260,20 +264,21 @@ static extent point_of(image i, const sl_exit *exit, uint32_t point, uint32_t po
     return e;
 }
 
-static sl_status look(sl_context *context, void *state, const sl_from_region_query *query,
-                      sl_bits *seen, sl_from_region_account *account) {
+static sl_status run(sl_context *context, void *state, const sli_from_region_query *query,
+                     sl_bits *seen, sli_from_region_account *account) {
     sampler *s = state;
-    const sl_exit *exit = &s->scene->space.exits[query->face->exit];
-    const double length = fabs(exit->right.x - exit->left.x) + fabs(exit->right.y - exit->left.y);
+    const sl_directed_portal *portal = &s->scene->space.directed[query->face->directed];
+    const double length =
+        fabs(portal->right.x - portal->left.x) + fabs(portal->right.y - portal->left.y);
     const uint32_t points = (uint32_t)fmax(1, ceil(length / s->step));
-    SL_TRY(SL_ARRAY_ROOM(context, &s->refined, sl_regions_objects(s->scene)));
+    SL_TRY(SL_ARRAY_ROOM(context, &s->refined, sli_regions_objects(s->scene)));
     for (int steep = 0; steep < 2; steep++) {
         const image i = {query->quadrant, steep};
         SL_TRY(sl_check_cancelled(context));
-        SL_TRY(make_rays(context, s, i, exit, points));
+        SL_TRY(make_rays(context, s, i, portal, points));
         for (uint32_t point = 0; point < points; point++) {
             const uint32_t first = s->starts.items[point], end = s->starts.items[point + 1];
-            const extent from = point_of(i, exit, point, points, s->step);
+            const extent from = point_of(i, portal, point, points, s->step);
             if (first < end)
                 draw_image(s, i, query, &from, s->rays.items + first, end - first, seen, account);
         }
@@ -281,11 +286,11 @@ static sl_status look(sl_context *context, void *state, const sl_from_region_que
     return SL_OK;
 }
 
-const sl_from_region_looker *sl_from_region_sampling(void) {
-    static const sl_from_region_looker sampling = {
+const sli_from_region_solver_calls *sli_from_region_sampling(void) {
+    static const sli_from_region_solver_calls sampling = {
         .create = create,
         .destroy = destroy,
-        .look = look,
+        .run = run,
     };
     return &sampling;
 }

@@ -1,9 +1,95 @@
-/// The table of kinds, how large a plan becomes, and turning it.
-#include "base/number.h"
+/// Procedural maps: the table of kinds, how large a plan becomes, turning it, and what every kind
+/// draws with: walls, doors, boxes and rooms on a grid of whole numbers.
+///
+/// How many walls a kind gives is not known beforehand. So a few units are laid out and counted,
+/// and the size is corrected in proportion until the number asked for is met.
 #include "generate/plot.h"
 
+#include "sightline/support.h"
+
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
+
+// --- drawing on a plot
+
+int sli_pick(sli_plot *plot, int low, int high) {
+    assert(low <= high);
+    return low + (int)sl_random_below(&plot->random, (uint64_t)(high - low) + 1);
+}
+
+bool sli_chance(sli_plot *plot, int percent) {
+    return sl_random_below(&plot->random, 100) < (uint64_t)percent;
+}
+
+sl_status sli_plot_wall(sli_plot *plot, sli_run run) {
+    if (run.low >= run.high) return SL_OK;
+    sl_point a = {run.at, run.low}, b = {run.at, run.high};
+    if (!run.upright) {
+        a = (sl_point){run.low, run.at};
+        b = (sl_point){run.high, run.at};
+    }
+    return sl_map_add_wall(plot->context, plot->map, a, b, 0);
+}
+
+sl_status sli_plot_wall_open(sli_plot *plot, sli_run run, int low, int high) {
+    assert(run.low <= low && low < high && high <= run.high);
+    SL_TRY(sli_plot_wall(plot, (sli_run){run.upright, run.at, run.low, low}));
+    return sli_plot_wall(plot, (sli_run){run.upright, run.at, high, run.high});
+}
+
+sl_status sli_plot_wall_door(sli_plot *plot, sli_run run) {
+    const int door = sli_pick(plot, run.low, run.high - 1);
+    return sli_plot_wall_open(plot, run, door, door + 1);
+}
+
+sli_run sli_side_of(sli_rect rect, sl_side side) {
+    switch (side) {
+    case SLI_LEFT:
+        return (sli_run){true, rect.x0, rect.y0, rect.y1};
+    case SLI_RIGHT:
+        return (sli_run){true, rect.x1, rect.y0, rect.y1};
+    case SLI_BOTTOM:
+        return (sli_run){false, rect.y0, rect.x0, rect.x1};
+    default:
+        return (sli_run){false, rect.y1, rect.x0, rect.x1};
+    }
+}
+
+sl_status sli_plot_box(sli_plot *plot, sli_rect rect) {
+    for (sl_side side = 0; side < SLI_SIDES; side++)
+        SL_TRY(sli_plot_wall(plot, sli_side_of(rect, side)));
+    return SL_OK;
+}
+
+sl_status sli_plot_start(sli_plot *plot, double x, double y) {
+    return sl_map_add_start(plot->context, plot->map, (sl_point){x, y}, 0, 0);
+}
+
+sl_status sli_plot_row_done(sli_plot *plot, int row) {
+    sl_report(plot->context, "generate", "rows", (uint64_t)row + 1, (uint64_t)plot->rows);
+    return sl_check_cancelled(plot->context);
+}
+
+sl_status sli_plot_rooms(sli_plot *plot, sli_rect rect, int least) {
+    const int width = rect.x1 - rect.x0, height = rect.y1 - rect.y0;
+    const bool wide = width >= 2 * least, high = height >= 2 * least;
+    if (!wide && !high) return SL_OK;
+    // Some rooms are left large.
+    if (width * height <= 6 * least * least && sli_chance(plot, 35)) return SL_OK;
+    const bool upright =
+        wide && (!high || width > height || (width == height && sli_chance(plot, 50)));
+    sli_rect first = rect, second = rect;
+    if (upright)
+        first.x1 = second.x0 = sli_pick(plot, rect.x0 + least, rect.x1 - least);
+    else
+        first.y1 = second.y0 = sli_pick(plot, rect.y0 + least, rect.y1 - least);
+    SL_TRY(sli_plot_wall_door(plot, sli_side_of(first, upright ? SLI_RIGHT : SLI_TOP)));
+    SL_TRY(sli_plot_rooms(plot, first, least));
+    return sli_plot_rooms(plot, second, least);
+}
+
+// --- kinds, sizes, turns
 
 enum {
     USUAL_OPEN = 40,
@@ -15,17 +101,17 @@ enum {
 
 static const sl_map_kind kinds[] = {
     {"maze", "one way between any two places", "squares a side", 24, false, true, 1, 2,
-     sl_lay_maze},
+     sli_lay_maze},
     {"office", "corridors, rooms and their doors on one floor", "wings a side", 3, false, true, 1,
-     1, sl_lay_office},
+     1, sli_lay_office},
     {"city", "broken streets about houses with rooms, courts and parks", "blocks a side", 5, false,
-     true, 1, 2, sl_lay_city},
+     true, 1, 2, sli_lay_city},
     {"pillars", "a hall in which few pillars are in line", "pillars a side", 8, false, true, 1, 1,
-     sl_lay_pillars},
+     sli_lay_pillars},
     {"tunnels", "chambers and tunnels after Laine 2005, each an object; a share is open",
-     "times 1,825 objects", 1, true, false, 625, 2, sl_lay_tunnels},
+     "times 1,825 objects", 1, true, false, 625, 2, sli_lay_tunnels},
     {"tower", "office floors side by side, apart from each other", "floors", 6, false, false, 1, 1,
-     sl_lay_tower},
+     sli_lay_tower},
 };
 
 const sl_map_kind *sl_map_kinds(size_t *count) {
@@ -44,13 +130,13 @@ static sl_status lay_out(sl_context *context, const sl_map_kind *kind,
     if (columns < kind->least) columns = kind->least;
     uint64_t rows = (count + columns / 2) / columns;
     if (rows < kind->least) rows = kind->least;
-    sl_plot plot = {.context = context,
-                    .map = map,
-                    .random = {options->seed},
-                    .columns = (int)columns,
-                    .rows = (int)rows,
-                    .count = (int)count,
-                    .open = options->open < 0 ? USUAL_OPEN : options->open};
+    sli_plot plot = {.context = context,
+                     .map = map,
+                     .random = {options->seed},
+                     .columns = (int)columns,
+                     .rows = (int)rows,
+                     .count = (int)count,
+                     .open = options->open < 0 ? USUAL_OPEN : options->open};
     sl_status status = kind->lay(&plot);
     if (status == SL_OK) status = sl_map_clean(context, map, NULL, NULL);
     if (status != SL_OK) sl_map_destroy(context, map);
@@ -79,7 +165,7 @@ static uint64_t difference(uint64_t a, uint64_t b) {
     return a > b ? a - b : b - a;
 }
 
-/// A large map: a part of it tells how many walls a unit has.
+/// A large map: a part of it shows how many walls a unit has.
 static sl_status lay_out_many(sl_context *context, const sl_map_kind *kind,
                               const sl_generate_options *options, sl_map *map) {
     size_t walls;

@@ -2,67 +2,61 @@
 #ifndef SL_GENERATE_PLOT_H
 #define SL_GENERATE_PLOT_H
 
-#include "base/base.h"
-#include "base/random.h"
 #include "sightline/generate.h"
+#include "sightline/support.h"
 
-typedef struct sl_plot {
+typedef struct sli_plot {
     sl_context *context;
     sl_map *map;
     sl_random random;
     int columns, rows; ///< of the kind's units, at least as many as it needs
     int count;         ///< units asked for, columns * rows at most
     double open;       ///< percent
-} sl_plot;
+} sli_plot;
 
 /// x0 < x1, y0 < y1.
-typedef struct sl_rect {
+typedef struct sli_rect {
     int x0, y0, x1, y1;
-} sl_rect;
+} sli_rect;
 
 /// A straight piece: upright at x = `at`, or level at y = `at`.
-typedef struct sl_run {
+typedef struct sli_run {
     bool upright;
     int at, low, high; ///< low < high
-} sl_run;
+} sli_run;
 
-typedef enum sl_side { SL_LEFT, SL_RIGHT, SL_BOTTOM, SL_TOP, SL_SIDES } sl_side;
+typedef enum sl_side { SLI_LEFT, SLI_RIGHT, SLI_BOTTOM, SLI_TOP, SLI_SIDES } sl_side;
 
 /// Any of low .. high, each as likely.
-int sl_pick(sl_plot *plot, int low, int high);
-bool sl_chance(sl_plot *plot, int percent);
+int sli_pick(sli_plot *plot, int low, int high);
+bool sli_chance(sli_plot *plot, int percent);
 
 /// Walls may lie on walls that are there already: the map is cleaned at the end. A run without
 /// length adds nothing.
-sl_status sl_plot_wall(sl_plot *plot, sl_run run);
+sl_status sli_plot_wall(sli_plot *plot, sli_run run);
 /// A wall with an opening, low < high, within the run.
-sl_status sl_plot_wall_open(sl_plot *plot, sl_run run, int low, int high);
+sl_status sli_plot_wall_open(sli_plot *plot, sli_run run, int low, int high);
 /// A wall with a door of 1 somewhere.
-sl_status sl_plot_wall_door(sl_plot *plot, sl_run run);
-sl_status sl_plot_box(sl_plot *plot, sl_rect rect);
-sl_run sl_side_of(sl_rect rect, sl_side side);
+sl_status sli_plot_wall_door(sli_plot *plot, sli_run run);
+sl_status sli_plot_box(sli_plot *plot, sli_rect rect);
+sli_run sli_side_of(sli_rect rect, sl_side side);
 
-sl_status sl_plot_start(sl_plot *plot, double x, double y);
+sl_status sli_plot_start(sli_plot *plot, double x, double y);
 
 /// Reports and asks whether to stop: after each row of units.
-sl_status sl_plot_row_done(sl_plot *plot, int row);
+sl_status sli_plot_row_done(sli_plot *plot, int row);
 
 /// Divides a rectangle, whose own walls are somebody else's, into rooms at least `least` wide, by
 /// walls with one door each: all rooms are joined. No wall begins or ends in a gap between whole
 /// coordinates, so doors of 1 stay free.
-sl_status sl_plot_rooms(sl_plot *plot, sl_rect rect, int least);
-
-/// An office floor of wings x rows on a corner, with a start in its first corridor; about it is a
-/// wall. SL_WING_WIDTH and SL_WING_HEIGHT are a wing's share of the floor.
-enum { SL_WING_WIDTH = 28, SL_WING_HEIGHT = 18 };
-sl_status sl_plot_floor(sl_plot *plot, int x, int y, int wings, int rows);
+sl_status sli_plot_rooms(sli_plot *plot, sli_rect rect, int least);
 
 /// The kinds.
-sl_status sl_lay_maze(sl_plot *plot);
-sl_status sl_lay_office(sl_plot *plot);
-sl_status sl_lay_city(sl_plot *plot);
-sl_status sl_lay_pillars(sl_plot *plot);
-sl_status sl_lay_tunnels(sl_plot *plot);
-sl_status sl_lay_tower(sl_plot *plot);
+sl_status sli_lay_maze(sli_plot *plot);
+sl_status sli_lay_office(sli_plot *plot);
+sl_status sli_lay_city(sli_plot *plot);
+sl_status sli_lay_pillars(sli_plot *plot);
+sl_status sli_lay_tunnels(sli_plot *plot);
+sl_status sli_lay_tower(sli_plot *plot);
 
 #endif

@@ -1,8 +1,17 @@
-/// The exact rest of the predicates: six to 24 products of two coordinates, each an integer of
-/// at most 106 bits times a power of two, summed in a fixed-point number wide enough for all of
-/// them. Integers only: no rounding, no overflow, nothing that a compiler's treatment of doubles
-/// could change.
-/// Where differences are exact, as between points on a grid, two products do.
+/// Exact signs of sums of products, for the cases that the filters of orient.h leave open.
+///
+/// A finite double is a whole number below 2^53 times a power of two. So a product of two doubles
+/// is a whole number of at most 106 bits times a power of two. A sign is that of a sum of 6 to 24
+/// such products. They are added in a fixed-point number wide enough for every exponent:
+///
+///     limbs   ...|........|........|........|........|...
+///     product            [== 106 bits ==]  shifted to its exponent, in two's complement
+///
+/// Everything is done in integers: there is no rounding, no overflow, and no dependence on how a
+/// compiler treats doubles.
+///
+/// Points of most maps lie on a grid. There the differences of coordinates are exact, and only two
+/// products are left to compare. This case is tried first.
 #include "geometry/orient.h"
 
 #include <math.h>
@@ -36,7 +45,8 @@ static product multiply(double a, double b, bool negative) {
                      .negative = negative != (signbit(a) != signbit(b))};
 }
 
-/// Limbs for exponents from -2148 to 1942, 106 bits of a product above, and the carries of 24.
+/// Limbs for exponents from -2148 to 1942, for 106 bits of a product above, and for carries of 24
+/// products.
 enum { LIMBS = (2148 + 1942 + 106 + 8) / 64 + 2 };
 
 /// Adds a product, shifted to start at bit `shift`, to a number in two's complement.
@@ -71,7 +81,7 @@ static int sign_of_sum(const product *products, int product_count) {
     return 0;
 }
 
-/// What maps are full of, and no filter can decide: a point met again, points on an axial line.
+/// Frequent cases that no filter decides: a point that is met again, points on an axial line.
 static bool plainly_on_line(sl_point a, sl_point b, sl_point c) {
     return (a.x == c.x && (b.x == c.x || a.y == c.y)) || (b.y == c.y && (a.y == c.y || b.x == c.x));
 }
@@ -104,8 +114,7 @@ static bool compare_products(const product *p, const product *q, int *order) {
     return true;
 }
 
-/// Points as maps have them, on a grid: differences of coordinates are exact, and two products are
-/// all that is left to compare.
+/// The case of points on a grid, where the differences of coordinates are exact.
 static bool orient_by_differences(sl_point a, sl_point b, sl_point c, int *sign) {
     double ax, ay, bx, by;
     if (!subtract(a.x, c.x, &ax) || !subtract(a.y, c.y, &ay) || !subtract(b.x, c.x, &bx) ||
@@ -115,7 +124,7 @@ static bool orient_by_differences(sl_point a, sl_point b, sl_point c, int *sign)
     return compare_products(&left, &right, sign);
 }
 
-int sl_orient_exact(sl_point a, sl_point b, sl_point c) {
+int sli_orient_exact(sl_point a, sl_point b, sl_point c) {
     int sign;
     if (plainly_on_line(a, b, c)) return 0;
     if (orient_by_differences(a, b, c, &sign)) return sign;
@@ -127,7 +136,7 @@ int sl_orient_exact(sl_point a, sl_point b, sl_point c) {
 }
 
 /// Adds the products of p x q, sums of two each.
-static int multiply_fine(const sl_fine *p, const sl_fine *q, product *products) {
+static int multiply_fine(const sli_fine *p, const sli_fine *q, product *products) {
     const double px[2] = {p->at.x, p->rest.x}, py[2] = {p->at.y, p->rest.y};
     const double qx[2] = {q->at.x, q->rest.x}, qy[2] = {q->at.y, q->rest.y};
     for (int i = 0; i < 4; i++) {
@@ -137,7 +146,7 @@ static int multiply_fine(const sl_fine *p, const sl_fine *q, product *products) 
     return 8;
 }
 
-int sl_orient_fine(const sl_fine *a, const sl_fine *b, const sl_fine *c) {
+int sli_orient_fine(const sli_fine *a, const sli_fine *b, const sli_fine *c) {
     product products[24];
     int count = multiply_fine(a, b, products);
     count += multiply_fine(b, c, products + count);
@@ -145,8 +154,8 @@ int sl_orient_fine(const sl_fine *a, const sl_fine *b, const sl_fine *c) {
     return sign_of_sum(products, count);
 }
 
-int sl_turn_exact(sl_point a, sl_point b, sl_point c, sl_point d) {
-    // Directions along one axis, of which maps are full.
+int sli_turn_exact(sl_point a, sl_point b, sl_point c, sl_point d) {
+    // Two directions along the same axis are frequent.
     if ((a.x == b.x && c.x == d.x) || (a.y == b.y && c.y == d.y)) return 0;
     const product products[8] = {
         multiply(b.x, d.y, false), multiply(b.x, c.y, true), multiply(a.x, d.y, true),

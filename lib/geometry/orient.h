@@ -1,24 +1,36 @@
-/// The exact predicates: where all signs about points and lines are decided.
+/// The exact predicates: all signs about points and lines are decided here and in
+/// crossing.h.
 #ifndef SL_ORIENT_H
 #define SL_ORIENT_H
 
 #include "sightline/geometry.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 
-/// As sl_orient, by exact arithmetic alone.
-int sl_orient_exact(sl_point a, sl_point b, sl_point c);
+static inline bool sli_same_point(sl_point a, sl_point b) {
+    return a.x == b.x && a.y == b.y;
+}
 
-/// The sign of a x b for two vectors whose coordinates are differences, each rounded once, where
-/// rounding cannot have changed it, else 0.
+/// The order of points: by x, then by y. The sign of a - b.
+static inline int sli_compare_points(sl_point a, sl_point b) {
+    if (a.x != b.x) return a.x < b.x ? -1 : 1;
+    return (a.y > b.y) - (a.y < b.y);
+}
+
+/// As sli_orient, by exact arithmetic only.
+int sli_orient_exact(sl_point a, sl_point b, sl_point c);
+
+/// The sign of a x b for two vectors whose coordinates are differences, each rounded once. 0 where
+/// rounding may have changed the sign.
 ///
 /// The filter is Shewchuk's (1997, Adaptive Precision Floating-Point Arithmetic and Fast Robust
 /// Geometric Predicates, section 4.1): the rounded determinant has the right sign when it is larger
-/// than (3 + 16e)e times the sum of its two products, e = 2^-53. What underflow may take off a
-/// product is less than the last term of the bound. An overflow makes both comparisons false. The
-/// bound holds as well where the compiler fuses a product into the difference.
-static inline int sl_turn_filter(sl_point a, sl_point b) {
+/// than (3 + 16e)e times the sum of its two products, e = 2^-53. The last term of the bound is
+/// larger than what a product loses by underflow. An overflow makes both comparisons false. The
+/// bound also holds where the compiler fuses a product into the difference.
+static inline int sli_turn_filter(sl_point a, sl_point b) {
     const double left = a.x * b.y, right = a.y * b.x;
     const double determinant = left - right;
     const double sum = fabs(left) + fabs(right);
@@ -26,58 +38,66 @@ static inline int sl_turn_filter(sl_point a, sl_point b) {
     return (determinant > bound) - (-determinant > bound);
 }
 
-/// What a x b must exceed for its sign to be sure, for all b whose coordinates are no larger than
-/// those of `reach`: the bound above for the largest products, with room for its own rounding.
-static inline double sl_turn_limit(sl_point a, sl_point reach) {
+/// The limit that a x b must exceed for its sign to be sure, for every b whose coordinates are no
+/// larger than those of `reach`. It is the bound above for the largest products, rounded up.
+static inline double sli_turn_limit(sl_point a, sl_point reach) {
     return 4 * 0x1p-53 * (fabs(a.x) * reach.y + fabs(a.y) * reach.x) + 0x1p-1000;
 }
 
-/// As sl_turn_filter with the limit of `a`: cheaper where many are asked of one `a`.
-static inline int sl_turn_filter_within(sl_point a, sl_point b, double limit) {
+/// As sli_turn_filter with the limit of `a`: cheaper for many b with the same a.
+static inline int sli_turn_filter_within(sl_point a, sl_point b, double limit) {
     const double determinant = a.x * b.y - a.y * b.x;
     return determinant > limit ? 1 : determinant < -limit ? -1 : 0;
 }
 
-/// The sign of (b - a) x (c - a) where rounding cannot have changed it, else 0.
-static inline int sl_orient_filter(sl_point a, sl_point b, sl_point c) {
-    return sl_turn_filter((sl_point){a.x - c.x, a.y - c.y}, (sl_point){b.x - c.x, b.y - c.y});
+/// The sign of (b - a) x (c - a); 0 where rounding may have changed it.
+static inline int sli_orient_filter(sl_point a, sl_point b, sl_point c) {
+    return sli_turn_filter((sl_point){a.x - c.x, a.y - c.y}, (sl_point){b.x - c.x, b.y - c.y});
 }
 
 /// The sign of (b - a) x (c - a): 1 where c lies to the left of the line from a to b, -1 to the
-/// right, 0 on it. Exact for all finite doubles, near overflow and underflow included.
-static inline int sl_orient(sl_point a, sl_point b, sl_point c) {
-    const int sign = sl_orient_filter(a, b, c);
-    return sign ? sign : sl_orient_exact(a, b, c);
+/// right, 0 on it. Exact for all finite doubles, also near overflow and underflow.
+static inline int sli_orient(sl_point a, sl_point b, sl_point c) {
+    const int sign = sli_orient_filter(a, b, c);
+    return sign ? sign : sli_orient_exact(a, b, c);
 }
 
-/// A point finer than doubles: at + rest, by coordinate, where `rest` is at most half a unit in the
-/// last place of `at`. Places in mirrored space are such: sums of coordinates.
-typedef struct sl_fine {
+/// Whether the way from a through p to b goes straight on or turns left. A way back is neither.
+static inline bool sli_goes_on(sl_point a, sl_point p, sl_point b) {
+    const int turn = sli_orient(a, p, b);
+    if (turn) return turn > 0;
+    return !sli_same_point(a, p) && !sli_same_point(p, b) && (a.x < p.x) == (p.x < b.x) &&
+           (a.x > p.x) == (p.x > b.x) && (a.y < p.y) == (p.y < b.y) && (a.y > p.y) == (p.y > b.y);
+}
+
+/// A point finer than doubles: at + rest. `rest` is at most half a unit in the last place of `at`.
+/// Places in mirrored space are sums of coordinates, and so need it.
+typedef struct sli_fine {
     sl_point at, rest;
-} sl_fine;
+} sli_fine;
 
-/// As sl_orient, of fine points.
-int sl_orient_fine(const sl_fine *a, const sl_fine *b, const sl_fine *c);
+/// As sli_orient, of fine points.
+int sli_orient_fine(const sli_fine *a, const sli_fine *b, const sli_fine *c);
 
-/// The sign of a x b, exact, for two vectors whose coordinates are whole numbers below 2^62 once
-/// they are multiplied by `scale`, a power of two.
-static inline int sl_turn_grid(sl_point a, sl_point b, double scale) {
+/// The sign of a x b, exact. `scale` is a power of two; the coordinates of both vectors, times
+/// `scale`, must be whole numbers below 2^62.
+static inline int sli_turn_grid(sl_point a, sl_point b, double scale) {
     __extension__ typedef __int128 wide;
     const wide left = (wide)(int64_t)(a.x * scale) * (int64_t)(b.y * scale);
     const wide right = (wide)(int64_t)(a.y * scale) * (int64_t)(b.x * scale);
     return (left > right) - (left < right);
 }
 
-/// As sl_turn, by exact arithmetic alone.
-int sl_turn_exact(sl_point a, sl_point b, sl_point c, sl_point d);
+/// As sli_turn, by exact arithmetic only.
+int sli_turn_exact(sl_point a, sl_point b, sl_point c, sl_point d);
 
 /// The sign of (b - a) x (d - c): 1 where the direction from c to d lies to the left of that from a
-/// to b, by less than half a turn; -1 to the right; 0 along it, either way. Exact for all finite
-/// doubles.
-static inline int sl_turn(sl_point a, sl_point b, sl_point c, sl_point d) {
+/// to b, by less than half a turn; -1 to the right; 0 where both lie in one line. Exact for all
+/// finite doubles.
+static inline int sli_turn(sl_point a, sl_point b, sl_point c, sl_point d) {
     const int sign =
-        sl_turn_filter((sl_point){b.x - a.x, b.y - a.y}, (sl_point){d.x - c.x, d.y - c.y});
-    return sign ? sign : sl_turn_exact(a, b, c, d);
+        sli_turn_filter((sl_point){b.x - a.x, b.y - a.y}, (sl_point){d.x - c.x, d.y - c.y});
+    return sign ? sign : sli_turn_exact(a, b, c, d);
 }
 
 #endif

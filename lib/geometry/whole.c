@@ -1,9 +1,10 @@
-#include "geometry/whole.h"
+/// Whole numbers: sign and magnitude, added and multiplied as by hand, digit by digit.
+#include "geometry/crossing.h"
 
 #include <math.h>
 #include <string.h>
 
-int sl_whole_exponent(double value) {
+int sli_whole_exponent(double value) {
     int exponent;
     const double fraction = frexp(value, &exponent);
     uint64_t digits = (uint64_t)fabs(ldexp(fraction, 53));
@@ -11,11 +12,11 @@ int sl_whole_exponent(double value) {
     return exponent;
 }
 
-void sl_whole_set(double value, int exponent, sl_whole *out) {
+void sli_whole_set(double value, int exponent, sli_whole *out) {
     out->sign = (value > 0) - (value < 0);
     out->count = 0;
     if (!out->sign) return;
-    const int own = sl_whole_exponent(value);
+    const int own = sli_whole_exponent(value);
     const uint64_t digits = (uint64_t)fabs(ldexp(value, -own));
     const uint32_t shift = (uint32_t)(own - exponent), skip = shift / 32, rest = shift % 32;
     memset(out->digits, 0, (skip + 3) * sizeof *out->digits);
@@ -26,20 +27,20 @@ void sl_whole_set(double value, int exponent, sl_whole *out) {
     while (!out->digits[out->count - 1]) out->count--;
 }
 
-static int compare_sizes(const sl_whole *a, const sl_whole *b) {
+static int compare_sizes(const sli_whole *a, const sli_whole *b) {
     if (a->count != b->count) return a->count < b->count ? -1 : 1;
     for (uint32_t i = a->count; i-- > 0;)
         if (a->digits[i] != b->digits[i]) return a->digits[i] < b->digits[i] ? -1 : 1;
     return 0;
 }
 
-int sl_whole_compare(const sl_whole *a, const sl_whole *b) {
+int sli_whole_compare(const sli_whole *a, const sli_whole *b) {
     if (a->sign != b->sign) return a->sign < b->sign ? -1 : 1;
     return a->sign * compare_sizes(a, b);
 }
 
 /// |a| + |b|, where a has no fewer digits.
-static void add_sizes(const sl_whole *a, const sl_whole *b, sl_whole *out) {
+static void add_sizes(const sli_whole *a, const sli_whole *b, sli_whole *out) {
     uint64_t carry = 0;
     for (uint32_t i = 0; i < a->count; i++) {
         carry += (uint64_t)a->digits[i] + (i < b->count ? b->digits[i] : 0);
@@ -51,7 +52,7 @@ static void add_sizes(const sl_whole *a, const sl_whole *b, sl_whole *out) {
 }
 
 /// |a| - |b|, where a is the larger.
-static void subtract_sizes(const sl_whole *a, const sl_whole *b, sl_whole *out) {
+static void subtract_sizes(const sli_whole *a, const sli_whole *b, sli_whole *out) {
     uint32_t borrow = 0;
     for (uint32_t i = 0; i < a->count; i++) {
         const uint64_t less = (uint64_t)(i < b->count ? b->digits[i] : 0) + borrow;
@@ -62,9 +63,9 @@ static void subtract_sizes(const sl_whole *a, const sl_whole *b, sl_whole *out) 
     while (out->count && !out->digits[out->count - 1]) out->count--;
 }
 
-static void add_signed(const sl_whole *a, const sl_whole *b, int b_sign, sl_whole *out) {
+static void add_signed(const sli_whole *a, const sli_whole *b, int b_sign, sli_whole *out) {
     const int order = compare_sizes(a, b);
-    const sl_whole *large = order < 0 ? b : a, *small = order < 0 ? a : b;
+    const sli_whole *large = order < 0 ? b : a, *small = order < 0 ? a : b;
     const int large_sign = order < 0 ? b_sign : a->sign;
     out->sign = large_sign;
     if (a->sign == b_sign || !a->sign || !b_sign) {
@@ -75,15 +76,15 @@ static void add_signed(const sl_whole *a, const sl_whole *b, int b_sign, sl_whol
     if (!out->count) out->sign = 0;
 }
 
-void sl_whole_add(const sl_whole *a, const sl_whole *b, sl_whole *out) {
+void sli_whole_add(const sli_whole *a, const sli_whole *b, sli_whole *out) {
     add_signed(a, b, b->sign, out);
 }
 
-void sl_whole_subtract(const sl_whole *a, const sl_whole *b, sl_whole *out) {
+void sli_whole_subtract(const sli_whole *a, const sli_whole *b, sli_whole *out) {
     add_signed(a, b, -b->sign, out);
 }
 
-void sl_whole_multiply(const sl_whole *a, const sl_whole *b, sl_whole *out) {
+void sli_whole_multiply(const sli_whole *a, const sli_whole *b, sli_whole *out) {
     out->sign = a->sign * b->sign;
     out->count = 0;
     if (!out->sign) return;

@@ -1,6 +1,11 @@
+/// The map: adding, copying, bounds.
+#include "sightline/map.h"
+
 #include "map/scan.h"
+#include "sightline/support.h"
 
 #include <math.h>
+#include <string.h>
 
 bool sl_coordinate_usable(double value) {
     const double magnitude = fabs(value);
@@ -23,7 +28,7 @@ static size_t character_length(const unsigned char *text, size_t size) {
     return code < least[length] || code > 0x10ffff || surrogate ? 0 : length;
 }
 
-bool sl_name_usable(const char *name, size_t length) {
+bool sli_name_usable(const char *name, size_t length) {
     const unsigned char *text = (const unsigned char *)name;
     for (size_t i = 0; i < length;) {
         if (text[i] <= 0x20 || text[i] == 0x7f || text[i] == '#') return false;
@@ -84,15 +89,15 @@ static sl_status check_ends(sl_context *context, const char *what, sl_point a, s
 /// A copy of the name of a door, path or object.
 static sl_status copy_name(sl_context *context, const char *what, const char *name, char **copy) {
     const size_t length = strlen(name);
-    if (!sl_name_usable(name, length))
+    if (!sli_name_usable(name, length))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "%s: name '%s': expected one word of UTF-8 without '#'", what,
-                       sl_show((sl_word){name, length}).text);
+                       sli_show((sli_word){name, length}).text);
     *copy = sl_copy_text(context, name, length);
     return *copy ? SL_OK : SL_NO_MEMORY;
 }
 
-/// Room for one more in one of the map's arrays.
+/// Makes room for one more item in an array of the map.
 #define MAP_ROOM(context, map, items, thing)                                                       \
     sl_reserve((context), (void **)&(map)->items, &(map)->thing##_room, (map)->thing##_count + 1,  \
                sizeof *(map)->items)
@@ -198,7 +203,7 @@ sl_status sl_map_add_note(sl_context *context, sl_map *map, const char *text) {
     if (old) memcpy(notes, map->notes, old);
     size_t end = old;
     for (size_t i = 0; i < length; i++) {
-        // CR LF would not come back from the map text as it was.
+        // The map text would not keep CR LF.
         if (text[i] == '\n')
             while (end > old && notes[end - 1] == '\r') end--;
         notes[end++] = text[i];
@@ -211,7 +216,7 @@ sl_status sl_map_add_note(sl_context *context, sl_map *map, const char *text) {
     return SL_OK;
 }
 
-/// Takes in one more point; the first makes the box.
+/// Adds a point to a box; the first one makes it.
 static void grow(sl_box *box, bool *any, sl_point point) {
     if (!*any) *box = (sl_box){.min = point, .max = point};
     *any = true;
@@ -253,4 +258,78 @@ size_t sl_map_count_oblique(const sl_map *map) {
         oblique += wall->a.x != wall->b.x && wall->a.y != wall->b.y;
     }
     return oblique;
+}
+
+// --- copies
+
+static sl_status copy_walls(sl_context *context, const sl_map *from, sl_map *to) {
+    for (size_t i = 0; i < from->wall_count; i++)
+        SL_TRY(
+            sl_map_add_wall(context, to, from->walls[i].a, from->walls[i].b, from->walls[i].line));
+    return SL_OK;
+}
+
+static sl_status copy_effects(sl_context *context, const sl_map *from, sl_map *to) {
+    for (size_t i = 0; i < from->door_count; i++) {
+        const sl_door *d = &from->doors[i];
+        SL_TRY(sl_map_add_door(context, to, d->name, d->segment, d->open, d->line));
+        if (!d->parts) continue;
+        to->doors[i].parts = sl_alloc_array(context, d->part_count, sizeof *d->parts);
+        if (!to->doors[i].parts) return SL_NO_MEMORY;
+        memcpy(to->doors[i].parts, d->parts, d->part_count * sizeof *d->parts);
+        to->doors[i].part_count = d->part_count;
+    }
+    for (size_t i = 0; i < from->mirror_count; i++) {
+        SL_TRY(sl_map_add_mirror(context, to, from->mirrors[i].segment, from->mirrors[i].line));
+        to->mirrors[i].one_sided = from->mirrors[i].one_sided;
+    }
+    for (size_t i = 0; i < from->oneway_count; i++)
+        SL_TRY(sl_map_add_oneway(context, to, from->oneways[i].segment, from->oneways[i].line));
+    for (size_t i = 0; i < from->seam_count; i++)
+        SL_TRY(sl_map_add_seam(context, to, from->seams[i].segment, from->seams[i].line));
+    return SL_OK;
+}
+
+static sl_status copy_cells(sl_context *context, const sl_map *from, sl_map *to) {
+    to->snap = from->snap;
+    to->snap_line = from->snap_line;
+    for (size_t i = 0; i < from->cell_count; i++) {
+        const sl_map_cell *cell = &from->cells[i];
+        SL_TRY(sl_map_add_cell(context, to, from->corners + cell->first, cell->count, cell->line));
+    }
+    return SL_OK;
+}
+
+static sl_status copy_things(sl_context *context, const sl_map *from, sl_map *to) {
+    for (size_t i = 0; i < from->start_count; i++)
+        SL_TRY(sl_map_add_start(context, to, from->starts[i].at, from->starts[i].heading,
+                                from->starts[i].line));
+    for (size_t i = 0; i < from->path_count; i++)
+        SL_TRY(sl_map_add_path(context, to, from->paths[i].name, from->paths[i].points,
+                               from->paths[i].count, from->paths[i].line));
+    for (size_t i = 0; i < from->object_count; i++)
+        SL_TRY(sl_map_add_object(context, to, from->objects[i].name, from->objects[i].box,
+                                 from->objects[i].line));
+    return SL_OK;
+}
+
+sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to) {
+    sl_map map = {.range = from->range, .range_line = from->range_line};
+    sl_status status = copy_walls(context, from, &map);
+    if (status == SL_OK) status = copy_effects(context, from, &map);
+    if (status == SL_OK) status = copy_cells(context, from, &map);
+    if (status == SL_OK) status = copy_things(context, from, &map);
+    if (status == SL_OK && from->notes) {
+        map.notes = sl_copy_text(context, from->notes, strlen(from->notes));
+        if (!map.notes) status = SL_NO_MEMORY;
+    }
+    if (status == SL_OK && from->source) {
+        map.source = sl_copy_text(context, from->source, strlen(from->source));
+        if (!map.source) status = SL_NO_MEMORY;
+    }
+    if (status == SL_OK)
+        *to = map;
+    else
+        sl_map_destroy(context, &map);
+    return status;
 }

@@ -1,19 +1,124 @@
-#include "base/file.h"
+/// Grids of solid and open squares, and the ASCII plan, which is such a grid.
+///
+/// A wall stands on each border between a solid square and an open one. Unit pieces in one line
+/// become one wall:
+///
+///     # # # #                         level walls come from one pass over each pair of rows;
+///     # . . #      .-----.            upright ones stay open in a table by column until a row
+///     # . . #  ->  |     |            ends them
+///     # # # #      '-----'
+///
+/// To write a plan, the squares outside the walls are solid, and each wall separates solid from
+/// open. A flood from outside, wall by wall, tells the two apart: a square that is an odd number of
+/// walls away is open. A map for which this does not work out is refused.
 #include "map/grid.h"
-#include "map/print.h"
+
+#include "geometry/orient.h"
+#include "map/scan.h"
+#include "sightline/support.h"
 
 #include <math.h>
 
-/// The most unit squares a written plan has, a side.
+#define NONE SIZE_MAX
+
+sl_status sli_grid_create(sl_context *context, size_t width, size_t height, sli_grid *grid) {
+    sli_word *rows = sl_alloc_array(context, height, sizeof *rows);
+    char *squares = sl_alloc_array(context, height, width);
+    if (!rows || !squares) {
+        sl_free(context, rows);
+        sl_free(context, squares);
+        return SL_NO_MEMORY;
+    }
+    memset(squares, '.', width * height);
+    for (size_t row = 0; row < height; row++) rows[row] = (sli_word){squares + row * width, width};
+    *grid = (sli_grid){.rows = rows, .count = height, .step = {1, 1}, .squares = squares};
+    return SL_OK;
+}
+
+void sli_grid_destroy(sl_context *context, sli_grid *grid) {
+    sl_free(context, grid->rows);
+    sl_free(context, grid->squares);
+    *grid = (sli_grid){0};
+}
+
+static size_t row_length(const sli_grid *grid, size_t row) {
+    return row < grid->count ? grid->rows[row].length : 0;
+}
+
+/// The number of columns of a row or the one above it, whichever is more.
+static size_t columns_about(const sli_grid *grid, size_t row) {
+    const size_t above = row_length(grid, row - 1), here = row_length(grid, row);
+    return above > here ? above : here;
+}
+
+static uint32_t line_of(const sli_grid *grid, size_t row) {
+    if (!grid->first_line) return 0;
+    return grid->first_line + (uint32_t)(row < grid->count ? row : row - 1);
+}
+
+/// The walls between a row and the one above it; `row` may be the one after the last.
+static sl_status add_level(sl_context *context, const sli_grid *grid, size_t row, sl_map *map) {
+    const size_t length = columns_about(grid, row);
+    for (size_t column = 0, first = NONE; column <= length; column++) {
+        const bool wall =
+            sli_grid_solid(grid, row - 1, column) != sli_grid_solid(grid, row, column);
+        if (wall && first == NONE) first = column;
+        if (wall || first == NONE) continue;
+        SL_TRY(sl_map_add_wall(context, map, sli_grid_corner(grid, row - 1, first),
+                               sli_grid_corner(grid, row - 1, column), line_of(grid, row)));
+        first = NONE;
+    }
+    return SL_OK;
+}
+
+/// Begins and ends the walls between the columns of a row; the row after the last ends them all.
+/// `open_runs` has, for the left edge of each column, the row where its wall begins, or NONE.
+static sl_status add_uprights(sl_context *context, const sli_grid *grid, size_t row,
+                              size_t *open_runs, sl_map *map) {
+    const size_t length = columns_about(grid, row);
+    for (size_t column = 0; column <= length; column++) {
+        size_t *first = &open_runs[column];
+        const bool wall =
+            sli_grid_solid(grid, row, column - 1) != sli_grid_solid(grid, row, column);
+        if (wall && *first == NONE) *first = row;
+        if (wall || *first == NONE) continue;
+        SL_TRY(sl_map_add_wall(context, map, sli_grid_corner(grid, row - 1, column),
+                               sli_grid_corner(grid, *first - 1, column), line_of(grid, *first)));
+        *first = NONE;
+    }
+    return SL_OK;
+}
+
+sl_status sli_grid_add_walls(sl_context *context, const sli_grid *grid, sl_map *map) {
+    size_t width = 0;
+    for (size_t row = 0; row < grid->count; row++)
+        if (grid->rows[row].length > width) width = grid->rows[row].length;
+    size_t *open_runs = sl_alloc_array(context, width + 1, sizeof *open_runs);
+    if (!open_runs) return SL_NO_MEMORY;
+    for (size_t column = 0; column <= width; column++) open_runs[column] = NONE;
+    sl_status status = SL_OK;
+    for (size_t row = 0; status == SL_OK && row <= grid->count; row++) {
+        if (row % 256 == 0) status = sl_check_cancelled(context);
+        if (status == SL_OK) status = add_level(context, grid, row, map);
+        if (status == SL_OK) status = add_uprights(context, grid, row, open_runs, map);
+    }
+    sl_free(context, open_runs);
+    return status;
+}
+
+// --- plans
+
+/// The limit of unit squares on each side of a written plan.
 #define MOST_SQUARES 4096
 
-/// Where the door of a square stands: through its middle, from one solid square to the one
-/// opposite. False unless there is just one such pair.
-static bool door_segment(const sl_grid *plan, size_t row, size_t column, sl_segment *out) {
+/// The door of a square: through its middle, from one solid square to the opposite one. False
+/// unless there is exactly one such pair.
+static bool door_segment(const sli_grid *plan, size_t row, size_t column, sl_segment *out) {
     const bool beside =
-        sl_grid_solid(plan, row, column - 1) && sl_grid_solid(plan, row, column + 1);
-    const bool along = sl_grid_solid(plan, row - 1, column) && sl_grid_solid(plan, row + 1, column);
-    const sl_point at = sl_grid_corner(plan, row, column);
+        sli_grid_solid(plan, row, column - 1) && sli_grid_solid(plan, row, column + 1);
+    const bool along =
+        sli_grid_solid(plan, row - 1, column) && sli_grid_solid(plan, row + 1, column);
+    const sl_point at = sli_grid_corner(plan, row, column);
     if (beside)
         *out = (sl_segment){{at.x, at.y + 0.5}, {at.x + 1, at.y + 0.5}};
     else
@@ -21,22 +126,22 @@ static bool door_segment(const sl_grid *plan, size_t row, size_t column, sl_segm
     return beside != along;
 }
 
-/// Where the start of a square stands.
-static sl_point middle(const sl_grid *plan, size_t row, size_t column) {
-    const sl_point at = sl_grid_corner(plan, row, column);
+/// The place of a start in a square.
+static sl_point middle(const sli_grid *plan, size_t row, size_t column) {
+    const sl_point at = sli_grid_corner(plan, row, column);
     return (sl_point){at.x + 0.5, at.y + 0.5};
 }
 
-/// A plan while it is read.
+/// The reading of a plan.
 typedef struct plan_reader {
     sl_context *context;
     const char *name;
-    sl_grid plan;
+    sli_grid plan;
     sl_map *map;
 } plan_reader;
 
 static sl_status check_row(const plan_reader *reader, size_t row) {
-    const sl_word line = reader->plan.rows[row];
+    const sli_word line = reader->plan.rows[row];
     for (size_t i = 0; i < line.length; i++) {
         const unsigned char c = (unsigned char)line.at[i];
         if (strchr("# .+@", c)) continue;
@@ -51,10 +156,10 @@ static sl_status check_row(const plan_reader *reader, size_t row) {
 
 /// The doors and starts of a row.
 static sl_status add_things(const plan_reader *reader, size_t row) {
-    const sl_grid *plan = &reader->plan;
+    const sli_grid *plan = &reader->plan;
     const uint32_t line = (uint32_t)row + 1;
     for (size_t column = 0; column < plan->rows[row].length; column++) {
-        const char what = sl_grid_square(plan, row, column);
+        const char what = sli_grid_square(plan, row, column);
         if (what == '@')
             SL_TRY(
                 sl_map_add_start(reader->context, reader->map, middle(plan, row, column), 0, line));
@@ -76,12 +181,12 @@ static sl_status read_rows(const plan_reader *reader) {
     bool any_open = false;
     for (size_t row = 0; row < reader->plan.count; row++) {
         SL_TRY(check_row(reader, row));
-        const sl_word line = reader->plan.rows[row];
+        const sli_word line = reader->plan.rows[row];
         for (size_t i = 0; i < line.length && !any_open; i++) any_open = line.at[i] != '#';
     }
     if (!any_open)
         return sl_fail_at(reader->context, reader->name, 0, "the plan has no open square");
-    SL_TRY(sl_grid_add_walls(reader->context, &reader->plan, reader->map));
+    SL_TRY(sli_grid_add_walls(reader->context, &reader->plan, reader->map));
     for (size_t row = 0; row < reader->plan.count; row++) {
         if (row % 256 == 0) SL_TRY(sl_check_cancelled(reader->context));
         SL_TRY(add_things(reader, row));
@@ -89,20 +194,20 @@ static sl_status read_rows(const plan_reader *reader) {
     return SL_OK;
 }
 
-/// The plan of these rows: unit squares, a row a line.
-static sl_grid plan_of(sl_word *rows, size_t count) {
-    return (sl_grid){.rows = rows, .count = count, .step = {1, 1}, .first_line = 1};
+/// The plan of these rows: unit squares, one line for each row.
+static sli_grid plan_of(sli_word *rows, size_t count) {
+    return (sli_grid){.rows = rows, .count = count, .step = {1, 1}, .first_line = 1};
 }
 
 sl_status sl_map_read_plan(sl_context *context, const char *name, const char *text, size_t size,
                            sl_map *map) {
-    SL_TRY(sl_refuse_nul(context, name, text, size));
+    SL_TRY(sli_refuse_nul(context, name, text, size));
     sl_map read = {0};
-    SL_ARRAY(sl_word) rows = {0};
+    SL_ARRAY(sli_word) rows = {0};
     plan_reader reader = {.context = context, .name = name, .map = &read};
-    sl_lines lines = sl_lines_of(text, size);
+    sli_lines lines = sli_lines_of(text, size);
     sl_status status = SL_OK;
-    for (sl_word line; status == SL_OK && sl_lines_next(&lines, &line);) {
+    for (sli_word line; status == SL_OK && sli_lines_next(&lines, &line);) {
         status = SL_ARRAY_ROOM(context, &rows, 1);
         if (status == SL_OK) rows.items[rows.count++] = line;
     }
@@ -116,8 +221,8 @@ sl_status sl_map_read_plan(sl_context *context, const char *name, const char *te
     return status;
 }
 
-/// A plan while it is made from a map. Its squares are counted from the lower left; `left` and
-/// `bottom` are solid squares beyond the walls, and as many (one at most) stand on the other side.
+/// The making of a plan from a map. Squares are counted from the lower left. `left` and `bottom`
+/// are the numbers of solid squares outside the walls there; the other sides have one or none.
 typedef struct plan_maker {
     sl_context *context;
     const sl_map *map;
@@ -126,7 +231,7 @@ typedef struct plan_maker {
     size_t width, height;
     unsigned char *squares; ///< of the plan and one more square all around, see the marks below
     char *text;
-    sl_word *rows;
+    sli_word *rows;
 } plan_maker;
 
 enum { WALL_LEFT = 1, WALL_BELOW = 2, KNOWN = 4, OPEN = 8 };
@@ -159,11 +264,7 @@ static sl_status refuse_wall(const plan_maker *maker, const sl_wall *wall, const
     return refuse_segment(maker, wall->line, "wall", wall->a, wall->b, why);
 }
 
-static bool same_point(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
-/// What has no character in a plan is refused by name.
+/// Refuses, by name, all that has no character in a plan.
 static sl_status refuse_others(const plan_maker *maker) {
     const sl_map *map = maker->map;
     if (map->mirror_count)
@@ -183,7 +284,7 @@ static sl_status refuse_others(const plan_maker *maker) {
     if (map->notes) return refuse(maker, 0, "a plan has no place for the map's notes");
     bool walled = false;
     for (size_t i = 0; i < map->wall_count && !walled; i++)
-        walled = !same_point(map->walls[i].a, map->walls[i].b);
+        walled = !sli_same_point(map->walls[i].a, map->walls[i].b);
     if (!walled) return refuse(maker, 0, "a plan needs walls, the map has none");
     return SL_OK;
 }
@@ -193,8 +294,8 @@ static bool whole(sl_point point) {
 }
 
 /// Places one axis: the squares that the walls span, and the solid ones around. Walls keep their
-/// coordinates where those are not negative and the squares suffice; else the first stands at 1, or
-/// at 0 where the walls take all squares there are.
+/// coordinates where these are not negative and there are enough squares. Else the first wall
+/// stands at 1, or at 0 where the walls need all squares.
 static bool place(double low, double high, size_t *before, size_t *size) {
     if (high - low > MOST_SQUARES) return false;
     const size_t span = (size_t)(high - low);
@@ -239,13 +340,13 @@ static size_t level_of(const plan_maker *maker, double y) {
     return (size_t)(y - maker->walls.min.y) + maker->bottom;
 }
 
-/// The marks of a square of the plan, or of those around it (column or level -1, as SIZE_MAX).
+/// The marks of a square of the plan, or of one around it (column or level SIZE_MAX for -1).
 static unsigned char *marks(const plan_maker *maker, size_t column, size_t level) {
     return &maker->squares[(level + 1) * (maker->width + 2) + column + 1];
 }
 
-/// A wall as the unit edges that it covers: `count` squares from (column, level) on, each with the
-/// wall to its left (upright) or below it.
+/// A wall as unit edges: `count` squares from (column, level) on, each with the wall to its left
+/// (upright) or below it.
 typedef struct edges {
     size_t column, level, count;
     bool upright;
@@ -283,7 +384,7 @@ static sl_status push(sl_context *context, squares *list, size_t square) {
     return SL_OK;
 }
 
-/// Floods from the squares in `now` what no wall keeps out; what lies behind a wall goes to `next`.
+/// Floods from the squares in `now` up to the walls; squares behind a wall go to `next`.
 static sl_status flood(const plan_maker *maker, squares *now, squares *next) {
     const size_t stride = maker->width + 2, rows = maker->height + 2;
     unsigned char *all = maker->squares;
@@ -307,8 +408,8 @@ static sl_status flood(const plan_maker *maker, squares *now, squares *next) {
     return SL_OK;
 }
 
-/// Outside is solid, and each wall parts solid from open: so squares an odd number of walls away
-/// from outside are open, on the way that crosses the fewest.
+/// Finds the open squares: those an odd number of walls away from outside, on the way that crosses
+/// the fewest walls.
 static sl_status find_open(const plan_maker *maker) {
     squares now = {0}, next = {0};
     maker->squares[0] |= KNOWN;
@@ -328,7 +429,7 @@ static sl_status find_open(const plan_maker *maker) {
     return status;
 }
 
-/// Every unit of every wall must part a solid square from an open one.
+/// Every unit of every wall must have a solid square on one side and an open one on the other.
 static sl_status check_walls(const plan_maker *maker) {
     for (size_t i = 0; i < maker->map->wall_count; i++) {
         const edges run = run_of(maker, &maker->map->walls[i]);
@@ -357,12 +458,12 @@ static sl_status make_text(plan_maker *maker) {
         for (size_t column = 0; column < maker->width; column++)
             row[column] = *marks(maker, column, level) & OPEN ? '.' : '#';
         row[maker->width] = '\n';
-        maker->rows[maker->height - 1 - level] = (sl_word){row, maker->width};
+        maker->rows[maker->height - 1 - level] = (sli_word){row, maker->width};
     }
     return SL_OK;
 }
 
-/// The open square that holds a point (on an edge, the one right of or above it); NULL for none.
+/// The open square that holds a point (on an edge, the one right of it or above); NULL for none.
 static char *open_square(const plan_maker *maker, sl_point point, size_t *row, size_t *column) {
     const double x = point.x - maker->walls.min.x, y = point.y - maker->walls.min.y;
     if (!(x >= 0 && y >= 0 && point.x < maker->walls.max.x && point.y < maker->walls.max.y))
@@ -373,16 +474,16 @@ static char *open_square(const plan_maker *maker, sl_point point, size_t *row, s
     return *at == '#' ? NULL : at;
 }
 
-/// A segment as it stands in the plan.
+/// A segment in the coordinates of the plan.
 static sl_segment moved(const plan_maker *maker, sl_segment segment) {
     const double x = (double)maker->left - maker->walls.min.x;
     const double y = (double)maker->bottom - maker->walls.min.y;
     return (sl_segment){{segment.a.x + x, segment.a.y + y}, {segment.b.x + x, segment.b.y + y}};
 }
 
-/// A door is put where reading the plan finds the same door.
+/// Puts a door into a square, if reading the plan then finds the same door.
 static sl_status put_door(const plan_maker *maker, const sl_door *door) {
-    const sl_grid plan = plan_of(maker->rows, maker->height);
+    const sli_grid plan = plan_of(maker->rows, maker->height);
     const sl_segment at = moved(maker, door->segment);
     size_t row, column;
     sl_segment found;
@@ -394,8 +495,8 @@ static sl_status put_door(const plan_maker *maker, const sl_door *door) {
                                         fmin(door->segment.a.y, door->segment.b.y)},
                              &row, &column);
     if (!here || *here != '.' || !door_segment(&plan, row, column, &found) ||
-        !((same_point(at.a, found.a) && same_point(at.b, found.b)) ||
-          (same_point(at.a, found.b) && same_point(at.b, found.a))))
+        !((sli_same_point(at.a, found.a) && sli_same_point(at.b, found.b)) ||
+          (sli_same_point(at.a, found.b) && sli_same_point(at.b, found.a))))
         return refuse_segment(maker, door->line, "door", door->segment.a, door->segment.b,
                               "a plan's doors stand in the middle of a square, from one solid "
                               "square to the one opposite");
@@ -405,7 +506,7 @@ static sl_status put_door(const plan_maker *maker, const sl_door *door) {
 
 static sl_status put_things(const plan_maker *maker) {
     const sl_map *map = maker->map;
-    const sl_grid plan = plan_of(maker->rows, maker->height);
+    const sli_grid plan = plan_of(maker->rows, maker->height);
     for (size_t i = 0; i < map->door_count; i++) SL_TRY(put_door(maker, &map->doors[i]));
     if (map->door_count) sl_note(maker->context, "a plan's doors are named in reading order");
     size_t shifted = 0;
@@ -418,7 +519,7 @@ static sl_status put_things(const plan_maker *maker) {
             return refuse(maker, start->line, "the start's square holds a door or a start already");
         *here = '@';
         const sl_point at = moved(maker, (sl_segment){start->at, start->at}).a;
-        shifted += start->heading != 0 || !same_point(at, middle(&plan, row, column));
+        shifted += start->heading != 0 || !sli_same_point(at, middle(&plan, row, column));
     }
     if (shifted)
         sl_note(maker->context, "%zu starts moved to the middle of their square, heading 0",
@@ -438,7 +539,7 @@ static sl_status make_plan(plan_maker *maker) {
     return put_things(maker);
 }
 
-sl_status sl_map_print_plan(sl_context *context, const sl_map *map, FILE *stream) {
+sl_status sli_map_print_plan(sl_context *context, const sl_map *map, FILE *stream) {
     plan_maker maker = {.context = context, .map = map};
     const sl_status status = make_plan(&maker);
     if (status == SL_OK) fwrite(maker.text, maker.width + 1, maker.height, stream);
@@ -451,5 +552,5 @@ sl_status sl_map_print_plan(sl_context *context, const sl_map *map, FILE *stream
 sl_status sl_map_write_plan(sl_context *context, const sl_map *map, const char *path) {
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));
-    return sl_output_close(context, &output, sl_map_print_plan(context, map, output.stream));
+    return sl_output_close(context, &output, sli_map_print_plan(context, map, output.stream));
 }

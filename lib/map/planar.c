@@ -1,17 +1,30 @@
-/// Rounds of two steps, until a round finds nothing: find the pairs of edges that come too near to
-/// each other or cross, and lead edges through the points found.
+/// Segments become a planar graph, in rounds of two steps, until a round finds nothing:
 ///
-/// Pairs are found by halving: a box is split in the middle of what lies in it, edges that run
-/// across are split with it, until few are left, and these are held against each other. A pair is
-/// looked at once: edges never change, they only give way to their parts.
+///     weld                 split near an end         split at a crossing
 ///
-/// This is iterated snap rounding (Guibas & Marimont 1998; Halperin & Packer 2002) without the
-/// grid: in place of pixels there are the ends themselves, with a tolerance about each.
+///     a----. .----b              .c                  a     d            a     d
+///                           a---------b                \ /               \ /
+///           |                                           X        ->        o
+///           v                    |                     / \               / \.
+///                                v                   c     b            c     b
+///     a-----c-----b         a----c----b
+///
+/// 1. Find the pairs of edges that cross, or of which one comes too near to an end of the other.
+/// 2. Split the edges at the points found. A crossing gets the nearest representable point.
+///
+/// A rounded crossing moves an edge a little, and so it may come to cross others. That is why there
+/// are rounds. An edge never changes: it is replaced by its parts. So a pair is looked at once.
+///
+/// Pairs are found by halving: a box is split in the middle of its edges, and edges that run across
+/// the middle are cut for the search. A box of few edges compares all of them.
+///
+/// This is iterated snap rounding (Guibas & Marimont 1998; Halperin & Packer 2002) without a grid:
+/// the ends themselves, with a tolerance about each, take the place of the pixels. Time
+/// O((n + k) log n) for k crossings, where few edges come near to each other in one place.
 #include "map/planar.h"
 
-#include "base/base.h"
 #include "geometry/crossing.h"
-#include "geometry/orient.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,16 +32,16 @@
 #define NONE UINT32_MAX
 
 enum {
-    FEW = 12,         ///< edges in a box that are held against each other
+    FEW = 12,         ///< a box with so many pieces is not split further
     MOST_HALVES = 96, ///< boxes within boxes
     MOST_ROUNDS = 64,
-    MOST_GROWTH = 16, ///< points, of those that ends and the first round's crossings are
+    MOST_GROWTH = 16, ///< times the points that ends and the first round's crossings give
 };
 
-/// Halving goes on only while it parts edges more than it cuts them.
+/// A box is split only if the number of pieces grows by less than this factor.
 static const double MOST_CUTS = 1.6;
 
-/// An edge while the graph is made. One that gave way has parts: parts[first .. first + count).
+/// An edge during the work. A replaced one has parts: parts[first .. first + count).
 typedef struct working_edge {
     uint32_t a, b;
     uint32_t first, count;
@@ -40,16 +53,22 @@ typedef struct piece {
     uint32_t edge;
 } piece;
 
-/// That an edge is to be led through a point.
+/// An edge, and a point that it must go through.
 typedef struct split {
     uint32_t edge, point;
 } split;
 
-/// That two edges cross, and where, about.
+/// Two edges that cross, and about where.
 typedef struct meeting {
     sl_point at;
     uint32_t edges[2];
 } meeting;
+
+/// A hash table by open addressing. A slot has 1 + the number of an item, or 0.
+typedef struct table {
+    uint32_t *slots;
+    size_t count; ///< of slots: a power of two
+} table;
 
 typedef struct planer {
     sl_context *context;
@@ -59,28 +78,17 @@ typedef struct planer {
     double scale, slack; ///< of working coordinates: places times scale are at most 1
     SL_ARRAY(sl_point) points;
     SL_ARRAY(working_edge) edges;
-    SL_ARRAY(sl_planar_link) parts;
-    uint32_t *point_table, *edge_table; ///< open addressing: 1 + number
-    size_t point_slots, edge_slots;
-    SL_ARRAY(uint32_t) next_near; ///< by point: the next one in its square of the point table
+    SL_ARRAY(sli_planar_link) parts;
+    table of_squares;             ///< the point that was put last into a square
+    SL_ARRAY(uint32_t) next_near; ///< by point: 1 + the point before it in its square
+    table of_ends;                ///< the edge between two points
     SL_ARRAY(piece) pieces;
     SL_ARRAY(split) splits;
     SL_ARRAY(meeting) meetings;
-    uint32_t old; ///< edges below have been held against each other
+    uint32_t old; ///< the edges below this number have been compared with each other
 } planer;
 
-static int compare(double a, double b) {
-    return (a > b) - (a < b);
-}
-
-static int compare_points(sl_point a, sl_point b) {
-    const int order = compare(a.x, b.x);
-    return order ? order : compare(a.y, b.y);
-}
-
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
+// --- hash tables
 
 static uint64_t mix(uint64_t z) {
     z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
@@ -88,71 +96,83 @@ static uint64_t mix(uint64_t z) {
     return z ^ z >> 31;
 }
 
-// --- points: those within the tolerance are found by squares, much larger than it
+/// The words that an item is found by.
+typedef struct key {
+    uint64_t a, b;
+} key;
+
+/// The slot of a key, which is 0 where no item has it.
+static inline uint32_t *find_slot(const planer *p, const table *t, key k,
+                                  key (*key_of)(const planer *, uint32_t item)) {
+    size_t slot = (size_t)mix(k.a + 0x9e3779b97f4a7c15u * mix(k.b + 1)) & (t->count - 1);
+    while (t->slots[slot]) {
+        const key other = key_of(p, t->slots[slot] - 1);
+        if (other.a == k.a && other.b == k.b) break;
+        slot = (slot + 1) & (t->count - 1);
+    }
+    return &t->slots[slot];
+}
+
+/// Twice as many slots, all empty.
+static sl_status grow(sl_context *context, table *t) {
+    const size_t count = t->count ? 2 * t->count : 1024;
+    uint32_t *slots = sl_alloc_array(context, count, sizeof *slots);
+    if (!slots) return SL_NO_MEMORY;
+    sl_free(context, t->slots);
+    *t = (table){slots, count};
+    return SL_OK;
+}
+
+// --- points: those within the tolerance are found through squares much larger than it
 
 typedef struct square {
     double x, y;
 } square;
 
-/// Where no tolerance is, a square is a place.
+/// Without a tolerance, a square is a place.
 static square square_of(const planer *p, sl_point at) {
     if (p->weld > 0) return (square){floor(at.x / p->side), floor(at.y / p->side)};
     return (square){at.x, at.y};
 }
 
-static size_t hash_square(square s) {
-    // Squares hold whole numbers or coordinates, of which -0 is none.
+static key key_of_square(square s) {
+    // Equal numbers have equal bits, as -0 becomes 0.
     union {
         double value;
         uint64_t bits;
     } x = {s.x + 0.0}, y = {s.y + 0.0};
-    return (size_t)mix(x.bits + 0x9e3779b97f4a7c15u * mix(y.bits + 1));
+    return (key){x.bits, y.bits};
 }
 
-/// The slot of a square, which is empty where no point is in it.
-static size_t find_square(const planer *p, square s) {
-    size_t slot = hash_square(s) & (p->point_slots - 1);
-    while (p->point_table[slot]) {
-        const square other = square_of(p, p->points.items[p->point_table[slot] - 1]);
-        if (other.x == s.x && other.y == s.y) break;
-        slot = (slot + 1) & (p->point_slots - 1);
-    }
-    return slot;
+static key key_of_point(const planer *p, uint32_t point) {
+    return key_of_square(square_of(p, p->points.items[point]));
 }
 
 static void enter_point(planer *p, uint32_t point) {
-    const size_t slot = find_square(p, square_of(p, p->points.items[point]));
-    p->next_near.items[point] = p->point_table[slot];
-    p->point_table[slot] = point + 1;
-}
-
-static sl_status grow_points(planer *p) {
-    const size_t slots = p->point_slots ? 2 * p->point_slots : 1024;
-    uint32_t *table = sl_alloc_array(p->context, slots, sizeof *table);
-    if (!table) return SL_NO_MEMORY;
-    sl_free(p->context, p->point_table);
-    p->point_table = table;
-    p->point_slots = slots;
-    for (uint32_t i = 0; i < p->points.count; i++) enter_point(p, i);
-    return SL_OK;
+    uint32_t *slot = find_slot(p, &p->of_squares, key_of_point(p, point), key_of_point);
+    p->next_near.items[point] = *slot;
+    *slot = point + 1;
 }
 
 static double distance(sl_point a, sl_point b) {
     return hypot(a.x - b.x, a.y - b.y);
 }
 
-/// A point within the tolerance, and how far off it is.
+/// A point within the tolerance, and its distance.
 typedef struct found_point {
     uint32_t point;
     double distance;
 } found_point;
 
 static void find_in_square(const planer *p, sl_point at, square s, found_point *found) {
-    for (uint32_t n = p->point_table[find_square(p, s)]; n; n = p->next_near.items[n - 1]) {
+    const uint32_t *slot = find_slot(p, &p->of_squares, key_of_square(s), key_of_point);
+    for (uint32_t n = *slot; n; n = p->next_near.items[n - 1]) {
         const sl_point other = p->points.items[n - 1];
-        const double d = same(at, other) ? 0 : p->weld > 0 ? distance(at, other) : HUGE_VAL;
+        const double d = sli_same_point(at, other) ? 0
+                         : p->weld > 0             ? distance(at, other)
+                                                   : HUGE_VAL;
         if (d > p->weld || d > found->distance ||
-            (d == found->distance && compare_points(other, p->points.items[found->point]) > 0))
+            (d == found->distance && sli_compare_points(other, p->points.items[found->point]) > 0))
             continue;
         *found = (found_point){n - 1, d};
     }
@@ -161,7 +181,7 @@ static void find_in_square(const planer *p, sl_point at, square s, found_point *
 /// The nearest point within the tolerance; NONE for none.
 static uint32_t find_point(const planer *p, sl_point at) {
     found_point found = {NONE, HUGE_VAL};
-    if (!p->point_slots) return NONE;
+    if (!p->of_squares.count) return NONE;
     const square low = square_of(p, (sl_point){at.x - p->weld, at.y - p->weld});
     const square high = square_of(p, (sl_point){at.x + p->weld, at.y + p->weld});
     for (int i = 0; i <= (high.x > low.x); i++)
@@ -181,49 +201,44 @@ static sl_status take_point(planer *p, sl_point at, uint32_t *out) {
     *out = (uint32_t)p->points.count++;
     p->next_near.count++;
     p->points.items[*out] = at;
-    if (2 * p->points.count > p->point_slots) return grow_points(p);
-    enter_point(p, *out);
+    uint32_t first = *out;
+    if (2 * p->points.count > p->of_squares.count) {
+        SL_TRY(grow(p->context, &p->of_squares));
+        first = 0;
+    }
+    for (uint32_t i = first; i < p->points.count; i++) enter_point(p, i);
     return SL_OK;
 }
 
 // --- edges
 
-static size_t find_edge(const planer *p, uint32_t a, uint32_t b) {
-    size_t slot = (size_t)mix((uint64_t)a << 32 | b) & (p->edge_slots - 1);
-    while (p->edge_table[slot]) {
-        const working_edge *e = &p->edges.items[p->edge_table[slot] - 1];
-        if (e->a == a && e->b == b) break;
-        slot = (slot + 1) & (p->edge_slots - 1);
-    }
-    return slot;
+static key key_of_edge(const planer *p, uint32_t edge) {
+    return (key){p->edges.items[edge].a, p->edges.items[edge].b};
+}
+
+static uint32_t *find_edge(const planer *p, uint32_t a, uint32_t b) {
+    return find_slot(p, &p->of_ends, (key){a, b}, key_of_edge);
 }
 
 static sl_status grow_edges(planer *p) {
-    const size_t slots = p->edge_slots ? 2 * p->edge_slots : 1024;
-    uint32_t *table = sl_alloc_array(p->context, slots, sizeof *table);
-    if (!table) return SL_NO_MEMORY;
-    sl_free(p->context, p->edge_table);
-    p->edge_table = table;
-    p->edge_slots = slots;
-    for (uint32_t i = 0; i < p->edges.count; i++) {
-        const working_edge *e = &p->edges.items[i];
-        p->edge_table[find_edge(p, e->a, e->b)] = i + 1;
-    }
+    SL_TRY(grow(p->context, &p->of_ends));
+    for (uint32_t i = 0; i < p->edges.count; i++)
+        *find_edge(p, p->edges.items[i].a, p->edges.items[i].b) = i + 1;
     return SL_OK;
 }
 
 /// The edge between two different points, there already or new.
-static sl_status take_edge(planer *p, uint32_t from, uint32_t to, sl_planar_link *out) {
+static sl_status take_edge(planer *p, uint32_t from, uint32_t to, sli_planar_link *out) {
     const uint32_t a = from < to ? from : to, b = from < to ? to : from;
-    if (2 * (p->edges.count + 1) > p->edge_slots) SL_TRY(grow_edges(p));
-    const size_t slot = find_edge(p, a, b);
-    if (!p->edge_table[slot]) {
+    if (2 * (p->edges.count + 1) > p->of_ends.count) SL_TRY(grow_edges(p));
+    uint32_t *slot = find_edge(p, a, b);
+    if (!*slot) {
         if (p->edges.count >= INT32_MAX) return sl_fail_memory(p->context);
         SL_TRY(SL_ARRAY_ROOM(p->context, &p->edges, 1));
         p->edges.items[p->edges.count++] = (working_edge){.a = a, .b = b};
-        p->edge_table[slot] = (uint32_t)p->edges.count;
+        *slot = (uint32_t)p->edges.count;
     }
-    *out = 2 * (p->edge_table[slot] - 1) + (from > to);
+    *out = 2 * (*slot - 1) + (from > to);
     return SL_OK;
 }
 
@@ -238,7 +253,7 @@ static bool strictly_between(sl_point a, sl_point b, sl_point v) {
                       : (a.y < v.y) == (v.y < b.y) && v.y != a.y && v.y != b.y;
 }
 
-/// Whether an edge is to be led through a point that is none of its ends.
+/// Whether an edge must go through a point that is none of its ends.
 static bool is_near(const planer *p, sl_point a, sl_point b, sl_point v) {
     const double reach = p->weld / 2;
     if (v.x < fmin(a.x, b.x) - reach || v.x > fmax(a.x, b.x) + reach ||
@@ -249,7 +264,7 @@ static bool is_near(const planer *p, sl_point a, sl_point b, sl_point v) {
     const double length = hypot(dx, dy);
     const double along = (vx * dx + vy * dy) / length, off = fabs(dx * vy - dy * vx) / length;
     if (off <= reach * p->scale && along > 0 && along < length) return true;
-    return off <= 0x1p-48 * (fabs(vx) + fabs(vy)) + 0x1p-1000 && sl_orient(a, b, v) == 0 &&
+    return off <= 0x1p-48 * (fabs(vx) + fabs(vy)) + 0x1p-1000 && sli_orient(a, b, v) == 0 &&
            strictly_between(a, b, v);
 }
 
@@ -259,8 +274,8 @@ static sl_status add_split(planer *p, uint32_t edge, uint32_t point) {
     return SL_OK;
 }
 
-/// Leads an edge through those ends of another one that it is near to.
-static sl_status lead_near(planer *p, uint32_t edge, uint32_t other) {
+/// Splits an edge at those ends of another one that are near to it.
+static sl_status split_near(planer *p, uint32_t edge, uint32_t other) {
     const working_edge *e = &p->edges.items[edge], *o = &p->edges.items[other];
     const sl_point a = p->points.items[e->a], b = p->points.items[e->b];
     const uint32_t ends[2] = {o->a, o->b};
@@ -289,17 +304,17 @@ static sl_status add_meeting(planer *p, uint32_t edge, uint32_t other) {
     return SL_OK;
 }
 
-static sl_status hold(planer *p, uint32_t edge, uint32_t other) {
+static sl_status meet(planer *p, uint32_t edge, uint32_t other) {
     const size_t before = p->splits.count;
-    SL_TRY(lead_near(p, edge, other));
-    SL_TRY(lead_near(p, other, edge));
+    SL_TRY(split_near(p, edge, other));
+    SL_TRY(split_near(p, other, edge));
     const working_edge *e = &p->edges.items[edge], *o = &p->edges.items[other];
     if (p->splits.count != before || e->a == o->a || e->a == o->b || e->b == o->a || e->b == o->b)
         return SL_OK;
     const sl_point a = p->points.items[e->a], b = p->points.items[e->b];
     const sl_point c = p->points.items[o->a], d = p->points.items[o->b];
-    if (sl_orient(a, b, c) * sl_orient(a, b, d) >= 0 ||
-        sl_orient(c, d, a) * sl_orient(c, d, b) >= 0)
+    if (sli_orient(a, b, c) * sli_orient(a, b, d) >= 0 ||
+        sli_orient(c, d, a) * sli_orient(c, d, b) >= 0)
         return SL_OK;
     return add_meeting(p, edge, other);
 }
@@ -314,20 +329,21 @@ static bool apart(const planer *p, const piece *s, const piece *t) {
            fmax(t->p.y, t->q.y) + slack < fmin(s->p.y, s->q.y);
 }
 
-static sl_status hold_all(planer *p, size_t first, size_t count) {
+static sl_status compare_all(planer *p, size_t first, size_t count) {
     for (size_t i = first; i < first + count; i++) {
         if (count > 256) SL_TRY(sl_check_cancelled(p->context));
         for (size_t k = i + 1; k < first + count; k++) {
             const piece *s = &p->pieces.items[i], *t = &p->pieces.items[k];
             if ((s->edge < p->old && t->edge < p->old) || s->edge == t->edge || apart(p, s, t))
                 continue;
-            SL_TRY(hold(p, s->edge, t->edge));
+            SL_TRY(meet(p, s->edge, t->edge));
         }
     }
     return SL_OK;
 }
 
-/// What of a piece lies up to a place on an axis (or from there on), with some slack.
+/// Keeps the part of a piece below a place on an axis, or above it, with some slack. False for
+/// none.
 static bool clip(const planer *p, piece *s, int axis, double at, bool above) {
     const double from = axis ? s->p.y : s->p.x, to = axis ? s->q.y : s->q.x;
     const double border = above ? at - p->slack : at + p->slack;
@@ -342,7 +358,7 @@ static bool clip(const planer *p, piece *s, int axis, double at, bool above) {
     return true;
 }
 
-/// Puts what of the pieces lies on either side behind all pieces: first below, then above.
+/// Puts the parts of the pieces behind all pieces: first those below a place, then those above.
 static sl_status part(planer *p, size_t first, size_t count, int axis, double at, size_t *below) {
     const size_t start = p->pieces.count;
     SL_TRY(SL_ARRAY_ROOM(p->context, &p->pieces, 2 * count));
@@ -380,7 +396,7 @@ static bool any_new(const planer *p, size_t first, size_t count) {
 
 static sl_status halve(planer *p, size_t first, size_t count, int depth) {
     if (count < 2 || !any_new(p, first, count)) return SL_OK;
-    if (count <= FEW || depth == MOST_HALVES) return hold_all(p, first, count);
+    if (count <= FEW || depth == MOST_HALVES) return compare_all(p, first, count);
     if (count > 4096) SL_TRY(sl_check_cancelled(p->context));
     const spread x = spread_of(p, first, count, 0), y = spread_of(p, first, count, 1);
     const int wider = y.high - y.low > x.high - x.low;
@@ -399,10 +415,10 @@ static sl_status halve(planer *p, size_t first, size_t count, int depth) {
         }
         p->pieces.count = start;
     }
-    return hold_all(p, first, count);
+    return compare_all(p, first, count);
 }
 
-/// Finds what edges have to do with each other, but for what has been found before.
+/// Finds the pairs of edges that meet, without those of earlier rounds.
 static sl_status find_meetings(planer *p) {
     p->pieces.count = p->splits.count = p->meetings.count = 0;
     for (uint32_t i = 0; i < p->edges.count; i++) {
@@ -418,11 +434,11 @@ static sl_status find_meetings(planer *p) {
     return SL_OK;
 }
 
-// --- leading edges through points
+// --- splitting edges at points
 
 static int compare_meetings(const void *left, const void *right) {
     const meeting *a = left, *b = right;
-    const int order = compare_points(a->at, b->at);
+    const int order = sli_compare_points(a->at, b->at);
     if (order) return order;
     const int i = a->edges[0] == b->edges[0];
     return (a->edges[i] > b->edges[i]) - (a->edges[i] < b->edges[i]);
@@ -432,10 +448,10 @@ static int compare_meetings(const void *left, const void *right) {
 static sl_status take_meeting(planer *p, const meeting *m, uint32_t *out) {
     *out = p->weld > 0 ? find_point(p, m->at) : NONE;
     if (*out != NONE) return SL_OK;
-    return take_point(p, sl_crossing(segment_of(p, m->edges[0]), segment_of(p, m->edges[1])), out);
+    return take_point(p, sli_crossing(segment_of(p, m->edges[0]), segment_of(p, m->edges[1])), out);
 }
 
-/// Gives the crossings their points, by place.
+/// Gives the crossings their points, in the order of places.
 static sl_status take_meetings(planer *p) {
     if (p->meetings.count)
         qsort(p->meetings.items, p->meetings.count, sizeof *p->meetings.items, compare_meetings);
@@ -458,7 +474,7 @@ static int compare_splits(const void *left, const void *right) {
     return (a->point > b->point) - (a->point < b->point);
 }
 
-/// How far a point is on the way along an edge.
+/// How far along an edge a point is.
 static double progress(const planer *p, const working_edge *e, uint32_t point) {
     const sl_point a = p->points.items[e->a], b = p->points.items[e->b];
     const sl_point at = p->points.items[point];
@@ -467,7 +483,7 @@ static double progress(const planer *p, const working_edge *e, uint32_t point) {
                                 : (dy > 0 ? at.y - a.y : a.y - at.y);
 }
 
-/// Sorts the points of one edge along it: there are few.
+/// Sorts the few points of one edge along it.
 static void sort_along(const planer *p, split *splits, size_t count) {
     const working_edge *e = &p->edges.items[splits->edge];
     for (size_t i = 1; i < count; i++) {
@@ -486,7 +502,7 @@ static sl_status split_edge(planer *p, const split *splits, size_t count) {
     for (size_t i = 0; i <= count; i++) {
         const uint32_t to = i < count ? splits[i].point : last;
         if (to == from) continue;
-        sl_planar_link link;
+        sli_planar_link link;
         SL_TRY(take_edge(p, from, to, &link));
         SL_TRY(SL_ARRAY_ROOM(p->context, &p->parts, 1));
         p->parts.items[p->parts.count++] = link;
@@ -528,7 +544,7 @@ static sl_status fail_endless(const planer *p) {
                    p->source, at.x, at.y, p->weld);
 }
 
-/// Without a tolerance each round may find more to do than the one before it.
+/// Rounds, until one finds nothing. Without a tolerance a round may find more than the one before.
 static sl_status settle(planer *p) {
     size_t most = SIZE_MAX;
     for (int round = 0; round < MOST_ROUNDS && p->points.count <= most; round++) {
@@ -542,13 +558,13 @@ static sl_status settle(planer *p) {
     return fail_endless(p);
 }
 
-// --- from segments, to chains
+// --- from segments to edges
 
 static int compare_for_qsort(const void *left, const void *right) {
-    return compare_points(*(const sl_point *)left, *(const sl_point *)right);
+    return sli_compare_points(*(const sl_point *)left, *(const sl_point *)right);
 }
 
-/// Takes all ends, in an order that the input has no part in.
+/// Takes all ends in the order of places, so that the order of the input does not matter.
 static sl_status take_ends(planer *p, const sl_segment *segments, size_t count) {
     sl_point *ends = sl_alloc_array(p->context, 2 * count, sizeof *ends);
     if (!ends) return SL_NO_MEMORY;
@@ -566,38 +582,38 @@ static sl_status take_ends(planer *p, const sl_segment *segments, size_t count) 
 }
 
 static int compare_edges(const void *left, const void *right) {
-    const sl_planar_edge *a = left, *b = right;
+    const sli_planar_edge *a = left, *b = right;
     if (a->a != b->a) return a->a < b->a ? -1 : 1;
     return (a->b > b->b) - (a->b < b->b);
 }
 
-/// Takes the edges between the segments' points, by place: the order of the input has no part in
-/// the numbers of points and edges, and so in nothing that comes of them.
-static sl_status take_edges(planer *p, const sl_planar_edge *ends, size_t count) {
-    sl_planar_edge *sorted = sl_alloc_array(p->context, count, sizeof *sorted);
+/// Takes the edges between the segments' points, in the order of places. So the numbers of points
+/// and edges, and all that follows from them, do not depend on the order of the input.
+static sl_status take_edges(planer *p, const sli_planar_edge *ends, size_t count) {
+    sli_planar_edge *sorted = sl_alloc_array(p->context, count, sizeof *sorted);
     if (!sorted) return SL_NO_MEMORY;
     for (size_t i = 0; i < count; i++) {
         const uint32_t a = ends[i].a, b = ends[i].b;
-        sorted[i] = a < b ? ends[i] : (sl_planar_edge){b, a};
+        sorted[i] = a < b ? ends[i] : (sli_planar_edge){b, a};
     }
     if (count) qsort(sorted, count, sizeof *sorted, compare_edges);
     sl_status status = SL_OK;
-    sl_planar_link link;
+    sli_planar_link link;
     for (size_t i = 0; i < count && status == SL_OK; i++)
         if (sorted[i].a != sorted[i].b) status = take_edge(p, sorted[i].a, sorted[i].b, &link);
     sl_free(p->context, sorted);
     return status;
 }
 
-/// The links of the segments, one each at first; NONE for one of no length.
+/// The link of each segment before it is split; NONE for a segment of no length.
 static sl_status take_segments(planer *p, const sl_segment *segments, size_t count,
-                               sl_planar_link *roots, size_t *welded) {
-    sl_planar_edge *ends = sl_alloc_array(p->context, count, sizeof *ends);
+                               sli_planar_link *roots, size_t *welded) {
+    sli_planar_edge *ends = sl_alloc_array(p->context, count, sizeof *ends);
     if (!ends) return SL_NO_MEMORY;
     for (size_t i = 0; i < count; i++) {
-        ends[i] = (sl_planar_edge){find_point(p, segments[i].a), find_point(p, segments[i].b)};
-        *welded += !same(p->points.items[ends[i].a], segments[i].a);
-        *welded += !same(p->points.items[ends[i].b], segments[i].b);
+        ends[i] = (sli_planar_edge){find_point(p, segments[i].a), find_point(p, segments[i].b)};
+        *welded += !sli_same_point(p->points.items[ends[i].a], segments[i].a);
+        *welded += !sli_same_point(p->points.items[ends[i].b], segments[i].b);
     }
     sl_status status = take_edges(p, ends, count);
     for (size_t i = 0; i < count && status == SL_OK; i++) {
@@ -608,31 +624,33 @@ static sl_status take_segments(planer *p, const sl_segment *segments, size_t cou
     return status;
 }
 
-/// The graph as it is handed over, and where its points and edges were while it was made.
+// --- from edges to the graph
+
+/// The graph that is handed over.
 typedef struct writer {
     planer *p;
     const sl_segment *segments;
-    sl_planar *out;
-    uint32_t *number; ///< by point, then by edge
-    SL_ARRAY(sl_planar_link) links;
-    SL_ARRAY(sl_planar_link) waiting;
+    sli_planar *out;
+    uint32_t *number; ///< the new one: by point, then by edge
+    SL_ARRAY(sli_planar_link) links;
+    SL_ARRAY(sli_planar_link) waiting;
 } writer;
 
-static void turn_round(sl_planar_link *links, size_t count) {
+static void turn_round(sli_planar_link *links, size_t count) {
     for (size_t i = 0; i < count / 2; i++) {
-        const sl_planar_link link = links[i];
+        const sli_planar_link link = links[i];
         links[i] = links[count - 1 - i];
         links[count - 1 - i] = link;
     }
 }
 
-/// Adds the whole edges that a link has become.
-static sl_status add_links(writer *w, sl_planar_link link) {
+/// Adds the edges that a link has become.
+static sl_status add_links(writer *w, sli_planar_link link) {
     w->waiting.count = 0;
     SL_TRY(SL_ARRAY_ROOM(w->p->context, &w->waiting, 1));
     w->waiting.items[w->waiting.count++] = link;
     while (w->waiting.count) {
-        const sl_planar_link at = w->waiting.items[--w->waiting.count];
+        const sli_planar_link at = w->waiting.items[--w->waiting.count];
         const working_edge *e = &w->p->edges.items[at / 2];
         if (!e->count) {
             SL_TRY(SL_ARRAY_ROOM(w->p->context, &w->links, 1));
@@ -640,31 +658,30 @@ static sl_status add_links(writer *w, sl_planar_link link) {
             continue;
         }
         SL_TRY(SL_ARRAY_ROOM(w->p->context, &w->waiting, e->count));
-        sl_planar_link *top = w->waiting.items + w->waiting.count;
+        sli_planar_link *top = w->waiting.items + w->waiting.count;
         for (uint32_t i = 0; i < e->count; i++) top[i] = w->p->parts.items[e->first + i] ^ (at % 2);
-        // The first to be passed must be the last on the stack.
+        // The first one to go along must be the last on the stack.
         if (at % 2 == 0) turn_round(top, e->count);
         w->waiting.count += e->count;
     }
     return SL_OK;
 }
 
-/// How far a point is from a segment whose ends are in order, with rounding added: no less than it
-/// is.
+/// The distance of a point from a segment whose ends are in order, rounded up.
 static double distance_to(const sl_segment *s, sl_point v) {
     const double dx = s->b.x - s->a.x, dy = s->b.y - s->a.y, length = hypot(dx, dy);
     const double vx = v.x - s->a.x, vy = v.y - s->a.y, error = 0x1p-50 * (fabs(vx) + fabs(vy));
-    if (same(v, s->a) || same(v, s->b)) return 0;
+    if (sli_same_point(v, s->a) || sli_same_point(v, s->b)) return 0;
     if (length == 0) return distance(v, s->a) + error;
     const double along = vx * (dx / length) + vy * (dy / length);
     if (along <= 0) return distance(v, s->a) + error;
     if (along >= length) return distance(v, s->b) + error;
-    if (sl_orient(s->a, s->b, v) == 0) return 0;
+    if (sli_orient(s->a, s->b, v) == 0) return 0;
     return fabs(dx / length * vy - dy / length * vx) + error;
 }
 
 static void measure(writer *w, sl_segment s, size_t from) {
-    if (compare_points(s.a, s.b) > 0) s = (sl_segment){s.b, s.a};
+    if (sli_compare_points(s.a, s.b) > 0) s = (sl_segment){s.b, s.a};
     for (size_t i = from; i < w->links.count; i++) {
         const working_edge *e = &w->p->edges.items[w->links.items[i] / 2];
         const uint32_t ends[2] = {e->a, e->b};
@@ -675,7 +692,7 @@ static void measure(writer *w, sl_segment s, size_t from) {
     }
 }
 
-static sl_status write_chains(writer *w, const sl_planar_link *roots, size_t count) {
+static sl_status write_chains(writer *w, const sli_planar_link *roots, size_t count) {
     SL_TRY(SL_ARRAY_ROOM(w->p->context, &w->links, 1)); // a place to point to, without a link too
     for (size_t i = 0; i < count; i++) {
         w->out->first[i] = w->links.count;
@@ -694,10 +711,10 @@ typedef struct numbered {
 
 static int compare_numbered(const void *left, const void *right) {
     const numbered *a = left, *b = right;
-    return compare_points(a->at, b->at);
+    return sli_compare_points(a->at, b->at);
 }
 
-/// Hands the points over that some edge ends in, sorted.
+/// Hands over the points at the ends of edges, sorted.
 static sl_status write_points(writer *w) {
     planer *p = w->p;
     numbered *used = sl_alloc_array(p->context, p->points.count, sizeof *used);
@@ -723,7 +740,7 @@ static sl_status write_points(writer *w) {
     return w->out->points ? SL_OK : SL_NO_MEMORY;
 }
 
-/// Hands the whole edges over, with the points' new numbers: of a and b the lower one first.
+/// Hands over the edges that were not replaced, with the new numbers of points.
 static sl_status write_edges(writer *w) {
     planer *p = w->p;
     uint32_t *number = w->number + p->points.count;
@@ -734,7 +751,7 @@ static sl_status write_edges(writer *w) {
         if (!is_whole(p, (uint32_t)i)) continue;
         const uint32_t a = w->number[p->edges.items[i].a], b = w->number[p->edges.items[i].b];
         number[i] = (uint32_t)(2 * count + (a > b));
-        w->out->edges[count++] = (sl_planar_edge){a < b ? a : b, a < b ? b : a};
+        w->out->edges[count++] = (sli_planar_edge){a < b ? a : b, a < b ? b : a};
     }
     w->out->edge_count = count;
     for (size_t i = 0; i < w->links.count; i++)
@@ -744,8 +761,8 @@ static sl_status write_edges(writer *w) {
     return SL_OK;
 }
 
-static sl_status write(planer *p, const sl_segment *segments, const sl_planar_link *roots,
-                       size_t count, sl_planar *out) {
+static sl_status write(planer *p, const sl_segment *segments, const sli_planar_link *roots,
+                       size_t count, sli_planar *out) {
     writer w = {.p = p, .segments = segments, .out = out};
     w.number = sl_alloc_array(p->context, p->points.count + p->edges.count, sizeof *w.number);
     out->first = sl_alloc_array(p->context, count + 1, sizeof *out->first);
@@ -769,14 +786,14 @@ static double magnitude(const sl_segment *segments, size_t count) {
     return most;
 }
 
-double sl_planar_tolerance(const sl_box *b) {
+double sli_planar_tolerance(const sl_box *b) {
     const double most =
         fmax(fmax(fabs(b->min.x), fabs(b->min.y)), fmax(fabs(b->max.x), fabs(b->max.y)));
     return 0x1p-46 * most;
 }
 
-static sl_status make(planer *p, const sl_segment *segments, size_t count, sl_planar *out) {
-    sl_planar_link *roots = sl_alloc_array(p->context, count, sizeof *roots);
+static sl_status make(planer *p, const sl_segment *segments, size_t count, sli_planar *out) {
+    sli_planar_link *roots = sl_alloc_array(p->context, count, sizeof *roots);
     if (!roots) return SL_NO_MEMORY;
     sl_status status = take_ends(p, segments, count);
     if (status == SL_OK) status = take_segments(p, segments, count, roots, &out->welded);
@@ -788,22 +805,22 @@ static sl_status make(planer *p, const sl_segment *segments, size_t count, sl_pl
     return status;
 }
 
-sl_status sl_planar_make(sl_context *context, const char *source, const sl_segment *segments,
-                         size_t count, double weld, sl_planar *out) {
+sl_status sli_planar_make(sl_context *context, const char *source, const sl_segment *segments,
+                          size_t count, double weld, sli_planar *out) {
     int exponent = 0;
     frexp(magnitude(segments, count), &exponent);
     planer p = {.context = context, .source = source, .weld = weld, .scale = ldexp(1, -exponent)};
-    // What is far below rounding is none; and squares have whole numbers, as doubles hold them.
+    // A tolerance far below rounding counts as none: doubles must hold the numbers of squares.
     if (!(weld * p.scale >= 0x1p-50)) p.weld = 0;
     p.side = 64 * p.weld;
     p.slack = 4 * p.weld * p.scale + 0x1p-46;
-    sl_planar made = {0};
+    sli_planar made = {0};
     const sl_status status = make(&p, segments, count, &made);
     sl_free(context, p.points.items);
     sl_free(context, p.edges.items);
     sl_free(context, p.parts.items);
-    sl_free(context, p.point_table);
-    sl_free(context, p.edge_table);
+    sl_free(context, p.of_squares.slots);
+    sl_free(context, p.of_ends.slots);
     sl_free(context, p.next_near.items);
     sl_free(context, p.pieces.items);
     sl_free(context, p.splits.items);
@@ -811,14 +828,14 @@ sl_status sl_planar_make(sl_context *context, const char *source, const sl_segme
     if (status == SL_OK)
         *out = made;
     else
-        sl_planar_destroy(context, &made);
+        sli_planar_destroy(context, &made);
     return status;
 }
 
-void sl_planar_destroy(sl_context *context, sl_planar *planar) {
+void sli_planar_destroy(sl_context *context, sli_planar *planar) {
     sl_free(context, planar->points);
     sl_free(context, planar->edges);
     sl_free(context, planar->links);
     sl_free(context, planar->first);
-    *planar = (sl_planar){0};
+    *planar = (sli_planar){0};
 }

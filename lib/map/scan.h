@@ -1,31 +1,30 @@
-/// Text as the readers see it: lines, words, numbers, and how a message shows them.
+/// Text of maps: lines, words and numbers for readers, their form in messages, and the writers.
 #ifndef SL_MAP_SCAN_H
 #define SL_MAP_SCAN_H
 
-#include "base/base.h"
-#include "base/number.h"
 #include "sightline/map.h"
+#include "sightline/support.h"
 
 #include <string.h>
 
-/// A piece of the text that is read; not ended by a 0.
-typedef struct sl_word {
+/// A piece of the text; not ended by a 0.
+typedef struct sli_word {
     const char *at;
     size_t length;
-} sl_word;
+} sli_word;
 
-static inline bool sl_word_is(sl_word word, const char *text) {
+static inline bool sli_word_is(sli_word word, const char *text) {
     return word.length == strlen(text) && memcmp(word.at, text, word.length) == 0;
 }
 
-/// A word as a message shows it. Lives to the end of the expression: sl_show(word).text.
-typedef struct sl_shown {
+/// A word for a message. It lives to the end of the expression: sli_show(word).text.
+typedef struct sli_shown {
     char text[48];
-} sl_shown;
+} sli_shown;
 
-/// Cut short, and without characters that could play tricks on a terminal.
-static inline sl_shown sl_show(sl_word word) {
-    sl_shown shown = {{0}};
+/// Shortens a word, and replaces control characters, which could play tricks on a terminal.
+static inline sli_shown sli_show(sli_word word) {
+    sli_shown shown = {{0}};
     const size_t most = sizeof shown.text - 4;
     size_t length = word.length;
     if (length > most) {
@@ -41,33 +40,33 @@ static inline sl_shown sl_show(sl_word word) {
 }
 
 /// A walk over the lines of a text. `line` is the number of the line last given.
-typedef struct sl_lines {
+typedef struct sli_lines {
     const char *at, *end;
     uint32_t line;
-} sl_lines;
+} sli_lines;
 
-/// A byte order mark at the start is passed over.
-static inline sl_lines sl_lines_of(const char *text, size_t size) {
+/// Skips a byte order mark at the start.
+static inline sli_lines sli_lines_of(const char *text, size_t size) {
     const size_t mark = size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
-    return (sl_lines){.at = size ? text + mark : text, .end = size ? text + size : text};
+    return (sli_lines){.at = size ? text + mark : text, .end = size ? text + size : text};
 }
 
-/// The next line without its end (LF or CR LF); false where there is none.
-static inline bool sl_lines_next(sl_lines *lines, sl_word *line) {
+/// The next line without its end (LF or CR LF); false after the last.
+static inline bool sli_lines_next(sli_lines *lines, sli_word *line) {
     if (lines->at == lines->end) return false;
     const char *stop = memchr(lines->at, '\n', (size_t)(lines->end - lines->at));
     const char *next = stop ? stop + 1 : lines->end;
     if (!stop) stop = lines->end;
     if (stop > lines->at && stop[-1] == '\r') stop--;
-    *line = (sl_word){lines->at, (size_t)(stop - lines->at)};
+    *line = (sli_word){lines->at, (size_t)(stop - lines->at)};
     lines->at = next;
     if (lines->line < UINT32_MAX) lines->line++;
     return true;
 }
 
-/// No map format has NUL bytes: a file that does is no text, or text of 16-bit characters.
-static inline sl_status sl_refuse_nul(sl_context *context, const char *name, const char *text,
-                                      size_t size) {
+/// Refuses NUL bytes. A file that has one is not text, or text of 16-bit characters.
+static inline sl_status sli_refuse_nul(sl_context *context, const char *name, const char *text,
+                                       size_t size) {
     const char *nul = size ? memchr(text, '\0', size) : NULL;
     if (!nul) return SL_OK;
     unsigned line = 1;
@@ -76,30 +75,37 @@ static inline sl_status sl_refuse_nul(sl_context *context, const char *name, con
 }
 
 /// Whether a decimal has a digit other than 0 before its exponent.
-static inline bool sl_has_value(sl_word decimal) {
+static inline bool sli_has_value(sli_word decimal) {
     for (size_t i = 0; i < decimal.length && (decimal.at[i] | 0x20) != 'e'; i++)
         if (decimal.at[i] >= '1' && decimal.at[i] <= '9') return true;
     return false;
 }
 
-/// Reads a coordinate, or says at which line what stands in its place.
-static inline sl_status sl_read_coordinate(sl_context *context, const char *name, uint32_t line,
-                                           sl_word word, double *value) {
+/// Reads a coordinate; a message names the line and the wrong word.
+static inline sl_status sli_read_coordinate(sl_context *context, const char *name, uint32_t line,
+                                            sli_word word, double *value) {
     double number;
     if (!sl_number_read(word.at, word.length, &number))
         return sl_fail_at(context, name, line, "expected a finite decimal number, found '%s'",
-                          sl_show(word).text);
+                          sli_show(word).text);
     // A decimal may be so small that it reads as 0.
-    if (!sl_coordinate_usable(number) || (number == 0 && sl_has_value(word)))
+    if (!sl_coordinate_usable(number) || (number == 0 && sli_has_value(word)))
         return sl_fail_at(context, name, line,
                           "'%s' is out of range: expected 0 or a magnitude from %g to %g",
-                          sl_show(word).text, SL_COORDINATE_MIN, SL_COORDINATE_MAX);
+                          sli_show(word).text, SL_COORDINATE_MIN, SL_COORDINATE_MAX);
     *value = number;
     return SL_OK;
 }
 
-/// Whether a thing of a map may have this name: UTF-8, not empty, without white space, control
-/// characters and '#', so that it can be written as one word of the map text.
-bool sl_name_usable(const char *name, size_t length);
+/// Whether a name can be written as one word of the map text: UTF-8, not empty, without white
+/// space, control characters and '#'.
+bool sli_name_usable(const char *name, size_t length);
+
+// --- writers of maps, to a stream that is open; the caller asks the stream for errors
+
+void sli_map_print_text(const sl_map *map, FILE *stream);
+
+/// Prints nothing on failure.
+sl_status sli_map_print_plan(sl_context *context, const sl_map *map, FILE *stream);
 
 #endif

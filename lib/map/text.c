@@ -1,17 +1,18 @@
-#include "base/file.h"
-#include "map/print.h"
+/// The map text: one statement on each line, with a keyword first. One table has the form of every
+/// statement. Error messages name file and line.
 #include "map/scan.h"
+#include "sightline/support.h"
 
 #include <math.h>
 
-/// The map text while it is read. `words` and `numbers` are those of the statement at hand, without
-/// its first word and its name.
+/// The reading of a map text. `words` and `numbers` are those of the current statement, without its
+/// first word and its name.
 typedef struct text_reader {
     sl_context *context;
     const char *name;
     uint32_t line;
     sl_map *map;
-    SL_ARRAY(sl_word) words;
+    SL_ARRAY(sli_word) words;
     SL_ARRAY(double) numbers;
     SL_ARRAY(char) notes;
     char *label; ///< the name of a door, path or object
@@ -42,11 +43,11 @@ static sl_status read_walls(text_reader *reader) {
 static sl_status read_door(text_reader *reader) {
     bool open = true;
     if (reader->words.count == 5) {
-        const sl_word word = reader->words.items[4];
-        open = sl_word_is(word, "open");
-        if (!open && !sl_word_is(word, "shut"))
+        const sli_word word = reader->words.items[4];
+        open = sli_word_is(word, "open");
+        if (!open && !sli_word_is(word, "shut"))
             return sl_fail_at(reader->context, reader->name, reader->line,
-                              "door: expected 'open' or 'shut', found '%s'", sl_show(word).text);
+                              "door: expected 'open' or 'shut', found '%s'", sli_show(word).text);
     }
     SL_TRY(refuse_no_length(reader, "door"));
     return sl_map_add_door(reader->context, reader->map, reader->label, segment_of(reader), open,
@@ -57,11 +58,11 @@ static sl_status read_mirror(text_reader *reader) {
     SL_TRY(refuse_no_length(reader, "mirror"));
     bool one_sided = false;
     if (reader->words.count == 5) {
-        const sl_word word = reader->words.items[4];
-        one_sided = sl_word_is(word, "one");
-        if (!one_sided && !sl_word_is(word, "both"))
+        const sli_word word = reader->words.items[4];
+        one_sided = sli_word_is(word, "one");
+        if (!one_sided && !sli_word_is(word, "both"))
             return sl_fail_at(reader->context, reader->name, reader->line,
-                              "mirror: expected 'one' or 'both', found '%s'", sl_show(word).text);
+                              "mirror: expected 'one' or 'both', found '%s'", sli_show(word).text);
     }
     SL_TRY(sl_map_add_mirror(reader->context, reader->map, segment_of(reader), reader->line));
     reader->map->mirrors[reader->map->mirror_count - 1].one_sided = one_sided;
@@ -86,7 +87,7 @@ static sl_status read_range(text_reader *reader) {
     if (!(range > 0))
         return sl_fail_at(reader->context, reader->name, reader->line,
                           "range: expected a number greater than 0, found '%s'",
-                          sl_show(reader->words.items[0]).text);
+                          sli_show(reader->words.items[0]).text);
     reader->map->range = range;
     reader->map->range_line = reader->line;
     return SL_OK;
@@ -100,19 +101,19 @@ static sl_status read_snap(text_reader *reader) {
     if (!(snap > 0))
         return sl_fail_at(reader->context, reader->name, reader->line,
                           "snap: expected a number greater than 0, found '%s'",
-                          sl_show(reader->words.items[0]).text);
+                          sli_show(reader->words.items[0]).text);
     reader->map->snap = snap;
     reader->map->snap_line = reader->line;
     return SL_OK;
 }
 
-/// The heading may be any finite number: it is an angle, not a coordinate.
+/// The heading may be any finite number, as it is an angle and not a coordinate.
 static sl_status read_start(text_reader *reader) {
-    const sl_word word = reader->words.items[2];
+    const sli_word word = reader->words.items[2];
     double heading;
     if (!sl_number_read(word.at, word.length, &heading) || !isfinite(heading))
         return sl_fail_at(reader->context, reader->name, reader->line,
-                          "start: expected a heading in degrees, found '%s'", sl_show(word).text);
+                          "start: expected a heading in degrees, found '%s'", sli_show(word).text);
     return sl_map_add_start(reader->context, reader->map, point_of(reader, 0), heading,
                             reader->line);
 }
@@ -145,7 +146,7 @@ static sl_status read_cell(text_reader *reader) {
     return status;
 }
 
-/// Any two opposite corners will do.
+/// Any two opposite corners give the box.
 static sl_status read_object(text_reader *reader) {
     const sl_point a = point_of(reader, 0), b = point_of(reader, 1);
     const sl_box box = {.min = {b.x < a.x ? b.x : a.x, b.y < a.y ? b.y : a.y},
@@ -153,8 +154,8 @@ static sl_status read_object(text_reader *reader) {
     return sl_map_add_object(reader->context, reader->map, reader->label, box, reader->line);
 }
 
-/// What a statement looks like: its first word, whether a name follows, then from `least` to `most`
-/// words, the first `numbers` of them coordinates (an even number where that is ANY).
+/// The form of a statement: its first word, whether a name follows, then from `least` to `most`
+/// words. The first `numbers` of these are coordinates; with ANY all are, in pairs.
 typedef struct statement {
     const char *word, *usage;
     bool named;
@@ -179,14 +180,14 @@ static const statement statements[] = {
     {"snap", "snap d", false, 1, 1, 1, read_snap},
 };
 
-static const statement *find_statement(sl_word word) {
+static const statement *find_statement(sli_word word) {
     for (size_t i = 0; i < sizeof statements / sizeof *statements; i++)
-        if (sl_word_is(word, statements[i].word)) return &statements[i];
+        if (sli_word_is(word, statements[i].word)) return &statements[i];
     return NULL;
 }
 
 /// Splits a line into words, up to a '#'.
-static sl_status split(text_reader *reader, sl_word line) {
+static sl_status split(text_reader *reader, sli_word line) {
     reader->words.count = 0;
     for (size_t i = 0; i < line.length && line.at[i] != '#';) {
         if (line.at[i] == ' ' || line.at[i] == '\t') {
@@ -196,15 +197,15 @@ static sl_status split(text_reader *reader, sl_word line) {
         const size_t first = i;
         while (i < line.length && line.at[i] != ' ' && line.at[i] != '\t' && line.at[i] != '#') i++;
         SL_TRY(SL_ARRAY_ROOM(reader->context, &reader->words, 1));
-        reader->words.items[reader->words.count++] = (sl_word){line.at + first, i - first};
+        reader->words.items[reader->words.count++] = (sli_word){line.at + first, i - first};
     }
     return SL_OK;
 }
 
-static sl_status read_label(text_reader *reader, sl_word word) {
-    if (!sl_name_usable(word.at, word.length))
+static sl_status read_label(text_reader *reader, sli_word word) {
+    if (!sli_name_usable(word.at, word.length))
         return sl_fail_at(reader->context, reader->name, reader->line,
-                          "expected a name of printable UTF-8, found '%s'", sl_show(word).text);
+                          "expected a name of printable UTF-8, found '%s'", sli_show(word).text);
     reader->label = sl_copy_text(reader->context, word.at, word.length);
     return reader->label ? SL_OK : SL_NO_MEMORY;
 }
@@ -213,13 +214,13 @@ static sl_status read_numbers(text_reader *reader, size_t count) {
     reader->numbers.count = 0;
     SL_TRY(SL_ARRAY_ROOM(reader->context, &reader->numbers, count));
     for (size_t i = 0; i < count; i++)
-        SL_TRY(sl_read_coordinate(reader->context, reader->name, reader->line,
-                                  reader->words.items[i], &reader->numbers.items[i]));
+        SL_TRY(sli_read_coordinate(reader->context, reader->name, reader->line,
+                                   reader->words.items[i], &reader->numbers.items[i]));
     reader->numbers.count = count;
     return SL_OK;
 }
 
-/// Reads the words behind a statement's first one by its row of the table.
+/// Reads the words after the first one, by the statement's row of the table.
 static sl_status read_by(text_reader *reader, const statement *row) {
     const size_t values = reader->words.count, names = row->named;
     const bool any = row->numbers == ANY;
@@ -231,15 +232,15 @@ static sl_status read_by(text_reader *reader, const statement *row) {
     if (names) {
         SL_TRY(read_label(reader, reader->words.items[0]));
         memmove(reader->words.items, reader->words.items + 1,
-                --reader->words.count * sizeof(sl_word));
+                --reader->words.count * sizeof(sli_word));
     }
     SL_TRY(read_numbers(reader, any ? reader->words.count : row->numbers));
     return row->read(reader);
 }
 
 static sl_status read_statement(text_reader *reader) {
-    const sl_word word = reader->words.items[0];
-    if (sl_word_is(word, "sightline"))
+    const sli_word word = reader->words.items[0];
+    if (sli_word_is(word, "sightline"))
         return sl_fail_at(reader->context, reader->name, reader->line,
                           "a second 'sightline': it is only the first statement");
     const statement *row = find_statement(word);
@@ -247,8 +248,8 @@ static sl_status read_statement(text_reader *reader) {
         return sl_fail_at(reader->context, reader->name, reader->line,
                           "unknown statement '%s': expected wall, walls, door, mirror, oneway, "
                           "seam, range, start, path, object, cell or snap",
-                          sl_show(word).text);
-    memmove(reader->words.items, reader->words.items + 1, --reader->words.count * sizeof(sl_word));
+                          sli_show(word).text);
+    memmove(reader->words.items, reader->words.items + 1, --reader->words.count * sizeof(sli_word));
     const sl_status status = read_by(reader, row);
     sl_free(reader->context, reader->label);
     reader->label = NULL;
@@ -256,24 +257,24 @@ static sl_status read_statement(text_reader *reader) {
 }
 
 static sl_status read_first(text_reader *reader) {
-    const sl_word *words = reader->words.items;
-    if (!sl_word_is(words[0], "sightline"))
+    const sli_word *words = reader->words.items;
+    if (!sli_word_is(words[0], "sightline"))
         return sl_fail_at(reader->context, reader->name, reader->line,
                           "expected 'sightline 1' as the first statement, found '%s'",
-                          sl_show(words[0]).text);
-    if (reader->words.count != 2 || !sl_word_is(words[1], "1"))
+                          sli_show(words[0]).text);
+    if (reader->words.count != 2 || !sli_word_is(words[1], "1"))
         return sl_fail_at(reader->context, reader->name, reader->line,
                           "expected version 1 alone ('sightline 1'), found '%s'%s",
-                          reader->words.count < 2 ? "" : sl_show(words[1]).text,
+                          reader->words.count < 2 ? "" : sli_show(words[1]).text,
                           reader->words.count > 2 ? " and more" : "");
     return SL_OK;
 }
 
-/// Keeps a line "#! text". They stand between the first statement and the second.
-static sl_status read_note(text_reader *reader, sl_word line) {
+/// Keeps a note, a line "#! text". Notes stand between the first statement and the second.
+static sl_status read_note(text_reader *reader, sli_word line) {
     const size_t lead = line.length > 2 && line.at[2] == ' ' ? 3 : 2;
     const size_t length = line.length - lead;
-    // Room for the 0 behind the last line too.
+    // Also room for the 0 after the last line.
     SL_TRY(SL_ARRAY_ROOM(reader->context, &reader->notes, length + 2));
     if (length) memcpy(reader->notes.items + reader->notes.count, line.at + lead, length);
     reader->notes.count += length;
@@ -281,16 +282,16 @@ static sl_status read_note(text_reader *reader, sl_word line) {
     return SL_OK;
 }
 
-static bool is_note(sl_word line) {
+static bool is_note(sli_word line) {
     return line.length >= 2 && memcmp(line.at, "#!", 2) == 0 &&
            (line.length == 2 || line.at[2] == ' ');
 }
 
 static sl_status read_lines(text_reader *reader, const char *text, size_t size) {
-    SL_TRY(sl_refuse_nul(reader->context, reader->name, text, size));
-    sl_lines lines = sl_lines_of(text, size);
+    SL_TRY(sli_refuse_nul(reader->context, reader->name, text, size));
+    sli_lines lines = sli_lines_of(text, size);
     size_t statements_read = 0;
-    for (sl_word line; sl_lines_next(&lines, &line);) {
+    for (sli_word line; sli_lines_next(&lines, &line);) {
         reader->line = lines.line;
         if (lines.line % 4096 == 0) SL_TRY(sl_check_cancelled(reader->context));
         if (statements_read == 1 && is_note(line)) {
@@ -341,15 +342,15 @@ static void print_ends(FILE *stream, sl_point a, sl_point b) {
 }
 
 static void print_notes(FILE *stream, const char *notes) {
-    sl_lines lines = {.at = notes, .end = notes + strlen(notes)};
-    for (sl_word line; sl_lines_next(&lines, &line);) {
+    sli_lines lines = {.at = notes, .end = notes + strlen(notes)};
+    for (sli_word line; sli_lines_next(&lines, &line);) {
         fprintf(stream, line.length ? "#! " : "#!");
         fwrite(line.at, 1, line.length, stream);
         fprintf(stream, "\n");
     }
 }
 
-/// What is not a wall.
+/// All but walls.
 static void print_others(const sl_map *map, FILE *stream) {
     for (size_t i = 0; i < map->door_count; i++) {
         const sl_door *door = &map->doors[i];
@@ -405,7 +406,7 @@ static void print_cells(const sl_map *map, FILE *stream) {
     }
 }
 
-void sl_map_print_text(const sl_map *map, FILE *stream) {
+void sli_map_print_text(const sl_map *map, FILE *stream) {
     fprintf(stream, "sightline 1\n");
     if (map->notes) print_notes(stream, map->notes);
     if (map->range > 0) {
@@ -425,6 +426,6 @@ void sl_map_print_text(const sl_map *map, FILE *stream) {
 sl_status sl_map_write_text(sl_context *context, const sl_map *map, const char *path) {
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));
-    sl_map_print_text(map, output.stream);
+    sli_map_print_text(map, output.stream);
     return sl_output_close(context, &output, SL_OK);
 }

@@ -1,21 +1,21 @@
 /// Sightline's runtime for games: reads a baked file (.slv) and answers which cells are seen.
 ///
-/// One file, C99 or C++, nothing but the standard library's memcpy, memset and memcmp; no
-/// allocation, no global state. Copy it into your sources, include it where you need it, and in
-/// exactly one file of C or C++ say before the include
+/// One file, C99 or C++. It needs only memcpy, memset and memcmp. It allocates nothing and has no
+/// global state. Copy it into your sources and include it where you need it. In exactly one C or
+/// C++ file, write before the include
 ///
 ///     #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 ///
-/// A baked file is a map cut into convex cells, numbered from 0, and for each cell its row: the
-/// cells that can be seen from anywhere in it. sl_runtime_open checks the whole file once; no later
-/// call can then read out of bounds or fail to end, whatever the file holds, and none fails. The
-/// bytes must stay where they are, unchanged, for as long as the sl_runtime is used. They are only
-/// read, and at any alignment: a mapped file, an array in the program, a piece of an archive.
+/// A baked file holds a map cut into convex cells, numbered from 0. The row of a cell lists the
+/// cells that can be seen from anywhere in it. sl_runtime_open checks the whole file once. After
+/// that no call fails, reads out of bounds or runs without end, whatever the file holds. The bytes
+/// must stay unchanged, and in place, as long as the sl_runtime is used. They may have any
+/// alignment: a mapped file, an array in the program, a piece of an archive.
 ///
-/// An open sl_runtime is only read: any number of threads may ask it.
+/// An open sl_runtime is only read, so any number of threads may use it.
 ///
-/// It wants IEEE doubles. Compiled with -ffast-math, or for x87, it stays as safe, and what
-/// sl_runtime_look says is then right but for rounding.
+/// It needs IEEE doubles. Compiled with -ffast-math, or for x87, it is still safe, but
+/// sl_runtime_look is then exact only up to rounding.
 #ifndef SIGHTLINE_RUNTIME_H
 #define SIGHTLINE_RUNTIME_H
 
@@ -23,7 +23,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/// What stands before each function: `static` keeps them all to the file that implements them.
+/// Stands before each function. `static` limits them to the file that implements them.
 #ifndef SL_RUNTIME_API
 #define SL_RUNTIME_API
 #endif
@@ -34,184 +34,191 @@ extern "C" {
 
 typedef enum sl_runtime_status {
     SL_RUNTIME_OK = 0,
-    SL_RUNTIME_NOT_BAKED,  ///< no baked file at all
-    SL_RUNTIME_BYTE_ORDER, ///< baked on a machine of other byte order
-    SL_RUNTIME_VERSION,    ///< of a version that this header does not know
+    SL_RUNTIME_NOT_BAKED,  ///< not a baked file
+    SL_RUNTIME_BYTE_ORDER, ///< baked on a machine with another byte order
+    SL_RUNTIME_VERSION,    ///< a version that this header does not know
     SL_RUNTIME_SIZE,       ///< cut short, or longer than it says
     SL_RUNTIME_CHECKSUM,   ///< changed since it was written
     SL_RUNTIME_SECTION,    ///< a section is missing, there twice, or does not fit
-    SL_RUNTIME_SPACE,      ///< bounds, tree, grid, cells, exits: a number is out of range
-    SL_RUNTIME_ROW,        ///< the rows: one is damaged
+    SL_RUNTIME_SPACE,      ///< a number of bounds, tree, grid, cells or portals is out of range
+    SL_RUNTIME_ROW,        ///< a row is damaged
     SL_RUNTIME_SHARD       ///< one shard of a bake, which has no rows yet
 } sl_runtime_status;
 
 /// The cell of a point outside the map.
 #define SL_RUNTIME_NO_CELL UINT32_MAX
 
-/// An open file. Counts and bounds are for reading; the pointers are the functions' own.
+/// An open file. Counts and bounds are for reading; the pointers are for the functions only.
 typedef struct sl_runtime {
     double min_x, min_y, max_x, max_y; ///< bounds of the map
     uint32_t cell_count;
-    uint32_t portal_count; ///< portals are numbered too, for a game that keeps doors by them
-    uint32_t exit_count;   ///< of all cells: two a portal
+    uint32_t portal_count;   ///< portals have numbers too
+    uint32_t directed_count; ///< two for each portal
     uint32_t vertex_count;
-    uint32_t node_count;              ///< of the tree that locates points where all walls are axial
+    uint32_t node_count;              ///< of the tree that locates points, if all walls are axial
     int32_t root;                     ///< as a child of a node
     uint32_t grid_columns, grid_rows; ///< of the grid that locates points in other maps
-    bool loose;      ///< a file of format version 1 with oblique walls, or made from one: cells may
-                     ///< overlap by rounding, or leave gaps
-    bool unfinished; ///< the bake was stopped: rows miss nothing, but hold what was not decided
-    uint32_t view_cell_count; ///< 0 where the map was baked without view cells
-    uint32_t view_node_count; ///< rows of view cells, and of groups of them
-    uint32_t door_count;      ///< doors are numbered as the map names them
-    const unsigned char *nodes, *cells, *vertices, *exits, *row_offsets, *row_bytes;
+    bool loose; ///< a file of format version 1 with oblique walls, or made from one: by rounding,
+                ///< cells may overlap or leave gaps
+    bool unfinished; ///< the bake was stopped: rows miss nothing, but have undecided cells too
+    uint32_t view_cell_count; ///< 0 for a bake without view cells
+    uint32_t view_node_count; ///< the rows of view cells and of groups of them
+    uint32_t door_count;      ///< doors are numbered in the order of the map
+    const unsigned char *nodes, *cells, *vertices, *directed, *row_offsets, *row_bytes;
     const unsigned char *grid_offsets, *grid_cells; ///< NULL for no grid
-    const unsigned char *door_offsets, *door_bytes; ///< NULL where no pair depends on doors
+    const unsigned char *door_offsets, *door_bytes; ///< NULL if no pair depends on doors
     const unsigned char *seams, *seam_portals;      ///< NULL for none
     uint32_t seam_portal_count;
     const unsigned char *views, *view_parents, *view_offsets, *view_bytes;
 } sl_runtime;
 
-/// Checks everything. On failure `out` is left as it was.
+/// Checks everything. `out` is unchanged on failure.
 SL_RUNTIME_API sl_runtime_status sl_runtime_open(const void *bytes, size_t size, sl_runtime *out);
 
-/// A status in words, for a log.
+/// A status as text, for a log.
 SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status);
 
-/// The cell that holds a point; SL_RUNTIME_NO_CELL outside the bounds and for NaN. Exact, the same
-/// as the library's sl_space_locate. Where all walls are axial: on a split line the cell above
-/// (right of or over) it, on the upper or right border the cell inside; time: the tree's depth.
-/// Elsewhere: on a border between cells the cell of the lowest number; time: the few cells in one
-/// bucket of the grid. In a loose file SL_RUNTIME_NO_CELL in gaps too; time: all cells where it is
-/// of version 1.
+/// The cell that holds a point; SL_RUNTIME_NO_CELL outside the bounds and for NaN. Exact, and the
+/// same as sl_space_locate of the library.
+///
+/// If all walls are axial, a point on a split line is in the cell above it (right of it or over
+/// it). A point on the upper or right border is in the cell inside. Time: the depth of the tree. In
+/// other maps, a point on a border between cells is in the cell of the lowest number. Time: the few
+/// cells of one bucket. In a loose file, gaps give SL_RUNTIME_NO_CELL; version 1 takes the time of
+/// all cells.
 SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, double y);
 
-/// The cells in which a box lies, those that it only touches included, ascending: gives how many
-/// there are, and the first `room` of them in `cells`. What moves is drawn where one of them is
-/// seen, and can be seen from where their rows say. Exact for the coordinates in the file, which as
-/// those of the box are below 1e150. None where the box's least coordinates are not the least.
-/// Time: all cells; ask again when it has moved.
+/// Finds the cells that a box lies in or touches, ascending. Returns their number, and puts the
+/// first `room` of them into `cells`. Draw a moving thing if one of its cells is seen. Exact for
+/// coordinates below 1e150. A box whose minimum is above its maximum is in no cell. Time: all
+/// cells; call it again when the box has moved.
 SL_RUNTIME_API uint32_t sl_runtime_box_cells(const sl_runtime *runtime, double min_x, double min_y,
                                              double max_x, double max_y, uint32_t *cells,
                                              uint32_t room);
 
-/// Whether anything in cell `to` can be seen from anywhere in cell `from`. False where either is no
-/// cell (SL_RUNTIME_NO_CELL) and for a cell without a row. Time: the row's length. To ask for many
-/// cells from one, unpack its row (sl_runtime_row_bits).
+/// Whether anything in cell `to` can be seen from anywhere in cell `from`. False if either is no
+/// cell (SL_RUNTIME_NO_CELL), and for a cell without a row. Time: the length of the row. To test
+/// many cells from one, unpack its row (sl_runtime_row_bits).
 SL_RUNTIME_API bool sl_runtime_can_see(const sl_runtime *runtime, uint32_t from, uint32_t to);
 
-/// As sl_runtime_can_see while some doors are shut: `shut` has door_count bytes, not 0 for those
-/// that are. The game keeps them, and a change costs nothing. Exact as the bake was: a pair is seen
-/// if some sightline passes no shut door (but for pairs of which the bake told that they need more
-/// sets of doors than it keeps: they count as seen). Time: the lengths of the rows.
+/// As sl_runtime_can_see while some doors are shut. `shut` has door_count bytes, not 0 for a shut
+/// door. The game keeps it, and a change costs nothing. As exact as the bake: a pair is seen if
+/// some sightline passes no shut door. (Some pairs need more sets of doors than a bake keeps. The
+/// bake reports them, and they always count as seen.) Time: the lengths of the rows.
 SL_RUNTIME_API bool sl_runtime_can_see_past(const sl_runtime *runtime, uint32_t from, uint32_t to,
                                             const unsigned char *shut);
 
-/// Whether a cell was looked from. A bake of the inside only leaves the cells outside without rows.
+/// Whether a cell has a row. A bake of the inside leaves the cells outside without rows.
 SL_RUNTIME_API bool sl_runtime_has_row(const sl_runtime *runtime, uint32_t cell);
 
-/// Whether a cell is inside, where the map says what inside is.
+/// Whether a cell is inside, if the map says what inside is.
 SL_RUNTIME_API bool sl_runtime_is_inside(const sl_runtime *runtime, uint32_t cell);
 
 /// A run of cells of a row: first .. end - 1.
 typedef struct sl_runtime_run {
     uint32_t first, end;
-    const unsigned char *next, *stop; ///< the iteration's own
+    const unsigned char *next, *stop; ///< for the iteration only
 } sl_runtime_run;
 
-/// Iterates the cells seen from one, or from its view cell where the file tells what these see
-/// alone, ascending:
+/// Iterates over the cells seen from a cell, ascending. If the file only has rows of view cells, it
+/// is the row of the cell's view cell.
 ///
 ///     sl_runtime_run run = sl_runtime_row(&runtime, cell);
 ///     while (sl_runtime_next(&run))
 ///         for (uint32_t seen = run.first; seen < run.end; seen++) ...
 SL_RUNTIME_API sl_runtime_run sl_runtime_row(const sl_runtime *runtime, uint32_t cell);
+/// Goes on to the next run; false behind the last.
 SL_RUNTIME_API bool sl_runtime_next(sl_runtime_run *run);
 
-/// How many cells are seen from one.
+/// The number of cells seen from a cell.
 SL_RUNTIME_API uint32_t sl_runtime_row_count(const sl_runtime *runtime, uint32_t cell);
 
-/// Unpacks a row: cell c is seen where bits[c / 8] >> c % 8 & 1. `bits` has (cell_count + 7) / 8
+/// Unpacks a row: cell c is seen if bits[c / 8] >> c % 8 & 1. `bits` has (cell_count + 7) / 8
 /// bytes.
 SL_RUNTIME_API void sl_runtime_row_bits(const sl_runtime *runtime, uint32_t cell,
                                         unsigned char *bits);
 
-// View cells group cells: what is seen from anywhere in one is one set, which a game that keeps
-// what it draws from frame to frame changes only when the eye comes into another view cell.
+// A view cell is a group of cells with one visible set. A game that keeps its draw list from frame
+// to frame changes it only when the eye enters another view cell.
 
-/// The view cell that a cell is in; SL_RUNTIME_NO_CELL for none. Of a point:
+/// The view cell of a cell; SL_RUNTIME_NO_CELL for none. For a point, use
 /// sl_runtime_view_cell(runtime, sl_runtime_locate(runtime, x, y)).
 SL_RUNTIME_API uint32_t sl_runtime_view_cell(const sl_runtime *runtime, uint32_t cell);
 
-/// Whether anything in a cell can be seen from anywhere in a view cell. False where either is none.
+/// Whether anything in a cell can be seen from anywhere in a view cell. False if either does not
+/// exist.
 SL_RUNTIME_API bool sl_runtime_view_can_see(const sl_runtime *runtime, uint32_t view_cell,
                                             uint32_t to);
 
-/// Unpacks what a view cell sees, as sl_runtime_row_bits does a cell's row.
+/// Unpacks the visible set of a view cell, as sl_runtime_row_bits does for a cell.
 SL_RUNTIME_API void sl_runtime_view_bits(const sl_runtime *runtime, uint32_t view_cell,
                                          unsigned char *bits);
 
-/// An eye with its cone: from the direction `right` counter-clockwise to the direction `left`, its
-/// borders included. The directions are vectors of any length from 1e-150 to 1e150; with one that
-/// is not (0, NaN) the view is all round.
+/// An eye with its view cone: from the direction `right` counter-clockwise to the direction `left`,
+/// borders included. The directions are vectors of any length from 1e-150 to 1e150. If one is not
+/// (0, NaN), the view is all round.
 typedef struct sl_runtime_view {
     double x, y;
-    bool all_round; ///< `right` and `left` are not looked at
+    bool all_round; ///< `right` and `left` are ignored
     double right[2], left[2];
 } sl_runtime_view;
 
+/// A view of the full circle.
 SL_RUNTIME_API sl_runtime_view sl_runtime_view_all_round(double x, double y);
 
-/// A cone of less than 180 degrees about a direction; `tan_half` is the tangent of half its angle:
-/// 1 for 90 degrees. The borders are rounded: give a little more where the last bit matters.
+/// A cone of less than 180 degrees about a direction. `tan_half` is the tangent of half its angle:
+/// 1 for 90 degrees. The borders are rounded; make the cone a little wider if the last bit matters.
 SL_RUNTIME_API sl_runtime_view sl_runtime_view_toward(double x, double y, double direction_x,
                                                       double direction_y, double tan_half);
 
-/// How many uint32_t sl_runtime_look needs for scratch.
+/// The size of the scratch memory for sl_runtime_look, in uint32_t.
 SL_RUNTIME_API size_t sl_runtime_scratch_count(const sl_runtime *runtime);
 
-/// Eye-to-cell: the cells that some line from the eye, inside the cone, gets to through portals
-/// (Teller & Séquin 1991, depth first). Gives how many there are, and the first `room` of them in
-/// `cells`: the eye's own cell first, each other one after a cell through which it is seen. 0 where
-/// the eye is in no cell. `scratch` needs not be set to anything; one for each thread.
+/// Eye-to-cell: finds the cells that some line from the eye, inside the cone, reaches through
+/// portals (Teller & Séquin 1991, depth first). Returns their number, and puts the first `room` of
+/// them into `cells`. The eye's own cell comes first; each other cell comes after one through which
+/// it is seen. Returns 0 if the eye is in no cell. `scratch` may hold anything; each thread needs
+/// its own.
 ///
 /// Exact for the coordinates in the file, with closed sight: a line may touch corners and run along
-/// walls. No sign is taken from a rounded number, so no cell is missed and none added. (A
-/// coordinate of the eye or of a direction that is below 1e-200 counts as 0.) Of the cells so seen
-/// it gives those in the row of the eye's cell, if that has one. A search that takes very long,
-/// which in a sound file is not to be expected, ends with that whole row, or without one with all
-/// cells.
+/// walls. No sign comes from a rounded number, so no cell is missed and none added. (Coordinates of
+/// the eye and of directions below 1e-200 count as 0.) If the eye's cell has a row, only cells of
+/// the row are returned. A search that takes very long, which a sound file does not cause, returns
+/// this whole row, or all cells if there is none.
 SL_RUNTIME_API uint32_t sl_runtime_look(const sl_runtime *runtime, const sl_runtime_view *view,
                                         uint32_t *scratch, uint32_t *cells, uint32_t room);
 
-/// As sl_runtime_look, past doors that are shut, and no farther than a range: `shut` as for
-/// sl_runtime_can_see_past, or NULL for none; `range` above 0, or 0 for no limit.
+/// As sl_runtime_look, with shut doors and a view range. `shut` is as for sl_runtime_can_see_past,
+/// or NULL for none. `range` is above 0, or 0 for no limit.
 ///
-/// Doors are exact: what is seen is what a line gets to through portals that are on no shut door.
-/// Of a cell it counts how far the nearest place is that the eye sees of it (not how far the cell
-/// is): none is missed that is within the range, and none added that is out of it by more than
-/// 2e-12 of the range and 1e-13 of the distance to the ends of the portal that it is seen through,
-/// but where the border of what is seen of that portal runs along it to within 1e-3 of a turn. The
-/// eye's own cell is seen always.
+/// Doors are exact: a line must reach a cell through portals that are on no shut door. For the
+/// range, the distance to the nearest place that the eye sees of a cell counts. No cell within the
+/// range is missed. A cell outside the range is only added within 2e-12 of the range and 1e-13 of
+/// the distance to the ends of its portal; a larger error is possible only if the border of the
+/// seen part of the portal runs along the portal to within 1e-3 of a turn. The eye's own cell is
+/// always seen.
 SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl_runtime_view *view,
                                              const unsigned char *shut, double range,
                                              uint32_t *scratch, uint32_t *cells, uint32_t room);
 
-/// A cell: its corners, counter-clockwise, are the vertices first_vertex .., its exits first_exit
-/// ..
+/// A cell. Its corners, counter-clockwise, are vertex_count vertices from first_vertex on. Its
+/// portals are directed_count directed portals from first_directed on.
 typedef struct sl_runtime_cell {
-    uint32_t first_vertex, vertex_count, first_exit, exit_count;
+    uint32_t first_vertex, vertex_count, first_directed, directed_count;
 } sl_runtime_cell;
 
-/// A portal as a cell has it: which cell it leads to, and its ends as crossed on the way out.
-typedef struct sl_runtime_exit {
+/// A directed portal: the cell that it leads to, and its ends as crossed on the way out.
+typedef struct sl_runtime_directed_portal {
     uint32_t portal, cell;
     double left[2], right[2];
-} sl_runtime_exit;
+} sl_runtime_directed_portal;
 
-/// For drawing, finding ways, doors. The number must be less than the count of its kind.
+/// For drawing, path finding and doors. The number must be less than the count of its kind.
 SL_RUNTIME_API sl_runtime_cell sl_runtime_get_cell(const sl_runtime *runtime, uint32_t cell);
-SL_RUNTIME_API sl_runtime_exit sl_runtime_get_exit(const sl_runtime *runtime, uint32_t exit);
+/// A directed portal; the number must be less than directed_count.
+SL_RUNTIME_API sl_runtime_directed_portal sl_runtime_get_directed_portal(const sl_runtime *runtime,
+                                                                         uint32_t directed);
+/// A vertex; the number must be less than vertex_count.
 SL_RUNTIME_API void sl_runtime_get_vertex(const sl_runtime *runtime, uint32_t vertex, double *x,
                                           double *y);
 
@@ -230,7 +237,7 @@ SL_RUNTIME_API void sl_runtime_get_vertex(const sl_runtime *runtime, uint32_t ve
 extern "C" {
 #endif
 
-// --- numbers in the file: copied out, so that neither alignment nor aliasing matters
+// --- numbers in the file: copied, so that alignment and aliasing do not matter
 
 static uint32_t slrt_u32(const unsigned char *at) {
     uint32_t value;
@@ -264,7 +271,7 @@ enum {
     SLRT_NODE_BYTES = 24,
     SLRT_CELL_BYTES = 24,
     SLRT_VERTEX_BYTES = 16,
-    SLRT_EXIT_BYTES = 40
+    SLRT_DIRECTED_BYTES = 40
 };
 
 enum slrt_tag {
@@ -273,7 +280,7 @@ enum slrt_tag {
     SLRT_CELL,
     SLRT_VERT,
     SLRT_PORT,
-    SLRT_EXIT,
+    SLRT_PORTAL,
     SLRT_PVSO,
     SLRT_PVSB,
     SLRT_PART,
@@ -293,7 +300,7 @@ enum slrt_tag {
 };
 
 typedef struct slrt_section {
-    const unsigned char *items; ///< NULL where the file has none
+    const unsigned char *items; ///< NULL if the file has none
     uint64_t count;
 } slrt_section;
 
@@ -304,7 +311,7 @@ static uint32_t slrt_crc_on(const uint32_t *table, uint32_t sum, const unsigned 
     return sum;
 }
 
-/// CRC-32 (as zlib's) of the file, the checksum's own four bytes taken as 0.
+/// CRC-32 of the file, as in zlib. The four bytes of the checksum itself count as 0.
 static uint32_t slrt_checksum(const unsigned char *bytes, size_t size) {
     static const unsigned char zeros[4] = {0, 0, 0, 0};
     uint32_t table[256], sum = UINT32_MAX, i;
@@ -333,7 +340,7 @@ static sl_runtime_status slrt_check_header(const unsigned char *bytes, size_t si
     return SL_RUNTIME_OK;
 }
 
-/// Finds the sections that the runtime knows; what else there is it passes over.
+/// Finds the sections that the runtime knows, and skips others.
 static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t size,
                                             slrt_section *found) {
     static const struct {
@@ -344,7 +351,7 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
                           {"CELL", SLRT_CELL_BYTES},
                           {"VERT", SLRT_VERTEX_BYTES},
                           {"PORT", 40},
-                          {"EXIT", SLRT_EXIT_BYTES},
+                          {"EXIT", SLRT_DIRECTED_BYTES},
                           {"PVSO", 8},
                           {"PVSB", 1},
                           {"PART", 16},
@@ -387,8 +394,8 @@ static sl_runtime_status slrt_find_sections(const unsigned char *bytes, size_t s
     return SL_RUNTIME_OK;
 }
 
-/// Whether coordinates are what a sound file may hold: numbers, of 2e150 at most, so that products
-/// stay finite. Compared as integers, which no compiler's idea of fast arithmetic changes.
+/// Whether coordinates are sound: numbers of at most 2e150, so that products stay finite. They are
+/// compared as integers, which no fast-math option changes.
 static bool slrt_usable(const unsigned char *at, int count) {
     const double most = 2e150;
     uint64_t limit;
@@ -403,18 +410,18 @@ static sl_runtime_status slrt_check_sizes(const slrt_section *found, sl_runtime 
     const unsigned char *info = found[SLRT_INFO].items;
     if (found[SLRT_INFO].count != 1 || found[SLRT_PVSO].count != found[SLRT_CELL].count + 1)
         return SL_RUNTIME_SECTION;
-    // Cells are told as ~cell in 32 bits with sign; the search numbers the ends of exits.
+    // A cell is stored as ~cell in 32 bits with sign; the search numbers ends of directed portals.
     if (!found[SLRT_CELL].count || found[SLRT_CELL].count > INT32_MAX ||
-        found[SLRT_NODE].count > INT32_MAX || found[SLRT_EXIT].count > INT32_MAX / 2 - 4 ||
+        found[SLRT_NODE].count > INT32_MAX || found[SLRT_PORTAL].count > INT32_MAX / 2 - 4 ||
         found[SLRT_VERT].count > UINT32_MAX || found[SLRT_PORT].count > UINT32_MAX)
         return SL_RUNTIME_SPACE;
     rt->cell_count = (uint32_t)found[SLRT_CELL].count;
-    rt->exit_count = (uint32_t)found[SLRT_EXIT].count;
+    rt->directed_count = (uint32_t)found[SLRT_PORTAL].count;
     rt->vertex_count = (uint32_t)found[SLRT_VERT].count;
     rt->portal_count = (uint32_t)found[SLRT_PORT].count;
     rt->cells = found[SLRT_CELL].items;
     rt->vertices = found[SLRT_VERT].items;
-    rt->exits = found[SLRT_EXIT].items;
+    rt->directed = found[SLRT_PORTAL].items;
     rt->row_offsets = found[SLRT_PVSO].items;
     rt->row_bytes = found[SLRT_PVSB].items;
     rt->unfinished = found[SLRT_PART].items != NULL;
@@ -426,7 +433,7 @@ static sl_runtime_status slrt_check_sizes(const slrt_section *found, sl_runtime 
     return rt->min_x < rt->max_x && rt->min_y < rt->max_y ? SL_RUNTIME_OK : SL_RUNTIME_SPACE;
 }
 
-/// A child comes after its parent, so that every way down ends.
+/// A child comes after its parent, so every way down ends.
 static bool slrt_child_is_sound(const sl_runtime *rt, int64_t parent, int32_t child) {
     return child < 0 ? (uint32_t)~child < rt->cell_count
                      : child > parent && (uint32_t)child < rt->node_count;
@@ -450,7 +457,7 @@ static bool slrt_take_tree(sl_runtime *rt, const slrt_section *found) {
     return true;
 }
 
-/// A bucket has cells in ascending order.
+/// The cells of a bucket ascend.
 static bool slrt_bucket_is_sound(const sl_runtime *rt, uint32_t first, uint32_t end) {
     uint32_t i, before = 0;
     for (i = first; i < end; i++) {
@@ -484,8 +491,8 @@ static bool slrt_take_grid(sl_runtime *rt, const slrt_section *found) {
     return before == entries;
 }
 
-/// What locates points: a tree where all walls are axial, else a grid. Files of version 1 with
-/// oblique walls have a tree along oblique lines, which is passed over: all their cells are asked.
+/// The index that locates points: a tree if all walls are axial, else a grid. Files of version 1
+/// with oblique walls have a tree along oblique lines. It is ignored, and all cells are tested.
 static bool slrt_take_location(sl_runtime *rt, const slrt_section *found, uint32_t version) {
     rt->root = 0;
     rt->node_count = rt->grid_columns = rt->grid_rows = 0;
@@ -496,29 +503,29 @@ static bool slrt_take_location(sl_runtime *rt, const slrt_section *found, uint32
 }
 
 static bool slrt_cells_are_sound(const sl_runtime *rt) {
-    uint32_t i, exits = 0;
+    uint32_t i, directed = 0;
     for (i = 0; i < rt->cell_count; i++) {
         const sl_runtime_cell cell = sl_runtime_get_cell(rt, i);
         if (cell.vertex_count < 3 || cell.first_vertex > rt->vertex_count ||
-            cell.vertex_count > rt->vertex_count - cell.first_vertex || cell.first_exit != exits ||
-            cell.exit_count > rt->exit_count - exits)
+            cell.vertex_count > rt->vertex_count - cell.first_vertex ||
+            cell.first_directed != directed || cell.directed_count > rt->directed_count - directed)
             return false;
-        exits += cell.exit_count;
+        directed += cell.directed_count;
     }
-    if (exits != rt->exit_count) return false;
+    if (directed != rt->directed_count) return false;
     for (i = 0; i < rt->vertex_count; i++)
         if (!slrt_usable(rt->vertices + (size_t)i * SLRT_VERTEX_BYTES, 2)) return false;
-    for (i = 0; i < rt->exit_count; i++) {
-        const unsigned char *exit = rt->exits + (size_t)i * SLRT_EXIT_BYTES;
-        if (slrt_u32(exit) >= rt->portal_count || slrt_u32(exit + 4) >= rt->cell_count ||
-            !slrt_usable(exit + 8, 4))
+    for (i = 0; i < rt->directed_count; i++) {
+        const unsigned char *at = rt->directed + (size_t)i * SLRT_DIRECTED_BYTES;
+        if (slrt_u32(at) >= rt->portal_count || slrt_u32(at + 4) >= rt->cell_count ||
+            !slrt_usable(at + 8, 4))
             return false;
     }
     return true;
 }
 
-/// A number of a row in LEB128: seven bits a byte, low first, the high bit set on all but the last.
-/// Checked rows only.
+/// A number of a checked row in LEB128: seven bits in a byte, low bits first, the high bit set in
+/// all bytes but the last.
 static uint32_t slrt_number(const unsigned char **next) {
     uint32_t number = *(*next)++;
     if (number & 0x80) {
@@ -534,8 +541,8 @@ static uint32_t slrt_number(const unsigned char **next) {
     return number;
 }
 
-/// Passes over a number of an unchecked row; false where the row ends within it or it takes more
-/// than 32 bits.
+/// Skips a number of an unchecked row. False if the row ends within it, or it has more than 32
+/// bits.
 static bool slrt_pass_number(const unsigned char **next, const unsigned char *stop) {
     int i;
     for (i = 0; i < 5 && *next < stop; i++) {
@@ -545,8 +552,8 @@ static bool slrt_pass_number(const unsigned char **next, const unsigned char *st
     return false;
 }
 
-/// A row: runs of cells in ascending order, with gaps between, the row's own cell among them if it
-/// is of a cell; or nothing at all.
+/// A row: runs of cells, ascending, with gaps between them. The row of a cell has the cell itself.
+/// A row may be empty.
 static bool slrt_row_is_sound(const sl_runtime *rt, uint32_t cell, bool of_cell) {
     const unsigned char *next = rt->row_bytes + slrt_u64(rt->row_offsets + (size_t)cell * 8);
     const unsigned char *stop = rt->row_bytes + slrt_u64(rt->row_offsets + (size_t)cell * 8 + 8);
@@ -583,7 +590,7 @@ static bool slrt_rows_are_sound(const sl_runtime *rt, uint64_t byte_count, bool 
     return true;
 }
 
-/// The rows of view cells read as if they were those of cells.
+/// The rows of view cells, to be read like rows of cells.
 static sl_runtime slrt_view_rows(const sl_runtime *rt) {
     sl_runtime rows = *rt;
     rows.row_offsets = rt->view_offsets;
@@ -591,7 +598,7 @@ static sl_runtime slrt_view_rows(const sl_runtime *rt) {
     return rows;
 }
 
-/// A node's parent comes after it, so that every way up ends.
+/// A node's parent comes after it, so every way up ends.
 static bool slrt_view_nodes_are_sound(const sl_runtime *rt) {
     uint32_t i;
     for (i = 0; i < rt->cell_count; i++) {
@@ -606,8 +613,7 @@ static bool slrt_view_nodes_are_sound(const sl_runtime *rt) {
     return true;
 }
 
-/// Where cells have no rows of their own, each view cell has all it sees in one row, the cells that
-/// it is made up of among that.
+/// If cells have no rows, each view cell has all that it sees in one row, its own cells among it.
 static bool slrt_stands_for_cells(const sl_runtime *rt) {
     uint32_t i;
     for (i = 0; i < rt->view_node_count; i++)
@@ -619,7 +625,7 @@ static bool slrt_stands_for_cells(const sl_runtime *rt) {
     return true;
 }
 
-/// View cells, where the file has any.
+/// View cells, if the file has any.
 static bool slrt_open_views(const slrt_section *found, sl_runtime *rt) {
     sl_runtime rows;
     int tag;
@@ -679,7 +685,7 @@ static bool slrt_door_row_is_sound(const sl_runtime *rt, uint32_t row) {
     return true;
 }
 
-/// Which portals lie on which seams: by portal, so that they can be searched.
+/// The portals on seams, by portal, so that they can be searched.
 static bool slrt_take_seams(sl_runtime *rt, const slrt_section *found) {
     const uint64_t count = found[SLRT_SEPO].items ? found[SLRT_SEPO].count : 0;
     uint64_t i;
@@ -762,7 +768,7 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status) {
     case SL_RUNTIME_SECTION:
         return "damaged: a section is missing, there twice, or does not fit";
     case SL_RUNTIME_SPACE:
-        return "damaged: a number of the bounds, tree, grid, cells or exits is out of range";
+        return "damaged: a number of the bounds, tree, grid, cells or portals is out of range";
     case SL_RUNTIME_ROW:
         return "damaged: a row of the visible sets";
     case SL_RUNTIME_SHARD:
@@ -777,9 +783,10 @@ SL_RUNTIME_API sl_runtime_cell sl_runtime_get_cell(const sl_runtime *runtime, ui
     return out;
 }
 
-SL_RUNTIME_API sl_runtime_exit sl_runtime_get_exit(const sl_runtime *runtime, uint32_t exit) {
-    sl_runtime_exit out;
-    memcpy(&out, runtime->exits + (size_t)exit * SLRT_EXIT_BYTES, sizeof out);
+SL_RUNTIME_API sl_runtime_directed_portal sl_runtime_get_directed_portal(const sl_runtime *runtime,
+                                                                         uint32_t directed) {
+    sl_runtime_directed_portal out;
+    memcpy(&out, runtime->directed + (size_t)directed * SLRT_DIRECTED_BYTES, sizeof out);
     return out;
 }
 
@@ -822,7 +829,7 @@ SL_RUNTIME_API bool sl_runtime_can_see(const sl_runtime *runtime, uint32_t from,
     return false;
 }
 
-/// Reads on over a pair's alternatives: whether one of them has no shut door.
+/// Reads the alternatives of a pair. Whether one of them has no shut door.
 static bool slrt_is_open(const unsigned char **next, const unsigned char *shut) {
     uint32_t alternatives = slrt_number(next);
     bool any = false;
@@ -918,7 +925,7 @@ SL_RUNTIME_API void sl_runtime_view_bits(const sl_runtime *runtime, uint32_t vie
 
 // --- signs
 
-/// A vector between two points: rounded, and the points that it goes to and from.
+/// A vector between two points: rounded, and the two points.
 typedef struct slrt_arm {
     double x, y;
     double to_x, to_y, from_x, from_y;
@@ -935,8 +942,8 @@ static slrt_arm slrt_make_arm(double from_x, double from_y, double to_x, double 
     return arm;
 }
 
-/// Adds a number to a sum kept without rounding, as parts that do not overlap, least first
-/// (Shewchuk 1997, Grow-Expansion with zero elimination). Gives the new count of parts.
+/// Adds a number to an exact sum of parts that do not overlap, least first (Shewchuk 1997,
+/// Grow-Expansion with zero elimination). Returns the new number of parts.
 static int slrt_add(double *parts, int count, double number) {
     int i, kept = 0;
     for (i = 0; i < count; i++) {
@@ -949,7 +956,7 @@ static int slrt_add(double *parts, int count, double number) {
     return kept;
 }
 
-/// The upper half of a number's bits, rounded: what is left has as few.
+/// The upper half of a number's bits, rounded. The rest has no more bits than that.
 static double slrt_upper(double number) {
     uint64_t bits;
     memcpy(&bits, &number, sizeof bits);
@@ -958,8 +965,8 @@ static double slrt_upper(double number) {
     return number;
 }
 
-/// Adds a product, in two parts (Dekker's). The halves being cut by their bits, each step is
-/// without rounding also where a compiler fuses it with the next.
+/// Adds a product as two parts (Dekker's). Numbers are cut by their bits, so each step is exact,
+/// also where a compiler fuses it with the next one.
 static int slrt_add_product(double *parts, int count, double a, double b) {
     const double product = a * b;
     const double a_upper = slrt_upper(a), a_lower = a - a_upper;
@@ -975,7 +982,7 @@ static double slrt_larger(double a, double b) {
     return a > b ? a : b;
 }
 
-/// The points of an arm, scaled so that no product of two comes near underflow.
+/// The points of an arm, scaled so that no product comes near underflow.
 static void slrt_scaled(const slrt_arm *arm, double *to_x, double *to_y, double *from_x,
                         double *from_y) {
     const double largest =
@@ -991,7 +998,7 @@ static void slrt_scaled(const slrt_arm *arm, double *to_x, double *to_y, double 
 static int slrt_side_exact(const slrt_arm *u, const slrt_arm *v) {
     double a_x, a_y, b_x, b_y, c_x, c_y, d_x, d_y, parts[16], sum;
     int count = 0;
-    // What maps are full of: points on one axial line.
+    // Frequent: points on one axial line.
     if (u->to_x == u->from_x && v->to_x == v->from_x) return 0;
     if (u->to_y == u->from_y && v->to_y == v->from_y) return 0;
     slrt_scaled(u, &a_x, &a_y, &b_x, &b_y);
@@ -1008,8 +1015,8 @@ static int slrt_side_exact(const slrt_arm *u, const slrt_arm *v) {
     return (sum > 0) - (sum < 0);
 }
 
-/// The sign of u x v: 1 where v points to the left of u. From the rounded product where that is
-/// large enough (Shewchuk 1997, section 4.1: (3 + 16e)e of the sum of its parts, e = 2^-53).
+/// The sign of u x v: 1 if v points to the left of u. The rounded product decides if it is large
+/// enough (Shewchuk 1997, section 4.1: (3 + 16e)e of the sum of its parts, e = 2^-53).
 static int slrt_side(const slrt_arm *u, const slrt_arm *v) {
     const double left = u->x * v->y, right = u->y * v->x;
     const double product = left - right;
@@ -1020,7 +1027,7 @@ static int slrt_side(const slrt_arm *u, const slrt_arm *v) {
     return slrt_side_exact(u, v);
 }
 
-/// Whether two vectors on one line point the same way; false where either is 0.
+/// Whether two vectors in one line point the same way; false if either is 0.
 static bool slrt_same_way(const slrt_arm *u, const slrt_arm *v) {
     return (u->to_x > u->from_x && v->to_x > v->from_x) ||
            (u->to_x < u->from_x && v->to_x < v->from_x) ||
@@ -1030,7 +1037,7 @@ static bool slrt_same_way(const slrt_arm *u, const slrt_arm *v) {
 
 // --- from point to cell
 
-/// As slrt_side, of the way from a to b and that from a to (x, y).
+/// As slrt_side, for the ways from a to b and from a to (x, y).
 static int slrt_side_of_line(const unsigned char *a, const unsigned char *b, double x, double y) {
     const double a_x = slrt_f64(a), a_y = slrt_f64(a + 8);
     const slrt_arm along = slrt_make_arm(a_x, a_y, slrt_f64(b), slrt_f64(b + 8));
@@ -1049,16 +1056,16 @@ static bool slrt_holds(const sl_runtime *rt, uint32_t number, double x, double y
     return true;
 }
 
-/// The column or row of a coordinate within the bounds, as in lib/space/cell_grid.h. Cells are
-/// entered in buckets that they only come near, too, so that rounding changes no answer.
+/// The column or row of a coordinate within the bounds, as in lib/space/index.h. Buckets also have
+/// cells that only come near, so rounding changes no answer.
 static uint32_t slrt_step(double value, double low, double high, uint32_t count) {
     const double step = (value - low) / (high - low) * count;
     const uint32_t whole = step < count ? (uint32_t)step : count - 1;
     return whole < count ? whole : count - 1; // whatever -ffast-math makes of the line above
 }
 
-/// The first cell that holds a point, of those in its bucket, or of all where there is no grid.
-/// Cells that tile the bounds leave no choice but the last where no other does.
+/// The first cell that holds a point, among those of its bucket, or among all without a grid. Cells
+/// tile the bounds, so the last one holds the point if no other does.
 static uint32_t slrt_locate_by_grid(const sl_runtime *rt, double x, double y) {
     uint32_t at = 0, end = rt->cell_count;
     if (rt->grid_cells) {
@@ -1089,7 +1096,7 @@ SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, d
 
 // --- from box to cells
 
-/// Whether a cell's corners are all on one side of a box, beside it.
+/// Whether a cell lies on one side of a box.
 static bool slrt_is_beside_box(const sl_runtime *rt, const sl_runtime_cell *cell,
                                const double box[4]) {
     bool left = true, right = true, under = true, over = true;
@@ -1105,7 +1112,7 @@ static bool slrt_is_beside_box(const sl_runtime *rt, const sl_runtime_cell *cell
     return left || right || under || over;
 }
 
-/// Convex both, a cell and a box are apart where a side of either parts them.
+/// A cell and a box are convex: if they are apart, a side of one of them separates them.
 static bool slrt_meets_box(const sl_runtime *rt, uint32_t number, const double box[4]) {
     const sl_runtime_cell cell = sl_runtime_get_cell(rt, number);
     const unsigned char *corner = rt->vertices + (size_t)cell.first_vertex * SLRT_VERTEX_BYTES;
@@ -1159,23 +1166,24 @@ SL_RUNTIME_API sl_runtime_view sl_runtime_view_toward(double x, double y, double
     return view;
 }
 
-/// A border of a sector is told by a number: end 0 (left) or 1 (right) of exit e as 2e or 2e + 1,
-/// SLRT_REVERSED more for the opposite direction; or one of the cone's arms.
+/// A border of a sector is a number: 2e for the left end of directed portal e, 2e + 1 for the right
+/// end, plus SLRT_REVERSED for the opposite direction; or one of the cone's arms.
 #define SLRT_REVERSED  0x80000000u
 #define SLRT_ARM       (UINT32_MAX - 4)
-#define SLRT_ALL_ROUND UINT32_MAX ///< no borders, but in the eye's cell
+#define SLRT_ALL_ROUND UINT32_MAX ///< no borders: the eye is in the cell
 enum { SLRT_MOST_ARMS = 4 };
 
-/// Steps that a search may take for each exit of the map. (In sound ones few need more than one;
-/// four is the most seen.)
+/// The limit of steps for each directed portal of the map. In sound maps few need more than one;
+/// four is the most seen.
 #ifndef SLRT_PATIENCE
 #define SLRT_PATIENCE 256
 #endif
 
 enum { SLRT_SEEN = 1, SLRT_ENTERED = 2, SLRT_ON_PATH = 4, SLRT_IN_ROW = 8 };
 
-/// A search, depth first. The path is a stack of four numbers a cell: the cell, how many of its
-/// exits are done, the right and left border of the sector that it is seen in from the eye.
+/// A depth-first search. The path is a stack of four numbers for each cell: the cell, the number of
+/// its directed portals that are done, and the right and left border of the sector through which
+/// the eye sees it.
 typedef struct slrt_search {
     const sl_runtime *rt;
     const sl_runtime_view *view;
@@ -1184,7 +1192,7 @@ typedef struct slrt_search {
     double x, y;               ///< the eye
     slrt_arm cone[SLRT_MOST_ARMS];
     uint32_t *path, depth;
-    uint32_t *sectors; ///< by cell: borders of the sector that it was last entered with
+    uint32_t *sectors; ///< by cell: the borders of the sector of its last visit
     unsigned char *marks;
     bool has_row;
     uint32_t *cells, room, count;
@@ -1196,7 +1204,7 @@ static slrt_arm slrt_border(const slrt_search *s, uint32_t border) {
     const uint32_t number = border & ~SLRT_REVERSED;
     const unsigned char *end;
     if (border >= SLRT_ARM) return s->cone[border - SLRT_ARM];
-    end = s->rt->exits + (size_t)(number / 2) * SLRT_EXIT_BYTES + 8 + 16 * (number % 2);
+    end = s->rt->directed + (size_t)(number / 2) * SLRT_DIRECTED_BYTES + 8 + 16 * (number % 2);
     return border == number ? slrt_make_arm(x, y, slrt_f64(end), slrt_f64(end + 8))
                             : slrt_make_arm(slrt_f64(end), slrt_f64(end + 8), x, y);
 }
@@ -1205,33 +1213,33 @@ static bool slrt_is_zero(const slrt_arm *arm) {
     return arm->to_x == arm->from_x && arm->to_y == arm->from_y;
 }
 
-/// Whether v is in the sector from a counter-clockwise to b, of at most 180 degrees and borders
-/// included, given the signs of a x v and v x b.
+/// Whether v is in the sector from a counter-clockwise to b, of at most 180 degrees, borders
+/// included. The signs of a x v and v x b are given.
 static bool slrt_within(const slrt_arm *v, const slrt_arm *a, const slrt_arm *b, int from_a,
                         int to_b) {
     if (from_a < 0 || to_b < 0) return false;
     return (from_a && to_b) || slrt_same_way(a, v) || slrt_same_way(b, v);
 }
 
-/// Narrows a sector of less than 180 degrees to what of it leaves through an exit; false for
-/// nothing. From an eye on the exit everything in front of it does.
-static bool slrt_narrow(const slrt_search *s, uint32_t exit, uint32_t *right, uint32_t *left) {
-    uint32_t exit_right = 2 * exit + 1, exit_left = 2 * exit;
-    slrt_arm p = slrt_border(s, exit_right), q = slrt_border(s, exit_left), a, b;
+/// Narrows a sector of less than 180 degrees to its part that leaves through a directed portal;
+/// false for none. From an eye on the directed portal, everything in front of it leaves.
+static bool slrt_narrow(const slrt_search *s, uint32_t directed, uint32_t *right, uint32_t *left) {
+    uint32_t portal_right = 2 * directed + 1, portal_left = 2 * directed;
+    slrt_arm p = slrt_border(s, portal_right), q = slrt_border(s, portal_left), a, b;
     int a_p, a_q;
     bool right_within;
     if (slrt_side(&p, &q) < 0) return false;
     if (*right == SLRT_ALL_ROUND) {
-        *right = exit_right;
-        *left = exit_left;
+        *right = portal_right;
+        *left = portal_left;
         return true;
     }
     if (slrt_is_zero(&p)) {
-        exit_right = exit_left | SLRT_REVERSED;
-        p = slrt_border(s, exit_right);
+        portal_right = portal_left | SLRT_REVERSED;
+        p = slrt_border(s, portal_right);
     } else if (slrt_is_zero(&q)) {
-        exit_left = exit_right | SLRT_REVERSED;
-        q = slrt_border(s, exit_left);
+        portal_left = portal_right | SLRT_REVERSED;
+        q = slrt_border(s, portal_left);
     }
     a = slrt_border(s, *right);
     b = slrt_border(s, *left);
@@ -1239,15 +1247,15 @@ static bool slrt_narrow(const slrt_search *s, uint32_t exit, uint32_t *right, ui
     a_q = slrt_side(&a, &q);
     right_within = slrt_within(&p, &a, &b, a_p, slrt_side(&p, &b));
     if (!right_within && !slrt_within(&a, &p, &q, -a_p, a_q)) return false;
-    if (slrt_within(&q, &a, &b, a_q, slrt_side(&q, &b))) *left = exit_left;
-    if (right_within) *right = exit_right;
+    if (slrt_within(&q, &a, &b, a_q, slrt_side(&q, &b))) *left = portal_left;
+    if (right_within) *right = portal_right;
     return true;
 }
 
-/// Whether an exit is on a door that is shut.
-static bool slrt_is_shut(const slrt_search *s, uint32_t exit) {
+/// Whether a directed portal is on a shut door.
+static bool slrt_is_shut(const slrt_search *s, uint32_t directed) {
     const sl_runtime *rt = s->rt;
-    const uint32_t portal = slrt_u32(rt->exits + (size_t)exit * SLRT_EXIT_BYTES);
+    const uint32_t portal = slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES);
     uint32_t low = 0, high = rt->seam_portal_count;
     while (low < high) {
         const uint32_t middle = low + (high - low) / 2;
@@ -1269,8 +1277,8 @@ static double slrt_size(double x, double y) {
     return (x < 0 ? -x : x) + (y < 0 ? -y : y);
 }
 
-/// Where on the way from p to q, 0 to 1, a ray from the eye meets it, given as seen from there,
-/// with what rounding may have done to that; false where it may be anywhere.
+/// Where, from 0 to 1, a ray from the eye meets the way from p to q. p and q are given relative to
+/// the eye. Also gives a bound for rounding; false if the place is unknown.
 static bool slrt_meet(const slrt_arm *ray, const slrt_arm *p, const slrt_arm *q, double *at,
                       double *error) {
     const double size = slrt_size(ray->x, ray->y);
@@ -1284,18 +1292,19 @@ static bool slrt_meet(const slrt_arm *ray, const slrt_arm *p, const slrt_arm *q,
     return true;
 }
 
-/// Whether what is seen of an exit between two borders of a sector, or all of it, is within range.
-static bool slrt_in_range(const slrt_search *s, uint32_t exit, uint32_t right, uint32_t left) {
-    const slrt_arm p = slrt_border(s, 2 * exit + 1), q = slrt_border(s, 2 * exit);
+/// Whether the part of a directed portal between two borders of a sector, or all of it, is within
+/// range.
+static bool slrt_in_range(const slrt_search *s, uint32_t directed, uint32_t right, uint32_t left) {
+    const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
     const double x = q.x - p.x, y = q.y - p.y, square = x * x + y * y;
     const double ends = slrt_size(p.x, p.y) + slrt_size(q.x, q.y);
     const double limit = s->range * (1 + 1e-12) + 1e-14 * ends;
     double from = 0, to = 1, at, error, near_x, near_y;
-    if (right / 2 != exit) {
+    if (right / 2 != directed) {
         const slrt_arm ray = slrt_border(s, right);
         if (slrt_meet(&ray, &p, &q, &at, &error) && at - error > from) from = at - error;
     }
-    if (left / 2 != exit) {
+    if (left / 2 != directed) {
         const slrt_arm ray = slrt_border(s, left);
         if (slrt_meet(&ray, &p, &q, &at, &error) && at + error < to) to = at + error;
     }
@@ -1307,7 +1316,7 @@ static bool slrt_in_range(const slrt_search *s, uint32_t exit, uint32_t right, u
     return !(near_x * near_x + near_y * near_y > limit * limit);
 }
 
-/// Whether the sector that a cell was last entered with holds another.
+/// Whether the sector of a cell's last visit contains another one.
 static bool slrt_covered(const slrt_search *s, uint32_t cell, uint32_t right, uint32_t left) {
     const uint32_t was_right = s->sectors[2 * (size_t)cell];
     const uint32_t was_left = s->sectors[2 * (size_t)cell + 1];
@@ -1328,8 +1337,9 @@ static void slrt_see(slrt_search *s, uint32_t cell) {
     s->count++;
 }
 
-/// Goes on into a cell, unless nothing new can come of it: a line passes a convex cell once, so one
-/// that is on the path has been seen by a wider sector; so has one that was entered by one.
+/// Enters a cell, unless that gives nothing new. A line passes a convex cell once. So a cell on the
+/// path was seen through a wider sector, and a cell that was entered with a wider one needs no
+/// second visit.
 static void slrt_enter(slrt_search *s, uint32_t cell, uint32_t right, uint32_t left) {
     uint32_t *top = s->path + 4 * (size_t)s->depth;
     if (s->has_row && !(s->marks[cell] & SLRT_IN_ROW)) return;
@@ -1357,22 +1367,23 @@ static void slrt_search_from(slrt_search *s, uint32_t cell, uint32_t right, uint
     while (s->depth) {
         uint32_t *top = s->path + 4 * (size_t)(s->depth - 1);
         const sl_runtime_cell c = sl_runtime_get_cell(s->rt, top[0]);
-        if (top[1] == c.exit_count) {
+        if (top[1] == c.directed_count) {
             s->marks[top[0]] &= (unsigned char)~SLRT_ON_PATH;
             s->depth--;
         } else if (!s->patience) {
             slrt_see_row(s);
             s->depth = 0;
         } else {
-            const uint32_t exit = c.first_exit + top[1]++;
+            const uint32_t directed = c.first_directed + top[1]++;
             s->patience--;
             right = top[2];
             left = top[3];
-            if (s->shut && slrt_is_shut(s, exit)) continue;
-            if (slrt_narrow(s, exit, &right, &left) &&
-                (!(s->range > 0) || slrt_in_range(s, exit, right, left)))
-                slrt_enter(s, slrt_u32(s->rt->exits + (size_t)exit * SLRT_EXIT_BYTES + 4), right,
-                           left);
+            if (s->shut && slrt_is_shut(s, directed)) continue;
+            if (slrt_narrow(s, directed, &right, &left) &&
+                (!(s->range > 0) || slrt_in_range(s, directed, right, left)))
+                slrt_enter(s,
+                           slrt_u32(s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4),
+                           right, left);
         }
     }
 }
@@ -1382,7 +1393,7 @@ static bool slrt_is_direction(const double *d) {
     return d[0] == d[0] && d[1] == d[1] && larger >= 1e-150 && larger <= 1e150;
 }
 
-/// A number too small for a map as 0: its products would underflow.
+/// Replaces a number that is too small for a map by 0, as its products would underflow.
 static double slrt_no_dust(double number) {
     return number > -1e-200 && number < 1e-200 ? 0 : number;
 }
@@ -1395,11 +1406,11 @@ SL_RUNTIME_API size_t sl_runtime_scratch_count(const sl_runtime *runtime) {
     return (size_t)runtime->cell_count * 6 + ((size_t)runtime->cell_count + 3) / 4;
 }
 
-/// Whether the eye is on an exit of its cell.
-static bool slrt_is_on_exit(const slrt_search *s, uint32_t cell) {
+/// Whether the eye is on a directed portal of its cell.
+static bool slrt_is_on_portal(const slrt_search *s, uint32_t cell) {
     const sl_runtime_cell c = sl_runtime_get_cell(s->rt, cell);
     uint32_t i;
-    for (i = c.first_exit; i < c.first_exit + c.exit_count; i++) {
+    for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
         const slrt_arm p = slrt_border(s, 2 * i + 1), q = slrt_border(s, 2 * i);
         if (!slrt_side(&p, &q) && !slrt_same_way(&p, &q)) return true;
     }
@@ -1410,13 +1421,14 @@ static bool slrt_same_ray(const slrt_arm *u, const slrt_arm *v) {
     return !slrt_side(u, v) && slrt_same_way(u, v);
 }
 
-/// Looks within the view's cone: in pieces of less than 180 degrees, what is left of which by an
-/// exit is one sector. All round from within a cell, each exit is such a piece.
+/// Looks within the view cone, in pieces of less than 180 degrees. The part of a piece that leaves
+/// through a directed portal is one sector. All round from within a cell, each directed portal is
+/// such a piece.
 static void slrt_search_cone(slrt_search *s, uint32_t cell) {
     const double *right = s->view->right, *left = s->view->left;
     uint32_t i, pieces = 3, last = 3;
     if (s->view->all_round || !slrt_is_direction(right) || !slrt_is_direction(left)) {
-        if (!slrt_is_on_exit(s, cell)) {
+        if (!slrt_is_on_portal(s, cell)) {
             slrt_search_from(s, cell, SLRT_ALL_ROUND, SLRT_ALL_ROUND);
             return;
         }
@@ -1462,7 +1474,7 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
     s.marks = (unsigned char *)(scratch + 6 * count);
     s.cells = cells;
     s.room = room;
-    s.patience = SLRT_PATIENCE * ((uint64_t)runtime->exit_count + 16);
+    s.patience = SLRT_PATIENCE * ((uint64_t)runtime->directed_count + 16);
     memset(s.marks, 0, count);
     run = sl_runtime_row(runtime, cell);
     s.has_row = run.next != run.stop;

@@ -1,17 +1,189 @@
-/// Boxes put into a kd-tree's space: cells are cut at the lines of the boxes' sides. No coordinate
-/// is computed.
+/// Boxes put into a space. A kd-tree's space is cut here, a mesh in boxes_mesh.c.
+///
+/// Each cell that a side of a box runs through is cut along the lines of these sides, as nodes of
+/// the tree below its leaf:
+///
+///     +-------------+        +---+-----+---+
+///     |   .-----.   |        |   |     |   |      a part is cut at its first side; the other
+///     |   | box |   |   ->   |   +-----+   |      sides are cut for both halves, and so on,
+///     |   '-----'   |        |   |     |   |      until no side runs through a part
+///     |             |        |   +-----+   |
+///     +-------------+        +---+-----+---+
+///
+/// Portals of untouched cells stay. Others are found again between the parts on both sides of the
+/// old portal, and between the parts of one cell. Sides of boxes that block are left out of them.
+/// No coordinate is computed. Time: linear in the space, which is copied, plus the parts squared by
+/// cell.
 #include "space/boxes.h"
 
+#include "geometry/orient.h"
 #include "space/kd_tree.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/// A side of a box that runs through a cell, and where the tree leads to that cell.
+// --- the sides of boxes
+
+unsigned sli_box_sides(sl_box box, sli_piece sides[4]) {
+    const sl_point a = box.min, b = box.max;
+    unsigned count = 0;
+    if (a.y < b.y) {
+        sides[count++] = (sli_piece){.axis = 0, .at = a.x, .lo = a.y, .hi = b.y};
+        if (a.x < b.x) sides[count++] = (sli_piece){.axis = 0, .at = b.x, .lo = a.y, .hi = b.y};
+    }
+    if (a.x < b.x) {
+        sides[count++] = (sli_piece){.axis = 1, .at = a.y, .lo = a.x, .hi = b.x};
+        if (a.y < b.y) sides[count++] = (sli_piece){.axis = 1, .at = b.y, .lo = a.x, .hi = b.x};
+    }
+    return count;
+}
+
+sl_wall sli_piece_wall(const sli_piece *p) {
+    return p->axis ? (sl_wall){.a = {p->lo, p->at}, .b = {p->hi, p->at}}
+                   : (sl_wall){.a = {p->at, p->lo}, .b = {p->at, p->hi}};
+}
+
+static int compare_pieces(const void *left, const void *right) {
+    const sli_piece *a = left, *b = right;
+    if (a->axis != b->axis) return a->axis - b->axis;
+    if (a->at != b->at) return a->at < b->at ? -1 : 1;
+    return (a->lo > b->lo) - (a->lo < b->lo);
+}
+
+static sl_status add_piece(sl_context *context, sli_piece_list *list, sli_piece piece) {
+    SL_TRY(SL_ARRAY_ROOM(context, list, 1));
+    list->items[list->count++] = piece;
+    return SL_OK;
+}
+
+sl_status sli_piece_add_free(sl_context *context, const sli_piece *walls, size_t count,
+                             sli_piece piece, sli_piece_list *out) {
+    size_t i = sli_wall_lines_find(walls, count, piece.axis, piece.at, piece.lo);
+    for (; i < count && piece.lo < piece.hi; i++) {
+        const sli_piece *wall = &walls[i];
+        if (wall->axis != piece.axis || wall->at != piece.at || wall->lo >= piece.hi) break;
+        sli_piece before = piece;
+        before.hi = wall->lo;
+        if (before.lo < before.hi) SL_TRY(add_piece(context, out, before));
+        piece.lo = fmax(piece.lo, wall->hi);
+    }
+    return piece.lo < piece.hi ? add_piece(context, out, piece) : SL_OK;
+}
+
+/// Sorts pieces, each place once: a piece that overlaps the one before it starts at its end.
+/// Returns the number that is left.
+static size_t sort_out(sli_piece *pieces, size_t count) {
+    size_t kept = 0;
+    if (count) qsort(pieces, count, sizeof *pieces, compare_pieces);
+    for (size_t i = 0; i < count; i++) {
+        sli_piece piece = pieces[i];
+        const sli_piece *last = kept ? &pieces[kept - 1] : NULL;
+        if (last && last->axis == piece.axis && last->at == piece.at)
+            piece.lo = fmax(piece.lo, last->hi);
+        if (piece.lo < piece.hi) pieces[kept++] = piece;
+    }
+    return kept;
+}
+
+/// Keeps the part of a side within the bounds; false for none.
+static bool clip(const sl_box *bounds, sli_piece *side) {
+    const double at_lo = side->axis ? bounds->min.y : bounds->min.x;
+    const double at_hi = side->axis ? bounds->max.y : bounds->max.x;
+    side->lo = fmax(side->lo, side->axis ? bounds->min.x : bounds->min.y);
+    side->hi = fmin(side->hi, side->axis ? bounds->max.x : bounds->max.y);
+    return side->at >= at_lo && side->at <= at_hi && side->lo < side->hi;
+}
+
+static sl_status add_sides(sl_context *context, const sli_box_ground *ground,
+                           const sl_moving_box *boxes, size_t count, bool blocking,
+                           sli_piece_list *all, sli_piece_list *out) {
+    for (size_t i = 0; i < count; i++) {
+        sli_piece sides[4];
+        const unsigned n = boxes[i].blocks == blocking ? sli_box_sides(boxes[i].box, sides) : 0;
+        for (unsigned k = 0; k < n; k++)
+            if (clip(&ground->space->bounds, &sides[k])) SL_TRY(add_piece(context, all, sides[k]));
+    }
+    all->count = sort_out(all->items, all->count);
+    for (size_t i = 0; i < all->count; i++)
+        SL_TRY(sli_piece_add_free(context, ground->walls, ground->wall_count, all->items[i], out));
+    return SL_OK;
+}
+
+sl_status sli_box_sides_put(sl_context *context, const sli_box_ground *ground,
+                            const sl_moving_box *boxes, size_t count, bool blocking,
+                            sli_piece_list *out) {
+    sli_piece_list all = {0};
+    const sl_status status = add_sides(context, ground, boxes, count, blocking, &all, out);
+    sl_free(context, all.items);
+    return status;
+}
+
+// --- cells
+
+/// Looks for a separating line among the sides of the box and of the cell.
+bool sli_cell_meets_box(const sl_space *space, uint32_t number, sl_box box) {
+    const sl_point corners[4] = {box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}};
+    const sl_cell *cell = &space->cells[number];
+    const sl_point *v = space->vertices + cell->first_vertex;
+    bool left = true, right = true, under = true, over = true;
+    for (uint32_t i = 0; i < cell->vertex_count; i++) {
+        const sl_point next = v[i + 1 == cell->vertex_count ? 0 : i + 1];
+        bool outside = true;
+        for (int k = 0; k < 4 && outside; k++) outside = sli_orient(v[i], next, corners[k]) < 0;
+        if (outside) return false;
+        left &= v[i].x < box.min.x;
+        right &= v[i].x > box.max.x;
+        under &= v[i].y < box.min.y;
+        over &= v[i].y > box.max.y;
+    }
+    return !left && !right && !under && !over;
+}
+
+// --- the ground
+
+/// The axial walls of a mesh.
+static sl_status gather_axial(sl_context *context, const sl_space *space, sli_box_ground *out) {
+    sli_piece *pieces = sl_alloc_array(context, space->wall_count, sizeof *pieces);
+    size_t count = 0;
+    if (!pieces) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < space->wall_count; i++) {
+        const sl_point a = space->walls[i].a, b = space->walls[i].b;
+        sli_piece sides[4];
+        // A box without width or height has one side.
+        if (a.x == b.x || a.y == b.y)
+            if (sli_box_sides(
+                    (sl_box){{fmin(a.x, b.x), fmin(a.y, b.y)}, {fmax(a.x, b.x), fmax(a.y, b.y)}},
+                    sides))
+                pieces[count++] = sides[0];
+    }
+    *out = (sli_box_ground){space, pieces, sort_out(pieces, count)};
+    return SL_OK;
+}
+
+sl_status sli_box_ground_create(sl_context *context, const sl_space *space, sli_box_ground *out) {
+    if (space->directed_count != 2 * space->portal_count)
+        return sl_fail(context, SL_UNSUPPORTED, "boxes are put in before one-way glass is");
+    if (space->loose)
+        return sl_fail(context, SL_UNSUPPORTED,
+                       "boxes need cells that fit together, which a file of version 1 does not "
+                       "have: bake the map anew");
+    if (space->neighbour) return gather_axial(context, space, out);
+    sli_piece *walls = NULL;
+    SL_TRY(sli_wall_lines(context, "the walls", space->walls, space->wall_count, &walls));
+    *out = (sli_box_ground){space, walls, space->wall_count};
+    return SL_OK;
+}
+
+void sli_box_ground_destroy(sl_context *context, sli_box_ground *ground) {
+    sl_free(context, ground->walls);
+    *ground = (sli_box_ground){0};
+}
+
+/// A side of a box that runs through a cell, and the place in the tree that leads to the cell.
 typedef struct cut {
     uint32_t cell;
-    sl_piece side;
+    sli_piece side;
     int32_t node; ///< -1: the cell is the root
     bool above;
 } cut;
@@ -24,7 +196,7 @@ typedef struct part {
     bool above;
 } part;
 
-/// A portal, and that of the ground which it is of; UINT32_MAX: within a cell that was one.
+/// A portal, and the portal of the ground that it is a part of; UINT32_MAX for one within a cell.
 typedef struct made_portal {
     sl_portal portal;
     uint32_t of;
@@ -32,11 +204,11 @@ typedef struct made_portal {
 
 typedef struct maker {
     sl_context *context;
-    const sl_box_ground *ground;
+    const sli_box_ground *ground;
     const sl_space *from;
-    sl_boxed_space *out;
-    sl_piece_list blocking; ///< as sl_box_sides_blocking gives them
-    sl_piece_list sides;    ///< of parts
+    sli_boxed_space *out;
+    sli_piece_list blocking; ///< the sides of boxes that block
+    sli_piece_list sides;    ///< of parts
     SL_ARRAY(cut) cuts;
     SL_ARRAY(part) parts;
     SL_ARRAY(sl_box) boxes; ///< of all cells
@@ -53,7 +225,7 @@ typedef struct maker {
 // --- which cells are cut
 
 /// Whether a side has a point strictly inside a box.
-static bool runs_through(const sl_piece *side, const sl_box *box) {
+static bool runs_through(const sli_piece *side, const sl_box *box) {
     const double at_lo = side->axis ? box->min.y : box->min.x;
     const double at_hi = side->axis ? box->max.y : box->max.x;
     const double lo = side->axis ? box->min.x : box->min.y;
@@ -67,10 +239,10 @@ static sl_status push(maker *m, int32_t child) {
     return SL_OK;
 }
 
-/// Notes the cells that a box touches, and those that its sides run through, with what led there.
+/// Finds the cells that a box touches, and those that its sides run through.
 static sl_status find_cells(maker *m, sl_box box) {
-    sl_piece sides[4];
-    const unsigned count = sl_box_sides(box, sides);
+    sli_piece sides[4];
+    const unsigned count = sli_box_sides(box, sides);
     const sl_space *s = m->from;
     m->stack.count = 0;
     int32_t node = -1;
@@ -80,7 +252,7 @@ static sl_status find_cells(maker *m, sl_box box) {
             const sl_node *n = &s->nodes[child];
             const double lo = n->axis ? box.min.y : box.min.x;
             const double hi = n->axis ? box.max.y : box.max.x;
-            // The stack holds nodes, each twice where both its children are to be looked at.
+            // The stack has 2 * node + 1 for the child above, 2 * node for the child below.
             if (lo <= n->position) SL_TRY(push(m, 2 * child));
             if (hi >= n->position) SL_TRY(push(m, 2 * child + 1));
         } else {
@@ -128,9 +300,9 @@ static sl_status keep_part(maker *m, const part *p, uint32_t cell) {
     return SL_OK;
 }
 
-/// Cuts a part at its first side; what of the others runs through either half is left for it.
+/// Cuts a part at its first side. Each half keeps the other sides that run through it.
 static sl_status cut_part(maker *m, const part *p) {
-    const sl_piece by = m->sides.items[p->first];
+    const sli_piece by = m->sides.items[p->first];
     const int32_t node = (int32_t)m->nodes.count;
     SL_TRY(SL_ARRAY_ROOM(m->context, &m->nodes, 1));
     m->nodes.items[m->nodes.count++] = (sl_node){.position = by.at, .axis = by.axis};
@@ -142,8 +314,8 @@ static sl_status cut_part(maker *m, const part *p) {
         else
             *(above ? &half.box.min.x : &half.box.max.x) = by.at;
         for (size_t i = p->first + 1; i < p->first + p->count; i++) {
-            const sl_piece side = m->sides.items[i];
-            if (runs_through(&side, &half.box)) SL_TRY(sl_piece_add(m->context, &m->sides, side));
+            const sli_piece side = m->sides.items[i];
+            if (runs_through(&side, &half.box)) SL_TRY(add_piece(m->context, &m->sides, side));
         }
         half.count = m->sides.count - half.first;
         SL_TRY(SL_ARRAY_ROOM(m->context, &m->parts, 1));
@@ -155,7 +327,7 @@ static sl_status cut_part(maker *m, const part *p) {
 static sl_status cut_cell(maker *m, const cut *cuts, size_t count) {
     const uint32_t cell = cuts->cell;
     m->sides.count = 0;
-    for (size_t i = 0; i < count; i++) SL_TRY(sl_piece_add(m->context, &m->sides, cuts[i].side));
+    for (size_t i = 0; i < count; i++) SL_TRY(add_piece(m->context, &m->sides, cuts[i].side));
     m->first_part[cell] = (uint32_t)m->of_cut.count;
     SL_TRY(SL_ARRAY_ROOM(m->context, &m->parts, 1));
     m->parts.items[0] = (part){m->boxes.items[cell], 0, count, cuts->node, cuts->above};
@@ -185,24 +357,23 @@ static sl_status cut_cells(maker *m) {
 
 // --- portals
 
-/// Whether two cells share a piece of a line of positive length, which `out` becomes, the first of
-/// them below it.
-static bool share(const sl_box *below, const sl_box *above, int axis, sl_piece *out) {
+/// The piece of positive length that two cells share, the first of them below it; false for none.
+static bool share(const sl_box *below, const sl_box *above, int axis, sli_piece *out) {
     const double at = axis ? below->max.y : below->max.x;
     if (at != (axis ? above->min.y : above->min.x)) return false;
-    *out = (sl_piece){.axis = axis, .at = at};
+    *out = (sli_piece){.axis = axis, .at = at};
     out->lo = axis ? fmax(below->min.x, above->min.x) : fmax(below->min.y, above->min.y);
     out->hi = axis ? fmin(below->max.x, above->max.x) : fmin(below->max.y, above->max.y);
     return out->lo < out->hi;
 }
 
-/// Adds the portals that blocking sides leave of a piece that two cells share.
-static sl_status add_portals(maker *m, uint32_t below, uint32_t above, sl_piece piece,
+/// Adds the portals on a piece that two cells share, without the sides that block.
+static sl_status add_portals(maker *m, uint32_t below, uint32_t above, sli_piece piece,
                              uint32_t of) {
     m->sides.count = 0;
-    SL_TRY(sl_piece_add_free(m->context, m->blocking.items, m->blocking.count, piece, &m->sides));
+    SL_TRY(sli_piece_add_free(m->context, m->blocking.items, m->blocking.count, piece, &m->sides));
     for (size_t i = 0; i < m->sides.count; i++) {
-        const sl_piece *p = &m->sides.items[i];
+        const sli_piece *p = &m->sides.items[i];
         // Going up in the line's coordinate, the left hand is at high y (axis 0) or at low x.
         sl_point left = p->axis ? (sl_point){p->lo, p->at} : (sl_point){p->at, p->hi};
         sl_point right = p->axis ? (sl_point){p->hi, p->at} : (sl_point){p->at, p->lo};
@@ -214,14 +385,14 @@ static sl_status add_portals(maker *m, uint32_t below, uint32_t above, sl_piece 
     return SL_OK;
 }
 
-/// The parts of a cell, itself where it is whole.
+/// The parts of a cell; a whole cell is its own part.
 static const uint32_t *parts_of(const maker *m, const uint32_t *cell, uint32_t *count) {
     const uint32_t first = m->first_part[*cell];
     *count = first == UINT32_MAX ? 1 : m->part_count[*cell];
     return first == UINT32_MAX ? cell : m->of_cut.items + first;
 }
 
-/// A portal of the ground, as the parts of its cells have it.
+/// The portals between parts of cells that a portal of the ground becomes.
 static sl_status take_portal(maker *m, uint32_t number) {
     const sl_portal *p = &m->from->portals[number];
     if (!m->touched[p->cell[0]] && !m->touched[p->cell[1]]) {
@@ -239,7 +410,7 @@ static sl_status take_portal(maker *m, uint32_t number) {
     const uint32_t *above = parts_of(m, &p->cell[up ? 1 : 0], &above_count);
     for (uint32_t i = 0; i < below_count; i++)
         for (uint32_t k = 0; k < above_count; k++) {
-            sl_piece piece;
+            sli_piece piece;
             if (!share(&m->boxes.items[below[i]], &m->boxes.items[above[k]], axis, &piece))
                 continue;
             piece.lo = fmax(piece.lo, lo);
@@ -257,7 +428,7 @@ static sl_status join_parts(maker *m, uint32_t cell) {
         SL_TRY(sl_check_cancelled(m->context));
         for (uint32_t k = 0; k < count; k++)
             for (int axis = 0; axis < 2; axis++) {
-                sl_piece piece;
+                sli_piece piece;
                 if (share(&m->boxes.items[parts[i]], &m->boxes.items[parts[k]], axis, &piece))
                     SL_TRY(add_portals(m, parts[i], parts[k], piece, UINT32_MAX));
             }
@@ -265,7 +436,7 @@ static sl_status join_parts(maker *m, uint32_t cell) {
     return SL_OK;
 }
 
-/// The seams that a portal of the ground lies on, for what has become of it.
+/// Gives a part of a portal the seams that the portal lies on.
 static void take_seams(maker *m, uint32_t number, const made_portal *made) {
     sl_space *s = &m->out->space;
     size_t count;
@@ -287,7 +458,7 @@ static sl_status write_portals(maker *m) {
     size_t tags = 0, count;
     if (m->portals.count > UINT32_MAX / 2) return sl_fail_memory(m->context);
     if (m->portals.count)
-        qsort(m->portals.items, m->portals.count, sizeof *m->portals.items, sl_compare_portals);
+        qsort(m->portals.items, m->portals.count, sizeof *m->portals.items, sli_compare_portals);
     for (size_t i = 0; i < m->portals.count; i++)
         if (m->portals.items[i].of != UINT32_MAX) {
             sl_space_seams_of(m->from, m->portals.items[i].of, &count);
@@ -301,8 +472,8 @@ static sl_status write_portals(maker *m) {
         if (m->portals.items[i].of != UINT32_MAX) take_seams(m, (uint32_t)i, &m->portals.items[i]);
     }
     s->portal_count = (uint32_t)m->portals.count;
-    s->exit_count = 2 * s->portal_count;
-    return sl_make_exits(m->context, s);
+    s->directed_count = 2 * s->portal_count;
+    return sli_make_directed(m->context, s);
 }
 
 static sl_status make_portals(maker *m) {
@@ -347,11 +518,11 @@ static sl_status write_walls(maker *m) {
     s->seam_count = f->seam_count;
     s->wall_count = f->wall_count;
     for (size_t i = 0; i < m->blocking.count; i++)
-        s->walls[s->wall_count++] = sl_piece_wall(&m->blocking.items[i]);
+        s->walls[s->wall_count++] = sli_piece_wall(&m->blocking.items[i]);
     return SL_OK;
 }
 
-/// The deepest way down; nodes come after their parents.
+/// Takes the nodes, and finds the depth: nodes come after their parents.
 static sl_status write_nodes(maker *m) {
     sl_space *s = &m->out->space;
     s->nodes = m->nodes.items;
@@ -394,7 +565,7 @@ static sl_status begin(maker *m) {
 
 static sl_status make(maker *m, const sl_moving_box *boxes, size_t count) {
     SL_TRY(begin(m));
-    SL_TRY(sl_box_sides_put(m->context, m->ground, boxes, count, true, &m->blocking));
+    SL_TRY(sli_box_sides_put(m->context, m->ground, boxes, count, true, &m->blocking));
     for (size_t i = 0; i < count; i++) SL_TRY(find_cells(m, boxes[i].box));
     SL_TRY(cut_cells(m));
     SL_TRY(write_cells(m));
@@ -406,8 +577,9 @@ static sl_status make(maker *m, const sl_moving_box *boxes, size_t count) {
     return SL_OK;
 }
 
-sl_status sl_boxes_put_axial(sl_context *context, const sl_box_ground *ground,
-                             const sl_moving_box *boxes, size_t count, sl_boxed_space *out) {
+/// In a kd-tree's space.
+static sl_status put_axial(sl_context *context, const sli_box_ground *ground,
+                           const sl_moving_box *boxes, size_t count, sli_boxed_space *out) {
     maker m = {.context = context, .ground = ground, .from = ground->space, .out = out};
     const sl_status status = make(&m, boxes, count);
     void *const scratch[] = {m.blocking.items, m.sides.items,   m.cuts.items,  m.parts.items,
@@ -416,4 +588,27 @@ sl_status sl_boxes_put_axial(sl_context *context, const sl_box_ground *ground,
                              m.touched};
     for (size_t i = 0; i < sizeof scratch / sizeof *scratch; i++) sl_free(context, scratch[i]);
     return status;
+}
+
+// --- any space
+
+sl_status sli_boxes_put(sl_context *context, const sli_box_ground *ground,
+                        const sl_moving_box *boxes, size_t count, sli_boxed_space *out) {
+    sli_boxed_space made = {0};
+    const sl_status status = ground->space->neighbour
+                                 ? sli_boxes_put_mesh(context, ground, boxes, count, &made)
+                                 : put_axial(context, ground, boxes, count, &made);
+    if (status == SL_OK)
+        *out = made;
+    else
+        sli_boxed_space_destroy(context, &made);
+    return status;
+}
+
+void sli_boxed_space_destroy(sl_context *context, sli_boxed_space *boxed) {
+    sl_space_destroy(context, &boxed->space);
+    sl_free(context, boxed->parents);
+    sl_free(context, boxed->first_share);
+    sl_free(context, boxed->shares);
+    *boxed = (sli_boxed_space){0};
 }

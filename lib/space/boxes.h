@@ -1,74 +1,69 @@
-/// Boxes put into a space, without subdividing it anew: only the cells that they lie in are cut.
+/// Boxes put into a space. The space is not subdivided again: only the cells with boxes are cut.
 #ifndef SL_BOXES_H
 #define SL_BOXES_H
 
 #include "sightline/space.h"
-#include "space/wall_lines.h"
+#include "space/kd_tree.h"
 
 /// A space to put boxes into. Zeroed, it is empty.
-typedef struct sl_box_ground {
+typedef struct sli_box_ground {
     const sl_space *space;
-    sl_piece *walls; ///< its axial walls by line, each place once
+    sli_piece *walls; ///< its axial walls by line, each place once
     size_t wall_count;
-} sl_box_ground;
+} sli_box_ground;
 
-/// SL_UNSUPPORTED for a space that has exits missing, or is loose.
-sl_status sl_box_ground_create(sl_context *context, const sl_space *space, sl_box_ground *out);
-void sl_box_ground_destroy(sl_context *context, sl_box_ground *ground);
+/// SL_UNSUPPORTED for a space with directed portals missing, and for a loose one.
+sl_status sli_box_ground_create(sl_context *context, const sl_space *space, sli_box_ground *out);
+void sli_box_ground_destroy(sl_context *context, sli_box_ground *ground);
 
-/// A space with boxes in it. The sides of those that block are walls, behind those of the ground;
-/// where an axial wall stands already there is no second one. Cells that are cut are cut along the
-/// sides of all boxes. Cells keep their numbers: of one that is cut, the first part does, and the
-/// others come behind all cells.
+/// A space with boxes in it. The sides of boxes that block are walls, after those of the ground; an
+/// axial wall in the same place is not doubled. Cells are cut along the sides of all boxes. Cells
+/// keep their numbers: the first part of a cut cell has the number of the cell, the other parts
+/// come after all cells.
 ///
-/// In a kd-tree's space no coordinate is computed. In a mesh, walls and borders of cells that a
-/// box's side crosses are led through the nearest representable point of that side. So cells may
-/// reach into neighbours of their parents, by the size of rounding: `shares` has these neighbours,
-/// exactly. The space has no seams then.
-typedef struct sl_boxed_space {
+/// In a kd-tree's space no coordinate is computed. In a mesh, a wall or portal that a side of a box
+/// crosses goes through the nearest representable point of that side. So cells may reach into
+/// neighbours of their parents, by the size of rounding. `shares` lists exactly these neighbours.
+/// Such a space has no seams.
+typedef struct sli_boxed_space {
     sl_space space;
-    uint32_t *parents;     ///< by cell: that of the ground which it is (a part of)
+    uint32_t *parents;     ///< by cell: the cell of the ground that it is, or is a part of
     uint32_t *first_share; ///< by cell, and one more; NULL: no cell has a share
-    uint32_t *shares;      ///< cells of the ground beside the parent with which cell c has inner
-                           ///< points in common: from first_share[c] to first_share[c + 1]
-} sl_boxed_space;
+    uint32_t *shares; ///< the cells of the ground, other than the parent, that cell c overlaps:
+                      ///< from first_share[c] to first_share[c + 1]
+} sli_boxed_space;
 
-sl_status sl_boxes_put(sl_context *context, const sl_box_ground *ground, const sl_moving_box *boxes,
-                       size_t count, sl_boxed_space *out);
-void sl_boxed_space_destroy(sl_context *context, sl_boxed_space *boxed); ///< and zeroes it
+sl_status sli_boxes_put(sl_context *context, const sli_box_ground *ground,
+                        const sl_moving_box *boxes, size_t count, sli_boxed_space *out);
+void sli_boxed_space_destroy(sl_context *context, sli_boxed_space *boxed); ///< and zeroes it
 
-// --- what sl_boxes_put is made of; `out` is zeroed, and to be destroyed whatever comes
+// --- parts of sli_boxes_put; `out` is zeroed, and to be destroyed also on failure
 
-/// In a kd-tree's space (boxes.c).
-sl_status sl_boxes_put_axial(sl_context *context, const sl_box_ground *ground,
-                             const sl_moving_box *boxes, size_t count, sl_boxed_space *out);
 /// In a mesh (boxes_mesh.c).
-sl_status sl_boxes_put_mesh(sl_context *context, const sl_box_ground *ground,
-                            const sl_moving_box *boxes, size_t count, sl_boxed_space *out);
+sl_status sli_boxes_put_mesh(sl_context *context, const sli_box_ground *ground,
+                             const sl_moving_box *boxes, size_t count, sli_boxed_space *out);
 
-/// Whether a box and a cell have a point in common, be it on their borders. Exact.
-bool sl_cell_meets_box(const sl_space *space, uint32_t cell, sl_box box);
+/// Whether a box and a cell have a point in common; a point of the border is enough. Exact.
+bool sli_cell_meets_box(const sl_space *space, uint32_t cell, sl_box box);
 
-// --- the sides of boxes (box_sides.c)
+// --- the sides of boxes
 
-typedef SL_ARRAY(sl_piece) sl_piece_list;
+typedef SL_ARRAY(sli_piece) sli_piece_list;
 
-sl_status sl_piece_add(sl_context *context, sl_piece_list *list, sl_piece piece);
+/// Adds to a list the parts of a piece that sorted walls (sli_wall_lines) leave free.
+sl_status sli_piece_add_free(sl_context *context, const sli_piece *walls, size_t count,
+                             sli_piece piece, sli_piece_list *out);
 
-/// Adds to a list what sorted pieces, as sl_wall_lines gives them, leave free of one.
-sl_status sl_piece_add_free(sl_context *context, const sl_piece *walls, size_t count,
-                            sl_piece piece, sl_piece_list *out);
+/// The sides of positive length of a box.
+unsigned sli_box_sides(sl_box box, sli_piece sides[4]);
 
-/// The sides of a box: those of positive length.
-unsigned sl_box_sides(sl_box box, sl_piece sides[4]);
-
-/// Adds the sides of those boxes that block, or of those that do not, to an empty list: sorted,
-/// each place once, what of them lies within the space's bounds and is free of its axial walls.
-sl_status sl_box_sides_put(sl_context *context, const sl_box_ground *ground,
-                           const sl_moving_box *boxes, size_t count, bool blocking,
-                           sl_piece_list *out);
+/// Adds the sides of the boxes that block, or of those that do not, to an empty list: sorted, each
+/// place once, without the parts outside the bounds or on axial walls.
+sl_status sli_box_sides_put(sl_context *context, const sli_box_ground *ground,
+                            const sl_moving_box *boxes, size_t count, bool blocking,
+                            sli_piece_list *out);
 
 /// A piece as a wall, from lo to hi.
-sl_wall sl_piece_wall(const sl_piece *piece);
+sl_wall sli_piece_wall(const sli_piece *piece);
 
 #endif

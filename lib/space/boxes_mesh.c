@@ -1,17 +1,21 @@
 /// Boxes put into a mesh: the cells that their sides touch are cut anew.
 ///
-/// The walls and portals of those cells and the sides of the boxes are made a planar graph, which
-/// is triangulated and merged to cells as a map's is (mesh.h). A side of a box is axial, so it
-/// holds the rounded place of each of its crossings: only the wall or portal that it crosses is
-/// bent, by a step of doubles. What a cell's walls and portals enclose stays parts of that cell.
+/// The walls and portals of these cells, and the sides of the boxes, become a planar graph. It is
+/// triangulated and merged to cells, as for a map (mesh.h):
 ///
-/// Borders to cells that no box touches must stay as they are. Should a bent wall come to cross
-/// one, the cell beyond it is cut too, and all is done over.
+///     .-----.-----.           .-----.-----.       the portal and the wall that the box crosses are
+///     |    /|      \          |    / \_    \      bent to representable points of its sides; the
+///     |  [---]      .   ->    |  [-+--]-----.     sides of the box are axial, so they hold these
+///     |  [---]     /          |  [---]     /      points exactly
+///     '-----'-----'           '-----'-----'
+///
+/// The parts of a cell stay within its own walls and portals. The borders to untouched cells must
+/// not change. If a bent wall comes to cross one, the cell there is cut too, and all is done again.
+/// This ends, as there are only so many cells.
 #include "space/boxes.h"
 
 #include "geometry/orient.h"
-#include "space/box_tree.h"
-#include "space/cell_grid.h"
+#include "space/index.h"
 #include "space/mesh.h"
 
 #include <string.h>
@@ -20,22 +24,22 @@
 
 /// A wall or portal of cells that are cut.
 typedef struct line {
-    uint32_t cells[2]; ///< of the ground, at its left and right; NONE beyond the border
+    uint32_t cells[2]; ///< of the ground, at its left and right; NONE outside the border
     uint32_t wall;     ///< NONE for a portal
-    uint32_t portal;   ///< which runs from its right to its left; NONE for a wall
+    uint32_t portal;   ///< the line runs from its right to its left; NONE for a wall
 } line;
 
-/// What an edge of the graph is part of.
+/// The line that an edge of the graph is part of.
 typedef struct graph_edge {
-    uint32_t beyond; ///< what a cell at its left has beyond it, as sl_space.beyond has it
-    uint32_t line;   ///< NONE for none
-    bool along;      ///< it runs as the line does
-    bool shared;     ///< by several lines
+    uint32_t neighbour; ///< of a cell at its left, as in sl_space.neighbour
+    uint32_t line;      ///< NONE for none
+    bool along;         ///< it runs as the line does
+    bool shared;        ///< several lines have it
 } graph_edge;
 
-/// Where a portal of the ground ends up: its cells, and the places of their exits.
+/// The new cell at one side of a portal of the ground, and the place of its directed portal.
 typedef struct portal_end {
-    uint32_t cell, exit;
+    uint32_t cell, directed;
 } portal_end;
 
 typedef struct new_cell {
@@ -45,30 +49,30 @@ typedef struct new_cell {
 
 typedef struct polygon {
     const sl_point *corners;
-    uint32_t count; ///< two for a segment
+    uint32_t count; ///< 2 for a segment
 } polygon;
 
 typedef struct maker {
     sl_context *context;
-    const sl_box_ground *ground;
+    const sli_box_ground *ground;
     const sl_space *from;
-    sl_boxed_space *out;
+    sli_boxed_space *out;
     bool *touched;        ///< by cell of the ground
     uint32_t *wall_cells; ///< by wall of the ground: the cells at its left and right
-    sl_piece_list blocking, open;
-    SL_ARRAY(sl_segment) segments; ///< lines, sides that block, sides that do not
+    sli_piece_list blocking, open;
+    SL_ARRAY(sl_segment) segments; ///< lines, then sides that block, then other sides
     SL_ARRAY(line) lines;
-    sl_planar graph;
-    sl_triangulation t;
+    sli_planar graph;
+    sli_triangulation t;
     graph_edge *edges;
     bool *in;                 ///< by half-edge: it is in a cell that is cut
     uint32_t *cell;           ///< by half-edge: the new cell, NONE for none
-    SL_ARRAY(uint32_t) stack; ///< half-edges to go on from
+    SL_ARRAY(uint32_t) stack; ///< half-edges to visit
     SL_ARRAY(new_cell) cells;
-    SL_ARRAY(sl_point) corners; ///< of the cell at hand
-    uint32_t *exit;             ///< by half-edge
+    SL_ARRAY(sl_point) corners; ///< of the current cell
+    uint32_t *directed;         ///< by half-edge
     portal_end *ends;           ///< two by portal of the ground
-    SL_ARRAY(sl_mesh_joint) joints;
+    SL_ARRAY(sli_mesh_joint) joints;
     SL_ARRAY(uint32_t) shares;
 } maker;
 
@@ -84,15 +88,15 @@ static sl_point corner_after(const polygon *p, uint32_t i) {
 }
 
 static sl_box box_of(const polygon *p) {
-    sl_box box = sl_box_around(p->corners[0], p->corners[1]);
-    for (uint32_t i = 2; i < p->count; i++) box = sl_box_with(box, p->corners[i]);
+    sl_box box = sli_box_around(p->corners[0], p->corners[1]);
+    for (uint32_t i = 2; i < p->count; i++) box = sli_box_with(box, p->corners[i]);
     return box;
 }
 
 /// Whether all corners are at the left of a line or on it.
 static bool is_left_of(const polygon *p, sl_point a, sl_point b) {
     for (uint32_t i = 0; i < p->count; i++)
-        if (sl_orient(a, b, p->corners[i]) < 0) return false;
+        if (sli_orient(a, b, p->corners[i]) < 0) return false;
     return true;
 }
 
@@ -108,20 +112,20 @@ static bool is_beside(const polygon *p, const polygon *other) {
     return false;
 }
 
-/// Whether the insides of two polygons have points in common, or of one and a segment.
+/// Whether the insides of two polygons, or of a polygon and a segment, overlap.
 static bool overlap(const polygon *p, const polygon *q) {
     return !is_beside(p, q) && !is_beside(q, p);
 }
 
 // --- the cells to be cut
 
-static void touch_along(maker *m, const sl_piece_list *sides) {
+static void touch_along(maker *m, const sli_piece_list *sides) {
     for (size_t i = 0; i < sides->count; i++) {
-        const sl_wall side = sl_piece_wall(&sides->items[i]);
+        const sl_wall side = sli_piece_wall(&sides->items[i]);
         const sl_box box = {side.a, side.b};
-        sl_cell_grid_range r = sl_cell_grid_range_of(m->from, box);
-        for (uint32_t at; sl_cell_grid_next(&m->from->grid, &r, &at);)
-            if (!m->touched[at] && sl_cell_meets_box(m->from, at, box)) m->touched[at] = true;
+        sli_cell_grid_range r = sli_cell_grid_range_of(m->from, box);
+        for (uint32_t at; sli_cell_grid_next(&m->from->grid, &r, &at);)
+            if (!m->touched[at] && sli_cell_meets_box(m->from, at, box)) m->touched[at] = true;
     }
 }
 
@@ -132,9 +136,10 @@ static sl_status find_wall_cells(maker *m) {
     for (size_t i = 0; i < 2 * (size_t)f->wall_count; i++) m->wall_cells[i] = NONE;
     for (uint32_t i = 0; i < f->cell_count; i++)
         for (uint32_t k = 0; k < f->cells[i].vertex_count; k++) {
-            const uint32_t what = f->beyond[f->cells[i].first_vertex + k];
-            if (what < SL_BEYOND_BORDER)
-                m->wall_cells[2 * (what & ~SL_BEYOND_RIGHT) + (what & SL_BEYOND_RIGHT ? 1 : 0)] = i;
+            const uint32_t what = f->neighbour[f->cells[i].first_vertex + k];
+            if (what < SL_NEIGHBOUR_BORDER)
+                m->wall_cells[2 * (what & ~SL_NEIGHBOUR_RIGHT) +
+                              (what & SL_NEIGHBOUR_RIGHT ? 1 : 0)] = i;
         }
     return SL_OK;
 }
@@ -156,9 +161,9 @@ static sl_status add_line(maker *m, line l, sl_point a, sl_point b) {
     return add_segment(m, a, b);
 }
 
-static sl_status add_sides(maker *m, const sl_piece_list *sides) {
+static sl_status add_sides(maker *m, const sli_piece_list *sides) {
     for (size_t i = 0; i < sides->count; i++) {
-        const sl_wall side = sl_piece_wall(&sides->items[i]);
+        const sl_wall side = sli_piece_wall(&sides->items[i]);
         SL_TRY(add_segment(m, side.a, side.b));
     }
     return SL_OK;
@@ -183,16 +188,16 @@ static sl_status gather_segments(maker *m) {
 // --- the graph
 
 static uint32_t seen_from_left(uint32_t wall, bool along) {
-    return wall | (along ? 0 : SL_BEYOND_RIGHT);
+    return wall | (along ? 0 : SL_NEIGHBOUR_RIGHT);
 }
 
 static sl_status take_edges(maker *m) {
-    const sl_planar *g = &m->graph;
+    const sli_planar *g = &m->graph;
     sl_free(m->context, m->edges);
     m->edges = sl_alloc_array(m->context, g->edge_count, sizeof *m->edges);
     if (!m->edges) return SL_NO_MEMORY;
     for (size_t i = 0; i < g->edge_count; i++)
-        m->edges[i] = (graph_edge){.beyond = SL_BEYOND_EXIT, .line = NONE};
+        m->edges[i] = (graph_edge){.neighbour = SL_NEIGHBOUR_PORTAL, .line = NONE};
     for (size_t i = 0; i < m->lines.count + m->blocking.count; i++)
         for (size_t k = g->first[i]; k < g->first[i + 1]; k++) {
             graph_edge *e = &m->edges[g->links[k] / 2];
@@ -200,8 +205,8 @@ static sl_status take_edges(maker *m) {
             const uint32_t wall = i < m->lines.count
                                       ? m->lines.items[i].wall
                                       : (uint32_t)(m->from->wall_count + i - m->lines.count);
-            if (wall != NONE && e->beyond == SL_BEYOND_EXIT)
-                e->beyond = seen_from_left(wall, along);
+            if (wall != NONE && e->neighbour == SL_NEIGHBOUR_PORTAL)
+                e->neighbour = seen_from_left(wall, along);
             if (i >= m->lines.count) continue;
             e->shared = e->line != NONE;
             if (!e->shared) e->line = (uint32_t)i, e->along = along;
@@ -209,15 +214,15 @@ static sl_status take_edges(maker *m) {
     return SL_OK;
 }
 
-/// Whether a line parts a cell that is cut from one that is not.
+/// Whether a line has a cut cell on one side and an uncut one on the other.
 static bool leads_out(const maker *m, const line *l) {
     return l->cells[0] != NONE && l->cells[1] != NONE &&
            m->touched[l->cells[0]] != m->touched[l->cells[1]];
 }
 
-/// Takes in the cells beyond borders that did not stay as they were; false for none.
+/// Adds the uncut cells whose border changed to the cut ones; false for none.
 static bool grow(maker *m) {
-    const sl_planar *g = &m->graph;
+    const sli_planar *g = &m->graph;
     bool grown = false;
     for (size_t i = 0; i < m->lines.count; i++) {
         const uint32_t *cells = m->lines.items[i].cells;
@@ -230,11 +235,11 @@ static bool grow(maker *m) {
 }
 
 static sl_box region_box(const maker *m) {
-    sl_box box = sl_box_around(m->segments.items[0].a, m->segments.items[0].b);
+    sl_box box = sli_box_around(m->segments.items[0].a, m->segments.items[0].b);
     for (uint32_t i = 0; i < m->from->cell_count; i++) {
         const polygon cell = polygon_of(m->from, i);
         for (uint32_t k = 0; k < cell.count && m->touched[i]; k++)
-            box = sl_box_with(box, cell.corners[k]);
+            box = sli_box_with(box, cell.corners[k]);
     }
     return box;
 }
@@ -246,8 +251,7 @@ static const graph_edge *edge_of(const maker *m, uint32_t half, bool *along) {
     return &m->edges[label - 1];
 }
 
-/// The cell at the left of a half-edge, where its line parts a cell that is cut from one that is
-/// not; else NONE.
+/// The cell at the left of a half-edge on a border between cut and uncut cells; else NONE.
 static uint32_t cell_at_border(const maker *m, uint32_t half) {
     bool along = false;
     const graph_edge *e = edge_of(m, half, &along);
@@ -264,7 +268,7 @@ static sl_status enter_triangle(maker *m, uint32_t half) {
     return SL_OK;
 }
 
-/// Finds the triangles of the cells that are cut: from their borders on; all where there are none.
+/// Finds the triangles of the cut cells, from their borders on. Without borders, all triangles.
 static sl_status find_inside(maker *m) {
     const size_t halves = m->t.halves.count;
     bool bordered = false;
@@ -278,26 +282,26 @@ static sl_status find_inside(maker *m) {
     }
     while (m->stack.count) {
         const uint32_t twin = m->stack.items[--m->stack.count] ^ 1;
-        if (!sl_half_is_outside(&m->t, twin) && !m->in[twin] && cell_at_border(m, twin) == NONE)
+        if (!sli_half_is_outside(&m->t, twin) && !m->in[twin] && cell_at_border(m, twin) == NONE)
             SL_TRY(enter_triangle(m, twin));
     }
     for (uint32_t half = 0; half < halves && !bordered; half++)
-        m->in[half] = !sl_half_is_outside(&m->t, half);
+        m->in[half] = !sli_half_is_outside(&m->t, half);
     return SL_OK;
 }
 
-/// Takes in the cells that bent lines have come into; false for none.
+/// Adds the cells that bent lines have entered to the cut ones; false for none.
 static bool take_strays(maker *m) {
     bool grown = false;
     for (uint32_t half = 0; half < m->t.halves.count; half++) {
         const sl_point ends[2] = {m->t.points.items[m->t.halves.items[half].from],
-                                  m->t.points.items[sl_half_end(&m->t, half)]};
+                                  m->t.points.items[sli_half_end(&m->t, half)]};
         const polygon edge = {ends, 2};
-        if (!m->t.labels[half / 2] || sl_half_is_outside(&m->t, half) || m->in[half] ||
+        if (!m->t.labels[half / 2] || sli_half_is_outside(&m->t, half) || m->in[half] ||
             cell_at_border(m, half) != NONE)
             continue;
-        sl_cell_grid_range r = sl_cell_grid_range_of(m->from, box_of(&edge));
-        for (uint32_t at; sl_cell_grid_next(&m->from->grid, &r, &at);) {
+        sli_cell_grid_range r = sli_cell_grid_range_of(m->from, box_of(&edge));
+        for (uint32_t at; sli_cell_grid_next(&m->from->grid, &r, &at);) {
             const polygon cell = polygon_of(m->from, at);
             if (!m->touched[at] && overlap(&edge, &cell)) m->touched[at] = grown = true;
         }
@@ -308,9 +312,9 @@ static bool take_strays(maker *m) {
 static sl_status make_graph(maker *m) {
     SL_TRY(sl_check_cancelled(m->context));
     SL_TRY(gather_segments(m));
-    sl_planar_destroy(m->context, &m->graph);
-    SL_TRY(sl_planar_make(m->context, "the space with boxes", m->segments.items, m->segments.count,
-                          0, &m->graph));
+    sli_planar_destroy(m->context, &m->graph);
+    SL_TRY(sli_planar_make(m->context, "the space with boxes", m->segments.items, m->segments.count,
+                           0, &m->graph));
     return take_edges(m);
 }
 
@@ -320,8 +324,8 @@ static sl_status make_triangles(maker *m) {
         do SL_TRY(make_graph(m));
         while (grow(m));
         const sl_box box = region_box(m);
-        sl_triangulation_destroy(m->context, &m->t);
-        SL_TRY(sl_triangulate(m->context, &m->graph, &box, &m->t));
+        sli_triangulation_destroy(m->context, &m->t);
+        SL_TRY(sli_triangulate(m->context, &m->graph, &box, &m->t));
         SL_TRY(find_inside(m));
     } while (take_strays(m));
     return SL_OK;
@@ -329,7 +333,7 @@ static sl_status make_triangles(maker *m) {
 
 // --- the cells
 
-/// Gathers the corners of the cell that a half-edge is a side of.
+/// Gathers the corners of the cell of a half-edge.
 static sl_status gather_corners(maker *m, uint32_t half) {
     const uint32_t first = half;
     m->corners.count = 0;
@@ -341,8 +345,8 @@ static sl_status gather_corners(maker *m, uint32_t half) {
     return SL_OK;
 }
 
-/// The cell of the ground that a new one is part of: the one that it is within. Where bent lines
-/// leave no such cell, that at its middle, or any that it reaches into.
+/// The cell of the ground that a new cell is within. Bent lines may leave none; then the one at its
+/// middle, or any one that it overlaps.
 static uint32_t parent_of(const maker *m, const polygon *p) {
     sl_point middle = {0, 0};
     for (uint32_t i = 0; i < p->count; i++) {
@@ -355,8 +359,8 @@ static uint32_t parent_of(const maker *m, const polygon *p) {
         const polygon cell = polygon_of(m->from, found);
         if (is_within(p, &cell)) return found;
     }
-    sl_cell_grid_range r = sl_cell_grid_range_of(m->from, box_of(p));
-    for (uint32_t at; sl_cell_grid_next(&m->from->grid, &r, &at);) {
+    sli_cell_grid_range r = sli_cell_grid_range_of(m->from, box_of(p));
+    for (uint32_t at; sli_cell_grid_next(&m->from->grid, &r, &at);) {
         const polygon cell = polygon_of(m->from, at);
         if (!m->touched[at]) continue;
         if (is_within(p, &cell)) return at;
@@ -365,7 +369,7 @@ static uint32_t parent_of(const maker *m, const polygon *p) {
     return found;
 }
 
-/// Adds a cell, by its parent's number if that is free.
+/// Adds a cell, with the number of its parent if that is free.
 static sl_status add_cell(maker *m, uint32_t parent, uint32_t half) {
     if (m->cells.items[parent].half == NONE) {
         m->cells.items[parent].half = half;
@@ -377,7 +381,7 @@ static sl_status add_cell(maker *m, uint32_t parent, uint32_t half) {
     return SL_OK;
 }
 
-/// Of a cell as narrow as a step of doubles nothing may be left: the last one takes its number.
+/// Nothing may be left of a cell as narrow as a step of doubles. The last cell takes its number.
 static void close_gaps(maker *m) {
     for (uint32_t i = 0; i < m->cells.count; i++)
         while (i < m->cells.count && m->cells.items[i].half == NONE &&
@@ -387,7 +391,7 @@ static void close_gaps(maker *m) {
 
 static sl_status make_cells(maker *m) {
     const size_t halves = m->t.halves.count;
-    SL_TRY(sl_mesh_merge(m->context, &m->t, NULL, NULL, &m->cell));
+    SL_TRY(sli_mesh_merge(m->context, &m->t, NULL, NULL, &m->cell));
     SL_TRY(SL_ARRAY_ROOM(m->context, &m->cells, m->from->cell_count));
     for (uint32_t i = 0; i < m->from->cell_count; i++)
         m->cells.items[m->cells.count++] = (new_cell){i, NONE};
@@ -410,33 +414,34 @@ static sl_status make_cells(maker *m) {
     return SL_OK;
 }
 
-static uint32_t beyond_of(const maker *m, uint32_t half) {
+static uint32_t neighbour_of(const maker *m, uint32_t half) {
     bool along = false;
     const graph_edge *e = edge_of(m, half, &along);
-    if (e && e->beyond != SL_BEYOND_EXIT) return along ? e->beyond : e->beyond ^ SL_BEYOND_RIGHT;
-    if (e && e->line != NONE && leads_out(m, &m->lines.items[e->line])) return SL_BEYOND_EXIT;
-    return sl_half_is_outside(&m->t, half ^ 1) ? SL_BEYOND_BORDER : SL_BEYOND_EXIT;
+    if (e && e->neighbour != SL_NEIGHBOUR_PORTAL)
+        return along ? e->neighbour : e->neighbour ^ SL_NEIGHBOUR_RIGHT;
+    if (e && e->line != NONE && leads_out(m, &m->lines.items[e->line])) return SL_NEIGHBOUR_PORTAL;
+    return sli_half_is_outside(&m->t, half ^ 1) ? SL_NEIGHBOUR_BORDER : SL_NEIGHBOUR_PORTAL;
 }
 
-/// Adds a corner and what is beyond its side; says whether that is an exit.
-static bool add_corner(maker *m, sl_point corner, uint32_t beyond) {
+/// Adds a corner and the neighbour across its side. Returns whether that is a portal.
+static bool add_corner(maker *m, sl_point corner, uint32_t neighbour) {
     sl_space *s = &m->out->space;
     s->vertices[s->vertex_count] = corner;
-    s->beyond[s->vertex_count++] = beyond;
-    s->exit_count += beyond == SL_BEYOND_EXIT;
-    return beyond == SL_BEYOND_EXIT;
+    s->neighbour[s->vertex_count++] = neighbour;
+    s->directed_count += neighbour == SL_NEIGHBOUR_PORTAL;
+    return neighbour == SL_NEIGHBOUR_PORTAL;
 }
 
 static void copy_cell(maker *m, uint32_t number, uint32_t was) {
     const sl_space *f = m->from;
     const sl_cell *cell = &f->cells[was];
-    uint32_t next = cell->first_exit;
+    uint32_t next = cell->first_directed;
     for (uint32_t i = 0; i < cell->vertex_count; i++) {
-        const uint32_t at = cell->first_vertex + i, exit = m->out->space.exit_count;
-        if (!add_corner(m, f->vertices[at], f->beyond[at])) continue;
-        const uint32_t portal = f->exits[next++].portal;
+        const uint32_t at = cell->first_vertex + i, directed = m->out->space.directed_count;
+        if (!add_corner(m, f->vertices[at], f->neighbour[at])) continue;
+        const uint32_t portal = f->directed[next++].portal;
         m->ends[2 * portal + (f->portals[portal].cell[0] == was ? 0 : 1)] =
-            (portal_end){number, exit};
+            (portal_end){number, directed};
     }
 }
 
@@ -444,14 +449,14 @@ static void cut_cell(maker *m, uint32_t number, uint32_t first) {
     uint32_t half = first;
     do {
         const sl_point corner = m->t.points.items[m->t.halves.items[half].from];
-        const uint32_t exit = m->out->space.exit_count;
-        if (!add_corner(m, corner, beyond_of(m, half))) continue;
-        m->exit[half] = exit;
+        const uint32_t directed = m->out->space.directed_count;
+        if (!add_corner(m, corner, neighbour_of(m, half))) continue;
+        m->directed[half] = directed;
         if (m->cell[half ^ 1] != NONE) continue;
         bool along;
         const graph_edge *e = edge_of(m, half, &along);
         m->ends[2 * m->lines.items[e->line].portal + (along == e->along ? 0 : 1)] =
-            (portal_end){number, exit};
+            (portal_end){number, directed};
     } while ((half = m->t.halves.items[half].next) != first);
 }
 
@@ -462,17 +467,17 @@ static sl_status write_cells(maker *m) {
     s->cell_count = (uint32_t)m->cells.count;
     s->cells = sl_alloc_array(m->context, s->cell_count, sizeof *s->cells);
     s->vertices = sl_alloc_array(m->context, corners, sizeof *s->vertices);
-    s->beyond = sl_alloc_array(m->context, corners, sizeof *s->beyond);
+    s->neighbour = sl_alloc_array(m->context, corners, sizeof *s->neighbour);
     m->out->parents = sl_alloc_array(m->context, s->cell_count, sizeof *m->out->parents);
-    m->exit = sl_alloc_array(m->context, m->t.halves.count, sizeof *m->exit);
+    m->directed = sl_alloc_array(m->context, m->t.halves.count, sizeof *m->directed);
     m->ends = sl_alloc_array(m->context, 2 * (size_t)f->portal_count, sizeof *m->ends);
-    if (!s->cells || !s->vertices || !s->beyond || !m->out->parents || !m->exit || !m->ends)
+    if (!s->cells || !s->vertices || !s->neighbour || !m->out->parents || !m->directed || !m->ends)
         return SL_NO_MEMORY;
     for (size_t i = 0; i < 2 * (size_t)f->portal_count; i++) m->ends[i].cell = NONE;
     if (corners > UINT32_MAX / 4) return sl_fail_memory(m->context);
     for (uint32_t i = 0; i < s->cell_count; i++) {
         const new_cell made = m->cells.items[i];
-        sl_cell cell = {.first_vertex = s->vertex_count, .first_exit = s->exit_count};
+        sl_cell cell = {.first_vertex = s->vertex_count, .first_directed = s->directed_count};
         cell.inside = f->cells[made.parent].inside;
         s->inside_count += cell.inside;
         m->out->parents[i] = made.parent;
@@ -481,7 +486,7 @@ static sl_status write_cells(maker *m) {
         else
             cut_cell(m, i, made.half);
         cell.vertex_count = s->vertex_count - cell.first_vertex;
-        cell.exit_count = s->exit_count - cell.first_exit;
+        cell.directed_count = s->directed_count - cell.first_directed;
         s->cells[i] = cell;
     }
     return SL_OK;
@@ -489,12 +494,14 @@ static sl_status write_cells(maker *m) {
 
 // --- portals and walls
 
-/// Adds a portal that runs from right to left as crossed from the first of two cells.
+/// Adds a portal; `right` and `left` are its ends as crossed from the first cell to the second.
 static sl_status add_joint(maker *m, portal_end from, portal_end to, sl_point right,
                            sl_point left) {
     const bool up = from.cell < to.cell;
-    sl_mesh_joint joint = {{{from.cell, to.cell}, left, right}, {from.exit, to.exit}, 0};
-    if (!up) joint = (sl_mesh_joint){{{to.cell, from.cell}, right, left}, {to.exit, from.exit}, 0};
+    sli_mesh_joint joint = {{{from.cell, to.cell}, left, right}, {from.directed, to.directed}, 0};
+    if (!up)
+        joint =
+            (sli_mesh_joint){{{to.cell, from.cell}, right, left}, {to.directed, from.directed}, 0};
     SL_TRY(SL_ARRAY_ROOM(m->context, &m->joints, 1));
     m->joints.items[m->joints.count++] = joint;
     return SL_OK;
@@ -509,12 +516,12 @@ static sl_status write_portals(maker *m) {
     }
     for (uint32_t half = 0; half < m->t.halves.count; half += 2) {
         const uint32_t twin = half + 1, a = m->cell[half], b = m->cell[twin];
-        if (a == NONE || b == NONE || beyond_of(m, half) != SL_BEYOND_EXIT) continue;
-        SL_TRY(add_joint(m, (portal_end){a, m->exit[half]}, (portal_end){b, m->exit[twin]},
+        if (a == NONE || b == NONE || neighbour_of(m, half) != SL_NEIGHBOUR_PORTAL) continue;
+        SL_TRY(add_joint(m, (portal_end){a, m->directed[half]}, (portal_end){b, m->directed[twin]},
                          m->t.points.items[m->t.halves.items[half].from],
                          m->t.points.items[m->t.halves.items[twin].from]));
     }
-    return sl_mesh_join(m->context, m->joints.items, m->joints.count, &m->out->space);
+    return sli_mesh_join(m->context, m->joints.items, m->joints.count, &m->out->space);
 }
 
 static sl_status write_walls(maker *m) {
@@ -526,12 +533,12 @@ static sl_status write_walls(maker *m) {
     if (!s->walls) return SL_NO_MEMORY;
     if (f->wall_count) memcpy(s->walls, f->walls, f->wall_count * sizeof *s->walls);
     for (size_t i = 0; i < m->blocking.count; i++)
-        s->walls[f->wall_count + i] = sl_piece_wall(&m->blocking.items[i]);
+        s->walls[f->wall_count + i] = sli_piece_wall(&m->blocking.items[i]);
     s->wall_count = (uint32_t)count;
     return SL_OK;
 }
 
-// --- what bent lines leave in other cells
+// --- parts of other cells that bent lines leave
 
 static sl_status find_shares(maker *m, uint32_t number) {
     const polygon p = polygon_of(&m->out->space, number);
@@ -539,8 +546,8 @@ static sl_status find_shares(maker *m, uint32_t number) {
     const polygon whole = polygon_of(m->from, parent);
     if (is_within(&p, &whole)) return SL_OK;
     const size_t before = m->shares.count;
-    sl_cell_grid_range r = sl_cell_grid_range_of(m->from, box_of(&p));
-    for (uint32_t at; sl_cell_grid_next(&m->from->grid, &r, &at);) {
+    sli_cell_grid_range r = sli_cell_grid_range_of(m->from, box_of(&p));
+    for (uint32_t at; sli_cell_grid_next(&m->from->grid, &r, &at);) {
         const polygon cell = polygon_of(m->from, at);
         bool known = at == parent || !overlap(&p, &cell);
         for (size_t i = before; i < m->shares.count && !known; i++)
@@ -571,8 +578,8 @@ static sl_status write_shares(maker *m) {
 
 static sl_status make(maker *m, const sl_moving_box *boxes, size_t count) {
     m->out->space = (sl_space){.bounds = m->from->bounds, .root = m->from->root, .cut_walls = 1};
-    SL_TRY(sl_box_sides_put(m->context, m->ground, boxes, count, true, &m->blocking));
-    SL_TRY(sl_box_sides_put(m->context, m->ground, boxes, count, false, &m->open));
+    SL_TRY(sli_box_sides_put(m->context, m->ground, boxes, count, true, &m->blocking));
+    SL_TRY(sli_box_sides_put(m->context, m->ground, boxes, count, false, &m->open));
     m->touched = sl_alloc_array(m->context, m->from->cell_count, sizeof *m->touched);
     if (!m->touched) return SL_NO_MEMORY;
     touch_along(m, &m->blocking);
@@ -584,19 +591,19 @@ static sl_status make(maker *m, const sl_moving_box *boxes, size_t count) {
     SL_TRY(write_portals(m));
     SL_TRY(write_walls(m));
     SL_TRY(write_shares(m));
-    return sl_cell_grid_make(m->context, &m->out->space);
+    return sli_cell_grid_make(m->context, &m->out->space);
 }
 
-sl_status sl_boxes_put_mesh(sl_context *context, const sl_box_ground *ground,
-                            const sl_moving_box *boxes, size_t count, sl_boxed_space *out) {
+sl_status sli_boxes_put_mesh(sl_context *context, const sli_box_ground *ground,
+                             const sl_moving_box *boxes, size_t count, sli_boxed_space *out) {
     maker m = {.context = context, .ground = ground, .from = ground->space, .out = out};
     const sl_status status = make(&m, boxes, count);
     void *const scratch[] = {m.touched,     m.wall_cells,  m.blocking.items, m.open.items,
                              m.lines.items, m.edges,       m.segments.items, m.in,
                              m.cell,        m.stack.items, m.cells.items,    m.corners.items,
-                             m.exit,        m.ends,        m.joints.items,   m.shares.items};
+                             m.directed,    m.ends,        m.joints.items,   m.shares.items};
     for (size_t i = 0; i < sizeof scratch / sizeof *scratch; i++) sl_free(context, scratch[i]);
-    sl_planar_destroy(context, &m.graph);
-    sl_triangulation_destroy(context, &m.t);
+    sli_planar_destroy(context, &m.graph);
+    sli_triangulation_destroy(context, &m.t);
     return status;
 }

@@ -1,35 +1,39 @@
-/// The whole-graph check: what the later stages take for granted, proven for one space. Safe on any
-/// bytes: every index is checked before it is used.
-#include "space/check.h"
-#include "base/bits.h"
+/// The check of a whole space: it proves what the later stages rely on. It is safe on any bytes, as
+/// every index is checked before it is used.
+///
+/// For a kd-tree's space the proof goes from the root down. Each split lies within its region, and
+/// each cell is led to once and has the corners of its region. So the cells tile the bounds. No
+/// wall comes into a cell when it is sent down the tree. Then each cell is walked around: every
+/// piece of its boundary is a wall, a portal or the border. For a mesh see check_mesh.c. All is
+/// done by exact comparisons. Time O(n log n).
+#include "geometry/orient.h"
+#include "sightline/support.h"
+#include "space/kd_tree.h"
+#include "space/mesh.h"
 #include "space/seams.h"
-#include "space/wall_lines.h"
 
 #include <math.h>
 
 typedef struct checker {
     sl_context *context;
     const sl_space *space;
-    sl_piece *walls;
-    sl_box *regions;      ///< of the nodes, then of the cells, as the tree has them
-    sl_bits *led_to;      ///< nodes, then cells, that some node leads to
-    uint8_t *exits_found; ///< by portal: 1 for the exit of cell[0], 2 for that of cell[1]
+    sli_piece *walls;
+    sl_box *regions; ///< of the nodes, then of the cells, by the tree
+    sl_bits *led_to; ///< the nodes, then the cells, that some node leads to
+    uint8_t
+        *directed_found; ///< by portal: 1 for the directed portal of cell[0], 2 for that of cell[1]
 } checker;
-
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
 
 static sl_status check_ranges(const checker *c) {
     const sl_space *s = c->space;
     const bool has_nodes =
-        s->loose || s->beyond ? !s->node_count : s->node_count == s->cell_count - 1;
+        s->loose || s->neighbour ? !s->node_count : s->node_count == s->cell_count - 1;
     if (!s->cell_count || !has_nodes)
         return sl_fail(c->context, SL_BAD_INPUT, "%u nodes cannot lead to %u cells", s->node_count,
                        s->cell_count);
-    if (s->exit_count != 2 * (uint64_t)s->portal_count)
-        return sl_fail(c->context, SL_BAD_INPUT, "%u portals cannot have %u exits", s->portal_count,
-                       s->exit_count);
+    if (s->directed_count != 2 * (uint64_t)s->portal_count)
+        return sl_fail(c->context, SL_BAD_INPUT, "%u portals cannot have %u directed portals",
+                       s->portal_count, s->directed_count);
     const sl_box *b = &s->bounds;
     if (!isfinite(b->max.x - b->min.x) || !isfinite(b->max.y - b->min.y) ||
         !(b->min.x < b->max.x) || !(b->min.y < b->max.y))
@@ -78,11 +82,10 @@ static sl_status fail_cell(const checker *c, uint32_t cell, const char *what) {
     return sl_fail(c->context, SL_BAD_INPUT, "cell %u %s", cell, what);
 }
 
-/// The corners must be those of the tree's region: a box, counter-clockwise, of positive area. As
-/// splits lie within regions, and each cell is led to once, the cells tile the bounds.
+/// The corners of a cell must be those of the tree's region, counter-clockwise.
 static sl_status check_cells(const checker *c) {
     const sl_space *s = c->space;
-    uint64_t exits = 0;
+    uint64_t directed = 0;
     uint32_t inside = 0;
     for (uint32_t i = 0; i < s->cell_count; i++) {
         const sl_cell *cell = &s->cells[i];
@@ -92,22 +95,22 @@ static sl_status check_cells(const checker *c) {
         const sl_box *r = &c->regions[s->node_count + i];
         const sl_point *v = &s->vertices[cell->first_vertex];
         const sl_point lower_right = {r->max.x, r->min.y}, upper_left = {r->min.x, r->max.y};
-        if (!same(v[0], r->min) || !same(v[1], lower_right) || !same(v[2], r->max) ||
-            !same(v[3], upper_left))
+        if (!sli_same_point(v[0], r->min) || !sli_same_point(v[1], lower_right) ||
+            !sli_same_point(v[2], r->max) || !sli_same_point(v[3], upper_left))
             return fail_cell(c, i, "is not the region that the tree gives it");
-        if (cell->first_exit != exits || cell->exit_count > s->exit_count - exits)
-            return fail_cell(c, i, "has exits out of range");
+        if (cell->first_directed != directed || cell->directed_count > s->directed_count - directed)
+            return fail_cell(c, i, "has portals out of range");
         if (cell->inside > 1) return fail_cell(c, i, "is neither inside nor outside");
-        exits += cell->exit_count;
+        directed += cell->directed_count;
         inside += cell->inside;
     }
-    if (inside != s->inside_count || exits != s->exit_count)
-        return sl_fail(c->context, SL_BAD_INPUT, "the counts of cells or exits do not add up");
+    if (inside != s->inside_count || directed != s->directed_count)
+        return sl_fail(c->context, SL_BAD_INPUT, "the counts of cells or portals do not add up");
     return SL_OK;
 }
 
-/// What of a wall lies in a child's region; false for nothing. A wall on the split lies in neither.
-static bool enters(const sl_node *node, bool above, sl_piece *wall) {
+/// Keeps the part of a wall in a child's region; false for none. A wall on the split is in neither.
+static bool enters(const sl_node *node, bool above, sli_piece *wall) {
     const double at = node->position;
     if (wall->axis == node->axis) return above ? wall->at > at : wall->at < at;
     if (above)
@@ -119,10 +122,10 @@ static bool enters(const sl_node *node, bool above, sl_piece *wall) {
 
 typedef struct visit {
     int32_t child;
-    sl_piece wall;
+    sli_piece wall;
 } visit;
 
-static sl_status check_wall(const checker *c, const sl_piece *wall, visit *stack) {
+static sl_status check_wall(const checker *c, const sli_piece *wall, visit *stack) {
     const sl_box *b = &c->space->bounds;
     const double lo = wall->axis ? b->min.y : b->min.x, hi = wall->axis ? b->max.y : b->max.x;
     const double side_lo = wall->axis ? b->min.x : b->min.y;
@@ -143,8 +146,8 @@ static sl_status check_wall(const checker *c, const sl_piece *wall, visit *stack
     return SL_OK;
 }
 
-/// Of walls, or of the parts of seams.
-static sl_status check_walls(const checker *c, const sl_piece *walls, size_t count) {
+/// Checks that no wall, or no part of a seam, is inside a cell.
+static sl_status check_walls(const checker *c, const sli_piece *walls, size_t count) {
     // A way down leaves at most one sibling waiting on each level.
     visit *stack = sl_alloc_array(c->context, (size_t)c->space->node_count + 2, sizeof *stack);
     if (!stack) return SL_NO_MEMORY;
@@ -166,39 +169,39 @@ static bool lies_on(const sl_portal *p, const sl_segment *seam) {
     return in_line && fmin(one, other) >= fmin(from, to) && fmax(one, other) <= fmax(from, to);
 }
 
-/// The parts that seams are cut into must be inside no cell, and each portal on one told as such.
-static sl_status check_parts(const checker *c, const sl_seam_parts *parts, const sl_piece *pieces) {
-    sl_space told = *c->space;
-    told.seam_portals = NULL;
-    told.seam_portal_count = 0;
+/// No part of a seam is inside a cell, and every portal on one is listed.
+static sl_status check_parts(const checker *c, const sli_seam_parts *parts,
+                             const sli_piece *pieces) {
+    sl_space found = *c->space;
+    found.seam_portals = NULL;
+    found.seam_portal_count = 0;
     SL_TRY(check_walls(c, pieces, parts->parts.count));
-    sl_status status = sl_seams_tag_axial(c->context, parts, &told);
-    bool same = status == SL_OK && told.seam_portal_count == c->space->seam_portal_count;
-    for (uint32_t i = 0; same && i < told.seam_portal_count; i++) {
-        const sl_seam_portal *a = &told.seam_portals[i], *b = &c->space->seam_portals[i];
+    sl_status status = sli_seams_tag_axial(c->context, parts, &found);
+    bool same = status == SL_OK && found.seam_portal_count == c->space->seam_portal_count;
+    for (uint32_t i = 0; same && i < found.seam_portal_count; i++) {
+        const sl_seam_portal *a = &found.seam_portals[i], *b = &c->space->seam_portals[i];
         same = a->portal == b->portal && a->seam == b->seam && a->forward == b->forward &&
-               lies_on(&told.portals[a->portal], &told.seams[a->seam].at);
+               lies_on(&found.portals[a->portal], &found.seams[a->seam].at);
     }
-    sl_free(c->context, told.seam_portals);
+    sl_free(c->context, found.seam_portals);
     if (status != SL_OK || same) return status;
-    return sl_fail(c->context, SL_BAD_INPUT, "portals on seams are not told as such");
+    return sl_fail(c->context, SL_BAD_INPUT, "the list of portals on seams is wrong");
 }
 
 static sl_status check_seams(const checker *c) {
     if (!c->space->seam_count && !c->space->seam_portal_count) return SL_OK;
-    SL_TRY(sl_seams_check(c->context, c->space, true));
-    sl_seam_parts parts = {0};
-    sl_piece *pieces = NULL;
-    sl_status status = sl_seams_part(c->context, c->space, &parts);
-    if (status == SL_OK) status = sl_seam_lines(c->context, NULL, 0, &parts, &pieces);
+    SL_TRY(sli_seams_check(c->context, c->space, true));
+    sli_seam_parts parts = {0};
+    sli_piece *pieces = NULL;
+    sl_status status = sli_seams_part(c->context, c->space, &parts);
+    if (status == SL_OK) status = sli_seam_lines(c->context, NULL, 0, &parts, &pieces);
     if (status == SL_OK) status = check_parts(c, &parts, pieces);
-    sl_seam_parts_destroy(c->context, &parts);
+    sli_seam_parts_destroy(c->context, &parts);
     sl_free(c->context, pieces);
     return status;
 }
 
-/// An edge of a cell's box, walked counter-clockwise: along `axis`'s line at `at`, from `from` to
-/// `to`.
+/// An edge of a cell's box, on the line at `at`, from `from` to `to` counter-clockwise.
 typedef struct edge {
     int axis;
     double at, from, to;
@@ -220,74 +223,78 @@ static edge edge_of(const sl_box *r, const sl_box *bounds, int number) {
 
 static bool wall_between(const checker *c, const edge *e, double from, double to) {
     const double lo = from < to ? from : to, hi = from < to ? to : from;
-    return sl_wall_lines_cover(c->walls, c->space->wall_count, e->axis, e->at, lo, hi);
+    return sli_wall_lines_cover(c->walls, c->space->wall_count, e->axis, e->at, lo, hi);
 }
 
 static bool free_between(const checker *c, const edge *e, double from, double to) {
     const double lo = from < to ? from : to, hi = from < to ? to : from;
-    const size_t i = sl_wall_lines_find(c->walls, c->space->wall_count, e->axis, e->at, lo);
+    const size_t i = sli_wall_lines_find(c->walls, c->space->wall_count, e->axis, e->at, lo);
     return i == c->space->wall_count || c->walls[i].axis != e->axis || c->walls[i].at != e->at ||
            c->walls[i].lo >= hi;
 }
 
-/// Whether an exit lies on an edge; its ends along the edge as walked.
-static bool exit_on_edge(const sl_exit *exit, const edge *e, double *from, double *to) {
-    const bool on = e->axis ? exit->right.y == e->at && exit->left.y == e->at
-                            : exit->right.x == e->at && exit->left.x == e->at;
-    *from = e->axis ? exit->right.x : exit->right.y;
-    *to = e->axis ? exit->left.x : exit->left.y;
+/// Whether a directed portal lies on an edge, and its ends along the edge.
+static bool portal_on_edge(const sl_directed_portal *directed, const edge *e, double *from,
+                           double *to) {
+    const bool on = e->axis ? directed->right.y == e->at && directed->left.y == e->at
+                            : directed->right.x == e->at && directed->left.x == e->at;
+    *from = e->axis ? directed->right.x : directed->right.y;
+    *to = e->axis ? directed->left.x : directed->left.y;
     return on && (e->from < e->to ? *from < *to : *from > *to);
 }
 
-sl_status sl_check_exit(sl_context *context, const sl_space *s, uint32_t cell, const sl_exit *exit,
-                        uint8_t *exits_found) {
-    if (exit->portal >= s->portal_count)
-        return sl_fail(context, SL_BAD_INPUT, "cell %u has an exit to no portal", cell);
-    const sl_portal *p = &s->portals[exit->portal];
+sl_status sli_check_directed(sl_context *context, const sl_space *s, uint32_t cell,
+                             const sl_directed_portal *directed, uint8_t *directed_found) {
+    if (directed->portal >= s->portal_count)
+        return sl_fail(context, SL_BAD_INPUT, "cell %u has a portal of an unknown number", cell);
+    const sl_portal *p = &s->portals[directed->portal];
     if (p->cell[0] >= p->cell[1] || p->cell[1] >= s->cell_count)
-        return sl_fail(context, SL_BAD_INPUT, "portal %u joins no two cells", exit->portal);
+        return sl_fail(context, SL_BAD_INPUT, "portal %u joins no two cells", directed->portal);
     const int side = p->cell[0] == cell ? 0 : 1;
-    if (p->cell[side] != cell || exit->cell != p->cell[!side] ||
-        !same(exit->left, side ? p->right : p->left) ||
-        !same(exit->right, side ? p->left : p->right) || exits_found[exit->portal] & (1 << side))
-        return sl_fail(context, SL_BAD_INPUT, "cell %u has an exit unlike its portal", cell);
-    exits_found[exit->portal] |= (uint8_t)(1 << side);
+    if (p->cell[side] != cell || directed->cell != p->cell[!side] ||
+        !sli_same_point(directed->left, side ? p->right : p->left) ||
+        !sli_same_point(directed->right, side ? p->left : p->right) ||
+        directed_found[directed->portal] & (1 << side))
+        return sl_fail(context, SL_BAD_INPUT, "cell %u has a directed portal unlike its portal",
+                       cell);
+    directed_found[directed->portal] |= (uint8_t)(1 << side);
     return SL_OK;
 }
 
-/// Walks round a cell: each exit must start where the last one ended, or after a wall.
+/// Walks round a cell: each directed portal must start where the last one ended, or after a wall.
 static sl_status check_boundary(checker *c, uint32_t cell) {
     const sl_space *s = c->space;
-    const sl_exit *exit = s->exits + s->cells[cell].first_exit;
-    const sl_exit *end = exit + s->cells[cell].exit_count;
+    const sl_directed_portal *directed = s->directed + s->cells[cell].first_directed;
+    const sl_directed_portal *end = directed + s->cells[cell].directed_count;
     for (int number = 0; number < 4; number++) {
         const edge e = edge_of(&c->regions[s->node_count + cell], &s->bounds, number);
         double at = e.from, from, to;
-        for (; exit < end && exit_on_edge(exit, &e, &from, &to); exit++) {
-            SL_TRY(sl_check_exit(c->context, s, cell, exit, c->exits_found));
+        for (; directed < end && portal_on_edge(directed, &e, &from, &to); directed++) {
+            SL_TRY(sli_check_directed(c->context, s, cell, directed, c->directed_found));
             const bool forward =
                 e.from < e.to ? from >= at && to <= e.to : from <= at && to >= e.to;
-            if (!forward || e.on_border) return fail_cell(c, cell, "has an exit out of place");
-            if (!free_between(c, &e, from, to)) return fail_cell(c, cell, "has an exit on a wall");
+            if (!forward || e.on_border) return fail_cell(c, cell, "has a portal out of place");
+            if (!free_between(c, &e, from, to)) return fail_cell(c, cell, "has a portal on a wall");
             if (from != at && !wall_between(c, &e, at, from))
                 return fail_cell(c, cell, "has a boundary that is neither wall nor portal");
-            if (from == at && at != e.from && exit[-1].cell == exit->cell &&
-                sl_seams_same(s, exit[-1].portal, exit->portal))
+            if (from == at && at != e.from && directed[-1].cell == directed->cell &&
+                sli_seams_same(s, directed[-1].portal, directed->portal))
                 return fail_cell(c, cell, "has a portal that is not a longest piece");
             at = to;
         }
         if (at != e.to && !e.on_border && !wall_between(c, &e, at, e.to))
             return fail_cell(c, cell, "has a boundary that is neither wall nor portal");
     }
-    // With as many exits as twice the portals and none told twice, each portal has both.
-    return exit == end ? SL_OK : fail_cell(c, cell, "has an exit that is not on its boundary");
+    // There are twice as many directed portals as portals, and none comes twice: each portal has
+    // both.
+    return directed == end ? SL_OK : fail_cell(c, cell, "has a portal that is not on its boundary");
 }
 
 static sl_status check_all(checker *c) {
     const sl_space *s = c->space;
     SL_TRY(check_tree(c));
     SL_TRY(check_cells(c));
-    SL_TRY(sl_wall_lines(c->context, "the walls", s->walls, s->wall_count, &c->walls));
+    SL_TRY(sli_wall_lines(c->context, "the walls", s->walls, s->wall_count, &c->walls));
     SL_TRY(check_walls(c, c->walls, s->wall_count));
     for (uint32_t cell = 0; cell < s->cell_count; cell++) SL_TRY(check_boundary(c, cell));
     return check_seams(c);
@@ -296,17 +303,18 @@ static sl_status check_all(checker *c) {
 sl_status sl_space_check(sl_context *context, const sl_space *space) {
     checker c = {.context = context, .space = space};
     SL_TRY(check_ranges(&c));
-    if (space->beyond) return sl_check_mesh(context, space);
+    if (space->neighbour) return sli_check_mesh(context, space);
     if (space->loose)
         return sl_fail(context, SL_BAD_INPUT, "a loose space that does not know its sides");
     const size_t places = (size_t)space->node_count + space->cell_count;
     c.regions = sl_alloc_array(context, places, sizeof *c.regions);
     c.led_to = sl_alloc_array(context, sl_bits_words(places), sizeof *c.led_to);
-    c.exits_found = sl_alloc_array(context, space->portal_count, sizeof *c.exits_found);
-    const sl_status status = c.regions && c.led_to && c.exits_found ? check_all(&c) : SL_NO_MEMORY;
+    c.directed_found = sl_alloc_array(context, space->portal_count, sizeof *c.directed_found);
+    const sl_status status =
+        c.regions && c.led_to && c.directed_found ? check_all(&c) : SL_NO_MEMORY;
     sl_free(context, c.walls);
     sl_free(context, c.regions);
     sl_free(context, c.led_to);
-    sl_free(context, c.exits_found);
+    sl_free(context, c.directed_found);
     return status;
 }

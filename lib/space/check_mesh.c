@@ -1,14 +1,19 @@
-/// The whole-graph check of a mesh, by exact signs and comparisons of coordinates alone.
+/// The check of a whole mesh, by exact signs and comparisons.
 ///
-/// That cells tile the bounds is proven by their sides. Each cell is convex and counter-clockwise,
-/// so that it winds once around each of its points. Each side that is not on the border of the
-/// bounds has one side of another cell that runs the other way, between the same two ends: the two
-/// cancel. The sides on the border make up the border, once. So the sum of all cells winds around
-/// each point of the bounds as often as the border does: once.
-#include "base/bits.h"
+/// The sides of cells prove that the cells tile the bounds. A convex, counter-clockwise cell winds
+/// once around each of its points. A side that is not on the border has exactly one partner, a side
+/// of another cell that runs the other way between the same two ends:
+///
+///     +-----<-----+-----<-----+       the two cancel; the sides on the border make up the border,
+///     |           ^|          |       once; so the sum of all cells winds around each point of the
+///     v           |v          ^       bounds as often as the border does, which is once
+///     +----->-----+----->-----+
+///
+/// Time O(n log n), for sorting.
 #include "geometry/orient.h"
-#include "space/cell_grid.h"
-#include "space/check.h"
+#include "sightline/support.h"
+#include "space/index.h"
+#include "space/mesh.h"
 #include "space/seams.h"
 
 #include <math.h>
@@ -17,47 +22,35 @@
 typedef struct checker {
     sl_context *context;
     const sl_space *space;
-    uint8_t *exits_found; ///< by portal, as sl_check_exit has it
-    uint8_t *sides_found; ///< by wall: 1 for a cell at its left, 2 for one at its right
-    uint8_t *on_border;   ///< by wall
+    uint8_t *directed_found; ///< by portal, as in sli_check_directed
+    uint8_t *sides_found;    ///< by wall: bit 1 for a cell at its left, bit 2 for one at its right
+    uint8_t *on_border;      ///< by wall
 } checker;
 
 static sl_status fail_cell(const checker *c, uint32_t cell, const char *what) {
     return sl_fail(c->context, SL_BAD_INPUT, "cell %u %s", cell, what);
 }
 
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
 // --- cells
-
-/// Whether from a through p to b goes straight on or to the left, and not back.
-static bool goes_on(sl_point a, sl_point p, sl_point b) {
-    const int turn = sl_orient(a, p, b);
-    if (turn) return turn > 0;
-    return !same(a, p) && !same(p, b) && (a.x < p.x) == (p.x < b.x) && (a.x > p.x) == (p.x > b.x) &&
-           (a.y < p.y) == (p.y < b.y) && (a.y > p.y) == (p.y > b.y);
-}
 
 static bool goes_up(sl_point a, sl_point b) {
     return a.y < b.y || (a.y == b.y && a.x < b.x);
 }
 
-/// Whether corners make a convex polygon of positive area, counter-clockwise: no corner turns
-/// right, some turns left, and on the way around the sides go up once and down once.
+/// Whether corners make a convex, counter-clockwise polygon of positive area: no corner turns
+/// right, three turn left, and the way around goes up once and down once.
 static bool is_convex(const sl_point *v, uint32_t count) {
     uint32_t turns = 0, peaks = 0;
     for (uint32_t i = 0; i < count; i++) {
         const sl_point a = v[i ? i - 1 : count - 1], p = v[i], b = v[i + 1 < count ? i + 1 : 0];
-        if (!goes_on(a, p, b)) return false;
-        turns += sl_orient(a, p, b) > 0;
+        if (!sli_goes_on(a, p, b)) return false;
+        turns += sli_orient(a, p, b) > 0;
         peaks += goes_up(a, p) && !goes_up(p, b);
     }
     return turns >= 3 && peaks == 1;
 }
 
-/// Within what a map without width or height is padded to.
+/// Whether a corner is usable; the bounds of a map without width or height are padded.
 static bool is_usable(sl_point p) {
     return (sl_coordinate_usable(p.x) || sl_coordinate_usable(p.x / 2)) &&
            (sl_coordinate_usable(p.y) || sl_coordinate_usable(p.y / 2));
@@ -67,13 +60,14 @@ static bool is_within(const sl_box *b, sl_point p) {
     return p.x >= b->min.x && p.x <= b->max.x && p.y >= b->min.y && p.y <= b->max.y;
 }
 
-static sl_status check_cell(const checker *c, uint32_t number, uint64_t vertices, uint64_t exits) {
+static sl_status check_cell(const checker *c, uint32_t number, uint64_t vertices,
+                            uint64_t directed) {
     const sl_space *s = c->space;
     const sl_cell *cell = &s->cells[number];
     if (cell->first_vertex != vertices || cell->vertex_count > s->vertex_count - vertices)
         return fail_cell(c, number, "has corners out of range");
-    if (cell->first_exit != exits || cell->exit_count > s->exit_count - exits)
-        return fail_cell(c, number, "has exits out of range");
+    if (cell->first_directed != directed || cell->directed_count > s->directed_count - directed)
+        return fail_cell(c, number, "has portals out of range");
     if (cell->inside > 1) return fail_cell(c, number, "is neither inside nor outside");
     const sl_point *corners = s->vertices + cell->first_vertex;
     for (uint32_t i = 0; i < cell->vertex_count; i++)
@@ -85,17 +79,18 @@ static sl_status check_cell(const checker *c, uint32_t number, uint64_t vertices
 
 static sl_status check_cells(const checker *c) {
     const sl_space *s = c->space;
-    uint64_t vertices = 0, exits = 0;
+    uint64_t vertices = 0, directed = 0;
     uint32_t inside = 0;
     for (uint32_t i = 0; i < s->cell_count; i++) {
-        SL_TRY(check_cell(c, i, vertices, exits));
+        SL_TRY(check_cell(c, i, vertices, directed));
         vertices += s->cells[i].vertex_count;
-        exits += s->cells[i].exit_count;
+        directed += s->cells[i].directed_count;
         inside += s->cells[i].inside;
     }
-    if (inside == s->inside_count && exits == s->exit_count && vertices == s->vertex_count)
+    if (inside == s->inside_count && directed == s->directed_count && vertices == s->vertex_count)
         return SL_OK;
-    return sl_fail(c->context, SL_BAD_INPUT, "the counts of cells, corners or exits do not add up");
+    return sl_fail(c->context, SL_BAD_INPUT,
+                   "the counts of cells, corners or portals do not add up");
 }
 
 // --- sides
@@ -110,12 +105,13 @@ static int border_of(const sl_box *b, sl_point p, sl_point q) {
 
 static sl_status check_wall(const checker *c, uint32_t cell, uint32_t what, sl_point from,
                             sl_point to) {
-    const uint32_t number = what & ~SL_BEYOND_RIGHT;
+    const uint32_t number = what & ~SL_NEIGHBOUR_RIGHT;
     if (number >= c->space->wall_count) return fail_cell(c, cell, "has a side on no known wall");
     if (c->space->loose || c->space->cut_walls) return SL_OK;
     const sl_wall *wall = &c->space->walls[number];
-    const bool right = what & SL_BEYOND_RIGHT;
-    if (!same(right ? wall->b : wall->a, from) || !same(right ? wall->a : wall->b, to))
+    const bool right = what & SL_NEIGHBOUR_RIGHT;
+    if (!sli_same_point(right ? wall->b : wall->a, from) ||
+        !sli_same_point(right ? wall->a : wall->b, to))
         return fail_cell(c, cell, "has a side that is not the wall it is said to be");
     const uint8_t bit = right ? 2 : 1;
     if (c->sides_found[number] & bit)
@@ -129,26 +125,26 @@ static sl_status check_sides(const checker *c, uint32_t number) {
     const sl_space *s = c->space;
     const sl_cell *cell = &s->cells[number];
     const sl_point *corners = s->vertices + cell->first_vertex;
-    uint32_t exits = 0;
+    uint32_t passed = 0;
     for (uint32_t i = 0; i < cell->vertex_count; i++) {
-        const uint32_t what = s->beyond[cell->first_vertex + i];
+        const uint32_t what = s->neighbour[cell->first_vertex + i];
         const sl_point from = corners[i], to = corners[i + 1 < cell->vertex_count ? i + 1 : 0];
-        if (what == SL_BEYOND_EXIT) {
-            if (exits == cell->exit_count) return fail_cell(c, number, "has too few exits");
-            const sl_exit *exit = &s->exits[cell->first_exit + exits++];
-            if (!same(exit->right, from) || !same(exit->left, to))
-                return fail_cell(c, number, "has an exit that is not on its boundary");
-            SL_TRY(sl_check_exit(c->context, s, number, exit, c->exits_found));
-        } else if (what != SL_BEYOND_BORDER) {
+        if (what == SL_NEIGHBOUR_PORTAL) {
+            if (passed == cell->directed_count) return fail_cell(c, number, "has too few portals");
+            const sl_directed_portal *portal = &s->directed[cell->first_directed + passed++];
+            if (!sli_same_point(portal->right, from) || !sli_same_point(portal->left, to))
+                return fail_cell(c, number, "has a portal that is not on its boundary");
+            SL_TRY(sli_check_directed(c->context, s, number, portal, c->directed_found));
+        } else if (what != SL_NEIGHBOUR_BORDER) {
             SL_TRY(check_wall(c, number, what, from, to));
         } else if (!s->loose && !border_of(&s->bounds, from, to)) {
             return fail_cell(c, number, "has a border within the bounds");
         }
     }
-    return exits == cell->exit_count ? SL_OK : fail_cell(c, number, "has too many exits");
+    return passed == cell->directed_count ? SL_OK : fail_cell(c, number, "has too many portals");
 }
 
-/// Each wall is seen from both sides, but for those on the border.
+/// Each wall has one cell on either side, except on the border.
 static sl_status check_walls(const checker *c) {
     for (uint32_t i = 0; i < c->space->wall_count; i++) {
         const uint8_t found = c->sides_found[i];
@@ -160,7 +156,7 @@ static sl_status check_walls(const checker *c) {
 
 // --- walls that are cut
 
-/// A side of a cell that is a wall or part of one: from where to where on the way from a to b.
+/// A side of a cell that is a wall or part of one. It runs as the wall does, from a to b.
 typedef struct wall_side {
     uint32_t wall;
     sl_point from, to;
@@ -184,11 +180,11 @@ static size_t gather_sides(const checker *c, wall_side *sides) {
         const sl_cell *cell = &s->cells[i];
         const sl_point *v = s->vertices + cell->first_vertex;
         for (uint32_t k = 0; k < cell->vertex_count; k++) {
-            const uint32_t what = s->beyond[cell->first_vertex + k];
+            const uint32_t what = s->neighbour[cell->first_vertex + k];
             const sl_point at = v[k], next = v[k + 1 < cell->vertex_count ? k + 1 : 0];
-            const bool right = what & SL_BEYOND_RIGHT;
-            if (what < SL_BEYOND_BORDER)
-                sides[count++] = (wall_side){what & ~SL_BEYOND_RIGHT, right ? next : at,
+            const bool right = what & SL_NEIGHBOUR_RIGHT;
+            if (what < SL_NEIGHBOUR_BORDER)
+                sides[count++] = (wall_side){what & ~SL_NEIGHBOUR_RIGHT, right ? next : at,
                                              right ? at : next, right};
         }
     }
@@ -196,7 +192,7 @@ static size_t gather_sides(const checker *c, wall_side *sides) {
     return count;
 }
 
-/// Each part of a wall has one cell on either side, but for those on the border.
+/// Each part of a wall has one cell on either side, except on the border.
 static sl_status check_cut_walls(const checker *c) {
     wall_side *sides = sl_alloc_array(c->context, c->space->vertex_count, sizeof *sides);
     if (!sides) return SL_NO_MEMORY;
@@ -204,8 +200,8 @@ static sl_status check_cut_walls(const checker *c) {
     size_t i = 0;
     while (i < count) {
         const wall_side *s = &sides[i], *t = i + 1 < count ? s + 1 : s;
-        const bool pair = s->wall == t->wall && same(s->from, t->from) && same(s->to, t->to) &&
-                          !s->right && t->right;
+        const bool pair = s->wall == t->wall && sli_same_point(s->from, t->from) &&
+                          sli_same_point(s->to, t->to) && !s->right && t->right;
         if (!pair && !border_of(&c->space->bounds, s->from, s->to)) break;
         i += pair ? 2 : 1;
     }
@@ -218,7 +214,7 @@ static sl_status check_cut_walls(const checker *c) {
 
 // --- the border
 
-/// A side on the border: which one, and from where to where counter-clockwise.
+/// A side on the border: the border's number, and its ends counter-clockwise.
 typedef struct stretch {
     int border;
     double from, to;
@@ -243,7 +239,7 @@ static stretch stretch_of(int border, sl_point from, sl_point to) {
     }
 }
 
-/// Whether the stretches make up the border of the bounds, once.
+/// Whether the stretches cover the border of the bounds exactly once.
 static bool is_whole(const sl_box *b, const stretch *stretches, size_t count) {
     const double from[4] = {b->min.x, b->min.y, -b->max.x, -b->max.y};
     const double to[4] = {b->max.x, b->max.y, -b->min.x, -b->min.y};
@@ -282,7 +278,7 @@ static sl_status check_border(const checker *c) {
 
 // --- the grid
 
-/// Buckets that can be read: cells in one ascend.
+/// The buckets are readable, and the cells of each ascend.
 static sl_status check_grid(const checker *c) {
     const sl_space *s = c->space;
     const sl_cell_grid *g = &s->grid;
@@ -304,31 +300,26 @@ static sl_status check_grid(const checker *c) {
 
 // --- seams
 
-static int compare_points(sl_point a, sl_point b) {
-    if (a.x != b.x) return a.x < b.x ? -1 : 1;
-    return (a.y > b.y) - (a.y < b.y);
-}
-
 /// A segment with its lower end first.
 static sl_segment in_order(sl_point a, sl_point b) {
-    return compare_points(a, b) < 0 ? (sl_segment){a, b} : (sl_segment){b, a};
+    return sli_compare_points(a, b) < 0 ? (sl_segment){a, b} : (sl_segment){b, a};
 }
 
 static int compare_segments(const void *left, const void *right) {
     const sl_segment *s = left, *t = right;
-    const int order = compare_points(s->a, t->a);
-    return order ? order : compare_points(s->b, t->b);
+    const int order = sli_compare_points(s->a, t->a);
+    return order ? order : sli_compare_points(s->b, t->b);
 }
 
-/// A portal that is said to be on a seam has the seam's ends.
+/// A portal that is listed for a seam has the ends of the seam.
 static sl_status check_seam_portals(const checker *c, bool *passed) {
     const sl_space *s = c->space;
     for (uint32_t i = 0; i < s->seam_portal_count; i++) {
         const sl_seam_portal *at = &s->seam_portals[i];
         const sl_segment *seam = &s->seams[at->seam].at;
         const sl_portal *p = &s->portals[at->portal];
-        const bool forward = same(seam->a, p->left) && same(seam->b, p->right);
-        const bool backward = same(seam->a, p->right) && same(seam->b, p->left);
+        const bool forward = sli_same_point(seam->a, p->left) && sli_same_point(seam->b, p->right);
+        const bool backward = sli_same_point(seam->a, p->right) && sli_same_point(seam->b, p->left);
         if (!forward && !backward)
             return sl_fail(c->context, SL_BAD_INPUT, "portal %u is not on seam %u", at->portal,
                            at->seam);
@@ -356,7 +347,7 @@ static sl_status check_covered(const checker *c, const bool *passed, sl_segment 
 
 static sl_status check_seams(const checker *c) {
     const sl_space *s = c->space;
-    SL_TRY(sl_seams_check(c->context, s, false));
+    SL_TRY(sli_seams_check(c->context, s, false));
     if (s->loose || !s->seam_count) return SL_OK;
     bool *passed = sl_alloc_array(c->context, s->seam_count, sizeof *passed);
     sl_segment *walls = sl_alloc_array(c->context, s->wall_count, sizeof *walls);
@@ -376,17 +367,17 @@ static sl_status check_all(const checker *c) {
     if (s->loose) return SL_OK;
     SL_TRY(s->cut_walls ? check_cut_walls(c) : check_walls(c));
     SL_TRY(check_border(c));
-    return sl_cell_grid_check(c->context, s);
+    return sli_cell_grid_check(c->context, s);
 }
 
-sl_status sl_check_mesh(sl_context *context, const sl_space *space) {
+sl_status sli_check_mesh(sl_context *context, const sl_space *space) {
     checker c = {.context = context, .space = space};
-    c.exits_found = sl_alloc_array(context, space->portal_count, sizeof *c.exits_found);
+    c.directed_found = sl_alloc_array(context, space->portal_count, sizeof *c.directed_found);
     c.sides_found = sl_alloc_array(context, space->wall_count, sizeof *c.sides_found);
     c.on_border = sl_alloc_array(context, space->wall_count, sizeof *c.on_border);
     const sl_status status =
-        c.exits_found && c.sides_found && c.on_border ? check_all(&c) : SL_NO_MEMORY;
-    sl_free(context, c.exits_found);
+        c.directed_found && c.sides_found && c.on_border ? check_all(&c) : SL_NO_MEMORY;
+    sl_free(context, c.directed_found);
     sl_free(context, c.sides_found);
     sl_free(context, c.on_border);
     return status;

@@ -1,40 +1,33 @@
-/// What the searches for faults share.
+/// The search for faults, shared by faults.c and faults_walls.c.
 #ifndef SL_SPACE_FAULTS_H
 #define SL_SPACE_FAULTS_H
 
-#include "base/base.h"
 #include "sightline/faults.h"
-#include "space/wall_grid.h"
+#include "sightline/support.h"
+#include "space/index.h"
 
 #include <math.h>
 
-typedef struct sl_fault_search {
+typedef struct sli_fault_search {
     sl_context *context;
     const sl_map *map;
     const sl_space *space;
     sl_faults_options options;
     SL_ARRAY(sl_fault) faults;
     SL_ARRAY(sl_point) points;
-} sl_fault_search;
+} sli_fault_search;
 
-static inline sl_status sl_add_fault(sl_fault_search *search, sl_fault fault) {
+static inline sl_status sli_add_fault(sli_fault_search *search, sl_fault fault) {
     SL_TRY(SL_ARRAY_ROOM(search->context, &search->faults, 1));
     search->faults.items[search->faults.count++] = fault;
     return SL_OK;
 }
 
-static inline double sl_apart(sl_point a, sl_point b) {
+static inline double sli_apart(sl_point a, sl_point b) {
     return hypot(a.x - b.x, a.y - b.y);
 }
 
-/// The point of a wall that is nearest to another point; an end, or rounded.
-sl_point sl_nearest_on_wall(const sl_wall *wall, sl_point point);
-/// Exact.
-bool sl_touches_wall(const sl_wall *wall, sl_point point);
-
-/// Gaps, overlaps and crossings.
-sl_status sl_find_wall_faults(sl_fault_search *search);
-/// Leaks, thin cells and unreachable rooms.
-sl_status sl_find_space_faults(sl_fault_search *search);
+/// Gaps, overlaps and crossings (faults_walls.c).
+sl_status sli_find_wall_faults(sli_fault_search *search);
 
 #endif

@@ -1,14 +1,28 @@
-/// Faults between walls: gaps, overlaps, crossings.
-#include "geometry/orient.h"
+/// Faults between walls (gaps, overlaps, crossings), and closing gaps. A grid over the walls gives
+/// the pairs that are near each other; exact signs decide whether two walls touch, cross or
+/// overlap.
+///
+///     gap                    closed              snapped: ends to ends      ends to walls
+///
+///     -----.  |              -----.  |           ---. .---                  ---.  |
+///             |                    \_|                   ->                        |   ->
+///             |                      |           ----o----                  ------o
+///                                                                                 |
+///
+/// A gap is an end near another wall, with no wall that joins the two and none between them.
+/// Snapping moves the ends near an often used place onto that place, and then free ends onto a near
+/// wall. Axial walls stay axial where they can. Time about O(n log n) for walls that are short
+/// against the map.
 #include "space/faults.h"
 
+#include "geometry/orient.h"
+
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
-sl_point sl_nearest_on_wall(const sl_wall *wall, sl_point point) {
+/// The point of a wall that is nearest to another point: an end, or rounded.
+static sl_point nearest_on_wall(const sl_wall *wall, sl_point point) {
     const sl_point along = {wall->b.x - wall->a.x, wall->b.y - wall->a.y};
     const double length = hypot(along.x, along.y);
     if (!(length > 0)) return wall->a;
@@ -20,69 +34,70 @@ sl_point sl_nearest_on_wall(const sl_wall *wall, sl_point point) {
     return (sl_point){wall->a.x + at * unit.x, wall->a.y + at * unit.y};
 }
 
-bool sl_touches_wall(const sl_wall *wall, sl_point p) {
-    if (sl_orient(wall->a, wall->b, p) != 0) return false;
+/// Exact.
+static bool touches_wall(const sl_wall *wall, sl_point p) {
+    if (sli_orient(wall->a, wall->b, p) != 0) return false;
     return p.x >= fmin(wall->a.x, wall->b.x) && p.x <= fmax(wall->a.x, wall->b.x) &&
            p.y >= fmin(wall->a.y, wall->b.y) && p.y <= fmax(wall->a.y, wall->b.y);
 }
 
 static bool crosses(const sl_wall *wall, sl_point a, sl_point b) {
-    return sl_orient(wall->a, wall->b, a) * sl_orient(wall->a, wall->b, b) < 0 &&
-           sl_orient(a, b, wall->a) * sl_orient(a, b, wall->b) < 0;
+    return sli_orient(wall->a, wall->b, a) * sli_orient(wall->a, wall->b, b) < 0 &&
+           sli_orient(a, b, wall->a) * sli_orient(a, b, wall->b) < 0;
 }
 
 // --- gaps
 
-/// Whether two walls meet, by an end of one of them, nearer to a point than `reach`.
+/// Whether two walls meet at an end of one of them, within `reach` of a point.
 static bool meet_near(const sl_wall *a, const sl_wall *b, sl_point point, double reach) {
-    return (sl_touches_wall(a, b->a) && sl_apart(b->a, point) <= reach) ||
-           (sl_touches_wall(a, b->b) && sl_apart(b->b, point) <= reach) ||
-           (sl_touches_wall(b, a->a) && sl_apart(a->a, point) <= reach) ||
-           (sl_touches_wall(b, a->b) && sl_apart(a->b, point) <= reach);
+    return (touches_wall(a, b->a) && sli_apart(b->a, point) <= reach) ||
+           (touches_wall(a, b->b) && sli_apart(b->b, point) <= reach) ||
+           (touches_wall(b, a->a) && sli_apart(a->a, point) <= reach) ||
+           (touches_wall(b, a->b) && sli_apart(a->b, point) <= reach);
 }
 
-/// Whether the gap from a wall's end to another wall is closed: by a wall that joins the two, or by
-/// one that passes between.
+/// Whether a wall closes the gap from a wall's end to another wall: it joins the two, or passes
+/// between them.
 static bool is_closed(const sl_map *map, const uint32_t *near, uint32_t count, sl_point end,
                       const sl_wall *other, sl_point to) {
-    const double reach = 2 * sl_apart(end, to);
+    const double reach = 2 * sli_apart(end, to);
     for (uint32_t i = 0; i < count; i++) {
         const sl_wall *wall = &map->walls[near[i]];
         if (wall == other) continue;
         if (crosses(wall, end, to)) return true;
-        if (sl_touches_wall(wall, end) && meet_near(wall, other, end, reach)) return true;
+        if (touches_wall(wall, end) && meet_near(wall, other, end, reach)) return true;
     }
     return false;
 }
 
-/// The end is told of once: by the first of the walls that have it.
-static bool is_told_before(const sl_map *map, const uint32_t *near, uint32_t count, uint32_t wall,
-                           sl_point end) {
+/// Whether an earlier wall has the same end, and so reports its gap.
+static bool is_reported(const sl_map *map, const uint32_t *near, uint32_t count, uint32_t wall,
+                        sl_point end) {
     for (uint32_t i = 0; i < count; i++)
-        if (near[i] < wall &&
-            (same(map->walls[near[i]].a, end) || same(map->walls[near[i]].b, end)))
+        if (near[i] < wall && (sli_same_point(map->walls[near[i]].a, end) ||
+                               sli_same_point(map->walls[near[i]].b, end)))
             return true;
     return false;
 }
 
-/// The gap between two ends is found from both of them.
-static bool is_told_from_there(const sl_wall *other, sl_point end, sl_point to) {
-    if (!same(to, other->a) && !same(to, other->b)) return false;
+/// A gap between two ends is found from both. Whether the other end reports it.
+static bool is_reported_there(const sl_wall *other, sl_point end, sl_point to) {
+    if (!sli_same_point(to, other->a) && !sli_same_point(to, other->b)) return false;
     return to.x != end.x ? to.x < end.x : to.y < end.y;
 }
 
-static sl_status find_gap(sl_fault_search *search, const sl_wall_grid *grid, uint32_t wall,
+static sl_status find_gap(sli_fault_search *search, const sli_wall_grid *grid, uint32_t wall,
                           sl_point end) {
     uint32_t count;
-    const uint32_t *near = sl_wall_grid_at(grid, end, &count);
+    const uint32_t *near = sli_wall_grid_at(grid, end, &count);
     const sl_map *map = search->map;
-    if (is_told_before(map, near, count, wall, end)) return SL_OK;
+    if (is_reported(map, near, count, wall, end)) return SL_OK;
     sl_fault gap = {.kind = SL_FAULT_GAP, .size = INFINITY, .cell = SL_NO_CELL};
     for (uint32_t i = 0; i < count; i++) {
         const sl_wall *other = &map->walls[near[i]];
-        if (near[i] == wall || sl_touches_wall(other, end)) continue;
-        const sl_point to = sl_nearest_on_wall(other, end);
-        const double width = sl_apart(end, to);
+        if (near[i] == wall || touches_wall(other, end)) continue;
+        const sl_point to = nearest_on_wall(other, end);
+        const double width = sli_apart(end, to);
         if (!(width <= search->options.gap) || width >= gap.size) continue;
         if (is_closed(map, near, count, end, other, to)) continue;
         gap.size = width;
@@ -90,14 +105,14 @@ static sl_status find_gap(sl_fault_search *search, const sl_wall_grid *grid, uin
         gap.walls[0] = wall;
         gap.walls[1] = near[i];
     }
-    if (gap.size == INFINITY || is_told_from_there(&map->walls[gap.walls[1]], end, gap.at.b))
+    if (gap.size == INFINITY || is_reported_there(&map->walls[gap.walls[1]], end, gap.at.b))
         return SL_OK;
-    return sl_add_fault(search, gap);
+    return sli_add_fault(search, gap);
 }
 
 // --- pairs
 
-/// The piece that two walls on one line share; false where it has no length.
+/// The piece that two walls in one line share; false if it has no length.
 static bool shared_piece(const sl_wall *a, const sl_wall *b, sl_segment *out) {
     const bool by_x = fabs(a->b.x - a->a.x) >= fabs(a->b.y - a->a.y);
     sl_point ends[4] = {a->a, a->b, b->a, b->b};
@@ -120,29 +135,30 @@ static sl_point crossing_point(const sl_wall *a, const sl_wall *b) {
     return (sl_point){a->a.x + at * u.x, a->a.y + at * u.y};
 }
 
-static sl_status compare_walls(sl_fault_search *search, uint32_t i, uint32_t j) {
+static sl_status compare_walls(sli_fault_search *search, uint32_t i, uint32_t j) {
     const sl_wall *a = &search->map->walls[i], *b = &search->map->walls[j];
     sl_fault fault = {.walls = {i, j}, .cell = SL_NO_CELL};
     if (crosses(a, b->a, b->b)) {
         fault.kind = SL_FAULT_CROSSING;
         fault.at.a = fault.at.b = crossing_point(a, b);
-        return sl_add_fault(search, fault);
+        return sli_add_fault(search, fault);
     }
-    const bool in_line = !same(a->a, a->b) && !same(b->a, b->b) &&
-                         sl_orient(a->a, a->b, b->a) == 0 && sl_orient(a->a, a->b, b->b) == 0;
+    const bool in_line = !sli_same_point(a->a, a->b) && !sli_same_point(b->a, b->b) &&
+                         sli_orient(a->a, a->b, b->a) == 0 && sli_orient(a->a, a->b, b->b) == 0;
     if (!in_line || !shared_piece(a, b, &fault.at)) return SL_OK;
     fault.kind = SL_FAULT_OVERLAP;
-    fault.size = sl_apart(fault.at.a, fault.at.b);
-    return sl_add_fault(search, fault);
+    fault.size = sli_apart(fault.at.a, fault.at.b);
+    return sli_add_fault(search, fault);
 }
 
-static sl_status compare_in_square(sl_fault_search *search, const uint32_t *walls, uint32_t count) {
+static sl_status compare_in_square(sli_fault_search *search, const uint32_t *walls,
+                                   uint32_t count) {
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t j = i + 1; j < count; j++) SL_TRY(compare_walls(search, walls[i], walls[j]));
     return SL_OK;
 }
 
-static sl_status search_grid(sl_fault_search *search, const sl_wall_grid *grid) {
+static sl_status search_grid(sli_fault_search *search, const sli_wall_grid *grid) {
     const size_t squares = (size_t)grid->columns * grid->rows;
     for (size_t i = 0; i < squares; i++) {
         if (i % 1024 == 0) SL_TRY(sl_check_cancelled(search->context));
@@ -158,10 +174,192 @@ static sl_status search_grid(sl_fault_search *search, const sl_wall_grid *grid) 
     return SL_OK;
 }
 
-sl_status sl_find_wall_faults(sl_fault_search *search) {
-    sl_wall_grid grid;
-    SL_TRY(sl_wall_grid_create(search->context, search->map, search->options.gap, &grid));
+sl_status sli_find_wall_faults(sli_fault_search *search) {
+    sli_wall_grid grid;
+    SL_TRY(sli_wall_grid_create(search->context, search->map, search->options.gap, &grid));
     const sl_status status = search_grid(search, &grid);
-    sl_wall_grid_destroy(search->context, &grid);
+    sli_wall_grid_destroy(search->context, &grid);
+    return status;
+}
+
+// --- closing gaps
+
+/// An end of a wall.
+typedef struct wall_end {
+    sl_point at;
+    uint32_t wall;
+    uint32_t users; ///< the number of walls with an end at this place
+    bool second;
+} wall_end;
+
+typedef struct snapper {
+    sl_context *context;
+    sl_map *map;
+    double gap;
+    wall_end *ends; ///< sorted by place
+    size_t count;
+    sl_snap_account account;
+} snapper;
+
+static int compare_places(const void *left, const void *right) {
+    const wall_end *a = left, *b = right;
+    if (a->at.x != b->at.x) return a->at.x < b->at.x ? -1 : 1;
+    if (a->at.y != b->at.y) return a->at.y < b->at.y ? -1 : 1;
+    return a->wall != b->wall ? (a->wall < b->wall ? -1 : 1) : a->second - b->second;
+}
+
+/// The most used places first; then the order of walls.
+static int compare_use(const void *left, const void *right) {
+    const wall_end *a = left, *b = right;
+    if (a->users != b->users) return a->users > b->users ? -1 : 1;
+    return a->wall != b->wall ? (a->wall < b->wall ? -1 : 1) : a->second - b->second;
+}
+
+static sl_point *end_of(snapper *s, const wall_end *end) {
+    sl_wall *wall = &s->map->walls[end->wall];
+    return end->second ? &wall->b : &wall->a;
+}
+
+static void list_ends(snapper *s) {
+    for (size_t i = 0; i < s->map->wall_count; i++) {
+        s->ends[2 * i] = (wall_end){.at = s->map->walls[i].a, .wall = (uint32_t)i};
+        s->ends[2 * i + 1] =
+            (wall_end){.at = s->map->walls[i].b, .wall = (uint32_t)i, .second = true};
+    }
+    s->count = 2 * s->map->wall_count;
+    qsort(s->ends, s->count, sizeof *s->ends, compare_places);
+    for (size_t i = 0, end; i < s->count; i = end) {
+        for (end = i; end < s->count && sli_same_point(s->ends[i].at, s->ends[end].at); end++)
+            continue;
+        for (size_t k = i; k < end; k++) s->ends[k].users = (uint32_t)(end - i);
+    }
+}
+
+static void move_end(snapper *s, sl_point *end, sl_point to) {
+    const double way = sli_apart(*end, to);
+    if (sli_same_point(*end, to)) return;
+    s->account.moved++;
+    s->account.farthest = fmax(s->account.farthest, way);
+    *end = to;
+}
+
+// --- ends to ends
+
+/// Moves ends onto a near place that is used at least as often. Each end moves once. `settled` has
+/// two bits by wall: its ends that have their place.
+static sl_status join_ends(snapper *s, const sli_wall_grid *grid, uint8_t *settled) {
+    const sl_wall *before = s->map->walls;
+    for (size_t i = 0; i < s->count; i++) {
+        const wall_end *keep = &s->ends[i];
+        if (i % 1024 == 0) SL_TRY(sl_check_cancelled(s->context));
+        if (settled[keep->wall] >> keep->second & 1) continue;
+        uint32_t count;
+        const uint32_t *near = sli_wall_grid_at(grid, keep->at, &count);
+        for (uint32_t k = 0; k < count; k++) {
+            for (int second = 0; second < 2; second++) {
+                const sl_wall *wall = &before[near[k]];
+                const sl_point at = second ? wall->b : wall->a;
+                if (settled[near[k]] >> second & 1 || sli_apart(at, keep->at) > s->gap) continue;
+                settled[near[k]] |= (uint8_t)(1 << second);
+                const wall_end moved = {.wall = near[k], .second = second};
+                move_end(s, end_of(s, &moved), keep->at);
+            }
+        }
+    }
+    return SL_OK;
+}
+
+// --- ends to walls
+
+static bool is_upright(const sl_wall *wall) {
+    return wall->a.x == wall->b.x;
+}
+
+static bool is_level(const sl_wall *wall) {
+    return wall->a.y == wall->b.y;
+}
+
+/// The place where an end of one wall meets another wall.
+static sl_point meeting(const sl_wall *own, sl_point end, const sl_wall *other) {
+    if (is_upright(own) && is_level(other)) return (sl_point){end.x, other->a.y};
+    if (is_level(own) && is_upright(other)) return (sl_point){other->a.x, end.y};
+    sl_point to = nearest_on_wall(other, end);
+    if (is_upright(other)) to.x = other->a.x;
+    if (is_level(other)) to.y = other->a.y;
+    return to;
+}
+
+static void put_on_wall(snapper *s, const sli_wall_grid *grid, const wall_end *end) {
+    sl_point *at = end_of(s, end);
+    const sl_wall *own = &s->map->walls[end->wall];
+    uint32_t count;
+    const uint32_t *near = sli_wall_grid_at(grid, *at, &count);
+    sl_point best = *at;
+    double least = INFINITY;
+    for (uint32_t k = 0; k < count; k++) {
+        const sl_wall *other = &s->map->walls[near[k]];
+        if (near[k] == end->wall || sli_same_point(other->a, other->b)) continue;
+        if (touches_wall(other, *at)) return;
+        const sl_point to = meeting(own, *at, other);
+        const double way = sli_apart(*at, to);
+        const bool there = sli_apart(to, nearest_on_wall(other, to)) <= s->gap;
+        if (way > s->gap || way >= least || !there) continue;
+        least = way;
+        best = to;
+    }
+    move_end(s, at, best);
+}
+
+// --- both
+
+static void drop_points(snapper *s) {
+    size_t kept = 0;
+    for (size_t i = 0; i < s->map->wall_count; i++) {
+        const sl_wall wall = s->map->walls[i];
+        if (!sli_same_point(wall.a, wall.b)) s->map->walls[kept++] = wall;
+    }
+    s->account.vanished = s->map->wall_count - kept;
+    s->map->wall_count = kept;
+}
+
+static sl_status snap_to_ends(snapper *s) {
+    sli_wall_grid grid;
+    uint8_t *settled = sl_alloc_array(s->context, s->map->wall_count, sizeof *settled);
+    if (!settled) return SL_NO_MEMORY;
+    sl_status status = sli_wall_grid_create(s->context, s->map, s->gap, &grid);
+    if (status == SL_OK) {
+        list_ends(s);
+        qsort(s->ends, s->count, sizeof *s->ends, compare_use);
+        status = join_ends(s, &grid, settled);
+        sli_wall_grid_destroy(s->context, &grid);
+    }
+    sl_free(s->context, settled);
+    return status;
+}
+
+/// The grid finds walls within twice the gap, as each may move by a gap while the grid is in use.
+static sl_status snap_to_walls(snapper *s) {
+    sli_wall_grid grid;
+    SL_TRY(sli_wall_grid_create(s->context, s->map, 2 * s->gap, &grid));
+    list_ends(s);
+    qsort(s->ends, s->count, sizeof *s->ends, compare_use);
+    for (size_t i = 0; i < s->count; i++)
+        if (s->ends[i].users == 1) put_on_wall(s, &grid, &s->ends[i]);
+    sli_wall_grid_destroy(s->context, &grid);
+    return SL_OK;
+}
+
+sl_status sl_map_snap(sl_context *context, sl_map *map, double gap, sl_snap_account *account) {
+    if (!(gap > 0 && sl_coordinate_usable(gap)))
+        return sl_fail(context, SL_BAD_ARGUMENT, "the gap to close must be a positive number");
+    snapper s = {.context = context, .map = map, .gap = gap};
+    s.ends = sl_alloc_array(context, 2 * map->wall_count, sizeof *s.ends);
+    if (!s.ends) return SL_NO_MEMORY;
+    sl_status status = snap_to_ends(&s);
+    if (status == SL_OK) status = snap_to_walls(&s);
+    if (status == SL_OK) drop_points(&s);
+    if (status == SL_OK) sl_map_drop_cells(context, map);
+    sl_free(context, s.ends);
+    if (status == SL_OK && account) *account = s.account;
     return status;
 }

@@ -1,16 +1,21 @@
-/// Cells that a map brings along (a node builder's, or anyone's).
+/// Cells that a map brings along, from a node builder or elsewhere.
 ///
-/// Such cells have been rounded: corners that should lie on a straight side bend it, cells meet in
-/// T-junctions, corners stand off their walls. So their sides are taken for lines that end cells,
-/// welded together with the walls by the map's own tolerance (sl_map_clean does the same, and then
-/// nothing is left to weld), and a mesh is made over all of them. Cells that are still bent come
-/// out in several convex parts.
+/// Such cells are rounded. Corners that should lie on a straight side bend it, cells meet in
+/// T-junctions, corners stand beside their walls:
 ///
-/// Which of the map's cells a triangle is in is counted from outside: the way into a triangle
-/// crosses a side of each cell that it enters or leaves.
+///     +-----+-----+            the sides of cells are lines, welded with the walls by the
+///     |     .     |            map's own tolerance; a mesh is made over all of them, so a
+///     |      .----+            cell that is bent comes out in several convex parts
+///     |     .     |
+///     +-----+-----+
+///
+/// Are the cells sound? The cover of a triangle is the number of cells over it. Outside it is 0,
+/// and a side changes it by one, so a walk over all triangles counts it. More than one, or less
+/// than none, is a cell that overlaps another. Time O(n log n), for the mesh.
 #include "space/mesh.h"
 
-/// How many of the map's cells cover a triangle, and the sum of their numbers, each plus one.
+/// The number of the map's cells that cover a triangle, and the sum of their numbers, each plus
+/// one.
 typedef struct cover {
     int64_t count, sum;
 } cover;
@@ -19,10 +24,11 @@ typedef struct given {
     sl_context *context;
     const sl_map *map;
     const char *source; ///< for messages
-    sl_mesh_lines lines;
-    sl_planar graph; ///< sides of cells are behind walls and seams, by corner of the map
-    sl_triangulation triangles;
-    cover *steps;  ///< by edge of the graph: what is at the left of it, a to b, less what is not
+    sli_mesh_lines lines;
+    sli_planar graph; ///< of walls, seams, and sides of cells by corner of the map
+    sli_triangulation triangles;
+    cover
+        *steps; ///< by edge of the graph, from a to b: the cover at its left less that at its right
     cover *covers; ///< by half-edge
     bool *known;   ///< by half-edge
     SL_ARRAY(uint32_t) waiting;
@@ -30,24 +36,24 @@ typedef struct given {
 } given;
 
 static sl_status make_graph(given *g, sl_space *space) {
-    SL_TRY(sl_mesh_lines_of_map(g->context, g->map, &g->lines, space));
+    SL_TRY(sli_mesh_lines_of_map(g->context, g->map, &g->lines, space));
     for (size_t i = 0; i < g->map->cell_count; i++) {
         const sl_map_cell *cell = &g->map->cells[i];
         const sl_point *corners = g->map->corners + cell->first;
         if (i % 1024 == 0) SL_TRY(sl_check_cancelled(g->context));
         for (size_t k = 0; k < cell->count; k++)
-            SL_TRY(sl_mesh_add_line(g->context, &g->lines,
-                                    (sl_segment){corners[k], corners[(k + 1) % cell->count]}));
+            SL_TRY(sli_mesh_add_line(g->context, &g->lines,
+                                     (sl_segment){corners[k], corners[(k + 1) % cell->count]}));
     }
-    SL_TRY(sl_planar_make(g->context, g->source, g->lines.items.items, g->lines.items.count,
-                          2 * g->map->snap, &g->graph));
-    return sl_triangulate(g->context, &g->graph, &space->bounds, &g->triangles);
+    SL_TRY(sli_planar_make(g->context, g->source, g->lines.items.items, g->lines.items.count,
+                           2 * g->map->snap, &g->graph));
+    return sli_triangulate(g->context, &g->graph, &space->bounds, &g->triangles);
 }
 
-// --- which cell a triangle is in
+// --- the cells that cover a triangle
 
-/// The edges around a cell, *count of them.
-static const sl_planar_link *links_of(const given *g, uint32_t cell, size_t *count) {
+/// The *count edges around a cell.
+static const sli_planar_link *links_of(const given *g, uint32_t cell, size_t *count) {
     const sl_map_cell *c = &g->map->cells[cell];
     const size_t *first = g->graph.first + g->lines.wall_count + g->lines.seam_count + c->first;
     *count = first[c->count] - first[0];
@@ -57,22 +63,22 @@ static const sl_planar_link *links_of(const given *g, uint32_t cell, size_t *cou
 /// Twice the area of a cell as welded; negative where it is clockwise.
 static double area_of(const given *g, uint32_t cell) {
     size_t count;
-    const sl_planar_link *links = links_of(g, cell, &count);
+    const sli_planar_link *links = links_of(g, cell, &count);
     double sum = 0;
     for (size_t k = 1; k < count; k++) {
-        const sl_point o = sl_planar_at(&g->graph, links[0]).a;
-        const sl_segment at = sl_planar_at(&g->graph, links[k]);
+        const sl_point o = sli_planar_at(&g->graph, links[0]).a;
+        const sl_segment at = sli_planar_at(&g->graph, links[k]);
         sum += (at.a.x - o.x) * (at.b.y - o.y) - (at.b.x - o.x) * (at.a.y - o.y);
     }
     return sum;
 }
 
-/// What crossing each edge of the graph, from its right to its left, adds to the cover.
+/// Counts what crossing each edge of the graph, from its right to its left, adds to the cover.
 static void count_steps(given *g) {
     for (uint32_t i = 0; i < g->map->cell_count; i++) {
         const double area = area_of(g, i);
         size_t count;
-        const sl_planar_link *links = links_of(g, i, &count);
+        const sli_planar_link *links = links_of(g, i, &count);
         g->without_area += area == 0;
         for (size_t k = 0; k < count; k++) {
             const int sign = (links[k] % 2 == 1) == (area < 0) ? 1 : -1;
@@ -105,27 +111,27 @@ static sl_status cover_triangle(given *g, uint32_t half, cover c) {
 }
 
 static sl_status cover_all(given *g) {
-    const sl_triangulation *t = &g->triangles;
+    const sli_triangulation *t = &g->triangles;
     uint32_t outside = 0;
-    while (!sl_half_is_outside(t, outside)) outside++;
+    while (!sli_half_is_outside(t, outside)) outside++;
     SL_TRY(cover_triangle(g, outside ^ 1, step_into(g, outside ^ 1)));
     while (g->waiting.count) {
         const uint32_t half = g->waiting.items[--g->waiting.count], twin = half ^ 1;
-        if (sl_half_is_outside(t, twin) || g->known[twin]) continue;
+        if (sli_half_is_outside(t, twin) || g->known[twin]) continue;
         const cover step = step_into(g, twin), c = g->covers[half];
         SL_TRY(cover_triangle(g, twin, (cover){c.count + step.count, c.sum + step.sum}));
     }
     return SL_OK;
 }
 
-/// Fails for the triangle of a half-edge, which is covered wrongly, naming a cell whose side the
-/// half-edge is and which is entered there, or left, where the cover is too low. SL_OK for none.
+/// Fails for a triangle that is covered wrongly. Names a cell that has the half-edge as a side, and
+/// is entered there, or left where the cover is too low. SL_OK if there is none.
 static sl_status fail_at(const given *g, uint32_t half) {
     const uint32_t from = g->triangles.halves.items[half].from;
     const sl_point at = g->triangles.points.items[from];
     for (uint32_t i = 0; i < g->map->cell_count; i++) {
         size_t count;
-        const sl_planar_link *links = links_of(g, i, &count);
+        const sli_planar_link *links = links_of(g, i, &count);
         for (size_t k = 0; k < count; k++) {
             if (links[k] / 2 + 1 != g->triangles.labels[half / 2]) continue;
             const bool along = (from == g->graph.edges[links[k] / 2].a) == (links[k] % 2 == 0);
@@ -139,7 +145,7 @@ static sl_status fail_at(const given *g, uint32_t half) {
     return SL_OK;
 }
 
-/// Cells may not overlap, nor wind around a place more than once.
+/// Cells must not overlap, nor wind around a place more than once.
 static sl_status check_cover(given *g) {
     const size_t halves = g->triangles.halves.count;
     g->steps = sl_alloc_array(g->context, g->graph.edge_count, sizeof *g->steps);
@@ -161,8 +167,8 @@ static sl_status check_cover(given *g) {
 
 static void destroy(given *g) {
     sl_free(g->context, g->lines.items.items);
-    sl_planar_destroy(g->context, &g->graph);
-    sl_triangulation_destroy(g->context, &g->triangles);
+    sli_planar_destroy(g->context, &g->graph);
+    sli_triangulation_destroy(g->context, &g->triangles);
     sl_free(g->context, g->steps);
     sl_free(g->context, g->covers);
     sl_free(g->context, g->known);
@@ -178,7 +184,7 @@ sl_status sl_subdivide_given(sl_context *context, const sl_map *map, sl_space *o
     sl_status status = make_graph(&g, &space);
     if (status == SL_OK) status = check_cover(&g);
     if (status == SL_OK)
-        status = sl_mesh_make(context, map, &g.lines, &g.graph, &g.triangles, &space);
+        status = sli_mesh_make(context, map, &g.lines, &g.graph, &g.triangles, &space);
     destroy(&g);
     if (status != SL_OK) {
         sl_space_destroy(context, &space);

@@ -1,38 +1,41 @@
-/// The outline: each cell's exits in order, and between them what walls and the border there are. A
-/// mesh knows what each side is. In a kd-tree's space the wall on a piece of the boundary is found
-/// through a grid over the walls, and decided by the exact predicate.
+/// The outline of a space: for each cell its portals in order, and between them walls and border.
+///
+///          left ____ portal ____ right        a cell is walked counter-clockwise; a gap between
+///          two
+///         .                           .       portals is a piece of wall, or of several walls, or
+///        wall                       border    of the map's border
+///         .____ wall 3 _____ wall 4 __.
+///
+/// A mesh knows what each side is. In a kd-tree's space, a grid over the walls finds those near a
+/// gap, and an exact sign decides whether a wall lies on it. Then cells are joined to rooms
+/// (rooms.c). No coordinate is computed. Time O(n log n).
 #include "sightline/outline.h"
 
-#include "base/base.h"
 #include "geometry/orient.h"
-#include "space/rooms.h"
-#include "space/wall_grid.h"
+#include "sightline/support.h"
+#include "space/index.h"
+#include "space/kd_tree.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/// What a wall covers of a piece of boundary, in the coordinate that runs along it.
+/// The part of a piece of boundary that a wall covers, in the coordinate along it.
 typedef struct cover {
     double from, to;
-    sl_point start, end; ///< the same as points
+    sl_point start, end; ///< the same, as points
     uint32_t wall;
 } cover;
 
 typedef struct outliner {
     const sl_space *space;
-    sl_wall_grid grid;
-    double reach; ///< of the grid
+    sli_wall_grid grid;
+    double reach; ///< of the grid: it finds walls within it
     SL_ARRAY(cover) covers;
     SL_ARRAY(sl_side) sides;
-    uint32_t *of_exit; ///< the side of each exit
+    uint32_t *of_portal; ///< the side of each directed portal
 } outliner;
 
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
-/// Where a point of the line through `from` and `to` lies along it: ascending from one to the
-/// other.
+/// The place of a point along the line from `from` to `to`; it grows on the way.
 static double along(sl_point from, sl_point to, sl_point point) {
     const bool by_x = fabs(to.x / 2 - from.x / 2) >= fabs(to.y / 2 - from.y / 2);
     if (by_x) return to.x > from.x ? point.x : -point.x;
@@ -48,7 +51,7 @@ static int compare_covers(const void *left, const void *right) {
 static sl_status add_cover(sl_context *context, outliner *o, uint32_t wall, sl_point from,
                            sl_point to) {
     const sl_wall *w = &o->space->walls[wall];
-    if (sl_orient(w->a, w->b, from) != 0 || sl_orient(w->a, w->b, to) != 0) return SL_OK;
+    if (sli_orient(w->a, w->b, from) != 0 || sli_orient(w->a, w->b, to) != 0) return SL_OK;
     const double a = along(from, to, w->a), b = along(from, to, w->b);
     cover c = {fmin(a, b), fmax(a, b), a < b ? w->a : w->b, a < b ? w->b : w->a, wall};
     if (c.to <= along(from, to, from) || c.from >= along(from, to, to)) return SL_OK;
@@ -57,7 +60,8 @@ static sl_status add_cover(sl_context *context, outliner *o, uint32_t wall, sl_p
     return SL_OK;
 }
 
-/// Every wall on the way is near to some point of it; those near to several come several times.
+/// Finds the walls on a piece of boundary: each is near to some point of it. A wall may come
+/// several times.
 static sl_status gather_covers(sl_context *context, outliner *o, sl_point from, sl_point to) {
     const sl_point d = {to.x - from.x, to.y - from.y};
     const double steps = ceil((fabs(d.x) + fabs(d.y)) / o->reach);
@@ -65,7 +69,7 @@ static sl_status gather_covers(sl_context *context, outliner *o, sl_point from, 
     for (double i = 0; i <= steps; i++) {
         const sl_point at = {from.x + d.x * (i / steps), from.y + d.y * (i / steps)};
         uint32_t count;
-        const uint32_t *walls = sl_wall_grid_at(&o->grid, at, &count);
+        const uint32_t *walls = sli_wall_grid_at(&o->grid, at, &count);
         for (uint32_t k = 0; k < count; k++) SL_TRY(add_cover(context, o, walls[k], from, to));
     }
     if (o->covers.count)
@@ -73,10 +77,10 @@ static sl_status gather_covers(sl_context *context, outliner *o, sl_point from, 
     return SL_OK;
 }
 
-static sl_status add_side(sl_context *context, outliner *o, sl_point start, uint32_t beyond) {
+static sl_status add_side(sl_context *context, outliner *o, sl_point start, uint32_t neighbour) {
     SL_TRY(SL_ARRAY_ROOM(context, &o->sides, 1));
     const uint32_t next = (uint32_t)o->sides.count + 1;
-    o->sides.items[o->sides.count++] = (sl_side){start, next, beyond};
+    o->sides.items[o->sides.count++] = (sl_side){start, next, neighbour};
     return SL_OK;
 }
 
@@ -93,12 +97,12 @@ static sl_status add_border(sl_context *context, outliner *o, uint32_t cell, sl_
                    cell, from.x, from.y, to.x, to.y);
 }
 
-/// Adds the sides of a piece of boundary that has no portal.
+/// Adds the sides of a piece of boundary without portals.
 static sl_status add_gap(sl_context *context, outliner *o, uint32_t cell, sl_point from,
                          sl_point to) {
     SL_TRY(gather_covers(context, o, from, to));
     sl_point at = from;
-    for (size_t i = 0; i < o->covers.count && !same(at, to); i++) {
+    for (size_t i = 0; i < o->covers.count && !sli_same_point(at, to); i++) {
         const cover *c = &o->covers.items[i];
         if (c->to <= along(from, to, at)) continue;
         if (c->from > along(from, to, at)) {
@@ -108,11 +112,11 @@ static sl_status add_gap(sl_context *context, outliner *o, uint32_t cell, sl_poi
         SL_TRY(add_side(context, o, at, SL_SIDE_WALL + c->wall));
         at = c->to < along(from, to, to) ? c->end : to;
     }
-    return same(at, to) ? SL_OK : add_border(context, o, cell, at, to);
+    return sli_same_point(at, to) ? SL_OK : add_border(context, o, cell, at, to);
 }
 
 static bool on_edge(sl_point a, sl_point b, sl_point p) {
-    return sl_orient(a, b, p) == 0 && along(a, b, p) >= along(a, b, a) &&
+    return sli_orient(a, b, p) == 0 && along(a, b, p) >= along(a, b, a) &&
            along(a, b, p) <= along(a, b, b);
 }
 
@@ -121,16 +125,16 @@ static sl_status outline_known(sl_context *context, outliner *o, uint32_t cell) 
     const sl_space *s = o->space;
     const sl_cell *c = &s->cells[cell];
     const uint32_t first = (uint32_t)o->sides.count;
-    uint32_t exit = c->first_exit;
+    uint32_t directed = c->first_directed;
     for (uint32_t i = 0; i < c->vertex_count; i++) {
         const sl_point *corners = s->vertices + c->first_vertex;
-        const uint32_t edge = s->beyond[c->first_vertex + i];
-        if (edge == SL_BEYOND_BORDER) {
+        const uint32_t edge = s->neighbour[c->first_vertex + i];
+        if (edge == SL_NEIGHBOUR_BORDER) {
             SL_TRY(add_border(context, o, cell, corners[i], corners[(i + 1) % c->vertex_count]));
-        } else if (edge != SL_BEYOND_EXIT) {
-            SL_TRY(add_side(context, o, corners[i], SL_SIDE_WALL + (edge & ~SL_BEYOND_RIGHT)));
+        } else if (edge != SL_NEIGHBOUR_PORTAL) {
+            SL_TRY(add_side(context, o, corners[i], SL_SIDE_WALL + (edge & ~SL_NEIGHBOUR_RIGHT)));
         } else {
-            o->of_exit[exit++] = (uint32_t)o->sides.count;
+            o->of_portal[directed++] = (uint32_t)o->sides.count;
             SL_TRY(add_side(context, o, corners[i], 0));
         }
     }
@@ -140,27 +144,27 @@ static sl_status outline_known(sl_context *context, outliner *o, uint32_t cell) 
 }
 
 static sl_status outline_cell(sl_context *context, outliner *o, uint32_t cell) {
-    if (o->space->beyond) return outline_known(context, o, cell);
+    if (o->space->neighbour) return outline_known(context, o, cell);
     const sl_cell *c = &o->space->cells[cell];
     const sl_point *corners = o->space->vertices + c->first_vertex;
     const uint32_t first = (uint32_t)o->sides.count;
-    uint32_t exit = c->first_exit;
+    uint32_t directed = c->first_directed;
     for (uint32_t i = 0; i < c->vertex_count; i++) {
         sl_point at = corners[i];
         const sl_point end = corners[(i + 1) % c->vertex_count];
-        for (; exit < c->first_exit + c->exit_count; exit++) {
-            const sl_exit *e = &o->space->exits[exit];
+        for (; directed < c->first_directed + c->directed_count; directed++) {
+            const sl_directed_portal *e = &o->space->directed[directed];
             if (!on_edge(corners[i], end, e->right) || !on_edge(corners[i], end, e->left)) break;
-            if (!same(at, e->right)) SL_TRY(add_gap(context, o, cell, at, e->right));
-            o->of_exit[exit] = (uint32_t)o->sides.count;
+            if (!sli_same_point(at, e->right)) SL_TRY(add_gap(context, o, cell, at, e->right));
+            o->of_portal[directed] = (uint32_t)o->sides.count;
             SL_TRY(add_side(context, o, e->right, 0));
             at = e->left;
         }
-        if (!same(at, end)) SL_TRY(add_gap(context, o, cell, at, end));
+        if (!sli_same_point(at, end)) SL_TRY(add_gap(context, o, cell, at, end));
     }
-    if (exit != c->first_exit + c->exit_count)
-        return sl_fail(context, SL_BAD_ARGUMENT, "cell %u: exit %u is not on its boundary", cell,
-                       exit - c->first_exit);
+    if (directed != c->first_directed + c->directed_count)
+        return sl_fail(context, SL_BAD_ARGUMENT, "cell %u: portal %u is not on its boundary", cell,
+                       directed - c->first_directed);
     if (o->sides.count > INT32_MAX) return sl_fail_memory(context);
     o->sides.items[o->sides.count - 1].next = first;
     return SL_OK;
@@ -172,14 +176,14 @@ static sl_status join_portals(sl_context *context, outliner *o) {
     uint32_t *one = sl_alloc_array(context, s->portal_count, sizeof *one);
     if (!one) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < s->portal_count; i++) one[i] = UINT32_MAX;
-    for (uint32_t i = 0; i < s->exit_count; i++) {
-        const uint32_t portal = s->exits[i].portal, side = o->of_exit[i];
+    for (uint32_t i = 0; i < s->directed_count; i++) {
+        const uint32_t portal = s->directed[i].portal, side = o->of_portal[i];
         if (one[portal] == UINT32_MAX) {
             one[portal] = side;
             continue;
         }
-        o->sides.items[side].beyond = one[portal];
-        o->sides.items[one[portal]].beyond = side;
+        o->sides.items[side].neighbour = one[portal];
+        o->sides.items[one[portal]].neighbour = side;
     }
     sl_free(context, one);
     return SL_OK;
@@ -190,14 +194,14 @@ static sl_status make_grid(sl_context *context, outliner *o) {
     const sl_map map = {.walls = s->walls, .wall_count = s->wall_count};
     const double size = fmax(s->bounds.max.x - s->bounds.min.x, s->bounds.max.y - s->bounds.min.y);
     o->reach = size / (4 * sqrt((double)s->wall_count) + 4);
-    return sl_wall_grid_create(context, &map, o->reach, &o->grid);
+    return sli_wall_grid_create(context, &map, o->reach, &o->grid);
 }
 
 static sl_status outline_all(sl_context *context, outliner *o, uint32_t *first) {
     const sl_space *s = o->space;
-    if (!s->beyond) SL_TRY(make_grid(context, o));
-    o->of_exit = sl_alloc_array(context, s->exit_count, sizeof *o->of_exit);
-    if (!o->of_exit) return SL_NO_MEMORY;
+    if (!s->neighbour) SL_TRY(make_grid(context, o));
+    o->of_portal = sl_alloc_array(context, s->directed_count, sizeof *o->of_portal);
+    if (!o->of_portal) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < s->cell_count; i++) {
         first[i] = (uint32_t)o->sides.count;
         if (i % 1024 == 0) SL_TRY(sl_check_cancelled(context));
@@ -234,14 +238,14 @@ sl_status sl_outline_make(sl_context *context, const sl_space *space, sl_outline
     made.sides = o.sides.items;
     made.side_count = (uint32_t)o.sides.count;
     if (status == SL_OK)
-        status = space->beyond ? keep_cells(context, &made) : sl_rooms_make(context, &made);
+        status = space->neighbour ? keep_cells(context, &made) : sli_rooms_make(context, &made);
     if (status == SL_OK)
         *out = made;
     else
         sl_outline_destroy(context, &made);
-    sl_wall_grid_destroy(context, &o.grid);
+    sli_wall_grid_destroy(context, &o.grid);
     sl_free(context, o.covers.items);
-    sl_free(context, o.of_exit);
+    sl_free(context, o.of_portal);
     return status;
 }
 

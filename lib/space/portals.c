@@ -1,6 +1,21 @@
-/// Portals: along each split line the cells on its two sides are merged and the walls on it left
-/// out. Exits: each cell's portals, as it crosses them on the way out.
+/// Portals and directed portals of a kd-tree's space, and which cells are inside.
+///
+/// A portal lies on a split line, between a cell below it and a cell above it. For each node, both
+/// lists of cells that touch the line are gathered in order, and merged:
+///
+///     above   |   A   |     B      |  C  |
+///     split   =====...:....====....:.....=       = wall   . free
+///     below   |      D      |     E      |
+///
+/// Each common stretch of two cells, without the walls on it, gives portals: here D-A, D-B, E-B and
+/// E-C. Seams on the line cut portals too. Time: linear in the portals, plus sorting.
+///
+/// Inside is what the map's starts reach through portals. Without starts, it is what the border
+/// does not reach.
 #include "space/kd_tree.h"
+
+#include "geometry/orient.h"
+#include "sightline/support.h"
 
 #include <stdlib.h>
 
@@ -8,14 +23,14 @@ typedef SL_ARRAY(uint32_t) cell_list;
 typedef SL_ARRAY(sl_portal) portal_list;
 
 typedef struct portal_maker {
-    const sl_kd_tree *tree;
+    const sli_kd_tree *tree;
     SL_ARRAY(int32_t) stack;
     cell_list below, above; ///< the cells that touch a split line, in order along it
     portal_list portals;
 } portal_maker;
 
-/// Gathers the cells below `child` that touch the line of a split on `axis`: seen from the split,
-/// the subtree lies above or below it.
+/// Gathers the cells in a subtree that touch the line of a split on `axis`. The subtree lies above
+/// the split or below it.
 static sl_status gather_cells(sl_context *context, portal_maker *maker, int32_t child, int axis,
                               bool above, cell_list *out) {
     out->count = maker->stack.count = 0;
@@ -47,17 +62,17 @@ static sl_status add_portal(sl_context *context, portal_list *portals, const sl_
                             uint32_t below, uint32_t above, double lo, double hi) {
     const double at = split->position;
     SL_TRY(SL_ARRAY_ROOM(context, portals, 1));
-    // Going up in the split's coordinate, the left hand is at high y (axis 0) or at low x (axis 1).
+    // On the way up across the split, the left hand is at high y (axis 0) or at low x (axis 1).
     const sl_portal portal = split->axis == 0 ? (sl_portal){{below, above}, {at, hi}, {at, lo}}
                                               : (sl_portal){{below, above}, {lo, at}, {hi, at}};
     portals->items[portals->count++] = portal;
     return SL_OK;
 }
 
-/// Adds lo .. hi, cut where a seam on the split line begins or ends.
+/// Adds lo .. hi, cut where a seam on the line begins or ends.
 static sl_status add_cut_piece(sl_context *context, portal_maker *maker, const sl_node *split,
                                uint32_t below, uint32_t above, double lo, double hi,
-                               const sl_piece *walls, size_t count, size_t next) {
+                               const sli_piece *walls, size_t count, size_t next) {
     for (size_t i = next; i < count && walls[i].lo < hi; i++) {
         if (!walls[i].seam || walls[i].hi <= lo) continue;
         const double cuts[2] = {walls[i].lo, walls[i].hi};
@@ -70,10 +85,11 @@ static sl_status add_cut_piece(sl_context *context, portal_maker *maker, const s
     return add_portal(context, &maker->portals, split, below, above, lo, hi);
 }
 
-/// Adds what walls[*next ...] leave of lo .. hi; moves *next past the walls that end there.
+/// Adds the parts of lo .. hi that walls[*next ...] leave free. Moves *next past walls that end
+/// before lo.
 static sl_status add_free_pieces(sl_context *context, portal_maker *maker, const sl_node *split,
                                  uint32_t below, uint32_t above, double lo, double hi,
-                                 const sl_piece *walls, size_t count, size_t *next) {
+                                 const sli_piece *walls, size_t count, size_t *next) {
     while (*next < count && walls[*next].hi <= lo) ++*next;
     for (size_t i = *next; i < count && walls[i].lo < hi; i++) {
         if (walls[i].seam) continue;
@@ -87,9 +103,9 @@ static sl_status add_free_pieces(sl_context *context, portal_maker *maker, const
 }
 
 static sl_status make_portals_of(sl_context *context, portal_maker *maker, size_t node) {
-    const sl_kd_tree *tree = maker->tree;
+    const sli_kd_tree *tree = maker->tree;
     const sl_node *split = &tree->nodes.items[node];
-    const sl_piece *walls = tree->on_splits.items + tree->splits.items[node].first;
+    const sli_piece *walls = tree->on_splits.items + tree->splits.items[node].first;
     const size_t wall_count = tree->splits.items[node].count;
     SL_TRY(gather_cells(context, maker, split->below, split->axis, false, &maker->below));
     SL_TRY(gather_cells(context, maker, split->above, split->axis, true, &maker->above));
@@ -109,58 +125,53 @@ static sl_status make_portals_of(sl_context *context, portal_maker *maker, size_
     return SL_OK;
 }
 
-static int compare_points(sl_point a, sl_point b) {
-    if (a.x != b.x) return a.x < b.x ? -1 : 1;
-    return (a.y > b.y) - (a.y < b.y);
-}
-
-int sl_compare_portals(const void *left, const void *right) {
+int sli_compare_portals(const void *left, const void *right) {
     const sl_portal *a = left, *b = right;
     if (a->cell[0] != b->cell[0]) return a->cell[0] < b->cell[0] ? -1 : 1;
     if (a->cell[1] != b->cell[1]) return a->cell[1] < b->cell[1] ? -1 : 1;
-    return compare_points(a->right, b->right);
+    return sli_compare_points(a->right, b->right);
 }
 
-/// Compares two exits of one cell by their place on its boundary, counter-clockwise from the corner
-/// at the lower left. That way round, an exit's right end comes first.
-static int compare_exits(const void *left, const void *right) {
-    const sl_exit *a = left, *b = right;
+/// The order of two directed portals of a cell: counter-clockwise from the lower left corner. The
+/// right end of a directed portal comes first on this way.
+static int compare_directed(const void *left, const void *right) {
+    const sl_directed_portal *a = left, *b = right;
     const sl_point u = {a->left.x - a->right.x, a->left.y - a->right.y};
     const sl_point v = {b->left.x - b->right.x, b->left.y - b->right.y};
     const int edge_a = u.x > 0 ? 0 : u.y > 0 ? 1 : u.x < 0 ? 2 : 3;
     const int edge_b = v.x > 0 ? 0 : v.y > 0 ? 1 : v.x < 0 ? 2 : 3;
     if (edge_a != edge_b) return edge_a - edge_b;
-    const int order = compare_points(a->right, b->right);
+    const int order = sli_compare_points(a->right, b->right);
     return edge_a < 2 ? order : -order;
 }
 
-sl_status sl_make_exits(sl_context *context, sl_space *space) {
-    space->exits = sl_alloc_array(context, space->exit_count, sizeof *space->exits);
-    if (!space->exits) return SL_NO_MEMORY;
+sl_status sli_make_directed(sl_context *context, sl_space *space) {
+    space->directed = sl_alloc_array(context, space->directed_count, sizeof *space->directed);
+    if (!space->directed) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < space->portal_count; i++)
         for (int side = 0; side < 2; side++)
-            space->cells[space->portals[i].cell[side]].exit_count++;
+            space->cells[space->portals[i].cell[side]].directed_count++;
     uint32_t first = 0;
     for (uint32_t i = 0; i < space->cell_count; i++) {
-        space->cells[i].first_exit = first;
-        first += space->cells[i].exit_count;
-        space->cells[i].exit_count = 0;
+        space->cells[i].first_directed = first;
+        first += space->cells[i].directed_count;
+        space->cells[i].directed_count = 0;
     }
     for (uint32_t i = 0; i < space->portal_count; i++) {
         const sl_portal *p = &space->portals[i];
         for (int side = 0; side < 2; side++) {
             sl_cell *cell = &space->cells[p->cell[side]];
-            space->exits[cell->first_exit + cell->exit_count++] =
-                (sl_exit){.portal = i,
-                          .cell = p->cell[!side],
-                          .left = side ? p->right : p->left,
-                          .right = side ? p->left : p->right};
+            space->directed[cell->first_directed + cell->directed_count++] =
+                (sl_directed_portal){.portal = i,
+                                     .cell = p->cell[!side],
+                                     .left = side ? p->right : p->left,
+                                     .right = side ? p->left : p->right};
         }
     }
     for (uint32_t i = 0; i < space->cell_count; i++) {
         const sl_cell *cell = &space->cells[i];
-        qsort(space->exits + cell->first_exit, cell->exit_count, sizeof *space->exits,
-              compare_exits);
+        qsort(space->directed + cell->first_directed, cell->directed_count, sizeof *space->directed,
+              compare_directed);
     }
     return SL_OK;
 }
@@ -173,15 +184,15 @@ static sl_status make_all(sl_context *context, portal_maker *maker, sl_space *sp
     if (maker->portals.count > UINT32_MAX / 2) return sl_fail_memory(context);
     if (maker->portals.count)
         qsort(maker->portals.items, maker->portals.count, sizeof *maker->portals.items,
-              sl_compare_portals);
+              sli_compare_portals);
     space->portals = maker->portals.items;
     space->portal_count = (uint32_t)maker->portals.count;
-    space->exit_count = 2 * space->portal_count;
+    space->directed_count = 2 * space->portal_count;
     maker->portals.items = NULL;
-    return sl_make_exits(context, space);
+    return sli_make_directed(context, space);
 }
 
-sl_status sl_make_portals(sl_context *context, const sl_kd_tree *tree, sl_space *space) {
+sl_status sli_make_portals(sl_context *context, const sli_kd_tree *tree, sl_space *space) {
     portal_maker maker = {.tree = tree};
     const sl_status status = make_all(context, &maker, space);
     sl_free(context, maker.stack.items);
@@ -189,4 +200,73 @@ sl_status sl_make_portals(sl_context *context, const sl_kd_tree *tree, sl_space 
     sl_free(context, maker.above.items);
     sl_free(context, maker.portals.items);
     return status;
+}
+
+// --- inside and outside
+
+/// Marks all cells that portals connect with those on the stack.
+static void flood(const sl_space *space, sl_bits *reached, uint32_t *stack, size_t count) {
+    while (count) {
+        const sl_cell *cell = &space->cells[stack[--count]];
+        for (uint32_t i = 0; i < cell->directed_count; i++) {
+            const uint32_t next = space->directed[cell->first_directed + i].cell;
+            if (sl_bits_has(reached, next)) continue;
+            sl_bits_add(reached, next);
+            stack[count++] = next;
+        }
+    }
+}
+
+/// Whether the cell touches a part of the map's border that has no wall.
+static bool open_to_border(const sl_space *space, const sl_cell *cell, const sli_piece *walls) {
+    if (space->neighbour) {
+        for (uint32_t i = 0; i < cell->vertex_count; i++)
+            if (space->neighbour[cell->first_vertex + i] == SL_NEIGHBOUR_BORDER) return true;
+        return false;
+    }
+    const sl_point min = space->vertices[cell->first_vertex];
+    const sl_point max = space->vertices[cell->first_vertex + 2];
+    const size_t count = space->wall_count;
+    const sl_box *b = &space->bounds;
+    return (min.x == b->min.x && !sli_wall_lines_cover(walls, count, 0, min.x, min.y, max.y)) ||
+           (max.x == b->max.x && !sli_wall_lines_cover(walls, count, 0, max.x, min.y, max.y)) ||
+           (min.y == b->min.y && !sli_wall_lines_cover(walls, count, 1, min.y, min.x, max.x)) ||
+           (max.y == b->max.y && !sli_wall_lines_cover(walls, count, 1, max.y, min.x, max.x));
+}
+
+static void mark(const sl_map *map, const sli_piece *walls, sl_space *space, sl_bits *reached,
+                 uint32_t *stack) {
+    size_t count = 0;
+    const bool from_starts = map->start_count > 0;
+    for (size_t i = 0; i < map->start_count; i++) {
+        const uint32_t cell = sl_space_locate(space, map->starts[i].at);
+        if (cell == SL_NO_CELL || sl_bits_has(reached, cell)) continue;
+        sl_bits_add(reached, cell);
+        stack[count++] = cell;
+    }
+    for (uint32_t i = 0; i < space->cell_count && !from_starts; i++) {
+        if (!open_to_border(space, &space->cells[i], walls)) continue;
+        sl_bits_add(reached, i);
+        stack[count++] = i;
+    }
+    flood(space, reached, stack, count);
+    space->inside_count = 0;
+    for (uint32_t i = 0; i < space->cell_count; i++) {
+        space->cells[i].inside = sl_bits_has(reached, i) == from_starts;
+        space->inside_count += space->cells[i].inside;
+    }
+    if (space->inside_count) return;
+    for (uint32_t i = 0; i < space->cell_count; i++) space->cells[i].inside = 1;
+    space->inside_count = space->cell_count;
+}
+
+sl_status sli_mark_inside(sl_context *context, const sl_map *map, const sli_piece *walls,
+                          sl_space *space) {
+    sl_bits *reached = sl_alloc_array(context, sl_bits_words(space->cell_count), sizeof *reached);
+    uint32_t *stack = sl_alloc_array(context, space->cell_count, sizeof *stack);
+    if (reached && stack) mark(map, walls, space, reached, stack);
+    const bool done = reached && stack;
+    sl_free(context, reached);
+    sl_free(context, stack);
+    return done ? SL_OK : SL_NO_MEMORY;
 }

@@ -1,8 +1,13 @@
+/// The space: it is made from a kd-tree or a mesh, it locates points, and it is destroyed.
+///
+/// The kd-tree finds the cell of a point from the root down: at each node, below or above the
+/// split. A mesh looks into the one bucket of its grid, and asks each cell there for the exact side
+/// of each of its edges. The last cell of a bucket needs no test, as the cells leave nothing out.
 #include "sightline/space.h"
 
-#include "base/base.h"
 #include "geometry/orient.h"
-#include "space/cell_grid.h"
+#include "sightline/support.h"
+#include "space/index.h"
 #include "space/kd_tree.h"
 #include "space/seams.h"
 
@@ -19,26 +24,26 @@ void sl_space_destroy(sl_context *context, sl_space *space) {
     sl_free(context, space->cells);
     sl_free(context, space->vertices);
     sl_free(context, space->portals);
-    sl_free(context, space->exits);
+    sl_free(context, space->directed);
     sl_free(context, space->walls);
-    sl_free(context, space->beyond);
-    sl_cell_grid_destroy(context, &space->grid);
+    sl_free(context, space->neighbour);
+    sli_cell_grid_destroy(context, &space->grid);
     sl_free(context, space->seams);
     sl_free(context, space->seam_portals);
     *space = (sl_space){0};
 }
 
-sl_status sl_check_has_walls(sl_context *context, const sl_map *map) {
+sl_status sli_check_has_walls(sl_context *context, const sl_map *map) {
     if (map->wall_count) return SL_OK;
     return sl_fail_at(context, map->source ? map->source : "the map", 0,
                       "the map has no walls: nothing to subdivide");
 }
 
-sl_box sl_padded(sl_box box) {
+sl_box sli_padded(sl_box box) {
     const double width = box.max.x - box.min.x, height = box.max.y - box.min.y;
     const double wider = width > height ? width : height;
     if (width == 0) {
-        // Far from the origin a step that rounds to nothing would leave the map without area.
+        // Far from the origin, a small step would round to nothing and leave the map without area.
         box.min.x = fmin(box.min.x - wider / 2, nextafter(box.min.x, -INFINITY));
         box.max.x = fmax(box.max.x + wider / 2, nextafter(box.max.x, INFINITY));
     }
@@ -49,7 +54,7 @@ sl_box sl_padded(sl_box box) {
     return box;
 }
 
-static sl_status copy_cells(sl_context *context, const sl_kd_tree *tree, sl_space *space) {
+static sl_status copy_cells(sl_context *context, const sli_kd_tree *tree, sl_space *space) {
     const size_t count = tree->cells.count;
     if (count > UINT32_MAX / 4) return sl_fail_memory(context);
     space->cell_count = (uint32_t)count;
@@ -67,36 +72,36 @@ static sl_status copy_cells(sl_context *context, const sl_kd_tree *tree, sl_spac
     return SL_OK;
 }
 
-/// The tree over the walls and, where the map has any, the parts of its seams.
-static sl_status build_tree(sl_context *context, const sl_piece *walls, size_t count,
-                            const sl_seam_parts *seams, const sl_subdivide_options *options,
-                            sl_box bounds, sl_kd_tree *tree) {
-    if (!seams->parts.count) return sl_kd_build(context, walls, count, bounds, options, tree);
-    sl_piece *all = NULL;
-    sl_status status = sl_seam_lines(context, walls, count, seams, &all);
+/// The tree over the walls and the parts of seams.
+static sl_status build_tree(sl_context *context, const sli_piece *walls, size_t count,
+                            const sli_seam_parts *seams, const sl_subdivide_options *options,
+                            sl_box bounds, sli_kd_tree *tree) {
+    if (!seams->parts.count) return sli_kd_build(context, walls, count, bounds, options, tree);
+    sli_piece *all = NULL;
+    sl_status status = sli_seam_lines(context, walls, count, seams, &all);
     if (status == SL_OK)
-        status = sl_kd_build(context, all, count + seams->parts.count, bounds, options, tree);
+        status = sli_kd_build(context, all, count + seams->parts.count, bounds, options, tree);
     sl_free(context, all);
     return status;
 }
 
-static sl_status fill_space(sl_context *context, const sl_map *map, const sl_piece *walls,
-                            const sl_seam_parts *seams, const sl_subdivide_options *options,
-                            sl_kd_tree *tree, sl_space *space) {
+static sl_status fill_space(sl_context *context, const sl_map *map, const sli_piece *walls,
+                            const sli_seam_parts *seams, const sl_subdivide_options *options,
+                            sli_kd_tree *tree, sl_space *space) {
     SL_TRY(build_tree(context, walls, map->wall_count, seams, options, space->bounds, tree));
     SL_TRY(copy_cells(context, tree, space));
     space->walls = sl_alloc_array(context, map->wall_count, sizeof *space->walls);
     if (!space->walls) return SL_NO_MEMORY;
     memcpy(space->walls, map->walls, map->wall_count * sizeof *space->walls);
     space->wall_count = (uint32_t)map->wall_count;
-    SL_TRY(sl_make_portals(context, tree, space));
-    if (space->seam_count) SL_TRY(sl_seams_tag_axial(context, seams, space));
+    SL_TRY(sli_make_portals(context, tree, space));
+    if (space->seam_count) SL_TRY(sli_seams_tag_axial(context, seams, space));
     space->root = tree->root;
     space->tree_depth = tree->depth;
     space->node_count = (uint32_t)tree->nodes.count;
     space->nodes = tree->nodes.items;
     tree->nodes.items = NULL;
-    SL_TRY(sl_mark_inside(context, map, walls, space));
+    SL_TRY(sli_mark_inside(context, map, walls, space));
     sl_report(context, "subdivide", "cells", space->cell_count, space->cell_count);
     return SL_OK;
 }
@@ -106,19 +111,19 @@ sl_status sl_subdivide_kd(sl_context *context, const sl_map *map,
     if (!(options->obscured >= 0 && options->obscured <= 1))
         return sl_fail(context, SL_BAD_ARGUMENT, "the obscured share must lie between 0 and 1");
     const char *source = map->source ? map->source : "the map";
-    SL_TRY(sl_check_has_walls(context, map));
+    SL_TRY(sli_check_has_walls(context, map));
     if (map->wall_count > INT32_MAX) return sl_fail_memory(context);
-    sl_space space = {.bounds = sl_padded(sl_map_bounds(map))};
-    sl_kd_tree tree = {0};
-    sl_piece *walls = NULL;
-    sl_seam_parts seams = {0};
-    sl_status status = sl_wall_lines(context, source, map->walls, map->wall_count, &walls);
-    if (status == SL_OK) status = sl_seams_of_map(context, map, true, &space);
-    if (status == SL_OK && space.seam_count) status = sl_seams_part(context, &space, &seams);
+    sl_space space = {.bounds = sli_padded(sl_map_bounds(map))};
+    sli_kd_tree tree = {0};
+    sli_piece *walls = NULL;
+    sli_seam_parts seams = {0};
+    sl_status status = sli_wall_lines(context, source, map->walls, map->wall_count, &walls);
+    if (status == SL_OK) status = sli_seams_of_map(context, map, true, &space);
+    if (status == SL_OK && space.seam_count) status = sli_seams_part(context, &space, &seams);
     if (status == SL_OK) status = fill_space(context, map, walls, &seams, options, &tree, &space);
-    sl_seam_parts_destroy(context, &seams);
+    sli_seam_parts_destroy(context, &seams);
     sl_free(context, walls);
-    sl_kd_destroy(context, &tree);
+    sli_kd_destroy(context, &tree);
     if (status == SL_OK)
         *out = space;
     else
@@ -131,15 +136,15 @@ static bool holds(const sl_space *space, uint32_t number, sl_point point) {
     const sl_cell *cell = &space->cells[number];
     const sl_point *corners = space->vertices + cell->first_vertex;
     for (uint32_t i = 0; i < cell->vertex_count; i++)
-        if (sl_orient(corners[i], corners[i + 1 < cell->vertex_count ? i + 1 : 0], point) < 0)
+        if (sli_orient(corners[i], corners[i + 1 < cell->vertex_count ? i + 1 : 0], point) < 0)
             return false;
     return true;
 }
 
-/// The first cell of a bucket that holds a point. Cells that tile the bounds leave no choice but
-/// the last where no other does.
+/// The first cell of a bucket that holds a point. Cells tile the bounds, so the last one holds it
+/// if no other does.
 static uint32_t locate_in_bucket(const sl_space *space, sl_point point) {
-    const uint32_t bucket = sl_cell_grid_bucket(space, point);
+    const uint32_t bucket = sli_cell_grid_bucket(space, point);
     const uint32_t *cells = space->grid.cells, end = space->grid.first[bucket + 1];
     for (uint32_t i = space->grid.first[bucket]; i < end; i++)
         if ((i + 1 == end && !space->loose) || holds(space, cells[i], point)) return cells[i];
@@ -151,7 +156,7 @@ uint32_t sl_space_locate(const sl_space *space, sl_point point) {
     if (!space->cell_count || !(point.x >= b->min.x && point.x <= b->max.x) ||
         !(point.y >= b->min.y && point.y <= b->max.y))
         return SL_NO_CELL;
-    if (space->beyond) return locate_in_bucket(space, point);
+    if (space->neighbour) return locate_in_bucket(space, point);
     int32_t at = space->root;
     while (at >= 0) {
         const sl_node *node = &space->nodes[at];
@@ -168,4 +173,48 @@ double sl_space_area(const sl_space *space, uint32_t cell) {
         twice +=
             (v[i - 1].x - v[0].x) * (v[i].y - v[0].y) - (v[i].x - v[0].x) * (v[i - 1].y - v[0].y);
     return twice / 2;
+}
+
+// --- the table of subdivisions
+
+static sl_status by_kd(sl_context *context, const sl_map *map, const sl_subdivide_options *rules,
+                       sl_space *out) {
+    const sl_subdivide_options usual = sl_subdivide_options_default();
+    return sl_subdivide_kd(context, map, rules ? rules : &usual, out);
+}
+
+static sl_status by_mesh(sl_context *context, const sl_map *map, const sl_subdivide_options *rules,
+                         sl_space *out) {
+    (void)rules;
+    return sl_subdivide_mesh(context, map, out);
+}
+
+static sl_status as_given(sl_context *context, const sl_map *map, const sl_subdivide_options *rules,
+                          sl_space *out) {
+    (void)rules;
+    return sl_subdivide_given(context, map, out);
+}
+
+static const sl_subdivision subdivisions[] = {
+    {.name = "kd",
+     .what = "kd-tree on the walls' own lines; walls must be axial",
+     .takes_rules = true,
+     .subdivide = by_kd},
+    {.name = "mesh",
+     .what = "constrained triangulation, triangles merged to convex cells; walls may be oblique",
+     .subdivide = by_mesh},
+    {.name = "given",
+     .what = "the cells that the file brings: 'cell' of a map text, GL nodes of a WAD",
+     .takes_cells = true,
+     .subdivide = as_given},
+};
+enum { KD, MESH, GIVEN };
+
+const sl_subdivision *sl_subdivisions(size_t *count) {
+    *count = sizeof subdivisions / sizeof *subdivisions;
+    return subdivisions;
+}
+
+const sl_subdivision *sl_subdivision_for(const sl_map *map) {
+    return &subdivisions[map->cell_count ? GIVEN : sl_map_is_axial(map) ? KD : MESH];
 }

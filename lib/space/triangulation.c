@@ -1,23 +1,29 @@
-/// Points are put in one by one, in the order of a curve that fills the plane, so that each is near
-/// to the one before it. The triangle that holds the point is found by walking, and cut into three:
+/// A constrained Delaunay triangulation, in two steps.
 ///
-///          c                  c
-///         / \                /|\   .
-///        /   \     ->       / p \        then edges are turned until every circle
-///       /  p  \            / / \ \       through three corners is empty (Lawson 1977)
-///      a-------b          a-------b
+/// First, the points are added one by one. They come in the order of Hilbert's curve, so that each
+/// is near the one before it. The triangle that holds a point is found by walking, and is cut into
+/// three. Then edges are flipped until the circle through each triangle is empty (Lawson 1977):
 ///
-/// Then each edge of the graph that is not there yet is put in: the edges that it crosses are
-/// turned, where the two triangles beside them make a convex quadrilateral, until none crosses it
-/// (Sloan 1993).
+///          c                  c                       c                    c
+///         / \                /|\                     / \                  /|\   .
+///        /   \              / | \                   /   \                / | \   .
+///       /  p  \     ->     /  p  \                 a-----b     ->       a  |  b
+///      /       \          / /   \ \                 \   /                \ | /
+///     a---------b        a---------b                 \ /                  \|/
+///                                                     d   flip a-b to c-d   d
 ///
-/// Only the signs of sl_orient decide what is a triangle, and they are exact. Whether a point lies
-/// in a circle is told within rounding: where that leaves doubt nothing is turned, so that the
-/// turning ends, and all that may suffer is the shape of the triangles.
-#include "space/triangulation.h"
+/// Second, the edges of the graph are added (Sloan 1993). Take the edges that cross the way from a
+/// to b. Each is flipped where its two triangles make a convex quadrilateral; if it still crosses,
+/// it is tried again later. In the end none crosses, and a-b is a side of two triangles. The new
+/// edges are then flipped to Delaunay triangles again, edges of the graph excepted.
+///
+/// Exact signs (sli_orient) decide what is a triangle. The circle test is rounded: a flip needs to
+/// be sure, so flipping ends, and a doubtful case costs nothing but the shape of a triangle. Time
+/// about O(n log n), for sorting; the walks are short.
+#include "space/mesh.h"
 
-#include "base/random.h"
 #include "geometry/orient.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -28,12 +34,12 @@ typedef SL_ARRAY(uint32_t) half_list;
 
 typedef struct maker {
     sl_context *context;
-    sl_triangulation *t;
+    sli_triangulation *t;
     double scale;  ///< distances in the box, times scale, are at most 1
-    uint32_t last; ///< a half-edge at the point put in last
+    uint32_t last; ///< a half-edge at the point added last
     sl_random random;
-    half_list doubtful; ///< half-edges that may have to be turned
-    half_list crossing, turned;
+    half_list doubtful; ///< half-edges that may need a flip
+    half_list crossing, flipped;
 } maker;
 
 static sl_point at(const maker *m, uint32_t point) {
@@ -59,27 +65,27 @@ static void link(maker *m, uint32_t a, uint32_t b, uint32_t c) {
 }
 
 static int side(const maker *m, uint32_t a, uint32_t b, uint32_t c) {
-    return sl_orient(at(m, a), at(m, b), at(m, c));
+    return sli_orient(at(m, a), at(m, b), at(m, c));
 }
 
 /// A new edge between two points; its half-edge from a to b.
 static sl_status add_edge(maker *m, uint32_t a, uint32_t b, uint32_t *out) {
-    sl_triangulation *t = m->t;
+    sli_triangulation *t = m->t;
     if (t->halves.count >= INT32_MAX) return sl_fail_memory(m->context);
     SL_TRY(SL_ARRAY_ROOM(m->context, &t->halves, 2));
     SL_TRY(sl_reserve(m->context, &t->labels, &t->label_room, t->halves.count / 2 + 1,
                       sizeof *t->labels));
     *out = (uint32_t)t->halves.count;
     t->labels[*out / 2] = 0;
-    t->halves.items[t->halves.count++] = (sl_half_edge){a, SL_OUTSIDE};
-    t->halves.items[t->halves.count++] = (sl_half_edge){b, SL_OUTSIDE};
+    t->halves.items[t->halves.count++] = (sli_half_edge){a, SLI_OUTSIDE};
+    t->halves.items[t->halves.count++] = (sli_half_edge){b, SLI_OUTSIDE};
     return SL_OK;
 }
 
-// --- turning edges
+// --- flipping edges
 
-/// Whether the corner beyond an edge lies within the circle around the triangle at its left, by
-/// more than rounding (the bound of Shewchuk 1997, section 4.3).
+/// Whether d lies inside the circle through a, b and c, by more than rounding (the bound of
+/// Shewchuk 1997, section 4.3).
 static bool in_circle(const maker *m, sl_point a, sl_point b, sl_point c, sl_point d) {
     const double s = m->scale;
     const double ax = (a.x - d.x) * s, ay = (a.y - d.y) * s;
@@ -94,14 +100,14 @@ static bool in_circle(const maker *m, sl_point a, sl_point b, sl_point c, sl_poi
 }
 
 /// Whether the two triangles at an edge make a strictly convex quadrilateral.
-static bool can_turn(const maker *m, uint32_t half) {
+static bool can_flip(const maker *m, uint32_t half) {
     const uint32_t x = to(m, next(m, half)), y = to(m, next(m, half ^ 1));
     return side(m, y, x, from(m, half)) > 0 && side(m, x, y, to(m, half)) > 0;
 }
 
-/// Turns an edge to the other two corners of the quadrilateral.
-static void turn(maker *m, uint32_t half) {
-    sl_half_edge *halves = m->t->halves.items;
+/// Flips an edge to the other two corners of the quadrilateral.
+static void flip(maker *m, uint32_t half) {
+    sli_half_edge *halves = m->t->halves.items;
     const uint32_t twin = half ^ 1;
     const uint32_t a = next(m, half), b = next(m, a), c = next(m, twin), d = next(m, c);
     m->t->out[halves[half].from] = c;
@@ -112,13 +118,13 @@ static void turn(maker *m, uint32_t half) {
     link(m, twin, d, a);
 }
 
-static bool should_turn(const maker *m, uint32_t half) {
-    if (m->t->labels[half / 2] || sl_half_is_outside(m->t, half) ||
-        sl_half_is_outside(m->t, half ^ 1))
+static bool should_flip(const maker *m, uint32_t half) {
+    if (m->t->labels[half / 2] || sli_half_is_outside(m->t, half) ||
+        sli_half_is_outside(m->t, half ^ 1))
         return false;
     const uint32_t x = to(m, next(m, half)), y = to(m, next(m, half ^ 1));
     return in_circle(m, at(m, from(m, half)), at(m, to(m, half)), at(m, x), at(m, y)) &&
-           can_turn(m, half);
+           can_flip(m, half);
 }
 
 static sl_status doubt(maker *m, uint32_t half) {
@@ -127,23 +133,23 @@ static sl_status doubt(maker *m, uint32_t half) {
     return SL_OK;
 }
 
-/// Turns edges until none of those that are doubtful should be.
+/// Flips doubtful edges until none needs it.
 static sl_status settle(maker *m) {
     while (m->doubtful.count) {
         const uint32_t half = m->doubtful.items[--m->doubtful.count];
-        if (!should_turn(m, half)) continue;
+        if (!should_flip(m, half)) continue;
         const uint32_t sides[4] = {next(m, half), next(m, next(m, half)), next(m, half ^ 1),
                                    next(m, next(m, half ^ 1))};
-        turn(m, half);
+        flip(m, half);
         for (int i = 0; i < 4; i++) SL_TRY(doubt(m, sides[i]));
     }
     return SL_OK;
 }
 
-// --- putting points in
+// --- adding points
 
-/// The half-edge of the triangle that holds a point, which is one of its own where the point is on
-/// an edge; *on tells so. Steps begin at an edge by chance, so that no walk goes round for ever.
+/// A half-edge of the triangle that holds a point. If the point is on an edge, it is that edge, and
+/// *on is true. Each step starts at a random edge, so that no walk goes in circles.
 static uint32_t walk_to(maker *m, sl_point p, bool *on) {
     uint32_t half = m->last;
     for (;;) {
@@ -152,7 +158,7 @@ static uint32_t walk_to(maker *m, sl_point p, bool *on) {
         uint32_t zero = NONE;
         int i = 0;
         for (; i < 3; i++, half = next(m, half)) {
-            const int sign = sl_orient(at(m, from(m, half)), at(m, to(m, half)), p);
+            const int sign = sli_orient(at(m, from(m, half)), at(m, to(m, half)), p);
             if (sign < 0) break;
             if (sign == 0) zero = half;
         }
@@ -176,12 +182,12 @@ static sl_status split_triangle(maker *m, uint32_t half, uint32_t p) {
     return settle(m);
 }
 
-/// Cuts the triangles beside an edge, whose other half is outside or not.
+/// Cuts the triangles at an edge; one of its sides may be outside.
 static sl_status split_edge(maker *m, uint32_t half, uint32_t p) {
-    if (sl_half_is_outside(m->t, half)) half ^= 1;
+    if (sli_half_is_outside(m->t, half)) half ^= 1;
     const uint32_t twin = half ^ 1, b = to(m, half);
     const uint32_t h1 = next(m, half), h2 = next(m, h1);
-    const bool outer = sl_half_is_outside(m->t, twin);
+    const bool outer = sli_half_is_outside(m->t, twin);
     uint32_t rest, inward, across;
     SL_TRY(add_edge(m, p, b, &rest));
     SL_TRY(add_edge(m, p, from(m, h2), &inward));
@@ -203,7 +209,7 @@ static sl_status split_edge(maker *m, uint32_t half, uint32_t p) {
     return settle(m);
 }
 
-static sl_status put_point(maker *m, uint32_t p) {
+static sl_status add_point(maker *m, uint32_t p) {
     bool on = false;
     const uint32_t half = walk_to(m, at(m, p), &on);
     SL_TRY(on ? split_edge(m, half, p) : split_triangle(m, half, p));
@@ -214,7 +220,7 @@ static sl_status put_point(maker *m, uint32_t p) {
 // --- the box
 
 /// The number of a corner: a point of the graph where there is one.
-static sl_status take_corner(maker *m, const sl_planar *graph, sl_point corner, uint32_t *out) {
+static sl_status take_corner(maker *m, const sli_planar *graph, sl_point corner, uint32_t *out) {
     size_t low = 0, high = graph->point_count;
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
@@ -235,8 +241,8 @@ static sl_status take_corner(maker *m, const sl_planar *graph, sl_point corner, 
     return SL_OK;
 }
 
-static sl_status start(maker *m, const sl_planar *graph, const sl_box *box) {
-    sl_triangulation *t = m->t;
+static sl_status start(maker *m, const sli_planar *graph, const sl_box *box) {
+    sli_triangulation *t = m->t;
     const sl_point corners[4] = {
         box->min, {box->max.x, box->min.y}, box->max, {box->min.x, box->max.y}};
     uint32_t c[4], h[4], diagonal;
@@ -271,7 +277,7 @@ static int compare_places(const void *left, const void *right) {
     return (a->point > b->point) - (a->point < b->point);
 }
 
-/// How far along Hilbert's curve a square of a grid of 2^16 x 2^16 is.
+/// The place of a square, in a grid of 2^16 x 2^16, along Hilbert's curve.
 static uint64_t along_curve(uint32_t x, uint32_t y) {
     uint64_t key = 0;
     for (uint32_t s = 1u << 15; s; s >>= 1) {
@@ -294,8 +300,8 @@ static uint32_t square_of(double value, double low, double high) {
     return share < 1 ? (uint32_t)(share * 65536) : 65535;
 }
 
-static sl_status put_points(maker *m, const sl_box *box) {
-    sl_triangulation *t = m->t;
+static sl_status add_points(maker *m, const sl_box *box) {
+    sli_triangulation *t = m->t;
     place *places = sl_alloc_array(m->context, t->points.count, sizeof *places);
     if (!places) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < t->points.count; i++) {
@@ -309,13 +315,13 @@ static sl_status put_points(maker *m, const sl_box *box) {
     for (size_t i = 0; i < t->points.count && status == SL_OK; i++) {
         if (i % 4096 == 0) status = sl_check_cancelled(m->context);
         if (status == SL_OK && t->out[places[i].point] == NONE)
-            status = put_point(m, places[i].point);
+            status = add_point(m, places[i].point);
     }
     sl_free(m->context, places);
     return status;
 }
 
-// --- putting edges in
+// --- adding edges
 
 static sl_status fail_at(const maker *m, uint32_t a, uint32_t b) {
     return sl_fail(m->context, SL_BAD_INPUT,
@@ -324,18 +330,19 @@ static sl_status fail_at(const maker *m, uint32_t a, uint32_t b) {
                    at(m, a).x, at(m, a).y, at(m, b).x, at(m, b).y);
 }
 
-/// The next half-edge that starts in the same point, counter-clockwise; SL_OUTSIDE behind the last.
+/// The next half-edge that starts in the same point, counter-clockwise; SLI_OUTSIDE behind the
+/// last.
 static uint32_t around(const maker *m, uint32_t half) {
     return next(m, next(m, half)) ^ 1;
 }
 
-/// The first half-edge, clockwise, that starts in a point of the box's border; any other point has
-/// no first one.
+/// The most clockwise half-edge that starts in the same point. It exists for a point on the border
+/// of the box; another point gives the half-edge itself.
 static uint32_t first_around(const maker *m, uint32_t half) {
     const uint32_t stop = half;
     for (;;) {
         const uint32_t before = half ^ 1;
-        if (sl_half_is_outside(m->t, before)) return half;
+        if (sli_half_is_outside(m->t, before)) return half;
         half = next(m, before);
         if (half == stop) return half;
     }
@@ -349,7 +356,7 @@ static sl_status find_way(const maker *m, uint32_t a, uint32_t b, bool *there, u
     do {
         *out = half;
         if (to(m, half) == b) return SL_OK;
-        if (sl_half_is_outside(m->t, half)) return fail_at(m, a, b);
+        if (sli_half_is_outside(m->t, half)) return fail_at(m, a, b);
         if (side(m, a, b, to(m, half)) < 0 && side(m, a, b, to(m, next(m, half))) > 0) {
             *there = false;
             *out = next(m, half);
@@ -360,49 +367,49 @@ static sl_status find_way(const maker *m, uint32_t a, uint32_t b, bool *there, u
     return fail_at(m, a, b);
 }
 
-/// Gathers the edges that the way from a to b crosses, each from its right to its left.
+/// Lists the edges that the way from a to b crosses, each running from its right to its left.
 static sl_status find_crossing(maker *m, uint32_t a, uint32_t b, uint32_t half) {
     m->crossing.count = 0;
     for (;;) {
         if (m->t->labels[half / 2]) return fail_at(m, a, b);
         SL_TRY(SL_ARRAY_ROOM(m->context, &m->crossing, 1));
         m->crossing.items[m->crossing.count++] = half;
-        const uint32_t beyond = next(m, half ^ 1), apex = to(m, beyond);
+        const uint32_t first = next(m, half ^ 1), apex = to(m, first);
         if (apex == b) return SL_OK;
         const int sign = side(m, a, b, apex);
         if (sign == 0) return fail_at(m, a, b);
-        half = sign > 0 ? beyond : next(m, beyond);
+        half = sign > 0 ? first : next(m, first);
     }
 }
 
-/// Turns the edges that cross the way from a to b until one of them is that way.
+/// Flips the edges that cross the way from a to b until one of them is that way.
 static sl_status clear_way(maker *m, uint32_t a, uint32_t b, uint32_t label) {
-    m->turned.count = 0;
+    m->flipped.count = 0;
     while (m->crossing.count) {
         const size_t count = m->crossing.count;
         m->crossing.count = 0;
         for (size_t i = 0; i < count; i++) {
             const uint32_t half = m->crossing.items[i];
-            const bool turns = can_turn(m, half);
-            if (turns) turn(m, half);
+            const bool flips = can_flip(m, half);
+            if (flips) flip(m, half);
             const uint32_t p = from(m, half), q = to(m, half);
             if ((p == a && q == b) || (p == b && q == a)) {
                 m->t->labels[half / 2] = label;
-            } else if (!turns || (p != a && p != b && q != a && q != b &&
+            } else if (!flips || (p != a && p != b && q != a && q != b &&
                                   side(m, a, b, p) * side(m, a, b, q) < 0)) {
-                m->crossing.items[m->crossing.count++] = half; // later: others are turned before
+                m->crossing.items[m->crossing.count++] = half; // later, after others
             } else {
-                SL_TRY(SL_ARRAY_ROOM(m->context, &m->turned, 1));
-                m->turned.items[m->turned.count++] = half;
+                SL_TRY(SL_ARRAY_ROOM(m->context, &m->flipped, 1));
+                m->flipped.items[m->flipped.count++] = half;
             }
         }
         SL_TRY(sl_check_cancelled(m->context));
     }
-    for (size_t i = 0; i < m->turned.count; i++) SL_TRY(doubt(m, m->turned.items[i]));
+    for (size_t i = 0; i < m->flipped.count; i++) SL_TRY(doubt(m, m->flipped.items[i]));
     return settle(m);
 }
 
-static sl_status put_edges(maker *m, const sl_planar *graph) {
+static sl_status add_edges(maker *m, const sli_planar *graph) {
     for (uint32_t i = 0; i < graph->edge_count; i++) {
         const uint32_t a = graph->edges[i].a, b = graph->edges[i].b;
         bool there;
@@ -427,27 +434,27 @@ static double scale_of(const sl_box *box) {
     return ldexp(1, -exponent);
 }
 
-sl_status sl_triangulate(sl_context *context, const sl_planar *graph, const sl_box *box,
-                         sl_triangulation *out) {
-    sl_triangulation made = {0};
+sl_status sli_triangulate(sl_context *context, const sli_planar *graph, const sl_box *box,
+                          sli_triangulation *out) {
+    sli_triangulation made = {0};
     maker m = {.context = context, .t = &made, .scale = scale_of(box)};
     sl_status status = start(&m, graph, box);
-    if (status == SL_OK) status = put_points(&m, box);
-    if (status == SL_OK) status = put_edges(&m, graph);
+    if (status == SL_OK) status = add_points(&m, box);
+    if (status == SL_OK) status = add_edges(&m, graph);
     sl_free(context, m.doubtful.items);
     sl_free(context, m.crossing.items);
-    sl_free(context, m.turned.items);
+    sl_free(context, m.flipped.items);
     if (status == SL_OK)
         *out = made;
     else
-        sl_triangulation_destroy(context, &made);
+        sli_triangulation_destroy(context, &made);
     return status;
 }
 
-void sl_triangulation_destroy(sl_context *context, sl_triangulation *t) {
+void sli_triangulation_destroy(sl_context *context, sli_triangulation *t) {
     sl_free(context, t->points.items);
     sl_free(context, t->halves.items);
     sl_free(context, t->labels);
     sl_free(context, t->out);
-    *t = (sl_triangulation){0};
+    *t = (sli_triangulation){0};
 }

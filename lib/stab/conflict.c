@@ -1,10 +1,14 @@
-/// Conflicts: a line with all left ends at its left and all right ends at its right exists exactly
-/// if the hulls of the two do not overlap. So the ends that prove there is none are those of a
-/// place where the hulls meet: two edges that cross, or a corner of one within a triangle of the
-/// other.
-#include "stab/conflict.h"
+/// Conflicts: the few portal ends that prove that no line stabs a sequence.
+///
+/// A line with all left ends at its left and all right ends at its right exists exactly if the
+/// convex hulls of the two sets do not overlap. So a proof that there is none is a place where the
+/// hulls meet: two edges that cross, or a corner of one hull in a triangle of the other (Radon's
+/// theorem). That is four ends, or fewer where ends coincide. Cost: the product of the numbers of
+/// hull corners.
+#include "stab/funnel.h"
 
 #include "geometry/orient.h"
+#include "sightline/stab.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -28,14 +32,10 @@ static int compare_ends(const void *left, const void *right) {
     return (a->end.portal > b->end.portal) - (a->end.portal < b->end.portal);
 }
 
-static bool same_place(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
-
 /// Adds to a chain that turns left only.
 static void add_to_chain(hull *h, size_t chain, end e) {
     while (h->count >= chain + 2 &&
-           sl_orient(h->ends[h->count - 2].at, h->ends[h->count - 1].at, e.at) <= 0)
+           sli_orient(h->ends[h->count - 2].at, h->ends[h->count - 1].at, e.at) <= 0)
         h->count--;
     h->ends[h->count++] = e;
 }
@@ -49,7 +49,7 @@ static void make_hull(const sl_portal_ends *portals, size_t count, bool left, en
     qsort(sorted, count, sizeof *sorted, compare_ends);
     size_t kept = 0;
     for (size_t i = 0; i < count; i++)
-        if (!kept || !same_place(sorted[kept - 1].at, sorted[i].at)) sorted[kept++] = sorted[i];
+        if (!kept || !sli_same_point(sorted[kept - 1].at, sorted[i].at)) sorted[kept++] = sorted[i];
     out->count = 0;
     for (size_t i = 0; i < kept; i++) add_to_chain(out, 0, sorted[i]);
     const size_t upper = out->count - 1;
@@ -63,12 +63,12 @@ static bool within(double a, double b, double value) {
 
 /// Whether segments cross in inner points of both.
 static bool cross_properly(sl_point a, sl_point b, sl_point c, sl_point d) {
-    return sl_orient(a, b, c) * sl_orient(a, b, d) < 0 &&
-           sl_orient(c, d, a) * sl_orient(c, d, b) < 0;
+    return sli_orient(a, b, c) * sli_orient(a, b, d) < 0 &&
+           sli_orient(c, d, a) * sli_orient(c, d, b) < 0;
 }
 
 static bool on_segment(sl_point a, sl_point b, sl_point p) {
-    return sl_orient(a, b, p) == 0 && within(a.x, b.x, p.x) && within(a.y, b.y, p.y);
+    return sli_orient(a, b, p) == 0 && within(a.x, b.x, p.x) && within(a.y, b.y, p.y);
 }
 
 static bool touch(sl_point a, sl_point b, sl_point c, sl_point d) {
@@ -79,8 +79,8 @@ static bool touch(sl_point a, sl_point b, sl_point c, sl_point d) {
 /// Whether a triangle, counter-clockwise, holds a point, in its inside or (not strict) on its edge.
 static bool in_triangle(sl_point a, sl_point b, sl_point c, sl_point p, bool inside) {
     const int least = inside ? 1 : 0;
-    return sl_orient(a, b, p) >= least && sl_orient(b, c, p) >= least &&
-           sl_orient(c, a, p) >= least;
+    return sli_orient(a, b, p) >= least && sli_orient(b, c, p) >= least &&
+           sli_orient(c, a, p) >= least;
 }
 
 /// A set of ends that may be a conflict.
@@ -122,12 +122,12 @@ static bool has_weak_line(const end *ends, size_t count, size_t but) {
     bool any_pair = false;
     for (size_t i = 0; i < count; i++)
         for (size_t j = 0; j < count; j++) {
-            if (i == but || j == but || same_place(ends[i].at, ends[j].at)) continue;
+            if (i == but || j == but || sli_same_point(ends[i].at, ends[j].at)) continue;
             any_pair = true;
             bool holds = true;
             for (size_t k = 0; k < count && holds; k++) {
                 if (k == but) continue;
-                const int side = sl_orient(ends[i].at, ends[j].at, ends[k].at);
+                const int side = sli_orient(ends[i].at, ends[j].at, ends[k].at);
                 holds = ends[k].end.left ? side >= 0 : side <= 0;
             }
             if (holds) return true;
@@ -152,7 +152,7 @@ static size_t thin_out_strict(end *ends, size_t count) {
     for (size_t i = 0; i < count; i++)
         for (size_t j = 0; j < count; j++) {
             if (!ends[i].end.left || ends[j].end.left) continue;
-            if (same_place(ends[i].at, ends[j].at)) {
+            if (sli_same_point(ends[i].at, ends[j].at)) {
                 const end pair[2] = {ends[i], ends[j]};
                 memcpy(ends, pair, sizeof pair);
                 return 2;
@@ -185,8 +185,8 @@ static size_t find_among(const hull *left, const hull *right, bool strict, end *
     return thin_out_weak(ends, left->count + right->count);
 }
 
-sl_status sl_conflict_find(sl_context *context, const sl_portal_ends *portals, size_t count,
-                           bool strict, sl_stab_end ends[SL_CONFLICT_MOST], uint32_t *found) {
+sl_status sli_conflict_find(sl_context *context, const sl_portal_ends *portals, size_t count,
+                            bool strict, sl_stab_end ends[SL_CONFLICT_MOST], uint32_t *found) {
     end *memory = sl_alloc_array(context, 7 * count, sizeof *memory);
     if (!memory) return SL_NO_MEMORY;
     hull left = {memory + count, 0}, right = {memory + 3 * count, 0};
@@ -198,4 +198,20 @@ sl_status sl_conflict_find(sl_context *context, const sl_portal_ends *portals, s
     for (size_t i = 0; i < number && i < SL_CONFLICT_MOST; i++) ends[(*found)++] = chosen[i].end;
     sl_free(context, memory);
     return SL_OK;
+}
+
+// --- names
+
+const char *sl_guarantee_name(sl_guarantee guarantee) {
+    switch (guarantee) {
+    case SL_EXACT:
+        return "exact";
+    case SL_CONSERVATIVE:
+        return "conservative";
+    case SL_AGGRESSIVE:
+        return "aggressive";
+    case SL_ROUNDED:
+        return "rounded";
+    }
+    return "unknown";
 }

@@ -1,6 +1,8 @@
-/// Lines as points: y' = a x' + b is the point (a, b). A left end must lie over the line or on it:
-/// b <= y' - a x'. A right end must not: b >= y' - a x'. So each end is a half-plane, bounded by
-/// the dual of the end itself.
+/// Duality: a line y' = a x' + b becomes the point (a, b), and a portal end becomes a line.
+///
+/// A left end must lie over the sightline or on it: b <= y' - a x'. A right end must not: b >= y' -
+/// a x'. So each end is a half-plane of points (a, b). The sightlines of a sequence are the points
+/// in all half-planes: a convex polygon.
 #include "sightline/dual.h"
 
 #include <math.h>

@@ -1,30 +1,27 @@
-/// The incremental exact solver: the two convex chains between which the line may swing.
+/// The funnel: the incremental exact solver.
 ///
-/// The lines that stab a sequence form a convex polygon in the plane of lines. Its corners are
-/// lines through two portal ends; an edge of it is a turn about one end. Going round, the line
-/// first turns clockwise about left ends (the left chain), then back about right ends (the right
-/// chain), so that the list of corners is the funnel. A new end is a half-plane that cuts the
-/// polygon: an orientation test a corner says what it cuts off, and each new corner is the line
-/// through the new end and the end of the edge that it cuts. No coordinate is ever computed: all is
-/// decided by exact orientation tests on portal ends, and directions follow from the order round
-/// the polygon.
+/// The lines that stab a sequence form a convex polygon in the plane of lines (dual.c). A corner of
+/// it is a line through two portal ends. An edge of it is a rotation about one end. Going round the
+/// polygon, the line first rotates clockwise about left ends (the left chain), then back about
+/// right ends (the right chain). So the list of corners is the funnel between two convex chains.
 ///
-/// The polygon has inner points, and the sequence a line strictly between its ends, exactly if it
-/// had them before the cut and some corner lies strictly inside the new half-plane. Without inner
-/// points what is left is a single line or a turn about one point: lines that graze.
+/// A new end is a half-plane that cuts the polygon. One orientation test for each corner says what
+/// the cut takes off. Each new corner is the line through the new end and the end of the edge that
+/// is cut. No coordinate is ever computed: everything is an orientation test on portal ends.
 ///
-/// While all ends lie on one line (the first portal's) the lines through it form no polygon but all
-/// that crosses an interval of it; the first end off that line makes them one.
+/// Invariant: the list is the polygon of all lines that stab the sequence. The polygon has inner
+/// points, and the sequence a line strictly between its ends, exactly if it had them before the cut
+/// and some corner lies strictly inside the new half-plane. Without inner points a single line or a
+/// rotation about one point is left: lines that graze. While all ends lie on one line, the first
+/// portal's, there is no polygon yet but an interval of that line.
 ///
-/// Cost: a push takes two orientation tests for each corner of the list, of which there are three
-/// to five in floor plans, and four of which are tested at once; a list is copied only when it is
-/// cut, so that a pop restores the old one.
-#include "sightline/solvers.h"
-
-#include "base/base.h"
-#include "geometry/orient.h"
-#include "stab/conflict.h"
+/// Cost: two orientation tests for each corner of the list. In floor plans there are three to five
+/// corners, and four are tested at once. A list is copied only when it is cut, so that a pop
+/// restores the old one.
 #include "stab/funnel.h"
+#include "geometry/orient.h"
+#include "sightline/solvers.h"
+#include "sightline/support.h"
 
 #include <math.h>
 
@@ -150,7 +147,8 @@ static bool comes_before(const funnel *f, end_number a, end_number b) {
 
 /// Cuts while all ends so far lie on the first portal's line. Room for three corners is there.
 static void cut_interval(funnel *f, level *l, end_number new) {
-    const int side = sl_orient(place_of(f, FIRST_RIGHT), place_of(f, FIRST_LEFT), place_of(f, new));
+    const int side =
+        sli_orient(place_of(f, FIRST_RIGHT), place_of(f, FIRST_LEFT), place_of(f, new));
     f->account.orientations++;
     if (side == 0) {
         if (is_left(new) && comes_before(f, new, l->high)) l->high = new;
@@ -195,7 +193,7 @@ static corner_sets decide(funnel *f, const corner *corners, uint32_t open, end_n
     for (; open; open &= open - 1) {
         const corner *c = &corners[__builtin_ctz(open)];
         const int side =
-            sl_orient_exact(place_of(f, c->from), place_of(f, c->to), place_of(f, new));
+            sli_orient_exact(place_of(f, c->from), place_of(f, c->to), place_of(f, new));
         const uint32_t bit = open & -open;
         if (side) *((side > 0) == is_left(new) ? &sets.in : &sets.out) |= bit;
         f->account.exact++;
@@ -260,7 +258,7 @@ static void cut_long(funnel *f, level *l, end_number new) {
     for (size_t step = 0; step <= l->count; step++) {
         const size_t i = step ? step - 1 : l->count - 1;
         const sl_point from = place_of(f, corners[i].from), to = place_of(f, corners[i].to);
-        const int left = sl_orient(from, to, place_of(f, new)), side = is_left(new) ? left : -left;
+        const int left = sli_orient(from, to, place_of(f, new)), side = is_left(new) ? left : -left;
         if (step && side >= 0 && before < 0) {
             r.last_out = i ? i - 1 : l->count - 1;
             r.cuts_entering = side > 0;
@@ -361,8 +359,8 @@ static sl_status toward(sl_context *context, void *state, sl_line right, sl_line
     for (size_t i = 0; i < l->count; i++) {
         const corner *c = &f->corners.items[l->first + i];
         const sl_point from = place_of(f, c->from), to = place_of(f, c->to);
-        const int of_right = sl_turn(right.a, right.b, from, to);
-        const int of_left = sl_turn(left.a, left.b, from, to);
+        const int of_right = sli_turn(right.a, right.b, from, to);
+        const int of_left = sli_turn(left.a, left.b, from, to);
         if (of_right > 0 && of_left < 0) between = true;
         if (of_right >= 0 && of_left <= 0) on_bound = true;
         low |= of_right < 0 || (of_right == 0 && of_left < 0);
@@ -378,7 +376,7 @@ static sl_status toward(sl_context *context, void *state, sl_line right, sl_line
 /// Whether the line keeps all left ends strictly at its left and all right ends at its right.
 static bool is_strict(const funnel *f, sl_line line) {
     for (end_number e = 0; e < f->ends.count; e++)
-        if (sl_orient(line.a, line.b, place_of(f, e)) * (is_left(e) ? 1 : -1) <= 0) return false;
+        if (sli_orient(line.a, line.b, place_of(f, e)) * (is_left(e) ? 1 : -1) <= 0) return false;
     return true;
 }
 
@@ -439,7 +437,8 @@ static sl_status conflict(sl_context *context, const void *state,
     for (end_number e = 0; e < f->ends.count; e += 2)
         portals[e / 2] = (sl_portal_ends){place_of(f, e), place_of(f, e + 1)};
     const bool grazing = f->levels.items[portal_count - 1].verdict != SL_HIDDEN;
-    const sl_status status = sl_conflict_find(context, portals, portal_count, grazing, ends, count);
+    const sl_status status =
+        sli_conflict_find(context, portals, portal_count, grazing, ends, count);
     sl_free(context, portals);
     return status;
 }
@@ -450,18 +449,19 @@ static void account(const void *state, sl_stab_account *sum) {
     sum->exact += f->account.exact;
 }
 
-uint32_t sl_funnel_corner_count(const void *state) {
+uint32_t sli_funnel_corner_count(const void *state) {
     const funnel *f = state;
     return (uint32_t)f->levels.items[f->levels.count - 1].count;
 }
 
-sl_funnel_corner sl_funnel_corner_at(const void *state, uint32_t i) {
+sli_funnel_corner sli_funnel_corner_at(const void *state, uint32_t i) {
     const funnel *f = state;
     const corner *c = &f->corners.items[f->levels.items[f->levels.count - 1].first + i];
-    return (sl_funnel_corner){place_of(f, c->from), place_of(f, c->to), place_of(f, c->pivot)};
+    return (sli_funnel_corner){place_of(f, c->from), place_of(f, c->to), place_of(f, c->pivot)};
 }
 
-sl_portal_ends sl_funnel_portal(const void *state, bool last) {
+/// The first or the last.
+static sl_portal_ends portal_at(const void *state, bool last) {
     const funnel *f = state;
     const end_number left = last ? (end_number)f->ends.count - 2 : FIRST_LEFT;
     return (sl_portal_ends){place_of(f, left), place_of(f, left + 1)};
@@ -482,4 +482,99 @@ const sl_solver *sl_funnel(void) {
         .account = account,
     };
     return &solver;
+}
+
+// --- the shortest sightline
+
+/// Between two portals, along lines through a point.
+typedef struct piece {
+    sl_portal_ends first, last;
+    sl_point pivot;
+} piece;
+
+typedef struct way {
+    double x, y; ///< of unit length
+} way;
+
+static way way_of(sl_point from, sl_point to) {
+    const double x = to.x - from.x, y = to.y - from.y, length = hypot(x, y);
+    return (way){x / length, y / length};
+}
+
+static way between(way a, way b, double share) {
+    const double x = a.x + share * (b.x - a.x), y = a.y + share * (b.y - a.y);
+    const double length = hypot(x, y);
+    return (way){x / length, y / length};
+}
+
+/// How far along the way from the pivot a portal is crossed. A portal along the way is crossed
+/// where that makes the piece shortest: `late` at its far end, else at its near one.
+static double crossed_at(const piece *p, const sl_portal_ends *portal, way d, bool late) {
+    const double lx = portal->left.x - p->pivot.x, ly = portal->left.y - p->pivot.y;
+    const double rx = portal->right.x - p->pivot.x, ry = portal->right.y - p->pivot.y;
+    const double left = d.x * lx + d.y * ly, right = d.x * rx + d.y * ry;
+    const double left_off = d.x * ly - d.y * lx, right_off = d.x * ry - d.y * rx;
+    const double low = fmin(left, right), high = fmax(left, right);
+    if (left_off == right_off) return late ? high : low;
+    const double at = left + (right - left) * (left_off / (left_off - right_off));
+    return fmin(high, fmax(low, at));
+}
+
+static double length_at(const piece *p, way d) {
+    const double length = crossed_at(p, &p->last, d, false) - crossed_at(p, &p->first, d, true);
+    return fmax(0, length);
+}
+
+/// The least over a turn from one way to another, by golden section: the length is convex in the
+/// angle, and so has one low.
+static double shortest_of_turn(const piece *p, way from, way to) {
+    const double golden = 0.6180339887498949;
+    double low = 0, high = 1, a = 1 - golden, b = golden;
+    double at_a = length_at(p, between(from, to, a)), at_b = length_at(p, between(from, to, b));
+    double least = fmin(length_at(p, from), length_at(p, to));
+    for (int i = 0; i < 60; i++) {
+        if (at_a <= at_b) {
+            high = b;
+            b = a, at_b = at_a;
+            a = high - golden * (high - low);
+            at_a = length_at(p, between(from, to, a));
+        } else {
+            low = a;
+            a = b, at_a = at_b;
+            b = low + golden * (high - low);
+            at_b = length_at(p, between(from, to, b));
+        }
+        least = fmin(least, fmin(at_a, at_b));
+    }
+    return least;
+}
+
+/// Between two portals on one line.
+static double gap(const sl_portal_ends *a, const sl_portal_ends *b) {
+    const sl_point p[2] = {a->left, a->right}, q[2] = {b->left, b->right};
+    const bool flat = fabs(p[0].x - p[1].x) >= fabs(p[0].y - p[1].y);
+    const double a_low = flat ? fmin(p[0].x, p[1].x) : fmin(p[0].y, p[1].y);
+    const double a_high = flat ? fmax(p[0].x, p[1].x) : fmax(p[0].y, p[1].y);
+    const double b_low = flat ? fmin(q[0].x, q[1].x) : fmin(q[0].y, q[1].y);
+    const double b_high = flat ? fmax(q[0].x, q[1].x) : fmax(q[0].y, q[1].y);
+    if (a_high >= b_low && b_high >= a_low) return 0;
+    double least = INFINITY;
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 2; k++) least = fmin(least, hypot(p[i].x - q[k].x, p[i].y - q[k].y));
+    return least;
+}
+
+double sli_funnel_shortest(const void *state) {
+    piece p = {.first = portal_at(state, false), .last = portal_at(state, true)};
+    const uint32_t count = sli_funnel_corner_count(state);
+    if (!count) return gap(&p.first, &p.last);
+    double least = INFINITY;
+    for (uint32_t i = 0; i < count; i++) {
+        const sli_funnel_corner now = sli_funnel_corner_at(state, i);
+        const sli_funnel_corner next = sli_funnel_corner_at(state, i + 1 < count ? i + 1 : 0);
+        p.pivot = now.pivot;
+        least =
+            fmin(least, shortest_of_turn(&p, way_of(now.from, now.to), way_of(next.from, next.to)));
+    }
+    return least;
 }

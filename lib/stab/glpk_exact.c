@@ -6,9 +6,9 @@
 /// the first end in steps of the coarsest power of two that all of them are multiples of.
 #include "sightline/glpk.h"
 
-#include "base/base.h"
 #include "geometry/orient.h"
-#include "stab/glpk_guard.h"
+#include "sightline/support.h"
+#include "stab/glpk_shared.h"
 
 #include <math.h>
 
@@ -22,12 +22,12 @@ typedef struct program {
     double step;
     double ux, uy,
         c; ///< the line found, in steps from the first end; all 0 for the ends' common line
-    sl_glpk_guard guard;
+    sli_glpk_guard guard;
 } program;
 
 static sl_status create(sl_context *context, sl_box bounds, void **state) {
     (void)bounds;
-    SL_TRY(sl_glpk_start(context));
+    SL_TRY(sli_glpk_start(context));
     *state = sl_alloc_array(context, 1, sizeof(program));
     return *state ? SL_OK : SL_NO_MEMORY;
 }
@@ -91,10 +91,10 @@ static sl_point crossing_sum(const program *p) {
         const sl_point left = in_steps(p, p->portals.items[i].left);
         const sl_point right = in_steps(p, p->portals.items[i].right);
         const sl_point n = {left.y - right.y, right.x - left.x};
-        if (i == 0 || sl_orient(zero, n, rightmost) > 0) rightmost = n;
-        if (i == 0 || sl_orient(zero, leftmost, n) > 0) leftmost = n;
+        if (i == 0 || sli_orient(zero, n, rightmost) > 0) rightmost = n;
+        if (i == 0 || sli_orient(zero, leftmost, n) > 0) leftmost = n;
     }
-    if (sl_orient(zero, rightmost, leftmost) == 0) return rightmost;
+    if (sli_orient(zero, rightmost, leftmost) == 0) return rightmost;
     return (sl_point){rightmost.x + leftmost.x, rightmost.y + leftmost.y};
 }
 
@@ -129,8 +129,8 @@ static glp_prob *make_problem(const program *p) {
 static bool all_on_one_line(const program *p) {
     const sl_portal_ends *first = p->portals.items;
     for (size_t i = 1; i < p->portals.count; i++)
-        if (sl_orient(first->right, first->left, p->portals.items[i].left) != 0 ||
-            sl_orient(first->right, first->left, p->portals.items[i].right) != 0)
+        if (sli_orient(first->right, first->left, p->portals.items[i].left) != 0 ||
+            sli_orient(first->right, first->left, p->portals.items[i].right) != 0)
             return false;
     return true;
 }
@@ -164,11 +164,11 @@ static sl_status push(sl_context *context, void *state, sl_point left, sl_point 
         return sl_fail(context, SL_UNSUPPORTED,
                        "glpk-exact needs coordinates that are multiples of one power of two, "
                        "2^51 of it at most apart; take the solver 'funnel'");
-    if (setjmp(p->guard.left)) return sl_glpk_failed(context);
-    sl_glpk_enter(&p->guard);
+    if (setjmp(p->guard.left)) return sli_glpk_failed(context);
+    sli_glpk_enter(&p->guard);
     double margin;
     const bool solved = solve(p, &margin);
-    sl_glpk_leave();
+    sli_glpk_leave();
     if (!solved) return sl_fail(context, SL_UNSUPPORTED, "glpk-exact found no optimum");
     *verdict = margin > 0 ? SL_STABBED : margin < 0 ? SL_HIDDEN : SL_GRAZING;
     if (*verdict == SL_HIDDEN && all_on_one_line(p)) {
@@ -204,8 +204,8 @@ static sl_status toward(sl_context *context, void *state, sl_line right, sl_line
         return sl_fail(context, SL_UNSUPPORTED,
                        "glpk-exact needs directions in whole numbers up to 2^51; take the solver "
                        "'funnel'");
-    if (setjmp(p->guard.left)) return sl_glpk_failed(context);
-    sl_glpk_enter(&p->guard);
+    if (setjmp(p->guard.left)) return sli_glpk_failed(context);
+    sli_glpk_enter(&p->guard);
     double margin;
     glp_prob *problem = make_problem(p);
     const int row = glp_add_rows(problem, 2);
@@ -213,7 +213,7 @@ static sl_status toward(sl_context *context, void *state, sl_line right, sl_line
     set_direction_row(problem, row + 1, of_right, false);
     const bool solved = maximise(problem, &margin);
     glp_delete_prob(problem);
-    sl_glpk_leave();
+    sli_glpk_leave();
     if (!solved) return sl_fail(context, SL_UNSUPPORTED, "glpk-exact found no optimum");
     *verdict = margin > 0 ? SL_STABBED : margin < 0 ? SL_HIDDEN : SL_GRAZING;
     // Row 1 leaves out the line that all ends lie on.

@@ -10,10 +10,9 @@
 #include "sightline/glpk.h"
 #include "sightline/solvers.h"
 
-#include "base/base.h"
-#include "stab/conflict.h"
-#include "stab/counted.h"
-#include "stab/glpk_simplex.h"
+#include "sightline/support.h"
+#include "stab/funnel.h"
+#include "stab/glpk_shared.h"
 
 /// What a push was answered.
 typedef struct answer {
@@ -68,8 +67,8 @@ static sl_status decide_exactly(sl_context *context, hybrid *h, sl_stab_verdict 
 static bool passes_strictly(hybrid *h, sl_line line) {
     for (size_t i = 0; i < h->portals.count; i++) {
         const sl_portal_ends *p = &h->portals.items[i];
-        if (sl_orient_counted(&h->account, line.a, line.b, p->left) <= 0 ||
-            sl_orient_counted(&h->account, line.a, line.b, p->right) >= 0)
+        if (sli_orient_counted(&h->account, line.a, line.b, p->left) <= 0 ||
+            sli_orient_counted(&h->account, line.a, line.b, p->right) >= 0)
             return false;
     }
     return true;
@@ -77,8 +76,8 @@ static bool passes_strictly(hybrid *h, sl_line line) {
 
 /// Whether the few portals that the program names have no line by themselves.
 static sl_status few_are_hidden(sl_context *context, hybrid *h, bool *hidden) {
-    uint32_t portals[SL_GLPK_TIGHT_MOST];
-    const size_t count = sl_glpk_tight_portals(h->simplex, portals);
+    uint32_t portals[SLI_GLPK_TIGHT_MOST];
+    const size_t count = sli_glpk_tight_portals(h->simplex, portals);
     sl_stab_verdict verdict = SL_STABBED;
     size_t pushed = 0;
     sl_status status = SL_OK;
@@ -140,7 +139,7 @@ static sl_status conflict(sl_context *context, const void *state,
                           sl_stab_end ends[SL_CONFLICT_MOST], uint32_t *count) {
     const hybrid *h = state;
     const bool strict = h->answers.items[h->answers.count - 1].verdict != SL_HIDDEN;
-    return sl_conflict_find(context, h->portals.items, h->portals.count, strict, ends, count);
+    return sli_conflict_find(context, h->portals.items, h->portals.count, strict, ends, count);
 }
 
 static void account(const void *state, sl_stab_account *sum) {

@@ -7,10 +7,9 @@
 /// two portals that differ most in direction. Every u but 0 that crosses all portals forwards has
 /// w·u > 0 (unless all lie on one line), so the row takes no line away; it only fixes the length of
 /// u.
-#include "stab/glpk_simplex.h"
+#include "stab/glpk_shared.h"
 
-#include "base/base.h"
-#include "stab/glpk_guard.h"
+#include "sightline/support.h"
 
 #include <math.h>
 
@@ -45,7 +44,7 @@ typedef struct simplex {
     SL_ARRAY(level) levels;
     SL_ARRAY(uint8_t) statuses;
     SL_ARRAY(vector) ends; ///< of the rows from row 2 on, scaled: left and right in turn
-    sl_glpk_guard guard;
+    sli_glpk_guard guard;
 } simplex;
 
 static void make_problem(simplex *s) {
@@ -65,7 +64,7 @@ static void make_problem(simplex *s) {
 }
 
 static sl_status create(sl_context *context, sl_box bounds, void **state) {
-    SL_TRY(sl_glpk_start(context));
+    SL_TRY(sli_glpk_start(context));
     simplex *s = sl_alloc_array(context, 1, sizeof *s);
     if (!s) return SL_NO_MEMORY;
     const double width = bounds.max.x / 2 - bounds.min.x / 2;
@@ -76,11 +75,11 @@ static sl_status create(sl_context *context, sl_box bounds, void **state) {
     s->origin = (sl_point){bounds.min.x + width, bounds.min.y + height};
     if (setjmp(s->guard.left)) {
         sl_free(context, s);
-        return sl_glpk_failed(context);
+        return sli_glpk_failed(context);
     }
-    sl_glpk_enter(&s->guard);
+    sli_glpk_enter(&s->guard);
     make_problem(s);
-    sl_glpk_leave();
+    sli_glpk_leave();
     *state = s;
     return SL_OK;
 }
@@ -232,9 +231,9 @@ static sl_status push(sl_context *context, void *state, sl_point left, sl_point 
     widen(l, s->levels.count ? l - 1 : NULL, crossing(left, right), (uint32_t)s->levels.count);
     if (setjmp(s->guard.left)) {
         s->problem = NULL;
-        return sl_glpk_failed(context);
+        return sli_glpk_failed(context);
     }
-    sl_glpk_enter(&s->guard);
+    sli_glpk_enter(&s->guard);
     set_normalisation(s, l);
     const int row = glp_add_rows(s->problem, 2);
     set_end_row(s, row, left, true);
@@ -242,7 +241,7 @@ static sl_status push(sl_context *context, void *state, sl_point left, sl_point 
     const bool solved = solve(s, l);
     save_basis(s, l);
     s->levels.count++;
-    sl_glpk_leave();
+    sli_glpk_leave();
     if (!solved) {
         // A bounded, feasible program has an optimum: that GLPK finds none is rounding's doing.
         l->ux = l->rightmost.x;
@@ -302,9 +301,9 @@ static sl_status toward(sl_context *context, void *state, sl_line right, sl_line
     const level *l = &s->levels.items[s->levels.count - 1];
     if (setjmp(s->guard.left)) {
         s->problem = NULL;
-        return sl_glpk_failed(context);
+        return sli_glpk_failed(context);
     }
-    sl_glpk_enter(&s->guard);
+    sli_glpk_enter(&s->guard);
     const int row = glp_add_rows(s->problem, 2);
     set_direction_row(s, row, left, true);
     set_direction_row(s, row + 1, right, false);
@@ -316,7 +315,7 @@ static sl_status toward(sl_context *context, void *state, sl_line right, sl_line
     const int rows[] = {0, row, row + 1};
     glp_del_rows(s->problem, 2, rows);
     restore_basis(s, l);
-    sl_glpk_leave();
+    sli_glpk_leave();
     // What cannot be told within the tolerance counts as grazing, as in a push.
     *verdict = !solved || found != GLP_OPT || fabs(margin) <= TOLERANCE ? SL_GRAZING
                : margin > 0                                             ? SL_STABBED
@@ -330,12 +329,12 @@ static bool is_tight(const simplex *s, uint32_t portal) {
            glp_get_row_stat(s->problem, row + 1) != GLP_BS;
 }
 
-size_t sl_glpk_tight_portals(const void *state, uint32_t portals[SL_GLPK_TIGHT_MOST]) {
+size_t sli_glpk_tight_portals(const void *state, uint32_t portals[SLI_GLPK_TIGHT_MOST]) {
     const simplex *s = state;
     const level *l = &s->levels.items[s->levels.count - 1];
     size_t count = 0;
     if (!s->problem) return 0;
-    for (uint32_t i = 0; i < s->levels.count && count < SL_GLPK_TIGHT_MOST; i++)
+    for (uint32_t i = 0; i < s->levels.count && count < SLI_GLPK_TIGHT_MOST; i++)
         if (i == l->rightmost_portal || i == l->leftmost_portal || is_tight(s, i))
             portals[count++] = i;
     return count;

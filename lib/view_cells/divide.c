@@ -1,10 +1,120 @@
-/// Top-down subdivision (Mattausch et al. 2006, section 4.2): the part that a priority queue names
-/// is split next, wherever it lies.
+/// Top-down subdivision of view space (Mattausch et al. 2006, section 4.2).
+///
+/// View space is one part at first. A priority queue holds the parts, each with the split that its
+/// method has chosen. The part at the front is split, its segments (or pieces, pieces.h) are dealt
+/// to the halves, and the halves are queued, until there are as many parts as asked for.
+///
+/// A split depends on its part alone. So where pieces make splits dear, the parts at the front are
+/// split ahead by all threads; the tree is the same for any number of threads.
+///
+/// Cost: with segments, O(segments of the part) a split, so about O(s log n) for s segments and n
+/// parts where splits are even.
 #include "view_cells/divide.h"
-#include "base/threads.h"
+
+#include "sightline/support.h"
 
 #include <math.h>
 #include <string.h>
+
+// --- what pieces see
+
+static void add_extent(sli_view_divider *d, sli_view_part *part, sl_point middle, uint32_t object,
+                       const sli_view_extent *from) {
+    sli_view_extent *extent = &d->extents[object];
+    if (extent->low[0] == INFINITY) {
+        d->seen.items[d->seen.count++] = object;
+        part->seen += sli_view_render_object(&d->render, object, middle);
+    }
+    sli_view_extent_join(extent, from);
+}
+
+void sli_view_find_piece_extents(sli_view_divider *d, sli_view_part *part) {
+    const sli_view_rooms *rooms = &d->pieces->rooms;
+    const sl_point middle = sli_view_part_middle(part);
+    d->seen.count = 0;
+    part->seen = 0;
+    for (size_t i = 0; i < part->pieces.count; i++) {
+        const sli_view_piece *piece = &d->pieces->items.items[part->pieces.items[i]];
+        const uint32_t room = piece->room, own = rooms->object[room];
+        if (own != SLI_NO_OBJECT) add_extent(d, part, middle, own, &piece->box);
+        for (uint32_t k = rooms->first_side[room]; k < rooms->first_side[room + 1]; k++)
+            if (rooms->sides[k].room == SLI_NO_ROOM)
+                add_extent(d, part, middle, rooms->sides[k].object, &piece->box);
+        for (int q = 0; q < SLI_VIEW_QUADRANTS; q++) {
+            d->pieces->work.weighed += piece->directed[q].objects.count;
+            for (size_t k = 0; k < piece->directed[q].objects.count; k++) {
+                const sli_view_sight *sight = &piece->directed[q].objects.items[k];
+                add_extent(d, part, middle, sight->object, &sight->from);
+            }
+        }
+    }
+}
+
+static sl_status add_piece(sl_context *context, sli_view_part *part, uint32_t number) {
+    SL_TRY(SL_ARRAY_ROOM(context, &part->pieces, 1));
+    part->pieces.items[part->pieces.count++] = number;
+    return SL_OK;
+}
+
+/// The sides of a split that a piece lies on: 1 below, 2 above, 3 both.
+static int sides_of_piece(const sli_view_pieces *pieces, uint32_t number,
+                          const sli_view_split *split) {
+    const sli_view_extent *box = &pieces->items.items[number].box;
+    if (box->high[split->axis] <= split->position) return 1;
+    return box->low[split->axis] >= split->position ? 2 : 3;
+}
+
+/// Finds the halves of the pieces that lie on both sides of a part's split, once the part's own
+/// halves are there.
+static sl_status halve_pieces(sl_context *context, const sli_view_pieces *pieces,
+                              sli_view_searcher *searcher, const sli_view_part *part,
+                              sli_view_part_halves *cut) {
+    const sli_view_split *split = &part->split;
+    for (size_t i = 0; i < part->pieces.count; i++) {
+        const uint32_t number = part->pieces.items[i];
+        if (sides_of_piece(pieces, number, split) != 3) continue;
+        SL_TRY(SL_ARRAY_ROOM(context, &cut->pieces, 1));
+        sli_view_halves *halves = &cut->pieces.items[cut->pieces.count++];
+        *halves = (sli_view_halves){0};
+        // What is seen from a half without viewpoints is never used.
+        SL_TRY(sli_view_pieces_halve(context, pieces, searcher, number, split->axis,
+                                     split->position, cut->below.mass > 0, cut->above.mass > 0,
+                                     halves));
+    }
+    return SL_OK;
+}
+
+/// Deals the pieces of a part to its halves; those on both sides are cut.
+static sl_status deal_pieces(sli_view_divider *d, const sli_view_part *part,
+                             sli_view_part_halves *cut) {
+    size_t next = 0;
+    for (size_t i = 0; i < part->pieces.count; i++) {
+        const uint32_t number = part->pieces.items[i];
+        const int sides = sides_of_piece(d->pieces, number, &part->split);
+        uint32_t above = number;
+        if (sides == 3)
+            SL_TRY(sli_view_pieces_cut(d->pieces, number, &cut->pieces.items[next++], &above));
+        if (sides & 1) SL_TRY(add_piece(d->context, &cut->below, number));
+        if (sides & 2) SL_TRY(add_piece(d->context, &cut->above, above));
+    }
+    return SL_OK;
+}
+
+/// The sets of all leaves with mass, from what their pieces see.
+static sl_status make_sets(const sli_view_divider *d, sl_view_sets *sets) {
+    SL_TRY(sli_view_sets_create(d->context, d->with_mass, d->render.object_count, sets));
+    uint32_t leaf = 0;
+    for (size_t i = 0; i < d->parts.count; i++) {
+        const sli_view_part *part = &d->parts.items[i];
+        if (!(part->mass > 0)) continue;
+        sl_bits *row = sli_view_set(sets, leaf++);
+        for (size_t k = 0; k < part->pieces.count; k++)
+            sli_view_piece_add_to(d->pieces, &d->pieces->items.items[part->pieces.items[k]], row);
+    }
+    return SL_OK;
+}
+
+// --- parts
 
 sl_view_subdivision sl_view_subdivision_default(void) {
     return (sl_view_subdivision){.cells = 2000,
@@ -17,26 +127,26 @@ sl_view_subdivision sl_view_subdivision_default(void) {
                                  .seed = 1};
 }
 
-int sl_view_longer_axis(const sl_view_part *part) {
+int sli_view_longer_axis(const sli_view_part *part) {
     return part->box.max.y - part->box.min.y > part->box.max.x - part->box.min.x;
 }
 
-bool sl_view_split_middle(const sl_view_part *part, int axis, sl_view_split *out) {
-    const double low = sl_along(part->box.min, axis), high = sl_along(part->box.max, axis);
+bool sli_view_split_middle(const sli_view_part *part, int axis, sli_view_split *out) {
+    const double low = sli_along(part->box.min, axis), high = sli_along(part->box.max, axis);
     const double middle = low + (high - low) / 2;
     if (!(middle > low && middle < high)) return false;
-    *out = (sl_view_split){.axis = axis, .position = middle};
+    *out = (sli_view_split){.axis = axis, .position = middle};
     return true;
 }
 
-void sl_view_find_seen(sl_view_divider *d, sl_view_part *part) {
+void sli_view_find_seen(sli_view_divider *d, sli_view_part *part) {
     if (d->pieces) {
-        sl_view_find_piece_extents(d, part);
-        sl_view_forget_extents(d);
+        sli_view_find_piece_extents(d, part);
+        sli_view_forget_extents(d);
         return;
     }
-    const sl_point middle = sl_view_part_middle(part);
-    const size_t step = sl_view_step(d, part);
+    const sl_point middle = sli_view_part_middle(part);
+    const size_t step = sli_view_step(d, part);
     d->seen.count = 0;
     part->seen = 0;
     for (size_t i = 0; i < part->segments.count; i += step) {
@@ -46,7 +156,7 @@ void sl_view_find_seen(sl_view_divider *d, sl_view_part *part) {
             if (d->sides[object]) continue;
             d->sides[object] = 1;
             d->seen.items[d->seen.count++] = object;
-            part->seen += sl_view_render_object(&d->render, object, middle);
+            part->seen += sli_view_render_object(&d->render, object, middle);
         }
     }
     for (size_t i = 0; i < d->seen.count; i++) d->sides[d->seen.items[i]] = 0;
@@ -54,18 +164,18 @@ void sl_view_find_seen(sl_view_divider *d, sl_view_part *part) {
 
 // --- beginning
 
-static sl_status make_scratch(sl_view_divider *d) {
+static sl_status make_scratch(sli_view_divider *d) {
     const size_t objects = d->render.object_count;
     d->extents = sl_alloc_array(d->context, objects, sizeof *d->extents);
     if (!d->extents) return SL_NO_MEMORY;
-    for (size_t i = 0; i < objects; i++) d->extents[i] = sl_view_no_extent();
+    for (size_t i = 0; i < objects; i++) d->extents[i] = sli_view_no_extent();
     d->sides = sl_alloc_array(d->context, objects, 1);
     if (!d->sides) return SL_NO_MEMORY;
     return SL_ARRAY_ROOM(d->context, &d->seen, objects);
 }
 
 static sl_status copy_share(sl_context *context, const sl_view_places *places,
-                            sl_view_share *share) {
+                            sli_view_share *share) {
     const uint32_t points = places->first[places->count];
     SL_TRY(SL_ARRAY_ROOM(context, &share->points, points));
     SL_TRY(SL_ARRAY_ROOM(context, &share->ends, places->count));
@@ -82,10 +192,10 @@ static sl_status copy_share(sl_context *context, const sl_view_places *places,
 }
 
 /// The part that is all of view space.
-static sl_status make_first(sl_view_divider *d, sl_view_part *part) {
+static sl_status make_first(sli_view_divider *d, sli_view_part *part) {
     const sl_box *b = &d->scene->space->bounds;
     const sl_point corners[4] = {b->min, {b->max.x, b->min.y}, b->max, {b->min.x, b->max.y}};
-    *part = (sl_view_part){.box = *b, .is_box = true, .mass = 1, .parent = -1};
+    *part = (sli_view_part){.box = *b, .is_box = true, .mass = 1, .parent = -1};
     SL_TRY(SL_ARRAY_ROOM(d->context, &part->corners, 4));
     SL_TRY(SL_ARRAY_ROOM(d->context, &part->edges, 4));
     for (int i = 0; i < 4; i++) {
@@ -101,36 +211,36 @@ static sl_status make_first(sl_view_divider *d, sl_view_part *part) {
     return copy_share(d->context, d->scene->places, &part->share);
 }
 
-/// Puts a part that is done into the queue, if it is to be split at all.
-static sl_status enqueue(sl_view_divider *d, sl_view_choose choose, uint32_t number) {
-    sl_view_part *part = &d->parts.items[number];
+/// Queues a part, if it is to be split at all.
+static sl_status enqueue(sli_view_divider *d, sli_view_choose choose, uint32_t number) {
+    sli_view_part *part = &d->parts.items[number];
     if (!(part->mass > 0)) return SL_OK;
     double priority = 0;
     bool splits = false;
     SL_TRY(choose(d, part, &priority, &splits));
     if (!splits) return SL_OK;
-    return sl_heap_push(d->context, &d->queue, (sl_heap_item){.key = priority, .a = number});
+    return sli_heap_push(d->context, &d->queue, (sli_heap_item){.key = priority, .a = number});
 }
 
 // --- splitting
 
-/// On which sides of its split a part's segment is: 1 below, 2 above, 3 both. It is on a side where
-/// it has more than a point there; along the split it is above.
-static int sides_of(const sl_view_part *part, const sl_segment *s) {
-    const sl_view_split *split = &part->split;
-    double from = sl_view_side(split, s->a), to = sl_view_side(split, s->b);
+/// The sides of the part's split that a segment is on: 1 below, 2 above, 3 both. It is on a side
+/// where it has more than a point there. Along the split it is above.
+static int sides_of(const sli_view_part *part, const sl_segment *s) {
+    const sli_view_split *split = &part->split;
+    double from = sli_view_side(split, s->a), to = sli_view_side(split, s->b);
     if (from >= 0 && to >= 0) return 2;
     if (from <= 0 && to <= 0) return 1;
-    const sl_segment inner = sl_view_part_clip(part, s);
-    from = sl_view_side(split, inner.a);
-    to = sl_view_side(split, inner.b);
+    const sl_segment inner = sli_view_part_clip(part, s);
+    from = sli_view_side(split, inner.a);
+    to = sli_view_side(split, inner.b);
     const bool below = from < 0 || to < 0;
     const bool above = from > 0 || to > 0 || (from >= 0 && to >= 0);
     return (below ? 1 : 0) | (above ? 2 : 0);
 }
 
-static sl_status deal_segments(sl_view_divider *d, const sl_view_part *part, sl_view_part *below,
-                               sl_view_part *above) {
+static sl_status deal_segments(sli_view_divider *d, const sli_view_part *part, sli_view_part *below,
+                               sli_view_part *above) {
     for (size_t i = 0; i < part->segments.count; i++) {
         const uint32_t number = part->segments.items[i];
         const int sides = sides_of(part, &d->segments->items[number]);
@@ -146,8 +256,8 @@ static sl_status deal_segments(sl_view_divider *d, const sl_view_part *part, sl_
     return SL_OK;
 }
 
-static sl_status add_node(sl_view_divider *d, const sl_view_part *part) {
-    const sl_view_split *split = &part->split;
+static sl_status add_node(sli_view_divider *d, const sli_view_part *part) {
+    const sli_view_split *split = &part->split;
     if (d->nodes.count == INT32_MAX - 1) return sl_fail_memory(d->context);
     SL_TRY(SL_ARRAY_ROOM(d->context, &d->nodes, 1));
     sl_view_node node = {.position = split->position, .axis = split->axis};
@@ -165,27 +275,27 @@ static sl_status add_node(sl_view_divider *d, const sl_view_part *part) {
     return SL_OK;
 }
 
-static void set_new_edges(sl_view_part *part, uint32_t node) {
+static void set_new_edges(sli_view_part *part, uint32_t node) {
     for (size_t i = 0; i < part->edges.count; i++)
-        if (part->edges.items[i] == SL_VIEW_EDGE_NEW) part->edges.items[i] = node;
+        if (part->edges.items[i] == SLI_VIEW_EDGE_NEW) part->edges.items[i] = node;
 }
 
-/// The part below takes the number of the whole.
-static sl_status split(sl_view_divider *d, sl_view_choose choose, uint32_t number) {
+/// Splits a part. The half below takes its number.
+static sl_status split(sli_view_divider *d, sli_view_choose choose, uint32_t number) {
     SL_TRY(SL_ARRAY_ROOM(d->context, &d->parts, 1));
-    sl_view_part *part = &d->parts.items[number];
-    sl_view_part_halves *cut = part->cut;
+    sli_view_part *part = &d->parts.items[number];
+    sli_view_part_halves *cut = part->cut;
     const uint32_t node = (uint32_t)d->nodes.count;
     set_new_edges(&cut->below, node);
     set_new_edges(&cut->above, node);
     cut->below.parent = cut->above.parent = (int32_t)node;
     cut->above.above = true;
     if (d->segments) SL_TRY(deal_segments(d, part, &cut->below, &cut->above));
-    if (d->pieces) SL_TRY(sl_view_deal_pieces(d, part, cut));
+    if (d->pieces) SL_TRY(deal_pieces(d, part, cut));
     SL_TRY(add_node(d, part));
-    const sl_view_part below = cut->below, above = cut->above;
-    cut->below = cut->above = (sl_view_part){0};
-    sl_view_part_destroy(d->context, part);
+    const sli_view_part below = cut->below, above = cut->above;
+    cut->below = cut->above = (sli_view_part){0};
+    sli_view_part_destroy(d->context, part);
     *part = below;
     d->parts.items[d->parts.count++] = above;
     d->with_mass += (below.mass > 0) + (above.mass > 0) - 1;
@@ -195,62 +305,62 @@ static sl_status split(sl_view_divider *d, sl_view_choose choose, uint32_t numbe
 
 // --- ahead
 
-/// The parts at the front of the queue are split ahead by all threads: so many a thread. What a
-/// split gives does not depend on others, and most of them come to be wanted.
+/// Parts at the front of the queue that are split ahead, for each thread. Most of them are needed
+/// later.
 enum { AHEAD_A_THREAD = 16 };
 
 /// Parts that are to be cut.
 typedef struct ahead {
-    sl_view_divider *divider;
-    sl_view_numbers parts;
+    sli_view_divider *divider;
+    sli_view_numbers parts;
 } ahead;
 
 static sl_status begin_cutting(sl_context *context, void *job, void **state) {
-    sl_view_pieces *pieces = ((ahead *)job)->divider->pieces;
-    sl_view_looker *looker = NULL;
-    if (pieces) SL_TRY(sl_view_looker_take(context, pieces, &looker));
-    *state = looker;
+    sli_view_pieces *pieces = ((ahead *)job)->divider->pieces;
+    sli_view_searcher *searcher = NULL;
+    if (pieces) SL_TRY(sli_view_searcher_take(context, pieces, &searcher));
+    *state = searcher;
     return SL_OK;
 }
 
 static void end_cutting(sl_context *context, void *job, void *state) {
     (void)context;
-    if (state) sl_view_looker_give(((ahead *)job)->divider->pieces, state);
+    if (state) sli_view_searcher_give(((ahead *)job)->divider->pieces, state);
 }
 
 static sl_status cut_part(sl_context *context, void *job, void *state, size_t unit) {
     const ahead *a = job;
-    sl_view_divider *d = a->divider;
-    sl_view_part *part = &d->parts.items[a->parts.items[unit]];
+    sli_view_divider *d = a->divider;
+    sli_view_part *part = &d->parts.items[a->parts.items[unit]];
     part->cut = sl_alloc_array(context, 1, sizeof *part->cut);
     if (!part->cut) return SL_NO_MEMORY;
-    SL_TRY(sl_view_part_cut(context, part, &part->split, SL_VIEW_EDGE_NEW, &part->cut->below,
-                            &part->cut->above));
+    SL_TRY(sli_view_part_cut(context, part, &part->split, SLI_VIEW_EDGE_NEW, &part->cut->below,
+                             &part->cut->above));
     if (!d->pieces) return SL_OK;
-    return sl_view_halve_pieces(context, d->pieces, state, part, part->cut);
+    return halve_pieces(context, d->pieces, state, part, part->cut);
 }
 
-/// Lists the part that is split next and, where pieces are to be cut, those that come after it.
-static sl_status list_ahead(sl_view_divider *d, unsigned threads, ahead *a) {
+/// Lists the part that is split next and, where pieces are cut, those that come after it.
+static sl_status list_ahead(sli_view_divider *d, unsigned threads, ahead *a) {
     size_t most = d->pieces && threads > 1 ? (size_t)AHEAD_A_THREAD * threads : 1;
     if (most > d->options->cells - d->with_mass) most = d->options->cells - d->with_mass;
-    sl_heap looked_at = {0};
+    sli_heap looked_at = {0};
     sl_status status = SL_OK;
     while (status == SL_OK && d->queue.count && looked_at.count < most) {
         status = SL_ARRAY_ROOM(d->context, &looked_at, 1);
         if (status == SL_OK) status = SL_ARRAY_ROOM(d->context, &a->parts, 1);
         if (status != SL_OK) break;
-        const sl_heap_item item = sl_heap_pop(&d->queue);
+        const sli_heap_item item = sli_heap_pop(&d->queue);
         looked_at.items[looked_at.count++] = item;
         if (!d->parts.items[item.a].cut) a->parts.items[a->parts.count++] = item.a;
     }
     while (status == SL_OK && looked_at.count)
-        status = sl_heap_push(d->context, &d->queue, looked_at.items[--looked_at.count]);
+        status = sli_heap_push(d->context, &d->queue, looked_at.items[--looked_at.count]);
     sl_free(d->context, looked_at.items);
     return status;
 }
 
-static sl_status cut_ahead(sl_view_divider *d) {
+static sl_status cut_ahead(sli_view_divider *d) {
     const unsigned threads = d->options->threads ? d->options->threads : sl_core_count();
     ahead a = {.divider = d};
     sl_status status = list_ahead(d, threads, &a);
@@ -260,21 +370,21 @@ static sl_status cut_ahead(sl_view_divider *d) {
     return status;
 }
 
-static sl_status divide(sl_view_divider *d, sl_view_choose choose, bool stops_early) {
+static sl_status divide(sli_view_divider *d, sli_view_choose choose, bool stops_early) {
     SL_TRY(make_scratch(d));
     SL_TRY(SL_ARRAY_ROOM(d->context, &d->parts, 1));
-    d->parts.items[d->parts.count++] = (sl_view_part){0};
+    d->parts.items[d->parts.count++] = (sli_view_part){0};
     SL_TRY(make_first(d, &d->parts.items[0]));
     d->with_mass = 1;
-    sl_view_part *whole = &d->parts.items[0];
-    if (d->segments || d->pieces) sl_view_find_seen(d, whole);
+    sli_view_part *whole = &d->parts.items[0];
+    if (d->segments || d->pieces) sli_view_find_seen(d, whole);
     const double first_cost = whole->seen;
     SL_TRY(enqueue(d, choose, 0));
     uint32_t without_gain = 0;
     while (d->queue.count && d->with_mass < d->options->cells) {
         SL_TRY(sl_check_cancelled(d->context));
         if (!d->parts.items[d->queue.items[0].a].cut) SL_TRY(cut_ahead(d));
-        const uint32_t number = sl_heap_pop(&d->queue).a;
+        const uint32_t number = sli_heap_pop(&d->queue).a;
         const double gain = d->parts.items[number].split.gain;
         without_gain = gain < d->options->least_gain * first_cost ? without_gain + 1 : 0;
         if (stops_early && without_gain >= d->options->patience) break;
@@ -286,7 +396,7 @@ static sl_status divide(sl_view_divider *d, sl_view_choose choose, bool stops_ea
 
 // --- ending
 
-static sl_status make_leaf_arrays(sl_view_divider *d, sl_view_tree *tree) {
+static sl_status make_leaf_arrays(sli_view_divider *d, sl_view_tree *tree) {
     size_t corners = 0;
     for (size_t i = 0; i < d->parts.count; i++) corners += d->parts.items[i].corners.count;
     if (corners > UINT32_MAX) return sl_fail_memory(d->context);
@@ -300,11 +410,11 @@ static sl_status make_leaf_arrays(sl_view_divider *d, sl_view_tree *tree) {
 }
 
 /// Leaves are numbered in the order in which they were made, those with mass first.
-static void fill_leaves(sl_view_divider *d, sl_view_tree *tree) {
+static void fill_leaves(sli_view_divider *d, sl_view_tree *tree) {
     uint32_t number = 0;
     for (int empty = 0; empty < 2; empty++)
         for (size_t i = 0; i < d->parts.count; i++) {
-            const sl_view_part *part = &d->parts.items[i];
+            const sli_view_part *part = &d->parts.items[i];
             if ((part->mass > 0) == (empty == 1)) continue;
             const uint32_t first = tree->first[number];
             memcpy(tree->corners + first, part->corners.items,
@@ -321,7 +431,7 @@ static void fill_leaves(sl_view_divider *d, sl_view_tree *tree) {
         }
 }
 
-static sl_status make_tree(sl_view_divider *d, sl_view_tree *tree) {
+static sl_status make_tree(sli_view_divider *d, sl_view_tree *tree) {
     tree->bounds = d->scene->space->bounds;
     SL_TRY(make_leaf_arrays(d, tree));
     fill_leaves(d, tree);
@@ -334,9 +444,9 @@ static sl_status make_tree(sl_view_divider *d, sl_view_tree *tree) {
     return SL_OK;
 }
 
-static void destroy(sl_view_divider *d) {
+static void destroy(sli_view_divider *d) {
     for (size_t i = 0; i < d->parts.count; i++)
-        sl_view_part_destroy(d->context, &d->parts.items[i]);
+        sli_view_part_destroy(d->context, &d->parts.items[i]);
     sl_free(d->context, d->extents);
     sl_free(d->context, d->parts.items);
     sl_free(d->context, d->nodes.items);
@@ -349,7 +459,7 @@ static void destroy(sl_view_divider *d) {
     sl_free(d->context, d->positions.items);
     sl_free(d->context, d->clipped.items);
     sl_free(d->context, d->walls.items);
-    sl_view_render_destroy(d->context, &d->render);
+    sli_view_render_destroy(d->context, &d->render);
 }
 
 static sl_status check_options(sl_context *context, const sl_view_subdivision *o) {
@@ -364,23 +474,23 @@ static sl_status check_options(sl_context *context, const sl_view_subdivision *o
     return SL_OK;
 }
 
-sl_status sl_view_divide(sl_context *context, const sl_view_scene *scene,
-                         const sl_view_segments *segments, sl_view_pieces *pieces,
-                         const sl_view_subdivision *options, sl_view_choose choose,
-                         bool stops_early, sl_view_tree *out, sl_view_sets *sets) {
+sl_status sli_view_divide(sl_context *context, const sl_view_scene *scene,
+                          const sl_view_segments *segments, sli_view_pieces *pieces,
+                          const sl_view_subdivision *options, sli_view_choose choose,
+                          bool stops_early, sl_view_tree *out, sl_view_sets *sets) {
     SL_TRY(check_options(context, options));
-    sl_view_divider d = {.context = context,
-                         .scene = scene,
-                         .segments = segments,
-                         .pieces = pieces,
-                         .options = options,
-                         .random = {options->seed}};
-    SL_TRY(sl_view_render_make(context, scene, &d.render));
+    sli_view_divider d = {.context = context,
+                          .scene = scene,
+                          .segments = segments,
+                          .pieces = pieces,
+                          .options = options,
+                          .random = {options->seed}};
+    SL_TRY(sli_view_render_make(context, scene, &d.render));
     for (uint32_t i = 0; i < d.render.object_count; i++) d.all_seen += d.render.fixed[i];
     sl_view_tree tree = {0};
     sl_status status = divide(&d, choose, stops_early);
     if (status == SL_OK) status = make_tree(&d, &tree);
-    if (status == SL_OK && sets) status = sl_view_sets_of_pieces(&d, sets);
+    if (status == SL_OK && sets) status = make_sets(&d, sets);
     destroy(&d);
     if (status == SL_OK)
         *out = tree;

@@ -1,169 +1,202 @@
-/// Dividing view space from the top: parts of it, each with the segments that pass it, split one
-/// after the other in an order that each method gives.
+/// Top-down subdivision of view space: parts of it, each with the segments that pass it, are split
+/// one after the other in the order that the method gives.
 #ifndef SL_VIEW_DIVIDE_H
 #define SL_VIEW_DIVIDE_H
 
-#include "base/random.h"
-#include "view_cells/heap.h"
+#include "sightline/support.h"
 #include "view_cells/pieces.h"
-#include "view_cells/render.h"
 #include "view_cells/tree.h"
 
 #include <math.h>
 
+// --- A priority queue: the largest key first, of equal ones that with the lowest numbers.
+
+typedef struct sli_heap_item {
+    double key;
+    uint32_t a, b;
+} sli_heap_item;
+
+typedef SL_ARRAY(sli_heap_item) sli_heap;
+
+static inline bool sli_heap_before(const sli_heap_item *x, const sli_heap_item *y) {
+    if (x->key != y->key) return x->key > y->key;
+    return x->a != y->a ? x->a < y->a : x->b < y->b;
+}
+
+static inline sl_status sli_heap_push(sl_context *context, sli_heap *heap, sli_heap_item item) {
+    SL_TRY(SL_ARRAY_ROOM(context, heap, 1));
+    size_t at = heap->count++;
+    while (at && sli_heap_before(&item, &heap->items[(at - 1) / 2])) {
+        heap->items[at] = heap->items[(at - 1) / 2];
+        at = (at - 1) / 2;
+    }
+    heap->items[at] = item;
+    return SL_OK;
+}
+
+/// Takes the first item; there must be one.
+static inline sli_heap_item sli_heap_pop(sli_heap *heap) {
+    const sli_heap_item top = heap->items[0], last = heap->items[--heap->count];
+    size_t at = 0;
+    while (true) {
+        size_t next = 2 * at + 1;
+        if (next >= heap->count) break;
+        if (next + 1 < heap->count && sli_heap_before(&heap->items[next + 1], &heap->items[next]))
+            next++;
+        if (!sli_heap_before(&heap->items[next], &last)) break;
+        heap->items[at] = heap->items[next];
+        at = next;
+    }
+    if (heap->count) heap->items[at] = last;
+    return top;
+}
+
+// --- dividing
+
 /// A split: along an axis at a position, or (axis 2) along a line, below being right of it.
-typedef struct sl_view_split {
+typedef struct sli_view_split {
     int32_t axis;
     double position;
     sl_segment line;
-    double gain; ///< of expected cost, as the segments tell it
-} sl_view_split;
+    double gain; ///< in expected cost, by the segments
+} sli_view_split;
 
-/// Pieces of sl_view_places within a part.
-typedef struct sl_view_share {
-    sl_view_points points;
+/// The pieces of sl_view_places within a part.
+typedef struct sli_view_share {
+    sli_view_points points;
     SL_ARRAY(uint32_t) ends; ///< by piece: where its points end
     SL_ARRAY(double) mass;   ///< of each piece
-} sl_view_share;
+} sli_view_share;
 
-/// A leaf while view space is divided.
-typedef struct sl_view_part {
-    sl_view_points corners;
-    SL_ARRAY(uint32_t) edges; ///< as in sl_view_tree
-    sl_view_numbers segments; ///< those that pass it
-    sl_view_numbers pieces;   ///< those that it is made up of, where there are any
-    sl_view_share share;
+/// A leaf of the tree while it grows.
+typedef struct sli_view_part {
+    sli_view_points corners;
+    SL_ARRAY(uint32_t) edges;  ///< as in sl_view_tree
+    sli_view_numbers segments; ///< those that pass it
+    sli_view_numbers pieces;   ///< those that make it up, where there are any
+    sli_view_share share;
     sl_box box;     ///< about the corners
     bool is_box;    ///< no oblique split made it
     double mass;    ///< of `share`
-    double seen;    ///< cost of rendering what its segments see
+    double seen;    ///< cost of rendering all that its segments see
     uint32_t depth; ///< splits above it
     int32_t parent; ///< node that leads here, -1 for none
     bool above;     ///< which child of it
-    sl_view_split split;
-    struct sl_view_part_halves *cut; ///< what splitting it gives, where that was found out ahead
-} sl_view_part;
+    sli_view_split split;
+    struct sli_view_part_halves *cut; ///< its halves, where they were found ahead
+} sli_view_part;
 
-/// A part split in two, and the halves of its pieces that lie on both sides, in their order. The
-/// node is not made yet: sides that it makes have the edge SL_VIEW_EDGE_NEW.
-typedef struct sl_view_part_halves {
-    sl_view_part below, above;
-    SL_ARRAY(sl_view_halves) pieces;
-} sl_view_part_halves;
+/// A part split in two, with the halves of its pieces that lie on both sides, in order. The node is
+/// not made yet: sides on the split have the edge SLI_VIEW_EDGE_NEW.
+typedef struct sli_view_part_halves {
+    sli_view_part below, above;
+    SL_ARRAY(sli_view_halves) pieces;
+} sli_view_part_halves;
 
-#define SL_VIEW_EDGE_NEW (UINT32_MAX - 1)
+#define SLI_VIEW_EDGE_NEW (UINT32_MAX - 1)
 
-/// Where an object starts or ends to be seen along an axis, and its cost.
-typedef struct sl_view_event {
+/// Where along an axis an object starts or ends to be seen, and its cost.
+typedef struct sli_view_event {
     double at, cost;
-} sl_view_event;
+} sli_view_event;
 
-typedef SL_ARRAY(sl_view_event) sl_view_events;
+typedef SL_ARRAY(sli_view_event) sli_view_events;
 
-typedef struct sl_view_divider {
+typedef struct sli_view_divider {
     sl_context *context;
     const sl_view_scene *scene;
     const sl_view_segments *segments;
-    sl_view_pieces *pieces;
+    sli_view_pieces *pieces;
     const sl_view_subdivision *options;
-    sl_view_render render;
+    sli_view_render render;
     sl_random random;
-    double all_seen;              ///< cost of rendering all objects
-    SL_ARRAY(sl_view_part) parts; ///< the leaves
+    double all_seen;               ///< cost of rendering all objects
+    SL_ARRAY(sli_view_part) parts; ///< the leaves
     SL_ARRAY(sl_view_node) nodes;
     SL_ARRAY(sl_segment) lines;
     uint32_t with_mass; ///< parts that are not empty space
-    uint64_t made;      ///< parts that a method has put in line
-    sl_heap queue;
-    // Scratch of choosing.
-    sl_view_extent *extents; ///< by object; low over high for those not seen
-    uint8_t *sides;          ///< by object: 1: seen right of a line, 2: left of it
-    sl_view_numbers seen;    ///< objects that the part sees
-    sl_view_events starts, ends;
+    uint64_t made;      ///< parts that a method has queued
+    sli_heap queue;
+    // Scratch for choosing splits.
+    sli_view_extent *extents; ///< by object; low over high for those not seen
+    uint8_t *sides;           ///< by object: 1: seen right of a line, 2: left of it
+    sli_view_numbers seen;    ///< objects that the part sees
+    sli_view_events starts, ends;
     SL_ARRAY(double) positions;
-    SL_ARRAY(sl_segment) clipped; ///< the part's segments, what is within it
-    sl_view_numbers walls;
-} sl_view_divider;
+    SL_ARRAY(sl_segment) clipped; ///< the part's segments, clipped to it
+    sli_view_numbers walls;
+} sli_view_divider;
 
-/// Sets part->split and *priority (the highest is split first); *splits is false for a part that
-/// stays whole. Called once for each part that has mass.
-typedef sl_status (*sl_view_choose)(sl_view_divider *d, sl_view_part *part, double *priority,
-                                    bool *splits);
+/// Sets part->split and *priority (the highest is split first). *splits is false for a part that
+/// stays whole. Called once for each part with mass.
+typedef sl_status (*sli_view_choose)(sli_view_divider *d, sli_view_part *part, double *priority,
+                                     bool *splits);
 
-/// `segments`, `pieces`: what tells what is seen, NULL for the one, the other, or both. Of pieces
-/// those of all rooms, as sl_view_pieces_create makes them; they are cut as parts are split, by
-/// options->threads threads: while no part has been split, what splitting a part gives is its own.
-/// `stops_early`: by least_gain and patience. `sets`: what pieces see, by leaf with mass; NULL
-/// where nobody asks.
-sl_status sl_view_divide(sl_context *context, const sl_view_scene *scene,
-                         const sl_view_segments *segments, sl_view_pieces *pieces,
-                         const sl_view_subdivision *options, sl_view_choose choose,
-                         bool stops_early, sl_view_tree *out, sl_view_sets *sets);
+/// `segments` or `pieces` give what is seen; either or both may be NULL. Pieces are those of all
+/// rooms, from sli_view_pieces_create; they are cut as parts are split, by options->threads
+/// threads. `stops_early`: by least_gain and patience. `sets`: what pieces see, by leaf with mass;
+/// may be NULL.
+sl_status sli_view_divide(sl_context *context, const sl_view_scene *scene,
+                          const sl_view_segments *segments, sli_view_pieces *pieces,
+                          const sl_view_subdivision *options, sli_view_choose choose,
+                          bool stops_early, sl_view_tree *out, sl_view_sets *sets);
 
-/// Across the longer side of a part, or across an axis, in its middle; false where doubles allow
-/// none. `gain` is 0.
-bool sl_view_split_middle(const sl_view_part *part, int axis, sl_view_split *out);
-int sl_view_longer_axis(const sl_view_part *part);
+/// The split across an axis in the middle of a part; false where doubles allow none. `gain` is 0.
+bool sli_view_split_middle(const sli_view_part *part, int axis, sli_view_split *out);
+int sli_view_longer_axis(const sli_view_part *part);
 
-/// Of so many of a part's segments one is weighed, so that they are as few as the options say.
-static inline size_t sl_view_step(const sl_view_divider *d, const sl_view_part *part) {
+/// One of this many of a part's segments is weighed, so that no more are than the options say.
+static inline size_t sli_view_step(const sli_view_divider *d, const sli_view_part *part) {
     return part->segments.count ? 1 + (part->segments.count - 1) / d->options->weighed : 1;
 }
 
-/// Finds out what a part's segments or pieces see, for part->seen and for choosing; forgotten again
-/// before the next part's turn.
-void sl_view_find_extents(sl_view_divider *d, sl_view_part *part);
-void sl_view_forget_extents(sl_view_divider *d);
-/// The same for part->seen alone.
-void sl_view_find_seen(sl_view_divider *d, sl_view_part *part);
+/// Finds what a part's segments or pieces see: the extents of objects, and part->seen. The caller
+/// has the extents forgotten before the next part.
+void sli_view_find_extents(sli_view_divider *d, sli_view_part *part);
+void sli_view_forget_extents(sli_view_divider *d);
+/// Finds part->seen alone.
+void sli_view_find_seen(sli_view_divider *d, sli_view_part *part);
 
-/// Raises *best to the axis-aligned split of the most gain, if any is better (divide_axes.c).
-sl_status sl_view_choose_axes(sl_view_divider *d, const sl_view_part *part, sl_view_split *best);
-/// Likewise along the lines of walls within the part (divide_walls.c).
-sl_status sl_view_choose_walls(sl_view_divider *d, const sl_view_part *part, sl_view_split *best);
+/// Replaces *best by the axis-aligned split with the largest gain, if that is better (splits.c).
+sl_status sli_view_choose_axes(sli_view_divider *d, const sli_view_part *part,
+                               sli_view_split *best);
+/// The same along the lines of walls within the part.
+sl_status sli_view_choose_walls(sli_view_divider *d, const sli_view_part *part,
+                                sli_view_split *best);
 
-/// As sl_view_find_extents, of pieces (divide_pieces.c).
-void sl_view_find_piece_extents(sl_view_divider *d, sl_view_part *part);
-/// Finds the halves of the pieces that lie on both sides of a part's split, when its own are there.
-sl_status sl_view_halve_pieces(sl_context *context, const sl_view_pieces *pieces,
-                               sl_view_looker *looker, const sl_view_part *part,
-                               sl_view_part_halves *cut);
-/// Hands the pieces of a part that is split to its halves; those on both sides are cut.
-sl_status sl_view_deal_pieces(sl_view_divider *d, const sl_view_part *part,
-                              sl_view_part_halves *cut);
-/// What the pieces of all leaves with mass see.
-sl_status sl_view_sets_of_pieces(const sl_view_divider *d, sl_view_sets *sets);
+/// sli_view_find_extents for pieces (divide.c).
+void sli_view_find_piece_extents(sli_view_divider *d, sli_view_part *part);
 
 /// The split along a wall's line.
-sl_view_split sl_view_split_along(const sl_wall *wall);
-/// Walls that go into a part and whose lines divide it: all, or `most` of them drawn at random.
-sl_status sl_view_walls_within(sl_view_divider *d, const sl_view_part *part, uint32_t most,
-                               sl_view_numbers *out);
+sli_view_split sli_view_split_along(const sl_wall *wall);
+/// The walls that go into a part and whose lines divide it: all, or `most` of them at random.
+sl_status sli_view_walls_within(sli_view_divider *d, const sli_view_part *part, uint32_t most,
+                                sli_view_numbers *out);
 
 // --- geometry of parts (parts.c)
 
-static inline double sl_along(sl_point p, int axis) {
+static inline double sli_along(sl_point p, int axis) {
     return axis ? p.y : p.x;
 }
 
 /// Where a point lies: below a split (negative), on it or above it.
-static inline double sl_view_side(const sl_view_split *split, sl_point p) {
-    return split->axis < 2 ? sl_along(p, split->axis) - split->position
-                           : sl_view_line_side(&split->line, p);
+static inline double sli_view_side(const sli_view_split *split, sl_point p) {
+    return split->axis < 2 ? sli_along(p, split->axis) - split->position
+                           : sli_view_line_side(&split->line, p);
 }
 
-sl_point sl_view_part_middle(const sl_view_part *part);
-void sl_view_part_destroy(sl_context *context, sl_view_part *part);
+sl_point sli_view_part_middle(const sli_view_part *part);
+void sli_view_part_destroy(sl_context *context, sli_view_part *part);
 
-/// What of a segment is within a part; a point where rounding leaves nothing.
-sl_segment sl_view_part_clip(const sl_view_part *part, const sl_segment *segment);
+/// The part of a segment within a part of view space; a point where rounding leaves nothing.
+sl_segment sli_view_part_clip(const sli_view_part *part, const sl_segment *segment);
 
 /// Cuts a part's polygon and share in two. `node` is the one that splits it.
-sl_status sl_view_part_cut(sl_context *context, const sl_view_part *part,
-                           const sl_view_split *split, uint32_t node, sl_view_part *below,
-                           sl_view_part *above);
+sl_status sli_view_part_cut(sl_context *context, const sli_view_part *part,
+                            const sli_view_split *split, uint32_t node, sli_view_part *below,
+                            sli_view_part *above);
 
-/// What of a share is below a split.
-double sl_view_share_below(const sl_view_share *share, const sl_view_split *split);
+/// The mass of a share below a split.
+double sli_view_share_below(const sli_view_share *share, const sli_view_split *split);
 
 #endif

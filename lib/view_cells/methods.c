@@ -1,43 +1,53 @@
-/// The methods of making view cells: ours of the paper, and those that it is compared with
-/// (Mattausch et al. 2006, section 6.3). What tells them apart is which split a part gets and when
-/// its turn comes.
+/// The methods of making view cells: the adaptive ones of the paper, and those that it compares
+/// them with (Mattausch et al. 2006, section 6.3).
+///
+/// All divide view space from the top (divide.c). They differ in the split that a part gets and in
+/// its place in the queue:
+///
+///   av-m, av-s   the split that gains most; parts by gain. av-m then merges (hierarchy.c).
+///   hybrid       the same by exact sets of pieces (pieces.c) in place of samples.
+///   kd-*         in the middle; breadth first, or until little is seen.
+///   bsp          along the line of a wall, until no wall is inside (Teller 1992).
 #include "view_cells/divide.h"
 
 #include "geometry/orient.h"
 
 #include <math.h>
 
+/// Defines how a method by samples (`by` is segments) or by none (NULL) divides view space.
+#define DIVIDE(name, by, choose, stops_early)                                                      \
+    static sl_status name(sl_context *context, const sl_view_scene *scene,                         \
+                          const sl_view_segments *segments, const sl_view_subdivision *options,    \
+                          sl_view_tree *out, sl_view_found *found) {                               \
+        (void)segments, (void)found;                                                               \
+        return sli_view_divide(context, scene, by, NULL, options, choose, stops_early, out, NULL); \
+    }
+
 // --- adaptive
 
-static sl_status find_best_split(sl_view_divider *d, sl_view_part *part, bool *splits) {
-    *splits = part->seen > 0 && sl_view_split_middle(part, sl_view_longer_axis(part), &part->split);
-    return *splits ? sl_view_choose_axes(d, part, &part->split) : SL_OK;
+static sl_status find_best_split(sli_view_divider *d, sli_view_part *part, bool *splits) {
+    *splits =
+        part->seen > 0 && sli_view_split_middle(part, sli_view_longer_axis(part), &part->split);
+    return *splits ? sli_view_choose_axes(d, part, &part->split) : SL_OK;
 }
 
-/// The split of the most gain; a small weight on the part's own cost sees to it that also those
-/// parts are split that only further splits would pay for.
-static sl_status choose_adaptive(sl_view_divider *d, sl_view_part *part, double *priority,
+/// The split that gains most. A small weight on the part's own cost makes sure that parts are split
+/// too where only several splits together pay.
+static sl_status choose_adaptive(sli_view_divider *d, sli_view_part *part, double *priority,
                                  bool *splits) {
-    sl_view_find_extents(d, part);
+    sli_view_find_extents(d, part);
     const sl_status status = find_best_split(d, part, splits);
-    sl_view_forget_extents(d);
+    sli_view_forget_extents(d);
     SL_TRY(status);
-    if (*splits && d->options->wall_splits) SL_TRY(sl_view_choose_walls(d, part, &part->split));
+    if (*splits && d->options->wall_splits) SL_TRY(sli_view_choose_walls(d, part, &part->split));
     const double weight = d->options->cost_weight;
     *priority = (1 - weight) * part->split.gain + weight * part->mass * part->seen;
     return SL_OK;
 }
 
-static sl_status divide_adaptive(sl_context *context, const sl_view_scene *scene,
-                                 const sl_view_segments *segments,
-                                 const sl_view_subdivision *options, sl_view_tree *out,
-                                 sl_view_found *found) {
-    (void)found;
-    return sl_view_divide(context, scene, segments, NULL, options, choose_adaptive, true, out,
-                          NULL);
-}
+DIVIDE(divide_adaptive, segments, choose_adaptive, true)
 
-/// Likewise by exact sets: `found` holds them only when all has gone well.
+/// The same by exact sets. `found` is set only on success.
 static sl_status divide_exactly(sl_context *context, const sl_view_scene *scene,
                                 const sl_view_segments *segments,
                                 const sl_view_subdivision *options, sl_view_tree *out,
@@ -46,51 +56,51 @@ static sl_status divide_exactly(sl_context *context, const sl_view_scene *scene,
     if (options->wall_splits)
         return sl_fail(context, SL_UNSUPPORTED,
                        "the method 'hybrid' splits across the axes alone, not along walls' lines");
-    sl_view_pieces pieces;
+    sli_view_pieces pieces;
     sl_view_sets sets = {0};
     sl_status status =
-        sl_view_pieces_create(context, scene, options->sight, options->threads, &pieces);
+        sli_view_pieces_create(context, scene, options->sight, options->threads, &pieces);
     if (status == SL_OK)
-        status = sl_view_divide(context, scene, NULL, &pieces, options, choose_adaptive, true, out,
-                                found ? &sets : NULL);
+        status = sli_view_divide(context, scene, NULL, &pieces, options, choose_adaptive, true, out,
+                                 found ? &sets : NULL);
     if (status == SL_OK && found) *found = (sl_view_found){sets, pieces.work};
-    sl_view_pieces_destroy(&pieces);
+    sli_view_pieces_destroy(&pieces);
     return status;
 }
 
 // --- kd-trees
 
-/// In the order in which parts are made.
-static double next_in_line(sl_view_divider *d) {
+/// The priority that splits parts in the order in which they are made.
+static double next_in_line(sli_view_divider *d) {
     return -(double)d->made++;
 }
 
-static sl_status choose_cycling(sl_view_divider *d, sl_view_part *part, double *priority,
+static sl_status choose_cycling(sli_view_divider *d, sli_view_part *part, double *priority,
                                 bool *splits) {
-    *splits = sl_view_split_middle(part, part->depth % 2, &part->split);
+    *splits = sli_view_split_middle(part, part->depth % 2, &part->split);
     *priority = next_in_line(d);
     return SL_OK;
 }
 
-static sl_status choose_longest(sl_view_divider *d, sl_view_part *part, double *priority,
+static sl_status choose_longest(sli_view_divider *d, sli_view_part *part, double *priority,
                                 bool *splits) {
-    *splits = sl_view_split_middle(part, sl_view_longer_axis(part), &part->split);
+    *splits = sli_view_split_middle(part, sli_view_longer_axis(part), &part->split);
     *priority = next_in_line(d);
     return SL_OK;
 }
 
-static bool sees_enough(sl_view_divider *d, sl_view_part *part) {
-    sl_view_find_seen(d, part);
+static bool sees_enough(sli_view_divider *d, sli_view_part *part) {
+    sli_view_find_seen(d, part);
     return part->seen > d->options->visible_share * d->all_seen;
 }
 
-static sl_status choose_visible(sl_view_divider *d, sl_view_part *part, double *priority,
+static sl_status choose_visible(sli_view_divider *d, sli_view_part *part, double *priority,
                                 bool *splits) {
     if (!sees_enough(d, part)) return SL_OK;
     return choose_longest(d, part, priority, splits);
 }
 
-static sl_status choose_depth_first(sl_view_divider *d, sl_view_part *part, double *priority,
+static sl_status choose_depth_first(sli_view_divider *d, sli_view_part *part, double *priority,
                                     bool *splits) {
     if (!sees_enough(d, part) || part->depth >= d->options->deepest) return SL_OK;
     SL_TRY(choose_longest(d, part, priority, splits));
@@ -98,41 +108,10 @@ static sl_status choose_depth_first(sl_view_divider *d, sl_view_part *part, doub
     return SL_OK;
 }
 
-static sl_status divide_cycling(sl_context *context, const sl_view_scene *scene,
-                                const sl_view_segments *segments,
-                                const sl_view_subdivision *options, sl_view_tree *out,
-                                sl_view_found *found) {
-    (void)found;
-    (void)segments;
-    return sl_view_divide(context, scene, NULL, NULL, options, choose_cycling, false, out, NULL);
-}
-
-static sl_status divide_longest(sl_context *context, const sl_view_scene *scene,
-                                const sl_view_segments *segments,
-                                const sl_view_subdivision *options, sl_view_tree *out,
-                                sl_view_found *found) {
-    (void)found;
-    (void)segments;
-    return sl_view_divide(context, scene, NULL, NULL, options, choose_longest, false, out, NULL);
-}
-
-static sl_status divide_visible(sl_context *context, const sl_view_scene *scene,
-                                const sl_view_segments *segments,
-                                const sl_view_subdivision *options, sl_view_tree *out,
-                                sl_view_found *found) {
-    (void)found;
-    return sl_view_divide(context, scene, segments, NULL, options, choose_visible, false, out,
-                          NULL);
-}
-
-static sl_status divide_depth_first(sl_context *context, const sl_view_scene *scene,
-                                    const sl_view_segments *segments,
-                                    const sl_view_subdivision *options, sl_view_tree *out,
-                                    sl_view_found *found) {
-    (void)found;
-    return sl_view_divide(context, scene, segments, NULL, options, choose_depth_first, false, out,
-                          NULL);
-}
+DIVIDE(divide_cycling, NULL, choose_cycling, false)
+DIVIDE(divide_longest, NULL, choose_longest, false)
+DIVIDE(divide_visible, segments, choose_visible, false)
+DIVIDE(divide_depth_first, segments, choose_depth_first, false)
 
 // --- aligned with the walls
 
@@ -140,12 +119,12 @@ static sl_status divide_depth_first(sl_context *context, const sl_view_scene *sc
 enum { MOST_WEIGHED = 512, MOST_TRIED = 24 };
 
 /// The cost of a line: walls cut, and sides uneven, as shares of all.
-static double line_cost(const sl_view_divider *d, const sl_segment *line) {
+static double line_cost(const sli_view_divider *d, const sl_segment *line) {
     const size_t step = (d->walls.count + MOST_WEIGHED - 1) / MOST_WEIGHED;
     double cut = 0, left = 0, right = 0, all = 0;
     for (size_t i = 0; i < d->walls.count; i += step, all++) {
         const sl_wall *w = &d->scene->space->walls[d->walls.items[i]];
-        const int a = sl_orient(line->a, line->b, w->a), b = sl_orient(line->a, line->b, w->b);
+        const int a = sli_orient(line->a, line->b, w->a), b = sli_orient(line->a, line->b, w->b);
         cut += a * b < 0;
         left += a * b >= 0 && a + b > 0;
         right += a * b >= 0 && a + b < 0;
@@ -154,9 +133,9 @@ static double line_cost(const sl_view_divider *d, const sl_segment *line) {
 }
 
 /// Auto-partition (Teller 1992): the line of a wall within; a part without walls stays whole.
-static sl_status choose_wall(sl_view_divider *d, sl_view_part *part, double *priority,
+static sl_status choose_wall(sli_view_divider *d, sli_view_part *part, double *priority,
                              bool *splits) {
-    SL_TRY(sl_view_walls_within(d, part, UINT32_MAX, &d->walls));
+    SL_TRY(sli_view_walls_within(d, part, UINT32_MAX, &d->walls));
     const size_t count = d->walls.count;
     double least = INFINITY;
     for (size_t i = 0; i < count && i < MOST_TRIED; i++) {
@@ -166,21 +145,14 @@ static sl_status choose_wall(sl_view_divider *d, sl_view_part *part, double *pri
         const double cost = line_cost(d, &line);
         if (cost >= least) continue;
         least = cost;
-        part->split = sl_view_split_along(w);
+        part->split = sli_view_split_along(w);
     }
     *splits = count > 0;
     *priority = next_in_line(d);
     return SL_OK;
 }
 
-static sl_status divide_by_walls(sl_context *context, const sl_view_scene *scene,
-                                 const sl_view_segments *segments,
-                                 const sl_view_subdivision *options, sl_view_tree *out,
-                                 sl_view_found *found) {
-    (void)found;
-    (void)segments;
-    return sl_view_divide(context, scene, NULL, NULL, options, choose_wall, false, out, NULL);
-}
+DIVIDE(divide_by_walls, NULL, choose_wall, false)
 
 static const sl_view_method methods[] = {
     {.name = "av-m",

@@ -1,19 +1,30 @@
-/// Visibility sampling (Mattausch et al. 2006, section 4.1): from a point a line is followed both
-/// ways, room by room, to the walls at its ends.
-#include "sightline/view_cells.h"
-
-#include "base/base.h"
-#include "base/random.h"
-#include "base/threads.h"
+/// Visibility sampling (Mattausch et al. 2006, section 4.1), and the sets that samples give.
+///
+/// From a random point a line is followed both ways, room by room, to the walls at its ends. The
+/// maximal free segment between sees its objects; the walk is decided by exact predicates. A room
+/// is convex: the line leaves it where the boundary, counter-clockwise, comes from not left of the
+/// line to left of it.
+///
+/// A view cell sees what the segments that pass it see. Each segment sinks down the tree of view
+/// cells, cut at each split that it crosses, and adds its objects to the leaves that it reaches.
+///
+/// Each unit of samples has random numbers of its own, and units are joined in order. So the result
+/// is the same for any number of threads. Cost: O(rooms on the line) a sample; O(leaves passed x
+/// objects) a segment for the sets.
 #include "geometry/orient.h"
+#include "sightline/support.h"
+#include "view_cells/tree.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
+// --- segments
+
 enum { SAMPLES_A_UNIT = 4096 };
 
-/// What one unit of samples gives.
+/// The result of one unit of samples.
 typedef struct batch {
     SL_ARRAY(sl_segment) segments;
     SL_ARRAY(uint32_t) counts; ///< of objects, by segment
@@ -62,11 +73,11 @@ static bool follow(const sl_outline *outline, uint32_t side, sl_point p, sl_poin
                    line_end *out) {
     for (uint32_t rooms = 0; rooms <= outline->room_count; rooms++) {
         const uint32_t first = side;
-        bool left = sl_orient(p, q, outline->sides[side].start) > 0;
+        bool left = sli_orient(p, q, outline->sides[side].start) > 0;
         while (true) {
             const sl_side *s = &outline->sides[side];
             const sl_point end = outline->sides[s->next].start;
-            const bool then = sl_orient(p, q, end) > 0;
+            const bool then = sli_orient(p, q, end) > 0;
             if (!left && then) break;
             left = then;
             side = s->next;
@@ -75,10 +86,10 @@ static bool follow(const sl_outline *outline, uint32_t side, sl_point p, sl_poin
         const sl_side *s = &outline->sides[side];
         if (!sl_side_is_portal(s)) {
             out->at = meet(p, q, s->start, outline->sides[s->next].start);
-            out->wall = s->beyond >= SL_SIDE_BORDER ? UINT32_MAX : s->beyond - SL_SIDE_WALL;
+            out->wall = s->neighbour >= SL_SIDE_BORDER ? UINT32_MAX : s->neighbour - SL_SIDE_WALL;
             return true;
         }
-        side = s->beyond;
+        side = s->neighbour;
     }
     return false;
 }
@@ -87,12 +98,13 @@ static bool follow(const sl_outline *outline, uint32_t side, sl_point p, sl_poin
 static sl_status pass_cells(sl_context *context, const sl_space *space, uint32_t cell, sl_point p,
                             sl_point q, batch *b) {
     for (uint32_t passed = 0; passed <= space->cell_count; passed++) {
-        const sl_exit *exit = space->exits + space->cells[cell].first_exit;
-        const sl_exit *end = exit + space->cells[cell].exit_count;
-        while (exit < end && (sl_orient(p, q, exit->right) > 0 || sl_orient(p, q, exit->left) <= 0))
-            exit++;
-        if (exit == end) return SL_OK;
-        cell = exit->cell;
+        const sl_directed_portal *portal = space->directed + space->cells[cell].first_directed;
+        const sl_directed_portal *end = portal + space->cells[cell].directed_count;
+        while (portal < end &&
+               (sli_orient(p, q, portal->right) > 0 || sli_orient(p, q, portal->left) <= 0))
+            portal++;
+        if (portal == end) return SL_OK;
+        cell = portal->cell;
         SL_TRY(SL_ARRAY_ROOM(context, &b->objects, 1));
         b->objects.items[b->objects.count++] = cell;
     }
@@ -132,7 +144,7 @@ static sl_status add_sample(sl_context *context, const sampler *s, sl_random *ra
     }
     const uint32_t side = outline->first[sl_outline_room(outline, cell, p)];
     line_end ends[2];
-    // Backwards it is the same line, told by the same two points.
+    // Backwards it is the same line, by the same two points.
     if (!follow(outline, side, q, p, &ends[0]) || !follow(outline, side, p, q, &ends[1]) ||
         (ends[0].at.x == ends[1].at.x && ends[0].at.y == ends[1].at.y)) {
         b->lost++;
@@ -152,7 +164,7 @@ static sl_status sample_unit(sl_context *context, void *job, void *state, size_t
     const sampler *s = job;
     const uint64_t first = (uint64_t)unit * SAMPLES_A_UNIT;
     const uint64_t left = s->options->samples - first;
-    // Every unit has numbers of its own, so that it does not matter which thread takes it.
+    // Every unit has random numbers of its own, so it does not matter which thread takes it.
     sl_random random = {s->options->seed};
     random.state = sl_random_next(&random) ^ (uint64_t)unit * 0xd1342543de82ef95u;
     for (uint64_t i = 0; i < left && i < SAMPLES_A_UNIT; i++)
@@ -160,8 +172,8 @@ static sl_status sample_unit(sl_context *context, void *job, void *state, size_t
     return SL_OK;
 }
 
-/// Where the middle of a segment lies: places near each other mostly have numbers near each other
-/// (Morton 1966).
+/// The place of a segment's middle on a Morton curve (Morton 1966): near places mostly have near
+/// numbers.
 static uint32_t place_of(const sl_box *box, const sl_segment *s) {
     const double x = (s->a.x / 2 + s->b.x / 2 - box->min.x) / (box->max.x - box->min.x);
     const double y = (s->a.y / 2 + s->b.y / 2 - box->min.y) / (box->max.y - box->min.y);
@@ -183,8 +195,8 @@ static int compare_placed(const void *left, const void *right) {
     return (a->number > b->number) - (a->number < b->number);
 }
 
-/// Puts segments in the order of their places, which later passes over those of one region are
-/// several times faster for: they then lie together in memory.
+/// Sorts segments by place. Those of one region then lie together in memory, which makes later
+/// passes over them several times faster.
 static sl_status sort(sl_context *context, const sl_box *box, const sl_view_segments *from,
                       sl_view_segments *out) {
     placed *order = sl_alloc_array(context, from->count, sizeof *order);
@@ -210,7 +222,7 @@ static sl_status sort(sl_context *context, const sl_box *box, const sl_view_segm
     return SL_OK;
 }
 
-/// Puts the batches one behind the other.
+/// Joins the batches in order.
 static sl_status join(sl_context *context, const batch *batches, size_t count,
                       sl_view_segments *out) {
     size_t segments = 0, objects = 0;
@@ -267,5 +279,133 @@ sl_status sl_view_sample(sl_context *context, const sl_outline *outline,
         *out = made;
     else
         sl_view_segments_destroy(context, &made);
+    return status;
+}
+
+// --- the sets of leaves, by segments
+
+/// A part of a segment on its way down the tree.
+typedef struct descent {
+    int32_t at;
+    double t0, t1;
+} descent;
+
+/// What each thread has for itself.
+typedef struct gatherer {
+    sl_view_sets sets;
+    SL_ARRAY(descent) waiting;
+} gatherer;
+
+typedef struct gathering {
+    const sl_view_tree *tree;
+    const sl_view_segments *segments;
+    uint32_t object_count;
+    pthread_mutex_t lock;
+    sl_view_sets sets; ///< joined from the threads', under the lock
+} gathering;
+
+enum { SEGMENTS_A_UNIT = 16384 };
+/// The most bytes for sets where each thread has its own.
+#define MOST_SET_BYTES (UINT64_C(1) << 30)
+
+static sl_status begin(sl_context *context, void *job, void **state) {
+    const gathering *g = job;
+    gatherer *me = sl_alloc_array(context, 1, sizeof *me);
+    if (!me) return SL_NO_MEMORY;
+    if (sli_view_sets_create(context, g->tree->cell_count, g->object_count, &me->sets) != SL_OK) {
+        sl_free(context, me);
+        return SL_NO_MEMORY;
+    }
+    *state = me;
+    return SL_OK;
+}
+
+static void end(sl_context *context, void *job, void *state) {
+    gathering *g = job;
+    gatherer *me = state;
+    pthread_mutex_lock(&g->lock);
+    if (g->sets.bits) {
+        const size_t words = g->sets.count * g->sets.words;
+        for (size_t i = 0; i < words; i++) g->sets.bits[i] |= me->sets.bits[i];
+    } else {
+        g->sets = me->sets;
+        me->sets = (sl_view_sets){0};
+    }
+    pthread_mutex_unlock(&g->lock);
+    sl_view_sets_destroy(context, &me->sets);
+    sl_free(context, me->waiting.items);
+    sl_free(context, me);
+}
+
+static sl_status wait(sl_context *context, gatherer *me, int32_t at, double t0, double t1) {
+    SL_TRY(SL_ARRAY_ROOM(context, &me->waiting, 1));
+    me->waiting.items[me->waiting.count++] = (descent){at, t0, t1};
+    return SL_OK;
+}
+
+static sl_status pass_node(sl_context *context, const gathering *g, gatherer *me, descent d,
+                           const sl_segment *s) {
+    const sl_view_node *node = &g->tree->nodes[d.at];
+    const double a = sli_view_node_side(g->tree, node, s->a),
+                 b = sli_view_node_side(g->tree, node, s->b);
+    const double from = a + d.t0 * (b - a), to = a + d.t1 * (b - a);
+    if (from < 0 && to < 0) return wait(context, me, node->below, d.t0, d.t1);
+    if (from >= 0 && to >= 0) return wait(context, me, node->above, d.t0, d.t1);
+    const double t = fmin(fmax(a / (a - b), d.t0), d.t1);
+    // A segment that ends at the split has only a point on the other side.
+    SL_TRY(from < 0 ? wait(context, me, node->below, d.t0, t)
+                    : wait(context, me, node->below, t, d.t1));
+    if (from < 0 && to == 0) return SL_OK;
+    if (to < 0 && from == 0) return SL_OK;
+    return from < 0 ? wait(context, me, node->above, t, d.t1)
+                    : wait(context, me, node->above, d.t0, t);
+}
+
+static sl_status gather_unit(sl_context *context, void *job, void *state, size_t unit) {
+    const gathering *g = job;
+    gatherer *me = state;
+    const sl_view_segments *segments = g->segments;
+    const size_t first = unit * SEGMENTS_A_UNIT;
+    for (size_t i = first; i < segments->count && i < first + SEGMENTS_A_UNIT; i++) {
+        SL_TRY(wait(context, me, g->tree->root, 0, 1));
+        while (me->waiting.count) {
+            const descent d = me->waiting.items[--me->waiting.count];
+            if (d.at >= 0) {
+                SL_TRY(pass_node(context, g, me, d, &segments->items[i]));
+                continue;
+            }
+            const uint32_t leaf = (uint32_t)~d.at;
+            if (leaf >= g->tree->cell_count) continue;
+            sl_bits *row = sli_view_set(&me->sets, leaf);
+            for (uint64_t k = segments->first[i]; k < segments->first[i + 1]; k++)
+                sl_bits_add(row, segments->objects[k]);
+        }
+    }
+    return SL_OK;
+}
+
+sl_status sl_view_sets_sample(sl_context *context, const sl_view_scene *scene,
+                              const sl_view_tree *tree, const sl_view_segments *segments,
+                              unsigned threads, sl_view_sets *out) {
+    const sl_space *space = scene->space;
+    gathering g = {.tree = tree, .segments = segments};
+    g.object_count = scene->objects == SL_VIEW_WALLS ? space->wall_count : space->cell_count;
+    const uint64_t bytes = (uint64_t)tree->cell_count * sl_bits_words(g.object_count) * 8 + 1;
+    if (!threads) threads = sl_core_count();
+    if (threads > MOST_SET_BYTES / bytes) threads = (unsigned)(MOST_SET_BYTES / bytes);
+    pthread_mutex_init(&g.lock, NULL);
+    const sl_work work = {.job = &g,
+                          .begin = begin,
+                          .unit = gather_unit,
+                          .end = end,
+                          .stage = "see",
+                          .units = "bundles of lines"};
+    const size_t units = (segments->count + (size_t)SEGMENTS_A_UNIT) / SEGMENTS_A_UNIT;
+    const sl_status status = sl_work_run(context, &work, units, threads ? threads : 1);
+    pthread_mutex_destroy(&g.lock);
+    if (status == SL_OK)
+        *out = g.sets;
+    else
+        sl_view_sets_destroy(context, &g.sets);
     return status;
 }

@@ -1,8 +1,17 @@
+/// Trees of elementary view cells: point location, neighbours, borders, and the sets of leaves.
+///
+/// A tree is a binary space partition. Each side of a leaf knows the node that made it. So leaves
+/// that share a piece of boundary are found split by split: the sides below a split and those above
+/// it are sorted along it and paired in one sweep, O(n log n):
+///
+///          above |  A  |     B     |        pairs: (A, D), (B, D), (B, E)
+///       split ---+-----+--+--------+---
+///          below |   D    |   E    |
 #include "view_cells/tree.h"
 
-#include "base/threads.h"
 #include "geometry/orient.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 void sl_view_tree_destroy(sl_context *context, sl_view_tree *tree) {
@@ -28,37 +37,34 @@ uint32_t sl_view_tree_locate(const sl_view_tree *tree, sl_point point) {
             below = (node->axis ? point.y : point.x) < node->position;
         } else {
             const sl_segment *line = &tree->lines[node->line];
-            below = sl_orient(line->a, line->b, point) < 0;
+            below = sli_orient(line->a, line->b, point) < 0;
         }
         at = below ? node->below : node->above;
     }
     return (uint32_t)~at;
 }
 
-sl_point sl_view_leaf_middle(const sl_view_tree *tree, uint32_t leaf) {
-    const uint32_t first = tree->first[leaf], end = tree->first[leaf + 1];
-    const sl_point at = tree->corners[first];
+/// The mean of some corners, from the first one: large coordinates lose nothing.
+static sl_point middle_of(const sl_point *corners, uint32_t count) {
     sl_point sum = {0, 0};
-    for (uint32_t i = first; i < end; i++) {
-        sum.x += (tree->corners[i].x - at.x) / (end - first);
-        sum.y += (tree->corners[i].y - at.y) / (end - first);
-    }
-    return (sl_point){at.x + sum.x, at.y + sum.y};
-}
-
-sl_point sl_view_cell_middle(const sl_space *space, uint32_t cell) {
-    const sl_cell *c = &space->cells[cell];
-    const sl_point *corners = space->vertices + c->first_vertex;
-    sl_point sum = {0, 0};
-    for (uint32_t i = 1; i < c->vertex_count; i++) {
-        sum.x += (corners[i].x - corners[0].x) / c->vertex_count;
-        sum.y += (corners[i].y - corners[0].y) / c->vertex_count;
+    for (uint32_t i = 1; i < count; i++) {
+        sum.x += (corners[i].x - corners[0].x) / count;
+        sum.y += (corners[i].y - corners[0].y) / count;
     }
     return (sl_point){corners[0].x + sum.x, corners[0].y + sum.y};
 }
 
-uint32_t sl_view_cell_home(const sl_space *homes, const sl_space *space, uint32_t cell) {
-    if (homes->beyond) return sl_space_locate(homes, sl_view_cell_middle(space, cell));
+sl_point sli_view_leaf_middle(const sl_view_tree *tree, uint32_t leaf) {
+    return middle_of(tree->corners + tree->first[leaf], tree->first[leaf + 1] - tree->first[leaf]);
+}
+
+sl_point sli_view_cell_middle(const sl_space *space, uint32_t cell) {
+    const sl_cell *c = &space->cells[cell];
+    return middle_of(space->vertices + c->first_vertex, c->vertex_count);
+}
+
+uint32_t sli_view_cell_home(const sl_space *homes, const sl_space *space, uint32_t cell) {
+    if (homes->neighbour) return sl_space_locate(homes, sli_view_cell_middle(space, cell));
     const sl_cell *c = &space->cells[cell];
     sl_point least = space->vertices[c->first_vertex];
     for (uint32_t i = 1; i < c->vertex_count; i++) {
@@ -68,20 +74,15 @@ uint32_t sl_view_cell_home(const sl_space *homes, const sl_space *space, uint32_
     return sl_space_locate(homes, least);
 }
 
-/// Where a point lies: below a node's split (negative), on it or above it.
-static double side_of(const sl_view_tree *tree, const sl_view_node *node, sl_point p) {
-    if (node->axis < 2) return (node->axis ? p.y : p.x) - node->position;
-    return sl_view_line_side(&tree->lines[node->line], p);
-}
-
-uint32_t sl_view_cell_leaf(const sl_view_tree *tree, const sl_space *space, uint32_t cell) {
+uint32_t sli_view_cell_leaf(const sl_view_tree *tree, const sl_space *space, uint32_t cell) {
     const sl_cell *c = &space->cells[cell];
     int32_t at = tree->root;
     while (at >= 0) {
         const sl_view_node *node = &tree->nodes[at];
         double least = 0, most = 0;
         for (uint32_t i = 0; i < c->vertex_count; i++) {
-            const double side = side_of(tree, node, space->vertices[c->first_vertex + i]);
+            const double side =
+                sli_view_node_side(tree, node, space->vertices[c->first_vertex + i]);
             least = fmin(least, side);
             most = fmax(most, side);
         }
@@ -90,31 +91,7 @@ uint32_t sl_view_cell_leaf(const sl_view_tree *tree, const sl_space *space, uint
     return (uint32_t)~at;
 }
 
-// --- what the leaves see, by segments
-
-/// A part of a segment on its way down the tree.
-typedef struct descent {
-    int32_t at;
-    double t0, t1;
-} descent;
-
-/// What one thread has.
-typedef struct gatherer {
-    sl_view_sets sets;
-    SL_ARRAY(descent) waiting;
-} gatherer;
-
-typedef struct gathering {
-    const sl_view_tree *tree;
-    const sl_view_segments *segments;
-    uint32_t object_count;
-    pthread_mutex_t lock;
-    sl_view_sets sets; ///< joined from the threads', under the lock
-} gathering;
-
-enum { SEGMENTS_A_UNIT = 16384 };
-/// The most bytes that sets take where more than one thread has its own.
-#define MOST_SET_BYTES (UINT64_C(1) << 30)
+// --- sets
 
 void sl_view_sets_destroy(sl_context *context, sl_view_sets *sets) {
     sl_free(context, sets->bits);
@@ -126,8 +103,8 @@ void sl_view_found_destroy(sl_context *context, sl_view_found *found) {
     *found = (sl_view_found){0};
 }
 
-sl_status sl_view_sets_create(sl_context *context, uint32_t count, uint32_t object_count,
-                              sl_view_sets *sets) {
+sl_status sli_view_sets_create(sl_context *context, uint32_t count, uint32_t object_count,
+                               sl_view_sets *sets) {
     const size_t words = sl_bits_words(object_count);
     if (words && count > SIZE_MAX / words) return sl_fail_memory(context);
     uint64_t *bits = sl_alloc_array(context, count * words, sizeof *bits);
@@ -136,103 +113,115 @@ sl_status sl_view_sets_create(sl_context *context, uint32_t count, uint32_t obje
     return SL_OK;
 }
 
-static sl_status begin(sl_context *context, void *job, void **state) {
-    const gathering *g = job;
-    gatherer *me = sl_alloc_array(context, 1, sizeof *me);
-    if (!me) return SL_NO_MEMORY;
-    if (sl_view_sets_create(context, g->tree->cell_count, g->object_count, &me->sets) != SL_OK) {
-        sl_free(context, me);
-        return SL_NO_MEMORY;
-    }
-    *state = me;
-    return SL_OK;
+// --- neighbours
+
+/// A side of a leaf on a split: from low to high along it.
+typedef struct side {
+    uint32_t node, leaf;
+    bool above;
+    double low, high;
+    sl_point from, to; ///< the ends there
+} side;
+
+typedef SL_ARRAY(side) sides;
+
+static int compare_sides(const void *left, const void *right) {
+    const side *a = left, *b = right;
+    if (a->node != b->node) return a->node < b->node ? -1 : 1;
+    if (a->above != b->above) return a->above ? 1 : -1;
+    if (a->low != b->low) return a->low < b->low ? -1 : 1;
+    return (a->leaf > b->leaf) - (a->leaf < b->leaf);
 }
 
-static void end(sl_context *context, void *job, void *state) {
-    gathering *g = job;
-    gatherer *me = state;
-    pthread_mutex_lock(&g->lock);
-    if (g->sets.bits) {
-        const size_t words = g->sets.count * g->sets.words;
-        for (size_t i = 0; i < words; i++) g->sets.bits[i] |= me->sets.bits[i];
-    } else {
-        g->sets = me->sets;
-        me->sets = (sl_view_sets){0};
-    }
-    pthread_mutex_unlock(&g->lock);
-    sl_view_sets_destroy(context, &me->sets);
-    sl_free(context, me->waiting.items);
-    sl_free(context, me);
+/// A coordinate that grows along a split.
+static double along(const sl_view_tree *tree, const sl_view_node *node, sl_point p) {
+    if (node->axis < 2) return node->axis ? p.x : p.y;
+    const sl_segment *l = &tree->lines[node->line];
+    return fabs(l->b.x - l->a.x) >= fabs(l->b.y - l->a.y) ? p.x : p.y;
 }
 
-static sl_status wait(sl_context *context, gatherer *me, int32_t at, double t0, double t1) {
-    SL_TRY(SL_ARRAY_ROOM(context, &me->waiting, 1));
-    me->waiting.items[me->waiting.count++] = (descent){at, t0, t1};
-    return SL_OK;
+/// A leaf is at the left of its sides, which go counter-clockwise: `grows` says that one goes where
+/// `along` grows.
+static bool is_above(const sl_view_tree *tree, const sl_view_node *node, bool grows) {
+    if (node->axis < 2) return grows == (node->axis == 1);
+    const sl_segment *l = &tree->lines[node->line];
+    return grows == (along(tree, node, l->a) < along(tree, node, l->b));
 }
 
-static sl_status pass_node(sl_context *context, const gathering *g, gatherer *me, descent d,
-                           const sl_segment *s) {
-    const sl_view_node *node = &g->tree->nodes[d.at];
-    const double a = side_of(g->tree, node, s->a), b = side_of(g->tree, node, s->b);
-    const double from = a + d.t0 * (b - a), to = a + d.t1 * (b - a);
-    if (from < 0 && to < 0) return wait(context, me, node->below, d.t0, d.t1);
-    if (from >= 0 && to >= 0) return wait(context, me, node->above, d.t0, d.t1);
-    const double t = fmin(fmax(a / (a - b), d.t0), d.t1);
-    // Up to the split and no farther it has no more than a point above.
-    SL_TRY(from < 0 ? wait(context, me, node->below, d.t0, t)
-                    : wait(context, me, node->below, t, d.t1));
-    if (from < 0 && to == 0) return SL_OK;
-    if (to < 0 && from == 0) return SL_OK;
-    return from < 0 ? wait(context, me, node->above, t, d.t1)
-                    : wait(context, me, node->above, d.t0, t);
-}
-
-static sl_status gather_unit(sl_context *context, void *job, void *state, size_t unit) {
-    const gathering *g = job;
-    gatherer *me = state;
-    const sl_view_segments *segments = g->segments;
-    const size_t first = unit * SEGMENTS_A_UNIT;
-    for (size_t i = first; i < segments->count && i < first + SEGMENTS_A_UNIT; i++) {
-        SL_TRY(wait(context, me, g->tree->root, 0, 1));
-        while (me->waiting.count) {
-            const descent d = me->waiting.items[--me->waiting.count];
-            if (d.at >= 0) {
-                SL_TRY(pass_node(context, g, me, d, &segments->items[i]));
-                continue;
-            }
-            const uint32_t leaf = (uint32_t)~d.at;
-            if (leaf >= g->tree->cell_count) continue;
-            sl_bits *row = sl_view_set(&me->sets, leaf);
-            for (uint64_t k = segments->first[i]; k < segments->first[i + 1]; k++)
-                sl_bits_add(row, segments->objects[k]);
+static sl_status gather(sl_context *context, const sl_view_tree *tree, sides *all) {
+    for (uint32_t leaf = 0; leaf < tree->leaf_count; leaf++) {
+        const uint32_t first = tree->first[leaf], end = tree->first[leaf + 1];
+        SL_TRY(SL_ARRAY_ROOM(context, all, end - first));
+        for (uint32_t i = first; i < end; i++) {
+            const uint32_t number = tree->edges[i];
+            if (number == UINT32_MAX) continue;
+            const sl_view_node *node = &tree->nodes[number];
+            const sl_point p = tree->corners[i], q = tree->corners[i + 1 < end ? i + 1 : first];
+            const double from = along(tree, node, p), to = along(tree, node, q);
+            if (from == to) continue;
+            const bool above = is_above(tree, node, from < to);
+            all->items[all->count++] = from < to ? (side){number, leaf, above, from, to, p, q}
+                                                 : (side){number, leaf, above, to, from, q, p};
         }
     }
     return SL_OK;
 }
 
-sl_status sl_view_sets_sample(sl_context *context, const sl_view_scene *scene,
-                              const sl_view_tree *tree, const sl_view_segments *segments,
-                              unsigned threads, sl_view_sets *out) {
-    const sl_space *space = scene->space;
-    gathering g = {.tree = tree, .segments = segments};
-    g.object_count = scene->objects == SL_VIEW_WALLS ? space->wall_count : space->cell_count;
-    const uint64_t bytes = (uint64_t)tree->cell_count * sl_bits_words(g.object_count) * 8 + 1;
-    if (!threads) threads = sl_core_count();
-    if (threads > MOST_SET_BYTES / bytes) threads = (unsigned)(MOST_SET_BYTES / bytes);
-    pthread_mutex_init(&g.lock, NULL);
-    const sl_work work = {.job = &g,
-                          .begin = begin,
-                          .unit = gather_unit,
-                          .end = end,
-                          .stage = "see",
-                          .units = "bundles of lines"};
-    const size_t units = (segments->count + (size_t)SEGMENTS_A_UNIT) / SEGMENTS_A_UNIT;
-    const sl_status status = sl_work_run(context, &work, units, threads ? threads : 1);
-    pthread_mutex_destroy(&g.lock);
-    if (status == SL_OK)
-        *out = g.sets;
-    else
-        sl_view_sets_destroy(context, &g.sets);
+/// Sides on either side of one split, in order along it: below[0 .. middle), then above.
+static sl_status pair_up(sl_context *context, const side *below, const side *middle,
+                         const side *end, sli_view_pairs *out) {
+    const side *above = middle;
+    while (below < middle && above < end) {
+        if (fmax(below->low, above->low) < fmin(below->high, above->high)) {
+            SL_TRY(SL_ARRAY_ROOM(context, out, 1));
+            const sl_segment shared = {below->low > above->low ? below->from : above->from,
+                                       below->high < above->high ? below->to : above->to};
+            out->items[out->count++] = (sli_view_pair){below->leaf, above->leaf, shared};
+        }
+        if (below->high <= above->high)
+            below++;
+        else
+            above++;
+    }
+    return SL_OK;
+}
+
+sl_status sli_view_neighbours(sl_context *context, const sl_view_tree *tree, sli_view_pairs *out) {
+    sides all = {0};
+    sl_status status = gather(context, tree, &all);
+    if (status == SL_OK && all.count) qsort(all.items, all.count, sizeof *all.items, compare_sides);
+    for (size_t i = 0, middle, end; i < all.count && status == SL_OK; i = end) {
+        const uint32_t node = all.items[i].node;
+        for (middle = i; middle < all.count && all.items[middle].node == node; middle++)
+            if (all.items[middle].above) break;
+        for (end = middle; end < all.count && all.items[end].node == node;) end++;
+        status = pair_up(context, all.items + i, all.items + middle, all.items + end, out);
+    }
+    sl_free(context, all.items);
     return status;
+}
+
+sl_status sl_view_borders(sl_context *context, const sl_view_tree *tree, const uint32_t *view_cells,
+                          sl_segment **borders, size_t *count) {
+    sli_view_pairs pairs = {0};
+    sl_status status = sli_view_neighbours(context, tree, &pairs);
+    sl_segment *made = NULL;
+    if (status == SL_OK) made = sl_alloc_array(context, pairs.count, sizeof *made);
+    if (status == SL_OK && !made) status = SL_NO_MEMORY;
+    size_t found = 0;
+    for (size_t i = 0; i < pairs.count && status == SL_OK; i++) {
+        const sli_view_pair *p = &pairs.items[i];
+        const uint32_t a = p->a < tree->cell_count ? view_cells[p->a] : SL_NO_VIEW_CELL;
+        const uint32_t b = p->b < tree->cell_count ? view_cells[p->b] : SL_NO_VIEW_CELL;
+        if (a != b) made[found++] = p->shared;
+    }
+    sl_free(context, pairs.items);
+    if (status != SL_OK) return status;
+    *borders = made;
+    *count = found;
+    return SL_OK;
+}
+
+void sl_view_borders_free(sl_context *context, sl_segment *borders) {
+    sl_free(context, borders);
 }

@@ -1,7 +1,12 @@
-/// The choice of occluders: those that take up the largest angles about the eye, as far as those
-/// chosen before leave anything of them to see. Nodes wait among the walls, by the largest angle
-/// that a wall inside could take up; one that is hidden when its turn comes is passed over, with
-/// all that is inside. Angles are estimates: they decide of nothing but the order.
+/// The choice of occluders: greedily, those that take up the largest angles about the eye.
+///
+/// A heap holds walls and nodes, by the angle that a wall, or the longest wall inside a node, can
+/// take up. The largest comes first. A node that is already hidden is dropped with all that is
+/// inside; else its walls and children go on the heap. A wall is chosen where it hides anything in
+/// the view cone that was free.
+///
+/// Angles are estimates in doubles: they decide only the order. What is hidden is decided exactly,
+/// by the node visibility test. Cost: O(log n) for each node and wall that leaves the heap.
 #include "walk/walk_parts.h"
 
 #include <math.h>
@@ -13,18 +18,18 @@ typedef struct candidate {
     bool is_node;
 } candidate;
 
-struct sl_chooser {
+struct sli_chooser {
     const sl_hierarchy *hierarchy;
     double *longest; ///< by node: the longest wall in it, scaled
     candidate *heap;
     uint32_t count; ///< in the heap
     double scale;   ///< brings coordinates near 1, so that no product overflows
     // Of the frame:
-    sl_walk_cone cone;
+    sli_walk_cone cone;
     sl_point eye, right, left;
 };
 
-static void find_longest(sl_chooser *c) {
+static void find_longest(sli_chooser *c) {
     const sl_hierarchy *h = c->hierarchy;
     for (uint32_t i = h->node_count; i-- > 0;) {
         for (uint32_t k = h->first_occluder[i]; k < h->first_occluder[i + 1]; k++) {
@@ -37,14 +42,14 @@ static void find_longest(sl_chooser *c) {
     }
 }
 
-sl_status sl_chooser_create(sl_context *context, const sl_hierarchy *h, sl_chooser **out) {
-    sl_chooser *c = sl_alloc_array(context, 1, sizeof *c);
+sl_status sli_chooser_create(sl_context *context, const sl_hierarchy *h, sli_chooser **out) {
+    sli_chooser *c = sl_alloc_array(context, 1, sizeof *c);
     if (!c) return SL_NO_MEMORY;
     c->hierarchy = h;
     c->heap = sl_alloc_array(context, (size_t)h->occluder_count + h->node_count, sizeof *c->heap);
     c->longest = sl_alloc_array(context, h->node_count, sizeof *c->longest);
     if (!c->heap || !c->longest) {
-        sl_chooser_destroy(context, c);
+        sli_chooser_destroy(context, c);
         return SL_NO_MEMORY;
     }
     const sl_box *b = &h->space->bounds;
@@ -54,7 +59,7 @@ sl_status sl_chooser_create(sl_context *context, const sl_hierarchy *h, sl_choos
     return SL_OK;
 }
 
-void sl_chooser_destroy(sl_context *context, sl_chooser *chooser) {
+void sli_chooser_destroy(sl_context *context, sli_chooser *chooser) {
     if (chooser) sl_free(context, chooser->heap);
     if (chooser) sl_free(context, chooser->longest);
     sl_free(context, chooser);
@@ -64,15 +69,15 @@ static double cross(sl_point a, sl_point b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// How large a wall is that reaches from p to q as seen from the eye: minus the signed square of
-/// the angle's cosine; -2 for one that is not in the cone, or edge-on.
-static double wall_size(const sl_chooser *c, sl_point p, sl_point q) {
+/// The size of a wall from p to q as seen from the eye: minus the signed square of the angle's
+/// cosine; -2 for a wall outside the cone or edge-on.
+static double wall_size(const sli_chooser *c, sl_point p, sl_point q) {
     if (cross(p, q) < 0) {
         const sl_point turned = p;
         p = q;
         q = turned;
     }
-    if (c->cone.kind == SL_CONE_WEDGE) {
+    if (c->cone.kind == SLI_CONE_WEDGE) {
         if (cross(c->right, p) < 0) p = c->right;
         if (cross(q, c->left) < 0) q = c->left;
     }
@@ -83,9 +88,9 @@ static double wall_size(const sl_chooser *c, sl_point p, sl_point q) {
     return size >= -1 ? size : -1;
 }
 
-/// How large a wall inside a node can be: one of the longest's length, at the node's distance and
+/// An upper estimate for walls inside a node: as long as the longest, at the node's distance, and
 /// square to the line of sight.
-static double node_size(const sl_chooser *c, uint32_t node) {
+static double node_size(const sli_chooser *c, uint32_t node) {
     const sl_box *b = &c->hierarchy->nodes[node].box;
     const double x = fmax(fmax(b->min.x - c->eye.x, c->eye.x - b->max.x), 0) * c->scale;
     const double y = fmax(fmax(b->min.y - c->eye.y, c->eye.y - b->max.y), 0) * c->scale;
@@ -94,7 +99,7 @@ static double node_size(const sl_chooser *c, uint32_t node) {
     return length > 0 ? -cosine * fabs(cosine) : -2;
 }
 
-static void push(sl_chooser *c, candidate what) {
+static void push(sli_chooser *c, candidate what) {
     if (!(what.size >= -1)) return;
     uint32_t i = c->count++;
     for (; i && c->heap[(i - 1) / 2].size < what.size; i = (i - 1) / 2)
@@ -102,7 +107,7 @@ static void push(sl_chooser *c, candidate what) {
     c->heap[i] = what;
 }
 
-static candidate pop(sl_chooser *c) {
+static candidate pop(sli_chooser *c) {
     const candidate top = c->heap[0], last = c->heap[--c->count];
     uint32_t i = 0;
     for (uint32_t child; (child = 2 * i + 1) < c->count; i = child) {
@@ -114,21 +119,21 @@ static candidate pop(sl_chooser *c) {
     return top;
 }
 
-static sl_point toward(const sl_chooser *c, sl_point at) {
+static sl_point toward(const sli_chooser *c, sl_point at) {
     return (sl_point){(at.x - c->eye.x) * c->scale, (at.y - c->eye.y) * c->scale};
 }
 
-static void push_node(sl_chooser *c, uint32_t node) {
+static void push_node(sli_chooser *c, uint32_t node) {
     push(c, (candidate){node_size(c, node), node, true});
 }
 
-/// Has what is in a node wait, unless it is hidden.
-static void open_node(sl_chooser *c, sl_walk *w, uint32_t node) {
+/// Puts the contents of a node on the heap, unless it is hidden.
+static void open_node(sli_chooser *c, sl_walk *w, uint32_t node) {
     const sl_hierarchy *h = c->hierarchy;
     const sl_walk_node *n = &h->nodes[node];
-    sl_walk_look look;
-    sl_walk_look_at(w, node, &look);
-    if (!look.sector_count || sl_walk_test(w, &look) == SL_NODE_INVISIBLE) return;
+    sli_node_view seen;
+    sli_walk_view_node(w, node, &seen);
+    if (!seen.wedge_count || sli_walk_test(w, &seen) == SL_NODE_INVISIBLE) return;
     for (uint32_t i = h->first_occluder[node]; i < h->first_occluder[node + 1]; i++) {
         const sl_segment *s = &h->occluders[i];
         push(c, (candidate){wall_size(c, toward(c, s->a), toward(c, s->b)), i, false});
@@ -138,30 +143,30 @@ static void open_node(sl_chooser *c, sl_walk *w, uint32_t node) {
     push_node(c, (uint32_t)n->child[1]);
 }
 
-/// Tries a wall: it is chosen where it hides anything within the cone that was free.
-static sl_status try_wall(sl_context *context, const sl_segment *wall, const sl_walk_cone *cone,
-                          const sl_node_test_calls *test, sl_occlusion *occlusion) {
-    sl_shadows *s = &occlusion->shadows;
-    const int side = sl_orient(wall->a, wall->b, s->pivot.eye);
+/// Chooses a wall if it hides anything within the cone that was free.
+static sl_status try_wall(sl_context *context, const sl_segment *wall, const sli_walk_cone *cone,
+                          const sli_node_test_calls *test, sli_occlusion *occlusion) {
+    sli_shadows *s = &occlusion->shadows;
+    const int side = sli_orient(wall->a, wall->b, s->pivot.eye);
     if (!side) return SL_OK;
-    const sl_occluder o =
-        side > 0 ? (sl_occluder){wall->a, wall->b} : (sl_occluder){wall->b, wall->a};
+    const sli_occluder o =
+        side > 0 ? (sli_occluder){wall->a, wall->b} : (sli_occluder){wall->b, wall->a};
     SL_TRY(SL_ARRAY_ROOM(context, &s->occluders, 1));
     const uint32_t number = (uint32_t)s->occluders.count++;
     s->occluders.items[number] = o;
-    const sl_sector whole = {sl_ray_to(o.a), sl_ray_to(o.b)};
-    sl_sector parts[2];
+    const sli_wedge whole = {sli_ray_to(o.a), sli_ray_to(o.b)};
+    sli_wedge parts[2];
     bool cut = false, added = false;
-    const unsigned count = sl_sector_in_cone(&s->pivot, cone, &whole, parts, &cut);
+    const unsigned count = sli_wedge_in_cone(&s->pivot, cone, &whole, parts, &cut);
     for (unsigned i = 0; i < count; i++)
         SL_TRY(test->add(context, occlusion, number, &parts[i], &added));
     if (!added) s->occluders.count--;
     return SL_OK;
 }
 
-sl_status sl_chooser_choose(sl_context *context, sl_walk *w, const sl_view *view) {
-    sl_chooser *c = w->chooser;
-    const sl_shadows *s = &w->occlusion->shadows;
+sl_status sli_chooser_choose(sl_context *context, sl_walk *w, const sl_view *view) {
+    sli_chooser *c = w->chooser;
+    const sli_shadows *s = &w->occlusion->shadows;
     c->count = 0;
     c->cone = w->cone;
     c->eye = view->eye;

@@ -1,112 +1,126 @@
+/// Shapes about an eye. All is decided by exact predicates on input coordinates.
+///
+///           left border
+///              .  +--o       A convex shape seen from outside lies in one open wedge of less
+///           .     |  |       than 180 degrees, between its two tangent corners. For a box these
+///        eye .    o--+       follow from where the eye is: left of, over or right of it, and
+///              .  right      below, beside or above it (nine cases).
+///
+/// An occluder that spans a wedge cuts the wedge into a part before it and a part behind it. A
+/// shape may reach into both. It reaches into a part if that part of the shape has directions
+/// within the wedge: a corner or a crossing left of the right border, and one right of the left
+/// border.
+///
+/// Cost: O(1) predicates for a box, O(corners) for a polygon.
 #include "walk/shape.h"
 
 #include "geometry/crossing.h"
 
-/// The corners of a box that is seen from outside, rightmost and leftmost, by where the eye is:
-/// left of it, over or under it, right of it; and likewise below, beside, above.
+/// The rightmost and the leftmost corner of a box seen from outside, by where the eye is: left of,
+/// in the column of, right of the box; then below, in the row of, above it.
 static const uint8_t box_ends[3][3][2] = {
     {{1, 3}, {0, 3}, {0, 2}},
     {{1, 0}, {0, 0}, {3, 2}},
     {{2, 0}, {2, 1}, {3, 1}},
 };
 
-static bool box_sector(const sl_shape *shape, sl_point eye, sl_sector *sector) {
+static bool box_wedge(const sli_shape *shape, sl_point eye, sli_wedge *wedge) {
     const sl_box *b = &shape->box;
     const int column = eye.x < b->min.x ? 0 : eye.x > b->max.x ? 2 : 1;
     const int row = eye.y < b->min.y ? 0 : eye.y > b->max.y ? 2 : 1;
     if (column == 1 && row == 1) return false;
     const uint8_t *ends = box_ends[column][row];
-    *sector = (sl_sector){sl_ray_to(shape->corners[ends[0]]), sl_ray_to(shape->corners[ends[1]])};
+    *wedge = (sli_wedge){sli_ray_to(shape->corners[ends[0]]), sli_ray_to(shape->corners[ends[1]])};
     return true;
 }
 
-uint32_t sl_shape_sectors(sl_pivot *pivot, const sl_shape *shape, sl_sector *sectors) {
-    if (shape->is_box && box_sector(shape, pivot->eye, sectors)) return 1;
+uint32_t sli_shape_wedges(sli_pivot *pivot, const sli_shape *shape, sli_wedge *wedges) {
+    if (shape->is_box && box_wedge(shape, pivot->eye, wedges)) return 1;
     uint32_t inner = 0, facing = 0;
-    sl_sector outer = {.right = sl_ray_to(shape->corners[0])};
+    sli_wedge outer = {.right = sli_ray_to(shape->corners[0])};
     const sl_point *corners = shape->corners;
     const uint32_t last = shape->count - 1;
     pivot->tests += shape->count;
-    bool before = sl_orient(corners[last], corners[0], pivot->eye) < 0;
+    bool before = sli_orient(corners[last], corners[0], pivot->eye) < 0;
     for (uint32_t k = 0; k <= last; k++) {
         const sl_point from = corners[k], to = corners[k < last ? k + 1 : 0];
-        const int side = sl_orient(from, to, pivot->eye);
-        if (side > 0) sectors[inner++] = (sl_sector){sl_ray_to(from), sl_ray_to(to)};
+        const int side = sli_orient(from, to, pivot->eye);
+        if (side > 0) wedges[inner++] = (sli_wedge){sli_ray_to(from), sli_ray_to(to)};
         // The sides that face the eye are one chain, which runs from the left to the right.
-        if (side < 0 && !before) outer.left = sl_ray_to(from);
-        if (side >= 0 && before) outer.right = sl_ray_to(from);
+        if (side < 0 && !before) outer.left = sli_ray_to(from);
+        if (side >= 0 && before) outer.right = sli_ray_to(from);
         before = side < 0;
         facing += before;
     }
     if (!facing) return inner;
-    sectors[0] = outer;
+    wedges[0] = outer;
     return 1;
 }
 
-sl_walk_cone sl_walk_cone_of(sl_pivot *pivot, const sl_view *view) {
-    sl_walk_cone cone = {.kind = SL_CONE_ALL};
+sli_walk_cone sli_walk_cone_of(sli_pivot *pivot, const sl_view *view) {
+    sli_walk_cone cone = {.kind = SLI_CONE_ALL};
     if (view->full) return cone;
-    cone.right = sl_ray_to(view->right);
-    cone.left = sl_ray_to(view->left);
-    const int turn = sl_ray_turn(pivot, cone.right, cone.left);
+    cone.right = sli_ray_to(view->right);
+    cone.left = sli_ray_to(view->left);
+    const int turn = sli_ray_turn(pivot, cone.right, cone.left);
     if (turn > 0)
-        cone.kind = SL_CONE_WEDGE;
+        cone.kind = SLI_CONE_WEDGE;
     else if (turn < 0)
-        cone.kind = SL_CONE_WIDE;
+        cone.kind = SLI_CONE_WIDE;
     else
-        cone.kind = sl_ray_same_way(pivot, cone.right, cone.left) ? SL_CONE_NONE : SL_CONE_HALF;
+        cone.kind = sli_ray_same_way(pivot, cone.right, cone.left) ? SLI_CONE_NONE : SLI_CONE_HALF;
     return cone;
 }
 
-/// A cone of more than half a turn: what is left of its right border, and of the rest what is right
-/// of its left one.
-static unsigned in_wide_cone(sl_pivot *pivot, const sl_walk_cone *cone, const sl_sector *sector,
-                             sl_sector parts[2], bool *cut) {
+/// Clips to a cone of more than half a turn: the part left of its right border, and of the rest the
+/// part right of its left border.
+static unsigned in_wide_cone(sli_pivot *pivot, const sli_walk_cone *cone, const sli_wedge *wedge,
+                             sli_wedge parts[2], bool *cut) {
     unsigned count = 0;
-    const sl_split split = sl_sector_split(pivot, sector, cone->right);
-    if (sl_has_left(split)) parts[count++] = sl_left_part(sector, split, cone->right);
-    if (!sl_has_right(split)) return count;
-    const sl_sector right = sl_right_part(sector, split, cone->right);
-    const sl_split rest = sl_sector_split(pivot, &right, cone->left);
-    if (sl_has_right(rest)) parts[count++] = sl_right_part(&right, rest, cone->left);
-    *cut = *cut || sl_has_left(rest);
+    const sli_split split = sli_wedge_split(pivot, wedge, cone->right);
+    if (sli_has_left(split)) parts[count++] = sli_left_part(wedge, split, cone->right);
+    if (!sli_has_right(split)) return count;
+    const sli_wedge right = sli_right_part(wedge, split, cone->right);
+    const sli_split rest = sli_wedge_split(pivot, &right, cone->left);
+    if (sli_has_right(rest)) parts[count++] = sli_right_part(&right, rest, cone->left);
+    *cut = *cut || sli_has_left(rest);
     return count;
 }
 
-unsigned sl_sector_in_cone(sl_pivot *pivot, const sl_walk_cone *cone, const sl_sector *sector,
-                           sl_sector parts[2], bool *cut) {
-    if (cone->kind == SL_CONE_WIDE) return in_wide_cone(pivot, cone, sector, parts, cut);
-    parts[0] = *sector;
-    if (cone->kind == SL_CONE_ALL) return 1;
-    if (cone->kind == SL_CONE_NONE) return *cut = true, 0;
-    const sl_split first = sl_sector_split(pivot, sector, cone->right);
-    *cut = *cut || sl_has_right(first);
-    if (!sl_has_left(first)) return 0;
-    if (sl_has_right(first)) parts[0] = sl_left_part(sector, first, cone->right);
-    if (cone->kind == SL_CONE_HALF) return 1;
-    const sl_split second = sl_sector_split(pivot, &parts[0], cone->left);
-    *cut = *cut || sl_has_left(second);
-    if (sl_has_left(second) && sl_has_right(second))
-        parts[0] = sl_right_part(&parts[0], second, cone->left);
-    return sl_has_right(second);
+unsigned sli_wedge_in_cone(sli_pivot *pivot, const sli_walk_cone *cone, const sli_wedge *wedge,
+                           sli_wedge parts[2], bool *cut) {
+    if (cone->kind == SLI_CONE_WIDE) return in_wide_cone(pivot, cone, wedge, parts, cut);
+    parts[0] = *wedge;
+    if (cone->kind == SLI_CONE_ALL) return 1;
+    if (cone->kind == SLI_CONE_NONE) return *cut = true, 0;
+    const sli_split first = sli_wedge_split(pivot, wedge, cone->right);
+    *cut = *cut || sli_has_right(first);
+    if (!sli_has_left(first)) return 0;
+    if (sli_has_right(first)) parts[0] = sli_left_part(wedge, first, cone->right);
+    if (cone->kind == SLI_CONE_HALF) return 1;
+    const sli_split second = sli_wedge_split(pivot, &parts[0], cone->left);
+    *cut = *cut || sli_has_left(second);
+    if (sli_has_left(second) && sli_has_right(second))
+        parts[0] = sli_right_part(&parts[0], second, cone->left);
+    return sli_has_right(second);
 }
 
 // --- about an occluder
 
-/// Whether a box that the eye is not behind has directions within a sector. Its borders lie within
-/// half a turn of the sector's.
-static bool box_meets(sl_pivot *pivot, const sl_box *box, const sl_sector *sector) {
+/// Whether a box has directions within a wedge. The borders of both lie within half a turn.
+static bool box_meets(sli_pivot *pivot, const sl_box *box, const sli_wedge *wedge) {
     const sl_point corners[4] = {
         box->min, {box->max.x, box->min.y}, box->max, {box->min.x, box->max.y}};
-    sl_sector own;
-    if (!box_sector(&(sl_shape){corners, 4, *box, true}, pivot->eye, &own)) return true;
-    return sl_ray_turn(pivot, sector->right, own.left) > 0 &&
-           sl_ray_turn(pivot, sector->left, own.right) < 0;
+    sli_wedge own;
+    if (!box_wedge(&(sli_shape){corners, 4, *box, true}, pivot->eye, &own)) return true;
+    return sli_ray_turn(pivot, wedge->right, own.left) > 0 &&
+           sli_ray_turn(pivot, wedge->left, own.right) < 0;
 }
 
-/// The line of an axial occluder cuts a box into two, of the same coordinates.
-static unsigned box_about(sl_pivot *pivot, const sl_box *box, const sl_sector *sector,
-                          const sl_occluder *o) {
+/// sli_shape_about for a box and an axial occluder. The occluder's line cuts the box into two boxes
+/// with the same coordinates.
+static unsigned box_about(sli_pivot *pivot, const sl_box *box, const sli_wedge *wedge,
+                          const sli_occluder *o) {
     sl_box lower = *box, upper = *box;
     bool eye_below;
     if (o->a.x == o->b.x) {
@@ -116,95 +130,96 @@ static unsigned box_about(sl_pivot *pivot, const sl_box *box, const sl_sector *s
         lower.max.y = upper.min.y = o->a.y;
         eye_below = pivot->eye.y < o->a.y;
     }
-    const unsigned before = box_meets(pivot, eye_below ? &lower : &upper, sector) ? SL_BEFORE : 0;
-    const unsigned behind = box_meets(pivot, eye_below ? &upper : &lower, sector) ? SL_BEHIND : 0;
+    const unsigned before = box_meets(pivot, eye_below ? &lower : &upper, wedge) ? SLI_BEFORE : 0;
+    const unsigned behind = box_meets(pivot, eye_below ? &upper : &lower, wedge) ? SLI_BEHIND : 0;
     return before | behind;
 }
 
-/// Of the parts of a shape before an occluder's line and behind it, those of which a place is known
-/// left of the sector's right border, and right of its left border. Those of both have directions
-/// within the sector: from where they are, they lie within half a turn of it.
+/// The parts of a shape, before and behind an occluder's line, that have a point left of the
+/// wedge's right border, and those that have one right of its left border. A part in both has
+/// directions within the wedge, because it lies within half a turn of it.
 typedef struct reach {
     unsigned from_right, from_left;
 } reach;
 
-enum { BOTH = SL_BEFORE | SL_BEHIND };
-
 /// On which sides of an occluder's line a point is.
-static unsigned sides_of(const sl_occluder *o, sl_point p) {
-    const int side = sl_orient(o->a, o->b, p);
-    return side > 0 ? SL_BEFORE : side < 0 ? SL_BEHIND : BOTH;
+static unsigned sides_of(const sli_occluder *o, sl_point p) {
+    const int side = sli_orient(o->a, o->b, p);
+    return side > 0 ? SLI_BEFORE : side < 0 ? SLI_BEHIND : SLI_BOTH_SIDES;
 }
 
-static void reach_corner(sl_pivot *pivot, const sl_sector *sector, sl_point p, unsigned sides,
+static void reach_corner(sli_pivot *pivot, const sli_wedge *wedge, sl_point p, unsigned sides,
                          reach *r) {
-    const sl_ray ray = sl_ray_to(p);
-    if (sides & ~r->from_right && sl_ray_turn(pivot, sector->right, ray) > 0)
+    const sli_ray ray = sli_ray_to(p);
+    if (sides & ~r->from_right && sli_ray_turn(pivot, wedge->right, ray) > 0)
         r->from_right |= sides;
-    if (sides & ~r->from_left && sl_ray_turn(pivot, sector->left, ray) < 0) r->from_left |= sides;
+    if (sides & ~r->from_left && sli_ray_turn(pivot, wedge->left, ray) < 0) r->from_left |= sides;
 }
 
 /// The turn from a ray to where a side of the shape crosses the occluder's line.
-static int turn_to_crossing(sl_pivot *pivot, sl_ray ray, sl_segment side, const sl_occluder *o) {
+static int turn_to_crossing(sli_pivot *pivot, sli_ray ray, sl_segment side, const sli_occluder *o) {
     pivot->tests++;
-    const int turn = sl_crossing_side(pivot->eye, ray.point, side, (sl_segment){o->a, o->b});
+    const int turn = sli_crossing_side(pivot->eye, ray.point, side, (sl_segment){o->a, o->b});
     return ray.away ? -turn : turn;
 }
 
-/// Both parts reach to where the line cuts the shape's sides.
-static void reach_crossings(sl_pivot *pivot, const sl_shape *shape, const sl_sector *sector,
-                            const sl_occluder *o, reach *r) {
+/// Where the line crosses a side of the shape, both parts have a point.
+static void reach_crossings(sli_pivot *pivot, const sli_shape *shape, const sli_wedge *wedge,
+                            const sli_occluder *o, reach *r) {
     sl_point p = shape->corners[shape->count - 1];
     unsigned before = sides_of(o, p);
     for (uint32_t k = 0; k < shape->count; k++) {
         const sl_segment side = {p, shape->corners[k]};
         const unsigned sides = sides_of(o, side.b);
         if (!(before & sides)) {
-            if (r->from_right != BOTH && turn_to_crossing(pivot, sector->right, side, o) > 0)
-                r->from_right = BOTH;
-            if (r->from_left != BOTH && turn_to_crossing(pivot, sector->left, side, o) < 0)
-                r->from_left = BOTH;
+            if (r->from_right != SLI_BOTH_SIDES &&
+                turn_to_crossing(pivot, wedge->right, side, o) > 0)
+                r->from_right = SLI_BOTH_SIDES;
+            if (r->from_left != SLI_BOTH_SIDES && turn_to_crossing(pivot, wedge->left, side, o) < 0)
+                r->from_left = SLI_BOTH_SIDES;
         }
         p = side.b;
         before = sides;
     }
 }
 
-static bool holds_eye(sl_pivot *pivot, const sl_shape *shape) {
+static bool holds_eye(sli_pivot *pivot, const sli_shape *shape) {
     const sl_point eye = pivot->eye;
     const sl_box *b = &shape->box;
     if (eye.x < b->min.x || eye.x > b->max.x || eye.y < b->min.y || eye.y > b->max.y) return false;
     for (uint32_t k = 0; k < shape->count && !shape->is_box; k++) {
         pivot->tests++;
-        if (sl_orient(shape->corners[k], shape->corners[k + 1 < shape->count ? k + 1 : 0], eye) < 0)
+        if (sli_orient(shape->corners[k], shape->corners[k + 1 < shape->count ? k + 1 : 0], eye) <
+            0)
             return false;
     }
     return true;
 }
 
-unsigned sl_shape_about(sl_pivot *pivot, const sl_shape *shape, const sl_sector *sector,
-                        const sl_occluder *occluder) {
+unsigned sli_shape_about(sli_pivot *pivot, const sli_shape *shape, const sli_wedge *wedge,
+                         const sli_occluder *occluder) {
     bool before = false, behind = false;
     for (uint32_t k = 0; k < shape->count && !(before && behind); k++) {
         const unsigned sides = sides_of(occluder, shape->corners[k]);
         pivot->tests++;
-        before = before || sides == SL_BEFORE;
-        behind = behind || sides == SL_BEHIND;
+        before = before || sides == SLI_BEFORE;
+        behind = behind || sides == SLI_BEHIND;
     }
-    if (!behind) return SL_BEFORE;
-    if (!before) return SL_BEHIND;
+    if (!behind) return SLI_BEFORE;
+    if (!before) return SLI_BEHIND;
     if (shape->is_box && (occluder->a.x == occluder->b.x || occluder->a.y == occluder->b.y))
-        return box_about(pivot, &shape->box, sector, occluder);
+        return box_about(pivot, &shape->box, wedge, occluder);
     reach r = {0};
-    if (holds_eye(pivot, shape)) r.from_right = r.from_left = SL_BEFORE;
+    if (holds_eye(pivot, shape)) r.from_right = r.from_left = SLI_BEFORE;
     for (uint32_t k = 0; k < shape->count; k++)
-        reach_corner(pivot, sector, shape->corners[k], sides_of(occluder, shape->corners[k]), &r);
-    if ((r.from_right & r.from_left) != BOTH) reach_crossings(pivot, shape, sector, occluder, &r);
+        reach_corner(pivot, wedge, shape->corners[k], sides_of(occluder, shape->corners[k]), &r);
+    if ((r.from_right & r.from_left) != SLI_BOTH_SIDES)
+        reach_crossings(pivot, shape, wedge, occluder, &r);
     return r.from_right & r.from_left;
 }
 
-bool sl_occluder_is_behind(const sl_occluder *one, const sl_occluder *other) {
-    if (sl_orient(other->a, other->b, one->a) <= 0 && sl_orient(other->a, other->b, one->b) <= 0)
+bool sli_occluder_is_behind(const sli_occluder *one, const sli_occluder *other) {
+    if (sli_orient(other->a, other->b, one->a) <= 0 && sli_orient(other->a, other->b, one->b) <= 0)
         return true;
-    return sl_orient(one->a, one->b, other->a) >= 0 && sl_orient(one->a, one->b, other->b) >= 0;
+    return sli_orient(one->a, one->b, other->a) >= 0 && sli_orient(one->a, one->b, other->b) >= 0;
 }

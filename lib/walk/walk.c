@@ -1,8 +1,182 @@
-/// A walk, frame by frame: down the hierarchy, each node through the tests from the cheapest on.
+/// Walking with coherence: hierarchical visibility culling, frame by frame (Bittner & Havran 2002,
+/// Exploiting Coherence in Hierarchical Visibility Algorithms).
+///
+/// Each frame chooses a few large occluders (occluders.c) and merges their shadow frusta
+/// (occlusion.c). Then the hierarchy is traversed front to back. A node is outside the view cone,
+/// invisible, visible, or partially visible; only a partially visible node is opened.
+///
+///   classical    tests every node that it reaches, from the root down
+///   updating     skips the test of nodes that the last frame opened; states are pulled up
+///   propagation  takes a node's state from the neighbours that its ropes lead to
+///   skipping     takes what was drawn in the last frame as visible, by chance
+///   bounded      tests nothing before the eye has moved far enough to change its state (bounds.c)
+///
+/// Invariant: no method draws less than what is seen. Where methods differ, walk.h says how.
+/// Cost of a frame: one node visibility test for each node reached and not skipped; a test takes
+/// about the logarithm of the number of occluders.
 #include "sightline/walk.h"
 #include "walk/walk_parts.h"
 
 #include <string.h>
+
+// --- the methods
+
+static const sl_node_test tests[] = {
+    {"tree", "shadows merged into a binary tree of directions", &sli_occlusion_tree},
+    {"intervals", "shadows merged into an array of angular intervals", &sli_occlusion_intervals},
+};
+
+const sl_node_test *sl_node_tests(size_t *count) {
+    *count = sizeof tests / sizeof *tests;
+    return tests;
+}
+
+static const sl_walk_method methods[] = {
+    {"classical", "A: every node from the root down, in every frame", SL_WALK_AS_CLASSICAL, 0},
+    {"updating", "B: hierarchy updating: nodes that the last frame opened are not tested",
+     SL_WALK_AS_CLASSICAL, SLI_WALK_UPDATES},
+    {"propagation", "C: B, and states are taken from neighbours, by chance --p-vp",
+     SL_WALK_AS_CLASSICAL, SLI_WALK_UPDATES | SLI_WALK_PROPAGATES},
+    {"skipping", "D: C, and what was drawn is drawn again, by chance --p-skip", SL_WALK_MAYBE_MORE,
+     SLI_WALK_UPDATES | SLI_WALK_PROPAGATES | SLI_WALK_SKIPS},
+    {"adaptive", "D with both chances set by each node's history", SL_WALK_MAYBE_MORE,
+     SLI_WALK_UPDATES | SLI_WALK_PROPAGATES | SLI_WALK_SKIPS | SLI_WALK_ADAPTS},
+    {"predicting", "B, and leaves are taken to stay partially visible, by their history",
+     SL_WALK_MAYBE_MORE, SLI_WALK_UPDATES | SLI_WALK_PREDICTS},
+    {"bounded", "B, and nothing is tested before the eye has moved far enough to change its state",
+     SL_WALK_MAYBE_EITHER, SLI_WALK_UPDATES | SLI_WALK_BOUNDS},
+    {"combined", "bounded and predicting", SL_WALK_MAYBE_EITHER,
+     SLI_WALK_UPDATES | SLI_WALK_BOUNDS | SLI_WALK_PREDICTS},
+};
+
+const sl_walk_method *sl_walk_methods(size_t *count) {
+    *count = sizeof methods / sizeof *methods;
+    return methods;
+}
+
+sl_walk_options sl_walk_options_default(void) {
+    return (sl_walk_options){.test = tests, .occluders = 16, .p_vp = 0.5, .p_skip = 0.5, .seed = 1};
+}
+
+// --- the node visibility test
+
+void sli_walk_view_node(sl_walk *w, uint32_t node, sli_node_view *seen) {
+    const sl_walk_node *n = &w->hierarchy->nodes[node];
+    const sl_space *space = w->hierarchy->space;
+    sli_pivot *pivot = &w->occlusion->shadows.pivot;
+    const sl_box *b = &n->box;
+    seen->cut = false;
+    seen->shape = (sli_shape){seen->box_corners, 4, *b, true};
+    if (n->cell != SL_NO_CELL && !w->hierarchy->tiles) {
+        const sl_cell *c = &space->cells[n->cell];
+        seen->shape = (sli_shape){space->vertices + c->first_vertex, c->vertex_count, *b, false};
+    } else {
+        seen->box_corners[0] = b->min;
+        seen->box_corners[1] = (sl_point){b->max.x, b->min.y};
+        seen->box_corners[2] = b->max;
+        seen->box_corners[3] = (sl_point){b->min.x, b->max.y};
+    }
+    seen->wedge_count = sli_shape_wedges(pivot, &seen->shape, w->wedges);
+    if (w->cone.kind == SLI_CONE_ALL) return;
+    // From the last wedge on: the parts of one take room behind those still to come.
+    uint32_t kept = 2 * w->hierarchy->corner_most;
+    for (uint32_t i = seen->wedge_count; i-- > 0;) {
+        sli_wedge parts[2];
+        const unsigned count = sli_wedge_in_cone(pivot, &w->cone, &w->wedges[i], parts, &seen->cut);
+        for (unsigned k = count; k-- > 0;) w->wedges[--kept] = parts[k];
+    }
+    seen->wedge_count = 2 * w->hierarchy->corner_most - kept;
+    memmove(w->wedges, w->wedges + kept, seen->wedge_count * sizeof *w->wedges);
+}
+
+sl_node_state sli_walk_test(sl_walk *w, const sli_node_view *seen) {
+    unsigned bits = seen->cut ? SLI_BEHIND : 0;
+    for (uint32_t i = 0; i < seen->wedge_count && bits != SLI_BOTH_SIDES; i++)
+        w->test->query(w->occlusion, &seen->shape, &w->wedges[i], &bits);
+    return bits == SLI_BOTH_SIDES ? SL_NODE_PARTIAL
+           : bits == SLI_BEFORE   ? SL_NODE_VISIBLE
+                                  : SL_NODE_INVISIBLE;
+}
+
+// --- visibility propagation: what reaches a node passes the faces that look at the eye, and before
+// them the nodes there. The visible part of the plane is star-shaped about the eye: where it has
+// nothing before those faces it has nothing behind.
+
+/// Whether the open spans of two boxes along an axis overlap.
+static bool overlap(const sl_box *a, const sl_box *b, int axis) {
+    return axis ? a->min.y < b->max.y && b->min.y < a->max.y
+                : a->min.x < b->max.x && b->min.x < a->max.x;
+}
+
+/// Whether all of a node's part at a face is in one state, invisible or visible. Searches the nodes
+/// at the face, down to where this frame's visits ended.
+static bool uniform(const sl_walk *w, int32_t id, const sl_box *box, int face,
+                    sl_node_state *state) {
+    const sl_hierarchy *h = w->hierarchy;
+    const sl_walk_node *n = &h->nodes[id];
+    const sli_walk_memory *m = &w->nodes[id];
+    if (m->state != SL_NODE_PARTIAL) {
+        *state = (sl_node_state)m->state;
+        return true;
+    }
+    if (n->cell != SL_NO_CELL) return false;
+    const int axis = face / 2;
+    if (n->axis == axis) return uniform(w, n->child[face % 2 == 0], box, face, state);
+    bool first = true;
+    for (int side = 0; side < 2; side++) {
+        sl_node_state part;
+        if (!overlap(&h->nodes[n->child[side]].box, box, !axis)) continue;
+        if (!uniform(w, n->child[side], box, face, &part) || (!first && part != *state))
+            return false;
+        *state = part;
+        first = false;
+    }
+    return true;
+}
+
+/// The state of what lies before a face: that of the rope's node, or of the node above it where
+/// this frame's visits ended.
+static bool face_state(const sl_walk *w, const sl_walk_node *n, int face, sl_node_state *state) {
+    int32_t at = n->rope[face];
+    if (at < 0) return false;
+    while (at > 0 && w->nodes[at].frame != w->frame) at = w->hierarchy->nodes[at].parent;
+    return uniform(w, at, &n->box, face, state);
+}
+
+/// Whether no chosen occluder can touch a box, by their bounding boxes.
+static bool is_free(const sl_walk *w, const sl_box *b) {
+    const sli_shadows *s = &w->occlusion->shadows;
+    for (size_t i = 0; i < s->occluders.count; i++) {
+        const sl_point p = s->occluders.items[i].a, q = s->occluders.items[i].b;
+        const bool apart = (p.x < b->min.x && q.x < b->min.x) ||
+                           (p.x > b->max.x && q.x > b->max.x) ||
+                           (p.y < b->min.y && q.y < b->min.y) || (p.y > b->max.y && q.y > b->max.y);
+        if (!apart) return false;
+    }
+    return true;
+}
+
+/// The state of a node by its neighbours'; false where they do not decide it. The nodes before it,
+/// front to back, must have been visited in this frame.
+static bool propagate(const sl_walk *w, uint32_t node, sl_node_state *state) {
+    const sl_walk_node *n = &w->hierarchy->nodes[node];
+    const sl_point eye = w->occlusion->shadows.pivot.eye;
+    const bool faces_eye[4] = {eye.x<n->box.min.x, eye.x> n->box.max.x,
+                               eye.y<n->box.min.y, eye.y> n->box.max.y};
+    bool first = true;
+    for (int face = 0; face < 4; face++) {
+        sl_node_state before;
+        if (!faces_eye[face]) continue;
+        if (!face_state(w, n, face, &before) || (!first && before != *state)) return false;
+        *state = before;
+        first = false;
+    }
+    if (first) return false;
+    // A node drawn because it is cheap may be hidden. It says nothing about what is behind it.
+    return *state == SL_NODE_INVISIBLE || (!w->options.cheap && is_free(w, &n->box));
+}
+
+// --- making a walk
 
 static sl_status check_options(sl_context *context, const sl_walk_options *options) {
     if (!options->test) return sl_fail(context, SL_BAD_ARGUMENT, "no node visibility test given");
@@ -30,12 +204,12 @@ static sl_status fill_walk(sl_context *context, sl_walk *w) {
     const sl_hierarchy *h = w->hierarchy;
     w->nodes = sl_alloc_array(context, h->node_count, sizeof *w->nodes);
     w->stack = sl_alloc_array(context, 2 * (size_t)h->node_count, sizeof *w->stack);
-    w->sectors = sl_alloc_array(context, 2 * (size_t)h->corner_most, sizeof *w->sectors);
+    w->wedges = sl_alloc_array(context, 2 * (size_t)h->corner_most, sizeof *w->wedges);
     w->cells = sl_alloc_array(context, sl_bits_words(h->space->cell_count), sizeof *w->cells);
     w->wall_counts = sl_alloc_array(context, h->node_count, sizeof *w->wall_counts);
-    if (!w->nodes || !w->stack || !w->sectors || !w->cells || !w->wall_counts) return SL_NO_MEMORY;
+    if (!w->nodes || !w->stack || !w->wedges || !w->cells || !w->wall_counts) return SL_NO_MEMORY;
     count_walls(w);
-    SL_TRY(sl_chooser_create(context, h, &w->chooser));
+    SL_TRY(sli_chooser_create(context, h, &w->chooser));
     return w->test->create(context, &w->occlusion);
 }
 
@@ -65,10 +239,10 @@ void sl_walk_destroy(sl_context *context, sl_walk *walk) {
         sl_free(context, walk->occlusion->shadows.shadows.items);
         walk->test->destroy(context, walk->occlusion);
     }
-    sl_chooser_destroy(context, walk->chooser);
+    sli_chooser_destroy(context, walk->chooser);
     sl_free(context, walk->nodes);
     sl_free(context, walk->stack);
-    sl_free(context, walk->sectors);
+    sl_free(context, walk->wedges);
     sl_free(context, walk->cells);
     sl_free(context, walk->wall_counts);
     sl_free(context, walk);
@@ -89,90 +263,90 @@ static bool by_chance(sl_walk *w, double chance) {
 }
 
 /// Whether propagation takes the node's state from its neighbours. It is tried on nodes that were
-/// not partially visible in the last frame, always where it last succeeded, else by chance.
+/// not partially visible in the last frame: always where it last succeeded, else by chance.
 static bool propagates(sl_walk *w, uint32_t id, bool known, sl_walk_frame *frame) {
-    sl_walk_memory *m = &w->nodes[id];
+    sli_walk_memory *m = &w->nodes[id];
     const bool again = known && m->spread;
     m->spread = false;
-    if (!does(w, SL_WALK_PROPAGATES) || !w->hierarchy->tiles ||
+    if (!does(w, SLI_WALK_PROPAGATES) || !w->hierarchy->tiles ||
         (known && m->state == SL_NODE_PARTIAL))
         return false;
-    const double chance = does(w, SL_WALK_ADAPTS) ? sl_walk_share(&m->spreads) : w->options.p_vp;
+    const double chance = does(w, SLI_WALK_ADAPTS) ? sli_walk_share(&m->spreads) : w->options.p_vp;
     if (!again && !by_chance(w, chance)) return false;
     sl_node_state state;
-    m->spread = sl_walk_propagate(w, id, &state);
+    m->spread = propagate(w, id, &state);
     frame->propagations++;
     frame->propagated += m->spread;
-    sl_walk_note(&m->spreads, m->spread);
+    sli_walk_note(&m->spreads, m->spread);
     if (m->spread) m->state = (uint8_t)state;
     return m->spread;
 }
 
-/// Whether a node that the last frame ended at and drew is drawn again without a test. Where the
-/// history says so, the chance is 0 for one that changes every second time.
+/// Whether a node that the last frame ended at and drew is drawn again without a test. With chances
+/// by history, the chance is 0 for a node that changes every second time.
 static bool is_skipped(sl_walk *w, uint32_t id, bool known) {
-    const sl_walk_memory *m = &w->nodes[id];
+    const sli_walk_memory *m = &w->nodes[id];
     const bool leaf = w->hierarchy->nodes[id].cell != SL_NO_CELL;
     if (!known || m->state == SL_NODE_INVISIBLE || (m->state == SL_NODE_PARTIAL && !leaf))
         return false;
-    const double steady = 2 * sl_walk_share(&m->kept) - 1;
-    if (does(w, SL_WALK_PREDICTS)) return m->state == SL_NODE_PARTIAL && by_chance(w, steady);
-    return does(w, SL_WALK_SKIPS) &&
-           by_chance(w, does(w, SL_WALK_ADAPTS) ? steady : w->options.p_skip);
+    const double steady = 2 * sli_walk_share(&m->kept) - 1;
+    if (does(w, SLI_WALK_PREDICTS)) return m->state == SL_NODE_PARTIAL && by_chance(w, steady);
+    return does(w, SLI_WALK_SKIPS) &&
+           by_chance(w, does(w, SLI_WALK_ADAPTS) ? steady : w->options.p_skip);
 }
 
-/// Whether the eye is still near enough to where something was found out about a node.
-static bool still_holds(const sl_walk *w, const sl_walk_memory *m) {
-    return m->bound > 0 && sl_walk_moved(m->from, w->view.eye) < m->bound;
+/// Whether the eye is still near enough for what is known of a node.
+static bool still_holds(const sl_walk *w, const sli_walk_memory *m) {
+    return m->bound > 0 && sli_walk_moved(m->from, w->view.eye) < m->bound;
 }
 
 /// Whether a node in the cone is known to be in view, and in which state.
-static bool stays_seen(const sl_walk *w, const sl_walk_look *l, sl_walk_memory *m) {
-    if (!still_holds(w, m) || m->known == SL_WALK_HIDDEN ||
-        (m->known == SL_WALK_WITNESS && !sl_view_holds(&w->view, m->witness)))
+static bool stays_seen(const sl_walk *w, const sli_node_view *seen, sli_walk_memory *m) {
+    if (!still_holds(w, m) || m->known == SLI_WALK_HIDDEN ||
+        (m->known == SLI_WALK_WITNESS && !sl_view_holds(&w->view, m->witness)))
         return false;
-    m->state = m->known == SL_WALK_IN_VIEW && !l->cut ? SL_NODE_VISIBLE : SL_NODE_PARTIAL;
+    m->state = m->known == SLI_WALK_IN_VIEW && !seen->cut ? SL_NODE_VISIBLE : SL_NODE_PARTIAL;
     return true;
 }
 
-static double find_bound(sl_walk *w, const sl_walk_look *l, bool leaf, sl_walk_memory *m) {
-    m->known = SL_WALK_HIDDEN;
-    if (m->state == SL_NODE_INVISIBLE) return sl_walk_hidden_bound(w, l);
-    m->known = SL_WALK_IN_VIEW;
-    const double whole = m->state == SL_NODE_VISIBLE ? sl_walk_whole_bound(w, l) : 0;
+static double find_bound(sl_walk *w, const sli_node_view *seen, bool leaf, sli_walk_memory *m) {
+    m->known = SLI_WALK_HIDDEN;
+    if (m->state == SL_NODE_INVISIBLE) return sli_walk_hidden_bound(w, seen);
+    m->known = SLI_WALK_IN_VIEW;
+    const double whole = m->state == SL_NODE_VISIBLE ? sli_walk_whole_bound(w, seen) : 0;
     if (whole > 0 || !leaf) return whole;
-    m->known = SL_WALK_WITNESS;
-    return sl_walk_witness_bound(w, l, &m->witness);
+    m->known = SLI_WALK_WITNESS;
+    return sli_walk_witness_bound(w, seen, &m->witness);
 }
 
-/// Finds out how far the eye may move with a tested node in its state. Where that came to nothing
-/// it is not tried again with the next tests, each time for twice as many.
-static void note_bound(sl_walk *w, uint32_t id, const sl_walk_look *l) {
+/// Finds how far the eye may move with a tested node in its state. Where no bound is found, the
+/// next tests search for none, each time for twice as many.
+static void note_bound(sl_walk *w, uint32_t id, const sli_node_view *seen) {
     enum { LONGEST = 15 };
-    sl_walk_memory *m = &w->nodes[id];
+    sli_walk_memory *m = &w->nodes[id];
     m->bound = 0;
     if (m->waiting) {
         m->waiting--;
         return;
     }
     m->from = w->view.eye;
-    m->bound = find_bound(w, l, w->hierarchy->nodes[id].cell != SL_NO_CELL, m);
+    m->bound = find_bound(w, seen, w->hierarchy->nodes[id].cell != SL_NO_CELL, m);
     m->wait = m->bound > 0 ? 0 : m->wait < LONGEST ? (uint8_t)(2 * m->wait + 1) : m->wait;
     m->waiting = m->wait;
 }
 
 static void decide(sl_walk *w, uint32_t id, bool known, sl_walk_frame *frame) {
-    sl_walk_memory *m = &w->nodes[id];
-    if (m->known == SL_WALK_HIDDEN && still_holds(w, m)) {
+    sli_walk_memory *m = &w->nodes[id];
+    if (m->known == SLI_WALK_HIDDEN && still_holds(w, m)) {
         m->state = SL_NODE_INVISIBLE;
         m->reason = SL_WALK_BOUNDED;
         frame->bounded++;
         return;
     }
-    sl_walk_look l;
-    sl_walk_look_at(w, id, &l);
+    sli_node_view seen;
+    sli_walk_view_node(w, id, &seen);
     frame->frustum_tests++;
-    if (!l.sector_count) {
+    if (!seen.wedge_count) {
         m->state = SL_NODE_INVISIBLE;
         m->reason = SL_WALK_FRUSTUM;
         m->spread = false;
@@ -182,20 +356,20 @@ static void decide(sl_walk *w, uint32_t id, bool known, sl_walk_frame *frame) {
         frame->cheap++;
     } else if (propagates(w, id, known, frame)) {
         m->reason = SL_WALK_PROPAGATED;
-    } else if (stays_seen(w, &l, m)) {
+    } else if (stays_seen(w, &seen, m)) {
         m->reason = SL_WALK_BOUNDED;
         frame->bounded++;
     } else if (is_skipped(w, id, known)) {
-        if (!does(w, SL_WALK_PREDICTS)) m->state = SL_NODE_VISIBLE;
+        if (!does(w, SLI_WALK_PREDICTS)) m->state = SL_NODE_VISIBLE;
         m->reason = SL_WALK_SKIPPED;
         frame->skipped++;
     } else {
         const bool drawn = known && m->state != SL_NODE_INVISIBLE;
-        m->state = (uint8_t)sl_walk_test(w, &l);
+        m->state = (uint8_t)sli_walk_test(w, &seen);
         m->reason = SL_WALK_TESTED;
         frame->tests++;
-        if (does(w, SL_WALK_BOUNDS)) note_bound(w, id, &l);
-        if (drawn) sl_walk_note(&m->kept, m->state != SL_NODE_INVISIBLE);
+        if (does(w, SLI_WALK_BOUNDS)) note_bound(w, id, &seen);
+        if (drawn) sli_walk_note(&m->kept, m->state != SL_NODE_INVISIBLE);
     }
 }
 
@@ -207,7 +381,7 @@ static void draw_node(sl_walk *w, const sl_walk_node *n, sl_walk_frame *frame) {
     frame->cells += n->leaf_count;
 }
 
-static void count_state(const sl_walk_memory *m, sl_walk_frame *frame) {
+static void count_state(const sli_walk_memory *m, sl_walk_frame *frame) {
     if (m->state == SL_NODE_VISIBLE) frame->visible++;
     if (m->state == SL_NODE_PARTIAL) frame->partial++;
     if (m->state != SL_NODE_INVISIBLE) return;
@@ -217,11 +391,11 @@ static void count_state(const sl_walk_memory *m, sl_walk_frame *frame) {
         frame->invisible++;
 }
 
-/// Whether a node is not tested because the last frame opened it. One with a child that is drawn
-/// without a test is: what is hidden there is known by its parent alone.
+/// Whether a node is not tested because the last frame opened it. A node with a child that is drawn
+/// without a test is tested: only the parent's test can find that child hidden.
 static bool stays_open(const sl_walk *w, uint32_t id, bool known) {
     const sl_walk_node *n = &w->hierarchy->nodes[id];
-    if (!does(w, SL_WALK_UPDATES) || !known || n->cell != SL_NO_CELL ||
+    if (!does(w, SLI_WALK_UPDATES) || !known || n->cell != SL_NO_CELL ||
         w->nodes[id].state != SL_NODE_PARTIAL)
         return false;
     return !is_cheap(w, (uint32_t)n->child[0]) && !is_cheap(w, (uint32_t)n->child[1]);
@@ -230,8 +404,8 @@ static bool stays_open(const sl_walk *w, uint32_t id, bool known) {
 /// A node whose children are all visible, or all invisible, is so too.
 static void pull_up(sl_walk *w, uint32_t id) {
     const sl_walk_node *n = &w->hierarchy->nodes[id];
-    const sl_walk_memory *a = &w->nodes[n->child[0]], *b = &w->nodes[n->child[1]];
-    sl_walk_memory *m = &w->nodes[id];
+    const sli_walk_memory *a = &w->nodes[n->child[0]], *b = &w->nodes[n->child[1]];
+    sli_walk_memory *m = &w->nodes[id];
     if (a->state != b->state || a->state == SL_NODE_PARTIAL) return;
     m->state = a->state;
     m->reason = a->reason == b->reason ? a->reason : (uint8_t)SL_WALK_PULLED_UP;
@@ -245,7 +419,7 @@ static int nearer_child(const sl_walk *w, const sl_walk_node *n) {
 /// Visits a node; true where its children are to be visited.
 static bool visit(sl_walk *w, uint32_t id, sl_walk_frame *frame) {
     const sl_walk_node *n = &w->hierarchy->nodes[id];
-    sl_walk_memory *m = &w->nodes[id];
+    sli_walk_memory *m = &w->nodes[id];
     const bool known = w->frame > 1 && m->frame == w->frame - 1;
     frame->visited++;
     if (stays_open(w, id, known)) {
@@ -266,7 +440,7 @@ static bool visit(sl_walk *w, uint32_t id, sl_walk_frame *frame) {
 
 enum { COMING_UP = 1 }; // a number on the stack is twice a node's, with this on the way back up
 
-/// Front to back; a frame's opened nodes are seen again on the way up.
+/// Visits nodes front to back, and opened nodes again on the way up.
 static void go_down(sl_walk *w, sl_walk_frame *frame) {
     const sl_hierarchy *h = w->hierarchy;
     size_t waiting = 0;
@@ -276,7 +450,7 @@ static void go_down(sl_walk *w, sl_walk_frame *frame) {
         const uint32_t id = (uint32_t)(top / 2);
         const sl_walk_node *n = &h->nodes[id];
         if (top & COMING_UP) {
-            if (does(w, SL_WALK_UPDATES)) pull_up(w, id);
+            if (does(w, SLI_WALK_UPDATES)) pull_up(w, id);
             count_state(&w->nodes[id], frame);
         } else if (visit(w, id, frame)) {
             const int near = nearer_child(w, n);
@@ -288,14 +462,14 @@ static void go_down(sl_walk *w, sl_walk_frame *frame) {
 }
 
 static sl_status choose(sl_context *context, sl_walk *w, const sl_view *view) {
-    sl_shadows *shadows = &w->occlusion->shadows;
-    w->moved = w->frame ? sl_walk_moved(w->view.eye, view->eye) : 0;
+    sli_shadows *shadows = &w->occlusion->shadows;
+    w->moved = w->frame ? sli_walk_moved(w->view.eye, view->eye) : 0;
     w->view = *view;
-    shadows->pivot = (sl_pivot){.eye = view->eye};
+    shadows->pivot = (sli_pivot){.eye = view->eye};
     shadows->occluders.count = shadows->shadows.count = 0;
-    w->cone = sl_walk_cone_of(&shadows->pivot, view);
+    w->cone = sli_walk_cone_of(&shadows->pivot, view);
     SL_TRY(w->test->clear(context, w->occlusion, view->eye));
-    return sl_chooser_choose(context, w, view);
+    return sli_chooser_choose(context, w, view);
 }
 
 sl_status sl_walk_step(sl_context *context, sl_walk *w, const sl_view *view, sl_walk_frame *out) {

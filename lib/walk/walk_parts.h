@@ -1,111 +1,102 @@
-/// What the parts of a walk share.
+/// What the parts of a walk share: what is remembered of each node, the walk, and the node
+/// visibility test.
 #ifndef SL_WALK_PARTS_H
 #define SL_WALK_PARTS_H
 
-#include "base/bits.h"
-#include "base/random.h"
+#include "sightline/support.h"
 #include "sightline/walk.h"
-#include "walk/occlusion.h"
+#include "walk/shape.h"
 
-/// What a method does beside the classical way, or-ed.
+/// What a method does besides the classical way: bits.
 enum {
-    SL_WALK_UPDATES = 1,    ///< skips the nodes that the last frame opened, and pulls states up
-    SL_WALK_PROPAGATES = 2, ///< takes a node's state from its neighbours where they allow it
-    SL_WALK_SKIPS = 4,      ///< takes what was drawn as visible, by chance, without a test
-    SL_WALK_ADAPTS = 8,     ///< and sets the chances by each node's history
-    SL_WALK_PREDICTS = 16,  ///< takes leaves to stay partially visible, by their history
-    SL_WALK_BOUNDS = 32,    ///< tests nothing before the eye has moved far enough to matter
+    SLI_WALK_UPDATES = 1,    ///< does not test nodes that the last frame opened; pulls states up
+    SLI_WALK_PROPAGATES = 2, ///< takes a node's state from its neighbours where they decide it
+    SLI_WALK_SKIPS = 4,      ///< takes what was drawn as visible without a test, by chance
+    SLI_WALK_ADAPTS = 8,     ///< sets the chances by each node's history
+    SLI_WALK_PREDICTS = 16,  ///< assumes that leaves stay partially visible, by their history
+    SLI_WALK_BOUNDS = 32,    ///< tests no node before the eye has moved far enough to matter
 };
 
-/// A share of successes, as far back as the last few tries.
-typedef struct sl_walk_history {
+/// A share of successes over the last few tries.
+typedef struct sli_walk_history {
     uint8_t tries, hits;
-} sl_walk_history;
+} sli_walk_history;
 
-/// What holds of a node while the eye is near enough.
-typedef enum sl_walk_known {
-    SL_WALK_HIDDEN,  ///< all of it is hidden
-    SL_WALK_IN_VIEW, ///< the occluders then chosen hide nothing of it
-    SL_WALK_WITNESS, ///< they do not hide a point inside it
-} sl_walk_known;
+/// What holds for a node while the eye stays near enough.
+typedef enum sli_walk_known {
+    SLI_WALK_HIDDEN,  ///< all of it is hidden
+    SLI_WALK_IN_VIEW, ///< the occluders then chosen hide nothing of it
+    SLI_WALK_WITNESS, ///< they do not hide a point inside it
+} sli_walk_known;
 
 /// What is known of a node since it was last visited.
-typedef struct sl_walk_memory {
+typedef struct sli_walk_memory {
     uint64_t frame; ///< when that was; 0 for never
     uint8_t state, reason;
-    bool spread;             ///< propagation decided of it when it was last visited
-    sl_walk_history kept;    ///< of what was drawn, how often a test found it to be drawn still
-    sl_walk_history spreads; ///< how often propagation succeeded
-    uint8_t known;           ///< an sl_walk_known, of the eye here:
+    bool spread;              ///< propagation decided its state when it was last visited
+    sli_walk_history kept;    ///< of the times it was drawn: a test found that it still is
+    sli_walk_history spreads; ///< how often propagation succeeded
+    uint8_t known;            ///< an sli_walk_known, that holds for eyes nearer to ...
     sl_point from;
-    double bound;          ///< and wherever is less far off than this
-    uint8_t wait, waiting; ///< tests without a search for a bound: in all, and to come
-    sl_point witness;      ///< where it is known to be seen in part
-} sl_walk_memory;
+    double bound;          ///< ... this point than this
+    uint8_t wait, waiting; ///< tests without a search for a bound: in all, and still to come
+    sl_point witness;      ///< a point of it that is seen
+} sli_walk_memory;
 
-typedef struct sl_chooser sl_chooser;
+typedef struct sli_chooser sli_chooser;
 
 struct sl_walk {
     const sl_hierarchy *hierarchy;
     const sl_walk_method *method;
     sl_walk_options options;
-    const sl_node_test_calls *test;
-    sl_occlusion *occlusion;
-    sl_chooser *chooser;
+    const sli_node_test_calls *test;
+    sli_occlusion *occlusion;
+    sli_chooser *chooser;
     sl_view view; ///< the frame's
     double moved; ///< no less than how far the eye moved to this frame
-    sl_walk_cone cone;
-    sl_walk_memory *nodes;
+    sli_walk_cone cone;
+    sli_walk_memory *nodes;
     uint64_t *stack;
-    sl_sector *sectors; ///< those of the node at hand, within the cone
+    sli_wedge *wedges; ///< of the node in question, within the cone
     sl_bits *cells;
-    uint32_t *wall_counts; ///< by node, those of its cells added up
+    uint32_t *wall_counts; ///< by node: the sum over its cells
     uint64_t frame;
     sl_random random;
 };
 
-/// A node as it is seen: its sectors within the cone are the walk's, until the next look.
-typedef struct sl_walk_look {
+/// A node as the eye sees it. Its wedges within the cone are in sl_walk.wedges until the next call.
+typedef struct sli_node_view {
     sl_point box_corners[4];
-    sl_shape shape;
-    uint32_t sector_count; ///< 0: outside the cone
-    bool cut;              ///< part of it is outside the cone
-} sl_walk_look;
+    sli_shape shape;
+    uint32_t wedge_count; ///< 0: outside the cone
+    bool cut;             ///< part of it is outside the cone
+} sli_node_view;
 
-void sl_walk_look_at(sl_walk *walk, uint32_t node, sl_walk_look *look);
+/// Fills *seen.
+void sli_walk_view_node(sl_walk *walk, uint32_t node, sli_node_view *seen);
 /// The node visibility test.
-sl_node_state sl_walk_test(sl_walk *walk, const sl_walk_look *look);
+sl_node_state sli_walk_test(sl_walk *walk, const sli_node_view *seen);
 
-/// Chooses the occluders of a frame: the largest that are seen (occluders.c).
-sl_status sl_chooser_create(sl_context *context, const sl_hierarchy *hierarchy, sl_chooser **out);
-void sl_chooser_destroy(sl_context *context, sl_chooser *chooser);
+/// Chooses the occluders of a frame: the largest that are visible (occluders.c).
+sl_status sli_chooser_create(sl_context *context, const sl_hierarchy *hierarchy, sli_chooser **out);
+void sli_chooser_destroy(sl_context *context, sli_chooser *chooser);
 /// Fills the walk's occlusion, which must be clear.
-sl_status sl_chooser_choose(sl_context *context, sl_walk *walk, const sl_view *view);
+sl_status sli_chooser_choose(sl_context *context, sl_walk *walk, const sl_view *view);
 
-/// How far the eye may move, any way, with an invisible node still being so; 0 where that is not
-/// known (bounds.c).
-double sl_walk_hidden_bound(sl_walk *walk, const sl_walk_look *look);
-/// Likewise with nothing of a node being hidden by the occluders of this frame (bounds_seen.c).
-double sl_walk_whole_bound(sl_walk *walk, const sl_walk_look *look);
-/// Likewise with a point inside a node, and in the view's cone, being hidden by none of them: the
-/// best of a few points.
-double sl_walk_witness_bound(sl_walk *walk, const sl_walk_look *look, sl_point *witness);
+/// How far the eye may move, in any direction, before an invisible node can be seen; 0 where that
+/// is not known (bounds.c).
+double sli_walk_hidden_bound(sl_walk *walk, const sli_node_view *seen);
+/// How far before the occluders of this frame can hide something of a node.
+double sli_walk_whole_bound(sl_walk *walk, const sli_node_view *seen);
+/// How far before they can hide a point inside a node and in the view cone: the best of a few
+/// points, *witness.
+double sli_walk_witness_bound(sl_walk *walk, const sli_node_view *seen, sl_point *witness);
 
-#define SL_WALK_SLACK 0x1p-50 ///< more than the rounding of a few operations, relative
-/// A vector's length, to a few roundings.
-double sl_walk_length(double x, double y);
-/// No more than the distance from a point to the line through two others; 0 where rounding leaves
-/// nothing to be sure of.
-double sl_walk_clearance(sl_point p, sl_point a, sl_point b);
-/// No less than how far an eye has moved.
-double sl_walk_moved(sl_point from, sl_point to);
+/// No less than the distance that an eye has moved.
+double sli_walk_moved(sl_point from, sl_point to);
 
-/// The state of a node by its neighbours': false where they do not tell. Nodes before it, front to
-/// back, must have been visited in this frame (propagation.c).
-bool sl_walk_propagate(const sl_walk *walk, uint32_t node, sl_node_state *state);
-
-/// Counts a try. Half of what was before is forgotten whenever there is much of it.
-static inline void sl_walk_note(sl_walk_history *history, bool hit) {
+/// Counts a try. Forgets half of the past whenever there are many.
+static inline void sli_walk_note(sli_walk_history *history, bool hit) {
     enum { MUCH = 16 };
     if (history->tries == MUCH) {
         history->tries /= 2;
@@ -115,8 +106,8 @@ static inline void sl_walk_note(sl_walk_history *history, bool hit) {
     history->hits += hit;
 }
 
-/// The estimated share of successes: a half where nothing is known (Laplace's rule).
-static inline double sl_walk_share(const sl_walk_history *history) {
+/// The estimated share of successes; a half where nothing is known (Laplace's rule).
+static inline double sli_walk_share(const sli_walk_history *history) {
     return (history->hits + 1.) / (history->tries + 2.);
 }
 

@@ -3,8 +3,8 @@
 // CSV: machine, sets of doors kept of a pair at most, what was measured, its value, and times the
 // value of the line that it is held against (the one before, where the last column names none).
 #include "bake/slv.h"
-#include "base/random.h"
 #include "sightline/sightline.h"
+#include "sightline/support.h"
 
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "doors_plan.h"
@@ -71,7 +71,7 @@ static void bake(bench *b) {
     see(b, &b->baked.space, &plan, &b->baked.visibility);
     FILE *stream = open_memstream(&b->bytes, &b->size);
     if (!stream) exit(1);
-    check(b, sl_slv_print(b->context, &b->baked, stream));
+    check(b, sli_slv_print(b->context, &b->baked, stream));
     if (fclose(stream) != 0 || sl_runtime_open(b->bytes, b->size, &b->runtime) != SL_RUNTIME_OK)
         exit(1);
     b->scratch = calloc(sl_runtime_scratch_count(&b->runtime), sizeof *b->scratch);
@@ -121,11 +121,11 @@ static uint64_t look_in_range(bench *b, size_t i) {
 }
 
 /// What an eye of the library needs of a change: the space with walls in the doors.
-static uint64_t make_passage(bench *b, size_t i) {
-    const sl_passage passage = {.shut = b->shut_flags};
+static uint64_t make_filtered(bench *b, size_t i) {
+    const sl_filtered_space filtered = {.shut = b->shut_flags};
     sl_space walled;
     (void)i;
-    check(b, sl_passage_make(b->context, &b->baked.space, &passage, NULL, &walled));
+    check(b, sl_filtered_space_make(b->context, &b->baked.space, &filtered, NULL, &walled));
     const uint64_t portals = walled.portal_count;
     sl_space_destroy(b->context, &walled);
     return portals;
@@ -133,11 +133,11 @@ static uint64_t make_passage(bench *b, size_t i) {
 
 /// What a change costs who has no sets of doors.
 static uint64_t bake_afresh(bench *b, size_t i) {
-    const sl_passage passage = {.shut = b->shut_flags};
+    const sl_filtered_space filtered = {.shut = b->shut_flags};
     sl_space walled;
     sl_visibility seen = {0};
     (void)i;
-    check(b, sl_passage_make(b->context, &b->baked.space, &passage, NULL, &walled));
+    check(b, sl_filtered_space_make(b->context, &b->baked.space, &filtered, NULL, &walled));
     see(b, &walled, NULL, &seen);
     const uint64_t pairs = seen.account.pairs;
     sl_visibility_destroy(b->context, &seen);
@@ -159,7 +159,7 @@ static const struct {
     {"runtime: an eye past doors, ns", look_past, LOOKS, 4},
     {"runtime: an eye past doors within 15, ns", look_in_range, LOOKS, 4},
     {"a fresh bake by the sweep, ns", bake_afresh, 4, 7},
-    {"a door changes, the library's eye: space with walls, ns", make_passage, 64, 7},
+    {"a door changes, the library's eye: space with walls, ns", make_filtered, 64, 7},
     {"a door changes, sets and runtime: a byte, ns", change_door, ASKED, 7},
 };
 

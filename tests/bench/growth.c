@@ -10,6 +10,8 @@
 // of what they find, longest_s one machine's part of it: the longest shard and the joining. Their
 // set must be that of one run.
 #include "sightline/draw.h"
+#include "sightline/generate.h"
+#include "sightline/io.h"
 #include "sightline/sightline.h"
 
 #include <math.h>
@@ -132,6 +134,7 @@ static void write_map(const growth *g, uint64_t walls, const char *path) {
 static void make_space(sl_context *context, const char *path, sl_baked *baked, double *walls,
                        double *of) {
     double time = time_of(CLOCK_PROCESS_CPUTIME_ID);
+    must(context, sl_io_use(context));
     must(context, sl_map_read(context, path, NULL, &baked->map));
     of[READ_SECONDS] = lap(&time);
     *walls = (double)baked->map.wall_count;
@@ -162,26 +165,26 @@ static void see_in_shards(sl_context *context, const sl_space *space, const sl_v
     sl_see_options options = sl_see_options_default();
     options.threads = 1;
     options.inside_only = true;
-    sl_findings all = {0};
+    sl_partial all = {0};
     sl_visibility seen;
     double longest = 0, sum = 0, time = time_of(CLOCK_PROCESS_CPUTIME_ID);
     options.shard_count = SHARDS;
     for (options.shard = 1; options.shard <= SHARDS; options.shard++) {
-        sl_findings part = {0};
-        must(context, sweep()->look(context, space, &options, &part));
+        sl_partial part = {0};
+        must(context, sweep()->run(context, space, &options, &part));
         const double took = lap(&time);
         sum += took;
         if (took > longest) longest = took;
-        if (sl_findings_begun(&all))
-            must(context, sl_findings_join(context, &all, &part));
+        if (sl_partial_begun(&all))
+            must(context, sl_partial_merge(context, &all, &part));
         else {
             all = part;
-            part = (sl_findings){0};
+            part = (sl_partial){0};
         }
-        sl_findings_destroy(context, &part);
+        sl_partial_destroy(context, &part);
         of[LONGEST_SECONDS] += lap(&time);
     }
-    must(context, sweep()->settle(context, space, &options, &all, &seen));
+    must(context, sweep()->finish(context, space, &options, &all, &seen));
     of[LONGEST_SECONDS] += lap(&time);
     of[SHARDS_SECONDS] = sum + of[LONGEST_SECONDS];
     of[LONGEST_SECONDS] += longest;
@@ -190,7 +193,7 @@ static void see_in_shards(sl_context *context, const sl_space *space, const sl_v
         memcmp(seen.pvs.bytes, whole->pvs.bytes, bytes) != 0)
         must(NULL, SL_BAD_INPUT);
     sl_visibility_destroy(context, &seen);
-    sl_findings_destroy(context, &all);
+    sl_partial_destroy(context, &all);
 }
 
 static void measure(const char *map_path, const char *path, double *walls, double *of) {

@@ -4,11 +4,11 @@
 //   much
 //                                    of that it shows which DEEPEST reflections show, images
 //                                    rounded
-#include "base/random.h"
 #include "sightline/draw.h"
-#include "sightline/import.h"
+#include "sightline/io.h"
 #include "sightline/mirrored.h"
 #include "sightline/sightline.h"
+#include "sightline/support.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -47,6 +47,7 @@ static double now(void) {
 
 static void read_scene(scene *s, const char *path) {
     const sl_import_options options = sl_import_options_default();
+    must(s->context, sl_io_use(s->context));
     must(s->context, sl_map_read(s->context, path, &options, &s->map));
     must(s->context, sl_map_clean(s->context, &s->map, NULL, NULL));
     must(s->context, sl_subdivision_for(&s->map)->subdivide(s->context, &s->map, NULL, &s->space));

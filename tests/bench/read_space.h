@@ -2,7 +2,7 @@
 #ifndef SL_BENCH_READ_SPACE_H
 #define SL_BENCH_READ_SPACE_H
 
-#include "sightline/import.h"
+#include "sightline/io.h"
 #include "sightline/space.h"
 
 #include <stdlib.h>
@@ -18,7 +18,8 @@ static inline sl_status bench_read_space(sl_context *context, const char *path, 
     options.has_slice = which && !is_wad;
     options.slice = options.has_slice ? strtod(which, NULL) : 0;
     sl_map map = {0};
-    sl_status status = sl_map_read(context, path, &options, &map);
+    sl_status status = sl_io_use(context);
+    if (status == SL_OK) status = sl_map_read(context, path, &options, &map);
     if (status == SL_OK) status = sl_map_clean(context, &map, NULL, NULL);
     if (status == SL_OK) status = sl_subdivision_for(&map)->subdivide(context, &map, NULL, space);
     sl_map_destroy(context, &map);

@@ -5,8 +5,8 @@
 //                          a query, of them for the location, points of a region, portals passed
 #include "read_space.h"
 
-#include "base/random.h"
 #include "sightline/sightline.h"
+#include "sightline/support.h"
 
 #include <stdio.h>
 #include <stdlib.h>

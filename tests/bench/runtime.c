@@ -5,11 +5,13 @@
 //   bench_runtime FILE.slv      a baked file, an older program's too
 // CSV: machine, map, cells, what was asked, bytes that it reads, nanoseconds, times the first's.
 #include "bake/slv.h"
-#include "base/random.h"
+#include "sightline/generate.h"
 #include "sightline/sightline.h"
+#include "sightline/support.h"
 
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime/sightline_runtime.h"
+#include "sightline/io.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -62,7 +64,7 @@ static char *bake(sl_context *context, const char *name, const char *slice, size
         fail(sl_context_message(context));
     char *bytes = NULL;
     FILE *stream = open_memstream(&bytes, size);
-    if (!stream || sl_slv_print(context, &baked, stream) != SL_OK || fclose(stream) != 0)
+    if (!stream || sli_slv_print(context, &baked, stream) != SL_OK || fclose(stream) != 0)
         fail("out of memory");
     sl_baked_destroy(context, &baked);
     return bytes;
@@ -276,7 +278,7 @@ int main(int argc, char **argv) {
     if (argc < 2) fail("usage: bench_runtime MAP [Z] | KIND:N | FILE.slv");
     sl_context *context = sl_context_create(NULL);
     bench *b = room(sizeof *b);
-    if (!context) fail("out of memory");
+    if (!context || sl_io_use(context) != SL_OK) fail("out of memory");
     const size_t length = strlen(argv[1]);
     char *bytes = length > 4 && strcmp(argv[1] + length - 4, ".slv") == 0
                       ? read_baked(argv[1], &b->size)

@@ -3,6 +3,7 @@
 //   bench_sectors MAP     CSV: machine, map, cells, portals, sectors, cells on cycles (over all
 //                         sectors), candidates, relations, stabbing tests, times the tests of
 //                         "prune", seconds, times those of "prune"
+#include "sightline/io.h"
 #include "sightline/sightline.h"
 
 #include <stdio.h>
@@ -66,7 +67,7 @@ int main(int argc, char **argv) {
     sl_context *context = sl_context_create(NULL);
     struct utsname machine;
     sl_space space;
-    if (!context || uname(&machine) != 0) fail("no memory");
+    if (!context || sl_io_use(context) != SL_OK || uname(&machine) != 0) fail("no memory");
     read_space(context, argv[1], &space);
     sl_see_account prune, account;
     const double prune_seconds = measure(context, &space, "prune", 0, &prune);

@@ -3,6 +3,7 @@
 //   bench_solvers MAP [Z]     CSV: machine, map, solver, tests, nanoseconds a test, times the
 //   first's, and the same two without what playing alone takes
 #include "sightline/glpk.h"
+#include "sightline/io.h"
 #include "sightline/sightline.h"
 
 #include <stdio.h>
@@ -39,18 +40,19 @@ static void record(tape *t, event e) {
 static void search(sl_context *context, const sl_space *space, uint32_t cell, const void *solver,
                    unsigned crossed, tape *t) {
     const sl_cell *c = &space->cells[cell];
-    for (uint32_t i = 0; i < c->exit_count; i++) {
-        const sl_exit *exit = &space->exits[c->first_exit + i];
-        const bool vertical = exit->left.x == exit->right.x;
-        const bool up = vertical ? exit->left.y > exit->right.y : exit->left.x < exit->right.x;
+    for (uint32_t i = 0; i < c->directed_count; i++) {
+        const sl_directed_portal *directed = &space->directed[c->first_directed + i];
+        const bool vertical = directed->left.x == directed->right.x;
+        const bool up =
+            vertical ? directed->left.y > directed->right.y : directed->left.x < directed->right.x;
         const unsigned bit = (vertical ? 1u : 4u) << !up, against = (vertical ? 1u : 4u) << up;
         if (crossed & against) continue;
         sl_stab_verdict verdict;
-        if (sl_funnel()->push(context, (void *)(uintptr_t)solver, exit->left, exit->right,
+        if (sl_funnel()->push(context, (void *)(uintptr_t)solver, directed->left, directed->right,
                               &verdict) != SL_OK)
             fail(sl_context_message(context));
-        record(t, (event){{exit->left, exit->right}, false});
-        if (verdict != SL_HIDDEN) search(context, space, exit->cell, solver, crossed | bit, t);
+        record(t, (event){{directed->left, directed->right}, false});
+        if (verdict != SL_HIDDEN) search(context, space, directed->cell, solver, crossed | bit, t);
         sl_funnel()->pop((void *)(uintptr_t)solver);
         record(t, (event){.pop = true});
     }
@@ -139,7 +141,7 @@ int main(int argc, char **argv) {
     if (argc < 2) fail("usage: bench_solvers MAP [Z]");
     sl_context *context = sl_context_create(NULL);
     sl_space space = {0};
-    if (!context) fail("out of memory");
+    if (!context || sl_io_use(context) != SL_OK) fail("out of memory");
     read_space(context, argv[1], argc > 2 ? argv[2] : NULL, &space);
     tape t = record_map(context, &space);
     const sl_solver *solvers[SOLVERS] = {sl_funnel(), sl_glpk_simplex(), sl_glpk_hybrid(),

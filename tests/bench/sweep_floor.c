@@ -43,11 +43,11 @@ static double now(void) {
 // --- what the sweep does
 
 /// The words that a half of the line can have any in.
-static void span(const sl_reach *reach, uint32_t *low, uint32_t *high) {
+static void span(const sli_visible *visible, uint32_t *low, uint32_t *high) {
     *low = UINT32_MAX;
     *high = 0;
-    for (size_t i = 0; i < reach->cells.count; i++) {
-        const uint32_t word = reach->cells.items[i].cell / 64;
+    for (size_t i = 0; i < visible->cells.count; i++) {
+        const uint32_t word = visible->cells.items[i].cell / 64;
         if (word < *low) *low = word;
         if (word >= *high) *high = word + 1;
     }
@@ -55,7 +55,7 @@ static void span(const sl_reach *reach, uint32_t *low, uint32_t *high) {
 
 /// Each cell that comes into sight of one half gains what the other half sees: at most, as words
 /// go, all that it comes to see.
-static sl_status add_events(sl_context *context, const sl_reach *of, const sl_reach *other,
+static sl_status add_events(sl_context *context, const sli_visible *of, const sli_visible *other,
                             floors *f) {
     uint32_t low, high;
     span(other, &low, &high);
@@ -67,30 +67,30 @@ static sl_status add_events(sl_context *context, const sl_reach *of, const sl_re
     return SL_OK;
 }
 
-static void count_cells(const sl_reach *reach, sl_word_set *set, floors *f) {
-    f->intervals += reach->cells.count;
-    for (size_t i = 0; i < reach->cells.count; i++) {
-        const uint32_t cell = reach->cells.items[i].cell;
+static void count_cells(const sli_visible *visible, sli_word_set *set, floors *f) {
+    f->intervals += visible->cells.count;
+    for (size_t i = 0; i < visible->cells.count; i++) {
+        const uint32_t cell = visible->cells.items[i].cell;
         f->cells += !sl_bits_has(set->bits, cell);
-        sl_word_set_add(set, cell);
+        sli_word_set_add(set, cell);
     }
-    sl_word_set_clear(set);
+    sli_word_set_clear(set);
 }
 
-static sl_status sweep_all(sl_context *context, const sl_fans *fans, sl_sweeper *s, floors *f) {
-    sl_word_set set;
-    SL_TRY(sl_word_set_create(context, fans->cell_count, &set));
+static sl_status sweep_all(sl_context *context, const sli_fans *fans, sli_sweeper *s, floors *f) {
+    sli_word_set set;
+    SL_TRY(sli_word_set_create(context, fans->cell_count, &set));
     sl_status status = SL_OK;
     for (size_t i = 0; i < fans->fans.count && status == SL_OK; i++) {
-        status = sl_sweep_fan(context, s, &fans->fans.items[i]);
+        status = sli_sweep_fan(context, s, &fans->fans.items[i]);
         count_cells(&s->back, &set, f);
         count_cells(&s->middle, &set, f);
         count_cells(&s->ahead, &set, f);
         if (status == SL_OK) status = add_events(context, &s->back, &s->ahead, f);
         if (status == SL_OK) status = add_events(context, &s->ahead, &s->back, f);
     }
-    f->pieces = s->reacher.pieces;
-    sl_word_set_destroy(context, &set);
+    f->pieces = s->finder.pieces;
+    sli_word_set_destroy(context, &set);
     return status;
 }
 
@@ -99,11 +99,11 @@ static sl_status sweep_all(sl_context *context, const sl_fans *fans, sl_sweeper 
 static double time_fans(sl_context *context, const sl_space *space, const sl_see_options *options) {
     double least = 1e300;
     for (int round = 0; round < ROUNDS; round++) {
-        sl_fans fans = {0};
+        sli_fans fans = {0};
         const double start = now();
-        must(context, sl_fans_find(context, space, options, SL_FANS_MUTUAL, &fans));
+        must(context, sli_fans_find(context, space, options, SLI_FANS_MUTUAL, &fans));
         const double took = now() - start;
-        sl_fans_destroy(context, &fans);
+        sli_fans_destroy(context, &fans);
         if (took < least) least = took;
     }
     return least;
@@ -128,13 +128,13 @@ static double time_sweep(sl_context *context, const sl_space *space, sl_see_opti
     return least;
 }
 
-static double time_rows(sl_bit_rows *rows, const floors *f, const sl_bits *set) {
+static double time_rows(sli_bit_rows *rows, const floors *f, const sl_bits *set) {
     double least = 1e300;
     for (int round = 0; round < ROUNDS; round++) {
         const double start = now();
         for (size_t i = 0; i < f->events.count; i++) {
             const event *e = &f->events.items[i];
-            sl_bits *restrict row = sl_bit_rows_dense(rows, e->row);
+            sl_bits *restrict row = sli_bit_rows_dense(rows, e->row);
             for (uint32_t word = e->low; word < e->high; word++) row[word] |= set[word];
         }
         const double took = now() - start;
@@ -144,14 +144,14 @@ static double time_rows(sl_bit_rows *rows, const floors *f, const sl_bits *set) 
 }
 
 /// What `count` orientation tests of points of the map take; `sum` keeps them from being left out.
-static double time_tests(const sl_fans *fans, uint64_t count, int64_t *sum) {
-    const uint32_t exits = fans->first_exit[fans->cell_count];
+static double time_tests(const sli_fans *fans, uint64_t count, int64_t *sum) {
+    const uint32_t directed = fans->first_directed[fans->cell_count];
     double least = 1e300;
-    for (int round = 0; round < ROUNDS && exits; round++) {
+    for (int round = 0; round < ROUNDS && directed; round++) {
         const double start = now();
-        for (uint64_t i = 0, e = 0; i < count; i++, e = e + 1 < exits ? e + 1 : 0)
-            *sum += sl_orient(fans->ends.items[fans->exits[e].left],
-                              fans->ends.items[fans->exits[e].right], fans->ends.items[0]);
+        for (uint64_t i = 0, e = 0; i < count; i++, e = e + 1 < directed ? e + 1 : 0)
+            *sum += sli_orient(fans->ends.items[fans->directed[e].left],
+                               fans->ends.items[fans->directed[e].right], fans->ends.items[0]);
         const double took = now() - start;
         if (took < least) least = took;
     }
@@ -183,14 +183,14 @@ static void measure(sl_context *context, const sl_space *space, sl_sight sight, 
     options.sight = sight;
     options.threads = 1;
     options.rows = SL_ROWS_DENSE;
-    sl_fans fans = {0};
-    sl_bit_rows rows;
-    sl_sweeper sweeper;
+    sli_fans fans = {0};
+    sli_bit_rows rows;
+    sli_sweeper sweeper;
     floors f = {0};
     int64_t sum = 0;
-    must(context, sl_fans_find(context, space, &options, SL_FANS_MUTUAL, &fans));
-    must(context, sl_bit_rows_create(context, space->cell_count, &options, &rows));
-    must(context, sl_sweeper_create(context, &fans, sight == SL_CLOSED, &rows, &sweeper));
+    must(context, sli_fans_find(context, space, &options, SLI_FANS_MUTUAL, &fans));
+    must(context, sli_bit_rows_create(context, space->cell_count, &options, &rows));
+    must(context, sli_sweeper_create(context, &fans, sight == SL_CLOSED, &rows, NULL, &sweeper));
     must(context, sweep_all(context, &fans, &sweeper, &f));
     const char *name = sight == SL_CLOSED ? "closed" : "open";
     const double events = (double)f.events.count, bytes = 16 * (double)f.words;
@@ -215,10 +215,10 @@ static void measure(sl_context *context, const sl_space *space, sl_sight sight, 
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
         printf("%s,%s,%s,%.4g,%s\n", lead, name, lines[i].what, lines[i].value, lines[i].unit);
     if (sum == INT64_MAX) puts("");
-    sl_bit_rows_join(context, &rows, &sweeper.rows);
-    sl_sweeper_destroy(context, &sweeper);
-    sl_bit_rows_destroy(context, &rows);
-    sl_fans_destroy(context, &fans);
+    sli_bit_rows_join(context, &rows, &sweeper.rows);
+    sli_sweeper_destroy(context, &sweeper);
+    sli_bit_rows_destroy(context, &rows);
+    sli_fans_destroy(context, &fans);
     sl_free(context, f.events.items);
 }
 

@@ -12,9 +12,10 @@
 //          samples=N evaluate=N cells=N, lines to make by, lines to tell costs by, cells at most
 //          chart=FILE.png, drawn beside the table
 // CSV on stdout. Seconds are of this process's processor time.
-#include "base/base.h"
 #include "sightline/draw.h"
+#include "sightline/io.h"
 #include "sightline/sightline.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -89,6 +90,7 @@ static void turn_map(bench *b) {
 }
 
 static void read_map(bench *b, const sl_import_options *options, const sl_point *start) {
+    check(b, sl_io_use(b->context));
     check(b, sl_map_read(b->context, b->path, options, &b->map));
     if (start) check(b, sl_map_add_start(b->context, &b->map, *start, 0, 0));
     check(b, sl_map_clean(b->context, &b->map, NULL, NULL));

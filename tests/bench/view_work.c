@@ -5,9 +5,9 @@
 // CSV on stdout: a line a map, and for each kind the exponents of all that, fitted over its maps,
 // in what is found: the pairs of view cell and object. Seconds are of this process's processor
 // time.
-#include "base/bits.h"
 #include "sightline/generate.h"
 #include "sightline/sightline.h"
+#include "sightline/support.h"
 #include "sightline/view_cells.h"
 
 #include <math.h>

@@ -7,8 +7,9 @@
 // many are over 1e-12; then, for 2000 random eyes, each once: microseconds a query here and there,
 // and their ratio. Exit status 1 on any difference over 1e-12.
 // Timed is, here, location, region and polygon; there, with the location given, the region.
-#include "base/random.h"
+#include "sightline/io.h"
 #include "sightline/sightline.h"
+#include "sightline/support.h"
 
 #include <CGAL/Arr_naive_point_location.h>
 #include <CGAL/Arr_segment_traits_2.h>
@@ -291,6 +292,7 @@ int main(int argc, char **argv) {
     for (int i = 1; i < argc; i++) {
         Floor floor(context);
         const sl_import_options options = sl_import_options_default();
+        floor.must(sl_io_use(context));
         floor.must(sl_map_read(context, argv[i], &options, &floor.map));
         floor.finish();
         failures += compare(machine, argv[i], floor);

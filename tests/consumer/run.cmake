@@ -1,6 +1,7 @@
 # Installs into SCRATCH, moves the copy (it must not know where it was), builds the programs of this
-# folder against it and runs them; for WAY subproject, builds them with the sources inside; for WAY
-# game_copied, builds the game with a copy of the header and nothing installed.
+# folder against it and runs them. WAY subproject builds the core's with the sources inside, every
+# package hidden. WAY game_copied builds the game with a copy of the header and nothing
+# installed. WAY lean builds the command with every package hidden, by a C compiler and CMake alone.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE said ERROR_VARIABLE said)
   if(NOT result EQUAL 0)
@@ -16,7 +17,7 @@ set(here "${SOURCE}/tests/consumer")
 set(prefix "${SCRATCH}/moved")
 file(REMOVE_RECURSE "${SCRATCH}")
 file(MAKE_DIRECTORY "${SCRATCH}")
-if(NOT WAY STREQUAL "subproject")
+if(NOT WAY MATCHES "subproject|lean")
   run(${CMAKE_COMMAND} --install "${BUILD}" --config "${CONFIG}" --prefix "${SCRATCH}/installed")
   file(RENAME "${SCRATCH}/installed" "${prefix}")
   if(TOOLS)
@@ -24,16 +25,19 @@ if(NOT WAY STREQUAL "subproject")
   endif()
 endif()
 
-# The core must do without GLPK, so nothing that links only the core may have it.
+# The core needs no package, so what links only the core has none.
 find_program(LDD ldd)
 function(check_core_alone program)
   if(NOT LDD)
     return()
   endif()
   run(${CMAKE_COMMAND} -E env LC_ALL=C ${LDD} "${program}")
-  if(said MATCHES "libglpk|libcairo")
+  string(REGEX MATCHALL "\tlib[^ /\n]+\\.so" libraries "${said}")
+  list(FILTER libraries EXCLUDE REGEX
+    "\tlib(c|m|pthread|gcc_s|stdc\\+\\+|sightline|[atu]b?san)\\.so$")
+  if(libraries)
     message("${said}")
-    message(FATAL_ERROR "${program} uses the core alone, but is linked with more")
+    message(FATAL_ERROR "${program} uses the core alone, but is linked with ${libraries}")
   endif()
 endfunction()
 
@@ -91,11 +95,44 @@ function(by_pkg_config)
   check_core_alone("${SCRATCH}/core.c.run")
 endfunction()
 
+# Configures the command as on a machine without any package, and runs what it can do.
+function(lean)
+  set(ENV{PKG_CONFIG_LIBDIR} "${SCRATCH}/nothing")
+  run(${CMAKE_COMMAND} -G "${GENERATOR}" -S "${SOURCE}" -B "${SCRATCH}/build"
+    "-DCMAKE_BUILD_TYPE=${CONFIG}" "-DCMAKE_C_COMPILER=${CC}" "-DCMAKE_C_FLAGS=${FLAGS}"
+    -DSIGHTLINE_STUDY=OFF -DSIGHTLINE_WERROR=ON
+    -DCMAKE_DISABLE_FIND_PACKAGE_PkgConfig=ON -DCMAKE_DISABLE_FIND_PACKAGE_ZLIB=ON
+    -DCMAKE_DISABLE_FIND_PACKAGE_GLPK=ON -DBUILD_SHARED_LIBS=OFF)
+  foreach(part IO STUDY GLPK DRAW VIEWER TESTS)
+    if(NOT said MATCHES "SIGHTLINE_${part} is OFF [^\n]*: (not found|as asked for)")
+      message("${said}")
+      message(FATAL_ERROR "the configuration does not say why SIGHTLINE_${part} is off")
+    endif()
+  endforeach()
+  run(${CMAKE_COMMAND} --build "${SCRATCH}/build" --config "${CONFIG}")
+  check_core_alone("${SCRATCH}/build/tools/sightline")
+  run("${PYTHON}" -B "${SOURCE}/tests/command/case.py" "${SCRATCH}/build/tools/sightline"
+    "${here}/lean.case")
+  # The runtime and a program on the core need no more either.
+  separate_arguments(flags UNIX_COMMAND "${FLAGS}")
+  run("${SCRATCH}/build/tools/sightline" bake "${SOURCE}/maps/office.map" -o
+    "${SCRATCH}/level.slv")
+  run("${CC}" ${flags} "-I${SOURCE}/lib/runtime" "${here}/game/game.c"
+    "${here}/game/game_runtime.c" -o "${SCRATCH}/game")
+  run("${SCRATCH}/game" "${SCRATCH}/level.slv")
+  run("${CC}" ${flags} "-I${SOURCE}/lib/include" "${here}/programs/core.c" -o "${SCRATCH}/core"
+    "${SCRATCH}/build/lib/libsightline.a" -lm -pthread)
+  run("${SCRATCH}/core")
+  check_core_alone("${SCRATCH}/core")
+endfunction()
+
 if(WAY STREQUAL "pkg_config")
   by_pkg_config()
 elseif(WAY STREQUAL "find_package")
   by_cmake(programs "-DCMAKE_PREFIX_PATH=${prefix}")
   check_core_alone("${SCRATCH}/build/core")
+elseif(WAY STREQUAL "lean")
+  lean()
 elseif(WAY STREQUAL "game")
   game("-DCMAKE_PREFIX_PATH=${prefix}")
   set(ENV{PKG_CONFIG_PATH} "${prefix}/${LIBDIR}/pkgconfig")
@@ -106,7 +143,8 @@ elseif(WAY STREQUAL "game_copied")
   file(COPY "${SOURCE}/lib/runtime/sightline_runtime.h" DESTINATION "${SCRATCH}/copied")
   game("-DHEADER_DIR=${SCRATCH}/copied")
 else()
-  by_cmake(programs "-DSIGHTLINE_SOURCES=${SOURCE}" "-DBUILD_SHARED_LIBS=${SHARED}")
+  by_cmake(programs "-DSIGHTLINE_SOURCES=${SOURCE}" "-DBUILD_SHARED_LIBS=${SHARED}" -DPARTS=
+    -DCMAKE_DISABLE_FIND_PACKAGE_PkgConfig=ON)
   check_core_alone("${SCRATCH}/build/core")
   file(GLOB_RECURSE extras "${SCRATCH}/build/test_*" "${SCRATCH}/build/*sightline-config*"
     "${SCRATCH}/build/sightline/tools/*")

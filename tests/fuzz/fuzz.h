@@ -2,7 +2,7 @@
 #ifndef SL_FUZZ_H
 #define SL_FUZZ_H
 
-#include "sightline/import.h"
+#include "sightline/io.h"
 #include "sightline/space.h"
 #include "unit/map_same.h"
 

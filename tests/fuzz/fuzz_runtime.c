@@ -88,9 +88,9 @@ static void check_places(const sl_runtime *r, sl_random *random, const buffers *
         check_place(r, x, y, random, b);
         check_place(r, r->min_x + sl_random_unit(random) * (r->max_x - r->min_x),
                     r->min_y + sl_random_unit(random) * (r->max_y - r->min_y), random, b);
-        if (!r->exit_count) continue;
-        const sl_runtime_exit e =
-            sl_runtime_get_exit(r, (uint32_t)sl_random_below(random, r->exit_count));
+        if (!r->directed_count) continue;
+        const sl_runtime_directed_portal e =
+            sl_runtime_get_directed_portal(r, (uint32_t)sl_random_below(random, r->directed_count));
         FUZZ_CHECK(e.cell < r->cell_count && e.portal < r->portal_count);
         check_place(r, e.left[0] / 2 + e.right[0] / 2, e.left[1] / 2 + e.right[1] / 2, random, b);
     }
@@ -104,7 +104,7 @@ static void check_open(const sl_runtime *r, sl_random *random) {
                        .cells = room(r->cell_count * sizeof *b.cells)};
     for (uint32_t cell = 0; cell < r->cell_count; cell++) {
         const sl_runtime_cell c = sl_runtime_get_cell(r, cell);
-        FUZZ_CHECK((uint64_t)c.first_exit + c.exit_count <= r->exit_count);
+        FUZZ_CHECK((uint64_t)c.first_directed + c.directed_count <= r->directed_count);
         FUZZ_CHECK((uint64_t)c.first_vertex + c.vertex_count <= r->vertex_count);
         check_row(r, cell, &b);
     }

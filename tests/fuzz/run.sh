@@ -18,28 +18,23 @@ root=$(cd "$(dirname "$0")/../.." && pwd)
 build=${2:-$root/build/fuzz}
 shift
 [ $# -eq 0 ] || shift
+targets=${*:-fuzzers}
 
 if [ ! -f "$build/CMakeCache.txt" ]; then
     CC=clang cmake -S "$root" -B "$build" -G Ninja -DSIGHTLINE_FUZZERS=ON >&2 || exit 2
 fi
-cmake --build "$build" --target fuzzers >&2 || exit 2
+cmake --build "$build" --target $targets >&2 || exit 2
 
-# The endings of the files that a fuzzer starts from.
+# The ending of the files that a fuzzer starts from: its name, where nothing else is said.
 seeds_of() {
     case $1 in
     fuzz_map_text | fuzz_mesh | fuzz_slv | fuzz_runtime) echo map ;;
     fuzz_map_plan) echo txt ;;
     fuzz_unigrafix) echo ug ;;
-    fuzz_dxf) echo dxf ;;
-    fuzz_svg) echo svg ;;
     fuzz_image) echo pgm ;;
     fuzz_ros) echo yaml ;;
-    fuzz_tmx) echo tmx ;;
-    fuzz_tmj) echo tmj ;;
-    fuzz_ldtk) echo ldtk ;;
     fuzz_uvtt) echo dd2vtt ;;
-    fuzz_foundry) echo foundry ;;
-    fuzz_wad) echo wad ;;
+    *) echo "${1#fuzz_}" ;;
     esac
 }
 

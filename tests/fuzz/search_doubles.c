@@ -1,7 +1,7 @@
 // What not to do: the distance between the hulls of left and right ends, its sign as rounded.
 #include "search.h"
 
-#include "base/base.h"
+#include "sightline/support.h"
 
 #include <math.h>
 

@@ -9,8 +9,8 @@
 #include "fuzz.h"
 
 #include "bake/slv.h"
-#include "base/random.h"
 #include "sightline/solvers.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <zlib.h>
@@ -21,7 +21,7 @@ size_t LLVMFuzzerCustomCrossOver(const uint8_t *data, size_t size, const uint8_t
                                  size_t other_size, uint8_t *out, size_t max_size, unsigned seed);
 
 static bool is_baked(const uint8_t *data, size_t size) {
-    return size >= sizeof(sl_slv_header) && memcmp(data, SL_SLV_MAGIC, 8) == 0;
+    return size >= sizeof(sli_slv_header) && memcmp(data, SLI_SLV_MAGIC, 8) == 0;
 }
 
 // --- a file and its parts
@@ -41,15 +41,15 @@ typedef struct parts {
 } parts;
 
 static bool take_apart(const uint8_t *data, size_t size, parts *out) {
-    sl_slv_header header;
+    sli_slv_header header;
     if (!is_baked(data, size)) return false;
     memcpy(&header, data, sizeof header);
     out->version = header.version;
     out->count = header.section_count;
-    if (out->count > MOST_PARTS || out->count > (size - sizeof header) / sizeof(sl_slv_section))
+    if (out->count > MOST_PARTS || out->count > (size - sizeof header) / sizeof(sli_slv_section))
         return false;
     for (uint32_t i = 0; i < out->count; i++) {
-        sl_slv_section s;
+        sli_slv_section s;
         memcpy(&s, data + sizeof header + i * sizeof s, sizeof s);
         if (!s.item_bytes || s.offset > size || s.count > (size - s.offset) / s.item_bytes ||
             s.count * s.item_bytes > MOST_BYTES)
@@ -65,11 +65,11 @@ static bool take_apart(const uint8_t *data, size_t size, parts *out) {
 
 /// Makes the header right for the bytes behind it.
 static void seal(uint8_t *data, size_t size, uint32_t version, uint32_t section_count) {
-    sl_slv_header header = {.version = version,
-                            .byte_order = SL_SLV_BYTE_ORDER,
-                            .file_bytes = size,
-                            .section_count = section_count};
-    memcpy(header.magic, SL_SLV_MAGIC, sizeof header.magic);
+    sli_slv_header header = {.version = version,
+                             .byte_order = SLI_SLV_BYTE_ORDER,
+                             .file_bytes = size,
+                             .section_count = section_count};
+    memcpy(header.magic, SLI_SLV_MAGIC, sizeof header.magic);
     memcpy(data, &header, sizeof header);
     header.checksum = (uint32_t)crc32(0, data, (uInt)size);
     memcpy(data, &header, sizeof header);
@@ -77,17 +77,17 @@ static void seal(uint8_t *data, size_t size, uint32_t version, uint32_t section_
 
 /// The file's size; 0 where it does not fit.
 static size_t put_together(const parts *in, uint8_t *data, size_t max_size) {
-    size_t at = sizeof(sl_slv_header) + in->count * sizeof(sl_slv_section);
+    size_t at = sizeof(sli_slv_header) + in->count * sizeof(sli_slv_section);
     size_t size = at;
     for (uint32_t i = 0; i < in->count; i++) size += (in->part[i].size + 7) / 8 * 8;
     if (size > max_size) return 0;
     memset(data, 0, size);
     for (uint32_t i = 0; i < in->count; i++) {
         const part *p = &in->part[i];
-        sl_slv_section s = {
+        sli_slv_section s = {
             .item_bytes = p->item_bytes, .offset = at, .count = p->size / p->item_bytes};
         memcpy(s.tag, p->tag, sizeof s.tag);
-        memcpy(data + sizeof(sl_slv_header) + i * sizeof s, &s, sizeof s);
+        memcpy(data + sizeof(sli_slv_header) + i * sizeof s, &s, sizeof s);
         memcpy(data + at, p->bytes, p->size);
         at += (p->size + 7) / 8 * 8;
     }
@@ -138,7 +138,7 @@ static char *printed(sl_context *context, const sl_baked *baked, size_t *size) {
     char *bytes = NULL;
     FILE *stream = open_memstream(&bytes, size);
     FUZZ_CHECK(stream);
-    FUZZ_CHECK(sl_slv_print(context, baked, stream) == SL_OK);
+    FUZZ_CHECK(sli_slv_print(context, baked, stream) == SL_OK);
     FUZZ_CHECK(fclose(stream) == 0);
     return bytes;
 }
@@ -236,15 +236,15 @@ static void change_sections(parts *all, sl_random *random) {
 
 /// Of the other version: a mesh's file becomes a loose one without a grid.
 static void change_version(parts *all) {
-    all->version = all->version == SL_SLV_VERSION ? SL_SLV_VERSION_AXIAL : SL_SLV_VERSION;
+    all->version = all->version == SLI_SLV_VERSION ? SLI_SLV_VERSION_AXIAL : SLI_SLV_VERSION;
 }
 
 /// Says that cells may overlap and leave gaps, so that corners can be moved and the file stays
 /// sound.
 static void make_loose(parts *all) {
     part *p = find_part(all, "INFO");
-    if (!p || p->size != sizeof(sl_slv_info)) return;
-    sl_slv_info info;
+    if (!p || p->size != sizeof(sli_slv_info)) return;
+    sli_slv_info info;
     memcpy(&info, p->bytes, sizeof info);
     info.loose = !info.loose;
     memcpy(p->bytes, &info, sizeof info);
@@ -268,8 +268,8 @@ static uint64_t count_pairs(parts *all, const char *offsets_tag, const char *byt
 /// The number of pairs stands in the file twice.
 static void recount_pairs(parts *all) {
     part *p = find_part(all, "INFO");
-    if (!p || p->size != sizeof(sl_slv_info)) return;
-    sl_slv_info info;
+    if (!p || p->size != sizeof(sli_slv_info)) return;
+    sli_slv_info info;
     memcpy(&info, p->bytes, sizeof info);
     info.pairs = count_pairs(all, "PVSO", "PVSB");
     info.doubtful_pairs = count_pairs(all, "DBTO", "DBTB");
@@ -328,7 +328,7 @@ size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsi
     size = blindly ? LLVMFuzzerMutate(data, size, max_size) : finish(all, data, size, max_size);
     // The header and the table of sections are blindly mutated too, some of them then sealed.
     if (blindly && is_baked(data, size) && sl_random_below(&random, 8)) {
-        sl_slv_header header;
+        sli_slv_header header;
         memcpy(&header, data, sizeof header);
         seal(data, size, header.version, header.section_count);
     }

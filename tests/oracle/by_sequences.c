@@ -13,17 +13,17 @@ typedef struct search {
 static bool go_on(search *s, uint32_t at) {
     const sl_cell *cell = &s->space->cells[at];
     bool within = true;
-    for (uint32_t i = 0; within && i < cell->exit_count; i++) {
-        const sl_exit *exit = &s->space->exits[cell->first_exit + i];
-        oracle_portal portal = {exit->left, exit->right};
+    for (uint32_t i = 0; within && i < cell->directed_count; i++) {
+        const sl_directed_portal *directed = &s->space->directed[cell->first_directed + i];
+        oracle_portal portal = {directed->left, directed->right};
         if (!oracle_sequence_forwards(s->sequence, portal)) continue;
         if (s->left == 0) return false;
         s->left--;
         sl_stab_verdict verdict = oracle_sequence_push(s->sequence, portal);
         if (verdict != SL_HIDDEN) {
-            s->closed[exit->cell] = true;
-            if (verdict == SL_STABBED) s->open[exit->cell] = true;
-            within = go_on(s, exit->cell);
+            s->closed[directed->cell] = true;
+            if (verdict == SL_STABBED) s->open[directed->cell] = true;
+            within = go_on(s, directed->cell);
         }
         oracle_sequence_pop(s->sequence);
     }
@@ -32,13 +32,13 @@ static bool go_on(search *s, uint32_t at) {
 
 bool oracle_by_sequences(const sl_space *space, uint64_t limit, bool *closed, bool *open) {
     search s = {.space = space, .left = limit};
-    sl_point *ends = calloc(2 * (size_t)space->exit_count + 1, sizeof *ends);
+    sl_point *ends = calloc(2 * (size_t)space->directed_count + 1, sizeof *ends);
     if (!ends) abort();
-    for (uint32_t i = 0; i < space->exit_count; i++) {
-        ends[2 * i] = space->exits[i].left;
-        ends[2 * i + 1] = space->exits[i].right;
+    for (uint32_t i = 0; i < space->directed_count; i++) {
+        ends[2 * i] = space->directed[i].left;
+        ends[2 * i + 1] = space->directed[i].right;
     }
-    s.sequence = oracle_sequence_create(ends, 2 * (size_t)space->exit_count);
+    s.sequence = oracle_sequence_create(ends, 2 * (size_t)space->directed_count);
     free(ends);
     bool within = true;
     for (uint32_t c = 0; within && c < space->cell_count; c++) {

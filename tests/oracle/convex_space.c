@@ -1,7 +1,6 @@
 #include "oracle/convex_space.h"
 
-#include "base/base.h"
-#include "base/random.h"
+#include "sightline/support.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -187,7 +186,7 @@ static double along(sl_point a, sl_point b, sl_point p) {
     return (b.x - a.x) * (p.x - a.x) + (b.y - a.y) * (p.y - a.y);
 }
 
-static bool lies_on(const sl_exit *e, sl_point a, sl_point b) {
+static bool lies_on(const sl_directed_portal *e, sl_point a, sl_point b) {
     const sl_point ends[2] = {e->right, e->left};
     for (int i = 0; i < 2; i++) {
         const sl_point p = ends[i];
@@ -197,22 +196,22 @@ static bool lies_on(const sl_exit *e, sl_point a, sl_point b) {
     return along(a, b, e->right) < along(a, b, e->left);
 }
 
-/// The exits of one edge, in their order along it.
-static void add_exits(sl_space *out, uint32_t cell, sl_point a, sl_point b) {
-    const uint32_t first = out->exit_count;
+/// The directed portals of one edge, in their order along it.
+static void add_directed(sl_space *out, uint32_t cell, sl_point a, sl_point b) {
+    const uint32_t first = out->directed_count;
     for (uint32_t i = 0; i < out->portal_count; i++) {
         const sl_portal *p = &out->portals[i];
         if (p->cell[0] != cell && p->cell[1] != cell) continue;
         const bool out_of_first = p->cell[0] == cell;
-        const sl_exit e = {.portal = i,
-                           .cell = p->cell[out_of_first],
-                           .left = out_of_first ? p->left : p->right,
-                           .right = out_of_first ? p->right : p->left};
+        const sl_directed_portal e = {.portal = i,
+                                      .cell = p->cell[out_of_first],
+                                      .left = out_of_first ? p->left : p->right,
+                                      .right = out_of_first ? p->right : p->left};
         if (!lies_on(&e, a, b)) continue;
-        uint32_t to = out->exit_count++;
-        for (; to > first && along(a, b, out->exits[to - 1].right) > along(a, b, e.right); to--)
-            out->exits[to] = out->exits[to - 1];
-        out->exits[to] = e;
+        uint32_t to = out->directed_count++;
+        for (; to > first && along(a, b, out->directed[to - 1].right) > along(a, b, e.right); to--)
+            out->directed[to] = out->directed[to - 1];
+        out->directed[to] = e;
     }
 }
 
@@ -226,7 +225,7 @@ void oracle_random_space(sl_context *context, uint64_t seed, sl_space *out) {
     out->cells = must(sl_alloc_array(context, (size_t)p->cell_count, sizeof *out->cells));
     out->vertices = must(sl_alloc_array(context, edges, sizeof *out->vertices));
     out->portals = must(sl_alloc_array(context, edges * PIECES_MOST, sizeof *out->portals));
-    out->exits = must(sl_alloc_array(context, 2 * edges * PIECES_MOST, sizeof *out->exits));
+    out->directed = must(sl_alloc_array(context, 2 * edges * PIECES_MOST, sizeof *out->directed));
     out->bounds.min = point_at(p, 0, 0, 0, far);
     out->bounds.max = point_at(p, 2, 2, 0, far);
     add_portals(p, far, out);
@@ -235,14 +234,14 @@ void oracle_random_space(sl_context *context, uint64_t seed, sl_space *out) {
         sl_cell *c = &out->cells[cell];
         *c = (sl_cell){.first_vertex = out->vertex_count,
                        .vertex_count = (uint32_t)from->count,
-                       .first_exit = out->exit_count,
+                       .first_directed = out->directed_count,
                        .inside = 1};
         for (int k = 0; k < from->count; k++) {
             const sl_point a = point_at(p, at(from, k), 0, 0, far);
             out->vertices[out->vertex_count++] = a;
-            add_exits(out, cell, a, point_at(p, at(from, k + 1), 0, 0, far));
+            add_directed(out, cell, a, point_at(p, at(from, k + 1), 0, 0, far));
         }
-        c->exit_count = out->exit_count - c->first_exit;
+        c->directed_count = out->directed_count - c->first_directed;
     }
     out->inside_count = out->cell_count;
     free(p);

@@ -7,7 +7,7 @@
 
 #include "sightline/space.h"
 
-/// Fills cells, corners, portals and exits; there is no tree and there are no walls. All
+/// Fills cells, corners, portals and directed portals; there is no tree and there are no walls. All
 /// coordinates are multiples of 1 up to 64, or of 2^-30 times that, far from the origin, where
 /// `seed` says so. Aborts where there is no memory. To be destroyed by sl_space_destroy.
 void oracle_random_space(sl_context *context, uint64_t seed, sl_space *out);

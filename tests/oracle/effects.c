@@ -151,11 +151,11 @@ static bool is_lit(sl_segment glass, oracle_portal p) {
     return (glass.b.x - glass.a.x) * y - (glass.b.y - glass.a.y) * x > 0;
 }
 
-static bool go_through_exits(search *s, uint32_t at, uint32_t doors) {
+static bool go_through_directed(search *s, uint32_t at, uint32_t doors) {
     const sl_cell *cell = &s->space->cells[at];
-    for (uint32_t i = 0; i < cell->exit_count; i++) {
-        const sl_exit *exit = &s->space->exits[cell->first_exit + i];
-        const oracle_portal portal = {exit->left, exit->right};
+    for (uint32_t i = 0; i < cell->directed_count; i++) {
+        const sl_directed_portal *directed = &s->space->directed[cell->first_directed + i];
+        const oracle_portal portal = {directed->left, directed->right};
         uint32_t passed = doors;
         bool lit = true;
         for (size_t k = 0; k < s->map->door_count; k++)
@@ -163,7 +163,7 @@ static bool go_through_exits(search *s, uint32_t at, uint32_t doors) {
         for (size_t k = 0; k < s->map->oneway_count; k++)
             if (covers(s->map->oneways[k].segment, portal))
                 lit &= is_lit(s->map->oneways[k].segment, portal);
-        if (lit && !pass(s, unfold(s, portal), exit->cell, passed, UINT32_MAX)) return false;
+        if (lit && !pass(s, unfold(s, portal), directed->cell, passed, UINT32_MAX)) return false;
     }
     return true;
 }
@@ -194,7 +194,7 @@ static bool go_through_mirrors(search *s, uint32_t at, uint32_t doors) {
 }
 
 static bool go_on(search *s, uint32_t cell, uint32_t doors) {
-    return go_through_exits(s, cell, doors) && go_through_mirrors(s, cell, doors);
+    return go_through_directed(s, cell, doors) && go_through_mirrors(s, cell, doors);
 }
 
 bool oracle_effects(const sl_space *space, const sl_map *map, sl_sight sight, uint32_t depth,

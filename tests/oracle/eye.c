@@ -39,7 +39,7 @@ struct oracle_eye {
     vector *corners; ///< as space.vertices
     struct oracle_ends {
         vector a, b;
-    } * walls, *exits;       ///< a left, b right
+    } * walls, *directed;    ///< a left, b right
     ray *touching, *between; ///< round the eye; between[i] comes after touching[i]
     size_t ray_count;
 };
@@ -172,15 +172,16 @@ typedef struct walk {
     bool *cells;
 } walk;
 
-/// Whether the ray meets an exit as it leaves a cell; the side to which it crosses one along it.
-static bool meets(const oracle_eye *o, const vector *to, const struct oracle_ends *exit,
+/// Whether the ray meets a directed portal as it leaves a cell; the side to which it crosses one
+/// along it.
+static bool meets(const oracle_eye *o, const vector *to, const struct oracle_ends *directed,
                   int *side) {
     vector left, right, portal;
     init(&left);
     init(&right);
     init(&portal);
-    subtract(&left, &exit->a, &o->eye);
-    subtract(&right, &exit->b, &o->eye);
+    subtract(&left, &directed->a, &o->eye);
+    subtract(&right, &directed->b, &o->eye);
     subtract(&portal, &left, &right);
     bool met = turn(to, &left) >= 0 && turn(to, &right) <= 0;
     *side = 0;
@@ -201,11 +202,11 @@ static void go_on(walk *w, uint32_t cell, int side) {
     if (w->seen[3 * cell + (uint32_t)side]) return;
     w->seen[3 * cell + (uint32_t)side] = w->cells[cell] = true;
     const sl_cell *c = &space->cells[cell];
-    for (uint32_t i = c->first_exit; i < c->first_exit + c->exit_count; i++) {
+    for (uint32_t i = c->first_directed; i < c->first_directed + c->directed_count; i++) {
         int crossed;
-        if (!meets(w->o, w->to, &w->o->exits[i], &crossed)) continue;
+        if (!meets(w->o, w->to, &w->o->directed[i], &crossed)) continue;
         if (side && crossed && side != crossed) continue;
-        go_on(w, space->exits[i].cell, side ? side : crossed);
+        go_on(w, space->directed[i].cell, side ? side : crossed);
     }
 }
 
@@ -393,16 +394,16 @@ static void look_all_round(oracle_eye *o) {
 static int lowest_exponent(const sl_space *space, sl_point eye, const sl_point *borders,
                            size_t border_count) {
     int lowest = INT_MAX;
-    for (size_t i = 0; i < space->vertex_count + 2 * (size_t)space->exit_count +
+    for (size_t i = 0; i < space->vertex_count + 2 * (size_t)space->directed_count +
                                2 * (size_t)space->wall_count + border_count + 1;
          i++) {
         size_t k = i;
         sl_point p = eye;
         if (k < space->vertex_count)
             p = space->vertices[k];
-        else if ((k -= space->vertex_count) < 2 * (size_t)space->exit_count)
-            p = k % 2 ? space->exits[k / 2].left : space->exits[k / 2].right;
-        else if ((k -= 2 * (size_t)space->exit_count) < 2 * (size_t)space->wall_count)
+        else if ((k -= space->vertex_count) < 2 * (size_t)space->directed_count)
+            p = k % 2 ? space->directed[k / 2].left : space->directed[k / 2].right;
+        else if ((k -= 2 * (size_t)space->directed_count) < 2 * (size_t)space->wall_count)
             p = k % 2 ? space->walls[k / 2].a : space->walls[k / 2].b;
         else if ((k -= 2 * (size_t)space->wall_count) < border_count)
             p = borders[k];
@@ -417,16 +418,16 @@ static void take_points(oracle_eye *o) {
     const sl_space *space = o->space;
     o->corners = must(calloc(space->vertex_count, sizeof *o->corners));
     o->walls = must(calloc((size_t)space->wall_count + 1, sizeof *o->walls));
-    o->exits = must(calloc((size_t)space->exit_count + 1, sizeof *o->exits));
+    o->directed = must(calloc((size_t)space->directed_count + 1, sizeof *o->directed));
     for (uint32_t i = 0; i < space->vertex_count; i++)
         init_point(&o->corners[i], space->vertices[i], o->exponent);
     for (uint32_t i = 0; i < space->wall_count; i++) {
         init_point(&o->walls[i].a, space->walls[i].a, o->exponent);
         init_point(&o->walls[i].b, space->walls[i].b, o->exponent);
     }
-    for (uint32_t i = 0; i < space->exit_count; i++) {
-        init_point(&o->exits[i].a, space->exits[i].left, o->exponent);
-        init_point(&o->exits[i].b, space->exits[i].right, o->exponent);
+    for (uint32_t i = 0; i < space->directed_count; i++) {
+        init_point(&o->directed[i].a, space->directed[i].left, o->exponent);
+        init_point(&o->directed[i].b, space->directed[i].right, o->exponent);
     }
 }
 
@@ -439,13 +440,13 @@ oracle_eye *oracle_eye_create(const sl_space *space, sl_point eye, const sl_poin
     o->exponent = lowest_exponent(space, eye, borders, border_count) - PLACES;
     init_point(&o->eye, eye, o->exponent);
     take_points(o);
-    const size_t most = space->vertex_count + 2 * (size_t)space->exit_count +
+    const size_t most = space->vertex_count + 2 * (size_t)space->directed_count +
                         2 * (size_t)space->wall_count + border_count;
     o->touching = must(calloc(2 * most + 2, sizeof *o->touching));
     for (uint32_t i = 0; i < space->vertex_count; i++) add_direction(o, &o->corners[i]);
-    for (uint32_t i = 0; i < space->exit_count; i++) {
-        add_direction(o, &o->exits[i].a);
-        add_direction(o, &o->exits[i].b);
+    for (uint32_t i = 0; i < space->directed_count; i++) {
+        add_direction(o, &o->directed[i].a);
+        add_direction(o, &o->directed[i].b);
     }
     for (uint32_t i = 0; i < space->wall_count; i++) {
         add_direction(o, &o->walls[i].a);
@@ -468,9 +469,9 @@ void oracle_eye_destroy(oracle_eye *o) {
         clear(&o->walls[i].a);
         clear(&o->walls[i].b);
     }
-    for (uint32_t i = 0; i < o->space->exit_count; i++) {
-        clear(&o->exits[i].a);
-        clear(&o->exits[i].b);
+    for (uint32_t i = 0; i < o->space->directed_count; i++) {
+        clear(&o->directed[i].a);
+        clear(&o->directed[i].b);
     }
     for (size_t i = 0; i < o->ray_count; i++) {
         clear(&o->touching[i].to);
@@ -481,7 +482,7 @@ void oracle_eye_destroy(oracle_eye *o) {
     clear(&o->eye);
     free(o->corners);
     free(o->walls);
-    free(o->exits);
+    free(o->directed);
     free(o->touching);
     free(o->between);
     free(o);

@@ -582,9 +582,9 @@ static void find_exponent(looker *l, const sl_view *view) {
         const double at[4] = {m.a.x, m.a.y, m.b.x, m.b.y};
         for (int k = 0; k < 4; k++) lower(&l->exponent, at[k]);
     }
-    for (uint32_t i = 0; i < s->exit_count; i++) {
-        const double at[4] = {s->exits[i].left.x, s->exits[i].left.y, s->exits[i].right.x,
-                              s->exits[i].right.y};
+    for (uint32_t i = 0; i < s->directed_count; i++) {
+        const double at[4] = {s->directed[i].left.x, s->directed[i].left.y, s->directed[i].right.x,
+                              s->directed[i].right.y};
         for (int k = 0; k < 4; k++) lower(&l->exponent, at[k]);
     }
     for (int i = 0; i < (view->full ? 1 : 3); i++) {
@@ -624,7 +624,7 @@ static void add_mirror(looker *l, uint32_t cell, sl_point from, sl_point to, uin
     add_way(l, left, right, cell, cell, mirror);
 }
 
-/// The portals that a cell has no exit to: as crossed from there, had it one.
+/// The portals that a cell has no directed portal to: as crossed from there, had it one.
 static void gather_dark(looker *l) {
     const sl_space *s = l->space;
     l->dark = must(calloc(4 * (size_t)s->portal_count + 1, sizeof *l->dark));
@@ -632,10 +632,11 @@ static void gather_dark(looker *l) {
         for (int side = 0; side < 2; side++) {
             const sl_portal *p = &s->portals[i];
             const sl_cell *cell = &s->cells[p->cell[side]];
-            bool exits = false;
-            for (uint32_t k = cell->first_exit; k < cell->first_exit + cell->exit_count; k++)
-                exits |= s->exits[k].portal == i;
-            if (exits) continue;
+            bool directed = false;
+            for (uint32_t k = cell->first_directed; k < cell->first_directed + cell->directed_count;
+                 k++)
+                directed |= s->directed[k].portal == i;
+            if (directed) continue;
             vector *ends = &l->dark[2 * l->dark_count++];
             init(&ends[0]), init(&ends[1]);
             set_point(l, &ends[0], side ? p->right : p->left);
@@ -664,8 +665,10 @@ static void gather(looker *l) {
     for (uint32_t c = 0; c < s->cell_count; c++) {
         const sl_cell *cell = &s->cells[c];
         const sl_point *v = s->vertices + cell->first_vertex;
-        for (uint32_t i = cell->first_exit; i < cell->first_exit + cell->exit_count; i++)
-            add_way(l, s->exits[i].left, s->exits[i].right, c, s->exits[i].cell, UINT32_MAX);
+        for (uint32_t i = cell->first_directed; i < cell->first_directed + cell->directed_count;
+             i++)
+            add_way(l, s->directed[i].left, s->directed[i].right, c, s->directed[i].cell,
+                    UINT32_MAX);
         for (uint32_t k = 0; k < 4; k++)
             for (uint32_t m = 0; m < l->map->mirror_count; m++)
                 add_mirror(l, c, v[k], v[(k + 1) % 4], m);

@@ -2,28 +2,10 @@
 
 #include "oracle/apart.h"
 #include "oracle/blockers.h"
+#include "oracle/shared.h"
 
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
-
-__attribute__((format(printf, 2, 3))) static bool fault(char *why, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(why, ORACLE_WHY, format, arguments);
-    va_end(arguments);
-    return false;
-}
-
-static void *must(void *block) {
-    if (!block) abort();
-    return block;
-}
-
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
 
 // --- no two edges have more in common than an end
 
@@ -83,7 +65,7 @@ bool oracle_is_planar(const sl_segment *edges, size_t count, char why[ORACLE_WHY
 // --- chains
 
 typedef struct audit {
-    const sl_planar *graph;
+    const sli_planar *graph;
     const sl_segment *segments;
     size_t count;
     double weld;
@@ -117,7 +99,7 @@ static bool check_point(audit *t, size_t segment, sl_point v) {
 }
 
 static bool check_chain(audit *t, size_t segment) {
-    const sl_planar *g = t->graph;
+    const sli_planar *g = t->graph;
     const size_t first = g->first[segment], end = g->first[segment + 1];
     const sl_segment *s = &t->segments[segment];
     // Ends that have become one are both within the tolerance of it.
@@ -127,30 +109,30 @@ static bool check_chain(audit *t, size_t segment) {
     for (size_t i = first; i < end; i++) {
         if (g->links[i] / 2 >= g->edge_count) return fault(t->why, "link %zu: no edge", i);
         t->used[g->links[i] / 2] = true;
-        const sl_segment at = sl_planar_at(g, g->links[i]);
-        if (i > first && !same(sl_planar_at(g, g->links[i - 1]).b, at.a))
+        const sl_segment at = sli_planar_at(g, g->links[i]);
+        if (i > first && !same(sli_planar_at(g, g->links[i - 1]).b, at.a))
             return fault(t->why, "the chain of segment %zu is broken", segment);
         if (!check_point(t, segment, at.a) || !check_point(t, segment, at.b)) return false;
     }
     // Distances held against the tolerance are rounded.
     const double reach = t->weld * (1 + 0x1p-50);
-    return (are_near(s->a, sl_planar_at(g, g->links[first]).a, reach) &&
-            are_near(s->b, sl_planar_at(g, g->links[end - 1]).b, reach)) ||
+    return (are_near(s->a, sli_planar_at(g, g->links[first]).a, reach) &&
+            are_near(s->b, sli_planar_at(g, g->links[end - 1]).b, reach)) ||
            fault(t->why, "the chain of segment %zu does not join its ends", segment);
 }
 
 static bool check_parts(audit *t) {
-    const sl_planar *g = t->graph;
+    const sli_planar *g = t->graph;
     bool *ended = must(calloc(g->point_count + 1, sizeof *ended)), sound = true;
     for (size_t i = 0; i < g->edge_count && sound; i++) {
-        const sl_planar_edge *e = &g->edges[i];
+        const sli_planar_edge *e = &g->edges[i];
         sound = (e->a < e->b && e->b < g->point_count && t->used[i]) ||
                 fault(t->why, "edge %zu is of no use", i);
         if (sound) ended[e->a] = ended[e->b] = true;
     }
     for (size_t i = 0; i < g->point_count && sound; i++) {
         const sl_point p = g->points[i], before = g->points[i ? i - 1 : 0];
-        const bool ordered = !i || before.x < p.x || (before.x == p.x && before.y < p.y);
+        const bool ordered = !i || is_before(before, p);
         sound = (ended[i] && ordered && sl_coordinate_usable(p.x) && sl_coordinate_usable(p.y)) ||
                 fault(t->why, "point %zu is of no use or out of order", i);
     }
@@ -172,14 +154,14 @@ static bool is_beside(sl_segment e, sl_point v, double reach) {
 /// Points are the tolerance apart, and half of it from edges that they do not end; in doubles, with
 /// room for rounding.
 static bool check_welds(audit *t, double slack) {
-    const sl_planar *g = t->graph;
+    const sli_planar *g = t->graph;
     const double apart = t->weld - slack, off = t->weld / 2 - slack;
     for (size_t i = 0; i < g->point_count; i++)
         for (size_t k = i + 1; k < g->point_count && g->points[k].x <= g->points[i].x + apart; k++)
             if (hypot(g->points[i].x - g->points[k].x, g->points[i].y - g->points[k].y) < apart)
                 return fault(t->why, "points %zu and %zu are not welded", i, k);
     for (size_t i = 0; i < g->edge_count; i++) {
-        const sl_planar_edge *e = &g->edges[i];
+        const sli_planar_edge *e = &g->edges[i];
         const sl_segment s = {g->points[e->a], g->points[e->b]};
         // Points are by x, and so are the ends of edges.
         for (size_t k = e->a; k-- && g->points[k].x >= s.a.x - off;)
@@ -207,7 +189,7 @@ static bool check_largest(audit *t) {
     return fault(t->why, "a largest move of %a is too much", move);
 }
 
-static bool check_planar(const sl_planar *g, char *why) {
+static bool check_planar(const sli_planar *g, char *why) {
     sl_segment *edges = must(calloc(g->edge_count + 1, sizeof *edges));
     for (size_t i = 0; i < g->edge_count; i++)
         edges[i] = (sl_segment){g->points[g->edges[i].a], g->points[g->edges[i].b]};
@@ -216,7 +198,7 @@ static bool check_planar(const sl_planar *g, char *why) {
     return planar;
 }
 
-bool oracle_is_graph_of(const sl_planar *graph, const sl_segment *segments, size_t count,
+bool oracle_is_graph_of(const sli_planar *graph, const sl_segment *segments, size_t count,
                         double weld, char why[ORACLE_WHY]) {
     audit t = {graph,     segments, count, weld, must(calloc(graph->edge_count + 1, sizeof(bool))),
                .why = why};

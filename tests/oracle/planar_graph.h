@@ -16,7 +16,7 @@ bool oracle_is_planar(const sl_segment *edges, size_t count, char why[ORACLE_WHY
 /// and not above the largest distance by more than 2^-47 of the size. All points and edges are of
 /// use to some chain, points are sorted, as far apart as the tolerance asks, and half as far from
 /// edges.
-bool oracle_is_graph_of(const sl_planar *graph, const sl_segment *segments, size_t count,
+bool oracle_is_graph_of(const sli_planar *graph, const sl_segment *segments, size_t count,
                         double weld, char why[ORACLE_WHY]);
 
 #endif

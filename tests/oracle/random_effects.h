@@ -5,8 +5,8 @@
 
 #include "testing.h"
 
-#include "base/random.h"
 #include "sightline/effects.h"
+#include "sightline/support.h"
 
 enum { RANDOM_EFFECTS_SIZE = 7 };
 

@@ -3,8 +3,8 @@
 #ifndef SL_TESTS_RANDOM_MAP_H
 #define SL_TESTS_RANDOM_MAP_H
 
-#include "base/random.h"
 #include "sightline/map.h"
+#include "sightline/support.h"
 
 typedef enum oracle_grid {
     ORACLE_GRID_INTEGER, ///< 0 .. 15

@@ -4,9 +4,9 @@
 #ifndef SL_TESTS_RANDOM_OBLIQUE_H
 #define SL_TESTS_RANDOM_OBLIQUE_H
 
-#include "base/random.h"
 #include "geometry/orient.h"
 #include "sightline/map.h"
+#include "sightline/support.h"
 
 #include <math.h>
 
@@ -119,9 +119,10 @@ static inline bool oblique_is_free(const sl_map *map, sl_point p, sl_point q) {
         if (fmax(p.x, q.x) < fmin(w->a.x, w->b.x) || fmin(p.x, q.x) > fmax(w->a.x, w->b.x) ||
             fmax(p.y, q.y) < fmin(w->a.y, w->b.y) || fmin(p.y, q.y) > fmax(w->a.y, w->b.y))
             continue;
-        const int p_side = sl_orient_exact(w->a, w->b, p), q_side = sl_orient_exact(w->a, w->b, q);
+        const int p_side = sli_orient_exact(w->a, w->b, p),
+                  q_side = sli_orient_exact(w->a, w->b, q);
         if (p_side * q_side > 0) continue;
-        const int a_side = sl_orient_exact(p, q, w->a), b_side = sl_orient_exact(p, q, w->b);
+        const int a_side = sli_orient_exact(p, q, w->a), b_side = sli_orient_exact(p, q, w->b);
         if (a_side * b_side <= 0) return false;
     }
     return true;

@@ -3,8 +3,8 @@
 #ifndef SL_TESTS_RANDOM_SEQUENCE_H
 #define SL_TESTS_RANDOM_SEQUENCE_H
 
-#include "base/random.h"
 #include "oracle/oracle.h"
+#include "sightline/support.h"
 
 /// The most portals in a random sequence.
 #define RANDOM_PORTALS 16

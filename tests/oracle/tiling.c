@@ -1,34 +1,15 @@
 #include "oracle/tiling.h"
 
 #include "oracle/blockers.h"
+#include "oracle/shared.h"
 
 #include <gmp.h>
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
-
-__attribute__((format(printf, 2, 3))) static bool fault(char *why, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(why, ORACLE_WHY, format, arguments);
-    va_end(arguments);
-    return false;
-}
-
-static void *must(void *block) {
-    if (!block) abort();
-    return block;
-}
-
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
-}
 
 static int compare_points(const void *left, const void *right) {
     const sl_point *a = left, *b = right;
-    if (a->x != b->x) return a->x < b->x ? -1 : 1;
-    return (a->y > b->y) - (a->y < b->y);
+    return is_before(*b, *a) - is_before(*a, *b);
 }
 
 static const sl_point *corners_of(const sl_space *s, uint32_t cell) {
@@ -177,12 +158,12 @@ static bool have_known_corners(const sl_space *s, char *why) {
 
 // --- sides
 
-/// Whether a cell has an exit as a side.
-static bool has_side(const sl_space *s, uint32_t cell, const sl_exit *exit) {
+/// Whether a cell has a directed portal as a side.
+static bool has_side(const sl_space *s, uint32_t cell, const sl_directed_portal *directed) {
     for (uint32_t i = 0; i < s->cells[cell].vertex_count; i++) {
         const sl_segment side = side_of(s, cell, i);
-        if (same(side.a, exit->right) && same(side.b, exit->left) &&
-            s->beyond[s->cells[cell].first_vertex + i] == SL_BEYOND_EXIT)
+        if (same(side.a, directed->right) && same(side.b, directed->left) &&
+            s->neighbour[s->cells[cell].first_vertex + i] == SL_NEIGHBOUR_PORTAL)
             return true;
     }
     return false;
@@ -192,13 +173,13 @@ static bool check_portal(const sl_space *s, uint32_t number, char *why) {
     const sl_portal *p = &s->portals[number];
     for (int k = 0; k < 2; k++) {
         const uint32_t cell = p->cell[k];
-        const sl_exit wanted = {number, p->cell[!k], k ? p->right : p->left,
-                                k ? p->left : p->right};
+        const sl_directed_portal wanted = {number, p->cell[!k], k ? p->right : p->left,
+                                           k ? p->left : p->right};
         uint32_t found = 0;
-        for (uint32_t i = 0; i < s->cells[cell].exit_count; i++) {
-            const sl_exit *exit = &s->exits[s->cells[cell].first_exit + i];
-            found += exit->portal == number && exit->cell == wanted.cell &&
-                     same(exit->left, wanted.left) && same(exit->right, wanted.right);
+        for (uint32_t i = 0; i < s->cells[cell].directed_count; i++) {
+            const sl_directed_portal *directed = &s->directed[s->cells[cell].first_directed + i];
+            found += directed->portal == number && directed->cell == wanted.cell &&
+                     same(directed->left, wanted.left) && same(directed->right, wanted.right);
         }
         if (found != 1 || !has_side(s, cell, &wanted))
             return fault(why, "portal %u is not on cell %u", number, cell);
@@ -218,21 +199,22 @@ static bool on_border(const sl_box *b, sl_point p, sl_point q) {
 }
 
 /// Whether what is beyond a side fits its place; counts the sides of walls, left and right.
-static bool check_side(const sl_space *s, uint32_t cell, uint32_t number, uint32_t *exits,
+static bool check_side(const sl_space *s, uint32_t cell, uint32_t number, uint32_t *passed,
                        uint32_t *sides, char *why) {
-    const uint32_t what = s->beyond[s->cells[cell].first_vertex + number];
+    const uint32_t what = s->neighbour[s->cells[cell].first_vertex + number];
     const sl_segment side = side_of(s, cell, number);
-    if (what == SL_BEYOND_EXIT) {
-        const sl_exit *exit = &s->exits[s->cells[cell].first_exit + (*exits)++];
-        return (*exits <= s->cells[cell].exit_count && same(exit->right, side.a) &&
-                same(exit->left, side.b)) ||
-               fault(why, "side %u of cell %u is not its exit", number, cell);
+    if (what == SL_NEIGHBOUR_PORTAL) {
+        const sl_directed_portal *directed =
+            &s->directed[s->cells[cell].first_directed + (*passed)++];
+        return (*passed <= s->cells[cell].directed_count && same(directed->right, side.a) &&
+                same(directed->left, side.b)) ||
+               fault(why, "side %u of cell %u is not its portal", number, cell);
     }
-    if (what == SL_BEYOND_BORDER)
+    if (what == SL_NEIGHBOUR_BORDER)
         return on_border(&s->bounds, side.a, side.b) ||
                fault(why, "side %u of cell %u is no border", number, cell);
-    const bool right = what & SL_BEYOND_RIGHT;
-    const uint32_t wall = what & ~SL_BEYOND_RIGHT;
+    const bool right = what & SL_NEIGHBOUR_RIGHT;
+    const uint32_t wall = what & ~SL_NEIGHBOUR_RIGHT;
     if (wall >= s->wall_count) return fault(why, "cell %u knows no such wall", cell);
     sides[2 * wall + right]++;
     return (same(side.a, right ? s->walls[wall].b : s->walls[wall].a) &&
@@ -244,11 +226,11 @@ static bool check_sides(const sl_space *s, char *why) {
     uint32_t *sides = must(calloc(2 * (size_t)s->wall_count + 1, sizeof *sides));
     bool sound = true;
     for (uint32_t i = 0; i < s->cell_count && sound; i++) {
-        uint32_t exits = 0;
+        uint32_t directed = 0;
         for (uint32_t k = 0; k < s->cells[i].vertex_count && sound; k++)
-            sound = check_side(s, i, k, &exits, sides, why);
-        if (sound && exits != s->cells[i].exit_count)
-            sound = fault(why, "cell %u has too many exits", i);
+            sound = check_side(s, i, k, &directed, sides, why);
+        if (sound && directed != s->cells[i].directed_count)
+            sound = fault(why, "cell %u has too many portals", i);
     }
     for (uint32_t i = 0; i < s->wall_count && sound; i++) {
         const uint32_t left = sides[2 * i], right = sides[2 * i + 1];

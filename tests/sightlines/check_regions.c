@@ -10,8 +10,8 @@
 // some do (the first few are named on stderr), 2 wrong arguments or files.
 #include "oracle/blockers.h"
 
-#include "base/random.h"
 #include "sightline/sightline.h"
+#include "sightline/support.h"
 
 #include <getopt.h>
 #include <math.h>

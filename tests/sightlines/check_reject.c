@@ -12,10 +12,10 @@
 // or 2 for wrong arguments or files.
 #include "oracle/sectors.h"
 
-#include "bake/cell_sectors.h"
-#include "base/file.h"
-#include "base/random.h"
+#include "io/wad.h"
+#include "sightline/io.h"
 #include "sightline/sightline.h"
+#include "sightline/support.h"
 
 #include <getopt.h>
 #include <math.h>
@@ -30,11 +30,11 @@ typedef struct check {
     sl_map map;
     blockers *walls;
     sl_baked baked;
-    sl_cell_sectors cells;
+    sli_cell_sectors cells;
     sl_bytes map_bytes, ours_bytes;
-    sl_doom_level level;
+    sli_doom_level level;
     sector_finder *sectors;
-    sl_lump theirs, ours;
+    sli_lump theirs, ours;
     size_t their_hidden, our_hidden, right, wrong, ambiguous, undecided;
 } check;
 
@@ -203,19 +203,19 @@ static void do_pair(check *run, uint32_t a, uint32_t b) {
 
 // --- files
 
-static void read_reject(check *run, const char *path, sl_bytes *bytes, sl_lump *out) {
-    sl_wad wad;
-    sl_wad_map map;
+static void read_reject(check *run, const char *path, sl_bytes *bytes, sli_lump *out) {
+    sli_wad wad;
+    sli_wad_map map;
     must(run, sl_file_read(run->context, path, bytes));
-    must(run, sl_wad_open(run->context, path, bytes->data, bytes->size, &wad));
-    must(run, sl_wad_find_map(run->context, &wad, run->map_name, &map));
-    if (!run->level.sectors) must(run, sl_doom_read(run->context, &wad, &map, &run->level));
-    const uint32_t lump = sl_wad_find_lump(&wad, &map, "REJECT");
+    must(run, sli_wad_open(run->context, path, bytes->data, bytes->size, &wad));
+    must(run, sli_wad_find_map(run->context, &wad, run->map_name, &map));
+    if (!run->level.sectors) must(run, sli_doom_read(run->context, &wad, &map, &run->level));
+    const uint32_t lump = sli_wad_find_lump(&wad, &map, "REJECT");
     if (lump == wad.lump_count) {
         fprintf(stderr, "check_reject: %s: no REJECT\n", path);
         exit(2);
     }
-    must(run, sl_wad_lump(run->context, &wad, lump, out));
+    must(run, sli_wad_lump(run->context, &wad, lump, out));
 }
 
 static void read_all(check *run) {
@@ -230,7 +230,7 @@ static void read_all(check *run) {
     read_reject(run, run->map_path, &run->map_bytes, &run->theirs);
     read_reject(run, run->ours_path, &run->ours_bytes, &run->ours);
     must(run, sl_baked_read(run->context, run->slv_path, &run->baked));
-    must(run, sl_cell_sectors_find(run->context, &run->baked.space, &run->level, &run->cells));
+    must(run, sli_cell_sectors_find(run->context, &run->baked.space, &run->level, &run->cells));
     run->sectors = sector_finder_create(&run->level);
 }
 
@@ -260,7 +260,7 @@ static void read_arguments(check *run, int argc, char **argv) {
 int main(int argc, char **argv) {
     check run = {0};
     run.context = sl_context_create(NULL);
-    if (!run.context) abort();
+    if (!run.context || sl_io_use(run.context) != SL_OK) abort();
     read_arguments(&run, argc, argv);
     read_all(&run);
     const uint32_t count = (uint32_t)run.level.sector_count;
@@ -271,10 +271,10 @@ int main(int argc, char **argv) {
            run.right, run.wrong, run.ambiguous, run.undecided);
     sector_finder_destroy(run.sectors);
     blockers_destroy(run.walls);
-    sl_cell_sectors_destroy(run.context, &run.cells);
+    sli_cell_sectors_destroy(run.context, &run.cells);
     sl_free(run.context, run.map_bytes.data);
     sl_free(run.context, run.ours_bytes.data);
-    sl_doom_level_destroy(run.context, &run.level);
+    sli_doom_level_destroy(run.context, &run.level);
     sl_baked_destroy(run.context, &run.baked);
     sl_map_destroy(run.context, &run.map);
     sl_context_destroy(run.context);

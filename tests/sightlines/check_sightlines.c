@@ -12,9 +12,9 @@
 // few are told on stderr), 2 wrong arguments or files.
 #include "oracle/sectors.h"
 
-#include "base/file.h"
-#include "base/random.h"
+#include "sightline/io.h"
 #include "sightline/sightline.h"
+#include "sightline/support.h"
 
 #include <getopt.h>
 #include <math.h>
@@ -34,9 +34,9 @@ typedef struct check {
 
     sl_baked baked;
     sl_bytes map_bytes, reject_bytes;
-    sl_doom_level level;
+    sli_doom_level level;
     sector_finder *sectors;
-    sl_lump reject;
+    sli_lump reject;
     bool *lost_sectors; ///< pairs found lost, count x count
 
     double apart; ///< sightlines no farther than this from a wall are let go
@@ -168,7 +168,7 @@ static void check_cells(check *run, sl_segment s) {
 static void check_sectors(check *run, sl_segment s) {
     const uint32_t a = sectors_at(run->sectors, s.a), b = sectors_at(run->sectors, s.b);
     const size_t count = run->level.sector_count;
-    if (a == SL_NO_SECTOR || b == SL_NO_SECTOR) return;
+    if (a == SLI_NO_SECTOR || b == SLI_NO_SECTOR) return;
     run->checked++;
     if (!sectors_rejected(&run->reject, count, a, b) &&
         !sectors_rejected(&run->reject, count, b, a))
@@ -223,27 +223,27 @@ static void find_apart(check *run) {
 }
 
 static void read_sectors(check *run) {
-    sl_wad wad;
-    sl_wad_map map;
+    sli_wad wad;
+    sli_wad_map map;
     must(run, sl_file_read(run->context, run->map_path, &run->map_bytes));
     must(run,
-         sl_wad_open(run->context, run->map_path, run->map_bytes.data, run->map_bytes.size, &wad));
-    must(run, sl_wad_find_map(run->context, &wad, run->import.map, &map));
-    must(run, sl_doom_read(run->context, &wad, &map, &run->level));
+         sli_wad_open(run->context, run->map_path, run->map_bytes.data, run->map_bytes.size, &wad));
+    must(run, sli_wad_find_map(run->context, &wad, run->import.map, &map));
+    must(run, sli_doom_read(run->context, &wad, &map, &run->level));
     run->sectors = sector_finder_create(&run->level);
     run->lost_sectors = calloc(run->level.sector_count * run->level.sector_count + 1, 1);
     if (!run->lost_sectors) abort();
 
     must(run, sl_file_read(run->context, run->reject_path, &run->reject_bytes));
-    must(run, sl_wad_open(run->context, run->reject_path, run->reject_bytes.data,
-                          run->reject_bytes.size, &wad));
-    must(run, sl_wad_find_map(run->context, &wad, run->import.map, &map));
-    const uint32_t lump = sl_wad_find_lump(&wad, &map, "REJECT");
+    must(run, sli_wad_open(run->context, run->reject_path, run->reject_bytes.data,
+                           run->reject_bytes.size, &wad));
+    must(run, sli_wad_find_map(run->context, &wad, run->import.map, &map));
+    const uint32_t lump = sli_wad_find_lump(&wad, &map, "REJECT");
     if (lump == wad.lump_count) {
         fprintf(stderr, "check_sightlines: %s: no REJECT\n", run->reject_path);
         exit(2);
     }
-    must(run, sl_wad_lump(run->context, &wad, lump, &run->reject));
+    must(run, sli_wad_lump(run->context, &wad, lump, &run->reject));
 }
 
 /// Ordered pairs of different sectors that the REJECT hides.
@@ -302,7 +302,7 @@ static void read_arguments(check *run, int argc, char **argv) {
 int main(int argc, char **argv) {
     check run = {.count = 1000000, .apart = -1, .import = sl_import_options_default()};
     run.context = sl_context_create(NULL);
-    if (!run.context) abort();
+    if (!run.context || sl_io_use(run.context) != SL_OK) abort();
     read_arguments(&run, argc, argv);
     read_walls(&run);
     if (run.apart < 0) find_apart(&run);
@@ -318,7 +318,7 @@ int main(int argc, char **argv) {
     sl_free(run.context, run.map_bytes.data);
     sl_free(run.context, run.reject_bytes.data);
     free(run.lost_sectors);
-    sl_doom_level_destroy(run.context, &run.level);
+    sli_doom_level_destroy(run.context, &run.level);
     sl_baked_destroy(run.context, &run.baked);
     sl_map_destroy(run.context, &run.map);
     sl_context_destroy(run.context);

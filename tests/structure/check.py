@@ -1,16 +1,22 @@
 """Checks of the source tree: check.py SUBJECT ROOT.
 
-layers   a folder of lib/ includes only from itself and from folders before it, and lib/README.md
+layers   a folder of lib/ includes only from itself and from folders before it; tools and viewer include
+         public headers alone; private names begin with sli_; and lib/README.md
          has a line for each
 sources  lib/CMakeLists.txt names every source of lib/
 headers  every public header compiles alone, as C11 and as C++
 used     what a private header declares serves more than the one source that has it
 silent   the library prints nothing of its own accord, and reads nothing from the environment
 format   every source is laid out as .clang-format says
+doxygen  the API reference (lib/Doxyfile) has a text for every public function, type and macro
+tidy     clang-tidy finds nothing (.clang-tidy) in what was built in --build; a minute or two
 
 Prints each fault as FILE:LINE: what; exits 0 without faults, 1 with, 77 when it cannot tell.
 """
 import argparse
+import concurrent.futures
+import json
+import os
 import pathlib
 import re
 import shutil
@@ -19,18 +25,24 @@ import sys
 import tempfile
 
 # The stages, in order. Data goes one way: each knows those before it and nothing of those after it.
-FOLDERS = ["base", "geometry", "map", "import", "generate", "space", "effects", "stab", "cell_to_cell",
-           "from_region", "eye_to_cell", "walk", "view_cells", "bake", "runtime", "draw"]
+FOLDERS = ["base", "geometry", "map", "generate", "space", "effects", "stab", "cell_to_cell",
+           "from_region", "eye_to_cell", "walk", "view_cells", "bake", "query", "io", "runtime", "draw"]
 # Used by games with no other part of the library beside it.
 ALONE = {"runtime"}
 # Public headers that are not named after their folder.
-HEADERS = {"context": "base", "glpk": "stab", "solvers": "stab", "pvs": "cell_to_cell",
-           "explain": "cell_to_cell", "doors": "cell_to_cell", "dual": "stab", "steps": "cell_to_cell", "faults": "space", "reject": "bake", "view": "eye_to_cell", "outline": "space",
-           "region": "eye_to_cell", "sees": "eye_to_cell", "mirrored": "eye_to_cell", "moving": "eye_to_cell"}
+HEADERS = {"context": "base", "json_write": "base", "support": "base", "version": "base",
+           "import": "map",
+           "faults": "space", "outline": "space",
+           "dual": "stab", "glpk": "stab", "solvers": "stab",
+           "doors": "cell_to_cell", "explain": "cell_to_cell", "pvs": "cell_to_cell",
+           "steps": "cell_to_cell",
+           "mirrored": "eye_to_cell", "moving": "eye_to_cell", "region": "eye_to_cell",
+           "sees": "eye_to_cell", "view": "eye_to_cell",
+           "reject": "io", "canvas": "draw"}
 # For users: it includes the others, and no part of the library includes it.
 ALL_HEADERS = "sightline"
 # Other versions lay out a few things differently.
-FORMAT_VERSION = 14
+FORMAT_VERSION = TIDY_VERSION = 14
 CANNOT_TELL = 77
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
@@ -111,7 +123,27 @@ def check_layers(root):
                 fault = f"a public header includes {name}, which is not installed"
             if fault:
                 yield f"{path.relative_to(root)}:{line}: {fault}"
+    for path in sources(root, ["tools", "viewer"], {".c", ".h"}):
+        lines = path.read_text(encoding="utf-8").splitlines()
+        for line, how, name in includes(path):
+            folder = pathlib.PurePosixPath(name).parts[0]
+            if how == '"' and folder in FOLDERS and "// private" not in lines[line - 1]:
+                yield (f"{path.relative_to(root)}:{line}: {name} is private to lib; a lesson that shows "
+                       "the library's inside says so behind it: // private: why")
+    yield from check_names(root)
     yield from check_map_of_the_house(lib, [name for name in FOLDERS if name in there])
+
+
+def check_names(root):
+    """What a private header declares begins with sli_, so that a reader sees what is public."""
+    for path in sorted((root / "lib").glob("*/*.h")):
+        if path.parent.name in ALONE:
+            continue
+        text = path.read_text(encoding="utf-8")
+        for declared in DECLARATION.finditer(text):
+            if text[declared.start()] != " " and not declared[1].startswith("sli_"):
+                line = text.count("\n", 0, declared.start(1)) + 1
+                yield f"{path.relative_to(root)}:{line}: {declared[1]}: a private name begins with sli_"
 
 
 def check_map_of_the_house(lib, there):
@@ -134,7 +166,7 @@ def check_sources(root):
 
 
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
-DECLARATION = re.compile(r"^(?!static|typedef)[\w ]+[ *](sl_\w+)\([^;{]*\);", re.MULTILINE)
+DECLARATION = re.compile(r"^(?!static|typedef)[\w ]+[ *](sli?_\w+)\([^;{]*\);", re.MULTILINE)
 
 
 def check_used(root):
@@ -142,7 +174,7 @@ def check_used(root):
              for path in sources(root, ["lib", "tools", "viewer", "tests"], {".c", ".h"})}
     users = {}
     for path, text in texts.items():
-        for name in re.findall(r"\bsl_\w+", text):
+        for name in re.findall(r"\bsli?_\w+", text):
             users.setdefault(name, []).append(path)
     for path in sorted((root / "lib").glob("*/*.h")):
         for declared in DECLARATION.finditer(texts[path]):
@@ -180,13 +212,19 @@ def check_headers(root, compilers):
                     yield f"{path.relative_to(root)}: not alone as {flags[0][5:]}:\n{done.stderr}"
 
 
-def check_format(root):
-    program = shutil.which(f"clang-format-{FORMAT_VERSION}") or shutil.which("clang-format")
+def clang_tool(name, wanted):
+    """The path of a clang tool of the wanted version."""
+    program = shutil.which(f"{name}-{wanted}") or shutil.which(name)
     if not program:
-        raise CannotTell("clang-format is not here")
+        raise CannotTell(f"{name} is not here")
     version = subprocess.run([program, "--version"], stdout=subprocess.PIPE, text=True).stdout
-    if not re.search(rf"version {FORMAT_VERSION}\.", version):
-        raise CannotTell(f"the layout is that of clang-format {FORMAT_VERSION}; here is {version}")
+    if not re.search(rf"version {wanted}\.", version):
+        raise CannotTell(f"{name} {wanted} is asked for; here is {version.strip()}")
+    return program
+
+
+def check_format(root):
+    program = clang_tool("clang-format", FORMAT_VERSION)
     files = [str(path) for path in
              sources(root, ["lib", "tools", "viewer", "tests"], {".c", ".h", ".cpp"})]
     done = subprocess.run([program, "--style=file", "--dry-run", "--Werror", *files],
@@ -200,13 +238,69 @@ def check_format(root):
         yield done.stderr
 
 
+def check_tidy(root, build):
+    program = clang_tool("clang-tidy", TIDY_VERSION)
+    database = pathlib.Path(build or "nowhere", "compile_commands.json")
+    if not database.exists():
+        raise CannotTell(f"there is no {database}: configure first, and name the folder by --build")
+    folders = [(root / folder).resolve() for folder in ("lib", "tools", "viewer")]
+    entries = json.loads(database.read_text(encoding="utf-8"))
+    files = sorted({entry["file"] for entry in entries
+                    if any(folder in pathlib.Path(entry["file"]).parents for folder in folders)})
+
+    def tidy(file):
+        command = [program, "-p", str(database.parent), "--quiet", file]
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        return done.returncode, done.stdout, done.stderr
+
+    seen = set()
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        for file, (status, stdout, stderr) in zip(files, pool.map(tidy, files)):
+            found = re.findall(r"^(/.*?):(\d+:\d+): (?:error|warning): (.*)$", stdout, re.MULTILINE)
+            for name, place, what in found:
+                path = pathlib.Path(name).resolve().relative_to(root.resolve())
+                if (path, place, what) not in seen:
+                    seen.add((path, place, what))
+                    yield f"{path}:{place}: {what}"
+            if status and not found:
+                yield f"{file}: clang-tidy ended with {status}:\n{stdout}{stderr}"
+
+
+# What may go without a text of its own: fields, and values of enums.
+NEEDS_NO_TEXT = re.compile(r"Member .+ \((?:variable|enumvalue|enumeration value)\) of ")
+
+
+def check_doxygen(root):
+    program = shutil.which("doxygen")
+    if not program:
+        raise CannotTell("doxygen is not here")
+    with tempfile.TemporaryDirectory() as scratch:
+        text = (root / "lib/Doxyfile").read_text(encoding="utf-8")
+        text += f"\nOUTPUT_DIRECTORY = {scratch}\nWARN_IF_UNDOCUMENTED = YES\n"
+        done = subprocess.run([program, "-"], input=text, cwd=root, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE, text=True)
+    seen = set()
+    for line in done.stderr.splitlines():
+        found = re.match(r"(/.*?):(\d+): (?:warning|error): (.*)", line)
+        if not found or NEEDS_NO_TEXT.match(found[3]) or line in seen:
+            continue
+        seen.add(line)
+        # The filter of the Doxyfile puts a line before the others.
+        path = pathlib.Path(found[1]).resolve().relative_to(root.resolve())
+        yield f"{path}:{int(found[2]) - 1}: {found[3]}"
+    if done.returncode:
+        yield f"doxygen ended with {done.returncode}:\n{done.stderr}"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("subject", choices=["layers", "sources", "used", "silent", "headers", "format"])
+    parser.add_argument("subject", choices=["layers", "sources", "used", "silent", "headers", "format",
+                                            "doxygen", "tidy"])
     parser.add_argument("root", type=pathlib.Path)
     parser.add_argument("--cc", help="C compiler, for headers")
     parser.add_argument("--cxx", help="C++ compiler, for headers")
+    parser.add_argument("--build", help="folder of a build, for tidy")
     options = parser.parse_args()
     if options.subject == "headers":
         compilers = [("c", options.cc, ["-std=c11"]), ("cpp", options.cxx, ["-std=c++11"])]
@@ -217,7 +311,9 @@ def main():
     else:
         missing = []
         check = {"layers": check_layers, "sources": check_sources, "used": check_used,
-                 "silent": check_silent, "format": check_format}
+                 "silent": check_silent, "format": check_format,
+                 "doxygen": check_doxygen,
+                 "tidy": lambda root: check_tidy(root, options.build)}
         found = check[options.subject](options.root)
     try:
         faults = list(found)

@@ -53,6 +53,15 @@ class CheckTest(unittest.TestCase):
         self.assert_one(faults, "lib/map/m.c:2", "space/x.h")
         self.assert_one(self.layers("lib/base/b.h", '# include "map/m.h"\n'), "lib/base/b.h:1")
 
+    def test_private_include_of_an_application(self):
+        self.assert_one(self.layers("tools/t.c", '#include "base/a.h"\n'), "tools/t.c:1", "private")
+        self.assertEqual(self.layers("tools/t.c", '#include "base/a.h" // private: a lesson\n'), [])
+        self.assertEqual(self.layers("viewer/v.c", '#include "sightline/map.h"\n#include "v.h"\n'), [])
+
+    def test_private_name_that_looks_public(self):
+        self.assert_one(self.layers("lib/base/b.h", "int sl_get(int i);\n"), "lib/base/b.h:1", "sl_get")
+        self.assertEqual(self.layers("lib/base/b.h", "int sli_get(int i);\n"), [])
+
     def test_public_include_of_a_later_stage(self):
         self.assert_one(self.layers("lib/map/m.c", '#include "sightline/space.h"\n'), "space/")
         self.assert_one(self.layers("lib/map/m.c", "#include <sightline/pvs.h>\n"), "cell_to_cell/")
@@ -125,6 +134,23 @@ class CheckTest(unittest.TestCase):
             self.skipTest(str(reason))
         faults = self.faults(check.check_format, {"lib/map/m.c": "int  a ;\n"})
         self.assert_one(faults, "lib/map/m.c:1")
+
+    def test_doxygen(self):
+        doxyfile = pathlib.Path(__file__).resolve().parents[2] / "lib/Doxyfile"
+        tree = {"lib/Doxyfile": doxyfile.read_text(encoding="utf-8"), "lib/runtime/r.h": "",
+                "lib/include/sightline/context.h": "/// Numbers.\n\n/// One.\ntypedef int sl_number;\n",
+                "lib/include/sightline/map.h": "/// A map.\n\n/// It.\nstruct sl_map { int a; };\n",
+                "lib/include/sightline/space.h": "/// A space.\n\n/// Gets it.\nint sl_get(void);\n"}
+        try:
+            self.assertEqual(self.faults(check.check_doxygen, tree), [])
+        except check.CannotTell as reason:
+            self.skipTest(str(reason))
+        name = "lib/include/sightline/space.h"
+        faults = self.faults(check.check_doxygen, {**tree, name: "/// A space.\n\nint sl_get(void);\n"})
+        self.assert_one(faults, name + ":3", "sl_get")
+        name = "lib/include/sightline/map.h"
+        faults = self.faults(check.check_doxygen, {**tree, name: "/// A map.\n\nstruct sl_map { int a; };\n"})
+        self.assert_one(faults, name + ":3", "sl_map")
 
 
 if __name__ == "__main__":

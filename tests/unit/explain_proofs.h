@@ -4,21 +4,22 @@
 
 #include "testing.h"
 
-#include "cell_to_cell/crossing.h"
+#include "cell_to_cell/directions.h"
 #include "geometry/orient.h"
 
 #include <math.h>
 
-/// Whether the exits lead from one cell to the next, and on from `from`. Returns the last cell.
+/// Whether the directed portals lead from one cell to the next, and on from `from`. Returns the
+/// last cell.
 static inline uint32_t check_chain(const sl_space *space, uint32_t from,
                                    const sl_sequence *sequence) {
     uint32_t at = from;
-    assert_true(sequence->exit_count > 0);
-    for (uint32_t i = 0; i < sequence->exit_count; i++) {
-        const uint32_t exit = sequence->exits[i];
-        assert_true(exit >= space->cells[at].first_exit);
-        assert_true(exit < space->cells[at].first_exit + space->cells[at].exit_count);
-        at = space->exits[exit].cell;
+    assert_true(sequence->directed_count > 0);
+    for (uint32_t i = 0; i < sequence->directed_count; i++) {
+        const uint32_t directed = sequence->directed[i];
+        assert_true(directed >= space->cells[at].first_directed);
+        assert_true(directed < space->cells[at].first_directed + space->cells[at].directed_count);
+        at = space->directed[directed].cell;
     }
     return at;
 }
@@ -26,23 +27,23 @@ static inline uint32_t check_chain(const sl_space *space, uint32_t from,
 /// What a line does to the ends of a side: 1 where all are strictly on it, 0 where some are
 /// touched, -1 where some are on the other side.
 static inline int keeps(sl_line line, sl_point left, sl_point right) {
-    const int l = sl_orient(line.a, line.b, left), r = -sl_orient(line.a, line.b, right);
+    const int l = sli_orient(line.a, line.b, left), r = -sli_orient(line.a, line.b, right);
     return l < r ? l : r;
 }
 
 static inline void check_witness(const sl_space *space, const sl_explanation *e) {
     int least = 1;
     assert_true(e->witness.a.x != e->witness.b.x || e->witness.a.y != e->witness.b.y);
-    for (uint32_t i = 0; i < e->sequence.exit_count; i++) {
-        const sl_exit *exit = &space->exits[e->sequence.exits[i]];
-        const int kept = keeps(e->witness, exit->left, exit->right);
+    for (uint32_t i = 0; i < e->sequence.directed_count; i++) {
+        const sl_directed_portal *directed = &space->directed[e->sequence.directed[i]];
+        const int kept = keeps(e->witness, directed->left, directed->right);
         if (kept < least) least = kept;
     }
     assert_int_equal(least, e->touches ? 0 : 1);
     if (e->verdict == SL_GRAZING) assert_true(e->touches);
     for (uint32_t i = 0; i < e->sequence.end_count; i++) {
         const sl_point p = sl_sequence_end(space, &e->sequence, e->sequence.ends[i]);
-        assert_int_equal(sl_orient(e->witness.a, e->witness.b, p), 0);
+        assert_int_equal(sli_orient(e->witness.a, e->witness.b, p), 0);
     }
 }
 
@@ -60,7 +61,7 @@ static inline bool has_weak_line(const sl_point *ends, const bool *left, uint32_
             if (ends[i].x == ends[j].x && ends[i].y == ends[j].y) continue;
             bool holds = true;
             for (uint32_t k = 0; k < count && holds; k++) {
-                const int side = sl_orient(ends[i], ends[j], ends[k]);
+                const int side = sli_orient(ends[i], ends[j], ends[k]);
                 holds = left[k] ? side >= 0 : side <= 0;
             }
             if (holds) return true;
@@ -96,7 +97,7 @@ static inline bool has_strict_line(const sl_point *ends, const bool *left, uint3
             uint32_t touched = 0;
             bool holds = true;
             for (uint32_t k = 0; k < count && holds; k++) {
-                const int side = sl_orient(ends[i], ends[j], ends[k]);
+                const int side = sli_orient(ends[i], ends[j], ends[k]);
                 holds = left[k] ? side >= 0 : side <= 0;
                 if (side != 0) continue;
                 on[touched] = ends[k];
@@ -118,7 +119,7 @@ static inline void check_conflict(const sl_space *space, const sl_sequence *sequ
     const uint32_t count = sequence->end_count;
     assert_in_range(count, 2, SL_CONFLICT_MOST);
     for (uint32_t i = 0; i < count; i++) {
-        assert_true(sequence->ends[i].portal < sequence->exit_count);
+        assert_true(sequence->ends[i].portal < sequence->directed_count);
         ends[i] = sl_sequence_end(space, sequence, sequence->ends[i]);
         left[i] = sequence->ends[i].left;
     }
@@ -162,9 +163,9 @@ static inline sl_stab_verdict verdict_on(sl_context *context, const sl_space *sp
     sl_stab_verdict verdict = SL_STABBED;
     assert_ok(context, funnel->create(context, space->bounds, &state));
     for (uint32_t i = 0; i < count; i++) {
-        const sl_exit *exit = &space->exits[sequence->exits[i]];
+        const sl_directed_portal *directed = &space->directed[sequence->directed[i]];
         assert_int_not_equal(verdict, SL_HIDDEN);
-        assert_ok(context, funnel->push(context, state, exit->left, exit->right, &verdict));
+        assert_ok(context, funnel->push(context, state, directed->left, directed->right, &verdict));
     }
     funnel->destroy(context, state);
     return verdict;
@@ -172,11 +173,11 @@ static inline sl_stab_verdict verdict_on(sl_context *context, const sl_space *sp
 
 static inline void check_turn(const sl_space *space, const sl_sequence *sequence) {
     assert_int_equal(sequence->end_count, 4);
-    const uint32_t other = sequence->ends[0].portal, last = sequence->exit_count - 1;
+    const uint32_t other = sequence->ends[0].portal, last = sequence->directed_count - 1;
     assert_true(other < last);
     // Axial portals leave no direction where two of them are crossed in opposite ones.
-    const sl_exit *a = &space->exits[sequence->exits[other]];
-    const sl_exit *b = &space->exits[sequence->exits[last]];
+    const sl_directed_portal *a = &space->directed[sequence->directed[other]];
+    const sl_directed_portal *b = &space->directed[sequence->directed[last]];
     const double ax = a->left.x - a->right.x, ay = a->left.y - a->right.y;
     const double bx = b->left.x - b->right.x, by = b->left.y - b->right.y;
     assert_true((ax == 0 && bx == 0 && (ay > 0) != (by > 0)) ||
@@ -191,12 +192,12 @@ static inline void check_miss(sl_context *context, const sl_space *space, const 
                               uint32_t number) {
     const sl_miss *miss = &e->misses[number];
     const sl_sequence *sequence = &miss->sequence;
-    const uint32_t count = sequence->exit_count;
+    const uint32_t count = sequence->directed_count;
     const uint32_t behind = check_chain(space, e->from, sequence);
     assert_int_not_equal(behind, e->from);
     for (uint32_t i = 0; i + 1 < count; i++)
-        assert_int_not_equal(behind, space->exits[sequence->exits[i]].cell);
-    const uint32_t portal = space->exits[sequence->exits[count - 1]].portal;
+        assert_int_not_equal(behind, space->directed[sequence->directed[i]].cell);
+    const uint32_t portal = space->directed[sequence->directed[count - 1]].portal;
     const uint32_t before = space->portals[portal].cell[space->portals[portal].cell[0] == behind];
     assert_int_equal(miss->missing, distance_between(space, before, e->to));
     assert_int_equal(distance_between(space, behind, e->to), miss->missing - 1);
@@ -211,8 +212,8 @@ static inline void check_miss(sl_context *context, const sl_space *space, const 
     for (uint32_t i = 0; i < number; i++) {
         const sl_miss *farther = &e->misses[i];
         assert_true(farther->missing <= miss->missing);
-        const uint32_t last = farther->sequence.exit_count - 1;
-        const sl_sequence head = {farther->sequence.exits, last, 0, {{0, false}}};
+        const uint32_t last = farther->sequence.directed_count - 1;
+        const sl_sequence head = {farther->sequence.directed, last, 0, {{0, false}}};
         const uint32_t cell = last ? check_chain(space, e->from, &head) : e->from;
         assert_int_not_equal(cell, before);
     }

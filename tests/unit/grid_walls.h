@@ -4,7 +4,7 @@
 
 #include "testing.h"
 
-#include "base/random.h"
+#include "sightline/support.h"
 
 enum { GRID = 12, WALLS_MOST = 14, LINES = 60 };
 

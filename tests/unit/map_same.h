@@ -2,7 +2,7 @@
 #ifndef SL_MAP_SAME_H
 #define SL_MAP_SAME_H
 
-#include "map/print.h"
+#include "map/scan.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +13,7 @@ static inline char *map_text(const sl_map *map) {
     size_t size;
     FILE *stream = open_memstream(&text, &size);
     if (!stream) abort();
-    sl_map_print_text(map, stream);
+    sli_map_print_text(map, stream);
     if (fclose(stream) != 0) abort();
     return text;
 }
@@ -24,7 +24,7 @@ static inline char *map_plan_text(sl_context *context, const sl_map *map, sl_sta
     size_t size;
     FILE *stream = open_memstream(&text, &size);
     if (!stream) abort();
-    *status = sl_map_print_plan(context, map, stream);
+    *status = sli_map_print_plan(context, map, stream);
     if (fclose(stream) != 0) abort();
     if (*status == SL_OK) return text;
     if (size) abort();

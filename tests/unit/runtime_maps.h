@@ -34,7 +34,7 @@ static inline void baked_file_make(sl_context *context, baked_file *f, bool insi
     assert_ok(context, sl_see_methods(&count)->see(context, &b->space, &options, &b->visibility));
     FILE *stream = open_memstream(&f->bytes, &f->size);
     assert_non_null(stream);
-    assert_ok(context, sl_slv_print(context, b, stream));
+    assert_ok(context, sli_slv_print(context, b, stream));
     assert_int_equal(fclose(stream), 0);
     baked_file_open(f);
 }

@@ -10,7 +10,7 @@
 
 /// Makes the checksum right.
 static inline void slv_seal(char *bytes, size_t size) {
-    sl_slv_header header;
+    sli_slv_header header;
     memcpy(&header, bytes, sizeof header);
     header.checksum = 0;
     memcpy(bytes, &header, sizeof header);
@@ -20,10 +20,10 @@ static inline void slv_seal(char *bytes, size_t size) {
 
 /// The entry of a section in the table, for memcpy; NULL for none.
 static inline char *slv_entry(char *bytes, const char *tag) {
-    sl_slv_header header;
+    sli_slv_header header;
     memcpy(&header, bytes, sizeof header);
     for (uint32_t i = 0; i < header.section_count; i++) {
-        char *entry = bytes + sizeof header + i * sizeof(sl_slv_section);
+        char *entry = bytes + sizeof header + i * sizeof(sli_slv_section);
         if (memcmp(entry, tag, 4) == 0) return entry;
     }
     return NULL;
@@ -33,7 +33,7 @@ static inline char *slv_entry(char *bytes, const char *tag) {
 static inline char *slv_items(char *bytes, const char *tag) {
     const char *entry = slv_entry(bytes, tag);
     assert_non_null(entry);
-    sl_slv_section s;
+    sli_slv_section s;
     memcpy(&s, entry, sizeof s);
     return bytes + s.offset;
 }
@@ -41,21 +41,21 @@ static inline char *slv_items(char *bytes, const char *tag) {
 /// The file with one section more, behind the others; for free(). `size` becomes its size.
 static inline char *slv_with(const char *bytes, size_t *size, const char *tag, const void *items,
                              uint32_t item_bytes, uint64_t count) {
-    sl_slv_header header;
+    sli_slv_header header;
     memcpy(&header, bytes, sizeof header);
-    const size_t table = sizeof header + header.section_count * sizeof(sl_slv_section);
-    const size_t longer = sizeof(sl_slv_section), content = (item_bytes * count + 7) / 8 * 8;
+    const size_t table = sizeof header + header.section_count * sizeof(sli_slv_section);
+    const size_t longer = sizeof(sli_slv_section), content = (item_bytes * count + 7) / 8 * 8;
     char *out = calloc(1, *size + longer + content);
     assert_non_null(out);
     memcpy(out, bytes, table);
     memcpy(out + table + longer, bytes + table, *size - table);
     for (uint32_t i = 0; i < header.section_count; i++) {
-        sl_slv_section s;
+        sli_slv_section s;
         memcpy(&s, out + sizeof header + i * sizeof s, sizeof s);
         s.offset += longer;
         memcpy(out + sizeof header + i * sizeof s, &s, sizeof s);
     }
-    sl_slv_section s = {.item_bytes = item_bytes, .offset = *size + longer, .count = count};
+    sli_slv_section s = {.item_bytes = item_bytes, .offset = *size + longer, .count = count};
     memcpy(s.tag, tag, sizeof s.tag);
     memcpy(out + table, &s, sizeof s);
     if (count) memcpy(out + s.offset, items, item_bytes * count);

@@ -1,11 +1,9 @@
 /// Visible sets, the depth-first search, the baked file: written, read back, damaged.
 #include "testing.h"
 
-#include "base/bits.h"
-#include "base/file.h"
-#include "base/random.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "sightline/glpk.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -16,7 +14,7 @@ static void rows_keep_their_sets(void **state) {
     sl_context *context = testing_context(NULL);
     sl_random random = {4};
     for (uint32_t count = 1; count < 400; count += 1 + count / 7) {
-        sl_row_bytes *rows = calloc(count, sizeof *rows);
+        sli_row_bytes *rows = calloc(count, sizeof *rows);
         sl_bits *sets = calloc((size_t)count * sl_bits_words(count), sizeof *sets);
         assert_true(rows && sets);
         for (uint32_t i = 0; i < count; i++) {
@@ -24,12 +22,12 @@ static void rows_keep_their_sets(void **state) {
             const uint64_t density = sl_random_below(&random, 101);
             for (uint32_t j = 0; j < count; j++)
                 if (sl_random_below(&random, 100) < density) sl_bits_add(set, j);
-            assert_ok(context, sl_row_append(context, &rows[i], set, count));
+            assert_ok(context, sli_row_append(context, &rows[i], set, count));
         }
         sl_pvs pvs, transposed;
-        assert_ok(context, sl_pvs_join(context, rows, count, &pvs));
+        assert_ok(context, sli_pvs_join(context, rows, count, &pvs));
         assert_ok(context, sl_pvs_check(context, &pvs));
-        assert_ok(context, sl_pvs_transpose(context, &pvs, &transposed));
+        assert_ok(context, sli_pvs_transpose(context, &pvs, &transposed));
         assert_ok(context, sl_pvs_check(context, &transposed));
         for (uint32_t i = 0; i < count; i++) {
             uint32_t members = 0;

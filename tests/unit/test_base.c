@@ -1,17 +1,23 @@
 /// Numbers as text, files, threads.
 #include "testing.h"
 
-#include "base/bits.h"
-#include "base/file.h"
-#include "base/number.h"
-#include "base/random.h"
-#include "base/threads.h"
+#include "sightline/support.h"
+#include "sightline/version.h"
 
 #include <math.h>
 #include <sched.h>
 #include <stdatomic.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+static void one_version_everywhere(void **state) {
+    (void)state;
+    char text[64];
+    snprintf(text, sizeof text, "%d.%d.%d", SL_VERSION_MAJOR, SL_VERSION_MINOR, SL_VERSION_PATCH);
+    assert_string_equal(SL_VERSION, text);
+    assert_string_equal(sl_version(), text);
+    assert_string_equal(SIGHTLINE_PROJECT_VERSION, text); // what CMake read
+}
 
 static void numbers_read_back_to_the_same_double(void **state) {
     (void)state;
@@ -195,6 +201,7 @@ static void of_failures_that_of_the_lowest_unit_is_told(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_version_everywhere),
         cmocka_unit_test(numbers_read_back_to_the_same_double),
         cmocka_unit_test(numbers_are_short),
         cmocka_unit_test(only_decimals_are_numbers),

@@ -2,8 +2,9 @@
 // under the methods that keep them.
 #include "testing.h"
 
-#include "base/random.h"
-#include "cell_to_cell/bit_rows.h"
+#include "cell_to_cell/rows.h"
+#include "sightline/generate.h"
+#include "sightline/support.h"
 
 enum { MOST_CELLS = 700 };
 
@@ -13,43 +14,43 @@ typedef struct matrix {
 } matrix;
 
 /// Members close to each other and far apart, so that rows have few words, many, and all.
-static void fill_set(sl_random *random, uint32_t count, uint32_t members, sl_word_set *set) {
+static void fill_set(sl_random *random, uint32_t count, uint32_t members, sli_word_set *set) {
     const uint32_t centre = (uint32_t)sl_random_below(random, count);
     for (uint32_t i = 0; i < members; i++) {
         const bool near = sl_random_below(random, 4) != 0;
         const uint64_t step = sl_random_below(random, near ? 20 : count);
-        sl_word_set_add(set, (uint32_t)((centre + step) % count));
+        sli_word_set_add(set, (uint32_t)((centre + step) % count));
     }
 }
 
-static void fill(sl_context *context, uint64_t seed, uint32_t members, sl_bit_rows *rows,
+static void fill(sl_context *context, uint64_t seed, uint32_t members, sli_bit_rows *rows,
                  matrix *truth) {
     sl_random random = {seed};
-    sl_word_set set;
-    assert_ok(context, sl_word_set_create(context, truth->count, &set));
+    sli_word_set set;
+    assert_ok(context, sli_word_set_create(context, truth->count, &set));
     for (uint32_t i = 0; i < 3 * truth->count; i++) {
         const uint32_t cell = (uint32_t)sl_random_below(&random, truth->count);
         fill_set(&random, truth->count, members, &set);
         const uint32_t dropped = (uint32_t)sl_random_below(&random, truth->count);
-        sl_word_set_drop(&set, dropped);
+        sli_word_set_drop(&set, dropped);
         for (uint32_t k = 0; k < truth->count; k++)
             truth->sees[cell][k] |= sl_bits_has(set.bits, k);
         assert_false(sl_bits_has(set.bits, dropped));
-        assert_ok(context, sl_bit_rows_add(context, rows, cell, &set));
-        sl_word_set_clear(&set);
-        assert_int_equal(sl_word_set_next(&set, 0), 0);
-        assert_true(sl_word_set_before(&set, rows->words) == SIZE_MAX);
-        assert_ok(context, sl_bit_rows_add_one(context, rows, cell, dropped));
+        assert_ok(context, sli_bit_rows_add(context, rows, cell, &set));
+        sli_word_set_clear(&set);
+        assert_int_equal(sli_word_set_next(&set, 0), 0);
+        assert_true(sli_word_set_before(&set, rows->words) == SIZE_MAX);
+        assert_ok(context, sli_bit_rows_add_one(context, rows, cell, dropped));
         truth->sees[cell][dropped] = true;
     }
-    sl_word_set_destroy(context, &set);
+    sli_word_set_destroy(context, &set);
 }
 
-static void mirror(matrix *truth, sl_mirroring how) {
+static void mirror(matrix *truth, sli_mirroring how) {
     for (uint32_t a = 0; a < truth->count; a++)
         for (uint32_t b = 0; b < a; b++) {
             const bool one = truth->sees[a][b], other = truth->sees[b][a];
-            const bool both = how == SL_ADD_MIRRORED ? one || other : one && other;
+            const bool both = how == SLI_ADD_MIRRORED ? one || other : one && other;
             truth->sees[a][b] = truth->sees[b][a] = both;
         }
 }
@@ -66,27 +67,27 @@ static void compare(const sl_visibility *seen, const matrix *truth) {
 }
 
 static void check_rows(sl_context *context, uint32_t count, uint32_t members, sl_row_storage how,
-                       sl_mirroring mirroring) {
+                       sli_mirroring mirroring) {
     matrix *truth = calloc(1, sizeof *truth);
     assert_non_null(truth);
     truth->count = count;
     sl_see_options options = sl_see_options_default();
     options.rows = how;
-    sl_bit_rows rows, fork;
-    assert_ok(context, sl_bit_rows_create(context, count, &options, &rows));
+    sli_bit_rows rows, fork;
+    assert_ok(context, sli_bit_rows_create(context, count, &options, &rows));
     assert_int_equal(rows.bits != NULL, how == SL_ROWS_DENSE);
     fill(context, 2 * count + members, members, &rows, truth);
-    assert_ok(context, sl_bit_rows_fork(context, &rows, &fork));
+    assert_ok(context, sli_bit_rows_fork(context, &rows, &fork));
     fill(context, 3 * count + members, members, &fork, truth);
-    sl_bit_rows_join(context, &rows, &fork);
-    assert_ok(context, sl_bit_rows_mirror(context, &rows, mirroring));
+    sli_bit_rows_join(context, &rows, &fork);
+    assert_ok(context, sli_bit_rows_mirror(context, &rows, mirroring));
     mirror(truth, mirroring);
     sl_visibility seen = {0};
-    assert_ok(context, sl_bit_rows_encode(context, &rows, &seen));
+    assert_ok(context, sli_bit_rows_encode(context, &rows, &seen));
     assert_ok(context, sl_pvs_check(context, &seen.pvs));
     compare(&seen, truth);
     sl_visibility_destroy(context, &seen);
-    sl_bit_rows_destroy(context, &rows);
+    sli_bit_rows_destroy(context, &rows);
     free(truth);
 }
 
@@ -100,9 +101,9 @@ static void rows_hold_what_is_added(void **state) {
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
         for (size_t k = 0; k < sizeof members / sizeof *members; k++)
             for (int how = SL_ROWS_DENSE; how <= SL_ROWS_SPARSE; how++)
-                for (int mirroring = SL_ADD_MIRRORED; mirroring <= SL_KEEP_MUTUAL; mirroring++)
+                for (int mirroring = SLI_ADD_MIRRORED; mirroring <= SLI_KEEP_MUTUAL; mirroring++)
                     check_rows(context, counts[i], members[k], (sl_row_storage)how,
-                               (sl_mirroring)mirroring);
+                               (sli_mirroring)mirroring);
     assert_int_equal(memory.live, live);
     sl_context_destroy(context);
 }
@@ -112,19 +113,19 @@ static void large_rows_are_sparse(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
     const sl_see_options options = sl_see_options_default();
-    sl_bit_rows rows;
-    assert_ok(context, sl_bit_rows_create(context, 4000000, &options, &rows));
+    sli_bit_rows rows;
+    assert_ok(context, sli_bit_rows_create(context, 4000000, &options, &rows));
     assert_null(rows.bits);
     const uint32_t cells[] = {0, 3999999, 2000000};
     for (size_t i = 0; i < 3; i++)
         for (size_t k = 0; k < 3; k++)
-            assert_ok(context, sl_bit_rows_add_one(context, &rows, cells[i], cells[k]));
+            assert_ok(context, sli_bit_rows_add_one(context, &rows, cells[i], cells[k]));
     sl_visibility seen = {0};
-    assert_ok(context, sl_bit_rows_encode(context, &rows, &seen));
+    assert_ok(context, sli_bit_rows_encode(context, &rows, &seen));
     assert_int_equal(seen.account.pairs, 9);
     assert_true(sl_pvs_sees(&seen.pvs, 3999999, 2000000));
     sl_visibility_destroy(context, &seen);
-    sl_bit_rows_destroy(context, &rows);
+    sli_bit_rows_destroy(context, &rows);
     sl_context_destroy(context);
 }
 

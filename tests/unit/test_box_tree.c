@@ -2,8 +2,8 @@
 // points and lines, tiny, huge and without end.
 #include "testing.h"
 
-#include "base/random.h"
-#include "space/box_tree.h"
+#include "sightline/support.h"
+#include "space/index.h"
 
 #include <math.h>
 
@@ -30,9 +30,9 @@ static sl_box draw_box(sl_random *random, const kind *k) {
     return box;
 }
 
-static void ask(sl_context *context, const sl_box_tree *tree, const sl_box *boxes, size_t count,
-                const sl_box *question, sl_box_list *found) {
-    assert_ok(context, sl_box_tree_find(context, tree, question, found));
+static void ask(sl_context *context, const sli_box_tree *tree, const sl_box *boxes, size_t count,
+                const sl_box *question, sli_box_list *found) {
+    assert_ok(context, sli_box_tree_find(context, tree, question, found));
     size_t next = 0;
     for (size_t i = 0; i < count; i++) {
         const sl_box *b = &boxes[i];
@@ -52,9 +52,9 @@ static void check_kind(const kind *k, size_t count) {
     sl_box *boxes = malloc((count + 1) * sizeof *boxes);
     assert_non_null(boxes);
     for (size_t i = 0; i < count; i++) boxes[i] = draw_box(&random, k);
-    sl_box_tree tree;
-    assert_ok(context, sl_box_tree_create(context, boxes, count, &tree));
-    sl_box_list found = {0};
+    sli_box_tree tree;
+    assert_ok(context, sli_box_tree_create(context, boxes, count, &tree));
+    sli_box_list found = {0};
     for (int i = 0; i < QUESTIONS; i++) {
         sl_box question = draw_box(&random, k);
         if (i % 4 == 1) question.max.x = HUGE_VAL;
@@ -65,7 +65,7 @@ static void check_kind(const kind *k, size_t count) {
     ask(context, &tree, boxes, count, &all, &found);
     assert_int_equal(found.count, count);
     sl_free(context, found.items);
-    sl_box_tree_destroy(context, &tree);
+    sli_box_tree_destroy(context, &tree);
     sl_context_destroy(context);
     assert_int_equal(memory.live, 0);
     free(boxes);
@@ -90,13 +90,13 @@ static void survives_a_lack_of_memory(void **state) {
     for (long fail_at = 1; fail_at <= 4; fail_at++) {
         testing_memory memory = {.fail_at = fail_at + 1};
         sl_context *context = testing_context(&memory);
-        sl_box_tree tree;
-        sl_box_list found = {0};
-        sl_status status = sl_box_tree_create(context, boxes, 20, &tree);
-        if (status == SL_OK) status = sl_box_tree_find(context, &tree, &boxes[0], &found);
+        sli_box_tree tree;
+        sli_box_list found = {0};
+        sl_status status = sli_box_tree_create(context, boxes, 20, &tree);
+        if (status == SL_OK) status = sli_box_tree_find(context, &tree, &boxes[0], &found);
         assert_int_equal(status, SL_NO_MEMORY);
         sl_free(context, found.items);
-        sl_box_tree_destroy(context, &tree);
+        sli_box_tree_destroy(context, &tree);
         sl_context_destroy(context);
         assert_int_equal(memory.live, 0);
     }

@@ -59,8 +59,8 @@ static void check_witness(const char *path, const sl_solver *solver, const void 
                           const oracle_portal *portals, size_t count) {
     const sl_line line = solver->witness(state);
     for (size_t i = 0; i < count; i++) {
-        if (sl_orient(line.a, line.b, portals[i].left) < 0 ||
-            sl_orient(line.a, line.b, portals[i].right) > 0)
+        if (sli_orient(line.a, line.b, portals[i].left) < 0 ||
+            sli_orient(line.a, line.b, portals[i].right) > 0)
             fail_msg("%s: the witness of %s passes portal %zu on the wrong side", path,
                      solver->name, i);
     }

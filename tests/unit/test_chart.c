@@ -3,10 +3,8 @@
 
 #include "test_draw_map.h"
 
-#include "base/file.h"
-#include "base/random.h"
-#include "draw/chart_axis.h"
-#include "draw/chart_labels.h"
+#include "draw/chart.h"
+#include "sightline/support.h"
 
 #include <cairo.h>
 #include <math.h>
@@ -16,8 +14,8 @@
 
 // --- axes
 
-static sl_axis axis_of(const sl_chart_axis *what, double least, double most) {
-    sl_axis axis = sl_axis_fit(what, least, most);
+static sli_axis axis_of(const sl_chart_axis *what, double least, double most) {
+    sli_axis axis = sli_axis_fit(what, least, most);
     axis.from = 100;
     axis.to = 600;
     return axis;
@@ -33,10 +31,10 @@ static void values_stand_in_order_within_the_frame(void **state) {
         const int start = scale == SL_CHART_LOG ? 6 : 0;
         for (int first = start; first < COUNT; first++)
             for (int last = first; last < COUNT; last++) {
-                const sl_axis axis = axis_of(&what, values[first], values[last]);
+                const sli_axis axis = axis_of(&what, values[first], values[last]);
                 double before = 100;
                 for (int i = first; i <= last; i++) {
-                    const double place = sl_axis_place(&axis, values[i]);
+                    const double place = sli_axis_place(&axis, values[i]);
                     // Both ends stay free; far apart, neighbours may fall together.
                     assert_true(place > 110 && place < 590);
                     assert_true(place >= before);
@@ -44,7 +42,7 @@ static void values_stand_in_order_within_the_frame(void **state) {
                 }
                 const bool tiny = scale == SL_CHART_SYMLOG && fabs(values[last]) < 0.1;
                 if (last > first && !tiny)
-                    assert_true(before - sl_axis_place(&axis, values[first]) > 1e-3);
+                    assert_true(before - sli_axis_place(&axis, values[first]) > 1e-3);
             }
     }
 }
@@ -55,9 +53,9 @@ static void a_balanced_axis_has_zero_in_the_middle(void **state) {
         const sl_chart_axis what = {.scale = (sl_chart_scale)scale, .over = "o", .under = "u"};
         static const double ends[][2] = {{0, 0}, {0, 40}, {-7, 3}, {-1e6, -5}};
         for (int i = 0; i < 4; i++) {
-            const sl_axis axis = axis_of(&what, ends[i][0], ends[i][1]);
-            assert_true(sl_axis_place(&axis, 0) == 350);
-            assert_true(fabs(sl_axis_place(&axis, 3) + sl_axis_place(&axis, -3) - 700) < 1e-9);
+            const sli_axis axis = axis_of(&what, ends[i][0], ends[i][1]);
+            assert_true(sli_axis_place(&axis, 0) == 350);
+            assert_true(fabs(sli_axis_place(&axis, 3) + sli_axis_place(&axis, -3) - 700) < 1e-9);
         }
     }
 }
@@ -65,13 +63,13 @@ static void a_balanced_axis_has_zero_in_the_middle(void **state) {
 /// The texts of the ticks, with blanks between.
 static void write_ticks(const sl_chart_axis *what, double least, double most, char *text,
                         size_t room) {
-    sl_tick ticks[SL_TICKS_MOST];
-    const sl_axis axis = axis_of(what, least, most);
-    const size_t count = sl_axis_ticks(&axis, ticks);
-    assert_in_range(count, what->scale == SL_CHART_SYMLOG ? 1 : 2, SL_TICKS_MOST);
+    sli_tick ticks[SLI_TICKS_MOST];
+    const sli_axis axis = axis_of(what, least, most);
+    const size_t count = sli_axis_ticks(&axis, ticks);
+    assert_in_range(count, what->scale == SL_CHART_SYMLOG ? 1 : 2, SLI_TICKS_MOST);
     text[0] = '\0';
     for (size_t i = 0; i < count; i++) {
-        const double place = sl_axis_place(&axis, ticks[i].value);
+        const double place = sli_axis_place(&axis, ticks[i].value);
         assert_true(place >= 100 && place <= 600);
         if (i) assert_true(ticks[i].value > ticks[i - 1].value);
         assert_int_equal(ticks[i].minor, ticks[i].text[0] == '\0');
@@ -135,7 +133,7 @@ static void any_range_has_numbers(void **state) {
             for (int k = i; k < 8; k++)
                 for (int seconds = 0; seconds < 2; seconds++) {
                     const sl_chart_axis what = {.scale = (sl_chart_scale)scale, .seconds = seconds};
-                    char text[SL_TICKS_MOST * SL_COUNT_TEXT];
+                    char text[SLI_TICKS_MOST * SL_COUNT_TEXT];
                     if (scale == SL_CHART_SYMLOG && magnitudes[k] < 1) continue; // only 0 is there
                     write_ticks(&what, magnitudes[i], magnitudes[k], text, sizeof text);
                     if (scale == SL_CHART_LOG) continue;
@@ -152,7 +150,7 @@ static bool apart(sl_box a, sl_box b) {
 }
 
 /// By points along the line: another way than the library's.
-static bool line_keeps_off(const sl_label *label, sl_box box) {
+static bool line_keeps_off(const sli_label *label, sl_box box) {
     for (int i = 0; i <= 400; i++) {
         const double t = i / 400.0;
         const double x = label->anchor.x + t * (label->knee.x - label->anchor.x);
@@ -162,9 +160,9 @@ static bool line_keeps_off(const sl_label *label, sl_box box) {
     return true;
 }
 
-static void check_labels(const sl_label *labels, size_t count, const sl_label_room *room) {
+static void check_labels(const sli_label *labels, size_t count, const sli_label_room *room) {
     for (size_t i = 0; i < count; i++) {
-        const sl_label *label = &labels[i];
+        const sli_label *label = &labels[i];
         if (!label->placed) continue;
         const sl_box b = label->box, f = room->frame;
         assert_true(fabs(b.max.x - b.min.x - label->width) < 1e-9);
@@ -184,7 +182,7 @@ static void check_labels(const sl_label *labels, size_t count, const sl_label_ro
 enum { LABELS = 24 };
 
 static int compare_anchors(const void *left, const void *right) {
-    const double a = ((const sl_label *)left)->anchor.x, b = ((const sl_label *)right)->anchor.x;
+    const double a = ((const sli_label *)left)->anchor.x, b = ((const sli_label *)right)->anchor.x;
     return (a > b) - (a < b);
 }
 
@@ -193,8 +191,8 @@ static void labels_keep_apart(void **state) {
     (void)state;
     sl_random random = {5};
     for (int round = 0; round < 60; round++) {
-        sl_label labels[LABELS] = {0};
-        sl_obstacle obstacles[LABELS + 1];
+        sli_label labels[LABELS] = {0};
+        sli_obstacle obstacles[LABELS + 1];
         const size_t count = 1 + sl_random_below(&random, LABELS);
         const double spread = round % 3 == 0 ? 1 : round % 3 == 1 ? 0.1 : 0;
         for (size_t i = 0; i < count; i++) {
@@ -207,15 +205,15 @@ static void labels_keep_apart(void **state) {
         qsort(labels, count, sizeof *labels, compare_anchors);
         for (size_t i = 0; i < count; i++) {
             const sl_point at = labels[i].anchor;
-            obstacles[i] = (sl_obstacle){{{at.x - 6, at.y - 6}, {at.x + 6, at.y + 6}}, i, false};
+            obstacles[i] = (sli_obstacle){{{at.x - 6, at.y - 6}, {at.x + 6, at.y + 6}}, i, false};
         }
-        obstacles[count] = (sl_obstacle){{{0, 249}, {1000, 251}}, SIZE_MAX, true};
-        const sl_label_room room = {.frame = frame,
-                                    .obstacles = obstacles,
-                                    .obstacle_count = count + 1,
-                                    .gap = 3,
-                                    .clearance = 10};
-        const bool all = sl_labels_place(labels, count, &room);
+        obstacles[count] = (sli_obstacle){{{0, 249}, {1000, 251}}, SIZE_MAX, true};
+        const sli_label_room room = {.frame = frame,
+                                     .obstacles = obstacles,
+                                     .obstacle_count = count + 1,
+                                     .gap = 3,
+                                     .clearance = 10};
+        const bool all = sli_labels_place(labels, count, &room);
         size_t placed = 0;
         for (size_t i = 0; i < count; i++) placed += labels[i].placed;
         assert_int_equal(all, placed == count);
@@ -228,21 +226,21 @@ static void a_lone_label_stands_by_its_mark(void **state) {
     (void)state;
     static const sl_point anchors[] = {{500, 250}, {3, 250}, {997, 250}, {500, 3}, {997, 497}};
     for (int i = 0; i < 5; i++) {
-        sl_label label = {.anchor = anchors[i], .width = 120, .height = 30};
-        const sl_label_room room = {.frame = frame, .gap = 3, .clearance = 10};
-        assert_true(sl_labels_place(&label, 1, &room));
+        sli_label label = {.anchor = anchors[i], .width = 120, .height = 30};
+        const sli_label_room room = {.frame = frame, .gap = 3, .clearance = 10};
+        assert_true(sli_labels_place(&label, 1, &room));
         assert_true(hypot(label.knee.x - label.anchor.x, label.knee.y - label.anchor.y) < 40);
     }
 }
 
 static void without_room_labels_are_left_out(void **state) {
     (void)state;
-    sl_label labels[LABELS];
-    const sl_label_room room = {.frame = {{0, 0}, {150, 60}}, .gap = 3, .clearance = 10};
+    sli_label labels[LABELS];
+    const sli_label_room room = {.frame = {{0, 0}, {150, 60}}, .gap = 3, .clearance = 10};
     for (int i = 0; i < LABELS; i++)
-        labels[i] = (sl_label){.anchor = {75, 30}, .width = 60, .height = 15};
+        labels[i] = (sli_label){.anchor = {75, 30}, .width = 60, .height = 15};
     labels[3].width = 200; // wider than all there is
-    assert_false(sl_labels_place(labels, LABELS, &room));
+    assert_false(sli_labels_place(labels, LABELS, &room));
     assert_true(labels[0].placed);
     assert_false(labels[3].placed);
     check_labels(labels, LABELS, &room);

@@ -1,9 +1,9 @@
 /// Where two segments cross, against rationals: no representable coordinate is nearer.
 #include "testing.h"
 
-#include "base/random.h"
 #include "geometry/crossing.h"
 #include "oracle/blockers.h"
+#include "sightline/support.h"
 
 #include <float.h>
 #include <gmp.h>
@@ -103,14 +103,14 @@ static bool check(sl_segment s, sl_segment t) {
     if (!strictly_cross(s, t)) return false;
     place is;
     place_of(s, t, &is);
-    const sl_point at = sl_crossing(s, t);
+    const sl_point at = sli_crossing(s, t);
     if (!is_nearest(is.x, at.x) || !is_nearest(is.y, at.y))
         fail_msg("%a %a to %a %a and %a %a to %a %a do not cross at %a %a", s.a.x, s.a.y, s.b.x,
                  s.b.y, t.a.x, t.a.y, t.b.x, t.b.y, at.x, at.y);
     mpq_clears(is.x, is.y, NULL);
     const sl_segment pairs[][2] = {{t, s}, {turned(s), t}, {s, turned(t)}, {turned(t), turned(s)}};
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
-        if (!same(sl_crossing(pairs[i][0], pairs[i][1]), at))
+        if (!same(sli_crossing(pairs[i][0], pairs[i][1]), at))
             fail_msg("%a %a to %a %a and %a %a to %a %a cross elsewhere in another order", s.a.x,
                      s.a.y, s.b.x, s.b.y, t.a.x, t.a.y, t.b.x, t.b.y);
     return true;

@@ -2,9 +2,8 @@
 /// distance, huge, tiny and far from the origin.
 #include "testing.h"
 
-#include "base/random.h"
-#include "geometry/distance.h"
-#include "geometry/whole.h"
+#include "geometry/crossing.h"
+#include "sightline/support.h"
 
 #include <gmp.h>
 
@@ -12,7 +11,7 @@ enum { DRAWS = 20000 };
 
 // --- whole numbers
 
-static void whole_to_mpz(const sl_whole *a, mpz_t out) {
+static void whole_to_mpz(const sli_whole *a, mpz_t out) {
     mpz_import(out, a->count, -1, sizeof *a->digits, 0, 0, a->digits);
     if (a->sign < 0) mpz_neg(out, out);
     assert_true(!a->count || a->digits[a->count - 1]);
@@ -36,10 +35,10 @@ static void whole_numbers(void **state) {
     mpz_t a, b, c, d;
     mpz_inits(a, b, c, d, NULL);
     for (int i = 0; i < 2000; i++) {
-        sl_whole x, y, sum, less, product, all;
+        sli_whole x, y, sum, less, product, all;
         const double u = random_double(&random), v = random_double(&random);
-        sl_whole_set(u, -1074, &x);
-        sl_whole_set(v, -1074, &y);
+        sli_whole_set(u, -1074, &x);
+        sli_whole_set(v, -1074, &y);
         whole_to_mpz(&x, a);
         whole_to_mpz(&y, b);
         mpf_t f;
@@ -49,9 +48,9 @@ static void whole_numbers(void **state) {
         mpz_set_f(c, f);
         assert_int_equal(mpz_cmp(a, c), 0);
         mpf_clear(f);
-        sl_whole_add(&x, &y, &sum);
-        sl_whole_subtract(&x, &y, &less);
-        sl_whole_multiply(&x, &y, &product);
+        sli_whole_add(&x, &y, &sum);
+        sli_whole_subtract(&x, &y, &less);
+        sli_whole_multiply(&x, &y, &product);
         mpz_add(c, a, b);
         whole_to_mpz(&sum, d);
         assert_int_equal(mpz_cmp(c, d), 0);
@@ -59,12 +58,12 @@ static void whole_numbers(void **state) {
         whole_to_mpz(&less, d);
         assert_int_equal(mpz_cmp(c, d), 0);
         const int order = mpz_cmp(a, b);
-        assert_int_equal(sl_whole_compare(&x, &y), (order > 0) - (order < 0));
+        assert_int_equal(sli_whole_compare(&x, &y), (order > 0) - (order < 0));
         mpz_mul(c, a, b);
         whole_to_mpz(&product, d);
         assert_int_equal(mpz_cmp(c, d), 0);
-        sl_whole_multiply(&product, &product, &less);
-        sl_whole_multiply(&less, &product, &all); // six factors
+        sli_whole_multiply(&product, &product, &less);
+        sli_whole_multiply(&less, &product, &all); // six factors
         mpz_pow_ui(c, c, 3);
         whole_to_mpz(&all, d);
         assert_int_equal(mpz_cmp(c, d), 0);
@@ -78,7 +77,7 @@ typedef struct vector {
     mpq_t x, y;
 } vector;
 
-static void between(const sl_fine *from, const sl_fine *to, vector *out) {
+static void between(const sli_fine *from, const sli_fine *to, vector *out) {
     const double parts[2][4] = {{to->at.x, to->rest.x, from->at.x, from->rest.x},
                                 {to->at.y, to->rest.y, from->at.y, from->rest.y}};
     mpq_t part;
@@ -126,8 +125,8 @@ static void meet(const vector *p, const vector *w, const vector *d, mpq_t at) {
 }
 
 /// The sign, by the place itself: the foot's share of the way, kept between those of the borders.
-static int expected_sign(const sl_glance *g, double length) {
-    const sl_fine right = {.at = g->right}, left = {.at = g->left};
+static int expected_sign(const sli_glance *g, double length) {
+    const sli_fine right = {.at = g->right}, left = {.at = g->left};
     vector p, w, d;
     mpq_t low, high, at, t;
     mpq_inits(p.x, p.y, w.x, w.y, d.x, d.y, low, high, at, t, NULL);
@@ -164,16 +163,16 @@ static sl_point place(sl_random *random, double scale, double shift, double by) 
                       shift + (small(random) + by * sl_random_unit(random)) * scale};
 }
 
-static int turn(const sl_glance *g, sl_point a, sl_point b) {
-    return sl_orient_fine(&g->eye, &(sl_fine){.at = a}, &(sl_fine){.at = b});
+static int turn(const sli_glance *g, sl_point a, sl_point b) {
+    return sli_orient_fine(&g->eye, &(sli_fine){.at = a}, &(sli_fine){.at = b});
 }
 
 /// A direction through the segment: at one of its ends, or at a point that is seen between them.
-static bool random_direction(sl_random *random, sl_glance *g, double scale, double shift, double by,
-                             sl_fine *point, bool *away) {
+static bool random_direction(sl_random *random, sli_glance *g, double scale, double shift,
+                             double by, sli_fine *point, bool *away) {
     const uint64_t kind = sl_random_below(random, 4);
     *away = false;
-    *point = (sl_fine){.at = kind ? g->right : g->left};
+    *point = (sli_fine){.at = kind ? g->right : g->left};
     if (kind < 2) return true;
     point->at = place(random, scale, shift, by);
     const int from = turn(g, g->right, point->at), to = turn(g, point->at, g->left);
@@ -182,15 +181,15 @@ static bool random_direction(sl_random *random, sl_glance *g, double scale, doub
 }
 
 /// Whether a direction is not to the right of another one.
-static bool is_left_of(const sl_glance *g) {
+static bool is_left_of(const sli_glance *g) {
     const int sign = turn(g, g->from.at, g->to.at);
     return (g->from_away == g->to_away ? sign : -sign) >= 0;
 }
 
-static bool random_glance(sl_random *random, double scale, double shift, double by, sl_glance *g) {
-    *g = (sl_glance){.eye = {.at = place(random, scale, shift, by)},
-                     .right = place(random, scale, shift, by),
-                     .left = place(random, scale, shift, by)};
+static bool random_glance(sl_random *random, double scale, double shift, double by, sli_glance *g) {
+    *g = (sli_glance){.eye = {.at = place(random, scale, shift, by)},
+                      .right = place(random, scale, shift, by),
+                      .left = place(random, scale, shift, by)};
     if (sl_random_below(random, 3) == 0)
         g->eye.rest = (sl_point){g->eye.at.x * 0x1p-55, g->eye.at.y * 0x1p-60};
     return turn(g, g->right, g->left) > 0 &&
@@ -207,14 +206,14 @@ static void nearest_places(void **state) {
     for (int i = 0; i < DRAWS;) {
         const double *scale = scales[i % 6];
         const double by = sl_random_below(&random, 2) ? 1 : 0;
-        sl_glance g;
+        sli_glance g;
         if (!random_glance(&random, scale[0], scale[1], by, &g)) continue;
         double length = (double)(1 + sl_random_below(&random, 15)) * scale[0];
         if (sl_random_below(&random, 2))
             length = hypot(g.right.x - g.eye.at.x, g.right.y - g.eye.at.y);
         if (!(length > 0)) continue;
         const int sign = expected_sign(&g, length);
-        if (sl_nearest_compare(&g, length) != sign)
+        if (sli_nearest_compare(&g, length) != sign)
             fail_msg("draw %d: eye %.17g,%.17g right %.17g,%.17g left %.17g,%.17g length %.17g: %d",
                      i, g.eye.at.x, g.eye.at.y, g.right.x, g.right.y, g.left.x, g.left.y, length,
                      sign);
@@ -226,30 +225,30 @@ static void nearest_places(void **state) {
 
 static void segments_in_line(void **state) {
     (void)state;
-    sl_glance g = {.eye = {.at = {1, 1}},
-                   .from = {.at = {4, 5}},
-                   .to = {.at = {4, 5}},
-                   .right = {7, 9},
-                   .left = {4, 5}};
-    assert_int_equal(sl_nearest_compare(&g, 5), 0);
-    assert_int_equal(sl_nearest_compare(&g, nextafter(5, 0)), 1);
+    sli_glance g = {.eye = {.at = {1, 1}},
+                    .from = {.at = {4, 5}},
+                    .to = {.at = {4, 5}},
+                    .right = {7, 9},
+                    .left = {4, 5}};
+    assert_int_equal(sli_nearest_compare(&g, 5), 0);
+    assert_int_equal(sli_nearest_compare(&g, nextafter(5, 0)), 1);
     g.right = (sl_point){4, 5};
     g.left = (sl_point){7, 9};
-    assert_int_equal(sl_nearest_compare(&g, nextafter(5, 9)), -1);
+    assert_int_equal(sli_nearest_compare(&g, nextafter(5, 9)), -1);
 }
 
 static void two_points(void **state) {
     (void)state;
     const sl_point o = {1e10, -1e10}, p = {1e10 + 3, -1e10 + 4};
-    assert_int_equal(sl_distance_compare(o, p, 5), 0);
-    assert_int_equal(sl_distance_compare(o, p, nextafter(5, 0)), 1);
-    assert_int_equal(sl_distance_compare(o, p, nextafter(5, 9)), -1);
-    assert_int_equal(sl_distance_compare(o, o, 0), 0);
-    assert_int_equal(sl_distance_compare(o, o, 0x1p-1074), -1);
-    assert_int_equal(sl_distance_compare(o, p, 0), 1);
-    assert_int_equal(sl_distance_compare((sl_point){3e-200, 0}, (sl_point){0, 4e-200}, 5e-200),
-                     sl_distance_compare((sl_point){3e-200 * 0x1p600, 0},
-                                         (sl_point){0, 4e-200 * 0x1p600}, 5e-200 * 0x1p600));
+    assert_int_equal(sli_distance_compare(o, p, 5), 0);
+    assert_int_equal(sli_distance_compare(o, p, nextafter(5, 0)), 1);
+    assert_int_equal(sli_distance_compare(o, p, nextafter(5, 9)), -1);
+    assert_int_equal(sli_distance_compare(o, o, 0), 0);
+    assert_int_equal(sli_distance_compare(o, o, 0x1p-1074), -1);
+    assert_int_equal(sli_distance_compare(o, p, 0), 1);
+    assert_int_equal(sli_distance_compare((sl_point){3e-200, 0}, (sl_point){0, 4e-200}, 5e-200),
+                     sli_distance_compare((sl_point){3e-200 * 0x1p600, 0},
+                                          (sl_point){0, 4e-200 * 0x1p600}, 5e-200 * 0x1p600));
 }
 
 int main(void) {

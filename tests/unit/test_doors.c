@@ -1,12 +1,11 @@
 /// Doors of a large plan: every state of them is seen as a bake is that has walls in those that are
 /// shut, by the library and by the runtime for games.
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
-// needs effects
 #include "runtime_maps.h"
 
-#include "base/random.h"
 #include "cell_to_cell/door_table.h"
 #include "doors_plan.h"
+#include "sightline/support.h"
 
 enum { STATES = 1000 };
 
@@ -27,7 +26,7 @@ static void bake(sl_context *context, baked_file *f) {
     assert_int_equal(b->visibility.account.door_fallbacks, 0);
     FILE *stream = open_memstream(&f->bytes, &f->size);
     assert_non_null(stream);
-    assert_ok(context, sl_slv_print(context, b, stream));
+    assert_ok(context, sli_slv_print(context, b, stream));
     assert_int_equal(fclose(stream), 0);
     baked_file_open(f);
     assert_int_equal(f->runtime.door_count, DOORS);
@@ -38,11 +37,11 @@ static void compare(sl_context *context, const baked_file *f, const bool *shut) 
     const sl_visibility *v = &f->baked.visibility;
     sl_space walled;
     sl_visibility fresh = {0};
-    const sl_passage passage = {.shut = shut};
+    const sl_filtered_space filtered = {.shut = shut};
     sl_see_options options = sl_see_options_default();
     unsigned char bytes[DOORS];
     for (int i = 0; i < DOORS; i++) bytes[i] = shut[i];
-    assert_ok(context, sl_passage_make(context, space, &passage, NULL, &walled));
+    assert_ok(context, sl_filtered_space_make(context, space, &filtered, NULL, &walled));
     assert_ok(context, testing_method("sweep")->see(context, &walled, &options, &fresh));
     for (uint32_t a = 0; a < space->cell_count; a++)
         for (uint32_t b = 0; b < space->cell_count; b++) {
@@ -137,9 +136,9 @@ static void doors_in_one_place_shut_it_each(void **state) {
     assert_int_equal(map.door_count, 2);
     for (int shut = 0; shut < 4; shut++) {
         const bool doors[2] = {shut & 1, shut & 2};
-        const sl_passage passage = {.shut = doors};
+        const sl_filtered_space filtered = {.shut = doors};
         sl_space walled;
-        assert_ok(context, sl_passage_make(context, &space, &passage, NULL, &walled));
+        assert_ok(context, sl_filtered_space_make(context, &space, &filtered, NULL, &walled));
         assert_int_equal(space.portal_count - walled.portal_count, shut ? 1 : 0);
         sl_space_destroy(context, &walled);
     }
@@ -158,17 +157,17 @@ static void shut_doors_are_walls_of_sides(void **state) {
                   "walls 0 0 8 0 8 4 0 4 0 0\nwall 3 0 3.5 1\nwall 4.5 3 5 4\n"
                   "door d 3.5 1 4.5 3 open\n",
                   &map, &space);
-    assert_non_null(space.beyond);
+    assert_non_null(space.neighbour);
     const bool shut = true;
-    const sl_passage passage = {.shut = &shut};
-    assert_ok(context, sl_passage_make(context, &space, &passage, NULL, &walled));
+    const sl_filtered_space filtered = {.shut = &shut};
+    assert_ok(context, sl_filtered_space_make(context, &space, &filtered, NULL, &walled));
     assert_ok(context, sl_space_check(context, &walled));
     uint32_t left = 0, right = 0;
     for (uint32_t i = 0; i < space.vertex_count; i++) {
-        if (space.beyond[i] == walled.beyond[i]) continue;
-        const uint32_t wall = walled.beyond[i] & ~SL_BEYOND_RIGHT;
-        const bool at_right = walled.beyond[i] & SL_BEYOND_RIGHT;
-        assert_int_equal(space.beyond[i], SL_BEYOND_EXIT);
+        if (space.neighbour[i] == walled.neighbour[i]) continue;
+        const uint32_t wall = walled.neighbour[i] & ~SL_NEIGHBOUR_RIGHT;
+        const bool at_right = walled.neighbour[i] & SL_NEIGHBOUR_RIGHT;
+        assert_int_equal(space.neighbour[i], SL_NEIGHBOUR_PORTAL);
         assert_true(wall >= space.wall_count && wall < walled.wall_count);
         // Cells are at the left of their sides: at the right of a wall that runs against these.
         const sl_point a = walled.walls[wall].a, from = walled.vertices[i];
@@ -188,24 +187,24 @@ static void sets_of_many_doors_are_told_apart(void **state) {
     (void)state;
     enum { MANY = 150, LIMIT = 3 };
     sl_context *context = testing_context(NULL);
-    sl_door_table table;
-    assert_ok(context, sl_door_table_create(context, 1, MANY, LIMIT, &table));
+    sli_door_table table;
+    assert_ok(context, sli_door_table_create(context, 1, MANY, LIMIT, &table));
     sl_bits low[3] = {0}, both[3] = {0}, high[3] = {0};
     sl_bits_add(low, 1);
     sl_bits_add(both, 1);
     sl_bits_add(both, 149);
     sl_bits_add(high, 100);
-    assert_ok(context, sl_door_table_add(context, &table, 0, both));
-    assert_true(sl_door_table_proves(&table, 0, both));
-    assert_false(sl_door_table_proves(&table, 0, low));
-    assert_ok(context, sl_door_table_add(context, &table, 0, high));
+    assert_ok(context, sli_door_table_add(context, &table, 0, both));
+    assert_true(sli_door_table_proves(&table, 0, both));
+    assert_false(sli_door_table_proves(&table, 0, low));
+    assert_ok(context, sli_door_table_add(context, &table, 0, high));
     assert_int_equal(table.count[0], 2);
-    assert_false(sl_door_table_proves(&table, 0, low));
-    assert_ok(context, sl_door_table_add(context, &table, 0, low)); // in the place of both
+    assert_false(sli_door_table_proves(&table, 0, low));
+    assert_ok(context, sli_door_table_add(context, &table, 0, low)); // in the place of both
     assert_int_equal(table.count[0], 2);
-    assert_true(sl_door_table_proves(&table, 0, low) && sl_door_table_proves(&table, 0, high));
+    assert_true(sli_door_table_proves(&table, 0, low) && sli_door_table_proves(&table, 0, high));
     assert_int_equal(table.fallbacks, 0);
-    sl_door_table_destroy(context, &table);
+    sli_door_table_destroy(context, &table);
     sl_context_destroy(context);
 }
 

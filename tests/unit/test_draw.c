@@ -3,8 +3,8 @@
 
 #include "test_draw_map.h"
 
-#include "base/file.h"
-#include "draw/text.h"
+#include "sightline/canvas.h"
+#include "sightline/support.h"
 
 #include <cairo.h>
 #include <dirent.h>

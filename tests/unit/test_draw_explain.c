@@ -3,7 +3,7 @@
 
 #include "test_draw_map.h"
 
-#include "base/file.h"
+#include "sightline/support.h"
 
 #include <dirent.h>
 #include <math.h>
@@ -130,7 +130,7 @@ static void a_hidden_pair_shows_its_conflict(void **state) {
     const sl_sequence *sequence = &e.misses[0].sequence;
     int left = 0, right = 0;
     for (uint32_t i = 0; i < sequence->end_count; i++) sequence->ends[i].left ? left++ : right++;
-    const int portals = (int)sequence->exit_count;
+    const int portals = (int)sequence->directed_count;
     const shown s = ends_shown(b, FIRST, CORNER, 3);
     assert_int_equal(s.left, 1 + portals + left + 2);
     assert_int_equal(s.right, 1 + portals + right + 2);

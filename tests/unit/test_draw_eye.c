@@ -3,7 +3,7 @@
 
 #include "test_draw_map.h"
 
-#include "base/file.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <unistd.h>

@@ -41,29 +41,30 @@ static inline void draw_add_walls(sl_context *context, sl_map *map, draw_place p
 /// Cells below see each other, those in the middle only themselves, the one outside nothing.
 static inline void draw_add_sets(sl_context *context, draw_map *map) {
     const uint32_t count = map->baked.space.cell_count;
-    sl_row_bytes rows[5] = {0};
+    sli_row_bytes rows[5] = {0};
     assert_int_equal(count, 5);
     for (uint32_t i = LEFT_BELOW; i < OUTSIDE; i++) {
         sl_bits set[1] = {0};
         sl_bits_add(set, map->cells[i]);
         if (i <= RIGHT_BELOW) sl_bits_add(set, map->cells[RIGHT_BELOW - i]);
-        assert_ok(context, sl_row_append(context, &rows[map->cells[i]], set, count));
+        assert_ok(context, sli_row_append(context, &rows[map->cells[i]], set, count));
     }
-    assert_ok(context, sl_pvs_join(context, rows, count, &map->baked.visibility.pvs));
+    assert_ok(context, sli_pvs_join(context, rows, count, &map->baked.visibility.pvs));
 }
 
 /// One stab tree of two nodes, from the left cell below through its portal to the right one.
 static inline void draw_add_tree(sl_context *context, draw_map *map) {
     sl_space *space = &map->baked.space;
     const uint32_t source = map->cells[LEFT_BELOW];
-    assert_int_equal(space->cells[source].exit_count, 1);
+    assert_int_equal(space->cells[source].directed_count, 1);
     sl_stab_trees trees = {.cell_count = space->cell_count};
     trees.offsets = sl_alloc_array(context, space->cell_count + 1, sizeof *trees.offsets);
     trees.nodes = sl_alloc_array(context, 2, sizeof *trees.nodes);
     assert_true(trees.offsets && trees.nodes);
     for (uint32_t i = source + 1; i <= space->cell_count; i++) trees.offsets[i] = 2;
     trees.nodes[0] = (sl_stab_node){0, source, UINT32_MAX};
-    trees.nodes[1] = (sl_stab_node){0, map->cells[RIGHT_BELOW], space->cells[source].first_exit};
+    trees.nodes[1] =
+        (sl_stab_node){0, map->cells[RIGHT_BELOW], space->cells[source].first_directed};
     map->baked.visibility.trees = trees;
 }
 

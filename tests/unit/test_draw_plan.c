@@ -3,7 +3,6 @@
 
 #include "test_draw_map.h"
 
-#include "draw/palette.h"
 #include "draw/plan.h"
 
 #include <cairo.h>
@@ -133,7 +132,7 @@ static void add_mirrored_nodes(sl_context *context, draw_map *map) {
     assert_non_null(nodes);
     memcpy(nodes, trees->nodes, 2 * sizeof *nodes);
     nodes[2] = (sl_stab_node){1, right, SL_STAB_MIRROR};
-    nodes[3] = (sl_stab_node){2, left, space->cells[right].first_exit};
+    nodes[3] = (sl_stab_node){2, left, space->cells[right].first_directed};
     sl_free(context, trees->nodes);
     trees->nodes = nodes;
     for (uint32_t i = left + 1; i <= space->cell_count; i++) trees->offsets[i] = 4;
@@ -160,11 +159,11 @@ static void what_a_mirror_sends_back_has_its_hue(void **state) {
     const picture mirrored = draw(&map, options);
     assert_true(count_reddish(&mirrored) > 0);
     sl_scene scene;
-    assert_ok(context, sl_scene_make(context, &map.baked, &options, &scene));
+    assert_ok(context, sli_scene_make(context, &map.baked, &options, NULL, &scene));
     assert_int_equal(scene.stroke_count, 3);
     assert_int_equal(scene.mirrored_nodes, 2);
     assert_true(scene.strokes[0].mirrored && !scene.strokes[1].mirrored);
-    sl_scene_destroy(context, &scene);
+    sli_scene_clear(context, &scene);
     cairo_surface_destroy(direct.surface);
     cairo_surface_destroy(mirrored.surface);
     sl_baked_destroy(context, &map.baked);
@@ -243,11 +242,11 @@ static void doubtful_cells_stand_out(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
     draw_map map = draw_map_make(context, DRAW_PLAIN);
-    sl_row_bytes rows[5] = {0};
+    sli_row_bytes rows[5] = {0};
     sl_bits set[1] = {0};
     sl_bits_add(set, map.cells[RIGHT_BELOW]);
-    assert_ok(context, sl_row_append(context, &rows[map.cells[LEFT_BELOW]], set, 5));
-    assert_ok(context, sl_pvs_join(context, rows, 5, &map.baked.visibility.doubtful));
+    assert_ok(context, sli_row_append(context, &rows[map.cells[LEFT_BELOW]], set, 5));
+    assert_ok(context, sli_pvs_join(context, rows, 5, &map.baked.visibility.doubtful));
     const sl_palette palette = sl_palette_make(false);
     const picture p = draw(&map, options_for(SL_LAYER_PVS, map.cells[LEFT_BELOW], false));
     assert_true(same(colour_at(&p, 10, 7), palette.source));
@@ -264,25 +263,25 @@ static void counts_refer_to_the_right_cells(void **state) {
     draw_map map = draw_map_make(context, DRAW_PLAIN);
     sl_scene scene;
     sl_draw_options options = options_for(SL_LAYER_PVS, map.cells[LEFT_BELOW], false);
-    assert_ok(context, sl_scene_make(context, &map.baked, &options, &scene));
+    assert_ok(context, sli_scene_make(context, &map.baked, &options, NULL, &scene));
     assert_int_equal(scene.population, 4);
     assert_int_equal(scene.portals, 2);
     assert_int_equal(scene.seen, 2);
     assert_true(scene.seen_share == 0.5);
     assert_true(scene.eye.x == 5 && scene.eye.y == 5);
-    sl_scene_destroy(context, &scene);
+    sli_scene_clear(context, &scene);
     options.cell = map.cells[OUTSIDE];
-    assert_ok(context, sl_scene_make(context, &map.baked, &options, &scene));
+    assert_ok(context, sli_scene_make(context, &map.baked, &options, NULL, &scene));
     assert_int_equal(scene.population, 1);
-    assert_true(scene.outside && sl_scene_shows(&scene, map.cells[OUTSIDE]));
-    assert_false(sl_scene_shows(&scene, map.cells[LEFT_BELOW]));
+    assert_true(scene.outside && sli_scene_shows(&scene, map.cells[OUTSIDE]));
+    assert_false(sli_scene_shows(&scene, map.cells[LEFT_BELOW]));
     assert_int_equal(scene.seen, 0);
-    sl_scene_destroy(context, &scene);
+    sli_scene_clear(context, &scene);
     options.cell = SL_NO_CELL;
-    assert_ok(context, sl_scene_make(context, &map.baked, &options, &scene));
+    assert_ok(context, sli_scene_make(context, &map.baked, &options, NULL, &scene));
     assert_true(scene.heat && !scene.shows_seen);
     assert_true(scene.least == 0.25 && scene.most == 0.5 && scene.mean == 0.375);
-    sl_scene_destroy(context, &scene);
+    sli_scene_clear(context, &scene);
     sl_baked_destroy(context, &map.baked);
     sl_context_destroy(context);
 }
@@ -351,7 +350,7 @@ static void a_view_zoomed_in_shows_what_is_there(void **state) {
     const sl_palette palette = sl_palette_make(false);
     const sl_draw_options options = options_for(127, map.cells[LEFT_BELOW], false);
     sl_scene scene;
-    assert_ok(context, sl_scene_make(context, &map.baked, &options, &scene));
+    assert_ok(context, sli_scene_make(context, &map.baked, &options, NULL, &scene));
     static const sl_point corners[] = {{10, 8}, {30, 8}, {10, 12}, {10, 10 - 0.5e-9}, {500, 500}};
     const sl_colour expected[] = {palette.source, {0, 0, 0}, {0, 0, 0}, palette.wall, palette.page};
     for (size_t i = 0; i < 5; i++) {
@@ -360,7 +359,7 @@ static void a_view_zoomed_in_shows_what_is_there(void **state) {
         cairo_set_source_rgb(cairo, palette.page.red, palette.page.green, palette.page.blue);
         cairo_paint(cairo);
         const sl_frame frame = {corners[i], 1e11, 0, 0, 100, 100, 1};
-        assert_ok(context, sl_draw_onto(context, cairo, &scene, &frame));
+        assert_ok(context, sl_draw_plan(context, cairo, &scene, options.layers, &frame));
         assert_int_equal(cairo_status(cairo), CAIRO_STATUS_SUCCESS);
         cairo_destroy(cairo);
         cairo_surface_flush(p.surface);
@@ -374,7 +373,7 @@ static void a_view_zoomed_in_shows_what_is_there(void **state) {
         if (i != 3) assert_true(same(pixel_at(&p, 0, 0), pixel_at(&p, 99, 99)));
         cairo_surface_destroy(p.surface);
     }
-    sl_scene_destroy(context, &scene);
+    sli_scene_clear(context, &scene);
     sl_baked_destroy(context, &map.baked);
     sl_context_destroy(context);
 }

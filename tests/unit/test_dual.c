@@ -1,7 +1,7 @@
 /// The dual plane against the exact solver: a region is there just where lines are.
 #include "testing.h"
 
-#include "base/random.h"
+#include "sightline/support.h"
 
 #include <math.h>
 

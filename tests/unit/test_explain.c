@@ -73,7 +73,7 @@ static void a_cell_sees_itself(void **state) {
     assert_true(e.seen && e.complete);
     assert_int_equal(e.distance, 0);
     assert_int_equal(e.tests, 0);
-    assert_int_equal(e.sequence.exit_count + e.miss_count, 0);
+    assert_int_equal(e.sequence.directed_count + e.miss_count, 0);
     sl_explanation_destroy(b->context, &e);
     end_bench(b);
 }
@@ -99,7 +99,7 @@ static void neighbours_take_one_test(void **state) {
     sl_explanation e = explained(b, from, to);
     assert_true(e.seen);
     assert_int_equal(e.tests, 1);
-    assert_int_equal(e.sequence.exit_count, 1);
+    assert_int_equal(e.sequence.directed_count, 1);
     check_witness(&b->space, &e);
     // Across the portal, from the middle of one cell to that of the other.
     assert_true(e.shown.a.x == 5 && e.shown.b.x == 15);
@@ -116,7 +116,7 @@ static void screens_leave_a_grazing_line(void **state) {
     sl_explanation e = explained(b, cell_at(b, 2, 2), cell_at(b, 38, 2));
     assert_int_equal(e.verdict, SL_GRAZING);
     assert_true(e.seen && e.touches);
-    assert_int_equal(e.sequence.exit_count, 3);
+    assert_int_equal(e.sequence.directed_count, 3);
     assert_int_equal(e.sequence.end_count, 3);
     for (uint32_t i = 0; i < 3; i++) {
         const sl_stab_end end = e.sequence.ends[i];
@@ -145,7 +145,7 @@ static void doors_in_a_row_give_a_simple_line(void **state) {
     sl_explanation e = explained(b, cell_at(b, 5, 15), cell_at(b, 24, 15));
     assert_int_equal(e.verdict, SL_STABBED);
     assert_false(e.touches);
-    assert_int_equal(e.sequence.exit_count, 2);
+    assert_int_equal(e.sequence.directed_count, 2);
     check_witness(&b->space, &e);
     const double values[4] = {e.witness.a.x, e.witness.a.y, e.witness.b.x, e.witness.b.y};
     for (int i = 0; i < 4; i++) assert_true(values[i] == round(values[i]));
@@ -167,7 +167,7 @@ static void corners_tell_what_stops_them(void **state) {
     check_miss(b->context, space, &e, 0);
     assert_true(miss->turns);
     assert_int_equal(miss->missing, 1);
-    assert_int_equal(miss->sequence.exit_count, 3);
+    assert_int_equal(miss->sequence.directed_count, 3);
     assert_int_equal(miss->sequence.ends[0].portal, 0);
     sl_explanation_destroy(b->context, &e);
 
@@ -183,7 +183,7 @@ static void corners_tell_what_stops_them(void **state) {
     end_bench(b);
 }
 
-/// Reasons of ends that maps give seldom: exits of a made-up space, one portal each.
+/// Reasons of ends that maps give seldom: directed portals of a made-up space, one portal each.
 static void reasons_follow_the_ends(void **state) {
     (void)state;
     static const struct {
@@ -203,16 +203,16 @@ static void reasons_follow_the_ends(void **state) {
         "that left end lies within the triangle of those right ends",
         "what lies between those left ends overlaps what lies between those right ends"};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-        sl_exit exits[4];
+        sl_directed_portal directed[4];
         uint32_t order[4];
-        sl_sequence sequence = {.exits = order};
+        sl_sequence sequence = {.directed = order};
         for (uint32_t k = 0; k < 4 && all[i][k].sides; k++) {
-            exits[k] = (sl_exit){.left = all[i][k].left, .right = all[i][k].right};
-            order[sequence.exit_count++] = k;
+            directed[k] = (sl_directed_portal){.left = all[i][k].left, .right = all[i][k].right};
+            order[sequence.directed_count++] = k;
             if (all[i][k].sides & 1) sequence.ends[sequence.end_count++] = (sl_stab_end){k, true};
             if (all[i][k].sides & 2) sequence.ends[sequence.end_count++] = (sl_stab_end){k, false};
         }
-        const sl_space space = {.exits = exits, .exit_count = sequence.exit_count};
+        const sl_space space = {.directed = directed, .directed_count = sequence.directed_count};
         assert_string_equal(sl_sequence_reason(&space, &sequence), reasons[i]);
     }
 }

@@ -84,12 +84,12 @@ static void check_pair(sl_context *context, const trial *t, uint64_t seed, uint3
     assert_int_equal(e.seen, sight == SL_OPEN ? open : closed);
     assert_int_equal(e.verdict, open ? SL_STABBED : closed ? SL_GRAZING : SL_HIDDEN);
     assert_int_equal(e.distance, distance_between(&t->space, from, to));
-    assert_int_equal(e.sequence.exit_count > 0, closed && from != to);
-    if (e.sequence.exit_count) {
+    assert_int_equal(e.sequence.directed_count > 0, closed && from != to);
+    if (e.sequence.directed_count) {
         uint32_t missing;
         const sl_stab_trees *trees = open ? &t->open.trees : &t->closed.trees;
         assert_int_equal(check_chain(&t->space, from, &e.sequence), to);
-        assert_int_equal(e.sequence.exit_count,
+        assert_int_equal(e.sequence.directed_count,
                          fewest_portals(&t->space, trees, from, to, &missing));
         check_witness(&t->space, &e);
         if (e.verdict == SL_GRAZING) check_conflict(&t->space, &e.sequence, true);

@@ -85,7 +85,7 @@ static void cull(trial *t, const sl_view *view, uint64_t *cells) {
 static void check_ray(const trial *t, sl_point eye, sl_point point) {
     sl_hit hit;
     if (t->seed % OBLIQUE_GRIDS >= OBLIQUE_FAR || (eye.x == point.x && eye.y == point.y)) return;
-    assert_ok(t->context, sl_shoot(t->context, &t->outline, eye, point, &hit));
+    assert_ok(t->context, sl_ray_cast(t->context, &t->outline, eye, point, &hit));
     const double there = hypot(point.x - eye.x, point.y - eye.y);
     const double scale = fmax(fmax(fabs(eye.x), fabs(eye.y)), fmax(fabs(point.x), fabs(point.y)));
     const double reach = hypot(hit.point.x - eye.x, hit.point.y - eye.y);

@@ -37,9 +37,9 @@ static sl_point random_eye(trial *t) {
     const sl_point *corners = space->vertices + cell->first_vertex;
     const uint64_t kind = below(t, 5);
     if (kind == 0) return corners[below(t, cell->vertex_count)];
-    if (kind == 1 && space->exit_count) {
-        const sl_exit *exit = &space->exits[below(t, space->exit_count)];
-        return on_segment(t, exit->left, exit->right);
+    if (kind == 1 && space->directed_count) {
+        const sl_directed_portal *directed = &space->directed[below(t, space->directed_count)];
+        return on_segment(t, directed->left, directed->right);
     }
     if (kind == 2) {
         const sl_wall *wall = &space->walls[below(t, space->wall_count)];

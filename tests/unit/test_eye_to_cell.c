@@ -96,9 +96,10 @@ static void check_view(const world *w, const sl_view *view, const char *where) {
             any = true;
             if (c >= w->space.cell_count || (i && !sl_eye_sees(before, c)))
                 fail_msg("%s, eye %.17g,%.17g right %.17g,%.17g left %.17g,%.17g: cell %u is kept "
-                         "by %s, not by the method before",
+                         "by %s, not by %s before it",
                          where, view->eye.x, view->eye.y, view->right.x, view->right.y,
-                         view->left.x, view->left.y, c, methods[i].name);
+                         view->left.x, view->left.y, c, methods[i].name,
+                         i ? methods[i - 1].name : "any cell that there is");
         }
         if (any) assert_true(sl_eye_sees(cells, own));
         if (any) assert_true(account.nodes > 0);
@@ -122,9 +123,10 @@ static sl_point random_eye(const world *w, sl_random *random) {
     case 0:
         return corners[sl_random_below(random, cell->vertex_count)];
     case 1: {
-        if (!space->exit_count) return corners[0];
-        const sl_exit *exit = &space->exits[sl_random_below(random, space->exit_count)];
-        return on_segment(random, exit->left, exit->right);
+        if (!space->directed_count) return corners[0];
+        const sl_directed_portal *directed =
+            &space->directed[sl_random_below(random, space->directed_count)];
+        return on_segment(random, directed->left, directed->right);
     }
     case 2: {
         const sl_wall *wall = &space->walls[sl_random_below(random, space->wall_count)];
@@ -292,12 +294,12 @@ static void grazing_is_for_closed_sight(void **state) {
     // From (2,2) the line over the end at (4,4) meets the corner of the alcove at (6,6).
     world w = open_world("walls 0 0 8 0 8 8 0 8 0 0\nwall 4 0 4 4\nwall 4 4 8 4\n");
     see(&w, SL_CLOSED, false, false);
-    const sl_point eye = {2, 4}, beyond = {7, 6};
-    assert_true(sees(&w, eye, 0, 0, beyond));
+    const sl_point eye = {2, 4}, neighbour = {7, 6};
+    assert_true(sees(&w, eye, 0, 0, neighbour));
     forget(&w);
     see(&w, SL_OPEN, false, false);
-    assert_false(sees(&w, eye, 0, 0, beyond));
-    assert_true(sees(&w, eye, 0, 360, beyond));
+    assert_false(sees(&w, eye, 0, 0, neighbour));
+    assert_true(sees(&w, eye, 0, 360, neighbour));
     close_world(&w);
 }
 
@@ -430,14 +432,15 @@ static void sets_of_another_space(void **state) {
 /// Portals that lead round and round, each crossed upwards: no map has them.
 static void a_space_that_no_map_has(void **state) {
     (void)state;
-    sl_exit exits[2] = {{0, 1, {-1, 1}, {1, 1}}, {1, 0, {-1, 2}, {1, 2}}};
-    sl_cell cells[2] = {{.first_exit = 0, .exit_count = 1}, {.first_exit = 1, .exit_count = 1}};
+    sl_directed_portal directed[2] = {{0, 1, {-1, 1}, {1, 1}}, {1, 0, {-1, 2}, {1, 2}}};
+    sl_cell cells[2] = {{.first_directed = 0, .directed_count = 1},
+                        {.first_directed = 1, .directed_count = 1}};
     const sl_space space = {.bounds = {{-1, 0}, {1, 3}},
                             .root = -1,
                             .cell_count = 2,
-                            .exit_count = 2,
+                            .directed_count = 2,
                             .cells = cells,
-                            .exits = exits};
+                            .directed = directed};
     const sl_visibility none = {.sight = SL_CLOSED};
     sl_context *context = testing_context(NULL);
     sl_eye_search *search;

@@ -2,9 +2,9 @@
 // cells does; view cells of any kind, boundaries and cycles.
 #include "testing.h"
 
-#include "base/random.h"
 #include "oracle/random_map.h"
 #include "sightline/from_region.h"
+#include "sightline/support.h"
 
 enum { RANDOM_MAPS = 24 };
 

@@ -3,11 +3,11 @@
 // conflicts by exact tests of their own.
 #include "testing.h"
 
-#include "base/base.h"
 #include "geometry/orient.h"
 #include "oracle/margin.h"
 #include "oracle/random_sequence.h"
 #include "sightline/solvers.h"
+#include "sightline/support.h"
 #include "solver_table.h"
 
 enum { WALKS = 50, STEPS = 24, DEEPEST = 10 };
@@ -52,8 +52,8 @@ static bool is_end(const walk *w, sl_point p) {
 static int least_side(const walk *w, sl_line line) {
     int least = 1;
     for (size_t i = 0; i < w->depth; i++) {
-        const int left = sl_orient(line.a, line.b, w->portals[i].left);
-        const int right = -sl_orient(line.a, line.b, w->portals[i].right);
+        const int left = sli_orient(line.a, line.b, w->portals[i].left);
+        const int right = -sli_orient(line.a, line.b, w->portals[i].right);
         if (left < least) least = left;
         if (right < least) least = right;
     }

@@ -4,6 +4,7 @@
 
 #include "geometry/orient.h"
 #include "map_same.h"
+#include "sightline/generate.h"
 
 #include <math.h>
 
@@ -244,7 +245,7 @@ static size_t check_turned(sl_context *context, bool in_line, double lengths, do
         assert_true(fabs(angle * 180 / 3.14159265358979 - 37.5) < degrees);
         for (size_t j = 0; j < plain.wall_count; j++) {
             const sl_point p = plain.walls[j].a, q = turned.walls[j].a;
-            const int before_it = sl_orient(a->a, a->b, p), after_it = sl_orient(b->a, b->b, q);
+            const int before_it = sli_orient(a->a, a->b, p), after_it = sli_orient(b->a, b->b, q);
             assert_true(after_it == before_it || (!in_line && before_it == 0));
             // What meets still does.
             assert_int_equal(a->b.x == p.x && a->b.y == p.y, b->b.x == q.x && b->b.y == q.y);

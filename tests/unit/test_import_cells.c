@@ -1,8 +1,7 @@
 // GL nodes of a WAD as cells: each version, and each way in which they can be broken.
 #include "testing.h"
 
-#include "bake/exports.h"
-#include "sightline/import.h"
+#include "sightline/io.h"
 #include "sightline/space.h"
 #include "wad_make.h"
 

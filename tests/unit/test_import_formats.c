@@ -2,6 +2,7 @@
 #include "testing.h"
 
 #include "map_same.h"
+#include "sightline/io.h"
 
 static void write_file(const char *path, const char *text) {
     FILE *file = fopen(path, "w");
@@ -10,21 +11,58 @@ static void write_file(const char *path, const char *text) {
     assert_int_equal(fclose(file), 0);
 }
 
+/// Whether each word of a list is in another one.
+static bool all_words_in(const char *words, const char *others) {
+    for (const char *at = words; *at; at += strspn(at, " ")) {
+        const size_t length = strcspn(at, " ");
+        bool found = false;
+        for (const char *other = others; *other && !found; other += strspn(other, " ")) {
+            const size_t same = strcspn(other, " ");
+            found = same == length && memcmp(other, at, length) == 0;
+            other += same;
+        }
+        if (!found) return false;
+        at += length;
+    }
+    return true;
+}
+
 static void test_table(void **state) {
     (void)state;
-    size_t count;
-    const sl_map_format *formats = sl_map_formats(&count);
-    assert_true(count >= 3);
+    sl_context *context = testing_context(NULL);
+    size_t core, count, again;
+    assert_string_equal(sl_map_formats(context, &core)[1].endings, ".txt");
+    assert_int_equal(core, 2);
+    assert_ok(context, sl_io_use(context));
+    const sl_map_format *formats = sl_map_formats(context, &count);
+    assert_true(count > core);
     assert_string_equal(formats[0].endings, ".map");
     for (size_t i = 0; i < count; i++)
         assert_true(formats[i].name[0] && formats[i].endings[0] == '.' && formats[i].what[0] &&
                     formats[i].read);
+    // SL_IO_ENDINGS has the ending of each format that is not the core's, and no other.
+    for (size_t i = core; i < count; i++)
+        assert_true(all_words_in(formats[i].endings, SL_IO_ENDINGS));
+    char endings[512] = "";
+    for (size_t i = core; i < count; i++) {
+        strcat(endings, " ");
+        strcat(endings, formats[i].endings);
+    }
+    assert_true(all_words_in(SL_IO_ENDINGS, endings));
+    // Formats that are there already are passed over.
+    assert_ok(context, sl_io_use(context));
+    assert_ptr_equal(sl_map_formats(context, &again), formats);
+    assert_int_equal(again, count);
+    sl_export_formats(context, &again);
+    assert_int_equal(again, 5);
+    sl_context_destroy(context);
     assert_false(sl_import_options_default().has_slice);
 }
 
 static void test_endings(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
+    assert_ok(context, sl_io_use(context));
     const char *const text = "sightline 1\nwall 0 0 1 0\n", *const plan = "...\n";
     const char *const model = "v a 0 0 0;v b 4 0 0;v c 2 0 2;f f (a b c);";
     char folder[] = "/tmp/sightline-formats-XXXXXX";
@@ -90,6 +128,7 @@ static void test_report_and_failures(void **state) {
 static void test_options_refused(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
+    assert_ok(context, sl_io_use(context));
     char path[] = "/tmp/sightline-formats-XXXXXX";
     assert_true(mkstemp(path) >= 0);
     write_file(path, "sightline 1\nwall 0 0 1 0");
@@ -122,10 +161,28 @@ static void test_options_refused(void **state) {
     sl_context_destroy(context);
 }
 
+/// Without sl_io_use() a foreign file is taken for map text, and the message says so.
+static void test_formats_missing(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    char folder[] = "/tmp/sightline-formats-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/plan.dxf", folder);
+    write_file(path, "  0\nSECTION\n");
+    sl_map map = {0};
+    assert_int_equal(sl_map_read(context, path, NULL, &map), SL_BAD_INPUT);
+    assert_non_null(strstr(sl_context_message(context), ".dxf:1: "));
+    assert_non_null(strstr(sl_context_message(context), "sl_io_use()"));
+    assert_int_equal(remove(path), 0);
+    assert_int_equal(remove(folder), 0);
+    sl_context_destroy(context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_table),
         cmocka_unit_test(test_endings),
+        cmocka_unit_test(test_formats_missing),
         cmocka_unit_test(test_options_refused),
         cmocka_unit_test(test_report_and_failures),
     };

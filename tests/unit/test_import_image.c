@@ -2,6 +2,7 @@
 #include "testing.h"
 
 #include "import_check.h"
+#include "sightline/io.h"
 
 #include <png.h>
 #include <unistd.h>

@@ -2,6 +2,7 @@
 #include "testing.h"
 
 #include "import_check.h"
+#include "sightline/io.h"
 
 #include <unistd.h>
 
@@ -211,6 +212,7 @@ static void test_separate_levels(void **state) {
     sl_context *context = testing_context(&memory);
     sl_map map = {0};
     // The project knows the names of the values.
+    assert_ok(context, sl_io_use(context));
     assert_ok(context, sl_map_read(context, project, NULL, &map));
     char *text = map_text(&map);
     assert_string_equal(text + strlen("sightline 1\n"), TWO_TILES);

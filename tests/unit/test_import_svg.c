@@ -2,6 +2,7 @@
 #include "testing.h"
 
 #include "import_check.h"
+#include "sightline/io.h"
 
 #include <math.h>
 

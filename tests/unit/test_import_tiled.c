@@ -2,8 +2,9 @@
 // objects, chunks, tilesets in files of their own, and what is refused.
 #include "testing.h"
 
-#include "import/solid.h"
 #include "import_check.h"
+#include "io/names.h"
+#include "sightline/io.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -113,9 +114,9 @@ static void test_names_that_say_solid(void **state) {
     static const char *const others[] = {"",      "Floor",   "wall_tops",    "wallpaper",
                                          "layer", "unsolid", "Wand\xc3\xa4", "walls behind"};
     for (size_t i = 0; i < sizeof solid / sizeof *solid; i++)
-        if (!sl_says_solid(solid[i])) fail_msg("%s", solid[i]);
+        if (!sli_says_solid(solid[i])) fail_msg("%s", solid[i]);
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        if (sl_says_solid(others[i])) fail_msg("%s", others[i]);
+        if (sli_says_solid(others[i])) fail_msg("%s", others[i]);
 }
 
 static void test_layers_that_are_solid(void **state) {
@@ -438,6 +439,7 @@ static sl_status read_beside(sl_context *context, const char *folder, const char
     char path[256];
     snprintf(path, sizeof path, "%s/m.tmx", folder);
     write_file(folder, "m.tmx", text);
+    assert_ok(context, sl_io_use(context));
     return sl_map_read(context, path, NULL, map);
 }
 

@@ -2,6 +2,7 @@
 #include "testing.h"
 
 #include "map_same.h"
+#include "sightline/io.h"
 
 #include <math.h>
 
@@ -263,6 +264,7 @@ static void test_soda_hall(void **state) {
     }
     fclose(file);
     sl_context *context = testing_context(NULL);
+    assert_ok(context, sl_io_use(context));
     const sl_import_options options = {.has_slice = true, .slice = 1040};
     sl_map map = {0};
     assert_ok(context, sl_map_read(context, path, &options, &map));

@@ -2,6 +2,7 @@
 // text format; and each way in which a WAD can be broken.
 #include "testing.h"
 
+#include "sightline/io.h"
 #include "unit/map_same.h"
 #include "wad_make.h"
 
@@ -139,6 +140,7 @@ static void test_list(void **state) {
 static void test_choice(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
+    assert_ok(context, sl_io_use(context));
     char path[] = "/tmp/sightline-wad-XXXXXX";
     const int descriptor = mkstemp(path);
     assert_true(descriptor >= 0);

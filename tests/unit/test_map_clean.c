@@ -1,9 +1,9 @@
 // Cleaning, against a model that knows nothing of sweeps: walls as sets of unit edges of a edges.
 #include "testing.h"
 
-#include "base/random.h"
 #include "map_same.h"
 #include "oracle/random_oblique.h"
+#include "sightline/support.h"
 
 #define SIZE 10
 

@@ -1,8 +1,8 @@
-// Every reader, the cleaning and the writers, with an allocator that gives out after N calls.
+// Readers, the cleaning and the writers, with an allocator that gives out after N calls.
 #include "testing.h"
 
 #include "map_same.h"
-#include "sightline/import.h"
+#include "sightline/io.h"
 
 static const char text[] =
     "sightline 1\n#! note\n#! and more\nwalls 0 0 9 0 9 9 0 9 0 0\n"

@@ -1,8 +1,8 @@
 // The ASCII plan: the walls that it stands for, and the way back.
 #include "testing.h"
 
-#include "base/random.h"
 #include "map_same.h"
+#include "sightline/support.h"
 
 static sl_status read(sl_context *context, const char *text, sl_map *map) {
     return sl_map_read_plan(context, "p.txt", text, strlen(text), map);

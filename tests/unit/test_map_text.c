@@ -1,8 +1,8 @@
 // The map text: what each statement means, what is refused and where, and that it comes back.
 #include "testing.h"
 
-#include "base/random.h"
 #include "map_same.h"
+#include "sightline/support.h"
 
 #include <math.h>
 

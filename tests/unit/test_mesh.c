@@ -190,35 +190,37 @@ static const char damaged_map[] =
     "walls 0 0 30 10 20 40 -10 30 0 0\nwall 7 11 3 22\nwall 5 5 12 31\nseam 7 11 12 31\n"
     "wall 5 5 7 11\n";
 
-/// The first side of which what is beyond is an exit, a wall, or border.
+/// The first side of which what is beyond is a directed portal, a wall, or border.
 static uint32_t side_with(const sl_space *s, uint32_t what) {
     for (uint32_t i = 0; i < s->vertex_count; i++)
-        if (what == SL_BEYOND_RIGHT ? s->beyond[i] < SL_BEYOND_BORDER : s->beyond[i] == what)
+        if (what == SL_NEIGHBOUR_RIGHT ? s->neighbour[i] < SL_NEIGHBOUR_BORDER
+                                       : s->neighbour[i] == what)
             return i;
     fail_msg("no such side");
     return 0;
 }
 
-/// Takes a cell out of the space, with all that is its own; its neighbours keep their exits.
+/// Takes a cell out of the space, with all that is its own; its neighbours keep their directed
+/// portals.
 static void drop_cell(sl_space *s, uint32_t number) {
     const sl_cell gone = s->cells[number];
     const uint32_t vertices = gone.first_vertex + gone.vertex_count;
-    const uint32_t exits = gone.first_exit + gone.exit_count;
+    const uint32_t directed = gone.first_directed + gone.directed_count;
     memmove(s->vertices + gone.first_vertex, s->vertices + vertices,
             (s->vertex_count - vertices) * sizeof *s->vertices);
-    memmove(s->beyond + gone.first_vertex, s->beyond + vertices,
-            (s->vertex_count - vertices) * sizeof *s->beyond);
-    memmove(s->exits + gone.first_exit, s->exits + exits,
-            (s->exit_count - exits) * sizeof *s->exits);
+    memmove(s->neighbour + gone.first_vertex, s->neighbour + vertices,
+            (s->vertex_count - vertices) * sizeof *s->neighbour);
+    memmove(s->directed + gone.first_directed, s->directed + directed,
+            (s->directed_count - directed) * sizeof *s->directed);
     memmove(s->cells + number, s->cells + number + 1,
             (s->cell_count - number - 1) * sizeof *s->cells);
     s->vertex_count -= gone.vertex_count;
-    s->exit_count -= gone.exit_count;
+    s->directed_count -= gone.directed_count;
     s->inside_count -= gone.inside;
     s->cell_count--;
     for (uint32_t i = number; i < s->cell_count; i++) {
         s->cells[i].first_vertex -= gone.vertex_count;
-        s->cells[i].first_exit -= gone.exit_count;
+        s->cells[i].first_directed -= gone.directed_count;
     }
 }
 
@@ -239,9 +241,9 @@ static void move_place(sl_space *s, sl_point from, sl_point to, bool walls_too) 
             sl_point *end = k ? &s->portals[i].left : &s->portals[i].right;
             if (end->x == from.x && end->y == from.y) *end = to;
         }
-    for (uint32_t i = 0; i < s->exit_count; i++)
+    for (uint32_t i = 0; i < s->directed_count; i++)
         for (int k = 0; k < 2; k++) {
-            sl_point *end = k ? &s->exits[i].left : &s->exits[i].right;
+            sl_point *end = k ? &s->directed[i].left : &s->directed[i].right;
             if (end->x == from.x && end->y == from.y) *end = to;
         }
     for (uint32_t i = 0; i < s->wall_count && walls_too; i++)
@@ -253,9 +255,10 @@ static void move_place(sl_space *s, sl_point from, sl_point to, bool walls_too) 
 
 /// False where there is no damage of that number.
 static bool damage(sl_space *s, int number) {
-    const uint32_t exit = side_with(s, SL_BEYOND_EXIT), wall = side_with(s, SL_BEYOND_RIGHT);
-    const uint32_t border = side_with(s, SL_BEYOND_BORDER);
-    sl_exit kept;
+    const uint32_t directed = side_with(s, SL_NEIGHBOUR_PORTAL),
+                   wall = side_with(s, SL_NEIGHBOUR_RIGHT);
+    const uint32_t border = side_with(s, SL_NEIGHBOUR_BORDER);
+    sl_directed_portal kept;
     switch (number) {
     case 0: // corners
         s->vertices[0].x = -1e6;
@@ -282,19 +285,19 @@ static bool damage(sl_space *s, int number) {
         move_place(s, s->bounds.min, (sl_point){s->bounds.min.x + 1, s->bounds.min.y}, false);
         return true;
     case 8: // walls
-        s->beyond[wall] = s->wall_count;
+        s->neighbour[wall] = s->wall_count;
         return true;
     case 9:
-        s->beyond[wall] ^= 1;
+        s->neighbour[wall] ^= 1;
         return true;
     case 10:
-        s->beyond[wall] ^= SL_BEYOND_RIGHT;
+        s->neighbour[wall] ^= SL_NEIGHBOUR_RIGHT;
         return true;
     case 11:
-        s->beyond[wall] = SL_BEYOND_EXIT;
+        s->neighbour[wall] = SL_NEIGHBOUR_PORTAL;
         return true;
     case 12:
-        s->beyond[wall] = SL_BEYOND_BORDER;
+        s->neighbour[wall] = SL_NEIGHBOUR_BORDER;
         return true;
     case 13:
         for (uint32_t i = 0; i < s->wall_count; i++) {
@@ -308,25 +311,25 @@ static bool damage(sl_space *s, int number) {
     case 15:
         s->wall_count--;
         return true;
-    case 16: // portals and exits
-        s->beyond[exit] = SL_BEYOND_BORDER;
+    case 16: // portals and directed portals
+        s->neighbour[directed] = SL_NEIGHBOUR_BORDER;
         return true;
     case 17:
-        s->beyond[exit] = 0;
+        s->neighbour[directed] = 0;
         return true;
     case 18:
-        s->exits[0].left.x += 0.25;
+        s->directed[0].left.x += 0.25;
         return true;
     case 19:
-        kept = s->exits[0];
-        s->exits[0] = s->exits[1];
-        s->exits[1] = kept;
+        kept = s->directed[0];
+        s->directed[0] = s->directed[1];
+        s->directed[1] = kept;
         return true;
     case 20:
-        s->exits[0].cell = s->exits[0].cell ? 0 : 1;
+        s->directed[0].cell = s->directed[0].cell ? 0 : 1;
         return true;
     case 21:
-        s->exits[0].portal = s->exits[1].portal;
+        s->directed[0].portal = s->directed[1].portal;
         return true;
     case 22:
         s->portals[0].cell[1] = UINT32_MAX;
@@ -336,8 +339,8 @@ static bool damage(sl_space *s, int number) {
         return true;
     case 24:
         s->portal_count--;
-        s->exit_count -= 2;
-        s->cells[s->cell_count - 1].exit_count--;
+        s->directed_count -= 2;
+        s->cells[s->cell_count - 1].directed_count--;
         return true;
     case 25:
         s->portals[0].left.x = nextafter(s->portals[0].left.x, 100);
@@ -370,7 +373,7 @@ static bool damage(sl_space *s, int number) {
         s->bounds.max.x -= 1;
         return true;
     case 35:
-        s->beyond[border] = 0;
+        s->neighbour[border] = 0;
         return true;
     case 36: // the grid
         s->grid.cells[0] = s->cell_count;
@@ -511,11 +514,11 @@ static void a_baked_space_reads_back(void **state) {
     size_t size = 0;
     FILE *stream = open_memstream(&bytes, &size);
     assert_non_null(stream);
-    assert_ok(s.context, sl_slv_print(s.context, &baked, stream));
+    assert_ok(s.context, sli_slv_print(s.context, &baked, stream));
     assert_int_equal(fclose(stream), 0);
     assert_ok(s.context, sl_baked_parse(s.context, "test", bytes, size, &again));
-    assert_memory_equal(again.space.beyond, baked.space.beyond,
-                        baked.space.vertex_count * sizeof *baked.space.beyond);
+    assert_memory_equal(again.space.neighbour, baked.space.neighbour,
+                        baked.space.vertex_count * sizeof *baked.space.neighbour);
     assert_memory_equal(again.space.grid.cells, baked.space.grid.cells,
                         baked.space.grid.entry_count * sizeof *baked.space.grid.cells);
     assert_ok(s.context, sl_space_check(s.context, &again.space));

@@ -1,13 +1,13 @@
 /// Meshes of random maps, oblique, degenerate, turned and moved: cells tile the bounds, exact
 /// methods agree, no free sightline is lost, and what is set among walls is as tight as they are.
-// needs effects
 #include "unit/grid_walls.h"
 #include "unit/mesh_scene.h"
 
-#include "base/random.h"
 #include "oracle/blockers.h"
 #include "oracle/oracle.h"
 #include "oracle/random_map.h"
+#include "sightline/generate.h"
+#include "sightline/support.h"
 
 // --- what every scene must pass
 
@@ -162,10 +162,10 @@ static void the_order_of_walls_does_not_count(void **state) {
             assert_int_equal(a.space.vertex_count, b.space.vertex_count);
             assert_memory_equal(a.space.vertices, b.space.vertices,
                                 a.space.vertex_count * sizeof *a.space.vertices);
-            assert_int_equal(a.space.exit_count, b.space.exit_count);
-            if (a.space.exit_count)
-                assert_memory_equal(a.space.exits, b.space.exits,
-                                    a.space.exit_count * sizeof *a.space.exits);
+            assert_int_equal(a.space.directed_count, b.space.directed_count);
+            if (a.space.directed_count)
+                assert_memory_equal(a.space.directed, b.space.directed,
+                                    a.space.directed_count * sizeof *a.space.directed);
         }
         scene_end(&a);
         scene_end(&b);
@@ -352,14 +352,14 @@ static void wall_up(const scene *s, const sl_point *eye, sl_map *out) {
 }
 
 /// A space past doors that are shut, or glass for an eye, beside that of walls in their place.
-static uint64_t check_walled(const scene *s, const sl_passage *passage, uint64_t seed) {
+static uint64_t check_walled(const scene *s, const sl_filtered_space *filtered, uint64_t seed) {
     sl_map map = {0};
     sl_space walled = {0}, past = {0};
     char why[ORACLE_WHY];
-    wall_up(s, passage->eye, &map);
+    wall_up(s, filtered->eye, &map);
     assert_ok(s->context, sl_map_clean(s->context, &map, NULL, NULL));
     assert_ok(s->context, sl_subdivide_mesh(s->context, &map, &walled));
-    assert_ok(s->context, sl_passage_make(s->context, &s->space, passage, NULL, &past));
+    assert_ok(s->context, sl_filtered_space_make(s->context, &s->space, filtered, NULL, &past));
     assert_ok(s->context, sl_space_check(s->context, &past));
     if (!oracle_is_tiling(&past, why)) fail_msg("%s, past doors: %s", s->name, why);
     const twins t = {s->context, s->name, &past, &walled, &map};
@@ -373,7 +373,7 @@ static uint64_t check_walled(const scene *s, const sl_passage *passage, uint64_t
 static void shut_doors_are_as_tight_as_walls(void **state) {
     (void)state;
     const bool shut[3] = {true, true, true};
-    const sl_passage all_shut = {.shut = shut}, all_open = {0};
+    const sl_filtered_space all_shut = {.shut = shut}, all_open = {0};
     const uint64_t seeds = testing_seeds(12);
     uint64_t seen = 0;
     for (int grid = 0; grid < OBLIQUE_GRIDS; grid++)
@@ -387,7 +387,8 @@ static void shut_doors_are_as_tight_as_walls(void **state) {
                 check_methods(&s);
                 seen += check_walled(&s, &all_shut, seed);
                 sl_space past;
-                assert_ok(s.context, sl_passage_make(s.context, &s.space, &all_open, NULL, &past));
+                assert_ok(s.context,
+                          sl_filtered_space_make(s.context, &s.space, &all_open, NULL, &past));
                 assert_int_equal(past.portal_count, s.space.portal_count);
                 sl_space_destroy(s.context, &past);
             }
@@ -415,13 +416,13 @@ static void dark_glass_is_as_tight_as_walls(void **state) {
             if (scene_make(&s, -1)) {
                 scene_prove(&s);
                 const sl_point eye = oblique_random_point(&random, &s.map, s.space.bounds);
-                const sl_passage passage = {.eye = &eye};
+                const sl_filtered_space filtered = {.eye = &eye};
                 bool on_glass = false;
                 for (size_t i = 0; i < s.map.oneway_count; i++) {
                     const sl_segment glass = s.map.oneways[i].segment;
                     on_glass |= blockers_turn(glass.a, glass.b, eye) == 0;
                 }
-                if (!on_glass) seen += check_walled(&s, &passage, seed);
+                if (!on_glass) seen += check_walled(&s, &filtered, seed);
             }
             scene_end(&s);
         }
@@ -452,9 +453,9 @@ static void a_door_beside_an_oblique_wall(void **state) {
                             "wall 5 1 3 4\n");
     const sl_point eye = {6, 2.5};
     const bool shut = true;
-    const sl_passage passage = {.shut = &shut};
+    const sl_filtered_space filtered = {.shut = &shut};
     sl_space past;
-    assert_ok(s.context, sl_passage_make(s.context, &s.space, &passage, NULL, &past));
+    assert_ok(s.context, sl_filtered_space_make(s.context, &s.space, &filtered, NULL, &past));
     sl_visibility seen = scene_see(&s, &past, "sweep", SL_CLOSED);
     for (int i = 0; i < 40; i++) {
         const sl_point behind = {8.05 + 0.09 * i, 0.1 + 0.12 * i};

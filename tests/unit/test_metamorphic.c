@@ -123,10 +123,10 @@ static bool change_space(const change *c, const sl_space *space, sl_space *out) 
             exact = exact && is_exact(c, from);
             out->vertices[cell->first_vertex + at] = apply(c, from);
         }
-        for (uint32_t k = 0; k < cell->exit_count; k++) {
-            const uint32_t at = c->mirrors ? cell->exit_count - 1 - k : k;
-            const sl_exit *from = &space->exits[cell->first_exit + k];
-            sl_exit *to = &out->exits[cell->first_exit + at];
+        for (uint32_t k = 0; k < cell->directed_count; k++) {
+            const uint32_t at = c->mirrors ? cell->directed_count - 1 - k : k;
+            const sl_directed_portal *from = &space->directed[cell->first_directed + k];
+            sl_directed_portal *to = &out->directed[cell->first_directed + at];
             exact = exact && is_exact(c, from->left) && is_exact(c, from->right);
             *to = *from;
             to->left = apply(c, c->mirrors ? from->right : from->left);
@@ -142,7 +142,7 @@ static bool change_space(const change *c, const sl_space *space, sl_space *out) 
     return exact;
 }
 
-/// `same_order`: exits are tried in the same order, so that stab trees are the same.
+/// `same_order`: directed portals are tried in the same order, so that stab trees are the same.
 static void compare_changed(sl_context *context, const char *name, const sl_space *space,
                             const sl_space *changed, const sl_see_method *method, const char *what,
                             bool same_order) {
@@ -188,8 +188,8 @@ static void turned_mirrored_scaled_moved_spaces_are_seen_alike(void **state) {
 }
 
 static bool touches(sl_point p, sl_point q, const sl_wall *wall) {
-    const int a = sl_orient(p, q, wall->a), b = sl_orient(p, q, wall->b);
-    const int c = sl_orient(wall->a, wall->b, p), d = sl_orient(wall->a, wall->b, q);
+    const int a = sli_orient(p, q, wall->a), b = sli_orient(p, q, wall->b);
+    const int c = sli_orient(wall->a, wall->b, p), d = sli_orient(wall->a, wall->b, q);
     if (a * b > 0 || c * d > 0) return false;
     if (a || b || c || d) return true;
     // All on one line.
@@ -288,33 +288,36 @@ static void a_wall_taken_away_hides_no_point(void **state) {
     on_each_map(points_without_a_wall);
 }
 
-/// Where the upper side of a cell lies on the lower side of another: the exit up across all of it.
-static bool common_side(const sl_space *space, uint32_t below, uint32_t above, sl_exit *up) {
+/// Where the upper side of a cell lies on the lower side of another: the directed portal up across
+/// all of it.
+static bool common_side(const sl_space *space, uint32_t below, uint32_t above,
+                        sl_directed_portal *up) {
     const sl_point *a = &space->vertices[space->cells[below].first_vertex];
     const sl_point *b = &space->vertices[space->cells[above].first_vertex];
     const double from = fmax(a[0].x, b[0].x), to = fmin(a[1].x, b[1].x);
     if (a[2].y != b[0].y || from >= to) return false;
-    *up = (sl_exit){.cell = above, .left = {from, b[0].y}, .right = {to, b[0].y}};
+    *up = (sl_directed_portal){.cell = above, .left = {from, b[0].y}, .right = {to, b[0].y}};
     return true;
 }
 
-/// The space with one exit more from one cell to another and back.
-static void add_way(const sl_space *space, uint32_t below, sl_exit up, sl_space *out) {
+/// The space with one directed portal more from one cell to another and back.
+static void add_way(const sl_space *space, uint32_t below, sl_directed_portal up, sl_space *out) {
     *out = *space;
-    out->exits = calloc(space->exit_count + 2, sizeof *out->exits);
+    out->directed = calloc(space->directed_count + 2, sizeof *out->directed);
     out->cells = calloc(space->cell_count, sizeof *out->cells);
-    assert_true(out->exits && out->cells);
-    out->exit_count = 0;
+    assert_true(out->directed && out->cells);
+    out->directed_count = 0;
     for (uint32_t c = 0; c < space->cell_count; c++) {
         sl_cell *cell = &out->cells[c];
         *cell = space->cells[c];
-        const sl_exit *exits = &space->exits[cell->first_exit];
-        cell->first_exit = out->exit_count;
-        for (uint32_t i = 0; i < cell->exit_count; i++) out->exits[out->exit_count++] = exits[i];
-        const sl_exit down = {.cell = below, .left = up.right, .right = up.left};
-        if (c == below) out->exits[out->exit_count++] = up;
-        if (c == up.cell) out->exits[out->exit_count++] = down;
-        cell->exit_count = out->exit_count - cell->first_exit;
+        const sl_directed_portal *directed = &space->directed[cell->first_directed];
+        cell->first_directed = out->directed_count;
+        for (uint32_t i = 0; i < cell->directed_count; i++)
+            out->directed[out->directed_count++] = directed[i];
+        const sl_directed_portal down = {.cell = below, .left = up.right, .right = up.left};
+        if (c == below) out->directed[out->directed_count++] = up;
+        if (c == up.cell) out->directed[out->directed_count++] = down;
+        cell->directed_count = out->directed_count - cell->first_directed;
     }
 }
 
@@ -342,7 +345,7 @@ static void open_walls(sl_context *context, const char *name, const sl_map *map)
     for (int tries = 0; tries < 4000 && opened < 3; tries++) {
         const uint32_t below = (uint32_t)sl_random_below(&random, space.cell_count);
         const uint32_t above = (uint32_t)sl_random_below(&random, space.cell_count);
-        sl_exit up;
+        sl_directed_portal up;
         if (!common_side(&space, below, above, &up)) continue;
         opened++;
         add_way(&space, below, up, &wider);
@@ -354,7 +357,7 @@ static void open_walls(sl_context *context, const char *name, const sl_map *map)
             assert_true(sl_pvs_sees(&after.pvs, below, above));
             sl_visibility_destroy(context, &after);
         }
-        free(wider.exits);
+        free(wider.directed);
         free(wider.cells);
     }
     sl_visibility_destroy(context, &before[0]);
@@ -414,12 +417,12 @@ static bool same_bytes(const void *a, const void *b, size_t count, size_t size) 
 static bool same_space(const sl_space *a, const sl_space *b) {
     return a->root == b->root && a->node_count == b->node_count && a->cell_count == b->cell_count &&
            a->vertex_count == b->vertex_count && a->portal_count == b->portal_count &&
-           a->exit_count == b->exit_count && a->inside_count == b->inside_count &&
+           a->directed_count == b->directed_count && a->inside_count == b->inside_count &&
            same_bytes(a->nodes, b->nodes, a->node_count, sizeof *a->nodes) &&
            same_bytes(a->cells, b->cells, a->cell_count, sizeof *a->cells) &&
            same_bytes(a->vertices, b->vertices, a->vertex_count, sizeof *a->vertices) &&
            same_bytes(a->portals, b->portals, a->portal_count, sizeof *a->portals) &&
-           same_bytes(a->exits, b->exits, a->exit_count, sizeof *a->exits);
+           same_bytes(a->directed, b->directed, a->directed_count, sizeof *a->directed);
 }
 
 /// The same walls in another order, some the other way round, some twice.

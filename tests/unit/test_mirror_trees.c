@@ -1,9 +1,8 @@
 /// Stab trees of maps with mirrors: what they hold, that eyes are not misled by them, and their
 /// baked file.
-// needs effects
 #include "slv_file.h"
 
-#include "effects/mirror_sides.h"
+#include "effects/mirrors.h"
 #include "oracle/random_effects.h"
 #include "sightline/eye_to_cell.h"
 #include "sightline/solvers.h"
@@ -63,16 +62,18 @@ static void tell(const trial *t, const sl_stab_node *nodes, uint64_t node, told 
     of[node] = (told){of[n->parent].mirrors, of[n->parent].depth + 1};
     if (!sl_stab_is_mirror(n)) {
         const sl_cell *from = &t->space.cells[parent->cell];
-        assert_in_range(n->exit, from->first_exit, from->first_exit + from->exit_count - 1);
-        assert_int_equal(t->space.exits[n->exit].cell, n->cell);
+        assert_in_range(n->directed, from->first_directed,
+                        from->first_directed + from->directed_count - 1);
+        assert_int_equal(t->space.directed[n->directed].cell, n->cell);
         return;
     }
-    sl_mirror_side side;
+    sli_mirror_side side;
     of[node].mirrors++;
     assert_int_equal(n->cell, parent->cell);
-    assert_true(n->exit != parent->exit);
-    assert_true(n->exit - SL_STAB_MIRROR < t->map.mirror_count);
-    assert_true(sl_mirror_side_of(&t->space, &t->map, n->cell, n->exit - SL_STAB_MIRROR, &side));
+    assert_true(n->directed != parent->directed);
+    assert_true(n->directed - SL_STAB_MIRROR < t->map.mirror_count);
+    assert_true(
+        sli_mirror_side_of(&t->space, &t->map, n->cell, n->directed - SL_STAB_MIRROR, &side));
 }
 
 /// The cells at a tree's nodes are those that the source sees, directly and by mirror; no sequence
@@ -91,7 +92,8 @@ static void check_tree(const trial *t, const sl_visibility *baked, uint32_t sour
         *twice += of[i].mirrors > 1;
         (of[i].mirrors ? mirrored : direct)[nodes[i].cell] = true;
         for (uint64_t k = nodes[i].parent + 1; k < i; k++)
-            assert_true(nodes[k].parent != nodes[i].parent || nodes[k].exit != nodes[i].exit);
+            assert_true(nodes[k].parent != nodes[i].parent ||
+                        nodes[k].directed != nodes[i].directed);
     }
     free(of);
     for (uint32_t c = 0; c < t->space.cell_count; c++) {
@@ -159,7 +161,7 @@ static char *print(sl_context *context, const sl_baked *baked, size_t *size) {
     char *bytes = NULL;
     FILE *stream = open_memstream(&bytes, size);
     assert_non_null(stream);
-    assert_ok(context, sl_slv_print(context, baked, stream));
+    assert_ok(context, sli_slv_print(context, baked, stream));
     assert_int_equal(fclose(stream), 0);
     return bytes;
 }
@@ -210,12 +212,12 @@ static void a_lie_about_mirrors_is_refused(void **state) {
         const sl_stab_node *node = &trees->nodes[i];
         if (!sl_stab_is_mirror(node)) continue;
         // No such mirror; one that the cell does not end at; the root's mark; another cell; an
-        // exit.
-        refuse(context, &baked, i, offsetof(sl_stab_node, exit), SL_STAB_MIRROR + 2);
-        refuse(context, &baked, i, offsetof(sl_stab_node, exit), node->exit ^ 1);
-        refuse(context, &baked, i, offsetof(sl_stab_node, exit), UINT32_MAX);
+        // directed portal.
+        refuse(context, &baked, i, offsetof(sl_stab_node, directed), SL_STAB_MIRROR + 2);
+        refuse(context, &baked, i, offsetof(sl_stab_node, directed), node->directed ^ 1);
+        refuse(context, &baked, i, offsetof(sl_stab_node, directed), UINT32_MAX);
         refuse(context, &baked, i, offsetof(sl_stab_node, cell), node->cell ^ 1);
-        refuse(context, &baked, i, offsetof(sl_stab_node, exit), 0);
+        refuse(context, &baked, i, offsetof(sl_stab_node, directed), 0);
         refuse(context, &baked, i, offsetof(sl_stab_node, parent), UINT32_MAX);
         tried++;
     }

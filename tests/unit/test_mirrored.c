@@ -1,7 +1,6 @@
 /// What one viewpoint sees by mirror, cell by cell and as a region, against brute force: random
 /// axial maps with all combinations of effects, on a grid where images are doubles and on one where
 /// they are not. SIGHTLINE_SEEDS in the environment: how many maps (96 by default).
-// needs effects
 #include "testing.h"
 
 #include "oracle/mirrored.h"
@@ -37,8 +36,9 @@ static void begin(trial *t, uint64_t seed) {
     assert_ok(t->context, sl_subdivide_kd(t->context, &t->map, &options, &t->whole));
     bool shut[3];
     for (int i = 0; i < 3; i++) shut[i] = sl_random_below(&t->random, 2);
-    const sl_passage passage = {.shut = shut, .one_way = true};
-    assert_ok(t->context, sl_passage_make(t->context, &t->whole, &passage, NULL, &t->space));
+    const sl_filtered_space filtered = {.shut = shut, .one_way = true};
+    assert_ok(t->context,
+              sl_filtered_space_make(t->context, &t->whole, &filtered, NULL, &t->space));
     assert_true(t->space.cell_count <= CELLS_MOST);
 }
 
@@ -58,10 +58,10 @@ static void complain(const trial *t, const sl_view *view, const char *what) {
         print_error("mirror %g %g %g %g%s\n", m.a.x, m.a.y, m.b.x, m.b.y,
                     t->map.mirrors[i].one_sided ? " one" : "");
     }
-    for (uint32_t i = 0; i < t->space.exit_count; i++) {
-        const sl_exit *exit = &t->space.exits[i];
-        print_error("exit to %u: left %g %g right %g %g\n", exit->cell, exit->left.x, exit->left.y,
-                    exit->right.x, exit->right.y);
+    for (uint32_t i = 0; i < t->space.directed_count; i++) {
+        const sl_directed_portal *directed = &t->space.directed[i];
+        print_error("exit to %u: left %g %g right %g %g\n", directed->cell, directed->left.x,
+                    directed->left.y, directed->right.x, directed->right.y);
     }
     for (uint32_t i = 0; i < t->space.cell_count; i++) {
         const sl_point *v = t->space.vertices + t->space.cells[i].first_vertex;
@@ -234,16 +234,18 @@ static void past_glass(void **state) {
         t.depth = 0;
         for (int i = 0; i < EYES; i++) {
             const sl_view view = random_view(&t);
-            const sl_passage passage = {.eye = &view.eye};
+            const sl_filtered_space filtered = {.eye = &view.eye};
             const sl_visibility bare = {.sight = SL_OPEN};
             uint64_t cells[CELLS_MOST / 64 + 1];
             sl_eye_account account;
             sl_eye_search *search;
             trial past = t, all = t;
             // Of what the glass itself says, and of its being a wall.
-            const sl_passage one_way = {.one_way = true};
-            assert_ok(t.context, sl_passage_make(t.context, &t.whole, &one_way, NULL, &all.space));
-            assert_ok(t.context, sl_passage_make(t.context, &t.whole, &passage, NULL, &past.space));
+            const sl_filtered_space one_way = {.one_way = true};
+            assert_ok(t.context,
+                      sl_filtered_space_make(t.context, &t.whole, &one_way, NULL, &all.space));
+            assert_ok(t.context,
+                      sl_filtered_space_make(t.context, &t.whole, &filtered, NULL, &past.space));
             assert_ok(t.context, sl_space_check(t.context, &past.space));
             oracle_mirrored truth = oracle_mirrored_of(&all.space, &t.map, &view, t.map.range, 0);
             if (!truth.on_wall) ask_region(&past, &view, &truth);

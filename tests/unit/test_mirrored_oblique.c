@@ -4,7 +4,6 @@
 /// move, and boxes on the way are found. Against single rays in rationals, on random maps with
 /// walls and mirrors in any direction. SIGHTLINE_SEEDS in the environment: how many maps (60 by
 /// default).
-// needs effects
 #include "testing.h"
 
 #include "oracle/mirror_ray.h"

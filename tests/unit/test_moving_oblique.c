@@ -103,7 +103,7 @@ static void gather_segments(trial *t) {
         const sl_cell *cell = &boxed->cells[i];
         const sl_point *v = boxed->vertices + cell->first_vertex;
         for (uint32_t k = 0; k < cell->vertex_count; k++)
-            if (boxed->beyond[cell->first_vertex + k] < SL_BEYOND_BORDER)
+            if (boxed->neighbour[cell->first_vertex + k] < SL_NEIGHBOUR_BORDER)
                 add_segment(&t->bent, v[k], v[(k + 1) % cell->vertex_count]);
     }
 }
@@ -205,10 +205,10 @@ static void check_walls(trial *t) {
         const sl_cell *cell = &boxed->cells[i];
         const sl_point *v = boxed->vertices + cell->first_vertex;
         for (uint32_t k = 0; k < cell->vertex_count; k++) {
-            const uint32_t what = boxed->beyond[cell->first_vertex + k];
-            const uint32_t wall = what & ~SL_BEYOND_RIGHT;
+            const uint32_t what = boxed->neighbour[cell->first_vertex + k];
+            const uint32_t wall = what & ~SL_NEIGHBOUR_RIGHT;
             const sl_point ends[2] = {v[k], v[(k + 1) % cell->vertex_count]};
-            if (what >= SL_BEYOND_BORDER) continue;
+            if (what >= SL_NEIGHBOUR_BORDER) continue;
             const sl_wall *w = &boxed->walls[wall];
             for (int e = 0; e < 2; e++) {
                 if (same(ends[e], w->a) || same(ends[e], w->b)) continue;
@@ -581,7 +581,7 @@ static bool is_in(const sl_space *space, uint32_t number, sl_point p) {
     return true;
 }
 
-static bool has_share(const sl_boxed_space *boxed, uint32_t cell, uint32_t ground) {
+static bool has_share(const sli_boxed_space *boxed, uint32_t cell, uint32_t ground) {
     if (boxed->parents[cell] == ground) return true;
     for (uint32_t i = boxed->first_share[cell]; i < boxed->first_share[cell + 1]; i++)
         if (boxed->shares[i] == ground) return true;
@@ -589,7 +589,7 @@ static bool has_share(const sl_boxed_space *boxed, uint32_t cell, uint32_t groun
 }
 
 /// A cell with a corner in a cell of the ground knows that it reaches into that.
-static void check_shares(trial *t, const sl_boxed_space *boxed) {
+static void check_shares(trial *t, const sli_boxed_space *boxed) {
     const sl_space *s = &boxed->space;
     for (uint32_t c = 0; c < s->cell_count; c++)
         for (uint32_t g = 0; g < t->space.cell_count; g++) {
@@ -605,18 +605,18 @@ static void shares(void **state) {
     trial t = {.context = testing_context(NULL)};
     size_t found = 0;
     for (t.seed = 1; t.seed <= testing_seeds(20); t.seed++) {
-        sl_box_ground ground = {0};
-        sl_boxed_space boxed = {0};
+        sli_box_ground ground = {0};
+        sli_boxed_space boxed = {0};
         t.random = (sl_random){t.seed ^ 0x5a};
         make_turned(&t);
         assert_ok(t.context, sl_subdivide_mesh(t.context, &t.map, &t.space));
-        assert_ok(t.context, sl_box_ground_create(t.context, &t.space, &ground));
+        assert_ok(t.context, sli_box_ground_create(t.context, &t.space, &ground));
         for (int i = 0; i < BOXES; i++) t.boxes[i] = (sl_moving_box){random_box(&t), i % 2};
-        assert_ok(t.context, sl_boxes_put(t.context, &ground, t.boxes, BOXES, &boxed));
+        assert_ok(t.context, sli_boxes_put(t.context, &ground, t.boxes, BOXES, &boxed));
         check_shares(&t, &boxed);
         found += boxed.first_share[boxed.space.cell_count];
-        sl_boxed_space_destroy(t.context, &boxed);
-        sl_box_ground_destroy(t.context, &ground);
+        sli_boxed_space_destroy(t.context, &boxed);
+        sli_box_ground_destroy(t.context, &ground);
         sl_space_destroy(t.context, &t.space);
         sl_map_destroy(t.context, &t.map);
     }

@@ -2,11 +2,11 @@
 // sectors and their orders themselves; and lines of a sector alone, by each solver that tells them.
 #include "map_files.h"
 
-#include "base/random.h"
-#include "cell_to_cell/pass.h"
+#include "cell_to_cell/sectors.h"
 #include "oracle/convex_space.h"
 #include "oracle/random_map.h"
 #include "sightline/glpk.h"
+#include "sightline/support.h"
 
 #include <math.h>
 
@@ -85,18 +85,18 @@ static void random_maps_are_seen_as_by_the_search(void **state) {
 
 /// Bounds go counter-clockwise, each by less than half a turn from the last, and every portal's
 /// direction is one of them where all are asked for.
-static void check_sectors(const sl_space *space, const sl_sectors *sectors, bool all) {
+static void check_sectors(const sl_space *space, const sli_sectors *sectors, bool all) {
     assert_int_equal(sectors->count % 2, 0);
     assert_true(sectors->count >= 4);
     for (uint32_t i = 0; i < sectors->count; i++) {
-        const sl_cone c = sl_sector_cone(sectors, i);
-        assert_int_equal(sl_turn(c.right.a, c.right.b, c.left.a, c.left.b), 1);
+        const sli_direction_sector c = sli_sectors_get(sectors, i);
+        assert_int_equal(sli_turn(c.right.a, c.right.b, c.left.a, c.left.b), 1);
     }
     for (uint32_t p = 0; p < space->portal_count && all; p++) {
         bool found = false;
         for (uint32_t i = 0; i < sectors->count && !found; i++) {
             const sl_line b = sectors->bounds[i];
-            found = sl_turn(b.a, b.b, space->portals[p].left, space->portals[p].right) == 0;
+            found = sli_turn(b.a, b.b, space->portals[p].left, space->portals[p].right) == 0;
         }
         assert_true(found);
     }
@@ -104,8 +104,8 @@ static void check_sectors(const sl_space *space, const sl_sectors *sectors, bool
 
 /// Each cell in one component, and what it depends on in its own or in one before, of a lower
 /// level. Returns the cells on cycles.
-static uint32_t check_order(const sl_space *space, const sl_pass *pass) {
-    const sl_order *order = &pass->order;
+static uint32_t check_order(const sl_space *space, const sli_pass *pass) {
+    const sli_order *order = &pass->order;
     uint32_t on_cycles = 0;
     assert_int_equal(order->starts[order->component_count], space->cell_count);
     for (uint32_t k = 0; k < order->component_count; k++) {
@@ -126,18 +126,18 @@ static uint32_t check_order(const sl_space *space, const sl_pass *pass) {
 }
 
 static uint32_t check_passes(sl_context *context, const sl_space *space, uint32_t most) {
-    sl_sectors sectors;
-    assert_ok(context, sl_sectors_create(context, space, most, &sectors));
+    sli_sectors sectors;
+    assert_ok(context, sli_sectors_create(context, space, most, &sectors));
     check_sectors(space, &sectors, most == 0);
     uint32_t on_cycles = 0;
     for (uint32_t i = 0; i < sectors.count; i++) {
-        sl_pass pass;
+        sli_pass pass;
         assert_ok(context,
-                  sl_pass_create(context, space, false, sl_sector_cone(&sectors, i), &pass));
+                  sli_pass_create(context, space, false, sli_sectors_get(&sectors, i), &pass));
         on_cycles += check_order(space, &pass);
-        sl_pass_destroy(context, &pass);
+        sli_pass_destroy(context, &pass);
     }
-    sl_sectors_destroy(context, &sectors);
+    sli_sectors_destroy(context, &sectors);
     return on_cycles;
 }
 
@@ -202,7 +202,7 @@ static sl_point grid_point(sl_random *random) {
 }
 
 static int side(sl_line line, sl_point p) {
-    return sl_orient(line.a, line.b, p);
+    return sli_orient(line.a, line.b, p);
 }
 
 /// Whether a line of the sequence, through two ends or through one in a bound's direction, is of
@@ -222,8 +222,8 @@ static bool any_line(const sl_portal_ends *portals, size_t count, sl_line right,
                 b < 2 * count ? ends[b] : (sl_point){ends[a].x + way.x, ends[a].y + way.y};
             const sl_line line = {ends[a], to};
             if (to.x == ends[a].x && to.y == ends[a].y) continue;
-            bool good = sl_turn(right.a, right.b, line.a, line.b) >= 0 &&
-                        sl_turn(left.a, left.b, line.a, line.b) <= 0;
+            bool good = sli_turn(right.a, right.b, line.a, line.b) >= 0 &&
+                        sli_turn(left.a, left.b, line.a, line.b) <= 0;
             for (size_t i = 0; i < count && good; i++)
                 good = side(line, portals[i].left) >= 0 && side(line, portals[i].right) <= 0;
             if (good) return true;
@@ -233,17 +233,18 @@ static bool any_line(const sl_portal_ends *portals, size_t count, sl_line right,
 
 /// A sequence of portals that directions from `right` to `left` all cross forwards, and those
 /// directions; false where there are none.
-static bool make_sequence(sl_random *random, sl_portal_ends *portals, size_t count, sl_cone *cone) {
+static bool make_sequence(sl_random *random, sl_portal_ends *portals, size_t count,
+                          sli_direction_sector *cone) {
     const sl_point zero = {0, 0};
     static const sl_point axes[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     const size_t quadrant = (size_t)sl_random_below(random, 4);
-    *cone = (sl_cone){{zero, axes[quadrant]}, {zero, axes[(quadrant + 1) % 4]}};
+    *cone = (sli_direction_sector){{zero, axes[quadrant]}, {zero, axes[(quadrant + 1) % 4]}};
     for (size_t i = 0; i < count; i++) {
         const sl_point a = grid_point(random), b = grid_point(random);
         if (a.x == b.x && a.y == b.y) return false;
         portals[i] = (sl_portal_ends){a, b};
-        const sl_exit exit = {.left = a, .right = b};
-        if (!sl_cone_cut(cone, &exit)) return false;
+        const sl_directed_portal directed = {.left = a, .right = b};
+        if (!sli_direction_sector_cut(cone, &directed)) return false;
     }
     return true;
 }
@@ -261,7 +262,7 @@ static void solvers_find_lines_of_a_sector(void **state) {
         assert_ok(context, solvers[s]->create(context, bounds, &solver));
         for (int round = 0; round < RANDOM_SEQUENCES; round++) {
             sl_portal_ends portals[SEQUENCE_MOST];
-            sl_cone cone;
+            sli_direction_sector cone;
             const size_t count = 1 + (size_t)sl_random_below(&random, SEQUENCE_MOST);
             if (!make_sequence(&random, portals, count, &cone)) continue;
             sl_stab_verdict all = SL_STABBED, part;

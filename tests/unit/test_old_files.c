@@ -4,9 +4,8 @@
 #include "runtime_maps.h"
 #include "slv_file.h"
 
-#include "base/file.h"
-#include "base/random.h"
 #include "geometry/orient.h"
+#include "sightline/support.h"
 
 #include <math.h>
 
@@ -31,7 +30,7 @@ static baked_file written_anew(sl_context *context, const baked_file *old) {
     baked_file f = {.name = old->name};
     FILE *stream = open_memstream(&f.bytes, &f.size);
     assert_non_null(stream);
-    assert_ok(context, sl_slv_print(context, &old->baked, stream));
+    assert_ok(context, sli_slv_print(context, &old->baked, stream));
     assert_int_equal(fclose(stream), 0);
     assert_ok(context, sl_baked_parse(context, f.name, f.bytes, f.size, &f.baked));
     baked_file_open(&f);
@@ -39,7 +38,7 @@ static baked_file written_anew(sl_context *context, const baked_file *old) {
 }
 
 static uint32_t version_of(const baked_file *f) {
-    sl_slv_header header;
+    sli_slv_header header;
     memcpy(&header, f->bytes, sizeof header);
     return header.version;
 }
@@ -49,7 +48,7 @@ static bool holds(const sl_space *s, uint32_t cell, sl_point p) {
     const sl_cell *c = &s->cells[cell];
     const sl_point *v = s->vertices + c->first_vertex;
     for (uint32_t i = 0; i < c->vertex_count; i++)
-        if (sl_orient(v[i], v[(i + 1) % c->vertex_count], p) < 0) return false;
+        if (sli_orient(v[i], v[(i + 1) % c->vertex_count], p) < 0) return false;
     return true;
 }
 

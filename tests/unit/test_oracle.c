@@ -1,7 +1,7 @@
 // The oracles themselves, on spaces laid out by hand: what is plainly visible, plainly hidden, and
 // what only grazes must come out as such, and the two oracles must agree where both answer.
-#include "base/random.h"
 #include "oracle/oracle.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -94,7 +94,7 @@ typedef struct layout {
     sl_space space;
     sl_cell cells[MOST];
     sl_point vertices[4 * MOST];
-    sl_exit exits[8 * MOST];
+    sl_directed_portal directed[8 * MOST];
     sl_wall walls[8 * MOST];
     size_t wall_count;
     sl_portal portals[4 * MOST];
@@ -123,23 +123,25 @@ static void add_portal(layout *l, uint32_t a, uint32_t b, double left_x, double 
 }
 
 static void close_layout(layout *l) {
-    uint32_t exits = 0;
+    uint32_t directed = 0;
     for (uint32_t c = 0; c < l->space.cell_count; c++) {
-        l->cells[c].first_exit = exits;
+        l->cells[c].first_directed = directed;
         for (uint32_t p = 0; p < l->portal_count; p++) {
             const sl_portal *portal = &l->portals[p];
             if (portal->cell[0] == c) {
-                l->exits[exits++] = (sl_exit){p, portal->cell[1], portal->left, portal->right};
+                l->directed[directed++] =
+                    (sl_directed_portal){p, portal->cell[1], portal->left, portal->right};
             } else if (portal->cell[1] == c) {
-                l->exits[exits++] = (sl_exit){p, portal->cell[0], portal->right, portal->left};
+                l->directed[directed++] =
+                    (sl_directed_portal){p, portal->cell[0], portal->right, portal->left};
             }
         }
-        l->cells[c].exit_count = exits - l->cells[c].first_exit;
+        l->cells[c].directed_count = directed - l->cells[c].first_directed;
     }
     l->space.cells = l->cells;
     l->space.vertices = l->vertices;
-    l->space.exits = l->exits;
-    l->space.exit_count = exits;
+    l->space.directed = l->directed;
+    l->space.directed_count = directed;
 }
 
 /// One or two gaps in a wall; the second is empty for one.

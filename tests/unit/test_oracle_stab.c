@@ -1,7 +1,7 @@
 // Every solver against the oracle on random portal sequences, pushed and popped as a search does.
-#include "base/random.h"
 #include "oracle/oracle.h"
 #include "sightline/glpk.h"
+#include "sightline/support.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

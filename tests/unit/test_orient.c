@@ -1,10 +1,9 @@
 /// The exact predicate against GMP's rationals, and against what plain doubles would say.
 #include "testing.h"
 
-#include "base/random.h"
 #include "contraction/expansion.h"
 #include "geometry/crossing.h"
-#include "geometry/orient.h"
+#include "sightline/support.h"
 
 #include <gmp.h>
 #include <math.h>
@@ -50,7 +49,7 @@ static int plain_orient(sl_point a, sl_point b, sl_point c) {
 
 static void check(sl_point a, sl_point b, sl_point c) {
     const int expected = sign(rational_orient(a, b, c));
-    const int found = sl_orient(a, b, c), exact = sl_orient_exact(a, b, c);
+    const int found = sli_orient(a, b, c), exact = sli_orient_exact(a, b, c);
     if (found != expected || exact != expected)
         fail_msg("(%a %a) (%a %a) (%a %a): %d, exact part %d, rationals %d", a.x, a.y, b.x, b.y,
                  c.x, c.y, found, exact, expected);
@@ -204,14 +203,14 @@ static void sides_of_crossings_are_decided(void **state) {
                          : random_double(&random, range[0], range[1]);
         const sl_segment s = {{v[0], v[1]}, {v[2], v[3]}}, t = {{v[4], v[5]}, {v[6], v[7]}};
         const sl_point from = {v[8], v[9]};
-        if (sl_orient(t.a, t.b, s.a) * sl_orient(t.a, t.b, s.b) >= 0) continue;
+        if (sli_orient(t.a, t.b, s.a) * sli_orient(t.a, t.b, s.b) >= 0) continue;
         sl_point to = {v[10], v[11]};
-        if (i % 5 && sl_orient(s.a, s.b, t.a) * sl_orient(s.a, s.b, t.b) < 0) {
-            to = sl_crossing(s, t);
+        if (i % 5 && sli_orient(s.a, s.b, t.a) * sli_orient(s.a, s.b, t.b) < 0) {
+            to = sli_crossing(s, t);
             to.x = steps(to.x, (int)sl_random_below(&random, 3) - 1);
         }
         const int expected = rational_crossing_side(from, to, s, t);
-        assert_int_equal(sl_crossing_side(from, to, s, t), expected);
+        assert_int_equal(sli_crossing_side(from, to, s, t), expected);
         tried++;
         signs[expected + 1]++;
     }

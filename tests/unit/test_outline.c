@@ -4,6 +4,7 @@
 
 #include "geometry/orient.h"
 #include "oracle/random_map.h"
+#include "sightline/generate.h"
 
 #include <math.h>
 
@@ -28,14 +29,14 @@ static double check_room(const sl_outline *o, uint32_t room, uint64_t seed) {
         const sl_point a = s->start, b = next->start, c = o->sides[next->next].start;
         if (s->next != (i + 1 < o->first[room + 1] ? i + 1 : o->first[room]))
             fail_msg("seed %llu: side %u is not followed by the next", (unsigned long long)seed, i);
-        if (same(a, b) || sl_orient(a, b, c) < 0)
+        if (same(a, b) || sli_orient(a, b, c) < 0)
             fail_msg("seed %llu: room %u is not convex", (unsigned long long)seed, room);
         if (!is_wall_end_or_bounds_corner(o->space, a))
             fail_msg("seed %llu: a corner of room %u at %g %g is no wall's end",
                      (unsigned long long)seed, room, a.x, a.y);
         if (sl_side_is_portal(s)) {
-            const sl_side *other = &o->sides[s->beyond];
-            assert_int_equal(other->beyond, i);
+            const sl_side *other = &o->sides[s->neighbour];
+            assert_int_equal(other->neighbour, i);
             assert_true(same(other->start, b) && same(o->sides[other->next].start, a));
         }
         twice += (a.x - origin.x) * (b.y - origin.y) - (a.y - origin.y) * (b.x - origin.x);
@@ -47,7 +48,7 @@ static void check_point(const sl_outline *o, sl_point point, uint64_t seed) {
     const uint32_t room = sl_outline_room(o, sl_space_locate(o->space, point), point);
     assert_true(room < o->room_count);
     for (uint32_t i = o->first[room]; i < o->first[room + 1]; i++)
-        if (sl_orient(o->sides[i].start, o->sides[o->sides[i].next].start, point) < 0)
+        if (sli_orient(o->sides[i].start, o->sides[o->sides[i].next].start, point) < 0)
             fail_msg("seed %llu: %.17g %.17g is not in room %u", (unsigned long long)seed, point.x,
                      point.y, room);
 }

@@ -2,11 +2,11 @@
 /// before it was changed all come to what is found in one go; what is stopped never misses a pair.
 #include "testing.h"
 
-#include "base/bits.h"
-#include "base/random.h"
 #include "oracle/random_map.h"
+#include "sightline/support.h"
 
 #ifdef SIGHTLINE_TESTS_GLPK
+#include "sightline/generate.h"
 #include "sightline/glpk.h"
 #endif
 
@@ -113,26 +113,26 @@ static bool is_over(void *user) {
 static void check_shards(sl_context *context, const sl_see_method *method, const sl_space *space,
                          sl_see_options options, const sl_visibility *plain) {
     for (uint32_t count = 1; count <= 7; count += 3) {
-        sl_findings all = {0};
+        sl_partial all = {0};
         for (uint32_t shard = count; shard > 0; shard--) {
-            sl_findings part = {0};
+            sl_partial part = {0};
             options.shard = shard;
             options.shard_count = count;
-            assert_ok(context, method->look(context, space, &options, &part));
+            assert_ok(context, method->run(context, space, &options, &part));
             if (shard == count) {
                 all = part;
                 continue;
             }
-            assert_false(sl_findings_complete(&all) && all.unit_count);
-            assert_ok(context, sl_findings_join(context, &all, &part));
-            sl_findings_destroy(context, &part);
+            assert_false(sl_partial_complete(&all) && all.unit_count);
+            assert_ok(context, sl_partial_merge(context, &all, &part));
+            sl_partial_destroy(context, &part);
         }
         sl_visibility joined;
-        assert_true(sl_findings_complete(&all));
-        assert_ok(context, method->settle(context, space, &options, &all, &joined));
+        assert_true(sl_partial_complete(&all));
+        assert_ok(context, method->finish(context, space, &options, &all, &joined));
         assert_same(&joined, plain);
         sl_visibility_destroy(context, &joined);
-        sl_findings_destroy(context, &all);
+        sl_partial_destroy(context, &all);
     }
 }
 
@@ -151,31 +151,31 @@ static void assert_misses_nothing(const sl_visibility *part, const sl_visibility
 /// Stops again and again, each time a little later; gives how often it was stopped short.
 static int check_stops(sl_context *context, const sl_see_method *method, const sl_space *space,
                        sl_see_options options, const sl_visibility *plain, sl_random *random) {
-    sl_findings findings = {0};
+    sl_partial partial = {0};
     patience p = {0};
     options.enough = is_over;
     options.enough_user = &p;
     int stops = 0;
     long most = 0;
     do {
-        const uint32_t before = findings.done_count;
+        const uint32_t before = partial.done_count;
         atomic_store(&p.asked, 0);
         p.most = most;
         most += 1 + (long)sl_random_below(random, 40) + most / 2;
-        assert_ok(context, method->look(context, space, &options, &findings));
-        assert_true(findings.done_count >= before);
+        assert_ok(context, method->run(context, space, &options, &partial));
+        assert_true(partial.done_count >= before);
         sl_visibility now;
         if (sl_random_below(random, 2)) p.most *= 4; // for a tight bound, or a loose one
-        assert_ok(context, method->settle(context, space, &options, &findings, &now));
-        if (sl_findings_complete(&findings)) {
+        assert_ok(context, method->finish(context, space, &options, &partial, &now));
+        if (sl_partial_complete(&partial)) {
             assert_same(&now, plain);
         } else {
             assert_misses_nothing(&now, plain);
             stops++;
         }
         sl_visibility_destroy(context, &now);
-    } while (!sl_findings_complete(&findings));
-    sl_findings_destroy(context, &findings);
+    } while (!sl_partial_complete(&partial));
+    sl_partial_destroy(context, &partial);
     return stops;
 }
 
@@ -257,13 +257,13 @@ static void decided_pairs_are_told_from_others(void **state) {
     sl_visibility plain, bound, half;
     assert_ok(context, method->see(context, &p.space, &options, &plain));
     assert_ok(context, flood->see(context, &p.space, &options, &bound));
-    sl_findings findings = {0};
-    assert_ok(context, method->look(context, &p.space, &options, &findings));
-    memset(findings.done + sl_bits_words(findings.unit_count / 2), 0,
-           (sl_bits_words(findings.unit_count) - sl_bits_words(findings.unit_count / 2)) *
-               sizeof *findings.done);
-    findings.done_count = findings.unit_count / 2;
-    assert_ok(context, method->settle(context, &p.space, &options, &findings, &half));
+    sl_partial partial = {0};
+    assert_ok(context, method->run(context, &p.space, &options, &partial));
+    memset(partial.done + sl_bits_words(partial.unit_count / 2), 0,
+           (sl_bits_words(partial.unit_count) - sl_bits_words(partial.unit_count / 2)) *
+               sizeof *partial.done);
+    partial.done_count = partial.unit_count / 2;
+    assert_ok(context, method->finish(context, &p.space, &options, &partial, &half));
     assert_misses_nothing(&half, &plain);
     assert_true(bound.account.pairs > plain.account.pairs);
     print_message("%d pairs seen, %d by half of the work, %d by the bound\n",
@@ -273,7 +273,7 @@ static void decided_pairs_are_told_from_others(void **state) {
     sl_visibility_destroy(context, &plain);
     sl_visibility_destroy(context, &bound);
     sl_visibility_destroy(context, &half);
-    sl_findings_destroy(context, &findings);
+    sl_partial_destroy(context, &partial);
     destroy(context, &p);
     sl_context_destroy(context);
 }
@@ -315,19 +315,19 @@ static uint32_t check_edit(sl_context *context, const place *before, const place
             const unsigned threads = 1 + (unsigned)sl_random_below(random, 2);
             const sl_see_options options = options_for(method, (sl_sight)sight, inside, threads);
             sl_visibility old, plain, again;
-            sl_findings findings = {0};
+            sl_partial partial = {0};
             assert_ok(context, method->see(context, &before->space, &options, &old));
             assert_ok(context, method->see(context, &after->space, &options, &plain));
-            assert_ok(context, sl_findings_carry(context, &before->space, &old, &after->space,
-                                                 method, &options, &findings));
-            kept += findings.done_count;
+            assert_ok(context, sl_partial_reuse(context, &before->space, &old, &after->space,
+                                                method, &options, &partial));
+            kept += partial.done_count;
             sl_visibility bound;
-            assert_ok(context, method->settle(context, &after->space, &options, &findings, &bound));
-            if (!sl_findings_complete(&findings)) assert_misses_nothing(&bound, &plain);
-            assert_ok(context, method->look(context, &after->space, &options, &findings));
-            assert_ok(context, method->settle(context, &after->space, &options, &findings, &again));
+            assert_ok(context, method->finish(context, &after->space, &options, &partial, &bound));
+            if (!sl_partial_complete(&partial)) assert_misses_nothing(&bound, &plain);
+            assert_ok(context, method->run(context, &after->space, &options, &partial));
+            assert_ok(context, method->finish(context, &after->space, &options, &partial, &again));
             assert_same(&again, &plain);
-            sl_findings_destroy(context, &findings);
+            sl_partial_destroy(context, &partial);
             sl_visibility_destroy(context, &old);
             sl_visibility_destroy(context, &plain);
             sl_visibility_destroy(context, &again);
@@ -385,7 +385,7 @@ static void other_questions_take_nothing_over(void **state) {
     const sl_see_options open = options_for(sweep, SL_OPEN, false, 1);
     const sl_see_options inside = options_for(sweep, SL_CLOSED, true, 1);
     sl_visibility exact, bound;
-    sl_findings findings = {0};
+    sl_partial partial = {0};
     assert_ok(context, sweep->see(context, &p.space, &closed, &exact));
     assert_ok(context, flood->see(context, &p.space, &closed, &bound));
     const struct {
@@ -400,16 +400,16 @@ static void other_questions_take_nothing_over(void **state) {
         {&exact, flood, &closed, "exact method"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        assert_int_equal(sl_findings_carry(context, &p.space, cases[i].seen, &p.space,
-                                           cases[i].method, cases[i].options, &findings),
+        assert_int_equal(sl_partial_reuse(context, &p.space, cases[i].seen, &p.space,
+                                          cases[i].method, cases[i].options, &partial),
                          SL_BAD_ARGUMENT);
         assert_non_null(strstr(sl_context_message(context), cases[i].said));
-        assert_false(sl_findings_begun(&findings));
+        assert_false(sl_partial_begun(&partial));
     }
     assert_ok(context,
-              sl_findings_carry(context, &p.space, &exact, &p.space, sweep, &closed, &findings));
-    assert_true(sl_findings_complete(&findings));
-    sl_findings_destroy(context, &findings);
+              sl_partial_reuse(context, &p.space, &exact, &p.space, sweep, &closed, &partial));
+    assert_true(sl_partial_complete(&partial));
+    sl_partial_destroy(context, &partial);
     sl_visibility_destroy(context, &exact);
     sl_visibility_destroy(context, &bound);
     destroy(context, &p);
@@ -426,22 +426,22 @@ static void what_does_not_belong_together_is_refused(void **state) {
     for (size_t m = 0; m < NAMES; m++) {
         const sl_see_method *method = testing_method(names[m]);
         sl_see_options options = options_for(method, SL_CLOSED, false, 1);
-        sl_findings one = {0}, other = {0};
+        sl_partial one = {0}, other = {0};
         options.shard = 3, options.shard_count = 2;
-        assert_int_equal(method->look(context, &p.space, &options, &one), SL_BAD_ARGUMENT);
-        assert_false(sl_findings_begun(&one));
+        assert_int_equal(method->run(context, &p.space, &options, &one), SL_BAD_ARGUMENT);
+        assert_false(sl_partial_begun(&one));
         options.shard = 0, options.shard_count = 0;
-        assert_ok(context, method->look(context, &p.space, &options, &one));
-        assert_ok(context, method->look(context, &q.space, &options, &other));
-        assert_int_equal(method->look(context, &q.space, &options, &one), SL_BAD_ARGUMENT);
-        assert_int_equal(sl_findings_join(context, &one, &other), SL_BAD_ARGUMENT);
+        assert_ok(context, method->run(context, &p.space, &options, &one));
+        assert_ok(context, method->run(context, &q.space, &options, &other));
+        assert_int_equal(method->run(context, &q.space, &options, &one), SL_BAD_ARGUMENT);
+        assert_int_equal(sl_partial_merge(context, &one, &other), SL_BAD_ARGUMENT);
         options.inside_only = true;
-        assert_int_equal(method->look(context, &p.space, &options, &one), SL_BAD_ARGUMENT);
+        assert_int_equal(method->run(context, &p.space, &options, &one), SL_BAD_ARGUMENT);
         options.trees = true;
-        sl_findings none = {0};
-        assert_int_not_equal(method->look(context, &p.space, &options, &none), SL_OK);
-        sl_findings_destroy(context, &one);
-        sl_findings_destroy(context, &other);
+        sl_partial none = {0};
+        assert_int_not_equal(method->run(context, &p.space, &options, &none), SL_OK);
+        sl_partial_destroy(context, &one);
+        sl_partial_destroy(context, &other);
     }
     destroy(context, &p);
     destroy(context, &q);
@@ -450,22 +450,22 @@ static void what_does_not_belong_together_is_refused(void **state) {
 
 /// Stopped, settled, gone on with, taken over to a changed map, joined.
 static sl_status go_all_ways(sl_context *context, const sl_see_method *method, const place *p,
-                             const place *q, sl_visibility *out, sl_findings *findings) {
+                             const place *q, sl_visibility *out, sl_partial *partial) {
     patience few = {.most = 12};
     sl_see_options options = options_for(method, SL_CLOSED, false, 1);
     sl_see_options stopped = options;
     stopped.enough = is_over;
     stopped.enough_user = &few;
-    sl_status status = method->look(context, &p->space, &stopped, &findings[0]);
+    sl_status status = method->run(context, &p->space, &stopped, &partial[0]);
     if (status == SL_OK)
-        status = method->settle(context, &p->space, &options, &findings[0], &out[0]);
-    if (status == SL_OK) status = method->look(context, &p->space, &options, &findings[0]);
+        status = method->finish(context, &p->space, &options, &partial[0], &out[0]);
+    if (status == SL_OK) status = method->run(context, &p->space, &options, &partial[0]);
     if (status == SL_OK)
-        status = method->settle(context, &p->space, &options, &findings[0], &out[1]);
+        status = method->finish(context, &p->space, &options, &partial[0], &out[1]);
     if (status == SL_OK)
-        status = sl_findings_carry(context, &p->space, &out[1], &q->space, method, &options,
-                                   &findings[1]);
-    return status == SL_OK ? sl_findings_join(context, &findings[0], &findings[0]) : status;
+        status =
+            sl_partial_reuse(context, &p->space, &out[1], &q->space, method, &options, &partial[1]);
+    return status == SL_OK ? sl_partial_merge(context, &partial[0], &partial[0]) : status;
 }
 
 static void lack_of_memory_is_told_and_leaves_nothing(void **state) {
@@ -480,14 +480,14 @@ static void lack_of_memory_is_told_and_leaves_nothing(void **state) {
         sl_status status = SL_NO_MEMORY;
         for (long fail_at = 1; status == SL_NO_MEMORY; fail_at++) {
             sl_visibility seen[2] = {0};
-            sl_findings findings[2] = {0};
+            sl_partial partial[2] = {0};
             memory.calls = 0;
             memory.fail_at = fail_at;
-            status = go_all_ways(context, method, &p, &q, seen, findings);
+            status = go_all_ways(context, method, &p, &q, seen, partial);
             memory.fail_at = 0;
             for (int i = 0; i < 2; i++) {
                 sl_visibility_destroy(context, &seen[i]);
-                sl_findings_destroy(context, &findings[i]);
+                sl_partial_destroy(context, &partial[i]);
             }
             assert_int_equal(memory.live, live);
         }

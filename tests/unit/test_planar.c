@@ -5,6 +5,7 @@
 #include "map/planar.h"
 #include "oracle/planar_graph.h"
 #include "oracle/random_oblique.h"
+#include "sightline/generate.h"
 
 #include <math.h>
 
@@ -51,7 +52,7 @@ static double tolerance_of(const bundle *b) {
         box.max.x = fmax(box.max.x, fmax(s.a.x, s.b.x));
         box.max.y = fmax(box.max.y, fmax(s.a.y, s.b.y));
     }
-    return sl_planar_tolerance(&box);
+    return sli_planar_tolerance(&box);
 }
 
 // --- the same for all orders
@@ -61,20 +62,21 @@ static bool same(sl_point a, sl_point b) {
 }
 
 /// Whether the chain of a segment is that of another graph, turned round or not.
-static bool same_chain(const sl_planar *a, size_t i, const sl_planar *b, size_t k, bool reversed) {
+static bool same_chain(const sli_planar *a, size_t i, const sli_planar *b, size_t k,
+                       bool reversed) {
     const size_t count = a->first[i + 1] - a->first[i];
     if (b->first[k + 1] - b->first[k] != count) return false;
     for (size_t n = 0; n < count; n++) {
-        const sl_segment s = sl_planar_at(a, a->links[a->first[i] + n]);
-        const sl_planar_link link = b->links[b->first[k] + (reversed ? count - 1 - n : n)];
-        const sl_segment t = sl_planar_at(b, link ^ reversed);
+        const sl_segment s = sli_planar_at(a, a->links[a->first[i] + n]);
+        const sli_planar_link link = b->links[b->first[k] + (reversed ? count - 1 - n : n)];
+        const sl_segment t = sli_planar_at(b, link ^ reversed);
         if (!same(s.a, t.a) || !same(s.b, t.b)) return false;
     }
     return true;
 }
 
 static void check_order(sl_context *context, const char *name, const bundle *b, double weld,
-                        const sl_planar *expected) {
+                        const sli_planar *expected) {
     sl_random random = {b->count};
     sl_segment *shuffled = malloc((b->count + 1) * sizeof *shuffled);
     size_t *from = malloc((b->count + 1) * sizeof *from);
@@ -91,8 +93,8 @@ static void check_order(sl_context *context, const char *name, const bundle *b, 
         reversed[i] = sl_random_below(&random, 2);
         shuffled[i] = reversed[i] ? (sl_segment){s.b, s.a} : s;
     }
-    sl_planar graph = {0};
-    assert_ok(context, sl_planar_make(context, name, shuffled, b->count, weld, &graph));
+    sli_planar graph = {0};
+    assert_ok(context, sli_planar_make(context, name, shuffled, b->count, weld, &graph));
     assert_int_equal(graph.point_count, expected->point_count);
     if (graph.point_count)
         assert_memory_equal(graph.points, expected->points,
@@ -105,7 +107,7 @@ static void check_order(sl_context *context, const char *name, const bundle *b, 
     for (size_t i = 0; i < b->count; i++)
         if (!same_chain(expected, from[i], &graph, i, reversed[i]))
             fail_msg("%s: the chain of segment %zu depends on the order", name, from[i]);
-    sl_planar_destroy(context, &graph);
+    sli_planar_destroy(context, &graph);
     free(shuffled);
     free(from);
     free(reversed);
@@ -122,10 +124,10 @@ typedef struct outcome {
 static outcome check_with(const char *name, const bundle *b, double weld) {
     testing_memory memory = {0};
     sl_context *context = testing_context(&memory);
-    sl_planar graph = {0};
+    sli_planar graph = {0};
     char why[ORACLE_WHY];
     outcome found = {0};
-    const sl_status status = sl_planar_make(context, name, b->items, b->count, weld, &graph);
+    const sl_status status = sli_planar_make(context, name, b->items, b->count, weld, &graph);
     if (status == SL_UNSUPPORTED) {
         assert_non_null(strstr(sl_context_message(context), "larger tolerance"));
         assert_null(graph.points);
@@ -137,7 +139,7 @@ static outcome check_with(const char *name, const bundle *b, double weld) {
         check_order(context, name, b, weld, &graph);
         found = (outcome){graph.point_count, graph.crossings, graph.welded, graph.largest_move, 0};
     }
-    sl_planar_destroy(context, &graph);
+    sli_planar_destroy(context, &graph);
     sl_context_destroy(context);
     assert_int_equal(memory.live, 0);
     return found;
@@ -388,11 +390,11 @@ static void memory_may_fail_at_any_call(void **state) {
     sl_status status = SL_NO_MEMORY;
     const long before = memory.live;
     for (long at = 1; status == SL_NO_MEMORY; at++) {
-        sl_planar graph = {0};
+        sli_planar graph = {0};
         memory.calls = 0;
         memory.fail_at = at;
-        status = sl_planar_make(context, "memory", b.items, b.count, 1e-6, &graph);
-        sl_planar_destroy(context, &graph);
+        status = sli_planar_make(context, "memory", b.items, b.count, 1e-6, &graph);
+        sli_planar_destroy(context, &graph);
         assert_int_equal(memory.live, before);
     }
     assert_int_equal(status, SL_OK);

@@ -3,10 +3,10 @@
 // the WAD that it goes into is otherwise the same.
 #include "testing.h"
 
-#include "bake/exports.h"
-#include "base/file.h"
-#include "base/random.h"
 #include "oracle/sectors.h"
+#include "sightline/io.h"
+#include "sightline/reject.h"
+#include "sightline/support.h"
 #include "wad_make.h"
 
 #include <unistd.h>
@@ -133,15 +133,15 @@ static void bake_map(sl_context *context, const wad_made *wad, sl_baked *baked) 
 }
 
 /// The first lump of a name in a WAD.
-static sl_lump lump_of(sl_context *context, const sl_bytes *bytes, const char *name) {
-    sl_wad wad;
-    sl_lump lump = {0};
-    assert_ok(context, sl_wad_open(context, "out.wad", bytes->data, bytes->size, &wad));
+static sli_lump lump_of(sl_context *context, const sl_bytes *bytes, const char *name) {
+    sli_wad wad;
+    sli_lump lump = {0};
+    assert_ok(context, sli_wad_open(context, "out.wad", bytes->data, bytes->size, &wad));
     for (uint32_t i = 0; i < wad.lump_count; i++) {
-        char own[SL_LUMP_NAME];
-        sl_wad_lump_name(&wad, i, own);
+        char own[SLI_LUMP_NAME];
+        sli_wad_lump_name(&wad, i, own);
         if (strcmp(own, name) != 0) continue;
-        assert_ok(context, sl_wad_lump(context, &wad, i, &lump));
+        assert_ok(context, sli_wad_lump(context, &wad, i, &lump));
         break;
     }
     return lump;
@@ -152,18 +152,18 @@ static sl_point random_point(sl_random *random) {
 }
 
 /// Looks for a hidden pair that a free sightline joins; gives how many pairs are hidden.
-static size_t check_reject(sl_context *context, const wad_made *made, const sl_lump *reject,
+static size_t check_reject(sl_context *context, const wad_made *made, const sli_lump *reject,
                            sl_random *random) {
-    sl_wad wad;
-    sl_wad_map map;
-    sl_doom_level level = {0};
+    sli_wad wad;
+    sli_wad_map map;
+    sli_doom_level level = {0};
     sl_segment walls[LINES];
     size_t wall_count = 0, hidden = 0;
-    assert_ok(context, sl_wad_open(context, "in.wad", made->bytes, made->size, &wad));
-    assert_ok(context, sl_wad_find_map(context, &wad, NULL, &map));
-    assert_ok(context, sl_doom_read(context, &wad, &map, &level));
+    assert_ok(context, sli_wad_open(context, "in.wad", made->bytes, made->size, &wad));
+    assert_ok(context, sli_wad_find_map(context, &wad, NULL, &map));
+    assert_ok(context, sli_doom_read(context, &wad, &map, &level));
     for (size_t i = 0; i < level.line_count; i++)
-        if (level.lines[i].left == SL_NO_SECTOR)
+        if (level.lines[i].left == SLI_NO_SECTOR)
             walls[wall_count++] = (sl_segment){level.lines[i].from, level.lines[i].to};
     blockers *blocking = blockers_create(walls, wall_count);
     sector_finder *where = sector_finder_create(&level);
@@ -172,7 +172,7 @@ static size_t check_reject(sl_context *context, const wad_made *made, const sl_l
         const sl_segment s = {random_point(random), random_point(random)};
         if (!blockers_free(blocking, s)) continue;
         const uint32_t a = sectors_at(where, s.a), b = sectors_at(where, s.b);
-        assert_true(a != SL_NO_SECTOR && b != SL_NO_SECTOR);
+        assert_true(a != SLI_NO_SECTOR && b != SLI_NO_SECTOR);
         if (sectors_rejected(reject, SECTORS, a, b) || sectors_rejected(reject, SECTORS, b, a))
             fail_msg("%g,%g in %u sees %g,%g in %u", s.a.x, s.a.y, a, s.b.x, s.b.y, b);
     }
@@ -180,7 +180,7 @@ static size_t check_reject(sl_context *context, const wad_made *made, const sl_l
         for (uint32_t b = 0; b < SECTORS; b++) hidden += sectors_rejected(reject, SECTORS, a, b);
     sector_finder_destroy(where);
     blockers_destroy(blocking);
-    sl_doom_level_destroy(context, &level);
+    sli_doom_level_destroy(context, &level);
     return hidden;
 }
 
@@ -205,10 +205,10 @@ static void hides_nothing_that_is_seen(void **state) {
         bake_map(context, &wad, &baked);
         assert_ok(context, sl_export_reject(context, &baked, &options, out));
         assert_ok(context, sl_file_read(context, out, &written));
-        const sl_lump reject = lump_of(context, &written, "REJECT");
+        const sli_lump reject = lump_of(context, &written, "REJECT");
         hidden += check_reject(context, &wad, &reject, &random);
         // With a REJECT of the same size nothing else is touched.
-        const sl_lump old = lump_of(context, &(sl_bytes){(char *)wad.bytes, wad.size}, "REJECT");
+        const sli_lump old = lump_of(context, &(sl_bytes){(char *)wad.bytes, wad.size}, "REJECT");
         if (round % 2) {
             assert_int_equal(written.size, wad.size);
             memcpy((unsigned char *)written.data + (old.bytes - wad.bytes), old.bytes, old.size);
@@ -218,8 +218,8 @@ static void hides_nothing_that_is_seen(void **state) {
             static const char *const kept[] = {"BEFORE", "LINEDEFS", "SECTORS", "BLOCKMAP",
                                                "BEHIND"};
             for (size_t i = 0; i < sizeof kept / sizeof *kept; i++) {
-                const sl_lump a = lump_of(context, &written, kept[i]);
-                const sl_lump b =
+                const sli_lump a = lump_of(context, &written, kept[i]);
+                const sli_lump b =
                     lump_of(context, &(sl_bytes){(char *)wad.bytes, wad.size}, kept[i]);
                 assert_int_equal(a.size, b.size);
                 assert_memory_equal(a.bytes, b.bytes, a.size);

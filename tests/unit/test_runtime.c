@@ -3,9 +3,9 @@
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime_maps.h"
 
-#include "base/random.h"
 #include "geometry/orient.h"
 #include "oracle/random_oblique.h"
+#include "sightline/support.h"
 
 #include <math.h>
 
@@ -159,7 +159,7 @@ static uint32_t first_that_holds(const sl_space *s, sl_point p) {
         const sl_cell *c = &s->cells[i];
         const sl_point *v = s->vertices + c->first_vertex;
         uint32_t k = 0;
-        while (k < c->vertex_count && sl_orient(v[k], v[(k + 1) % c->vertex_count], p) >= 0) k++;
+        while (k < c->vertex_count && sli_orient(v[k], v[(k + 1) % c->vertex_count], p) >= 0) k++;
         if (k == c->vertex_count) return i;
     }
     return SL_NO_CELL;
@@ -280,7 +280,7 @@ static void the_space_is_the_same(const baked_file *f) {
     const sl_runtime *r = &f->runtime;
     const sl_space *s = &f->baked.space;
     assert_int_equal(r->portal_count, s->portal_count);
-    assert_int_equal(r->exit_count, s->exit_count);
+    assert_int_equal(r->directed_count, s->directed_count);
     assert_int_equal(r->vertex_count, s->vertex_count);
     assert_int_equal(r->node_count, s->node_count);
     assert_int_equal(r->grid_columns, s->grid.columns);
@@ -291,17 +291,17 @@ static void the_space_is_the_same(const baked_file *f) {
         const sl_runtime_cell cell = sl_runtime_get_cell(r, i);
         assert_int_equal(cell.first_vertex, s->cells[i].first_vertex);
         assert_int_equal(cell.vertex_count, s->cells[i].vertex_count);
-        assert_int_equal(cell.first_exit, s->cells[i].first_exit);
-        assert_int_equal(cell.exit_count, s->cells[i].exit_count);
+        assert_int_equal(cell.first_directed, s->cells[i].first_directed);
+        assert_int_equal(cell.directed_count, s->cells[i].directed_count);
         assert_int_equal(sl_runtime_is_inside(r, i), s->cells[i].inside);
     }
-    for (uint32_t i = 0; i < r->exit_count; i++) {
-        const sl_runtime_exit exit = sl_runtime_get_exit(r, i);
-        const sl_exit *is = &s->exits[i];
-        assert_int_equal(exit.portal, is->portal);
-        assert_int_equal(exit.cell, is->cell);
-        assert_true(exit.left[0] == is->left.x && exit.left[1] == is->left.y);
-        assert_true(exit.right[0] == is->right.x && exit.right[1] == is->right.y);
+    for (uint32_t i = 0; i < r->directed_count; i++) {
+        const sl_runtime_directed_portal directed = sl_runtime_get_directed_portal(r, i);
+        const sl_directed_portal *is = &s->directed[i];
+        assert_int_equal(directed.portal, is->portal);
+        assert_int_equal(directed.cell, is->cell);
+        assert_true(directed.left[0] == is->left.x && directed.left[1] == is->left.y);
+        assert_true(directed.right[0] == is->right.x && directed.right[1] == is->right.y);
     }
     for (uint32_t i = 0; i < r->vertex_count; i++) {
         double x, y;
@@ -310,7 +310,7 @@ static void the_space_is_the_same(const baked_file *f) {
     }
 }
 
-static void cells_exits_and_corners_are_the_same(void **state) {
+static void cells_directed_and_corners_are_the_same(void **state) {
     (void)state;
     baked_file_each(the_space_is_the_same);
 }
@@ -357,7 +357,7 @@ int main(void) {
         cmocka_unit_test(every_place_of_a_turned_map_is_in_the_same_cell),
         cmocka_unit_test(every_pair_is_seen_the_same),
         cmocka_unit_test(what_is_no_cell_sees_nothing),
-        cmocka_unit_test(cells_exits_and_corners_are_the_same),
+        cmocka_unit_test(cells_directed_and_corners_are_the_same),
         cmocka_unit_test(cells_not_looked_from_have_no_row),
         cmocka_unit_test(any_alignment_will_do),
     };

@@ -5,7 +5,7 @@
 #include "runtime_maps.h"
 #include "slv_file.h"
 
-#include "base/random.h"
+#include "sightline/support.h"
 
 #include <math.h>
 
@@ -125,14 +125,14 @@ static void a_lie_under_a_seal_is_refused(void **state) {
         {"CELL", offsetof(sl_cell, first_vertex), 4, &most, SL_RUNTIME_SPACE},
         {"CELL", offsetof(sl_cell, vertex_count), 4, &most, SL_RUNTIME_SPACE},
         {"CELL", offsetof(sl_cell, vertex_count), 4, "\2\0\0\0", SL_RUNTIME_SPACE},
-        {"CELL", offsetof(sl_cell, first_exit), 4, &one, SL_RUNTIME_SPACE},
-        {"CELL", offsetof(sl_cell, exit_count), 4, &most, SL_RUNTIME_SPACE},
-        {"CELL", offsetof(sl_cell, exit_count), 4, "\0\0\0\0", SL_RUNTIME_SPACE},
+        {"CELL", offsetof(sl_cell, first_directed), 4, &one, SL_RUNTIME_SPACE},
+        {"CELL", offsetof(sl_cell, directed_count), 4, &most, SL_RUNTIME_SPACE},
+        {"CELL", offsetof(sl_cell, directed_count), 4, "\0\0\0\0", SL_RUNTIME_SPACE},
         {"VERT", 8, 8, &infinite, SL_RUNTIME_SPACE},
-        {"EXIT", offsetof(sl_exit, portal), 4, &most, SL_RUNTIME_SPACE},
-        {"EXIT", offsetof(sl_exit, cell), 4, &most, SL_RUNTIME_SPACE},
-        {"EXIT", offsetof(sl_exit, left), 8, &nan, SL_RUNTIME_SPACE},
-        {"EXIT", offsetof(sl_exit, right) + 8, 8, &far, SL_RUNTIME_SPACE},
+        {"EXIT", offsetof(sl_directed_portal, portal), 4, &most, SL_RUNTIME_SPACE},
+        {"EXIT", offsetof(sl_directed_portal, cell), 4, &most, SL_RUNTIME_SPACE},
+        {"EXIT", offsetof(sl_directed_portal, left), 8, &nan, SL_RUNTIME_SPACE},
+        {"EXIT", offsetof(sl_directed_portal, right) + 8, 8, &far, SL_RUNTIME_SPACE},
         {"PVSO", 0, 4, &one, SL_RUNTIME_ROW},
         {"PVSO", 8, 8, &much, SL_RUNTIME_ROW},
         {"PVSB", 0, 1, "\1", SL_RUNTIME_ROW},       // not its own cell
@@ -146,14 +146,14 @@ static void a_lie_under_a_seal_is_refused(void **state) {
 static void a_lie_about_the_grid_is_refused(void **state) {
     (void)state;
     const uint32_t none = 0, one = 1, thousand = 1000, most = UINT32_MAX;
-    const size_t columns = offsetof(sl_slv_info, grid_columns);
-    const size_t rows = offsetof(sl_slv_info, grid_rows);
+    const size_t columns = offsetof(sli_slv_info, grid_columns);
+    const size_t rows = offsetof(sli_slv_info, grid_rows);
     const lie lies[] = {
         {"INFO", columns, 4, &none, SL_RUNTIME_SPACE},
         {"INFO", columns, 4, &thousand, SL_RUNTIME_SPACE},
         {"INFO", rows, 4, &none, SL_RUNTIME_SPACE},
         {"INFO", rows, 4, &most, SL_RUNTIME_SPACE},
-        {"INFO", offsetof(sl_slv_info, loose), 4, &one, SL_RUNTIME_OK},
+        {"INFO", offsetof(sli_slv_info, loose), 4, &one, SL_RUNTIME_OK},
         {"GRIO", 0, 4, &one, SL_RUNTIME_SPACE},
         {"GRIO", 4, 4, &most, SL_RUNTIME_SPACE},
         {"GRIO", 4, 4, &thousand, SL_RUNTIME_SPACE},
@@ -190,7 +190,7 @@ static void check_table(const char *statements, const char *const *tags, size_t 
     char *bytes = malloc(f.size);
     assert_non_null(bytes);
     for (size_t i = 0; i < count; i++) {
-        sl_slv_section s;
+        sli_slv_section s;
         memcpy(&s, slv_entry(f.bytes, tags[i]), sizeof s);
         const struct {
             uint32_t item_bytes;
@@ -207,7 +207,7 @@ static void check_table(const char *statements, const char *const *tags, size_t 
         };
         for (size_t k = 0; k < sizeof lies / sizeof *lies; k++) {
             memcpy(bytes, f.bytes, f.size);
-            sl_slv_section entry = s;
+            sli_slv_section entry = s;
             entry.item_bytes = lies[k].item_bytes;
             entry.offset = lies[k].offset;
             entry.count = lies[k].count;
@@ -221,7 +221,7 @@ static void check_table(const char *statements, const char *const *tags, size_t 
         assert_int_equal(open_bytes(bytes, f.size), missing);
     }
     memcpy(bytes, f.bytes, f.size);
-    memset(bytes + offsetof(sl_slv_header, section_count), 0xff, 4);
+    memset(bytes + offsetof(sli_slv_header, section_count), 0xff, 4);
     slv_seal(bytes, f.size);
     assert_int_equal(open_bytes(bytes, f.size), SL_RUNTIME_SECTION);
     free(bytes);
@@ -245,10 +245,10 @@ static void the_version_says_what_locates_points(void **state) {
     sl_context *context = testing_context(NULL);
     baked_file axial = baked_file_of_text(context, rooms);
     baked_file mesh = baked_file_of_text(context, oblique);
-    memcpy(axial.bytes + offsetof(sl_slv_header, version), &two, 4);
+    memcpy(axial.bytes + offsetof(sli_slv_header, version), &two, 4);
     slv_seal(axial.bytes, axial.size);
     assert_int_equal(open_bytes(axial.bytes, axial.size), SL_RUNTIME_SPACE);
-    memcpy(mesh.bytes + offsetof(sl_slv_header, version), &one, 4);
+    memcpy(mesh.bytes + offsetof(sli_slv_header, version), &one, 4);
     slv_seal(mesh.bytes, mesh.size);
     assert_false(mesh.runtime.loose);
     baked_file_open(&mesh);
@@ -284,16 +284,16 @@ static void unknown_sections_are_passed_over(void **state) {
 /// are more ways through them than can be tried.
 static void make_tangle(baked_file *f) {
     const sl_runtime *r = &f->runtime;
-    char *exits = slv_items(f->bytes, "EXIT");
+    char *directed = slv_items(f->bytes, "EXIT");
     const double middle = r->min_y / 2 + r->max_y / 2, half = r->max_y - middle;
     sl_random random = {1};
-    for (uint32_t i = 0; i < r->exit_count; i++) {
-        const sl_exit exit = {
+    for (uint32_t i = 0; i < r->directed_count; i++) {
+        const sl_directed_portal portal = {
             .cell = (uint32_t)sl_random_below(&random, r->cell_count),
             .left = {r->max_x, middle + half * sl_random_unit(&random)},
             .right = {r->max_x, middle - half * sl_random_unit(&random)},
         };
-        memcpy(exits + i * sizeof exit, &exit, sizeof exit);
+        memcpy(directed + i * sizeof portal, &portal, sizeof portal);
     }
     slv_seal(f->bytes, f->size);
     baked_file_open(f);

@@ -3,8 +3,8 @@
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime_maps.h"
 
-#include "base/random.h"
 #include "geometry/orient.h"
+#include "sightline/support.h"
 #include "sightline/view.h"
 
 #include <math.h>
@@ -20,18 +20,18 @@ static bool same(sl_point a, sl_point b) {
     return a.x == b.x && a.y == b.y;
 }
 
-/// Whether the closed ray from an eye through another point leaves by an exit.
-static bool leaves_by(sl_point eye, sl_point through, const sl_exit *exit) {
-    const int facing = sl_orient(exit->right, exit->left, eye);
-    const int right = sl_orient(eye, through, exit->right),
-              left = sl_orient(eye, through, exit->left);
+/// Whether the closed ray from an eye through another point leaves by a directed portal.
+static bool leaves_by(sl_point eye, sl_point through, const sl_directed_portal *directed) {
+    const int facing = sli_orient(directed->right, directed->left, eye);
+    const int right = sli_orient(eye, through, directed->right),
+              left = sli_orient(eye, through, directed->left);
     if (facing < 0 || right > 0 || left < 0) return false;
     if (facing > 0) return true;
     // In line with it: on it, or looking along it.
     const sl_view ray = {.eye = eye, .left = through, .right = through};
-    const sl_view to_left = {.eye = eye, .left = exit->left, .right = exit->left};
-    return same(eye, exit->left) || same(eye, exit->right) ||
-           !sl_view_holds(&to_left, exit->right) || sl_view_holds(&ray, exit->right);
+    const sl_view to_left = {.eye = eye, .left = directed->left, .right = directed->left};
+    return same(eye, directed->left) || same(eye, directed->right) ||
+           !sl_view_holds(&to_left, directed->right) || sl_view_holds(&ray, directed->right);
 }
 
 /// Adds what one line sees within the row of the eye's cell.
@@ -44,13 +44,14 @@ static void follow(trial *t, sl_point eye, uint32_t from, sl_point through) {
     while (count) {
         const sl_cell *c = &s->cells[t->stack[--count]];
         t->is_seen[c - s->cells] = true;
-        for (uint32_t i = 0; i < c->exit_count; i++) {
-            const sl_exit *exit = &s->exits[c->first_exit + i];
-            if (t->reached[exit->cell] || !sl_runtime_can_see(&t->f->runtime, from, exit->cell) ||
-                !leaves_by(eye, through, exit))
+        for (uint32_t i = 0; i < c->directed_count; i++) {
+            const sl_directed_portal *directed = &s->directed[c->first_directed + i];
+            if (t->reached[directed->cell] ||
+                !sl_runtime_can_see(&t->f->runtime, from, directed->cell) ||
+                !leaves_by(eye, through, directed))
                 continue;
-            t->reached[exit->cell] = true;
-            t->stack[count++] = exit->cell;
+            t->reached[directed->cell] = true;
+            t->stack[count++] = directed->cell;
         }
     }
 }
@@ -248,8 +249,8 @@ static void signs_are_exact(void **state) {
         }
         const slrt_arm u = slrt_make_arm(p[0].x, p[0].y, p[1].x, p[1].y);
         const slrt_arm v = slrt_make_arm(p[0].x, p[0].y, p[2].x, p[2].y);
-        assert_int_equal(slrt_side(&u, &v), sl_orient(p[0], p[1], p[2]));
-        assert_int_equal(slrt_side_exact(&u, &v), sl_orient(p[0], p[1], p[2]));
+        assert_int_equal(slrt_side(&u, &v), sli_orient(p[0], p[1], p[2]));
+        assert_int_equal(slrt_side_exact(&u, &v), sli_orient(p[0], p[1], p[2]));
     }
 }
 

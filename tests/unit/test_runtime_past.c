@@ -1,10 +1,9 @@
 /// The runtime's eye past shut doors and within a range, against the library's eye in a space with
 /// walls in those doors and against the visible region.
-// needs effects
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime_maps.h"
 
-#include "base/random.h"
+#include "sightline/support.h"
 
 #include <math.h>
 
@@ -197,9 +196,9 @@ static void as_walls_in_the_doors(void **state) {
             bool shut[DOORS];
             for (int k = 0; k < DOORS; k++)
                 t.shut[k] = shut[k] = sl_random_below(&t.random, STATES) < (uint64_t)i;
-            const sl_passage passage = {.shut = shut};
-            assert_ok(t.context,
-                      sl_passage_make(t.context, &t.file.baked.space, &passage, NULL, &t.walled));
+            const sl_filtered_space filtered = {.shut = shut};
+            assert_ok(t.context, sl_filtered_space_make(t.context, &t.file.baked.space, &filtered,
+                                                        NULL, &t.walled));
             for (int k = 0; k < 6; k++) try_eye(&t);
             sl_space_destroy(t.context, &t.walled);
         }

@@ -1,8 +1,8 @@
 /// Seams: cells do not run over them, portals know them, walls win, and files keep them.
 #include "testing.h"
 
-#include "base/random.h"
 #include "oracle/random_oblique.h"
+#include "sightline/support.h"
 
 #include <math.h>
 
@@ -73,8 +73,8 @@ static void check_portal(const sl_space *space, uint32_t number, sl_point p) {
         if (!is_on(at.a, at.b, p)) continue;
         assert_true(found < count);
         assert_int_equal(told[found].seam, i);
-        const uint32_t beyond = portal->cell[1];
-        const sl_cell *cell = &space->cells[beyond];
+        const uint32_t neighbour = portal->cell[1];
+        const sl_cell *cell = &space->cells[neighbour];
         double side = 0;
         for (uint32_t k = 0; k < cell->vertex_count; k++)
             side += cross(at.a, at.b, space->vertices[cell->first_vertex + k]);

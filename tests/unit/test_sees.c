@@ -81,7 +81,7 @@ static void check_pair(sl_context *context, const sl_outline *outline, sl_point 
     if (on_wall || (eye.x == point.x && eye.y == point.y)) return;
     sl_hit hit;
     uint32_t wall;
-    assert_ok(context, sl_shoot(context, outline, eye, point, &hit));
+    assert_ok(context, sl_ray_cast(context, outline, eye, point, &hit));
     const double share = first_wall(space, eye, point, &wall);
     assert_int_equal(hit.wall, wall);
     if (wall == UINT32_MAX) return;
@@ -211,13 +211,14 @@ static void corners_and_slits(void **state) {
     assert_false(seen);
     sl_hit hit;
     const sl_point eye = {1, 4}, outside = {9, 9};
-    assert_ok(context, sl_shoot(context, &outline, eye, (sl_point){2, 4}, &hit));
+    assert_ok(context, sl_ray_cast(context, &outline, eye, (sl_point){2, 4}, &hit));
     assert_true(hit.point.x == 4 && hit.point.y == 4);
-    assert_ok(context, sl_shoot(context, &outline, (sl_point){2, 1}, (sl_point){1, 1}, &hit));
+    assert_ok(context, sl_ray_cast(context, &outline, (sl_point){2, 1}, (sl_point){1, 1}, &hit));
     assert_true(hit.point.x == 2 && hit.point.y == 1);
-    assert_int_equal(sl_shoot(context, &outline, eye, eye, &hit), SL_BAD_ARGUMENT);
-    assert_int_equal(sl_shoot(context, &outline, outside, eye, &hit), SL_BAD_ARGUMENT);
-    assert_int_equal(sl_shoot(context, &outline, eye, (sl_point){NAN, 0}, &hit), SL_BAD_ARGUMENT);
+    assert_int_equal(sl_ray_cast(context, &outline, eye, eye, &hit), SL_BAD_ARGUMENT);
+    assert_int_equal(sl_ray_cast(context, &outline, outside, eye, &hit), SL_BAD_ARGUMENT);
+    assert_int_equal(sl_ray_cast(context, &outline, eye, (sl_point){NAN, 0}, &hit),
+                     SL_BAD_ARGUMENT);
     sl_outline_destroy(context, &outline);
     sl_space_destroy(context, &space);
     sl_map_destroy(context, &map);

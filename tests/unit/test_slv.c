@@ -4,7 +4,7 @@
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime/sightline_runtime.h"
 #include "sightline/solvers.h"
-#include "space/cell_grid.h"
+#include "space/index.h"
 
 #include <math.h>
 
@@ -33,12 +33,12 @@ static file print(sl_context *context, const sl_baked *baked) {
     file f = {0};
     FILE *stream = open_memstream(&f.bytes, &f.size);
     assert_non_null(stream);
-    assert_ok(context, sl_slv_print(context, baked, stream));
+    assert_ok(context, sli_slv_print(context, baked, stream));
     assert_int_equal(fclose(stream), 0);
     return f;
 }
 
-#define INFO_FIELD(field) offsetof(sl_slv_info, field), sizeof(((sl_slv_info *)0)->field)
+#define INFO_FIELD(field) offsetof(sli_slv_info, field), sizeof(((sli_slv_info *)0)->field)
 
 typedef struct lie {
     const char *tag;
@@ -72,8 +72,8 @@ static void a_lie_under_a_seal_is_refused(void **state) {
     const uint32_t one = 1, most = UINT32_MAX;
     const char escape[16] = "d\033[2Js", hidden[16] = "glpk\0hidden";
     const lie lies[] = {
-        {"INFO", offsetof(sl_slv_info, bounds), sizeof far, &far, "INFO makes no sense"},
-        {"INFO", offsetof(sl_slv_info, bounds), sizeof nan, &nan, "INFO makes no sense"},
+        {"INFO", offsetof(sli_slv_info, bounds), sizeof far, &far, "INFO makes no sense"},
+        {"INFO", offsetof(sli_slv_info, bounds), sizeof nan, &nan, "INFO makes no sense"},
         {"INFO", INFO_FIELD(sight), &most, "INFO makes no sense"},
         {"INFO", INFO_FIELD(method), escape, "INFO makes no sense"},
         {"INFO", INFO_FIELD(solver), hidden, "INFO makes no sense"},
@@ -81,7 +81,8 @@ static void a_lie_under_a_seal_is_refused(void **state) {
         {"INFO", INFO_FIELD(pairs), &pairs, "do not hold as many pairs"},
         {"WALL", 0, sizeof nan, &nan, "wall 0 lies out of range"},
         {"WALL", 24, sizeof far, &far, "wall 0 lies out of range"},
-        {"CELL", offsetof(sl_cell, first_exit), sizeof most, &most, "cell 0 has exits out of"},
+        {"CELL", offsetof(sl_cell, first_directed), sizeof most, &most,
+         "cell 0 has portals out of"},
         {"PVSB", 0, 2, "\1\1", "visible set 0 lacks its own cell"},
         {"PVSB", 0, 1, "\3", "visible set 0 is damaged"},
         {"TREN", offsetof(sl_stab_node, parent), sizeof one, &one, "stab tree 0 is no tree"},
@@ -102,7 +103,7 @@ static void a_lie_under_a_seal_is_refused(void **state) {
 static uint32_t lonely_bucket(const sl_space *s) {
     for (uint32_t bucket = 0; bucket < s->grid.columns * s->grid.rows; bucket++) {
         uint32_t i = 0;
-        while (i < s->vertex_count && sl_cell_grid_bucket(s, s->vertices[i]) != bucket) i++;
+        while (i < s->vertex_count && sli_cell_grid_bucket(s, s->vertices[i]) != bucket) i++;
         if (i == s->vertex_count && s->grid.first[bucket + 1] == s->grid.first[bucket] + 1)
             return bucket;
     }
@@ -181,7 +182,7 @@ static void an_export_can_be_interrupted(void **state) {
     sl_baked baked;
     bake(context, rooms, &baked);
     size_t count;
-    const sl_export_format *formats = sl_export_formats(&count);
+    const sl_export_format *formats = sl_export_formats(context, &count);
     const sl_export_options none = {0};
     for (size_t i = 0; i < count; i++) {
         if (formats[i].takes_wad) continue;
@@ -213,10 +214,10 @@ static void bake_part(sl_context *context, uint32_t shard_count, sl_baked *baked
     options.shard = options.shard_count = shard_count;
     options.enough = after_one_source;
     options.enough_user = &asked;
-    assert_ok(context, dfs->look(context, &baked->space, &options, &baked->findings));
-    assert_true(sl_findings_left(&baked->findings) > 0 || shard_count);
+    assert_ok(context, dfs->run(context, &baked->space, &options, &baked->partial));
+    assert_true(sl_partial_left(&baked->partial) > 0 || shard_count);
     if (!shard_count)
-        assert_ok(context, dfs->settle(context, &baked->space, &options, &baked->findings,
+        assert_ok(context, dfs->finish(context, &baked->space, &options, &baked->partial,
                                        &baked->visibility));
 }
 
@@ -229,7 +230,7 @@ static void a_partial_file_says_what_it_is(void **state) {
     const file f = print(context, &baked);
     assert_ok(context, sl_baked_parse(context, "part", f.bytes, f.size, &back));
     assert_int_equal(back.visibility.guarantee, SL_CONSERVATIVE);
-    assert_int_equal(back.findings.done_count, baked.findings.done_count);
+    assert_int_equal(back.partial.done_count, baked.partial.done_count);
     sl_baked_say_partial(&back, text);
     assert_non_null(strstr(text, "cells looked at; what is not decided counts as seen"));
     const file again = print(context, &back);
@@ -264,10 +265,10 @@ static void a_lie_about_what_is_done_is_refused(void **state) {
     (void)state;
     const uint32_t two = 2, most = UINT32_MAX;
     const lie lies[] = {
-        {"PART", offsetof(sl_slv_part, shard), 4, &two, "PART makes no sense"},
-        {"PART", offsetof(sl_slv_part, inside_only), 4, &two, "PART makes no sense"},
-        {"PART", offsetof(sl_slv_part, unit_count), 4, &most, "DONE does not tell of each unit"},
-        {"PART", offsetof(sl_slv_part, shard_count), 4, &two, "PART makes no sense"},
+        {"PART", offsetof(sli_slv_part, shard), 4, &two, "PART makes no sense"},
+        {"PART", offsetof(sli_slv_part, inside_only), 4, &two, "PART makes no sense"},
+        {"PART", offsetof(sli_slv_part, unit_count), 4, &most, "DONE does not tell of each unit"},
+        {"PART", offsetof(sli_slv_part, shard_count), 4, &two, "PART makes no sense"},
         {"DONE", 7, 1, "\200", "DONE does not tell of each unit"},
         {"FNDO", 0, 4, &most, "do not start at their first byte"},
         {"FNDB", 0, 1, "\177", "visible set 0 is damaged"},

@@ -1,7 +1,7 @@
 /// The kd-tree, portals, point location, inside and outside, the whole-graph check.
 #include "testing.h"
 
-#include "base/random.h"
+#include "sightline/support.h"
 
 #include <math.h>
 
@@ -16,11 +16,11 @@ static void two_rooms_are_joined_by_one_portal(void **state) {
     testing_space(context, two_rooms, &map, &space);
     assert_int_equal(space.cell_count, 2);
     assert_int_equal(space.portal_count, 1);
-    assert_int_equal(space.exit_count, 2);
+    assert_int_equal(space.directed_count, 2);
     assert_int_equal(space.inside_count, 2);
     const sl_portal *p = &space.portals[0];
     assert_true(p->left.x == 10 && p->left.y == 6 && p->right.x == 10 && p->right.y == 4);
-    const sl_exit *back = &space.exits[space.cells[1].first_exit];
+    const sl_directed_portal *back = &space.directed[space.cells[1].first_directed];
     assert_true(back->cell == 0 && back->left.y == 4 && back->right.y == 6);
     assert_true(sl_space_area(&space, 0) == 100 && sl_space_area(&space, 1) == 100);
     assert_ok(context, sl_space_check(context, &space));
@@ -192,19 +192,19 @@ static void damage(sl_space *space, unsigned number) {
         space->portals[0].left.y -= 1;
         break;
     case 6:
-        space->exits[0].left.y -= 0.5;
+        space->directed[0].left.y -= 0.5;
         break;
     case 7:
-        space->exits[0].cell = space->cell_count;
+        space->directed[0].cell = space->cell_count;
         break;
     case 8:
-        space->exits[0].portal = space->portal_count;
+        space->directed[0].portal = space->portal_count;
         break;
     case 9:
-        space->cells[0].exit_count++;
+        space->cells[0].directed_count++;
         break;
     case 10:
-        space->cells[0].first_exit = 1;
+        space->cells[0].first_directed = 1;
         break;
     case 11:
         space->cells[0].inside = 0;
@@ -226,7 +226,7 @@ static void damage(sl_space *space, unsigned number) {
         space->wall_count--;
         break;
     case 17:
-        space->exit_count--;
+        space->directed_count--;
         break;
     case 18:
         space->cells[1].first_vertex = UINT32_MAX;

@@ -1,11 +1,11 @@
 /// The choice of a subdivision, where the splits of a kd-tree lie, and how a mesh comes about.
 #include "testing.h"
 
-#include "base/base.h"
 #include "geometry/orient.h"
 #include "sightline/import.h"
-#include "space/mesh_steps.h"
-#include "space/splits.h"
+#include "sightline/support.h"
+#include "space/kd_tree.h"
+#include "space/mesh.h"
 
 #include <math.h>
 #include <string.h>
@@ -57,11 +57,11 @@ static void read_space(sl_context *context, const char *path, const char *subdiv
 }
 
 /// The sides of splits that are cells fill the bounds, and each split lies between its sides.
-static void check_splits(const sl_space *space, const sl_split *splits) {
+static void check_splits(const sl_space *space, const sli_split *splits) {
     double cells = 0;
     for (uint32_t n = 0; n < space->node_count; n++) {
         const sl_node *node = &space->nodes[n];
-        const sl_split *s = &splits[n];
+        const sli_split *s = &splits[n];
         assert_true(s->depth < space->tree_depth);
         assert_true(area_of(s->below) > 0 && area_of(s->above) > 0);
         assert_true(memcmp(&s->along.a, &s->above.min, sizeof s->along.a) == 0);
@@ -81,9 +81,9 @@ static void boxes_fill_the_bounds(void **state) {
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
         sl_map map;
         sl_space space;
-        sl_split *splits;
+        sli_split *splits;
         read_space(context, paths[i], NULL, &map, &space);
-        assert_ok(context, sl_splits_make(context, &space, &splits));
+        assert_ok(context, sli_splits_make(context, &space, &splits));
         check_splits(&space, splits);
         sl_free(context, splits);
         sl_space_destroy(context, &space);
@@ -97,12 +97,12 @@ static void walls_cover_splits(void **state) {
     sl_context *context = testing_context(NULL);
     sl_map map = {0};
     sl_space space;
-    sl_split *splits;
+    sli_split *splits;
     // The one split is x = 2, of which a wall covers a quarter.
     testing_space(context, "walls 0 0 4 0 4 4 0 4 0 0\nwall 2 1 2 2\n", &map, &space);
-    assert_ok(context, sl_splits_make(context, &space, &splits));
+    assert_ok(context, sli_splits_make(context, &space, &splits));
     assert_int_equal(space.node_count, 1);
-    assert_true(sl_splits_covered(splits, &space, 0) == 0.25);
+    assert_true(sli_splits_covered(splits, &space, 0) == 0.25);
     assert_true(splits->along.a.x == 2 && splits->along.b.x == 2);
     assert_true(splits->along.a.y == 0 && splits->along.b.y == 4);
     sl_free(context, splits);
@@ -113,7 +113,7 @@ static void walls_cover_splits(void **state) {
 
 // --- a mesh
 
-static sl_point start_of(const sl_mesh_steps *steps, uint32_t half) {
+static sl_point start_of(const sli_mesh_steps *steps, uint32_t half) {
     return steps->triangles.points.items[steps->triangles.halves.items[half].from];
 }
 
@@ -128,13 +128,13 @@ static bool is_portal(const sl_space *space, sl_point a, sl_point b) {
 }
 
 /// Corners of the cell at the left of a half-edge, of which none turns right.
-static uint32_t count_corners(const sl_mesh_steps *steps, size_t place, uint32_t half) {
+static uint32_t count_corners(const sli_mesh_steps *steps, size_t place, uint32_t half) {
     uint32_t count = 0, at = half;
     do {
-        const uint32_t next = sl_mesh_steps_next(steps, place, at);
-        const uint32_t after = sl_mesh_steps_next(steps, place, next);
-        assert_true(sl_orient(start_of(steps, at), start_of(steps, next), start_of(steps, after)) >=
-                    0);
+        const uint32_t next = sli_mesh_steps_next(steps, place, at);
+        const uint32_t after = sli_mesh_steps_next(steps, place, next);
+        assert_true(
+            sli_orient(start_of(steps, at), start_of(steps, next), start_of(steps, after)) >= 0);
         at = next;
         count++;
     } while (at != half);
@@ -143,16 +143,16 @@ static uint32_t count_corners(const sl_mesh_steps *steps, size_t place, uint32_t
 
 /// Sides are tried the longest first; one that stays is a portal, and its corner is not convex
 /// without it; one that is taken out leaves a convex cell.
-static void check_sides(const sl_space *space, const sl_mesh_steps *steps) {
+static void check_sides(const sl_space *space, const sli_mesh_steps *steps) {
     double last = INFINITY;
     for (size_t i = 0; i < steps->sides.count; i++) {
-        const sl_mesh_side *side = &steps->sides.items[i];
+        const sli_mesh_side *side = &steps->sides.items[i];
         const sl_point a = start_of(steps, side->half), b = start_of(steps, side->half ^ 1);
         const double length = hypot(b.x - a.x, b.y - a.y);
         assert_true(length <= last);
         last = length;
-        if (side->stuck == SL_OUTSIDE) {
-            const uint32_t next = sl_mesh_steps_next(steps, i, side->half);
+        if (side->stuck == SLI_OUTSIDE) {
+            const uint32_t next = sli_mesh_steps_next(steps, i, side->half);
             const uint32_t both =
                 count_corners(steps, i, side->half) + count_corners(steps, i, side->half ^ 1);
             assert_int_equal(count_corners(steps, i + 1, next), both - 2);
@@ -160,28 +160,29 @@ static void check_sides(const sl_space *space, const sl_mesh_steps *steps) {
             continue;
         }
         sl_point corner[3];
-        sl_mesh_steps_corner(steps, i, corner);
-        assert_true(sl_orient(corner[0], corner[1], corner[2]) <= 0);
+        sli_mesh_steps_corner(steps, i, corner);
+        assert_true(sli_orient(corner[0], corner[1], corner[2]) <= 0);
         assert_true((corner[1].x == a.x && corner[1].y == a.y) ||
                     (corner[1].x == b.x && corner[1].y == b.y));
-        assert_int_equal(steps->taken[side->half / 2], SL_MESH_STAYS);
+        assert_int_equal(steps->taken[side->half / 2], SLI_MESH_STAYS);
         assert_true(is_portal(space, a, b));
     }
 }
 
 /// At last the cells are those of the space.
-static void check_cells(const sl_space *space, const sl_mesh_steps *steps) {
+static void check_cells(const sl_space *space, const sli_mesh_steps *steps) {
     const size_t halves = steps->triangles.halves.count;
     uint32_t cells = 0, corners = 0;
     bool *known = calloc(halves, sizeof *known);
     assert_non_null(known);
     for (uint32_t half = 0; half < halves; half++) {
-        if (known[half] || sl_half_is_outside(&steps->triangles, half) ||
-            steps->taken[half / 2] != SL_MESH_STAYS)
+        if (known[half] || sli_half_is_outside(&steps->triangles, half) ||
+            steps->taken[half / 2] != SLI_MESH_STAYS)
             continue;
         corners += count_corners(steps, steps->sides.count, half);
         cells++;
-        for (uint32_t at = half; !known[at]; at = sl_mesh_steps_next(steps, steps->sides.count, at))
+        for (uint32_t at = half; !known[at];
+             at = sli_mesh_steps_next(steps, steps->sides.count, at))
             known[at] = true;
     }
     free(known);
@@ -191,8 +192,8 @@ static void check_cells(const sl_space *space, const sl_mesh_steps *steps) {
 
 /// Both triangulations have the same points and as many edges, and new ones for those that are
 /// gone.
-static void check_fresh(const sl_mesh_steps *steps) {
-    const sl_triangulation *t = &steps->triangles, *before = &steps->delaunay;
+static void check_fresh(const sli_mesh_steps *steps) {
+    const sli_triangulation *t = &steps->triangles, *before = &steps->delaunay;
     assert_int_equal(t->points.count, before->points.count);
     assert_int_equal(t->halves.count, before->halves.count);
     for (size_t i = 0; i < t->halves.count / 2; i++) {
@@ -213,14 +214,14 @@ static void steps_lead_to_the_mesh(void **state) {
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
         sl_map map;
         sl_space space;
-        sl_mesh_steps steps;
+        sli_mesh_steps steps;
         read_space(context, paths[i], "mesh", &map, &space);
-        assert_ok(context, sl_mesh_steps_record(context, &space, &steps));
+        assert_ok(context, sli_mesh_steps_record(context, &space, &steps));
         check_sides(&space, &steps);
         check_cells(&space, &steps);
         check_fresh(&steps);
         for (size_t k = 0; k < steps.triangles.halves.count / 2; k++) fresh += steps.fresh[k];
-        sl_mesh_steps_destroy(context, &steps);
+        sli_mesh_steps_destroy(context, &steps);
         sl_space_destroy(context, &space);
         sl_map_destroy(context, &map);
     }
@@ -239,12 +240,12 @@ static void steps_come_to_an_end_without_memory(void **state) {
     const long live = memory.live;
     sl_status status = SL_NO_MEMORY;
     for (long i = 1; status != SL_OK; i++) {
-        sl_mesh_steps steps = {0};
+        sli_mesh_steps steps = {0};
         memory.fail_at = memory.calls + i;
-        status = sl_mesh_steps_record(context, &space, &steps);
+        status = sli_mesh_steps_record(context, &space, &steps);
         memory.fail_at = 0;
         assert_true(status == SL_OK ? i > 10 : status == SL_NO_MEMORY && i < 1000);
-        sl_mesh_steps_destroy(context, &steps);
+        sli_mesh_steps_destroy(context, &steps);
         assert_int_equal(memory.live, live);
     }
     sl_space_destroy(context, &space);

@@ -6,16 +6,16 @@ static const char *const hall = "walls 0 0 12 0 12 8 0 8 0 0\n"
                                 "wall 4 6 6 6\n";
 
 static void check_sequence(const sl_space *space, const sl_steps *steps, size_t at) {
-    uint32_t exits[256];
+    uint32_t directed[256];
     const sl_step *s = &steps->steps[at];
-    const uint32_t count = sl_steps_sequence(steps, at, exits, 256);
+    const uint32_t count = sl_steps_sequence(steps, at, directed, 256);
     assert_int_equal(count, s->depth);
     uint32_t cell = steps->steps[0].cell;
     for (uint32_t i = 0; i < count; i++) {
-        // Each exit leads out of the cell that the one before leads into.
+        // Each directed portal leads out of the cell that the one before leads into.
         const sl_cell *c = &space->cells[cell];
-        assert_in_range(exits[i], c->first_exit, c->first_exit + c->exit_count - 1);
-        cell = space->exits[exits[i]].cell;
+        assert_in_range(directed[i], c->first_directed, c->first_directed + c->directed_count - 1);
+        cell = space->directed[directed[i]].cell;
     }
     assert_int_equal(cell, s->cell);
 }
@@ -36,7 +36,7 @@ static void check_source(sl_context *context, const sl_space *space, const sl_vi
         check_sequence(space, &steps, i);
         if (steps.steps[i].kind != SL_STEP_ENTER) continue;
         assert_int_equal(steps.steps[i].cell, seen->trees.nodes[first + node].cell);
-        assert_int_equal(steps.steps[i].exit, seen->trees.nodes[first + node].exit);
+        assert_int_equal(steps.steps[i].directed, seen->trees.nodes[first + node].directed);
         node++;
     }
     sl_steps_destroy(context, &steps);

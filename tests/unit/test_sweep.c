@@ -2,10 +2,11 @@
 // map, the rational oracle on random spaces with oblique walls; and what it promises beside.
 #include "map_files.h"
 
-#include "base/random.h"
 #include "oracle/convex_space.h"
 #include "oracle/oracle.h"
 #include "oracle/random_map.h"
+#include "sightline/generate.h"
+#include "sightline/support.h"
 
 static const char OFFICE[] = SIGHTLINE_SOURCE_DIR "/maps/office.map";
 
@@ -241,7 +242,7 @@ static void large_maps_are_seen_alike(void **state) {
     assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
     const sl_subdivide_options rules = sl_subdivide_options_default();
     assert_ok(context, sl_subdivide_kd(context, &map, &rules, &space));
-    assert_true((uint64_t)space.exit_count * space.cell_count / 8 > (uint64_t)64 << 20);
+    assert_true((uint64_t)space.directed_count * space.cell_count / 8 > (uint64_t)64 << 20);
     sl_see_options options = sl_see_options_default();
     options.solver = sl_funnel();
     sl_visibility swept, pruned, passed;

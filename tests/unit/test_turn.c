@@ -2,8 +2,8 @@
 /// rationals; and the rule of crossings, against all directions there are to try.
 #include "testing.h"
 
-#include "base/random.h"
-#include "cell_to_cell/crossing.h"
+#include "cell_to_cell/directions.h"
+#include "sightline/support.h"
 
 #include <gmp.h>
 #include <math.h>
@@ -38,10 +38,10 @@ static int rational_turn(sl_point a, sl_point b, sl_point c, sl_point d) {
 
 static void check(sl_point a, sl_point b, sl_point c, sl_point d) {
     const int expected = rational_turn(a, b, c, d);
-    assert_int_equal(sl_turn(a, b, c, d), expected);
-    assert_int_equal(sl_turn_exact(a, b, c, d), expected);
-    assert_int_equal(sl_turn(c, d, a, b), -expected);
-    assert_int_equal(sl_turn(b, a, c, d), -expected);
+    assert_int_equal(sli_turn(a, b, c, d), expected);
+    assert_int_equal(sli_turn_exact(a, b, c, d), expected);
+    assert_int_equal(sli_turn(c, d, a, b), -expected);
+    assert_int_equal(sli_turn(b, a, c, d), -expected);
 }
 
 static double random_double(sl_random *random, int lowest, int highest) {
@@ -80,7 +80,7 @@ static void fine_difference(mpq_t out, double a, double a_rest, double b, double
     mpq_clear(rest);
 }
 
-static int rational_orient(const sl_fine *a, const sl_fine *b, const sl_fine *c) {
+static int rational_orient(const sli_fine *a, const sli_fine *b, const sli_fine *c) {
     mpq_t ux, uy, vx, vy;
     mpq_inits(ux, uy, vx, vy, NULL);
     fine_difference(ux, a->at.x, a->rest.x, b->at.x, b->rest.x);
@@ -106,7 +106,7 @@ static void fine_points_are_told(void **state) {
     for (int i = 0; i < 20000; i++) {
         // Points of the diagonal, or of a line a little off it: only the rests, and then only
         // their products, tell.
-        sl_fine p[3];
+        sli_fine p[3];
         for (int k = 0; k < 3; k++) {
             const double at = 1 + (double)sl_random_below(&random, 4) / 4;
             p[k].at = (sl_point){at, at};
@@ -116,8 +116,8 @@ static void fine_points_are_told(void **state) {
         }
         const int expected = rational_orient(&p[0], &p[1], &p[2]);
         on_line += expected == 0;
-        assert_int_equal(sl_orient_fine(&p[0], &p[1], &p[2]), expected);
-        assert_int_equal(sl_orient_fine(&p[1], &p[0], &p[2]), -expected);
+        assert_int_equal(sli_orient_fine(&p[0], &p[1], &p[2]), expected);
+        assert_int_equal(sli_orient_fine(&p[1], &p[0], &p[2]), -expected);
     }
     assert_true(on_line > 5000 && on_line < 10000);
 }
@@ -148,22 +148,22 @@ static void crossings_are_those_of_some_direction(void **state) {
         double x, y;
     } ways[] = {{0, 1, 0},  {90, 0, 1},   {180, -1, 0},  {270, 0, -1},
                 {45, 1, 1}, {135, -1, 1}, {225, -1, -1}, {315, 1, -1}};
-    sl_exit exits[5];
-    const sl_space space = {.exits = exits};
+    sl_directed_portal directed[5];
+    const sl_space space = {.directed = directed};
     for (int i = 0; i < 20000; i++) {
         int degrees[5];
-        sl_crossings crossings = SL_CROSSINGS_NONE;
+        sli_directions crossings = SLI_NO_DIRECTIONS;
         for (int k = 0; k < 5; k++) {
             const uint64_t way = sl_random_next(&random) % 8;
             const sl_point at = {random_double(&random, 0, 0), random_double(&random, 0, 0)};
             const double size = ldexp(1, (int)(sl_random_next(&random) % 3));
             degrees[k] = ways[way].degrees;
-            exits[k].right =
+            directed[k].right =
                 (sl_point){ldexp(round(ldexp(at.x, 8)), -8), ldexp(round(ldexp(at.y, 8)), -8)};
-            exits[k].left = (sl_point){exits[k].right.x + size * ways[way].x,
-                                       exits[k].right.y + size * ways[way].y};
+            directed[k].left = (sl_point){directed[k].right.x + size * ways[way].x,
+                                          directed[k].right.y + size * ways[way].y};
             const bool some = some_direction_crosses(degrees, k + 1);
-            assert_int_equal(sl_crossings_add(&space, &crossings, (uint32_t)k), some);
+            assert_int_equal(sli_directions_add(&space, &crossings, (uint32_t)k), some);
             if (!some) break;
         }
     }

@@ -2,8 +2,8 @@
 /// leaf and segment by itself, splits beside all places where one could be.
 #include "view_cells_maps.h"
 
-#include "base/random.h"
 #include "cell_to_cell/pvs_rows.h"
+#include "sightline/support.h"
 
 #define NEAR 1e-9
 

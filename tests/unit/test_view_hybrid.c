@@ -4,13 +4,12 @@
 ///   test_view_hybrid [FILE ...]    these maps instead, and more of each
 #include "view_cells_maps.h"
 
-#include "base/bits.h"
-#include "base/random.h"
-#include "cell_to_cell/crossing.h"
+#include "cell_to_cell/directions.h"
 #include "map_files.h"
 #include "oracle/random_map.h"
 #include "sightline/bake.h"
 #include "sightline/solvers.h"
+#include "sightline/support.h"
 #include "view_cells/pieces.h"
 
 enum { RANDOM_MAPS = 40, DEEPEST = 64 };
@@ -24,56 +23,56 @@ static void check_work(const sl_view_work *work) {
 
 // --- pieces
 
-/// A search of its own, over the space's exits, that asks for no more than the definition: of all
-/// lines through two of the points at hand, or through one along an axis, one that passes all exits
-/// so far and the piece. (The lines of a quadrant are a polygon in the plane of lines: where there
-/// are any, one of these is among them; lines strictly between are there where the middle of some
-/// three of them is one.)
+/// A search of its own, over the space's directed portals, that asks for no more than the
+/// definition: of all lines through two of the points at hand, or through one along an axis, one
+/// that passes all directed portals so far and the piece. (The lines of a quadrant are a polygon in
+/// the plane of lines: where there are any, one of these is among them; lines strictly between are
+/// there where the middle of some three of them is one.)
 typedef struct oracle {
     const sl_space *space;
-    const sl_view_piece *piece;
+    const sli_view_piece *piece;
     sl_portal_ends ends[DEEPEST];
     size_t depth;
-    bool anyhow; ///< lines along the first exit count wherever that is
+    bool anyhow; ///< lines along the first directed portal count wherever that is
     sl_bits *seen;
 } oracle;
 
 static bool line_passes(const oracle *o, sl_line line) {
     for (size_t i = 0; i < o->depth; i++)
-        if (sl_orient(line.a, line.b, o->ends[i].left) < 0 ||
-            sl_orient(line.a, line.b, o->ends[i].right) > 0)
+        if (sli_orient(line.a, line.b, o->ends[i].left) < 0 ||
+            sli_orient(line.a, line.b, o->ends[i].right) > 0)
             return false;
     bool left = false, right = false;
     for (size_t i = 0; i < o->piece->corners.count; i++) {
-        const int side = sl_orient(line.a, line.b, o->piece->corners.items[i]);
+        const int side = sli_orient(line.a, line.b, o->piece->corners.items[i]);
         left = left || side >= 0;
         right = right || side <= 0;
     }
     return left && right;
 }
 
-/// Whether going along a line some place of the first exit that it meets is not before all places
-/// of the piece that it meets: a question only of lines along the exit, for the piece is on its
-/// near side.
+/// Whether going along a line some place of the first directed portal that it meets is not before
+/// all places of the piece that it meets: a question only of lines along the directed portal, for
+/// the piece is on its near side.
 static bool is_ahead(const oracle *o, sl_line line) {
     const sl_portal_ends *first = &o->ends[0];
-    if (sl_orient(line.a, line.b, first->left) || sl_orient(line.a, line.b, first->right))
+    if (sli_orient(line.a, line.b, first->left) || sli_orient(line.a, line.b, first->right))
         return true;
     const double dx = line.b.x - line.a.x, dy = line.b.y - line.a.y;
     double least = INFINITY;
     for (size_t i = 0; i < o->piece->corners.count; i++) {
         const sl_point p = o->piece->corners.items[i];
-        if (sl_orient(line.a, line.b, p) == 0) least = fmin(least, dx * p.x + dy * p.y);
+        if (sli_orient(line.a, line.b, p) == 0) least = fmin(least, dx * p.x + dy * p.y);
     }
     return fmax(dx * first->left.x + dy * first->left.y,
                 dx * first->right.x + dy * first->right.y) >= least;
 }
 
-/// Whether all exits so far are crossed forwards by some direction, and by that of a line as far as
-/// a limit of such directions may.
+/// Whether all directed portals so far are crossed forwards by some direction, and by that of a
+/// line as far as a limit of such directions may.
 static bool is_forwards(const oracle *o, sl_line line) {
     for (size_t i = 0; i < o->depth; i++)
-        if (sl_turn(line.a, line.b, o->ends[i].right, o->ends[i].left) < 0) return false;
+        if (sli_turn(line.a, line.b, o->ends[i].right, o->ends[i].left) < 0) return false;
     return true;
 }
 
@@ -101,24 +100,24 @@ static bool any_line(const oracle *o) {
     return false;
 }
 
-static void search(oracle *o, uint32_t cell, sl_crossings crossings) {
+static void search(oracle *o, uint32_t cell, sli_directions crossings) {
     const sl_cell *c = &o->space->cells[cell];
     sl_bits_add(o->seen, cell);
     assert_true(o->depth < DEEPEST);
-    for (uint32_t e = c->first_exit; e < c->first_exit + c->exit_count; e++) {
-        const sl_exit *exit = &o->space->exits[e];
-        sl_crossings with = crossings;
-        if (!sl_crossings_add(o->space, &with, e)) continue;
-        o->ends[o->depth++] = (sl_portal_ends){exit->left, exit->right};
-        if (any_line(o)) search(o, exit->cell, with);
+    for (uint32_t e = c->first_directed; e < c->first_directed + c->directed_count; e++) {
+        const sl_directed_portal *directed = &o->space->directed[e];
+        sli_directions with = crossings;
+        if (!sli_directions_add(o->space, &with, e)) continue;
+        o->ends[o->depth++] = (sl_portal_ends){directed->left, directed->right};
+        if (any_line(o)) search(o, directed->cell, with);
         o->depth--;
     }
 }
 
 /// A little of a piece's sides is taken away: rounding may have put them outside the room.
-static sl_view_piece inner(const sl_view_piece *piece) {
+static sli_view_piece inner(const sli_view_piece *piece) {
     const size_t count = piece->corners.count;
-    sl_view_piece made = *piece;
+    sli_view_piece made = *piece;
     made.corners.items = malloc(count * sizeof *made.corners.items);
     sl_point middle = {0, 0};
     for (size_t i = 0; i < count; i++) {
@@ -136,22 +135,22 @@ static sl_view_piece inner(const sl_view_piece *piece) {
 /// Holds each piece against it. Of a piece with oblique sides a line along a portal of its room may
 /// count though the portal is behind. One that only touches a corner where a cut crosses such a
 /// side need not count, as that corner is rounded.
-static void check_pieces(const char *name, const sl_space *space, const sl_view_pieces *pieces,
+static void check_pieces(const char *name, const sl_space *space, const sli_view_pieces *pieces,
                          bool axial) {
     const size_t words = sl_bits_words(space->cell_count);
     sl_bits *rows = calloc(3 * words, sizeof *rows);
     sl_bits *found = rows, *least = rows + words, *most = rows + 2 * words;
     for (size_t i = 0; i < pieces->items.count; i++) {
-        const sl_view_piece *piece = &pieces->items.items[i];
+        const sli_view_piece *piece = &pieces->items.items[i];
         const uint32_t home = pieces->rooms.object[piece->room];
         memset(rows, 0, 3 * words * sizeof *rows);
-        sl_view_piece_add_to(pieces, piece, found);
-        const sl_view_piece within = inner(piece);
+        sli_view_piece_add_to(pieces, piece, found);
+        const sli_view_piece within = inner(piece);
         oracle o = {.space = space, .piece = axial ? piece : &within, .seen = least};
-        search(&o, home, SL_CROSSINGS_NONE);
+        search(&o, home, SLI_NO_DIRECTIONS);
         free(within.corners.items);
         o = (oracle){.space = space, .piece = piece, .anyhow = true, .seen = axial ? least : most};
-        if (!axial) search(&o, home, SL_CROSSINGS_NONE);
+        if (!axial) search(&o, home, SLI_NO_DIRECTIONS);
         for (size_t w = 0; w < words; w++)
             if (least[w] & ~found[w] || found[w] & ~o.seen[w])
                 fail_msg("%s: piece %zu of %zu sees other cells than the search finds", name, i,
@@ -161,26 +160,26 @@ static void check_pieces(const char *name, const sl_space *space, const sl_view_
 }
 
 /// Cuts pieces at random: in their middle, beside it, and at coordinates of the map.
-static void cut_at_random(sl_context *context, sl_view_pieces *pieces, const sl_map *map,
+static void cut_at_random(sl_context *context, sli_view_pieces *pieces, const sl_map *map,
                           int cuts) {
     sl_random random = {17};
     for (int i = 0; i < cuts; i++) {
         const uint32_t number = (uint32_t)sl_random_below(&random, pieces->items.count);
         const int axis = (int)sl_random_below(&random, 2);
-        const sl_view_extent *box = &pieces->items.items[number].box;
+        const sli_view_extent *box = &pieces->items.items[number].box;
         const double low = box->low[axis], high = box->high[axis];
         const sl_point end = map->walls[sl_random_below(&random, map->wall_count)].a;
         double at = axis ? end.y : end.x;
         if (!(at > low && at < high)) at = low + (high - low) * (i % 3 ? 0.5 : 0.3);
         if (!(at > low && at < high)) continue;
-        sl_view_looker *looker;
-        sl_view_halves halves = {0};
+        sli_view_searcher *searcher;
+        sli_view_halves halves = {0};
         uint32_t above;
-        assert_ok(context, sl_view_looker_take(context, pieces, &looker));
-        assert_ok(context, sl_view_pieces_halve(context, pieces, looker, number, axis, at, true,
-                                                true, &halves));
-        sl_view_looker_give(pieces, looker);
-        assert_ok(context, sl_view_pieces_cut(pieces, number, &halves, &above));
+        assert_ok(context, sli_view_searcher_take(context, pieces, &searcher));
+        assert_ok(context, sli_view_pieces_halve(context, pieces, searcher, number, axis, at, true,
+                                                 true, &halves));
+        sli_view_searcher_give(pieces, searcher);
+        assert_ok(context, sli_view_pieces_cut(pieces, number, &halves, &above));
         assert_int_equal(above, pieces->items.count - 1);
     }
 }
@@ -189,12 +188,12 @@ static void cut_at_random(sl_context *context, sl_view_pieces *pieces, const sl_
 static void check_cuts(sl_context *context, const char *name, const sl_map *map,
                        const sl_space *space, int cuts, bool axial) {
     const sl_view_scene scene = {space, SL_VIEW_CELLS, sl_render_cost_default(), NULL};
-    sl_view_pieces pieces;
-    assert_ok(context, sl_view_pieces_create(context, &scene, SL_CLOSED, 2, &pieces));
+    sli_view_pieces pieces;
+    assert_ok(context, sli_view_pieces_create(context, &scene, SL_CLOSED, 2, &pieces));
     if (pieces.items.count) cut_at_random(context, &pieces, map, cuts);
     check_pieces(name, space, &pieces, axial);
     check_work(&pieces.work);
-    sl_view_pieces_destroy(&pieces);
+    sli_view_pieces_destroy(&pieces);
 }
 
 // --- view cells

@@ -108,8 +108,8 @@ static uint64_t bytes_of(sl_context *context, const sl_view_sets *sets, const ui
             row[k] |= sets->bits[e * sets->words + k];
     *objects = 0;
     for (uint32_t o = 0; o < sets->object_count; o++) *objects += sl_bits_has(row, o);
-    sl_row_bytes bytes = {0};
-    assert_ok(context, sl_row_append(context, &bytes, row, sets->object_count));
+    sli_row_bytes bytes = {0};
+    assert_ok(context, sli_row_append(context, &bytes, row, sets->object_count));
     const uint64_t size = bytes.count;
     sl_free(context, bytes.items);
     return size;

@@ -2,10 +2,9 @@
 /// cells see, compressed and not.
 #include "view_cells_maps.h"
 
-#include "base/bits.h"
-#include "base/random.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "sightline/cell_to_cell.h"
+#include "sightline/support.h"
 
 typedef struct seen {
     view_world world;
@@ -88,7 +87,7 @@ static uint64_t check_rows(sl_context *context, const seen *s, bool compressed, 
         memset(expected, 0, words * sizeof *expected);
         memset(found, 0, words * sizeof *found);
         for (uint32_t c = 0; c < s->space.cell_count; c++)
-            if (rows.view_cells[c] == v) sl_row_add_to(&s->visibility.pvs, c, expected);
+            if (rows.view_cells[c] == v) sli_row_add_to(&s->visibility.pvs, c, expected);
         sl_view_rows_add_to(&rows, v, found);
         assert_memory_equal(expected, found, words * sizeof *found);
         for (uint32_t c = 0; c < s->space.cell_count; c++)

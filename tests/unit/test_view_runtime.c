@@ -4,12 +4,11 @@
 #include "view_cells_maps.h"
 
 #include "bake/slv.h"
-#include "base/bits.h"
-#include "base/random.h"
 #include "cell_to_cell/pvs_rows.h"
 #include "runtime/sightline_runtime.h"
 #include "sightline/bake.h"
 #include "sightline/import.h"
+#include "sightline/support.h"
 
 static uint64_t points = 4000;
 
@@ -73,7 +72,7 @@ static void bake(sl_context *context, const char *name, uint32_t cells, viewed *
                                          &v->hierarchy, cells, true, &b->views));
     FILE *stream = open_memstream(&v->bytes, &v->size);
     assert_non_null(stream);
-    assert_ok(context, sl_slv_print(context, b, stream));
+    assert_ok(context, sli_slv_print(context, b, stream));
     fclose(stream);
 }
 
@@ -156,7 +155,7 @@ static void check_points(const viewed *v, const sl_runtime *rt) {
         if (view == SL_NO_VIEW_CELL) continue;
         found++;
         memset(own, 0, words * sizeof *own);
-        sl_row_add_to(&b->visibility.pvs, cell, own);
+        sli_row_add_to(&b->visibility.pvs, cell, own);
         for (size_t k = 0; k < words; k++) assert_int_equal(own[k] & ~rows[view * words + k], 0);
         const uint32_t to = (uint32_t)sl_random_below(&random, b->space.cell_count);
         assert_int_equal(sl_runtime_view_can_see(rt, view, to),
@@ -203,7 +202,7 @@ static void print_again(sl_context *context, viewed *v) {
     free(v->bytes);
     FILE *stream = open_memstream(&v->bytes, &v->size);
     assert_non_null(stream);
-    assert_ok(context, sl_slv_print(context, &v->baked, stream));
+    assert_ok(context, sli_slv_print(context, &v->baked, stream));
     fclose(stream);
 }
 
@@ -295,7 +294,7 @@ static void damaged_view_cells_are_refused(void **state) {
         char *bytes;
         size_t size;
         FILE *stream = open_memstream(&bytes, &size);
-        assert_ok(context, sl_slv_print(context, &v.baked, stream));
+        assert_ok(context, sli_slv_print(context, &v.baked, stream));
         fclose(stream);
         sl_runtime rt;
         sl_baked again = {0};

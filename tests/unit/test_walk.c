@@ -5,6 +5,8 @@
 #include "geometry/orient.h"
 #include "oracle/random_map.h"
 #include "oracle/random_oblique.h"
+#include "sightline/generate.h"
+#include "sightline/walk.h"
 
 #include <math.h>
 
@@ -72,7 +74,7 @@ static bool stands_free(const world *w, sl_point eye, uint32_t cell) {
     const sl_cell *c = &w->space.cells[cell];
     const sl_point *corners = w->space.vertices + c->first_vertex;
     for (uint32_t i = 0; i < c->vertex_count; i++)
-        if (sl_orient(corners[i], corners[(i + 1) % c->vertex_count], eye) <= 0) return false;
+        if (sli_orient(corners[i], corners[(i + 1) % c->vertex_count], eye) <= 0) return false;
     return true;
 }
 
@@ -80,8 +82,8 @@ static bool stands_free(const world *w, sl_point eye, uint32_t cell) {
 static bool crosses_wall(const world *w, sl_point from, sl_point to) {
     for (uint32_t i = 0; i < w->space.wall_count; i++) {
         const sl_wall *wall = &w->space.walls[i];
-        if (sl_orient(wall->a, wall->b, from) * sl_orient(wall->a, wall->b, to) < 0 &&
-            sl_orient(from, to, wall->a) * sl_orient(from, to, wall->b) < 0)
+        if (sli_orient(wall->a, wall->b, from) * sli_orient(wall->a, wall->b, to) < 0 &&
+            sli_orient(from, to, wall->a) * sli_orient(from, to, wall->b) < 0)
             return true;
     }
     return false;

@@ -3,7 +3,8 @@
 #include "testing.h"
 
 #include "oracle/random_map.h"
-#include "walk/occlusion.h"
+#include "sightline/walk.h"
+#include "walk/shape.h"
 
 #include <math.h>
 
@@ -104,7 +105,7 @@ static unsigned along(const scene *s, whole d) {
         const share at = share_of(upright ? a.x : a.y, upright ? d.x : d.y);
         if (at.n > 0 && less(at, wall)) wall = at;
     }
-    return (less(in, wall) ? SL_BEFORE : 0) | (less(wall, out) ? SL_BEHIND : 0);
+    return (less(in, wall) ? SLI_BEFORE : 0) | (less(wall, out) ? SLI_BEHIND : 0);
 }
 
 static unsigned brute_force(scene *s) {
@@ -117,39 +118,39 @@ static unsigned brute_force(scene *s) {
     return bits;
 }
 
-static void fill(sl_context *context, const scene *s, const sl_node_test_calls *test,
-                 sl_occlusion *o) {
-    sl_shadows *shadows = &o->shadows;
-    shadows->pivot = (sl_pivot){.eye = s->eye};
+static void fill(sl_context *context, const scene *s, const sli_node_test_calls *test,
+                 sli_occlusion *o) {
+    sli_shadows *shadows = &o->shadows;
+    shadows->pivot = (sli_pivot){.eye = s->eye};
     shadows->occluders.count = shadows->shadows.count = 0;
     assert_ok(context, test->clear(context, o, s->eye));
     for (int i = 0; i < s->wall_count; i++) {
         const sl_segment *w = &s->walls[i];
-        const int side = sl_orient(w->a, w->b, s->eye);
+        const int side = sli_orient(w->a, w->b, s->eye);
         if (!side) continue;
-        const sl_occluder occluder =
-            side > 0 ? (sl_occluder){w->a, w->b} : (sl_occluder){w->b, w->a};
+        const sli_occluder occluder =
+            side > 0 ? (sli_occluder){w->a, w->b} : (sli_occluder){w->b, w->a};
         assert_ok(context, SL_ARRAY_ROOM(context, &shadows->occluders, 1));
         shadows->occluders.items[shadows->occluders.count++] = occluder;
-        const sl_sector whole_sector = {sl_ray_to(occluder.a), sl_ray_to(occluder.b)};
+        const sli_wedge wedge = {sli_ray_to(occluder.a), sli_ray_to(occluder.b)};
         bool added = false;
-        assert_ok(context, test->add(context, o, (uint32_t)shadows->occluders.count - 1,
-                                     &whole_sector, &added));
+        assert_ok(context,
+                  test->add(context, o, (uint32_t)shadows->occluders.count - 1, &wedge, &added));
     }
 }
 
-static unsigned look(const scene *s, const sl_node_test_calls *test, sl_occlusion *o) {
+static unsigned query(const scene *s, const sli_node_test_calls *test, sli_occlusion *o) {
     const sl_box *b = &s->box;
     const sl_point corners[4] = {b->min, {b->max.x, b->min.y}, b->max, {b->min.x, b->max.y}};
-    const sl_shape shape = {corners, 4, *b, true};
-    sl_sector sectors[4];
+    const sli_shape shape = {corners, 4, *b, true};
+    sli_wedge wedges[4];
     unsigned bits = 0;
-    const uint32_t count = sl_shape_sectors(&o->shadows.pivot, &shape, sectors);
-    for (uint32_t i = 0; i < count; i++) test->look(o, &shape, &sectors[i], &bits);
+    const uint32_t count = sli_shape_wedges(&o->shadows.pivot, &shape, wedges);
+    for (uint32_t i = 0; i < count; i++) test->query(o, &shape, &wedges[i], &bits);
     return bits;
 }
 
-static void free_occlusion(sl_context *context, const sl_node_test_calls *test, sl_occlusion *o) {
+static void free_occlusion(sl_context *context, const sli_node_test_calls *test, sli_occlusion *o) {
     sl_free(context, o->shadows.occluders.items);
     sl_free(context, o->shadows.shadows.items);
     test->destroy(context, o);
@@ -184,7 +185,7 @@ static void as_brute_force_says(void **state) {
     sl_context *context = testing_context(NULL);
     size_t test_count;
     const sl_node_test *tests = sl_node_tests(&test_count);
-    sl_occlusion *occlusions[4];
+    sli_occlusion *occlusions[4];
     for (size_t t = 0; t < test_count; t++)
         assert_ok(context, tests[t].calls->create(context, &occlusions[t]));
     sl_random random = {10};
@@ -199,7 +200,7 @@ static void as_brute_force_says(void **state) {
         unsigned first = 0;
         for (size_t t = 0; t < test_count; t++) {
             fill(context, &s, tests[t].calls, occlusions[t]);
-            const unsigned found = look(&s, tests[t].calls, occlusions[t]);
+            const unsigned found = query(&s, tests[t].calls, occlusions[t]);
             if (disjoint && found != due)
                 fail_msg("round %d, %s: %u, brute force %u", round, tests[t].name, found, due);
             if ((found & due) != due)
@@ -209,7 +210,7 @@ static void as_brute_force_says(void **state) {
             first = found;
         }
     }
-    assert_true(seen[SL_BEFORE] > 1000 && seen[SL_BEHIND] > 1000 && seen[SL_LOOK_BOTH] > 1000);
+    assert_true(seen[SLI_BEFORE] > 1000 && seen[SLI_BEHIND] > 1000 && seen[SLI_BOTH_SIDES] > 1000);
     assert_true(loose < 600);
     for (size_t t = 0; t < test_count; t++) free_occlusion(context, tests[t].calls, occlusions[t]);
     sl_context_destroy(context);

@@ -1,5 +1,5 @@
 /// drop_file WINDOW FILE: drops a file on a window as a file manager does (XDND version 5), and
-/// waits until it was taken. Exits 0 then, 1 where it was not within ten seconds.
+/// waits until it was taken. Directed portals 0 then, 1 where it was not within ten seconds.
 #include <X11/Xatom.h>
 #include <X11/Xlib.h>
 

@@ -1,6 +1,7 @@
 /// same_picture A.png B.png: prints the share of pixels that differ, a pixel differing where a
 /// channel does by more than 24 of 255. Fonts are drawn a little otherwise from machine to machine;
-/// a layer that is missing differs by more. Exits 2 where the pictures are not of one size.
+/// a layer that is missing differs by more. Directed portals 2 where the pictures are not of one
+/// size.
 #include <png.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -63,7 +63,8 @@ def shoot(viewer, folder):
 def check_stored(viewer, folder, stored):
     for name in PICTURES:
         share = viewer.difference(folder / f"{name}.png", stored / f"{name}.png")
-        viewer.check(share <= TOLERANCE, f"{name}: {share:.2%} of the pixels are others")
+        viewer.check(share <= TOLERANCE, f"{name}: {share:.2%} of the pixels are others than in {stored / name}.png. If "
+                     "they should be, build the target store_pictures and look at the new pictures")
 
 
 def check_switches(viewer, folder, map_name, eye, least, layers, before=""):

@@ -17,8 +17,10 @@ def environment(**more):
 
 class Viewer:
     def __init__(self, arguments):
-        self.view, self.same = arguments[1], arguments[2]
-        self.root = pathlib.Path(arguments[3])
+        if len(arguments) < 4:
+            sys.exit(f"usage: {arguments[0]} VIEW SAME ROOT: the viewer, the program same_picture of "
+                     "tests/viewer, and the folder of the project")
+        self.view, self.same, self.root = (pathlib.Path(each).resolve() for each in arguments[1:4])
         self.faults = []
 
     def run(self, *arguments, **more):

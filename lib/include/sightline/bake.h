@@ -23,16 +23,69 @@ typedef struct sl_baked {
     bool by_views;
     /// Of a bake that is not finished: what it has found. The visible sets then count as seen what
     /// is not decided; a shard has none. Zeroed where the bake is finished.
-    sl_findings findings;
+    sl_partial partial;
 } sl_baked;
 
 SL_API void sl_baked_destroy(sl_context *context, sl_baked *baked); ///< and zeroes it
+
+/// How to bake a map. Start from sl_bake_options_default().
+typedef struct sl_bake_options {
+    sl_clean_options clean;
+    const sl_subdivision *subdivision; ///< NULL: what the map's walls call for (sl_subdivision_for)
+    sl_subdivide_options rules;        ///< of the kd-tree
+    bool check;                  ///< check the space (sl_space_check); a mesh is always checked
+    const sl_see_method *method; ///< NULL: the fastest exact one (sl_see_method_for)
+    sl_see_options see;          ///< its `plan` is not looked at; no solver: sl_funnel()
+    uint32_t mirror_depth;       ///< reflections of a sightline at most, 0 to 16; 1 by default
+    uint32_t door_limit;         ///< sets of doors kept of a pair at most; 16 by default
+} sl_bake_options;
+
+/// What the command line does without options.
+SL_API sl_bake_options sl_bake_options_default(void);
+
+/// What a bake did, and how many seconds each stage took.
+typedef struct sl_bake_account {
+    sl_clean_account cleaning;
+    const sl_subdivision *subdivision; ///< the one that was taken
+    bool checked;                      ///< whether the space was checked
+    struct {
+        double clean, subdivide, check, see;
+    } seconds;
+} sl_bake_account;
+
+/// Bakes a map: cleans its walls, cuts the map into cells, finds which cells see which.
+///
+/// Takes the map over: on success it is empty, and `out` holds what it held. On failure `out` stays
+/// empty, as it must be before, and the map may be cleaned or empty. `options` and `account` may be
+/// NULL. Fails as the stages do: sl_map_clean, the subdivision, sl_see_check and the method.
+///
+///     sl_map map = {0};
+///     sl_baked baked = {0};
+///     if (sl_map_read(context, "office.map", NULL, &map) == SL_OK &&
+///         sl_bake(context, &map, NULL, &baked, NULL) == SL_OK)
+///         sl_baked_write(context, &baked, "office.slv");
+SL_API sl_status sl_bake(sl_context *context, sl_map *map, const sl_bake_options *options,
+                         sl_baked *out, sl_bake_account *account);
+
+/// The two halves of sl_bake(), for those who show the space first or do the second half in parts.
+/// The first half cleans and subdivides. It also chooses: where `options` names no method or
+/// solver, it gets them. `account` is set.
+SL_API sl_status sl_bake_space(sl_context *context, sl_map *map, sl_bake_options *options,
+                               sl_baked *out, sl_bake_account *account);
+
+/// The second half finds the visible sets by what the first has chosen, so `options` must be those
+/// that the first has filled in. `account` may be NULL.
+SL_API sl_status sl_bake_see(sl_context *context, const sl_bake_options *options, sl_baked *baked,
+                             sl_bake_account *account);
+
+/// The plan of the effects that a baked map calls for, as the options say. `baked` must outlive it.
+SL_API sl_plan sl_bake_plan(const sl_bake_options *options, const sl_baked *baked);
 
 /// Whether reports and pictures count a cell: the bake looked from it, and it is inside, where the
 /// map's starts say what inside is.
 SL_API bool sl_baked_counts(const sl_baked *baked, uint32_t cell);
 
-/// Whether it is one shard of a bake: it has findings and no visible sets.
+/// Whether it is one shard of a bake: it has partial results and no visible sets.
 SL_API bool sl_baked_is_shard(const sl_baked *baked);
 
 /// The longest text of sl_baked_say_partial, its 0 included.
@@ -45,16 +98,12 @@ SL_API void sl_baked_say_partial(const sl_baked *baked, char text[SL_PARTIAL_TEX
 /// Whether two spaces are the same to the last bit, cell by cell.
 SL_API bool sl_baked_same_space(const sl_space *a, const sl_space *b);
 
-/// Shuts doors (by number, those of `shut` that are true): the space gets walls in their place, and
-/// the visible sets keep what is seen past them. Exact where the bake was; time and memory about
-/// those of the visible sets. Stab trees and sets of doors are let go. SL_UNSUPPORTED where there
-/// are mirrors. On failure `baked` stays as it was.
-SL_API sl_status sl_baked_shut(sl_context *context, sl_baked *baked, const bool *shut);
-
-/// Makes walls of the one-way glass that is dark for an eye: the space then serves for what that
-/// eye sees, and the visible sets of its own cell are right for it. Stab trees are let go.
-/// SL_UNSUPPORTED where there are mirrors. On failure `baked` stays as it was.
-SL_API sl_status sl_baked_darken(sl_context *context, sl_baked *baked, sl_point eye);
+/// What is left to see with doors shut (by number, those of `shut` that are true): a space that has
+/// walls in their place, and the visible sets without what is seen through them alone. Exact where
+/// the bake was. Time and memory are about those of the visible sets. The new sets have no stab
+/// trees and no sets of doors. SL_UNSUPPORTED where there are mirrors.
+SL_API sl_status sl_baked_shut(sl_context *context, const sl_baked *baked, const bool *shut,
+                               sl_space *space, sl_visibility *visibility);
 
 /// Writes beside the target and takes its place when all is written: SL_IO leaves the old file
 /// intact. The bytes depend on the contents alone. SL_BAD_ARGUMENT where there is no visible set
@@ -87,7 +136,24 @@ typedef struct sl_export_format {
                        const char *path);
 } sl_export_format;
 
-SL_API const sl_export_format *sl_export_formats(size_t *count);
+/// The formats that the context knows; the first is the default. By itself it knows those below;
+/// sl_io_use() of sightline/io.h adds others.
+/// The table stays until formats are next added.
+SL_API const sl_export_format *sl_export_formats(const sl_context *context, size_t *count);
+
+/// Adds formats, which are copied; one whose name is there already is passed over.
+SL_API sl_status sl_export_formats_add(sl_context *context, const sl_export_format *more,
+                                       size_t count);
+
+/// "json": one object with walls, cells, portals and visible sets.
+SL_API sl_status sl_export_json(sl_context *context, const sl_baked *baked,
+                                const sl_export_options *options, const char *path);
+/// "csv": a line "from,to" for each ordered pair seen.
+SL_API sl_status sl_export_csv(sl_context *context, const sl_baked *baked,
+                               const sl_export_options *options, const char *path);
+/// "c": a C header with the matrix, a bit a pair.
+SL_API sl_status sl_export_c(sl_context *context, const sl_baked *baked,
+                             const sl_export_options *options, const char *path);
 
 #ifdef __cplusplus
 }

@@ -12,21 +12,22 @@
 extern "C" {
 #endif
 
-/// What stands before the number of a mirror in a stab tree; spaces have fewer exits.
+/// What stands before the number of a mirror in a stab tree; spaces have fewer directed portals.
 #define SL_STAB_MIRROR 0x80000000u
 
 /// A node of a stab tree: the portal sequence from the source cell down to here has a sightline,
 /// reflected in each mirror that it names.
 typedef struct sl_stab_node {
-    uint32_t parent; ///< a node of the same tree, before this one; its own number for the root
-    uint32_t cell;   ///< where the sequence ends; of a mirror the parent's
-    uint32_t exit;   ///< the exit crossed last, an index of space.exits; UINT32_MAX for the root;
-                     ///< or SL_STAB_MIRROR + the mirror reached last, an index of map.mirrors
+    uint32_t parent;   ///< a node of the same tree, before this one; its own number for the root
+    uint32_t cell;     ///< where the sequence ends; of a mirror the parent's
+    uint32_t directed; ///< the directed portal crossed last, an index of space.directed portals;
+                       ///< UINT32_MAX for the root; or SL_STAB_MIRROR + the mirror reached last, an
+                       ///< index of map.mirrors
 } sl_stab_node;
 
 /// Whether the last step is into a mirror.
 static inline bool sl_stab_is_mirror(const sl_stab_node *node) {
-    return node->exit >= SL_STAB_MIRROR && node->exit != UINT32_MAX;
+    return node->directed >= SL_STAB_MIRROR && node->directed != UINT32_MAX;
 }
 
 /// The stab trees of all source cells: tree c is nodes[offsets[c] .. offsets[c + 1]), parents
@@ -38,6 +39,7 @@ typedef struct sl_stab_trees {
     sl_stab_node *nodes;
 } sl_stab_trees;
 
+/// What the work took, in numbers.
 typedef struct sl_see_account {
     uint64_t tests;          ///< stabbing tests (for GLPK: linear programs)
     uint64_t nodes;          ///< stab-tree nodes, roots included, kept or not
@@ -53,7 +55,7 @@ typedef struct sl_see_account {
     // Of effects; all 0 where the plan has none.
     uint64_t door_steps;     ///< sequences of which the doors that they pass were noted
     uint64_t mirror_steps;   ///< times that a sequence was to go on in a mirror
-    uint64_t glass_tests;    ///< exits asked whether one-way glass bars them
+    uint64_t glass_tests;    ///< directed portals asked whether one-way glass bars them
     uint64_t mirrored_pairs; ///< ordered pairs seen by mirror; a cell may so see itself
     uint64_t door_fallbacks; ///< ordered pairs that more sets of doors join than the limit
     uint64_t range_tests;    ///< sequences whose shortest sightline was held against the range
@@ -79,29 +81,30 @@ SL_API void sl_visibility_destroy(sl_context *context,
                                   sl_visibility *visibility); ///< and zeroes it
 
 /// What is known when some units of a method's work are done: of the sweep the fans round portal
-/// ends, of the searches the source cells. Each unit finds its pairs alone, so that findings of
-/// different units join by OR, in any order, from any number of runs. Zeroed: nothing is known.
-typedef struct sl_findings {
+/// ends, of the searches the source cells. Each unit finds its pairs alone, so that partial results
+/// of different units join by OR, in any order, from any number of runs. Zeroed: nothing is known.
+typedef struct sl_partial {
     uint32_t unit_count, done_count;
     uint64_t *done;              ///< a bit a unit: unit u is done[u / 64] >> u % 64 & 1
     sl_pvs sure, doubtful;       ///< pairs found, some one way only; doubtful: by rounded solvers
     bool inside_only;            ///< the option they were found with
     uint32_t shard, shard_count; ///< which part of the work was asked for; 0, 0 for all
-} sl_findings;
+} sl_partial;
 
-SL_API void sl_findings_destroy(sl_context *context, sl_findings *findings); ///< and zeroes it
+SL_API void sl_partial_destroy(sl_context *context, sl_partial *partial); ///< and zeroes it
 
-/// Whether there are findings at all; whether they are those of all units.
-SL_API bool sl_findings_begun(const sl_findings *findings);
-SL_API bool sl_findings_complete(const sl_findings *findings);
+/// Whether there are partial results at all; whether they are those of all units.
+SL_API bool sl_partial_begun(const sl_partial *partial);
+/// Whether there are partial results of all units.
+SL_API bool sl_partial_complete(const sl_partial *partial);
 
 /// How many units of what was asked for, all or one shard, are left to do.
-SL_API uint32_t sl_findings_left(const sl_findings *findings);
+SL_API uint32_t sl_partial_left(const sl_partial *partial);
 
 /// Adds what others hold, of the same space and method: SL_BAD_ARGUMENT where the units or the
 /// options are not the same.
-SL_API sl_status sl_findings_join(sl_context *context, sl_findings *findings,
-                                  const sl_findings *other);
+SL_API sl_status sl_partial_merge(sl_context *context, sl_partial *partial,
+                                  const sl_partial *other);
 
 /// How methods keep what they have found so far: all bits of a row, or the words that have any.
 /// Which it is makes no difference to the result.
@@ -123,15 +126,16 @@ typedef struct sl_see_options {
     /// Sectors that "multipass" cuts all directions into, at most: 4 at least; 0: at each portal's
     /// own, so that cells have an order in each. The result does not depend on it.
     uint32_t sectors;
-    /// For `look` alone. The part of the units to be done, 1 .. shard_count; 0, 0 for all.
+    /// For `run` alone. The part of the units to be done, 1 .. shard_count; 0, 0 for all.
     uint32_t shard, shard_count;
-    /// For `look` and `settle`: asked often, from several threads at once; once true, it stays
-    /// true, and `look` begins no unit and goes on with none, `settle` takes looser bounds. NULL:
+    /// For `run` and `finish`: asked often, from several threads at once; once true, it stays
+    /// true, and `run` begins no unit and goes on with none, `finish` takes looser bounds. NULL:
     /// never.
     bool (*enough)(void *user);
     void *enough_user;
 } sl_see_options;
 
+/// The usual options: closed sight, one thread a core, no stab trees.
 SL_API sl_see_options sl_see_options_default(void);
 
 /// A method: reachable by name, listed everywhere from this table. Each row of a PVS holds the cell
@@ -147,23 +151,32 @@ typedef struct sl_see_method {
                      sl_visibility *out);
     const char *units; ///< what its units are, plural; NULL, as the functions below, where it is
                        ///< done in one go only
-    /// Does units that are not done yet, those of the shard, and adds to the findings what they
-    /// find. Findings that are not zeroed must be of the same space and options.
-    sl_status (*look)(sl_context *context, const sl_space *space, const sl_see_options *options,
-                      sl_findings *findings);
-    /// The result. From findings of all units the same as `see` gives, but for the account of the
-    /// work. Else what is not decided yet counts as seen, within the bound of the method "flood":
-    /// an exact method's set is then SL_CONSERVATIVE.
-    sl_status (*settle)(sl_context *context, const sl_space *space, const sl_see_options *options,
-                        const sl_findings *findings, sl_visibility *out);
+    /// Does units that are not done yet, those of the shard, and adds to the partial results what
+    /// they find. Partial results that are not zeroed must be of the same space and options.
+    sl_status (*run)(sl_context *context, const sl_space *space, const sl_see_options *options,
+                     sl_partial *partial);
+    /// The result. From partial results of all units the same as `see` gives, but for the account
+    /// of the work. Else what is not decided yet counts as seen, within the bound of the method
+    /// "flood": an exact method's set is then SL_CONSERVATIVE.
+    sl_status (*finish)(sl_context *context, const sl_space *space, const sl_see_options *options,
+                        const sl_partial *partial, sl_visibility *out);
     /// Notes as done the units that can find no pair but of cells whose rows are known, and
-    /// known not to hold others: `enclosed` has the bits of these cells (sl_findings_carry); `kept`
+    /// known not to hold others: `enclosed` has the bits of these cells (sl_partial_reuse); `kept`
     /// those of all cells whose rows are known.
-    sl_status (*carry)(sl_context *context, const sl_space *space, const sl_see_options *options,
-                       const uint64_t *kept, const uint64_t *enclosed, sl_findings *findings);
+    sl_status (*reuse)(sl_context *context, const sl_space *space, const sl_see_options *options,
+                       const uint64_t *kept, const uint64_t *enclosed, sl_partial *partial);
 } sl_see_method;
 
+/// All methods, *count of them.
 SL_API const sl_see_method *sl_see_methods(size_t *count);
+
+/// The method of that name; NULL for none.
+SL_API const sl_see_method *sl_see_method_named(const char *name);
+
+/// The method that is taken where none is asked for: the fastest exact one that can do what the
+/// options ask for and that knows the effects of the map. "sweep" in most cases; "dfs" where the
+/// options ask for stab trees or name a solver; "prune" where the map has mirrors.
+SL_API const sl_see_method *sl_see_method_for(const sl_map *map, const sl_see_options *options);
 
 /// SL_UNSUPPORTED, by name, where a method with a solver (NULL for methods that do not stab) does
 /// not know what a map calls for. To be asked before any work; the methods themselves believe
@@ -171,15 +184,16 @@ SL_API const sl_see_method *sl_see_methods(size_t *count);
 SL_API sl_status sl_see_check(sl_context *context, const sl_see_method *method,
                               const sl_solver *solver, const sl_map *map);
 
-/// Makes findings for a space from what was seen in another one, before some walls were changed: of
-/// all pairs that no changed cell can have a part in. The rest is for `look`; the result is the
-/// same as without them. `seen` must have been made without effects. SL_BAD_ARGUMENT, and a message
-/// that says why, where nothing can be taken over: the sets seen are not exact or were made with
-/// other options, or what is asked for is not exact. `findings` is zeroed before.
-SL_API sl_status sl_findings_carry(sl_context *context, const sl_space *before,
-                                   const sl_visibility *seen, const sl_space *space,
-                                   const sl_see_method *method, const sl_see_options *options,
-                                   sl_findings *findings);
+/// Makes partial results for a space from what was seen in another one, before some walls were
+/// changed: of all pairs that no changed cell can have a part in. The rest is for `run`; the
+/// result is the same as without them. `seen` must have been made without effects. SL_BAD_ARGUMENT,
+/// and a message that says why, where nothing can be taken over: the sets seen are not exact or
+/// were made with other options, or what is asked for is not exact. `partial` is zeroed
+/// before.
+SL_API sl_status sl_partial_reuse(sl_context *context, const sl_space *before,
+                                  const sl_visibility *seen, const sl_space *space,
+                                  const sl_see_method *method, const sl_see_options *options,
+                                  sl_partial *partial);
 
 #ifdef __cplusplus
 }

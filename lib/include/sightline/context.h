@@ -20,6 +20,7 @@
 extern "C" {
 #endif
 
+/// How a call ended.
 typedef enum sl_status {
     SL_OK = 0,
     SL_BAD_ARGUMENT, ///< an argument makes no sense; the message names it
@@ -51,11 +52,16 @@ typedef struct sl_hooks {
     bool (*cancelled)(void *user);
 } sl_hooks;
 
+/// What calls that can fail are given: hooks, and the message of the last failure.
 typedef struct sl_context sl_context;
 
 /// A context with the given hooks (NULL for none). NULL where the allocator gives nothing.
 SL_API sl_context *sl_context_create(const sl_hooks *hooks);
+/// Frees a context; NULL is fine.
 SL_API void sl_context_destroy(sl_context *context);
+
+/// The hooks it was made with: for a context beside it that passes them on.
+SL_API const sl_hooks *sl_context_hooks(const sl_context *context);
 
 /// What the last failed call said: one line, no line end, "" when none failed.
 SL_API const char *sl_context_message(const sl_context *context);

@@ -47,7 +47,9 @@ typedef struct sl_door_pairs {
     const uint8_t *next, *stop; ///< the walk's own
 } sl_door_pairs;
 
+/// Starts a walk over the pairs of a cell's row.
 SL_API sl_door_pairs sl_door_pairs_begin(const sl_door_sets *sets, uint32_t cell);
+/// Goes on to the next pair; false behind the last.
 SL_API bool sl_door_pairs_next(sl_door_pairs *pairs, const bool *shut);
 
 /// Checks rows from an untrusted file: in range, in order, ending where they should. SL_BAD_INPUT.

@@ -24,7 +24,9 @@ typedef enum sl_layer {
     SL_LAYER_LEGEND = 64,    ///< what the picture shows, its colours and counts, a scale bar
 } sl_layer;
 
+/// The narrowest picture, in pixels (PDF: points).
 #define SL_DRAW_WIDTH_MIN 64
+/// The widest picture, in pixels (PDF: points).
 #define SL_DRAW_WIDTH_MAX 20000
 
 /// A box that moves.
@@ -46,6 +48,7 @@ typedef struct sl_draw_options {
     size_t box_count;
 } sl_draw_options;
 
+/// The usual options, as told at each field.
 SL_API sl_draw_options sl_draw_options_default(void);
 
 /// Draws into a file: .png, .svg or .pdf by the ending of its name. The whole map is shown, as
@@ -81,6 +84,7 @@ typedef struct sl_eye_layer {
     const uint64_t *cells; ///< bit c % 64 of word c / 64: cell c is kept
 } sl_eye_layer;
 
+/// The most layers that sl_draw_eye takes.
 #define SL_EYE_LAYERS_MOST 16
 
 /// Draws what an eye sees, likewise: the map, the eye and its cone, and each cell in the colour of
@@ -155,6 +159,7 @@ typedef struct sl_chart_span {
     double low, high;
 } sl_chart_span;
 
+/// A point of a series. Only x and y are needed.
 typedef struct sl_chart_mark {
     double x, y;
     sl_chart_span x_whisker, y_whisker; ///< thin lines through the mark
@@ -163,6 +168,7 @@ typedef struct sl_chart_mark {
     const char *note;  ///< a smaller line under the label, where there is room for it
 } sl_chart_mark;
 
+/// How a series is drawn.
 typedef enum sl_chart_style {
     SL_CHART_MARKS, ///< a disc each
     SL_CHART_LINE,  ///< a line from mark to mark, in the order given
@@ -176,6 +182,7 @@ typedef enum sl_chart_style {
 /// Colours that a series may have, from 0; told apart under every common colour blindness.
 #define SL_CHART_COLOURS 6
 
+/// Marks of one style and colour.
 typedef struct sl_chart_series {
     const char *name; ///< in the key; series of one name should be of one style
     sl_chart_style style;

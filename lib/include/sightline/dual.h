@@ -11,12 +11,14 @@ extern "C" {
 
 /// The polygon's corners at most: those of the frame and one more for each portal end.
 #define SL_DUAL_PORTALS_MOST 256
+/// The most corners that a dual polygon can have.
 #define SL_DUAL_CORNERS_MOST (2 * SL_DUAL_PORTALS_MOST + 4)
 
 /// How far slopes and heights are looked at: the frame's half width and half height. Coordinates
 /// are scaled so that all portal ends lie within a circle of radius 1; of steeper lines only those
 /// that portals 8 times longer than far apart let through are cut off.
-#define SL_DUAL_SLOPE  8.0
+#define SL_DUAL_SLOPE 8.0
+/// Half of the frame's height.
 #define SL_DUAL_HEIGHT 9.0
 
 /// A line y' = slope x' + height, in a frame turned so that all portals are crossed towards +x'.
@@ -46,6 +48,7 @@ SL_API void sl_dual_make(const sl_portal_ends *portals, uint32_t count, uint32_t
 
 /// The half-plane of an end: lines with height <= y' - slope x' (left ends) or >= (right ends).
 SL_API sl_point sl_dual_point(const sl_dual *dual, sl_point point); ///< in the turned frame
+/// The point of the map that is `turned` in the turned frame.
 SL_API sl_point sl_dual_point_back(const sl_dual *dual, sl_point turned);
 
 /// Two points of a line, in the map, at x' = from and x' = to.

@@ -42,14 +42,11 @@ typedef struct sl_plan {
     uint32_t door_limit;   ///< sets of doors kept of a pair, at most; 16 by itself
 } sl_plan;
 
+/// The plan of a map; it never fails.
 SL_API sl_plan sl_plan_make(const sl_map *map);
 
 /// Takes effects out of a map, and notes what was taken.
 SL_API void sl_effects_leave_out(sl_context *context, sl_map *map, unsigned effects);
-
-/// Whether the work that effects call for is part of this build (-DSIGHTLINE_EFFECTS). Without it
-/// no method knows any effect.
-SL_API bool sl_effects_are_built(void);
 
 /// SL_UNSUPPORTED, with what to do about it, where a map calls for more than `known`. `method` is
 /// what messages call the method.
@@ -57,27 +54,28 @@ SL_API sl_status sl_effects_check(sl_context *context, const sl_map *map, const 
                                   unsigned known);
 
 /// The space as sight finds it for the time being, with what holds it back made part of the space:
-/// portals on doors that are shut become walls, and one-way glass has no exit on the side from
-/// which it is not seen through, or is a wall where one eye is there. Cells, vertices and the
-/// numbers of portals stay.
-typedef struct sl_passage {
+/// portals on doors that are shut become walls, and one-way glass has no directed portal on the
+/// side from which it is not seen through, or is a wall where one eye is there. Cells, vertices and
+/// the numbers of portals stay.
+typedef struct sl_filtered_space {
     const bool *shut; ///< by door of the map; NULL: all are open
     bool one_way;     ///< with its glass; else that is open both ways
     /// Glass that is dark for this eye is a wall, all other is open both ways: what one eye sees
     /// straight on, without mirrors, is then what it sees past walls. NULL for none.
     const sl_point *eye;
-} sl_passage;
+} sl_filtered_space;
 
-/// A copy of a space for a passage. It is as sl_space_check wants it where the passage is not
-/// one-way: then all methods work on it. With one-way exits missing, only those that go through
-/// exits do, one way: "dfs", and eye-to-cell. Portals that are walls have no exits and are left
-/// out; `portals` (portal_count of `space`, or NULL) gets the new number of each, UINT32_MAX for
-/// none.
-SL_API sl_status sl_passage_make(sl_context *context, const sl_space *space,
-                                 const sl_passage *passage, uint32_t *portals, sl_space *out);
+/// A copy of a space for a filtered space. It is as sl_space_check wants it where the passage is
+/// not one-way: then all methods work on it. With one-way directed portals missing, only those that
+/// go through directed portals do, one way: "dfs", and eye-to-cell. Portals that are walls have no
+/// directed portals and are left out; `portals` (portal_count of `space`, or NULL) gets the new
+/// number of each, UINT32_MAX for none.
+SL_API sl_status sl_filtered_space_make(sl_context *context, const sl_space *space,
+                                        const sl_filtered_space *filtered, uint32_t *portals,
+                                        sl_space *out);
 
-/// Whether one-way glass keeps sight from leaving a cell by an exit.
-SL_API bool sl_exit_is_dark(const sl_space *space, uint32_t cell, uint32_t exit);
+/// Whether one-way glass keeps sight from leaving a cell by a directed portal.
+SL_API bool sl_portal_is_blocked(const sl_space *space, uint32_t cell, uint32_t directed);
 
 #ifdef __cplusplus
 }

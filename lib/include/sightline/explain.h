@@ -22,19 +22,22 @@ typedef struct sl_explain_options {
     uint64_t most_tests;     ///< stabbing tests after which to give up; 0, as usual, for no limit
 } sl_explain_options;
 
+/// The usual options, as told at each field.
 SL_API sl_explain_options sl_explain_options_default(void);
 
-/// A portal sequence, and the ends that decide on it; portal i of the ends is exits[i]'s.
+/// A portal sequence, and the ends that decide on it; portal i of the ends is directed
+/// portals[i]'s.
 typedef struct sl_sequence {
-    uint32_t *exits; ///< of the space, in the order crossed
-    uint32_t exit_count;
+    uint32_t *directed; ///< of the space, in the order crossed
+    uint32_t directed_count;
     uint32_t end_count;
     sl_stab_end ends[SL_CONFLICT_MOST];
 } sl_sequence;
 
 /// A sequence that came to nothing: it has a sightline, of whatever sight, but for its last portal.
 typedef struct sl_miss {
-    /// The last exit is the one that stops it. Ends: those that no line keeps on their sides.
+    /// The last directed portal is the one that stops it. Ends: those that no line keeps on their
+    /// sides.
     sl_sequence sequence;
     uint32_t missing; ///< portals to the target from the cell before the last portal
     /// No direction crosses all portals forwards: the last one turns back against one before it, or
@@ -44,9 +47,9 @@ typedef struct sl_miss {
 
 /// What a sequence with mirrors crosses: a portal or a mirror.
 typedef struct sl_bent_step {
-    uint32_t exit;   ///< of the space; UINT32_MAX for a mirror
-    uint32_t mirror; ///< of the map; UINT32_MAX for a portal
-    uint32_t cell;   ///< behind the portal, or before the mirror
+    uint32_t directed; ///< of the space; UINT32_MAX for a mirror
+    uint32_t mirror;   ///< of the map; UINT32_MAX for a portal
+    uint32_t cell;     ///< behind the portal, or before the mirror
 } sl_bent_step;
 
 /// A sightline that mirrors bend. Zeroed, it was not looked for.

@@ -23,9 +23,10 @@ typedef struct sl_generate_options {
     bool in_line;   ///< walls in line stay in line to the last bit when the plan is turned
 } sl_generate_options;
 
+/// The usual options, as told at each field.
 SL_API sl_generate_options sl_generate_options_default(void);
 
-struct sl_plot;
+struct sli_plot;
 
 /// A kind of map. What a cell of it sees does not grow with the map: streets, corridors and tunnels
 /// are broken, halls have pillars.
@@ -37,7 +38,7 @@ typedef struct sl_map_kind {
     bool is_square;  ///< a size of n gives n x n units, else n
     uint32_t units;  ///< units of a size of 1
     uint32_t least;  ///< the fewest columns and rows of units that it can be laid out in
-    sl_status (*lay)(struct sl_plot *plot);
+    sl_status (*lay)(struct sli_plot *plot);
 } sl_map_kind;
 
 /// All kinds.

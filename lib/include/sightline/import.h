@@ -1,4 +1,7 @@
 /// Any map file that can be read, by one call.
+///
+/// A context by itself reads map texts and ASCII plans. sl_io_use() of sightline/io.h adds the
+/// formats of other programs.
 #ifndef SIGHTLINE_IMPORT_H
 #define SIGHTLINE_IMPORT_H
 
@@ -32,6 +35,7 @@ typedef struct sl_import_options {
     bool cells;
 } sl_import_options;
 
+/// The usual options: each format's own choice.
 SL_API sl_import_options sl_import_options_default(void);
 
 /// Names of maps, in the order of their file. Zeroed, it is empty.
@@ -75,8 +79,12 @@ typedef struct sl_map_format {
     bool (*knows)(const char *text, size_t size);
 } sl_map_format;
 
-/// All formats; the first is the map text.
-SL_API const sl_map_format *sl_map_formats(size_t *count);
+/// The formats that the context knows; the first is the map text.
+/// The table stays until formats are next added.
+SL_API const sl_map_format *sl_map_formats(const sl_context *context, size_t *count);
+
+/// Adds formats, which are copied; one whose name is there already is passed over.
+SL_API sl_status sl_map_formats_add(sl_context *context, const sl_map_format *more, size_t count);
 
 /// Reads a map file, by the ending of its name; where several formats have that ending, or none,
 /// by its first bytes; else as the map text; "-" is stdin. The map must be empty; on failure it
@@ -101,76 +109,6 @@ typedef struct sl_map_choice {
 /// Fails as sl_map_read does where the file is broken; `out` then stays as it was.
 SL_API sl_status sl_map_choice_read(sl_context *context, const char *path, sl_map_choice *out);
 SL_API void sl_map_choice_destroy(sl_context *context, sl_map_choice *choice); ///< and zeroes it
-
-/// Cuts a UniGrafix model at a height: every face that crosses the plane gives walls. Faces in the
-/// plane give none; comments that surround the model are kept as notes. What was taken is noted.
-SL_API sl_status sl_map_read_unigrafix(sl_context *context, const char *name, const char *text,
-                                       size_t size, const sl_import_options *options, sl_map *map);
-
-SL_API sl_status sl_map_heights_unigrafix(sl_context *context, const char *name, const char *text,
-                                          size_t size, double *lowest, double *highest);
-
-/// The lines, polylines with bulges, arcs, circles and ellipses of an ASCII DXF drawing, in blocks
-/// as inserted, on layers that are on and not frozen or on those asked for. What was taken is
-/// noted. SL_BAD_ARGUMENT where a unit is asked for and there is none of that name, or the drawing
-/// does not tell its own.
-SL_API sl_status sl_map_read_dxf(sl_context *context, const char *name, const char *text,
-                                 size_t size, const sl_import_options *options, sl_map *map);
-
-/// The outlines of an SVG drawing's shapes, in its user units, y turned up. Layers are groups by id
-/// or label. What was taken is noted.
-SL_API sl_status sl_map_read_svg(sl_context *context, const char *name, const char *text,
-                                 size_t size, const sl_import_options *options, sl_map *map);
-
-/// A picture (PNG, PGM, PBM): pixels are unit squares, dark ones solid (threshold: the usual is
-/// 0.5), the lower left one's corner at the origin. What was taken is noted.
-SL_API sl_status sl_map_read_image(sl_context *context, const char *name, const char *text,
-                                   size_t size, const sl_import_options *options, sl_map *map);
-
-/// A map.yaml of ROS with its picture, found from the folder of `name`. Unit: metres.
-SL_API sl_status sl_map_read_ros(sl_context *context, const char *name, const char *text,
-                                 size_t size, const sl_import_options *options, sl_map *map);
-
-/// A map of Tiled, as XML (.tmx) or JSON (.tmj): orthogonal, of either size, fixed or without
-/// bounds, with its tilesets, those in files beside it too. Solid is what the layers asked for
-/// hold; else what the layers, tiles and objects themselves say (lib/import/FORMATS.md). Unit:
-/// pixels. What was taken is noted.
-SL_API sl_status sl_map_read_tmx(sl_context *context, const char *name, const char *text,
-                                 size_t size, const sl_import_options *options, sl_map *map);
-SL_API sl_status sl_map_read_tmj(sl_context *context, const char *name, const char *text,
-                                 size_t size, const sl_import_options *options, sl_map *map);
-
-/// A level of an LDtk project, one in a file of its own too, or all levels of a world ("all", or
-/// the world's name): the cells of its IntGrid layers. Unit: pixels. What was taken is noted.
-SL_API sl_status sl_map_read_ldtk(sl_context *context, const char *name, const char *text,
-                                  size_t size, const sl_import_options *options, sl_map *map);
-SL_API sl_status sl_map_list_ldtk(sl_context *context, const char *name, const char *text,
-                                  size_t size, sl_map_list *list);
-
-/// A Universal VTT file: walls and portals. Unit: squares of its grid. What was taken is noted.
-SL_API sl_status sl_map_read_uvtt(sl_context *context, const char *name, const char *text,
-                                  size_t size, const sl_import_options *options, sl_map *map);
-
-/// The walls of a scene of Foundry VTT: what stops sight, doors, one-way walls. Unit: pixels. What
-/// was taken is noted.
-SL_API sl_status sl_map_read_foundry(sl_context *context, const char *name, const char *text,
-                                     size_t size, const sl_import_options *options, sl_map *map);
-
-/// The walls of our own JSON export.
-SL_API sl_status sl_map_read_export(sl_context *context, const char *name, const char *text,
-                                    size_t size, const sl_import_options *options, sl_map *map);
-
-/// Reads a map of a Doom WAD: lumps of Doom's or Hexen's records, or a TEXTMAP (UDMF). Lines with
-/// one side are walls; those with two are seen through, and so are doors, shut ones too: what a
-/// player may open hides nothing. With options->doors each line between a door sector (one whose
-/// ceiling meets the floor when the map begins, or that a door special of a line moves) and another
-/// is a door, named "sector_" and its number, open where there is room under the ceiling. Player
-/// 1's start is kept. What was taken is noted. Messages name the lump, and the line in a TEXTMAP.
-SL_API sl_status sl_map_read_wad(sl_context *context, const char *name, const char *text,
-                                 size_t size, const sl_import_options *options, sl_map *map);
-/// Its maps, each name once, in the order of the directory.
-SL_API sl_status sl_map_list_wad(sl_context *context, const char *name, const char *text,
-                                 size_t size, sl_map_list *list);
 
 #ifdef __cplusplus
 }

@@ -1,4 +1,4 @@
-/// The map: walls and what else a plan holds, as read, before any subdivision.
+/// The map: walls and all else that a plan holds, as read, before any subdivision.
 #ifndef SIGHTLINE_MAP_H
 #define SIGHTLINE_MAP_H
 
@@ -9,38 +9,39 @@
 extern "C" {
 #endif
 
-/// A wall: a closed segment that blocks sight. `line` is the line of its file, 0 where there is
-/// none.
+/// A wall: a closed segment that blocks sight. `line`, here and below, is the line of the file; 0
+/// for none.
 typedef struct sl_wall {
     sl_point a, b;
     uint32_t line;
 } sl_wall;
 
-/// A portal that can be shut.
+/// A door: a portal that can be shut.
 typedef struct sl_door {
     char *name;
     sl_segment segment;
     bool open;
     uint32_t line;
-    sl_segment *parts; ///< what cleaning made of the segment, in order; NULL where it is whole
+    sl_segment *parts; ///< the parts that cleaning cut it into, in order; NULL for a whole one
     size_t part_count;
 } sl_door;
 
-/// A mirror, glass that is seen through from its right to its left, going from a to b, or a seam: a
-/// line that cuts the cells and is seen through.
+/// A mirror; one-way glass, seen through from its right to its left, going from a to b; or a seam,
+/// a line that cuts the cells and is seen through.
 typedef struct sl_glass {
     sl_segment segment;
     uint32_t line;
-    bool one_sided; ///< of a mirror: it reflects on its left only, going from a to b
+    bool one_sided; ///< for a mirror: it reflects on its left only, going from a to b
 } sl_glass;
 
-/// A viewpoint; the heading in degrees, counter-clockwise from +x.
+/// A viewpoint. The heading is in degrees, counter-clockwise from +x.
 typedef struct sl_start {
     sl_point at;
     double heading;
     uint32_t line;
 } sl_start;
 
+/// A way through the map, as a polyline.
 typedef struct sl_path {
     char *name;
     sl_point *points;
@@ -48,24 +49,24 @@ typedef struct sl_path {
     uint32_t line;
 } sl_path;
 
-/// Something to be culled.
+/// An object: a box to be culled.
 typedef struct sl_object {
     char *name;
     sl_box box;
     uint32_t line;
 } sl_object;
 
-/// A cell that the map brings along: corners[first .. first + count), either way round.
+/// A cell that the map brings along: corners[first .. first + count), in either direction.
 typedef struct sl_map_cell {
     size_t first;
     uint32_t count; ///< at least 3
     uint32_t line;
 } sl_map_cell;
 
-/// All arrays belong to the map; a map that is zeroed is empty.
+/// All arrays belong to the map. A zeroed map is empty.
 typedef struct sl_map {
-    char *source; ///< the file it came from, for messages; NULL for none
-    char *notes;  ///< notices to be kept with the map, lines; NULL for none
+    char *source; ///< the name of its file, for messages; NULL for none
+    char *notes;  ///< notices that stay with the map, in lines; NULL for none
     sl_wall *walls;
     sl_door *doors;
     sl_glass *mirrors;
@@ -82,33 +83,41 @@ typedef struct sl_map {
     sl_map_cell *cells;
     sl_point *corners;
     size_t cell_count, corner_count, cell_room, corner_room;
-    double snap; ///< corners of cells, and walls' ends, no farther than this from one another, or
-                 ///< from a side or wall, are one place with it
+    double snap; ///< corners of cells and ends of walls within this distance of each other, or of a
+                 ///< side or wall, are one place with it
     uint32_t snap_line;
-    double range; ///< nothing farther than this is seen; 0 for no limit
+    double range; ///< the view range; 0 for no limit
     uint32_t range_line;
 } sl_map;
 
 SL_API void sl_map_destroy(sl_context *context, sl_map *map); ///< and zeroes it
 
-/// A deep copy of all that a map holds, into an empty one, which stays empty on failure.
+/// A deep copy into an empty map, which stays empty on failure.
 SL_API sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to);
 
-/// Each adds one thing and copies what it is given. Coordinates must be usable (below):
-/// SL_BAD_ARGUMENT otherwise.
+/// Each adds one thing, and copies its arguments. SL_BAD_ARGUMENT if a coordinate is not usable
+/// (sl_coordinate_usable).
 SL_API sl_status sl_map_add_wall(sl_context *context, sl_map *map, sl_point a, sl_point b,
                                  uint32_t line);
+/// Adds a door. As sl_map_add_wall.
 SL_API sl_status sl_map_add_door(sl_context *context, sl_map *map, const char *name, sl_segment at,
                                  bool open, uint32_t line);
+/// Adds a mirror that reflects on both sides. As sl_map_add_wall.
 SL_API sl_status sl_map_add_mirror(sl_context *context, sl_map *map, sl_segment at, uint32_t line);
+/// Adds one-way glass, seen through from its right to its left. As sl_map_add_wall.
 SL_API sl_status sl_map_add_oneway(sl_context *context, sl_map *map, sl_segment at, uint32_t line);
+/// Adds a seam. As sl_map_add_wall.
 SL_API sl_status sl_map_add_seam(sl_context *context, sl_map *map, sl_segment at, uint32_t line);
+/// Adds a viewpoint; its heading in degrees, counter-clockwise from +x. As sl_map_add_wall.
 SL_API sl_status sl_map_add_start(sl_context *context, sl_map *map, sl_point at, double heading,
                                   uint32_t line);
+/// Adds a path of `count` points, at least 1. As sl_map_add_wall.
 SL_API sl_status sl_map_add_path(sl_context *context, sl_map *map, const char *name,
                                  const sl_point *points, size_t count, uint32_t line);
+/// Adds an object. As sl_map_add_wall.
 SL_API sl_status sl_map_add_object(sl_context *context, sl_map *map, const char *name, sl_box box,
                                    uint32_t line);
+/// Adds a cell of `count` corners, at least 3, either way round. As sl_map_add_wall.
 SL_API sl_status sl_map_add_cell(sl_context *context, sl_map *map, const sl_point *corners,
                                  size_t count, uint32_t line);
 /// Drops the map's own cells.
@@ -119,73 +128,75 @@ SL_API sl_status sl_map_add_note(sl_context *context, sl_map *map, const char *t
 /// Finite, and 0 or of a magnitude between SL_COORDINATE_MIN and SL_COORDINATE_MAX.
 SL_API bool sl_coordinate_usable(double value);
 
-/// The smallest box around all that the map holds; {{0,0},{0,0}} for an empty map.
+/// The smallest box around all things of the map; {{0,0},{0,0}} for an empty map.
 SL_API sl_box sl_map_bounds(const sl_map *map);
 
-/// How many walls are parallel to neither axis.
+/// The number of walls that are parallel to neither axis.
 SL_API size_t sl_map_count_oblique(const sl_map *map);
 
 /// Whether all walls, mirrors, doors, one-way glass and seams are parallel to an axis.
 SL_API bool sl_map_is_axial(const sl_map *map);
 
-/// What cleaning did, in walls where nothing else is said.
+/// What cleaning did, as numbers of walls unless said otherwise.
 typedef struct sl_clean_account {
     size_t before, after;
     size_t zero_length;  ///< dropped
     size_t duplicate;    ///< dropped: the same two ends as another wall
-    size_t merged;       ///< swallowed by a collinear wall that they overlap or touch
+    size_t merged;       ///< joined with a wall in the same line that they overlap or touch
     size_t split;        ///< cut where another wall crosses or touches them
-    size_t welded;       ///< ends of walls, doors, glass and seams that were moved to another end
+    size_t welded;       ///< ends of walls, doors, glass and seams that moved to another end
     size_t crossings;    ///< points where walls cross that had to be computed
-    double largest_move; ///< no clean wall is farther than this from the walls that it comes from
+    double largest_move; ///< the largest distance of a clean wall from the walls it comes from
 } sl_clean_account;
 
+/// Start from sl_clean_options_default().
 typedef struct sl_clean_options {
-    /// Ends no farther apart than this become one, and walls that come nearer to an end than half
-    /// of it are led through it. 0: only ends that are equal, and only ends exactly on a wall.
-    /// Negative, the default: 2^-46 of the largest coordinate, where something is oblique, which
-    /// closes what turning and moving a map in doubles opens; 0 where all is axial.
+    /// Ends at most this far apart become one, and a wall nearer than half of it to an end goes
+    /// through this end. 0: only equal ends become one, and only an end exactly on a wall counts.
+    /// Negative (default): 2^-46 of the largest coordinate if something is oblique, which closes
+    /// the gaps that turning and moving a map in doubles opens; 0 if all is axial.
     double weld;
 } sl_clean_options;
 
+/// The usual options, as told at each field.
 SL_API sl_clean_options sl_clean_options_default(void);
 
-/// Makes the walls a planar set: no two of them cross, overlap or touch but in common ends, by
-/// exact predicates. Each mirror becomes a wall too, which hides what is behind it. The order of
-/// walls is by place, whatever the input's was. All later stages are exact for the clean map.
+/// Makes the walls a planar set: no two of them cross, overlap or touch, except in common ends, by
+/// exact predicates. Each mirror also becomes a wall, which hides what is behind it. Walls are
+/// sorted by place. All later stages are exact for the clean map.
 ///
-/// Where all is axial and nothing is to be welded, overlapping and touching walls in line become
-/// one, walls are split where they cross or touch, and no coordinate is computed. Else doors, glass
-/// and seams are made planar together with the walls: ends are welded, and walls that cross are
-/// split at the nearest representable point. A door that is cut has `parts`; mirrors, glass and
-/// seams that are cut become several. A sightline that stays farther than `largest_move` from every
-/// wall as read is never lost.
+/// If all is axial and nothing is to be welded, no coordinate is computed: walls in one line that
+/// overlap or touch are joined, and walls are split where they cross or touch. Else doors, glass
+/// and seams are made planar together with the walls: ends are welded, and crossing walls are split
+/// at the nearest representable point. A door that is cut has `parts`; mirrors, glass and seams
+/// become several. A sightline that stays farther than `largest_move` from every wall as read is
+/// never lost.
 ///
-/// Sides of the map's own cells take part in it, as seams do, with a tolerance of twice the map's
-/// `snap` where that is larger. Cells of which nothing is left are dropped.
+/// Sides of the map's own cells take part, as seams do. The tolerance is then at least twice the
+/// map's `snap`. Cells of which nothing is left are dropped.
 ///
-/// Cleaning a clean map again moves nothing: it may join walls in line that welding has left
-/// without a reason to be apart.
+/// Cleaning a clean map again moves nothing. It may join walls in one line that welding left apart.
 ///
-/// NULL options are the default ones; `account` may be NULL. SL_UNSUPPORTED where walls cross anew
-/// each time that a crossing is rounded, which tolerances below the rounding of doubles may cause.
+/// NULL options are the default ones; `account` may be NULL. SL_UNSUPPORTED if walls cross again
+/// each time that a crossing is rounded; a tolerance below the rounding of doubles may cause this.
 /// Time O((n + k) log n) for k meeting points.
 SL_API sl_status sl_map_clean(sl_context *context, sl_map *map, const sl_clean_options *options,
                               sl_clean_account *account);
 
-/// Reads the map text: SL_BAD_INPUT with file and line on anything it does not know.
-/// `name` is what messages call the text. The map must be empty; on failure it stays so.
+/// Reads the map text. SL_BAD_INPUT, with file and line, for anything unknown. `name` is the name
+/// of the text in messages. The map must be empty; it stays empty on failure.
 SL_API sl_status sl_map_read_text(sl_context *context, const char *name, const char *text,
                                   size_t size, sl_map *map);
-/// Reads the ASCII plan: a character a unit square, the last line at y 0. '#' solid, ' ' and '.'
-/// open, '+' a door across the passage, '@' a start heading +x. Beyond the plan all is solid.
+/// Reads the ASCII plan: each character is a unit square, and the last line is at y = 0. '#' is
+/// solid, ' ' and '.' are open, '+' is a door across the passage, '@' is a start heading +x.
+/// Outside the plan all is solid.
 SL_API sl_status sl_map_read_plan(sl_context *context, const char *name, const char *text,
                                   size_t size, sl_map *map);
 
-/// Each writes to a file, "-" for stdout; the target is replaced only when all is written.
+/// Each writes to a file, "-" for stdout. The target is replaced only after all is written.
 SL_API sl_status sl_map_write_text(sl_context *context, const sl_map *map, const char *path);
-/// SL_UNSUPPORTED, naming the wall, where the map is no union of unit squares (or has more than
-/// 4096 x 4096 of them).
+/// SL_UNSUPPORTED, naming the wall, if the map is not made of unit squares, or of more than
+/// 4096 x 4096.
 SL_API sl_status sl_map_write_plan(sl_context *context, const sl_map *map, const char *path);
 
 #ifdef __cplusplus

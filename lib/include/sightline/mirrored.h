@@ -14,7 +14,7 @@ typedef struct sl_room_mirror {
     uint32_t mirror; ///< of the map
 } sl_room_mirror;
 
-/// Where the rooms of an outline end at mirrors. Of mirrors that lie on one another the first in
+/// Where the rooms of an outline end at mirrors. Where mirrors lie on each other, the first one of
 /// the map counts.
 typedef struct sl_room_mirrors {
     const sl_outline *outline; ///< the caller's, as the map; both must stay as long
@@ -23,25 +23,26 @@ typedef struct sl_room_mirrors {
     sl_room_mirror *pieces;
 } sl_room_mirrors;
 
-/// Mirrors must be walls of the outline's space too (sl_map_clean makes them so).
+/// Finds them. Mirrors must be walls of the outline's space too (sl_map_clean makes them so).
 SL_API sl_status sl_room_mirrors_make(sl_context *context, const sl_outline *outline,
                                       const sl_map *map, sl_room_mirrors *out);
+/// Frees what sl_room_mirrors_make gave and zeroes it.
 SL_API void sl_room_mirrors_destroy(sl_context *context, sl_room_mirrors *mirrors);
 
+/// The parent of a part whose mirror is seen directly.
 #define SL_NO_PART UINT32_MAX
 
-/// What is seen in a mirror, itself seen directly or in another: a polygon that one edge bounds
-/// which lies on the mirror, and that is star-shaped about the eye's image. A mirror of which
-/// several pieces are seen gives a part for each.
+/// What is seen in a mirror, which is itself seen directly or in another mirror. A polygon with one
+/// edge on the mirror, star-shaped about the eye's image. Each piece of a mirror that is seen gives
+/// a part.
 typedef struct sl_mirror_part {
     uint32_t mirror; ///< of the map
     uint32_t parent; ///< the part in which the mirror is seen; SL_NO_PART: it is seen directly
     uint32_t depth;  ///< reflections: 1 where the mirror is seen directly
     bool rounded;    ///< the eye's image or a border of what is seen is rounded
-    /// Where it is seen: `view.eye` is the image of the eye, to which the map itself looks as the
-    /// mirrors show it; points are those of the map, counter-clockwise.
+    /// What it shows, in the map: `view.eye` is the image of the eye; points are counter-clockwise.
     sl_region region;
-    /// Where it seems to be, in mirrored space, in which the eye looks straight on: region.count
+    /// Where it seems to be, in mirrored space, where the eye looks straight on: region.count
     /// points in the same order, clockwise where `depth` is odd. Rounded.
     sl_point *image;
 } sl_mirror_part;
@@ -53,24 +54,25 @@ typedef struct sl_mirrored_region {
     size_t part_count, part_room;
 } sl_mirrored_region;
 
+/// Frees a region and zeroes it.
 SL_API void sl_mirrored_region_destroy(sl_context *context, sl_mirrored_region *region);
 
-/// The region of a view, with what is seen by up to `depth` reflections. Sightlines are `range`
-/// long at most, reflected or not; 0 for no limit.
+/// The region of a view, with what is seen by up to `depth` reflections. Sightlines are at most
+/// `range` long, with their reflections; 0 for no limit.
 ///
-/// Behind axial mirrors which walls are met, and in what order, is decided exactly, as in the
-/// direct region: places in mirrored space are sums of coordinates, kept in two doubles each; a
-/// part says where two do not hold one. Behind oblique mirrors the eye's image and the borders of
-/// what is seen are rounded, at each reflection by a few units in the last place of the largest
-/// coordinates: a part is then exact for an eye and a cone moved by that.
+/// Behind axial mirrors it is decided exactly which walls are met, and in what order, as in the
+/// direct region. Places in mirrored space are sums of two doubles; `rounded` says where these do
+/// not suffice. Behind oblique mirrors the eye's image and the borders of what is seen are rounded,
+/// at each reflection by a few units in the last place of the largest coordinates. A part is then
+/// exact for an eye and a cone moved by that much.
 ///
-/// An eye on a mirror sees nothing in it. Time: that of a region for each part; the number of parts
+/// An eye on a mirror sees nothing in it. Time: that of a region for each part. The number of parts
 /// may grow with the depth as a power of the number of mirrors.
 SL_API sl_status sl_mirrored_region_make(sl_context *context, const sl_room_mirrors *mirrors,
                                          const sl_view *view, double range, uint32_t depth,
                                          sl_mirrored_region *out);
 
-/// The area that is seen by mirror, each part for itself: what two mirrors show counts twice.
+/// The area of all parts. What two mirrors show counts twice.
 SL_API double sl_mirrored_area(const sl_mirrored_region *region);
 
 #ifdef __cplusplus

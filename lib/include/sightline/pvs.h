@@ -27,9 +27,12 @@ typedef struct sl_pvs_run {
 
 /// Iterates a row: for (sl_pvs_run r = sl_pvs_begin(pvs, cell); sl_pvs_next(&r);) first .. end - 1.
 SL_API sl_pvs_run sl_pvs_begin(const sl_pvs *pvs, uint32_t cell);
+/// Goes on to the next run; false behind the last.
 SL_API bool sl_pvs_next(sl_pvs_run *run);
 
+/// Whether cell `to` is in the row of cell `from`. Time: the length of the row.
 SL_API bool sl_pvs_sees(const sl_pvs *pvs, uint32_t from, uint32_t to);
+/// How many cells are in a row.
 SL_API uint32_t sl_pvs_count(const sl_pvs *pvs, uint32_t cell);
 SL_API uint64_t sl_pvs_pairs(const sl_pvs *pvs); ///< of all rows
 

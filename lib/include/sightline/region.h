@@ -1,4 +1,4 @@
-/// The visible region (isovist) of an eye: an exact polygon with arcs where its range ends it.
+/// The visible region (isovist) of an eye: an exact polygon, with arcs where the range ends.
 #ifndef SIGHTLINE_REGION_H
 #define SIGHTLINE_REGION_H
 
@@ -12,6 +12,7 @@ extern "C" {
 /// The `wall` of an edge that lies on none.
 #define SL_NO_WALL UINT32_MAX
 
+/// What an edge of a region lies on.
 typedef enum sl_edge_kind {
     SL_EDGE_WALL,      ///< on a wall, or on several pieces that portals cut one wall into
     SL_EDGE_BORDER,    ///< on the map's border, where no wall is
@@ -21,53 +22,54 @@ typedef enum sl_edge_kind {
     SL_EDGE_ARC,       ///< of less than half a circle about the eye, counter-clockwise: the range
 } sl_edge_kind;
 
+/// An edge of a region.
 typedef struct sl_region_edge {
     uint32_t wall; ///< index of the space's walls; SL_NO_WALL for all kinds but walls
     uint8_t kind;  ///< of sl_edge_kind
     bool exact;    ///< its start is a corner of the space (or the eye), not a computed point
 } sl_region_edge;
 
-/// A region: a polygon, counter-clockwise, star-shaped about the eye. Edge i leads from points[i]
-/// to the next point, around. Zero it to start; it keeps its memory from one sl_region_make to the
-/// next, so that repeated ones allocate only while regions grow.
+/// A region: a counter-clockwise polygon, star-shaped about the eye. Edge i leads from points[i] to
+/// the next point, around. Zero it to start. It keeps its memory from one sl_region_make to the
+/// next, so repeated calls allocate only while regions grow.
 ///
-/// Which walls are met, and in what order, is decided exactly; a point that is no corner is
+/// It is decided exactly which walls are met, and in what order. A point that is no corner is
 /// computed in doubles, to a few units in the last place of its distance from the eye along each
-/// axis. What only rays of one direction see (a needle) is no part of the region; a wall that is
-/// seen edge-on hides nothing, and the radial edge along it counts as occluding.
+/// axis. What is seen only in a single direction (a needle) is not part of the region. A wall that
+/// is seen edge-on hides nothing; the radial edge along it counts as occluding.
 typedef struct sl_region {
     sl_view view;
     double range;  ///< 0 for no limit
     uint32_t cell; ///< that sl_space_locate gives for the eye; SL_NO_CELL: the region is empty
     size_t count;  ///< of points, offsets and edges; 0 for an empty region
     sl_point *points;
-    sl_point *offsets; ///< the points as seen from the eye: more precise far from the origin
+    sl_point *offsets; ///< the points less the eye: more precise far from the origin
     sl_region_edge *edges;
     uint64_t portals_passed; ///< of the outline, to find it: the measure of the work
-    struct sl_region_memory *memory;
+    struct sli_region_memory *memory;
 } sl_region;
 
 SL_API void sl_region_destroy(sl_context *context, sl_region *region); ///< and zeroes it
 
-/// The region of a view: by expanding the view through portals, from the cells at the eye (Teller
+/// Makes the region of a view by expanding it through portals, from the cells at the eye (Teller
 /// 1992, Visibility Computations in Densely Occluded Polyhedral Environments, eye-to-region; Bungiu
 /// et al. 2014, Efficient Computation of Visibility Polygons, on triangles). `range` limits how far
 /// is seen; 0 for no limit.
 ///
-/// An eye on a portal or a free corner of cells sees all around. An eye on a wall sees what the
-/// cell that sl_space_locate gives sees, and every cell that touches the eye and is joined to that
-/// one by portals that touch it: the side (right of or over the wall, where the wall bounds the map
-/// the one inside) on which that cell lies; where a wall ends at the eye, all around it but the
-/// wall. Such an eye is a point of its region. So is the eye of a cone. An eye outside the bounds,
-/// and a cone of 0 degrees, see nothing: the region is empty.
+/// An eye on a portal or a free corner of cells sees all around. An eye on a wall sees from the
+/// cell that sl_space_locate gives, and from every cell that touches the eye and is joined to that
+/// cell by portals that touch the eye. That is the side right of or over the wall, or the inner
+/// side where the wall bounds the map. Where a wall ends at the eye, it sees all around, but for
+/// the wall. Such an eye is a point of its region; so is the eye of a cone. An eye outside the
+/// bounds and a cone of 0 degrees see nothing: the region is empty.
 ///
-/// SL_BAD_ARGUMENT on a range that is negative or not finite, and a cone's border that is the eye
-/// itself or not finite. On failure the region is empty.
+/// SL_BAD_ARGUMENT for a range that is negative or not finite, and for a cone's border that is the
+/// eye itself or not finite. On failure the region is empty.
 SL_API sl_status sl_region_make(sl_context *context, const sl_outline *outline, const sl_view *view,
                                 double range, sl_region *region);
 
 /// Measures under the names that depthmapX gives them (isovist.cpp of its salalib), in the map's
-/// unit. All are 0 for an empty region. Arcs count as what they are, not as chords.
+/// unit. All are 0 for an empty region. Arcs count as arcs, not as chords.
 typedef struct sl_region_measures {
     double area;
     double perimeter;       ///< of all edges, borders of a view cone among them
@@ -83,13 +85,14 @@ typedef struct sl_region_measures {
     double radial_skewness; ///< their third moment about the mean
 } sl_region_measures;
 
+/// All measures of a region. Time: its edges.
 SL_API sl_region_measures sl_region_measure(const sl_region *region);
 
-/// Area alone: faster.
+/// The area alone: faster.
 SL_API double sl_region_area(const sl_region *region);
 
-/// The corners of walls that are seen: ends of walls that are points of the region, in its order.
-/// Writes up to `room` of them and returns how many there are; at most region->count.
+/// The visible corners of walls: ends of walls that are points of the region, in its order. Writes
+/// up to `room` of them and returns how many there are; at most region->count.
 SL_API size_t sl_region_corners(const sl_region *region, const sl_space *space, sl_point *corners,
                                 size_t room);
 

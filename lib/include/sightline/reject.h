@@ -1,4 +1,4 @@
-/// Doom's REJECT, the table of sectors that never see each other, made anew for maps of a WAD.
+/// Doom's REJECT: the table of sectors that never see each other, computed for the maps of a WAD.
 #ifndef SIGHTLINE_REJECT_H
 #define SIGHTLINE_REJECT_H
 
@@ -10,7 +10,7 @@ extern "C" {
 
 /// Start from sl_reject_options_default().
 typedef struct sl_reject_options {
-    /// Names of maps, letters and capitals being the same; none: all maps of the WAD.
+    /// Names of maps, in small letters or capitals; none: all maps of the WAD.
     const char *const *maps;
     size_t map_count;
     sl_sight sight;     ///< open: sightlines that only touch ends of walls do not count
@@ -18,6 +18,7 @@ typedef struct sl_reject_options {
     uint64_t row_bytes; ///< limit on memory for visible sets, of all maps at work together
 } sl_reject_options;
 
+/// The usual options: all maps, open sight.
 SL_API sl_reject_options sl_reject_options_default(void);
 
 /// What the REJECT of a map holds.
@@ -38,10 +39,10 @@ SL_API void sl_reject_report_destroy(sl_context *context,
                                      sl_reject_report *report); ///< and zeroes it
 
 /// Writes a copy of a WAD in which maps have a new REJECT; "-" for stdout. Each map is cut into
-/// cells that lie in one sector each, of which the sweep tells exactly which see each other; doors
-/// are seen through. Hidden are pairs of sectors that no sightline past all walls joins. All other
-/// lumps keep their bytes. The WAD is read once and written once, when all maps are done; what
-/// fails, or is cancelled, leaves an older file as it was. SL_BAD_INPUT names the map;
+/// cells that lie in one sector each, and the sweep computes exactly which cells see each other;
+/// doors are seen through. Hidden are pairs of sectors that no sightline past all walls joins. All
+/// other lumps keep their bytes. The WAD is read once and written once, when all maps are done;
+/// what fails, or is cancelled, leaves an older file as it was. SL_BAD_INPUT names the map;
 /// SL_BAD_ARGUMENT where a map is asked for twice or there is none. Reports stage "reject", unit
 /// "maps"; of a single map the stages of its bake. `report` must be empty; on failure it stays so.
 SL_API sl_status sl_reject_wad(sl_context *context, const char *path,

@@ -25,8 +25,10 @@ typedef enum sl_guarantee {
     SL_ROUNDED,      ///< may err either way, by rounding; its answers near zero are marked
 } sl_guarantee;
 
+/// A guarantee in words: "exact".
 SL_API const char *sl_guarantee_name(sl_guarantee guarantee);
 
+/// What a solver says of a portal sequence.
 typedef enum sl_stab_verdict {
     SL_HIDDEN,  ///< no line
     SL_GRAZING, ///< lines that touch ends only (rounded solvers: within the tolerance of that)

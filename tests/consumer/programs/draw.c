@@ -1,5 +1,6 @@
-// The pictures that need cairo: a name with an unknown ending is refused.
-#include <sightline/draw.h>
+// The pictures that need cairo: a name with an unknown ending is refused, and
+// a frame shows all of a map.
+#include <sightline/canvas.h>
 
 #include <stdio.h>
 
@@ -11,5 +12,7 @@ int main(void) {
     sl_status status = sl_draw_file(context, &baked, &options, "picture.doc");
     printf("%s: %s\n", sl_status_name(status), sl_context_message(context));
     sl_context_destroy(context);
+    const sl_frame frame = sl_frame_fit((sl_box){{0, 0}, {4, 3}}, 0, 0, 800, 600, 1);
+    if (frame.scale != 200) return 1;
     return status == SL_BAD_ARGUMENT ? 0 : 1;
 }

@@ -1,0 +1,198 @@
+/// The space as sight finds it for the time being: the portals of shut doors become walls, and
+/// directed portals that one-way glass blocks are left out.
+#include "effects/effects.h"
+#include "geometry/orient.h"
+
+#include <string.h>
+
+typedef struct maker {
+    const sl_space *from;
+    uint32_t eye_cell;
+    const sl_filtered_space *filtered;
+    uint32_t *portals; ///< new numbers; UINT32_MAX for walls
+    bool *barred;      ///< directed portals that are left out, walls' ones among them
+    sl_space *out;
+} maker;
+
+/// Going from its a to its b, glass is seen through from its right to its left. A straight line
+/// that crosses it comes from the side that the eye is on; an eye on its line is where its cell is.
+static bool is_blocked(const maker *m, const sl_segment *glass) {
+    const int side = sli_orient(glass->a, glass->b, *m->filtered->eye);
+    if (side || m->eye_cell == SL_NO_CELL) return side > 0;
+    const sl_cell *cell = &m->from->cells[m->eye_cell];
+    for (uint32_t i = 0; i < cell->vertex_count; i++)
+        if (sli_orient(glass->a, glass->b, m->from->vertices[cell->first_vertex + i]) > 0)
+            return true;
+    return false;
+}
+
+static bool is_shut(const maker *m, uint32_t portal) {
+    size_t count;
+    const sl_seam_portal *on = sl_space_seams_of(m->from, portal, &count);
+    for (size_t i = 0; i < count; i++) {
+        const sl_seam *seam = &m->from->seams[on[i].seam];
+        if (seam->kind == SL_SEAM_DOOR && m->filtered->shut && m->filtered->shut[seam->number])
+            return true;
+        if (seam->kind == SL_SEAM_ONEWAY && m->filtered->eye && is_blocked(m, &seam->at))
+            return true;
+    }
+    return false;
+}
+
+/// What of the space goes on as it is.
+static sl_status copy(sl_context *context, void **to, const void *from, size_t count, size_t size,
+                      size_t more) {
+    if (!from) return SL_OK;
+    *to = sl_alloc_array(context, count + more, size);
+    if (!*to) return SL_NO_MEMORY;
+    if (count) memcpy(*to, from, count * size);
+    return SL_OK;
+}
+
+#define COPY(items, count, more)                                                                   \
+    SL_TRY(copy(context, (void **)&s->items, f->items, f->count, sizeof *s->items, (more)))
+
+static sl_status copy_space(sl_context *context, maker *m, size_t walls) {
+    const sl_space *f = m->from;
+    sl_space *s = m->out;
+    *s = *f;
+    s->nodes = NULL, s->cells = NULL, s->vertices = NULL, s->portals = NULL, s->directed = NULL;
+    s->walls = NULL, s->neighbour = NULL, s->seams = NULL, s->seam_portals = NULL;
+    s->grid.first = s->grid.cells = NULL;
+    COPY(nodes, node_count, 0);
+    COPY(cells, cell_count, 0);
+    COPY(vertices, vertex_count, 0);
+    COPY(portals, portal_count, 0);
+    COPY(directed, directed_count, 0);
+    COPY(walls, wall_count, walls);
+    COPY(neighbour, vertex_count, 0);
+    COPY(grid.first, grid.columns * (size_t)f->grid.rows + 1, 0);
+    COPY(grid.cells, grid.entry_count, 0);
+    COPY(seams, seam_count, 0);
+    COPY(seam_portals, seam_portal_count, 0);
+    return SL_OK;
+}
+
+/// Makes walls of the portals on doors that are shut.
+static void shut_portals(maker *m) {
+    sl_space *s = m->out;
+    s->portal_count = s->seam_portal_count = 0;
+    for (uint32_t i = 0; i < m->from->portal_count; i++) {
+        const sl_portal *portal = &m->from->portals[i];
+        if (m->portals[i] == UINT32_MAX)
+            s->walls[s->wall_count++] = (sl_wall){.a = portal->right, .b = portal->left};
+        else
+            s->portals[s->portal_count++] = *portal;
+    }
+    for (uint32_t i = 0; i < m->from->seam_portal_count; i++) {
+        sl_seam_portal on = m->from->seam_portals[i];
+        on.portal = m->portals[on.portal];
+        if (on.portal != UINT32_MAX) s->seam_portals[s->seam_portal_count++] = on;
+    }
+}
+
+/// The wall that a portal has become, counted as shut_portals does.
+static void number_walls(const maker *m, uint32_t *walls) {
+    uint32_t next = m->from->wall_count;
+    for (uint32_t i = 0; i < m->from->portal_count; i++)
+        walls[i] = m->portals[i] == UINT32_MAX ? next++ : UINT32_MAX;
+}
+
+/// Marks the sides of a mesh's cells that are walls now. The new walls run from the right
+/// end to the left one as crossed from cell[0], which is on their left.
+static void tell_sides(const maker *m, const uint32_t *walls) {
+    const sl_space *f = m->from;
+    for (uint32_t i = 0; i < f->cell_count; i++) {
+        const sl_cell *cell = &f->cells[i];
+        uint32_t directed = cell->first_directed;
+        for (uint32_t k = 0; k < cell->vertex_count; k++) {
+            uint32_t *what = &m->out->neighbour[cell->first_vertex + k];
+            if (*what != SL_NEIGHBOUR_PORTAL) continue;
+            const uint32_t portal = f->directed[directed++].portal;
+            if (walls[portal] != UINT32_MAX)
+                *what = walls[portal] | (f->portals[portal].cell[0] == i ? 0 : SL_NEIGHBOUR_RIGHT);
+        }
+    }
+}
+
+static void drop_directed(maker *m) {
+    sl_space *s = m->out;
+    s->directed_count = 0;
+    for (uint32_t i = 0; i < s->cell_count; i++) {
+        const sl_cell *from = &m->from->cells[i];
+        s->cells[i].first_directed = s->directed_count;
+        for (uint32_t k = from->first_directed; k < from->first_directed + from->directed_count;
+             k++) {
+            if (m->barred[k]) continue;
+            sl_directed_portal directed = m->from->directed[k];
+            directed.portal = m->portals[directed.portal];
+            s->directed[s->directed_count++] = directed;
+        }
+        s->cells[i].directed_count = s->directed_count - s->cells[i].first_directed;
+    }
+}
+
+static sl_status make(sl_context *context, maker *m) {
+    const sl_space *f = m->from;
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < f->portal_count; i++)
+        m->portals[i] = is_shut(m, i) ? UINT32_MAX : kept++;
+    for (uint32_t i = 0; i < f->cell_count; i++)
+        for (uint32_t k = f->cells[i].first_directed;
+             k < f->cells[i].first_directed + f->cells[i].directed_count; k++) {
+            const uint32_t portal = f->directed[k].portal;
+            m->barred[k] = m->portals[portal] == UINT32_MAX ||
+                           (m->filtered->one_way && sl_portal_is_blocked(f, i, k));
+        }
+    SL_TRY(copy_space(context, m, f->portal_count - kept));
+    shut_portals(m);
+    drop_directed(m);
+    if (!f->neighbour) return SL_OK;
+    uint32_t *walls = sl_alloc_array(context, f->portal_count, sizeof *walls);
+    if (!walls) return SL_NO_MEMORY;
+    number_walls(m, walls);
+    tell_sides(m, walls);
+    sl_free(context, walls);
+    return SL_OK;
+}
+
+sl_status sl_filtered_space_make(sl_context *context, const sl_space *space,
+                                 const sl_filtered_space *filtered, uint32_t *portals,
+                                 sl_space *out) {
+    sl_space made = {0};
+    maker m = {.from = space, .filtered = filtered, .portals = portals, .out = &made};
+    if (filtered->eye) m.eye_cell = sl_space_locate(space, *filtered->eye);
+    uint32_t *own = NULL;
+    if (!portals) m.portals = own = sl_alloc_array(context, space->portal_count, sizeof *own);
+    m.barred = sl_alloc_array(context, space->directed_count, sizeof *m.barred);
+    const sl_status status = m.portals && m.barred ? make(context, &m) : SL_NO_MEMORY;
+    sl_free(context, own);
+    sl_free(context, m.barred);
+    if (status == SL_OK)
+        *out = made;
+    else
+        sl_space_destroy(context, &made);
+    return status;
+}
+
+// --- one-way glass
+
+bool sl_portal_is_blocked(const sl_space *space, uint32_t cell, uint32_t directed) {
+    const uint32_t portal = space->directed[directed].portal;
+    const bool forward = space->portals[portal].cell[0] == cell;
+    size_t count;
+    const sl_seam_portal *on = sl_space_seams_of(space, portal, &count);
+    for (size_t i = 0; i < count; i++)
+        if (space->seams[on[i].seam].kind == SL_SEAM_ONEWAY && on[i].forward != forward)
+            return true;
+    return false;
+}
+
+sl_status sli_oneway_filtered(sl_context *context, const sl_space *space, const sl_plan *plan,
+                              sl_space *made, const sl_space **through) {
+    const sl_filtered_space filtered = {.one_way = true};
+    const bool called_for = plan && plan->effects & SL_EFFECT_ONEWAY;
+    if (called_for) SL_TRY(sl_filtered_space_make(context, space, &filtered, NULL, made));
+    *through = called_for ? made : space;
+    return SL_OK;
+}

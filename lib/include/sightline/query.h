@@ -1,0 +1,116 @@
+/// Questions to a baked map: where is a point, what sees what, what does an eye see. Doors, boxes,
+/// range and mirrors can be set between questions; nothing is baked again.
+///
+///     sl_query *query;
+///     uint64_t *cells = calloc(sl_eye_words(&baked.space), sizeof *cells);
+///     sl_query_create(context, &baked, &query);
+///     sl_query_set_door(context, query, "front", false);
+///     sl_view view = sl_query_view(query, eye, 90, 60);
+///     sl_query_look(context, query, &view, NULL, cells, NULL);
+///
+/// Answers are exact where the bake is, unless a method of culling is asked for that is looser. An
+/// eye outside the bounds sees nothing. All questions about an eye fail (SL_UNSUPPORTED) on a map
+/// that has mirrors and one-way glass. Numbers of cells are those of the baked space.
+#ifndef SIGHTLINE_QUERY_H
+#define SIGHTLINE_QUERY_H
+
+#include "sightline/bake.h"
+#include "sightline/eye_to_cell.h"
+#include "sightline/mirrored.h"
+#include "sightline/region.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Serves one thread at a time. What a question needs is made when it is first asked, and kept
+/// until a setting changes.
+typedef struct sl_query sl_query;
+
+/// Doors are as the map has them, the range is the map's, sightlines are reflected once, and there
+/// are no boxes. `baked` must outlive the query. SL_BAD_ARGUMENT for a shard.
+SL_API sl_status sl_query_create(sl_context *context, const sl_baked *baked, sl_query **out);
+
+/// The same for a baked file, which the query then owns. Fails as sl_baked_read does.
+SL_API sl_status sl_query_open(sl_context *context, const char *path, sl_query **out);
+
+/// Frees a query, and the baked file where it has read one. NULL is allowed.
+SL_API void sl_query_destroy(sl_context *context, sl_query *query);
+
+/// What is asked.
+SL_API const sl_baked *sl_query_baked(const sl_query *query);
+
+// --- settings
+
+/// Opens or shuts all doors of a name. SL_BAD_ARGUMENT, with the names there are, for one that the
+/// map does not have. Questions to a map with mirrors fail (SL_UNSUPPORTED) while a door is shut.
+SL_API sl_status sl_query_set_door(sl_context *context, sl_query *query, const char *name,
+                                   bool open);
+/// All doors at once: open, or shut.
+SL_API void sl_query_set_doors(sl_context *context, sl_query *query, bool open);
+
+/// Boxes that block sight or are to be seen themselves (sightline/moving.h), in place of those
+/// before. They are copied. The next question fails as sl_moving_place does.
+SL_API sl_status sl_query_set_boxes(sl_context *context, sl_query *query,
+                                    const sl_moving_box *boxes, size_t count);
+
+/// How far is seen, in map units; 0 for no limit. SL_BAD_ARGUMENT for less and for values that are
+/// not finite; and for more than the map's own range, where it has one: the visible sets know of
+/// nothing farther.
+SL_API sl_status sl_query_set_range(sl_context *context, sl_query *query, double range);
+
+/// How often mirrors reflect a sightline at most: 0 to 16, else SL_BAD_ARGUMENT.
+SL_API sl_status sl_query_set_mirror_depth(sl_context *context, sl_query *query, uint32_t depth);
+
+// --- questions
+
+/// The cell that holds a point; SL_NO_CELL outside the bounds.
+SL_API uint32_t sl_query_locate(const sl_query *query, sl_point point);
+
+/// Whether some point of cell `from` sees some point of cell `to` directly, with the doors as they
+/// are: the visible sets' answer.
+SL_API sl_status sl_query_cell_sees(sl_context *context, sl_query *query, uint32_t from,
+                                    uint32_t to, bool *out);
+
+/// Whether an eye sees a point directly, past boxes and within range, as sl_sees says with the
+/// sight of the bake.
+SL_API sl_status sl_query_can_see(sl_context *context, sl_query *query, sl_point eye,
+                                  sl_point point, bool *out);
+
+/// A view from an eye: heading in degrees counter-clockwise from +x, width in degrees. A width of
+/// 360 is all round.
+SL_API sl_view sl_query_view(const sl_query *query, sl_point eye, double heading, double fov);
+
+/// The cells that a view sees directly: sl_eye_words() words, a bit a cell. `method`: NULL for the
+/// exact one, or one of sl_eye_methods(). The exact one sees past boxes and within range; the
+/// others take no notice of either and keep more. `account` may be NULL. Fails as the method does.
+SL_API sl_status sl_query_look(sl_context *context, sl_query *query, const sl_view *view,
+                               const sl_eye_method *method, uint64_t *cells,
+                               sl_eye_account *account);
+
+/// Likewise the cells that it sees by mirror. Methods other than the exact one give what was baked,
+/// so no more reflections than the bake's. None where the map has no mirror or the depth is 0.
+/// SL_UNSUPPORTED where the method does not know mirrors (sl_eye_method.mirrored).
+SL_API sl_status sl_query_look_mirrored(sl_context *context, sl_query *query, const sl_view *view,
+                                        const sl_eye_method *method, uint64_t *cells,
+                                        sl_eye_account *account);
+
+/// By box, whether it is seen directly, and (`mirrored`, which may be NULL) by mirror, as
+/// sl_moving_look says.
+SL_API sl_status sl_query_boxes_seen(sl_context *context, sl_query *query, const sl_view *view,
+                                     bool *seen, bool *mirrored);
+
+/// The visible region of a view, past boxes and within range (sl_region_make).
+SL_API sl_status sl_query_region(sl_context *context, sl_query *query, const sl_view *view,
+                                 sl_region *out);
+
+/// The same with what is seen by mirror (sl_mirrored_region_make); without a mirror, the direct
+/// region alone.
+SL_API sl_status sl_query_mirrored_region(sl_context *context, sl_query *query, const sl_view *view,
+                                          sl_mirrored_region *out);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,151 @@
+/// The formats of sightline_io, and how a file of each is known by its first bytes.
+#include "sightline/io.h"
+
+#include "io/wad.h"
+
+#include <string.h>
+
+static bool knows_svg(const char *text, size_t size) {
+    (void)size;
+    return *text == '<' && strstr(text, "<svg");
+}
+
+static bool knows_image(const char *text, size_t size) {
+    return (size > 4 && memcmp(text, "\x89PNG", 4) == 0) ||
+           (size > 3 && text[0] == 'P' && memchr("1245", text[1], 4) &&
+            memchr(" \t\r\n#", text[2], 5));
+}
+
+static bool knows_tmx(const char *text, size_t size) {
+    (void)size;
+    return *text == '<' && strstr(text, "<map") && strstr(text, "tilewidth");
+}
+
+/// Whether the text begins as JSON does and has both words in quotation marks somewhere.
+static bool is_json_with(const char *text, const char *word, const char *other) {
+    const char *at = text + strspn(text, "\xef\xbb\xbf \t\r\n");
+    return (*at == '{' || *at == '[') && strstr(at, word) && strstr(at, other);
+}
+
+static bool knows_tmj(const char *text, size_t size) {
+    (void)size;
+    return is_json_with(text, "\"tilewidth\"", "\"layers\"");
+}
+
+static bool knows_ldtk(const char *text, size_t size) {
+    (void)size;
+    return is_json_with(text, "\"__header__\"", "\"ldtk") ||
+           is_json_with(text, "\"__header__\"", "LDtk");
+}
+
+static bool knows_uvtt(const char *text, size_t size) {
+    (void)size;
+    return is_json_with(text, "\"line_of_sight\"", "\"resolution\"");
+}
+
+static bool knows_export(const char *text, size_t size) {
+    (void)size;
+    return is_json_with(text, "\"format\"", "\"sightline\"");
+}
+
+static bool knows_foundry(const char *text, size_t size) {
+    (void)size;
+    return is_json_with(text, "\"c\"", "\"move\"") ||
+           is_json_with(text, "\"walls\"", "\"padding\"");
+}
+
+static bool knows_wad(const char *text, size_t size) {
+    return sli_wad_known(text, size);
+}
+
+static const sl_map_format map_formats[] = {
+    {.name = "unigrafix",
+     .endings = ".ug",
+     .what = "a UniGrafix model, cut at a height",
+     .read = sl_map_read_unigrafix,
+     .heights = sl_map_heights_unigrafix,
+     .takes = SL_TAKES_SLICE},
+    {.name = "dxf",
+     .endings = ".dxf",
+     .what = "a DXF drawing",
+     .read = sl_map_read_dxf,
+     .takes = SL_TAKES_LAYERS | SL_TAKES_TOLERANCE | SL_TAKES_UNIT},
+    {.name = "svg",
+     .endings = ".svg",
+     .what = "an SVG drawing",
+     .read = sl_map_read_svg,
+     .takes = SL_TAKES_LAYERS | SL_TAKES_TOLERANCE,
+     .knows = knows_svg},
+    {.name = "image",
+     .endings = ".png .pgm .pbm",
+     .what = "a picture: its dark pixels are solid",
+     .read = sl_map_read_image,
+     .takes = SL_TAKES_THRESHOLD,
+     .knows = knows_image},
+    {.name = "ros",
+     .endings = ".yaml .yml",
+     .what = "a map of ROS: a picture with its scale",
+     .read = sl_map_read_ros,
+     .takes = SL_TAKES_THRESHOLD},
+    {.name = "tmx",
+     .endings = ".tmx",
+     .what = "a map of Tiled",
+     .read = sl_map_read_tmx,
+     .takes = SL_TAKES_LAYERS | SL_TAKES_TOLERANCE,
+     .knows = knows_tmx},
+    {.name = "export",
+     .endings = ".json",
+     .what = "the walls of an export of ours",
+     .read = sl_map_read_export,
+     .knows = knows_export},
+    {.name = "tmj",
+     .endings = ".tmj .json",
+     .what = "a map of Tiled, as JSON",
+     .read = sl_map_read_tmj,
+     .takes = SL_TAKES_LAYERS | SL_TAKES_TOLERANCE,
+     .knows = knows_tmj},
+    {.name = "ldtk",
+     .endings = ".ldtk .ldtkl .json",
+     .what = "a project or a level of LDtk",
+     .read = sl_map_read_ldtk,
+     .takes = SL_TAKES_LAYERS,
+     .list = sl_map_list_ldtk,
+     .knows = knows_ldtk},
+    {.name = "uvtt",
+     .endings = ".dd2vtt .uvtt .df2vtt .json",
+     .what = "a Universal VTT map",
+     .read = sl_map_read_uvtt,
+     .takes = SL_TAKES_LAYERS | SL_TAKES_DOORS,
+     .knows = knows_uvtt},
+    {.name = "foundry",
+     .endings = ".json",
+     .what = "a scene of Foundry VTT",
+     .read = sl_map_read_foundry,
+     .takes = SL_TAKES_DOORS,
+     .knows = knows_foundry},
+    {.name = "wad",
+     .endings = ".wad",
+     .what = "a Doom WAD, classic, Hexen's or UDMF",
+     .read = sl_map_read_wad,
+     .takes = SL_TAKES_DOORS | SL_TAKES_CELLS | SL_TAKES_SECTORS,
+     .list = sl_map_list_wad,
+     .knows = knows_wad},
+};
+
+static const sl_export_format export_formats[] = {
+    {.name = "png",
+     .what = "the matrix of pairs as a picture, black where row sees column",
+     .write = sl_export_png},
+    {.name = "reject",
+     .what = "a copy of a Doom WAD with the map's REJECT made anew; needs --wad and --map",
+     .takes_wad = true,
+     .write = sl_export_reject},
+};
+
+sl_status sl_io_use(sl_context *context) {
+    const sl_status status =
+        sl_map_formats_add(context, map_formats, sizeof map_formats / sizeof *map_formats);
+    if (status != SL_OK) return status;
+    return sl_export_formats_add(context, export_formats,
+                                 sizeof export_formats / sizeof *export_formats);
+}

@@ -1,0 +1,57 @@
+/// Names: the layers that a user asks for, the words that say "solid", the files that a file names.
+#ifndef SL_NAMES_H
+#define SL_NAMES_H
+
+#include "map/scan.h"
+#include "sightline/support.h"
+
+#include <stdbool.h>
+
+// --- layers: names with commas between
+
+/// The next name of a list, moving `*list` behind it, without the blanks about it; false at the
+/// end. Empty names are passed over.
+static inline bool sli_layers_next(const char **list, sli_word *name) {
+    while (**list) {
+        const char *begin = *list, *end = begin + strcspn(begin, ",");
+        *list = *end ? end + 1 : end;
+        while (begin < end && *begin == ' ') begin++;
+        while (end > begin && end[-1] == ' ') end--;
+        *name = (sli_word){begin, (size_t)(end - begin)};
+        if (name->length) return true;
+    }
+    return false;
+}
+
+/// Whether a layer of this name is in the list.
+static inline bool sli_layers_have(const char *list, const char *layer) {
+    for (sli_word name; sli_layers_next(&list, &name);)
+        if (sli_word_is(name, layer)) return true;
+    return false;
+}
+
+// --- words for what stops sight
+
+/// Whether all words of the name are words for what is solid (wall, solid, collision, collider,
+/// obstacle, block, blocked, blocking, blocker, occluder, occlusion, opaque, impassable, one or
+/// many) or for nothing in particular (layer, tile, object, group, map, area, shape, box), one of
+/// the first at least. Words are runs of letters, in small letters or capitals, and end before a
+/// capital that follows a small letter: "Collision_Layer 2", "wallTiles", but not "wall_tops".
+bool sli_says_solid(const char *name);
+
+// --- tilesets, levels and pictures in other files
+
+/// The path of the file `relative`, as the file `name` calls it: from where that one lies, unless
+/// it is a whole path; `\` is as good as `/`. sl_free is the caller's; NULL for lack of memory.
+char *sli_beside_path(sl_context *context, const char *name, const char *relative);
+
+/// Whether there is a plain file: a device may never end.
+bool sli_beside_is_there(const char *path);
+
+/// Reads such a file. `path` gets the path it was read from, bytes->data the bytes; sl_free is the
+/// caller's for both. SL_BAD_INPUT, naming both files, where it cannot be read or is no plain file
+/// of at most 2^30 bytes.
+sl_status sli_beside_read(sl_context *context, const char *name, const char *relative, char **path,
+                          sl_bytes *bytes);
+
+#endif

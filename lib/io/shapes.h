@@ -1,0 +1,84 @@
+/// What drawings and games are made of, as walls: lines and curves by a pen, and solid tiles.
+#ifndef SL_SHAPES_H
+#define SL_SHAPES_H
+
+#include "map/grid.h"
+#include "sightline/map.h"
+#include "sightline/support.h"
+
+// --- the pen. Curves become chords that end on the curve. No point of the curve is farther than
+// --- the tolerance from its chord, in the map's unit; by default no farther than 1/200 of the
+// curve's
+// --- own size (32 chords a circle)
+
+/// x' = xx x + xy y + x0, y' = yx x + yy y + y0.
+typedef struct sli_affine {
+    double xx, xy, x0, yx, yy, y0;
+} sli_affine;
+
+#define SLI_AFFINE_NONE ((sli_affine){.xx = 1, .yy = 1})
+
+/// The map that does `inner` first, then `outer`.
+sli_affine sli_affine_after(sli_affine outer, sli_affine inner);
+/// About the origin; multiples of a quarter turn are exact.
+sli_affine sli_affine_turn(double degrees);
+
+typedef struct sli_pen {
+    sl_context *context;
+    const char *name; ///< of the file, for messages
+    sl_map *map;
+    sli_affine affine; ///< from the drawing's coordinates to the map's
+    double tolerance;  ///< in the map's unit; 0: the usual
+    uint32_t line;     ///< of the file, where walls are said to be from
+    sl_point at;       ///< the pen, in the drawing's coordinates
+    size_t walls;      ///< drawn
+    size_t points;     ///< lines of no length, left out
+} sli_pen;
+
+/// Each draws from where the pen is, and moves it. SL_BAD_INPUT where the map's coordinate would
+/// not be usable, or where there are more walls than 2^24.
+sl_status sli_pen_line(sli_pen *pen, sl_point to);
+/// The arc centre + u cos t + v sin t for t from 0 to `sweep` (radians, up to a full turn either
+/// way), to `to`, which is where it ends but for rounding.
+sl_status sli_pen_arc(sli_pen *pen, sl_point centre, sl_point u, sl_point v, double sweep,
+                      sl_point to);
+/// A cubic Bézier curve with two control points.
+sl_status sli_pen_cubic(sli_pen *pen, sl_point first, sl_point second, sl_point to);
+
+// --- tiles, gathered block by block (layers, chunks, levels), then made into walls. Places are in
+// --- pixels, y down, as the files have them; the walls have y up
+
+typedef struct sli_tile_block {
+    sl_point corner;      ///< the upper left one
+    sl_point step;        ///< the size of a tile, over 0
+    size_t columns, rows; ///< at least 1
+    char *squares;        ///< row after row, '#' solid, '.' open
+    bool done;            ///< its walls are made
+} sli_tile_block;
+
+/// Zero it to start.
+typedef struct sli_tiles {
+    SL_ARRAY(sli_tile_block) blocks;
+} sli_tiles;
+
+void sli_tiles_destroy(sl_context *context, sli_tiles *tiles);
+
+/// Adds a block of open squares and gives them to be filled in; they belong to `tiles`.
+/// SL_BAD_INPUT, naming the file, where the block lies so far out or has so many squares that their
+/// corners would round to the same place.
+sl_status sli_tiles_add(sl_context *context, sli_tiles *tiles, const char *name, sl_point corner,
+                        sl_point step, size_t columns, size_t rows, char **squares);
+
+typedef struct sli_tiles_options {
+    double top;         ///< the files' y that is 0 in the map
+    bool solid_between; ///< what no block covers is solid; else it is open
+    bool all_closed;    ///< beyond each grid all is solid; else only beyond the first one
+} sli_tiles_options;
+
+/// Blocks whose tiles lie on one grid become one: a square is solid where any of them says so. Then
+/// each grid gives its walls, few and long. `*grids` counts the grids. SL_BAD_INPUT where a grid is
+/// larger than 2^26 squares, or 2^20 on a side, or there are more than 4096.
+sl_status sli_tiles_add_walls(sl_context *context, sli_tiles *tiles, const char *name,
+                              const sli_tiles_options *options, sl_map *map, size_t *grids);
+
+#endif

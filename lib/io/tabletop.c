@@ -1,0 +1,388 @@
+/// Maps that are JSON with a list of walls: Universal VTT (Dungeondraft, Arkenforge, DungeonFog),
+/// the scenes of Foundry Virtual Tabletop, and our own JSON export.
+#include "geometry/orient.h"
+#include "io/document.h"
+#include "io/names.h"
+#include "map/scan.h"
+#include "sightline/io.h"
+
+#include <math.h>
+
+// --- Universal VTT: walls as polylines, and portals
+
+typedef struct uvtt {
+    sl_context *context;
+    const sl_import_options *options;
+    sl_map *map;
+    double top; ///< the file's y that is 0 in the map, which has y up
+    size_t walls, points;
+    size_t open, closed;
+} uvtt;
+
+static const char *const layer_names[] = {"line_of_sight", "objects_line_of_sight", "portals"};
+enum { LAYER_COUNT = sizeof layer_names / sizeof *layer_names };
+
+static sl_status read_point(const uvtt *reader, const sli_json *at, sl_point *point) {
+    SL_TRY(sli_json_object(at));
+    const sli_json x = sli_json_member(at, "x"), y = sli_json_member(at, "y");
+    sl_point read = {0};
+    SL_TRY(sli_json_number(&x, &read.x));
+    SL_TRY(sli_json_number(&y, &read.y));
+    read.y = reader->top - read.y;
+    if (!sl_coordinate_usable(read.y)) return sli_json_fail(&y, "out of range once y points up");
+    *point = read;
+    return SL_OK;
+}
+
+static sl_status read_polyline(uvtt *reader, const sli_json *line) {
+    size_t count;
+    SL_TRY(sli_json_array(line, &count));
+    sl_point before = {0};
+    for (size_t i = 0; i < count; i++) {
+        const sli_json item = sli_json_item(line, i);
+        sl_point point;
+        SL_TRY(read_point(reader, &item, &point));
+        if (i && !sli_same_point(before, point)) {
+            SL_TRY(sl_map_add_wall(reader->context, reader->map, before, point, 0));
+            reader->walls++;
+        } else if (i) {
+            reader->points++;
+        }
+        before = point;
+    }
+    return SL_OK;
+}
+
+static sl_status read_polylines(uvtt *reader, const sli_json *lines) {
+    size_t count;
+    SL_TRY(sli_json_array(lines, &count));
+    for (size_t i = 0; i < count; i++) {
+        SL_TRY(sl_check_cancelled(reader->context));
+        const sli_json line = sli_json_item(lines, i);
+        SL_TRY(read_polyline(reader, &line));
+    }
+    return SL_OK;
+}
+
+static sl_status add_portal(uvtt *reader, sl_segment at, bool open) {
+    if (sli_same_point(at.a, at.b)) {
+        reader->points++;
+        return SL_OK;
+    }
+    *(open ? &reader->open : &reader->closed) += 1;
+    if (!reader->options->doors)
+        return open ? SL_OK : sl_map_add_wall(reader->context, reader->map, at.a, at.b, 0);
+    char name[32];
+    snprintf(name, sizeof name, "door%zu", reader->map->door_count + 1);
+    return sl_map_add_door(reader->context, reader->map, name, at, open, 0);
+}
+
+static sl_status read_portals(uvtt *reader, const sli_json *portals) {
+    size_t count;
+    SL_TRY(sli_json_array(portals, &count));
+    for (size_t i = 0; i < count; i++) {
+        const sli_json portal = sli_json_item(portals, i);
+        SL_TRY(sli_json_object(&portal));
+        const sli_json bounds = sli_json_member(&portal, "bounds");
+        const sli_json closed = sli_json_member(&portal, "closed");
+        size_t ends;
+        SL_TRY(sli_json_array(&bounds, &ends));
+        if (ends != 2) return sli_json_fail(&bounds, "a portal has 2 ends, this one %zu", ends);
+        const sli_json from = sli_json_item(&bounds, 0), to = sli_json_item(&bounds, 1);
+        sl_segment at;
+        SL_TRY(read_point(reader, &from, &at.a));
+        SL_TRY(read_point(reader, &to, &at.b));
+        bool said;
+        const bool is_closed = sli_json_true(&closed, &said);
+        if (closed.value && !said) return sli_json_fail(&closed, "expected true or false");
+        // A portal that does not say so is shut, as in the programs that draw it.
+        SL_TRY(add_portal(reader, at, closed.value && !is_closed));
+    }
+    return SL_OK;
+}
+
+/// The lower edge of the map is y 0: its origin and its size say where that is.
+static sl_status read_size(uvtt *reader, const sli_json *root) {
+    const sli_json resolution = sli_json_member(root, "resolution");
+    SL_TRY(sli_json_object(&resolution));
+    const sli_json size = sli_json_member(&resolution, "map_size");
+    const sli_json origin = sli_json_member(&resolution, "map_origin");
+    const sli_json height = sli_json_member(&size, "y"), y = sli_json_member(&origin, "y");
+    double first = 0, rows;
+    SL_TRY(sli_json_number_if(&y, &first));
+    SL_TRY(sli_json_number(&height, &rows));
+    reader->top = first + rows;
+    return SL_OK;
+}
+
+static bool takes(const uvtt *reader, const char *layer) {
+    return !reader->options->layers || sli_layers_have(reader->options->layers, layer);
+}
+
+static sl_status check_layers(const uvtt *reader, const char *name) {
+    const char *list = reader->options->layers;
+    for (sli_word word; list && sli_layers_next(&list, &word);) {
+        bool known = false;
+        for (size_t i = 0; i < LAYER_COUNT; i++) known |= sli_word_is(word, layer_names[i]);
+        if (!known)
+            return sl_fail(reader->context, SL_BAD_ARGUMENT,
+                           "%s: there is no layer '%s': a Universal VTT file has line_of_sight, "
+                           "objects_line_of_sight and portals",
+                           name, sli_show(word).text);
+    }
+    return SL_OK;
+}
+
+static sl_status read_uvtt(uvtt *reader, const sli_json *root) {
+    SL_TRY(sli_json_object(root));
+    SL_TRY(read_size(reader, root));
+    const sli_json lines = sli_json_member(root, layer_names[0]);
+    const sli_json objects = sli_json_member(root, layer_names[1]);
+    const sli_json portals = sli_json_member(root, layer_names[2]);
+    // Files of the format's first versions have no list of objects.
+    if (takes(reader, layer_names[0])) SL_TRY(read_polylines(reader, &lines));
+    const size_t of_lines = reader->walls;
+    if (takes(reader, layer_names[1]) && objects.value) SL_TRY(read_polylines(reader, &objects));
+    if (takes(reader, layer_names[2]) && portals.value) SL_TRY(read_portals(reader, &portals));
+    const sli_json lights = sli_json_member(root, "lights");
+    char top[SL_NUMBER_TEXT];
+    sl_number_write(reader->top, top);
+    sl_note(reader->context,
+            "%s: %zu walls of line_of_sight, %zu of objects_line_of_sight; %zu closed portals "
+            "taken as %s, %zu open ones %s; left out: %zu lines of no length, %zu lights; unit: "
+            "grid squares, y = %s - the file's y",
+            root->file->name, of_lines, reader->walls - of_lines, reader->closed,
+            reader->options->doors ? "doors" : "walls", reader->open,
+            reader->options->doors ? "as doors" : "left out", reader->points,
+            json_array_size(lights.value), top);
+    return SL_OK;
+}
+
+sl_status sl_map_read_uvtt(sl_context *context, const char *name, const char *text, size_t size,
+                           const sl_import_options *options, sl_map *map) {
+    sli_json_file file;
+    sl_map read = {0};
+    uvtt reader = {.context = context, .options = options, .map = &read};
+    SL_TRY(check_layers(&reader, name));
+    SL_TRY(sli_json_open(context, name, text, size, &file));
+    const sli_json root = sli_json_root(&file);
+    const sl_status status = read_uvtt(&reader, &root);
+    sli_json_close(&file);
+    if (status == SL_OK)
+        *map = read;
+    else
+        sl_map_destroy(context, &read);
+    return status;
+}
+
+// --- Foundry: a wall has its two ends "c", what it does to "sight", a side "dir" that it works on,
+// a
+// --- kind of "door" and the door's state "ds" (Foundry's API, WallData)
+
+/// What stops sight. Files older than version 9 say it in "sense" by 0, 1 and 2.
+enum { SIGHT_NONE = 0, SENSE_NORMAL = 1, SENSE_LIMITED = 2, SIGHT_LIMITED = 10, SIGHT_NORMAL = 20 };
+enum { SIGHT_MOST = 40 };
+enum { BOTH_SIDES, LEFT_ONLY, RIGHT_ONLY };
+enum { DOOR_NONE, DOOR_PLAIN, DOOR_SECRET };
+enum { DOOR_CLOSED, DOOR_OPEN, DOOR_LOCKED };
+
+typedef struct foundry {
+    sl_context *context;
+    const sl_import_options *options;
+    sl_map *map;
+    double top; ///< the file's y that is 0 in the map, which has y up: the largest of any wall
+    size_t walls, oneways, open, shut, secret;
+    size_t unseen, limited, near, points; ///< left out
+} foundry;
+
+typedef struct record {
+    sl_segment at;
+    int64_t sight, side, door, state;
+} record;
+
+static sl_status read_ends(const foundry *reader, const sli_json *wall, sl_segment *at) {
+    const sli_json c = sli_json_member(wall, "c");
+    size_t count;
+    SL_TRY(sli_json_array(&c, &count));
+    if (count != 4)
+        return sli_json_fail(&c, "expected 4 numbers: x0, y0, x1, y1; found %zu", count);
+    double values[4];
+    for (size_t i = 0; i < 4; i++) {
+        const sli_json number = sli_json_item(&c, i);
+        SL_TRY(sli_json_number(&number, &values[i]));
+    }
+    *at = (sl_segment){{values[0], reader->top - values[1]}, {values[2], reader->top - values[3]}};
+    if (!sl_coordinate_usable(at->a.y) || !sl_coordinate_usable(at->b.y))
+        return sli_json_fail(&c, "out of range once y points up");
+    return SL_OK;
+}
+
+static sl_status read_record(const foundry *reader, const sli_json *wall, record *read) {
+    SL_TRY(sli_json_object(wall));
+    SL_TRY(read_ends(reader, wall, &read->at));
+    const sli_json sight = sli_json_member(wall, "sight"), sense = sli_json_member(wall, "sense");
+    const sli_json side = sli_json_member(wall, "dir"), door = sli_json_member(wall, "door");
+    const sli_json state = sli_json_member(wall, "ds");
+    SL_TRY(sli_json_whole_if(sight.value ? &sight : &sense, 0, SIGHT_MOST, &read->sight));
+    SL_TRY(sli_json_whole_if(&side, 0, RIGHT_ONLY, &read->side));
+    SL_TRY(sli_json_whole_if(&door, 0, DOOR_SECRET, &read->door));
+    return sli_json_whole_if(&state, 0, DOOR_LOCKED, &read->state);
+}
+
+/// Seen through from where it does not work: a wall for those on its left is passed from its right.
+/// Foundry's left is the eye's left on its screen, going from the first end to the second; turning
+/// y up leaves the picture as it is.
+static sl_status add_wall(foundry *reader, const record *wall) {
+    sl_segment at = wall->at;
+    if (wall->side == BOTH_SIDES) {
+        reader->walls++;
+        return sl_map_add_wall(reader->context, reader->map, at.a, at.b, 0);
+    }
+    if (wall->side == RIGHT_ONLY) at = (sl_segment){at.b, at.a};
+    reader->oneways++;
+    return sl_map_add_oneway(reader->context, reader->map, at, 0);
+}
+
+static sl_status add_door(foundry *reader, const record *wall) {
+    const bool open = wall->state == DOOR_OPEN;
+    *(open ? &reader->open : &reader->shut) += 1;
+    reader->secret += wall->door == DOOR_SECRET;
+    if (!reader->options->doors) {
+        if (open) return SL_OK;
+        SL_TRY(add_wall(reader, wall));
+        *(wall->side == BOTH_SIDES ? &reader->walls : &reader->oneways) -= 1;
+        return SL_OK;
+    }
+    char name[32];
+    snprintf(name, sizeof name, "door%zu", reader->map->door_count + 1);
+    return sl_map_add_door(reader->context, reader->map, name, wall->at, open, 0);
+}
+
+static sl_status take(foundry *reader, const record *wall) {
+    const sl_segment at = wall->at;
+    size_t *left_out = NULL;
+    if (at.a.x == at.b.x && at.a.y == at.b.y)
+        left_out = &reader->points;
+    else if (wall->sight == SIGHT_NONE)
+        left_out = &reader->unseen;
+    else if (wall->sight == SIGHT_LIMITED || wall->sight == SENSE_LIMITED)
+        left_out = &reader->limited;
+    else if (wall->sight != SIGHT_NORMAL && wall->sight != SENSE_NORMAL)
+        left_out = &reader->near;
+    if (left_out) {
+        ++*left_out;
+        return SL_OK;
+    }
+    return wall->door == DOOR_NONE ? add_wall(reader, wall) : add_door(reader, wall);
+}
+
+/// The largest y of all walls in the file.
+static sl_status find_top(foundry *reader, const sli_json *walls, size_t count) {
+    double top = -HUGE_VAL;
+    for (size_t i = 0; i < count; i++) {
+        const sli_json wall = sli_json_item(walls, i);
+        sl_segment at;
+        SL_TRY(sli_json_object(&wall));
+        SL_TRY(read_ends(reader, &wall, &at));
+        top = fmax(top, fmax(-at.a.y, -at.b.y));
+    }
+    reader->top = count ? top : 0;
+    return SL_OK;
+}
+
+static sl_status read_foundry_walls(foundry *reader, const sli_json *walls) {
+    size_t count;
+    SL_TRY(sli_json_array(walls, &count));
+    SL_TRY(find_top(reader, walls, count));
+    for (size_t i = 0; i < count; i++) {
+        if (i % 1024 == 0) SL_TRY(sl_check_cancelled(reader->context));
+        const sli_json wall = sli_json_item(walls, i);
+        record read = {.sight = SIGHT_NORMAL};
+        SL_TRY(read_record(reader, &wall, &read));
+        SL_TRY(take(reader, &read));
+    }
+    char top[SL_NUMBER_TEXT];
+    sl_number_write(reader->top, top);
+    sl_note(reader->context,
+            "%s: %zu walls, %zu one-way; doors: %zu shut, taken as %s, %zu open, %s (%zu of all "
+            "secret); left out: %zu that do not stop sight, %zu that stop it only behind another, "
+            "%zu that stop it by distance, %zu of no length; unit: pixels, y = %s - the file's y",
+            walls->file->name, reader->walls, reader->oneways, reader->shut,
+            reader->options->doors ? "doors" : "walls", reader->open,
+            reader->options->doors ? "taken as doors" : "left out", reader->secret, reader->unseen,
+            reader->limited, reader->near, reader->points, top);
+    return SL_OK;
+}
+
+/// A scene, or a list of walls alone.
+static sl_status read_foundry(foundry *reader, const sli_json *root) {
+    if (json_is_array(root->value)) return read_foundry_walls(reader, root);
+    SL_TRY(sli_json_object(root));
+    const sli_json walls = sli_json_member(root, "walls");
+    return read_foundry_walls(reader, &walls);
+}
+
+sl_status sl_map_read_foundry(sl_context *context, const char *name, const char *text, size_t size,
+                              const sl_import_options *options, sl_map *map) {
+    sli_json_file file;
+    SL_TRY(sli_json_open(context, name, text, size, &file));
+    sl_map read = {0};
+    foundry reader = {.context = context, .options = options, .map = &read};
+    const sli_json root = sli_json_root(&file);
+    const sl_status status = read_foundry(&reader, &root);
+    sli_json_close(&file);
+    if (status == SL_OK)
+        *map = read;
+    else
+        sl_map_destroy(context, &read);
+    return status;
+}
+
+// --- our export: its walls are a map; cells and what they see are made anew
+
+static sl_status read_export_wall(sl_context *context, const sli_json *wall, sl_map *map) {
+    size_t count;
+    double ends[4];
+    SL_TRY(sli_json_array(wall, &count));
+    if (count != 4)
+        return sli_json_fail(wall, "expected 4 numbers: x0, y0, x1, y1; found %zu", count);
+    for (size_t i = 0; i < 4; i++) {
+        const sli_json number = sli_json_item(wall, i);
+        SL_TRY(sli_json_number(&number, &ends[i]));
+    }
+    return sl_map_add_wall(context, map, (sl_point){ends[0], ends[1]}, (sl_point){ends[2], ends[3]},
+                           0);
+}
+
+static sl_status read_export_walls(sl_context *context, const sli_json *root, sl_map *map) {
+    const sli_json walls = sli_json_member(root, "walls");
+    size_t count;
+    SL_TRY(sli_json_object(root));
+    SL_TRY(sli_json_array(&walls, &count));
+    for (size_t i = 0; i < count; i++) {
+        if (i % 1024 == 0) SL_TRY(sl_check_cancelled(context));
+        const sli_json wall = sli_json_item(&walls, i);
+        SL_TRY(read_export_wall(context, &wall, map));
+    }
+    sl_note(context,
+            "%s: an export: its %zu walls are taken; left out: cells, portals and what they "
+            "see",
+            root->file->name, count);
+    return SL_OK;
+}
+
+sl_status sl_map_read_export(sl_context *context, const char *name, const char *text, size_t size,
+                             const sl_import_options *options, sl_map *map) {
+    (void)options;
+    sli_json_file file;
+    SL_TRY(sli_json_open(context, name, text, size, &file));
+    sl_map read = {0};
+    const sli_json root = sli_json_root(&file);
+    const sl_status status = read_export_walls(context, &root, &read);
+    sli_json_close(&file);
+    if (status == SL_OK)
+        *map = read;
+    else
+        sl_map_destroy(context, &read);
+    return status;
+}

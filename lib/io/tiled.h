@@ -1,0 +1,98 @@
+/// The parts of the reader of Tiled maps: notations, tilesets, shapes.
+#ifndef SL_TILED_H
+#define SL_TILED_H
+
+#include "io/document.h"
+#include "io/shapes.h"
+
+// --- XML in the shape of JSON, so that one reader reads both
+
+/// Reads a document whose root element has this name ("map", "tileset"). Numbers stay text, a
+/// polygon's points too; every object knows its line. SL_BAD_INPUT with the line where it is no
+/// such document. sli_json_close is the caller's.
+sl_status sli_tiled_from_xml(sl_context *context, const char *name, const char *root,
+                             const char *text, size_t size, sli_json_file *file);
+
+// --- the tiles of a layer, in all the ways that they are written
+
+/// A tile's number in a layer has these bits for how it is turned; the rest is the tile.
+#define SLI_TILED_ACROSS   0x80000000u ///< mirrored left to right, after the next two
+#define SLI_TILED_DOWN     0x40000000u ///< mirrored top to bottom
+#define SLI_TILED_DIAGONAL 0x20000000u ///< x and y exchanged
+#define SLI_TILED_TILE     0x0fffffffu
+
+/// Reads `count` numbers: an array, or text by the layer's "encoding" (csv, base64) and
+/// "compression" (none, zlib, gzip, zstd). sl_free(*gids) is the caller's. SL_BAD_INPUT where there
+/// are more or fewer, or the text is damaged.
+sl_status sli_tiled_read_data(const sli_json *layer, const sli_json *data, size_t count,
+                              uint32_t **gids);
+
+// --- tilesets, as far as they say what is solid
+
+/// What a layer, a tile or an object says of itself.
+typedef enum sli_tiled_word { SLI_TILED_UNSAID, SLI_TILED_OPEN, SLI_TILED_SOLID } sli_tiled_word;
+
+/// By a property whose name is a word for solid (solid.h) and whose value is true or false; else by
+/// the class (member `class_key`, or "class"), where that is such a word.
+sli_tiled_word sli_tiled_word_of(const sli_json *thing, const char *class_key);
+
+/// A tile that says something of itself, or has shapes to collide with.
+typedef struct sli_tiled_tile {
+    uint32_t id;
+    sli_tiled_word word;
+    json_t *shapes; ///< an array of objects; NULL for none
+} sli_tiled_tile;
+
+typedef struct sli_tiled_set {
+    uint32_t first;                 ///< the number of its first tile in the layers
+    double width, height;           ///< of its tiles, pixels
+    double x, y;                    ///< how far its tiles are drawn from their place
+    sli_tiled_word word;            ///< of all tiles that say nothing
+    SL_ARRAY(sli_tiled_tile) tiles; ///< by id, ascending
+    sli_json_file file;             ///< where it is in a file of its own
+    char *path;                     ///< that file; NULL for none
+    const char *missing;            ///< that file as the map calls it, where it cannot be read
+} sli_tiled_set;
+
+typedef struct sli_tiled_sets {
+    SL_ARRAY(sli_tiled_set) sets; ///< by first number, ascending
+    size_t missing;
+} sli_tiled_sets;
+
+/// Reads the map's tilesets, those in files beside it too. A file that cannot be read is no
+/// failure: its set is marked. The map's tree must outlive the sets.
+sl_status sli_tiled_read_sets(const sli_json *map, sli_tiled_sets *sets);
+void sli_tiled_destroy_sets(sl_context *context, sli_tiled_sets *sets);
+
+/// The set of a tile, by its number without the bits of turning; NULL where no set has it.
+const sli_tiled_set *sli_tiled_find_set(const sli_tiled_sets *sets, uint32_t gid);
+/// What the tile says, or NULL for nothing.
+const sli_tiled_tile *sli_tiled_find_tile(const sli_tiled_set *set, uint32_t gid);
+
+// --- objects as walls: rectangles, ellipses, polygons, polylines
+
+typedef enum sli_tiled_kind {
+    SLI_TILED_RECTANGLE,
+    SLI_TILED_ELLIPSE,
+    SLI_TILED_POLYGON,
+    SLI_TILED_POLYLINE,
+    SLI_TILED_PICTURE, ///< a tile as an object: a rectangle that stands on its place
+    SLI_TILED_OTHER,   ///< a point, a text, a capsule, an instance of a template
+} sli_tiled_kind;
+
+typedef struct sli_tiled_shape {
+    sli_tiled_kind kind;
+    double x, y, width, height; ///< pixels, y down
+    double rotation;            ///< degrees, clockwise, about x, y
+    uint32_t gid;               ///< of a picture
+    uint32_t line;              ///< 0 where there is none
+    sli_json points;            ///< of a polygon or polyline, from x, y
+} sli_tiled_shape;
+
+/// Reads what an object is; `object` must outlive the shape.
+sl_status sli_tiled_read_shape(const sli_json *object, sli_tiled_shape *shape);
+
+/// Draws the outline. The pen's affine leads from the object's layer to the map.
+sl_status sli_tiled_draw_shape(sli_pen *pen, const sli_tiled_shape *shape);
+
+#endif

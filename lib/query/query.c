@@ -1,0 +1,470 @@
+/// A query puts what stands between a bake and an eye in layers, each made only where it is called
+/// for and kept until a setting below it changes:
+///
+///     baked space and sets
+///       doors that are shut: walls in their place, sets without what is seen through them
+///         one-way glass that blocks this eye: walls too
+///           what answers: the search of cells, the outline of rooms, moving boxes, mirrors
+///
+/// A layer that changes nothing is the one below it.
+#include "sightline/query.h"
+
+#include "geometry/crossing.h"
+#include "geometry/orient.h"
+#include "sightline/moving.h"
+#include "sightline/sees.h"
+#include "sightline/support.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MIRROR_DEPTH_MOST = 16 };
+
+/// A space as sight finds it, and the visible sets that go with it.
+typedef struct layer {
+    const sl_space *space;
+    const sl_visibility *visibility;
+    sl_space own_space;           ///< where the layer makes one
+    sl_visibility own_visibility; ///< of the glass: borrowed rows
+} layer;
+
+struct sl_query {
+    const sl_baked *baked;
+    sl_baked own; ///< where the query has read the file
+    bool *shut;   ///< by door of the map
+    double range;
+    uint32_t mirror_depth;
+    sl_moving_box *boxes;
+    size_t box_count;
+    bool boxes_placed; ///< in `moving`
+
+    layer doors, glass;
+    bool has_doors, has_glass; ///< whether the layers are made
+    int8_t *sides;             ///< by seam: the side of one-way glass on which the eye is
+    uint32_t eye_cell;         ///< the eye's that the glass was made for
+
+    // What answers, of the upper layer; NULL where it is not made.
+    sl_eye_search *search;
+    sl_outline *outline;
+    sl_moving *moving;
+    sl_room_mirrors *mirrors; ///< of the outline that is looked at
+};
+
+// --- making and letting go
+
+static void drop_mirrors(sl_context *context, sl_query *q) {
+    if (q->mirrors) sl_room_mirrors_destroy(context, q->mirrors);
+    sl_free(context, q->mirrors);
+    q->mirrors = NULL;
+}
+
+static void drop_boxes(sl_context *context, sl_query *q) {
+    drop_mirrors(context, q);
+    if (q->moving) sl_moving_destroy(context, q->moving);
+    q->moving = NULL;
+    q->boxes_placed = false;
+}
+
+static void drop_answers(sl_context *context, sl_query *q) {
+    drop_boxes(context, q);
+    if (q->search) sl_eye_search_destroy(context, q->search);
+    if (q->outline) sl_outline_destroy(context, q->outline);
+    sl_free(context, q->outline);
+    q->search = NULL;
+    q->outline = NULL;
+}
+
+static void drop_glass(sl_context *context, sl_query *q) {
+    drop_answers(context, q);
+    sl_space_destroy(context, &q->glass.own_space);
+    q->has_glass = false;
+}
+
+static void drop_doors(sl_context *context, sl_query *q) {
+    drop_glass(context, q);
+    sl_space_destroy(context, &q->doors.own_space);
+    sl_visibility_destroy(context, &q->doors.own_visibility);
+    q->has_doors = false;
+}
+
+void sl_query_destroy(sl_context *context, sl_query *query) {
+    if (!query) return;
+    drop_doors(context, query);
+    sl_baked_destroy(context, &query->own);
+    sl_free(context, query->shut);
+    sl_free(context, query->sides);
+    sl_free(context, query->boxes);
+    sl_free(context, query);
+}
+
+sl_status sl_query_create(sl_context *context, const sl_baked *baked, sl_query **out) {
+    if (sl_baked_is_shard(baked))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "this is one shard of a bake, without visible sets: merge the shards first");
+    sl_query *q = sl_alloc_array(context, 1, sizeof *q);
+    if (!q) return SL_NO_MEMORY;
+    q->baked = baked;
+    q->range = baked->map.range;
+    q->mirror_depth = 1;
+    q->shut = sl_alloc_array(context, baked->map.door_count, sizeof *q->shut);
+    q->sides = sl_alloc_array(context, baked->space.seam_count, sizeof *q->sides);
+    if (!q->shut || !q->sides) {
+        sl_query_destroy(context, q);
+        return SL_NO_MEMORY;
+    }
+    for (size_t i = 0; i < baked->map.door_count; i++) q->shut[i] = !baked->map.doors[i].open;
+    *out = q;
+    return SL_OK;
+}
+
+sl_status sl_query_open(sl_context *context, const char *path, sl_query **out) {
+    sl_baked baked = {0};
+    SL_TRY(sl_baked_read(context, path, &baked));
+    const sl_status status = sl_query_create(context, &baked, out);
+    if (status != SL_OK) {
+        sl_baked_destroy(context, &baked);
+        return status;
+    }
+    (*out)->own = baked;
+    (*out)->baked = &(*out)->own;
+    return SL_OK;
+}
+
+const sl_baked *sl_query_baked(const sl_query *query) {
+    return query->baked;
+}
+
+// --- settings
+
+static sl_status fail_door(sl_context *context, const sl_map *map, const char *name) {
+    char names[512] = "none";
+    size_t length = 0;
+    for (size_t i = 0; i < map->door_count && length < sizeof names; i++)
+        length += (size_t)snprintf(names + length, sizeof names - length, "%s%.64s", i ? ", " : "",
+                                   map->doors[i].name);
+    return sl_fail(context, SL_BAD_ARGUMENT, "there is no door '%.64s'; the map's doors: %s", name,
+                   names);
+}
+
+sl_status sl_query_set_door(sl_context *context, sl_query *query, const char *name, bool open) {
+    const sl_map *map = &query->baked->map;
+    bool found = false, changed = false;
+    for (size_t i = 0; i < map->door_count; i++) {
+        if (strcmp(map->doors[i].name, name) != 0) continue;
+        found = true;
+        changed |= query->shut[i] == open;
+        query->shut[i] = !open;
+    }
+    if (changed) drop_doors(context, query);
+    return found ? SL_OK : fail_door(context, map, name);
+}
+
+void sl_query_set_doors(sl_context *context, sl_query *query, bool open) {
+    for (size_t i = 0; i < query->baked->map.door_count; i++) query->shut[i] = !open;
+    drop_doors(context, query);
+}
+
+sl_status sl_query_set_boxes(sl_context *context, sl_query *query, const sl_moving_box *boxes,
+                             size_t count) {
+    sl_moving_box *copy = NULL;
+    if (count) {
+        copy = sl_alloc_array(context, count, sizeof *copy);
+        if (!copy) return SL_NO_MEMORY;
+        memcpy(copy, boxes, count * sizeof *copy);
+    }
+    drop_mirrors(context, query);
+    query->boxes_placed = false;
+    sl_free(context, query->boxes);
+    query->boxes = copy;
+    query->box_count = count;
+    return SL_OK;
+}
+
+sl_status sl_query_set_range(sl_context *context, sl_query *query, double range) {
+    const double baked = query->baked->map.range;
+    if (!(range >= 0) || isinf(range))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "the range must be 0 or more, and finite; 0: no limit");
+    if (baked > 0 && (range == 0 || range > baked))
+        return sl_fail(
+            context, SL_BAD_ARGUMENT,
+            "the map was baked with a view range of %.17g, and nothing farther is known: "
+            "ask for a range up to that, or bake the map --without range",
+            baked);
+    query->range = range;
+    return SL_OK;
+}
+
+sl_status sl_query_set_mirror_depth(sl_context *context, sl_query *query, uint32_t depth) {
+    if (depth > MIRROR_DEPTH_MOST)
+        return sl_fail(context, SL_BAD_ARGUMENT, "the mirror depth must be 0 to %d",
+                       MIRROR_DEPTH_MOST);
+    if (depth != query->mirror_depth) drop_answers(context, query);
+    query->mirror_depth = depth;
+    return SL_OK;
+}
+
+// --- the layers
+
+static sl_status make_doors(sl_context *context, sl_query *q) {
+    layer *l = &q->doors;
+    bool any = false;
+    if (q->has_doors) return SL_OK;
+    for (size_t i = 0; i < q->baked->map.door_count; i++) any |= q->shut[i];
+    l->space = any ? &l->own_space : &q->baked->space;
+    l->visibility = any ? &l->own_visibility : &q->baked->visibility;
+    if (any) SL_TRY(sl_baked_shut(context, q->baked, q->shut, &l->own_space, &l->own_visibility));
+    q->has_doors = true;
+    return SL_OK;
+}
+
+/// Notes on which side of each glass the eye is; whether anything of it is new.
+static bool find_sides(sl_query *q, sl_point eye) {
+    const sl_space *space = &q->baked->space;
+    const uint32_t cell = sl_space_locate(space, eye);
+    bool changed = !q->has_glass, on_line = false;
+    for (uint32_t i = 0; i < space->seam_count; i++) {
+        const sl_seam *seam = &space->seams[i];
+        if (seam->kind != SL_SEAM_ONEWAY) continue;
+        const int8_t side = (int8_t)sli_orient(seam->at.a, seam->at.b, eye);
+        changed |= side != q->sides[i];
+        on_line |= !side;
+        q->sides[i] = side;
+    }
+    changed |= on_line && cell != q->eye_cell; // there the cell decides
+    q->eye_cell = cell;
+    return changed;
+}
+
+/// What an eye sees straight on past one-way glass is what it sees past walls: glass that blocks it
+/// is one, and all other is open.
+static sl_status make_glass(sl_context *context, sl_query *q, sl_point eye) {
+    layer *l = &q->glass;
+    if (!q->baked->map.oneway_count) {
+        l->space = q->doors.space;
+        l->visibility = q->doors.visibility;
+        return SL_OK;
+    }
+    if (!find_sides(q, eye)) return SL_OK;
+    drop_glass(context, q);
+    if (q->doors.visibility->mirrored.cell_count)
+        return sl_fail(context, SL_UNSUPPORTED,
+                       "glass that is dark from an eye may not be so in a mirror: bake the map "
+                       "--without mirror or --without oneway");
+    const sl_filtered_space filtered = {.eye = &eye};
+    SL_TRY(sl_filtered_space_make(context, q->doors.space, &filtered, NULL, &l->own_space));
+    l->space = &l->own_space;
+    // The rows are those of the doors' layer. Its stab trees go through the glass.
+    l->own_visibility = *q->doors.visibility;
+    l->own_visibility.trees = (sl_stab_trees){0};
+    l->visibility = &l->own_visibility;
+    q->has_glass = true;
+    return SL_OK;
+}
+
+static sl_status make_layers(sl_context *context, sl_query *q, sl_point eye) {
+    SL_TRY(make_doors(context, q));
+    return make_glass(context, q, eye);
+}
+
+static bool has_mirrors(const sl_query *q) {
+    return q->baked->map.mirror_count && q->mirror_depth;
+}
+
+// --- what answers
+
+static sl_status make_search(sl_context *context, sl_query *q) {
+    if (!q->search) {
+        sl_eye_search *search;
+        SL_TRY(sl_eye_search_create(context, q->glass.space, q->glass.visibility, &search));
+        const sl_status status =
+            has_mirrors(q)
+                ? sl_eye_search_add_mirrors(context, search, &q->baked->map, q->mirror_depth)
+                : SL_OK;
+        if (status != SL_OK) {
+            sl_eye_search_destroy(context, search);
+            return status;
+        }
+        q->search = search;
+    }
+    sl_eye_search_limit(q->search, q->range);
+    return SL_OK;
+}
+
+static sl_status create_moving(sl_context *context, sl_query *q) {
+    sl_moving *moving;
+    SL_TRY(sl_moving_create(context, q->glass.space, q->glass.visibility, &moving));
+    const sl_status status =
+        has_mirrors(q) ? sl_moving_add_mirrors(context, moving, &q->baked->map, q->mirror_depth)
+                       : SL_OK;
+    if (status == SL_OK)
+        q->moving = moving;
+    else
+        sl_moving_destroy(context, moving);
+    return status;
+}
+
+static sl_status make_moving(sl_context *context, sl_query *q) {
+    if (!q->moving) SL_TRY(create_moving(context, q));
+    if (!q->boxes_placed) SL_TRY(sl_moving_place(context, q->moving, q->boxes, q->box_count));
+    q->boxes_placed = true;
+    sl_moving_limit(q->moving, q->range);
+    return SL_OK;
+}
+
+/// The outline that sight goes by: with the boxes, where there are any.
+static sl_status make_outline(sl_context *context, sl_query *q, const sl_outline **out) {
+    if (q->box_count) {
+        SL_TRY(make_moving(context, q));
+        return sl_moving_outline(context, q->moving, out);
+    }
+    if (!q->outline) {
+        sl_outline *outline = sl_alloc_array(context, 1, sizeof *outline);
+        if (!outline) return SL_NO_MEMORY;
+        const sl_status status = sl_outline_make(context, q->glass.space, outline);
+        if (status != SL_OK) {
+            sl_free(context, outline);
+            return status;
+        }
+        q->outline = outline;
+    }
+    *out = q->outline;
+    return SL_OK;
+}
+
+static sl_status make_mirrors(sl_context *context, sl_query *q, const sl_outline *outline) {
+    if (q->mirrors && q->mirrors->outline == outline) return SL_OK;
+    drop_mirrors(context, q);
+    sl_room_mirrors *mirrors = sl_alloc_array(context, 1, sizeof *mirrors);
+    if (!mirrors) return SL_NO_MEMORY;
+    const sl_status status = sl_room_mirrors_make(context, outline, &q->baked->map, mirrors);
+    if (status != SL_OK) {
+        sl_free(context, mirrors);
+        return status;
+    }
+    q->mirrors = mirrors;
+    return SL_OK;
+}
+
+// --- questions
+
+uint32_t sl_query_locate(const sl_query *query, sl_point point) {
+    return sl_space_locate(&query->baked->space, point);
+}
+
+sl_status sl_query_cell_sees(sl_context *context, sl_query *query, uint32_t from, uint32_t to,
+                             bool *out) {
+    SL_TRY(make_doors(context, query));
+    const sl_pvs *pvs = &query->doors.visibility->pvs;
+    if (from >= pvs->cell_count || to >= pvs->cell_count)
+        return sl_fail(context, SL_BAD_ARGUMENT, "there is no cell %u; cells are 0 to %u",
+                       from >= pvs->cell_count ? from : to, pvs->cell_count - 1);
+    *out = sl_pvs_sees(pvs, from, to);
+    return SL_OK;
+}
+
+sl_status sl_query_can_see(sl_context *context, sl_query *query, sl_point eye, sl_point point,
+                           bool *out) {
+    const sl_outline *outline;
+    const sl_sight sight = query->baked->visibility.sight;
+    bool sees;
+    SL_TRY(make_layers(context, query, eye));
+    SL_TRY(make_outline(context, query, &outline));
+    SL_TRY(sl_sees(context, outline, eye, point, sight, &sees));
+    if (sees && query->range > 0)
+        sees = sli_distance_compare(eye, point, query->range) < (sight == SL_CLOSED ? 1 : 0);
+    *out = sees;
+    return SL_OK;
+}
+
+sl_view sl_query_view(const sl_query *query, sl_point eye, double heading, double fov) {
+    const sl_box b = query->baked->space.bounds;
+    const double x = fmax(fabs(b.min.x), fabs(b.max.x)), y = fmax(fabs(b.min.y), fabs(b.max.y));
+    const double reach = fmax(fmax(x, y), fmax(b.max.x - b.min.x, b.max.y - b.min.y));
+    return sl_view_cone(eye, heading, fov, reach);
+}
+
+/// The last of the table.
+static const sl_eye_method *exact_method(void) {
+    size_t count;
+    const sl_eye_method *methods = sl_eye_methods(&count);
+    return &methods[count - 1];
+}
+
+/// What the exact method sees past the boxes. `seen` may be NULL.
+static sl_status look_past(sl_context *context, sl_query *q, const sl_view *view, bool mirrored,
+                           uint64_t *cells, bool *seen, sl_eye_account *account) {
+    SL_TRY(make_moving(context, q));
+    bool *all = seen ? seen : sl_alloc_array(context, q->box_count, sizeof *all);
+    if (!all) return SL_NO_MEMORY;
+    const sl_status status = (mirrored ? sl_moving_look_mirrored : sl_moving_look)(
+        context, q->moving, view, cells, all, account);
+    if (!seen) sl_free(context, all);
+    return status;
+}
+
+sl_status sl_query_look(sl_context *context, sl_query *query, const sl_view *view,
+                        const sl_eye_method *method, uint64_t *cells, sl_eye_account *account) {
+    sl_eye_account own;
+    if (!method) method = exact_method();
+    if (!account) account = &own;
+    SL_TRY(make_layers(context, query, view->eye));
+    if (query->box_count && method == exact_method())
+        return look_past(context, query, view, false, cells, NULL, account);
+    SL_TRY(make_search(context, query));
+    return method->cull(context, query->search, view, cells, account);
+}
+
+sl_status sl_query_look_mirrored(sl_context *context, sl_query *query, const sl_view *view,
+                                 const sl_eye_method *method, uint64_t *cells,
+                                 sl_eye_account *account) {
+    sl_eye_account own;
+    if (!method) method = exact_method();
+    if (!account) account = &own;
+    if (!has_mirrors(query)) {
+        memset(cells, 0, sl_eye_words(&query->baked->space) * sizeof *cells);
+        *account = (sl_eye_account){0};
+        return SL_OK;
+    }
+    if (!method->mirrored)
+        return sl_fail(context, SL_UNSUPPORTED, "the method '%s' does not know mirrors",
+                       method->name);
+    SL_TRY(make_layers(context, query, view->eye));
+    if (query->box_count && method == exact_method())
+        return look_past(context, query, view, true, cells, NULL, account);
+    SL_TRY(make_search(context, query));
+    return method->mirrored(context, query->search, view, cells, account);
+}
+
+sl_status sl_query_boxes_seen(sl_context *context, sl_query *query, const sl_view *view, bool *seen,
+                              bool *mirrored) {
+    sl_eye_account account;
+    SL_TRY(make_layers(context, query, view->eye));
+    if (!query->box_count) return SL_OK;
+    if (mirrored) memset(mirrored, 0, query->box_count * sizeof *mirrored);
+    uint64_t *cells = sl_alloc_array(context, sl_eye_words(query->glass.space), sizeof *cells);
+    if (!cells) return SL_NO_MEMORY;
+    sl_status status = look_past(context, query, view, false, cells, seen, &account);
+    if (status == SL_OK && mirrored && has_mirrors(query))
+        status = look_past(context, query, view, true, cells, mirrored, &account);
+    sl_free(context, cells);
+    return status;
+}
+
+sl_status sl_query_region(sl_context *context, sl_query *query, const sl_view *view,
+                          sl_region *out) {
+    const sl_outline *outline;
+    SL_TRY(make_layers(context, query, view->eye));
+    SL_TRY(make_outline(context, query, &outline));
+    return sl_region_make(context, outline, view, query->range, out);
+}
+
+sl_status sl_query_mirrored_region(sl_context *context, sl_query *query, const sl_view *view,
+                                   sl_mirrored_region *out) {
+    const sl_outline *outline;
+    SL_TRY(make_layers(context, query, view->eye));
+    SL_TRY(make_outline(context, query, &outline));
+    SL_TRY(make_mirrors(context, query, outline));
+    return sl_mirrored_region_make(context, query->mirrors, view, query->range, query->mirror_depth,
+                                   out);
+}

@@ -1,0 +1,446 @@
+/// Three indexes, each for one question.
+///
+/// Boxes in a tree: which of many boxes meet a box? A packed R-tree (Kamel & Faloutsos 1993, On
+/// packing R-trees). The boxes are sorted along the Z-order curve by their middles, which keeps
+/// neighbours together. Then each level has one box around every 8 of the level below:
+///
+///     level 1        [--------- 0 .. 7 ---------][--------- 8 .. 15 ...
+///     level 0        [0][1][2][3][4][5][6][7]     [8][9] ...
+///
+/// Walls in a grid: which walls are within a reach of a point? A wall is in every square that is
+/// within the reach of it, so one square has the answer. There is about one square for each wall.
+///
+/// Cells in a grid: which cell of a mesh holds a point? Each cell is entered row by row. The sides
+/// of the cell give the columns that it spans in a row:
+///
+///     row 2   . . [A] [A] . .          a bucket may hold a cell too many, never one too few:
+///     row 1   . [A] [A] [A] . .        places are rounded, so rows and columns are taken wider
+///     row 0   . . [A] . . .            by a millionth of a bucket, far more than rounding
+///
+/// Buckets are as long as cells are on average, in x and in y, and there are four for each cell.
+/// Then half of all places lie in a bucket with one or two cells. Many long oblique cells would
+/// need too many entries; their grid gets fewer buckets.
+#include "space/index.h"
+
+#include "sightline/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// --- boxes in a tree
+
+enum { FAN = 8 };
+
+static double lesser(double a, double b) {
+    return a < b ? a : b;
+}
+
+static double greater(double a, double b) {
+    return a > b ? a : b;
+}
+
+sl_box sli_box_around(sl_point a, sl_point b) {
+    return (sl_box){{lesser(a.x, b.x), lesser(a.y, b.y)}, {greater(a.x, b.x), greater(a.y, b.y)}};
+}
+
+static sl_box joined(sl_box a, sl_box b) {
+    return (sl_box){{lesser(a.min.x, b.min.x), lesser(a.min.y, b.min.y)},
+                    {greater(a.max.x, b.max.x), greater(a.max.y, b.max.y)}};
+}
+
+sl_box sli_box_with(sl_box box, sl_point point) {
+    return joined(box, (sl_box){point, point});
+}
+
+// --- the order
+
+typedef struct place {
+    uint32_t key, item;
+} place;
+
+/// Puts a 0 before each of the 16 bits of a value.
+static uint32_t spread_bits(uint32_t value) {
+    value = (value | value << 8) & 0x00ff00ff;
+    value = (value | value << 4) & 0x0f0f0f0f;
+    value = (value | value << 2) & 0x33333333;
+    return (value | value << 1) & 0x55555555;
+}
+
+/// The step, of 65,536, of a place between two limits. Rounding only changes the order of boxes.
+static uint32_t step_at(double at, double low, double high) {
+    const double share = (at / 2 - low / 2) / (high / 2 - low / 2);
+    return share > 0 ? (uint32_t)lesser(share * 65536, 65535) : 0;
+}
+
+static int compare_places(const void *left, const void *right) {
+    const place *a = left, *b = right;
+    if (a->key != b->key) return a->key < b->key ? -1 : 1;
+    return (a->item > b->item) - (a->item < b->item);
+}
+
+/// The numbers of the boxes, sorted along the curve by their middles.
+static sl_status sort_items(sl_context *context, const sl_box *boxes, size_t count,
+                            uint32_t *items) {
+    place *places = sl_alloc_array(context, count, sizeof *places);
+    if (!places) return SL_NO_MEMORY;
+    sl_box all = boxes[0];
+    for (size_t i = 1; i < count; i++) all = joined(all, boxes[i]);
+    for (size_t i = 0; i < count; i++) {
+        const sl_box *b = &boxes[i];
+        const uint32_t x = step_at(b->min.x / 2 + b->max.x / 2, all.min.x, all.max.x);
+        const uint32_t y = step_at(b->min.y / 2 + b->max.y / 2, all.min.y, all.max.y);
+        places[i] = (place){spread_bits(x) | spread_bits(y) << 1, (uint32_t)i};
+    }
+    qsort(places, count, sizeof *places, compare_places);
+    for (size_t i = 0; i < count; i++) items[i] = places[i].item;
+    sl_free(context, places);
+    return SL_OK;
+}
+
+// --- the tree
+
+/// Counts the boxes of each level; the last has one.
+static void lay_out(sli_box_tree *tree, size_t count) {
+    while (true) {
+        tree->first[tree->levels + 1] = tree->first[tree->levels] + count;
+        tree->levels++;
+        if (count == 1) return;
+        count = (count + FAN - 1) / FAN;
+    }
+}
+
+static void fill_level(sli_box_tree *tree, uint32_t level) {
+    const sl_box *below = tree->boxes + tree->first[level - 1];
+    const size_t count = tree->first[level] - tree->first[level - 1];
+    for (size_t i = 0; i < count; i++) {
+        sl_box *box = &tree->boxes[tree->first[level] + i / FAN];
+        *box = i % FAN ? joined(*box, below[i]) : below[i];
+    }
+}
+
+sl_status sli_box_tree_create(sl_context *context, const sl_box *boxes, size_t count,
+                              sli_box_tree *out) {
+    *out = (sli_box_tree){0};
+    if (!count) return SL_OK;
+    lay_out(out, count);
+    out->items = sl_alloc_array(context, count, sizeof *out->items);
+    out->boxes = sl_alloc_array(context, out->first[out->levels], sizeof *out->boxes);
+    if (!out->items || !out->boxes) return SL_NO_MEMORY;
+    SL_TRY(sort_items(context, boxes, count, out->items));
+    for (size_t i = 0; i < count; i++) out->boxes[i] = boxes[out->items[i]];
+    for (uint32_t level = 1; level < out->levels; level++) fill_level(out, level);
+    return SL_OK;
+}
+
+void sli_box_tree_destroy(sl_context *context, sli_box_tree *tree) {
+    sl_free(context, tree->items);
+    sl_free(context, tree->boxes);
+    *tree = (sli_box_tree){0};
+}
+
+// --- finding
+
+static bool boxes_meet(const sl_box *a, const sl_box *b) {
+    return a->min.x <= b->max.x && a->max.x >= b->min.x && a->min.y <= b->max.y &&
+           a->max.y >= b->min.y;
+}
+
+static int compare_items(const void *left, const void *right) {
+    const uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
+    return (a > b) - (a < b);
+}
+
+/// Looks at the boxes of a level from `begin` on: those below one box of the next level.
+static sl_status find_below(sl_context *context, const sli_box_tree *tree, uint32_t level,
+                            size_t begin, const sl_box *box, sli_box_list *found) {
+    const size_t first = tree->first[level], count = tree->first[level + 1] - first;
+    const size_t end = count - begin < FAN ? count : begin + FAN;
+    if (level == 0) SL_TRY(SL_ARRAY_ROOM(context, found, FAN));
+    for (size_t i = begin; i < end; i++) {
+        if (!boxes_meet(&tree->boxes[first + i], box)) continue;
+        if (level)
+            SL_TRY(find_below(context, tree, level - 1, i * FAN, box, found));
+        else
+            found->items[found->count++] = tree->items[i];
+    }
+    return SL_OK;
+}
+
+sl_status sli_box_tree_find(sl_context *context, const sli_box_tree *tree, const sl_box *box,
+                            sli_box_list *found) {
+    found->count = 0;
+    if (!tree->levels) return SL_OK;
+    SL_TRY(find_below(context, tree, tree->levels - 1, 0, box, found));
+    if (found->count > 1) qsort(found->items, found->count, sizeof *found->items, compare_items);
+    return SL_OK;
+}
+
+// --- walls in a grid
+
+/// A bound for the rounding of a computed place, as a share of the map's size.
+#define WALL_SLACK 0x1p-40
+
+void sli_wall_grid_destroy(sl_context *context, sli_wall_grid *grid) {
+    sl_free(context, grid->offsets);
+    sl_free(context, grid->walls);
+    *grid = (sli_wall_grid){0};
+}
+
+/// About one square for each wall; a square is never smaller than the reach.
+static void choose_step(const sl_map *map, double reach, sli_wall_grid *grid) {
+    const double width = grid->bounds.max.x - grid->bounds.min.x;
+    const double height = grid->bounds.max.y - grid->bounds.min.y;
+    const double longer = fmax(width, height);
+    const double wanted = sqrt((double)map->wall_count) + 1;
+    grid->step = fmax(fmax(longer / fmin(wanted, 2048), 2 * reach), longer * 0x1p-11);
+    if (!(grid->step > 0)) grid->step = 1;
+    grid->columns = (uint32_t)(width / grid->step) + 1;
+    grid->rows = (uint32_t)(height / grid->step) + 1;
+}
+
+static uint32_t index_of(double offset, double step, uint32_t count) {
+    const double at = floor(offset / step);
+    return at <= 0 ? 0 : at >= count - 1 ? count - 1 : (uint32_t)at;
+}
+
+/// Puts a wall into its squares, column by column; without lists it only counts.
+static void put_wall(sli_wall_grid *grid, const sl_wall *wall, uint32_t number, double reach) {
+    const sl_point base = grid->bounds.min;
+    const bool right = wall->b.x >= wall->a.x;
+    const sl_point a = right ? wall->a : wall->b, b = right ? wall->b : wall->a;
+    const uint32_t first = index_of(a.x - reach - base.x, grid->step, grid->columns);
+    const uint32_t last = index_of(b.x + reach - base.x, grid->step, grid->columns);
+    const double slope = b.x > a.x ? (b.y - a.y) / (b.x - a.x) : 0;
+    for (uint32_t column = first; column <= last; column++) {
+        const double from = fmax(a.x, base.x + column * grid->step - reach);
+        const double to = fmin(b.x, base.x + (column + 1) * grid->step + reach);
+        double low = fmin(a.y, b.y), high = fmax(a.y, b.y);
+        if (slope != 0) {
+            const double y0 = a.y + (from - a.x) * slope, y1 = a.y + (to - a.x) * slope;
+            low = fmax(low, fmin(y0, y1));
+            high = fmin(high, fmax(y0, y1));
+        }
+        const uint32_t bottom = index_of(low - reach - base.y, grid->step, grid->rows);
+        const uint32_t top = index_of(high + reach - base.y, grid->step, grid->rows);
+        for (uint32_t row = bottom; row <= top; row++) {
+            uint32_t *end = &grid->offsets[(size_t)row * grid->columns + column + 1];
+            if (grid->walls) grid->walls[*end] = number;
+            ++*end;
+        }
+    }
+}
+
+sl_status sli_wall_grid_create(sl_context *context, const sl_map *map, double reach,
+                               sli_wall_grid *out) {
+    sli_wall_grid grid = {.bounds = sl_map_bounds(map)};
+    choose_step(map, reach, &grid);
+    const size_t squares = (size_t)grid.columns * grid.rows;
+    const sl_point min = grid.bounds.min, max = grid.bounds.max;
+    reach += WALL_SLACK * (fabs(min.x) + fabs(min.y) + fabs(max.x) + fabs(max.y));
+    grid.offsets = sl_alloc_array(context, squares + 1, sizeof *grid.offsets);
+    if (!grid.offsets) return SL_NO_MEMORY;
+    for (size_t i = 0; i < map->wall_count; i++)
+        put_wall(&grid, &map->walls[i], (uint32_t)i, reach);
+    uint64_t sum = 0;
+    for (size_t i = 0; i < squares; i++) {
+        const uint32_t count = grid.offsets[i + 1];
+        grid.offsets[i + 1] = (uint32_t)sum;
+        sum += count;
+    }
+    grid.walls = sum <= UINT32_MAX ? sl_alloc_array(context, sum, sizeof *grid.walls) : NULL;
+    if (!grid.walls) {
+        sl_free(context, grid.offsets);
+        return sl_fail_memory(context);
+    }
+    for (size_t i = 0; i < map->wall_count; i++)
+        put_wall(&grid, &map->walls[i], (uint32_t)i, reach);
+    *out = grid;
+    return SL_OK;
+}
+
+// --- cells in a grid
+
+enum { MOST_STEPS = 1 << 16, BUCKETS_PER_CELL = 4, ENTRIES_PER_CELL = 32 };
+static const double CELL_SLACK = 1e-6; ///< a share of a bucket
+
+/// Columns from low to high; none where low > high.
+typedef struct span {
+    double low, high;
+} span;
+
+typedef struct filler {
+    const sl_space *space;
+    sl_cell_grid *grid;
+    double width, height; ///< of the bounds
+    double slack;         ///< a share of a bucket
+    span *rows;           ///< by row: the columns of the current cell
+    uint32_t *counts;     ///< by bucket: entries so far
+    uint64_t total;       ///< the sum of all counts
+} filler;
+
+/// A corner in units of buckets.
+static sl_point in_buckets(const filler *f, sl_point p) {
+    const sl_box *b = &f->space->bounds;
+    return (sl_point){(p.x - b->min.x) / f->width * f->grid->columns,
+                      (p.y - b->min.y) / f->height * f->grid->rows};
+}
+
+static uint32_t clamp(double step, uint32_t count) {
+    return step < 0 ? 0 : step < count ? (uint32_t)step : count - 1;
+}
+
+/// Widens the rows that a side passes through.
+static void add_side(const filler *f, sl_point p, sl_point q) {
+    const uint32_t rows = f->grid->rows;
+    if (p.y > q.y) {
+        const sl_point swap = p;
+        p = q;
+        q = swap;
+    }
+    const uint32_t first = clamp(p.y - f->slack, rows), last = clamp(q.y + f->slack, rows);
+    for (uint32_t row = first; row <= last; row++) {
+        const double low = fmax(p.y, row - f->slack), high = fmin(q.y, row + 1 + f->slack);
+        const double rise = q.y - p.y;
+        double a = p.x, b = q.x;
+        if (rise > 0 && first != last) {
+            a = p.x + (q.x - p.x) * fmin(1, fmax(0, (low - p.y) / rise));
+            b = p.x + (q.x - p.x) * fmin(1, fmax(0, (high - p.y) / rise));
+        }
+        f->rows[row].low = fmin(f->rows[row].low, fmin(a, b));
+        f->rows[row].high = fmax(f->rows[row].high, fmax(a, b));
+    }
+}
+
+/// Enters a cell into its buckets; without lists it is only counted.
+static void enter(filler *f, uint32_t number, uint32_t *cells) {
+    const sl_cell *cell = &f->space->cells[number];
+    const sl_cell_grid *g = f->grid;
+    const sl_point *corners = f->space->vertices + cell->first_vertex;
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (uint32_t i = 0; i < cell->vertex_count; i++) {
+        const double y = in_buckets(f, corners[i]).y;
+        low = fmin(low, y);
+        high = fmax(high, y);
+    }
+    const uint32_t first = clamp(low - f->slack, g->rows), last = clamp(high + f->slack, g->rows);
+    for (uint32_t row = first; row <= last; row++) f->rows[row] = (span){HUGE_VAL, -HUGE_VAL};
+    for (uint32_t i = 0; i < cell->vertex_count; i++)
+        add_side(f, in_buckets(f, corners[i]),
+                 in_buckets(f, corners[i + 1 < cell->vertex_count ? i + 1 : 0]));
+    for (uint32_t row = first; row <= last; row++) {
+        if (f->rows[row].low > f->rows[row].high) continue;
+        const uint32_t from = clamp(f->rows[row].low - f->slack, g->columns);
+        const uint32_t to = clamp(f->rows[row].high + f->slack, g->columns);
+        for (uint32_t column = from; column <= to; column++) {
+            const size_t bucket = (size_t)row * g->columns + column;
+            if (cells) cells[g->first[bucket] + f->counts[bucket]] = number;
+            f->counts[bucket]++;
+        }
+        f->total += to - from + 1;
+    }
+}
+
+static sl_status fill_lists(sl_context *context, filler *f, uint64_t most) {
+    const uint32_t cells = f->space->cell_count;
+    sl_cell_grid *g = f->grid;
+    const size_t buckets = (size_t)g->columns * g->rows;
+    g->first = sl_alloc_array(context, buckets + 1, sizeof *g->first);
+    f->rows = sl_alloc_array(context, g->rows, sizeof *f->rows);
+    f->counts = sl_alloc_array(context, buckets, sizeof *f->counts);
+    if (!g->first || !f->rows || !f->counts) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < cells && f->total <= most; i++) enter(f, i, NULL);
+    if (f->total > most) return SL_OK;
+    g->first[0] = 0;
+    for (size_t i = 0; i < buckets; i++) g->first[i + 1] = g->first[i] + f->counts[i];
+    g->entry_count = g->first[buckets];
+    g->cells = sl_alloc_array(context, g->entry_count, sizeof *g->cells);
+    if (!g->cells) return SL_NO_MEMORY;
+    memset(f->counts, 0, buckets * sizeof *f->counts);
+    for (uint32_t i = 0; i < cells; i++) enter(f, i, g->cells);
+    return SL_OK;
+}
+
+/// Fills a grid whose columns and rows are set. Leaves `cells` NULL if it would have more than
+/// `most` entries.
+static sl_status fill(sl_context *context, const sl_space *space, double slack, uint64_t most,
+                      sl_cell_grid *grid) {
+    const sl_box *b = &space->bounds;
+    filler f = {.space = space,
+                .grid = grid,
+                .width = b->max.x - b->min.x,
+                .height = b->max.y - b->min.y,
+                .slack = slack};
+    const sl_status status = fill_lists(context, &f, most);
+    sl_free(context, f.rows);
+    sl_free(context, f.counts);
+    return status;
+}
+
+/// The ratio of the average width of cells to their average height, as shares of the bounds.
+static double shape_of_cells(const sl_space *s) {
+    const sl_box *b = &s->bounds;
+    double wide = 0, high = 0;
+    for (uint32_t i = 0; i < s->cell_count; i++) {
+        const sl_point *v = s->vertices + s->cells[i].first_vertex;
+        sl_point min = v[0], max = v[0];
+        for (uint32_t k = 1; k < s->cells[i].vertex_count; k++) {
+            min = (sl_point){fmin(min.x, v[k].x), fmin(min.y, v[k].y)};
+            max = (sl_point){fmax(max.x, v[k].x), fmax(max.y, v[k].y)};
+        }
+        wide += (max.x - min.x) / (b->max.x - b->min.x);
+        high += (max.y - min.y) / (b->max.y - b->min.y);
+    }
+    return wide / high;
+}
+
+static uint32_t steps(double share) {
+    return share >= 1 ? (uint32_t)fmin(share, MOST_STEPS) : 1;
+}
+
+sl_status sli_cell_grid_make(sl_context *context, sl_space *space) {
+    sl_cell_grid *g = &space->grid;
+    const double shape = shape_of_cells(space);
+    const uint64_t most = (uint64_t)space->cell_count * ENTRIES_PER_CELL;
+    double buckets = (double)space->cell_count * BUCKETS_PER_CELL;
+    sl_status status = SL_OK;
+    for (; status == SL_OK && !g->cells; buckets /= 4) {
+        sli_cell_grid_destroy(context, g);
+        g->columns = steps(fmin(buckets, sqrt(buckets / shape)));
+        g->rows = steps(buckets / g->columns);
+        status = fill(context, space, CELL_SLACK, most < UINT32_MAX ? most : UINT32_MAX, g);
+    }
+    return status;
+}
+
+static bool is_in_bucket(const sl_cell_grid *g, size_t bucket, uint32_t cell) {
+    for (uint32_t i = g->first[bucket]; i < g->first[bucket + 1]; i++)
+        if (g->cells[i] == cell) return true;
+    return false;
+}
+
+static sl_status compare(sl_context *context, const sl_cell_grid *grid, const sl_cell_grid *least) {
+    if (!least->cells)
+        return sl_fail(context, SL_BAD_INPUT, "the grid of buckets has too few entries");
+    const size_t buckets = (size_t)grid->columns * grid->rows;
+    for (size_t b = 0; b < buckets; b++)
+        for (uint32_t i = least->first[b]; i < least->first[b + 1]; i++)
+            if (!is_in_bucket(grid, b, least->cells[i]))
+                return sl_fail(context, SL_BAD_INPUT,
+                               "cell %u is not in a bucket that it reaches into", least->cells[i]);
+    return SL_OK;
+}
+
+sl_status sli_cell_grid_check(sl_context *context, const sl_space *space) {
+    sl_cell_grid least = {.columns = space->grid.columns, .rows = space->grid.rows};
+    sl_status status = fill(context, space, CELL_SLACK / 2, space->grid.entry_count, &least);
+    if (status == SL_OK) status = compare(context, &space->grid, &least);
+    sli_cell_grid_destroy(context, &least);
+    return status;
+}
+
+void sli_cell_grid_destroy(sl_context *context, sl_cell_grid *grid) {
+    sl_free(context, grid->first);
+    sl_free(context, grid->cells);
+    *grid = (sl_cell_grid){0};
+}

@@ -1,0 +1,179 @@
+/// Drawing into a context of one's own: frames, scenes, the dual plane, and page files.
+#include "sightline/canvas.h"
+
+#include "test_draw_map.h"
+
+#include <cairo.h>
+#include <math.h>
+#include <unistd.h>
+
+/// Ten pixels for a unit of the map, which is 40 x 30.
+enum { WIDTH = 400, HEIGHT = 300 };
+
+typedef struct canvas {
+    sl_context *context;
+    draw_map map;
+    cairo_surface_t *surface;
+    cairo_t *cairo;
+    sl_frame frame;
+    sl_palette palette;
+} canvas;
+
+static int set_up(void **state) {
+    canvas *c = calloc(1, sizeof *c);
+    if (!c) return -1;
+    c->context = testing_context(NULL);
+    c->map = draw_map_make(c->context, DRAW_PLAIN);
+    c->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, WIDTH, HEIGHT);
+    c->cairo = cairo_create(c->surface);
+    c->frame = sl_frame_fit(c->map.baked.space.bounds, 0, 0, WIDTH, HEIGHT, 1);
+    c->palette = sl_palette_make(false);
+    *state = c;
+    return 0;
+}
+
+static int tear_down(void **state) {
+    canvas *c = *state;
+    const cairo_status_t status = cairo_status(c->cairo);
+    cairo_destroy(c->cairo);
+    cairo_surface_destroy(c->surface);
+    sl_baked_destroy(c->context, &c->map.baked);
+    sl_context_destroy(c->context);
+    free(c);
+    return status != CAIRO_STATUS_SUCCESS;
+}
+
+static bool has_colour(const canvas *c, double x, double y, sl_colour colour) {
+    const sl_point at = sl_frame_point(&c->frame, (sl_point){x, y});
+    uint32_t value;
+    cairo_surface_flush(c->surface);
+    memcpy(&value,
+           cairo_image_surface_get_data(c->surface) +
+               (size_t)at.y * (size_t)cairo_image_surface_get_stride(c->surface) + 4 * (size_t)at.x,
+           sizeof value);
+    const double wanted[3] = {colour.red, colour.green, colour.blue};
+    for (int i = 0; i < 3; i++)
+        if (fabs((value >> (16 - 8 * i) & 255) / 255.0 - wanted[i]) > 1.6 / 255) return false;
+    return true;
+}
+
+static void frames_keep_far_places_finite(void **state) {
+    const canvas *c = *state;
+    sl_point place;
+    assert_true(c->frame.scale == 10);
+    assert_true(sl_frame_holds(&c->frame, (sl_point){40, 30}, &place));
+    assert_true(place.x == WIDTH && place.y == 0);
+    assert_false(sl_frame_holds(&c->frame, (sl_point){4000, 3000}, NULL));
+    place = sl_frame_point(&c->frame, (sl_point){1e150, -1e150});
+    assert_true(isfinite(place.x) && isfinite(place.y));
+}
+
+static void layers_are_drawn_one_by_one(void **state) {
+    canvas *c = *state;
+    sl_scene *scene = NULL;
+    sl_draw_options options = sl_draw_options_default();
+    options.cell = c->map.cells[LEFT_BELOW];
+    assert_ok(c->context, sl_scene_create(c->context, &c->map.baked, &options, NULL, &scene));
+    assert_ok(c->context, sl_draw_plan(c->context, c->cairo, scene, 0, &c->frame));
+    assert_true(has_colour(c, 12, 5, c->palette.source));
+    assert_false(has_colour(c, 12, 20, c->palette.wall));
+    assert_ok(c->context, sl_draw_walls(c->context, c->cairo, scene, &c->frame));
+    assert_true(has_colour(c, 12, 20, c->palette.wall));
+    sl_scene_destroy(c->context, scene);
+    sl_scene_destroy(c->context, NULL);
+}
+
+/// The trees that are given stand in the place of the baked ones.
+static void trees_may_be_others(void **state) {
+    canvas *c = *state;
+    sl_scene *scene = NULL;
+    const sl_stab_trees none = {0};
+    sl_draw_options options = sl_draw_options_default();
+    options.layers |= SL_LAYER_STAB_TREE;
+    options.cell = c->map.cells[LEFT_BELOW];
+    assert_ok(c->context, sl_scene_create(c->context, &c->map.baked, &options, NULL, &scene));
+    assert_int_equal(sl_scene_tree_depth(scene), 1);
+    sl_draw_tree(c->cairo, scene, (sl_point){5, 5}, 1, &c->frame);
+    sl_scene_destroy(c->context, scene);
+    assert_ok(c->context, sl_scene_create(c->context, &c->map.baked, &options, &none, &scene));
+    assert_int_equal(sl_scene_tree_depth(scene), 0);
+    sl_scene_destroy(c->context, scene);
+}
+
+static void unknown_cells_are_refused(void **state) {
+    canvas *c = *state;
+    sl_scene *scene = NULL;
+    sl_draw_options options = sl_draw_options_default();
+    options.cell = 5;
+    assert_int_equal(sl_scene_create(c->context, &c->map.baked, &options, NULL, &scene),
+                     SL_BAD_ARGUMENT);
+    assert_null(scene);
+}
+
+static void sets_leave_out_what_is_in_another(void **state) {
+    canvas *c = *state;
+    const uint64_t both =
+        (uint64_t)1 << c->map.cells[LEFT_BELOW] | (uint64_t)1 << c->map.cells[RIGHT_BELOW];
+    const uint64_t right = (uint64_t)1 << c->map.cells[RIGHT_BELOW];
+    sl_draw_cell_set(c->cairo, &c->map.baked.space, &c->frame, &both, &right, c->palette.glass, 1);
+    assert_true(has_colour(c, 12, 5, c->palette.glass));
+    assert_false(has_colour(c, 32, 5, c->palette.glass));
+}
+
+static void places_of_the_dual_plane_are_lines(void **state) {
+    (void)state;
+    const sl_dual square = {.corners = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, .corner_count = 4};
+    const sl_dual_frame frame = sl_dual_frame_fit(&square, 10, 20, 200, 100, 1);
+    const sl_dual_line middle = sl_dual_frame_line(&frame, (sl_point){110, 70});
+    assert_true(fabs(middle.slope) < 1e-12 && fabs(middle.height) < 1e-12);
+    const sl_dual_line corner = sl_dual_frame_line(&frame, (sl_point){10, 120});
+    assert_true(corner.slope < -1 && corner.height < -1);
+}
+
+static void draw_disc(void *user, cairo_t *cairo) {
+    const sl_palette *palette = user;
+    cairo_arc(cairo, 20, 20, 10, 0, 6.283185307179586);
+    sl_set_colour(cairo, palette->start);
+    cairo_fill(cairo);
+}
+
+static void draw_no_text(void *user, cairo_t *cairo) {
+    (void)user;
+    cairo_show_text(cairo, "\xff\xfe");
+}
+
+/// A page that fails leaves the file of before.
+static void pages_become_files(void **state) {
+    canvas *c = *state;
+    char folder[32], path[64];
+    draw_directory(folder);
+    snprintf(path, sizeof path, "%s/a.png", folder);
+    assert_ok(c->context,
+              sl_draw_page_file(c->context, path, 40, 30, NULL, draw_disc, &c->palette));
+    for (int again = 0; again < 2; again++) {
+        cairo_surface_t *read = cairo_image_surface_create_from_png(path);
+        assert_int_equal(cairo_image_surface_get_width(read), 40);
+        assert_int_equal(cairo_image_surface_get_height(read), 30);
+        cairo_surface_destroy(read);
+        assert_int_equal(sl_draw_page_file(c->context, path, 50, 50, NULL, draw_no_text, NULL),
+                         SL_BAD_ARGUMENT);
+    }
+    assert_int_equal(sl_draw_page_file(c->context, "a.gif", 40, 30, NULL, draw_disc, &c->palette),
+                     SL_BAD_ARGUMENT);
+    unlink(path);
+    assert_int_equal(rmdir(folder), 0);
+}
+
+int main(void) {
+#define CASE(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+    const struct CMUnitTest tests[] = {
+        CASE(frames_keep_far_places_finite),
+        CASE(layers_are_drawn_one_by_one),
+        CASE(trees_may_be_others),
+        CASE(unknown_cells_are_refused),
+        CASE(sets_leave_out_what_is_in_another),
+        CASE(places_of_the_dual_plane_are_lines),
+        CASE(pages_become_files),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,330 @@
+/// The façade: a map is baked as its stages do one by one, and a query answers as a map does that
+/// is baked with walls where doors are shut, glass blocks the eye, and boxes stand.
+#include "testing.h"
+
+#include "sightline/support.h"
+
+#include <math.h>
+
+// Three rooms in a row and one above: a door, one-way glass, and gaps.
+static const char rooms[] = "sightline 1\n"
+                            "walls 0 0 30 0 30 20 0 20 0 0\n"
+                            "wall 10 0 10 3\nwall 10 5 10 10\n"
+                            "wall 20 0 20 3\nwall 20 5 20 10\n"
+                            "wall 0 10 4 10\nwall 6 10 30 10\n"
+                            "start 5 5 0\n";
+static const char door[] = "door west 10 3 10 5 open\n";
+static const char door_shut[] = "wall 10 3 10 5\n";
+static const char glass[] = "oneway 20 3 20 5\n"; // seen through from the right to the left
+static const char glass_blocked[] = "wall 20 3 20 5\n";
+static const char box_walls[] = "walls 3 6 7 6 7 8 3 8 3 6\n";
+static const sl_moving_box box = {{{3, 6}, {7, 8}}, true};
+
+static void read_map(sl_context *context, const char *const *parts, sl_map *map) {
+    char text[1024] = "";
+    for (size_t i = 0; parts[i]; i++) strcat(text, parts[i]);
+    assert_ok(context, sl_map_read_text(context, "rooms", text, strlen(text), map));
+}
+
+static void bake(sl_context *context, const char *const *parts, sl_baked *baked) {
+    sl_map map = {0};
+    read_map(context, parts, &map);
+    assert_ok(context, sl_bake(context, &map, NULL, baked, NULL));
+    assert_int_equal(map.wall_count + map.start_count, 0);
+}
+
+static double unit(sl_random *random) {
+    return sl_random_unit(random);
+}
+
+static sl_point random_point(sl_random *random) {
+    // Corners, places on lines of walls, and any.
+    if (sl_random_below(random, 3)) return (sl_point){30 * unit(random), 20 * unit(random)};
+    return (sl_point){(double)sl_random_below(random, 31), (double)sl_random_below(random, 21)};
+}
+
+/// Asks a query and a plain one, whose map has walls instead, the same of many points.
+static void compare(sl_context *context, sl_query *query, sl_query *plain, sl_point eye,
+                    double range) {
+    sl_random random = {7};
+    sl_region region = {0}, other = {0};
+    uint64_t cells[8] = {0};
+    const sl_view view = sl_query_view(query, eye, 0, 360);
+    assert_true(sl_eye_words(&sl_query_baked(query)->space) <= 8);
+    assert_ok(context, sl_query_set_range(context, query, range));
+    assert_ok(context, sl_query_set_range(context, plain, range));
+    assert_ok(context, sl_query_look(context, query, &view, NULL, cells, NULL));
+    assert_ok(context, sl_query_region(context, query, &view, &region));
+    assert_ok(context, sl_query_region(context, plain, &view, &other));
+    assert_float_equal(sl_region_area(&region), sl_region_area(&other), 1e-9);
+    size_t seen_count = 0;
+    for (int i = 0; i < 400; i++) {
+        const sl_point point = random_point(&random);
+        bool seen, wanted;
+        assert_ok(context, sl_query_can_see(context, query, eye, point, &seen));
+        assert_ok(context, sl_query_can_see(context, plain, eye, point, &wanted));
+        assert_int_equal(seen, wanted);
+        seen_count += seen;
+        // On a border between cells, the cell beside it may be the one that is seen.
+        if (seen && point.x != floor(point.x))
+            assert_true(sl_eye_sees(cells, sl_query_locate(query, point)));
+        if (seen && range > 0) assert_true(hypot(point.x - eye.x, point.y - eye.y) <= range);
+    }
+    assert_true(seen_count > 0 && seen_count < 400);
+    sl_region_destroy(context, &region);
+    sl_region_destroy(context, &other);
+}
+
+static void settings_hide_as_walls_do(void **state) {
+    (void)state;
+    static const sl_point eyes[] = {{5, 5}, {15, 4}, {25, 4}, {20, 4}, {5, 15}, {10, 4}};
+    testing_memory memory = {0};
+    sl_context *context = testing_context(&memory);
+    const char *const parts[] = {rooms, door, glass, NULL};
+    sl_baked baked = {0};
+    sl_query *query;
+    bake(context, parts, &baked);
+    assert_ok(context, sl_query_create(context, &baked, &query));
+    for (unsigned bits = 0; bits < 16; bits++) {
+        const bool shut = bits & 1, with_box = bits & 2, dark = bits & 4;
+        const double range = bits & 8 ? 9 : 0;
+        const char *const walls[] = {rooms, shut ? door_shut : "", dark ? glass_blocked : "",
+                                     with_box ? box_walls : "", NULL};
+        sl_baked other = {0};
+        sl_query *plain;
+        bake(context, walls, &other);
+        assert_ok(context, sl_query_create(context, &other, &plain));
+        assert_ok(context, sl_query_set_door(context, query, "west", !shut));
+        assert_ok(context, sl_query_set_boxes(context, query, &box, with_box));
+        for (size_t i = 0; i < sizeof eyes / sizeof *eyes; i++) {
+            // From the left of x = 20 the glass is dark; on it the eye stands in the right cell.
+            if ((eyes[i].x < 20) != dark) continue;
+            compare(context, query, plain, eyes[i], range);
+        }
+        sl_query_destroy(context, plain);
+        sl_baked_destroy(context, &other);
+    }
+    sl_query_destroy(context, query);
+    sl_baked_destroy(context, &baked);
+    sl_context_destroy(context);
+    assert_int_equal(memory.live, 0);
+}
+
+static void a_file_answers_as_memory_does(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    const char *const parts[] = {rooms, door, glass, NULL};
+    char path[] = "/tmp/test_query_XXXXXX";
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    sl_baked baked = {0};
+    sl_query *query, *opened;
+    bake(context, parts, &baked);
+    assert_ok(context, sl_baked_write(context, &baked, path));
+    assert_ok(context, sl_query_create(context, &baked, &query));
+    assert_ok(context, sl_query_open(context, path, &opened));
+    compare(context, query, opened, (sl_point){5, 5}, 0);
+    bool sees;
+    const uint32_t from = sl_query_locate(opened, (sl_point){5, 5});
+    const uint32_t to = sl_query_locate(opened, (sl_point){15, 4});
+    assert_ok(context, sl_query_cell_sees(context, opened, from, to, &sees));
+    assert_true(sees);
+    sl_query_set_doors(context, opened, false);
+    assert_ok(context, sl_query_cell_sees(context, opened, from, to, &sees));
+    assert_false(sees);
+    assert_int_equal(sl_query_cell_sees(context, opened, from, 4000, &sees), SL_BAD_ARGUMENT);
+    sl_query_destroy(context, opened);
+    sl_query_destroy(context, query);
+    assert_int_equal(sl_query_open(context, "no such file.slv", &opened), SL_BAD_ARGUMENT);
+    sl_baked_destroy(context, &baked);
+    sl_context_destroy(context);
+    assert_int_equal(remove(path), 0);
+}
+
+static void mirrors_show_what_the_depth_allows(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    static const char text[] = "sightline 1\nwalls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 6\n"
+                               "mirror 4 10 16 10\ndoor out 10 6 10 8 open\n";
+    const char *const parts[] = {text, NULL};
+    sl_baked baked = {0};
+    sl_query *query;
+    bake(context, parts, &baked);
+    assert_string_equal(baked.method, "prune");
+    assert_ok(context, sl_query_create(context, &baked, &query));
+    const sl_view view = sl_query_view(query, (sl_point){5, 1}, 0, 360);
+    uint64_t cells[8];
+    sl_mirrored_region region = {0};
+    sl_eye_account account;
+    assert_true(sl_eye_words(&baked.space) <= 8);
+    assert_ok(context, sl_query_look_mirrored(context, query, &view, NULL, cells, &account));
+    assert_true(sl_eye_sees(cells, sl_query_locate(query, (sl_point){15, 1})));
+    assert_ok(context, sl_query_mirrored_region(context, query, &view, &region));
+    assert_true(region.part_count > 0);
+    assert_ok(context, sl_query_set_mirror_depth(context, query, 0));
+    assert_ok(context, sl_query_look_mirrored(context, query, &view, NULL, cells, NULL));
+    assert_int_equal(cells[0], 0);
+    assert_int_equal(sl_query_set_mirror_depth(context, query, 17), SL_BAD_ARGUMENT);
+    sl_query_set_doors(context, query, false);
+    assert_int_equal(sl_query_look(context, query, &view, NULL, cells, NULL), SL_UNSUPPORTED);
+    assert_ok(context, sl_query_set_door(context, query, "out", true));
+    assert_ok(context, sl_query_look(context, query, &view, NULL, cells, NULL));
+    sl_mirrored_region_destroy(context, &region);
+    sl_query_destroy(context, query);
+    sl_baked_destroy(context, &baked);
+    sl_context_destroy(context);
+}
+
+static void boxes_are_seen_and_wrong_settings_refused(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    const char *const parts[] = {rooms, door, NULL};
+    sl_baked baked = {0};
+    sl_query *query;
+    bake(context, parts, &baked);
+    assert_ok(context, sl_query_create(context, &baked, &query));
+    const sl_moving_box boxes[] = {{{{12, 3}, {13, 4}}, false}, {{{22, 12}, {23, 13}}, false}};
+    const sl_view view = sl_query_view(query, (sl_point){5, 4}, 0, 60);
+    bool seen[2];
+    assert_ok(context, sl_query_set_boxes(context, query, boxes, 2));
+    assert_ok(context, sl_query_boxes_seen(context, query, &view, seen, NULL));
+    assert_true(seen[0]);
+    assert_false(seen[1]);
+    assert_ok(context, sl_query_set_door(context, query, "west", false));
+    assert_ok(context, sl_query_boxes_seen(context, query, &view, seen, NULL));
+    assert_false(seen[0]);
+    assert_int_equal(sl_query_set_door(context, query, "east", true), SL_BAD_ARGUMENT);
+    assert_non_null(strstr(sl_context_message(context), "west"));
+    assert_int_equal(sl_query_set_range(context, query, -1), SL_BAD_ARGUMENT);
+    assert_int_equal(sl_query_set_range(context, query, NAN), SL_BAD_ARGUMENT);
+    const sl_moving_box wrong = {{{5, 5}, {4, 4}}, true};
+    uint64_t cells[8];
+    assert_ok(context, sl_query_set_boxes(context, query, &wrong, 1));
+    assert_int_equal(sl_query_look(context, query, &view, NULL, cells, NULL), SL_BAD_ARGUMENT);
+    assert_ok(context, sl_query_set_boxes(context, query, NULL, 0));
+    assert_ok(context, sl_query_look(context, query, &view, NULL, cells, NULL));
+    const sl_view outside = sl_query_view(query, (sl_point){50, 50}, 0, 360);
+    assert_ok(context, sl_query_look(context, query, &outside, NULL, cells, NULL));
+    assert_int_equal(cells[0], 0);
+    sl_query_destroy(context, query);
+    sl_baked_destroy(context, &baked);
+    sl_context_destroy(context);
+}
+
+static void a_bake_is_its_stages(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    const char *const parts[] = {rooms, door, glass, NULL};
+    sl_map map = {0};
+    sl_baked baked = {0};
+    sl_bake_account account;
+    read_map(context, parts, &map);
+    assert_ok(context, sl_bake(context, &map, NULL, &baked, &account));
+    assert_string_equal(baked.method, "sweep");
+    assert_string_equal(account.subdivision->name, "kd");
+    size_t count;
+    sl_space space = {0};
+    sl_visibility seen = {0};
+    read_map(context, parts, &map);
+    assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
+    assert_ok(context, sl_subdivisions(&count)[0].subdivide(context, &map, NULL, &space));
+    const sl_plan plan = sl_plan_make(&map);
+    sl_see_options options = sl_see_options_default();
+    options.plan = &plan;
+    options.solver = sl_funnel();
+    assert_ok(context, testing_method("dfs")->see(context, &space, &options, &seen));
+    assert_true(sl_baked_same_space(&baked.space, &space));
+    assert_true(testing_same_rows(&baked.visibility.pvs, &seen.pvs));
+    options.trees = true;
+    options.solver = NULL;
+    assert_string_equal(sl_see_method_for(&map, &options)->name, "dfs");
+    assert_null(sl_see_method_named("no such method"));
+    sl_visibility_destroy(context, &seen);
+    sl_space_destroy(context, &space);
+    sl_map_destroy(context, &map);
+    sl_baked_destroy(context, &baked);
+    sl_context_destroy(context);
+}
+
+static void what_a_bake_does_not_know_is_refused(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    const char *const parts[] = {rooms, "range 9\n", NULL};
+    sl_map map = {0};
+    sl_baked baked = {0};
+    sl_query *query;
+    sl_bake_options options = sl_bake_options_default();
+    options.mirror_depth = 17;
+    read_map(context, parts, &map);
+    assert_int_equal(sl_bake(context, &map, &options, &baked, NULL), SL_BAD_ARGUMENT);
+    sl_map_destroy(context, &map);
+    bake(context, parts, &baked);
+    assert_ok(context, sl_query_create(context, &baked, &query));
+    assert_int_equal(sl_query_set_range(context, query, 0), SL_BAD_ARGUMENT);
+    assert_int_equal(sl_query_set_range(context, query, 9.5), SL_BAD_ARGUMENT);
+    assert_non_null(strstr(sl_context_message(context), "range of 9,"));
+    assert_ok(context, sl_query_set_range(context, query, 9));
+    sl_query_destroy(context, query);
+    sl_baked_destroy(context, &baked);
+    sl_context_destroy(context);
+}
+
+/// All that a caller does once, with an allocator that fails at its Nth call.
+static sl_status bake_and_ask(sl_context *context) {
+    const char *const parts[] = {rooms, door, glass, NULL};
+    char text[1024] = "";
+    for (size_t i = 0; parts[i]; i++) strcat(text, parts[i]);
+    sl_map map = {0};
+    sl_baked baked = {0};
+    sl_query *query = NULL;
+    sl_region region = {0};
+    uint64_t cells[8];
+    sl_status status = sl_map_read_text(context, "rooms", text, strlen(text), &map);
+    sl_bake_options options = sl_bake_options_default();
+    options.see.threads = 1;
+    if (status == SL_OK) status = sl_bake(context, &map, &options, &baked, NULL);
+    if (status == SL_OK) status = sl_query_create(context, &baked, &query);
+    if (status == SL_OK) sl_query_set_doors(context, query, false);
+    if (status == SL_OK) status = sl_query_set_boxes(context, query, &box, 1);
+    for (int i = 0; i < 2 && status == SL_OK; i++) {
+        const sl_view view = sl_query_view(query, (sl_point){i ? 25 : 5, 4}, 0, 360);
+        status = sl_query_look(context, query, &view, NULL, cells, NULL);
+        if (status == SL_OK) status = sl_query_region(context, query, &view, &region);
+    }
+    sl_region_destroy(context, &region);
+    sl_query_destroy(context, query);
+    sl_baked_destroy(context, &baked);
+    sl_map_destroy(context, &map);
+    return status;
+}
+
+static void without_memory_nothing_leaks(void **state) {
+    (void)state;
+    testing_memory memory = {0};
+    sl_status status = SL_NO_MEMORY;
+    for (long n = 1; status == SL_NO_MEMORY; n++) {
+        memory = (testing_memory){0};
+        sl_context *context = testing_context(&memory);
+        memory.calls = 0;
+        memory.fail_at = n;
+        status = bake_and_ask(context);
+        memory.fail_at = 0;
+        sl_context_destroy(context);
+        assert_int_equal(memory.live, 0);
+        assert_true(n < 20000);
+    }
+    assert_int_equal(status, SL_OK);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_bake_is_its_stages),
+        cmocka_unit_test(settings_hide_as_walls_do),
+        cmocka_unit_test(a_file_answers_as_memory_does),
+        cmocka_unit_test(mirrors_show_what_the_depth_allows),
+        cmocka_unit_test(boxes_are_seen_and_wrong_settings_refused),
+        cmocka_unit_test(what_a_bake_does_not_know_is_refused),
+        cmocka_unit_test(without_memory_nothing_leaks),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

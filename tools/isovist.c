@@ -1,0 +1,269 @@
+#include "isovist.h"
+
+#include "sightline/support.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+// --- eyes
+
+enum { MOST_SQUARES = 1 << 26 };
+
+void eyes_destroy(sl_context *context, eye_places *eyes) {
+    sl_free(context, eyes->list.items);
+    sl_free(context, eyes->squares.items);
+    *eyes = (eye_places){0};
+}
+
+sl_status eyes_add(sl_context *context, eye_places *eyes, eye_place eye) {
+    SL_TRY(SL_ARRAY_ROOM(context, &eyes->list, 1));
+    eyes->list.items[eyes->list.count++] = eye;
+    return SL_OK;
+}
+
+sl_status eyes_add_grid(sl_context *context, const sl_space *space, double step, eye_place like,
+                        eye_places *eyes) {
+    const sl_box *b = &space->bounds;
+    const double columns = ceil((b->max.x - b->min.x) / step);
+    const double rows = ceil((b->max.y - b->min.y) / step);
+    if (!(columns * rows <= MOST_SQUARES))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "a grid of step %g has %.0f squares; at most %d can be", step,
+                       columns * rows, MOST_SQUARES);
+    eyes->corner = b->min;
+    eyes->step = step;
+    eyes->columns = (size_t)columns;
+    eyes->rows = (size_t)rows;
+    for (size_t i = 0; i < eyes->columns * eyes->rows; i++) {
+        if (i % 65536 == 0) SL_TRY(sl_check_cancelled(context));
+        like.at.x = b->min.x + step * ((double)(i % eyes->columns) + 0.5);
+        like.at.y = b->min.y + step * ((double)(i / eyes->columns) + 0.5);
+        const uint32_t cell = sl_space_locate(space, like.at);
+        if (cell == SL_NO_CELL || !space->cells[cell].inside) continue;
+        SL_TRY(SL_ARRAY_ROOM(context, &eyes->squares, 1));
+        eyes->squares.items[eyes->squares.count++] = i;
+        SL_TRY(eyes_add(context, eyes, like));
+    }
+    return SL_OK;
+}
+
+sl_status eyes_add_path(sl_context *context, const sl_path *path, double step, eye_place like,
+                        eye_places *eyes) {
+    double over = 0; // from the last eye to the point reached
+    for (size_t i = 0; i < path->count; i++) {
+        const sl_point to = path->points[i];
+        if (i == 0 || step == 0) {
+            like.at = to;
+            SL_TRY(eyes_add(context, eyes, like));
+            continue;
+        }
+        const sl_point from = path->points[i - 1];
+        const double length = hypot(to.x - from.x, to.y - from.y);
+        if (length / step > MOST_SQUARES)
+            return sl_fail(context, SL_BAD_ARGUMENT, "--step %g: too small for path '%s'", step,
+                           path->name);
+        double along = step - over;
+        for (; along <= length; along += step) {
+            like.at = (sl_point){from.x + along / length * (to.x - from.x),
+                                 from.y + along / length * (to.y - from.y)};
+            SL_TRY(eyes_add(context, eyes, like));
+        }
+        over = length - (along - step);
+    }
+    return SL_OK;
+}
+
+/// Reads the fields of a line as numbers. Gives their count; -1 where a field is no number.
+static int read_fields(const char *line, size_t length, double fields[4]) {
+    int count = 0;
+    for (size_t at = 0; at <= length; count++) {
+        const char *comma = memchr(line + at, ',', length - at);
+        size_t end = comma ? (size_t)(comma - line) : length, start = at;
+        at = end + 1;
+        while (start < end && (line[start] == ' ' || line[start] == '\t')) start++;
+        while (start < end && (line[end - 1] == ' ' || line[end - 1] == '\t')) end--;
+        if (count == 4 || !sl_number_read(line + start, end - start, &fields[count]) ||
+            !isfinite(fields[count]))
+            return -1;
+    }
+    return count;
+}
+
+static bool is_blank(const char *line, size_t length) {
+    for (size_t i = 0; i < length; i++)
+        if (line[i] != ' ' && line[i] != '\t') return false;
+    return true;
+}
+
+/// A line without a digit: it cannot hold numbers.
+static bool is_header(const char *line, size_t length) {
+    for (size_t i = 0; i < length; i++)
+        if (line[i] >= '0' && line[i] <= '9') return false;
+    return true;
+}
+
+static sl_status read_line(sl_context *context, const char *path, unsigned number, const char *line,
+                           size_t length, const sl_space *space, eye_place like, eye_places *eyes) {
+    double fields[4] = {0, 0, like.look, like.fov};
+    const int count = read_fields(line, length, fields);
+    if (count < 2)
+        return sl_fail_at(context, path, number,
+                          "two to four finite numbers are needed: x, y, angle, field of view");
+    const eye_place eye = {{fields[0], fields[1]}, fields[2], fields[3]};
+    if (!(eye.fov >= 0 && eye.fov <= 360))
+        return sl_fail_at(context, path, number, "the field of view must be 0 to 360 degrees");
+    if (sl_space_locate(space, eye.at) == SL_NO_CELL)
+        return sl_fail_at(context, path, number, "the point lies outside the map");
+    return eyes_add(context, eyes, eye);
+}
+
+sl_status eyes_read_csv(sl_context *context, const char *path, const sl_space *space,
+                        eye_place like, eye_places *eyes) {
+    sl_bytes text;
+    SL_TRY(sl_file_read(context, path, &text));
+    sl_status status = SL_OK;
+    unsigned number = 0;
+    for (size_t at = 0; at < text.size && status == SL_OK;) {
+        const char *line = text.data + at, *end = memchr(line, '\n', text.size - at);
+        size_t length = end ? (size_t)(end - line) : text.size - at;
+        at += length + 1;
+        if (length && line[length - 1] == '\r') length--;
+        number++;
+        if (is_blank(line, length) || (number == 1 && is_header(line, length))) continue;
+        status = read_line(context, path, number, line, length, space, like, eyes);
+    }
+    sl_free(context, text.data);
+    return status;
+}
+
+// --- measures
+
+typedef struct measure {
+    const char *name;
+    size_t offset; ///< in sl_region_measures
+} measure;
+
+#define MEASURE(name)                                                                              \
+    { #name, offsetof(sl_region_measures, name) }
+static const measure measures[] = {
+    MEASURE(area),
+    MEASURE(perimeter),
+    MEASURE(compactness),
+    MEASURE(occlusivity),
+    MEASURE(drift_magnitude),
+    MEASURE(drift_angle),
+    MEASURE(min_radial),
+    MEASURE(max_radial),
+    MEASURE(mean_radial),
+    MEASURE(radial_variance),
+    MEASURE(radial_skewness),
+};
+enum { MEASURES = sizeof measures / sizeof *measures, EYES_A_BUNDLE = 64 };
+
+name_table isovist_measures(void) {
+    return (name_table){"measure", measures, sizeof *measures, MEASURES, NULL};
+}
+
+double isovist_value(const isovist_result *isovist, size_t which) {
+    return *(const double *)((const char *)&isovist->measures + measures[which].offset);
+}
+
+sl_view eye_view(const sl_space *space, const eye_place *eye) {
+    const sl_box *b = &space->bounds;
+    const double reach = fmax(b->max.x - b->min.x, b->max.y - b->min.y);
+    return sl_view_cone(eye->at, eye->look, eye->fov, reach);
+}
+
+sl_status isovist_look(sl_context *context, const isovist_scene *scene, const sl_view *view,
+                       sl_mirrored_region *out) {
+    if (!scene->mirrors)
+        return sl_region_make(context, scene->outline, view, scene->range, &out->direct);
+    return sl_mirrored_region_make(context, scene->mirrors, view, scene->range, scene->mirror_depth,
+                                   out);
+}
+
+typedef struct job {
+    const isovist_scene *scene;
+    const eye_places *eyes;
+    isovist_result *out;
+} job;
+
+static sl_status begin(sl_context *context, void *all, void **state) {
+    (void)all;
+    *state = sl_alloc_array(context, 1, sizeof(sl_mirrored_region));
+    return *state ? SL_OK : SL_NO_MEMORY;
+}
+
+static sl_status measure_bundle(sl_context *context, void *all, void *state, size_t bundle) {
+    const job *j = all;
+    sl_mirrored_region *region = state;
+    const sl_space *space = j->scene->outline->space;
+    const size_t first = bundle * EYES_A_BUNDLE, count = j->eyes->list.count;
+    for (size_t i = first; i < count && i < first + EYES_A_BUNDLE; i++) {
+        const sl_view view = eye_view(space, &j->eyes->list.items[i]);
+        SL_TRY(isovist_look(context, j->scene, &view, region));
+        j->out[i] = (isovist_result){sl_region_measure(&region->direct),
+                                     sl_region_corners(&region->direct, space, NULL, 0),
+                                     sl_mirrored_area(region), region->part_count};
+    }
+    return SL_OK;
+}
+
+static void end(sl_context *context, void *all, void *state) {
+    (void)all;
+    sl_mirrored_region_destroy(context, state);
+    sl_free(context, state);
+}
+
+sl_status isovist_run(sl_context *context, const isovist_scene *scene, const eye_places *eyes,
+                      unsigned threads, isovist_result *out) {
+    job j = {scene, eyes, out};
+    const sl_work work = {.job = &j,
+                          .begin = begin,
+                          .unit = measure_bundle,
+                          .end = end,
+                          .stage = "isovist",
+                          .units = "bundles of eyes"};
+    const size_t bundles = (eyes->list.count + EYES_A_BUNDLE - 1) / EYES_A_BUNDLE;
+    return sl_work_run(context, &work, bundles, threads);
+}
+
+static void put(FILE *out, double value, char after) {
+    char text[SL_NUMBER_TEXT];
+    sl_number_write(value, text);
+    fprintf(out, "%s%c", text, after);
+}
+
+static sl_status write_rows(sl_context *context, bool mirrors, const eye_places *eyes,
+                            const isovist_result *isovists, FILE *out) {
+    fputs("x,y,look,fov,", out);
+    for (size_t k = 0; k < MEASURES; k++) fprintf(out, "%s,", measures[k].name);
+    fputs(mirrors ? "corners,mirrored_area,parts\n" : "corners\n", out);
+    for (size_t i = 0; i < eyes->list.count; i++) {
+        if (i % 4096 == 0) SL_TRY(sl_check_cancelled(context));
+        const eye_place *eye = &eyes->list.items[i];
+        put(out, eye->at.x, ',');
+        put(out, eye->at.y, ',');
+        put(out, eye->look, ',');
+        put(out, eye->fov, ',');
+        for (size_t k = 0; k < MEASURES; k++) put(out, isovist_value(&isovists[i], k), ',');
+        fprintf(out, "%zu", isovists[i].corners);
+        if (mirrors) {
+            putc(',', out);
+            put(out, isovists[i].mirrored_area, ',');
+            fprintf(out, "%zu", isovists[i].parts);
+        }
+        putc('\n', out);
+    }
+    return SL_OK;
+}
+
+sl_status isovist_write(sl_context *context, const isovist_scene *scene, const eye_places *eyes,
+                        const isovist_result *isovists, const char *path) {
+    sl_output output;
+    SL_TRY(sl_output_open(context, path, &output));
+    return sl_output_close(
+        context, &output,
+        write_rows(context, scene->mirrors != NULL, eyes, isovists, output.stream));
+}

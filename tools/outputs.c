@@ -1,0 +1,187 @@
+#include "outputs.h"
+
+#include "built.h"
+#include "inputs.h"
+#include "sightline/support.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+// --- names
+
+static bool is_same_file(const char *path, const char *other) {
+    struct stat a, b;
+    return stat(path, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev &&
+           a.st_ino == b.st_ino && S_ISREG(a.st_mode);
+}
+
+sl_status output_check_file(sl_context *context, const char *path, const char *option,
+                            const char *output) {
+    if (!*output) return sl_fail(context, SL_BAD_ARGUMENT, "%s is empty; name a file", option);
+    if (!is_same_file(path, output)) return sl_output_try(context, output);
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "%s %s: is the input itself, which would be lost; give another name", option,
+                   output);
+}
+
+sl_status output_check_baked(sl_context *context, const char *path, const char *option,
+                             const char *output) {
+    if (!input_ends_with(output, ".slv"))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "%s %s: the name of a baked file ends in .slv, by which it is known", option,
+                       output);
+    return output_check_file(context, path, option, output);
+}
+
+sl_status output_check_picture(sl_context *context, const char *path, const char *option,
+                               const char *output) {
+    SL_TRY(built_need_pictures(context));
+    if (input_ends_with(output, ".png") || input_ends_with(output, ".svg") ||
+        input_ends_with(output, ".pdf"))
+        return output_check_file(context, path, option, output);
+    return sl_fail(context, SL_BAD_ARGUMENT, "%s %s: end the name in .png, .svg or .pdf", option,
+                   output);
+}
+
+option_table picture_option_table(sl_draw_options *drawing, bool titled) {
+    const option_spec options[] = {
+        {"width", 0, "PX", "of the picture, 64 to 20000 pixels or points",
+         .number = &drawing->width, .least = SL_DRAW_WIDTH_MIN, .most = SL_DRAW_WIDTH_MAX},
+        {"dark", 0, NULL, titled ? "light on dark" : "the picture light on dark",
+         .flag = &drawing->dark},
+        {"title", 0, "TEXT", "a line over the picture", .text = &drawing->title},
+    };
+    option_table table = {0};
+    option_table_add(&table, options, titled ? 3 : 2);
+    return table;
+}
+
+// --- folders
+
+static char *join(sl_context *context, const char *folder, const char *name) {
+    const size_t length = strlen(folder) + strlen(name) + 2;
+    char *path = sl_alloc(context, length);
+    if (path) snprintf(path, length, "%s/%s", folder, name);
+    return path;
+}
+
+char *folder_file(sl_context *context, const output_folder *folder, const char *name) {
+    return join(context, folder->temporary, name);
+}
+
+static sl_status fail_write(sl_context *context, const char *path) {
+    return sl_fail(context, SL_IO, "%s: cannot write: %s", path, strerror(errno));
+}
+
+/// Checks that nothing else has the names of the folder and its files.
+static sl_status look(sl_context *context, output_folder *folder) {
+    struct stat there;
+    folder->exists = stat(folder->path, &there) == 0;
+    if (!folder->exists) return SL_OK;
+    if (!S_ISDIR(there.st_mode))
+        return sl_fail(context, SL_BAD_ARGUMENT, "%s: is no folder", folder->path);
+    for (size_t i = 0; folder->names[i]; i++) {
+        char *file = join(context, folder->path, folder->names[i]);
+        if (!file) return SL_NO_MEMORY;
+        sl_status status = SL_OK;
+        if (stat(file, &there) == 0 && !S_ISREG(there.st_mode))
+            status = sl_fail(context, SL_BAD_ARGUMENT, "%s: is in the way, and no file", file);
+        sl_free(context, file);
+        SL_TRY(status);
+    }
+    return SL_OK;
+}
+
+/// The temporary folder is in the folder if that exists, so that files never move between file
+/// systems. Else it is beside it, and is renamed to it at the end.
+static sl_status make_temporary(sl_context *context, output_folder *folder) {
+    const size_t length = strlen(folder->path) + sizeof "/.XXXXXX";
+    folder->temporary = sl_alloc(context, length);
+    if (!folder->temporary) return SL_NO_MEMORY;
+    snprintf(folder->temporary, length, "%s%s.XXXXXX", folder->path, folder->exists ? "/" : "");
+    if (!mkdtemp(folder->temporary)) {
+        folder->temporary[0] = '\0';
+        return fail_write(context, folder->path);
+    }
+    // mkdtemp makes folders private. Give this one the usual permissions.
+    const mode_t mask = umask(0);
+    umask(mask);
+    (void)!chmod(folder->temporary, 0777 & ~mask);
+    return SL_OK;
+}
+
+sl_status folder_open(sl_context *context, const char *path, const char *const *names,
+                      output_folder *out) {
+    size_t length = strlen(path);
+    while (length > 1 && path[length - 1] == '/') length--;
+    if (!length) return sl_fail(context, SL_BAD_ARGUMENT, "a folder without a name");
+    *out = (output_folder){.names = names, .path = sl_copy_text(context, path, length)};
+    sl_status status = out->path ? look(context, out) : SL_NO_MEMORY;
+    if (status == SL_OK) status = make_temporary(context, out);
+    return status == SL_OK ? SL_OK : folder_close(context, out, status);
+}
+
+static sl_status move_file(sl_context *context, const output_folder *folder, const char *name) {
+    char *from = join(context, folder->temporary, name), *to = join(context, folder->path, name);
+    sl_status status = from && to ? SL_OK : SL_NO_MEMORY;
+    if (status == SL_OK && rename(from, to) != 0) status = fail_write(context, to);
+    sl_free(context, from);
+    sl_free(context, to);
+    return status;
+}
+
+static void remove_file(sl_context *context, const output_folder *folder, const char *name) {
+    char *path = join(context, folder->temporary, name);
+    if (path) unlink(path);
+    sl_free(context, path);
+}
+
+sl_status folder_close(sl_context *context, output_folder *folder, sl_status status) {
+    const bool made = folder->temporary && folder->temporary[0];
+    if (status == SL_OK && !folder->exists && rename(folder->temporary, folder->path) != 0)
+        status = fail_write(context, folder->path);
+    for (size_t i = 0; folder->exists && folder->names[i] && status == SL_OK; i++)
+        status = move_file(context, folder, folder->names[i]);
+    if (made && (status != SL_OK || folder->exists)) {
+        for (size_t i = 0; folder->names[i]; i++) remove_file(context, folder, folder->names[i]);
+        rmdir(folder->temporary);
+    }
+    sl_free(context, folder->path);
+    sl_free(context, folder->temporary);
+    *folder = (output_folder){0};
+    return status;
+}
+
+// --- sizes
+
+void size_write(uint64_t bytes, char text[SIZE_TEXT]) {
+    static const char *const units[] = {"KiB", "MiB", "GiB", "TiB"};
+    if (bytes < 1024) {
+        snprintf(text, SIZE_TEXT, "%u bytes", (unsigned)bytes);
+        return;
+    }
+    double size = (double)bytes / 1024;
+    unsigned unit = 0;
+    for (; size >= 1000 && unit < 3; unit++) size /= 1024;
+    snprintf(text, SIZE_TEXT, "%.*f %s", size < 100 ? 1 : 0, size, units[unit]);
+}
+
+uint64_t size_of_file(const char *path) {
+    struct stat status;
+    return stat(path, &status) == 0 ? (uint64_t)status.st_size : 0;
+}
+
+uint64_t size_of_peak_memory(void) {
+    struct rusage usage;
+    if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+#ifdef __APPLE__
+    return (uint64_t)usage.ru_maxrss;
+#else
+    return (uint64_t)usage.ru_maxrss * 1024; // Linux and the BSDs count KiB
+#endif
+}

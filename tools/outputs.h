@@ -1,0 +1,58 @@
+/// Files that commands write. Names are checked before the work begins. Several files in one folder
+/// are written all or none. Also sizes in bytes.
+#ifndef OUTPUTS_H
+#define OUTPUTS_H
+
+#include "options.h"
+#include "sightline/draw.h"
+#include "sightline/support.h"
+
+#include <stdint.h>
+
+/// Checks the argument of `option`, a file to be written, before the work is done. SL_BAD_ARGUMENT
+/// where it is empty, or the input `path` itself, which it would replace. SL_IO where nothing can
+/// be written there.
+sl_status output_check_file(sl_context *context, const char *path, const char *option,
+                            const char *output);
+/// The same for a baked file, whose name must end in .slv.
+sl_status output_check_baked(sl_context *context, const char *path, const char *option,
+                             const char *output);
+/// The same for a picture, whose name must end in .png, .svg or .pdf.
+sl_status output_check_picture(sl_context *context, const char *path, const char *option,
+                               const char *output);
+
+/// The options --width, --dark and, if `titled`, --title.
+option_table picture_option_table(sl_draw_options *drawing, bool titled);
+
+/// Several files in one folder, all or none. They are written into a temporary folder and moved to
+/// their places at the end.
+typedef struct output_folder {
+    char *path, *temporary;
+    const char *const *names; ///< of the files, NULL behind the last
+    bool exists;              ///< `path` was there before
+} output_folder;
+
+/// Makes the folder `path` if it is missing; its parent must exist. SL_BAD_ARGUMENT where something
+/// else has the name of the folder or of a file in it.
+sl_status folder_open(sl_context *context, const char *path, const char *const *names,
+                      output_folder *out);
+
+/// The path to write a file to, which the caller frees (sl_free). NULL where there is no memory.
+char *folder_file(sl_context *context, const output_folder *folder, const char *name);
+
+/// Moves the files to their places if `status` is SL_OK; all must be there. Else removes them.
+/// Returns the outcome.
+sl_status folder_close(sl_context *context, output_folder *folder, sl_status status);
+
+enum { SIZE_TEXT = 32 };
+
+/// "812 bytes", "3.4 MiB"
+void size_write(uint64_t bytes, char text[SIZE_TEXT]);
+
+/// The size of a file; 0 where it is unknown.
+uint64_t size_of_file(const char *path);
+
+/// The most memory that this process has had; 0 where it is unknown.
+uint64_t size_of_peak_memory(void);
+
+#endif

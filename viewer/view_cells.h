@@ -1,0 +1,67 @@
+/// View cells that adapt to what is seen: the background job that makes the merge history of a map,
+/// and the layer that shows a cut of it, coloured by cost.
+#ifndef VIEWER_VIEW_CELLS_H
+#define VIEWER_VIEW_CELLS_H
+
+#include "document.h"
+#include "sightline/canvas.h"
+#include "sightline/view_cells.h"
+
+// --- the job
+
+/// The result of the job. Zeroed: nothing yet.
+typedef struct view_history {
+    sl_view_tree tree;
+    sl_view_hierarchy hierarchy; ///< told by other lines than those that it was made by
+} view_history;
+
+void view_history_destroy(sl_context *context, view_history *history); ///< and zeroes it
+
+typedef struct view_job view_job;
+
+/// Starts the thread on a copy of the map, with as many lines and elementary view cells as
+/// `sightline viewcells` takes by default.
+sl_status view_job_start(sl_context *context, const sl_map *map, view_job **out);
+void view_job_cancel(view_job *job);
+bool view_job_is_done(const view_job *job);
+job_progress view_job_progress(const view_job *job);
+
+/// Waits for the thread and frees the job. The caller owns `*out`, which is untouched on failure;
+/// status and message say what failed.
+sl_status view_job_end(sl_context *context, view_job *job, view_history *out);
+
+// --- the layer
+
+typedef struct app_state app_state;
+typedef struct view_layer view_layer;
+
+/// Starts the job for the open document where the layer needs it, and takes over its result. Waits
+/// for it if `wait` is set.
+void view_layer_update(app_state *app, bool wait);
+/// Stops the job; false if none runs.
+bool view_layer_stop(app_state *app);
+void view_layer_destroy(sl_context *context, view_layer *layer); ///< NULL: nothing
+
+/// NULL: nothing runs.
+job_progress view_layer_progress(const view_layer *layer);
+
+/// How many view cells are shown, and how many elementary ones there are; 0 before they exist, and
+/// for NULL.
+uint32_t view_layer_shown(const view_layer *layer);
+uint32_t view_layer_most(const view_layer *layer);
+
+/// Goes through the merge history to this number of view cells, or to the largest one there is.
+void view_layer_go(app_state *app, uint32_t cells);
+
+/// Draws the view cells. The picture depends on the document, the number, the mark and the theme
+/// alone.
+void view_layer_draw(const app_state *app, cairo_t *cairo, const sl_frame *frame);
+/// Draws their key: count, cost, memory, colours.
+void view_layer_draw_key(app_state *app, const sl_frame *frame);
+
+/// The marked view cell of the cut; SL_NO_VIEW_CELL: none.
+uint32_t view_layer_marked(const view_layer *layer);
+/// Marks the view cell with the largest cost, then the next one by cost.
+void view_layer_mark_next(app_state *app);
+
+#endif
