@@ -12,6 +12,7 @@
 /// O(n log n).
 #include "space/faults.h"
 
+#include "map/planar.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -364,11 +365,20 @@ static void finish(sli_fault_search *search, sl_faults *out) {
     *out = faults;
 }
 
+/// The tolerance that the map is cleaned with.
+static double weld_of(const sl_map *map, const sl_clean_options *clean, const sl_box *box) {
+    const sl_clean_options usual = sl_clean_options_default();
+    const double weld = clean ? clean->weld : usual.weld;
+    if (sl_map_is_axial(map) && !(weld > 0) && !map->cell_count) return 0;
+    return fmax(weld < 0 ? sli_planar_tolerance(box) : weld, 2 * map->snap);
+}
+
 sl_status sl_find_faults(sl_context *context, const sl_map *map, const sl_space *space,
                          const sl_faults_options *options, sl_faults *out) {
     const sl_box box = sl_map_bounds(map);
     const double usual = sli_apart(box.min, box.max) / 1000;
     sli_fault_search search = {.context = context, .map = map, .space = space, .options = *options};
+    search.weld = weld_of(map, options->clean, &box);
     if (!(options->gap >= 0 && options->thin >= 0))
         return sl_fail(context, SL_BAD_ARGUMENT, "a gap or width cannot be less than 0");
     if (options->gap == 0) search.options.gap = usual;

@@ -13,6 +13,7 @@ typedef struct sli_fault_search {
     const sl_map *map;
     const sl_space *space;
     sl_faults_options options;
+    double weld; ///< ends at most this far apart are one, as are an end and a wall at half of it
     SL_ARRAY(sl_fault) faults;
     SL_ARRAY(sl_point) points;
 } sli_fault_search;

@@ -37,6 +37,7 @@ typedef struct sl_fault {
     uint32_t walls[2];
     uint32_t cell;  ///< the thin cell, the room's largest, one at the leak; else SL_NO_CELL
     uint32_t cells; ///< the number of cells of the room; else 0
+    bool stays;     ///< a gap that sl_map_snap does not close
     /// The way of a leak: points[first_point .. first_point + point_count), from the start through
     /// the middle of the leak to the border. It goes through no wall.
     uint32_t first_point, point_count;
@@ -58,6 +59,8 @@ SL_API void sl_faults_destroy(sl_context *context, sl_faults *faults); ///< and 
 typedef struct sl_faults_options {
     double gap;  ///< the largest width of a gap; 0 for 1/1000 of the map's diagonal
     double thin; ///< cells below this width are thin; 0 for the same
+    const sl_clean_options *clean; ///< how the map was cleaned: what it welds is no gap and no
+                                   ///< crossing; NULL for the default
 } sl_faults_options;
 
 /// Finds all faults. `map` is as read, not cleaned, so that walls keep their lines; `space` was
