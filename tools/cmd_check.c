@@ -24,12 +24,11 @@ typedef struct faults_report {
     double gap, thin;
     const char *mended; ///< the file written; NULL for none
     sl_snap_account snap;
-    const checked *left; ///< the mended map
-    double helps;        ///< a larger gap that closes a leak; 0 for none
-    uint64_t most;       ///< of a kind, in the text
-    const char *picture; ///< NULL for none
-    const char *options; ///< as given, to be said again: " --start 3,5"
-    const char *gap_text;
+    const checked *left;          ///< the mended map
+    double helps;                 ///< a larger gap that closes a leak; 0 for none
+    uint64_t most;                ///< of a kind, in the text
+    const char *picture;          ///< NULL for none
+    const char *start, *gap_text; ///< as given, to be said again; NULL for none
 } faults_report;
 
 // --- the report
@@ -45,6 +44,16 @@ static int digits_for(sl_segment at) {
     const double apart = hypot(at.b.x - at.a.x, at.b.y - at.a.y);
     if (!(apart > 0 && most > 0)) return 6;
     return (int)fmin(fmax(ceil(log10(most / apart)) + 3, 6), 17);
+}
+
+/// The digits for a place in a map, which may lie far from the origin.
+static int digits_in(const sl_map *map) {
+    const sl_box box = sl_map_bounds(map);
+    const double most =
+        fmax(fmax(fabs(box.min.x), fabs(box.min.y)), fmax(fabs(box.max.x), fabs(box.max.y)));
+    const double across = hypot(box.max.x - box.min.x, box.max.y - box.min.y);
+    if (!(across > 0 && most > 0)) return 6;
+    return (int)fmin(fmax(ceil(log10(most / across)), 0) + 6, 17);
 }
 
 /// "from (1,2) to (3,4)"
@@ -77,7 +86,7 @@ static void print_leak(const checked *found, const sl_fault *fault) {
     print_width(fault->size);
     print_ends(fault->at);
     print_lines(&found->map, fault);
-    print_point("; the way to it begins at ", way[0], 6);
+    print_point("; the way to it begins at ", way[0], digits_in(&found->map));
     putchar('\n');
 }
 
@@ -98,7 +107,7 @@ static void print_fault(const checked *found, const sl_fault *fault) {
         print_lines(&found->map, fault);
         break;
     case SL_FAULT_CROSSING:
-        print_point("    at ", fault->at.a, 6);
+        print_point("    at ", fault->at.a, digits_in(&found->map));
         print_lines(&found->map, fault);
         break;
     case SL_FAULT_THIN:
@@ -108,7 +117,7 @@ static void print_fault(const checked *found, const sl_fault *fault) {
     default:
         printf("    %u cell%s, area %.6g", (unsigned)fault->cells, fault->cells == 1 ? "" : "s",
                fault->size);
-        print_point(", about ", fault->at.a, 6);
+        print_point(", about ", fault->at.a, digits_in(&found->map));
     }
     putchar('\n');
 }
@@ -161,7 +170,7 @@ static void print_snap_advice(const faults_report *report) {
     const sl_faults *faults = &report->found->faults;
     const uint32_t gaps = faults->counts[SL_FAULT_GAP], closes = closable(faults);
     if (report->helps > 0)
-        printf("  --gap %.17g is wide enough for --snap to close a leak\n", report->helps);
+        printf("  --gap %.2g is wide enough for --snap to close a leak\n", report->helps);
     if (closes && closes == gaps)
         puts("  --snap FIXED.map closes the gaps and writes the map so mended");
     else if (closes)
@@ -194,7 +203,7 @@ static void print_word(const char *before, const char *word) {
 static void print_command(const faults_report *report, const char *command) {
     printf("next: sightline %s", command);
     print_word(" ", report->input);
-    fputs(report->options, stdout);
+    if (report->start) printf(" --start %s", report->start);
 }
 
 /// " --snap office-fixed.map"
@@ -228,7 +237,7 @@ static void print_next(const faults_report *report) {
         print_next_of_mended(report);
     } else if (report->helps > 0) {
         print_command(report, "check");
-        printf(" --gap %.17g", report->helps);
+        printf(" --gap %.2g", report->helps);
         print_name(report, " --snap ", "-fixed.map");
     } else if (closable(faults)) {
         print_command(report, "check");
@@ -348,7 +357,6 @@ typedef struct check_plan {
     const char *output, *snap, *gap_given;
     uint64_t most;
     bool json, strict;
-    char *options; ///< those for reading the map, as given
     char gap_text[SL_NUMBER_TEXT];
 } check_plan;
 
@@ -454,7 +462,7 @@ static sl_status check(command_console *console, const check_plan *plan, checked
                             .thin = plan->faults.thin > 0 ? plan->faults.thin : usual,
                             .most = plan->most,
                             .picture = plan->output,
-                            .options = plan->options,
+                            .start = plan->pipeline.start_text,
                             .gap_text = plan->gap_given ? plan->gap_text : NULL};
     if (plan->snap)
         SL_TRY(mend(context, plan, &c->map, &report, after));
@@ -468,15 +476,6 @@ static sl_status check(command_console *console, const check_plan *plan, checked
     console->fault = plan->strict && (c->faults.count || c->inside == SL_INSIDE_SMALL);
     progress_line_clear(&console->line);
     return plan->json ? faults_print_json(context, &report) : faults_print(&report);
-}
-
-/// " --start 3,5", to say it again; "" where it is not given. The caller frees it.
-static char *start_option(sl_context *context, const map_pipeline *pipeline) {
-    const char *start = pipeline->start_text;
-    const size_t size = sizeof " --start " + (start ? strlen(start) : 0);
-    char *text = sl_alloc(context, size);
-    if (text) snprintf(text, size, "%s%s", start ? " --start " : "", start ? start : "");
-    return text;
 }
 
 static void print_tables(void) {
@@ -526,9 +525,7 @@ sl_status cmd_check(command_console *console, int argc, char **argv) {
     if (helped) return SL_OK;
     SL_TRY(pipeline_plan(console->context, input, &plan.pipeline));
     if (plan.gap_given) sl_number_write(plan.faults.gap, plan.gap_text);
-    plan.options = start_option(console->context, &plan.pipeline);
-    const sl_status status = plan.options ? check(console, &plan, &c, &after) : SL_NO_MEMORY;
-    sl_free(console->context, plan.options);
+    const sl_status status = check(console, &plan, &c, &after);
     destroy(console->context, &c);
     destroy(console->context, &after);
     return status;

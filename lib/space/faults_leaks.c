@@ -394,11 +394,13 @@ static uint32_t wall_at(const sli_leak_search *s, sl_point p) {
 static sl_status add_leak(sli_leak_search *s, uint32_t number, uint32_t piece, sl_point start) {
     sli_fault_search *search = s->search;
     const opening *each = &s->openings.items[number];
-    const sl_point middle = middle_of(each);
+    const sl_point middle = middle_of(each), left = each->left, right = each->right;
+    const bool turned = left.x != right.x ? right.x < left.x : right.y < left.y;
+    const sl_segment at_ends = turned ? (sl_segment){right, left} : (sl_segment){left, right};
     sl_fault leak = {.kind = SL_FAULT_LEAK,
-                     .at = {each->left, each->right},
+                     .at = at_ends,
                      .size = each->width,
-                     .walls = {wall_at(s, each->left), wall_at(s, each->right)},
+                     .walls = {wall_at(s, at_ends.a), wall_at(s, at_ends.b)},
                      .cell = sl_space_locate(search->space, middle),
                      .first_point = (uint32_t)search->points.count};
     size_t at;

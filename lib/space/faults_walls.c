@@ -405,7 +405,9 @@ typedef struct left_gaps {
 /// Whether a gap is left at a wall, near a place.
 static bool is_left(const left_gaps *left, uint32_t wall, sl_point at, double reach) {
     for (uint32_t i = left->first[wall]; i != UINT32_MAX; i = left->next[i])
-        if (sli_apart(left->gaps[i / 2].at.a, at) <= reach) return true;
+        if (sli_apart(left->gaps[i / 2].at.a, at) <= reach ||
+            sli_apart(left->gaps[i / 2].at.b, at) <= reach)
+            return true;
     return false;
 }
 
@@ -418,8 +420,8 @@ static void list_left(left_gaps *left, const uint32_t *numbers, size_t wall_coun
     }
 }
 
-/// Finds the gaps of the snapped map, and marks those of the search that are still there. Both may
-/// have moved by twice the gap.
+/// Finds the gaps of the snapped map, and marks those of the search that are still there. An end
+/// has moved by twice the gap at most.
 static sl_status mark_stays(sli_fault_search *search, const sl_map *snapped,
                             const uint32_t *numbers) {
     sl_context *context = search->context;
@@ -442,7 +444,7 @@ static sl_status mark_stays(sli_fault_search *search, const sl_map *snapped,
         sl_fault *gap = &search->faults.items[i];
         if (gap->kind != SL_FAULT_GAP) continue;
         for (int k = 0; k < 2; k++)
-            gap->stays |= is_left(&left, gap->walls[k], gap->at.a, 6 * search->options.gap);
+            gap->stays |= is_left(&left, gap->walls[k], gap->at.a, 2 * search->options.gap);
     }
     sli_wall_grid_destroy(context, &grid);
     sl_free(context, left.first);
