@@ -40,7 +40,7 @@ typedef struct opening {
 
 /// A free piece has at most three openings.
 typedef struct free_piece {
-    uint32_t half; ///< a side of its triangle
+    uint32_t half; ///< a side of its triangle; of two pieces of one, both have the wall
     uint32_t count, openings[3];
 } free_piece;
 
@@ -118,7 +118,8 @@ static sl_status add_triangle(sli_leak_search *s, uint32_t half) {
     const uint32_t base = halves[wall], after = halves[(wall + 1) % 3];
     const sl_point corner = end_of(s, after);
     if (!find_foot(start_of(s, base), end_of(s, base), corner, &foot)) return SL_OK;
-    SL_TRY(add_piece(s, half, &other));
+    SL_TRY(add_piece(s, base, &other));
+    s->pieces.items[piece].half = base;
     s->of_half[after] = other;
     return add_opening(s, corner, foot, piece, other);
 }
@@ -228,6 +229,14 @@ void sli_leak_search_end(sl_context *context, sli_leak_search *s) {
 
 // --- the leaks of a start
 
+/// Whether a point of a triangle that was cut in two lies in the second piece.
+static bool is_in_second(const sli_leak_search *s, uint32_t base, sl_point point) {
+    const sl_point a = start_of(s, base), b = end_of(s, base);
+    sl_point foot;
+    if (!find_foot(a, b, end_of(s, next_of(s, base)), &foot)) return false;
+    return (point.x - foot.x) * (b.x - a.x) + (point.y - foot.y) * (b.y - a.y) > 0;
+}
+
 /// The piece that holds a point.
 static uint32_t locate(const sli_leak_search *s, sl_point point) {
     uint32_t found = NONE;
@@ -236,7 +245,8 @@ static uint32_t locate(const sli_leak_search *s, sl_point point) {
         bool holds = true;
         for (int k = 0; k < 3; k++, half = next_of(s, half))
             holds &= sli_orient(start_of(s, half), end_of(s, half), point) >= 0;
-        if (holds) found = i;
+        const bool cut = holds && s->pieces.items[i + 1].half == half;
+        if (holds) found = i + (cut && is_in_second(s, half, point));
     }
     return found;
 }
