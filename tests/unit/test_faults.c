@@ -144,6 +144,40 @@ static void test_leak_is_the_opening(void **state) {
     finish(&e);
 }
 
+/// Walls in all leaks part the start from the outside.
+static void test_leaks_closed(void **state) {
+    (void)state;
+    sl_random random = {7};
+    size_t leaks = 0;
+    for (int round = 0; round < 60; round++) {
+        char text[3000] = "start 3.4871 16.3917 0\n";
+        for (int i = 0; i < 24; i++) {
+            const unsigned x = (unsigned)(sl_random_next(&random) % 16);
+            const unsigned y = (unsigned)(sl_random_next(&random) % 18);
+            const unsigned length = 1 + (unsigned)(sl_random_next(&random) % 9);
+            const bool level = sl_random_next(&random) % 2;
+            snprintf(text + strlen(text), sizeof text - strlen(text), "wall %u %u %u %u\n", x, y,
+                     x + level * length, y + !level * length);
+        }
+        strcat(text, "wall 0 19 25 19\nwall 2 16 4 16\nwall 4 16 4 18\n");
+        examined e;
+        examine(text, 0, 0, &e);
+        for (uint32_t i = 0; i < e.faults.counts[SL_FAULT_LEAK]; i++) {
+            const sl_fault *leak = &e.faults.items[i];
+            assert_free(&e, leak);
+            snprintf(text + strlen(text), sizeof text - strlen(text),
+                     "wall %.17g %.17g %.17g %.17g\n", leak->at.a.x, leak->at.a.y, leak->at.b.x,
+                     leak->at.b.y);
+            leaks++;
+        }
+        finish(&e);
+        examine(text, 0, 0, &e);
+        assert_int_equal(e.faults.counts[SL_FAULT_LEAK], 0);
+        finish(&e);
+    }
+    assert_true(leaks > 60);
+}
+
 static void test_doubt(void **state) {
     (void)state;
     static const struct {
@@ -324,6 +358,7 @@ int main(void) {
         cmocka_unit_test(test_leak),
         cmocka_unit_test(test_leak_is_the_opening),
         cmocka_unit_test(test_doubt),
+        cmocka_unit_test(test_leaks_closed),
         cmocka_unit_test(test_gaps),
         cmocka_unit_test(test_pairs),
         cmocka_unit_test(test_cells),
