@@ -1,4 +1,4 @@
-/// Walls from lines, curves and tiles.
+/// Walls from lines, curves and tiles, and how exactly a file writes their places.
 ///
 /// A curve becomes chords that end on the curve. Their number follows from the tolerance: a chord
 /// over an angle s of a circle is r (1 - cos(s / 2)) from it, and n even steps of a curve B are at
@@ -12,7 +12,8 @@
 
 // --- digits
 
-double sli_decimal_unit(const char *text, size_t length) {
+/// The unit of the last decimal place of a number as written: 0.01 for "2.50"; at most 1.
+static double decimal_unit(const char *text, size_t length) {
     const char *end = text + sl_number_length(text, length), *at = text;
     int places = 0;
     for (bool behind = false; at < end && (*at | 0x20) != 'e'; at++) {
@@ -32,7 +33,7 @@ double sli_decimal_unit(const char *text, size_t length) {
 double sli_shortest_unit(double value) {
     char text[SL_NUMBER_TEXT];
     sl_number_write(value, text);
-    return sli_decimal_unit(text, strlen(text));
+    return decimal_unit(text, strlen(text));
 }
 
 void sli_keep_finest(double *finest, double unit) {
@@ -116,7 +117,7 @@ sl_status sli_pen_line(sli_pen *pen, sl_point to) {
 void sli_pen_digits(sli_pen *pen, const char *text, size_t length, double unit) {
     const sli_affine *affine = &pen->affine;
     const double scale = fmax(hypot(affine->xx, affine->yx), hypot(affine->xy, affine->yy));
-    sli_keep_finest(&pen->finest, sli_decimal_unit(text, length) * unit * scale);
+    sli_keep_finest(&pen->finest, decimal_unit(text, length) * unit * scale);
 }
 
 /// How far the map makes a vector at most.

@@ -25,9 +25,7 @@ sli_affine sli_affine_turn(double degrees);
 
 // --- digits: how exactly a file writes its places
 
-/// The unit of the last decimal place of a number as written: 0.01 for "2.50"; at most 1.
-double sli_decimal_unit(const char *text, size_t length);
-/// The same for a number whose text is gone, by its shortest text.
+/// The unit of the last decimal place of a number in its shortest text: 0.1 for 2.5; at most 1.
 double sli_shortest_unit(double value);
 /// Keeps the finer of two units in `finest`, where 0 stands for none yet.
 void sli_keep_finest(double *finest, double unit);
