@@ -419,21 +419,20 @@ static double safe_precision(const sl_map *map, const sl_box *bounds) {
     return fmin(map->precision, fmin(1e-3 * size, shortest(map, noise) / 2));
 }
 
-/// An axial map stays axial unless ends really miss each other: the planar graph says whether
+/// An axial map stays axial unless ends really miss each other. The planar graph shows whether
 /// anything would move.
 static sl_status clean(cleaning *work, sl_map *map, double weld) {
     const sl_box bounds = sl_map_bounds(map);
     const bool axial = sl_map_is_axial(map) && !(weld > 0) && !map->cell_count;
-    const double digits = weld < 0 ? safe_precision(map, &bounds) : 0;
+    const double precision = weld < 0 ? safe_precision(map, &bounds) : 0;
+    if (weld < 0) weld = axial ? precision : fmax(sli_planar_tolerance(&bounds), precision);
     SL_TRY(sort_out(work, map));
     merge(&work->uprights, &work->account);
     merge(&work->levels, &work->account);
     drop_duplicates(&work->others, &work->account);
-    if (!axial)
-        return clean_oblique(work, map,
-                             weld < 0 ? fmax(sli_planar_tolerance(&bounds), digits) : weld, NULL);
+    if (!axial) return clean_oblique(work, map, weld, NULL);
     bool idle = true;
-    if (digits > 0) SL_TRY(clean_oblique(work, map, digits, &idle));
+    if (weld > 0) SL_TRY(clean_oblique(work, map, weld, &idle));
     return idle ? clean_axial(work, map) : SL_OK;
 }
 

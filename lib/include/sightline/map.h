@@ -157,14 +157,12 @@ typedef struct sl_clean_account {
 typedef struct sl_clean_options {
     /// Ends at most this far apart become one, and a wall nearer than half of it to an end goes
     /// through this end. 0: only equal ends become one, and only an end exactly on a wall counts.
-    /// Negative (default): the larger of these two.
-    /// - 2^-46 of the largest coordinate if something is oblique, which closes the gaps that
-    /// turning
-    ///   and moving a map in doubles opens; 0 if all is axial.
-    /// - The map's `precision`, but at most 1/1000 of the map's longer side and half of the
-    /// shortest
-    ///   wall, door or glass. Those shorter than both the precision and 1/100000 of the map do not
-    ///   count as the shortest: they are rounding too.
+    ///
+    /// Negative (default): the larger of two. One is 2^-46 of the largest coordinate if something
+    /// is oblique, else 0. It closes the gaps that turning and moving a map in doubles opens. The
+    /// other is the map's `precision`, cut to 1/1000 of the map's longer side and to half of the
+    /// shortest wall, door, glass or seam. Anything shorter than both the precision and 1/100000
+    /// of the map counts as rounding there, and not as the shortest.
     double weld;
 } sl_clean_options;
 
